@@ -1,0 +1,29 @@
+// Contract checks. BN_CHECK is always on and prints both values; BN_DCHECK vanishes in release builds.
+#pragma once
+#include <cstdio>
+#include <cstdlib>
+
+namespace burnish {
+[[noreturn]] inline void check_failed(const char* file, int line, const char* text, long long a, long long b)
+{
+    std::fprintf(stderr, "burnish: internal check failed at %s:%d: %s (%lld, %lld)\n", file, line, text, a, b);
+    std::abort();
+}
+} // namespace burnish
+
+#define BN_CHECK(condition)                                                                                            \
+    do {                                                                                                               \
+        if (!(condition))                                                                                              \
+            ::burnish::check_failed(__FILE__, __LINE__, #condition, 0, 0);                                             \
+    } while (0)
+#define BN_CHECK_OP(a, op, b)                                                                                          \
+    do {                                                                                                               \
+        if (!((a)op(b)))                                                                                               \
+            ::burnish::check_failed(__FILE__, __LINE__, #a " " #op " " #b, static_cast<long long>(a),                  \
+                                    static_cast<long long>(b));                                                        \
+    } while (0)
+#ifdef NDEBUG
+#define BN_DCHECK(condition) static_cast<void>(0)
+#else
+#define BN_DCHECK(condition) BN_CHECK(condition)
+#endif

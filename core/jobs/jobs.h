@@ -1,0 +1,64 @@
+// Parallel loops over oneTBB. What an index computes never depends on the thread that runs it.
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace burnish {
+
+// A fixed number of worker threads (0: all cores the process may use).
+class Jobs {
+  public:
+    explicit Jobs(int threads = 0);
+    ~Jobs();
+    int threads() const;
+    // Calls body(index, worker) for index in [0, count); worker in [0, threads()) is for scratch memory only.
+    void parallel_for(std::size_t count, const std::function<void(std::size_t index, int worker)>& body) const;
+
+  private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+// Chrome trace events (chrome://tracing, ui.perfetto.dev). Off unless started; spans cost one branch then.
+class Trace {
+  public:
+    static void start();
+    static bool on();
+    static std::uint64_t now_ns();
+    static void span(const char* name, std::uint64_t begin_ns, std::uint64_t end_ns); // `name` must outlive the trace
+    static std::string json(); // all spans so far; capped at 1,000,000 events
+};
+
+class TraceSpan {
+  public:
+    explicit TraceSpan(const char* name) : name_(name), begin_(Trace::on() ? Trace::now_ns() : 0) {}
+    ~TraceSpan()
+    {
+        if (begin_)
+            Trace::span(name_, begin_, Trace::now_ns());
+    }
+    TraceSpan(const TraceSpan&) = delete;
+    TraceSpan& operator=(const TraceSpan&) = delete;
+
+  private:
+    const char* name_;
+    std::uint64_t begin_;
+};
+
+// A progress bar on stderr, only where stderr is a terminal. Thread-safe.
+class Progress {
+  public:
+    Progress(std::string label, std::size_t total, bool quiet);
+    ~Progress(); // clears the line
+    void step(std::size_t n = 1);
+
+  private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+} // namespace burnish

@@ -1,0 +1,16 @@
+// glTF 2.0 input: .gltf and .glb files into Scene tables.
+#pragma once
+#include <string>
+
+#include "core/base/limits.h"
+#include "core/base/result.h"
+#include "core/scene/scene.h"
+
+namespace burnish {
+
+Result<Scene> load_gltf(const std::string& path, const Limits& limits);
+
+// "builtin:NAME" or a .gltf/.glb path.
+Result<Scene> load_scene(const std::string& spec, const Limits& limits);
+
+} // namespace burnish

@@ -1,0 +1,91 @@
+// What every renderer takes and gives: one frame description, one picture. The renderers meet here and nowhere else.
+// Pixel (0,0) is the top left one; pixel centres are at .5; clip space is Vulkan's with reversed depth (1 near, 0 far).
+#pragma once
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/base/result.h"
+#include "core/image/image.h"
+#include "core/jobs/jobs.h"
+#include "core/scene/draw_tables.h"
+#include "core/scene/scene.h"
+#include "shading/bake/environment.h"
+
+namespace burnish {
+
+enum class Isa { scalar, avx2, avx512 };
+
+struct View { // a resolved camera
+    glm::vec3 eye{0.0f}, right{1, 0, 0}, up{0, 1, 0}, forward{0, 0, -1}; // orthonormal, world space
+    bool orthographic = false;
+    float tan_half_x = 1.0f, tan_half_y = 1.0f; // perspective; orthographic: half extents in metres
+    float znear = 0.01f;                        // metres; the far plane is at infinity (perspective)
+    float zfar = 0.0f;                          // orthographic only
+};
+
+// The image's aspect ratio decides the horizontal field of view.
+View make_view(const Scene& scene, int camera, int width, int height); // a camera of the scene (by index, must have a node)
+View make_view(const glm::vec3& eye, const glm::vec3& target, float fov_y_rad, int width, int height);
+// Looks at the whole scene from the front, a little to the right and above, 45 degrees of vertical field of view.
+View auto_frame(const DrawTables& tables, int width, int height);
+// The matrix that the view stands for, for printing (world to Vulkan clip space).
+glm::mat4 clip_from_world(const View& view);
+
+struct FrameDesc {
+    int width = 1280, height = 720;
+    int msaa = 8;                          // 1, 2, 4, 8, 16
+    View view;
+    std::string technique = "split_isotropic";
+    int samples = 16;                      // for techniques that take samples
+    float roughness = -1.0f, anisotropy = 0.0f; // >= 0 resp. set: override every material
+    bool override_anisotropy = false;
+    int tile_size = 64;                    // 32 or 64; never changes the picture
+    int texture_anisotropy = 16;           // taps along the major axis at most, 1..16
+    bool background = true;                // environment behind the scene; otherwise black
+};
+
+struct FrameStats {
+    std::uint64_t triangles = 0;           // of the scene
+    std::uint64_t triangles_drawn = 0;     // after culling and clipping
+    std::uint64_t visible_fragments = 0;   // (pixel, triangle) pairs shaded
+    std::uint64_t background_pixels = 0;   // pixels with at least one uncovered sample
+    double ms = 0.0;                       // wall time of the frame
+};
+
+struct Frame {
+    Image color;                           // f32 RGB, linear Rec.709 scene radiance
+    FrameStats stats;
+};
+
+// A scene made ready for one renderer. Renderers are made once and draw many frames.
+class Renderer {
+  public:
+    virtual ~Renderer() = default;
+    virtual Result<Frame> render(const FrameDesc& desc) = 0;
+    virtual std::string device() const = 0; // what runs it: "AMD EPYC (avx512)", ...
+};
+
+// Everything a renderer needs; the references must outlive it.
+struct RenderInput {
+    const Scene& scene;
+    const DrawTables& tables;
+    const Environment& environment;
+    const DfgTable& dfg;
+    const Jobs& jobs;
+};
+
+struct TechniqueInfo {
+    const char* name;
+    const char* summary;
+    int default_samples; // 1: takes none
+};
+const std::vector<TechniqueInfo>& techniques(); // from shading/models.def
+
+// 64-bit hash of size and the bits of every colour word, the same on every machine for the same picture.
+std::uint64_t pixel_hash(const Image& image);
+std::uint64_t count_not_finite(const Image& image); // pixels with a NaN or Inf channel
+
+} // namespace burnish

@@ -1,0 +1,30 @@
+// Material textures as the renderers use them: whole mip pyramids in RGBA half, linear, bordered.
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "core/base/column.h"
+#include "core/image/image.h"
+#include "core/scene/scene.h"
+
+namespace burnish {
+
+inline constexpr int kMaxTextureLevels = 16;
+
+enum class TextureEncoding : std::uint8_t { linear, srgb }; // srgb: RGB decoded before filtering, alpha linear
+
+// Level l is (width_l + 2) x (height_l + 2) texels with a border of one texel filled by the wrap modes, so that the 2x2 footprint
+// of a coordinate wrapped to [-1/2, size + 1/2) is always in memory, and a texel pair is one 16-byte load.
+struct TexturePyramid {
+    int width = 0, height = 0, levels = 0;
+    WrapMode wrap_s = WrapMode::repeat, wrap_t = WrapMode::repeat;
+    bool nearest = false;
+    std::int32_t offset[kMaxTextureLevels] = {};   // in texels, of the bordered level
+    float level_width[kMaxTextureLevels] = {}, level_height[kMaxTextureLevels] = {};
+    Column<std::uint16_t> texels; // 4 halves a texel
+};
+
+// Each level is a box filter of level 0 with exact footprints, also for sides that are not powers of two.
+TexturePyramid make_texture_pyramid(const Image& image, const Texture& sampler, TextureEncoding encoding);
+
+} // namespace burnish
