@@ -1,0 +1,1 @@
+#include "raster/tile/tile_renderer.h"

@@ -1,0 +1,1 @@
+#include "shading/bake/texture.h"
