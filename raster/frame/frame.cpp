@@ -1,1 +1,181 @@
 #include "raster/frame/frame.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/check.h"
+#include "core/base/hash.h"
+
+namespace burnish {
+
+namespace {
+
+struct Basis {
+    glm::vec3 right, up, forward;
+};
+
+// Right-handed: right x up = -forward. `forward` need not be unit; a vertical one takes +Z as its up.
+Basis look_basis(const glm::vec3& forward)
+{
+    const glm::vec3 f = glm::normalize(forward);
+    const glm::vec3 up = std::abs(f.y) > 0.9999f ? glm::vec3(0, 0, f.y > 0 ? 1 : -1) : glm::vec3(0, 1, 0);
+    const glm::vec3 r = glm::normalize(glm::cross(f, up));
+    return {r, glm::cross(r, f), f};
+}
+
+void set_fov(View& view, float tan_half_y, int width, int height)
+{
+    view.tan_half_y = tan_half_y;
+    view.tan_half_x = tan_half_y * static_cast<float>(width) / static_cast<float>(height);
+}
+
+// tan(fov / 2) of a few degrees to nearly 180, from the half-angle series of sine and cosine: the same bits on every machine,
+// which the C library's tan does not promise.
+float tan_half(float fov_rad)
+{
+    const double x = static_cast<double>(fov_rad) / 64.0; // halved six times, the angle is below 0.05
+    const double x2 = x * x;
+    double s = x * (1.0 - x2 / 6.0 * (1.0 - x2 / 20.0 * (1.0 - x2 / 42.0)));
+    double c = 1.0 - x2 / 2.0 * (1.0 - x2 / 12.0 * (1.0 - x2 / 30.0 * (1.0 - x2 / 56.0)));
+    for (int i = 0; i < 5; ++i) {
+        const double s2 = 2.0 * s * c;
+        c = c * c - s * s;
+        s = s2;
+    }
+    return static_cast<float>(s / c);
+}
+
+} // namespace
+
+View make_view(const glm::vec3& eye, const glm::vec3& target, float fov_y_rad, int width, int height)
+{
+    View view;
+    const Basis b = look_basis(target == eye ? glm::vec3(0, 0, -1) : target - eye);
+    view.eye = eye;
+    view.right = b.right;
+    view.up = b.up;
+    view.forward = b.forward;
+    set_fov(view, tan_half(fov_y_rad), width, height);
+    view.znear = std::max(1e-4f, 1e-3f * glm::length(target - eye));
+    return view;
+}
+
+View make_view(const Scene& scene, int camera, int width, int height)
+{
+    BN_CHECK_OP(camera, >=, 0);
+    BN_CHECK_OP(camera, <, scene.cameras.size());
+    const Camera& c = scene.cameras[static_cast<std::size_t>(camera)];
+    glm::mat4 world(1.0f);
+    for (const Node& node : scene.nodes)
+        if (node.camera == camera) {
+            world = node.world;
+            break;
+        }
+    View view;
+    view.eye = glm::vec3(world[3]);
+    view.forward = glm::normalize(-glm::vec3(world[2]));
+    view.right = glm::normalize(glm::cross(view.forward, glm::vec3(world[1])));
+    view.up = glm::cross(view.right, view.forward);
+    view.orthographic = c.orthographic;
+    view.znear = std::max(c.znear, 1e-5f);
+    if (c.orthographic) {
+        view.tan_half_x = c.ymag * static_cast<float>(width) / static_cast<float>(height);
+        view.tan_half_y = c.ymag;
+        view.znear = c.znear;
+        view.zfar = c.zfar;
+    } else {
+        set_fov(view, tan_half(c.yfov), width, height);
+    }
+    return view;
+}
+
+View auto_frame(const DrawTables& tables, int width, int height)
+{
+    const glm::vec3 center = 0.5f * (tables.bounds_min + tables.bounds_max);
+    const float radius = std::max(1e-6f, 0.5f * glm::length(tables.bounds_max - tables.bounds_min));
+    const glm::vec3 from = glm::normalize(glm::vec3(0.35f, 0.35f, 1.0f)); // front, a little right and above
+    const float fov = 0.78539816f;
+    View view = make_view(center + from, center, fov, width, height);
+    // The nearest distance at which the eight corners of the bounds are inside the view, with a margin of 8 %.
+    float distance = 0.0f;
+    for (int i = 0; i < 8; ++i) {
+        const glm::vec3 corner((i & 1 ? tables.bounds_max : tables.bounds_min).x,
+                               (i & 2 ? tables.bounds_max : tables.bounds_min).y,
+                               (i & 4 ? tables.bounds_max : tables.bounds_min).z);
+        const glm::vec3 d = corner - center;
+        const float x = std::abs(glm::dot(d, view.right)) / view.tan_half_x;
+        const float y = std::abs(glm::dot(d, view.up)) / view.tan_half_y;
+        distance = std::max(distance, 1.08f * std::max(x, y) - glm::dot(d, view.forward));
+    }
+    distance = std::max(distance, 0.2f * radius);
+    view.eye = center + from * distance;
+    view.znear = std::max(1e-6f, std::min(0.1f * radius, 0.01f * distance));
+    return view;
+}
+
+glm::mat4 clip_from_world(const View& v)
+{
+    const float sx = 1.0f / v.tan_half_x, sy = -1.0f / v.tan_half_y;
+    glm::mat4 m(0.0f);
+    for (int i = 0; i < 3; ++i) {
+        m[i][0] = v.right[i] * sx;
+        m[i][1] = v.up[i] * sy;
+    }
+    m[3][0] = -glm::dot(v.right, v.eye) * sx;
+    m[3][1] = -glm::dot(v.up, v.eye) * sy;
+    if (v.orthographic) {
+        const float s = 1.0f / (v.zfar - v.znear);
+        for (int i = 0; i < 3; ++i)
+            m[i][2] = -v.forward[i] * s;
+        m[3][2] = (v.zfar + glm::dot(v.forward, v.eye)) * s;
+        m[3][3] = 1.0f;
+    } else {
+        for (int i = 0; i < 3; ++i)
+            m[i][3] = v.forward[i];
+        m[3][2] = v.znear;
+        m[3][3] = -glm::dot(v.forward, v.eye);
+    }
+    return m;
+}
+
+const std::vector<TechniqueInfo>& techniques()
+{
+    static const std::vector<TechniqueInfo> table = {
+#define BN_TECHNIQUE(id, default_samples, summary) {#id, summary, default_samples},
+#include "shading/models.def"
+    };
+    return table;
+}
+
+const std::vector<ModelInfo>& models()
+{
+    static const std::vector<ModelInfo> table = {
+#define BN_MODEL(id, summary) {#id, summary},
+#include "shading/models.def"
+    };
+    return table;
+}
+
+std::uint64_t pixel_hash(const Image& image)
+{
+    const std::uint32_t header[3] = {static_cast<std::uint32_t>(image.width), static_cast<std::uint32_t>(image.height),
+                                     static_cast<std::uint32_t>(image.channels)};
+    return hash_bytes(image.bytes.data(), image.bytes.size(), hash_bytes(header, sizeof header));
+}
+
+std::uint64_t count_not_finite(const Image& image)
+{
+    BN_CHECK(image.type == PixelType::f32);
+    const std::size_t channels = static_cast<std::size_t>(image.channels);
+    const std::size_t pixels = image.bytes.size() / (channels * sizeof(float));
+    std::uint64_t bad = 0;
+    for (std::size_t p = 0; p < pixels; ++p) {
+        bool finite = true;
+        for (std::size_t c = 0; c < channels; ++c)
+            finite = finite && std::isfinite(image.f32()[p * channels + c]);
+        bad += finite ? 0 : 1;
+    }
+    return bad;
+}
+
+} // namespace burnish

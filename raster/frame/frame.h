@@ -84,6 +84,12 @@ struct TechniqueInfo {
 };
 const std::vector<TechniqueInfo>& techniques(); // from shading/models.def
 
+struct ModelInfo {
+    const char* name;
+    const char* summary;
+};
+const std::vector<ModelInfo>& models(); // from shading/models.def
+
 // 64-bit hash of size and the bits of every colour word, the same on every machine for the same picture.
 std::uint64_t pixel_hash(const Image& image);
 std::uint64_t count_not_finite(const Image& image); // pixels with a NaN or Inf channel
