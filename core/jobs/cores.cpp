@@ -1,0 +1,62 @@
+#include "core/jobs/cores.h"
+
+#include <sched.h>
+
+#include <algorithm>
+#include <fstream>
+#include <string>
+#include <thread>
+
+namespace burnish {
+namespace {
+
+int affinity_cores()
+{
+    cpu_set_t set;
+    CPU_ZERO(&set);
+    if (sched_getaffinity(0, sizeof(set), &set) == 0 && CPU_COUNT(&set) > 0)
+        return CPU_COUNT(&set);
+    // Machines with more cores than cpu_set_t holds.
+    return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+}
+
+// Cores granted by one cgroup v2 folder's cpu.max ("max 100000" or "150000 100000"), or `unlimited`.
+int quota_cores(const std::string& folder, int unlimited)
+{
+    std::ifstream file(folder + "/cpu.max");
+    std::string quota;
+    long long period = 0;
+    if (!(file >> quota >> period) || quota == "max" || period <= 0)
+        return unlimited;
+    const long long granted = std::strtoll(quota.c_str(), nullptr, 10);
+    if (granted <= 0)
+        return unlimited;
+    return static_cast<int>(std::clamp<long long>((granted + period - 1) / period, 1, unlimited));
+}
+
+// The tightest quota from the process's own cgroup v2 folder up to the root.
+int cgroup_cores(int unlimited)
+{
+    const std::string root = "/sys/fs/cgroup";
+    std::string path;
+    std::ifstream file("/proc/self/cgroup");
+    for (std::string line; std::getline(file, line);)
+        if (line.rfind("0::", 0) == 0)
+            path = line.substr(3);
+    int cores = quota_cores(root, unlimited);
+    while (path.size() > 1) {
+        cores = std::min(cores, quota_cores(root + path, unlimited));
+        path.erase(path.find_last_of('/'));
+    }
+    return cores;
+}
+
+} // namespace
+
+int usable_cores()
+{
+    const int cores = affinity_cores();
+    return std::min(cores, cgroup_cores(cores));
+}
+
+} // namespace burnish
