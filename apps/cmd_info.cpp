@@ -1,0 +1,86 @@
+// `burnish info`: what this build is and what it found on this machine.
+#include <cstdio>
+#include <fmt/format.h>
+#include <fstream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "apps/command.h"
+#include "apps/report.h"
+#include "core/base/version.h"
+#include "core/jobs/jobs.h"
+#include "raster/tile/tile_renderer.h"
+
+namespace burnish {
+namespace {
+
+std::string processor_name()
+{
+    std::ifstream cpuinfo("/proc/cpuinfo");
+    const std::string key = "model name";
+    for (std::string line; std::getline(cpuinfo, line);)
+        if (line.compare(0, key.size(), key) == 0 && line.find(": ") != std::string::npos)
+            return line.substr(line.find(": ") + 2);
+    return "unknown";
+}
+
+struct Info {
+    std::string compiler = BN_COMPILER, build_type = BN_BUILD_TYPE, openimageio = BN_OPENIMAGEIO_VERSION;
+    std::string processor = processor_name();
+    std::string isa = isa_name(best_isa());
+    std::vector<std::string> isa_available, backends = {"tile"};
+    int cores = Jobs().threads();
+};
+
+Info gather()
+{
+    Info info;
+    for (const Isa isa : {Isa::scalar, Isa::avx2, Isa::avx512})
+        if (burnish::isa_available(isa))
+            info.isa_available.emplace_back(isa_name(isa));
+    return info;
+}
+
+int print_json(const Info& info)
+{
+    nlohmann::ordered_json json;
+    json["version"] = version();
+    json["compiler"] = info.compiler;
+    json["build_type"] = info.build_type;
+    json["processor"] = info.processor;
+    json["cores"] = info.cores;
+    json["isa"] = info.isa;
+    json["isa_available"] = info.isa_available;
+    json["backends"] = info.backends;
+    json["openimageio"] = info.openimageio;
+    fmt::print("{}\n", json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+    return 0;
+}
+
+int print_text(const Info& info)
+{
+    fmt::print("version      {}\n", version());
+    fmt::print("compiler     {}, {}\n", info.compiler, info.build_type);
+    fmt::print("processor    {}, {} cores\n", info.processor, info.cores);
+    fmt::print("isa          {} (available: {})\n", info.isa, join(info.isa_available));
+    fmt::print("backends     {}\n", join(info.backends));
+    fmt::print("OpenImageIO  {}\n", info.openimageio);
+    return 0;
+}
+
+} // namespace
+
+Command add_info(CLI::App& program)
+{
+    CLI::App* app = program.add_subcommand("info", "Say what this build is and what it runs on");
+    auto json = std::make_shared<bool>(false);
+    app->add_flag("--json", *json, "Machine-readable");
+    app->footer("Examples:\n  burnish info\n  burnish info --json\n\nBN_FORCE_ISA=scalar|avx2|avx512 in the "
+                "environment "
+                "caps the instruction set.");
+    return {app, [json] { return *json ? print_json(gather()) : print_text(gather()); }};
+}
+
+} // namespace burnish

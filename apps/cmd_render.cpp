@@ -1,0 +1,251 @@
+// `burnish render`: a scene under an environment to pictures and figures.
+#include <chrono>
+#include <fmt/format.h>
+#include <memory>
+#include <utility>
+
+#include "apps/command.h"
+#include "apps/outputs.h"
+#include "apps/render_options.h"
+#include "apps/render_stats.h"
+#include "apps/report.h"
+#include "apps/scene_view.h"
+#include "core/scene/gltf.h"
+
+namespace burnish {
+namespace {
+
+constexpr int kDfgSize = 64;     // texels a side
+constexpr int kDfgSamples = 256; // a texel
+
+class Stopwatch {
+  public:
+    double ms() const { return std::chrono::duration<double, std::milli>(Clock::now() - begin_).count(); }
+
+  private:
+    using Clock = std::chrono::steady_clock;
+    Clock::time_point begin_ = Clock::now();
+};
+
+// Everything that is made once and drawn from many times. The renderer refers to the rest, so it stays where
+// it is.
+struct Stage {
+    Scene scene;
+    DrawTables tables;
+    Environment environment;
+    DfgTable dfg;
+    std::unique_ptr<Renderer> renderer;
+};
+
+struct Rendered {
+    Image color;
+    RenderFigures figures;
+};
+
+Status check_paths(const RenderOptions& options)
+{
+    const std::vector<std::string> inputs = {options.scene, options.env};
+    std::vector<std::string> files = options.outputs;
+    for (const std::string& path : options.outputs)
+        if (Status status = check_picture_path(path, inputs); !status)
+            return status;
+    for (const auto& [option, path] :
+         {std::pair{"--stats", options.stats_file}, {"--trace", options.trace_file}}) {
+        if (path.empty())
+            continue;
+        if (Status status = check_text_path(option, path, inputs); !status)
+            return status;
+        files.push_back(path);
+    }
+    for (std::size_t i = 0; i < files.size(); ++i)
+        for (std::size_t j = 0; j < i; ++j)
+            if (files[i] == files[j])
+                return Error{ExitCode::usage, files[i], "", "is given twice as an output"};
+    return {};
+}
+
+void report_scene(const RenderOptions& options, const Stage& stage, Report& report)
+{
+    const Scene& scene = stage.scene;
+    report.event("scene", fmt::format("{}: {} triangles, {} materials, {} textures, {} lights", options.scene,
+                                      stage.tables.triangle_count(), scene.materials.size(),
+                                      scene.textures.size(), stage.tables.lights.size()));
+    for (const std::string& warning : scene.warnings)
+        report.warning(warning);
+}
+
+void report_environment(const RenderOptions& options, const Environment& environment, double ms,
+                        Report& report)
+{
+    report.event("environment",
+                 fmt::format("{}: mean radiance {:.6g} in the source, {:.6g} in the cube, peak {:.6g}; {}",
+                             options.env, environment.energy_source, environment.energy_cube,
+                             static_cast<double>(environment.peak_source),
+                             environment.from_cache ? fmt::format("from the cache in {:.0f} ms", ms)
+                                                    : fmt::format("baked in {:.0f} ms", ms)));
+}
+
+Status prepare(const RenderOptions& options, const Jobs& jobs, Stage& stage, RenderFigures& figures,
+               Report& report)
+{
+    const Stopwatch load;
+    {
+        const TraceSpan span("load scene");
+        Result<Scene> scene = load_scene(options.scene, options.limits);
+        if (!scene)
+            return scene.error();
+        stage.scene = std::move(*scene);
+        update_world(stage.scene);
+        stage.tables = make_draw_tables(stage.scene);
+    }
+    figures.load_ms = load.ms();
+    report_scene(options, stage, report);
+
+    const Stopwatch bake;
+    {
+        const TraceSpan span("environment");
+        Result<Environment> environment =
+            load_environment(options.env, options.environment, options.limits, jobs);
+        if (!environment)
+            return environment.error();
+        stage.environment = std::move(*environment);
+    }
+    figures.bake_ms = bake.ms();
+    figures.environment_from_cache = stage.environment.from_cache;
+    report_environment(options, stage.environment, figures.bake_ms, report);
+
+    const Stopwatch make;
+    const TraceSpan span("prepare renderer");
+    stage.dfg = bake_dfg(kDfgSize, kDfgSamples, jobs);
+    stage.renderer = make_tile_renderer(
+        RenderInput{stage.scene, stage.tables, stage.environment, stage.dfg, jobs}, options.isa);
+    figures.prepare_ms = make.ms();
+    figures.device = stage.renderer->device();
+    return {};
+}
+
+// All frames show the same picture: a renderer that does not repeat itself is caught here.
+Result<Rendered> render_frames(const RenderOptions& options, const FrameDesc& desc, Renderer& renderer,
+                               RenderFigures figures)
+{
+    Rendered out;
+    Progress progress("frames", static_cast<std::size_t>(options.frames), options.quiet);
+    for (int i = 0; i < options.frames; ++i) {
+        const TraceSpan span("frame");
+        Result<Frame> frame = renderer.render(desc);
+        if (!frame)
+            return frame.error();
+        const std::uint64_t hash = pixel_hash(frame->color);
+        if (i > 0 && hash != figures.hash)
+            return Error{ExitCode::differ, options.scene, fmt::format("frame {}", i),
+                         fmt::format("pixel hash {} differs from {} of the frames before", hash_text(hash),
+                                     hash_text(figures.hash))};
+        figures.hash = hash;
+        figures.frame = frame->stats;
+        figures.frame_ms.push_back(frame->stats.ms);
+        if (i == 0)
+            out.color = std::move(frame->color);
+        progress.step();
+    }
+    figures.nan_pixels = count_not_finite(out.color);
+    out.figures = std::move(figures);
+    return out;
+}
+
+void report_frames(const RenderOptions& options, const RenderFigures& figures, Report& report)
+{
+    const FrameDesc& frame = options.frame;
+    const std::vector<double>& ms = figures.frame_ms;
+    const std::string times =
+        ms.size() == 1 ? fmt::format("{:.2f} ms", ms[0])
+                       : fmt::format("median {:.2f} ms, min {:.2f}, p95 {:.2f} over {} frames", median(ms),
+                                     *std::min_element(ms.begin(), ms.end()), percentile_95(ms), ms.size());
+    report.event("frame", fmt::format("{}x{}, {} samples a pixel, {}: {}", frame.width, frame.height,
+                                      frame.msaa, frame.technique, times));
+    report.detail("fragments",
+                  fmt::format("{} shaded, {} of {} triangles drawn, {} pixels show the background",
+                              figures.frame.visible_fragments, figures.frame.triangles_drawn,
+                              figures.frame.triangles, figures.frame.background_pixels));
+}
+
+// Tries every output even where one fails; the first failure decides.
+Status write_outputs(const RenderOptions& options, const Rendered& rendered, Report& report)
+{
+    Status first;
+    const auto note = [&](const std::string& path, const Status& status) {
+        if (status)
+            report.event("wrote", path);
+        else if (first)
+            first = status;
+        else
+            fail(status.error());
+    };
+    for (const std::string& path : options.outputs) {
+        const TraceSpan span("write picture");
+        note(path, write_picture(path, rendered.color, options.tonemap, options.exposure_ev));
+    }
+    if (!options.stats_file.empty())
+        note(options.stats_file, write_text(options.stats_file, stats_json(options, rendered.figures)));
+    if (!options.trace_file.empty())
+        note(options.trace_file, write_text(options.trace_file, Trace::json()));
+    return first;
+}
+
+int finish(const RenderOptions& options, const Rendered& rendered, Report& report)
+{
+    const Status written = write_outputs(options, rendered, report);
+    report.event("pixel hash:", hash_text(rendered.figures.hash));
+    int code = 0;
+    if (rendered.figures.nan_pixels)
+        code = fail(Error{ExitCode::not_finite, options.scene, "",
+                          fmt::format("{} of {} pixels are NaN or Inf", rendered.figures.nan_pixels,
+                                      std::int64_t{options.frame.width} * options.frame.height)});
+    return written ? code : fail(written.error());
+}
+
+int run_render(const RenderArguments& arguments)
+{
+    Result<RenderOptions> checked = check_render_options(arguments);
+    if (!checked)
+        return fail(checked.error());
+    const RenderOptions& options = *checked;
+    if (Status paths = check_paths(options); !paths)
+        return fail(paths.error());
+    if (!options.trace_file.empty())
+        Trace::start();
+
+    Report report(options.quiet, options.verbosity);
+    const Jobs jobs(options.threads);
+    RenderFigures figures;
+    figures.threads = jobs.threads();
+    Stage stage;
+    if (Status ready = prepare(options, jobs, stage, figures, report); !ready)
+        return fail(ready.error());
+    const Result<ChosenView> view = choose_view(options, stage.scene, stage.tables);
+    if (!view)
+        return fail(view.error());
+    report.detail("camera",
+                  fmt::format("{}, world to clip {}", view->description, describe_matrix(view->view)));
+    report.detail("device", fmt::format("{}, {} threads", figures.device, figures.threads));
+    report.release();
+
+    FrameDesc desc = options.frame;
+    desc.view = view->view;
+    const Result<Rendered> rendered = render_frames(options, desc, *stage.renderer, std::move(figures));
+    if (!rendered)
+        return fail(rendered.error());
+    report_frames(options, rendered->figures, report);
+    return finish(options, *rendered, report);
+}
+
+} // namespace
+
+Command add_render(CLI::App& program)
+{
+    CLI::App* app = program.add_subcommand("render", "Render a scene to pictures");
+    auto arguments = std::make_shared<RenderArguments>();
+    add_render_options(*app, *arguments);
+    return {app, [arguments] { return run_render(*arguments); }};
+}
+
+} // namespace burnish

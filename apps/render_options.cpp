@@ -1,0 +1,232 @@
+#include "apps/render_options.h"
+
+#include <algorithm>
+#include <array>
+#include <fmt/format.h>
+
+#include "apps/parse.h"
+#include "apps/report.h"
+#include "core/scene/builtin.h"
+
+namespace burnish {
+namespace {
+
+constexpr std::int64_t kMaxSide = 16384;        // pixels, width or height of a picture
+constexpr std::int64_t kMaxSamples = 1ll << 28; // width * height * msaa: 2 GiB of depth and triangle ids
+constexpr std::int64_t kMaxThreads = 1024;
+constexpr std::int64_t kMaxFrames = 1000000;
+constexpr std::int64_t kMaxTechniqueSamples = 65536;
+constexpr std::int64_t kMaxBakeSamples = 1 << 20;
+constexpr double kMaxExposure = 64.0; // stops either way: 2^64 is far beyond any scene
+constexpr std::array<const char*, 1> kBackends = {"tile"};
+
+// Reads options one after another and remembers the first that is wrong; empty texts leave the default alone.
+class Reader {
+  public:
+    template <class T>
+    void integer(const std::string& option, const std::string& text, std::int64_t low, std::int64_t high,
+                 T& into)
+    {
+        if (!text.empty())
+            take(parse_integer(option, text, low, high), into);
+    }
+    void number(const std::string& option, const std::string& text, double low, double high, float& into)
+    {
+        if (!text.empty())
+            take(parse_number(option, text, low, high), into);
+    }
+    void bytes(const std::string& option, const std::string& text, std::uint64_t& into)
+    {
+        if (!text.empty())
+            take(parse_bytes(option, text), into);
+    }
+    void vec3(const std::string& option, const std::string& text, std::optional<glm::vec3>& into)
+    {
+        if (text.empty())
+            return;
+        Result<glm::vec3> value = parse_vec3(option, text);
+        if (value)
+            into = *value;
+        else
+            refuse(value.error());
+    }
+    // One of a few numbers.
+    void choice(const std::string& option, const std::string& text, const std::vector<std::string>& valid,
+                int& into)
+    {
+        if (text.empty())
+            return;
+        if (std::find(valid.begin(), valid.end(), text) == valid.end())
+            refuse(usage_error(option, fmt::format("'{}' is not one of {}", text, join(valid))));
+        else
+            integer(option, text, 0, kMaxSide, into);
+    }
+    void refuse(const Error& error)
+    {
+        if (status_)
+            status_ = error;
+    }
+    const Status& status() const { return status_; }
+
+  private:
+    template <class Value, class T> void take(const Result<Value>& value, T& into)
+    {
+        if (value)
+            into = static_cast<T>(*value);
+        else
+            refuse(value.error());
+    }
+
+    Status status_;
+};
+
+void read_limits(const RenderArguments& in, Reader& reader, Limits& limits)
+{
+    constexpr std::int64_t kMaxInt = 1 << 30;
+    reader.integer("--limit-image-side", in.limit_image_side, 1, kMaxInt, limits.image_side);
+    reader.bytes("--limit-texture-bytes", in.limit_texture_bytes, limits.texture_bytes);
+    reader.integer("--limit-json-depth", in.limit_json_depth, 1, 10000, limits.json_depth);
+    reader.integer("--limit-node-depth", in.limit_node_depth, 1, 10000, limits.node_depth);
+    reader.bytes("--limit-file-bytes", in.limit_file_bytes, limits.file_bytes);
+    reader.bytes("--limit-accessor-bytes", in.limit_accessor_bytes, limits.accessor_bytes);
+    reader.bytes("--limit-data-uri-bytes", in.limit_data_uri_bytes, limits.data_uri_bytes);
+}
+
+void read_environment(const RenderArguments& in, Reader& reader, EnvironmentOptions& environment)
+{
+    reader.number("--env-rotation", in.env_rotation, -36000.0, 36000.0, environment.rotation_deg);
+    reader.number("--env-exposure", in.env_exposure, -kMaxExposure, kMaxExposure, environment.exposure_ev);
+    reader.choice("--env-size", in.env_size, {"16", "32", "64", "128", "256", "512", "1024", "2048"},
+                  environment.cube_size);
+    reader.integer("--env-samples", in.env_samples, 1, kMaxBakeSamples, environment.samples);
+    environment.use_cache = !in.no_cache;
+}
+
+void read_camera(const RenderArguments& in, Reader& reader, RenderOptions& out)
+{
+    reader.vec3("--eye", in.eye, out.eye);
+    reader.vec3("--target", in.target, out.target);
+    reader.number("--fov", in.fov, 0.1, 179.0, out.fov_y_deg);
+    if (out.eye && !out.camera.empty())
+        reader.refuse(usage_error("--eye", "cannot be combined with --camera"));
+    if (!out.eye && (out.target || !in.fov.empty()))
+        reader.refuse(usage_error(out.target ? "--target" : "--fov", "needs --eye"));
+    if (out.eye && out.target && *out.eye == *out.target)
+        reader.refuse(usage_error("--target", "is the same point as --eye"));
+}
+
+void read_picture(const RenderArguments& in, Reader& reader, RenderOptions& out)
+{
+    FrameDesc& frame = out.frame;
+    if (!in.size.empty()) {
+        const Result<PictureSize> size = parse_picture_size("--size", in.size);
+        if (!size)
+            return reader.refuse(size.error());
+        frame.width = size->width;
+        frame.height = size->height;
+    }
+    reader.choice("--msaa", in.msaa, {"1", "2", "4", "8", "16"}, frame.msaa);
+    for (const int side : {frame.width, frame.height})
+        if (side < 1 || side > kMaxSide)
+            return reader.refuse(
+                usage_error("--size", fmt::format("each side must be from 1 to {} pixels, got {}x{}",
+                                                  kMaxSide, frame.width, frame.height)));
+    const std::int64_t samples = std::int64_t{frame.width} * frame.height * frame.msaa;
+    if (samples > kMaxSamples)
+        reader.refuse(
+            usage_error("--size", fmt::format("{}x{} with --msaa {} is {} samples, more than {}", frame.width,
+                                              frame.height, frame.msaa, samples, kMaxSamples)));
+    reader.choice("--tile-size", in.tile_size, {"32", "64"}, frame.tile_size);
+    reader.integer("--texture-anisotropy", in.texture_anisotropy, 1, 16, frame.texture_anisotropy);
+    reader.number("--roughness", in.roughness, 0.0, 1.0, frame.roughness);
+    reader.number("--anisotropy", in.anisotropy, 0.0, 1.0, frame.anisotropy);
+    frame.override_anisotropy = !in.anisotropy.empty();
+    frame.background = !in.no_background;
+    reader.number("--exposure", in.exposure, -kMaxExposure, kMaxExposure, out.exposure_ev);
+    if (!in.tonemap.empty()) {
+        const Result<Tonemap> tonemap = parse_tonemap(in.tonemap);
+        if (!tonemap)
+            return reader.refuse(usage_error(
+                "--tonemap", fmt::format("'{}' is not one of none, pbr-neutral, aces", in.tonemap)));
+        out.tonemap = *tonemap;
+        out.tonemap_name = in.tonemap;
+    }
+}
+
+void read_technique(const RenderArguments& in, Reader& reader, FrameDesc& frame)
+{
+    if (!in.technique.empty())
+        frame.technique = in.technique;
+    std::vector<std::string> names;
+    for (const TechniqueInfo& technique : techniques()) {
+        names.emplace_back(technique.name);
+        if (frame.technique == technique.name)
+            frame.samples = technique.default_samples;
+    }
+    if (std::find(names.begin(), names.end(), frame.technique) == names.end())
+        reader.refuse(
+            usage_error("--technique", fmt::format("'{}' is not one of {}", frame.technique, join(names))));
+    reader.integer("--samples", in.samples, 1, kMaxTechniqueSamples, frame.samples);
+}
+
+void read_machine(const RenderArguments& in, Reader& reader, RenderOptions& out)
+{
+    const std::vector<std::string> backends(kBackends.begin(), kBackends.end());
+    if (std::find(backends.begin(), backends.end(), out.backend) == backends.end())
+        reader.refuse(
+            usage_error("--backend", fmt::format("'{}' is not one of {}", out.backend, join(backends))));
+    reader.integer("--threads", in.threads, 1, kMaxThreads, out.threads);
+    reader.integer("--frames", in.frames, 1, kMaxFrames, out.frames);
+    out.isa = best_isa();
+    if (in.isa.empty())
+        return;
+    const Result<Isa> isa = parse_isa(in.isa);
+    if (!isa)
+        return reader.refuse(
+            usage_error("--isa", fmt::format("'{}' is not one of scalar, avx2, avx512", in.isa)));
+    if (!isa_available(*isa))
+        return reader.refuse(
+            Error{ExitCode::unavailable, "", "--isa",
+                  fmt::format("this machine cannot run {}, at most {}", in.isa, isa_name(best_isa()))});
+    out.isa = *isa;
+}
+
+// "builtin:NAME" with a name that exists, or anything else (a path).
+void check_builtin(Reader& reader, const std::string& option, const std::string& spec,
+                   const std::vector<BuiltinInfo>& known)
+{
+    constexpr const char* kPrefix = "builtin:";
+    if (spec.rfind(kPrefix, 0) != 0)
+        return;
+    std::vector<std::string> names;
+    for (const BuiltinInfo& info : known)
+        names.push_back(kPrefix + std::string(info.name));
+    if (std::find(names.begin(), names.end(), spec) == names.end())
+        reader.refuse(usage_error(option, fmt::format("'{}' is not one of {}", spec, join(names))));
+}
+
+} // namespace
+
+Result<RenderOptions> check_render_options(const RenderArguments& arguments)
+{
+    RenderOptions out = arguments.plain;
+    Reader reader;
+    if (out.scene.empty())
+        reader.refuse(usage_error("SCENE", "is empty"));
+    if (out.env.empty())
+        reader.refuse(usage_error("--env", "is empty"));
+    check_builtin(reader, "SCENE", out.scene, builtin_scenes());
+    check_builtin(reader, "--env", out.env, builtin_environments());
+    read_picture(arguments, reader, out);
+    read_technique(arguments, reader, out.frame);
+    read_machine(arguments, reader, out);
+    read_camera(arguments, reader, out);
+    read_environment(arguments, reader, out.environment);
+    read_limits(arguments, reader, out.limits);
+    if (!reader.status())
+        return reader.status().error();
+    out.environment.quiet = out.quiet;
+    return out;
+}
+
+} // namespace burnish

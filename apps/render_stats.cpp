@@ -1,0 +1,79 @@
+#include "apps/render_stats.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <sys/resource.h>
+
+#include "core/base/version.h"
+
+namespace burnish {
+
+double median(std::vector<double> values)
+{
+    if (values.empty())
+        return 0.0;
+    std::sort(values.begin(), values.end());
+    const std::size_t half = values.size() / 2;
+    return values.size() % 2 ? values[half] : (values[half - 1] + values[half]) / 2.0;
+}
+
+double percentile_95(std::vector<double> values)
+{
+    if (values.empty())
+        return 0.0;
+    std::sort(values.begin(), values.end());
+    const std::size_t rank = (values.size() * 95 + 99) / 100; // the smallest rank that covers 95 %
+    return values[rank - 1];
+}
+
+std::string hash_text(std::uint64_t hash)
+{
+    return fmt::format("{:016x}", hash);
+}
+
+std::uint64_t peak_memory_bytes()
+{
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024; // Linux counts in KiB
+}
+
+std::string stats_json(const RenderOptions& options, const RenderFigures& figures)
+{
+    const FrameDesc& frame = options.frame;
+    nlohmann::ordered_json json;
+    json["version"] = version();
+    json["scene"] = options.scene;
+    json["env"] = options.env;
+    json["technique"] = frame.technique;
+    json["samples"] = frame.samples;
+    json["backend"] = options.backend;
+    json["device"] = figures.device;
+    json["isa"] = isa_name(options.isa);
+    json["threads"] = figures.threads;
+    json["width"] = frame.width;
+    json["height"] = frame.height;
+    json["msaa"] = frame.msaa;
+    json["tile_size"] = frame.tile_size;
+    json["frames"] = options.frames;
+    json["ms_min"] = *std::min_element(figures.frame_ms.begin(), figures.frame_ms.end());
+    json["ms_median"] = median(figures.frame_ms);
+    json["ms_p95"] = percentile_95(figures.frame_ms);
+    json["load_ms"] = figures.load_ms;
+    json["bake_ms"] = figures.bake_ms;
+    json["prepare_ms"] = figures.prepare_ms;
+    json["environment_from_cache"] = figures.environment_from_cache;
+    json["triangles"] = figures.frame.triangles;
+    json["triangles_drawn"] = figures.frame.triangles_drawn;
+    json["visible_fragments"] = figures.frame.visible_fragments;
+    json["background_pixels"] = figures.frame.background_pixels;
+    json["pixel_hash"] = hash_text(figures.hash);
+    json["nan_pixels"] = figures.nan_pixels;
+    json["peak_memory_bytes"] = peak_memory_bytes();
+    // Paths are bytes to the operating system: what is not UTF-8 is replaced instead of ending the program.
+    return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+}
+
+} // namespace burnish
