@@ -1,11 +1,31 @@
-// Lane types of the instruction set that this file is compiled for (BN_ISA: 0 scalar, 1 AVX2, 2 AVX-512, 3 the double oracle):
+// Lane types of the instruction set that this file is compiled for (BN_ISA: 0 scalar, 1 AVX2, 2 AVX-512, 3
+// the double oracle):
 //   real     kLanes floating-point numbers      (scalar: float itself; oracle: double itself)
 //   integer  kLanes 32-bit integers, wrapping   (scalar and oracle: int32_t itself)
 //   mask     kLanes truth values                (scalar and oracle: bool itself)
-// Everything lives in burnish::BN_ISA_NS, so that copies of different instruction sets never meet in the linker.
-// Same bits in every instruction set: only + - * / sqrt, comparisons, conversions and integer operations are used, no fma, no
-// reciprocal approximations; max(a,b) is a > b ? a : b and min(a,b) is a < b ? a : b, in NaN and -0 too.
+// Everything lives in burnish::BN_ISA_NS, so that copies of different instruction sets never meet in the
+// linker. Same bits in every instruction set: only + - * / sqrt, comparisons, conversions and integer
+// operations are used, no fma, no reciprocal approximations; max(a,b) is a > b ? a : b and min(a,b) is a < b
+// ? a : b, in NaN and -0 too. The one freedom left is the sign and payload of a NaN that arithmetic makes
+// (compilers commute operands); that a result is NaN is promised.
+//
+// Besides operators (real: + - * / and comparisons; integer: + - * & | ^ ~ and comparisons; mask: & |):
+//   splat(float) lit(double) int_lit(int) iota()             the same in every lane; 0, 1, 2...
+//   shl(i,n) shr(i,n) shr_logical(i,n)                       n in [0,31], one count for all lanes
+//   both either not_ any all none to_bits mask_from_bits     masks; lane 0 is bit 0
+//   select(m,a,b) min max clamp abs sqrt floor ceil          both sides of a select are computed
+//   to_real to_int round_to_int bits_of real_from_bits       to_int truncates; NaN and out of range become
+//   INT_MIN load store load_int store_int load_first store_first     unaligned; _first: n lanes, the others
+//   read 0 and stay unwritten gather gather_int table_value table_int                  element index[lane];
+//   tables: 16 readable entries, index in [0,15] compress_store_int(to, i, m) lanes of m to consecutive
+//   places; returns their number reduce_min reduce_max reduce_add                         lane k with lane k
+//   + n/2, then n/4...: depends on the width load_records16 blend_records blend_records_low blend_quad
+//   array-of-struct access: see lanes_scalar.h texel_zero texel_add texel_values bilinear accumulation of
+//   RGBA half texels: see lanes_scalar.h
+// Indices of gathers are signed; those of records and texels are unsigned 32-bit.
 #pragma once
+
+#define BN_INLINE static inline __attribute__((always_inline))
 
 #ifndef BN_ISA
 #define BN_ISA 0

@@ -1,0 +1,354 @@
+// One lane: the twin that every instruction set must equal bit for bit (BN_ISA 0), and the double oracle
+// (BN_ISA 3). The meaning of every operation is defined here. `integer` wraps because these files are
+// compiled with -fwrapv.
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <immintrin.h>
+
+#include "core/simd/half.h"
+
+namespace burnish {
+inline namespace BN_ISA_NS {
+
+inline constexpr int kLanes = 1;
+
+#if BN_ISA == 3
+using real = double;
+#else
+using real = float;
+#endif
+using integer = std::int32_t;
+using mask = bool;
+
+BN_INLINE real splat(float x)
+{
+    return static_cast<real>(x);
+}
+#if BN_ISA == 3
+BN_INLINE real lit(double x)
+{
+    return x;
+}
+#else
+BN_INLINE real lit(double x)
+{
+    return static_cast<float>(x);
+}
+#endif
+BN_INLINE integer int_lit(int x)
+{
+    return x;
+}
+BN_INLINE integer iota()
+{
+    return 0;
+}
+
+BN_INLINE integer shl(integer i, int n)
+{
+    return static_cast<integer>(static_cast<std::uint32_t>(i) << n);
+}
+BN_INLINE integer shr(integer i, int n)
+{
+    return i >> n;
+}
+BN_INLINE integer shr_logical(integer i, int n)
+{
+    return static_cast<integer>(static_cast<std::uint32_t>(i) >> n);
+}
+
+BN_INLINE mask both(mask a, mask b)
+{
+    return a && b;
+}
+BN_INLINE mask either(mask a, mask b)
+{
+    return a || b;
+}
+BN_INLINE mask not_(mask a)
+{
+    return !a;
+}
+BN_INLINE bool any(mask m)
+{
+    return m;
+}
+BN_INLINE bool all(mask m)
+{
+    return m;
+}
+BN_INLINE bool none(mask m)
+{
+    return !m;
+}
+BN_INLINE std::uint32_t to_bits(mask m)
+{
+    return m ? 1u : 0u;
+}
+BN_INLINE mask mask_from_bits(std::uint32_t bits)
+{
+    return (bits & 1u) != 0;
+}
+
+BN_INLINE real select(mask m, real a, real b)
+{
+    return m ? a : b;
+}
+BN_INLINE integer select(mask m, integer a, integer b)
+{
+    return m ? a : b;
+}
+BN_INLINE mask select(mask m, mask a, mask b)
+{
+    return m ? a : b;
+}
+
+BN_INLINE real min(real a, real b)
+{
+    return a < b ? a : b;
+}
+BN_INLINE real max(real a, real b)
+{
+    return a > b ? a : b;
+}
+BN_INLINE integer min(integer a, integer b)
+{
+    return a < b ? a : b;
+}
+BN_INLINE integer max(integer a, integer b)
+{
+    return a > b ? a : b;
+}
+BN_INLINE real clamp(real x, real lo, real hi)
+{
+    return min(max(x, lo), hi);
+}
+BN_INLINE integer clamp(integer x, integer lo, integer hi)
+{
+    return min(max(x, lo), hi);
+}
+
+#if BN_ISA == 3
+BN_INLINE real abs(real x)
+{
+    return __builtin_fabs(x);
+}
+BN_INLINE real sqrt(real x)
+{
+    return __builtin_sqrt(x);
+}
+BN_INLINE real floor(real x)
+{
+    return __builtin_floor(x);
+}
+BN_INLINE real ceil(real x)
+{
+    return __builtin_ceil(x);
+}
+BN_INLINE integer to_int(real x)
+{
+    return _mm_cvttsd_si32(_mm_set_sd(x));
+}
+BN_INLINE integer round_to_int(real x)
+{
+    return _mm_cvtsd_si32(_mm_set_sd(x));
+}
+#else
+BN_INLINE real abs(real x)
+{
+    return __builtin_fabsf(x);
+}
+BN_INLINE real sqrt(real x)
+{
+    return __builtin_sqrtf(x);
+}
+BN_INLINE real floor(real x)
+{
+    return __builtin_floorf(x);
+}
+BN_INLINE real ceil(real x)
+{
+    return __builtin_ceilf(x);
+}
+BN_INLINE integer to_int(real x)
+{
+    return _mm_cvttss_si32(_mm_set_ss(x));
+}
+BN_INLINE integer round_to_int(real x)
+{
+    return _mm_cvtss_si32(_mm_set_ss(x));
+} // ties to even
+#endif
+BN_INLINE real to_real(integer i)
+{
+    return static_cast<real>(i);
+}
+// The oracle too sees the 32 bits of a float, so that exponents are found by the same text.
+BN_INLINE integer bits_of(real x)
+{
+    return __builtin_bit_cast(std::int32_t, static_cast<float>(x));
+}
+BN_INLINE real real_from_bits(integer i)
+{
+    return static_cast<real>(__builtin_bit_cast(float, i));
+}
+
+BN_INLINE real load(const float* from)
+{
+    return static_cast<real>(*from);
+}
+BN_INLINE void store(float* to, real x)
+{
+    *to = static_cast<float>(x);
+}
+#if BN_ISA == 3
+BN_INLINE void store(double* to, real x)
+{
+    *to = x;
+}
+#endif
+BN_INLINE integer load_int(const std::int32_t* from)
+{
+    return *from;
+}
+BN_INLINE integer load_int(const std::uint32_t* from)
+{
+    return static_cast<integer>(*from);
+}
+BN_INLINE void store_int(std::int32_t* to, integer i)
+{
+    *to = i;
+}
+BN_INLINE void store_int(std::uint32_t* to, integer i)
+{
+    *to = static_cast<std::uint32_t>(i);
+}
+BN_INLINE real load_first(const float* from, int n)
+{
+    return static_cast<real>(n > 0 ? *from : 0.0f);
+}
+BN_INLINE integer load_first(const std::int32_t* from, int n)
+{
+    return n > 0 ? *from : 0;
+}
+BN_INLINE void store_first(float* to, real x, int n)
+{
+    if (n > 0)
+        store(to, x);
+}
+BN_INLINE void store_first(std::int32_t* to, integer i, int n)
+{
+    if (n > 0)
+        *to = i;
+}
+BN_INLINE real gather(const float* base, integer index)
+{
+    return static_cast<real>(base[index]);
+}
+BN_INLINE integer gather_int(const std::int32_t* base, integer index)
+{
+    return base[index];
+}
+BN_INLINE real table_value(const float* table, integer index)
+{
+    return static_cast<real>(table[index]);
+}
+BN_INLINE integer table_int(const std::int32_t* table, integer index)
+{
+    return table[index];
+}
+BN_INLINE int compress_store_int(std::int32_t* to, integer i, mask m)
+{
+    if (m)
+        *to = i;
+    return m ? 1 : 0;
+}
+
+BN_INLINE real reduce_min(real x)
+{
+    return x;
+}
+BN_INLINE real reduce_max(real x)
+{
+    return x;
+}
+BN_INLINE real reduce_add(real x)
+{
+    return x;
+}
+
+// Record i is 16 words (64 bytes, any alignment) at base + 64 i; out[f] is field f of record index[lane].
+BN_INLINE void load_records16(const void* base, integer index, integer out[16])
+{
+    const char* record = static_cast<const char*>(base) + std::size_t{64} * static_cast<std::uint32_t>(index);
+    for (int f = 0; f < 16; ++f)
+        __builtin_memcpy(&out[f], record + 4 * f, 4);
+}
+
+// Records are 16 floats apart; r0, r1, r2 the records i0, i1, i2. out[c] = (b0 r0[c] + b1 r1[c]) + b2 r2[c],
+// rounded in that order, for the first `fields` floats.
+BN_INLINE void blend_fields(const float* base, integer i0, integer i1, integer i2, real b0, real b1, real b2,
+                            real* out, int fields)
+{
+    const float* r0 = base + std::size_t{16} * static_cast<std::uint32_t>(i0);
+    const float* r1 = base + std::size_t{16} * static_cast<std::uint32_t>(i1);
+    const float* r2 = base + std::size_t{16} * static_cast<std::uint32_t>(i2);
+    for (int c = 0; c < fields; ++c)
+        out[c] =
+            (b0 * static_cast<real>(r0[c]) + b1 * static_cast<real>(r1[c])) + b2 * static_cast<real>(r2[c]);
+}
+BN_INLINE void blend_records(const float* base, integer i0, integer i1, integer i2, real b0, real b1, real b2,
+                             real out[16])
+{
+    blend_fields(base, i0, i1, i2, b0, b1, b2, out, 16);
+}
+BN_INLINE void blend_records_low(const float* base, integer i0, integer i1, integer i2, real b0, real b1,
+                                 real b2, real out[8])
+{
+    blend_fields(base, i0, i1, i2, b0, b1, b2, out, 8);
+}
+// Four floats; `base` already points at the wanted field of record 0.
+BN_INLINE void blend_quad(const float* base, integer i0, integer i1, integer i2, real b0, real b1, real b2,
+                          real out[4])
+{
+    blend_fields(base, i0, i1, i2, b0, b1, b2, out, 4);
+}
+
+// RGBA half texels, 8 bytes each. row0 and row1 are the indices of the left texels of two horizontal pairs
+// (upper and lower row of a bilinear footprint); the weights are w<column><row>. A pair is one unaligned
+// 16-byte load.
+using texel_buffer = const std::uint16_t*;
+struct texel_acc {
+    real left[4], right[4];
+};
+BN_INLINE real texel_word(std::uint16_t half)
+{
+    return static_cast<real>(half_to_float(half));
+}
+BN_INLINE texel_acc texel_zero()
+{
+    return texel_acc{};
+}
+// left += w00 t[row0] + w01 t[row1]; right += w10 t[row0 + 1] + w11 t[row1 + 1], a channel at a time, rounded
+// in that order.
+BN_INLINE texel_acc texel_add(texel_acc acc, texel_buffer texels, integer row0, integer row1, real w00,
+                              real w10, real w01, real w11)
+{
+    const std::uint16_t* t0 = texels + std::size_t{4} * static_cast<std::uint32_t>(row0);
+    const std::uint16_t* t1 = texels + std::size_t{4} * static_cast<std::uint32_t>(row1);
+    for (int c = 0; c < 4; ++c) {
+        acc.left[c] = acc.left[c] + (w00 * texel_word(t0[c]) + w01 * texel_word(t1[c]));
+        acc.right[c] = acc.right[c] + (w10 * texel_word(t0[c + 4]) + w11 * texel_word(t1[c + 4]));
+    }
+    return acc;
+}
+// left + right by channel. (Kernels use texel_value, which returns a real4.)
+BN_INLINE void texel_values(texel_acc acc, real out[4])
+{
+    for (int c = 0; c < 4; ++c)
+        out[c] = acc.left[c] + acc.right[c];
+}
+
+} // namespace BN_ISA_NS
+} // namespace burnish

@@ -1,0 +1,35 @@
+// The kernel language: the common subset of C++ and GLSL 4.6 in which every technique is written once. Kernels include this file
+// and other kernels, nothing else. One text becomes SIMD C++ (real = 8 or 16 lanes), scalar C++, double C++ and SPIR-V, and all
+// float versions give the same bits.
+//
+// A kernel file:
+//     #ifndef BN_NAME_K_H ... #endif       include guard (glslc knows no #pragma once); no other preprocessor line but #include
+//     BN_KERNELS_BEGIN ... BN_KERNELS_END  around everything
+//     BN_FN real3 name(real x, real3 n)    values in, values out; several results are a struct
+// Types: real real2 real3 real4, integer (32 bits, wraps), mask; structs of these. `int` and `bool` for what is uniform (loop
+// counters, options). Members .x .y .z .w, no swizzles.
+// Literals lit(1.0), int_lit(3), uniform values splat(f); vectors vec2_of(x,y) vec3_of(x,y,z) vec4_of(x,y,z,w) vec3_all(x)...
+// Operators: + - * / between reals; between vectors component by component; vector with real; unary -; < <= > >= == != between
+// reals or integers give a mask; integers + - * & | ^ ~ and shl shr shr_logical with a uniform count.
+// Functions: select(m,a,b) min max clamp abs sqrt floor ceil, also (but for floor, ceil, sqrt) on vectors; both either not_;
+// to_real to_int round_to_int (defined for |x| < 2^31) bits_of real_from_bits; table_value table_int on a real_table or
+// int_table of at most 16 entries; texel_zero texel_add texel_value on a texel_buffer. Everything else is in kernels/math.k.h.
+// Rules:
+//  - no if, ?:, && or || on a varying value: select(). Both sides are computed: clamp denominators, keep sqrt arguments >= 0.
+//  - `for` with uniform bounds only; `if` on uniform values only.
+//  - no fma, no pow/exp/sin/dot/normalize/mix of GLSL: math.k.h has them (k_dot, k_exp2...). No global constants: lit() in place.
+//  - every float expression ends in a variable, argument or result of type real, so that GLSL's `precise` reaches it: name the
+//    value before comparing or converting it.
+//  - no overloads, references, templates, enum, array initialisers or default arguments of your own; no reserved word of either
+//    language as a name (half, input, output, sample, filter, buffer, shared, patch, flat, common, active, near, far, and, or).
+//  - keep values that matter above 1e-30: GPUs may flush subnormals.
+#ifndef BN_LANG_H
+#define BN_LANG_H
+
+#ifdef __cplusplus
+#include "shading/lang/cxx.h"
+#else
+#include "shading/lang/glsl.h"
+#endif
+
+#endif
