@@ -45,6 +45,7 @@ struct FrameDesc {
     int tile_size = 64;                    // 32 or 64; never changes the picture
     int texture_anisotropy = 16;           // taps along the major axis at most, 1..16
     bool background = true;                // environment behind the scene; otherwise black
+    bool triangle_ids = false;             // fill Frame::triangle_ids
 };
 
 struct FrameStats {
@@ -57,6 +58,7 @@ struct FrameStats {
 
 struct Frame {
     Image color;                           // f32 RGB, linear Rec.709 scene radiance
+    Column<std::uint32_t> triangle_ids;    // [pixel][sample] global triangle id, 0xffffffff where nothing was hit
     FrameStats stats;
 };
 

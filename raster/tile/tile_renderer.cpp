@@ -1,1 +1,226 @@
 #include "raster/tile/tile_renderer.h"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cstdlib>
+#include <cstring>
+
+#include "core/base/check.h"
+#include "core/simd/cpu.h"
+#include "raster/tile/bins.h"
+#include "raster/tile/cull.h"
+#include "raster/tile/tile_types.h"
+#include "raster/tile/upload.h"
+
+namespace burnish {
+
+namespace bn_scalar {
+const TileFns& tile_fns();
+}
+namespace bn_avx2 {
+const TileFns& tile_fns();
+}
+namespace bn_avx512 {
+const TileFns& tile_fns();
+}
+
+namespace {
+
+const TileFns& fns_of(Isa isa)
+{
+    return isa == Isa::avx512 ? bn_avx512::tile_fns() : isa == Isa::avx2 ? bn_avx2::tile_fns() : bn_scalar::tile_fns();
+}
+
+// Scratch of one worker: everything a tile needs, sized once for the worst case.
+struct WorkerScratch {
+    Column<float> depth, block_far, red, green, blue;
+    Column<std::uint32_t> ids, slot_begin;
+    Column<std::uint8_t> block_dirty;
+    Column<TriangleSetup> triangles;
+    Column<TriangleSource> sources;
+    Column<std::int32_t> fragment_triangle, fragment_pixel, fragment_mask, order, slot_of_material, slot_material;
+    FrameStats stats;
+
+    void prepare(int tile_size, int msaa, std::size_t materials)
+    {
+        const std::size_t pixels = static_cast<std::size_t>(tile_size) * static_cast<std::size_t>(tile_size);
+        const std::size_t samples = pixels * static_cast<std::size_t>(msaa), blocks = pixels / kBlockPixels;
+        depth.resize(samples), ids.resize(samples), block_far.resize(blocks), block_dirty.resize(blocks);
+        for (Column<float>* c : {&red, &green, &blue})
+            c->resize(samples);
+        for (Column<std::int32_t>* c : {&fragment_triangle, &fragment_pixel, &fragment_mask, &order})
+            c->resize(samples);
+        slot_begin.resize(materials + 2), slot_material.resize(materials + 1), slot_of_material.resize(materials);
+        std::fill(slot_of_material.begin(), slot_of_material.end(), -1);
+        stats = {};
+    }
+
+    TileScratch view(Frame& frame)
+    {
+        return {depth.data(), ids.data(), block_far.data(), block_dirty.data(), triangles.data(),
+                static_cast<std::uint32_t>(triangles.size()), sources.data(), fragment_triangle.data(),
+                fragment_pixel.data(), fragment_mask.data(), red.data(), green.data(), blue.data(), order.data(),
+                slot_of_material.data(), slot_material.data(), slot_begin.data(), 0, 0,
+                frame.color.f32(), frame.triangle_ids.empty() ? nullptr : frame.triangle_ids.data()};
+    }
+};
+
+class TileRenderer final : public Renderer {
+  public:
+    TileRenderer(const RenderInput& input, Isa isa)
+        : input_(input), isa_(isa), fns_(fns_of(isa)), scene_(upload_scene(input.scene, input.tables, input.jobs))
+    {
+        const std::size_t n = input.tables.px.size();
+        x_.resize(n), y_.resize(n), inv_w_.resize(n), z_.resize(n);
+    }
+    Result<Frame> render(const FrameDesc& desc) override;
+    std::string device() const override { return cpu_name() + " (" + isa_name(isa_) + ")"; }
+
+  private:
+    FrameParams frame_params(const FrameDesc& desc, const std::vector<MaterialRecord>& materials);
+    void draw_tiles(const FrameParams& f, Frame& frame);
+
+    RenderInput input_;
+    Isa isa_;
+    const TileFns& fns_;
+    SceneTables scene_;
+    Column<std::int32_t> x_, y_;
+    Column<float> inv_w_, z_;
+    Bins bins_;
+    std::vector<WorkerScratch> workers_;
+};
+
+std::vector<MaterialRecord> overridden(std::vector<MaterialRecord> materials, const FrameDesc& desc)
+{
+    for (MaterialRecord& m : materials)
+        if (desc.roughness >= 0.0f) {
+            m.roughness = desc.roughness;
+            m.textures[kMetalRoughTex].texture = nullptr;
+        }
+    return materials;
+}
+
+FrameParams TileRenderer::frame_params(const FrameDesc& desc, const std::vector<MaterialRecord>& materials)
+{
+    FrameParams f = {};
+    f.view = view_params_of(desc.view);
+    f.width = desc.width, f.height = desc.height, f.msaa = desc.msaa, f.tile_size = desc.tile_size;
+    f.tiles_x = (desc.width + desc.tile_size - 1) / desc.tile_size;
+    f.tiles_y = (desc.height + desc.tile_size - 1) / desc.tile_size;
+    f.center_x = desc.width / 2 * kSubpixel, f.center_y = desc.height / 2 * kSubpixel;
+    f.half_width = 0.5f * static_cast<float>(desc.width), f.half_height = 0.5f * static_cast<float>(desc.height);
+    f.pattern = standard_samples(desc.msaa);
+    const DrawTables& t = input_.tables;
+    f.px = t.px.data(), f.py = t.py.data(), f.pz = t.pz.data();
+    f.shading_vertices = reinterpret_cast<const float*>(t.shading.data());
+    f.indices = t.indices.data(), f.triangle_material = t.triangle_material.data();
+    f.materials = materials.data();
+    f.lights = scene_.lights.data(), f.light_count = static_cast<std::int32_t>(scene_.lights.size());
+    f.vertices = {x_.data(), y_.data(), inv_w_.data(), z_.data()};
+    f.specular_cube = cube_params(input_.environment.specular);
+    f.irradiance_cube = cube_params(input_.environment.irradiance);
+    f.dfg_scale = input_.dfg.scale.data(), f.dfg_bias = input_.dfg.bias.data(), f.dfg_size = input_.dfg.size;
+    f.background = desc.background, f.samples = desc.samples, f.texture_taps = desc.texture_anisotropy;
+    return f;
+}
+
+void TileRenderer::draw_tiles(const FrameParams& f, Frame& frame)
+{
+    const TraceSpan span("tiles");
+    workers_.resize(static_cast<std::size_t>(input_.jobs.threads()));
+    for (WorkerScratch& w : workers_)
+        w.prepare(f.tile_size, f.msaa, scene_.materials.size());
+    const std::size_t tiles = static_cast<std::size_t>(f.tiles_x) * static_cast<std::size_t>(f.tiles_y);
+    input_.jobs.parallel_for(tiles, [&](std::size_t i, int worker) {
+        const TraceSpan tile_span("tile");
+        WorkerScratch& w = workers_[static_cast<std::size_t>(worker)];
+        bins_.gather_tile(i, w.triangles, w.sources);
+        TileScratch scratch = w.view(frame);
+        fns_.render_tile(f, static_cast<int>(i) % f.tiles_x, static_cast<int>(i) / f.tiles_x, scratch);
+        w.stats.visible_fragments += scratch.fragment_count - scratch.background_pixels;
+        w.stats.background_pixels += scratch.background_pixels;
+    });
+    for (const WorkerScratch& w : workers_) {
+        frame.stats.visible_fragments += w.stats.visible_fragments;
+        frame.stats.background_pixels += w.stats.background_pixels;
+    }
+}
+
+Status check_desc(const FrameDesc& d)
+{
+    const auto usage = [](std::string reason) { return Error{ExitCode::usage, "", "", std::move(reason)}; };
+    if (d.width < 1 || d.height < 1 || d.width > 16384 || d.height > 16384)
+        return usage("the image's sides must lie in 1..16384 pixels");
+    if (d.msaa != 1 && d.msaa != 2 && d.msaa != 4 && d.msaa != 8 && d.msaa != 16)
+        return usage("msaa must be 1, 2, 4, 8 or 16");
+    if (d.tile_size != 32 && d.tile_size != 64)
+        return usage("the tile size must be 32 or 64");
+    if (d.texture_anisotropy < 1 || d.texture_anisotropy > 16)
+        return usage("texture anisotropy must lie in 1..16");
+    const auto known = std::find_if(techniques().begin(), techniques().end(),
+                                    [&](const TechniqueInfo& t) { return d.technique == t.name; });
+    if (known == techniques().end())
+        return usage("unknown technique '" + d.technique + "'");
+    return {};
+}
+
+Result<Frame> TileRenderer::render(const FrameDesc& desc)
+{
+    if (const Status ok = check_desc(desc); !ok)
+        return ok.error();
+    const TraceSpan span("frame");
+    const auto begin = std::chrono::steady_clock::now();
+    Frame frame;
+    frame.color = make_image(desc.width, desc.height, 3, PixelType::f32);
+    if (desc.triangle_ids)
+        frame.triangle_ids.resize(static_cast<std::size_t>(desc.width) * static_cast<std::size_t>(desc.height) *
+                                  static_cast<std::size_t>(desc.msaa));
+    const std::vector<MaterialRecord> materials = overridden(scene_.materials, desc);
+    const FrameParams f = frame_params(desc, materials);
+    const Visible visible = cull(input_.tables, desc.view);
+    transform_draws(f, input_.tables, visible, fns_, input_.jobs);
+    bins_.build(f, input_.tables, visible, fns_, input_.jobs);
+    draw_tiles(f, frame);
+    frame.stats.triangles = input_.tables.triangle_count();
+    frame.stats.triangles_drawn = bins_.triangle_count();
+    frame.stats.ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
+    return frame;
+}
+
+} // namespace
+
+bool isa_available(Isa isa)
+{
+    return isa == Isa::scalar || (isa == Isa::avx2 && cpu_has_avx2()) || (isa == Isa::avx512 && cpu_has_avx512());
+}
+
+Result<Isa> parse_isa(const std::string& name)
+{
+    for (Isa isa : {Isa::scalar, Isa::avx2, Isa::avx512})
+        if (name == isa_name(isa))
+            return isa;
+    return Error{ExitCode::usage, "", "", "unknown instruction set '" + name + "'; there are scalar, avx2, avx512"};
+}
+
+const char* isa_name(Isa isa) { return isa == Isa::avx512 ? "avx512" : isa == Isa::avx2 ? "avx2" : "scalar"; }
+
+Isa best_isa()
+{
+    Isa cap = Isa::avx512;
+    if (const char* forced = std::getenv("BN_FORCE_ISA"))
+        if (const Result<Isa> isa = parse_isa(forced))
+            cap = *isa;
+    for (Isa isa : {Isa::avx512, Isa::avx2})
+        if (isa <= cap && isa_available(isa))
+            return isa;
+    return Isa::scalar;
+}
+
+std::unique_ptr<Renderer> make_tile_renderer(const RenderInput& input, Isa isa)
+{
+    BN_CHECK(isa_available(isa));
+    return std::make_unique<TileRenderer>(input, isa);
+}
+
+} // namespace burnish

@@ -1,0 +1,103 @@
+#include "raster/tile/bins.h"
+
+#include <algorithm>
+
+namespace burnish {
+
+namespace {
+// Chunks are large enough that their tile lists stay small beside their triangles, and many enough to share evenly.
+constexpr std::size_t kMinClusters = 16, kMaxChunks = 256;
+} // namespace
+
+void Bins::Chunk::make_room()
+{
+    const auto grow = [](auto& column, std::uint32_t count) {
+        column.resize(std::max<std::size_t>(2 * column.size(), count + 4 * kGrowRoom));
+    };
+    if (output.count + kGrowRoom > setups.size()) {
+        grow(setups, output.count);
+        rects.resize(setups.size());
+        triangles.resize(setups.size());
+    }
+    if (output.clip_count + kGrowRoom > clips.size())
+        grow(clips, output.clip_count);
+    output.setups = setups.data(), output.rects = rects.data(), output.clips = clips.data();
+    output.triangles = triangles.data();
+    output.capacity = static_cast<std::uint32_t>(setups.size());
+    output.clip_capacity = static_cast<std::uint32_t>(clips.size());
+}
+
+void Bins::Chunk::sort_by_tile(const FrameParams& f)
+{
+    const std::size_t tiles = static_cast<std::size_t>(f.tiles_x) * static_cast<std::size_t>(f.tiles_y);
+    tile_begin.clear();
+    tile_begin.resize(tiles + 1);
+    const auto each_tile = [&](const TileRect& r, const auto& visit) {
+        for (std::uint32_t y = r.y0; y <= r.y1; ++y)
+            for (std::uint32_t x = r.x0; x <= r.x1; ++x)
+                visit(y * static_cast<std::uint32_t>(f.tiles_x) + x);
+    };
+    for (std::uint32_t i = 0; i < output.count; ++i)
+        each_tile(rects[i], [&](std::uint32_t tile) { ++tile_begin[tile]; });
+    std::uint32_t sum = 0;
+    for (std::size_t t = 0; t <= tiles; ++t) {
+        const std::uint32_t count = tile_begin[t];
+        tile_begin[t] = sum;
+        sum += count;
+    }
+    list.resize(sum);
+    for (std::uint32_t i = 0; i < output.count; ++i)
+        each_tile(rects[i], [&](std::uint32_t tile) { list[tile_begin[tile]++] = i; });
+    for (std::size_t t = tiles; t > 0; --t) // every begin has moved to its end, the next one's begin
+        tile_begin[t] = tile_begin[t - 1];
+    tile_begin[0] = 0;
+}
+
+void Bins::build(const FrameParams& f, const DrawTables& tables, const Visible& visible, const TileFns& fns, const Jobs& jobs)
+{
+    const TraceSpan span("setup and bin");
+    const std::size_t clusters = visible.clusters.size();
+    const std::size_t per_chunk = std::max(kMinClusters, (clusters + kMaxChunks - 1) / kMaxChunks);
+    used_ = (clusters + per_chunk - 1) / per_chunk;
+    while (chunks_.size() < used_)
+        chunks_.push_back(std::make_unique<Chunk>());
+    jobs.parallel_for(used_, [&](std::size_t i, int) {
+        Chunk& c = *chunks_[i];
+        c.output = {};
+        c.output.owner = &c;
+        c.output.grow = [](ChunkOutput* self) { static_cast<Chunk*>(self->owner)->make_room(); };
+        c.make_room();
+        for (std::size_t k = i * per_chunk; k < std::min(clusters, (i + 1) * per_chunk); ++k) {
+            const Cluster& cluster = tables.clusters[visible.clusters[k]];
+            fns.setup_triangles(f, cluster.first_triangle, cluster.triangle_count, c.output);
+        }
+        c.sort_by_tile(f);
+    });
+}
+
+void Bins::gather_tile(std::size_t tile, Column<TriangleSetup>& triangles, Column<TriangleSource>& sources) const
+{
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < used_; ++i)
+        count += chunks_[i]->tile_begin[tile + 1] - chunks_[i]->tile_begin[tile];
+    triangles.resize(count);
+    sources.resize(count);
+    std::size_t to = 0;
+    for (std::size_t i = 0; i < used_; ++i) {
+        const Chunk& c = *chunks_[i];
+        for (std::uint32_t k = c.tile_begin[tile]; k < c.tile_begin[tile + 1]; ++k, ++to) {
+            triangles[to] = c.setups[c.list[k]];
+            sources[to] = {c.clips.data(), c.triangles[c.list[k]]};
+        }
+    }
+}
+
+std::uint64_t Bins::triangle_count() const
+{
+    std::uint64_t n = 0;
+    for (std::size_t i = 0; i < used_; ++i)
+        n += chunks_[i]->output.count;
+    return n;
+}
+
+} // namespace burnish

@@ -1,0 +1,97 @@
+#include "raster/tile/cull.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace burnish {
+
+namespace {
+
+struct Plane {
+    glm::vec3 n; // unit, inside is dot(n, p) + d >= 0
+    float d;
+};
+
+// The four sides and the near plane.
+std::vector<Plane> frustum(const View& v)
+{
+    std::vector<Plane> planes;
+    const auto add = [&](glm::vec3 n, glm::vec3 through) {
+        n = glm::normalize(n);
+        planes.push_back({n, -glm::dot(n, through)});
+    };
+    if (v.orthographic) {
+        add(v.right, v.eye - v.right * v.tan_half_x);
+        add(-v.right, v.eye + v.right * v.tan_half_x);
+        add(v.up, v.eye - v.up * v.tan_half_y);
+        add(-v.up, v.eye + v.up * v.tan_half_y);
+        return planes;
+    }
+    add(v.forward * v.tan_half_x + v.right, v.eye);
+    add(v.forward * v.tan_half_x - v.right, v.eye);
+    add(v.forward * v.tan_half_y + v.up, v.eye);
+    add(v.forward * v.tan_half_y - v.up, v.eye);
+    add(v.forward, v.eye);
+    return planes;
+}
+
+// Distances are compared with a slack well above float rounding at the sizes involved.
+float slack(const glm::vec3& p, const View& v, float size) { return 1e-4f * (glm::length(p - v.eye) + size) + 1e-6f * glm::length(v.eye); }
+
+bool sphere_outside(const std::vector<Plane>& planes, const View& v, const glm::vec3& center, float radius)
+{
+    const float margin = radius + slack(center, v, radius);
+    return std::any_of(planes.begin(), planes.end(),
+                       [&](const Plane& p) { return glm::dot(p.n, center) + p.d < -margin; });
+}
+
+bool faces_away(const Cluster& c, const View& v)
+{
+    if (v.orthographic || c.cone_cutoff >= 1.0f)
+        return false;
+    const glm::vec3 d = c.center - v.eye;
+    const float distance = glm::length(d);
+    return glm::dot(d, c.cone_axis) >= c.cone_cutoff * distance + c.radius + slack(c.center, v, c.radius);
+}
+
+} // namespace
+
+Visible cull(const DrawTables& tables, const View& view)
+{
+    const TraceSpan span("cull");
+    const std::vector<Plane> planes = frustum(view);
+    Visible visible;
+    std::vector<bool> seen(tables.draws.size());
+    for (std::size_t i = 0; i < tables.draws.size(); ++i) {
+        const Draw& d = tables.draws[i];
+        const glm::vec3 center = 0.5f * (d.bounds_min + d.bounds_max);
+        seen[i] = !sphere_outside(planes, view, center, 0.5f * glm::length(d.bounds_max - d.bounds_min));
+        if (seen[i])
+            visible.draws.push_back(static_cast<std::uint32_t>(i));
+    }
+    for (std::size_t i = 0; i < tables.clusters.size(); ++i) {
+        const Cluster& c = tables.clusters[i];
+        if (seen[c.draw] && !sphere_outside(planes, view, c.center, c.radius) && !faces_away(c, view))
+            visible.clusters.push_back(static_cast<std::uint32_t>(i));
+    }
+    return visible;
+}
+
+void transform_draws(const FrameParams& f, const DrawTables& tables, const Visible& visible, const TileFns& fns,
+                     const Jobs& jobs)
+{
+    const TraceSpan span("transform");
+    constexpr std::uint32_t kPiece = 16384; // vertices a task
+    struct Piece {
+        std::uint32_t first, count;
+    };
+    std::vector<Piece> pieces;
+    for (std::uint32_t id : visible.draws) {
+        const Draw& d = tables.draws[id];
+        for (std::uint32_t i = 0; i < d.vertex_count; i += kPiece)
+            pieces.push_back({d.first_vertex + i, std::min(kPiece, d.vertex_count - i)});
+    }
+    jobs.parallel_for(pieces.size(), [&](std::size_t i, int) { fns.transform_vertices(f, pieces[i].first, pieces[i].count); });
+}
+
+} // namespace burnish

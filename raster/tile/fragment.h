@@ -1,0 +1,171 @@
+// What shading knows of kLanes fragments: attributes interpolated at the shaded point, and texture fetches with the derivatives
+// that a GPU would see (differences in the 2x2 quad, taken from the plane equations, so no helper lanes run).
+#pragma once
+#include "raster/tile/lanes_view.h"
+#include "shading/kernels/camera_ray.k.h"
+#include "shading/kernels/cube_filter.k.h"
+#include "shading/kernels/interpolate.k.h"
+#include "shading/kernels/texture_filter.k.h"
+
+namespace burnish {
+inline namespace BN_ISA_NS {
+
+struct Fragment {
+    real3 normal, tangent; // world space, not unit
+    real tangent_sign;
+    real4 color;
+    real2 uv[2], uv_dx[2], uv_dy[2]; // and their change by one pixel
+    mask front;
+    real3 ray;             // from the eye to the point, not unit
+    real3 position;        // world space, metres; only where the frame has punctual lights
+};
+
+struct LaneSetup { // setups of the fragments' triangles, a field a register
+    integer x[3], y[3];
+    real3 inv_w;
+    integer vertex[3];
+    integer info;
+    real3 unclip[3];       // corners of a clipped piece in barycentrics of the whole triangle
+    bool any_clipped;
+};
+
+BN_INLINE void unclip_setup(const TileScratch& scratch, integer triangle, mask clipped, LaneSetup& r)
+{
+    std::int32_t id[kLanes], vertex[3][kLanes];
+    float bary[9][kLanes];
+    store_int(id, triangle);
+    for (int k = 0; k < 3; ++k)
+        store_int(vertex[k], r.vertex[k]);
+    for (int k = 0; k < 9; ++k)
+        store(bary[k], lit(k % 4 == 0 ? 1.0 : 0.0));
+    for (std::uint32_t bits = to_bits(clipped); bits; bits &= bits - 1) {
+        const int i = __builtin_ctz(bits);
+        const ClipRecord& c = scratch.sources[id[i]].clips[vertex[0][i]];
+        for (int k = 0; k < 9; ++k)
+            bary[k][i] = c.bary[k];
+        for (int k = 0; k < 3; ++k)
+            vertex[k][i] = c.vertex[k];
+    }
+    for (int k = 0; k < 3; ++k) {
+        r.vertex[k] = load_int(vertex[k]);
+        r.unclip[k] = vec3_of(load(bary[3 * k]), load(bary[3 * k + 1]), load(bary[3 * k + 2]));
+    }
+}
+
+BN_INLINE LaneSetup load_setup(const TileScratch& scratch, integer triangle)
+{
+    integer field[16];
+    load_records16(scratch.triangles, triangle, field);
+    LaneSetup r;
+    for (int k = 0; k < 3; ++k) {
+        r.x[k] = field[k];
+        r.y[k] = field[3 + k];
+        r.vertex[k] = field[12 + k];
+    }
+    r.inv_w = vec3_of(real_from_bits(field[6]), real_from_bits(field[7]), real_from_bits(field[8]));
+    r.info = field[15];
+    const mask clipped = (r.info & int_lit(kClipped)) != int_lit(0);
+    r.any_clipped = any(clipped);
+    if (r.any_clipped)
+        unclip_setup(scratch, triangle, clipped, r);
+    return r;
+}
+
+// Weights of the whole triangle's vertices at a point, 1/256 pixel.
+BN_INLINE bary_weights weights_at(const LaneSetup& t, integer x, integer y)
+{
+    bary_weights w = perspective_weights(vec3_of(to_real(t.x[0] - x), to_real(t.x[1] - x), to_real(t.x[2] - x)),
+                                         vec3_of(to_real(t.y[0] - y), to_real(t.y[1] - y), to_real(t.y[2] - y)), t.inv_w);
+    if (t.any_clipped)
+        w.b = unclip_weights(w.b, t.unclip[0], t.unclip[1], t.unclip[2]);
+    return w;
+}
+
+struct ShadePoint {
+    integer x, y; // 1/256 pixel
+};
+
+// The pixel's centre where the triangle covers it; else the mean of the visible samples, which lies in the triangle.
+BN_INLINE ShadePoint shade_point(const FrameParams& f, integer corner_x, integer corner_y, integer samples, mask center_inside)
+{
+    ShadePoint p = {corner_x + int_lit(kSubpixel / 2), corner_y + int_lit(kSubpixel / 2)};
+    if (all(center_inside))
+        return p;
+    integer sum_x = int_lit(0), sum_y = int_lit(0), count = int_lit(0);
+    for (int s = 0; s < f.msaa; ++s) {
+        const integer bit = shr_logical(samples, s) & int_lit(1);
+        sum_x = sum_x + bit * int_lit(f.pattern.x[s]);
+        sum_y = sum_y + bit * int_lit(f.pattern.y[s]);
+        count = count + bit;
+    }
+    const real inv = lit(1.0) / max(to_real(count), lit(1.0));
+    p.x = select(center_inside, p.x, corner_x + to_int(to_real(sum_x) * inv));
+    p.y = select(center_inside, p.y, corner_y + to_int(to_real(sum_y) * inv));
+    return p;
+}
+
+BN_INLINE void interpolate_uv(const FrameParams& f, const LaneSetup& t, real3 b, real2 uv[2])
+{
+    real r[4];
+    blend_quad(f.shading_vertices + 8, t.vertex[0], t.vertex[1], t.vertex[2], b.x, b.y, b.z, r);
+    uv[0] = vec2_of(r[0], r[1]);
+    uv[1] = vec2_of(r[2], r[3]);
+}
+
+BN_INLINE real blend_gather(const float* column, const LaneSetup& t, real3 b)
+{
+    return b.x * gather(column, t.vertex[0]) + b.y * gather(column, t.vertex[1]) + b.z * gather(column, t.vertex[2]);
+}
+
+// samples: covered sample mask. pixel_x, pixel_y: in the image.
+BN_INLINE Fragment make_fragment(const FrameParams& f, const MaterialRecord& m, const view_params& view, const TileScratch& scratch,
+                                 integer triangle, integer pixel_x, integer pixel_y, integer samples)
+{
+    const LaneSetup t = load_setup(scratch, triangle);
+    const integer corner_x = shl(pixel_x, 8) - int_lit(f.center_x), corner_y = shl(pixel_y, 8) - int_lit(f.center_y);
+    const integer half = int_lit(kSubpixel / 2);
+    const bary_weights center = weights_at(t, corner_x + half, corner_y + half);
+    bary_weights w = center;
+    ShadePoint point = {corner_x + half, corner_y + half};
+    if (!all(center.inside)) {
+        point = shade_point(f, corner_x, corner_y, samples, center.inside);
+        w = weights_at(t, point.x, point.y);
+    }
+    Fragment p;
+    real a[16];
+    if (m.textured || m.uses_color)
+        blend_records(f.shading_vertices, t.vertex[0], t.vertex[1], t.vertex[2], w.b.x, w.b.y, w.b.z, a);
+    else
+        blend_records_low(f.shading_vertices, t.vertex[0], t.vertex[1], t.vertex[2], w.b.x, w.b.y, w.b.z, a);
+    p.normal = vec3_of(a[0], a[1], a[2]);
+    p.tangent = vec3_of(a[3], a[4], a[5]);
+    p.tangent_sign = select(a[6] < lit(0.0), lit(-1.0), lit(1.0));
+    p.front = (t.info & int_lit(kFrontFacing)) != int_lit(0);
+    const real to_pixels = lit(1.0 / kSubpixel);
+    p.ray = pixel_ray(to_real(point.x + int_lit(f.center_x)) * to_pixels, to_real(point.y + int_lit(f.center_y)) * to_pixels,
+                      splat(f.half_width), splat(f.half_height), view);
+    if (f.light_count > 0)
+        p.position = vec3_of(blend_gather(f.px, t, w.b), blend_gather(f.py, t, w.b), blend_gather(f.pz, t, w.b));
+    if (m.uses_color)
+        p.color = vec4_of(a[12], a[13], a[14], a[15]);
+    if (!m.textured)
+        return p;
+    p.uv[0] = vec2_of(a[8], a[9]);
+    p.uv[1] = vec2_of(a[10], a[11]);
+    // the other pixel of the quad in x and in y: to the right of or below an even one, to the left of or above an odd one
+    const integer odd_x = pixel_x & int_lit(1), odd_y = pixel_y & int_lit(1), pixel = int_lit(kSubpixel);
+    const integer step_x = pixel - odd_x * (pixel + pixel), step_y = pixel - odd_y * (pixel + pixel);
+    real2 uv_center[2], uv_x[2], uv_y[2];
+    interpolate_uv(f, t, center.b, uv_center);
+    interpolate_uv(f, t, weights_at(t, corner_x + half + step_x, corner_y + half).b, uv_x);
+    interpolate_uv(f, t, weights_at(t, corner_x + half, corner_y + half + step_y).b, uv_y);
+    const real sign_x = to_real(int_lit(1) - odd_x * int_lit(2)), sign_y = to_real(int_lit(1) - odd_y * int_lit(2));
+    for (int i = 0; i < 2; ++i) {
+        p.uv_dx[i] = (uv_x[i] - uv_center[i]) * sign_x;
+        p.uv_dy[i] = (uv_y[i] - uv_center[i]) * sign_y;
+    }
+    return p;
+}
+
+} // namespace BN_ISA_NS
+} // namespace burnish

@@ -1,0 +1,13 @@
+// Front end of one instruction set; see geometry.isa.cpp.
+#pragma once
+#include "core/simd/lanes.h"
+#include "raster/tile/tile_types.h"
+
+namespace burnish {
+inline namespace BN_ISA_NS {
+
+void transform_vertices(const FrameParams& frame, std::uint32_t first, std::uint32_t count);
+void setup_triangles(const FrameParams& frame, std::uint32_t first, std::uint32_t count, ChunkOutput& output);
+
+} // namespace BN_ISA_NS
+} // namespace burnish

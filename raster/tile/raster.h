@@ -1,0 +1,226 @@
+// Coverage and depth of one triangle in one tile, 8x8 pixels at a time. Integer edge functions on the 1/256-pixel grid with the
+// top-left rule (Pineda 1988), so shared edges neither overlap nor leave gaps; hierarchical depth by 8x8 block.
+#pragma once
+#include "raster/tile/lanes_view.h"
+
+namespace burnish {
+inline namespace BN_ISA_NS {
+
+inline constexpr int kVectors = kBlockPixels / kLanes; // registers a block; a register holds kLanes pixels in row-major order
+
+// One triangle against one tile. Edge values are in units of 1/16 of (1/256 pixel)^2: standard sample positions lie on the 1/16
+// pixel grid, so dividing by 16 with floor keeps every sign and lets values within a block fit 32 bits.
+struct TileTriangle {
+    std::int64_t edge[3];           // at the tile's top left corner, top-left rule included: inside is >= 0
+    std::int32_t step_x[3], step_y[3]; // by 1/16 pixel
+    std::int64_t span_min[3], span_max[3]; // least and greatest change inside a block
+    std::int32_t sample_step[3][kMaxSamples];
+    double z, z_x, z_y;             // depth at the tile's corner, and its change by pixel
+    float z_min, z_max, dz_x, dz_y;
+    float sample_z[kMaxSamples];
+    int px0, px1, py0, py1;         // pixels of the tile that the bounding box touches, inclusive
+};
+
+BN_INLINE int floor_shift(std::int64_t v, int n) { return static_cast<int>(v >> n); }
+
+// False where the triangle touches no sample of the tile.
+BN_INLINE bool begin_triangle(const FrameParams& f, const TriangleSetup& t, int tile_x, int tile_y, TileTriangle& r)
+{
+    const std::int32_t ox = tile_x * f.tile_size * kSubpixel - f.center_x, oy = tile_y * f.tile_size * kSubpixel - f.center_y;
+    const std::int32_t last = f.tile_size - 1;
+    std::int32_t lo_x = t.x[0], hi_x = t.x[0], lo_y = t.y[0], hi_y = t.y[0];
+    for (int i = 1; i < 3; ++i) {
+        lo_x = t.x[i] < lo_x ? t.x[i] : lo_x, hi_x = t.x[i] > hi_x ? t.x[i] : hi_x;
+        lo_y = t.y[i] < lo_y ? t.y[i] : lo_y, hi_y = t.y[i] > hi_y ? t.y[i] : hi_y;
+    }
+    r.px0 = floor_shift(lo_x - ox - f.pattern.max_x + kSubpixel - 1, 8), r.px1 = floor_shift(hi_x - ox - f.pattern.min_x, 8);
+    r.py0 = floor_shift(lo_y - oy - f.pattern.max_y + kSubpixel - 1, 8), r.py1 = floor_shift(hi_y - oy - f.pattern.min_y, 8);
+    r.px0 = r.px0 > 0 ? r.px0 : 0, r.py0 = r.py0 > 0 ? r.py0 : 0;
+    r.px1 = r.px1 < last ? r.px1 : last, r.py1 = r.py1 < last ? r.py1 : last;
+    if (r.px0 > r.px1 || r.py0 > r.py1)
+        return false;
+    const std::int64_t tile_span = static_cast<std::int64_t>(f.tile_size) * 16 - 1, block_span = kBlock * 16 - 1;
+    for (int i = 0; i < 3; ++i) {
+        const int p = i == 2 ? 0 : i + 1, q = i == 0 ? 2 : i - 1; // edge opposite of vertex i, from p to q
+        const std::int64_t a = t.y[p] - t.y[q], b = t.x[q] - t.x[p];
+        const std::int64_t at = a * (ox - t.x[p]) + b * (oy - t.y[p]);
+        const bool top_left = a > 0 || (a == 0 && b > 0);
+        r.edge[i] = (at - (top_left ? 0 : 1)) >> 4;
+        if (r.edge[i] + (a > 0 ? a : 0) * tile_span + (b > 0 ? b : 0) * tile_span < 0)
+            return false;
+        r.step_x[i] = static_cast<std::int32_t>(a), r.step_y[i] = static_cast<std::int32_t>(b);
+        r.span_min[i] = ((a < 0 ? a : 0) + (b < 0 ? b : 0)) * block_span;
+        r.span_max[i] = ((a > 0 ? a : 0) + (b > 0 ? b : 0)) * block_span;
+        for (int s = 0; s < f.msaa; ++s)
+            r.sample_step[i][s] =
+                static_cast<std::int32_t>(a) * (f.pattern.x[s] / 16) + static_cast<std::int32_t>(b) * (f.pattern.y[s] / 16);
+    }
+    const double x10 = t.x[1] - t.x[0], y10 = t.y[1] - t.y[0], x20 = t.x[2] - t.x[0], y20 = t.y[2] - t.y[0];
+    const double z0 = static_cast<double>(t.z[0]), z10 = static_cast<double>(t.z[1]) - z0, z20 = static_cast<double>(t.z[2]) - z0;
+    const double inv_area = 1.0 / (x10 * y20 - x20 * y10);
+    const double zx = (z10 * y20 - z20 * y10) * inv_area, zy = (x10 * z20 - x20 * z10) * inv_area; // by sub-pixel unit
+    r.z = z0 + zx * (ox - t.x[0]) + zy * (oy - t.y[0]);
+    r.z_x = zx * kSubpixel, r.z_y = zy * kSubpixel;
+    r.dz_x = static_cast<float>(r.z_x), r.dz_y = static_cast<float>(r.z_y);
+    r.z_min = t.z[0] < t.z[1] ? t.z[0] : t.z[1], r.z_max = t.z[0] > t.z[1] ? t.z[0] : t.z[1];
+    r.z_min = t.z[2] < r.z_min ? t.z[2] : r.z_min, r.z_max = t.z[2] > r.z_max ? t.z[2] : r.z_max;
+    for (int s = 0; s < f.msaa; ++s)
+        r.sample_z[s] = r.dz_x * (static_cast<float>(f.pattern.x[s]) * (1.0f / kSubpixel)) +
+                        r.dz_y * (static_cast<float>(f.pattern.y[s]) * (1.0f / kSubpixel));
+    return true;
+}
+
+// Constants of the lanes: pixel offsets inside a block.
+struct BlockLanes {
+    integer x16, y16; // of the first register, 1/16 pixel
+    real x, y;        // pixels
+};
+BN_INLINE BlockLanes block_lanes()
+{
+    const integer x = iota() & int_lit(7), y = shr(iota(), 3);
+    return {shl(x, 4), shl(y, 4), to_real(x), to_real(y)};
+}
+
+inline constexpr int kRefreshWrites = 4; // triangles written to a block before its farthest depth is looked up again
+
+struct BlockEdges {           // the edges that cross the block
+    std::int32_t at[3];       // value at the block's corner
+    std::int32_t step_x[3], step_y[3];
+    const std::int32_t* sample_step[3];
+    integer lane[3];          // change over the lanes of a register
+    int count;
+};
+
+// Greatest depth that the triangle can reach in the block, against the farthest sample already there. The bound is refreshed
+// only now and then: it may be too low, never too high, so it cannot change the picture.
+BN_INLINE bool block_hidden(const FrameParams& f, const TileTriangle& t, float z_corner, int block, const float* depth,
+                            TileScratch& scratch)
+{
+    const float ax = t.dz_x < 0.0f ? -t.dz_x : t.dz_x, ay = t.dz_y < 0.0f ? -t.dz_y : t.dz_y;
+    float nearest = (z_corner + (t.dz_x + t.dz_y) * (0.5f * kBlock) + (ax + ay) * (0.5f * kBlock)) * 1.0001f + 1e-6f;
+    nearest = nearest < t.z_max ? nearest : t.z_max;
+    if (nearest <= scratch.block_far[block])
+        return true;
+    if (scratch.block_dirty[block] < kRefreshWrites)
+        return false;
+    real far = load(depth);
+    for (int i = kLanes; i < f.msaa * kBlockPixels; i += kLanes)
+        far = min(far, load(depth + i));
+    scratch.block_far[block] = reduce_min(far);
+    scratch.block_dirty[block] = 0;
+    return nearest <= scratch.block_far[block];
+}
+
+struct NoAlpha { // opaque: every covered sample counts
+    static constexpr bool kTests = false;
+};
+
+// Depth test and write of one block; `alpha(v, pixels)` gives the sample masks that survive an alpha test.
+template <int kEdges, class Alpha>
+BN_INLINE bool cover_block(const FrameParams& f, const TileTriangle& t, const BlockEdges& e, const BlockLanes& lanes, float z_corner,
+                           int row0, int row1, std::uint32_t id, float* depth, std::uint32_t* ids, const Alpha& alpha)
+{
+    const real z_min = splat(t.z_min), z_max = splat(t.z_max), dz_x = splat(t.dz_x), dz_y = splat(t.dz_y);
+    const integer lane_id = int_lit(static_cast<std::int32_t>(id)), zero = int_lit(0);
+    bool wrote = false;
+    for (int v = row0 * kBlock / kLanes, end = (row1 * kBlock + kBlock - 1) / kLanes; v <= end; ++v) {
+        const int vx = v * kLanes & 7, vy = v * kLanes >> 3;
+        integer at[3] = {zero, zero, zero};
+        for (int i = 0; i < kEdges; ++i)
+            at[i] = int_lit(e.at[i] + 16 * (e.step_x[i] * vx + e.step_y[i] * vy)) + e.lane[i];
+        const real x = lanes.x + splat(static_cast<float>(vx)), y = lanes.y + splat(static_cast<float>(vy));
+        const real z = splat(z_corner) + (dz_x * x + dz_y * y);
+        std::uint32_t alive[kMaxSamples];
+        if constexpr (Alpha::kTests) {
+            std::uint32_t covered[kMaxSamples], some = 0;
+            for (int s = 0; s < f.msaa; ++s) {
+                integer side = zero;
+                for (int i = 0; i < kEdges; ++i)
+                    side = side | (at[i] + int_lit(e.sample_step[i][s]));
+                const real zs = min(max(z + splat(t.sample_z[s]), z_min), z_max);
+                covered[s] = to_bits(both(side >= zero, zs > load(depth + s * kBlockPixels + v * kLanes)));
+                some |= covered[s];
+            }
+            if (!some)
+                continue;
+            alpha(v, some, alive);
+        }
+        for (int s = 0; s < f.msaa; ++s) {
+            float* d = depth + s * kBlockPixels + v * kLanes;
+            std::uint32_t* to = ids + s * kBlockPixels + v * kLanes;
+            const real zs = min(max(z + splat(t.sample_z[s]), z_min), z_max);
+            const real old = load(d);
+            mask pass = zs > old;
+            if constexpr (kEdges > 0) {
+                integer side = at[0] + int_lit(e.sample_step[0][s]);
+                for (int i = 1; i < kEdges; ++i)
+                    side = side | (at[i] + int_lit(e.sample_step[i][s]));
+                pass = both(pass, side >= zero);
+            }
+            if constexpr (Alpha::kTests)
+                pass = both(pass, mask_from_bits(alive[s]));
+            if (!any(pass))
+                continue;
+            store(d, select(pass, zs, old));
+            std::int32_t* to_int = reinterpret_cast<std::int32_t*>(to);
+            store_int(to_int, select(pass, lane_id, load_int(to_int)));
+            wrote = true;
+        }
+    }
+    return wrote;
+}
+
+// Rasterizes triangle `id` of the tile's list. `make_alpha(block_x, block_y)` gives the alpha test of a block.
+template <class MakeAlpha>
+BN_INLINE void raster_triangle(const FrameParams& f, const TileTriangle& t, std::uint32_t id, TileScratch& scratch,
+                               const MakeAlpha& make_alpha)
+{
+    const int blocks_x = f.tile_size / kBlock;
+    const BlockLanes lanes = block_lanes();
+    integer lane_step[3];
+    for (int i = 0; i < 3; ++i)
+        lane_step[i] = lanes.x16 * int_lit(t.step_x[i]) + lanes.y16 * int_lit(t.step_y[i]);
+    for (int by = t.py0 / kBlock; by <= t.py1 / kBlock; ++by) {
+        const int row0 = t.py0 > by * kBlock ? t.py0 - by * kBlock : 0;
+        const int row1 = t.py1 < by * kBlock + kBlock - 1 ? t.py1 - by * kBlock : kBlock - 1;
+        for (int bx = t.px0 / kBlock; bx <= t.px1 / kBlock; ++bx) {
+            BlockEdges e;
+            e.count = 0;
+            bool outside = false;
+            for (int i = 0; i < 3; ++i) {
+                const std::int64_t at =
+                    t.edge[i] + static_cast<std::int64_t>(t.step_x[i]) * (bx * kBlock * 16) +
+                    static_cast<std::int64_t>(t.step_y[i]) * (by * kBlock * 16);
+                outside = outside || at + t.span_max[i] < 0;
+                if (at + t.span_min[i] >= 0)
+                    continue; // the whole block lies inside this edge
+                e.at[e.count] = static_cast<std::int32_t>(at);
+                e.step_x[e.count] = t.step_x[i], e.step_y[e.count] = t.step_y[i];
+                e.sample_step[e.count] = t.sample_step[i];
+                e.lane[e.count] = lane_step[i];
+                ++e.count;
+            }
+            if (outside)
+                continue;
+            const int block = by * blocks_x + bx;
+            const float z_corner = static_cast<float>(t.z + t.z_x * (bx * kBlock) + t.z_y * (by * kBlock));
+            float* depth = scratch.depth + block * f.msaa * kBlockPixels;
+            if (block_hidden(f, t, z_corner, block, depth, scratch))
+                continue;
+            std::uint32_t* ids = scratch.ids + block * f.msaa * kBlockPixels;
+            const auto alpha = make_alpha(bx, by);
+            bool wrote = false;
+            switch (e.count) {
+            case 0: wrote = cover_block<0>(f, t, e, lanes, z_corner, row0, row1, id, depth, ids, alpha); break;
+            case 1: wrote = cover_block<1>(f, t, e, lanes, z_corner, row0, row1, id, depth, ids, alpha); break;
+            case 2: wrote = cover_block<2>(f, t, e, lanes, z_corner, row0, row1, id, depth, ids, alpha); break;
+            default: wrote = cover_block<3>(f, t, e, lanes, z_corner, row0, row1, id, depth, ids, alpha); break;
+            }
+            if (wrote && scratch.block_dirty[block] < 255)
+                ++scratch.block_dirty[block];
+        }
+    }
+}
+
+} // namespace BN_ISA_NS
+} // namespace burnish

@@ -1,0 +1,127 @@
+// Shading of visible fragments, kLanes at a time, all of one material: interpolate, fetch textures, run the kernels.
+#pragma once
+#include "raster/tile/fragment.h"
+#include "shading/kernels/dfg.k.h"
+#include "shading/kernels/punctual.k.h"
+#include "shading/kernels/split_isotropic.k.h"
+#include "shading/kernels/surface.k.h"
+
+namespace burnish {
+inline namespace BN_ISA_NS {
+
+struct LaneMaterial { // a material's parameters at the fragments
+    real3 base;
+    real alpha;
+    real metallic, roughness, occlusion;
+    real3 normal_map;
+    real3 emissive;
+    real3 dielectric_f0;
+    real dielectric_f90;
+};
+
+BN_INLINE LaneMaterial fetch_material(const FrameParams& f, const MaterialRecord& m, const Fragment& p)
+{
+    LaneMaterial r;
+    const auto fetch = [&](int slot) { return fetch_texture(f, m.textures[slot], p); };
+    const auto used = [&](int slot) { return m.textures[slot].texture != nullptr; };
+    r.base = splat3(m.base_color);
+    r.alpha = splat(m.base_color[3]);
+    if (used(kBaseColorTex)) {
+        const real4 t = fetch(kBaseColorTex);
+        r.base = r.base * vec3_of(t.x, t.y, t.z);
+        r.alpha = r.alpha * t.w;
+    }
+    if (m.uses_color) {
+        r.base = r.base * vec3_of(p.color.x, p.color.y, p.color.z);
+        r.alpha = r.alpha * p.color.w;
+    }
+    r.metallic = splat(m.metallic);
+    r.roughness = splat(m.roughness);
+    if (used(kMetalRoughTex)) {
+        const real4 t = fetch(kMetalRoughTex);
+        r.roughness = r.roughness * t.y;
+        r.metallic = r.metallic * t.z;
+    }
+    r.normal_map = vec3_of(lit(0.0), lit(0.0), lit(1.0));
+    if (used(kNormalTex)) {
+        const real4 t = fetch(kNormalTex);
+        const real scale = splat(m.normal_scale);
+        r.normal_map = vec3_of((t.x * lit(2.0) - lit(1.0)) * scale, (t.y * lit(2.0) - lit(1.0)) * scale,
+                               t.z * lit(2.0) - lit(1.0));
+    }
+    r.occlusion = lit(1.0);
+    if (used(kOcclusionTex))
+        r.occlusion = lit(1.0) + splat(m.occlusion_strength) * (fetch(kOcclusionTex).x - lit(1.0));
+    r.emissive = splat3(m.emissive);
+    if (used(kEmissiveTex)) {
+        const real4 t = fetch(kEmissiveTex);
+        r.emissive = r.emissive * vec3_of(t.x, t.y, t.z);
+    }
+    r.dielectric_f0 = splat3(m.dielectric_f0);
+    r.dielectric_f90 = splat(m.dielectric_f90);
+    if (used(kSpecularTex)) {
+        const real t = fetch(kSpecularTex).w;
+        r.dielectric_f0 = r.dielectric_f0 * t;
+        r.dielectric_f90 = r.dielectric_f90 * t;
+    }
+    if (used(kSpecularColorTex)) {
+        const real4 t = fetch(kSpecularColorTex);
+        r.dielectric_f0 = r.dielectric_f0 * vec3_of(t.x, t.y, t.z);
+    }
+    return r;
+}
+
+// Light from the environment, by the technique of the frame; occlusion dims all of it.
+BN_INLINE real3 environment_light(const FrameParams& f, const surface& s, real3 dielectric_f0, real dielectric_f90)
+{
+    const dfg_value dfg = dfg_lookup(f.dfg_scale, f.dfg_bias, f.dfg_size, s.n_dot_v, s.roughness);
+    const real3 albedo = s.f0 * dfg.scale + s.f90 * dfg.bias;
+    const real3 dielectric = dielectric_f0 * dfg.scale + vec3_all(dielectric_f90 * dfg.bias);
+    const cube_desc specular_cube = lanes_cube(f.specular_cube), irradiance_cube = lanes_cube(f.irradiance_cube);
+    const real3 specular = split_isotropic_specular(s, albedo, specular_cube) * splat(f.specular_cube.scale);
+    const real3 irradiance = cube_sample(irradiance_cube, s.n, lit(0.0)) * splat(f.irradiance_cube.scale);
+    const real passed = lit(1.0) - max(dielectric.x, max(dielectric.y, dielectric.z));
+    return (specular + s.diffuse * irradiance * passed) * s.occlusion;
+}
+
+BN_INLINE real3 light_from_punctual(const FrameParams& f, const surface& s, real3 position)
+{
+    real3 sum = vec3_all(lit(0.0));
+    for (int i = 0; i < f.light_count; ++i) {
+        const LightRecord& l = f.lights[i];
+        const light_sample at = sample_punctual(position, splat3(l.position), splat3(l.direction), splat(l.inv_range2),
+                                                splat(l.spot_scale), splat(l.spot_offset),
+                                                int_lit(l.directional) != int_lit(0));
+        sum = sum + punctual_radiance(s, at.l, splat3(l.radiant) * at.attenuation);
+    }
+    return sum;
+}
+
+BN_INLINE real3 shade_fragments(const FrameParams& f, const MaterialRecord& m, const Fragment& p)
+{
+    const LaneMaterial at = fetch_material(f, m, p);
+    if (m.unlit)
+        return at.base;
+    const real3 v = k_normalize(-p.ray);
+    // a surface seen from behind shows its other side
+    const real3 normal = select(p.front, p.normal, -p.normal);
+    const real3 n = m.textures[kNormalTex].texture
+                        ? shading_normal(normal, p.tangent, select(p.front, p.tangent_sign, -p.tangent_sign), at.normal_map)
+                        : k_normalize(normal);
+    const surface s = metallic_roughness_surface(n, v, at.base, at.metallic, at.roughness, at.dielectric_f0, at.dielectric_f90,
+                                                 at.occlusion);
+    real3 color = environment_light(f, s, at.dielectric_f0, at.dielectric_f90) + at.emissive;
+    if (f.light_count > 0)
+        color = color + light_from_punctual(f, s, p.position);
+    return color;
+}
+
+BN_INLINE real3 shade_background(const FrameParams& f, real3 ray)
+{
+    if (!f.background)
+        return vec3_all(lit(0.0));
+    return cube_sample(lanes_cube(f.specular_cube), ray, lit(0.0)) * splat(f.specular_cube.scale);
+}
+
+} // namespace BN_ISA_NS
+} // namespace burnish

@@ -1,0 +1,226 @@
+// One tile from triangles to pixels: coverage and depth, visibility, shading in dense batches by material, resolve.
+// Compiled once for every instruction set.
+#include "raster/tile/geometry.h"
+#include "raster/tile/shade.h"
+#include "raster/tile/visibility.h"
+
+namespace burnish {
+inline namespace BN_ISA_NS {
+
+namespace {
+
+struct Tile {
+    const FrameParams& f;
+    TileScratch& s;
+    int index_x, index_y;
+    int x0, y0, width, height; // pixels
+};
+
+void clear_tile(const Tile& t)
+{
+    const int blocks = (t.f.tile_size / kBlock) * (t.f.tile_size / kBlock);
+    const int words = blocks * t.f.msaa * kBlockPixels;
+    const real zero = lit(0.0);
+    const integer nothing = int_lit(-1);
+    for (int i = 0; i < words; i += kLanes) {
+        store(t.s.depth + i, zero);
+        store_int(reinterpret_cast<std::int32_t*>(t.s.ids) + i, nothing);
+    }
+    for (int b = 0; b < blocks; ++b) {
+        t.s.block_far[b] = 0.0f;
+        t.s.block_dirty[b] = 0;
+    }
+}
+
+struct OpaqueBlocks {
+    NoAlpha operator()(int, int) const { return {}; }
+};
+
+// Alpha test of one triangle in one block. A mask discards the whole fragment; a blend becomes coverage: sample i of n stays
+// where alpha > (i + 1/2) / n, so the resolved pixel shows about `alpha` of the surface, without sorting.
+struct BlockAlpha {
+    static constexpr bool kTests = true;
+    const Tile& t;
+    const MaterialRecord& m;
+    const view_params& view;
+    std::uint32_t triangle;
+    int block_x, block_y;
+
+    void operator()(int v, std::uint32_t lanes, std::uint32_t alive[kMaxSamples]) const
+    {
+        const integer lane = iota() + int_lit(v * kLanes);
+        const integer x = (lane & int_lit(7)) + int_lit(t.x0 + block_x * kBlock);
+        const integer y = shr(lane, 3) + int_lit(t.y0 + block_y * kBlock);
+        const Fragment p = make_fragment(t.f, m, view, t.s, int_lit(static_cast<std::int32_t>(triangle)), x, y,
+                                         int_lit((1 << t.f.msaa) - 1));
+        const real alpha = fetch_material(t.f, m, p).alpha;
+        const bool blend = m.alpha_mode == 2;
+        for (int s = 0; s < t.f.msaa; ++s) {
+            const float threshold =
+                blend ? (static_cast<float>(s) + 0.5f) / static_cast<float>(t.f.msaa) : m.alpha_cutoff;
+            alive[s] = lanes & to_bits(blend ? alpha > splat(threshold) : alpha >= splat(threshold));
+        }
+    }
+};
+
+struct AlphaBlocks {
+    const Tile& t;
+    const MaterialRecord& m;
+    const view_params& view;
+    std::uint32_t triangle;
+    BlockAlpha operator()(int bx, int by) const { return {t, m, view, triangle, bx, by}; }
+};
+
+void raster_tile(const Tile& t, const view_params& view)
+{
+    for (std::uint32_t i = 0; i < t.s.triangle_count; ++i) {
+        const TriangleSetup& setup = t.s.triangles[i];
+        TileTriangle triangle;
+        if (!begin_triangle(t.f, setup, t.index_x, t.index_y, triangle))
+            continue;
+        const MaterialRecord& m = t.f.materials[setup.info >> 2];
+        if (m.alpha_mode == 0)
+            raster_triangle(t.f, triangle, i, t.s, OpaqueBlocks{});
+        else
+            raster_triangle(t.f, triangle, i, t.s, AlphaBlocks{t, m, view, i});
+    }
+}
+
+void write_ids(const Tile& t)
+{
+    const int blocks_x = t.f.tile_size / kBlock;
+    for (int y = 0; y < t.height; ++y)
+        for (int x = 0; x < t.width; ++x) {
+            const int block = (y / kBlock) * blocks_x + x / kBlock, in_block = (y % kBlock) * kBlock + x % kBlock;
+            const std::uint32_t* from = t.s.ids + block * t.f.msaa * kBlockPixels + in_block;
+            std::uint32_t* to = t.s.output_ids + (static_cast<std::size_t>(t.y0 + y) * static_cast<std::size_t>(t.f.width) +
+                                                  static_cast<std::size_t>(t.x0 + x)) *
+                                                     static_cast<std::size_t>(t.f.msaa);
+            for (int s = 0; s < t.f.msaa; ++s) {
+                const std::uint32_t id = from[s * kBlockPixels];
+                to[s] = id == kNoTriangle ? kNoTriangle : t.s.sources[id].triangle;
+            }
+        }
+}
+
+inline constexpr std::int32_t kBackgroundSlot = 0;
+
+// Sorts the fragments by material, stably. Returns the number of slots; slot 0 is the background.
+int sort_fragments(TileScratch& s)
+{
+    int slots = 1;
+    s.slot_begin[0] = 0;
+    for (std::uint32_t i = 0; i < s.fragment_count; ++i) {
+        const std::int32_t id = s.fragment_triangle[i];
+        if (id < 0) {
+            ++s.slot_begin[kBackgroundSlot];
+            continue;
+        }
+        const std::int32_t material = s.triangles[id].info >> 2;
+        std::int32_t& slot = s.slot_of_material[material];
+        if (slot < 0) {
+            slot = slots;
+            s.slot_material[slots] = material;
+            s.slot_begin[slots++] = 0;
+        }
+        ++s.slot_begin[slot];
+    }
+    std::uint32_t begin = 0;
+    for (int k = 0; k < slots; ++k) {
+        const std::uint32_t count = s.slot_begin[k];
+        s.slot_begin[k] = begin;
+        begin += count;
+    }
+    s.background_pixels = slots > 1 ? s.slot_begin[1] : s.fragment_count;
+    for (std::uint32_t i = 0; i < s.fragment_count; ++i) {
+        const std::int32_t id = s.fragment_triangle[i];
+        const std::int32_t slot = id < 0 ? kBackgroundSlot : s.slot_of_material[s.triangles[id].info >> 2];
+        s.order[s.slot_begin[slot]++] = static_cast<std::int32_t>(i);
+    }
+    for (int k = slots - 1; k > 0; --k) // each slot's end is the next one's begin
+        s.slot_begin[k] = s.slot_begin[k - 1];
+    s.slot_begin[0] = 0;
+    s.slot_begin[slots] = s.fragment_count;
+    for (int k = 1; k < slots; ++k)
+        s.slot_of_material[s.slot_material[k]] = -1;
+    return slots;
+}
+
+struct Batch {
+    std::int32_t fragment[kLanes];
+    int n;
+    integer x, y, samples, triangle; // pixel in the image, covered samples, triangle of the tile's list
+};
+
+BN_INLINE Batch load_batch(const Tile& t, std::uint32_t at, std::uint32_t end)
+{
+    Batch b;
+    b.n = static_cast<int>(end - at < kLanes ? end - at : kLanes);
+    for (int i = 0; i < kLanes; ++i) // spare lanes repeat the first fragment
+        b.fragment[i] = t.s.order[i < b.n ? at + static_cast<std::uint32_t>(i) : at];
+    const integer index = load_int(b.fragment);
+    const integer pixel = gather_int(t.s.fragment_pixel, index);
+    b.x = (pixel & int_lit(255)) + int_lit(t.x0);
+    b.y = shr(pixel, 8) + int_lit(t.y0);
+    b.samples = gather_int(t.s.fragment_mask, index);
+    b.triangle = gather_int(t.s.fragment_triangle, index);
+    return b;
+}
+
+BN_INLINE void store_batch(const Tile& t, const Batch& b, const real3& color)
+{
+    float r[kLanes], g[kLanes], bl[kLanes];
+    store(r, color.x), store(g, color.y), store(bl, color.z);
+    for (int i = 0; i < b.n; ++i) {
+        const std::int32_t to = b.fragment[i];
+        t.s.red[to] = r[i], t.s.green[to] = g[i], t.s.blue[to] = bl[i];
+    }
+}
+
+void shade_background_slot(const Tile& t, const view_params& view, std::uint32_t begin, std::uint32_t end)
+{
+    for (std::uint32_t i = begin; i < end; i += kLanes) {
+        const Batch b = load_batch(t, i, end);
+        const real3 ray = pixel_ray(to_real(b.x) + lit(0.5), to_real(b.y) + lit(0.5), splat(t.f.half_width),
+                                         splat(t.f.half_height), view);
+        store_batch(t, b, shade_background(t.f, ray));
+    }
+}
+
+void shade_slot(const Tile& t, const view_params& view, const MaterialRecord& m, std::uint32_t begin, std::uint32_t end)
+{
+    for (std::uint32_t i = begin; i < end; i += kLanes) {
+        const Batch b = load_batch(t, i, end);
+        const Fragment p = make_fragment(t.f, m, view, t.s, b.triangle, b.x, b.y, b.samples);
+        store_batch(t, b, shade_fragments(t.f, m, p));
+    }
+}
+
+void render_tile(const FrameParams& f, int tile_x, int tile_y, TileScratch& s)
+{
+    Tile t{f, s, tile_x, tile_y, tile_x * f.tile_size, tile_y * f.tile_size, 0, 0};
+    t.width = f.width - t.x0 < f.tile_size ? f.width - t.x0 : f.tile_size;
+    t.height = f.height - t.y0 < f.tile_size ? f.height - t.y0 : f.tile_size;
+    const view_params view = lanes_view(f.view);
+    clear_tile(t);
+    raster_tile(t, view);
+    if (s.output_ids)
+        write_ids(t);
+    list_fragments(f, t.width, t.height, s);
+    const int slots = sort_fragments(s);
+    shade_background_slot(t, view, s.slot_begin[0], s.slot_begin[1]);
+    for (int k = 1; k < slots; ++k)
+        shade_slot(t, view, f.materials[s.slot_material[k]], s.slot_begin[k], s.slot_begin[k + 1]);
+    resolve(f, t.x0, t.y0, s);
+}
+
+} // namespace
+
+const TileFns& tile_fns()
+{
+    static constexpr TileFns fns = {transform_vertices, setup_triangles, render_tile};
+    return fns;
+}
+
+} // namespace BN_ISA_NS
+} // namespace burnish

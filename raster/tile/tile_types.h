@@ -1,0 +1,171 @@
+// The tile renderer's own tables: plain data, shared by the baseline code and the instruction-set objects.
+// Sub-pixel units: 1/256 pixel, x right, y down, relative to the integer centre pixel of the image, so that |x|, |y| < 2^22.
+#pragma once
+#include <cstdint>
+
+namespace burnish {
+
+inline constexpr int kSubpixel = 256;                // sub-pixel units a pixel
+inline constexpr int kGuardBand = 1 << 22;           // |x|, |y| of any snapped vertex stay below this, sub-pixel units
+inline constexpr std::int32_t kNeedsClip = -(1 << 30); // in place of a snapped x: behind the near plane or out of the guard band
+inline constexpr int kBlock = 8;                     // coverage and hierarchical depth work on 8x8 pixels
+inline constexpr int kBlockPixels = kBlock * kBlock;
+inline constexpr int kMaxSamples = 16;
+inline constexpr std::uint32_t kNoTriangle = 0xffffffffu;
+
+// A triangle ready to be rasterized, one cache line. Vertices run so that the area is positive with y down.
+struct alignas(64) TriangleSetup {
+    std::int32_t x[3], y[3];   // snapped, sub-pixel units
+    float inv_w[3];            // 1 / clip w
+    float z[3];                // depth, reversed: 1 near, 0 far
+    std::int32_t vertex[3];    // into DrawTables::shading
+    std::int32_t info;         // material << 2 | kFrontFacing | kClipped; a clipped triangle's `clip` is its vertex[0]
+};
+static_assert(sizeof(TriangleSetup) == 64);
+inline constexpr std::int32_t kFrontFacing = 1, kClipped = 2;
+
+// Piece of a triangle that crossed the near plane or left the guard band: its corners in barycentrics of the whole one.
+struct alignas(64) ClipRecord {
+    float bary[9];          // corner j of the piece = sum_k bary[3j+k] * vertex k
+    std::int32_t vertex[3]; // of the whole triangle
+    float pad[4];
+};
+static_assert(sizeof(ClipRecord) == 64);
+
+struct TileRect { // inclusive range of tiles that a triangle may touch
+    std::uint16_t x0, y0, x1, y1;
+};
+
+struct ViewParams { // Renderer's View in plain numbers
+    float eye[3], right[3], up[3], forward[3];
+    float inv_tan_x, inv_tan_y; // perspective: 1/tan of the half angles; orthographic: 1/half extents
+    float znear, inv_depth;     // inv_depth: 1/(far - near), orthographic only
+    float zfar;
+    std::int32_t orthographic;
+};
+
+// Post-transform vertices: one column each, by global vertex id.
+struct VertexColumns {
+    std::int32_t *x, *y; // snapped; x = kNeedsClip where the vertex has no snapped position
+    float *inv_w, *z;
+};
+
+struct ChunkOutput { // what one chunk of clusters produced, in draw order
+    TriangleSetup* setups;
+    TileRect* rects;
+    std::uint32_t* triangles; // global id of each setup's triangle
+    std::uint32_t count, capacity;
+    ClipRecord* clips;
+    std::uint32_t clip_count, clip_capacity;
+    void (*grow)(ChunkOutput* self); // makes room for at least kGrowRoom more of each
+    void* owner;
+};
+inline constexpr std::uint32_t kGrowRoom = 256;
+
+struct SamplePattern { // Vulkan's standard sample locations in sub-pixel units from the pixel's top left corner
+    std::int32_t count;
+    std::int32_t x[kMaxSamples], y[kMaxSamples];
+    std::int32_t min_x, max_x, min_y, max_y;
+};
+
+struct CubeParams { // CubeMap in plain data
+    const std::uint16_t* texels;
+    std::int32_t size, levels;
+    std::int32_t offset[16]; // by level, of face 0, in texels
+    float scale;
+};
+
+struct TextureParams { // TexturePyramid in plain data
+    const std::uint16_t* texels;
+    std::int32_t width, height, levels, wrap_s, wrap_t, nearest;
+    std::int32_t offset[16];
+    float level_width[16], level_height[16];
+};
+
+enum TextureSlot { kBaseColorTex, kMetalRoughTex, kNormalTex, kOcclusionTex, kEmissiveTex, kSpecularTex, kSpecularColorTex,
+                   kTextureSlots };
+
+struct TextureBinding {
+    const TextureParams* texture; // null: not used
+    std::int32_t uv_set;
+    float transform[6];       // u' = t0 u + t2 v + t4, v' = t1 u + t3 v + t5
+};
+
+struct MaterialRecord {
+    float base_color[4];
+    float emissive[3];
+    float metallic, roughness;
+    float normal_scale, occlusion_strength;
+    float dielectric_f0[3], dielectric_f90; // from ior and specular
+    float alpha_cutoff;
+    std::int32_t alpha_mode;  // AlphaMode
+    std::int32_t double_sided, unlit, textured, uses_color;
+    TextureBinding textures[kTextureSlots];
+};
+
+struct LightRecord { // DrawTables' PunctualLight in plain numbers
+    float position[3], direction[3], radiant[3];
+    float inv_range2, spot_scale, spot_offset;
+    std::int32_t directional;
+};
+
+// Everything a tile needs to know of its frame; constant while the frame is drawn.
+struct FrameParams {
+    ViewParams view;
+    std::int32_t width, height, msaa, tile_size, tiles_x, tiles_y;
+    std::int32_t center_x, center_y; // sub-pixel units; added to a snapped position it counts from the image's top left corner
+    float half_width, half_height;   // pixels
+    SamplePattern pattern;
+    // scene
+    const float *px, *py, *pz;
+    const float* shading_vertices;   // DrawTables::shading as floats
+    const std::uint32_t* indices;
+    const std::uint32_t* triangle_material;
+    const MaterialRecord* materials;
+    const LightRecord* lights;
+    std::int32_t light_count;
+    VertexColumns vertices;
+    // environment
+    CubeParams specular_cube, irradiance_cube;
+    const float *dfg_scale, *dfg_bias;
+    std::int32_t dfg_size;
+    std::int32_t background, technique, samples, texture_taps;
+};
+
+struct TriangleSource { // where a tile's triangle comes from
+    const ClipRecord* clips; // the clip table of its chunk
+    std::uint32_t triangle;  // global id
+};
+
+// Scratch memory of one worker; sized for the worst case of a tile, so tile loops never allocate.
+struct TileScratch {
+    float* depth;             // [block][sample][64], reversed, 0 = nothing
+    std::uint32_t* ids;       // [block][sample][64], index into `triangles`, or kNoTriangle
+    float* block_far;         // [block] farthest depth among all samples (a lower bound)
+    std::uint8_t* block_dirty; // [block] writes since block_far was true
+    TriangleSetup* triangles; // the tile's own copy, in draw order
+    std::uint32_t triangle_count;
+    const TriangleSource* sources; // by triangle
+    std::int32_t* fragment_triangle; // visible (pixel, triangle) pairs, grouped by pixel in block order
+    std::int32_t* fragment_pixel;    // x | y << 8, in the tile
+    std::int32_t* fragment_mask;     // covered samples, bit s = sample s
+    float *red, *green, *blue;       // shaded colour by fragment
+    std::int32_t* order;             // fragments sorted by material slot
+    std::int32_t* slot_of_material;  // by material; -1 outside of a tile
+    std::int32_t* slot_material;     // by slot
+    std::uint32_t* slot_begin;       // by slot, into `order`
+    std::uint32_t fragment_count, background_pixels;
+    float* output;                   // the frame's RGB pixels
+    std::uint32_t* output_ids;       // the frame's triangle ids [pixel][sample], or null
+};
+
+struct TileFns { // one table an instruction set
+    void (*transform_vertices)(const FrameParams&, std::uint32_t first, std::uint32_t count);
+    void (*setup_triangles)(const FrameParams&, std::uint32_t first, std::uint32_t count, ChunkOutput&);
+    void (*render_tile)(const FrameParams&, int tile_x, int tile_y, TileScratch&);
+};
+
+// Clips one triangle in homogeneous space and appends its pieces (baseline code, called from the lanes for the rare triangle).
+void clip_triangle(const FrameParams& frame, std::uint32_t triangle, ChunkOutput& output);
+
+} // namespace burnish

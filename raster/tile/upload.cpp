@@ -1,0 +1,178 @@
+#include "raster/tile/upload.h"
+
+#include <algorithm>
+
+#include "core/base/check.h"
+
+namespace burnish {
+
+namespace {
+
+struct TextureUse {
+    TextureSlot slot;
+    TextureRef Material::*ref;
+    TextureEncoding encoding;
+};
+constexpr TextureUse kTextureUses[kTextureSlots] = {
+    {kBaseColorTex, &Material::base_color_tex, TextureEncoding::srgb},
+    {kMetalRoughTex, &Material::metallic_roughness_tex, TextureEncoding::linear},
+    {kNormalTex, &Material::normal_tex, TextureEncoding::linear},
+    {kOcclusionTex, &Material::occlusion_tex, TextureEncoding::linear},
+    {kEmissiveTex, &Material::emissive_tex, TextureEncoding::srgb},
+    {kSpecularTex, &Material::specular_tex, TextureEncoding::linear},
+    {kSpecularColorTex, &Material::specular_color_tex, TextureEncoding::srgb},
+};
+
+struct PyramidKey {
+    std::int32_t texture;
+    TextureEncoding encoding;
+    bool operator==(const PyramidKey&) const = default;
+};
+
+std::vector<PyramidKey> used_pyramids(const Scene& scene)
+{
+    std::vector<PyramidKey> keys;
+    for (const Material& m : scene.materials)
+        for (const TextureUse& use : kTextureUses) {
+            const PyramidKey key = {(m.*use.ref).texture, use.encoding};
+            if (key.texture != kNone && std::find(keys.begin(), keys.end(), key) == keys.end())
+                keys.push_back(key);
+        }
+    return keys;
+}
+
+TextureParams texture_params(const TexturePyramid& p)
+{
+    TextureParams t = {};
+    t.texels = p.texels.data();
+    t.width = p.width, t.height = p.height, t.levels = p.levels;
+    t.wrap_s = static_cast<std::int32_t>(p.wrap_s), t.wrap_t = static_cast<std::int32_t>(p.wrap_t);
+    t.nearest = p.nearest;
+    std::copy(std::begin(p.offset), std::end(p.offset), std::begin(t.offset));
+    std::copy(std::begin(p.level_width), std::end(p.level_width), std::begin(t.level_width));
+    std::copy(std::begin(p.level_height), std::end(p.level_height), std::begin(t.level_height));
+    return t;
+}
+
+MaterialRecord material_record(const Material& m)
+{
+    MaterialRecord r = {};
+    for (int i = 0; i < 4; ++i)
+        r.base_color[i] = m.base_color[i];
+    const float f = (m.ior - 1.0f) / (m.ior + 1.0f);
+    for (int i = 0; i < 3; ++i) {
+        r.emissive[i] = m.emissive[i];
+        r.dielectric_f0[i] = std::min(f * f * m.specular_color[i], 1.0f) * m.specular; // KHR_materials_specular
+    }
+    r.dielectric_f90 = m.specular;
+    r.metallic = m.metallic, r.roughness = m.roughness;
+    r.normal_scale = m.normal_scale, r.occlusion_strength = m.occlusion_strength;
+    r.alpha_cutoff = m.alpha_cutoff;
+    r.alpha_mode = static_cast<std::int32_t>(m.alpha_mode);
+    r.double_sided = m.double_sided, r.unlit = m.unlit;
+    return r;
+}
+
+LightRecord light_record(const PunctualLight& l)
+{
+    LightRecord r = {};
+    for (int i = 0; i < 3; ++i)
+        r.position[i] = l.position[i], r.direction[i] = l.direction[i], r.radiant[i] = l.radiant[i];
+    r.inv_range2 = l.inv_range2, r.spot_scale = l.spot_scale, r.spot_offset = l.spot_offset;
+    r.directional = l.directional;
+    return r;
+}
+
+// Vulkan 1.3, "Standard sample locations", in 1/16 pixel.
+struct Position {
+    std::int8_t x, y;
+};
+constexpr Position kSamples1[] = {{8, 8}};
+constexpr Position kSamples2[] = {{12, 12}, {4, 4}};
+constexpr Position kSamples4[] = {{6, 2}, {14, 6}, {2, 10}, {10, 14}};
+constexpr Position kSamples8[] = {{9, 5}, {7, 11}, {13, 9}, {5, 3}, {3, 13}, {1, 7}, {11, 15}, {15, 1}};
+constexpr Position kSamples16[] = {{9, 9},  {7, 5},   {5, 10}, {12, 7}, {3, 6},  {10, 13}, {13, 11}, {11, 3},
+                                   {6, 14}, {8, 1},   {4, 2},  {2, 12}, {0, 8},  {15, 4},  {14, 15}, {1, 0}};
+
+} // namespace
+
+SamplePattern standard_samples(int count)
+{
+    const Position* table = count == 1   ? kSamples1
+                            : count == 2 ? kSamples2
+                            : count == 4 ? kSamples4
+                            : count == 8 ? kSamples8
+                                         : kSamples16;
+    BN_CHECK(count == 1 || count == 2 || count == 4 || count == 8 || count == 16);
+    SamplePattern p = {};
+    p.count = count;
+    p.min_x = p.min_y = kSubpixel;
+    for (int i = 0; i < count; ++i) {
+        p.x[i] = table[i].x * 16, p.y[i] = table[i].y * 16;
+        p.min_x = std::min(p.min_x, p.x[i]), p.max_x = std::max(p.max_x, p.x[i]);
+        p.min_y = std::min(p.min_y, p.y[i]), p.max_y = std::max(p.max_y, p.y[i]);
+    }
+    return p;
+}
+
+CubeParams cube_params(const CubeMap& cube)
+{
+    CubeParams p = {};
+    BN_CHECK_OP(cube.levels, <=, 16);
+    p.texels = cube.texels.data();
+    p.size = cube.size, p.levels = cube.levels;
+    for (int l = 0; l < cube.levels; ++l)
+        p.offset[l] = static_cast<std::int32_t>(cube.offset[static_cast<std::size_t>(l)]);
+    p.scale = cube.scale;
+    return p;
+}
+
+ViewParams view_params_of(const View& v)
+{
+    ViewParams p = {};
+    for (int i = 0; i < 3; ++i)
+        p.eye[i] = v.eye[i], p.right[i] = v.right[i], p.up[i] = v.up[i], p.forward[i] = v.forward[i];
+    p.inv_tan_x = 1.0f / v.tan_half_x, p.inv_tan_y = 1.0f / v.tan_half_y;
+    p.znear = v.znear, p.zfar = v.zfar;
+    p.orthographic = v.orthographic;
+    p.inv_depth = v.orthographic ? 1.0f / (v.zfar - v.znear) : 0.0f;
+    return p;
+}
+
+SceneTables upload_scene(const Scene& scene, const DrawTables& tables, const Jobs& jobs)
+{
+    SceneTables s;
+    const std::vector<PyramidKey> keys = used_pyramids(scene);
+    s.pyramids.resize(keys.size());
+    jobs.parallel_for(keys.size(), [&](std::size_t i, int) {
+        const Texture& texture = scene.textures[static_cast<std::size_t>(keys[i].texture)];
+        s.pyramids[i] =
+            make_texture_pyramid(scene.images[static_cast<std::size_t>(texture.image)], texture, keys[i].encoding);
+    });
+    for (const TexturePyramid& p : s.pyramids)
+        s.textures.push_back(texture_params(p));
+    for (const Material& m : scene.materials) {
+        MaterialRecord r = material_record(m);
+        for (const TextureUse& use : kTextureUses) {
+            const TextureRef& ref = m.*use.ref;
+            if (!ref.used())
+                continue;
+            const auto key = std::find(keys.begin(), keys.end(), PyramidKey{ref.texture, use.encoding});
+            TextureBinding& b = r.textures[use.slot];
+            b.texture = &s.textures[static_cast<std::size_t>(key - keys.begin())];
+            b.uv_set = ref.uv_set;
+            for (int c = 0; c < 3; ++c)
+                b.transform[2 * c] = ref.uv_transform[c][0], b.transform[2 * c + 1] = ref.uv_transform[c][1];
+            r.textured = 1;
+        }
+        s.materials.push_back(r);
+    }
+    for (const Primitive& p : scene.primitives)
+        if (p.has_color)
+            s.materials[static_cast<std::size_t>(p.material)].uses_color = 1;
+    for (const PunctualLight& l : tables.lights)
+        s.lights.push_back(light_record(l));
+    return s;
+}
+
+} // namespace burnish

@@ -1,0 +1,21 @@
+// Split integral, isotropic: the prefiltered environment in the mirror direction times the directional albedo. Karis 2013.
+#ifndef BN_SPLIT_ISOTROPIC_K_H
+#define BN_SPLIT_ISOTROPIC_K_H
+
+#include "shading/kernels/cube_filter.k.h"
+#include "shading/kernels/surface.k.h"
+#include "shading/lang/lang.h"
+
+BN_KERNELS_BEGIN
+
+// albedo: directional albedo of the lobe, f0 * scale + f90 * bias. Returns outgoing specular radiance / environment scale.
+BN_FN real3 split_isotropic_specular(surface s, real3 albedo, cube_desc environment)
+{
+    real3 r = s.n * (lit(2.0) * k_dot(s.n, s.v)) - s.v;
+    real lod = s.roughness * to_real(int_lit(environment.levels - 1));
+    return cube_sample(environment, r, lod) * albedo;
+}
+
+BN_KERNELS_END
+
+#endif

@@ -1,0 +1,50 @@
+// The surface that techniques shade: what is left of geometry and textures at one point.
+#ifndef BN_SURFACE_K_H
+#define BN_SURFACE_K_H
+
+#include "shading/kernels/math.k.h"
+#include "shading/lang/lang.h"
+
+BN_KERNELS_BEGIN
+
+struct surface {
+    real3 n;          // shading normal, unit, world space
+    real3 v;          // to the eye, unit, world space
+    real n_dot_v;     // clamped to [1e-4, 1]
+    real3 diffuse;    // albedo of the diffuse part, [0,1]
+    real3 f0, f90;    // specular reflectance at normal and grazing incidence
+    real roughness;   // perceptual (alpha_lin), [0,1]
+    real occlusion;   // [0,1], 1 open
+};
+
+// Interpolated normal turned to the viewer's side of a double-sided surface, and the normal map applied.
+// normal, tangent: interpolated, any length; sign: handedness; map: tangent-space normal from the texture, (0,0,1) without one.
+BN_FN real3 shading_normal(real3 normal, real3 tangent, real sign, real3 map)
+{
+    real3 n = k_normalize(normal);
+    real3 t = tangent - n * k_dot(n, tangent);
+    t = k_normalize(t);
+    real3 b = k_cross(n, t) * sign;
+    return k_normalize(t * map.x + b * map.y + n * map.z);
+}
+
+// glTF metallic-roughness to reflectances. base: linear [0,1]; metallic [0,1]; dielectric_f0, dielectric_f90: from index of
+// refraction and the specular extension.
+BN_FN surface metallic_roughness_surface(real3 n, real3 v, real3 base, real metallic, real roughness, real3 dielectric_f0,
+                                         real dielectric_f90, real occlusion)
+{
+    surface s;
+    s.n = n;
+    s.v = v;
+    s.n_dot_v = min(max(k_dot(n, v), lit(1e-4)), lit(1.0));
+    s.diffuse = base * (lit(1.0) - metallic);
+    s.f0 = dielectric_f0 + (base - dielectric_f0) * metallic;
+    s.f90 = vec3_all(dielectric_f90 + (lit(1.0) - dielectric_f90) * metallic);
+    s.roughness = min(max(roughness, lit(0.0)), lit(1.0));
+    s.occlusion = occlusion;
+    return s;
+}
+
+BN_KERNELS_END
+
+#endif

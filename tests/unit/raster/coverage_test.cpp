@@ -1,0 +1,299 @@
+// Which samples a triangle covers: Vulkan's sample positions, watertight edges, near-plane clipping, depth order.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "raster/tile/upload.h"
+#include "tests/unit/raster/fixture.h"
+
+namespace burnish::test {
+namespace {
+
+constexpr std::uint32_t kNothing = 0xffffffffu;
+constexpr int kCounts[] = {1, 2, 4, 8, 16};
+
+struct Lattice { // 1/256 pixel
+    int x, y;
+};
+using LatticeTriangle = std::array<Lattice, 3>;
+
+std::int64_t cross(const Lattice& a, const Lattice& b, const Lattice& c)
+{
+    return std::int64_t{b.x - a.x} * (c.y - a.y) - std::int64_t{b.y - a.y} * (c.x - a.x);
+}
+
+// A rectangle of lattice points from -margin to side + margin, cut into a jittered grid of quads with random diagonals, then
+// random triangles are split at inner lattice points until there are `count`. All share corners exactly: a true partition.
+std::vector<LatticeTriangle> random_partition(int width, int height, int cells, std::size_t count, Random& random)
+{
+    const int margin = 300;
+    std::vector<std::vector<Lattice>> grid(static_cast<std::size_t>(cells) + 1);
+    const int step_x = (width * 256 + 2 * margin) / cells, step_y = (height * 256 + 2 * margin) / cells;
+    for (int j = 0; j <= cells; ++j)
+        for (int i = 0; i <= cells; ++i) {
+            Lattice p = {i * step_x - margin, j * step_y - margin};
+            if (i > 0 && i < cells)
+                p.x += random.below(step_x / 2) - step_x / 4;
+            if (j > 0 && j < cells)
+                p.y += random.below(step_y / 2) - step_y / 4;
+            if (i == cells)
+                p.x = width * 256 + margin;
+            if (j == cells)
+                p.y = height * 256 + margin;
+            grid[static_cast<std::size_t>(j)].push_back(p);
+        }
+    std::vector<LatticeTriangle> triangles;
+    for (std::size_t j = 0; j + 1 < grid.size(); ++j)
+        for (std::size_t i = 0; i + 1 < grid.size(); ++i) {
+            const Lattice a = grid[j][i], b = grid[j][i + 1], c = grid[j + 1][i + 1], d = grid[j + 1][i];
+            if (random.below(2)) {
+                triangles.push_back({a, b, c});
+                triangles.push_back({a, c, d});
+            } else {
+                triangles.push_back({a, b, d});
+                triangles.push_back({b, c, d});
+            }
+        }
+    while (triangles.size() < count) {
+        const std::size_t at = random.next() % triangles.size();
+        const LatticeTriangle t = triangles[at];
+        const int u = 1 + random.below(254), v = 1 + random.below(255 - u);
+        const Lattice p = {t[0].x + ((t[1].x - t[0].x) * u + (t[2].x - t[0].x) * v) / 256,
+                           t[0].y + ((t[1].y - t[0].y) * u + (t[2].y - t[0].y) * v) / 256};
+        if (cross(t[0], t[1], p) <= 0 || cross(t[1], t[2], p) <= 0 || cross(t[2], t[0], p) <= 0)
+            continue;
+        triangles[at] = {t[0], t[1], p};
+        triangles.push_back({t[1], t[2], p});
+        triangles.push_back({t[2], t[0], p});
+    }
+    return triangles;
+}
+
+Triangle to_world(const LatticeTriangle& t, float z)
+{
+    Triangle w;
+    for (std::size_t i = 0; i < 3; ++i)
+        w[i] = {static_cast<float>(t[i].x) / 256.0f, -static_cast<float>(t[i].y) / 256.0f, z};
+    return w;
+}
+
+FrameDesc id_desc(int width, int height, int msaa)
+{
+    FrameDesc d;
+    d.width = width, d.height = height, d.msaa = msaa;
+    d.view = pixel_view(width, height);
+    d.triangle_ids = true;
+    return d;
+}
+
+TEST(coverage, sample_positions_equal_the_vulkan_table)
+{
+    // Vulkan 1.3, "Standard sample locations", as printed there: x, y in pixels
+    const std::vector<std::vector<glm::vec2>> table = {
+        {{0.5f, 0.5f}},
+        {{0.75f, 0.75f}, {0.25f, 0.25f}},
+        {{0.375f, 0.125f}, {0.875f, 0.375f}, {0.125f, 0.625f}, {0.625f, 0.875f}},
+        {{0.5625f, 0.3125f}, {0.4375f, 0.6875f}, {0.8125f, 0.5625f}, {0.3125f, 0.1875f}, {0.1875f, 0.8125f},
+         {0.0625f, 0.4375f}, {0.6875f, 0.9375f}, {0.9375f, 0.0625f}},
+        {{0.5625f, 0.5625f}, {0.4375f, 0.3125f}, {0.3125f, 0.625f}, {0.75f, 0.4375f}, {0.1875f, 0.375f}, {0.625f, 0.8125f},
+         {0.8125f, 0.6875f}, {0.6875f, 0.1875f}, {0.375f, 0.875f}, {0.5f, 0.0625f}, {0.25f, 0.125f}, {0.125f, 0.75f},
+         {0.0f, 0.5f}, {0.9375f, 0.25f}, {0.875f, 0.9375f}, {0.0625f, 0.0f}}};
+    for (std::size_t k = 0; k < 5; ++k) {
+        const SamplePattern p = standard_samples(kCounts[k]);
+        ASSERT_EQ(p.count, kCounts[k]);
+        for (std::size_t i = 0; i < table[k].size(); ++i) {
+            EXPECT_EQ(static_cast<float>(p.x[i]) / 256.0f, table[k][i].x) << kCounts[k] << " samples, sample " << i;
+            EXPECT_EQ(static_cast<float>(p.y[i]) / 256.0f, table[k][i].y) << kCounts[k] << " samples, sample " << i;
+        }
+    }
+}
+
+// Where two triangles of equal depth cover a sample the first drawn stays; so if drawing them backwards gives the same owner
+// everywhere, no sample is covered twice, and if no sample is empty, each is covered exactly once.
+TEST(coverage, random_partition_of_100000_triangles_covers_every_sample_exactly_once)
+{
+    Random random{7};
+    const int width = 333, height = 217;
+    const std::vector<LatticeTriangle> cells = random_partition(width, height, 120, 100000, random);
+    ASSERT_GE(cells.size(), 100000u);
+    std::vector<Triangle> forward;
+    for (const LatticeTriangle& t : cells)
+        forward.push_back(to_world({t[0], t[2], t[1]}, 0.0f)); // counter-clockwise with y up
+    std::vector<Triangle> backward(forward.rbegin(), forward.rend());
+    const Stage a(scene_of(forward, false)), b(scene_of(backward, false));
+    const std::uint32_t last = static_cast<std::uint32_t>(forward.size()) - 1;
+    for (Isa isa : available_isas())
+        for (int msaa : kCounts) {
+            const Frame fa = a.render(id_desc(width, height, msaa), isa), fb = b.render(id_desc(width, height, msaa), isa);
+            std::size_t empty = 0, twice = 0;
+            for (std::size_t i = 0; i < fa.triangle_ids.size(); ++i) {
+                empty += fa.triangle_ids[i] == kNothing;
+                twice += fa.triangle_ids[i] != kNothing && fa.triangle_ids[i] != last - fb.triangle_ids[i];
+            }
+            EXPECT_EQ(empty, 0u) << isa_name(isa) << " msaa " << msaa;
+            EXPECT_EQ(twice, 0u) << isa_name(isa) << " msaa " << msaa;
+        }
+}
+
+// Every sample against a plain per-sample model of the same rules, with overlaps and depth order.
+TEST(coverage, random_triangles_equal_a_brute_force_model_sample_by_sample)
+{
+    Random random{11};
+    const int width = 150, height = 90;
+    std::vector<LatticeTriangle> lattice;
+    std::vector<Triangle> world;
+    std::vector<float> depth;
+    for (int i = 0; i < 400; ++i) {
+        const int size = i % 4 == 0 ? 60000 : i % 4 == 1 ? 6000 : i % 4 == 2 ? 700 : 200;
+        LatticeTriangle t;
+        const Lattice c = {random.below(width * 256), random.below(height * 256)};
+        for (Lattice& p : t)
+            p = {c.x + random.below(size) - size / 2, c.y + random.below(size) - size / 2};
+        if (i % 7 == 0) // corners on sample positions and shared rows: exercises the tie rules
+            for (Lattice& p : t)
+                p = {p.x & ~127, p.y & ~127};
+        if (cross(t[0], t[1], t[2]) < 0)
+            std::swap(t[1], t[2]);
+        lattice.push_back(t);
+        depth.push_back(static_cast<float>(random.below(50)) * 0.01f);
+        world.push_back(to_world({t[0], t[2], t[1]}, depth.back()));
+    }
+    const Stage stage(scene_of(world, false));
+    for (int msaa : kCounts) {
+        const SamplePattern p = standard_samples(msaa);
+        std::vector<std::uint32_t> expected(static_cast<std::size_t>(width * height * msaa), kNothing);
+        for (std::size_t at = 0; at < expected.size(); ++at) {
+            const int s = static_cast<int>(at) % msaa, pixel = static_cast<int>(at) / msaa;
+            const Lattice q = {pixel % width * 256 + p.x[s], pixel / width * 256 + p.y[s]};
+            float best = -1.0f;
+            for (std::size_t i = 0; i < lattice.size(); ++i) {
+                bool inside = true;
+                for (std::size_t k = 0; k < 3; ++k) {
+                    const Lattice &a = lattice[i][k], &b = lattice[i][(k + 1) % 3];
+                    const std::int64_t e = cross(a, b, q);
+                    const bool top_left = b.y < a.y || (b.y == a.y && b.x > a.x);
+                    inside = inside && (e > 0 || (e == 0 && top_left));
+                }
+                if (inside && cross(lattice[i][0], lattice[i][1], lattice[i][2]) > 0 && depth[i] > best) {
+                    best = depth[i];
+                    expected[at] = static_cast<std::uint32_t>(i);
+                }
+            }
+        }
+        for (Isa isa : available_isas())
+            for (int tile : {32, 64}) {
+                FrameDesc d = id_desc(width, height, msaa);
+                d.tile_size = tile;
+                const Frame f = stage.render(d, isa);
+                std::size_t differ = 0;
+                for (std::size_t i = 0; i < expected.size(); ++i)
+                    differ += f.triangle_ids[i] != expected[i];
+                EXPECT_EQ(differ, 0u) << isa_name(isa) << " msaa " << msaa << " tile " << tile;
+            }
+    }
+}
+
+std::vector<Triangle> tessellated_box(float half, int cells)
+{
+    std::vector<Triangle> out;
+    for (int axis = 0; axis < 3; ++axis)
+        for (int side = -1; side <= 1; side += 2)
+            for (int j = 0; j < cells; ++j)
+                for (int i = 0; i < cells; ++i) {
+                    const auto corner = [&](int a, int b) {
+                        glm::vec3 p;
+                        p[axis] = half * static_cast<float>(side);
+                        p[(axis + 1) % 3] = half * (2.0f * static_cast<float>(a) / static_cast<float>(cells) - 1.0f);
+                        p[(axis + 2) % 3] = half * (2.0f * static_cast<float>(b) / static_cast<float>(cells) - 1.0f);
+                        return p;
+                    };
+                    out.push_back({corner(i, j), corner(i + 1, j), corner(i + 1, j + 1)});
+                    out.push_back({corner(i, j), corner(i + 1, j + 1), corner(i, j + 1)});
+                }
+    return out;
+}
+
+// From inside a closed box every sample sees a wall, however the walls cross the near plane and the guard band.
+TEST(coverage, clipping_at_the_near_plane_and_guard_band_leaves_no_crack)
+{
+    Random random{3};
+    for (int cells : {1, 5}) {
+        const Stage stage(scene_of(tessellated_box(10.0f, cells), true));
+        for (int k = 0; k < 24; ++k) {
+            // near a wall or corner, so that walls pass close beside and behind the eye
+            glm::vec3 eye(random.unit() * 19.98f - 9.99f, random.unit() * 19.98f - 9.99f, random.unit() * 19.98f - 9.99f);
+            if (k % 2)
+                eye[k % 3] = k % 4 == 1 ? 9.99f : -9.99f;
+            const glm::vec3 target(random.unit() * 20 - 10, random.unit() * 20 - 10, random.unit() * 20 - 10);
+            FrameDesc d = id_desc(97, 61, 4);
+            d.view = make_view(eye, target, k % 3 == 0 ? 2.6f : 1.0f, d.width, d.height);
+            d.view.znear = 0.001f;
+            for (Isa isa : available_isas()) {
+                const Frame f = stage.render(d, isa);
+                EXPECT_EQ(std::count(f.triangle_ids.begin(), f.triangle_ids.end(), kNothing), 0)
+                    << isa_name(isa) << " cells " << cells << " view " << k;
+            }
+        }
+    }
+}
+
+// A wall behind the near plane must not appear, and the cut must lie where the plane is.
+TEST(coverage, near_plane_cuts_where_it_lies)
+{
+    // a floor at y = -1 seen from the origin: it comes closer than znear = 2 below the image's edge ray of 45 degrees only
+    const Stage stage(scene_of({{glm::vec3(-50, -1, 50), glm::vec3(50, -1, 50), glm::vec3(50, -1, -50)},
+                                {glm::vec3(-50, -1, 50), glm::vec3(50, -1, -50), glm::vec3(-50, -1, -50)}},
+                               true));
+    FrameDesc d = id_desc(100, 100, 1);
+    d.view = make_view({0, 0, 0}, {0, 0, -1}, 1.5707963f, 100, 100);
+    d.view.znear = 2.0f;
+    const Frame f = stage.render(d, Isa::scalar);
+    for (int y = 0; y < 100; ++y) {
+        const float slope = (static_cast<float>(y) + 0.5f - 50.0f) / 50.0f; // distance of the floor along the view: 1 / slope
+        const bool expected = slope > 1.0f / 50.0f && 1.0f / slope > 2.0f;
+        EXPECT_EQ(f.triangle_ids[static_cast<std::size_t>(y * 100 + 50)] != kNothing, expected) << y;
+    }
+}
+
+TEST(coverage, back_faces_are_culled_and_mirrored_instances_are_not)
+{
+    Scene scene = scene_of({{glm::vec3(-1, -1, 0), glm::vec3(1, -1, 0), glm::vec3(0, 1, 0)}}, false);
+    FrameDesc d = id_desc(20, 20, 1);
+    d.view = make_view({0, 0, 3}, {0, 0, 0}, 0.8f, 20, 20);
+    const auto hits = [&](const Scene& s, const FrameDesc& desc) {
+        const Frame f = Stage(s).render(desc, best_isa());
+        return std::count_if(f.triangle_ids.begin(), f.triangle_ids.end(), [](std::uint32_t id) { return id != kNothing; });
+    };
+    const auto front = hits(scene, d);
+    EXPECT_GT(front, 20);
+    FrameDesc behind = d;
+    behind.view = make_view({0, 0, -3}, {0, 0, 0}, 0.8f, 20, 20);
+    EXPECT_EQ(hits(scene, behind), 0);
+    scene.nodes[0].local = glm::mat4(1.0f);
+    scene.nodes[0].local[0][0] = -1.0f; // mirrored in x: still seen from the front
+    update_world(scene);
+    EXPECT_EQ(hits(scene, d), front);
+    EXPECT_EQ(hits(scene, behind), 0);
+}
+
+TEST(coverage, culling_never_changes_the_picture)
+{
+    Random random{5};
+    const Stage stage(scene_of(tessellated_box(1.0f, 24), false)); // clusters of half the walls face away
+    for (int k = 0; k < 12; ++k) {
+        FrameDesc d = id_desc(80, 60, 1);
+        const glm::vec3 eye(random.unit() * 6 - 3, random.unit() * 6 - 3, random.unit() * 6 - 3);
+        d.view = make_view(eye, glm::vec3(random.unit(), random.unit(), random.unit()), 0.9f, 80, 60);
+        const Frame culled = stage.render(d, best_isa());
+        Stage all(stage.scene);
+        for (Cluster& c : all.tables.clusters) {
+            c.radius = 1e9f;
+            c.cone_cutoff = 1.0f;
+        }
+        const Frame whole = all.render(d, best_isa());
+        EXPECT_TRUE(std::equal(culled.triangle_ids.begin(), culled.triangle_ids.end(), whole.triangle_ids.begin())) << k;
+    }
+}
+
+} // namespace
+} // namespace burnish::test

@@ -1,0 +1,101 @@
+#include "tests/unit/raster/fixture.h"
+
+#include <gtest/gtest.h>
+
+namespace burnish::test {
+
+std::vector<Isa> available_isas()
+{
+    std::vector<Isa> isas;
+    for (Isa isa : {Isa::scalar, Isa::avx2, Isa::avx512})
+        if (isa_available(isa))
+            isas.push_back(isa);
+    return isas;
+}
+
+std::uint64_t Random::next()
+{
+    std::uint64_t z = (state += 0x9e3779b97f4a7c15ull);
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ull;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebull;
+    return z ^ (z >> 31);
+}
+
+Scene scene_of(const std::vector<Triangle>& triangles, bool double_sided)
+{
+    Scene s;
+    VertexTable& v = s.vertices;
+    for (const Triangle& t : triangles) {
+        const glm::vec3 c = glm::cross(t[1] - t[0], t[2] - t[0]);
+        const glm::vec3 n = glm::dot(c, c) > 0.0f ? glm::normalize(c) : glm::vec3(0, 0, 1);
+        const glm::vec3 side = std::abs(n.y) < 0.9f ? glm::vec3(0, 1, 0) : glm::vec3(1, 0, 0);
+        const glm::vec3 tangent = glm::normalize(glm::cross(side, n));
+        for (const glm::vec3& p : t) {
+            s.indices.push_back(static_cast<std::uint32_t>(v.size()));
+            v.px.push_back(p.x), v.py.push_back(p.y), v.pz.push_back(p.z);
+            v.nx.push_back(n.x), v.ny.push_back(n.y), v.nz.push_back(n.z);
+            v.tx.push_back(tangent.x), v.ty.push_back(tangent.y), v.tz.push_back(tangent.z), v.tw.push_back(1.0f);
+            for (Column<float>* c0 : {&v.u0, &v.v0, &v.u1, &v.v1})
+                c0->push_back(0.0f);
+            for (Column<float>* c1 : {&v.cr, &v.cg, &v.cb, &v.ca})
+                c1->push_back(1.0f);
+        }
+    }
+    Primitive p;
+    p.index_count = static_cast<std::uint32_t>(s.indices.size());
+    p.vertex_count = static_cast<std::uint32_t>(v.size());
+    s.primitives.push_back(p);
+    s.meshes.push_back({"triangles", 0, 1});
+    Node node;
+    node.mesh = 0;
+    s.nodes.push_back(node);
+    Material m;
+    m.double_sided = double_sided;
+    s.materials.push_back(m);
+    update_world(s);
+    return s;
+}
+
+namespace {
+
+Environment constant_environment(float radiance, const Jobs& jobs)
+{
+    Image image = make_image(16, 8, 3, PixelType::f32);
+    for (int i = 0; i < 16 * 8 * 3; ++i)
+        image.f32()[i] = radiance;
+    EnvironmentOptions options;
+    options.cube_size = 16;
+    options.samples = 64;
+    options.use_cache = false;
+    Result<Environment> environment = bake_environment(image, "constant", options, jobs);
+    EXPECT_TRUE(environment);
+    return *environment;
+}
+
+} // namespace
+
+Stage::Stage(Scene s, float radiance, int threads)
+    : scene(std::move(s)), tables(make_draw_tables(scene)), jobs(threads), environment(constant_environment(radiance, jobs)),
+      dfg(bake_dfg(32, 256, jobs))
+{
+}
+
+Frame Stage::render(const FrameDesc& desc, Isa isa) const
+{
+    const RenderInput input{scene, tables, environment, dfg, jobs};
+    Result<Frame> frame = make_tile_renderer(input, isa)->render(desc);
+    EXPECT_TRUE(frame) << (frame ? "" : frame.error().line());
+    return *frame;
+}
+
+View pixel_view(int width, int height)
+{
+    View v;
+    v.eye = {0.5f * static_cast<float>(width), -0.5f * static_cast<float>(height), 1.0f};
+    v.orthographic = true;
+    v.tan_half_x = 0.5f * static_cast<float>(width), v.tan_half_y = 0.5f * static_cast<float>(height);
+    v.znear = 0.0f, v.zfar = 2.0f;
+    return v;
+}
+
+} // namespace burnish::test
