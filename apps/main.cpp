@@ -1,5 +1,6 @@
 // The `burnish` program: finds the subcommand, runs it, and turns every outcome into one of the exit codes of
 // core/base/result.h.
+#include <algorithm>
 #include <csignal>
 #include <cstdio>
 #include <exception>
@@ -33,6 +34,20 @@ std::string help_command(const std::vector<Command>& commands)
     return "burnish --help";
 }
 
+// CLI11 would only say that a subcommand is missing.
+Status check_name(const std::vector<Command>& commands, int argc, char** argv)
+{
+    const std::string name = argc > 1 ? argv[1] : "";
+    if (name.empty() || name[0] == '-')
+        return {};
+    std::vector<std::string> known;
+    for (const Command& command : commands)
+        known.push_back(command.app->get_name());
+    if (std::find(known.begin(), known.end(), name) != known.end())
+        return {};
+    return usage_error("", "no subcommand '" + name + "': there are " + join(known) + " (see burnish --help)");
+}
+
 int run(int argc, char** argv)
 {
     CLI::App program("burnish renders anisotropic materials on the CPU.", "burnish");
@@ -47,6 +62,8 @@ int run(int argc, char** argv)
 #include "apps/commands.def"
 #undef BN_COMMAND
 
+    if (Status known = check_name(commands, argc, argv); !known)
+        return fail(known.error());
     try {
         program.parse(argc, argv);
     } catch (const CLI::Success& asked) { // --help, --version

@@ -39,7 +39,7 @@ std::string join(const std::vector<std::string>& names)
 void Report::event(const std::string& label, const std::string& text)
 {
     if (!quiet_)
-        say(fmt::format("{:<12} {}", label, text));
+        say(fmt::format("{:<11} {}", label, text));
 }
 
 void Report::detail(const std::string& label, const std::string& text)

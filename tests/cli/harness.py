@@ -1,0 +1,155 @@
+"""Runs the program and looks at what it says and leaves behind."""
+
+import json
+import os
+import pathlib
+import resource
+import shutil
+import subprocess
+import time
+
+GIB = 1 << 30
+CASES = {}  # name -> (function, labels)
+
+
+class Skipped(Exception):
+    """The case cannot be run on this machine; the text says why."""
+
+
+class Failed(Exception):
+    pass
+
+
+def case(name, *labels):
+    """Registers a test. The label `input` marks those that the sanitizer build runs too."""
+
+    def register(function):
+        CASES[name] = (function, labels or ("program",))
+        return function
+
+    return register
+
+
+def check(condition, text):
+    if not condition:
+        raise Failed(text)
+
+
+class Completed:
+    """A finished run."""
+
+    def __init__(self, command, code, out, err, seconds, peak_bytes):
+        self.command, self.code, self.out, self.err = command, code, out, err
+        self.seconds, self.peak_bytes = seconds, peak_bytes
+
+    def describe(self):
+        return f"{' '.join(map(str, self.command))}\nexit code {self.code}\nstdout: {self.out[-2000:]}\nstderr: {self.err[-4000:]}"
+
+    def expect(self, code):
+        check(self.code == code, f"expected exit code {code}\n{self.describe()}")
+        return self
+
+    def expect_one_line(self, *needles):
+        """Exactly one line on stderr, which begins as errors do and names the needles."""
+        lines = self.err.splitlines()
+        check(len(lines) == 1 and self.err.endswith("\n"), f"expected one line on stderr\n{self.describe()}")
+        check(lines[0].startswith("burnish: "), f"the line does not begin with 'burnish: '\n{self.describe()}")
+        for needle in needles:
+            check(str(needle) in lines[0], f"the line does not name '{needle}'\n{self.describe()}")
+        return self
+
+
+class Bench:
+    """What a case works with: the program, a folder of its own, the test data."""
+
+    def __init__(self, program, compare_program, data, folder, sanitized):
+        self.program, self.compare_program = program, compare_program
+        self.data, self.sanitized = pathlib.Path(data), sanitized
+        self.cache = pathlib.Path(folder) / "cache"  # shared by all cases, so that an environment is baked once
+
+    def open(self, name):
+        self.folder = self.cache.parent / name
+        shutil.rmtree(self.folder, ignore_errors=True)
+        self.folder.mkdir(parents=True)
+
+    def shared(self, path):
+        """A file or folder of the test data, which lies outside the checkout."""
+        found = self.data / path
+        if not found.exists():
+            raise Skipped(f"no test data at {found}")
+        return found
+
+    def environment(self, extra):
+        env = {k: v for k, v in os.environ.items() if not k.startswith("BN_")}
+        env["XDG_CACHE_HOME"] = str(self.cache)
+        env["ASAN_OPTIONS"] = "allocator_may_return_null=1:hard_rss_limit_mb=4096:" + env.get("ASAN_OPTIONS", "")
+        env["UBSAN_OPTIONS"] = "print_stacktrace=1"
+        env.update(extra)
+        return env
+
+    def run(self, *arguments, program=None, env=None, file_size=None, user=None, timeout=120.0):
+        """Runs the program in the case's folder. `file_size`: no file may grow beyond these bytes."""
+        command = [program or self.program, *map(str, arguments)]
+
+        def limit():
+            resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+            if not self.sanitized:  # shadow memory reserves terabytes of addresses
+                resource.setrlimit(resource.RLIMIT_AS, (16 * GIB, 16 * GIB))
+            if file_size is not None:
+                resource.setrlimit(resource.RLIMIT_FSIZE, (file_size, file_size))
+
+        with open(self.folder / ".stdout", "w+b") as out, open(self.folder / ".stderr", "w+b") as err:
+            # A limit on file sizes holds for these two as well, so the program gets pipes then.
+            piped = file_size is not None
+            begin = time.monotonic()
+            child = subprocess.Popen(command, cwd=self.folder, env=self.environment(env or {}), preexec_fn=limit,
+                                     stdin=subprocess.DEVNULL, stdout=subprocess.PIPE if piped else out,
+                                     stderr=subprocess.PIPE if piped else err, user=user)
+            code, usage = self.wait(child, begin, timeout * (6 if self.sanitized else 1))
+            seconds = time.monotonic() - begin
+            texts = []
+            for pipe, file in ((child.stdout, out), (child.stderr, err)):
+                file.seek(0)
+                texts.append((pipe.read() if piped else file.read()).decode("utf-8", "replace"))
+                if piped:
+                    pipe.close()
+        for name in (".stdout", ".stderr"):
+            (self.folder / name).unlink()
+        return Completed(command, code, texts[0], texts[1], seconds, usage.ru_maxrss * 1024)
+
+    @staticmethod
+    def wait(child, begin, timeout):
+        """wait4 gives the memory of this very child."""
+        while True:
+            pid, status, usage = os.wait4(child.pid, os.WNOHANG)
+            if pid:
+                child.returncode = os.waitstatus_to_exitcode(status)
+                return child.returncode, usage
+            if time.monotonic() - begin > timeout:
+                child.kill()
+                os.wait4(child.pid, 0)
+                child.returncode = -9
+                raise Failed(f"{' '.join(map(str, child.args))} did not end within {timeout:.0f} s")
+            time.sleep(0.005)
+
+    def figures(self, *arguments, code=0, **options):
+        """Renders and gives the --stats."""
+        done = self.run("render", *arguments, "--stats", "-", **options).expect(code)
+        try:
+            return json.loads(done.out)
+        except ValueError as error:
+            raise Failed(f"--stats - is not JSON: {error}\n{done.describe()}") from error
+
+    def left_behind(self):
+        return sorted(path.name for path in self.folder.rglob("*"))
+
+
+# A picture small enough for hundreds of runs: the environment is a coarse bake, read from the cache after the first.
+SMALL = ("--size", "160x120", "--msaa", "4", "--env-size", "64", "--env-samples", "32")
+
+
+def scratch(bench, name, data):
+    path = bench.folder / name
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_bytes(data if isinstance(data, bytes) else data.encode())
+    return path

@@ -1,0 +1,200 @@
+"""What is written is complete, repeatable and holds nothing volatile; what cannot be written is said and leaves no trace."""
+
+import json
+import os
+import shutil
+import subprocess
+import time
+
+import gltf_files as files
+from harness import SMALL, Skipped, case, check, scratch
+
+MAGIC = {
+    "a.exr": b"\x76\x2f\x31\x01",
+    "a.hdr": b"#?RADIANCE",
+    "a.pfm": b"PF",
+    "a.png": b"\x89PNG",
+    "a.jpg": b"\xff\xd8\xff",
+    "a.tif": (b"II*\0", b"MM\0*"),
+}
+
+
+@case("output.several_at_once", "program", "input")
+def several(bench):
+    outputs = [word for name in MAGIC for word in ("-o", name)]
+    done = bench.run("render", *SMALL, *outputs, "--stats", "s.json", "--trace", "t.json").expect(0)
+    for name, magic in MAGIC.items():
+        check((bench.folder / name).read_bytes().startswith(magic), f"{name} does not begin like its format")
+        check(name in done.err, f"{name} is not announced\n{done.describe()}")
+    check(bench.left_behind() == sorted([*MAGIC, "s.json", "t.json"]), f"more was written: {bench.left_behind()}")
+
+
+STATS = {
+    "scene": str, "env": str, "technique": str, "samples": int, "backend": str, "device": str, "isa": str, "threads": int,
+    "width": int, "height": int, "msaa": int, "frames": int, "ms_min": float, "ms_median": float, "ms_p95": float,
+    "load_ms": float, "bake_ms": float, "triangles": int, "visible_fragments": int, "pixel_hash": str, "nan_pixels": int,
+    "peak_memory_bytes": int, "version": str,
+}
+
+
+@case("output.stats")
+def stats(bench):
+    found = bench.figures(*SMALL, "--frames", "5", "--threads", "2")
+    for key, kind in STATS.items():
+        value = found.get(key)
+        check(isinstance(value, (int, float) if kind is float else kind), f"{key} is {value!r}")
+    expected = {"scene": "builtin:teapot", "env": "builtin:studio", "technique": "split_isotropic", "backend": "tile",
+                "threads": 2, "width": 160, "height": 120, "msaa": 4, "frames": 5, "nan_pixels": 0}
+    for key, value in expected.items():
+        check(found[key] == value, f"{key} is {found[key]!r}, not {value!r}")
+    check(0 < found["ms_min"] <= found["ms_median"] <= found["ms_p95"], f"times out of order: {found}")
+    check(found["triangles"] > 1000 and found["visible_fragments"] > 1000, f"an empty picture: {found}")
+    check(len(found["pixel_hash"]) == 16 and int(found["pixel_hash"], 16) != 0, found["pixel_hash"])
+    check(1 << 20 < found["peak_memory_bytes"] < 8 << 30, f"peak memory {found['peak_memory_bytes']}")
+
+
+@case("output.words_on_stderr")
+def words(bench):
+    done = bench.run("render", *SMALL, "--stats", "s.json").expect(0)
+    found = json.loads((bench.folder / "s.json").read_text())
+    check(f"pixel hash: {found['pixel_hash']}\n" in done.err, f"no hash line\n{done.describe()}")
+    for word in ("builtin:teapot", "triangles", "builtin:studio", "frame", "s.json"):
+        check(word in done.err, f"'{word}' is not said\n{done.describe()}")
+    check(done.out == "" and "\x1b" not in done.err and "\r" not in done.err, done.describe())
+    quiet = bench.run("render", *SMALL, "--quiet").expect(0)
+    check(quiet.out == "" and quiet.err == "", f"--quiet speaks\n{quiet.describe()}")
+    more = bench.run("render", *SMALL, "-v").expect(0)
+    check("world to clip" in more.err, f"-v does not print the camera\n{more.describe()}")
+
+
+@case("output.trace")
+def trace(bench):
+    bench.run("render", *SMALL, "--threads", "2", "--trace", "t.json").expect(0)
+    loaded = json.loads((bench.folder / "t.json").read_text())
+    events = loaded["traceEvents"] if isinstance(loaded, dict) else loaded
+    spans = [event for event in events if event.get("ph") == "X"]
+    names = {event["name"] for event in spans}
+    check({"load scene", "environment", "frame"} <= names, f"stages are missing: {sorted(names)}")
+    check(all(event["dur"] >= 0 and "tid" in event and "ts" in event for event in spans), "a span without its time")
+
+
+@case("output.two_runs_give_the_same_bytes")
+def same_bytes(bench):
+    for folder in ("one", "another_folder"):
+        (bench.folder / folder).mkdir()
+        threads = ("--threads", "1") if folder == "one" else ()
+        bench.run("render", *SMALL, *threads, "-o", f"{folder}/a.exr", "-o", f"{folder}/a.png",
+                  "-o", f"{folder}/a.hdr", "-o", f"{folder}/a.tif", "-o", f"{folder}/a.jpg").expect(0)
+        time.sleep(1.1)  # dates in files count seconds
+    for name in ("a.exr", "a.png", "a.hdr", "a.tif", "a.jpg"):
+        one, other = ((bench.folder / folder / name).read_bytes() for folder in ("one", "another_folder"))
+        check(one == other, f"{name} differs between two runs")
+        for volatile in (b"DateTime", b"HostComputer", b"render ", os.uname().nodename.encode()):
+            check(volatile not in one, f"{name} holds {volatile!r}")
+
+
+@case("output.exr_holds_linear_float")
+def exr_is_float(bench):
+    tool = shutil.which("oiiotool")
+    if not tool:
+        raise Skipped("no oiiotool")
+    bench.run("render", *SMALL, "-o", "a.exr").expect(0)
+    said = subprocess.run([tool, "--info", "-v", str(bench.folder / "a.exr")], capture_output=True, text=True, timeout=60,
+                          check=True).stdout
+    for word in ("160 x  120", "3 channel", "float"):
+        check(word in said, f"'{word}' is not in\n{said}")
+    check("half" not in said, said)
+
+
+@case("output.file_size_limit", "program", "input")
+def file_size_limit(bench):
+    """The EXR does not fit, the small PNG does."""
+    kept = scratch(bench, "old.exr", b"kept")
+    done = bench.run("render", *SMALL, "--quiet", "-o", "old.exr", file_size=2048)
+    done.expect(7).expect_one_line("old.exr")
+    check(kept.read_bytes() == b"kept", "the file that was there is lost")
+    done = bench.run("render", *SMALL, "--quiet", "-o", "big.exr", "-o", "small.png", "--stats", "s.json", file_size=65536)
+    done.expect(7).expect_one_line("big.exr")
+    check(bench.left_behind() == ["old.exr", "s.json", "small.png"], f"left: {bench.left_behind()}")
+
+
+@case("output.full_disk", "program", "input")
+def full_disk(bench):
+    """A disk of 64 KB in a mount namespace of its own, which ends with the shell."""
+    disk = bench.folder / "disk"
+    disk.mkdir()
+    probe = ["unshare", "--mount"] + (["--map-root-user"] if os.geteuid() else []) + ["sh", "-c"]
+    mount = 'mount -t tmpfs -o size=64k none "$0" || exit 99; cd "$0" || exit 99; '
+    try:
+        tried = subprocess.run([*probe, mount + "true", str(disk)], capture_output=True, timeout=60, check=False)
+    except FileNotFoundError:
+        raise Skipped("no unshare") from None
+    if tried.returncode:
+        raise Skipped(f"no small disk can be mounted here: {tried.stderr.decode().strip()}")
+    bench.figures(*SMALL)  # the environment goes to the cache, not to the small disk
+    script = mount + 'echo kept > old.exr; "$@"; code=$?; ls -A; cat old.exr; exit $code'
+    done = subprocess.run([*probe, script, str(disk), bench.program, "render", *SMALL, "--quiet", "-o", "old.exr", "-o", "new.exr"],
+                          capture_output=True, text=True, env=bench.environment({}), timeout=600, check=False)
+    check(done.returncode == 7, f"exit code {done.returncode}: {done.stderr}")
+    check(done.stdout == "old.exr\nkept\n", f"on the disk: {done.stdout!r}")
+    lines = done.stderr.splitlines()
+    check(len(lines) == 2 and all(name in done.stderr for name in ("old.exr", "new.exr")), done.stderr)
+
+
+@case("output.paths_are_checked_before_the_work")
+def checked_before(bench):
+    begin_limit = 5.0
+    (bench.folder / "folder.exr").mkdir()
+    for path, code in (("absent/a.exr", 7), ("folder.exr", 7), ("a.xyz", 2)):
+        done = bench.run("render", "--size", "4096x4096", "-o", path).expect(code).expect_one_line(path)
+        check(done.seconds < begin_limit, f"rendered before looking: {done.seconds:.1f} s")
+    for option in ("--stats", "--trace"):
+        bench.run("render", option, "absent/a.json").expect(7).expect_one_line("absent/a.json")
+    check(bench.left_behind() == ["folder.exr"], f"left: {bench.left_behind()}")
+
+
+@case("output.an_input_is_never_overwritten")
+def input_kept(bench):
+    bench.run("render", *SMALL, "-o", "env.exr").expect(0)
+    before = (bench.folder / "env.exr").read_bytes()
+    (bench.folder / "same.exr").symlink_to("env.exr")
+    for path in ("env.exr", "./env.exr", "same.exr"):
+        bench.run("render", *SMALL, "--env", "env.exr", "-o", path).expect(2).expect_one_line(path)
+    check((bench.folder / "env.exr").read_bytes() == before, "the environment was overwritten")
+    scene = scratch(bench, "scene.gltf", files.text(files.triangle()))
+    bench.run("render", scene, *SMALL, "--stats", "scene.gltf").expect(2)
+    check(scene.read_text() == files.text(files.triangle()), "the scene was overwritten")
+
+
+@case("output.a_failed_run_keeps_what_was_there")
+def failed_run(bench):
+    kept = scratch(bench, "a.png", b"kept")
+    bench.run("render", "absent.glb", "-o", "a.png").expect(4)
+    check(kept.read_bytes() == b"kept", "the picture that was there is lost")
+
+
+@case("output.devices_are_written_into")
+def devices(bench):
+    done = bench.run("render", *SMALL, "--quiet", "--stats", "/dev/stdout").expect(0)
+    check(json.loads(done.out)["width"] == 160, done.describe())
+    bench.run("render", *SMALL, "--stats", "/dev/null").expect(0)
+    check(os.path.exists("/dev/null") and not os.path.isfile("/dev/null"), "/dev/null was replaced")
+
+
+@case("output.cache_is_optional")
+def cache(bench):
+    """A cache folder that cannot be written, or holds rubbish, never stops a render."""
+    elsewhere = {"XDG_CACHE_HOME": str(bench.folder / "cache")}
+    first = bench.figures(*SMALL, env=elsewhere)
+    again = bench.figures(*SMALL, env=elsewhere)
+    check(not first["environment_from_cache"] and again["environment_from_cache"], "the second run does not use the cache")
+    without = bench.figures(*SMALL, "--no-cache", env=elsewhere)
+    check(not without["environment_from_cache"], "--no-cache reads the cache")
+    for path in (bench.folder / "cache").rglob("*"):
+        if path.is_file():
+            path.write_bytes(path.read_bytes()[:100])
+    damaged = bench.figures(*SMALL, env=elsewhere)
+    scratch(bench, "file", b"")
+    nowhere = bench.figures(*SMALL, env={"XDG_CACHE_HOME": str(bench.folder / "file")})
+    hashes = {found["pixel_hash"] for found in (first, again, without, damaged, nowhere)}
+    check(len(hashes) == 1, f"the cache changes the picture: {hashes}")

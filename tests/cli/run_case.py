@@ -1,0 +1,40 @@
+"""Lists the cases, or runs one: exit code 0 passed, 1 failed, 77 skipped."""
+
+import argparse
+import sys
+
+import harness
+import input_cases
+import limit_cases
+import model_cases
+import output_cases
+import pixel_cases
+import usage_cases
+
+parser = argparse.ArgumentParser()
+parser.add_argument("--program", default="")
+parser.add_argument("--compare-program", default="")
+parser.add_argument("--data", required=True)
+parser.add_argument("--work", default="")
+parser.add_argument("--sanitized", action="store_true")
+parser.add_argument("--list", action="store_true")
+parser.add_argument("case", nargs="?")
+arguments = parser.parse_args()
+
+input_cases.add_data_cases(arguments.data)
+model_cases.add_data_cases(arguments.data)
+if arguments.list:
+    for name, (_, labels) in harness.CASES.items():
+        print(name, ",".join(labels))
+    sys.exit(0)
+
+bench = harness.Bench(arguments.program, arguments.compare_program, arguments.data, arguments.work, arguments.sanitized)
+bench.open(arguments.case)
+try:
+    harness.CASES[arguments.case][0](bench)
+except harness.Skipped as reason:
+    print("skipped:", reason)
+    sys.exit(77)
+except harness.Failed as reason:
+    print("failed:", reason)
+    sys.exit(1)

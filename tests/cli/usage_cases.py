@@ -1,0 +1,125 @@
+"""Help, version, lists, and the errors of wrong options."""
+
+import json
+import os
+
+from harness import SMALL, Skipped, case, check
+
+
+@case("usage.help_is_everywhere")
+def help_is_everywhere(bench):
+    for words in ((), ("render",), ("list",), ("info",)):
+        done = bench.run(*words, "--help").expect(0)
+        check("Examples:" in done.out and "Usage: burnish" in done.out, f"help without examples\n{done.describe()}")
+        check(done.err == "", f"help belongs on standard output\n{done.describe()}")
+        check("\x1b" not in done.out, "help is coloured")
+
+
+@case("usage.version")
+def version(bench):
+    done = bench.run("--version").expect(0)
+    name, number = done.out.split()
+    check(name == "burnish" and len(number.split(".")) == 3, done.describe())
+
+
+# Arguments, and what the one line must name.
+WRONG = (
+    ((), "subcommand"),
+    (("frobnicate",), "frobnicate"),
+    (("render", "--bogus"), "--bogus"),
+    (("render", "one.glb", "two.glb"), "two.glb"),
+    (("render", "builtin:nothing"), "builtin:teapot"),
+    (("render", "--env", "builtin:nothing"), "builtin:studio"),
+    (("render", "--size", "10"), "--size"),
+    (("render", "--size", "0x10"), "--size"),
+    (("render", "--size", "-5x10"), "--size"),
+    (("render", "--size", "20000x10"), "16384"),
+    (("render", "--size", "16384x16384", "--msaa", "2"), "268435456"),
+    (("render", "--size", "99999999999x1"), "--size"),
+    (("render", "--msaa", "3"), "1, 2, 4, 8, 16"),
+    (("render", "--threads", "0"), "--threads"),
+    (("render", "--threads", "many"), "--threads"),
+    (("render", "--isa", "sse9"), "scalar, avx2, avx512"),
+    (("render", "--technique", "nothing"), "split_isotropic"),
+    (("render", "--samples", "0"), "--samples"),
+    (("render", "--backend", "nothing"), "tile"),
+    (("render", "--tile-size", "48"), "32, 64"),
+    (("render", "--texture-anisotropy", "17"), "--texture-anisotropy"),
+    (("render", "--roughness", "nan"), "--roughness"),
+    (("render", "--roughness", "1.5"), "--roughness"),
+    (("render", "--anisotropy", "2"), "--anisotropy"),
+    (("render", "--exposure", "inf"), "--exposure"),
+    (("render", "--tonemap", "nothing"), "pbr-neutral"),
+    (("render", "--frames", "0"), "--frames"),
+    (("render", "--eye", "1,2"), "--eye"),
+    (("render", "--eye", "1,2,nan"), "--eye"),
+    (("render", "--eye", "1,2,3,4"), "--eye"),
+    (("render", "--target", "0,0,0"), "--eye"),
+    (("render", "--fov", "40"), "--eye"),
+    (("render", "--eye", "1,2,3", "--target", "1,2,3"), "--target"),
+    (("render", "--eye", "1,2,3", "--camera", "0"), "--camera"),
+    (("render", "--eye", "1,2,3", "--fov", "180"), "--fov"),
+    (("render", "--camera", "nothing"), "--camera"),
+    (("render", "--env-size", "100"), "--env-size"),
+    (("render", "--env-rotation", "north"), "--env-rotation"),
+    (("render", "--limit-file-bytes", "lots"), "--limit-file-bytes"),
+    (("render", "--limit-file-bytes", "99999999999G"), "--limit-file-bytes"),
+    (("render", "--limit-json-depth", "0"), "--limit-json-depth"),
+    (("render", "-o", "picture.xyz"), "picture.xyz"),
+    (("render", "-o", "picture"), "png"),
+    (("render", "-o", "a.png", "-o", "a.png"), "a.png"),
+    (("render", "-o"), "--output"),
+    (("render", "--stats", ""), "--stats"),
+    (("list",), "WHAT"),
+    (("list", "nothing"), "techniques"),
+    (("info", "--bogus"), "--bogus"),
+)
+
+
+@case("usage.wrong_options_say_one_line_and_exit_2")
+def wrong_options(bench):
+    small = ("--env-size", "64", "--env-samples", "32")
+    for words, needle in WRONG:
+        extra = small if words == ("render", "--camera", "nothing") else ()
+        done = bench.run(*words, *extra).expect(2).expect_one_line(needle)
+        check(done.out == "", f"an error belongs on stderr\n{done.describe()}")
+    check(bench.left_behind() == [], f"files were left: {bench.left_behind()}")
+
+
+@case("usage.negative_numbers_are_values")
+def negative_numbers(bench):
+    for eye in (("--eye", "-1,0.5,3"), ("--eye=-.5,.5,3",)):
+        bench.run("render", *SMALL, *eye, "--exposure", "-1.5", "-o", "a.png").expect(0)
+
+
+@case("usage.lists_name_what_options_accept")
+def lists(bench):
+    expected = {"techniques": "split_isotropic", "scenes": "builtin:teapot", "environments": "builtin:studio", "models": "ggx"}
+    for what, name in expected.items():
+        lines = bench.run("list", what).expect(0).out.splitlines()
+        check(name in [line.split()[0] for line in lines], f"list {what} lacks {name}: {lines}")
+        check(all(len(line.split(None, 1)) == 2 for line in lines), f"a name without a summary: {lines}")
+
+
+@case("usage.info")
+def info(bench):
+    facts = json.loads(bench.run("info", "--json").expect(0).out)
+    for key in ("version", "compiler", "processor", "cores", "isa", "isa_available", "backends", "openimageio"):
+        check(facts.get(key), f"info lacks {key}: {facts}")
+    check("scalar" in facts["isa_available"] and facts["isa"] in facts["isa_available"], f"{facts}")
+    check("tile" in facts["backends"], f"{facts}")
+    capped = json.loads(bench.run("info", "--json", env={"BN_FORCE_ISA": "scalar"}).expect(0).out)
+    check(capped["isa"] == "scalar", f"BN_FORCE_ISA=scalar gave {capped['isa']}")
+    text = bench.run("info").expect(0).out
+    check(facts["version"] in text and facts["isa"] in text, text)
+
+
+@case("usage.lost_standard_output_is_an_error")
+def lost_output(bench):
+    if not os.path.exists("/dev/full"):
+        raise Skipped("no /dev/full")
+    import subprocess
+
+    with open("/dev/full", "wb") as full:
+        done = subprocess.run([bench.program, "info"], stdout=full, stderr=subprocess.PIPE, timeout=60, check=False)
+    check(done.returncode == 7, f"exit code {done.returncode}, stderr {done.stderr!r}")

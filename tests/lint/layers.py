@@ -1,0 +1,140 @@
+"""The rules of the house that a script can see: who includes whom, sizes, words, what lies at the root.
+
+Usage: layers.py ROOT. Prints one line a fault; exit code 1 where there is any.
+"""
+
+import os
+import pathlib
+import re
+import subprocess
+import sys
+
+LAYERS = {"core": 0, "shading": 1, "raster": 2, "apps": 3}  # a layer includes itself and those below
+EVERYWHERE = ("tests", "bench")                              # they see all layers
+RENDERERS = ("tile", "vulkan", "reference")                  # they meet in raster/frame
+
+# Third-party headers and the folders that may include them.
+THIRD_PARTY = (
+    (r"OpenImageIO/|OpenEXR/|Imath/", ("core/image",)),
+    (r"tiny_gltf|draco/", ("core/scene",)),
+    (r"meshoptimizer", ("core/scene", "raster/tile")),
+    (r"tbb/|oneapi/", ("core/jobs",)),
+    (r".*intrin\.h$|cpuid\.h$", ("core/simd",)),
+    (r"vulkan/", ("raster/vulkan",)),
+    (r"embree", ("raster/reference",)),
+    (r"CLI/", ("apps",)),
+    (r"nlohmann/", ("core", "apps", "tests", "bench")),
+    (r"gtest/|gmock/", ("tests",)),
+    (r"benchmark/", ("bench",)),
+    (r"(ranges|format)$", ()),  # GCC 12 and clang 14 do not agree on them
+)
+
+ROOT_ENTRIES = {"CMakeLists.txt", "CMakePresets.json", "LICENSE", "README.md", "core", "shading", "raster", "apps", "tests", "bench"}
+SOURCES = (".h", ".cpp", ".py", ".sh", ".cmake", ".vert", ".frag", ".comp")
+VAGUE_NAMES = ("utils", "util", "common", "helpers", "helper", "misc")
+MAX_LINES, MAX_LINES_SIMD = 600, 900
+
+# Each word is written in two pieces, so that this file does not hold it.
+FORBIDDEN = (
+    (re.compile("ffast" + "-math|Of" + r"ast\b|ffp-con" + "tract=(?!off)"), "arithmetic that is not the same everywhere"),
+    (re.compile(r"_mm\w*_(rc" + "p|rsq" + "rt)|vrc" + "p|vrsq" + "rt"), "approximate reciprocals: processors differ"),
+    (re.compile("/wo" + "rk/"), "a path of one machine"),
+    (re.compile(r"\bTO" + r"DO\b|\bFIX" + r"ME\b|#if " + r"0\b"), "unfinished or dead code"),
+)
+
+
+def listed(root):
+    """What the repository holds or would hold; without git, everything but build folders."""
+    try:
+        done = subprocess.run(["git", "-C", str(root), "ls-files", "-z", "--cached", "--others", "--exclude-standard"],
+                              capture_output=True, check=True)
+        paths = [pathlib.PurePosixPath(os.fsdecode(name)) for name in done.stdout.split(b"\0") if name]
+    except (OSError, subprocess.CalledProcessError):
+        paths = [pathlib.PurePosixPath(path.relative_to(root)) for path in root.rglob("*") if path.is_file()]
+        paths = [path for path in paths if path.parts[0] not in ("build", "out", ".git")]
+    return sorted(path for path in paths if (root / path).is_file())
+
+
+def lies_in(path, folders):
+    return any(path.is_relative_to(folder) for folder in folders)
+
+
+def check_include(path, quoted, name, files):
+    """Faults of one #include line."""
+    top = path.parts[0]
+    for pattern, folders in THIRD_PARTY:
+        if re.match(pattern, name) and not lies_in(path, folders):
+            yield f"<{name}> belongs to {' and '.join(folders) or 'nobody'}"
+    if not quoted:
+        return
+    target = pathlib.PurePosixPath(name)
+    if target not in files:
+        yield f'"{name}" is not a file of the project, seen from its root'
+        return
+    other = target.parts[0]
+    if top in LAYERS and LAYERS.get(other, 99) > LAYERS[top]:
+        yield f'{top} includes "{name}", which lies above it'
+    if path.is_relative_to("shading/kernels") and not lies_in(target, ("shading/lang", "shading/kernels")):
+        yield f'a kernel includes "{name}"'
+    if top == other == "raster" and len(path.parts) > 2 and len(target.parts) > 2:
+        mine, theirs = path.parts[1], target.parts[1]
+        if mine != theirs and mine in RENDERERS and theirs in RENDERERS:
+            yield f'{mine} includes "{name}": renderers meet in raster/frame'
+        if mine not in RENDERERS and theirs in RENDERERS:
+            yield f'raster/{mine} includes "{name}" of a single renderer'
+
+
+def guarded(path, lines):
+    """GLSL knows no #pragma once, so what it reads has a macro."""
+    glsl = path.is_relative_to("shading/kernels") or path.is_relative_to("shading/lang")
+    text = "\n".join(lines)
+    return "#pragma once" in text or (glsl and re.search(r"#ifndef (\w+)\n#define \1", text))
+
+
+def check_source(path, lines, files):
+    top = path.parts[0]
+    if path.suffix == ".h" and not guarded(path, lines):
+        yield 1, "can be included twice"
+    for number, line in enumerate(lines, 1):
+        include = re.match(r'\s*#\s*include\s*(["<])([^">]+)[">]', line)
+        if include and (top in LAYERS or top in EVERYWHERE):
+            for fault in check_include(path, include[1] == '"', include[2], files):
+                yield number, fault
+    limit = MAX_LINES_SIMD if path.is_relative_to("core/simd") else MAX_LINES
+    if len(lines) > limit:
+        yield limit, f"{len(lines)} lines, more than {limit}"
+
+
+def faults(root):
+    paths = listed(root)
+    files = set(paths)
+    for entry in sorted({path.parts[0] for path in paths}):
+        if entry not in ROOT_ENTRIES and not entry.startswith("."):
+            yield entry, 0, "does not belong at the root"
+    for path in paths:
+        if path.stem.split(".")[0].lower() in VAGUE_NAMES:
+            yield path, 0, "a name that says nothing"
+        data = (root / path).read_bytes()
+        if b"\0" in data[:8192]:
+            continue
+        lines = data.decode("utf-8", "replace").splitlines()
+        for number, line in enumerate(lines, 1):
+            for pattern, why in FORBIDDEN:
+                if pattern.search(line):
+                    yield path, number, f"'{pattern.search(line)[0]}': {why}"
+        if path.suffix in SOURCES or path.suffix == ".def":
+            for number, fault in check_source(path, lines, files):
+                yield path, number, fault
+
+
+def main():
+    root = pathlib.Path(sys.argv[1]).resolve()
+    found = list(faults(root))
+    for path, number, fault in found:
+        print(f"{path}:{number}: {fault}")
+    print(f"{len(found)} faults")
+    return 1 if found else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,70 @@
+"""layers.py finds each fault that it is there for: every line below is one file with one fault."""
+
+import pathlib
+import sys
+import tempfile
+
+import layers
+
+GOOD = {
+    "core/base/a.h": "#pragma once\n#include <vector>\n",
+    "shading/lang/l.h": "#pragma once\n",
+    "shading/kernels/k.k.h": '#ifndef K\n#define K\n#include "shading/lang/l.h"\n',
+    "raster/frame/f.h": '#pragma once\n#include "core/base/a.h"\n',
+    "raster/tile/t.cpp": '#include "raster/frame/f.h"\n',
+    "raster/tile/t.h": "#pragma once\n",
+    "apps/main.cpp": '#include <CLI/CLI.hpp>\n#include "raster/tile/t.h"\n',
+    "core/simd/s.h": "#pragma once\n#include <immintrin.h>\n",
+    "core/image/i.cpp": "#include <OpenImageIO/imageio.h>\n",
+    "tests/unit/x/x_test.cpp": '#include <gtest/gtest.h>\n#include "apps/main.cpp"\n',
+    "CMakeLists.txt": "add_compile_options(-ffp-contract=off)\n",
+}
+BAD = {
+    "core/base/up.h": '#pragma once\n#include "raster/frame/f.h"\n',
+    "core/base/absent.h": '#pragma once\n#include "core/base/absent_too.h"\n',
+    "core/base/unguarded.h": "#include <vector>\n",
+    "core/base/long.cpp": "int x;\n" * 601,
+    "core/base/simd.cpp": "#include <immintrin.h>\n",
+    "core/base/cpuid.cpp": "#include <cpuid.h>\n",
+    "core/scene/pixels.cpp": "#include <OpenImageIO/imageio.h>\n",
+    "core/image/scene.cpp": "#include <tiny_gltf.h>\n",
+    "core/image/tasks.cpp": "#include <tbb/parallel_for.h>\n",
+    "core/jobs/json.cpp": "#include <ranges>\n",
+    "shading/kernels/unguarded.k.h": '#include "shading/lang/l.h"\n',
+    "shading/kernels/greedy.k.h": '#pragma once\n#include "core/base/a.h"\n',
+    "shading/bake/up.cpp": '#include "raster/frame/f.h"\n',
+    "shading/bake/json.cpp": "#include <nlohmann/json.hpp>\n",
+    "raster/vulkan/peek.cpp": '#include "raster/tile/t.h"\n',
+    "raster/frame/peek.cpp": '#include "raster/tile/t.h"\n',
+    "raster/tile/vk.cpp": "#include <vulkan/vulkan.h>\n",
+    "raster/tile/cli.cpp": "#include <CLI/CLI.hpp>\n",
+    "raster/tile/relative.cpp": '#include "../frame/f.h"\n',
+    "raster/tile/sloppy.cpp": "#pragma GCC optimize(\"ffast" + "-math\")\n",
+    "raster/tile/approximate.cpp": "auto x = _mm256_rsq" + "rt_ps(y);\n",
+    "raster/tile/approximate14.cpp": "auto x = _mm512_rc" + "p14_ps(y);\n",
+    "raster/tile/unfinished.cpp": "// TO" + "DO: later\n",
+    "raster/tile/dead.cpp": "#if " + "0\n#endif\n",
+    "apps/here.cpp": 'const char* path = "/wo' + 'rk/data";\n',
+    "apps/utils.cpp": "\n",
+    "notes.txt": "\n",
+}
+
+
+def write(root, files):
+    for name, text in files.items():
+        path = root / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text)
+
+
+with tempfile.TemporaryDirectory() as folder:
+    root = pathlib.Path(folder)
+    write(root, GOOD)
+    wrong = [f"a good tree is refused: {fault}" for fault in layers.faults(root)]
+    write(root, BAD)
+    found = {str(fault[0]) for fault in layers.faults(root)}
+    wrong += [f"not found: {name}" for name in BAD if name not in found]
+    wrong += [f"refused without reason: {name}" for name in found if name not in BAD]
+for line in wrong:
+    print(line)
+sys.exit(1 if wrong else 0)
