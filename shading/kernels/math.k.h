@@ -12,7 +12,7 @@ BN_FN real k_dot2(real2 a, real2 b)
 {
     return a.x * b.x + a.y * b.y;
 }
-BN_FN real k_dot(real3 a, real3 b)
+BN_FN real k_dot3(real3 a, real3 b)
 {
     return a.x * b.x + a.y * b.y + a.z * b.z;
 }
@@ -28,9 +28,9 @@ BN_FN real k_length2(real2 a)
 {
     return sqrt(k_dot2(a, a));
 }
-BN_FN real k_length(real3 a)
+BN_FN real k_length3(real3 a)
 {
-    return sqrt(k_dot(a, a));
+    return sqrt(k_dot3(a, a));
 }
 // Safe for zero and tiny vectors, which keep their direction and stay shorter than 1: |a|^2 is taken as at
 // least 1e-30.
@@ -38,9 +38,9 @@ BN_FN real2 k_normalize2(real2 a)
 {
     return a * (lit(1.0) / sqrt(max(k_dot2(a, a), lit(1e-30))));
 }
-BN_FN real3 k_normalize(real3 a)
+BN_FN real3 k_normalize3(real3 a)
 {
-    return a * (lit(1.0) / sqrt(max(k_dot(a, a), lit(1e-30))));
+    return a * (lit(1.0) / sqrt(max(k_dot3(a, a), lit(1e-30))));
 }
 
 // Exact at t = 0; at t = 1 within rounding.
