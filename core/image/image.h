@@ -8,13 +8,16 @@ namespace burnish {
 
 enum class PixelType : std::uint8_t { u8, u16, f32 };
 
-inline std::size_t pixel_type_bytes(PixelType t) { return t == PixelType::u8 ? 1 : t == PixelType::u16 ? 2 : 4; }
+inline std::size_t pixel_type_bytes(PixelType t)
+{
+    return t == PixelType::u8 ? 1 : t == PixelType::u16 ? 2 : 4;
+}
 
 struct Image {
     int width = 0, height = 0;
-    int channels = 0;                 // 1 gray, 2 gray+alpha, 3 RGB, 4 RGBA
-    PixelType type = PixelType::u8;   // u8 and u16 are normalized; f32 is linear radiance or data
-    std::vector<std::byte> bytes;     // width * height * channels * pixel_type_bytes(type)
+    int channels = 0;               // 1 gray, 2 gray+alpha, 3 RGB, 4 RGBA
+    PixelType type = PixelType::u8; // u8 and u16 are normalized; f32 is linear radiance or data
+    std::vector<std::byte> bytes;   // width * height * channels * pixel_type_bytes(type)
 
     bool empty() const { return bytes.empty(); }
     const float* f32() const { return reinterpret_cast<const float*>(bytes.data()); }

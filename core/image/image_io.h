@@ -10,18 +10,21 @@
 
 namespace burnish {
 
-// Reads any format OpenImageIO knows (PNG, JPEG, WebP, EXR, RGBE, ...). Sizes are checked against the limits before pixels are
-// read. 8-bit files give u8, 16-bit files u16, float and half files f32. Deep files are refused; of a tiled or mipmapped file
-// the top level is read; of a multi-part file the first flat part. The data window is placed in the display window.
-// No colour conversion happens. More than 4 channels: R,G,B,A are picked by name, else the first 3.
+// Reads any format OpenImageIO knows (PNG, JPEG, WebP, EXR, RGBE, ...). Sizes are checked against the limits
+// before pixels are read. 8-bit files give u8, 16-bit files u16, float and half files f32. Deep files are
+// refused; of a tiled or mipmapped file the top level is read; of a multi-part file the first flat part. The
+// data window is placed in the display window. No colour conversion happens. More than 4 channels: R,G,B,A
+// are picked by name, else the first 3.
 Result<Image> read_image(const std::string& path, const Limits& limits);
 
 // The same from memory; `label` names the image in errors (for instance "scene.glb: /images/3").
-Result<Image> decode_image(const std::uint8_t* data, std::size_t size, const std::string& label, const Limits& limits);
+Result<Image> decode_image(const std::uint8_t* data, std::size_t size, const std::string& label,
+                           const Limits& limits);
 
-// Writes .exr (linear Rec.709, 32-bit float, ZIP), .hdr, .pfm; or .png .jpg .tif from u8 pixels. Nothing volatile is stored (no
-// date, host, program arguments). The file appears under its name only when it is complete: it is written to a temporary name
-// in the same folder, then renamed. On failure no file is left and the Error has ExitCode::output_failed.
+// Writes .exr (linear Rec.709, 32-bit float, ZIP), .hdr, .pfm; or .png .jpg .tif from u8 pixels. Nothing
+// volatile is stored (no date, host, program arguments). The file appears under its name only when it is
+// complete: it is written to a temporary name in the same folder, then renamed. On failure no file is left
+// and the Error has ExitCode::output_failed.
 Status write_image(const std::string& path, const Image& image);
 
 // True where the extension of `path` names a format that stores floats (exr, hdr, pfm).

@@ -1,0 +1,43 @@
+// Guards: what a file's own header claims, read and bounded by us before any image library sees the file.
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+#include "core/base/limits.h"
+#include "core/base/result.h"
+
+namespace burnish {
+
+// A file in memory, and the name it has in errors.
+struct ImageBytes {
+    const std::uint8_t* data = nullptr;
+    std::size_t size = 0;
+    std::string label;
+
+    Error error(const std::string& place, const std::string& reason) const
+    {
+        return {ExitCode::bad_input, label, place, reason};
+    }
+};
+
+// How to hand a guarded file to OpenImageIO.
+struct ImageProbe {
+    const char* format = ""; // OpenImageIO's name of the format
+    int subimage = 0;        // the first flat part of an OpenEXR file
+    // Scanlines of Radiance files may run in any of eight ways; these put them top row first.
+    bool transpose = false; // scanlines are columns
+    bool flip_x = false, flip_y = false;
+};
+
+// Finds the format by the first bytes, never by the extension, and refuses what cannot be a sound image:
+// sides above the limits, more pixels than the file's bytes can hold, missing end marks.
+Result<ImageProbe> probe_image(const ImageBytes& file, const Limits& limits);
+
+// The part of it for OpenEXR, whose library allocates what the header asks for.
+Result<ImageProbe> probe_exr(const ImageBytes& file, const Limits& limits);
+
+// An Error where a side is below 1 or above the limit.
+Status check_sides(const ImageBytes& file, std::int64_t width, std::int64_t height, const Limits& limits);
+
+} // namespace burnish

@@ -1,0 +1,196 @@
+// Writing: the file is made in memory, so that it is complete before its name appears on the disk.
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imageio.h>
+
+#include <algorithm>
+#include <bit>
+#include <cctype>
+#include <cstring>
+#include <exception>
+
+#include <fmt/format.h>
+
+#include "core/base/check.h"
+#include "core/base/file.h"
+#include "core/image/image_io.h"
+#include "core/image/openimageio.h"
+
+namespace burnish {
+namespace {
+
+using Bytes = std::vector<unsigned char>;
+
+// Largest value of Radiance's shared-exponent pixels: mantissa 255/256, exponent 127.
+constexpr float kRgbeMax = 255.0f / 256.0f * 0x1p127f;
+// CIE xy of Rec. ITU-R BT.709's red, green, blue and its white, D65.
+constexpr float kRec709[8] = {0.640f, 0.330f, 0.300f, 0.600f, 0.150f, 0.060f, 0.3127f, 0.3290f};
+constexpr int kJpegQuality = 95;
+
+struct Format {
+    const char* name; // OpenImageIO's
+    bool floats;
+    bool alpha;
+    bool gray;
+};
+
+// The format that an extension names; name nullptr where it names none.
+Format format_of(const std::string& path)
+{
+    const std::size_t dot = path.find_last_of("./");
+    std::string extension = dot == std::string::npos || path[dot] == '/' ? "" : path.substr(dot + 1);
+    for (char& c : extension)
+        c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    if (extension == "exr")
+        return {"openexr", true, true, true};
+    if (extension == "hdr")
+        return {"hdr", true, false, false};
+    if (extension == "pfm")
+        return {"pfm", true, false, true};
+    if (extension == "png")
+        return {"png", false, true, true};
+    if (extension == "jpg" || extension == "jpeg")
+        return {"jpeg", false, false, true};
+    if (extension == "tif" || extension == "tiff")
+        return {"tiff", false, true, true};
+    return {nullptr, false, false, false};
+}
+
+Error output_error(const std::string& path, const std::string& reason)
+{
+    return {ExitCode::output_failed, path, "", reason};
+}
+
+// The image with the channels that the format can hold: alpha dropped, gray repeated to RGB.
+Image fit_channels(const Image& image, const Format& format)
+{
+    const bool colour = image.channels >= 3;
+    const bool alpha = image.channels % 2 == 0 && format.alpha;
+    const int channels = (colour || !format.gray ? 3 : 1) + (alpha ? 1 : 0);
+    if (channels == image.channels)
+        return image;
+    Image out = make_image(image.width, image.height, channels, image.type);
+    const std::size_t sample = pixel_type_bytes(image.type);
+    const std::size_t pixels = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
+    const std::size_t step_in = sample * static_cast<std::size_t>(image.channels);
+    const std::size_t step_out = sample * static_cast<std::size_t>(channels);
+    for (std::size_t i = 0; i < pixels; ++i)
+        for (std::size_t c = 0; c < static_cast<std::size_t>(channels); ++c)
+            std::memcpy(out.bytes.data() + i * step_out + c * sample,
+                        image.bytes.data() + i * step_in + (colour ? c * sample : 0), sample);
+    return out;
+}
+
+// Portable Float Map (Debevec): text header, scale -1 for little-endian, bottom row first.
+Bytes encode_pfm(const Image& image)
+{
+    static_assert(std::endian::native == std::endian::little);
+    const std::string header =
+        fmt::format("{}\n{} {}\n-1.0\n", image.channels == 3 ? "PF" : "Pf", image.width, image.height);
+    const std::size_t row =
+        static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.channels) * 4;
+    Bytes bytes(header.size() + image.bytes.size());
+    std::memcpy(bytes.data(), header.data(), header.size());
+    for (std::size_t y = 0; y < static_cast<std::size_t>(image.height); ++y)
+        std::memcpy(bytes.data() + header.size() + y * row,
+                    image.bytes.data() + (static_cast<std::size_t>(image.height) - 1 - y) * row, row);
+    return bytes;
+}
+
+OIIO::ImageSpec spec_of(const Image& image, const Format& format)
+{
+    OIIO::ImageSpec spec(image.width, image.height, image.channels,
+                         format.floats ? OIIO::TypeDesc::FLOAT : OIIO::TypeDesc::UINT8);
+    // A date of the wrong type: the library then neither adds the present time nor writes this one.
+    spec.attribute("DateTime", 0);
+    spec.attribute("oiio:UnassociatedAlpha", 1);
+    if (format.floats) {
+        static const char* const kGray[] = {"Y", "A"};
+        static const char* const kColour[] = {"R", "G", "B", "A"};
+        const char* const* names = image.channels <= 2 ? kGray : kColour;
+        spec.channelnames.assign(names, names + image.channels);
+        spec.alpha_channel = image.channels % 2 == 0 ? image.channels - 1 : -1;
+        spec.attribute("compression", "zip");
+        spec.attribute("chromaticities", OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, 8), kRec709);
+    } else {
+        spec.attribute("oiio:ColorSpace", "sRGB");
+        spec.attribute("compression",
+                       std::strcmp(format.name, "jpeg") == 0 ? fmt::format("jpeg:{}", kJpegQuality) : "zip");
+        spec.attribute("jpeg:subsampling", "4:4:4");
+    }
+    return spec;
+}
+
+Result<Bytes> encode(const std::string& path, const Image& image, const Format& format)
+{
+    configure_openimageio();
+    Bytes bytes;
+    OIIO::Filesystem::IOVecOutput writer(bytes);
+    OIIO::Filesystem::IOProxy* proxy = &writer;
+    const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(format.name);
+    if (!output)
+        return output_error(path,
+                            "the image library cannot write this format: " + first_line(OIIO::geterror()));
+    OIIO::ImageSpec spec = spec_of(image, format);
+    spec.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);
+    if (!output->open(path, spec) || !output->write_image(spec.format, image.bytes.data()) ||
+        !output->close())
+        return output_error(path, "the image cannot be encoded: " + first_line(output->geterror()));
+    return bytes;
+}
+
+// RGBE holds neither negative values nor NaN nor Inf.
+void clamp_to_rgbe(Image& image)
+{
+    float* values = image.f32();
+    const std::size_t count = image.bytes.size() / sizeof(float);
+    for (std::size_t i = 0; i < count; ++i)
+        values[i] = values[i] > 0.0f ? std::min(values[i], kRgbeMax) : 0.0f;
+}
+
+Result<Bytes> encode_image(const std::string& path, const Image& image, const Format& format)
+{
+    Image fitted = fit_channels(image, format);
+    if (std::strcmp(format.name, "pfm") == 0)
+        return encode_pfm(fitted);
+    if (std::strcmp(format.name, "hdr") == 0)
+        clamp_to_rgbe(fitted);
+    return encode(path, fitted, format);
+}
+
+} // namespace
+
+bool stores_floats(const std::string& path)
+{
+    const Format format = format_of(path);
+    return format.name && format.floats;
+}
+
+Status write_image(const std::string& path, const Image& image)
+{
+    BN_CHECK(image.width > 0 && image.height > 0 && image.channels >= 1 && image.channels <= 4);
+    BN_CHECK_OP(image.bytes.size(), ==,
+                static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height) *
+                    static_cast<std::size_t>(image.channels) * pixel_type_bytes(image.type));
+    const Format format = format_of(path);
+    if (!format.name)
+        return output_error(
+            path, "the extension names no format that can be written (exr, hdr, pfm, png, jpg, tif)");
+    if (image.type != (format.floats ? PixelType::f32 : PixelType::u8))
+        return output_error(path, format.floats ? "this format needs float pixels"
+                                                : "this format needs 8-bit pixels");
+    try {
+        const Result<Bytes> bytes = encode_image(path, image, format);
+        if (!bytes)
+            return bytes.error();
+        return write_file_atomic(path, bytes->data(), bytes->size());
+    } catch (const std::exception& exception) {
+        return output_error(path, "the image cannot be encoded: " + first_line(exception.what()));
+    }
+}
+
+Status write_file(const std::string& path, const std::string& bytes)
+{
+    return write_file_atomic(path, bytes.data(), bytes.size());
+}
+
+} // namespace burnish
