@@ -8,8 +8,6 @@ namespace burnish {
 
 namespace {
 
-using namespace bn_scalar;
-
 struct ClipVertex {
     float c[4];    // clip space x, y, w, z
     float bary[3]; // of the whole triangle

@@ -1,11 +1,10 @@
 // What shading knows of kLanes fragments: attributes interpolated at the shaded point, and texture fetches with the derivatives
 // that a GPU would see (differences in the 2x2 quad, taken from the plane equations, so no helper lanes run).
 #pragma once
+#include "raster/tile/lanes_bake.h"
 #include "raster/tile/lanes_view.h"
 #include "shading/kernels/camera_ray.k.h"
-#include "shading/kernels/cube_filter.k.h"
 #include "shading/kernels/interpolate.k.h"
-#include "shading/kernels/texture_filter.k.h"
 
 namespace burnish {
 inline namespace BN_ISA_NS {
@@ -165,6 +164,17 @@ BN_INLINE Fragment make_fragment(const FrameParams& f, const MaterialRecord& m, 
         p.uv_dy[i] = (uv_y[i] - uv_center[i]) * sign_y;
     }
     return p;
+}
+
+BN_INLINE real4 fetch_texture(const FrameParams& f, const TextureBinding& b, const Fragment& p)
+{
+    const int set = b.uv_set != 0;
+    const real m0 = splat(b.transform[0]), m1 = splat(b.transform[1]), m2 = splat(b.transform[2]), m3 = splat(b.transform[3]);
+    const real2 uv = p.uv[set], dx = p.uv_dx[set], dy = p.uv_dy[set];
+    const real2 at = vec2_of(m0 * uv.x + m2 * uv.y + splat(b.transform[4]), m1 * uv.x + m3 * uv.y + splat(b.transform[5]));
+    const real2 at_dx = vec2_of(m0 * dx.x + m2 * dx.y, m1 * dx.x + m3 * dx.y);
+    const real2 at_dy = vec2_of(m0 * dy.x + m2 * dy.y, m1 * dy.x + m3 * dy.y);
+    return sample_binding(b, at, at_dx, at_dy, f.texture_taps);
 }
 
 } // namespace BN_ISA_NS

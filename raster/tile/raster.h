@@ -106,7 +106,9 @@ BN_INLINE bool block_hidden(const FrameParams& f, const TileTriangle& t, float z
     real far = load(depth);
     for (int i = kLanes; i < f.msaa * kBlockPixels; i += kLanes)
         far = min(far, load(depth + i));
-    scratch.block_far[block] = reduce_min(far);
+    float farthest[kLanes];
+    store(farthest, reduce_min(far));
+    scratch.block_far[block] = farthest[0];
     scratch.block_dirty[block] = 0;
     return nearest <= scratch.block_far[block];
 }

@@ -102,12 +102,12 @@ BN_INLINE real3 shade_fragments(const FrameParams& f, const MaterialRecord& m, c
     const LaneMaterial at = fetch_material(f, m, p);
     if (m.unlit)
         return at.base;
-    const real3 v = k_normalize(-p.ray);
+    const real3 v = k_normalize3(-p.ray);
     // a surface seen from behind shows its other side
     const real3 normal = select(p.front, p.normal, -p.normal);
     const real3 n = m.textures[kNormalTex].texture
                         ? shading_normal(normal, p.tangent, select(p.front, p.tangent_sign, -p.tangent_sign), at.normal_map)
-                        : k_normalize(normal);
+                        : k_normalize3(normal);
     const surface s = metallic_roughness_surface(n, v, at.base, at.metallic, at.roughness, at.dielectric_f0, at.dielectric_f90,
                                                  at.occlusion);
     real3 color = environment_light(f, s, at.dielectric_f0, at.dielectric_f90) + at.emissive;

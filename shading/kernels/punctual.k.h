@@ -11,13 +11,13 @@ BN_KERNELS_BEGIN
 // l: unit, to the light. intensity: irradiance on a surface facing the light, lux. Returns outgoing radiance.
 BN_FN real3 punctual_radiance(surface s, real3 l, real3 intensity)
 {
-    real3 h = k_normalize(l + s.v);
-    real n_dot_l = k_dot(s.n, l);
-    real n_dot_h = min(max(k_dot(s.n, h), lit(0.0)), lit(1.0));
-    real v_dot_h = min(max(k_dot(s.v, h), lit(0.0)), lit(1.0));
+    real3 h = k_normalize3(l + s.v);
+    real n_dot_l = k_dot3(s.n, l);
+    real n_dot_h = min(max(k_dot3(s.n, h), lit(0.0)), lit(1.0));
+    real v_dot_h = min(max(k_dot3(s.v, h), lit(0.0)), lit(1.0));
     real3 c = k_cross(s.n, h);
     real alpha = max(s.roughness * s.roughness, lit(1e-3));
-    real d = ggx_d(n_dot_h, k_dot(c, c), alpha);
+    real d = ggx_d(n_dot_h, k_dot3(c, c), alpha);
     real g = ggx_visibility(max(n_dot_l, lit(1e-4)), s.n_dot_v, alpha);
     real3 f = fresnel_schlick(s.f0, s.f90, v_dot_h);
     real3 one = vec3_all(lit(1.0));
@@ -36,12 +36,12 @@ BN_FN light_sample sample_punctual(real3 p, real3 position, real3 direction, rea
                                    mask directional)
 {
     real3 d = select(directional, -direction, position - p);
-    real d2 = max(k_dot(d, d), lit(1e-12));
+    real d2 = max(k_dot3(d, d), lit(1e-12));
     real3 l = d / sqrt(d2);
     real window = d2 * inv_range2;
     window = lit(1.0) - window * window;
     window = min(max(window, lit(0.0)), lit(1.0));
-    real cone = (-k_dot(direction, l)) * spot_scale + spot_offset;
+    real cone = (-k_dot3(direction, l)) * spot_scale + spot_offset;
     cone = min(max(cone, lit(0.0)), lit(1.0));
     light_sample r;
     r.l = l;

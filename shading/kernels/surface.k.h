@@ -21,11 +21,11 @@ struct surface {
 // normal, tangent: interpolated, any length; sign: handedness; map: tangent-space normal from the texture, (0,0,1) without one.
 BN_FN real3 shading_normal(real3 normal, real3 tangent, real sign, real3 map)
 {
-    real3 n = k_normalize(normal);
-    real3 t = tangent - n * k_dot(n, tangent);
-    t = k_normalize(t);
+    real3 n = k_normalize3(normal);
+    real3 t = tangent - n * k_dot3(n, tangent);
+    t = k_normalize3(t);
     real3 b = k_cross(n, t) * sign;
-    return k_normalize(t * map.x + b * map.y + n * map.z);
+    return k_normalize3(t * map.x + b * map.y + n * map.z);
 }
 
 // glTF metallic-roughness to reflectances. base: linear [0,1]; metallic [0,1]; dielectric_f0, dielectric_f90: from index of
@@ -36,7 +36,7 @@ BN_FN surface metallic_roughness_surface(real3 n, real3 v, real3 base, real meta
     surface s;
     s.n = n;
     s.v = v;
-    s.n_dot_v = min(max(k_dot(n, v), lit(1e-4)), lit(1.0));
+    s.n_dot_v = min(max(k_dot3(n, v), lit(1e-4)), lit(1.0));
     s.diffuse = base * (lit(1.0) - metallic);
     s.f0 = dielectric_f0 + (base - dielectric_f0) * metallic;
     s.f90 = vec3_all(dielectric_f90 + (lit(1.0) - dielectric_f90) * metallic);

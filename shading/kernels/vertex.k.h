@@ -19,9 +19,9 @@ struct view_params { // uniform; see raster/frame View
 BN_FN real4 clip_position(real3 p, view_params view)
 {
     real3 d = p - view.eye;
-    real x = k_dot(view.right, d) * view.inv_tan_x;
-    real y = k_dot(view.up, d) * view.inv_tan_y;
-    real depth = k_dot(view.forward, d);
+    real x = k_dot3(view.right, d) * view.inv_tan_x;
+    real y = k_dot3(view.up, d) * view.inv_tan_y;
+    real depth = k_dot3(view.forward, d);
     real w = select(view.orthographic, lit(1.0), depth);
     real z = select(view.orthographic, (view.zfar - depth) * view.inv_depth, view.znear);
     return vec4_of(x, y, w, z);

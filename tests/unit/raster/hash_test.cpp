@@ -1,0 +1,106 @@
+// The determinism promise: one picture, whatever runs it.
+#include <gtest/gtest.h>
+
+#include <cstdio>
+
+#include "core/scene/builtin.h"
+#include "core/scene/gltf.h"
+#include "tests/unit/raster/fixture.h"
+
+namespace burnish::test {
+namespace {
+
+struct Case {
+    const char* scene;
+    int width, height, msaa;
+    std::uint64_t golden; // the same on every machine and compiler; changes only with the picture
+};
+// To bless a changed picture: run the test, look at the picture, copy the printed hash.
+constexpr Case kCases[] = {
+    {"teapot", 317, 203, 8, 0},
+    {"spheres", 256, 160, 4, 0},
+    {"plate", 200, 151, 1, 0},
+};
+
+std::unique_ptr<Stage> stage_of(const Case& c, int threads)
+{
+    Result<Scene> scene = make_builtin_scene(c.scene);
+    EXPECT_TRUE(scene);
+    auto stage = std::make_unique<Stage>(std::move(*scene), 1.0f, threads);
+    Result<Image> image = make_builtin_environment("studio");
+    EXPECT_TRUE(image);
+    EnvironmentOptions options;
+    options.cube_size = 64;
+    options.samples = 64;
+    options.use_cache = false;
+    Result<Environment> environment = bake_environment(*image, "studio", options, stage->jobs);
+    EXPECT_TRUE(environment);
+    stage->environment = std::move(*environment);
+    return stage;
+}
+
+FrameDesc desc_of(const Case& c, const Stage& stage)
+{
+    FrameDesc d;
+    d.width = c.width, d.height = c.height, d.msaa = c.msaa;
+    d.view = auto_frame(stage.tables, c.width, c.height);
+    return d;
+}
+
+TEST(hash, is_the_same_for_every_isa_thread_count_and_tile_size)
+{
+    for (const Case& c : kCases) {
+        std::uint64_t first = 0;
+        for (int threads : {1, 2, 3, 8}) {
+            const std::unique_ptr<Stage> stage = stage_of(c, threads);
+            for (Isa isa : available_isas())
+                for (int tile : {32, 64}) {
+                    FrameDesc d = desc_of(c, *stage);
+                    d.tile_size = tile;
+                    const Frame f = stage->render(d, isa);
+                    const std::uint64_t hash = pixel_hash(f.color);
+                    EXPECT_EQ(count_not_finite(f.color), 0u);
+                    EXPECT_GT(f.stats.visible_fragments, 1000u);
+                    first = first ? first : hash;
+                    EXPECT_EQ(hash, first) << c.scene << " threads " << threads << " " << isa_name(isa) << " tile " << tile;
+                }
+        }
+        std::printf("%s: %016llx\n", c.scene, static_cast<unsigned long long>(first));
+        EXPECT_EQ(first, c.golden) << c.scene << ": the picture changed";
+    }
+}
+
+TEST(hash, of_a_second_frame_equals_the_first)
+{
+    const std::unique_ptr<Stage> stage = stage_of(kCases[0], 2);
+    const RenderInput input{stage->scene, stage->tables, stage->environment, stage->dfg, stage->jobs};
+    const std::unique_ptr<Renderer> renderer = make_tile_renderer(input, best_isa());
+    const FrameDesc small = desc_of(kCases[0], *stage);
+    FrameDesc other = small;
+    other.msaa = 2, other.width = 90;
+    const Result<Frame> a = renderer->render(small), b = renderer->render(other), c = renderer->render(small);
+    ASSERT_TRUE(a && b && c);
+    EXPECT_EQ(pixel_hash(a->color), pixel_hash(c->color));
+    EXPECT_NE(pixel_hash(a->color), pixel_hash(b->color));
+}
+
+TEST(hash, of_models_is_the_same_for_every_isa)
+{
+    for (const char* name : {"AnisotropyBarnLamp.glb", "FlightHelmet/FlightHelmet.gltf", "TextureTransformTest/TextureTransformTest.gltf",
+                             "Lights.glb", "ClearCoatTest.glb"}) {
+        Result<Scene> scene = load_gltf(std::string(BN_SHARED_DATA) + "/models/" + name, Limits{});
+        if (!scene)
+            GTEST_SKIP() << "no test data beside the checkout";
+        const Stage stage(std::move(*scene), 0.7f, 2);
+        FrameDesc d;
+        d.width = 240, d.height = 135, d.msaa = 4;
+        d.view = auto_frame(stage.tables, d.width, d.height);
+        const Frame scalar = stage.render(d, Isa::scalar);
+        EXPECT_EQ(count_not_finite(scalar.color), 0u) << name;
+        for (Isa isa : available_isas())
+            EXPECT_EQ(pixel_hash(stage.render(d, isa).color), pixel_hash(scalar.color)) << name << " " << isa_name(isa);
+    }
+}
+
+} // namespace
+} // namespace burnish::test
