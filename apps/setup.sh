@@ -48,13 +48,17 @@ burnish_setup() # GROUP...
 {
     local packages missing command as_root=()
     if [ "${BURNISH_NO_INSTALL:-0}" = 1 ]; then return 0; fi
-    mapfile -t packages < <(burnish_packages "$@")
+    packages=($(burnish_packages "$@"))
+    if [ "${#packages[@]}" = 0 ]; then
+        echo "burnish: no packages of the groups $* in apps/packages.txt" >&2
+        exit 2
+    fi
     if ! burnish_is_debian; then
         echo "burnish: this machine is not Debian: install what these Debian 12 packages hold, then set BURNISH_NO_INSTALL=1" >&2
         printf '  %s\n' "${packages[@]}" >&2
         exit 2
     fi
-    mapfile -t missing < <(burnish_missing "${packages[@]}")
+    missing=($(burnish_missing "${packages[@]}"))
     if [ "${#missing[@]}" = 0 ]; then return 0; fi
     command="apt-get update && apt-get install -y --no-install-recommends ${missing[*]}"
     if [ "$(id -u)" != 0 ]; then
