@@ -74,7 +74,7 @@ BN_INLINE LaneMaterial fetch_material(const FrameParams& f, const MaterialRecord
 // Light from the environment, by the technique of the frame; occlusion dims all of it.
 BN_INLINE real3 environment_light(const FrameParams& f, const surface& s, real3 dielectric_f0, real dielectric_f90)
 {
-    const dfg_value dfg = dfg_lookup(f.dfg_scale, f.dfg_bias, f.dfg_size, s.n_dot_v, s.roughness);
+    const dfg_value dfg = dfg_lookup(f.dfg_texels, f.dfg_size, s.n_dot_v, s.roughness);
     const real3 albedo = s.f0 * dfg.scale + s.f90 * dfg.bias;
     const real3 dielectric = dielectric_f0 * dfg.scale + vec3_all(dielectric_f90 * dfg.bias);
     const cube_desc specular_cube = lanes_cube(f.specular_cube), irradiance_cube = lanes_cube(f.irradiance_cube);

@@ -120,7 +120,7 @@ FrameParams TileRenderer::frame_params(const FrameDesc& desc, const std::vector<
     f.vertices = {x_.data(), y_.data(), inv_w_.data(), z_.data()};
     f.specular_cube = cube_params(input_.environment.specular);
     f.irradiance_cube = cube_params(input_.environment.irradiance);
-    f.dfg_scale = input_.dfg.scale.data(), f.dfg_bias = input_.dfg.bias.data(), f.dfg_size = input_.dfg.size;
+    f.dfg_texels = input_.dfg.texels.data(), f.dfg_size = input_.dfg.size;
     f.background = desc.background, f.samples = desc.samples, f.texture_taps = desc.texture_anisotropy;
     return f;
 }

@@ -127,7 +127,7 @@ struct FrameParams {
     VertexColumns vertices;
     // environment
     CubeParams specular_cube, irradiance_cube;
-    const float *dfg_scale, *dfg_bias;
+    const std::uint16_t* dfg_texels; // DfgTable::texels
     std::int32_t dfg_size;
     std::int32_t background, technique, samples, texture_taps;
 };

@@ -1,0 +1,42 @@
+// An anisotropic lobe in place on a surface: its deviations of slope and the directions that they lie along.
+#ifndef BN_LOBE_K_H
+#define BN_LOBE_K_H
+
+#include "shading/kernels/math.k.h"
+#include "shading/lang/lang.h"
+
+BN_KERNELS_BEGIN
+
+struct aniso_lobe {
+    real3 u_axis, v_axis;  // unit, orthogonal to each other and to the shading normal; world space
+    real sigma_u, sigma_v; // standard deviations of slope along them, sigma_u >= sigma_v >= 0
+};
+
+// Perceptual roughness of the lobe: the square root of its mean alpha, where alpha = sqrt(2) sigma.
+BN_FN real lobe_alpha_lin(aniso_lobe lobe)
+{
+    real mean = (lobe.sigma_u + lobe.sigma_v) * lit(0.70710678118654752);
+    return min(sqrt(max(mean, lit(0.0))), lit(1.0));
+}
+
+// Degree of anisotropy, [0,1].
+BN_FN real lobe_eta(aniso_lobe lobe)
+{
+    real sum = lobe.sigma_u + lobe.sigma_v;
+    real difference = lobe.sigma_u - lobe.sigma_v;
+    return select(sum > lit(1e-20), difference / max(sum, lit(1e-20)), lit(0.0));
+}
+
+// To the ellipse frame (u, v, n) and back.
+BN_FN real3 to_lobe(aniso_lobe lobe, real3 n, real3 w)
+{
+    return vec3_of(k_dot3(lobe.u_axis, w), k_dot3(lobe.v_axis, w), k_dot3(n, w));
+}
+BN_FN real3 from_lobe(aniso_lobe lobe, real3 n, real3 w)
+{
+    return lobe.u_axis * w.x + lobe.v_axis * w.y + n * w.z;
+}
+
+BN_KERNELS_END
+
+#endif
