@@ -29,19 +29,20 @@ struct Environment {
     std::string name;
     CubeMap specular;                   // level 0: the environment; level l: GGX with alpha_lin = l / (levels - 1)
     CubeMap irradiance;                 // cosine-weighted mean radiance (irradiance / pi), one level, 32^2 faces
-    double energy_source = 0.0, energy_cube = 0.0; // mean radiance (luminance) over the sphere before and after
-    float peak_source = 0.0f;           // largest channel value in the source
-    double bake_ms = 0.0;
+    double energy_source = 0.0, energy_cube = 0.0; // mean radiance (luminance) over the sphere before and after, exposure included
+    float peak_source = 0.0f;           // largest channel value in the source, exposure included
+    double bake_ms = 0.0;               // wall time of this bake, or of reading the cache
     bool from_cache = false;
     std::uint64_t content_hash = 0;     // of source pixels and all bake options
+    std::vector<std::string> warnings;  // one line each: repaired pixels, an unwritable cache
 };
 
 struct EnvironmentOptions {
     float rotation_deg = 0.0f; // turns the environment about +Y, counter-clockwise seen from above
     float exposure_ev = 0.0f;  // radiance is multiplied by 2^ev
-    int cube_size = 512;       // power of two
+    int cube_size = 512;       // power of two, 4 to 4096
     int levels = 0;            // 0: log2(cube_size), down to 2^2 texels a face
-    int samples = 1024;        // a texel, prefiltered levels
+    int samples = 1024;        // a texel, prefiltered levels, 1 to 65536
     bool use_cache = true;
     std::string cache_dir;     // empty: $XDG_CACHE_HOME/burnish or ~/.cache/burnish
     bool quiet = true;         // no progress bar
@@ -54,12 +55,14 @@ Result<Environment> bake_environment(const Image& equirect, const std::string& n
 Result<Environment> load_environment(const std::string& spec, const EnvironmentOptions& options, const Limits& limits,
                                      const Jobs& jobs);
 
-// Directional albedo of GGX with height-correlated Smith (split-sum DFG): rgba float32, [0] scale, [1] bias with
-// F = F0 * scale + bias (Schlick, F90 = 1). Row: alpha_lin (perceptual roughness) = y / (size - 1); column: n.v = x / (size - 1).
+// Directional albedo of GGX with height-correlated Smith (split-sum DFG): F = F0 * scale + F90 * bias (Schlick).
+// Row: alpha_lin (perceptual roughness) = y / (size - 1); column: n.v = x / (size - 1).
 struct DfgTable {
     int size = 0;
-    Column<float> scale, bias; // size * size
+    Column<float> scale, bias;    // size * size
+    Column<std::uint16_t> texels; // the same as size * size RGBA halves, for shading/kernels/dfg.k.h: scale = R + B, bias = G + A
 };
+// samples: directions an entry is integrated over; their number is rounded down to a square.
 DfgTable bake_dfg(int size, int samples, const Jobs& jobs);
 
 } // namespace burnish

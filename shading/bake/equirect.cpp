@@ -1,0 +1,207 @@
+#include "shading/bake/equirect.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fmt/format.h>
+#include <limits>
+
+#include "core/image/colour.h"
+#include "core/math/scalar_math.h"
+
+namespace burnish {
+namespace {
+
+float value_of(const Image& image, std::size_t i)
+{
+    if (image.type == PixelType::f32)
+        return image.f32()[i];
+    if (image.type == PixelType::u8)
+        return srgb_to_linear(static_cast<float>(reinterpret_cast<const std::uint8_t*>(image.bytes.data())[i]) / 255.0f);
+    return srgb_to_linear(static_cast<float>(reinterpret_cast<const std::uint16_t*>(image.bytes.data())[i]) / 65535.0f);
+}
+
+// The image is constant on its pixels. A sample looks at it, along one axis, through a box of one pixel (which makes linear
+// interpolation of the constant pixels) convolved with a box of the sample's footprint (which makes neighbouring samples share
+// out every pixel without gap or overlap). Weights of the pixels, which sum to 1.
+struct AxisFilter {
+    int first = 0;
+    std::vector<double> weight;
+
+    // center: pixels from the image's edge; footprint: pixels
+    void set(double center, double footprint)
+    {
+        const double f = std::max(footprint, 1e-6);
+        outer_ = 0.5 * (1.0 + f), inner_ = 0.5 * std::fabs(1.0 - f), height_ = 1.0 / std::max(1.0, f);
+        first = static_cast<int>(std::floor(center - outer_));
+        const int end = static_cast<int>(std::ceil(center + outer_));
+        weight.clear();
+        double before = 0.0;
+        for (int i = first; i < end; ++i) {
+            const double after = cumulative(static_cast<double>(i + 1) - center);
+            weight.push_back(after - before);
+            before = after;
+        }
+    }
+
+  private:
+    // Integral, up to x, of the trapezoid of area 1 with the given outer and inner half-widths.
+    double cumulative(double x) const
+    {
+        if (x > 0.0)
+            return 1.0 - cumulative(-x);
+        if (x <= -outer_)
+            return 0.0;
+        if (x < -inner_)
+            return height_ * (x + outer_) * (x + outer_) / (2.0 * (outer_ - inner_));
+        return height_ * (0.5 * (outer_ - inner_) + (x + inner_));
+    }
+    double outer_ = 0.0, inner_ = 0.0, height_ = 0.0;
+};
+
+struct Sampler {
+    const Equirect& source;
+    double turn; // fraction of a circle added to the image's u
+    AxisFilter across{}, down{};
+
+    // Mean over the footprint of direction d, whose sides are du and dv (any parallelogram on the face).
+    std::array<double, 3> operator()(const Direction& d, const Direction& du, const Direction& dv)
+    {
+        const double rho2 = std::max(d.x * d.x + d.z * d.z, 1e-18), rho = std::sqrt(rho2), r2 = rho2 + d.y * d.y;
+        const auto longitude_by = [&](const Direction& e) { return (d.x * e.z - d.z * e.x) / rho2; };
+        const auto colatitude_by = [&](const Direction& e) {
+            return (d.y * (d.x * e.x + d.z * e.z) / rho - rho * e.y) / r2;
+        };
+        // a box of the same variance as the footprint's projection on the axis
+        const auto extent = [](double a, double b) { return std::sqrt(a * a + b * b); };
+        const double w = source.width, h = source.height;
+        const double u = 0.5 + det_atan2(d.z, d.x) / (2.0 * kPi) + turn, v = det_atan2(rho, d.y) / kPi;
+        across.set(u * w, std::min(extent(longitude_by(du), longitude_by(dv)) / (2.0 * kPi), 1.0) * w);
+        down.set(v * h, extent(colatitude_by(du), colatitude_by(dv)) / kPi * h);
+        return gather();
+    }
+
+  private:
+    std::array<double, 3> gather() const
+    {
+        std::array<double, 3> sum{};
+        const int start = (across.first % source.width + source.width) % source.width;
+        for (std::size_t j = 0; j < down.weight.size(); ++j) {
+            const int y = std::clamp(down.first + static_cast<int>(j), 0, source.height - 1);
+            const float* row = source.rgb.data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(source.width) * 3;
+            int x = start;
+            std::array<double, 3> line{};
+            for (const double weight : across.weight) {
+                for (std::size_t c = 0; c < 3; ++c)
+                    line[c] += weight * static_cast<double>(row[static_cast<std::size_t>(x) * 3 + c]);
+                x = x + 1 == source.width ? 0 : x + 1;
+            }
+            for (std::size_t c = 0; c < 3; ++c)
+                sum[c] += down.weight[j] * line[c];
+        }
+        return sum;
+    }
+};
+
+// Samples along an axis of a texel. Two where the source is coarser than the cube; where it is finer, up to four: what lies
+// between them is in their footprints.
+int samples_per_axis(const Equirect& source, int size)
+{
+    const double texel = 2.0 / size, pixel = kPi / std::max(1, source.height); // radians, at the centre of a face
+    return std::clamp(static_cast<int>(std::ceil(texel / pixel)), 2, 4);
+}
+
+} // namespace
+
+Equirect make_equirect(const Image& image, std::vector<std::string>& warnings)
+{
+    Equirect e;
+    e.width = image.width, e.height = image.height;
+    const std::size_t pixels = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
+    const std::size_t channels = static_cast<std::size_t>(image.channels);
+    e.rgb.resize(pixels * 3);
+    for (std::size_t i = 0; i < pixels; ++i)
+        for (std::size_t c = 0; c < 3; ++c)
+            e.rgb[i * 3 + c] = value_of(image, i * channels + (channels >= 3 ? c : 0));
+    std::size_t nan = 0, negative = 0, infinite = 0;
+    float largest = 0.0f;
+    for (const float v : e.rgb)
+        if (v <= std::numeric_limits<float>::max())
+            largest = std::max(largest, v);
+    for (float& v : e.rgb) {
+        if (v >= 0.0f && v <= largest)
+            continue;
+        ++(std::isnan(v) ? nan : v < 0.0f ? negative : infinite);
+        v = v > 0.0f ? largest : 0.0f;
+    }
+    if (image.type != PixelType::f32)
+        warnings.push_back("the environment has no high dynamic range; taken as sRGB");
+    if (nan)
+        warnings.push_back(fmt::format("{} NaN values of the environment set to 0", nan));
+    if (negative)
+        warnings.push_back(fmt::format("{} negative values of the environment set to 0", negative));
+    if (infinite)
+        warnings.push_back(
+            fmt::format("{} infinite values of the environment set to its largest finite value, {:g}", infinite, largest));
+    return e;
+}
+
+double mean_luminance(const Equirect& source)
+{
+    double sum = 0.0;
+    for (int y = 0; y < source.height; ++y) {
+        const double top = det_cos(kPi * y / source.height), bottom = det_cos(kPi * (y + 1) / source.height);
+        double row = 0.0;
+        const float* rgb = source.rgb.data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(source.width) * 3;
+        for (int x = 0; x < source.width; ++x, rgb += 3)
+            row += 0.2126 * static_cast<double>(rgb[0]) + 0.7152 * static_cast<double>(rgb[1]) +
+                   0.0722 * static_cast<double>(rgb[2]);
+        sum += row * (top - bottom);
+    }
+    return sum / (2.0 * source.width);
+}
+
+float peak_value(const Equirect& source)
+{
+    float peak = 0.0f;
+    for (const float v : source.rgb)
+        peak = std::max(peak, v);
+    return peak;
+}
+
+CubeLevel equirect_to_cube(const Equirect& source, int size, double rotation_deg, double gain, const Jobs& jobs)
+{
+    CubeLevel cube = make_cube_level(size);
+    const int n = samples_per_axis(source, size);
+    const double step = 2.0 / size / n;
+    const double turn = rotation_deg / 360.0 - std::floor(rotation_deg / 360.0);
+    const std::size_t rows = 6 * static_cast<std::size_t>(size);
+    jobs.parallel_for(rows, [&](std::size_t row, int) {
+        const int face = static_cast<int>(row) / size, y = static_cast<int>(row) % size;
+        Sampler sampler{source, turn};
+        const Direction origin = cube_direction(face, 0.0, 0.0);
+        const auto side = [&](double u, double v) {
+            const Direction d = cube_direction(face, u, v);
+            return Direction{d.x - origin.x, d.y - origin.y, d.z - origin.z};
+        };
+        const Direction du = side(step, 0.0), dv = side(0.0, step);
+        for (int x = 0; x < size; ++x) {
+            std::array<double, 3> sum{};
+            double weights = 0.0;
+            for (int k = 0; k < n * n; ++k) {
+                const double u = (x * n + k % n + 0.5) * step - 1.0, v = (y * n + k / n + 0.5) * step - 1.0;
+                const double r2 = 1.0 + u * u + v * v, weight = 1.0 / (r2 * std::sqrt(r2)); // solid angle
+                const std::array<double, 3> value = sampler(cube_direction(face, u, v), du, dv);
+                weights += weight;
+                for (std::size_t c = 0; c < 3; ++c)
+                    sum[c] += weight * value[c];
+            }
+            float* out = cube.rgb.data() + (row * static_cast<std::size_t>(size) + static_cast<std::size_t>(x)) * 3;
+            for (std::size_t c = 0; c < 3; ++c)
+                out[c] = static_cast<float>(sum[c] * gain / weights);
+        }
+    });
+    return cube;
+}
+
+} // namespace burnish

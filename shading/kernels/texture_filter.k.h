@@ -1,0 +1,156 @@
+// Filtered fetch from a bordered 2D texture pyramid: wrapping, bilinear, trilinear, anisotropic.
+//
+// Memory: RGBA half texels; level l is (width_l + 2) x (height_l + 2) with a border of one texel filled by the wrap modes, rows from
+// the top. Any size; width_l = max(1, floor(width / 2^l)).
+//
+// Level of detail and footprint follow Vulkan 1.3, "Image Sample Operations" (the scheme of EXT_texture_filter_anisotropic), with the
+// lengths of the exact derivatives: P_max and P_min are the longer and the shorter of |d(texels)/dx| and |d(texels)/dy|,
+//     e = min(P_max / P_min, max_taps),  lod = log2(P_max / e),  N = ceil(e),
+// and N taps of equal weight lie on the longer derivative at i/(N+1) - 1/2, i = 1..N. Two refinements keep N small where more taps
+// cannot show: N is at most ceil(P_max) (taps denser than the texels of level 0), and an e that exceeds a whole number by less than
+// 1/256 is rounded down (an isotropic footprint would otherwise flicker between one and two taps).
+#ifndef BN_TEXTURE_FILTER_K_H
+#define BN_TEXTURE_FILTER_K_H
+#include "shading/kernels/math.k.h"
+#include "shading/lang/lang.h"
+
+BN_KERNELS_BEGIN
+
+struct texture_desc { // uniform
+    texel_buffer texels;
+    int_table offset;        // by level, in texels
+    real_table level_width;  // by level, in texels
+    real_table level_height;
+    int levels;              // 1 to 16
+    int wrap_s;              // along u: 0 repeat, 1 clamp to edge, 2 mirrored repeat
+    int wrap_t;              // along v
+    int nearest;             // 1: the nearest texel of level 0
+};
+
+struct texture_footprint {
+    real lod;   // [0, levels - 1]
+    real taps;  // whole number, [1, max_taps]
+    real2 axis; // the longer derivative, uv units; 0 where it is not finite
+};
+
+// To [0,1], where a texel's centre is at (i + 1/2) / n. NaN and Inf give 0.
+BN_FN real texture_wrap(real u, int mode)
+{
+    real r = u;
+    if (mode == 0) {
+        r = u - floor(u);
+    }
+    if (mode == 2) {
+        real t = u * lit(0.5);
+        real s = t - floor(t);
+        r = lit(1.0) - abs(s * lit(2.0) - lit(1.0));
+    }
+    return min(max(r, lit(0.0)), lit(1.0));
+}
+
+// duv_dx, duv_dy: change of uv by one pixel. NaN, Inf and overlong derivatives give the smallest level and one tap.
+BN_FN texture_footprint texture_footprint_of(texture_desc desc, real2 duv_dx, real2 duv_dy, int max_taps)
+{
+    real2 size = vec2_of(table_value(desc.level_width, int_lit(0)), table_value(desc.level_height, int_lit(0)));
+    real2 dx = duv_dx * size;
+    real2 dy = duv_dy * size;
+    real px2 = k_dot2(dx, dx);
+    real py2 = k_dot2(dy, dy);
+    mask valid = both(px2 <= lit(1e20), py2 <= lit(1e20));
+    mask x_longer = px2 >= py2;
+    real longer2 = select(valid, max(px2, py2), lit(1e20));
+    real shorter2 = select(valid, min(px2, py2), lit(1e20));
+    real longer = sqrt(longer2);
+    real limit = to_real(int_lit(max_taps));
+    real ratio = sqrt(longer2 / max(shorter2, lit(1e-15)));
+    real e = min(max(ratio, lit(1.0)), limit);
+    texture_footprint p;
+    real useful = min(e, max(longer, lit(1.0)));
+    p.taps = ceil(useful - lit(0.00390625));
+    real last = to_real(int_lit(desc.levels - 1));
+    p.lod = min(max(k_log2(longer / e), lit(0.0)), last);
+    real2 axis = select(x_longer, duv_dx, duv_dy);
+    p.axis = select(valid, axis, vec2_all(lit(0.0)));
+    return p;
+}
+
+struct texture_level {
+    integer first; // index of the level's first texel, border included
+    integer stride;
+    real width;
+    real height;
+};
+BN_FN texture_level texture_level_of(texture_desc desc, integer level)
+{
+    texture_level l;
+    l.first = table_int(desc.offset, level);
+    l.width = table_value(desc.level_width, level);
+    l.height = table_value(desc.level_height, level);
+    l.stride = to_int(l.width) + int_lit(2);
+    return l;
+}
+
+// uv: wrapped, [0,1].
+BN_FN texel_acc texture_bilinear_add(texel_acc acc, texel_buffer texels, texture_level level, real2 uv, real weight)
+{
+    real x = uv.x * level.width + lit(0.5);
+    real y = uv.y * level.height + lit(0.5);
+    integer ix = to_int(x);
+    integer iy = to_int(y);
+    real fx = x - to_real(ix);
+    real fy = y - to_real(iy);
+    integer row0 = level.first + iy * level.stride + ix;
+    real lower = weight * fy;
+    real upper = weight - lower;
+    real w10 = upper * fx;
+    real w11 = lower * fx;
+    return texel_add(acc, texels, row0, row0 + level.stride, upper - w10, w10, lower - w11, w11);
+}
+
+BN_FN real4 texture_nearest(texture_desc desc, real2 uv)
+{
+    texture_level level = texture_level_of(desc, int_lit(0));
+    real x = texture_wrap(uv.x, desc.wrap_s) * level.width;
+    real y = texture_wrap(uv.y, desc.wrap_t) * level.height;
+    integer at = level.first + (to_int(y) + int_lit(1)) * level.stride + (to_int(x) + int_lit(1));
+    real zero = lit(0.0);
+    texel_acc acc = texel_zero();
+    return texel_value(texel_add(acc, desc.texels, at, at, lit(1.0), zero, zero, zero));
+}
+
+// max_taps: at least the largest `taps` of all lanes (a larger one gives the same bits, later).
+BN_FN real4 texture_sample_footprint(texture_desc desc, real2 uv, texture_footprint p, int max_taps)
+{
+    if (desc.nearest != 0) {
+        return texture_nearest(desc, uv);
+    }
+    integer level = to_int(p.lod);
+    real f = p.lod - to_real(level);
+    texture_level fine = texture_level_of(desc, level);
+    texture_level coarse = texture_level_of(desc, min(level + int_lit(1), int_lit(desc.levels - 1)));
+    real each = lit(1.0) / p.taps;
+    real spacing = lit(1.0) / (p.taps + lit(1.0));
+    texel_acc acc = texel_zero();
+    for (int i = 0; i < max_taps; ++i) {
+        real number = to_real(int_lit(i + 1));
+        real weight = select(number <= p.taps, each, lit(0.0));
+        real along = number * spacing - lit(0.5);
+        real2 at = uv + p.axis * along;
+        real2 wrapped = vec2_of(texture_wrap(at.x, desc.wrap_s), texture_wrap(at.y, desc.wrap_t));
+        real of_coarse = weight * f;
+        acc = texture_bilinear_add(acc, desc.texels, fine, wrapped, weight - of_coarse);
+        acc = texture_bilinear_add(acc, desc.texels, coarse, wrapped, of_coarse);
+    }
+    return texel_value(acc);
+}
+
+// uv and its change by one pixel; up to max_taps (uniform, 1 to 16) taps along the longer axis of the footprint. Where lanes can be
+// compared, texture_footprint_of(), the maximum of `taps` over the lanes, and texture_sample_footprint() give the same bits sooner.
+BN_FN real4 texture_sample(texture_desc desc, real2 uv, real2 duv_dx, real2 duv_dy, int max_taps)
+{
+    texture_footprint p = texture_footprint_of(desc, duv_dx, duv_dy, max_taps);
+    return texture_sample_footprint(desc, uv, p, max_taps);
+}
+
+BN_KERNELS_END
+#endif
