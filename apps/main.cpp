@@ -45,7 +45,8 @@ Status check_name(const std::vector<Command>& commands, int argc, char** argv)
         known.push_back(command.app->get_name());
     if (std::find(known.begin(), known.end(), name) != known.end())
         return {};
-    return usage_error("", "no subcommand '" + name + "': there are " + join(known) + " (see burnish --help)");
+    return usage_error("",
+                       "no subcommand '" + name + "': there are " + join(known) + " (see burnish --help)");
 }
 
 int run(int argc, char** argv)
