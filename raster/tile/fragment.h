@@ -131,7 +131,7 @@ BN_INLINE Fragment make_fragment(const FrameParams& f, const MaterialRecord& m, 
         w = weights_at(t, point.x, point.y);
     }
     Fragment p;
-    real a[16];
+    real a[16] = {}; // the upper half is read only where it was fetched
     if (m.textured || m.uses_color)
         blend_records(f.shading_vertices, t.vertex[0], t.vertex[1], t.vertex[2], w.b.x, w.b.y, w.b.z, a);
     else

@@ -98,12 +98,12 @@ Image checker(int side)
     return image;
 }
 
-Scene textured_floor()
+Scene textured_floor(float repeats)
 {
     Scene scene = quad_scene(1.0f);
     const float u[6] = {0, 1, 1, 0, 1, 0}, v[6] = {1, 1, 0, 1, 0, 0};
     for (std::size_t i = 0; i < 6; ++i)
-        scene.vertices.u0[i] = 8 * u[i], scene.vertices.v0[i] = 8 * v[i];
+        scene.vertices.u0[i] = repeats * u[i], scene.vertices.v0[i] = repeats * v[i];
     scene.images.push_back(checker(16));
     Texture t;
     t.image = 0;
@@ -117,7 +117,7 @@ Scene textured_floor()
 // Far away the checkerboard must become its mean, without moire, in anisotropic perspective too.
 TEST(texture, a_minified_checkerboard_becomes_its_mean)
 {
-    const Stage stage(textured_floor(), 0.0f);
+    const Stage stage(textured_floor(40.0f), 0.0f);
     FrameDesc d = quad_desc(64, 1);
     d.view = make_view({0, -1.6f, 0.25f}, {0, 0, 0}, 0.5f, 64, 64);
     const Frame f = stage.render(d, best_isa());
@@ -130,7 +130,7 @@ TEST(texture, a_minified_checkerboard_becomes_its_mean)
 
 TEST(texture, a_magnified_texel_keeps_its_colour_and_place)
 {
-    Scene scene = textured_floor();
+    Scene scene = textured_floor(8.0f);
     for (std::size_t i = 0; i < 6; ++i)
         scene.vertices.u0[i] /= 64.0f, scene.vertices.v0[i] /= 64.0f; // 2x2 texels over the quad
     const Stage stage(std::move(scene), 0.0f);

@@ -1,0 +1,65 @@
+#include "shading/kernels/bent_normal.k.h"
+#include "shading/kernels/lobe.k.h"
+#include "shading/kernels/major_axis.k.h"
+#include "tests/unit/techniques/kernels.h"
+
+namespace burnish {
+inline namespace BN_ISA_NS {
+
+namespace {
+
+// Every lane gets the same input; the last one gives the result.
+real in_lane(double x) { return lit(x); }
+real3 in_lanes3(const double* x) { return vec3_of(lit(x[0]), lit(x[1]), lit(x[2])); }
+double of_lane(real x)
+{
+#if BN_ISA == 3
+    return x;
+#else
+    float lanes[kLanes];
+    store(lanes, x);
+    return static_cast<double>(lanes[kLanes - 1]);
+#endif
+}
+void of_lanes3(real3 v, double* to) { to[0] = of_lane(v.x), to[1] = of_lane(v.y), to[2] = of_lane(v.z); }
+
+void major_axis(const double in[8], double out[11])
+{
+    const real k = in_lane(in[5]);
+    real3 o = in_lanes3(in);
+    const major_axis_line line = major_axis_setup(o, in_lane(in[3]), in_lane(in[4]), k, in_lane(in[6]), lit(1.0) / in_lane(in[7]));
+    const major_axis_ends ends = major_axis_extrema(k_normalize3(o), k * in_lane(in[3]), k * in_lane(in[4]));
+    out[0] = of_lane(ends.t_near), out[1] = of_lane(ends.t_far);
+    of_lanes3(line.e0, out + 2);
+    of_lanes3(line.e1, out + 5);
+    out[8] = of_lane(line.radius), out[9] = of_lane(line.length), out[10] = of_lane(line.width);
+}
+
+void direction(const double in[10], double out[3])
+{
+    const real3 e0 = in_lanes3(in), e1 = in_lanes3(in + 3);
+    of_lanes3(k_normalize3(major_axis_direction(e0, e1 - e0, in_lanes3(in + 6), in_lane(in[9]))), out);
+}
+
+void bent_normal(const double in[5], double out[4])
+{
+    const real zero = lit(0.0), one = lit(1.0);
+    aniso_lobe lobe;
+    lobe.u_axis = vec3_of(one, zero, zero), lobe.v_axis = vec3_of(zero, one, zero);
+    lobe.sigma_u = in_lane(in[3]), lobe.sigma_v = in_lane(in[4]);
+    const bent_ray r = bent_normal_ray(vec3_of(zero, zero, one), in_lanes3(in), lobe);
+    of_lanes3(r.direction, out);
+    out[3] = of_lane(r.lod);
+}
+
+} // namespace
+
+const test::TechniqueKernels& technique_kernels()
+{
+    static constexpr const char* kNames[] = {"scalar", "avx2", "avx512", "double"};
+    static constexpr test::TechniqueKernels table = {kNames[BN_ISA], major_axis, direction, bent_normal};
+    return table;
+}
+
+} // namespace BN_ISA_NS
+} // namespace burnish

@@ -1,0 +1,205 @@
+// The BRDF major axis against printed test vectors, brute force, and itself in every instruction set.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+
+#include "raster/tile/tile_renderer.h"
+#include "tests/unit/raster/fixture.h"
+#include "tests/unit/techniques/kernels.h"
+
+namespace burnish {
+namespace bn_scalar {
+const test::TechniqueKernels& technique_kernels();
+}
+namespace bn_avx2 {
+const test::TechniqueKernels& technique_kernels();
+}
+namespace bn_avx512 {
+const test::TechniqueKernels& technique_kernels();
+}
+namespace bn_double {
+const test::TechniqueKernels& technique_kernels();
+}
+
+namespace test {
+
+const TechniqueKernels& oracle_kernels() { return bn_double::technique_kernels(); }
+
+std::vector<TechniqueKernels> float_kernels()
+{
+    std::vector<TechniqueKernels> tables = {bn_scalar::technique_kernels()};
+    if (isa_available(Isa::avx2))
+        tables.push_back(bn_avx2::technique_kernels());
+    if (isa_available(Isa::avx512))
+        tables.push_back(bn_avx512::technique_kernels());
+    return tables;
+}
+
+namespace {
+
+struct Vec {
+    double x, y, z;
+};
+Vec unit(double x, double y, double z)
+{
+    const double l = std::sqrt(x * x + y * y + z * z);
+    return {x / l, y / l, z / l};
+}
+
+struct Vector { // test vectors A to F: view, alpha_lin, eta, samples; expected values
+    Vec o;
+    double alpha_lin, eta, count;
+    double t_near, t_far, width, length, radius;
+    Vec e0, e1; // an unordered pair
+};
+const Vector kVectors[] = {
+    {unit(.5, .3, .8), .5, .8, 16, -1.55186854, .02081768, .11974987, 1.10165788, .07918166,
+     {-.27144524, -.00062796, .96245368}, {.27144524, .00062796, .96245368}},
+    {unit(.6, -.2, .1), .4, .5, 16, 1.46274492, -.11078647, .04737105, .47323574, .03401382,
+     {-.06910485, .00256245, .99760611}, {.15405067, -.00571230, .98804644}},
+    {unit(.6, .2, .3), .5, 0, 16, -1.24904577, .32175055, .29386256, .68567930, .14693128,
+     {-.09472317, -.03157439, .99500280}, {.09472317, .03157439, .99500280}},
+    {{0, 0, 1}, .6, -.7, 8, 0, 1.57079633, .30369896, 1.45796195, .20958203, {0, -.31878070, .94782850}, {0, .31878070, .94782850}},
+    {unit(.7, 0, .4), .5, .6, 16, 1.57079633, 0, .14275683, 1.02005344, .07331634,
+     {-.22056970, 0, .97537121}, {.21623451, 0, .97170093}},
+    {unit(-.3, .9, .05), .9, -.9, 4, .01748846, -1.53273639, .08568375, 1.43286671, .41194918,
+     {-.00144094, .71898728, .69502174}, {.00000563, -.00280945, .99999605}},
+};
+
+std::vector<double> input(const Vector& v)
+{
+    const double s = v.alpha_lin * v.alpha_lin / std::sqrt(2.0);
+    return {v.o.x, v.o.y, v.o.z, s * (1 + v.eta), s * (1 - v.eta), 1.0, 2.3, v.count};
+}
+
+double distance(const double* a, const Vec& b) { return std::hypot(a[0] - b.x, std::hypot(a[1] - b.y, a[2] - b.z)); }
+
+void expect_vector(const TechniqueKernels& kernels, const Vector& v, double tolerance, int index)
+{
+    double out[11];
+    kernels.major_axis(input(v).data(), out);
+    EXPECT_NEAR(out[0], v.t_near, 40 * tolerance) << kernels.name << " vector " << index;
+    EXPECT_NEAR(out[1], v.t_far, 40 * tolerance) << kernels.name << " vector " << index;
+    EXPECT_NEAR(out[8], v.radius, tolerance) << kernels.name << " vector " << index;
+    EXPECT_NEAR(out[9], v.length, tolerance) << kernels.name << " vector " << index;
+    EXPECT_NEAR(out[10], v.width, tolerance) << kernels.name << " vector " << index;
+    const double straight = std::max(distance(out + 2, v.e0), distance(out + 5, v.e1));
+    const double swapped = std::max(distance(out + 2, v.e1), distance(out + 5, v.e0));
+    EXPECT_LT(std::min(straight, swapped), tolerance) << kernels.name << " vector " << index;
+}
+
+TEST(major_axis, equals_the_printed_test_vectors)
+{
+    int index = 0;
+    for (const Vector& v : kVectors) {
+        expect_vector(oracle_kernels(), v, 1e-6, index);
+        for (const TechniqueKernels& kernels : float_kernels())
+            expect_vector(kernels, v, 1e-5, index);
+        ++index;
+    }
+}
+
+// Cocco et al. 2024, appendix A: d(t), the squared nearness of the reflected ellipse point to the mirror direction, as a plain scan.
+TEST(major_axis, extrema_equal_a_brute_force_scan)
+{
+    Random random{17};
+    for (int trial = 0; trial < 300; ++trial) {
+        const Vec o = unit(random.unit() * 2.0 - 1.0, random.unit() * 2.0 - 1.0, 0.05 + static_cast<double>(random.unit()));
+        const double al = 0.1 + 0.9 * static_cast<double>(random.unit()), eta = 1.9 * static_cast<double>(random.unit()) - 0.95;
+        const double s = al * al / std::sqrt(2.0), rx = s * (1 + eta), ry = s * (1 - eta);
+        const auto d = [&](double t) {
+            const double sx = rx * std::cos(t), sy = ry * std::sin(t), so = sx * o.x + sy * o.y;
+            return 2.0 * (o.z * o.z - so * so) / (1.0 + sx * sx + sy * sy);
+        };
+        double lowest = 1e9, highest = -1e9;
+        for (int i = 0; i < 20000; ++i) {
+            const double value = d(M_PI * i / 20000.0);
+            lowest = std::min(lowest, value), highest = std::max(highest, value);
+        }
+        const double in[8] = {o.x, o.y, o.z, rx, ry, 1.0, 2.3, 16.0};
+        double out[11];
+        oracle_kernels().major_axis(in, out);
+        EXPECT_GE(d(out[0]), highest - 1e-6) << trial;
+        EXPECT_LE(d(out[1]), lowest + 1e-6) << trial;
+    }
+}
+
+// The views that break the printed forms in float32: on and beside symmetry planes, mirrors, grazing, isotropic, extreme anisotropy.
+TEST(major_axis, degenerate_inputs_stay_finite_and_near_the_oracle_in_every_isa)
+{
+    const double tiny[] = {0.0, 1e-8, 1e-7, 1e-6, 1e-5, 1e-3, 0.5};
+    double worst = 0.0;
+    for (double ox : tiny)
+        for (double oy : tiny)
+            for (double oz : {0.0, -0.1, 1e-4, 0.05, 0.5, 1.0})
+                for (double al : {0.0, 0.001, 0.03, 0.1, 0.5, 1.0})
+                    for (double eta : {-1.0, -0.5, 0.0, 1e-6, 0.95, 1.0})
+                        for (double count : {1.0, 2.0, 16.0}) {
+                            const double s = al * al / std::sqrt(2.0), l = std::sqrt(ox * ox + oy * oy + oz * oz);
+                            const double inv = l > 0 ? 1.0 / l : 1.0;
+                            const double in[8] = {ox * inv, oy * inv, oz * inv, s * (1 + eta), s * (1 - eta), 1.0, 2.3, count};
+                            double want[11], first[11];
+                            oracle_kernels().major_axis(in, want);
+                            bool have_first = false;
+                            for (const TechniqueKernels& kernels : float_kernels()) {
+                                double out[11];
+                                kernels.major_axis(in, out);
+                                for (double value : out)
+                                    ASSERT_TRUE(std::isfinite(value)) << kernels.name << " " << ox << " " << oy << " " << oz << " " << al << " " << eta;
+                                if (have_first)
+                                    ASSERT_EQ(std::memcmp(first, out, sizeof out), 0) << kernels.name;
+                                std::copy(out, out + 11, first);
+                                have_first = true;
+                                worst = std::max(worst, std::fabs(out[8] - want[8]));
+                                EXPECT_GE(out[4], 0.0) << "a normal below the surface";
+                            }
+                        }
+    std::printf("largest difference of the sample radius from the double oracle: %.2e\n", worst);
+    EXPECT_LT(worst, 2e-3);
+}
+
+TEST(major_axis, samples_never_leave_below_the_surface)
+{
+    Random random{23};
+    double lowest = 1.0;
+    for (int trial = 0; trial < 20000; ++trial) {
+        const Vec o = unit(random.unit() * 2.0 - 1.0, random.unit() * 2.0 - 1.0, 1e-3 + static_cast<double>(random.unit()));
+        const double al = 0.05 + 0.95 * static_cast<double>(random.unit()), eta = 1.9 * static_cast<double>(random.unit()) - 0.95;
+        const double s = al * al / std::sqrt(2.0);
+        const double in[8] = {o.x, o.y, o.z, s * (1 + eta), s * (1 - eta), 1.0, 2.3, 16.0};
+        double out[11];
+        const TechniqueKernels& kernels = float_kernels()[0];
+        kernels.major_axis(in, out);
+        for (int j = 0; j < 16; ++j) {
+            const double at[10] = {out[2], out[3], out[4], out[5], out[6], out[7], o.x, o.y, o.z, j / 15.0};
+            double dir[3];
+            kernels.major_axis_direction(at, dir);
+            lowest = std::min(lowest, dir[2]);
+        }
+    }
+    EXPECT_GT(lowest, -1e-3);
+}
+
+TEST(major_axis, a_mirror_is_a_mirror)
+{
+    for (const TechniqueKernels& kernels : float_kernels()) {
+        const Vec o = unit(.3, -.4, .6);
+        const double in[8] = {o.x, o.y, o.z, 0, 0, 1.0, 2.3, 16.0};
+        double out[11];
+        kernels.major_axis(in, out);
+        EXPECT_EQ(out[8], 0.0);
+        const double at[10] = {out[2], out[3], out[4], out[5], out[6], out[7], o.x, o.y, o.z, 0.4};
+        double dir[3];
+        kernels.major_axis_direction(at, dir);
+        EXPECT_NEAR(dir[0], -o.x, 1e-6);
+        EXPECT_NEAR(dir[1], -o.y, 1e-6);
+        EXPECT_NEAR(dir[2], o.z, 1e-6);
+    }
+}
+
+} // namespace
+} // namespace test
+} // namespace burnish
