@@ -74,10 +74,36 @@ OIIO::TypeDesc type_desc_of(PixelType type)
                                     : OIIO::TypeDesc::FLOAT;
 }
 
-Error library_error(const ImageBytes& file, const char* what, const std::string& message)
+// Reads from memory and remembers how far the library came, which is where it stumbled.
+class TrackingReader : public OIIO::Filesystem::IOMemReader {
+  public:
+    explicit TrackingReader(const ImageBytes& file)
+        : IOMemReader(const_cast<std::uint8_t*>(file.data), file.size)
+    {
+    }
+    size_t read(void* to, size_t size) override
+    {
+        const size_t n = IOMemReader::read(to, size);
+        reached_ = std::max(reached_, static_cast<std::size_t>(tell()));
+        return n;
+    }
+    size_t pread(void* to, size_t size, int64_t offset) override
+    {
+        const size_t n = IOMemReader::pread(to, size, offset);
+        reached_ = std::max(reached_, static_cast<std::size_t>(offset) + n);
+        return n;
+    }
+    std::string place() const { return fmt::format("byte {}", reached_); }
+
+  private:
+    std::size_t reached_ = 0;
+};
+
+Error library_error(const ImageBytes& file, const std::string& place, const char* what,
+                    const std::string& message)
 {
     const std::string reason = first_line(message);
-    return file.error("", reason.empty() ? std::string(what) : fmt::format("{}: {}", what, reason));
+    return file.error(place, reason.empty() ? std::string(what) : fmt::format("{}: {}", what, reason));
 }
 
 // Keeps the selected ones of `stride` interleaved channels; `first` is the file's channel that comes first in
@@ -157,9 +183,12 @@ Status check_spec(const ImageBytes& file, const OIIO::ImageSpec& spec, const Lim
     return check_sides(file, spec.width, spec.height, limits);
 }
 
-Result<Image> read_pixels(OIIO::ImageInput& input, const OIIO::ImageSpec& spec, const ImageProbe& probe,
+Result<Image> read_pixels(OIIO::ImageInput& input, const TrackingReader& reader, const ImageProbe& probe,
                           const ImageBytes& file, const Limits& limits)
 {
+    const OIIO::ImageSpec spec = input.spec();
+    if (const Status status = check_spec(file, spec, limits); !status)
+        return status.error();
     const Selection selection = select_channels(spec);
     const int first = selection.first();
     const int end = selection.end();
@@ -173,7 +202,7 @@ Result<Image> read_pixels(OIIO::ImageInput& input, const OIIO::ImageSpec& spec, 
             fmt::format("{} bytes of pixels are more than the limit of {}", bytes, limits.texture_bytes));
     Image image = make_image(spec.width, spec.height, end - first, type);
     if (!input.read_image(probe.subimage, 0, first, end, type_desc_of(type), image.bytes.data()))
-        return library_error(file, "the pixels are damaged or cut off", input.geterror());
+        return library_error(file, reader.place(), "the pixels are damaged or cut off", input.geterror());
     image = pick_channels(std::move(image), selection, first);
     // Only OpenEXR's windows mean what ours do: other formats' offsets are page layout.
     if (std::strcmp(probe.format, "openexr") == 0)
@@ -184,22 +213,19 @@ Result<Image> read_pixels(OIIO::ImageInput& input, const OIIO::ImageSpec& spec, 
 Result<Image> decode(const ImageBytes& file, const ImageProbe& probe, const Limits& limits)
 {
     configure_openimageio();
-    OIIO::Filesystem::IOMemReader reader(const_cast<std::uint8_t*>(file.data), file.size);
+    TrackingReader reader(file);
     OIIO::Filesystem::IOProxy* proxy = &reader;
     OIIO::ImageSpec config, spec;
     config.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);
     config.attribute("oiio:UnassociatedAlpha", 1); // colours stay as stored, not multiplied by alpha
     const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::create(probe.format);
     if (!input)
-        return library_error(file, "the image library cannot read this format", OIIO::geterror());
-    if (!input->open(file.label, spec, config))
-        return library_error(file, "the header is damaged", input->geterror());
+        return library_error(file, "", "the image library cannot read this format", OIIO::geterror());
+    if (!input->open("input", spec, config))
+        return library_error(file, reader.place(), "the header is damaged", input->geterror());
     if (!input->seek_subimage(probe.subimage, 0))
-        return library_error(file, "the image is missing", input->geterror());
-    spec = input->spec();
-    if (const Status status = check_spec(file, spec, limits); !status)
-        return status.error();
-    Result<Image> image = read_pixels(*input, spec, probe, file, limits);
+        return library_error(file, reader.place(), "the image is missing", input->geterror());
+    Result<Image> image = read_pixels(*input, reader, probe, file, limits);
     input->close();
     return image;
 }
@@ -223,6 +249,8 @@ void configure_openimageio()
         OIIO::attribute("exr_threads", -1);
         // The C++ reader stops at the first error; the core reader carries on with parts of damaged headers.
         OIIO::attribute("openexr:core", 0);
+        // Debian's build prints notes for its own developers on stderr otherwise.
+        OIIO::attribute("debug", 0);
         return true;
     }();
     static_cast<void>(done);
@@ -244,7 +272,7 @@ Result<Image> decode_image(const std::uint8_t* data, std::size_t size, const std
     } catch (const std::bad_alloc&) {
         return file.error("", "not enough memory for the pixels");
     } catch (const std::exception& exception) {
-        return library_error(file, "the image is damaged", exception.what());
+        return library_error(file, "", "the image is damaged", exception.what());
     }
 }
 

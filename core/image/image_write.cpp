@@ -3,7 +3,6 @@
 #include <OpenImageIO/imageio.h>
 
 #include <algorithm>
-#include <bit>
 #include <cctype>
 #include <cstring>
 #include <exception>
@@ -14,11 +13,12 @@
 #include "core/base/file.h"
 #include "core/image/image_io.h"
 #include "core/image/openimageio.h"
+#include "core/image/plain_formats.h"
 
 namespace burnish {
 namespace {
 
-using Bytes = std::vector<unsigned char>;
+using Bytes = std::vector<std::uint8_t>;
 
 // Largest value of Radiance's shared-exponent pixels: mantissa 255/256, exponent 127.
 constexpr float kRgbeMax = 255.0f / 256.0f * 0x1p127f;
@@ -80,22 +80,6 @@ Image fit_channels(const Image& image, const Format& format)
     return out;
 }
 
-// Portable Float Map (Debevec): text header, scale -1 for little-endian, bottom row first.
-Bytes encode_pfm(const Image& image)
-{
-    static_assert(std::endian::native == std::endian::little);
-    const std::string header =
-        fmt::format("{}\n{} {}\n-1.0\n", image.channels == 3 ? "PF" : "Pf", image.width, image.height);
-    const std::size_t row =
-        static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.channels) * 4;
-    Bytes bytes(header.size() + image.bytes.size());
-    std::memcpy(bytes.data(), header.data(), header.size());
-    for (std::size_t y = 0; y < static_cast<std::size_t>(image.height); ++y)
-        std::memcpy(bytes.data() + header.size() + y * row,
-                    image.bytes.data() + (static_cast<std::size_t>(image.height) - 1 - y) * row, row);
-    return bytes;
-}
-
 OIIO::ImageSpec spec_of(const Image& image, const Format& format)
 {
     OIIO::ImageSpec spec(image.width, image.height, image.channels,
@@ -113,8 +97,8 @@ OIIO::ImageSpec spec_of(const Image& image, const Format& format)
         spec.attribute("chromaticities", OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, 8), kRec709);
     } else {
         spec.attribute("oiio:ColorSpace", "sRGB");
-        spec.attribute("compression",
-                       std::strcmp(format.name, "jpeg") == 0 ? fmt::format("jpeg:{}", kJpegQuality) : "zip");
+        if (std::strcmp(format.name, "jpeg") == 0)
+            spec.attribute("compression", fmt::format("jpeg:{}", kJpegQuality));
         spec.attribute("jpeg:subsampling", "4:4:4");
     }
     return spec;
@@ -152,6 +136,8 @@ Result<Bytes> encode_image(const std::string& path, const Image& image, const Fo
     Image fitted = fit_channels(image, format);
     if (std::strcmp(format.name, "pfm") == 0)
         return encode_pfm(fitted);
+    if (std::strcmp(format.name, "tiff") == 0)
+        return encode_tiff(fitted);
     if (std::strcmp(format.name, "hdr") == 0)
         clamp_to_rgbe(fitted);
     return encode(path, fitted, format);

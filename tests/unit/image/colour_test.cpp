@@ -1,0 +1,152 @@
+#include "core/image/colour.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace burnish {
+namespace {
+
+// The standard's formulas with the library's pow: the oracle, not the product.
+double decode(double x)
+{
+    return x <= 0.04045 ? x / 12.92 : std::pow((x + 0.055) / 1.055, 2.4);
+}
+double encode(double x)
+{
+    return x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1 / 2.4) - 0.055;
+}
+
+Image one_pixel(std::initializer_list<float> values)
+{
+    Image image = make_image(1, 1, static_cast<int>(values.size()), PixelType::f32);
+    std::copy(values.begin(), values.end(), image.f32());
+    return image;
+}
+
+std::vector<int> mapped(std::initializer_list<float> values, Tonemap tonemap = Tonemap::none, float ev = 0)
+{
+    std::vector<int> out;
+    for (const std::byte b : tonemap_to_srgb8(one_pixel(values), tonemap, ev).bytes)
+        out.push_back(static_cast<int>(b));
+    return out;
+}
+
+TEST(colour, srgb_functions_are_correctly_rounded)
+{
+    for (int i = 0; i <= 4096; ++i) {
+        const float x = static_cast<float>(i) / 4096.0f;
+        EXPECT_FLOAT_EQ(srgb_to_linear(x), static_cast<float>(decode(static_cast<double>(x)))) << x;
+        EXPECT_FLOAT_EQ(linear_to_srgb(x), static_cast<float>(encode(static_cast<double>(x)))) << x;
+    }
+    EXPECT_EQ(srgb_to_linear(0.0f), 0.0f);
+    EXPECT_EQ(srgb_to_linear(1.0f), 1.0f);
+    EXPECT_EQ(linear_to_srgb(1.0f), 1.0f);
+    EXPECT_EQ(srgb_to_linear(-1.0f), 0.0f);
+    EXPECT_EQ(srgb_to_linear(std::numeric_limits<float>::quiet_NaN()), 0.0f);
+}
+
+TEST(colour, every_srgb_code_survives_linear)
+{
+    for (int code = 0; code < 256; ++code) {
+        const float linear = srgb_to_linear(static_cast<float>(code) / 255.0f);
+        EXPECT_EQ(mapped({linear, linear, linear}), (std::vector<int>{code, code, code}));
+    }
+}
+
+TEST(colour, eight_bit_srgb_is_exact_beside_every_boundary)
+{
+    for (int code = 1; code < 256; ++code) {
+        const double boundary = decode((code - 0.5) / 255.0);
+        const float near = static_cast<float>(boundary);
+        const float below = static_cast<double>(near) < boundary ? near : std::nextafter(near, 0.0f);
+        const float above = std::nextafter(below, 1.0f);
+        EXPECT_EQ(mapped({below, above, 0}), (std::vector<int>{code - 1, code, 0}));
+    }
+    for (int i = 0; i <= 100000; ++i) {
+        const float x = static_cast<float>(i) * 1.001e-5f;
+        const int want =
+            static_cast<int>(std::floor(255.0 * encode(std::min(1.0, static_cast<double>(x))) + 0.5));
+        ASSERT_EQ(mapped({x, 0, 0})[0], want) << x;
+    }
+}
+
+TEST(colour, strange_values_have_a_defined_code)
+{
+    const float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
+    for (const Tonemap tonemap : {Tonemap::none, Tonemap::pbr_neutral, Tonemap::aces}) {
+        EXPECT_EQ(mapped({nan, nan, nan, nan}, tonemap), (std::vector<int>{0, 0, 0, 0}));
+        EXPECT_EQ(mapped({inf, inf, inf, inf}, tonemap), (std::vector<int>{255, 255, 255, 255}));
+        EXPECT_EQ(mapped({-inf, -1, -0.0f, -1}, tonemap), (std::vector<int>{0, 0, 0, 0}));
+    }
+    EXPECT_EQ(mapped({inf, nan, -inf}), (std::vector<int>{255, 0, 0}));
+    EXPECT_EQ(mapped({1e-42f, 3e38f, 1.0f}), (std::vector<int>{0, 255, 255}));
+}
+
+TEST(colour, alpha_is_linear_and_gray_stays_gray)
+{
+    EXPECT_EQ(mapped({0, 0, 0, 0.5f}, Tonemap::aces, 3.0f)[3], 128);
+    EXPECT_EQ(mapped({0.5f}), (std::vector<int>{188}));
+    EXPECT_EQ(mapped({0.5f, 0.25f}), (std::vector<int>{188, 64}));
+}
+
+TEST(colour, exposure_is_in_stops)
+{
+    EXPECT_EQ(mapped({0.125f, 0.125f, 0.125f}, Tonemap::none, 2.0f), mapped({0.5f, 0.5f, 0.5f}));
+    EXPECT_EQ(mapped({2.0f, 2.0f, 2.0f}, Tonemap::none, -2.0f), mapped({0.5f, 0.5f, 0.5f}));
+    const float root = std::sqrt(0.5f);
+    EXPECT_EQ(mapped({1, 1, 1}, Tonemap::none, -0.5f), mapped({root, root, root}));
+}
+
+int code(double linear)
+{
+    return static_cast<int>(std::floor(255.0 * encode(std::clamp(linear, 0.0, 1.0)) + 0.5));
+}
+
+// Gray x: offset 0.04, compressed above 0.76 to 1 - 0.24^2 / (x - 0.04 + 0.24 - 0.76).
+TEST(colour, pbr_neutral_follows_its_specification)
+{
+    EXPECT_EQ(mapped({0.5f, 0.5f, 0.5f}, Tonemap::pbr_neutral), std::vector<int>(3, code(0.46)));
+    EXPECT_EQ(mapped({0.04f, 0.04f, 0.04f}, Tonemap::pbr_neutral), std::vector<int>(3, code(6.25 * 0.0016)));
+    EXPECT_EQ(mapped({2, 2, 2}, Tonemap::pbr_neutral), std::vector<int>(3, code(1 - 0.0576 / 1.44)));
+    // Red 4 of a coloured light: peak 3.96, new peak 1 - 0.0576 / 3.44, mixed with white by its loss.
+    const double peak = 4 - 0.04, low = 0.5 - 0.04, top = 1 - 0.0576 / (peak + 0.24 - 0.76);
+    const double white = 1 - 1 / (0.15 * (peak - top) + 1);
+    EXPECT_EQ(mapped({4, 0.5f, 0.5f}, Tonemap::pbr_neutral),
+              (std::vector<int>{code(top), code(low * top / peak * (1 - white) + top * white),
+                                code(low * top / peak * (1 - white) + top * white)}));
+}
+
+// Gray in, gray out (the matrices' rows sum to one within 1e-4): the curve alone decides.
+TEST(colour, aces_follows_hills_fit)
+{
+    for (const double x : {0.02, 0.18, 1.0, 5.0}) {
+        const double y = (x * (x + 0.0245786) - 0.000090537) / (x * (0.983729 * x + 0.4329510) + 0.238081);
+        const float f = static_cast<float>(x);
+        for (const int value : mapped({f, f, f}, Tonemap::aces))
+            EXPECT_NEAR(value, code(y), 1) << x;
+    }
+    // Pure red, by hand: the input matrix' first column, the curve, the output matrix.
+    const auto fit = [](double v) {
+        return (v * (v + 0.0245786) - 0.000090537) / (v * (0.983729 * v + 0.4329510) + 0.238081);
+    };
+    const double r = fit(0.59719), g = fit(0.07600), b = fit(0.02840);
+    EXPECT_EQ(mapped({1, 0, 0}, Tonemap::aces),
+              (std::vector<int>{code(1.60475 * r - 0.53108 * g - 0.07367 * b),
+                                code(-0.10208 * r + 1.10813 * g - 0.00605 * b),
+                                code(-0.00327 * r - 0.07276 * g + 1.07602 * b)}));
+}
+
+TEST(colour, tonemap_names_are_parsed)
+{
+    EXPECT_EQ(*parse_tonemap("none"), Tonemap::none);
+    EXPECT_EQ(*parse_tonemap("pbr-neutral"), Tonemap::pbr_neutral);
+    EXPECT_EQ(*parse_tonemap("aces"), Tonemap::aces);
+    const Result<Tonemap> wrong = parse_tonemap("filmic");
+    ASSERT_FALSE(wrong);
+    EXPECT_EQ(wrong.error().code, ExitCode::usage);
+}
+
+} // namespace
+} // namespace burnish
