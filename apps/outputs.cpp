@@ -64,6 +64,10 @@ Status check_not_input(const std::string& path, const std::vector<std::string>& 
 // Pipes and devices are written into; renaming a finished file over them would destroy them.
 bool is_special(const std::string& path)
 {
+    // /dev/stdout may lead to a regular file; the name itself must stay what it is.
+    for (const char* folder : {"/dev/", "/proc/"})
+        if (path.rfind(folder, 0) == 0)
+            return true;
     std::error_code ignored;
     const fs::file_status status = fs::status(path, ignored);
     return fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status);

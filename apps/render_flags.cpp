@@ -43,6 +43,7 @@ void add_outputs(CLI::App& app, RenderArguments& to)
     app.add_option("-o,--output", to.plain.outputs, "Picture to write; may be given several times")
         ->type_name("FILE")
         ->allow_extra_args(false)
+        ->take_all()
         ->group("Output");
     app.add_option("--tonemap", to.tonemap, "none, pbr-neutral or aces, for 8-bit pictures (pbr-neutral)")
         ->type_name("NAME")
@@ -140,11 +141,19 @@ void add_limits(CLI::App& app, RenderArguments& to)
 
 void add_render_options(CLI::App& app, RenderArguments& arguments)
 {
+    // Of an option given twice the last one counts, so that a script can be given exceptions; -o collects.
+    app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
     add_inputs(app, arguments);
     add_outputs(app, arguments);
     add_picture(app, arguments);
     add_machine(app, arguments);
     add_limits(app, arguments);
+    const CLI::Validator not_empty(
+        [](std::string& text) { return text.empty() ? std::string("the value is empty") : std::string(); },
+        "");
+    for (CLI::Option* option : app.get_options())
+        if (option->get_items_expected_max() > 0)
+            option->check(not_empty);
     app.footer(kFooter);
 }
 

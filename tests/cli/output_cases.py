@@ -177,8 +177,10 @@ def failed_run(bench):
 def devices(bench):
     done = bench.run("render", *SMALL, "--quiet", "--stats", "/dev/stdout").expect(0)
     check(json.loads(done.out)["width"] == 160, done.describe())
-    bench.run("render", *SMALL, "--stats", "/dev/null").expect(0)
+    bench.run("render", *SMALL, "--stats", "/dev/null", "--trace", "/dev/stderr").expect(0)
     check(os.path.exists("/dev/null") and not os.path.isfile("/dev/null"), "/dev/null was replaced")
+    for name in ("/dev/stdout", "/dev/stderr"):
+        check(not os.path.exists(name) or os.path.islink(name), f"{name} was replaced")
 
 
 @case("output.cache_is_optional")
