@@ -22,7 +22,7 @@
 //   + n/2, then n/4...: depends on the width load_records16 blend_records blend_records_low blend_quad
 //   array-of-struct access: see lanes_scalar.h texel_zero texel_add texel_values bilinear accumulation of
 //   RGBA half texels: see lanes_scalar.h
-// Indices of gathers are signed; those of records and texels are unsigned 32-bit.
+// Indices of gathers are signed; those of texels are unsigned 32-bit, those of records below 2^29.
 #pragma once
 
 #define BN_INLINE static inline __attribute__((always_inline))

@@ -358,11 +358,19 @@ BN_INLINE lane_indices spill(integer i)
 {
     lane_indices s;
     _mm256_store_si256(reinterpret_cast<__m256i*>(s.at), i.v);
+    __asm__("" : "+m"(s.at)); // keeps it in memory: GCC would extract lane by lane with shuffles
+    return s;
+}
+// Where 64-byte records start, in units of 8 bytes: the largest that an address can scale by.
+BN_INLINE lane_indices spill_records(integer index)
+{
+    lane_indices s;
+    _mm256_store_si256(reinterpret_cast<__m256i*>(s.at), _mm256_slli_epi32(index.v, 3));
     return s;
 }
 BN_INLINE const float* record_at(const void* base, const lane_indices& i, int lane)
 {
-    return reinterpret_cast<const float*>(static_cast<const char*>(base) + std::size_t{64} * i.at[lane]);
+    return reinterpret_cast<const float*>(static_cast<const char*>(base) + std::size_t{8} * i.at[lane]);
 }
 // Four floats of the records of lanes j and 4 + j.
 BN_INLINE __m256 quads_at(const void* base, const lane_indices& i, int j)
@@ -399,7 +407,7 @@ BN_INLINE __m256 lane_weight(__m256 w, int j)
 
 BN_INLINE void load_records16(const void* base, integer index, integer out[16])
 {
-    const lane_indices i = spill(index);
+    const lane_indices i = spill_records(index);
     for (int c = 0; c < 4; ++c) {
         const char* field = static_cast<const char*>(base) + 16 * c;
         const __m256 r[4] = {quads_at(field, i, 0), quads_at(field, i, 1), quads_at(field, i, 2),
@@ -414,7 +422,7 @@ BN_INLINE void load_records16(const void* base, integer index, integer out[16])
 BN_INLINE void blend_fields(const float* base, integer i0, integer i1, integer i2, real b0, real b1, real b2,
                             real* out, int fields)
 {
-    const lane_indices s0 = spill(i0), s1 = spill(i1), s2 = spill(i2);
+    const lane_indices s0 = spill_records(i0), s1 = spill_records(i1), s2 = spill_records(i2);
     for (int c = 0; c < fields; c += 4) {
         __m256 r[4];
         for (int j = 0; j < 4; ++j) {

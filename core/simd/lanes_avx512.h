@@ -354,19 +354,27 @@ BN_INLINE lane_indices spill(integer i)
 {
     lane_indices s;
     _mm512_store_si512(s.at, i.v);
+    __asm__("" : "+m"(s.at)); // keeps it in memory: GCC would extract lane by lane with shuffles
     return s;
 }
-BN_INLINE const float* record_at(const void* base, const lane_indices& i, int lane, std::size_t stride_bytes)
+// Where 64-byte records start, in units of 8 bytes: the largest that an address can scale by.
+BN_INLINE lane_indices spill_records(integer index)
 {
-    return reinterpret_cast<const float*>(static_cast<const char*>(base) + stride_bytes * i.at[lane]);
+    lane_indices s;
+    _mm512_store_si512(s.at, _mm512_slli_epi32(index.v, 3));
+    return s;
+}
+BN_INLINE const float* record_at(const void* base, const lane_indices& i, int lane)
+{
+    return reinterpret_cast<const float*>(static_cast<const char*>(base) + std::size_t{8} * i.at[lane]);
 }
 // Four floats of the records of lanes j, 4 + j, 8 + j, 12 + j.
 BN_INLINE __m512 quads_at(const void* base, const lane_indices& i, int j)
 {
-    __m512 q = _mm512_castps128_ps512(_mm_loadu_ps(record_at(base, i, j, 64)));
-    q = _mm512_insertf32x4(q, _mm_loadu_ps(record_at(base, i, j + 4, 64)), 1);
-    q = _mm512_insertf32x4(q, _mm_loadu_ps(record_at(base, i, j + 8, 64)), 2);
-    return _mm512_insertf32x4(q, _mm_loadu_ps(record_at(base, i, j + 12, 64)), 3);
+    __m512 q = _mm512_castps128_ps512(_mm_loadu_ps(record_at(base, i, j)));
+    q = _mm512_insertf32x4(q, _mm_loadu_ps(record_at(base, i, j + 4)), 1);
+    q = _mm512_insertf32x4(q, _mm_loadu_ps(record_at(base, i, j + 8)), 2);
+    return _mm512_insertf32x4(q, _mm_loadu_ps(record_at(base, i, j + 12)), 3);
 }
 // r[j] holds in part q the four fields of lane 4q + j; out[f] holds field f of every lane.
 BN_INLINE void transpose_quads(const __m512 r[4], real out[4])
@@ -397,7 +405,7 @@ BN_INLINE __m512 lane_weight(real w, int j)
 
 BN_INLINE void load_records16(const void* base, integer index, integer out[16])
 {
-    const lane_indices i = spill(index);
+    const lane_indices i = spill_records(index);
     for (int c = 0; c < 4; ++c) {
         const char* field = static_cast<const char*>(base) + 16 * c;
         const __m512 r[4] = {quads_at(field, i, 0), quads_at(field, i, 1), quads_at(field, i, 2),
@@ -415,18 +423,15 @@ struct blend_lanes {
 };
 BN_INLINE __m512 blend_row(const float* base, const blend_lanes& s, int lane)
 {
-    const __m512 p0 =
-        _mm512_mul_ps(_mm512_set1_ps(s.b0[lane]), _mm512_loadu_ps(record_at(base, s.i0, lane, 64)));
-    const __m512 p1 =
-        _mm512_mul_ps(_mm512_set1_ps(s.b1[lane]), _mm512_loadu_ps(record_at(base, s.i1, lane, 64)));
-    const __m512 p2 =
-        _mm512_mul_ps(_mm512_set1_ps(s.b2[lane]), _mm512_loadu_ps(record_at(base, s.i2, lane, 64)));
+    const __m512 p0 = _mm512_mul_ps(_mm512_set1_ps(s.b0[lane]), _mm512_loadu_ps(record_at(base, s.i0, lane)));
+    const __m512 p1 = _mm512_mul_ps(_mm512_set1_ps(s.b1[lane]), _mm512_loadu_ps(record_at(base, s.i1, lane)));
+    const __m512 p2 = _mm512_mul_ps(_mm512_set1_ps(s.b2[lane]), _mm512_loadu_ps(record_at(base, s.i2, lane)));
     return _mm512_add_ps(_mm512_add_ps(p0, p1), p2);
 }
 BN_INLINE void blend_records(const float* base, integer i0, integer i1, integer i2, real b0, real b1, real b2,
                              real out[16])
 {
-    blend_lanes s{spill(i0), spill(i1), spill(i2), {}, {}, {}};
+    blend_lanes s{spill_records(i0), spill_records(i1), spill_records(i2), {}, {}, {}};
     _mm512_store_ps(s.b0, b0.v);
     _mm512_store_ps(s.b1, b1.v);
     _mm512_store_ps(s.b2, b2.v);
@@ -449,7 +454,7 @@ BN_INLINE void blend_records(const float* base, integer i0, integer i1, integer 
 BN_INLINE void blend_quad(const float* base, integer i0, integer i1, integer i2, real b0, real b1, real b2,
                           real out[4])
 {
-    const lane_indices s0 = spill(i0), s1 = spill(i1), s2 = spill(i2);
+    const lane_indices s0 = spill_records(i0), s1 = spill_records(i1), s2 = spill_records(i2);
     __m512 r[4];
     for (int j = 0; j < 4; ++j) {
         const __m512 p0 = _mm512_mul_ps(lane_weight(b0, j), quads_at(base, s0, j));

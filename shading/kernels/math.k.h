@@ -99,11 +99,11 @@ struct k_log2_parts {
     real fraction;
 };
 
-// x is clamped to [2^-126, 2^127]. x / 2^whole is in [sqrt(1/2), sqrt(2)], then log2(m) = 2/ln2 atanh(s), s =
+// x is clamped to [2^-126, 2^126]. x / 2^whole is in [sqrt(1/2), sqrt(2)], then log2(m) = 2/ln2 atanh(s), s =
 // (m-1)/(m+1), as a polynomial in s^2 (fit error 3e-9 relative).
 BN_FN k_log2_parts k_log2_split(real x)
 {
-    real safe = min(max(x, lit(1.1754943508222875e-38)), lit(1.7014118346046923e+38));
+    real safe = min(max(x, lit(1.1754943508222875e-38)), lit(8.5070591730234616e+37));
     integer n = shr(bits_of(safe) - int_lit(0x3f3504f3), 23);
     real m = safe * k_power_of_two(-n);
     real s = (m - lit(1.0)) / (m + lit(1.0));
@@ -117,7 +117,7 @@ BN_FN k_log2_parts k_log2_split(real x)
     return parts;
 }
 
-// Base-2 logarithm, error at most 4 ulp for x in [2^-126, 2^127]; x outside is clamped, NaN counts as 2^-126.
+// Base-2 logarithm, error at most 4 ulp for x in [2^-126, 2^126]; x outside is clamped, NaN counts as 2^-126.
 BN_FN real k_log2(real x)
 {
     k_log2_parts parts = k_log2_split(x);

@@ -1,0 +1,99 @@
+#include "core/simd/half.h"
+
+#include <bit>
+#include <cmath>
+#include <gtest/gtest.h>
+#include <random>
+
+#include "core/simd/cpu.h"
+
+namespace burnish {
+namespace {
+
+// The processor's own conversion, one number at a time, in assembly because this file is compiled without
+// F16C.
+float hardware_to_float(std::uint16_t half)
+{
+    float value;
+    __asm__("vmovd %1, %%xmm0\n\tvcvtph2ps %%xmm0, %%xmm0\n\tvmovss %%xmm0, %0"
+            : "=m"(value)
+            : "r"(static_cast<std::uint32_t>(half))
+            : "xmm0");
+    return value;
+}
+std::uint16_t hardware_to_half(float value)
+{
+    std::uint32_t half;
+    __asm__("vmovss %1, %%xmm0\n\tvcvtps2ph $0, %%xmm0, %%xmm0\n\tvmovd %%xmm0, %0"
+            : "=r"(half)
+            : "m"(value)
+            : "xmm0");
+    return static_cast<std::uint16_t>(half);
+}
+
+TEST(Half, ConvertsToTheFloatOfItsDefinition)
+{
+    for (std::uint32_t h = 0; h < 0x10000u; ++h) {
+        const int exponent = static_cast<int>(h >> 10 & 31u), fraction = static_cast<int>(h & 1023u);
+        const float value = half_to_float(static_cast<std::uint16_t>(h));
+        if (exponent == 31) {
+            EXPECT_EQ(std::isnan(value), fraction != 0);
+            EXPECT_EQ(std::isinf(value), fraction == 0);
+        } else {
+            const float magnitude = exponent
+                                        ? std::ldexp(1024.0f + static_cast<float>(fraction), exponent - 25)
+                                        : std::ldexp(static_cast<float>(fraction), -24);
+            ASSERT_EQ(value, h & 0x8000u ? -magnitude : magnitude) << h;
+        }
+        EXPECT_EQ(std::signbit(value), (h & 0x8000u) != 0);
+    }
+}
+
+TEST(Half, RoundTripsEveryFiniteHalf)
+{
+    for (std::uint32_t h = 0; h < 0x10000u; ++h)
+        if ((h & 0x7c00u) != 0x7c00u) {
+            ASSERT_EQ(float_to_half(half_to_float(static_cast<std::uint16_t>(h))), h);
+        }
+}
+
+TEST(Half, SaturatesInsteadOfOverflowing)
+{
+    EXPECT_EQ(float_to_half(65504.0f), 0x7bff);
+    EXPECT_EQ(float_to_half(65519.99f), 0x7bff);
+    EXPECT_EQ(float_to_half(65520.0f), 0x7bff);
+    EXPECT_EQ(float_to_half(-1e30f), 0xfbff);
+    EXPECT_EQ(float_to_half(INFINITY), 0x7bff);
+    EXPECT_EQ(float_to_half(-INFINITY), 0xfbff);
+    EXPECT_EQ(float_to_half(NAN) & 0x7fff, 0x7e00);
+}
+
+TEST(Half, EqualsTheProcessorsConversion)
+{
+    if (!cpu_has_avx2())
+        GTEST_SKIP() << "this processor has no F16C";
+    for (std::uint32_t h = 0; h < 0x10000u; ++h) {
+        const std::uint16_t half = static_cast<std::uint16_t>(h);
+        ASSERT_EQ(std::bit_cast<std::uint32_t>(half_to_float(half)),
+                  std::bit_cast<std::uint32_t>(hardware_to_float(half)))
+            << h;
+    }
+    std::mt19937 random(3);
+    for (int k = 0; k < 2000000; ++k) {
+        // Exponents about the range of halves, so that rounding at every exponent, ties and subnormals are
+        // met.
+        const std::uint32_t exponent = 100 + static_cast<std::uint32_t>(random()) % 44;
+        std::uint32_t mantissa = static_cast<std::uint32_t>(random()) & 0x7fffffu;
+        if (k % 3 == 0)
+            mantissa = (mantissa & ~0x1fffu) | 0x1000u; // a tie
+        const std::uint32_t sign = k & 1 ? 0x80000000u : 0u;
+        const float value = std::bit_cast<float>(sign | exponent << 23 | mantissa);
+        std::uint16_t want = hardware_to_half(value);
+        if ((want & 0x7fffu) == 0x7c00u)
+            want = static_cast<std::uint16_t>(want - 1u); // Inf saturates
+        ASSERT_EQ(float_to_half(value), want) << value;
+    }
+}
+
+} // namespace
+} // namespace burnish

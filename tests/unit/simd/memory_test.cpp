@@ -1,0 +1,222 @@
+#include <algorithm>
+#include <bit>
+#include <cstring>
+#include <random>
+#include <vector>
+
+#include "core/simd/half.h"
+#include "tests/unit/simd/isa_list.h"
+
+namespace burnish {
+namespace {
+
+class LaneMemory : public OnIsa {
+  protected:
+    std::mt19937 random_{7};
+    float number() { return static_cast<float>(random_() % 20001) * 1e-4f - 1.0f; }
+    std::vector<float> numbers(std::size_t n)
+    {
+        std::vector<float> v(n);
+        for (float& x : v)
+            x = number();
+        return v;
+    }
+    std::vector<std::int32_t> indices(std::size_t n, std::uint32_t below)
+    {
+        std::vector<std::int32_t> v(n);
+        for (std::int32_t& i : v)
+            i = static_cast<std::int32_t>(random_() % below);
+        return v;
+    }
+};
+
+TEST_P(LaneMemory, FirstLanesReadZeroAndLeaveTheRestAlone)
+{
+    const int lanes = fns().lanes;
+    for (int n = -1; n <= lanes + 3; ++n) {
+        const int real_n = std::clamp(n, 0, lanes);
+        // Exactly as long as may be read, so that a sanitizer sees a wider access.
+        const std::vector<float> from(static_cast<std::size_t>(real_n), 3.0f);
+        const std::vector<std::int32_t> from_int(static_cast<std::size_t>(real_n), 5);
+        float x[kMaxLanes];
+        std::int32_t i[kMaxLanes];
+        fns().load_first(from.data(), n, x);
+        fns().load_first_int(from_int.data(), n, i);
+        for (int k = 0; k < lanes; ++k) {
+            EXPECT_EQ(x[k], k < n ? 3.0f : 0.0f);
+            EXPECT_EQ(i[k], k < n ? 5 : 0);
+        }
+        float ones[kMaxLanes], to[kMaxLanes] = {};
+        std::int32_t ones_int[kMaxLanes], to_int[kMaxLanes] = {};
+        std::fill(ones, ones + kMaxLanes, 1.0f);
+        std::fill(ones_int, ones_int + kMaxLanes, 1);
+        fns().store_first(to, ones, n);
+        fns().store_first_int(to_int, ones_int, n);
+        for (int k = 0; k < kMaxLanes; ++k) {
+            EXPECT_EQ(to[k], k < real_n ? 1.0f : 0.0f) << "n " << n;
+            EXPECT_EQ(to_int[k], k < real_n ? 1 : 0) << "n " << n;
+        }
+    }
+}
+
+TEST_P(LaneMemory, MasksAndTheirBitsAgree)
+{
+    const std::uint32_t full = (1u << fns().lanes) - 1u;
+    for (std::uint32_t bits = 0; bits <= full; ++bits) {
+        const std::uint32_t facts =
+            (bits ? 1u << 16 : 0u) | (bits == full ? 1u << 17 : 0u) | (bits ? 0u : 1u << 18);
+        ASSERT_EQ(fns().mask_facts(bits), bits | facts);
+        ASSERT_EQ(fns().mask_facts(bits | ~full), bits | facts) << "bits beyond the lanes must not matter";
+    }
+}
+
+TEST_P(LaneMemory, CompressKeepsOrderAndWritesNothingMore)
+{
+    const std::uint32_t full = (1u << fns().lanes) - 1u;
+    std::int32_t x[kMaxLanes];
+    for (int k = 0; k < kMaxLanes; ++k)
+        x[k] = 100 + k;
+    for (std::uint32_t bits = 0; bits <= full; ++bits) {
+        std::int32_t to[kMaxLanes] = {}, want[kMaxLanes] = {};
+        int count = 0;
+        for (int k = 0; k < fns().lanes; ++k)
+            if (bits >> k & 1u)
+                want[count++] = x[k];
+        ASSERT_EQ(fns().compress(to, x, bits), count);
+        ASSERT_EQ(std::memcmp(to, want, sizeof(to)), 0) << "bits " << bits;
+    }
+}
+
+TEST_P(LaneMemory, GathersAndTablesReadTheirElement)
+{
+    const std::vector<float> reals = numbers(64);
+    const std::vector<std::int32_t> ints = indices(64, 1000000);
+    for (int round = 0; round < 100; ++round) {
+        std::vector<std::int32_t> index = indices(kMaxLanes, 64);
+        for (std::int32_t& i : index)
+            i -= 32; // indices are signed
+        float x[kMaxLanes];
+        std::int32_t i[kMaxLanes];
+        fns().gather(reals.data() + 32, index.data(), x);
+        fns().gather_int(ints.data() + 32, index.data(), i);
+        for (int k = 0; k < fns().lanes; ++k) {
+            EXPECT_EQ(x[k], reals[static_cast<std::size_t>(index[static_cast<std::size_t>(k)] + 32)]);
+            EXPECT_EQ(i[k], ints[static_cast<std::size_t>(index[static_cast<std::size_t>(k)] + 32)]);
+        }
+        const std::vector<std::int32_t> entry = indices(kMaxLanes, 16);
+        fns().table(reals.data(), ints.data(), entry.data(), x, i);
+        for (int k = 0; k < fns().lanes; ++k) {
+            EXPECT_EQ(x[k], reals[static_cast<std::size_t>(entry[static_cast<std::size_t>(k)])]);
+            EXPECT_EQ(i[k], ints[static_cast<std::size_t>(entry[static_cast<std::size_t>(k)])]);
+        }
+    }
+    std::int32_t order[kMaxLanes];
+    fns().iota(order);
+    for (int k = 0; k < fns().lanes; ++k)
+        EXPECT_EQ(order[k], k);
+}
+
+TEST_P(LaneMemory, ReductionsFoldTheUpperHalfOntoTheLower)
+{
+    for (int round = 0; round < 1000; ++round) {
+        const std::vector<float> x = numbers(kMaxLanes);
+        std::vector<float> sum = x;
+        for (int half = fns().lanes / 2; half > 0; half /= 2)
+            for (int k = 0; k < half; ++k)
+                sum[static_cast<std::size_t>(k)] += sum[static_cast<std::size_t>(k + half)];
+        float got[3];
+        fns().reduce(x.data(), got);
+        EXPECT_EQ(got[0], *std::min_element(x.begin(), x.begin() + fns().lanes));
+        EXPECT_EQ(got[1], *std::max_element(x.begin(), x.begin() + fns().lanes));
+        EXPECT_EQ(got[2], sum[0]);
+    }
+}
+
+TEST_P(LaneMemory, RecordsArriveTransposed)
+{
+    constexpr std::uint32_t kRecords = 300;
+    // Off by 4 bytes: no alignment may be needed.
+    std::vector<std::uint32_t> words(kRecords * 16 + 1);
+    for (std::uint32_t& w : words)
+        w = static_cast<std::uint32_t>(random_()); // any bits, signalling NaN included
+    for (int round = 0; round < 200; ++round) {
+        const std::vector<std::int32_t> index = indices(kMaxLanes, kRecords);
+        std::int32_t got[16 * kMaxLanes];
+        fns().records(words.data() + 1, index.data(), got);
+        for (int k = 0; k < fns().lanes; ++k)
+            for (int f = 0; f < 16; ++f)
+                ASSERT_EQ(static_cast<std::uint32_t>(got[f * fns().lanes + k]),
+                          words[static_cast<std::size_t>(1 + 16 * index[static_cast<std::size_t>(k)] + f)]);
+    }
+}
+
+TEST_P(LaneMemory, BlendsRoundInTheirStatedOrder)
+{
+    constexpr std::uint32_t kRecords = 300;
+    const std::vector<float> base = numbers(kRecords * 16);
+    for (int round = 0; round < 300; ++round) {
+        const std::vector<std::int32_t> i0 = indices(kMaxLanes, kRecords), i1 = indices(kMaxLanes, kRecords),
+                                        i2 = indices(kMaxLanes, kRecords);
+        const std::vector<float> b0 = numbers(kMaxLanes), b1 = numbers(kMaxLanes), b2 = numbers(kMaxLanes);
+        const Blend in{base.data(), i0.data(), i1.data(), i2.data(), b0.data(), b1.data(), b2.data()};
+        Blend quad = in;
+        quad.base = base.data() + 8; // a field inside the record
+        float out16[16 * kMaxLanes], out8[8 * kMaxLanes], out4[4 * kMaxLanes];
+        fns().blend16(in, out16);
+        fns().blend8(in, out8);
+        fns().blend4(quad, out4);
+        for (int k = 0; k < fns().lanes; ++k) {
+            const std::size_t lane = static_cast<std::size_t>(k);
+            const float* r0 = base.data() + 16 * i0[lane];
+            const float* r1 = base.data() + 16 * i1[lane];
+            const float* r2 = base.data() + 16 * i2[lane];
+            for (int f = 0; f < 16; ++f) {
+                const float want = (b0[lane] * r0[f] + b1[lane] * r1[f]) + b2[lane] * r2[f];
+                ASSERT_EQ(out16[f * fns().lanes + k], want) << "field " << f << " lane " << k;
+                if (f < 8) {
+                    ASSERT_EQ(out8[f * fns().lanes + k], want) << "field " << f << " lane " << k;
+                }
+                if (f >= 8 && f < 12) {
+                    ASSERT_EQ(out4[(f - 8) * fns().lanes + k], want) << "field " << f << " lane " << k;
+                }
+            }
+        }
+    }
+}
+
+TEST_P(LaneMemory, TexelsAccumulateInTheirStatedOrder)
+{
+    constexpr std::uint32_t kTexels = 1000;
+    constexpr int kSteps = 5;
+    std::vector<std::uint16_t> texels(kTexels * 4);
+    for (std::size_t t = 0; t < texels.size(); ++t) // a third subnormal, the others finite, both signs
+        texels[t] =
+            static_cast<std::uint16_t>((random_() & 0x8000u) | random_() % (t % 3 ? 0x7c00u : 0x400u));
+    const std::size_t lanes = static_cast<std::size_t>(fns().lanes), n = kSteps * lanes;
+    for (int round = 0; round < 200; ++round) {
+        const std::vector<std::int32_t> row0 = indices(n, kTexels - 1), row1 = indices(n, kTexels - 1);
+        const std::vector<float> w00 = numbers(n), w10 = numbers(n), w01 = numbers(n), w11 = numbers(n);
+        std::vector<float> got(4 * lanes);
+        fns().texel(
+            {texels.data(), row0.data(), row1.data(), w00.data(), w10.data(), w01.data(), w11.data(), kSteps},
+            got.data());
+        for (std::size_t k = 0; k < lanes; ++k)
+            for (std::size_t c = 0; c < 4; ++c) {
+                float left = 0.0f, right = 0.0f;
+                for (std::size_t s = k; s < n; s += lanes) {
+                    const std::uint16_t* t0 = texels.data() + 4 * row0[s] + c;
+                    const std::uint16_t* t1 = texels.data() + 4 * row1[s] + c;
+                    left = left + (w00[s] * half_to_float(t0[0]) + w01[s] * half_to_float(t1[0]));
+                    right = right + (w10[s] * half_to_float(t0[4]) + w11[s] * half_to_float(t1[4]));
+                }
+                ASSERT_EQ(std::bit_cast<std::uint32_t>(got[c * lanes + k]),
+                          std::bit_cast<std::uint32_t>(left + right))
+                    << "channel " << c << " lane " << k;
+            }
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(, LaneMemory, testing::ValuesIn(kIsaCases), isa_case_name);
+
+} // namespace
+} // namespace burnish
