@@ -10,6 +10,7 @@
 #include <oneapi/tbb/task_arena.h>
 
 #include <algorithm>
+#include <mutex>
 
 #include "core/base/check.h"
 #include "core/jobs/cores.h"
@@ -22,12 +23,27 @@ constexpr int kMaxThreads = 1024;
 // Pieces of work a thread: small enough to balance uneven tiles, large enough that handing out costs nothing.
 constexpr std::size_t kPiecesPerThread = 64;
 
+// oneTBB starts no more workers than cores unless it is told that it may. The least of all live controls
+// counts, so there is one for the process, and it only grows. Leaked on purpose: workers may outlive static
+// objects.
+void allow_threads(int threads)
+{
+    static std::mutex mutex;
+    static tbb::global_control* control = nullptr;
+    static int allowed = tbb::info::default_concurrency();
+    const std::lock_guard lock(mutex);
+    if (threads <= allowed)
+        return;
+    delete control;
+    allowed = threads;
+    control = new tbb::global_control(tbb::global_control::max_allowed_parallelism,
+                                      static_cast<std::size_t>(allowed));
+}
+
 } // namespace
 
 struct Jobs::Impl {
     int threads = 1;
-    // oneTBB starts no more workers than cores unless it is told that it may.
-    std::unique_ptr<tbb::global_control> parallelism;
     mutable tbb::task_arena arena;
 };
 
@@ -37,9 +53,7 @@ Jobs::Jobs(int threads) : impl_(std::make_unique<Impl>())
     impl_->threads = std::min(threads == 0 ? usable_cores() : threads, kMaxThreads);
     if (impl_->threads == 1)
         return;
-    const int allowed = std::max(impl_->threads, tbb::info::default_concurrency());
-    impl_->parallelism = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism,
-                                                               static_cast<std::size_t>(allowed));
+    allow_threads(impl_->threads);
     impl_->arena.initialize(impl_->threads);
 }
 

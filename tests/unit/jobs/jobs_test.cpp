@@ -1,0 +1,161 @@
+#include "core/jobs/jobs.h"
+
+#include <gtest/gtest.h>
+
+#include <sched.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <mutex>
+#include <set>
+#include <stdexcept>
+#include <thread>
+
+#include "core/jobs/cores.h"
+
+namespace burnish {
+namespace {
+
+TEST(jobs, every_index_runs_once)
+{
+    for (const int threads : {1, 2, 3, 8}) {
+        const Jobs jobs(threads);
+        for (const std::size_t count : {0, 1, 2, 7, 1000, 100003}) {
+            std::vector<std::atomic<int>> runs(count);
+            jobs.parallel_for(count, [&](std::size_t i, int) { ++runs[i]; });
+            EXPECT_TRUE(std::all_of(runs.begin(), runs.end(), [](const auto& n) { return n == 1; }))
+                << threads;
+        }
+    }
+}
+
+TEST(jobs, one_thread_runs_in_order_on_the_caller)
+{
+    std::vector<std::size_t> order;
+    Jobs(1).parallel_for(5, [&, caller = std::this_thread::get_id()](std::size_t i, int worker) {
+        EXPECT_EQ(std::this_thread::get_id(), caller);
+        EXPECT_EQ(worker, 0);
+        order.push_back(i);
+    });
+    EXPECT_EQ(order, (std::vector<std::size_t>{0, 1, 2, 3, 4}));
+}
+
+// Each index waits until as many threads as asked for are inside: also more than there are cores.
+TEST(jobs, uses_exactly_the_threads_asked_for)
+{
+    for (const int threads : {2, 5}) {
+        const Jobs jobs(threads);
+        ASSERT_EQ(jobs.threads(), threads);
+        std::atomic<int> inside{0}, most{0};
+        const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(5);
+        jobs.parallel_for(200, [&](std::size_t, int) {
+            const int now = ++inside;
+            int seen = most;
+            while (now > seen && !most.compare_exchange_weak(seen, now)) {
+            }
+            while (most < threads && std::chrono::steady_clock::now() < deadline)
+                std::this_thread::yield();
+            --inside;
+        });
+        EXPECT_EQ(most, threads);
+    }
+}
+
+TEST(jobs, a_worker_is_one_thread_at_a_time)
+{
+    const Jobs jobs(4);
+    std::vector<std::atomic<int>> busy(4);
+    std::atomic<int> clashes{0};
+    jobs.parallel_for(2000, [&](std::size_t, int worker) {
+        ASSERT_GE(worker, 0);
+        ASSERT_LT(worker, 4);
+        if (busy[static_cast<std::size_t>(worker)].fetch_add(1) != 0)
+            ++clashes;
+        std::this_thread::yield();
+        --busy[static_cast<std::size_t>(worker)];
+    });
+    EXPECT_EQ(clashes, 0);
+}
+
+// While an inner loop waits, its thread must not begin another index of the outer loop on the same scratch
+// memory.
+TEST(jobs, nested_loops_do_not_share_scratch)
+{
+    const Jobs jobs(4);
+    std::vector<std::atomic<int>> outer(4);
+    std::atomic<int> clashes{0}, runs{0};
+    jobs.parallel_for(64, [&](std::size_t, int worker) {
+        if (outer[static_cast<std::size_t>(worker)].fetch_add(1) != 0)
+            ++clashes;
+        jobs.parallel_for(64, [&](std::size_t, int) {
+            std::this_thread::yield();
+            ++runs;
+        });
+        --outer[static_cast<std::size_t>(worker)];
+    });
+    EXPECT_EQ(clashes, 0);
+    EXPECT_EQ(runs, 64 * 64);
+}
+
+TEST(jobs, an_exception_reaches_the_caller)
+{
+    for (const int threads : {1, 3}) {
+        const Jobs jobs(threads);
+        const auto throwing = [](std::size_t i, int) {
+            if (i == 77)
+                throw std::runtime_error("index 77");
+        };
+        try {
+            jobs.parallel_for(1000, throwing);
+            FAIL() << "nothing was thrown";
+        } catch (const std::runtime_error& error) {
+            EXPECT_STREQ(error.what(), "index 77");
+        }
+        std::atomic<int> runs{0};
+        jobs.parallel_for(10, [&](std::size_t, int) { ++runs; }); // and the object still works
+        EXPECT_EQ(runs, 10);
+    }
+}
+
+TEST(jobs, objects_of_different_size_live_side_by_side)
+{
+    const Jobs two(2), three(3), six(6);
+    const auto highest_worker = [](const Jobs& jobs) {
+        std::atomic<int> highest{0};
+        jobs.parallel_for(static_cast<std::size_t>(jobs.threads()), [&](std::size_t, int worker) {
+            int seen = highest;
+            while (worker > seen && !highest.compare_exchange_weak(seen, worker)) {
+            }
+            std::this_thread::sleep_for(std::chrono::milliseconds(20));
+        });
+        return highest.load();
+    };
+    EXPECT_LT(highest_worker(two), 2);
+    EXPECT_LT(highest_worker(three), 3);
+    EXPECT_LT(highest_worker(six), 6);
+    EXPECT_GT(highest_worker(six), 2); // the smaller ones do not hold it down
+}
+
+TEST(jobs, zero_threads_means_the_usable_cores)
+{
+    EXPECT_EQ(Jobs(0).threads(), usable_cores());
+    EXPECT_EQ(Jobs().threads(), usable_cores());
+    EXPECT_GE(usable_cores(), 1);
+}
+
+TEST(jobs, affinity_bounds_the_usable_cores)
+{
+    cpu_set_t before, one;
+    ASSERT_EQ(sched_getaffinity(0, sizeof(before), &before), 0);
+    CPU_ZERO(&one);
+    for (int cpu = 0; CPU_COUNT(&one) == 0; ++cpu)
+        if (CPU_ISSET(cpu, &before))
+            CPU_SET(cpu, &one);
+    ASSERT_EQ(sched_setaffinity(0, sizeof(one), &one), 0);
+    EXPECT_EQ(usable_cores(), 1);
+    EXPECT_EQ(sched_setaffinity(0, sizeof(before), &before), 0);
+}
+
+} // namespace
+} // namespace burnish
