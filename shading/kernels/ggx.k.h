@@ -1,13 +1,18 @@
-// Isotropic GGX with height-correlated Smith masking-shadowing. Walter et al. 2007, eq. 33; Heitz 2014, eq. 99.
+// Isotropic GGX with height-correlated Smith masking-shadowing. Walter et al. 2007, eq. 33; Heitz 2014,
+// eq. 99. Conventions of eval, sample and pdf in microfacet.k.h; ggx_aniso.k.h has two widths and the
+// separable form.
 #ifndef BN_GGX_K_H
 #define BN_GGX_K_H
 
+#include "shading/kernels/fresnel.k.h"
 #include "shading/kernels/math.k.h"
+#include "shading/kernels/microfacet.k.h"
 #include "shading/lang/lang.h"
 
 BN_KERNELS_BEGIN
 
-// Distribution of normals, 1/sr. n_dot_h in [0,1]; sin2_h = |n x h|^2 keeps digits near n_dot_h = 1; alpha in [1e-3,1].
+// Distribution of normals, 1/sr. n_dot_h in [0,1]; sin2_h = |n x h|^2 keeps digits near n_dot_h = 1; alpha in
+// [1e-3,1].
 BN_FN real ggx_d(real n_dot_h, real sin2_h, real alpha)
 {
     real a = n_dot_h * alpha;
@@ -25,13 +30,63 @@ BN_FN real ggx_visibility(real n_dot_l, real n_dot_v, real alpha)
     return lit(0.5) / max(v + l, lit(1e-12));
 }
 
-// Schlick 1994. f0, f90: reflectance at normal incidence and at grazing; v_dot_h in [0,1].
-BN_FN real3 fresnel_schlick(real3 f0, real3 f90, real v_dot_h)
+struct ggx_params {
+    real alpha;
+};
+
+BN_FN ggx_params ggx_params_of(real alpha)
 {
-    real m = lit(1.0) - v_dot_h;
-    real m2 = m * m;
-    real m5 = m2 * m2 * m;
-    return f0 + (f90 - f0) * m5;
+    ggx_params p;
+    p.alpha = usable_alpha(alpha);
+    return p;
+}
+
+// |(alpha x, alpha y, z)|: 2 / (1 + that / w.z) is Smith's G1.
+BN_FN real ggx_stretch(ggx_params p, real3 w)
+{
+    return sqrt(p.alpha * p.alpha * (w.x * w.x + w.y * w.y) + w.z * w.z);
+}
+
+BN_FN real ggx_eval(ggx_params p, real3 wo, real3 wi)
+{
+    real3 h = half_vector(wo, wi);
+    real d = ggx_d(h.z, h.x * h.x + h.y * h.y, p.alpha);
+    real bottom = wi.z * ggx_stretch(p, wo) + wo.z * ggx_stretch(p, wi);
+    real value = d * (lit(0.5) / max(bottom, lit(1e-20)));
+    return select(both_above(wo, wi), value, lit(0.0));
+}
+
+// Density of normals visible from wo: G1 D (wo.h) / wo.z, 1/sr.
+BN_FN real ggx_half_pdf(ggx_params p, real3 wo, real3 h)
+{
+    real d = ggx_d(h.z, h.x * h.x + h.y * h.y, p.alpha);
+    real top = lit(2.0) * d * max(k_dot3(wo, h), lit(0.0));
+    real value = top / max(wo.z + ggx_stretch(p, wo), lit(1e-20));
+    return select(both_above(wo, h), value, lit(0.0));
+}
+
+BN_FN real ggx_pdf(ggx_params p, real3 wo, real3 wi)
+{
+    real3 h = half_vector(wo, wi);
+    real d = ggx_d(h.z, h.x * h.x + h.y * h.y, p.alpha);
+    real value = lit(0.5) * d / max(wo.z + ggx_stretch(p, wo), lit(1e-20));
+    return select(both_above(wo, wi), value, lit(0.0));
+}
+
+// Visible normals. The weight, G2 / G1, is at most 1.
+BN_FN bsdf_sample ggx_sample(ggx_params p, real3 wo, real2 xi)
+{
+    real3 up = vec3_of(wo.x, wo.y, max(wo.z, lit(0.0)));
+    real3 stretched = k_normalize3(vec3_of(p.alpha * up.x, p.alpha * up.y, up.z));
+    real3 seen = visible_hemisphere_normal(stretched, xi);
+    real3 h = k_normalize3(vec3_of(p.alpha * seen.x, p.alpha * seen.y, seen.z));
+    real3 wi = mirror_direction(wo, h);
+    real so = ggx_stretch(p, wo);
+    real bottom = wi.z * so + wo.z * ggx_stretch(p, wi);
+    real weight = wi.z * (wo.z + so) / max(bottom, lit(1e-20));
+    real d = ggx_d(h.z, h.x * h.x + h.y * h.y, p.alpha);
+    real pdf = lit(0.5) * d / max(wo.z + so, lit(1e-20));
+    return bsdf_sample_of(wi, weight, pdf, k_dot3(wo, h), both_above(wo, wi));
 }
 
 BN_KERNELS_END

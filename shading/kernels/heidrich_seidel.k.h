@@ -1,0 +1,70 @@
+// Heidrich and Seidel 1998, "Efficient Rendering of Anisotropic Surfaces Using Computer Graphics Hardware":
+// the surface as a bundle of threads along the tangent x. The model is no BRDF: it is not normalised, its
+// diffuse part is not reciprocal, and it gives reflected over incident intensity. So, unlike those of other
+// models (microfacet.k.h), heidrich_seidel_eval takes the place of BRDF times cosine and is multiplied by no
+// further cosine, and samples are uniform over the hemisphere, weight = eval / pdf: a density proportional to
+// the cosine would have infinite variance at the horizon, where the diffuse part does not vanish.
+#ifndef BN_HEIDRICH_SEIDEL_K_H
+#define BN_HEIDRICH_SEIDEL_K_H
+
+#include "shading/kernels/microfacet.k.h"
+#include "shading/lang/lang.h"
+
+BN_KERNELS_BEGIN
+
+struct heidrich_seidel_params {
+    real kd, ks;   // diffuse and specular coefficients, at least 0
+    real exponent; // Phong's, [0, 1e4]
+};
+
+BN_FN heidrich_seidel_params heidrich_seidel_params_of(real kd, real ks, real exponent)
+{
+    heidrich_seidel_params p;
+    p.kd = max(kd, lit(0.0));
+    p.ks = max(ks, lit(0.0));
+    p.exponent = min(max(exponent, lit(0.0)), lit(1e4));
+    return p;
+}
+
+// Sine of the angle between w and the thread: the diffuse term, for light from w.
+BN_FN real heidrich_seidel_diffuse(real3 w)
+{
+    return sqrt(max(lit(1.0) - w.x * w.x, lit(0.0)));
+}
+
+// Cosine between wo and the mirror direction on the thread that lies nearest to it, clamped at 0 (it is
+// negative where both lie towards the same end of the thread; an even exponent would light them).
+BN_FN real heidrich_seidel_mirror(real3 wo, real3 wi)
+{
+    real value = heidrich_seidel_diffuse(wi) * heidrich_seidel_diffuse(wo) - wi.x * wo.x;
+    return max(value, lit(0.0));
+}
+
+// Surfaces light only what faces the light: the clamp that threads have no need of.
+BN_FN real heidrich_seidel_eval(heidrich_seidel_params p, real3 wo, real3 wi)
+{
+    real m = heidrich_seidel_mirror(wo, wi);
+    real gloss = select(m > lit(0.0), k_pow(min(m, lit(1.0)), p.exponent), lit(0.0));
+    real value = p.kd * heidrich_seidel_diffuse(wi) + p.ks * gloss;
+    return select(both_above(wo, wi), value, lit(0.0));
+}
+
+BN_FN real heidrich_seidel_pdf(real3 wo, real3 wi)
+{
+    return select(both_above(wo, wi), lit(0.15915494309189534), lit(0.0));
+}
+
+BN_FN bsdf_sample heidrich_seidel_sample(heidrich_seidel_params p, real3 wo, real2 xi)
+{
+    real2 d = concentric_disk(xi);
+    real r2 = k_dot2(d, d);
+    real s = sqrt(max(lit(2.0) - r2, lit(0.0))); // equal areas: z = 1 - r^2
+    real3 wi = vec3_of(d.x * s, d.y * s, max(lit(1.0) - r2, lit(0.0)));
+    real weight = heidrich_seidel_eval(p, wo, wi) * lit(6.2831853071795865);
+    real3 h = half_vector(wo, wi);
+    return bsdf_sample_of(wi, weight, heidrich_seidel_pdf(wo, wi), k_dot3(wo, h), both_above(wo, wi));
+}
+
+BN_KERNELS_END
+
+#endif
