@@ -1,0 +1,26 @@
+// libFuzzer entry: any bytes as a glTF file. A scene that loads must hold together.
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+
+#include "core/base/check.h"
+#include "core/scene/gltf.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
+{
+    burnish::Limits limits;
+    limits.image_side = 256;
+    limits.texture_bytes = 16u << 20;
+    limits.accessor_bytes = 16u << 20;
+    const burnish::Result<burnish::Scene> scene = burnish::load_gltf_bytes(data, size, "fuzz", limits);
+    if (!scene) {
+        BN_CHECK(!scene.error().reason.empty());
+        return 0;
+    }
+    for (const burnish::Primitive& p : scene->primitives)
+        for (std::uint32_t i = 0; i < p.index_count; ++i)
+            BN_CHECK(scene->indices[p.first_index + i] - p.first_vertex < p.vertex_count);
+    for (std::size_t i = 0; i < scene->vertices.size(); ++i)
+        BN_CHECK(std::isfinite(scene->vertices.px[i] + scene->vertices.nx[i] + scene->vertices.tx[i]));
+    return 0;
+}

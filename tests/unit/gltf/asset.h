@@ -1,0 +1,81 @@
+// Small glTF assets put together in a test, and what every loaded scene must satisfy.
+#pragma once
+#include <cstdint>
+#include <cstring>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/base/limits.h"
+#include "core/base/result.h"
+#include "core/scene/scene.h"
+
+namespace burnish::test {
+
+using ByteVector = std::vector<std::uint8_t>;
+
+template <class T> ByteVector bytes_of(const std::vector<T>& values)
+{
+    ByteVector bytes(values.size() * sizeof(T));
+    if (!bytes.empty())
+        std::memcpy(bytes.data(), values.data(), bytes.size());
+    return bytes;
+}
+inline ByteVector floats(const std::vector<float>& values)
+{
+    return bytes_of(values);
+}
+
+std::string base64(const ByteVector& bytes);
+
+inline constexpr int kI8 = 5120, kU8 = 5121, kI16 = 5122, kU16 = 5123, kU32 = 5125, kF32 = 5126;
+
+struct Asset {
+    ByteVector bin; // one buffer
+    std::vector<std::string> views, accessors;
+    std::string attributes; // of the one primitive: members of the JSON object
+    std::string primitive;  // more members of the primitive, each with a comma before it
+    std::string node;       // members of the one node beside its mesh, each with a comma before it
+    std::string more;       // more top-level members, each with a comma before it
+    std::string nodes;      // replaces the nodes and scenes, each with a comma before it
+
+    // Each returns the index of what it adds. `extra`: members, each with a comma before it.
+    int view(const ByteVector& data, const std::string& extra = "");
+    int accessor(const ByteVector& data, int component, const std::string& type, std::size_t count,
+                 const std::string& extra = "", const std::string& view_extra = "");
+    void attribute(const std::string& name, int accessor);
+
+    std::string json(const std::string& buffer_uri_member) const;
+    std::string gltf() const; // the buffer as a data URI
+    ByteVector glb() const;
+};
+
+// A triangle (0,0,0) (1,0,0) (0,1,0) without anything else.
+Asset triangle();
+
+Result<Scene> load(const Asset& asset, const Limits& limits = {});
+Result<Scene> load_text(const std::string& gltf, const Limits& limits = {});
+std::string error_of(const Result<Scene>& result); // "place: reason", or "" for success
+
+// Fails the test where a table of the scene does not hold together: ranges, finiteness, unit vectors.
+void expect_sound(const Scene& scene);
+
+// A fresh folder below the build tree's temporary place; removed with all it holds.
+class TempFolder {
+  public:
+    TempFolder();
+    ~TempFolder();
+    TempFolder(const TempFolder&) = delete;
+    TempFolder& operator=(const TempFolder&) = delete;
+    std::string path(const std::string& name) const { return (folder_ / name).string(); }
+    std::string write(const std::string& name, const std::string& content) const; // returns its path
+    std::string write(const std::string& name, const ByteVector& content) const;
+
+  private:
+    std::filesystem::path folder_;
+};
+
+std::string shared_data(const std::string& name); // path below the shared test data
+ByteVector read_bytes(const std::string& path);
+
+} // namespace burnish::test
