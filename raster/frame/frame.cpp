@@ -89,27 +89,33 @@ View make_view(const Scene& scene, int camera, int width, int height)
     return view;
 }
 
+// With the direction fixed, each side plane touches the outermost vertex. Along x, with t the tangent of the half angle and z the
+// distance along the view: x_i - t z_i <= x_e - t z_e and -x_i - t z_i <= -x_e - t z_e for an eye at (x_e, z_e).
 View auto_frame(const DrawTables& tables, int width, int height)
 {
+    constexpr float kMargin = 1.08f;
     const glm::vec3 center = 0.5f * (tables.bounds_min + tables.bounds_max);
     const float radius = std::max(1e-6f, 0.5f * glm::length(tables.bounds_max - tables.bounds_min));
     const glm::vec3 from = glm::normalize(glm::vec3(0.35f, 0.35f, 1.0f)); // front, a little right and above
-    const float fov = 0.78539816f;
-    View view = make_view(center + from, center, fov, width, height);
-    // The nearest distance at which the eight corners of the bounds are inside the view, with a margin of 8 %.
-    float distance = 0.0f;
-    for (int i = 0; i < 8; ++i) {
-        const glm::vec3 corner((i & 1 ? tables.bounds_max : tables.bounds_min).x,
-                               (i & 2 ? tables.bounds_max : tables.bounds_min).y,
-                               (i & 4 ? tables.bounds_max : tables.bounds_min).z);
-        const glm::vec3 d = corner - center;
-        const float x = std::abs(glm::dot(d, view.right)) / view.tan_half_x;
-        const float y = std::abs(glm::dot(d, view.up)) / view.tan_half_y;
-        distance = std::max(distance, 1.08f * std::max(x, y) - glm::dot(d, view.forward));
-    }
-    distance = std::max(distance, 0.2f * radius);
-    view.eye = center + from * distance;
-    view.znear = std::max(1e-6f, std::min(0.1f * radius, 0.01f * distance));
+    View view = make_view(center + from, center, 0.78539816f, width, height);
+    const float tx = view.tan_half_x / kMargin, ty = view.tan_half_y / kMargin;
+    float right = -1e30f, left = -1e30f, top = -1e30f, bottom = -1e30f, nearest = 1e30f;
+    const auto touch = [&](const glm::vec3& p) {
+        const glm::vec3 d = p - center;
+        const float x = glm::dot(d, view.right), y = glm::dot(d, view.up), z = glm::dot(d, view.forward);
+        right = std::max(right, x - tx * z), left = std::max(left, -x - tx * z);
+        top = std::max(top, y - ty * z), bottom = std::max(bottom, -y - ty * z);
+        nearest = std::min(nearest, z);
+    };
+    for (std::uint32_t vertex : tables.indices)
+        touch({tables.px[vertex], tables.py[vertex], tables.pz[vertex]});
+    if (tables.indices.empty())
+        for (int i = 0; i < 8; ++i)
+            touch({(i & 1 ? tables.bounds_max : tables.bounds_min).x, (i & 2 ? tables.bounds_max : tables.bounds_min).y,
+                   (i & 4 ? tables.bounds_max : tables.bounds_min).z});
+    const float back = std::min({-(right + left) / (2 * tx), -(top + bottom) / (2 * ty), nearest - 0.05f * radius});
+    view.eye = center + view.right * (0.5f * (right - left)) + view.up * (0.5f * (top - bottom)) + view.forward * back;
+    view.znear = std::max(1e-6f, 0.5f * (nearest - back));
     return view;
 }
 

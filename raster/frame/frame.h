@@ -40,8 +40,12 @@ struct FrameDesc {
     View view;
     std::string technique = "split_isotropic";
     int samples = 16;                      // for techniques that take samples
-    float roughness = -1.0f, anisotropy = 0.0f; // >= 0 resp. set: override every material
+    float roughness = -1.0f;               // >= 0: alpha_lin of every material
+    float anisotropy = 0.0f;               // with override_anisotropy: eta of every material, [-1, 1]
     bool override_anisotropy = false;
+    float major_axis_k = 1.0f;             // deviations that the major axis covers
+    float major_axis_beta = 2.3f;          // overlap of its samples
+    std::uint32_t seed = 0;                // of techniques that use random numbers
     int tile_size = 64;                    // 32 or 64; never changes the picture
     int texture_anisotropy = 16;           // taps along the major axis at most, 1..16
     bool background = true;                // environment behind the scene; otherwise black

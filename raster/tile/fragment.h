@@ -117,7 +117,7 @@ BN_INLINE real blend_gather(const float* column, const LaneSetup& t, real3 b)
 }
 
 // samples: covered sample mask. pixel_x, pixel_y: in the image.
-BN_INLINE Fragment make_fragment(const FrameParams& f, const MaterialRecord& m, const view_params& view, const TileScratch& scratch,
+BN_STAGE Fragment make_fragment(const FrameParams& f, const MaterialRecord& m, const view_params& view, const TileScratch& scratch,
                                  integer triangle, integer pixel_x, integer pixel_y, integer samples)
 {
     const LaneSetup t = load_setup(scratch, triangle);

@@ -4,6 +4,9 @@
 #include "raster/tile/tile_types.h"
 #include "shading/kernels/vertex.k.h"
 
+// A stage that several techniques share: compiled once, called once a batch.
+#define BN_STAGE static __attribute__((noinline))
+
 namespace burnish {
 inline namespace BN_ISA_NS {
 

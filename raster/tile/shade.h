@@ -1,9 +1,10 @@
 // Shading of visible fragments, kLanes at a time, all of one material: interpolate, fetch textures, run the kernels.
 #pragma once
 #include "raster/tile/fragment.h"
+#include "raster/tile/techniques.h"
+#include "shading/kernels/covariance.k.h"
 #include "shading/kernels/dfg.k.h"
 #include "shading/kernels/punctual.k.h"
-#include "shading/kernels/split_isotropic.k.h"
 #include "shading/kernels/surface.k.h"
 
 namespace burnish {
@@ -17,9 +18,10 @@ struct LaneMaterial { // a material's parameters at the fragments
     real3 emissive;
     real3 dielectric_f0;
     real dielectric_f90;
+    real3 direction; // anisotropy texel: red and green a direction, blue a factor of the strength
 };
 
-BN_INLINE LaneMaterial fetch_material(const FrameParams& f, const MaterialRecord& m, const Fragment& p)
+BN_STAGE LaneMaterial fetch_material(const FrameParams& f, const MaterialRecord& m, const Fragment& p)
 {
     LaneMaterial r;
     const auto fetch = [&](int slot) { return fetch_texture(f, m.textures[slot], p); };
@@ -68,18 +70,25 @@ BN_INLINE LaneMaterial fetch_material(const FrameParams& f, const MaterialRecord
         const real4 t = fetch(kSpecularColorTex);
         r.dielectric_f0 = r.dielectric_f0 * vec3_of(t.x, t.y, t.z);
     }
+    r.direction = vec3_of(lit(1.0), lit(0.5), lit(1.0));
+    if (used(kAnisotropyTex)) {
+        const real4 t = fetch(kAnisotropyTex);
+        r.direction = vec3_of(t.x, t.y, t.z);
+    }
     return r;
 }
 
 // Light from the environment, by the technique of the frame; occlusion dims all of it.
-BN_INLINE real3 environment_light(const FrameParams& f, const surface& s, real3 dielectric_f0, real dielectric_f90)
+template <Technique kTechnique>
+BN_INLINE real3 environment_light(const FrameParams& f, const surface& s, const aniso_lobe& lobe, integer pixel_id,
+                                  real3 dielectric_f0, real dielectric_f90)
 {
     const dfg_value dfg = dfg_lookup(f.dfg_texels, f.dfg_size, s.n_dot_v, s.roughness);
     const real3 albedo = s.f0 * dfg.scale + s.f90 * dfg.bias;
     const real3 dielectric = dielectric_f0 * dfg.scale + vec3_all(dielectric_f90 * dfg.bias);
-    const cube_desc specular_cube = lanes_cube(f.specular_cube), irradiance_cube = lanes_cube(f.irradiance_cube);
-    const real3 specular = split_isotropic_specular(s, albedo, specular_cube) * splat(f.specular_cube.scale);
-    const real3 irradiance = cube_sample(irradiance_cube, s.n, lit(0.0)) * splat(f.irradiance_cube.scale);
+    const real3 specular =
+        technique_specular<kTechnique>({f, s, lobe, albedo, pixel_id}) * splat(f.specular_cube.scale);
+    const real3 irradiance = cube_sample(lanes_cube(f.irradiance_cube), s.n, lit(0.0)) * splat(f.irradiance_cube.scale);
     const real passed = lit(1.0) - max(dielectric.x, max(dielectric.y, dielectric.z));
     return (specular + s.diffuse * irradiance * passed) * s.occlusion;
 }
@@ -97,7 +106,39 @@ BN_INLINE real3 light_from_punctual(const FrameParams& f, const surface& s, real
     return sum;
 }
 
-BN_INLINE real3 shade_fragments(const FrameParams& f, const MaterialRecord& m, const Fragment& p)
+BN_INLINE real2 rotated_direction(real2 rotation, real3 texel)
+{
+    const real x = texel.x * lit(2.0) - lit(1.0), y = texel.y * lit(2.0) - lit(1.0);
+    return vec2_of(rotation.x * x - rotation.y * y, rotation.y * x + rotation.x * y);
+}
+
+// The material's lobe in the frame. What is not anisotropic needs no axes of its own.
+BN_INLINE aniso_lobe material_lobe(const FrameParams& f, const MaterialRecord& m, const LaneMaterial& at, const surface_frame& frame)
+{
+    aniso_lobe lobe;
+    const real roughness = min(max(at.roughness, lit(0.0)), lit(1.0)), alpha = roughness * roughness;
+    const real sigma = alpha * lit(0.70710678118654752);
+    lobe.u_axis = frame.t, lobe.v_axis = frame.b;
+    lobe.sigma_u = lobe.sigma_v = sigma;
+    if (!m.anisotropic)
+        return lobe;
+    const real2 rotation = vec2_of(splat(m.anisotropy_rotation[0]), splat(m.anisotropy_rotation[1]));
+    slope_covariance covariance;
+    if (f.override_anisotropy)
+        covariance = covariance_from_eta(roughness, splat(f.anisotropy), rotated_direction(rotation, at.direction));
+    else
+        covariance = covariance_from_khr(alpha, splat(m.anisotropy_strength), rotation, at.direction);
+    const slope_axes axes = axes_of_covariance(covariance);
+    const mask mirror = roughness <= lit(0.0); // a mirror stays one
+    lobe.sigma_u = select(mirror, sigma, axes.sigma_u);
+    lobe.sigma_v = select(mirror, sigma, axes.sigma_v);
+    lobe.u_axis = frame.t * axes.u.x + frame.b * axes.u.y;
+    lobe.v_axis = frame.b * axes.u.x - frame.t * axes.u.y;
+    return lobe;
+}
+
+template <Technique kTechnique>
+BN_INLINE real3 shade_fragments(const FrameParams& f, const MaterialRecord& m, const Fragment& p, integer pixel_id)
 {
     const LaneMaterial at = fetch_material(f, m, p);
     if (m.unlit)
@@ -105,12 +146,16 @@ BN_INLINE real3 shade_fragments(const FrameParams& f, const MaterialRecord& m, c
     const real3 v = k_normalize3(-p.ray);
     // a surface seen from behind shows its other side
     const real3 normal = select(p.front, p.normal, -p.normal);
-    const real3 n = m.textures[kNormalTex].texture
-                        ? shading_normal(normal, p.tangent, select(p.front, p.tangent_sign, -p.tangent_sign), at.normal_map)
-                        : k_normalize3(normal);
-    const surface s = metallic_roughness_surface(n, v, at.base, at.metallic, at.roughness, at.dielectric_f0, at.dielectric_f90,
-                                                 at.occlusion);
-    real3 color = environment_light(f, s, at.dielectric_f0, at.dielectric_f90) + at.emissive;
+    const real handedness = select(p.front, p.tangent_sign, -p.tangent_sign);
+    surface_frame frame = geometric_frame(normal, p.tangent, handedness);
+    if (m.textures[kNormalTex].texture)
+        frame = mapped_frame(frame, at.normal_map, handedness);
+    const aniso_lobe lobe = material_lobe(f, m, at, frame);
+    const real roughness = m.anisotropic ? lobe_alpha_lin(lobe) : at.roughness;
+    const surface s = metallic_roughness_surface(frame.n, v, at.base, at.metallic, roughness, at.dielectric_f0,
+                                                 at.dielectric_f90, at.occlusion);
+    real3 color =
+        environment_light<kTechnique>(f, s, lobe, pixel_id, at.dielectric_f0, at.dielectric_f90) + at.emissive;
     if (f.light_count > 0)
         color = color + light_from_punctual(f, s, p.position);
     return color;

@@ -187,14 +187,21 @@ void shade_background_slot(const Tile& t, const view_params& view, std::uint32_t
     }
 }
 
+template <Technique kTechnique>
 void shade_slot(const Tile& t, const view_params& view, const MaterialRecord& m, std::uint32_t begin, std::uint32_t end)
 {
     for (std::uint32_t i = begin; i < end; i += kLanes) {
         const Batch b = load_batch(t, i, end);
         const Fragment p = make_fragment(t.f, m, view, t.s, b.triangle, b.x, b.y, b.samples);
-        store_batch(t, b, shade_fragments(t.f, m, p));
+        store_batch(t, b, shade_fragments<kTechnique>(t.f, m, p, b.y * int_lit(t.f.width) + b.x));
     }
 }
+
+using ShadeSlot = void (*)(const Tile&, const view_params&, const MaterialRecord&, std::uint32_t, std::uint32_t);
+constexpr ShadeSlot kShadeSlots[] = {
+#define BN_TECHNIQUE(id, default_samples, summary) shade_slot<Technique::id>,
+#include "shading/models.def"
+};
 
 void render_tile(const FrameParams& f, int tile_x, int tile_y, TileScratch& s)
 {
@@ -210,7 +217,7 @@ void render_tile(const FrameParams& f, int tile_x, int tile_y, TileScratch& s)
     const int slots = sort_fragments(s);
     shade_background_slot(t, view, s.slot_begin[0], s.slot_begin[1]);
     for (int k = 1; k < slots; ++k)
-        shade_slot(t, view, f.materials[s.slot_material[k]], s.slot_begin[k], s.slot_begin[k + 1]);
+        kShadeSlots[f.technique](t, view, f.materials[s.slot_material[k]], s.slot_begin[k], s.slot_begin[k + 1]);
     resolve(f, t.x0, t.y0, s);
 }
 

@@ -91,13 +91,23 @@ class TileRenderer final : public Renderer {
     std::vector<WorkerScratch> workers_;
 };
 
+int technique_index(const std::string& name)
+{
+    const auto& all = techniques();
+    return static_cast<int>(
+        std::find_if(all.begin(), all.end(), [&](const TechniqueInfo& t) { return name == t.name; }) - all.begin());
+}
+
 std::vector<MaterialRecord> overridden(std::vector<MaterialRecord> materials, const FrameDesc& desc)
 {
-    for (MaterialRecord& m : materials)
+    for (MaterialRecord& m : materials) {
         if (desc.roughness >= 0.0f) {
             m.roughness = desc.roughness;
             m.textures[kMetalRoughTex].texture = nullptr;
         }
+        if (desc.override_anisotropy)
+            m.anisotropic = desc.anisotropy != 0.0f;
+    }
     return materials;
 }
 
@@ -122,6 +132,10 @@ FrameParams TileRenderer::frame_params(const FrameDesc& desc, const std::vector<
     f.irradiance_cube = cube_params(input_.environment.irradiance);
     f.dfg_texels = input_.dfg.texels.data(), f.dfg_size = input_.dfg.size;
     f.background = desc.background, f.samples = desc.samples, f.texture_taps = desc.texture_anisotropy;
+    f.technique = technique_index(desc.technique);
+    f.seed = static_cast<std::int32_t>(desc.seed);
+    f.major_axis_k = desc.major_axis_k, f.major_axis_beta = desc.major_axis_beta;
+    f.override_anisotropy = desc.override_anisotropy, f.anisotropy = desc.anisotropy;
     return f;
 }
 
@@ -158,9 +172,9 @@ Status check_desc(const FrameDesc& d)
         return usage("the tile size must be 32 or 64");
     if (d.texture_anisotropy < 1 || d.texture_anisotropy > 16)
         return usage("texture anisotropy must lie in 1..16");
-    const auto known = std::find_if(techniques().begin(), techniques().end(),
-                                    [&](const TechniqueInfo& t) { return d.technique == t.name; });
-    if (known == techniques().end())
+    if (d.samples < 1 || d.samples > 65536)
+        return usage("samples must lie in 1..65536");
+    if (technique_index(d.technique) == static_cast<int>(techniques().size()))
         return usage("unknown technique '" + d.technique + "'");
     return {};
 }

@@ -83,7 +83,7 @@ struct TextureParams { // TexturePyramid in plain data
 };
 
 enum TextureSlot { kBaseColorTex, kMetalRoughTex, kNormalTex, kOcclusionTex, kEmissiveTex, kSpecularTex, kSpecularColorTex,
-                   kTextureSlots };
+                   kAnisotropyTex, kTextureSlots };
 
 struct TextureBinding {
     const TextureParams* texture; // null: not used
@@ -99,7 +99,8 @@ struct MaterialRecord {
     float dielectric_f0[3], dielectric_f90; // from ior and specular
     float alpha_cutoff;
     std::int32_t alpha_mode;  // AlphaMode
-    std::int32_t double_sided, unlit, textured, uses_color;
+    std::int32_t double_sided, unlit, textured, uses_color, anisotropic;
+    float anisotropy_strength, anisotropy_rotation[2]; // rotation: cosine and sine
     TextureBinding textures[kTextureSlots];
 };
 
@@ -129,7 +130,10 @@ struct FrameParams {
     CubeParams specular_cube, irradiance_cube;
     const std::uint16_t* dfg_texels; // DfgTable::texels
     std::int32_t dfg_size;
-    std::int32_t background, technique, samples, texture_taps;
+    std::int32_t background, technique, samples, texture_taps, seed;
+    float major_axis_k, major_axis_beta;
+    std::int32_t override_anisotropy; // by `anisotropy`, the eta of every material
+    float anisotropy;
 };
 
 struct TriangleSource { // where a tile's triangle comes from

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/base/check.h"
+#include "core/math/scalar_math.h"
 
 namespace burnish {
 
@@ -21,6 +22,7 @@ constexpr TextureUse kTextureUses[kTextureSlots] = {
     {kEmissiveTex, &Material::emissive_tex, TextureEncoding::srgb},
     {kSpecularTex, &Material::specular_tex, TextureEncoding::linear},
     {kSpecularColorTex, &Material::specular_color_tex, TextureEncoding::srgb},
+    {kAnisotropyTex, &Material::anisotropy_tex, TextureEncoding::linear},
 };
 
 struct PyramidKey {
@@ -70,6 +72,10 @@ MaterialRecord material_record(const Material& m)
     r.alpha_cutoff = m.alpha_cutoff;
     r.alpha_mode = static_cast<std::int32_t>(m.alpha_mode);
     r.double_sided = m.double_sided, r.unlit = m.unlit;
+    r.anisotropic = m.anisotropy_strength > 0.0f;
+    r.anisotropy_strength = m.anisotropy_strength;
+    r.anisotropy_rotation[0] = static_cast<float>(det_cos(static_cast<double>(m.anisotropy_rotation)));
+    r.anisotropy_rotation[1] = static_cast<float>(det_sin(static_cast<double>(m.anisotropy_rotation)));
     return r;
 }
 

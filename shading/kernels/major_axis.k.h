@@ -124,6 +124,51 @@ BN_FN real3 major_axis_direction(real3 e0, real3 step, real3 o, real s)
     return w * along - o * k_dot3(w, w);
 }
 
+struct adaptive_count {
+    real count;  // fractional number of samples, [1, limit]
+    real radius; // r_s at that count
+};
+
+// As many samples as make their own size, the width of the lobe, fit the line's length: beta L / Delta'. limit: uniform, at least 1.
+BN_FN adaptive_count major_axis_needed(major_axis_line line, real k, real beta, real limit)
+{
+    real wanted = beta * line.length * max(k, lit(1e-6)) / max(line.width, lit(1e-20));
+    adaptive_count r;
+    r.count = min(max(wanted, lit(1.0)), limit);
+    real by_spacing = beta * line.length * lit(0.5) / r.count;
+    real by_width = line.width * lit(0.5) / max(k, lit(1e-6));
+    r.radius = max(by_width, by_spacing);
+    return r;
+}
+
+struct adaptive_pair {
+    real offset; // of both samples from the middle of the line, [0, 1/2]
+    real weight; // [0,1], relative to the sample in the middle
+};
+
+// The i-th pair around the middle, i = 1, 2...: absent up to a count of 2i - 1, whole from 2i + 1 on.
+BN_FN adaptive_pair major_axis_pair(adaptive_count need, int i)
+{
+    real index = to_real(int_lit(i));
+    adaptive_pair r;
+    r.offset = min(index / max(need.count - lit(1.0), lit(1e-6)), lit(0.5));
+    real whole = (need.count - index * lit(2.0) + lit(1.0)) * lit(0.5);
+    r.weight = min(max(whole, lit(0.0)), lit(1.0));
+    return r;
+}
+
+// Relative density of slopes, GGX with the deviations of a Gaussian of sigma_x, sigma_y (alpha = sqrt(2) sigma), at the microfacet
+// normal w (any length, ellipse frame).
+BN_FN real major_axis_density(real3 w, real sigma_x, real sigma_y)
+{
+    real least = lit(1e-6);
+    real z = max(w.z, least);
+    real x = w.x / (z * max(sigma_x, least));
+    real y = w.y / (z * max(sigma_y, least));
+    real t = lit(1.0) + (x * x + y * y) * lit(0.5);
+    return lit(1.0) / (t * t);
+}
+
 BN_KERNELS_END
 
 #endif

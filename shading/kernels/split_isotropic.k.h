@@ -8,12 +8,12 @@
 
 BN_KERNELS_BEGIN
 
-// albedo: directional albedo of the lobe, f0 * scale + f90 * bias. Returns outgoing specular radiance / environment scale.
-BN_FN real3 split_isotropic_specular(surface s, real3 albedo, cube_desc environment)
+// Returns the prefiltered radiance that the lobe sees, to be multiplied by its directional albedo.
+BN_FN real3 split_isotropic_radiance(surface s, cube_desc environment)
 {
     real3 r = s.n * (lit(2.0) * k_dot3(s.n, s.v)) - s.v;
     real lod = s.roughness * to_real(int_lit(environment.levels - 1));
-    return cube_sample(environment, r, lod) * albedo;
+    return cube_sample(environment, r, lod);
 }
 
 BN_KERNELS_END

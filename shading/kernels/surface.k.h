@@ -17,15 +17,25 @@ struct surface {
     real occlusion;   // [0,1], 1 open
 };
 
-// Interpolated normal turned to the viewer's side of a double-sided surface, and the normal map applied.
-// normal, tangent: interpolated, any length; sign: handedness; map: tangent-space normal from the texture, (0,0,1) without one.
-BN_FN real3 shading_normal(real3 normal, real3 tangent, real sign, real3 map)
+struct surface_frame {
+    real3 n, t, b; // orthonormal, world space; b = +-cross(n, t)
+};
+
+// normal, tangent: interpolated, any length, turned to the viewer's side; handedness: +1 or -1.
+BN_FN surface_frame geometric_frame(real3 normal, real3 tangent, real handedness)
 {
-    real3 n = k_normalize3(normal);
-    real3 t = tangent - n * k_dot3(n, tangent);
-    t = k_normalize3(t);
-    real3 b = k_cross(n, t) * sign;
-    return k_normalize3(t * map.x + b * map.y + n * map.z);
+    surface_frame f;
+    f.n = k_normalize3(normal);
+    f.t = k_normalize3(tangent - f.n * k_dot3(f.n, tangent));
+    f.b = k_cross(f.n, f.t) * handedness;
+    return f;
+}
+
+// The frame turned to a mapped normal. map: tangent-space normal from the texture, any length.
+BN_FN surface_frame mapped_frame(surface_frame f, real3 map, real handedness)
+{
+    real3 n = f.t * map.x + f.b * map.y + f.n * map.z;
+    return geometric_frame(n, f.t, handedness);
 }
 
 // glTF metallic-roughness to reflectances. base: linear [0,1]; metallic [0,1]; dielectric_f0, dielectric_f90: from index of

@@ -1,0 +1,158 @@
+// The techniques for environment light, in lanes: what each registered kernel does with one batch of surfaces. A technique is one
+// function here (<id>_specular), its kernel file, and its line in shading/models.def.
+#pragma once
+#include "raster/tile/lanes_bake.h"
+#include "shading/kernels/bent_normal.k.h"
+#include "shading/kernels/fresnel.k.h"
+#include "shading/kernels/ggx_aniso.k.h"
+#include "shading/kernels/lobe.k.h"
+#include "shading/kernels/major_axis.k.h"
+#include "shading/kernels/split_isotropic.k.h"
+#include "shading/kernels/surface.k.h"
+
+namespace burnish {
+inline namespace BN_ISA_NS {
+
+enum class Technique : std::int32_t {
+#define BN_TECHNIQUE(id, default_samples, summary) id,
+#include "shading/models.def"
+};
+
+struct TechniqueInput {
+    const FrameParams& f;
+    const surface& s;
+    const aniso_lobe& lobe;
+    real3 albedo;      // directional albedo of the lobe, for techniques of a split integral
+    integer pixel_id;  // y * width + x, for random numbers
+};
+
+BN_INLINE real3 texel_rgb(texel_acc acc)
+{
+    const real4 v = texel_value(acc);
+    return vec3_of(v.x, v.y, v.z);
+}
+
+BN_INLINE real3 split_isotropic_specular(const TechniqueInput& in)
+{
+    return split_isotropic_radiance(in.s, lanes_cube(in.f.specular_cube)) * in.albedo;
+}
+
+BN_INLINE real3 bent_normal_specular(const TechniqueInput& in)
+{
+    const cube_desc cube = lanes_cube(in.f.specular_cube);
+    const bent_ray ray = bent_normal_ray(in.s.n, in.s.v, in.lobe);
+    return cube_sample(cube, ray.direction, ray.lod * to_real(int_lit(cube.levels - 1))) * in.albedo;
+}
+
+struct LaneLine { // the major axis in world space
+    real3 e0, step, o;
+    major_axis_line line;
+};
+
+BN_INLINE LaneLine major_axis_in_world(const TechniqueInput& in, real inv_count)
+{
+    real3 o = to_lobe(in.lobe, in.s.n, in.s.v);
+    o.z = max(o.z, lit(1e-4));
+    o = k_normalize3(o);
+    LaneLine r;
+    r.line = major_axis_setup(o, in.lobe.sigma_u, in.lobe.sigma_v, splat(in.f.major_axis_k), splat(in.f.major_axis_beta), inv_count);
+    r.e0 = from_lobe(in.lobe, in.s.n, r.line.e0);
+    r.step = from_lobe(in.lobe, in.s.n, r.line.e1 - r.line.e0);
+    r.o = from_lobe(in.lobe, in.s.n, o);
+    return r;
+}
+
+BN_INLINE real major_axis_lod(real radius, const cube_desc& cube)
+{
+    return min(sqrt(radius), lit(1.0)) * to_real(int_lit(cube.levels - 1));
+}
+
+BN_INLINE real3 major_axis_specular(const TechniqueInput& in)
+{
+    const cube_desc cube = lanes_cube(in.f.specular_cube);
+    const int n = in.f.samples;
+    const real inv = lit(1.0) / to_real(int_lit(n));
+    const LaneLine line = major_axis_in_world(in, inv);
+    const real lod = major_axis_lod(line.line.radius, cube);
+    texel_acc acc = texel_zero();
+    for (int j = 0; j < n; ++j) {
+        const float s = n == 1 ? 0.5f : static_cast<float>(j) / static_cast<float>(n - 1);
+        acc = cube_texel_add(acc, cube, major_axis_direction(line.e0, line.step, line.o, splat(s)), lod, inv);
+    }
+    return texel_rgb(acc) * in.albedo;
+}
+
+// No more samples than the lobe's length asks for. They come in pairs around the middle of the line, a pair's weight grows from zero
+// as it is needed, and spacing follows the fractional count: the picture is continuous where the count changes.
+BN_INLINE real3 major_axis_adaptive_specular(const TechniqueInput& in)
+{
+    const cube_desc cube = lanes_cube(in.f.specular_cube);
+    const LaneLine line = major_axis_in_world(in, lit(0.0)); // its radius is half the lobe's width
+    const adaptive_count need = major_axis_needed(line.line, splat(in.f.major_axis_k), splat(in.f.major_axis_beta),
+                                                  to_real(int_lit(in.f.samples)));
+    const real lod = major_axis_lod(need.radius, cube);
+    const real inv = lit(1.0) / need.count;
+    texel_acc acc = cube_texel_add(texel_zero(), cube, major_axis_direction(line.e0, line.step, line.o, lit(0.5)), lod, inv);
+    float most[kLanes];
+    store(most, reduce_max(need.count));
+    for (int i = 1; static_cast<float>(2 * i - 1) < most[0]; ++i) {
+        const adaptive_pair pair = major_axis_pair(need, i);
+        const real weight = pair.weight * inv;
+        acc = cube_texel_add(acc, cube, major_axis_direction(line.e0, line.step, line.o, lit(0.5) - pair.offset), lod, weight);
+        acc = cube_texel_add(acc, cube, major_axis_direction(line.e0, line.step, line.o, lit(0.5) + pair.offset), lod, weight);
+    }
+    return texel_rgb(acc) * in.albedo;
+}
+
+// Samples weighted by the lobe's density of slopes where they lie, instead of equally.
+BN_INLINE real3 major_axis_weighted_specular(const TechniqueInput& in)
+{
+    const cube_desc cube = lanes_cube(in.f.specular_cube);
+    const int n = in.f.samples;
+    const LaneLine line = major_axis_in_world(in, lit(1.0) / to_real(int_lit(n)));
+    const real lod = major_axis_lod(line.line.radius, cube);
+    const real3 step = line.line.e1 - line.line.e0;
+    texel_acc acc = texel_zero();
+    real sum = lit(0.0);
+    for (int j = 0; j < n; ++j) {
+        const real s = splat(n == 1 ? 0.5f : static_cast<float>(j) / static_cast<float>(n - 1));
+        const real weight = major_axis_density(line.line.e0 + step * s, in.lobe.sigma_u, in.lobe.sigma_v);
+        acc = cube_texel_add(acc, cube, major_axis_direction(line.e0, line.step, line.o, s), lod, weight);
+        sum = sum + weight;
+    }
+    return texel_rgb(acc) / max(sum, lit(1e-20)) * in.albedo;
+}
+
+// GGX visible normals, height-correlated masking, Fresnel by sample; a Hammersley set rotated by a hash of the pixel.
+BN_INLINE real3 mc_specular(const TechniqueInput& in)
+{
+    const cube_desc cube = lanes_cube(in.f.specular_cube);
+    const real root2 = lit(1.4142135623730951);
+    const ggx_aniso_params p = ggx_aniso_params_of(in.lobe.sigma_u * root2, in.lobe.sigma_v * root2);
+    real3 o = to_lobe(in.lobe, in.s.n, in.s.v);
+    o.z = max(o.z, lit(1e-4));
+    o = k_normalize3(o);
+    const integer seed = k_hash_u32(in.pixel_id ^ int_lit(in.f.seed));
+    const real shift_x = k_unit_from_bits(seed), shift_y = k_unit_from_bits(k_hash_u32(seed));
+    const int n = in.f.samples;
+    const float inv = 1.0f / static_cast<float>(n);
+    real3 sum = vec3_all(lit(0.0));
+    for (int i = 0; i < n; ++i) {
+        const real x = splat((static_cast<float>(i) + 0.5f) * inv) + shift_x, y = k_radical_inverse2(int_lit(i)) + shift_y;
+        const bsdf_sample b = ggx_aniso_sample(p, o, vec2_of(x - floor(x), y - floor(y)));
+        const real3 fresnel = fresnel_schlick(in.s.f0, in.s.f90, b.o_dot_h);
+        sum = sum + cube_sample_level(cube, from_lobe(in.lobe, in.s.n, b.wi), 0) * fresnel * b.weight;
+    }
+    return sum * splat(inv);
+}
+
+template <Technique kTechnique> BN_INLINE real3 technique_specular(const TechniqueInput& in)
+{
+#define BN_TECHNIQUE(id, default_samples, summary)                                                                     \
+    if constexpr (kTechnique == Technique::id)                                                                         \
+        return id##_specular(in);
+#include "shading/models.def"
+}
+
+} // namespace BN_ISA_NS
+} // namespace burnish
