@@ -25,8 +25,9 @@ std::vector<double> solid_angles(int size)
     std::vector<double> corner((n + 1) * (n + 1)), angle(n * n);
     for (std::size_t y = 0; y <= n; ++y)
         for (std::size_t x = 0; x <= n; ++x)
-            corner[y * (n + 1) + x] = corner_solid_angle(2.0 * static_cast<double>(x) / static_cast<double>(n) - 1.0,
-                                                         2.0 * static_cast<double>(y) / static_cast<double>(n) - 1.0);
+            corner[y * (n + 1) + x] =
+                corner_solid_angle(2.0 * static_cast<double>(x) / static_cast<double>(n) - 1.0,
+                                   2.0 * static_cast<double>(y) / static_cast<double>(n) - 1.0);
     for (std::size_t y = 0; y < n; ++y)
         for (std::size_t x = 0; x < n; ++x) {
             const double* c = corner.data() + y * (n + 1) + x;
@@ -39,7 +40,8 @@ struct TexelAt {
     int face, x, y;
 };
 
-// The texel of a neighbouring face that continues `face` past one of its edges: (x, y) with x or y = -1 or size, not both.
+// The texel of a neighbouring face that continues `face` past one of its edges: (x, y) with x or y = -1 or
+// size, not both.
 TexelAt across_edge(int face, int x, int y, int size)
 {
     const double step = 2.0 / size;
@@ -69,7 +71,8 @@ TexelAt across_edge(int face, int x, int y, int size)
 std::uint16_t* texel_at(CubeMap& cube, int level, int face, int x, int y) // x, y: -1 is the border
 {
     const std::size_t side = static_cast<std::size_t>(cube.size >> level) + 2;
-    const std::size_t at = cube.offset[static_cast<std::size_t>(level)] + static_cast<std::size_t>(face) * side * side +
+    const std::size_t at = cube.offset[static_cast<std::size_t>(level)] +
+                           static_cast<std::size_t>(face) * side * side +
                            static_cast<std::size_t>(y + 1) * side + static_cast<std::size_t>(x + 1);
     return cube.texels.data() + 4 * at;
 }
@@ -160,7 +163,8 @@ CubeLevel half_cube_level(const CubeLevel& from, const Jobs& jobs)
                               static_cast<double>(from.rgb[(face * wide * wide + child) * 3 + c]);
             }
             for (std::size_t c = 0; c < 3; ++c)
-                to.rgb[((face * n + y) * n + x) * 3 + c] = static_cast<float>(sum[c] / to.solid_angle[y * n + x]);
+                to.rgb[((face * n + y) * n + x) * 3 + c] =
+                    static_cast<float>(sum[c] / to.solid_angle[y * n + x]);
         }
     });
     return to;
@@ -172,7 +176,8 @@ double mean_luminance(const CubeLevel& level)
     const std::size_t face_texels = level.solid_angle.size();
     for (std::size_t i = 0; i < 6 * face_texels; ++i)
         for (std::size_t c = 0; c < 3; ++c)
-            sum += kLuminance[c] * static_cast<double>(level.rgb[i * 3 + c]) * level.solid_angle[i % face_texels];
+            sum += kLuminance[c] * static_cast<double>(level.rgb[i * 3 + c]) *
+                   level.solid_angle[i % face_texels];
     return sum / (4.0 * kPi);
 }
 
@@ -186,7 +191,8 @@ double mean_luminance(const CubeMap& cube)
             const std::uint16_t* row = cube.texels.data() + 4 * ((face * side + y + 1) * side + 1);
             for (std::size_t x = 0; x < n; ++x)
                 for (std::size_t c = 0; c < 3; ++c)
-                    sum += kLuminance[c] * static_cast<double>(half_to_float(row[4 * x + c])) * angles[y * n + x];
+                    sum += kLuminance[c] * static_cast<double>(half_to_float(row[4 * x + c])) *
+                           angles[y * n + x];
         }
     return sum * static_cast<double>(cube.scale) / (4.0 * kPi);
 }

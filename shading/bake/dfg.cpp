@@ -1,6 +1,7 @@
-// The DFG table, by quadrature: GGX with height-correlated Smith masking-shadowing, visible normals sampled on a regular grid.
-// Visible normals: Heitz 2018, "Sampling the GGX distribution of visible normals"; as a spherical cap: Dupuy, Benyoub 2023. With
-// them the integrand is F * G2/G1, smooth and below 1, so that a midpoint rule converges fast.
+// The DFG table, by quadrature: GGX with height-correlated Smith masking-shadowing, visible normals sampled
+// on a regular grid. Visible normals: Heitz 2018, "Sampling the GGX distribution of visible normals"; as a
+// spherical cap: Dupuy, Benyoub 2023. With them the integrand is F * G2/G1, smooth and below 1, so that a
+// midpoint rule converges fast.
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -35,7 +36,9 @@ ScaleBias integrate(double n_dot_v, double alpha, const std::vector<double>& cos
     const double lambda_v = ggx_lambda(vz, alpha);
     ScaleBias sum = {0.0, 0.0};
     for (std::size_t j = 0; j < n; ++j) {
-        const double z = 1.0 - (static_cast<double>(j) + 0.5) / static_cast<double>(n) * (1.0 + wz);
+        // graded towards the far end, where a narrow strip holds the widely tilted normals
+        const double t = 1.0 - (static_cast<double>(j) + 0.5) / static_cast<double>(n), density = 3.0 * t * t;
+        const double z = 1.0 - (1.0 - t * t * t) * (1.0 + wz);
         const double rho = std::sqrt(std::max(0.0, 1.0 - z * z));
         for (std::size_t i = 0; i < n; ++i) {
             const double cx = rho * cosines[i] + wx, cz = z + wz;
@@ -46,7 +49,8 @@ ScaleBias integrate(double n_dot_v, double alpha, const std::vector<double>& cos
             const double n_dot_l = 2.0 * v_dot_h * hz / norm - vz;
             if (!(n_dot_l > 0.0))
                 continue;
-            const double g = (1.0 + lambda_v) / (1.0 + lambda_v + ggx_lambda(n_dot_l, alpha)); // G2 / G1(v)
+            const double g =
+                (1.0 + lambda_v) / (1.0 + lambda_v + ggx_lambda(n_dot_l, alpha)) * density; // G2 / G1(v)
             const double m = 1.0 - std::min(v_dot_h, 1.0), fresnel = m * m * m * m * m;
             sum.scale += (1.0 - fresnel) * g;
             sum.bias += fresnel * g;

@@ -24,7 +24,8 @@ template <class Kernel>
 std::vector<float> run_over_cube(int size, const Jobs& jobs, Progress& progress, const Kernel& kernel)
 {
     std::vector<float> rgb(cube_texels(size) * 3);
-    const int face_texels = size * size, piece = std::min(kTexelsAJob, face_texels), pieces = face_texels / piece;
+    const int face_texels = size * size, piece = std::min(kTexelsAJob, face_texels),
+              pieces = face_texels / piece;
     jobs.parallel_for(6 * static_cast<std::size_t>(pieces), [&](std::size_t i, int) {
         const int face = static_cast<int>(i) / pieces, first = static_cast<int>(i) % pieces * piece;
         const std::size_t texel = static_cast<std::size_t>(face) * static_cast<std::size_t>(face_texels) +
@@ -45,8 +46,8 @@ std::vector<CubeLevel> box_chain(CubeLevel level0, const Jobs& jobs)
 }
 
 // Level 0 is the environment itself; level l holds GGX with alpha_lin = l / (levels - 1).
-CubeMap prefilter_chain(const std::vector<CubeLevel>& boxes, int levels, int samples, float scale, const Jobs& jobs,
-                        Progress& progress)
+CubeMap prefilter_chain(const std::vector<CubeLevel>& boxes, int levels, int samples, float scale,
+                        const Jobs& jobs, Progress& progress)
 {
     const int size = boxes[0].size;
     CubeMap chain = make_cube_map(size, levels, scale);
@@ -111,8 +112,8 @@ Status check(const Image& image, const std::string& name, const EnvironmentOptio
     return {};
 }
 
-Result<Environment> bake(const Image& image, const std::string& name, const EnvironmentOptions& options, int levels,
-                         const Jobs& jobs)
+Result<Environment> bake(const Image& image, const std::string& name, const EnvironmentOptions& options,
+                         int levels, const Jobs& jobs)
 {
     const TraceSpan span("bake environment");
     Environment e;
@@ -126,8 +127,10 @@ Result<Environment> bake(const Image& image, const std::string& name, const Envi
 
     Progress progress("baking " + name, prefilter_texels(options.cube_size, levels), options.quiet);
     const std::vector<CubeLevel> boxes = box_chain(
-        equirect_to_cube(source, options.cube_size, static_cast<double>(options.rotation_deg), gain, jobs), jobs);
-    const auto gathered = std::find_if(boxes.begin(), boxes.end(), [](const CubeLevel& l) { return l.size <= kIrradianceSource; });
+        equirect_to_cube(source, options.cube_size, static_cast<double>(options.rotation_deg), gain, jobs),
+        jobs);
+    const auto gathered = std::find_if(boxes.begin(), boxes.end(),
+                                       [](const CubeLevel& l) { return l.size <= kIrradianceSource; });
     e.irradiance = irradiance_cube(*gathered, jobs, progress);
     e.specular = prefilter_chain(boxes, levels, options.samples, cube_scale(peak), jobs, progress);
     e.energy_cube = mean_luminance(e.specular);
@@ -141,8 +144,8 @@ double ms_since(std::chrono::steady_clock::time_point start)
 
 } // namespace
 
-Result<Environment> bake_environment(const Image& equirect, const std::string& name, const EnvironmentOptions& options,
-                                     const Jobs& jobs)
+Result<Environment> bake_environment(const Image& equirect, const std::string& name,
+                                     const EnvironmentOptions& options, const Jobs& jobs)
 {
     const auto start = std::chrono::steady_clock::now();
     if (const Status status = check(equirect, name, options); !status)
@@ -154,7 +157,8 @@ Result<Environment> bake_environment(const Image& equirect, const std::string& n
     const std::uint64_t hash = environment_hash(equirect, options, levels);
     const std::string path = options.use_cache ? environment_cache_path(options, hash) : "";
     if (!path.empty())
-        if (std::optional<Environment> cached = read_environment_cache(path, hash, options.cube_size, levels)) {
+        if (std::optional<Environment> cached =
+                read_environment_cache(path, hash, options.cube_size, levels)) {
             cached->name = name;
             cached->bake_ms = ms_since(start);
             return std::move(*cached);
@@ -171,12 +175,13 @@ Result<Environment> bake_environment(const Image& equirect, const std::string& n
     return e;
 }
 
-Result<Environment> load_environment(const std::string& spec, const EnvironmentOptions& options, const Limits& limits,
-                                     const Jobs& jobs)
+Result<Environment> load_environment(const std::string& spec, const EnvironmentOptions& options,
+                                     const Limits& limits, const Jobs& jobs)
 {
     const std::string builtin = "builtin:";
-    const Result<Image> image = spec.starts_with(builtin) ? make_builtin_environment(spec.substr(builtin.size()))
-                                                          : read_image(spec, limits);
+    const Result<Image> image = spec.starts_with(builtin)
+                                    ? make_builtin_environment(spec.substr(builtin.size()))
+                                    : read_image(spec, limits);
     if (!image)
         return image.error();
     return bake_environment(*image, spec, options, jobs);

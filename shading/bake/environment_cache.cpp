@@ -55,8 +55,16 @@ std::uint64_t environment_hash(const Image& equirect, const EnvironmentOptions& 
         std::uint32_t version;
         std::int32_t width, height, channels, type, size, levels, samples;
         float rotation, exposure;
-    } key = {kBakeVersion,      equirect.width, equirect.height, equirect.channels,   static_cast<std::int32_t>(equirect.type),
-             options.cube_size, levels,         options.samples, options.rotation_deg, options.exposure_ev};
+    } key = {kBakeVersion,
+             equirect.width,
+             equirect.height,
+             equirect.channels,
+             static_cast<std::int32_t>(equirect.type),
+             options.cube_size,
+             levels,
+             options.samples,
+             options.rotation_deg,
+             options.exposure_ev};
     return hash_bytes(equirect.bytes.data(), equirect.bytes.size(), hash_bytes(&key, sizeof(key)));
 }
 
@@ -72,7 +80,8 @@ std::string environment_cache_path(const EnvironmentOptions& options, std::uint6
     return fmt::format("{}/environment-{:016x}.bnenv", folder, content_hash);
 }
 
-std::optional<Environment> read_environment_cache(const std::string& path, std::uint64_t content_hash, int size, int levels)
+std::optional<Environment> read_environment_cache(const std::string& path, std::uint64_t content_hash,
+                                                  int size, int levels)
 {
     Environment e;
     e.specular = make_cube_map(size, levels, 1.0f);
@@ -85,9 +94,9 @@ std::optional<Environment> read_environment_cache(const std::string& path, std::
     Header h;
     std::memcpy(&h, file->data(), sizeof(h));
     const std::uint8_t* payload = file->data() + sizeof(h);
-    if (std::memcmp(h.magic, kMagic, sizeof(kMagic)) != 0 || h.version != kBakeVersion || h.size != size || h.levels != levels ||
-        h.irradiance_size != kIrradianceSize || h.content_hash != content_hash || h.header_hash != hash_of(h) ||
-        h.payload_hash != hash_bytes(payload, specular + irradiance))
+    if (std::memcmp(h.magic, kMagic, sizeof(kMagic)) != 0 || h.version != kBakeVersion || h.size != size ||
+        h.levels != levels || h.irradiance_size != kIrradianceSize || h.content_hash != content_hash ||
+        h.header_hash != hash_of(h) || h.payload_hash != hash_bytes(payload, specular + irradiance))
         return std::nullopt;
     std::memcpy(e.specular.texels.data(), payload, specular);
     std::memcpy(e.irradiance.texels.data(), payload + specular, irradiance);
@@ -108,7 +117,8 @@ Status write_environment_cache(const std::string& path, const Environment& e)
     std::memcpy(h.magic, kMagic, sizeof(kMagic));
     h.version = kBakeVersion;
     h.size = e.specular.size, h.levels = e.specular.levels, h.irradiance_size = e.irradiance.size;
-    h.specular_scale = e.specular.scale, h.irradiance_scale = e.irradiance.scale, h.peak_source = e.peak_source;
+    h.specular_scale = e.specular.scale, h.irradiance_scale = e.irradiance.scale,
+    h.peak_source = e.peak_source;
     h.energy_source = e.energy_source, h.energy_cube = e.energy_cube;
     h.content_hash = e.content_hash;
     h.payload_hash = hash_bytes(file.data() + sizeof(Header), specular + irradiance);

@@ -1,5 +1,5 @@
-// Baked environments on disk, found by content hash. Anything unexpected in a cache file (truncation, another version, a wrong
-// checksum) means that it is not there.
+// Baked environments on disk, found by content hash. Anything unexpected in a cache file (truncation, another
+// version, a wrong checksum) means that it is not there.
 #pragma once
 #include <cstdint>
 #include <optional>
@@ -17,7 +17,8 @@ std::uint64_t environment_hash(const Image& equirect, const EnvironmentOptions& 
 // Path of the cache file; empty where there is no folder to cache in.
 std::string environment_cache_path(const EnvironmentOptions& options, std::uint64_t content_hash);
 
-std::optional<Environment> read_environment_cache(const std::string& path, std::uint64_t content_hash, int size, int levels);
+std::optional<Environment> read_environment_cache(const std::string& path, std::uint64_t content_hash,
+                                                  int size, int levels);
 // Creates the folder where needed. The file appears when it is complete.
 Status write_environment_cache(const std::string& path, const Environment& environment);
 

@@ -15,14 +15,15 @@ struct Equirect {
     std::vector<float> rgb;
 };
 
-// 8- and 16-bit images are taken as sRGB. NaN and negative values become 0, Inf the largest finite value of the image; each kind
-// is counted in a warning.
+// 8- and 16-bit images are taken as sRGB. NaN and negative values become 0, Inf the largest finite value of
+// the image; each kind is counted in a warning.
 Equirect make_equirect(const Image& image, std::vector<std::string>& warnings);
 
 double mean_luminance(const Equirect& source); // over the sphere: pixels weighted by their solid angles
 float peak_value(const Equirect& source);      // largest channel value
 
 // The source turned counter-clockwise about +Y (seen from above), times `gain`.
-CubeLevel equirect_to_cube(const Equirect& source, int size, double rotation_deg, double gain, const Jobs& jobs);
+CubeLevel equirect_to_cube(const Equirect& source, int size, double rotation_deg, double gain,
+                           const Jobs& jobs);
 
 } // namespace burnish

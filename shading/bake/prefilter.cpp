@@ -9,6 +9,11 @@
 namespace burnish {
 namespace {
 
+// Added to the level of detail of every sample. Small lamps show as a speckle of single samples without it;
+// 1/2 halves the largest errors on interiors with lamps and costs 1.2 times the mean error on smooth levels
+// (against 65536 samples, levels 1 to 8).
+constexpr double kMipBias = 0.5;
+
 double radical_inverse_2(std::uint32_t i)
 {
     std::uint32_t reversed = 0;
@@ -17,7 +22,8 @@ double radical_inverse_2(std::uint32_t i)
     return static_cast<double>(reversed) * 0x1p-32;
 }
 
-// sin^2 and cos^2 of the angle between half vector and normal: Walter et al. 2007, eq. 35, without cancellation.
+// sin^2 and cos^2 of the angle between half vector and normal: Walter et al. 2007, eq. 35, without
+// cancellation.
 double sin2_of(double x2, double a2)
 {
     return a2 * x2 / (1.0 + (a2 - 1.0) * x2);
@@ -29,8 +35,9 @@ double cos2_of(double x2, double a2)
 
 } // namespace
 
-// Krivanek, Colbert 2008, "Real-time shading with filtered importance sampling": a sample reads the level whose texels subtend what
-// the sample stands for. In the half-vector form with V = N = R: n.h = v.h, so the pdf of the light direction is D/4.
+// Krivanek, Colbert 2008, "Real-time shading with filtered importance sampling": a sample reads the level
+// whose texels subtend what the sample stands for. In the half-vector form with V = N = R: n.h = v.h, so the
+// pdf of the light direction is D/4.
 PrefilterSample prefilter_sample(double alpha_lin, double x2, int samples, int cube_size, int levels)
 {
     const double a = alpha_lin * alpha_lin, a2 = a * a;
@@ -42,7 +49,8 @@ PrefilterSample prefilter_sample(double alpha_lin, double x2, int samples, int c
     s.pdf = a2 / (kPi * d * d) / 4.0;
     const double sample_angle = 1.0 / (samples * s.pdf);
     const double texel_angle = 4.0 * kPi / (6.0 * cube_size * static_cast<double>(cube_size));
-    s.mip = std::min(0.5 * det_log(sample_angle / texel_angle) / det_log(2.0), static_cast<double>(levels - 1));
+    s.mip =
+        std::min(0.5 * det_log(sample_angle / texel_angle) / det_log(2.0), static_cast<double>(levels - 1));
     return s;
 }
 
@@ -53,7 +61,8 @@ PrefilterSamples make_prefilter_samples(double alpha_lin, int samples, int cube_
     std::vector<double> n_dot_l;
     double sum = 0.0;
     for (int i = 0; i < samples; ++i) {
-        const double x1 = static_cast<double>(i) / samples, x2 = radical_inverse_2(static_cast<std::uint32_t>(i));
+        const double x1 = static_cast<double>(i) / samples,
+                     x2 = radical_inverse_2(static_cast<std::uint32_t>(i));
         const PrefilterSample s = prefilter_sample(alpha_lin, x2, samples, cube_size, levels);
         if (!(s.n_dot_l > 0.0))
             continue;
@@ -62,7 +71,7 @@ PrefilterSamples make_prefilter_samples(double alpha_lin, int samples, int cube_
         list.x.push_back(static_cast<float>(rho * det_cos(phi)));
         list.y.push_back(static_cast<float>(rho * det_sin(phi)));
         list.z.push_back(static_cast<float>(s.n_dot_l));
-        const double mip = std::max(s.mip, 0.0);
+        const double mip = std::clamp(s.mip + kMipBias, 0.0, static_cast<double>(levels - 1));
         const int level = std::clamp(static_cast<int>(mip), 0, std::max(levels - 2, 0));
         list.level.push_back(level);
         list.fraction.push_back(static_cast<float>(mip - level));
@@ -87,7 +96,8 @@ IrradianceSource make_irradiance_source(const CubeLevel& level)
                 const double u = (static_cast<double>(i % n) + 0.5 + (k % 2 ? node : -node)) * step - 1.0;
                 const double v = (static_cast<double>(i / n) + 0.5 + (k / 2 ? node : -node)) * step - 1.0;
                 const Direction d = cube_direction(face, u, v);
-                const double r2 = 1.0 + u * u + v * v, w = 0.25 * step * step / (r2 * r2); // unit direction times solid angle
+                const double r2 = 1.0 + u * u + v * v,
+                             w = 0.25 * step * step / (r2 * r2); // unit direction times solid angle
                 sum = {sum.x + w * d.x, sum.y + w * d.y, sum.z + w * d.z};
             }
             s.x.push_back(static_cast<float>(sum.x));
@@ -124,7 +134,9 @@ bool bake_isa_available(int isa)
 
 const BakeFns& bake_fns()
 {
-    return bake_isa_available(2) ? bake_fns_of<2>() : bake_isa_available(1) ? bake_fns_of<1>() : bake_fns_of<0>();
+    return bake_isa_available(2)   ? bake_fns_of<2>()
+           : bake_isa_available(1) ? bake_fns_of<1>()
+                                   : bake_fns_of<0>();
 }
 
 } // namespace burnish

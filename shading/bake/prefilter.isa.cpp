@@ -32,7 +32,8 @@ BN_FN real3 texel_directions(int face, int size, int first)
     const int shift = __builtin_ctz(static_cast<unsigned>(size));
     const integer ix = i & int_lit(size - 1), iy = shr(i, shift);
     const real inv = splat(1.0f / static_cast<float>(size));
-    const real u = to_real(ix + ix + int_lit(1)) * inv - lit(1.0), v = to_real(iy + iy + int_lit(1)) * inv - lit(1.0);
+    const real u = to_real(ix + ix + int_lit(1)) * inv - lit(1.0),
+               v = to_real(iy + iy + int_lit(1)) * inv - lit(1.0);
     const real one = lit(1.0);
     real3 d;
     switch (face) {
@@ -101,7 +102,8 @@ void irradiance(const IrradianceInput& source, int face, int size, int first, in
             real3 part = vec3_all(lit(0.0));
             real part_weights = lit(0.0);
             for (int i = row; i < row + source.row; ++i) {
-                const real cosine = normal.x * splat(source.x[i]) + normal.y * splat(source.y[i]) + normal.z * splat(source.z[i]);
+                const real cosine = normal.x * splat(source.x[i]) + normal.y * splat(source.y[i]) +
+                                    normal.z * splat(source.z[i]);
                 const real w = max(cosine, lit(0.0));
                 part = part + vec3_of(splat(source.r[i]), splat(source.g[i]), splat(source.b[i])) * w;
                 part_weights = part_weights + w;

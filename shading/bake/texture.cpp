@@ -16,8 +16,8 @@ struct Size {
     int w, h;
 };
 
-// Decodes rows of an image to linear RGBA float. Gray is replicated; alpha is 1 where there is none. NaN becomes 0, and what a
-// half cannot hold is saturated, so that no filter spreads an Inf.
+// Decodes rows of an image to linear RGBA float. Gray is replicated; alpha is 1 where there is none. NaN
+// becomes 0, and what a half cannot hold is saturated, so that no filter spreads an Inf.
 class Decoder {
   public:
     Decoder(const Image& image, TextureEncoding encoding) : image_(image)
@@ -37,8 +37,8 @@ class Decoder {
 
     void row(int y, float* rgba) const
     {
-        const std::size_t stride = static_cast<std::size_t>(image_.width) * static_cast<std::size_t>(image_.channels) *
-                                   pixel_type_bytes(image_.type);
+        const std::size_t stride = static_cast<std::size_t>(image_.width) *
+                                   static_cast<std::size_t>(image_.channels) * pixel_type_bytes(image_.type);
         const std::byte* from = image_.bytes.data() + stride * static_cast<std::size_t>(y);
         if (image_.type == PixelType::u8)
             expand(reinterpret_cast<const std::uint8_t*>(from), rgba);
@@ -51,7 +51,10 @@ class Decoder {
   private:
     template <class Code> float color(Code c) const { return color_[c]; }
     template <class Code> float linear(Code c) const { return linear_[c]; }
-    static float sane(float x) { return x > -kHalfMax ? std::min(x, kHalfMax) : x <= -kHalfMax ? -kHalfMax : 0.0f; }
+    static float sane(float x)
+    {
+        return x > -kHalfMax ? std::min(x, kHalfMax) : x <= -kHalfMax ? -kHalfMax : 0.0f;
+    }
     float color(float x) const { return sane(x); }
     float linear(float x) const { return sane(x); }
 
@@ -70,7 +73,8 @@ class Decoder {
     std::vector<float> color_, linear_; // by code
 };
 
-// One axis of an exact box filter: target texel i covers source texels first[i]..., with weights that sum to 1.
+// One axis of an exact box filter: target texel i covers source texels first[i]..., with weights that sum
+// to 1.
 struct AxisWeights {
     std::vector<int> first;
     std::vector<int> begin;    // of texel i, into weight; one more entry than texels
@@ -95,7 +99,8 @@ AxisWeights box_weights(int source, int target)
     return a;
 }
 
-// Box filter of source rows (float RGBA) to `to`; rows first, then columns, sums in double and in index order.
+// Box filter of source rows (float RGBA) to `to`; rows first, then columns, sums in double and in index
+// order.
 template <class Row> std::vector<float> box_filter(Size from, Size to, const Row& source_row)
 {
     const AxisWeights ax = box_weights(from.w, to.w), ay = box_weights(from.h, to.h);
@@ -133,7 +138,8 @@ void store_row(TexturePyramid& p, int level, Size size, int y, const float* rgba
         out[i] = float_to_half(rgba[i]);
 }
 
-// The texel that border texel -1 (`high` false) or n (`high` true) repeats. Mirroring reflects at the edge of the edge texel.
+// The texel that border texel -1 (`high` false) or n (`high` true) repeats. Mirroring reflects at the edge of
+// the edge texel.
 int border_source(WrapMode mode, int n, bool high)
 {
     if (mode == WrapMode::repeat)
@@ -197,7 +203,8 @@ TexturePyramid make_texture_pyramid(const Image& image, const Texture& sampler, 
     }
     fill_border(p, 0, full);
 
-    // A level comes from the smallest earlier level whose texels its footprints are unions of, else from level 0: both are exact.
+    // A level comes from the smallest earlier level whose texels its footprints are unions of, else from
+    // level 0: both are exact.
     std::array<std::vector<float>, kMaxTextureLevels> levels;
     std::array<Size, kMaxTextureLevels> sizes;
     sizes[0] = full;
@@ -210,13 +217,15 @@ TexturePyramid make_texture_pyramid(const Image& image, const Texture& sampler, 
         sizes[i] = size;
         const auto source_row = [&](int y) -> const float* {
             if (from > 0)
-                return levels[from].data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(sizes[from].w) * 4;
+                return levels[from].data() +
+                       static_cast<std::size_t>(y) * static_cast<std::size_t>(sizes[from].w) * 4;
             decoder.row(y, row.data());
             return row.data();
         };
         levels[i] = box_filter(sizes[from], size, source_row);
         for (int y = 0; y < size.h; ++y)
-            store_row(p, l, size, y, levels[i].data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(size.w) * 4);
+            store_row(p, l, size, y,
+                      levels[i].data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(size.w) * 4);
         fill_border(p, l, size);
     }
     return p;

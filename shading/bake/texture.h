@@ -11,15 +11,19 @@ namespace burnish {
 
 inline constexpr int kMaxTextureLevels = 16;
 
-enum class TextureEncoding : std::uint8_t { linear, srgb }; // srgb: RGB decoded before filtering, alpha linear
+enum class TextureEncoding : std::uint8_t {
+    linear,
+    srgb
+}; // srgb: RGB decoded before filtering, alpha linear
 
-// Level l is (width_l + 2) x (height_l + 2) texels with a border of one texel filled by the wrap modes, so that the 2x2 footprint
-// of a coordinate wrapped to [-1/2, size + 1/2) is always in memory, and a texel pair is one 16-byte load.
+// Level l is (width_l + 2) x (height_l + 2) texels with a border of one texel filled by the wrap modes, so
+// that the 2x2 footprint of a coordinate wrapped to [-1/2, size + 1/2) is always in memory, and a texel pair
+// is one 16-byte load.
 struct TexturePyramid {
     int width = 0, height = 0, levels = 0;
     WrapMode wrap_s = WrapMode::repeat, wrap_t = WrapMode::repeat;
     bool nearest = false;
-    std::int32_t offset[kMaxTextureLevels] = {};   // in texels, of the bordered level
+    std::int32_t offset[kMaxTextureLevels] = {}; // in texels, of the bordered level
     float level_width[kMaxTextureLevels] = {}, level_height[kMaxTextureLevels] = {};
     Column<std::uint16_t> texels; // 4 halves a texel
 };

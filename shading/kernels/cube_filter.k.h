@@ -1,10 +1,12 @@
-// Seamless trilinear fetch from a bordered cube map. Faces +x (1,-v,-u), -x (-1,-v,u), +y (u,1,v), -y (u,-1,-v), +z (u,-v,1),
-// -z (-u,-v,-1) with u, v in [-1,1] along columns and rows: the Vulkan and OpenGL faces.
+// Seamless trilinear fetch from a bordered cube map. Faces +x (1,-v,-u), -x (-1,-v,u), +y (u,1,v), -y
+// (u,-1,-v), +z (u,-v,1), -z (-u,-v,-1) with u, v in [-1,1] along columns and rows: the Vulkan and OpenGL
+// faces.
 //
-// Memory: RGBA half texels. Level l has t = size >> l texels along an edge and is stored as six faces of w x w, w = t + 2, rows
-// from the top, with one texel of the neighbouring faces around each face (corner texels: mean of the three faces), so that a 2x2
-// footprint never leaves its face and the two faces of an edge interpolate to the same colour there. Levels follow each other,
-// largest first, without gaps. Sizes halve exactly, so the sum of the levels before level l has a closed form,
+// Memory: RGBA half texels. Level l has t = size >> l texels along an edge and is stored as six faces of w x
+// w, w = t + 2, rows from the top, with one texel of the neighbouring faces around each face (corner texels:
+// mean of the three faces), so that a 2x2 footprint never leaves its face and the two faces of an edge
+// interpolate to the same colour there. Levels follow each other, largest first, without gaps. Sizes halve
+// exactly, so the sum of the levels before level l has a closed form,
 //     6 * (sum of w^2) = 8 (w0^2 + 2 w0) - 8 (w^2 + 2 w) + 24 l,    w0 = size + 2,
 // and the index of texel (ix, iy) of a face, which counts the border, is
 //     8 (w0^2 + 2 w0) + 24 l + w ((face - 8) w + iy - 16) + ix:
@@ -28,8 +30,8 @@ struct cube_place {
     real v;       // [0, 1], along the column
 };
 
-// Where direction d (any length) meets the cube. Ties between axes go to x before y before z. The zero vector is the middle of +z;
-// a NaN component gives some place inside the cube.
+// Where direction d (any length) meets the cube. Ties between axes go to x before y before z. The zero vector
+// is the middle of +z; a NaN component gives some place inside the cube.
 BN_FN cube_place cube_face_uv(real3 d)
 {
     real ax = abs(d.x);
@@ -58,10 +60,10 @@ BN_FN cube_place cube_face_uv(real3 d)
     return p;
 }
 
-// Adds weight times the bilinear value at `place` of the level of t texels (a real) and w = t + 2 (an integer) along an edge.
-// base = 8 (w0^2 + 2 w0) + 24 level.
-BN_FN texel_acc cube_bilinear_add(texel_acc acc, texel_buffer texels, cube_place place, integer base, integer w, real t,
-                                  real weight)
+// Adds weight times the bilinear value at `place` of the level of t texels (a real) and w = t + 2 (an
+// integer) along an edge. base = 8 (w0^2 + 2 w0) + 24 level.
+BN_FN texel_acc cube_bilinear_add(texel_acc acc, texel_buffer texels, cube_place place, integer base,
+                                  integer w, real t, real weight)
 {
     real x = place.u * t + lit(0.5);
     real y = place.v * t + lit(0.5);
@@ -86,10 +88,12 @@ BN_FN integer cube_base(cube_desc cube)
 BN_FN texel_acc cube_level_add(texel_acc acc, cube_desc cube, cube_place place, int level, real weight)
 {
     integer t = int_lit(cube.size >> level);
-    return cube_bilinear_add(acc, cube.texels, place, cube_base(cube) + int_lit(24 * level), t + int_lit(2), to_real(t), weight);
+    return cube_bilinear_add(acc, cube.texels, place, cube_base(cube) + int_lit(24 * level), t + int_lit(2),
+                             to_real(t), weight);
 }
 
-// Adds weight times the trilinear value in direction d, any length. lod is clamped to [0, levels - 1]; NaN counts as 0.
+// Adds weight times the trilinear value in direction d, any length. lod is clamped to [0, levels - 1]; NaN
+// counts as 0.
 BN_FN texel_acc cube_texel_add(texel_acc acc, cube_desc cube, real3 d, real lod, real weight)
 {
     cube_place place = cube_face_uv(d);
@@ -98,7 +102,8 @@ BN_FN texel_acc cube_texel_add(texel_acc acc, cube_desc cube, real3 d, real lod,
     }
     real last = to_real(int_lit(cube.levels - 1));
     real clamped = min(max(lod, lit(0.0)), last);
-    integer level = min(to_int(clamped), int_lit(cube.levels - 2)); // the finer of two; the last level is reached with f = 1
+    integer level = min(to_int(clamped),
+                        int_lit(cube.levels - 2)); // the finer of two; the last level is reached with f = 1
     real f = clamped - to_real(level);
     // level 0 as a float, its exponent lowered by the level
     real size = to_real(int_lit(cube.size));
@@ -109,7 +114,8 @@ BN_FN texel_acc cube_texel_add(texel_acc acc, cube_desc cube, real3 d, real lod,
     real fine = weight - coarse;
     texel_acc sum = cube_bilinear_add(acc, cube.texels, place, base, w, t, fine);
     real half_t = t * lit(0.5);
-    return cube_bilinear_add(sum, cube.texels, place, base + int_lit(24), shr(w, 1) + int_lit(1), half_t, coarse);
+    return cube_bilinear_add(sum, cube.texels, place, base + int_lit(24), shr(w, 1) + int_lit(1), half_t,
+                             coarse);
 }
 
 // One trilinear fetch.

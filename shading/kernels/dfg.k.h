@@ -1,5 +1,5 @@
-// Directional albedo of GGX under Schlick's Fresnel: F = F0 * scale + F90 * bias ("split sum", Karis 2013), from the baked table or from
-// an analytic fit.
+// Directional albedo of GGX under Schlick's Fresnel: F = F0 * scale + F90 * bias ("split sum", Karis 2013),
+// from the baked table or from an analytic fit.
 #ifndef BN_DFG_K_H
 #define BN_DFG_K_H
 #include "shading/kernels/math.k.h"
@@ -12,9 +12,9 @@ struct dfg_value {
     real bias;
 };
 
-// Bilinear fetch from the table as texels: size x size RGBA halves, row = perceptual roughness y / (size - 1), column = n.v
-// x / (size - 1); scale = R + B and bias = G + A, where B and A hold what rounding took from R and G. Inputs are clamped to [0,1];
-// NaN counts as 0.
+// Bilinear fetch from the table as texels: size x size RGBA halves, row = perceptual roughness y / (size -
+// 1), column = n.v x / (size - 1); scale = R + B and bias = G + A, where B and A hold what rounding took from
+// R and G. Inputs are clamped to [0,1]; NaN counts as 0.
 BN_FN dfg_value dfg_lookup(texel_buffer table, int size, real n_dot_v, real roughness)
 {
     real last = to_real(int_lit(size - 1));
@@ -37,8 +37,8 @@ BN_FN dfg_value dfg_lookup(texel_buffer table, int size, real n_dot_v, real roug
     return r;
 }
 
-// Pesce, Iwanicki 2015, "Approximate models for physically based rendering": coarse (0.07 rms, up to 0.17 off), small and smooth.
-// roughness: perceptual, [0,1]; n_dot_v: [0,1].
+// Pesce, Iwanicki 2015, "Approximate models for physically based rendering": coarse (0.07 rms, up to 0.17
+// off), small and smooth. roughness: perceptual, [0,1]; n_dot_v: [0,1].
 BN_FN dfg_value dfg_fit(real n_dot_v, real roughness)
 {
     real a = roughness * roughness;

@@ -1,14 +1,16 @@
 // Filtered fetch from a bordered 2D texture pyramid: wrapping, bilinear, trilinear, anisotropic.
 //
-// Memory: RGBA half texels; level l is (width_l + 2) x (height_l + 2) with a border of one texel filled by the wrap modes, rows from
-// the top. Any size; width_l = max(1, floor(width / 2^l)).
+// Memory: RGBA half texels; level l is (width_l + 2) x (height_l + 2) with a border of one texel filled by
+// the wrap modes, rows from the top. Any size; width_l = max(1, floor(width / 2^l)).
 //
-// Level of detail and footprint follow Vulkan 1.3, "Image Sample Operations" (the scheme of EXT_texture_filter_anisotropic), with the
-// lengths of the exact derivatives: P_max and P_min are the longer and the shorter of |d(texels)/dx| and |d(texels)/dy|,
+// Level of detail and footprint follow Vulkan 1.3, "Image Sample Operations" (the scheme of
+// EXT_texture_filter_anisotropic), with the lengths of the exact derivatives: P_max and P_min are the longer
+// and the shorter of |d(texels)/dx| and |d(texels)/dy|,
 //     e = min(P_max / P_min, max_taps),  lod = log2(P_max / e),  N = ceil(e),
-// and N taps of equal weight lie on the longer derivative at i/(N+1) - 1/2, i = 1..N. Two refinements keep N small where more taps
-// cannot show: N is at most ceil(P_max) (taps denser than the texels of level 0), and an e that exceeds a whole number by less than
-// 1/256 is rounded down (an isotropic footprint would otherwise flicker between one and two taps).
+// and N taps of equal weight lie on the longer derivative at i/(N+1) - 1/2, i = 1..N. Two refinements keep N
+// small where more taps cannot show: N is at most ceil(P_max) (taps denser than the texels of level 0), and
+// an e that exceeds a whole number by less than 1/256 is rounded down (an isotropic footprint would otherwise
+// flicker between one and two taps).
 #ifndef BN_TEXTURE_FILTER_K_H
 #define BN_TEXTURE_FILTER_K_H
 #include "shading/kernels/math.k.h"
@@ -18,13 +20,13 @@ BN_KERNELS_BEGIN
 
 struct texture_desc { // uniform
     texel_buffer texels;
-    int_table offset;        // by level, in texels
-    real_table level_width;  // by level, in texels
+    int_table offset;       // by level, in texels
+    real_table level_width; // by level, in texels
     real_table level_height;
-    int levels;              // 1 to 16
-    int wrap_s;              // along u: 0 repeat, 1 clamp to edge, 2 mirrored repeat
-    int wrap_t;              // along v
-    int nearest;             // 1: the nearest texel of level 0
+    int levels;  // 1 to 16
+    int wrap_s;  // along u: 0 repeat, 1 clamp to edge, 2 mirrored repeat
+    int wrap_t;  // along v
+    int nearest; // 1: the nearest texel of level 0
 };
 
 struct texture_footprint {
@@ -48,10 +50,12 @@ BN_FN real texture_wrap(real u, int mode)
     return min(max(r, lit(0.0)), lit(1.0));
 }
 
-// duv_dx, duv_dy: change of uv by one pixel. NaN, Inf and overlong derivatives give the smallest level and one tap.
+// duv_dx, duv_dy: change of uv by one pixel. NaN, Inf and overlong derivatives give the smallest level and
+// one tap.
 BN_FN texture_footprint texture_footprint_of(texture_desc desc, real2 duv_dx, real2 duv_dy, int max_taps)
 {
-    real2 size = vec2_of(table_value(desc.level_width, int_lit(0)), table_value(desc.level_height, int_lit(0)));
+    real2 size =
+        vec2_of(table_value(desc.level_width, int_lit(0)), table_value(desc.level_height, int_lit(0)));
     real2 dx = duv_dx * size;
     real2 dy = duv_dy * size;
     real px2 = k_dot2(dx, dx);
@@ -91,7 +95,8 @@ BN_FN texture_level texture_level_of(texture_desc desc, integer level)
 }
 
 // uv: wrapped, [0,1].
-BN_FN texel_acc texture_bilinear_add(texel_acc acc, texel_buffer texels, texture_level level, real2 uv, real weight)
+BN_FN texel_acc texture_bilinear_add(texel_acc acc, texel_buffer texels, texture_level level, real2 uv,
+                                     real weight)
 {
     real x = uv.x * level.width + lit(0.5);
     real y = uv.y * level.height + lit(0.5);
@@ -144,8 +149,9 @@ BN_FN real4 texture_sample_footprint(texture_desc desc, real2 uv, texture_footpr
     return texel_value(acc);
 }
 
-// uv and its change by one pixel; up to max_taps (uniform, 1 to 16) taps along the longer axis of the footprint. Where lanes can be
-// compared, texture_footprint_of(), the maximum of `taps` over the lanes, and texture_sample_footprint() give the same bits sooner.
+// uv and its change by one pixel; up to max_taps (uniform, 1 to 16) taps along the longer axis of the
+// footprint. Where lanes can be compared, texture_footprint_of(), the maximum of `taps` over the lanes, and
+// texture_sample_footprint() give the same bits sooner.
 BN_FN real4 texture_sample(texture_desc desc, real2 uv, real2 duv_dx, real2 duv_dy, int max_taps)
 {
     texture_footprint p = texture_footprint_of(desc, duv_dx, duv_dy, max_taps);

@@ -1,0 +1,88 @@
+// What several tests of the bake share: test images, random numbers, lists of lane operations.
+#pragma once
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "core/image/image.h"
+#include "core/simd/half.h"
+#include "shading/bake/bake_fns.h"
+#include "shading/bake/environment.h"
+#include "tests/unit/bake/filter_ops.h"
+
+namespace burnish {
+
+// Numbers in [0,1), the same everywhere (SplitMix64).
+class Random {
+  public:
+    explicit Random(std::uint64_t seed) : state_(seed) {}
+    double operator()()
+    {
+        std::uint64_t z = state_ += 0x9e3779b97f4a7c15ull;
+        z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ull;
+        z = (z ^ (z >> 27)) * 0x94d049bb133111ebull;
+        return static_cast<double>((z ^ (z >> 31)) >> 11) * 0x1p-53;
+    }
+    float in(double lo, double hi) { return static_cast<float>(lo + (hi - lo) * (*this)()); }
+
+  private:
+    std::uint64_t state_;
+};
+
+inline std::vector<const FilterOps*> available_filter_ops() // scalar first
+{
+    std::vector<const FilterOps*> all = {&filter_ops<0>()};
+    if (bake_isa_available(1))
+        all.push_back(&filter_ops<1>());
+    if (bake_isa_available(2))
+        all.push_back(&filter_ops<2>());
+    return all;
+}
+
+// Equirectangular f32 RGB image of radiance(x, y, z, rgb), a function of the unit direction.
+inline Image equirect_of(int width, const std::function<void(double, double, double, float*)>& radiance)
+{
+    Image image = make_image(width, width / 2, 3, PixelType::f32);
+    const double pi = 3.14159265358979323846;
+    for (int y = 0; y < image.height; ++y)
+        for (int x = 0; x < width; ++x) {
+            const double phi = ((x + 0.5) / width - 0.5) * 2.0 * pi, theta = (y + 0.5) / image.height * pi;
+            const std::size_t i =
+                static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
+            radiance(std::sin(theta) * std::cos(phi), std::cos(theta), std::sin(theta) * std::sin(phi),
+                     image.f32() + i * 3);
+        }
+    return image;
+}
+
+// Any smooth environment with colour everywhere.
+inline Image smooth_equirect(int width)
+{
+    return equirect_of(width, [](double x, double y, double z, float* rgb) {
+        rgb[0] = static_cast<float>(1.0 + 0.8 * x + 0.3 * y * z);
+        rgb[1] = static_cast<float>(1.0 + 0.7 * y * y - 0.2 * x);
+        rgb[2] = static_cast<float>(1.2 + z * (0.5 + 0.4 * x));
+    });
+}
+
+inline EnvironmentOptions small_bake() // without the cache
+{
+    EnvironmentOptions o;
+    o.cube_size = 32;
+    o.samples = 128;
+    o.use_cache = false;
+    return o;
+}
+
+// Texel of a cube as stored, times its scale; x, y: -1 is the border.
+inline float cube_texel(const CubeMap& cube, int level, int face, int x, int y, int channel)
+{
+    const std::size_t side = static_cast<std::size_t>(cube.size >> level) + 2;
+    const std::size_t at = cube.offset[static_cast<std::size_t>(level)] +
+                           static_cast<std::size_t>(face) * side * side +
+                           static_cast<std::size_t>(y + 1) * side + static_cast<std::size_t>(x + 1);
+    return half_to_float(cube.texels[4 * at + static_cast<std::size_t>(channel)]) * cube.scale;
+}
+
+} // namespace burnish

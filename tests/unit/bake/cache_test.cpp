@@ -1,0 +1,159 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <unistd.h>
+
+#include "tests/unit/bake/bake_test.h"
+
+namespace burnish {
+namespace {
+
+namespace fs = std::filesystem;
+
+class EnvironmentCache : public testing::Test {
+  protected:
+    EnvironmentCache() : folder_(fs::path(testing::TempDir()) / ("bake_cache_" + std::to_string(getpid())))
+    {
+        fs::remove_all(folder_);
+        options_ = small_bake();
+        options_.use_cache = true;
+        options_.cache_dir = (folder_ / "deep" / "er").string();
+    }
+    ~EnvironmentCache() override { fs::remove_all(folder_); }
+
+    Environment bake()
+    {
+        Result<Environment> e = bake_environment(image_, "test", options_, Jobs(2));
+        EXPECT_TRUE(e);
+        return std::move(*e);
+    }
+    std::vector<fs::path> files() const
+    {
+        std::vector<fs::path> found;
+        if (fs::exists(options_.cache_dir))
+            for (const fs::directory_entry& f : fs::directory_iterator(options_.cache_dir))
+                found.push_back(f.path());
+        return found;
+    }
+    static void expect_same(const Environment& a, const Environment& b)
+    {
+        for (const auto& [x, y] :
+             {std::pair{&a.specular, &b.specular}, std::pair{&a.irradiance, &b.irradiance}}) {
+            EXPECT_TRUE(std::equal(x->texels.begin(), x->texels.end(), y->texels.begin(), y->texels.end()));
+            EXPECT_EQ(x->offset, y->offset);
+            EXPECT_EQ(x->size, y->size);
+            EXPECT_EQ(x->levels, y->levels);
+            EXPECT_EQ(x->scale, y->scale);
+        }
+        EXPECT_EQ(a.energy_source, b.energy_source);
+        EXPECT_EQ(a.energy_cube, b.energy_cube);
+        EXPECT_EQ(a.peak_source, b.peak_source);
+        EXPECT_EQ(a.content_hash, b.content_hash);
+    }
+
+    fs::path folder_;
+    EnvironmentOptions options_;
+    Image image_ = smooth_equirect(64);
+};
+
+std::string read_all(const fs::path& path)
+{
+    std::ifstream in(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+}
+void write_all(const fs::path& path, const std::string& bytes)
+{
+    std::ofstream(path, std::ios::binary) << bytes;
+}
+
+TEST_F(EnvironmentCache, AHitEqualsTheBakeBitForBit)
+{
+    const Environment baked = bake();
+    EXPECT_FALSE(baked.from_cache);
+    ASSERT_EQ(files().size(), 1u);
+    const Environment hit = bake();
+    EXPECT_TRUE(hit.from_cache);
+    EXPECT_EQ(hit.name, "test");
+    expect_same(hit, baked);
+}
+
+TEST_F(EnvironmentCache, EveryOptionAndPixelHasItsOwnEntry)
+{
+    bake();
+    options_.rotation_deg = 10.0f;
+    EXPECT_FALSE(bake().from_cache);
+    options_.exposure_ev = 1.0f;
+    EXPECT_FALSE(bake().from_cache);
+    options_.samples = 64;
+    EXPECT_FALSE(bake().from_cache);
+    options_.levels = 3;
+    EXPECT_FALSE(bake().from_cache);
+    options_.cube_size = 16;
+    EXPECT_FALSE(bake().from_cache);
+    image_.f32()[100] += 0.001f;
+    EXPECT_FALSE(bake().from_cache);
+    EXPECT_EQ(files().size(), 7u);
+    EXPECT_TRUE(bake().from_cache);
+}
+
+TEST_F(EnvironmentCache, DamagedFilesAreBakedAnew)
+{
+    const Environment baked = bake();
+    const fs::path file = files().at(0);
+    const std::string good = read_all(file);
+    std::vector<std::string> damaged = {"",
+                                        "x",
+                                        good.substr(0, 40),
+                                        good.substr(0, good.size() - 1),
+                                        good + "x",
+                                        std::string(good.size(), '\0')};
+    for (const std::size_t at : {std::size_t{0}, std::size_t{9}, std::size_t{13}, std::size_t{25},
+                                 std::size_t{70}, std::size_t{500}, good.size() - 1}) {
+        damaged.push_back(good);
+        damaged.back()[at] = static_cast<char>(damaged.back()[at] ^ 0x10);
+    }
+    for (std::size_t i = 0; i < damaged.size(); ++i) {
+        write_all(file, damaged[i]);
+        const Environment e = bake();
+        EXPECT_FALSE(e.from_cache) << "damage " << i;
+        EXPECT_TRUE(e.warnings.empty());
+        expect_same(e, baked);
+        EXPECT_EQ(read_all(file), good) << "damage " << i;
+    }
+    EXPECT_TRUE(bake().from_cache);
+}
+
+TEST_F(EnvironmentCache, AFolderThatCannotBeMadeCostsOnlyAWarning)
+{
+    fs::create_directories(folder_);
+    write_all(folder_ / "deep", "a file where the folder should be");
+    const Environment e = bake();
+    EXPECT_FALSE(e.from_cache);
+    ASSERT_EQ(e.warnings.size(), 1u);
+    EXPECT_NE(e.warnings[0].find("not cached"), std::string::npos);
+}
+
+TEST_F(EnvironmentCache, IsNotTouchedWithoutUseCache)
+{
+    options_.use_cache = false;
+    bake();
+    EXPECT_FALSE(fs::exists(folder_));
+}
+
+TEST_F(EnvironmentCache, LivesInTheXdgFolderByDefault)
+{
+    const std::string before = std::getenv("XDG_CACHE_HOME") ? std::getenv("XDG_CACHE_HOME") : "";
+    setenv("XDG_CACHE_HOME", folder_.c_str(), 1);
+    options_.cache_dir.clear();
+    bake();
+    EXPECT_TRUE(fs::exists(folder_ / "burnish"));
+    EXPECT_TRUE(bake().from_cache);
+    before.empty() ? unsetenv("XDG_CACHE_HOME") : setenv("XDG_CACHE_HOME", before.c_str(), 1);
+}
+
+} // namespace
+} // namespace burnish

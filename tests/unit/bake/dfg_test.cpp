@@ -1,0 +1,139 @@
+#include <gtest/gtest.h>
+
+#include "tests/unit/bake/bake_test.h"
+
+namespace burnish {
+namespace {
+
+const DfgTable& table()
+{
+    static const DfgTable t = bake_dfg(64, 1024, Jobs(2));
+    return t;
+}
+
+struct Value {
+    float scale, bias;
+};
+Value lookup(const DfgTable& t, float roughness, float n_dot_v)
+{
+    const std::vector<float> r(16, roughness), c(16, n_dot_v);
+    float out[32];
+    filter_ops<0>().dfg_lookup(t.texels.data(), t.size, c.data(), r.data(), 16, out);
+    return {out[0], out[1]};
+}
+
+TEST(Dfg, EqualsKnownAlbedos)
+{
+    const struct {
+        float roughness, n_dot_v, scale, bias;
+    } known[] = {{0.2f, 0.5f, 0.963f, 0.032f}, {0.5f, 0.3f, 0.772f, 0.065f}, {0.9f, 0.8f, 0.453f, 0.001f}};
+    for (const auto& k : known) {
+        const Value v = lookup(table(), k.roughness, k.n_dot_v);
+        EXPECT_NEAR(v.scale, k.scale, 0.002f);
+        EXPECT_NEAR(v.bias, k.bias, 0.002f);
+    }
+}
+
+TEST(Dfg, ConvergesToTheIntegralOverLightDirections)
+{
+    // A second integral, over the hemisphere of light directions: D G2 (n.l) / (4 n.v n.l) dl.
+    const double alpha = 0.36, n_dot_v = 0.5; // roughness 0.6
+    const double vx = std::sqrt(1.0 - n_dot_v * n_dot_v), a2 = alpha * alpha;
+    const auto lambda = [&](double c) { return 0.5 * (std::sqrt(1.0 + a2 * (1.0 - c * c) / (c * c)) - 1.0); };
+    double scale = 0.0, bias = 0.0;
+    const int n = 1000;
+    for (int j = 0; j < n; ++j)
+        for (int i = 0; i < n; ++i) {
+            const double lz = (j + 0.5) / n, phi = (i + 0.5) / n * 6.283185307179586,
+                         rho = std::sqrt(1.0 - lz * lz);
+            const double hx = vx + rho * std::cos(phi), hy = rho * std::sin(phi), hz = n_dot_v + lz;
+            const double h2 = hx * hx + hy * hy + hz * hz, nh2 = hz * hz / h2;
+            const double v_dot_h = (vx * hx + n_dot_v * hz) / std::sqrt(h2);
+            const double q = nh2 * (a2 - 1.0) + 1.0, d = a2 / (3.141592653589793 * q * q);
+            const double f = d / (1.0 + lambda(n_dot_v) + lambda(lz)) / (4.0 * n_dot_v) * 6.283185307179586 /
+                             (n * double(n));
+            const double fresnel = std::pow(1.0 - v_dot_h, 5.0);
+            scale += (1.0 - fresnel) * f;
+            bias += fresnel * f;
+        }
+    const DfgTable t = bake_dfg(11, 4096, Jobs(1)); // row 6, column 5
+    EXPECT_NEAR(static_cast<double>(t.scale[6 * 11 + 5]), scale, 2e-4);
+    EXPECT_NEAR(static_cast<double>(t.bias[6 * 11 + 5]), bias, 2e-4);
+}
+
+TEST(Dfg, NeverGainsEnergyAndStartsAtTheMirror)
+{
+    const DfgTable& t = table();
+    const std::size_t n = static_cast<std::size_t>(t.size);
+    for (std::size_t i = 0; i < n * n; ++i) {
+        ASSERT_GE(t.scale[i], 0.0f);
+        ASSERT_GE(t.bias[i], 0.0f);
+        ASSERT_LE(t.scale[i] + t.bias[i], 1.0f + 1e-6f);
+    }
+    for (std::size_t x = 4; x < n; ++x) { // roughness 0: F itself
+        const float m = 1.0f - static_cast<float>(x) / 63.0f;
+        EXPECT_NEAR(t.bias[x], m * m * m * m * m, 1e-3f);
+        EXPECT_NEAR(t.scale[x] + t.bias[x], 1.0f, 1e-3f);
+    }
+}
+
+TEST(Dfg, TexelsHoldTheTableToSixDigits)
+{
+    const DfgTable& t = table();
+    for (std::size_t i = 0; i < t.scale.size(); ++i) {
+        const auto channel = [&](std::size_t c) { return half_to_float(t.texels[4 * i + c]); };
+        ASSERT_NEAR(channel(0) + channel(2), t.scale[i], 2e-7f);
+        ASSERT_NEAR(channel(1) + channel(3), t.bias[i], 2e-7f);
+    }
+}
+
+TEST(Dfg, LookupInterpolatesAndClamps)
+{
+    const DfgTable& t = table();
+    EXPECT_NEAR(lookup(t, 0.0f, 1.0f).scale, t.scale[63], 1e-6f);
+    EXPECT_NEAR(lookup(t, 1.0f, 1.0f).scale, t.scale[63 * 64 + 63], 1e-6f);
+    EXPECT_NEAR(lookup(t, 7.0f, -3.0f).bias, t.bias[63 * 64], 1e-6f);
+    EXPECT_NEAR(lookup(t, NAN, NAN).bias, t.bias[0], 1e-6f);
+    const float middle = 0.25f * (t.scale[10 * 64 + 20] + t.scale[10 * 64 + 21] + t.scale[11 * 64 + 20] +
+                                  t.scale[11 * 64 + 21]);
+    EXPECT_NEAR(lookup(t, 10.5f / 63.0f, 20.5f / 63.0f).scale, middle, 2e-6f);
+}
+
+TEST(Dfg, FitEqualsItsTestVectors)
+{
+    const struct {
+        float roughness, n_dot_v, scale, bias;
+    } vectors[] = {{0.2f, 0.5f, .91772582f, .07910979f},
+                   {0.5f, 0.3f, .85421360f, .11662912f},
+                   {0.9f, 0.8f, .62035780f, .00218220f},
+                   {1.0f, .05f, .62981349f, .04903651f},
+                   {0.0f, 1.0f, .99218750f, .00781250f}};
+    float n_dot_v[16] = {}, roughness[16] = {}, out[32];
+    for (std::size_t i = 0; i < 5; ++i)
+        n_dot_v[i] = vectors[i].n_dot_v, roughness[i] = vectors[i].roughness;
+    filter_ops<0>().dfg_fit(n_dot_v, roughness, 16, out);
+    for (std::size_t i = 0; i < 5; ++i) {
+        EXPECT_NEAR(out[2 * i], vectors[i].scale, 1e-6f);
+        EXPECT_NEAR(out[2 * i + 1], vectors[i].bias, 1e-6f);
+    }
+}
+
+TEST(Dfg, ThreadsAndInstructionSetsGiveTheSameBits)
+{
+    const DfgTable a = bake_dfg(16, 64, Jobs(1)), b = bake_dfg(16, 64, Jobs(3));
+    for (std::size_t i = 0; i < a.texels.size(); ++i)
+        ASSERT_EQ(a.texels[i], b.texels[i]);
+    Random random(5);
+    float n_dot_v[64], roughness[64], expected[128], got[128];
+    for (int i = 0; i < 64; ++i)
+        n_dot_v[i] = random.in(-0.1, 1.1), roughness[i] = random.in(-0.1, 1.1);
+    for (const FilterOps* ops : available_filter_ops()) {
+        filter_ops<0>().dfg_lookup(a.texels.data(), a.size, n_dot_v, roughness, 64, expected);
+        ops->dfg_lookup(a.texels.data(), a.size, n_dot_v, roughness, 64, got);
+        for (int i = 0; i < 128; ++i)
+            ASSERT_EQ(got[i], expected[i]);
+    }
+}
+
+} // namespace
+} // namespace burnish
