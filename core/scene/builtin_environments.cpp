@@ -82,20 +82,20 @@ Image make_studio()
 {
     const glm::dvec3 neutral(1.0), warm(1.0, 0.72, 0.45), cool(0.55, 0.75, 1.0);
     const std::vector<Panel> panels = {
-        panel(-50.0, 35.0, 0.55, 0.40, 0.25, neutral * 14.0), // key, front left
-        panel(0.0, 89.0, 0.90, 0.50, 0.30, neutral * 6.0),    // overhead
-        panel(62.0, 12.0, 0.07, 0.95, 0.35, neutral * 26.0),  // strip, front right
-        panel(112.0, 8.0, 0.10, 0.80, 0.35, cool * 18.0),     // strip, right behind
-        panel(-118.0, 10.0, 0.12, 0.80, 0.35, warm * 20.0),   // strip, left behind
-        panel(180.0, 40.0, 0.75, 0.07, 0.35, neutral * 32.0), // long strip, behind above
-        panel(14.0, 20.0, 0.16, 0.12, 0.40, neutral * 8.0),   // small fill by the camera
+        panel(-48.0, 38.0, 0.48, 0.36, 0.30, neutral * 6.0),  // key, front left
+        panel(20.0, 84.0, 0.42, 0.26, 0.40, neutral * 4.0),   // overhead
+        panel(62.0, 12.0, 0.06, 0.95, 0.40, neutral * 14.0),  // strip, front right
+        panel(112.0, 8.0, 0.10, 0.80, 0.40, cool * 10.0),     // strip, right behind
+        panel(-118.0, 10.0, 0.12, 0.80, 0.40, warm * 10.0),   // strip, left behind
+        panel(180.0, 42.0, 0.70, 0.06, 0.40, neutral * 24.0), // long strip, behind above
+        panel(14.0, 18.0, 0.14, 0.10, 0.45, neutral * 3.5),   // small fill by the camera
     };
     return paint([&panels](const glm::dvec3& d) {
         const double up = d.y;
-        // Walls of 0.02 brighten towards the ceiling and, through light bounced off the floor, a little below
-        // the horizon.
-        double wall = mix(glm::dvec3(0.02), glm::dvec3(0.14), smooth_step(-0.15, 1.0, up)).x;
-        wall += 0.05 * smooth_step(0.0, 0.5, -up) * (1.0 - 0.6 * smooth_step(0.5, 1.0, -up));
+        // Walls of 0.012 brighten towards the ceiling and, through light bounced off the floor, a little
+        // below the horizon.
+        double wall = 0.012 + 0.07 * smooth_step(-0.15, 1.0, up);
+        wall += 0.03 * smooth_step(0.0, 0.5, -up) * (1.0 - 0.6 * smooth_step(0.5, 1.0, -up));
         glm::dvec3 value = glm::dvec3(1.0, 0.99, 0.97) * wall;
         for (const Panel& p : panels)
             value += p.radiance * panel_cover(p, d);

@@ -33,9 +33,9 @@ constexpr std::array<Profile, 7> kLid = {
 };
 // What the pot stands on: a low disc with a rounded edge.
 constexpr std::array<Profile, 7> kStand = {
-    Profile(3.95, -0.3), {4.05, -0.3}, {4.1, -0.25}, {4.1, -0.15}, {4.1, -0.06}, {4.05, -0.01}, {3.95, -0.01},
+    Profile(3.25, -0.3), {3.35, -0.3}, {3.4, -0.25}, {3.4, -0.15}, {3.4, -0.06}, {3.35, -0.01}, {3.25, -0.01},
 };
-constexpr std::array<Profile, 4> kStandTop = {Profile(3.95, -0.01), {2.6, -0.01}, {1.3, -0.01}, {0.0, -0.01}};
+constexpr std::array<Profile, 4> kStandTop = {Profile(3.25, -0.01), {2.2, -0.01}, {1.1, -0.01}, {0.0, -0.01}};
 
 // A cross-section of handle or spout: Bezier points a, a + w y, b + w y, b and their mirror image.
 struct Section {
@@ -128,8 +128,8 @@ SectionPoint section_point(const Section& s, int column)
     return p;
 }
 
-// Swept along the sections; tangents run around them. `side` is +1 where columns turn counter-clockwise seen
-// from outside.
+// Swept along the sections; tangents run around them. `reversed`: columns go the other way around, so that
+// faces look outside.
 void add_swept(Scene& scene, const std::array<Section, 7>& sections, bool reversed)
 {
     const int rows = 2 * kSweepRows;
@@ -181,9 +181,10 @@ void add_materials(Scene& scene)
     scene.materials.push_back(brushed);
     Material matte;
     matte.name = "matte stand";
-    matte.base_color = glm::vec4(0.06f, 0.062f, 0.07f, 1.0f);
+    matte.base_color = glm::vec4(0.15f, 0.155f, 0.17f, 1.0f);
     matte.metallic = 0.0f;
-    matte.roughness = 0.6f;
+    matte.roughness = 0.85f;
+    matte.specular = 0.3f;
     scene.materials.push_back(matte);
 }
 
@@ -197,7 +198,7 @@ Scene make_teapot()
     const auto white = [](double) { return 1.0; };
     // Image-based light casts no shadow, so the stand carries a soft one around the pot's foot in its vertex
     // colours.
-    const auto contact = [](double radius) { return 0.15 + 0.85 * smooth_step(1.1, 3.4, radius); };
+    const auto contact = [](double radius) { return 0.05 + 0.95 * smooth_step(0.9, 2.7, radius); };
 
     const std::uint32_t pot = begin_primitive(scene, 0);
     add_turned(scene, kBody, kProfileRows, white);

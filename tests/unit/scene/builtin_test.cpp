@@ -1,0 +1,250 @@
+#include "core/scene/builtin.h"
+
+#include <array>
+#include <cmath>
+#include <fstream>
+#include <gtest/gtest.h>
+#include <map>
+#include <string>
+
+#include "core/base/hash.h"
+#include "core/scene/draw_tables.h"
+
+namespace burnish {
+namespace {
+
+std::uint64_t hash_column(const Column<float>& c, std::uint64_t seed)
+{
+    return hash_bytes(c.data(), c.size() * sizeof(float), seed);
+}
+
+std::uint64_t hash_scene(const Scene& scene)
+{
+    const VertexTable& v = scene.vertices;
+    std::uint64_t h = 0;
+    for (const Column<float>* c : {&v.px, &v.py, &v.pz, &v.nx, &v.ny, &v.nz, &v.tx, &v.ty, &v.tz, &v.tw,
+                                   &v.u0, &v.v0, &v.u1, &v.v1, &v.cr, &v.cg, &v.cb, &v.ca})
+        h = hash_column(*c, h);
+    h = hash_bytes(scene.indices.data(), scene.indices.size() * sizeof(std::uint32_t), h);
+    for (const Node& node : scene.nodes)
+        h = hash_bytes(&node.world, sizeof(node.world), h);
+    for (const Image& image : scene.images)
+        h = hash_bytes(image.bytes.data(), image.bytes.size(), h);
+    return h;
+}
+
+// The same bits on every machine and with every compiler. Changed on purpose only.
+TEST(Builtin, BitsArePinned)
+{
+    const std::map<std::string, std::uint64_t> scenes = {{"teapot", 0xc4f29e3070a0b85cull},
+                                                         {"spheres", 0x3003482a1497ca31ull},
+                                                         {"plate", 0x172dbe27faf62747ull}};
+    const std::map<std::string, std::uint64_t> environments = {{"studio", 0x19febed410644343ull},
+                                                               {"sky", 0xf287c30da37dad5bull}};
+    for (const auto& [name, want] : scenes)
+        EXPECT_EQ(hash_scene(*make_builtin_scene(name)), want) << name;
+    for (const auto& [name, want] : environments) {
+        const Result<Image> image = make_builtin_environment(name);
+        EXPECT_EQ(hash_bytes(image->bytes.data(), image->bytes.size()), want) << name;
+    }
+}
+
+TEST(Builtin, ListsNameWhatCanBeMade)
+{
+    ASSERT_EQ(builtin_scenes().size(), 3u);
+    ASSERT_EQ(builtin_environments().size(), 2u);
+    for (const BuiltinInfo& info : builtin_scenes())
+        EXPECT_TRUE(make_builtin_scene(info.name)) << info.name;
+    for (const BuiltinInfo& info : builtin_environments())
+        EXPECT_TRUE(make_builtin_environment(info.name)) << info.name;
+}
+
+TEST(Builtin, UnknownNamesAreErrorsThatListTheKnown)
+{
+    const Result<Scene> scene = make_builtin_scene("kettle");
+    ASSERT_FALSE(scene);
+    EXPECT_EQ(scene.error().line(),
+              "builtin:kettle: no built-in scene has this name; there are teapot, spheres, plate");
+    EXPECT_FALSE(make_builtin_environment("cave"));
+}
+
+TEST(Builtin, ScenesHaveFramesColumnsAndModestCounts)
+{
+    for (const BuiltinInfo& info : builtin_scenes()) {
+        const Scene scene = *make_builtin_scene(info.name);
+        const VertexTable& v = scene.vertices;
+        for (const Column<float>* c : {&v.py, &v.pz, &v.nx, &v.ny, &v.nz, &v.tx, &v.ty, &v.tz, &v.tw, &v.u0,
+                                       &v.v0, &v.u1, &v.v1, &v.cr, &v.cg, &v.cb, &v.ca})
+            ASSERT_EQ(c->size(), v.size());
+        for (std::size_t i = 0; i < v.size(); ++i) {
+            const glm::vec3 n(v.nx[i], v.ny[i], v.nz[i]), t(v.tx[i], v.ty[i], v.tz[i]);
+            ASSERT_TRUE(std::isfinite(v.px[i] + v.py[i] + v.pz[i] + v.u0[i] + v.v0[i])) << info.name << i;
+            ASSERT_NEAR(glm::dot(n, n), 1.0f, 1e-6f) << info.name << i;
+            ASSERT_NEAR(glm::dot(t, t), 1.0f, 1e-6f) << info.name << i;
+            ASSERT_NEAR(glm::dot(n, t), 0.0f, 1e-6f) << info.name << i;
+            ASSERT_EQ(v.tw[i], 1.0f);
+        }
+        const DrawTables tables = make_draw_tables(scene);
+        EXPECT_GE(tables.triangle_count(), 10000u) << info.name;
+        EXPECT_LE(tables.triangle_count(), 100000u) << info.name;
+    }
+}
+
+TEST(Builtin, FacesAgreeWithTheirNormals)
+{
+    for (const BuiltinInfo& info : builtin_scenes()) {
+        const DrawTables t = make_draw_tables(*make_builtin_scene(info.name));
+        for (std::size_t k = 0; k < t.triangle_count(); ++k) {
+            glm::dvec3 p[3], n[3];
+            for (std::size_t c = 0; c < 3; ++c) {
+                const std::uint32_t i = t.indices[3 * k + c];
+                p[c] = glm::dvec3(glm::vec3(t.px[i], t.py[i], t.pz[i]));
+                n[c] = glm::dvec3(
+                    glm::vec3(t.shading[i].normal[0], t.shading[i].normal[1], t.shading[i].normal[2]));
+            }
+            const glm::dvec3 face = glm::normalize(glm::cross(p[1] - p[0], p[2] - p[0]));
+            for (const glm::dvec3& corner : n) // within 60 degrees, also at the poles
+                ASSERT_GT(glm::dot(face, corner), 0.5) << info.name << " triangle " << k;
+        }
+    }
+}
+
+using Place = std::array<float, 3>;
+
+// Directed edges by position of the triangles that `use` picks; in a closed surface each meets its opposite
+// once.
+template <class Use> int count_open_edges(const DrawTables& t, const Use& use)
+{
+    std::map<std::pair<Place, Place>, int> edges;
+    for (std::size_t k = 0; k < t.triangle_count(); ++k)
+        for (std::size_t c = 0; use(k) && c < 3; ++c) {
+            const std::uint32_t a = t.indices[3 * k + c], b = t.indices[3 * k + (c + 1) % 3];
+            const Place from{t.px[a], t.py[a], t.pz[a]}, to{t.px[b], t.py[b], t.pz[b]};
+            ++edges[{from, to}];
+            --edges[{to, from}];
+        }
+    int open = 0;
+    for (const auto& [edge, balance] : edges)
+        open += balance != 0;
+    return open;
+}
+
+TEST(Builtin, SpheresAndPlateAndTeapotBodyAreClosed)
+{
+    const auto all = [](std::size_t) { return true; };
+    EXPECT_EQ(count_open_edges(make_draw_tables(*make_builtin_scene("spheres")), all), 0);
+    EXPECT_EQ(count_open_edges(make_draw_tables(*make_builtin_scene("plate")), all), 0);
+    // Of the pot, handle and spout end openly inside the body: the handle with two rings of 32 edges, the
+    // spout with one; each edge is counted from both sides.
+    const DrawTables t = make_draw_tables(*make_builtin_scene("teapot"));
+    const auto pot = [&t](std::size_t k) { return t.triangle_material[k] == 0; };
+    EXPECT_EQ(count_open_edges(t, pot), 2 * 3 * 32);
+}
+
+TEST(Builtin, TeapotStandsUprightWithItsSpoutToPlusX)
+{
+    const DrawTables t = make_draw_tables(*make_builtin_scene("teapot"));
+    const Draw& pot = t.draws.at(0);
+    EXPECT_EQ(pot.bounds_min.y, 0.0f);
+    EXPECT_NEAR(pot.bounds_max.y, 0.1575f, 1e-6f);
+    EXPECT_GT(pot.bounds_max.x, -pot.bounds_min.x); // the spout reaches further than the handle
+    EXPECT_NEAR(pot.bounds_max.z, -pot.bounds_min.z, 1e-7f);
+}
+
+// Newell's points as a distribution of geomview stores them: 28 patches, scaled by 1/4, moved, rounded to
+// about 0.004 units.
+TEST(Builtin, TeapotAgreesWithAPublishedCopyOfItsPatches)
+{
+    std::ifstream file(BN_SHARED_DATA "/meshes/teapot.bez");
+    std::string magic;
+    if (!(file >> magic))
+        GTEST_SKIP() << "no teapot.bez";
+    ASSERT_EQ(magic, "BBP");
+    const Scene scene = *make_builtin_scene("teapot");
+    const VertexTable& v = scene.vertices;
+    std::array<double, 48> patch{};
+    int patches = 0;
+    for (double first; file >> first; ++patches) {
+        patch[0] = first;
+        for (std::size_t i = 1; i < 48; ++i)
+            file >> patch[i];
+        for (const std::size_t i : {0u, 3u, 12u, 15u}) { // the corners of a patch lie on it
+            const glm::vec3 p(static_cast<float>(0.2 * (patch[3 * i] - 0.5)),
+                              static_cast<float>(0.2 * (patch[3 * i + 2] - 0.263037)),
+                              static_cast<float>(-0.2 * patch[3 * i + 1]));
+            float nearest = 1.0f;
+            for (std::uint32_t k = 0; k < scene.primitives[0].vertex_count; ++k)
+                nearest = std::fmin(nearest, glm::length(glm::vec3(v.px[k], v.py[k], v.pz[k]) - p));
+            EXPECT_LT(nearest, 0.05f * 0.005f) << "patch " << patches << " point " << i;
+        }
+    }
+    EXPECT_EQ(patches, 28);
+}
+
+TEST(Builtin, SpheresSpanRoughnessAndAnisotropy)
+{
+    const Scene scene = *make_builtin_scene("spheres");
+    ASSERT_EQ(scene.nodes.size(), 35u);
+    for (std::size_t i = 0; i < 35; ++i) {
+        EXPECT_NEAR(scene.materials[i].roughness, 0.1f * static_cast<float>(i % 7 + 1), 1e-6f);
+        EXPECT_EQ(scene.materials[i].anisotropy_strength, 0.25f * static_cast<float>(i / 7));
+        EXPECT_NEAR(scene.nodes[i].world[3][0], (static_cast<float>(i % 7) - 3.0f) * 0.1f, 1e-6f);
+        EXPECT_NEAR(scene.nodes[i].world[3][1], (static_cast<float>(i / 7) - 2.0f) * 0.1f, 1e-6f);
+    }
+}
+
+TEST(Builtin, PlateCarriesUnitDirections)
+{
+    const Scene scene = *make_builtin_scene("plate");
+    ASSERT_TRUE(scene.materials.at(0).anisotropy_tex.used());
+    const Image& image = scene.images.at(0);
+    ASSERT_EQ(image.channels, 3);
+    for (std::size_t i = 0; i < image.bytes.size(); i += 3) {
+        const float x = static_cast<float>(image.bytes[i]) / 127.5f - 1.0f,
+                    y = static_cast<float>(image.bytes[i + 1]) / 127.5f - 1.0f;
+        ASSERT_NEAR(std::sqrt(x * x + y * y), 1.0f, 0.01f);
+        ASSERT_GE(static_cast<int>(image.bytes[i + 2]), 180);
+    }
+}
+
+TEST(Builtin, EnvironmentsAreFiniteAndSpanAThousandToOne)
+{
+    for (const BuiltinInfo& info : builtin_environments()) {
+        const Image image = *make_builtin_environment(info.name);
+        ASSERT_EQ(image.width, 1024);
+        ASSERT_EQ(image.height, 512);
+        ASSERT_EQ(image.channels, 3);
+        ASSERT_EQ(image.type, PixelType::f32);
+        float low = 1e30f, high = 0.0f;
+        for (std::size_t i = 0; i < std::size_t{1024} * 512 * 3; ++i) {
+            ASSERT_TRUE(std::isfinite(image.f32()[i])) << info.name;
+            low = std::fmin(low, image.f32()[i]);
+            high = std::fmax(high, image.f32()[i]);
+        }
+        EXPECT_GT(low, 0.0f) << info.name;
+        EXPECT_GE(high, 1000.0f * low) << info.name;
+    }
+}
+
+TEST(Builtin, TheSunIsSmallBrightAndOnTheFrontLeft)
+{
+    const Image sky = *make_builtin_environment("sky");
+    int bright = 0;
+    double column_sum = 0.0, row_sum = 0.0;
+    for (int row = 0; row < 512; ++row)
+        for (int column = 0; column < 1024; ++column)
+            if (sky.f32()[(row * 1024 + column) * 3] > 1000.0f) {
+                ++bright;
+                column_sum += column;
+                row_sum += row;
+            }
+    EXPECT_GT(bright, 10);
+    EXPECT_LT(bright, 100);
+    // u = 1/2 + atan2(z, x) / 2 pi with the sun at (-0.55, 0.62, 0.56), up to its length; v = acos(y) / pi.
+    const double length = std::sqrt(0.55 * 0.55 + 0.62 * 0.62 + 0.56 * 0.56), pi = 3.141592653589793;
+    EXPECT_NEAR((column_sum / bright + 0.5) / 1024, 0.5 + std::atan2(0.56, -0.55) / (2 * pi), 1e-3);
+    EXPECT_NEAR((row_sum / bright + 0.5) / 512, std::acos(0.62 / length) / pi, 1e-3);
+}
+
+} // namespace
+} // namespace burnish
