@@ -21,7 +21,8 @@
 //  - every float expression ends in a variable, argument or result of type real, so that GLSL's `precise` reaches it: name the
 //    value before comparing or converting it.
 //  - no overloads, references, templates, enum, array initialisers or default arguments of your own; no reserved word of either
-//    language as a name (half, input, output, sample, filter, buffer, shared, patch, flat, common, active, near, far, and, or).
+//    language as a name (half, input, output, sample, filter, buffer, shared, patch, flat, common, active, near, far, and, or),
+//    no member called length.
 //  - keep values that matter above 1e-30: GPUs may flush subnormals.
 #ifndef BN_LANG_H
 #define BN_LANG_H

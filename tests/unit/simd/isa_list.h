@@ -1,6 +1,7 @@
 // The instruction sets that this processor runs; tests of the others are reported as skipped.
 #pragma once
 #include <gtest/gtest.h>
+#include <ostream>
 #include <string>
 
 #include "core/simd/cpu.h"
@@ -13,6 +14,11 @@ struct IsaCase {
     const LaneFns& (*fns)();
     bool runs;
 };
+
+inline void PrintTo(const IsaCase& isa, std::ostream* out)
+{
+    *out << isa.name;
+} // what gtest and ctest call it
 
 inline const IsaCase kIsaCases[] = {
     {"scalar", bn_scalar::lane_fns, true},

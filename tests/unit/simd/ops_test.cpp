@@ -118,7 +118,7 @@ TEST(ScalarOps, MeanWhatTheySay)
                                                         : static_cast<std::int32_t>(x);
     };
     const auto bits = [](float x) { return std::bit_cast<std::uint32_t>(x); };
-    check("to_int", [&](std::size_t k) { return truncated(in.a[k]); });
+    check("to_int", [&](std::size_t k) { return truncated(static_cast<double>(in.a[k])); });
     check("round_to_int",
           [&](std::size_t k) { return truncated(std::nearbyint(static_cast<double>(in.a[k]))); });
     check("min_real", [&](std::size_t k) { return bits(in.a[k] < in.b[k] ? in.a[k] : in.b[k]); });
