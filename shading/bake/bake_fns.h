@@ -29,12 +29,20 @@ struct BakeFns { // both write `count` RGB texels of one face of size x size, fr
     void (*irradiance)(const IrradianceInput& input, int face, int size, int first, int count, float* rgb);
 };
 
-template <int isa> const BakeFns& bake_fns_of(); // 0 scalar, 1 AVX2, 2 AVX-512
-template <> const BakeFns& bake_fns_of<0>();
-template <> const BakeFns& bake_fns_of<1>();
-template <> const BakeFns& bake_fns_of<2>();
+// One copy an instruction set; calls are qualified.
+inline namespace bn_scalar {
+const BakeFns& bake_lanes();
+}
+inline namespace bn_avx2 {
+const BakeFns& bake_lanes();
+}
+inline namespace bn_avx512 {
+const BakeFns& bake_lanes();
+}
 
+// isa: 0 scalar, 1 AVX2, 2 AVX-512
 bool bake_isa_available(int isa);
+const BakeFns& bake_fns_of(int isa);
 const BakeFns& bake_fns(); // the widest that the processor can run
 
 } // namespace burnish

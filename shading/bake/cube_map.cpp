@@ -197,6 +197,29 @@ double mean_luminance(const CubeMap& cube)
     return sum * static_cast<double>(cube.scale) / (4.0 * kPi);
 }
 
+CubeMap box_filtered_chain(const CubeMap& environment, const Jobs& jobs)
+{
+    CubeLevel level = make_cube_level(environment.size);
+    const std::size_t n = static_cast<std::size_t>(environment.size), side = n + 2;
+    for (std::size_t row = 0; row < 6 * n; ++row) {
+        const std::size_t face = row / n, y = row % n;
+        const std::uint16_t* from = environment.texels.data() + 4 * ((face * side + y + 1) * side + 1);
+        for (std::size_t x = 0; x < n; ++x)
+            for (std::size_t c = 0; c < 3; ++c)
+                level.rgb[(row * n + x) * 3 + c] = half_to_float(from[4 * x + c]) * environment.scale;
+    }
+    int levels = 1;
+    while ((environment.size >> levels) > 0)
+        ++levels;
+    CubeMap chain = make_cube_map(environment.size, levels, environment.scale);
+    store_cube_level(chain, 0, level.rgb.data(), jobs);
+    for (int l = 1; l < levels; ++l) {
+        level = half_cube_level(level, jobs);
+        store_cube_level(chain, l, level.rgb.data(), jobs);
+    }
+    return chain;
+}
+
 CubeMap make_cube_map(int size, int levels, float scale)
 {
     BN_CHECK(size > 0 && levels > 0 && (size >> (levels - 1)) > 0);

@@ -57,6 +57,9 @@ Result<Environment> bake_environment(const Image& equirect, const std::string& n
 Result<Environment> load_environment(const std::string& spec, const EnvironmentOptions& options,
                                      const Limits& limits, const Jobs& jobs);
 
+// The same level 0 with a box-filtered chain under it, for techniques that choose a level by the solid angle of a sample.
+CubeMap box_filtered_chain(const CubeMap& environment, const Jobs& jobs);
+
 // Directional albedo of GGX with height-correlated Smith (split-sum DFG): F = F0 * scale + F90 * bias
 // (Schlick). Row: alpha_lin (perceptual roughness) = y / (size - 1); column: n.v = x / (size - 1).
 struct DfgTable {

@@ -132,11 +132,15 @@ bool bake_isa_available(int isa)
     return isa == 0 || (isa == 1 && cpu_has_avx2()) || (isa == 2 && cpu_has_avx512());
 }
 
+const BakeFns& bake_fns_of(int isa)
+{
+    return isa == 2 ? bn_avx512::bake_lanes() : isa == 1 ? bn_avx2::bake_lanes() : bn_scalar::bake_lanes();
+}
+
 const BakeFns& bake_fns()
 {
-    return bake_isa_available(2)   ? bake_fns_of<2>()
-           : bake_isa_available(1) ? bake_fns_of<1>()
-                                   : bake_fns_of<0>();
+    static const BakeFns& widest = bake_fns_of(bake_isa_available(2) ? 2 : bake_isa_available(1) ? 1 : 0);
+    return widest;
 }
 
 } // namespace burnish

@@ -118,11 +118,11 @@ void irradiance(const IrradianceInput& source, int face, int size, int first, in
 constexpr BakeFns kFns = {prefilter, irradiance};
 
 } // namespace
-} // namespace BN_ISA_NS
 
-template <> const BakeFns& bake_fns_of<BN_ISA>()
+const BakeFns& bake_lanes()
 {
     return kFns;
 }
 
+} // namespace BN_ISA_NS
 } // namespace burnish

@@ -129,13 +129,14 @@ template <class Row> std::vector<float> box_filter(Size from, Size to, const Row
 }
 
 // Halves of the inside of a level, row y.
-void store_row(TexturePyramid& p, int level, Size size, int y, const float* rgba)
+void store_row(TexturePyramid& p, TextureEncoding encoding, int level, Size size, int y, const float* rgba)
 {
+    const bool residual = encoding == TextureEncoding::residual;
     const std::size_t stride = static_cast<std::size_t>(size.w) + 2;
     std::uint16_t* out = p.texels.data() + 4 * (static_cast<std::size_t>(p.offset[level]) +
                                                 (static_cast<std::size_t>(y) + 1) * stride + 1);
     for (std::size_t i = 0; i < static_cast<std::size_t>(size.w) * 4; ++i)
-        out[i] = float_to_half(rgba[i]);
+        out[i] = float_to_half(residual ? rgba[i] - half_to_float(float_to_half(rgba[i])) : rgba[i]);
 }
 
 // The texel that border texel -1 (`high` false) or n (`high` true) repeats. Mirroring reflects at the edge of
@@ -199,7 +200,7 @@ TexturePyramid make_texture_pyramid(const Image& image, const Texture& sampler, 
     std::vector<float> row(static_cast<std::size_t>(p.width) * 4);
     for (int y = 0; y < p.height; ++y) {
         decoder.row(y, row.data());
-        store_row(p, 0, full, y, row.data());
+        store_row(p, encoding, 0, full, y, row.data());
     }
     fill_border(p, 0, full);
 
@@ -224,7 +225,7 @@ TexturePyramid make_texture_pyramid(const Image& image, const Texture& sampler, 
         };
         levels[i] = box_filter(sizes[from], size, source_row);
         for (int y = 0; y < size.h; ++y)
-            store_row(p, l, size, y,
+            store_row(p, encoding, l, size, y,
                       levels[i].data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(size.w) * 4);
         fill_border(p, l, size);
     }

@@ -13,8 +13,9 @@ inline constexpr int kMaxTextureLevels = 16;
 
 enum class TextureEncoding : std::uint8_t {
     linear,
-    srgb
-}; // srgb: RGB decoded before filtering, alpha linear
+    srgb,    // RGB decoded before filtering, alpha linear
+    residual // what rounding to half took from `linear`: the sum of both holds about 22 bits
+};
 
 // Level l is (width_l + 2) x (height_l + 2) texels with a border of one texel filled by the wrap modes, so
 // that the 2x2 footprint of a coordinate wrapped to [-1/2, size + 1/2) is always in memory, and a texel pair

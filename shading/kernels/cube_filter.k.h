@@ -44,12 +44,13 @@ BN_FN cube_place cube_face_uv(real3 d)
     real major = select(is_x, d.x, of_yz);
     mask negative = major < lit(0.0);
     real inv = lit(0.5) / m;
-    real inv_signed = select(negative, -inv, inv);
+    real minus_inv = -inv;
+    real inv_signed = select(negative, minus_inv, inv);
     mask y_face = both(is_y, not_(is_x));
     real a = select(is_x, -d.z, d.x);
-    real b = select(y_face, d.z, -d.y);
+    real b = select(y_face, d.z, d.y);
     real a_scale = select(y_face, inv, inv_signed);
-    real b_scale = select(y_face, inv_signed, inv);
+    real b_scale = select(y_face, inv_signed, minus_inv);
     cube_place p;
     // |a|, |b| <= m, so 1 is exceeded by rounding at most, which stays in the border; max() drops NaN
     p.u = max(a * a_scale + lit(0.5), lit(0.0));

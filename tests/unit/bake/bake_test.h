@@ -32,11 +32,11 @@ class Random {
 
 inline std::vector<const FilterOps*> available_filter_ops() // scalar first
 {
-    std::vector<const FilterOps*> all = {&filter_ops<0>()};
+    std::vector<const FilterOps*> all = {&bn_scalar::filter_ops()};
     if (bake_isa_available(1))
-        all.push_back(&filter_ops<1>());
+        all.push_back(&bn_avx2::filter_ops());
     if (bake_isa_available(2))
-        all.push_back(&filter_ops<2>());
+        all.push_back(&bn_avx512::filter_ops());
     return all;
 }
 

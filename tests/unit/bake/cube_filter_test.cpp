@@ -100,7 +100,7 @@ TEST(CubeFilter, EqualsTheNaiveReference)
     for (const int levels : {kLevels, 2, 1}) {
         const CubeMap cube = noise_cube(kSize, levels);
         const Directions d = random_directions(2000, levels);
-        const std::vector<float> rgb = fetch(filter_ops<0>(), cube, d);
+        const std::vector<float> rgb = fetch(bn_scalar::filter_ops(), cube, d);
         for (std::size_t i = 0; i < d.x.size(); ++i)
             for (int c = 0; c < 3; ++c)
                 ASSERT_NEAR(static_cast<double>(rgb[3 * i + static_cast<std::size_t>(c)]),
@@ -115,7 +115,7 @@ TEST(CubeFilter, AddressesLargeCubesExactly)
 {
     const CubeMap cube = noise_cube(1024, 11);
     const Directions d = random_directions(500, 11);
-    const std::vector<float> rgb = fetch(filter_ops<0>(), cube, d);
+    const std::vector<float> rgb = fetch(bn_scalar::filter_ops(), cube, d);
     for (std::size_t i = 0; i < d.x.size(); ++i)
         ASSERT_NEAR(static_cast<double>(rgb[3 * i]),
                     naive_trilinear(cube, static_cast<double>(d.x[i]), static_cast<double>(d.y[i]),
@@ -201,7 +201,8 @@ TEST(CubeFilter, HasNoSeamAtAnyEdgeOrCornerOfAnyLevel)
                     b.add(p[1][0], p[1][1], p[1][2], level);
                 }
         a.pad(), b.pad();
-        const std::vector<float> ca = fetch(filter_ops<0>(), cube, a), cb = fetch(filter_ops<0>(), cube, b);
+        const std::vector<float> ca = fetch(bn_scalar::filter_ops(), cube, a),
+                                 cb = fetch(bn_scalar::filter_ops(), cube, b);
         float jump = 0.0f;
         for (std::size_t i = 0; i < ca.size(); ++i)
             jump = std::max(jump, std::fabs(ca[i] - cb[i]));
@@ -217,10 +218,10 @@ TEST(CubeFilter, UniformLevelEqualsTheTrilinearFetchThere)
     Directions d = random_directions(512, kLevels);
     for (int level = 0; level < kLevels; ++level) {
         std::fill(d.lod.begin(), d.lod.end(), static_cast<float>(level));
-        const std::vector<float> expected = fetch(filter_ops<0>(), cube, d);
+        const std::vector<float> expected = fetch(bn_scalar::filter_ops(), cube, d);
         std::vector<float> got(expected.size());
-        filter_ops<0>().cube_level(cube.texels.data(), cube.size, cube.levels, level, d.x.data(), d.y.data(),
-                                   d.z.data(), d.n(), got.data());
+        bn_scalar::filter_ops().cube_level(cube.texels.data(), cube.size, cube.levels, level, d.x.data(),
+                                           d.y.data(), d.z.data(), d.n(), got.data());
         EXPECT_EQ(got, expected) << level;
     }
 }
@@ -229,7 +230,7 @@ TEST(CubeFilter, EveryInstructionSetGivesTheSameBits)
 {
     const CubeMap cube = noise_cube();
     const Directions d = random_directions(4096, kLevels);
-    const std::vector<float> expected = fetch(filter_ops<0>(), cube, d);
+    const std::vector<float> expected = fetch(bn_scalar::filter_ops(), cube, d);
     for (const FilterOps* ops : available_filter_ops()) {
         const std::vector<float> got = fetch(*ops, cube, d);
         EXPECT_EQ(std::memcmp(got.data(), expected.data(), got.size() * sizeof(float)), 0)

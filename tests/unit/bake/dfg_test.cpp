@@ -18,7 +18,7 @@ Value lookup(const DfgTable& t, float roughness, float n_dot_v)
 {
     const std::vector<float> r(16, roughness), c(16, n_dot_v);
     float out[32];
-    filter_ops<0>().dfg_lookup(t.texels.data(), t.size, c.data(), r.data(), 16, out);
+    bn_scalar::filter_ops().dfg_lookup(t.texels.data(), t.size, c.data(), r.data(), 16, out);
     return {out[0], out[1]};
 }
 
@@ -111,7 +111,7 @@ TEST(Dfg, FitEqualsItsTestVectors)
     float n_dot_v[16] = {}, roughness[16] = {}, out[32];
     for (std::size_t i = 0; i < 5; ++i)
         n_dot_v[i] = vectors[i].n_dot_v, roughness[i] = vectors[i].roughness;
-    filter_ops<0>().dfg_fit(n_dot_v, roughness, 16, out);
+    bn_scalar::filter_ops().dfg_fit(n_dot_v, roughness, 16, out);
     for (std::size_t i = 0; i < 5; ++i) {
         EXPECT_NEAR(out[2 * i], vectors[i].scale, 1e-6f);
         EXPECT_NEAR(out[2 * i + 1], vectors[i].bias, 1e-6f);
@@ -128,7 +128,7 @@ TEST(Dfg, ThreadsAndInstructionSetsGiveTheSameBits)
     for (int i = 0; i < 64; ++i)
         n_dot_v[i] = random.in(-0.1, 1.1), roughness[i] = random.in(-0.1, 1.1);
     for (const FilterOps* ops : available_filter_ops()) {
-        filter_ops<0>().dfg_lookup(a.texels.data(), a.size, n_dot_v, roughness, 64, expected);
+        bn_scalar::filter_ops().dfg_lookup(a.texels.data(), a.size, n_dot_v, roughness, 64, expected);
         ops->dfg_lookup(a.texels.data(), a.size, n_dot_v, roughness, 64, got);
         for (int i = 0; i < 128; ++i)
             ASSERT_EQ(got[i], expected[i]);

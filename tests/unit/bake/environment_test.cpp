@@ -28,7 +28,7 @@ Rgb fetch(const CubeMap& cube, double x, double y, double z, double lod = 0.0)
     std::fill(dy, dy + 16, static_cast<float>(y));
     std::fill(dz, dz + 16, static_cast<float>(z));
     std::fill(l, l + 16, static_cast<float>(lod));
-    filter_ops<0>().cube(cube.texels.data(), cube.size, cube.levels, dx, dy, dz, l, 16, rgb);
+    bn_scalar::filter_ops().cube(cube.texels.data(), cube.size, cube.levels, dx, dy, dz, l, 16, rgb);
     return {rgb[0] * cube.scale, rgb[1] * cube.scale, rgb[2] * cube.scale};
 }
 

@@ -28,9 +28,15 @@ struct FilterOps { // n is a multiple of 16; results are interleaved
     void (*dfg_fit)(const float* n_dot_v, const float* roughness, int n, float* scale_bias);
 };
 
-template <int isa> const FilterOps& filter_ops(); // 0 scalar, 1 AVX2, 2 AVX-512
-template <> const FilterOps& filter_ops<0>();
-template <> const FilterOps& filter_ops<1>();
-template <> const FilterOps& filter_ops<2>();
+// One copy an instruction set; calls are qualified.
+inline namespace bn_scalar {
+const FilterOps& filter_ops();
+}
+inline namespace bn_avx2 {
+const FilterOps& filter_ops();
+}
+inline namespace bn_avx512 {
+const FilterOps& filter_ops();
+}
 
 } // namespace burnish

@@ -115,11 +115,11 @@ constexpr FilterOps kOps = {kLanes,     place_op,     cube_op,       cube_level_
                             texture_op, footprint_op, dfg_lookup_op, dfg_fit_op};
 
 } // namespace
-} // namespace BN_ISA_NS
 
-template <> const FilterOps& filter_ops<BN_ISA>()
+const FilterOps& filter_ops()
 {
     return kOps;
 }
 
+} // namespace BN_ISA_NS
 } // namespace burnish

@@ -103,8 +103,7 @@ TEST(Prefilter, LevelsEqualTheIntegralOverTheHemisphere)
             Direction d = cube_direction(face, (x + 0.5) * 2.0 / n - 1.0, (y + 0.5) * 2.0 / n - 1.0);
             const double r = std::sqrt(d.x * d.x + d.y * d.y + d.z * d.z), v[3] = {d.x / r, d.y / r, d.z / r};
             const double expected = brute_force(v, alpha_lin * alpha_lin);
-            EXPECT_NEAR(static_cast<double>(cube_texel(e->specular, level, face, x, y, 0)), expected,
-                        0.015)
+            EXPECT_NEAR(static_cast<double>(cube_texel(e->specular, level, face, x, y, 0)), expected, 0.015)
                 << "level " << level << " face " << face;
         }
     }
@@ -131,14 +130,14 @@ TEST(Prefilter, EveryInstructionSetAndSplitGivesTheSameBits)
             }
         return out;
     };
-    const std::vector<float> expected = run(bake_fns_of<0>(), 64);
+    const std::vector<float> expected = run(bake_fns_of(0), 64);
     for (const int piece : {4, 16, 64}) {
-        EXPECT_EQ(run(bake_fns_of<0>(), piece), expected);
+        EXPECT_EQ(run(bake_fns_of(0), piece), expected);
         if (bake_isa_available(1)) {
-            EXPECT_EQ(run(bake_fns_of<1>(), piece), expected);
+            EXPECT_EQ(run(bake_fns_of(1), piece), expected);
         }
         if (bake_isa_available(2)) {
-            EXPECT_EQ(run(bake_fns_of<2>(), piece), expected);
+            EXPECT_EQ(run(bake_fns_of(2), piece), expected);
         }
     }
 }

@@ -143,7 +143,7 @@ void expect_equals_naive(const TexturePyramid& p, int max_taps)
 {
     const std::vector<float> uv = sample_positions(p);
     std::vector<float> rgba(4 * kSamples);
-    filter_ops<0>().texture(view_of(p), uv.data(), max_taps, true, kSamples, rgba.data());
+    bn_scalar::filter_ops().texture(view_of(p), uv.data(), max_taps, true, kSamples, rgba.data());
     for (std::size_t i = 0; i < kSamples; ++i) {
         const NaiveFootprint f = naive_footprint_at(p, uv, i, max_taps);
         for (int c = 0; c < 4; ++c)
@@ -186,7 +186,7 @@ TEST(TextureFilter, TapCountsFollowTheFootprint)
         uv[2 * 16 + i] = cases[i].dx * n;
         uv[5 * 16 + i] = cases[i].dy * n;
     }
-    filter_ops<0>().footprint(view_of(p), uv.data(), 16, 16, out.data());
+    bn_scalar::filter_ops().footprint(view_of(p), uv.data(), 16, 16, out.data());
     for (std::size_t i = 0; i < std::size(cases); ++i) {
         EXPECT_NEAR(out[2 * i], cases[i].lod, 1e-5f) << i;
         EXPECT_EQ(out[2 * i + 1], cases[i].taps) << i;
@@ -235,7 +235,7 @@ TEST(TextureFilter, NearestReadsTheTexelThatContainsThePoint)
         const TexturePyramid p = noise_pyramid(9, 6, mode, mode, true);
         const std::vector<float> uv = sample_positions(p);
         std::vector<float> rgba(4 * kSamples);
-        filter_ops<0>().texture(view_of(p), uv.data(), 16, true, kSamples, rgba.data());
+        bn_scalar::filter_ops().texture(view_of(p), uv.data(), 16, true, kSamples, rgba.data());
         for (std::size_t i = 0; i < kSamples; ++i) {
             const double x = static_cast<double>(uv[i]) * 9.0,
                          y = static_cast<double>(uv[kSamples + i]) * 6.0;
@@ -255,7 +255,7 @@ TEST(TextureFilter, AConstantTextureStaysConstant)
     const TexturePyramid p = make_texture_pyramid(image, {}, TextureEncoding::linear);
     const std::vector<float> uv = sample_positions(p);
     std::vector<float> rgba(4 * kSamples);
-    filter_ops<0>().texture(view_of(p), uv.data(), 16, true, kSamples, rgba.data());
+    bn_scalar::filter_ops().texture(view_of(p), uv.data(), 16, true, kSamples, rgba.data());
     const float expected = half_to_float(float_to_half(128.0f / 255.0f));
     for (const float v : rgba)
         ASSERT_NEAR(v, expected, 4e-7f);
@@ -266,7 +266,7 @@ TEST(TextureFilter, EveryInstructionSetAndLoopBoundGivesTheSameBits)
     const TexturePyramid p = noise_pyramid(61, 40, WrapMode::repeat, WrapMode::mirror);
     const std::vector<float> uv = sample_positions(p);
     std::vector<float> expected(4 * kSamples), got(4 * kSamples);
-    filter_ops<0>().texture(view_of(p), uv.data(), 16, true, kSamples, expected.data());
+    bn_scalar::filter_ops().texture(view_of(p), uv.data(), 16, true, kSamples, expected.data());
     for (const FilterOps* ops : available_filter_ops())
         for (const bool exact_bound : {true, false}) {
             ops->texture(view_of(p), uv.data(), 16, exact_bound, kSamples, got.data());

@@ -1,0 +1,29 @@
+// The fetch kernels in the loops that the benchmarks time, one table an instruction set.
+#pragma once
+#include <cstdint>
+
+namespace burnish {
+
+struct FetchInput { // n directions (any length) and levels of detail, n a multiple of 16
+    const float *x, *y, *z, *lod;
+    int n;
+};
+
+struct FetchFns {
+    // One fetch of every direction, results to rgb (3n).
+    void (*single)(const std::uint16_t* texels, int size, int levels, const FetchInput& in, float* rgb);
+    // Sixteen fetches a lane, accumulated: around every direction.
+    void (*sixteen)(const std::uint16_t* texels, int size, int levels, const FetchInput& in, float* rgb);
+};
+// One copy an instruction set; calls are qualified.
+inline namespace bn_scalar {
+const FetchFns& fetch_fns();
+}
+inline namespace bn_avx2 {
+const FetchFns& fetch_fns();
+}
+inline namespace bn_avx512 {
+const FetchFns& fetch_fns();
+}
+
+} // namespace burnish

@@ -1,0 +1,18 @@
+// Anisotropy textures as something that can be filtered: tensors instead of directions.
+#pragma once
+#include "core/image/image.h"
+
+namespace burnish {
+
+// KHR_materials_anisotropy texture (red and green: direction in [0,1]^2, blue: strength) to an f32 image of
+// strength^power d d^T by texel: channels xx, yy, xy, 0. d is the unit direction; a texel without one (length
+// below 1/100) has strength 0. power: 2 or 4.
+//
+// Why: GGX widths are alpha_t = alpha + (1 - alpha) s^2 along d and alpha across it, so twice the covariance
+// of slopes is
+//     alpha^2 I + 2 alpha (1 - alpha) s^2 d d^T + (1 - alpha)^2 s^4 d d^T,
+// linear in both tensors: filtering them filters the covariance exactly, whatever the roughness, and +d and
+// -d are the same.
+Image anisotropy_tensor(const Image& image, int power);
+
+} // namespace burnish
