@@ -18,7 +18,7 @@ struct LaneMaterial { // a material's parameters at the fragments
     real3 emissive;
     real3 dielectric_f0;
     real dielectric_f90;
-    real3 direction; // anisotropy texel: red and green a direction, blue a factor of the strength
+    real3 tensor2, tensor4; // anisotropy texels' tensors, see covariance_from_tensors
 };
 
 BN_STAGE LaneMaterial fetch_material(const FrameParams& f, const MaterialRecord& m, const Fragment& p)
@@ -70,10 +70,11 @@ BN_STAGE LaneMaterial fetch_material(const FrameParams& f, const MaterialRecord&
         const real4 t = fetch(kSpecularColorTex);
         r.dielectric_f0 = r.dielectric_f0 * vec3_of(t.x, t.y, t.z);
     }
-    r.direction = vec3_of(lit(1.0), lit(0.5), lit(1.0));
-    if (used(kAnisotropyTex)) {
-        const real4 t = fetch(kAnisotropyTex);
-        r.direction = vec3_of(t.x, t.y, t.z);
+    r.tensor2 = r.tensor4 = vec3_of(lit(1.0), lit(0.0), lit(0.0));
+    if (used(kTensor2Tex)) {
+        const real4 t2 = fetch(kTensor2Tex), t4 = fetch(kTensor4Tex), rest = fetch(kTensor4RestTex);
+        r.tensor2 = vec3_of(t2.x, t2.y, t2.z);
+        r.tensor4 = vec3_of(t4.x + rest.x, t4.y + rest.y, t4.z + rest.z);
     }
     return r;
 }
@@ -106,12 +107,6 @@ BN_INLINE real3 light_from_punctual(const FrameParams& f, const surface& s, real
     return sum;
 }
 
-BN_INLINE real2 rotated_direction(real2 rotation, real3 texel)
-{
-    const real x = texel.x * lit(2.0) - lit(1.0), y = texel.y * lit(2.0) - lit(1.0);
-    return vec2_of(rotation.x * x - rotation.y * y, rotation.y * x + rotation.x * y);
-}
-
 // The material's lobe in the frame. What is not anisotropic needs no axes of its own.
 BN_INLINE aniso_lobe material_lobe(const FrameParams& f, const MaterialRecord& m, const LaneMaterial& at, const surface_frame& frame)
 {
@@ -123,11 +118,10 @@ BN_INLINE aniso_lobe material_lobe(const FrameParams& f, const MaterialRecord& m
     if (!m.anisotropic)
         return lobe;
     const real2 rotation = vec2_of(splat(m.anisotropy_rotation[0]), splat(m.anisotropy_rotation[1]));
-    slope_covariance covariance;
-    if (f.override_anisotropy)
-        covariance = covariance_from_eta(roughness, splat(f.anisotropy), rotated_direction(rotation, at.direction));
-    else
-        covariance = covariance_from_khr(alpha, splat(m.anisotropy_strength), rotation, at.direction);
+    const slope_covariance covariance =
+        f.override_anisotropy
+            ? covariance_from_eta_tensor(roughness, splat(f.anisotropy), rotation, at.tensor2)
+            : covariance_from_tensors(alpha, splat(m.anisotropy_strength), rotation, at.tensor2, at.tensor4);
     const slope_axes axes = axes_of_covariance(covariance);
     const mask mirror = roughness <= lit(0.0); // a mirror stays one
     lobe.sigma_u = select(mirror, sigma, axes.sigma_u);

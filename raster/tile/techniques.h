@@ -3,6 +3,7 @@
 #pragma once
 #include "raster/tile/lanes_bake.h"
 #include "shading/kernels/bent_normal.k.h"
+#include "shading/kernels/filtered_is.k.h"
 #include "shading/kernels/fresnel.k.h"
 #include "shading/kernels/ggx_aniso.k.h"
 #include "shading/kernels/lobe.k.h"
@@ -121,6 +122,43 @@ BN_INLINE real3 major_axis_weighted_specular(const TechniqueInput& in)
         sum = sum + weight;
     }
     return texel_rgb(acc) / max(sum, lit(1e-20)) * in.albedo;
+}
+
+// `place` gives the sample of a grid point.
+template <class Place> BN_INLINE real3 filtered_is_sum(const TechniqueInput& in, const Place& place)
+{
+    const cube_desc cube = lanes_cube(in.f.box_cube);
+    real3 o = to_lobe(in.lobe, in.s.n, in.s.v);
+    o.z = max(o.z, lit(1e-4));
+    o = k_normalize3(o);
+    const real size = to_real(int_lit(cube.size));
+    const real count = to_real(int_lit(in.f.grid_count));
+    const real texel_term = lit(0.5) * k_log2(size * size * lit(0.47746482927568601) / count); // 6 / (4 pi)
+    real3 sum = vec3_all(lit(0.0));
+    for (int i = 0; i < in.f.grid_count; ++i) {
+        const filtered_sample s = place(o, in.f.grid[i], texel_term);
+        const real3 radiance = cube_sample(cube, from_lobe(in.lobe, in.s.n, s.wi), s.lod);
+        sum = sum + radiance * fresnel_schlick(in.s.f0, in.s.f90, k_saturate(s.o_dot_h)) * s.weight;
+    }
+    return sum / count * splat(in.f.box_cube.scale / in.f.specular_cube.scale);
+}
+
+BN_INLINE real3 filtered_is_specular(const TechniqueInput& in)
+{
+    const real root2 = lit(1.4142135623730951);
+    const beckmann_params p = beckmann_params_of(in.lobe.sigma_u * root2, in.lobe.sigma_v * root2);
+    return filtered_is_sum(in, [&](real3 o, const GridSample& g, real term) {
+        return filtered_is_beckmann(o, p, splat(g.slope_x), splat(g.slope_y), splat(g.density), term);
+    });
+}
+
+BN_INLINE real3 filtered_is_ggx_specular(const TechniqueInput& in)
+{
+    const real root2 = lit(1.4142135623730951);
+    const ggx_aniso_params p = ggx_aniso_params_of(in.lobe.sigma_u * root2, in.lobe.sigma_v * root2);
+    return filtered_is_sum(in, [&](real3 o, const GridSample& g, real term) {
+        return filtered_is_ggx(o, p, splat(g.slope_x), splat(g.slope_y), splat(g.density), term);
+    });
 }
 
 // GGX visible normals, height-correlated masking, Fresnel by sample; a Hammersley set rotated by a hash of the pixel.

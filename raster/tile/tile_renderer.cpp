@@ -79,12 +79,15 @@ class TileRenderer final : public Renderer {
 
   private:
     FrameParams frame_params(const FrameDesc& desc, const std::vector<MaterialRecord>& materials);
+    void prepare_grid(const FrameDesc& desc, FrameParams& f);
     void draw_tiles(const FrameParams& f, Frame& frame);
 
     RenderInput input_;
     Isa isa_;
     const TileFns& fns_;
     SceneTables scene_;
+    CubeMap box_cube_;              // made when a technique first asks for it
+    std::vector<GridSample> grid_;
     Column<std::int32_t> x_, y_;
     Column<float> inv_w_, z_;
     Bins bins_;
@@ -139,6 +142,17 @@ FrameParams TileRenderer::frame_params(const FrameDesc& desc, const std::vector<
     return f;
 }
 
+void TileRenderer::prepare_grid(const FrameDesc& desc, FrameParams& f)
+{
+    if (desc.technique != "filtered_is" && desc.technique != "filtered_is_ggx")
+        return;
+    if (box_cube_.levels == 0)
+        box_cube_ = box_filtered_chain(input_.environment.specular, input_.jobs);
+    grid_ = grid_samples(desc.samples, desc.technique == "filtered_is_ggx");
+    f.box_cube = cube_params(box_cube_);
+    f.grid = grid_.data(), f.grid_count = static_cast<std::int32_t>(grid_.size());
+}
+
 void TileRenderer::draw_tiles(const FrameParams& f, Frame& frame)
 {
     const TraceSpan span("tiles");
@@ -191,7 +205,8 @@ Result<Frame> TileRenderer::render(const FrameDesc& desc)
         frame.triangle_ids.resize(static_cast<std::size_t>(desc.width) * static_cast<std::size_t>(desc.height) *
                                   static_cast<std::size_t>(desc.msaa));
     const std::vector<MaterialRecord> materials = overridden(scene_.materials, desc);
-    const FrameParams f = frame_params(desc, materials);
+    FrameParams f = frame_params(desc, materials);
+    prepare_grid(desc, f);
     const Visible visible = cull(input_.tables, desc.view);
     transform_draws(f, input_.tables, visible, fns_, input_.jobs);
     bins_.build(f, input_.tables, visible, fns_, input_.jobs);

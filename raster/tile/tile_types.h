@@ -83,7 +83,7 @@ struct TextureParams { // TexturePyramid in plain data
 };
 
 enum TextureSlot { kBaseColorTex, kMetalRoughTex, kNormalTex, kOcclusionTex, kEmissiveTex, kSpecularTex, kSpecularColorTex,
-                   kAnisotropyTex, kTextureSlots };
+                   kTensor2Tex, kTensor4Tex, kTensor4RestTex, kTextureSlots };
 
 struct TextureBinding {
     const TextureParams* texture; // null: not used
@@ -110,6 +110,11 @@ struct LightRecord { // DrawTables' PunctualLight in plain numbers
     std::int32_t directional;
 };
 
+// One sample of a unit lobe (widths 1): its slopes, and the density of normals there times h.z^4.
+struct GridSample {
+    float slope_x, slope_y, density;
+};
+
 // Everything a tile needs to know of its frame; constant while the frame is drawn.
 struct FrameParams {
     ViewParams view;
@@ -128,6 +133,9 @@ struct FrameParams {
     VertexColumns vertices;
     // environment
     CubeParams specular_cube, irradiance_cube;
+    CubeParams box_cube;             // box-filtered chain; only for techniques that ask for it
+    const GridSample* grid;          // samples of filtered importance sampling
+    std::int32_t grid_count;
     const std::uint16_t* dfg_texels; // DfgTable::texels
     std::int32_t dfg_size;
     std::int32_t background, technique, samples, texture_taps, seed;

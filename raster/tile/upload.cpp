@@ -1,9 +1,12 @@
 #include "raster/tile/upload.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/base/check.h"
 #include "core/math/scalar_math.h"
+#include "shading/bake/anisotropy.h"
+#include "shading/kernels/math_special.k.h"
 
 namespace burnish {
 
@@ -13,6 +16,7 @@ struct TextureUse {
     TextureSlot slot;
     TextureRef Material::*ref;
     TextureEncoding encoding;
+    int tensor_power = 0; // 2, 4: the image's anisotropy tensors; 0: the image itself
 };
 constexpr TextureUse kTextureUses[kTextureSlots] = {
     {kBaseColorTex, &Material::base_color_tex, TextureEncoding::srgb},
@@ -22,12 +26,15 @@ constexpr TextureUse kTextureUses[kTextureSlots] = {
     {kEmissiveTex, &Material::emissive_tex, TextureEncoding::srgb},
     {kSpecularTex, &Material::specular_tex, TextureEncoding::linear},
     {kSpecularColorTex, &Material::specular_color_tex, TextureEncoding::srgb},
-    {kAnisotropyTex, &Material::anisotropy_tex, TextureEncoding::linear},
+    {kTensor2Tex, &Material::anisotropy_tex, TextureEncoding::linear, 2},
+    {kTensor4Tex, &Material::anisotropy_tex, TextureEncoding::linear, 4},
+    {kTensor4RestTex, &Material::anisotropy_tex, TextureEncoding::residual, 4},
 };
 
 struct PyramidKey {
     std::int32_t texture;
     TextureEncoding encoding;
+    int tensor_power;
     bool operator==(const PyramidKey&) const = default;
 };
 
@@ -36,7 +43,7 @@ std::vector<PyramidKey> used_pyramids(const Scene& scene)
     std::vector<PyramidKey> keys;
     for (const Material& m : scene.materials)
         for (const TextureUse& use : kTextureUses) {
-            const PyramidKey key = {(m.*use.ref).texture, use.encoding};
+            const PyramidKey key = {(m.*use.ref).texture, use.encoding, use.tensor_power};
             if (key.texture != kNone && std::find(keys.begin(), keys.end(), key) == keys.end())
                 keys.push_back(key);
         }
@@ -121,6 +128,30 @@ SamplePattern standard_samples(int count)
     return p;
 }
 
+std::vector<GridSample> grid_samples(int samples, bool ggx)
+{
+    int n = 1;
+    while ((n + 1) * (n + 1) <= samples)
+        ++n;
+    std::vector<GridSample> grid;
+    for (int i = 0; i < n; ++i)
+        for (int j = 0; j < n; ++j) {
+            const double u = (i + 0.5) / n, v = (j + 0.5) / n;
+            double x, y, density;
+            if (ggx) { // radius from the distribution of slopes, which is that of D h.z
+                const double r2 = v / (1.0 - v), r = std::sqrt(r2);
+                x = r * det_cos(2.0 * kPi * u), y = r * det_sin(2.0 * kPi * u);
+                density = 1.0 / (kPi * (1.0 + r2) * (1.0 + r2));
+            } else {
+                x = static_cast<double>(k_erfinv(static_cast<float>(2.0 * u - 1.0)));
+                y = static_cast<double>(k_erfinv(static_cast<float>(2.0 * v - 1.0)));
+                density = det_exp(-x * x - y * y) / kPi;
+            }
+            grid.push_back({static_cast<float>(x), static_cast<float>(y), static_cast<float>(density)});
+        }
+    return grid;
+}
+
 CubeParams cube_params(const CubeMap& cube)
 {
     CubeParams p = {};
@@ -152,8 +183,9 @@ SceneTables upload_scene(const Scene& scene, const DrawTables& tables, const Job
     s.pyramids.resize(keys.size());
     jobs.parallel_for(keys.size(), [&](std::size_t i, int) {
         const Texture& texture = scene.textures[static_cast<std::size_t>(keys[i].texture)];
-        s.pyramids[i] =
-            make_texture_pyramid(scene.images[static_cast<std::size_t>(texture.image)], texture, keys[i].encoding);
+        const Image& image = scene.images[static_cast<std::size_t>(texture.image)];
+        s.pyramids[i] = make_texture_pyramid(keys[i].tensor_power ? anisotropy_tensor(image, keys[i].tensor_power) : image, texture,
+                                             keys[i].encoding);
     });
     for (const TexturePyramid& p : s.pyramids)
         s.textures.push_back(texture_params(p));
@@ -163,7 +195,7 @@ SceneTables upload_scene(const Scene& scene, const DrawTables& tables, const Job
             const TextureRef& ref = m.*use.ref;
             if (!ref.used())
                 continue;
-            const auto key = std::find(keys.begin(), keys.end(), PyramidKey{ref.texture, use.encoding});
+            const auto key = std::find(keys.begin(), keys.end(), PyramidKey{ref.texture, use.encoding, use.tensor_power});
             TextureBinding& b = r.textures[use.slot];
             b.texture = &s.textures[static_cast<std::size_t>(key - keys.begin())];
             b.uv_set = ref.uv_set;

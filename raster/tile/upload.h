@@ -20,6 +20,9 @@ struct SceneTables { // keeps alive what the records point at
 // Builds every texture pyramid that a material uses, once a (texture, encoding) pair, in parallel.
 SceneTables upload_scene(const Scene& scene, const DrawTables& tables, const Jobs& jobs);
 
+// The n x n samples of filtered importance sampling, n = floor(sqrt(samples)): Gaussian slopes (Beckmann) or GGX.
+std::vector<GridSample> grid_samples(int samples, bool ggx);
+
 CubeParams cube_params(const CubeMap& cube);
 ViewParams view_params_of(const View& view);
 SamplePattern standard_samples(int count); // Vulkan's standard sample locations for 1, 2, 4, 8, 16

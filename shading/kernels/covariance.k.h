@@ -78,6 +78,45 @@ BN_FN slope_covariance covariance_from_khr(real alpha, real strength, real2 rota
     return covariance_of_axes(sigma_t, sigma_b, d);
 }
 
+// The same from filtered tensors of an anisotropy texture (shading/bake/anisotropy.h): power2, power4 hold xx, yy, xy of the texels'
+// strength^2 d d^T and strength^4 d d^T; (1, 0, 0) where there is no texture. Linear in both, so filtering them is exact.
+BN_FN slope_covariance covariance_from_tensors(real alpha, real strength, real2 rotation, real3 power2, real3 power4)
+{
+    real rest = lit(1.0) - alpha;
+    real s2 = strength * strength;
+    real k2 = lit(2.0) * alpha * rest * s2;
+    real k4 = rest * rest * s2 * s2;
+    real3 m = power2 * k2 + power4 * k4;
+    real c = rotation.x;
+    real s = rotation.y;
+    real shear = lit(2.0) * c * s * m.z;
+    slope_covariance r;
+    r.xx = lit(0.5) * (alpha * alpha + (c * c * m.x + s * s * m.y - shear));
+    r.yy = lit(0.5) * (alpha * alpha + (s * s * m.x + c * c * m.y + shear));
+    r.xy = lit(0.5) * (c * s * (m.x - m.y) + (c * c - s * s) * m.z);
+    return r;
+}
+
+// alpha_lin and eta as in covariance_from_eta, along the main direction of a filtered tensor.
+BN_FN slope_covariance covariance_from_eta_tensor(real alpha_lin, real eta, real2 rotation, real3 power2)
+{
+    real trace = power2.x + power2.y;
+    real3 m = power2 * (lit(1.0) / max(trace, lit(1e-6))); // trace 1 where there is a direction
+    real sigma = alpha_lin * alpha_lin * lit(0.70710678118654752);
+    real along = sigma * (lit(1.0) + eta);
+    real across = sigma * (lit(1.0) - eta);
+    real extra = (along - across) * (along + across);
+    real base = across * across;
+    real c = rotation.x;
+    real s = rotation.y;
+    real shear = lit(2.0) * c * s * m.z;
+    slope_covariance r;
+    r.xx = base + extra * (c * c * m.x + s * s * m.y - shear);
+    r.yy = base + extra * (s * s * m.x + c * c * m.y + shear);
+    r.xy = extra * (c * s * (m.x - m.y) + (c * c - s * s) * m.z);
+    return r;
+}
+
 BN_FN slope_covariance covariance_mix(slope_covariance a, slope_covariance b, real t)
 {
     slope_covariance s;

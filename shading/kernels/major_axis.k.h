@@ -17,7 +17,7 @@ struct major_axis_ends {
 struct major_axis_line {
     real3 e0, e1;   // microfacet normals at both ends, unit, ellipse frame
     real radius;    // r_s, alpha of the prefiltered level that a sample stands for
-    real length;    // L, distance of the reflected ends
+    real extent;    // L, distance of the reflected ends
     real width;     // Delta', distance of the reflected closest points
 };
 
@@ -103,14 +103,14 @@ BN_FN major_axis_line major_axis_setup(real3 o, real sigma_x, real sigma_y, real
 
     major_axis_line r;
     r.width = k_length3(reflect_about(m0, o) - reflect_about(m1, o));
-    r.length = k_length3(reflect_about(end0, o) - reflect_about(end1, o));
-    real some = select(r.length > zero, r.length, one);
-    real zeta = select(r.length > zero, min(max(one - r.width / some, zero), one), zero); // appendix D: leave half a width
+    r.extent = k_length3(reflect_about(end0, o) - reflect_about(end1, o));
+    real some = select(r.extent > zero, r.extent, one);
+    real zeta = select(r.extent > zero, min(max(one - r.width / some, zero), one), zero); // appendix D: leave half a width
     real3 centre = k_normalize3(end0 + end1);
     r.e0 = k_normalize3(centre + (end0 - centre) * zeta);
     r.e1 = k_normalize3(centre + (end1 - centre) * zeta);
     real by_width = r.width / (lit(2.0) * max(k, lit(1e-6)));
-    real by_spacing = beta * r.length * inv_count * lit(0.5);
+    real by_spacing = beta * r.extent * inv_count * lit(0.5);
     r.radius = max(by_width, by_spacing);
     return r;
 }
@@ -132,10 +132,10 @@ struct adaptive_count {
 // As many samples as make their own size, the width of the lobe, fit the line's length: beta L / Delta'. limit: uniform, at least 1.
 BN_FN adaptive_count major_axis_needed(major_axis_line line, real k, real beta, real limit)
 {
-    real wanted = beta * line.length * max(k, lit(1e-6)) / max(line.width, lit(1e-20));
+    real wanted = beta * line.extent * max(k, lit(1e-6)) / max(line.width, lit(1e-20));
     adaptive_count r;
     r.count = min(max(wanted, lit(1.0)), limit);
-    real by_spacing = beta * line.length * lit(0.5) / r.count;
+    real by_spacing = beta * line.extent * lit(0.5) / r.count;
     real by_width = line.width * lit(0.5) / max(k, lit(1e-6));
     r.radius = max(by_width, by_spacing);
     return r;

@@ -32,7 +32,7 @@ void major_axis(const double in[8], double out[11])
     out[0] = of_lane(ends.t_near), out[1] = of_lane(ends.t_far);
     of_lanes3(line.e0, out + 2);
     of_lanes3(line.e1, out + 5);
-    out[8] = of_lane(line.radius), out[9] = of_lane(line.length), out[10] = of_lane(line.width);
+    out[8] = of_lane(line.radius), out[9] = of_lane(line.extent), out[10] = of_lane(line.width);
 }
 
 void direction(const double in[10], double out[3])
