@@ -19,7 +19,7 @@
 //  - `for` with uniform bounds only; `if` on uniform values only.
 //  - no fma, no pow/exp/sin/dot/normalize/mix of GLSL: math.k.h has them (k_dot3, k_exp2...). No global constants: lit() in place.
 //  - every float expression ends in a variable, argument or result of type real, so that GLSL's `precise` reaches it: name the
-//    value before comparing or converting it.
+//    value before comparing, converting or passing it.
 //  - no overloads, references, templates, enum, array initialisers or default arguments of your own; no reserved word of either
 //    language as a name (half, input, output, sample, filter, buffer, shared, patch, flat, common, active, near, far, and, or),
 //    no member called length.
