@@ -7,7 +7,6 @@
 #include <array>
 #include <cmath>
 
-#include "core/math/scalar_math.h"
 #include "core/scene/builtin_surface.h"
 
 namespace burnish {

@@ -72,16 +72,15 @@ Face make_face(const glm::vec3* p, const glm::vec2* uv)
     Face face;
     face.collapsed = p[0] == p[1] || p[1] == p[2] || p[2] == p[0];
     const glm::vec2 a = uv[1] - uv[0], b = uv[2] - uv[0];
-    // In float, as everyone who follows the method does: which triangles count as empty is a matter of
+    // In float, as everyone who follows the method does: whether a sliver has a gradient is a matter of
     // rounding.
     const float area = a.x * b.y - a.y * b.x;
     face.preserving = area > 0.0f;
     if (!(std::fabs(area) > FLT_MIN))
         return face;
-    const glm::dvec3 d1 = glm::dvec3(p[1]) - glm::dvec3(p[0]), d2 = glm::dvec3(p[2]) - glm::dvec3(p[0]);
-    const glm::dvec2 t1(a), t2(b);
-    const glm::dvec3 along_u = unit_or_zero(d1 * t2.y - d2 * t1.y),
-                     along_v = unit_or_zero(d2 * t1.x - d1 * t2.x);
+    const glm::vec3 d1 = p[1] - p[0], d2 = p[2] - p[0];
+    const glm::dvec3 along_u = unit_or_zero(glm::dvec3(d1 * b.y - d2 * a.y)),
+                     along_v = unit_or_zero(glm::dvec3(d2 * a.x - d1 * b.x));
     face.gradient = face.preserving ? along_u : -along_u;
     face.free = along_u == glm::dvec3(0.0) || along_v == glm::dvec3(0.0);
     return face;

@@ -68,6 +68,10 @@ cases.collapsed = [
     ...[[1, 0], [0, 1], [0, 1]].map(([x, y]) => corner([x, y, 0], up, [x, y])),
     ...[[1, 0], [1, 0], [0, 0]].map(([x, y]) => corner([x, y, 0], up, [x, y])),
 ];
+// Corners so close that floats cannot tell their difference from a third: no gradient, though not collapsed.
+cases.sliver = [[[0.130526, -0.991445, 0], [0.129409, -0.991445, 0.017037], [1e-16, -1, 0]],
+    [[0.129409, -0.991445, 0.017037], [1.1e-16, -1, 1.6e-17], [1e-16, -1, 0]]]
+    .flat().map((p) => corner(p, unit(p), [p[2] === 0 ? 0 : 0.02, p[0] < 0.1 ? 0 : 0.04]));
 // Two triangles that meet in a vertex only, and turn differently in texture space.
 cases.bow_tie = [
     ...[[0, 0], [1, 0], [1, 1]].map(([x, y]) => corner([x, y, 0], up, [x, y])),
