@@ -18,7 +18,7 @@
 //  - no if, ?:, && or || on a varying value: select(). Both sides are computed: clamp denominators, keep sqrt arguments >= 0.
 //  - `for` with uniform bounds only; `if` on uniform values only.
 //  - no fma, no pow/exp/sin/dot/normalize/mix of GLSL: math.k.h has them (k_dot3, k_exp2...). No global constants: lit() in place.
-//  - every float expression ends in a variable, argument or result of type real, so that GLSL's `precise` reaches it: name the
+//  - every float expression ends in a variable or result of type real, so that GLSL's `precise` reaches it: name the
 //    value before comparing, converting or passing it.
 //  - no overloads, references, templates, enum, array initialisers or default arguments of your own; no reserved word of either
 //    language as a name (half, input, output, sample, filter, buffer, shared, patch, flat, common, active, near, far, and, or),
