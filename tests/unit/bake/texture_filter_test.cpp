@@ -9,7 +9,7 @@
 namespace burnish {
 namespace {
 
-constexpr double kNan = NAN, kInf = INFINITY;
+const double kNan = std::nan(""), kInf = HUGE_VAL;
 
 Image noise(int width, int height)
 {
