@@ -249,7 +249,7 @@ Result<ImageProbe> probe_exr(const ImageBytes& file, const Limits& limits)
     }
     if (first_flat < 0)
         return file.error("header: type", "the file has no flat part; deep images are not supported");
-    return ImageProbe{"openexr", first_flat, false, false, false};
+    return ImageProbe{"openexr", first_flat, false, false, false, {}};
 }
 
 } // namespace burnish

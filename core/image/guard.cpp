@@ -10,8 +10,6 @@
 namespace burnish {
 namespace {
 
-// Deflate's longest match, 258 bytes, costs at least 2 bits: 1032 to 1 (RFC 1951 section 3.2.5).
-constexpr std::uint64_t kDeflateBest = 1032;
 // Decoding time of a progressive JPEG grows with its scans, whose number the file chooses; real files have
 // about ten.
 constexpr int kMaxJpegScans = 200;
@@ -43,32 +41,6 @@ Error too_short(const ImageBytes& file)
     return file.error(fmt::format("byte {}", file.size), "the file ends inside its header");
 }
 
-// PNG (W3C PNG section 11.2.2): IHDR is always the first chunk.
-Result<ImageProbe> probe_png(const ImageBytes& file, const Limits& limits)
-{
-    if (file.size < 33)
-        return too_short(file);
-    if (!starts_with(file, "IHDR", 12))
-        return file.error("byte 12", "a PNG file must begin with an IHDR chunk");
-    const std::uint64_t width = big_endian(file.data + 16, 4);
-    const std::uint64_t height = big_endian(file.data + 20, 4);
-    if (const Status sides =
-            check_sides(file, static_cast<std::int64_t>(width), static_cast<std::int64_t>(height), limits);
-        !sides)
-        return sides.error();
-    constexpr std::uint64_t kSamplesByColourType[] = {1, 0, 3, 1, 2, 0, 4};
-    const std::uint64_t depth = file.data[24];
-    const std::uint64_t colour_type = file.data[25];
-    if (colour_type > 6 || kSamplesByColourType[colour_type] == 0 || depth > 16)
-        return file.error("byte 24",
-                          fmt::format("bit depth {} with colour type {} is no PNG", depth, colour_type));
-    const std::uint64_t raw = height * ((width * depth * kSamplesByColourType[colour_type] + 7) / 8 + 1);
-    if (raw / kDeflateBest > file.size)
-        return file.error(fmt::format("header: {} x {} pixels", width, height),
-                          fmt::format("{} bytes cannot hold that many pixels", file.size));
-    return ImageProbe{"png", 0, false, false, false};
-}
-
 // One step through JPEG's markers (ITU T.81 annex B): the next marker at or after `at`, which is moved past
 // it.
 std::optional<std::uint8_t> next_jpeg_marker(const ImageBytes& file, std::size_t& at)
@@ -97,7 +69,7 @@ Result<ImageProbe> probe_jpeg(const ImageBytes& file, const Limits& limits)
             return file.error(fmt::format("byte {}", file.size),
                               "the file ends before its end-of-image marker");
         if (*marker == 0xD9 && framed && scans > 0)
-            return ImageProbe{"jpeg", 0, false, false, false};
+            return ImageProbe{"jpeg", 0, false, false, false, {}};
         if (*marker == 0xD8 || *marker == 0xD9 || *marker == 0x01)
             continue;
         if (at + 2 > file.size)
@@ -149,7 +121,7 @@ Result<ImageProbe> probe_webp(const ImageBytes& file, const Limits& limits)
             check_sides(file, static_cast<std::int64_t>(width), static_cast<std::int64_t>(height), limits);
         !sides)
         return sides.error();
-    return ImageProbe{"webp", 0, false, false, false};
+    return ImageProbe{"webp", 0, false, false, false, {}};
 }
 
 // An unsigned decimal at `at`, which is moved past it; nothing where there is none or it is absurd.
@@ -205,7 +177,7 @@ Result<ImageProbe> probe_hdr(const ImageBytes& file, const Limits& limits)
                           fmt::format("{} bytes cannot hold that many pixels", file.size));
     // Y points up and X to the right: "-Y" scanlines go down from the top.
     const int x = transpose ? 0 : 1;
-    return ImageProbe{"hdr", 0, transpose, negative[x], !negative[1 - x]};
+    return ImageProbe{"hdr", 0, transpose, negative[x], !negative[1 - x], {}};
 }
 
 // Netpbm and PFM: magic, then width and height as text among white space and # comments.
@@ -235,7 +207,7 @@ Result<ImageProbe> probe_pnm(const ImageBytes& file, const Limits& limits)
     if (pixels / 8 > file.size) // one bit a pixel at least
         return file.error(fmt::format("header: {} x {} pixels", sides[0], sides[1]),
                           fmt::format("{} bytes cannot hold that many pixels", file.size));
-    return ImageProbe{"pnm", 0, false, false, false};
+    return ImageProbe{"pnm", 0, false, false, false, {}};
 }
 
 Result<ImageProbe> probe_bmp(const ImageBytes& file, const Limits& limits)
@@ -250,7 +222,7 @@ Result<ImageProbe> probe_bmp(const ImageBytes& file, const Limits& limits)
     };
     if (const Status fits = check_sides(file, side(18), side(core ? 20 : 22), limits); !fits)
         return fits.error();
-    return ImageProbe{"bmp", 0, false, false, false};
+    return ImageProbe{"bmp", 0, false, false, false, {}};
 }
 
 bool is_pnm(const ImageBytes& file)
@@ -286,7 +258,7 @@ Result<ImageProbe> probe_image(const ImageBytes& file, const Limits& limits)
     if (starts_with(file, "#?RADIANCE\n") || starts_with(file, "#?RGBE\n"))
         return probe_hdr(file, limits);
     if (starts_with(file, std::string_view("II*\0", 4)) || starts_with(file, std::string_view("MM\0*", 4)))
-        return ImageProbe{"tiff", 0, false, false, false};
+        return ImageProbe{"tiff", 0, false, false, false, {}};
     if (is_pnm(file))
         return probe_pnm(file, limits);
     if (starts_with(file, "BM"))

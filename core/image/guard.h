@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "core/base/limits.h"
 #include "core/base/result.h"
@@ -28,11 +29,16 @@ struct ImageProbe {
     // Scanlines of Radiance files may run in any of eight ways; these put them top row first.
     bool transpose = false; // scanlines are columns
     bool flip_x = false, flip_y = false;
+    // What the library reads instead of the file's own bytes, where that is not empty.
+    std::vector<std::uint8_t> replacement;
 };
 
 // Finds the format by the first bytes, never by the extension, and refuses what cannot be a sound image:
 // sides above the limits, more pixels than the file's bytes can hold, missing end marks.
 Result<ImageProbe> probe_image(const ImageBytes& file, const Limits& limits);
+
+// The part of it for PNG, which leaves out the chunks that do not decide the samples.
+Result<ImageProbe> probe_png(const ImageBytes& file, const Limits& limits);
 
 // The part of it for OpenEXR, whose library allocates what the header asks for.
 Result<ImageProbe> probe_exr(const ImageBytes& file, const Limits& limits);

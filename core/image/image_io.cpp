@@ -77,9 +77,11 @@ OIIO::TypeDesc type_desc_of(PixelType type)
 // Reads from memory and remembers how far the library came, which is where it stumbled.
 class TrackingReader : public OIIO::Filesystem::IOMemReader {
   public:
-    explicit TrackingReader(const ImageBytes& file)
-        : IOMemReader(const_cast<std::uint8_t*>(file.data), file.size)
+    TrackingReader(const ImageBytes& file, const ImageProbe& probe)
+        : TrackingReader(probe.replacement.empty() ? file.data : probe.replacement.data(),
+                         probe.replacement.empty() ? file.size : probe.replacement.size())
     {
+        own_bytes_ = probe.replacement.empty();
     }
     size_t read(void* to, size_t size) override
     {
@@ -93,9 +95,15 @@ class TrackingReader : public OIIO::Filesystem::IOMemReader {
         reached_ = std::max(reached_, static_cast<std::size_t>(offset) + n);
         return n;
     }
-    std::string place() const { return fmt::format("byte {}", reached_); }
+    std::string place() const { return own_bytes_ ? fmt::format("byte {}", reached_) : "pixels"; }
 
   private:
+    TrackingReader(const std::uint8_t* data, std::size_t size)
+        : IOMemReader(const_cast<std::uint8_t*>(data), size)
+    {
+    }
+
+    bool own_bytes_ = true;
     std::size_t reached_ = 0;
 };
 
@@ -213,7 +221,7 @@ Result<Image> read_pixels(OIIO::ImageInput& input, const TrackingReader& reader,
 Result<Image> decode(const ImageBytes& file, const ImageProbe& probe, const Limits& limits)
 {
     configure_openimageio();
-    TrackingReader reader(file);
+    TrackingReader reader(file, probe);
     OIIO::Filesystem::IOProxy* proxy = &reader;
     OIIO::ImageSpec config, spec;
     config.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);

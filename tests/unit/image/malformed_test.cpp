@@ -158,6 +158,15 @@ TEST(malformed, a_small_png_cannot_claim_a_large_picture)
     EXPECT_NE(refusal(png).reason.find("cannot hold"), std::string::npos);
 }
 
+TEST(malformed, a_png_with_a_wrong_checksum_is_an_error)
+{
+    Bytes png = test::make_png(1, 1, 8, 6, "abcd");
+    png[png.size() - 12 - 4 - 6] ^= 1; // in the pixels
+    const Error error = refusal(png);
+    EXPECT_EQ(error.place, "byte 33");
+    EXPECT_NE(error.reason.find("checksum"), std::string::npos);
+}
+
 TEST(malformed, truncation_anywhere_is_an_error)
 {
     test::ExrPart part{{{"B", 2, 3}, {"G", 2, 2}, {"R", 2, 1}}, {0, 0, 3, 2}, {0, 0, 3, 2}, ""};
@@ -165,9 +174,7 @@ TEST(malformed, truncation_anywhere_is_an_error)
     const Bytes png = test::make_png(4, 3, 8, 2, std::string(36, 'p'));
     const Bytes hdr = test::make_hdr("-Y 3 +X 4", Bytes(48, 130));
     for (const Bytes* file : {&exr, &png, &hdr}) {
-        // The trailing 16 bytes of a PNG are its checksum and end mark, which readers need not see.
-        const std::size_t end = file->size() - (file == &png ? 24 : 0);
-        for (std::size_t size = 0; size < end; ++size)
+        for (std::size_t size = 0; size < file->size(); ++size)
             EXPECT_EQ(refusal(cut(*file, size)).code, ExitCode::bad_input) << size;
     }
 }

@@ -69,6 +69,7 @@ void survive(const Bytes& sound, int rounds, std::uint64_t seed)
     limits.image_side = 512;
     Random random{seed};
     int refused = 0;
+    testing::internal::CaptureStderr();
     for (int i = 0; i < rounds; ++i) {
         Bytes bytes = sound;
         damage(bytes, random);
@@ -83,7 +84,8 @@ void survive(const Bytes& sound, int rounds, std::uint64_t seed)
                           pixel_type_bytes(image->type));
         }
     }
-    EXPECT_GT(refused, 0); // the damage does reach the readers
+    EXPECT_EQ(testing::internal::GetCapturedStderr(), ""); // errors are returned, never printed
+    EXPECT_GT(refused, 0);                                 // the damage does reach the readers
 }
 
 Bytes written(const std::string& name, const Image& image)

@@ -66,6 +66,15 @@ TEST(read, png_gamma_chunk_changes_nothing)
               (std::vector<int>{128, 64, 32}));
 }
 
+TEST(read, png_odd_side_information_is_ignored_in_silence)
+{
+    const std::vector<test::PngChunk> odd{
+        {"iCCP", "not a profile"}, {"tEXt", std::string(100, 'x')}, {"oFFs", "123456789"}};
+    testing::internal::CaptureStderr();
+    EXPECT_EQ(u8_values(decoded(test::make_png(1, 1, 8, 2, "abc", odd))), (std::vector<int>{'a', 'b', 'c'}));
+    EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+}
+
 TEST(read, exr_data_window_is_placed_in_the_display_window)
 {
     test::ExrPart part{{{"Y", 2, 1.0f}}, {-1, 1, 1, 2}, {0, 0, 3, 2}, ""};
