@@ -180,7 +180,7 @@ void add_materials(Scene& scene)
     scene.materials.push_back(brushed);
     Material matte;
     matte.name = "matte stand";
-    matte.base_color = glm::vec4(0.15f, 0.155f, 0.17f, 1.0f);
+    matte.base_color = glm::vec4(0.08f, 0.083f, 0.092f, 1.0f);
     matte.metallic = 0.0f;
     matte.roughness = 0.85f;
     matte.specular = 0.3f;
