@@ -49,7 +49,7 @@ BN_FN real beckmann_z_lambda(beckmann_params p, real3 w)
 BN_FN real beckmann_visibility(beckmann_params p, real3 wo, real3 wi)
 {
     real bottom = wo.z * wi.z + wi.z * beckmann_z_lambda(p, wo) + wo.z * beckmann_z_lambda(p, wi);
-    return lit(1.0) / max(bottom, lit(1e-20));
+    return lit(1.0) / max(bottom, lit(1e-16));
 }
 
 BN_FN real beckmann_eval(beckmann_params p, real3 wo, real3 wi)

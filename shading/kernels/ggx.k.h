@@ -52,7 +52,7 @@ BN_FN real ggx_eval(ggx_params p, real3 wo, real3 wi)
     real3 h = half_vector(wo, wi);
     real d = ggx_d(h.z, h.x * h.x + h.y * h.y, p.alpha);
     real bottom = wi.z * ggx_stretch(p, wo) + wo.z * ggx_stretch(p, wi);
-    real value = d * (lit(0.5) / max(bottom, lit(1e-20)));
+    real value = d * (lit(0.5) / max(bottom, lit(1e-16)));
     return select(both_above(wo, wi), value, lit(0.0));
 }
 
@@ -83,7 +83,7 @@ BN_FN bsdf_sample ggx_sample(ggx_params p, real3 wo, real2 xi)
     real3 wi = mirror_direction(wo, h);
     real so = ggx_stretch(p, wo);
     real bottom = wi.z * so + wo.z * ggx_stretch(p, wi);
-    real weight = wi.z * (wo.z + so) / max(bottom, lit(1e-20));
+    real weight = wi.z * (wo.z + so) / max(bottom, lit(1e-16));
     real d = ggx_d(h.z, h.x * h.x + h.y * h.y, p.alpha);
     real pdf = lit(0.5) * d / max(wo.z + so, lit(1e-20));
     return bsdf_sample_of(wi, weight, pdf, k_dot3(wo, h), both_above(wo, wi));

@@ -43,14 +43,14 @@ BN_FN real ggx_aniso_stretch(ggx_aniso_params p, real3 w)
 BN_FN real ggx_aniso_visibility(ggx_aniso_params p, real3 wo, real3 wi)
 {
     real bottom = wi.z * ggx_aniso_stretch(p, wo) + wo.z * ggx_aniso_stretch(p, wi);
-    return lit(0.5) / max(bottom, lit(1e-20));
+    return lit(0.5) / max(bottom, lit(1e-16));
 }
 
 // G1 G1 / (4 wo.z wi.z).
 BN_FN real ggx_aniso_separable_visibility(ggx_aniso_params p, real3 wo, real3 wi)
 {
     real bottom = (wo.z + ggx_aniso_stretch(p, wo)) * (wi.z + ggx_aniso_stretch(p, wi));
-    return lit(1.0) / max(bottom, lit(1e-20));
+    return lit(1.0) / max(bottom, lit(1e-16));
 }
 
 BN_FN real ggx_aniso_eval(ggx_aniso_params p, real3 wo, real3 wi)
@@ -96,7 +96,7 @@ BN_FN bsdf_sample ggx_aniso_sample(ggx_aniso_params p, real3 wo, real2 xi)
     real3 wi = mirror_direction(wo, h);
     real so = ggx_aniso_stretch(p, wo);
     real bottom = wi.z * so + wo.z * ggx_aniso_stretch(p, wi);
-    real weight = wi.z * (wo.z + so) / max(bottom, lit(1e-20));
+    real weight = wi.z * (wo.z + so) / max(bottom, lit(1e-16));
     real pdf = lit(0.5) * ggx_aniso_d(p, h) / max(wo.z + so, lit(1e-20));
     return bsdf_sample_of(wi, weight, pdf, k_dot3(wo, h), both_above(wo, wi));
 }

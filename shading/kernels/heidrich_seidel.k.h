@@ -13,15 +13,15 @@
 BN_KERNELS_BEGIN
 
 struct heidrich_seidel_params {
-    real kd, ks;   // diffuse and specular coefficients, at least 0
+    real kd, ks;   // diffuse and specular coefficients, [0, 1e6]
     real exponent; // Phong's, [0, 1e4]
 };
 
 BN_FN heidrich_seidel_params heidrich_seidel_params_of(real kd, real ks, real exponent)
 {
     heidrich_seidel_params p;
-    p.kd = max(kd, lit(0.0));
-    p.ks = max(ks, lit(0.0));
+    p.kd = min(max(kd, lit(0.0)), lit(1e6));
+    p.ks = min(max(ks, lit(0.0)), lit(1e6));
     p.exponent = min(max(exponent, lit(0.0)), lit(1e4));
     return p;
 }

@@ -39,10 +39,12 @@ BN_FN mask both_above(real3 wo, real3 wi)
     return both(wo.z > lit(0.0), wi.z > lit(0.0));
 }
 
-// Opposite directions have none and give zero.
+// Opposite directions have none and give the normal.
 BN_FN real3 half_vector(real3 wo, real3 wi)
 {
-    return k_normalize3(wo + wi);
+    real3 sum = wo + wi;
+    real length2 = k_dot3(sum, sum);
+    return select(length2 > lit(1e-20), k_normalize3(sum), vec3_of(lit(0.0), lit(0.0), lit(1.0)));
 }
 
 BN_FN real3 mirror_direction(real3 w, real3 h)

@@ -1,0 +1,92 @@
+// What the tests of models share: the list of models with their settings, directions, random numbers,
+// integrals over directions.
+#pragma once
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "tests/unit/models/model_fns.h"
+
+namespace burnish::test {
+
+using Vec = std::array<double, 3>;
+
+Vec operator+(Vec a, Vec b);
+Vec operator*(Vec a, double s);
+double dot(Vec a, Vec b);
+Vec unit(Vec a);
+Vec direction(double theta, double phi);
+Vec rounded(Vec a); // to float
+
+enum Traits : unsigned {
+    kNoTraits = 0,
+    kReciprocal = 1, // eval(wo, wi) = eval(wi, wo)
+    kEnergy = 2,     // albedo at most 1
+    kBounded = 4,    // weights at most 1
+    kHalf = 8,       // samples come from half vectors and half_pdf exists
+    kBothSides = 16, // transmits
+};
+
+struct Setting {
+    std::vector<double> params;
+    std::array<double, 2> widths; // of a GGX lobe that covers the model's
+};
+
+struct ModelCase {
+    int index; // into IsaFns::models
+    const char* name;
+    unsigned traits;
+    std::vector<Setting> settings;
+};
+const std::vector<ModelCase>& model_cases();
+const ModelCase& model_case(const std::string& name);
+
+class Random { // splitmix64
+  public:
+    explicit Random(std::uint64_t seed) : state(seed) {}
+    double next();    // [0,1), a float
+    Vec hemisphere(); // uniform, floats
+  private:
+    std::uint64_t state;
+};
+
+// Arguments of ModelFns for many pairs at once.
+class Batch {
+  public:
+    Batch(const std::vector<double>& params, std::size_t count);
+    void set(std::size_t k, Vec wo, Vec other);
+    std::vector<double> run(RunFn fn, int outputs = 1) const;
+    int size() const { return static_cast<int>(n); }
+
+  private:
+    std::size_t n;
+    std::vector<double> in;
+};
+
+// Directions wi as functions of the square: in models with half vectors through a GGX lobe, else uniform over
+// (hemi)sphere.
+struct Chart {
+    Vec wo;
+    bool half;
+    double steepest; // uniform: angles to the normal up to here, rad
+    std::array<double, 2> widths;
+
+    struct Point {
+        Vec wi, h;
+        double per_wi,
+            per_h; // d wi / d(square), d h / d(square), sr; per_wi 0 where wo cannot be reflected to wi
+    };
+    Point at(double u, double v) const;
+    std::array<double, 2> of(Vec wi) const; // the square's point; what `at` maps to wi
+};
+Chart chart_of(const ModelCase& model, const Setting& setting, Vec wo);
+
+enum class Integrand { albedo, pdf, half_pdf };
+// Midpoint rule on grid x grid points, on the double oracle.
+double integral(const ModelCase& model, const Setting& setting, Vec wo, Integrand what, int grid);
+
+// Views at which models are tested, unit; downward ones too for those that transmit.
+std::vector<Vec> views(const ModelCase& model);
+
+} // namespace burnish::test
