@@ -199,7 +199,7 @@ double integral(const ModelCase& model, const Setting& setting, Vec wo, Integran
         if (what == Integrand::albedo)
             measure[k] *= std::abs(p.wi[2]);
     }
-    const ModelFns& fns = oracle_fns().models[model.index];
+    const ModelFns& fns = float_fns().back().models[model.index];
     const std::vector<double> f = batch.run(what == Integrand::albedo ? fns.eval
                                             : what == Integrand::pdf  ? fns.pdf
                                                                       : fns.half_pdf);

@@ -83,7 +83,7 @@ struct Chart {
 Chart chart_of(const ModelCase& model, const Setting& setting, Vec wo);
 
 enum class Integrand { albedo, pdf, half_pdf };
-// Midpoint rule on grid x grid points, on the double oracle.
+// Midpoint rule on grid x grid points, on the widest instruction set.
 double integral(const ModelCase& model, const Setting& setting, Vec wo, Integrand what, int grid);
 
 // Views at which models are tested, unit; downward ones too for those that transmit.
