@@ -1,4 +1,5 @@
 // `burnish render`: a scene under an environment to pictures and figures.
+#include <algorithm>
 #include <chrono>
 #include <fmt/format.h>
 #include <memory>
@@ -96,6 +97,8 @@ Status prepare(const RenderOptions& options, const Jobs& jobs, Stage& stage, Ren
             return scene.error();
         stage.scene = std::move(*scene);
         update_world(stage.scene);
+        if (Status size = check_draw_size(stage.scene, options.limits, options.scene); !size)
+            return size.error();
         stage.tables = make_draw_tables(stage.scene);
     }
     figures.load_ms = load.ms();

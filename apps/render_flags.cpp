@@ -86,10 +86,19 @@ void add_picture(CLI::App& app, RenderArguments& to)
     app.add_option("--samples", to.samples, "Samples of the technique, where it takes any")
         ->type_name("N")
         ->group("Picture");
-    app.add_option("--roughness", to.roughness, "Override the roughness of every material, 0 to 1")
+    app.add_option("--axis-k", to.axis_k, "Deviations of slope that the major axis covers (1)")
+        ->type_name("K")
+        ->group("Picture");
+    app.add_option("--axis-beta", to.axis_beta, "Overlap of samples on the major axis (2.3)")
+        ->type_name("B")
+        ->group("Picture");
+    app.add_option("--seed", to.seed, "Seed of techniques that use random numbers (0)")
+        ->type_name("N")
+        ->group("Picture");
+    app.add_option("--roughness", to.roughness, "Override alpha_lin of every material, 0 to 1")
         ->type_name("R")
         ->group("Picture");
-    app.add_option("--anisotropy", to.anisotropy, "Override the anisotropy of every material, 0 to 1")
+    app.add_option("--anisotropy", to.anisotropy, "Override eta of every material, -1 to 1: alpha_lin^2 (1 +- eta) along and across")
         ->type_name("A")
         ->group("Picture");
     app.add_option("--texture-anisotropy", to.texture_anisotropy,
@@ -132,6 +141,8 @@ void add_limits(CLI::App& app, RenderArguments& to)
     limit("--limit-file-bytes", to.limit_file_bytes, "Size of one input file (2G)", "BYTES");
     limit("--limit-accessor-bytes", to.limit_accessor_bytes, "Decoded accessors of the scene (2G)", "BYTES");
     limit("--limit-data-uri-bytes", to.limit_data_uri_bytes, "One data URI (512M)", "BYTES");
+    limit("--limit-draw-bytes", to.limit_draw_bytes, "Vertices and triangles with every instance expanded (8G)",
+          "BYTES");
     app.add_flag("--allow-outside-uris", to.plain.limits.uris_outside,
                  "Read files outside the scene's folder")
         ->group("Limits on input");

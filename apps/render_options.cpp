@@ -90,6 +90,7 @@ void read_limits(const RenderArguments& in, Reader& reader, Limits& limits)
     reader.bytes("--limit-file-bytes", in.limit_file_bytes, limits.file_bytes);
     reader.bytes("--limit-accessor-bytes", in.limit_accessor_bytes, limits.accessor_bytes);
     reader.bytes("--limit-data-uri-bytes", in.limit_data_uri_bytes, limits.data_uri_bytes);
+    reader.bytes("--limit-draw-bytes", in.limit_draw_bytes, limits.draw_bytes);
 }
 
 void read_environment(const RenderArguments& in, Reader& reader, EnvironmentOptions& environment)
@@ -139,7 +140,7 @@ void read_picture(const RenderArguments& in, Reader& reader, RenderOptions& out)
     reader.choice("--tile-size", in.tile_size, {"32", "64"}, frame.tile_size);
     reader.integer("--texture-anisotropy", in.texture_anisotropy, 1, 16, frame.texture_anisotropy);
     reader.number("--roughness", in.roughness, 0.0, 1.0, frame.roughness);
-    reader.number("--anisotropy", in.anisotropy, 0.0, 1.0, frame.anisotropy);
+    reader.number("--anisotropy", in.anisotropy, -1.0, 1.0, frame.anisotropy);
     frame.override_anisotropy = !in.anisotropy.empty();
     frame.background = !in.no_background;
     reader.number("--exposure", in.exposure, -kMaxExposure, kMaxExposure, out.exposure_ev);
@@ -167,6 +168,9 @@ void read_technique(const RenderArguments& in, Reader& reader, FrameDesc& frame)
         reader.refuse(
             usage_error("--technique", fmt::format("'{}' is not one of {}", frame.technique, join(names))));
     reader.integer("--samples", in.samples, 1, kMaxTechniqueSamples, frame.samples);
+    reader.number("--axis-k", in.axis_k, 0.01, 10.0, frame.major_axis_k);
+    reader.number("--axis-beta", in.axis_beta, 0.0, 100.0, frame.major_axis_beta);
+    reader.integer("--seed", in.seed, 0, 0x7fffffff, frame.seed);
 }
 
 void read_machine(const RenderArguments& in, Reader& reader, RenderOptions& out)

@@ -1,4 +1,4 @@
-// A wall of spheres: roughness grows to the right, anisotropy upwards. Tangents point east.
+// A wall of spheres: alpha_lin grows to the right, eta upwards. Tangents point east.
 #include <cmath>
 #include <cstdio>
 
@@ -29,6 +29,32 @@ void add_sphere(Scene& scene)
     });
 }
 
+constexpr double kEta[kRows] = {0.0, 0.25, 0.5, 0.75, 0.95};
+
+// The widths alpha_lin^2 (1 +- eta) in the terms of KHR_materials_anisotropy: alpha across the tangent, mix(alpha, 1, strength^2) along.
+void set_widths(Material& material, double alpha_lin, double eta)
+{
+    const double along = alpha_lin * alpha_lin * (1.0 + eta), across = alpha_lin * alpha_lin * (1.0 - eta);
+    material.roughness = static_cast<float>(std::sqrt(across));
+    material.anisotropy_strength = static_cast<float>(std::sqrt((along - across) / (1.0 - across)));
+}
+
+void add_front_camera(Scene& scene)
+{
+    Camera camera;
+    camera.name = "front";
+    camera.yfov = 0.35f;
+    camera.znear = 0.1f;
+    scene.cameras.push_back(camera);
+    glm::mat4 local(1.0f);
+    local[3][2] = 1.5f;
+    Node node;
+    node.name = camera.name;
+    node.camera = 0;
+    node.local = node.world = local;
+    scene.nodes.push_back(node);
+}
+
 } // namespace
 
 Scene make_spheres()
@@ -38,10 +64,9 @@ Scene make_spheres()
     for (int row = 0; row < kRows; ++row)
         for (int column = 0; column < kColumns; ++column) {
             Material material;
-            material.roughness = static_cast<float>(column + 1) * 0.1f;
-            material.anisotropy_strength = static_cast<float>(row) * 0.25f;
+            set_widths(material, (column + 1) * 0.1, kEta[row]);
             char name[64];
-            std::snprintf(name, sizeof(name), "roughness %d%% anisotropy %d%%", (column + 1) * 10, row * 25);
+            std::snprintf(name, sizeof(name), "alpha_lin 0.%d eta %.2f", column + 1, kEta[row]);
             material.name = name;
             material.base_color = glm::vec4(0.95f, 0.93f, 0.88f, 1.0f);
             scene.materials.push_back(material);
@@ -60,6 +85,7 @@ Scene make_spheres()
             local[3][1] = static_cast<float>((row - (kRows - 1) * 0.5) * kSpacing);
             add_node(scene, name, add_mesh(scene, name, first), local);
         }
+    add_front_camera(scene);
     return scene;
 }
 

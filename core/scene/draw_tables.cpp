@@ -217,6 +217,29 @@ void set_bounds(DrawTables& out)
 
 } // namespace
 
+Status check_draw_size(const Scene& scene, const Limits& limits, const std::string& file)
+{
+    // indices and triangle materials; positions and shading vertices
+    constexpr std::uint64_t kIndexBytes = sizeof(std::uint32_t) + sizeof(std::uint32_t) / 3 + 1;
+    constexpr std::uint64_t kVertexBytes = 3 * sizeof(float) + sizeof(ShadingVertex);
+    std::uint64_t vertices = 0, indices = 0;
+    for (const Node& node : scene.nodes) {
+        if (node.mesh == kNone)
+            continue;
+        const Mesh& mesh = scene.meshes[static_cast<std::size_t>(node.mesh)];
+        for (std::uint32_t k = 0; k < mesh.primitive_count; ++k) {
+            const Primitive& primitive = scene.primitives[mesh.first_primitive + k];
+            vertices += primitive.vertex_count, indices += primitive.index_count; // far below 2^64: both counts are in memory
+        }
+    }
+    const std::uint64_t bytes = vertices * kVertexBytes + indices * kIndexBytes;
+    if (bytes > limits.draw_bytes || vertices > kMaxIds || indices > kMaxIds)
+        return Error{ExitCode::bad_input, file, "/nodes",
+                     "with every instance expanded the scene has " + std::to_string(indices / 3) + " triangles, " +
+                         std::to_string(bytes) + " bytes; the limit is " + std::to_string(limits.draw_bytes)};
+    return {};
+}
+
 DrawTables make_draw_tables(const Scene& scene)
 {
     DrawTables out;

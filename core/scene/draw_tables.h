@@ -6,6 +6,8 @@
 #include <glm/glm.hpp>
 #include <vector>
 
+#include "core/base/limits.h"
+#include "core/base/result.h"
 #include "core/scene/scene.h"
 
 namespace burnish {
@@ -58,6 +60,9 @@ struct DrawTables {
     glm::vec3 bounds_min{0.0f}, bounds_max{0.0f};
     std::size_t triangle_count() const { return indices.size() / 3; }
 };
+
+// Whether the tables of a scene stay within the limits: a small file can ask for any number of instances. `file` names it in errors.
+Status check_draw_size(const Scene& scene, const Limits& limits, const std::string& file);
 
 DrawTables make_draw_tables(const Scene& scene);
 

@@ -176,6 +176,25 @@ TEST(DrawTables, InstancesAreExpandedInNodeOrder)
     EXPECT_EQ(t.triangle_material.size(), t.triangle_count());
 }
 
+TEST(DrawTables, AnExpansionBeyondTheLimitIsAnErrorBeforeMemoryIsTaken)
+{
+    Scene scene = sphere_scene();
+    Limits limits;
+    const std::size_t vertices = scene.vertices.size();
+    scene.nodes.clear();
+    for (int i = 0; i < 1000; ++i) {
+        Node node;
+        node.mesh = 0;
+        scene.nodes.push_back(node);
+    }
+    EXPECT_TRUE(check_draw_size(scene, limits, "a.gltf"));
+    limits.draw_bytes = 999 * vertices * 76;
+    const Status status = check_draw_size(scene, limits, "a.gltf");
+    ASSERT_FALSE(status);
+    EXPECT_EQ(status.error().code, ExitCode::bad_input);
+    EXPECT_EQ(status.error().file, "a.gltf");
+}
+
 TEST(DrawTables, MatricesThatLeaveNothingDrop)
 {
     const float inf = std::numeric_limits<float>::infinity(), nan = std::numeric_limits<float>::quiet_NaN();
