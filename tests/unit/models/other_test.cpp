@@ -98,9 +98,11 @@ TEST(Fresnel, equals_the_complex_equations)
 TEST(Fresnel, keeps_its_digits_near_index_one)
 {
     for (const double eta : {1.0001, 0.9999, 1.000001}) {
-        const double e = as_float(eta), truth = fresnel_exact(1, e);
-        EXPECT_NEAR(at("fresnel_dielectric", {1, e}) / truth, 1, 1e-6);
-        EXPECT_NEAR(at("fresnel_conductor", {1, e, 0}) / truth, 1, 1e-6);
+        for (const double c : {1.0, 0.8125}) {
+            const double e = as_float(eta), truth = fresnel_exact(c, e);
+            EXPECT_NEAR(at("fresnel_dielectric", {c, e}) / truth, 1, 2e-6);
+            EXPECT_NEAR(at("fresnel_conductor", {c, e, 0}) / truth, 1, 2e-6);
+        }
     }
 }
 
