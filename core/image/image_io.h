@@ -10,11 +10,12 @@
 
 namespace burnish {
 
-// Reads any format OpenImageIO knows (PNG, JPEG, WebP, EXR, RGBE, ...). Sizes are checked against the limits
-// before pixels are read. 8-bit files give u8, 16-bit files u16, float and half files f32. Deep files are
-// refused; of a tiled or mipmapped file the top level is read; of a multi-part file the first flat part. The
-// data window is placed in the display window. No colour conversion happens. More than 4 channels: R,G,B,A
-// are picked by name, else the first 3.
+// Reads PNG, JPEG, WebP, OpenEXR, Radiance RGBE, TIFF, PNM/PFM and BMP, told apart by their first bytes,
+// whatever the extension. Sizes are checked against the limits before pixels are read. 8-bit files give u8,
+// 16-bit files u16, float and half files f32. Deep files are refused; of a tiled or mipmapped file the top
+// level is read; of a multi-part file the first flat part. The data window of OpenEXR is placed in the
+// display window. No colour conversion happens. Channels R,G,B(,A) or Y(,A) are picked by name; without them
+// all of up to 4 channels, else the first 3.
 Result<Image> read_image(const std::string& path, const Limits& limits);
 
 // The same from memory; `label` names the image in errors (for instance "scene.glb: /images/3").

@@ -12,14 +12,6 @@
 #include "core/image/image_io.h"
 #include "small_files.h"
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-#define BN_SANITIZED 1
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
-#define BN_SANITIZED 1
-#endif
-#endif
-
 namespace burnish {
 namespace {
 
