@@ -137,7 +137,7 @@ std::vector<std::uint8_t> decode_data_uri(const Document& doc, const std::string
     return base64_decode(data, place);
 }
 
-void load_buffer(Document& doc, std::size_t i, std::map<std::string, std::size_t>& loaded)
+void load_buffer(Document& doc, std::size_t i, std::map<std::string_view, std::size_t>& loaded)
 {
     const Json& json = doc.json["buffers"][i];
     const std::string place = fmt::format("/buffers/{}", i);
@@ -208,7 +208,7 @@ Bytes view_bytes(Document& doc, int view)
 void load_buffers(Document& doc)
 {
     doc.buffers.resize(table_size(doc.json, "buffers"));
-    std::map<std::string, std::size_t> loaded; // by URI: a file named twice is read once
+    std::map<std::string_view, std::size_t> loaded; // by URI: a file named twice is read once
     for (std::size_t i = 0; i < doc.buffers.size(); ++i)
         load_buffer(doc, i, loaded);
     for (std::size_t i = 0; i < table_size(doc.json, "bufferViews"); ++i) {

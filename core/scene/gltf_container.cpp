@@ -15,7 +15,7 @@ constexpr std::uint32_t kBinChunk = 0x004e4942;
 constexpr std::uint64_t kHeaderBytes = 12, kChunkHeaderBytes = 8;
 // A parsed JSON value costs some 100 bytes of memory, more than its text: bounded against the file size
 // limit.
-constexpr std::uint64_t kFileBytesPerValue = 128;
+constexpr std::uint64_t kFileBytesPerValue = 256;
 
 std::string at_byte(std::uint64_t offset)
 {

@@ -150,6 +150,17 @@ void finish_corners(Document& doc, Corners& corners, const Material& material, P
                         "direction is arbitrary");
 }
 
+void warn_missing_coordinates(Document& doc, const Material& m, const Primitive& primitive,
+                              const std::string& mesh)
+{
+    const bool present[2] = {primitive.has_uv0, primitive.has_uv1};
+    for (const TextureRef* ref :
+         {&m.base_color_tex, &m.metallic_roughness_tex, &m.normal_tex, &m.occlusion_tex, &m.emissive_tex,
+          &m.specular_tex, &m.specular_color_tex, &m.anisotropy_tex})
+        if (ref->used() && !present[ref->uv_set])
+            doc.warn(fmt::format("{}: no TEXCOORD_{} for a texture of its material", mesh, ref->uv_set));
+}
+
 void load_primitive(Document& doc, const Json& json, const std::string& place, const std::string& mesh)
 {
     const int mode = static_cast<int>(get_uint(json, "mode", TINYGLTF_MODE_TRIANGLES));
@@ -184,8 +195,9 @@ void load_primitive(Document& doc, const Json& json, const std::string& place, c
     primitive.has_uv0 = static_cast<bool>(corners.attributes.uv[0]);
     primitive.has_uv1 = static_cast<bool>(corners.attributes.uv[1]);
     primitive.has_color = static_cast<bool>(corners.attributes.color);
-    finish_corners(doc, corners, doc.scene.materials[static_cast<std::size_t>(primitive.material)], primitive,
-                   mesh);
+    const Material& material = doc.scene.materials[static_cast<std::size_t>(primitive.material)];
+    warn_missing_coordinates(doc, material, primitive, mesh);
+    finish_corners(doc, corners, material, primitive, mesh);
     append_welded(doc, corners, primitive, place);
     doc.scene.primitives.push_back(primitive);
 }

@@ -244,6 +244,22 @@ TEST(Mesh, attributes_that_are_missing_have_their_defaults)
     EXPECT_EQ(p.material, 0);
 }
 
+TEST(Mesh, a_texture_without_its_coordinates_is_a_warning)
+{
+    Asset asset = square();
+    asset.primitive += R"(,"material":0)";
+    asset.more = R"(,"materials":[{"emissiveTexture":{"index":0,"texCoord":1}}],"textures":[{}])";
+    EXPECT_EQ(load(asset)->warnings,
+              std::vector<std::string>{"texture 0 has no image that can be read; left out"});
+    asset.more =
+        R"(,"materials":[{"emissiveTexture":{"index":0,"texCoord":1}}],"textures":[{"source":0}],"images":[{"uri":")"
+        R"(data:image/png;base64,iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAIAAACQd1PeAAAADElEQVR4nGNocFAAAAIkAOGrWWInAAAAAElFTkSuQmCC"}])";
+    const Result<Scene> scene = load(asset);
+    ASSERT_TRUE(scene) << error_of(scene);
+    EXPECT_EQ(scene->warnings,
+              std::vector<std::string>{"mesh \"m\": no TEXCOORD_1 for a texture of its material"});
+}
+
 TEST(Mesh, two_texture_coordinate_sets_are_kept_apart)
 {
     Asset asset = triangle();
