@@ -98,8 +98,8 @@ BN_FN major_axis_line major_axis_setup(real3 o, real sigma_x, real sigma_y, real
     real delta = (tau0 + tau1 - one) * (t.t_near - t.t_far);
     k_sin_cos_pair near0 = k_sin_cos(t.t_near + delta);
     k_sin_cos_pair near1 = k_sin_cos(t.t_near - delta);
-    real3 m0 = ellipse_normal(near0.cosine, near0.sine, rx, ry);
-    real3 m1 = ellipse_normal(-near1.cosine, -near1.sine, rx, ry);
+    real3 m0 = ellipse_normal(-near0.cosine, -near0.sine, rx, ry);
+    real3 m1 = ellipse_normal(near1.cosine, near1.sine, rx, ry);
 
     major_axis_line r;
     r.width = k_length3(reflect_about(m0, o) - reflect_about(m1, o));

