@@ -64,6 +64,31 @@ TEST(furnace, metal_gives_back_its_directional_albedo)
     }
 }
 
+// What every technique must agree on: a perfect mirror shows the environment itself, and a constant environment the lobe's albedo.
+TEST(technique, a_mirror_is_a_mirror_and_a_constant_environment_gives_the_albedo)
+{
+    Scene scene = *make_builtin_scene("spheres");
+    for (Material& m : scene.materials) {
+        m.base_color = glm::vec4(1.0f);
+        m.anisotropy_strength = 0.8f;
+    }
+    const Stage stage(std::move(scene));
+    FrameDesc d;
+    d.width = 160, d.height = 100, d.msaa = 1;
+    d.view = auto_frame(stage.tables, d.width, d.height);
+    for (const TechniqueInfo& t : techniques()) {
+        d.technique = t.name, d.samples = t.default_samples;
+        d.roughness = 0.0f;
+        const Frame mirror = stage.render(d, best_isa());
+        for (int i = 0; i < 160 * 100 * 3; ++i)
+            ASSERT_NEAR(mirror.color.f32()[i], 1.0f, 4e-3f) << t.name << " pixel " << i / 3;
+        d.roughness = 0.5f;
+        const Frame rough = stage.render(d, best_isa());
+        for (int i = 0; i < 160 * 100 * 3; ++i) // a lobe never gives back more than it gets
+            ASSERT_LT(rough.color.f32()[i], std::string(t.name).rfind("filtered_is", 0) == 0 ? 1.1f : 1.005f) << t.name;
+    }
+}
+
 TEST(light, a_point_light_follows_the_inverse_square_and_lambert)
 {
     Scene scene = quad_scene(1.0f);
