@@ -123,7 +123,8 @@ BN_INLINE aniso_lobe material_lobe(const FrameParams& f, const MaterialRecord& m
             ? covariance_from_eta_tensor(roughness, splat(f.anisotropy), rotation, at.tensor2)
             : covariance_from_tensors(alpha, splat(m.anisotropy_strength), rotation, at.tensor2, at.tensor4);
     const slope_axes axes = axes_of_covariance(covariance);
-    const mask mirror = roughness <= lit(0.0); // a mirror stays one
+    const real trace = covariance.xx + covariance.yy;
+    const mask mirror = trace <= lit(1e-12); // smooth in every direction: the decomposition's least widths are not for it
     lobe.sigma_u = select(mirror, sigma, axes.sigma_u);
     lobe.sigma_v = select(mirror, sigma, axes.sigma_v);
     lobe.u_axis = frame.t * axes.u.x + frame.b * axes.u.y;

@@ -68,12 +68,11 @@ TEST(furnace, metal_gives_back_its_directional_albedo)
 TEST(technique, a_mirror_is_a_mirror_and_a_constant_environment_gives_the_albedo)
 {
     Scene scene = *make_builtin_scene("spheres");
-    for (Material& m : scene.materials) {
+    for (Material& m : scene.materials)
         m.base_color = glm::vec4(1.0f);
-        m.anisotropy_strength = 0.8f;
-    }
     const Stage stage(std::move(scene));
     FrameDesc d;
+    d.override_anisotropy = true, d.anisotropy = 0.8f;
     d.width = 160, d.height = 100, d.msaa = 1;
     d.view = auto_frame(stage.tables, d.width, d.height);
     for (const TechniqueInfo& t : techniques()) {
