@@ -77,7 +77,9 @@ BN_FN texel_acc cube_bilinear_add(texel_acc acc, texel_buffer texels, cube_place
     real upper = weight - lower;
     real w10 = upper * fx;
     real w11 = lower * fx;
-    return texel_add(acc, texels, row0, row0 + w, upper - w10, w10, lower - w11, w11);
+    real w00 = upper - w10; // named before it is passed: glslang would not mark it precise otherwise
+    real w01 = lower - w11;
+    return texel_add(acc, texels, row0, row0 + w, w00, w10, w01, w11);
 }
 
 BN_FN integer cube_base(cube_desc cube)

@@ -109,7 +109,9 @@ BN_FN texel_acc texture_bilinear_add(texel_acc acc, texel_buffer texels, texture
     real upper = weight - lower;
     real w10 = upper * fx;
     real w11 = lower * fx;
-    return texel_add(acc, texels, row0, row0 + level.stride, upper - w10, w10, lower - w11, w11);
+    real w00 = upper - w10; // named before it is passed: glslang would not mark it precise otherwise
+    real w01 = lower - w11;
+    return texel_add(acc, texels, row0, row0 + level.stride, w00, w10, w01, w11);
 }
 
 BN_FN real4 texture_nearest(texture_desc desc, real2 uv)

@@ -180,6 +180,21 @@ TEST(Mesh, equal_vertices_are_welded_and_different_ones_are_not)
     EXPECT_NE(scene->indices[4], scene->indices[2]);
 }
 
+TEST(Mesh, vertices_that_differ_in_colour_alone_stay_apart)
+{
+    Asset asset;
+    std::vector<float> positions, colours;
+    for (int i = 0; i < 900; ++i) { // enough of them that hash slots collide
+        positions.insert(positions.end(), {static_cast<float>(i % 3), static_cast<float>(i % 2), 0.0f});
+        colours.insert(colours.end(), {static_cast<float>(i) / 900.0f, 0.0f, 0.0f});
+    }
+    asset.attribute("POSITION", asset.accessor(floats(positions), kF32, "VEC3", 900));
+    asset.attribute("COLOR_0", asset.accessor(floats(colours), kF32, "VEC3", 900));
+    const Result<Scene> scene = load(asset);
+    ASSERT_TRUE(scene) << error_of(scene);
+    EXPECT_EQ(scene->vertices.size(), 900u);
+}
+
 TEST(Mesh, many_vertices_weld_to_the_same_order_as_they_are_first_used)
 {
     Asset asset;

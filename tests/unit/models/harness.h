@@ -3,6 +3,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -39,6 +40,10 @@ struct ModelCase {
     unsigned traits;
     std::vector<Setting> settings;
 };
+inline void PrintTo(const ModelCase& model, std::ostream* out) // gtest would print bytes, addresses among them
+{
+    *out << model.name;
+}
 const std::vector<ModelCase>& model_cases();
 const ModelCase& model_case(const std::string& name);
 
