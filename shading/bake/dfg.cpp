@@ -60,6 +60,13 @@ ScaleBias integrate(double n_dot_v, double alpha, const std::vector<double>& cos
     return {sum.scale / count, sum.bias / count};
 }
 
+// Schlick's Fresnel itself: nothing is shadowed.
+ScaleBias mirror(double n_dot_v)
+{
+    const double m = 1.0 - n_dot_v, fresnel = m * m * m * m * m;
+    return {1.0 - fresnel, fresnel};
+}
+
 } // namespace
 
 DfgTable bake_dfg(int size, int samples, const Jobs& jobs)
@@ -75,11 +82,11 @@ DfgTable bake_dfg(int size, int samples, const Jobs& jobs)
     for (std::size_t i = 0; i < cosines.size(); ++i)
         cosines[i] = det_cos(kPi * (static_cast<double>(i) + 0.5) / static_cast<double>(cosines.size()));
     jobs.parallel_for(n, [&](std::size_t y, int) {
-        // the first row and column are limits: a mirror, and a grazing view
-        const double roughness = std::max(static_cast<double>(y) / (size - 1), 1e-2);
+        const double roughness = static_cast<double>(y) / (size - 1);
         for (std::size_t x = 0; x < n; ++x) {
-            const double n_dot_v = std::max(static_cast<double>(x) / (size - 1), 1e-4);
-            const ScaleBias r = integrate(n_dot_v, roughness * roughness, cosines);
+            const double n_dot_v = static_cast<double>(x) / (size - 1);
+            // the first row is a mirror, the first column the limit of a grazing view
+            const ScaleBias r = y == 0 ? mirror(n_dot_v) : integrate(std::max(n_dot_v, 1e-4), roughness * roughness, cosines);
             const std::size_t i = y * n + x;
             const float value[2] = {static_cast<float>(r.scale), static_cast<float>(r.bias)};
             table.scale[i] = value[0], table.bias[i] = value[1];

@@ -170,7 +170,7 @@ TEST(major_axis, samples_never_leave_below_the_surface)
         const double s = al * al / std::sqrt(2.0);
         const double in[8] = {o.x, o.y, o.z, s * (1 + eta), s * (1 - eta), 1.0, 2.3, 16.0};
         double out[11];
-        const TechniqueKernels& kernels = float_kernels()[0];
+        const TechniqueKernels kernels = float_kernels()[0];
         kernels.major_axis(in, out);
         for (int j = 0; j < 16; ++j) {
             const double at[10] = {out[2], out[3], out[4], out[5], out[6], out[7], o.x, o.y, o.z, j / 15.0};
