@@ -124,6 +124,17 @@ BN_INLINE real3 major_axis_weighted_specular(const TechniqueInput& in)
     return texel_rgb(acc) / max(sum, lit(1e-20)) * in.albedo;
 }
 
+// Sampled lobes have a least width; what has none is a mirror: the environment itself in the mirror direction.
+BN_INLINE real3 mirrors_apart(const TechniqueInput& in, real3 value)
+{
+    const real width = in.lobe.sigma_u + in.lobe.sigma_v;
+    const mask mirror = width <= lit(1e-6);
+    if (none(mirror))
+        return value;
+    const real3 r = in.s.n * (lit(2.0) * k_dot3(in.s.n, in.s.v)) - in.s.v;
+    return select(mirror, cube_sample_level(lanes_cube(in.f.specular_cube), r, 0) * in.albedo, value);
+}
+
 // `place` gives the sample of a grid point.
 template <class Place> BN_INLINE real3 filtered_is_sum(const TechniqueInput& in, const Place& place)
 {
@@ -140,7 +151,7 @@ template <class Place> BN_INLINE real3 filtered_is_sum(const TechniqueInput& in,
         const real3 radiance = cube_sample(cube, from_lobe(in.lobe, in.s.n, s.wi), s.lod);
         sum = sum + radiance * fresnel_schlick(in.s.f0, in.s.f90, k_saturate(s.o_dot_h)) * s.weight;
     }
-    return sum / count * splat(in.f.box_cube.scale / in.f.specular_cube.scale);
+    return mirrors_apart(in, sum / count * splat(in.f.box_cube.scale / in.f.specular_cube.scale));
 }
 
 BN_INLINE real3 filtered_is_specular(const TechniqueInput& in)
@@ -181,7 +192,7 @@ BN_INLINE real3 mc_specular(const TechniqueInput& in)
         const real3 fresnel = fresnel_schlick(in.s.f0, in.s.f90, b.o_dot_h);
         sum = sum + cube_sample_level(cube, from_lobe(in.lobe, in.s.n, b.wi), 0) * fresnel * b.weight;
     }
-    return sum * splat(inv);
+    return mirrors_apart(in, sum * splat(inv));
 }
 
 template <Technique kTechnique> BN_INLINE real3 technique_specular(const TechniqueInput& in)

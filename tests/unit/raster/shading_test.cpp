@@ -79,12 +79,11 @@ TEST(technique, a_mirror_is_a_mirror_and_a_constant_environment_gives_the_albedo
         d.technique = t.name, d.samples = t.default_samples;
         d.roughness = 0.0f;
         const Frame mirror = stage.render(d, best_isa());
-        // filtered importance sampling has no mirror: its narrowest lobe, alpha 0.001, loses some light at grazing views
-        const bool sampled_lobe = std::string(t.name).rfind("filtered_is", 0) == 0;
         for (int i = 0; i < 160 * 100 * 3; ++i)
-            ASSERT_NEAR(mirror.color.f32()[i], 1.0f, sampled_lobe ? 0.1f : 4e-3f) << t.name << " pixel " << i / 3;
+            ASSERT_NEAR(mirror.color.f32()[i], 1.0f, 4e-3f) << t.name << " pixel " << i / 3;
         d.roughness = 0.5f;
         const Frame rough = stage.render(d, best_isa());
+        const bool sampled_lobe = std::string(t.name).rfind("filtered_is", 0) == 0; // a handful of samples overshoots a little
         for (int i = 0; i < 160 * 100 * 3; ++i) // a lobe never gives back more than it gets
             ASSERT_LT(rough.color.f32()[i], sampled_lobe ? 1.1f : 1.005f) << t.name;
     }
