@@ -242,8 +242,6 @@ Result<ImageProbe> probe_exr(const ImageBytes& file, const Limits& limits)
             part.tiled = true;
         if (const Status status = check_part(file, part, limits, offsets); !status)
             return status.error();
-        if (part.deep && !many)
-            return file.error("header: type", "deep images are not supported");
         if (!part.deep && first_flat < 0)
             first_flat = index;
     }

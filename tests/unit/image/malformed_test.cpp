@@ -134,6 +134,8 @@ TEST(malformed, limits_decide)
     EXPECT_TRUE(decode_image(png.data(), png.size(), "label", limits));
     limits.image_side = 19;
     EXPECT_EQ(refusal(png, limits).place, "header: width 20");
+    const Bytes tall = test::make_png(1, 20, 8, 0, std::string(20, 'x'));
+    EXPECT_EQ(refusal(tall, limits).place, "header: height 20");
     limits.image_side = 20;
     limits.texture_bytes = 19;
     EXPECT_NE(refusal(png, limits).reason.find("limit of 19"), std::string::npos);

@@ -85,17 +85,20 @@ TEST(jobs, nested_loops_do_not_share_scratch)
     const Jobs jobs(4);
     std::vector<std::atomic<int>> outer(4);
     std::atomic<int> clashes{0}, runs{0};
-    jobs.parallel_for(64, [&](std::size_t, int worker) {
-        if (outer[static_cast<std::size_t>(worker)].fetch_add(1) != 0)
-            ++clashes;
-        jobs.parallel_for(64, [&](std::size_t, int) {
-            std::this_thread::yield();
-            ++runs;
+    // Short uneven loops: near the end of each, some threads wait for inner pieces while outer ones are left.
+    for (int repeat = 0; repeat < 100; ++repeat)
+        jobs.parallel_for(5, [&](std::size_t index, int worker) {
+            if (outer[static_cast<std::size_t>(worker)].fetch_add(1) != 0)
+                ++clashes;
+            std::this_thread::sleep_for(std::chrono::microseconds(index % 2 ? 500 : 0));
+            jobs.parallel_for(2, [&](std::size_t i, int) {
+                std::this_thread::sleep_for(std::chrono::microseconds(i ? 500 : 20));
+                ++runs;
+            });
+            --outer[static_cast<std::size_t>(worker)];
         });
-        --outer[static_cast<std::size_t>(worker)];
-    });
     EXPECT_EQ(clashes, 0);
-    EXPECT_EQ(runs, 64 * 64);
+    EXPECT_EQ(runs, 100 * 5 * 2);
 }
 
 TEST(jobs, an_exception_reaches_the_caller)

@@ -38,7 +38,7 @@ template <class Body> std::string printed_on_terminal(Body body)
     EXPECT_GE(master, 0);
     EXPECT_EQ(grantpt(master), 0);
     EXPECT_EQ(unlockpt(master), 0);
-    const int terminal = open(ptsname(master), O_RDWR | O_NOCTTY);
+    const int terminal = open(ptsname(master), O_RDWR | O_NOCTTY | O_NONBLOCK);
     EXPECT_GE(terminal, 0);
     const winsize size{24, 40, 0, 0};
     ioctl(terminal, TIOCSWINSZ, &size);
