@@ -1,6 +1,7 @@
 #include "apps/render_options.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <array>
 #include <fmt/format.h>
 
@@ -181,6 +182,8 @@ void read_machine(const RenderArguments& in, Reader& reader, RenderOptions& out)
             usage_error("--backend", fmt::format("'{}' is not one of {}", out.backend, join(backends))));
     reader.integer("--threads", in.threads, 1, kMaxThreads, out.threads);
     reader.integer("--frames", in.frames, 1, kMaxFrames, out.frames);
+    if (const char* forced = std::getenv("BN_FORCE_ISA"); forced && !parse_isa(forced))
+        reader.refuse(usage_error("BN_FORCE_ISA", fmt::format("'{}' is not one of scalar, avx2, avx512", forced)));
     out.isa = best_isa();
     if (in.isa.empty())
         return;

@@ -1,6 +1,7 @@
 #include "apps/scene_view.h"
 
 #include <charconv>
+#include <cmath>
 #include <fmt/format.h>
 
 #include "apps/report.h"
@@ -52,7 +53,9 @@ Result<int> find_camera(const Scene& scene, const std::string& wanted)
 
 } // namespace
 
-Result<ChosenView> choose_view(const RenderOptions& options, const Scene& scene, const DrawTables& tables)
+namespace {
+
+Result<ChosenView> wanted_view(const RenderOptions& options, const Scene& scene, const DrawTables& tables)
 {
     const int width = options.frame.width, height = options.frame.height;
     if (options.eye) {
@@ -75,6 +78,21 @@ Result<ChosenView> choose_view(const RenderOptions& options, const Scene& scene,
             return ChosenView{make_view(scene, camera, width, height),
                               "camera " + camera_label(scene, camera)};
     return ChosenView{auto_frame(tables, width, height), "framed automatically"};
+}
+
+} // namespace
+
+Result<ChosenView> choose_view(const RenderOptions& options, const Scene& scene, const DrawTables& tables)
+{
+    Result<ChosenView> chosen = wanted_view(options, scene, tables);
+    if (!chosen)
+        return chosen;
+    const View& view = chosen->view;
+    for (const glm::vec3& v : {view.eye, view.right, view.up, view.forward})
+        if (!std::isfinite(v.x) || !std::isfinite(v.y) || !std::isfinite(v.z)) // a camera node scaled to nothing, say
+            return options.eye ? usage_error("--eye", "gives no view: too near or too far from its target")
+                               : Error{ExitCode::bad_input, options.scene, "/cameras", "the camera's node gives no view"};
+    return chosen;
 }
 
 std::string describe_matrix(const View& view)

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/base/check.h"
+
 namespace burnish {
 
 namespace {
@@ -39,11 +41,12 @@ void Bins::Chunk::sort_by_tile(const FrameParams& f)
     };
     for (std::uint32_t i = 0; i < output.count; ++i)
         each_tile(rects[i], [&](std::uint32_t tile) { ++tile_begin[tile]; });
-    std::uint32_t sum = 0;
+    std::uint64_t sum = 0;
     for (std::size_t t = 0; t <= tiles; ++t) {
         const std::uint32_t count = tile_begin[t];
-        tile_begin[t] = sum;
+        tile_begin[t] = static_cast<std::uint32_t>(sum);
         sum += count;
+        BN_CHECK_OP(sum, <=, 0xffffffffu);
     }
     list.resize(sum);
     for (std::uint32_t i = 0; i < output.count; ++i)

@@ -18,11 +18,10 @@ inline constexpr int kMaxVertices = 3 + kPlanes;
 // Signed distance to plane p; inside is >= 0. 0: near; 1..4: guard band, where the snapped position would leave its range.
 float plane_distance(const FrameParams& f, const ClipVertex& v, int p)
 {
-    // 0.9375 keeps clear of the limit after rounding and after the shift to the image's centre
-    const float gx = 0.9375f * static_cast<float>(kGuardBand / kSubpixel) / f.half_width;
-    const float gy = 0.9375f * static_cast<float>(kGuardBand / kSubpixel) / f.half_height;
+    const float gx = static_cast<float>(kCutBand / kSubpixel) / f.half_width;
+    const float gy = static_cast<float>(kCutBand / kSubpixel) / f.half_height;
     switch (p) {
-    case 0: return f.view.orthographic ? 1.0f : v.c[2] - f.view.znear;
+    case 0: return f.view.orthographic ? 1.0f - v.c[3] : v.c[2] - f.view.znear;
     case 1: return gx * v.c[2] - v.c[0];
     case 2: return gx * v.c[2] + v.c[0];
     case 3: return gy * v.c[2] - v.c[1];
@@ -93,8 +92,9 @@ void emit_piece(const FrameParams& f, std::uint32_t triangle, const ClipVertex* 
     for (int i = 0; i < 3; ++i) {
         // a cut may come out a rounding error behind the near plane
         const float w = f.view.orthographic || corner[i]->c[2] > f.view.znear ? corner[i]->c[2] : f.view.znear;
+        const float z = f.view.orthographic && corner[i]->c[3] > 1.0f ? 1.0f : corner[i]->c[3];
         const snapped_vertex s =
-            snap_lanes(f, lanes_view(f.view), vec4_of(corner[i]->c[0], corner[i]->c[1], w, corner[i]->c[3]));
+            snap_lanes(f, lanes_view(f.view), vec4_of(corner[i]->c[0], corner[i]->c[1], w, z), kGuardBand);
         if (!s.valid)
             return; // numerically degenerate: nothing left of it
         t.x[i] = s.x, t.y[i] = s.y, t.inv_w[i] = s.inv_w, t.z[i] = s.z;

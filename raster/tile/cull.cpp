@@ -25,6 +25,7 @@ std::vector<Plane> frustum(const View& v)
         add(-v.right, v.eye + v.right * v.tan_half_x);
         add(v.up, v.eye - v.up * v.tan_half_y);
         add(-v.up, v.eye + v.up * v.tan_half_y);
+        add(v.forward, v.eye + v.forward * v.znear);
         return planes;
     }
     add(v.forward * v.tan_half_x + v.right, v.eye);

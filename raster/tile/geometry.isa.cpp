@@ -13,7 +13,7 @@ void transform_vertices(const FrameParams& f, std::uint32_t first, std::uint32_t
         const std::uint32_t v = first + i;
         const int n = static_cast<int>(count - i < kLanes ? count - i : kLanes);
         const real3 p = vec3_of(load_first(f.px + v, n), load_first(f.py + v, n), load_first(f.pz + v, n));
-        const snapped_vertex s = snap_lanes(f, view, clip_position(p, view));
+        const snapped_vertex s = snap_lanes(f, view, clip_position(p, view), kWholeBand);
         store_first(f.vertices.x + v, select(s.valid, s.x, int_lit(kNeedsClip)), n);
         store_first(f.vertices.y + v, s.y, n);
         store_first(f.vertices.inv_w + v, s.inv_w, n);
@@ -74,10 +74,11 @@ struct SetupStore {
 
 BN_INLINE void emit(const SetupStore& s, int lane, std::int32_t info, std::uint32_t triangle, ChunkOutput& out)
 {
-    std::int32_t* to = reinterpret_cast<std::int32_t*>(out.setups + out.count);
+    std::int32_t words[16];
     for (int i = 0; i < 15; ++i)
-        to[i] = s.field[i][lane];
-    to[15] = info;
+        words[i] = s.field[i][lane];
+    words[15] = info;
+    __builtin_memcpy(static_cast<void*>(out.setups + out.count), words, sizeof words);
     out.rects[out.count] = {static_cast<std::uint16_t>(s.rect[0][lane]), static_cast<std::uint16_t>(s.rect[1][lane]),
                             static_cast<std::uint16_t>(s.rect[2][lane]), static_cast<std::uint16_t>(s.rect[3][lane])};
     out.triangles[out.count] = triangle;

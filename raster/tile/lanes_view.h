@@ -28,11 +28,11 @@ BN_FN view_params lanes_view(const ViewParams& v)
     return r;
 }
 
-BN_FN snapped_vertex snap_lanes(const FrameParams& f, const view_params& view, const real4& clip)
+BN_FN snapped_vertex snap_lanes(const FrameParams& f, const view_params& view, const real4& clip, int guard)
 {
     return snap_vertex(clip, view, splat(f.half_width), splat(f.half_height), splat(static_cast<float>(f.center_x)),
                        splat(static_cast<float>(f.center_y)), int_lit(f.center_x), int_lit(f.center_y),
-                       splat(static_cast<float>(kGuardBand)));
+                       splat(static_cast<float>(guard)));
 }
 
 } // namespace BN_ISA_NS

@@ -15,7 +15,8 @@ struct TileTriangle {
     std::int32_t step_x[3], step_y[3]; // by 1/16 pixel
     std::int64_t span_min[3], span_max[3]; // least and greatest change inside a block
     std::int32_t sample_step[3][kMaxSamples];
-    double z, z_x, z_y;             // depth at the tile's corner, and its change by pixel
+    double z, z_x, z_y;             // depth at the first vertex, and its change by sub-pixel unit
+    std::int32_t from_x, from_y;    // the tile's corner, seen from the first vertex, sub-pixel units
     float z_min, z_max, dz_x, dz_y;
     float sample_z[kMaxSamples];
     int px0, px1, py0, py1;         // pixels of the tile that the bounding box touches, inclusive
@@ -59,9 +60,9 @@ BN_INLINE bool begin_triangle(const FrameParams& f, const TriangleSetup& t, int 
     const double z0 = static_cast<double>(t.z[0]), z10 = static_cast<double>(t.z[1]) - z0, z20 = static_cast<double>(t.z[2]) - z0;
     const double inv_area = 1.0 / (x10 * y20 - x20 * y10);
     const double zx = (z10 * y20 - z20 * y10) * inv_area, zy = (x10 * z20 - x20 * z10) * inv_area; // by sub-pixel unit
-    r.z = z0 + zx * (ox - t.x[0]) + zy * (oy - t.y[0]);
-    r.z_x = zx * kSubpixel, r.z_y = zy * kSubpixel;
-    r.dz_x = static_cast<float>(r.z_x), r.dz_y = static_cast<float>(r.z_y);
+    r.z = z0, r.z_x = zx, r.z_y = zy;
+    r.from_x = ox - t.x[0], r.from_y = oy - t.y[0];
+    r.dz_x = static_cast<float>(zx * kSubpixel), r.dz_y = static_cast<float>(zy * kSubpixel);
     r.z_min = t.z[0] < t.z[1] ? t.z[0] : t.z[1], r.z_max = t.z[0] > t.z[1] ? t.z[0] : t.z[1];
     r.z_min = t.z[2] < r.z_min ? t.z[2] : r.z_min, r.z_max = t.z[2] > r.z_max ? t.z[2] : r.z_max;
     for (int s = 0; s < f.msaa; ++s)
@@ -97,7 +98,8 @@ BN_INLINE bool block_hidden(const FrameParams& f, const TileTriangle& t, float z
                             TileScratch& scratch)
 {
     const float ax = t.dz_x < 0.0f ? -t.dz_x : t.dz_x, ay = t.dz_y < 0.0f ? -t.dz_y : t.dz_y;
-    float nearest = (z_corner + (t.dz_x + t.dz_y) * (0.5f * kBlock) + (ax + ay) * (0.5f * kBlock)) * 1.0001f + 1e-6f;
+    const float size = z_corner < 0.0f ? -z_corner : z_corner, slack = 1e-5f * (size + (ax + ay) * kBlock); // rounding is far below
+    float nearest = z_corner + (t.dz_x + t.dz_y) * (0.5f * kBlock) + (ax + ay) * (0.5f * kBlock) + slack;
     nearest = nearest < t.z_max ? nearest : t.z_max;
     if (nearest <= scratch.block_far[block])
         return true;
@@ -205,7 +207,9 @@ BN_INLINE void raster_triangle(const FrameParams& f, const TileTriangle& t, std:
             if (outside)
                 continue;
             const int block = by * blocks_x + bx;
-            const float z_corner = static_cast<float>(t.z + t.z_x * (bx * kBlock) + t.z_y * (by * kBlock));
+            // from the vertex, not from the tile: the same for every tile size
+            const float z_corner = static_cast<float>(t.z + t.z_x * (t.from_x + bx * kBlock * kSubpixel) +
+                                                      t.z_y * (t.from_y + by * kBlock * kSubpixel));
             float* depth = scratch.depth + block * f.msaa * kBlockPixels;
             if (block_hidden(f, t, z_corner, block, depth, scratch))
                 continue;

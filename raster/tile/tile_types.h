@@ -7,6 +7,9 @@ namespace burnish {
 
 inline constexpr int kSubpixel = 256;                // sub-pixel units a pixel
 inline constexpr int kGuardBand = 1 << 22;           // |x|, |y| of any snapped vertex stay below this, sub-pixel units
+// Whole triangles stay well inside the band, clipping cuts between that and its edge: so a vertex that one triangle keeps is never cut
+// by its neighbour, and both see it at the same place.
+inline constexpr int kWholeBand = kGuardBand / 16 * 15, kCutBand = kGuardBand / 32 * 31;
 inline constexpr std::int32_t kNeedsClip = -(1 << 30); // in place of a snapped x: behind the near plane or out of the guard band
 inline constexpr int kBlock = 8;                     // coverage and hierarchical depth work on 8x8 pixels
 inline constexpr int kBlockPixels = kBlock * kBlock;

@@ -38,7 +38,9 @@ struct snapped_vertex {
 BN_FN snapped_vertex snap_vertex(real4 c, view_params view, real half_width, real half_height, real center_x, real center_y,
                                  integer icenter_x, integer icenter_y, real guard)
 {
-    mask in_front = either(view.orthographic, c.z >= view.znear);
+    mask perspective_front = both(not_(view.orthographic), c.z >= view.znear);
+    mask orthographic_front = both(view.orthographic, c.w <= lit(1.0));
+    mask in_front = either(perspective_front, orthographic_front);
     real inv_w = lit(1.0) / select(in_front, c.z, lit(1.0));
     real px = ((c.x * inv_w) * half_width + half_width) * lit(256.0);
     real py = ((-c.y * inv_w) * half_height + half_height) * lit(256.0);

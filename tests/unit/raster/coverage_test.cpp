@@ -237,6 +237,54 @@ TEST(coverage, clipping_at_the_near_plane_and_guard_band_leaves_no_crack)
     }
 }
 
+// A vertex between where whole triangles must end and where clipping cuts: both triangles of the edge must see it alike.
+TEST(coverage, edges_into_the_guard_band_have_no_crack)
+{
+    for (float far_x : {-14800.0f, -15140.0f, -15400.0f, -15700.0f, -15870.0f, -15900.0f, -16300.0f, -17000.0f}) {
+        std::size_t open = 0;
+        for (int k = 0; k < 12; ++k) {
+            const glm::vec3 a(far_x, -60.0f - 7.3f * static_cast<float>(k), 0), b(13000.0f, -130.0f, 0);
+            const Stage stage(scene_of({{a, b, glm::vec3(128, 15000.0f, 0)}, {a, glm::vec3(128, -40000.0f, 0), b}}, true));
+            const Frame f = stage.render(id_desc(256, 256, 16), best_isa());
+            open += static_cast<std::size_t>(std::count(f.triangle_ids.begin(), f.triangle_ids.end(), kNothing));
+        }
+        EXPECT_EQ(open, 0u) << far_x;
+    }
+}
+
+TEST(coverage, an_orthographic_view_starts_at_its_near_plane)
+{
+    const auto hits = [](float z) {
+        const Stage stage(scene_of({{glm::vec3(-50, 50, z), glm::vec3(10, -60, z), glm::vec3(60, 50, z)}}, true));
+        FrameDesc d = id_desc(20, 20, 1);
+        d.view.znear = 0.25f; // the eye is at z = 1
+        const Frame f = stage.render(d, best_isa());
+        return std::count_if(f.triangle_ids.begin(), f.triangle_ids.end(), [](std::uint32_t id) { return id != kNothing; });
+    };
+    EXPECT_GT(hits(0.7f), 0);
+    EXPECT_EQ(hits(0.8f), 0);  // between eye and plane
+    EXPECT_EQ(hits(5.0f), 0);  // behind the eye
+    EXPECT_EQ(hits(-1.5f), 0); // beyond the far plane
+}
+
+// Slivers have steep depths: whatever rounds, it must not know the tile.
+TEST(coverage, tiles_of_32_and_64_agree_on_crossing_slivers)
+{
+    Random random{29};
+    std::vector<Triangle> slivers;
+    for (int i = 0; i < 4000; ++i) {
+        const glm::vec3 a(random.unit() * 200, -random.unit() * 140, random.unit()), d(random.unit() * 90 - 45, random.unit() * 90 - 45, random.unit() - 0.5f);
+        const glm::vec3 side(random.unit() * 0.6f, random.unit() * 0.6f, random.unit() - 0.5f);
+        slivers.push_back({a, a + d, a + side});
+    }
+    const Stage stage(scene_of(slivers, true));
+    FrameDesc d = id_desc(200, 140, 8);
+    const Frame a = stage.render(d, best_isa());
+    d.tile_size = 32;
+    const Frame b = stage.render(d, best_isa());
+    EXPECT_TRUE(std::equal(a.triangle_ids.begin(), a.triangle_ids.end(), b.triangle_ids.begin()));
+}
+
 // A wall behind the near plane must not appear, and the cut must lie where the plane is.
 TEST(coverage, near_plane_cuts_where_it_lies)
 {

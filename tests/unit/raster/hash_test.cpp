@@ -16,7 +16,7 @@ struct Case {
     int width, height, msaa;
     std::uint64_t golden; // the same on every machine and compiler; changes only with the picture
 };
-// To bless a changed picture: run the test, look at the picture, copy the printed hash.
+// To bless a changed picture: run the test, look at the picture, copy the printed hash. If a bake changed, raise kBakeVersion too.
 constexpr Case kCases[] = {
     {"teapot", 317, 203, 8, 0x4b69204289141b26ull},
     {"spheres", 256, 160, 4, 0x8fbc9e42643b6f64ull},
