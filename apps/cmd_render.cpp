@@ -43,9 +43,9 @@ struct Rendered {
     RenderFigures figures;
 };
 
-Status check_paths(const RenderOptions& options)
+// `inputs`: files that must not be written over.
+Status check_paths(const RenderOptions& options, const std::vector<std::string>& inputs)
 {
-    const std::vector<std::string> inputs = {options.scene, options.env};
     std::vector<std::string> files = options.outputs;
     for (const std::string& path : options.outputs)
         if (Status status = check_picture_path(path, inputs); !status)
@@ -60,7 +60,7 @@ Status check_paths(const RenderOptions& options)
     }
     for (std::size_t i = 0; i < files.size(); ++i)
         for (std::size_t j = 0; j < i; ++j)
-            if (files[i] == files[j])
+            if (same_file(files[i], files[j]))
                 return Error{ExitCode::usage, files[i], "", "is given twice as an output"};
     return {};
 }
@@ -212,18 +212,22 @@ int run_render(const RenderArguments& arguments)
     if (!checked)
         return fail(checked.error());
     const RenderOptions& options = *checked;
-    if (Status paths = check_paths(options); !paths)
+    if (Status paths = check_paths(options, {options.scene, options.env}); !paths)
         return fail(paths.error());
     if (!options.trace_file.empty())
         Trace::start();
 
     Report report(options.quiet, options.verbosity);
+    for (const std::string& warning : options.warnings)
+        report.warning(warning);
     const Jobs jobs(options.threads);
     RenderFigures figures;
     figures.threads = jobs.threads();
     Stage stage;
     if (Status ready = prepare(options, jobs, stage, figures, report); !ready)
         return fail(ready.error());
+    if (Status paths = check_paths(options, stage.scene.files); !paths) // textures and buffers are known now
+        return fail(paths.error());
     const Result<ChosenView> view = choose_view(options, stage.scene, stage.tables);
     if (!view)
         return fail(view.error());

@@ -15,7 +15,7 @@
 namespace burnish {
 namespace {
 
-constexpr int kInternalError = 70; // sysexits.h EX_SOFTWARE: a fault of the program itself
+constexpr int kInternalError = static_cast<int>(ExitCode::internal);
 
 constexpr const char* kFooter = R"(Examples:
   burnish render                                     the built-in teapot, figures only
@@ -23,7 +23,8 @@ constexpr const char* kFooter = R"(Examples:
   burnish list techniques
   burnish info --json
 
-Exit codes: 0 done, 2 wrong option, 4 bad input, 6 NaN or Inf in the picture, 7 output not written.)";
+Exit codes: 0 done, 1 results differ, 2 wrong option, 4 bad input, 6 NaN or Inf in the picture, 7 output not written,
+70 a fault of the program, 77 not available on this machine.)";
 
 // What the user was asking about, for the hint behind a usage error.
 std::string help_command(const std::vector<Command>& commands)

@@ -83,6 +83,15 @@ Status write_stream(std::FILE* stream, const std::string& label, const std::stri
 
 } // namespace
 
+bool same_file(const std::string& a, const std::string& b)
+{
+    if (is_special(a) && is_special(b))
+        return false;
+    std::error_code failed, other_failed;
+    const fs::path one = fs::weakly_canonical(fs::absolute(a), failed), other = fs::weakly_canonical(fs::absolute(b), other_failed);
+    return a == b || (!failed && !other_failed && one == other);
+}
+
 Status check_picture_path(const std::string& path, const std::vector<std::string>& inputs)
 {
     const std::string extension = extension_of(path);

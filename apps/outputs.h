@@ -17,6 +17,9 @@ Status check_picture_path(const std::string& path, const std::vector<std::string
 Status check_text_path(const std::string& option, const std::string& path,
                        const std::vector<std::string>& inputs);
 
+// Two names of one file, whether or not it exists yet; pipes and devices aside.
+bool same_file(const std::string& a, const std::string& b);
+
 // Linear pixels to a float format, or exposed and tonemapped to an 8-bit one, by extension.
 Status write_picture(const std::string& path, const Image& linear, Tonemap tonemap, float exposure_ev);
 

@@ -92,6 +92,11 @@ void add_picture(CLI::App& app, RenderArguments& to)
     app.add_option("--axis-beta", to.axis_beta, "Overlap of samples on the major axis (2.3)")
         ->type_name("B")
         ->group("Picture");
+    app.add_option("--dfg", to.dfg, "Directional albedo: table (baked, exact) or fit (analytic, coarse) (table)")
+        ->type_name("NAME")
+        ->group("Picture");
+    app.add_flag("--energy-compensation", to.energy_compensation, "Return the light that rough lobes lose between microfacets")
+        ->group("Picture");
     app.add_option("--seed", to.seed, "Seed of techniques that use random numbers (0)")
         ->type_name("N")
         ->group("Picture");

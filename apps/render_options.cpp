@@ -12,8 +12,6 @@
 namespace burnish {
 namespace {
 
-constexpr std::int64_t kMaxSide = 16384;        // pixels, width or height of a picture
-constexpr std::int64_t kMaxSamples = 1ll << 28; // width * height * msaa: 2 GiB of depth and triangle ids
 constexpr std::int64_t kMaxThreads = 1024;
 constexpr std::int64_t kMaxFrames = 1000000;
 constexpr std::int64_t kMaxTechniqueSamples = 65536;
@@ -60,7 +58,7 @@ class Reader {
         if (std::find(valid.begin(), valid.end(), text) == valid.end())
             refuse(usage_error(option, fmt::format("'{}' is not one of {}", text, join(valid))));
         else
-            integer(option, text, 0, kMaxSide, into);
+            integer(option, text, 0, kMaxPictureSide, into);
     }
     void refuse(const Error& error)
     {
@@ -129,15 +127,15 @@ void read_picture(const RenderArguments& in, Reader& reader, RenderOptions& out)
     }
     reader.choice("--msaa", in.msaa, {"1", "2", "4", "8", "16"}, frame.msaa);
     for (const int side : {frame.width, frame.height})
-        if (side < 1 || side > kMaxSide)
+        if (side < 1 || side > kMaxPictureSide)
             return reader.refuse(
                 usage_error("--size", fmt::format("each side must be from 1 to {} pixels, got {}x{}",
-                                                  kMaxSide, frame.width, frame.height)));
+                                                  kMaxPictureSide, frame.width, frame.height)));
     const std::int64_t samples = std::int64_t{frame.width} * frame.height * frame.msaa;
-    if (samples > kMaxSamples)
+    if (samples > kMaxPictureSamples)
         reader.refuse(
             usage_error("--size", fmt::format("{}x{} with --msaa {} is {} samples, more than {}", frame.width,
-                                              frame.height, frame.msaa, samples, kMaxSamples)));
+                                              frame.height, frame.msaa, samples, kMaxPictureSamples)));
     reader.choice("--tile-size", in.tile_size, {"32", "64"}, frame.tile_size);
     reader.integer("--texture-anisotropy", in.texture_anisotropy, 1, 16, frame.texture_anisotropy);
     reader.number("--roughness", in.roughness, 0.0, 1.0, frame.roughness);
@@ -155,22 +153,31 @@ void read_picture(const RenderArguments& in, Reader& reader, RenderOptions& out)
     }
 }
 
-void read_technique(const RenderArguments& in, Reader& reader, FrameDesc& frame)
+void read_technique(const RenderArguments& in, Reader& reader, RenderOptions& out)
 {
+    FrameDesc& frame = out.frame;
     if (!in.technique.empty())
         frame.technique = in.technique;
-    std::vector<std::string> names;
-    for (const TechniqueInfo& technique : techniques()) {
-        names.emplace_back(technique.name);
-        if (frame.technique == technique.name)
-            frame.samples = technique.default_samples;
-    }
-    if (std::find(names.begin(), names.end(), frame.technique) == names.end())
-        reader.refuse(
+    const TechniqueInfo* technique = find_technique(frame.technique);
+    if (!technique) {
+        std::vector<std::string> names;
+        for (const TechniqueInfo& known : techniques())
+            names.emplace_back(known.name);
+        return reader.refuse(
             usage_error("--technique", fmt::format("'{}' is not one of {}", frame.technique, join(names))));
-    reader.integer("--samples", in.samples, 1, kMaxTechniqueSamples, frame.samples);
+    }
+    int samples = technique->default_samples;
+    reader.integer("--samples", in.samples, 1, kMaxTechniqueSamples, samples);
+    frame.samples = samples_taken(*technique, samples);
+    if (frame.samples != samples)
+        out.warnings.push_back(
+            fmt::format("--samples {}: {} takes {}", samples, frame.technique, frame.samples));
     reader.number("--axis-k", in.axis_k, 0.01, 10.0, frame.major_axis_k);
     reader.number("--axis-beta", in.axis_beta, 0.0, 100.0, frame.major_axis_beta);
+    if (in.dfg != "table" && in.dfg != "fit")
+        reader.refuse(usage_error("--dfg", fmt::format("'{}' is not one of table, fit", in.dfg)));
+    frame.dfg_fit = in.dfg == "fit";
+    frame.energy_compensation = in.energy_compensation;
     reader.integer("--seed", in.seed, 0, 0x7fffffff, frame.seed);
 }
 
@@ -225,7 +232,7 @@ Result<RenderOptions> check_render_options(const RenderArguments& arguments)
     check_builtin(reader, "SCENE", out.scene, builtin_scenes());
     check_builtin(reader, "--env", out.env, builtin_environments());
     read_picture(arguments, reader, out);
-    read_technique(arguments, reader, out.frame);
+    read_technique(arguments, reader, out);
     read_machine(arguments, reader, out);
     read_camera(arguments, reader, out);
     read_environment(arguments, reader, out.environment);

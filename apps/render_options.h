@@ -39,6 +39,7 @@ struct RenderOptions {
     float exposure_ev = 0.0f;
 
     Limits limits;
+    std::vector<std::string> warnings; // about options, one line each
     bool quiet = false;
     int verbosity = 0;
 };
@@ -51,8 +52,8 @@ struct RenderArguments {
     std::string tile_size, texture_anisotropy, tonemap, env_rotation, env_exposure, env_size, env_samples;
     std::string limit_image_side, limit_texture_bytes, limit_json_depth, limit_node_depth, limit_file_bytes;
     std::string limit_accessor_bytes, limit_data_uri_bytes, limit_draw_bytes;
-    std::string axis_k, axis_beta, seed;
-    bool no_background = false, no_cache = false;
+    std::string axis_k, axis_beta, seed, dfg = "table";
+    bool no_background = false, no_cache = false, energy_compensation = false;
 };
 
 void add_render_options(CLI::App& app, RenderArguments& arguments);

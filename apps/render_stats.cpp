@@ -49,6 +49,8 @@ std::string stats_json(const RenderOptions& options, const RenderFigures& figure
     json["env"] = options.env;
     json["technique"] = frame.technique;
     json["samples"] = frame.samples;
+    json["dfg"] = frame.dfg_fit ? "fit" : "table";
+    json["energy_compensation"] = frame.energy_compensation;
     json["backend"] = options.backend;
     json["device"] = figures.device;
     json["isa"] = isa_name(options.isa);

@@ -17,6 +17,7 @@ enum class ExitCode : int {
     golden_missing = 5, // a reference is missing
     not_finite = 6,     // NaN or Inf in the picture
     output_failed = 7,  // an output could not be written (disk full, no permission)
+    internal = 70,      // a fault of the program itself (sysexits.h EX_SOFTWARE)
     unavailable = 77,   // the backend is absent: skipped
 };
 

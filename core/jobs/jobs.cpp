@@ -14,6 +14,7 @@
 
 #include "core/base/check.h"
 #include "core/jobs/cores.h"
+#include "core/jobs/plain_loop.h"
 
 namespace burnish {
 namespace {
@@ -73,6 +74,9 @@ void Jobs::parallel_for(std::size_t count, const std::function<void(std::size_t,
     }
     if (count == 0)
         return;
+#ifdef BN_TSAN
+    return plain_parallel_for(impl_->threads, count, body);
+#endif
     const std::size_t pieces = static_cast<std::size_t>(impl_->threads) * kPiecesPerThread;
     const std::size_t grain = std::max<std::size_t>(1, count / pieces);
     impl_->arena.execute([&] {

@@ -99,6 +99,7 @@ Result<Scene> load_gltf(const std::string& path, const Limits& limits)
         doc.folder = slash == std::string::npos ? "" : slash == 0 ? "/." : path.substr(0, slash);
         doc.has_folder = true;
         doc.bytes = bytes;
+        doc.scene.files.push_back(path);
         read_document(doc);
         return std::move(doc.scene);
     });

@@ -173,8 +173,9 @@ std::vector<std::uint8_t> read_uri(Document& doc, const std::string& uri, const 
 {
     if (uri.compare(0, 5, "data:") == 0)
         return decode_data_uri(doc, uri, place);
-    std::vector<std::uint8_t> bytes =
-        read_file_bytes(resolve_file_uri(doc, uri, place), doc.limits.file_bytes, place);
+    const std::string path = resolve_file_uri(doc, uri, place);
+    std::vector<std::uint8_t> bytes = read_file_bytes(path, doc.limits.file_bytes, place);
+    doc.scene.files.push_back(path);
     doc.input_bytes += bytes.size();
     return bytes;
 }

@@ -119,6 +119,7 @@ struct Scene {
     std::vector<Image> images; // decoded, as stored in the file
     std::vector<Light> lights;
     std::vector<Camera> cameras;
+    std::vector<std::string> files;    // paths of every file that was read for it
     std::vector<std::string> warnings; // one line each, in the order found
 };
 

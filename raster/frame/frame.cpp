@@ -147,10 +147,30 @@ glm::mat4 clip_from_world(const View& v)
 const std::vector<TechniqueInfo>& techniques()
 {
     static const std::vector<TechniqueInfo> table = {
-#define BN_TECHNIQUE(id, default_samples, summary) {#id, summary, default_samples},
+#define BN_TECHNIQUE(id, sampling, default_samples, summary) {#id, summary, Sampling::sampling, default_samples},
 #include "shading/models.def"
     };
     return table;
+}
+
+const TechniqueInfo* find_technique(const std::string& name)
+{
+    for (const TechniqueInfo& technique : techniques())
+        if (name == technique.name)
+            return &technique;
+    return nullptr;
+}
+
+int samples_taken(const TechniqueInfo& technique, int samples)
+{
+    if (technique.sampling == Sampling::none)
+        return 1;
+    if (technique.sampling == Sampling::count)
+        return samples;
+    int side = 1;
+    while ((side + 1) * (side + 1) <= samples)
+        ++side;
+    return side * side;
 }
 
 const std::vector<ModelInfo>& models()

@@ -34,6 +34,9 @@ View auto_frame(const DrawTables& tables, int width, int height);
 // The matrix that the view stands for, for printing (world to Vulkan clip space).
 glm::mat4 clip_from_world(const View& view);
 
+inline constexpr int kMaxPictureSide = 16384;               // pixels
+inline constexpr std::int64_t kMaxPictureSamples = 1ll << 28; // width * height * msaa: 2 GiB of depth and triangle ids
+
 struct FrameDesc {
     int width = 1280, height = 720;
     int msaa = 8;                          // 1, 2, 4, 8, 16
@@ -45,6 +48,8 @@ struct FrameDesc {
     bool override_anisotropy = false;
     float major_axis_k = 1.0f;             // deviations that the major axis covers
     float major_axis_beta = 2.3f;          // overlap of its samples
+    bool dfg_fit = false;                  // directional albedo from the analytic fit instead of the baked table
+    bool energy_compensation = false;      // adds the light that single scattering between microfacets loses
     std::uint32_t seed = 0;                // of techniques that use random numbers
     int tile_size = 64;                    // 32 or 64; never changes the picture
     int texture_anisotropy = 16;           // taps along the major axis at most, 1..16
@@ -83,12 +88,17 @@ struct RenderInput {
     const Jobs& jobs;
 };
 
+enum class Sampling { none, count, grid }; // what a technique makes of FrameDesc::samples: nothing, N samples, n x n
+
 struct TechniqueInfo {
     const char* name;
     const char* summary;
-    int default_samples; // 1: takes none
+    Sampling sampling;
+    int default_samples;
 };
-const std::vector<TechniqueInfo>& techniques(); // from shading/models.def
+const std::vector<TechniqueInfo>& techniques();             // from shading/models.def
+const TechniqueInfo* find_technique(const std::string& name); // null where there is none
+int samples_taken(const TechniqueInfo& technique, int samples); // of `samples` asked for
 
 struct ModelInfo {
     const char* name;

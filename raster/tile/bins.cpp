@@ -78,13 +78,24 @@ void Bins::build(const FrameParams& f, const DrawTables& tables, const Visible& 
     });
 }
 
-void Bins::gather_tile(std::size_t tile, Column<TriangleSetup>& triangles, Column<TriangleSource>& sources) const
+std::size_t Bins::triangles_in(std::size_t tile) const
 {
     std::size_t count = 0;
     for (std::size_t i = 0; i < used_; ++i)
         count += chunks_[i]->tile_begin[tile + 1] - chunks_[i]->tile_begin[tile];
-    triangles.resize(count);
-    sources.resize(count);
+    return count;
+}
+
+std::size_t Bins::most_triangles_in_a_tile(std::size_t tiles) const
+{
+    std::size_t most = 0;
+    for (std::size_t tile = 0; tile < tiles; ++tile)
+        most = std::max(most, triangles_in(tile));
+    return most;
+}
+
+void Bins::gather_tile(std::size_t tile, TriangleSetup* triangles, TriangleSource* sources) const
+{
     std::size_t to = 0;
     for (std::size_t i = 0; i < used_; ++i) {
         const Chunk& c = *chunks_[i];

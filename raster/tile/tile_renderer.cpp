@@ -42,7 +42,7 @@ struct WorkerScratch {
     Column<std::int32_t> fragment_triangle, fragment_pixel, fragment_mask, order, slot_of_material, slot_material;
     FrameStats stats;
 
-    void prepare(int tile_size, int msaa, std::size_t materials)
+    void prepare(int tile_size, int msaa, std::size_t materials, std::size_t most_triangles)
     {
         const std::size_t pixels = static_cast<std::size_t>(tile_size) * static_cast<std::size_t>(tile_size);
         const std::size_t samples = pixels * static_cast<std::size_t>(msaa), blocks = pixels / kBlockPixels;
@@ -51,15 +51,17 @@ struct WorkerScratch {
             c->resize(samples);
         for (Column<std::int32_t>* c : {&fragment_triangle, &fragment_pixel, &fragment_mask, &order})
             c->resize(samples);
+        if (triangles.size() < most_triangles)
+            triangles.resize(most_triangles), sources.resize(most_triangles);
         slot_begin.resize(materials + 2), slot_material.resize(materials + 1), slot_of_material.resize(materials);
         std::fill(slot_of_material.begin(), slot_of_material.end(), -1);
         stats = {};
     }
 
-    TileScratch view(Frame& frame)
+    TileScratch view(Frame& frame, std::size_t triangle_count)
     {
         return {depth.data(), ids.data(), block_far.data(), block_dirty.data(), triangles.data(),
-                static_cast<std::uint32_t>(triangles.size()), sources.data(), fragment_triangle.data(),
+                static_cast<std::uint32_t>(triangle_count), sources.data(), fragment_triangle.data(),
                 fragment_pixel.data(), fragment_mask.data(), red.data(), green.data(), blue.data(), order.data(),
                 slot_of_material.data(), slot_material.data(), slot_begin.data(), 0, 0,
                 frame.color.f32(), frame.triangle_ids.empty() ? nullptr : frame.triangle_ids.data()};
@@ -94,13 +96,6 @@ class TileRenderer final : public Renderer {
     std::vector<WorkerScratch> workers_;
 };
 
-int technique_index(const std::string& name)
-{
-    const auto& all = techniques();
-    return static_cast<int>(
-        std::find_if(all.begin(), all.end(), [&](const TechniqueInfo& t) { return name == t.name; }) - all.begin());
-}
-
 std::vector<MaterialRecord> overridden(std::vector<MaterialRecord> materials, const FrameDesc& desc)
 {
     for (MaterialRecord& m : materials) {
@@ -134,8 +129,9 @@ FrameParams TileRenderer::frame_params(const FrameDesc& desc, const std::vector<
     f.specular_cube = cube_params(input_.environment.specular);
     f.irradiance_cube = cube_params(input_.environment.irradiance);
     f.dfg_texels = input_.dfg.texels.data(), f.dfg_size = input_.dfg.size;
+    f.dfg_fit = desc.dfg_fit, f.energy_compensation = desc.energy_compensation;
     f.background = desc.background, f.samples = desc.samples, f.texture_taps = desc.texture_anisotropy;
-    f.technique = technique_index(desc.technique);
+    f.technique = static_cast<std::int32_t>(find_technique(desc.technique) - techniques().data());
     f.seed = static_cast<std::int32_t>(desc.seed);
     f.major_axis_k = desc.major_axis_k, f.major_axis_beta = desc.major_axis_beta;
     f.override_anisotropy = desc.override_anisotropy, f.anisotropy = desc.anisotropy;
@@ -144,7 +140,7 @@ FrameParams TileRenderer::frame_params(const FrameDesc& desc, const std::vector<
 
 void TileRenderer::prepare_grid(const FrameDesc& desc, FrameParams& f)
 {
-    if (desc.technique != "filtered_is" && desc.technique != "filtered_is_ggx")
+    if (find_technique(desc.technique)->sampling != Sampling::grid)
         return;
     if (box_cube_.levels == 0)
         box_cube_ = box_filtered_chain(input_.environment.specular, input_.jobs);
@@ -157,14 +153,15 @@ void TileRenderer::draw_tiles(const FrameParams& f, Frame& frame)
 {
     const TraceSpan span("tiles");
     workers_.resize(static_cast<std::size_t>(input_.jobs.threads()));
-    for (WorkerScratch& w : workers_)
-        w.prepare(f.tile_size, f.msaa, scene_.materials.size());
     const std::size_t tiles = static_cast<std::size_t>(f.tiles_x) * static_cast<std::size_t>(f.tiles_y);
+    const std::size_t most = bins_.most_triangles_in_a_tile(tiles);
+    for (WorkerScratch& w : workers_)
+        w.prepare(f.tile_size, f.msaa, scene_.materials.size(), most);
     input_.jobs.parallel_for(tiles, [&](std::size_t i, int worker) {
         const TraceSpan tile_span("tile");
         WorkerScratch& w = workers_[static_cast<std::size_t>(worker)];
-        bins_.gather_tile(i, w.triangles, w.sources);
-        TileScratch scratch = w.view(frame);
+        bins_.gather_tile(i, w.triangles.data(), w.sources.data());
+        TileScratch scratch = w.view(frame, bins_.triangles_in(i));
         fns_.render_tile(f, static_cast<int>(i) % f.tiles_x, static_cast<int>(i) / f.tiles_x, scratch);
         w.stats.visible_fragments += scratch.fragment_count - scratch.background_pixels;
         w.stats.background_pixels += scratch.background_pixels;
@@ -178,17 +175,19 @@ void TileRenderer::draw_tiles(const FrameParams& f, Frame& frame)
 Status check_desc(const FrameDesc& d)
 {
     const auto usage = [](std::string reason) { return Error{ExitCode::usage, "", "", std::move(reason)}; };
-    if (d.width < 1 || d.height < 1 || d.width > 16384 || d.height > 16384)
+    if (d.width < 1 || d.height < 1 || d.width > kMaxPictureSide || d.height > kMaxPictureSide)
         return usage("the image's sides must lie in 1..16384 pixels");
     if (d.msaa != 1 && d.msaa != 2 && d.msaa != 4 && d.msaa != 8 && d.msaa != 16)
         return usage("msaa must be 1, 2, 4, 8 or 16");
+    if (std::int64_t{d.width} * d.height * d.msaa > kMaxPictureSamples)
+        return usage("width x height x msaa must not exceed 2^28 samples");
     if (d.tile_size != 32 && d.tile_size != 64)
         return usage("the tile size must be 32 or 64");
     if (d.texture_anisotropy < 1 || d.texture_anisotropy > 16)
         return usage("texture anisotropy must lie in 1..16");
     if (d.samples < 1 || d.samples > 65536)
         return usage("samples must lie in 1..65536");
-    if (technique_index(d.technique) == static_cast<int>(techniques().size()))
+    if (!find_technique(d.technique))
         return usage("unknown technique '" + d.technique + "'");
     return {};
 }

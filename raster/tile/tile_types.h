@@ -141,6 +141,7 @@ struct FrameParams {
     std::int32_t grid_count;
     const std::uint16_t* dfg_texels; // DfgTable::texels
     std::int32_t dfg_size;
+    std::int32_t dfg_fit, energy_compensation; // flags
     std::int32_t background, technique, samples, texture_taps, seed;
     float major_axis_k, major_axis_beta;
     std::int32_t override_anisotropy; // by `anisotropy`, the eta of every material

@@ -164,6 +164,25 @@ def input_kept(bench):
     scene = scratch(bench, "scene.gltf", files.text(files.triangle()))
     bench.run("render", scene, *SMALL, "--stats", "scene.gltf").expect(2)
     check(scene.read_text() == files.text(files.triangle()), "the scene was overwritten")
+    picture = scratch(bench, "maps/wood.png", files.png(4, 4))
+    binary = scratch(bench, "mesh.bin", files.POSITIONS + files.INDICES)
+    gltf = files.textured("maps/wood.png")
+    gltf["buffers"][0]["uri"] = "mesh.bin"
+    scratch(bench, "textured.gltf", files.text(gltf))
+    bench.run("render", "textured.gltf", *SMALL, "-o", "fine.png").expect(0)
+    for words in (("-o", "maps/wood.png"), ("--stats", "mesh.bin"), ("--trace", "maps/../mesh.bin")):
+        bench.run("render", "textured.gltf", *SMALL, *words).expect(2).expect_one_line(words[1])
+    check(picture.read_bytes() == files.png(4, 4), "a texture was overwritten")
+    check(binary.read_bytes() == files.POSITIONS + files.INDICES, "a buffer was overwritten")
+
+
+@case("output.a_file_is_named_once")
+def named_once(bench):
+    (bench.folder / "sub").mkdir()
+    (bench.folder / "link").symlink_to("sub")
+    for one, other in (("a.exr", "a.exr"), ("a.exr", "./a.exr"), ("sub/a.exr", "link/a.exr")):
+        bench.run("render", *SMALL, "-o", one, "-o", other).expect(2).expect_one_line("twice")
+    check(bench.left_behind() == ["link", "sub"], f"left: {bench.left_behind()}")
 
 
 @case("output.a_failed_run_keeps_what_was_there")

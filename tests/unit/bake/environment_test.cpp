@@ -4,9 +4,11 @@
 #include <array>
 #include <limits>
 
+#include "core/base/hash.h"
 #include "core/image/image_io.h"
 #include "core/scene/builtin.h"
 #include "shading/bake/cube_map.h"
+#include "shading/bake/environment_cache.h"
 #include "tests/unit/bake/bake_test.h"
 
 namespace burnish {
@@ -314,6 +316,19 @@ TEST(Environment, ThreadCountDoesNotChangeABit)
                                e.irradiance.texels.begin()));
         EXPECT_EQ(one.energy_cube, e.energy_cube);
     }
+}
+
+// What is baked is kept by users for years. A bake of other bits under an old version would be taken from their caches as it was.
+TEST(Environment, ABakeOfOtherBitsRaisesTheVersion)
+{
+    EnvironmentOptions options;
+    options.cube_size = 32, options.samples = 32, options.use_cache = false;
+    const Result<Environment> e = load_environment("builtin:studio", options, Limits{}, Jobs(2));
+    ASSERT_TRUE(e);
+    const std::uint64_t specular = hash_bytes(e->specular.texels.data(), e->specular.texels.size() * 2);
+    const std::uint64_t both = hash_bytes(e->irradiance.texels.data(), e->irradiance.texels.size() * 2, specular);
+    EXPECT_EQ(kBakeVersion, 2u);
+    EXPECT_EQ(both, 0xf57855761239757fu) << std::hex << both << ": raise kBakeVersion, then copy this hash";
 }
 
 } // namespace

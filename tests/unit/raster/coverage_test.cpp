@@ -277,6 +277,10 @@ TEST(coverage, tiles_of_32_and_64_agree_on_crossing_slivers)
         const glm::vec3 side(random.unit() * 0.6f, random.unit() * 0.6f, random.unit() - 0.5f);
         slivers.push_back({a, a + d, a + side});
     }
+    for (int i = 0; i < 400; ++i) { // nearly coplanar: the last bit of depth decides which one is seen
+        const auto corner = [&] { return glm::vec3(random.unit() * 200, -random.unit() * 140, 0.5f + random.unit() * 4e-6f); };
+        slivers.push_back({corner(), corner(), corner()});
+    }
     const Stage stage(scene_of(slivers, true));
     FrameDesc d = id_desc(200, 140, 8);
     const Frame a = stage.render(d, best_isa());

@@ -1,7 +1,9 @@
 // Colours whose value is known: furnaces, punctual lights, textures, alpha.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <glm/gtc/quaternion.hpp>
 
 #include "core/scene/builtin.h"
 #include "tests/unit/raster/fixture.h"
@@ -64,6 +66,44 @@ TEST(furnace, metal_gives_back_its_directional_albedo)
     }
 }
 
+// The analytic fit gives back Pesce and Iwanicki's own numbers, which are off from the table's.
+TEST(furnace, the_analytic_fit_of_the_albedo_can_be_chosen)
+{
+    for (double roughness : {0.3, 0.9}) {
+        Scene scene = quad_scene(1.0f);
+        scene.materials[0].roughness = static_cast<float>(roughness);
+        const Stage stage(std::move(scene));
+        FrameDesc d = quad_desc(33, 4);
+        d.dfg_fit = true;
+        const double a = roughness * roughness, bias = std::exp2(-(7.0 + 4.0 * a));
+        const double scale = 1.0 - bias - a * std::max(bias, std::min(roughness, 0.739 + 0.323) - 0.434);
+        EXPECT_NEAR(pixel(stage.render(d, best_isa()), 16, 16)[0], scale + bias, 2e-3) << roughness;
+        d.dfg_fit = false;
+        EXPECT_GT(std::abs(double{pixel(stage.render(d, best_isa()), 16, 16)[0]} - scale - bias), 5e-3) << roughness;
+    }
+}
+
+// With energy compensation a metal that absorbs nothing gives back all light, however rough: it disappears.
+TEST(furnace, energy_compensation_makes_a_white_metal_disappear)
+{
+    Scene scene = *make_builtin_scene("spheres");
+    for (Material& m : scene.materials)
+        m.base_color = glm::vec4(1.0f);
+    const Stage stage(std::move(scene));
+    FrameDesc d;
+    d.width = 160, d.height = 100, d.msaa = 1;
+    d.view = auto_frame(stage.tables, d.width, d.height);
+    for (float roughness : {0.2f, 0.6f, 1.0f}) {
+        d.roughness = roughness, d.energy_compensation = true;
+        const Frame with = stage.render(d, best_isa());
+        for (int i = 0; i < 160 * 100 * 3; ++i)
+            ASSERT_NEAR(with.color.f32()[i], 1.0f, 4e-3f) << "pixel " << i / 3;
+        d.energy_compensation = false;
+        const Frame without = stage.render(d, best_isa());
+        EXPECT_LT(*std::min_element(without.color.f32(), without.color.f32() + 160 * 100 * 3), roughness < 0.5f ? 0.99f : 0.9f);
+    }
+}
+
 // What every technique must agree on: a perfect mirror shows the environment itself, and a constant environment the lobe's albedo.
 TEST(technique, a_mirror_is_a_mirror_and_a_constant_environment_gives_the_albedo)
 {
@@ -110,6 +150,41 @@ TEST(light, a_point_light_follows_the_inverse_square_and_lambert)
     EXPECT_NEAR(pixel(f, 16, 16)[0], 0.5f * expected, 1e-4f);
     EXPECT_NEAR(pixel(f, 16, 16)[1], 0.25f * expected, 1e-4f);
     EXPECT_NEAR(pixel(f, 16, 16)[2], expected, 1e-4f);
+}
+
+// A metal quad facing +z under one directional light, seen from straight above: the lobe's value in closed form.
+TEST(light, an_anisotropic_metal_answers_a_light_with_its_anisotropic_lobe)
+{
+    const double roughness = 0.5, eta = 0.8, slant = 0.35; // of the light, radians
+    for (bool along : {true, false}) {
+        Scene scene = quad_scene(1.0f);
+        scene.materials[0].roughness = static_cast<float>(roughness);
+        Light light;
+        light.type = LightType::directional;
+        light.intensity = 1.0f;
+        scene.lights.push_back(light);
+        Node node;
+        node.light = 0; // shines along its -z: turned about y the light leans along x, about x along y
+        const glm::vec3 axis = along ? glm::vec3(0, 1, 0) : glm::vec3(1, 0, 0);
+        node.local = glm::mat4_cast(glm::angleAxis(static_cast<float>(slant), axis));
+        scene.nodes.push_back(node);
+        update_world(scene);
+        const glm::vec3 tangent(scene.vertices.tx[0], scene.vertices.ty[0], scene.vertices.tz[0]);
+        const bool light_along_tangent = std::abs(tangent.x) > 0.5f ? along : !along;
+        const Stage stage(std::move(scene), 0.0f);
+        FrameDesc d = quad_desc(33, 1);
+        d.view = make_view({0, 0, 400}, {0, 0, 0}, 0.003f, 33, 33);
+        d.technique = "bent_normal", d.override_anisotropy = true, d.anisotropy = static_cast<float>(eta);
+        const double pi = 3.14159265358979, a = roughness * roughness;
+        const double width = light_along_tangent ? a * (1 + eta) : a * (1 - eta), other = light_along_tangent ? a * (1 - eta) : a * (1 + eta);
+        const double hx = std::sin(slant / 2), hz = std::cos(slant / 2), lz = std::cos(slant), lx = std::sin(slant);
+        const double q = hx * hx / (width * width) + hz * hz, distribution = 1 / (pi * width * other * q * q);
+        const double visibility = 0.5 / (lz + std::sqrt(width * width * lx * lx + lz * lz));
+        const double expected = distribution * visibility * lz; // F = 1: a white metal
+        EXPECT_NEAR(pixel(stage.render(d, best_isa()), 16, 16)[0], expected, 2e-3 * expected) << along;
+        d.technique = "split_isotropic";
+        EXPECT_GT(std::abs(double{pixel(stage.render(d, best_isa()), 16, 16)[0]} - expected), 0.1 * expected) << along;
+    }
 }
 
 Image checker(int side)
