@@ -57,6 +57,24 @@ BN_FN major_axis_ends major_axis_extrema(real3 o, real rx, real ry)
     return r;
 }
 
+// The slope ellipse's point farthest from the mirror direction, as cosine and sine of its parameter: t_far without angles.
+BN_FN real2 major_axis_far_direction(real3 o, real rx, real ry)
+{
+    real one = lit(1.0);
+    real bx = one + rx * rx;
+    real by = one + ry * ry;
+    real g0 = lit(2.0) * o.x * o.y * rx * ry;
+    real g1 = (rx - ry) * (rx + ry) + o.x * o.x * ry * ry * bx - o.y * o.y * rx * rx * by;
+    real cross_term = g0 * g0 * bx * by;
+    real root = sqrt(g1 * g1 + cross_term);
+    mask positive = g1 >= lit(0.0);
+    real w = select(positive, g1 + root, root - g1);
+    mask round_lobe = both(positive, w <= lit(1e-30));
+    real2 far = vec2_of(select(positive, w, g0 * by), select(positive, g0 * bx, w));
+    real scale = lit(1.0) / max(max(abs(far.x), abs(far.y)), lit(1e-30));
+    return select(round_lobe, vec2_of(lit(0.0), one), k_normalize2(far * scale));
+}
+
 BN_FN real3 ellipse_normal(real c, real s, real rx, real ry)
 {
     return k_normalize3(vec3_of(rx * c, ry * s, lit(1.0)));
@@ -157,16 +175,70 @@ BN_FN adaptive_pair major_axis_pair(adaptive_count need, int i)
     return r;
 }
 
-// Relative density of slopes, GGX with the deviations of a Gaussian of sigma_x, sigma_y (alpha = sqrt(2) sigma), at the microfacet
-// normal w (any length, ellipse frame).
-BN_FN real major_axis_density(real3 w, real sigma_x, real sigma_y)
+// The lobe along its major axis, for samples placed and weighted by its density. GGX slopes on the line through the middle of the ellipse have
+// the marginal density (1 + x^2)^(-3/2) / 2, x in widths, so that x = c / sqrt(1 - c^2) with c uniform in (-1,1): the microfacet normal
+// of c is (along c, sqrt(1 - c^2)), and no tail is left out.
+struct major_axis_grain {
+    real3 o;          // to the eye, unit, ellipse frame
+    real2 along;      // the major axis, as long as the lobe's width along it
+    real width;       // the lobe's width across, as seen along the axis
+    real o_along;     // length of o in the plane of axis and normal, [0,1]
+    real o_across2;   // square of what is left of it
+    real alpha_x, alpha_y;
+};
+
+// o: to the eye, ellipse frame; sigma_x, sigma_y: slope deviations; k: factor on the width along the axis, 1 for the lobe's own.
+BN_FN major_axis_grain major_axis_grain_of(real3 o, real sigma_x, real sigma_y, real k)
 {
-    real least = lit(1e-6);
-    real z = max(w.z, least);
-    real x = w.x / (z * max(sigma_x, least));
-    real y = w.y / (z * max(sigma_y, least));
-    real t = lit(1.0) + (x * x + y * y) * lit(0.5);
-    return lit(1.0) / (t * t);
+    real root2 = lit(1.4142135623730951);
+    major_axis_grain g;
+    o.z = max(o.z, lit(1e-4));
+    g.o = k_normalize3(o);
+    g.alpha_x = sigma_x * root2;
+    g.alpha_y = sigma_y * root2;
+    real2 t = major_axis_far_direction(g.o, sigma_x, sigma_y);
+    real x = g.alpha_x * t.x;
+    real y = g.alpha_y * t.y;
+    real length = sqrt(x * x + y * y);
+    real inv = lit(1.0) / max(length, lit(1e-20));
+    g.along = vec2_of(x * k, y * k);
+    g.width = g.alpha_x * g.alpha_y * inv;
+    real across = (g.o.y * x - g.o.x * y) * inv;
+    g.o_across2 = across * across;
+    g.o_along = sqrt(max(lit(1.0) - g.o_across2, lit(0.0)));
+    return g;
+}
+
+struct grain_sample {
+    real3 direction; // not unit, ellipse frame
+    real weight;     // at least 0
+    real radius;     // alpha of the prefiltered level
+};
+
+// c: uniform in (-1,1), root = sqrt(1 - c^2); spacing: beta times the step of c between samples. At beta = 2.3 a level is 0.8 times as wide as
+// the step between half vectors: narrower ones show as ghosts.
+BN_FN grain_sample major_axis_grain_sample(major_axis_grain g, real c, real root, real spacing)
+{
+    real3 w = vec3_of(g.along.x * c, g.along.y * c, root);
+    real w2 = k_dot3(w, w);
+    real w_dot_o = k_dot3(w, g.o);
+    grain_sample r;
+    r.direction = w * (lit(2.0) * w_dot_o) - g.o * w2;
+    // visible area of the microfacets, and Smith's masking of the light
+    real3 i = r.direction;
+    real ix = g.alpha_x * i.x;
+    real iy = g.alpha_y * i.y;
+    real stretch = sqrt(ix * ix + iy * iy + i.z * i.z);
+    real up = max(i.z, lit(0.0));
+    r.weight = max(w_dot_o, lit(0.0)) / root * (up / max(up + stretch, lit(1e-20)));
+    // across: turning w about the axis moves its mirror by 2 sqrt(o_across^2 + (w.o)^2), along: by 2 o_along
+    real inv2 = lit(1.0) / w2;
+    real turn = g.o_across2 + w_dot_o * w_dot_o * inv2;
+    real across = g.width * sqrt(turn * inv2);
+    real step = k_dot2(g.along, g.along);
+    real along = sqrt(step) * g.o_along * inv2 / root * spacing * lit(0.35);
+    r.radius = max(across, along);
+    return r;
 }
 
 BN_KERNELS_END
