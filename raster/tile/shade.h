@@ -86,6 +86,7 @@ struct Shading {
     aniso_lobe lobe;
     surface_frame surface_axes; // the geometry's
     bool turned;                // s.n is not surface_axes.n
+    bool diffuse;               // s.diffuse may be above 0
     dfg_value dfg;
     real3 gain;                 // of the specular lobe
     real3 dielectric_f0;
@@ -102,7 +103,6 @@ template <Technique kTechnique> BN_INLINE real3 environment_light(const FramePar
 {
     const surface& s = x.s;
     const real3 albedo = s.f0 * x.dfg.scale + s.f90 * x.dfg.bias;
-    const real3 dielectric = (x.dielectric_f0 * x.dfg.scale + vec3_all(x.dielectric_f90 * x.dfg.bias)) * energy_gain(f, x.dielectric_f0, x.dfg);
     const TechniqueInput input = {f, s, x.lobe, albedo, pixel_id, x.surface_axes, x.turned};
     real3 specular = technique_specular<kTechnique>(input) * x.gain * splat(f.specular_cube.scale);
     if (x.turned && !tests_horizon(kTechnique)) {
@@ -113,6 +113,9 @@ template <Technique kTechnique> BN_INLINE real3 environment_light(const FramePar
             specular = specular * ellipsoid_tilt_albedo(e.p, e.o);
         }
     }
+    if (!x.diffuse)
+        return (specular + vec3_all(lit(0.0))) * s.occlusion; // as if nothing were added
+    const real3 dielectric = (x.dielectric_f0 * x.dfg.scale + vec3_all(x.dielectric_f90 * x.dfg.bias)) * energy_gain(f, x.dielectric_f0, x.dfg);
     const real3 irradiance = cube_sample(lanes_cube(f.irradiance_cube), s.n, lit(0.0)) * splat(f.irradiance_cube.scale);
     const real passed = lit(1.0) - max(dielectric.x, max(dielectric.y, dielectric.z));
     return (specular + s.diffuse * irradiance * passed) * s.occlusion;
@@ -135,16 +138,23 @@ BN_INLINE real3 light_from_punctual(const FrameParams& f, const Shading& x, bool
     return sum;
 }
 
-// The material's lobe in the frame. What is not anisotropic needs no axes of its own.
-BN_INLINE aniso_lobe material_lobe(const FrameParams& f, const MaterialRecord& m, const LaneMaterial& at, const surface_frame& frame)
+struct LobeShape { // a lobe before it is laid onto a surface
+    real sigma_u, sigma_v; // see aniso_lobe
+    real2 u;               // its axis, along tangent and bitangent
+    real alpha_lin;        // perceptual roughness
+};
+
+// What is not anisotropic needs no axes of its own.
+BN_INLINE LobeShape lobe_shape(const FrameParams& f, const MaterialRecord& m, const LaneMaterial& at)
 {
-    aniso_lobe lobe;
+    LobeShape r;
     const real roughness = min(max(at.roughness, lit(0.0)), lit(1.0)), alpha = roughness * roughness;
     const real sigma = alpha * lit(0.70710678118654752);
-    lobe.u_axis = frame.t, lobe.v_axis = frame.b;
-    lobe.sigma_u = lobe.sigma_v = sigma;
+    r.sigma_u = r.sigma_v = sigma;
+    r.u = vec2_of(lit(1.0), lit(0.0));
+    r.alpha_lin = at.roughness;
     if (!m.anisotropic)
-        return lobe;
+        return r;
     const real2 rotation = vec2_of(splat(m.anisotropy_rotation[0]), splat(m.anisotropy_rotation[1]));
     const slope_covariance covariance =
         f.override_anisotropy
@@ -153,15 +163,50 @@ BN_INLINE aniso_lobe material_lobe(const FrameParams& f, const MaterialRecord& m
     const slope_axes axes = axes_of_covariance(covariance);
     const real trace = covariance.xx + covariance.yy;
     const mask mirror = trace <= lit(1e-12); // smooth in every direction: the decomposition's least widths are not for it
-    lobe.sigma_u = select(mirror, sigma, axes.sigma_u);
-    lobe.sigma_v = select(mirror, sigma, axes.sigma_v);
-    lobe.u_axis = frame.t * axes.u.x + frame.b * axes.u.y;
-    lobe.v_axis = frame.b * axes.u.x - frame.t * axes.u.y;
+    r.sigma_u = select(mirror, sigma, axes.sigma_u);
+    r.sigma_v = select(mirror, sigma, axes.sigma_v);
+    r.u = axes.u;
+    aniso_lobe lobe;
+    lobe.sigma_u = r.sigma_u, lobe.sigma_v = r.sigma_v;
+    r.alpha_lin = lobe_alpha_lin(lobe);
+    return r;
+}
+
+BN_INLINE aniso_lobe lobe_in_frame(const MaterialRecord& m, const LobeShape& shape, const surface_frame& frame)
+{
+    aniso_lobe lobe;
+    lobe.sigma_u = shape.sigma_u, lobe.sigma_v = shape.sigma_v;
+    lobe.u_axis = frame.t, lobe.v_axis = frame.b;
+    if (!m.anisotropic)
+        return lobe;
+    lobe.u_axis = frame.t * shape.u.x + frame.b * shape.u.y;
+    lobe.v_axis = frame.b * shape.u.x - frame.t * shape.u.y;
     return lobe;
 }
 
+// What is the same for all fragments of a material, found once.
+struct MaterialPlan {
+    bool diffuse;        // some light may be diffused
+    bool one_shape;      // no texture changes the lobe's shape
+    LobeShape shape;     // then
+};
+
+BN_INLINE MaterialPlan plan_material(const FrameParams& f, const MaterialRecord& m)
+{
+    const auto used = [&](int slot) { return m.textures[slot].texture != nullptr; };
+    MaterialPlan plan;
+    plan.diffuse = m.metallic < 1.0f || used(kMetalRoughTex);
+    plan.one_shape = !used(kMetalRoughTex) && !used(kTensor2Tex);
+    LaneMaterial at;
+    at.roughness = splat(m.roughness);
+    at.tensor2 = at.tensor4 = vec3_of(lit(1.0), lit(0.0), lit(0.0));
+    plan.shape = lobe_shape(f, m, at);
+    return plan;
+}
+
 template <Technique kTechnique>
-BN_INLINE real3 shade_fragments(const FrameParams& f, const MaterialRecord& m, const Fragment& p, integer pixel_id)
+BN_INLINE real3 shade_fragments(const FrameParams& f, const MaterialRecord& m, const MaterialPlan& plan, const Fragment& p,
+                                integer pixel_id)
 {
     const LaneMaterial at = fetch_material(f, m, p);
     if (m.unlit)
@@ -179,10 +224,11 @@ BN_INLINE real3 shade_fragments(const FrameParams& f, const MaterialRecord& m, c
     if (f.tilted)
         frame = tilted_frame(frame, vec2_of(splat(f.tilt_cos[0]), splat(f.tilt_cos[1])), vec2_of(splat(f.tilt_sin[0]), splat(f.tilt_sin[1])));
     x.turned = mapped || f.tilted;
-    x.lobe = material_lobe(f, m, at, frame);
-    const real roughness = m.anisotropic ? lobe_alpha_lin(x.lobe) : at.roughness;
+    const LobeShape shape = plan.one_shape ? plan.shape : lobe_shape(f, m, at);
+    x.lobe = lobe_in_frame(m, shape, frame);
+    x.diffuse = plan.diffuse;
     x.dielectric_f0 = at.dielectric_f0, x.dielectric_f90 = at.dielectric_f90;
-    x.s = metallic_roughness_surface(frame.n, v, at.base, at.metallic, roughness, at.dielectric_f0, at.dielectric_f90, at.occlusion);
+    x.s = metallic_roughness_surface(frame.n, v, at.base, at.metallic, shape.alpha_lin, at.dielectric_f0, at.dielectric_f90, at.occlusion);
     x.dfg = f.dfg_fit ? dfg_fit(x.s.n_dot_v, x.s.roughness) : dfg_lookup(f.dfg_texels, f.dfg_size, x.s.n_dot_v, x.s.roughness);
     x.gain = energy_gain(f, x.s.f0, x.dfg);
     real3 color = environment_light<kTechnique>(f, x, pixel_id) + at.emissive;
