@@ -97,26 +97,19 @@ BN_INLINE real3 major_axis_specular(const TechniqueInput& in)
     return texel_rgb(acc) * in.albedo;
 }
 
-// No more samples than the lobe's length asks for. They come in pairs around the middle of the line, a pair's weight grows from zero
-// as it is needed, and spacing follows the fractional count: the picture is continuous where the count changes.
-BN_INLINE real3 major_axis_adaptive_specular(const TechniqueInput& in)
+// One sample of a lobe along its grain, added to a sum and its weights.
+BN_INLINE void add_grain_sample(const TechniqueInput& in, const cube_desc& cube, const major_axis_grain& grain, real c, real root,
+                                real spacing, real weight, texel_acc& acc, real& sum)
 {
-    const cube_desc cube = lanes_cube(in.f.specular_cube);
-    const LaneLine line = major_axis_in_world(in, lit(0.0)); // its radius is half the lobe's width
-    const adaptive_count need = major_axis_needed(line.line, splat(in.f.major_axis_k), splat(in.f.major_axis_beta),
-                                                  to_real(int_lit(in.f.samples)));
-    const real lod = major_axis_lod(need.radius, cube);
-    const real inv = lit(1.0) / need.count;
-    texel_acc acc = cube_texel_add(texel_zero(), cube, major_axis_direction(line.e0, line.step, line.o, lit(0.5)), lod, inv);
-    float most[kLanes];
-    store(most, reduce_max(need.count));
-    for (int i = 1; static_cast<float>(2 * i - 1) < most[0]; ++i) {
-        const adaptive_pair pair = major_axis_pair(need, i);
-        const real weight = pair.weight * inv;
-        acc = cube_texel_add(acc, cube, major_axis_direction(line.e0, line.step, line.o, lit(0.5) - pair.offset), lod, weight);
-        acc = cube_texel_add(acc, cube, major_axis_direction(line.e0, line.step, line.o, lit(0.5) + pair.offset), lod, weight);
-    }
-    return texel_rgb(acc) * in.albedo;
+    const grain_sample g = major_axis_grain_sample(grain, c, root, spacing);
+    const real w = g.weight * weight;
+    acc = cube_texel_add(acc, cube, from_lobe(in.lobe, in.s.n, g.direction), major_axis_lod(g.radius, cube), w);
+    sum = sum + w;
+}
+
+BN_INLINE major_axis_grain grain_of(const TechniqueInput& in)
+{
+    return major_axis_grain_of(to_lobe(in.lobe, in.s.n, in.s.v), in.lobe.sigma_u, in.lobe.sigma_v, splat(in.f.major_axis_k));
 }
 
 // Samples where the lobe is dense, each with a level of its own and the weight that masking and the visible area leave it.
@@ -124,15 +117,36 @@ BN_INLINE real3 major_axis_weighted_specular(const TechniqueInput& in)
 {
     const cube_desc cube = lanes_cube(in.f.specular_cube);
     const int n = in.f.samples;
-    const major_axis_grain grain = major_axis_grain_of(to_lobe(in.lobe, in.s.n, in.s.v), in.lobe.sigma_u, in.lobe.sigma_v, splat(in.f.major_axis_k));
+    const major_axis_grain grain = grain_of(in);
     const float step = 2.0f / static_cast<float>(n);
+    const real spacing = splat(in.f.major_axis_beta * step);
     texel_acc acc = texel_zero();
     real sum = lit(0.0);
     for (int j = 0; j < n; ++j) {
         const float c = (static_cast<float>(j) + 0.5f) * step - 1.0f;
-        const grain_sample g = major_axis_grain_sample(grain, splat(c), sqrt(splat(1.0f - c * c)), splat(in.f.major_axis_beta * step));
-        acc = cube_texel_add(acc, cube, from_lobe(in.lobe, in.s.n, g.direction), major_axis_lod(g.radius, cube), g.weight);
-        sum = sum + g.weight;
+        add_grain_sample(in, cube, grain, splat(c), sqrt(splat(1.0f - c * c)), spacing, lit(1.0), acc, sum);
+    }
+    return texel_rgb(acc) / max(sum, lit(1e-20)) * in.albedo;
+}
+
+// The same with no more samples than each fragment needs, in cells around the middle that come and go without a step.
+BN_INLINE real3 major_axis_adaptive_specular(const TechniqueInput& in)
+{
+    const cube_desc cube = lanes_cube(in.f.specular_cube);
+    const major_axis_grain grain = grain_of(in);
+    const real beta = splat(in.f.major_axis_beta), one = lit(1.0);
+    const real count = major_axis_grain_count(grain, beta, to_real(int_lit(in.f.samples)));
+    const real spacing = beta * lit(2.0) / count;
+    texel_acc acc = texel_zero();
+    real sum = lit(0.0);
+    add_grain_sample(in, cube, grain, lit(0.0), one, spacing, one, acc, sum);
+    float most[kLanes];
+    store(most, reduce_max(count));
+    for (int i = 1; static_cast<float>(2 * i - 1) < most[0]; ++i) {
+        const grain_cell cell = major_axis_grain_cell(count, i);
+        const real root = sqrt(one - cell.c * cell.c);
+        add_grain_sample(in, cube, grain, cell.c, root, spacing, cell.weight, acc, sum);
+        add_grain_sample(in, cube, grain, -cell.c, root, spacing, cell.weight, acc, sum);
     }
     return texel_rgb(acc) / max(sum, lit(1e-20)) * in.albedo;
 }
