@@ -183,7 +183,9 @@ BN_FN bsdf_sample ellipsoid_sample(ellipsoid_params p, real3 wo, real2 xi)
 BN_FN real ellipsoid_tilt_albedo(ellipsoid_params p, real3 wo)
 {
     ellipsoid_view v = ellipsoid_seen_from(p, wo);
-    real along = max(k_dot3(p.r2, wo), lit(1e-4));
+    real facing = k_dot3(p.r2, wo);
+    real along = max(facing, lit(1e-4));
+    real away = k_saturate(lit(1.0) + facing / (lit(0.5) * (p.alpha_x + p.alpha_y))); // a lobe that looks away fades out
     real3 wi = mirror_direction(wo, p.r2);
     // the lobe reaches above the horizon where its middle is below it: a point half a width higher stands for it
     real lifted = max(wi.z, lit(0.0)) + lit(0.5) * (p.alpha_x + p.alpha_y) * max(lit(0.5) - abs(wi.z), lit(0.0));
@@ -192,7 +194,7 @@ BN_FN real ellipsoid_tilt_albedo(ellipsoid_params p, real3 wo)
     real x = p.alpha_x * k_dot3(p.r0, wo);
     real y = p.alpha_y * k_dot3(p.r1, wo);
     real untilted = lit(2.0) * along / (along + sqrt(x * x + y * y + along * along));
-    return min(weight / max(untilted, lit(1e-4)), lit(1.0));
+    return min(weight / max(untilted, lit(1e-4)), lit(1.0)) * away;
 }
 
 BN_KERNELS_END

@@ -4,10 +4,14 @@
 #include "shading/kernels/beckmann.k.h"
 #include "shading/kernels/covariance.k.h"
 #include "shading/kernels/ellipsoid_dielectric.k.h"
+#include "shading/kernels/energy.k.h"
+#include "shading/kernels/filtered_is.k.h"
 #include "shading/kernels/ggx.k.h"
 #include "shading/kernels/ggx_aniso.k.h"
 #include "shading/kernels/heidrich_seidel.k.h"
 #include "shading/kernels/lambert.k.h"
+#include "shading/kernels/major_axis.k.h"
+#include "shading/kernels/surface.k.h"
 #include "shading/kernels/ward.k.h"
 
 namespace burnish {

@@ -1,0 +1,160 @@
+// Parts of techniques against printed values and laws: filtered importance sampling, filtered tensors, the lobe along its grain, tilted frames.
+#include <cmath>
+#include <gtest/gtest.h>
+#include <numbers>
+
+#include "tests/unit/models/harness.h"
+
+namespace burnish::test {
+namespace {
+
+std::vector<double> at(const char* name, const std::vector<double>& in)
+{
+    const std::vector<double> scalar = call(float_fns()[0], name, in);
+    for (const IsaFns& isa : float_fns())
+        EXPECT_EQ(call(isa, name, in), scalar) << name;
+    return scalar;
+}
+double erfinv(double x) { return call(float_fns()[0], "erfinv", {x})[0]; }
+
+// View (sin 0.8, 0, cos 0.8), widths 0.4 and 0.1, a 5 x 5 grid, faces of 512^2 texels.
+TEST(FilteredImportanceSampling, equals_the_printed_test_vector)
+{
+    const double term = 0.5 * std::log2(6.0 * 512 * 512 / (4.0 * std::numbers::pi * 25));
+    const auto sample = [&](int i, int j) {
+        const double x = erfinv(2 * (i + .5) / 5 - 1), y = erfinv(2 * (j + .5) / 5 - 1);
+        return at("filtered_beckmann", {std::sin(.8), 0, std::cos(.8), .4, .1, x, y, std::exp(-x * x - y * y) / std::numbers::pi, term});
+    };
+    const std::vector<double> a = sample(0, 2), b = sample(2, 2);
+    EXPECT_NEAR(a[0], -.10431564, 2e-6);
+    EXPECT_NEAR(a[1], 0, 1e-7);
+    EXPECT_NEAR(a[2], .99454424, 2e-6);
+    EXPECT_NEAR(a[3], 1.37322083, 1e-5);
+    EXPECT_NEAR(a[4], 6.03098366, 1e-5);
+    EXPECT_NEAR(b[0], -std::sin(.8), 1e-6) << "the middle sample is the mirror";
+    EXPECT_NEAR(b[3], 1, 1e-5);
+    EXPECT_NEAR(b[4], 5.38793674, 1e-5);
+    double mean = 0;
+    for (int i = 0; i < 25; ++i)
+        mean += sample(i / 5, i % 5)[3] / 25;
+    EXPECT_NEAR(mean, .93371920, 1e-5);
+}
+
+std::vector<double> tensor(double strength, double angle, int power)
+{
+    const double s = std::pow(strength, power), c = std::cos(angle), d = std::sin(angle);
+    return {s * c * c, s * d * d, s * c * d};
+}
+
+// One texel's tensors give what the texel gives; the mean of two texels' tensors gives the mean of their covariances.
+TEST(Tensors, filter_the_covariance_exactly)
+{
+    const double alpha = .09, strength = .8, c = std::cos(.4), s = std::sin(.4);
+    const auto by_texel = [&](double weight, double angle) {
+        return at("covariance_khr", {alpha, strength, c, s, .5 + .5 * std::cos(angle), .5 + .5 * std::sin(angle), weight});
+    };
+    const auto by_tensors = [&](const std::vector<double>& t2, const std::vector<double>& t4) {
+        return at("covariance_tensors", {alpha, strength, c, s, t2[0], t2[1], t2[2], t4[0], t4[1], t4[2]});
+    };
+    const std::vector<double> a2 = tensor(.7, .3, 2), a4 = tensor(.7, .3, 4), b2 = tensor(1, 2, 2), b4 = tensor(1, 2, 4);
+    const std::vector<double> one = by_texel(.7, .3), other = by_texel(1, 2), single = by_tensors(a2, a4);
+    std::vector<double> m2(3), m4(3);
+    for (std::size_t k = 0; k < 3; ++k) {
+        EXPECT_NEAR(single[k], one[k], 1e-7);
+        m2[k] = .5 * (a2[k] + b2[k]), m4[k] = .5 * (a4[k] + b4[k]);
+    }
+    const std::vector<double> mixed = by_tensors(m2, m4);
+    for (std::size_t k = 0; k < 3; ++k)
+        EXPECT_NEAR(mixed[k], .5 * (one[k] + other[k]), 1e-7);
+}
+
+// A direction and its opposite are the same grain, and a grain of any strength turns an override's axis.
+TEST(Tensors, carry_the_direction_of_an_override)
+{
+    for (double angle : {0.0, .3, 1.4, 2.9}) {
+        const std::vector<double> plain = at("covariance_eta", {.5, .8, std::cos(angle), std::sin(angle)});
+        for (double strength : {.2, 1.0})
+            for (double turn : {0.0, std::numbers::pi}) {
+                const std::vector<double> t = tensor(strength, angle + turn, 2);
+                const std::vector<double> got = at("covariance_eta_tensor", {.5, .8, 1, 0, t[0], t[1], t[2]});
+                for (std::size_t k = 0; k < 3; ++k)
+                    EXPECT_NEAR(got[k], plain[k], 1e-7) << angle << " " << strength;
+            }
+    }
+}
+
+TEST(Grain, points_where_the_extrema_point)
+{
+    for (double theta : {.1, .7, 1.4})
+        for (double phi : {.2, 1.0, 2.5}) {
+            const Vec o = direction(theta, phi);
+            const std::vector<double> in = {o[0], o[1], o[2], .3, .05};
+            const std::vector<double> t = at("grain_far", in);
+            const double angle = at("far_angle", in)[0];
+            EXPECT_NEAR(t[0] * std::sin(angle) - t[1] * std::cos(angle), 0, 2e-6);
+            EXPECT_NEAR(t[0] * t[0] + t[1] * t[1], 1, 1e-6);
+        }
+}
+
+// The middle sample mirrors the view about the normal, at the width across; a round lobe is one such sample however many are asked for.
+TEST(Grain, middle_samples_and_round_lobes_are_mirrors)
+{
+    const Vec o = direction(.5, .8);
+    const double sigma = .1, root2 = std::numbers::sqrt2;
+    const std::vector<double> middle = at("grain_sample", {o[0], o[1], o[2], .3, sigma, 1, 0, 1, .1});
+    EXPECT_NEAR(middle[0], -o[0], 1e-6);
+    EXPECT_NEAR(middle[1], -o[1], 1e-6);
+    EXPECT_NEAR(middle[2], o[2], 1e-6);
+    for (double c : {0.0, .6, -.9}) { // from the front: aside, even a round lobe is long
+        const std::vector<double> g = at("grain_sample", {0, 0, 1, sigma, sigma, 1, c, std::sqrt(1 - c * c), .3});
+        EXPECT_NEAR(g[0], 0, 1e-4) << c;
+        EXPECT_NEAR(g[1], 0, 1e-4) << c;
+        EXPECT_GT(g[2], 0) << c;
+        if (c == 0.0) {
+            EXPECT_NEAR(g[4], sigma * root2, 1e-6);
+        }
+    }
+    EXPECT_EQ(at("grain_count", {0, 0, 1, sigma, sigma, 2.3, 16})[0], 1);
+    EXPECT_GT(at("grain_count", {0, 0, 1, .3, .05, 2.3, 16})[0], at("grain_count", {0, 0, 1, .3, .1, 2.3, 16})[0]);
+    EXPECT_EQ(at("grain_count", {0, 0, 1, .3, .001, 2.3, 16})[0], 16);
+}
+
+TEST(Grain, degenerate_inputs_stay_finite)
+{
+    for (double z : {0.0, -.3, 1e-8, 1.0})
+        for (double sx : {0.0, 1e-8, .3, .7})
+            for (double sy : {0.0, 1e-8, .3})
+                for (double c : {0.0, .95, -.9999}) {
+                    const Vec o = unit({.6, 1e-8, z});
+                    for (double v : at("grain_sample", {o[0], o[1], o[2], sx, sy, 1, c, std::sqrt(1 - c * c), .3}))
+                        EXPECT_TRUE(std::isfinite(v)) << z << " " << sx << " " << sy << " " << c;
+                }
+}
+
+// theta_x tilts the commonest normal to +y, theta_y to -x.
+TEST(Tilt, turns_the_commonest_normal_as_the_ellipsoid_does)
+{
+    for (const auto& [x, y] : {std::pair{.2, 0.0}, {0.0, .2}, {.3, -.5}}) {
+        const std::vector<double> n = at("tilted_normal", {x, y}), peak = at("ellipsoid_peak", {.3, .1, x, y, 0});
+        for (std::size_t k = 0; k < 3; ++k)
+            EXPECT_NEAR(n[k], peak[k], 1e-6);
+    }
+    EXPECT_NEAR(at("tilted_normal", {.2, 0})[1], .19866933, 1e-6);
+    EXPECT_NEAR(at("tilted_normal", {0, .2})[0], -.19866933, 1e-6);
+}
+
+TEST(Tilt, takes_nothing_from_an_upright_lobe_and_everything_from_one_that_looks_away)
+{
+    const Vec o = direction(.6, 1.0);
+    EXPECT_NEAR(at("tilt_albedo", {.3, .1, 0, 0, o[0], o[1], o[2]})[0], 1, 2e-2);
+    double last = 1;
+    for (double tilt : {.2, .5, .9, 1.3}) { // towards the far side of the view
+        const double now = at("tilt_albedo", {.1, .1, -tilt, 0, 0, std::sin(.6), std::cos(.6)})[0];
+        EXPECT_LT(now, last + 1e-6) << tilt;
+        last = now;
+    }
+    EXPECT_LT(last, .1);
+}
+
+} // namespace
+} // namespace burnish::test
