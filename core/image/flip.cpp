@@ -19,6 +19,7 @@ namespace {
 
 // A ring of 256 columns fits the L2 cache; its first rows are filtered twice, by the tile above too.
 constexpr int kTileWidth = 256, kTileHeight = 128; // pixels, a multiple of every lane count
+constexpr double kMostStops = 120.0;                // 2^120 is still a float
 constexpr int kPad = 16;                           // floats that lanes may touch behind a row
 
 const FlipFns& lanes_of(int isa)
@@ -201,8 +202,9 @@ FlipExposures find_exposures(const Image& reference, const FlipOptions& options)
             stop = log2_of(target / static_cast<double>(*median));
         }
     }
-    range.start_ev = options.start_ev.value_or(static_cast<float>(start));
-    range.stop_ev = options.stop_ev.value_or(static_cast<float>(stop));
+    const auto bounded = [](double ev) { return static_cast<float>(std::clamp(ev, -kMostStops, kMostStops)); };
+    range.start_ev = options.start_ev.value_or(bounded(start));
+    range.stop_ev = options.stop_ev.value_or(bounded(stop));
     // Only one of them given may lie beyond the other.
     if (options.start_ev)
         range.stop_ev = std::max(range.start_ev, range.stop_ev);
