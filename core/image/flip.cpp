@@ -56,7 +56,7 @@ double inverse_tone(const FlipTone& tone, double t)
     if (a == 0.0)
         return -c / b;
     const double half = -0.5 * b / a, root = std::sqrt(half * half - c / a);
-    return half + root; // a < 0 in ACES and Hable, whose other root is negative
+    return half + root; // a > 0 > c in ACES and Hable: the other root is negative
 }
 
 double log2_of(double x)
