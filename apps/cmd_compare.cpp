@@ -1,5 +1,5 @@
-// `burnish compare`: how far a picture is from its reference, as figures, as a picture of the errors, as a page, as
-// an exit code.
+// `burnish compare`: how far a picture is from its reference, as figures, as a picture of the errors, as a
+// page, as an exit code.
 #include <fmt/format.h>
 #include <memory>
 #include <utility>
@@ -19,7 +19,8 @@ namespace {
 std::vector<std::pair<std::string, std::string>> outputs_of(const CompareOptions& options)
 {
     std::vector<std::pair<std::string, std::string>> outputs;
-    for (const auto& [option, path] : {std::pair{"--json", options.json}, {"--html", options.html}, {"--error-map", options.error_map}})
+    for (const auto& [option, path] :
+         {std::pair{"--json", options.json}, {"--html", options.html}, {"--error-map", options.error_map}})
         if (!path.empty())
             outputs.emplace_back(option, path);
     return outputs;
@@ -50,22 +51,27 @@ Status check_paths(const CompareOptions& options)
 
 std::string describe(const Image& image)
 {
-    const char* type = image.type == PixelType::u8 ? "8 bits" : image.type == PixelType::u16 ? "16 bits" : "floats";
-    return fmt::format("{}x{}, {} channel{}, {}", image.width, image.height, image.channels, image.channels == 1 ? "" : "s", type);
+    const char* type = image.type == PixelType::u8    ? "8 bits"
+                       : image.type == PixelType::u16 ? "16 bits"
+                                                      : "floats";
+    return fmt::format("{}x{}, {} channel{}, {}", image.width, image.height, image.channels,
+                       image.channels == 1 ? "" : "s", type);
 }
 
 // Pictures that cannot be laid over each other. 8 and 16 bits can: both are display values.
-Status check_match(const std::string& name, const Image& image, const std::string& reference_name, const Image& reference)
+Status check_match(const std::string& name, const Image& image, const std::string& reference_name,
+                   const Image& reference)
 {
     const bool floats = image.type == PixelType::f32, reference_floats = reference.type == PixelType::f32;
-    if (image.width == reference.width && image.height == reference.height && image.channels == reference.channels &&
-        floats == reference_floats)
+    if (image.width == reference.width && image.height == reference.height &&
+        image.channels == reference.channels && floats == reference_floats)
         return {};
     return Error{ExitCode::size_mismatch, name, "",
                  fmt::format("{}; {} has {}", describe(image), reference_name, describe(reference))};
 }
 
-Status check_variance(const std::string& name, const Image& variance, const CompareOptions& options, const Image& reference)
+Status check_variance(const std::string& name, const Image& variance, const CompareOptions& options,
+                      const Image& reference)
 {
     if (reference.type != PixelType::f32)
         return usage_error("--variance", fmt::format("{} does not hold floats", options.reference));
@@ -84,14 +90,16 @@ Result<Pictures> read_pictures(const CompareOptions& options, const Jobs& jobs)
 {
     const std::vector<std::string> names = inputs_of(options);
     std::vector<Result<Image>> images(names.size(), Result<Image>(Image{}));
-    jobs.parallel_for(names.size(), [&](std::size_t i, int) { images[i] = read_image(names[i], options.limits); });
+    jobs.parallel_for(names.size(),
+                      [&](std::size_t i, int) { images[i] = read_image(names[i], options.limits); });
     for (const Result<Image>& image : images)
         if (!image)
             return image.error();
     Pictures pictures;
     pictures.reference = std::move(*images[0]);
     pictures.test = std::move(*images[1]);
-    if (Status match = check_match(options.test, pictures.test, options.reference, pictures.reference); !match)
+    if (Status match = check_match(options.test, pictures.test, options.reference, pictures.reference);
+        !match)
         return match.error();
     for (std::size_t i = 2; i < images.size(); ++i) {
         if (Status good = check_variance(names[i], *images[i], options, pictures.reference); !good)
@@ -99,8 +107,8 @@ Result<Pictures> read_pictures(const CompareOptions& options, const Jobs& jobs)
         pictures.variances.push_back(std::move(*images[i]));
     }
     if (options.metrics && options.metrics->flip_hdr && pictures.reference.type != PixelType::f32)
-        return usage_error("--metric", fmt::format("flip-hdr needs float pictures, {} has {}", options.reference,
-                                                   describe(pictures.reference)));
+        return usage_error("--metric", fmt::format("flip-hdr needs float pictures, {} has {}",
+                                                   options.reference, describe(pictures.reference)));
     return pictures;
 }
 
@@ -115,9 +123,10 @@ Status write_page(const CompareOptions& options, const CompareFigures& figures, 
     return page ? write_text(options.html, *page) : Status(page.error());
 }
 
-// Tries every output even where one fails; the first failure decides. Of pictures with NaN only the figures are
-// written: there are no errors to show.
-Status write_outputs(const CompareOptions& options, const CompareFigures& figures, const Pictures& pictures, Report& report)
+// Tries every output even where one fails; the first failure decides. Of pictures with NaN only the figures
+// are written: there are no errors to show.
+Status write_outputs(const CompareOptions& options, const CompareFigures& figures, const Pictures& pictures,
+                     Report& report)
 {
     Status first;
     for (const auto& [option, path] : outputs_of(options)) {

@@ -54,7 +54,8 @@ CompareFigures compare_pictures(const CompareOptions& options, const Pictures& p
         figures.ssim = ssim(reference, test, jobs);
     if (!pictures.variances.empty())
         figures.z = z_test(reference, test, pictures.variances[0],
-                           pictures.variances.size() > 1 ? &pictures.variances[1] : nullptr, options.significance, jobs);
+                           pictures.variances.size() > 1 ? &pictures.variances[1] : nullptr,
+                           options.significance, jobs);
     return figures;
 }
 
@@ -68,7 +69,8 @@ std::string compare_json(const CompareOptions& options, const CompareFigures& fi
         if (wanted_here)
             json[name] = value_or_null(known, value);
     };
-    const bool flip = asked.flip || asked.flip_hdr, errors = figures.errors.has_value(), pixels = figures.pixels.has_value();
+    const bool flip = asked.flip || asked.flip_hdr, errors = figures.errors.has_value(),
+               pixels = figures.pixels.has_value();
     if (flip) {
         json["flip_kind"] = flip_name(asked);
         json["ppd"] = options.flip.ppd;
@@ -98,36 +100,43 @@ std::string compare_json(const CompareOptions& options, const CompareFigures& fi
     return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 
-std::vector<std::pair<std::string, std::string>> figure_lines(const CompareOptions& options, const CompareFigures& figures)
+std::vector<std::pair<std::string, std::string>> figure_lines(const CompareOptions& options,
+                                                              const CompareFigures& figures)
 {
     std::vector<std::pair<std::string, std::string>> lines;
-    const auto add = [&lines](const char* name, double value) { lines.emplace_back(name, fmt::format("{:.6g}", value)); };
+    const auto add = [&lines](const char* name, double value) {
+        lines.emplace_back(name, fmt::format("{:.6g}", value));
+    };
     const Metrics& asked = figures.asked;
     if (figures.errors) {
         const ErrorSummary& e = *figures.errors;
-        lines.emplace_back(flip_name(asked), fmt::format("mean {:.6f}, p99 {:.6f}, weighted median {:.6f}, max {:.6f}", e.mean,
-                                                         e.p99, e.weighted_median, e.max));
+        lines.emplace_back(flip_name(asked),
+                           fmt::format("mean {:.6f}, p99 {:.6f}, weighted median {:.6f}, max {:.6f}", e.mean,
+                                       e.p99, e.weighted_median, e.max));
         lines.emplace_back("seen at", fmt::format("{:.2f} pixels per degree", options.flip.ppd));
     }
     if (figures.errors && asked.flip_hdr)
-        lines.emplace_back("exposures", fmt::format("{} from {:.4f} to {:.4f} EV", figures.flip.exposures.count,
-                                                    figures.flip.exposures.start_ev, figures.flip.exposures.stop_ev));
+        lines.emplace_back("exposures",
+                           fmt::format("{} from {:.4f} to {:.4f} EV", figures.flip.exposures.count,
+                                       figures.flip.exposures.start_ev, figures.flip.exposures.stop_ev));
     if (figures.pixels && asked.mse)
         add("mse", figures.pixels->mse);
     if (figures.pixels && asked.rel_mse)
         add("rel-mse", figures.pixels->rel_mse);
     if (figures.pixels && asked.psnr)
-        lines.emplace_back("psnr", std::isfinite(figures.pixels->psnr) ? fmt::format("{:.2f} dB", figures.pixels->psnr)
-                                                                       : "infinite: the colours are equal");
+        lines.emplace_back("psnr", std::isfinite(figures.pixels->psnr)
+                                       ? fmt::format("{:.2f} dB", figures.pixels->psnr)
+                                       : "infinite: the colours are equal");
     if (figures.ssim)
         add("ssim", *figures.ssim);
     if (figures.pixels && asked.max) {
         add("max", figures.pixels->max_abs);
-        lines.emplace_back("differing", fmt::format("{:.4f} % of the pixels", 100.0 * figures.pixels->differing_fraction));
+        lines.emplace_back("differing",
+                           fmt::format("{:.4f} % of the pixels", 100.0 * figures.pixels->differing_fraction));
     }
     if (figures.z)
-        lines.emplace_back("z-test", fmt::format("largest |z| {:.3f}, limit {:.3f}, {} pixels rejected", figures.z->largest,
-                                                 figures.z->limit, figures.z->rejected));
+        lines.emplace_back("z-test", fmt::format("largest |z| {:.3f}, limit {:.3f}, {} pixels rejected",
+                                                 figures.z->largest, figures.z->limit, figures.z->rejected));
     return lines;
 }
 
@@ -137,13 +146,16 @@ Status check_limits(const CompareOptions& options, const CompareFigures& figures
         return Error{ExitCode::differ, options.test, place, reason};
     };
     if (options.fail_flip && figures.errors && figures.errors->mean > *options.fail_flip)
-        return differ("--fail-flip", fmt::format("FLIP's mean {:.6g} is more than {:.6g}", figures.errors->mean, *options.fail_flip));
+        return differ("--fail-flip", fmt::format("FLIP's mean {:.6g} is more than {:.6g}",
+                                                 figures.errors->mean, *options.fail_flip));
     if (options.fail_max && figures.pixels && figures.pixels->max_abs > *options.fail_max)
-        return differ("--fail-max",
-                      fmt::format("a channel differs by {:.6g}, more than {:.6g}", figures.pixels->max_abs, *options.fail_max));
-    if (options.fail_fraction && figures.pixels && figures.pixels->differing_fraction > *options.fail_fraction)
-        return differ("--fail-fraction", fmt::format("{:.6g} of the pixels differ, more than {:.6g}",
-                                                     figures.pixels->differing_fraction, *options.fail_fraction));
+        return differ("--fail-max", fmt::format("a channel differs by {:.6g}, more than {:.6g}",
+                                                figures.pixels->max_abs, *options.fail_max));
+    if (options.fail_fraction && figures.pixels &&
+        figures.pixels->differing_fraction > *options.fail_fraction)
+        return differ("--fail-fraction",
+                      fmt::format("{:.6g} of the pixels differ, more than {:.6g}",
+                                  figures.pixels->differing_fraction, *options.fail_fraction));
     if (figures.z && figures.z->rejected_fraction > options.fail_z)
         return differ("--variance", fmt::format("the z-test rejects {:.6g} of the pixels, more than {:.6g}",
                                                 figures.z->rejected_fraction, options.fail_z));

@@ -30,17 +30,19 @@ struct CompareFigures {
 
 CompareFigures compare_pictures(const CompareOptions& options, const Pictures& pictures, const Jobs& jobs);
 
-// {width, height, flip_mean, ...}: what was asked for, null where a figure has no value (psnr of equal pictures,
-// everything about pictures with NaN).
+// {width, height, flip_mean, ...}: what was asked for, null where a figure has no value (psnr of equal
+// pictures, everything about pictures with NaN).
 std::string compare_json(const CompareOptions& options, const CompareFigures& figures);
 
 // Name and value for people to read, a figure a line.
-std::vector<std::pair<std::string, std::string>> figure_lines(const CompareOptions& options, const CompareFigures& figures);
+std::vector<std::pair<std::string, std::string>> figure_lines(const CompareOptions& options,
+                                                              const CompareFigures& figures);
 
 // An Error with ExitCode::differ that names the first limit that is passed.
 Status check_limits(const CompareOptions& options, const CompareFigures& figures);
 
 // A page that needs no other file and no network. REFERENCE, TEST and the error map side by side.
-Result<std::string> compare_page(const CompareOptions& options, const CompareFigures& figures, const Pictures& pictures);
+Result<std::string> compare_page(const CompareOptions& options, const CompareFigures& figures,
+                                 const Pictures& pictures);
 
 } // namespace burnish

@@ -13,7 +13,8 @@ namespace burnish {
 
 // What is asked for. FLIP's kind is chosen by the pictures where the user names none.
 struct Metrics {
-    bool flip = false, flip_hdr = false, mse = false, rel_mse = false, psnr = false, ssim = false, max = false;
+    bool flip = false, flip_hdr = false, mse = false, rel_mse = false, psnr = false, ssim = false,
+         max = false;
 };
 
 struct CompareOptions {

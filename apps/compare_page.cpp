@@ -1,4 +1,5 @@
-// The page of `burnish compare --html`: one file, pictures inside it, readable on a telephone and in the dark.
+// The page of `burnish compare --html`: one file, pictures inside it, readable on a telephone and in the
+// dark.
 #include <algorithm>
 #include <fmt/format.h>
 
@@ -83,10 +84,11 @@ Result<std::string> figure(const std::string& title, const std::string& caption,
     const Result<std::string> png = encode_png(image);
     if (!png)
         return png.error();
-    return fmt::format("<figure><img{} src=\"data:image/png;base64,{}\" width=\"{}\" height=\"{}\" alt=\"{}\">\n"
-                       "<figcaption><strong>{}</strong> {}</figcaption></figure>\n",
-                       image.width < 512 ? " class=\"small\"" : "", base64(*png), image.width, image.height, title, title,
-                       escaped(caption));
+    return fmt::format(
+        "<figure><img{} src=\"data:image/png;base64,{}\" width=\"{}\" height=\"{}\" alt=\"{}\">\n"
+        "<figcaption><strong>{}</strong> {}</figcaption></figure>\n",
+        image.width < 512 ? " class=\"small\"" : "", base64(*png), image.width, image.height, title, title,
+        escaped(caption));
 }
 
 // The colours of the map from 0 to 1, as a CSS gradient.
@@ -98,8 +100,8 @@ std::string scale_of_magma()
     const Image colours = magma_map(steps);
     std::string stops;
     for (std::size_t i = 0; i < colours.bytes.size(); i += 3)
-        stops += fmt::format(",rgb({},{},{})", static_cast<int>(colours.bytes[i]), static_cast<int>(colours.bytes[i + 1]),
-                             static_cast<int>(colours.bytes[i + 2]));
+        stops += fmt::format(",rgb({},{},{})", static_cast<int>(colours.bytes[i]),
+                             static_cast<int>(colours.bytes[i + 1]), static_cast<int>(colours.bytes[i + 2]));
     return fmt::format("<div class=\"scale\" style=\"background:linear-gradient(to right{})\"></div>"
                        "<div>Errors from 0 (left) to 1 (right)</div>\n",
                        stops);
@@ -107,21 +109,24 @@ std::string scale_of_magma()
 
 } // namespace
 
-Result<std::string> compare_page(const CompareOptions& options, const CompareFigures& figures, const Pictures& pictures)
+Result<std::string> compare_page(const CompareOptions& options, const CompareFigures& figures,
+                                 const Pictures& pictures)
 {
     const FlipExposures& range = figures.flip.exposures;
     const float middle = figures.asked.flip_hdr ? 0.5f * (range.start_ev + range.stop_ev) : 0.0f;
-    const std::string shown =
-        pictures.reference.type == PixelType::f32 ? fmt::format(" (shown at {:+.2f} EV)", middle) : std::string();
+    const std::string shown = pictures.reference.type == PixelType::f32
+                                  ? fmt::format(" (shown at {:+.2f} EV)", middle)
+                                  : std::string();
     const Result<std::string> parts[] = {
         figure("Reference", options.reference + shown, displayed(pictures.reference, middle)),
         figure("Test", options.test + shown, displayed(pictures.test, middle)),
         figure("Error", figures.asked.flip_hdr ? "HDR-FLIP" : "LDR-FLIP", magma_map(figures.flip.error))};
-    std::string page = fmt::format("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
-                                   "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
-                                   "<title>{0} - {1}</title>\n<style>{2}</style>\n</head>\n<body>\n<h1>{0} and {1}</h1>\n"
-                                   "<div class=\"pictures\">\n",
-                                   escaped(options.reference), escaped(options.test), kStyle);
+    std::string page =
+        fmt::format("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+                    "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
+                    "<title>{0} - {1}</title>\n<style>{2}</style>\n</head>\n<body>\n<h1>{0} and {1}</h1>\n"
+                    "<div class=\"pictures\">\n",
+                    escaped(options.reference), escaped(options.test), kStyle);
     for (const Result<std::string>& part : parts) {
         if (!part)
             return part.error();

@@ -1,6 +1,6 @@
 // How FLIP walks over a picture: tiles in parallel, each with a ring of rows that are filtered along x and
-// wait for the filters along y. A pixel's error depends on the pixels around it alone, so neither the order of
-// tiles nor the thread changes a bit.
+// wait for the filters along y. A pixel's error depends on the pixels around it alone, so neither the order
+// of tiles nor the thread changes a bit.
 #include "core/image/flip.h"
 
 #include <algorithm>
@@ -19,7 +19,7 @@ namespace {
 
 // A ring of 256 columns fits the L2 cache; its first rows are filtered twice, by the tile above too.
 constexpr int kTileWidth = 256, kTileHeight = 128; // pixels, a multiple of every lane count
-constexpr double kMostStops = 120.0;                // 2^120 is still a float
+constexpr double kMostStops = 120.0;               // 2^120 is still a float
 constexpr int kPad = 16;                           // floats that lanes may touch behind a row
 
 const FlipFns& lanes_of(int isa)
@@ -35,8 +35,8 @@ const FlipFns& lanes_for(const FlipOptions& options)
     return lanes_of(options.isa);
 }
 
-// Tone curves (c0 x^2 + c1 x + c2) / (c3 x^2 + c4 x + c5) of Andersson et al. 2021. ACES is Narkowicz's fit with
-// its exposure of 0.6 taken out; Reinhard is applied to the luminance.
+// Tone curves (c0 x^2 + c1 x + c2) / (c3 x^2 + c4 x + c5) of Andersson et al. 2021. ACES is Narkowicz's fit
+// with its exposure of 0.6 taken out; Reinhard is applied to the luminance.
 FlipTone tone_of(FlipTonemap tonemap)
 {
     FlipTone tone;
@@ -51,7 +51,9 @@ FlipTone tone_of(FlipTonemap tonemap)
 // The brightness that the curve takes to t: (c0 - t c3) x^2 + (c1 - t c4) x + (c2 - t c5) = 0, larger root.
 double inverse_tone(const FlipTone& tone, double t)
 {
-    const auto coefficient = [&](int i) { return static_cast<double>(tone.c[i]) - t * static_cast<double>(tone.c[i + 3]); };
+    const auto coefficient = [&](int i) {
+        return static_cast<double>(tone.c[i]) - t * static_cast<double>(tone.c[i + 3]);
+    };
     const double a = coefficient(0), b = coefficient(1), c = coefficient(2);
     if (a == 0.0)
         return -c / b;
@@ -99,7 +101,10 @@ class TileWorker {
         rows_.resize(static_cast<std::size_t>(slots_));
     }
 
-    float* slot(int y) { return ring_.data() + static_cast<std::size_t>(y % slots_) * 2 * kFlipPlanes * kStride; }
+    float* slot(int y)
+    {
+        return ring_.data() + static_cast<std::size_t>(y % slots_) * 2 * kFlipPlanes * kStride;
+    }
 
     void run_tone(const Pass& pass, const Tile& tile, const FlipTone& tone, int radius, bool keep_larger)
     {
@@ -112,14 +117,15 @@ class TileWorker {
             }
             for (int k = -radius; k <= radius; ++k)
                 rows_[static_cast<std::size_t>(k + radius)] = slot(std::clamp(y + k, 0, last_row));
-            float* to = pass.error.f32() + static_cast<std::size_t>(y) * static_cast<std::size_t>(pass.error.width) +
+            float* to = pass.error.f32() +
+                        static_cast<std::size_t>(y) * static_cast<std::size_t>(pass.error.width) +
                         static_cast<std::size_t>(tile.x0);
             pass.fns.finish(pass.kernels.lanes(), rows_.data(), radius, kStride, tile.width, keep_larger, to);
         }
     }
 
-    void filter_row(const Pass& pass, const Tile& tile, const FlipTone& tone, int radius, const LinearRows& from, int y,
-                    float* to)
+    void filter_row(const Pass& pass, const Tile& tile, const FlipTone& tone, int radius,
+                    const LinearRows& from, int y, float* to)
     {
         const int n = tile.width + 2 * radius;
         float *r = pixels_.data(), *g = r + row_stride_, *b = g + row_stride_;
@@ -134,8 +140,8 @@ class TileWorker {
     std::vector<const float*> rows_;
 };
 
-Image run_pass(const Image& reference, const Image& test, const FlipOptions& options, std::vector<FlipTone> tones,
-               const Jobs& jobs)
+Image run_pass(const Image& reference, const Image& test, const FlipOptions& options,
+               std::vector<FlipTone> tones, const Jobs& jobs)
 {
     BN_CHECK_OP(reference.width, ==, test.width);
     BN_CHECK_OP(reference.height, ==, test.height);
@@ -145,10 +151,13 @@ Image run_pass(const Image& reference, const Image& test, const FlipOptions& opt
     const LinearRows reference_rows(reference), test_rows(test);
     const Pass pass{reference_rows, test_rows, kernels, lanes_for(options), std::move(tones), error};
 
-    const int columns = (error.width + kTileWidth - 1) / kTileWidth, rows = (error.height + kTileHeight - 1) / kTileHeight;
+    const int columns = (error.width + kTileWidth - 1) / kTileWidth,
+              rows = (error.height + kTileHeight - 1) / kTileHeight;
     std::vector<TileWorker> workers(static_cast<std::size_t>(jobs.threads()));
-    jobs.parallel_for(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows), [&](std::size_t i, int worker) {
-        const int x0 = static_cast<int>(i) % columns * kTileWidth, y0 = static_cast<int>(i) / columns * kTileHeight;
+    jobs.parallel_for(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows), [&](std::size_t i,
+                                                                                              int worker) {
+        const int x0 = static_cast<int>(i) % columns * kTileWidth,
+                  y0 = static_cast<int>(i) / columns * kTileHeight;
         workers[static_cast<std::size_t>(worker)].run(
             pass, {x0, y0, std::min(kTileWidth, error.width - x0), std::min(kTileHeight, error.height - y0)});
     });
@@ -202,14 +211,17 @@ FlipExposures find_exposures(const Image& reference, const FlipOptions& options)
             stop = log2_of(target / static_cast<double>(*median));
         }
     }
-    const auto bounded = [](double ev) { return static_cast<float>(std::clamp(ev, -kMostStops, kMostStops)); };
+    const auto bounded = [](double ev) {
+        return static_cast<float>(std::clamp(ev, -kMostStops, kMostStops));
+    };
     range.start_ev = options.start_ev.value_or(bounded(start));
     range.stop_ev = options.stop_ev.value_or(bounded(stop));
     // Only one of them given may lie beyond the other.
     if (options.start_ev)
         range.stop_ev = std::max(range.start_ev, range.stop_ev);
     range.start_ev = std::min(range.start_ev, range.stop_ev);
-    const int stops = static_cast<int>(std::ceil(std::min(range.stop_ev - range.start_ev, static_cast<float>(kMaxFlipExposures))));
+    const int stops = static_cast<int>(
+        std::ceil(std::min(range.stop_ev - range.start_ev, static_cast<float>(kMaxFlipExposures))));
     range.count = options.exposures > 0 ? options.exposures : std::clamp(stops, 2, kMaxFlipExposures);
     return range;
 }

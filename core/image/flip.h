@@ -1,8 +1,8 @@
 // FLIP: how different two pictures look to someone who flips between them on a display, as one error in [0,1]
-// a pixel. LDR-FLIP: Andersson, Nilsson, Akenine-Moller, Oskarsson, Astrom, Fairchild 2020, "FLIP: A Difference
-// Evaluator for Alternating Images". HDR-FLIP: Andersson, Nilsson, Shirley, Akenine-Moller 2021, "Visualizing
-// Errors in Rendered High Dynamic Range Images".
-// The errors are the same bits for every number of threads and every instruction set.
+// a pixel. LDR-FLIP: Andersson, Nilsson, Akenine-Moller, Oskarsson, Astrom, Fairchild 2020, "FLIP: A
+// Difference Evaluator for Alternating Images". HDR-FLIP: Andersson, Nilsson, Shirley, Akenine-Moller 2021,
+// "Visualizing Errors in Rendered High Dynamic Range Images". The errors are the same bits for every number
+// of threads and every instruction set.
 #pragma once
 #include <optional>
 #include <string>

@@ -36,8 +36,8 @@ BN_INLINE real clamp01(real x)
     return clamp(x, lit(0.0), lit(1.0));
 }
 
-// Base-2 logarithm of x >= 2^-126: x = 2^n m with m in [sqrt(1/2), sqrt(2)], log2 m = 2/ln2 artanh((m-1)/(m+1))
-// by its series, cut off below 1e-8 relative.
+// Base-2 logarithm of x >= 2^-126: x = 2^n m with m in [sqrt(1/2), sqrt(2)], log2 m = 2/ln2
+// artanh((m-1)/(m+1)) by its series, cut off below 1e-8 relative.
 BN_INLINE real log2_of(real x)
 {
     const integer n = shr(bits_of(x) - int_lit(0x3f3504f3), 23); // bits of sqrt(1/2)
@@ -76,7 +76,8 @@ BN_INLINE real pow_of(real x, real y)
     return select(x > lit(0.0), power, lit(0.0));
 }
 
-// For x in [0.001, 10]: a third of the exponent bits, 4 % off, then Halley's iteration twice, 1e-5 and 1e-15 off.
+// For x in [0.001, 10]: a third of the exponent bits, 4 % off, then Halley's iteration twice, 1e-5 and 1e-15
+// off.
 BN_INLINE real cube_root(real x)
 {
     real root = real_from_bits(to_int(to_real(bits_of(x)) * lit(1.0 / 3.0)) + int_lit(709921077));
@@ -129,7 +130,8 @@ BN_INLINE real expose(real x, const FlipTone& tone)
 BN_INLINE real curve_of(real x, const float* c)
 {
     const real square = x * x;
-    return (square * splat(c[0]) + x * splat(c[1]) + splat(c[2])) / (square * splat(c[3]) + x * splat(c[4]) + splat(c[5]));
+    return (square * splat(c[0]) + x * splat(c[1]) + splat(c[2])) /
+           (square * splat(c[3]) + x * splat(c[4]) + splat(c[5]));
 }
 
 BN_INLINE Triple displayed(Triple rgb, const FlipTone& tone)
@@ -163,7 +165,8 @@ BN_INLINE real even_row(const float* at, const float* weights, int radius)
     return sum;
 }
 
-void filter(const FlipFilters& f, const float* y, const float* cx, const float* cz, int n, int stride, float* out)
+void filter(const FlipFilters& f, const float* y, const float* cx, const float* cz, int n, int stride,
+            float* out)
 {
     for (int i = 0; i < n; i += kLanes) {
         const real centre = load(y + i);
@@ -231,14 +234,16 @@ BN_INLINE Seen look(const FlipFilters& f, const float* const* middle, int stride
             sqrt(point_x * point_x + point_y * point_y)};
 }
 
-void finish(const FlipFilters& f, const float* const* rows, int radius, int stride, int n, bool keep_larger, float* error)
+void finish(const FlipFilters& f, const float* const* rows, int radius, int stride, int n, bool keep_larger,
+            float* error)
 {
     for (int i = 0; i < n; i += kLanes) {
         const Seen a = look(f, rows + radius, stride, i);
         const Seen b = look(f, rows + radius, stride, i + kFlipPlanes * stride);
         const real colour = colour_error(a.colour, b.colour, f.max_difference);
         // sqrt: the exponent qf = 0.5. 1/sqrt(2) scales to [0,1], 1/116 is the range of Y.
-        const real feature = sqrt(max(abs(a.edge - b.edge), abs(a.point - b.point)) * lit(0.70710678118654752 / 116.0));
+        const real feature =
+            sqrt(max(abs(a.edge - b.edge), abs(a.point - b.point)) * lit(0.70710678118654752 / 116.0));
         real flip = pow_of(colour, max(lit(1.0) - feature, lit(0.0)));
         if (keep_larger)
             flip = max(flip, load_first(error + i, n - i));

@@ -10,7 +10,8 @@
 namespace burnish {
 namespace {
 
-// Contrast sensitivity as Gaussians in degrees, a sqrt(pi/b) exp(-pi^2 x^2 / b): Andersson et al. 2020, table 1.
+// Contrast sensitivity as Gaussians in degrees, a sqrt(pi/b) exp(-pi^2 x^2 / b): Andersson et al. 2020,
+// table 1.
 struct Sensitivity {
     double a, b;
 };
@@ -75,7 +76,8 @@ Lab adjusted(double x, double y, double z)
 {
     const auto f = [](double t) {
         constexpr double kDelta = 6.0 / 29.0;
-        return t > kDelta * kDelta * kDelta ? det_pow(t, 1.0 / 3.0) : t / (3.0 * kDelta * kDelta) + 4.0 / 29.0;
+        return t > kDelta * kDelta * kDelta ? det_pow(t, 1.0 / 3.0)
+                                            : t / (3.0 * kDelta * kDelta) + 4.0 / 29.0;
     };
     const double l = 116.0 * f(y) - 16.0;
     return {l, 0.01 * l * 500.0 * (f(x) - f(y)), 0.01 * l * 200.0 * (f(y) - f(z))};
@@ -85,8 +87,10 @@ Lab adjusted(double x, double y, double z)
 double largest_difference()
 {
     const double white_x = 0.950428545, white_z = 1.088900371; // as in flip.isa.cpp
-    const Lab green = adjusted(8788810.0 / 24577794.0 / white_x, 8788810.0 / 12288897.0, 8788810.0 / 73733382.0 / white_z);
-    const Lab blue = adjusted(4435075.0 / 24577794.0 / white_x, 887015.0 / 12288897.0, 70074185.0 / 73733382.0 / white_z);
+    const Lab green =
+        adjusted(8788810.0 / 24577794.0 / white_x, 8788810.0 / 12288897.0, 8788810.0 / 73733382.0 / white_z);
+    const Lab blue =
+        adjusted(4435075.0 / 24577794.0 / white_x, 887015.0 / 12288897.0, 70074185.0 / 73733382.0 / white_z);
     const double a = green.a - blue.a, b = green.b - blue.b;
     return det_pow(std::fabs(green.l - blue.l) + std::sqrt(a * a + b * b), 0.7);
 }

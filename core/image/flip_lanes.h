@@ -8,10 +8,10 @@ namespace burnish {
 // Half kernels, [0] at the centre and [k] at distance k. All are even but `edge`, which is odd: +[k] at
 // x + k, -[k] at x - k. The kernel of Cz is a sum of two Gaussians, each of them separable.
 struct FlipFilters {
-    int y_radius = 0;      // of y, gauss, edge and point
+    int y_radius = 0; // of y, gauss, edge and point
     int cx_radius = 0, cz_radius = 0;
-    const float *y, *cx;   // contrast sensitivity: achromatic and red-green
-    const float *cz, *cz2; // blue-yellow: the two terms
+    const float *y, *cx;               // contrast sensitivity: achromatic and red-green
+    const float *cz, *cz2;             // blue-yellow: the two terms
     const float *gauss, *edge, *point; // features: Gaussian, its first and its second derivative
     float max_difference;              // the largest colour difference, to which errors are scaled
 };
@@ -21,8 +21,8 @@ enum FlipPlane { kFlipY, kFlipCx, kFlipCz, kFlipCz2, kFlipGauss, kFlipEdge, kFli
 
 struct FlipTone {
     enum Curve { none, rational, reinhard } curve = none;
-    float scale = 1.0f;  // 2^exposure
-    float c[6] = {};     // rational: (c0 x^2 + c1 x + c2) / (c3 x^2 + c4 x + c5)
+    float scale = 1.0f; // 2^exposure
+    float c[6] = {};    // rational: (c0 x^2 + c1 x + c2) / (c3 x^2 + c4 x + c5)
 };
 
 // Row buffers are readable and writable up to the next multiple of 16 floats.
@@ -31,12 +31,13 @@ struct FlipFns {
     void (*prepare)(const FlipTone& tone, int n, float* r, float* g, float* b);
     // Filters n values of a row along x. The inputs are readable for the radius on either side; plane i goes
     // to out + i * stride.
-    void (*filter)(const FlipFilters& filters, const float* y, const float* cx, const float* cz, int n, int stride,
-                   float* out);
-    // rows[radius + k], k in [-radius, radius]: filtered rows around the one to finish, planes of the reference,
-    // then of the test. Writes n errors, or with `keep_larger` the larger of those and what is there.
-    void (*finish)(const FlipFilters& filters, const float* const* rows, int radius, int stride, int n, bool keep_larger,
-                   float* error);
+    void (*filter)(const FlipFilters& filters, const float* y, const float* cx, const float* cz, int n,
+                   int stride, float* out);
+    // rows[radius + k], k in [-radius, radius]: filtered rows around the one to finish, planes of the
+    // reference, then of the test. Writes n errors, or with `keep_larger` the larger of those and what is
+    // there.
+    void (*finish)(const FlipFilters& filters, const float* const* rows, int radius, int stride, int n,
+                   bool keep_larger, float* error);
 };
 
 // One copy an instruction set; calls are qualified.

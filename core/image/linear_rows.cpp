@@ -20,7 +20,8 @@ template <class T> void LinearRows::read_as(int y, int x, int n, float* r, float
 {
     const int channels = image_.channels;
     const T* row = reinterpret_cast<const T*>(image_.bytes.data()) +
-                   static_cast<std::size_t>(y) * static_cast<std::size_t>(image_.width) * static_cast<std::size_t>(channels);
+                   static_cast<std::size_t>(y) * static_cast<std::size_t>(image_.width) *
+                       static_cast<std::size_t>(channels);
     const auto value = [this](T code) {
         if constexpr (sizeof(T) == sizeof(float))
             return code;
@@ -28,7 +29,8 @@ template <class T> void LinearRows::read_as(int y, int x, int n, float* r, float
             return decode_[code];
     };
     const int to_g = channels >= 3 ? 1 : 0, to_b = channels >= 3 ? 2 : 0;
-    const int begin = std::clamp(-x, 0, n - 1), end = std::clamp(image_.width - x, begin + 1, n); // inside the picture
+    const int begin = std::clamp(-x, 0, n - 1),
+              end = std::clamp(image_.width - x, begin + 1, n); // inside the picture
     const T* from = row + static_cast<std::size_t>(x + begin) * static_cast<std::size_t>(channels);
     for (int i = begin; i < end; ++i, from += channels) {
         r[i] = value(from[0]);

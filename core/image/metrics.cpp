@@ -63,8 +63,9 @@ std::uint64_t fixed_point(float error)
     return static_cast<std::uint64_t>(static_cast<double>(error) * 0x1p32 + 0.5);
 }
 
-// The smallest value for which the weights of all values up to it sum to more than `threshold`. Positive floats
-// are ordered as their bits are: a histogram of the upper half leads to the few values that are sorted.
+// The smallest value for which the weights of all values up to it sum to more than `threshold`. Positive
+// floats are ordered as their bits are: a histogram of the upper half leads to the few values that are
+// sorted.
 template <class Weight>
 float select_value(const std::vector<float>& values, std::uint64_t threshold, const Weight& weight)
 {
@@ -95,7 +96,9 @@ PixelFigures pixel_figures(const Image& reference, const Image& test, const Jobs
 {
     check_pair(reference, test);
     std::vector<RowSums> rows(static_cast<std::size_t>(reference.height));
-    jobs.parallel_for(rows.size(), [&](std::size_t y, int) { rows[y] = sums_of_row(reference, test, static_cast<int>(y)); });
+    jobs.parallel_for(rows.size(), [&](std::size_t y, int) {
+        rows[y] = sums_of_row(reference, test, static_cast<int>(y));
+    });
     RowSums all;
     for (const RowSums& row : rows) {
         all.square += row.square;
@@ -124,7 +127,8 @@ std::int64_t not_finite_pixels(const Image& reference, const Image& test)
     std::int64_t count = 0;
     const std::size_t channels = static_cast<std::size_t>(reference.channels);
     for (std::size_t i = 0; i < reference.bytes.size() / sizeof(float); i += channels)
-        if (!finite_pixel(reference.f32() + i, reference.channels) || !finite_pixel(test.f32() + i, test.channels))
+        if (!finite_pixel(reference.f32() + i, reference.channels) ||
+            !finite_pixel(test.f32() + i, test.channels))
             ++count;
     return count;
 }

@@ -43,13 +43,15 @@ Centres centres_of(int side)
 Line luminance_row(const Image& image, int y, std::vector<float>& scratch)
 {
     read_stored_row(image, y, scratch);
-    const std::size_t width = static_cast<std::size_t>(image.width), channels = static_cast<std::size_t>(image.channels);
+    const std::size_t width = static_cast<std::size_t>(image.width),
+                      channels = static_cast<std::size_t>(image.channels);
     Line line(width + 2 * kRadius); // with repeated edges
     for (std::size_t x = 0; x < width; ++x) {
         const float* v = scratch.data() + x * channels;
-        line[x + kRadius] = channels < 3 ? static_cast<double>(v[0])
-                                         : 0.2126 * static_cast<double>(v[0]) + 0.7152 * static_cast<double>(v[1]) +
-                                               0.0722 * static_cast<double>(v[2]);
+        line[x + kRadius] = channels < 3
+                                ? static_cast<double>(v[0])
+                                : 0.2126 * static_cast<double>(v[0]) + 0.7152 * static_cast<double>(v[1]) +
+                                      0.0722 * static_cast<double>(v[2]);
     }
     std::fill_n(line.begin(), kRadius, line[kRadius]);
     std::fill_n(line.end() - kRadius, kRadius, line[width + kRadius - 1]);
@@ -86,8 +88,8 @@ Moments moments_of_row(const Image& reference, const Image& test, int y, const W
 {
     std::vector<float> scratch;
     const Line a = luminance_row(reference, y, scratch), b = luminance_row(test, y, scratch);
-    return {{filtered(a, window), filtered(b, window), filtered(product(a, a), window), filtered(product(b, b), window),
-             filtered(product(a, b), window)}};
+    return {{filtered(a, window), filtered(b, window), filtered(product(a, a), window),
+             filtered(product(b, b), window), filtered(product(a, b), window)}};
 }
 
 // Wang et al. 2004, eq. 13; c1 = (K1 L)^2, c2 = (K2 L)^2.
@@ -103,7 +105,8 @@ double sum_of_row(const std::array<Line, 5>& m, Centres columns, double c1, doub
     return sum;
 }
 
-std::array<Line, 5> filter_columns(const std::vector<Moments>& rows, int first, int y, int height, const Window& window)
+std::array<Line, 5> filter_columns(const std::vector<Moments>& rows, int first, int y, int height,
+                                   const Window& window)
 {
     const auto row = [&](int at) -> const Moments& {
         return rows[static_cast<std::size_t>(std::clamp(at, 0, height - 1) - first)];
@@ -130,14 +133,16 @@ double ssim(const Image& reference, const Image& test, const Jobs& jobs)
     BN_CHECK_OP(reference.height, ==, test.height);
     BN_CHECK_OP(reference.channels, ==, test.channels);
     const Window window = make_window();
-    const double peak = peak_value(reference), c1 = 0.01 * peak * (0.01 * peak), c2 = 0.03 * peak * (0.03 * peak);
+    const double peak = peak_value(reference), c1 = 0.01 * peak * (0.01 * peak),
+                 c2 = 0.03 * peak * (0.03 * peak);
     const Centres rows = centres_of(reference.height), columns = centres_of(reference.width);
     const int strips = (rows.end - rows.begin + kStripHeight - 1) / kStripHeight;
     std::vector<double> sums(static_cast<std::size_t>(rows.end));
     jobs.parallel_for(static_cast<std::size_t>(strips), [&](std::size_t strip, int) {
         const int begin = rows.begin + static_cast<int>(strip) * kStripHeight;
         const int end = std::min(begin + kStripHeight, rows.end);
-        const int first = std::max(0, begin - kRadius), last = std::min(reference.height - 1, end - 1 + kRadius);
+        const int first = std::max(0, begin - kRadius),
+                  last = std::min(reference.height - 1, end - 1 + kRadius);
         std::vector<Moments> moments;
         for (int y = first; y <= last; ++y)
             moments.push_back(moments_of_row(reference, test, y, window));

@@ -10,7 +10,8 @@ namespace burnish {
 inline void read_stored_row(const Image& image, int y, std::vector<float>& values)
 {
     const std::size_t n = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.channels);
-    const std::byte* row = image.bytes.data() + static_cast<std::size_t>(y) * n * pixel_type_bytes(image.type);
+    const std::byte* row =
+        image.bytes.data() + static_cast<std::size_t>(y) * n * pixel_type_bytes(image.type);
     values.resize(n);
     for (std::size_t i = 0; i < n; ++i)
         if (image.type == PixelType::u8)

@@ -59,10 +59,11 @@ double sidak_limit(double significance, std::int64_t tests)
     return high;
 }
 
-ZTest z_test(const Image& reference, const Image& test, const Image& reference_variance, const Image* test_variance,
-             double significance, const Jobs& jobs)
+ZTest z_test(const Image& reference, const Image& test, const Image& reference_variance,
+             const Image* test_variance, double significance, const Jobs& jobs)
 {
-    const Image* const all[] = {&reference, &test, &reference_variance, test_variance ? test_variance : &reference};
+    const Image* const all[] = {&reference, &test, &reference_variance,
+                                test_variance ? test_variance : &reference};
     for (const Image* image : all) {
         BN_CHECK(image->type == PixelType::f32);
         BN_CHECK_OP(image->bytes.size(), ==, reference.bytes.size());

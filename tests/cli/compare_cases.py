@@ -3,11 +3,12 @@
 import base64
 import html.parser
 import json
+import os
 import re
 import struct
 import zlib
 
-from harness import Failed, case, check, scratch
+from harness import Failed, Skipped, case, check, scratch
 
 NAN, INF = float("nan"), float("inf")
 
@@ -266,6 +267,17 @@ def repeatable(bench):
         for pair in (("a.png", "b.png"), ("a.pfm", "b.pfm")):
             found.add(bench.run("compare", "-q", *pair, "--json", "-", env={"BN_FORCE_ISA": isa}).expect(0).out)
     check(len(found) == 2, f"{len(found)} different outputs of two comparisons")
+
+
+@case("compare.other_build_gives_the_same", "compilers")
+def other_build(bench):
+    if not os.path.exists(bench.compare_program):
+        raise Skipped(f"no program at {bench.compare_program}")
+    pictures(bench)
+    for pair in (("a.png", "b.png"), ("a.pfm", "b.pfm")):
+        found = {bench.run("compare", "-q", *pair, "--json", "-", program=program).expect(0).out
+                 for program in (bench.program, bench.compare_program)}
+        check(len(found) == 1, f"{pair}: {found}")
 
 
 @case("compare.wrong_options_say_one_line_and_exit_2")

@@ -15,7 +15,8 @@ struct Plane {
     std::vector<double> v;
     double at(int x, int y) const
     {
-        return v[static_cast<std::size_t>(std::clamp(y, 0, height - 1) * width + std::clamp(x, 0, width - 1))];
+        return v[static_cast<std::size_t>(std::clamp(y, 0, height - 1) * width +
+                                          std::clamp(x, 0, width - 1))];
     }
 };
 
@@ -116,7 +117,8 @@ Seen see(const Image& image)
 Vec filtered_lab(const Seen& seen, const std::array<Kernel, 3>& csf, int x, int y)
 {
     const double yy = (convolve(seen.ycxcz[0], csf[0], x, y) + 16) / 116;
-    const double cx = convolve(seen.ycxcz[1], csf[1], x, y) / 500, cz = convolve(seen.ycxcz[2], csf[2], x, y) / 200;
+    const double cx = convolve(seen.ycxcz[1], csf[1], x, y) / 500,
+                 cz = convolve(seen.ycxcz[2], csf[2], x, y) / 200;
     Vec rgb = rgb_of({(yy + cx) * kWhite[0], yy * kWhite[1], (yy - cz) * kWhite[2]});
     for (double& v : rgb)
         v = std::clamp(v, 0.0, 1.0);
@@ -129,12 +131,14 @@ std::vector<double> flip_by_definition(const Image& reference, const Image& test
 {
     const int radius = static_cast<int>(std::ceil(3 * std::sqrt(0.04 / (2 * kPiHere * kPiHere)) * ppd));
     const auto gaussian = [&](double a, double b, int x, int y) {
-        return a * kPiHere / b * std::exp(-kPiHere * kPiHere * (x * x + y * y) / (ppd * ppd) / b) / std::sqrt(kPiHere / b);
+        return a * kPiHere / b * std::exp(-kPiHere * kPiHere * (x * x + y * y) / (ppd * ppd) / b) /
+               std::sqrt(kPiHere / b);
     };
     const std::array<Kernel, 3> csf = {
         normalised(make_kernel(radius, [&](int x, int y) { return gaussian(1, 0.0047, x, y); })),
         normalised(make_kernel(radius, [&](int x, int y) { return gaussian(1, 0.0053, x, y); })),
-        normalised(make_kernel(radius, [&](int x, int y) { return gaussian(34.1, 0.04, x, y) + gaussian(13.5, 0.025, x, y); }))};
+        normalised(make_kernel(
+            radius, [&](int x, int y) { return gaussian(34.1, 0.04, x, y) + gaussian(13.5, 0.025, x, y); }))};
     const double sd = 0.5 * 0.082 * ppd;
     const int feature = static_cast<int>(std::ceil(3 * sd));
     const auto bell = [&](int x, int y) { return std::exp(-(x * x + y * y) / (2 * sd * sd)); };
@@ -155,8 +159,10 @@ std::vector<double> flip_by_definition(const Image& reference, const Image& test
             const auto strength = [&](const Plane& p, const Kernel& kx, const Kernel& ky) {
                 return std::hypot(convolve(p, kx, x, y), convolve(p, ky, x, y));
             };
-            const double edges = std::fabs(strength(a.luminance, edge_x, edge_y) - strength(b.luminance, edge_x, edge_y));
-            const double points = std::fabs(strength(a.luminance, point_x, point_y) - strength(b.luminance, point_x, point_y));
+            const double edges =
+                std::fabs(strength(a.luminance, edge_x, edge_y) - strength(b.luminance, edge_x, edge_y));
+            const double points =
+                std::fabs(strength(a.luminance, point_x, point_y) - strength(b.luminance, point_x, point_y));
             errors.push_back(std::pow(colour, 1 - std::sqrt(std::max(edges, points) / std::sqrt(2.0))));
         }
     return errors;

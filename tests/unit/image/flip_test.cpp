@@ -113,7 +113,8 @@ TEST(flip, every_pixel_follows_the_definition)
 {
     const Jobs jobs;
     // More than one tile in both directions, at two viewing distances.
-    for (const auto& [width, height, ppd] : {std::tuple{262, 132, 30.0f}, {41, 37, kDefaultPpd}, {17, 1, 50.0f}}) {
+    for (const auto& [width, height, ppd] :
+         {std::tuple{262, 132, 30.0f}, {41, 37, kDefaultPpd}, {17, 1, 50.0f}}) {
         const Image a = scenery(width, height, 1, 0.9f), b = scenery(width, height, 2, 0.7f);
         FlipOptions options;
         options.ppd = ppd;
@@ -121,7 +122,8 @@ TEST(flip, every_pixel_follows_the_definition)
         const std::vector<double> expected = test::flip_by_definition(a, b, static_cast<double>(ppd));
         ASSERT_EQ(error.bytes.size() / 4, expected.size());
         for (std::size_t i = 0; i < expected.size(); ++i)
-            ASSERT_NEAR(static_cast<double>(error.f32()[i]), expected[i], 2e-5) << width << "x" << height << " pixel " << i;
+            ASSERT_NEAR(static_cast<double>(error.f32()[i]), expected[i], 2e-5)
+                << width << "x" << height << " pixel " << i;
     }
 }
 
@@ -149,10 +151,12 @@ TEST(flip, uniform_grays_differ_by_their_lightness)
     const Jobs jobs;
     const auto lightness = [](double y) { return 116 * std::cbrt(y) - 16; };
     const Image a = uniform(30, 30, 0.5f, 0.5f, 0.5f), b = uniform(30, 30, 0.3f, 0.3f, 0.3f);
-    // L*a*b* of sRGB's green is 87.73, -86.18, 83.18, of its blue 32.30, 79.19, -107.86; Hunt: a and b times L/100.
+    // L*a*b* of sRGB's green is 87.73, -86.18, 83.18, of its blue 32.30, 79.19, -107.86; Hunt: a and b times
+    // L/100.
     const double da = -86.18 * 0.8773 - 79.19 * 0.3230, db = 83.18 * 0.8773 + 107.86 * 0.3230;
     const double knee = 0.4 * std::pow(87.73 - 32.30 + std::hypot(da, db), 0.7);
-    EXPECT_NEAR(mean_of(flip_ldr(a, b, {}, jobs)), std::pow(lightness(0.5) - lightness(0.3), 0.7) * 0.95 / knee, 1e-3);
+    EXPECT_NEAR(mean_of(flip_ldr(a, b, {}, jobs)),
+                std::pow(lightness(0.5) - lightness(0.3), 0.7) * 0.95 / knee, 1e-3);
 }
 
 TEST(flip, error_grows_with_the_difference)
@@ -192,8 +196,10 @@ TEST(flip, the_same_bits_for_every_thread_count_and_instruction_set)
         options.isa = isa;
         for (const int threads : {1, 2, 5}) {
             const Jobs jobs(threads);
-            EXPECT_EQ(flip_ldr(a, b, options, jobs).error.bytes, ldr.bytes) << "isa " << isa << ", threads " << threads;
-            EXPECT_EQ(flip_hdr(c, d, options, jobs).error.bytes, hdr.bytes) << "isa " << isa << ", threads " << threads;
+            EXPECT_EQ(flip_ldr(a, b, options, jobs).error.bytes, ldr.bytes)
+                << "isa " << isa << ", threads " << threads;
+            EXPECT_EQ(flip_hdr(c, d, options, jobs).error.bytes, hdr.bytes)
+                << "isa " << isa << ", threads " << threads;
         }
     }
 }
@@ -331,7 +337,8 @@ TEST(flip_exposures, given_ones_are_taken)
 TEST(flip_hdr, brightness_of_both_pictures_does_not_matter)
 {
     const Jobs jobs;
-    const Image a = scenery(50, 50, 14), b = scenery(50, 50, 15), c = scenery(50, 50, 14, 4.0f), d = scenery(50, 50, 15, 4.0f);
+    const Image a = scenery(50, 50, 14), b = scenery(50, 50, 15), c = scenery(50, 50, 14, 4.0f),
+                d = scenery(50, 50, 15, 4.0f);
     const FlipResult one = flip_hdr(a, b, {}, jobs), other = flip_hdr(c, d, {}, jobs);
     EXPECT_NEAR(other.exposures.start_ev, one.exposures.start_ev - 2.0f, 1e-5f);
     EXPECT_NEAR(mean_of(one), mean_of(other), 1e-5);

@@ -24,7 +24,8 @@ Image floats(int width, int height, int channels, const std::vector<float>& valu
 Image bytes(int width, int height, int channels, const std::vector<int>& values)
 {
     Image image = make_image(width, height, channels, PixelType::u8);
-    std::transform(values.begin(), values.end(), image.bytes.begin(), [](int v) { return static_cast<std::byte>(v); });
+    std::transform(values.begin(), values.end(), image.bytes.begin(),
+                   [](int v) { return static_cast<std::byte>(v); });
     return image;
 }
 
@@ -81,7 +82,8 @@ TEST(metrics, display_values_are_in_zero_to_one)
     EXPECT_EQ(figures.differing_fraction, 0.25);
     Image wide = make_image(2, 2, 1, PixelType::u16);
     for (std::size_t i = 0; i < 4; ++i)
-        reinterpret_cast<std::uint16_t*>(wide.bytes.data())[i] = static_cast<std::uint16_t>(static_cast<int>(b.bytes[i]) * 257);
+        reinterpret_cast<std::uint16_t*>(wide.bytes.data())[i] =
+            static_cast<std::uint16_t>(static_cast<int>(b.bytes[i]) * 257);
     EXPECT_EQ(pixel_figures(a, wide, jobs).mse, figures.mse);
 }
 
@@ -110,7 +112,9 @@ TEST(metrics, not_finite_pixels_are_counted_once)
     const Image clean = floats(3, 1, 2, {1, 2, 3, 4, 5, 6});
     EXPECT_EQ(not_finite_pixels(clean, clean), 0);
     EXPECT_EQ(not_finite_pixels(clean, floats(3, 1, 2, {kNan, kInf, 3, 4, 5, -kInf})), 2);
-    EXPECT_EQ(not_finite_pixels(floats(3, 1, 2, {kNan, 2, 3, 4, 5, 6}), floats(3, 1, 2, {kNan, 2, 3, kInf, 5, 6})), 2);
+    EXPECT_EQ(
+        not_finite_pixels(floats(3, 1, 2, {kNan, 2, 3, 4, 5, 6}), floats(3, 1, 2, {kNan, 2, 3, kInf, 5, 6})),
+        2);
     EXPECT_EQ(not_finite_pixels(bytes(1, 1, 1, {255}), bytes(1, 1, 1, {0})), 0);
 }
 
@@ -118,7 +122,8 @@ TEST(metrics, not_finite_pixels_are_counted_once)
 TEST(ssim, uniform_pictures)
 {
     const Jobs jobs;
-    const Image a = floats(16, 16, 1, std::vector<float>(256, 0.5f)), b = floats(16, 16, 1, std::vector<float>(256, 0.25f));
+    const Image a = floats(16, 16, 1, std::vector<float>(256, 0.5f)),
+                b = floats(16, 16, 1, std::vector<float>(256, 0.25f));
     const double c1 = 0.01 * 0.5 * 0.01 * 0.5; // peak 0.5
     EXPECT_NEAR(ssim(a, b, jobs), (2 * 0.5 * 0.25 + c1) / (0.25 + 0.0625 + c1), 1e-9);
 }
@@ -142,11 +147,13 @@ double ssim_by_definition(const Image& a, const Image& b, int margin)
             double weights = 0, ma = 0, mb = 0, aa = 0, bb = 0, ab = 0;
             for (int j = -5; j <= 5; ++j)
                 for (int i = -5; i <= 5; ++i) {
-                    const double w = std::exp(-(i * i + j * j) / (2 * 1.5 * 1.5)), p = at(a, x + i, y + j), q = at(b, x + i, y + j);
+                    const double w = std::exp(-(i * i + j * j) / (2 * 1.5 * 1.5)), p = at(a, x + i, y + j),
+                                 q = at(b, x + i, y + j);
                     weights += w, ma += w * p, mb += w * q, aa += w * p * p, bb += w * q * q, ab += w * p * q;
                 }
             ma /= weights, mb /= weights;
-            const double va = aa / weights - ma * ma, vb = bb / weights - mb * mb, cov = ab / weights - ma * mb;
+            const double va = aa / weights - ma * ma, vb = bb / weights - mb * mb,
+                         cov = ab / weights - ma * mb;
             sum += (2 * ma * mb + c1) * (2 * cov + c2) / ((ma * ma + mb * mb + c1) * (va + vb + c2));
         }
     return sum / windows;
@@ -214,7 +221,8 @@ TEST(errors, percentiles_are_those_of_the_sorted_list)
             values.push_back(static_cast<float>(std::pow(static_cast<double>(random()) / 4294967296.0, 6.0)));
         const ErrorSummary summary = summarise_errors(floats(n, 1, 1, values));
         std::sort(values.begin(), values.end());
-        const std::size_t rank = static_cast<std::size_t>((99 * n + 99) / 100); // nearest rank, counted from 1
+        const std::size_t rank =
+            static_cast<std::size_t>((99 * n + 99) / 100); // nearest rank, counted from 1
         EXPECT_EQ(summary.p99, static_cast<double>(values[rank - 1])) << n;
         double sum = 0, part = 0;
         for (const float v : values)
@@ -240,7 +248,8 @@ TEST(errors, without_any)
 TEST(magma, ends_and_middle)
 {
     const Image colours = magma_map(floats(6, 1, 1, {0, 128.0f / 255.0f, 1, -1, 2, kNan}));
-    const std::vector<std::vector<int>> expected = {{0, 0, 4}, {0xb7, 0x37, 0x79}, {0xfc, 0xfd, 0xbf}, {0, 0, 4}, {0xfc, 0xfd, 0xbf}, {0, 0, 4}};
+    const std::vector<std::vector<int>> expected = {{0, 0, 4}, {0xb7, 0x37, 0x79}, {0xfc, 0xfd, 0xbf},
+                                                    {0, 0, 4}, {0xfc, 0xfd, 0xbf}, {0, 0, 4}};
     for (std::size_t i = 0; i < expected.size(); ++i)
         for (std::size_t c = 0; c < 3; ++c)
             EXPECT_EQ(static_cast<int>(colours.bytes[3 * i + c]), expected[i][c]) << i;
@@ -252,7 +261,9 @@ TEST(magma, every_step_is_lighter_and_small)
     for (int i = 0; i < 256; ++i)
         ramp.f32()[i] = static_cast<float>(i) / 255.0f;
     const Image colours = magma_map(ramp);
-    const auto channel = [&](std::size_t i, std::size_t c) { return static_cast<int>(colours.bytes[3 * i + c]); };
+    const auto channel = [&](std::size_t i, std::size_t c) {
+        return static_cast<int>(colours.bytes[3 * i + c]);
+    };
     for (std::size_t i = 1; i < 256; ++i) {
         int lighter = 0;
         for (std::size_t c = 0; c < 3; ++c) {

@@ -64,7 +64,8 @@ TEST(z_test, a_difference_without_variance_is_rejected)
 
 TEST(z_test, variances_of_both_pictures_add)
 {
-    const Image a = filled(2, 2, 1, 0.0f), b = filled(2, 2, 1, 5.0f), one = filled(2, 2, 1, 1.0f), three = filled(2, 2, 1, 3.0f);
+    const Image a = filled(2, 2, 1, 0.0f), b = filled(2, 2, 1, 5.0f), one = filled(2, 2, 1, 1.0f),
+                three = filled(2, 2, 1, 3.0f);
     EXPECT_DOUBLE_EQ(z_test(a, b, one, nullptr, 0.01, Jobs(1)).largest, 5.0);
     const ZTest both = z_test(a, b, one, &three, 0.01, Jobs(1));
     EXPECT_DOUBLE_EQ(both.largest, 2.5);
@@ -87,7 +88,8 @@ TEST(z_test, alpha_is_not_tested)
     EXPECT_EQ(z_test(a, b, filled(2, 1, 4, 1e-6f), nullptr, 0.01, Jobs(1)).rejected, 0);
 }
 
-// Of 40 pairs of pictures that are equal up to their noise, 1 % is told apart; of pictures one deviation apart, all.
+// Of 40 pairs of pictures that are equal up to their noise, 1 % is told apart; of pictures one deviation
+// apart, all.
 TEST(z_test, noise_passes_and_bias_does_not)
 {
     const Image variance = filled(64, 64, 3, 0.01f); // deviation 0.1
@@ -97,14 +99,17 @@ TEST(z_test, noise_passes_and_bias_does_not)
         told_apart += z_test(a, b, variance, &variance, 0.01, Jobs(1)).rejected > 0 ? 1 : 0;
     }
     EXPECT_LE(told_apart, 3); // more has a probability of 1e-4
-    const ZTest biased = z_test(noisy(64, 64, 0.5f, 0.1f, 100), noisy(64, 64, 0.8f, 0.1f, 101), variance, &variance, 0.01, Jobs(1));
+    const ZTest biased = z_test(noisy(64, 64, 0.5f, 0.1f, 100), noisy(64, 64, 0.8f, 0.1f, 101), variance,
+                                &variance, 0.01, Jobs(1));
     EXPECT_GT(biased.rejected, 0);
 }
 
 TEST(z_test, the_same_bits_for_every_thread_count)
 {
-    const Image a = noisy(50, 70, 0.5f, 0.1f, 1), b = noisy(50, 70, 0.9f, 0.1f, 2), variance = filled(50, 70, 3, 0.01f);
-    const ZTest one = z_test(a, b, variance, nullptr, 0.01, Jobs(1)), many = z_test(a, b, variance, nullptr, 0.01, Jobs(4));
+    const Image a = noisy(50, 70, 0.5f, 0.1f, 1), b = noisy(50, 70, 0.9f, 0.1f, 2),
+                variance = filled(50, 70, 3, 0.01f);
+    const ZTest one = z_test(a, b, variance, nullptr, 0.01, Jobs(1)),
+                many = z_test(a, b, variance, nullptr, 0.01, Jobs(4));
     EXPECT_EQ(one.largest, many.largest);
     EXPECT_EQ(one.rejected, many.rejected);
     EXPECT_GT(one.rejected, 0);
