@@ -333,6 +333,16 @@ TEST(flip_exposures, given_ones_are_taken)
     EXPECT_EQ(find_exposures(image, options).stop_ev, 50.0f);
 }
 
+// The largest exposure is still a finite factor: infinity times black would be no number.
+TEST(flip_exposures, black_stays_black_among_the_faintest_light)
+{
+    const Jobs jobs;
+    Image a = uniform(12, 12, 1e-44f, 1e-44f, 1e-44f), b = a;
+    for (std::size_t i = 0; i < 3 * 72; ++i)
+        a.f32()[i] = 0.0f, b.f32()[i] = 1.0f;
+    EXPECT_GT(largest_of(flip_hdr(a, b, {}, jobs)), 0.5);
+}
+
 // The range follows the brightness, so twice the light in both pictures is the same difference.
 TEST(flip_hdr, brightness_of_both_pictures_does_not_matter)
 {

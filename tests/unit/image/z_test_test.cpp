@@ -48,6 +48,7 @@ TEST(z_test, equal_pictures_pass_even_without_variance)
 {
     const Image a = filled(4, 4, 3, 1.0f), none = filled(4, 4, 3, 0.0f);
     const ZTest result = z_test(a, a, none, nullptr, 0.01, Jobs(1));
+    EXPECT_EQ(result.limit, sidak_limit(0.01, 4 * 4 * 3)); // a test for each channel
     EXPECT_EQ(result.largest, 0.0);
     EXPECT_EQ(result.rejected, 0);
 }
@@ -69,6 +70,7 @@ TEST(z_test, variances_of_both_pictures_add)
     EXPECT_DOUBLE_EQ(z_test(a, b, one, nullptr, 0.01, Jobs(1)).largest, 5.0);
     const ZTest both = z_test(a, b, one, &three, 0.01, Jobs(1));
     EXPECT_DOUBLE_EQ(both.largest, 2.5);
+    EXPECT_EQ(both.limit, sidak_limit(0.01, 4));
     EXPECT_EQ(both.rejected, 0); // the limit of four tests is 3.02
     EXPECT_EQ(z_test(a, b, one, nullptr, 0.01, Jobs(1)).rejected, 4);
 }
