@@ -20,11 +20,12 @@ constexpr int kInternalError = static_cast<int>(ExitCode::internal);
 constexpr const char* kFooter = R"(Examples:
   burnish render                                     the built-in teapot, figures only
   burnish render lamp.glb --env workshop.hdr -o lamp.png -o lamp.exr
+  burnish compare reference.png test.png --html report.html
   burnish list techniques
   burnish info --json
 
-Exit codes: 0 done, 1 results differ, 2 wrong option, 4 bad input, 6 NaN or Inf in the picture, 7 output not written,
-70 a fault of the program, 77 not available on this machine.)";
+Exit codes: 0 done, 1 results differ, 2 wrong option, 3 sizes do not match, 4 bad input, 6 NaN or Inf in a
+picture, 7 output not written, 70 a fault of the program, 77 not available on this machine.)";
 
 // What the user was asking about, for the hint behind a usage error.
 std::string help_command(const std::vector<Command>& commands)

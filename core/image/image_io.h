@@ -28,6 +28,9 @@ Result<Image> decode_image(const std::uint8_t* data, std::size_t size, const std
 // and the Error has ExitCode::output_failed.
 Status write_image(const std::string& path, const Image& image);
 
+// An 8-bit picture as the bytes of a PNG file, for pages that carry their pictures.
+Result<std::string> encode_png(const Image& image);
+
 // True where the extension of `path` names a format that stores floats (exr, hdr, pfm).
 bool stores_floats(const std::string& path);
 

@@ -174,6 +174,19 @@ Status write_image(const std::string& path, const Image& image)
     }
 }
 
+Result<std::string> encode_png(const Image& image)
+{
+    BN_CHECK(image.type == PixelType::u8 && !image.empty());
+    try {
+        const Result<Bytes> bytes = encode_image("picture.png", image, format_of("picture.png"));
+        if (!bytes)
+            return bytes.error();
+        return std::string(bytes->begin(), bytes->end());
+    } catch (const std::exception& exception) {
+        return output_error("picture.png", "the image cannot be encoded: " + first_line(exception.what()));
+    }
+}
+
 Status write_file(const std::string& path, const std::string& bytes)
 {
     return write_file_atomic(path, bytes.data(), bytes.size());

@@ -3,6 +3,7 @@
 import argparse
 import sys
 
+import compare_cases
 import harness
 import input_cases
 import limit_cases

@@ -8,7 +8,7 @@ from harness import SMALL, Skipped, case, check
 
 @case("usage.help_is_everywhere")
 def help_is_everywhere(bench):
-    for words in ((), ("render",), ("list",), ("info",)):
+    for words in ((), ("render",), ("compare",), ("list",), ("info",)):
         done = bench.run(*words, "--help").expect(0)
         check("Examples:" in done.out and "Usage: burnish" in done.out, f"help without examples\n{done.describe()}")
         check(done.err == "", f"help belongs on standard output\n{done.describe()}")

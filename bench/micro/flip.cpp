@@ -1,0 +1,68 @@
+// Image metrics on a pair of 3840 x 2160 pictures of 8 bits.
+#include <benchmark/benchmark.h>
+#include <random>
+
+#include "core/image/flip.h"
+#include "core/image/metrics.h"
+
+namespace burnish {
+namespace {
+
+constexpr int kWidth = 3840, kHeight = 2160;
+
+Image noise(unsigned seed, PixelType type)
+{
+    std::mt19937 random(seed);
+    Image image = make_image(kWidth, kHeight, 3, type);
+    if (type == PixelType::u8)
+        for (std::byte& b : image.bytes)
+            b = static_cast<std::byte>(random() >> 24);
+    else
+        for (std::size_t i = 0; i < image.bytes.size() / sizeof(float); ++i)
+            image.f32()[i] = static_cast<float>(random() >> 16) * 1e-3f;
+    return image;
+}
+
+// Arguments: instruction set (0 scalar, 1 AVX2, 2 AVX-512), threads (0: all cores).
+void flip_ldr_4k(benchmark::State& state)
+{
+    FlipOptions options;
+    options.isa = static_cast<int>(state.range(0));
+    if (!flip_isa_available(options.isa))
+        return state.SkipWithError("this processor cannot run it");
+    const Image reference = noise(1, PixelType::u8), test = noise(2, PixelType::u8);
+    const Jobs jobs(static_cast<int>(state.range(1)));
+    for (auto _ : state)
+        benchmark::DoNotOptimize(flip_ldr(reference, test, options, jobs).error.bytes.data());
+}
+BENCHMARK(flip_ldr_4k)
+    ->ArgsProduct({{0, 1, 2}, {1, 0}})
+    ->Unit(benchmark::kMillisecond)
+    ->MeasureProcessCPUTime()
+    ->UseRealTime();
+
+// Eight exposures.
+void flip_hdr_4k(benchmark::State& state)
+{
+    FlipOptions options;
+    options.exposures = 8;
+    const Image reference = noise(1, PixelType::f32), test = noise(2, PixelType::f32);
+    const Jobs jobs(static_cast<int>(state.range(0)));
+    for (auto _ : state)
+        benchmark::DoNotOptimize(flip_hdr(reference, test, options, jobs).error.bytes.data());
+}
+BENCHMARK(flip_hdr_4k)->Arg(0)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime();
+
+void figures_4k(benchmark::State& state)
+{
+    const Image reference = noise(1, PixelType::u8), test = noise(2, PixelType::u8);
+    const Jobs jobs(static_cast<int>(state.range(0)));
+    for (auto _ : state) {
+        benchmark::DoNotOptimize(pixel_figures(reference, test, jobs));
+        benchmark::DoNotOptimize(ssim(reference, test, jobs));
+    }
+}
+BENCHMARK(figures_4k)->Arg(0)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime();
+
+} // namespace
+} // namespace burnish

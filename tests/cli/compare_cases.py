@@ -1,0 +1,334 @@
+"""burnish compare: figures, outputs, limits, and an exit code for each way to fail."""
+
+import base64
+import html.parser
+import json
+import os
+import re
+import struct
+import zlib
+
+from harness import Failed, Skipped, case, check, scratch
+
+NAN, INF = float("nan"), float("inf")
+
+
+def png(width, height, pixel, channels=3, bits=8):
+    """pixel(x, y) gives the channels."""
+    form = ">%dB" if bits == 8 else ">%dH"
+    rows = b"".join(b"\0" + struct.pack(form % (width * channels), *(v for x in range(width) for v in pixel(x, y)))
+                    for y in range(height))
+
+    def chunk(kind, data):
+        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+
+    kinds = {1: 0, 2: 4, 3: 2, 4: 6}
+    header = struct.pack(">IIBBBBB", width, height, bits, kinds[channels], 0, 0, 0)
+    return b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b"")
+
+
+def pfm(width, height, pixel):
+    """RGB floats; the format begins with the bottom row."""
+    values = [v for y in reversed(range(height)) for x in range(width) for v in pixel(x, y)]
+    return b"PF\n%d %d\n-1.0\n" % (width, height) + struct.pack("<%df" % len(values), *values)
+
+
+def ramp(x, y):
+    return (8 * x % 256, 8 * y % 256, 128)
+
+
+def bright(x, y):
+    return (0.1 * x, 0.2 * y, 1.0)
+
+
+def pictures(bench):
+    """Pairs of small pictures: 8 bits, and floats."""
+    scratch(bench, "a.png", png(24, 16, ramp))
+    scratch(bench, "b.png", png(24, 16, lambda x, y: (8 * x % 256, 8 * y % 256, 128 if x or y else 153)))
+    scratch(bench, "a.pfm", pfm(24, 16, bright))
+    scratch(bench, "b.pfm", pfm(24, 16, lambda x, y: (0.1 * x, 0.2 * y, 1.5 if x < 6 else 1.0)))
+
+
+def figures(bench, *words, code=0):
+    done = bench.run("compare", *words, "--json", "-").expect(code)
+    try:
+        return json.loads(done.out)
+    except ValueError as error:
+        raise Failed(f"--json - is not JSON: {error}\n{done.describe()}") from error
+
+
+ALL = ("width", "height", "flip_mean", "flip_p99", "flip_weighted_median", "flip_max", "mse", "rel_mse", "psnr", "ssim", "max_abs",
+       "differing_fraction", "nan_pixels")
+
+
+@case("compare.equal_pictures_pass", "program", "input")
+def equal(bench):
+    pictures(bench)
+    for name in ("a.png", "a.pfm"):
+        limits = ("--fail-flip", "0", "--fail-max", "0", "--fail-fraction", "0")
+        found = figures(bench, name, name, *limits)
+        for key in ALL:
+            check(key in found, f"{key} is missing: {found}")
+        zero = ("flip_mean", "flip_p99", "flip_weighted_median", "flip_max", "mse", "rel_mse", "max_abs", "differing_fraction", "nan_pixels")
+        check(all(found[key] == 0 for key in zero), f"equal pictures differ: {found}")
+        check((found["width"], found["height"], found["ssim"], found["psnr"]) == (24, 16, 1.0, None), f"{found}")
+
+
+@case("compare.known_pictures")
+def known(bench):
+    """Means of the FLIP authors' own program; see SOURCES.md beside the pictures."""
+    folder = bench.shared("flip")
+    for one, other, mean in (("ldr_ref.png", "ldr_blur.png", 0.098760), ("ldr_ref.png", "ldr_tint.png", 0.263008),
+                             ("hdr_ref.exr", "hdr_blur.exr", 0.125888)):
+        found = figures(bench, folder / one, folder / other)
+        check(abs(found["flip_mean"] - mean) < 1e-4, f"{other}: {found['flip_mean']} instead of {mean}")
+    check(found["flip_kind"] == "flip-hdr" and found["exposures"] == 8, f"{found}")
+    check(abs(found["start_exposure"] + 3.5562) < 1e-3, f"{found}")
+
+
+@case("compare.only_what_was_asked_for")
+def asked(bench):
+    pictures(bench)
+    found = figures(bench, "a.png", "b.png", "--metric", "mse,max")
+    check(sorted(found) == ["differing_fraction", "height", "max_abs", "mse", "nan_pixels", "width"], f"{found}")
+    check(abs(found["max_abs"] - 25 / 255) < 1e-6, f"{found}")
+    check(abs(found["mse"] - (25 / 255) ** 2 / (24 * 16 * 3)) < 1e-9, f"{found}")
+    check(found["differing_fraction"] == 1 / (24 * 16), f"{found}")
+    found = figures(bench, "a.pfm", "b.pfm", "--metric", "flip")
+    check(found["flip_kind"] == "flip" and "mse" not in found and "exposures" not in found, f"{found}")
+    found = figures(bench, "a.pfm", "b.pfm", "--metric", "rel-mse,psnr,ssim")
+    check(sorted(found) == ["height", "nan_pixels", "psnr", "rel_mse", "ssim", "width"], f"{found}")
+
+
+@case("compare.kind_follows_the_pictures")
+def kind(bench):
+    pictures(bench)
+    check(figures(bench, "a.png", "b.png")["flip_kind"] == "flip", "8 bits are for LDR-FLIP")
+    check(figures(bench, "a.pfm", "b.pfm")["flip_kind"] == "flip-hdr", "floats are for HDR-FLIP")
+    scratch(bench, "wide.png", png(24, 16, lambda x, y: tuple(257 * v for v in ramp(x, y)), bits=16))
+    check(figures(bench, "a.png", "wide.png")["differing_fraction"] == 0, "16 bits of the same values are the same")
+
+
+@case("compare.flip_options_count")
+def flip_options(bench):
+    pictures(bench)
+    near = figures(bench, "a.png", "b.png", "--ppd", "20")["flip_max"]
+    far = figures(bench, "a.png", "b.png", "--ppd", "200")["flip_max"]
+    check(near > far > 0, f"one pixel is seen better from near: {near}, {far}")
+    given = figures(bench, "a.pfm", "b.pfm", "--start-exposure", "-1", "--stop-exposure", "2.5", "--exposures", "3")
+    check((given["start_exposure"], given["stop_exposure"], given["exposures"]) == (-1, 2.5, 3), f"{given}")
+    means = {tone: figures(bench, "a.pfm", "b.pfm", "--tonemapper", tone)["flip_mean"] for tone in ("aces", "reinhard", "hable")}
+    check(len(set(means.values())) == 3, f"{means}")
+    check(means["aces"] == figures(bench, "a.pfm", "b.pfm")["flip_mean"], "aces is the default")
+
+
+@case("compare.limits_decide_the_exit_code")
+def limits(bench):
+    pictures(bench)
+    found = figures(bench, "a.png", "b.png")
+    for option, key in (("--fail-flip", "flip_mean"), ("--fail-max", "max_abs"), ("--fail-fraction", "differing_fraction")):
+        bench.run("compare", "-q", "a.png", "b.png", option, repr(found[key])).expect(0)
+        done = bench.run("compare", "-q", "a.png", "b.png", option, repr(found[key] * 0.99)).expect(1)
+        done.expect_one_line("b.png", option)
+        # A limit computes the figure that it needs.
+        bench.run("compare", "-q", "a.png", "b.png", "--metric", "mse", option, "0").expect(1)
+    bench.run("compare", "-q", "a.png", "b.png").expect(0)  # nothing was to fail
+    check(figures(bench, "a.png", "b.png", "--fail-flip", "0", code=1)["flip_mean"] > 0, "a failing run writes its figures too")
+
+
+@case("compare.sizes_and_channels_must_match", "program", "input")
+def mismatch(bench):
+    pictures(bench)
+    scratch(bench, "narrow.png", png(23, 16, ramp))
+    scratch(bench, "low.png", png(24, 15, ramp))
+    scratch(bench, "alpha.png", png(24, 16, lambda x, y: (*ramp(x, y), 255), channels=4))
+    scratch(bench, "gray.png", png(24, 16, lambda x, y: (x,), channels=1))
+    for name in ("narrow.png", "low.png", "alpha.png", "gray.png", "a.pfm"):
+        for pair in (("a.png", name), (name, "a.png")):
+            bench.run("compare", *pair, "--json", "j.json").expect(3).expect_one_line(*pair)
+    check(not (bench.folder / "j.json").exists(), "figures of pictures that cannot be compared")
+
+
+@case("compare.unreadable_pictures", "program", "input")
+def unreadable(bench):
+    pictures(bench)
+    scratch(bench, "text.png", b"no picture at all")
+    scratch(bench, "cut.png", (bench.folder / "a.png").read_bytes()[:60])
+    scratch(bench, "empty.png", b"")
+    for name in ("text.png", "cut.png", "empty.png", "absent.png", "."):
+        bench.run("compare", "a.png", name).expect(4).expect_one_line(name)
+        bench.run("compare", name, "a.png").expect(4).expect_one_line(name)
+    bench.run("compare", "a.png", "b.png", "--limit-image-side", "20").expect(4).expect_one_line("a.png")
+    bench.run("compare", "a.png", "b.png", "--limit-file-bytes", "50").expect(4).expect_one_line("a.png")
+    bench.run("compare", "a.png", "b.png", "--limit-texture-bytes", "1K").expect(4).expect_one_line("a.png")
+
+
+@case("compare.nan_and_inf", "program", "input")
+def not_finite(bench):
+    pictures(bench)
+    holes = {(3, 4): (NAN, 1, 1), (5, 6): (1, INF, -INF)}
+    scratch(bench, "holes.pfm", pfm(24, 16, lambda x, y: holes.get((x, y), bright(x, y))))
+    for pair, bad in ((("a.pfm", "holes.pfm"), "holes.pfm"), (("holes.pfm", "a.pfm"), "holes.pfm"), (("holes.pfm", "holes.pfm"), "2")):
+        done = bench.run("compare", "-q", *pair, "--json", "j.json", "--html", "p.html", "--error-map", "e.png").expect(6)
+        done.expect_one_line(bad, "2 of 384")
+        found = json.loads((bench.folder / "j.json").read_text())
+        check(found["nan_pixels"] == 2 and found["flip_mean"] is None and found["mse"] is None, f"{found}")
+    check(sorted(p.name for p in bench.folder.glob("[ep].*")) == [], "an error map of NaN")
+    done = bench.run("compare", "-q", "a.pfm", "holes.pfm", "--fail-flip", "1", "--fail-max", "1e9")
+    done.expect(6)  # NaN is no difference that a limit could allow
+
+
+@case("compare.page")
+def page(bench):
+    pictures(bench)
+    strange = scratch(bench, 'a <b> & "c".png', png(24, 16, ramp))
+    for reference, test, kind_name in ((strange.name, "b.png", "LDR-FLIP"), ("a.pfm", "b.pfm", "HDR-FLIP")):
+        bench.run("compare", "-q", reference, test, "--html", "p.html").expect(0)
+        text = (bench.folder / "p.html").read_text()
+        tags = []
+        parser = html.parser.HTMLParser()
+        parser.handle_starttag = lambda tag, attributes: tags.append((tag, dict(attributes)))
+        parser.feed(text)
+        images = [attributes for tag, attributes in tags if tag == "img"]
+        check([image["alt"] for image in images] == ["Reference", "Test", "Error"], f"pictures: {images}")
+        for image in images:
+            data = base64.b64decode(image["src"].removeprefix("data:image/png;base64,"), validate=True)
+            check(data.startswith(b"\x89PNG") and struct.unpack(">II", data[16:24]) == (24, 16), "not the picture as PNG")
+        check(not re.search(r'(src|href)="(?!data:)|url\(|https?://|<script', text), "the page needs something from outside")
+        check("<b>" not in text.split("</style>")[1], "a file name is not escaped")
+        for word in (kind_name, "weighted median", "psnr", "24 x 16", "width=device-width", "color-scheme"):
+            check(word in text, f"'{word}' is not on the page")
+    first = (bench.folder / "p.html").read_bytes()
+    bench.run("compare", "-q", "a.pfm", "b.pfm", "--html", "p.html", "--threads", "1").expect(0)
+    check((bench.folder / "p.html").read_bytes() == first, "two pages differ")
+    done = bench.run("compare", "-q", "a.png", "b.png", "--html", "-").expect(0)
+    check(done.out.startswith("<!DOCTYPE html>") and done.out.endswith("</html>\n"), "no page on standard output")
+
+
+@case("compare.error_map")
+def error_map(bench):
+    pictures(bench)
+    scratch(bench, "green.png", png(8, 8, lambda x, y: (0, 255, 0)))
+    scratch(bench, "blue.png", png(8, 8, lambda x, y: (0, 0, 255)))
+    magma_first, magma_last = bytes((0, 0, 4)), bytes((0xFC, 0xFD, 0xBF))
+    for test, colour in (("green.png", magma_first), ("blue.png", magma_last)):
+        bench.run("compare", "-q", "green.png", test, "--error-map", "e.png", "--metric", "mse").expect(0)
+        data = (bench.folder / "e.png").read_bytes()
+        rows = zlib.decompress(b"".join(data[m.end():m.end() + struct.unpack(">I", data[m.start() - 4:m.start()])[0]]
+                                        for m in re.finditer(b"IDAT", data)))
+        check(len(rows) == 8 * 25, f"{len(rows)} bytes of pixels")
+        # Whatever filter the encoder chose, the first pixel of the first row is stored as it is.
+        check(rows[1:4] == colour, f"{test}: {rows[1:4]!r}")
+    bench.run("compare", "-q", "green.png", "blue.png", "--error-map", "e.pfm").expect(0)
+    data = (bench.folder / "e.pfm").read_bytes()
+    errors = struct.unpack("<64f", data[-256:])
+    check(data.startswith(b"Pf") and all(abs(e - 1) < 1e-4 for e in errors), f"{errors}")
+
+
+@case("compare.z_test")
+def z_test(bench):
+    scratch(bench, "mean.pfm", pfm(10, 10, lambda x, y: (1, 1, 1)))
+    scratch(bench, "near.pfm", pfm(10, 10, lambda x, y: (1.35, 0.8, 1)))
+    scratch(bench, "far.pfm", pfm(10, 10, lambda x, y: (1, 1, 1.5 if (x, y) == (2, 3) else 1)))
+    scratch(bench, "variance.pfm", pfm(10, 10, lambda x, y: (0.01, 0.01, 0.01)))  # deviation 0.1
+    found = figures(bench, "mean.pfm", "near.pfm", "--variance", "variance.pfm")
+    check(abs(found["z_max"] - 3.5) < 1e-4 and found["z_rejected_fraction"] == 0, f"{found}")
+    check(abs(found["z_limit"] - 4.15) < 0.01, f"the limit of 300 tests at 1 %: {found}")
+    found = figures(bench, "mean.pfm", "far.pfm", "--variance", "variance.pfm", code=1)
+    check(abs(found["z_max"] - 5) < 1e-4 and found["z_rejected_fraction"] == 0.01, f"{found}")
+    done = bench.run("compare", "-q", "mean.pfm", "far.pfm", "--variance", "variance.pfm").expect(1)
+    done.expect_one_line("far.pfm", "--variance")
+    bench.run("compare", "-q", "mean.pfm", "far.pfm", "--variance", "variance.pfm", "--fail-z", "0.01").expect(0)
+    both = ("--variance", "variance.pfm", "--variance", "variance.pfm")
+    found = figures(bench, "mean.pfm", "far.pfm", *both)
+    check(abs(found["z_max"] - 5 / 2**0.5) < 1e-4, f"variances add: {found}")
+    bench.run("compare", "-q", "mean.pfm", "near.pfm", "--variance", "variance.pfm", "--significance", "0.5").expect(1)
+
+
+@case("compare.variances_are_checked", "program", "input")
+def variances(bench):
+    pictures(bench)
+    scratch(bench, "negative.pfm", pfm(24, 16, lambda x, y: (1, 1, -1 if (x, y) == (3, 3) else 1)))
+    scratch(bench, "nan.pfm", pfm(24, 16, lambda x, y: (NAN, 1, 1)))
+    scratch(bench, "small.pfm", pfm(4, 4, bright))
+    for name, code in (("negative.pfm", 4), ("nan.pfm", 6), ("small.pfm", 3), ("a.png", 3), ("absent.pfm", 4)):
+        bench.run("compare", "-q", "a.pfm", "b.pfm", "--variance", name).expect(code).expect_one_line(name)
+    bench.run("compare", "-q", "a.png", "b.png", "--variance", "a.pfm").expect(2).expect_one_line("--variance")
+
+
+@case("compare.figures_do_not_depend_on_the_machine")
+def repeatable(bench):
+    pictures(bench)
+    found = set()
+    for words in ((), ("--threads", "1"), ("--threads", "2"), ("--threads", "7"), ("--isa", "scalar")):
+        for pair in (("a.png", "b.png"), ("a.pfm", "b.pfm")):
+            found.add(bench.run("compare", "-q", *pair, "--json", "-", *words).expect(0).out)
+    for isa in json.loads(bench.run("info", "--json").expect(0).out)["isa_available"]:
+        for pair in (("a.png", "b.png"), ("a.pfm", "b.pfm")):
+            found.add(bench.run("compare", "-q", *pair, "--json", "-", env={"BN_FORCE_ISA": isa}).expect(0).out)
+    check(len(found) == 2, f"{len(found)} different outputs of two comparisons")
+
+
+@case("compare.other_build_gives_the_same", "compilers")
+def other_build(bench):
+    if not os.path.exists(bench.compare_program):
+        raise Skipped(f"no program at {bench.compare_program}")
+    pictures(bench)
+    for pair in (("a.png", "b.png"), ("a.pfm", "b.pfm")):
+        found = {bench.run("compare", "-q", *pair, "--json", "-", program=program).expect(0).out
+                 for program in (bench.program, bench.compare_program)}
+        check(len(found) == 1, f"{pair}: {found}")
+
+
+@case("compare.wrong_options_say_one_line_and_exit_2")
+def wrong_options(bench):
+    pictures(bench)
+    before = bench.left_behind()
+    pair = ("a.png", "b.png")
+    for words, needle in (
+        ((), "REFERENCE"), (("a.png",), "TEST"), ((*pair, "c.png"), "c.png"), ((*pair, "--bogus"), "--bogus"),
+        ((*pair, "--metric", "mse,bogus"), "bogus"), ((*pair, "--metric", ","), "--metric"), ((*pair, "--metric", ""), "--metric"),
+        ((*pair, "--metric", "flip,flip-hdr"), "--metric"), ((*pair, "--metric", "flip-hdr"), "flip-hdr"),
+        ((*pair, "--ppd", "0"), "--ppd"), ((*pair, "--ppd", "nan"), "--ppd"), ((*pair, "--ppd", "1e9"), "--ppd"),
+        ((*pair, "--tonemapper", "bogus"), "aces"), ((*pair, "--exposures", "0"), "--exposures"),
+        ((*pair, "--start-exposure", "inf"), "--start-exposure"),
+        ((*pair, "--start-exposure", "2", "--stop-exposure", "1"), "--stop-exposure"),
+        ((*pair, "--fail-flip", "2"), "--fail-flip"), ((*pair, "--fail-max", "-1"), "--fail-max"),
+        ((*pair, "--fail-fraction", "some"), "--fail-fraction"), ((*pair, "--fail-z", "0.5"), "--variance"),
+        ((*pair, "--significance", "0.5"), "--variance"),
+        ((*pair, "--variance", "a", "--variance", "b", "--variance", "c"), "--variance"),
+        ((*pair, "--threads", "0"), "--threads"), ((*pair, "--isa", "sse9"), "scalar, avx2, avx512"),
+        ((*pair, "--error-map", "e.xyz"), "e.xyz"), ((*pair, "--json", ""), "--json"),
+        ((*pair, "--json", "x", "--html", "x"), "twice"), ((*pair, "--json", "-", "--html", "-"), "twice"),
+        ((*pair, "--json", "a.png"), "input"), ((*pair, "--error-map", "./b.png"), "input"),
+    ):
+        done = bench.run("compare", *words).expect(2).expect_one_line(needle)
+        check(done.out == "", f"an error belongs on stderr\n{done.describe()}")
+    check(bench.left_behind() == before, f"files were left: {bench.left_behind()}")
+
+
+@case("compare.outputs_that_cannot_be_written", "program", "input")
+def unwritable(bench):
+    pictures(bench)
+    (bench.folder / "folder.png").mkdir()
+    for words in (("--json", "absent/j.json"), ("--html", "absent/p.html"), ("--error-map", "absent/e.png"), ("--error-map", "folder.png")):
+        bench.run("compare", "-q", "a.png", "b.png", *words).expect(7).expect_one_line(words[1])
+    kept = scratch(bench, "p.html", b"kept")
+    # The page does not fit, the figures do; a failed output counts for more than a failed limit.
+    done = bench.run("compare", "-q", "a.png", "b.png", "--html", "p.html", "--json", "j.json", "--fail-flip", "0", file_size=1024)
+    done.expect(7)
+    check(kept.read_bytes() == b"kept", "the page that was there is lost")
+    check(json.loads((bench.folder / "j.json").read_text())["width"] == 24, "the figures that could be written are not there")
+
+
+@case("compare.words")
+def words(bench):
+    pictures(bench)
+    done = bench.run("compare", "a.pfm", "b.pfm", "--json", "j.json").expect(0)
+    for word in ("flip-hdr", "mean", "p99", "exposures", "mse", "psnr", "ssim", "differing", "j.json"):
+        check(word in done.err, f"'{word}' is not said\n{done.describe()}")
+    check(done.out == "" and "\x1b" not in done.err, done.describe())
+    quiet = bench.run("compare", "-q", "a.pfm", "b.pfm").expect(0)
+    check(quiet.out == "" and quiet.err == "", f"--quiet speaks\n{quiet.describe()}")
+    more = bench.run("compare", "-v", "a.pfm", "b.pfm").expect(0)
+    check("24x16, 3 channels, floats" in more.err, more.describe())
