@@ -1,7 +1,5 @@
 #include "apps/reference_options.h"
 
-#include <algorithm>
-#include <array>
 #include <utility>
 
 #include "core/image/image_io.h"
@@ -68,6 +66,8 @@ void read_reference(const RenderArguments& in, OptionReader& reader, RenderOptio
     float target = 0.0f;
     reader.number("--target-error", in.target_error, 1e-6, 1.0, target);
     r.target_error = static_cast<double>(target);
+    if (in.checkpoint == "-")
+        reader.refuse(usage_error("--checkpoint", "must be a file: it is read, too"));
     r.checkpoint = in.checkpoint;
     out.variance_file = in.variance;
     if (!in.variance.empty() && !stores_floats(in.variance))

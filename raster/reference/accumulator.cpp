@@ -66,11 +66,11 @@ Image variance_image(const Accumulator& a)
     return image;
 }
 
-// Cornish and Fisher's expansion in 1 / degrees, within 0.1 % from 4 degrees on; below, the table.
+// Cornish and Fisher's expansion in 1 / degrees, within 0.1 % from 6 degrees on; below, the table.
 double student_t_975(std::uint32_t degrees)
 {
-    constexpr double kFew[] = {std::numeric_limits<double>::infinity(), 12.7062, 4.3027, 3.1824, 2.7764};
-    if (degrees < 5)
+    constexpr double kFew[] = {std::numeric_limits<double>::infinity(), 12.7062, 4.3027, 3.1824, 2.7764, 2.5706};
+    if (degrees < 6)
         return kFew[degrees];
     const double z = 1.959963984540054, n = degrees, z2 = z * z;
     const double g1 = z * (z2 + 1.0) / 4.0, g2 = z * (5.0 * z2 * z2 + 16.0 * z2 + 3.0) / 96.0;

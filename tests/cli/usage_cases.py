@@ -47,7 +47,7 @@ WRONG = (
     (("render", "--seed", "-1"), "--seed"),
     (("render", "--dfg", "guess"), "table, fit"),
     (("render", "--limit-draw-bytes", "lots"), "--limit-draw-bytes"),
-    (("render", "--backend", "nothing"), "tile"),
+    (("render", "--backend", "nothing"), "tile, reference"),
     (("render", "--tile-size", "48"), "32, 64"),
     (("render", "--texture-anisotropy", "17"), "--texture-anisotropy"),
     (("render", "--roughness", "nan"), "--roughness"),

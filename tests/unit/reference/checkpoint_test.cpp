@@ -108,8 +108,9 @@ TEST(checkpoint, a_picture_gone_on_with_is_the_picture_made_at_once)
         EXPECT_EQ(f.stats.sampling.resumed, samples > 64);
         EXPECT_EQ(f.stats.sampling.samples_before, samples == 64 ? 0u : samples == 192 ? 64u : 192u);
         EXPECT_EQ(pixel_hash(f.color) == pixel_hash(at_once.color), samples == 640);
-        if (samples == 640)
+        if (samples == 640) {
             EXPECT_EQ(pixel_hash(f.variance), pixel_hash(at_once.variance));
+        }
     }
 }
 

@@ -138,8 +138,9 @@ TEST(environment_sampler, directions_follow_the_density_and_miss_no_light)
                 const real3 c = cube_sample_level({environment.specular.texels.data(), environment.specular.size, environment.specular.levels}, d, 0);
                 const double light = static_cast<double>(c.x * 0.2126f + c.y * 0.7152f + c.z * 0.0722f) * solid;
                 mean += light;
-                if (light > 0.0)
+                if (light > 0.0) {
                     EXPECT_GT(p, 0.0) << "light that is never sampled";
+                }
             }
     EXPECT_NEAR(integral, 1.0, 1e-5);
     EXPECT_NEAR(s.mean_luminance, mean * static_cast<double>(environment.specular.scale) / (4.0 * 3.14159265358979), 2e-3 * s.mean_luminance);
@@ -153,8 +154,9 @@ TEST(environment_sampler, directions_follow_the_density_and_miss_no_light)
         if (i % 64 == 0) {
             EXPECT_NEAR(k_length3(l.wi), 1.0f, 1e-5f);
             const float claimed = environment_pdf(s.view, l.wi * (1.0f + 3.0f * b));
-            if (std::abs(p.u * 32.0f - std::round(p.u * 32.0f)) > 1e-3f && std::abs(p.v * 32.0f - std::round(p.v * 32.0f)) > 1e-3f)
+            if (std::abs(p.u * 32.0f - std::round(p.u * 32.0f)) > 1e-3f && std::abs(p.v * 32.0f - std::round(p.v * 32.0f)) > 1e-3f) {
                 EXPECT_NEAR(l.pdf, claimed, 1e-4f * claimed);
+            }
         }
     }
     EXPECT_LT(std::abs(sigmas_of(seen, expected)), 4.5);

@@ -64,8 +64,8 @@ void expect_agreement(const Stage& stage, const FrameDesc& desc, ReferenceMode m
                     (i + 1) % 3, a.picture, a.mean_square, a.worst_share);
         EXPECT_LT(a.picture, 4.0) << what;
         EXPECT_LT(a.worst_share, 4e-3) << what; // of a normal distribution 6e-5; few passes and small lamps have longer tails
-        EXPECT_LT(a.mean_square, 1.4) << what;
-        EXPECT_GT(a.mean_square, 0.6) << what;
+        EXPECT_LT(a.mean_square, 1.3) << what;
+        EXPECT_GT(a.mean_square, 0.8) << what;
     }
     const double mis = estimate(frames[0]).deviation;
     EXPECT_LT(mis, 1.3 * estimate(frames[1]).deviation) << what << ": the combination is worse than one of its parts";
@@ -99,7 +99,7 @@ TEST(strategies, agree_on_the_textured_plate)
     stage.environment = environment_of(lamps, 64, stage.jobs);
     FrameDesc d = desc_of(32, 32, auto_frame(stage.tables, 32, 32));
     d.background = false;
-    expect_agreement(stage, d, ReferenceMode::direct, 4096, "plate");
+    expect_agreement(stage, d, ReferenceMode::direct, 32768, "plate"); // brdf finds the lamp rarely
 }
 
 // Under no occlusion the technique `mc` of the tile renderer estimates the same integral, one shading point a pixel.
