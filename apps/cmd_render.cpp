@@ -265,10 +265,12 @@ int run_render(const RenderArguments& arguments)
     report.detail("camera",
                   fmt::format("{}, world to clip {}", view->description, describe_matrix(view->view)));
     report.detail("device", fmt::format("{}, {} threads", figures.device, figures.threads));
-    report.release();
-
     FrameDesc desc = options.frame;
     desc.view = view->view;
+    if (Status checkpoint = check_reference_checkpoint({stage.scene, stage.tables, stage.environment, stage.dfg, jobs}, desc, options.reference);
+        !checkpoint)
+        return fail(checkpoint.error());
+    report.release();
     const Result<Rendered> rendered = render_frames(options, desc, *stage.renderer, std::move(figures));
     if (!rendered)
         return fail(rendered.error());

@@ -223,6 +223,15 @@ Result<Frame> ReferenceRenderer::render(const FrameDesc& desc)
 
 bool reference_available() { return ray_scene_available(); }
 
+Status check_reference_checkpoint(const RenderInput& input, const FrameDesc& desc, const ReferenceOptions& options)
+{
+    if (options.checkpoint.empty())
+        return {};
+    Accumulator a(desc.width, desc.height);
+    const Result<bool> found = read_checkpoint(options.checkpoint, reference_key(input, desc, options), a);
+    return found ? Status{} : Status{found.error()};
+}
+
 Result<std::unique_ptr<Renderer>> make_reference_renderer(const RenderInput& input, const ReferenceOptions& options)
 {
     Result<std::unique_ptr<RayScene>> rays = make_ray_scene(input.scene, input.tables);

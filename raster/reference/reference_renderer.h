@@ -36,4 +36,7 @@ bool reference_available(); // whether this program was built with Embree
 // technique, samples and tile size are not looked at; msaa only for triangle ids.
 Result<std::unique_ptr<Renderer>> make_reference_renderer(const RenderInput& input, const ReferenceOptions& options);
 
+// Whether the options' checkpoint can be gone on with for this picture, or is not there yet: known before any work is done.
+Status check_reference_checkpoint(const RenderInput& input, const FrameDesc& desc, const ReferenceOptions& options);
+
 } // namespace burnish
