@@ -11,6 +11,7 @@
 #include "apps/report.h"
 #include "core/base/version.h"
 #include "core/jobs/jobs.h"
+#include "raster/reference/reference_renderer.h"
 #include "raster/tile/tile_renderer.h"
 
 namespace burnish {
@@ -40,6 +41,8 @@ Info gather()
     for (const Isa isa : {Isa::scalar, Isa::avx2, Isa::avx512})
         if (burnish::isa_available(isa))
             info.isa_available.emplace_back(isa_name(isa));
+    if (reference_available())
+        info.backends.emplace_back("reference");
     return info;
 }
 

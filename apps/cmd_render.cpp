@@ -11,6 +11,8 @@
 #include "apps/render_stats.h"
 #include "apps/report.h"
 #include "apps/scene_view.h"
+#include "apps/stop_signal.h"
+#include "core/image/image_io.h"
 #include "core/scene/gltf.h"
 
 namespace burnish {
@@ -39,7 +41,7 @@ struct Stage {
 };
 
 struct Rendered {
-    Image color;
+    Image color, variance;
     RenderFigures figures;
 };
 
@@ -50,8 +52,13 @@ Status check_paths(const RenderOptions& options, const std::vector<std::string>&
     for (const std::string& path : options.outputs)
         if (Status status = check_picture_path(path, inputs); !status)
             return status;
+    if (!options.variance_file.empty()) {
+        if (Status status = check_picture_path(options.variance_file, inputs); !status)
+            return status;
+        files.push_back(options.variance_file);
+    }
     for (const auto& [option, path] :
-         {std::pair{"--stats", options.stats_file}, {"--trace", options.trace_file}}) {
+         {std::pair{"--stats", options.stats_file}, {"--trace", options.trace_file}, {"--checkpoint", options.reference.checkpoint}}) {
         if (path.empty())
             continue;
         if (Status status = check_text_path(option, path, inputs); !status)
@@ -120,8 +127,18 @@ Status prepare(const RenderOptions& options, const Jobs& jobs, Stage& stage, Ren
     const Stopwatch make;
     const TraceSpan span("prepare renderer");
     stage.dfg = bake_dfg(kDfgSize, kDfgSamples, jobs);
-    stage.renderer = make_tile_renderer(
-        RenderInput{stage.scene, stage.tables, stage.environment, stage.dfg, jobs}, options.isa);
+    const RenderInput input{stage.scene, stage.tables, stage.environment, stage.dfg, jobs};
+    if (options.backend == "reference") {
+        ReferenceOptions reference = options.reference;
+        if (!reference.checkpoint.empty())
+            reference.stop = &watch_stop_signals();
+        Result<std::unique_ptr<Renderer>> renderer = make_reference_renderer(input, reference);
+        if (!renderer)
+            return renderer.error();
+        stage.renderer = std::move(*renderer);
+    } else {
+        stage.renderer = make_tile_renderer(input, options.isa);
+    }
     figures.prepare_ms = make.ms();
     figures.device = stage.renderer->device();
     return {};
@@ -132,7 +149,7 @@ Result<Rendered> render_frames(const RenderOptions& options, const FrameDesc& de
                                RenderFigures figures)
 {
     Rendered out;
-    Progress progress("frames", static_cast<std::size_t>(options.frames), options.quiet);
+    Progress progress("frames", static_cast<std::size_t>(options.frames), options.quiet || options.frames == 1);
     for (int i = 0; i < options.frames; ++i) {
         const TraceSpan span("frame");
         Result<Frame> frame = renderer.render(desc);
@@ -147,7 +164,7 @@ Result<Rendered> render_frames(const RenderOptions& options, const FrameDesc& de
         figures.frame = frame->stats;
         figures.frame_ms.push_back(frame->stats.ms);
         if (i == 0)
-            out.color = std::move(frame->color);
+            out.color = std::move(frame->color), out.variance = std::move(frame->variance);
         progress.step();
     }
     figures.nan_pixels = count_not_finite(out.color);
@@ -155,8 +172,20 @@ Result<Rendered> render_frames(const RenderOptions& options, const FrameDesc& de
     return out;
 }
 
+void report_reference(const RenderOptions& options, const RenderFigures& figures, Report& report)
+{
+    const SamplingStats& s = figures.frame.sampling;
+    const std::string before = s.resumed ? fmt::format(", {} of them from {}", s.samples_before, options.reference.checkpoint) : "";
+    report.event("reference", fmt::format("{}x{}, {}, {} samples a pixel{}: {:.1f} s, {:.2f} million samples/s, {:.0f} % of the time in rays, "
+                                          "relative error {:.3g}",
+                                          options.frame.width, options.frame.height, options.reference_mode_name, s.samples, before,
+                                          figures.frame.ms * 1e-3, s.million_samples_per_second, s.ray_share * 100.0, s.relative_error));
+}
+
 void report_frames(const RenderOptions& options, const RenderFigures& figures, Report& report)
 {
+    if (options.backend == "reference")
+        return report_reference(options, figures, report);
     const FrameDesc& frame = options.frame;
     const std::vector<double>& ms = figures.frame_ms;
     const std::string times =
@@ -187,6 +216,8 @@ Status write_outputs(const RenderOptions& options, const Rendered& rendered, Rep
         const TraceSpan span("write picture");
         note(path, write_picture(path, rendered.color, options.tonemap, options.exposure_ev));
     }
+    if (!options.variance_file.empty())
+        note(options.variance_file, write_image(options.variance_file, rendered.variance));
     if (!options.stats_file.empty())
         note(options.stats_file, write_text(options.stats_file, stats_json(options, rendered.figures)));
     if (!options.trace_file.empty())
@@ -234,14 +265,20 @@ int run_render(const RenderArguments& arguments)
     report.detail("camera",
                   fmt::format("{}, world to clip {}", view->description, describe_matrix(view->view)));
     report.detail("device", fmt::format("{}, {} threads", figures.device, figures.threads));
-    report.release();
-
     FrameDesc desc = options.frame;
     desc.view = view->view;
+    if (Status checkpoint = check_reference_checkpoint({stage.scene, stage.tables, stage.environment, stage.dfg, jobs}, desc, options.reference);
+        !checkpoint)
+        return fail(checkpoint.error());
+    report.release();
     const Result<Rendered> rendered = render_frames(options, desc, *stage.renderer, std::move(figures));
     if (!rendered)
         return fail(rendered.error());
     report_frames(options, rendered->figures, report);
+    if (rendered->figures.frame.sampling.stopped) {
+        report.event("stopped", fmt::format("the same command goes on from {}; no picture was written", options.reference.checkpoint));
+        return 128 + stop_signal(); // as a shell reports a process that a signal ended
+    }
     return finish(options, *rendered, report);
 }
 

@@ -14,7 +14,8 @@ Examples:
   burnish render lamp.glb --env workshop.hdr --size 1920x1080 --msaa 8 -o lamp.png -o lamp.exr --stats lamp.json
   burnish render lamp.glb --eye 0.2,0.3,1.5 --target 0,0.2,0 --fov 30 -o close.png
   burnish render builtin:spheres --env builtin:sky --env-rotation 90 --exposure -1 -o spheres.png
-  burnish render builtin:plate --frames 50 --threads 2 --isa avx2 --stats -)";
+  burnish render builtin:plate --frames 50 --threads 2 --isa avx2 --stats -
+  burnish render --backend reference --samples 4096 --checkpoint teapot.part -o teapot.exr --variance teapot_var.exr)";
 
 void add_inputs(CLI::App& app, RenderArguments& to)
 {
@@ -83,7 +84,7 @@ void add_picture(CLI::App& app, RenderArguments& to)
     app.add_option("--technique", to.technique, "See burnish list techniques (split_isotropic)")
         ->type_name("NAME")
         ->group("Picture");
-    app.add_option("--samples", to.samples, "Samples of the technique, where it takes any")
+    app.add_option("--samples", to.samples, "Samples of the technique, where it takes any; of the reference, a pixel (1024)")
         ->type_name("N")
         ->group("Picture");
     app.add_option("--axis-k", to.axis_k, "Deviations of slope that the major axis covers (1)")
@@ -119,7 +120,7 @@ void add_picture(CLI::App& app, RenderArguments& to)
 
 void add_machine(CLI::App& app, RenderArguments& to)
 {
-    app.add_option("--backend", to.plain.backend, "Renderer: tile (tile)")
+    app.add_option("--backend", to.plain.backend, "Renderer: tile, or reference, which integrates by Monte Carlo (tile)")
         ->type_name("NAME")
         ->group("Machine");
     app.add_option("-t,--threads", to.threads, "Worker threads (all cores)")
@@ -134,6 +135,27 @@ void add_machine(CLI::App& app, RenderArguments& to)
     app.add_option("--frames", to.frames, "Render the frame N times and report the times (1)")
         ->type_name("N")
         ->group("Machine");
+}
+
+void add_reference(CLI::App& app, RenderArguments& to)
+{
+    constexpr const char* kGroup = "With --backend reference";
+    app.add_option("--reference-mode", to.reference_mode,
+                   "direct (nothing in the light's way, as the techniques have it), shadowed, or path (light between surfaces too) (direct)")
+        ->type_name("NAME")
+        ->group(kGroup);
+    app.add_option("--bounces", to.bounces, "From surface to surface at most, in mode path (8)")->type_name("N")->group(kGroup);
+    app.add_option("--target-error", to.target_error,
+                   "Stop early once the 95 % confidence interval's half width over the mean, averaged over the pixels, is not above E")
+        ->type_name("E")
+        ->group(kGroup);
+    app.add_option("--checkpoint", to.checkpoint, "Go on from this file if it is there; keep it up to date, also when stopped by Ctrl-C")
+        ->type_name("FILE")
+        ->group(kGroup);
+    app.add_option("--variance", to.variance, "Picture of the variance of the mean, by channel")->type_name("FILE")->group(kGroup);
+    app.add_option("--reference-strategy", to.reference_strategy, "How directions are chosen: mis, brdf or light, for tests (mis)")
+        ->type_name("NAME")
+        ->group(kGroup);
 }
 
 void add_limits(CLI::App& app, RenderArguments& to)
@@ -166,6 +188,7 @@ void add_render_options(CLI::App& app, RenderArguments& arguments)
     add_outputs(app, arguments);
     add_picture(app, arguments);
     add_machine(app, arguments);
+    add_reference(app, arguments);
     add_limits(app, arguments);
     const CLI::Validator not_empty(
         [](std::string& text) { return text.empty() ? std::string("the value is empty") : std::string(); },

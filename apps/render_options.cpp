@@ -5,7 +5,9 @@
 #include <array>
 #include <fmt/format.h>
 
+#include "apps/option_reader.h"
 #include "apps/parse.h"
+#include "apps/reference_options.h"
 #include "apps/report.h"
 #include "core/math/scalar_math.h"
 #include "core/scene/builtin.h"
@@ -18,69 +20,8 @@ constexpr std::int64_t kMaxFrames = 1000000;
 constexpr std::int64_t kMaxTechniqueSamples = 65536;
 constexpr std::int64_t kMaxBakeSamples = 1 << 20;
 constexpr double kMaxExposure = 64.0; // stops either way: 2^64 is far beyond any scene
-constexpr std::array<const char*, 1> kBackends = {"tile"};
 
-// Reads options one after another and remembers the first that is wrong; empty texts leave the default alone.
-class Reader {
-  public:
-    template <class T>
-    void integer(const std::string& option, const std::string& text, std::int64_t low, std::int64_t high,
-                 T& into)
-    {
-        if (!text.empty())
-            take(parse_integer(option, text, low, high), into);
-    }
-    void number(const std::string& option, const std::string& text, double low, double high, float& into)
-    {
-        if (!text.empty())
-            take(parse_number(option, text, low, high), into);
-    }
-    void bytes(const std::string& option, const std::string& text, std::uint64_t& into)
-    {
-        if (!text.empty())
-            take(parse_bytes(option, text), into);
-    }
-    void vec3(const std::string& option, const std::string& text, std::optional<glm::vec3>& into)
-    {
-        if (text.empty())
-            return;
-        Result<glm::vec3> value = parse_vec3(option, text);
-        if (value)
-            into = *value;
-        else
-            refuse(value.error());
-    }
-    // One of a few numbers.
-    void choice(const std::string& option, const std::string& text, const std::vector<std::string>& valid,
-                int& into)
-    {
-        if (text.empty())
-            return;
-        if (std::find(valid.begin(), valid.end(), text) == valid.end())
-            refuse(usage_error(option, fmt::format("'{}' is not one of {}", text, join(valid))));
-        else
-            integer(option, text, 0, kMaxPictureSide, into);
-    }
-    void refuse(const Error& error)
-    {
-        if (status_)
-            status_ = error;
-    }
-    const Status& status() const { return status_; }
-
-  private:
-    template <class Value, class T> void take(const Result<Value>& value, T& into)
-    {
-        if (value)
-            into = static_cast<T>(*value);
-        else
-            refuse(value.error());
-    }
-
-    Status status_;
-};
-
-void read_limits(const RenderArguments& in, Reader& reader, Limits& limits)
+void read_limits(const RenderArguments& in, OptionReader& reader, Limits& limits)
 {
     constexpr std::int64_t kMaxInt = 1 << 30;
     reader.integer("--limit-image-side", in.limit_image_side, 1, kMaxInt, limits.image_side);
@@ -93,7 +34,7 @@ void read_limits(const RenderArguments& in, Reader& reader, Limits& limits)
     reader.bytes("--limit-draw-bytes", in.limit_draw_bytes, limits.draw_bytes);
 }
 
-void read_environment(const RenderArguments& in, Reader& reader, EnvironmentOptions& environment)
+void read_environment(const RenderArguments& in, OptionReader& reader, EnvironmentOptions& environment)
 {
     reader.number("--env-rotation", in.env_rotation, -36000.0, 36000.0, environment.rotation_deg);
     reader.number("--env-exposure", in.env_exposure, -kMaxExposure, kMaxExposure, environment.exposure_ev);
@@ -103,7 +44,7 @@ void read_environment(const RenderArguments& in, Reader& reader, EnvironmentOpti
     environment.use_cache = !in.no_cache;
 }
 
-void read_camera(const RenderArguments& in, Reader& reader, RenderOptions& out)
+void read_camera(const RenderArguments& in, OptionReader& reader, RenderOptions& out)
 {
     reader.vec3("--eye", in.eye, out.eye);
     reader.vec3("--target", in.target, out.target);
@@ -116,7 +57,7 @@ void read_camera(const RenderArguments& in, Reader& reader, RenderOptions& out)
         reader.refuse(usage_error("--target", "is the same point as --eye"));
 }
 
-void read_picture(const RenderArguments& in, Reader& reader, RenderOptions& out)
+void read_picture(const RenderArguments& in, OptionReader& reader, RenderOptions& out)
 {
     FrameDesc& frame = out.frame;
     if (!in.size.empty()) {
@@ -154,7 +95,7 @@ void read_picture(const RenderArguments& in, Reader& reader, RenderOptions& out)
     }
 }
 
-void read_technique(const RenderArguments& in, Reader& reader, RenderOptions& out)
+void read_technique(const RenderArguments& in, OptionReader& reader, RenderOptions& out)
 {
     FrameDesc& frame = out.frame;
     if (!in.technique.empty())
@@ -168,7 +109,8 @@ void read_technique(const RenderArguments& in, Reader& reader, RenderOptions& ou
             usage_error("--technique", fmt::format("'{}' is not one of {}", frame.technique, join(names))));
     }
     int samples = technique->default_samples;
-    reader.integer("--samples", in.samples, 1, kMaxTechniqueSamples, samples);
+    if (out.backend != "reference") // which reads them itself
+        reader.integer("--samples", in.samples, 1, kMaxTechniqueSamples, samples);
     frame.samples = samples_taken(*technique, samples);
     if (frame.samples != samples)
         out.warnings.push_back(
@@ -195,9 +137,9 @@ void read_technique(const RenderArguments& in, Reader& reader, RenderOptions& ou
     reader.integer("--seed", in.seed, 0, 0x7fffffff, frame.seed);
 }
 
-void read_machine(const RenderArguments& in, Reader& reader, RenderOptions& out)
+void read_machine(const RenderArguments& in, OptionReader& reader, RenderOptions& out)
 {
-    const std::vector<std::string> backends(kBackends.begin(), kBackends.end());
+    const std::vector<std::string> backends = backend_names();
     if (std::find(backends.begin(), backends.end(), out.backend) == backends.end())
         reader.refuse(
             usage_error("--backend", fmt::format("'{}' is not one of {}", out.backend, join(backends))));
@@ -220,7 +162,7 @@ void read_machine(const RenderArguments& in, Reader& reader, RenderOptions& out)
 }
 
 // "builtin:NAME" with a name that exists, or anything else (a path).
-void check_builtin(Reader& reader, const std::string& option, const std::string& spec,
+void check_builtin(OptionReader& reader, const std::string& option, const std::string& spec,
                    const std::vector<BuiltinInfo>& known)
 {
     constexpr const char* kPrefix = "builtin:";
@@ -235,10 +177,15 @@ void check_builtin(Reader& reader, const std::string& option, const std::string&
 
 } // namespace
 
+std::vector<std::string> backend_names()
+{
+    return {"tile", "reference"};
+}
+
 Result<RenderOptions> check_render_options(const RenderArguments& arguments)
 {
     RenderOptions out = arguments.plain;
-    Reader reader;
+    OptionReader reader;
     if (out.scene.empty())
         reader.refuse(usage_error("SCENE", "is empty"));
     if (out.env.empty())
@@ -248,6 +195,7 @@ Result<RenderOptions> check_render_options(const RenderArguments& arguments)
     read_picture(arguments, reader, out);
     read_technique(arguments, reader, out);
     read_machine(arguments, reader, out);
+    read_reference(arguments, reader, out);
     read_camera(arguments, reader, out);
     read_environment(arguments, reader, out.environment);
     read_limits(arguments, reader, out.limits);

@@ -10,6 +10,7 @@
 #include "core/base/limits.h"
 #include "core/base/result.h"
 #include "core/image/colour.h"
+#include "raster/reference/reference_renderer.h"
 #include "raster/tile/tile_renderer.h"
 #include "shading/bake/environment.h"
 
@@ -31,6 +32,9 @@ struct RenderOptions {
 
     FrameDesc frame; // its view is filled in once the scene is known
     std::string backend = "tile";
+    ReferenceOptions reference; // of --backend reference
+    std::string reference_mode_name = "direct";
+    std::string variance_file;  // empty: none
     Isa isa = Isa::scalar;
     int threads = 0; // 0: all cores the process may use
     int frames = 1;
@@ -53,10 +57,14 @@ struct RenderArguments {
     std::string limit_image_side, limit_texture_bytes, limit_json_depth, limit_node_depth, limit_file_bytes;
     std::string limit_accessor_bytes, limit_data_uri_bytes, limit_draw_bytes;
     std::string axis_k, axis_beta, tilt, seed, dfg = "table";
+    std::string reference_mode, reference_strategy, bounces, target_error, checkpoint, variance;
     bool no_background = false, no_cache = false, energy_compensation = false;
 };
 
 void add_render_options(CLI::App& app, RenderArguments& arguments);
+
+// The names that --backend takes.
+std::vector<std::string> backend_names();
 
 // Everything that can be known to be wrong before a file is opened.
 Result<RenderOptions> check_render_options(const RenderArguments& arguments);

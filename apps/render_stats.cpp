@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cmath>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <sys/resource.h>
@@ -60,6 +61,18 @@ std::string stats_json(const RenderOptions& options, const RenderFigures& figure
     json["msaa"] = frame.msaa;
     json["tile_size"] = frame.tile_size;
     json["frames"] = options.frames;
+    if (options.backend == "reference") {
+        const SamplingStats& s = figures.frame.sampling;
+        json["samples"] = s.samples; // taken, which a target error may make fewer
+        json["reference"] = {{"mode", options.reference_mode_name},
+                             {"samples_before", s.samples_before},
+                             {"relative_error", std::isfinite(s.relative_error) ? nlohmann::json(s.relative_error) : nlohmann::json()},
+                             {"million_samples_per_second", s.million_samples_per_second},
+                             {"rays", s.rays},
+                             {"ray_time_fraction", s.ray_share}};
+        if (options.reference.mode == ReferenceMode::path)
+            json["reference"]["bounces"] = options.reference.bounces;
+    }
     json["ms_min"] = *std::min_element(figures.frame_ms.begin(), figures.frame_ms.end());
     json["ms_median"] = median(figures.frame_ms);
     json["ms_p95"] = percentile_95(figures.frame_ms);

@@ -59,16 +59,29 @@ struct FrameDesc {
     bool triangle_ids = false;             // fill Frame::triangle_ids
 };
 
+struct SamplingStats { // of a renderer that integrates by random samples
+    std::uint64_t samples = 0;             // a pixel
+    std::uint64_t samples_before = 0;      // of them, taken from a checkpoint
+    bool resumed = false;                  // there was a checkpoint
+    bool stopped = false;                  // asked to end before all samples were taken
+    double relative_error = 0.0;           // half width of the 95 % confidence interval over the mean, averaged over the pixels
+    double million_samples_per_second = 0.0;
+    std::uint64_t rays = 0;
+    double ray_share = 0.0;                // of the workers' time, spent in tracing rays
+};
+
 struct FrameStats {
     std::uint64_t triangles = 0;           // of the scene
     std::uint64_t triangles_drawn = 0;     // after culling and clipping
     std::uint64_t visible_fragments = 0;   // (pixel, triangle) pairs shaded
     std::uint64_t background_pixels = 0;   // pixels with at least one uncovered sample
     double ms = 0.0;                       // wall time of the frame
+    SamplingStats sampling;
 };
 
 struct Frame {
     Image color;                           // f32 RGB, linear Rec.709 scene radiance
+    Image variance;                        // of `color` as an estimate, by channel; empty where it is none
     Column<std::uint32_t> triangle_ids;    // [pixel][sample] global triangle id, 0xffffffff where nothing was hit
     FrameStats stats;
 };

@@ -1,23 +1,13 @@
-// What shading knows of kLanes fragments: attributes interpolated at the shaded point, and texture fetches with the derivatives
-// that a GPU would see (differences in the 2x2 quad, taken from the plane equations, so no helper lanes run).
+// From the tile's triangles to kLanes fragments: attributes interpolated at the shaded point, and the derivatives that a GPU would see
+// (differences in the 2x2 quad, taken from the plane equations, so no helper lanes run).
 #pragma once
-#include "raster/tile/lanes_bake.h"
+#include "raster/frame/lane_material.h"
 #include "raster/tile/lanes_view.h"
 #include "shading/kernels/camera_ray.k.h"
 #include "shading/kernels/interpolate.k.h"
 
 namespace burnish {
 inline namespace BN_ISA_NS {
-
-struct Fragment {
-    real3 normal, tangent; // world space, not unit
-    real tangent_sign;
-    real4 color;
-    real2 uv[2], uv_dx[2], uv_dy[2]; // and their change by one pixel
-    mask front;
-    real3 ray;             // from the eye to the point, not unit
-    real3 position;        // world space, metres; only where the frame has punctual lights
-};
 
 inline constexpr std::int32_t kManyTriangles = -1;
 
@@ -195,17 +185,6 @@ BN_STAGE Fragment make_fragment(const FrameParams& f, const MaterialRecord& m, c
         p.uv_dy[i] = (uv_y[i] - uv_center[i]) * sign_y;
     }
     return p;
-}
-
-BN_INLINE real4 fetch_texture(const FrameParams& f, const TextureBinding& b, const Fragment& p)
-{
-    const int set = b.uv_set != 0;
-    const real m0 = splat(b.transform[0]), m1 = splat(b.transform[1]), m2 = splat(b.transform[2]), m3 = splat(b.transform[3]);
-    const real2 uv = p.uv[set], dx = p.uv_dx[set], dy = p.uv_dy[set];
-    const real2 at = vec2_of(m0 * uv.x + m2 * uv.y + splat(b.transform[4]), m1 * uv.x + m3 * uv.y + splat(b.transform[5]));
-    const real2 at_dx = vec2_of(m0 * dx.x + m2 * dx.y, m1 * dx.x + m3 * dx.y);
-    const real2 at_dy = vec2_of(m0 * dy.x + m2 * dy.y, m1 * dy.x + m3 * dy.y);
-    return sample_binding(b, at, at_dx, at_dy, f.texture_taps);
 }
 
 } // namespace BN_ISA_NS

@@ -1,7 +1,8 @@
 // The techniques for environment light, in lanes: what each registered kernel does with one batch of surfaces. A technique is one
 // function here (<id>_specular), its kernel file, and its line in shading/models.def.
 #pragma once
-#include "raster/tile/lanes_bake.h"
+#include "raster/frame/lanes_records.h"
+#include "raster/tile/tile_types.h"
 #include "shading/kernels/bent_normal.k.h"
 #include "shading/kernels/ellipsoid.k.h"
 #include "shading/kernels/filtered_is.k.h"

@@ -10,10 +10,11 @@
 #include "core/base/check.h"
 #include "core/math/scalar_math.h"
 #include "core/simd/cpu.h"
+#include "raster/frame/upload.h"
 #include "raster/tile/bins.h"
 #include "raster/tile/cull.h"
+#include "raster/tile/grid_samples.h"
 #include "raster/tile/tile_types.h"
-#include "raster/tile/upload.h"
 
 namespace burnish {
 
@@ -97,19 +98,6 @@ class TileRenderer final : public Renderer {
     Bins bins_;
     std::vector<WorkerScratch> workers_;
 };
-
-std::vector<MaterialRecord> overridden(std::vector<MaterialRecord> materials, const FrameDesc& desc)
-{
-    for (MaterialRecord& m : materials) {
-        if (desc.roughness >= 0.0f) {
-            m.roughness = desc.roughness;
-            m.textures[kMetalRoughTex].texture = nullptr;
-        }
-        if (desc.override_anisotropy)
-            m.anisotropic = desc.anisotropy != 0.0f;
-    }
-    return materials;
-}
 
 FrameParams TileRenderer::frame_params(const FrameDesc& desc, const std::vector<MaterialRecord>& materials)
 {

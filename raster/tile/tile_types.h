@@ -3,9 +3,10 @@
 #pragma once
 #include <cstdint>
 
+#include "raster/frame/records.h"
+
 namespace burnish {
 
-inline constexpr int kSubpixel = 256;                // sub-pixel units a pixel
 inline constexpr int kGuardBand = 1 << 22;           // |x|, |y| of any snapped vertex stay below this, sub-pixel units
 // Whole triangles stay well inside the band, clipping cuts between that and its edge: so a vertex that one triangle keeps is never cut
 // by its neighbour, and both see it at the same place.
@@ -13,8 +14,6 @@ inline constexpr int kWholeBand = kGuardBand / 16 * 15, kCutBand = kGuardBand / 
 inline constexpr std::int32_t kNeedsClip = -(1 << 30); // in place of a snapped x: behind the near plane or out of the guard band
 inline constexpr int kBlock = 8;                     // coverage and hierarchical depth work on 8x8 pixels
 inline constexpr int kBlockPixels = kBlock * kBlock;
-inline constexpr int kMaxSamples = 16;
-inline constexpr std::uint32_t kNoTriangle = 0xffffffffu;
 
 // A triangle ready to be rasterized, one cache line. Vertices run so that the area is positive with y down.
 struct alignas(64) TriangleSetup {
@@ -39,14 +38,6 @@ struct TileRect { // inclusive range of tiles that a triangle may touch
     std::uint16_t x0, y0, x1, y1;
 };
 
-struct ViewParams { // Renderer's View in plain numbers
-    float eye[3], right[3], up[3], forward[3];
-    float inv_tan_x, inv_tan_y; // perspective: 1/tan of the half angles; orthographic: 1/half extents
-    float znear, inv_depth;     // inv_depth: 1/(far - near), orthographic only
-    float zfar;
-    std::int32_t orthographic;
-};
-
 // Post-transform vertices: one column each, by global vertex id.
 struct VertexColumns {
     std::int32_t *x, *y; // snapped; x = kNeedsClip where the vertex has no snapped position
@@ -64,54 +55,6 @@ struct ChunkOutput { // what one chunk of clusters produced, in draw order
     void* owner;
 };
 inline constexpr std::uint32_t kGrowRoom = 256;
-
-struct SamplePattern { // Vulkan's standard sample locations in sub-pixel units from the pixel's top left corner
-    std::int32_t count;
-    std::int32_t x[kMaxSamples], y[kMaxSamples];
-    std::int32_t min_x, max_x, min_y, max_y;
-};
-
-struct CubeParams { // CubeMap in plain data
-    const std::uint16_t* texels;
-    std::int32_t size, levels;
-    std::int32_t offset[16]; // by level, of face 0, in texels
-    float scale;
-};
-
-struct TextureParams { // TexturePyramid in plain data
-    const std::uint16_t* texels;
-    std::int32_t width, height, levels, wrap_s, wrap_t, nearest;
-    std::int32_t offset[16];
-    float level_width[16], level_height[16];
-};
-
-enum TextureSlot { kBaseColorTex, kMetalRoughTex, kNormalTex, kOcclusionTex, kEmissiveTex, kSpecularTex, kSpecularColorTex,
-                   kTensor2Tex, kTensor4Tex, kTensor4RestTex, kTextureSlots };
-
-struct TextureBinding {
-    const TextureParams* texture; // null: not used
-    std::int32_t uv_set;
-    float transform[6];       // u' = t0 u + t2 v + t4, v' = t1 u + t3 v + t5
-};
-
-struct MaterialRecord {
-    float base_color[4];
-    float emissive[3];
-    float metallic, roughness;
-    float normal_scale, occlusion_strength;
-    float dielectric_f0[3], dielectric_f90; // from ior and specular
-    float alpha_cutoff;
-    std::int32_t alpha_mode;  // AlphaMode
-    std::int32_t double_sided, unlit, textured, uses_color, anisotropic;
-    float anisotropy_strength, anisotropy_rotation[2]; // rotation: cosine and sine
-    TextureBinding textures[kTextureSlots];
-};
-
-struct LightRecord { // DrawTables' PunctualLight in plain numbers
-    float position[3], direction[3], radiant[3];
-    float inv_range2, spot_scale, spot_offset;
-    std::int32_t directional;
-};
 
 // One sample of a unit lobe (widths 1): its slopes, and the density of normals there times h.z^4.
 struct GridSample {

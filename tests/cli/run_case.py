@@ -10,6 +10,7 @@ import limit_cases
 import model_cases
 import output_cases
 import pixel_cases
+import reference_cases
 import usage_cases
 
 parser = argparse.ArgumentParser()

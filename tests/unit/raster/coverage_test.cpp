@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "raster/tile/upload.h"
+#include "raster/frame/upload.h"
 #include "tests/unit/raster/fixture.h"
 
 namespace burnish::test {

@@ -1,11 +1,11 @@
-// From the shared tables to the plain data that the lanes read: materials, texture pyramids, lights, cubes, sample patterns.
+// From the shared tables to the plain data of records.h: materials, texture pyramids, lights, cubes, sample patterns.
 #pragma once
 #include <memory>
 #include <vector>
 
 #include "core/jobs/jobs.h"
 #include "raster/frame/frame.h"
-#include "raster/tile/tile_types.h"
+#include "raster/frame/records.h"
 #include "shading/bake/texture.h"
 
 namespace burnish {
@@ -20,8 +20,8 @@ struct SceneTables { // keeps alive what the records point at
 // Builds every texture pyramid that a material uses, once a (texture, encoding) pair, in parallel.
 SceneTables upload_scene(const Scene& scene, const DrawTables& tables, const Jobs& jobs);
 
-// The n x n samples of filtered importance sampling, n = floor(sqrt(samples)): Gaussian slopes (Beckmann) or GGX.
-std::vector<GridSample> grid_samples(int samples, bool ggx);
+// With the frame's overrides of roughness and anisotropy.
+std::vector<MaterialRecord> overridden(std::vector<MaterialRecord> materials, const FrameDesc& desc);
 
 CubeParams cube_params(const CubeMap& cube);
 ViewParams view_params_of(const View& view);

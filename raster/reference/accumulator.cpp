@@ -1,0 +1,102 @@
+#include "raster/reference/accumulator.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace burnish {
+
+Accumulator::Accumulator(int w, int h)
+    : width(w), height(h), blocks_x((w + kBlockSide - 1) / kBlockSide), blocks_y((h + kBlockSide - 1) / kBlockSide)
+{
+    pixels.resize(static_cast<std::size_t>(w) * static_cast<std::size_t>(h));
+    passes.resize(static_cast<std::size_t>(blocks_x) * static_cast<std::size_t>(blocks_y));
+}
+
+PixelBlock block_of(const Accumulator& a, std::size_t index, std::uint32_t until_pass)
+{
+    PixelBlock b = {};
+    b.x0 = static_cast<int>(index % static_cast<std::size_t>(a.blocks_x)) * kBlockSide;
+    b.y0 = static_cast<int>(index / static_cast<std::size_t>(a.blocks_x)) * kBlockSide;
+    b.width = std::min(kBlockSide, a.width - b.x0);
+    b.height = std::min(kBlockSide, a.height - b.y0);
+    b.first_pass = a.passes[index];
+    b.passes = until_pass > b.first_pass ? until_pass - b.first_pass : 0;
+    return b;
+}
+
+std::uint32_t least_passes(const Accumulator& a)
+{
+    return a.passes.empty() ? 0 : *std::min_element(a.passes.begin(), a.passes.end());
+}
+
+namespace {
+
+std::uint32_t passes_of_pixel(const Accumulator& a, std::size_t pixel)
+{
+    const std::size_t w = static_cast<std::size_t>(a.width), side = static_cast<std::size_t>(kBlockSide);
+    return a.passes[pixel / w / side * static_cast<std::size_t>(a.blocks_x) + pixel % w / side];
+}
+
+double variance_of_mean(const PixelState& p, int channel, std::uint32_t passes)
+{
+    if (passes < 2)
+        return std::numeric_limits<double>::infinity();
+    return std::max(p.m2[channel], 0.0) / (static_cast<double>(passes) * (static_cast<double>(passes) - 1.0));
+}
+
+} // namespace
+
+Image mean_image(const Accumulator& a)
+{
+    Image image = make_image(a.width, a.height, 3, PixelType::f32);
+    for (std::size_t i = 0; i < a.pixels.size(); ++i)
+        for (std::size_t c = 0; c < 3; ++c)
+            image.f32()[3 * i + c] = static_cast<float>(a.pixels[i].mean[c]);
+    return image;
+}
+
+Image variance_image(const Accumulator& a)
+{
+    Image image = make_image(a.width, a.height, 3, PixelType::f32);
+    for (std::size_t i = 0; i < a.pixels.size(); ++i)
+        for (int c = 0; c < 3; ++c)
+            image.f32()[3 * i + static_cast<std::size_t>(c)] =
+                static_cast<float>(variance_of_mean(a.pixels[i], c, passes_of_pixel(a, i)));
+    return image;
+}
+
+// Cornish and Fisher's expansion in 1 / degrees, within 0.1 % from 6 degrees on; below, the table.
+double student_t_975(std::uint32_t degrees)
+{
+    constexpr double kFew[] = {std::numeric_limits<double>::infinity(), 12.7062, 4.3027, 3.1824, 2.7764, 2.5706};
+    if (degrees < 6)
+        return kFew[degrees];
+    const double z = 1.959963984540054, n = degrees, z2 = z * z;
+    const double g1 = z * (z2 + 1.0) / 4.0, g2 = z * (5.0 * z2 * z2 + 16.0 * z2 + 3.0) / 96.0;
+    const double g3 = z * (3.0 * z2 * z2 * z2 + 19.0 * z2 * z2 + 17.0 * z2 - 15.0) / 384.0;
+    return z + (g1 + (g2 + g3 / n) / n) / n;
+}
+
+double mean_relative_error(const Accumulator& a)
+{
+    double sum = 0.0;
+    std::size_t counted = 0;
+    for (std::size_t i = 0; i < a.pixels.size(); ++i) {
+        const PixelState& p = a.pixels[i];
+        const double mean = p.mean[0] + p.mean[1] + p.mean[2];
+        if (!(mean > 0.0))
+            continue;
+        const std::uint32_t passes = passes_of_pixel(a, i);
+        if (passes < 2)
+            return std::numeric_limits<double>::infinity();
+        double deviation = 0.0; // of the channels' sum it is at most the sum of theirs
+        for (int c = 0; c < 3; ++c)
+            deviation += std::sqrt(variance_of_mean(p, c, passes));
+        sum += student_t_975(passes - 1) * deviation / mean;
+        ++counted;
+    }
+    return counted ? sum / static_cast<double>(counted) : 0.0;
+}
+
+} // namespace burnish

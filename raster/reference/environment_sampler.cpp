@@ -1,0 +1,123 @@
+#include "raster/reference/environment_sampler.h"
+
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "core/base/check.h"
+#include "core/math/scalar_math.h"
+#include "core/simd/half.h"
+
+namespace burnish {
+namespace {
+
+constexpr int kFaces = 6;
+
+double luminance(const std::uint16_t* texel)
+{
+    return 0.2126 * static_cast<double>(half_to_float(texel[0])) + 0.7152 * static_cast<double>(half_to_float(texel[1])) +
+           0.0722 * static_cast<double>(half_to_float(texel[2]));
+}
+
+// Mean luminance of the bilinear interpolant over the cell of texel (x, y): it is above zero wherever the interpolant is, so sampling
+// by it misses no light. `w`: texels of a bordered row.
+double cell_luminance(const std::uint16_t* face, int w, int x, int y)
+{
+    constexpr double kWeight[3] = {0.125, 0.75, 0.125};
+    double sum = 0.0;
+    for (int j = 0; j < 3; ++j)
+        for (int i = 0; i < 3; ++i)
+            sum += kWeight[i] * kWeight[j] * luminance(face + 4 * (static_cast<std::ptrdiff_t>(y + j) * w + x + i));
+    return std::max(sum, 0.0);
+}
+
+// Solid angle over area at (u, v) of a face, [-1,1]^2.
+double solid_angle_density(double u, double v)
+{
+    const double r2 = 1.0 + u * u + v * v;
+    return 1.0 / (r2 * std::sqrt(r2));
+}
+
+} // namespace
+
+EnvironmentSampler make_environment_sampler(const CubeMap& cube, const Jobs& jobs)
+{
+    EnvironmentSampler s;
+    const int size = cube.size, w = size + 2;
+    int levels = 0;
+    while (1 << levels < size)
+        ++levels;
+    BN_CHECK_OP(levels, <, kMaxSamplerLevels);
+    // masses by level, the finest last
+    std::vector<std::vector<double>> mass(static_cast<std::size_t>(levels) + 1);
+    const std::size_t texels = std::size_t{kFaces} * static_cast<std::size_t>(size) * static_cast<std::size_t>(size);
+    mass.back().resize(texels);
+    jobs.parallel_for(std::size_t{kFaces} * static_cast<std::size_t>(size), [&](std::size_t row, int) {
+        const int face = static_cast<int>(row) / size, y = static_cast<int>(row) % size;
+        const std::uint16_t* first = cube.texels.data() + 4 * (std::size_t{cube.offset[0]} + static_cast<std::size_t>(face * w) * static_cast<std::size_t>(w));
+        const double v = (y + 0.5) / size * 2.0 - 1.0;
+        for (int x = 0; x < size; ++x) {
+            const double u = (x + 0.5) / size * 2.0 - 1.0;
+            mass.back()[row * static_cast<std::size_t>(size) + static_cast<std::size_t>(x)] =
+                cell_luminance(first, w, x, y) * solid_angle_density(u, v);
+        }
+    });
+    for (int l = levels - 1; l >= 0; --l) {
+        const std::size_t side = std::size_t{1} << l;
+        const std::vector<double>& fine = mass[static_cast<std::size_t>(l) + 1];
+        std::vector<double>& to = mass[static_cast<std::size_t>(l)];
+        to.resize(kFaces * side * side);
+        for (std::size_t row = 0; row < kFaces * side; ++row) // rows of all faces follow each other, on both levels
+            for (std::size_t x = 0; x < side; ++x) {
+                const double* upper = &fine[(2 * row) * 2 * side + 2 * x];
+                const double* lower = upper + 2 * side;
+                to[row * side + x] = (upper[0] + lower[0]) + (upper[1] + lower[1]);
+            }
+    }
+
+    double total = 0.0;
+    for (int f = 0; f < kFaces; ++f)
+        total += mass[0][static_cast<std::size_t>(f)];
+    EnvironmentSamplerView& view = s.view = {};
+    view.levels = levels, view.size = size;
+    double sum = 0.0;
+    for (int f = 0; f < kFaces; ++f) {
+        sum += mass[0][static_cast<std::size_t>(f)];
+        view.face_end[f] = total > 0.0 ? static_cast<float>(sum / total) : static_cast<float>(f + 1) / 6.0f;
+    }
+    view.face_end[5] = 1.0f;
+
+    std::size_t nodes = 0;
+    for (int l = 0; l < levels; ++l) {
+        view.offset[l] = static_cast<std::int32_t>(nodes);
+        nodes += std::size_t{kFaces} << (2 * l);
+    }
+    s.left.resize(nodes), s.upper.resize(2 * nodes), s.density.resize(texels);
+    const auto share = [](double part, double whole) { return whole > 0.0 ? static_cast<float>(part / whole) : 0.5f; };
+    for (int l = 0; l < levels; ++l) {
+        const std::size_t side = std::size_t{1} << l, at = static_cast<std::size_t>(view.offset[l]);
+        const std::vector<double>& fine = mass[static_cast<std::size_t>(l) + 1];
+        jobs.parallel_for(kFaces * side, [&](std::size_t row, int) {
+            for (std::size_t x = 0; x < side; ++x) {
+                const double* upper = &fine[(2 * row) * 2 * side + 2 * x];
+                const double* lower = upper + 2 * side;
+                const double left = upper[0] + lower[0], right = upper[1] + lower[1];
+                const std::size_t node = at + row * side + x;
+                s.left[node] = share(left, left + right);
+                s.upper[2 * node] = share(upper[0], left);
+                s.upper[2 * node + 1] = share(upper[1], right);
+            }
+        });
+    }
+    const double cells_of_area = static_cast<double>(size) * size / 4.0; // cells by unit of area
+    jobs.parallel_for(kFaces * static_cast<std::size_t>(size), [&](std::size_t row, int) {
+        for (std::size_t i = row * static_cast<std::size_t>(size); i < (row + 1) * static_cast<std::size_t>(size); ++i)
+            s.density[i] = total > 0.0 ? static_cast<float>(mass.back()[i] / total * cells_of_area)
+                                       : static_cast<float>(cells_of_area / static_cast<double>(texels));
+    });
+    view.left = s.left.data(), view.upper = s.upper.data(), view.density = s.density.data();
+    s.mean_luminance = total / cells_of_area / (4.0 * kPi) * static_cast<double>(cube.scale);
+    return s;
+}
+
+} // namespace burnish

@@ -1,0 +1,272 @@
+// From rays to surfaces: camera rays, tracing with transparency, and the materials of what was hit, lanes of different materials merged.
+#pragma once
+#include "core/simd/lanes.h"
+#include "raster/frame/lane_material.h"
+#include "raster/reference/reference_types.h"
+#include "raster/reference/reflector.h"
+#include "shading/kernels/camera_ray.k.h"
+
+namespace burnish {
+inline namespace BN_ISA_NS {
+
+struct LaneRays {
+    real3 origin, direction; // direction: unit, but for camera rays of a perspective view, whose length along the view is 1
+    real tnear, tfar;
+};
+
+struct LaneHits {
+    mask found;
+    integer triangle; // global id, 0 where nothing was found
+    real u, v, t;     // weights of the second and the third vertex; distance in lengths of the direction
+};
+
+struct PixelFrame { // what a batch of lanes knows of its place
+    const ReferenceParams& f;
+    ReferenceScratch& scratch;
+    std::uint32_t seed; // of the pixel and pass
+    int first;          // camera position of lane 0
+};
+
+// (px, py): pixels from the image's top left corner.
+BN_INLINE LaneRays camera_rays(const ReferenceParams& f, real px, real py)
+{
+    const view_params view = lanes_view(f.view);
+    LaneRays r;
+    r.direction = pixel_ray(px, py, splat(f.half_width), splat(f.half_height), view);
+    r.origin = view.eye;
+    r.tnear = view.znear;
+    r.tfar = splat(__builtin_inff());
+    if (f.view.orthographic) {
+        const real x = (px - splat(f.half_width)) / splat(f.half_width) / view.inv_tan_x;
+        const real y = (splat(f.half_height) - py) / splat(f.half_height) / view.inv_tan_y;
+        r.origin = view.eye + view.right * x + view.up * y;
+        r.tfar = view.zfar;
+    }
+    return r;
+}
+
+BN_INLINE LaneHits trace_lanes(const PixelFrame& p, const LaneRays& r, mask wanted, RayKind kind)
+{
+    RayPacket& k = p.scratch.packet;
+    store(k.org_x, r.origin.x), store(k.org_y, r.origin.y), store(k.org_z, r.origin.z);
+    store(k.dir_x, r.direction.x), store(k.dir_y, r.direction.y), store(k.dir_z, r.direction.z);
+    store(k.tnear, r.tnear), store(k.tfar, r.tfar);
+    for (int i = 0; i < kRays; ++i)
+        k.valid[i] = 0;
+    store_int(k.valid, select(wanted, int_lit(-1), int_lit(0)));
+    const std::uint64_t begin = __builtin_ia32_rdtsc();
+    p.f.trace(*p.f.rays, k, kind);
+    p.scratch.count.ticks += __builtin_ia32_rdtsc() - begin;
+    p.scratch.count.rays += static_cast<std::uint64_t>(__builtin_popcount(to_bits(wanted)));
+    LaneHits h;
+    h.t = load(k.tfar);
+    if (kind == RayKind::occlusion) {
+        h.found = both(wanted, h.t < lit(0.0));
+        h.triangle = int_lit(0);
+        h.u = h.v = lit(0.0);
+        return h;
+    }
+    h.found = both(wanted, load_int(k.geometry) != int_lit(-1));
+    h.triangle = select(h.found, load_int(k.triangle), int_lit(0));
+    h.u = select(h.found, load(k.u), lit(0.0));
+    h.v = select(h.found, load(k.v), lit(0.0));
+    return h;
+}
+
+struct LaneTriangle {
+    integer vertex[3];
+    real3 corner[3]; // world space
+};
+
+BN_INLINE LaneTriangle load_triangle(const ReferenceParams& f, integer triangle)
+{
+    LaneTriangle t;
+    const integer first = triangle * int_lit(3);
+    for (int k = 0; k < 3; ++k) {
+        t.vertex[k] = gather_int(reinterpret_cast<const std::int32_t*>(f.indices), first + int_lit(k));
+        t.corner[k] = vec3_of(gather(f.px, t.vertex[k]), gather(f.py, t.vertex[k]), gather(f.pz, t.vertex[k]));
+    }
+    return t;
+}
+
+// Weights of the second and the third vertex where a ray meets the triangle's plane (Moeller, Trumbore 1997).
+BN_INLINE real2 plane_weights(const LaneTriangle& t, const LaneRays& r)
+{
+    const real3 e1 = t.corner[1] - t.corner[0], e2 = t.corner[2] - t.corner[0], s = r.origin - t.corner[0];
+    const real3 q = k_cross(r.direction, e2);
+    const real determinant = k_dot3(e1, q);
+    const real safe = select(abs(determinant) > lit(1e-30), determinant, lit(1e-30));
+    return vec2_of(k_dot3(s, q) / safe, k_dot3(r.direction, k_cross(s, e1)) / safe);
+}
+
+// What lies at the hits. `footprint`: the camera's rays one pixel to the right and one below, or null: textures at full detail.
+struct LaneGeometry {
+    Fragment fragment;
+    real3 position, normal; // normal: the triangle's own, unit, towards the ray's origin
+};
+
+BN_INLINE LaneGeometry locate_hits(const ReferenceParams& f, const LaneHits& h, const LaneRays& r, const LaneRays* footprint)
+{
+    const LaneTriangle t = load_triangle(f, h.triangle);
+    const real3 b = vec3_of(lit(1.0) - h.u - h.v, h.u, h.v);
+    LaneGeometry g;
+    g.position = t.corner[0] * b.x + t.corner[1] * b.y + t.corner[2] * b.z;
+    const real3 outside = k_normalize3(k_cross(t.corner[1] - t.corner[0], t.corner[2] - t.corner[0]));
+    Fragment& p = g.fragment;
+    p.front = k_dot3(outside, r.direction) < lit(0.0);
+    g.normal = select(p.front, outside, -outside);
+    real a[16];
+    blend_records(f.shading_vertices, t.vertex[0], t.vertex[1], t.vertex[2], b.x, b.y, b.z, a);
+    p.normal = vec3_of(a[0], a[1], a[2]);
+    p.tangent = vec3_of(a[3], a[4], a[5]);
+    p.tangent_sign = select(a[6] < lit(0.0), lit(-1.0), lit(1.0));
+    p.uv[0] = vec2_of(a[8], a[9]), p.uv[1] = vec2_of(a[10], a[11]);
+    p.color = vec4_of(a[12], a[13], a[14], a[15]);
+    p.ray = r.direction;
+    p.position = g.position;
+    p.uv_dx[0] = p.uv_dx[1] = p.uv_dy[0] = p.uv_dy[1] = vec2_all(lit(0.0));
+    if (footprint)
+        for (int axis = 0; axis < 2; ++axis) {
+            const real2 w = plane_weights(t, footprint[axis]);
+            real c[4];
+            blend_quad(f.shading_vertices + 8, t.vertex[0], t.vertex[1], t.vertex[2], lit(1.0) - w.x - w.y, w.x, w.y, c);
+            real2* to = axis == 0 ? p.uv_dx : p.uv_dy;
+            to[0] = vec2_of(c[0], c[1]) - p.uv[0];
+            to[1] = vec2_of(c[2], c[3]) - p.uv[1];
+        }
+    return g;
+}
+
+// Calls body(material, lanes) once for every material of the lanes.
+template <class Body> BN_INLINE void for_each_material(const ReferenceParams& f, integer triangle, mask lanes, const Body& body)
+{
+    std::int32_t material[kLanes];
+    store_int(material, gather_int(reinterpret_cast<const std::int32_t*>(f.triangle_material), triangle));
+    const integer all_materials = load_int(material);
+    for (std::uint32_t rest = to_bits(lanes); rest;) {
+        const std::int32_t id = material[__builtin_ctz(rest)];
+        const mask mine = both(lanes, all_materials == int_lit(id));
+        body(f.materials[id], mine);
+        rest &= ~to_bits(mine);
+    }
+}
+
+// Lanes whose hit lets the ray through: below the cutoff, or by chance where the material blends.
+BN_STAGE mask passes_through(const PixelFrame& p, const LaneHits& h, const LaneRays& r, const LaneRays* footprint, int turn)
+{
+    std::uint32_t through = 0;
+    LaneGeometry g;
+    bool located = false;
+    for_each_material(p.f, h.triangle, h.found, [&](const MaterialRecord& m, mask lanes) {
+        if (m.alpha_mode == 0)
+            return;
+        if (!located)
+            g = locate_hits(p.f, h, r, footprint);
+        located = true;
+        const real alpha = fetch_material(p.f, m, g.fragment).alpha;
+        const integer key = (iota() + int_lit(p.first)) ^ splat_bits(hash_seed(p.seed, 0x5000u + static_cast<std::uint32_t>(turn))) ^ bits_of(h.t);
+        const real threshold = m.alpha_mode == 2 ? k_unit_from_bits(k_hash_u32(key)) : splat(m.alpha_cutoff);
+        through |= to_bits(both(lanes, m.alpha_mode == 2 ? alpha <= threshold : alpha < threshold));
+    });
+    return mask_from_bits(through);
+}
+
+BN_INLINE LaneHits find_hits(const PixelFrame& p, LaneRays r, mask wanted, RayKind kind, const LaneRays* footprint = nullptr)
+{
+    if (!p.f.any_alpha)
+        return trace_lanes(p, r, wanted, kind);
+    constexpr int kMostLayers = 64;
+    const RayKind search = kind == RayKind::occlusion ? RayKind::bounce : kind;
+    LaneHits result = trace_lanes(p, r, wanted, search);
+    mask open = wanted;
+    for (int turn = 0; turn < kMostLayers; ++turn) {
+        open = both(open, passes_through(p, result, r, footprint, turn));
+        if (none(open))
+            break;
+        r.tnear = select(open, result.t + abs(result.t) * lit(2e-6) + splat(p.f.ray_epsilon), r.tnear);
+        const LaneHits next = trace_lanes(p, r, open, search);
+        result.triangle = select(open, next.triangle, result.triangle);
+        result.u = select(open, next.u, result.u), result.v = select(open, next.v, result.v);
+        result.t = select(open, next.t, result.t);
+        result.found = select(open, next.found, result.found);
+    }
+    return result;
+}
+
+struct LaneSurface { // what was hit, or nothing
+    Reflector r;
+    real3 emission;         // towards the ray's origin, the environment's where nothing was hit
+    real3 position, normal; // normal: the triangle's
+    mask reflects;
+};
+
+BN_INLINE real3 environment_radiance(const ReferenceParams& f, real3 direction)
+{
+    const CubeParams& c = f.specular_cube;
+    return cube_sample_level({c.texels, c.size, c.levels}, direction, 0) * splat(c.scale);
+}
+
+BN_INLINE Reflector select_reflector(mask m, const Reflector& a, const Reflector& b)
+{
+    Reflector r;
+    r.s.n = select(m, a.s.n, b.s.n), r.s.v = select(m, a.s.v, b.s.v);
+    r.s.n_dot_v = select(m, a.s.n_dot_v, b.s.n_dot_v);
+    r.s.diffuse = select(m, a.s.diffuse, b.s.diffuse);
+    r.s.f0 = select(m, a.s.f0, b.s.f0), r.s.f90 = select(m, a.s.f90, b.s.f90);
+    r.s.roughness = select(m, a.s.roughness, b.s.roughness), r.s.occlusion = select(m, a.s.occlusion, b.s.occlusion);
+    r.lobe.u_axis = select(m, a.lobe.u_axis, b.lobe.u_axis), r.lobe.v_axis = select(m, a.lobe.v_axis, b.lobe.v_axis);
+    r.lobe.sigma_u = select(m, a.lobe.sigma_u, b.lobe.sigma_u), r.lobe.sigma_v = select(m, a.lobe.sigma_v, b.lobe.sigma_v);
+    r.ggx.alpha_x = select(m, a.ggx.alpha_x, b.ggx.alpha_x), r.ggx.alpha_y = select(m, a.ggx.alpha_y, b.ggx.alpha_y);
+    r.o = select(m, a.o, b.o), r.horizon = select(m, a.horizon, b.horizon);
+    r.gain = select(m, a.gain, b.gain), r.diffuse = select(m, a.diffuse, b.diffuse);
+    r.choose_specular = select(m, a.choose_specular, b.choose_specular);
+    r.mirror = select(m, a.mirror, b.mirror);
+    return r;
+}
+
+struct MaterialAtHits {
+    Reflector r;
+    real3 emission;
+};
+
+// The surface as raster/tile shades it.
+BN_STAGE MaterialAtHits material_at_hits(const ReferenceParams& f, const MaterialRecord& m, const LaneGeometry& g)
+{
+    const Fragment& p = g.fragment;
+    const LaneMaterial at = fetch_material(f, m, p);
+    const real3 v = k_normalize3(-p.ray);
+    const real3 normal = select(p.front, p.normal, -p.normal);
+    const real handedness = select(p.front, p.tangent_sign, -p.tangent_sign);
+    const surface_frame own = geometric_frame(normal, p.tangent, handedness);
+    const surface_frame frame = m.textures[kNormalTex].texture ? mapped_frame(own, at.normal_map, handedness) : own;
+    const aniso_lobe lobe = material_lobe(f, m, at, frame);
+    const real roughness = m.anisotropic ? lobe_alpha_lin(lobe) : at.roughness;
+    surface s = metallic_roughness_surface(frame.n, v, at.base, at.metallic, roughness, at.dielectric_f0, at.dielectric_f90, at.occlusion);
+    const dfg_value dfg =
+        f.dfg_fit ? dfg_fit(s.n_dot_v, s.roughness) : dfg_lookup(f.dfg_texels, f.dfg_size, s.n_dot_v, s.roughness);
+    MaterialAtHits r;
+    r.r = make_reflector(s, lobe, own.n, dfg, f.energy_compensation != 0, at.dielectric_f0, at.dielectric_f90);
+    r.emission = m.unlit ? at.base : at.emissive;
+    return r;
+}
+
+BN_STAGE void find_surface(const ReferenceParams& f, const LaneHits& h, const LaneRays& r, const LaneRays* footprint, LaneSurface& out)
+{
+    out.reflects = mask_from_bits(0);
+    if (none(h.found))
+        return;
+    const LaneGeometry g = locate_hits(f, h, r, footprint);
+    out.position = g.position, out.normal = g.normal;
+    bool first = true;
+    for_each_material(f, h.triangle, h.found, [&](const MaterialRecord& m, mask lanes) {
+        const MaterialAtHits at = material_at_hits(f, m, g);
+        out.r = first ? at.r : select_reflector(lanes, at.r, out.r); // lanes without a hit hold something harmless
+        out.emission = first ? at.emission : select(lanes, at.emission, out.emission);
+        if (!m.unlit)
+            out.reflects = either(out.reflects, lanes);
+        first = false;
+    });
+}
+
+} // namespace BN_ISA_NS
+} // namespace burnish

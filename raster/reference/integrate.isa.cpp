@@ -1,0 +1,232 @@
+// Monte Carlo integration of pixels, lanes of camera positions at a time. Compiled once for every instruction set.
+// Light from the environment is estimated twice a sample, by a direction of the environment's and by one of the lobe's, weighted by the
+// power heuristic (Veach 1997, section 9.2).
+#include "raster/reference/hits.h"
+#include "raster/reference/light_sampling.h"
+#include "raster/reference/reference_types.h"
+#include "raster/reference/reflector.h"
+#include "raster/reference/samples.h"
+#include "shading/kernels/punctual.k.h"
+
+namespace burnish {
+inline namespace BN_ISA_NS {
+
+namespace {
+
+static_assert(kPassPositions % kLanes == 0 && kRays >= kLanes);
+
+// Of a direction drawn with density `own`, where the other way would have drawn it with density `other`.
+BN_INLINE real power_weight(real own, real other)
+{
+    const real ratio = other / max(own, lit(1e-20));
+    return lit(1.0) / (lit(1.0) + ratio * ratio);
+}
+
+BN_INLINE mask any_light(real3 c) { return max(c.x, max(c.y, c.z)) > lit(0.0); }
+
+struct EnvironmentEstimate {
+    real3 wi;
+    real3 value; // BRDF, cosine, radiance and weight, over the density
+};
+
+BN_INLINE EnvironmentEstimate by_environment(const ReferenceParams& f, const Reflector& r, real2 xi)
+{
+    const LightSample l = sample_environment(f.sampler, xi);
+    const Reflection at = reflect(r, l.wi);
+    const real weight = f.strategy == ReferenceStrategy::mis ? power_weight(l.pdf, at.pdf) : lit(1.0);
+    const real inv = select(l.pdf > lit(0.0), weight / max(l.pdf, lit(1e-20)), lit(0.0));
+    return {l.wi, at.value * environment_radiance(f, l.wi) * inv};
+}
+
+// Weight of what a lobe's sample finds in the environment.
+BN_INLINE real lobe_weight(const ReferenceParams& f, const ReflectorSample& s)
+{
+    if (f.strategy == ReferenceStrategy::brdf)
+        return lit(1.0);
+    const real weight =
+        f.strategy == ReferenceStrategy::mis ? power_weight(s.pdf, environment_pdf(f.sampler, s.wi)) : lit(0.0);
+    return select(s.exact, lit(1.0), weight);
+}
+
+// Nothing is in the way of the environment.
+BN_INLINE real3 open_light(const ReferenceParams& f, const Reflector& r, const ShadeSample& x)
+{
+    real3 sum = vec3_all(lit(0.0));
+    if (f.strategy != ReferenceStrategy::brdf)
+        sum = by_environment(f, r, x.light).value;
+    const ReflectorSample s = sample_reflector(r, x.lobe, x.choice);
+    const real weight = lobe_weight(f, s);
+    return sum + s.weight * environment_radiance(f, s.wi) * weight;
+}
+
+// A ray that leaves a surface, from a point lifted off it by what rounding may have lost.
+BN_INLINE LaneRays leaving_ray(const ReferenceParams& f, const LaneSurface& s, real3 wi)
+{
+    const real size = max(abs(s.position.x), max(abs(s.position.y), abs(s.position.z)));
+    const real lift = size * lit(2e-6) + splat(f.ray_epsilon);
+    LaneRays r;
+    r.origin = s.position + s.normal * select(k_dot3(s.normal, wi) < lit(0.0), -lift, lift);
+    r.direction = wi;
+    r.tnear = lift;
+    r.tfar = splat(__builtin_inff());
+    return r;
+}
+
+BN_STAGE real3 punctual_light(const PixelFrame& p, const LaneSurface& s)
+{
+    const ReferenceParams& f = p.f;
+    real3 sum = vec3_all(lit(0.0));
+    for (int i = 0; i < f.light_count; ++i) {
+        const LightRecord& l = f.lights[i];
+        const light_sample at = sample_punctual(s.position, splat3(l.position), splat3(l.direction), splat(l.inv_range2),
+                                                splat(l.spot_scale), splat(l.spot_offset), int_lit(l.directional) != int_lit(0));
+        const real3 light = punctual_radiance_aniso(s.r.s, s.r.lobe, at.l, s.r.gain, splat3(l.radiant) * at.attenuation);
+        mask lit_lanes = both(both(s.reflects, k_dot3(s.r.horizon, at.l) > lit(0.0)), any_light(light));
+        if (f.mode != ReferenceMode::direct && any(lit_lanes)) {
+            LaneRays r = leaving_ray(f, s, at.l);
+            if (!l.directional)
+                r.tfar = max(k_length3(splat3(l.position) - s.position) - lit(2.0) * r.tnear, r.tnear);
+            lit_lanes = both(lit_lanes, not_(find_hits(p, r, lit_lanes, RayKind::occlusion).found));
+        }
+        sum = sum + select(lit_lanes, light, vec3_all(lit(0.0)));
+    }
+    return sum;
+}
+
+// Light of the environment, and with bounces that of other surfaces, with everything in its way.
+BN_STAGE real3 traced_light(const PixelFrame& p, const LaneSurface& first, integer position, int shade)
+{
+    const ReferenceParams& f = p.f;
+    const real3 zero = vec3_all(lit(0.0));
+    const int bounces = f.mode == ReferenceMode::path ? f.bounces : 0;
+    real3 sum = zero, throughput = vec3_all(lit(1.0));
+    LaneSurface s = first;
+    for (int depth = 0; any(s.reflects); ++depth) {
+        const ShadeSample x = shade_sample(*f.sobol, p.seed, position, shade, depth);
+        if (f.strategy != ReferenceStrategy::brdf) {
+            const EnvironmentEstimate e = by_environment(f, s.r, x.light);
+            const real3 value = throughput * e.value;
+            const mask wanted = both(s.reflects, any_light(value));
+            if (any(wanted)) {
+                const mask blocked = find_hits(p, leaving_ray(f, s, e.wi), wanted, RayKind::occlusion).found;
+                sum = sum + select(both(wanted, not_(blocked)), value, zero);
+            }
+        }
+        const ReflectorSample b = sample_reflector(s.r, x.lobe, x.choice);
+        const mask wanted = both(s.reflects, any_light(b.weight));
+        if (none(wanted))
+            break;
+        const bool last = depth == bounces;
+        const LaneRays r = leaving_ray(f, s, b.wi);
+        const LaneHits h = find_hits(p, r, wanted, last ? RayKind::occlusion : RayKind::bounce);
+        const real3 carried = throughput * b.weight;
+        const real3 outside = carried * environment_radiance(f, b.wi) * lobe_weight(f, b);
+        sum = sum + select(both(wanted, not_(h.found)), outside, zero);
+        if (last || none(h.found))
+            break;
+        throughput = select(h.found, carried, zero);
+        find_surface(f, h, r, nullptr, s);
+        real3 at_surface = s.emission;
+        if (f.light_count > 0 && any(s.reflects))
+            at_surface = at_surface + punctual_light(p, s);
+        sum = sum + select(h.found, throughput * at_surface, zero);
+    }
+    return sum;
+}
+
+// Sum over the shades of lanes `first`, first + 1... of a pixel's camera positions.
+BN_STAGE real3 radiance_at_positions(const PixelFrame& p, int x, int y, int first)
+{
+    const ReferenceParams& f = p.f;
+    const integer position = iota() + int_lit(first);
+    const real2 in_pixel = camera_position(*f.sobol, p.seed, position);
+    const real px = splat(static_cast<float>(x)) + in_pixel.x, py = splat(static_cast<float>(y)) + in_pixel.y;
+    const LaneRays rays = camera_rays(f, px, py);
+    // the neighbour that belongs to the same quad of 2x2 pixels, as the rasterizer takes its derivatives
+    const LaneRays footprint[2] = {camera_rays(f, px + splat(x & 1 ? -1.0f : 1.0f), py),
+                                   camera_rays(f, px, py + splat(y & 1 ? -1.0f : 1.0f))};
+    const mask everything = mask_from_bits((1u << kLanes) - 1u);
+    const LaneHits h = find_hits(p, rays, everything, RayKind::camera, footprint);
+    LaneSurface s;
+    find_surface(f, h, rays, footprint, s);
+    const real3 zero = vec3_all(lit(0.0));
+    real3 once = zero;
+    if (any(h.found))
+        once = select(h.found, s.emission, zero);
+    if (f.background && !all(h.found))
+        once = select(h.found, once, environment_radiance(f, rays.direction));
+    real3 sum = once * lit(kPassShades);
+    if (none(s.reflects))
+        return sum;
+    if (f.light_count > 0)
+        sum = sum + punctual_light(p, s) * lit(kPassShades);
+    for (int shade = 0; shade < kPassShades; ++shade) {
+        const real3 light = f.mode == ReferenceMode::direct
+                                ? open_light(f, s.r, shade_sample(*f.sobol, p.seed, position, shade, 0)) * s.r.s.occlusion
+                                : traced_light(p, s, position, shade);
+        sum = sum + select(s.reflects, light, zero);
+    }
+    return sum;
+}
+
+void add_pass(const ReferenceParams& f, ReferenceScratch& scratch, int x, int y, std::uint32_t pass, PixelState& state)
+{
+    const std::uint32_t pixel = hash_seed(hash_seed(hash_seed(0x62726e73u, f.seed), static_cast<std::uint32_t>(x)),
+                                          static_cast<std::uint32_t>(y));
+    float channel[3][kPassPositions];
+    for (int first = 0; first < kPassPositions; first += kLanes) {
+        const PixelFrame p = {f, scratch, hash_seed(pixel, pass), first};
+        const real3 c = radiance_at_positions(p, x, y, first);
+        store(channel[0] + first, c.x), store(channel[1] + first, c.y), store(channel[2] + first, c.z);
+    }
+    for (int c = 0; c < 3; ++c) {
+        double sum = 0.0;
+        for (int i = 0; i < kPassPositions; ++i)
+            sum += static_cast<double>(channel[c][i]);
+        const double value = sum / kPassSamples, delta = value - state.mean[c];
+        state.mean[c] += delta / (static_cast<double>(pass) + 1.0);
+        state.m2[c] += delta * (value - state.mean[c]);
+    }
+}
+
+void add_passes(const ReferenceParams& f, const PixelBlock& b, ReferenceScratch& scratch, PixelState* state)
+{
+    const std::uint64_t begin = __builtin_ia32_rdtsc();
+    for (int y = b.y0; y < b.y0 + b.height; ++y)
+        for (int x = b.x0; x < b.x0 + b.width; ++x)
+            for (std::uint32_t pass = b.first_pass; pass < b.first_pass + b.passes; ++pass)
+                add_pass(f, scratch, x, y, pass, state[static_cast<std::ptrdiff_t>(y) * f.width + x]);
+    scratch.count.all_ticks += __builtin_ia32_rdtsc() - begin;
+}
+
+void trace_row(const ReferenceParams& f, int y, const SamplePattern& pattern, ReferenceScratch& scratch, std::uint32_t* ids)
+{
+    const int count = f.width * pattern.count;
+    for (int first = 0; first < count; first += kLanes) {
+        float px[kLanes], py[kLanes];
+        for (int i = 0; i < kLanes; ++i) {
+            const int at = first + i < count ? first + i : first, sample = at % pattern.count;
+            px[i] = static_cast<float>(at / pattern.count) + static_cast<float>(pattern.x[sample]) * (1.0f / kSubpixel);
+            py[i] = static_cast<float>(y) + static_cast<float>(pattern.y[sample]) * (1.0f / kSubpixel);
+        }
+        const PixelFrame p = {f, scratch, hash_seed(f.seed, static_cast<std::uint32_t>(y)), 0};
+        const LaneRays rays = camera_rays(f, load(px), load(py));
+        const mask everything = mask_from_bits((1u << kLanes) - 1u);
+        const LaneHits h = find_hits(p, rays, everything, RayKind::camera);
+        std::int32_t id[kLanes];
+        store_int(id, select(h.found, h.triangle, int_lit(-1)));
+        for (int i = 0; i < kLanes && first + i < count; ++i)
+            ids[first + i] = static_cast<std::uint32_t>(id[i]);
+    }
+}
+
+} // namespace
+
+const ReferenceFns& reference_fns()
+{
+    static constexpr ReferenceFns fns = {add_passes, trace_row};
+    return fns;
+}
+
+} // namespace BN_ISA_NS
+} // namespace burnish

@@ -1,0 +1,141 @@
+#include "raster/reference/ray_scene.h"
+
+#include <embree3/rtcore.h>
+
+#include <cstddef>
+#include <cstring>
+#include <vector>
+
+#include "core/base/check.h"
+
+namespace burnish {
+namespace {
+
+static_assert(offsetof(RayPacket, org_x) == offsetof(RTCRayHit16, ray.org_x));
+static_assert(offsetof(RayPacket, tfar) == offsetof(RTCRayHit16, ray.tfar));
+static_assert(offsetof(RayPacket, flags) == offsetof(RTCRayHit16, ray.flags));
+static_assert(offsetof(RayPacket, ng_x) == offsetof(RTCRayHit16, hit.Ng_x));
+static_assert(offsetof(RayPacket, triangle) == offsetof(RTCRayHit16, hit.primID));
+static_assert(offsetof(RayPacket, geometry) == offsetof(RTCRayHit16, hit.geomID));
+static_assert(offsetof(RayPacket, valid) == sizeof(RTCRayHit16), "instancing of one level");
+static_assert(kNoHit == RTC_INVALID_GEOMETRY_ID);
+
+class EmbreeScene final : public RayScene {
+  public:
+    static Result<std::unique_ptr<RayScene>> make(const Scene& scene, const DrawTables& tables);
+    ~EmbreeScene() override
+    {
+        rtcReleaseScene(scene_);
+        rtcReleaseDevice(device_);
+    }
+    void trace(RayPacket& rays, RayKind kind) const override;
+    std::string description() const override;
+
+  private:
+    EmbreeScene() = default;
+    static void cull(const RTCFilterFunctionNArguments* args);
+
+    RTCDevice device_ = nullptr;
+    RTCScene scene_ = nullptr;
+    std::vector<std::uint8_t> single_sided_; // by triangle
+    bool any_single_sided_ = false;
+};
+
+Result<std::unique_ptr<RayScene>> EmbreeScene::make(const Scene& scene, const DrawTables& tables)
+{
+    std::unique_ptr<EmbreeScene> self(new EmbreeScene);
+    self->device_ = rtcNewDevice(nullptr); // a number of threads here would limit oneTBB in the whole process
+    const auto failed = [&](const char* what) {
+        return Error{ExitCode::internal, "", "", std::string("Embree cannot ") + what};
+    };
+    if (!self->device_)
+        return failed("be started");
+    self->scene_ = rtcNewScene(self->device_);
+    rtcSetSceneFlags(self->scene_, static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION));
+
+    const std::size_t triangles = tables.triangle_count(), vertices = tables.px.size();
+    self->single_sided_.resize(triangles);
+    for (std::size_t i = 0; i < triangles; ++i) {
+        self->single_sided_[i] = !scene.materials[tables.triangle_material[i]].double_sided;
+        self->any_single_sided_ = self->any_single_sided_ || self->single_sided_[i];
+    }
+    if (triangles > 0) {
+        RTCGeometry geometry = rtcNewGeometry(self->device_, RTC_GEOMETRY_TYPE_TRIANGLE);
+        auto* position = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                                                     3 * sizeof(float), vertices));
+        auto* index = static_cast<std::uint32_t*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                                                          3 * sizeof(std::uint32_t), triangles));
+        if (!position || !index) {
+            rtcReleaseGeometry(geometry);
+            return Error{ExitCode::bad_input, "", "", "out of memory for the rays' copy of the scene"};
+        }
+        for (std::size_t i = 0; i < vertices; ++i) {
+            position[3 * i] = tables.px[i];
+            position[3 * i + 1] = tables.py[i];
+            position[3 * i + 2] = tables.pz[i];
+        }
+        std::memcpy(index, tables.indices.data(), 3 * triangles * sizeof(std::uint32_t));
+        rtcSetGeometryUserData(geometry, self.get());
+        rtcCommitGeometry(geometry);
+        rtcAttachGeometry(self->scene_, geometry);
+        rtcReleaseGeometry(geometry);
+    }
+    rtcCommitScene(self->scene_);
+    if (rtcGetDeviceError(self->device_) != RTC_ERROR_NONE)
+        return failed("build its tree over the scene");
+    return std::unique_ptr<RayScene>(std::move(self));
+}
+
+// Backs of single-sided triangles are not there for the camera. Fronts are counter-clockwise, so their normal faces the ray.
+void EmbreeScene::cull(const RTCFilterFunctionNArguments* args)
+{
+    const auto* self = static_cast<const EmbreeScene*>(args->geometryUserPtr);
+    const unsigned n = args->N;
+    for (unsigned i = 0; i < n; ++i) {
+        if (args->valid[i] != -1 || !self->single_sided_[RTCHitN_primID(args->hit, n, i)])
+            continue;
+        const float facing = RTCHitN_Ng_x(args->hit, n, i) * RTCRayN_dir_x(args->ray, n, i) +
+                             RTCHitN_Ng_y(args->hit, n, i) * RTCRayN_dir_y(args->ray, n, i) +
+                             RTCHitN_Ng_z(args->hit, n, i) * RTCRayN_dir_z(args->ray, n, i);
+        if (facing >= 0.0f)
+            args->valid[i] = 0;
+    }
+}
+
+void EmbreeScene::trace(RayPacket& rays, RayKind kind) const
+{
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    if (kind == RayKind::camera) {
+        context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+        if (any_single_sided_)
+            context.filter = cull;
+    }
+    for (int i = 0; i < kRays; ++i) {
+        rays.time[i] = 0.0f;
+        rays.mask[i] = 0xffffffffu, rays.flags[i] = 0, rays.id[i] = 0;
+        rays.geometry[i] = rays.instance[i] = kNoHit;
+    }
+    if (kind == RayKind::occlusion)
+        rtcOccluded16(rays.valid, scene_, &context, reinterpret_cast<RTCRay16*>(&rays));
+    else
+        rtcIntersect16(rays.valid, scene_, &context, reinterpret_cast<RTCRayHit16*>(&rays));
+}
+
+std::string EmbreeScene::description() const
+{
+    const auto part = [&](RTCDeviceProperty p) { return std::to_string(rtcGetDeviceProperty(device_, p)); };
+    return "Embree " + part(RTC_DEVICE_PROPERTY_VERSION_MAJOR) + "." + part(RTC_DEVICE_PROPERTY_VERSION_MINOR) + "." +
+           part(RTC_DEVICE_PROPERTY_VERSION_PATCH);
+}
+
+} // namespace
+
+bool ray_scene_available() { return true; }
+
+Result<std::unique_ptr<RayScene>> make_ray_scene(const Scene& scene, const DrawTables& tables)
+{
+    return EmbreeScene::make(scene, tables);
+}
+
+} // namespace burnish

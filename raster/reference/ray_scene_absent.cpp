@@ -1,0 +1,13 @@
+// Stands in for ray_scene.cpp where Embree was not found.
+#include "raster/reference/ray_scene.h"
+
+namespace burnish {
+
+bool ray_scene_available() { return false; }
+
+Result<std::unique_ptr<RayScene>> make_ray_scene(const Scene&, const DrawTables&)
+{
+    return Error{ExitCode::unavailable, "", "--backend reference", "this program was built without Embree 3"};
+}
+
+} // namespace burnish

@@ -1,0 +1,252 @@
+// The same bits whatever runs them, however often they are interrupted.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <thread>
+
+#include "core/scene/builtin.h"
+#include "raster/reference/checkpoint.h"
+#include "tests/unit/reference/scenes.h"
+
+namespace burnish::test {
+namespace {
+
+class TempFile {
+  public:
+    explicit TempFile(const char* name)
+        : path_((std::filesystem::temp_directory_path() / ("burnish_" + std::to_string(getpid()) + "_" + name)).string())
+    {
+    }
+    ~TempFile()
+    {
+        std::error_code ignored;
+        std::filesystem::remove(path_, ignored);
+    }
+    const std::string& path() const { return path_; }
+
+  private:
+    std::string path_;
+};
+
+Scene small_scene()
+{
+    Scene scene = ball_scene(metal(0.5f, 0.0f), false);
+    add_scene(scene, plane_scene(lambert(0.6f)), {0.0f, 0.0f, -1.1f}, 2.0f);
+    return scene;
+}
+
+FrameDesc small_desc()
+{
+    FrameDesc d = desc_of(37, 21, make_view(glm::vec3(1.0f, 0.8f, 4.0f), glm::vec3(0.0f), 0.7f, 37, 21));
+    d.seed = 3;
+    return d;
+}
+
+ReferenceOptions options_of(ReferenceMode mode, std::uint64_t samples)
+{
+    ReferenceOptions o;
+    o.mode = mode, o.samples = samples, o.bounces = 3;
+    return o;
+}
+
+Result<Frame> try_render(const Stage& stage, const FrameDesc& d, const ReferenceOptions& o)
+{
+    const RenderInput input{stage.scene, stage.tables, stage.environment, stage.dfg, stage.jobs};
+    Result<std::unique_ptr<Renderer>> renderer = make_reference_renderer(input, o);
+    EXPECT_TRUE(renderer);
+    return (*renderer)->render(d);
+}
+
+TEST(bits, are_the_same_for_any_thread_count_and_instruction_set)
+{
+    BN_NEEDS_EMBREE();
+    for (ReferenceMode mode : {ReferenceMode::direct, ReferenceMode::shadowed, ReferenceMode::path}) {
+        std::uint64_t color = 0, variance = 0;
+        for (int threads : {1, 2, 5}) {
+            const Stage stage(small_scene(), 1.0f, threads);
+            for (Isa isa : available_isas()) {
+                const RenderInput input{stage.scene, stage.tables, stage.environment, stage.dfg, stage.jobs};
+                ReferenceOptions o = options_of(mode, 320);
+                o.isa = isa;
+                const Result<Frame> f = (*make_reference_renderer(input, o))->render(small_desc());
+                ASSERT_TRUE(f);
+                EXPECT_EQ(f->stats.sampling.samples, 320u);
+                color = color ? color : pixel_hash(f->color);
+                variance = variance ? variance : pixel_hash(f->variance);
+                EXPECT_EQ(pixel_hash(f->color), color) << "mode " << static_cast<int>(mode) << ", " << threads << " threads, " << isa_name(isa);
+                EXPECT_EQ(pixel_hash(f->variance), variance);
+            }
+        }
+    }
+}
+
+TEST(bits, differ_for_another_seed)
+{
+    BN_NEEDS_EMBREE();
+    const Stage stage(small_scene());
+    FrameDesc d = small_desc();
+    const std::uint64_t first = pixel_hash(render_reference(stage, d, options_of(ReferenceMode::direct, 64)).color);
+    d.seed = 4;
+    EXPECT_NE(pixel_hash(render_reference(stage, d, options_of(ReferenceMode::direct, 64)).color), first);
+}
+
+TEST(checkpoint, a_picture_gone_on_with_is_the_picture_made_at_once)
+{
+    BN_NEEDS_EMBREE();
+    const Stage stage(small_scene(), 1.0f, 2);
+    const Frame at_once = render_reference(stage, small_desc(), options_of(ReferenceMode::shadowed, 640));
+    const TempFile file("resumed");
+    for (std::uint64_t samples : {64u, 192u, 640u}) {
+        ReferenceOptions o = options_of(ReferenceMode::shadowed, samples);
+        o.checkpoint = file.path();
+        const Frame f = render_reference(stage, small_desc(), o);
+        EXPECT_EQ(f.stats.sampling.resumed, samples > 64);
+        EXPECT_EQ(f.stats.sampling.samples_before, samples == 64 ? 0u : samples == 192 ? 64u : 192u);
+        EXPECT_EQ(pixel_hash(f.color) == pixel_hash(at_once.color), samples == 640);
+        if (samples == 640) {
+            EXPECT_EQ(pixel_hash(f.variance), pixel_hash(at_once.variance));
+        }
+    }
+}
+
+TEST(checkpoint, a_run_that_is_stopped_again_and_again_loses_nothing)
+{
+    BN_NEEDS_EMBREE();
+    const Stage stage(small_scene(), 1.0f, 2);
+    const std::uint64_t samples = 64 * 600;
+    const Frame at_once = render_reference(stage, small_desc(), options_of(ReferenceMode::path, samples));
+    const TempFile file("stopped");
+    int stops = 0;
+    for (int run = 0; run < 1000; ++run) {
+        std::atomic<bool> stop{false};
+        ReferenceOptions o = options_of(ReferenceMode::path, samples);
+        o.checkpoint = file.path();
+        o.stop = &stop;
+        const double share = 0.15 * at_once.stats.ms; // of the whole: several stops, each after some progress
+        std::thread bell([&] {
+            std::this_thread::sleep_for(std::chrono::duration<double, std::milli>(share * (1.0 + 0.2 * run)));
+            stop = true;
+        });
+        const Frame f = render_reference(stage, small_desc(), o);
+        bell.join();
+        if (f.stats.sampling.stopped) {
+            ++stops;
+            continue;
+        }
+        EXPECT_EQ(pixel_hash(f.color), pixel_hash(at_once.color));
+        EXPECT_EQ(pixel_hash(f.variance), pixel_hash(at_once.variance));
+        break;
+    }
+    std::printf("stopped %d times\n", stops);
+    EXPECT_GE(stops, 1);
+    EXPECT_LT(stops, 500);
+}
+
+TEST(checkpoint, of_something_else_is_refused_and_left_alone)
+{
+    BN_NEEDS_EMBREE();
+    const TempFile file("other");
+    Stage stage(small_scene());
+    ReferenceOptions o = options_of(ReferenceMode::direct, 64);
+    o.checkpoint = file.path();
+    render_reference(stage, small_desc(), o);
+    const auto bytes = [&] {
+        std::ifstream in(file.path(), std::ios::binary);
+        return std::string(std::istreambuf_iterator<char>(in), {});
+    };
+    const std::string before = bytes();
+    const auto refused = [&](const Stage& s, const FrameDesc& d, const ReferenceOptions& options, const char* what) {
+        const Result<Frame> f = try_render(s, d, options);
+        ASSERT_FALSE(f) << what;
+        EXPECT_EQ(f.error().code, ExitCode::bad_input) << what;
+        EXPECT_EQ(f.error().file, file.path());
+        EXPECT_NE(f.error().reason.find("another picture"), std::string::npos) << what;
+        EXPECT_EQ(bytes(), before) << what;
+    };
+    FrameDesc d = small_desc();
+    d.seed = 9;
+    refused(stage, d, o, "seed");
+    d = small_desc();
+    d.view.eye.x += 0.01f;
+    refused(stage, d, o, "view");
+    d = small_desc();
+    d.width = 38;
+    refused(stage, d, o, "size");
+    d = small_desc();
+    d.background = false;
+    refused(stage, d, o, "background");
+    ReferenceOptions other = o;
+    other.mode = ReferenceMode::shadowed;
+    refused(stage, small_desc(), other, "mode");
+    Scene changed = small_scene();
+    changed.materials[1].base_color.g += 0.01f;
+    refused(Stage(changed), small_desc(), o, "material");
+    changed = small_scene();
+    changed.vertices.px[10] += 1e-3f;
+    refused(Stage(changed), small_desc(), o, "geometry");
+    refused(Stage(small_scene(), 1.01f), small_desc(), o, "environment");
+    EXPECT_TRUE(try_render(stage, small_desc(), o));
+}
+
+TEST(checkpoint, that_is_none_or_damaged_is_refused)
+{
+    BN_NEEDS_EMBREE();
+    const TempFile file("damaged");
+    const Stage stage(small_scene());
+    ReferenceOptions o = options_of(ReferenceMode::direct, 64);
+    o.checkpoint = file.path();
+    render_reference(stage, small_desc(), o);
+    std::string bytes;
+    {
+        std::ifstream in(file.path(), std::ios::binary);
+        bytes.assign(std::istreambuf_iterator<char>(in), {});
+    }
+    const auto refused = [&](std::string content, const char* word) {
+        std::ofstream(file.path(), std::ios::binary) << content;
+        const Result<Frame> f = try_render(stage, small_desc(), o);
+        ASSERT_FALSE(f) << word;
+        EXPECT_EQ(f.error().code, ExitCode::bad_input);
+        EXPECT_NE(f.error().reason.find(word), std::string::npos) << f.error().line();
+    };
+    std::string flipped = bytes;
+    flipped[bytes.size() / 2] = static_cast<char>(flipped[bytes.size() / 2] ^ 4);
+    refused(flipped, "damaged");
+    refused(bytes.substr(0, bytes.size() - 5), "damaged");
+    refused("my diary", "not a checkpoint");
+    refused(bytes.substr(0, 20), "not a checkpoint");
+}
+
+TEST(target_error, ends_early_and_is_met)
+{
+    BN_NEEDS_EMBREE();
+    const Stage stage(small_scene(), 1.0f, 2);
+    ReferenceOptions o = options_of(ReferenceMode::shadowed, 1u << 20);
+    o.target_error = 0.01;
+    const Frame f = render_reference(stage, small_desc(), o);
+    EXPECT_LE(f.stats.sampling.relative_error, 0.01);
+    EXPECT_LT(f.stats.sampling.samples, 1u << 18);
+    EXPECT_GE(f.stats.sampling.samples, 8u * kPassSamples);
+    // The interval holds what it promises: a far better estimate lies within it about as often as it should.
+    FrameDesc d = small_desc();
+    d.seed = 77;
+    const Frame truth = render_reference(stage, d, options_of(ReferenceMode::shadowed, 16 * f.stats.sampling.samples));
+    std::size_t inside = 0, n = 0;
+    for (std::size_t i = 0; i < f.color.bytes.size() / sizeof(float); ++i) {
+        const double v = static_cast<double>(f.variance.f32()[i]) + static_cast<double>(truth.variance.f32()[i]);
+        if (!(v > 1e-14))
+            continue;
+        const double difference = static_cast<double>(f.color.f32()[i]) - static_cast<double>(truth.color.f32()[i]);
+        ++n;
+        inside += difference * difference < 1.96 * 1.96 * v;
+    }
+    EXPECT_GT(static_cast<double>(inside) / static_cast<double>(n), 0.93);
+    EXPECT_LT(static_cast<double>(inside) / static_cast<double>(n), 0.97);
+}
+
+} // namespace
+} // namespace burnish::test

@@ -1,0 +1,127 @@
+// Three ways to choose directions, one integral: they must agree within their own error bars, picture by picture and pixel by pixel.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+
+#include "core/scene/builtin.h"
+#include "tests/unit/reference/scenes.h"
+
+namespace burnish::test {
+namespace {
+
+glm::vec3 lamps(const glm::vec3& d)
+{
+    glm::vec3 c(0.2f + 0.1f * d.y, 0.25f, 0.3f - 0.1f * d.x);
+    if (glm::dot(d, glm::normalize(glm::vec3(0.5f, 0.6f, 0.6f))) > 0.98f)
+        c += glm::vec3(20.0f, 15.0f, 9.0f);
+    if (d.y < -0.3f)
+        c = glm::vec3(0.0f); // there is nothing to sample
+    return c;
+}
+
+struct Agreement {
+    double picture = 0.0;   // difference of the means over its deviation
+    double worst_share = 0; // of pixels and channels that are more than 4 deviations apart
+    double mean_square = 0; // of the differences over their deviations: 1 where the error bars tell the truth
+};
+
+Agreement compare(const Frame& a, const Frame& b)
+{
+    Agreement r;
+    const Estimate x = estimate(a), y = estimate(b);
+    r.picture = std::abs(x.mean - y.mean) / std::sqrt(x.deviation * x.deviation + y.deviation * y.deviation);
+    std::size_t n = 0, far = 0;
+    for (std::size_t i = 0; i < a.color.bytes.size() / sizeof(float); ++i) {
+        const double v = static_cast<double>(a.variance.f32()[i]) + static_cast<double>(b.variance.f32()[i]);
+        if (!(v > 1e-12))
+            continue;
+        const double d = static_cast<double>(a.color.f32()[i]) - static_cast<double>(b.color.f32()[i]);
+        ++n;
+        far += d * d > 16.0 * v;
+        r.mean_square += d * d / v;
+    }
+    r.worst_share = static_cast<double>(far) / static_cast<double>(n);
+    r.mean_square /= static_cast<double>(n);
+    return r;
+}
+
+void expect_agreement(const Stage& stage, const FrameDesc& desc, ReferenceMode mode, std::uint64_t samples, const char* what)
+{
+    Frame frames[3];
+    const ReferenceStrategy strategies[3] = {ReferenceStrategy::mis, ReferenceStrategy::brdf, ReferenceStrategy::light};
+    for (int i = 0; i < 3; ++i) {
+        ReferenceOptions o;
+        o.mode = mode, o.samples = samples, o.strategy = strategies[i];
+        o.bounces = 2;
+        FrameDesc d = desc;
+        d.seed = static_cast<std::uint32_t>(i + 1); // of their own: error bars are for independent estimates
+        frames[i] = render_reference(stage, d, o);
+    }
+    for (int i = 0; i < 3; ++i) {
+        const Agreement a = compare(frames[i], frames[(i + 1) % 3]);
+        std::printf("%s, mode %d, %d against %d: picture %.2f sigma, mean square %.3f, beyond 4 sigma %.2g\n", what, static_cast<int>(mode), i,
+                    (i + 1) % 3, a.picture, a.mean_square, a.worst_share);
+        EXPECT_LT(a.picture, 4.0) << what;
+        EXPECT_LT(a.worst_share, 4e-3) << what; // of a normal distribution 6e-5; few passes and small lamps have longer tails
+        EXPECT_LT(a.mean_square, 1.3) << what;
+        EXPECT_GT(a.mean_square, 0.8) << what;
+    }
+    const double mis = estimate(frames[0]).deviation;
+    EXPECT_LT(mis, 1.3 * estimate(frames[1]).deviation) << what << ": the combination is worse than one of its parts";
+    EXPECT_LT(mis, 1.3 * estimate(frames[2]).deviation) << what;
+}
+
+TEST(strategies, agree_on_anisotropic_metal_and_matte_balls)
+{
+    BN_NEEDS_EMBREE();
+    Scene scene = ball_scene(metal(0.55f, 0.6f), false);
+    Material glossy;
+    glossy.base_color = glm::vec4(0.6f, 0.2f, 0.1f, 1.0f);
+    glossy.metallic = 0.0f, glossy.roughness = 0.5f;
+    add_scene(scene, ball_scene(glossy, false), {1.3f, -0.4f, 0.8f}, 0.6f);
+    add_scene(scene, plane_scene(lambert(0.7f)), {0.0f, 0.0f, -1.2f}, 3.0f);
+    Stage stage(scene, 1.0f, 2);
+    stage.environment = environment_of(lamps, 64, stage.jobs);
+    FrameDesc d = desc_of(40, 40, make_view(glm::vec3(1.0f, 1.5f, 5.0f), glm::vec3(0.2f, 0.0f, 0.0f), 0.6f, 40, 40));
+    d.background = false;
+    for (ReferenceMode mode : {ReferenceMode::direct, ReferenceMode::shadowed, ReferenceMode::path})
+        expect_agreement(stage, d, mode, 4096, "balls");
+}
+
+TEST(strategies, agree_on_the_textured_plate)
+{
+    BN_NEEDS_EMBREE();
+    Result<Scene> scene = make_builtin_scene("plate");
+    ASSERT_TRUE(scene);
+    update_world(*scene);
+    Stage stage(std::move(*scene), 1.0f, 2);
+    stage.environment = environment_of(lamps, 64, stage.jobs);
+    FrameDesc d = desc_of(32, 32, auto_frame(stage.tables, 32, 32));
+    d.background = false;
+    expect_agreement(stage, d, ReferenceMode::direct, 32768, "plate"); // brdf finds the lamp rarely
+}
+
+// Under no occlusion the technique `mc` of the tile renderer estimates the same integral, one shading point a pixel.
+TEST(strategies, agree_with_the_tile_renderer_s_mc)
+{
+    BN_NEEDS_EMBREE();
+    Stage stage(plane_scene(metal(0.5f, 0.7f)), 1.0f, 2);
+    stage.environment = environment_of(lamps, 64, stage.jobs);
+    FrameDesc d = desc_of(16, 16, view_from({0.2f, 0.3f, 1.0f}, 0.5f)); // every point of the plane looks the same
+    d.roughness = 0.5f, d.anisotropy = 0.7f, d.override_anisotropy = true;
+    ReferenceOptions o;
+    o.samples = 16384;
+    const Estimate reference = estimate(render_reference(stage, d, o));
+    d.technique = "mc";
+    d.samples = 16384;
+    const Frame tile = stage.render(d, best_isa());
+    double mean = 0.0;
+    const std::size_t n = tile.color.bytes.size() / sizeof(float);
+    for (std::size_t i = 0; i < n; ++i)
+        mean += static_cast<double>(tile.color.f32()[i]) / static_cast<double>(n);
+    EXPECT_NEAR(reference.mean, mean, 4.0 * reference.deviation + 1e-3 * mean);
+}
+
+} // namespace
+} // namespace burnish::test
