@@ -41,7 +41,7 @@ void add_figures(CLI::App& app, CompareArguments& to)
     option("--stop-exposure", to.stop_exposure, "HDR-FLIP: highest exposure (found in the reference)", "EV");
     option("--exposures", to.exposures, "HDR-FLIP: number of exposures (one a stop)", "N");
     app.add_option("--variance", to.plain.variances,
-                   "Variance of the reference's pixels, given again of the test's: a z-test of every pixel")
+                   "Variance of the reference's pixel means, given again of the test's: a z-test of every pixel")
         ->type_name("FILE")
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
         ->expected(1)
