@@ -93,6 +93,9 @@ void add_picture(CLI::App& app, RenderArguments& to)
     app.add_option("--axis-beta", to.axis_beta, "Overlap of samples on the major axis (2.3)")
         ->type_name("B")
         ->group("Picture");
+    app.add_option("--tilt", to.tilt, "Tilt every lobe against its surface, towards the bitangent and away from the tangent (0,0)")
+        ->type_name("DEG,DEG")
+        ->group("Picture");
     app.add_option("--dfg", to.dfg, "Directional albedo: table (baked, exact) or fit (analytic, coarse) (table)")
         ->type_name("NAME")
         ->group("Picture");

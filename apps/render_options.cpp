@@ -9,6 +9,7 @@
 #include "apps/parse.h"
 #include "apps/reference_options.h"
 #include "apps/report.h"
+#include "core/math/scalar_math.h"
 #include "core/scene/builtin.h"
 
 namespace burnish {
@@ -116,6 +117,19 @@ void read_technique(const RenderArguments& in, OptionReader& reader, RenderOptio
             fmt::format("--samples {}: {} takes {}", samples, frame.technique, frame.samples));
     reader.number("--axis-k", in.axis_k, 0.01, 10.0, frame.major_axis_k);
     reader.number("--axis-beta", in.axis_beta, 0.0, 100.0, frame.major_axis_beta);
+    if (!in.tilt.empty()) {
+        const std::size_t comma = in.tilt.find(',');
+        if (comma == std::string::npos)
+            return reader.refuse(usage_error("--tilt", fmt::format("expected two angles such as 20,0, got '{}'", in.tilt)));
+        glm::vec2 degrees{0.0f};
+        for (int i = 0; i < 2; ++i) {
+            const std::string angle = i ? in.tilt.substr(comma + 1) : in.tilt.substr(0, comma);
+            if (angle.empty())
+                return reader.refuse(usage_error("--tilt", fmt::format("expected two angles such as 20,0, got '{}'", in.tilt)));
+            reader.number("--tilt", angle, -80.0, 80.0, degrees[i]);
+        }
+        frame.tilt_rad = degrees * static_cast<float>(kPi / 180.0);
+    }
     if (in.dfg != "table" && in.dfg != "fit")
         reader.refuse(usage_error("--dfg", fmt::format("'{}' is not one of table, fit", in.dfg)));
     frame.dfg_fit = in.dfg == "fit";

@@ -56,7 +56,7 @@ struct RenderArguments {
     std::string tile_size, texture_anisotropy, tonemap, env_rotation, env_exposure, env_size, env_samples;
     std::string limit_image_side, limit_texture_bytes, limit_json_depth, limit_node_depth, limit_file_bytes;
     std::string limit_accessor_bytes, limit_data_uri_bytes, limit_draw_bytes;
-    std::string axis_k, axis_beta, seed, dfg = "table";
+    std::string axis_k, axis_beta, tilt, seed, dfg = "table";
     std::string reference_mode, reference_strategy, bounces, target_error, checkpoint, variance;
     bool no_background = false, no_cache = false, energy_compensation = false;
 };

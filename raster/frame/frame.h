@@ -46,6 +46,8 @@ struct FrameDesc {
     float roughness = -1.0f;               // >= 0: alpha_lin of every material
     float anisotropy = 0.0f;               // with override_anisotropy: eta of every material, [-1, 1]
     bool override_anisotropy = false;
+    glm::vec2 tilt_rad{0.0f};              // of every lobe: its commonest normal turned towards the bitangent (x) and away from the
+                                           // tangent (y), theta_x and theta_y of the ellipsoid distribution; below a quarter turn
     float major_axis_k = 1.0f;             // deviations that the major axis covers
     float major_axis_beta = 2.3f;          // overlap of its samples
     bool dfg_fit = false;                  // directional albedo from the analytic fit instead of the baked table

@@ -99,17 +99,23 @@ template <class Frame> BN_STAGE LaneMaterial fetch_material(const Frame& f, cons
     return r;
 }
 
-// The material's lobe in the frame. What is not anisotropic needs no axes of its own.
-template <class Frame>
-BN_INLINE aniso_lobe material_lobe(const Frame& f, const MaterialRecord& m, const LaneMaterial& at, const surface_frame& frame)
+struct LobeShape { // a lobe before it is laid onto a surface
+    real sigma_u, sigma_v; // see aniso_lobe
+    real2 u;               // its axis, along tangent and bitangent
+    real alpha_lin;        // perceptual roughness
+};
+
+// What is not anisotropic needs no axes of its own.
+template <class Frame> BN_INLINE LobeShape lobe_shape(const Frame& f, const MaterialRecord& m, const LaneMaterial& at)
 {
-    aniso_lobe lobe;
+    LobeShape r;
     const real roughness = min(max(at.roughness, lit(0.0)), lit(1.0)), alpha = roughness * roughness;
     const real sigma = alpha * lit(0.70710678118654752);
-    lobe.u_axis = frame.t, lobe.v_axis = frame.b;
-    lobe.sigma_u = lobe.sigma_v = sigma;
+    r.sigma_u = r.sigma_v = sigma;
+    r.u = vec2_of(lit(1.0), lit(0.0));
+    r.alpha_lin = at.roughness;
     if (!m.anisotropic)
-        return lobe;
+        return r;
     const real2 rotation = vec2_of(splat(m.anisotropy_rotation[0]), splat(m.anisotropy_rotation[1]));
     const slope_covariance covariance =
         f.override_anisotropy
@@ -118,10 +124,24 @@ BN_INLINE aniso_lobe material_lobe(const Frame& f, const MaterialRecord& m, cons
     const slope_axes axes = axes_of_covariance(covariance);
     const real trace = covariance.xx + covariance.yy;
     const mask mirror = trace <= lit(1e-12); // smooth in every direction: the decomposition's least widths are not for it
-    lobe.sigma_u = select(mirror, sigma, axes.sigma_u);
-    lobe.sigma_v = select(mirror, sigma, axes.sigma_v);
-    lobe.u_axis = frame.t * axes.u.x + frame.b * axes.u.y;
-    lobe.v_axis = frame.b * axes.u.x - frame.t * axes.u.y;
+    r.sigma_u = select(mirror, sigma, axes.sigma_u);
+    r.sigma_v = select(mirror, sigma, axes.sigma_v);
+    r.u = axes.u;
+    aniso_lobe lobe;
+    lobe.sigma_u = r.sigma_u, lobe.sigma_v = r.sigma_v;
+    r.alpha_lin = lobe_alpha_lin(lobe);
+    return r;
+}
+
+BN_INLINE aniso_lobe lobe_in_frame(const MaterialRecord& m, const LobeShape& shape, const surface_frame& frame)
+{
+    aniso_lobe lobe;
+    lobe.sigma_u = shape.sigma_u, lobe.sigma_v = shape.sigma_v;
+    lobe.u_axis = frame.t, lobe.v_axis = frame.b;
+    if (!m.anisotropic)
+        return lobe;
+    lobe.u_axis = frame.t * shape.u.x + frame.b * shape.u.y;
+    lobe.v_axis = frame.b * shape.u.x - frame.t * shape.u.y;
     return lobe;
 }
 

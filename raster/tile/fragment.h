@@ -9,6 +9,8 @@
 namespace burnish {
 inline namespace BN_ISA_NS {
 
+inline constexpr std::int32_t kManyTriangles = -1;
+
 struct LaneSetup { // setups of the fragments' triangles, a field a register
     integer x[3], y[3];
     real3 inv_w;
@@ -16,6 +18,7 @@ struct LaneSetup { // setups of the fragments' triangles, a field a register
     integer info;
     real3 unclip[3];       // corners of a clipped piece in barycentrics of the whole triangle
     bool any_clipped;
+    std::int32_t common_vertex[3]; // where all fragments are of one whole triangle; else kManyTriangles
 };
 
 BN_INLINE void unclip_setup(const TileScratch& scratch, integer triangle, mask clipped, LaneSetup& r)
@@ -41,11 +44,22 @@ BN_INLINE void unclip_setup(const TileScratch& scratch, integer triangle, mask c
     }
 }
 
-BN_INLINE LaneSetup load_setup(const TileScratch& scratch, integer triangle)
+// common: the triangle of all fragments, or kManyTriangles.
+BN_INLINE LaneSetup load_setup(const TileScratch& scratch, integer triangle, std::int32_t common)
 {
     integer field[16];
-    load_records16(scratch.triangles, triangle, field);
     LaneSetup r;
+    r.common_vertex[0] = kManyTriangles;
+    if (common != kManyTriangles) {
+        std::int32_t words[16];
+        __builtin_memcpy(words, scratch.triangles + common, sizeof words);
+        for (int k = 0; k < 16; ++k)
+            field[k] = int_lit(words[k]);
+        for (int k = 0; k < 3 && !(words[15] & kClipped); ++k)
+            r.common_vertex[k] = words[12 + k];
+    } else {
+        load_records16(scratch.triangles, triangle, field);
+    }
     for (int k = 0; k < 3; ++k) {
         r.x[k] = field[k];
         r.y[k] = field[3 + k];
@@ -101,16 +115,33 @@ BN_INLINE void interpolate_uv(const FrameParams& f, const LaneSetup& t, real3 b,
     uv[1] = vec2_of(r[2], r[3]);
 }
 
+// The first `count` floats of the vertices' records, blended.
+BN_INLINE void interpolate_records(const FrameParams& f, const LaneSetup& t, real3 b, real* out, int count)
+{
+    if (t.common_vertex[0] == kManyTriangles) {
+        if (count > 8)
+            blend_records(f.shading_vertices, t.vertex[0], t.vertex[1], t.vertex[2], b.x, b.y, b.z, out);
+        else
+            blend_records_low(f.shading_vertices, t.vertex[0], t.vertex[1], t.vertex[2], b.x, b.y, b.z, out);
+        return;
+    }
+    const float* v0 = f.shading_vertices + std::size_t{16} * static_cast<std::uint32_t>(t.common_vertex[0]);
+    const float* v1 = f.shading_vertices + std::size_t{16} * static_cast<std::uint32_t>(t.common_vertex[1]);
+    const float* v2 = f.shading_vertices + std::size_t{16} * static_cast<std::uint32_t>(t.common_vertex[2]);
+    for (int c = 0; c < count; ++c)
+        out[c] = b.x * splat(v0[c]) + b.y * splat(v1[c]) + b.z * splat(v2[c]);
+}
+
 BN_INLINE real blend_gather(const float* column, const LaneSetup& t, real3 b)
 {
     return b.x * gather(column, t.vertex[0]) + b.y * gather(column, t.vertex[1]) + b.z * gather(column, t.vertex[2]);
 }
 
-// samples: covered sample mask. pixel_x, pixel_y: in the image.
+// common: the triangle of all fragments, or kManyTriangles. samples: covered sample mask. pixel_x, pixel_y: in the image.
 BN_STAGE Fragment make_fragment(const FrameParams& f, const MaterialRecord& m, const view_params& view, const TileScratch& scratch,
-                                 integer triangle, integer pixel_x, integer pixel_y, integer samples)
+                                 integer triangle, std::int32_t common, integer pixel_x, integer pixel_y, integer samples)
 {
-    const LaneSetup t = load_setup(scratch, triangle);
+    const LaneSetup t = load_setup(scratch, triangle, common);
     const integer corner_x = shl(pixel_x, 8) - int_lit(f.center_x), corner_y = shl(pixel_y, 8) - int_lit(f.center_y);
     const integer half = int_lit(kSubpixel / 2);
     const bary_weights center = weights_at(t, corner_x + half, corner_y + half);
@@ -123,9 +154,9 @@ BN_STAGE Fragment make_fragment(const FrameParams& f, const MaterialRecord& m, c
     Fragment p;
     real a[16] = {}; // the upper half is read only where it was fetched
     if (m.textured || m.uses_color)
-        blend_records(f.shading_vertices, t.vertex[0], t.vertex[1], t.vertex[2], w.b.x, w.b.y, w.b.z, a);
+        interpolate_records(f, t, w.b, a, 16);
     else
-        blend_records_low(f.shading_vertices, t.vertex[0], t.vertex[1], t.vertex[2], w.b.x, w.b.y, w.b.z, a);
+        interpolate_records(f, t, w.b, a, 8);
     p.normal = vec3_of(a[0], a[1], a[2]);
     p.tangent = vec3_of(a[3], a[4], a[5]);
     p.tangent_sign = select(a[6] < lit(0.0), lit(-1.0), lit(1.0));

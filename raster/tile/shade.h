@@ -10,23 +10,49 @@
 namespace burnish {
 inline namespace BN_ISA_NS {
 
-// Light from the environment, by the technique of the frame; occlusion dims all of it.
-template <Technique kTechnique>
-BN_INLINE real3 environment_light(const FrameParams& f, const surface& s, const aniso_lobe& lobe, integer pixel_id,
-                                  const dfg_value& dfg, real3 gain, real3 dielectric_f0, real dielectric_f90)
+// What is shaded, once its material is known.
+struct Shading {
+    surface s;
+    aniso_lobe lobe;
+    surface_frame surface_axes; // the geometry's
+    bool turned;                // s.n is not surface_axes.n
+    bool diffuse;               // s.diffuse may be above 0
+    dfg_value dfg;
+    real3 gain;                 // of the specular lobe
+    real3 dielectric_f0;
+    real dielectric_f90;
+};
+
+BN_INLINE real3 energy_gain(const FrameParams& f, real3 f0, const dfg_value& dfg)
 {
-    const real3 albedo = s.f0 * dfg.scale + s.f90 * dfg.bias;
-    const real3 dielectric = (dielectric_f0 * dfg.scale + vec3_all(dielectric_f90 * dfg.bias)) *
-                             (f.energy_compensation ? energy_compensation(dielectric_f0, dfg) : vec3_all(lit(1.0)));
-    const real3 specular =
-        technique_specular<kTechnique>({f, s, lobe, albedo, pixel_id}) * gain * splat(f.specular_cube.scale);
+    return f.energy_compensation ? energy_compensation(f0, dfg) : vec3_all(lit(1.0));
+}
+
+// Light from the environment, by the technique of the frame; occlusion dims all of it.
+template <Technique kTechnique> BN_INLINE real3 environment_light(const FrameParams& f, const Shading& x, integer pixel_id)
+{
+    const surface& s = x.s;
+    const real3 albedo = s.f0 * x.dfg.scale + s.f90 * x.dfg.bias;
+    const TechniqueInput input = {f, s, x.lobe, albedo, pixel_id, x.surface_axes, x.turned};
+    real3 specular = technique_specular<kTechnique>(input) * x.gain * splat(f.specular_cube.scale);
+    if (x.turned && !tests_horizon(kTechnique)) {
+        const real3 mirrored = s.n * (lit(2.0) * k_dot3(s.n, s.v)) - s.v;
+        specular = specular * horizon_fade(x.surface_axes.n, mirrored, s.roughness * s.roughness);
+        if (f.tilted) {
+            const LaneEllipsoid e = lobe_on_surface(input);
+            specular = specular * ellipsoid_tilt_albedo(e.p, e.o);
+        }
+    }
+    if (!x.diffuse)
+        return (specular + vec3_all(lit(0.0))) * s.occlusion; // as if nothing were added
+    const real3 dielectric = (x.dielectric_f0 * x.dfg.scale + vec3_all(x.dielectric_f90 * x.dfg.bias)) * energy_gain(f, x.dielectric_f0, x.dfg);
     const real3 irradiance = cube_sample(lanes_cube(f.irradiance_cube), s.n, lit(0.0)) * splat(f.irradiance_cube.scale);
     const real passed = lit(1.0) - max(dielectric.x, max(dielectric.y, dielectric.z));
     return (specular + s.diffuse * irradiance * passed) * s.occlusion;
 }
 
-// lobe: null where the surface is isotropic.
-BN_INLINE real3 light_from_punctual(const FrameParams& f, const surface& s, const aniso_lobe* lobe, real3 gain, real3 position)
+// anisotropic: by the lobe itself, otherwise by a round one of the same roughness.
+BN_INLINE real3 light_from_punctual(const FrameParams& f, const Shading& x, bool anisotropic, real3 position)
 {
     real3 sum = vec3_all(lit(0.0));
     for (int i = 0; i < f.light_count; ++i) {
@@ -35,13 +61,36 @@ BN_INLINE real3 light_from_punctual(const FrameParams& f, const surface& s, cons
                                                 splat(l.spot_scale), splat(l.spot_offset),
                                                 int_lit(l.directional) != int_lit(0));
         const real3 intensity = splat3(l.radiant) * at.attenuation;
-        sum = sum + (lobe ? punctual_radiance_aniso(s, *lobe, at.l, gain, intensity) : punctual_radiance(s, at.l, gain, intensity));
+        const real3 light = anisotropic ? punctual_radiance_aniso(x.s, x.lobe, at.l, x.gain, intensity)
+                                        : punctual_radiance(x.s, at.l, x.gain, intensity);
+        sum = sum + (x.turned ? select(k_dot3(x.surface_axes.n, at.l) > lit(0.0), light, vec3_all(lit(0.0))) : light);
     }
     return sum;
 }
 
+// What is the same for all fragments of a material, found once.
+struct MaterialPlan {
+    bool diffuse;        // some light may be diffused
+    bool one_shape;      // no texture changes the lobe's shape
+    LobeShape shape;     // then
+};
+
+BN_INLINE MaterialPlan plan_material(const FrameParams& f, const MaterialRecord& m)
+{
+    const auto used = [&](int slot) { return m.textures[slot].texture != nullptr; };
+    MaterialPlan plan;
+    plan.diffuse = m.metallic < 1.0f || used(kMetalRoughTex);
+    plan.one_shape = !used(kMetalRoughTex) && !used(kTensor2Tex);
+    LaneMaterial at;
+    at.roughness = splat(m.roughness);
+    at.tensor2 = at.tensor4 = vec3_of(lit(1.0), lit(0.0), lit(0.0));
+    plan.shape = lobe_shape(f, m, at);
+    return plan;
+}
+
 template <Technique kTechnique>
-BN_INLINE real3 shade_fragments(const FrameParams& f, const MaterialRecord& m, const Fragment& p, integer pixel_id)
+BN_INLINE real3 shade_fragments(const FrameParams& f, const MaterialRecord& m, const MaterialPlan& plan, const Fragment& p,
+                                integer pixel_id)
 {
     const LaneMaterial at = fetch_material(f, m, p);
     if (m.unlit)
@@ -50,21 +99,25 @@ BN_INLINE real3 shade_fragments(const FrameParams& f, const MaterialRecord& m, c
     // a surface seen from behind shows its other side
     const real3 normal = select(p.front, p.normal, -p.normal);
     const real handedness = select(p.front, p.tangent_sign, -p.tangent_sign);
-    surface_frame frame = geometric_frame(normal, p.tangent, handedness);
-    if (m.textures[kNormalTex].texture)
+    Shading x;
+    x.surface_axes = geometric_frame(normal, p.tangent, handedness);
+    surface_frame frame = x.surface_axes;
+    const bool mapped = m.textures[kNormalTex].texture != nullptr;
+    if (mapped)
         frame = mapped_frame(frame, at.normal_map, handedness);
-    const aniso_lobe lobe = material_lobe(f, m, at, frame);
-    const real roughness = m.anisotropic ? lobe_alpha_lin(lobe) : at.roughness;
-    const surface s = metallic_roughness_surface(frame.n, v, at.base, at.metallic, roughness, at.dielectric_f0,
-                                                 at.dielectric_f90, at.occlusion);
-    const dfg_value dfg =
-        f.dfg_fit ? dfg_fit(s.n_dot_v, s.roughness) : dfg_lookup(f.dfg_texels, f.dfg_size, s.n_dot_v, s.roughness);
-    const real3 gain = f.energy_compensation ? energy_compensation(s.f0, dfg) : vec3_all(lit(1.0));
-    real3 color = environment_light<kTechnique>(f, s, lobe, pixel_id, dfg, gain, at.dielectric_f0, at.dielectric_f90) + at.emissive;
-    if (f.light_count > 0) {
-        const bool turned = m.anisotropic && kTechnique != Technique::split_isotropic;
-        color = color + light_from_punctual(f, s, turned ? &lobe : nullptr, gain, p.position);
-    }
+    if (f.tilted)
+        frame = tilted_frame(frame, vec2_of(splat(f.tilt_cos[0]), splat(f.tilt_cos[1])), vec2_of(splat(f.tilt_sin[0]), splat(f.tilt_sin[1])));
+    x.turned = mapped || f.tilted;
+    const LobeShape shape = plan.one_shape ? plan.shape : lobe_shape(f, m, at);
+    x.lobe = lobe_in_frame(m, shape, frame);
+    x.diffuse = plan.diffuse;
+    x.dielectric_f0 = at.dielectric_f0, x.dielectric_f90 = at.dielectric_f90;
+    x.s = metallic_roughness_surface(frame.n, v, at.base, at.metallic, shape.alpha_lin, at.dielectric_f0, at.dielectric_f90, at.occlusion);
+    x.dfg = f.dfg_fit ? dfg_fit(x.s.n_dot_v, x.s.roughness) : dfg_lookup(f.dfg_texels, f.dfg_size, x.s.n_dot_v, x.s.roughness);
+    x.gain = energy_gain(f, x.s.f0, x.dfg);
+    real3 color = environment_light<kTechnique>(f, x, pixel_id) + at.emissive;
+    if (f.light_count > 0)
+        color = color + light_from_punctual(f, x, m.anisotropic && kTechnique != Technique::split_isotropic, p.position);
     return color;
 }
 

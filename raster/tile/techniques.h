@@ -4,6 +4,7 @@
 #include "raster/frame/lanes_records.h"
 #include "raster/tile/tile_types.h"
 #include "shading/kernels/bent_normal.k.h"
+#include "shading/kernels/ellipsoid.k.h"
 #include "shading/kernels/filtered_is.k.h"
 #include "shading/kernels/fresnel.k.h"
 #include "shading/kernels/ggx_aniso.k.h"
@@ -26,7 +27,20 @@ struct TechniqueInput {
     const aniso_lobe& lobe;
     real3 albedo;      // directional albedo of the lobe, for techniques of a split integral
     integer pixel_id;  // y * width + x, for random numbers
+    const surface_frame& surface_axes; // of the geometry
+    bool turned;       // the lobe's normal is not the geometry's: light from below its horizon does not arrive
 };
+
+// Whether a technique asks of every sample if it lies above the horizon; the others fade.
+constexpr bool tests_horizon(Technique t)
+{
+    return t == Technique::filtered_is || t == Technique::filtered_is_ggx || t == Technique::mc;
+}
+
+BN_INLINE real above_horizon(const TechniqueInput& in, real3 wi, real weight)
+{
+    return in.turned ? select(k_dot3(in.surface_axes.n, wi) > lit(0.0), weight, lit(0.0)) : weight;
+}
 
 BN_INLINE real3 texel_rgb(texel_acc acc)
 {
@@ -84,43 +98,56 @@ BN_INLINE real3 major_axis_specular(const TechniqueInput& in)
     return texel_rgb(acc) * in.albedo;
 }
 
-// No more samples than the lobe's length asks for. They come in pairs around the middle of the line, a pair's weight grows from zero
-// as it is needed, and spacing follows the fractional count: the picture is continuous where the count changes.
-BN_INLINE real3 major_axis_adaptive_specular(const TechniqueInput& in)
+// One sample of a lobe along its grain, added to a sum and its weights.
+BN_INLINE void add_grain_sample(const TechniqueInput& in, const cube_desc& cube, const major_axis_grain& grain, real c, real root,
+                                real spacing, real weight, texel_acc& acc, real& sum)
 {
-    const cube_desc cube = lanes_cube(in.f.specular_cube);
-    const LaneLine line = major_axis_in_world(in, lit(0.0)); // its radius is half the lobe's width
-    const adaptive_count need = major_axis_needed(line.line, splat(in.f.major_axis_k), splat(in.f.major_axis_beta),
-                                                  to_real(int_lit(in.f.samples)));
-    const real lod = major_axis_lod(need.radius, cube);
-    const real inv = lit(1.0) / need.count;
-    texel_acc acc = cube_texel_add(texel_zero(), cube, major_axis_direction(line.e0, line.step, line.o, lit(0.5)), lod, inv);
-    float most[kLanes];
-    store(most, reduce_max(need.count));
-    for (int i = 1; static_cast<float>(2 * i - 1) < most[0]; ++i) {
-        const adaptive_pair pair = major_axis_pair(need, i);
-        const real weight = pair.weight * inv;
-        acc = cube_texel_add(acc, cube, major_axis_direction(line.e0, line.step, line.o, lit(0.5) - pair.offset), lod, weight);
-        acc = cube_texel_add(acc, cube, major_axis_direction(line.e0, line.step, line.o, lit(0.5) + pair.offset), lod, weight);
-    }
-    return texel_rgb(acc) * in.albedo;
+    const grain_sample g = major_axis_grain_sample(grain, c, root, spacing);
+    const real w = g.weight * weight;
+    acc = cube_texel_add(acc, cube, from_lobe(in.lobe, in.s.n, g.direction), major_axis_lod(g.radius, cube), w);
+    sum = sum + w;
 }
 
-// Samples weighted by the lobe's density of slopes where they lie, instead of equally.
+BN_INLINE major_axis_grain grain_of(const TechniqueInput& in)
+{
+    return major_axis_grain_of(to_lobe(in.lobe, in.s.n, in.s.v), in.lobe.sigma_u, in.lobe.sigma_v, splat(in.f.major_axis_k));
+}
+
+// Samples where the lobe is dense, each with a level of its own and the weight that masking and the visible area leave it.
 BN_INLINE real3 major_axis_weighted_specular(const TechniqueInput& in)
 {
     const cube_desc cube = lanes_cube(in.f.specular_cube);
     const int n = in.f.samples;
-    const LaneLine line = major_axis_in_world(in, lit(1.0) / to_real(int_lit(n)));
-    const real lod = major_axis_lod(line.line.radius, cube);
-    const real3 step = line.line.e1 - line.line.e0;
+    const major_axis_grain grain = grain_of(in);
+    const float step = 2.0f / static_cast<float>(n);
+    const real spacing = splat(in.f.major_axis_beta * step);
     texel_acc acc = texel_zero();
     real sum = lit(0.0);
     for (int j = 0; j < n; ++j) {
-        const real s = splat(n == 1 ? 0.5f : static_cast<float>(j) / static_cast<float>(n - 1));
-        const real weight = major_axis_density(line.line.e0 + step * s, in.lobe.sigma_u, in.lobe.sigma_v);
-        acc = cube_texel_add(acc, cube, major_axis_direction(line.e0, line.step, line.o, s), lod, weight);
-        sum = sum + weight;
+        const float c = (static_cast<float>(j) + 0.5f) * step - 1.0f;
+        add_grain_sample(in, cube, grain, splat(c), sqrt(splat(1.0f - c * c)), spacing, lit(1.0), acc, sum);
+    }
+    return texel_rgb(acc) / max(sum, lit(1e-20)) * in.albedo;
+}
+
+// The same with no more samples than each fragment needs, in cells around the middle that come and go without a step.
+BN_INLINE real3 major_axis_adaptive_specular(const TechniqueInput& in)
+{
+    const cube_desc cube = lanes_cube(in.f.specular_cube);
+    const major_axis_grain grain = grain_of(in);
+    const real beta = splat(in.f.major_axis_beta), one = lit(1.0);
+    const real count = major_axis_grain_count(grain, beta, to_real(int_lit(in.f.samples)));
+    const real spacing = beta * lit(2.0) / count;
+    texel_acc acc = texel_zero();
+    real sum = lit(0.0);
+    add_grain_sample(in, cube, grain, lit(0.0), one, spacing, one, acc, sum);
+    float most[kLanes];
+    store(most, reduce_max(count));
+    for (int i = 1; static_cast<float>(2 * i - 1) < most[0]; ++i) {
+        const grain_cell cell = major_axis_grain_cell(count, i);
+        const real root = sqrt(one - cell.c * cell.c);
+        add_grain_sample(in, cube, grain, cell.c, root, spacing, cell.weight, acc, sum);
+        add_grain_sample(in, cube, grain, -cell.c, root, spacing, cell.weight, acc, sum);
     }
     return texel_rgb(acc) / max(sum, lit(1e-20)) * in.albedo;
 }
@@ -149,8 +176,9 @@ template <class Place> BN_INLINE real3 filtered_is_sum(const TechniqueInput& in,
     real3 sum = vec3_all(lit(0.0));
     for (int i = 0; i < in.f.grid_count; ++i) {
         const filtered_sample s = place(o, in.f.grid[i], texel_term);
-        const real3 radiance = cube_sample(cube, from_lobe(in.lobe, in.s.n, s.wi), s.lod);
-        sum = sum + radiance * fresnel_schlick(in.s.f0, in.s.f90, k_saturate(s.o_dot_h)) * s.weight;
+        const real3 wi = from_lobe(in.lobe, in.s.n, s.wi);
+        const real3 fresnel = fresnel_schlick(in.s.f0, in.s.f90, k_saturate(s.o_dot_h));
+        sum = sum + cube_sample(cube, wi, s.lod) * fresnel * above_horizon(in, wi, s.weight);
     }
     return mirrors_apart(in, sum / count * splat(in.f.box_cube.scale / in.f.specular_cube.scale));
 }
@@ -173,15 +201,10 @@ BN_INLINE real3 filtered_is_ggx_specular(const TechniqueInput& in)
     });
 }
 
-// GGX visible normals, height-correlated masking, Fresnel by sample; a Hammersley set rotated by a hash of the pixel.
-BN_INLINE real3 mc_specular(const TechniqueInput& in)
+// `sample_at` gives a bsdf_sample in world space for a point of the unit square: a Hammersley set rotated by a hash of the pixel.
+template <class SampleAt> BN_INLINE real3 mc_sum(const TechniqueInput& in, const SampleAt& sample_at)
 {
     const cube_desc cube = lanes_cube(in.f.specular_cube);
-    const real root2 = lit(1.4142135623730951);
-    const ggx_aniso_params p = ggx_aniso_params_of(in.lobe.sigma_u * root2, in.lobe.sigma_v * root2);
-    real3 o = to_lobe(in.lobe, in.s.n, in.s.v);
-    o.z = max(o.z, lit(1e-4));
-    o = k_normalize3(o);
     const integer seed = k_hash_u32(in.pixel_id ^ int_lit(in.f.seed));
     const real shift_x = k_unit_from_bits(seed), shift_y = k_unit_from_bits(k_hash_u32(seed));
     const int n = in.f.samples;
@@ -189,11 +212,55 @@ BN_INLINE real3 mc_specular(const TechniqueInput& in)
     real3 sum = vec3_all(lit(0.0));
     for (int i = 0; i < n; ++i) {
         const real x = splat((static_cast<float>(i) + 0.5f) * inv) + shift_x, y = k_radical_inverse2(int_lit(i)) + shift_y;
-        const bsdf_sample b = ggx_aniso_sample(p, o, vec2_of(x - floor(x), y - floor(y)));
+        const bsdf_sample b = sample_at(vec2_of(x - floor(x), y - floor(y)));
         const real3 fresnel = fresnel_schlick(in.s.f0, in.s.f90, b.o_dot_h);
-        sum = sum + cube_sample_level(cube, from_lobe(in.lobe, in.s.n, b.wi), 0) * fresnel * b.weight;
+        sum = sum + cube_sample_level(cube, b.wi, 0) * fresnel * above_horizon(in, b.wi, b.weight);
     }
     return mirrors_apart(in, sum * splat(inv));
+}
+
+// The lobe as an ellipsoid in the surface's own frame, and what is seen of it.
+struct LaneEllipsoid {
+    ellipsoid_params p;
+    real3 o; // to the eye
+};
+
+BN_INLINE LaneEllipsoid lobe_on_surface(const TechniqueInput& in)
+{
+    const real root2 = lit(1.4142135623730951);
+    const surface_frame& g = in.surface_axes;
+    const auto local = [&](real3 w) { return vec3_of(k_dot3(g.t, w), k_dot3(g.b, w), k_dot3(g.n, w)); };
+    LaneEllipsoid r;
+    r.p = ellipsoid_params_of_rows(in.lobe.sigma_u * root2, in.lobe.sigma_v * root2, local(in.lobe.u_axis), local(in.lobe.v_axis),
+                                   local(in.s.n));
+    r.o = local(in.s.v);
+    r.o.z = max(r.o.z, lit(1e-4));
+    r.o = k_normalize3(r.o);
+    return r;
+}
+
+// GGX visible normals, height-correlated masking, Fresnel by sample. A tilted lobe is an ellipsoid's, whose masking knows the surface.
+BN_INLINE real3 mc_specular(const TechniqueInput& in)
+{
+    const aniso_lobe& lobe = in.lobe;
+    if (in.f.tilted) {
+        const LaneEllipsoid e = lobe_on_surface(in);
+        return mc_sum(in, [&](real2 xi) {
+            bsdf_sample b = ellipsoid_sample(e.p, e.o, xi);
+            b.wi = in.surface_axes.t * b.wi.x + in.surface_axes.b * b.wi.y + in.surface_axes.n * b.wi.z;
+            return b;
+        });
+    }
+    const real root2 = lit(1.4142135623730951);
+    const ggx_aniso_params p = ggx_aniso_params_of(lobe.sigma_u * root2, lobe.sigma_v * root2);
+    real3 o = to_lobe(lobe, in.s.n, in.s.v);
+    o.z = max(o.z, lit(1e-4));
+    o = k_normalize3(o);
+    return mc_sum(in, [&](real2 xi) {
+        bsdf_sample b = ggx_aniso_sample(p, o, xi);
+        b.wi = from_lobe(lobe, in.s.n, b.wi);
+        return b;
+    });
 }
 
 template <Technique kTechnique> BN_INLINE real3 technique_specular(const TechniqueInput& in)

@@ -51,8 +51,8 @@ struct BlockAlpha {
         const integer lane = iota() + int_lit(v * kLanes);
         const integer x = (lane & int_lit(7)) + int_lit(t.x0 + block_x * kBlock);
         const integer y = shr(lane, 3) + int_lit(t.y0 + block_y * kBlock);
-        const Fragment p = make_fragment(t.f, m, view, t.s, int_lit(static_cast<std::int32_t>(triangle)), x, y,
-                                         int_lit((1 << t.f.msaa) - 1));
+        const std::int32_t id = static_cast<std::int32_t>(triangle);
+        const Fragment p = make_fragment(t.f, m, view, t.s, int_lit(id), id, x, y, int_lit((1 << t.f.msaa) - 1));
         const real alpha = fetch_material(t.f, m, p).alpha;
         const bool blend = m.alpha_mode == 2;
         for (int s = 0; s < t.f.msaa; ++s) {
@@ -105,42 +105,60 @@ void write_ids(const Tile& t)
 
 inline constexpr std::int32_t kBackgroundSlot = 0;
 
+// End of the run of fragments of the triangle at `i`.
+BN_INLINE std::uint32_t run_end(const std::int32_t* triangle, std::uint32_t i, std::uint32_t count)
+{
+    const std::int32_t id = triangle[i];
+    for (++i; i + kLanes <= count && all(load_int(triangle + i) == int_lit(id)); i += kLanes) {}
+    while (i < count && triangle[i] == id)
+        ++i;
+    return i;
+}
+
 // Sorts the fragments by material, stably. Returns the number of slots; slot 0 is the background.
 int sort_fragments(TileScratch& s)
 {
     int slots = 1;
-    s.slot_begin[0] = 0;
-    for (std::uint32_t i = 0; i < s.fragment_count; ++i) {
-        const std::int32_t id = s.fragment_triangle[i];
-        if (id < 0) {
-            ++s.slot_begin[kBackgroundSlot];
-            continue;
+    const std::int32_t* const triangle = s.fragment_triangle;
+    std::int32_t* const order = s.order;
+    std::uint32_t* const slot_begin = s.slot_begin;
+    const std::uint32_t count = s.fragment_count;
+    const auto slot_of = [&](std::int32_t id) -> std::int32_t& { return s.slot_of_material[s.triangles[id].info >> 2]; };
+    slot_begin[0] = 0;
+    for (std::uint32_t i = 0; i < count;) {
+        const std::uint32_t end = run_end(triangle, i, count);
+        std::int32_t at = kBackgroundSlot;
+        if (triangle[i] >= 0) {
+            std::int32_t& slot = slot_of(triangle[i]);
+            if (slot < 0) {
+                slot = slots;
+                s.slot_material[slots] = s.triangles[triangle[i]].info >> 2;
+                slot_begin[slots++] = 0;
+            }
+            at = slot;
         }
-        const std::int32_t material = s.triangles[id].info >> 2;
-        std::int32_t& slot = s.slot_of_material[material];
-        if (slot < 0) {
-            slot = slots;
-            s.slot_material[slots] = material;
-            s.slot_begin[slots++] = 0;
-        }
-        ++s.slot_begin[slot];
+        slot_begin[at] += end - i;
+        i = end;
     }
     std::uint32_t begin = 0;
     for (int k = 0; k < slots; ++k) {
-        const std::uint32_t count = s.slot_begin[k];
-        s.slot_begin[k] = begin;
-        begin += count;
+        const std::uint32_t size = slot_begin[k];
+        slot_begin[k] = begin;
+        begin += size;
     }
-    s.background_pixels = slots > 1 ? s.slot_begin[1] : s.fragment_count;
-    for (std::uint32_t i = 0; i < s.fragment_count; ++i) {
-        const std::int32_t id = s.fragment_triangle[i];
-        const std::int32_t slot = id < 0 ? kBackgroundSlot : s.slot_of_material[s.triangles[id].info >> 2];
-        s.order[s.slot_begin[slot]++] = static_cast<std::int32_t>(i);
+    s.background_pixels = slots > 1 ? slot_begin[1] : count;
+    for (std::uint32_t i = 0; i < count;) {
+        const std::uint32_t end = run_end(triangle, i, count);
+        std::uint32_t& to = slot_begin[triangle[i] < 0 ? kBackgroundSlot : slot_of(triangle[i])];
+        std::int32_t* const from = order + to;
+        to += end - i;
+        for (std::int32_t* at = from; i < end; ++i, ++at)
+            *at = static_cast<std::int32_t>(i);
     }
     for (int k = slots - 1; k > 0; --k) // each slot's end is the next one's begin
-        s.slot_begin[k] = s.slot_begin[k - 1];
-    s.slot_begin[0] = 0;
-    s.slot_begin[slots] = s.fragment_count;
+        slot_begin[k] = slot_begin[k - 1];
+    slot_begin[0] = 0;
+    slot_begin[slots] = count;
     for (int k = 1; k < slots; ++k)
         s.slot_of_material[s.slot_material[k]] = -1;
     return slots;
@@ -149,26 +167,46 @@ int sort_fragments(TileScratch& s)
 struct Batch {
     std::int32_t fragment[kLanes];
     int n;
-    integer x, y, samples, triangle; // pixel in the image, covered samples, triangle of the tile's list
+    bool run;                           // all lanes in use, by fragments that follow each other in the list
+    std::int32_t common;                // the triangle of all fragments, or kManyTriangles
+    integer x, y, samples, triangle;    // pixel in the image, covered samples, triangle of the tile's list
 };
 
 BN_INLINE Batch load_batch(const Tile& t, std::uint32_t at, std::uint32_t end)
 {
     Batch b;
     b.n = static_cast<int>(end - at < kLanes ? end - at : kLanes);
-    for (int i = 0; i < kLanes; ++i) // spare lanes repeat the first fragment
-        b.fragment[i] = t.s.order[i < b.n ? at + static_cast<std::uint32_t>(i) : at];
-    const integer index = load_int(b.fragment);
-    const integer pixel = gather_int(t.s.fragment_pixel, index);
+    const std::int32_t first = t.s.order[at];
+    b.run = b.n == kLanes && t.s.order[at + kLanes - 1] - first == kLanes - 1; // the order is ascending
+    integer pixel;
+    if (b.run) {
+        b.fragment[0] = first;
+        pixel = load_int(t.s.fragment_pixel + first);
+        b.samples = load_int(t.s.fragment_mask + first);
+        b.triangle = load_int(t.s.fragment_triangle + first);
+    } else {
+        for (int i = 0; i < kLanes; ++i) // spare lanes repeat the first fragment
+            b.fragment[i] = t.s.order[i < b.n ? at + static_cast<std::uint32_t>(i) : at];
+        const integer index = load_int(b.fragment);
+        pixel = gather_int(t.s.fragment_pixel, index);
+        b.samples = gather_int(t.s.fragment_mask, index);
+        b.triangle = gather_int(t.s.fragment_triangle, index);
+    }
     b.x = (pixel & int_lit(255)) + int_lit(t.x0);
     b.y = shr(pixel, 8) + int_lit(t.y0);
-    b.samples = gather_int(t.s.fragment_mask, index);
-    b.triangle = gather_int(t.s.fragment_triangle, index);
+    b.common = t.s.fragment_triangle[first];
+    if (!all(b.triangle == int_lit(b.common)))
+        b.common = kManyTriangles;
     return b;
 }
 
 BN_INLINE void store_batch(const Tile& t, const Batch& b, const real3& color)
 {
+    if (b.run) {
+        const std::int32_t to = b.fragment[0];
+        store(t.s.red + to, color.x), store(t.s.green + to, color.y), store(t.s.blue + to, color.z);
+        return;
+    }
     float r[kLanes], g[kLanes], bl[kLanes];
     store(r, color.x), store(g, color.y), store(bl, color.z);
     for (int i = 0; i < b.n; ++i) {
@@ -190,10 +228,11 @@ void shade_background_slot(const Tile& t, const view_params& view, std::uint32_t
 template <Technique kTechnique>
 void shade_slot(const Tile& t, const view_params& view, const MaterialRecord& m, std::uint32_t begin, std::uint32_t end)
 {
+    const MaterialPlan plan = plan_material(t.f, m);
     for (std::uint32_t i = begin; i < end; i += kLanes) {
         const Batch b = load_batch(t, i, end);
-        const Fragment p = make_fragment(t.f, m, view, t.s, b.triangle, b.x, b.y, b.samples);
-        store_batch(t, b, shade_fragments<kTechnique>(t.f, m, p, b.y * int_lit(t.f.width) + b.x));
+        const Fragment p = make_fragment(t.f, m, view, t.s, b.triangle, b.common, b.x, b.y, b.samples);
+        store_batch(t, b, shade_fragments<kTechnique>(t.f, m, plan, p, b.y * int_lit(t.f.width) + b.x));
     }
 }
 

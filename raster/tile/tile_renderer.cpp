@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <cmath>
 #include <cstdlib>
 #include <cstring>
 
 #include "core/base/check.h"
+#include "core/math/scalar_math.h"
 #include "core/simd/cpu.h"
 #include "raster/frame/upload.h"
 #include "raster/tile/bins.h"
@@ -122,6 +124,11 @@ FrameParams TileRenderer::frame_params(const FrameDesc& desc, const std::vector<
     f.technique = static_cast<std::int32_t>(find_technique(desc.technique) - techniques().data());
     f.seed = static_cast<std::int32_t>(desc.seed);
     f.major_axis_k = desc.major_axis_k, f.major_axis_beta = desc.major_axis_beta;
+    for (int i = 0; i < 2; ++i) {
+        f.tilt_cos[i] = static_cast<float>(det_cos(desc.tilt_rad[i]));
+        f.tilt_sin[i] = static_cast<float>(det_sin(desc.tilt_rad[i]));
+    }
+    f.tilted = desc.tilt_rad != glm::vec2(0.0f);
     f.override_anisotropy = desc.override_anisotropy, f.anisotropy = desc.anisotropy;
     return f;
 }
@@ -175,6 +182,8 @@ Status check_desc(const FrameDesc& d)
         return usage("texture anisotropy must lie in 1..16");
     if (d.samples < 1 || d.samples > 65536)
         return usage("samples must lie in 1..65536");
+    if (!(std::abs(d.tilt_rad.x) < 1.57f && std::abs(d.tilt_rad.y) < 1.57f))
+        return usage("a lobe's tilt must stay below a quarter turn");
     if (!find_technique(d.technique))
         return usage("unknown technique '" + d.technique + "'");
     return {};

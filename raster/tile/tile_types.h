@@ -86,6 +86,8 @@ struct FrameParams {
     std::int32_t dfg_size;
     std::int32_t dfg_fit, energy_compensation; // flags
     std::int32_t background, technique, samples, texture_taps, seed;
+    float tilt_cos[2], tilt_sin[2];
+    std::int32_t tilted;              // any tilt at all
     float major_axis_k, major_axis_beta;
     std::int32_t override_anisotropy; // by `anisotropy`, the eta of every material
     float anisotropy;

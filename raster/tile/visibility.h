@@ -60,13 +60,31 @@ BN_INLINE void list_fragments(const FrameParams& f, int width, int height, TileS
         }
 }
 
+BN_INLINE bool whole_row(const std::int32_t* masks, std::int32_t full)
+{
+    std::int32_t common = full;
+    for (int k = 0; k < kBlock; ++k)
+        common &= masks[k];
+    return common == full;
+}
+
 // Box resolve: the mean over samples, fragments of a pixel in the order of the list, so the sum never depends on how they were
 // batched. Writes RGB to the frame.
 BN_INLINE void resolve(const FrameParams& f, int x0, int y0, const TileScratch& s)
 {
     const float inv = 1.0f / static_cast<float>(f.msaa);
+    const std::int32_t full = static_cast<std::int32_t>((1u << f.msaa) - 1);
     for (std::uint32_t i = 0; i < s.fragment_count;) {
         const std::int32_t pixel = s.fragment_pixel[i];
+        // a row of a block without edges: every pixel is one fragment of weight 1
+        if (i + kBlock <= s.fragment_count && s.fragment_pixel[i + kBlock - 1] - pixel == kBlock - 1 && whole_row(s.fragment_mask + i, full)) {
+            float* to = s.output + 3 * (static_cast<std::size_t>(y0 + (pixel >> 8)) * static_cast<std::size_t>(f.width) +
+                                        static_cast<std::size_t>(x0 + (pixel & 255)));
+            for (std::uint32_t k = 0; k < kBlock; ++k)
+                to[3 * k] = 0.0f + s.red[i + k], to[3 * k + 1] = 0.0f + s.green[i + k], to[3 * k + 2] = 0.0f + s.blue[i + k];
+            i += kBlock;
+            continue;
+        }
         const std::size_t at = static_cast<std::size_t>(y0 + (pixel >> 8)) * static_cast<std::size_t>(f.width) +
                                static_cast<std::size_t>(x0 + (pixel & 255));
         float* to = s.output + 3 * at;

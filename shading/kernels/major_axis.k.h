@@ -57,6 +57,24 @@ BN_FN major_axis_ends major_axis_extrema(real3 o, real rx, real ry)
     return r;
 }
 
+// The slope ellipse's point farthest from the mirror direction, as cosine and sine of its parameter: t_far without angles.
+BN_FN real2 major_axis_far_direction(real3 o, real rx, real ry)
+{
+    real one = lit(1.0);
+    real bx = one + rx * rx;
+    real by = one + ry * ry;
+    real g0 = lit(2.0) * o.x * o.y * rx * ry;
+    real g1 = (rx - ry) * (rx + ry) + o.x * o.x * ry * ry * bx - o.y * o.y * rx * rx * by;
+    real cross_term = g0 * g0 * bx * by;
+    real root = sqrt(g1 * g1 + cross_term);
+    mask positive = g1 >= lit(0.0);
+    real w = select(positive, g1 + root, root - g1);
+    mask round_lobe = both(positive, w <= lit(1e-30));
+    real2 far = vec2_of(select(positive, w, g0 * by), select(positive, g0 * bx, w));
+    real scale = lit(1.0) / max(max(abs(far.x), abs(far.y)), lit(1e-30));
+    return select(round_lobe, vec2_of(lit(0.0), one), k_normalize2(far * scale));
+}
+
 BN_FN real3 ellipse_normal(real c, real s, real rx, real ry)
 {
     return k_normalize3(vec3_of(rx * c, ry * s, lit(1.0)));
@@ -124,49 +142,108 @@ BN_FN real3 major_axis_direction(real3 e0, real3 step, real3 o, real s)
     return w * along - o * k_dot3(w, w);
 }
 
-struct adaptive_count {
-    real count;  // fractional number of samples, [1, limit]
-    real radius; // r_s at that count
+// The lobe along its major axis, for samples placed and weighted by its density. GGX slopes on the line through the middle of the ellipse have
+// the marginal density (1 + x^2)^(-3/2) / 2, x in widths, so that x = c / sqrt(1 - c^2) with c uniform in (-1,1): the microfacet normal
+// of c is (along c, sqrt(1 - c^2)), and no tail is left out.
+struct major_axis_grain {
+    real3 o;          // to the eye, unit, ellipse frame
+    real2 along;      // the major axis, as long as the line of samples must be wide
+    real own;         // the lobe's own width along it, as the eye sees it
+    real width;       // the lobe's width across, as seen along the axis
+    real o_along;     // length of o in the plane of axis and normal, [0,1]
+    real o_across2;   // square of what is left of it
+    real alpha_x, alpha_y;
 };
 
-// As many samples as make their own size, the width of the lobe, fit the line's length: beta L / Delta'. limit: uniform, at least 1.
-BN_FN adaptive_count major_axis_needed(major_axis_line line, real k, real beta, real limit)
+// The lobe's width across the axis at its middle, as the eye sees it.
+BN_FN real major_axis_grain_across(major_axis_grain g)
 {
-    real wanted = beta * line.extent * max(k, lit(1e-6)) / max(line.width, lit(1e-20));
-    adaptive_count r;
-    r.count = min(max(wanted, lit(1.0)), limit);
-    real by_spacing = beta * line.extent * lit(0.5) / r.count;
-    real by_width = line.width * lit(0.5) / max(k, lit(1e-6));
-    r.radius = max(by_width, by_spacing);
+    return g.width * sqrt(g.o_across2 + g.o.z * g.o.z);
+}
+
+// o: to the eye, ellipse frame; sigma_x, sigma_y: slope deviations; k: factor on the width along the axis, 1 for the lobe's own.
+BN_FN major_axis_grain major_axis_grain_of(real3 o, real sigma_x, real sigma_y, real k)
+{
+    real root2 = lit(1.4142135623730951);
+    major_axis_grain g;
+    o.z = max(o.z, lit(1e-4));
+    g.o = k_normalize3(o);
+    g.alpha_x = sigma_x * root2;
+    g.alpha_y = sigma_y * root2;
+    real2 t = major_axis_far_direction(g.o, sigma_x, sigma_y);
+    real x = g.alpha_x * t.x;
+    real y = g.alpha_y * t.y;
+    real length = sqrt(x * x + y * y);
+    real inv = lit(1.0) / max(length, lit(1e-20));
+    g.width = g.alpha_x * g.alpha_y * inv;
+    real across = (g.o.y * x - g.o.x * y) * inv;
+    g.o_across2 = across * across;
+    g.o_along = sqrt(max(lit(1.0) - g.o_across2, lit(0.0)));
+    // what a prefiltered sample spreads across the axis it spreads along it too: the line covers the rest, nothing where the lobe is round
+    g.own = length * g.o_along;
+    real ratio = major_axis_grain_across(g) / max(g.own, lit(1e-20));
+    real rest = k * sqrt(max(lit(1.0) - ratio * ratio, lit(0.0)));
+    g.along = vec2_of(x * rest, y * rest);
+    return g;
+}
+
+struct grain_sample {
+    real3 direction; // not unit, ellipse frame
+    real weight;     // at least 0
+    real radius;     // alpha of the prefiltered level
+};
+
+// c: uniform in (-1,1), root = sqrt(1 - c^2); spacing: beta times the step of c between samples. At beta = 2.3 a level is 0.76 times as wide as
+// the step between half vectors: narrower ones show as ghosts.
+BN_FN grain_sample major_axis_grain_sample(major_axis_grain g, real c, real root, real spacing)
+{
+    real3 w = vec3_of(g.along.x * c, g.along.y * c, root);
+    real w2 = k_dot3(w, w);
+    real w_dot_o = k_dot3(w, g.o);
+    grain_sample r;
+    r.direction = w * (lit(2.0) * w_dot_o) - g.o * w2;
+    // visible area of the microfacets, and Smith's masking of the light
+    real3 i = r.direction;
+    real ix = g.alpha_x * i.x;
+    real iy = g.alpha_y * i.y;
+    real stretch = sqrt(ix * ix + iy * iy + i.z * i.z);
+    real up = max(i.z, lit(0.0));
+    r.weight = max(w_dot_o, lit(0.0)) / root * (up / max(up + stretch, lit(1e-20)));
+    // across: turning w about the axis moves its mirror by 2 sqrt(o_across^2 + (w.o)^2), along: by 2 o_along
+    real inv2 = lit(1.0) / w2;
+    real turn = g.o_across2 + w_dot_o * w_dot_o * inv2;
+    real across = g.width * sqrt(turn * inv2);
+    real step = k_dot2(g.along, g.along);
+    real along = sqrt(step) * g.o_along * inv2 / root * spacing * lit(0.33);
+    r.radius = max(across, min(along, g.own)); // no sample stands for more than the lobe
     return r;
 }
 
-struct adaptive_pair {
-    real offset; // of both samples from the middle of the line, [0, 1/2]
-    real weight; // [0,1], relative to the sample in the middle
-};
-
-// The i-th pair around the middle, i = 1, 2...: absent up to a count of 2i - 1, whole from 2i + 1 on.
-BN_FN adaptive_pair major_axis_pair(adaptive_count need, int i)
+// As many samples as a lobe of this shape needs, a real in [1, limit]: its length over its width as the eye sees them. beta: overlap, 2.3.
+BN_FN real major_axis_grain_count(major_axis_grain g, real beta, real limit)
 {
-    real index = to_real(int_lit(i));
-    adaptive_pair r;
-    r.offset = min(index / max(need.count - lit(1.0), lit(1e-6)), lit(0.5));
-    real whole = (need.count - index * lit(2.0) + lit(1.0)) * lit(0.5);
-    r.weight = min(max(whole, lit(0.0)), lit(1.0));
-    return r;
+    real length = sqrt(k_dot2(g.along, g.along)) * g.o_along;
+    real across = major_axis_grain_across(g);
+    real count = beta * lit(0.43) * length / max(across, lit(1e-6));
+    return min(max(count, lit(1.0)), limit);
 }
 
-// Relative density of slopes, GGX with the deviations of a Gaussian of sigma_x, sigma_y (alpha = sqrt(2) sigma), at the microfacet
-// normal w (any length, ellipse frame).
-BN_FN real major_axis_density(real3 w, real sigma_x, real sigma_y)
+struct grain_cell {
+    real c;      // middle of the cell
+    real weight; // its size relative to a whole cell, [0,1]
+};
+
+// The line cut into `count` cells of equal size, counted from its middle outwards: cell i, i = 1, 2..., on the positive side. What the ends cut
+// off is lost to the cell and moves its middle, so that samples come and go without a step where the count changes.
+BN_FN grain_cell major_axis_grain_cell(real count, int i)
 {
-    real least = lit(1e-6);
-    real z = max(w.z, least);
-    real x = w.x / (z * max(sigma_x, least));
-    real y = w.y / (z * max(sigma_y, least));
-    real t = lit(1.0) + (x * x + y * y) * lit(0.5);
-    return lit(1.0) / (t * t);
+    real size = lit(2.0) / count;
+    real near_end = (to_real(int_lit(i)) - lit(0.5)) * size;
+    real left = min(max(lit(1.0) - near_end, lit(0.0)), size);
+    grain_cell r;
+    r.weight = left / size;
+    r.c = min(near_end + left * lit(0.5), lit(1.0)) * lit(0.95); // beyond, a cell that is almost lost would weigh too much
+    return r;
 }
 
 BN_KERNELS_END

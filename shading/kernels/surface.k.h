@@ -38,6 +38,26 @@ BN_FN surface_frame mapped_frame(surface_frame f, real3 map, real handedness)
     return geometric_frame(n, f.t, handedness);
 }
 
+// The frame of a lobe whose commonest normal is tilted against the surface: the rows of R = Rx(theta_x) Ry(theta_y), of which cosines and
+// sines are given, in the frame. Positive theta_x tilts to +b, positive theta_y to -t. Walter et al. 2014, eq. 3.
+BN_FN surface_frame tilted_frame(surface_frame f, real2 cosine, real2 sine)
+{
+    surface_frame r;
+    real3 across = f.n * cosine.y - f.t * sine.y;
+    r.t = f.t * cosine.y + f.n * sine.y;
+    r.b = f.b * cosine.x - across * sine.x;
+    r.n = f.b * sine.x + across * cosine.x;
+    return r;
+}
+
+// What a lobe about a turned normal loses where it reaches below the surface's own horizon. surface_n: unit; r: unit, the mirror
+// direction about the turned normal; alpha: the lobe's width. 1 for all that the surface itself could mirror, 0 from a width below on.
+BN_FN real horizon_fade(real3 surface_n, real3 r, real alpha)
+{
+    real depth = k_dot3(surface_n, r) / max(alpha, lit(0.02));
+    return k_saturate(lit(1.0) + depth);
+}
+
 // glTF metallic-roughness to reflectances. base: linear [0,1]; metallic [0,1]; dielectric_f0, dielectric_f90: from index of
 // refraction and the specular extension.
 BN_FN surface metallic_roughness_surface(real3 n, real3 v, real3 base, real metallic, real roughness, real3 dielectric_f0,
