@@ -24,7 +24,7 @@ constexpr const char* kFooter = R"(Examples:
   burnish info --json
 
 Exit codes: 0 done, 1 results differ, 2 wrong option, 4 bad input, 6 NaN or Inf in the picture, 7 output not written,
-70 a fault of the program, 77 not available on this machine.)";
+70 a fault of the program, 77 not available on this machine, 130 or 143 stopped, with everything kept in a checkpoint.)";
 
 // What the user was asking about, for the hint behind a usage error.
 std::string help_command(const std::vector<Command>& commands)

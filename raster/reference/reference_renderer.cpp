@@ -150,6 +150,7 @@ Result<Accumulator> ReferenceRenderer::integrate(const FrameDesc& desc, const Re
     };
     while (done < passes && !good_enough() && !stopped()) {
         const std::uint32_t before = done;
+        const TraceSpan round_span("passes");
         advance(f, a, std::min(passes, done - done % round + round));
         done = least_passes(a);
         progress.step(done - before);
