@@ -24,8 +24,9 @@ constexpr const char* kFooter = R"(Examples:
   burnish list techniques
   burnish info --json
 
-Exit codes: 0 done, 1 results differ, 2 wrong option, 3 sizes do not match, 4 bad input, 6 NaN or Inf in a
-picture, 7 output not written, 70 a fault of the program, 77 not available on this machine.)";
+Exit codes: 0 done, 1 results differ, 2 wrong option, 3 sizes do not match, 4 bad input, 6 NaN or Inf in a picture,
+7 output not written, 70 a fault of the program, 77 not available on this machine, 130 or 143 stopped, with everything
+kept in a checkpoint.)";
 
 // What the user was asking about, for the hint behind a usage error.
 std::string help_command(const std::vector<Command>& commands)

@@ -63,6 +63,7 @@ std::string stats_json(const RenderOptions& options, const RenderFigures& figure
     json["frames"] = options.frames;
     if (options.backend == "reference") {
         const SamplingStats& s = figures.frame.sampling;
+        json["technique"] = "reference";
         json["samples"] = s.samples; // taken, which a target error may make fewer
         json["reference"] = {{"mode", options.reference_mode_name},
                              {"samples_before", s.samples_before},

@@ -217,7 +217,9 @@ BN_INLINE Reflector select_reflector(mask m, const Reflector& a, const Reflector
     r.lobe.u_axis = select(m, a.lobe.u_axis, b.lobe.u_axis), r.lobe.v_axis = select(m, a.lobe.v_axis, b.lobe.v_axis);
     r.lobe.sigma_u = select(m, a.lobe.sigma_u, b.lobe.sigma_u), r.lobe.sigma_v = select(m, a.lobe.sigma_v, b.lobe.sigma_v);
     r.ggx.alpha_x = select(m, a.ggx.alpha_x, b.ggx.alpha_x), r.ggx.alpha_y = select(m, a.ggx.alpha_y, b.ggx.alpha_y);
-    r.o = select(m, a.o, b.o), r.horizon = select(m, a.horizon, b.horizon);
+    r.o = select(m, a.o, b.o);
+    r.own.n = select(m, a.own.n, b.own.n), r.own.t = select(m, a.own.t, b.own.t), r.own.b = select(m, a.own.b, b.own.b);
+    r.tilted = a.tilted; // of the whole frame
     r.gain = select(m, a.gain, b.gain), r.diffuse = select(m, a.diffuse, b.diffuse);
     r.choose_specular = select(m, a.choose_specular, b.choose_specular);
     r.mirror = select(m, a.mirror, b.mirror);
@@ -238,14 +240,16 @@ BN_STAGE MaterialAtHits material_at_hits(const ReferenceParams& f, const Materia
     const real3 normal = select(p.front, p.normal, -p.normal);
     const real handedness = select(p.front, p.tangent_sign, -p.tangent_sign);
     const surface_frame own = geometric_frame(normal, p.tangent, handedness);
-    const surface_frame frame = m.textures[kNormalTex].texture ? mapped_frame(own, at.normal_map, handedness) : own;
-    const aniso_lobe lobe = material_lobe(f, m, at, frame);
-    const real roughness = m.anisotropic ? lobe_alpha_lin(lobe) : at.roughness;
-    surface s = metallic_roughness_surface(frame.n, v, at.base, at.metallic, roughness, at.dielectric_f0, at.dielectric_f90, at.occlusion);
+    surface_frame frame = m.textures[kNormalTex].texture ? mapped_frame(own, at.normal_map, handedness) : own;
+    if (f.tilted)
+        frame = tilted_frame(frame, vec2_of(splat(f.tilt_cos[0]), splat(f.tilt_cos[1])), vec2_of(splat(f.tilt_sin[0]), splat(f.tilt_sin[1])));
+    const LobeShape shape = lobe_shape(f, m, at);
+    const aniso_lobe lobe = lobe_in_frame(m, shape, frame);
+    const surface s = metallic_roughness_surface(frame.n, v, at.base, at.metallic, shape.alpha_lin, at.dielectric_f0, at.dielectric_f90, at.occlusion);
     const dfg_value dfg =
         f.dfg_fit ? dfg_fit(s.n_dot_v, s.roughness) : dfg_lookup(f.dfg_texels, f.dfg_size, s.n_dot_v, s.roughness);
     MaterialAtHits r;
-    r.r = make_reflector(s, lobe, own.n, dfg, f.energy_compensation != 0, at.dielectric_f0, at.dielectric_f90);
+    r.r = make_reflector(s, lobe, own, f.tilted != 0, dfg, f.energy_compensation != 0, at.dielectric_f0, at.dielectric_f90);
     r.emission = m.unlit ? at.base : at.emissive;
     return r;
 }

@@ -81,7 +81,7 @@ BN_STAGE real3 punctual_light(const PixelFrame& p, const LaneSurface& s)
         const light_sample at = sample_punctual(s.position, splat3(l.position), splat3(l.direction), splat(l.inv_range2),
                                                 splat(l.spot_scale), splat(l.spot_offset), int_lit(l.directional) != int_lit(0));
         const real3 light = punctual_radiance_aniso(s.r.s, s.r.lobe, at.l, s.r.gain, splat3(l.radiant) * at.attenuation);
-        mask lit_lanes = both(both(s.reflects, k_dot3(s.r.horizon, at.l) > lit(0.0)), any_light(light));
+        mask lit_lanes = both(both(s.reflects, k_dot3(s.r.own.n, at.l) > lit(0.0)), any_light(light));
         if (f.mode != ReferenceMode::direct && any(lit_lanes)) {
             LaneRays r = leaving_ray(f, s, at.l);
             if (!l.directional)

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/base/check.h"
+#include "core/math/scalar_math.h"
 #include "core/simd/cpu.h"
 #include "raster/frame/upload.h"
 #include "raster/reference/accumulator.h"
@@ -90,6 +91,11 @@ ReferenceParams ReferenceRenderer::params(const FrameDesc& desc, const std::vect
     f.background = desc.background;
     f.texture_taps = desc.texture_anisotropy;
     f.override_anisotropy = desc.override_anisotropy, f.anisotropy = desc.anisotropy;
+    for (int i = 0; i < 2; ++i) {
+        f.tilt_cos[i] = static_cast<float>(det_cos(static_cast<double>(desc.tilt_rad[i])));
+        f.tilt_sin[i] = static_cast<float>(det_sin(static_cast<double>(desc.tilt_rad[i])));
+    }
+    f.tilted = desc.tilt_rad != glm::vec2(0.0f);
     f.mode = options_.mode, f.strategy = options_.strategy, f.bounces = options_.bounces;
     f.seed = desc.seed;
     f.sobol = &sobol_table();
@@ -144,6 +150,7 @@ Result<Accumulator> ReferenceRenderer::integrate(const FrameDesc& desc, const Re
     };
     while (done < passes && !good_enough() && !stopped()) {
         const std::uint32_t before = done;
+        const TraceSpan round_span("passes");
         advance(f, a, std::min(passes, done - done % round + round));
         done = least_passes(a);
         progress.step(done - before);
@@ -170,6 +177,8 @@ Status check_desc(const FrameDesc& d, const ReferenceOptions& o)
         return usage("width x height x msaa must not exceed 2^28 samples");
     if (d.texture_anisotropy < 1 || d.texture_anisotropy > 16)
         return usage("texture anisotropy must lie in 1..16");
+    if (!(std::abs(d.tilt_rad.x) < 1.57f && std::abs(d.tilt_rad.y) < 1.57f))
+        return usage("a lobe's tilt must stay below a quarter turn");
     if (o.samples < 1 || o.samples > kMaxReferenceSamples)
         return usage("samples must lie in 1..2^32");
     if (o.bounces < 0)

@@ -35,6 +35,8 @@ struct ReferenceParams {
     std::int32_t background;
     std::int32_t texture_taps, override_anisotropy; // read by raster/frame/lane_material.h
     float anisotropy;
+    float tilt_cos[2], tilt_sin[2];
+    std::int32_t tilted;           // any tilt at all
     // integration
     ReferenceMode mode;
     ReferenceStrategy strategy;

@@ -20,7 +20,7 @@ def pictures(bench):
     needs_embree(bench)
     found = bench.figures(*SMALL, "--samples", "256", "-o", "mean.exr", "--variance", "variance.exr")
     check(bench.left_behind() == ["mean.exr", "variance.exr"], f"left behind: {bench.left_behind()}")
-    check(found["backend"] == "reference" and found["samples"] == 256 and "Embree" in found["device"], f"{found}")
+    check(found["backend"] == found["technique"] == "reference" and found["samples"] == 256 and "Embree" in found["device"], f"{found}")
     figures = found["reference"]
     check(figures["mode"] == "direct" and figures["samples_before"] == 0, f"{figures}")
     check(0 < figures["relative_error"] < 1 and figures["million_samples_per_second"] > 0.01, f"{figures}")

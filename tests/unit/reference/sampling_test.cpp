@@ -172,18 +172,21 @@ TEST(environment_sampler, black_is_sampled_evenly)
     EXPECT_EQ(s.mean_luminance, 0.0);
 }
 
-Reflector reflector_of(float f0, float diffuse, float sigma_u, float sigma_v, real3 v)
+Reflector reflector_of(float f0, float diffuse, float sigma_u, float sigma_v, real3 v, bool tilted = false)
 {
     surface s = metallic_roughness_surface({0, 0, 1}, k_normalize3(v), vec3_all(diffuse), 0.0f, 0.5f, vec3_all(f0), 1.0f, 1.0f);
-    const aniso_lobe lobe = {{0.6f, 0.8f, 0.0f}, {-0.8f, 0.6f, 0.0f}, sigma_u, sigma_v};
-    return make_reflector(s, lobe, s.n, {0.8f, 0.02f}, false, vec3_all(f0), 1.0f);
+    const surface_frame own = {{0, 0, 1}, {0.6f, 0.8f, 0.0f}, {-0.8f, 0.6f, 0.0f}};
+    const surface_frame frame = tilted ? tilted_frame(own, {0.94f, 0.96f}, {0.341174f, -0.28f}) : own;
+    s.n = frame.n;
+    return make_reflector(s, {frame.t, frame.b, sigma_u, sigma_v}, own, tilted, {0.8f, 0.02f}, false, vec3_all(f0), 1.0f);
 }
 
 TEST(reflector, samples_follow_their_density_and_weigh_value_over_it)
 {
     constexpr int kZ = 16, kPhi = 24, kFine = 24, kSamples = 1 << 18;
     const Reflector cases[] = {reflector_of(0.04f, 0.5f, 0.3f, 0.05f, {0.5f, 0.1f, 0.8f}), reflector_of(0.9f, 0.0f, 0.4f, 0.1f, {-0.7f, 0.6f, 0.3f}),
-                               reflector_of(0.5f, 0.5f, 0.15f, 0.15f, {0.0f, 0.0f, 1.0f})};
+                               reflector_of(0.5f, 0.5f, 0.15f, 0.15f, {0.0f, 0.0f, 1.0f}),
+                               reflector_of(0.9f, 0.0f, 0.4f, 0.1f, {-0.5f, 0.6f, 0.5f}, true)};
     for (const Reflector& r : cases) {
         std::vector<double> seen(kZ * kPhi + 1), expected(kZ * kPhi + 1);
         double albedo = 0.0, inside = 0.0;

@@ -108,19 +108,27 @@ TEST(strategies, agree_with_the_tile_renderer_s_mc)
     BN_NEEDS_EMBREE();
     Stage stage(plane_scene(metal(0.5f, 0.7f)), 1.0f, 2);
     stage.environment = environment_of(lamps, 64, stage.jobs);
-    FrameDesc d = desc_of(16, 16, view_from({0.2f, 0.3f, 1.0f}, 0.5f)); // every point of the plane looks the same
-    d.roughness = 0.5f, d.anisotropy = 0.7f, d.override_anisotropy = true;
-    ReferenceOptions o;
-    o.samples = 16384;
-    const Estimate reference = estimate(render_reference(stage, d, o));
-    d.technique = "mc";
-    d.samples = 16384;
-    const Frame tile = stage.render(d, best_isa());
-    double mean = 0.0;
-    const std::size_t n = tile.color.bytes.size() / sizeof(float);
-    for (std::size_t i = 0; i < n; ++i)
-        mean += static_cast<double>(tile.color.f32()[i]) / static_cast<double>(n);
-    EXPECT_NEAR(reference.mean, mean, 4.0 * reference.deviation + 1e-3 * mean);
+    for (const glm::vec2 tilt : {glm::vec2(0.0f), glm::vec2(0.35f, -0.2f)}) {
+        FrameDesc d = desc_of(16, 16, view_from({0.2f, 0.3f, 1.0f}, 0.5f)); // every point of the plane looks the same
+        d.roughness = 0.5f, d.anisotropy = 0.7f, d.override_anisotropy = true;
+        d.tilt_rad = tilt;
+        ReferenceOptions o;
+        o.samples = 16384;
+        const Estimate reference = estimate(render_reference(stage, d, o));
+        o.strategy = ReferenceStrategy::light;
+        const Estimate light = estimate(render_reference(stage, d, o));
+        EXPECT_NEAR(light.mean, reference.mean, 4.0 * std::hypot(light.deviation, reference.deviation));
+        d.technique = "mc";
+        d.samples = 16384;
+        const Frame tile = stage.render(d, best_isa());
+        double mean = 0.0;
+        const std::size_t n = tile.color.bytes.size() / sizeof(float);
+        for (std::size_t i = 0; i < n; ++i)
+            mean += static_cast<double>(tile.color.f32()[i]) / static_cast<double>(n);
+        EXPECT_NEAR(reference.mean, mean, 4.0 * reference.deviation + 1e-3 * mean) << "tilt " << tilt.x << " " << tilt.y;
+        std::printf("tilt %.2f %.2f: reference %.5f +- %.5f, mc %.5f\n", static_cast<double>(tilt.x), static_cast<double>(tilt.y), reference.mean,
+                    reference.deviation, mean);
+    }
 }
 
 } // namespace

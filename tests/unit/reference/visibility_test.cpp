@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <limits>
 
 #include "core/scene/builtin.h"
 #include "raster/frame/upload.h"
@@ -10,6 +11,8 @@
 
 namespace burnish::test {
 namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // Distance in pixels from a sample to the nearest edge of a triangle on the screen; infinite where the triangle is no such thing.
 double distance_to_edges(const DrawTables& t, const View& v, int width, int height, std::uint32_t triangle, glm::dvec2 sample)
@@ -20,11 +23,11 @@ double distance_to_edges(const DrawTables& t, const View& v, int width, int heig
         const glm::dvec3 d = glm::dvec3(t.px[i], t.py[i], t.pz[i]) - glm::dvec3(v.eye);
         const double w = glm::dot(glm::dvec3(v.forward), d);
         if (w <= 0.0)
-            return INFINITY;
+            return kInfinity;
         p[k] = {(glm::dot(glm::dvec3(v.right), d) / w / static_cast<double>(v.tan_half_x) + 1.0) * 0.5 * width,
                 (1.0 - glm::dot(glm::dvec3(v.up), d) / w / static_cast<double>(v.tan_half_y)) * 0.5 * height};
     }
-    double nearest = INFINITY;
+    double nearest = kInfinity;
     for (int k = 0; k < 3; ++k) {
         const glm::dvec2 a = p[k], b = p[(k + 1) % 3], ab = b - a;
         const double length2 = glm::dot(ab, ab);
@@ -70,7 +73,7 @@ Count compare_ids(const char* name, int width, int height, int msaa)
         const std::size_t pixel = i / static_cast<std::size_t>(msaa), s = i % static_cast<std::size_t>(msaa);
         const glm::dvec2 at(static_cast<double>(pixel % static_cast<std::size_t>(width)) + pattern.x[s] / 256.0,
                             static_cast<double>(pixel / static_cast<std::size_t>(width)) + pattern.y[s] / 256.0);
-        double edge = INFINITY;
+        double edge = kInfinity;
         for (std::uint32_t id : {a, b})
             if (id != kNoTriangle)
                 edge = std::min(edge, distance_to_edges(stage.tables, d.view, width, height, id, at));
