@@ -67,7 +67,7 @@ BN_INLINE LaneRays leaving_ray(const ReferenceParams& f, const LaneSurface& s, r
     LaneRays r;
     r.origin = s.position + s.normal * select(k_dot3(s.normal, wi) < lit(0.0), -lift, lift);
     r.direction = wi;
-    r.tnear = lift;
+    r.tnear = lit(0.0); // lifted already: anything nearer counts, a wall in a corner does
     r.tfar = splat(__builtin_inff());
     return r;
 }
@@ -85,7 +85,7 @@ BN_STAGE real3 punctual_light(const PixelFrame& p, const LaneSurface& s)
         if (f.mode != ReferenceMode::direct && any(lit_lanes)) {
             LaneRays r = leaving_ray(f, s, at.l);
             if (!l.directional)
-                r.tfar = max(k_length3(splat3(l.position) - s.position) - lit(2.0) * r.tnear, r.tnear);
+                r.tfar = k_length3(splat3(l.position) - s.position) * lit(0.99999);
             lit_lanes = both(lit_lanes, not_(find_hits(p, r, lit_lanes, RayKind::occlusion).found));
         }
         sum = sum + select(lit_lanes, light, vec3_all(lit(0.0)));

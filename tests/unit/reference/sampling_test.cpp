@@ -74,6 +74,31 @@ TEST(sobol, points_of_a_pass_are_stratified_whatever_the_seed)
     }
 }
 
+TEST(sobol, points_are_those_of_joe_and_kuo)
+{
+    const auto coordinate = [](int dimension, int index) {
+        std::uint32_t x = 0;
+        for (int b = 0; b < 32; ++b)
+            x |= (sobol_table().points[dimension][index] >> b & 1u) << (31 - b);
+        return static_cast<double>(x) * 0x1p-32;
+    };
+    // the first eight in three dimensions, in the order of their binary index
+    constexpr double kFirst[8][3] = {{0, 0, 0},           {.5, .5, .5},         {.25, .75, .75},      {.75, .25, .25},
+                                     {.125, .625, .375}, {.625, .125, .875}, {.375, .375, .625}, {.875, .875, .125}};
+    for (int i = 0; i < 8; ++i)
+        for (int d = 0; d < 3; ++d)
+            EXPECT_EQ(coordinate(d, i), kFirst[i][d]) << "point " << i << " dimension " << d;
+    // Sobol's property A, which the set has: of the first 2^5 points one lies in every orthant of the five-dimensional cube
+    std::vector<int> hit(32);
+    for (int i = 0; i < 32; ++i) {
+        unsigned orthant = 0;
+        for (int d = 0; d < kSobolDimensions; ++d)
+            orthant |= coordinate(d, i) >= 0.5 ? 1u << d : 0u;
+        ++hit[orthant];
+    }
+    EXPECT_EQ(std::count(hit.begin(), hit.end(), 1), 32);
+}
+
 TEST(sobol, every_point_is_uniform_over_the_seeds_and_pairs_of_points_are_as_independent_as_nets_allow)
 {
     const SobolTable& table = sobol_table();
