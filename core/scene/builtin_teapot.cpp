@@ -203,7 +203,7 @@ Scene make_teapot()
     add_turned(scene, kBody, kProfileRows, white);
     add_turned(scene, kGap, 1, white);
     add_turned(scene, kLid, kProfileRows, white);
-    add_swept(scene, kHandle, false);
+    add_swept(scene, kHandle, true);
     add_swept(scene, kSpout, true);
     add_spout_end(scene);
     add_node(scene, "teapot", add_mesh(scene, "teapot", pot), glm::mat4(1.0f));

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "core/scene/builtin.h"
 #include "raster/frame/upload.h"
 #include "tests/unit/raster/fixture.h"
 
@@ -344,6 +345,29 @@ TEST(coverage, culling_never_changes_the_picture)
         }
         const Frame whole = all.render(d, best_isa());
         EXPECT_TRUE(std::equal(culled.triangle_ids.begin(), culled.triangle_ids.end(), whole.triangle_ids.begin())) << k;
+    }
+}
+
+// Built-in scenes face outwards everywhere: from outside, culling their back faces takes nothing away.
+TEST(coverage, builtin_scenes_are_not_inside_out)
+{
+    for (const char* name : {"teapot", "spheres", "plate"}) {
+        Scene scene = *make_builtin_scene(name);
+        const Stage culled(scene);
+        for (Material& m : scene.materials)
+            m.double_sided = true;
+        const Stage both_sides(std::move(scene));
+        FrameDesc d = id_desc(320, 200, 4);
+        d.view = auto_frame(culled.tables, d.width, d.height);
+        const Frame a = culled.render(d, best_isa()), b = both_sides.render(d, best_isa());
+        std::size_t seen = 0, differ = 0;
+        for (std::size_t i = 0; i < a.triangle_ids.size(); ++i) {
+            seen += b.triangle_ids[i] != kNothing;
+            differ += a.triangle_ids[i] != b.triangle_ids[i];
+        }
+        EXPECT_GT(seen, 20000u);
+        EXPECT_LE(differ, seen / 1000) << name;
+        std::printf("%s: %zu of %zu samples differ\n", name, differ, seen);
     }
 }
 
