@@ -129,6 +129,27 @@ TEST(technique, a_mirror_is_a_mirror_and_a_constant_environment_gives_the_albedo
     }
 }
 
+// Every technique on lobes of every kind, grazing views, poles and silhouettes included, with few samples and many, upright and tilted.
+TEST(technique, no_lobe_and_no_sample_count_makes_a_nan)
+{
+    const Stage stage(*make_builtin_scene("spheres"));
+    FrameDesc d;
+    d.width = 120, d.height = 80, d.msaa = 2;
+    d.view = auto_frame(stage.tables, d.width, d.height);
+    d.override_anisotropy = true;
+    for (const TechniqueInfo& t : techniques())
+        for (int samples : {1, 3, 40})
+            for (float roughness : {0.0f, 0.02f, 0.5f, 1.0f})
+                for (float anisotropy : {-1.0f, 0.0f, 0.3f, 1.0f})
+                    for (float tilt : {0.0f, 1.2f}) {
+                        d.technique = t.name, d.samples = samples_taken(t, samples);
+                        d.roughness = roughness, d.anisotropy = anisotropy, d.tilt_rad = {tilt, -tilt};
+                        const Frame f = stage.render(d, best_isa());
+                        ASSERT_EQ(count_not_finite(f.color), 0u)
+                            << t.name << ", " << samples << " samples, alpha_lin " << roughness << ", eta " << anisotropy << ", tilt " << tilt;
+                    }
+}
+
 TEST(light, a_point_light_follows_the_inverse_square_and_lambert)
 {
     Scene scene = quad_scene(1.0f);
