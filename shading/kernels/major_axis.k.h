@@ -34,45 +34,49 @@ BN_FN real fold_half_turn(real t)
     return select(t <= lit(-1.57079632679490), t + pi, t);
 }
 
-// Appendix A without cancellation. o: to the eye, unit, o.z > 0; rx, ry: k times the slope deviations.
-BN_FN major_axis_ends major_axis_extrema(real3 o, real rx, real ry)
+struct major_axis_points { // points of the unit circle, of any length, that the slope ellipse stretches
+    real2 near_point, far_point;
+};
+
+// Appendix A without cancellation and without angles. o: to the eye, unit, o.z > 0; rx, ry: k times the slope deviations.
+BN_FN major_axis_points major_axis_extreme_points(real3 o, real rx, real ry)
 {
     real one = lit(1.0);
+    real zero = lit(0.0);
     real bx = one + rx * rx;
     real by = one + ry * ry;
     real g0 = lit(2.0) * o.x * o.y * rx * ry;
     real g1 = (rx - ry) * (rx + ry) + o.x * o.x * ry * ry * bx - o.y * o.y * rx * rx * by;
     real cross_term = g0 * g0 * bx * by;
     real root = sqrt(g1 * g1 + cross_term);
-    mask positive = g1 >= lit(0.0);
+    mask positive = g1 >= zero;
     real w = select(positive, g1 + root, root - g1);
     mask round_lobe = both(positive, w <= lit(1e-30)); // all directions are equally far: any axis will do
-    real near_y = select(positive, w, -g0 * bx);
     real near_x = select(positive, -g0 * by, w);
-    real far_y = select(positive, g0 * bx, w);
+    real near_y = select(positive, w, -g0 * bx);
     real far_x = select(positive, w, g0 * by);
-    major_axis_ends r;
-    r.t_near = fold_half_turn(k_atan2(select(round_lobe, lit(0.0), near_y), select(round_lobe, one, near_x)));
-    r.t_far = fold_half_turn(k_atan2(select(round_lobe, one, far_y), select(round_lobe, lit(0.0), far_x)));
+    real far_y = select(positive, g0 * bx, w);
+    major_axis_points r;
+    r.near_point = select(round_lobe, vec2_of(one, zero), vec2_of(near_x, near_y));
+    r.far_point = select(round_lobe, vec2_of(zero, one), vec2_of(far_x, far_y));
     return r;
 }
 
-// The slope ellipse's point farthest from the mirror direction, as cosine and sine of its parameter: t_far without angles.
+BN_FN major_axis_ends major_axis_extrema(real3 o, real rx, real ry)
+{
+    major_axis_points p = major_axis_extreme_points(o, rx, ry);
+    major_axis_ends r;
+    r.t_near = fold_half_turn(k_atan2(p.near_point.y, p.near_point.x));
+    r.t_far = fold_half_turn(k_atan2(p.far_point.y, p.far_point.x));
+    return r;
+}
+
+// Cosine and sine of t_far.
 BN_FN real2 major_axis_far_direction(real3 o, real rx, real ry)
 {
-    real one = lit(1.0);
-    real bx = one + rx * rx;
-    real by = one + ry * ry;
-    real g0 = lit(2.0) * o.x * o.y * rx * ry;
-    real g1 = (rx - ry) * (rx + ry) + o.x * o.x * ry * ry * bx - o.y * o.y * rx * rx * by;
-    real cross_term = g0 * g0 * bx * by;
-    real root = sqrt(g1 * g1 + cross_term);
-    mask positive = g1 >= lit(0.0);
-    real w = select(positive, g1 + root, root - g1);
-    mask round_lobe = both(positive, w <= lit(1e-30));
-    real2 far = vec2_of(select(positive, w, g0 * by), select(positive, g0 * bx, w));
-    real scale = lit(1.0) / max(max(abs(far.x), abs(far.y)), lit(1e-30));
-    return select(round_lobe, vec2_of(lit(0.0), one), k_normalize2(far * scale));
+    real2 far_point = major_axis_extreme_points(o, rx, ry).far_point;
+    real scale = lit(1.0) / max(max(abs(far_point.x), abs(far_point.y)), lit(1e-30));
+    return k_normalize2(far_point * scale);
 }
 
 BN_FN real3 ellipse_normal(real c, real s, real rx, real ry)
