@@ -76,8 +76,6 @@ void read_reference(const RenderArguments& in, OptionReader& reader, RenderOptio
         reader.refuse(usage_error("--variance", fmt::format("needs --samples of at least {}", 2 * kPassSamples)));
     if (out.frames != 1)
         reader.refuse(usage_error("--frames", "the reference renders one"));
-    if (!in.tilt.empty())
-        reader.refuse(usage_error("--tilt", "the reference knows no tilted lobes: compare with --technique mc"));
     if (!in.technique.empty())
         out.warnings.push_back("--technique is not looked at: the reference integrates");
     r.isa = out.isa;

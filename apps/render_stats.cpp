@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cmath>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <sys/resource.h>
@@ -50,6 +49,12 @@ std::string stats_json(const RenderOptions& options, const RenderFigures& figure
     json["env"] = options.env;
     json["technique"] = frame.technique;
     json["samples"] = frame.samples;
+    json["roughness"] = frame.roughness >= 0.0f ? nlohmann::ordered_json(frame.roughness) : nlohmann::ordered_json();
+    json["anisotropy"] = frame.override_anisotropy ? nlohmann::ordered_json(frame.anisotropy) : nlohmann::ordered_json();
+    json["tilt_rad"] = {frame.tilt_rad.x, frame.tilt_rad.y};
+    json["axis_k"] = frame.major_axis_k;
+    json["axis_beta"] = frame.major_axis_beta;
+    json["seed"] = frame.seed;
     json["dfg"] = frame.dfg_fit ? "fit" : "table";
     json["energy_compensation"] = frame.energy_compensation;
     json["backend"] = options.backend;

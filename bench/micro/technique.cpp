@@ -1,9 +1,10 @@
 // What a fragment costs, by technique, instruction set and threads: 1920x1080, one sample a pixel, every pixel covered by the inside of a
-// sphere of alpha_lin 0.3 and eta 0.5 under the studio. ns_fragment is CPU time of the process over fragments: nanoseconds of a core,
+// sphere of alpha_lin 0.3 and eta 0.5 or 0.8 under the studio. ns_fragment is CPU time of the process over fragments: nanoseconds of a core,
 // whatever else runs beside it; Time is wall time of a frame.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <ctime>
 #include <map>
 #include <string>
@@ -85,7 +86,7 @@ double process_cpu_ns()
     return static_cast<double>(t.tv_sec) * 1e9 + static_cast<double>(t.tv_nsec);
 }
 
-void run(benchmark::State& state, const std::string& technique, int samples, Isa isa, int threads)
+void run(benchmark::State& state, const std::string& technique, int samples, float eta, Isa isa, int threads)
 {
     const Stage& s = stage(threads);
     const std::unique_ptr<Renderer> renderer =
@@ -94,7 +95,7 @@ void run(benchmark::State& state, const std::string& technique, int samples, Isa
     desc.width = 1920, desc.height = 1080, desc.msaa = 1;
     desc.view = make_view({0.1f, 0.2f, 0.0f}, {1.0f, 0.1f, 0.3f}, 1.0f, desc.width, desc.height);
     desc.technique = technique, desc.samples = samples;
-    desc.roughness = 0.3f, desc.override_anisotropy = true, desc.anisotropy = 0.5f;
+    desc.roughness = 0.3f, desc.override_anisotropy = true, desc.anisotropy = eta;
     std::uint64_t fragments = 0;
     double cpu_ns = 0.0;
     for (auto _ : state) {
@@ -113,11 +114,13 @@ const bool kRegistered = [] {
             for (const TechniqueInfo& t : techniques()) {
                 if (!isa_available(isa) || (isa == Isa::scalar && threads > 1))
                     continue;
-                const std::string name =
-                    std::string("technique/") + t.name + "/" + isa_name(isa) + "/threads:" + std::to_string(threads);
-                benchmark::RegisterBenchmark(name.c_str(), [&t, isa, threads](benchmark::State& state) {
-                    run(state, t.name, t.default_samples, isa, threads);
-                })->UseManualTime()->Unit(benchmark::kMillisecond);
+                for (const char* eta : {"0.5", "0.8"}) {
+                    const std::string name = std::string("technique/") + t.name + "/eta:" + eta + "/" + isa_name(isa) +
+                                             "/threads:" + std::to_string(threads);
+                    benchmark::RegisterBenchmark(name.c_str(), [&t, eta, isa, threads](benchmark::State& state) {
+                        run(state, t.name, t.default_samples, std::strtof(eta, nullptr), isa, threads);
+                    })->UseManualTime()->Unit(benchmark::kMillisecond);
+                }
             }
     return true;
 }();

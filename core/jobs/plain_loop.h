@@ -26,7 +26,7 @@ inline void plain_parallel_for(int threads, std::size_t count, const std::functi
     thread_local int inside = -1; // the worker that runs on this thread
     if (inside >= 0) {
         for (std::size_t i = 0; i < count; ++i)
-            body(i, inside);
+            body(i, inside < threads ? inside : 0);
         return;
     }
     std::atomic<std::size_t> next{0};

@@ -61,7 +61,8 @@ template <class Frame> BN_STAGE LaneMaterial fetch_material(const Frame& f, cons
     r.roughness = splat(m.roughness);
     if (used(kMetalRoughTex)) {
         const real4 t = fetch(kMetalRoughTex);
-        r.roughness = r.roughness * t.y;
+        if (!m.roughness_fixed)
+            r.roughness = r.roughness * t.y;
         r.metallic = r.metallic * t.z;
     }
     r.normal_map = vec3_of(lit(0.0), lit(0.0), lit(1.0));
@@ -143,13 +144,6 @@ BN_INLINE aniso_lobe lobe_in_frame(const MaterialRecord& m, const LobeShape& sha
     lobe.u_axis = frame.t * shape.u.x + frame.b * shape.u.y;
     lobe.v_axis = frame.b * shape.u.x - frame.t * shape.u.y;
     return lobe;
-}
-
-// The material's lobe in the frame.
-template <class Frame>
-BN_INLINE aniso_lobe material_lobe(const Frame& f, const MaterialRecord& m, const LaneMaterial& at, const surface_frame& frame)
-{
-    return lobe_in_frame(m, lobe_shape(f, m, at), frame);
 }
 
 } // namespace BN_ISA_NS

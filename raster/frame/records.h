@@ -55,6 +55,7 @@ struct MaterialRecord {
     float alpha_cutoff;
     std::int32_t alpha_mode;  // AlphaMode
     std::int32_t double_sided, unlit, textured, uses_color, anisotropic;
+    std::int32_t roughness_fixed; // by an override: the texture gives metalness only
     float anisotropy_strength, anisotropy_rotation[2]; // rotation: cosine and sine
     TextureBinding textures[kTextureSlots];
 };

@@ -193,7 +193,7 @@ std::vector<MaterialRecord> overridden(std::vector<MaterialRecord> materials, co
     for (MaterialRecord& m : materials) {
         if (desc.roughness >= 0.0f) {
             m.roughness = desc.roughness;
-            m.textures[kMetalRoughTex].texture = nullptr;
+            m.roughness_fixed = 1;
         }
         if (desc.override_anisotropy)
             m.anisotropic = desc.anisotropy != 0.0f;

@@ -86,14 +86,6 @@ std::size_t Bins::triangles_in(std::size_t tile) const
     return count;
 }
 
-std::size_t Bins::most_triangles_in_a_tile(std::size_t tiles) const
-{
-    std::size_t most = 0;
-    for (std::size_t tile = 0; tile < tiles; ++tile)
-        most = std::max(most, triangles_in(tile));
-    return most;
-}
-
 void Bins::gather_tile(std::size_t tile, TriangleSetup* triangles, TriangleSource* sources) const
 {
     std::size_t to = 0;

@@ -16,7 +16,6 @@ class Bins {
     void build(const FrameParams& frame, const DrawTables& tables, const Visible& visible, const TileFns& fns,
                const Jobs& jobs);
     std::size_t triangles_in(std::size_t tile) const;
-    std::size_t most_triangles_in_a_tile(std::size_t tiles) const;
     // Copies the tile's triangles, in draw order; there is room for triangles_in(tile) of them.
     void gather_tile(std::size_t tile, TriangleSetup* triangles, TriangleSource* sources) const;
     std::uint64_t triangle_count() const;

@@ -38,10 +38,10 @@ template <Technique kTechnique> BN_INLINE real3 environment_light(const FramePar
     if (x.turned && !tests_horizon(kTechnique)) {
         const real3 mirrored = s.n * (lit(2.0) * k_dot3(s.n, s.v)) - s.v;
         specular = specular * horizon_fade(x.surface_axes.n, mirrored, s.roughness * s.roughness);
-        if (f.tilted) {
-            const LaneEllipsoid e = lobe_on_surface(input);
-            specular = specular * ellipsoid_tilt_albedo(e.p, e.o);
-        }
+    }
+    if (f.tilted && kTechnique != Technique::mc) { // which samples the tilted lobe itself
+        const LaneEllipsoid e = lobe_on_surface(x.lobe, s, x.surface_axes);
+        specular = specular * ellipsoid_tilt_albedo(e.p, e.o);
     }
     if (!x.diffuse)
         return (specular + vec3_all(lit(0.0))) * s.occlusion; // as if nothing were added
@@ -51,18 +51,28 @@ template <Technique kTechnique> BN_INLINE real3 environment_light(const FramePar
     return (specular + s.diffuse * irradiance * passed) * s.occlusion;
 }
 
+// D G / (4 cosines) of a tilted lobe, times the cosine of the light, which is the surface's.
+BN_INLINE real ellipsoid_light(const LaneEllipsoid& e, real3 wi) { return ellipsoid_eval(e.p, e.o, wi) * max(wi.z, lit(0.0)); }
+
 // anisotropic: by the lobe itself, otherwise by a round one of the same roughness.
 BN_INLINE real3 light_from_punctual(const FrameParams& f, const Shading& x, bool anisotropic, real3 position)
 {
     real3 sum = vec3_all(lit(0.0));
+    LaneEllipsoid e;
+    if (f.tilted)
+        e = lobe_on_surface(x.lobe, x.s, x.surface_axes);
     for (int i = 0; i < f.light_count; ++i) {
         const LightRecord& l = f.lights[i];
         const light_sample at = sample_punctual(position, splat3(l.position), splat3(l.direction), splat(l.inv_range2),
                                                 splat(l.spot_scale), splat(l.spot_offset),
                                                 int_lit(l.directional) != int_lit(0));
         const real3 intensity = splat3(l.radiant) * at.attenuation;
-        const real3 light = anisotropic ? punctual_radiance_aniso(x.s, x.lobe, at.l, x.gain, intensity)
-                                        : punctual_radiance(x.s, at.l, x.gain, intensity);
+        real3 light;
+        if (f.tilted)
+            light = punctual_radiance_tilted(x.s, at.l, ellipsoid_light(e, in_frame(x.surface_axes, at.l)), x.gain, intensity);
+        else
+            light = anisotropic ? punctual_radiance_aniso(x.s, x.lobe, at.l, x.gain, intensity)
+                                : punctual_radiance(x.s, at.l, x.gain, intensity);
         sum = sum + (x.turned ? select(k_dot3(x.surface_axes.n, at.l) > lit(0.0), light, vec3_all(lit(0.0))) : light);
     }
     return sum;
@@ -80,7 +90,7 @@ BN_INLINE MaterialPlan plan_material(const FrameParams& f, const MaterialRecord&
     const auto used = [&](int slot) { return m.textures[slot].texture != nullptr; };
     MaterialPlan plan;
     plan.diffuse = m.metallic < 1.0f || used(kMetalRoughTex);
-    plan.one_shape = !used(kMetalRoughTex) && !used(kTensor2Tex);
+    plan.one_shape = (!used(kMetalRoughTex) || m.roughness_fixed) && !used(kTensor2Tex);
     LaneMaterial at;
     at.roughness = splat(m.roughness);
     at.tensor2 = at.tensor4 = vec3_of(lit(1.0), lit(0.0), lit(0.0));

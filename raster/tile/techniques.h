@@ -130,13 +130,14 @@ BN_INLINE real3 major_axis_weighted_specular(const TechniqueInput& in)
     return texel_rgb(acc) / max(sum, lit(1e-20)) * in.albedo;
 }
 
-// The same with no more samples than each fragment needs, in cells around the middle that come and go without a step.
+// Density-placed too, but with no more samples than each fragment needs, in cells around the middle that come and go without a step.
 BN_INLINE real3 major_axis_adaptive_specular(const TechniqueInput& in)
 {
     const cube_desc cube = lanes_cube(in.f.specular_cube);
     const major_axis_grain grain = grain_of(in);
     const real beta = splat(in.f.major_axis_beta), one = lit(1.0);
-    const real count = major_axis_grain_count(grain, beta, to_real(int_lit(in.f.samples)));
+    const int limit = in.f.samples - (in.f.samples % 2 == 0); // one in the middle and pairs
+    const real count = major_axis_grain_count(grain, beta, to_real(int_lit(limit)));
     const real spacing = beta * lit(2.0) / count;
     texel_acc acc = texel_zero();
     real sum = lit(0.0);
@@ -153,14 +154,16 @@ BN_INLINE real3 major_axis_adaptive_specular(const TechniqueInput& in)
 }
 
 // Sampled lobes have a least width; what has none is a mirror: the environment itself in the mirror direction.
-BN_INLINE real3 mirrors_apart(const TechniqueInput& in, real3 value)
+// dim: what masking leaves of a mirror.
+BN_INLINE real3 mirrors_apart(const TechniqueInput& in, real3 value, real dim)
 {
     const real width = in.lobe.sigma_u + in.lobe.sigma_v;
     const mask mirror = width <= lit(1e-6);
     if (none(mirror))
         return value;
     const real3 r = in.s.n * (lit(2.0) * k_dot3(in.s.n, in.s.v)) - in.s.v;
-    return select(mirror, cube_sample_level(lanes_cube(in.f.specular_cube), r, 0) * in.albedo, value);
+    const real seen = above_horizon(in, r, dim);
+    return select(mirror, cube_sample_level(lanes_cube(in.f.specular_cube), r, 0) * in.albedo * seen, value);
 }
 
 // `place` gives the sample of a grid point.
@@ -180,7 +183,7 @@ template <class Place> BN_INLINE real3 filtered_is_sum(const TechniqueInput& in,
         const real3 fresnel = fresnel_schlick(in.s.f0, in.s.f90, k_saturate(s.o_dot_h));
         sum = sum + cube_sample(cube, wi, s.lod) * fresnel * above_horizon(in, wi, s.weight);
     }
-    return mirrors_apart(in, sum / count * splat(in.f.box_cube.scale / in.f.specular_cube.scale));
+    return mirrors_apart(in, sum / count * splat(in.f.box_cube.scale / in.f.specular_cube.scale), lit(1.0));
 }
 
 BN_INLINE real3 filtered_is_specular(const TechniqueInput& in)
@@ -216,7 +219,7 @@ template <class SampleAt> BN_INLINE real3 mc_sum(const TechniqueInput& in, const
         const real3 fresnel = fresnel_schlick(in.s.f0, in.s.f90, b.o_dot_h);
         sum = sum + cube_sample_level(cube, b.wi, 0) * fresnel * above_horizon(in, b.wi, b.weight);
     }
-    return mirrors_apart(in, sum * splat(inv));
+    return sum * splat(inv);
 }
 
 // The lobe as an ellipsoid in the surface's own frame, and what is seen of it.
@@ -225,15 +228,15 @@ struct LaneEllipsoid {
     real3 o; // to the eye
 };
 
-BN_INLINE LaneEllipsoid lobe_on_surface(const TechniqueInput& in)
+BN_INLINE real3 in_frame(const surface_frame& g, real3 w) { return vec3_of(k_dot3(g.t, w), k_dot3(g.b, w), k_dot3(g.n, w)); }
+
+BN_INLINE LaneEllipsoid lobe_on_surface(const aniso_lobe& lobe, const surface& s, const surface_frame& g)
 {
     const real root2 = lit(1.4142135623730951);
-    const surface_frame& g = in.surface_axes;
-    const auto local = [&](real3 w) { return vec3_of(k_dot3(g.t, w), k_dot3(g.b, w), k_dot3(g.n, w)); };
     LaneEllipsoid r;
-    r.p = ellipsoid_params_of_rows(in.lobe.sigma_u * root2, in.lobe.sigma_v * root2, local(in.lobe.u_axis), local(in.lobe.v_axis),
-                                   local(in.s.n));
-    r.o = local(in.s.v);
+    r.p = ellipsoid_params_of_rows(lobe.sigma_u * root2, lobe.sigma_v * root2, in_frame(g, lobe.u_axis), in_frame(g, lobe.v_axis),
+                                   in_frame(g, s.n));
+    r.o = in_frame(g, s.v);
     r.o.z = max(r.o.z, lit(1e-4));
     r.o = k_normalize3(r.o);
     return r;
@@ -244,23 +247,25 @@ BN_INLINE real3 mc_specular(const TechniqueInput& in)
 {
     const aniso_lobe& lobe = in.lobe;
     if (in.f.tilted) {
-        const LaneEllipsoid e = lobe_on_surface(in);
-        return mc_sum(in, [&](real2 xi) {
+        const LaneEllipsoid e = lobe_on_surface(lobe, in.s, in.surface_axes);
+        const real3 sum = mc_sum(in, [&](real2 xi) {
             bsdf_sample b = ellipsoid_sample(e.p, e.o, xi);
             b.wi = in.surface_axes.t * b.wi.x + in.surface_axes.b * b.wi.y + in.surface_axes.n * b.wi.z;
             return b;
         });
+        return mirrors_apart(in, sum, ellipsoid_tilt_albedo(e.p, e.o));
     }
     const real root2 = lit(1.4142135623730951);
     const ggx_aniso_params p = ggx_aniso_params_of(lobe.sigma_u * root2, lobe.sigma_v * root2);
     real3 o = to_lobe(lobe, in.s.n, in.s.v);
     o.z = max(o.z, lit(1e-4));
     o = k_normalize3(o);
-    return mc_sum(in, [&](real2 xi) {
+    const real3 sum = mc_sum(in, [&](real2 xi) {
         bsdf_sample b = ggx_aniso_sample(p, o, xi);
         b.wi = from_lobe(lobe, in.s.n, b.wi);
         return b;
     });
+    return mirrors_apart(in, sum, lit(1.0));
 }
 
 template <Technique kTechnique> BN_INLINE real3 technique_specular(const TechniqueInput& in)

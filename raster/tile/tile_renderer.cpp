@@ -45,7 +45,7 @@ struct WorkerScratch {
     Column<std::int32_t> fragment_triangle, fragment_pixel, fragment_mask, order, slot_of_material, slot_material;
     FrameStats stats;
 
-    void prepare(int tile_size, int msaa, std::size_t materials, std::size_t most_triangles)
+    void prepare(int tile_size, int msaa, std::size_t materials)
     {
         const std::size_t pixels = static_cast<std::size_t>(tile_size) * static_cast<std::size_t>(tile_size);
         const std::size_t samples = pixels * static_cast<std::size_t>(msaa), blocks = pixels / kBlockPixels;
@@ -54,15 +54,16 @@ struct WorkerScratch {
             c->resize(samples);
         for (Column<std::int32_t>* c : {&fragment_triangle, &fragment_pixel, &fragment_mask, &order})
             c->resize(samples);
-        if (triangles.size() < most_triangles)
-            triangles.resize(most_triangles), sources.resize(most_triangles);
         slot_begin.resize(materials + 2), slot_material.resize(materials + 1), slot_of_material.resize(materials);
         std::fill(slot_of_material.begin(), slot_of_material.end(), -1);
         stats = {};
     }
 
+    // Grows to the largest tile that this worker has met, and keeps that from frame to frame.
     TileScratch view(Frame& frame, std::size_t triangle_count)
     {
+        if (triangles.size() < triangle_count)
+            triangles.resize(triangle_count), sources.resize(triangle_count);
         return {depth.data(), ids.data(), block_far.data(), block_dirty.data(), triangles.data(),
                 static_cast<std::uint32_t>(triangle_count), sources.data(), fragment_triangle.data(),
                 fragment_pixel.data(), fragment_mask.data(), red.data(), green.data(), blue.data(), order.data(),
@@ -149,14 +150,13 @@ void TileRenderer::draw_tiles(const FrameParams& f, Frame& frame)
     const TraceSpan span("tiles");
     workers_.resize(static_cast<std::size_t>(input_.jobs.threads()));
     const std::size_t tiles = static_cast<std::size_t>(f.tiles_x) * static_cast<std::size_t>(f.tiles_y);
-    const std::size_t most = bins_.most_triangles_in_a_tile(tiles);
     for (WorkerScratch& w : workers_)
-        w.prepare(f.tile_size, f.msaa, scene_.materials.size(), most);
+        w.prepare(f.tile_size, f.msaa, scene_.materials.size());
     input_.jobs.parallel_for(tiles, [&](std::size_t i, int worker) {
         const TraceSpan tile_span("tile");
         WorkerScratch& w = workers_[static_cast<std::size_t>(worker)];
-        bins_.gather_tile(i, w.triangles.data(), w.sources.data());
         TileScratch scratch = w.view(frame, bins_.triangles_in(i));
+        bins_.gather_tile(i, w.triangles.data(), w.sources.data());
         fns_.render_tile(f, static_cast<int>(i) % f.tiles_x, static_cast<int>(i) / f.tiles_x, scratch);
         w.stats.visible_fragments += scratch.fragment_count - scratch.background_pixels;
         w.stats.background_pixels += scratch.background_pixels;

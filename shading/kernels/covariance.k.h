@@ -103,8 +103,9 @@ BN_FN slope_covariance covariance_from_eta_tensor(real alpha_lin, real eta, real
     real trace = power2.x + power2.y;
     real3 m = power2 * (lit(1.0) / max(trace, lit(1e-6))); // trace 1 where there is a direction
     real sigma = alpha_lin * alpha_lin * lit(0.70710678118654752);
-    real along = sigma * (lit(1.0) + eta);
-    real across = sigma * (lit(1.0) - eta);
+    real e = select(trace > lit(1e-6), eta, lit(0.0)); // without a direction the surface is isotropic
+    real along = sigma * (lit(1.0) + e);
+    real across = sigma * (lit(1.0) - e);
     real extra = (along - across) * (along + across);
     real base = across * across;
     real c = rotation.x;

@@ -54,6 +54,19 @@ BN_FN real3 punctual_radiance_aniso(surface s, aniso_lobe lobe, real3 l, real3 g
     return punctual_radiance_of(s, l, d_g, gain, intensity);
 }
 
+// With a lobe whose value times the light's cosine is given: a tilted one's cosine is not the shading normal's.
+BN_FN real3 punctual_radiance_tilted(surface s, real3 l, real lobe_cosine, real3 gain, real3 intensity)
+{
+    real3 h = k_normalize3(l + s.v);
+    real v_dot_h = min(max(k_dot3(s.v, h), lit(0.0)), lit(1.0));
+    real3 f = fresnel_schlick(s.f0, s.f90, v_dot_h);
+    real3 one = vec3_all(lit(1.0));
+    real n_dot_l = max(k_dot3(s.n, l), lit(0.0));
+    real diffuse_cosine = n_dot_l * lit(0.31830988618379067);
+    real3 diffused = (one - f) * s.diffuse * diffuse_cosine;
+    return (diffused + f * gain * lobe_cosine) * intensity;
+}
+
 struct light_sample {
     real3 l;         // unit, to the light
     real attenuation; // times the light's radiant intensity gives irradiance

@@ -83,6 +83,16 @@ TEST(Tensors, carry_the_direction_of_an_override)
     }
 }
 
+TEST(Tensors, without_a_direction_an_override_is_isotropic)
+{
+    for (double eta : {.99, 1.0, -.9}) {
+        const std::vector<double> s = at("covariance_eta_tensor", {.5, eta, 1, 0, 0, 0, 0});
+        EXPECT_NEAR(s[0], .03125, 1e-8) << eta;
+        EXPECT_EQ(s[0], s[1]);
+        EXPECT_EQ(s[2], 0);
+    }
+}
+
 TEST(Grain, points_where_the_extrema_point)
 {
     for (double theta : {.1, .7, 1.4})

@@ -129,6 +129,36 @@ TEST(technique, a_mirror_is_a_mirror_and_a_constant_environment_gives_the_albedo
     }
 }
 
+// Light below the surface's own horizon does not arrive, and lobes that look away are not seen: what is left of a tilted lobe is what Monte
+// Carlo of the ellipsoid distribution says, within what a technique of one or a few fetches can know.
+TEST(technique, tilted_lobes_are_dimmed_as_monte_carlo_dims_them)
+{
+    const Stage stage(*make_builtin_scene("spheres"));
+    FrameDesc d;
+    d.width = 160, d.height = 100, d.msaa = 1, d.background = false;
+    d.view = auto_frame(stage.tables, d.width, d.height);
+    d.override_anisotropy = true;
+    const auto light = [&](const char* technique, int samples) {
+        d.technique = technique, d.samples = samples;
+        const Frame f = stage.render(d, best_isa());
+        double sum = 0.0;
+        for (int i = 0; i < 160 * 100 * 3; ++i)
+            sum += static_cast<double>(f.color.f32()[i]);
+        return sum;
+    };
+    for (float roughness : {0.0f, 0.4f, 0.6f})
+        for (float anisotropy : {0.0f, 0.7f})
+            for (float tilt : {0.3f, 0.6f, 1.0f}) {
+                d.roughness = roughness, d.anisotropy = anisotropy, d.tilt_rad = {tilt, 0.0f};
+                const double truth = light("mc", 256);
+                for (const TechniqueInfo& t : techniques()) {
+                    const double ratio = light(t.name, t.default_samples) / truth;
+                    EXPECT_GT(ratio, tilt < 1.0f ? 0.6 : 0.4) << t.name << ", alpha_lin " << roughness << ", eta " << anisotropy << ", tilt " << tilt;
+                    EXPECT_LT(ratio, 1.5) << t.name << ", alpha_lin " << roughness << ", eta " << anisotropy << ", tilt " << tilt;
+                }
+            }
+}
+
 // Every technique on lobes of every kind, grazing views, poles and silhouettes included, with few samples and many, upright and tilted.
 TEST(technique, no_lobe_and_no_sample_count_makes_a_nan)
 {
@@ -233,6 +263,21 @@ Scene textured_floor(float repeats)
     scene.materials[0].base_color_tex.texture = 0;
     scene.primitives[0].has_uv0 = true;
     return scene;
+}
+
+// An override of roughness leaves a texture's metalness alone.
+TEST(material, a_roughness_override_keeps_metalness)
+{
+    Scene scene = textured_floor(1.0f);
+    for (std::byte& b : scene.images[0].bytes)
+        b = std::byte{0}; // no metal, whatever the factor
+    Material& m = scene.materials[0];
+    m.unlit = false, m.base_color_tex.texture = kNone, m.metallic_roughness_tex.texture = 0;
+    m.metallic = 1.0f, m.specular = 0.0f, m.base_color = glm::vec4(0.5f, 0.25f, 1.0f, 1.0f);
+    const Stage stage(std::move(scene));
+    FrameDesc d = quad_desc(33, 1);
+    d.roughness = 0.4f;
+    EXPECT_NEAR(pixel(stage.render(d, best_isa()), 16, 16)[0], 0.5f, 2e-3f); // all of it diffused
 }
 
 // Far away the checkerboard must become its mean, without moire, in anisotropic perspective too.
