@@ -38,7 +38,7 @@ void add_what(CLI::App& app, ChartArguments& to)
         ->expected(1)
         ->group("What is measured");
     app.add_option("--runs", to.runs, "Timed frames of every setting, interleaved (9)")->type_name("N")->group("What is measured");
-    app.add_option("--reference-samples", to.reference_samples, "Samples a pixel of the references (1024)")
+    app.add_option("--reference-samples", to.reference_samples, "Samples a pixel of the references (4096)")
         ->type_name("N")
         ->group("What is measured");
     app.add_option("-o,--output", to.folder, "Folder of the report; made where it is not there")

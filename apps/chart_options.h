@@ -14,7 +14,7 @@ struct ChartOptions {
     std::vector<std::string> techniques;
     Sweeps sweeps;
     int runs = 9;                          // timed, of every setting
-    std::uint64_t reference_samples = 1024; // a pixel
+    std::uint64_t reference_samples = 4096; // a pixel
     std::string folder;
 };
 

@@ -27,7 +27,8 @@ struct Curve {
 struct Plot {
     std::string name, x_title, y_title;
     std::vector<Curve> curves;
-    bool front = false; // draw the Pareto front
+    bool front = false;    // draw the Pareto front; marks beside it are hollow
+    bool doubling = false; // x counts in powers of two
 };
 
 struct PlotArea { // where a plot's axes lie
@@ -77,7 +78,7 @@ PlotArea frame_of(Plot& plot, Layout layout)
 void draw_axes(Svg& svg, const Plot& plot, const PlotArea& f, Layout layout)
 {
     const bool wide = layout == Layout::wide;
-    for (const double value : log_ticks(f.x, wide ? 9 : 6)) {
+    for (const double value : plot.doubling ? doubling_ticks(f.x, wide ? 12 : 8) : log_ticks(f.x, wide ? 9 : 6)) {
         svg.line(f.x.at(value), f.top, f.x.at(value), f.bottom, "grid");
         svg.text(f.x.at(value), f.bottom + 18.0, "tick middle", number(value));
     }
@@ -110,10 +111,10 @@ void draw_front(Svg& svg, const Plot& plot, const PlotArea& f)
     svg.text(f.right - 4.0, steps.back().second + 16.0, "note end", "Pareto front");
 }
 
-void draw_point(Svg& svg, const PlotArea& f, const Point& p, const std::string& technique)
+void draw_point(Svg& svg, const PlotArea& f, const Point& p, const std::string& technique, bool filled)
 {
     const double x = f.x.at(p.x), y = f.y.at(p.y);
-    svg.open("g", {{"class", fmt::format("point {}{}", mark_class(technique), p.row->pareto ? " best" : "")},
+    svg.open("g", {{"class", fmt::format("point {}{}", mark_class(technique), filled ? " best" : "")},
                    {"role", "img"},
                    {"aria-label", describe(*p.row)},
                    {"data-row", p.row->key}});
@@ -174,7 +175,7 @@ std::string draw(Plot plot, Layout layout)
     for (const Curve& curve : plot.curves)
         for (const Point& p : curve.points)
             if (!curve.level)
-                draw_point(svg, f, p, curve.technique);
+                draw_point(svg, f, p, curve.technique, p.row->pareto || !plot.front);
     if (layout == Layout::wide)
         draw_names_beside(svg, plot, f);
     else
@@ -232,7 +233,7 @@ std::vector<std::string> techniques_of(const RowList& rows)
 
 std::string plot_time_flip(const RowList& rows, Layout layout)
 {
-    Plot plot{"Time against error", "median time of a frame (ms)", "mean FLIP error", {}, true};
+    Plot plot{"Time against error", "median time of a frame (ms)", "mean FLIP error", {}, true, false};
     for (const std::string& technique : techniques_of(rows)) {
         Curve curve{technique, {}, false};
         for (const ChartRow* row : rows_of(rows, technique))
@@ -246,7 +247,7 @@ std::string plot_samples(const RowList& rows, Quantity quantity, Layout layout)
 {
     const bool flip = quantity == Quantity::flip;
     Plot plot{flip ? "Error by number of samples" : "Time by number of samples", "samples of a fragment's lobe",
-              flip ? "mean FLIP error" : "median time of a frame (ms)", {}, false};
+              flip ? "mean FLIP error" : "median time of a frame (ms)", {}, false, true};
     bool any = false;
     for (const std::string& technique : techniques_of(rows)) {
         Curve curve{technique, {}, false};

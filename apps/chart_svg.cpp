@@ -141,6 +141,18 @@ std::vector<double> log_ticks(const Axis& axis, std::size_t most)
     return ticks;
 }
 
+std::vector<double> doubling_ticks(const Axis& axis, std::size_t most)
+{
+    for (double factor = 2.0;; factor *= 2.0) {
+        std::vector<double> ticks;
+        for (double value = 1.0; value <= axis.high; value *= factor)
+            if (value >= axis.low)
+                ticks.push_back(value);
+        if (ticks.size() <= most)
+            return ticks;
+    }
+}
+
 std::string shape_path(int shape, double x, double y, double radius)
 {
     const auto polygon = [&](int corners, double turn, double inner) {

@@ -34,6 +34,8 @@ struct Axis {
 Axis log_axis(double low, double high, double from_px, double to_px); // a little wider than the values
 std::vector<double> log_ticks(const Axis& axis, std::size_t most); // round numbers, at least two, not more than asked if that can be
 
+std::vector<double> doubling_ticks(const Axis& axis, std::size_t most); // powers of two, or of four and so on
+
 // Marks: one of a few outlines about a centre, which techniques differ by beside their colours.
 inline constexpr int kShapes = 8;
 std::string shape_path(int shape, double x, double y, double radius);
