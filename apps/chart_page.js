@@ -23,6 +23,10 @@
     tip.replaceChildren(element('img', {src: row.picture, alt: ''}), row.text);
     tip.dataset.row = point.dataset.row;
     tip.hidden = false;
+    placeTip(point);
+  }
+
+  function placeTip(point) {
     const at = point.getBoundingClientRect(), box = tip.getBoundingClientRect();
     const left = at.right + 12 + box.width < innerWidth ? at.right + 12 : at.left - 12 - box.width;
     tip.style.left = Math.max(4, Math.min(left, innerWidth - box.width - 4)) + 'px';
@@ -211,5 +215,6 @@
     if (list) list.addEventListener('change', () => choose(list.selectedIndex));
     choose(list ? list.selectedIndex : 0);
   }
-  addEventListener('scroll', hideTip, {passive: true});
+  // Going to a point by key may scroll the page under its picture.
+  addEventListener('scroll', () => { const point = document.querySelector('.point.shown'); if (point) placeTip(point); }, {passive: true});
 })();

@@ -69,7 +69,7 @@ PlotArea frame_of(Plot& plot, Layout layout)
         for (Point& p : curve.points)
             p.y = positive(p.y, least_y / 2.0);
     const double names = wide ? 0.0 : 20.0 * static_cast<double>((plot.curves.size() + 1) / 2) + 8.0;
-    PlotArea f{wide ? 760.0 : 380.0, wide ? 460.0 : 330.0 + names, 62.0, wide ? 600.0 : 368.0, 14.0, wide ? 408.0 : 276.0, {}, {}};
+    PlotArea f{wide ? 650.0 : 380.0, wide ? 430.0 : 330.0 + names, 62.0, wide ? 496.0 : 368.0, 14.0, wide ? 378.0 : 276.0, {}, {}};
     f.x = log_axis(least_x, most_x, f.left, f.right);
     f.y = log_axis(least_y, most_y, f.bottom, f.top);
     return f;

@@ -153,7 +153,7 @@ def narrow(bench):
             browser.value("document.querySelectorAll('details').forEach(d => d.open = true)")
             check(browser.value("document.documentElement.scrollWidth <= innerWidth"), f"{width} {scheme}: the page is wider than the window")
             small = browser.value("""[...document.querySelectorAll('.place:not([hidden]) svg text, .heats text')].filter(t => t.getClientRects().length).map(t => {
-                const scale = t.getScreenCTM().a; return scale * parseFloat(getComputedStyle(t).fontSize); }).filter(s => s < 10).length""")
+                const m = t.getScreenCTM(), scale = Math.hypot(m.a, m.b); return scale * parseFloat(getComputedStyle(t).fontSize); }).filter(s => s < 10).length""")
             check(small == 0, f"{width} {scheme}: {small} texts of charts are below 10 pixels")
             cut = browser.value("""[...document.querySelectorAll('.place:not([hidden]) svg, .heats svg')].filter(s => s.getClientRects().length).flatMap(s => {
                 const b = s.getBoundingClientRect(); return [...s.querySelectorAll('text')].filter(t => { const r = t.getBoundingClientRect();
