@@ -46,7 +46,7 @@ TEST(chart_plan, wrong_sweeps_are_refused_with_what_was_expected)
     EXPECT_FALSE(parse_sweep("samples=2", sweeps));
     std::string many = "samples=1";
     for (int i = 2; i <= 65; ++i)
-        many += "," + std::to_string(i);
+        many.append(1, ',').append(std::to_string(i));
     EXPECT_NE(fault_of(many).find("65 values"), std::string::npos);
 }
 
