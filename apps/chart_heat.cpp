@@ -13,6 +13,7 @@ namespace burnish {
 namespace {
 
 constexpr const char* kBaseline = "bent_normal";
+constexpr double kCharacter = 8.0; // px of the widest names' letters
 
 struct Colour {
     int r = 0, g = 0, b = 0;
@@ -155,12 +156,13 @@ std::string plot_heat(const RowList& rows, const std::string& technique, bool di
     if (difference && std::none_of(rows.begin(), rows.end(), [](const ChartRow* row) { return row->setting.technique == kBaseline; }))
         return "";
     const auto text = [](const std::optional<float>& v) { return v ? fmt::format("{:g}", *v) : std::string("scene's"); };
+    const std::string title = difference ? technique + " - " + kBaseline : technique;
     const double columns = static_cast<double>(anisotropy.size()), lines = static_cast<double>(roughness.size());
     const Map map{rows, technique, difference, largest(rows, difference), 62.0, 30.0, std::clamp(300.0 / columns, 12.0, 64.0), 28.0};
-    const double bottom = map.top + map.cell_h * lines, width = std::max(columns * map.cell_w, 190.0);
+    const double bottom = map.top + map.cell_h * lines, width = std::max({columns * map.cell_w, 190.0, kCharacter * static_cast<double>(title.size())});
     Svg svg(map.left + width + 12.0, bottom + 88.0, "chart heat",
             difference ? technique + " against " + kBaseline + " over roughness and anisotropy" : technique + " over roughness and anisotropy");
-    svg.text(map.left, 18.0, "name", difference ? technique + " - " + kBaseline : technique);
+    svg.text(map.left, 18.0, "name", title);
     for (std::size_t r = 0; r < roughness.size(); ++r) {
         const double y = bottom - map.cell_h * static_cast<double>(r + 1);
         svg.text(map.left - 7.0, y + map.cell_h / 2.0 + 4.0, "tick end", text(roughness[r]));

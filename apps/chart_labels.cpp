@@ -38,7 +38,7 @@ PlacedLabel LabelPlacer::place(const std::string& text, const std::vector<std::p
         double dx, dy;
         bool end;
     };
-    constexpr Offset kOffsets[] = {{kGap, 4.5, false},  {kGap, -6.0, false}, {kGap, 15.0, false}, {-kGap, 4.5, true},
+    constexpr Offset kOffsets[] = {{kGap, -6.0, false}, {kGap, 4.5, false},  {kGap, 15.0, false}, {-kGap, 4.5, true},
                                    {-kGap, -6.0, true}, {-kGap, 15.0, true}, {kGap, -20.0, false}, {kGap, 30.0, false},
                                    {kGap, -34.0, false}, {kGap, 44.0, false}};
     PlacedLabel best;
