@@ -1,9 +1,9 @@
 // The page of `burnish compare --html`: one file, pictures inside it, readable on a telephone and in the
 // dark.
-#include <algorithm>
 #include <fmt/format.h>
 
 #include "apps/compare_figures.h"
+#include "apps/html.h"
 #include "core/image/colour.h"
 #include "core/image/image_io.h"
 #include "core/image/magma.h"
@@ -24,46 +24,6 @@ table { border-collapse: collapse; margin-top: 1.5rem; }
 th, td { text-align: left; vertical-align: top; padding: .2rem 1.5rem .2rem 0; border-bottom: 1px solid var(--line); }
 .scale { height: .8rem; border: 1px solid var(--line); }
 )";
-
-std::string escaped(const std::string& text)
-{
-    std::string out;
-    for (const char c : text)
-        switch (c) {
-        case '&':
-            out += "&amp;";
-            break;
-        case '<':
-            out += "&lt;";
-            break;
-        case '>':
-            out += "&gt;";
-            break;
-        case '"':
-            out += "&quot;";
-            break;
-        default:
-            out += static_cast<unsigned char>(c) < ' ' ? ' ' : c;
-        }
-    return out;
-}
-
-// RFC 4648, section 4.
-std::string base64(const std::string& bytes)
-{
-    constexpr const char* kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::string out;
-    out.reserve((bytes.size() + 2) / 3 * 4);
-    for (std::size_t i = 0; i < bytes.size(); i += 3) {
-        const std::size_t n = std::min<std::size_t>(3, bytes.size() - i);
-        std::uint32_t word = 0;
-        for (std::size_t k = 0; k < 3; ++k)
-            word = word << 8 | (k < n ? static_cast<unsigned char>(bytes[i + k]) : 0u);
-        for (std::size_t k = 0; k < 4; ++k)
-            out += k <= n ? kDigits[word >> (18 - 6 * k) & 63u] : '=';
-    }
-    return out;
-}
 
 // As a display shows it: floats exposed and tonemapped, 16 bits cut to 8.
 Image displayed(const Image& image, float exposure_ev)

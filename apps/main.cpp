@@ -21,6 +21,7 @@ constexpr const char* kFooter = R"(Examples:
   burnish render                                     the built-in teapot, figures only
   burnish render lamp.glb --env workshop.hdr -o lamp.png -o lamp.exr
   burnish compare reference.png test.png --html report.html
+  burnish chart lamp.glb --env workshop.hdr -o report
   burnish list techniques
   burnish info --json
 

@@ -3,6 +3,8 @@
 import argparse
 import sys
 
+import chart_cases
+import chart_page_cases
 import compare_cases
 import harness
 import input_cases

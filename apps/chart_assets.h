@@ -1,0 +1,10 @@
+// Files of this folder as text, put into the program when it is built (embed.cmake).
+#pragma once
+
+namespace burnish {
+
+extern const char* const kChartMarksStyle; // chart_marks.css
+extern const char* const kChartPageStyle;  // chart_page.css
+extern const char* const kChartPageScript; // chart_page.js
+
+} // namespace burnish

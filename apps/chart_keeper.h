@@ -1,0 +1,30 @@
+// REPORT_DIR while a chart is made: rows.json with what has been measured, and the pictures.
+#pragma once
+#include <chrono>
+#include <string>
+
+#include "apps/chart_rows.h"
+#include "apps/report.h"
+
+namespace burnish {
+
+class Keeper {
+  public:
+    // Makes the folder where needed and reads the rows of an earlier run; a file that holds something else is told and left behind.
+    static Result<Keeper> open(const std::string& folder, Report& report);
+
+    Measured& row(const std::string& key) { return rows_[key]; }
+    Status save();           // now
+    Status save_sometimes(); // unless that was a moment ago
+    std::string picture(const std::string& name) const { return folder_ + "/pictures/" + name + ".jpg"; }
+    std::string file(const std::string& name) const { return folder_ + "/" + name; }
+
+  private:
+    using Clock = std::chrono::steady_clock;
+
+    std::string folder_;
+    KeptRows rows_;
+    Clock::time_point saved_ = Clock::now();
+};
+
+} // namespace burnish

@@ -1,0 +1,411 @@
+#include "apps/chart_measure.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fmt/format.h>
+#include <limits>
+#include <memory>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include "apps/chart_pictures.h"
+#include "apps/render_stats.h"
+#include "apps/scene_view.h"
+#include "apps/stop_signal.h"
+#include "core/base/file.h"
+#include "core/base/hash.h"
+#include "core/base/version.h"
+#include "core/image/flip.h"
+#include "core/image/image_io.h"
+#include "core/image/magma.h"
+#include "core/image/metrics.h"
+#include "core/scene/gltf.h"
+#include "core/simd/cpu.h"
+#include "raster/reference/scene_key.h"
+#include "shading/bake/environment_cache.h"
+
+namespace burnish {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kDfgSize = 64, kDfgSamples = 256; // as of `burnish render`
+
+struct LoadedScene {
+    std::string name;
+    Scene scene;
+    DrawTables tables;
+    View view;
+};
+
+// Rows of an older program are not this one's: the kernels may have changed.
+std::uint64_t program_hash()
+{
+    constexpr std::uint64_t kMaxProgramBytes = 1ull << 30;
+    const Result<std::vector<std::uint8_t>> bytes = read_file("/proc/self/exe", kMaxProgramBytes);
+    const std::string name = version();
+    return bytes ? hash_bytes(bytes->data(), bytes->size()) : hash_bytes(name.data(), name.size());
+}
+
+double cpu_ms() // of all threads of this process
+{
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    const auto ms = [](const timeval& t) { return static_cast<double>(t.tv_sec) * 1e3 + static_cast<double>(t.tv_usec) * 1e-3; };
+    return ms(usage.ru_utime) + ms(usage.ru_stime);
+}
+
+Result<std::unique_ptr<LoadedScene>> load(const std::string& name, const RenderOptions& base, Report& report)
+{
+    auto loaded = std::make_unique<LoadedScene>();
+    Result<Scene> scene = load_scene(name, base.limits);
+    if (!scene)
+        return scene.error();
+    loaded->name = name;
+    loaded->scene = std::move(*scene);
+    update_world(loaded->scene);
+    if (const Status size = check_draw_size(loaded->scene, base.limits, name); !size)
+        return size.error();
+    loaded->tables = make_draw_tables(loaded->scene);
+    for (const std::string& warning : loaded->scene.warnings)
+        report.warning(warning);
+    RenderOptions options = base;
+    options.scene = name;
+    const Result<ChosenView> view = choose_view(options, loaded->scene, loaded->tables);
+    if (!view)
+        return view.error();
+    loaded->view = view->view;
+    return loaded;
+}
+
+class Chart {
+  public:
+    Chart(const ChartOptions& options, const Jobs& jobs, Keeper& keeper, Report& report)
+        : options_(options), jobs_(jobs), keeper_(keeper), report_(report), stop_(watch_stop_signals()),
+          settings_(settings_of(options.techniques, options.sweeps.samples)), cells_(cells_of(options.sweeps))
+    {
+    }
+    Status load_all();
+    Status measure(); // ends early, without an error, where a signal came
+    bool stopped() const { return stop_.load(); }
+    ChartReport take();
+
+  private:
+    struct Place { // where rows are compared with each other
+        const LoadedScene& scene;
+        RenderInput input;
+        Renderer& tile;
+        FrameDesc desc; // but for technique and samples
+        std::string env;
+        Cell cell;
+        std::uint64_t key = 0; // of scene, environment, view and overrides
+    };
+    Status measure_pair(const LoadedScene& scene, const Environment& environment, const std::string& env);
+    Status measure_place(const Place& place);
+    Result<Image> reference(const Place& place);
+    Result<std::string> reference_file(const Place& place, const ReferenceOptions& options);
+    Status find_errors(const Place& place, const Image& reference, ChartRow& row);
+    Status time_rows(const Place& place, std::vector<ChartRow>& rows);
+    Status write_small(const std::string& file, const Image& linear, bool errors);
+    ChartRow new_row(const Place& place, const Setting& setting) const;
+    FrameDesc desc_of(const Place& place, const Setting& setting) const;
+
+    const ChartOptions& options_;
+    const Jobs& jobs_;
+    Keeper& keeper_;
+    Report& report_;
+    const std::atomic<bool>& stop_;
+    std::vector<Setting> settings_;
+    std::vector<Cell> cells_;
+    std::vector<std::unique_ptr<LoadedScene>> scenes_;
+    std::vector<Environment> environments_;
+    DfgTable dfg_;
+    std::uint64_t program_ = program_hash();
+    int picture_width_ = 0;
+    std::unique_ptr<Progress> progress_;
+    ChartReport out_;
+};
+
+// Everything is read before anything is measured: a wrong last file shall not cost minutes.
+Status Chart::load_all()
+{
+    for (const std::string& name : options_.scenes) {
+        Result<std::unique_ptr<LoadedScene>> scene = load(name, options_.base, report_);
+        if (!scene)
+            return scene.error();
+        scenes_.push_back(std::move(*scene));
+    }
+    for (const std::string& env : options_.envs) {
+        Result<Environment> environment = load_environment(env, options_.base.environment, options_.base.limits, jobs_);
+        if (!environment)
+            return environment.error();
+        environments_.push_back(std::move(*environment));
+    }
+    dfg_ = bake_dfg(kDfgSize, kDfgSamples, jobs_);
+    const FrameDesc& frame = options_.base.frame;
+    out_.machine = {version(), cpu_name(), isa_name(options_.base.isa), jobs_.threads()};
+    out_.width = frame.width, out_.height = frame.height, out_.msaa = frame.msaa;
+    out_.runs = options_.runs;
+    out_.reference_samples = options_.reference_samples;
+    return {};
+}
+
+Status Chart::measure()
+{
+    const std::size_t places = scenes_.size() * environments_.size() * cells_.size();
+    picture_width_ = picture_width(places * settings_.size());
+    report_.event("chart", fmt::format("{} rows: {} settings of {} techniques at {} places, {} runs each", places * settings_.size(),
+                                       settings_.size(), options_.techniques.size(), places, options_.runs));
+    progress_ = std::make_unique<Progress>("chart", places * settings_.size() * static_cast<std::size_t>(options_.runs + 1),
+                                           options_.base.quiet);
+    for (const auto& scene : scenes_)
+        for (std::size_t e = 0; e < environments_.size(); ++e) {
+            if (const Status done = measure_pair(*scene, environments_[e], options_.envs[e]); !done)
+                return done;
+            if (stopped())
+                return {};
+        }
+    progress_.reset();
+    return {};
+}
+
+Status Chart::measure_pair(const LoadedScene& scene, const Environment& environment, const std::string& env)
+{
+    const RenderInput input{scene.scene, scene.tables, environment, dfg_, jobs_};
+    const std::unique_ptr<Renderer> tile = make_tile_renderer(input, options_.base.isa);
+    for (const Cell& cell : cells_) {
+        Place place{scene, input, *tile, options_.base.frame, env, cell};
+        place.desc.view = scene.view;
+        place.desc.roughness = cell.roughness.value_or(-1.0f);
+        place.desc.anisotropy = cell.anisotropy.value_or(0.0f);
+        place.desc.override_anisotropy = cell.anisotropy.has_value();
+        place.key = reference_key(input, place.desc, {});
+        if (const Status done = measure_place(place); !done)
+            return done;
+        if (const Status saved = keeper_.save(); !saved)
+            return saved;
+        if (stopped())
+            return {};
+    }
+    return {};
+}
+
+Status Chart::measure_place(const Place& place)
+{
+    std::vector<ChartRow> rows;
+    bool complete = true; // nothing is left to be compared with the reference
+    for (const Setting& setting : settings_) {
+        rows.push_back(new_row(place, setting));
+        complete = complete && rows.back().measured.has_errors;
+    }
+    const std::string picture =
+        keeper_.picture(fmt::format("reference-{}-{}-{}-{:g}", hash_text(place.key), options_.reference_samples, picture_width_,
+                                    static_cast<double>(options_.base.exposure_ev)));
+    out_.references[burnish::place(rows.front())] = picture;
+    if (!complete || !fs::exists(picture)) {
+        const Result<Image> truth = reference(place);
+        if (!truth)
+            return truth.error();
+        if (stopped())
+            return {};
+        if (const Status written = write_small(picture, *truth, false); !written)
+            return written;
+        for (ChartRow& row : rows) {
+            if (const Status found = row.measured.has_errors ? Status() : find_errors(place, *truth, row); !found)
+                return found;
+            progress_->step();
+            if (stopped())
+                return {};
+        }
+    } else {
+        progress_->step(rows.size());
+    }
+    if (const Status timed = time_rows(place, rows); !timed)
+        return timed;
+    out_.rows.insert(out_.rows.end(), rows.begin(), rows.end());
+    return {};
+}
+
+// Beside the cached environments, so that every chart of a scene shares it; in REPORT_DIR where there is no such folder.
+Result<std::string> Chart::reference_file(const Place& place, const ReferenceOptions& options)
+{
+    const std::string name = fmt::format("reference-{}.part", hash_text(place.key));
+    std::string file = keeper_.file(name);
+    const std::string cache = environment_cache_path(options_.base.environment, 0);
+    if (options_.base.environment.use_cache && !cache.empty()) {
+        const fs::path folder = fs::path(cache).parent_path();
+        std::error_code failed;
+        fs::create_directories(folder, failed);
+        if (!failed && ::access(folder.c_str(), W_OK | X_OK) == 0)
+            file = (folder / name).string();
+    }
+    ReferenceOptions with_file = options;
+    with_file.checkpoint = file;
+    if (const Status good = check_reference_checkpoint(place.input, place.desc, with_file); !good) {
+        report_.warning(fmt::format("{}: {}: it is made anew", file, good.error().reason));
+        std::error_code failed;
+        fs::remove(file, failed);
+        if (failed)
+            return Error{ExitCode::output_failed, file, "", failed.message()};
+    }
+    return file;
+}
+
+Result<Image> Chart::reference(const Place& place)
+{
+    ReferenceOptions options;
+    options.samples = options_.reference_samples;
+    options.checkpoint_seconds = 10.0;
+    options.stop = &stop_;
+    options.isa = options_.base.isa;
+    options.quiet = options_.base.quiet;
+    const Result<std::string> file = reference_file(place, options);
+    if (!file)
+        return file.error();
+    options.checkpoint = *file;
+    Result<std::unique_ptr<Renderer>> renderer = make_reference_renderer(place.input, options);
+    if (!renderer)
+        return renderer.error();
+    Result<Frame> frame = (*renderer)->render(place.desc);
+    if (!frame)
+        return frame.error();
+    const SamplingStats& s = frame->stats.sampling;
+    if (!s.stopped)
+        report_.event("reference",
+                      fmt::format("{} under {}, {}: {} samples a pixel, {} of them kept from before: {:.1f} s, relative error {:.3g}",
+                                  place.scene.name, place.env, describe(place.cell), s.samples, s.samples_before,
+                                  frame->stats.ms * 1e-3, s.relative_error));
+    if (const std::uint64_t bad = s.stopped ? 0 : count_not_finite(frame->color))
+        return Error{ExitCode::not_finite, place.scene.name, "reference", fmt::format("{} pixels are NaN or Inf", bad)};
+    return std::move(frame->color);
+}
+
+FrameDesc Chart::desc_of(const Place& place, const Setting& setting) const
+{
+    FrameDesc desc = place.desc;
+    desc.technique = setting.technique;
+    desc.samples = setting.samples;
+    return desc;
+}
+
+// The row with what was kept of it, but no errors where their pictures are gone.
+ChartRow Chart::new_row(const Place& place, const Setting& setting) const
+{
+    const FrameDesc desc = desc_of(place, setting);
+    const std::string text =
+        fmt::format("{} {} {} {} {} {} {} {} {} {} {}", program_, place.key, options_.reference_samples, desc.technique, desc.samples,
+                    desc.msaa, desc.tile_size, place.tile.device(), jobs_.threads(), desc.major_axis_k, desc.major_axis_beta);
+    ChartRow row;
+    row.key = hash_text(hash_bytes(text.data(), text.size()));
+    row.scene = place.scene.name, row.env = place.env;
+    row.setting = setting, row.cell = place.cell;
+    row.measured = keeper_.row(row.key);
+    const std::string name = fmt::format("{}-{}-{:g}", row.key, picture_width_, static_cast<double>(options_.base.exposure_ev));
+    row.picture = keeper_.picture(name);
+    row.error_map = keeper_.picture(name + "-flip");
+    row.measured.has_errors = row.measured.has_errors && fs::exists(row.picture) && fs::exists(row.error_map);
+    return row;
+}
+
+Status Chart::write_small(const std::string& file, const Image& image, bool errors)
+{
+    const Image small = shrink(image, picture_width_);
+    return write_image(file, errors ? magma_map(small) : tonemap_to_srgb8(small, options_.base.tonemap, options_.base.exposure_ev));
+}
+
+Status Chart::find_errors(const Place& place, const Image& reference, ChartRow& row)
+{
+    Result<Frame> frame = place.tile.render(desc_of(place, row.setting));
+    if (!frame)
+        return frame.error();
+    RowErrors& e = row.measured.errors;
+    e.nan_pixels = count_not_finite(frame->color);
+    Image map = make_image(reference.width, reference.height, 1, PixelType::f32);
+    if (e.nan_pixels) {
+        e.flip_mean = e.flip_p99 = e.rel_mse = e.max_abs = std::numeric_limits<double>::quiet_NaN();
+    } else {
+        FlipOptions flip;
+        flip.isa = static_cast<int>(options_.base.isa);
+        map = flip_hdr(reference, frame->color, flip, jobs_).error;
+        const ErrorSummary errors = summarise_errors(map);
+        const PixelFigures pixels = pixel_figures(reference, frame->color, jobs_);
+        e.flip_mean = errors.mean, e.flip_p99 = errors.p99;
+        e.rel_mse = pixels.rel_mse, e.max_abs = pixels.max_abs;
+    }
+    for (const Status& written : {write_small(row.picture, frame->color, false), write_small(row.error_map, map, true)})
+        if (!written)
+            return written;
+    row.measured.has_errors = true;
+    Measured& kept = keeper_.row(row.key);
+    kept.has_errors = true;
+    kept.errors = e;
+    return keeper_.save_sometimes();
+}
+
+// Round robin, every other round backwards: what slows the machine down for a while slows all settings, and none always follows the
+// same neighbour.
+Status Chart::time_rows(const Place& place, std::vector<ChartRow>& rows)
+{
+    const std::size_t runs = static_cast<std::size_t>(options_.runs);
+    std::vector<std::size_t> order;
+    for (std::size_t i = 0; i < rows.size(); ++i)
+        if (rows[i].measured.ms.size() < runs)
+            order.push_back(i);
+    progress_->step((rows.size() - order.size()) * runs);
+    for (const std::size_t i : order) { // warm
+        if (stopped())
+            return {};
+        if (const Result<Frame> frame = place.tile.render(desc_of(place, rows[i].setting)); !frame)
+            return frame.error();
+    }
+    for (std::size_t run = 0; run < runs; ++run) {
+        for (const std::size_t i : order) {
+            Measured& kept = keeper_.row(rows[i].key);
+            if (kept.ms.size() > run)
+                continue;
+            const double before = cpu_ms();
+            const Result<Frame> frame = place.tile.render(desc_of(place, rows[i].setting));
+            if (!frame)
+                return frame.error();
+            kept.ms.push_back(frame->stats.ms);
+            kept.cpu_ms.push_back(cpu_ms() - before);
+            progress_->step();
+            if (stopped())
+                return {};
+        }
+        std::reverse(order.begin(), order.end());
+        if (const Status saved = keeper_.save_sometimes(); !saved)
+            return saved;
+    }
+    for (ChartRow& row : rows) {
+        const Measured& kept = keeper_.row(row.key);
+        row.measured.ms = kept.ms, row.measured.cpu_ms = kept.cpu_ms;
+        row.measured.ms.resize(runs); // an earlier chart may have asked for more
+        row.measured.cpu_ms.resize(runs);
+    }
+    return {};
+}
+
+ChartReport Chart::take()
+{
+    mark_pareto(out_.rows);
+    return std::move(out_);
+}
+
+} // namespace
+
+Result<MeasuredChart> measure_chart(const ChartOptions& options, const Jobs& jobs, Keeper& keeper, Report& report)
+{
+    Chart chart(options, jobs, keeper, report);
+    if (const Status loaded = chart.load_all(); !loaded)
+        return loaded.error();
+    report.release();
+    if (const Status measured = chart.measure(); !measured)
+        return measured.error();
+    if (const Status saved = keeper.save(); !saved)
+        return saved.error();
+    return MeasuredChart{chart.take(), chart.stopped()};
+}
+
+} // namespace burnish

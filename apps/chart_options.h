@@ -1,0 +1,32 @@
+// Options of `burnish chart`: as written on the command line, then checked and resolved.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "apps/chart_plan.h"
+#include "apps/render_options.h"
+
+namespace burnish {
+
+struct ChartOptions {
+    RenderOptions base; // size, view, machine and limits; its scene and environment are those being measured
+    std::vector<std::string> scenes, envs;
+    std::vector<std::string> techniques;
+    Sweeps sweeps;
+    int runs = 9;                          // timed, of every setting
+    std::uint64_t reference_samples = 4096; // a pixel
+    std::string folder;
+};
+
+struct ChartArguments {
+    RenderArguments render; // options that mean the same as in `burnish render`
+    std::vector<std::string> scenes, envs, sweeps;
+    std::string techniques = "all", runs, reference_samples, folder;
+};
+
+void add_chart_options(CLI::App& app, ChartArguments& arguments);
+
+// Everything that can be known to be wrong before a file is opened.
+Result<ChartOptions> check_chart_options(const ChartArguments& arguments);
+
+} // namespace burnish

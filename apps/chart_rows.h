@@ -1,0 +1,62 @@
+// The rows of a chart: one technique with one setting on one surface, its errors and its times. Kept in a file while the chart is
+// made, so that one that was stopped goes on.
+#pragma once
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "apps/chart_plan.h"
+
+namespace burnish {
+
+struct RowErrors { // against the reference; of pictures with NaN only the count is a number
+    double flip_mean = 0.0, flip_p99 = 0.0, rel_mse = 0.0, max_abs = 0.0;
+    std::uint64_t nan_pixels = 0;
+};
+
+struct Measured { // of a row, so far
+    bool has_errors = false;
+    RowErrors errors;
+    std::vector<double> ms, cpu_ms; // by run
+};
+using KeptRows = std::map<std::string, Measured>; // by ChartRow::key
+
+struct ChartRow {
+    std::string key; // of everything that decides its pictures and its times, 16 hexadecimal digits
+    std::string scene, env;
+    Setting setting;
+    Cell cell;
+    Measured measured;
+    bool pareto = false;
+    std::string picture, error_map; // files
+};
+
+struct ChartMachine {
+    std::string version, processor, isa;
+    int threads = 0;
+};
+
+struct ChartReport {
+    ChartMachine machine;
+    int width = 0, height = 0, msaa = 0, runs = 0;
+    std::uint64_t reference_samples = 0;
+    std::vector<ChartRow> rows;                    // by scene, environment, cell, technique, samples
+    std::map<std::string, std::string> references; // picture files, by place()
+};
+
+std::string place(const ChartRow& row); // scene, environment and cell as one text: rows of one place are compared
+
+double flip_of(const ChartRow& row);
+double ms_of(const ChartRow& row);
+double p95_of(const ChartRow& row);
+
+// Which of the points are not beaten: no other is at least as good in both and better in one. What is not finite never is.
+std::vector<bool> pareto_front(const std::vector<std::pair<double, double>>& points);
+void mark_pareto(std::vector<ChartRow>& rows); // by place, over median time and mean FLIP
+
+std::string kept_json(const KeptRows& rows);
+Result<KeptRows> parse_kept(const std::string& text, const std::string& file);
+std::string report_json(const ChartReport& report);
+
+} // namespace burnish

@@ -1,0 +1,245 @@
+"""burnish chart: what it measures, what it writes, how it stops and goes on; and what the techniques' errors must show."""
+
+import json
+import os
+import signal
+import subprocess
+import time
+import xml.dom.minidom
+
+from harness import Skipped, case, check, scratch
+
+TINY = ("--size", "64x36", "--msaa", "4", "--env-size", "64", "--env-samples", "32", "--reference-samples", "64", "--runs", "2")
+FEW = (*TINY, "--techniques", "bent_normal,major_axis", "--sweep", "samples=1,4")
+FIELDS = {"scene", "env", "technique", "settings", "ms_median", "ms_p95", "flip_mean", "flip_p99", "rel_mse", "max_abs", "nan_pixels", "pareto"}
+
+
+def needs_embree(bench):
+    if "reference" not in bench.run("info").expect(0).out:
+        raise Skipped("built without Embree")
+
+
+def rows_of(bench, folder):
+    report = json.loads((bench.folder / folder / "report.json").read_text())
+    return report["rows"]
+
+
+def errors_of(rows):
+    return [(row["technique"], row["settings"]["samples"], row["flip_mean"], row["rel_mse"]) for row in rows]
+
+
+@case("chart.rows_and_files")
+def rows(bench):
+    needs_embree(bench)
+    done = bench.run("chart", "builtin:spheres", "--env", "builtin:studio", "--env", "builtin:sky", *FEW, "--sweep", "roughness=0.2,0.4", "-o", "r").expect(0)
+    check("report.html" in done.err and done.out == "", done.describe())
+    report = json.loads((bench.folder / "r/report.json").read_text())
+    found = report["rows"]
+    check(len(found) == 2 * 2 * 3 and set(report["machine"]) >= {"processor", "isa", "threads", "version"}, f"{report}")
+    for row in found:
+        check(FIELDS <= set(row), f"{row}")
+        check(0 < row["ms_median"] <= row["ms_p95"] and row["cpu_ms_median"] >= 0, f"{row}")
+        check(0 < row["flip_mean"] < row["flip_p99"] <= 1 and row["rel_mse"] > 0 and row["max_abs"] > 0 and row["nan_pixels"] == 0, f"{row}")
+        check(row["settings"]["samples"] in ((None,) if row["technique"] == "bent_normal" else (1, 4)), f"{row}")
+        check(row["settings"]["width"] == 64 and row["settings"]["msaa"] == 4, f"{row}")
+    places = {}
+    for row in found:
+        places.setdefault((row["env"], row["settings"]["roughness"]), []).append(row)
+    check(len(places) == 4, f"{places.keys()}")
+    for members in places.values():
+        for row in members:
+            beaten = any(other["ms_median"] <= row["ms_median"] and other["flip_mean"] <= row["flip_mean"] and other is not row for other in members)
+            check(row["pareto"] == (not beaten), f"{row['technique']}: {members}")
+    names = os.listdir(bench.folder / "r")
+    check({"report.html", "report.json", "rows.json", "pictures", "time-flip-1.svg", "samples-flip-4.svg", "heat-major_axis-2.svg",
+           "heat-major_axis-difference-1.svg"} <= set(names), f"{names}")
+    for name in names:
+        if name.endswith(".svg"):
+            xml.dom.minidom.parse(str(bench.folder / "r" / name))
+    # Two things that render says too: the same errors come of the same pictures.
+    bench.run("render", "builtin:spheres", *TINY[:8], "--roughness", "0.2", "--technique", "bent_normal", "-o", "t.exr", "-q").expect(0)
+    bench.run("render", "builtin:spheres", *TINY[:8], "--roughness", "0.2", "--backend", "reference", "--samples", "64", "-o", "ref.exr", "-q").expect(0)
+    other = json.loads(bench.run("compare", "ref.exr", "t.exr", "--json", "-", "-q").expect(0).out)
+    mine = next(row for row in found if row["technique"] == "bent_normal" and row["env"] == "builtin:studio")
+    for name in ("flip_mean", "flip_p99", "rel_mse", "max_abs"):
+        check(abs(mine[name] - other[name]) < 1e-6 * max(1, abs(other[name])), f"{name}: {mine[name]} and by compare {other[name]}")
+
+
+@case("chart.wrong_options")
+def wrong(bench):
+    for words, needle in (
+        (("--techniques", "bent_normal,fast"), "fast"),
+        (("--techniques", ""), "--techniques"),
+        (("--sweep", "samples"), "samples=1,4,16"),
+        (("--sweep", "samples=0"), "--sweep"),
+        (("--sweep", "hue=1"), "hue"),
+        (("--sweep", "roughness=2"), "--sweep"),
+        (("--sweep", "samples=1", "--sweep", "samples=2"), "twice"),
+        (("--runs", "0"), "--runs"),
+        (("--reference-samples", "0"), "--reference-samples"),
+        (("--size", "0x4"), "--size"),
+        (("--msaa", "3"), "--msaa"),
+        (("--env", "builtin:moon"), "builtin:moon"),
+        (("builtin:cube",), "builtin:cube"),
+    ):
+        bench.run("chart", *words, "-o", "r").expect(2).expect_one_line(needle)
+    bench.run("chart").expect(2).expect_one_line("--output")
+    check(bench.left_behind() == [], f"left behind: {bench.left_behind()}")
+
+
+@case("chart.bad_input_and_output")
+def bad_files(bench):
+    needs_embree(bench)
+    bench.run("chart", "no.glb", *FEW, "-o", "r").expect(4).expect_one_line("no.glb")
+    bench.run("chart", "builtin:spheres", "no.glb", *FEW, "-o", "r").expect(4).expect_one_line("no.glb")
+    bench.run("chart", "--env", "no.hdr", *FEW, "-o", "r").expect(4).expect_one_line("no.hdr")
+    scratch(bench, "file", "x")
+    bench.run("chart", *FEW, "-o", "file").expect(7).expect_one_line("file")
+    bench.run("chart", *FEW, "-o", "/proc/no/such").expect(7).expect_one_line("/proc/no/such")
+
+
+@case("chart.a_finished_one_measures_nothing_again")
+def again(bench):
+    needs_embree(bench)
+    words = ("chart", *FEW, "-o", "r")
+    bench.run(*words).expect(0)
+    first = (bench.folder / "r/report.json").read_text()
+    bench.run(*words).expect(0)
+    check((bench.folder / "r/report.json").read_text() == first, "times were measured again")
+    # Another view is another row; rows of before stay.
+    bench.run("chart", *FEW, "--no-background", "-o", "r").expect(0)
+    check(errors_of(rows_of(bench, "r")) != errors_of(json.loads(first)["rows"]), "rows of another picture were taken")
+    kept = json.loads((bench.folder / "r/rows.json").read_text())["rows"]
+    check(len(kept) == 6, f"{len(kept)} rows kept")
+    # Pictures that were removed come back, with the times of before.
+    for name in os.listdir(bench.folder / "r/pictures"):
+        (bench.folder / "r/pictures" / name).unlink()
+    bench.run(*words).expect(0)
+    check((bench.folder / "r/report.json").read_text() == first, "removed pictures changed the rows")
+    # A file that holds something else is told, and replaced.
+    scratch(bench, "r/rows.json", "a letter")
+    done = bench.run(*words).expect(0)
+    check("warning" in done.err and "rows.json" in done.err, done.describe())
+    check(errors_of(rows_of(bench, "r")) == errors_of(json.loads(first)["rows"]), "errors are not those of before")
+
+
+def start(bench, *words):
+    return subprocess.Popen([bench.program, "chart", *words], cwd=bench.folder, env=bench.environment({}), stdin=subprocess.DEVNULL,
+                            stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
+
+
+@case("chart.killed_and_gone_on_with")
+def killed(bench):
+    needs_embree(bench)
+    words = ("--size", "320x180", *TINY[2:-2], "--runs", "60", "--techniques", "bent_normal,major_axis", "--sweep", "samples=1,16", "-o", "r")
+    kept = bench.folder / "r/rows.json"
+
+    def runs_kept():
+        return sum(len(row["ms"]) for row in json.loads(kept.read_text())["rows"].values()) if kept.exists() else 0
+
+    child = start(bench, *words)
+    begin = time.monotonic()
+    while runs_kept() < 6:
+        check(child.poll() is None and time.monotonic() - begin < 100, "nothing was kept while it ran")
+        time.sleep(0.02)
+    child.kill()
+    child.communicate()
+    check(not (bench.folder / "r/report.json").exists(), "a report of half a chart")
+    before = json.loads(kept.read_text())["rows"]
+    for number in (signal.SIGTERM, signal.SIGINT):
+        child = start(bench, *words)
+        time.sleep(1.0 if number == signal.SIGTERM else 0.6)
+        child.send_signal(number)
+        _, said = child.communicate(timeout=60)
+        check(child.returncode in (0, 128 + number, -number), f"exit code {child.returncode}: {said!r}")
+        if child.returncode == 128 + number:
+            check(b"stopped" in said and not (bench.folder / "r/report.html").exists(), f"{said!r}")
+    bench.run("chart", *words).expect(0)
+    after = json.loads(kept.read_text())["rows"]
+    for key, row in before.items():
+        check(after[key]["ms"][:len(row["ms"])] == row["ms"] and after[key]["flip_mean"] == row["flip_mean"], "what was kept was measured again")
+    check(all(len(row["ms"]) == 60 for row in after.values()) and len(rows_of(bench, "r")) == 3, "runs are missing")
+
+
+@case("chart.a_stopped_reference_goes_on")
+def stopped_reference(bench):
+    needs_embree(bench)
+    cache = bench.folder / "own_cache"
+    words = ("--size", "160x90", *TINY[2:8], "--reference-samples", "16384", "--runs", "1", "--techniques", "bent_normal", "-o", "r", "-v")
+    environment = {**bench.environment({}), "XDG_CACHE_HOME": str(cache)}
+    child = subprocess.Popen([bench.program, "chart", *words], cwd=bench.folder, env=environment, stdin=subprocess.DEVNULL,
+                             stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
+    time.sleep(3.0)
+    child.send_signal(signal.SIGTERM)
+    _, said = child.communicate(timeout=60)
+    check(child.returncode in (0, 143), f"exit code {child.returncode}: {said!r}")
+    parts = [name for name in os.listdir(cache / "burnish") if name.startswith("reference-")]
+    check(len(parts) == 1, f"{parts}")
+    done = bench.run("chart", *words, env={"XDG_CACHE_HOME": str(cache)}).expect(0)
+    if child.returncode == 143:
+        line = next(line for line in done.err.splitlines() if line.startswith("reference"))
+        check(", 0 of them kept" not in line, line)
+    # Another folder finds the reference; a damaged one is made anew.
+    done = bench.run("chart", *words[:-2], "r2", env={"XDG_CACHE_HOME": str(cache)}).expect(0)
+    check("16384 of them kept" in done.err, done.describe())
+    (cache / "burnish" / parts[0]).write_bytes(b"a letter")
+    small = [word if word != "16384" else "128" for word in words]
+    small[small.index("r")] = "r3"
+    done = bench.run("chart", *small, env={"XDG_CACHE_HOME": str(cache)}).expect(0)
+    check("made anew" in done.err and "128 samples" in done.err, done.describe())
+
+
+@case("chart.major_axis_and_bent_normal", "slow")
+def claims(bench):
+    """Cocco, Zanni, Chermain 2024: what 16 samples along the axis are worth, over widths and anisotropies."""
+    needs_embree(bench)
+    roughness, anisotropy = (0.1, 0.2, 0.3, 0.4, 0.5, 0.7, 0.9), (-0.9, -0.7, -0.5, 0.0, 0.5, 0.7, 0.9)
+    text = lambda values: ",".join(map(str, values))
+    words = ("builtin:spheres", "--size", "160x90", "--msaa", "4", "--reference-samples", "2048", "--runs", "1", "--no-background")
+    bench.run("chart", *words, "--techniques", "bent_normal,major_axis", "--sweep", "samples=16", "--sweep", f"roughness={text(roughness)}",
+              "--sweep", f"anisotropy={text(anisotropy)}", "-o", "grid", timeout=500).expect(0)
+    flip = {(row["technique"], row["settings"]["roughness"], row["settings"]["anisotropy"]): row["flip_mean"] for row in rows_of(bench, "grid")}
+    faults = []
+    cells = sorted({key[1:] for key in flip})
+    mean = {name: sum(flip[name, *cell] for cell in cells) / len(cells) for name in ("bent_normal", "major_axis")}
+    print("mean FLIP over the grid:", mean)
+    if not mean["major_axis"] < mean["bent_normal"]:
+        faults.append(f"means: {mean}")
+    for r, a in cells:
+        if r <= 0.501 and abs(a) >= 0.499 and not flip["major_axis", r, a] < flip["bent_normal", r, a]:
+            faults.append(f"roughness {r:.3g}, anisotropy {a:.3g}: major_axis {flip['major_axis', r, a]:.4f}, bent_normal {flip['bent_normal', r, a]:.4f}")
+    check(not faults, "\n".join(faults))
+
+
+def check_samples(bench, names, *words):
+    """More samples along the axis help until 8 at least, and beyond 16 to 32 little changes any more."""
+    bench.run("chart", "builtin:spheres", "--size", "240x135", "--msaa", "4", "--reference-samples", "4096", "--runs", "1", "--techniques",
+              "major_axis,major_axis_weighted,filtered_is", "--sweep", "samples=1,2,4,8,16,25,32,64", *words, "-o", "r", timeout=500).expect(0)
+    places, faults = {}, []
+    for row in rows_of(bench, "r"):
+        places.setdefault(row["env"], {})[row["technique"], row["settings"]["samples"]] = row["flip_mean"]
+    for env, flip in places.items():
+        for name in names:
+            by = [round(flip[name, n], 4) for n in (1, 2, 4, 8, 16, 32, 64)]
+            print(env, name, by)
+            if not by[0] > by[1] > by[2] > by[3]:
+                faults.append(f"{env}, {name}: does not fall from 1 to 8 samples: {by}")
+            if not abs(by[6] - by[5]) < 0.1 * (by[0] - by[5]):
+                faults.append(f"{env}, {name}: not flat after 32 samples: {by}")
+            if not abs(by[5] - by[4]) < 0.15 * (by[0] - by[4]):
+                faults.append(f"{env}, {name}: not nearly flat after 16 samples: {by}")
+        if not flip["filtered_is", 25] > flip["major_axis", 16]:
+            faults.append(f"{env}: filtered_is {flip['filtered_is', 25]:.4f}, major_axis {flip['major_axis', 16]:.4f}")
+    check(not faults, "\n".join(faults))
+
+
+@case("chart.error_by_samples", "slow")
+def samples(bench):
+    needs_embree(bench)
+    check_samples(bench, ("major_axis", "major_axis_weighted"), "--env", "builtin:studio", "--env", "builtin:sky")
+
+
+@case("chart.error_by_samples_of_long_lobes", "slow")
+def samples_of_long_lobes(bench):
+    needs_embree(bench)
+    check_samples(bench, ("major_axis",), "--no-background", "--sweep", "roughness=0.3", "--sweep", "anisotropy=0.9")

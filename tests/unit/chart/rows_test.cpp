@@ -1,0 +1,106 @@
+// The Pareto front, what is kept of a chart, and its JSON.
+#include <algorithm>
+#include <cmath>
+#include <gtest/gtest.h>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <random>
+
+#include "tests/unit/chart/sample.h"
+
+namespace burnish {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+TEST(chart_rows, the_front_is_what_nothing_beats)
+{
+    using Points = std::vector<std::pair<double, double>>;
+    using Front = std::vector<bool>;
+    EXPECT_EQ(pareto_front(Points{}), Front{});
+    EXPECT_EQ(pareto_front(Points{{1, 3}, {2, 2}, {3, 1}}), (Front{true, true, true}));
+    EXPECT_EQ(pareto_front(Points{{1, 3}, {2, 3}, {1, 4}, {3, 1}}), (Front{true, false, false, true}));
+    EXPECT_EQ(pareto_front(Points{{1, 1}, {1, 1}}), (Front{true, true})); // neither is better
+    EXPECT_EQ(pareto_front(Points{{1, kNan}, {2, 2}, {kNan, 0}}), (Front{false, true, false}));
+    EXPECT_EQ(pareto_front(Points{{1, INFINITY}}), (Front{false}));
+}
+
+// Another way to the same: sorted by time, a point is on the front where its error is below all errors of shorter times.
+TEST(chart_rows, the_front_of_random_points)
+{
+    std::mt19937 random(7);
+    for (int round = 0; round < 50; ++round) {
+        std::vector<std::pair<double, double>> points;
+        for (int i = 0; i < 40; ++i) // few values, so that there are ties
+            points.emplace_back(static_cast<double>(random() % 20), static_cast<double>(random() % 20));
+        const std::vector<bool> front = pareto_front(points);
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            double least_before = 1e9, least_same = 1e9;
+            for (const auto& [x, y] : points) {
+                if (x < points[i].first)
+                    least_before = std::min(least_before, y);
+                if (x == points[i].first)
+                    least_same = std::min(least_same, y);
+            }
+            EXPECT_EQ(front[i], points[i].second < least_before && points[i].second <= least_same) << round << " " << i;
+        }
+    }
+}
+
+TEST(chart_rows, rows_are_compared_with_those_of_their_place_only)
+{
+    std::vector<ChartRow> rows = {test::row("a", "bent_normal", 1, 2.0, 0.5), test::row("b", "major_axis", 16, 3.0, 0.6),
+                                  test::row("c", "major_axis", 16, 3.0, 0.6)};
+    rows[2].cell.roughness = 0.5f;
+    mark_pareto(rows);
+    EXPECT_TRUE(rows[0].pareto);
+    EXPECT_FALSE(rows[1].pareto);
+    EXPECT_TRUE(rows[2].pareto);
+}
+
+TEST(chart_rows, kept_rows_come_back_as_they_were)
+{
+    KeptRows rows;
+    rows["half"].ms = {1.25, 1.0 / 3.0};
+    rows["half"].cpu_ms = {2.0, 3.0};
+    rows["whole"] = test::row("whole", "mc", 4, 2.0, 0.125).measured;
+    rows["bad"].has_errors = true;
+    rows["bad"].errors = {kNan, kNan, kNan, kNan, 12};
+    const Result<KeptRows> back = parse_kept(kept_json(rows), "rows.json");
+    ASSERT_TRUE(back);
+    ASSERT_EQ(back->size(), 3u);
+    EXPECT_EQ(back->at("half").ms, rows["half"].ms);
+    EXPECT_FALSE(back->at("half").has_errors);
+    EXPECT_EQ(back->at("whole").errors.flip_mean, 0.125);
+    EXPECT_TRUE(std::isnan(back->at("bad").errors.flip_mean));
+    EXPECT_EQ(back->at("bad").errors.nan_pixels, 12u);
+}
+
+TEST(chart_rows, a_file_that_holds_something_else_is_an_error)
+{
+    for (const char* text : {"", "[]", "{}", "{\"kept_version\": 1, \"rows\": {\"a\": {}}}", "{\"kept_version\": 1, \"rows\": 3}",
+                             "{\"kept_version\": 1, \"rows\": {\"a\": {\"ms\": [\"x\"], \"cpu_ms\": []}}}"})
+        EXPECT_FALSE(parse_kept(text, "rows.json")) << text;
+    const Result<KeptRows> newer = parse_kept("{\"kept_version\": 99, \"rows\": {\"a\": 1}}", "rows.json");
+    ASSERT_TRUE(newer); // of another version: nothing is kept
+    EXPECT_TRUE(newer->empty());
+}
+
+TEST(chart_rows, the_report_holds_every_field)
+{
+    ChartReport report = test::report();
+    report.rows[1].measured.errors = {kNan, kNan, kNan, kNan, 5};
+    mark_pareto(report.rows);
+    const nlohmann::json json = nlohmann::json::parse(report_json(report));
+    ASSERT_EQ(json.at("rows").size(), report.rows.size());
+    for (const char* field : {"scene", "env", "technique", "settings", "ms_median", "ms_p95", "flip_mean", "flip_p99", "rel_mse", "max_abs",
+                              "nan_pixels", "pareto"})
+        EXPECT_TRUE(json["rows"][0].contains(field)) << field;
+    EXPECT_TRUE(json["rows"][1]["flip_mean"].is_null());
+    EXPECT_EQ(json["rows"][1]["nan_pixels"], 5);
+    EXPECT_FALSE(json["rows"][1]["pareto"].get<bool>());
+    EXPECT_TRUE(json.at("machine").contains("processor"));
+}
+
+} // namespace
+} // namespace burnish
