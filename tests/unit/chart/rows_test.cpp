@@ -70,6 +70,7 @@ TEST(chart_rows, kept_rows_come_back_as_they_were)
     ASSERT_TRUE(back);
     ASSERT_EQ(back->size(), 3u);
     EXPECT_EQ(back->at("half").ms, rows["half"].ms);
+    EXPECT_EQ(back->at("half").cpu_ms, rows["half"].cpu_ms);
     EXPECT_FALSE(back->at("half").has_errors);
     EXPECT_EQ(back->at("whole").errors.flip_mean, 0.125);
     EXPECT_TRUE(std::isnan(back->at("bad").errors.flip_mean));
