@@ -189,9 +189,14 @@ def stopped_reference(bench):
     check("made anew" in done.err and "128 samples" in done.err, done.describe())
 
 
+# Where the claim below does not hold, (roughness, anisotropy): major_axis 0.202, bent_normal 0.169.
+CLAIM_FAILS = {(0.5, -0.5)}
+
+
 @case("chart.major_axis_and_bent_normal", "slow")
 def claims(bench):
-    """Cocco, Zanni, Chermain 2024: what 16 samples along the axis are worth, over widths and anisotropies."""
+    """Cocco, Zanni, Chermain 2024: what 16 samples along the axis are worth, over widths and anisotropies. It is better than the bent normal
+    for roughness to 0.5 and anisotropy from 0.5, but for the cells above; one that holds again must leave that list."""
     needs_embree(bench)
     roughness, anisotropy = (0.1, 0.2, 0.3, 0.4, 0.5, 0.7, 0.9), (-0.9, -0.7, -0.5, 0.0, 0.5, 0.7, 0.9)
     text = lambda values: ",".join(map(str, values))
@@ -206,7 +211,8 @@ def claims(bench):
     if not mean["major_axis"] < mean["bent_normal"]:
         faults.append(f"means: {mean}")
     for r, a in cells:
-        if r <= 0.501 and abs(a) >= 0.499 and not flip["major_axis", r, a] < flip["bent_normal", r, a]:
+        known = (round(r, 3), round(a, 3)) in CLAIM_FAILS
+        if r <= 0.501 and abs(a) >= 0.499 and (flip["major_axis", r, a] < flip["bent_normal", r, a]) == known:
             faults.append(f"roughness {r:.3g}, anisotropy {a:.3g}: major_axis {flip['major_axis', r, a]:.4f}, bent_normal {flip['bent_normal', r, a]:.4f}")
     check(not faults, "\n".join(faults))
 
@@ -241,5 +247,14 @@ def samples(bench):
 
 @case("chart.error_by_samples_of_long_lobes", "slow")
 def samples_of_long_lobes(bench):
+    """Where lobes are long, equal samples on a line of one deviation stop converging to the truth: from 8 on, more of them come closer to a
+    line that is too short. Samples by density keep the tails and keep falling."""
     needs_embree(bench)
-    check_samples(bench, ("major_axis",), "--no-background", "--sweep", "roughness=0.3", "--sweep", "anisotropy=0.9")
+    bench.run("chart", "builtin:spheres", "--size", "240x135", "--msaa", "4", "--reference-samples", "4096", "--runs", "1", "--techniques",
+              "major_axis,major_axis_weighted", "--sweep", "samples=1,2,4,8,16,32,64", "--no-background", "--sweep", "roughness=0.3",
+              "--sweep", "anisotropy=0.9", "-o", "r", timeout=500).expect(0)
+    flip = {(row["technique"], row["settings"]["samples"]): row["flip_mean"] for row in rows_of(bench, "r")}
+    equal, dense = ([round(flip[name, n], 4) for n in (1, 2, 4, 8, 16, 32, 64)] for name in ("major_axis", "major_axis_weighted"))
+    print("equal samples", equal, "by density", dense)
+    check(equal[0] > equal[1] > equal[2] > equal[3] and equal[6] > equal[3], f"equal samples: {equal}")
+    check(all(a > b for a, b in zip(dense[1:], dense[2:])) and dense[6] < 0.5 * equal[6], f"by density: {dense}")
