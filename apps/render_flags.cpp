@@ -99,6 +99,7 @@ void add_picture(CLI::App& app, RenderArguments& to)
     app.add_option("--dfg", to.dfg, "Directional albedo: table (baked, exact) or fit (analytic, coarse) (table)")
         ->type_name("NAME")
         ->group("Picture");
+    app.add_flag("--horizon", to.horizon, "Normal maps reflect nothing from below the surface itself")->group("Picture");
     app.add_flag("--energy-compensation", to.energy_compensation, "Return the light that rough lobes lose between microfacets")
         ->group("Picture");
     app.add_option("--seed", to.seed, "Seed of techniques that use random numbers (0)")

@@ -134,6 +134,7 @@ void read_technique(const RenderArguments& in, OptionReader& reader, RenderOptio
         reader.refuse(usage_error("--dfg", fmt::format("'{}' is not one of table, fit", in.dfg)));
     frame.dfg_fit = in.dfg == "fit";
     frame.energy_compensation = in.energy_compensation;
+    frame.horizon = in.horizon;
     reader.integer("--seed", in.seed, 0, 0x7fffffff, frame.seed);
 }
 

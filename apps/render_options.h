@@ -58,7 +58,7 @@ struct RenderArguments {
     std::string limit_accessor_bytes, limit_data_uri_bytes, limit_draw_bytes;
     std::string axis_k, axis_beta, tilt, seed, dfg = "table";
     std::string reference_mode, reference_strategy, bounces, target_error, checkpoint, variance;
-    bool no_background = false, no_cache = false, energy_compensation = false;
+    bool no_background = false, no_cache = false, energy_compensation = false, horizon = false;
 };
 
 void add_render_options(CLI::App& app, RenderArguments& arguments);

@@ -56,6 +56,7 @@ std::string stats_json(const RenderOptions& options, const RenderFigures& figure
     json["axis_beta"] = frame.major_axis_beta;
     json["seed"] = frame.seed;
     json["dfg"] = frame.dfg_fit ? "fit" : "table";
+    json["horizon"] = frame.horizon;
     json["energy_compensation"] = frame.energy_compensation;
     json["backend"] = options.backend;
     json["device"] = figures.device;

@@ -51,6 +51,7 @@ struct FrameDesc {
     float major_axis_k = 1.0f;             // deviations that the major axis covers
     float major_axis_beta = 2.3f;          // overlap of its samples
     bool dfg_fit = false;                  // directional albedo from the analytic fit instead of the baked table
+    bool horizon = false;                  // lobes that a normal map turns reflect nothing from below the surface itself
     bool energy_compensation = false;      // adds the light that single scattering between microfacets loses
     std::uint32_t seed = 0;                // of techniques that use random numbers
     int tile_size = 64;                    // 32 or 64; never changes the picture

@@ -249,7 +249,7 @@ BN_STAGE MaterialAtHits material_at_hits(const ReferenceParams& f, const Materia
     const dfg_value dfg =
         f.dfg_fit ? dfg_fit(s.n_dot_v, s.roughness) : dfg_lookup(f.dfg_texels, f.dfg_size, s.n_dot_v, s.roughness);
     MaterialAtHits r;
-    r.r = make_reflector(s, lobe, own, f.tilted != 0, dfg, f.energy_compensation != 0, at.dielectric_f0, at.dielectric_f90);
+    r.r = make_reflector(s, lobe, f.horizon || f.tilted ? own : frame, f.tilted != 0, dfg, f.energy_compensation != 0, at.dielectric_f0, at.dielectric_f90);
     r.emission = m.unlit ? at.base : at.emissive;
     return r;
 }

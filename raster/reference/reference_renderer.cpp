@@ -87,7 +87,7 @@ ReferenceParams ReferenceRenderer::params(const FrameDesc& desc, const std::vect
     f.specular_cube = cube_params(input_.environment.specular);
     f.sampler = sampler_.view;
     f.dfg_texels = input_.dfg.texels.data(), f.dfg_size = input_.dfg.size;
-    f.dfg_fit = desc.dfg_fit, f.energy_compensation = desc.energy_compensation;
+    f.dfg_fit = desc.dfg_fit, f.energy_compensation = desc.energy_compensation, f.horizon = desc.horizon;
     f.background = desc.background;
     f.texture_taps = desc.texture_anisotropy;
     f.override_anisotropy = desc.override_anisotropy, f.anisotropy = desc.anisotropy;

@@ -31,7 +31,7 @@ struct ReferenceParams {
     CubeParams specular_cube;
     EnvironmentSamplerView sampler;
     const std::uint16_t* dfg_texels;
-    std::int32_t dfg_size, dfg_fit, energy_compensation;
+    std::int32_t dfg_size, dfg_fit, energy_compensation, horizon;
     std::int32_t background;
     std::int32_t texture_taps, override_anisotropy; // read by raster/frame/lane_material.h
     float anisotropy;

@@ -76,7 +76,7 @@ std::uint64_t reference_key(const RenderInput& input, const FrameDesc& d, const 
     key.column(input.dfg.texels.data(), input.dfg.texels.size());
     const View& v = d.view;
     key.add(d.width, d.height, v.eye, v.right, v.up, v.forward, v.orthographic, v.tan_half_x, v.tan_half_y, v.znear, v.zfar);
-    key.add(d.roughness, d.anisotropy, d.override_anisotropy, d.dfg_fit, d.energy_compensation, d.seed, d.texture_anisotropy,
+    key.add(d.roughness, d.anisotropy, d.override_anisotropy, d.dfg_fit, d.energy_compensation, d.horizon, d.seed, d.texture_anisotropy,
             d.background, d.tilt_rad);
     key.add(options.mode, options.strategy, options.mode == ReferenceMode::path ? options.bounces : 0);
     return key.value();

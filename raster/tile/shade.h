@@ -117,7 +117,7 @@ BN_INLINE real3 shade_fragments(const FrameParams& f, const MaterialRecord& m, c
         frame = mapped_frame(frame, at.normal_map, handedness);
     if (f.tilted)
         frame = tilted_frame(frame, vec2_of(splat(f.tilt_cos[0]), splat(f.tilt_cos[1])), vec2_of(splat(f.tilt_sin[0]), splat(f.tilt_sin[1])));
-    x.turned = mapped || f.tilted;
+    x.turned = (mapped && f.horizon) || f.tilted;
     const LobeShape shape = plan.one_shape ? plan.shape : lobe_shape(f, m, at);
     x.lobe = lobe_in_frame(m, shape, frame);
     x.diffuse = plan.diffuse;

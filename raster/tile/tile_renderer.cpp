@@ -120,7 +120,7 @@ FrameParams TileRenderer::frame_params(const FrameDesc& desc, const std::vector<
     f.specular_cube = cube_params(input_.environment.specular);
     f.irradiance_cube = cube_params(input_.environment.irradiance);
     f.dfg_texels = input_.dfg.texels.data(), f.dfg_size = input_.dfg.size;
-    f.dfg_fit = desc.dfg_fit, f.energy_compensation = desc.energy_compensation;
+    f.dfg_fit = desc.dfg_fit, f.energy_compensation = desc.energy_compensation, f.horizon = desc.horizon;
     f.background = desc.background, f.samples = desc.samples, f.texture_taps = desc.texture_anisotropy;
     f.technique = static_cast<std::int32_t>(find_technique(desc.technique) - techniques().data());
     f.seed = static_cast<std::int32_t>(desc.seed);

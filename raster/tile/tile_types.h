@@ -84,7 +84,7 @@ struct FrameParams {
     std::int32_t grid_count;
     const std::uint16_t* dfg_texels; // DfgTable::texels
     std::int32_t dfg_size;
-    std::int32_t dfg_fit, energy_compensation; // flags
+    std::int32_t dfg_fit, energy_compensation, horizon; // flags
     std::int32_t background, technique, samples, texture_taps, seed;
     float tilt_cos[2], tilt_sin[2];
     std::int32_t tilted;              // any tilt at all
