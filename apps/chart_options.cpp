@@ -1,3 +1,4 @@
+#include "apps/command.h"
 #include "apps/chart_options.h"
 
 #include <algorithm>
@@ -104,11 +105,7 @@ void add_chart_options(CLI::App& app, ChartArguments& arguments)
     app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
     add_what(app, arguments);
     add_render_part(app, arguments.render);
-    const CLI::Validator not_empty(
-        [](std::string& text) { return text.empty() ? std::string("the value is empty") : std::string(); }, "");
-    for (CLI::Option* option : app.get_options())
-        if (option->get_items_expected_max() > 0)
-            option->check(not_empty);
+    refuse_empty_values(app);
     app.get_option("SCENE")->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     app.footer(kFooter);
 }

@@ -1,3 +1,4 @@
+#include "apps/command.h"
 #include "apps/compare_options.h"
 
 #include <cstdlib>
@@ -220,12 +221,7 @@ void add_compare_options(CLI::App& app, CompareArguments& arguments)
     add_failures(app, arguments);
     add_outputs(app, arguments);
     add_machine(app, arguments);
-    const CLI::Validator not_empty(
-        [](std::string& text) { return text.empty() ? std::string("the value is empty") : std::string(); },
-        "");
-    for (CLI::Option* option : app.get_options())
-        if (option->get_items_expected_max() > 0)
-            option->check(not_empty);
+    refuse_empty_values(app);
     app.footer(kFooter);
 }
 

@@ -88,7 +88,11 @@ bool same_file(const std::string& a, const std::string& b)
     if (is_special(a) && is_special(b))
         return false;
     std::error_code failed, other_failed;
-    const fs::path one = fs::weakly_canonical(fs::absolute(a), failed), other = fs::weakly_canonical(fs::absolute(b), other_failed);
+    const auto place = [](const std::string& path, std::error_code& error) {
+        const fs::path whole = fs::absolute(path, error);
+        return error ? fs::path() : fs::weakly_canonical(whole, error);
+    };
+    const fs::path one = place(a, failed), other = place(b, other_failed);
     return a == b || (!failed && !other_failed && one == other);
 }
 

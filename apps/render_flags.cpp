@@ -1,4 +1,5 @@
 // The command line of `burnish render`: names, values and help texts.
+#include "apps/command.h"
 #include "apps/render_options.h"
 
 namespace burnish {
@@ -191,12 +192,7 @@ void add_render_options(CLI::App& app, RenderArguments& arguments)
     add_machine(app, arguments);
     add_reference(app, arguments);
     add_limits(app, arguments);
-    const CLI::Validator not_empty(
-        [](std::string& text) { return text.empty() ? std::string("the value is empty") : std::string(); },
-        "");
-    for (CLI::Option* option : app.get_options())
-        if (option->get_items_expected_max() > 0)
-            option->check(not_empty);
+    refuse_empty_values(app);
     app.footer(kFooter);
 }
 

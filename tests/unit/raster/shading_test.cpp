@@ -265,6 +265,30 @@ Scene textured_floor(float repeats)
     return scene;
 }
 
+// A mirror whose normal map leans 63 degrees: seen from the front it mirrors from below the quad. With the horizon nothing arrives from there,
+// by any technique; without, the map is taken at its word.
+TEST(material, a_normal_map_with_a_horizon_reflects_nothing_from_below)
+{
+    Scene scene = textured_floor(1.0f);
+    const std::size_t texels = scene.images[0].bytes.size() / 4;
+    for (std::size_t i = 0; i < texels; ++i) { // (0.89, 0, 0.45)
+        std::byte* t = scene.images[0].bytes.data() + 4 * i;
+        t[0] = std::byte{241}, t[1] = std::byte{128}, t[2] = std::byte{185}, t[3] = std::byte{255};
+    }
+    Material& m = scene.materials[0];
+    m.unlit = false, m.base_color_tex.texture = kNone, m.normal_tex.texture = 0;
+    m.roughness = 0.1f, m.base_color = glm::vec4(1.0f);
+    const Stage stage(std::move(scene));
+    FrameDesc d = quad_desc(33, 1);
+    for (const TechniqueInfo& t : techniques()) {
+        d.technique = t.name, d.samples = t.default_samples;
+        d.horizon = false;
+        EXPECT_GT(pixel(stage.render(d, best_isa()), 16, 16)[0], 0.5f) << t.name;
+        d.horizon = true;
+        EXPECT_LT(pixel(stage.render(d, best_isa()), 16, 16)[0], 0.02f) << t.name;
+    }
+}
+
 // An override of roughness leaves a texture's metalness alone.
 TEST(material, a_roughness_override_keeps_metalness)
 {
