@@ -10,15 +10,26 @@ namespace {
 constexpr int kDfgSize = 64, kDfgSamples = 256; // as of `burnish render`
 constexpr float kRoughness = 0.3f;              // where a workload overrides eta
 
-// One environment for all, from the cache after the first run.
-const Result<Environment>& studio()
+// One environment for all. The fine one comes from the cache after the first run.
+Result<Environment> bake_studio(bool coarse)
 {
-    static const Result<Environment> environment = load_environment("builtin:studio", {}, Limits{}, Jobs(0));
+    EnvironmentOptions options;
+    if (coarse)
+        options.cube_size = 64, options.samples = 4, options.use_cache = false;
+    return load_environment("builtin:studio", options, Limits{}, Jobs(0));
+}
+const Result<Environment>& studio(bool coarse)
+{
+    if (coarse) {
+        static const Result<Environment> environment = bake_studio(true);
+        return environment;
+    }
+    static const Result<Environment> environment = bake_studio(false);
     return environment;
 }
-const DfgTable& dfg()
+const DfgTable& dfg(bool coarse)
 {
-    static const DfgTable table = bake_dfg(kDfgSize, kDfgSamples, Jobs(0));
+    static const DfgTable table = bake_dfg(kDfgSize, coarse ? 16 : kDfgSamples, Jobs(0));
     return table;
 }
 
@@ -26,7 +37,8 @@ class TileSubject final : public Subject {
   public:
     TileSubject(const Workload& w, const SubjectOptions& options, const Environment& environment)
         : jobs_(w.threads ? w.threads : options.threads), scene_(make_bench_scene(w.scene, w.size, w.width, w.height)),
-          tables_(make_draw_tables(scene_)), renderer_(make_tile_renderer({scene_, tables_, environment, dfg(), jobs_}, options.isa)),
+          tables_(make_draw_tables(scene_)),
+          renderer_(make_tile_renderer({scene_, tables_, environment, dfg(options.coarse_environment), jobs_}, options.isa)),
           by_triangle_(w.scene == BenchScene::waves)
     {
         desc_.width = w.width, desc_.height = w.height, desc_.msaa = w.msaa;
@@ -71,9 +83,10 @@ Result<std::unique_ptr<Subject>> make_subject(const Workload& workload, const Su
 {
     if (workload.engine == Engine::rays)
         return make_ray_subject(workload, options);
-    if (!studio())
-        return studio().error();
-    return std::unique_ptr<Subject>(std::make_unique<TileSubject>(workload, options, *studio()));
+    const Result<Environment>& environment = studio(options.coarse_environment);
+    if (!environment)
+        return environment.error();
+    return std::unique_ptr<Subject>(std::make_unique<TileSubject>(workload, options, *environment));
 }
 
 } // namespace burnish

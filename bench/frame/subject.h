@@ -10,6 +10,7 @@ namespace burnish {
 struct SubjectOptions {
     Isa isa = Isa::scalar;
     int threads = 0; // of workloads that name none; 0: all cores
+    bool coarse_environment = false; // a small one that is baked at once, without the cache
 };
 
 class Subject {
