@@ -55,7 +55,7 @@ struct WorkerScratch {
             c->resize(samples);
         for (Column<std::int32_t>* c : {&fragment_triangle, &fragment_pixel, &fragment_mask, &order})
             c->resize(samples);
-        slot_begin.resize(materials + 2), slot_material.resize(materials + 1), slot_of_material.resize(materials);
+        slot_begin.resize(materials + 3), slot_material.resize(materials + 2), slot_of_material.resize(materials);
         std::fill(slot_of_material.begin(), slot_of_material.end(), -1);
         stats = {};
     }
@@ -67,8 +67,8 @@ struct WorkerScratch {
             triangles.resize(triangle_count), sources.resize(triangle_count);
         return {depth.data(), ids.data(), block_far.data(), block_dirty.data(), triangles.data(),
                 static_cast<std::uint32_t>(triangle_count), sources.data(), fragment_triangle.data(),
-                fragment_pixel.data(), fragment_mask.data(), register_passes.data(), pass_lanes.data(), red.data(), green.data(), blue.data(), order.data(),
-                slot_of_material.data(), slot_material.data(), slot_begin.data(), 0, 0,
+                fragment_pixel.data(), fragment_mask.data(), register_passes.data(), pass_lanes.data(), red.data(), green.data(),
+                blue.data(), order.data(), false, kNoMaterial, slot_of_material.data(), slot_material.data(), slot_begin.data(), 0, 0,
                 frame.color.f32(), frame.triangle_ids.empty() ? nullptr : frame.triangle_ids.data()};
     }
 };
