@@ -12,6 +12,7 @@
 #include "core/jobs/jobs.h"
 #include "core/scene/draw_tables.h"
 #include "core/scene/scene.h"
+#include "raster/frame/profile.h"
 #include "shading/bake/environment.h"
 
 namespace burnish {
@@ -58,6 +59,7 @@ struct FrameDesc {
     int texture_anisotropy = 16;           // taps along the major axis at most, 1..16
     bool background = true;                // environment behind the scene; otherwise black
     bool triangle_ids = false;             // fill Frame::triangle_ids
+    bool profile = false;                  // fill Frame::profile, where the renderer can; never changes the picture
 };
 
 struct SamplingStats { // of a renderer that integrates by random samples
@@ -84,6 +86,7 @@ struct Frame {
     Image color;                           // f32 RGB, linear Rec.709 scene radiance
     Image variance;                        // of `color` as an estimate, by channel; empty where it is none
     Column<std::uint32_t> triangle_ids;    // [pixel][sample] global triangle id, 0xffffffff where nothing was hit
+    FrameProfile profile;                  // empty unless asked for
     FrameStats stats;
 };
 

@@ -274,6 +274,13 @@ constexpr ShadeSlot kShadeSlots[] = {
 #include "shading/models.def"
 };
 
+// A stage ends: one test where nobody profiles.
+BN_INLINE void lap(const TileScratch& s, FrameStage stage, std::int32_t material = -1, std::uint32_t used = 0)
+{
+    if (s.clock)
+        s.clock->lap(*s.clock, stage, material, used, (used + kLanes - 1) / kLanes * kLanes);
+}
+
 void render_tile(const FrameParams& f, int tile_x, int tile_y, TileScratch& s)
 {
     Tile t{f, s, tile_x, tile_y, tile_x * f.tile_size, tile_y * f.tile_size, 0, 0};
@@ -281,22 +288,29 @@ void render_tile(const FrameParams& f, int tile_x, int tile_y, TileScratch& s)
     t.height = f.height - t.y0 < f.tile_size ? f.height - t.y0 : f.tile_size;
     const view_params view = lanes_view(f.view);
     clear_tile(t);
+    lap(s, FrameStage::clear);
     raster_tile(t, view);
+    lap(s, FrameStage::coverage);
     if (s.output_ids)
         write_ids(t);
     list_fragments(f, t.width, t.height, s);
     const int slots = sort_fragments(s);
+    lap(s, FrameStage::visibility);
     shade_background_slot(t, view, s.slot_begin[0], s.slot_begin[1]);
-    for (int k = 1; k < slots; ++k)
+    lap(s, FrameStage::background, -1, s.slot_begin[1] - s.slot_begin[0]);
+    for (int k = 1; k < slots; ++k) {
         kShadeSlots[f.technique](t, view, f.materials[s.slot_material[k]], s.slot_begin[k], s.slot_begin[k + 1]);
+        lap(s, FrameStage::shade, s.slot_material[k], s.slot_begin[k + 1] - s.slot_begin[k]);
+    }
     resolve(f, t.x0, t.y0, t.width, t.height, s);
+    lap(s, FrameStage::resolve);
 }
 
 } // namespace
 
 const TileFns& tile_fns()
 {
-    static constexpr TileFns fns = {transform_vertices, setup_triangles, render_tile};
+    static constexpr TileFns fns = {transform_vertices, setup_triangles, render_tile, kLanes};
     return fns;
 }
 

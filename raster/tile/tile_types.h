@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "raster/frame/records.h"
+#include "raster/frame/stages.h"
 
 namespace burnish {
 
@@ -100,6 +101,12 @@ struct TriangleSource { // where a tile's triangle comes from
     std::uint32_t triangle;  // global id
 };
 
+// Told of the end of every stage of a tile while a frame is profiled: the material whose fragments were shaded, or -1; the lanes that
+// were in use, and all of them.
+struct TileClock {
+    void (*lap)(TileClock& self, FrameStage stage, std::int32_t material, std::uint32_t used, std::uint32_t all);
+};
+
 // Scratch memory of one worker; sized for the worst case of a tile, so tile loops never allocate.
 struct TileScratch {
     float* depth;             // [block][sample][64], reversed, 0 = nothing
@@ -124,12 +131,14 @@ struct TileScratch {
     std::uint32_t fragment_count, background_pixels;
     float* output;                   // the frame's RGB pixels
     std::uint32_t* output_ids;       // the frame's triangle ids [pixel][sample], or null
+    TileClock* clock;                // null unless the frame is profiled
 };
 
 struct TileFns { // one table an instruction set
     void (*transform_vertices)(const FrameParams&, std::uint32_t first, std::uint32_t count);
     void (*setup_triangles)(const FrameParams&, std::uint32_t first, std::uint32_t count, ChunkOutput&);
     void (*render_tile)(const FrameParams&, int tile_x, int tile_y, TileScratch&);
+    int lanes; // kLanes
 };
 
 // Clips one triangle in homogeneous space and appends its pieces (baseline code, called from the lanes for the rare triangle).

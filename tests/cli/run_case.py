@@ -12,6 +12,7 @@ import limit_cases
 import model_cases
 import output_cases
 import pixel_cases
+import profile_cases
 import reference_cases
 import usage_cases
 
