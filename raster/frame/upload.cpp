@@ -49,19 +49,6 @@ std::vector<PyramidKey> used_pyramids(const Scene& scene)
     return keys;
 }
 
-TextureParams texture_params(const TexturePyramid& p)
-{
-    TextureParams t = {};
-    t.texels = p.texels.data();
-    t.width = p.width, t.height = p.height, t.levels = p.levels;
-    t.wrap_s = static_cast<std::int32_t>(p.wrap_s), t.wrap_t = static_cast<std::int32_t>(p.wrap_t);
-    t.nearest = p.nearest;
-    std::copy(std::begin(p.offset), std::end(p.offset), std::begin(t.offset));
-    std::copy(std::begin(p.level_width), std::end(p.level_width), std::begin(t.level_width));
-    std::copy(std::begin(p.level_height), std::end(p.level_height), std::begin(t.level_height));
-    return t;
-}
-
 MaterialRecord material_record(const Material& m)
 {
     MaterialRecord r = {};
@@ -107,6 +94,19 @@ constexpr Position kSamples16[] = {{9, 9},  {7, 5},   {5, 10}, {12, 7}, {3, 6}, 
                                    {6, 14}, {8, 1},   {4, 2},  {2, 12}, {0, 8},  {15, 4},  {14, 15}, {1, 0}};
 
 } // namespace
+
+TextureParams texture_params(const TexturePyramid& p)
+{
+    TextureParams t = {};
+    t.texels = p.texels.data();
+    t.width = p.width, t.height = p.height, t.levels = p.levels;
+    t.wrap_s = static_cast<std::int32_t>(p.wrap_s), t.wrap_t = static_cast<std::int32_t>(p.wrap_t);
+    t.nearest = p.nearest;
+    std::copy(std::begin(p.offset), std::end(p.offset), std::begin(t.offset));
+    std::copy(std::begin(p.level_width), std::end(p.level_width), std::begin(t.level_width));
+    std::copy(std::begin(p.level_height), std::end(p.level_height), std::begin(t.level_height));
+    return t;
+}
 
 SamplePattern standard_samples(int count)
 {
