@@ -17,6 +17,9 @@ import math
 import sys
 
 
+UNITS = ("ns_fragment", "ns_triangle", "ns_vertex", "ns_pixel")  # counters of bench_micro that say more than the time of a whole round
+
+
 class Unreadable(Exception):
     pass
 
@@ -35,8 +38,8 @@ def load(path):
             load_average = (data["context"].get("load_avg") or [-1])[0]
             for row in data["benchmarks"]:
                 if row.get("run_type", "iteration") == "iteration" and "error_message" not in row:
-                    # CPU time of all threads where the benchmark counts it
-                    times.setdefault(row["name"], []).append(row.get("ns_fragment", row["cpu_time"]))
+                    counted = [row[unit] for unit in UNITS if unit in row]
+                    times.setdefault(row["name"], []).append(counted[0] if counted else row["cpu_time"])
     except (OSError, ValueError, KeyError, TypeError) as error:
         raise Unreadable(f"{path}: not the figures of a benchmark: {error}") from error
     for name, values in times.items():

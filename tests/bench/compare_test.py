@@ -91,6 +91,11 @@ class CompareTest(unittest.TestCase):
         self.assertIn("1.200", text)
         self.assertNotIn("f/8_mean", text)
 
+    def test_counter_of_a_unit_comes_first(self):
+        old, new = micro_figures({"f": [5.0]}), micro_figures({"f": [5.0]})
+        old["benchmarks"][0]["ns_triangle"], new["benchmarks"][0]["ns_triangle"] = 10.0, 12.0
+        self.assertIn("1.200", self.run_on(old, new)[1])
+
     def test_another_machine_and_load_are_said(self):
         _, text = self.run_on(frame_figures({"a": STEADY}), frame_figures({"a": STEADY}, processor="Q", load_average=3.0))
         self.assertIn("processor differs", text)
