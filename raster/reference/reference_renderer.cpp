@@ -48,7 +48,7 @@ class ReferenceRenderer final : public Renderer {
           sampler_(make_environment_sampler(input.environment.specular, input.jobs))
     {
     }
-    Result<Frame> render(const FrameDesc& desc) override;
+    Result<Frame> render(const FrameDesc& desc, Frame) override;
     std::string device() const override
     {
         return cpu_name() + " (" + isa_text(options_.isa) + ", " + rays_->description() + ")";
@@ -186,7 +186,7 @@ Status check_desc(const FrameDesc& d, const ReferenceOptions& o)
     return {};
 }
 
-Result<Frame> ReferenceRenderer::render(const FrameDesc& desc)
+Result<Frame> ReferenceRenderer::render(const FrameDesc& desc, Frame)
 {
     if (const Status ok = check_desc(desc, options_); !ok)
         return ok.error();
