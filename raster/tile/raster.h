@@ -13,7 +13,7 @@ inline constexpr int kVectors = kBlockPixels / kLanes; // registers a block; a r
 struct TileTriangle {
     std::int64_t edge[3];           // at the tile's top left corner, top-left rule included: inside is >= 0
     std::int32_t step_x[3], step_y[3]; // by 1/16 pixel
-    std::int64_t span_min[3], span_max[3]; // least and greatest change inside a block
+    std::int64_t span_min[3], span_max[3]; // least and greatest change inside a block; not of small triangles
     std::int32_t sample_step[3][kMaxSamples];
     double z, z_x, z_y;             // depth at the first vertex, and its change by sub-pixel unit
     std::int32_t from_x, from_y;    // the tile's corner, seen from the first vertex, sub-pixel units
@@ -49,11 +49,13 @@ BN_INLINE bool begin_triangle(const FrameParams& f, const TriangleSetup& t, int 
         const std::int64_t at = a * (ox - t.x[p]) + b * (oy - t.y[p]);
         const bool top_left = a > 0 || (a == 0 && b > 0);
         r.edge[i] = (at - (top_left ? 0 : 1)) >> 4;
-        if (r.edge[i] + (a > 0 ? a : 0) * tile_span + (b > 0 ? b : 0) * tile_span < 0)
-            return false;
+        if (!r.small) {
+            if (r.edge[i] + (a > 0 ? a : 0) * tile_span + (b > 0 ? b : 0) * tile_span < 0)
+                return false;
+            r.span_min[i] = ((a < 0 ? a : 0) + (b < 0 ? b : 0)) * block_span;
+            r.span_max[i] = ((a > 0 ? a : 0) + (b > 0 ? b : 0)) * block_span;
+        }
         r.step_x[i] = static_cast<std::int32_t>(a), r.step_y[i] = static_cast<std::int32_t>(b);
-        r.span_min[i] = ((a < 0 ? a : 0) + (b < 0 ? b : 0)) * block_span;
-        r.span_max[i] = ((a > 0 ? a : 0) + (b > 0 ? b : 0)) * block_span;
         for (int s = 0; s < f.msaa; s += kLanes)
             store_int(r.sample_step[i] + s, int_lit(static_cast<std::int32_t>(a)) * load_int(f.pattern.x16 + s) +
                                                 int_lit(static_cast<std::int32_t>(b)) * load_int(f.pattern.y16 + s));
