@@ -23,14 +23,16 @@ std::uint64_t pictures_with_nan(const ChartReport& chart)
 
 Status write_report(const ChartReport& chart, const Keeper& keeper, Report& report)
 {
-    std::vector<ReportFile> files = chart_svgs(chart);
-    files.push_back({"report.json", report_json(chart)});
+    Result<std::vector<ReportFile>> files = chart_files(chart);
+    if (!files)
+        return files.error();
+    files->push_back({"report.json", report_json(chart)});
     Result<std::string> page = chart_page(chart);
     if (!page)
         return page.error();
-    files.push_back({"report.html", std::move(*page)});
-    for (const ReportFile& file : files) {
-        if (const Status written = write_file(keeper.file(file.name), file.text); !written)
+    files->push_back({"report.html", std::move(*page)});
+    for (const ReportFile& file : *files) {
+        if (const Status written = write_file(keeper.file(file.name), file.bytes); !written)
             return written;
         report.detail("wrote", keeper.file(file.name));
     }
