@@ -4,7 +4,9 @@
 #include <cstring>
 #include <filesystem>
 #include <fmt/format.h>
+#include <regex>
 #include <unistd.h>
+#include <vector>
 
 #include "core/base/file.h"
 #include "core/image/image_io.h"
@@ -60,6 +62,23 @@ Status Keeper::save()
 Status Keeper::save_sometimes()
 {
     return Clock::now() - saved_ < kSaveEvery ? Status() : save();
+}
+
+void Keeper::remove_stale(const std::set<std::string>& used) const
+{
+    static const std::regex kChart("(time-flip|samples-flip|samples-time|heat-[a-z0-9_]+(-difference)?)-[0-9]+\\.(svg|png)");
+    static const std::regex kPicture("(reference-)?[0-9a-f]{16}-[-+.0-9a-z]+\\.jpg");
+    for (const auto& [folder, ours] : {std::pair<std::string, const std::regex&>{folder_, kChart}, {folder_ + "/pictures", kPicture}}) {
+        std::vector<fs::path> stale;
+        std::error_code ignored;
+        for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored)) {
+            const std::string name = entry.path().filename().string();
+            if (entry.is_regular_file(ignored) && std::regex_match(name, ours) && !used.count(folder + "/" + name))
+                stale.push_back(entry.path());
+        }
+        for (const fs::path& path : stale)
+            fs::remove(path, ignored); // what cannot be removed does no harm
+    }
 }
 
 } // namespace burnish
