@@ -185,7 +185,7 @@ std::string heading(const ChartReport& report)
 {
     const ChartMachine& m = report.machine;
     return fmt::format("<h1>Speed against accuracy</h1>\n<p>{} x {} pixels, {} samples a pixel; medians of {} interleaved frames on {}, {}, {} "
-                       "thread{}; burnish {}. Errors are HDR-FLIP of linear pixels against Monte Carlo references of {} samples a pixel.</p>\n"
+                       "thread{}; burnish {}. Errors are HDR-FLIP of linear pixels against Monte Carlo references of at least {} samples a pixel.</p>\n"
                        "<p>Point at a mark, or go to it with the Tab and arrow keys, to see its picture; Enter shows it among the pictures below.</p>\n"
                        "<noscript><p>The pictures need JavaScript; the charts and figures do not.</p></noscript>\n",
                        report.width, report.height, report.msaa, report.runs, escaped(m.processor), escaped(m.isa), m.threads,

@@ -29,7 +29,7 @@ def errors_of(rows):
     return [(row["technique"], row["settings"]["samples"], row["flip_mean"], row["rel_mse"]) for row in rows]
 
 
-@case("chart.rows_and_files")
+@case("chart.rows_and_files", "program", "input")
 def rows(bench):
     needs_embree(bench)
     done = bench.run("chart", "builtin:spheres", "--env", "builtin:studio", "--env", "builtin:sky", *FEW, "--sweep", "roughness=0.2,0.4", "-o", "r").expect(0)
