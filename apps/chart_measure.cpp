@@ -320,11 +320,14 @@ Status Chart::time_rows(const Place& place, std::vector<ChartRow>& rows)
         if (rows[i].measured.ms.size() < runs)
             order.push_back(i);
     progress_->step((rows.size() - order.size()) * runs);
+    Frame last;
     for (const std::size_t i : order) { // warm
         if (stopped())
             return {};
-        if (const Result<Frame> frame = place.tile.render(desc_of(place, rows[i].setting)); !frame)
+        Result<Frame> frame = place.tile.render(desc_of(place, rows[i].setting), std::move(last));
+        if (!frame)
             return frame.error();
+        last = std::move(*frame);
     }
     for (std::size_t run = 0; run < runs; ++run) {
         for (const std::size_t i : order) {
@@ -332,11 +335,12 @@ Status Chart::time_rows(const Place& place, std::vector<ChartRow>& rows)
             if (kept.ms.size() > run)
                 continue;
             const double before = cpu_ms();
-            const Result<Frame> frame = place.tile.render(desc_of(place, rows[i].setting));
+            Result<Frame> frame = place.tile.render(desc_of(place, rows[i].setting), std::move(last));
             if (!frame)
                 return frame.error();
             kept.ms.push_back(frame->stats.ms);
             kept.cpu_ms.push_back(cpu_ms() - before);
+            last = std::move(*frame);
             progress_->step();
             if (stopped())
                 return {};

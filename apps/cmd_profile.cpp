@@ -67,10 +67,10 @@ void add(FrameProfile& to, const FrameProfile& more)
 Result<Image> measure(Renderer& renderer, FrameDesc desc, const std::string& scene, ProfileFigures& figures)
 {
     std::vector<double> plain_ms, profiled_ms;
-    Image color;
+    Frame last;
     for (int i = -2; i < 2 * figures.frames; ++i) { // the first two warm up
         desc.profile = i % 2 != 0;
-        Result<Frame> frame = renderer.render(desc);
+        Result<Frame> frame = renderer.render(desc, std::move(last));
         if (!frame)
             return frame.error();
         const std::uint64_t hash = pixel_hash(frame->color);
@@ -85,10 +85,10 @@ Result<Image> measure(Renderer& renderer, FrameDesc desc, const std::string& sce
                 add(figures.sum, frame->profile);
             figures.stats = frame->stats;
         }
-        color = std::move(frame->color);
+        last = std::move(*frame);
     }
     figures.plain_ms = median(plain_ms), figures.profiled_ms = median(profiled_ms);
-    return color;
+    return std::move(last.color);
 }
 
 Status write_files(const RenderOptions& options, const ProfileArguments& arguments, const ProfileFigures& figures)

@@ -82,7 +82,7 @@ def table(limits, kernels):
     return "\n".join(lines)
 
 
-WIDTH, HEIGHT, LEFT, RIGHT, TOP, BOTTOM = 1100, 620, 70, 360, 50, 560
+WIDTH, HEIGHT, LEFT, RIGHT, TOP, BOTTOM = 1160, 620, 70, 420, 50, 560
 
 
 def chart(limits, kernels):
@@ -135,23 +135,23 @@ def chart(limits, kernels):
         element("line", x1=x_of(first), x2=x_of(last), y1=y_of(slope * first), y2=y_of(slope * last), stroke="#5f5f5f", stroke_dasharray="5 4",
                 class_="slope")
         at = first * (last / first) ** (0.06 if first > x_low else 0.03)
-        element("text", f"{cache}: {loads / 1e9:.2f} G loads/s", x=x_of(at) + 6, y=y_of(slope * at) - 8 if y_of(slope * at) > TOP + 20 else TOP + 14.0,
-                class_="soft")
-    names = list(dict.fromkeys((name, eta) for name, eta, _ in kernels))
-    for number, (name, eta) in enumerate(names, 1):
+        element("text", f"{cache}: {loads / 1e9:.2f} G loads/s", x=x_of(at) + 10, y=y_of(slope * at) + 16, class_="soft")
+    places = list(dict.fromkeys((name, eta) for name, eta, _ in kernels))
+    numbers = {name: number for number, name in enumerate(dict.fromkeys(name for name, _ in places), 1)}
+    for name, number in numbers.items():  # at the longest lobe; those of one kernel lie close together
         for isa, colour in ISAS.items():
-            key = (name, eta, isa)
+            key = (name, max(eta for other, eta in places if other == name), isa)
             if key in kernels:
                 element("circle", cx=x_of(intensity[key]), cy=y_of(rate[key]), r=9, fill=colour, class_="kernel")
                 element("text", str(number), x=x_of(intensity[key]), y=y_of(rate[key]) + 4, text_anchor="middle", style="fill: #fff; font-size: 10px")
     x = WIDTH - RIGHT + 20
     element("text", "share of the limit of operations, of loads", x=x, y=TOP)
-    columns = {isa: x + 185 + 75 * i for i, isa in enumerate(isa for isa in ("avx2", "avx512") if isa in ceilings)}
+    columns = {isa: x + 240 + 90 * i for i, isa in enumerate(isa for isa in ("avx2", "avx512") if isa in ceilings)}
     for isa, at in columns.items():
         element("text", isa, x=at, y=TOP + 24, text_anchor="middle", style=f"fill: {ISAS[isa]}")
-    for number, (name, eta) in enumerate(names, 1):
-        y = TOP + 24 + 22 * number
-        element("text", f"{number}  {name} {eta}", x=x, y=y)
+    for line, (name, eta) in enumerate(places, 1):
+        y = TOP + 24 + 22 * line
+        element("text", f"{numbers[name]}  {name}, eta {eta}", x=x, y=y)
         for isa, at in columns.items():
             if (name, eta, isa) in kernels:
                 operations, loads = share(kernels[name, eta, isa], isa, limits)

@@ -48,7 +48,7 @@ class TileSubject final : public Subject {
         if (w.eta != 0.0f)
             desc_.roughness = kRoughness, desc_.override_anisotropy = true, desc_.anisotropy = w.eta;
     }
-    void frame() override { last_ = draw(desc_); }
+    void frame() override { last_ = draw(desc_, std::move(last_)); }
     double units() const override
     {
         return by_triangle_ ? static_cast<double>(tables_.triangle_count()) : static_cast<double>(desc_.width) * desc_.height;
@@ -57,14 +57,14 @@ class TileSubject final : public Subject {
     {
         FrameDesc desc = desc_;
         desc.triangle_ids = true;
-        ids_ = draw(desc).triangle_ids;
+        ids_ = draw(desc, {}).triangle_ids;
         return ids_;
     }
 
   private:
-    Frame draw(const FrameDesc& desc)
+    Frame draw(const FrameDesc& desc, Frame recycled)
     {
-        Result<Frame> frame = renderer_->render(desc);
+        Result<Frame> frame = renderer_->render(desc, std::move(recycled));
         return frame ? std::move(*frame) : Frame{};
     }
     Jobs jobs_;
@@ -73,7 +73,7 @@ class TileSubject final : public Subject {
     std::unique_ptr<Renderer> renderer_;
     bool by_triangle_;
     FrameDesc desc_;
-    Frame last_; // kept until the next one: a frame is paid for with its memory
+    Frame last_; // its memory is the next one's
     Column<std::uint32_t> ids_;
 };
 

@@ -94,7 +94,9 @@ struct Frame {
 class Renderer {
   public:
     virtual ~Renderer() = default;
-    virtual Result<Frame> render(const FrameDesc& desc) = 0;
+    Result<Frame> render(const FrameDesc& desc) { return render(desc, Frame{}); }
+    // recycled: a frame that is not needed any more, whose memory may be used again.
+    virtual Result<Frame> render(const FrameDesc& desc, Frame recycled) = 0;
     virtual std::string device() const = 0; // what runs it: "AMD EPYC (avx512)", ...
 };
 

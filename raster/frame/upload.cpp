@@ -120,6 +120,7 @@ SamplePattern standard_samples(int count)
     p.count = count;
     p.min_x = p.min_y = kSubpixel;
     for (int i = 0; i < count; ++i) {
+        p.x16[i] = table[i].x, p.y16[i] = table[i].y;
         p.x[i] = table[i].x * 16, p.y[i] = table[i].y * 16;
         p.min_x = std::min(p.min_x, p.x[i]), p.max_x = std::max(p.max_x, p.x[i]);
         p.min_y = std::min(p.min_y, p.y[i]), p.max_y = std::max(p.max_y, p.y[i]);

@@ -261,6 +261,11 @@ template <Technique kTechnique>
 void shade_slot(const Tile& t, const view_params& view, const MaterialRecord& m, std::uint32_t begin, std::uint32_t end)
 {
     const MaterialPlan plan = plan_material(t.f, m);
+    if (plan.uniform && m.unlit) { // one colour, wherever it is seen
+        for (std::uint32_t i = begin; i < end; i += kLanes)
+            store_batch(t, load_batch(t, i, end), plan.at.base);
+        return;
+    }
     for (std::uint32_t i = begin; i < end; i += kLanes) {
         const Batch b = load_batch(t, i, end);
         const Fragment p = make_fragment(t.f, m, view, t.s, b.triangle, b.common, b.x, b.y, b.samples);

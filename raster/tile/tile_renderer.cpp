@@ -83,7 +83,7 @@ class TileRenderer final : public Renderer {
         const std::size_t n = input.tables.px.size();
         x_.resize(n), y_.resize(n), inv_w_.resize(n), z_.resize(n);
     }
-    Result<Frame> render(const FrameDesc& desc) override;
+    Result<Frame> render(const FrameDesc& desc, Frame recycled) override;
     std::string device() const override { return cpu_name() + " (" + isa_name(isa_) + ")"; }
 
   private:
@@ -207,7 +207,21 @@ std::size_t tiles_of(const FrameDesc& d)
     return side(d.width) * side(d.height);
 }
 
-Result<Frame> TileRenderer::render(const FrameDesc& desc)
+// Memory for a frame. Every pixel will be written, so what a frame of the same size leaves in it may stay.
+Frame frame_for(const FrameDesc& desc, Frame recycled)
+{
+    Frame frame;
+    frame.color = std::move(recycled.color);
+    if (frame.color.width != desc.width || frame.color.height != desc.height || frame.color.channels != 3 ||
+        frame.color.type != PixelType::f32 || frame.color.empty())
+        frame.color = make_image(desc.width, desc.height, 3, PixelType::f32);
+    if (desc.triangle_ids)
+        frame.triangle_ids.resize(static_cast<std::size_t>(desc.width) * static_cast<std::size_t>(desc.height) *
+                                  static_cast<std::size_t>(desc.msaa));
+    return frame;
+}
+
+Result<Frame> TileRenderer::render(const FrameDesc& desc, Frame recycled)
 {
     if (const Status ok = check_desc(desc); !ok)
         return ok.error();
@@ -218,11 +232,7 @@ Result<Frame> TileRenderer::render(const FrameDesc& desc)
         measured.emplace(input_.jobs.threads(), tiles_of(desc), scene_.materials.size(), fns_.lanes);
     Profiler* const profiler = measured ? &*measured : nullptr;
     ProfiledWork before(profiler, 0);
-    Frame frame;
-    frame.color = make_image(desc.width, desc.height, 3, PixelType::f32);
-    if (desc.triangle_ids)
-        frame.triangle_ids.resize(static_cast<std::size_t>(desc.width) * static_cast<std::size_t>(desc.height) *
-                                  static_cast<std::size_t>(desc.msaa));
+    Frame frame = frame_for(desc, std::move(recycled));
     const std::vector<MaterialRecord> materials = overridden(scene_.materials, desc);
     FrameParams f = frame_params(desc, materials);
     prepare_grid(desc, f);
