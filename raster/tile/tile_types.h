@@ -56,11 +56,6 @@ struct ChunkOutput { // what one chunk of clusters produced, in draw order
 };
 inline constexpr std::uint32_t kGrowRoom = 256;
 
-// One sample of a unit lobe (widths 1): its slopes, and the density of normals there times h.z^4.
-struct GridSample {
-    float slope_x, slope_y, density;
-};
-
 // Everything a tile needs to know of its frame; constant while the frame is drawn.
 struct FrameParams {
     ViewParams view;

@@ -1,0 +1,17 @@
+// Snapped corners of the setups to the rasterizer. Every operation here and in the viewport transform is exact.
+#version 460
+#extension GL_EXT_buffer_reference_uvec2 : require
+#include "shading/stages/interface.glsl"
+#include "shading/stages/pass.glsl"
+
+layout(location = 0) flat out int slot;
+
+void main()
+{
+    slot = gl_VertexIndex / 3;
+    int corner = gl_VertexIndex % 3;
+    real unit = lit(4.76837158203125e-7); // 1 / (256 kGpuViewportHalf)
+    real x = to_real(setups[slot].x[corner] + pass.shift_x) * unit;
+    real y = to_real(setups[slot].y[corner] + pass.shift_y) * unit;
+    gl_Position = vec4(x, y, setups[slot].z[corner], 1.0);
+}
