@@ -18,7 +18,8 @@
 //   INT_MIN load store load_int store_int load_first store_first     unaligned; _first: n lanes, the others
 //   read 0 and stay unwritten gather gather_int table_value table_int                  element index[lane];
 //   tables: 16 readable entries, index in [0,15] compress_store_int(to, i, m) lanes of m to consecutive
-//   places; returns their number reduce_min reduce_max reduce_add                         lane k with lane k
+//   places; returns their number expand_load expand_load_int(from, m) the reverse store_triples(to, more, r,
+//   g, b) RGB of lanes 0-7 to `to`, of lanes 8-15 to `more` reduce_min reduce_max reduce_add                         lane k with lane k
 //   + n/2, then n/4...: depends on the width load_records16 blend_records blend_records_low blend_quad
 //   array-of-struct access: see lanes_scalar.h texel_zero texel_add texel_values bilinear accumulation of
 //   RGBA half texels: see lanes_scalar.h

@@ -335,6 +335,34 @@ BN_INLINE int compress_store_int(std::int32_t* to, integer i, mask m)
     return count;
 }
 
+BN_INLINE __m256i expand_load_words(const void* from, mask m)
+{
+    const std::uint64_t bytes = _pdep_u64(to_bits(m), 0x0101010101010101u) * 0xff;
+    const __m256i order =
+        _mm256_cvtepu8_epi32(_mm_cvtsi64_si128(static_cast<long long>(_pdep_u64(0x0706050403020100u, bytes))));
+    const __m256i words = _mm256_loadu_si256(static_cast<const __m256i*>(from));
+    return _mm256_and_si256(_mm256_permutevar8x32_epi32(words, order), m.v);
+}
+BN_INLINE real expand_load(const float* from, mask m)
+{
+    return {_mm256_castsi256_ps(expand_load_words(from, m))};
+}
+BN_INLINE integer expand_load_int(const std::int32_t* from, mask m)
+{
+    return {expand_load_words(from, m)};
+}
+BN_INLINE void store_triples(float* first, float*, real r, real g, real b)
+{
+    // each register of the result takes every third word of each channel
+    const __m256i r_to = _mm256_setr_epi32(0, 3, 6, 1, 4, 7, 2, 5), g_to = _mm256_setr_epi32(5, 0, 3, 6, 1, 4, 7, 2),
+                  b_to = _mm256_setr_epi32(2, 5, 0, 3, 6, 1, 4, 7);
+    const __m256 rs = _mm256_permutevar8x32_ps(r.v, r_to), gs = _mm256_permutevar8x32_ps(g.v, g_to),
+                 bs = _mm256_permutevar8x32_ps(b.v, b_to);
+    _mm256_storeu_ps(first, _mm256_blend_ps(_mm256_blend_ps(rs, gs, 0x92), bs, 0x24));
+    _mm256_storeu_ps(first + 8, _mm256_blend_ps(_mm256_blend_ps(rs, gs, 0x24), bs, 0x49));
+    _mm256_storeu_ps(first + 16, _mm256_blend_ps(_mm256_blend_ps(rs, gs, 0x49), bs, 0x92));
+}
+
 #define BN_FOLD(name, op)                                                                                    \
     BN_INLINE real name(real x)                                                                              \
     {                                                                                                        \

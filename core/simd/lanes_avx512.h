@@ -330,6 +330,30 @@ BN_INLINE int compress_store_int(std::int32_t* to, integer i, mask m)
     return count;
 }
 
+BN_INLINE real expand_load(const float* from, mask m)
+{
+    return {_mm512_maskz_expand_ps(m.v, _mm512_loadu_ps(from))};
+}
+BN_INLINE integer expand_load_int(const std::int32_t* from, mask m)
+{
+    return {_mm512_maskz_expand_epi32(m.v, _mm512_loadu_si512(from))};
+}
+BN_INLINE void store_triples(float* first, float* second, real r, real g, real b)
+{
+    const __m512i r_to = _mm512_setr_epi32(0, 11, 6, 1, 12, 7, 2, 13, 8, 3, 14, 9, 4, 15, 10, 5),
+                  g_to = _mm512_setr_epi32(5, 0, 11, 6, 1, 12, 7, 2, 13, 8, 3, 14, 9, 4, 15, 10),
+                  b_to = _mm512_setr_epi32(10, 5, 0, 11, 6, 1, 12, 7, 2, 13, 8, 3, 14, 9, 4, 15);
+    const __m512 rs = _mm512_permutexvar_ps(r_to, r.v), gs = _mm512_permutexvar_ps(g_to, g.v),
+                 bs = _mm512_permutexvar_ps(b_to, b.v);
+    const __m512 low = _mm512_mask_mov_ps(_mm512_mask_mov_ps(rs, 0x2492, gs), 0x4924, bs);
+    const __m512 middle = _mm512_mask_mov_ps(_mm512_mask_mov_ps(rs, 0x9249, gs), 0x2492, bs);
+    const __m512 high = _mm512_mask_mov_ps(_mm512_mask_mov_ps(rs, 0x4924, gs), 0x9249, bs);
+    _mm512_storeu_ps(first, low);
+    _mm256_storeu_ps(first + 16, _mm512_castps512_ps256(middle));
+    _mm256_storeu_ps(second, _mm512_extractf32x8_ps(middle, 1));
+    _mm512_storeu_ps(second + 8, high);
+}
+
 #define BN_FOLD(name, op)                                                                                    \
     BN_INLINE real name(real x)                                                                              \
     {                                                                                                        \

@@ -265,6 +265,21 @@ BN_INLINE int compress_store_int(std::int32_t* to, integer i, mask m)
     return m ? 1 : 0;
 }
 
+// The reverse: lanes of m read consecutive numbers, the others 0. May read kLanes numbers.
+BN_INLINE real expand_load(const float* from, mask m)
+{
+    return m ? static_cast<real>(*from) : lit(0.0);
+}
+BN_INLINE integer expand_load_int(const std::int32_t* from, mask m)
+{
+    return m ? *from : 0;
+}
+// Triples (r, g, b) by lane: lanes 0 to 7 to `first` onwards, the others to `second` onwards.
+BN_INLINE void store_triples(float* first, float*, real r, real g, real b)
+{
+    first[0] = static_cast<float>(r), first[1] = static_cast<float>(g), first[2] = static_cast<float>(b);
+}
+
 BN_INLINE real reduce_min(real x)
 {
     return x;

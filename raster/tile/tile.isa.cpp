@@ -146,7 +146,6 @@ int sort_fragments(TileScratch& s)
         slot_begin[k] = begin;
         begin += size;
     }
-    s.background_pixels = slots > 1 ? slot_begin[1] : count;
     for (std::uint32_t i = 0; i < count;) {
         const std::uint32_t end = run_end(triangle, i, count);
         std::uint32_t& to = slot_begin[triangle[i] < 0 ? kBackgroundSlot : slot_of(triangle[i])];
@@ -257,7 +256,7 @@ void render_tile(const FrameParams& f, int tile_x, int tile_y, TileScratch& s)
     shade_background_slot(t, view, s.slot_begin[0], s.slot_begin[1]);
     for (int k = 1; k < slots; ++k)
         kShadeSlots[f.technique](t, view, f.materials[s.slot_material[k]], s.slot_begin[k], s.slot_begin[k + 1]);
-    resolve(f, t.x0, t.y0, s);
+    resolve(f, t.x0, t.y0, t.width, t.height, s);
 }
 
 } // namespace

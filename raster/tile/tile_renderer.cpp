@@ -37,8 +37,8 @@ const TileFns& fns_of(Isa isa)
 // Scratch of one worker: everything a tile needs, sized once for the worst case.
 struct WorkerScratch {
     Column<float> depth, block_far, red, green, blue;
-    Column<std::uint32_t> ids, slot_begin;
-    Column<std::uint8_t> block_dirty;
+    Column<std::uint32_t> ids, slot_begin, pass_lanes;
+    Column<std::uint8_t> block_dirty, register_passes;
     Column<TriangleSetup> triangles;
     Column<TriangleSource> sources;
     Column<std::int32_t> fragment_triangle, fragment_pixel, fragment_mask, order, slot_of_material, slot_material;
@@ -49,6 +49,7 @@ struct WorkerScratch {
         const std::size_t pixels = static_cast<std::size_t>(tile_size) * static_cast<std::size_t>(tile_size);
         const std::size_t samples = pixels * static_cast<std::size_t>(msaa), blocks = pixels / kBlockPixels;
         depth.resize(samples), ids.resize(samples), block_far.resize(blocks), block_dirty.resize(blocks);
+        pass_lanes.resize(samples), register_passes.resize(pixels);
         for (Column<float>* c : {&red, &green, &blue})
             c->resize(samples);
         for (Column<std::int32_t>* c : {&fragment_triangle, &fragment_pixel, &fragment_mask, &order})
@@ -65,7 +66,7 @@ struct WorkerScratch {
             triangles.resize(triangle_count), sources.resize(triangle_count);
         return {depth.data(), ids.data(), block_far.data(), block_dirty.data(), triangles.data(),
                 static_cast<std::uint32_t>(triangle_count), sources.data(), fragment_triangle.data(),
-                fragment_pixel.data(), fragment_mask.data(), red.data(), green.data(), blue.data(), order.data(),
+                fragment_pixel.data(), fragment_mask.data(), register_passes.data(), pass_lanes.data(), red.data(), green.data(), blue.data(), order.data(),
                 slot_of_material.data(), slot_material.data(), slot_begin.data(), 0, 0,
                 frame.color.f32(), frame.triangle_ids.empty() ? nullptr : frame.triangle_ids.data()};
     }

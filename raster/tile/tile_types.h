@@ -102,9 +102,11 @@ struct TileScratch {
     TriangleSetup* triangles; // the tile's own copy, in draw order
     std::uint32_t triangle_count;
     const TriangleSource* sources; // by triangle
-    std::int32_t* fragment_triangle; // visible (pixel, triangle) pairs, grouped by pixel in block order
+    std::int32_t* fragment_triangle; // visible (pixel, triangle) pairs, in the order of list_fragments
     std::int32_t* fragment_pixel;    // x | y << 8, in the tile
     std::int32_t* fragment_mask;     // covered samples, bit s = sample s
+    std::uint8_t* register_passes;   // by register of pixels: how many fragments its fullest pixel has
+    std::uint32_t* pass_lanes;       // by pass: the pixels of the register that have a fragment in it, bit i = lane i
     float *red, *green, *blue;       // shaded colour by fragment
     std::int32_t* order;             // fragments sorted by material slot
     std::int32_t* slot_of_material;  // by material; -1 outside of a tile

@@ -5,97 +5,105 @@
 namespace burnish {
 inline namespace BN_ISA_NS {
 
-// One pixel whose samples differ: a fragment for each distinct triangle, in the order of first appearance.
-BN_INLINE void list_mixed_pixel(const std::uint32_t* ids, int msaa, std::int32_t pixel, TileScratch& s)
-{
-    std::uint32_t rest = (1u << msaa) - 1;
-    while (rest) {
-        const std::uint32_t id = ids[__builtin_ctz(rest) * kBlockPixels];
-        std::uint32_t covered = 0;
-        for (std::uint32_t r = rest; r; r &= r - 1) {
-            const int sample = __builtin_ctz(r);
-            covered |= ids[sample * kBlockPixels] == id ? 1u << sample : 0u;
-        }
-        rest &= ~covered;
-        s.fragment_triangle[s.fragment_count] = static_cast<std::int32_t>(id);
-        s.fragment_pixel[s.fragment_count] = pixel;
-        s.fragment_mask[s.fragment_count] = static_cast<std::int32_t>(covered);
-        ++s.fragment_count;
-    }
-}
-
-// Lists the fragments of the tile's width x height pixels, block by block, pixel by pixel.
+// Lists the fragments of the tile's width x height pixels: by block, by register of pixels, then by pass, where pass k holds the k-th
+// distinct triangle of every pixel that has one, in the order of its samples.
 BN_INLINE void list_fragments(const FrameParams& f, int width, int height, TileScratch& s)
 {
     const int blocks_x = f.tile_size / kBlock;
     const std::int32_t full = static_cast<std::int32_t>((1u << f.msaa) - 1);
-    s.fragment_count = 0;
+    const integer zero = int_lit(0);
+    std::uint32_t count = 0, passes = 0, background = 0;
+    std::uint8_t* register_passes = s.register_passes;
     for (int by = 0; by * kBlock < height; ++by)
         for (int bx = 0; bx * kBlock < width; ++bx) {
-            const std::uint32_t* ids = s.ids + (by * blocks_x + bx) * f.msaa * kBlockPixels;
-            for (int v = 0; v < kVectors; ++v) {
+            const std::int32_t* ids = reinterpret_cast<const std::int32_t*>(s.ids) + (by * blocks_x + bx) * f.msaa * kBlockPixels;
+            for (int v = 0; v < kVectors; ++v, ++register_passes) {
                 const integer lane = iota() + int_lit(v * kLanes);
                 const integer x = (lane & int_lit(7)) + int_lit(bx * kBlock), y = shr(lane, 3) + int_lit(by * kBlock);
                 const mask valid = both(x < int_lit(width), y < int_lit(height));
-                const std::int32_t* from = reinterpret_cast<const std::int32_t*>(ids) + v * kLanes;
-                const integer first = load_int(from);
+                const std::int32_t* from = ids + v * kLanes;
+                const integer first = load_int(from), pixel = x | shl(y, 8);
                 mask same = valid;
                 for (int i = 1; i < f.msaa; ++i)
                     same = both(same, load_int(from + i * kBlockPixels) == first);
-                const integer pixel = x | shl(y, 8);
                 if (all(same)) {
-                    store_int(s.fragment_triangle + s.fragment_count, first);
-                    store_int(s.fragment_pixel + s.fragment_count, pixel);
-                    store_int(s.fragment_mask + s.fragment_count, int_lit(full));
-                    s.fragment_count += kLanes;
+                    store_int(s.fragment_triangle + count, first);
+                    store_int(s.fragment_pixel + count, pixel);
+                    store_int(s.fragment_mask + count, int_lit(full));
+                    background += static_cast<std::uint32_t>(__builtin_popcount(to_bits(first < zero)));
+                    s.pass_lanes[passes++] = (1u << kLanes) - 1;
+                    *register_passes = 1;
+                    count += kLanes;
                     continue;
                 }
-                std::int32_t pixels[kLanes];
-                store_int(pixels, pixel);
-                for (std::uint32_t bits = to_bits(valid); bits; bits &= bits - 1) {
-                    const int i = __builtin_ctz(bits);
-                    list_mixed_pixel(ids + v * kLanes + i, f.msaa, pixels[i], s);
+                *register_passes = 0;
+                integer rest = select(valid, int_lit(full), zero); // samples without a fragment
+                for (mask some = rest != zero; any(some); some = rest != zero) {
+                    integer id = int_lit(-2); // of no sample
+                    for (int i = f.msaa - 1; i >= 0; --i)
+                        id = select((rest & int_lit(1 << i)) != zero, load_int(from + i * kBlockPixels), id);
+                    integer covered = zero;
+                    for (int i = 0; i < f.msaa; ++i)
+                        covered = covered | select(load_int(from + i * kBlockPixels) == id, int_lit(1 << i), zero);
+                    compress_store_int(s.fragment_triangle + count, id, some);
+                    compress_store_int(s.fragment_mask + count, covered, some);
+                    count += static_cast<std::uint32_t>(compress_store_int(s.fragment_pixel + count, pixel, some));
+                    background += static_cast<std::uint32_t>(__builtin_popcount(to_bits(both(some, id < zero))));
+                    s.pass_lanes[passes++] = to_bits(some);
+                    ++*register_passes;
+                    rest = rest & ~covered;
                 }
             }
         }
+    s.fragment_count = count, s.background_pixels = background;
 }
 
-BN_INLINE bool whole_row(const std::int32_t* masks, std::int32_t full)
+BN_INLINE real popcount16(integer i)
 {
-    std::int32_t common = full;
-    for (int k = 0; k < kBlock; ++k)
-        common &= masks[k];
-    return common == full;
+    i = i - (shr_logical(i, 1) & int_lit(0x5555));
+    i = (i & int_lit(0x3333)) + (shr_logical(i, 2) & int_lit(0x3333));
+    i = (i + shr_logical(i, 4)) & int_lit(0x0f0f);
+    return to_real((i + shr_logical(i, 8)) & int_lit(0x1f));
 }
 
-// Box resolve: the mean over samples, fragments of a pixel in the order of the list, so the sum never depends on how they were
+// Box resolve: the mean over samples, fragments of a pixel in the order of their passes, so the sum never depends on how they were
 // batched. Writes RGB to the frame.
-BN_INLINE void resolve(const FrameParams& f, int x0, int y0, const TileScratch& s)
+BN_INLINE void resolve(const FrameParams& f, int x0, int y0, int width, int height, const TileScratch& s)
 {
-    const float inv = 1.0f / static_cast<float>(f.msaa);
-    const std::int32_t full = static_cast<std::int32_t>((1u << f.msaa) - 1);
-    for (std::uint32_t i = 0; i < s.fragment_count;) {
-        const std::int32_t pixel = s.fragment_pixel[i];
-        // a row of a block without edges: every pixel is one fragment of weight 1
-        if (i + kBlock <= s.fragment_count && s.fragment_pixel[i + kBlock - 1] - pixel == kBlock - 1 && whole_row(s.fragment_mask + i, full)) {
-            float* to = s.output + 3 * (static_cast<std::size_t>(y0 + (pixel >> 8)) * static_cast<std::size_t>(f.width) +
-                                        static_cast<std::size_t>(x0 + (pixel & 255)));
-            for (std::uint32_t k = 0; k < kBlock; ++k)
-                to[3 * k] = 0.0f + s.red[i + k], to[3 * k + 1] = 0.0f + s.green[i + k], to[3 * k + 2] = 0.0f + s.blue[i + k];
-            i += kBlock;
-            continue;
-        }
-        const std::size_t at = static_cast<std::size_t>(y0 + (pixel >> 8)) * static_cast<std::size_t>(f.width) +
-                               static_cast<std::size_t>(x0 + (pixel & 255));
-        float* to = s.output + 3 * at;
-        float r = 0.0f, g = 0.0f, b = 0.0f;
-        do {
-            const float weight = static_cast<float>(__builtin_popcount(static_cast<unsigned>(s.fragment_mask[i]))) * inv;
-            r = r + s.red[i] * weight, g = g + s.green[i] * weight, b = b + s.blue[i] * weight;
-            ++i;
-        } while (i < s.fragment_count && s.fragment_pixel[i] == pixel);
-        to[0] = r, to[1] = g, to[2] = b;
-    }
+    const real inv = splat(1.0f / static_cast<float>(f.msaa)), zero = lit(0.0);
+    const std::uint32_t* lanes = s.pass_lanes;
+    const std::uint8_t* register_passes = s.register_passes;
+    const std::size_t row = 3 * static_cast<std::size_t>(f.width);
+    std::uint32_t at = 0;
+    for (int by = 0; by * kBlock < height; ++by)
+        for (int bx = 0; bx * kBlock < width; ++bx)
+            for (int v = 0; v < kVectors; ++v, ++register_passes) {
+                real r = zero, g = zero, b = zero;
+                std::uint32_t drawn = 0;
+                for (int k = 0; k < *register_passes; ++k) {
+                    const std::uint32_t bits = *lanes++;
+                    const mask m = mask_from_bits(bits);
+                    const real weight = popcount16(expand_load_int(s.fragment_mask + at, m)) * inv;
+                    r = r + expand_load(s.red + at, m) * weight;
+                    g = g + expand_load(s.green + at, m) * weight;
+                    b = b + expand_load(s.blue + at, m) * weight;
+                    at += static_cast<std::uint32_t>(__builtin_popcount(bits));
+                    drawn |= bits;
+                }
+                const int px = bx * kBlock + (v * kLanes & 7), py = by * kBlock + (v * kLanes >> 3);
+                float* to = s.output + row * static_cast<std::size_t>(y0 + py) + 3 * static_cast<std::size_t>(x0 + px);
+                if (drawn == (1u << kLanes) - 1) {
+                    store_triples(to, to + row, r, g, b);
+                    continue;
+                }
+                float part[2][3 * kBlock];
+                store_triples(part[0], part[1], r, g, b);
+                for (std::uint32_t bits = drawn; bits; bits &= bits - 1) { // at the image's border
+                    const int i = __builtin_ctz(bits), y = i / kBlock, x = i % kBlock;
+                    for (int c = 0; c < 3; ++c)
+                        to[row * static_cast<std::size_t>(y) + static_cast<std::size_t>(3 * x + c)] = part[y][3 * x + c];
+                }
+            }
 }
 
 } // namespace BN_ISA_NS

@@ -109,7 +109,7 @@ class Browser:
             raise Failed(f"{expression}: {result['exceptionDetails'].get('exception', {}).get('description')}")
         return result["result"].get("value")
 
-    def until(self, expression, seconds=10.0):
+    def until(self, expression, seconds=30.0):
         begin = time.monotonic()
         while not self.value(expression):
             check(time.monotonic() - begin < seconds, f"never true: {expression}")

@@ -87,6 +87,43 @@ TEST_P(LaneMemory, CompressKeepsOrderAndWritesNothingMore)
     }
 }
 
+TEST_P(LaneMemory, ExpandIsTheReverseOfCompress)
+{
+    const std::uint32_t full = (1u << fns().lanes) - 1u;
+    float from[kMaxLanes];
+    std::int32_t ints[kMaxLanes];
+    for (int k = 0; k < kMaxLanes; ++k)
+        from[k] = 0.5f + static_cast<float>(k), ints[k] = 100 + k;
+    for (std::uint32_t bits = 0; bits <= full; ++bits) {
+        float x[kMaxLanes];
+        std::int32_t i[kMaxLanes];
+        fns().expand(from, ints, bits, x, i);
+        int next = 0;
+        for (int k = 0; k < fns().lanes; ++k) {
+            const bool on = bits >> k & 1u;
+            ASSERT_EQ(x[k], on ? from[next] : 0.0f) << "bits " << bits;
+            ASSERT_EQ(i[k], on ? ints[next] : 0) << "bits " << bits;
+            next += on;
+        }
+    }
+}
+
+TEST_P(LaneMemory, TriplesGoToTwoRowsOfEight)
+{
+    const std::vector<float> r = numbers(kMaxLanes), g = numbers(kMaxLanes), b = numbers(kMaxLanes);
+    float first[25] = {}, second[25] = {};
+    fns().triples(first, second, r.data(), g.data(), b.data());
+    for (int k = 0; k < fns().lanes; ++k) {
+        const std::size_t lane = static_cast<std::size_t>(k);
+        const float* at = (k < 8 ? first : second) + 3 * (k % 8);
+        const float want[3] = {r[lane], g[lane], b[lane]};
+        EXPECT_EQ(std::memcmp(at, want, sizeof want), 0) << k;
+    }
+    const int in_first = fns().lanes < 8 ? fns().lanes : 8, in_second = fns().lanes - in_first;
+    EXPECT_EQ(first[3 * in_first], 0.0f); // nothing more is written
+    EXPECT_EQ(second[3 * in_second], 0.0f);
+}
+
 TEST_P(LaneMemory, GathersAndTablesReadTheirElement)
 {
     const std::vector<float> reals = numbers(64);

@@ -63,6 +63,16 @@ int compress_fn(std::int32_t* to, const std::int32_t* x, std::uint32_t bits)
 {
     return compress_store_int(to, load_int(x), mask_from_bits(bits));
 }
+void expand_fn(const float* from, const std::int32_t* ints, std::uint32_t bits, float* x, std::int32_t* i)
+{
+    const mask m = mask_from_bits(bits);
+    store(x, expand_load(from, m));
+    store_int(i, expand_load_int(ints, m));
+}
+void triples_fn(float* first, float* second, const float* r, const float* g, const float* b)
+{
+    store_triples(first, second, load(r), load(g), load(b));
+}
 std::uint32_t mask_facts_fn(std::uint32_t bits)
 {
     const mask m = mask_from_bits(bits);
@@ -138,6 +148,8 @@ const LaneFns kFns = {kIsaNames[BN_ISA],
                       store_first_fn,
                       store_first_int_fn,
                       compress_fn,
+                      expand_fn,
+                      triples_fn,
                       mask_facts_fn,
                       iota_fn,
                       gather_fn,
