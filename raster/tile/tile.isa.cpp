@@ -1,6 +1,7 @@
 // One tile from triangles to pixels: coverage and depth, visibility, shading in dense batches by material, resolve.
 // Compiled once for every instruction set.
 #include "raster/tile/geometry.h"
+#include "raster/tile/record.h"
 #include "raster/tile/shade.h"
 #include "raster/tile/visibility.h"
 
@@ -256,6 +257,10 @@ void render_tile(const FrameParams& f, int tile_x, int tile_y, TileScratch& s)
     shade_background_slot(t, view, s.slot_begin[0], s.slot_begin[1]);
     for (int k = 1; k < slots; ++k)
         kShadeSlots[f.technique](t, view, f.materials[s.slot_material[k]], s.slot_begin[k], s.slot_begin[k + 1]);
+    if (s.output_pairs) {
+        record_depths(f, t.x0, t.y0, t.width, t.height, s);
+        record_fragments(f, view, t.x0, t.y0, s);
+    }
     resolve(f, t.x0, t.y0, t.width, t.height, s);
 }
 
@@ -263,7 +268,7 @@ void render_tile(const FrameParams& f, int tile_x, int tile_y, TileScratch& s)
 
 const TileFns& tile_fns()
 {
-    static constexpr TileFns fns = {transform_vertices, setup_triangles, render_tile};
+    static constexpr TileFns fns = {transform_vertices, setup_triangles, render_tile, record_vertices};
     return fns;
 }
 

@@ -68,7 +68,9 @@ struct WorkerScratch {
                 static_cast<std::uint32_t>(triangle_count), sources.data(), fragment_triangle.data(),
                 fragment_pixel.data(), fragment_mask.data(), register_passes.data(), pass_lanes.data(), red.data(), green.data(), blue.data(), order.data(),
                 slot_of_material.data(), slot_material.data(), slot_begin.data(), 0, 0,
-                frame.color.f32(), frame.triangle_ids.empty() ? nullptr : frame.triangle_ids.data()};
+                frame.color.f32(), frame.triangle_ids.empty() ? nullptr : frame.triangle_ids.data(),
+                frame.stages.depths.empty() ? nullptr : frame.stages.depths.data(),
+                frame.stages.pairs.empty() ? nullptr : frame.stages.pairs.data()};
     }
 };
 
@@ -175,9 +177,14 @@ Result<Frame> TileRenderer::render(const FrameDesc& desc)
     const auto begin = std::chrono::steady_clock::now();
     Frame frame;
     frame.color = make_image(desc.width, desc.height, 3, PixelType::f32);
-    if (desc.triangle_ids)
-        frame.triangle_ids.resize(static_cast<std::size_t>(desc.width) * static_cast<std::size_t>(desc.height) *
-                                  static_cast<std::size_t>(desc.msaa));
+    const std::size_t samples = static_cast<std::size_t>(desc.width) * static_cast<std::size_t>(desc.height) *
+                                static_cast<std::size_t>(desc.msaa);
+    if (desc.triangle_ids || desc.stages)
+        frame.triangle_ids.resize(samples);
+    if (desc.stages) {
+        frame.stages.vertices.resize(input_.tables.px.size() * kVertexWords);
+        frame.stages.depths.resize(samples), frame.stages.pairs.resize(samples * kPairWords);
+    }
     const std::vector<MaterialRecord> materials = overridden(scene_.materials, desc);
     FrameParams f = frame_params(desc, materials);
     prepare_grid(desc, f);
@@ -185,6 +192,8 @@ Result<Frame> TileRenderer::render(const FrameDesc& desc)
     transform_draws(f, input_.tables, visible, fns_, input_.jobs);
     bins_.build(f, input_.tables, visible, fns_, input_.jobs);
     draw_tiles(f, frame);
+    if (desc.stages)
+        fns_.record_vertices(f, static_cast<std::uint32_t>(input_.tables.px.size()), frame.stages.vertices.data());
     frame.stats.triangles = input_.tables.triangle_count();
     frame.stats.triangles_drawn = bins_.triangle_count();
     frame.stats.ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();

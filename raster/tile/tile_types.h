@@ -115,12 +115,14 @@ struct TileScratch {
     std::uint32_t fragment_count, background_pixels;
     float* output;                   // the frame's RGB pixels
     std::uint32_t* output_ids;       // the frame's triangle ids [pixel][sample], or null
+    std::uint32_t *output_depths, *output_pairs; // its stage records, or null
 };
 
 struct TileFns { // one table an instruction set
     void (*transform_vertices)(const FrameParams&, std::uint32_t first, std::uint32_t count);
     void (*setup_triangles)(const FrameParams&, std::uint32_t first, std::uint32_t count, ChunkOutput&);
     void (*render_tile)(const FrameParams&, int tile_x, int tile_y, TileScratch&);
+    void (*record_vertices)(const FrameParams&, std::uint32_t count, std::uint32_t* out); // StageRecords::vertices
 };
 
 // Clips one triangle in homogeneous space and appends its pieces (baseline code, called from the lanes for the rare triangle).
