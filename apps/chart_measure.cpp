@@ -10,8 +10,8 @@
 #include <unistd.h>
 
 #include "apps/chart_pictures.h"
+#include "apps/loaded_scene.h"
 #include "apps/render_stats.h"
-#include "apps/scene_view.h"
 #include "apps/stop_signal.h"
 #include "core/base/file.h"
 #include "core/base/hash.h"
@@ -20,7 +20,6 @@
 #include "core/image/image_io.h"
 #include "core/image/magma.h"
 #include "core/image/metrics.h"
-#include "core/scene/gltf.h"
 #include "core/simd/cpu.h"
 #include "raster/reference/scene_key.h"
 #include "shading/bake/environment_cache.h"
@@ -30,14 +29,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kDfgSize = 64, kDfgSamples = 256; // as of `burnish render`
-
-struct LoadedScene {
-    std::string name;
-    Scene scene;
-    DrawTables tables;
-    View view;
-};
 
 // Rows of an older program are not this one's: the kernels may have changed.
 std::uint64_t program_hash()
@@ -54,29 +45,6 @@ double cpu_ms() // of all threads of this process
     getrusage(RUSAGE_SELF, &usage);
     const auto ms = [](const timeval& t) { return static_cast<double>(t.tv_sec) * 1e3 + static_cast<double>(t.tv_usec) * 1e-3; };
     return ms(usage.ru_utime) + ms(usage.ru_stime);
-}
-
-Result<std::unique_ptr<LoadedScene>> load(const std::string& name, const RenderOptions& base, Report& report)
-{
-    auto loaded = std::make_unique<LoadedScene>();
-    Result<Scene> scene = load_scene(name, base.limits);
-    if (!scene)
-        return scene.error();
-    loaded->name = name;
-    loaded->scene = std::move(*scene);
-    update_world(loaded->scene);
-    if (const Status size = check_draw_size(loaded->scene, base.limits, name); !size)
-        return size.error();
-    loaded->tables = make_draw_tables(loaded->scene);
-    for (const std::string& warning : loaded->scene.warnings)
-        report.warning(warning);
-    RenderOptions options = base;
-    options.scene = name;
-    const Result<ChosenView> view = choose_view(options, loaded->scene, loaded->tables);
-    if (!view)
-        return view.error();
-    loaded->view = view->view;
-    return loaded;
 }
 
 class Chart {
@@ -131,7 +99,7 @@ class Chart {
 Status Chart::load_all()
 {
     for (const std::string& name : options_.scenes) {
-        Result<std::unique_ptr<LoadedScene>> scene = load(name, options_.base, report_);
+        Result<std::unique_ptr<LoadedScene>> scene = load_seen_scene(name, options_.base, report_);
         if (!scene)
             return scene.error();
         scenes_.push_back(std::move(*scene));

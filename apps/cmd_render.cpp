@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "apps/command.h"
+#include "apps/loaded_scene.h"
 #include "apps/outputs.h"
 #include "apps/render_options.h"
 #include "apps/render_stats.h"
@@ -18,8 +19,6 @@
 namespace burnish {
 namespace {
 
-constexpr int kDfgSize = 64;     // texels a side
-constexpr int kDfgSamples = 256; // a texel
 
 class Stopwatch {
   public:
@@ -137,7 +136,10 @@ Status prepare(const RenderOptions& options, const Jobs& jobs, Stage& stage, Ren
             return renderer.error();
         stage.renderer = std::move(*renderer);
     } else if (options.backend == "vulkan") {
-        Result<std::unique_ptr<Renderer>> renderer = make_vulkan_renderer(input, options.vulkan);
+        const Result<std::shared_ptr<VulkanDevice>> device = open_vulkan_device(options.vulkan);
+        if (!device)
+            return device.error();
+        Result<std::unique_ptr<Renderer>> renderer = make_vulkan_renderer(input, *device);
         if (!renderer)
             return renderer.error();
         stage.renderer = std::move(*renderer);

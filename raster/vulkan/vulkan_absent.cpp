@@ -7,9 +7,12 @@ bool vulkan_built() { return false; }
 
 std::vector<VulkanDeviceInfo> vulkan_devices() { return {}; }
 
-Result<std::unique_ptr<Renderer>> make_vulkan_renderer(const RenderInput&, const VulkanOptions&)
-{
-    return Error{ExitCode::unavailable, "", "--backend", "this program was built without the backend 'vulkan', which needs libvulkan and glslc"};
-}
+namespace {
+Error not_built() { return {ExitCode::unavailable, "", "", "this program was built without Vulkan, which needs libvulkan and glslc"}; }
+} // namespace
+
+Result<std::shared_ptr<VulkanDevice>> open_vulkan_device(const VulkanOptions&) { return not_built(); }
+
+Result<std::unique_ptr<Renderer>> make_vulkan_renderer(const RenderInput&, const std::shared_ptr<VulkanDevice>&) { return not_built(); }
 
 } // namespace burnish

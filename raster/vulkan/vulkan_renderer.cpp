@@ -27,10 +27,20 @@ struct Targets {
     Buffer ids, depths, color, records;
 };
 
+class Device final : public VulkanDevice {
+  public:
+    explicit Device(const VulkanOptions& wanted) : options(wanted), context(wanted), pipelines(context, wanted.shader_folder) {}
+    const VulkanDeviceInfo& info() const override { return context.info(); }
+
+    VulkanOptions options;
+    Context context;
+    Pipelines pipelines;
+};
+
 class VulkanRenderer final : public Renderer {
   public:
-    VulkanRenderer(const RenderInput& input, const VulkanOptions& options)
-        : options_(options), context_(options), pipelines_(context_, options.shader_folder), scene_(context_, input),
+    VulkanRenderer(const RenderInput& input, std::shared_ptr<Device> device)
+        : device_(std::move(device)), context_(device_->context), pipelines_(device_->pipelines), scene_(context_, input),
           vertices_(context_, input.tables.px.size() * sizeof(GpuVertex), Buffer::Place::host),
           counts_(context_, input.tables.triangle_count() * sizeof(std::int32_t), Buffer::Place::device),
           draw_(context_, sizeof(GpuDraw), Buffer::Place::host, VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT)
@@ -54,9 +64,9 @@ class VulkanRenderer final : public Renderer {
     void draw_frame(const FrameDesc& desc);
     Frame read_frame(const FrameDesc& desc);
 
-    VulkanOptions options_;
-    Context context_;
-    Pipelines pipelines_;
+    std::shared_ptr<Device> device_;
+    Context& context_;
+    Pipelines& pipelines_;
     GpuScene scene_;
     Buffer vertices_, counts_, draw_, setups_;
     std::uint32_t setup_capacity_ = 0;
@@ -262,10 +272,19 @@ Result<Frame> VulkanRenderer::render(const FrameDesc& desc)
 
 } // namespace
 
-Result<std::unique_ptr<Renderer>> make_vulkan_renderer(const RenderInput& input, const VulkanOptions& options)
+Result<std::shared_ptr<VulkanDevice>> open_vulkan_device(const VulkanOptions& options)
 {
     try {
-        return std::unique_ptr<Renderer>(std::make_unique<VulkanRenderer>(input, options));
+        return std::shared_ptr<VulkanDevice>(std::make_shared<Device>(options));
+    } catch (const VulkanError& failed) {
+        return failed.error;
+    }
+}
+
+Result<std::unique_ptr<Renderer>> make_vulkan_renderer(const RenderInput& input, const std::shared_ptr<VulkanDevice>& device)
+{
+    try {
+        return std::unique_ptr<Renderer>(std::make_unique<VulkanRenderer>(input, std::static_pointer_cast<Device>(device)));
     } catch (const VulkanError& failed) {
         return failed.error;
     }

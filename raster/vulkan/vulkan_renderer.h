@@ -25,7 +25,7 @@ struct VulkanOptions {
     bool use_cache = true;     // pipelines on disk
 };
 
-struct VulkanDeviceInfo {
+struct VulkanDeviceInfo { // what the driver calls itself
     std::string name, driver;  // "llvmpipe (LLVM 15.0.6, 256 bits)", "llvmpipe Mesa 22.3.6 (LLVM 15.0.6)"
     std::string api;           // "1.3.230"
     bool cpu = false;
@@ -35,7 +35,15 @@ bool vulkan_built(); // false: built without Vulkan, and everything below says E
 // All devices that can be used; empty where there is no driver. SwiftShader is looked for where Debian's chromium keeps it.
 std::vector<VulkanDeviceInfo> vulkan_devices();
 
+// A device with its pipelines, which are made once for all renderers on it. Not to be used by two threads at once.
+class VulkanDevice {
+  public:
+    virtual ~VulkanDevice() = default;
+    virtual const VulkanDeviceInfo& info() const = 0;
+};
+
 // ExitCode::unavailable where there is no such device.
-Result<std::unique_ptr<Renderer>> make_vulkan_renderer(const RenderInput& input, const VulkanOptions& options);
+Result<std::shared_ptr<VulkanDevice>> open_vulkan_device(const VulkanOptions& options);
+Result<std::unique_ptr<Renderer>> make_vulkan_renderer(const RenderInput& input, const std::shared_ptr<VulkanDevice>& device);
 
 } // namespace burnish
