@@ -82,6 +82,7 @@ struct FrameStats {
     bool samples_emulated = false;         // one pass a sample, as the device cannot take as many at once
     bool depth_interpolated = false;       // by the device, not by the tile renderer's formula
     double ms = 0.0;                       // wall time of the frame
+    double device_ms = 0.0, device_cpu_ms = 0.0; // of a device: from submission to its fence, wall and process time
     SamplingStats sampling;
 };
 

@@ -251,6 +251,7 @@ void Context::make_device()
     features_.standard_samples = p.limits.standardSampleLocations;
     features_.anisotropy = f.samplerAnisotropy;
     features_.max_anisotropy = p.limits.maxSamplerAnisotropy;
+    features_.max_viewport = static_cast<int>(std::min(p.limits.maxViewportDimensions[0], p.limits.maxViewportDimensions[1]));
     features_.max_buffer = p.limits.maxStorageBufferRange;
     features_.target_samples = p.limits.framebufferColorSampleCounts & p.limits.framebufferDepthSampleCounts &
                                p.limits.sampledImageColorSampleCounts & p.limits.sampledImageDepthSampleCounts;
@@ -269,14 +270,13 @@ void Context::make_device()
     auto queue = vk_struct<VkDeviceQueueCreateInfo>(VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO);
     queue.queueFamilyIndex = family_, queue.queueCount = 1, queue.pQueuePriorities = &priority;
     auto f13 = vk_struct<VkPhysicalDeviceVulkan13Features>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES);
-    f13.dynamicRendering = VK_TRUE, f13.synchronization2 = VK_TRUE;
+    f13.dynamicRendering = VK_TRUE, f13.maintenance4 = VK_TRUE;
     auto f12 = vk_struct<VkPhysicalDeviceVulkan12Features>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES, &f13);
     f12.bufferDeviceAddress = VK_TRUE;
     auto wanted = vk_struct<VkPhysicalDeviceFeatures2>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, &f12);
     wanted.features.sampleRateShading = VK_TRUE;
     wanted.features.shaderFloat64 = f.shaderFloat64;
     wanted.features.samplerAnisotropy = f.samplerAnisotropy;
-    wanted.features.fragmentStoresAndAtomics = VK_FALSE;
     auto info = vk_struct<VkDeviceCreateInfo>(VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO, &wanted);
     info.queueCreateInfoCount = 1, info.pQueueCreateInfos = &queue;
     BN_VK(vkCreateDevice(physical_, &info, nullptr, &device_));

@@ -36,6 +36,7 @@ struct Features {
     bool standard_samples = false; // samples of multisampled targets at the standard positions
     bool anisotropy = false;
     VkSampleCountFlags target_samples = 0; // of the images that pass 1 writes and pass 2 reads
+    int max_viewport = 0;          // pixels
     VkDeviceSize max_buffer = 0;   // bytes of a storage buffer
     float max_anisotropy = 1.0f;
 };

@@ -63,6 +63,14 @@ Buffer texel_page(Context& context, const Column<std::uint16_t>& texels)
 
 } // namespace
 
+int viewport_half(const Features& features)
+{
+    int half = kGpuViewportHalf;
+    while (2 * half > features.max_viewport)
+        half /= 2;
+    return half;
+}
+
 GpuScene::GpuScene(Context& context, const RenderInput& input)
     : input_(input), scene_(upload_scene(input.scene, input.tables, input.jobs)), frame_(context, sizeof(GpuFrame), Buffer::Place::device)
 {
@@ -122,6 +130,7 @@ void GpuScene::upload_tables(Context& context)
 void GpuScene::prepare(Context& context, const FrameDesc& desc, const SamplePattern& pattern, std::uint32_t setup_capacity)
 {
     describe_frame(desc, pattern, setup_capacity);
+    record_.clip_unit = 1.0f / static_cast<float>(kSubpixel * viewport_half(context.features()));
     if (find_technique(desc.technique)->sampling == Sampling::grid) {
         if (box_.levels == 0) {
             box_ = box_filtered_chain(input_.environment.specular, input_.jobs);

@@ -13,6 +13,9 @@ namespace burnish {
 inline constexpr int kSpecularPage = 0, kIrradiancePage = 1, kBoxPage = 2, kDfgPage = 3, kFirstTexturePage = 4;
 inline constexpr std::size_t kMaxGrid = 65536; // samples of filtered importance sampling
 
+// Half the side of the rasterizer's viewport; see kGpuViewportHalf.
+int viewport_half(const Features& features);
+
 class GpuScene {
   public:
     GpuScene(Context& context, const RenderInput& input); // throws VulkanError where the device cannot hold it

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "raster/vulkan/shaders.h"
+#include "shading/lang/gpu_records.h"
 
 namespace burnish {
 
@@ -50,9 +51,14 @@ Pipelines::Pipelines(Context& context, std::string shader_folder) : Pipelines(co
     auto set = vk_struct<VkDescriptorSetLayoutCreateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO);
     set.bindingCount = static_cast<std::uint32_t>(bindings.size()), set.pBindings = bindings.data();
     BN_VK(vkCreateDescriptorSetLayout(device, &set, nullptr, &set_layout_));
+    const VkDescriptorSetLayoutBinding native[] = {{0, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, kGpuCubes, VK_SHADER_STAGE_FRAGMENT_BIT, nullptr},
+                                                   {1, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, kGpuTextureSlots, VK_SHADER_STAGE_FRAGMENT_BIT, nullptr}};
+    set.bindingCount = 2, set.pBindings = native;
+    BN_VK(vkCreateDescriptorSetLayout(device, &set, nullptr, &native_layout_));
+    const VkDescriptorSetLayout set_layouts[] = {set_layout_, native_layout_};
     const VkPushConstantRange range = {kStages, 0, sizeof(PassConstants)};
     auto layout = vk_struct<VkPipelineLayoutCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO);
-    layout.setLayoutCount = 1, layout.pSetLayouts = &set_layout_;
+    layout.setLayoutCount = 2, layout.pSetLayouts = set_layouts;
     layout.pushConstantRangeCount = 1, layout.pPushConstantRanges = &range;
     BN_VK(vkCreatePipelineLayout(device, &layout, nullptr, &layout_));
     const VkDescriptorPoolSize sizes[] = {{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kBufferBindings},
@@ -77,6 +83,7 @@ Pipelines::~Pipelines()
     vkDestroySampler(device, sampler_, nullptr);
     vkDestroyDescriptorPool(device, pool_, nullptr);
     vkDestroyPipelineLayout(device, layout_, nullptr);
+    vkDestroyDescriptorSetLayout(device, native_layout_, nullptr);
     vkDestroyDescriptorSetLayout(device, set_layout_, nullptr);
 }
 

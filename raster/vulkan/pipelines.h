@@ -16,7 +16,7 @@ enum Binding : std::uint32_t {
 };
 
 struct PassConstants { // BnPass of shading/stages/pass.glsl
-    std::int32_t shift_x, shift_y, sample_number;
+    std::int32_t shift_x, shift_y, sample_number, material;
 };
 
 using Specialization = std::vector<std::int32_t>; // values of constant_id 0, 1, 2...
@@ -36,6 +36,7 @@ class Pipelines {
     Pipelines& operator=(const Pipelines&) = delete;
 
     VkPipelineLayout layout() const { return layout_; }
+    VkDescriptorSetLayout native_layout() const { return native_layout_; } // of set 1: three cubes, a material's textures
     // Made on first use, then kept.
     VkPipeline compute(const std::string& shader, const Specialization& constants = {});
     VkPipeline graphics(const GraphicsState& state, const Specialization& constants = {});
@@ -50,7 +51,7 @@ class Pipelines {
 
     Context& context_;
     std::string folder_;
-    VkDescriptorSetLayout set_layout_ = VK_NULL_HANDLE;
+    VkDescriptorSetLayout set_layout_ = VK_NULL_HANDLE, native_layout_ = VK_NULL_HANDLE;
     VkPipelineLayout layout_ = VK_NULL_HANDLE;
     VkDescriptorPool pool_ = VK_NULL_HANDLE;
     VkDescriptorSet set_ = VK_NULL_HANDLE;

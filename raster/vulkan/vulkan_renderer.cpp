@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <chrono>
-#include <optional>
+#include <sys/resource.h>
 
 #include "core/base/check.h"
 #include "raster/vulkan/context.h"
+#include "raster/vulkan/forward.h"
 #include "raster/vulkan/gpu_scene.h"
 #include "raster/vulkan/pipelines.h"
 
@@ -43,7 +44,8 @@ class VulkanRenderer final : public Renderer {
         : device_(std::move(device)), context_(device_->context), pipelines_(device_->pipelines), scene_(context_, input),
           vertices_(context_, input.tables.px.size() * sizeof(GpuVertex), Buffer::Place::host),
           counts_(context_, input.tables.triangle_count() * sizeof(std::int32_t), Buffer::Place::device),
-          draw_(context_, sizeof(GpuDraw), Buffer::Place::host, VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT)
+          draw_(context_, sizeof(GpuDraw), Buffer::Place::host, VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT),
+          forward_(context_, pipelines_, scene_, input, device_->options.sampler)
     {
         make_setups(static_cast<std::uint32_t>(input.tables.triangle_count()) + kMinSetups);
     }
@@ -54,6 +56,7 @@ class VulkanRenderer final : public Renderer {
     void make_setups(std::uint32_t capacity);
     void make_targets(const FrameDesc& desc);
     void bind(Binding binding, const Buffer& buffer) { pipelines_.bind_buffer(binding, buffer); }
+    std::vector<std::pair<Binding, const Buffer*>> scene_bindings() const;
     void bind_all();
     void dispatch(VkCommandBuffer c, VkPipeline pipeline, std::size_t invocations);
     void push(VkCommandBuffer c, const PassConstants& pass);
@@ -61,15 +64,20 @@ class VulkanRenderer final : public Renderer {
     void visibility(VkCommandBuffer c, const PassConstants& pass);
     void all_visibility(VkCommandBuffer c);
     void shade(VkCommandBuffer c, const FrameDesc& desc);
+    void submit(VkCommandBuffer c); // and time it
     void draw_frame(const FrameDesc& desc);
     Frame read_frame(const FrameDesc& desc);
+    Frame render_ids(const FrameDesc& desc);
+    Frame render_forward(const FrameDesc& desc);
 
     std::shared_ptr<Device> device_;
     Context& context_;
     Pipelines& pipelines_;
     GpuScene scene_;
     Buffer vertices_, counts_, draw_, setups_;
+    ForwardPass forward_;
     std::uint32_t setup_capacity_ = 0;
+    double device_ms_ = 0.0, device_cpu_ms_ = 0.0;
     SamplePattern pattern_ = {};
     Targets targets_;
 };
@@ -104,11 +112,17 @@ void VulkanRenderer::make_targets(const FrameDesc& desc)
     t.records = Buffer(context_, desc.stages ? samples * kPairWords * sizeof(std::uint32_t) : 0, Buffer::Place::host);
 }
 
+std::vector<std::pair<Binding, const Buffer*>> VulkanRenderer::scene_bindings() const
+{
+    return {{kTexelsBinding, &scene_.pages()},        {kRealsBinding, &scene_.reals()},     {kIntsBinding, &scene_.ints()},
+            {kFrameBinding, &scene_.frame()},         {kMaterialsBinding, &scene_.materials()}, {kTexturesBinding, &scene_.textures()},
+            {kLightsBinding, &scene_.lights()}};
+}
+
 void VulkanRenderer::bind_all()
 {
-    bind(kTexelsBinding, scene_.pages()), bind(kRealsBinding, scene_.reals()), bind(kIntsBinding, scene_.ints());
-    bind(kFrameBinding, scene_.frame()), bind(kMaterialsBinding, scene_.materials());
-    bind(kTexturesBinding, scene_.textures()), bind(kLightsBinding, scene_.lights());
+    for (const auto& [binding, buffer] : scene_bindings())
+        bind(binding, *buffer);
     bind(kVerticesBinding, vertices_), bind(kSetupsBinding, setups_), bind(kCountsBinding, counts_), bind(kDrawBinding, draw_);
     bind(kIdsBinding, targets_.ids), bind(kDepthsBinding, targets_.depths);
     bind(kColorBinding, targets_.color), bind(kRecordsBinding, targets_.records);
@@ -163,7 +177,7 @@ void VulkanRenderer::visibility(VkCommandBuffer c, const PassConstants& pass)
                            VK_COMPARE_OP_GREATER};
     vkCmdBindPipeline(c, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines_.graphics(state));
     pipelines_.bind_set(c, VK_PIPELINE_BIND_POINT_GRAPHICS);
-    const float half = static_cast<float>(kGpuViewportHalf);
+    const float half = static_cast<float>(viewport_half(context_.features()));
     const VkViewport viewport = {static_cast<float>(targets_.width / 2) - half, static_cast<float>(targets_.height / 2) - half,
                                  2 * half, 2 * half, 0.0f, 1.0f};
     vkCmdSetViewport(c, 0, 1, &viewport);
@@ -181,22 +195,30 @@ void VulkanRenderer::visibility(VkCommandBuffer c, const PassConstants& pass)
 void VulkanRenderer::all_visibility(VkCommandBuffer c)
 {
     if (targets_.native) {
-        visibility(c, {0, 0, targets_.msaa == 1 ? 0 : -1});
+        visibility(c, {0, 0, targets_.msaa == 1 ? 0 : -1, 0});
         return;
     }
     for (int s = 0; s < targets_.msaa; ++s)
-        visibility(c, {kSubpixel / 2 - pattern_.x[s], kSubpixel / 2 - pattern_.y[s], s});
+        visibility(c, {kSubpixel / 2 - pattern_.x[s], kSubpixel / 2 - pattern_.y[s], s, 0});
+}
+
+// constant_id 0 to 3 of shading/stages: the technique's place, whether it tests the horizon and samples the tilt itself, and whether lights
+// see an isotropic lobe.
+Specialization technique_constants(const std::string& name)
+{
+    const auto index = static_cast<std::int32_t>(find_technique(name) - techniques().data());
+    const bool monte_carlo = name == "mc", tests_horizon = monte_carlo || name == "filtered_is" || name == "filtered_is_ggx";
+    return {index, tests_horizon, monte_carlo, name == "split_isotropic"};
 }
 
 void VulkanRenderer::shade(VkCommandBuffer c, const FrameDesc& desc)
 {
-    const std::string& name = desc.technique;
-    const auto index = static_cast<std::int32_t>(find_technique(name) - techniques().data());
-    const bool monte_carlo = name == "mc", tests_horizon = monte_carlo || name == "filtered_is" || name == "filtered_is_ggx";
+    Specialization constants = technique_constants(desc.technique);
+    constants.push_back(desc.stages);
     if (desc.stages)
         vkCmdFillBuffer(c, targets_.records.handle(), 0, VK_WHOLE_SIZE, 0);
     full_barrier(c);
-    dispatch(c, pipelines_.compute("shade", {index, tests_horizon, monte_carlo, name == "split_isotropic", desc.stages}),
+    dispatch(c, pipelines_.compute("shade", constants),
              static_cast<std::size_t>(targets_.width) * static_cast<std::size_t>(targets_.height));
 }
 
@@ -209,7 +231,24 @@ void VulkanRenderer::draw_frame(const FrameDesc& desc)
     geometry(c);
     all_visibility(c);
     shade(c, desc);
+    submit(c);
+}
+
+double process_cpu_ms() // of all threads
+{
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    const auto ms = [](const timeval& t) { return static_cast<double>(t.tv_sec) * 1e3 + static_cast<double>(t.tv_usec) * 1e-3; };
+    return ms(usage.ru_utime) + ms(usage.ru_stime);
+}
+
+double wall_ms() { return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+
+void VulkanRenderer::submit(VkCommandBuffer c)
+{
+    const double wall = wall_ms(), cpu = process_cpu_ms();
     context_.submit(c);
+    device_ms_ = wall_ms() - wall, device_cpu_ms_ = process_cpu_ms() - cpu;
 }
 
 Frame VulkanRenderer::read_frame(const FrameDesc& desc)
@@ -246,24 +285,54 @@ Frame VulkanRenderer::read_frame(const FrameDesc& desc)
     return frame;
 }
 
+Frame VulkanRenderer::render_ids(const FrameDesc& desc)
+{
+    make_targets(desc);
+    draw_frame(desc);
+    const auto setups = static_cast<std::uint32_t>(draw_.as<GpuDraw>()->setups);
+    if (setups > setup_capacity_) { // clipping left more pieces than there was room for
+        make_setups(setups + setups / 4);
+        draw_frame(desc);
+    }
+    return read_frame(desc);
+}
+
+Frame VulkanRenderer::render_forward(const FrameDesc& desc)
+{
+    scene_.prepare(context_, desc, pattern_, setup_capacity_);
+    forward_.prepare(desc);
+    for (const auto& [binding, buffer] : scene_bindings())
+        bind(binding, *buffer);
+    VkCommandBuffer c = context_.begin();
+    forward_.draw(c, desc, technique_constants(desc.technique));
+    submit(c);
+    c = context_.begin();
+    forward_.read(c);
+    context_.submit(c);
+    Frame frame;
+    frame.color = make_image(desc.width, desc.height, 3, PixelType::f32);
+    const std::size_t pixels = static_cast<std::size_t>(desc.width) * static_cast<std::size_t>(desc.height);
+    for (std::size_t p = 0; p < pixels; ++p)
+        std::copy_n(forward_.pixels() + 4 * p, 3, frame.color.f32() + 3 * p);
+    frame.stats.triangles = frame.stats.triangles_drawn = static_cast<std::uint64_t>(scene_.record().triangle_count);
+    return frame;
+}
+
 Result<Frame> VulkanRenderer::render(const FrameDesc& desc)
 {
     if (const Status ok = check_desc(desc); !ok)
         return ok.error();
+    const bool forward = device_->options.pipeline == VulkanPipeline::forward;
+    if (forward && (desc.stages || desc.triangle_ids))
+        return Error{ExitCode::usage, "", "--pipeline", "forward has no stages to look at"};
     try {
-        const auto begin = std::chrono::steady_clock::now();
+        const double begin = wall_ms();
         pattern_ = standard_samples(desc.msaa);
-        make_targets(desc);
-        draw_frame(desc);
-        const auto setups = static_cast<std::uint32_t>(draw_.as<GpuDraw>()->setups);
-        if (setups > setup_capacity_) { // clipping left more pieces than there was room for
-            make_setups(setups + setups / 4);
-            draw_frame(desc);
-        }
-        Frame frame = read_frame(desc);
+        Frame frame = forward ? render_forward(desc) : render_ids(desc);
         if (const std::string messages = context_.validation_messages(); !messages.empty())
             return Error{ExitCode::internal, "", "validation layer", messages};
-        frame.stats.ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
+        frame.stats.ms = wall_ms() - begin;
+        frame.stats.device_ms = device_ms_, frame.stats.device_cpu_ms = device_cpu_ms_;
         return frame;
     } catch (const VulkanError& failed) {
         return failed.error;

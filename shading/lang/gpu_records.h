@@ -8,13 +8,13 @@
 namespace burnish {
 #endif
 
-const int kGpuSamples = 16, kGpuTextureSlots = 10, kGpuGroup = 64; // samples a pixel, textures a material, invocations a workgroup
+const int kGpuSamples = 16, kGpuTextureSlots = 10, kGpuCubes = 3, kGpuGroup = 64; // samples a pixel, textures a material, cubes, invocations a workgroup
 const int kGpuNoTriangle = -1;
 const int kGpuFrontFacing = 1, kGpuClipped = 2;                    // bits of GpuSetup.info
 const int kGpuWholeBand = 3932160, kGpuCutPixels = 15872, kGpuGuardBand = 4194304; // as raster/tile/tile_types.h; cut band in pixels
 const int kGpuNeedsClip = -1073741824;
-// Positions relative to the centre pixel are divided by this to clip space, and the viewport is 16384 pixels wide around that pixel:
-// both are powers of two, so every snapped position survives the driver's arithmetic, and no whole triangle leaves the guard band.
+// The rasterizer's viewport is twice as many pixels wide, around the centre pixel, or as wide as the device allows: a power of two, so every
+// snapped position survives the driver's arithmetic, and no whole triangle leaves a guard band of the same width on either side.
 const int kGpuViewportHalf = 8192;
 
 // Words that a recorded stage takes a visible (pixel, triangle) pair.
@@ -31,6 +31,7 @@ struct GpuFrame {
     int orthographic;
     int width, height, msaa, center_x, center_y; // center: 1/256 pixel
     float half_width, half_height;
+    float clip_unit; // 1/256 pixel in clip space of the rasterizer's viewport
     int sample_x[kGpuSamples], sample_y[kGpuSamples]; // 1/256 pixel
     int sample_min_x, sample_max_x, sample_min_y, sample_max_y;
     int triangle_count, vertex_count, setup_capacity;

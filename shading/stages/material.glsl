@@ -12,10 +12,26 @@ const int kBaseColorTex = 0, kMetalRoughTex = 1, kNormalTex = 2, kOcclusionTex =
           kSpecularColorTex = 6, kTensor2Tex = 7, kTensor4Tex = 8, kTensor4RestTex = 9;
 
 #ifdef BN_NATIVE_SAMPLER
-layout(set = 0, binding = 18) uniform sampler2D native_textures[kGpuNativeTextures];
+layout(set = 1, binding = 1) uniform sampler2D native_textures[kGpuTextureSlots]; // of the drawn material
 #endif
 
-bool texture_used(int material, int slot) { return materials[material].textures[slot].texture >= 0; }
+#ifdef BN_NATIVE_SAMPLER
+#define BN_SLOT(i)                                                                                                                         \
+    if (slot == i)                                                                                                                         \
+        return textureGrad(native_textures[i], uv, dx, dy);
+vec4 native_texel(int slot, vec2 uv, vec2 dx, vec2 dy) // not every device indexes samplers by a variable
+{
+    BN_SLOT(0) BN_SLOT(1) BN_SLOT(2) BN_SLOT(3) BN_SLOT(4) BN_SLOT(5) BN_SLOT(6) BN_SLOT(7) BN_SLOT(8)
+    return textureGrad(native_textures[9], uv, dx, dy);
+}
+#endif
+
+layout(constant_id = 5) const int kUsedTextures = -1; // of the only material, a bit a slot; -1: of any material, see its record
+
+bool texture_used(int material, int slot)
+{
+    return kUsedTextures >= 0 ? (kUsedTextures >> slot & 1) != 0 : materials[material].textures[slot].texture >= 0;
+}
 
 real4 fetch_texture(int material, int slot, visible_point p)
 {
@@ -29,10 +45,10 @@ real4 fetch_texture(int material, int slot, visible_point p)
     real2 at = vec2(m[0] * uv.x + m[2] * uv.y + m[4], m[1] * uv.x + m[3] * uv.y + m[5]);
     real2 at_dx = vec2(m[0] * dx.x + m[2] * dx.y, m[1] * dx.x + m[3] * dx.y);
     real2 at_dy = vec2(m[0] * dy.x + m[2] * dy.y, m[1] * dy.x + m[3] * dy.y);
-    int id = materials[material].textures[slot].texture;
 #ifdef BN_NATIVE_SAMPLER
-    return textureGrad(native_textures[id], at, at_dx, at_dy);
+    return native_texel(slot, at, at_dx, at_dy);
 #else
+    int id = materials[material].textures[slot].texture;
     texture_desc desc = texture_desc(textures[id].page, textures[id].offset_base, textures[id].width_base, textures[id].height_base,
                                      textures[id].levels, textures[id].wrap_s, textures[id].wrap_t, textures[id].nearest);
     texture_footprint footprint = texture_footprint_of(desc, at_dx, at_dy, frame.texture_taps);

@@ -7,6 +7,7 @@
 layout(push_constant) uniform BnPass {
     int shift_x, shift_y; // 1/256 pixel
     int sample_number;
+    int material; // of a draw of the forward pipeline
 } pass;
 
 #endif

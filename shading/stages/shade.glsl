@@ -2,6 +2,7 @@
 #ifndef BN_SHADE_GLSL
 #define BN_SHADE_GLSL
 
+#include "shading/stages/backdrop.glsl"
 #include "shading/stages/techniques.glsl"
 #include "shading/stages/material.glsl"
 #include "shading/kernels/dfg.k.h"
@@ -52,7 +53,7 @@ real3 environment_light(shading_point x, int pixel_id)
     }
     real bias = x.dielectric_f90 * x.dfg.bias;
     real3 dielectric = (x.dielectric_f0 * x.dfg.scale + vec3_all(bias)) * energy_gain(x.dielectric_f0, x.dfg);
-    real3 irradiance = cube_sample(cube_of(frame.irradiance), s.n, lit(0.0)) * frame.irradiance.scale;
+    real3 irradiance = cube_sample(irradiance_cube(), s.n, lit(0.0)) * frame.irradiance.scale;
     real passed = lit(1.0) - max(dielectric.x, max(dielectric.y, dielectric.z));
     real3 sum = (specular + s.diffuse * irradiance * passed) * s.occlusion;
     return sum;
@@ -117,16 +118,6 @@ real3 shade_point(int m, material_inputs at, visible_point p, int pixel_id)
     if (frame.light_count > 0)
         color = color + light_from_punctual(x, materials[m].anisotropic != 0 && !kIsotropicLights, p.position);
     return color;
-}
-
-real3 shade_background(int px, int py)
-{
-    if (frame.background == 0)
-        return vec3_all(lit(0.0));
-    real x = to_real(px) + lit(0.5);
-    real y = to_real(py) + lit(0.5);
-    real3 ray = pixel_ray(x, y, frame.half_width, frame.half_height, frame_view());
-    return cube_sample(cube_of(frame.specular), ray, lit(0.0)) * frame.specular.scale;
 }
 
 #endif

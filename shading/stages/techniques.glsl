@@ -43,20 +43,20 @@ real3 eye_in_lobe(technique_input ti)
     return k_normalize3(o);
 }
 
-real3 split_isotropic_specular(technique_input ti) { return split_isotropic_radiance(ti.s, cube_of(frame.specular)) * ti.albedo; }
+real3 split_isotropic_specular(technique_input ti) { return split_isotropic_radiance(ti.s, specular_cube()) * ti.albedo; }
 
 real3 bent_normal_specular(technique_input ti)
 {
     bent_ray ray = bent_normal_ray(ti.s.n, ti.s.v, ti.lobe);
     real lod = ray.lod * to_real(frame.specular.levels - 1);
-    return cube_sample(cube_of(frame.specular), ray.direction, lod) * ti.albedo;
+    return cube_sample(specular_cube(), ray.direction, lod) * ti.albedo;
 }
 
 real major_axis_lod(real radius) { return min(sqrt(radius), lit(1.0)) * to_real(frame.specular.levels - 1); }
 
 real3 major_axis_specular(technique_input ti)
 {
-    cube_desc cube = cube_of(frame.specular);
+    cube_desc cube = specular_cube();
     int n = frame.samples;
     real inv = lit(1.0) / to_real(n);
     real3 o = eye_in_lobe(ti);
@@ -84,7 +84,7 @@ grain_sum add_grain_sample(technique_input ti, major_axis_grain grain, real c, r
 {
     grain_sample g = major_axis_grain_sample(grain, c, root, spacing);
     real w = g.weight * weight;
-    to.acc = cube_texel_add(to.acc, cube_of(frame.specular), from_lobe(ti.lobe, ti.s.n, g.direction), major_axis_lod(g.radius), w);
+    to.acc = cube_texel_add(to.acc, specular_cube(), from_lobe(ti.lobe, ti.s.n, g.direction), major_axis_lod(g.radius), w);
     to.sum = to.sum + w;
     return to;
 }
@@ -139,12 +139,12 @@ real3 mirrors_apart(technique_input ti, real3 value, real dim)
         return value;
     real3 r = ti.s.n * (lit(2.0) * k_dot3(ti.s.n, ti.s.v)) - ti.s.v;
     real seen = above_horizon(ti, r, dim);
-    return cube_sample_level(cube_of(frame.specular), r, 0) * ti.albedo * seen;
+    return cube_sample_level(specular_cube(), r, 0) * ti.albedo * seen;
 }
 
 real3 filtered_is_sum(technique_input ti, bool ggx)
 {
-    cube_desc cube = cube_of(frame.box);
+    cube_desc cube = box_cube();
     real3 o = eye_in_lobe(ti);
     real size = to_real(cube.size);
     real count = to_real(frame.grid_count);
@@ -200,7 +200,7 @@ placed_ellipsoid lobe_on_surface(aniso_lobe lobe, surface s, surface_frame g)
 // ellipsoid's, whose masking knows the surface.
 real3 mc_specular(technique_input ti)
 {
-    cube_desc cube = cube_of(frame.specular);
+    cube_desc cube = specular_cube();
     int seed = k_hash_u32(ti.pixel_id ^ frame.seed);
     real shift_x = k_unit_from_bits(seed);
     real shift_y = k_unit_from_bits(k_hash_u32(seed));

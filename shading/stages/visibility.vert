@@ -10,8 +10,7 @@ void main()
 {
     slot = gl_VertexIndex / 3;
     int corner = gl_VertexIndex % 3;
-    real unit = lit(4.76837158203125e-7); // 1 / (256 kGpuViewportHalf)
-    real x = to_real(setups[slot].x[corner] + pass.shift_x) * unit;
-    real y = to_real(setups[slot].y[corner] + pass.shift_y) * unit;
+    real x = to_real(setups[slot].x[corner] + pass.shift_x) * frame.clip_unit;
+    real y = to_real(setups[slot].y[corner] + pass.shift_y) * frame.clip_unit;
     gl_Position = vec4(x, y, setups[slot].z[corner], 1.0);
 }
