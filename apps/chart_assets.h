@@ -6,5 +6,6 @@ namespace burnish {
 extern const char* const kChartMarksStyle; // chart_marks.css
 extern const char* const kChartPageStyle;  // chart_page.css
 extern const char* const kChartPageScript; // chart_page.js
+extern const char* const kStrokeFont;      // stroke_font.jhf
 
 } // namespace burnish

@@ -1,6 +1,7 @@
 // REPORT_DIR while a chart is made: rows.json with what has been measured, and the pictures.
 #pragma once
 #include <chrono>
+#include <set>
 #include <string>
 
 #include "apps/chart_rows.h"
@@ -18,6 +19,8 @@ class Keeper {
     Status save_sometimes(); // unless that was a moment ago
     std::string picture(const std::string& name) const { return folder_ + "/pictures/" + name + ".jpg"; }
     std::string file(const std::string& name) const { return folder_ + "/" + name; }
+    // Removes charts and pictures of earlier reports that are not among `used` (whole paths), and nothing that has not their names.
+    void remove_stale(const std::set<std::string>& used) const;
 
   private:
     using Clock = std::chrono::steady_clock;

@@ -10,8 +10,8 @@
 #include <unistd.h>
 
 #include "apps/chart_pictures.h"
-#include "apps/loaded_scene.h"
 #include "apps/render_stats.h"
+#include "apps/seen_scene.h"
 #include "apps/stop_signal.h"
 #include "core/base/file.h"
 #include "core/base/hash.h"
@@ -28,7 +28,6 @@ namespace burnish {
 namespace {
 
 namespace fs = std::filesystem;
-
 
 // Rows of an older program are not this one's: the kernels may have changed.
 std::uint64_t program_hash()
@@ -321,11 +320,14 @@ Status Chart::time_rows(const Place& place, std::vector<ChartRow>& rows)
         if (rows[i].measured.ms.size() < runs)
             order.push_back(i);
     progress_->step((rows.size() - order.size()) * runs);
+    Frame last;
     for (const std::size_t i : order) { // warm
         if (stopped())
             return {};
-        if (const Result<Frame> frame = place.tile.render(desc_of(place, rows[i].setting)); !frame)
+        Result<Frame> frame = place.tile.render(desc_of(place, rows[i].setting), std::move(last));
+        if (!frame)
             return frame.error();
+        last = std::move(*frame);
     }
     for (std::size_t run = 0; run < runs; ++run) {
         for (const std::size_t i : order) {
@@ -333,11 +335,12 @@ Status Chart::time_rows(const Place& place, std::vector<ChartRow>& rows)
             if (kept.ms.size() > run)
                 continue;
             const double before = cpu_ms();
-            const Result<Frame> frame = place.tile.render(desc_of(place, rows[i].setting));
+            Result<Frame> frame = place.tile.render(desc_of(place, rows[i].setting), std::move(last));
             if (!frame)
                 return frame.error();
             kept.ms.push_back(frame->stats.ms);
             kept.cpu_ms.push_back(cpu_ms() - before);
+            last = std::move(*frame);
             progress_->step();
             if (stopped())
                 return {};

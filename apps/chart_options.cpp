@@ -10,7 +10,7 @@ namespace burnish {
 namespace {
 
 constexpr const char* kFooter =
-    R"(REPORT_DIR gets report.html (one page, needs nothing else), report.json, the charts as .svg, the pictures, and rows.json: what has
+    R"(REPORT_DIR gets report.html (one page, needs nothing else), report.json, the charts as .svg and .png, the pictures, and rows.json: what has
 been measured, from which a stopped chart goes on. References are kept beside the cache of environments.
 
 Examples:

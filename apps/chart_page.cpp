@@ -8,6 +8,7 @@
 #include "apps/chart_assets.h"
 #include "apps/chart_pictures.h"
 #include "apps/chart_plots.h"
+#include "apps/chart_png.h"
 #include "apps/chart_svg.h"
 #include "apps/html.h"
 #include "apps/render_stats.h"
@@ -184,7 +185,7 @@ std::string heading(const ChartReport& report)
 {
     const ChartMachine& m = report.machine;
     return fmt::format("<h1>Speed against accuracy</h1>\n<p>{} x {} pixels, {} samples a pixel; medians of {} interleaved frames on {}, {}, {} "
-                       "thread{}; burnish {}. Errors are HDR-FLIP of linear pixels against Monte Carlo references of {} samples a pixel.</p>\n"
+                       "thread{}; burnish {}. Errors are HDR-FLIP of linear pixels against Monte Carlo references of at least {} samples a pixel.</p>\n"
                        "<p>Point at a mark, or go to it with the Tab and arrow keys, to see its picture; Enter shows it among the pictures below.</p>\n"
                        "<noscript><p>The pictures need JavaScript; the charts and figures do not.</p></noscript>\n",
                        report.width, report.height, report.msaa, report.runs, escaped(m.processor), escaped(m.isa), m.threads,
@@ -198,21 +199,29 @@ std::string with_style(std::string svg)
 
 } // namespace
 
-std::vector<ReportFile> chart_svgs(const ChartReport& report)
+Result<std::vector<ReportFile>> chart_files(const ChartReport& report)
 {
-    std::vector<ReportFile> files;
+    std::vector<std::pair<std::string, std::string>> charts; // name and SVG
     std::size_t number_of_place = 0, number_of_pair = 0;
     for (const PairRows& pair : group(report)) {
         for (const PlaceRows& place : pair.places) {
             ++number_of_place;
             for (const Figure& figure : figures_of(place.rows))
-                files.push_back({fmt::format("{}-{}.svg", figure.name, number_of_place), with_style(figure.wide)});
+                charts.emplace_back(fmt::format("{}-{}", figure.name, number_of_place), figure.wide);
         }
         ++number_of_pair;
         for (const std::string& technique : techniques_of(pair.rows))
             for (const bool difference : {false, true})
                 if (const std::string svg = plot_heat(pair.rows, technique, difference); !svg.empty())
-                    files.push_back({fmt::format("heat-{}{}-{}.svg", technique, difference ? "-difference" : "", number_of_pair), with_style(svg)});
+                    charts.emplace_back(fmt::format("heat-{}{}-{}", technique, difference ? "-difference" : "", number_of_pair), svg);
+    }
+    std::vector<ReportFile> files;
+    for (const auto& [name, svg] : charts) {
+        Result<std::string> png = chart_png(svg);
+        if (!png)
+            return png.error();
+        files.push_back({name + ".svg", with_style(svg)});
+        files.push_back({name + ".png", std::move(*png)});
     }
     return files;
 }

@@ -1,4 +1,4 @@
-// The report for people: charts as SVG files, and one page that needs nothing else and no network.
+// The report for people: charts as SVG and PNG files, and one page that needs nothing else and no network.
 #pragma once
 #include <string>
 #include <vector>
@@ -8,10 +8,10 @@
 namespace burnish {
 
 struct ReportFile {
-    std::string name, text;
+    std::string name, bytes;
 };
 
-std::vector<ReportFile> chart_svgs(const ChartReport& report);
+Result<std::vector<ReportFile>> chart_files(const ChartReport& report); // each chart as SVG and as PNG
 Result<std::string> chart_page(const ChartReport& report);
 
 } // namespace burnish

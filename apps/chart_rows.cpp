@@ -137,6 +137,8 @@ Result<KeptRows> parse_kept(const std::string& text, const std::string& file)
             Measured& m = rows[key];
             m.ms = row.at("ms").get<std::vector<double>>();
             m.cpu_ms = row.at("cpu_ms").get<std::vector<double>>();
+            if (m.cpu_ms.size() != m.ms.size())
+                return Error{ExitCode::bad_input, file, "", "does not hold the rows of a chart"};
             m.has_errors = row.contains("flip_mean");
             if (m.has_errors)
                 m.errors = {number_of(row.at("flip_mean")), number_of(row.at("flip_p99")), number_of(row.at("rel_mse")),

@@ -1,6 +1,7 @@
 // `burnish chart`: what every technique costs and what it gets wrong, as figures, as charts, as a page.
 #include <fmt/format.h>
 #include <memory>
+#include <set>
 
 #include "apps/chart_measure.h"
 #include "apps/chart_page.h"
@@ -23,17 +24,26 @@ std::uint64_t pictures_with_nan(const ChartReport& chart)
 
 Status write_report(const ChartReport& chart, const Keeper& keeper, Report& report)
 {
-    std::vector<ReportFile> files = chart_svgs(chart);
-    files.push_back({"report.json", report_json(chart)});
+    Result<std::vector<ReportFile>> files = chart_files(chart);
+    if (!files)
+        return files.error();
+    files->push_back({"report.json", report_json(chart)});
     Result<std::string> page = chart_page(chart);
     if (!page)
         return page.error();
-    files.push_back({"report.html", std::move(*page)});
-    for (const ReportFile& file : files) {
-        if (const Status written = write_file(keeper.file(file.name), file.text); !written)
+    files->push_back({"report.html", std::move(*page)});
+    std::set<std::string> used;
+    for (const ReportFile& file : *files) {
+        used.insert(keeper.file(file.name));
+        if (const Status written = write_file(keeper.file(file.name), file.bytes); !written)
             return written;
         report.detail("wrote", keeper.file(file.name));
     }
+    for (const ChartRow& row : chart.rows)
+        used.insert({row.picture, row.error_map});
+    for (const auto& [place, picture] : chart.references)
+        used.insert(picture);
+    keeper.remove_stale(used);
     report.event("wrote", keeper.file("report.html"));
     return {};
 }

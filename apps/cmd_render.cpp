@@ -6,12 +6,12 @@
 #include <utility>
 
 #include "apps/command.h"
-#include "apps/loaded_scene.h"
 #include "apps/outputs.h"
 #include "apps/render_options.h"
 #include "apps/render_stats.h"
 #include "apps/report.h"
 #include "apps/scene_view.h"
+#include "apps/seen_scene.h"
 #include "apps/stop_signal.h"
 #include "core/image/image_io.h"
 #include "core/scene/gltf.h"
@@ -156,10 +156,11 @@ Result<Rendered> render_frames(const RenderOptions& options, const FrameDesc& de
                                RenderFigures figures)
 {
     Rendered out;
+    Frame last;
     Progress progress("frames", static_cast<std::size_t>(options.frames), options.quiet || options.frames == 1);
     for (int i = 0; i < options.frames; ++i) {
         const TraceSpan span("frame");
-        Result<Frame> frame = renderer.render(desc);
+        Result<Frame> frame = renderer.render(desc, std::move(last));
         if (!frame)
             return frame.error();
         const std::uint64_t hash = pixel_hash(frame->color);
@@ -170,10 +171,10 @@ Result<Rendered> render_frames(const RenderOptions& options, const FrameDesc& de
         figures.hash = hash;
         figures.frame = frame->stats;
         figures.frame_ms.push_back(frame->stats.ms);
-        if (i == 0)
-            out.color = std::move(frame->color), out.variance = std::move(frame->variance);
+        last = std::move(*frame);
         progress.step();
     }
+    out.color = std::move(last.color), out.variance = std::move(last.variance);
     figures.nan_pixels = count_not_finite(out.color);
     out.figures = std::move(figures);
     return out;

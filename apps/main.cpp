@@ -22,6 +22,7 @@ constexpr const char* kFooter = R"(Examples:
   burnish render lamp.glb --env workshop.hdr -o lamp.png -o lamp.exr
   burnish compare reference.png test.png --html report.html
   burnish chart lamp.glb --env workshop.hdr -o report
+  burnish profile lamp.glb --technique major_axis --svg lamp.svg
   burnish list techniques
   burnish info --json
 

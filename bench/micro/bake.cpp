@@ -5,6 +5,7 @@
 
 #include "bench/micro/bake_fetch.h"
 #include "core/scene/builtin.h"
+#include "raster/frame/upload.h"
 #include "shading/bake/bake_fns.h"
 #include "shading/bake/environment.h"
 #include "shading/bake/texture.h"
@@ -92,6 +93,11 @@ const Fetches& screen()
     return fetches;
 }
 
+template <int isa> const FetchFns& fetch_fns_of()
+{
+    return isa == 2 ? bn_avx512::fetch_fns() : isa == 1 ? bn_avx2::fetch_fns() : bn_scalar::fetch_fns();
+}
+
 template <int isa> void cube_fetch(benchmark::State& state)
 {
     if (!bake_isa_available(isa)) {
@@ -101,11 +107,8 @@ template <int isa> void cube_fetch(benchmark::State& state)
     const Fetches& f = screen();
     const FetchInput input = {f.x.data(), f.y.data(), f.z.data(), f.lod.data(), static_cast<int>(f.x.size())};
     std::vector<float> rgb(f.rgb.size());
-    const bool many = state.range(0) == 16;
-    const FetchFns& fns = isa == 2   ? bn_avx512::fetch_fns()
-                          : isa == 1 ? bn_avx2::fetch_fns()
-                                     : bn_scalar::fetch_fns();
-    const auto run = many ? fns.sixteen : fns.single;
+    const FetchFns& fns = fetch_fns_of<isa>();
+    const auto run = state.range(0) == 16 ? fns.sixteen : fns.single;
     for (auto _ : state) {
         run(f.cube.texels.data(), f.cube.size, f.cube.levels, input, rgb.data());
         benchmark::DoNotOptimize(rgb.data());
@@ -117,6 +120,29 @@ template <int isa> void cube_fetch(benchmark::State& state)
 BENCHMARK(cube_fetch<0>)->Arg(1)->Arg(16);
 BENCHMARK(cube_fetch<1>)->Arg(1)->Arg(16);
 BENCHMARK(cube_fetch<2>)->Arg(1)->Arg(16);
+
+// The 2D filter, of a 1024^2 texture. Argument: taps at most.
+template <int isa> void texture_fetch(benchmark::State& state)
+{
+    if (!bake_isa_available(isa)) {
+        state.SkipWithError("this processor cannot run it");
+        return;
+    }
+    const Fetches& f = screen();
+    const FetchInput input = {f.x.data(), f.y.data(), nullptr, nullptr, static_cast<int>(f.x.size())};
+    std::vector<float> rgb(f.rgb.size());
+    static const TexturePyramid pyramid = make_texture_pyramid(make_image(1024, 1024, 3, PixelType::u8), {}, TextureEncoding::srgb);
+    static const TextureParams texture = texture_params(pyramid);
+    for (auto _ : state) {
+        fetch_fns_of<isa>().texture(texture, static_cast<int>(state.range(0)), input, rgb.data());
+        benchmark::DoNotOptimize(rgb.data());
+    }
+    state.counters["s/fetch"] = benchmark::Counter(static_cast<double>(state.iterations()) * input.n,
+                                                   benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+}
+BENCHMARK(texture_fetch<0>)->Arg(1)->Arg(4);
+BENCHMARK(texture_fetch<1>)->Arg(1)->Arg(4);
+BENCHMARK(texture_fetch<2>)->Arg(1)->Arg(4);
 
 } // namespace
 } // namespace burnish

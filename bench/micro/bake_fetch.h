@@ -2,6 +2,8 @@
 #pragma once
 #include <cstdint>
 
+#include "raster/frame/records.h"
+
 namespace burnish {
 
 struct FetchInput { // n directions (any length) and levels of detail, n a multiple of 16
@@ -14,6 +16,8 @@ struct FetchFns {
     void (*single)(const std::uint16_t* texels, int size, int levels, const FetchInput& in, float* rgb);
     // Sixteen fetches a lane, accumulated: around every direction.
     void (*sixteen)(const std::uint16_t* texels, int size, int levels, const FetchInput& in, float* rgb);
+    // A texture at u, v = x, y, seen at a slant: at most `taps` trilinear taps along the longer side of a footprint of 1 x 4 texels.
+    void (*texture)(const TextureParams& texture, int taps, const FetchInput& in, float* rgb);
 };
 // One copy an instruction set; calls are qualified.
 inline namespace bn_scalar {

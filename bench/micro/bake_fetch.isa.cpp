@@ -1,6 +1,7 @@
 #include "bench/micro/bake_fetch.h"
 
 #include "shading/kernels/cube_filter.k.h"
+#include "shading/kernels/texture_filter.k.h"
 
 namespace burnish {
 inline namespace BN_ISA_NS {
@@ -37,7 +38,15 @@ void sixteen(const std::uint16_t* texels, int size, int levels, const FetchInput
     }
 }
 
-constexpr FetchFns kFns = {single, sixteen};
+void texture(const TextureParams& t, int taps, const FetchInput& in, float* rgb)
+{
+    const texture_desc desc = {t.texels, t.offset, t.level_width, t.level_height, t.levels, t.wrap_s, t.wrap_t, t.nearest};
+    const real across = splat(1.0f / static_cast<float>(t.width)), along = splat(4.0f / static_cast<float>(t.height));
+    for (int i = 0; i < in.n; i += kLanes, rgb += 3 * kLanes)
+        store_rgb(texture_sample(desc, vec2_of(load(in.x + i), load(in.y + i)), vec2_of(across, lit(0.0)), vec2_of(lit(0.0), along), taps), rgb);
+}
+
+constexpr FetchFns kFns = {single, sixteen, texture};
 
 } // namespace
 

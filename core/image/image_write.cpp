@@ -25,6 +25,7 @@ constexpr float kRgbeMax = 255.0f / 256.0f * 0x1p127f;
 // CIE xy of Rec. ITU-R BT.709's red, green, blue and its white, D65.
 constexpr float kRec709[8] = {0.640f, 0.330f, 0.300f, 0.600f, 0.150f, 0.060f, 0.3127f, 0.3290f};
 constexpr int kJpegQuality = 95;
+constexpr int kPngLevel = 4; // of 9: two thirds of level 6's time, a few percent more bytes
 
 struct Format {
     const char* name; // OpenImageIO's
@@ -100,6 +101,7 @@ OIIO::ImageSpec spec_of(const Image& image, const Format& format)
         if (std::strcmp(format.name, "jpeg") == 0)
             spec.attribute("compression", fmt::format("jpeg:{}", kJpegQuality));
         spec.attribute("jpeg:subsampling", "4:4:4");
+        spec.attribute("png:compressionLevel", kPngLevel);
     }
     return spec;
 }

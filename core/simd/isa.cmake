@@ -1,21 +1,27 @@
 # bn_isa_objects(TARGET source.cpp...): compiles each source once for every instruction set and links the objects into TARGET.
 # In a source compiled this way BN_ISA is 0 (scalar), 1 (AVX2) or 2 (AVX-512), and core/simd/lanes.h puts the matching lane
 # types into namespace BN_ISA_NS; everything else in the program is x86-64-v2.
-# Lane integers wrap (-fwrapv says it of the scalar twin). The double oracle of tests is BN_ISA 3: bn_oracle_objects.
+# Lane integers wrap (-fwrapv says it of the scalar twin). The double oracle of tests is BN_ISA 3: bn_oracle_objects. BN_ISA 4 counts the
+# work of kernels: bn_counted_objects.
 set(BN_ISA_FLAGS_scalar -march=x86-64-v2 -fwrapv)
 set(BN_ISA_FLAGS_avx2 -march=x86-64-v3 -fwrapv)
 set(BN_ISA_FLAGS_avx512 -march=x86-64-v4 -mprefer-vector-width=512 -fwrapv)
 set(BN_ISA_FLAGS_double -march=x86-64-v2 -fwrapv)
+set(BN_ISA_FLAGS_counted -march=x86-64-v2 -fwrapv)
 set(BN_ISA_ID_scalar 0)
 set(BN_ISA_ID_avx2 1)
 set(BN_ISA_ID_avx512 2)
 set(BN_ISA_ID_double 3)
+set(BN_ISA_ID_counted 4)
 
 function(bn_isa_objects target)
   bn_objects_for(${target} "scalar;avx2;avx512" ${ARGN})
 endfunction()
 function(bn_oracle_objects target)
   bn_objects_for(${target} "double" ${ARGN})
+endfunction()
+function(bn_counted_objects target)
+  bn_objects_for(${target} "counted" ${ARGN})
 endfunction()
 function(bn_objects_for target isas)
   foreach(isa ${isas})

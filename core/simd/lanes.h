@@ -1,5 +1,5 @@
 // Lane types of the instruction set that this file is compiled for (BN_ISA: 0 scalar, 1 AVX2, 2 AVX-512, 3
-// the double oracle):
+// the double oracle, 4 one lane that counts):
 //   real     kLanes floating-point numbers      (scalar: float itself; oracle: double itself)
 //   integer  kLanes 32-bit integers, wrapping   (scalar and oracle: int32_t itself)
 //   mask     kLanes truth values                (scalar and oracle: bool itself)
@@ -43,5 +43,8 @@
 #include "core/simd/lanes_avx512.h"
 #elif BN_ISA == 3
 #define BN_ISA_NS bn_double
+#include "core/simd/lanes_scalar.h"
+#elif BN_ISA == 4
+#define BN_ISA_NS bn_counted
 #include "core/simd/lanes_scalar.h"
 #endif

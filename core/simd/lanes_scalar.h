@@ -1,5 +1,5 @@
 // One lane: the twin that every instruction set must equal bit for bit (BN_ISA 0), and the double oracle
-// (BN_ISA 3). The meaning of every operation is defined here. `integer` wraps because these files are
+// (BN_ISA 3). With BN_ISA 4 it counts its work (counted.h). The meaning of every operation is defined here. `integer` wraps because these files are
 // compiled with -fwrapv.
 #pragma once
 #include <cstddef>
@@ -7,6 +7,12 @@
 #include <immintrin.h>
 
 #include "core/simd/half.h"
+#if BN_ISA == 4
+#include "core/simd/counted.h"
+#define BN_COUNT(operations_, bytes_) (lane_counts.operations += (operations_), lane_counts.bytes += (bytes_))
+#else
+#define BN_COUNT(operations_, bytes_) static_cast<void>(0)
+#endif
 
 namespace burnish {
 inline namespace BN_ISA_NS {
@@ -15,6 +21,8 @@ inline constexpr int kLanes = 1;
 
 #if BN_ISA == 3
 using real = double;
+#elif BN_ISA == 4
+using real = Counted;
 #else
 using real = float;
 #endif
@@ -33,7 +41,7 @@ BN_INLINE real lit(double x)
 #else
 BN_INLINE real lit(double x)
 {
-    return static_cast<float>(x);
+    return static_cast<real>(static_cast<float>(x));
 }
 #endif
 BN_INLINE integer int_lit(int x)
@@ -157,27 +165,28 @@ BN_INLINE integer round_to_int(real x)
 #else
 BN_INLINE real abs(real x)
 {
-    return __builtin_fabsf(x);
+    return static_cast<real>(__builtin_fabsf(static_cast<float>(x)));
 }
 BN_INLINE real sqrt(real x)
 {
-    return __builtin_sqrtf(x);
+    BN_COUNT(1, 0);
+    return static_cast<real>(__builtin_sqrtf(static_cast<float>(x)));
 }
 BN_INLINE real floor(real x)
 {
-    return __builtin_floorf(x);
+    return static_cast<real>(__builtin_floorf(static_cast<float>(x)));
 }
 BN_INLINE real ceil(real x)
 {
-    return __builtin_ceilf(x);
+    return static_cast<real>(__builtin_ceilf(static_cast<float>(x)));
 }
 BN_INLINE integer to_int(real x)
 {
-    return _mm_cvttss_si32(_mm_set_ss(x));
+    return _mm_cvttss_si32(_mm_set_ss(static_cast<float>(x)));
 }
 BN_INLINE integer round_to_int(real x)
 {
-    return _mm_cvtss_si32(_mm_set_ss(x));
+    return _mm_cvtss_si32(_mm_set_ss(static_cast<float>(x)));
 } // ties to even
 #endif
 BN_INLINE real to_real(integer i)
@@ -196,6 +205,7 @@ BN_INLINE real real_from_bits(integer i)
 
 BN_INLINE real load(const float* from)
 {
+    BN_COUNT(0, 4);
     return static_cast<real>(*from);
 }
 BN_INLINE void store(float* to, real x)
@@ -244,6 +254,7 @@ BN_INLINE void store_first(std::int32_t* to, integer i, int n)
 }
 BN_INLINE real gather(const float* base, integer index)
 {
+    BN_COUNT(0, 4);
     return static_cast<real>(base[index]);
 }
 BN_INLINE integer gather_int(const std::int32_t* base, integer index)
@@ -309,6 +320,7 @@ BN_INLINE void blend_fields(const float* base, integer i0, integer i1, integer i
     const float* r0 = base + std::size_t{16} * static_cast<std::uint32_t>(i0);
     const float* r1 = base + std::size_t{16} * static_cast<std::uint32_t>(i1);
     const float* r2 = base + std::size_t{16} * static_cast<std::uint32_t>(i2);
+    BN_COUNT(0, 12 * static_cast<unsigned>(fields));
     for (int c = 0; c < fields; ++c)
         out[c] =
             (b0 * static_cast<real>(r0[c]) + b1 * static_cast<real>(r1[c])) + b2 * static_cast<real>(r2[c]);
@@ -352,6 +364,7 @@ BN_INLINE texel_acc texel_add(texel_acc acc, texel_buffer texels, integer row0, 
 {
     const std::uint16_t* t0 = texels + std::size_t{4} * static_cast<std::uint32_t>(row0);
     const std::uint16_t* t1 = texels + std::size_t{4} * static_cast<std::uint32_t>(row1);
+    BN_COUNT(0, 32);
     for (int c = 0; c < 4; ++c) {
         acc.left[c] = acc.left[c] + (w00 * texel_word(t0[c]) + w01 * texel_word(t1[c]));
         acc.right[c] = acc.right[c] + (w10 * texel_word(t0[c + 4]) + w11 * texel_word(t1[c + 4]));

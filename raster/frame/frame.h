@@ -12,6 +12,7 @@
 #include "core/jobs/jobs.h"
 #include "core/scene/draw_tables.h"
 #include "core/scene/scene.h"
+#include "raster/frame/profile.h"
 #include "shading/bake/environment.h"
 
 namespace burnish {
@@ -59,6 +60,7 @@ struct FrameDesc {
     bool background = true;                // environment behind the scene; otherwise black
     bool triangle_ids = false;             // fill Frame::triangle_ids
     bool stages = false;                   // fill Frame::stages, and the triangle ids
+    bool profile = false;                  // fill Frame::profile, where the renderer can; never changes the picture
 };
 // Whether a rasterizer can draw it: sizes, samples, names.
 Status check_desc(const FrameDesc& desc);
@@ -104,6 +106,7 @@ struct Frame {
     Image variance;                        // of `color` as an estimate, by channel; empty where it is none
     Column<std::uint32_t> triangle_ids;    // [pixel][sample] global triangle id, 0xffffffff where nothing was hit
     StageRecords stages;                   // with FrameDesc::stages
+    FrameProfile profile;                  // empty unless asked for
     FrameStats stats;
 };
 
@@ -111,7 +114,9 @@ struct Frame {
 class Renderer {
   public:
     virtual ~Renderer() = default;
-    virtual Result<Frame> render(const FrameDesc& desc) = 0;
+    Result<Frame> render(const FrameDesc& desc) { return render(desc, Frame{}); }
+    // recycled: a frame that is not needed any more, whose memory may be used again.
+    virtual Result<Frame> render(const FrameDesc& desc, Frame recycled) = 0;
     virtual std::string device() const = 0; // what runs it: "AMD EPYC (avx512)", ...
 };
 

@@ -20,6 +20,7 @@ struct ViewParams { // Renderer's View in plain numbers
 struct SamplePattern { // Vulkan's standard sample locations in sub-pixel units from the pixel's top left corner
     std::int32_t count;
     std::int32_t x[kMaxSamples], y[kMaxSamples];
+    std::int32_t x16[kMaxSamples], y16[kMaxSamples]; // the same in units of 16, which all of them are multiples of
     std::int32_t min_x, max_x, min_y, max_y;
 };
 

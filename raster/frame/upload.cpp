@@ -49,19 +49,6 @@ std::vector<PyramidKey> used_pyramids(const Scene& scene)
     return keys;
 }
 
-TextureParams texture_params(const TexturePyramid& p)
-{
-    TextureParams t = {};
-    t.texels = p.texels.data();
-    t.width = p.width, t.height = p.height, t.levels = p.levels;
-    t.wrap_s = static_cast<std::int32_t>(p.wrap_s), t.wrap_t = static_cast<std::int32_t>(p.wrap_t);
-    t.nearest = p.nearest;
-    std::copy(std::begin(p.offset), std::end(p.offset), std::begin(t.offset));
-    std::copy(std::begin(p.level_width), std::end(p.level_width), std::begin(t.level_width));
-    std::copy(std::begin(p.level_height), std::end(p.level_height), std::begin(t.level_height));
-    return t;
-}
-
 MaterialRecord material_record(const Material& m)
 {
     MaterialRecord r = {};
@@ -108,6 +95,19 @@ constexpr Position kSamples16[] = {{9, 9},  {7, 5},   {5, 10}, {12, 7}, {3, 6}, 
 
 } // namespace
 
+TextureParams texture_params(const TexturePyramid& p)
+{
+    TextureParams t = {};
+    t.texels = p.texels.data();
+    t.width = p.width, t.height = p.height, t.levels = p.levels;
+    t.wrap_s = static_cast<std::int32_t>(p.wrap_s), t.wrap_t = static_cast<std::int32_t>(p.wrap_t);
+    t.nearest = p.nearest;
+    std::copy(std::begin(p.offset), std::end(p.offset), std::begin(t.offset));
+    std::copy(std::begin(p.level_width), std::end(p.level_width), std::begin(t.level_width));
+    std::copy(std::begin(p.level_height), std::end(p.level_height), std::begin(t.level_height));
+    return t;
+}
+
 SamplePattern standard_samples(int count)
 {
     const Position* table = count == 1   ? kSamples1
@@ -120,6 +120,7 @@ SamplePattern standard_samples(int count)
     p.count = count;
     p.min_x = p.min_y = kSubpixel;
     for (int i = 0; i < count; ++i) {
+        p.x16[i] = table[i].x, p.y16[i] = table[i].y;
         p.x[i] = table[i].x * 16, p.y[i] = table[i].y * 16;
         p.min_x = std::min(p.min_x, p.x[i]), p.max_x = std::max(p.max_x, p.x[i]);
         p.min_y = std::min(p.min_y, p.y[i]), p.max_y = std::max(p.max_y, p.y[i]);

@@ -24,6 +24,7 @@ SceneTables upload_scene(const Scene& scene, const DrawTables& tables, const Job
 std::vector<MaterialRecord> overridden(std::vector<MaterialRecord> materials, const FrameDesc& desc);
 
 CubeParams cube_params(const CubeMap& cube);
+TextureParams texture_params(const TexturePyramid& pyramid);
 ViewParams view_params_of(const View& view);
 SamplePattern standard_samples(int count); // Vulkan's standard sample locations for 1, 2, 4, 8, 16
 

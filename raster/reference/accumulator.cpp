@@ -30,6 +30,11 @@ std::uint32_t least_passes(const Accumulator& a)
     return a.passes.empty() ? 0 : *std::min_element(a.passes.begin(), a.passes.end());
 }
 
+std::uint32_t most_passes(const Accumulator& a)
+{
+    return a.passes.empty() ? 0 : *std::max_element(a.passes.begin(), a.passes.end());
+}
+
 namespace {
 
 std::uint32_t passes_of_pixel(const Accumulator& a, std::size_t pixel)

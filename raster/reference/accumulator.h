@@ -21,7 +21,8 @@ struct Accumulator {
 };
 
 PixelBlock block_of(const Accumulator& a, std::size_t index, std::uint32_t until_pass);
-std::uint32_t least_passes(const Accumulator& a);
+std::uint32_t least_passes(const Accumulator& a); // of any block
+std::uint32_t most_passes(const Accumulator& a);
 
 Image mean_image(const Accumulator& a);     // f32 RGB
 Image variance_image(const Accumulator& a); // of the mean, f32 RGB; a pixel of fewer than two passes is infinite

@@ -80,7 +80,9 @@ BN_STAGE real3 punctual_light(const PixelFrame& p, const LaneSurface& s)
         const LightRecord& l = f.lights[i];
         const light_sample at = sample_punctual(s.position, splat3(l.position), splat3(l.direction), splat(l.inv_range2),
                                                 splat(l.spot_scale), splat(l.spot_offset), int_lit(l.directional) != int_lit(0));
-        const real3 light = punctual_radiance_aniso(s.r.s, s.r.lobe, at.l, s.r.gain, splat3(l.radiant) * at.attenuation);
+        const real3 intensity = splat3(l.radiant) * at.attenuation;
+        const real3 light = s.r.tilted ? punctual_radiance_tilted(s.r.s, at.l, tilted_lobe_value(s.r, at.l).value, s.r.gain, intensity)
+                                       : punctual_radiance_aniso(s.r.s, s.r.lobe, at.l, s.r.gain, intensity);
         mask lit_lanes = both(both(s.reflects, k_dot3(s.r.own.n, at.l) > lit(0.0)), any_light(light));
         if (f.mode != ReferenceMode::direct && any(lit_lanes)) {
             LaneRays r = leaving_ray(f, s, at.l);

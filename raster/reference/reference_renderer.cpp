@@ -40,6 +40,10 @@ const char* isa_text(Isa isa) { return isa == Isa::avx512 ? "avx512" : isa == Is
 
 void trace_packet(const RayScene& scene, RayPacket& rays, RayKind kind) { scene.trace(rays, kind); }
 
+struct BlockRange {
+    std::size_t begin, end;
+};
+
 class ReferenceRenderer final : public Renderer {
   public:
     ReferenceRenderer(const RenderInput& input, const ReferenceOptions& options, std::unique_ptr<RayScene> rays)
@@ -48,7 +52,7 @@ class ReferenceRenderer final : public Renderer {
           sampler_(make_environment_sampler(input.environment.specular, input.jobs))
     {
     }
-    Result<Frame> render(const FrameDesc& desc) override;
+    Result<Frame> render(const FrameDesc& desc, Frame) override;
     std::string device() const override
     {
         return cpu_name() + " (" + isa_text(options_.isa) + ", " + rays_->description() + ")";
@@ -57,7 +61,7 @@ class ReferenceRenderer final : public Renderer {
   private:
     ReferenceParams params(const FrameDesc& desc, const std::vector<MaterialRecord>& materials) const;
     Result<Accumulator> integrate(const FrameDesc& desc, const ReferenceParams& f, SamplingStats& stats);
-    void advance(const ReferenceParams& f, Accumulator& a, std::uint32_t passes);
+    void advance(const ReferenceParams& f, Accumulator& a, std::uint32_t passes, BlockRange blocks);
     bool stopped() const { return options_.stop && options_.stop->load(std::memory_order_relaxed); }
 
     RenderInput input_;
@@ -104,10 +108,11 @@ ReferenceParams ReferenceRenderer::params(const FrameDesc& desc, const std::vect
     return f;
 }
 
-// Every block up to `passes`; ends early, between blocks, when asked to stop.
-void ReferenceRenderer::advance(const ReferenceParams& f, Accumulator& a, std::uint32_t passes)
+// Blocks up to `passes`; ends early, between blocks, when asked to stop.
+void ReferenceRenderer::advance(const ReferenceParams& f, Accumulator& a, std::uint32_t passes, BlockRange blocks)
 {
-    input_.jobs.parallel_for(a.passes.size(), [&](std::size_t i, int worker) {
+    input_.jobs.parallel_for(blocks.end - blocks.begin, [&](std::size_t k, int worker) {
+        const std::size_t i = blocks.begin + k;
         const PixelBlock block = block_of(a, i, passes);
         if (block.passes == 0 || stopped())
             return;
@@ -116,14 +121,18 @@ void ReferenceRenderer::advance(const ReferenceParams& f, Accumulator& a, std::u
     });
 }
 
+constexpr std::uint64_t kRoundSamples = 1u << 22;
+
 // Work between two looks at the error: some million samples, by the picture's size alone, so that where a run ends does not depend on
 // how fast it is.
 std::uint32_t passes_in_round(const FrameDesc& desc)
 {
-    constexpr std::uint64_t kRoundSamples = 1u << 22;
     const std::uint64_t samples = static_cast<std::uint64_t>(desc.width) * static_cast<std::uint64_t>(desc.height) * kPassSamples;
     return static_cast<std::uint32_t>(std::max<std::uint64_t>(1, kRoundSamples / samples));
 }
+
+// Work between two looks at the clock, whether the checkpoint is due: one pass of a large picture may take minutes.
+constexpr std::size_t kBlocksInSlice = kRoundSamples / (kPassSamples * kBlockSide * kBlockSide);
 
 Result<Accumulator> ReferenceRenderer::integrate(const FrameDesc& desc, const ReferenceParams& f, SamplingStats& stats)
 {
@@ -145,20 +154,24 @@ Result<Accumulator> ReferenceRenderer::integrate(const FrameDesc& desc, const Re
     Clock::time_point written = Clock::now();
     // Also after the last pass: a finished checkpoint may be gone on with for more samples.
     const auto write = [&] { return options_.checkpoint.empty() ? Status{} : write_checkpoint(options_.checkpoint, key, a); };
+    // After whole rounds only: what a stop left in between must not decide where the run ends.
     const auto good_enough = [&] {
-        return options_.target_error > 0.0 && done >= kFewestPasses && mean_relative_error(a) <= options_.target_error;
+        return options_.target_error > 0.0 && done >= kFewestPasses && done % round == 0 && most_passes(a) == done &&
+               mean_relative_error(a) <= options_.target_error;
     };
     while (done < passes && !good_enough() && !stopped()) {
-        const std::uint32_t before = done;
+        const std::uint32_t before = done, until = std::min(passes, done - done % round + round);
         const TraceSpan round_span("passes");
-        advance(f, a, std::min(passes, done - done % round + round));
+        for (std::size_t begin = 0; begin < a.passes.size() && !stopped(); begin += kBlocksInSlice) {
+            advance(f, a, until, {begin, std::min(begin + kBlocksInSlice, a.passes.size())});
+            if (!options_.checkpoint.empty() && seconds_since(written) > options_.checkpoint_seconds) {
+                if (Status status = write(); !status)
+                    return status.error();
+                written = Clock::now();
+            }
+        }
         done = least_passes(a);
         progress.step(done - before);
-        if (!options_.checkpoint.empty() && seconds_since(written) > options_.checkpoint_seconds) {
-            if (Status status = write(); !status)
-                return status.error();
-            written = Clock::now();
-        }
     }
     stats.stopped = stopped() && done < passes;
     if (Status status = write(); !status)
@@ -186,7 +199,7 @@ Status check_desc(const FrameDesc& d, const ReferenceOptions& o)
     return {};
 }
 
-Result<Frame> ReferenceRenderer::render(const FrameDesc& desc)
+Result<Frame> ReferenceRenderer::render(const FrameDesc& desc, Frame)
 {
     if (const Status ok = check_desc(desc, options_); !ok)
         return ok.error();

@@ -156,7 +156,11 @@ BN_INLINE ReflectorSample sample_reflector(const Reflector& r, real2 xi, real ch
     const Reflection at = reflect(r, s.wi);
     s.pdf = at.pdf;
     const real inv = select(at.pdf > lit(0.0), lit(1.0) / max(at.pdf, lit(1e-20)), lit(0.0));
-    const real3 mirrored = fresnel_schlick(r.s.f0, r.s.f90, k_saturate(r.o.z)) * r.gain / max(r.choose_specular, lit(1e-6));
+    real3 mirrored = fresnel_schlick(r.s.f0, r.s.f90, k_saturate(r.o.z)) * r.gain / max(r.choose_specular, lit(1e-6));
+    if (r.tilted) {
+        const TiltedLobe t = tilted_lobe(r);
+        mirrored = mirrored * ellipsoid_tilt_albedo(t.p, t.o); // what masking leaves of it
+    }
     const mask seen = k_dot3(r.own.n, s.wi) > lit(0.0);
     s.weight = select(s.exact, select(seen, mirrored, vec3_all(lit(0.0))), at.value * inv);
     return s;

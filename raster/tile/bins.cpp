@@ -56,7 +56,8 @@ void Bins::Chunk::sort_by_tile(const FrameParams& f)
     tile_begin[0] = 0;
 }
 
-void Bins::build(const FrameParams& f, const DrawTables& tables, const Visible& visible, const TileFns& fns, const Jobs& jobs)
+void Bins::build(const FrameParams& f, const DrawTables& tables, const Visible& visible, const TileFns& fns, const Jobs& jobs,
+                 Profiler* profiler)
 {
     const TraceSpan span("setup and bin");
     const std::size_t clusters = visible.clusters.size();
@@ -64,7 +65,8 @@ void Bins::build(const FrameParams& f, const DrawTables& tables, const Visible& 
     used_ = (clusters + per_chunk - 1) / per_chunk;
     while (chunks_.size() < used_)
         chunks_.push_back(std::make_unique<Chunk>());
-    jobs.parallel_for(used_, [&](std::size_t i, int) {
+    jobs.parallel_for(used_, [&](std::size_t i, int worker) {
+        ProfiledWork work(profiler, worker);
         Chunk& c = *chunks_[i];
         c.output = {};
         c.output.owner = &c;
@@ -73,8 +75,11 @@ void Bins::build(const FrameParams& f, const DrawTables& tables, const Visible& 
         for (std::size_t k = i * per_chunk; k < std::min(clusters, (i + 1) * per_chunk); ++k) {
             const Cluster& cluster = tables.clusters[visible.clusters[k]];
             fns.setup_triangles(f, cluster.first_triangle, cluster.triangle_count, c.output);
+            work.count(FrameStage::setup, cluster.triangle_count);
         }
+        work.lap(FrameStage::setup);
         c.sort_by_tile(f);
+        work.lap(FrameStage::bin);
     });
 }
 

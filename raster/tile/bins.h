@@ -14,7 +14,7 @@ namespace burnish {
 class Bins {
   public:
     void build(const FrameParams& frame, const DrawTables& tables, const Visible& visible, const TileFns& fns,
-               const Jobs& jobs);
+               const Jobs& jobs, Profiler* profiler);
     std::size_t triangles_in(std::size_t tile) const;
     // Copies the tile's triangles, in draw order; there is room for triangles_in(tile) of them.
     void gather_tile(std::size_t tile, TriangleSetup* triangles, TriangleSource* sources) const;

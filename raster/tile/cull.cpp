@@ -79,7 +79,7 @@ Visible cull(const DrawTables& tables, const View& view)
 }
 
 void transform_draws(const FrameParams& f, const DrawTables& tables, const Visible& visible, const TileFns& fns,
-                     const Jobs& jobs)
+                     const Jobs& jobs, Profiler* profiler)
 {
     const TraceSpan span("transform");
     constexpr std::uint32_t kPiece = 16384; // vertices a task
@@ -92,7 +92,12 @@ void transform_draws(const FrameParams& f, const DrawTables& tables, const Visib
         for (std::uint32_t i = 0; i < d.vertex_count; i += kPiece)
             pieces.push_back({d.first_vertex + i, std::min(kPiece, d.vertex_count - i)});
     }
-    jobs.parallel_for(pieces.size(), [&](std::size_t i, int) { fns.transform_vertices(f, pieces[i].first, pieces[i].count); });
+    jobs.parallel_for(pieces.size(), [&](std::size_t i, int worker) {
+        ProfiledWork work(profiler, worker);
+        fns.transform_vertices(f, pieces[i].first, pieces[i].count);
+        work.count(FrameStage::transform, pieces[i].count);
+        work.lap(FrameStage::transform);
+    });
 }
 
 } // namespace burnish

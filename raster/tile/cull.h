@@ -5,6 +5,7 @@
 
 #include "core/jobs/jobs.h"
 #include "raster/frame/frame.h"
+#include "raster/tile/profiler.h"
 #include "raster/tile/tile_types.h"
 
 namespace burnish {
@@ -19,6 +20,6 @@ Visible cull(const DrawTables& tables, const View& view);
 
 // Runs the vertex kernel over the visible draws' vertices.
 void transform_draws(const FrameParams& frame, const DrawTables& tables, const Visible& visible, const TileFns& fns,
-                     const Jobs& jobs);
+                     const Jobs& jobs, Profiler* profiler);
 
 } // namespace burnish

@@ -13,13 +13,14 @@ inline constexpr int kVectors = kBlockPixels / kLanes; // registers a block; a r
 struct TileTriangle {
     std::int64_t edge[3];           // at the tile's top left corner, top-left rule included: inside is >= 0
     std::int32_t step_x[3], step_y[3]; // by 1/16 pixel
-    std::int64_t span_min[3], span_max[3]; // least and greatest change inside a block
+    std::int64_t span_min[3], span_max[3]; // least and greatest change inside a block; not of small triangles
     std::int32_t sample_step[3][kMaxSamples];
     double z, z_x, z_y;             // depth at the first vertex, and its change by sub-pixel unit
     std::int32_t from_x, from_y;    // the tile's corner, seen from the first vertex, sub-pixel units
     float z_min, z_max, dz_x, dz_y;
     float sample_z[kMaxSamples];
     int px0, px1, py0, py1;         // pixels of the tile that the bounding box touches, inclusive
+    bool small;                     // at most a block wide and high, in the tile or not
 };
 
 BN_INLINE int floor_shift(std::int64_t v, int n) { return static_cast<int>(v >> n); }
@@ -40,6 +41,7 @@ BN_INLINE bool begin_triangle(const FrameParams& f, const TriangleSetup& t, int 
     r.px1 = r.px1 < last ? r.px1 : last, r.py1 = r.py1 < last ? r.py1 : last;
     if (r.px0 > r.px1 || r.py0 > r.py1)
         return false;
+    r.small = hi_x - lo_x <= kBlock * kSubpixel && hi_y - lo_y <= kBlock * kSubpixel; // so edges near it fit 32 bits
     const std::int64_t tile_span = static_cast<std::int64_t>(f.tile_size) * 16 - 1, block_span = kBlock * 16 - 1;
     for (int i = 0; i < 3; ++i) {
         const int p = i == 2 ? 0 : i + 1, q = i == 0 ? 2 : i - 1; // edge opposite of vertex i, from p to q
@@ -47,14 +49,16 @@ BN_INLINE bool begin_triangle(const FrameParams& f, const TriangleSetup& t, int 
         const std::int64_t at = a * (ox - t.x[p]) + b * (oy - t.y[p]);
         const bool top_left = a > 0 || (a == 0 && b > 0);
         r.edge[i] = (at - (top_left ? 0 : 1)) >> 4;
-        if (r.edge[i] + (a > 0 ? a : 0) * tile_span + (b > 0 ? b : 0) * tile_span < 0)
-            return false;
+        if (!r.small) {
+            if (r.edge[i] + (a > 0 ? a : 0) * tile_span + (b > 0 ? b : 0) * tile_span < 0)
+                return false;
+            r.span_min[i] = ((a < 0 ? a : 0) + (b < 0 ? b : 0)) * block_span;
+            r.span_max[i] = ((a > 0 ? a : 0) + (b > 0 ? b : 0)) * block_span;
+        }
         r.step_x[i] = static_cast<std::int32_t>(a), r.step_y[i] = static_cast<std::int32_t>(b);
-        r.span_min[i] = ((a < 0 ? a : 0) + (b < 0 ? b : 0)) * block_span;
-        r.span_max[i] = ((a > 0 ? a : 0) + (b > 0 ? b : 0)) * block_span;
-        for (int s = 0; s < f.msaa; ++s)
-            r.sample_step[i][s] =
-                static_cast<std::int32_t>(a) * (f.pattern.x[s] / 16) + static_cast<std::int32_t>(b) * (f.pattern.y[s] / 16);
+        for (int s = 0; s < f.msaa; s += kLanes)
+            store_int(r.sample_step[i] + s, int_lit(static_cast<std::int32_t>(a)) * load_int(f.pattern.x16 + s) +
+                                                int_lit(static_cast<std::int32_t>(b)) * load_int(f.pattern.y16 + s));
     }
     const double x10 = t.x[1] - t.x[0], y10 = t.y[1] - t.y[0], x20 = t.x[2] - t.x[0], y20 = t.y[2] - t.y[0];
     const double z0 = static_cast<double>(t.z[0]), z10 = static_cast<double>(t.z[1]) - z0, z20 = static_cast<double>(t.z[2]) - z0;
@@ -65,9 +69,10 @@ BN_INLINE bool begin_triangle(const FrameParams& f, const TriangleSetup& t, int 
     r.dz_x = static_cast<float>(zx * kSubpixel), r.dz_y = static_cast<float>(zy * kSubpixel);
     r.z_min = t.z[0] < t.z[1] ? t.z[0] : t.z[1], r.z_max = t.z[0] > t.z[1] ? t.z[0] : t.z[1];
     r.z_min = t.z[2] < r.z_min ? t.z[2] : r.z_min, r.z_max = t.z[2] > r.z_max ? t.z[2] : r.z_max;
-    for (int s = 0; s < f.msaa; ++s)
-        r.sample_z[s] = r.dz_x * (static_cast<float>(f.pattern.x[s]) * (1.0f / kSubpixel)) +
-                        r.dz_y * (static_cast<float>(f.pattern.y[s]) * (1.0f / kSubpixel));
+    const real dz_x = splat(r.dz_x), dz_y = splat(r.dz_y), to_pixels = splat(1.0f / 16);
+    for (int s = 0; s < f.msaa; s += kLanes)
+        store(r.sample_z + s, dz_x * (to_real(load_int(f.pattern.x16 + s)) * to_pixels) +
+                                  dz_y * (to_real(load_int(f.pattern.y16 + s)) * to_pixels));
     return true;
 }
 
@@ -174,11 +179,51 @@ BN_INLINE bool cover_block(const FrameParams& f, const TileTriangle& t, const Bl
     return wrote;
 }
 
+// Depth at a block's corner: from the vertex, not from the tile, so that it is the same for every tile size.
+BN_INLINE float corner_depth(const TileTriangle& t, int bx, int by)
+{
+    return static_cast<float>(t.z + t.z_x * (t.from_x + bx * kBlock * kSubpixel) + t.z_y * (t.from_y + by * kBlock * kSubpixel));
+}
+
+// Rasterizes a triangle of few pixels: to ask what hides its blocks or which edges cross them would cost more than it saves.
+template <class MakeAlpha>
+BN_INLINE void raster_small_triangle(const FrameParams& f, const TileTriangle& t, std::uint32_t id, TileScratch& scratch,
+                                     const MakeAlpha& make_alpha)
+{
+    const int blocks_x = f.tile_size / kBlock;
+    const BlockLanes lanes = block_lanes();
+    BlockEdges e;
+    e.count = 3;
+    for (int i = 0; i < 3; ++i) {
+        e.step_x[i] = t.step_x[i], e.step_y[i] = t.step_y[i];
+        e.sample_step[i] = t.sample_step[i];
+        e.lane[i] = lanes.x16 * int_lit(t.step_x[i]) + lanes.y16 * int_lit(t.step_y[i]);
+    }
+    for (int by = t.py0 / kBlock; by <= t.py1 / kBlock; ++by) {
+        const int row0 = t.py0 > by * kBlock ? t.py0 - by * kBlock : 0;
+        const int row1 = t.py1 < by * kBlock + kBlock - 1 ? t.py1 - by * kBlock : kBlock - 1;
+        for (int bx = t.px0 / kBlock; bx <= t.px1 / kBlock; ++bx) {
+            for (int i = 0; i < 3; ++i)
+                e.at[i] = static_cast<std::int32_t>(t.edge[i] + static_cast<std::int64_t>(t.step_x[i]) * (bx * kBlock * 16) +
+                                                    static_cast<std::int64_t>(t.step_y[i]) * (by * kBlock * 16));
+            const int block = by * blocks_x + bx, at = block * f.msaa * kBlockPixels;
+            if (cover_block<3>(f, t, e, lanes, corner_depth(t, bx, by), row0, row1, id, scratch.depth + at, scratch.ids + at,
+                               make_alpha(bx, by)) &&
+                scratch.block_dirty[block] < 255)
+                ++scratch.block_dirty[block];
+        }
+    }
+}
+
 // Rasterizes triangle `id` of the tile's list. `make_alpha(block_x, block_y)` gives the alpha test of a block.
 template <class MakeAlpha>
 BN_INLINE void raster_triangle(const FrameParams& f, const TileTriangle& t, std::uint32_t id, TileScratch& scratch,
                                const MakeAlpha& make_alpha)
 {
+    if (t.small) {
+        raster_small_triangle(f, t, id, scratch, make_alpha);
+        return;
+    }
     const int blocks_x = f.tile_size / kBlock;
     const BlockLanes lanes = block_lanes();
     integer lane_step[3];
@@ -207,9 +252,7 @@ BN_INLINE void raster_triangle(const FrameParams& f, const TileTriangle& t, std:
             if (outside)
                 continue;
             const int block = by * blocks_x + bx;
-            // from the vertex, not from the tile: the same for every tile size
-            const float z_corner = static_cast<float>(t.z + t.z_x * (t.from_x + bx * kBlock * kSubpixel) +
-                                                      t.z_y * (t.from_y + by * kBlock * kSubpixel));
+            const float z_corner = corner_depth(t, bx, by);
             float* depth = scratch.depth + block * f.msaa * kBlockPixels;
             if (block_hidden(f, t, z_corner, block, depth, scratch))
                 continue;

@@ -81,6 +81,8 @@ BN_INLINE real3 light_from_punctual(const FrameParams& f, const Shading& x, bool
 // What is the same for all fragments of a material, found once.
 struct MaterialPlan {
     bool diffuse;        // some light may be diffused
+    bool uniform;        // nothing changes from fragment to fragment
+    LaneMaterial at;     // then
     bool one_shape;      // no texture changes the lobe's shape
     LobeShape shape;     // then
 };
@@ -91,10 +93,12 @@ BN_INLINE MaterialPlan plan_material(const FrameParams& f, const MaterialRecord&
     MaterialPlan plan;
     plan.diffuse = m.metallic < 1.0f || used(kMetalRoughTex);
     plan.one_shape = (!used(kMetalRoughTex) || m.roughness_fixed) && !used(kTensor2Tex);
-    LaneMaterial at;
-    at.roughness = splat(m.roughness);
-    at.tensor2 = at.tensor4 = vec3_of(lit(1.0), lit(0.0), lit(0.0));
-    plan.shape = lobe_shape(f, m, at);
+    plan.uniform = !m.textured && !m.uses_color;
+    if (plan.uniform)
+        plan.at = fetch_material(f, m, Fragment{});
+    plan.at.roughness = splat(m.roughness);
+    plan.at.tensor2 = plan.at.tensor4 = vec3_of(lit(1.0), lit(0.0), lit(0.0));
+    plan.shape = lobe_shape(f, m, plan.at);
     return plan;
 }
 
@@ -102,7 +106,10 @@ template <Technique kTechnique>
 BN_INLINE real3 shade_fragments(const FrameParams& f, const MaterialRecord& m, const MaterialPlan& plan, const Fragment& p,
                                 integer pixel_id)
 {
-    const LaneMaterial at = fetch_material(f, m, p);
+    LaneMaterial fetched;
+    if (!plan.uniform)
+        fetched = fetch_material(f, m, p);
+    const LaneMaterial& at = plan.uniform ? plan.at : fetched;
     if (m.unlit)
         return at.base;
     const real3 v = k_normalize3(-p.ray);

@@ -74,12 +74,15 @@ struct AlphaBlocks {
 
 void raster_tile(const Tile& t, const view_params& view)
 {
+    t.s.only_material = kNoMaterial;
     for (std::uint32_t i = 0; i < t.s.triangle_count; ++i) {
         const TriangleSetup& setup = t.s.triangles[i];
         TileTriangle triangle;
         if (!begin_triangle(t.f, setup, t.index_x, t.index_y, triangle))
             continue;
-        const MaterialRecord& m = t.f.materials[setup.info >> 2];
+        const std::int32_t material = setup.info >> 2;
+        t.s.only_material = t.s.only_material == kNoMaterial || t.s.only_material == material ? material : kManyMaterials;
+        const MaterialRecord& m = t.f.materials[material];
         if (m.alpha_mode == 0)
             raster_triangle(t.f, triangle, i, t.s, OpaqueBlocks{});
         else
@@ -116,9 +119,33 @@ BN_INLINE std::uint32_t run_end(const std::int32_t* triangle, std::uint32_t i, s
     return i;
 }
 
+// sort_fragments() where all triangles are of one material. Where there is only background or none, the order is the list's own and is
+// not written.
+int split_background(TileScratch& s)
+{
+    const std::uint32_t count = s.fragment_count;
+    s.slot_material[1] = s.only_material;
+    s.slot_begin[0] = 0, s.slot_begin[1] = s.background_pixels, s.slot_begin[2] = count;
+    s.in_list_order = s.background_pixels == 0 || s.background_pixels == count;
+    if (s.in_list_order)
+        return s.background_pixels == count ? 1 : 2;
+    std::int32_t *behind = s.order, *before = s.order + s.background_pixels;
+    for (std::uint32_t i = 0; i < count; i += kLanes) {
+        const integer index = iota() + int_lit(static_cast<std::int32_t>(i));
+        const mask valid = index < int_lit(static_cast<std::int32_t>(count));
+        const mask nothing = load_int(s.fragment_triangle + i) < int_lit(0);
+        behind += compress_store_int(behind, index, both(valid, nothing));
+        before += compress_store_int(before, index, both(valid, not_(nothing)));
+    }
+    return 2;
+}
+
 // Sorts the fragments by material, stably. Returns the number of slots; slot 0 is the background.
 int sort_fragments(TileScratch& s)
 {
+    if (s.only_material != kManyMaterials)
+        return split_background(s);
+    s.in_list_order = false;
     int slots = 1;
     const std::int32_t* const triangle = s.fragment_triangle;
     std::int32_t* const order = s.order;
@@ -176,8 +203,14 @@ BN_INLINE Batch load_batch(const Tile& t, std::uint32_t at, std::uint32_t end)
 {
     Batch b;
     b.n = static_cast<int>(end - at < kLanes ? end - at : kLanes);
-    const std::int32_t first = t.s.order[at];
-    b.run = b.n == kLanes && t.s.order[at + kLanes - 1] - first == kLanes - 1; // the order is ascending
+    const std::int32_t* order = t.s.order + at;
+    std::int32_t in_list[kLanes];
+    if (t.s.in_list_order) {
+        store_int(in_list, iota() + int_lit(static_cast<std::int32_t>(at)));
+        order = in_list;
+    }
+    const std::int32_t first = order[0];
+    b.run = b.n == kLanes && order[kLanes - 1] - first == kLanes - 1; // the order is ascending
     integer pixel;
     if (b.run) {
         b.fragment[0] = first;
@@ -186,7 +219,7 @@ BN_INLINE Batch load_batch(const Tile& t, std::uint32_t at, std::uint32_t end)
         b.triangle = load_int(t.s.fragment_triangle + first);
     } else {
         for (int i = 0; i < kLanes; ++i) // spare lanes repeat the first fragment
-            b.fragment[i] = t.s.order[i < b.n ? at + static_cast<std::uint32_t>(i) : at];
+            b.fragment[i] = order[i < b.n ? i : 0];
         const integer index = load_int(b.fragment);
         pixel = gather_int(t.s.fragment_pixel, index);
         b.samples = gather_int(t.s.fragment_mask, index);
@@ -229,6 +262,11 @@ template <Technique kTechnique>
 void shade_slot(const Tile& t, const view_params& view, const MaterialRecord& m, std::uint32_t begin, std::uint32_t end)
 {
     const MaterialPlan plan = plan_material(t.f, m);
+    if (plan.uniform && m.unlit) { // one colour, wherever it is seen
+        for (std::uint32_t i = begin; i < end; i += kLanes)
+            store_batch(t, load_batch(t, i, end), plan.at.base);
+        return;
+    }
     for (std::uint32_t i = begin; i < end; i += kLanes) {
         const Batch b = load_batch(t, i, end);
         const Fragment p = make_fragment(t.f, m, view, t.s, b.triangle, b.common, b.x, b.y, b.samples);
@@ -242,6 +280,13 @@ constexpr ShadeSlot kShadeSlots[] = {
 #include "shading/models.def"
 };
 
+// A stage ends: one test where nobody profiles.
+BN_INLINE void lap(const TileScratch& s, FrameStage stage, std::int32_t material = -1, std::uint32_t used = 0)
+{
+    if (s.clock)
+        s.clock->lap(*s.clock, stage, material, used, (used + kLanes - 1) / kLanes * kLanes);
+}
+
 void render_tile(const FrameParams& f, int tile_x, int tile_y, TileScratch& s)
 {
     Tile t{f, s, tile_x, tile_y, tile_x * f.tile_size, tile_y * f.tile_size, 0, 0};
@@ -249,26 +294,33 @@ void render_tile(const FrameParams& f, int tile_x, int tile_y, TileScratch& s)
     t.height = f.height - t.y0 < f.tile_size ? f.height - t.y0 : f.tile_size;
     const view_params view = lanes_view(f.view);
     clear_tile(t);
+    lap(s, FrameStage::clear);
     raster_tile(t, view);
+    lap(s, FrameStage::coverage);
     if (s.output_ids)
         write_ids(t);
     list_fragments(f, t.width, t.height, s);
     const int slots = sort_fragments(s);
+    lap(s, FrameStage::visibility);
     shade_background_slot(t, view, s.slot_begin[0], s.slot_begin[1]);
-    for (int k = 1; k < slots; ++k)
+    lap(s, FrameStage::background, -1, s.slot_begin[1] - s.slot_begin[0]);
+    for (int k = 1; k < slots; ++k) {
         kShadeSlots[f.technique](t, view, f.materials[s.slot_material[k]], s.slot_begin[k], s.slot_begin[k + 1]);
+        lap(s, FrameStage::shade, s.slot_material[k], s.slot_begin[k + 1] - s.slot_begin[k]);
+    }
     if (s.output_pairs) {
         record_depths(f, t.x0, t.y0, t.width, t.height, s);
         record_fragments(f, view, t.x0, t.y0, s);
     }
     resolve(f, t.x0, t.y0, t.width, t.height, s);
+    lap(s, FrameStage::resolve);
 }
 
 } // namespace
 
 const TileFns& tile_fns()
 {
-    static constexpr TileFns fns = {transform_vertices, setup_triangles, render_tile, record_vertices};
+    static constexpr TileFns fns = {transform_vertices, setup_triangles, render_tile, record_vertices, kLanes};
     return fns;
 }
 

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cstdlib>
 #include <cstring>
+#include <optional>
 
 #include "core/base/check.h"
 #include "core/math/scalar_math.h"
@@ -13,6 +14,7 @@
 #include "raster/frame/upload.h"
 #include "raster/tile/bins.h"
 #include "raster/tile/cull.h"
+#include "raster/tile/profiler.h"
 #include "raster/tile/tile_types.h"
 
 namespace burnish {
@@ -54,7 +56,7 @@ struct WorkerScratch {
             c->resize(samples);
         for (Column<std::int32_t>* c : {&fragment_triangle, &fragment_pixel, &fragment_mask, &order})
             c->resize(samples);
-        slot_begin.resize(materials + 2), slot_material.resize(materials + 1), slot_of_material.resize(materials);
+        slot_begin.resize(materials + 3), slot_material.resize(materials + 2), slot_of_material.resize(materials);
         std::fill(slot_of_material.begin(), slot_of_material.end(), -1);
         stats = {};
     }
@@ -66,11 +68,11 @@ struct WorkerScratch {
             triangles.resize(triangle_count), sources.resize(triangle_count);
         return {depth.data(), ids.data(), block_far.data(), block_dirty.data(), triangles.data(),
                 static_cast<std::uint32_t>(triangle_count), sources.data(), fragment_triangle.data(),
-                fragment_pixel.data(), fragment_mask.data(), register_passes.data(), pass_lanes.data(), red.data(), green.data(), blue.data(), order.data(),
-                slot_of_material.data(), slot_material.data(), slot_begin.data(), 0, 0,
+                fragment_pixel.data(), fragment_mask.data(), register_passes.data(), pass_lanes.data(), red.data(), green.data(),
+                blue.data(), order.data(), false, kNoMaterial, slot_of_material.data(), slot_material.data(), slot_begin.data(), 0, 0,
                 frame.color.f32(), frame.triangle_ids.empty() ? nullptr : frame.triangle_ids.data(),
                 frame.stages.depths.empty() ? nullptr : frame.stages.depths.data(),
-                frame.stages.pairs.empty() ? nullptr : frame.stages.pairs.data()};
+                frame.stages.pairs.empty() ? nullptr : frame.stages.pairs.data(), nullptr};
     }
 };
 
@@ -82,13 +84,13 @@ class TileRenderer final : public Renderer {
         const std::size_t n = input.tables.px.size();
         x_.resize(n), y_.resize(n), inv_w_.resize(n), z_.resize(n);
     }
-    Result<Frame> render(const FrameDesc& desc) override;
+    Result<Frame> render(const FrameDesc& desc, Frame recycled) override;
     std::string device() const override { return cpu_name() + " (" + isa_name(isa_) + ")"; }
 
   private:
     FrameParams frame_params(const FrameDesc& desc, const std::vector<MaterialRecord>& materials);
     void prepare_grid(const FrameDesc& desc, FrameParams& f);
-    void draw_tiles(const FrameParams& f, Frame& frame);
+    void draw_tiles(const FrameParams& f, Frame& frame, Profiler* profiler);
 
     RenderInput input_;
     Isa isa_;
@@ -147,21 +149,30 @@ void TileRenderer::prepare_grid(const FrameDesc& desc, FrameParams& f)
     f.grid = grid_.data(), f.grid_count = static_cast<std::int32_t>(grid_.size());
 }
 
-void TileRenderer::draw_tiles(const FrameParams& f, Frame& frame)
+void TileRenderer::draw_tiles(const FrameParams& f, Frame& frame, Profiler* profiler)
 {
     const TraceSpan span("tiles");
     workers_.resize(static_cast<std::size_t>(input_.jobs.threads()));
     const std::size_t tiles = static_cast<std::size_t>(f.tiles_x) * static_cast<std::size_t>(f.tiles_y);
-    for (WorkerScratch& w : workers_)
-        w.prepare(f.tile_size, f.msaa, scene_.materials.size());
+    {
+        ProfiledWork work(profiler, 0);
+        for (WorkerScratch& w : workers_)
+            w.prepare(f.tile_size, f.msaa, scene_.materials.size());
+        work.lap(FrameStage::prepare);
+    }
     input_.jobs.parallel_for(tiles, [&](std::size_t i, int worker) {
         const TraceSpan tile_span("tile");
+        ProfiledWork work(profiler, worker);
         WorkerScratch& w = workers_[static_cast<std::size_t>(worker)];
         TileScratch scratch = w.view(frame, bins_.triangles_in(i));
+        scratch.clock = profiler ? profiler->clock(worker) : nullptr;
         bins_.gather_tile(i, w.triangles.data(), w.sources.data());
+        work.lap(FrameStage::gather);
         fns_.render_tile(f, static_cast<int>(i) % f.tiles_x, static_cast<int>(i) / f.tiles_x, scratch);
         w.stats.visible_fragments += scratch.fragment_count - scratch.background_pixels;
         w.stats.background_pixels += scratch.background_pixels;
+        if (profiler)
+            profiler->end_tile(worker, i);
     });
     for (const WorkerScratch& w : workers_) {
         frame.stats.visible_fragments += w.stats.visible_fragments;
@@ -169,31 +180,57 @@ void TileRenderer::draw_tiles(const FrameParams& f, Frame& frame)
     }
 }
 
-Result<Frame> TileRenderer::render(const FrameDesc& desc)
+std::size_t tiles_of(const FrameDesc& d)
+{
+    const auto side = [&](int pixels) { return static_cast<std::size_t>((pixels + d.tile_size - 1) / d.tile_size); };
+    return side(d.width) * side(d.height);
+}
+
+// Memory for a frame. Every pixel will be written, so what a frame of the same size leaves in it may stay.
+Frame frame_for(const FrameDesc& desc, Frame recycled)
+{
+    Frame frame;
+    frame.color = std::move(recycled.color);
+    if (frame.color.width != desc.width || frame.color.height != desc.height || frame.color.channels != 3 ||
+        frame.color.type != PixelType::f32 || frame.color.empty())
+        frame.color = make_image(desc.width, desc.height, 3, PixelType::f32);
+    const std::size_t samples = static_cast<std::size_t>(desc.width) * static_cast<std::size_t>(desc.height) *
+                                static_cast<std::size_t>(desc.msaa);
+    if (desc.triangle_ids || desc.stages)
+        frame.triangle_ids.resize(samples);
+    if (desc.stages)
+        frame.stages.depths.resize(samples), frame.stages.pairs.resize(samples * kPairWords);
+    return frame;
+}
+
+Result<Frame> TileRenderer::render(const FrameDesc& desc, Frame recycled)
 {
     if (const Status ok = check_desc(desc); !ok)
         return ok.error();
     const TraceSpan span("frame");
     const auto begin = std::chrono::steady_clock::now();
-    Frame frame;
-    frame.color = make_image(desc.width, desc.height, 3, PixelType::f32);
-    const std::size_t samples = static_cast<std::size_t>(desc.width) * static_cast<std::size_t>(desc.height) *
-                                static_cast<std::size_t>(desc.msaa);
-    if (desc.triangle_ids || desc.stages)
-        frame.triangle_ids.resize(samples);
-    if (desc.stages) {
-        frame.stages.vertices.resize(input_.tables.px.size() * kVertexWords);
-        frame.stages.depths.resize(samples), frame.stages.pairs.resize(samples * kPairWords);
-    }
+    std::optional<Profiler> measured;
+    if (desc.profile)
+        measured.emplace(input_.jobs.threads(), tiles_of(desc), scene_.materials.size(), fns_.lanes);
+    Profiler* const profiler = measured ? &*measured : nullptr;
+    ProfiledWork before(profiler, 0);
+    Frame frame = frame_for(desc, std::move(recycled));
     const std::vector<MaterialRecord> materials = overridden(scene_.materials, desc);
     FrameParams f = frame_params(desc, materials);
     prepare_grid(desc, f);
+    before.lap(FrameStage::prepare);
     const Visible visible = cull(input_.tables, desc.view);
-    transform_draws(f, input_.tables, visible, fns_, input_.jobs);
-    bins_.build(f, input_.tables, visible, fns_, input_.jobs);
-    draw_tiles(f, frame);
-    if (desc.stages)
+    before.lap(FrameStage::cull);
+    before.end();
+    transform_draws(f, input_.tables, visible, fns_, input_.jobs, profiler);
+    bins_.build(f, input_.tables, visible, fns_, input_.jobs, profiler);
+    draw_tiles(f, frame, profiler);
+    if (desc.stages) {
+        frame.stages.vertices.resize(input_.tables.px.size() * kVertexWords);
         fns_.record_vertices(f, static_cast<std::uint32_t>(input_.tables.px.size()), frame.stages.vertices.data());
+    }
+    if (profiler)
+        frame.profile = profiler->sum();
     frame.stats.triangles = input_.tables.triangle_count();
     frame.stats.triangles_drawn = bins_.triangle_count();
     frame.stats.ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();

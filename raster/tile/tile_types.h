@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "raster/frame/records.h"
+#include "raster/frame/stages.h"
 
 namespace burnish {
 
@@ -88,9 +89,17 @@ struct FrameParams {
     float anisotropy;
 };
 
+inline constexpr std::int32_t kNoMaterial = -1, kManyMaterials = -2; // instead of one
+
 struct TriangleSource { // where a tile's triangle comes from
     const ClipRecord* clips; // the clip table of its chunk
     std::uint32_t triangle;  // global id
+};
+
+// Told of the end of every stage of a tile while a frame is profiled: the material whose fragments were shaded, or -1; the lanes that
+// were in use, and all of them.
+struct TileClock {
+    void (*lap)(TileClock& self, FrameStage stage, std::int32_t material, std::uint32_t used, std::uint32_t all);
 };
 
 // Scratch memory of one worker; sized for the worst case of a tile, so tile loops never allocate.
@@ -109,6 +118,8 @@ struct TileScratch {
     std::uint32_t* pass_lanes;       // by pass: the pixels of the register that have a fragment in it, bit i = lane i
     float *red, *green, *blue;       // shaded colour by fragment
     std::int32_t* order;             // fragments sorted by material slot
+    bool in_list_order;              // `order` would hold 0, 1, 2... and is not written
+    std::int32_t only_material;      // of all triangles of the tile; or kNoMaterial, kManyMaterials
     std::int32_t* slot_of_material;  // by material; -1 outside of a tile
     std::int32_t* slot_material;     // by slot
     std::uint32_t* slot_begin;       // by slot, into `order`
@@ -116,6 +127,7 @@ struct TileScratch {
     float* output;                   // the frame's RGB pixels
     std::uint32_t* output_ids;       // the frame's triangle ids [pixel][sample], or null
     std::uint32_t *output_depths, *output_pairs; // its stage records, or null
+    TileClock* clock;                // null unless the frame is profiled
 };
 
 struct TileFns { // one table an instruction set
@@ -123,6 +135,7 @@ struct TileFns { // one table an instruction set
     void (*setup_triangles)(const FrameParams&, std::uint32_t first, std::uint32_t count, ChunkOutput&);
     void (*render_tile)(const FrameParams&, int tile_x, int tile_y, TileScratch&);
     void (*record_vertices)(const FrameParams&, std::uint32_t count, std::uint32_t* out); // StageRecords::vertices
+    int lanes; // kLanes
 };
 
 // Clips one triangle in homogeneous space and appends its pieces (baseline code, called from the lanes for the rare triangle).

@@ -49,7 +49,7 @@ class VulkanRenderer final : public Renderer {
     {
         make_setups(static_cast<std::uint32_t>(input.tables.triangle_count()) + kMinSetups);
     }
-    Result<Frame> render(const FrameDesc& desc) override;
+    Result<Frame> render(const FrameDesc& desc, Frame recycled) override;
     std::string device() const override { return context_.info().name + ", " + context_.info().driver; }
 
   private:
@@ -318,7 +318,7 @@ Frame VulkanRenderer::render_forward(const FrameDesc& desc)
     return frame;
 }
 
-Result<Frame> VulkanRenderer::render(const FrameDesc& desc)
+Result<Frame> VulkanRenderer::render(const FrameDesc& desc, Frame)
 {
     if (const Status ok = check_desc(desc); !ok)
         return ok.error();

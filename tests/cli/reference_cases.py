@@ -15,7 +15,7 @@ def needs_embree(bench):
         raise Skipped("built without Embree")
 
 
-@case("reference.pictures_and_figures")
+@case("reference.pictures_and_figures", "program", "input")
 def pictures(bench):
     needs_embree(bench)
     found = bench.figures(*SMALL, "--samples", "256", "-o", "mean.exr", "--variance", "variance.exr")

@@ -13,6 +13,7 @@ import model_cases
 import output_cases
 import parity_cases
 import pixel_cases
+import profile_cases
 import reference_cases
 import usage_cases
 

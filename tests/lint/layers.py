@@ -21,7 +21,7 @@ THIRD_PARTY = (
     (r"tbb/|oneapi/", ("core/jobs",)),
     (r".*intrin\.h$|cpuid\.h$", ("core/simd",)),
     (r"vulkan/", ("raster/vulkan",)),
-    (r"embree", ("raster/reference",)),
+    (r"embree", ("raster/reference", "bench")), # bench races rays against the tile renderer
     (r"CLI/", ("apps",)),
     (r"nlohmann/", ("core", "apps", "tests", "bench")),
     (r"gtest/|gmock/", ("tests",)),

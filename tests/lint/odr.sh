@@ -12,7 +12,7 @@ fi
 # Upper-case kinds are global; u, v and w are unique or weak. DW.ref.* are the unwinder's pointers: no instructions in them.
 leaks_of() {
     nm --defined-only "$1" | awk 'NF >= 2 { print $(NF - 1), $NF }' | grep -E '^[A-Zuvw] ' |
-        grep -vE '^. (_Z[A-Z]*7burnish(9bn_scalar|7bn_avx2|9bn_avx512|9bn_double)|DW\.ref\.)'
+        grep -vE '^. (_Z[A-Z]*7burnish(9bn_scalar|7bn_avx2|9bn_avx512|9bn_double|10bn_counted)|DW\.ref\.)'
 }
 
 status=0
@@ -36,7 +36,7 @@ for argument in "$@"; do
         echo "passed over: sanitizers add symbols of their own"
         exit 0
     fi
-    for object in $(find "$argument" -regex '.*_\(scalar\|avx2\|avx512\|double\)\.dir/.*\.o'); do
+    for object in $(find "$argument" -regex '.*_\(scalar\|avx2\|avx512\|double\|counted\)\.dir/.*\.o'); do
         check "$object"
     done
 done

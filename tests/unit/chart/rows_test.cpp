@@ -80,7 +80,8 @@ TEST(chart_rows, kept_rows_come_back_as_they_were)
 TEST(chart_rows, a_file_that_holds_something_else_is_an_error)
 {
     for (const char* text : {"", "[]", "{}", "{\"kept_version\": 1, \"rows\": {\"a\": {}}}", "{\"kept_version\": 1, \"rows\": 3}",
-                             "{\"kept_version\": 1, \"rows\": {\"a\": {\"ms\": [\"x\"], \"cpu_ms\": []}}}"})
+                             "{\"kept_version\": 1, \"rows\": {\"a\": {\"ms\": [\"x\"], \"cpu_ms\": []}}}",
+                             "{\"kept_version\": 1, \"rows\": {\"a\": {\"ms\": [1, 2], \"cpu_ms\": [1]}}}"})
         EXPECT_FALSE(parse_kept(text, "rows.json")) << text;
     const Result<KeptRows> newer = parse_kept("{\"kept_version\": 99, \"rows\": {\"a\": 1}}", "rows.json");
     ASSERT_TRUE(newer); // of another version: nothing is kept

@@ -100,7 +100,10 @@ TEST(hash, of_a_second_frame_equals_the_first)
     const FrameDesc small = desc_of(kCases[0], *stage);
     FrameDesc other = small;
     other.msaa = 2, other.width = 90;
-    const Result<Frame> a = renderer->render(small), b = renderer->render(other), c = renderer->render(small);
+    const Result<Frame> a = renderer->render(small), b = renderer->render(other);
+    Result<Frame> recycled = renderer->render(other);
+    ASSERT_TRUE(recycled);
+    const Result<Frame> c = renderer->render(small, std::move(*recycled)); // memory of another size, with another picture in it
     ASSERT_TRUE(a && b && c);
     EXPECT_EQ(pixel_hash(a->color), pixel_hash(c->color));
     EXPECT_NE(pixel_hash(a->color), pixel_hash(b->color));

@@ -10,7 +10,9 @@
 #include <thread>
 
 #include "core/scene/builtin.h"
+#include "raster/reference/accumulator.h"
 #include "raster/reference/checkpoint.h"
+#include "raster/reference/scene_key.h"
 #include "tests/unit/reference/scenes.h"
 
 namespace burnish::test {
@@ -246,6 +248,70 @@ TEST(target_error, ends_early_and_is_met)
     }
     EXPECT_GT(static_cast<double>(inside) / static_cast<double>(n), 0.93);
     EXPECT_LT(static_cast<double>(inside) / static_cast<double>(n), 0.97);
+}
+
+// Where a run ends must not depend on where it was stopped: what a stop left uneven is finished before its error is looked at.
+TEST(target_error, is_looked_at_after_whole_rounds_only)
+{
+    BN_NEEDS_EMBREE();
+    const Stage stage(small_scene(), 1.0f, 2);
+    const FrameDesc d = small_desc();
+    const RenderInput input{stage.scene, stage.tables, stage.environment, stage.dfg, stage.jobs};
+    const std::uint64_t round = (1u << 22) / (37 * 21 * kPassSamples) * kPassSamples; // samples a pixel
+    const TempFile file("uneven");
+    ReferenceOptions o = options_of(ReferenceMode::direct, round);
+    o.checkpoint = file.path();
+    const std::uint64_t key = reference_key(input, d, o);
+    Accumulator one(d.width, d.height), uneven(d.width, d.height);
+    render_reference(stage, d, o);
+    ASSERT_TRUE(*read_checkpoint(file.path(), key, one));
+    o.samples = 2 * round;
+    render_reference(stage, d, o);
+    ASSERT_TRUE(*read_checkpoint(file.path(), key, uneven)); // after a whole second round, but for one block
+    uneven.passes[0] = one.passes[0];
+    const PixelBlock first = block_of(one, 0, 0);
+    for (int y = first.y0; y < first.y0 + first.height; ++y)
+        for (int x = first.x0; x < first.x0 + first.width; ++x)
+            uneven.pixels[static_cast<std::size_t>(y * d.width + x)] = one.pixels[static_cast<std::size_t>(y * d.width + x)];
+    const double before = mean_relative_error(one), between = mean_relative_error(uneven);
+    ASSERT_LT(between, before);
+    ASSERT_TRUE(write_checkpoint(file.path(), key, uneven));
+    o.samples = 8 * round;
+    o.target_error = 0.5 * (before + between);
+    const Frame resumed = render_reference(stage, d, o);
+    o.checkpoint.clear();
+    const Frame at_once = render_reference(stage, d, o);
+    EXPECT_EQ(at_once.stats.sampling.samples, 2 * round);
+    EXPECT_EQ(resumed.stats.sampling.samples, 2 * round);
+    EXPECT_EQ(pixel_hash(resumed.color), pixel_hash(at_once.color));
+}
+
+// A pass of a large picture takes minutes: its checkpoint is written on the way, not only between passes.
+TEST(checkpoint, of_a_large_picture_is_written_within_a_pass)
+{
+    BN_NEEDS_EMBREE();
+    const Stage stage(small_scene(), 1.0f, 2);
+    const TempFile file("large");
+    FrameDesc d = desc_of(640, 512, make_view(glm::vec3(1.0f, 0.8f, 4.0f), glm::vec3(0.0f), 0.7f, 640, 512));
+    ReferenceOptions o = options_of(ReferenceMode::direct, kPassSamples);
+    std::atomic<bool> stop{false}, done{false};
+    o.stop = &stop;
+    o.checkpoint = file.path();
+    o.checkpoint_seconds = 0.0;
+    std::thread watcher([&] {
+        while (!done && !std::filesystem::exists(file.path()))
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        stop = true;
+    });
+    const Frame part = render_reference(stage, d, o);
+    done = true;
+    watcher.join();
+    EXPECT_TRUE(part.stats.sampling.stopped) << "nothing was written before the pass was over";
+    EXPECT_EQ(part.stats.sampling.samples, 0u);
+    o.stop = nullptr;
+    const Frame resumed = render_reference(stage, d, o);
+    o.checkpoint.clear();
+    EXPECT_EQ(pixel_hash(resumed.color), pixel_hash(render_reference(stage, d, o).color));
 }
 
 } // namespace

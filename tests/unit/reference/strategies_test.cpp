@@ -102,6 +102,15 @@ TEST(strategies, agree_on_the_textured_plate)
     expect_agreement(stage, d, ReferenceMode::direct, 32768, "plate"); // brdf finds the lamp rarely
 }
 
+double mean_of(const Frame& frame)
+{
+    double mean = 0.0;
+    const std::size_t n = frame.color.bytes.size() / sizeof(float);
+    for (std::size_t i = 0; i < n; ++i)
+        mean += static_cast<double>(frame.color.f32()[i]) / static_cast<double>(n);
+    return mean;
+}
+
 // Under no occlusion the technique `mc` of the tile renderer estimates the same integral, one shading point a pixel.
 TEST(strategies, agree_with_the_tile_renderer_s_mc)
 {
@@ -121,13 +130,48 @@ TEST(strategies, agree_with_the_tile_renderer_s_mc)
         d.technique = "mc";
         d.samples = 16384;
         const Frame tile = stage.render(d, best_isa());
-        double mean = 0.0;
-        const std::size_t n = tile.color.bytes.size() / sizeof(float);
-        for (std::size_t i = 0; i < n; ++i)
-            mean += static_cast<double>(tile.color.f32()[i]) / static_cast<double>(n);
+        const double mean = mean_of(tile);
         EXPECT_NEAR(reference.mean, mean, 4.0 * reference.deviation + 1e-3 * mean) << "tilt " << tilt.x << " " << tilt.y;
         std::printf("tilt %.2f %.2f: reference %.5f +- %.5f, mc %.5f\n", static_cast<double>(tilt.x), static_cast<double>(tilt.y), reference.mean,
                     reference.deviation, mean);
+    }
+}
+
+// A mirror's one direction, and a lamp without size, see of a tilted lobe what masking leaves, in both renderers.
+TEST(strategies, agree_with_the_tile_renderer_on_tilted_mirrors_and_under_lights)
+{
+    BN_NEEDS_EMBREE();
+    Scene lit = plane_scene(metal(0.5f, 0.7f));
+    Light lamp;
+    lamp.intensity = 3.0f;
+    lit.lights.push_back(lamp);
+    Node node;
+    node.light = 0;
+    node.local[3] = glm::vec4(-0.7f, 0.2f, 1.5f, 1.0f);
+    lit.nodes.push_back(node);
+    update_world(lit);
+    const Stage stages[] = {Stage(plane_scene(metal(0.0f, 0.0f)), 1.0f, 2), Stage(lit, 0.0f, 2)};
+    for (const Stage& stage : stages) {
+        const bool mirror = &stage == stages;
+        double level = 0.0, least = 1e9;
+        for (const glm::vec2 tilt : {glm::vec2(0.0f), glm::vec2(0.1f, 0.2f), glm::vec2(-0.1f, -0.2f), glm::vec2(0.2f, -0.1f)}) {
+            FrameDesc d = desc_of(8, 8, view_from({0.8f, 0.1f, 0.6f}, 0.02f));
+            d.roughness = mirror ? 0.0f : 0.5f, d.anisotropy = 0.7f, d.override_anisotropy = true;
+            d.tilt_rad = tilt;
+            d.technique = "mc", d.samples = 64;
+            ReferenceOptions o;
+            o.samples = 1024;
+            const double tile = mean_of(stage.render(d, best_isa()));
+            for (const ReferenceMode mode : {ReferenceMode::direct, ReferenceMode::path}) {
+                o.mode = mode;
+                EXPECT_NEAR(estimate(render_reference(stage, d, o)).mean, tile, 5e-3 * tile)
+                    << (mirror ? "mirror" : "lamp") << ", tilt " << tilt.x << " " << tilt.y << ", mode " << static_cast<int>(mode);
+            }
+            level = tilt == glm::vec2(0.0f) ? tile : level;
+            least = std::min(least, tile);
+        }
+        EXPECT_LT(least, 0.8 * level) << "no tilt dims anything here";
+        EXPECT_GT(least, 0.0);
     }
 }
 

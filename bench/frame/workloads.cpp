@@ -1,0 +1,92 @@
+#include "bench/frame/workloads.h"
+
+namespace burnish {
+
+const std::vector<Workload>& workloads()
+{
+    using S = BenchScene;
+    constexpr int W = 1920, H = 1080;
+    static const std::vector<Workload> table = {
+        {"trivial_1x", "trivial", S::constant, 0, W, H, 1},
+        {"trivial_8x", "trivial", S::constant, 0, W, H, 8},
+        // Depth alone cannot be drawn: one unlit colour is the nearest, so visibility, listing and resolving of every pixel is in it.
+        {"triangles_1m_1x", "triangles", S::waves, 1036800, W, H, 1},
+        {"triangles_1m_4x", "triangles", S::waves, 1036800, W, H, 4},
+        {"teapot_1x", "msaa", S::teapot, 0, W, H, 1},
+        {"teapot_8x", "msaa", S::teapot, 0, W, H, 8},
+        {"layers_1", "overdraw", S::layers, 1, W, H, 1},
+        {"layers_10", "overdraw", S::layers, 10, W, H, 1},
+        {"bent_normal_eta05", "samples", S::sphere, 0, W, H, 1, "bent_normal", 0, 0.5f},
+        {"bent_normal_eta08", "samples", S::sphere, 0, W, H, 1, "bent_normal", 0, 0.8f},
+        {"major_axis_16_eta05", "samples", S::sphere, 0, W, H, 1, "major_axis", 16, 0.5f},
+        {"major_axis_16_eta08", "samples", S::sphere, 0, W, H, 1, "major_axis", 16, 0.8f},
+        {"adaptive_eta05", "samples", S::sphere, 0, W, H, 1, "major_axis_adaptive", 16, 0.5f},
+        {"adaptive_eta08", "samples", S::sphere, 0, W, H, 1, "major_axis_adaptive", 16, 0.8f},
+        {"weighted_16_eta05", "samples", S::sphere, 0, W, H, 1, "major_axis_weighted", 16, 0.5f},
+        {"weighted_16_eta08", "samples", S::sphere, 0, W, H, 1, "major_axis_weighted", 16, 0.8f},
+        {"one_thread_trivial_8x", "threads", S::constant, 0, W, H, 8, "bent_normal", 0, 0.0f, 1},
+        {"two_threads_trivial_8x", "threads", S::constant, 0, W, H, 8, "bent_normal", 0, 0.0f, 2},
+        {"one_thread_triangles", "threads", S::waves, 1036800, W, H, 1, "bent_normal", 0, 0.0f, 1},
+        {"two_threads_triangles", "threads", S::waves, 1036800, W, H, 1, "bent_normal", 0, 0.0f, 2},
+        {"one_thread_triangles_4x", "threads", S::waves, 1036800, W, H, 4, "bent_normal", 0, 0.0f, 1},
+        {"two_threads_triangles_4x", "threads", S::waves, 1036800, W, H, 4, "bent_normal", 0, 0.0f, 2},
+        {"one_thread_teapot_8x", "threads", S::teapot, 0, W, H, 8, "bent_normal", 0, 0.0f, 1},
+        {"two_threads_teapot_8x", "threads", S::teapot, 0, W, H, 8, "bent_normal", 0, 0.0f, 2},
+        {"one_thread_layers_10", "threads", S::layers, 10, W, H, 1, "bent_normal", 0, 0.0f, 1},
+        {"two_threads_layers_10", "threads", S::layers, 10, W, H, 1, "bent_normal", 0, 0.0f, 2},
+        {"one_thread_bent_normal", "threads", S::sphere, 0, W, H, 1, "bent_normal", 0, 0.5f, 1},
+        {"two_threads_bent_normal", "threads", S::sphere, 0, W, H, 1, "bent_normal", 0, 0.5f, 2},
+        {"one_thread_major_axis", "threads", S::sphere, 0, W, H, 1, "major_axis", 16, 0.5f, 1},
+        {"two_threads_major_axis", "threads", S::sphere, 0, W, H, 1, "major_axis", 16, 0.5f, 2},
+        {"one_thread_adaptive", "threads", S::sphere, 0, W, H, 1, "major_axis_adaptive", 16, 0.8f, 1},
+        {"two_threads_adaptive", "threads", S::sphere, 0, W, H, 1, "major_axis_adaptive", 16, 0.8f, 2},
+        // The picture grows with the triangles, so that each keeps its 2 pixels: the unit is one such triangle.
+        {"triangles_1e4", "triangle_count", S::waves, 10000, 192, 104, 1},
+        {"triangles_1e5", "triangle_count", S::waves, 100000, 600, 336, 1},
+        {"triangles_1e6", "triangle_count", S::waves, 1000000, 1888, 1064, 1},
+        {"triangles_1e7", "triangle_count", S::waves, 10000000, 5968, 3352, 1, "bent_normal", 0, 0.0f, 0, Engine::tile, 0, true},
+        {"pixels_0m25", "pixel_count", S::sphere, 0, 672, 384, 1, "bent_normal", 0, 0.5f},
+        {"pixels_2m", "pixel_count", S::sphere, 0, W, H, 1, "bent_normal", 0, 0.5f},
+        {"pixels_8m", "pixel_count", S::sphere, 0, 3840, 2160, 1, "bent_normal", 0, 0.5f},
+        {"pixels_33m", "pixel_count", S::sphere, 0, 7680, 4320, 1, "bent_normal", 0, 0.5f, 0, Engine::tile, 0, true},
+        {"visibility_tile", "rays", S::waves, 1036800, W, H, 1},
+        {"visibility_rays_1", "rays", S::waves, 1036800, W, H, 1, "", 0, 0.0f, 0, Engine::rays, 1},
+        {"visibility_rays_8", "rays", S::waves, 1036800, W, H, 1, "", 0, 0.0f, 0, Engine::rays, 8},
+        {"visibility_rays_16", "rays", S::waves, 1036800, W, H, 1, "", 0, 0.0f, 0, Engine::rays, 16},
+    };
+    return table;
+}
+
+const std::vector<Aim>& aims()
+{
+    using M = Measure;
+    static const std::vector<Aim> table = {
+        {"trivial", "constant colour, 1x", M::cpu_ms, "trivial_1x", "", 4.0},
+        {"trivial", "constant colour, 8x", M::cpu_ms, "trivial_8x", "", 8.0},
+        // A third of the CPU time that lavapipe (Mesa 22.3) took for such a mesh, depth only: 49 and 112 ms.
+        {"triangles", "1 M triangles of 2 pixels, one colour, 1x", M::cpu_ms, "triangles_1m_1x", "", 49.0 / 3.0},
+        {"triangles", "1 M triangles of 2 pixels, one colour, 4x", M::cpu_ms, "triangles_1m_4x", "", 112.0 / 3.0},
+        {"msaa", "teapot, bent_normal, 8x to 1x", M::cpu_ratio, "teapot_8x", "teapot_1x", 1.35},
+        {"overdraw", "ten layers back to front, to one", M::cpu_ratio, "layers_10", "layers_1", 1.3},
+        {"samples", "major_axis 16 to bent_normal, eta 0.5", M::cpu_ratio, "major_axis_16_eta05", "bent_normal_eta05", 3.0},
+        {"samples", "major_axis 16 to bent_normal, eta 0.8", M::cpu_ratio, "major_axis_16_eta08", "bent_normal_eta08", 3.0},
+        {"samples", "major_axis_adaptive to bent_normal, eta 0.5", M::cpu_ratio, "adaptive_eta05", "bent_normal_eta05", 1.5},
+        {"samples", "major_axis_adaptive to bent_normal, eta 0.8", M::cpu_ratio, "adaptive_eta08", "bent_normal_eta08", 2.0},
+        {"samples", "major_axis_weighted 16 to bent_normal, eta 0.5", M::cpu_ratio, "weighted_16_eta05", "bent_normal_eta05", 0.0},
+        {"samples", "major_axis_weighted 16 to bent_normal, eta 0.8", M::cpu_ratio, "weighted_16_eta08", "bent_normal_eta08", 0.0},
+        {"threads", "threads 1 to 2: constant colour, 8x", M::speedup, "two_threads_trivial_8x", "one_thread_trivial_8x", 1.9},
+        {"threads", "threads 1 to 2: 1 M triangles, 1x", M::speedup, "two_threads_triangles", "one_thread_triangles", 1.9},
+        {"threads", "threads 1 to 2: 1 M triangles, 4x", M::speedup, "two_threads_triangles_4x", "one_thread_triangles_4x", 1.9},
+        {"threads", "threads 1 to 2: teapot, 8x", M::speedup, "two_threads_teapot_8x", "one_thread_teapot_8x", 1.9},
+        {"threads", "threads 1 to 2: ten layers", M::speedup, "two_threads_layers_10", "one_thread_layers_10", 1.9},
+        {"threads", "threads 1 to 2: bent_normal", M::speedup, "two_threads_bent_normal", "one_thread_bent_normal", 1.9},
+        {"threads", "threads 1 to 2: major_axis 16", M::speedup, "two_threads_major_axis", "one_thread_major_axis", 1.9},
+        {"threads", "threads 1 to 2: major_axis_adaptive", M::speedup, "two_threads_adaptive", "one_thread_adaptive", 1.9},
+        {"triangle_count", "time of a triangle of 2 pixels, most to least", M::unit_spread, "triangles_1e", "", 1.5},
+        {"pixel_count", "time of a pixel, most to least", M::unit_spread, "pixels_", "", 1.5},
+        {"rays", "visibility of 1 M triangles against rays", M::times_faster, "visibility_tile", "visibility_rays_", 3.0},
+    };
+    return table;
+}
+
+} // namespace burnish

@@ -1,0 +1,49 @@
+// The table of workloads and what is asked of them: data only.
+#pragma once
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "bench/scenes/scenes.h"
+
+namespace burnish {
+
+enum class Engine { tile, rays };
+
+struct Workload {
+    const char* name;
+    const char* group; // workloads of a group are measured in turn: A B A B
+    BenchScene scene;
+    std::int64_t size = 0; // of the scene
+    int width = 1920, height = 1080, msaa = 1;
+    const char* technique = "bent_normal";
+    int samples = 0;   // 0: the technique's own
+    float eta = 0.0f;  // overrides the material where it is not 0, with alpha_lin 0.3
+    int threads = 0;   // 0: as --threads says
+    Engine engine = Engine::tile;
+    int packet = 0;    // rays traced together
+    bool slow = false; // not with --quick
+};
+
+enum class Measure {
+    cpu_ms,       // CPU time of a frame
+    cpu_ratio,    // of `workload` to `base`
+    speedup,      // wall time of `base` to that of `workload`
+    times_faster, // CPU time of the fastest of `base...` to that of `workload`
+    unit_spread,  // largest to smallest CPU time per unit over the workloads that begin with `workload`
+};
+
+struct Aim {
+    const char* group;
+    const char* what;
+    Measure measure;
+    const char* workload;
+    const char* base; // the other one, or the beginning of the others' names; empty: none
+    double limit;     // at most; for speedup and times_faster at least
+};
+
+const std::vector<Workload>& workloads();
+const std::vector<Aim>& aims();
+inline bool at_least(Measure m) { return m == Measure::speedup || m == Measure::times_faster; }
+
+} // namespace burnish

@@ -1,0 +1,88 @@
+// Draws small frames for valgrind to count their instructions, one thread and AVX2. Each workload is drawn once before it counts, so
+// memory has grown and pages are there; then one frame is counted and its figures go to a file of its own. See count.py.
+#include <cstdio>
+#include <fmt/format.h>
+#include <gnu/libc-version.h>
+
+#include "bench/frame/subject.h"
+#include "bench/scenes/figures.h"
+#include "raster/tile/tile_renderer.h"
+
+#if __has_include(<valgrind/callgrind.h>)
+#include <valgrind/callgrind.h>
+#define BN_HAVE_CALLGRIND 1
+#endif
+
+namespace burnish {
+namespace {
+
+std::vector<Workload> small_workloads()
+{
+    using S = BenchScene;
+    constexpr int W = 320, H = 180;
+    std::vector<Workload> list = {
+        {"constant_1x", "instructions", S::constant, 0, W, H, 1},
+        {"constant_8x", "instructions", S::constant, 0, W, H, 8},
+        {"triangles_1x", "instructions", S::waves, 28800, W, H, 1},
+        {"triangles_4x", "instructions", S::waves, 28800, W, H, 4},
+        {"layers_10", "instructions", S::layers, 10, W, H, 1},
+        {"teapot_8x", "instructions", S::teapot, 0, W, H, 8},
+    };
+    for (const TechniqueInfo& t : techniques())
+        list.push_back({t.name, "instructions", S::sphere, 0, 160, 90, 1, t.name, 0, 0.8f});
+    return list;
+}
+
+#ifdef BN_HAVE_CALLGRIND
+int run()
+{
+    if (!RUNNING_ON_VALGRIND) {
+        fmt::print(stderr, "bench_instructions: counts nothing without valgrind; see bench/instructions/count.py\n");
+        return static_cast<int>(ExitCode::usage);
+    }
+    if (!isa_available(Isa::avx2)) {
+        fmt::print(stderr, "bench_instructions: no AVX2 here\n");
+        return static_cast<int>(ExitCode::unavailable);
+    }
+    SubjectOptions options;
+    options.isa = Isa::avx2, options.threads = 1, options.coarse_environment = true;
+    for (const Workload& w : small_workloads()) {
+        Result<std::unique_ptr<Subject>> subject = make_subject(w, options);
+        if (!subject) {
+            fmt::print(stderr, "bench_instructions: {}\n", subject.error().line());
+            return static_cast<int>(subject.error().code);
+        }
+        (*subject)->frame();
+        CALLGRIND_START_INSTRUMENTATION;
+        CALLGRIND_ZERO_STATS;
+        (*subject)->frame();
+        CALLGRIND_DUMP_STATS_AT(w.name);
+        CALLGRIND_STOP_INSTRUMENTATION;
+    }
+    return 0;
+}
+#else
+int run()
+{
+    fmt::print(stderr, "bench_instructions: built without valgrind's headers\n");
+    return static_cast<int>(ExitCode::unavailable);
+}
+#endif
+
+} // namespace
+} // namespace burnish
+
+int main(int argc, char** argv)
+{
+    using namespace burnish;
+    if (argc == 1)
+        return run();
+    if (std::string(argv[1]) != "--made-with") {
+        fmt::print(stderr, "usage: bench_instructions [--made-with]\n");
+        return static_cast<int>(ExitCode::usage);
+    }
+    nlohmann::ordered_json made = machine_json(); // what the number of instructions depends on
+    made = {{"compiler", made["compiler"]}, {"build_type", made["build_type"]}, {"libc", gnu_get_libc_version()}};
+    fmt::print("{}\n", made.dump());
+    return 0;
+}

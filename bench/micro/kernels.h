@@ -1,0 +1,37 @@
+// Every technique as a function over arrays of surfaces: timed for each instruction set, and counted.
+#pragma once
+#include <cstdint>
+
+#include "raster/tile/tile_types.h"
+
+namespace burnish {
+
+struct KernelSurfaces { // n of them, a multiple of 16; unit vectors
+    const float *n[3], *v[3], *t[3]; // normal, to the eye, tangent
+    int count;
+    float sigma_u, sigma_v; // of every lobe
+};
+
+struct KernelWork { // of all surfaces so far; 0 but for the counting build
+    std::uint64_t operations, bytes;
+};
+
+using KernelFn = void (*)(const FrameParams&, const KernelSurfaces&, float* rgb); // rgb: 3 count
+struct KernelFns {
+    const KernelFn* techniques; // in the order of shading/models.def
+    KernelWork (*work)();
+};
+inline namespace bn_scalar {
+const KernelFns& kernel_fns();
+}
+inline namespace bn_avx2 {
+const KernelFns& kernel_fns();
+}
+inline namespace bn_avx512 {
+const KernelFns& kernel_fns();
+}
+inline namespace bn_counted {
+const KernelFns& kernel_fns();
+}
+
+} // namespace burnish

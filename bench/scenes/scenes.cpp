@@ -1,0 +1,118 @@
+#include "bench/scenes/scenes.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/scene/builtin_surface.h"
+
+namespace burnish {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+constexpr float kRightAngle = 1.57079633f; // a sheet at distance 1 is seen from -1 to 1
+
+Material brushed_metal()
+{
+    Material m;
+    m.base_color = glm::vec4(0.9f, 0.85f, 0.8f, 1.0f);
+    m.roughness = 0.3f;
+    m.anisotropy_strength = 0.8f;
+    return m;
+}
+
+Material constant_colour()
+{
+    Material m;
+    m.base_color = glm::vec4(0.25f, 0.5f, 0.75f, 1.0f);
+    m.unlit = true;
+    return m;
+}
+
+// A sheet of columns x rows quads at distance 1 - z, a little larger than the picture; `wave` metres high.
+void add_sheet(Scene& scene, int columns, int rows, double aspect, double z, double wave)
+{
+    const double half_y = 1.003 * (1.0 - z) + wave, half_x = half_y * aspect;
+    add_grid(scene, columns, rows, [=](int column, int row) {
+        const double u = static_cast<double>(column) / columns, v = static_cast<double>(row) / rows;
+        const double x = (2.0 * u - 1.0) * half_x, y = (2.0 * v - 1.0) * half_y;
+        SurfacePoint p;
+        p.position = {x, y, z + wave * std::sin(9.0 * x + 4.0 * y)};
+        p.normal = {0.0, 0.0, 1.0};
+        p.tangent = {1.0, 0.0, 0.0};
+        p.u = u, p.v = 1.0 - v;
+        return p;
+    });
+}
+
+void place(Scene& scene, const char* name)
+{
+    add_node(scene, name, add_mesh(scene, name, 0), glm::mat4(1.0f));
+}
+
+Scene make_waves(std::int64_t triangles, double aspect)
+{
+    Scene scene;
+    scene.materials.push_back(constant_colour());
+    begin_primitive(scene, 0);
+    const double rows = std::sqrt(static_cast<double>(triangles) / (2.0 * aspect));
+    add_sheet(scene, std::max(1, static_cast<int>(std::lround(rows * aspect))), std::max(1, static_cast<int>(std::lround(rows))), aspect,
+              0.0, triangles > 2 ? 0.02 : 0.0);
+    place(scene, "waves");
+    return scene;
+}
+
+Scene make_layers(std::int64_t count, double aspect)
+{
+    Scene scene;
+    scene.materials.push_back(brushed_metal());
+    for (std::int64_t i = 0; i < count; ++i) { // the nearest is the same whatever the number of sheets
+        begin_primitive(scene, 0);
+        add_sheet(scene, 64, 36, aspect, -0.1 * static_cast<double>(count - 1 - i), 0.0);
+    }
+    place(scene, "layers");
+    return scene;
+}
+
+Scene make_sphere()
+{
+    constexpr int kRings = 96, kSegments = 192;
+    Scene scene;
+    Material metal = brushed_metal();
+    metal.double_sided = true;
+    scene.materials.push_back(metal);
+    begin_primitive(scene, 0);
+    add_grid(scene, kSegments, kRings, [](int column, int row) {
+        const double theta = kPi * row / kRings, phi = 2.0 * kPi * column / kSegments;
+        SurfacePoint p;
+        p.position = p.normal = {std::sin(theta) * std::cos(phi), std::cos(theta), std::sin(theta) * std::sin(phi)};
+        p.tangent = {-std::sin(phi), 0.0, std::cos(phi)};
+        return p;
+    });
+    place(scene, "sphere");
+    return scene;
+}
+
+} // namespace
+
+Scene make_bench_scene(BenchScene kind, std::int64_t size, int width, int height)
+{
+    const double aspect = static_cast<double>(width) / height;
+    Scene scene = kind == BenchScene::constant ? make_waves(2, aspect)
+                  : kind == BenchScene::waves  ? make_waves(size, aspect)
+                  : kind == BenchScene::layers ? make_layers(size, aspect)
+                  : kind == BenchScene::sphere ? make_sphere()
+                                               : make_teapot();
+    update_world(scene);
+    return scene;
+}
+
+View bench_view(BenchScene kind, const DrawTables& tables, int width, int height)
+{
+    if (kind == BenchScene::teapot)
+        return auto_frame(tables, width, height);
+    if (kind == BenchScene::sphere)
+        return make_view({0.1f, 0.2f, 0.0f}, {1.0f, 0.1f, 0.3f}, 1.0f, width, height);
+    return make_view({0.0f, 0.0f, 1.0f}, {0.0f, 0.0f, 0.0f}, kRightAngle, width, height);
+}
+
+} // namespace burnish

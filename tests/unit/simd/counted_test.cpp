@@ -1,0 +1,23 @@
+// The counting lanes against work that is known by hand.
+#include <gtest/gtest.h>
+
+#include "tests/unit/simd/counted_ops.h"
+
+namespace burnish {
+namespace {
+
+void expect(const CountedWork& work, unsigned operations, unsigned bytes, float value)
+{
+    EXPECT_EQ(work.operations, operations);
+    EXPECT_EQ(work.bytes, bytes);
+    EXPECT_EQ(work.value, value);
+}
+
+TEST(Counted, DotProductIsThreeProductsAndTwoSums) { expect(count_dot(), 5, 24, 32.0f); }
+TEST(Counted, DivisionRootAndDifference) { expect(count_root(), 3, 0, 1.0f); }
+TEST(Counted, WhatIsNotArithmeticIsNotCounted) { expect(count_uncounted(), 0, 0, -6.0f); }
+// a channel of the left and of the right texels: two products and their sum, and the sum with what was there
+TEST(Counted, BilinearFootprint) { expect(count_texel_add(), 2 * 4 * 4, 32, 0.5f); }
+
+} // namespace
+} // namespace burnish
