@@ -4,11 +4,10 @@
 #include <memory>
 
 #include "apps/command.h"
+#include "apps/loaded_scene.h"
 #include "apps/outputs.h"
 #include "apps/parity_options.h"
 #include "apps/parity_report.h"
-#include "apps/report.h"
-#include "apps/seen_scene.h"
 #include "core/base/version.h"
 #include "core/image/flip.h"
 #include "core/image/metrics.h"
@@ -45,11 +44,11 @@ Result<ParityRow> compare(const Bench& bench, const ParityPlace& place, const Re
     desc.view = view;
     desc.triangle_ids = true;
     desc.stages = ids;
-    const Result<Frame> a = tile.render(desc, {});
+    const Result<Frame> a = tile.render(desc);
     if (!a)
         return a.error();
     desc.triangle_ids = ids;
-    const Result<Frame> b = vulkan.render(desc, {});
+    const Result<Frame> b = vulkan.render(desc);
     if (!b)
         return b.error();
     ParityRow row;

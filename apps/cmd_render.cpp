@@ -6,12 +6,12 @@
 #include <utility>
 
 #include "apps/command.h"
+#include "apps/loaded_scene.h"
 #include "apps/outputs.h"
 #include "apps/render_options.h"
 #include "apps/render_stats.h"
 #include "apps/report.h"
 #include "apps/scene_view.h"
-#include "apps/seen_scene.h"
 #include "apps/stop_signal.h"
 #include "core/image/image_io.h"
 #include "core/scene/gltf.h"

@@ -59,8 +59,8 @@ struct FrameDesc {
     int texture_anisotropy = 16;           // taps along the major axis at most, 1..16
     bool background = true;                // environment behind the scene; otherwise black
     bool triangle_ids = false;             // fill Frame::triangle_ids
-    bool stages = false;                   // fill Frame::stages, and the triangle ids
     bool profile = false;                  // fill Frame::profile, where the renderer can; never changes the picture
+    bool stages = false;                   // fill Frame::stages, and the triangle ids
 };
 // Whether a rasterizer can draw it: sizes, samples, names.
 Status check_desc(const FrameDesc& desc);
@@ -105,8 +105,8 @@ struct Frame {
     Image color;                           // f32 RGB, linear Rec.709 scene radiance
     Image variance;                        // of `color` as an estimate, by channel; empty where it is none
     Column<std::uint32_t> triangle_ids;    // [pixel][sample] global triangle id, 0xffffffff where nothing was hit
-    StageRecords stages;                   // with FrameDesc::stages
     FrameProfile profile;                  // empty unless asked for
+    StageRecords stages;                   // with FrameDesc::stages
     FrameStats stats;
 };
 

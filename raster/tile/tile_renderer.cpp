@@ -194,8 +194,8 @@ Frame frame_for(const FrameDesc& desc, Frame recycled)
     if (frame.color.width != desc.width || frame.color.height != desc.height || frame.color.channels != 3 ||
         frame.color.type != PixelType::f32 || frame.color.empty())
         frame.color = make_image(desc.width, desc.height, 3, PixelType::f32);
-    const std::size_t samples = static_cast<std::size_t>(desc.width) * static_cast<std::size_t>(desc.height) *
-                                static_cast<std::size_t>(desc.msaa);
+    const std::size_t samples =
+        static_cast<std::size_t>(desc.width) * static_cast<std::size_t>(desc.height) * static_cast<std::size_t>(desc.msaa);
     if (desc.triangle_ids || desc.stages)
         frame.triangle_ids.resize(samples);
     if (desc.stages)
@@ -215,6 +215,8 @@ Result<Frame> TileRenderer::render(const FrameDesc& desc, Frame recycled)
     Profiler* const profiler = measured ? &*measured : nullptr;
     ProfiledWork before(profiler, 0);
     Frame frame = frame_for(desc, std::move(recycled));
+    if (desc.stages)
+        frame.stages.vertices.resize(input_.tables.px.size() * kVertexWords);
     const std::vector<MaterialRecord> materials = overridden(scene_.materials, desc);
     FrameParams f = frame_params(desc, materials);
     prepare_grid(desc, f);
@@ -225,10 +227,8 @@ Result<Frame> TileRenderer::render(const FrameDesc& desc, Frame recycled)
     transform_draws(f, input_.tables, visible, fns_, input_.jobs, profiler);
     bins_.build(f, input_.tables, visible, fns_, input_.jobs, profiler);
     draw_tiles(f, frame, profiler);
-    if (desc.stages) {
-        frame.stages.vertices.resize(input_.tables.px.size() * kVertexWords);
+    if (desc.stages)
         fns_.record_vertices(f, static_cast<std::uint32_t>(input_.tables.px.size()), frame.stages.vertices.data());
-    }
     if (profiler)
         frame.profile = profiler->sum();
     frame.stats.triangles = input_.tables.triangle_count();

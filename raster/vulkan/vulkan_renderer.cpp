@@ -49,7 +49,7 @@ class VulkanRenderer final : public Renderer {
     {
         make_setups(static_cast<std::uint32_t>(input.tables.triangle_count()) + kMinSetups);
     }
-    Result<Frame> render(const FrameDesc& desc, Frame recycled) override;
+    Result<Frame> render(const FrameDesc& desc, Frame) override;
     std::string device() const override { return context_.info().name + ", " + context_.info().driver; }
 
   private:
