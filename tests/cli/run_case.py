@@ -11,6 +11,7 @@ import input_cases
 import limit_cases
 import model_cases
 import output_cases
+import parity_cases
 import pixel_cases
 import profile_cases
 import reference_cases

@@ -1,0 +1,171 @@
+"""The Vulkan renderer against the tile renderer, bit by bit, and that `burnish parity` sees what it is there to see."""
+
+import json
+import pathlib
+import re
+import shutil
+import subprocess
+import xml.etree.ElementTree as tree
+
+from harness import Skipped, case, check
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+COARSE = ("--env-size", "64", "--env-samples", "32")  # a bake of a second
+STAGES = ["clip positions", "visibility", "depth", "interpolants", "material inputs", "shaded colour", "resolved colour"]
+
+
+def parity(bench, *arguments, code=0, timeout=240.0, device="lavapipe"):
+    """Runs the command and gives its JSON; skips where the device or Vulkan is absent."""
+    done = bench.run("parity", *arguments, "--device", device, *COARSE, "--json", "parity.json", timeout=timeout)
+    if done.code == 77:
+        raise Skipped(done.err.strip())
+    done.expect(code)
+    return json.loads((bench.folder / "parity.json").read_text())
+
+
+def check_equal(report):
+    check(report["passed"], "the report does not say that it passed")
+    for row in report["rows"]:
+        name = f"{row['scene']} {row['technique']} {row['msaa']}x"
+        check([stage["name"] for stage in row["stages"]] == STAGES, f"{name}: other stages")
+        check(row["visibility_differ"] == 0 and row["first_difference"] is None, f"{name}: {row}")
+        check(row["samples"] == report["width"] * report["height"] * row["msaa"], f"{name}: wrong number of samples")
+        for stage in row["stages"][:3] + row["stages"][-2:]:
+            check(stage["values"] > 0, f"{name}: nothing was compared in {stage['name']}")
+
+
+@case("parity.every_technique")
+def every_technique(bench):
+    report = parity(bench, "--suite", "default", "--size", "96x64", "--msaa", "1,4", "--junit", "parity.xml", "--html", "parity.html")
+    check_equal(report)
+    techniques = {row["technique"] for row in report["rows"]}
+    check(len(techniques) == 8 and len(report["rows"]) == 5 * 8 * 2, f"{len(report['rows'])} rows of {techniques}")
+    suite = tree.parse(bench.folder / "parity.xml").getroot()
+    check(suite.get("failures") == "0" and int(suite.get("tests")) == len(report["rows"]) + 1, "the JUnit report counts otherwise")
+    check("<table>" in (bench.folder / "parity.html").read_text(), "no table in the page")
+
+
+@case("parity.models")
+def models(bench):
+    report = parity(bench, "--models", bench.shared("models"), "--size", "96x64", "--technique", "major_axis", "--msaa", "1,4")
+    check_equal(report)
+    check(len(report["rows"]) >= 2 * 12, "too few models")
+
+
+@case("parity.emulated_samples")
+def emulated_samples(bench):
+    report = parity(bench, "builtin:spheres", "--size", "64x48", "--technique", "bent_normal", "--msaa", "2,8,16")
+    check_equal(report)
+    check(all(row["samples_emulated"] for row in report["rows"]), "lavapipe takes 1 and 4 samples only")
+
+
+@case("parity.options_of_shading")
+def options_of_shading(bench):
+    lights = bench.shared("models/Lights.glb")
+    for options in (("--tilt", "20,-10"), ("--anisotropy", "0.7", "--roughness", "0.3", "--dfg", "fit"),
+                    ("--horizon", "--energy-compensation", "--texture-anisotropy", "4")):
+        check_equal(parity(bench, lights, "builtin:plate", "--size", "48x32", "--msaa", "1", *options))
+
+
+@case("parity.everything", "slow")
+def everything(bench):
+    report = parity(bench, "--suite", "default", "--models", bench.shared("models"), "--size", "256x144", timeout=1800.0)
+    check_equal(report)
+
+
+@case("parity.forward_looks_the_same")
+def forward_looks_the_same(bench):
+    report = parity(bench, "builtin:teapot", "--size", "160x96", "--technique", "split_isotropic,major_axis", "--msaa", "1", "--pipeline", "forward",
+                    "--sampler", "native")
+    for row in report["rows"]:
+        check(0 < row["flip_mean"] < 0.002 and row["pixels_differ"] > 0, f"mean FLIP {row['flip_mean']}")
+
+
+@case("parity.validation_layer_is_silent")
+def validation_layer_is_silent(bench):
+    for extra in (("--msaa", "1,4,8"), ("--msaa", "1", "--pipeline", "forward"), ("--msaa", "1", "--pipeline", "forward", "--sampler", "native")):
+        parity(bench, "builtin:teapot", "--size", "48x32", "--technique", "split_isotropic,filtered_is", "--validate", *extra)
+
+
+@case("parity.unknown_device")
+def unknown_device(bench):
+    done = bench.run("parity", "builtin:teapot", "--device", "abacus", "--size", "16x16", "--msaa", "1", *COARSE)
+    done.expect(77).expect_one_line()
+
+
+@case("parity.wrong_options")
+def wrong_options(bench):
+    for arguments, needle in ((("--suite", "none"), "--suite"), (("--technique", "none"), "--technique"), (("--msaa", "3"), "--msaa"),
+                              (("--pipeline", "backward"), "--pipeline"), (("--sampler", "native"), "--sampler")):
+        done = bench.run("parity", *arguments)
+        if done.code == 77:
+            raise Skipped(done.err.strip())
+        done.expect(2).expect_one_line(needle)
+    bench.run("render", "--device", "lavapipe").expect(2).expect_one_line("--device")
+
+
+# What `parity` must catch. Each defect: files of the shading text, what is replaced in them, samples a pixel, the first stage that must
+# differ, and where the defect is to be in one shader only, that one.
+MIRROR = "2 * (frame.center_x >> 8) - 1 - "
+DEFECTS = {
+    # drawn mirrored and read mirrored: samples on left edges fall to the other triangle, all else stays
+    "top_left_rule": ([("stages/visibility.vert", "vec4(x, y, ", "vec4(-x, y, "),
+                       ("stages/visibility.frag", "px = int(gl_FragCoord.x)", f"px = {MIRROR}int(gl_FragCoord.x)"),
+                       ("stages/gather.comp", "ivec2(pixel % frame.width", f"ivec2({MIRROR}pixel % frame.width")], "1", {"visibility"}),
+    "one_ulp_in_a_kernel_constant": ([("kernels/lobe.k.h", "0.70710678118654752", "0.7071068406")], "1", {"shaded colour"}),
+    "one_ulp_in_the_vertex_kernel": ([("kernels/vertex.k.h", "lit(1.0) / select(in_front", "lit(0.99999994) / select(in_front")], "1", {"clip positions"}),
+    "swapped_sample_positions": ([("stages/gather.comp", "copy_sample(pixel, at, s, s)", "copy_sample(pixel, at, s, s < 2 ? 1 - s : s)")], "4",
+                                 {"visibility"}),
+    "another_depth": ([("stages/visibility.frag", "real at_sample = z + sample_z;", "real at_sample = (z + sample_z) * 0.99999994;")], "1", {"depth"}),
+    "no_contraction_missing": ([("lang/glsl.h", "#define real precise float", "#define real float"),
+                                ("lang/glsl.h", "#define real2 precise vec2", "#define real2 vec2"),
+                                ("lang/glsl.h", "#define real3 precise vec3", "#define real3 vec3"),
+                                ("lang/glsl.h", "#define real4 precise vec4", "#define real4 vec4")], "1",
+                               {"interpolants", "material inputs", "shaded colour"}, "shade"),
+}
+
+
+def compile_stages(source, folder, only=None):
+    """Every shader of stages.txt, or one of them, from the shading text below `source`."""
+    for line in (ROOT / "raster/vulkan/stages.txt").read_text().splitlines():
+        if not re.match("[a-z]", line):
+            continue
+        name, file, *defines = line.split()
+        if only not in (None, name):
+            continue
+        subprocess.run(["glslc", "-w", "--target-env=vulkan1.3", f"-I{source}", *defines, source / "shading/stages" / file, "-o", folder / f"{name}.spv"],
+                       check=True)
+
+
+def compare_changed(bench, replacements, msaa, code, only=None):
+    if not shutil.which("glslc"):
+        raise Skipped("no glslc here")
+    source, shaders = bench.folder / "source", bench.folder / "shaders"
+    shutil.copytree(ROOT / "shading", source / "shading", ignore=shutil.ignore_patterns("bake"))
+    shaders.mkdir()
+    for file, old, new in replacements:
+        path = source / "shading" / file
+        text = path.read_text()
+        check(old in text, f"{file} does not hold '{old}' any more")
+        path.write_text(text.replace(old, new))
+    compile_stages(ROOT, shaders)
+    compile_stages(source, shaders, only)
+    return parity(bench, "builtin:teapot", "builtin:plate", "--size", "128x96", "--technique", "major_axis", "--msaa", msaa, "--shaders", shaders, code=code)
+
+
+@case("parity.sees_nothing_where_nothing_is")
+def sees_nothing_where_nothing_is(bench):
+    check_equal(compare_changed(bench, [], "1,4", 0))
+
+
+def add_defect(name, replacements, msaa, stages, only=None):
+    @case(f"parity.sees.{name}")
+    def sees(bench):
+        report = compare_changed(bench, replacements, msaa, 1, only)
+        first = [row["first_difference"] for row in report["rows"]]
+        first = min((f for f in first if f), key=STAGES.index, default=None)
+        check(first in stages, f"expected the first difference in {stages}, found it in {first}")
+
+
+for defect, what in DEFECTS.items():
+    add_defect(defect, *what)

@@ -1,0 +1,29 @@
+"""Every stage: each operation on reals carries NoContraction, and GLSL's own functions are only the exact ones. usage: spirv_check.py ROOT"""
+import sys
+
+import stages
+from stages import glslc_check
+
+INTEGER_FUNCTIONS = {"FindILsb"}  # exact by nature
+
+
+def main():
+    if glslc_check.tools_missing():
+        return 77
+    root, bad, operations = sys.argv[1], 0, 0
+    glslc_check.EXACT_FUNCTIONS |= INTEGER_FUNCTIONS
+    for name, file, defines in stages.lines(root):
+        faults, looked_at = glslc_check.faults_in(stages.assembly(root, file, defines))
+        operations += looked_at
+        for fault in faults:
+            print(f"{name}: {fault}")
+        bad += len(faults)
+        print(f"{name}: {looked_at} rounded operations, {len(faults)} faults")
+    if operations < 1000:
+        print("hardly anything was looked at")
+        return 1
+    return 1 if bad else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
