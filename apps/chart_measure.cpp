@@ -10,8 +10,8 @@
 #include <unistd.h>
 
 #include "apps/chart_pictures.h"
+#include "apps/loaded_scene.h"
 #include "apps/render_stats.h"
-#include "apps/seen_scene.h"
 #include "apps/stop_signal.h"
 #include "core/base/file.h"
 #include "core/base/hash.h"

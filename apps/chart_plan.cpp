@@ -15,17 +15,6 @@ constexpr std::int64_t kMaxSamples = 65536;    // as of `burnish render`
 constexpr std::size_t kMaxValues = 64;         // of one sweep: more is a slip of the keyboard
 const std::vector<int> kUsualSamples = {1, 2, 4, 8, 16, 32, 64};
 
-std::vector<std::string> split(const std::string& text, char at)
-{
-    std::vector<std::string> parts(1);
-    for (const char c : text)
-        if (c == at)
-            parts.emplace_back();
-        else
-            parts.back() += c;
-    return parts;
-}
-
 Error sweep_error(const std::string& reason)
 {
     return usage_error("--sweep", reason);
@@ -85,7 +74,7 @@ Status parse_sweep(const std::string& text, Sweeps& into)
                                : read_numbers(values, -1.0, 1.0, into.anisotropy);
 }
 
-Result<std::vector<std::string>> parse_techniques(const std::string& text)
+Result<std::vector<std::string>> parse_techniques(const std::string& text, const std::string& option)
 {
     std::vector<std::string> known, chosen;
     for (const TechniqueInfo& technique : techniques())
@@ -95,7 +84,7 @@ Result<std::vector<std::string>> parse_techniques(const std::string& text)
     const std::vector<std::string> wanted = split(text, ',');
     for (const std::string& name : wanted)
         if (!find_technique(name))
-            return usage_error("--techniques", fmt::format("'{}' is not one of all, {}", name, join(known)));
+            return usage_error(option, fmt::format("'{}' is not one of all, {}", name, join(known)));
     for (const std::string& name : known)
         if (std::find(wanted.begin(), wanted.end(), name) != wanted.end())
             chosen.push_back(name);

@@ -17,7 +17,7 @@ struct Sweeps { // values in the order given, each once; empty: not swept
 Status parse_sweep(const std::string& text, Sweeps& into);
 
 // "all" or names by commas, in the registry's order.
-Result<std::vector<std::string>> parse_techniques(const std::string& text);
+Result<std::vector<std::string>> parse_techniques(const std::string& text, const std::string& option = "--techniques");
 
 struct Setting {
     std::string technique;

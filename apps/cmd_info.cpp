@@ -13,6 +13,7 @@
 #include "core/jobs/jobs.h"
 #include "raster/reference/reference_renderer.h"
 #include "raster/tile/tile_renderer.h"
+#include "raster/vulkan/vulkan_renderer.h"
 
 namespace burnish {
 namespace {
@@ -31,7 +32,7 @@ struct Info {
     std::string compiler = BN_COMPILER, build_type = BN_BUILD_TYPE, openimageio = BN_OPENIMAGEIO_VERSION;
     std::string processor = processor_name();
     std::string isa = isa_name(best_isa());
-    std::vector<std::string> isa_available, backends = {"tile"};
+    std::vector<std::string> isa_available, backends = {"tile"}, vulkan_devices;
     int cores = Jobs().threads();
 };
 
@@ -41,6 +42,10 @@ Info gather()
     for (const Isa isa : {Isa::scalar, Isa::avx2, Isa::avx512})
         if (burnish::isa_available(isa))
             info.isa_available.emplace_back(isa_name(isa));
+    if (vulkan_built())
+        info.backends.emplace_back("vulkan");
+    for (const VulkanDeviceInfo& device : vulkan_devices())
+        info.vulkan_devices.push_back(fmt::format("{} ({}, Vulkan {})", device.name, device.driver, device.api));
     if (reference_available())
         info.backends.emplace_back("reference");
     return info;
@@ -57,6 +62,7 @@ int print_json(const Info& info)
     json["isa"] = info.isa;
     json["isa_available"] = info.isa_available;
     json["backends"] = info.backends;
+    json["vulkan_devices"] = info.vulkan_devices;
     json["openimageio"] = info.openimageio;
     fmt::print("{}\n", json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
     return 0;
@@ -69,6 +75,8 @@ int print_text(const Info& info)
     fmt::print("processor    {}, {} cores\n", info.processor, info.cores);
     fmt::print("isa          {} (available: {})\n", info.isa, join(info.isa_available));
     fmt::print("backends     {}\n", join(info.backends));
+    for (const std::string& device : info.vulkan_devices)
+        fmt::print("vulkan       {}\n", device);
     fmt::print("OpenImageIO  {}\n", info.openimageio);
     return 0;
 }

@@ -9,7 +9,7 @@
 #include "apps/profile_report.h"
 #include "apps/render_stats.h"
 #include "apps/report.h"
-#include "apps/seen_scene.h"
+#include "apps/loaded_scene.h"
 
 namespace burnish {
 namespace {

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "apps/command.h"
+#include "apps/loaded_scene.h"
 #include "apps/outputs.h"
 #include "apps/render_options.h"
 #include "apps/render_stats.h"
@@ -18,8 +19,6 @@
 namespace burnish {
 namespace {
 
-constexpr int kDfgSize = 64;     // texels a side
-constexpr int kDfgSamples = 256; // a texel
 
 class Stopwatch {
   public:
@@ -136,6 +135,14 @@ Status prepare(const RenderOptions& options, const Jobs& jobs, Stage& stage, Ren
         if (!renderer)
             return renderer.error();
         stage.renderer = std::move(*renderer);
+    } else if (options.backend == "vulkan") {
+        const Result<std::shared_ptr<VulkanDevice>> device = open_vulkan_device(options.vulkan);
+        if (!device)
+            return device.error();
+        Result<std::unique_ptr<Renderer>> renderer = make_vulkan_renderer(input, *device);
+        if (!renderer)
+            return renderer.error();
+        stage.renderer = std::move(*renderer);
     } else {
         stage.renderer = make_tile_renderer(input, options.isa);
     }
@@ -195,6 +202,10 @@ void report_frames(const RenderOptions& options, const RenderFigures& figures, R
                                      *std::min_element(ms.begin(), ms.end()), percentile_95(ms), ms.size());
     report.event("frame", fmt::format("{}x{}, {} samples a pixel, {}: {}", frame.width, frame.height,
                                       frame.msaa, frame.technique, times));
+    if (figures.frame.samples_emulated)
+        report.event("samples", fmt::format("emulated: {} passes of one sample, as the device cannot take {} at once", frame.msaa, frame.msaa));
+    if (figures.frame.depth_interpolated)
+        report.event("depth", "interpolated by the device, which has no 64-bit floats: equal depths may be ordered otherwise");
     report.detail("fragments",
                   fmt::format("{} shaded, {} of {} triangles drawn, {} pixels show the background",
                               figures.frame.visible_fragments, figures.frame.triangles_drawn,

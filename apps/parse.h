@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <string>
+#include <vector>
 
 #include "core/base/result.h"
 
@@ -20,5 +21,6 @@ Result<std::int64_t> parse_integer(const std::string& option, const std::string&
                                    std::int64_t high);
 Result<std::uint64_t> parse_bytes(const std::string& option,
                                   const std::string& text); // "500", "64K", "512M", "4G"
+std::vector<std::string> split(const std::string& text, char at); // n separators give n + 1 parts
 
 } // namespace burnish

@@ -16,6 +16,7 @@ Examples:
   burnish render lamp.glb --eye 0.2,0.3,1.5 --target 0,0.2,0 --fov 30 -o close.png
   burnish render builtin:spheres --env builtin:sky --env-rotation 90 --exposure -1 -o spheres.png
   burnish render builtin:plate --frames 50 --threads 2 --isa avx2 --stats -
+  burnish render --backend vulkan --device lavapipe -o teapot.png
   burnish render --backend reference --samples 4096 --checkpoint teapot.part -o teapot.exr --variance teapot_var.exr)";
 
 void add_inputs(CLI::App& app, RenderArguments& to)
@@ -122,7 +123,7 @@ void add_picture(CLI::App& app, RenderArguments& to)
 
 void add_machine(CLI::App& app, RenderArguments& to)
 {
-    app.add_option("--backend", to.plain.backend, "Renderer: tile, or reference, which integrates by Monte Carlo (tile)")
+    app.add_option("--backend", to.plain.backend, "Renderer: tile, vulkan (the same on a GPU or its driver's CPU twin), or reference, which integrates by Monte Carlo (tile)")
         ->type_name("NAME")
         ->group("Machine");
     app.add_option("-t,--threads", to.threads, "Worker threads (all cores)")
@@ -137,6 +138,21 @@ void add_machine(CLI::App& app, RenderArguments& to)
     app.add_option("--frames", to.frames, "Render the frame N times and report the times (1)")
         ->type_name("N")
         ->group("Machine");
+}
+
+void add_vulkan(CLI::App& app, RenderArguments& to)
+{
+    constexpr const char* kGroup = "With --backend vulkan";
+    app.add_option("--device", to.device, "lavapipe, swiftshader, gpu, or a part of a device's name (the first GPU, else a CPU device)")
+        ->type_name("NAME")
+        ->group(kGroup);
+    app.add_option("--sampler", to.sampler, "exact (the tile renderer's bits) or native (the device's samplers, with --pipeline forward) (exact)")
+        ->type_name("NAME")
+        ->group(kGroup);
+    app.add_option("--pipeline", to.pipeline, "ids (visibility first, each visible triangle of a pixel shaded once) or forward (classical) (ids)")
+        ->type_name("NAME")
+        ->group(kGroup);
+    app.add_flag("--validate", to.validate, "With the Khronos validation layer; fail where it complains")->group(kGroup);
 }
 
 void add_reference(CLI::App& app, RenderArguments& to)
@@ -190,6 +206,7 @@ void add_render_options(CLI::App& app, RenderArguments& arguments)
     add_outputs(app, arguments);
     add_picture(app, arguments);
     add_machine(app, arguments);
+    add_vulkan(app, arguments);
     add_reference(app, arguments);
     add_limits(app, arguments);
     refuse_empty_values(app);

@@ -9,6 +9,7 @@
 #include "apps/parse.h"
 #include "apps/reference_options.h"
 #include "apps/report.h"
+#include "apps/vulkan_options.h"
 #include "core/math/scalar_math.h"
 #include "core/scene/builtin.h"
 
@@ -180,7 +181,7 @@ void check_builtin(OptionReader& reader, const std::string& option, const std::s
 
 std::vector<std::string> backend_names()
 {
-    return {"tile", "reference"};
+    return {"tile", "vulkan", "reference"};
 }
 
 Result<RenderOptions> check_render_options(const RenderArguments& arguments)
@@ -197,6 +198,7 @@ Result<RenderOptions> check_render_options(const RenderArguments& arguments)
     read_technique(arguments, reader, out);
     read_machine(arguments, reader, out);
     read_reference(arguments, reader, out);
+    read_vulkan(arguments, reader, out);
     read_camera(arguments, reader, out);
     read_environment(arguments, reader, out.environment);
     read_limits(arguments, reader, out.limits);

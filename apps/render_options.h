@@ -12,6 +12,7 @@
 #include "core/image/colour.h"
 #include "raster/reference/reference_renderer.h"
 #include "raster/tile/tile_renderer.h"
+#include "raster/vulkan/vulkan_renderer.h"
 #include "shading/bake/environment.h"
 
 namespace burnish {
@@ -35,6 +36,7 @@ struct RenderOptions {
     ReferenceOptions reference; // of --backend reference
     std::string reference_mode_name = "direct";
     std::string variance_file;  // empty: none
+    VulkanOptions vulkan;       // of --backend vulkan
     Isa isa = Isa::scalar;
     int threads = 0; // 0: all cores the process may use
     int frames = 1;
@@ -58,7 +60,8 @@ struct RenderArguments {
     std::string limit_accessor_bytes, limit_data_uri_bytes, limit_draw_bytes;
     std::string axis_k, axis_beta, tilt, seed, dfg = "table";
     std::string reference_mode, reference_strategy, bounces, target_error, checkpoint, variance;
-    bool no_background = false, no_cache = false, energy_compensation = false, horizon = false;
+    std::string device, sampler, pipeline;
+    bool no_background = false, no_cache = false, energy_compensation = false, horizon = false, validate = false;
 };
 
 void add_render_options(CLI::App& app, RenderArguments& arguments);

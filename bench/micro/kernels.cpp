@@ -7,7 +7,7 @@
 
 #include "bench/micro/kernels.h"
 #include "raster/frame/upload.h"
-#include "raster/tile/grid_samples.h"
+#include "raster/frame/grid_samples.h"
 #include "raster/tile/tile_renderer.h"
 
 namespace burnish {

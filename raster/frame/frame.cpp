@@ -144,6 +144,28 @@ glm::mat4 clip_from_world(const View& v)
     return m;
 }
 
+Status check_desc(const FrameDesc& d)
+{
+    const auto usage = [](std::string reason) { return Error{ExitCode::usage, "", "", std::move(reason)}; };
+    if (d.width < 1 || d.height < 1 || d.width > kMaxPictureSide || d.height > kMaxPictureSide)
+        return usage("the image's sides must lie in 1..16384 pixels");
+    if (d.msaa != 1 && d.msaa != 2 && d.msaa != 4 && d.msaa != 8 && d.msaa != 16)
+        return usage("msaa must be 1, 2, 4, 8 or 16");
+    if (std::int64_t{d.width} * d.height * d.msaa > kMaxPictureSamples)
+        return usage("width x height x msaa must not exceed 2^28 samples");
+    if (d.tile_size != 32 && d.tile_size != 64)
+        return usage("the tile size must be 32 or 64");
+    if (d.texture_anisotropy < 1 || d.texture_anisotropy > 16)
+        return usage("texture anisotropy must lie in 1..16");
+    if (d.samples < 1 || d.samples > 65536)
+        return usage("samples must lie in 1..65536");
+    if (!(std::abs(d.tilt_rad.x) < 1.57f && std::abs(d.tilt_rad.y) < 1.57f))
+        return usage("a lobe's tilt must stay below a quarter turn");
+    if (!find_technique(d.technique))
+        return usage("unknown technique '" + d.technique + "'");
+    return {};
+}
+
 const std::vector<TechniqueInfo>& techniques()
 {
     static const std::vector<TechniqueInfo> table = {

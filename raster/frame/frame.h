@@ -60,7 +60,10 @@ struct FrameDesc {
     bool background = true;                // environment behind the scene; otherwise black
     bool triangle_ids = false;             // fill Frame::triangle_ids
     bool profile = false;                  // fill Frame::profile, where the renderer can; never changes the picture
+    bool stages = false;                   // fill Frame::stages, and the triangle ids
 };
+// Whether a rasterizer can draw it: sizes, samples, names.
+Status check_desc(const FrameDesc& desc);
 
 struct SamplingStats { // of a renderer that integrates by random samples
     std::uint64_t samples = 0;             // a pixel
@@ -78,15 +81,32 @@ struct FrameStats {
     std::uint64_t triangles_drawn = 0;     // after culling and clipping
     std::uint64_t visible_fragments = 0;   // (pixel, triangle) pairs shaded
     std::uint64_t background_pixels = 0;   // pixels with at least one uncovered sample
+    bool samples_emulated = false;         // one pass a sample, as the device cannot take as many at once
+    bool depth_interpolated = false;       // by the device, not by the tile renderer's formula
     double ms = 0.0;                       // wall time of the frame
+    double device_ms = 0.0, device_cpu_ms = 0.0; // of a device: from submission to its fence, wall and process time
     SamplingStats sampling;
 };
+
+// What a frame went through, for comparisons word by word. Words of floats are their bits.
+struct StageRecords {
+    Column<std::uint32_t> vertices; // [vertex][kVertexWords]: clip x, y, w, z; snapped x, y, 1/256 pixel; 1/w; depth
+    Column<std::uint32_t> depths;   // [pixel][sample]
+    // [pixel][sample][kPairWords], at the first sample of each visible (pixel, triangle) pair: mask of its samples, interpolants, material
+    // inputs, colour; all 0 elsewhere. Of a background pair only mask and colour are set.
+    Column<std::uint32_t> pairs;
+};
+inline constexpr int kVertexWords = 8;
+// Interpolants: normal, tangent (3 each), its sign, colour (4), then for each of two sets uv, d uv/dx, d uv/dy (2 each), front face, ray,
+// position (3 each). Material: base, alpha, metallic, roughness, occlusion, normal map, emissive, f0, f90, tensors.
+inline constexpr int kInterpolantWords = 30, kMaterialWords = 23, kPairWords = 1 + kInterpolantWords + kMaterialWords + 3;
 
 struct Frame {
     Image color;                           // f32 RGB, linear Rec.709 scene radiance
     Image variance;                        // of `color` as an estimate, by channel; empty where it is none
     Column<std::uint32_t> triangle_ids;    // [pixel][sample] global triangle id, 0xffffffff where nothing was hit
     FrameProfile profile;                  // empty unless asked for
+    StageRecords stages;                   // with FrameDesc::stages
     FrameStats stats;
 };
 

@@ -67,4 +67,9 @@ struct LightRecord { // DrawTables' PunctualLight in plain numbers
     std::int32_t directional;
 };
 
+// One sample of a unit lobe (widths 1): its slopes, and the density of normals there times h.z^4.
+struct GridSample {
+    float slope_x, slope_y, density;
+};
+
 } // namespace burnish

@@ -1,6 +1,7 @@
 // One tile from triangles to pixels: coverage and depth, visibility, shading in dense batches by material, resolve.
 // Compiled once for every instruction set.
 #include "raster/tile/geometry.h"
+#include "raster/tile/record.h"
 #include "raster/tile/shade.h"
 #include "raster/tile/visibility.h"
 
@@ -307,6 +308,10 @@ void render_tile(const FrameParams& f, int tile_x, int tile_y, TileScratch& s)
         kShadeSlots[f.technique](t, view, f.materials[s.slot_material[k]], s.slot_begin[k], s.slot_begin[k + 1]);
         lap(s, FrameStage::shade, s.slot_material[k], s.slot_begin[k + 1] - s.slot_begin[k]);
     }
+    if (s.output_pairs) {
+        record_depths(f, t.x0, t.y0, t.width, t.height, s);
+        record_fragments(f, view, t.x0, t.y0, s);
+    }
     resolve(f, t.x0, t.y0, t.width, t.height, s);
     lap(s, FrameStage::resolve);
 }
@@ -315,7 +320,7 @@ void render_tile(const FrameParams& f, int tile_x, int tile_y, TileScratch& s)
 
 const TileFns& tile_fns()
 {
-    static constexpr TileFns fns = {transform_vertices, setup_triangles, render_tile, kLanes};
+    static constexpr TileFns fns = {transform_vertices, setup_triangles, render_tile, record_vertices, kLanes};
     return fns;
 }
 

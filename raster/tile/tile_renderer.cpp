@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
-#include <cmath>
 #include <cstdlib>
 #include <cstring>
 #include <optional>
@@ -11,10 +10,10 @@
 #include "core/base/check.h"
 #include "core/math/scalar_math.h"
 #include "core/simd/cpu.h"
+#include "raster/frame/grid_samples.h"
 #include "raster/frame/upload.h"
 #include "raster/tile/bins.h"
 #include "raster/tile/cull.h"
-#include "raster/tile/grid_samples.h"
 #include "raster/tile/profiler.h"
 #include "raster/tile/tile_types.h"
 
@@ -71,7 +70,9 @@ struct WorkerScratch {
                 static_cast<std::uint32_t>(triangle_count), sources.data(), fragment_triangle.data(),
                 fragment_pixel.data(), fragment_mask.data(), register_passes.data(), pass_lanes.data(), red.data(), green.data(),
                 blue.data(), order.data(), false, kNoMaterial, slot_of_material.data(), slot_material.data(), slot_begin.data(), 0, 0,
-                frame.color.f32(), frame.triangle_ids.empty() ? nullptr : frame.triangle_ids.data(), nullptr};
+                frame.color.f32(), frame.triangle_ids.empty() ? nullptr : frame.triangle_ids.data(),
+                frame.stages.depths.empty() ? nullptr : frame.stages.depths.data(),
+                frame.stages.pairs.empty() ? nullptr : frame.stages.pairs.data(), nullptr};
     }
 };
 
@@ -179,28 +180,6 @@ void TileRenderer::draw_tiles(const FrameParams& f, Frame& frame, Profiler* prof
     }
 }
 
-Status check_desc(const FrameDesc& d)
-{
-    const auto usage = [](std::string reason) { return Error{ExitCode::usage, "", "", std::move(reason)}; };
-    if (d.width < 1 || d.height < 1 || d.width > kMaxPictureSide || d.height > kMaxPictureSide)
-        return usage("the image's sides must lie in 1..16384 pixels");
-    if (d.msaa != 1 && d.msaa != 2 && d.msaa != 4 && d.msaa != 8 && d.msaa != 16)
-        return usage("msaa must be 1, 2, 4, 8 or 16");
-    if (std::int64_t{d.width} * d.height * d.msaa > kMaxPictureSamples)
-        return usage("width x height x msaa must not exceed 2^28 samples");
-    if (d.tile_size != 32 && d.tile_size != 64)
-        return usage("the tile size must be 32 or 64");
-    if (d.texture_anisotropy < 1 || d.texture_anisotropy > 16)
-        return usage("texture anisotropy must lie in 1..16");
-    if (d.samples < 1 || d.samples > 65536)
-        return usage("samples must lie in 1..65536");
-    if (!(std::abs(d.tilt_rad.x) < 1.57f && std::abs(d.tilt_rad.y) < 1.57f))
-        return usage("a lobe's tilt must stay below a quarter turn");
-    if (!find_technique(d.technique))
-        return usage("unknown technique '" + d.technique + "'");
-    return {};
-}
-
 std::size_t tiles_of(const FrameDesc& d)
 {
     const auto side = [&](int pixels) { return static_cast<std::size_t>((pixels + d.tile_size - 1) / d.tile_size); };
@@ -215,9 +194,12 @@ Frame frame_for(const FrameDesc& desc, Frame recycled)
     if (frame.color.width != desc.width || frame.color.height != desc.height || frame.color.channels != 3 ||
         frame.color.type != PixelType::f32 || frame.color.empty())
         frame.color = make_image(desc.width, desc.height, 3, PixelType::f32);
-    if (desc.triangle_ids)
-        frame.triangle_ids.resize(static_cast<std::size_t>(desc.width) * static_cast<std::size_t>(desc.height) *
-                                  static_cast<std::size_t>(desc.msaa));
+    const std::size_t samples =
+        static_cast<std::size_t>(desc.width) * static_cast<std::size_t>(desc.height) * static_cast<std::size_t>(desc.msaa);
+    if (desc.triangle_ids || desc.stages)
+        frame.triangle_ids.resize(samples);
+    if (desc.stages)
+        frame.stages.depths.resize(samples), frame.stages.pairs.resize(samples * kPairWords);
     return frame;
 }
 
@@ -233,6 +215,8 @@ Result<Frame> TileRenderer::render(const FrameDesc& desc, Frame recycled)
     Profiler* const profiler = measured ? &*measured : nullptr;
     ProfiledWork before(profiler, 0);
     Frame frame = frame_for(desc, std::move(recycled));
+    if (desc.stages)
+        frame.stages.vertices.resize(input_.tables.px.size() * kVertexWords);
     const std::vector<MaterialRecord> materials = overridden(scene_.materials, desc);
     FrameParams f = frame_params(desc, materials);
     prepare_grid(desc, f);
@@ -243,6 +227,8 @@ Result<Frame> TileRenderer::render(const FrameDesc& desc, Frame recycled)
     transform_draws(f, input_.tables, visible, fns_, input_.jobs, profiler);
     bins_.build(f, input_.tables, visible, fns_, input_.jobs, profiler);
     draw_tiles(f, frame, profiler);
+    if (desc.stages)
+        fns_.record_vertices(f, static_cast<std::uint32_t>(input_.tables.px.size()), frame.stages.vertices.data());
     if (profiler)
         frame.profile = profiler->sum();
     frame.stats.triangles = input_.tables.triangle_count();

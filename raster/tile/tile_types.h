@@ -57,11 +57,6 @@ struct ChunkOutput { // what one chunk of clusters produced, in draw order
 };
 inline constexpr std::uint32_t kGrowRoom = 256;
 
-// One sample of a unit lobe (widths 1): its slopes, and the density of normals there times h.z^4.
-struct GridSample {
-    float slope_x, slope_y, density;
-};
-
 // Everything a tile needs to know of its frame; constant while the frame is drawn.
 struct FrameParams {
     ViewParams view;
@@ -131,6 +126,7 @@ struct TileScratch {
     std::uint32_t fragment_count, background_pixels;
     float* output;                   // the frame's RGB pixels
     std::uint32_t* output_ids;       // the frame's triangle ids [pixel][sample], or null
+    std::uint32_t *output_depths, *output_pairs; // its stage records, or null
     TileClock* clock;                // null unless the frame is profiled
 };
 
@@ -138,6 +134,7 @@ struct TileFns { // one table an instruction set
     void (*transform_vertices)(const FrameParams&, std::uint32_t first, std::uint32_t count);
     void (*setup_triangles)(const FrameParams&, std::uint32_t first, std::uint32_t count, ChunkOutput&);
     void (*render_tile)(const FrameParams&, int tile_x, int tile_y, TileScratch&);
+    void (*record_vertices)(const FrameParams&, std::uint32_t count, std::uint32_t* out); // StageRecords::vertices
     int lanes; // kLanes
 };
 

@@ -72,7 +72,16 @@ real4 bn_clamp(real4 x, real4 lo, real4 hi) { return min(max(x, lo), hi); }
 #define clamp bn_clamp
 
 // What is a pointer in C++ is here the index of the first element in one of three buffers.
+// Textures can be larger together than one buffer may be: with BN_TEXEL_PAGES a texel_buffer is the number of a page, whose address the
+// first buffer holds. Such a stage requires GL_EXT_buffer_reference_uvec2.
+#ifdef BN_TEXEL_PAGES
+layout(buffer_reference, std430, buffer_reference_align = 8) readonly buffer BnTexelPage { uvec2 texels[]; };
+layout(std430, set = BN_LANG_SET, binding = BN_LANG_BINDING) readonly buffer BnTexels { uvec2 bn_pages[]; };
+#define bn_texel_words(page, at) BnTexelPage(bn_pages[page]).texels[at]
+#else
 layout(std430, set = BN_LANG_SET, binding = BN_LANG_BINDING) readonly buffer BnTexels { uvec2 bn_texels[]; };
+#define bn_texel_words(first, at) bn_texels[(first) + (at)]
+#endif
 layout(std430, set = BN_LANG_SET, binding = BN_LANG_BINDING + 1) readonly buffer BnReals { float bn_reals[]; };
 layout(std430, set = BN_LANG_SET, binding = BN_LANG_BINDING + 2) readonly buffer BnInts { int bn_ints[]; };
 #define texel_buffer int
@@ -86,12 +95,16 @@ struct texel_acc {
     real4 left;
     real4 right;
 };
-real4 bn_texel(int at) { return vec4(unpackHalf2x16(bn_texels[at].x), unpackHalf2x16(bn_texels[at].y)); }
+real4 bn_texel(texel_buffer texels, int at)
+{
+    uvec2 words = bn_texel_words(texels, at);
+    return vec4(unpackHalf2x16(words.x), unpackHalf2x16(words.y));
+}
 texel_acc texel_zero() { return texel_acc(vec4(0.0), vec4(0.0)); }
 texel_acc texel_add(texel_acc acc, texel_buffer texels, integer row0, integer row1, real w00, real w10, real w01, real w11)
 {
-    real4 left = acc.left + (w00 * bn_texel(texels + row0) + w01 * bn_texel(texels + row1));
-    real4 right = acc.right + (w10 * bn_texel(texels + row0 + 1) + w11 * bn_texel(texels + row1 + 1));
+    real4 left = acc.left + (w00 * bn_texel(texels, row0) + w01 * bn_texel(texels, row1));
+    real4 right = acc.right + (w10 * bn_texel(texels, row0 + 1) + w11 * bn_texel(texels, row1 + 1));
     return texel_acc(left, right);
 }
 real4 texel_value(texel_acc acc) { return acc.left + acc.right; }

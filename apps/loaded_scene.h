@@ -1,17 +1,18 @@
-// A scene ready to be drawn, and the view of it.
+// A scene that is ready to be drawn many times, and how it is looked at.
 #pragma once
 #include <memory>
 #include <string>
 
 #include "apps/render_options.h"
 #include "apps/report.h"
-#include "core/base/result.h"
 #include "core/scene/draw_tables.h"
+#include "core/scene/scene.h"
 #include "raster/frame/frame.h"
 
 namespace burnish {
 
-inline constexpr int kDfgSize = 64, kDfgSamples = 256; // of the albedo table: texels a side, samples a texel
+inline constexpr int kDfgSize = 64;     // texels a side of the directional albedo
+inline constexpr int kDfgSamples = 256; // a texel
 
 struct LoadedScene {
     std::string name;
@@ -20,7 +21,7 @@ struct LoadedScene {
     View view;
 };
 
-// `name`: as SCENE of `burnish render`. Limits and camera are those of `base`; warnings go to the report.
+// Of `base` the limits, the camera and the picture's size are read.
 Result<std::unique_ptr<LoadedScene>> load_seen_scene(const std::string& name, const RenderOptions& base, Report& report);
 
 } // namespace burnish

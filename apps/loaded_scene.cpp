@@ -1,4 +1,4 @@
-#include "apps/seen_scene.h"
+#include "apps/loaded_scene.h"
 
 #include "apps/scene_view.h"
 #include "core/scene/gltf.h"

@@ -1,4 +1,4 @@
-#include "raster/tile/grid_samples.h"
+#include "raster/frame/grid_samples.h"
 
 #include <cmath>
 

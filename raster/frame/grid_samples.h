@@ -2,7 +2,7 @@
 #pragma once
 #include <vector>
 
-#include "raster/tile/tile_types.h"
+#include "raster/frame/records.h"
 
 namespace burnish {
 

@@ -1,0 +1,162 @@
+// `burnish parity`: the tile renderer and its twin over Vulkan, compared in bits, stage by stage.
+#include <cstdio>
+#include <fmt/format.h>
+#include <memory>
+
+#include "apps/command.h"
+#include "apps/loaded_scene.h"
+#include "apps/outputs.h"
+#include "apps/parity_options.h"
+#include "apps/parity_report.h"
+#include "core/base/version.h"
+#include "core/image/flip.h"
+#include "core/image/metrics.h"
+#include "core/simd/cpu.h"
+#include "raster/tile/tile_renderer.h"
+
+namespace burnish {
+namespace {
+
+// What all places share.
+struct Bench {
+    const ParityOptions& options;
+    const Jobs& jobs;
+    std::shared_ptr<VulkanDevice> device;
+    Environment environment;
+    DfgTable dfg;
+    Report& report;
+};
+
+double mean_flip(const Image& reference, const Image& test, const Jobs& jobs)
+{
+    if (reference.bytes == test.bytes)
+        return 0.0;
+    if (not_finite_pixels(reference, test) > 0)
+        return 1.0;
+    return summarise_errors(flip_hdr(reference, test, {}, jobs).error).mean;
+}
+
+Result<ParityRow> compare(const Bench& bench, const ParityPlace& place, const RenderOptions& options, const View& view, Renderer& tile,
+                          Renderer& vulkan)
+{
+    const bool ids = options.vulkan.pipeline == VulkanPipeline::ids;
+    FrameDesc desc = options.frame;
+    desc.view = view;
+    desc.triangle_ids = true;
+    desc.stages = ids;
+    const Result<Frame> a = tile.render(desc);
+    if (!a)
+        return a.error();
+    desc.triangle_ids = ids;
+    const Result<Frame> b = vulkan.render(desc);
+    if (!b)
+        return b.error();
+    ParityRow row;
+    row.scene = place.scene, row.view = place.view, row.technique = desc.technique, row.msaa = desc.msaa;
+    row.sampler = options.vulkan.sampler == VulkanSampler::exact ? "exact" : "native";
+    row.pipeline = ids ? "ids" : "forward";
+    row.samples_emulated = b->stats.samples_emulated;
+    row.counts = ids ? compare_stages(*a, *b, desc.msaa) : compare_pictures(*a, *b, desc.msaa);
+    row.flip_mean = mean_flip(a->color, b->color, bench.jobs);
+    return row;
+}
+
+Status compare_place(const Bench& bench, const ParityPlace& place, ParityReport& out)
+{
+    RenderOptions base = bench.options.frames.front();
+    if (place.eye)
+        base.eye = place.eye, base.target = place.target;
+    Result<std::unique_ptr<LoadedScene>> scene = load_seen_scene(place.scene, base, bench.report);
+    if (!scene)
+        return scene.error();
+    const RenderInput input{(*scene)->scene, (*scene)->tables, bench.environment, bench.dfg, bench.jobs};
+    const std::unique_ptr<Renderer> tile = make_tile_renderer(input, base.isa);
+    const Result<std::unique_ptr<Renderer>> vulkan = make_vulkan_renderer(input, bench.device);
+    if (!vulkan)
+        return vulkan.error();
+    for (const RenderOptions& options : bench.options.frames) {
+        Result<ParityRow> row = compare(bench, place, options, (*scene)->view, *tile, **vulkan);
+        if (!row)
+            return row.error();
+        if (first_difference(row->counts))
+            bench.report.event("differs", describe(*row));
+        else
+            bench.report.detail("equal", describe(*row));
+        out.rows.push_back(std::move(*row));
+    }
+    return {};
+}
+
+Status write_files(const ParityOptions& options, const ParityReport& parity, Report& report)
+{
+    const struct {
+        const std::string& path;
+        std::string (*text)(const ParityReport&);
+    } files[] = {{options.json, parity_json}, {options.junit, parity_junit}, {options.html, parity_html}};
+    for (const auto& file : files) {
+        if (file.path.empty())
+            continue;
+        if (const Status written = write_text(file.path, file.text(parity)); !written)
+            return written;
+        report.detail("wrote", file.path);
+    }
+    return {};
+}
+
+int verdict(const ParityReport& parity, Report& report)
+{
+    if (!report.quiet())
+        std::fputs(stage_table(parity).c_str(), stderr);
+    report.event("device", fmt::format("{}; {}; Vulkan {}; {}", parity.device, parity.driver, parity.api, parity.processor));
+    std::size_t faults = 0;
+    std::string first = visibility_fault(parity);
+    for (const ParityRow& row : parity.rows)
+        if (const std::string fault = fault_of(row); !fault.empty()) {
+            ++faults;
+            if (first.empty())
+                first = row.scene + ", " + row.technique + ": " + fault;
+        }
+    if (!passed(parity))
+        return fail(Error{ExitCode::differ, "", "", fmt::format("{} of {} rows are not as promised; {}", faults, parity.rows.size(), first)});
+    report.event("parity", fmt::format("{} rows as promised", parity.rows.size()));
+    return 0;
+}
+
+int run_parity(const ParityArguments& arguments)
+{
+    const Result<ParityOptions> checked = check_parity_options(arguments);
+    if (!checked)
+        return fail(checked.error());
+    const ParityOptions& options = *checked;
+    const RenderOptions& base = options.frames.front();
+    Report report(base.quiet, base.verbosity);
+    const Jobs jobs(base.threads);
+    const Result<std::shared_ptr<VulkanDevice>> device = open_vulkan_device(base.vulkan);
+    if (!device)
+        return fail(device.error());
+    Result<Environment> environment = load_environment(base.env, base.environment, base.limits, jobs);
+    if (!environment)
+        return fail(environment.error());
+    const Bench bench{options, jobs, *device, std::move(*environment), bake_dfg(kDfgSize, kDfgSamples, jobs), report};
+    report.release();
+    const VulkanDeviceInfo& info = (*device)->info();
+    ParityReport parity{info.driver, info.name, info.api, cpu_name(), version(), base.frame.width, base.frame.height, {}};
+    for (const ParityPlace& place : options.places)
+        if (const Status done = compare_place(bench, place, parity); !done)
+            return fail(done.error());
+    if (const Status written = write_files(options, parity, report); !written)
+        return fail(written.error());
+    return verdict(parity, report);
+}
+
+} // namespace
+
+Command add_parity(CLI::App& program)
+{
+    CLI::App* app = program.add_subcommand("parity", "Compare the Vulkan renderer with the tile renderer, bit by bit");
+    auto arguments = std::make_shared<ParityArguments>();
+    add_parity_options(*app, *arguments);
+    return {app, [arguments] { return run_parity(*arguments); }};
+}
+
+} // namespace burnish

@@ -1,0 +1,155 @@
+#include "apps/parity_stages.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+
+#include "core/base/check.h"
+#include "raster/frame/records.h"
+
+namespace burnish {
+namespace {
+
+// Floats in order as integers in order.
+std::int64_t ordered(std::uint32_t bits)
+{
+    const std::int64_t magnitude = bits & 0x7fffffffu;
+    return bits >> 31 ? -magnitude - 1 : magnitude;
+}
+
+class StageCounter {
+  public:
+    StageCounter(const char* name, int width) : width_(width) { stage_.name = name; }
+    void add(std::uint32_t a, std::uint32_t b, std::size_t pixel)
+    {
+        ++stage_.values;
+        if (a == b)
+            return;
+        ++stage_.words_differ;
+        const std::uint64_t ulp = ulp_distance(a, b);
+        if (ulp <= stage_.max_ulp)
+            return;
+        stage_.max_ulp = ulp;
+        if (width_ > 0)
+            stage_.worst_x = static_cast<int>(pixel) % width_, stage_.worst_y = static_cast<int>(pixel) / width_;
+    }
+    void add(const std::uint32_t* a, const std::uint32_t* b, int words, std::size_t pixel)
+    {
+        for (int i = 0; i < words; ++i)
+            add(a[i], b[i], pixel);
+    }
+    const ParityStage& stage() const { return stage_; }
+
+  private:
+    ParityStage stage_;
+    int width_;
+};
+
+std::uint32_t mask_at(const Frame& f, std::size_t sample) { return f.stages.pairs[sample * kPairWords]; }
+
+// Whether the samples of a pixel show the same pairs: the same triangles, shared by samples in the same way.
+bool same_pairs(const Frame& a, const Frame& b, std::size_t pixel, std::size_t msaa)
+{
+    for (std::size_t s = pixel * msaa; s < (pixel + 1) * msaa; ++s)
+        if (a.triangle_ids[s] != b.triangle_ids[s] || mask_at(a, s) != mask_at(b, s))
+            return false;
+    return true;
+}
+
+bool several_triangles(const Frame& f, std::size_t pixel, std::size_t msaa)
+{
+    const std::uint32_t* ids = f.triangle_ids.data() + pixel * msaa;
+    return std::any_of(ids, ids + msaa, [&](std::uint32_t id) { return id != ids[0]; });
+}
+
+const std::uint32_t* color_words(const Frame& f, std::size_t pixel) { return reinterpret_cast<const std::uint32_t*>(f.color.f32() + 3 * pixel); }
+
+void count_pixel_differences(const Frame& tile, const Frame& other, std::size_t msaa, ParityCounts& out)
+{
+    const std::size_t pixels = tile.triangle_ids.size() / msaa;
+    for (std::size_t p = 0; p < pixels; ++p) {
+        if (std::memcmp(color_words(tile, p), color_words(other, p), 3 * sizeof(float)) == 0)
+            continue;
+        ++out.pixels_differ;
+        out.edge_pixels_differ += several_triangles(tile, p, msaa);
+    }
+}
+
+} // namespace
+
+std::uint64_t ulp_distance(std::uint32_t a, std::uint32_t b)
+{
+    const std::int64_t distance = ordered(a) - ordered(b);
+    return static_cast<std::uint64_t>(distance < 0 ? -distance : distance);
+}
+
+ParityCounts compare_stages(const Frame& tile, const Frame& other, int msaa)
+{
+    BN_CHECK_OP(tile.triangle_ids.size(), ==, other.triangle_ids.size());
+    BN_CHECK_OP(tile.stages.pairs.size(), ==, other.stages.pairs.size());
+    BN_CHECK_OP(tile.stages.vertices.size(), ==, other.stages.vertices.size());
+    const std::size_t n = static_cast<std::size_t>(msaa), pixels = tile.triangle_ids.size() / n;
+    const int width = tile.color.width;
+    StageCounter clip("clip positions", 0), visibility(kVisibilityStage, width), depth("depth", width), interpolants("interpolants", width),
+        material("material inputs", width), shaded("shaded colour", width), resolved("resolved colour", width);
+    for (std::size_t i = 0; i < tile.stages.vertices.size(); ++i)
+        clip.add(tile.stages.vertices[i], other.stages.vertices[i], 0);
+    ParityCounts out;
+    out.samples = tile.triangle_ids.size();
+    for (std::size_t p = 0; p < pixels; ++p) {
+        std::uint64_t differ = 0;
+        for (std::size_t s = p * n; s < (p + 1) * n; ++s) {
+            const bool same = tile.triangle_ids[s] == other.triangle_ids[s];
+            visibility.add(same ? 0 : 1, 0, p);
+            differ += !same;
+            if (same)
+                depth.add(tile.stages.depths[s], other.stages.depths[s], p);
+        }
+        const bool same = same_pairs(tile, other, p, n);
+        if (!same && differ == 0) { // another piece of the same triangle
+            visibility.add(1, 0, p);
+            differ = 1;
+        }
+        out.visibility_differ += differ;
+        if (!same)
+            continue;
+        for (std::size_t s = p * n; s < (p + 1) * n; ++s) {
+            if (!mask_at(tile, s))
+                continue;
+            const std::uint32_t *a = tile.stages.pairs.data() + s * kPairWords, *b = other.stages.pairs.data() + s * kPairWords;
+            if (tile.triangle_ids[s] != kNoTriangle) {
+                interpolants.add(a + 1, b + 1, kInterpolantWords, p);
+                material.add(a + 1 + kInterpolantWords, b + 1 + kInterpolantWords, kMaterialWords, p);
+            }
+            shaded.add(a + kPairWords - 3, b + kPairWords - 3, 3, p);
+        }
+        resolved.add(color_words(tile, p), color_words(other, p), 3, p);
+    }
+    for (const StageCounter* c : {&clip, &visibility, &depth, &interpolants, &material, &shaded, &resolved})
+        out.stages.push_back(c->stage());
+    count_pixel_differences(tile, other, n, out);
+    return out;
+}
+
+ParityCounts compare_pictures(const Frame& tile, const Frame& other, int msaa)
+{
+    const std::size_t n = static_cast<std::size_t>(msaa), pixels = tile.triangle_ids.size() / n;
+    StageCounter resolved("resolved colour", tile.color.width);
+    for (std::size_t p = 0; p < pixels; ++p)
+        resolved.add(color_words(tile, p), color_words(other, p), 3, p);
+    ParityCounts out;
+    out.samples = tile.triangle_ids.size();
+    out.stages.push_back(resolved.stage());
+    count_pixel_differences(tile, other, n, out);
+    return out;
+}
+
+const ParityStage* first_difference(const ParityCounts& counts)
+{
+    for (const ParityStage& stage : counts.stages)
+        if (!stage.equal())
+            return &stage;
+    return nullptr;
+}
+
+} // namespace burnish

@@ -1,0 +1,105 @@
+// What a tile's samples, vertices and fragments went through, for comparisons with other renderers (StageRecords in raster/frame/frame.h).
+// Interpolants and material inputs are computed once more, a fragment at a time, by the functions that shading calls; depths and colours
+// are those that were drawn.
+#pragma once
+#include "raster/frame/frame.h"
+#include "raster/tile/fragment.h"
+#include "raster/tile/lanes_view.h"
+#include "raster/tile/raster.h"
+
+namespace burnish {
+inline namespace BN_ISA_NS {
+
+// Takes the first lane of registers, one after another.
+struct WordWriter {
+    std::uint32_t* to;
+    void put(std::uint32_t word) { *to++ = word; }
+    void put(integer i)
+    {
+        std::int32_t lanes[kLanes];
+        store_int(lanes, i);
+        put(static_cast<std::uint32_t>(lanes[0]));
+    }
+    void put(real x) { put(bits_of(x)); }
+    void put(real2 v) { put(v.x), put(v.y); }
+    void put(real3 v) { put(v.x), put(v.y), put(v.z); }
+    void put(real4 v) { put(v.x), put(v.y), put(v.z), put(v.w); }
+};
+
+BN_STAGE void record_vertices(const FrameParams& f, std::uint32_t count, std::uint32_t* out)
+{
+    const view_params view = lanes_view(f.view);
+    WordWriter w{out};
+    for (std::uint32_t v = 0; v < count; ++v) {
+        const real4 clip = clip_position(vec3_of(splat(f.px[v]), splat(f.py[v]), splat(f.pz[v])), view);
+        const snapped_vertex s = snap_lanes(f, view, clip, kWholeBand);
+        w.put(clip);
+        w.put(select(s.valid, s.x, int_lit(kNeedsClip)));
+        w.put(s.y);
+        w.put(s.inv_w);
+        w.put(s.z);
+    }
+}
+
+BN_INLINE void record_point(const FrameParams& f, const MaterialRecord& m, const Fragment& p, WordWriter& w)
+{
+    const real zero = lit(0.0);
+    w.put(p.normal), w.put(p.tangent), w.put(p.tangent_sign);
+    w.put(m.uses_color ? p.color : vec4_all(zero));
+    for (int i = 0; i < 2; ++i) {
+        w.put(m.textured ? p.uv[i] : vec2_all(zero));
+        w.put(m.textured ? p.uv_dx[i] : vec2_all(zero));
+        w.put(m.textured ? p.uv_dy[i] : vec2_all(zero));
+    }
+    w.put(select(p.front, int_lit(1), int_lit(0)));
+    w.put(p.ray);
+    w.put(f.light_count > 0 ? p.position : vec3_all(zero));
+}
+
+BN_INLINE void record_material(const LaneMaterial& at, WordWriter& w)
+{
+    w.put(at.base), w.put(at.alpha), w.put(at.metallic), w.put(at.roughness), w.put(at.occlusion);
+    w.put(at.normal_map), w.put(at.emissive), w.put(at.dielectric_f0), w.put(at.dielectric_f90);
+    w.put(at.tensor2), w.put(at.tensor4);
+}
+
+// After shading; x0, y0: the tile's corner, pixels.
+BN_STAGE void record_fragments(const FrameParams& f, const view_params& view, int x0, int y0, const TileScratch& s)
+{
+    const auto pixel_of = [&](std::int32_t pixel) {
+        return static_cast<std::size_t>(y0 + (pixel >> 8)) * static_cast<std::size_t>(f.width) + static_cast<std::size_t>(x0 + (pixel & 255));
+    };
+    const std::size_t msaa = static_cast<std::size_t>(f.msaa);
+    for (std::uint32_t i = 0; i < s.fragment_count; ++i) {
+        const std::int32_t pixel = s.fragment_pixel[i], covered = s.fragment_mask[i], id = s.fragment_triangle[i];
+        const std::size_t first = static_cast<std::size_t>(__builtin_ctz(static_cast<unsigned>(covered)));
+        std::uint32_t* const record = s.output_pairs + (pixel_of(pixel) * msaa + first) * kPairWords;
+        WordWriter w{record};
+        w.put(static_cast<std::uint32_t>(covered));
+        if (id >= 0) {
+            const MaterialRecord& m = f.materials[s.triangles[id].info >> 2];
+            const Fragment p = make_fragment(f, m, view, s, int_lit(id), id, int_lit(x0 + (pixel & 255)), int_lit(y0 + (pixel >> 8)), int_lit(covered));
+            record_point(f, m, p, w);
+            record_material(fetch_material(f, m, p), w);
+        }
+        w.to = record + kPairWords - 3;
+        w.put(splat(s.red[i])), w.put(splat(s.green[i])), w.put(splat(s.blue[i]));
+    }
+}
+
+BN_STAGE void record_depths(const FrameParams& f, int x0, int y0, int width, int height, const TileScratch& s)
+{
+    const int blocks_x = f.tile_size / kBlock;
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) {
+            const int block = (y / kBlock) * blocks_x + x / kBlock, in_block = (y % kBlock) * kBlock + x % kBlock;
+            const float* from = s.depth + block * f.msaa * kBlockPixels + in_block;
+            std::uint32_t* to = s.output_depths + (static_cast<std::size_t>(y0 + y) * static_cast<std::size_t>(f.width) +
+                                                   static_cast<std::size_t>(x0 + x)) * static_cast<std::size_t>(f.msaa);
+            for (int k = 0; k < f.msaa; ++k)
+                __builtin_memcpy(to + k, from + k * kBlockPixels, sizeof *to);
+        }
+}
+
+} // namespace BN_ISA_NS
+} // namespace burnish

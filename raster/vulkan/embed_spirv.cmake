@@ -1,0 +1,17 @@
+# Turns SPIR-V files into a C++ source: cmake -DOUT=FILE -DFILES=NAME=FILE,... -P embed_spirv.cmake
+set(text "#include \"raster/vulkan/shaders.h\"\n\nnamespace burnish {\n\nnamespace {\n")
+set(table "")
+string(REPLACE "," ";" FILES "${FILES}")
+foreach(entry IN LISTS FILES)
+  string(REPLACE "=" ";" parts "${entry}")
+  list(GET parts 0 name)
+  list(GET parts 1 file)
+  file(READ "${file}" hex HEX)
+  # a word is four bytes, the lowest first
+  string(REGEX REPLACE "(..)(..)(..)(..)" "0x\\4\\3\\2\\1," words "${hex}")
+  string(REGEX REPLACE "((0x........,)(0x........,)(0x........,)(0x........,)(0x........,)(0x........,)(0x........,)(0x........,))" "\\1\n" words "${words}")
+  string(APPEND text "constexpr std::uint32_t ${name}_words[] = {\n${words}};\n")
+  string(APPEND table "    {\"${name}\", ${name}_words},\n")
+endforeach()
+string(APPEND text "} // namespace\n\nconst std::vector<ShaderText>& built_in_shaders()\n{\n    static const std::vector<ShaderText> table = {\n${table}    };\n    return table;\n}\n\n} // namespace burnish\n")
+file(WRITE "${OUT}" "${text}")

@@ -1,0 +1,187 @@
+#include "raster/vulkan/pipelines.h"
+
+#include <array>
+#include <fmt/format.h>
+
+#include "raster/vulkan/shaders.h"
+#include "shading/lang/gpu_records.h"
+
+namespace burnish {
+
+namespace {
+
+constexpr VkShaderStageFlags kStages = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT | VK_SHADER_STAGE_COMPUTE_BIT;
+
+struct SpecializationInfo { // refers to the constants, which must outlive it
+    explicit SpecializationInfo(const Specialization& constants)
+    {
+        for (std::uint32_t i = 0; i < constants.size(); ++i)
+            entries.push_back({i, static_cast<std::uint32_t>(i * sizeof(std::int32_t)), sizeof(std::int32_t)});
+        info.mapEntryCount = static_cast<std::uint32_t>(entries.size()), info.pMapEntries = entries.data();
+        info.dataSize = constants.size() * sizeof(std::int32_t), info.pData = constants.data();
+    }
+    std::vector<VkSpecializationMapEntry> entries;
+    VkSpecializationInfo info = {};
+};
+
+VkPipelineShaderStageCreateInfo stage_info(VkShaderStageFlagBits stage, VkShaderModule module, const VkSpecializationInfo* constants)
+{
+    auto info = vk_struct<VkPipelineShaderStageCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO);
+    info.stage = stage, info.module = module, info.pName = "main", info.pSpecializationInfo = constants;
+    return info;
+}
+
+std::string key_of(const std::string& name, const Specialization& constants)
+{
+    std::string key = name;
+    for (std::int32_t c : constants)
+        key += fmt::format(",{}", c);
+    return key;
+}
+
+} // namespace
+
+Pipelines::Pipelines(Context& context, std::string shader_folder) : Pipelines(context)
+{
+    folder_ = std::move(shader_folder);
+    const VkDevice device = context.device();
+    std::vector<VkDescriptorSetLayoutBinding> bindings;
+    for (std::uint32_t i = 0; i < kBindings; ++i)
+        bindings.push_back({i, i < kBufferBindings ? VK_DESCRIPTOR_TYPE_STORAGE_BUFFER : VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1,
+                            i <= kSetupsBinding ? kStages : VkShaderStageFlags{VK_SHADER_STAGE_COMPUTE_BIT}, nullptr});
+    auto set = vk_struct<VkDescriptorSetLayoutCreateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO);
+    set.bindingCount = static_cast<std::uint32_t>(bindings.size()), set.pBindings = bindings.data();
+    BN_VK(vkCreateDescriptorSetLayout(device, &set, nullptr, &set_layout_));
+    const VkDescriptorSetLayoutBinding native[] = {{0, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, kGpuCubes, VK_SHADER_STAGE_FRAGMENT_BIT, nullptr},
+                                                   {1, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, kGpuTextureSlots, VK_SHADER_STAGE_FRAGMENT_BIT, nullptr}};
+    set.bindingCount = 2, set.pBindings = native;
+    BN_VK(vkCreateDescriptorSetLayout(device, &set, nullptr, &native_layout_));
+    const VkDescriptorSetLayout set_layouts[] = {set_layout_, native_layout_};
+    const VkPushConstantRange range = {kStages, 0, sizeof(PassConstants)};
+    auto layout = vk_struct<VkPipelineLayoutCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO);
+    layout.setLayoutCount = 2, layout.pSetLayouts = set_layouts;
+    layout.pushConstantRangeCount = 1, layout.pPushConstantRanges = &range;
+    BN_VK(vkCreatePipelineLayout(device, &layout, nullptr, &layout_));
+    const VkDescriptorPoolSize sizes[] = {{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kBufferBindings},
+                                          {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, kBindings - kBufferBindings}};
+    auto pool = vk_struct<VkDescriptorPoolCreateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO);
+    pool.maxSets = 1, pool.poolSizeCount = 2, pool.pPoolSizes = sizes;
+    BN_VK(vkCreateDescriptorPool(device, &pool, nullptr, &pool_));
+    auto allocate = vk_struct<VkDescriptorSetAllocateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO);
+    allocate.descriptorPool = pool_, allocate.descriptorSetCount = 1, allocate.pSetLayouts = &set_layout_;
+    BN_VK(vkAllocateDescriptorSets(device, &allocate, &set_));
+    auto sampler = vk_struct<VkSamplerCreateInfo>(VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO); // nearest: texels are fetched by their coordinates
+    BN_VK(vkCreateSampler(device, &sampler, nullptr, &sampler_));
+}
+
+Pipelines::~Pipelines()
+{
+    const VkDevice device = context_.device();
+    for (const auto& [key, pipeline] : pipelines_)
+        vkDestroyPipeline(device, pipeline, nullptr);
+    for (const auto& [name, shader] : modules_)
+        vkDestroyShaderModule(device, shader, nullptr);
+    vkDestroySampler(device, sampler_, nullptr);
+    vkDestroyDescriptorPool(device, pool_, nullptr);
+    vkDestroyPipelineLayout(device, layout_, nullptr);
+    vkDestroyDescriptorSetLayout(device, native_layout_, nullptr);
+    vkDestroyDescriptorSetLayout(device, set_layout_, nullptr);
+}
+
+VkShaderModule Pipelines::module(const std::string& shader)
+{
+    const auto known = modules_.find(shader);
+    if (known != modules_.end())
+        return known->second;
+    const Result<std::vector<std::uint32_t>> words = shader_words(shader, folder_);
+    if (!words)
+        throw VulkanError{words.error()};
+    auto info = vk_struct<VkShaderModuleCreateInfo>(VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO);
+    info.codeSize = words->size() * sizeof(std::uint32_t), info.pCode = words->data();
+    VkShaderModule made = VK_NULL_HANDLE;
+    BN_VK(vkCreateShaderModule(context_.device(), &info, nullptr, &made));
+    return modules_[shader] = made;
+}
+
+VkPipeline Pipelines::compute(const std::string& shader, const Specialization& constants)
+{
+    const std::string key = key_of(shader, constants);
+    const auto known = pipelines_.find(key);
+    if (known != pipelines_.end())
+        return known->second;
+    const SpecializationInfo specialization(constants);
+    auto info = vk_struct<VkComputePipelineCreateInfo>(VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO);
+    info.stage = stage_info(VK_SHADER_STAGE_COMPUTE_BIT, module(shader), &specialization.info);
+    info.layout = layout_;
+    VkPipeline made = VK_NULL_HANDLE;
+    BN_VK(vkCreateComputePipelines(context_.device(), context_.pipeline_cache(), 1, &info, nullptr, &made));
+    return pipelines_[key] = made;
+}
+
+VkPipeline Pipelines::graphics(const GraphicsState& state, const Specialization& constants)
+{
+    const std::string key = key_of(fmt::format("{}+{},{},{},{}", state.vertex, state.fragment, static_cast<int>(state.color),
+                                               static_cast<int>(state.samples), static_cast<int>(state.compare)),
+                                   constants);
+    const auto known = pipelines_.find(key);
+    if (known != pipelines_.end())
+        return known->second;
+    const SpecializationInfo specialization(constants);
+    const VkPipelineShaderStageCreateInfo stages[] = {stage_info(VK_SHADER_STAGE_VERTEX_BIT, module(state.vertex), nullptr),
+                                                      stage_info(VK_SHADER_STAGE_FRAGMENT_BIT, module(state.fragment), &specialization.info)};
+    auto input = vk_struct<VkPipelineVertexInputStateCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO); // stages fetch for themselves
+    auto assembly = vk_struct<VkPipelineInputAssemblyStateCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO);
+    assembly.topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
+    auto viewport = vk_struct<VkPipelineViewportStateCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO);
+    viewport.viewportCount = 1, viewport.scissorCount = 1;
+    auto raster = vk_struct<VkPipelineRasterizationStateCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO);
+    raster.cullMode = VK_CULL_MODE_NONE, raster.frontFace = VK_FRONT_FACE_COUNTER_CLOCKWISE, raster.lineWidth = 1.0f;
+    auto multisample = vk_struct<VkPipelineMultisampleStateCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO);
+    multisample.rasterizationSamples = state.samples;
+    auto depth = vk_struct<VkPipelineDepthStencilStateCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO);
+    depth.depthTestEnable = VK_TRUE, depth.depthWriteEnable = VK_TRUE, depth.depthCompareOp = state.compare;
+    VkPipelineColorBlendAttachmentState all = {};
+    all.colorWriteMask = VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT | VK_COLOR_COMPONENT_B_BIT | VK_COLOR_COMPONENT_A_BIT;
+    auto blend = vk_struct<VkPipelineColorBlendStateCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO);
+    blend.attachmentCount = 1, blend.pAttachments = &all;
+    const VkDynamicState dynamic_states[] = {VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR, VK_DYNAMIC_STATE_CULL_MODE};
+    auto dynamic = vk_struct<VkPipelineDynamicStateCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO);
+    dynamic.dynamicStateCount = 3, dynamic.pDynamicStates = dynamic_states;
+    auto rendering = vk_struct<VkPipelineRenderingCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO);
+    rendering.colorAttachmentCount = 1, rendering.pColorAttachmentFormats = &state.color;
+    rendering.depthAttachmentFormat = VK_FORMAT_D32_SFLOAT;
+    auto info = vk_struct<VkGraphicsPipelineCreateInfo>(VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO, &rendering);
+    info.stageCount = 2, info.pStages = stages;
+    info.pVertexInputState = &input, info.pInputAssemblyState = &assembly, info.pViewportState = &viewport;
+    info.pRasterizationState = &raster, info.pMultisampleState = &multisample, info.pDepthStencilState = &depth;
+    info.pColorBlendState = &blend, info.pDynamicState = &dynamic;
+    info.layout = layout_;
+    VkPipeline made = VK_NULL_HANDLE;
+    BN_VK(vkCreateGraphicsPipelines(context_.device(), context_.pipeline_cache(), 1, &info, nullptr, &made));
+    return pipelines_[key] = made;
+}
+
+void Pipelines::bind_buffer(Binding binding, const Buffer& buffer)
+{
+    const VkDescriptorBufferInfo info = {buffer.handle(), 0, VK_WHOLE_SIZE};
+    auto write = vk_struct<VkWriteDescriptorSet>(VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET);
+    write.dstSet = set_, write.dstBinding = binding, write.descriptorCount = 1;
+    write.descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, write.pBufferInfo = &info;
+    vkUpdateDescriptorSets(context_.device(), 1, &write, 0, nullptr);
+}
+
+void Pipelines::bind_image(Binding binding, const DeviceImage& image)
+{
+    const VkDescriptorImageInfo info = {sampler_, image.view(), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
+    auto write = vk_struct<VkWriteDescriptorSet>(VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET);
+    write.dstSet = set_, write.dstBinding = binding, write.descriptorCount = 1;
+    write.descriptorType = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, write.pImageInfo = &info;
+    vkUpdateDescriptorSets(context_.device(), 1, &write, 0, nullptr);
+}
+
+void Pipelines::bind_set(VkCommandBuffer commands, VkPipelineBindPoint point) const
+{
+    vkCmdBindDescriptorSets(commands, point, layout_, 0, 1, &set_, 0, nullptr);
+}
+
+} // namespace burnish

@@ -1,0 +1,63 @@
+// The pipelines of the stages: one descriptor set for all of them, shaders by name.
+#pragma once
+#include <map>
+#include <string>
+#include <vector>
+
+#include "raster/vulkan/context.h"
+
+namespace burnish {
+
+// Bindings of the set, as shading/stages declares them.
+enum Binding : std::uint32_t {
+    kTexelsBinding, kRealsBinding, kIntsBinding, kFrameBinding, kMaterialsBinding, kTexturesBinding, kLightsBinding, kVerticesBinding,
+    kSetupsBinding, kCountsBinding, kDrawBinding, kIdsBinding, kDepthsBinding, kColorBinding, kRecordsBinding, kBufferBindings,
+    kIdImageBinding = kBufferBindings, kDepthImageBinding, kBindings
+};
+
+struct PassConstants { // BnPass of shading/stages/pass.glsl
+    std::int32_t shift_x, shift_y, sample_number, material;
+};
+
+using Specialization = std::vector<std::int32_t>; // values of constant_id 0, 1, 2...
+
+struct GraphicsState {
+    std::string vertex, fragment; // shaders
+    VkFormat color = VK_FORMAT_UNDEFINED;
+    VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
+    VkCompareOp compare = VK_COMPARE_OP_GREATER;
+};
+
+class Pipelines {
+  public:
+    Pipelines(Context& context, std::string shader_folder);
+    ~Pipelines();
+    Pipelines(const Pipelines&) = delete;
+    Pipelines& operator=(const Pipelines&) = delete;
+
+    VkPipelineLayout layout() const { return layout_; }
+    VkDescriptorSetLayout native_layout() const { return native_layout_; } // of set 1: three cubes, a material's textures
+    // Made on first use, then kept.
+    VkPipeline compute(const std::string& shader, const Specialization& constants = {});
+    VkPipeline graphics(const GraphicsState& state, const Specialization& constants = {});
+
+    void bind_buffer(Binding binding, const Buffer& buffer);
+    void bind_image(Binding binding, const DeviceImage& image);
+    void bind_set(VkCommandBuffer commands, VkPipelineBindPoint point) const;
+
+  private:
+    Pipelines(Context& context) : context_(context) {}
+    VkShaderModule module(const std::string& shader);
+
+    Context& context_;
+    std::string folder_;
+    VkDescriptorSetLayout set_layout_ = VK_NULL_HANDLE, native_layout_ = VK_NULL_HANDLE;
+    VkPipelineLayout layout_ = VK_NULL_HANDLE;
+    VkDescriptorPool pool_ = VK_NULL_HANDLE;
+    VkDescriptorSet set_ = VK_NULL_HANDLE;
+    VkSampler sampler_ = VK_NULL_HANDLE;
+    std::map<std::string, VkShaderModule> modules_;
+    std::map<std::string, VkPipeline> pipelines_; // by everything that decides them
+};
+
+} // namespace burnish

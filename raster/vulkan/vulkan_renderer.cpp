@@ -1,0 +1,362 @@
+#include "raster/vulkan/vulkan_renderer.h"
+
+#include <algorithm>
+#include <chrono>
+#include <sys/resource.h>
+
+#include "core/base/check.h"
+#include "raster/vulkan/context.h"
+#include "raster/vulkan/forward.h"
+#include "raster/vulkan/gpu_scene.h"
+#include "raster/vulkan/pipelines.h"
+
+namespace burnish {
+
+bool vulkan_built() { return true; }
+
+namespace {
+
+constexpr VkFormat kIdFormat = VK_FORMAT_R32G32_SFLOAT; // lower and upper 16 bits; see visibility.frag
+constexpr VkFormat kDepthFormat = VK_FORMAT_D32_SFLOAT;
+constexpr std::uint32_t kMinSetups = 1024;
+
+// Images and buffers whose size the frame decides.
+struct Targets {
+    int width = 0, height = 0, msaa = 0;
+    bool stages = false, native = false;
+    DeviceImage id, depth;
+    Buffer ids, depths, color, records;
+};
+
+class Device final : public VulkanDevice {
+  public:
+    explicit Device(const VulkanOptions& wanted) : options(wanted), context(wanted), pipelines(context, wanted.shader_folder) {}
+    const VulkanDeviceInfo& info() const override { return context.info(); }
+
+    VulkanOptions options;
+    Context context;
+    Pipelines pipelines;
+};
+
+class VulkanRenderer final : public Renderer {
+  public:
+    VulkanRenderer(const RenderInput& input, std::shared_ptr<Device> device)
+        : device_(std::move(device)), context_(device_->context), pipelines_(device_->pipelines), scene_(context_, input),
+          vertices_(context_, input.tables.px.size() * sizeof(GpuVertex), Buffer::Place::host),
+          counts_(context_, input.tables.triangle_count() * sizeof(std::int32_t), Buffer::Place::device),
+          draw_(context_, sizeof(GpuDraw), Buffer::Place::host, VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT),
+          forward_(context_, pipelines_, scene_, input, device_->options.sampler)
+    {
+        make_setups(static_cast<std::uint32_t>(input.tables.triangle_count()) + kMinSetups);
+    }
+    Result<Frame> render(const FrameDesc& desc, Frame) override;
+    std::string device() const override { return context_.info().name + ", " + context_.info().driver; }
+
+  private:
+    void make_setups(std::uint32_t capacity);
+    void make_targets(const FrameDesc& desc);
+    void bind(Binding binding, const Buffer& buffer) { pipelines_.bind_buffer(binding, buffer); }
+    std::vector<std::pair<Binding, const Buffer*>> scene_bindings() const;
+    void bind_all();
+    void dispatch(VkCommandBuffer c, VkPipeline pipeline, std::size_t invocations);
+    void push(VkCommandBuffer c, const PassConstants& pass);
+    void geometry(VkCommandBuffer c);
+    void visibility(VkCommandBuffer c, const PassConstants& pass);
+    void all_visibility(VkCommandBuffer c);
+    void shade(VkCommandBuffer c, const FrameDesc& desc);
+    void submit(VkCommandBuffer c); // and time it
+    void draw_frame(const FrameDesc& desc);
+    Frame read_frame(const FrameDesc& desc);
+    Frame render_ids(const FrameDesc& desc);
+    Frame render_forward(const FrameDesc& desc);
+
+    std::shared_ptr<Device> device_;
+    Context& context_;
+    Pipelines& pipelines_;
+    GpuScene scene_;
+    Buffer vertices_, counts_, draw_, setups_;
+    ForwardPass forward_;
+    std::uint32_t setup_capacity_ = 0;
+    double device_ms_ = 0.0, device_cpu_ms_ = 0.0;
+    SamplePattern pattern_ = {};
+    Targets targets_;
+};
+
+void VulkanRenderer::make_setups(std::uint32_t capacity)
+{
+    setup_capacity_ = capacity;
+    setups_ = Buffer(context_, capacity * sizeof(GpuSetup), Buffer::Place::host);
+}
+
+void VulkanRenderer::make_targets(const FrameDesc& desc)
+{
+    Targets& t = targets_;
+    const bool native = desc.msaa == 1 || ((context_.features().target_samples & static_cast<VkSampleCountFlags>(desc.msaa)) &&
+                                           context_.features().standard_samples);
+    if (t.width == desc.width && t.height == desc.height && t.msaa == desc.msaa && t.stages == desc.stages)
+        return;
+    t = Targets();
+    t.width = desc.width, t.height = desc.height, t.msaa = desc.msaa, t.stages = desc.stages, t.native = native;
+    ImageShape shape;
+    shape.width = desc.width, shape.height = desc.height;
+    shape.samples = native ? static_cast<VkSampleCountFlagBits>(desc.msaa) : VK_SAMPLE_COUNT_1_BIT;
+    shape.format = kIdFormat, shape.usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
+    t.id = DeviceImage(context_, shape);
+    shape.format = kDepthFormat, shape.usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
+    t.depth = DeviceImage(context_, shape);
+    const std::size_t pixels = static_cast<std::size_t>(desc.width) * static_cast<std::size_t>(desc.height);
+    const std::size_t samples = pixels * static_cast<std::size_t>(desc.msaa);
+    t.ids = Buffer(context_, samples * sizeof(std::int32_t), Buffer::Place::host);
+    t.depths = Buffer(context_, samples * sizeof(float), Buffer::Place::host);
+    t.color = Buffer(context_, 3 * pixels * sizeof(float), Buffer::Place::host);
+    t.records = Buffer(context_, desc.stages ? samples * kPairWords * sizeof(std::uint32_t) : 0, Buffer::Place::host);
+}
+
+std::vector<std::pair<Binding, const Buffer*>> VulkanRenderer::scene_bindings() const
+{
+    return {{kTexelsBinding, &scene_.pages()},        {kRealsBinding, &scene_.reals()},     {kIntsBinding, &scene_.ints()},
+            {kFrameBinding, &scene_.frame()},         {kMaterialsBinding, &scene_.materials()}, {kTexturesBinding, &scene_.textures()},
+            {kLightsBinding, &scene_.lights()}};
+}
+
+void VulkanRenderer::bind_all()
+{
+    for (const auto& [binding, buffer] : scene_bindings())
+        bind(binding, *buffer);
+    bind(kVerticesBinding, vertices_), bind(kSetupsBinding, setups_), bind(kCountsBinding, counts_), bind(kDrawBinding, draw_);
+    bind(kIdsBinding, targets_.ids), bind(kDepthsBinding, targets_.depths);
+    bind(kColorBinding, targets_.color), bind(kRecordsBinding, targets_.records);
+    pipelines_.bind_image(kIdImageBinding, targets_.id), pipelines_.bind_image(kDepthImageBinding, targets_.depth);
+}
+
+void VulkanRenderer::dispatch(VkCommandBuffer c, VkPipeline pipeline, std::size_t invocations)
+{
+    constexpr std::size_t kMaxGroups = 65535; // in one direction; stages count the others in (linear_invocation)
+    const std::size_t groups = std::max<std::size_t>((invocations + kGpuGroup - 1) / kGpuGroup, 1);
+    const std::size_t rows = (groups + kMaxGroups - 1) / kMaxGroups;
+    vkCmdBindPipeline(c, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline);
+    vkCmdDispatch(c, static_cast<std::uint32_t>(std::min(groups, kMaxGroups)), static_cast<std::uint32_t>(rows), 1);
+    full_barrier(c);
+}
+
+void VulkanRenderer::push(VkCommandBuffer c, const PassConstants& pass)
+{
+    vkCmdPushConstants(c, pipelines_.layout(), VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT | VK_SHADER_STAGE_COMPUTE_BIT, 0,
+                       sizeof pass, &pass);
+}
+
+// Vertices to the sub-pixel grid, triangles to setups.
+void VulkanRenderer::geometry(VkCommandBuffer c)
+{
+    const std::size_t triangles = static_cast<std::size_t>(scene_.record().triangle_count);
+    dispatch(c, pipelines_.compute("transform"), static_cast<std::size_t>(scene_.record().vertex_count));
+    dispatch(c, pipelines_.compute("setup", {0}), triangles);
+    dispatch(c, pipelines_.compute("scan"), 1);
+    dispatch(c, pipelines_.compute("setup", {1}), triangles);
+}
+
+// One pass of the rasterizer, and its ids and depths to buffers.
+void VulkanRenderer::visibility(VkCommandBuffer c, const PassConstants& pass)
+{
+    change_layout(c, targets_.id, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL);
+    change_layout(c, targets_.depth, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL);
+    auto color = vk_struct<VkRenderingAttachmentInfo>(VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO);
+    color.imageView = targets_.id.view(), color.imageLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
+    color.loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR, color.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
+    color.clearValue.color = {{-1.0f, -1.0f, 0.0f, 0.0f}};
+    auto depth = vk_struct<VkRenderingAttachmentInfo>(VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO);
+    depth.imageView = targets_.depth.view(), depth.imageLayout = VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL;
+    depth.loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR, depth.storeOp = VK_ATTACHMENT_STORE_OP_STORE; // cleared to 0: reversed depth
+    const VkRect2D area = {{0, 0}, {static_cast<std::uint32_t>(targets_.width), static_cast<std::uint32_t>(targets_.height)}};
+    auto rendering = vk_struct<VkRenderingInfo>(VK_STRUCTURE_TYPE_RENDERING_INFO);
+    rendering.renderArea = area, rendering.layerCount = 1;
+    rendering.colorAttachmentCount = 1, rendering.pColorAttachments = &color, rendering.pDepthAttachment = &depth;
+    vkCmdBeginRendering(c, &rendering);
+    GraphicsState state = {"visibility_vert", context_.features().float64 ? "visibility_exact" : "visibility", kIdFormat,
+                           targets_.native ? static_cast<VkSampleCountFlagBits>(targets_.msaa) : VK_SAMPLE_COUNT_1_BIT,
+                           VK_COMPARE_OP_GREATER};
+    vkCmdBindPipeline(c, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines_.graphics(state));
+    pipelines_.bind_set(c, VK_PIPELINE_BIND_POINT_GRAPHICS);
+    const float half = static_cast<float>(viewport_half(context_.features()));
+    const VkViewport viewport = {static_cast<float>(targets_.width / 2) - half, static_cast<float>(targets_.height / 2) - half,
+                                 2 * half, 2 * half, 0.0f, 1.0f};
+    vkCmdSetViewport(c, 0, 1, &viewport);
+    vkCmdSetScissor(c, 0, 1, &area);
+    vkCmdSetCullMode(c, VK_CULL_MODE_NONE);
+    push(c, pass);
+    vkCmdDrawIndirect(c, draw_.handle(), 0, 1, sizeof(GpuDraw));
+    vkCmdEndRendering(c);
+    change_layout(c, targets_.id, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+    change_layout(c, targets_.depth, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+    dispatch(c, pipelines_.compute(targets_.native && targets_.msaa > 1 ? "gather_ms" : "gather"),
+             static_cast<std::size_t>(targets_.width) * static_cast<std::size_t>(targets_.height));
+}
+
+void VulkanRenderer::all_visibility(VkCommandBuffer c)
+{
+    if (targets_.native) {
+        visibility(c, {0, 0, targets_.msaa == 1 ? 0 : -1, 0});
+        return;
+    }
+    for (int s = 0; s < targets_.msaa; ++s)
+        visibility(c, {kSubpixel / 2 - pattern_.x[s], kSubpixel / 2 - pattern_.y[s], s, 0});
+}
+
+// constant_id 0 to 3 of shading/stages: the technique's place, whether it tests the horizon and samples the tilt itself, and whether lights
+// see an isotropic lobe.
+Specialization technique_constants(const std::string& name)
+{
+    const auto index = static_cast<std::int32_t>(find_technique(name) - techniques().data());
+    const bool monte_carlo = name == "mc", tests_horizon = monte_carlo || name == "filtered_is" || name == "filtered_is_ggx";
+    return {index, tests_horizon, monte_carlo, name == "split_isotropic"};
+}
+
+void VulkanRenderer::shade(VkCommandBuffer c, const FrameDesc& desc)
+{
+    Specialization constants = technique_constants(desc.technique);
+    constants.push_back(desc.stages);
+    if (desc.stages)
+        vkCmdFillBuffer(c, targets_.records.handle(), 0, VK_WHOLE_SIZE, 0);
+    full_barrier(c);
+    dispatch(c, pipelines_.compute("shade", constants),
+             static_cast<std::size_t>(targets_.width) * static_cast<std::size_t>(targets_.height));
+}
+
+void VulkanRenderer::draw_frame(const FrameDesc& desc)
+{
+    scene_.prepare(context_, desc, pattern_, setup_capacity_);
+    bind_all();
+    VkCommandBuffer c = context_.begin();
+    pipelines_.bind_set(c, VK_PIPELINE_BIND_POINT_COMPUTE);
+    geometry(c);
+    all_visibility(c);
+    shade(c, desc);
+    submit(c);
+}
+
+double process_cpu_ms() // of all threads
+{
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    const auto ms = [](const timeval& t) { return static_cast<double>(t.tv_sec) * 1e3 + static_cast<double>(t.tv_usec) * 1e-3; };
+    return ms(usage.ru_utime) + ms(usage.ru_stime);
+}
+
+double wall_ms() { return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+
+void VulkanRenderer::submit(VkCommandBuffer c)
+{
+    const double wall = wall_ms(), cpu = process_cpu_ms();
+    context_.submit(c);
+    device_ms_ = wall_ms() - wall, device_cpu_ms_ = process_cpu_ms() - cpu;
+}
+
+Frame VulkanRenderer::read_frame(const FrameDesc& desc)
+{
+    const std::size_t pixels = static_cast<std::size_t>(desc.width) * static_cast<std::size_t>(desc.height);
+    const std::size_t msaa = static_cast<std::size_t>(desc.msaa);
+    Frame frame;
+    frame.color = make_image(desc.width, desc.height, 3, PixelType::f32);
+    std::memcpy(frame.color.f32(), targets_.color.data(), 3 * pixels * sizeof(float));
+    const std::int32_t* ids = targets_.ids.as<std::int32_t>();
+    for (std::size_t p = 0; p < pixels; ++p) {
+        const std::int32_t* of = ids + p * msaa;
+        for (std::size_t s = 0; s < msaa; ++s) {
+            if (std::find(of, of + s, of[s]) != of + s)
+                continue;
+            ++(of[s] == kGpuNoTriangle ? frame.stats.background_pixels : frame.stats.visible_fragments);
+        }
+    }
+    frame.stats.triangles = static_cast<std::uint64_t>(scene_.record().triangle_count);
+    frame.stats.triangles_drawn = static_cast<std::uint64_t>(draw_.as<GpuDraw>()->setups);
+    frame.stats.samples_emulated = !targets_.native;
+    frame.stats.depth_interpolated = !context_.features().float64;
+    if (desc.triangle_ids || desc.stages) {
+        frame.triangle_ids.resize(pixels * msaa);
+        const GpuSetup* setups = setups_.as<GpuSetup>();
+        for (std::size_t i = 0; i < pixels * msaa; ++i)
+            frame.triangle_ids[i] = ids[i] == kGpuNoTriangle ? kNoTriangle : static_cast<std::uint32_t>(setups[ids[i]].triangle);
+    }
+    if (desc.stages) {
+        frame.stages.vertices.assign(vertices_.as<std::uint32_t>(), static_cast<std::size_t>(scene_.record().vertex_count) * kVertexWords);
+        frame.stages.depths.assign(targets_.depths.as<std::uint32_t>(), pixels * msaa);
+        frame.stages.pairs.assign(targets_.records.as<std::uint32_t>(), pixels * msaa * kPairWords);
+    }
+    return frame;
+}
+
+Frame VulkanRenderer::render_ids(const FrameDesc& desc)
+{
+    make_targets(desc);
+    draw_frame(desc);
+    const auto setups = static_cast<std::uint32_t>(draw_.as<GpuDraw>()->setups);
+    if (setups > setup_capacity_) { // clipping left more pieces than there was room for
+        make_setups(setups + setups / 4);
+        draw_frame(desc);
+    }
+    return read_frame(desc);
+}
+
+Frame VulkanRenderer::render_forward(const FrameDesc& desc)
+{
+    scene_.prepare(context_, desc, pattern_, setup_capacity_);
+    forward_.prepare(desc);
+    for (const auto& [binding, buffer] : scene_bindings())
+        bind(binding, *buffer);
+    VkCommandBuffer c = context_.begin();
+    forward_.draw(c, desc, technique_constants(desc.technique));
+    submit(c);
+    c = context_.begin();
+    forward_.read(c);
+    context_.submit(c);
+    Frame frame;
+    frame.color = make_image(desc.width, desc.height, 3, PixelType::f32);
+    const std::size_t pixels = static_cast<std::size_t>(desc.width) * static_cast<std::size_t>(desc.height);
+    for (std::size_t p = 0; p < pixels; ++p)
+        std::copy_n(forward_.pixels() + 4 * p, 3, frame.color.f32() + 3 * p);
+    frame.stats.triangles = frame.stats.triangles_drawn = static_cast<std::uint64_t>(scene_.record().triangle_count);
+    return frame;
+}
+
+Result<Frame> VulkanRenderer::render(const FrameDesc& desc, Frame)
+{
+    if (const Status ok = check_desc(desc); !ok)
+        return ok.error();
+    const bool forward = device_->options.pipeline == VulkanPipeline::forward;
+    if (forward && (desc.stages || desc.triangle_ids))
+        return Error{ExitCode::usage, "", "--pipeline", "forward has no stages to look at"};
+    try {
+        const double begin = wall_ms();
+        pattern_ = standard_samples(desc.msaa);
+        Frame frame = forward ? render_forward(desc) : render_ids(desc);
+        if (const std::string messages = context_.validation_messages(); !messages.empty())
+            return Error{ExitCode::internal, "", "validation layer", messages};
+        frame.stats.ms = wall_ms() - begin;
+        frame.stats.device_ms = device_ms_, frame.stats.device_cpu_ms = device_cpu_ms_;
+        return frame;
+    } catch (const VulkanError& failed) {
+        return failed.error;
+    }
+}
+
+} // namespace
+
+Result<std::shared_ptr<VulkanDevice>> open_vulkan_device(const VulkanOptions& options)
+{
+    try {
+        return std::shared_ptr<VulkanDevice>(std::make_shared<Device>(options));
+    } catch (const VulkanError& failed) {
+        return failed.error;
+    }
+}
+
+Result<std::unique_ptr<Renderer>> make_vulkan_renderer(const RenderInput& input, const std::shared_ptr<VulkanDevice>& device)
+{
+    try {
+        return std::unique_ptr<Renderer>(std::make_unique<VulkanRenderer>(input, std::static_pointer_cast<Device>(device)));
+    } catch (const VulkanError& failed) {
+        return failed.error;
+    }
+}
+
+} // namespace burnish

@@ -1,0 +1,32 @@
+// Exclusive prefix sum of the setups by triangle, and the draw command for all of them. One workgroup.
+#version 460
+#extension GL_EXT_buffer_reference_uvec2 : require
+layout(local_size_x = 64) in;
+#define BN_COMPUTE
+#include "shading/stages/interface.glsl"
+
+layout(std430, set = 0, binding = 9) buffer BnCounts { int counts[]; };
+layout(std430, set = 0, binding = 10) writeonly buffer BnDraw { GpuDraw draw; };
+
+shared int sums[kGpuGroup];
+
+void main()
+{
+    int me = int(gl_LocalInvocationID.x), each = (frame.triangle_count + kGpuGroup - 1) / kGpuGroup;
+    int begin = min(me * each, frame.triangle_count), end = min(begin + each, frame.triangle_count);
+    int sum = 0;
+    for (int i = begin; i < end; ++i)
+        sum += counts[i];
+    sums[me] = sum;
+    barrier();
+    int before = 0;
+    for (int i = 0; i < me; ++i)
+        before += sums[i];
+    for (int i = begin; i < end; ++i) {
+        int count = counts[i];
+        counts[i] = before;
+        before += count;
+    }
+    if (me == kGpuGroup - 1)
+        draw = GpuDraw(3 * min(before, frame.setup_capacity), 1, 0, 0, before);
+}

@@ -1,0 +1,21 @@
+// Vertices to clip space and to the sub-pixel grid.
+#version 460
+#extension GL_EXT_buffer_reference_uvec2 : require
+layout(local_size_x = 64) in;
+#define BN_COMPUTE
+#define BN_VERTEX_ACCESS writeonly
+#include "shading/stages/interface.glsl"
+
+void main()
+{
+    int v = linear_invocation();
+    if (v >= frame.vertex_count)
+        return;
+    real4 clip = clip_position(vertex_position(v), frame_view());
+    snapped_vertex s = snap_to_frame(clip, kGpuWholeBand);
+    vertices[v].clip = float[4](clip.x, clip.y, clip.z, clip.w);
+    vertices[v].x = s.valid ? s.x : kGpuNeedsClip;
+    vertices[v].y = s.y;
+    vertices[v].inv_w = s.inv_w;
+    vertices[v].z = s.z;
+}
