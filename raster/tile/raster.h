@@ -21,6 +21,7 @@ struct TileTriangle {
     float sample_z[kMaxSamples];
     int px0, px1, py0, py1;         // pixels of the tile that the bounding box touches, inclusive
     bool small;                     // at most a block wide and high, in the tile or not
+    bool any_order;                 // drawn out of turn: at equal depths the lower id wins, which it does by itself in turn
 };
 
 BN_INLINE int floor_shift(std::int64_t v, int n) { return static_cast<int>(v >> n); }
@@ -106,9 +107,10 @@ BN_INLINE bool block_hidden(const FrameParams& f, const TileTriangle& t, float z
     const float size = z_corner < 0.0f ? -z_corner : z_corner, slack = 1e-5f * (size + (ax + ay) * kBlock); // rounding is far below
     float nearest = z_corner + (t.dz_x + t.dz_y) * (0.5f * kBlock) + (ax + ay) * (0.5f * kBlock) + slack;
     nearest = nearest < t.z_max ? nearest : t.z_max;
-    if (nearest <= scratch.block_far[block])
+    const auto hidden = [&](float farthest) { return t.any_order ? nearest < farthest : nearest <= farthest; };
+    if (hidden(scratch.block_far[block]))
         return true;
-    if (scratch.block_dirty[block] < kRefreshWrites)
+    if (scratch.block_dirty[block] < (t.any_order ? 1 : kRefreshWrites))
         return false;
     real far = load(depth);
     for (int i = kLanes; i < f.msaa * kBlockPixels; i += kLanes)
@@ -117,7 +119,7 @@ BN_INLINE bool block_hidden(const FrameParams& f, const TileTriangle& t, float z
     store(farthest, reduce_min(far));
     scratch.block_far[block] = farthest[0];
     scratch.block_dirty[block] = 0;
-    return nearest <= scratch.block_far[block];
+    return hidden(farthest[0]);
 }
 
 struct NoAlpha { // opaque: every covered sample counts
@@ -147,7 +149,7 @@ BN_INLINE bool cover_block(const FrameParams& f, const TileTriangle& t, const Bl
                 for (int i = 0; i < kEdges; ++i)
                     side = side | (at[i] + int_lit(e.sample_step[i][s]));
                 const real zs = min(max(z + splat(t.sample_z[s]), z_min), z_max);
-                covered[s] = to_bits(both(side >= zero, zs > load(depth + s * kBlockPixels + v * kLanes)));
+                covered[s] = to_bits(both(side >= zero, zs >= load(depth + s * kBlockPixels + v * kLanes)));
                 some |= covered[s];
             }
             if (!some)
@@ -159,7 +161,10 @@ BN_INLINE bool cover_block(const FrameParams& f, const TileTriangle& t, const Bl
             std::uint32_t* to = ids + s * kBlockPixels + v * kLanes;
             const real zs = min(max(z + splat(t.sample_z[s]), z_min), z_max);
             const real old = load(d);
+            std::int32_t* to_int = reinterpret_cast<std::int32_t*>(to);
             mask pass = zs > old;
+            if (t.any_order)
+                pass = either(pass, both(zs == old, lane_id < load_int(to_int)));
             if constexpr (kEdges > 0) {
                 integer side = at[0] + int_lit(e.sample_step[0][s]);
                 for (int i = 1; i < kEdges; ++i)
@@ -171,7 +176,6 @@ BN_INLINE bool cover_block(const FrameParams& f, const TileTriangle& t, const Bl
             if (!any(pass))
                 continue;
             store(d, select(pass, zs, old));
-            std::int32_t* to_int = reinterpret_cast<std::int32_t*>(to);
             store_int(to_int, select(pass, lane_id, load_int(to_int)));
             wrote = true;
         }

@@ -72,14 +72,37 @@ struct AlphaBlocks {
     BlockAlpha operator()(int bx, int by) const { return {t, m, view, triangle, bx, by}; }
 };
 
+inline constexpr std::uint32_t kSortedTriangles = 64; // more of them in a tile are drawn as they come
+
+// The nearest first, so that what lies behind is hidden by the block: the order of few triangles, by their nearest depth.
+void front_to_back(const TileScratch& s, std::uint32_t order[kSortedTriangles])
+{
+    float nearest[kSortedTriangles];
+    for (std::uint32_t i = 0; i < s.triangle_count; ++i) {
+        const float* z = s.triangles[i].z;
+        float key = z[0] > z[1] ? z[0] : z[1];
+        key = z[2] > key ? z[2] : key;
+        std::uint32_t at = i;
+        for (; at > 0 && nearest[at - 1] < key; --at)
+            nearest[at] = nearest[at - 1], order[at] = order[at - 1];
+        nearest[at] = key, order[at] = i;
+    }
+}
+
 void raster_tile(const Tile& t, const view_params& view)
 {
+    std::uint32_t order[kSortedTriangles];
+    const bool sorted = t.s.triangle_count <= kSortedTriangles;
+    if (sorted)
+        front_to_back(t.s, order);
     t.s.only_material = kNoMaterial;
-    for (std::uint32_t i = 0; i < t.s.triangle_count; ++i) {
+    for (std::uint32_t k = 0; k < t.s.triangle_count; ++k) {
+        const std::uint32_t i = sorted ? order[k] : k;
         const TriangleSetup& setup = t.s.triangles[i];
         TileTriangle triangle;
         if (!begin_triangle(t.f, setup, t.index_x, t.index_y, triangle))
             continue;
+        triangle.any_order = sorted;
         const std::int32_t material = setup.info >> 2;
         t.s.only_material = t.s.only_material == kNoMaterial || t.s.only_material == material ? material : kManyMaterials;
         const MaterialRecord& m = t.f.materials[material];
