@@ -69,7 +69,7 @@ def options_of_shading(bench):
 
 @case("parity.everything", "slow")
 def everything(bench):
-    report = parity(bench, "--suite", "default", "--models", bench.shared("models"), "--size", "256x144", timeout=1800.0)
+    report = parity(bench, "--suite", "default", "--models", bench.shared("models"), timeout=590.0)
     check_equal(report)
 
 

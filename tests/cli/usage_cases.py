@@ -50,7 +50,7 @@ WRONG = (
     (("render", "--tilt", "10,90"), "--tilt"),
     (("render", "--dfg", "guess"), "table, fit"),
     (("render", "--limit-draw-bytes", "lots"), "--limit-draw-bytes"),
-    (("render", "--backend", "nothing"), "tile, reference"),
+    (("render", "--backend", "nothing"), "tile, vulkan, reference"),
     (("render", "--tile-size", "48"), "32, 64"),
     (("render", "--texture-anisotropy", "17"), "--texture-anisotropy"),
     (("render", "--roughness", "nan"), "--roughness"),
