@@ -163,11 +163,11 @@ Status write_json(const std::string& path, const nlohmann::ordered_json& json)
     return write_file_atomic(path, text.data(), text.size());
 }
 
-template <class Make> Status append(std::vector<Row>& rows, const RunOptions& run, const char* group, Make make)
+template <class Make> Status append(std::vector<Row>& rows, const RunOptions& run, const char* group, const char* how, Make make)
 {
     if (!chosen(run, group, group))
         return {};
-    say(std::string(group) + ": processes of their own");
+    say(std::string(group) + ": " + how);
     Result<std::vector<Row>> more = make(run);
     if (!more)
         return more.error();
@@ -194,9 +194,11 @@ int run(const Options& options)
         for (Row& row : rows)
             if (row.group == "rays")
                 row.note += fmt::format("; {:.3f} % of the pixels see the same triangle", 100.0 * agreement_with_rays(run));
-        if (const Status done = append(rows, run, "memory", memory_rows); !done)
+        if (const Status done = append(rows, run, "accuracy", "against the reference", accuracy_rows); !done)
             return fail(done.error());
-        if (const Status done = append(rows, run, "first_pixel", first_pixel_rows); !done)
+        if (const Status done = append(rows, run, "memory", "processes of their own", memory_rows); !done)
+            return fail(done.error());
+        if (const Status done = append(rows, run, "first_pixel", "processes of their own", first_pixel_rows); !done)
             return fail(done.error());
         print_rows(rows, isa);
         print_workloads(*measured);

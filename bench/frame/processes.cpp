@@ -91,7 +91,7 @@ Result<std::vector<Row>> memory_rows(const RunOptions& options)
         found.push_back(m);
     }
     std::vector<Row> rows;
-    double least = 1e300, most = 0.0, frame_least = 1e300, frame_most = 0.0;
+    double least = 1e300, growth = 0.0;
     std::string input, frame;
     for (std::size_t i = 0; i < found.size(); ++i) {
         const Memory& m = found[i];
@@ -103,13 +103,12 @@ Result<std::vector<Row>> memory_rows(const RunOptions& options)
         const Memory& p = found[i - 1];
         const double more = m.triangles - p.triangles, bytes = (m.peak - p.peak) / more;
         const double bins = ((m.peak - m.before) - (p.peak - p.before)) / more;
-        least = std::min(least, bytes), most = std::max(most, bytes);
-        frame_least = std::min(frame_least, bins), frame_most = std::max(frame_most, bins);
+        growth = std::max(growth, bytes / least); // against what a triangle took where there were fewer
+        least = std::min(least, bytes);
         input += fmt::format("{}{:.0f}", input.empty() ? "" : ", ", bytes);
         frame += fmt::format("{}{:.0f}", frame.empty() ? "" : ", ", bins);
     }
-    const double linear = most / least;
-    rows.push_back({"memory", "bytes of a further triangle, most to least", "x", 1.5, false, {linear, linear, linear},
+    rows.push_back({"memory", "bytes of a further triangle, many to fewer", "x", 1.5, false, {growth, growth, growth},
                     fmt::format("{} bytes, of them in the frame {}", input, frame)});
     return rows;
 }

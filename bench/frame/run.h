@@ -47,6 +47,9 @@ std::vector<Row> rows_of(const std::vector<Measured>& measured);
 // Share of the pixels that the tile renderer and rays give the same triangle, of a million triangles; -1 without Embree.
 double agreement_with_rays(const RunOptions& options);
 
+// Errors of techniques against the Monte Carlo reference; none without Embree.
+Result<std::vector<Row>> accuracy_rows(const RunOptions& options);
+
 // Memory and the time to the first pixel, by processes of their own. An Error where one of them failed.
 Result<std::vector<Row>> memory_rows(const RunOptions& options);
 Result<std::vector<Row>> first_pixel_rows(const RunOptions& options);

@@ -24,8 +24,9 @@ vec4 native_fetch(cube_desc cube, vec3 d, float lod)
 }
 texel_acc native_texel_add(texel_acc acc, cube_desc cube, real3 d, real lod, real weight)
 {
-    vec4 value = native_fetch(cube, d, lod) * weight;
-    return texel_acc(acc.left + value, acc.right);
+    real4 value = native_fetch(cube, d, lod) * weight;
+    real4 left = acc.left + value;
+    return texel_acc(left, acc.right);
 }
 real3 native_sample(cube_desc cube, real3 d, real lod) { return native_fetch(cube, d, lod).xyz; }
 real3 native_sample_level(cube_desc cube, real3 d, int level) { return native_fetch(cube, d, float(level)).xyz; }

@@ -54,7 +54,7 @@ class RooflineTest(unittest.TestCase):
         mark = root.find(f"{SVG}circle[@class='kernel']")
         ceiling = root.find(f"{SVG}line[@class='ceiling']")
         y_mark, y_ceiling = float(mark.get("cy")), float(ceiling.get("y1"))
-        self.assertGreater(y_mark, y_ceiling)  # below the ceiling
+        self.assertTrue(roofline.TOP < y_ceiling < y_mark < roofline.BOTTOM)  # below the ceiling, and in the picture
         # The kernel lies half as high as the slope of L2 at its place: 1.25 operations a byte times 32 GB/s are 40 Gop/s, it does 20.
         slopes = [line for line in root.iter(f"{SVG}line") if line.get("class") == "slope"]
         self.assertEqual(len(slopes), 3)
