@@ -69,7 +69,7 @@ def options_of_shading(bench):
 
 @case("parity.everything", "slow")
 def everything(bench):
-    report = parity(bench, "--suite", "default", "--models", bench.shared("models"), "--size", "256x144", timeout=1800.0)
+    report = parity(bench, "--suite", "default", "--models", bench.shared("models"), timeout=590.0)
     check_equal(report)
 
 
@@ -102,6 +102,22 @@ def wrong_options(bench):
             raise Skipped(done.err.strip())
         done.expect(2).expect_one_line(needle)
     bench.run("render", "--device", "lavapipe").expect(2).expect_one_line("--device")
+
+
+@case("race.rows")
+def race_rows(bench):
+    done = bench.run("race", "--size", "96x64", "--techniques", "split_isotropic", "--msaa", "1", "--runs", "2", "--devices", "lavapipe,abacus", *COARSE,
+                     "--json", "race.json")
+    if done.code == 77:
+        raise Skipped(done.err.strip())
+    done.expect(0)
+    report = json.loads((bench.folder / "race.json").read_text())
+    row, = report["rows"]
+    check(row["flip_mean"] < 0.01 and row["same_picture"], f"another picture: {row}")
+    check(all(row[key] > 0 for key in ("tile_ms", "device_ms", "tile_cpu_ms", "device_cpu_ms")), f"no times: {row}")
+    check(abs(row["ratio"] - row["device_cpu_ms"] / row["tile_cpu_ms"]) < 1e-6 * row["ratio"], f"another ratio: {row}")
+    check(abs(report["geomean_ratio"] - row["ratio"]) < 1e-6 * row["ratio"], "the mean of one row is that row")
+    check(any("abacus" in note for note in report["notes"]), "nothing is said of the device that is absent")
 
 
 # What `parity` must catch. Each defect: files of the shading text, what is replaced in them, samples a pixel, the first stage that must

@@ -1,0 +1,239 @@
+// `burnish race`: the tile renderer against Vulkan's CPU devices at the same picture.
+#include <algorithm>
+#include <chrono>
+#include <fmt/format.h>
+#include <memory>
+#include <sys/resource.h>
+
+#include "apps/chart_plan.h"
+#include "apps/command.h"
+#include "apps/loaded_scene.h"
+#include "apps/outputs.h"
+#include "apps/parse.h"
+#include "apps/race_report.h"
+#include "apps/render_stats.h"
+#include "core/base/version.h"
+#include "core/image/flip.h"
+#include "core/image/metrics.h"
+#include "core/simd/cpu.h"
+#include "raster/tile/tile_renderer.h"
+
+namespace burnish {
+namespace {
+
+constexpr const char* kFooter =
+    R"(The tile renderer and each device draw the same frame in turn, warm; the device by the classical pipeline with its own samplers, timed
+from submission to the fence. The ratio is of the process' CPU time, device over tile: above 1 the tile renderer needs less. A frame that
+differs (mean FLIP above 0.01) is marked and counts for nothing.
+
+Examples:
+  burnish race
+  burnish race builtin:spheres --techniques major_axis,mc --size 1920x1080 --msaa 1,4 --json race.json)";
+
+struct RaceArguments {
+    RenderArguments render;
+    std::vector<std::string> scenes;
+    std::string techniques = "all", devices = "lavapipe,swiftshader", msaa = "1,4", runs = "5", json;
+};
+
+struct Timed {
+    std::vector<double> wall_ms, cpu_ms;
+    Image picture;
+};
+
+double process_cpu_ms() // of all threads
+{
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    const auto ms = [](const timeval& t) { return static_cast<double>(t.tv_sec) * 1e3 + static_cast<double>(t.tv_usec) * 1e-3; };
+    return ms(usage.ru_utime) + ms(usage.ru_stime);
+}
+
+// The frame before, whose memory is used again.
+Status draw_tile(Renderer& tile, const FrameDesc& desc, Frame& frame, Timed& into)
+{
+    const auto begin = std::chrono::steady_clock::now();
+    const double cpu = process_cpu_ms();
+    Result<Frame> drawn = tile.render(desc, std::move(frame));
+    into.cpu_ms.push_back(process_cpu_ms() - cpu);
+    into.wall_ms.push_back(std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count());
+    if (!drawn)
+        return drawn.error();
+    frame = std::move(*drawn);
+    return {};
+}
+
+Status draw_device(Renderer& device, const FrameDesc& desc, Frame& frame, Timed& into)
+{
+    Result<Frame> drawn = device.render(desc, std::move(frame));
+    if (!drawn)
+        return drawn.error();
+    into.cpu_ms.push_back(drawn->stats.device_cpu_ms), into.wall_ms.push_back(drawn->stats.device_ms);
+    frame = std::move(*drawn);
+    return {};
+}
+
+// A B A B: whatever slows the machine slows both. The first round is not counted: pipelines are made in it.
+Result<RaceRow> race(Renderer& tile, Renderer& device, const FrameDesc& desc, int runs, const Jobs& jobs)
+{
+    Timed a, b;
+    Frame of_tile, of_device;
+    for (int i = 0; i <= runs; ++i) {
+        if (const Status drawn = draw_tile(tile, desc, of_tile, a); !drawn)
+            return drawn.error();
+        if (const Status drawn = draw_device(device, desc, of_device, b); !drawn)
+            return drawn.error();
+        if (i == 0)
+            a = Timed(), b = Timed();
+    }
+    RaceRow row;
+    row.technique = desc.technique, row.samples = desc.samples, row.msaa = desc.msaa;
+    row.tile_ms = median(a.wall_ms), row.device_ms = median(b.wall_ms);
+    row.tile_cpu_ms = median(a.cpu_ms), row.device_cpu_ms = median(b.cpu_ms);
+    row.flip_mean = not_finite_pixels(of_tile.color, of_device.color)
+                        ? 1.0
+                        : summarise_errors(flip_hdr(of_tile.color, of_device.color, {}, jobs).error).mean;
+    return row;
+}
+
+// Every frame to be raced, with its scene.
+struct RacePlan {
+    std::vector<RenderOptions> frames; // by scene, technique, msaa
+    std::vector<std::string> devices;
+    int runs = 5;
+};
+
+Result<RacePlan> check(const RaceArguments& in)
+{
+    RacePlan plan;
+    const Result<std::vector<std::string>> techniques = parse_techniques(in.techniques);
+    if (!techniques)
+        return techniques.error();
+    RenderArguments arguments = in.render;
+    arguments.plain.backend = "vulkan", arguments.pipeline = "forward", arguments.sampler = "native";
+    for (const std::string& scene : in.scenes.empty() ? std::vector<std::string>{"builtin:teapot"} : in.scenes)
+        for (const std::string& technique : *techniques)
+            for (const std::string& msaa : split(in.msaa, ',')) {
+                arguments.plain.scene = scene, arguments.technique = technique, arguments.msaa = msaa;
+                const Result<RenderOptions> checked = check_render_options(arguments);
+                if (!checked)
+                    return checked.error();
+                plan.frames.push_back(*checked);
+            }
+    plan.devices = split(in.devices, ',');
+    const Result<std::int64_t> runs = parse_integer("--runs", in.runs, 1, 10000);
+    if (!runs)
+        return runs.error();
+    plan.runs = static_cast<int>(*runs);
+    if (!in.json.empty())
+        if (const Status writable = check_text_path("--json", in.json, in.scenes); !writable)
+            return writable.error();
+    return plan;
+}
+
+// Those that are there; the others get a note.
+std::vector<std::shared_ptr<VulkanDevice>> open_devices(const RacePlan& plan, RaceReport& report, Error& last)
+{
+    std::vector<std::shared_ptr<VulkanDevice>> devices;
+    for (const std::string& name : plan.devices) {
+        VulkanOptions options = plan.frames.front().vulkan;
+        options.device = name;
+        const Result<std::shared_ptr<VulkanDevice>> device = open_vulkan_device(options);
+        if (!device) {
+            last = device.error();
+            report.notes.push_back(name + ": " + last.line());
+            continue;
+        }
+        devices.push_back(*device);
+        if ((*device)->info().name.find("SwiftShader") != std::string::npos)
+            report.notes.push_back("SwiftShader snaps vertices to 1/16 pixel, so its edges differ by design, and is slow where the level of detail "
+                                   "varies inside a quad");
+    }
+    return devices;
+}
+
+int run_race(const RaceArguments& arguments)
+{
+    const Result<RacePlan> checked = check(arguments);
+    if (!checked)
+        return fail(checked.error());
+    const RenderOptions& base = checked->frames.front();
+    Report report(base.quiet, base.verbosity);
+    const Jobs jobs(base.threads);
+    RaceReport out{cpu_name(), isa_name(base.isa), version(), jobs.threads(), base.frame.width, base.frame.height, checked->runs, {}, {}};
+    Error none{ExitCode::unavailable, "", "--devices", "no device is given"};
+    const std::vector<std::shared_ptr<VulkanDevice>> devices = open_devices(*checked, out, none);
+    if (devices.empty())
+        return fail(none);
+    const Result<Environment> environment = load_environment(base.env, base.environment, base.limits, jobs);
+    if (!environment)
+        return fail(environment.error());
+    const DfgTable dfg = bake_dfg(kDfgSize, kDfgSamples, jobs);
+    report.release();
+    for (std::size_t i = 0; i < checked->frames.size();) {
+        const std::string& name = checked->frames[i].scene;
+        const Result<std::unique_ptr<LoadedScene>> scene = load_seen_scene(name, checked->frames[i], report);
+        if (!scene)
+            return fail(scene.error());
+        const RenderInput input{(*scene)->scene, (*scene)->tables, *environment, dfg, jobs};
+        const std::unique_ptr<Renderer> tile = make_tile_renderer(input, base.isa);
+        std::vector<std::unique_ptr<Renderer>> renderers;
+        for (const auto& device : devices) {
+            Result<std::unique_ptr<Renderer>> made = make_vulkan_renderer(input, device);
+            if (!made)
+                return fail(made.error());
+            renderers.push_back(std::move(*made));
+        }
+        for (; i < checked->frames.size() && checked->frames[i].scene == name; ++i)
+            for (std::size_t d = 0; d < devices.size(); ++d) {
+                FrameDesc desc = checked->frames[i].frame;
+                desc.view = (*scene)->view;
+                Result<RaceRow> row = race(*tile, *renderers[d], desc, checked->runs, jobs);
+                if (!row)
+                    return fail(row.error());
+                row->scene = name, row->device = devices[d]->info().name;
+                report.detail("row", fmt::format("{} {} {}x {}: {:.2f}", name, row->technique, row->msaa, row->device, row->ratio()));
+                out.rows.push_back(*row);
+            }
+    }
+    if (!base.quiet)
+        std::fputs(race_table(out).c_str(), stderr);
+    if (arguments.json.empty())
+        return 0;
+    const Status written = write_text(arguments.json, race_json(out));
+    return written ? 0 : fail(written.error());
+}
+
+} // namespace
+
+Command add_race(CLI::App& program)
+{
+    CLI::App* app = program.add_subcommand("race", "Time the tile renderer against Vulkan's CPU devices");
+    auto arguments = std::make_shared<RaceArguments>();
+    RaceArguments& to = *arguments;
+    const auto option = [app](const char* name, std::string& text, const char* help, const char* type) {
+        app->add_option(name, text, help)->type_name(type);
+    };
+    app->option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
+    app->add_option("SCENE", to.scenes, "A .gltf or .glb file, or builtin:NAME; may be several (builtin:teapot)");
+    option("--techniques", to.techniques, "all, or names by commas; see burnish list techniques (all)", "NAMES");
+    option("--devices", to.devices, "By commas; those that are absent are named and left out (lavapipe,swiftshader)", "NAMES");
+    option("--msaa", to.msaa, "Samples a pixel, by commas (1,4)", "N,N");
+    option("--runs", to.runs, "Timed frames of every row and renderer, in turn (5)", "N");
+    option("--json", to.json, "Rows as JSON; - for standard output", "FILE");
+    option("--size", to.render.size, "Width and height in pixels (1280x720)", "WxH");
+    option("--samples", to.render.samples, "Samples of the techniques, where they take any", "N");
+    option("--env", to.render.plain.env, "Equirectangular picture or builtin:NAME (builtin:studio)", "FILE");
+    option("--env-size", to.render.env_size, "Texels along a cube edge, a power of two (512)", "N");
+    option("--env-samples", to.render.env_samples, "Samples a texel of the prefiltered levels (1024)", "N");
+    option("--threads", to.render.threads, "Worker threads of the tile renderer (all cores)", "N");
+    option("--isa", to.render.isa, "scalar, avx2 or avx512 (the best one)", "NAME");
+    app->add_flag("-q,--quiet", to.render.plain.quiet, "Print errors only");
+    app->add_flag("-v,--verbose", to.render.plain.verbosity, "Print rows as they come");
+    refuse_empty_values(*app);
+    app->get_option("SCENE")->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    app->footer(kFooter);
+    return {app, [arguments] { return run_race(*arguments); }};
+}
+
+} // namespace burnish
