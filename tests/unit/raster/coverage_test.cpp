@@ -268,6 +268,32 @@ TEST(coverage, an_orthographic_view_starts_at_its_near_plane)
     EXPECT_EQ(hits(-1.5f), 0); // beyond the far plane
 }
 
+// Of equal depths the first drawn is seen, whether a tile draws its few triangles nearest first or its many as they come.
+TEST(coverage, of_equal_depths_the_first_drawn_is_seen)
+{
+    const auto quad = [](float z) {
+        const glm::vec3 a(-50, 50, z), b(-50, -250, z), c(250, -250, z), d(250, 50, z);
+        return std::array<Triangle, 2>{Triangle{a, b, c}, Triangle{a, c, d}};
+    };
+    for (int behind : {0, 40}) // and more of them than a tile sorts
+        for (int msaa : {1, 8}) {
+            std::vector<Triangle> triangles;
+            for (int i = 0; i < behind; ++i)
+                for (const Triangle& t : quad(0.1f))
+                    triangles.push_back(t);
+            const std::uint32_t first = static_cast<std::uint32_t>(triangles.size());
+            for (int i = 0; i < 3; ++i)
+                for (const Triangle& t : quad(i == 1 ? 0.3f : 0.4f))
+                    triangles.push_back(t);
+            const Stage stage(scene_of(triangles, true));
+            for (Isa isa : available_isas()) {
+                const Frame f = stage.render(id_desc(70, 50, msaa), isa);
+                for (const std::uint32_t id : f.triangle_ids)
+                    ASSERT_TRUE(id == first || id == first + 1) << id << " of " << triangles.size() << " " << isa_name(isa);
+            }
+        }
+}
+
 // Slivers have steep depths: whatever rounds, it must not know the tile.
 TEST(coverage, tiles_of_32_and_64_agree_on_crossing_slivers)
 {
