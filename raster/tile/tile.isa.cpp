@@ -74,10 +74,12 @@ struct AlphaBlocks {
 
 inline constexpr std::uint32_t kSortedTriangles = 64; // more of them in a tile are drawn as they come
 
-// The nearest first, so that what lies behind is hidden by the block: the order of few triangles, by their nearest depth.
-void front_to_back(const TileScratch& s, std::uint32_t order[kSortedTriangles])
+// The nearest first, so that what lies behind is hidden by the block: the order of few triangles, by their nearest depth. False where
+// that is the order of the list.
+bool front_to_back(const TileScratch& s, std::uint32_t order[kSortedTriangles])
 {
     float nearest[kSortedTriangles];
+    bool moved = false;
     for (std::uint32_t i = 0; i < s.triangle_count; ++i) {
         const float* z = s.triangles[i].z;
         float key = z[0] > z[1] ? z[0] : z[1];
@@ -86,15 +88,15 @@ void front_to_back(const TileScratch& s, std::uint32_t order[kSortedTriangles])
         for (; at > 0 && nearest[at - 1] < key; --at)
             nearest[at] = nearest[at - 1], order[at] = order[at - 1];
         nearest[at] = key, order[at] = i;
+        moved = moved || at != i;
     }
+    return moved;
 }
 
 void raster_tile(const Tile& t, const view_params& view)
 {
     std::uint32_t order[kSortedTriangles];
-    const bool sorted = t.s.triangle_count <= kSortedTriangles;
-    if (sorted)
-        front_to_back(t.s, order);
+    const bool sorted = t.s.triangle_count <= kSortedTriangles && front_to_back(t.s, order);
     t.s.only_material = kNoMaterial;
     for (std::uint32_t k = 0; k < t.s.triangle_count; ++k) {
         const std::uint32_t i = sorted ? order[k] : k;
