@@ -72,31 +72,56 @@ struct AlphaBlocks {
     BlockAlpha operator()(int bx, int by) const { return {t, m, view, triangle, bx, by}; }
 };
 
-inline constexpr std::uint32_t kSortedTriangles = 64; // more of them in a tile are drawn as they come
+inline constexpr std::uint32_t kSortedTriangles = 256; // more of them in a tile are drawn as they come
 
-// The nearest first, so that what lies behind is hidden by the block: the order of few triangles, by their nearest depth. False where
-// that is the order of the list.
+BN_INLINE bool larger_than_a_block(const TriangleSetup& t)
+{
+    const auto span = [](const std::int32_t* v) {
+        const std::int32_t lo = v[0] < v[1] ? v[0] : v[1], hi = v[0] > v[1] ? v[0] : v[1];
+        return (hi > v[2] ? hi : v[2]) - (lo < v[2] ? lo : v[2]);
+    };
+    return span(t.x) > kBlock * kSubpixel || span(t.y) > kBlock * kSubpixel;
+}
+
+// The nearest first, so that what lies behind is hidden by the block: `order` becomes the list's indices by nearest depth, equal ones in
+// turn (merge sort, runs doubling). False where that is not worth while: many triangles, mostly small ones, or in order already.
 bool front_to_back(const TileScratch& s, std::uint32_t order[kSortedTriangles])
 {
+    const std::uint32_t n = s.triangle_count;
+    if (n < 2 || n > kSortedTriangles)
+        return false;
     float nearest[kSortedTriangles];
-    bool moved = false;
-    for (std::uint32_t i = 0; i < s.triangle_count; ++i) {
+    std::uint32_t other[kSortedTriangles], large = 0;
+    bool in_order = true;
+    for (std::uint32_t i = 0; i < n; ++i) {
         const float* z = s.triangles[i].z;
-        float key = z[0] > z[1] ? z[0] : z[1];
-        key = z[2] > key ? z[2] : key;
-        std::uint32_t at = i;
-        for (; at > 0 && nearest[at - 1] < key; --at)
-            nearest[at] = nearest[at - 1], order[at] = order[at - 1];
-        nearest[at] = key, order[at] = i;
-        moved = moved || at != i;
+        const float key = z[0] > z[1] ? z[0] : z[1];
+        nearest[i] = z[2] > key ? z[2] : key;
+        order[i] = i;
+        in_order = in_order && (i == 0 || nearest[i - 1] >= nearest[i]);
+        large += larger_than_a_block(s.triangles[i]);
     }
-    return moved;
+    if (in_order || 2 * large < n)
+        return false;
+    std::uint32_t *from = order, *to = other;
+    for (std::uint32_t run = 1; run < n; run *= 2) {
+        for (std::uint32_t begin = 0; begin < n; begin += 2 * run) {
+            const std::uint32_t middle = begin + run < n ? begin + run : n, end = begin + 2 * run < n ? begin + 2 * run : n;
+            for (std::uint32_t a = begin, b = middle, at = begin; at < end; ++at)
+                to[at] = a < middle && (b >= end || nearest[from[a]] >= nearest[from[b]]) ? from[a++] : from[b++];
+        }
+        std::uint32_t* const sorted = to;
+        to = from, from = sorted;
+    }
+    if (from != order)
+        __builtin_memcpy(order, from, n * sizeof *order);
+    return true;
 }
 
 void raster_tile(const Tile& t, const view_params& view)
 {
     std::uint32_t order[kSortedTriangles];
-    const bool sorted = t.s.triangle_count <= kSortedTriangles && front_to_back(t.s, order);
+    const bool sorted = front_to_back(t.s, order);
     t.s.only_material = kNoMaterial;
     for (std::uint32_t k = 0; k < t.s.triangle_count; ++k) {
         const std::uint32_t i = sorted ? order[k] : k;
