@@ -32,6 +32,46 @@ def check_equal(report):
         check(row["samples"] == report["width"] * report["height"] * row["msaa"], f"{name}: wrong number of samples")
         for stage in row["stages"][:3] + row["stages"][-2:]:
             check(stage["values"] > 0, f"{name}: nothing was compared in {stage['name']}")
+        for stage in row["stages"] if row["scene"].startswith("builtin:") else ():
+            check(stage["values"] > 0, f"{name}: nothing was compared in {stage['name']}")
+
+
+def packages_are_there():
+    """What apps/packages.txt installs for these tests."""
+    drivers = pathlib.Path("/usr/share/vulkan/icd.d")
+    return shutil.which("glslc") and drivers.is_dir() and any(drivers.glob("lvp_icd*.json"))
+
+
+@case("parity.a_device_is_there")
+def a_device_is_there(bench):
+    """Where the packages are, no test may be skipped for want of a device."""
+    if not packages_are_there():
+        raise Skipped("no glslc or no driver of Mesa's: groups build and test of apps/packages.txt")
+    info = json.loads(bench.run("info", "--json").expect(0).out)
+    check("vulkan" in info["backends"], "built without Vulkan")
+    check(any("llvmpipe" in name for name in info["vulkan_devices"]), f"no llvmpipe among {info['vulkan_devices']}")
+    bench.run("parity", "builtin:teapot", "--technique", "bent_normal", "--size", "48x32", "--msaa", "1", "--device", "lavapipe", *COARSE).expect(0)
+
+
+@case("parity.render_gives_the_same_hash")
+def render_gives_the_same_hash(bench):
+    """What render draws, without parity's records."""
+    def pixel_hash(*options):
+        done = bench.run("render", *options, *COARSE, "-o", "a.exr", "--stats", "s.json", "-q")
+        if done.code == 77:
+            raise Skipped(done.err.strip())
+        done.expect(0)
+        stats = json.loads((bench.folder / "s.json").read_text())
+        return stats["pixel_hash"], stats["backend"]
+
+    seen = set()
+    for scene, technique, msaa in (("builtin:teapot", "major_axis", "1"), ("builtin:spheres", "mc", "4"), ("builtin:plate", "bent_normal", "8")):
+        words = (scene, "--technique", technique, "--msaa", msaa, "--size", "96x64")
+        device, backend = pixel_hash(*words, "--backend", "vulkan", "--device", "lavapipe")
+        tile, _ = pixel_hash(*words)
+        check(backend == "vulkan" and device == tile, f"{scene} {technique} {msaa}x: {device} and {tile}")
+        seen.add(tile)
+    check(len(seen) == 3, "all pictures are the same one")
 
 
 @case("parity.every_technique")
