@@ -25,7 +25,7 @@ constexpr float kRgbeMax = 255.0f / 256.0f * 0x1p127f;
 // CIE xy of Rec. ITU-R BT.709's red, green, blue and its white, D65.
 constexpr float kRec709[8] = {0.640f, 0.330f, 0.300f, 0.600f, 0.150f, 0.060f, 0.3127f, 0.3290f};
 constexpr int kJpegQuality = 95;
-constexpr int kPngLevel = 4; // of 9: two thirds of level 6's time, a few percent more bytes
+constexpr int kPngLevel = 4; // of 9: two thirds of level 6's time, 8 % more bytes (the teapot's picture)
 
 struct Format {
     const char* name; // OpenImageIO's

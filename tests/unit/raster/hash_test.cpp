@@ -100,12 +100,18 @@ TEST(hash, of_a_second_frame_equals_the_first)
     const FrameDesc small = desc_of(kCases[0], *stage);
     FrameDesc other = small;
     other.msaa = 2, other.width = 90;
+    FrameDesc black = small; // of the same size
+    black.background = false, black.view.eye.y += 0.1f;
     const Result<Frame> a = renderer->render(small), b = renderer->render(other);
-    Result<Frame> recycled = renderer->render(other);
-    ASSERT_TRUE(recycled);
-    const Result<Frame> c = renderer->render(small, std::move(*recycled)); // memory of another size, with another picture in it
-    ASSERT_TRUE(a && b && c);
-    EXPECT_EQ(pixel_hash(a->color), pixel_hash(c->color));
+    ASSERT_TRUE(a && b);
+    for (const FrameDesc& before : {other, black}) { // memory with another picture in it
+        Result<Frame> recycled = renderer->render(before);
+        ASSERT_TRUE(recycled);
+        ASSERT_NE(pixel_hash(a->color), pixel_hash(recycled->color));
+        const Result<Frame> c = renderer->render(small, std::move(*recycled));
+        ASSERT_TRUE(c);
+        EXPECT_EQ(pixel_hash(a->color), pixel_hash(c->color));
+    }
     EXPECT_NE(pixel_hash(a->color), pixel_hash(b->color));
 }
 
