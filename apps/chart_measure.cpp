@@ -6,13 +6,13 @@
 #include <fmt/format.h>
 #include <limits>
 #include <memory>
-#include <sys/resource.h>
 #include <unistd.h>
 
 #include "apps/chart_pictures.h"
 #include "apps/loaded_scene.h"
 #include "apps/render_stats.h"
 #include "apps/stop_signal.h"
+#include "core/base/clock.h"
 #include "core/base/file.h"
 #include "core/base/hash.h"
 #include "core/base/version.h"
@@ -36,14 +36,6 @@ std::uint64_t program_hash()
     const Result<std::vector<std::uint8_t>> bytes = read_file("/proc/self/exe", kMaxProgramBytes);
     const std::string name = version();
     return bytes ? hash_bytes(bytes->data(), bytes->size()) : hash_bytes(name.data(), name.size());
-}
-
-double cpu_ms() // of all threads of this process
-{
-    rusage usage{};
-    getrusage(RUSAGE_SELF, &usage);
-    const auto ms = [](const timeval& t) { return static_cast<double>(t.tv_sec) * 1e3 + static_cast<double>(t.tv_usec) * 1e-3; };
-    return ms(usage.ru_utime) + ms(usage.ru_stime);
 }
 
 class Chart {
@@ -334,12 +326,12 @@ Status Chart::time_rows(const Place& place, std::vector<ChartRow>& rows)
             Measured& kept = keeper_.row(rows[i].key);
             if (kept.ms.size() > run)
                 continue;
-            const double before = cpu_ms();
+            const double before = process_cpu_ms();
             Result<Frame> frame = place.tile.render(desc_of(place, rows[i].setting), std::move(last));
             if (!frame)
                 return frame.error();
             kept.ms.push_back(frame->stats.ms);
-            kept.cpu_ms.push_back(cpu_ms() - before);
+            kept.cpu_ms.push_back(process_cpu_ms() - before);
             last = std::move(*frame);
             progress_->step();
             if (stopped())

@@ -23,23 +23,7 @@ struct ProfileArguments {
 
 Status check_files(const RenderOptions& options, const ProfileArguments& arguments, const std::vector<std::string>& inputs)
 {
-    std::vector<std::string> files = options.outputs;
-    for (const std::string& path : options.outputs)
-        if (Status status = check_picture_path(path, inputs); !status)
-            return status;
-    for (const auto& [option, path] :
-         {std::pair{"--json", arguments.json_file}, {"--svg", arguments.svg_file}, {"--trace", options.trace_file}}) {
-        if (path.empty())
-            continue;
-        if (Status status = check_text_path(option, path, inputs); !status)
-            return status;
-        files.push_back(path);
-    }
-    for (std::size_t i = 0; i < files.size(); ++i)
-        for (std::size_t j = 0; j < i; ++j)
-            if (same_file(files[i], files[j]))
-                return Error{ExitCode::usage, files[i], "", "is given twice as an output"};
-    return {};
+    return check_outputs(options.outputs, {{"--json", arguments.json_file}, {"--svg", arguments.svg_file}, {"--trace", options.trace_file}}, inputs);
 }
 
 void add(FrameProfile& to, const FrameProfile& more)

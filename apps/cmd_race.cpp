@@ -1,9 +1,7 @@
 // `burnish race`: the tile renderer against Vulkan's CPU devices at the same picture.
 #include <algorithm>
-#include <chrono>
 #include <fmt/format.h>
 #include <memory>
-#include <sys/resource.h>
 
 #include "apps/chart_plan.h"
 #include "apps/command.h"
@@ -12,6 +10,7 @@
 #include "apps/parse.h"
 #include "apps/race_report.h"
 #include "apps/render_stats.h"
+#include "core/base/clock.h"
 #include "core/base/version.h"
 #include "core/image/flip.h"
 #include "core/image/metrics.h"
@@ -41,22 +40,13 @@ struct Timed {
     Image picture;
 };
 
-double process_cpu_ms() // of all threads
-{
-    rusage usage{};
-    getrusage(RUSAGE_SELF, &usage);
-    const auto ms = [](const timeval& t) { return static_cast<double>(t.tv_sec) * 1e3 + static_cast<double>(t.tv_usec) * 1e-3; };
-    return ms(usage.ru_utime) + ms(usage.ru_stime);
-}
-
 // The frame before, whose memory is used again.
 Status draw_tile(Renderer& tile, const FrameDesc& desc, Frame& frame, Timed& into)
 {
-    const auto begin = std::chrono::steady_clock::now();
-    const double cpu = process_cpu_ms();
+    const double wall = wall_ms(), cpu = process_cpu_ms();
     Result<Frame> drawn = tile.render(desc, std::move(frame));
     into.cpu_ms.push_back(process_cpu_ms() - cpu);
-    into.wall_ms.push_back(std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count());
+    into.wall_ms.push_back(wall_ms() - wall);
     if (!drawn)
         return drawn.error();
     frame = std::move(*drawn);

@@ -47,28 +47,10 @@ struct Rendered {
 // `inputs`: files that must not be written over.
 Status check_paths(const RenderOptions& options, const std::vector<std::string>& inputs)
 {
-    std::vector<std::string> files = options.outputs;
-    for (const std::string& path : options.outputs)
-        if (Status status = check_picture_path(path, inputs); !status)
-            return status;
-    if (!options.variance_file.empty()) {
-        if (Status status = check_picture_path(options.variance_file, inputs); !status)
-            return status;
-        files.push_back(options.variance_file);
-    }
-    for (const auto& [option, path] :
-         {std::pair{"--stats", options.stats_file}, {"--trace", options.trace_file}, {"--checkpoint", options.reference.checkpoint}}) {
-        if (path.empty())
-            continue;
-        if (Status status = check_text_path(option, path, inputs); !status)
-            return status;
-        files.push_back(path);
-    }
-    for (std::size_t i = 0; i < files.size(); ++i)
-        for (std::size_t j = 0; j < i; ++j)
-            if (same_file(files[i], files[j]))
-                return Error{ExitCode::usage, files[i], "", "is given twice as an output"};
-    return {};
+    std::vector<std::string> pictures = options.outputs;
+    if (!options.variance_file.empty())
+        pictures.push_back(options.variance_file);
+    return check_outputs(pictures, {{"--stats", options.stats_file}, {"--trace", options.trace_file}, {"--checkpoint", options.reference.checkpoint}}, inputs);
 }
 
 void report_scene(const RenderOptions& options, const Stage& stage, Report& report)

@@ -96,6 +96,27 @@ bool same_file(const std::string& a, const std::string& b)
     return a == b || (!failed && !other_failed && one == other);
 }
 
+Status check_outputs(const std::vector<std::string>& pictures, const std::vector<std::pair<std::string, std::string>>& texts,
+                     const std::vector<std::string>& inputs)
+{
+    std::vector<std::string> files = pictures;
+    for (const std::string& path : pictures)
+        if (Status status = check_picture_path(path, inputs); !status)
+            return status;
+    for (const auto& [option, path] : texts) {
+        if (path.empty())
+            continue;
+        if (Status status = check_text_path(option, path, inputs); !status)
+            return status;
+        files.push_back(path);
+    }
+    for (std::size_t i = 0; i < files.size(); ++i)
+        for (std::size_t j = 0; j < i; ++j)
+            if (same_file(files[i], files[j]))
+                return Error{ExitCode::usage, files[i], "", "is given twice as an output"};
+    return {};
+}
+
 Status check_picture_path(const std::string& path, const std::vector<std::string>& inputs)
 {
     const std::string extension = extension_of(path);

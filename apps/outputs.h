@@ -2,6 +2,7 @@
 // all.
 #pragma once
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/base/result.h"
@@ -16,6 +17,11 @@ Status check_picture_path(const std::string& path, const std::vector<std::string
 // The same for a file of any extension; "-" is standard output.
 Status check_text_path(const std::string& option, const std::string& path,
                        const std::vector<std::string>& inputs);
+
+// Both for all that a command writes: `pictures`, then texts as {option, path}, of which empty paths are passed over. No file may be given
+// twice.
+Status check_outputs(const std::vector<std::string>& pictures, const std::vector<std::pair<std::string, std::string>>& texts,
+                     const std::vector<std::string>& inputs);
 
 // Two names of one file, whether or not it exists yet; pipes and devices aside.
 bool same_file(const std::string& a, const std::string& b);

@@ -166,10 +166,8 @@ Result<ParityOptions> check_parity_options(const ParityArguments& in)
             out.frames.back().vulkan.prefer_cpu = true;
             out.frames.back().vulkan.shader_folder = in.shaders;
         }
-    for (const auto& [option, path] : {std::pair{"--json", out.json}, {"--junit", out.junit}, {"--html", out.html}})
-        if (!path.empty())
-            if (const Status writable = check_text_path(option, path, in.scenes); !writable)
-                return writable.error();
+    if (const Status writable = check_outputs({}, {{"--json", out.json}, {"--junit", out.junit}, {"--html", out.html}}, in.scenes); !writable)
+        return writable.error();
     return out;
 }
 

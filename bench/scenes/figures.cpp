@@ -15,13 +15,6 @@
 namespace burnish {
 namespace {
 
-double clock_ms(clockid_t id)
-{
-    timespec t{};
-    clock_gettime(id, &t);
-    return static_cast<double>(t.tv_sec) * 1e3 + static_cast<double>(t.tv_nsec) * 1e-6;
-}
-
 double quantile(const std::vector<double>& sorted, double q)
 {
     const double at = q * static_cast<double>(sorted.size() - 1);
@@ -37,9 +30,6 @@ Spread spread_of(std::vector<double> values)
     std::sort(values.begin(), values.end());
     return {quantile(values, 0.5), quantile(values, 0.25), quantile(values, 0.75)};
 }
-
-double process_cpu_ms() { return clock_ms(CLOCK_PROCESS_CPUTIME_ID); }
-double wall_ms() { return clock_ms(CLOCK_MONOTONIC); }
 
 double load_average()
 {

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "core/base/clock.h"
+
 namespace burnish {
 
 struct Spread {
@@ -12,8 +14,6 @@ struct Spread {
 };
 Spread spread_of(std::vector<double> values); // of at least one
 
-double process_cpu_ms(); // of all threads so far
-double wall_ms();        // since some fixed time
 double load_average();   // of the last minute; -1 where it is not known
 
 // Resident bytes now, and at most since reset_peak_memory(), which is false where the system cannot do it.

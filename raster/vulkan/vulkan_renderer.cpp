@@ -1,10 +1,9 @@
 #include "raster/vulkan/vulkan_renderer.h"
 
 #include <algorithm>
-#include <chrono>
-#include <sys/resource.h>
 
 #include "core/base/check.h"
+#include "core/base/clock.h"
 #include "raster/vulkan/context.h"
 #include "raster/vulkan/forward.h"
 #include "raster/vulkan/gpu_scene.h"
@@ -233,16 +232,6 @@ void VulkanRenderer::draw_frame(const FrameDesc& desc)
     shade(c, desc);
     submit(c);
 }
-
-double process_cpu_ms() // of all threads
-{
-    rusage usage{};
-    getrusage(RUSAGE_SELF, &usage);
-    const auto ms = [](const timeval& t) { return static_cast<double>(t.tv_sec) * 1e3 + static_cast<double>(t.tv_usec) * 1e-3; };
-    return ms(usage.ru_utime) + ms(usage.ru_stime);
-}
-
-double wall_ms() { return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
 void VulkanRenderer::submit(VkCommandBuffer c)
 {
