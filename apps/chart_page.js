@@ -41,9 +41,11 @@
   // One stop of the Tab key a chart; arrow keys go through its points from left to right, or over a map's cells.
   function nextPoint(points, from, key) {
     const centre = point => { const box = point.querySelector('.mark').getBoundingClientRect(); return [box.x + box.width / 2, box.y + box.height / 2]; };
-    if (key === 'Home') return points[0];
-    if (key === 'End') return points[points.length - 1];
     const [x, y] = centre(from), map = from.classList.contains('cell');
+    if (key === 'Home' || key === 'End') {
+      const ordered = map ? points : [...points].sort((a, b) => centre(a)[0] - centre(b)[0]);
+      return ordered[key === 'Home' ? 0 : points.length - 1];
+    }
     const ahead = points.map(point => ({point, dx: centre(point)[0] - x, dy: centre(point)[1] - y})).filter(({point, dx, dy}) => point !== from &&
       (key === 'ArrowRight' ? dx > 0 || (dx === 0 && dy > 0 && !map) : key === 'ArrowLeft' ? dx < 0 || (dx === 0 && dy < 0 && !map) : key === 'ArrowDown' ? dy > 0 : dy < 0));
     const across = key === 'ArrowLeft' || key === 'ArrowRight';
@@ -77,14 +79,14 @@
 
   // --- walls
 
-  const pickers = new Map();  // row to the list that can choose it
+  const pickers = new Map();  // row to the list that can choose it and the tile that shows it
 
   function showInWall(key) {
-    const list = pickers.get(key);
+    const {list, tile} = pickers.get(key) || {};
     if (!list) return;
     list.value = key;
     list.dispatchEvent(new Event('change'));
-    list.closest('.tile').scrollIntoView({block: 'center'});
+    tile.scrollIntoView({block: 'center'});
   }
 
   function makeTile(wall, place, keys) {
@@ -104,12 +106,13 @@
       figures.textContent = row.figures;
       view.setAttribute('aria-label', `${row.text}. Arrow keys move, plus and minus zoom, F flickers.`);
     });
-    keys.forEach(key => pickers.set(key, list));
     list.value = place.shown.find(key => keys.includes(key)) || keys[0];
     list.dispatchEvent(new Event('change'));
     wall.panWith(view);
-    return element('figure', {className: 'tile'}, view,
-                   element('figcaption', {}, element('strong', {}, first.technique), keys.length > 1 ? list : '', figures));
+    const tile = element('figure', {className: 'tile'}, view,
+                         element('figcaption', {}, element('strong', {}, first.technique), keys.length > 1 ? list : '', figures));
+    keys.forEach(key => pickers.set(key, {list, tile}));
+    return tile;
   }
 
   class Wall {

@@ -102,6 +102,7 @@ class Browser:
     def open(self, path):
         self.send("Page.navigate", url=pathlib.Path(path).resolve().as_uri())
         self.until("document.readyState === 'complete' && location.protocol === 'file:'")
+        self.value("new Promise(done => requestAnimationFrame(() => requestAnimationFrame(() => done(true))))")  # before its first frame a page gets no input
 
     def value(self, expression):
         result = self.send("Runtime.evaluate", expression=expression, returnByValue=True, awaitPromise=True)
