@@ -268,6 +268,43 @@ BN_INLINE __m256i load_words(const void* from)
 {
     return _mm256_loadu_si256(static_cast<const __m256i*>(from));
 }
+// A double by lane, for the little that single precision cannot hold: the lower half of the lanes, then the upper.
+struct wide {
+    __m256d lo, hi;
+};
+BN_INLINE wide operator+(wide a, wide b)
+{
+    return {_mm256_add_pd(a.lo, b.lo), _mm256_add_pd(a.hi, b.hi)};
+}
+BN_INLINE wide operator-(wide a, wide b)
+{
+    return {_mm256_sub_pd(a.lo, b.lo), _mm256_sub_pd(a.hi, b.hi)};
+}
+BN_INLINE wide operator*(wide a, wide b)
+{
+    return {_mm256_mul_pd(a.lo, b.lo), _mm256_mul_pd(a.hi, b.hi)};
+}
+BN_INLINE wide operator/(wide a, wide b)
+{
+    return {_mm256_div_pd(a.lo, b.lo), _mm256_div_pd(a.hi, b.hi)};
+}
+BN_INLINE wide wide_lit(double x)
+{
+    return {_mm256_set1_pd(x), _mm256_set1_pd(x)};
+}
+BN_INLINE wide to_wide(integer i)
+{
+    return {_mm256_cvtepi32_pd(_mm256_castsi256_si128(i.v)), _mm256_cvtepi32_pd(_mm256_extracti128_si256(i.v, 1))};
+}
+BN_INLINE wide to_wide(real x)
+{
+    return {_mm256_cvtps_pd(_mm256_castps256_ps128(x.v)), _mm256_cvtps_pd(_mm256_extractf128_ps(x.v, 1))};
+}
+BN_INLINE real to_real(wide x)
+{
+    return {_mm256_insertf128_ps(_mm256_castps128_ps256(_mm256_cvtpd_ps(x.lo)), _mm256_cvtpd_ps(x.hi), 1)};
+}
+
 BN_INLINE real load(const float* from)
 {
     return {_mm256_loadu_ps(from)};
@@ -445,6 +482,43 @@ BN_INLINE void load_records16(const void* base, integer index, integer out[16])
         for (int k = 0; k < 4; ++k)
             out[4 * c + k].v = _mm256_castps_si256(f[k].v);
     }
+}
+
+BN_INLINE void store_records16(void* base, const integer r[16])
+{
+    for (int c = 0; c < 4; ++c) {
+        __m256 in[4];
+        for (int k = 0; k < 4; ++k)
+            in[k] = _mm256_castsi256_ps(r[4 * c + k].v);
+        real quads[4]; // [j]: part q is fields 4c to 4c + 3 of lane 4q + j
+        transpose_quads(in, quads);
+        for (int j = 0; j < 4; ++j) {
+            float* to = static_cast<float*>(base) + 16 * j + 4 * c;
+            _mm_storeu_ps(to, _mm256_castps256_ps128(quads[j].v));
+            _mm_storeu_ps(to + 64, _mm256_extractf128_ps(quads[j].v, 1));
+        }
+    }
+}
+BN_INLINE void load_quads(const void* base, integer index, integer out[4])
+{
+    const lane_indices i = spill({_mm256_slli_epi32(index.v, 1)});
+    const __m256 r[4] = {quads_at(base, i, 0), quads_at(base, i, 1), quads_at(base, i, 2), quads_at(base, i, 3)};
+    real f[4];
+    transpose_quads(r, f);
+    for (int k = 0; k < 4; ++k)
+        out[k].v = _mm256_castps_si256(f[k].v);
+}
+BN_INLINE void store_quads(void* base, const integer r[4], int n)
+{
+    __m256 in[4];
+    for (int k = 0; k < 4; ++k)
+        in[k] = _mm256_castsi256_ps(r[k].v);
+    real q[4]; // [j]: part q is lane 4q + j
+    transpose_quads(in, q);
+    const __m256 rows[4] = {_mm256_permute2f128_ps(q[0].v, q[1].v, 0x20), _mm256_permute2f128_ps(q[2].v, q[3].v, 0x20),
+                            _mm256_permute2f128_ps(q[0].v, q[1].v, 0x31), _mm256_permute2f128_ps(q[2].v, q[3].v, 0x31)};
+    for (int j = 0; j < 4; ++j)
+        _mm256_maskstore_ps(static_cast<float*>(base) + 8 * j, first_lanes(4 * n - 8 * j), rows[j]);
 }
 
 BN_INLINE void blend_fields(const float* base, integer i0, integer i1, integer i2, real b0, real b1, real b2,

@@ -266,6 +266,43 @@ BN_INLINE __mmask16 first_lanes(int n)
 {
     return static_cast<__mmask16>(n >= kLanes ? 0xffffu : n <= 0 ? 0u : (1u << n) - 1u);
 }
+// A double by lane, for the little that single precision cannot hold: the lower half of the lanes, then the upper.
+struct wide {
+    __m512d lo, hi;
+};
+BN_INLINE wide operator+(wide a, wide b)
+{
+    return {_mm512_add_pd(a.lo, b.lo), _mm512_add_pd(a.hi, b.hi)};
+}
+BN_INLINE wide operator-(wide a, wide b)
+{
+    return {_mm512_sub_pd(a.lo, b.lo), _mm512_sub_pd(a.hi, b.hi)};
+}
+BN_INLINE wide operator*(wide a, wide b)
+{
+    return {_mm512_mul_pd(a.lo, b.lo), _mm512_mul_pd(a.hi, b.hi)};
+}
+BN_INLINE wide operator/(wide a, wide b)
+{
+    return {_mm512_div_pd(a.lo, b.lo), _mm512_div_pd(a.hi, b.hi)};
+}
+BN_INLINE wide wide_lit(double x)
+{
+    return {_mm512_set1_pd(x), _mm512_set1_pd(x)};
+}
+BN_INLINE wide to_wide(integer i)
+{
+    return {_mm512_cvtepi32_pd(_mm512_castsi512_si256(i.v)), _mm512_cvtepi32_pd(_mm512_extracti64x4_epi64(i.v, 1))};
+}
+BN_INLINE wide to_wide(real x)
+{
+    return {_mm512_cvtps_pd(_mm512_castps512_ps256(x.v)), _mm512_cvtps_pd(_mm512_extractf32x8_ps(x.v, 1))};
+}
+BN_INLINE real to_real(wide x)
+{
+    return {_mm512_insertf32x8(_mm512_castps256_ps512(_mm512_cvtpd_ps(x.lo)), _mm512_cvtpd_ps(x.hi), 1)};
+}
+
 BN_INLINE real load(const float* from)
 {
     return {_mm512_loadu_ps(from)};
@@ -439,6 +476,47 @@ BN_INLINE void load_records16(const void* base, integer index, integer out[16])
         for (int k = 0; k < 4; ++k)
             out[4 * c + k].v = _mm512_castps_si512(f[k].v);
     }
+}
+
+BN_INLINE void store_records16(void* base, const integer r[16])
+{
+    for (int c = 0; c < 4; ++c) {
+        __m512 in[4];
+        for (int k = 0; k < 4; ++k)
+            in[k] = _mm512_castsi512_ps(r[4 * c + k].v);
+        real quads[4]; // [j]: part q is fields 4c to 4c + 3 of lane 4q + j
+        transpose_quads(in, quads);
+        for (int j = 0; j < 4; ++j) {
+            float* to = static_cast<float*>(base) + 16 * j + 4 * c;
+            _mm_storeu_ps(to, _mm512_castps512_ps128(quads[j].v));
+            _mm_storeu_ps(to + 64, _mm512_extractf32x4_ps(quads[j].v, 1));
+            _mm_storeu_ps(to + 128, _mm512_extractf32x4_ps(quads[j].v, 2));
+            _mm_storeu_ps(to + 192, _mm512_extractf32x4_ps(quads[j].v, 3));
+        }
+    }
+}
+BN_INLINE void load_quads(const void* base, integer index, integer out[4])
+{
+    const lane_indices i = spill({_mm512_slli_epi32(index.v, 1)});
+    const __m512 r[4] = {quads_at(base, i, 0), quads_at(base, i, 1), quads_at(base, i, 2), quads_at(base, i, 3)};
+    real f[4];
+    transpose_quads(r, f);
+    for (int k = 0; k < 4; ++k)
+        out[k].v = _mm512_castps_si512(f[k].v);
+}
+BN_INLINE void store_quads(void* base, const integer r[4], int n)
+{
+    __m512 in[4];
+    for (int k = 0; k < 4; ++k)
+        in[k] = _mm512_castsi512_ps(r[k].v);
+    real q[4]; // [j]: part q is lane 4q + j
+    transpose_quads(in, q);
+    const __m512 ab_low = _mm512_shuffle_f32x4(q[0].v, q[1].v, 0x44), ab_high = _mm512_shuffle_f32x4(q[0].v, q[1].v, 0xee);
+    const __m512 cd_low = _mm512_shuffle_f32x4(q[2].v, q[3].v, 0x44), cd_high = _mm512_shuffle_f32x4(q[2].v, q[3].v, 0xee);
+    const __m512 rows[4] = {_mm512_shuffle_f32x4(ab_low, cd_low, 0x88), _mm512_shuffle_f32x4(ab_low, cd_low, 0xdd),
+                            _mm512_shuffle_f32x4(ab_high, cd_high, 0x88), _mm512_shuffle_f32x4(ab_high, cd_high, 0xdd)};
+    for (int j = 0; j < 4; ++j)
+        _mm512_mask_storeu_ps(static_cast<float*>(base) + 16 * j, first_lanes(4 * n - 16 * j), rows[j]);
 }
 
 struct blend_lanes {

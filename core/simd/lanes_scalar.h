@@ -203,6 +203,43 @@ BN_INLINE real real_from_bits(integer i)
     return static_cast<real>(__builtin_bit_cast(float, i));
 }
 
+// A double by lane, for the little that single precision cannot hold.
+struct wide {
+    double v;
+};
+BN_INLINE wide operator+(wide a, wide b)
+{
+    return {a.v + b.v};
+}
+BN_INLINE wide operator-(wide a, wide b)
+{
+    return {a.v - b.v};
+}
+BN_INLINE wide operator*(wide a, wide b)
+{
+    return {a.v * b.v};
+}
+BN_INLINE wide operator/(wide a, wide b)
+{
+    return {a.v / b.v};
+}
+BN_INLINE wide wide_lit(double x)
+{
+    return {x};
+}
+BN_INLINE wide to_wide(integer i)
+{
+    return {static_cast<double>(i)};
+}
+BN_INLINE wide to_wide(real x)
+{
+    return {static_cast<double>(static_cast<float>(x))};
+}
+BN_INLINE real to_real(wide x)
+{
+    return static_cast<real>(static_cast<float>(x.v));
+}
+
 BN_INLINE real load(const float* from)
 {
     BN_COUNT(0, 4);
@@ -310,6 +347,23 @@ BN_INLINE void load_records16(const void* base, integer index, integer out[16])
     const char* record = static_cast<const char*>(base) + std::size_t{64} * static_cast<std::uint32_t>(index);
     for (int f = 0; f < 16; ++f)
         __builtin_memcpy(&out[f], record + 4 * f, 4);
+}
+
+// The reverse for kLanes records in turn.
+BN_INLINE void store_records16(void* base, const integer r[16])
+{
+    __builtin_memcpy(base, r, 64);
+}
+// Record i is 4 words (16 bytes) at base + 16 i.
+BN_INLINE void load_quads(const void* base, integer index, integer out[4])
+{
+    __builtin_memcpy(out, static_cast<const char*>(base) + std::size_t{16} * static_cast<std::uint32_t>(index), 16);
+}
+// The reverse for the first n records in turn.
+BN_INLINE void store_quads(void* base, const integer r[4], int n)
+{
+    if (n > 0)
+        __builtin_memcpy(base, r, 16);
 }
 
 // Records are 16 floats apart; r0, r1, r2 the records i0, i1, i2. out[c] = (b0 r0[c] + b1 r1[c]) + b2 r2[c],

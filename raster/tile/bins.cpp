@@ -16,17 +16,16 @@ void Bins::Chunk::make_room()
     const auto grow = [](auto& column, std::uint32_t count) {
         column.resize(std::max<std::size_t>(2 * column.size(), count + 4 * kGrowRoom));
     };
-    if (output.count + kGrowRoom > setups.size()) {
-        grow(setups, output.count);
-        rects.resize(setups.size());
-        triangles.resize(setups.size());
+    if (output.count + kGrowRoom > entries.size()) {
+        grow(entries, output.count);
+        first_tile.resize(entries.size()), last_tile.resize(entries.size());
     }
-    if (output.clip_count + kGrowRoom > clips.size())
-        grow(clips, output.clip_count);
-    output.setups = setups.data(), output.rects = rects.data(), output.clips = clips.data();
-    output.triangles = triangles.data();
-    output.capacity = static_cast<std::uint32_t>(setups.size());
-    output.clip_capacity = static_cast<std::uint32_t>(clips.size());
+    if (output.piece_count + kGrowRoom > pieces.size())
+        grow(pieces, output.piece_count);
+    output.entries = entries.data(), output.first_tile = first_tile.data(), output.last_tile = last_tile.data();
+    output.pieces = pieces.data();
+    output.capacity = static_cast<std::uint32_t>(entries.size());
+    output.piece_capacity = static_cast<std::uint32_t>(pieces.size());
 }
 
 void Bins::Chunk::sort_by_tile(const FrameParams& f)
@@ -34,13 +33,14 @@ void Bins::Chunk::sort_by_tile(const FrameParams& f)
     const std::size_t tiles = static_cast<std::size_t>(f.tiles_x) * static_cast<std::size_t>(f.tiles_y);
     tile_begin.clear();
     tile_begin.resize(tiles + 1);
-    const auto each_tile = [&](const TileRect& r, const auto& visit) {
-        for (std::uint32_t y = r.y0; y <= r.y1; ++y)
-            for (std::uint32_t x = r.x0; x <= r.x1; ++x)
+    const auto each_tile = [&](std::uint32_t i, const auto& visit) {
+        const std::uint32_t first = first_tile[i], last = last_tile[i];
+        for (std::uint32_t y = first >> 16; y <= last >> 16; ++y)
+            for (std::uint32_t x = first & 0xffff; x <= (last & 0xffff); ++x)
                 visit(y * static_cast<std::uint32_t>(f.tiles_x) + x);
     };
     for (std::uint32_t i = 0; i < output.count; ++i)
-        each_tile(rects[i], [&](std::uint32_t tile) { ++tile_begin[tile]; });
+        each_tile(i, [&](std::uint32_t tile) { ++tile_begin[tile]; });
     std::uint64_t sum = 0;
     for (std::size_t t = 0; t <= tiles; ++t) {
         const std::uint32_t count = tile_begin[t];
@@ -50,7 +50,7 @@ void Bins::Chunk::sort_by_tile(const FrameParams& f)
     }
     list.resize(sum);
     for (std::uint32_t i = 0; i < output.count; ++i)
-        each_tile(rects[i], [&](std::uint32_t tile) { list[tile_begin[tile]++] = i; });
+        each_tile(i, [&](std::uint32_t tile) { list[tile_begin[tile]++] = entries[i]; });
     for (std::size_t t = tiles; t > 0; --t) // every begin has moved to its end, the next one's begin
         tile_begin[t] = tile_begin[t - 1];
     tile_begin[0] = 0;
@@ -74,7 +74,7 @@ void Bins::build(const FrameParams& f, const DrawTables& tables, const Visible& 
         c.make_room();
         for (std::size_t k = i * per_chunk; k < std::min(clusters, (i + 1) * per_chunk); ++k) {
             const Cluster& cluster = tables.clusters[visible.clusters[k]];
-            fns.setup_triangles(f, cluster.first_triangle, cluster.triangle_count, c.output);
+            fns.bin_triangles(f, cluster.first_triangle, cluster.triangle_count, c.output);
             work.count(FrameStage::setup, cluster.triangle_count);
         }
         work.lap(FrameStage::setup);
@@ -91,16 +91,24 @@ std::size_t Bins::triangles_in(std::size_t tile) const
     return count;
 }
 
-void Bins::gather_tile(std::size_t tile, TriangleSetup* triangles, TriangleSource* sources) const
+std::size_t Bins::gather_tile(std::size_t tile, std::uint32_t* entries, TriangleSetup* triangles, Column<ClipRecord>& clips) const
 {
-    std::size_t to = 0;
+    std::size_t to = 0, pieces = 0;
     for (std::size_t i = 0; i < used_; ++i) {
         const Chunk& c = *chunks_[i];
         for (std::uint32_t k = c.tile_begin[tile]; k < c.tile_begin[tile + 1]; ++k, ++to) {
-            triangles[to] = c.setups[c.list[k]];
-            sources[to] = {c.clips.data(), c.triangles[c.list[k]]};
+            entries[to] = c.list[k];
+            if (!(entries[to] & kClippedEntry))
+                continue;
+            const ClippedPiece& piece = c.pieces[entries[to] & ~kClippedEntry];
+            if (pieces == clips.size())
+                clips.resize(2 * pieces + kGrowRoom);
+            triangles[to] = piece.setup;
+            triangles[to].vertex[0] = static_cast<std::int32_t>(pieces);
+            clips[pieces++] = piece.record;
         }
     }
+    return pieces;
 }
 
 std::uint64_t Bins::triangle_count() const

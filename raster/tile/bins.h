@@ -16,18 +16,17 @@ class Bins {
     void build(const FrameParams& frame, const DrawTables& tables, const Visible& visible, const TileFns& fns,
                const Jobs& jobs, Profiler* profiler);
     std::size_t triangles_in(std::size_t tile) const;
-    // Copies the tile's triangles, in draw order; there is room for triangles_in(tile) of them.
-    void gather_tile(std::size_t tile, TriangleSetup* triangles, TriangleSource* sources) const;
+    // Copies the tile's entries, in draw order, and what is known of its pieces; there is room for triangles_in(tile) of each. Returns the
+    // number of pieces, whose setups' vertex[0] are then indices into `clips`.
+    std::size_t gather_tile(std::size_t tile, std::uint32_t* entries, TriangleSetup* triangles, Column<ClipRecord>& clips) const;
     std::uint64_t triangle_count() const;
 
   private:
     struct Chunk {
-        Column<TriangleSetup> setups;
-        Column<TileRect> rects;
-        Column<std::uint32_t> triangles;
-        Column<ClipRecord> clips;
+        Column<std::uint32_t> entries, first_tile, last_tile; // see ChunkOutput
+        Column<ClippedPiece> pieces;
         Column<std::uint32_t> tile_begin; // by tile, into `list`; one more at the end
-        Column<std::uint32_t> list;       // into `setups`, by tile, ascending
+        Column<std::uint32_t> list;       // entries by tile, in draw order
         ChunkOutput output = {};
         void make_room();
         void sort_by_tile(const FrameParams& frame);

@@ -65,8 +65,8 @@ int clip_polygon(const FrameParams& f, ClipVertex* polygon, int n)
 
 std::int32_t floor_div(std::int32_t a, std::int32_t b) { return a >= 0 ? a / b : -((-a + b - 1) / b); }
 
-// Pixels and tiles that the bounding box can touch; false where it touches no sample.
-bool tile_rect(const FrameParams& f, const TriangleSetup& t, TileRect& rect)
+// Corners of the rectangle of tiles that the bounding box can touch, as in ChunkOutput; false where it touches no sample.
+bool tile_rect(const FrameParams& f, const TriangleSetup& t, std::uint32_t corners[2])
 {
     std::int32_t lo[2] = {t.x[0], t.y[0]}, hi[2] = {t.x[0], t.y[0]};
     for (int i = 1; i < 3; ++i) {
@@ -81,8 +81,8 @@ bool tile_rect(const FrameParams& f, const TriangleSetup& t, TileRect& rect)
     x1 = x1 < f.width ? x1 : f.width - 1, y1 = y1 < f.height ? y1 : f.height - 1;
     if (x0 > x1 || y0 > y1)
         return false;
-    rect = {static_cast<std::uint16_t>(x0 / f.tile_size), static_cast<std::uint16_t>(y0 / f.tile_size),
-            static_cast<std::uint16_t>(x1 / f.tile_size), static_cast<std::uint16_t>(y1 / f.tile_size)};
+    corners[0] = static_cast<std::uint32_t>(x0 / f.tile_size | y0 / f.tile_size << 16);
+    corners[1] = static_cast<std::uint32_t>(x1 / f.tile_size | y1 / f.tile_size << 16);
     return true;
 }
 
@@ -118,14 +118,13 @@ void emit_piece(const FrameParams& f, std::uint32_t triangle, const ClipVertex* 
             t.x[j] = u.x[3 - j], t.y[j] = u.y[3 - j], t.inv_w[j] = u.inv_w[3 - j], t.z[j] = u.z[3 - j];
     }
     t.info = static_cast<std::int32_t>(material << 2) | (front ? kFrontFacing : 0) | kClipped;
-    t.vertex[0] = static_cast<std::int32_t>(out.clip_count);
-    TileRect rect;
-    if (!tile_rect(f, t, rect))
+    record.triangle = triangle;
+    std::uint32_t corners[2];
+    if (!tile_rect(f, t, corners))
         return;
-    out.clips[out.clip_count++] = record;
-    out.rects[out.count] = rect;
-    out.triangles[out.count] = triangle;
-    out.setups[out.count++] = t;
+    out.first_tile[out.count] = corners[0], out.last_tile[out.count] = corners[1];
+    out.entries[out.count++] = kClippedEntry | out.piece_count;
+    out.pieces[out.piece_count++] = {t, record};
 }
 
 } // namespace

@@ -21,18 +21,17 @@ struct LaneSetup { // setups of the fragments' triangles, a field a register
     std::int32_t common_vertex[3]; // where all fragments are of one whole triangle; else kManyTriangles
 };
 
-BN_INLINE void unclip_setup(const TileScratch& scratch, integer triangle, mask clipped, LaneSetup& r)
+BN_INLINE void unclip_setup(const TileScratch& scratch, mask clipped, LaneSetup& r)
 {
-    std::int32_t id[kLanes], vertex[3][kLanes];
+    std::int32_t vertex[3][kLanes];
     float bary[9][kLanes];
-    store_int(id, triangle);
     for (int k = 0; k < 3; ++k)
         store_int(vertex[k], r.vertex[k]);
     for (int k = 0; k < 9; ++k)
         store(bary[k], lit(k % 4 == 0 ? 1.0 : 0.0));
     for (std::uint32_t bits = to_bits(clipped); bits; bits &= bits - 1) {
         const int i = __builtin_ctz(bits);
-        const ClipRecord& c = scratch.sources[id[i]].clips[vertex[0][i]];
+        const ClipRecord& c = scratch.clips[vertex[0][i]];
         for (int k = 0; k < 9; ++k)
             bary[k][i] = c.bary[k];
         for (int k = 0; k < 3; ++k)
@@ -70,7 +69,7 @@ BN_INLINE LaneSetup load_setup(const TileScratch& scratch, integer triangle, std
     const mask clipped = (r.info & int_lit(kClipped)) != int_lit(0);
     r.any_clipped = any(clipped);
     if (r.any_clipped)
-        unclip_setup(scratch, triangle, clipped, r);
+        unclip_setup(scratch, clipped, r);
     return r;
 }
 

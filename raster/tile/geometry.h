@@ -7,7 +7,7 @@ namespace burnish {
 inline namespace BN_ISA_NS {
 
 void transform_vertices(const FrameParams& frame, std::uint32_t first, std::uint32_t count);
-void setup_triangles(const FrameParams& frame, std::uint32_t first, std::uint32_t count, ChunkOutput& output);
+void bin_triangles(const FrameParams& frame, std::uint32_t first, std::uint32_t count, ChunkOutput& output);
 
 } // namespace BN_ISA_NS
 } // namespace burnish

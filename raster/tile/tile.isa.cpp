@@ -1,8 +1,10 @@
 // One tile from triangles to pixels: coverage and depth, visibility, shading in dense batches by material, resolve.
 // Compiled once for every instruction set.
+#include "raster/tile/draw_order.h"
 #include "raster/tile/geometry.h"
 #include "raster/tile/record.h"
 #include "raster/tile/shade.h"
+#include "raster/tile/small_triangles.h"
 #include "raster/tile/visibility.h"
 
 namespace burnish {
@@ -72,72 +74,67 @@ struct AlphaBlocks {
     BlockAlpha operator()(int bx, int by) const { return {t, m, view, triangle, bx, by}; }
 };
 
-inline constexpr std::uint32_t kSortedTriangles = 256; // more of them in a tile are drawn as they come
-
-BN_INLINE bool larger_than_a_block(const TriangleSetup& t)
+BN_INLINE void note_material(TileScratch& s, std::int32_t material)
 {
-    const auto span = [](const std::int32_t* v) {
-        const std::int32_t lo = v[0] < v[1] ? v[0] : v[1], hi = v[0] > v[1] ? v[0] : v[1];
-        return (hi > v[2] ? hi : v[2]) - (lo < v[2] ? lo : v[2]);
-    };
-    return span(t.x) > kBlock * kSubpixel || span(t.y) > kBlock * kSubpixel;
+    s.only_material = s.only_material == kNoMaterial || s.only_material == material ? material : kManyMaterials;
 }
 
-// The nearest first, so that what lies behind is hidden by the block: `order` becomes the list's indices by nearest depth, equal ones in
-// turn (merge sort, runs doubling). False where that is not worth while: many triangles, mostly small ones, or in order already.
-bool front_to_back(const TileScratch& s, std::uint32_t order[kSortedTriangles])
+// Draws the small ones of a register of triangles; the others join the list of those drawn singly. Returns whether it drew any.
+bool raster_register(const Tile& t, std::uint32_t first, std::uint32_t& singly)
 {
-    const std::uint32_t n = s.triangle_count;
-    if (n < 2 || n > kSortedTriangles)
-        return false;
-    float nearest[kSortedTriangles];
-    std::uint32_t other[kSortedTriangles], large = 0;
-    bool in_order = true;
-    for (std::uint32_t i = 0; i < n; ++i) {
-        const float* z = s.triangles[i].z;
-        const float key = z[0] > z[1] ? z[0] : z[1];
-        nearest[i] = z[2] > key ? z[2] : key;
-        order[i] = i;
-        in_order = in_order && (i == 0 || nearest[i - 1] >= nearest[i]);
-        large += larger_than_a_block(s.triangles[i]);
+    TileScratch& s = t.s;
+    mask whole;
+    integer material;
+    const LaneTriangles triangles = load_triangles(t.f, s, first, whole, material);
+    const std::uint32_t used = s.triangle_count - first < kLanes ? (1u << (s.triangle_count - first)) - 1 : (1u << kLanes) - 1;
+    std::uint32_t small = to_bits(both(whole, small_triangles(triangles)));
+    std::uint32_t rest = small; // whose material was not looked at
+    while (rest) {
+        const std::int32_t id = s.triangles[first + static_cast<std::uint32_t>(__builtin_ctz(rest))].info >> 2;
+        const std::uint32_t same = rest & to_bits(material == int_lit(id));
+        if (t.f.materials[id].alpha_mode == 0)
+            note_material(s, id);
+        else
+            small &= ~same;
+        rest &= ~same;
     }
-    if (in_order || 2 * large < n)
-        return false;
-    std::uint32_t *from = order, *to = other;
-    for (std::uint32_t run = 1; run < n; run *= 2) {
-        for (std::uint32_t begin = 0; begin < n; begin += 2 * run) {
-            const std::uint32_t middle = begin + run < n ? begin + run : n, end = begin + 2 * run < n ? begin + 2 * run : n;
-            for (std::uint32_t a = begin, b = middle, at = begin; at < end; ++at)
-                to[at] = a < middle && (b >= end || nearest[from[a]] >= nearest[from[b]]) ? from[a++] : from[b++];
-        }
-        std::uint32_t* const sorted = to;
-        to = from, from = sorted;
-    }
-    if (from != order)
-        __builtin_memcpy(order, from, n * sizeof *order);
-    return true;
+    for (std::uint32_t bits = used & ~small; bits; bits &= bits - 1)
+        s.drawn_singly[singly++] = first + static_cast<std::uint32_t>(__builtin_ctz(bits));
+    if (small)
+        raster_small_triangles(t.f, triangles, mask_from_bits(small), t.index_x, t.index_y, first, s);
+    return small != 0;
 }
 
 void raster_tile(const Tile& t, const view_params& view)
 {
-    std::uint32_t order[kSortedTriangles];
-    const bool sorted = front_to_back(t.s, order);
-    t.s.only_material = kNoMaterial;
-    for (std::uint32_t k = 0; k < t.s.triangle_count; ++k) {
-        const std::uint32_t i = sorted ? order[k] : k;
-        const TriangleSetup& setup = t.s.triangles[i];
+    TileScratch& s = t.s;
+    s.only_material = kNoMaterial;
+    std::uint32_t singly = 0;
+    bool out_of_turn = false;
+    for (std::uint32_t i = 0; i < s.triangle_count; i += kLanes)
+        out_of_turn = raster_register(t, i, singly) || out_of_turn;
+    out_of_turn = front_to_back(s, singly) || (out_of_turn && singly > 0);
+    for (std::uint32_t k = 0; k < singly; ++k) {
+        const std::uint32_t i = s.drawn_singly[k];
+        const TriangleSetup& setup = s.triangles[i];
         TileTriangle triangle;
         if (!begin_triangle(t.f, setup, t.index_x, t.index_y, triangle))
             continue;
-        triangle.any_order = sorted;
+        triangle.any_order = out_of_turn;
         const std::int32_t material = setup.info >> 2;
-        t.s.only_material = t.s.only_material == kNoMaterial || t.s.only_material == material ? material : kManyMaterials;
+        note_material(s, material);
         const MaterialRecord& m = t.f.materials[material];
         if (m.alpha_mode == 0)
-            raster_triangle(t.f, triangle, i, t.s, OpaqueBlocks{});
+            raster_triangle(t.f, triangle, i, s, OpaqueBlocks{});
         else
-            raster_triangle(t.f, triangle, i, t.s, AlphaBlocks{t, m, view, i});
+            raster_triangle(t.f, triangle, i, s, AlphaBlocks{t, m, view, i});
     }
+}
+
+// Global id of a triangle of the tile's list.
+BN_INLINE std::uint32_t triangle_id(const TileScratch& s, std::uint32_t i)
+{
+    return s.entries[i] & kClippedEntry ? s.clips[s.triangles[i].vertex[0]].triangle : s.entries[i];
 }
 
 void write_ids(const Tile& t)
@@ -152,7 +149,7 @@ void write_ids(const Tile& t)
                                                      static_cast<std::size_t>(t.f.msaa);
             for (int s = 0; s < t.f.msaa; ++s) {
                 const std::uint32_t id = from[s * kBlockPixels];
-                to[s] = id == kNoTriangle ? kNoTriangle : t.s.sources[id].triangle;
+                to[s] = id == kNoTriangle ? kNoTriangle : triangle_id(t.s, id);
             }
         }
 }
@@ -370,7 +367,7 @@ void render_tile(const FrameParams& f, int tile_x, int tile_y, TileScratch& s)
 
 const TileFns& tile_fns()
 {
-    static constexpr TileFns fns = {transform_vertices, setup_triangles, render_tile, record_vertices, kLanes};
+    static constexpr TileFns fns = {transform_vertices, bin_triangles, render_tile, record_vertices, kLanes};
     return fns;
 }
 

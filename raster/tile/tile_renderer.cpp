@@ -39,10 +39,10 @@ const TileFns& fns_of(Isa isa)
 // Scratch of one worker: everything a tile needs, sized once for the worst case.
 struct WorkerScratch {
     Column<float> depth, block_far, red, green, blue;
-    Column<std::uint32_t> ids, slot_begin, pass_lanes;
+    Column<std::uint32_t> ids, slot_begin, pass_lanes, entries, drawn_singly;
     Column<std::uint8_t> block_dirty, register_passes;
     Column<TriangleSetup> triangles;
-    Column<TriangleSource> sources;
+    Column<ClipRecord> clips;
     Column<std::int32_t> fragment_triangle, fragment_pixel, fragment_mask, order, slot_of_material, slot_material;
     FrameStats stats;
 
@@ -64,10 +64,11 @@ struct WorkerScratch {
     // Grows to the largest tile that this worker has met, and keeps that from frame to frame.
     TileScratch view(Frame& frame, std::size_t triangle_count)
     {
-        if (triangles.size() < triangle_count)
-            triangles.resize(triangle_count), sources.resize(triangle_count);
-        return {depth.data(), ids.data(), block_far.data(), block_dirty.data(), triangles.data(),
-                static_cast<std::uint32_t>(triangle_count), sources.data(), fragment_triangle.data(),
+        const std::size_t room = triangle_count + kColumnPad; // whole registers are written
+        if (triangles.size() < room)
+            triangles.resize(room), entries.resize(room), drawn_singly.resize(room);
+        return {depth.data(), ids.data(), block_far.data(), block_dirty.data(), static_cast<std::uint32_t>(triangle_count),
+                entries.data(), triangles.data(), clips.data(), drawn_singly.data(), fragment_triangle.data(),
                 fragment_pixel.data(), fragment_mask.data(), register_passes.data(), pass_lanes.data(), red.data(), green.data(),
                 blue.data(), order.data(), false, kNoMaterial, slot_of_material.data(), slot_material.data(), slot_begin.data(), 0, 0,
                 frame.color.f32(), frame.triangle_ids.empty() ? nullptr : frame.triangle_ids.data(),
@@ -81,8 +82,7 @@ class TileRenderer final : public Renderer {
     TileRenderer(const RenderInput& input, Isa isa)
         : input_(input), isa_(isa), fns_(fns_of(isa)), scene_(upload_scene(input.scene, input.tables, input.jobs))
     {
-        const std::size_t n = input.tables.px.size();
-        x_.resize(n), y_.resize(n), inv_w_.resize(n), z_.resize(n);
+        vertices_.resize(input.tables.px.size());
     }
     Result<Frame> render(const FrameDesc& desc, Frame recycled) override;
     std::string device() const override { return cpu_name() + " (" + isa_name(isa_) + ")"; }
@@ -98,8 +98,7 @@ class TileRenderer final : public Renderer {
     SceneTables scene_;
     CubeMap box_cube_;              // made when a technique first asks for it
     std::vector<GridSample> grid_;
-    Column<std::int32_t> x_, y_;
-    Column<float> inv_w_, z_;
+    Column<SnappedVertex> vertices_;
     Bins bins_;
     std::vector<WorkerScratch> workers_;
 };
@@ -120,7 +119,7 @@ FrameParams TileRenderer::frame_params(const FrameDesc& desc, const std::vector<
     f.indices = t.indices.data(), f.triangle_material = t.triangle_material.data();
     f.materials = materials.data();
     f.lights = scene_.lights.data(), f.light_count = static_cast<std::int32_t>(scene_.lights.size());
-    f.vertices = {x_.data(), y_.data(), inv_w_.data(), z_.data()};
+    f.vertices = vertices_.data();
     f.specular_cube = cube_params(input_.environment.specular);
     f.irradiance_cube = cube_params(input_.environment.irradiance);
     f.dfg_texels = input_.dfg.texels.data(), f.dfg_size = input_.dfg.size;
@@ -166,7 +165,8 @@ void TileRenderer::draw_tiles(const FrameParams& f, Frame& frame, Profiler* prof
         WorkerScratch& w = workers_[static_cast<std::size_t>(worker)];
         TileScratch scratch = w.view(frame, bins_.triangles_in(i));
         scratch.clock = profiler ? profiler->clock(worker) : nullptr;
-        bins_.gather_tile(i, w.triangles.data(), w.sources.data());
+        bins_.gather_tile(i, w.entries.data(), w.triangles.data(), w.clips);
+        scratch.clips = w.clips.data();
         work.lap(FrameStage::gather);
         fns_.render_tile(f, static_cast<int>(i) % f.tiles_x, static_cast<int>(i) / f.tiles_x, scratch);
         w.stats.visible_fragments += scratch.fragment_count - scratch.background_pixels;

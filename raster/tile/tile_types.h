@@ -16,11 +16,18 @@ inline constexpr std::int32_t kNeedsClip = -(1 << 30); // in place of a snapped 
 inline constexpr int kBlock = 8;                     // coverage and hierarchical depth work on 8x8 pixels
 inline constexpr int kBlockPixels = kBlock * kBlock;
 
+// A vertex after transformation.
+struct alignas(16) SnappedVertex {
+    std::int32_t x, y; // sub-pixel units; x = kNeedsClip where the vertex has no snapped position
+    float inv_w;       // 1 / clip w
+    float z;           // depth, reversed: 1 near, 0 far
+};
+
 // A triangle ready to be rasterized, one cache line. Vertices run so that the area is positive with y down.
 struct alignas(64) TriangleSetup {
-    std::int32_t x[3], y[3];   // snapped, sub-pixel units
-    float inv_w[3];            // 1 / clip w
-    float z[3];                // depth, reversed: 1 near, 0 far
+    std::int32_t x[3], y[3];   // as SnappedVertex
+    float inv_w[3];
+    float z[3];
     std::int32_t vertex[3];    // into DrawTables::shading
     std::int32_t info;         // material << 2 | kFrontFacing | kClipped; a clipped triangle's `clip` is its vertex[0]
 };
@@ -31,27 +38,25 @@ inline constexpr std::int32_t kFrontFacing = 1, kClipped = 2;
 struct alignas(64) ClipRecord {
     float bary[9];          // corner j of the piece = sum_k bary[3j+k] * vertex k
     std::int32_t vertex[3]; // of the whole triangle
-    float pad[4];
+    std::uint32_t triangle; // its global id
+    float pad[3];
 };
 static_assert(sizeof(ClipRecord) == 64);
 
-struct TileRect { // inclusive range of tiles that a triangle may touch
-    std::uint16_t x0, y0, x1, y1;
+struct ClippedPiece {
+    TriangleSetup setup;
+    ClipRecord record;
 };
 
-// Post-transform vertices: one column each, by global vertex id.
-struct VertexColumns {
-    std::int32_t *x, *y; // snapped; x = kNeedsClip where the vertex has no snapped position
-    float *inv_w, *z;
-};
+// An entry of a list of triangles is the global id of one that is whole, below kMaxIds; or kClippedEntry and the index of a piece.
+inline constexpr std::uint32_t kClippedEntry = 1u << 31;
 
 struct ChunkOutput { // what one chunk of clusters produced, in draw order
-    TriangleSetup* setups;
-    TileRect* rects;
-    std::uint32_t* triangles; // global id of each setup's triangle
+    std::uint32_t* entries;
+    std::uint32_t *first_tile, *last_tile; // of each entry, x | y << 16: the corners of the rectangle of tiles that it may touch
     std::uint32_t count, capacity;
-    ClipRecord* clips;
-    std::uint32_t clip_count, clip_capacity;
+    ClippedPiece* pieces;
+    std::uint32_t piece_count, piece_capacity;
     void (*grow)(ChunkOutput* self); // makes room for at least kGrowRoom more of each
     void* owner;
 };
@@ -72,7 +77,7 @@ struct FrameParams {
     const MaterialRecord* materials;
     const LightRecord* lights;
     std::int32_t light_count;
-    VertexColumns vertices;
+    SnappedVertex* vertices; // by global vertex id
     // environment
     CubeParams specular_cube, irradiance_cube;
     CubeParams box_cube;             // box-filtered chain; only for techniques that ask for it
@@ -91,11 +96,6 @@ struct FrameParams {
 
 inline constexpr std::int32_t kNoMaterial = -1, kManyMaterials = -2; // instead of one
 
-struct TriangleSource { // where a tile's triangle comes from
-    const ClipRecord* clips; // the clip table of its chunk
-    std::uint32_t triangle;  // global id
-};
-
 // Told of the end of every stage of a tile while a frame is profiled: the material whose fragments were shaded, or -1; the lanes that
 // were in use, and all of them.
 struct TileClock {
@@ -108,9 +108,11 @@ struct TileScratch {
     std::uint32_t* ids;       // [block][sample][64], index into `triangles`, or kNoTriangle
     float* block_far;         // [block] farthest depth among all samples (a lower bound)
     std::uint8_t* block_dirty; // [block] writes since block_far was true
-    TriangleSetup* triangles; // the tile's own copy, in draw order
     std::uint32_t triangle_count;
-    const TriangleSource* sources; // by triangle
+    const std::uint32_t* entries; // the tile's triangles, in draw order; kLanes may be read at any of them
+    TriangleSetup* triangles;     // by entry; those of pieces are given, the others are made here. kLanes may be written at any of them
+    const ClipRecord* clips;      // of the tile's pieces
+    std::uint32_t* drawn_singly;  // triangles that lanes do not share
     std::int32_t* fragment_triangle; // visible (pixel, triangle) pairs, in the order of list_fragments
     std::int32_t* fragment_pixel;    // x | y << 8, in the tile
     std::int32_t* fragment_mask;     // covered samples, bit s = sample s
@@ -132,7 +134,7 @@ struct TileScratch {
 
 struct TileFns { // one table an instruction set
     void (*transform_vertices)(const FrameParams&, std::uint32_t first, std::uint32_t count);
-    void (*setup_triangles)(const FrameParams&, std::uint32_t first, std::uint32_t count, ChunkOutput&);
+    void (*bin_triangles)(const FrameParams&, std::uint32_t first, std::uint32_t count, ChunkOutput&);
     void (*render_tile)(const FrameParams&, int tile_x, int tile_y, TileScratch&);
     void (*record_vertices)(const FrameParams&, std::uint32_t count, std::uint32_t* out); // StageRecords::vertices
     int lanes; // kLanes
