@@ -400,6 +400,20 @@ BN_INLINE void store_triples(float* first, float*, real r, real g, real b)
     _mm256_storeu_ps(first + 16, _mm256_blend_ps(_mm256_blend_ps(rs, gs, 0x49), bs, 0x92));
 }
 
+BN_INLINE void load_triples_int(const std::int32_t* from, integer out[3])
+{
+    const __m256i* words = reinterpret_cast<const __m256i*>(from);
+    const __m256i a = _mm256_loadu_si256(words), b = _mm256_loadu_si256(words + 1), c = _mm256_loadu_si256(words + 2);
+    const __m256i order = _mm256_setr_epi32(0, 3, 6, 1, 4, 7, 2, 5), one = _mm256_set1_epi32(1);
+    const __m256i first = _mm256_blend_epi32(_mm256_blend_epi32(a, b, 0x92), c, 0x24);
+    const __m256i second = _mm256_blend_epi32(_mm256_blend_epi32(a, b, 0x24), c, 0x49);
+    const __m256i third = _mm256_blend_epi32(_mm256_blend_epi32(a, b, 0x49), c, 0x92);
+    const __m256i order1 = _mm256_add_epi32(order, one), order2 = _mm256_add_epi32(order1, one); // their low three bits count
+    out[0].v = _mm256_permutevar8x32_epi32(first, order);
+    out[1].v = _mm256_permutevar8x32_epi32(second, order1);
+    out[2].v = _mm256_permutevar8x32_epi32(third, order2);
+}
+
 #define BN_FOLD(name, op)                                                                                    \
     BN_INLINE real name(real x)                                                                              \
     {                                                                                                        \

@@ -391,6 +391,19 @@ BN_INLINE void store_triples(float* first, float* second, real r, real g, real b
     _mm512_storeu_ps(second + 8, high);
 }
 
+BN_INLINE void load_triples_int(const std::int32_t* from, integer out[3])
+{
+    const __m512i a = _mm512_loadu_si512(from), b = _mm512_loadu_si512(from + 16), c = _mm512_loadu_si512(from + 32);
+    const __m512i order = _mm512_setr_epi32(0, 3, 6, 9, 12, 15, 2, 5, 8, 11, 14, 1, 4, 7, 10, 13), one = _mm512_set1_epi32(1);
+    const __m512i first = _mm512_mask_mov_epi32(_mm512_mask_mov_epi32(a, 0x4924, b), 0x2492, c);
+    const __m512i second = _mm512_mask_mov_epi32(_mm512_mask_mov_epi32(a, 0x9249, b), 0x4924, c);
+    const __m512i third = _mm512_mask_mov_epi32(_mm512_mask_mov_epi32(a, 0x2492, b), 0x9249, c);
+    const __m512i order1 = _mm512_add_epi32(order, one), order2 = _mm512_add_epi32(order1, one); // their low four bits count
+    out[0].v = _mm512_permutexvar_epi32(order, first);
+    out[1].v = _mm512_permutexvar_epi32(order1, second);
+    out[2].v = _mm512_permutexvar_epi32(order2, third);
+}
+
 #define BN_FOLD(name, op)                                                                                    \
     BN_INLINE real name(real x)                                                                              \
     {                                                                                                        \

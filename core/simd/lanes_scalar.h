@@ -328,6 +328,12 @@ BN_INLINE void store_triples(float* first, float*, real r, real g, real b)
     first[0] = static_cast<float>(r), first[1] = static_cast<float>(g), first[2] = static_cast<float>(b);
 }
 
+// kLanes triples in turn: out[k] holds the k-th of each.
+BN_INLINE void load_triples_int(const std::int32_t* from, integer out[3])
+{
+    out[0] = from[0], out[1] = from[1], out[2] = from[2];
+}
+
 BN_INLINE real reduce_min(real x)
 {
     return x;

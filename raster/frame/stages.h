@@ -10,11 +10,11 @@ inline constexpr const char* kFrameStageNames[kFrameStages] = {
     "prepare",    // memory of the picture, constants of the frame
     "cull",       // draws and clusters that cannot be seen
     "transform",  // vertices
-    "setup",      // triangles: clipping, snapping, edges
+    "setup",      // triangles: clipping, back faces, the tiles that they may touch
     "bin",        // triangles by tile
-    "gather",     // a tile's triangles from the bins
+    "gather",     // the list of a tile's triangles
     "clear",      // depth and ids of a tile
-    "coverage",   // samples that a triangle covers, and depth
+    "coverage",   // edges and depth planes of triangles, the samples that they cover
     "visibility", // samples to fragments, sorted by material
     "background", // shading where nothing is
     "shade",      // of fragments, by material

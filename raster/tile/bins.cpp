@@ -35,6 +35,10 @@ void Bins::Chunk::sort_by_tile(const FrameParams& f)
     tile_begin.resize(tiles + 1);
     const auto each_tile = [&](std::uint32_t i, const auto& visit) {
         const std::uint32_t first = first_tile[i], last = last_tile[i];
+        if (first == last) { // most of many
+            visit((first >> 16) * static_cast<std::uint32_t>(f.tiles_x) + (first & 0xffff));
+            return;
+        }
         for (std::uint32_t y = first >> 16; y <= last >> 16; ++y)
             for (std::uint32_t x = first & 0xffff; x <= (last & 0xffff); ++x)
                 visit(y * static_cast<std::uint32_t>(f.tiles_x) + x);

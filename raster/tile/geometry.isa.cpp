@@ -53,7 +53,7 @@ void bin_lanes(const FrameParams& f, std::uint32_t first, int n, ChunkOutput& ou
     const mask used = iota() < int_lit(n);
     const integer id = iota() + int_lit(static_cast<std::int32_t>(first));
     LaneTriangles t;
-    load_positions(f, select(used, id, int_lit(static_cast<std::int32_t>(first))), t);
+    load_positions(f, select(used, id, int_lit(static_cast<std::int32_t>(first))), n == kLanes, first, t);
     const integer clip_mark = int_lit(kNeedsClip);
     const mask clip = both(used, either(either(t.x[0] == clip_mark, t.x[1] == clip_mark), t.x[2] == clip_mark));
 

@@ -13,13 +13,17 @@ struct LaneTriangles {
 BN_INLINE integer min3(const integer v[3]) { return min(min(v[0], v[1]), v[2]); }
 BN_INLINE integer max3(const integer v[3]) { return max(max(v[0], v[1]), v[2]); }
 
-// id: global, of triangles that exist, in every lane.
-BN_INLINE void load_positions(const FrameParams& f, integer id, LaneTriangles& t)
+// id: global, of triangles that exist, in every lane. run: they follow each other from `first` on.
+BN_INLINE void load_positions(const FrameParams& f, integer id, bool run, std::uint32_t first, LaneTriangles& t)
 {
     const std::int32_t* indices = reinterpret_cast<const std::int32_t*>(f.indices);
-    const integer first = id + id + id;
+    if (run) {
+        load_triples_int(indices + 3 * static_cast<std::size_t>(first), t.vertex);
+    } else {
+        for (int k = 0; k < 3; ++k)
+            t.vertex[k] = gather_int(indices + k, id + id + id);
+    }
     for (int k = 0; k < 3; ++k) {
-        t.vertex[k] = gather_int(indices + k, first);
         integer field[4];
         load_quads(f.vertices, t.vertex[k], field);
         t.x[k] = field[0], t.y[k] = field[1];
@@ -66,20 +70,40 @@ BN_INLINE void turn_fronts(mask front, LaneTriangles& t)
     swap(t.x), swap(t.y), swap(t.vertex), swap(t.inv_w), swap(t.z);
 }
 
+// Asks early for what the next two registers of triangles will read: meshes are listed in runs, so a few lanes stand for all.
+BN_INLINE void prefetch_triangles(const FrameParams& f, const TileScratch& s, std::uint32_t first)
+{
+    const auto whole = [&](std::uint32_t i) { return i < s.triangle_count && !(s.entries[i] & kClippedEntry); };
+    if (const std::uint32_t i = first + 2 * kLanes; whole(i)) {
+        const std::size_t id = s.entries[i];
+        __builtin_prefetch(f.triangle_material + id);
+        for (std::size_t k = 0; k < 3 * kLanes; k += 16)
+            __builtin_prefetch(f.indices + 3 * id + k);
+    }
+    for (std::uint32_t lane = 0; lane < kLanes; lane += 5)
+        if (const std::uint32_t i = first + kLanes + lane; whole(i))
+            for (std::size_t k = 0; k < 3; ++k)
+                __builtin_prefetch(f.vertices + f.indices[3 * std::size_t{s.entries[i]} + k]);
+}
+
 // The tile's triangles from `first` on, up to kLanes of them: loads those that are whole, in every lane of `whole` (the others hold some
 // triangle), and writes their setups.
 BN_INLINE LaneTriangles load_triangles(const FrameParams& f, const TileScratch& s, std::uint32_t first, mask& whole, integer& material)
 {
+    prefetch_triangles(f, s, first);
     const integer entry = load_int(s.entries + first), zero = int_lit(0);
     const mask used = iota() < int_lit(static_cast<std::int32_t>(s.triangle_count - first));
     const mask clipped = both(used, entry < zero); // kClippedEntry is the sign
     whole = both(used, not_(clipped));
     const integer id = select(whole, entry, zero);
+    const std::uint32_t first_id = s.entries[first];
+    const bool run = all(both(whole, entry == iota() + int_lit(static_cast<std::int32_t>(first_id))));
     LaneTriangles t;
-    load_positions(f, id, t);
+    load_positions(f, id, run, first_id, t);
     const mask front = area_signs(t, whole).negative;
     turn_fronts(front, t);
-    material = gather_int(reinterpret_cast<const std::int32_t*>(f.triangle_material), id);
+    const std::int32_t* materials = reinterpret_cast<const std::int32_t*>(f.triangle_material);
+    material = run ? load_int(materials + first_id) : gather_int(materials, id);
     const integer info = shl(material, 2) | select(front, int_lit(kFrontFacing), zero);
     const integer fields[16] = {t.x[0], t.x[1], t.x[2], t.y[0], t.y[1], t.y[2], bits_of(t.inv_w[0]), bits_of(t.inv_w[1]), bits_of(t.inv_w[2]),
                                 bits_of(t.z[0]), bits_of(t.z[1]), bits_of(t.z[2]), t.vertex[0], t.vertex[1], t.vertex[2], info};

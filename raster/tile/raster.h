@@ -21,7 +21,6 @@ struct TileTriangle {
     float sample_z[kMaxSamples];
     int px0, px1, py0, py1;         // pixels of the tile that the bounding box touches, inclusive
     bool small;                     // at most a block wide and high, in the tile or not
-    bool any_order;                 // drawn out of turn: at equal depths the lower id wins, which it does by itself in turn
 };
 
 BN_INLINE int floor_shift(std::int64_t v, int n) { return static_cast<int>(v >> n); }
@@ -100,6 +99,7 @@ struct BlockEdges {           // the edges that cross the block
 
 // Greatest depth that the triangle can reach in the block, against the farthest sample already there. The bound is refreshed
 // only now and then: it may be too low, never too high, so it cannot change the picture.
+template <bool kAnyOrder>
 BN_INLINE bool block_hidden(const FrameParams& f, const TileTriangle& t, float z_corner, int block, const float* depth,
                             TileScratch& scratch)
 {
@@ -107,10 +107,10 @@ BN_INLINE bool block_hidden(const FrameParams& f, const TileTriangle& t, float z
     const float size = z_corner < 0.0f ? -z_corner : z_corner, slack = 1e-5f * (size + (ax + ay) * kBlock); // rounding is far below
     float nearest = z_corner + (t.dz_x + t.dz_y) * (0.5f * kBlock) + (ax + ay) * (0.5f * kBlock) + slack;
     nearest = nearest < t.z_max ? nearest : t.z_max;
-    const auto hidden = [&](float farthest) { return t.any_order ? nearest < farthest : nearest <= farthest; };
+    const auto hidden = [&](float farthest) { return kAnyOrder ? nearest < farthest : nearest <= farthest; };
     if (hidden(scratch.block_far[block]))
         return true;
-    if (scratch.block_dirty[block] < (t.any_order ? 1 : kRefreshWrites))
+    if (scratch.block_dirty[block] < (kAnyOrder ? 1 : kRefreshWrites))
         return false;
     real far = load(depth);
     for (int i = kLanes; i < f.msaa * kBlockPixels; i += kLanes)
@@ -127,7 +127,7 @@ struct NoAlpha { // opaque: every covered sample counts
 };
 
 // Depth test and write of one block; `alpha(v, pixels)` gives the sample masks that survive an alpha test.
-template <int kEdges, class Alpha>
+template <int kEdges, bool kAnyOrder, class Alpha>
 BN_INLINE bool cover_block(const FrameParams& f, const TileTriangle& t, const BlockEdges& e, const BlockLanes& lanes, float z_corner,
                            int row0, int row1, std::uint32_t id, float* depth, std::uint32_t* ids, const Alpha& alpha)
 {
@@ -163,7 +163,7 @@ BN_INLINE bool cover_block(const FrameParams& f, const TileTriangle& t, const Bl
             const real old = load(d);
             std::int32_t* to_int = reinterpret_cast<std::int32_t*>(to);
             mask pass = zs > old;
-            if (t.any_order)
+            if constexpr (kAnyOrder)
                 pass = either(pass, both(zs == old, lane_id < load_int(to_int)));
             if constexpr (kEdges > 0) {
                 integer side = at[0] + int_lit(e.sample_step[0][s]);
@@ -190,7 +190,7 @@ BN_INLINE float corner_depth(const TileTriangle& t, int bx, int by)
 }
 
 // Rasterizes a triangle of few pixels: to ask what hides its blocks or which edges cross them would cost more than it saves.
-template <class MakeAlpha>
+template <bool kAnyOrder, class MakeAlpha>
 BN_INLINE void raster_small_triangle(const FrameParams& f, const TileTriangle& t, std::uint32_t id, TileScratch& scratch,
                                      const MakeAlpha& make_alpha)
 {
@@ -211,7 +211,7 @@ BN_INLINE void raster_small_triangle(const FrameParams& f, const TileTriangle& t
                 e.at[i] = static_cast<std::int32_t>(t.edge[i] + static_cast<std::int64_t>(t.step_x[i]) * (bx * kBlock * 16) +
                                                     static_cast<std::int64_t>(t.step_y[i]) * (by * kBlock * 16));
             const int block = by * blocks_x + bx, at = block * f.msaa * kBlockPixels;
-            if (cover_block<3>(f, t, e, lanes, corner_depth(t, bx, by), row0, row1, id, scratch.depth + at, scratch.ids + at,
+            if (cover_block<3, kAnyOrder>(f, t, e, lanes, corner_depth(t, bx, by), row0, row1, id, scratch.depth + at, scratch.ids + at,
                                make_alpha(bx, by)) &&
                 scratch.block_dirty[block] < 255)
                 ++scratch.block_dirty[block];
@@ -219,13 +219,14 @@ BN_INLINE void raster_small_triangle(const FrameParams& f, const TileTriangle& t
     }
 }
 
-// Rasterizes triangle `id` of the tile's list. `make_alpha(block_x, block_y)` gives the alpha test of a block.
-template <class MakeAlpha>
+// Rasterizes triangle `id` of the tile's list. `make_alpha(block_x, block_y)` gives the alpha test of a block. kAnyOrder: drawn out of turn, so
+// at equal depths the lower id wins, which it does by itself in turn.
+template <bool kAnyOrder, class MakeAlpha>
 BN_INLINE void raster_triangle(const FrameParams& f, const TileTriangle& t, std::uint32_t id, TileScratch& scratch,
                                const MakeAlpha& make_alpha)
 {
     if (t.small) {
-        raster_small_triangle(f, t, id, scratch, make_alpha);
+        raster_small_triangle<kAnyOrder>(f, t, id, scratch, make_alpha);
         return;
     }
     const int blocks_x = f.tile_size / kBlock;
@@ -258,16 +259,16 @@ BN_INLINE void raster_triangle(const FrameParams& f, const TileTriangle& t, std:
             const int block = by * blocks_x + bx;
             const float z_corner = corner_depth(t, bx, by);
             float* depth = scratch.depth + block * f.msaa * kBlockPixels;
-            if (block_hidden(f, t, z_corner, block, depth, scratch))
+            if (block_hidden<kAnyOrder>(f, t, z_corner, block, depth, scratch))
                 continue;
             std::uint32_t* ids = scratch.ids + block * f.msaa * kBlockPixels;
             const auto alpha = make_alpha(bx, by);
             bool wrote = false;
             switch (e.count) {
-            case 0: wrote = cover_block<0>(f, t, e, lanes, z_corner, row0, row1, id, depth, ids, alpha); break;
-            case 1: wrote = cover_block<1>(f, t, e, lanes, z_corner, row0, row1, id, depth, ids, alpha); break;
-            case 2: wrote = cover_block<2>(f, t, e, lanes, z_corner, row0, row1, id, depth, ids, alpha); break;
-            default: wrote = cover_block<3>(f, t, e, lanes, z_corner, row0, row1, id, depth, ids, alpha); break;
+            case 0: wrote = cover_block<0, kAnyOrder>(f, t, e, lanes, z_corner, row0, row1, id, depth, ids, alpha); break;
+            case 1: wrote = cover_block<1, kAnyOrder>(f, t, e, lanes, z_corner, row0, row1, id, depth, ids, alpha); break;
+            case 2: wrote = cover_block<2, kAnyOrder>(f, t, e, lanes, z_corner, row0, row1, id, depth, ids, alpha); break;
+            default: wrote = cover_block<3, kAnyOrder>(f, t, e, lanes, z_corner, row0, row1, id, depth, ids, alpha); break;
             }
             if (wrote && scratch.block_dirty[block] < 255)
                 ++scratch.block_dirty[block];

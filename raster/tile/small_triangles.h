@@ -15,8 +15,8 @@ struct SampleQueue {
     std::int32_t where[kRoom]; // index into the tile's samples | lane << kLaneShift
 };
 
-// The nearest wins, of equal ones the first in the list. first: the triangle of lane 0; block_shift: log2 of the samples of a block.
-BN_INLINE void draw_queue(SampleQueue& q, std::uint32_t first, int block_shift, TileScratch& s)
+// The nearest wins, of equal ones the first in the list. first: the triangle of lane 0.
+BN_INLINE void draw_queue(SampleQueue& q, std::uint32_t first, TileScratch& s)
 {
     for (int i = 0; i < q.count; ++i) {
         const std::uint32_t where = static_cast<std::uint32_t>(q.where[i]), at = where & ((1u << SampleQueue::kLaneShift) - 1);
@@ -25,7 +25,6 @@ BN_INLINE void draw_queue(SampleQueue& q, std::uint32_t first, int block_shift, 
         if (z > s.depth[at] || (z == s.depth[at] && id < static_cast<std::int32_t>(s.ids[at]))) {
             s.depth[at] = z;
             s.ids[at] = static_cast<std::uint32_t>(id);
-            s.block_dirty[at >> block_shift] = 255;
         }
     }
     q.count = 0;
@@ -57,7 +56,8 @@ BN_INLINE DepthPlane depth_plane(const LaneTriangles& t)
     return p;
 }
 
-// Draws the triangles of `drawn`, whose ids in the tile's list are `first` + lane: opaque ones that small_triangles() names.
+// Draws the triangles of `drawn`, opaque ones that small_triangles() names; their ids in the tile's list are `first` + lane. What is
+// known of the blocks' farthest depths stays as it was.
 BN_STAGE void raster_small_triangles(const FrameParams& f, const LaneTriangles& t, mask drawn, int tile_x, int tile_y, std::uint32_t first,
                                      TileScratch& s)
 {
@@ -97,7 +97,6 @@ BN_STAGE void raster_small_triangles(const FrameParams& f, const LaneTriangles& 
 
     SampleQueue queue;
     queue.count = 0;
-    const int block_shift = 6 + __builtin_ctz(static_cast<unsigned>(f.msaa));
     const integer block_samples = int_lit(f.msaa * kBlockPixels), in_block = int_lit(kBlock - 1), blocks_x = int_lit(f.tile_size / kBlock);
     const integer lane_tag = shl(iota(), SampleQueue::kLaneShift);
     integer y = py0;
@@ -119,7 +118,7 @@ BN_STAGE void raster_small_triangles(const FrameParams& f, const LaneTriangles& 
                 compress_store_int(queue.depth + queue.count, bits_of(depth), covered);
                 queue.count += compress_store_int(queue.where + queue.count, (at + int_lit(k * kBlockPixels)) | lane_tag, covered);
                 if (queue.count > SampleQueue::kRoom - kLanes)
-                    draw_queue(queue, first, block_shift, s);
+                    draw_queue(queue, first, s);
             }
             for (int i = 0; i < 3; ++i)
                 at_x[i] = at_x[i] + step_x[i];
@@ -127,7 +126,7 @@ BN_STAGE void raster_small_triangles(const FrameParams& f, const LaneTriangles& 
         for (int i = 0; i < 3; ++i)
             edge[i] = edge[i] + step_y[i];
     }
-    draw_queue(queue, first, block_shift, s);
+    draw_queue(queue, first, s);
 }
 
 } // namespace BN_ISA_NS

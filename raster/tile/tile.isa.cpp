@@ -105,30 +105,40 @@ bool raster_register(const Tile& t, std::uint32_t first, std::uint32_t& singly)
     return small != 0;
 }
 
-void raster_tile(const Tile& t, const view_params& view)
+template <bool kAnyOrder>
+void raster_singly(const Tile& t, const view_params& view, std::uint32_t count)
 {
     TileScratch& s = t.s;
-    s.only_material = kNoMaterial;
-    std::uint32_t singly = 0;
-    bool out_of_turn = false;
-    for (std::uint32_t i = 0; i < s.triangle_count; i += kLanes)
-        out_of_turn = raster_register(t, i, singly) || out_of_turn;
-    out_of_turn = front_to_back(s, singly) || (out_of_turn && singly > 0);
-    for (std::uint32_t k = 0; k < singly; ++k) {
+    for (std::uint32_t k = 0; k < count; ++k) {
         const std::uint32_t i = s.drawn_singly[k];
         const TriangleSetup& setup = s.triangles[i];
         TileTriangle triangle;
         if (!begin_triangle(t.f, setup, t.index_x, t.index_y, triangle))
             continue;
-        triangle.any_order = out_of_turn;
         const std::int32_t material = setup.info >> 2;
         note_material(s, material);
         const MaterialRecord& m = t.f.materials[material];
         if (m.alpha_mode == 0)
-            raster_triangle(t.f, triangle, i, s, OpaqueBlocks{});
+            raster_triangle<kAnyOrder>(t.f, triangle, i, s, OpaqueBlocks{});
         else
-            raster_triangle(t.f, triangle, i, s, AlphaBlocks{t, m, view, i});
+            raster_triangle<kAnyOrder>(t.f, triangle, i, s, AlphaBlocks{t, m, view, i});
     }
+}
+
+void raster_tile(const Tile& t, const view_params& view)
+{
+    TileScratch& s = t.s;
+    s.only_material = kNoMaterial;
+    std::uint32_t singly = 0;
+    bool some_small = false;
+    for (std::uint32_t i = 0; i < s.triangle_count; i += kLanes)
+        some_small = raster_register(t, i, singly) || some_small;
+    if (some_small) // nothing is known of the blocks any more
+        __builtin_memset(s.block_dirty, 255, static_cast<std::size_t>((t.f.tile_size / kBlock) * (t.f.tile_size / kBlock)));
+    if (front_to_back(s, singly) || some_small)
+        raster_singly<true>(t, view, singly);
+    else
+        raster_singly<false>(t, view, singly);
 }
 
 // Global id of a triangle of the tile's list.

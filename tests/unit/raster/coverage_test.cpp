@@ -136,16 +136,18 @@ TEST(coverage, random_partition_of_100000_triangles_covers_every_sample_exactly_
         }
 }
 
-// Every sample against a plain per-sample model of the same rules, with overlaps and depth order.
-TEST(coverage, random_triangles_equal_a_brute_force_model_sample_by_sample)
-{
-    Random random{11};
-    const int width = 150, height = 90;
+// Random triangles of the given sizes in turn, 1/256 pixel, each at one of `levels` depths.
+struct FlatTriangles {
     std::vector<LatticeTriangle> lattice;
     std::vector<Triangle> world;
     std::vector<float> depth;
-    for (int i = 0; i < 400; ++i) {
-        const int size = i % 4 == 0 ? 60000 : i % 4 == 1 ? 6000 : i % 4 == 2 ? 700 : 200;
+};
+
+FlatTriangles flat_triangles(int width, int height, int count, const std::vector<int>& sizes, int levels, Random& random)
+{
+    FlatTriangles out;
+    for (int i = 0; i < count; ++i) {
+        const int size = sizes[static_cast<std::size_t>(i) % sizes.size()];
         LatticeTriangle t;
         const Lattice c = {random.below(width * 256), random.below(height * 256)};
         for (Lattice& p : t)
@@ -155,43 +157,66 @@ TEST(coverage, random_triangles_equal_a_brute_force_model_sample_by_sample)
                 p = {p.x & ~127, p.y & ~127};
         if (cross(t[0], t[1], t[2]) < 0)
             std::swap(t[1], t[2]);
-        lattice.push_back(t);
-        depth.push_back(static_cast<float>(random.below(50)) * 0.01f);
-        world.push_back(to_world({t[0], t[2], t[1]}, depth.back()));
+        out.lattice.push_back(t);
+        out.depth.push_back(static_cast<float>(random.below(levels)) * 0.01f);
+        out.world.push_back(to_world({t[0], t[2], t[1]}, out.depth.back()));
     }
+    return out;
+}
+
+// Every sample against a plain per-sample model of the same rules, with overlaps and depth order: of equal depths the first wins.
+void expect_model(int width, int height, int msaa, const FlatTriangles& triangles)
+{
+    const auto& [lattice, world, depth] = triangles;
     const Stage stage(scene_of(world, false));
-    for (int msaa : kCounts) {
-        const SamplePattern p = standard_samples(msaa);
-        std::vector<std::uint32_t> expected(static_cast<std::size_t>(width * height * msaa), kNothing);
-        for (std::size_t at = 0; at < expected.size(); ++at) {
-            const int s = static_cast<int>(at) % msaa, pixel = static_cast<int>(at) / msaa;
-            const Lattice q = {pixel % width * 256 + p.x[s], pixel / width * 256 + p.y[s]};
-            float best = -1.0f;
-            for (std::size_t i = 0; i < lattice.size(); ++i) {
-                bool inside = true;
-                for (std::size_t k = 0; k < 3; ++k) {
-                    const Lattice &a = lattice[i][k], &b = lattice[i][(k + 1) % 3];
-                    const std::int64_t e = cross(a, b, q);
-                    const bool top_left = b.y < a.y || (b.y == a.y && b.x > a.x);
-                    inside = inside && (e > 0 || (e == 0 && top_left));
-                }
-                if (inside && cross(lattice[i][0], lattice[i][1], lattice[i][2]) > 0 && depth[i] > best) {
-                    best = depth[i];
-                    expected[at] = static_cast<std::uint32_t>(i);
-                }
+    const SamplePattern p = standard_samples(msaa);
+    std::vector<std::uint32_t> expected(static_cast<std::size_t>(width * height * msaa), kNothing);
+    for (std::size_t at = 0; at < expected.size(); ++at) {
+        const int s = static_cast<int>(at) % msaa, pixel = static_cast<int>(at) / msaa;
+        const Lattice q = {pixel % width * 256 + p.x[s], pixel / width * 256 + p.y[s]};
+        float best = -1.0f;
+        for (std::size_t i = 0; i < lattice.size(); ++i) {
+            if (depth[i] <= best || cross(lattice[i][0], lattice[i][1], lattice[i][2]) <= 0)
+                continue;
+            bool inside = true;
+            for (std::size_t k = 0; k < 3; ++k) {
+                const Lattice &a = lattice[i][k], &b = lattice[i][(k + 1) % 3];
+                const std::int64_t e = cross(a, b, q);
+                const bool top_left = b.y < a.y || (b.y == a.y && b.x > a.x);
+                inside = inside && (e > 0 || (e == 0 && top_left));
+            }
+            if (inside) {
+                best = depth[i];
+                expected[at] = static_cast<std::uint32_t>(i);
             }
         }
-        for (Isa isa : available_isas())
-            for (int tile : {32, 64}) {
-                FrameDesc d = id_desc(width, height, msaa);
-                d.tile_size = tile;
-                const Frame f = stage.render(d, isa);
-                std::size_t differ = 0;
-                for (std::size_t i = 0; i < expected.size(); ++i)
-                    differ += f.triangle_ids[i] != expected[i];
-                EXPECT_EQ(differ, 0u) << isa_name(isa) << " msaa " << msaa << " tile " << tile;
-            }
     }
+    for (Isa isa : available_isas())
+        for (int tile : {32, 64}) {
+            FrameDesc d = id_desc(width, height, msaa);
+            d.tile_size = tile;
+            const Frame f = stage.render(d, isa);
+            std::size_t differ = 0;
+            for (std::size_t i = 0; i < expected.size(); ++i)
+                differ += f.triangle_ids[i] != expected[i];
+            EXPECT_EQ(differ, 0u) << isa_name(isa) << " msaa " << msaa << " tile " << tile;
+        }
+}
+
+TEST(coverage, random_triangles_equal_a_brute_force_model_sample_by_sample)
+{
+    Random random{11};
+    const FlatTriangles triangles = flat_triangles(150, 90, 400, {60000, 6000, 700, 200}, 50, random);
+    for (int msaa : kCounts)
+        expect_model(150, 90, msaa, triangles);
+}
+
+// Lanes draw the small ones together, before the large ones, of which there are more than a tile sorts.
+TEST(coverage, crowds_of_small_and_large_triangles_equal_a_brute_force_model)
+{
+    Random random{12};
+    for (const std::vector<int>& sizes : {std::vector<int>{900, 700, 1900, 3000, 1200}, {900}, {3000, 2500, 2500}})
+        expect_model(60, 50, 4, flat_triangles(60, 50, 2000, sizes, 3, random));
 }
 
 std::vector<Triangle> tessellated_box(float half, int cells)

@@ -187,6 +187,65 @@ TEST_P(LaneMemory, RecordsArriveTransposed)
     }
 }
 
+TEST_P(LaneMemory, RecordsLeaveTransposed)
+{
+    const std::size_t lanes = static_cast<std::size_t>(fns().lanes);
+    const std::vector<std::int32_t> fields = indices(16 * lanes, 0x7fffffff);
+    std::vector<std::int32_t> words(16 * lanes + 2, -1);
+    fns().store_records(words.data() + 1, fields.data()); // off by 4 bytes
+    for (std::size_t k = 0; k < lanes; ++k)
+        for (std::size_t f = 0; f < 16; ++f)
+            EXPECT_EQ(words[1 + 16 * k + f], fields[f * lanes + k]);
+    EXPECT_EQ(words.front(), -1);
+    EXPECT_EQ(words.back(), -1);
+}
+
+TEST_P(LaneMemory, QuadsArriveAndLeaveTransposed)
+{
+    constexpr std::uint32_t kQuads = 300;
+    const std::size_t lanes = static_cast<std::size_t>(fns().lanes);
+    const std::vector<std::int32_t> words = indices(4 * kQuads + 1, 0x7fffffff);
+    for (int round = 0; round < 100; ++round) {
+        const std::vector<std::int32_t> index = indices(kMaxLanes, kQuads);
+        std::vector<std::int32_t> got(4 * lanes);
+        fns().quads(words.data() + 1, index.data(), got.data());
+        for (std::size_t k = 0; k < lanes; ++k)
+            for (std::size_t f = 0; f < 4; ++f)
+                ASSERT_EQ(got[f * lanes + k], words[1 + 4 * static_cast<std::size_t>(index[k]) + f]);
+    }
+    for (int n = 0; n <= fns().lanes; ++n) {
+        std::vector<std::int32_t> to(4 * lanes + 1, -1);
+        fns().store_quads(to.data(), words.data(), n);
+        for (std::size_t i = 0; i < to.size(); ++i)
+            EXPECT_EQ(to[i], i < 4 * static_cast<std::size_t>(n) ? words[i % 4 * lanes + i / 4] : -1) << "word " << i << " of " << n;
+    }
+}
+
+TEST_P(LaneMemory, TriplesArriveBySort)
+{
+    const std::size_t lanes = static_cast<std::size_t>(fns().lanes);
+    const std::vector<std::int32_t> words = indices(3 * lanes + 1, 0x7fffffff);
+    std::vector<std::int32_t> got(3 * lanes);
+    fns().triples_int(words.data() + 1, got.data());
+    for (std::size_t k = 0; k < lanes; ++k)
+        for (std::size_t c = 0; c < 3; ++c)
+            EXPECT_EQ(got[c * lanes + k], words[1 + 3 * k + c]);
+}
+
+TEST_P(LaneMemory, WideIsDouble)
+{
+    for (int round = 0; round < 100; ++round) {
+        const std::vector<std::int32_t> i = indices(kMaxLanes, 1u << 30);
+        const std::vector<float> a = numbers(kMaxLanes), b = numbers(kMaxLanes);
+        float got[kMaxLanes];
+        fns().wide(i.data(), a.data(), b.data(), got);
+        for (std::size_t k = 0; k < static_cast<std::size_t>(fns().lanes); ++k) {
+            const double n = i[k], quotient = n / static_cast<double>(a[k]), product = static_cast<double>(b[k]) * n;
+            ASSERT_EQ(std::bit_cast<std::uint32_t>(got[k]), std::bit_cast<std::uint32_t>(static_cast<float>(quotient - product + 0.1)));
+        }
+    }
+}
+
 TEST_P(LaneMemory, BlendsRoundInTheirStatedOrder)
 {
     constexpr std::uint32_t kRecords = 300;

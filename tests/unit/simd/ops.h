@@ -53,6 +53,11 @@ struct LaneFns {
                   std::int32_t* i);
     void (*reduce)(const float* x, float out[3]); // min, max, add
     void (*records)(const void* base, const std::int32_t* index, std::int32_t* out);
+    void (*store_records)(void* base, const std::int32_t* fields);
+    void (*quads)(const void* base, const std::int32_t* index, std::int32_t* out);
+    void (*store_quads)(void* base, const std::int32_t* fields, int n);
+    void (*triples_int)(const std::int32_t* from, std::int32_t* out);
+    void (*wide)(const std::int32_t* i, const float* a, const float* b, float* out); // i / a - b * i + 0.1, in doubles
     void (*blend16)(const Blend& in, float* out);
     void (*blend8)(const Blend& in, float* out);
     void (*blend4)(const Blend& in, float* out);

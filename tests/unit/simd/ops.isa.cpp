@@ -113,6 +113,37 @@ void records_fn(const void* base, const std::int32_t* index, std::int32_t* out)
     for (int f = 0; f < 16; ++f)
         store_int(out + f * kLanes, fields[f]);
 }
+void store_records_fn(void* base, const std::int32_t* fields)
+{
+    integer r[16];
+    for (int f = 0; f < 16; ++f)
+        r[f] = load_int(fields + f * kLanes);
+    store_records16(base, r);
+}
+void quads_fn(const void* base, const std::int32_t* index, std::int32_t* out)
+{
+    integer fields[4];
+    load_quads(base, load_int(index), fields);
+    for (int f = 0; f < 4; ++f)
+        store_int(out + f * kLanes, fields[f]);
+}
+void store_quads_fn(void* base, const std::int32_t* fields, int n)
+{
+    const integer r[4] = {load_int(fields), load_int(fields + kLanes), load_int(fields + 2 * kLanes), load_int(fields + 3 * kLanes)};
+    store_quads(base, r, n);
+}
+void triples_int_fn(const std::int32_t* from, std::int32_t* out)
+{
+    integer r[3];
+    load_triples_int(from, r);
+    for (int k = 0; k < 3; ++k)
+        store_int(out + k * kLanes, r[k]);
+}
+void wide_fn(const std::int32_t* i, const float* a, const float* b, float* out)
+{
+    const wide n = to_wide(load_int(i));
+    store(out, to_real(n / to_wide(load(a)) - to_wide(load(b)) * n + wide_lit(0.1)));
+}
 #define BN_BLEND(name, function, fields)                                                                     \
     void name(const Blend& in, float* out)                                                                   \
     {                                                                                                        \
@@ -157,6 +188,11 @@ const LaneFns kFns = {kIsaNames[BN_ISA],
                       table_fn,
                       reduce_fn,
                       records_fn,
+                      store_records_fn,
+                      quads_fn,
+                      store_quads_fn,
+                      triples_int_fn,
+                      wide_fn,
                       blend16_fn,
                       blend8_fn,
                       blend4_fn,
