@@ -15,15 +15,24 @@
 //   both either not_ any all none to_bits mask_from_bits     masks; lane 0 is bit 0
 //   select(m,a,b) min max clamp abs sqrt floor ceil          both sides of a select are computed
 //   to_real to_int round_to_int bits_of real_from_bits       to_int truncates; NaN and out of range become
-//   INT_MIN load store load_int store_int load_first store_first     unaligned; _first: n lanes, the others
-//   read 0 and stay unwritten gather gather_int table_value table_int                  element index[lane];
-//   tables: 16 readable entries, index in [0,15] compress_store_int(to, i, m) lanes of m to consecutive
-//   places; returns their number expand_load expand_load_int(from, m) the reverse store_triples(to, more, r,
-//   g, b) RGB of lanes 0-7 to `to`, of lanes 8-15 to `more` reduce_min reduce_max reduce_add                         lane k with lane k
-//   + n/2, then n/4...: depends on the width load_records16 blend_records blend_records_low blend_quad
-//   array-of-struct access: see lanes_scalar.h texel_zero texel_add texel_values bilinear accumulation of
-//   RGBA half texels: see lanes_scalar.h
-// Indices of gathers are signed; those of texels are unsigned 32-bit, those of records below 2^29.
+//                                                            INT_MIN
+//   load store load_int store_int load_first store_first     unaligned; _first: n lanes, the others read 0 and
+//                                                            stay unwritten
+//   gather gather_int table_value table_int                  element index[lane]; tables: 16 readable entries,
+//                                                            index in [0,15]
+//   compress_store_int(to, i, m)                             lanes of m to consecutive places; gives their number
+//   expand_load expand_load_int(from, m)                     the reverse
+//   store_triples(to, more, r, g, b)                         RGB of lanes 0-7 to `to`, of lanes 8-15 to `more`
+//   load_triples_int                                         consecutive triples, the k-th of each to out[k]
+//   reduce_min reduce_max reduce_add                         lane k with lane k + n/2, then n/4...: depends on
+//                                                            the width
+//   load_records16 store_records16 load_quads store_quads    array-of-struct access: see lanes_scalar.h
+//   blend_records blend_records_low blend_quad
+//   texel_zero texel_add texel_values                        bilinear accumulation of RGBA half texels: see
+//                                                            lanes_scalar.h
+//   wide: + - * /, wide_lit to_wide, to_real                 a double by lane
+// Indices of gathers are signed; those of texels are unsigned 32-bit, those of records of 64 bytes below 2^29,
+// of 16 bytes below 2^31.
 #pragma once
 
 #define BN_INLINE static inline __attribute__((always_inline))

@@ -39,7 +39,7 @@ struct TextureParams { // TexturePyramid in plain data
 };
 
 enum TextureSlot { kBaseColorTex, kMetalRoughTex, kNormalTex, kOcclusionTex, kEmissiveTex, kSpecularTex, kSpecularColorTex,
-                   kTensor2Tex, kTensor4Tex, kTensor4RestTex, kTextureSlots };
+                   kTensor2Tex, kTensor4Tex, kTensor2RestTex, kTensor4RestTex, kTextureSlots };
 
 struct TextureBinding {
     const TextureParams* texture; // null: not used

@@ -27,6 +27,7 @@ constexpr TextureUse kTextureUses[kTextureSlots] = {
     {kSpecularColorTex, &Material::specular_color_tex, TextureEncoding::srgb},
     {kTensor2Tex, &Material::anisotropy_tex, TextureEncoding::linear, 2},
     {kTensor4Tex, &Material::anisotropy_tex, TextureEncoding::linear, 4},
+    {kTensor2RestTex, &Material::anisotropy_tex, TextureEncoding::residual, 2},
     {kTensor4RestTex, &Material::anisotropy_tex, TextureEncoding::residual, 4},
 };
 

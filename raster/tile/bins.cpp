@@ -7,14 +7,14 @@
 namespace burnish {
 
 namespace {
-// Chunks are large enough that their tile lists stay small beside their triangles, and many enough to share evenly.
+// Chunks are large enough that their lists' ends by tile stay few beside their triangles, and many enough to share evenly.
 constexpr std::size_t kMinClusters = 16, kMaxChunks = 256;
 } // namespace
 
 void Bins::Chunk::make_room()
 {
     const auto grow = [](auto& column, std::uint32_t count) {
-        column.resize(std::max<std::size_t>(2 * column.size(), count + 4 * kGrowRoom));
+        column.resize(std::max<std::size_t>(2 * column.size(), count + kGrowRoom));
     };
     if (output.count + kGrowRoom > entries.size()) {
         grow(entries, output.count);

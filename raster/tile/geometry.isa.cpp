@@ -59,7 +59,8 @@ void bin_lanes(const FrameParams& f, std::uint32_t first, int n, ChunkOutput& ou
 
     const int shift = f.tile_size == 64 ? 6 : 5;
     integer tx0, tx1, ty0, ty1;
-    mask keep = both(both(used, not_(clip)), tile_range(min3(t.x), max3(t.x), f.center_x, f.pattern.min_x, f.pattern.max_x, f.width, shift, tx0, tx1));
+    mask keep = both(used, not_(clip));
+    keep = both(keep, tile_range(min3(t.x), max3(t.x), f.center_x, f.pattern.min_x, f.pattern.max_x, f.width, shift, tx0, tx1));
     keep = both(keep, tile_range(min3(t.y), max3(t.y), f.center_y, f.pattern.min_y, f.pattern.max_y, f.height, shift, ty0, ty1));
     if (none(either(keep, clip)))
         return;

@@ -1,9 +1,12 @@
 // Whole triangles a lane each: fetched by id from the frame's vertices.
 #pragma once
+#include "core/base/column.h"
 #include "raster/tile/lanes_view.h"
 
 namespace burnish {
 inline namespace BN_ISA_NS {
+
+static_assert(kLanes <= kColumnPad); // whole registers are read and written at the end of lists
 
 struct LaneTriangles {
     integer x[3], y[3], vertex[3];
@@ -77,8 +80,9 @@ BN_INLINE void prefetch_triangles(const FrameParams& f, const TileScratch& s, st
     if (const std::uint32_t i = first + 2 * kLanes; whole(i)) {
         const std::size_t id = s.entries[i];
         __builtin_prefetch(f.triangle_material + id);
-        for (std::size_t k = 0; k < 3 * kLanes; k += 16)
-            __builtin_prefetch(f.indices + 3 * id + k);
+        const std::uintptr_t indices = reinterpret_cast<std::uintptr_t>(f.indices + 3 * id); // what follows may lie beyond them
+        for (std::uintptr_t k = 0; k < 3 * 4 * kLanes; k += 64)
+            __builtin_prefetch(reinterpret_cast<const void*>(indices + k));
     }
     for (std::uint32_t lane = 0; lane < kLanes; lane += 5)
         if (const std::uint32_t i = first + kLanes + lane; whole(i))

@@ -19,6 +19,7 @@ struct TileTriangle {
     std::int32_t from_x, from_y;    // the tile's corner, seen from the first vertex, sub-pixel units
     float z_min, z_max, dz_x, dz_y;
     float sample_z[kMaxSamples];
+    int refresh_writes;             // triangles written to a block before its farthest depth is looked up again
     int px0, px1, py0, py1;         // pixels of the tile that the bounding box touches, inclusive
     bool small;                     // at most a block wide and high, in the tile or not
 };
@@ -87,7 +88,6 @@ BN_INLINE BlockLanes block_lanes()
     return {shl(x, 4), shl(y, 4), to_real(x), to_real(y)};
 }
 
-inline constexpr int kRefreshWrites = 4; // triangles written to a block before its farthest depth is looked up again
 
 struct BlockEdges {           // the edges that cross the block
     std::int32_t at[3];       // value at the block's corner
@@ -110,7 +110,7 @@ BN_INLINE bool block_hidden(const FrameParams& f, const TileTriangle& t, float z
     const auto hidden = [&](float farthest) { return kAnyOrder ? nearest < farthest : nearest <= farthest; };
     if (hidden(scratch.block_far[block]))
         return true;
-    if (scratch.block_dirty[block] < (kAnyOrder ? 1 : kRefreshWrites))
+    if (scratch.block_dirty[block] < t.refresh_writes)
         return false;
     real far = load(depth);
     for (int i = kLanes; i < f.msaa * kBlockPixels; i += kLanes)
@@ -189,7 +189,8 @@ BN_INLINE float corner_depth(const TileTriangle& t, int bx, int by)
     return static_cast<float>(t.z + t.z_x * (t.from_x + bx * kBlock * kSubpixel) + t.z_y * (t.from_y + by * kBlock * kSubpixel));
 }
 
-// Rasterizes a triangle of few pixels: to ask what hides its blocks or which edges cross them would cost more than it saves.
+// Rasterizes a triangle of few pixels that lanes do not share (small_triangles.h), as its material tests alpha or it is a piece of a clipped
+// one: to ask what hides its blocks or which edges cross them would cost more than it saves.
 template <bool kAnyOrder, class MakeAlpha>
 BN_INLINE void raster_small_triangle(const FrameParams& f, const TileTriangle& t, std::uint32_t id, TileScratch& scratch,
                                      const MakeAlpha& make_alpha)
@@ -212,7 +213,7 @@ BN_INLINE void raster_small_triangle(const FrameParams& f, const TileTriangle& t
                                                     static_cast<std::int64_t>(t.step_y[i]) * (by * kBlock * 16));
             const int block = by * blocks_x + bx, at = block * f.msaa * kBlockPixels;
             if (cover_block<3, kAnyOrder>(f, t, e, lanes, corner_depth(t, bx, by), row0, row1, id, scratch.depth + at, scratch.ids + at,
-                               make_alpha(bx, by)) &&
+                                          make_alpha(bx, by)) &&
                 scratch.block_dirty[block] < 255)
                 ++scratch.block_dirty[block];
         }

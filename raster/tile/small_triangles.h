@@ -14,6 +14,7 @@ struct SampleQueue {
     std::int32_t depth[kRoom]; // bits of a float
     std::int32_t where[kRoom]; // index into the tile's samples | lane << kLaneShift
 };
+static_assert(kMaxTileSize * kMaxTileSize * kMaxSamples <= 1 << SampleQueue::kLaneShift && SampleQueue::kRoom >= 2 * kLanes);
 
 // The nearest wins, of equal ones the first in the list. first: the triangle of lane 0.
 BN_INLINE void draw_queue(SampleQueue& q, std::uint32_t first, TileScratch& s)

@@ -106,7 +106,7 @@ bool raster_register(const Tile& t, std::uint32_t first, std::uint32_t& singly)
 }
 
 template <bool kAnyOrder>
-void raster_singly(const Tile& t, const view_params& view, std::uint32_t count)
+void raster_singly(const Tile& t, const view_params& view, std::uint32_t count, int refresh_writes)
 {
     TileScratch& s = t.s;
     for (std::uint32_t k = 0; k < count; ++k) {
@@ -115,6 +115,7 @@ void raster_singly(const Tile& t, const view_params& view, std::uint32_t count)
         TileTriangle triangle;
         if (!begin_triangle(t.f, setup, t.index_x, t.index_y, triangle))
             continue;
+        triangle.refresh_writes = refresh_writes;
         const std::int32_t material = setup.info >> 2;
         note_material(s, material);
         const MaterialRecord& m = t.f.materials[material];
@@ -133,12 +134,13 @@ void raster_tile(const Tile& t, const view_params& view)
     bool some_small = false;
     for (std::uint32_t i = 0; i < s.triangle_count; i += kLanes)
         some_small = raster_register(t, i, singly) || some_small;
-    if (some_small) // nothing is known of the blocks any more
+    if (some_small) // the blocks' bounds are out of date
         __builtin_memset(s.block_dirty, 255, static_cast<std::size_t>((t.f.tile_size / kBlock) * (t.f.tile_size / kBlock)));
-    if (front_to_back(s, singly) || some_small)
-        raster_singly<true>(t, view, singly);
+    const bool sorted = front_to_back(s, singly); // where it pays to know at once what hides the rest
+    if (sorted || some_small)
+        raster_singly<true>(t, view, singly, sorted ? 1 : 4);
     else
-        raster_singly<false>(t, view, singly);
+        raster_singly<false>(t, view, singly, 4);
 }
 
 // Global id of a triangle of the tile's list.

@@ -15,6 +15,7 @@ inline constexpr int kWholeBand = kGuardBand / 16 * 15, kCutBand = kGuardBand / 
 inline constexpr std::int32_t kNeedsClip = -(1 << 30); // in place of a snapped x: behind the near plane or out of the guard band
 inline constexpr int kBlock = 8;                     // coverage and hierarchical depth work on 8x8 pixels
 inline constexpr int kBlockPixels = kBlock * kBlock;
+inline constexpr int kMaxTileSize = 64;              // pixels along a side
 
 // A vertex after transformation.
 struct alignas(16) SnappedVertex {
@@ -29,7 +30,7 @@ struct alignas(64) TriangleSetup {
     float inv_w[3];
     float z[3];
     std::int32_t vertex[3];    // into DrawTables::shading
-    std::int32_t info;         // material << 2 | kFrontFacing | kClipped; a clipped triangle's `clip` is its vertex[0]
+    std::int32_t info;         // material << 2 | kFrontFacing | kClipped; vertex[0] of a clipped piece is an index into TileScratch::clips
 };
 static_assert(sizeof(TriangleSetup) == 64);
 inline constexpr std::int32_t kFrontFacing = 1, kClipped = 2;
@@ -44,11 +45,12 @@ struct alignas(64) ClipRecord {
 static_assert(sizeof(ClipRecord) == 64);
 
 struct ClippedPiece {
-    TriangleSetup setup;
+    TriangleSetup setup; // without vertices
     ClipRecord record;
 };
 
-// An entry of a list of triangles is the global id of one that is whole, below kMaxIds; or kClippedEntry and the index of a piece.
+// An entry of a list of triangles is the global id of one that is whole, below 2^31 / 3 (make_draw_tables sees to it); or kClippedEntry and
+// the index of a piece.
 inline constexpr std::uint32_t kClippedEntry = 1u << 31;
 
 struct ChunkOutput { // what one chunk of clusters produced, in draw order

@@ -11,8 +11,8 @@ namespace burnish {
 // Why: GGX widths are alpha_t = alpha + (1 - alpha) s^2 along d and alpha across it, so twice the covariance
 // of slopes is
 //     alpha^2 I + 2 alpha (1 - alpha) s^2 d d^T + (1 - alpha)^2 s^4 d d^T,
-// linear in both tensors: filtering them filters the covariance exactly, whatever the roughness, and +d and
-// -d are the same.
+// linear in both tensors: where roughness is constant under the filter, whatever it is, filtering them filters
+// the covariance exactly, and +d and -d are the same.
 Image anisotropy_tensor(const Image& image, int power);
 
 } // namespace burnish

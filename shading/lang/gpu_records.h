@@ -8,7 +8,7 @@
 namespace burnish {
 #endif
 
-const int kGpuSamples = 16, kGpuTextureSlots = 10, kGpuCubes = 3, kGpuGroup = 64; // samples a pixel, textures a material, cubes, invocations a workgroup
+const int kGpuSamples = 16, kGpuTextureSlots = 11, kGpuCubes = 3, kGpuGroup = 64; // samples a pixel, textures a material, cubes, invocations a workgroup
 const int kGpuNoTriangle = -1;
 const int kGpuFrontFacing = 1, kGpuClipped = 2;                    // bits of GpuSetup.info
 const int kGpuWholeBand = 3932160, kGpuCutPixels = 15872, kGpuGuardBand = 4194304; // as raster/tile/tile_types.h; cut band in pixels

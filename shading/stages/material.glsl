@@ -9,7 +9,7 @@
 #include "shading/kernels/texture_filter.k.h"
 
 const int kBaseColorTex = 0, kMetalRoughTex = 1, kNormalTex = 2, kOcclusionTex = 3, kEmissiveTex = 4, kSpecularTex = 5,
-          kSpecularColorTex = 6, kTensor2Tex = 7, kTensor4Tex = 8, kTensor4RestTex = 9;
+          kSpecularColorTex = 6, kTensor2Tex = 7, kTensor4Tex = 8, kTensor2RestTex = 9, kTensor4RestTex = 10;
 
 #ifdef BN_NATIVE_SAMPLER
 layout(set = 1, binding = 1) uniform sampler2D native_textures[kGpuTextureSlots]; // of the drawn material
@@ -110,7 +110,7 @@ material_inputs fetch_material(int m, visible_point p)
         r.dielectric_f0 = r.dielectric_f0 * texel[kSpecularColorTex].xyz;
     r.tensor2 = r.tensor4 = vec3(1.0, 0.0, 0.0);
     if (texture_used(m, kTensor2Tex)) {
-        r.tensor2 = texel[kTensor2Tex].xyz;
+        r.tensor2 = texel[kTensor2Tex].xyz + texel[kTensor2RestTex].xyz;
         r.tensor4 = texel[kTensor4Tex].xyz + texel[kTensor4RestTex].xyz;
     }
     return r;

@@ -1,0 +1,113 @@
+// The direction of brushing comes by tangents, by a material's rotation or by a texture; the picture must not know by which.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/scene/builtin.h"
+#include "tests/unit/raster/fixture.h"
+
+namespace burnish::test {
+namespace {
+
+// Where the angle from the geometric tangent is written down, radians counter-clockwise. `texel`: that of the texture's direction.
+struct Written {
+    float tangent, rotation, texel;
+    bool textured;
+};
+
+Scene brushed_quad(const Written& w)
+{
+    const std::array<glm::vec3, 4> p = {glm::vec3(-1, -1, 0), glm::vec3(1, -1, 0), glm::vec3(1, 1, 0), glm::vec3(-1, 1, 0)};
+    Scene s = scene_of({Triangle{p[0], p[1], p[2]}, Triangle{p[0], p[2], p[3]}}, false);
+    for (std::size_t i = 0; i < s.vertices.size(); ++i)
+        s.vertices.tx[i] = std::cos(w.tangent), s.vertices.ty[i] = std::sin(w.tangent), s.vertices.tz[i] = 0.0f;
+    Material& m = s.materials[0];
+    m.roughness = 0.45f, m.anisotropy_strength = 0.9f, m.anisotropy_rotation = w.rotation;
+    if (!w.textured)
+        return s;
+    Image image = make_image(1, 1, 3, PixelType::u8);
+    const float direction[2] = {std::cos(w.texel), std::sin(w.texel)};
+    for (std::size_t c = 0; c < 2; ++c)
+        image.bytes[c] = static_cast<std::byte>(std::lround((0.5f + 0.5f * direction[c]) * 255.0f));
+    image.bytes[2] = std::byte{255}; // full strength
+    Texture t;
+    t.image = 0;
+    s.images.push_back(std::move(image));
+    s.textures.push_back(t);
+    m.anisotropy_tex.texture = 0;
+    return s;
+}
+
+// The angle of what 8 bits make of a direction.
+float stored(float angle)
+{
+    const auto byte = [](float x) { return static_cast<float>(std::lround((0.5f + 0.5f * x) * 255.0f)) / 255.0f * 2.0f - 1.0f; };
+    return std::atan2(byte(std::sin(angle)), byte(std::cos(angle)));
+}
+
+class Brushing : public testing::TestWithParam<const char*> {};
+
+TEST_P(Brushing, is_the_same_by_tangents_by_rotation_and_by_texture)
+{
+    const bool overridden = std::string(GetParam()) == "eta";
+    Environment environment;
+    {
+        EnvironmentOptions options;
+        options.cube_size = 64, options.samples = 64, options.use_cache = false;
+        Jobs jobs{1};
+        environment = *load_environment("builtin:sky", options, Limits{}, jobs);
+    }
+    const auto picture = [&](const Written& w) {
+        Stage stage(brushed_quad(w));
+        stage.environment = environment;
+        FrameDesc d;
+        d.width = d.height = 16;
+        d.view = make_view({0.7f, -0.9f, 1.6f}, {0, 0, 0}, 0.4f, d.width, d.height);
+        d.technique = "major_axis_weighted", d.samples = 16, d.background = false;
+        d.override_anisotropy = overridden, d.anisotropy = 0.95f;
+        return stage.render(d, best_isa());
+    };
+    const auto difference = [](const Frame& a, const Frame& b) { // greatest, relative to the pixel
+        float most = 0.0f;
+        for (int i = 0; i < 16 * 16 * 3; ++i)
+            most = std::max(most, std::abs(a.color.f32()[i] - b.color.f32()[i]) / std::max(a.color.f32()[i], 1e-3f));
+        return most;
+    };
+    float least_turn = 1e30f;
+    const Frame straight = picture({0.0f, 0.0f, 0.0f, false});
+    for (float wanted : {0.3f, 0.7f, 1.1f, 1.9f, 2.6f, 4.0f, 5.3f}) {
+        const float angle = stored(wanted);
+        const Frame by_tangents = picture({angle, 0.0f, 0.0f, false});
+        EXPECT_LT(difference(by_tangents, picture({0.0f, angle, 0.0f, false})), 1e-3f) << "rotation by " << angle;
+        EXPECT_LT(difference(by_tangents, picture({0.0f, 0.0f, wanted, true})), 2e-3f) << "texture of " << angle;
+        EXPECT_LT(difference(by_tangents, picture({-0.4f, 0.4f, wanted, true})), 2e-3f) << "all three for " << angle;
+        least_turn = std::min(least_turn, difference(by_tangents, straight));
+    }
+    EXPECT_GT(least_turn, 0.02f); // else nothing was compared
+}
+
+// A lobe of eta 0.95 is 39 times as wide along its axis as across: halves alone, with 11 bits, would bend its width across by a fifth.
+TEST(anisotropy, textures_keep_more_bits_than_a_half_has)
+{
+    for (int i = 0; i < 64; ++i) {
+        const float wanted = 0.1f * static_cast<float>(i);
+        const Stage stage(brushed_quad({0.0f, 0.0f, wanted, true}));
+        FrameDesc d;
+        d.width = d.height = 3, d.msaa = 1;
+        d.view = make_view({0, 0, 1.6f}, {0, 0, 0}, 0.4f, d.width, d.height);
+        d.stages = true;
+        const Frame f = stage.render(d, best_isa());
+        const float* tensors = reinterpret_cast<const float*>(f.stages.pairs.data() + 4 * kPairWords) + kPairWords - 3 - 6; // of the middle pixel
+        const double c = std::cos(static_cast<double>(stored(wanted))), s = std::sin(static_cast<double>(stored(wanted)));
+        for (int power : {0, 1}) {
+            EXPECT_NEAR(static_cast<double>(tensors[3 * power]), c * c, 2e-6) << wanted;
+            EXPECT_NEAR(static_cast<double>(tensors[3 * power + 1]), s * s, 2e-6) << wanted;
+            EXPECT_NEAR(static_cast<double>(tensors[3 * power + 2]), c * s, 2e-6) << wanted;
+        }
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(of, Brushing, testing::Values("strength", "eta"), [](const auto& p) { return std::string(p.param); });
+
+} // namespace
+} // namespace burnish::test
