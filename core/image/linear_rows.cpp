@@ -26,7 +26,7 @@ template <class T> void LinearRows::read_as(int y, int x, int n, float* r, float
     const T* row = reinterpret_cast<const T*>(image_.bytes.data()) +
                    static_cast<std::size_t>(y) * static_cast<std::size_t>(image_.width) *
                        static_cast<std::size_t>(channels);
-    const auto value = [this](T code) {
+    const auto value = [&](T code) {
         if constexpr (sizeof(T) == sizeof(float))
             return code;
         else

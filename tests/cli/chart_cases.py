@@ -80,6 +80,9 @@ def wrong(bench):
         (("--runs", "0"), "--runs"),
         (("--reference-samples", "0"), "--reference-samples"),
         (("--size", "0x4"), "--size"),
+        (("--error-size", "0x4"), "--error-size"),
+        (("--error-size", "480x480"), "480x270"),
+        (("--error-size", "480"), "--error-size"),
         (("--msaa", "3"), "--msaa"),
         (("--env", "builtin:moon"), "builtin:moon"),
         (("builtin:cube",), "builtin:cube"),
@@ -87,6 +90,41 @@ def wrong(bench):
         bench.run("chart", *words, "-o", "r").expect(2).expect_one_line(needle)
     bench.run("chart").expect(2).expect_one_line("--output")
     check(bench.left_behind() == [], f"left behind: {bench.left_behind()}")
+
+
+@case("chart.errors_of_smaller_pictures_than_are_timed")
+def error_size(bench):
+    """Times are of frames of --size, errors of pictures of --error-size: the same errors as where that is the size of both."""
+    needs_embree(bench)
+    small, large = FEW, ("--size", "1024x576", "--error-size", "64x36", *FEW[2:])
+    bench.run("chart", *small, "-o", "small").expect(0)
+    bench.run("chart", *large, "-o", "large").expect(0)
+    check(errors_of(rows_of(bench, "small")) == errors_of(rows_of(bench, "large")), "errors depend on the size that is timed")
+    for row, same in zip(rows_of(bench, "large"), rows_of(bench, "small")):
+        s = row["settings"]
+        check((s["width"], s["height"], s["error_width"], s["error_height"]) == (1024, 576, 64, 36), f"{s}")
+        check(row["cpu_ms_median"] > 4 * same["cpu_ms_median"], f"{row['cpu_ms_median']} ms for 256 times the pixels of {same['cpu_ms_median']} ms")
+    page = (bench.folder / "large/report.html").read_text()
+    check("1024 x 576" in page and "64 x 36" in page, "the page does not say both sizes")
+    bench.run("chart", "--size", "1000x700", "--error-size", "0x0", *FEW[2:], "-o", "r").expect(2).expect_one_line("--error-size")
+
+
+@case("chart.noise_of_the_references")
+def noise(bench):
+    """Every place tells what its reference's noise is worth; more samples make it less."""
+    needs_embree(bench)
+    told = []
+    for samples in ("64", "256", "4096"):
+        bench.run("chart", *TINY[:8], "--reference-samples", samples, "--runs", "1", "--techniques", "bent_normal", "--sweep", "roughness=0.2,0.4",
+                  "-o", "r" + samples, "--no-cache").expect(0)
+        references = json.loads((bench.folder / ("r" + samples) / "report.json").read_text())["references"]
+        check([round(reference["roughness"], 3) for reference in references] == [0.2, 0.4], f"{references}")
+        check(all(reference["samples"] == int(samples) and reference["scene"] and reference["env"] for reference in references), f"{references}")
+        told.append([(reference["relative_error"], reference["flip_noise"]) for reference in references])
+    check(told[0] == [(None, None)] * 2, f"of one pass: {told[0]}")
+    for few, many in zip(told[1], told[2]):
+        check(3 < few[0] / many[0] < 8, f"relative errors {few[0]} and {many[0]}: 16 times the samples, a quarter of the error, with Student's t")
+        check(1.5 < few[1] / many[1] < 6 and many[1] < 0.05, f"FLIP of the noise {few[1]} and {many[1]}")
 
 
 @case("chart.bad_input_and_output")
