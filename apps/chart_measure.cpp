@@ -13,6 +13,7 @@
 #include "apps/loaded_scene.h"
 #include "apps/render_stats.h"
 #include "apps/stop_signal.h"
+#include "core/base/cache.h"
 #include "core/base/clock.h"
 #include "core/base/file.h"
 #include "core/base/hash.h"
@@ -23,7 +24,6 @@
 #include "core/image/metrics.h"
 #include "core/simd/cpu.h"
 #include "raster/reference/scene_key.h"
-#include "shading/bake/environment_cache.h"
 
 namespace burnish {
 namespace {
@@ -198,13 +198,11 @@ Result<std::string> Chart::reference_file(const Place& place, const ReferenceOpt
 {
     const std::string name = fmt::format("reference-{}.part", hash_text(place.key));
     std::string file = keeper_.file(name);
-    const std::string cache = environment_cache_path(options_.base.environment, 0);
-    if (options_.base.environment.use_cache && !cache.empty()) {
-        const fs::path folder = fs::path(cache).parent_path();
+    if (const std::string cache = cache_folder(); options_.base.environment.use_cache && !cache.empty()) {
         std::error_code failed;
-        fs::create_directories(folder, failed);
-        if (!failed && ::access(folder.c_str(), W_OK | X_OK) == 0)
-            file = (folder / name).string();
+        fs::create_directories(cache, failed);
+        if (!failed && ::access(cache.c_str(), W_OK | X_OK) == 0)
+            file = cache + "/" + name;
     }
     ReferenceOptions with_file = options;
     with_file.checkpoint = file;
@@ -236,6 +234,8 @@ Result<Image> Chart::reference(const Place& place, ReferenceNoise& noise)
     Result<Frame> frame = (*renderer)->render(place.desc);
     if (!frame)
         return frame.error();
+    if (fs::path(*file).parent_path() == cache_folder())
+        prune_cache(cache_folder(), cache_limit(), *file);
     const SamplingStats& s = frame->stats.sampling;
     if (!s.stopped)
         report_.event("reference",

@@ -262,6 +262,23 @@ def stopped_reference(bench):
     check("made anew" in done.err and reference_samples(done) == (128, 0), done.describe())
 
 
+@case("chart.references_of_before_go_when_the_cache_is_full")
+def cache_limit(bench):
+    needs_embree(bench)
+    env = {"XDG_CACHE_HOME": str(bench.folder / "own_cache")}
+    few = (*TINY[:-2], "--runs", "1", "--techniques", "bent_normal", "-o", "r")
+    names = lambda: sorted(os.listdir(bench.folder / "own_cache/burnish"))
+    bench.run("chart", *few, "--sweep", "roughness=0.2,0.4", env=env).expect(0)
+    check([name.split("-")[0] for name in names()] == ["environment", "reference", "reference"], f"{names()}")
+    told = json.loads(bench.run("info", "--json", env=env).expect(0).out)["cache"]
+    check(told["folder"] == str(bench.folder / "own_cache/burnish") and told["files"] == 3 and told["limit_bytes"] == 2 << 30, f"{told}")
+    check(told["bytes"] == sum((bench.folder / "own_cache/burnish" / name).stat().st_size for name in names()), f"{told}")
+    check("3 files" in bench.run("info", env=env).expect(0).out, "info does not tell of the cache")
+    before = set(names())
+    bench.run("chart", *few, "--sweep", "roughness=0.6", env={**env, "BURNISH_CACHE_BYTES": "1K"}).expect(0)
+    check(len(names()) == 1 and names()[0].startswith("reference-") and not set(names()) & before, f"{before}, then {names()}")
+
+
 STUDIO, WORKSHOP = "builtin:studio", "workshop_1k.hdr"
 
 # Where the first claim below does not hold, (environment, roughness, anisotropy). FLIP of major_axis and bent_normal: under the studio
