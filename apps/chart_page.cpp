@@ -121,8 +121,7 @@ std::string noise_html(const ReferenceNoise& noise)
     if (!std::isfinite(noise.flip))
         return fmt::format("<p>The reference has {} samples a pixel, too few to tell its noise.</p>\n", noise.samples);
     return fmt::format("<p>The reference has {} samples a pixel: 95 % of its pixels' means are within {:.2g} % of the truth, on average over the "
-                       "picture. Its noise alone makes a mean FLIP of about {}: smaller errors, and smaller differences between errors, say "
-                       "nothing.</p>\n",
+                       "picture. Its noise alone makes a mean FLIP of about {}: errors of that size are the reference's own.</p>\n",
                        noise.samples, 100.0 * noise.relative_error, number(noise.flip));
 }
 
@@ -196,12 +195,12 @@ Result<std::string> data_json(const ChartReport& report, const std::vector<PairR
 std::string heading(const ChartReport& report)
 {
     const ChartMachine& m = report.machine;
-    return fmt::format("<h1>Speed against accuracy</h1>\n<p>Times are of frames of {} x {} pixels, {} samples a pixel: medians of {} interleaved frames "
+    return fmt::format("<h1>Speed against accuracy</h1>\n<p>Times are of frames of {} x {} pixels, {} samples a pixel: medians of {} interleaved frame{} "
                        "on {}, {}, {} thread{}; burnish {}. Errors are of pictures of {} x {} pixels: HDR-FLIP of linear pixels against Monte Carlo "
                        "references of at least {} samples a pixel.</p>\n"
                        "<p>Point at a mark, or go to it with the Tab and arrow keys, to see its picture; Enter shows it among the pictures below.</p>\n"
                        "<noscript><p>The pictures need JavaScript; the charts and figures do not.</p></noscript>\n",
-                       report.width, report.height, report.msaa, report.runs, escaped(m.processor), escaped(m.isa), m.threads,
+                       report.width, report.height, report.msaa, report.runs, report.runs == 1 ? "" : "s", escaped(m.processor), escaped(m.isa), m.threads,
                        m.threads == 1 ? "" : "s", escaped(m.version), report.error_width, report.error_height, report.reference_samples);
 }
 
