@@ -13,7 +13,7 @@ namespace {
 constexpr const char* kFooter =
     R"(REPORT_DIR gets report.html (one page, needs nothing else), report.json, the charts as .svg and .png, the pictures, and rows.json: what has
 been measured, from which a stopped chart goes on. References are kept beside the cache of environments. With the defaults a scene under one
-environment takes some five minutes on two cores, at 1920x1080 also for the errors an hour.
+environment takes some five minutes on two cores.
 
 Examples:
   burnish chart -o report
@@ -42,11 +42,6 @@ void add_what(CLI::App& app, ChartArguments& to)
         ->expected(1)
         ->group("What is measured");
     app.add_option("--runs", to.runs, "Timed frames of every setting, interleaved (9)")->type_name("N")->group("What is measured");
-    app.add_option("--error-size", to.error_size,
-                   "Width and height in pixels of the pictures that are compared with the reference, which takes a minute or two at the default; of "
-                   "the shape of --size (as --size, at most 480 pixels wide)")
-        ->type_name("WxH")
-        ->group("Picture");
     app.add_option("--reference-samples", to.reference_samples, "Samples a pixel of the references (4096)")
         ->type_name("N")
         ->group("What is measured");
@@ -134,6 +129,10 @@ void add_chart_options(CLI::App& app, ChartArguments& arguments)
     app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
     add_what(app, arguments);
     add_render_part(app, arguments.render);
+    app.add_option("--error-size", arguments.error_size,
+                   "Width and height in pixels of the pictures that are compared with the reference, of the shape of --size (at most 480 wide)")
+        ->type_name("WxH")
+        ->group("Picture");
     refuse_empty_values(app);
     app.get_option("SCENE")->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     app.footer(kFooter);
