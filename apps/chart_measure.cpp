@@ -268,9 +268,11 @@ FrameDesc Chart::timed_desc_of(const Place& place, const Setting& setting) const
 ChartRow Chart::new_row(const Place& place, const Setting& setting) const
 {
     const FrameDesc desc = desc_of(place, setting);
+    const FrameDesc& timed = options_.base.frame;
     const std::string text =
         fmt::format("{} {} {} {} {} {} {} {} {} {} {} {} {}", program_, place.key, options_.reference_samples, desc.technique, desc.samples,
-                    options_.base.frame.width, options_.base.frame.height, desc.msaa, desc.tile_size, place.tile.device(), jobs_.threads(), desc.major_axis_k, desc.major_axis_beta);
+                    timed.width, timed.height, desc.msaa, desc.tile_size, place.tile.device(), jobs_.threads(), desc.major_axis_k,
+                    desc.major_axis_beta);
     ChartRow row;
     row.key = hash_text(hash_bytes(text.data(), text.size()));
     row.scene = place.scene.name, row.env = place.env;
