@@ -78,7 +78,7 @@ bool inside(const Points& outline, double x, double y)
 } // namespace
 
 Canvas::Canvas(int width, int height, const Paint& paper)
-    : width_(width), height_(height), pixels_(3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height))
+    : width_(width), height_(height), paper_(paper), pixels_(3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height))
 {
     for (std::size_t i = 0; i < pixels_.size(); ++i)
         pixels_[i] = static_cast<float>(paper[i % 3]);
@@ -190,7 +190,10 @@ void Canvas::text(double x, double y, const std::string& text, const TextStyle& 
         }
         pen += (glyph.right - glyph.left) * unit * kNarrow;
     }
-    strokes(lines, (style.bold ? kBoldPen : kPen) * style.size, paint, 1.0);
+    const double pen_width = (style.bold ? kBoldPen : kPen) * style.size;
+    if (style.halo > 0.0)
+        strokes(lines, pen_width + 2.0 * style.halo, paper_, 1.0);
+    strokes(lines, pen_width, paint, 1.0);
 }
 
 Image Canvas::image() const

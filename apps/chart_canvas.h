@@ -18,6 +18,7 @@ struct TextStyle {
     double anchor = 0.0;   // 0 starts at the place, 0.5 is centred on it, 1 ends there
     double turn_deg = 0.0; // clockwise, about the place
     bool bold = false, slanted = false;
+    double halo = 0.0;     // px of paper around the letters, so that what they cross does not run through them
 };
 
 class Canvas {
@@ -38,6 +39,7 @@ class Canvas {
     void strokes(const std::vector<Points>& lines, double width, const Paint& paint, double opacity); // one layer: crossings do not add up
 
     int width_, height_;
+    Paint paper_;
     std::vector<float> pixels_; // RGB
 };
 

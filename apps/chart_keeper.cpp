@@ -63,18 +63,18 @@ Result<Keeper> Keeper::open(const std::string& folder, Report& report)
     const Result<std::vector<std::uint8_t>> bytes = read_file(path, kMaxKeptBytes);
     if (!bytes)
         return bytes.error();
-    Result<KeptRows> rows = parse_kept(std::string(bytes->begin(), bytes->end()), path);
-    if (rows)
-        keeper.rows_ = std::move(*rows);
+    Result<Kept> kept = parse_kept(std::string(bytes->begin(), bytes->end()), path);
+    if (kept)
+        keeper.kept_ = std::move(*kept);
     else
-        report.warning(fmt::format("{}: {}: everything is measured anew", path, rows.error().reason));
+        report.warning(fmt::format("{}: {}: everything is measured anew", path, kept.error().reason));
     return keeper;
 }
 
 Status Keeper::save()
 {
     saved_ = Clock::now();
-    return write_file(file("rows.json"), kept_json(rows_));
+    return write_file(file("rows.json"), kept_json(kept_));
 }
 
 Status Keeper::save_sometimes()

@@ -14,7 +14,8 @@ class Keeper {
     // Makes the folder where needed and reads the rows of an earlier run; a file that holds something else is told and left behind.
     static Result<Keeper> open(const std::string& folder, Report& report);
 
-    Measured& row(const std::string& key) { return rows_[key]; }
+    Measured& row(const std::string& key) { return kept_.rows[key]; }
+    std::map<std::string, ReferenceNoise>& references() { return kept_.references; }
     Status save();           // now
     Status save_sometimes(); // unless that was a moment ago
     std::string picture(const std::string& name) const { return folder_ + "/pictures/" + name + ".jpg"; }
@@ -26,7 +27,7 @@ class Keeper {
     using Clock = std::chrono::steady_clock;
 
     std::string folder_;
-    KeptRows rows_;
+    Kept kept_;
     Clock::time_point saved_ = Clock::now();
 };
 

@@ -8,10 +8,12 @@
 #include <memory>
 #include <unistd.h>
 
+#include "apps/chart_noise.h"
 #include "apps/chart_pictures.h"
 #include "apps/loaded_scene.h"
 #include "apps/render_stats.h"
 #include "apps/stop_signal.h"
+#include "core/base/cache.h"
 #include "core/base/clock.h"
 #include "core/base/file.h"
 #include "core/base/hash.h"
@@ -22,7 +24,6 @@
 #include "core/image/metrics.h"
 #include "core/simd/cpu.h"
 #include "raster/reference/scene_key.h"
-#include "shading/bake/environment_cache.h"
 
 namespace burnish {
 namespace {
@@ -55,20 +56,21 @@ class Chart {
         const LoadedScene& scene;
         RenderInput input;
         Renderer& tile;
-        FrameDesc desc; // but for technique and samples
+        FrameDesc desc; // of the pictures that are compared, but for technique and samples
         std::string env;
         Cell cell;
         std::uint64_t key = 0; // of scene, environment, view and overrides
     };
     Status measure_pair(const LoadedScene& scene, const Environment& environment, const std::string& env);
     Status measure_place(const Place& place);
-    Result<Image> reference(const Place& place);
+    Result<Image> reference(const Place& place, ReferenceNoise& noise);
     Result<std::string> reference_file(const Place& place, const ReferenceOptions& options);
     Status find_errors(const Place& place, const Image& reference, ChartRow& row);
     Status time_rows(const Place& place, std::vector<ChartRow>& rows);
     Status write_small(const std::string& file, const Image& linear, bool errors);
     ChartRow new_row(const Place& place, const Setting& setting) const;
     FrameDesc desc_of(const Place& place, const Setting& setting) const;
+    FrameDesc timed_desc_of(const Place& place, const Setting& setting) const;
 
     const ChartOptions& options_;
     const Jobs& jobs_;
@@ -105,6 +107,7 @@ Status Chart::load_all()
     const FrameDesc& frame = options_.base.frame;
     out_.machine = {version(), cpu_name(), isa_name(options_.base.isa), jobs_.threads()};
     out_.width = frame.width, out_.height = frame.height, out_.msaa = frame.msaa;
+    out_.error_width = options_.error_width, out_.error_height = options_.error_height;
     out_.runs = options_.runs;
     out_.reference_samples = options_.reference_samples;
     return {};
@@ -135,6 +138,7 @@ Status Chart::measure_pair(const LoadedScene& scene, const Environment& environm
     const std::unique_ptr<Renderer> tile = make_tile_renderer(input, options_.base.isa);
     for (const Cell& cell : cells_) {
         Place place{scene, input, *tile, options_.base.frame, env, cell};
+        place.desc.width = options_.error_width, place.desc.height = options_.error_height;
         place.desc.view = scene.view;
         place.desc.roughness = cell.roughness.value_or(-1.0f);
         place.desc.anisotropy = cell.anisotropy.value_or(0.0f);
@@ -158,16 +162,18 @@ Status Chart::measure_place(const Place& place)
         rows.push_back(new_row(place, setting));
         complete = complete && rows.back().measured.has_errors;
     }
+    const std::string kept_reference = fmt::format("{}-{}", hash_text(place.key), options_.reference_samples);
+    complete = complete && keeper_.references().count(kept_reference);
     const std::string picture =
-        keeper_.picture(fmt::format("reference-{}-{}-{}-{:g}", hash_text(place.key), options_.reference_samples, picture_width_,
-                                    static_cast<double>(options_.base.exposure_ev)));
-    out_.references[burnish::place(rows.front())] = picture;
+        keeper_.picture(fmt::format("reference-{}-{}-{:g}", kept_reference, picture_width_, static_cast<double>(options_.base.exposure_ev)));
     if (!complete || !fs::exists(picture)) {
-        const Result<Image> truth = reference(place);
+        ReferenceNoise noise;
+        const Result<Image> truth = reference(place, noise);
         if (!truth)
             return truth.error();
         if (stopped())
             return {};
+        keeper_.references()[kept_reference] = noise;
         if (const Status written = write_small(picture, *truth, false); !written)
             return written;
         for (ChartRow& row : rows) {
@@ -180,6 +186,7 @@ Status Chart::measure_place(const Place& place)
     } else {
         progress_->step(rows.size());
     }
+    out_.references[burnish::place(rows.front())] = {picture, keeper_.references().at(kept_reference)};
     if (const Status timed = time_rows(place, rows); !timed)
         return timed;
     out_.rows.insert(out_.rows.end(), rows.begin(), rows.end());
@@ -191,13 +198,11 @@ Result<std::string> Chart::reference_file(const Place& place, const ReferenceOpt
 {
     const std::string name = fmt::format("reference-{}.part", hash_text(place.key));
     std::string file = keeper_.file(name);
-    const std::string cache = environment_cache_path(options_.base.environment, 0);
-    if (options_.base.environment.use_cache && !cache.empty()) {
-        const fs::path folder = fs::path(cache).parent_path();
+    if (const std::string cache = cache_folder(); options_.base.environment.use_cache && !cache.empty()) {
         std::error_code failed;
-        fs::create_directories(folder, failed);
-        if (!failed && ::access(folder.c_str(), W_OK | X_OK) == 0)
-            file = (folder / name).string();
+        fs::create_directories(cache, failed);
+        if (!failed && ::access(cache.c_str(), W_OK | X_OK) == 0)
+            file = cache + "/" + name;
     }
     ReferenceOptions with_file = options;
     with_file.checkpoint = file;
@@ -211,7 +216,7 @@ Result<std::string> Chart::reference_file(const Place& place, const ReferenceOpt
     return file;
 }
 
-Result<Image> Chart::reference(const Place& place)
+Result<Image> Chart::reference(const Place& place, ReferenceNoise& noise)
 {
     ReferenceOptions options;
     options.samples = options_.reference_samples;
@@ -229,6 +234,8 @@ Result<Image> Chart::reference(const Place& place)
     Result<Frame> frame = (*renderer)->render(place.desc);
     if (!frame)
         return frame.error();
+    if (fs::path(*file).parent_path() == cache_folder())
+        prune_cache(cache_folder(), cache_limit(), *file);
     const SamplingStats& s = frame->stats.sampling;
     if (!s.stopped)
         report_.event("reference",
@@ -237,6 +244,8 @@ Result<Image> Chart::reference(const Place& place)
                                   frame->stats.ms * 1e-3, s.relative_error));
     if (const std::uint64_t bad = s.stopped ? 0 : count_not_finite(frame->color))
         return Error{ExitCode::not_finite, place.scene.name, "reference", fmt::format("{} pixels are NaN or Inf", bad)};
+    if (!s.stopped)
+        noise = {s.samples, s.relative_error, noise_flip(frame->color, frame->variance, static_cast<int>(options_.base.isa), jobs_)};
     return std::move(frame->color);
 }
 
@@ -248,13 +257,22 @@ FrameDesc Chart::desc_of(const Place& place, const Setting& setting) const
     return desc;
 }
 
+FrameDesc Chart::timed_desc_of(const Place& place, const Setting& setting) const
+{
+    FrameDesc desc = desc_of(place, setting);
+    desc.width = options_.base.frame.width, desc.height = options_.base.frame.height;
+    return desc;
+}
+
 // The row with what was kept of it, but no errors where their pictures are gone.
 ChartRow Chart::new_row(const Place& place, const Setting& setting) const
 {
     const FrameDesc desc = desc_of(place, setting);
+    const FrameDesc& timed = options_.base.frame;
     const std::string text =
-        fmt::format("{} {} {} {} {} {} {} {} {} {} {}", program_, place.key, options_.reference_samples, desc.technique, desc.samples,
-                    desc.msaa, desc.tile_size, place.tile.device(), jobs_.threads(), desc.major_axis_k, desc.major_axis_beta);
+        fmt::format("{} {} {} {} {} {} {} {} {} {} {} {} {}", program_, place.key, options_.reference_samples, desc.technique, desc.samples,
+                    timed.width, timed.height, desc.msaa, desc.tile_size, place.tile.device(), jobs_.threads(), desc.major_axis_k,
+                    desc.major_axis_beta);
     ChartRow row;
     row.key = hash_text(hash_bytes(text.data(), text.size()));
     row.scene = place.scene.name, row.env = place.env;
@@ -316,7 +334,7 @@ Status Chart::time_rows(const Place& place, std::vector<ChartRow>& rows)
     for (const std::size_t i : order) { // warm
         if (stopped())
             return {};
-        Result<Frame> frame = place.tile.render(desc_of(place, rows[i].setting), std::move(last));
+        Result<Frame> frame = place.tile.render(timed_desc_of(place, rows[i].setting), std::move(last));
         if (!frame)
             return frame.error();
         last = std::move(*frame);
@@ -327,7 +345,7 @@ Status Chart::time_rows(const Place& place, std::vector<ChartRow>& rows)
             if (kept.ms.size() > run)
                 continue;
             const double before = process_cpu_ms();
-            Result<Frame> frame = place.tile.render(desc_of(place, rows[i].setting), std::move(last));
+            Result<Frame> frame = place.tile.render(timed_desc_of(place, rows[i].setting), std::move(last));
             if (!frame)
                 return frame.error();
             kept.ms.push_back(frame->stats.ms);

@@ -2,6 +2,7 @@
 #include "apps/chart_options.h"
 
 #include <algorithm>
+#include <fmt/format.h>
 
 #include "apps/option_reader.h"
 #include "raster/reference/reference_renderer.h"
@@ -11,15 +12,17 @@ namespace {
 
 constexpr const char* kFooter =
     R"(REPORT_DIR gets report.html (one page, needs nothing else), report.json, the charts as .svg and .png, the pictures, and rows.json: what has
-been measured, from which a stopped chart goes on. References are kept beside the cache of environments.
+been measured, from which a stopped chart goes on. References are kept beside the cache of environments. With the defaults a scene under one
+environment takes some five minutes on two cores.
 
 Examples:
   burnish chart -o report
-  burnish chart lamp.glb --env workshop.hdr --env builtin:sky --size 1920x1080 -o report
+  burnish chart lamp.glb --env workshop.hdr --env builtin:sky --size 1280x720 -o report
   burnish chart --techniques bent_normal,major_axis --sweep samples=2,4,8,16,32 -o report
   burnish chart --sweep samples=16 --sweep roughness=0.1,0.3,0.5,0.7 --sweep anisotropy=-0.9,-0.5,0,0.5,0.9 -o report)";
 
-constexpr const char* kUsualSize = "480x270"; // a chart of everything in a few minutes on two cores
+constexpr const char* kUsualSize = "1920x1080";
+constexpr int kUsualErrorWidth = 480; // pixels: a reference of thousands of samples a pixel in a minute or two on two cores
 
 void add_what(CLI::App& app, ChartArguments& to)
 {
@@ -55,7 +58,7 @@ void add_render_part(CLI::App& app, RenderArguments& to)
     const auto option = [&app](const char* name, std::string& text, const char* help, const char* type, const char* group) {
         app.add_option(name, text, help)->type_name(type)->group(group);
     };
-    option("--size", to.size, "Width and height in pixels (480x270)", "WxH", "Picture");
+    option("--size", to.size, "Width and height in pixels of the frames that are timed (1920x1080)", "WxH", "Picture");
     option("--msaa", to.msaa, "Samples a pixel of the techniques: 1, 2, 4, 8 or 16 (8)", "N", "Picture");
     option("--camera", to.plain.camera, "Camera of the scene, by index or name (the first, else framed)", "N|NAME", "Picture");
     option("--eye", to.eye, "Camera position, world space", "X,Y,Z", "Picture");
@@ -89,6 +92,27 @@ Status check_pairs(const ChartArguments& in, ChartOptions& out)
     return {};
 }
 
+// The same view in fewer pixels: sides in one proportion, but for what rounding to whole pixels needs.
+Status read_error_size(const std::string& text, ChartOptions& out)
+{
+    const FrameDesc& frame = out.base.frame;
+    out.error_width = std::min(frame.width, kUsualErrorWidth);
+    const auto height_at = [&](int width) {
+        return std::max(1, static_cast<int>(static_cast<double>(frame.height) * width / frame.width + 0.5));
+    };
+    out.error_height = height_at(out.error_width);
+    if (text.empty())
+        return {};
+    const Result<PictureSize> size = parse_picture_size("--error-size", text);
+    if (!size)
+        return size.error();
+    out.error_width = size->width, out.error_height = size->height;
+    if (size->width < 1 || size->width > kMaxPictureSide || size->height != height_at(size->width))
+        return usage_error("--error-size", fmt::format("{} has not the shape of --size {}x{}: for instance {}x{}", text, frame.width, frame.height,
+                                                       std::min(frame.width, kUsualErrorWidth), height_at(std::min(frame.width, kUsualErrorWidth))));
+    return {};
+}
+
 template <class T> void remove_repeated(std::vector<T>& values)
 {
     std::vector<T> once;
@@ -105,6 +129,10 @@ void add_chart_options(CLI::App& app, ChartArguments& arguments)
     app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
     add_what(app, arguments);
     add_render_part(app, arguments.render);
+    app.add_option("--error-size", arguments.error_size,
+                   "Width and height in pixels of the pictures that are compared with the reference, of the shape of --size (at most 480 wide)")
+        ->type_name("WxH")
+        ->group("Picture");
     refuse_empty_values(app);
     app.get_option("SCENE")->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     app.footer(kFooter);
@@ -121,6 +149,8 @@ Result<ChartOptions> check_chart_options(const ChartArguments& in)
     OptionReader reader;
     if (const Status pairs = check_pairs(in, out); !pairs)
         reader.refuse(pairs.error());
+    else if (const Status read = read_error_size(in.error_size, out); !read)
+        reader.refuse(read.error());
     if (const auto names = parse_techniques(in.techniques); names)
         out.techniques = *names;
     else

@@ -9,7 +9,8 @@
 namespace burnish {
 
 struct ChartOptions {
-    RenderOptions base; // size, view, machine and limits; its scene and environment are those being measured
+    RenderOptions base; // size of the timed frames, view, machine and limits; its scene and environment are those being measured
+    int error_width = 0, error_height = 0; // pixels, of the pictures that are compared with the reference
     std::vector<std::string> scenes, envs;
     std::vector<std::string> techniques;
     Sweeps sweeps;
@@ -21,7 +22,7 @@ struct ChartOptions {
 struct ChartArguments {
     RenderArguments render; // options that mean the same as in `burnish render`
     std::vector<std::string> scenes, envs, sweeps;
-    std::string techniques = "all", runs, reference_samples, folder;
+    std::string techniques = "all", error_size, runs, reference_samples, folder;
 };
 
 void add_chart_options(CLI::App& app, ChartArguments& arguments);

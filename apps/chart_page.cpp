@@ -21,7 +21,7 @@ using Json = nlohmann::ordered_json;
 struct PlaceRows { // one scene, environment and cell
     Cell cell;
     RowList rows;
-    std::string reference; // picture file
+    const ChartReference* reference;
 };
 
 struct PairRows { // one scene and environment
@@ -38,7 +38,7 @@ std::vector<PairRows> group(const ChartReport& report)
             pairs.push_back({row.scene, row.env, {}, {}});
         PairRows& pair = pairs.back();
         if (pair.places.empty() || pair.places.back().cell != row.cell)
-            pair.places.push_back({row.cell, {}, report.references.at(place(row))});
+            pair.places.push_back({row.cell, {}, &report.references.at(place(row))});
         pair.rows.push_back(&row);
         pair.places.back().rows.push_back(&row);
     }
@@ -115,6 +115,16 @@ std::string table_html(const RowList& rows)
     return out + "</table></div></details>\n";
 }
 
+// What of an error may be the reference's.
+std::string noise_html(const ReferenceNoise& noise)
+{
+    if (!std::isfinite(noise.flip))
+        return fmt::format("<p>The reference has {} samples a pixel, too few to tell its noise.</p>\n", noise.samples);
+    return fmt::format("<p>The reference has {} samples a pixel: 95 % of its pixels' means are within {:.2g} % of the truth, on average over the "
+                       "picture. Its noise alone makes a mean FLIP of about {}: errors of that size are the reference's own.</p>\n",
+                       noise.samples, 100.0 * noise.relative_error, number(noise.flip));
+}
+
 std::string pair_html(const PairRows& pair, std::size_t& place_number)
 {
     std::string out = fmt::format("<section class=\"pair\">\n<h2>{} under {}</h2>\n", escaped(pair.scene), escaped(pair.env));
@@ -126,6 +136,7 @@ std::string pair_html(const PairRows& pair, std::size_t& place_number)
     }
     for (const PlaceRows& place : pair.places) {
         out += fmt::format("<div class=\"place\" data-place=\"{}\"{}>\n", place_number++, &place == &pair.places.front() ? "" : " hidden");
+        out += noise_html(place.reference->noise);
         out += charts_html(place.rows);
         out += "<h3>Pictures</h3>\n<p>In a picture: <kbd>+</kbd> <kbd>-</kbd> or a double click zoom, dragging or arrow keys move, <kbd>F</kbd> "
                "flickers, <kbd>S</kbd> <kbd>T</kbd> <kbd>R</kbd> <kbd>E</kbd> choose what is shown. All pictures follow.</p>\n"
@@ -152,10 +163,10 @@ Status add_row(const ChartRow& row, Json& rows)
 // What the script needs. "</" would end the element that it stands in.
 Result<std::string> data_json(const ChartReport& report, const std::vector<PairRows>& pairs)
 {
-    Json json = {{"width", report.width}, {"height", report.height}, {"places", Json::array()}, {"rows", Json::object()}};
+    Json json = {{"width", report.error_width}, {"height", report.error_height}, {"places", Json::array()}, {"rows", Json::object()}};
     for (const PairRows& pair : pairs)
         for (const PlaceRows& place : pair.places) {
-            const Result<std::string> reference = data_uri(place.reference);
+            const Result<std::string> reference = data_uri(place.reference->picture);
             if (!reference)
                 return reference.error();
             Json keys = Json::array(), shown = Json::array();
@@ -184,12 +195,13 @@ Result<std::string> data_json(const ChartReport& report, const std::vector<PairR
 std::string heading(const ChartReport& report)
 {
     const ChartMachine& m = report.machine;
-    return fmt::format("<h1>Speed against accuracy</h1>\n<p>{} x {} pixels, {} samples a pixel; medians of {} interleaved frames on {}, {}, {} "
-                       "thread{}; burnish {}. Errors are HDR-FLIP of linear pixels against Monte Carlo references of at least {} samples a pixel.</p>\n"
+    return fmt::format("<h1>Speed against accuracy</h1>\n<p>Times are of frames of {} x {} pixels, {} samples a pixel: medians of {} interleaved frame{} "
+                       "on {}, {}, {} thread{}; burnish {}. Errors are of pictures of {} x {} pixels: HDR-FLIP of linear pixels against Monte Carlo "
+                       "references of at least {} samples a pixel.</p>\n"
                        "<p>Point at a mark, or go to it with the Tab and arrow keys, to see its picture; Enter shows it among the pictures below.</p>\n"
                        "<noscript><p>The pictures need JavaScript; the charts and figures do not.</p></noscript>\n",
-                       report.width, report.height, report.msaa, report.runs, escaped(m.processor), escaped(m.isa), m.threads,
-                       m.threads == 1 ? "" : "s", escaped(m.version), report.reference_samples);
+                       report.width, report.height, report.msaa, report.runs, report.runs == 1 ? "" : "s", escaped(m.processor), escaped(m.isa), m.threads,
+                       m.threads == 1 ? "" : "s", escaped(m.version), report.error_width, report.error_height, report.reference_samples);
 }
 
 std::string with_style(std::string svg)

@@ -172,14 +172,15 @@ std::string draw(Plot plot, Layout layout)
         else if (line.size() > 1)
             svg.path(line, "curve " + mark_class(curve.technique));
     }
-    for (const Curve& curve : plot.curves)
-        for (const Point& p : curve.points)
-            if (!curve.level)
-                draw_point(svg, f, p, curve.technique, p.row->pareto || !plot.front);
+    // Marks over names over lines: a name's halo hides no mark.
     if (layout == Layout::wide)
         draw_names_beside(svg, plot, f);
     else
         draw_names_below(svg, plot, f);
+    for (const Curve& curve : plot.curves)
+        for (const Point& p : curve.points)
+            if (!curve.level)
+                draw_point(svg, f, p, curve.technique, p.row->pareto || !plot.front);
     return svg.done();
 }
 

@@ -173,6 +173,7 @@ void Painter::write(const Element& e, const std::string& classes, const std::str
     style.size = (has_class(classes, "tick") || has_class(classes, "value") ? 12.0 : 13.0) * kPngScale;
     style.anchor = has_class(classes, "middle") ? 0.5 : has_class(classes, "end") ? 1.0 : 0.0;
     style.bold = has_class(classes, "name");
+    style.halo = style.bold ? 2.0 * kPngScale : 0.0;
     style.slanted = has_class(classes, "note");
     if (const std::string turn = text_of(e, "transform"); !turn.empty())
         style.turn_deg = std::strtod(turn.c_str() + turn.find('(') + 1, nullptr);

@@ -12,7 +12,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr int kKeptVersion = 1; // of the file's layout
+constexpr int kKeptVersion = 2; // of the file's layout
 
 // Names of files are bytes to the operating system: what is not UTF-8 is replaced instead of ending the program.
 std::string dump(const Json& json)
@@ -47,7 +47,14 @@ Json settings_json(const ChartReport& report, const ChartRow& row)
             {"anisotropy", or_null(row.cell.anisotropy)},
             {"msaa", report.msaa},
             {"width", report.width},
-            {"height", report.height}};
+            {"height", report.height},
+            {"error_width", report.error_width},
+            {"error_height", report.error_height}};
+}
+
+Json noise_json(const ReferenceNoise& noise)
+{
+    return {{"samples", noise.samples}, {"relative_error", number_or_null(noise.relative_error)}, {"flip_noise", number_or_null(noise.flip)}};
 }
 
 Json row_json(const ChartReport& report, const ChartRow& row)
@@ -114,10 +121,12 @@ void mark_pareto(std::vector<ChartRow>& rows)
     }
 }
 
-std::string kept_json(const KeptRows& rows)
+std::string kept_json(const Kept& kept)
 {
-    Json json = {{"kept_version", kKeptVersion}, {"rows", Json::object()}};
-    for (const auto& [key, m] : rows) {
+    Json json = {{"kept_version", kKeptVersion}, {"rows", Json::object()}, {"references", Json::object()}};
+    for (const auto& [key, noise] : kept.references)
+        json["references"][key] = noise_json(noise);
+    for (const auto& [key, m] : kept.rows) {
         Json row = m.has_errors ? errors_json(m.errors) : Json::object();
         row["ms"] = m.ms;
         row["cpu_ms"] = m.cpu_ms;
@@ -126,15 +135,18 @@ std::string kept_json(const KeptRows& rows)
     return dump(json);
 }
 
-Result<KeptRows> parse_kept(const std::string& text, const std::string& file)
+Result<Kept> parse_kept(const std::string& text, const std::string& file)
 {
     try {
         const Json json = Json::parse(text);
-        KeptRows rows;
+        Kept kept;
         if (json.at("kept_version") != kKeptVersion)
-            return rows;
+            return kept;
+        for (const auto& [key, noise] : json.at("references").items())
+            kept.references[key] = {noise.at("samples").get<std::uint64_t>(), number_of(noise.at("relative_error")),
+                                    number_of(noise.at("flip_noise"))};
         for (const auto& [key, row] : json.at("rows").items()) {
-            Measured& m = rows[key];
+            Measured& m = kept.rows[key];
             m.ms = row.at("ms").get<std::vector<double>>();
             m.cpu_ms = row.at("cpu_ms").get<std::vector<double>>();
             if (m.cpu_ms.size() != m.ms.size())
@@ -144,7 +156,7 @@ Result<KeptRows> parse_kept(const std::string& text, const std::string& file)
                 m.errors = {number_of(row.at("flip_mean")), number_of(row.at("flip_p99")), number_of(row.at("rel_mse")),
                             number_of(row.at("max_abs")), row.at("nan_pixels").get<std::uint64_t>()};
         }
-        return rows;
+        return kept;
     } catch (const Json::exception&) {
         return Error{ExitCode::bad_input, file, "", "does not hold the rows of a chart"};
     }
@@ -159,6 +171,16 @@ std::string report_json(const ChartReport& report)
                        {"threads", report.machine.threads}};
     json["runs"] = report.runs;
     json["reference_samples"] = report.reference_samples;
+    json["references"] = Json::array();
+    for (std::size_t i = 0; i < report.rows.size(); ++i) {
+        const ChartRow& row = report.rows[i];
+        if (i > 0 && place(report.rows[i - 1]) == place(row))
+            continue; // rows of a place stand together
+        const Json settings = settings_json(report, row);
+        Json reference = {{"scene", row.scene}, {"env", row.env}, {"roughness", settings["roughness"]}, {"anisotropy", settings["anisotropy"]}};
+        reference.update(noise_json(report.references.at(place(row)).noise));
+        json["references"].push_back(reference);
+    }
     json["rows"] = Json::array();
     for (const ChartRow& row : report.rows)
         json["rows"].push_back(row_json(report, row));

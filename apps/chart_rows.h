@@ -20,7 +20,16 @@ struct Measured { // of a row, so far
     RowErrors errors;
     std::vector<double> ms, cpu_ms; // by run
 };
-using KeptRows = std::map<std::string, Measured>; // by ChartRow::key
+struct ReferenceNoise { // how far a reference may be from the truth
+    std::uint64_t samples = 0;   // a pixel
+    double relative_error = 0.0; // half width of the 95 % confidence interval over the mean, averaged over the pixels that are not black
+    double flip = 0.0;           // mean FLIP between the reference and itself with as much noise again
+};
+
+struct Kept { // of earlier runs
+    std::map<std::string, Measured> rows;             // by ChartRow::key
+    std::map<std::string, ReferenceNoise> references; // by key of the place and samples asked for
+};
 
 struct ChartRow {
     std::string key; // of everything that decides its pictures and its times, 16 hexadecimal digits
@@ -37,12 +46,18 @@ struct ChartMachine {
     int threads = 0;
 };
 
+struct ChartReference {
+    std::string picture; // file
+    ReferenceNoise noise;
+};
+
 struct ChartReport {
     ChartMachine machine;
-    int width = 0, height = 0, msaa = 0, runs = 0;
+    int width = 0, height = 0, msaa = 0, runs = 0; // width, height: of the timed frames, pixels
+    int error_width = 0, error_height = 0;         // of the pictures compared with the reference
     std::uint64_t reference_samples = 0;
-    std::vector<ChartRow> rows;                    // by scene, environment, cell, technique, samples
-    std::map<std::string, std::string> references; // picture files, by place()
+    std::vector<ChartRow> rows;                       // by scene, environment, cell, technique, samples
+    std::map<std::string, ChartReference> references; // by place()
 };
 
 std::string place(const ChartRow& row); // scene, environment and cell as one text: rows of one place are compared
@@ -55,8 +70,8 @@ double p95_of(const ChartRow& row);
 std::vector<bool> pareto_front(const std::vector<std::pair<double, double>>& points);
 void mark_pareto(std::vector<ChartRow>& rows); // by place, over median time and mean FLIP
 
-std::string kept_json(const KeptRows& rows);
-Result<KeptRows> parse_kept(const std::string& text, const std::string& file);
+std::string kept_json(const Kept& kept);
+Result<Kept> parse_kept(const std::string& text, const std::string& file);
 std::string report_json(const ChartReport& report);
 
 } // namespace burnish

@@ -41,8 +41,8 @@ Status write_report(const ChartReport& chart, const Keeper& keeper, Report& repo
     }
     for (const ChartRow& row : chart.rows)
         used.insert({row.picture, row.error_map});
-    for (const auto& [place, picture] : chart.references)
-        used.insert(picture);
+    for (const auto& [place, reference] : chart.references)
+        used.insert(reference.picture);
     keeper.remove_stale(used);
     report.event("wrote", keeper.file("report.html"));
     return {};

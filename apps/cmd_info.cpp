@@ -9,6 +9,7 @@
 
 #include "apps/command.h"
 #include "apps/report.h"
+#include "core/base/cache.h"
 #include "core/base/version.h"
 #include "core/jobs/jobs.h"
 #include "raster/reference/reference_renderer.h"
@@ -34,6 +35,9 @@ struct Info {
     std::string isa = isa_name(best_isa());
     std::vector<std::string> isa_available, backends = {"tile"}, vulkan_devices;
     int cores = Jobs().threads();
+    std::string cache_folder = burnish::cache_folder();
+    CacheUse cache = cache_use(cache_folder);
+    std::uint64_t cache_limit = burnish::cache_limit();
 };
 
 Info gather()
@@ -64,6 +68,7 @@ int print_json(const Info& info)
     json["backends"] = info.backends;
     json["vulkan_devices"] = info.vulkan_devices;
     json["openimageio"] = info.openimageio;
+    json["cache"] = {{"folder", info.cache_folder}, {"files", info.cache.files}, {"bytes", info.cache.bytes}, {"limit_bytes", info.cache_limit}};
     fmt::print("{}\n", json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
     return 0;
 }
@@ -78,6 +83,12 @@ int print_text(const Info& info)
     for (const std::string& device : info.vulkan_devices)
         fmt::print("vulkan       {}\n", device);
     fmt::print("OpenImageIO  {}\n", info.openimageio);
+    const auto mega = [](std::uint64_t bytes) { return static_cast<double>(bytes) / (1 << 20); };
+    if (info.cache_folder.empty())
+        fmt::print("cache        none: neither XDG_CACHE_HOME nor HOME is an absolute path\n");
+    else
+        fmt::print("cache        {}: {} files, {:.0f} MiB of at most {:.0f}\n", info.cache_folder, info.cache.files, mega(info.cache.bytes),
+                   mega(info.cache_limit));
     return 0;
 }
 
@@ -90,7 +101,7 @@ Command add_info(CLI::App& program)
     app->add_flag("--json", *json, "Machine-readable");
     app->footer("Examples:\n  burnish info\n  burnish info --json\n\nBN_FORCE_ISA=scalar|avx2|avx512 in the "
                 "environment "
-                "caps the instruction set.");
+                "caps the instruction set; BURNISH_CACHE_BYTES=500M limits the cache (2G).");
     return {app, [json] { return *json ? print_json(gather()) : print_text(gather()); }};
 }
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include "core/base/check.h"
 #include "core/base/column.h"
@@ -83,22 +84,33 @@ class TileWorker {
   public:
     void run(const Pass& pass, const Tile& tile)
     {
-        const int radius = pass.kernels.radius();
-        reserve(radius);
+        radius_ = pass.kernels.radius();
+        reserve();
+        load(pass, tile);
         for (std::size_t i = 0; i < pass.tones.size(); ++i)
-            run_tone(pass, tile, pass.tones[i], radius, i > 0);
+            run_tone(pass, tile, pass.tones[i], i > 0);
     }
 
   private:
     static constexpr int kStride = kTileWidth;
 
-    void reserve(int radius)
+    void reserve()
     {
-        row_stride_ = static_cast<std::size_t>(kTileWidth + 2 * radius + kPad);
-        slots_ = 2 * radius + 1;
-        pixels_.resize(3 * row_stride_);
+        row_stride_ = kTileWidth + 2 * radius_ + kPad;
+        slots_ = 2 * radius_ + kFlipRows;
+        linear_.resize(static_cast<std::size_t>(kTileHeight + 2 * radius_) * 2 * row_floats());
+        pixels_.resize(row_floats());
         ring_.resize(static_cast<std::size_t>(slots_) * 2 * kFlipPlanes * kStride);
         rows_.resize(static_cast<std::size_t>(slots_));
+        differing_.resize(static_cast<std::size_t>(kTileHeight + 2 * radius_) + 1);
+    }
+
+    std::size_t row_floats() const { return 3 * static_cast<std::size_t>(row_stride_); }
+
+    // Of a picture, 0 the reference and 1 the test: linear R, G, B of row y from the tile's left ring on.
+    float* linear(int y, int picture)
+    {
+        return linear_.data() + static_cast<std::size_t>(2 * (y - first_row_) + picture) * row_floats();
     }
 
     float* slot(int y)
@@ -106,37 +118,72 @@ class TileWorker {
         return ring_.data() + static_cast<std::size_t>(y % slots_) * 2 * kFlipPlanes * kStride;
     }
 
-    void run_tone(const Pass& pass, const Tile& tile, const FlipTone& tone, int radius, bool keep_larger)
+    // All exposures begin with the same pixels. Renderings of one scene are often equal in parts, such as their background.
+    void load(const Pass& pass, const Tile& tile)
     {
-        const int last_row = pass.error.height - 1, tile_end = tile.y0 + tile.height;
-        int next = std::max(0, tile.y0 - radius);
-        for (int y = tile.y0; y < tile_end; ++y) {
-            for (; next <= std::min(last_row, y + radius); ++next) {
-                filter_row(pass, tile, tone, radius, pass.reference, next, slot(next));
-                filter_row(pass, tile, tone, radius, pass.test, next, slot(next) + kFlipPlanes * kStride);
+        first_row_ = std::max(0, tile.y0 - radius_);
+        end_row_ = std::min(pass.error.height, tile.y0 + tile.height + radius_);
+        for (int y = first_row_; y < end_row_; ++y)
+            for (int picture = 0; picture < 2; ++picture) {
+                float* r = linear(y, picture);
+                (picture ? pass.test : pass.reference)
+                    .read(y, tile.x0 - radius_, tile.width + 2 * radius_, r, r + row_stride_, r + 2 * row_stride_);
             }
-            for (int k = -radius; k <= radius; ++k)
-                rows_[static_cast<std::size_t>(k + radius)] = slot(std::clamp(y + k, 0, last_row));
-            float* to = pass.error.f32() +
-                        static_cast<std::size_t>(y) * static_cast<std::size_t>(pass.error.width) +
-                        static_cast<std::size_t>(tile.x0);
-            pass.fns.finish(pass.kernels.lanes(), rows_.data(), radius, kStride, tile.width, keep_larger, to);
+        for (int y = first_row_; y < end_row_; ++y) {
+            const std::size_t i = static_cast<std::size_t>(y - first_row_);
+            differing_[i + 1] = differing_[i] + !equal_rows(linear(y, 0), linear(y, 1), tile.width + 2 * radius_);
         }
     }
 
-    void filter_row(const Pass& pass, const Tile& tile, const FlipTone& tone, int radius,
-                    const LinearRows& from, int y, float* to)
+    bool equal_rows(const float* a, const float* b, int n) const
     {
-        const int n = tile.width + 2 * radius;
-        float *r = pixels_.data(), *g = r + row_stride_, *b = g + row_stride_;
-        from.read(y, tile.x0 - radius, n, r, g, b);
-        pass.fns.prepare(tone, n, r, g, b);
-        pass.fns.filter(pass.kernels.lanes(), r + radius, g + radius, b + radius, tile.width, kStride, to);
+        for (int plane = 0; plane < 3; ++plane)
+            if (std::memcmp(a + plane * row_stride_, b + plane * row_stride_, static_cast<std::size_t>(n) * sizeof(float)) != 0)
+                return false;
+        return true;
     }
 
-    std::size_t row_stride_ = 0;
-    int slots_ = 0;
-    Column<float> pixels_, ring_;
+    // Whether rows [begin, end), cut to those that there are, hold any difference.
+    bool differ(int begin, int end) const
+    {
+        const auto before = [&](int y) { return differing_[static_cast<std::size_t>(std::clamp(y, first_row_, end_row_) - first_row_)]; };
+        return before(begin) != before(end);
+    }
+
+    void run_tone(const Pass& pass, const Tile& tile, const FlipTone& tone, bool keep_larger)
+    {
+        const int last_row = pass.error.height - 1, tile_end = tile.y0 + tile.height;
+        int next = first_row_;
+        for (int y = tile.y0; y < tile_end; y += kFlipRows) {
+            if (!differ(y - radius_, y + radius_ + kFlipRows))
+                continue; // what is equal has no error, and the errors begin as 0
+            next = std::max(next, y - radius_);
+            for (; next < std::min(end_row_, y + radius_ + kFlipRows); ++next)
+                for (int picture = 0; picture < 2; ++picture)
+                    filter_row(pass, tile, tone, linear(next, picture), slot(next) + picture * kFlipPlanes * kStride);
+            for (int k = -radius_; k < radius_ + kFlipRows; ++k)
+                rows_[static_cast<std::size_t>(k + radius_)] = slot(std::clamp(y + k, 0, last_row));
+            float* to[kFlipRows];
+            for (int j = 0; j < kFlipRows; ++j)
+                to[j] = pass.error.f32() +
+                        static_cast<std::size_t>(std::min(y + j, last_row)) * static_cast<std::size_t>(pass.error.width) +
+                        static_cast<std::size_t>(tile.x0);
+            pass.fns.finish(pass.kernels.lanes(), rows_.data(), radius_, kStride, tile.width, keep_larger, to, tile_end - y);
+        }
+    }
+
+    void filter_row(const Pass& pass, const Tile& tile, const FlipTone& tone, const float* from, float* to)
+    {
+        float* y = pixels_.data();
+        pass.fns.prepare(tone, tile.width + 2 * radius_, row_stride_, from, y);
+        y += radius_;
+        pass.fns.filter(pass.kernels.lanes(), y, y + row_stride_, y + 2 * row_stride_, tile.width, kStride, to);
+    }
+
+    int radius_ = 0, row_stride_ = 0, slots_ = 0;
+    int first_row_ = 0, end_row_ = 0; // of the tile with its ring
+    Column<float> linear_, pixels_, ring_;
+    std::vector<int> differing_; // by row of the tile with its ring: how many rows before it differ
     std::vector<const float*> rows_;
 };
 
@@ -184,7 +231,7 @@ FlipResult flip_ldr(const Image& reference, const Image& test, const FlipOptions
 
 FlipResult flip_hdr(const Image& reference, const Image& test, const FlipOptions& options, const Jobs& jobs)
 {
-    const FlipExposures range = find_exposures(reference, options);
+    const FlipExposures range = find_exposures(reference, options, jobs);
     std::vector<FlipTone> tones;
     for (int i = 0; i < range.count; ++i) {
         const double step = range.count == 1 ? 0.0 : static_cast<double>(i) / (range.count - 1);
@@ -196,19 +243,16 @@ FlipResult flip_hdr(const Image& reference, const Image& test, const FlipOptions
     return {run_pass(reference, test, options, std::move(tones), jobs), range};
 }
 
-FlipExposures find_exposures(const Image& reference, const FlipOptions& options)
+FlipExposures find_exposures(const Image& reference, const FlipOptions& options, const Jobs& jobs)
 {
     FlipExposures range;
     double start = 0.0, stop = 0.0;
     if (!options.start_ev || !options.stop_ev) {
-        std::vector<float> lit = LinearRows(reference).luminances();
-        lit.erase(std::remove_if(lit.begin(), lit.end(), [](float l) { return !(l > 0.0f); }), lit.end());
-        if (!lit.empty()) {
+        const LitLuminances lit = LinearRows(reference).lit_luminances(jobs);
+        if (lit.largest > 0.0f) {
             const double target = inverse_tone(tone_of(options.tonemap), 0.85);
-            const auto median = lit.begin() + static_cast<std::ptrdiff_t>(lit.size() / 2);
-            std::nth_element(lit.begin(), median, lit.end());
-            start = log2_of(target / static_cast<double>(*std::max_element(median, lit.end())));
-            stop = log2_of(target / static_cast<double>(*median));
+            start = log2_of(target / static_cast<double>(lit.largest));
+            stop = log2_of(target / static_cast<double>(lit.median));
         }
     }
     const auto bounded = [](double ev) {

@@ -50,7 +50,7 @@ FlipResult flip_hdr(const Image& reference, const Image& test, const FlipOptions
 // curve, to the one that brings the median there. Unlike the published program, the median is that of pixels
 // with light (luminance above 0): a black background of more than half the picture would make the range
 // infinite. Without any light, or where a given start lies above what is found, the range is one point.
-FlipExposures find_exposures(const Image& reference, const FlipOptions& options);
+FlipExposures find_exposures(const Image& reference, const FlipOptions& options, const Jobs& jobs);
 
 bool flip_isa_available(int isa);
 

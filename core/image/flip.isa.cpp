@@ -146,14 +146,16 @@ BN_INLINE Triple displayed(Triple rgb, const FlipTone& tone)
     return {x.x * factor, x.y * factor, x.z * factor};
 }
 
-void prepare(const FlipTone& tone, int n, float* r, float* g, float* b)
+void prepare(const FlipTone& tone, int n, int stride, const float* linear, float* out)
 {
     for (int i = 0; i < n; i += kLanes) {
-        const Triple rgb = displayed({load(r + i), load(g + i), load(b + i)}, tone);
+        const float* from = linear + i;
+        float* to = out + i;
+        const Triple rgb = displayed({load(from), load(from + stride), load(from + 2 * stride)}, tone);
         const Triple xyz = times(kToXyz, {clamp01(rgb.x), clamp01(rgb.y), clamp01(rgb.z)});
-        store(r + i, lit(116.0) * xyz.y - lit(16.0));
-        store(g + i, lit(500.0) * (xyz.x - xyz.y));
-        store(b + i, lit(200.0) * (xyz.y - xyz.z));
+        store(to, lit(116.0) * xyz.y - lit(16.0));
+        store(to + stride, lit(500.0) * (xyz.x - xyz.y));
+        store(to + 2 * stride, lit(200.0) * (xyz.y - xyz.z));
     }
 }
 
@@ -196,12 +198,40 @@ void filter(const FlipFilters& f, const float* y, const float* cx, const float* 
     }
 }
 
-BN_INLINE real even_column(const float* const* middle, int offset, const float* weights, int radius)
+// Filters along y for the rows of a block at once. A row is loaded once a block: what is k rows above one row is k + 1 above the next.
+struct Window {
+    const float* const* middle; // the block's first row
+    int offset;                 // plane and column
+    real up[kFlipRows], down[kFlipRows]; // as far above and below each row of the block
+};
+
+BN_INLINE void start(Window& w)
 {
-    real sum = load(middle[0] + offset) * splat(weights[0]);
-    for (int k = 1; k <= radius; ++k)
-        sum += (load(middle[-k] + offset) + load(middle[k] + offset)) * splat(weights[k]);
-    return sum;
+    for (int j = 0; j < kFlipRows; ++j)
+        w.up[j] = w.down[j] = load(w.middle[j] + w.offset);
+}
+
+BN_INLINE void widen(Window& w, int k) // from distance k - 1 to k
+{
+    for (int j = kFlipRows - 1; j > 0; --j)
+        w.up[j] = w.up[j - 1];
+    for (int j = 0; j < kFlipRows - 1; ++j)
+        w.down[j] = w.down[j + 1];
+    w.up[0] = load(w.middle[-k] + w.offset);
+    w.down[kFlipRows - 1] = load(w.middle[kFlipRows - 1 + k] + w.offset);
+}
+
+BN_INLINE void even_column(const float* const* middle, int offset, const float* weights, int radius, real (&sum)[kFlipRows])
+{
+    Window w = {middle, offset, {}, {}};
+    start(w);
+    for (int j = 0; j < kFlipRows; ++j)
+        sum[j] = w.up[j] * splat(weights[0]);
+    for (int k = 1; k <= radius; ++k) {
+        widen(w, k);
+        for (int j = 0; j < kFlipRows; ++j)
+            sum[j] += (w.up[j] + w.down[j]) * splat(weights[k]);
+    }
 }
 
 struct Seen {
@@ -209,45 +239,61 @@ struct Seen {
     real edge, point; // strength of features in Y, whose range is 116
 };
 
-BN_INLINE Seen look(const FlipFilters& f, const float* const* middle, int stride, int offset)
+BN_INLINE void look(const FlipFilters& f, const float* const* middle, int stride, int offset, Seen (&seen)[kFlipRows])
 {
-    const int at_y = offset + kFlipY * stride, at_gauss = offset + kFlipGauss * stride;
-    const int at_edge = offset + kFlipEdge * stride, at_point = offset + kFlipPoint * stride;
-    real luma = load(middle[0] + at_y) * splat(f.y[0]);
-    real edge_x = load(middle[0] + at_edge) * splat(f.gauss[0]), edge_y = lit(0.0);
-    real point_x = load(middle[0] + at_point) * splat(f.gauss[0]);
-    real point_y = load(middle[0] + at_gauss) * splat(f.point[0]);
-    for (int k = 1; k <= f.y_radius; ++k) {
-        const float *above = middle[-k], *below = middle[k];
-        const real g = splat(f.gauss[k]);
-        luma += (load(above + at_y) + load(below + at_y)) * splat(f.y[k]);
-        edge_x += (load(above + at_edge) + load(below + at_edge)) * g;
-        point_x += (load(above + at_point) + load(below + at_point)) * g;
-        const real gauss_above = load(above + at_gauss), gauss_below = load(below + at_gauss);
-        edge_y += (gauss_below - gauss_above) * splat(f.edge[k]);
-        point_y += (gauss_above + gauss_below) * splat(f.point[k]);
+    real a[kFlipRows], b[kFlipRows], c[kFlipRows];
+    even_column(middle, offset + kFlipY * stride, f.y, f.y_radius, a);
+    even_column(middle, offset + kFlipCx * stride, f.cx, f.cx_radius, b);
+    even_column(middle, offset + kFlipCz * stride, f.cz, f.cz_radius, c);
+    for (int j = 0; j < kFlipRows; ++j)
+        seen[j].colour = {a[j], b[j], c[j]};
+    even_column(middle, offset + kFlipCz2 * stride, f.cz2, f.cz_radius, c);
+    for (int j = 0; j < kFlipRows; ++j)
+        seen[j].colour = perceived({seen[j].colour.x, seen[j].colour.y, seen[j].colour.z + c[j]});
+
+    Window gauss = {middle, offset + kFlipGauss * stride, {}, {}};
+    start(gauss);
+    for (int j = 0; j < kFlipRows; ++j) {
+        a[j] = lit(0.0);
+        b[j] = gauss.up[j] * splat(f.point[0]);
     }
-    const real cx = even_column(middle, offset + kFlipCx * stride, f.cx, f.cx_radius);
-    const real cz = even_column(middle, offset + kFlipCz * stride, f.cz, f.cz_radius) +
-                    even_column(middle, offset + kFlipCz2 * stride, f.cz2, f.cz_radius);
-    return {perceived({luma, cx, cz}), sqrt(edge_x * edge_x + edge_y * edge_y),
-            sqrt(point_x * point_x + point_y * point_y)};
+    for (int k = 1; k <= f.y_radius; ++k) {
+        widen(gauss, k);
+        for (int j = 0; j < kFlipRows; ++j) {
+            a[j] += (gauss.down[j] - gauss.up[j]) * splat(f.edge[k]);
+            b[j] += (gauss.up[j] + gauss.down[j]) * splat(f.point[k]);
+        }
+    }
+    even_column(middle, offset + kFlipEdge * stride, f.gauss, f.y_radius, c);
+    for (int j = 0; j < kFlipRows; ++j)
+        seen[j].edge = sqrt(c[j] * c[j] + a[j] * a[j]);
+    even_column(middle, offset + kFlipPoint * stride, f.gauss, f.y_radius, c);
+    for (int j = 0; j < kFlipRows; ++j)
+        seen[j].point = sqrt(c[j] * c[j] + b[j] * b[j]);
+}
+
+BN_INLINE real flip_of(const Seen& a, const Seen& b, float max_difference)
+{
+    const real colour = colour_error(a.colour, b.colour, max_difference);
+    // sqrt: the exponent qf = 0.5. 1/sqrt(2) scales to [0,1], 1/116 is the range of Y.
+    const real feature =
+        sqrt(max(abs(a.edge - b.edge), abs(a.point - b.point)) * lit(0.70710678118654752 / 116.0));
+    return pow_of(colour, max(lit(1.0) - feature, lit(0.0)));
 }
 
 void finish(const FlipFilters& f, const float* const* rows, int radius, int stride, int n, bool keep_larger,
-            float* error)
+            float* const* error, int count)
 {
     for (int i = 0; i < n; i += kLanes) {
-        const Seen a = look(f, rows + radius, stride, i);
-        const Seen b = look(f, rows + radius, stride, i + kFlipPlanes * stride);
-        const real colour = colour_error(a.colour, b.colour, f.max_difference);
-        // sqrt: the exponent qf = 0.5. 1/sqrt(2) scales to [0,1], 1/116 is the range of Y.
-        const real feature =
-            sqrt(max(abs(a.edge - b.edge), abs(a.point - b.point)) * lit(0.70710678118654752 / 116.0));
-        real flip = pow_of(colour, max(lit(1.0) - feature, lit(0.0)));
-        if (keep_larger)
-            flip = max(flip, load_first(error + i, n - i));
-        store_first(error + i, flip, n - i);
+        Seen a[kFlipRows], b[kFlipRows];
+        look(f, rows + radius, stride, i, a);
+        look(f, rows + radius, stride, i + kFlipPlanes * stride, b);
+        for (int j = 0; j < kFlipRows && j < count; ++j) {
+            real flip = flip_of(a[j], b[j], f.max_difference);
+            if (keep_larger)
+                flip = max(flip, load_first(error[j] + i, n - i));
+            store_first(error[j] + i, flip, n - i);
+        }
     }
 }
 

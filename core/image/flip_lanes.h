@@ -19,6 +19,9 @@ struct FlipFilters {
 // Planes of a filtered row: Y, Cx and both terms of Cz; the Y row under gauss, edge and point.
 enum FlipPlane { kFlipY, kFlipCx, kFlipCz, kFlipCz2, kFlipGauss, kFlipEdge, kFlipPoint, kFlipPlanes };
 
+// Rows that are finished at once: each filtered row is then loaded once for all of them.
+inline constexpr int kFlipRows = 4;
+
 struct FlipTone {
     enum Curve { none, rational, reinhard } curve = none;
     float scale = 1.0f; // 2^exposure
@@ -27,17 +30,17 @@ struct FlipTone {
 
 // Row buffers are readable and writable up to the next multiple of 16 floats.
 struct FlipFns {
-    // Linear Rec.709 in r, g, b is exposed, tonemapped, clamped to [0,1] and replaced by Y, Cx, Cz.
-    void (*prepare)(const FlipTone& tone, int n, float* r, float* g, float* b);
+    // n pixels of linear Rec.709, planes R, G, B `stride` apart, are exposed, tonemapped, clamped to [0,1] and become planes Y, Cx, Cz.
+    void (*prepare)(const FlipTone& tone, int n, int stride, const float* linear, float* out);
     // Filters n values of a row along x. The inputs are readable for the radius on either side; plane i goes
     // to out + i * stride.
     void (*filter)(const FlipFilters& filters, const float* y, const float* cx, const float* cz, int n,
                    int stride, float* out);
-    // rows[radius + k], k in [-radius, radius]: filtered rows around the one to finish, planes of the
-    // reference, then of the test. Writes n errors, or with `keep_larger` the larger of those and what is
-    // there.
+    // rows[radius + k], k in [-radius, radius + kFlipRows - 1]: filtered rows around the first of the kFlipRows rows to finish, planes of
+    // the reference, then of the test. Writes n errors to each of error[0..count - 1], or with `keep_larger` the larger of those and what
+    // is there.
     void (*finish)(const FlipFilters& filters, const float* const* rows, int radius, int stride, int n,
-                   bool keep_larger, float* error);
+                   bool keep_larger, float* const* error, int count);
 };
 
 // One copy an instruction set; calls are qualified.

@@ -16,6 +16,13 @@
 #include "core/jobs/cores.h"
 #include "core/jobs/plain_loop.h"
 
+#ifdef BN_TSAN
+// Libraries that are not instrumented either: how threads wait for each other inside them is not seen. Embree builds its trees with threads
+// of its own, OpenImageIO's table of names has its own lock.
+extern "C" const char* __tsan_default_suppressions();
+extern "C" const char* __tsan_default_suppressions() { return "race:libembree3.so\nrace:libOpenImageIO\n"; }
+#endif
+
 namespace burnish {
 namespace {
 

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fmt/format.h>
 
+#include "core/base/cache.h"
 #include "core/base/file.h"
 #include "core/base/hash.h"
 
@@ -136,16 +137,6 @@ std::string all_names(const std::vector<VkPhysicalDevice>& devices)
     for (VkPhysicalDevice d : devices)
         names += (names.empty() ? "" : ", ") + info_of(d).name;
     return names.empty() ? "there is none" : "there are " + names;
-}
-
-std::string cache_folder()
-{
-    const auto variable = [](const char* name) {
-        const char* value = std::getenv(name);
-        return value && value[0] == '/' ? std::string(value) : std::string();
-    };
-    const std::string xdg = variable("XDG_CACHE_HOME"), home = variable("HOME");
-    return !xdg.empty() ? xdg + "/burnish" : !home.empty() ? home + "/.cache/burnish" : "";
 }
 
 } // namespace
@@ -328,6 +319,7 @@ void Context::save_cache() const
     std::filesystem::create_directories(std::filesystem::path(cache_path_).parent_path(), ignored);
     const Status written = write_file_atomic(cache_path_, bytes.data(), size);
     static_cast<void>(written); // a cache that cannot be kept costs time, nothing else
+    prune_cache(cache_folder(), cache_limit(), cache_path_);
 }
 
 std::uint32_t Context::memory_type(std::uint32_t allowed, VkMemoryPropertyFlags wanted) const

@@ -1,11 +1,11 @@
 #include "shading/bake/environment_cache.h"
 
 #include <bit>
-#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <fmt/format.h>
 
+#include "core/base/cache.h"
 #include "core/base/file.h"
 #include "core/base/hash.h"
 #include "shading/bake/cube_map.h"
@@ -40,13 +40,6 @@ std::size_t bytes_of(const CubeMap& cube)
     return cube.texels.size() * sizeof(std::uint16_t);
 }
 
-// An absolute path from the environment, or empty; the XDG specification says to ignore relative ones.
-std::string folder_variable(const char* name)
-{
-    const char* value = std::getenv(name);
-    return value && value[0] == '/' ? value : "";
-}
-
 } // namespace
 
 std::uint64_t environment_hash(const Image& equirect, const EnvironmentOptions& options, int levels)
@@ -70,14 +63,8 @@ std::uint64_t environment_hash(const Image& equirect, const EnvironmentOptions& 
 
 std::string environment_cache_path(const EnvironmentOptions& options, std::uint64_t content_hash)
 {
-    std::string folder = options.cache_dir;
-    if (folder.empty()) {
-        const std::string xdg = folder_variable("XDG_CACHE_HOME"), home = folder_variable("HOME");
-        if (xdg.empty() && home.empty())
-            return "";
-        folder = xdg.empty() ? home + "/.cache/burnish" : xdg + "/burnish";
-    }
-    return fmt::format("{}/environment-{:016x}.bnenv", folder, content_hash);
+    const std::string folder = options.cache_dir.empty() ? cache_folder() : options.cache_dir;
+    return folder.empty() ? "" : fmt::format("{}/environment-{:016x}.bnenv", folder, content_hash);
 }
 
 std::optional<Environment> read_environment_cache(const std::string& path, std::uint64_t content_hash,
@@ -104,6 +91,7 @@ std::optional<Environment> read_environment_cache(const std::string& path, std::
     e.energy_source = h.energy_source, e.energy_cube = h.energy_cube, e.peak_source = h.peak_source;
     e.content_hash = content_hash;
     e.from_cache = true;
+    note_cache_use(path);
     return e;
 }
 
@@ -125,9 +113,12 @@ Status write_environment_cache(const std::string& path, const Environment& e)
     h.header_hash = hash_of(h);
     std::memcpy(file.data(), &h, sizeof(h));
 
+    const std::filesystem::path folder = std::filesystem::path(path).parent_path();
     std::error_code ignored; // a folder that cannot be made shows in the write
-    std::filesystem::create_directories(std::filesystem::path(path).parent_path(), ignored);
-    return write_file_atomic(path, file.data(), file.size());
+    std::filesystem::create_directories(folder, ignored);
+    const Status written = write_file_atomic(path, file.data(), file.size());
+    prune_cache(folder.string(), cache_limit(), path);
+    return written;
 }
 
 } // namespace burnish

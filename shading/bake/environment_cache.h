@@ -19,7 +19,7 @@ std::string environment_cache_path(const EnvironmentOptions& options, std::uint6
 
 std::optional<Environment> read_environment_cache(const std::string& path, std::uint64_t content_hash,
                                                   int size, int levels);
-// Creates the folder where needed. The file appears when it is complete.
+// Creates the folder where needed. The file appears when it is complete; others go where the cache has become too large (core/base/cache.h).
 Status write_environment_cache(const std::string& path, const Environment& environment);
 
 } // namespace burnish

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -125,6 +126,29 @@ TEST_F(EnvironmentCache, DamagedFilesAreBakedAnew)
         EXPECT_EQ(read_all(file), good) << "damage " << i;
     }
     EXPECT_TRUE(bake().from_cache);
+}
+
+// Above the limit the environment that was used longest ago goes, not the one that was baked first.
+TEST_F(EnvironmentCache, HasALimit)
+{
+    bake();
+    const std::uintmax_t size = fs::file_size(files().at(0));
+    setenv("BURNISH_CACHE_BYTES", std::to_string(2 * size).c_str(), 1);
+    const auto with_rotation = [&](float degrees) {
+        options_.rotation_deg = degrees;
+        const bool hit = bake().from_cache;
+        for (const fs::path& file : files()) // half a minute passes
+            fs::last_write_time(file, fs::last_write_time(file) - std::chrono::seconds(30));
+        return hit;
+    };
+    EXPECT_TRUE(with_rotation(0.0f));
+    EXPECT_FALSE(with_rotation(10.0f));
+    EXPECT_TRUE(with_rotation(0.0f));
+    EXPECT_FALSE(with_rotation(20.0f)); // 10 degrees go
+    EXPECT_EQ(files().size(), 2u);
+    EXPECT_TRUE(with_rotation(0.0f));
+    EXPECT_FALSE(with_rotation(10.0f));
+    unsetenv("BURNISH_CACHE_BYTES");
 }
 
 TEST_F(EnvironmentCache, AFolderThatCannotBeMadeCostsOnlyAWarning)

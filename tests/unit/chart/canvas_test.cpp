@@ -71,7 +71,7 @@ TEST(chart_canvas, letters_stand_on_their_line_and_are_anchored_and_turned)
 {
     const auto write = [](const std::string& text, double anchor, double turn) {
         Canvas canvas(400, 400, kWhite);
-        canvas.text(200.0, 200.0, text, {40.0, anchor, turn, false, false}, kBlack);
+        canvas.text(200.0, 200.0, text, {40.0, anchor, turn, false, false, 0.0}, kBlack);
         return ink_of(canvas.image());
     };
     const Ink start = write("HEI", 0.0, 0.0), middle = write("HEI", 0.5, 0.0), end = write("HEI", 1.0, 0.0), turned = write("HEI", 0.0, -90.0);
@@ -90,6 +90,18 @@ TEST(chart_canvas, letters_stand_on_their_line_and_are_anchored_and_turned)
     }
     EXPECT_EQ(write(" ", 0.0, 0.0).sum, 0.0);
     EXPECT_EQ(write("\xc3\xa9", 0.0, 0.0).sum, write("??", 0.0, 0.0).sum); // not ASCII
+}
+
+TEST(chart_canvas, a_halo_keeps_lines_out_of_letters)
+{
+    const auto paper_beside_the_letter = [](double halo) {
+        Canvas canvas(100, 60, kWhite);
+        canvas.stroke({{-10, 30}, {110, 30}}, 100.0, kBlack); // black everywhere
+        canvas.text(50.0, 45.0, "I", {40.0, 0.5, 0.0, true, false, halo}, kBlack);
+        return 100.0 * 60.0 - ink_of(canvas.image()).sum;
+    };
+    EXPECT_EQ(paper_beside_the_letter(0.0), 0.0);
+    EXPECT_NEAR(paper_beside_the_letter(3.0), 3.0 * 2.0 * (0.72 * 40.0 + 6.0), 70.0); // three pixels wide, around an upright stroke
 }
 
 TEST(chart_canvas, what_svg_says_is_painted_with_the_looks_of_its_classes)

@@ -1,4 +1,5 @@
 // The page, the files beside it, and their pictures.
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <gtest/gtest.h>
@@ -20,7 +21,7 @@ ChartReport report_with_pictures()
     EXPECT_TRUE(write_image(file, gray));
     for (ChartRow& row : report.rows) {
         row.picture = row.error_map = file;
-        report.references[place(row)] = file;
+        report.references[place(row)].picture = file;
     }
     return report;
 }
@@ -38,6 +39,15 @@ TEST(chart_page, it_needs_nothing_else)
         EXPECT_EQ(rest.find(outside), std::string::npos) << outside;
     EXPECT_NE(page->find("data:image/jpeg;base64,"), std::string::npos);
     EXPECT_EQ(page->find("a<b>"), std::string::npos); // a scene's name is text
+}
+
+TEST(chart_page, it_says_what_the_reference_s_noise_is_worth)
+{
+    ChartReport report = report_with_pictures();
+    EXPECT_NE(chart_page(report)->find("Its noise alone makes a mean FLIP of about 0.003"), std::string::npos);
+    EXPECT_NE(chart_page(report)->find("within 1 %"), std::string::npos);
+    report.references.begin()->second.noise = {64, INFINITY, NAN};
+    EXPECT_NE(chart_page(report)->find("too few to tell its noise"), std::string::npos);
 }
 
 TEST(chart_page, a_missing_picture_is_an_error)

@@ -60,32 +60,43 @@ TEST(chart_rows, rows_are_compared_with_those_of_their_place_only)
 
 TEST(chart_rows, kept_rows_come_back_as_they_were)
 {
-    KeptRows rows;
+    Kept kept;
+    std::map<std::string, Measured>& rows = kept.rows;
     rows["half"].ms = {1.25, 1.0 / 3.0};
     rows["half"].cpu_ms = {2.0, 3.0};
     rows["whole"] = test::row("whole", "mc", 4, 2.0, 0.125).measured;
     rows["bad"].has_errors = true;
     rows["bad"].errors = {kNan, kNan, kNan, kNan, 12};
-    const Result<KeptRows> back = parse_kept(kept_json(rows), "rows.json");
+    kept.references["place"] = {4096, 1.0 / 3.0, 0.001};
+    kept.references["once"] = {64, INFINITY, kNan};
+    const Result<Kept> back = parse_kept(kept_json(kept), "rows.json");
     ASSERT_TRUE(back);
-    ASSERT_EQ(back->size(), 3u);
-    EXPECT_EQ(back->at("half").ms, rows["half"].ms);
-    EXPECT_EQ(back->at("half").cpu_ms, rows["half"].cpu_ms);
-    EXPECT_FALSE(back->at("half").has_errors);
-    EXPECT_EQ(back->at("whole").errors.flip_mean, 0.125);
-    EXPECT_TRUE(std::isnan(back->at("bad").errors.flip_mean));
-    EXPECT_EQ(back->at("bad").errors.nan_pixels, 12u);
+    ASSERT_EQ(back->rows.size(), 3u);
+    EXPECT_EQ(back->rows.at("half").ms, rows["half"].ms);
+    EXPECT_EQ(back->rows.at("half").cpu_ms, rows["half"].cpu_ms);
+    EXPECT_FALSE(back->rows.at("half").has_errors);
+    EXPECT_EQ(back->rows.at("whole").errors.flip_mean, 0.125);
+    EXPECT_TRUE(std::isnan(back->rows.at("bad").errors.flip_mean));
+    EXPECT_EQ(back->rows.at("bad").errors.nan_pixels, 12u);
+    ASSERT_EQ(back->references.size(), 2u);
+    EXPECT_EQ(back->references.at("place").samples, 4096u);
+    EXPECT_EQ(back->references.at("place").relative_error, 1.0 / 3.0);
+    EXPECT_EQ(back->references.at("place").flip, 0.001);
+    EXPECT_FALSE(std::isfinite(back->references.at("once").relative_error)); // of one pass nothing is known
+    EXPECT_FALSE(std::isfinite(back->references.at("once").flip));
 }
 
 TEST(chart_rows, a_file_that_holds_something_else_is_an_error)
 {
-    for (const char* text : {"", "[]", "{}", "{\"kept_version\": 1, \"rows\": {\"a\": {}}}", "{\"kept_version\": 1, \"rows\": 3}",
-                             "{\"kept_version\": 1, \"rows\": {\"a\": {\"ms\": [\"x\"], \"cpu_ms\": []}}}",
-                             "{\"kept_version\": 1, \"rows\": {\"a\": {\"ms\": [1, 2], \"cpu_ms\": [1]}}}"})
+    for (const char* text : {"", "[]", "{}", "{\"kept_version\": 2, \"references\": {}, \"rows\": {\"a\": {}}}",
+                             "{\"kept_version\": 2, \"references\": {}, \"rows\": 3}", "{\"kept_version\": 2, \"rows\": {}}",
+                             "{\"kept_version\": 2, \"references\": {\"a\": {\"samples\": \"x\"}}, \"rows\": {}}",
+                             "{\"kept_version\": 2, \"references\": {}, \"rows\": {\"a\": {\"ms\": [\"x\"], \"cpu_ms\": []}}}",
+                             "{\"kept_version\": 2, \"references\": {}, \"rows\": {\"a\": {\"ms\": [1, 2], \"cpu_ms\": [1]}}}"})
         EXPECT_FALSE(parse_kept(text, "rows.json")) << text;
-    const Result<KeptRows> newer = parse_kept("{\"kept_version\": 99, \"rows\": {\"a\": 1}}", "rows.json");
+    const Result<Kept> newer = parse_kept("{\"kept_version\": 99, \"rows\": {\"a\": 1}}", "rows.json");
     ASSERT_TRUE(newer); // of another version: nothing is kept
-    EXPECT_TRUE(newer->empty());
+    EXPECT_TRUE(newer->rows.empty());
 }
 
 TEST(chart_rows, the_report_holds_every_field)
@@ -102,6 +113,14 @@ TEST(chart_rows, the_report_holds_every_field)
     EXPECT_EQ(json["rows"][1]["nan_pixels"], 5);
     EXPECT_FALSE(json["rows"][1]["pareto"].get<bool>());
     EXPECT_TRUE(json.at("machine").contains("processor"));
+    ASSERT_EQ(json.at("references").size(), 1u); // one place
+    EXPECT_EQ(json["references"][0]["env"], "builtin:studio");
+    EXPECT_EQ(json["references"][0]["samples"], 4096);
+    EXPECT_EQ(json["references"][0]["relative_error"], 0.01);
+    EXPECT_EQ(json["references"][0]["flip_noise"], 0.003);
+    EXPECT_TRUE(json["references"][0]["roughness"].is_null());
+    EXPECT_EQ(json["rows"][0]["settings"]["width"], 64);
+    EXPECT_EQ(json["rows"][0]["settings"]["error_width"], 32);
 }
 
 } // namespace

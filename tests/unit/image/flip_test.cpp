@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <random>
@@ -124,6 +125,26 @@ TEST(flip, every_pixel_follows_the_definition)
         for (std::size_t i = 0; i < expected.size(); ++i)
             ASSERT_NEAR(static_cast<double>(error.f32()[i]), expected[i], 2e-5)
                 << width << "x" << height << " pixel " << i;
+    }
+}
+
+// Rows that are equal are left out, but not those that a difference reaches: of single pixels, beside the seam of two tiles, near the border.
+TEST(flip, one_pixel_spreads_as_by_the_definition)
+{
+    const Jobs jobs;
+    for (const auto& [x, y] : {std::pair{20, 60}, {3, 127}, {39, 128}, {0, 0}, {17, 149}}) {
+        const Image a = scenery(40, 150, 1, 0.9f);
+        Image b = a;
+        for (int c = 0; c < 3; ++c)
+            b.f32()[3 * (y * 40 + x) + c] = 1.0f - b.f32()[3 * (y * 40 + x) + c];
+        const Image error = flip_ldr(a, b, {}, jobs).error;
+        const std::vector<double> expected = test::flip_by_definition(a, b, static_cast<double>(kDefaultPpd));
+        std::size_t seen = 0;
+        for (std::size_t i = 0; i < expected.size(); ++i) {
+            ASSERT_NEAR(static_cast<double>(error.f32()[i]), expected[i], 2e-4) << "pixel " << i;
+            seen += error.f32()[i] > 0.01f;
+        }
+        EXPECT_GT(seen, 20u);
     }
 }
 
@@ -256,10 +277,11 @@ TEST(flip, gray_is_equal_channels_and_alpha_is_not_seen)
 // ACES: (0.9036 x^2 + 0.018 x) / (0.8748 x^2 + 0.354 x + 0.14) = 0.85 at x = 2.1189.
 TEST(flip_exposures, run_from_the_largest_to_the_median_luminance)
 {
+    const Jobs jobs;
     Image image = uniform(3, 1, 2, 2, 2); // luminances 2, 8, 32
     for (std::size_t c = 0; c < 3; ++c)
         image.f32()[3 + c] = 8, image.f32()[6 + c] = 32;
-    const FlipExposures range = find_exposures(image, {});
+    const FlipExposures range = find_exposures(image, {}, jobs);
     const double a = 0.36 * 2.51 - 0.85 * 0.36 * 2.43, b = 0.018 - 0.85 * 0.354, c = -0.85 * 0.14;
     const double x = (-b + std::sqrt(b * b - 4 * a * c)) / (2 * a);
     EXPECT_NEAR(x, 2.1189, 1e-4);
@@ -268,18 +290,42 @@ TEST(flip_exposures, run_from_the_largest_to_the_median_luminance)
     EXPECT_EQ(range.count, 2); // ceil(2)
     FlipOptions reinhard;
     reinhard.tonemap = FlipTonemap::reinhard; // x / (1 + x) = 0.85
-    EXPECT_NEAR(find_exposures(image, reinhard).start_ev, std::log2(0.85 / 0.15 / 32), 1e-5);
+    EXPECT_NEAR(find_exposures(image, reinhard, jobs).start_ev, std::log2(0.85 / 0.15 / 32), 1e-5);
+}
+
+// Of many pixels, some of them black or below, whatever the threads.
+TEST(flip_exposures, median_is_that_of_the_sorted_lit_pixels)
+{
+    std::mt19937 random(21);
+    for (const int lit : {1, 2, 5, 2000, 2501}) {
+        Image image = uniform(53, 61, 0, 0, 0);
+        std::vector<float> luminances;
+        for (int i = 0; i < lit; ++i) {
+            const float v = std::ldexp(static_cast<float>(random() % 4096 + 1), static_cast<int>(random() % 40) - 30);
+            for (int c = 0; c < 3; ++c)
+                image.f32()[3 * (i + 700) + c] = v;
+            luminances.push_back(0.2126f * v + 0.7152f * v + 0.0722f * v);
+        }
+        image.f32()[0] = -5.0f;
+        std::sort(luminances.begin(), luminances.end());
+        for (const int threads : {1, 3}) {
+            const FlipExposures range = find_exposures(image, {}, Jobs(threads));
+            EXPECT_NEAR(range.start_ev, std::log2(2.11889 / static_cast<double>(luminances.back())), 1e-4) << lit;
+            EXPECT_NEAR(range.stop_ev, std::log2(2.11889 / static_cast<double>(luminances[luminances.size() / 2])), 1e-4) << lit;
+        }
+    }
 }
 
 TEST(flip_exposures, count_is_one_a_stop)
 {
+    const Jobs jobs;
     Image image = uniform(3, 1, 1, 1, 1);
     image.f32()[6] = image.f32()[7] = image.f32()[8] = 90; // 6.49 stops above
-    EXPECT_EQ(find_exposures(image, {}).count, 7);
+    EXPECT_EQ(find_exposures(image, {}, jobs).count, 7);
     FlipOptions options;
     options.exposures = 3;
-    EXPECT_EQ(find_exposures(image, options).count, 3);
-    EXPECT_EQ(find_exposures(uniform(4, 4, 1, 1, 1), {}).count, 2);
+    EXPECT_EQ(find_exposures(image, options, jobs).count, 3);
+    EXPECT_EQ(find_exposures(uniform(4, 4, 1, 1, 1), {}, jobs).count, 2);
 }
 
 TEST(flip_exposures, a_black_background_does_not_count)
@@ -288,7 +334,7 @@ TEST(flip_exposures, a_black_background_does_not_count)
     const Image lit = scenery(40, 10, 12, 8.0f);
     Image framed = make_image(40, 40, 3, PixelType::f32); // three quarters are black
     std::copy_n(lit.f32(), lit.bytes.size() / 4, framed.f32());
-    const FlipExposures alone = find_exposures(lit, {}), range = find_exposures(framed, {});
+    const FlipExposures alone = find_exposures(lit, {}, jobs), range = find_exposures(framed, {}, jobs);
     EXPECT_EQ(range.start_ev, alone.start_ev);
     EXPECT_EQ(range.stop_ev, alone.stop_ev);
     EXPECT_EQ(range.count, alone.count);
@@ -300,7 +346,7 @@ TEST(flip_exposures, a_reference_without_light_still_compares)
 {
     const Jobs jobs;
     const Image black = uniform(12, 12, 0, 0, 0);
-    const FlipExposures range = find_exposures(black, {});
+    const FlipExposures range = find_exposures(black, {}, jobs);
     EXPECT_EQ(range.start_ev, 0.0f);
     EXPECT_EQ(range.stop_ev, 0.0f);
     EXPECT_EQ(mean_of(flip_hdr(black, black, {}, jobs)), 0.0);
@@ -324,13 +370,13 @@ TEST(flip_exposures, given_ones_are_taken)
     const Image image = scenery(16, 16, 13, 4.0f);
     FlipOptions options;
     options.start_ev = -2.0f, options.stop_ev = 3.5f;
-    const FlipExposures range = find_exposures(image, options);
+    const FlipExposures range = find_exposures(image, options, jobs);
     EXPECT_EQ(range.start_ev, -2.0f);
     EXPECT_EQ(range.stop_ev, 3.5f);
     EXPECT_EQ(range.count, 6);
     options.stop_ev.reset();
     options.start_ev = 50.0f; // beyond what is found
-    EXPECT_EQ(find_exposures(image, options).stop_ev, 50.0f);
+    EXPECT_EQ(find_exposures(image, options, jobs).stop_ev, 50.0f);
 }
 
 // The largest exposure is still a finite factor: infinity times black would be no number.

@@ -1,0 +1,118 @@
+#include "core/base/cache.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <vector>
+
+namespace burnish {
+namespace {
+
+namespace fs = std::filesystem;
+
+// The XDG specification says to ignore relative paths.
+std::string folder_variable(const char* name)
+{
+    const char* value = std::getenv(name);
+    return value && value[0] == '/' ? value : "";
+}
+
+struct Kind { // files are PREFIX, 16 hexadecimal digits, SUFFIX
+    const char *prefix, *suffix;
+};
+constexpr Kind kKinds[] = {{"environment-", ".bnenv"}, {"pipelines-", ".bin"}, {"reference-", ".part"}};
+
+bool is_kept(const std::string& name)
+{
+    return std::any_of(std::begin(kKinds), std::end(kKinds), [&](const Kind& kind) {
+        constexpr std::size_t kDigits = 16;
+        const std::size_t before = std::strlen(kind.prefix), after = std::strlen(kind.suffix);
+        return name.size() == before + kDigits + after && name.starts_with(kind.prefix) && name.ends_with(kind.suffix) &&
+               name.find_first_not_of("0123456789abcdef", before) == before + kDigits;
+    });
+}
+
+struct KeptFile {
+    fs::file_time_type used;
+    fs::path path;
+    std::uint64_t bytes;
+};
+
+std::vector<KeptFile> kept_files(const std::string& folder)
+{
+    std::vector<KeptFile> files;
+    std::error_code failed;
+    for (fs::directory_iterator at(folder, failed), end; !failed && at != end; at.increment(failed)) {
+        std::error_code gone; // another process may have removed it
+        if (!is_kept(at->path().filename().string()) || !fs::is_regular_file(at->symlink_status(gone)))
+            continue;
+        const KeptFile file{at->last_write_time(gone), at->path(), at->file_size(gone)};
+        if (!gone)
+            files.push_back(file);
+    }
+    return files;
+}
+
+} // namespace
+
+std::string cache_folder()
+{
+    const std::string xdg = folder_variable("XDG_CACHE_HOME"), home = folder_variable("HOME");
+    return !xdg.empty() ? xdg + "/burnish" : !home.empty() ? home + "/.cache/burnish" : "";
+}
+
+std::uint64_t cache_limit()
+{
+    const char* text = std::getenv("BURNISH_CACHE_BYTES");
+    if (!text)
+        return kUsualCacheBytes;
+    std::uint64_t value = 0;
+    const char* end = text + std::strlen(text);
+    const auto [rest, error] = std::from_chars(text, end, value);
+    const char* const units = "KMG";
+    const char* unit = end - rest == 1 ? std::strchr(units, *rest) : nullptr;
+    const int shift = unit ? 10 * static_cast<int>(unit - units + 1) : 0;
+    if (error != std::errc{} || (rest != end && !unit) || value > UINT64_MAX >> shift)
+        return kUsualCacheBytes;
+    return value << shift;
+}
+
+CacheUse cache_use(const std::string& folder)
+{
+    CacheUse use;
+    for (const KeptFile& file : kept_files(folder)) {
+        ++use.files;
+        use.bytes += file.bytes;
+    }
+    return use;
+}
+
+void note_cache_use(const std::string& file)
+{
+    std::error_code ignored; // then it only looks older than it is
+    fs::last_write_time(file, fs::file_time_type::clock::now(), ignored);
+}
+
+void prune_cache(const std::string& folder, std::uint64_t limit, const std::string& keep)
+{
+    std::vector<KeptFile> files = kept_files(folder);
+    std::sort(files.begin(), files.end(), [](const KeptFile& a, const KeptFile& b) {
+        return a.used != b.used ? a.used < b.used : a.path < b.path;
+    });
+    std::uint64_t bytes = 0;
+    for (const KeptFile& file : files)
+        bytes += file.bytes;
+    for (const KeptFile& file : files) {
+        if (bytes <= limit)
+            return;
+        std::error_code failed;
+        if (file.path == keep)
+            continue;
+        if (fs::remove(file.path, failed) && !failed)
+            bytes -= file.bytes;
+    }
+}
+
+} // namespace burnish
