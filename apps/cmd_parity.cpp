@@ -43,11 +43,10 @@ Result<ParityRow> compare(const Bench& bench, const ParityPlace& place, const Re
     FrameDesc desc = options.frame;
     desc.view = view;
     desc.triangle_ids = true;
-    desc.stages = ids;
+    desc.stages = true;
     const Result<Frame> a = tile.render(desc);
     if (!a)
         return a.error();
-    desc.triangle_ids = ids;
     const Result<Frame> b = vulkan.render(desc);
     if (!b)
         return b.error();
@@ -56,7 +55,7 @@ Result<ParityRow> compare(const Bench& bench, const ParityPlace& place, const Re
     row.sampler = options.vulkan.sampler == VulkanSampler::exact ? "exact" : "native";
     row.pipeline = ids ? "ids" : "forward";
     row.samples_emulated = b->stats.samples_emulated;
-    row.counts = ids ? compare_stages(*a, *b, desc.msaa) : compare_pictures(*a, *b, desc.msaa);
+    row.counts = compare_stages(*a, *b, desc.msaa);
     row.flip_mean = mean_flip(a->color, b->color, bench.jobs);
     return row;
 }

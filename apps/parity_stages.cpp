@@ -87,12 +87,11 @@ ParityCounts compare_stages(const Frame& tile, const Frame& other, int msaa)
 {
     BN_CHECK_OP(tile.triangle_ids.size(), ==, other.triangle_ids.size());
     BN_CHECK_OP(tile.stages.pairs.size(), ==, other.stages.pairs.size());
-    BN_CHECK_OP(tile.stages.vertices.size(), ==, other.stages.vertices.size());
     const std::size_t n = static_cast<std::size_t>(msaa), pixels = tile.triangle_ids.size() / n;
     const int width = tile.color.width;
     StageCounter clip("clip positions", 0), visibility(kVisibilityStage, width), depth("depth", width), interpolants("interpolants", width),
         material("material inputs", width), shaded("shaded colour", width), resolved("resolved colour", width);
-    for (std::size_t i = 0; i < tile.stages.vertices.size(); ++i)
+    for (std::size_t i = 0; i < std::min(tile.stages.vertices.size(), other.stages.vertices.size()); ++i)
         clip.add(tile.stages.vertices[i], other.stages.vertices[i], 0);
     ParityCounts out;
     out.samples = tile.triangle_ids.size();

@@ -190,7 +190,8 @@ Context::Context(const VulkanOptions& options) : Context()
 Context::~Context()
 {
     if (device_) {
-        save_cache();
+        if (cache_)
+            save_cache();
         vkDestroyPipelineCache(device_, cache_, nullptr);
         vkDestroyFence(device_, fence_, nullptr);
         vkDestroyCommandPool(device_, pool_, nullptr);
@@ -252,6 +253,8 @@ void Context::make_device()
     features_.anisotropy = f.samplerAnisotropy;
     features_.max_anisotropy = p.limits.maxSamplerAnisotropy;
     features_.max_viewport = static_cast<int>(std::min(p.limits.maxViewportDimensions[0], p.limits.maxViewportDimensions[1]));
+    features_.max_image = p.limits.maxImageDimension2D, features_.max_framebuffer_width = p.limits.maxFramebufferWidth;
+    features_.max_index = p.limits.maxDrawIndexedIndexValue;
     features_.max_buffer = p.limits.maxStorageBufferRange;
     features_.target_samples = p.limits.framebufferColorSampleCounts & p.limits.framebufferDepthSampleCounts &
                                p.limits.sampledImageColorSampleCounts & p.limits.sampledImageDepthSampleCounts;

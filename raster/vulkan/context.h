@@ -37,6 +37,8 @@ struct Features {
     bool anisotropy = false;
     VkSampleCountFlags target_samples = 0; // of the images that pass 1 writes and pass 2 reads
     int max_viewport = 0;          // pixels
+    std::uint32_t max_image = 0, max_framebuffer_width = 0; // pixels
+    std::uint32_t max_index = 0;   // of a vertex
     VkDeviceSize max_buffer = 0;   // bytes of a storage buffer
     float max_anisotropy = 1.0f;
 };

@@ -94,17 +94,17 @@ VkSampler NativeImages::sampler(int wrap_s, int wrap_t, bool nearest, bool aniso
 
 void NativeImages::make_sets(VkDescriptorSetLayout layout, const GpuScene& scene)
 {
-    const auto count = static_cast<std::uint32_t>(scene.material_records().size());
-    const VkDescriptorPoolSize size = {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, std::max(count, 1u) * (kGpuCubes + kGpuTextureSlots)};
+    // one at least: the backdrop has no material of its own
+    const auto count = static_cast<std::uint32_t>(std::max<std::size_t>(scene.material_records().size(), 1));
+    const VkDescriptorPoolSize size = {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, count * (kGpuCubes + kGpuTextureSlots)};
     auto pool = vk_struct<VkDescriptorPoolCreateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO);
-    pool.maxSets = std::max(count, 1u), pool.poolSizeCount = 1, pool.pPoolSizes = &size;
+    pool.maxSets = count, pool.poolSizeCount = 1, pool.pPoolSizes = &size;
     BN_VK(vkCreateDescriptorPool(context_.device(), &pool, nullptr, &pool_));
     const std::vector<VkDescriptorSetLayout> layouts(count, layout);
     sets_.resize(count);
     auto allocate = vk_struct<VkDescriptorSetAllocateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO);
     allocate.descriptorPool = pool_, allocate.descriptorSetCount = count, allocate.pSetLayouts = layouts.data();
-    if (count)
-        BN_VK(vkAllocateDescriptorSets(context_.device(), &allocate, sets_.data()));
+    BN_VK(vkAllocateDescriptorSets(context_.device(), &allocate, sets_.data()));
     const auto image_info = [](VkSampler s, const DeviceImage& image) {
         return VkDescriptorImageInfo{s, image.view(), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
     };
@@ -119,7 +119,7 @@ void NativeImages::make_sets(VkDescriptorSetLayout layout, const GpuScene& scene
         for (int i = 0; i < kGpuCubes; ++i)
             cubes[i] = image_info(sampler(1, 1, false, false), cubes_[static_cast<std::size_t>(i)]);
         for (int i = 0; i < kGpuTextureSlots; ++i) {
-            const int id = scene.material_records()[m].textures[i].texture;
+            const int id = scene.material_records().empty() ? -1 : scene.material_records()[m].textures[i].texture;
             if (id < 0) {
                 textures[i] = image_info(sampler(1, 1, false, false), textures_.front());
                 continue;

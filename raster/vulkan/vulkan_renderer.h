@@ -23,6 +23,7 @@ struct VulkanOptions {
     bool validate = false;     // with the Khronos validation layer; what it says makes rendering fail
     std::string shader_folder; // of NAME.spv in place of the program's own shaders, for tests; empty: none
     bool use_cache = true;     // pipelines on disk
+    std::size_t band_bytes = 0; // of the buffers of one band of rows, for tests; 0: as many as every device takes
 };
 
 struct VulkanDeviceInfo { // what the driver calls itself

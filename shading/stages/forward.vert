@@ -1,18 +1,28 @@
-// The classical pipeline's vertices: one draw a primitive, attributes fetched by index.
+// The classical pipeline's vertices: one draw a primitive, attributes fetched by index. With BN_STAGES the same, but for the triangle's
+// number, which indexed vertices cannot tell.
 #version 460
 #extension GL_EXT_buffer_reference_uvec2 : require
 #include "shading/stages/interface.glsl"
-#include "shading/stages/pass.glsl"
 
-layout(location = 0) centroid out vec3 normal;
-layout(location = 1) centroid out vec4 tangent;
-layout(location = 2) centroid out vec4 uv;
-layout(location = 3) centroid out vec4 color;
-layout(location = 4) centroid out vec3 position;
+layout(location = 0) out vec3 normal;
+layout(location = 1) out vec4 tangent;
+layout(location = 2) out vec4 uv;
+layout(location = 3) out vec4 color;
+layout(location = 4) out vec3 position;
+#ifdef BN_STAGES
+layout(location = 5) flat out int triangle;
+#endif
+invariant gl_Position;
 
 void main()
 {
-    int v = gl_VertexIndex, at = frame.shading_base + 16 * v;
+#ifdef BN_STAGES
+    triangle = gl_VertexIndex / 3;
+    int v = bn_ints[frame.index_base + gl_VertexIndex];
+#else
+    int v = gl_VertexIndex;
+#endif
+    int at = frame.shading_base + 16 * v;
     position = vertex_position(v);
     normal = vec3(bn_reals[at], bn_reals[at + 1], bn_reals[at + 2]);
     tangent = vec4(bn_reals[at + 3], bn_reals[at + 4], bn_reals[at + 5], bn_reals[at + 6]);
