@@ -35,6 +35,7 @@ struct Features {
     bool float64 = false;          // depth by the tile renderer's formula
     bool standard_samples = false; // samples of multisampled targets at the standard positions
     bool anisotropy = false;
+    bool primitive_id = false;     // fragments know their triangle
     VkSampleCountFlags target_samples = 0; // of the images that pass 1 writes and pass 2 reads
     int max_viewport = 0;          // pixels
     std::uint32_t max_image = 0, max_framebuffer_width = 0; // pixels

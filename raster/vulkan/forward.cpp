@@ -84,6 +84,7 @@ void ForwardPass::bind_native(VkCommandBuffer c, std::size_t material)
 // stages: words of the pass's group, by vertices that are not indexed; otherwise colours.
 void ForwardPass::draw_scene(VkCommandBuffer c, const Specialization& technique, const GpuPass& pass, bool stages)
 {
+    const char* const fragment = stages ? "forward_stages" : context_.features().primitive_id ? "forward_id" : "forward";
     vkCmdBindIndexBuffer(c, scene_.ints().handle(), static_cast<VkDeviceSize>(scene_.record().index_base) * sizeof(std::uint32_t), VK_INDEX_TYPE_UINT32);
     for (const Draw& draw : input_.tables.draws) {
         const auto material = static_cast<std::size_t>(draw.material);
@@ -93,14 +94,14 @@ void ForwardPass::draw_scene(VkCommandBuffer c, const Specialization& technique,
         constants.push_back(used_textures(m));
         constants.push_back(targets_.msaa);
         if (stages)
-            constants.push_back(pass.group);
+            constants.insert(constants.end(), {context_.features().primitive_id, pass.group});
         vkCmdBindPipeline(c, VK_PIPELINE_BIND_POINT_GRAPHICS,
-                          pipelines_.graphics(state(stages ? "forward_stages_vert" : "forward_vert", stages ? "forward_stages" : "forward", VK_COMPARE_OP_GREATER),
+                          pipelines_.graphics(state(stages ? "forward_stages_vert" : "forward_vert", fragment, VK_COMPARE_OP_GREATER),
                                               constants));
         bind_native(c, material);
         vkCmdSetCullMode(c, m.double_sided ? VK_CULL_MODE_NONE : VK_CULL_MODE_BACK_BIT);
         GpuPass of_draw = pass;
-        of_draw.material = draw.material;
+        of_draw.material = draw.material, of_draw.first_triangle = static_cast<std::int32_t>(draw.first_triangle);
         pipelines_.push(c, of_draw);
         if (stages)
             vkCmdDraw(c, 3 * draw.triangle_count, 1, 3 * draw.first_triangle, 0);
@@ -152,7 +153,7 @@ void ForwardPass::begin(VkCommandBuffer c, const Band& band, bool resolves)
 
 void ForwardPass::draw(VkCommandBuffer c, const Specialization& technique, const Band& band)
 {
-    const GpuPass pass = {0, 0, -1, 0, band.first_row, band.rows, 0};
+    const GpuPass pass = {0, 0, -1, 0, 0, band.first_row, band.rows, 0};
     begin(c, band, targets_.msaa > 1);
     draw_scene(c, technique, pass, false);
     draw_backdrop(c, pass);
@@ -184,7 +185,7 @@ void ForwardPass::gather(VkCommandBuffer c, const char* shader, const Band& band
     change_layout(c, targets_.depth, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
     vkCmdBindPipeline(c, VK_PIPELINE_BIND_POINT_COMPUTE, pipelines_.compute(name));
     pipelines_.bind_set(c, VK_PIPELINE_BIND_POINT_COMPUTE);
-    pipelines_.push(c, {0, 0, 0, 0, band.first_row, band.rows, group});
+    pipelines_.push(c, {0, 0, 0, 0, 0, band.first_row, band.rows, group});
     pipelines_.dispatch(c, static_cast<std::size_t>(targets_.width) * static_cast<std::size_t>(band.rows));
 }
 
@@ -194,7 +195,7 @@ void ForwardPass::record(const FrameDesc& desc, const Band& band, Frame& frame)
     gather(c, "gather_words", band, kGpuColorGroup); // of what draw has left
     for (int group = 0; group < kGpuColorGroup; ++group) {
         begin(c, band, false);
-        draw_scene(c, {}, {0, 0, -1, 0, band.first_row, band.rows, group}, true);
+        draw_scene(c, {}, {0, 0, -1, 0, 0, band.first_row, band.rows, group}, true);
         vkCmdEndRendering(c);
         gather(c, group == 0 ? "gather" : "gather_words", band, group);
     }

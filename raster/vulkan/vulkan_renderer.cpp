@@ -191,11 +191,11 @@ void VulkanRenderer::visibility(VkCommandBuffer c, const GpuPass& pass)
 void VulkanRenderer::all_visibility(VkCommandBuffer c, const Band& band)
 {
     if (targets_.native) {
-        visibility(c, {0, 0, targets_.msaa == 1 ? 0 : -1, 0, band.first_row, band.rows, 0});
+        visibility(c, {0, 0, targets_.msaa == 1 ? 0 : -1, 0, 0, band.first_row, band.rows, 0});
         return;
     }
     for (int s = 0; s < targets_.msaa; ++s)
-        visibility(c, {kSubpixel / 2 - pattern_.x[s], kSubpixel / 2 - pattern_.y[s], s, 0, band.first_row, band.rows, 0});
+        visibility(c, {kSubpixel / 2 - pattern_.x[s], kSubpixel / 2 - pattern_.y[s], s, 0, 0, band.first_row, band.rows, 0});
 }
 
 // constant_id 0 to 3 of shading/stages: the technique's place, whether it tests the horizon and samples the tilt itself, and whether lights
@@ -214,7 +214,7 @@ void VulkanRenderer::shade(VkCommandBuffer c, const FrameDesc& desc, const Band&
     if (desc.stages)
         vkCmdFillBuffer(c, targets_.records.handle(), 0, VK_WHOLE_SIZE, 0);
     full_barrier(c);
-    pipelines_.push(c, {0, 0, 0, 0, band.first_row, band.rows, 0});
+    pipelines_.push(c, {0, 0, 0, 0, 0, band.first_row, band.rows, 0});
     dispatch(c, pipelines_.compute("shade", constants),
              static_cast<std::size_t>(targets_.width) * static_cast<std::size_t>(band.rows));
 }

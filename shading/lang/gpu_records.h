@@ -101,7 +101,7 @@ struct GpuDraw { // VkDrawIndirectCommand, and how many setups there are
 struct GpuPass {
     int shift_x, shift_y; // of passes that take one sample of several: where it lies, as a shift to the pixel's centre, 1/256 pixel
     int sample_number;    // and its number; -1 where the device itself takes all samples
-    int material;         // of a draw of the forward pipeline
+    int material, first_triangle; // of a draw of the forward pipeline
     int first_row, rows;  // the band
     int group;            // of recorded words, see kGpuForwardGroups
 };

@@ -14,7 +14,8 @@ layout(location = 0) out vec4 radiance;
 layout(constant_id = 6) const int kMsaa = 1;
 
 #ifdef BN_STAGES
-layout(constant_id = 7) const int kGroup = 0;
+layout(constant_id = 7) const bool kKnowsTriangle = false; // as the pipeline whose words these are
+layout(constant_id = 8) const int kGroup = 0;
 layout(location = 5) flat in int triangle;
 int record_at = 4; // group 0 is the triangle
 
@@ -44,13 +45,38 @@ int alive_samples(int m, real alpha)
     return alive;
 }
 
-// Where the tile renderer shades, from the pixel's centre, pixels: there, or where the triangle covers only some of the pixel's samples, at
-// their mean.
-vec2 shaded_offset()
+// Whether the triangle covers the pixel's centre, by its edges in homogeneous clip space: to within the device's own snapping.
+bool covers_centre(int number, int px, int py)
 {
-    if (kMsaa == 1 || gl_SampleMaskIn[0] == (1 << kMsaa) - 1)
+    real x = (to_real(px) + lit(0.5)) / frame.half_width - lit(1.0);
+    real y = lit(1.0) - (to_real(py) + lit(0.5)) / frame.half_height;
+    real3 at = vec3(x, y, 1.0);
+    real3 v[3];
+    for (int i = 0; i < 3; ++i) {
+        real4 clip = clip_position(vertex_position(bn_ints[frame.index_base + 3 * number + i]), frame_view());
+        v[i] = vec3(clip.x, clip.y, clip.z); // x, y, w
+    }
+    real e0 = k_dot3(k_cross(v[1], v[2]), at);
+    real e1 = k_dot3(k_cross(v[2], v[0]), at);
+    real e2 = k_dot3(k_cross(v[0], v[1]), at);
+    return (e0 >= 0.0 && e1 >= 0.0 && e2 >= 0.0) || (e0 <= 0.0 && e1 <= 0.0 && e2 <= 0.0);
+}
+
+// Where the tile renderer shades, from the pixel's centre, pixels: there, or where the triangle does not cover it at the mean of the covered
+// samples; where fragments do not know their triangle, wherever it does not cover them all.
+vec2 shaded_offset(int px, int py)
+{
+    int covered = gl_SampleMaskIn[0];
+    if (kMsaa == 1 || covered == (1 << kMsaa) - 1)
         return vec2(0.0);
-    ivec2 mean = mean_of_samples(gl_SampleMaskIn[0]) - 128;
+#if defined(BN_STAGES)
+    if (kKnowsTriangle && covers_centre(triangle, px, py))
+        return vec2(0.0);
+#elif defined(BN_PRIMITIVE_ID)
+    if (covers_centre(pass.first_triangle + gl_PrimitiveID, px, py))
+        return vec2(0.0);
+#endif
+    ivec2 mean = mean_of_samples(covered) - 128;
     return vec2(mean) * 0.00390625;
 }
 
@@ -58,7 +84,7 @@ vec2 shaded_offset()
 
 visible_point point_of_fragment(int px, int py)
 {
-    vec2 offset = shaded_offset();
+    vec2 offset = shaded_offset(px, py);
     visible_point p;
     p.normal = BN_AT_POINT(normal);
     vec4 t = BN_AT_POINT(tangent);
