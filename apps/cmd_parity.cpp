@@ -27,13 +27,12 @@ struct Bench {
     Report& report;
 };
 
-double mean_flip(const Image& reference, const Image& test, const Jobs& jobs)
+// Errors of the pixels; empty where the pictures are equal, or hold what is no number.
+Image flip_map(const Image& reference, const Image& test, const Jobs& jobs)
 {
-    if (reference.bytes == test.bytes)
-        return 0.0;
-    if (not_finite_pixels(reference, test) > 0)
-        return 1.0;
-    return summarise_errors(flip_hdr(reference, test, {}, jobs).error).mean;
+    if (reference.bytes == test.bytes || not_finite_pixels(reference, test) > 0)
+        return {};
+    return flip_hdr(reference, test, {}, jobs).error;
 }
 
 Result<ParityRow> compare(const Bench& bench, const ParityPlace& place, const RenderOptions& options, const View& view, Renderer& tile,
@@ -56,7 +55,9 @@ Result<ParityRow> compare(const Bench& bench, const ParityPlace& place, const Re
     row.pipeline = ids ? "ids" : "forward";
     row.samples_emulated = b->stats.samples_emulated;
     row.counts = compare_stages(*a, *b, desc.msaa);
-    row.flip_mean = mean_flip(a->color, b->color, bench.jobs);
+    const Image flip = flip_map(a->color, b->color, bench.jobs);
+    row.flip_mean = flip.bytes.empty() ? row.counts.pixels_differ ? 1.0 : 0.0 : summarise_errors(flip).mean;
+    row.causes = share_causes(pixel_causes(*a, *b, desc.msaa), *a, desc.msaa, flip.bytes.empty() ? nullptr : flip.f32());
     return row;
 }
 

@@ -44,6 +44,15 @@ std::vector<Total> totals(const ParityReport& report)
     return sums;
 }
 
+std::string causes_text(const ParityRow& row)
+{
+    std::string text;
+    for (const CauseShare& c : row.causes)
+        if (c.cause != PixelCause::none)
+            text += fmt::format("{}{} {} (FLIP {:.2g})", text.empty() ? "" : ", ", c.pixels, kPixelCauseNames[static_cast<int>(c.cause)], c.flip);
+    return text;
+}
+
 constexpr const char* kStyle = R"(
 :root { color-scheme: light dark; }
 body { font: 15px/1.5 system-ui, sans-serif; margin: 1.5rem auto; padding: 0 1rem; max-width: 90rem; }
@@ -98,7 +107,8 @@ std::string describe(const ParityRow& row)
                         place_of(*first));
     if (c.visibility_differ)
         text += fmt::format("; {} of {} samples show another triangle", c.visibility_differ, c.samples);
-    return text + fmt::format("; {} pixels differ, {} of them at edges; mean FLIP {:.3g}", c.pixels_differ, c.edge_pixels_differ, row.flip_mean);
+    return text + fmt::format("; {} pixels differ, {} of them at edges, by {}; mean FLIP {:.3g}", c.pixels_differ, c.edge_pixels_differ, causes_text(row),
+                              row.flip_mean);
 }
 
 std::string stage_table(const ParityReport& report)

@@ -14,6 +14,9 @@ struct ParityRow {
     bool samples_emulated = false;
     ParityCounts counts;
     double flip_mean = 0.0;
+    std::vector<CauseShare> causes; // of the pixels that differ
+    std::string error;              // not empty: the row was not compared, and why
+    int error_code = 0;             // exit code of it
 };
 
 struct ParityReport {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstring>
 
 #include "core/base/check.h"
@@ -75,6 +76,42 @@ void count_pixel_differences(const Frame& tile, const Frame& other, std::size_t 
     }
 }
 
+// Of a vector, against its largest component in either.
+bool beyond_rounding(const std::uint32_t* a, const std::uint32_t* b, int words)
+{
+    double largest = 0.0, difference = 0.0;
+    for (int i = 0; i < words; ++i) {
+        const double x = static_cast<double>(std::bit_cast<float>(a[i])), y = static_cast<double>(std::bit_cast<float>(b[i]));
+        if (!std::isfinite(x) || !std::isfinite(y))
+            return a[i] != b[i];
+        largest = std::max({largest, std::abs(x), std::abs(y)});
+        difference = std::max(difference, std::abs(x - y));
+    }
+    return difference > kRounding * largest;
+}
+
+// Components of the vectors that a pair's words are (raster/frame/frame.h).
+constexpr int kInterpolantVectors[] = {3, 3, 1, 4, 2, 2, 2, 2, 2, 2, 1, 3, 3}, kMaterialVectors[] = {3, 1, 1, 1, 1, 3, 3, 3, 1, 3, 3};
+
+template <std::size_t N> bool any_beyond_rounding(const int (&vectors)[N], const std::uint32_t* a, const std::uint32_t* b)
+{
+    for (int words : vectors) {
+        if (beyond_rounding(a, b, words))
+            return true;
+        a += words, b += words;
+    }
+    return false;
+}
+
+PixelCause pair_cause(const std::uint32_t* a, const std::uint32_t* b)
+{
+    if (any_beyond_rounding(kInterpolantVectors, a + 1, b + 1))
+        return PixelCause::interpolants;
+    if (any_beyond_rounding(kMaterialVectors, a + 1 + kInterpolantWords, b + 1 + kInterpolantWords))
+        return PixelCause::material;
+    return beyond_rounding(a + kPairWords - 3, b + kPairWords - 3, 3) ? PixelCause::shaded : PixelCause::rounding;
+}
+
 } // namespace
 
 std::uint64_t ulp_distance(std::uint32_t a, std::uint32_t b)
@@ -130,17 +167,42 @@ ParityCounts compare_stages(const Frame& tile, const Frame& other, int msaa)
     return out;
 }
 
-ParityCounts compare_pictures(const Frame& tile, const Frame& other, int msaa)
+std::vector<PixelCause> pixel_causes(const Frame& tile, const Frame& other, int msaa)
 {
     const std::size_t n = static_cast<std::size_t>(msaa), pixels = tile.triangle_ids.size() / n;
-    StageCounter resolved("resolved colour", tile.color.width);
-    for (std::size_t p = 0; p < pixels; ++p)
-        resolved.add(color_words(tile, p), color_words(other, p), 3, p);
-    ParityCounts out;
-    out.samples = tile.triangle_ids.size();
-    out.stages.push_back(resolved.stage());
-    count_pixel_differences(tile, other, n, out);
-    return out;
+    std::vector<PixelCause> causes(pixels, PixelCause::none);
+    for (std::size_t p = 0; p < pixels; ++p) {
+        if (std::memcmp(color_words(tile, p), color_words(other, p), 3 * sizeof(float)) == 0)
+            continue;
+        if (!same_pairs(tile, other, p, n)) {
+            causes[p] = PixelCause::visibility;
+            continue;
+        }
+        PixelCause first = beyond_rounding(color_words(tile, p), color_words(other, p), 3) ? PixelCause::resolved : PixelCause::rounding;
+        for (std::size_t s = p * n; s < (p + 1) * n; ++s)
+            if (mask_at(tile, s))
+                first = std::min(first, pair_cause(tile.stages.pairs.data() + s * kPairWords, other.stages.pairs.data() + s * kPairWords));
+        causes[p] = first;
+    }
+    return causes;
+}
+
+std::vector<CauseShare> share_causes(const std::vector<PixelCause>& causes, const Frame& tile, int msaa, const float* flip)
+{
+    CauseShare sums[kPixelCauses];
+    for (std::size_t p = 0; p < causes.size(); ++p) {
+        CauseShare& sum = sums[static_cast<int>(causes[p])];
+        ++sum.pixels;
+        sum.edge_pixels += several_triangles(tile, p, static_cast<std::size_t>(msaa));
+        sum.flip += flip ? static_cast<double>(flip[p]) / static_cast<double>(causes.size()) : 0.0;
+    }
+    std::vector<CauseShare> shares;
+    for (int i = 0; i < kPixelCauses; ++i) {
+        sums[i].cause = static_cast<PixelCause>(i);
+        if (sums[i].pixels)
+            shares.push_back(sums[i]);
+    }
+    return shares;
 }
 
 const ParityStage* first_difference(const ParityCounts& counts)

@@ -205,7 +205,7 @@ void ForwardPass::record(const FrameDesc& desc, const Band& band, Frame& frame)
 
 void ForwardPass::fill_frame(const FrameDesc& desc, const Band& band, Frame& frame) const
 {
-    constexpr std::size_t kFront = 26; // an integer among the interpolants
+    constexpr std::size_t kFront = 23; // an integer among the interpolants
     const std::size_t width = static_cast<std::size_t>(desc.width), msaa = static_cast<std::size_t>(desc.msaa);
     const std::size_t first = width * static_cast<std::size_t>(band.first_row) * msaa, count = width * static_cast<std::size_t>(band.rows) * msaa;
     const std::int32_t* ids = targets_.ids.as<std::int32_t>();

@@ -9,7 +9,7 @@ layout(location = 0) in vec3 normal;
 layout(location = 1) in vec4 tangent;
 layout(location = 2) in vec4 uv;
 layout(location = 3) in vec4 color;
-layout(location = 4) in vec3 position;
+layout(location = 4) in vec4 position;
 layout(location = 0) out vec4 radiance;
 layout(constant_id = 6) const int kMsaa = 1;
 
@@ -84,22 +84,25 @@ vec2 shaded_offset(int px, int py)
 
 visible_point point_of_fragment(int px, int py)
 {
-    vec2 offset = shaded_offset(px, py);
     visible_point p;
-    p.normal = BN_AT_POINT(normal);
-    vec4 t = BN_AT_POINT(tangent);
+    p.uv_dx[0] = dFdxFine(uv.xy); // of pixel centres, by row and column of the quad
+    p.uv_dx[1] = dFdxFine(uv.zw);
+    p.uv_dy[0] = dFdyFine(uv.xy);
+    p.uv_dy[1] = dFdyFine(uv.zw);
+    vec2 offset = shaded_offset(px, py);
+    vec4 place = BN_AT_POINT(position);
+    // what a vertex has 1 of is 1 here, unless the device divides by the centre's w: Mesa 22.3 does
+    real w = place.w;
+    p.position = place.xyz / w;
+    p.normal = BN_AT_POINT(normal) / w;
+    vec4 t = BN_AT_POINT(tangent) / w;
     p.tangent = t.xyz;
     p.tangent_sign = t.w < 0.0 ? -1.0 : 1.0;
-    p.color = BN_AT_POINT(color);
-    vec4 uv_at = BN_AT_POINT(uv);
+    p.color = BN_AT_POINT(color) / w;
+    vec4 uv_at = BN_AT_POINT(uv) / w;
     p.uv[0] = uv_at.xy;
     p.uv[1] = uv_at.zw;
-    p.uv_dx[0] = dFdx(uv.xy);
-    p.uv_dx[1] = dFdx(uv.zw);
-    p.uv_dy[0] = dFdy(uv.xy);
-    p.uv_dy[1] = dFdy(uv.zw);
     p.front = gl_FrontFacing;
-    p.position = BN_AT_POINT(position);
     real x = to_real(px) + lit(0.5) + offset.x;
     real y = to_real(py) + lit(0.5) + offset.y;
     p.ray = pixel_ray(x, y, frame.half_width, frame.half_height, frame_view());
@@ -117,6 +120,13 @@ void main()
     gl_SampleMask[0] = alive;
 #ifdef BN_STAGES
     radiance = vec4(float(triangle & 0xffff), float(triangle >> 16), 0.0, 0.0);
+    if (materials[m].textured == 0) // what is not used is 0
+        for (int i = 0; i < 2; ++i)
+            p.uv[i] = p.uv_dx[i] = p.uv_dy[i] = vec2(0.0);
+    if (materials[m].uses_color == 0)
+        p.color = vec4(0.0);
+    if (frame.light_count == 0)
+        p.position = vec3(0.0);
     record_point(p);
     record_material(at);
 #else

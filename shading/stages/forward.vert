@@ -8,7 +8,7 @@ layout(location = 0) out vec3 normal;
 layout(location = 1) out vec4 tangent;
 layout(location = 2) out vec4 uv;
 layout(location = 3) out vec4 color;
-layout(location = 4) out vec3 position;
+layout(location = 4) out vec4 position; // and 1
 #ifdef BN_STAGES
 layout(location = 5) flat out int triangle;
 #endif
@@ -23,11 +23,12 @@ void main()
     int v = gl_VertexIndex;
 #endif
     int at = frame.shading_base + 16 * v;
-    position = vertex_position(v);
+    real3 place = vertex_position(v);
+    position = vec4(place, 1.0);
     normal = vec3(bn_reals[at], bn_reals[at + 1], bn_reals[at + 2]);
     tangent = vec4(bn_reals[at + 3], bn_reals[at + 4], bn_reals[at + 5], bn_reals[at + 6]);
     uv = vec4(bn_reals[at + 8], bn_reals[at + 9], bn_reals[at + 10], bn_reals[at + 11]);
     color = vec4(bn_reals[at + 12], bn_reals[at + 13], bn_reals[at + 14], bn_reals[at + 15]);
-    real4 clip = clip_position(position, frame_view()); // x, y, w, z
+    real4 clip = clip_position(place, frame_view()); // x, y, w, z
     gl_Position = vec4(clip.x, -clip.y, clip.w, clip.z);
 }
