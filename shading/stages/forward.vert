@@ -30,5 +30,13 @@ void main()
     uv = vec4(bn_reals[at + 8], bn_reals[at + 9], bn_reals[at + 10], bn_reals[at + 11]);
     color = vec4(bn_reals[at + 12], bn_reals[at + 13], bn_reals[at + 14], bn_reals[at + 15]);
     real4 clip = clip_position(place, frame_view()); // x, y, w, z
+    // On the sub-pixel grid already, so that attributes are interpolated between the positions that are rasterized.
+    snapped_vertex s = snap_to_frame(clip, kGpuWholeBand);
+    if (s.valid) {
+        real x = to_real(s.x + frame.center_x) * lit(0.00390625) / frame.half_width - lit(1.0);
+        real y = lit(1.0) - to_real(s.y + frame.center_y) * lit(0.00390625) / frame.half_height;
+        clip.x = x * clip.z;
+        clip.y = y * clip.z;
+    }
     gl_Position = vec4(clip.x, -clip.y, clip.w, clip.z);
 }
