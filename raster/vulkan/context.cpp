@@ -250,9 +250,7 @@ void Context::make_device()
     vkGetPhysicalDeviceFeatures(physical_, &f);
     features_.float64 = f.shaderFloat64;
     features_.standard_samples = p.limits.standardSampleLocations;
-    features_.anisotropy = f.samplerAnisotropy;
     features_.primitive_id = f.geometryShader; // comes with it
-    features_.max_anisotropy = p.limits.maxSamplerAnisotropy;
     features_.max_viewport = static_cast<int>(std::min(p.limits.maxViewportDimensions[0], p.limits.maxViewportDimensions[1]));
     features_.max_image = p.limits.maxImageDimension2D, features_.max_framebuffer_width = p.limits.maxFramebufferWidth;
     features_.max_index = p.limits.maxDrawIndexedIndexValue;
@@ -281,7 +279,6 @@ void Context::make_device()
     wanted.features.sampleRateShading = VK_TRUE;
     wanted.features.geometryShader = f.geometryShader;
     wanted.features.shaderFloat64 = f.shaderFloat64;
-    wanted.features.samplerAnisotropy = f.samplerAnisotropy;
     auto info = vk_struct<VkDeviceCreateInfo>(VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO, &wanted);
     info.queueCreateInfoCount = 1, info.pQueueCreateInfos = &queue;
     BN_VK(vkCreateDevice(physical_, &info, nullptr, &device_));

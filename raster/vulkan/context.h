@@ -34,14 +34,12 @@ template <class T> T vk_struct(VkStructureType type, void* next = nullptr)
 struct Features {
     bool float64 = false;          // depth by the tile renderer's formula
     bool standard_samples = false; // samples of multisampled targets at the standard positions
-    bool anisotropy = false;
     bool primitive_id = false;     // fragments know their triangle
     VkSampleCountFlags target_samples = 0; // of the images that pass 1 writes and pass 2 reads
     int max_viewport = 0;          // pixels
     std::uint32_t max_image = 0, max_framebuffer_width = 0; // pixels
     std::uint32_t max_index = 0;   // of a vertex
     VkDeviceSize max_buffer = 0;   // bytes of a storage buffer
-    float max_anisotropy = 1.0f;
 };
 
 // Instance, device, one queue. Made once a renderer.

@@ -22,9 +22,9 @@ std::int32_t used_textures(const GpuMaterial& m)
 void ForwardPass::prepare(const FrameDesc& desc, std::size_t band_bytes)
 {
     const bool box = scene_.box_cube().levels > 0;
-    if (sampler_ == VulkanSampler::native && (!native_ || native_->max_anisotropy() != desc.texture_anisotropy || native_->has_box() != box)) {
+    if (sampler_ == VulkanSampler::native && (!native_ || native_->has_box() != box)) {
         native_.reset();
-        native_.emplace(context_, pipelines_.native_layout(), input_, scene_, desc.texture_anisotropy);
+        native_.emplace(context_, pipelines_.native_layout(), input_, scene_);
     }
     make_targets(desc, band_bytes);
     if (!desc.stages)
