@@ -154,6 +154,8 @@ Result<ParityOptions> check_parity_options(const ParityArguments& in)
         arguments.size = kUsualSize;
     for (const std::string& technique : *techniques)
         for (const std::string& msaa : split(in.msaa.empty() ? kUsualMsaa : in.msaa, ',')) {
+            if (msaa.empty())
+                return usage_error("--msaa", "holds an empty entry");
             arguments.technique = technique, arguments.msaa = msaa;
             for (const ParityPlace& place : out.places) {
                 arguments.plain.scene = place.scene;
@@ -166,7 +168,10 @@ Result<ParityOptions> check_parity_options(const ParityArguments& in)
             out.frames.back().vulkan.prefer_cpu = true;
             out.frames.back().vulkan.shader_folder = in.shaders;
         }
-    if (const Status writable = check_outputs({}, {{"--json", out.json}, {"--junit", out.junit}, {"--html", out.html}}, in.scenes); !writable)
+    std::vector<std::string> inputs = {in.render.plain.env};
+    for (const ParityPlace& place : out.places)
+        inputs.push_back(place.scene);
+    if (const Status writable = check_outputs({}, {{"--json", out.json}, {"--junit", out.junit}, {"--html", out.html}}, inputs); !writable)
         return writable.error();
     return out;
 }
