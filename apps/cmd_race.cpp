@@ -164,13 +164,13 @@ struct Race {
     const Jobs& jobs;
     Report& report;
     RaceReport& out;
-    Error first_error; // what a row failed of; the others are raced nevertheless
+    Error first_error; // what a row failed of, 77 only where nothing worse; the others are raced nevertheless
 };
 
 void add_row(Race& bench, const RenderOptions& frame, std::size_t device, const Result<RaceRow>& raced)
 {
     RaceRow row = raced ? *raced : failed_row(frame.frame, raced.error());
-    if (!raced && bench.first_error.code == ExitCode::ok)
+    if (!raced && (bench.first_error.code == ExitCode::ok || bench.first_error.code == ExitCode::unavailable))
         bench.first_error = raced.error();
     row.scene = frame.scene, row.device = bench.devices[device]->info().name;
     const std::string outcome = raced ? fmt::format("{:.2f}", row.ratio()) : row.error;

@@ -50,11 +50,12 @@ const char* name_of(const CauseShare& c) { return kPixelCauseNames[static_cast<i
 std::vector<CauseShare> total_causes(const ParityReport& report)
 {
     CauseShare sums[kPixelCauses];
+    const auto compared = std::count_if(report.rows.begin(), report.rows.end(), [](const ParityRow& row) { return !row.failed(); });
     for (const ParityRow& row : report.rows)
         for (const CauseShare& c : row.causes) {
             CauseShare& sum = sums[static_cast<int>(c.cause)];
             sum.cause = c.cause, sum.pixels += c.pixels, sum.edge_pixels += c.edge_pixels;
-            sum.flip += c.flip / static_cast<double>(report.rows.size());
+            sum.flip += c.flip / static_cast<double>(compared);
         }
     std::vector<CauseShare> present;
     for (const CauseShare& sum : sums)
@@ -122,8 +123,11 @@ ExitCode outcome(const ParityReport& report)
     const auto differs = [](const ParityRow& row) { return !row.failed() && !fault_of(row).empty(); };
     if (!visibility_fault(report).empty() || std::any_of(report.rows.begin(), report.rows.end(), differs))
         return ExitCode::differ;
-    const auto first = std::find_if(report.rows.begin(), report.rows.end(), [](const ParityRow& row) { return row.failed(); });
-    return first == report.rows.end() ? ExitCode::ok : first->error.code;
+    ExitCode code = ExitCode::ok;
+    for (const ParityRow& row : report.rows)
+        if (row.failed() && (code == ExitCode::ok || code == ExitCode::unavailable))
+            code = row.error.code;
+    return code;
 }
 
 std::string describe(const ParityRow& row)

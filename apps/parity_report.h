@@ -33,7 +33,8 @@ std::string fault_of(const ParityRow& row); // empty: as promised, visibility as
 // Of all rows together: empty, or what is wrong.
 std::string visibility_fault(const ParityReport& report);
 bool passed(const ParityReport& report);
-// 0 where all is as promised; otherwise 1 where any row differs, or what the first row that could not be compared ends with.
+// 0 where all is as promised; otherwise 1 where any row differs, or what the first row that could not be compared ends with
+// (77 only where nothing worse does).
 ExitCode outcome(const ParityReport& report);
 
 std::string describe(const ParityRow& row);        // one line

@@ -48,6 +48,12 @@ class StageCounter {
 
 std::uint32_t mask_at(const Frame& f, std::size_t sample) { return f.stages.pairs[sample * kPairWords]; }
 
+// Whether both have a pair that begins at this sample, of the same triangle and the same samples.
+bool same_pair(const Frame& a, const Frame& b, std::size_t sample)
+{
+    return mask_at(a, sample) != 0 && mask_at(a, sample) == mask_at(b, sample) && a.triangle_ids[sample] == b.triangle_ids[sample];
+}
+
 // Whether the samples of a pixel show the same pairs: the same triangles, shared by samples in the same way.
 bool same_pairs(const Frame& a, const Frame& b, std::size_t pixel, std::size_t msaa)
 {
@@ -147,10 +153,8 @@ ParityCounts compare_stages(const Frame& tile, const Frame& other, int msaa)
             differ = 1;
         }
         out.visibility_differ += differ;
-        if (!same)
-            continue;
         for (std::size_t s = p * n; s < (p + 1) * n; ++s) {
-            if (!mask_at(tile, s))
+            if (!same_pair(tile, other, s))
                 continue;
             const std::uint32_t *a = tile.stages.pairs.data() + s * kPairWords, *b = other.stages.pairs.data() + s * kPairWords;
             if (tile.triangle_ids[s] != kNoTriangle) {
@@ -159,7 +163,8 @@ ParityCounts compare_stages(const Frame& tile, const Frame& other, int msaa)
             }
             shaded.add(a + kPairWords - 3, b + kPairWords - 3, 3, p);
         }
-        resolved.add(color_words(tile, p), color_words(other, p), 3, p);
+        if (same)
+            resolved.add(color_words(tile, p), color_words(other, p), 3, p);
     }
     for (const StageCounter* c : {&clip, &visibility, &depth, &interpolants, &material, &shaded, &resolved})
         out.stages.push_back(c->stage());

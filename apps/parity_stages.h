@@ -24,8 +24,9 @@ struct ParityCounts {
 
 inline constexpr const char* kVisibilityStage = "visibility";
 
-// Both frames with FrameDesc::stages, of one description; clip positions only where both have them. What follows visibility is compared where visibility agrees: depths by sample,
-// all else in pixels whose samples show the same pairs in both.
+// Both frames with FrameDesc::stages, of one description; clip positions only where both have them. What follows visibility is compared
+// where visibility agrees: depths by sample, interpolants to shaded colour by pairs of the same triangle and the same samples, resolved
+// colour in pixels whose pairs are all the same.
 ParityCounts compare_stages(const Frame& tile, const Frame& other, int msaa);
 
 // Why a pixel differs: the first stage that differs by more than kRounding of a vector's largest component, in any of the pixel's

@@ -294,7 +294,18 @@ void Context::make_device()
     BN_VK(vkCreateFence(device_, &fence, nullptr, &fence_));
 }
 
-// One file a device and driver; the driver itself refuses data that is not its own.
+// Whether it begins as this device's caches do (VkPipelineCacheHeaderVersionOne); not every driver looks.
+static bool is_cache_of(const VkPhysicalDeviceProperties& p, const std::vector<std::uint8_t>& bytes)
+{
+    VkPipelineCacheHeaderVersionOne header;
+    if (bytes.size() < sizeof header)
+        return false;
+    std::memcpy(&header, bytes.data(), sizeof header);
+    return header.headerSize >= sizeof header && header.headerVersion == VK_PIPELINE_CACHE_HEADER_VERSION_ONE && header.vendorID == p.vendorID &&
+           header.deviceID == p.deviceID && std::equal(std::begin(header.pipelineCacheUUID), std::end(header.pipelineCacheUUID), p.pipelineCacheUUID);
+}
+
+// One file a device and driver.
 void Context::load_cache()
 {
     const std::string folder = cache_folder();
@@ -309,11 +320,12 @@ void Context::load_cache()
     if (!std::filesystem::exists(cache_path_, ignored))
         return;
     const Result<std::vector<std::uint8_t>> bytes = read_file(cache_path_, 256u << 20);
-    if (!bytes)
+    if (!bytes || !is_cache_of(p, *bytes))
         return;
     info.initialDataSize = bytes->size(), info.pInitialData = bytes->data();
     if (vkCreatePipelineCache(device_, &info, nullptr, &cache_) != VK_SUCCESS)
         cache_ = VK_NULL_HANDLE;
+    cache_loaded_ = cache_ != VK_NULL_HANDLE;
 }
 
 void Context::save_cache() const

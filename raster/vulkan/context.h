@@ -54,6 +54,7 @@ class Context {
     const Features& features() const { return features_; }
     const VulkanDeviceInfo& info() const { return info_; }
     VkPipelineCache pipeline_cache() const { return cache_; }
+    bool cache_loaded() const { return cache_loaded_; } // it holds what an earlier run has left
     std::uint32_t memory_type(std::uint32_t allowed, VkMemoryPropertyFlags wanted) const; // throws where there is none
     bool host_visible_device_memory() const; // one memory for both: CPU devices, GPUs whose memory is mapped
 
@@ -80,6 +81,7 @@ class Context {
     VkCommandBuffer commands_ = VK_NULL_HANDLE;
     VkFence fence_ = VK_NULL_HANDLE;
     VkPipelineCache cache_ = VK_NULL_HANDLE;
+    bool cache_loaded_ = false;
     std::string cache_path_;
     VkPhysicalDeviceMemoryProperties memory_ = {};
     Features features_;
