@@ -17,7 +17,7 @@ STAGES = ["clip positions", "visibility", "depth", "interpolants", "material inp
 def parity(bench, *arguments, code=0, timeout=240.0, device="lavapipe"):
     """Runs the command and gives its JSON; skips where the device or Vulkan is absent."""
     done = bench.run("parity", *arguments, "--device", device, *COARSE, "--json", "parity.json", timeout=timeout)
-    if done.code == 77:
+    if done.code == 77 and code != 77:
         raise Skipped(done.err.strip())
     done.expect(code)
     return json.loads((bench.folder / "parity.json").read_text())
@@ -138,10 +138,10 @@ def check_looks_the_same(report):
 
 @case("parity.forward_looks_the_same")
 def forward_looks_the_same(bench):
-    for sampler in ("exact", "native"):
-        report = parity(bench, "builtin:teapot", "builtin:spheres", "builtin:plate", "--size", "96x64", "--technique", "split_isotropic,major_axis",
-                        "--msaa", "1,4", "--pipeline", "forward", "--sampler", sampler, "--html", "parity.html")
-        check(len(report["rows"]) == 3 * 2 * 2, f"{len(report['rows'])} rows")
+    for sampler, technique in (("exact", "split_isotropic"), ("native", "major_axis")):
+        report = parity(bench, "builtin:teapot", "builtin:spheres", "builtin:plate", "--size", "96x64", "--technique", technique, "--msaa", "1,4",
+                        "--pipeline", "forward", "--sampler", sampler, "--html", "parity.html")
+        check(len(report["rows"]) == 3 * 2, f"{len(report['rows'])} rows")
         check_looks_the_same(report)
     check("pixels differ first by" in (bench.folder / "parity.html").read_text(), "the page does not say why pixels differ")
 
@@ -177,7 +177,7 @@ def writes_over_no_model(bench):
     check((bench.folder / "models/a.gltf").read_text() == "{}", "the model was written over")
 
 
-@case("parity.wide_pictures")
+@case("parity.wide_pictures", "slow")
 def wide_pictures(bench):
     """What no single buffer of the device could hold is drawn in bands; 16384 pixels are the widest that it takes."""
     def pixel_hash(*options):
