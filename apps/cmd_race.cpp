@@ -23,7 +23,7 @@ namespace {
 constexpr const char* kFooter =
     R"(The tile renderer and each device draw the same frame in turn, warm; the device by the classical pipeline with its own samplers, timed
 from submission to the fence. The ratio is of the process' CPU time, device over tile: above 1 the tile renderer needs less. A frame that
-differs (mean FLIP above 0.01) is marked and counts for nothing.
+differs (mean FLIP above 0.01) is marked and counts for nothing. A row that fails is reported, and its exit code given at the end.
 
 Examples:
   burnish race

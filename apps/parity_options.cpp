@@ -16,7 +16,8 @@ namespace {
 constexpr const char* kFooter =
     R"(Renders with the tile renderer and with Vulkan, and compares words: clip positions, visibility (the triangle of each sample), depth,
 interpolants, material inputs, shaded colour, resolved colour; what follows visibility where visibility agrees. With the exact sampler no
-word may differ but visibility, of which one sample in a million may; pictures of --pipeline forward must look the same (mean FLIP below 0.002).
+word may differ but visibility, of which one sample in a million may; pictures of --pipeline forward must look the same (mean FLIP below 0.002),
+and every pixel that differs is put down to the first stage that differs by more than a thousandth, or to rounding.
 
 Examples:
   burnish parity
@@ -24,7 +25,7 @@ Examples:
   burnish parity --suite default --models models --junit parity.xml --json parity.json --html parity.html
   burnish parity --pipeline forward --sampler native --msaa 4
 
-Exit codes: 0 as promised, 1 not as promised, 77 no such device or no Vulkan.)";
+Exit codes: 0 as promised, 1 not as promised, 77 no such device, sample count or Vulkan; a row that fails otherwise: its code, at the end.)";
 
 constexpr const char* kUsualSize = "128x72", *kUsualMsaa = "1,4,8";
 

@@ -77,7 +77,8 @@ vec2 shaded_offset(int px, int py)
         return vec2(0.0);
 #endif
     ivec2 mean = mean_of_samples(covered) - 128;
-    return vec2(mean) * 0.00390625;
+    real2 offset = vec2(mean) * lit(0.00390625);
+    return offset;
 }
 
 #define BN_AT_POINT(v) (kMsaa == 1 ? v : interpolateAtOffset(v, offset))
