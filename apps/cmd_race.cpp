@@ -140,7 +140,7 @@ std::vector<std::shared_ptr<VulkanDevice>> open_devices(const RacePlan& plan, Ra
     std::vector<std::shared_ptr<VulkanDevice>> devices;
     for (const std::string& name : plan.devices) {
         VulkanOptions options = plan.frames.front().vulkan;
-        options.device = name;
+        options.device = name, options.centroid = true; // as cheap as the device can
         const Result<std::shared_ptr<VulkanDevice>> device = open_vulkan_device(options);
         if (!device) {
             last = device.error();

@@ -84,7 +84,7 @@ void ForwardPass::bind_native(VkCommandBuffer c, std::size_t material)
 // stages: words of the pass's group, by vertices that are not indexed; otherwise colours.
 void ForwardPass::draw_scene(VkCommandBuffer c, const Specialization& technique, const GpuPass& pass, bool stages)
 {
-    const char* const fragment = stages ? "forward_stages" : context_.features().primitive_id ? "forward_id" : "forward";
+    const char* const fragment = stages ? "forward_stages" : centroid_ ? "forward_centroid" : context_.features().primitive_id ? "forward_id" : "forward";
     vkCmdBindIndexBuffer(c, scene_.ints().handle(), static_cast<VkDeviceSize>(scene_.record().index_base) * sizeof(std::uint32_t), VK_INDEX_TYPE_UINT32);
     for (const Draw& draw : input_.tables.draws) {
         const auto material = static_cast<std::size_t>(draw.material);

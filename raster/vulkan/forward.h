@@ -12,8 +12,8 @@ namespace burnish {
 
 class ForwardPass {
   public:
-    ForwardPass(Context& context, Pipelines& pipelines, GpuScene& scene, const RenderInput& input, VulkanSampler sampler)
-        : context_(context), pipelines_(pipelines), scene_(scene), input_(input), sampler_(sampler)
+    ForwardPass(Context& context, Pipelines& pipelines, GpuScene& scene, const RenderInput& input, const VulkanOptions& options)
+        : context_(context), pipelines_(pipelines), scene_(scene), input_(input), sampler_(options.sampler), centroid_(options.centroid)
     {
     }
     // Makes images and pipelines ready; ExitCode::unavailable where the device does not take so many samples.
@@ -47,6 +47,7 @@ class ForwardPass {
     GpuScene& scene_;
     RenderInput input_;
     VulkanSampler sampler_;
+    bool centroid_;
     std::optional<NativeImages> native_;
     Targets targets_;
 };

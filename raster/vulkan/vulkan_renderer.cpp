@@ -45,7 +45,7 @@ class VulkanRenderer final : public Renderer {
           vertices_(context_, input.tables.px.size() * sizeof(GpuVertex), Buffer::Place::host),
           counts_(context_, input.tables.triangle_count() * sizeof(std::int32_t), Buffer::Place::device),
           draw_(context_, sizeof(GpuDraw), Buffer::Place::host, VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT),
-          forward_(context_, pipelines_, scene_, input, device_->options.sampler)
+          forward_(context_, pipelines_, scene_, input, device_->options)
     {
         make_setups(static_cast<std::uint32_t>(input.tables.triangle_count()) + kMinSetups);
     }

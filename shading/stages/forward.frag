@@ -5,11 +5,18 @@
 #include "shading/stages/shade.glsl"
 #include "shading/stages/pass.glsl"
 
-layout(location = 0) in vec3 normal;
-layout(location = 1) in vec4 tangent;
-layout(location = 2) in vec4 uv;
-layout(location = 3) in vec4 color;
-layout(location = 4) in vec4 position;
+#ifdef BN_CENTROID // the device's own place in partly covered pixels: cheaper, and elsewhere
+#define BN_IN centroid in
+#define BN_AT_POINT(v) v
+#else
+#define BN_IN in
+#define BN_AT_POINT(v) (kMsaa == 1 ? v : interpolateAtOffset(v, offset))
+#endif
+layout(location = 0) BN_IN vec3 normal;
+layout(location = 1) BN_IN vec4 tangent;
+layout(location = 2) BN_IN vec4 uv;
+layout(location = 3) BN_IN vec4 color;
+layout(location = 4) BN_IN vec4 position;
 layout(location = 0) out vec4 radiance;
 layout(constant_id = 6) const int kMsaa = 1;
 
@@ -66,6 +73,9 @@ bool covers_centre(int number, int px, int py)
 // samples; where fragments do not know their triangle, wherever it does not cover them all.
 vec2 shaded_offset(int px, int py)
 {
+#ifdef BN_CENTROID
+    return vec2(0.0);
+#else
     int covered = gl_SampleMaskIn[0];
     if (kMsaa == 1 || covered == (1 << kMsaa) - 1)
         return vec2(0.0);
@@ -79,9 +89,8 @@ vec2 shaded_offset(int px, int py)
     ivec2 mean = mean_of_samples(covered) - 128;
     real2 offset = vec2(mean) * lit(0.00390625);
     return offset;
+#endif
 }
-
-#define BN_AT_POINT(v) (kMsaa == 1 ? v : interpolateAtOffset(v, offset))
 
 visible_point point_of_fragment(int px, int py)
 {
@@ -107,6 +116,12 @@ visible_point point_of_fragment(int px, int py)
     real x = to_real(px) + lit(0.5) + offset.x;
     real y = to_real(py) + lit(0.5) + offset.y;
     p.ray = pixel_ray(x, y, frame.half_width, frame.half_height, frame_view());
+#ifdef BN_CENTROID
+    if (frame.orthographic == 0) {
+        real3 from_eye = p.position - vec3(frame.eye[0], frame.eye[1], frame.eye[2]);
+        p.ray = from_eye;
+    }
+#endif
     return p;
 }
 
