@@ -27,37 +27,49 @@ struct Bench {
     Report& report;
 };
 
-double mean_flip(const Image& reference, const Image& test, const Jobs& jobs)
+// Errors of the pixels; empty where the pictures are equal, or hold what is no number.
+Image flip_map(const Image& reference, const Image& test, const Jobs& jobs)
 {
-    if (reference.bytes == test.bytes)
-        return 0.0;
-    if (not_finite_pixels(reference, test) > 0)
-        return 1.0;
-    return summarise_errors(flip_hdr(reference, test, {}, jobs).error).mean;
+    if (reference.bytes == test.bytes || not_finite_pixels(reference, test) > 0)
+        return {};
+    return flip_hdr(reference, test, {}, jobs).error;
+}
+
+ParityRow named_row(const ParityPlace& place, const RenderOptions& options)
+{
+    ParityRow row;
+    row.scene = place.scene, row.view = place.view, row.technique = options.frame.technique, row.msaa = options.frame.msaa;
+    row.sampler = options.vulkan.sampler == VulkanSampler::exact ? "exact" : "native";
+    row.pipeline = options.vulkan.pipeline == VulkanPipeline::ids ? "ids" : "forward";
+    return row;
+}
+
+ParityRow failed_row(const ParityPlace& place, const RenderOptions& options, const Error& error)
+{
+    ParityRow row = named_row(place, options);
+    row.error = error;
+    return row;
 }
 
 Result<ParityRow> compare(const Bench& bench, const ParityPlace& place, const RenderOptions& options, const View& view, Renderer& tile,
                           Renderer& vulkan)
 {
-    const bool ids = options.vulkan.pipeline == VulkanPipeline::ids;
     FrameDesc desc = options.frame;
     desc.view = view;
     desc.triangle_ids = true;
-    desc.stages = ids;
+    desc.stages = true;
     const Result<Frame> a = tile.render(desc);
     if (!a)
         return a.error();
-    desc.triangle_ids = ids;
     const Result<Frame> b = vulkan.render(desc);
     if (!b)
         return b.error();
-    ParityRow row;
-    row.scene = place.scene, row.view = place.view, row.technique = desc.technique, row.msaa = desc.msaa;
-    row.sampler = options.vulkan.sampler == VulkanSampler::exact ? "exact" : "native";
-    row.pipeline = ids ? "ids" : "forward";
+    ParityRow row = named_row(place, options);
     row.samples_emulated = b->stats.samples_emulated;
-    row.counts = ids ? compare_stages(*a, *b, desc.msaa) : compare_pictures(*a, *b, desc.msaa);
-    row.flip_mean = mean_flip(a->color, b->color, bench.jobs);
+    row.counts = compare_stages(*a, *b, desc.msaa);
+    const Image flip = flip_map(a->color, b->color, bench.jobs);
+    row.flip_mean = flip.bytes.empty() ? row.counts.pixels_differ ? 1.0 : 0.0 : summarise_errors(flip).mean;
+    row.causes = share_causes(pixel_causes(*a, *b, desc.msaa), *a, desc.msaa, flip.bytes.empty() ? nullptr : flip.f32());
     return row;
 }
 
@@ -75,14 +87,15 @@ Status compare_place(const Bench& bench, const ParityPlace& place, ParityReport&
     if (!vulkan)
         return vulkan.error();
     for (const RenderOptions& options : bench.options.frames) {
-        Result<ParityRow> row = compare(bench, place, options, (*scene)->view, *tile, **vulkan);
-        if (!row)
-            return row.error();
-        if (first_difference(row->counts))
-            bench.report.event("differs", describe(*row));
+        Result<ParityRow> compared = compare(bench, place, options, (*scene)->view, *tile, **vulkan);
+        const ParityRow row = compared ? std::move(*compared) : failed_row(place, options, compared.error());
+        if (row.failed())
+            bench.report.event("failed", describe(row));
+        else if (first_difference(row.counts))
+            bench.report.event("differs", describe(row));
         else
-            bench.report.detail("equal", describe(*row));
-        out.rows.push_back(std::move(*row));
+            bench.report.detail("equal", describe(row));
+        out.rows.push_back(row);
     }
     return {};
 }
@@ -117,7 +130,7 @@ int verdict(const ParityReport& parity, Report& report)
                 first = row.scene + ", " + row.technique + ": " + fault;
         }
     if (!passed(parity))
-        return fail(Error{ExitCode::differ, "", "", fmt::format("{} of {} rows are not as promised; {}", faults, parity.rows.size(), first)});
+        return fail(Error{outcome(parity), "", "", fmt::format("{} of {} rows are not as promised; {}", faults, parity.rows.size(), first)});
     report.event("parity", fmt::format("{} rows as promised", parity.rows.size()));
     return 0;
 }
@@ -142,8 +155,11 @@ int run_parity(const ParityArguments& arguments)
     const VulkanDeviceInfo& info = (*device)->info();
     ParityReport parity{info.driver, info.name, info.api, cpu_name(), version(), base.frame.width, base.frame.height, {}};
     for (const ParityPlace& place : options.places)
-        if (const Status done = compare_place(bench, place, parity); !done)
-            return fail(done.error());
+        if (const Status done = compare_place(bench, place, parity); !done) { // no row of it can be compared
+            report.event("failed", done.error().line());
+            for (const RenderOptions& frame : options.frames)
+                parity.rows.push_back(failed_row(place, frame, done.error()));
+        }
     if (const Status written = write_files(options, parity, report); !written)
         return fail(written.error());
     return verdict(parity, report);

@@ -23,7 +23,7 @@ namespace {
 constexpr const char* kFooter =
     R"(The tile renderer and each device draw the same frame in turn, warm; the device by the classical pipeline with its own samplers, timed
 from submission to the fence. The ratio is of the process' CPU time, device over tile: above 1 the tile renderer needs less. A frame that
-differs (mean FLIP above 0.01) is marked and counts for nothing.
+differs (mean FLIP above 0.01) is marked and counts for nothing. A row that fails is reported, and its exit code given at the end.
 
 Examples:
   burnish race
@@ -86,6 +86,13 @@ Result<RaceRow> race(Renderer& tile, Renderer& device, const FrameDesc& desc, in
     return row;
 }
 
+RaceRow failed_row(const FrameDesc& desc, const Error& error)
+{
+    RaceRow row;
+    row.technique = desc.technique, row.samples = desc.samples, row.msaa = desc.msaa, row.error = error.line();
+    return row;
+}
+
 // Every frame to be raced, with its scene.
 struct RacePlan {
     std::vector<RenderOptions> frames; // by scene, technique, msaa
@@ -104,6 +111,8 @@ Result<RacePlan> check(const RaceArguments& in)
     for (const std::string& scene : in.scenes.empty() ? std::vector<std::string>{"builtin:teapot"} : in.scenes)
         for (const std::string& technique : *techniques)
             for (const std::string& msaa : split(in.msaa, ',')) {
+                if (msaa.empty())
+                    return usage_error("--msaa", "holds an empty entry");
                 arguments.plain.scene = scene, arguments.technique = technique, arguments.msaa = msaa;
                 const Result<RenderOptions> checked = check_render_options(arguments);
                 if (!checked)
@@ -111,13 +120,17 @@ Result<RacePlan> check(const RaceArguments& in)
                 plan.frames.push_back(*checked);
             }
     plan.devices = split(in.devices, ',');
+    for (const std::string& device : plan.devices)
+        if (device.empty())
+            return usage_error("--devices", "holds an empty name");
     const Result<std::int64_t> runs = parse_integer("--runs", in.runs, 1, 10000);
     if (!runs)
         return runs.error();
     plan.runs = static_cast<int>(*runs);
-    if (!in.json.empty())
-        if (const Status writable = check_text_path("--json", in.json, in.scenes); !writable)
-            return writable.error();
+    std::vector<std::string> inputs = in.scenes;
+    inputs.push_back(in.render.plain.env);
+    if (const Status writable = check_outputs({}, {{"--json", in.json}}, inputs); !writable)
+        return writable.error();
     return plan;
 }
 
@@ -127,7 +140,7 @@ std::vector<std::shared_ptr<VulkanDevice>> open_devices(const RacePlan& plan, Ra
     std::vector<std::shared_ptr<VulkanDevice>> devices;
     for (const std::string& name : plan.devices) {
         VulkanOptions options = plan.frames.front().vulkan;
-        options.device = name;
+        options.device = name, options.centroid = true; // as cheap as the device can
         const Result<std::shared_ptr<VulkanDevice>> device = open_vulkan_device(options);
         if (!device) {
             last = device.error();
@@ -140,6 +153,53 @@ std::vector<std::shared_ptr<VulkanDevice>> open_devices(const RacePlan& plan, Ra
                                    "varies inside a quad");
     }
     return devices;
+}
+
+// What all scenes share.
+struct Race {
+    const RacePlan& plan;
+    const std::vector<std::shared_ptr<VulkanDevice>>& devices;
+    const Environment& environment;
+    const DfgTable& dfg;
+    const Jobs& jobs;
+    Report& report;
+    RaceReport& out;
+    Error first_error; // what a row failed of, 77 only where nothing worse; the others are raced nevertheless
+};
+
+void add_row(Race& bench, const RenderOptions& frame, std::size_t device, const Result<RaceRow>& raced)
+{
+    RaceRow row = raced ? *raced : failed_row(frame.frame, raced.error());
+    if (!raced && (bench.first_error.code == ExitCode::ok || bench.first_error.code == ExitCode::unavailable))
+        bench.first_error = raced.error();
+    row.scene = frame.scene, row.device = bench.devices[device]->info().name;
+    const std::string outcome = raced ? fmt::format("{:.2f}", row.ratio()) : row.error;
+    bench.report.detail("row", fmt::format("{} {} {}x {}: {}", row.scene, row.technique, row.msaa, row.device, outcome));
+    bench.out.rows.push_back(row);
+}
+
+// Frames first to last - 1 of the plan, which are of one scene.
+void race_scene(Race& bench, std::size_t first, std::size_t last)
+{
+    const std::vector<RenderOptions>& frames = bench.plan.frames;
+    const Result<std::unique_ptr<LoadedScene>> scene = load_seen_scene(frames[first].scene, frames[first], bench.report);
+    if (!scene) {
+        for (std::size_t i = first; i < last; ++i)
+            for (std::size_t d = 0; d < bench.devices.size(); ++d)
+                add_row(bench, frames[i], d, scene.error());
+        return;
+    }
+    const RenderInput input{(*scene)->scene, (*scene)->tables, bench.environment, bench.dfg, bench.jobs};
+    const std::unique_ptr<Renderer> tile = make_tile_renderer(input, frames[first].isa);
+    std::vector<Result<std::unique_ptr<Renderer>>> renderers;
+    for (const auto& device : bench.devices)
+        renderers.push_back(make_vulkan_renderer(input, device));
+    for (std::size_t i = first; i < last; ++i)
+        for (std::size_t d = 0; d < bench.devices.size(); ++d) {
+            FrameDesc desc = frames[i].frame;
+            desc.view = (*scene)->view;
+            add_row(bench, frames[i], d, renderers[d] ? race(*tile, **renderers[d], desc, bench.plan.runs, bench.jobs) : Result<RaceRow>(renderers[d].error()));
+        }
 }
 
 int run_race(const RaceArguments& arguments)
@@ -160,38 +220,19 @@ int run_race(const RaceArguments& arguments)
         return fail(environment.error());
     const DfgTable dfg = bake_dfg(kDfgSize, kDfgSamples, jobs);
     report.release();
+    Race bench{*checked, devices, *environment, dfg, jobs, report, out, Error{ExitCode::ok, "", "", ""}};
     for (std::size_t i = 0; i < checked->frames.size();) {
-        const std::string& name = checked->frames[i].scene;
-        const Result<std::unique_ptr<LoadedScene>> scene = load_seen_scene(name, checked->frames[i], report);
-        if (!scene)
-            return fail(scene.error());
-        const RenderInput input{(*scene)->scene, (*scene)->tables, *environment, dfg, jobs};
-        const std::unique_ptr<Renderer> tile = make_tile_renderer(input, base.isa);
-        std::vector<std::unique_ptr<Renderer>> renderers;
-        for (const auto& device : devices) {
-            Result<std::unique_ptr<Renderer>> made = make_vulkan_renderer(input, device);
-            if (!made)
-                return fail(made.error());
-            renderers.push_back(std::move(*made));
-        }
-        for (; i < checked->frames.size() && checked->frames[i].scene == name; ++i)
-            for (std::size_t d = 0; d < devices.size(); ++d) {
-                FrameDesc desc = checked->frames[i].frame;
-                desc.view = (*scene)->view;
-                Result<RaceRow> row = race(*tile, *renderers[d], desc, checked->runs, jobs);
-                if (!row)
-                    return fail(row.error());
-                row->scene = name, row->device = devices[d]->info().name;
-                report.detail("row", fmt::format("{} {} {}x {}: {:.2f}", name, row->technique, row->msaa, row->device, row->ratio()));
-                out.rows.push_back(*row);
-            }
+        const std::size_t first = i;
+        while (i < checked->frames.size() && checked->frames[i].scene == checked->frames[first].scene)
+            ++i;
+        race_scene(bench, first, i);
     }
     if (!base.quiet)
         std::fputs(race_table(out).c_str(), stderr);
-    if (arguments.json.empty())
-        return 0;
-    const Status written = write_text(arguments.json, race_json(out));
-    return written ? 0 : fail(written.error());
+    if (!arguments.json.empty())
+        if (const Status written = write_text(arguments.json, race_json(out)); !written)
+            return fail(written.error());
+    return bench.first_error.code == ExitCode::ok ? 0 : fail(bench.first_error);
 }
 
 } // namespace

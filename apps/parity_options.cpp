@@ -16,7 +16,8 @@ namespace {
 constexpr const char* kFooter =
     R"(Renders with the tile renderer and with Vulkan, and compares words: clip positions, visibility (the triangle of each sample), depth,
 interpolants, material inputs, shaded colour, resolved colour; what follows visibility where visibility agrees. With the exact sampler no
-word may differ but visibility, of which one sample in a million may; pictures of --pipeline forward must look the same (mean FLIP below 0.002).
+word may differ but visibility, of which one sample in a million may; pictures of --pipeline forward must look the same (mean FLIP below 0.002),
+and every pixel that differs is put down to the first stage that differs by more than a thousandth, or to rounding.
 
 Examples:
   burnish parity
@@ -24,7 +25,7 @@ Examples:
   burnish parity --suite default --models models --junit parity.xml --json parity.json --html parity.html
   burnish parity --pipeline forward --sampler native --msaa 4
 
-Exit codes: 0 as promised, 1 not as promised, 77 no such device or no Vulkan.)";
+Exit codes: 0 as promised, 1 not as promised, 77 no such device, sample count or Vulkan; a row that fails otherwise: its code, at the end.)";
 
 constexpr const char* kUsualSize = "128x72", *kUsualMsaa = "1,4,8";
 
@@ -154,6 +155,8 @@ Result<ParityOptions> check_parity_options(const ParityArguments& in)
         arguments.size = kUsualSize;
     for (const std::string& technique : *techniques)
         for (const std::string& msaa : split(in.msaa.empty() ? kUsualMsaa : in.msaa, ',')) {
+            if (msaa.empty())
+                return usage_error("--msaa", "holds an empty entry");
             arguments.technique = technique, arguments.msaa = msaa;
             for (const ParityPlace& place : out.places) {
                 arguments.plain.scene = place.scene;
@@ -166,7 +169,10 @@ Result<ParityOptions> check_parity_options(const ParityArguments& in)
             out.frames.back().vulkan.prefer_cpu = true;
             out.frames.back().vulkan.shader_folder = in.shaders;
         }
-    if (const Status writable = check_outputs({}, {{"--json", out.json}, {"--junit", out.junit}, {"--html", out.html}}, in.scenes); !writable)
+    std::vector<std::string> inputs = {in.render.plain.env};
+    for (const ParityPlace& place : out.places)
+        inputs.push_back(place.scene);
+    if (const Status writable = check_outputs({}, {{"--json", out.json}, {"--junit", out.junit}, {"--html", out.html}}, inputs); !writable)
         return writable.error();
     return out;
 }

@@ -44,6 +44,35 @@ std::vector<Total> totals(const ParityReport& report)
     return sums;
 }
 
+const char* name_of(const CauseShare& c) { return kPixelCauseNames[static_cast<int>(c.cause)]; }
+
+// Of all rows: pixels summed, FLIP averaged over the rows. Without the pixels that are equal, which FLIP shows beside others.
+std::vector<CauseShare> total_causes(const ParityReport& report)
+{
+    CauseShare sums[kPixelCauses];
+    const auto compared = std::count_if(report.rows.begin(), report.rows.end(), [](const ParityRow& row) { return !row.failed(); });
+    for (const ParityRow& row : report.rows)
+        for (const CauseShare& c : row.causes) {
+            CauseShare& sum = sums[static_cast<int>(c.cause)];
+            sum.cause = c.cause, sum.pixels += c.pixels, sum.edge_pixels += c.edge_pixels;
+            sum.flip += c.flip / static_cast<double>(compared);
+        }
+    std::vector<CauseShare> present;
+    for (const CauseShare& sum : sums)
+        if (sum.cause != PixelCause::none && sum.pixels)
+            present.push_back(sum);
+    return present;
+}
+
+std::string causes_text(const ParityRow& row)
+{
+    std::string text;
+    for (const CauseShare& c : row.causes)
+        if (c.cause != PixelCause::none)
+            text += fmt::format("{}{} {} (FLIP {:.2g})", text.empty() ? "" : ", ", c.pixels, name_of(c), c.flip);
+    return text;
+}
+
 constexpr const char* kStyle = R"(
 :root { color-scheme: light dark; }
 body { font: 15px/1.5 system-ui, sans-serif; margin: 1.5rem auto; padding: 0 1rem; max-width: 90rem; }
@@ -61,6 +90,8 @@ bool bits_promised(const ParityRow& row) { return row.sampler == "exact" && row.
 
 std::string fault_of(const ParityRow& row)
 {
+    if (row.failed())
+        return row.error.line();
     if (!bits_promised(row))
         return row.flip_mean < kMaxFlipMean ? "" : fmt::format("mean FLIP {:.3g}, not below {}", row.flip_mean, kMaxFlipMean);
     for (const ParityStage& stage : row.counts.stages)
@@ -87,8 +118,22 @@ bool passed(const ParityReport& report)
            std::all_of(report.rows.begin(), report.rows.end(), [](const ParityRow& row) { return fault_of(row).empty(); });
 }
 
+ExitCode outcome(const ParityReport& report)
+{
+    const auto differs = [](const ParityRow& row) { return !row.failed() && !fault_of(row).empty(); };
+    if (!visibility_fault(report).empty() || std::any_of(report.rows.begin(), report.rows.end(), differs))
+        return ExitCode::differ;
+    ExitCode code = ExitCode::ok;
+    for (const ParityRow& row : report.rows)
+        if (row.failed() && (code == ExitCode::ok || code == ExitCode::unavailable))
+            code = row.error.code;
+    return code;
+}
+
 std::string describe(const ParityRow& row)
 {
+    if (row.failed())
+        return row_name(row) + ": " + row.error.line();
     const ParityCounts& c = row.counts;
     std::string text = row_name(row) + (row.samples_emulated ? ", samples emulated" : "") + ": ";
     const ParityStage* first = first_difference(c);
@@ -98,7 +143,8 @@ std::string describe(const ParityRow& row)
                         place_of(*first));
     if (c.visibility_differ)
         text += fmt::format("; {} of {} samples show another triangle", c.visibility_differ, c.samples);
-    return text + fmt::format("; {} pixels differ, {} of them at edges; mean FLIP {:.3g}", c.pixels_differ, c.edge_pixels_differ, row.flip_mean);
+    return text + fmt::format("; {} pixels differ, {} of them at edges, by {}; mean FLIP {:.3g}", c.pixels_differ, c.edge_pixels_differ, causes_text(row),
+                              row.flip_mean);
 }
 
 std::string stage_table(const ParityReport& report)
@@ -107,6 +153,12 @@ std::string stage_table(const ParityReport& report)
     for (const Total& t : totals(report))
         text += fmt::format("{:<16} {:>14} {:>12} {:>12}  {}\n", t.stage.name, t.stage.values, t.stage.words_differ, t.stage.max_ulp,
                             t.worst ? row_name(*t.worst) + place_of(t.stage) : "-");
+    const std::vector<CauseShare> causes = total_causes(report);
+    if (causes.empty())
+        return text;
+    text += fmt::format("\n{:<16} {:>14} {:>12} {:>12}\n", "pixels differ by", "pixels", "at edges", "mean FLIP");
+    for (const CauseShare& c : causes)
+        text += fmt::format("{:<16} {:>14} {:>12} {:>12.2g}\n", name_of(c), c.pixels, c.edge_pixels, c.flip);
     return text;
 }
 
@@ -137,6 +189,10 @@ std::string parity_json(const ParityReport& report)
         const ParityStage* first = first_difference(row.counts);
         r["first_difference"] = first ? nlohmann::ordered_json(first->name) : nlohmann::ordered_json(nullptr);
         r["flip_mean"] = row.flip_mean;
+        r["causes"] = nlohmann::ordered_json::array();
+        for (const CauseShare& c : row.causes)
+            r["causes"].push_back({{"stage", name_of(c)}, {"pixels", c.pixels}, {"edge_pixels", c.edge_pixels}, {"flip", c.flip}});
+        r["error"] = row.failed() ? nlohmann::ordered_json(row.error.line()) : nlohmann::ordered_json(nullptr);
         json["rows"].push_back(r);
     }
     return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
@@ -163,7 +219,13 @@ std::string parity_junit(const ParityReport& report)
 
 std::string parity_html(const ParityReport& report)
 {
-    std::string stages, rows;
+    std::string stages, rows, causes;
+    for (const CauseShare& c : total_causes(report))
+        causes += fmt::format("<tr><td>{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td><td class=\"n\">{:.2g}</td></tr>\n", name_of(c), c.pixels,
+                              c.edge_pixels, c.flip);
+    if (!causes.empty())
+        causes = "<div class=\"scroll\"><table><tr><th>pixels differ first by</th><th>pixels</th><th>at edges</th><th>mean FLIP</th></tr>\n" + causes +
+                 "</table></div>\n";
     for (const Total& t : totals(report))
         stages += fmt::format("<tr{}><td>{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td><td>{}</td></tr>\n",
                               t.stage.equal() ? "" : " class=\"bad\"", t.stage.name, t.stage.values, t.stage.words_differ, t.stage.max_ulp,
@@ -171,18 +233,18 @@ std::string parity_html(const ParityReport& report)
     for (const ParityRow& row : report.rows) {
         const ParityStage* first = first_difference(row.counts);
         rows += fmt::format("<tr{}><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td class=\"n\">{}{}</td><td class=\"n\">{}</td>"
-                            "<td class=\"n\">{}</td><td>{}</td><td class=\"n\">{:.3g}</td></tr>\n",
+                            "<td class=\"n\">{}</td><td>{}</td><td>{}</td><td class=\"n\">{:.3g}</td></tr>\n",
                             fault_of(row).empty() ? "" : " class=\"bad\"", escaped(row.scene), escaped(row.view), row.technique,
                             row.sampler + ", " + row.pipeline, row.msaa, row.samples_emulated ? " (emulated)" : "",
-                            row.counts.samples, row.counts.visibility_differ, first ? first->name : "none", row.flip_mean);
+                            row.counts.samples, row.counts.visibility_differ, row.failed() ? escaped(row.error.line()) : first ? first->name : "none", causes_text(row), row.flip_mean);
     }
     return fmt::format("<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" content=\"width=device-width\">\n"
                        "<title>burnish parity</title><style>{}</style></head><body>\n<h1>Parity: {}</h1>\n<p>{}, {}, Vulkan {}; {}; burnish {}; {}x{} "
-                       "pixels, {} rows.</p>\n<div class=\"scroll\"><table><tr><th>stage</th><th>values</th><th>differ</th><th>max ulp</th><th>worst</th></tr>\n{}</table></div>\n"
+                       "pixels, {} rows.</p>\n<div class=\"scroll\"><table><tr><th>stage</th><th>values</th><th>differ</th><th>max ulp</th><th>worst</th></tr>\n{}</table></div>\n{}"
                        "<div class=\"scroll\"><table><tr><th>scene</th><th>view</th><th>technique</th><th>sampler, pipeline</th><th>msaa</th><th>samples</th>"
-                       "<th>other triangle</th><th>first difference</th><th>mean FLIP</th></tr>\n{}</table></div>\n</body></html>\n",
+                       "<th>other triangle</th><th>first difference</th><th>pixels differ first by</th><th>mean FLIP</th></tr>\n{}</table></div>\n</body></html>\n",
                        kStyle, passed(report) ? "as promised" : "not as promised", escaped(report.device), escaped(report.driver), report.api,
-                       escaped(report.processor), report.version, report.width, report.height, report.rows.size(), stages, rows);
+                       escaped(report.processor), report.version, report.width, report.height, report.rows.size(), stages, causes, rows);
 }
 
 } // namespace burnish

@@ -14,6 +14,9 @@ struct ParityRow {
     bool samples_emulated = false;
     ParityCounts counts;
     double flip_mean = 0.0;
+    std::vector<CauseShare> causes; // of the pixels that differ
+    Error error{ExitCode::ok, "", "", ""}; // other than ok: nothing was compared, and why
+    bool failed() const { return error.code != ExitCode::ok; }
 };
 
 struct ParityReport {
@@ -30,6 +33,9 @@ std::string fault_of(const ParityRow& row); // empty: as promised, visibility as
 // Of all rows together: empty, or what is wrong.
 std::string visibility_fault(const ParityReport& report);
 bool passed(const ParityReport& report);
+// 0 where all is as promised; otherwise 1 where any row differs, or what the first row that could not be compared ends with
+// (77 only where nothing worse does).
+ExitCode outcome(const ParityReport& report);
 
 std::string describe(const ParityRow& row);        // one line
 std::string stage_table(const ParityReport& report); // sums over all rows, a line a stage

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstring>
 
 #include "core/base/check.h"
@@ -47,6 +48,12 @@ class StageCounter {
 
 std::uint32_t mask_at(const Frame& f, std::size_t sample) { return f.stages.pairs[sample * kPairWords]; }
 
+// Whether both have a pair that begins at this sample, of the same triangle and the same samples.
+bool same_pair(const Frame& a, const Frame& b, std::size_t sample)
+{
+    return mask_at(a, sample) != 0 && mask_at(a, sample) == mask_at(b, sample) && a.triangle_ids[sample] == b.triangle_ids[sample];
+}
+
 // Whether the samples of a pixel show the same pairs: the same triangles, shared by samples in the same way.
 bool same_pairs(const Frame& a, const Frame& b, std::size_t pixel, std::size_t msaa)
 {
@@ -75,6 +82,42 @@ void count_pixel_differences(const Frame& tile, const Frame& other, std::size_t 
     }
 }
 
+// Of a vector, against its largest component in either.
+bool beyond_rounding(const std::uint32_t* a, const std::uint32_t* b, int words)
+{
+    double largest = 0.0, difference = 0.0;
+    for (int i = 0; i < words; ++i) {
+        const double x = static_cast<double>(std::bit_cast<float>(a[i])), y = static_cast<double>(std::bit_cast<float>(b[i]));
+        if (!std::isfinite(x) || !std::isfinite(y))
+            return a[i] != b[i];
+        largest = std::max({largest, std::abs(x), std::abs(y)});
+        difference = std::max(difference, std::abs(x - y));
+    }
+    return difference > kRounding * largest;
+}
+
+// Components of the vectors that a pair's words are (raster/frame/frame.h).
+constexpr int kInterpolantVectors[] = {3, 3, 1, 4, 2, 2, 2, 2, 2, 2, 1, 3, 3}, kMaterialVectors[] = {3, 1, 1, 1, 1, 3, 3, 3, 1, 3, 3};
+
+template <std::size_t N> bool any_beyond_rounding(const int (&vectors)[N], const std::uint32_t* a, const std::uint32_t* b)
+{
+    for (int words : vectors) {
+        if (beyond_rounding(a, b, words))
+            return true;
+        a += words, b += words;
+    }
+    return false;
+}
+
+PixelCause pair_cause(const std::uint32_t* a, const std::uint32_t* b)
+{
+    if (any_beyond_rounding(kInterpolantVectors, a + 1, b + 1))
+        return PixelCause::interpolants;
+    if (any_beyond_rounding(kMaterialVectors, a + 1 + kInterpolantWords, b + 1 + kInterpolantWords))
+        return PixelCause::material;
+    return beyond_rounding(a + kPairWords - 3, b + kPairWords - 3, 3) ? PixelCause::shaded : PixelCause::rounding;
+}
+
 } // namespace
 
 std::uint64_t ulp_distance(std::uint32_t a, std::uint32_t b)
@@ -87,12 +130,11 @@ ParityCounts compare_stages(const Frame& tile, const Frame& other, int msaa)
 {
     BN_CHECK_OP(tile.triangle_ids.size(), ==, other.triangle_ids.size());
     BN_CHECK_OP(tile.stages.pairs.size(), ==, other.stages.pairs.size());
-    BN_CHECK_OP(tile.stages.vertices.size(), ==, other.stages.vertices.size());
     const std::size_t n = static_cast<std::size_t>(msaa), pixels = tile.triangle_ids.size() / n;
     const int width = tile.color.width;
     StageCounter clip("clip positions", 0), visibility(kVisibilityStage, width), depth("depth", width), interpolants("interpolants", width),
         material("material inputs", width), shaded("shaded colour", width), resolved("resolved colour", width);
-    for (std::size_t i = 0; i < tile.stages.vertices.size(); ++i)
+    for (std::size_t i = 0; i < std::min(tile.stages.vertices.size(), other.stages.vertices.size()); ++i)
         clip.add(tile.stages.vertices[i], other.stages.vertices[i], 0);
     ParityCounts out;
     out.samples = tile.triangle_ids.size();
@@ -111,10 +153,8 @@ ParityCounts compare_stages(const Frame& tile, const Frame& other, int msaa)
             differ = 1;
         }
         out.visibility_differ += differ;
-        if (!same)
-            continue;
         for (std::size_t s = p * n; s < (p + 1) * n; ++s) {
-            if (!mask_at(tile, s))
+            if (!same_pair(tile, other, s))
                 continue;
             const std::uint32_t *a = tile.stages.pairs.data() + s * kPairWords, *b = other.stages.pairs.data() + s * kPairWords;
             if (tile.triangle_ids[s] != kNoTriangle) {
@@ -123,7 +163,8 @@ ParityCounts compare_stages(const Frame& tile, const Frame& other, int msaa)
             }
             shaded.add(a + kPairWords - 3, b + kPairWords - 3, 3, p);
         }
-        resolved.add(color_words(tile, p), color_words(other, p), 3, p);
+        if (same)
+            resolved.add(color_words(tile, p), color_words(other, p), 3, p);
     }
     for (const StageCounter* c : {&clip, &visibility, &depth, &interpolants, &material, &shaded, &resolved})
         out.stages.push_back(c->stage());
@@ -131,17 +172,42 @@ ParityCounts compare_stages(const Frame& tile, const Frame& other, int msaa)
     return out;
 }
 
-ParityCounts compare_pictures(const Frame& tile, const Frame& other, int msaa)
+std::vector<PixelCause> pixel_causes(const Frame& tile, const Frame& other, int msaa)
 {
     const std::size_t n = static_cast<std::size_t>(msaa), pixels = tile.triangle_ids.size() / n;
-    StageCounter resolved("resolved colour", tile.color.width);
-    for (std::size_t p = 0; p < pixels; ++p)
-        resolved.add(color_words(tile, p), color_words(other, p), 3, p);
-    ParityCounts out;
-    out.samples = tile.triangle_ids.size();
-    out.stages.push_back(resolved.stage());
-    count_pixel_differences(tile, other, n, out);
-    return out;
+    std::vector<PixelCause> causes(pixels, PixelCause::none);
+    for (std::size_t p = 0; p < pixels; ++p) {
+        if (std::memcmp(color_words(tile, p), color_words(other, p), 3 * sizeof(float)) == 0)
+            continue;
+        if (!same_pairs(tile, other, p, n)) {
+            causes[p] = PixelCause::visibility;
+            continue;
+        }
+        PixelCause first = beyond_rounding(color_words(tile, p), color_words(other, p), 3) ? PixelCause::resolved : PixelCause::rounding;
+        for (std::size_t s = p * n; s < (p + 1) * n; ++s)
+            if (mask_at(tile, s))
+                first = std::min(first, pair_cause(tile.stages.pairs.data() + s * kPairWords, other.stages.pairs.data() + s * kPairWords));
+        causes[p] = first;
+    }
+    return causes;
+}
+
+std::vector<CauseShare> share_causes(const std::vector<PixelCause>& causes, const Frame& tile, int msaa, const float* flip)
+{
+    CauseShare sums[kPixelCauses];
+    for (std::size_t p = 0; p < causes.size(); ++p) {
+        CauseShare& sum = sums[static_cast<int>(causes[p])];
+        ++sum.pixels;
+        sum.edge_pixels += several_triangles(tile, p, static_cast<std::size_t>(msaa));
+        sum.flip += flip ? static_cast<double>(flip[p]) / static_cast<double>(causes.size()) : 0.0;
+    }
+    std::vector<CauseShare> shares;
+    for (int i = 0; i < kPixelCauses; ++i) {
+        sums[i].cause = static_cast<PixelCause>(i);
+        if (sums[i].pixels)
+            shares.push_back(sums[i]);
+    }
+    return shares;
 }
 
 const ParityStage* first_difference(const ParityCounts& counts)

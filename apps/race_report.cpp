@@ -6,7 +6,7 @@
 
 namespace burnish {
 
-bool same_picture(const RaceRow& row) { return row.flip_mean <= kMaxRaceFlip; }
+bool same_picture(const RaceRow& row) { return row.error.empty() && row.flip_mean <= kMaxRaceFlip; }
 
 double geomean_ratio(const RaceReport& report)
 {
@@ -22,10 +22,15 @@ std::string race_table(const RaceReport& report)
 {
     std::string text = fmt::format("{:<18} {:<20} {:>7} {:>5} {:<34} {:>9} {:>10} {:>9} {:>10} {:>6} {:>9}\n", "scene", "technique", "samples", "msaa",
                                    "device", "tile cpu", "device cpu", "tile ms", "device ms", "ratio", "FLIP");
-    for (const RaceRow& row : report.rows)
+    for (const RaceRow& row : report.rows) {
+        if (!row.error.empty()) {
+            text += fmt::format("{:<18} {:<20} {:>7} {:>5} {:<34} {}\n", row.scene, row.technique, row.samples, row.msaa, row.device, row.error);
+            continue;
+        }
         text += fmt::format("{:<18} {:<20} {:>7} {:>5} {:<34} {:>9.2f} {:>10.2f} {:>9.2f} {:>10.2f} {:>6.2f} {:>9.2g}{}\n", row.scene, row.technique,
                             row.samples, row.msaa, row.device, row.tile_cpu_ms, row.device_cpu_ms, row.tile_ms, row.device_ms, row.ratio(),
                             row.flip_mean, same_picture(row) ? "" : "  another picture");
+    }
     if (const double mean = geomean_ratio(report); mean > 0.0)
         text += fmt::format("device CPU time over tile CPU time, geometric mean of the rows with the same picture: {:.2f}\n", mean);
     for (const std::string& note : report.notes)
@@ -43,6 +48,11 @@ std::string race_json(const RaceReport& report)
     for (const RaceRow& row : report.rows) {
         nlohmann::ordered_json r;
         r["scene"] = row.scene, r["technique"] = row.technique, r["samples"] = row.samples, r["msaa"] = row.msaa, r["device"] = row.device;
+        r["error"] = row.error.empty() ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(row.error);
+        if (!row.error.empty()) { // no figures
+            json["rows"].push_back(r);
+            continue;
+        }
         r["tile_ms"] = row.tile_ms, r["device_ms"] = row.device_ms, r["tile_cpu_ms"] = row.tile_cpu_ms, r["device_cpu_ms"] = row.device_cpu_ms;
         r["ratio"] = row.ratio(), r["flip_mean"] = row.flip_mean, r["same_picture"] = same_picture(row);
         json["rows"].push_back(r);

@@ -11,6 +11,7 @@ struct RaceRow {
     double tile_ms = 0.0, device_ms = 0.0;         // medians of wall time
     double tile_cpu_ms = 0.0, device_cpu_ms = 0.0; // medians of the process' CPU time
     double flip_mean = 0.0;                        // of the device's picture against the tile renderer's
+    std::string error;                             // not empty: nothing was timed, and why
     double ratio() const { return device_cpu_ms / tile_cpu_ms; }
 };
 

@@ -1,6 +1,6 @@
 // What a tile's samples, vertices and fragments went through, for comparisons with other renderers (StageRecords in raster/frame/frame.h).
-// Interpolants and material inputs are computed once more, a fragment at a time, by the functions that shading calls; depths and colours
-// are those that were drawn.
+// Interpolants and material inputs are not those that were used: they are computed once more, a fragment at a time, by the functions that
+// shading calls, so a fault in how shading fills its lanes shows in the colours first. Depths and colours are those that were drawn.
 #pragma once
 #include "raster/frame/frame.h"
 #include "raster/tile/fragment.h"

@@ -181,7 +181,8 @@ Context::Context(const VulkanOptions& options) : Context()
 Context::~Context()
 {
     if (device_) {
-        save_cache();
+        if (cache_)
+            save_cache();
         vkDestroyPipelineCache(device_, cache_, nullptr);
         vkDestroyFence(device_, fence_, nullptr);
         vkDestroyCommandPool(device_, pool_, nullptr);
@@ -240,9 +241,10 @@ void Context::make_device()
     vkGetPhysicalDeviceFeatures(physical_, &f);
     features_.float64 = f.shaderFloat64;
     features_.standard_samples = p.limits.standardSampleLocations;
-    features_.anisotropy = f.samplerAnisotropy;
-    features_.max_anisotropy = p.limits.maxSamplerAnisotropy;
+    features_.primitive_id = f.geometryShader; // comes with it
     features_.max_viewport = static_cast<int>(std::min(p.limits.maxViewportDimensions[0], p.limits.maxViewportDimensions[1]));
+    features_.max_image = p.limits.maxImageDimension2D, features_.max_framebuffer_width = p.limits.maxFramebufferWidth;
+    features_.max_index = p.limits.maxDrawIndexedIndexValue;
     features_.max_buffer = p.limits.maxStorageBufferRange;
     features_.target_samples = p.limits.framebufferColorSampleCounts & p.limits.framebufferDepthSampleCounts &
                                p.limits.sampledImageColorSampleCounts & p.limits.sampledImageDepthSampleCounts;
@@ -266,8 +268,8 @@ void Context::make_device()
     f12.bufferDeviceAddress = VK_TRUE;
     auto wanted = vk_struct<VkPhysicalDeviceFeatures2>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, &f12);
     wanted.features.sampleRateShading = VK_TRUE;
+    wanted.features.geometryShader = f.geometryShader;
     wanted.features.shaderFloat64 = f.shaderFloat64;
-    wanted.features.samplerAnisotropy = f.samplerAnisotropy;
     auto info = vk_struct<VkDeviceCreateInfo>(VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO, &wanted);
     info.queueCreateInfoCount = 1, info.pQueueCreateInfos = &queue;
     BN_VK(vkCreateDevice(physical_, &info, nullptr, &device_));
@@ -283,7 +285,18 @@ void Context::make_device()
     BN_VK(vkCreateFence(device_, &fence, nullptr, &fence_));
 }
 
-// One file a device and driver; the driver itself refuses data that is not its own.
+// Whether it begins as this device's caches do (VkPipelineCacheHeaderVersionOne); not every driver looks.
+static bool is_cache_of(const VkPhysicalDeviceProperties& p, const std::vector<std::uint8_t>& bytes)
+{
+    VkPipelineCacheHeaderVersionOne header;
+    if (bytes.size() < sizeof header)
+        return false;
+    std::memcpy(&header, bytes.data(), sizeof header);
+    return header.headerSize >= sizeof header && header.headerVersion == VK_PIPELINE_CACHE_HEADER_VERSION_ONE && header.vendorID == p.vendorID &&
+           header.deviceID == p.deviceID && std::equal(std::begin(header.pipelineCacheUUID), std::end(header.pipelineCacheUUID), p.pipelineCacheUUID);
+}
+
+// One file a device and driver.
 void Context::load_cache()
 {
     const std::string folder = cache_folder();
@@ -298,11 +311,12 @@ void Context::load_cache()
     if (!std::filesystem::exists(cache_path_, ignored))
         return;
     const Result<std::vector<std::uint8_t>> bytes = read_file(cache_path_, 256u << 20);
-    if (!bytes)
+    if (!bytes || !is_cache_of(p, *bytes))
         return;
     info.initialDataSize = bytes->size(), info.pInitialData = bytes->data();
     if (vkCreatePipelineCache(device_, &info, nullptr, &cache_) != VK_SUCCESS)
         cache_ = VK_NULL_HANDLE;
+    cache_loaded_ = cache_ != VK_NULL_HANDLE;
 }
 
 void Context::save_cache() const

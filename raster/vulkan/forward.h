@@ -1,7 +1,9 @@
-// The classical pipeline: fragments shaded as they are rasterized, multisampled, resolved by the device.
+// The classical pipeline: fragments shaded as they are rasterized, multisampled, resolved by the device. Where a triangle covers only some of
+// a pixel's samples it is shaded at their mean, as by the tile renderer, though of all samples that it covers, hidden ones too.
 #pragma once
 #include <optional>
 
+#include "raster/vulkan/bands.h"
 #include "raster/vulkan/gpu_scene.h"
 #include "raster/vulkan/native_images.h"
 #include "raster/vulkan/pipelines.h"
@@ -10,20 +12,34 @@ namespace burnish {
 
 class ForwardPass {
   public:
-    ForwardPass(Context& context, Pipelines& pipelines, GpuScene& scene, const RenderInput& input, VulkanSampler sampler)
-        : context_(context), pipelines_(pipelines), scene_(scene), input_(input), sampler_(sampler)
+    ForwardPass(Context& context, Pipelines& pipelines, GpuScene& scene, const RenderInput& input, const VulkanOptions& options)
+        : context_(context), pipelines_(pipelines), scene_(scene), input_(input), sampler_(options.sampler), centroid_(options.centroid)
     {
     }
     // Makes images and pipelines ready; ExitCode::unavailable where the device does not take so many samples.
-    void prepare(const FrameDesc& desc);
-    void draw(VkCommandBuffer c, const FrameDesc& desc, const Specialization& technique);
-    void read(VkCommandBuffer c); // the resolved picture to pixels()
-    const float* pixels() const { return pixels_.as<float>(); } // RGBA
+    void prepare(const FrameDesc& desc, std::size_t band_bytes);
+    int rows() const { return targets_.rows; } // of a band
+    void draw(VkCommandBuffer c, const Specialization& technique, const Band& band);
+    void read(const Band& band, Frame& frame); // the resolved picture
+    // After draw and read, with FrameDesc::stages: what the band's samples went through. The scene is drawn again once for every four words
+    // of a fragment, by the same vertices and the same rules, with the triangle's number beside them.
+    void record(const FrameDesc& desc, const Band& band, Frame& frame);
 
   private:
-    void draw_scene(VkCommandBuffer c, const FrameDesc& desc, const Specialization& technique);
-    void draw_backdrop(VkCommandBuffer c);
-    GraphicsState state(const char* vertex, const char* fragment, VkCompareOp compare) const;
+    struct Targets {
+        int width = 0, rows = 0, msaa = 0; // 0: none
+        bool stages = false;
+        DeviceImage color, depth, resolved; // color: none with one sample
+        Buffer pixels, ids, depths, words;  // the last three: of stages
+    };
+    void make_targets(const FrameDesc& desc, std::size_t band_bytes);
+    const DeviceImage& samples() const { return targets_.msaa > 1 ? targets_.color : targets_.resolved; }
+    void begin(VkCommandBuffer c, const Band& band, bool resolves);
+    void draw_scene(VkCommandBuffer c, const Specialization& technique, const GpuPass& pass, bool stages);
+    void draw_backdrop(VkCommandBuffer c, const GpuPass& pass);
+    void gather(VkCommandBuffer c, const char* shader, const Band& band, int group);
+    void fill_frame(const FrameDesc& desc, const Band& band, Frame& frame) const;
+    GraphicsState state(std::string vertex, std::string fragment, VkCompareOp compare) const;
     void bind_native(VkCommandBuffer c, std::size_t material);
 
     Context& context_;
@@ -31,10 +47,9 @@ class ForwardPass {
     GpuScene& scene_;
     RenderInput input_;
     VulkanSampler sampler_;
+    bool centroid_;
     std::optional<NativeImages> native_;
-    int width_ = 0, height_ = 0, msaa_ = 0;
-    DeviceImage color_, depth_, resolved_;
-    Buffer pixels_;
+    Targets targets_;
 };
 
 } // namespace burnish

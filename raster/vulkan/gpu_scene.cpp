@@ -1,11 +1,11 @@
 #include "raster/vulkan/gpu_scene.h"
 
 #include <algorithm>
-#include <fmt/format.h>
 
 #include "core/base/check.h"
 #include "core/math/scalar_math.h"
 #include "raster/frame/grid_samples.h"
+#include "raster/vulkan/bands.h"
 
 namespace burnish {
 
@@ -49,10 +49,7 @@ GpuLight gpu_light(const LightRecord& l)
 template <class T> Buffer filled(Context& context, const std::vector<T>& table, VkBufferUsageFlags more = 0)
 {
     const std::size_t bytes = table.size() * sizeof(T);
-    if (bytes > context.features().max_buffer)
-        throw VulkanError{Error{ExitCode::unavailable, "", "--device",
-                                fmt::format("{} takes tables of at most {} bytes, the scene has one of {}", context.info().name,
-                                            context.features().max_buffer, bytes)}};
+    require_limit(context, "SCENE", "maxStorageBufferRange", bytes, context.features().max_buffer);
     return make_filled_buffer(context, table.data(), bytes, more);
 }
 
@@ -102,6 +99,7 @@ void GpuScene::upload_tables(Context& context)
         return static_cast<int>(at);
     };
     const std::size_t vertices = t.px.size();
+    require_limit(context, "SCENE", "maxDrawIndexedIndexValue", vertices, context.features().max_index);
     record_.position_base[0] = append(reals, t.px.data(), vertices);
     record_.position_base[1] = append(reals, t.py.data(), vertices);
     record_.position_base[2] = append(reals, t.pz.data(), vertices);

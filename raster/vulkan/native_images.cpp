@@ -19,10 +19,9 @@ void strip_border(const std::uint16_t* from, int width, int height, std::vector<
 
 } // namespace
 
-NativeImages::NativeImages(Context& context, VkDescriptorSetLayout layout, const RenderInput& input, const GpuScene& scene, int max_anisotropy)
+NativeImages::NativeImages(Context& context, VkDescriptorSetLayout layout, const RenderInput& input, const GpuScene& scene)
     : NativeImages(context)
 {
-    max_anisotropy_ = max_anisotropy;
     has_box_ = scene.box_cube().levels > 0;
     const CubeMap& specular = input.environment.specular;
     for (const CubeMap* cube : {&specular, &input.environment.irradiance, has_box_ ? &scene.box_cube() : &specular})
@@ -72,9 +71,9 @@ DeviceImage NativeImages::upload(const std::uint16_t* texels, const std::vector<
     return image;
 }
 
-VkSampler NativeImages::sampler(int wrap_s, int wrap_t, bool nearest, bool anisotropic)
+VkSampler NativeImages::sampler(int wrap_s, int wrap_t, bool nearest)
 {
-    const int key = wrap_s | wrap_t << 2 | nearest << 4 | anisotropic << 5;
+    const int key = wrap_s | wrap_t << 2 | nearest << 4;
     const auto known = samplers_.find(key);
     if (known != samplers_.end())
         return known->second;
@@ -85,8 +84,6 @@ VkSampler NativeImages::sampler(int wrap_s, int wrap_t, bool nearest, bool aniso
     info.mipmapMode = nearest ? VK_SAMPLER_MIPMAP_MODE_NEAREST : VK_SAMPLER_MIPMAP_MODE_LINEAR;
     info.maxLod = nearest ? 0.0f : VK_LOD_CLAMP_NONE; // nearest: of level 0, as the exact sampler
     info.addressModeU = kWrap[wrap_s], info.addressModeV = kWrap[wrap_t], info.addressModeW = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
-    info.maxAnisotropy = std::min(static_cast<float>(max_anisotropy_), context_.features().max_anisotropy);
-    info.anisotropyEnable = anisotropic && !nearest && context_.features().anisotropy && info.maxAnisotropy > 1.0f;
     VkSampler made = VK_NULL_HANDLE;
     BN_VK(vkCreateSampler(context_.device(), &info, nullptr, &made));
     return samplers_[key] = made;
@@ -94,17 +91,17 @@ VkSampler NativeImages::sampler(int wrap_s, int wrap_t, bool nearest, bool aniso
 
 void NativeImages::make_sets(VkDescriptorSetLayout layout, const GpuScene& scene)
 {
-    const auto count = static_cast<std::uint32_t>(scene.material_records().size());
-    const VkDescriptorPoolSize size = {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, std::max(count, 1u) * (kGpuCubes + kGpuTextureSlots)};
+    // one at least: the backdrop has no material of its own
+    const auto count = static_cast<std::uint32_t>(std::max<std::size_t>(scene.material_records().size(), 1));
+    const VkDescriptorPoolSize size = {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, count * (kGpuCubes + kGpuTextureSlots)};
     auto pool = vk_struct<VkDescriptorPoolCreateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO);
-    pool.maxSets = std::max(count, 1u), pool.poolSizeCount = 1, pool.pPoolSizes = &size;
+    pool.maxSets = count, pool.poolSizeCount = 1, pool.pPoolSizes = &size;
     BN_VK(vkCreateDescriptorPool(context_.device(), &pool, nullptr, &pool_));
     const std::vector<VkDescriptorSetLayout> layouts(count, layout);
     sets_.resize(count);
     auto allocate = vk_struct<VkDescriptorSetAllocateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO);
     allocate.descriptorPool = pool_, allocate.descriptorSetCount = count, allocate.pSetLayouts = layouts.data();
-    if (count)
-        BN_VK(vkAllocateDescriptorSets(context_.device(), &allocate, sets_.data()));
+    BN_VK(vkAllocateDescriptorSets(context_.device(), &allocate, sets_.data()));
     const auto image_info = [](VkSampler s, const DeviceImage& image) {
         return VkDescriptorImageInfo{s, image.view(), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
     };
@@ -117,15 +114,15 @@ void NativeImages::make_sets(VkDescriptorSetLayout layout, const GpuScene& scene
     for (std::uint32_t m = 0; m < count; ++m) {
         VkDescriptorImageInfo cubes[kGpuCubes], textures[kGpuTextureSlots];
         for (int i = 0; i < kGpuCubes; ++i)
-            cubes[i] = image_info(sampler(1, 1, false, false), cubes_[static_cast<std::size_t>(i)]);
+            cubes[i] = image_info(sampler(1, 1, false), cubes_[static_cast<std::size_t>(i)]);
         for (int i = 0; i < kGpuTextureSlots; ++i) {
-            const int id = scene.material_records()[m].textures[i].texture;
+            const int id = scene.material_records().empty() ? -1 : scene.material_records()[m].textures[i].texture;
             if (id < 0) {
-                textures[i] = image_info(sampler(1, 1, false, false), textures_.front());
+                textures[i] = image_info(sampler(1, 1, false), textures_.front());
                 continue;
             }
             const TextureParams& t = scene.tables().textures[static_cast<std::size_t>(id)];
-            textures[i] = image_info(sampler(t.wrap_s, t.wrap_t, t.nearest != 0, true), textures_[static_cast<std::size_t>(id)]);
+            textures[i] = image_info(sampler(t.wrap_s, t.wrap_t, t.nearest != 0), textures_[static_cast<std::size_t>(id)]);
         }
         VkWriteDescriptorSet writes[2];
         for (std::uint32_t k = 0; k < 2; ++k) {

@@ -10,24 +10,21 @@ namespace burnish {
 
 class NativeImages {
   public:
-    // max_anisotropy: taps along the longer axis of a footprint, 1..16.
-    NativeImages(Context& context, VkDescriptorSetLayout layout, const RenderInput& input, const GpuScene& scene, int max_anisotropy);
+    NativeImages(Context& context, VkDescriptorSetLayout layout, const RenderInput& input, const GpuScene& scene);
     ~NativeImages();
     NativeImages(const NativeImages&) = delete;
     NativeImages& operator=(const NativeImages&) = delete;
 
-    int max_anisotropy() const { return max_anisotropy_; }
     bool has_box() const { return has_box_; }
     VkDescriptorSet set(std::size_t material) const { return sets_[material]; } // of set 1
 
   private:
     explicit NativeImages(Context& context) : context_(context) {}
     DeviceImage upload(const std::uint16_t* texels, const std::vector<std::uint32_t>& offsets, int width, int height, int layers);
-    VkSampler sampler(int wrap_s, int wrap_t, bool nearest, bool anisotropic);
+    VkSampler sampler(int wrap_s, int wrap_t, bool nearest);
     void make_sets(VkDescriptorSetLayout layout, const GpuScene& scene);
 
     Context& context_;
-    int max_anisotropy_ = 1;
     bool has_box_ = false;
     std::vector<DeviceImage> cubes_, textures_;
     std::map<int, VkSampler> samplers_;

@@ -1,14 +1,16 @@
 #include "raster/vulkan/pipelines.h"
 
+#include <algorithm>
 #include <array>
 #include <fmt/format.h>
 
 #include "raster/vulkan/shaders.h"
-#include "shading/lang/gpu_records.h"
 
 namespace burnish {
 
 namespace {
+
+static_assert(sizeof(GpuPass) <= 128, "every device takes 128 bytes of push constants");
 
 constexpr VkShaderStageFlags kStages = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT | VK_SHADER_STAGE_COMPUTE_BIT;
 
@@ -57,7 +59,7 @@ Pipelines::Pipelines(Context& context, std::string shader_folder) : Pipelines(co
     set.bindingCount = 2, set.pBindings = native;
     BN_VK(vkCreateDescriptorSetLayout(device, &set, nullptr, &native_layout_));
     const VkDescriptorSetLayout set_layouts[] = {set_layout_, native_layout_};
-    const VkPushConstantRange range = {kStages, 0, sizeof(PassConstants)};
+    const VkPushConstantRange range = {kStages, 0, sizeof(GpuPass)};
     auto layout = vk_struct<VkPipelineLayoutCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO);
     layout.setLayoutCount = 2, layout.pSetLayouts = set_layouts;
     layout.pushConstantRangeCount = 1, layout.pPushConstantRanges = &range;
@@ -182,6 +184,20 @@ void Pipelines::bind_image(Binding binding, const DeviceImage& image)
 void Pipelines::bind_set(VkCommandBuffer commands, VkPipelineBindPoint point) const
 {
     vkCmdBindDescriptorSets(commands, point, layout_, 0, 1, &set_, 0, nullptr);
+}
+
+void Pipelines::push(VkCommandBuffer commands, const GpuPass& pass) const
+{
+    vkCmdPushConstants(commands, layout_, kStages, 0, sizeof pass, &pass);
+}
+
+void Pipelines::dispatch(VkCommandBuffer commands, std::size_t invocations) const
+{
+    constexpr std::size_t kMaxGroups = 65535; // in one direction, on every device; stages count the others in (linear_invocation)
+    const std::size_t groups = std::max<std::size_t>((invocations + kGpuGroup - 1) / kGpuGroup, 1);
+    const std::size_t rows = (groups + kMaxGroups - 1) / kMaxGroups;
+    vkCmdDispatch(commands, static_cast<std::uint32_t>(std::min(groups, kMaxGroups)), static_cast<std::uint32_t>(rows), 1);
+    full_barrier(commands);
 }
 
 } // namespace burnish

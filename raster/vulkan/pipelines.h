@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "raster/vulkan/context.h"
+#include "shading/lang/gpu_records.h"
 
 namespace burnish {
 
@@ -13,10 +14,6 @@ enum Binding : std::uint32_t {
     kTexelsBinding, kRealsBinding, kIntsBinding, kFrameBinding, kMaterialsBinding, kTexturesBinding, kLightsBinding, kVerticesBinding,
     kSetupsBinding, kCountsBinding, kDrawBinding, kIdsBinding, kDepthsBinding, kColorBinding, kRecordsBinding, kBufferBindings,
     kIdImageBinding = kBufferBindings, kDepthImageBinding, kBindings
-};
-
-struct PassConstants { // BnPass of shading/stages/pass.glsl
-    std::int32_t shift_x, shift_y, sample_number, material;
 };
 
 using Specialization = std::vector<std::int32_t>; // values of constant_id 0, 1, 2...
@@ -44,6 +41,8 @@ class Pipelines {
     void bind_buffer(Binding binding, const Buffer& buffer);
     void bind_image(Binding binding, const DeviceImage& image);
     void bind_set(VkCommandBuffer commands, VkPipelineBindPoint point) const;
+    void push(VkCommandBuffer commands, const GpuPass& pass) const;
+    void dispatch(VkCommandBuffer commands, std::size_t invocations) const; // of the bound compute pipeline, and a barrier
 
   private:
     Pipelines(Context& context) : context_(context) {}

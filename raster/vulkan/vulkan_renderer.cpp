@@ -4,6 +4,7 @@
 
 #include "core/base/check.h"
 #include "core/base/clock.h"
+#include "raster/vulkan/bands.h"
 #include "raster/vulkan/context.h"
 #include "raster/vulkan/forward.h"
 #include "raster/vulkan/gpu_scene.h"
@@ -19,9 +20,9 @@ constexpr VkFormat kIdFormat = VK_FORMAT_R32G32_SFLOAT; // lower and upper 16 bi
 constexpr VkFormat kDepthFormat = VK_FORMAT_D32_SFLOAT;
 constexpr std::uint32_t kMinSetups = 1024;
 
-// Images and buffers whose size the frame decides.
+// Images and buffers of one band.
 struct Targets {
-    int width = 0, height = 0, msaa = 0;
+    int width = 0, rows = 0, msaa = 0; // 0: none
     bool stages = false, native = false;
     DeviceImage id, depth;
     Buffer ids, depths, color, records;
@@ -44,7 +45,7 @@ class VulkanRenderer final : public Renderer {
           vertices_(context_, input.tables.px.size() * sizeof(GpuVertex), Buffer::Place::host),
           counts_(context_, input.tables.triangle_count() * sizeof(std::int32_t), Buffer::Place::device),
           draw_(context_, sizeof(GpuDraw), Buffer::Place::host, VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT),
-          forward_(context_, pipelines_, scene_, input, device_->options.sampler)
+          forward_(context_, pipelines_, scene_, input, device_->options)
     {
         make_setups(static_cast<std::uint32_t>(input.tables.triangle_count()) + kMinSetups);
     }
@@ -58,14 +59,15 @@ class VulkanRenderer final : public Renderer {
     std::vector<std::pair<Binding, const Buffer*>> scene_bindings() const;
     void bind_all();
     void dispatch(VkCommandBuffer c, VkPipeline pipeline, std::size_t invocations);
-    void push(VkCommandBuffer c, const PassConstants& pass);
     void geometry(VkCommandBuffer c);
-    void visibility(VkCommandBuffer c, const PassConstants& pass);
-    void all_visibility(VkCommandBuffer c);
-    void shade(VkCommandBuffer c, const FrameDesc& desc);
+    void visibility(VkCommandBuffer c, const GpuPass& pass);
+    void all_visibility(VkCommandBuffer c, const Band& band);
+    void shade(VkCommandBuffer c, const FrameDesc& desc, const Band& band);
     void submit(VkCommandBuffer c); // and time it
-    void draw_frame(const FrameDesc& desc);
-    Frame read_frame(const FrameDesc& desc);
+    void begin_frame(const FrameDesc& desc);
+    void draw_band(const FrameDesc& desc, const Band& band);
+    void read_band(const FrameDesc& desc, const Band& band, Frame& frame);
+    std::size_t band_bytes() const { return device_->options.band_bytes ? device_->options.band_bytes : kBandBytes; }
     Frame render_ids(const FrameDesc& desc);
     Frame render_forward(const FrameDesc& desc);
 
@@ -83,32 +85,37 @@ class VulkanRenderer final : public Renderer {
 
 void VulkanRenderer::make_setups(std::uint32_t capacity)
 {
-    setup_capacity_ = capacity;
+    require_limit(context_, "SCENE", "maxStorageBufferRange", capacity * sizeof(GpuSetup), context_.features().max_buffer);
     setups_ = Buffer(context_, capacity * sizeof(GpuSetup), Buffer::Place::host);
+    setup_capacity_ = capacity;
 }
 
 void VulkanRenderer::make_targets(const FrameDesc& desc)
 {
-    Targets& t = targets_;
-    const bool native = desc.msaa == 1 || ((context_.features().target_samples & static_cast<VkSampleCountFlags>(desc.msaa)) &&
-                                           context_.features().standard_samples);
-    if (t.width == desc.width && t.height == desc.height && t.msaa == desc.msaa && t.stages == desc.stages)
+    require_width(context_, desc.width);
+    const std::size_t msaa = static_cast<std::size_t>(desc.msaa);
+    const std::size_t words = std::max<std::size_t>(3, desc.stages ? msaa * kPairWords : msaa); // a pixel
+    const int rows = band_rows(desc.width, desc.height, words * sizeof(float), band_bytes());
+    Targets t;
+    t.width = desc.width, t.rows = rows, t.msaa = desc.msaa, t.stages = desc.stages;
+    t.native = desc.msaa == 1 || ((context_.features().target_samples & static_cast<VkSampleCountFlags>(desc.msaa)) &&
+                                  context_.features().standard_samples);
+    if (t.width == targets_.width && t.rows == targets_.rows && t.msaa == targets_.msaa && t.stages == targets_.stages)
         return;
-    t = Targets();
-    t.width = desc.width, t.height = desc.height, t.msaa = desc.msaa, t.stages = desc.stages, t.native = native;
+    targets_ = Targets();
     ImageShape shape;
-    shape.width = desc.width, shape.height = desc.height;
-    shape.samples = native ? static_cast<VkSampleCountFlagBits>(desc.msaa) : VK_SAMPLE_COUNT_1_BIT;
+    shape.width = t.width, shape.height = rows;
+    shape.samples = t.native ? static_cast<VkSampleCountFlagBits>(desc.msaa) : VK_SAMPLE_COUNT_1_BIT;
     shape.format = kIdFormat, shape.usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
     t.id = DeviceImage(context_, shape);
     shape.format = kDepthFormat, shape.usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
     t.depth = DeviceImage(context_, shape);
-    const std::size_t pixels = static_cast<std::size_t>(desc.width) * static_cast<std::size_t>(desc.height);
-    const std::size_t samples = pixels * static_cast<std::size_t>(desc.msaa);
+    const std::size_t pixels = static_cast<std::size_t>(desc.width) * static_cast<std::size_t>(rows), samples = pixels * msaa;
     t.ids = Buffer(context_, samples * sizeof(std::int32_t), Buffer::Place::host);
     t.depths = Buffer(context_, samples * sizeof(float), Buffer::Place::host);
     t.color = Buffer(context_, 3 * pixels * sizeof(float), Buffer::Place::host);
     t.records = Buffer(context_, desc.stages ? samples * kPairWords * sizeof(std::uint32_t) : 0, Buffer::Place::host);
+    targets_ = std::move(t); // only what was made whole
 }
 
 std::vector<std::pair<Binding, const Buffer*>> VulkanRenderer::scene_bindings() const
@@ -130,18 +137,8 @@ void VulkanRenderer::bind_all()
 
 void VulkanRenderer::dispatch(VkCommandBuffer c, VkPipeline pipeline, std::size_t invocations)
 {
-    constexpr std::size_t kMaxGroups = 65535; // in one direction; stages count the others in (linear_invocation)
-    const std::size_t groups = std::max<std::size_t>((invocations + kGpuGroup - 1) / kGpuGroup, 1);
-    const std::size_t rows = (groups + kMaxGroups - 1) / kMaxGroups;
     vkCmdBindPipeline(c, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline);
-    vkCmdDispatch(c, static_cast<std::uint32_t>(std::min(groups, kMaxGroups)), static_cast<std::uint32_t>(rows), 1);
-    full_barrier(c);
-}
-
-void VulkanRenderer::push(VkCommandBuffer c, const PassConstants& pass)
-{
-    vkCmdPushConstants(c, pipelines_.layout(), VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT | VK_SHADER_STAGE_COMPUTE_BIT, 0,
-                       sizeof pass, &pass);
+    pipelines_.dispatch(c, invocations);
 }
 
 // Vertices to the sub-pixel grid, triangles to setups.
@@ -155,7 +152,7 @@ void VulkanRenderer::geometry(VkCommandBuffer c)
 }
 
 // One pass of the rasterizer, and its ids and depths to buffers.
-void VulkanRenderer::visibility(VkCommandBuffer c, const PassConstants& pass)
+void VulkanRenderer::visibility(VkCommandBuffer c, const GpuPass& pass)
 {
     change_layout(c, targets_.id, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL);
     change_layout(c, targets_.depth, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL);
@@ -166,7 +163,7 @@ void VulkanRenderer::visibility(VkCommandBuffer c, const PassConstants& pass)
     auto depth = vk_struct<VkRenderingAttachmentInfo>(VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO);
     depth.imageView = targets_.depth.view(), depth.imageLayout = VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL;
     depth.loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR, depth.storeOp = VK_ATTACHMENT_STORE_OP_STORE; // cleared to 0: reversed depth
-    const VkRect2D area = {{0, 0}, {static_cast<std::uint32_t>(targets_.width), static_cast<std::uint32_t>(targets_.height)}};
+    const VkRect2D area = {{0, 0}, {static_cast<std::uint32_t>(targets_.width), static_cast<std::uint32_t>(pass.rows)}};
     auto rendering = vk_struct<VkRenderingInfo>(VK_STRUCTURE_TYPE_RENDERING_INFO);
     rendering.renderArea = area, rendering.layerCount = 1;
     rendering.colorAttachmentCount = 1, rendering.pColorAttachments = &color, rendering.pDepthAttachment = &depth;
@@ -177,28 +174,28 @@ void VulkanRenderer::visibility(VkCommandBuffer c, const PassConstants& pass)
     vkCmdBindPipeline(c, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines_.graphics(state));
     pipelines_.bind_set(c, VK_PIPELINE_BIND_POINT_GRAPHICS);
     const float half = static_cast<float>(viewport_half(context_.features()));
-    const VkViewport viewport = {static_cast<float>(targets_.width / 2) - half, static_cast<float>(targets_.height / 2) - half,
-                                 2 * half, 2 * half, 0.0f, 1.0f};
+    const int center_x = scene_.record().center_x / kSubpixel, center_y = scene_.record().center_y / kSubpixel - pass.first_row;
+    const VkViewport viewport = {static_cast<float>(center_x) - half, static_cast<float>(center_y) - half, 2 * half, 2 * half, 0.0f, 1.0f};
     vkCmdSetViewport(c, 0, 1, &viewport);
     vkCmdSetScissor(c, 0, 1, &area);
     vkCmdSetCullMode(c, VK_CULL_MODE_NONE);
-    push(c, pass);
+    pipelines_.push(c, pass);
     vkCmdDrawIndirect(c, draw_.handle(), 0, 1, sizeof(GpuDraw));
     vkCmdEndRendering(c);
     change_layout(c, targets_.id, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
     change_layout(c, targets_.depth, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
     dispatch(c, pipelines_.compute(targets_.native && targets_.msaa > 1 ? "gather_ms" : "gather"),
-             static_cast<std::size_t>(targets_.width) * static_cast<std::size_t>(targets_.height));
+             static_cast<std::size_t>(targets_.width) * static_cast<std::size_t>(pass.rows));
 }
 
-void VulkanRenderer::all_visibility(VkCommandBuffer c)
+void VulkanRenderer::all_visibility(VkCommandBuffer c, const Band& band)
 {
     if (targets_.native) {
-        visibility(c, {0, 0, targets_.msaa == 1 ? 0 : -1, 0});
+        visibility(c, {0, 0, targets_.msaa == 1 ? 0 : -1, 0, 0, band.first_row, band.rows, 0});
         return;
     }
     for (int s = 0; s < targets_.msaa; ++s)
-        visibility(c, {kSubpixel / 2 - pattern_.x[s], kSubpixel / 2 - pattern_.y[s], s, 0});
+        visibility(c, {kSubpixel / 2 - pattern_.x[s], kSubpixel / 2 - pattern_.y[s], s, 0, 0, band.first_row, band.rows, 0});
 }
 
 // constant_id 0 to 3 of shading/stages: the technique's place, whether it tests the horizon and samples the tilt itself, and whether lights
@@ -210,26 +207,34 @@ Specialization technique_constants(const std::string& name)
     return {index, tests_horizon, monte_carlo, name == "split_isotropic"};
 }
 
-void VulkanRenderer::shade(VkCommandBuffer c, const FrameDesc& desc)
+void VulkanRenderer::shade(VkCommandBuffer c, const FrameDesc& desc, const Band& band)
 {
     Specialization constants = technique_constants(desc.technique);
     constants.push_back(desc.stages);
     if (desc.stages)
         vkCmdFillBuffer(c, targets_.records.handle(), 0, VK_WHOLE_SIZE, 0);
     full_barrier(c);
+    pipelines_.push(c, {0, 0, 0, 0, 0, band.first_row, band.rows, 0});
     dispatch(c, pipelines_.compute("shade", constants),
-             static_cast<std::size_t>(targets_.width) * static_cast<std::size_t>(targets_.height));
+             static_cast<std::size_t>(targets_.width) * static_cast<std::size_t>(band.rows));
 }
 
-void VulkanRenderer::draw_frame(const FrameDesc& desc)
+void VulkanRenderer::begin_frame(const FrameDesc& desc)
 {
+    device_ms_ = device_cpu_ms_ = 0.0;
     scene_.prepare(context_, desc, pattern_, setup_capacity_);
     bind_all();
+}
+
+// The first band makes the setups of all.
+void VulkanRenderer::draw_band(const FrameDesc& desc, const Band& band)
+{
     VkCommandBuffer c = context_.begin();
     pipelines_.bind_set(c, VK_PIPELINE_BIND_POINT_COMPUTE);
-    geometry(c);
-    all_visibility(c);
-    shade(c, desc);
+    if (band.first_row == 0)
+        geometry(c);
+    all_visibility(c, band);
+    shade(c, desc, band);
     submit(c);
 }
 
@@ -237,16 +242,15 @@ void VulkanRenderer::submit(VkCommandBuffer c)
 {
     const double wall = wall_ms(), cpu = process_cpu_ms();
     context_.submit(c);
-    device_ms_ = wall_ms() - wall, device_cpu_ms_ = process_cpu_ms() - cpu;
+    device_ms_ += wall_ms() - wall, device_cpu_ms_ += process_cpu_ms() - cpu;
 }
 
-Frame VulkanRenderer::read_frame(const FrameDesc& desc)
+// What a band holds to its rows of the frame.
+void VulkanRenderer::read_band(const FrameDesc& desc, const Band& band, Frame& frame)
 {
-    const std::size_t pixels = static_cast<std::size_t>(desc.width) * static_cast<std::size_t>(desc.height);
-    const std::size_t msaa = static_cast<std::size_t>(desc.msaa);
-    Frame frame;
-    frame.color = make_image(desc.width, desc.height, 3, PixelType::f32);
-    std::memcpy(frame.color.f32(), targets_.color.data(), 3 * pixels * sizeof(float));
+    const std::size_t width = static_cast<std::size_t>(desc.width), msaa = static_cast<std::size_t>(desc.msaa);
+    const std::size_t first = width * static_cast<std::size_t>(band.first_row), pixels = width * static_cast<std::size_t>(band.rows);
+    std::memcpy(frame.color.f32() + 3 * first, targets_.color.data(), 3 * pixels * sizeof(float));
     const std::int32_t* ids = targets_.ids.as<std::int32_t>();
     for (std::size_t p = 0; p < pixels; ++p) {
         const std::int32_t* of = ids + p * msaa;
@@ -256,54 +260,74 @@ Frame VulkanRenderer::read_frame(const FrameDesc& desc)
             ++(of[s] == kGpuNoTriangle ? frame.stats.background_pixels : frame.stats.visible_fragments);
         }
     }
-    frame.stats.triangles = static_cast<std::uint64_t>(scene_.record().triangle_count);
-    frame.stats.triangles_drawn = static_cast<std::uint64_t>(draw_.as<GpuDraw>()->setups);
-    frame.stats.samples_emulated = !targets_.native;
-    frame.stats.depth_interpolated = !context_.features().float64;
-    if (desc.triangle_ids || desc.stages) {
-        frame.triangle_ids.resize(pixels * msaa);
+    if (!frame.triangle_ids.empty()) {
         const GpuSetup* setups = setups_.as<GpuSetup>();
         for (std::size_t i = 0; i < pixels * msaa; ++i)
-            frame.triangle_ids[i] = ids[i] == kGpuNoTriangle ? kNoTriangle : static_cast<std::uint32_t>(setups[ids[i]].triangle);
+            frame.triangle_ids[first * msaa + i] = ids[i] == kGpuNoTriangle ? kNoTriangle : static_cast<std::uint32_t>(setups[ids[i]].triangle);
     }
-    if (desc.stages) {
-        frame.stages.vertices.assign(vertices_.as<std::uint32_t>(), static_cast<std::size_t>(scene_.record().vertex_count) * kVertexWords);
-        frame.stages.depths.assign(targets_.depths.as<std::uint32_t>(), pixels * msaa);
-        frame.stages.pairs.assign(targets_.records.as<std::uint32_t>(), pixels * msaa * kPairWords);
-    }
+    if (!desc.stages)
+        return;
+    std::copy_n(targets_.depths.as<std::uint32_t>(), pixels * msaa, frame.stages.depths.data() + first * msaa);
+    std::copy_n(targets_.records.as<std::uint32_t>(), pixels * msaa * kPairWords,
+                frame.stages.pairs.data() + first * msaa * kPairWords);
+}
+
+// A frame with room for what is asked for.
+Frame empty_frame(const FrameDesc& desc)
+{
+    const std::size_t samples = static_cast<std::size_t>(desc.width) * static_cast<std::size_t>(desc.height) * static_cast<std::size_t>(desc.msaa);
+    Frame frame;
+    frame.color = make_image(desc.width, desc.height, 3, PixelType::f32);
+    if (desc.triangle_ids || desc.stages)
+        frame.triangle_ids.resize(samples);
+    if (desc.stages)
+        frame.stages.depths.resize(samples), frame.stages.pairs.resize(samples * kPairWords);
     return frame;
 }
 
 Frame VulkanRenderer::render_ids(const FrameDesc& desc)
 {
     make_targets(desc);
-    draw_frame(desc);
-    const auto setups = static_cast<std::uint32_t>(draw_.as<GpuDraw>()->setups);
-    if (setups > setup_capacity_) { // clipping left more pieces than there was room for
-        make_setups(setups + setups / 4);
-        draw_frame(desc);
+    Frame frame = empty_frame(desc);
+    begin_frame(desc);
+    for (const Band& band : bands_of(desc.height, targets_.rows)) {
+        draw_band(desc, band);
+        const auto setups = static_cast<std::uint32_t>(draw_.as<GpuDraw>()->setups);
+        if (setups > setup_capacity_) { // of the first band: clipping left more pieces than there was room for
+            make_setups(setups + setups / 4);
+            begin_frame(desc);
+            draw_band(desc, band);
+        }
+        read_band(desc, band, frame);
     }
-    return read_frame(desc);
+    frame.stats.triangles = static_cast<std::uint64_t>(scene_.record().triangle_count);
+    frame.stats.triangles_drawn = static_cast<std::uint64_t>(draw_.as<GpuDraw>()->setups);
+    frame.stats.samples_emulated = !targets_.native;
+    frame.stats.depth_interpolated = !context_.features().float64;
+    if (desc.stages)
+        frame.stages.vertices.assign(vertices_.as<std::uint32_t>(), static_cast<std::size_t>(scene_.record().vertex_count) * kVertexWords);
+    return frame;
 }
 
 Frame VulkanRenderer::render_forward(const FrameDesc& desc)
 {
+    device_ms_ = device_cpu_ms_ = 0.0;
     scene_.prepare(context_, desc, pattern_, setup_capacity_);
-    forward_.prepare(desc);
+    forward_.prepare(desc, band_bytes());
     for (const auto& [binding, buffer] : scene_bindings())
         bind(binding, *buffer);
-    VkCommandBuffer c = context_.begin();
-    forward_.draw(c, desc, technique_constants(desc.technique));
-    submit(c);
-    c = context_.begin();
-    forward_.read(c);
-    context_.submit(c);
-    Frame frame;
-    frame.color = make_image(desc.width, desc.height, 3, PixelType::f32);
-    const std::size_t pixels = static_cast<std::size_t>(desc.width) * static_cast<std::size_t>(desc.height);
-    for (std::size_t p = 0; p < pixels; ++p)
-        std::copy_n(forward_.pixels() + 4 * p, 3, frame.color.f32() + 3 * p);
+    Frame frame = empty_frame(desc);
+    const Specialization technique = technique_constants(desc.technique);
+    for (const Band& band : bands_of(desc.height, forward_.rows())) {
+        VkCommandBuffer c = context_.begin();
+        forward_.draw(c, technique, band);
+        submit(c);
+        forward_.read(band, frame);
+        if (desc.stages)
+            forward_.record(desc, band, frame);
+    }
     frame.stats.triangles = frame.stats.triangles_drawn = static_cast<std::uint64_t>(scene_.record().triangle_count);
+    frame.stats.depth_interpolated = true;
     return frame;
 }
 
@@ -312,8 +336,8 @@ Result<Frame> VulkanRenderer::render(const FrameDesc& desc, Frame)
     if (const Status ok = check_desc(desc); !ok)
         return ok.error();
     const bool forward = device_->options.pipeline == VulkanPipeline::forward;
-    if (forward && (desc.stages || desc.triangle_ids))
-        return Error{ExitCode::usage, "", "--pipeline", "forward has no stages to look at"};
+    if (forward && desc.triangle_ids && !desc.stages)
+        return Error{ExitCode::usage, "", "--pipeline", "forward has triangle ids only among its stages"};
     try {
         const double begin = wall_ms();
         pattern_ = standard_samples(desc.msaa);

@@ -19,6 +19,8 @@ const int kGpuViewportHalf = 8192;
 
 // Words that a recorded stage takes a visible (pixel, triangle) pair.
 const int kGpuInterpolantWords = 30, kGpuMaterialWords = 23, kGpuPairWords = 57; // mask, interpolants, material inputs, colour
+// The forward pipeline records a sample's words four at a time, as colours: 0 triangle ids, then interpolants and material inputs, then colour.
+const int kGpuForwardGroups = 15, kGpuColorGroup = 15;
 
 struct GpuCube {
     int page, size, levels;
@@ -93,6 +95,15 @@ struct GpuSetup {
 
 struct GpuDraw { // VkDrawIndirectCommand, and how many setups there are
     int vertex_count, instance_count, first_vertex, first_instance, setups;
+};
+
+// Push constants. Large pictures are drawn in bands of rows; images and buffers of the size of a picture hold one band.
+struct GpuPass {
+    int shift_x, shift_y; // of passes that take one sample of several: where it lies, as a shift to the pixel's centre, 1/256 pixel
+    int sample_number;    // and its number; -1 where the device itself takes all samples
+    int material, first_triangle; // of a draw of the forward pipeline
+    int first_row, rows;  // the band
+    int group;            // of recorded words, see kGpuForwardGroups
 };
 
 #ifdef __cplusplus

@@ -1,15 +1,40 @@
-// The classical pipeline's fragments: interpolated by the device, shaded once a fragment.
+// The classical pipeline's fragments: interpolated by the device, shaded once a fragment. With BN_STAGES four of a fragment's words, in
+// place of its colour (kGpuForwardGroups).
 #version 460
 #extension GL_EXT_buffer_reference_uvec2 : require
 #include "shading/stages/shade.glsl"
 #include "shading/stages/pass.glsl"
 
-layout(location = 0) centroid in vec3 normal;
-layout(location = 1) centroid in vec4 tangent;
-layout(location = 2) centroid in vec4 uv;
-layout(location = 3) centroid in vec4 color;
-layout(location = 4) centroid in vec3 position;
+#ifdef BN_CENTROID // the device's own place in partly covered pixels: cheaper, and elsewhere
+#define BN_IN centroid in
+#define BN_AT_POINT(v) v
+#else
+#define BN_IN in
+#define BN_AT_POINT(v) (kMsaa == 1 ? v : interpolateAtOffset(v, offset))
+#endif
+layout(location = 0) BN_IN vec3 normal;
+layout(location = 1) BN_IN vec4 tangent;
+layout(location = 2) BN_IN vec4 uv;
+layout(location = 3) BN_IN vec4 color;
+layout(location = 4) BN_IN vec4 position;
 layout(location = 0) out vec4 radiance;
+layout(constant_id = 6) const int kMsaa = 1;
+
+#ifdef BN_STAGES
+layout(constant_id = 7) const bool kKnowsTriangle = false; // as the pipeline whose words these are
+layout(constant_id = 8) const int kGroup = 0;
+layout(location = 5) flat in int triangle;
+int record_at = 4; // group 0 is the triangle
+
+void put_real(real x)
+{
+    if (record_at / 4 == kGroup)
+        radiance[record_at % 4] = x;
+    ++record_at;
+}
+void put_int(int word) { put_real(to_real(word)); }
+#include "shading/stages/record.glsl"
+#endif
 
 // A mask discards the fragment; a blend becomes coverage: sample s of n stays where alpha > (s + 1/2) / n.
 int alive_samples(int m, real alpha)
@@ -27,30 +52,100 @@ int alive_samples(int m, real alpha)
     return alive;
 }
 
+// Whether the triangle covers the pixel's centre, by its edges in homogeneous clip space: to within the device's own snapping.
+bool covers_centre(int number, int px, int py)
+{
+    real x = (to_real(px) + lit(0.5)) / frame.half_width - lit(1.0);
+    real y = lit(1.0) - (to_real(py) + lit(0.5)) / frame.half_height;
+    real3 at = vec3(x, y, 1.0);
+    real3 v[3];
+    for (int i = 0; i < 3; ++i) {
+        real4 clip = clip_position(vertex_position(bn_ints[frame.index_base + 3 * number + i]), frame_view());
+        v[i] = vec3(clip.x, clip.y, clip.z); // x, y, w
+    }
+    real e0 = k_dot3(k_cross(v[1], v[2]), at);
+    real e1 = k_dot3(k_cross(v[2], v[0]), at);
+    real e2 = k_dot3(k_cross(v[0], v[1]), at);
+    return (e0 >= 0.0 && e1 >= 0.0 && e2 >= 0.0) || (e0 <= 0.0 && e1 <= 0.0 && e2 <= 0.0);
+}
+
+// Where the tile renderer shades, from the pixel's centre, pixels: there, or where the triangle does not cover it at the mean of the covered
+// samples; where fragments do not know their triangle, wherever it does not cover them all.
+vec2 shaded_offset(int px, int py)
+{
+#ifdef BN_CENTROID
+    return vec2(0.0);
+#else
+    int covered = gl_SampleMaskIn[0];
+    if (kMsaa == 1 || covered == (1 << kMsaa) - 1)
+        return vec2(0.0);
+#if defined(BN_STAGES)
+    if (kKnowsTriangle && covers_centre(triangle, px, py))
+        return vec2(0.0);
+#elif defined(BN_PRIMITIVE_ID)
+    if (covers_centre(pass.first_triangle + gl_PrimitiveID, px, py))
+        return vec2(0.0);
+#endif
+    ivec2 mean = mean_of_samples(covered) - 128;
+    real2 offset = vec2(mean) * lit(0.00390625);
+    return offset;
+#endif
+}
+
+visible_point point_of_fragment(int px, int py)
+{
+    visible_point p;
+    p.uv_dx[0] = dFdxFine(uv.xy); // of pixel centres, by row and column of the quad
+    p.uv_dx[1] = dFdxFine(uv.zw);
+    p.uv_dy[0] = dFdyFine(uv.xy);
+    p.uv_dy[1] = dFdyFine(uv.zw);
+    vec2 offset = shaded_offset(px, py);
+    vec4 place = BN_AT_POINT(position);
+    // what a vertex has 1 of is 1 here, unless the device divides by the centre's w: Mesa 22.3 does
+    real w = place.w;
+    p.position = place.xyz / w;
+    p.normal = BN_AT_POINT(normal) / w;
+    vec4 t = BN_AT_POINT(tangent) / w;
+    p.tangent = t.xyz;
+    p.tangent_sign = t.w < 0.0 ? -1.0 : 1.0;
+    p.color = BN_AT_POINT(color) / w;
+    vec4 uv_at = BN_AT_POINT(uv) / w;
+    p.uv[0] = uv_at.xy;
+    p.uv[1] = uv_at.zw;
+    p.front = gl_FrontFacing;
+    real x = to_real(px) + lit(0.5) + offset.x;
+    real y = to_real(py) + lit(0.5) + offset.y;
+    p.ray = pixel_ray(x, y, frame.half_width, frame.half_height, frame_view());
+#ifdef BN_CENTROID
+    if (frame.orthographic == 0) {
+        real3 from_eye = p.position - vec3(frame.eye[0], frame.eye[1], frame.eye[2]);
+        p.ray = from_eye;
+    }
+#endif
+    return p;
+}
+
 void main()
 {
-    int m = pass.material;
-    visible_point p;
-    p.normal = normal;
-    p.tangent = tangent.xyz;
-    p.tangent_sign = tangent.w < 0.0 ? -1.0 : 1.0;
-    p.color = color;
-    p.uv[0] = uv.xy;
-    p.uv[1] = uv.zw;
-    p.uv_dx[0] = dFdx(uv.xy);
-    p.uv_dx[1] = dFdx(uv.zw);
-    p.uv_dy[0] = dFdy(uv.xy);
-    p.uv_dy[1] = dFdy(uv.zw);
-    p.front = gl_FrontFacing;
-    p.position = position;
-    real3 forward = vec3(frame.forward[0], frame.forward[1], frame.forward[2]);
-    real3 eye = vec3(frame.eye[0], frame.eye[1], frame.eye[2]);
-    real3 from_eye = position - eye;
-    p.ray = frame.orthographic != 0 ? forward : from_eye;
+    int m = pass.material, px = int(gl_FragCoord.x), py = int(gl_FragCoord.y) + pass.first_row;
+    visible_point p = point_of_fragment(px, py);
     material_inputs at = fetch_material(m, p);
     int alive = alive_samples(m, at.alpha);
     if (alive == 0)
         discard;
     gl_SampleMask[0] = alive;
-    radiance = vec4(shade_point(m, at, p, int(gl_FragCoord.y) * frame.width + int(gl_FragCoord.x)), 1.0);
+#ifdef BN_STAGES
+    radiance = vec4(float(triangle & 0xffff), float(triangle >> 16), 0.0, 0.0);
+    if (materials[m].textured == 0) // what is not used is 0
+        for (int i = 0; i < 2; ++i)
+            p.uv[i] = p.uv_dx[i] = p.uv_dy[i] = vec2(0.0);
+    if (materials[m].uses_color == 0)
+        p.color = vec4(0.0);
+    if (frame.light_count == 0)
+        p.position = vec3(0.0);
+    record_point(p);
+    record_material(at);
+#else
+    radiance = vec4(shade_point(m, at, p, py * frame.width + px), 1.0);
+#endif
 }

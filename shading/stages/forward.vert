@@ -1,23 +1,42 @@
-// The classical pipeline's vertices: one draw a primitive, attributes fetched by index.
+// The classical pipeline's vertices: one draw a primitive, attributes fetched by index. With BN_STAGES the same, but for the triangle's
+// number, which indexed vertices cannot tell.
 #version 460
 #extension GL_EXT_buffer_reference_uvec2 : require
 #include "shading/stages/interface.glsl"
-#include "shading/stages/pass.glsl"
 
-layout(location = 0) centroid out vec3 normal;
-layout(location = 1) centroid out vec4 tangent;
-layout(location = 2) centroid out vec4 uv;
-layout(location = 3) centroid out vec4 color;
-layout(location = 4) centroid out vec3 position;
+layout(location = 0) out vec3 normal;
+layout(location = 1) out vec4 tangent;
+layout(location = 2) out vec4 uv;
+layout(location = 3) out vec4 color;
+layout(location = 4) out vec4 position; // and 1
+#ifdef BN_STAGES
+layout(location = 5) flat out int triangle;
+#endif
+invariant gl_Position;
 
 void main()
 {
-    int v = gl_VertexIndex, at = frame.shading_base + 16 * v;
-    position = vertex_position(v);
+#ifdef BN_STAGES
+    triangle = gl_VertexIndex / 3;
+    int v = bn_ints[frame.index_base + gl_VertexIndex];
+#else
+    int v = gl_VertexIndex;
+#endif
+    int at = frame.shading_base + 16 * v;
+    real3 place = vertex_position(v);
+    position = vec4(place, 1.0);
     normal = vec3(bn_reals[at], bn_reals[at + 1], bn_reals[at + 2]);
     tangent = vec4(bn_reals[at + 3], bn_reals[at + 4], bn_reals[at + 5], bn_reals[at + 6]);
     uv = vec4(bn_reals[at + 8], bn_reals[at + 9], bn_reals[at + 10], bn_reals[at + 11]);
     color = vec4(bn_reals[at + 12], bn_reals[at + 13], bn_reals[at + 14], bn_reals[at + 15]);
-    real4 clip = clip_position(position, frame_view()); // x, y, w, z
+    real4 clip = clip_position(place, frame_view()); // x, y, w, z
+    // On the sub-pixel grid already, so that attributes are interpolated between the positions that are rasterized.
+    snapped_vertex s = snap_to_frame(clip, kGpuWholeBand);
+    if (s.valid) {
+        real x = to_real(s.x + frame.center_x) * lit(0.00390625) / frame.half_width - lit(1.0);
+        real y = lit(1.0) - to_real(s.y + frame.center_y) * lit(0.00390625) / frame.half_height;
+        clip.x = x * clip.z;
+        clip.y = y * clip.z;
+    }
     gl_Position = vec4(clip.x, -clip.y, clip.w, clip.z);
 }

@@ -1,4 +1,4 @@
-// Ids and depths of one pass from its images to buffers, [pixel][sample].
+// Ids and depths of one pass from its images to buffers, [pixel of the band][sample].
 #version 460
 #extension GL_EXT_buffer_reference_uvec2 : require
 layout(local_size_x = 64) in;
@@ -26,7 +26,7 @@ void copy_sample(int pixel, ivec2 at, int from, int to)
 void main()
 {
     int pixel = linear_invocation();
-    if (pixel >= frame.width * frame.height)
+    if (pixel >= frame.width * pass.rows)
         return;
     ivec2 at = ivec2(pixel % frame.width, pixel / frame.width);
 #ifdef BN_MULTISAMPLED

@@ -18,11 +18,11 @@ layout(set = 1, binding = 1) uniform sampler2D native_textures[kGpuTextureSlots]
 #ifdef BN_NATIVE_SAMPLER
 #define BN_SLOT(i)                                                                                                                         \
     if (slot == i)                                                                                                                         \
-        return textureGrad(native_textures[i], uv, dx, dy);
-vec4 native_texel(int slot, vec2 uv, vec2 dx, vec2 dy) // not every device indexes samplers by a variable
+        return textureLod(native_textures[i], uv, lod);
+vec4 native_texel(int slot, vec2 uv, float lod) // not every device indexes samplers by a variable
 {
     BN_SLOT(0) BN_SLOT(1) BN_SLOT(2) BN_SLOT(3) BN_SLOT(4) BN_SLOT(5) BN_SLOT(6) BN_SLOT(7) BN_SLOT(8)
-    return textureGrad(native_textures[9], uv, dx, dy);
+    return textureLod(native_textures[9], uv, lod);
 }
 #endif
 
@@ -45,13 +45,23 @@ real4 fetch_texture(int material, int slot, visible_point p)
     real2 at = vec2(m[0] * uv.x + m[2] * uv.y + m[4], m[1] * uv.x + m[3] * uv.y + m[5]);
     real2 at_dx = vec2(m[0] * dx.x + m[2] * dx.y, m[1] * dx.x + m[3] * dx.y);
     real2 at_dy = vec2(m[0] * dy.x + m[2] * dy.y, m[1] * dy.x + m[3] * dy.y);
-#ifdef BN_NATIVE_SAMPLER
-    return native_texel(slot, at, at_dx, at_dy);
-#else
     int id = materials[material].textures[slot].texture;
     texture_desc desc = texture_desc(textures[id].page, textures[id].offset_base, textures[id].width_base, textures[id].height_base,
                                      textures[id].levels, textures[id].wrap_s, textures[id].wrap_t, textures[id].nearest);
     texture_footprint footprint = texture_footprint_of(desc, at_dx, at_dy, frame.texture_taps);
+#ifdef BN_NATIVE_SAMPLER
+    // the kernel's taps, each filtered by the device: anisotropic filters of devices differ, and lavapipe's takes a millisecond a pixel
+    int taps = desc.nearest != 0 ? 1 : to_int(footprint.taps);
+    real spacing = lit(1.0) / (to_real(taps) + lit(1.0));
+    real4 sum = vec4(0.0);
+    for (int i = 1; i <= taps; ++i) {
+        real along = to_real(i) * spacing - lit(0.5);
+        real2 tap = at + footprint.axis * along;
+        sum += native_texel(slot, tap, footprint.lod);
+    }
+    real4 mean = sum / to_real(taps);
+    return mean;
+#else
     return texture_sample_footprint(desc, at, footprint, to_int(footprint.taps));
 #endif
 }

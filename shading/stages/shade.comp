@@ -4,63 +4,23 @@
 layout(local_size_x = 64) in;
 #define BN_COMPUTE
 #include "shading/stages/shade.glsl"
+#include "shading/stages/pass.glsl"
 
 layout(constant_id = 4) const bool kRecords = false; // writes the stages of each pair, for comparisons
 
 layout(std430, set = 0, binding = 11) readonly buffer BnIds { int ids[]; };
 layout(std430, set = 0, binding = 13) writeonly buffer BnColor { float colors[]; };
-layout(std430, set = 0, binding = 14) writeonly buffer BnRecords { int records[]; }; // [pixel][first sample][kGpuPairWords]
+layout(std430, set = 0, binding = 14) writeonly buffer BnRecords { int records[]; }; // [pixel of the band][first sample][kGpuPairWords]
 
 int record_at;
 
-void put(int word)
+void put_int(int word)
 {
     records[record_at] = word;
     ++record_at;
 }
-void put_real(real x) { put(floatBitsToInt(x)); }
-void put2(real2 v)
-{
-    put_real(v.x);
-    put_real(v.y);
-}
-void put3(real3 v)
-{
-    put2(v.xy);
-    put_real(v.z);
-}
-
-void record_point(visible_point p)
-{
-    put3(p.normal);
-    put3(p.tangent);
-    put_real(p.tangent_sign);
-    put2(p.color.xy);
-    put2(p.color.zw);
-    for (int i = 0; i < 2; ++i) {
-        put2(p.uv[i]);
-        put2(p.uv_dx[i]);
-        put2(p.uv_dy[i]);
-    }
-    put(p.front ? 1 : 0);
-    put3(p.ray);
-    put3(p.position);
-}
-
-void record_material(material_inputs at)
-{
-    put3(at.base);
-    put_real(at.alpha);
-    put_real(at.metallic);
-    put_real(at.roughness);
-    put_real(at.occlusion);
-    put3(at.normal_map);
-    put3(at.emissive);
-    put3(at.dielectric_f0);
-    put_real(at.dielectric_f90);
-    put3(at.tensor2);
-    put3(at.tensor4);
-}
+void put_real(real x) { put_int(floatBitsToInt(x)); }
+#include "shading/stages/record.glsl"
 
 real3 shade_pair(int slot, int px, int py, int covered)
 {
@@ -82,9 +42,9 @@ real3 shade_pair(int slot, int px, int py, int covered)
 void main()
 {
     int pixel = linear_invocation();
-    if (pixel >= frame.width * frame.height)
+    if (pixel >= frame.width * pass.rows)
         return;
-    int px = pixel % frame.width, py = pixel / frame.width, first = pixel * frame.msaa;
+    int px = pixel % frame.width, py = pixel / frame.width + pass.first_row, first = pixel * frame.msaa;
     real inv = lit(1.0) / to_real(frame.msaa);
     int rest = (1 << frame.msaa) - 1;
     real3 sum = vec3_all(lit(0.0));
@@ -96,7 +56,7 @@ void main()
         rest &= ~covered;
         record_at = (first + begin) * kGpuPairWords;
         if (kRecords)
-            put(covered);
+            put_int(covered);
         real3 color = shade_pair(slot, px, py, covered);
         if (kRecords)
             put3(color);

@@ -57,7 +57,7 @@ bool survives_alpha(int px, int py, int s)
 
 void main()
 {
-    int px = int(gl_FragCoord.x), py = int(gl_FragCoord.y);
+    int px = int(gl_FragCoord.x), py = int(gl_FragCoord.y) + pass.first_row;
     int s = pass.sample_number >= 0 ? pass.sample_number : gl_SampleID;
     if (!survives_alpha(px, py, s))
         discard;

@@ -65,6 +65,9 @@ def main():
     expected, seen, bad = cpp_layout(root, compiler, structures), set(), 0
     for name, file, defines in stages.lines(root):
         for key, offset in spirv_layout(stages.assembly(root, file, defines)).items():
+            if key[0].startswith("Bn") and offset != 0 and key[1]:  # a block of one structure, or of an array of them
+                print(f"{name}: {'.'.join(key)} begins at {offset}")
+                bad += 1
             if key[0] not in structures:
                 continue
             seen.add(key)

@@ -5,13 +5,14 @@ import stages
 from stages import glslc_check
 
 INTEGER_FUNCTIONS = {"FindILsb"}  # exact by nature
+DEVICE_FUNCTIONS = {"InterpolateAtOffset"}  # the rasterizer's, as what it interpolates at pixel centres
 
 
 def main():
     if glslc_check.tools_missing():
         return 77
     root, bad, operations = sys.argv[1], 0, 0
-    glslc_check.EXACT_FUNCTIONS |= INTEGER_FUNCTIONS
+    glslc_check.EXACT_FUNCTIONS |= INTEGER_FUNCTIONS | DEVICE_FUNCTIONS
     for name, file, defines in stages.lines(root):
         faults, looked_at = glslc_check.faults_in(stages.assembly(root, file, defines))
         operations += looked_at

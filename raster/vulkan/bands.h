@@ -1,0 +1,28 @@
+// Pictures in bands of rows, so that buffers and images stay within what every device takes, and indices within 32 bits.
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "raster/vulkan/context.h"
+
+namespace burnish {
+
+struct Band {
+    int first_row = 0, rows = 0;
+};
+
+// Bytes of a buffer of one band: the least that a Vulkan device takes as a storage buffer.
+inline constexpr std::size_t kBandBytes = std::size_t{1} << 27;
+inline constexpr std::size_t kMostBytesAPixel = 16 * 64 * 4; // 16 samples of recorded words (forward.h)
+static_assert(kBandBytes / (kMostBytesAPixel * 16384) >= 2, "the widest picture has bands");
+
+// Rows of a band: even, as the quads of a device are, or all there are. bytes: of the largest buffer, a pixel.
+int band_rows(int width, int height, std::size_t bytes, std::size_t band_bytes);
+std::vector<Band> bands_of(int height, int rows);
+
+// Throws ExitCode::unavailable where a device takes less of something than is needed. limit: the API's name of it.
+void require_limit(const Context& context, const char* option, const char* limit, std::uint64_t need, std::uint64_t have);
+// What pictures of this width need.
+void require_width(const Context& context, int width);
+
+} // namespace burnish

@@ -1,0 +1,217 @@
+// The renderer itself, on lavapipe: bands, failures, the cache of pipelines. Skipped where there is no such device.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <sys/resource.h>
+
+#include "core/scene/builtin.h"
+#include "raster/vulkan/bands.h"
+#include "raster/vulkan/vulkan_renderer.h"
+#include "tests/unit/raster/fixture.h"
+
+namespace burnish::test {
+namespace {
+
+VulkanOptions lavapipe(VulkanPipeline pipeline = VulkanPipeline::ids, VulkanSampler sampler = VulkanSampler::exact)
+{
+    VulkanOptions options;
+    options.device = "lavapipe", options.use_cache = false;
+    options.pipeline = pipeline, options.sampler = sampler;
+    return options;
+}
+
+std::unique_ptr<Stage> spheres()
+{
+    Result<Scene> scene = make_builtin_scene("spheres");
+    EXPECT_TRUE(scene);
+    return std::make_unique<Stage>(std::move(*scene), 1.0f, 2);
+}
+
+struct Device { // with a renderer of a scene
+    Device(const Stage& stage, const VulkanOptions& options)
+    {
+        Result<std::shared_ptr<VulkanDevice>> opened = open_vulkan_device(options);
+        if (!opened) {
+            error = opened.error();
+            return;
+        }
+        Result<std::unique_ptr<Renderer>> made = make_vulkan_renderer({stage.scene, stage.tables, stage.environment, stage.dfg, stage.jobs}, *opened);
+        if (made)
+            renderer = std::move(*made);
+        else
+            error = made.error();
+    }
+    std::unique_ptr<Renderer> renderer;
+    Error error;
+};
+
+FrameDesc desc_of(const Stage& stage, int width, int height, int msaa)
+{
+    FrameDesc d;
+    d.width = width, d.height = height, d.msaa = msaa;
+    d.view = auto_frame(stage.tables, width, height);
+    return d;
+}
+
+float largest_difference(const Image& a, const Image& b)
+{
+    float largest = 0.0f;
+    for (std::size_t i = 0; i < a.bytes.size() / sizeof(float); ++i)
+        largest = std::max(largest, std::abs(a.f32()[i] - b.f32()[i]));
+    return largest;
+}
+
+#define BN_NEEDS(device)                                                                                                                    \
+    if (!(device).renderer)                                                                                                                 \
+    GTEST_SKIP() << (device).error.line()
+
+TEST(vulkan, bands_give_the_same_words_as_one_picture)
+{
+    const std::unique_ptr<Stage> stage = spheres();
+    for (VulkanPipeline pipeline : {VulkanPipeline::ids, VulkanPipeline::forward}) {
+        VulkanOptions options = lavapipe(pipeline);
+        Device whole(*stage, options);
+        options.band_bytes = 100 * 1024; // a few rows
+        Device bands(*stage, options);
+        BN_NEEDS(whole);
+        for (int msaa : {1, 4}) {
+            FrameDesc d = desc_of(*stage, 75, 53, msaa);
+            for (bool stages : {false, true}) {
+                d.stages = stages;
+                const Result<Frame> a = whole.renderer->render(d), b = bands.renderer->render(d);
+                ASSERT_TRUE(a && b);
+                ASSERT_EQ(a->triangle_ids.size(), b->triangle_ids.size());
+                EXPECT_TRUE(std::equal(a->triangle_ids.data(), a->triangle_ids.data() + a->triangle_ids.size(), b->triangle_ids.data()));
+                if (pipeline == VulkanPipeline::forward) { // the device interpolates from another row
+                    EXPECT_LT(largest_difference(a->color, b->color), 0.01f) << "msaa " << msaa;
+                    continue;
+                }
+                EXPECT_EQ(pixel_hash(a->color), pixel_hash(b->color)) << "msaa " << msaa;
+                EXPECT_EQ(a->stats.visible_fragments, b->stats.visible_fragments);
+                ASSERT_EQ(a->stages.pairs.size(), b->stages.pairs.size());
+                if (stages) {
+                    EXPECT_EQ(std::memcmp(a->stages.pairs.data(), b->stages.pairs.data(), 4 * a->stages.pairs.size()), 0);
+                    EXPECT_EQ(std::memcmp(a->stages.depths.data(), b->stages.depths.data(), 4 * a->stages.depths.size()), 0);
+                }
+            }
+            if (pipeline == VulkanPipeline::ids) {
+                d.stages = false;
+                EXPECT_EQ(pixel_hash(stage->render(d, best_isa()).color), pixel_hash(bands.renderer->render(d)->color));
+            }
+        }
+    }
+}
+
+TEST(vulkan, a_limit_that_is_exceeded_is_named_with_need_and_have)
+{
+    try {
+        const Context context(lavapipe());
+        require_limit(context, "--size", "maxImageDimension2D", 8, 8);
+        require_limit(context, "--size", "maxImageDimension2D", 9, 8);
+        FAIL() << "nothing was said";
+    } catch (const VulkanError& failed) {
+        if (failed.error.place == "--device")
+            GTEST_SKIP() << failed.error.line();
+        EXPECT_EQ(failed.error.code, ExitCode::unavailable);
+        EXPECT_EQ(failed.error.line().rfind("--size: 9 is needed of maxImageDimension2D, llvmpipe", 0), 0u) << failed.error.line();
+    }
+}
+
+TEST(vulkan, draws_again_after_running_out_of_memory)
+{
+    const std::unique_ptr<Stage> stage = spheres();
+    for (VulkanPipeline pipeline : {VulkanPipeline::ids, VulkanPipeline::forward}) {
+        Device device(*stage, lavapipe(pipeline));
+        BN_NEEDS(device);
+        const FrameDesc small = desc_of(*stage, 40, 30, 1), large = desc_of(*stage, 1600, 1000, 4);
+        ASSERT_TRUE(device.renderer->render(small));
+        rlimit before;
+        getrlimit(RLIMIT_AS, &before);
+        std::ifstream statm("/proc/self/statm");
+        rlim_t pages = 0; // of address space
+        statm >> pages;
+        const rlimit tight = {pages * 4096 + (20u << 20), before.rlim_max};
+        setrlimit(RLIMIT_AS, &tight);
+        const Result<Frame> failed = device.renderer->render(large);
+        setrlimit(RLIMIT_AS, &before);
+        ASSERT_FALSE(failed) << "memory was enough: nothing is tested";
+        EXPECT_NE(failed.error().reason.find("out of memory"), std::string::npos) << failed.error().line();
+        const Result<Frame> again = device.renderer->render(large);
+        ASSERT_TRUE(again) << again.error().line();
+        if (pipeline == VulkanPipeline::forward)
+            continue;
+        EXPECT_EQ(pixel_hash(again->color), pixel_hash(stage->render(large, best_isa()).color));
+    }
+}
+
+TEST(vulkan, a_scene_of_nothing_shows_the_backdrop)
+{
+    const Stage stage(Scene{}, 0.5f);
+    VulkanOptions options = lavapipe(VulkanPipeline::forward, VulkanSampler::native);
+    options.validate = true;
+    Device device(stage, options);
+    BN_NEEDS(device);
+    FrameDesc d;
+    d.width = 16, d.height = 8, d.msaa = 1;
+    d.view = make_view(glm::vec3(0, 0, 1), glm::vec3(0), 0.7f, d.width, d.height);
+    const Result<Frame> frame = device.renderer->render(d);
+    ASSERT_TRUE(frame) << frame.error().line();
+    EXPECT_NEAR(frame->color.f32()[0], 0.5f, 1e-3f);
+}
+
+// In an empty folder of its own.
+class Cache : public testing::Test {
+  protected:
+    void SetUp() override
+    {
+        char name[] = "/tmp/burnish_cache_XXXXXX";
+        folder = ::mkdtemp(name);
+        ::setenv("XDG_CACHE_HOME", folder.c_str(), 1);
+    }
+    void TearDown() override
+    {
+        ::unsetenv("XDG_CACHE_HOME");
+        std::filesystem::remove_all(folder);
+    }
+    // Draws a frame on a new device; gives whether the cache held anything, and the frame's hash.
+    std::pair<bool, std::uint64_t> draw()
+    {
+        VulkanOptions options = lavapipe();
+        options.use_cache = true;
+        const bool loaded = Context(options).cache_loaded();
+        Device device(*stage, options);
+        const FrameDesc d = desc_of(*stage, 40, 30, 1);
+        return {loaded, pixel_hash(device.renderer->render(d)->color)};
+    }
+    std::filesystem::path file() const
+    {
+        for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
+            if (entry.path().filename().string().rfind("pipelines-", 0) == 0)
+                return entry.path();
+        return {};
+    }
+    std::string folder;
+    std::unique_ptr<Stage> stage = spheres();
+};
+
+TEST_F(Cache, is_used_by_the_second_run_and_ignored_where_it_is_broken)
+{
+    BN_NEEDS(Device(*stage, lavapipe()));
+    const auto first = draw();
+    EXPECT_FALSE(first.first) << "there was none";
+    ASSERT_FALSE(file().empty());
+    EXPECT_EQ(draw(), std::pair(true, first.second));
+    for (const std::string& text : {std::string(), std::string("short"), std::string(4096, 'x')}) {
+        std::ofstream(file(), std::ios::binary | std::ios::trunc) << text;
+        EXPECT_EQ(draw(), std::pair(false, first.second)) << "a file of " << text.size() << " bytes";
+        EXPECT_EQ(draw(), std::pair(true, first.second)) << "written anew";
+    }
+}
+
+} // namespace
+} // namespace burnish::test
