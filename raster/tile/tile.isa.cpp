@@ -149,20 +149,40 @@ BN_INLINE std::uint32_t triangle_id(const TileScratch& s, std::uint32_t i)
     return s.entries[i] & kClippedEntry ? s.clips[s.triangles[i].vertex[0]].triangle : s.entries[i];
 }
 
+// Global ids of a block's row of pixels; false, and nothing written, where one shows a piece of a clipped triangle.
+BN_INLINE bool write_row(const TileScratch& s, const std::uint32_t* from, std::uint32_t* to)
+{
+    constexpr int kStep = kLanes < kBlock ? kLanes : kBlock;
+    std::int32_t row[kBlock + kLanes];
+    for (int x = 0; x < kBlock; x += kStep) {
+        const integer id = load_first(reinterpret_cast<const std::int32_t*>(from + x), kStep), zero = int_lit(0);
+        const mask nothing = id < zero;
+        const integer entry = gather_int(reinterpret_cast<const std::int32_t*>(s.entries), select(nothing, zero, id));
+        if (any(both(not_(nothing), entry < zero)))
+            return false;
+        store_int(row + x, select(nothing, id, entry));
+    }
+    __builtin_memcpy(to, row, kBlock * sizeof *to);
+    return true;
+}
+
 void write_ids(const Tile& t)
 {
-    const int blocks_x = t.f.tile_size / kBlock;
+    const int blocks_x = t.f.tile_size / kBlock, msaa = t.f.msaa;
     for (int y = 0; y < t.height; ++y)
-        for (int x = 0; x < t.width; ++x) {
-            const int block = (y / kBlock) * blocks_x + x / kBlock, in_block = (y % kBlock) * kBlock + x % kBlock;
-            const std::uint32_t* from = t.s.ids + block * t.f.msaa * kBlockPixels + in_block;
+        for (int bx = 0; bx * kBlock < t.width; ++bx) {
+            const std::uint32_t* from = t.s.ids + (y / kBlock * blocks_x + bx) * msaa * kBlockPixels + y % kBlock * kBlock;
             std::uint32_t* to = t.s.output_ids + (static_cast<std::size_t>(t.y0 + y) * static_cast<std::size_t>(t.f.width) +
-                                                  static_cast<std::size_t>(t.x0 + x)) *
-                                                     static_cast<std::size_t>(t.f.msaa);
-            for (int s = 0; s < t.f.msaa; ++s) {
-                const std::uint32_t id = from[s * kBlockPixels];
-                to[s] = id == kNoTriangle ? kNoTriangle : triangle_id(t.s, id);
-            }
+                                                  static_cast<std::size_t>(t.x0 + bx * kBlock)) *
+                                                     static_cast<std::size_t>(msaa);
+            const int pixels = t.width - bx * kBlock < kBlock ? t.width - bx * kBlock : kBlock;
+            if (msaa == 1 && pixels == kBlock && write_row(t.s, from, to))
+                continue;
+            for (int x = 0; x < pixels; ++x)
+                for (int s = 0; s < msaa; ++s) {
+                    const std::uint32_t id = from[s * kBlockPixels + x];
+                    *to++ = id == kNoTriangle ? kNoTriangle : triangle_id(t.s, id);
+                }
         }
 }
 
