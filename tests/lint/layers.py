@@ -44,11 +44,14 @@ FORBIDDEN = (
 
 
 def listed(root):
-    """What the repository holds or would hold; without git, everything but build folders."""
+    """What the repository holds, and what lies in its folders and could be added; at the root lie pictures of users too. Without git,
+    everything but build folders."""
+    def files(*which):
+        done = subprocess.run(["git", "-C", str(root), "ls-files", "-z", *which], capture_output=True, check=True)
+        return [pathlib.PurePosixPath(os.fsdecode(name)) for name in done.stdout.split(b"\0") if name]
+
     try:
-        done = subprocess.run(["git", "-C", str(root), "ls-files", "-z", "--cached", "--others", "--exclude-standard"],
-                              capture_output=True, check=True)
-        paths = [pathlib.PurePosixPath(os.fsdecode(name)) for name in done.stdout.split(b"\0") if name]
+        paths = files("--cached") + [path for path in files("--others", "--exclude-standard") if len(path.parts) > 1]
     except (OSError, subprocess.CalledProcessError):
         paths = [pathlib.PurePosixPath(path.relative_to(root)) for path in root.rglob("*") if path.is_file()]
         paths = [path for path in paths if path.parts[0] not in ("build", "out", ".git")]
