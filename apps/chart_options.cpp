@@ -13,7 +13,7 @@ namespace {
 constexpr const char* kFooter =
     R"(REPORT_DIR gets report.html (one page, needs nothing else), report.json, the charts as .svg and .png, the pictures, and rows.json: what has
 been measured, from which a stopped chart goes on. References are kept beside the cache of environments. With the defaults a scene under one
-environment takes some five minutes on two cores.
+environment takes minutes on two cores.
 
 Examples:
   burnish chart -o report

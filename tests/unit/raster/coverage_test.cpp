@@ -386,11 +386,15 @@ TEST(coverage, near_plane_cuts_where_it_lies)
     FrameDesc d = id_desc(100, 100, 1);
     d.view = make_view({0, 0, 0}, {0, 0, -1}, 1.5707963f, 100, 100);
     d.view.znear = 2.0f;
-    const Frame f = stage.render(d, Isa::scalar);
-    for (int y = 0; y < 100; ++y) {
-        const float slope = (static_cast<float>(y) + 0.5f - 50.0f) / 50.0f; // distance of the floor along the view: 1 / slope
-        const bool expected = slope > 1.0f / 50.0f && 1.0f / slope > 2.0f;
-        EXPECT_EQ(f.triangle_ids[static_cast<std::size_t>(y * 100 + 50)] != kNothing, expected) << y;
+    for (Isa isa : available_isas()) {
+        const Frame f = stage.render(d, isa);
+        for (int y = 0; y < 100; ++y) {
+            const float slope = (static_cast<float>(y) + 0.5f - 50.0f) / 50.0f; // distance of the floor along the view: 1 / slope
+            const bool expected = slope > 1.0f / 50.0f && 1.0f / slope > 2.0f;
+            EXPECT_EQ(f.triangle_ids[static_cast<std::size_t>(y * 100 + 50)] != kNothing, expected) << y;
+        }
+        for (const std::uint32_t id : f.triangle_ids) // pieces tell whose they are
+            ASSERT_TRUE(id == kNothing || id < 2) << id << " " << isa_name(isa);
     }
 }
 
