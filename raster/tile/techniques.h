@@ -2,6 +2,7 @@
 // function here (<id>_specular), its kernel file, and its line in shading/models.def.
 #pragma once
 #include "raster/frame/lanes_records.h"
+#include "raster/tile/cube_sum.h"
 #include "raster/tile/tile_types.h"
 #include "shading/kernels/bent_normal.k.h"
 #include "shading/kernels/ellipsoid.k.h"
@@ -40,12 +41,6 @@ constexpr bool tests_horizon(Technique t)
 BN_INLINE real above_horizon(const TechniqueInput& in, real3 wi, real weight)
 {
     return in.turned ? select(k_dot3(in.surface_axes.n, wi) > lit(0.0), weight, lit(0.0)) : weight;
-}
-
-BN_INLINE real3 texel_rgb(texel_acc acc)
-{
-    const real4 v = texel_value(acc);
-    return vec3_of(v.x, v.y, v.z);
 }
 
 BN_INLINE real3 split_isotropic_specular(const TechniqueInput& in)
@@ -90,23 +85,37 @@ BN_INLINE real3 major_axis_specular(const TechniqueInput& in)
     const real inv = lit(1.0) / to_real(int_lit(n));
     const LaneLine line = major_axis_in_world(in, inv);
     const real lod = major_axis_lod(line.line.radius, cube);
-    texel_acc acc = texel_zero();
+    CubeSum sum{cube};
+    begin(sum);
+    const cube_levels levels = levels_at(sum, lod, inv);
     for (int j = 0; j < n; ++j) {
         const float s = n == 1 ? 0.5f : static_cast<float>(j) / static_cast<float>(n - 1);
-        acc = cube_texel_add(acc, cube, major_axis_direction(line.e0, line.step, line.o, splat(s)), lod, inv);
+        add_sample(sum, major_axis_direction(line.e0, line.step, line.o, splat(s)), levels);
     }
-    return texel_rgb(acc) * in.albedo;
+    return sum_of(sum) * in.albedo;
 }
 
-// One sample of a lobe along its grain, added to a sum and its weights.
-BN_INLINE void add_grain_sample(const TechniqueInput& in, const cube_desc& cube, const major_axis_grain& grain, real c, real root,
-                                real spacing, real weight, texel_acc& acc, real& sum)
+// Samples of a lobe along its grain, and the sum of their weights.
+struct GrainSum {
+    CubeSum light;
+    real weights;
+};
+
+BN_INLINE void begin(GrainSum& sum)
+{
+    begin(sum.light);
+    sum.weights = lit(0.0);
+}
+
+BN_INLINE void add_grain_sample(const TechniqueInput& in, const major_axis_grain& grain, real c, real root, real spacing, real weight, GrainSum& sum)
 {
     const grain_sample g = major_axis_grain_sample(grain, c, root, spacing);
     const real w = g.weight * weight;
-    acc = cube_texel_add(acc, cube, from_lobe(in.lobe, in.s.n, g.direction), major_axis_lod(g.radius, cube), w);
-    sum = sum + w;
+    add_sample(sum.light, from_lobe(in.lobe, in.s.n, g.direction), levels_at(sum.light, major_axis_lod(g.radius, sum.light.cube), w));
+    sum.weights = sum.weights + w;
 }
+
+BN_INLINE real3 mean_of(GrainSum& sum) { return sum_of(sum.light) / max(sum.weights, lit(1e-20)); }
 
 BN_INLINE major_axis_grain grain_of(const TechniqueInput& in)
 {
@@ -121,13 +130,13 @@ BN_INLINE real3 major_axis_weighted_specular(const TechniqueInput& in)
     const major_axis_grain grain = grain_of(in);
     const float step = 2.0f / static_cast<float>(n);
     const real spacing = splat(in.f.major_axis_beta * step);
-    texel_acc acc = texel_zero();
-    real sum = lit(0.0);
+    GrainSum sum{{cube}};
+    begin(sum);
     for (int j = 0; j < n; ++j) {
         const float c = (static_cast<float>(j) + 0.5f) * step - 1.0f;
-        add_grain_sample(in, cube, grain, splat(c), sqrt(splat(1.0f - c * c)), spacing, lit(1.0), acc, sum);
+        add_grain_sample(in, grain, splat(c), sqrt(splat(1.0f - c * c)), spacing, lit(1.0), sum);
     }
-    return texel_rgb(acc) / max(sum, lit(1e-20)) * in.albedo;
+    return mean_of(sum) * in.albedo;
 }
 
 // Density-placed too, but with no more samples than each fragment needs, in cells around the middle that come and go without a step.
@@ -139,18 +148,18 @@ BN_INLINE real3 major_axis_adaptive_specular(const TechniqueInput& in)
     const int limit = in.f.samples - (in.f.samples % 2 == 0); // one in the middle and pairs
     const real count = major_axis_grain_count(grain, beta, to_real(int_lit(limit)));
     const real spacing = beta * lit(2.0) / count;
-    texel_acc acc = texel_zero();
-    real sum = lit(0.0);
-    add_grain_sample(in, cube, grain, lit(0.0), one, spacing, one, acc, sum);
+    GrainSum sum{{cube}};
+    begin(sum);
+    add_grain_sample(in, grain, lit(0.0), one, spacing, one, sum);
     float most[kLanes];
     store(most, reduce_max(count));
     for (int i = 1; static_cast<float>(2 * i - 1) < most[0]; ++i) {
         const grain_cell cell = major_axis_grain_cell(count, i);
         const real root = sqrt(one - cell.c * cell.c);
-        add_grain_sample(in, cube, grain, cell.c, root, spacing, cell.weight, acc, sum);
-        add_grain_sample(in, cube, grain, -cell.c, root, spacing, cell.weight, acc, sum);
+        add_grain_sample(in, grain, cell.c, root, spacing, cell.weight, sum);
+        add_grain_sample(in, grain, -cell.c, root, spacing, cell.weight, sum);
     }
-    return texel_rgb(acc) / max(sum, lit(1e-20)) * in.albedo;
+    return mean_of(sum) * in.albedo;
 }
 
 // Sampled lobes have a least width; what has none is a mirror: the environment itself in the mirror direction.
