@@ -55,22 +55,20 @@ BN_INLINE real3 bent_normal_specular(const TechniqueInput& in)
     return cube_sample(cube, ray.direction, ray.lod * to_real(int_lit(cube.levels - 1))) * in.albedo;
 }
 
-struct LaneLine { // the major axis in world space
-    real3 e0, step, o;
-    major_axis_line line;
+struct LaneCurve {
+    major_axis_curve directions; // world space
+    real radius;
 };
 
-BN_INLINE LaneLine major_axis_in_world(const TechniqueInput& in, real inv_count)
+BN_INLINE LaneCurve major_axis_in_world(const TechniqueInput& in, real inv_count)
 {
     real3 o = to_lobe(in.lobe, in.s.n, in.s.v);
     o.z = max(o.z, lit(1e-4));
     o = k_normalize3(o);
-    LaneLine r;
-    r.line = major_axis_setup(o, in.lobe.sigma_u, in.lobe.sigma_v, splat(in.f.major_axis_k), splat(in.f.major_axis_beta), inv_count);
-    r.e0 = from_lobe(in.lobe, in.s.n, r.line.e0);
-    r.step = from_lobe(in.lobe, in.s.n, r.line.e1 - r.line.e0);
-    r.o = from_lobe(in.lobe, in.s.n, o);
-    return r;
+    const major_axis_line line =
+        major_axis_setup(o, in.lobe.sigma_u, in.lobe.sigma_v, splat(in.f.major_axis_k), splat(in.f.major_axis_beta), inv_count);
+    const real3 e0 = from_lobe(in.lobe, in.s.n, line.e0), step = from_lobe(in.lobe, in.s.n, line.e1 - line.e0);
+    return {major_axis_curve_of(e0, step, from_lobe(in.lobe, in.s.n, o)), line.radius};
 }
 
 BN_INLINE real major_axis_lod(real radius, const cube_desc& cube)
@@ -83,14 +81,13 @@ BN_INLINE real3 major_axis_specular(const TechniqueInput& in)
     const cube_desc cube = lanes_cube(in.f.specular_cube);
     const int n = in.f.samples;
     const real inv = lit(1.0) / to_real(int_lit(n));
-    const LaneLine line = major_axis_in_world(in, inv);
-    const real lod = major_axis_lod(line.line.radius, cube);
-    CubeSum sum{cube};
-    begin(sum);
-    const cube_levels levels = levels_at(sum, lod, inv);
+    const LaneCurve curve = major_axis_in_world(in, inv);
+    CubeSum sum;
+    begin(sum, cube);
+    const cube_levels levels = levels_at(sum, major_axis_lod(curve.radius, cube), inv);
     for (int j = 0; j < n; ++j) {
         const float s = n == 1 ? 0.5f : static_cast<float>(j) / static_cast<float>(n - 1);
-        add_sample(sum, major_axis_direction(line.e0, line.step, line.o, splat(s)), levels);
+        add_sample(sum, major_axis_direction(curve.directions, splat(s)), levels);
     }
     return sum_of(sum) * in.albedo;
 }
@@ -101,9 +98,9 @@ struct GrainSum {
     real weights;
 };
 
-BN_INLINE void begin(GrainSum& sum)
+BN_INLINE void begin(GrainSum& sum, const cube_desc& cube)
 {
-    begin(sum.light);
+    begin(sum.light, cube);
     sum.weights = lit(0.0);
 }
 
@@ -111,7 +108,7 @@ BN_INLINE void add_grain_sample(const TechniqueInput& in, const major_axis_grain
 {
     const grain_sample g = major_axis_grain_sample(grain, c, root, spacing);
     const real w = g.weight * weight;
-    add_sample(sum.light, from_lobe(in.lobe, in.s.n, g.direction), levels_at(sum.light, major_axis_lod(g.radius, sum.light.cube), w));
+    add_sample(sum.light, from_lobe(in.lobe, in.s.n, g.direction), levels_at(sum.light, major_axis_lod(g.radius, *sum.light.cube), w));
     sum.weights = sum.weights + w;
 }
 
@@ -130,8 +127,8 @@ BN_INLINE real3 major_axis_weighted_specular(const TechniqueInput& in)
     const major_axis_grain grain = grain_of(in);
     const float step = 2.0f / static_cast<float>(n);
     const real spacing = splat(in.f.major_axis_beta * step);
-    GrainSum sum{{cube}};
-    begin(sum);
+    GrainSum sum;
+    begin(sum, cube);
     for (int j = 0; j < n; ++j) {
         const float c = (static_cast<float>(j) + 0.5f) * step - 1.0f;
         add_grain_sample(in, grain, splat(c), sqrt(splat(1.0f - c * c)), spacing, lit(1.0), sum);
@@ -148,8 +145,8 @@ BN_INLINE real3 major_axis_adaptive_specular(const TechniqueInput& in)
     const int limit = in.f.samples - (in.f.samples % 2 == 0); // one in the middle and pairs
     const real count = major_axis_grain_count(grain, beta, to_real(int_lit(limit)));
     const real spacing = beta * lit(2.0) / count;
-    GrainSum sum{{cube}};
-    begin(sum);
+    GrainSum sum;
+    begin(sum, cube);
     add_grain_sample(in, grain, lit(0.0), one, spacing, one, sum);
     float most[kLanes];
     store(most, reduce_max(count));
@@ -185,14 +182,15 @@ template <class Place> BN_INLINE real3 filtered_is_sum(const TechniqueInput& in,
     const real size = to_real(int_lit(cube.size));
     const real count = to_real(int_lit(in.f.grid_count));
     const real texel_term = lit(0.5) * k_log2(size * size * lit(0.47746482927568601) / count); // 6 / (4 pi)
-    real3 sum = vec3_all(lit(0.0));
+    CubeTerms sum;
+    begin(sum, cube, true);
     for (int i = 0; i < in.f.grid_count; ++i) {
         const filtered_sample s = place(o, in.f.grid[i], texel_term);
         const real3 wi = from_lobe(in.lobe, in.s.n, s.wi);
         const real3 fresnel = fresnel_schlick(in.s.f0, in.s.f90, k_saturate(s.o_dot_h));
-        sum = sum + cube_sample(cube, wi, s.lod) * fresnel * above_horizon(in, wi, s.weight);
+        add_term(sum, wi, s.lod, fresnel, above_horizon(in, wi, s.weight));
     }
-    return mirrors_apart(in, sum / count * splat(in.f.box_cube.scale / in.f.specular_cube.scale), lit(1.0));
+    return mirrors_apart(in, sum_of(sum) / count * splat(in.f.box_cube.scale / in.f.specular_cube.scale), lit(1.0));
 }
 
 BN_INLINE real3 filtered_is_specular(const TechniqueInput& in)
@@ -221,14 +219,15 @@ template <class SampleAt> BN_INLINE real3 mc_sum(const TechniqueInput& in, const
     const real shift_x = k_unit_from_bits(seed), shift_y = k_unit_from_bits(k_hash_u32(seed));
     const int n = in.f.samples;
     const float inv = 1.0f / static_cast<float>(n);
-    real3 sum = vec3_all(lit(0.0));
+    CubeTerms sum;
+    begin(sum, cube, false);
     for (int i = 0; i < n; ++i) {
         const real x = splat((static_cast<float>(i) + 0.5f) * inv) + shift_x, y = k_radical_inverse2(int_lit(i)) + shift_y;
         const bsdf_sample b = sample_at(vec2_of(x - floor(x), y - floor(y)));
         const real3 fresnel = fresnel_schlick(in.s.f0, in.s.f90, b.o_dot_h);
-        sum = sum + cube_sample_level(cube, b.wi, 0) * fresnel * above_horizon(in, b.wi, b.weight);
+        add_term(sum, b.wi, lit(0.0), fresnel, above_horizon(in, b.wi, b.weight));
     }
-    return sum * splat(inv);
+    return sum_of(sum) * splat(inv);
 }
 
 // The lobe as an ellipsoid in the surface's own frame, and what is seen of it.
