@@ -144,9 +144,14 @@ BN_FN real3 ellipsoid_visible_normal(ellipsoid_params p, ellipsoid_view v, real3
     // a, b: a point of the disk, moved to the crescent that the lune's outline leaves, lifted to the sphere.
     real2 disk = concentric_disk(xi);
     real s = min(lit(0.5) * v.sum / max(v.lengths, lit(1e-20)), lit(1.0));
-    real edge = sqrt(max(lit(1.0) - disk.y * disk.y, lit(0.0)));
-    real x = s * disk.x + (lit(1.0) - s) * edge;
-    real z = sqrt(max(lit(1.0) - x * x - disk.y * disk.y, lit(0.0)));
+    // With r the disk's radius, edge^2 - disk.x^2 = 1 - r^2: neither the gap to the outline nor 1 - x^2 - y^2 is
+    // made of differences of squares, which thin lunes (narrow lobes, tilted away) would leave few digits of.
+    real r = max(abs(lit(2.0) * xi.x - lit(1.0)), abs(lit(2.0) * xi.y - lit(1.0)));
+    real rest = (lit(1.0) - r) * (lit(1.0) + r);
+    real edge = sqrt(rest + disk.x * disk.x);
+    real gap = select(disk.x > lit(0.0), rest / max(edge + disk.x, lit(1e-20)), edge - disk.x);
+    real x = edge - s * gap;
+    real z = sqrt(max(s * gap * (edge + x), lit(0.0)));
     // c: the lune's frame. Seen along the normal the lune is half a sphere and any e2 across e3 will do.
     real3 e3 = k_normalize3(v.au);
     real3 side = vec3_of(wo.y, -wo.x, lit(0.0));
