@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <cstdio>
 #include <gtest/gtest.h>
 #include <limits>
 
+#include "tests/unit/models/float_error.h"
 #include "tests/unit/models/harness.h"
 
 namespace burnish::test {
@@ -164,50 +164,6 @@ TEST_P(FloatModels, degenerate_inputs_give_finite_results)
     });
 }
 
-// The last place of a float of the size of `truth`, or of 1e-24 where truth is smaller: what is left of a lobe there may be
-// cut off.
-double ulp(double truth)
-{
-    int exponent;
-    std::frexp(std::max(std::abs(truth), 1e-24), &exponent);
-    return std::ldexp(1.0, exponent - 24);
-}
-
-// How far results move in exact arithmetic when arguments move by a float's step. No float version can be held to less: the
-// density of a lobe of width 0.001 moves by thousands of ulp, a refraction's cosine without bound where the facet is seen
-// edge on.
-std::vector<double> sway(const Batch& batch, RunFn fn, int outputs)
-{
-    const std::vector<double> at = batch.run(fn, outputs);
-    std::vector<double> largest(at.size());
-    for (std::uint64_t seed = 1; seed <= 6; ++seed) {
-        const std::vector<double> r = batch.nudged(seed).run(fn, outputs);
-        for (std::size_t k = 0; k < at.size(); ++k)
-            largest[k] = std::max(largest[k], std::abs(r[k] - at[k]));
-    }
-    return largest;
-}
-
-// Errors of one kind of result: in ulp, and as multiples of ulp and sway together.
-struct Errors {
-    std::vector<double> in_ulp, in_sway;
-    void add(double value, double truth, double last_place, double moved)
-    {
-        in_ulp.push_back(std::abs(value - truth) / last_place);
-        in_sway.push_back(std::abs(value - truth) / (last_place + moved));
-    }
-};
-
-// The largest of many, and that which one in a thousand exceeds.
-struct Extent {
-    double largest, common;
-};
-Extent extent_of(std::vector<double>& all)
-{
-    std::sort(all.begin(), all.end());
-    return all.empty() ? Extent{} : Extent{all.back(), all[all.size() - 1 - all.size() / 1000]};
-}
-
 // In multiples of sway and ulp, twice what was seen, rounded up. An ellipsoid's sample takes its density where its normal was
 // rounded to, which a tilted lobe of width 0.001 magnifies.
 constexpr std::size_t kKinds = 7;
@@ -236,7 +192,7 @@ void sample_errors(const ModelCase& model, const Setting& setting, std::size_t n
 {
     const Batch samples = random_samples(setting, n, 44);
     const RunFn exact = oracle_fns().models[model.index].sample;
-    const std::vector<double> t = samples.run(exact, kSampleOutputs), moved = sway(samples, exact, kSampleOutputs),
+    const std::vector<double> t = samples.run(exact, kSampleOutputs), moved = sway(exact, samples.size(), samples.arguments(), kSampleOutputs),
                               v = samples.run(float_fns()[0].models[model.index].sample, kSampleOutputs);
     for (std::size_t k = 0; k < n; ++k) {
         if (t[6 * n + k] != v[6 * n + k]) {
@@ -264,7 +220,7 @@ TEST_P(FloatModels, stay_close_to_the_double_oracle)
         for (std::size_t f = 0; f < 3; ++f) {
             const Batch pairs = random_pairs(GetParam(), setting, f == 2, n, 43);
             const std::vector<double> truth = pairs.run(exact[f].fn), value = pairs.run(narrow[f].fn),
-                                      moved = sway(pairs, exact[f].fn, 1);
+                                      moved = sway(exact[f].fn, pairs.size(), pairs.arguments(), 1);
             for (std::size_t k = 0; k < n; ++k)
                 of[f].add(value[k], truth[k], ulp(truth[k]), moved[k]);
         }
@@ -275,13 +231,8 @@ TEST_P(FloatModels, stay_close_to_the_double_oracle)
         if (GetParam().name == std::string(b.model))
             bound = &b;
     ASSERT_NE(bound, nullptr) << "a new model needs its bounds";
-    for (std::size_t f = 0; f < kKinds; ++f) {
-        const Extent ulps = extent_of(of[f].in_ulp), seen = extent_of(of[f].in_sway);
-        std::printf("%s %s: largest error %.1f ulp, one in a thousand above %.1f; %.1f and %.1f of what a float's step moves\n",
-                    GetParam().name, kKindNames[f], ulps.largest, ulps.common, seen.largest, seen.common);
-        EXPECT_LE(seen.largest, bound->of[f].largest) << kKindNames[f];
-        EXPECT_LE(seen.common, bound->of[f].common) << kKindNames[f];
-    }
+    for (std::size_t f = 0; f < kKinds; ++f)
+        of[f].expect_within(bound->of[f], GetParam().name, kKindNames[f]);
 }
 
 } // namespace

@@ -142,15 +142,6 @@ Vec Batch::wo(std::size_t k) const
     return {in[kMaxParams * n + k], in[(kMaxParams + 1) * n + k], in[(kMaxParams + 2) * n + k]};
 }
 
-Batch Batch::nudged(std::uint64_t seed) const
-{
-    Batch copy = *this;
-    Random random(seed);
-    for (double& x : copy.in)
-        x *= 1 + (std::floor(3 * random.next()) - 1) * 0x1p-23;
-    return copy;
-}
-
 std::vector<double> Batch::run(RunFn fn, int outputs) const
 {
     std::vector<double> out(n * static_cast<std::size_t>(outputs));

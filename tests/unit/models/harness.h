@@ -64,7 +64,7 @@ class Batch {
     void set(std::size_t k, Vec wo, Vec other);
     Vec wo(std::size_t k) const;
     std::vector<double> run(RunFn fn, int outputs = 1) const;
-    Batch nudged(std::uint64_t seed) const; // every argument one or no float step away, at random
+    const std::vector<double>& arguments() const { return in; }
     int size() const { return static_cast<int>(n); }
 
   private:
