@@ -10,6 +10,7 @@
 #include "shading/kernels/ggx_aniso_separable.k.h"
 #include "shading/kernels/heidrich_seidel.k.h"
 #include "shading/kernels/lambert.k.h"
+#include "shading/kernels/lobe.k.h"
 #include "shading/kernels/major_axis.k.h"
 #include "shading/kernels/surface.k.h"
 #include "shading/kernels/ward.k.h"
