@@ -220,17 +220,18 @@ TEST(HeidrichSeidelVectors, diffuse_and_mirror_terms_are_known)
 {
     struct Case {
         Vec l, v;
-        double diffuse, mirror;
+        double diffuse, mirror; // mirror: before the clamp
     };
     const Case cases[] = {{unit({.3, .4, .8}), unit({-.2, .5, .9}), .94809093, .99133338},
                           {unit({1, 0, .2}), unit({-1, 0, .2}), .19611614, 1},
                           {{0, .6, .8}, {0, -.6, .8}, 1, 1},
-                          {unit({.9, .1, .3}), unit({.8, .1, .3}), .33149677, 0}}; // unclamped: -0.756
+                          {unit({.9, .1, .3}), unit({.8, .1, .3}), .33149677, -.75553595}};
     for (const Case& c : cases) {
         EXPECT_NEAR(call(oracle_fns(), "thread_diffuse", {c.l[0], c.l[1], c.l[2]})[0], c.diffuse, 1e-8);
         EXPECT_NEAR(call(oracle_fns(), "thread_mirror", {c.v[0], c.v[1], c.v[2], c.l[0], c.l[1], c.l[2]})[0],
-                    c.mirror, 1e-8);
-        const double expected = .3 * c.diffuse + .6 * std::pow(c.mirror, 20);
+                    std::max(c.mirror, 0.0), 1e-8);
+        EXPECT_NEAR(c.diffuse * call(oracle_fns(), "thread_diffuse", {c.v[0], c.v[1], c.v[2]})[0] - c.l[0] * c.v[0], c.mirror, 1e-8);
+        const double expected = .3 * c.diffuse + .6 * std::pow(std::max(c.mirror, 0.0), 20);
         EXPECT_NEAR(eval("heidrich_seidel", {.3, .6, 20}, c.v, c.l), expected, 1e-6);
     }
 }
