@@ -48,40 +48,30 @@ BN_FN real ward_cheap_pdf(ward_params p, real3 wo, real3 wi)
     return select(both_above(wo, wi), value, lit(0.0));
 }
 
-struct ward_cheap_half {
-    real3 h;    // unit, h.z >= 0
-    mask above; // false where it would lie below the horizon
-};
-
-// 1 - h.z = -ln(1 - xi.y) / (2 E), where 1 / E = (alpha_x cos)^2 + (alpha_y sin)^2 of the turn 2 pi xi.x,
-// which is to the azimuth what a circle's angle is to an ellipse's.
-BN_FN ward_cheap_half ward_cheap_half_vector(ward_params p, real2 xi)
+// A half vector, unit: 1 - h.z = -ln(1 - xi.y) / (2 E), where 1 / E = (alpha_x cos)^2 + (alpha_y sin)^2 of the
+// turn 2 pi xi.x, which is to the azimuth what a circle's angle is to an ellipse's. What would lie below the
+// horizon is moved to it, from where nothing is reflected upwards.
+BN_FN real3 ward_cheap_half_vector(ward_params p, real2 xi)
 {
     k_sin_cos_pair turn = k_sin_cos(lit(6.2831853071795865) * xi.x);
     real x = p.alpha_x * turn.cosine;
     real y = p.alpha_y * turn.sine;
     real width2 = x * x + y * y;
-    real fall = lit(0.5) * max(-k_log1p(-xi.y), lit(0.0));
-    real down = fall * width2;
-    real part = min(fall, lit(1.0) / width2); // down to the horizon
-    real kept = part * width2;
-    real reach = sqrt(part * (lit(2.0) - kept));
-    ward_cheap_half r;
-    r.h = k_normalize3(vec3_of(x * reach, y * reach, max(lit(1.0) - kept, lit(0.0))));
-    r.above = down < lit(1.0);
-    return r;
+    real fall = min(lit(0.5) * max(-k_log1p(-xi.y), lit(0.0)), lit(1.0) / width2);
+    real down = fall * width2; // 1 - h.z
+    real reach = sqrt(fall * (lit(2.0) - down));
+    return k_normalize3(vec3_of(x * reach, y * reach, max(lit(1.0) - down, lit(0.0))));
 }
 
 // The weight is (wo.h) sqrt(wi.z / wo.z): above 1 towards grazing wo, at most 1 / sqrt(wo.z).
 BN_FN bsdf_sample ward_cheap_sample(ward_params p, real3 wo, real2 xi)
 {
-    ward_cheap_half s = ward_cheap_half_vector(p, xi);
-    real o_dot_h = k_dot3(wo, s.h);
-    real3 wi = mirror_direction(wo, s.h);
+    real3 h = ward_cheap_half_vector(p, xi);
+    real o_dot_h = k_dot3(wo, h);
+    real3 wi = mirror_direction(wo, h);
     real weight = o_dot_h * wi.z / (ward_root(wo.z) * ward_root(wi.z));
-    real pdf = ward_cheap_half_density(p, s.h) / (lit(4.0) * max(o_dot_h, lit(1e-10)));
-    mask valid = both(both_above(wo, wi), both(s.above, o_dot_h > lit(0.0)));
-    return bsdf_sample_of(wi, weight, pdf, o_dot_h, valid);
+    real pdf = ward_cheap_half_density(p, h) / (lit(4.0) * max(o_dot_h, lit(1e-10)));
+    return bsdf_sample_of(wi, weight, pdf, o_dot_h, both(both_above(wo, wi), o_dot_h > lit(0.0)));
 }
 
 BN_KERNELS_END

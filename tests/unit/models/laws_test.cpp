@@ -216,7 +216,30 @@ TEST(ModelLimits, weights_of_ward_grow_as_the_root_of_the_cosine)
     }
 }
 
-// At normal incidence and towards grazing views; .4 by .2; quadrature in double of Ward's formulas (2000^2 half vectors).
+// Of the cheap exponent's half vectors the share exp(-2 / alpha^2) lies below the horizon and is rejected.
+TEST(ModelLimits, wide_lobes_of_the_cheap_exponent_lose_half_vectors)
+{
+    const ModelCase& model = model_case("ward_cheap");
+    for (double alpha : {1.0, 1.5}) {
+        const Setting setting = {{alpha, alpha, 0, 0, 0, 0}, {alpha, alpha}};
+        EXPECT_NEAR(integral(model, setting, {0, 0, 1}, Integrand::half_pdf, 256), 1 - std::exp(-2 / (alpha * alpha)), 1e-4);
+        const std::size_t n = 100000;
+        Random random(17);
+        Batch batch(setting.params, n);
+        for (std::size_t k = 0; k < n; ++k)
+            batch.set(k, {0, 0, 1}, {random.next(), random.next(), random.next()});
+        const std::vector<double> s = batch.run(float_fns()[0].models[model.index].sample, kSampleOutputs);
+        double valid = 0;
+        for (std::size_t k = 0; k < n; ++k)
+            valid += s[6 * n + k];
+        // Seen along the normal light leaves the surface where 1 - h.z is below 1 - sqrt(1/2).
+        const double above = 1 - std::exp(-2 * (1 - std::sqrt(.5)) / (alpha * alpha));
+        EXPECT_NEAR(valid / static_cast<double>(n), above, 6e-3);
+        EXPECT_NEAR(integral(model, setting, {0, 0, 1}, Integrand::pdf, 256), above, 2e-3);
+    }
+}
+
+// Towards grazing views; widths .4 and .2; quadrature in double of Ward's formulas (2000^2 half vectors).
 TEST(ModelLimits, ward_gains_energy_at_grazing_views)
 {
     const Setting setting = {{.4, .2, 0, 0, 0, 0}, {.4, .2}};
