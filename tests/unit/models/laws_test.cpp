@@ -201,17 +201,21 @@ template <class Fn> void each_sample(const ModelCase& model, const Fn& fn)
 // Weights (wo.h) h.z^3 sqrt(wi.z / wo.z), without h.z^3 for the cheap exponent: at most 1 / sqrt(wo.z), and beyond 1.
 TEST(ModelLimits, weights_of_ward_grow_as_the_root_of_the_cosine)
 {
-    for (const auto& [name, power] : {std::pair{"ward", 3}, {"ward_cheap", 0}}) {
+    struct Case {
+        const char* name;
+        int power;
+    };
+    for (const Case& c : {Case{"ward", 3}, {"ward_cheap", 0}}) {
         double largest = 0;
-        each_sample(model_case(name), [&, power = power](const Setting&, Vec wo, Vec wi, double weight) {
+        each_sample(model_case(c.name), [&](const Setting&, Vec wo, Vec wi, double weight) {
             const Vec h = unit(wo + wi);
             const double root = std::sqrt(std::max(wi[2], 1e-4) * std::max(wo[2], 1e-4));
-            const double expected = dot(wo, h) * std::pow(h[2], power) * wi[2] / root;
-            ASSERT_NEAR(weight, expected, 1e-6 * expected) << name;
-            ASSERT_LE(weight, 1 / std::sqrt(std::max(wo[2], 1e-4)) + 1e-6) << name;
+            const double expected = dot(wo, h) * std::pow(h[2], c.power) * wi[2] / root;
+            ASSERT_NEAR(weight, expected, 1e-6 * expected) << c.name;
+            ASSERT_LE(weight, 1 / std::sqrt(std::max(wo[2], 1e-4)) + 1e-6) << c.name;
             largest = std::max(largest, weight);
         });
-        std::printf("%s: largest weight %.9g\n", name, largest);
+        std::printf("%s: largest weight %.9g\n", c.name, largest);
         EXPECT_GT(largest, 2);
     }
 }

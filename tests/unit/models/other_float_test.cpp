@@ -16,6 +16,7 @@ struct Argument {
 };
 const Argument kCosine = {0, 1, {0, 1e-20, 1e-8, 1e-4, 0.5, 0.99999994, 1}};
 const Argument kIndex = {0.1, 10, {1e-3, 0.6, 0.99999994, 1, 1.0000001, 1.5, 1e4}};
+const Argument kMetal = {0, 10, {0, 1e-3, 0.6, 0.99999994, 1, 1.0000001, 1.5, 1e4}};
 const Argument kAbsorption = {0, 10, {0, 1e-20, 1e-8, 1e-3, 1, 1e4}};
 const Argument kUnit = {0, 1, {0, 1e-20, 1e-8, 1e-3, 0.5, 1}};
 const Argument kEta = {-1, 1, {-1, -0.95, -1e-8, 0, 1e-8, 0.95, 1}};
@@ -42,9 +43,9 @@ const std::vector<Function>& functions()
         {"fresnel_schlick", {kCosine, kUnit}, {}, Measure::each, {4, 3}, 0, 1},
         {"fresnel_f0", {kIndex}, {}, Measure::each, {6, 3}, 0, 1},
         {"fresnel_dielectric", {kCosine, kIndex}, {}, Measure::each, {16, 11}, 0, 1},
-        {"fresnel_conductor", {kCosine, kIndex, kAbsorption}, {}, Measure::each, {52, 15}, 0, 1},
+        {"fresnel_conductor", {kCosine, kMetal, kAbsorption}, {}, Measure::each, {52, 15}, 0, 1},
         {"fresnel_conductor3",
-         {kCosine, kIndex, kIndex, kIndex, kAbsorption, kAbsorption, kAbsorption}, {}, Measure::each, {52, 16}, 0, 1},
+         {kCosine, kMetal, kMetal, kMetal, kAbsorption, kAbsorption, kAbsorption}, {}, Measure::each, {52, 16}, 0, 1},
         {"covariance_tensors", {kUnit, kUnit, kTurn, kTurn, kUnit, kUnit, kMixed, kUnit, kUnit, kMixed}, {4, 7},
          Measure::together, {2, 1}, -8, 8},
         {"covariance_eta_tensor", {kUnit, kEta, kTurn, kTurn, kUnit, kUnit, kMixed}, {4}, Measure::together, {5, 2}, -8, 8},
