@@ -21,7 +21,7 @@ BN_KERNELS_BEGIN
 BN_FN real ward_cheap_exponential(ward_params p, real3 h)
 {
     real top = lit(-2.0) * ward_ellipse(p, h);
-    return k_exp(top / (lit(1.0) + h.z));
+    return k_exp(top / (lit(1.0) + max(h.z, lit(0.0))));
 }
 
 BN_FN real ward_cheap_eval(ward_params p, real3 wo, real3 wi)
