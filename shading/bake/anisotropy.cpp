@@ -34,10 +34,12 @@ Image anisotropy_tensor(const Image& image, int power)
         const float r = channel(image, at), g = channels >= 3 ? channel(image, at + 1) : r,
                     b = channels >= 3 ? channel(image, at + 2) : r;
         const float x = 2.0f * r - 1.0f, y = 2.0f * g - 1.0f, length2 = x * x + y * y;
-        const float s2 = length2 >= 1e-4f ? b * b : 0.0f; // also where a float image holds NaN
-        const float weight = (power == 2 ? s2 : s2 * s2) / (length2 >= 1e-4f ? length2 : 1.0f);
         float* to = out.f32() + 4 * i;
-        to[0] = weight * x * x, to[1] = weight * y * y, to[2] = weight * x * y, to[3] = 0.0f;
+        to[0] = to[1] = to[2] = to[3] = 0.0f;
+        if (!(length2 >= 1e-4f && std::isfinite(length2) && std::isfinite(b))) // float images may hold NaN
+            continue;
+        const float s2 = b * b, weight = (power == 2 ? s2 : s2 * s2) / length2;
+        to[0] = weight * x * x, to[1] = weight * y * y, to[2] = weight * x * y;
     }
     return out;
 }

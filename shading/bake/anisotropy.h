@@ -6,7 +6,7 @@ namespace burnish {
 
 // KHR_materials_anisotropy texture (red and green: direction in [0,1]^2, blue: strength) to an f32 image of
 // strength^power d d^T by texel: channels xx, yy, xy, 0. d is the unit direction; a texel without one (length
-// below 1/100) has strength 0. power: 2 or 4.
+// below 1/100, or not finite) has strength 0. power: 2 or 4.
 //
 // Why: GGX widths are alpha_t = alpha + (1 - alpha) s^2 along d and alpha across it, so twice the covariance
 // of slopes is

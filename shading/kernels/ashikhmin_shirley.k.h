@@ -31,14 +31,17 @@ BN_FN ashikhmin_shirley_params ashikhmin_shirley_params_of_alpha(real alpha_x, r
 }
 
 // Density of half vectors, 1/sr; h unit. It has no further cosine: it is no distribution of microfacet
-// normals. h.z^e is exp(e ln(1 - r^2) / 2), which keeps its digits for exponents in the thousands.
+// normals. h.z^e goes through the logarithm, ln(1 - r^2) / 2 near the normal, which keeps its digits for
+// exponents in the thousands, and ln(h.z) away from it, where 1 - r^2 has few.
 BN_FN real ashikhmin_shirley_half_density(ashikhmin_shirley_params p, real3 h)
 {
     real r2 = h.x * h.x + h.y * h.y;
     real e = (p.nu * h.x * h.x + p.nv * h.y * h.y) / max(r2, lit(1e-30));
-    real power = k_exp(lit(0.5) * e * k_log1p(-min(r2, lit(1.0))));
+    real close = lit(0.5) * k_log1p(-min(r2, lit(0.5)));
+    real distant = k_log2(max(h.z, lit(1e-20))) * lit(0.69314718055994531);
+    real lg = select(r2 < lit(0.5), close, distant);
     real scale = sqrt((p.nu + lit(1.0)) * (p.nv + lit(1.0))) * lit(0.15915494309189534);
-    return scale * select(r2 < lit(1.0), power, lit(0.0));
+    return scale * k_exp(e * lg);
 }
 
 BN_FN real ashikhmin_shirley_half_pdf(ashikhmin_shirley_params p, real3 wo, real3 h)

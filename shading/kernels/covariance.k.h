@@ -21,65 +21,11 @@ struct slope_axes {
     real2 u; // unit, u.x >= 0: the direction of sigma_u, (tangent, bitangent); that of sigma_v is (-u.y, u.x)
 };
 
-// u: unit. From the deviations along u and across it.
-BN_FN slope_covariance covariance_of_axes(real sigma_u, real sigma_v, real2 u)
-{
-    real vu = sigma_u * sigma_u;
-    real vv = sigma_v * sigma_v;
-    slope_covariance s;
-    s.xx = vu * u.x * u.x + vv * u.y * u.y;
-    s.yy = vu * u.y * u.y + vv * u.x * u.x;
-    s.xy = (sigma_u - sigma_v) * (sigma_u + sigma_v) * (u.x * u.y);
-    return s;
-}
-
-struct tangent_direction {
-    real2 d;    // unit, (tangent, bitangent)
-    mask known; // false where a texel holds none
-};
-
-// raw: components in [-1,1], of any length. Below 1/100 it holds no direction: (128, 128) in 8 bits, which
-// stands for zero, has length 0.0055. The length is looked at before it is divided by.
-BN_FN tangent_direction direction_from_texel(real2 raw)
-{
-    tangent_direction r;
-    real length2 = k_dot2(raw, raw);
-    r.known = length2 >= lit(1e-4);
-    r.d = select(r.known, raw * (lit(1.0) / sqrt(max(length2, lit(1e-4)))), vec2_of(lit(1.0), lit(0.0)));
-    return r;
-}
-
-// alpha_lin in [0,1]; eta in [-1,1], the degree of anisotropy: alpha = alpha_lin^2 (1 + eta) along the
-// direction and alpha_lin^2 (1 - eta) across it. raw: as above; without a direction the surface is isotropic.
-BN_FN slope_covariance covariance_from_eta(real alpha_lin, real eta, real2 raw)
-{
-    tangent_direction along = direction_from_texel(raw);
-    real e = select(along.known, clamp(eta, lit(-1.0), lit(1.0)), lit(0.0));
-    real sigma = alpha_lin * alpha_lin * lit(0.70710678118654752);
-    real sigma_u = sigma * (lit(1.0) + e);
-    real sigma_v = sigma * (lit(1.0) - e);
-    return covariance_of_axes(sigma_u, sigma_v, along.d);
-}
-
 // KHR_materials_anisotropy. alpha: roughness^2, [0,1]; strength: [0,1]; rotation: (cos, sin) of the angle
-// counter-clockwise from the tangent; texel: red and green a direction in [0,1]^2, blue a factor of the
-// strength; (1, 0.5, 1) where there is no texture. alpha is mix(alpha, 1, strength^2) along the direction and
-// alpha across it.
-BN_FN slope_covariance covariance_from_khr(real alpha, real strength, real2 rotation, real3 texel)
-{
-    real2 raw = vec2_of(texel.x * lit(2.0) - lit(1.0), texel.y * lit(2.0) - lit(1.0));
-    tangent_direction along = direction_from_texel(raw);
-    real2 d = vec2_of(rotation.x * along.d.x - rotation.y * along.d.y,
-                      rotation.y * along.d.x + rotation.x * along.d.y);
-    real s = select(along.known, k_saturate(strength * texel.z), lit(0.0));
-    real alpha_t = k_mix(alpha, lit(1.0), s * s);
-    real sigma_t = alpha_t * lit(0.70710678118654752);
-    real sigma_b = alpha * lit(0.70710678118654752);
-    return covariance_of_axes(sigma_t, sigma_b, d);
-}
-
-// The same from filtered tensors of an anisotropy texture (shading/bake/anisotropy.h): power2, power4 hold xx, yy, xy of the texels'
-// strength^2 d d^T and strength^4 d d^T; (1, 0, 0) where there is no texture. Linear in both, so filtering them is exact.
+// counter-clockwise from the tangent. power2, power4: xx, yy, xy of the texture's strength^2 d d^T and strength^4 d d^T,
+// filtered, where d is a texel's direction (shading/bake/anisotropy.h; what has none is isotropic); (1, 0, 0) without
+// a texture. The width is mix(alpha, 1, s^2) along d and alpha across it, s the product of both strengths. Linear in
+// both tensors, so filtering them filters the covariance exactly.
 BN_FN slope_covariance covariance_from_tensors(real alpha, real strength, real2 rotation, real3 power2, real3 power4)
 {
     real rest = lit(1.0) - alpha;
@@ -97,13 +43,14 @@ BN_FN slope_covariance covariance_from_tensors(real alpha, real strength, real2 
     return r;
 }
 
-// alpha_lin and eta as in covariance_from_eta, along the main direction of a filtered tensor.
+// alpha_lin in [0,1]; eta in [-1,1], the degree of anisotropy: the width is alpha_lin^2 (1 + eta) along the main
+// direction of a filtered tensor and alpha_lin^2 (1 - eta) across it. Without a direction the surface is isotropic.
 BN_FN slope_covariance covariance_from_eta_tensor(real alpha_lin, real eta, real2 rotation, real3 power2)
 {
     real trace = power2.x + power2.y;
     real3 m = power2 * (lit(1.0) / max(trace, lit(1e-6))); // trace 1 where there is a direction
     real sigma = alpha_lin * alpha_lin * lit(0.70710678118654752);
-    real e = select(trace > lit(1e-6), eta, lit(0.0)); // without a direction the surface is isotropic
+    real e = select(trace > lit(1e-6), eta, lit(0.0));
     real along = sigma * (lit(1.0) + e);
     real across = sigma * (lit(1.0) - e);
     real extra = (along - across) * (along + across);
@@ -116,15 +63,6 @@ BN_FN slope_covariance covariance_from_eta_tensor(real alpha_lin, real eta, real
     r.yy = base + extra * (s * s * m.x + c * c * m.y + shear);
     r.xy = extra * (c * s * (m.x - m.y) + (c * c - s * s) * m.z);
     return r;
-}
-
-BN_FN slope_covariance covariance_mix(slope_covariance a, slope_covariance b, real t)
-{
-    slope_covariance s;
-    s.xx = k_mix(a.xx, b.xx, t);
-    s.yy = k_mix(a.yy, b.yy, t);
-    s.xy = k_mix(a.xy, b.xy, t);
-    return s;
 }
 
 // Eigenvalues and the first eigenvector, for any symmetric matrix with xx + yy >= 0. Free of angles, of scale
@@ -154,16 +92,6 @@ BN_FN slope_axes axes_of_covariance(slope_covariance s)
     axes.sigma_v = sqrt(l2);
     axes.u = select(circular, vec2_of(lit(1.0), lit(0.0)), k_normalize2(u));
     return axes;
-}
-
-// Perceptual roughness and degree of anisotropy, [0,1], of a decomposed covariance.
-BN_FN real axes_alpha_lin(slope_axes axes)
-{
-    return sqrt((axes.sigma_u + axes.sigma_v) * lit(0.70710678118654752));
-}
-BN_FN real axes_eta(slope_axes axes)
-{
-    return (axes.sigma_u - axes.sigma_v) / (axes.sigma_u + axes.sigma_v);
 }
 
 BN_KERNELS_END

@@ -81,11 +81,12 @@ struct ellipsoid_view {
     real3 au;     // A u
     real lengths; // |A u| |A n|
     real sum;     // |A u| |A n| + A u . A n
+    real hidden;  // |A u| |A n| - A u . A n
     real k;       // 2 |A n|^2 / sum: the ellipsoid's projected area over that of the half that u can see
 };
 
-// u unit. Where A u and A n point apart, their sum of products comes from the square of their cross product,
-// |A u x A n| = |cofactor (u x n)|, over the difference (Eq. 25 and 43).
+// u unit. Whichever of sum and difference cancels comes from the square of the cross product, |A u x A n| =
+// |cofactor (u x n)|, over the other (Eq. 25 and 43).
 BN_FN ellipsoid_view ellipsoid_seen_from(ellipsoid_params p, real3 u)
 {
     ellipsoid_view v;
@@ -94,8 +95,10 @@ BN_FN ellipsoid_view ellipsoid_seen_from(ellipsoid_params p, real3 u)
     real au2 = k_dot3(v.au, v.au);
     v.lengths = sqrt(au2) * sqrt(p.an_length2);
     real3 area = ellipsoid_cofactor(p, vec3_of(u.y, -u.x, lit(0.0)));
-    real apart = k_dot3(area, area) / max(v.lengths - c, lit(1e-20));
-    v.sum = max(select(c >= lit(0.0), v.lengths + c, apart), lit(1e-16));
+    real wide = v.lengths + abs(c);
+    real thin = k_dot3(area, area) / max(wide, lit(1e-20));
+    v.sum = max(select(c >= lit(0.0), wide, thin), lit(1e-16));
+    v.hidden = select(c >= lit(0.0), thin, wide);
     v.k = lit(2.0) * p.an_length2 / v.sum;
     return v;
 }
@@ -142,11 +145,20 @@ BN_FN real ellipsoid_pdf(ellipsoid_params p, real3 wo, real3 wi)
 BN_FN real3 ellipsoid_visible_normal(ellipsoid_params p, ellipsoid_view v, real3 wo, real2 xi)
 {
     // a, b: a point of the disk, moved to the crescent that the lune's outline leaves, lifted to the sphere.
+    // The lune has the share s of the disk's width. edge^2 - disk.x^2 = 1 - r^2: nothing here is a difference of
+    // squares, which narrow lobes that are tilted away, whose lunes are thin, and points at the rim would leave
+    // few digits of.
     real2 disk = concentric_disk(xi);
-    real s = min(lit(0.5) * v.sum / max(v.lengths, lit(1e-20)), lit(1.0));
-    real edge = sqrt(max(lit(1.0) - disk.y * disk.y, lit(0.0)));
-    real x = s * disk.x + (lit(1.0) - s) * edge;
-    real z = sqrt(max(lit(1.0) - x * x - disk.y * disk.y, lit(0.0)));
+    real rest = concentric_rest(xi);
+    real edge = sqrt(rest + disk.x * disk.x);
+    real wide = edge + abs(disk.x);
+    real thin = rest / max(wide, lit(1e-20));
+    real to_outline = select(disk.x > lit(0.0), thin, wide);
+    real to_rim = select(disk.x > lit(0.0), wide, thin);
+    real half_lengths = lit(0.5) / max(v.lengths, lit(1e-20));
+    real s = min(half_lengths * v.sum, lit(1.0));
+    real x = edge - s * to_outline;
+    real z = sqrt(max(s * to_outline * (to_rim + half_lengths * v.hidden * to_outline), lit(0.0)));
     // c: the lune's frame. Seen along the normal the lune is half a sphere and any e2 across e3 will do.
     real3 e3 = k_normalize3(v.au);
     real3 side = vec3_of(wo.y, -wo.x, lit(0.0));

@@ -25,20 +25,29 @@ BN_FN real fresnel_f0(real eta)
     return r * r;
 }
 
+// index2 - sin^2, where index2 - 1 = contrast: for each half of the cosines the form that keeps its digits where
+// total reflection begins and at index 1.
+BN_FN real fresnel_inside(real c, real s2, real index2, real contrast)
+{
+    return select(c > lit(0.7), index2 - s2, contrast + c * c);
+}
+
 // Exact dielectric, total internal reflection included. eta > 0 as above. With c = v_dot_h and g = eta
 // cos(refracted angle), the amplitudes (c - g) / (c + g) and (eta^2 c - g) / (eta^2 c + g) are written
-// without differences of nearly equal numbers: c^2 - g^2 = 1 - eta^2.
+// without differences of nearly equal numbers: c^2 - g^2 = 1 - eta^2, and eta^4 c^2 - g^2 is that times
+// sin^2 - eta^2 c^2.
 BN_FN real fresnel_dielectric(real v_dot_h, real eta)
 {
     real c = k_saturate(v_dot_h);
     real e2 = eta * eta;
     real contrast = (eta - lit(1.0)) * (eta + lit(1.0));
-    real g2 = contrast + c * c;
+    real s2 = (lit(1.0) - c) * (lit(1.0) + c);
+    real g2 = fresnel_inside(c, s2, e2, contrast);
     real g = sqrt(max(g2, lit(0.0)));
     real sum_s = max(c + g, lit(1e-12));
     real sum_p = max(e2 * c + g, lit(1e-12));
     real rs = contrast / sum_s / sum_s;
-    real rp = contrast * ((e2 + lit(1.0)) * c * c - lit(1.0)) / sum_p / sum_p;
+    real rp = contrast * (e2 * c * c - s2) / sum_p / sum_p;
     real value = min(lit(0.5) * (rs * rs + rp * rp), lit(1.0));
     return select(both(g2 <= lit(0.0), contrast < lit(0.0)), lit(1.0), value);
 }
@@ -52,7 +61,7 @@ BN_FN real fresnel_conductor(real v_dot_h, real eta, real k)
     real c = k_saturate(v_dot_h);
     real s2 = (lit(1.0) - c) * (lit(1.0) + c);
     real contrast = (eta - lit(1.0)) * (eta + lit(1.0)) - k * k;
-    real t = contrast + c * c;
+    real t = fresnel_inside(c, s2, (eta - k) * (eta + k), contrast);
     real ek = eta * k;
     real modulus = sqrt(t * t + lit(4.0) * ek * ek);
     real larger = sqrt(lit(0.5) * (modulus + abs(t)));

@@ -1,6 +1,5 @@
 // Isotropic GGX with height-correlated Smith masking-shadowing. Walter et al. 2007, eq. 33; Heitz 2014,
-// eq. 99. Conventions of eval, sample and pdf in microfacet.k.h; ggx_aniso.k.h has two widths and the
-// separable form.
+// eq. 99. Conventions of eval, sample and pdf in microfacet.k.h; ggx_aniso.k.h has two widths.
 #ifndef BN_GGX_K_H
 #define BN_GGX_K_H
 

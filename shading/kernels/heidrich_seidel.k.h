@@ -57,9 +57,9 @@ BN_FN real heidrich_seidel_pdf(real3 wo, real3 wi)
 BN_FN bsdf_sample heidrich_seidel_sample(heidrich_seidel_params p, real3 wo, real2 xi)
 {
     real2 d = concentric_disk(xi);
-    real r2 = k_dot2(d, d);
-    real s = sqrt(max(lit(2.0) - r2, lit(0.0))); // equal areas: z = 1 - r^2
-    real3 wi = vec3_of(d.x * s, d.y * s, max(lit(1.0) - r2, lit(0.0)));
+    real z = concentric_rest(xi); // equal areas: z = 1 - r^2
+    real s = sqrt(lit(1.0) + z);
+    real3 wi = vec3_of(d.x * s, d.y * s, z);
     real weight = heidrich_seidel_eval(p, wo, wi) * lit(6.2831853071795865);
     real3 h = half_vector(wo, wi);
     return bsdf_sample_of(wi, weight, heidrich_seidel_pdf(wo, wi), k_dot3(wo, h), both_above(wo, wi));

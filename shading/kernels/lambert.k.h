@@ -20,7 +20,7 @@ BN_FN real lambert_pdf(real3 wo, real3 wi)
 BN_FN bsdf_sample lambert_sample(real3 wo, real2 xi)
 {
     real2 d = concentric_disk(xi);
-    real3 wi = vec3_of(d.x, d.y, sqrt(max(lit(1.0) - k_dot2(d, d), lit(0.0))));
+    real3 wi = vec3_of(d.x, d.y, sqrt(concentric_rest(xi)));
     real3 h = half_vector(wo, wi);
     return bsdf_sample_of(wi, lit(1.0), lambert_pdf(wo, wi), k_dot3(wo, h), both_above(wo, wi));
 }

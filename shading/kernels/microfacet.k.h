@@ -84,6 +84,14 @@ BN_FN real2 concentric_disk(real2 xi)
     return vec2_of(r * select(wide, turn.cosine, turn.sine), r * select(wide, turn.sine, turn.cosine));
 }
 
+// 1 - r^2 of the point that concentric_disk makes of xi, to the last digits at the rim, where |point|^2 has none
+// of it.
+BN_FN real concentric_rest(real2 xi)
+{
+    real r = max(abs(lit(2.0) * xi.x - lit(1.0)), abs(lit(2.0) * xi.y - lit(1.0)));
+    return (lit(1.0) - r) * (lit(1.0) + r);
+}
+
 BN_KERNELS_END
 
 #endif

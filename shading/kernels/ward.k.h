@@ -1,8 +1,7 @@
-// Ward 1992, specular part of reflectance 1, with his two exponents kept apart: ward_eval has the exact one,
-// -tan^2 of the half vector's angle, to which normalisation, sampling and pdf belong; ward_cheap_eval has his
-// approximation, up to a fifth higher. Mixing them biases an estimate. The model has neither masking nor
-// Fresnel, and the BRDF grows without bound at the horizon: cosines below 1e-4 count as 1e-4. Conventions in
-// microfacet.k.h.
+// Ward 1992, specular part of reflectance 1, with the exact one of his two exponents: -tan^2 of the half
+// vector's angle, in units of the widths. ward_cheap.k.h has his approximation, with a density and samples of
+// its own. The model has neither masking nor Fresnel, and the BRDF grows without bound at the horizon:
+// cosines below 1e-4 count as 1e-4. Conventions in microfacet.k.h.
 #ifndef BN_WARD_K_H
 #define BN_WARD_K_H
 
@@ -51,13 +50,6 @@ BN_FN real ward_eval(ward_params p, real3 wo, real3 wi)
     return select(both_above(wo, wi), value, lit(0.0));
 }
 
-BN_FN real ward_cheap_eval(ward_params p, real3 wo, real3 wi)
-{
-    real3 h = half_vector(wo, wi);
-    real value = k_exp(-(lit(2.0) * ward_ellipse(p, h) / (lit(1.0) + h.z))) * ward_scale(p, wo, wi);
-    return select(both_above(wo, wi), value, lit(0.0));
-}
-
 // Density of half vectors, 1/sr: exp(-tan^2) / (pi alpha_x alpha_y h.z^3).
 BN_FN real ward_half_density(ward_params p, real3 h)
 {
@@ -87,7 +79,8 @@ BN_FN real3 ward_half_vector(ward_params p, real2 xi)
     return k_normalize3(vec3_of(p.alpha_x * r * turn.cosine, p.alpha_y * r * turn.sine, lit(1.0)));
 }
 
-// The weight is (wo.h) h.z^3 sqrt(wi.z / wo.z): above 1 towards grazing wo.
+// The weight is (wo.h) h.z^3 sqrt(wi.z / wo.z): above 1 towards grazing wo, at most
+// 1 / sqrt(wo.z).
 BN_FN bsdf_sample ward_sample(ward_params p, real3 wo, real2 xi)
 {
     real3 h = ward_half_vector(p, xi);

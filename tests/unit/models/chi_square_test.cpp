@@ -138,7 +138,8 @@ double limit_of_run()
 {
     double runs = 0;
     for (const ModelCase& model : model_cases())
-        runs += static_cast<double>(model.settings.size() * views(model).size());
+        for (const Setting& setting : model.settings)
+            runs += setting.integrable() ? static_cast<double>(views(model).size()) : 0;
     return 1 - std::pow(1 - kSignificance, 1 / runs);
 }
 
@@ -155,6 +156,8 @@ TEST_P(ChiSquare, samples_follow_the_pdf)
     std::uint64_t seed = 100;
     for (std::size_t s = 0; s < GetParam().settings.size(); ++s) {
         const Setting& setting = GetParam().settings[s];
+        if (!setting.integrable())
+            continue;
         for (Vec wo : views(GetParam())) {
             const double p = run(GetParam(), setting, setting.params, wo, ++seed);
             EXPECT_GT(p, limit) << "setting " << s << ", wo " << wo[0] << " " << wo[1] << " " << wo[2];

@@ -137,6 +137,11 @@ void Batch::set(std::size_t k, Vec wo, Vec other_vec)
     }
 }
 
+Vec Batch::wo(std::size_t k) const
+{
+    return {in[kMaxParams * n + k], in[(kMaxParams + 1) * n + k], in[(kMaxParams + 2) * n + k]};
+}
+
 std::vector<double> Batch::run(RunFn fn, int outputs) const
 {
     std::vector<double> out(n * static_cast<std::size_t>(outputs));

@@ -31,7 +31,8 @@ enum Traits : unsigned {
 
 struct Setting {
     std::vector<double> params;
-    std::array<double, 2> widths; // of a GGX lobe that covers the model's
+    std::array<double, 2> widths; // of a GGX lobe that covers the model's; 0 where no integral resolves it
+    bool integrable() const { return widths[0] > 0; }
 };
 
 struct ModelCase {
@@ -61,7 +62,9 @@ class Batch {
   public:
     Batch(const std::vector<double>& params, std::size_t count);
     void set(std::size_t k, Vec wo, Vec other);
+    Vec wo(std::size_t k) const;
     std::vector<double> run(RunFn fn, int outputs = 1) const;
+    const std::vector<double>& arguments() const { return in; }
     int size() const { return static_cast<int>(n); }
 
   private:

@@ -7,12 +7,14 @@
 #include "shading/kernels/energy.k.h"
 #include "shading/kernels/filtered_is.k.h"
 #include "shading/kernels/ggx.k.h"
-#include "shading/kernels/ggx_aniso.k.h"
+#include "shading/kernels/ggx_aniso_separable.k.h"
 #include "shading/kernels/heidrich_seidel.k.h"
 #include "shading/kernels/lambert.k.h"
+#include "shading/kernels/lobe.k.h"
 #include "shading/kernels/major_axis.k.h"
 #include "shading/kernels/surface.k.h"
 #include "shading/kernels/ward.k.h"
+#include "shading/kernels/ward_cheap.k.h"
 
 namespace burnish {
 inline namespace BN_ISA_NS {

@@ -1,4 +1,4 @@
-// Parts of techniques against printed values and laws: filtered importance sampling, filtered tensors, the lobe along its grain, tilted frames.
+// Parts of techniques against printed values and laws: filtered importance sampling, the lobe along its grain, tilted frames.
 #include <cmath>
 #include <gtest/gtest.h>
 #include <numbers>
@@ -38,59 +38,6 @@ TEST(FilteredImportanceSampling, equals_the_printed_test_vector)
     for (int i = 0; i < 25; ++i)
         mean += sample(i / 5, i % 5)[3] / 25;
     EXPECT_NEAR(mean, .93371920, 1e-5);
-}
-
-std::vector<double> tensor(double strength, double angle, int power)
-{
-    const double s = std::pow(strength, power), c = std::cos(angle), d = std::sin(angle);
-    return {s * c * c, s * d * d, s * c * d};
-}
-
-// One texel's tensors give what the texel gives; the mean of two texels' tensors gives the mean of their covariances.
-TEST(Tensors, filter_the_covariance_exactly)
-{
-    const double alpha = .09, strength = .8, c = std::cos(.4), s = std::sin(.4);
-    const auto by_texel = [&](double weight, double angle) {
-        return at("covariance_khr", {alpha, strength, c, s, .5 + .5 * std::cos(angle), .5 + .5 * std::sin(angle), weight});
-    };
-    const auto by_tensors = [&](const std::vector<double>& t2, const std::vector<double>& t4) {
-        return at("covariance_tensors", {alpha, strength, c, s, t2[0], t2[1], t2[2], t4[0], t4[1], t4[2]});
-    };
-    const std::vector<double> a2 = tensor(.7, .3, 2), a4 = tensor(.7, .3, 4), b2 = tensor(1, 2, 2), b4 = tensor(1, 2, 4);
-    const std::vector<double> one = by_texel(.7, .3), other = by_texel(1, 2), single = by_tensors(a2, a4);
-    std::vector<double> m2(3), m4(3);
-    for (std::size_t k = 0; k < 3; ++k) {
-        EXPECT_NEAR(single[k], one[k], 1e-7);
-        m2[k] = .5 * (a2[k] + b2[k]), m4[k] = .5 * (a4[k] + b4[k]);
-    }
-    const std::vector<double> mixed = by_tensors(m2, m4);
-    for (std::size_t k = 0; k < 3; ++k)
-        EXPECT_NEAR(mixed[k], .5 * (one[k] + other[k]), 1e-7);
-}
-
-// A direction and its opposite are the same grain, and a grain of any strength turns an override's axis.
-TEST(Tensors, carry_the_direction_of_an_override)
-{
-    for (double angle : {0.0, .3, 1.4, 2.9}) {
-        const std::vector<double> plain = at("covariance_eta", {.5, .8, std::cos(angle), std::sin(angle)});
-        for (double strength : {.2, 1.0})
-            for (double turn : {0.0, std::numbers::pi}) {
-                const std::vector<double> t = tensor(strength, angle + turn, 2);
-                const std::vector<double> got = at("covariance_eta_tensor", {.5, .8, 1, 0, t[0], t[1], t[2]});
-                for (std::size_t k = 0; k < 3; ++k)
-                    EXPECT_NEAR(got[k], plain[k], 1e-7) << angle << " " << strength;
-            }
-    }
-}
-
-TEST(Tensors, without_a_direction_an_override_is_isotropic)
-{
-    for (double eta : {.99, 1.0, -.9}) {
-        const std::vector<double> s = at("covariance_eta_tensor", {.5, eta, 1, 0, 0, 0, 0});
-        EXPECT_NEAR(s[0], .03125, 1e-8) << eta;
-        EXPECT_EQ(s[0], s[1]);
-        EXPECT_EQ(s[2], 0);
-    }
 }
 
 TEST(Grain, points_where_the_extrema_point)

@@ -91,6 +91,75 @@ void expect_vector(const TechniqueKernels& kernels, const Vector& v, double tole
     EXPECT_LT(std::min(straight, swapped), tolerance) << kernels.name << " vector " << index;
 }
 
+// What the printed vectors say besides: where the ends were clamped (tau 0 to 1), the shift of the closest points, the part zeta
+// of the axis that is kept, f1 and f2 of the extrema's printed form, and directions of the first and last sample.
+struct Steps {
+    int vector;
+    double f1, f2, tau0, tau1, delta, zeta; // 0: not printed
+    Vec centre, refl0, refl1;
+};
+const Steps kSteps[] = {
+    {0, .09104107, -.00344818, 0, 1, 0, .89130031, {0, 0, 1}, {-.85279175, -.30385017, .42476029}, {-.00829300, -.30189650, .95330464}},
+    {1, .02567193, .00563749, .25761214, 1, .40536079, .89989968, {.04274066, -.00158485, .99908494},
+     {-.94951535, .31281002, .02388485}, {-.84447562, .30891508, .43752988}},
+    {2, 0, 0, 0, 1, 0, .57142857, {0, 0, 1}, {}, {}},
+    {3, 0, 0, 0, 1, 0, .79169624, {0, 0, 1}, {}, {}},
+    {4, 0, 0, .03054396, 1, .04797835, .86004966, {}, {}, {}},
+    {5, 0, 0, 0, .51275364, -.75534141, .94020117, {}, {}, {}},
+};
+
+Vec ellipse_point(const Vector& v, double t, double scale)
+{
+    const double s = v.alpha_lin * v.alpha_lin / std::sqrt(2.0);
+    return unit(scale * s * (1 + v.eta) * std::cos(t), scale * s * (1 - v.eta) * std::sin(t), 1);
+}
+Vec mirrored(const Vec& w, const Vec& o)
+{
+    const double d = 2 * (w.x * o.x + w.y * o.y + w.z * o.z);
+    return {d * w.x - o.x, d * w.y - o.y, d * w.z - o.z};
+}
+double apart(const Vec& a, const Vec& b) { return std::hypot(a.x - b.x, a.y - b.y, a.z - b.z); }
+
+// From the printed steps follow the kernel's results.
+TEST(major_axis, equals_the_printed_steps)
+{
+    for (const Steps& step : kSteps) {
+        const Vector& v = kVectors[step.vector];
+        double out[11];
+        oracle_kernels().major_axis(input(v).data(), out);
+        if (step.f2 != 0) { // appendix A as printed
+            const double s = v.alpha_lin * v.alpha_lin / std::sqrt(2.0), rx = s * (1 + v.eta), ry = s * (1 - v.eta);
+            const double f3 = -step.f2 * step.f2 * (1 + rx * rx) / (1 + ry * ry), root = std::sqrt(step.f1 * step.f1 - f3);
+            EXPECT_NEAR(out[0], std::atan((step.f1 + root) / step.f2), 1e-5) << step.vector;
+            EXPECT_NEAR(out[1], std::atan((step.f1 - root) / step.f2), 1e-5) << step.vector;
+        }
+        EXPECT_NEAR(1 - out[10] / out[9], step.zeta, 1e-7) << step.vector;
+        // appendix C: the width lies between the closest points, shifted by delta
+        const Vec m0 = ellipse_point(v, out[0] + step.delta, -1), m1 = ellipse_point(v, out[0] - step.delta, 1);
+        EXPECT_NEAR(apart(mirrored(m0, v.o), mirrored(m1, v.o)), out[10], 1e-7) << step.vector;
+        // appendix B and D: the ends at tau, drawn towards their middle
+        const Vec far0 = ellipse_point(v, out[1], 2 * step.tau0 - 1), far1 = ellipse_point(v, out[1], 2 * step.tau1 - 1);
+        EXPECT_NEAR(apart(mirrored(far0, v.o), mirrored(far1, v.o)), out[9], 1e-7) << step.vector;
+        const Vec c = unit(far0.x + far1.x, far0.y + far1.y, far0.z + far1.z);
+        if (step.centre.z != 0) {
+            EXPECT_LT(apart(c, step.centre), 1e-7) << step.vector;
+        }
+        const auto drawn = [&](const Vec& e) {
+            return unit(c.x + step.zeta * (e.x - c.x), c.y + step.zeta * (e.y - c.y), c.z + step.zeta * (e.z - c.z));
+        };
+        EXPECT_LT(distance(out + 2, drawn(far0)), 1e-7) << step.vector;
+        EXPECT_LT(distance(out + 5, drawn(far1)), 1e-7) << step.vector;
+        if (step.refl0.z != 0)
+            for (const TechniqueKernels& kernels : float_kernels())
+                for (double s : {0.0, 1.0}) {
+                    const double at[10] = {out[2], out[3], out[4], out[5], out[6], out[7], v.o.x, v.o.y, v.o.z, s};
+                    double dir[3];
+                    kernels.major_axis_direction(at, dir);
+                    EXPECT_LT(distance(dir, s == 0 ? step.refl0 : step.refl1), 1e-6) << step.vector << " " << kernels.name;
+                }
+    }
+}
+
 TEST(major_axis, equals_the_printed_test_vectors)
 {
     int index = 0;
