@@ -5,6 +5,7 @@
 #include "raster/tile/tile_types.h"
 #include "shading/kernels/bent_normal.k.h"
 #include "shading/kernels/ellipsoid.k.h"
+#include "shading/kernels/energy.k.h"
 #include "shading/kernels/filtered_is.k.h"
 #include "shading/kernels/fresnel.k.h"
 #include "shading/kernels/ggx_aniso.k.h"
@@ -29,6 +30,7 @@ struct TechniqueInput {
     integer pixel_id;  // y * width + x, for random numbers
     const surface_frame& surface_axes; // of the geometry
     bool turned;       // the lobe's normal is not the geometry's: light from below its horizon does not arrive
+    real3 gain;        // energy compensation, by which the result will be multiplied; 1 without
 };
 
 // Whether a technique asks of every sample if it lies above the horizon; the others fade.
@@ -177,12 +179,16 @@ template <class Place> BN_INLINE real3 filtered_is_sum(const TechniqueInput& in,
     const real count = to_real(int_lit(in.f.grid_count));
     const real texel_term = lit(0.5) * k_log2(size * size * lit(0.47746482927568601) / count); // 6 / (4 pi)
     real3 sum = vec3_all(lit(0.0));
+    real weights = lit(0.0);
     for (int i = 0; i < in.f.grid_count; ++i) {
         const filtered_sample s = place(o, in.f.grid[i], texel_term);
         const real3 wi = from_lobe(in.lobe, in.s.n, s.wi);
         const real3 fresnel = fresnel_schlick(in.s.f0, in.s.f90, k_saturate(s.o_dot_h));
         sum = sum + cube_sample(cube, wi, s.lod) * fresnel * above_horizon(in, wi, s.weight);
+        weights = weights + s.weight;
     }
+    if (in.f.energy_compensation) // these few samples, and a Beckmann lobe, have an albedo of their own
+        sum = sum * energy_compensation_of_albedo(in.s.f0, weights / count) / in.gain;
     return mirrors_apart(in, sum / count * splat(in.f.box_cube.scale / in.f.specular_cube.scale), lit(1.0));
 }
 
