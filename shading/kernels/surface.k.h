@@ -21,12 +21,16 @@ struct surface_frame {
     real3 n, t, b; // orthonormal, world space; b = +-cross(n, t)
 };
 
-// normal, tangent: interpolated, any length, turned to the viewer's side; handedness: +1 or -1.
+// normal, tangent: interpolated, any length, turned to the viewer's side; handedness: +1 or -1. Where a tangent lies along the normal, or is
+// none, any other takes its place.
 BN_FN surface_frame geometric_frame(real3 normal, real3 tangent, real handedness)
 {
     surface_frame f;
     f.n = k_normalize3(normal);
-    f.t = k_normalize3(tangent - f.n * k_dot3(f.n, tangent));
+    real3 t = tangent - f.n * k_dot3(f.n, tangent);
+    real zero = lit(0.0);
+    real3 other = select(abs(f.n.z) > lit(0.7), vec3_of(zero, f.n.z, -f.n.y), vec3_of(f.n.y, -f.n.x, zero));
+    f.t = k_normalize3(select(k_dot3(t, t) > lit(1e-12), t, other)); // less is rounding
     f.b = k_cross(f.n, f.t) * handedness;
     return f;
 }

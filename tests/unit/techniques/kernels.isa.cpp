@@ -1,6 +1,7 @@
 #include "shading/kernels/bent_normal.k.h"
 #include "shading/kernels/lobe.k.h"
 #include "shading/kernels/major_axis.k.h"
+#include "shading/kernels/surface.k.h"
 #include "tests/unit/techniques/kernels.h"
 
 namespace burnish {
@@ -52,12 +53,18 @@ void bent_normal(const double in[5], double out[4])
     out[3] = of_lane(r.lod);
 }
 
+void frame(const double in[7], double out[9])
+{
+    const surface_frame f = geometric_frame(in_lanes3(in), in_lanes3(in + 3), in_lane(in[6]));
+    of_lanes3(f.n, out), of_lanes3(f.t, out + 3), of_lanes3(f.b, out + 6);
+}
+
 } // namespace
 
 const test::TechniqueKernels& technique_kernels()
 {
     static constexpr const char* kNames[] = {"scalar", "avx2", "avx512", "double"};
-    static constexpr test::TechniqueKernels table = {kNames[BN_ISA], major_axis, direction, bent_normal};
+    static constexpr test::TechniqueKernels table = {kNames[BN_ISA], major_axis, direction, bent_normal, frame};
     return table;
 }
 
