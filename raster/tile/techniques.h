@@ -18,7 +18,7 @@ namespace burnish {
 inline namespace BN_ISA_NS {
 
 enum class Technique : std::int32_t {
-#define BN_TECHNIQUE(id, sampling, default_samples, summary) id,
+#define BN_TECHNIQUE(id, sampling, default_samples, most_samples, summary) id,
 #include "shading/models.def"
 };
 
@@ -276,7 +276,7 @@ BN_INLINE real3 mc_specular(const TechniqueInput& in)
 
 template <Technique kTechnique> BN_INLINE real3 technique_specular(const TechniqueInput& in)
 {
-#define BN_TECHNIQUE(id, sampling, default_samples, summary)                                                                     \
+#define BN_TECHNIQUE(id, sampling, default_samples, most_samples, summary) \
     if constexpr (kTechnique == Technique::id)                                                                         \
         return id##_specular(in);
 #include "shading/models.def"

@@ -243,7 +243,7 @@ real3 mc_specular(technique_input ti)
 real3 technique_specular(technique_input ti)
 {
     int at = 0;
-#define BN_TECHNIQUE(id, sampling, default_samples, summary)                                                                               \
+#define BN_TECHNIQUE(id, sampling, default_samples, most_samples, summary) \
     if (kTechnique == at++)                                                                                                                \
         return id##_specular(ti);
 #include "shading/models.def"
