@@ -132,7 +132,8 @@ BN_INLINE real3 major_axis_weighted_specular(const TechniqueInput& in)
     return texel_rgb(acc) / max(sum, lit(1e-20)) * in.albedo;
 }
 
-// Density-placed too, but with no more samples than each fragment needs, in cells around the middle that come and go without a step.
+// Density-placed too, but with no more samples than each fragment needs, in cells around the middle that come and go without a step. One
+// sample lies in the middle and the others in pairs, so an even --samples is taken as one less: never more than asked for.
 BN_INLINE real3 major_axis_adaptive_specular(const TechniqueInput& in)
 {
     const cube_desc cube = lanes_cube(in.f.specular_cube);
