@@ -581,23 +581,36 @@ BN_INLINE __m256 texel_pair(texel_buffer texels, const lane_indices& i, int lane
     return _mm256_cvtph_ps(
         _mm_loadu_si128(reinterpret_cast<const __m128i*>(texels + std::size_t{4} * i.at[lane])));
 }
-BN_INLINE texel_acc texel_add(texel_acc acc, texel_buffer texels, integer row0, integer row1, real w00,
-                              real w10, real w01, real w11)
+struct texel_plan {
+    lane_indices row0, row1;
+    real w00, w10, w01, w11;
+};
+BN_INLINE void plan_texels(texel_plan& p, integer row0, integer row1, real w00, real w10, real w01, real w11)
 {
-    const lane_indices i0 = spill(row0), i1 = spill(row1);
+    _mm256_store_si256(reinterpret_cast<__m256i*>(p.row0.at), row0.v);
+    _mm256_store_si256(reinterpret_cast<__m256i*>(p.row1.at), row1.v);
+    p.w00 = w00, p.w10 = w10, p.w01 = w01, p.w11 = w11;
+}
+BN_INLINE texel_acc texel_add(texel_acc acc, texel_buffer texels, const texel_plan& p)
+{
     for (int half = 0; half < 2; ++half) { // weights: [left of four lanes, right of the same]
         const __m256 w0 =
-            half ? _mm256_permute2f128_ps(w00.v, w10.v, 0x31) : _mm256_permute2f128_ps(w00.v, w10.v, 0x20);
+            half ? _mm256_permute2f128_ps(p.w00.v, p.w10.v, 0x31) : _mm256_permute2f128_ps(p.w00.v, p.w10.v, 0x20);
         const __m256 w1 =
-            half ? _mm256_permute2f128_ps(w01.v, w11.v, 0x31) : _mm256_permute2f128_ps(w01.v, w11.v, 0x20);
+            half ? _mm256_permute2f128_ps(p.w01.v, p.w11.v, 0x31) : _mm256_permute2f128_ps(p.w01.v, p.w11.v, 0x20);
         for (int j = 0; j < 4; ++j) {
             const int lane = 4 * half + j;
-            const __m256 p0 = _mm256_mul_ps(lane_weight(w0, j), texel_pair(texels, i0, lane));
-            const __m256 p1 = _mm256_mul_ps(lane_weight(w1, j), texel_pair(texels, i1, lane));
+            const __m256 p0 = _mm256_mul_ps(lane_weight(w0, j), texel_pair(texels, p.row0, lane));
+            const __m256 p1 = _mm256_mul_ps(lane_weight(w1, j), texel_pair(texels, p.row1, lane));
             acc.at[lane] = _mm256_add_ps(acc.at[lane], _mm256_add_ps(p0, p1));
         }
     }
     return acc;
+}
+BN_INLINE texel_acc texel_add(texel_acc acc, texel_buffer texels, integer row0, integer row1, real w00,
+                              real w10, real w01, real w11)
+{
+    return texel_add(acc, texels, {spill(row0), spill(row1), w00, w10, w01, w11});
 }
 BN_INLINE void texel_values(texel_acc acc, real out[4])
 {

@@ -613,20 +613,33 @@ BN_INLINE real texel_weights(real left, real right, int first)
     return {_mm512_castpd_ps(
         _mm512_permutex2var_pd(_mm512_castps_pd(left.v), first ? high : low, _mm512_castps_pd(right.v)))};
 }
-BN_INLINE texel_acc texel_add(texel_acc acc, texel_buffer texels, integer row0, integer row1, real w00,
-                              real w10, real w01, real w11)
+struct texel_plan {
+    lane_indices row0, row1;
+    real w00, w10, w01, w11;
+};
+BN_INLINE void plan_texels(texel_plan& p, integer row0, integer row1, real w00, real w10, real w01, real w11)
 {
-    const lane_indices i0 = spill(row0), i1 = spill(row1);
+    _mm512_store_si512(p.row0.at, row0.v);
+    _mm512_store_si512(p.row1.at, row1.v);
+    p.w00 = w00, p.w10 = w10, p.w01 = w01, p.w11 = w11;
+}
+BN_INLINE texel_acc texel_add(texel_acc acc, texel_buffer texels, const texel_plan& p)
+{
     for (int half = 0; half < 2; ++half) {
-        const real w0 = texel_weights(w00, w10, 8 * half), w1 = texel_weights(w01, w11, 8 * half);
+        const real w0 = texel_weights(p.w00, p.w10, 8 * half), w1 = texel_weights(p.w01, p.w11, 8 * half);
         for (int j = 0; j < 4; ++j) {
             const int a = 8 * half + j;
-            const __m512 p0 = _mm512_mul_ps(lane_weight(w0, j), texel_pairs(texels, i0, a, a + 4));
-            const __m512 p1 = _mm512_mul_ps(lane_weight(w1, j), texel_pairs(texels, i1, a, a + 4));
+            const __m512 p0 = _mm512_mul_ps(lane_weight(w0, j), texel_pairs(texels, p.row0, a, a + 4));
+            const __m512 p1 = _mm512_mul_ps(lane_weight(w1, j), texel_pairs(texels, p.row1, a, a + 4));
             acc.at[4 * half + j] = _mm512_add_ps(acc.at[4 * half + j], _mm512_add_ps(p0, p1));
         }
     }
     return acc;
+}
+BN_INLINE texel_acc texel_add(texel_acc acc, texel_buffer texels, integer row0, integer row1, real w00,
+                              real w10, real w01, real w11)
+{
+    return texel_add(acc, texels, {spill(row0), spill(row1), w00, w10, w01, w11});
 }
 BN_INLINE void texel_values(texel_acc acc, real out[4])
 {

@@ -431,6 +431,19 @@ BN_INLINE texel_acc texel_add(texel_acc acc, texel_buffer texels, integer row0, 
     }
     return acc;
 }
+// The arguments of a texel_add, in memory: planned ahead, its loads do not wait for their addresses.
+struct texel_plan {
+    integer row0, row1;
+    real w00, w10, w01, w11;
+};
+BN_INLINE void plan_texels(texel_plan& p, integer row0, integer row1, real w00, real w10, real w01, real w11)
+{
+    p = {row0, row1, w00, w10, w01, w11};
+}
+BN_INLINE texel_acc texel_add(texel_acc acc, texel_buffer texels, const texel_plan& p)
+{
+    return texel_add(acc, texels, p.row0, p.row1, p.w00, p.w10, p.w01, p.w11);
+}
 // left + right by channel. (Kernels use texel_value, which returns a real4.)
 BN_INLINE void texel_values(texel_acc acc, real out[4])
 {

@@ -2,6 +2,7 @@
 // function here (<id>_specular), its kernel file, and its line in shading/models.def.
 #pragma once
 #include "raster/frame/lanes_records.h"
+#include "raster/tile/cube_sum.h"
 #include "raster/tile/tile_types.h"
 #include "shading/kernels/bent_normal.k.h"
 #include "shading/kernels/ellipsoid.k.h"
@@ -44,12 +45,6 @@ BN_INLINE real above_horizon(const TechniqueInput& in, real3 wi, real weight)
     return in.turned ? select(k_dot3(in.surface_axes.n, wi) > lit(0.0), weight, lit(0.0)) : weight;
 }
 
-BN_INLINE real3 texel_rgb(texel_acc acc)
-{
-    const real4 v = texel_value(acc);
-    return vec3_of(v.x, v.y, v.z);
-}
-
 BN_INLINE real3 split_isotropic_specular(const TechniqueInput& in)
 {
     return split_isotropic_radiance(in.s, lanes_cube(in.f.specular_cube)) * in.albedo;
@@ -62,22 +57,20 @@ BN_INLINE real3 bent_normal_specular(const TechniqueInput& in)
     return cube_sample(cube, ray.direction, ray.lod * to_real(int_lit(cube.levels - 1))) * in.albedo;
 }
 
-struct LaneLine { // the major axis in world space
-    real3 e0, step, o;
-    major_axis_line line;
+struct LaneCurve {
+    major_axis_curve directions; // world space
+    real radius;
 };
 
-BN_INLINE LaneLine major_axis_in_world(const TechniqueInput& in, real inv_count)
+BN_INLINE LaneCurve major_axis_in_world(const TechniqueInput& in, real inv_count)
 {
     real3 o = to_lobe(in.lobe, in.s.n, in.s.v);
     o.z = max(o.z, lit(1e-4));
     o = k_normalize3(o);
-    LaneLine r;
-    r.line = major_axis_setup(o, in.lobe.sigma_u, in.lobe.sigma_v, splat(in.f.major_axis_k), splat(in.f.major_axis_beta), inv_count);
-    r.e0 = from_lobe(in.lobe, in.s.n, r.line.e0);
-    r.step = from_lobe(in.lobe, in.s.n, r.line.e1 - r.line.e0);
-    r.o = from_lobe(in.lobe, in.s.n, o);
-    return r;
+    const major_axis_line line =
+        major_axis_setup(o, in.lobe.sigma_u, in.lobe.sigma_v, splat(in.f.major_axis_k), splat(in.f.major_axis_beta), inv_count);
+    const real3 e0 = from_lobe(in.lobe, in.s.n, line.e0), step = from_lobe(in.lobe, in.s.n, line.e1 - line.e0);
+    return {major_axis_curve_of(e0, step, from_lobe(in.lobe, in.s.n, o)), line.radius};
 }
 
 BN_INLINE real major_axis_lod(real radius, const cube_desc& cube)
@@ -90,25 +83,38 @@ BN_INLINE real3 major_axis_specular(const TechniqueInput& in)
     const cube_desc cube = lanes_cube(in.f.specular_cube);
     const int n = in.f.samples;
     const real inv = lit(1.0) / to_real(int_lit(n));
-    const LaneLine line = major_axis_in_world(in, inv);
-    const real lod = major_axis_lod(line.line.radius, cube);
-    texel_acc acc = texel_zero();
+    const LaneCurve curve = major_axis_in_world(in, inv);
+    CubeSum sum;
+    begin(sum, cube);
+    const cube_levels levels = levels_at(sum, major_axis_lod(curve.radius, cube), inv);
     for (int j = 0; j < n; ++j) {
         const float s = n == 1 ? 0.5f : static_cast<float>(j) / static_cast<float>(n - 1);
-        acc = cube_texel_add(acc, cube, major_axis_direction(line.e0, line.step, line.o, splat(s)), lod, inv);
+        add_sample(sum, major_axis_direction(curve.directions, splat(s)), levels);
     }
-    return texel_rgb(acc) * in.albedo;
+    return sum_of(sum) * in.albedo;
 }
 
-// One sample of a lobe along its grain, added to a sum and its weights.
-BN_INLINE void add_grain_sample(const TechniqueInput& in, const cube_desc& cube, const major_axis_grain& grain, real c, real root,
-                                real spacing, real weight, texel_acc& acc, real& sum)
+// Samples of a lobe along its grain, and the sum of their weights.
+struct GrainSum {
+    CubeSum light;
+    real weights;
+};
+
+BN_INLINE void begin(GrainSum& sum, const cube_desc& cube)
+{
+    begin(sum.light, cube);
+    sum.weights = lit(0.0);
+}
+
+BN_INLINE void add_grain_sample(const TechniqueInput& in, const major_axis_grain& grain, real c, real root, real spacing, real weight, GrainSum& sum)
 {
     const grain_sample g = major_axis_grain_sample(grain, c, root, spacing);
     const real w = g.weight * weight;
-    acc = cube_texel_add(acc, cube, from_lobe(in.lobe, in.s.n, g.direction), major_axis_lod(g.radius, cube), w);
-    sum = sum + w;
+    add_sample(sum.light, from_lobe(in.lobe, in.s.n, g.direction), levels_at(sum.light, major_axis_lod(g.radius, *sum.light.cube), w));
+    sum.weights = sum.weights + w;
 }
+
+BN_INLINE real3 mean_of(GrainSum& sum) { return sum_of(sum.light) / max(sum.weights, lit(1e-20)); }
 
 BN_INLINE major_axis_grain grain_of(const TechniqueInput& in)
 {
@@ -123,13 +129,13 @@ BN_INLINE real3 major_axis_weighted_specular(const TechniqueInput& in)
     const major_axis_grain grain = grain_of(in);
     const float step = 2.0f / static_cast<float>(n);
     const real spacing = splat(in.f.major_axis_beta * step);
-    texel_acc acc = texel_zero();
-    real sum = lit(0.0);
+    GrainSum sum;
+    begin(sum, cube);
     for (int j = 0; j < n; ++j) {
         const float c = (static_cast<float>(j) + 0.5f) * step - 1.0f;
-        add_grain_sample(in, cube, grain, splat(c), sqrt(splat(1.0f - c * c)), spacing, lit(1.0), acc, sum);
+        add_grain_sample(in, grain, splat(c), sqrt(splat(1.0f - c * c)), spacing, lit(1.0), sum);
     }
-    return texel_rgb(acc) / max(sum, lit(1e-20)) * in.albedo;
+    return mean_of(sum) * in.albedo;
 }
 
 // Density-placed too, but with no more samples than each fragment needs, in cells around the middle that come and go without a step. One
@@ -142,18 +148,18 @@ BN_INLINE real3 major_axis_adaptive_specular(const TechniqueInput& in)
     const int limit = in.f.samples - (in.f.samples % 2 == 0); // one in the middle and pairs
     const real count = major_axis_grain_count(grain, beta, to_real(int_lit(limit)));
     const real spacing = beta * lit(2.0) / count;
-    texel_acc acc = texel_zero();
-    real sum = lit(0.0);
-    add_grain_sample(in, cube, grain, lit(0.0), one, spacing, one, acc, sum);
+    GrainSum sum;
+    begin(sum, cube);
+    add_grain_sample(in, grain, lit(0.0), one, spacing, one, sum);
     float most[kLanes];
     store(most, reduce_max(count));
     for (int i = 1; static_cast<float>(2 * i - 1) < most[0]; ++i) {
         const grain_cell cell = major_axis_grain_cell(count, i);
         const real root = sqrt(one - cell.c * cell.c);
-        add_grain_sample(in, cube, grain, cell.c, root, spacing, cell.weight, acc, sum);
-        add_grain_sample(in, cube, grain, -cell.c, root, spacing, cell.weight, acc, sum);
+        add_grain_sample(in, grain, cell.c, root, spacing, cell.weight, sum);
+        add_grain_sample(in, grain, -cell.c, root, spacing, cell.weight, sum);
     }
-    return texel_rgb(acc) / max(sum, lit(1e-20)) * in.albedo;
+    return mean_of(sum) * in.albedo;
 }
 
 // Sampled lobes have a least width; what has none is a mirror: the environment itself in the mirror direction.
@@ -179,18 +185,20 @@ template <class Place> BN_INLINE real3 filtered_is_sum(const TechniqueInput& in,
     const real size = to_real(int_lit(cube.size));
     const real count = to_real(int_lit(in.f.grid_count));
     const real texel_term = lit(0.5) * k_log2(size * size * lit(0.47746482927568601) / count); // 6 / (4 pi)
-    real3 sum = vec3_all(lit(0.0));
+    CubeTerms sum;
+    begin(sum, cube, true);
     real weights = lit(0.0);
     for (int i = 0; i < in.f.grid_count; ++i) {
         const filtered_sample s = place(o, in.f.grid[i], texel_term);
         const real3 wi = from_lobe(in.lobe, in.s.n, s.wi);
         const real3 fresnel = fresnel_schlick(in.s.f0, in.s.f90, k_saturate(s.o_dot_h));
-        sum = sum + cube_sample(cube, wi, s.lod) * fresnel * above_horizon(in, wi, s.weight);
+        add_term(sum, wi, s.lod, fresnel, above_horizon(in, wi, s.weight));
         weights = weights + s.weight;
     }
+    real3 total = sum_of(sum);
     if (in.f.energy_compensation) // these few samples, and a Beckmann lobe, have an albedo of their own
-        sum = sum * energy_compensation_of_albedo(in.s.f0, weights / count) / in.gain;
-    return mirrors_apart(in, sum / count * splat(in.f.box_cube.scale / in.f.specular_cube.scale), lit(1.0));
+        total = total * energy_compensation_of_albedo(in.s.f0, weights / count) / in.gain;
+    return mirrors_apart(in, total / count * splat(in.f.box_cube.scale / in.f.specular_cube.scale), lit(1.0));
 }
 
 BN_INLINE real3 filtered_is_specular(const TechniqueInput& in)
@@ -219,14 +227,15 @@ template <class SampleAt> BN_INLINE real3 mc_sum(const TechniqueInput& in, const
     const real shift_x = k_unit_from_bits(seed), shift_y = k_unit_from_bits(k_hash_u32(seed));
     const int n = in.f.samples;
     const float inv = 1.0f / static_cast<float>(n);
-    real3 sum = vec3_all(lit(0.0));
+    CubeTerms sum;
+    begin(sum, cube, false);
     for (int i = 0; i < n; ++i) {
         const real x = splat((static_cast<float>(i) + 0.5f) * inv) + shift_x, y = k_radical_inverse2(int_lit(i)) + shift_y;
         const bsdf_sample b = sample_at(vec2_of(x - floor(x), y - floor(y)));
         const real3 fresnel = fresnel_schlick(in.s.f0, in.s.f90, b.o_dot_h);
-        sum = sum + cube_sample_level(cube, b.wi, 0) * fresnel * above_horizon(in, b.wi, b.weight);
+        add_term(sum, b.wi, lit(0.0), fresnel, above_horizon(in, b.wi, b.weight));
     }
-    return sum * splat(inv);
+    return sum_of(sum) * splat(inv);
 }
 
 // The lobe as an ellipsoid in the surface's own frame, and what is seen of it.

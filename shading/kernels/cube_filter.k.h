@@ -61,10 +61,20 @@ BN_FN cube_place cube_face_uv(real3 d)
     return p;
 }
 
-// Adds weight times the bilinear value at `place` of the level of t texels (a real) and w = t + 2 (an
-// integer) along an edge. base = 8 (w0^2 + 2 w0) + 24 level.
-BN_FN texel_acc cube_bilinear_add(texel_acc acc, texel_buffer texels, cube_place place, integer base,
-                                  integer w, real t, real weight)
+// What one bilinear fetch loads: the left texels of two horizontal pairs, and the weights w<column><row>.
+struct texel_rows {
+    integer row0, row1;
+    real w00, w10, w01, w11;
+};
+
+BN_FN texel_acc texel_rows_add(texel_acc acc, texel_buffer texels, texel_rows r)
+{
+    return texel_add(acc, texels, r.row0, r.row1, r.w00, r.w10, r.w01, r.w11);
+}
+
+// weight times the bilinear value at `place` of the level of t texels (a real) and w = t + 2 (an integer)
+// along an edge. base = 8 (w0^2 + 2 w0) + 24 level.
+BN_FN texel_rows cube_bilinear_rows(cube_place place, integer base, integer w, real t, real weight)
 {
     real x = place.u * t + lit(0.5);
     real y = place.v * t + lit(0.5);
@@ -72,14 +82,16 @@ BN_FN texel_acc cube_bilinear_add(texel_acc acc, texel_buffer texels, cube_place
     integer iy = to_int(y);
     real fx = x - to_real(ix);
     real fy = y - to_real(iy);
-    integer row0 = base + ix + w * ((place.face - int_lit(8)) * w + (iy - int_lit(16)));
+    texel_rows r;
+    r.row0 = base + ix + w * ((place.face - int_lit(8)) * w + (iy - int_lit(16)));
+    r.row1 = r.row0 + w;
     real lower = weight * fy;
     real upper = weight - lower;
-    real w10 = upper * fx;
-    real w11 = lower * fx;
-    real w00 = upper - w10; // named before it is passed: glslang would not mark it precise otherwise
-    real w01 = lower - w11;
-    return texel_add(acc, texels, row0, row0 + w, w00, w10, w01, w11);
+    r.w10 = upper * fx;
+    r.w11 = lower * fx;
+    r.w00 = upper - r.w10;
+    r.w01 = lower - r.w11;
+    return r;
 }
 
 BN_FN integer cube_base(cube_desc cube)
@@ -88,21 +100,28 @@ BN_FN integer cube_base(cube_desc cube)
 }
 
 // The same at a level that is uniform, in [0, levels - 1].
-BN_FN texel_acc cube_level_add(texel_acc acc, cube_desc cube, cube_place place, int level, real weight)
+BN_FN texel_rows cube_level_rows(cube_desc cube, cube_place place, int level, real weight)
 {
     integer t = int_lit(cube.size >> level);
-    return cube_bilinear_add(acc, cube.texels, place, cube_base(cube) + int_lit(24 * level), t + int_lit(2),
-                             to_real(t), weight);
+    return cube_bilinear_rows(place, cube_base(cube) + int_lit(24 * level), t + int_lit(2), to_real(t), weight);
 }
 
-// Adds weight times the trilinear value in direction d, any length. lod is clamped to [0, levels - 1]; NaN
-// counts as 0.
-BN_FN texel_acc cube_texel_add(texel_acc acc, cube_desc cube, real3 d, real lod, real weight)
+BN_FN texel_acc cube_level_add(texel_acc acc, cube_desc cube, cube_place place, int level, real weight)
 {
-    cube_place place = cube_face_uv(d);
-    if (cube.levels == 1) {
-        return cube_level_add(acc, cube, place, 0, weight);
-    }
+    return texel_rows_add(acc, cube.texels, cube_level_rows(cube, place, level, weight));
+}
+
+// Two neighbouring levels of a cube of at least two, and their weights.
+struct cube_levels {
+    integer base; // of the finer one
+    integer w;
+    real t;
+    real fine, coarse;
+};
+
+// lod is clamped to [0, levels - 1]; NaN counts as 0.
+BN_FN cube_levels cube_levels_at(cube_desc cube, real lod, real weight)
+{
     real last = to_real(int_lit(cube.levels - 1));
     real clamped = min(max(lod, lit(0.0)), last);
     integer level = min(to_int(clamped),
@@ -110,15 +129,35 @@ BN_FN texel_acc cube_texel_add(texel_acc acc, cube_desc cube, real3 d, real lod,
     real f = clamped - to_real(level);
     // level 0 as a float, its exponent lowered by the level
     real size = to_real(int_lit(cube.size));
-    real t = real_from_bits(bits_of(size) - shl(level, 23));
-    integer w = to_int(t) + int_lit(2);
-    integer base = cube_base(cube) + level * int_lit(24);
-    real coarse = weight * f;
-    real fine = weight - coarse;
-    texel_acc sum = cube_bilinear_add(acc, cube.texels, place, base, w, t, fine);
-    real half_t = t * lit(0.5);
-    return cube_bilinear_add(sum, cube.texels, place, base + int_lit(24), shr(w, 1) + int_lit(1), half_t,
-                             coarse);
+    cube_levels l;
+    l.t = real_from_bits(bits_of(size) - shl(level, 23));
+    l.w = to_int(l.t) + int_lit(2);
+    l.base = cube_base(cube) + level * int_lit(24);
+    l.coarse = weight * f;
+    l.fine = weight - l.coarse;
+    return l;
+}
+
+BN_FN texel_rows cube_fine_rows(cube_place place, cube_levels l)
+{
+    return cube_bilinear_rows(place, l.base, l.w, l.t, l.fine);
+}
+
+BN_FN texel_rows cube_coarse_rows(cube_place place, cube_levels l)
+{
+    return cube_bilinear_rows(place, l.base + int_lit(24), shr(l.w, 1) + int_lit(1), l.t * lit(0.5), l.coarse);
+}
+
+// Adds weight times the trilinear value in direction d, any length. lod as above.
+BN_FN texel_acc cube_texel_add(texel_acc acc, cube_desc cube, real3 d, real lod, real weight)
+{
+    cube_place place = cube_face_uv(d);
+    if (cube.levels == 1) {
+        return cube_level_add(acc, cube, place, 0, weight);
+    }
+    cube_levels l = cube_levels_at(cube, lod, weight);
+    texel_acc sum = texel_rows_add(acc, cube.texels, cube_fine_rows(place, l));
+    return texel_rows_add(sum, cube.texels, cube_coarse_rows(place, l));
 }
 
 // One trilinear fetch.

@@ -137,13 +137,28 @@ BN_FN major_axis_line major_axis_setup(real3 o, real sigma_x, real sigma_y, real
     return r;
 }
 
-// Direction of the sample at s in [0,1] along the line, in the space of e0, e1 and o; not unit. The mirror of o about
-// e0 + s (e1 - e0), scaled by the square of its length: no division.
-BN_FN real3 major_axis_direction(real3 e0, real3 step, real3 o, real s)
+// Directions of the samples: the mirror of o about w = e0 + s (e1 - e0), scaled by the square of w's length, is a parabola in s. No division.
+struct major_axis_curve {
+    real3 at_start, linear, quadratic;
+};
+
+// In the space of e0, e1 and o. step: e1 - e0.
+BN_FN major_axis_curve major_axis_curve_of(real3 e0, real3 step, real3 o)
 {
-    real3 w = e0 + step * s;
-    real along = lit(2.0) * k_dot3(w, o);
-    return w * along - o * k_dot3(w, w);
+    real two = lit(2.0);
+    real start_o = two * k_dot3(e0, o);
+    real step_o = two * k_dot3(step, o);
+    major_axis_curve k;
+    k.at_start = e0 * start_o - o * k_dot3(e0, e0);
+    k.linear = step * start_o + e0 * step_o - o * (two * k_dot3(e0, step));
+    k.quadratic = step * step_o - o * k_dot3(step, step);
+    return k;
+}
+
+// Direction of the sample at s in [0,1]; not unit.
+BN_FN real3 major_axis_direction(major_axis_curve k, real s)
+{
+    return k.at_start + (k.linear + k.quadratic * s) * s;
 }
 
 // The lobe along its major axis, for samples placed and weighted by its density. GGX slopes on the line through the middle of the ellipse have

@@ -67,12 +67,13 @@ real3 major_axis_specular(technique_input ti)
     real3 along = line.e1 - line.e0;
     real3 step_ws = from_lobe(ti.lobe, ti.s.n, along);
     real3 o_ws = from_lobe(ti.lobe, ti.s.n, o);
+    major_axis_curve curve = major_axis_curve_of(e0, step_ws, o_ws);
     real lod = major_axis_lod(line.radius);
     texel_acc acc = texel_zero();
     for (int j = 0; j < n; ++j) {
         real s = to_real(j) / to_real(max(n - 1, 1));
         s = n == 1 ? 0.5 : s;
-        acc = cube_texel_add(acc, cube, major_axis_direction(e0, step_ws, o_ws, s), lod, inv);
+        acc = cube_texel_add(acc, cube, major_axis_direction(curve, s), lod, inv);
     }
     return texel_rgb(acc) * ti.albedo;
 }

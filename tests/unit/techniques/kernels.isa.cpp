@@ -39,7 +39,7 @@ void major_axis(const double in[8], double out[11])
 void direction(const double in[10], double out[3])
 {
     const real3 e0 = in_lanes3(in), e1 = in_lanes3(in + 3);
-    of_lanes3(k_normalize3(major_axis_direction(e0, e1 - e0, in_lanes3(in + 6), in_lane(in[9]))), out);
+    of_lanes3(k_normalize3(major_axis_direction(major_axis_curve_of(e0, e1 - e0, in_lanes3(in + 6)), in_lane(in[9]))), out);
 }
 
 // Of samples, as major_axis_adaptive takes them: one in the middle and a pair a cell.
