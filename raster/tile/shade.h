@@ -46,13 +46,13 @@ template <Technique kTechnique> BN_INLINE real3 environment_light(const FramePar
     const real3 albedo = s.f0 * x.dfg.scale + s.f90 * x.dfg.bias;
     const TechniqueInput input = {f, s, x.lobe, albedo, pixel_id, x.surface_axes, x.turned, x.gain};
     real3 specular = technique_specular<kTechnique>(input) * x.gain * splat(f.specular_cube.scale);
-    if (x.turned && !tests_horizon(kTechnique)) {
-        const real3 mirrored = s.n * (lit(2.0) * k_dot3(s.n, s.v)) - s.v;
-        specular = specular * horizon_fade(x.surface_axes.n, mirrored, s.roughness * s.roughness);
-    }
     if (f.tilted && kTechnique != Technique::mc) { // which samples the tilted lobe itself
         const LaneEllipsoid e = lobe_on_surface(x.lobe, s, x.surface_axes);
-        specular = specular * ellipsoid_tilt_albedo(e.p, e.o);
+        const real upright = tests_horizon(kTechnique) ? lit(1.0) : max(x.dfg.scale + x.dfg.bias, lit(0.05)); // what is in already
+        specular = specular * (ellipsoid_albedo(e.p, e.o) / upright);
+    } else if (x.turned && !tests_horizon(kTechnique)) {
+        const real3 mirrored = s.n * (lit(2.0) * k_dot3(s.n, s.v)) - s.v;
+        specular = specular * horizon_fade(x.surface_axes.n, mirrored, s.roughness * s.roughness);
     }
     if (!x.diffuse)
         return (specular + vec3_all(lit(0.0))) * s.occlusion; // as if nothing were added

@@ -187,16 +187,19 @@ template <class Place> BN_INLINE real3 filtered_is_sum(const TechniqueInput& in,
     const real texel_term = lit(0.5) * k_log2(size * size * lit(0.47746482927568601) / count); // 6 / (4 pi)
     CubeTerms sum;
     begin(sum, cube, true);
-    real weights = lit(0.0);
+    real weights = lit(0.0), kept = lit(0.0);
     for (int i = 0; i < in.f.grid_count; ++i) {
         const filtered_sample s = place(o, in.f.grid[i], texel_term);
         const real3 wi = from_lobe(in.lobe, in.s.n, s.wi);
         const real3 fresnel = fresnel_schlick(in.s.f0, in.s.f90, k_saturate(s.o_dot_h));
-        add_term(sum, wi, s.lod, fresnel, above_horizon(in, wi, s.weight));
-        weights = weights + s.weight;
+        const real weight = above_horizon(in, wi, s.weight);
+        add_term(sum, wi, s.lod, fresnel, weight);
+        weights = weights + s.weight, kept = kept + weight;
     }
     real3 total = sum_of(sum);
-    if (in.f.energy_compensation) // these few samples, and a Beckmann lobe, have an albedo of their own
+    if (in.f.tilted) // a mean, to be scaled by the tilted lobe's albedo
+        total = total / max(kept / count, lit(1e-4));
+    else if (in.f.energy_compensation) // these few samples, and a Beckmann lobe, have an albedo of their own
         total = total * energy_compensation_of_albedo(in.s.f0, weights / count) / in.gain;
     return mirrors_apart(in, total / count * splat(in.f.box_cube.scale / in.f.specular_cube.scale), lit(1.0));
 }
@@ -269,7 +272,7 @@ BN_INLINE real3 mc_specular(const TechniqueInput& in)
             b.wi = in.surface_axes.t * b.wi.x + in.surface_axes.b * b.wi.y + in.surface_axes.n * b.wi.z;
             return b;
         });
-        return mirrors_apart(in, sum, ellipsoid_tilt_albedo(e.p, e.o));
+        return mirrors_apart(in, sum, ellipsoid_mirror_albedo(e.p, e.o));
     }
     const real root2 = lit(1.4142135623730951);
     const ggx_aniso_params p = ggx_aniso_params_of(lobe.sigma_u * root2, lobe.sigma_v * root2);

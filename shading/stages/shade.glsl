@@ -47,14 +47,15 @@ real3 environment_light(shading_point x, int pixel_id)
     real3 albedo = s.f0 * x.dfg.scale + s.f90 * x.dfg.bias;
     technique_input ti = technique_input(s, x.lobe, albedo, pixel_id, x.surface_axes, x.turned, x.gain);
     real3 specular = technique_specular(ti) * x.gain * frame.specular.scale;
-    if (x.turned && !kTestsHorizon) {
+    if (frame.tilted != 0 && !kSamplesTilt) {
+        placed_ellipsoid e = lobe_on_surface(x.lobe, s, x.surface_axes);
+        real upright = kTestsHorizon ? lit(1.0) : max(x.dfg.scale + x.dfg.bias, lit(0.05)); // what is in already
+        real shown = ellipsoid_albedo(e.p, e.o) / upright;
+        specular = specular * shown;
+    } else if (x.turned && !kTestsHorizon) {
         real3 mirrored = s.n * (lit(2.0) * k_dot3(s.n, s.v)) - s.v;
         real alpha = s.roughness * s.roughness;
         specular = specular * horizon_fade(x.surface_axes.n, mirrored, alpha);
-    }
-    if (frame.tilted != 0 && !kSamplesTilt) {
-        placed_ellipsoid e = lobe_on_surface(x.lobe, s, x.surface_axes);
-        specular = specular * ellipsoid_tilt_albedo(e.p, e.o);
     }
     if (!x.diffuse) {
         real3 alone = (specular + vec3_all(lit(0.0))) * s.occlusion; // as if nothing were added

@@ -160,6 +160,7 @@ real3 filtered_is_sum(technique_input ti, bool ggx)
     beckmann_params of_beckmann = beckmann_params_of(alpha_u, alpha_v);
     real3 sum = vec3_all(lit(0.0));
     real weights = lit(0.0);
+    real kept = lit(0.0);
     for (int i = 0; i < frame.grid_count; ++i) {
         int g = frame.grid_base + 3 * i;
         filtered_sample s;
@@ -169,10 +170,15 @@ real3 filtered_is_sum(technique_input ti, bool ggx)
             s = filtered_is_beckmann(o, of_beckmann, bn_reals[g], bn_reals[g + 1], bn_reals[g + 2], texel_term);
         real3 wi = from_lobe(ti.lobe, ti.s.n, s.wi);
         real3 fresnel = fresnel_schlick(ti.s.f0, ti.s.f90, k_saturate(s.o_dot_h));
-        sum = sum + cube_sample(cube, wi, s.lod) * fresnel * above_horizon(ti, wi, s.weight);
+        real weight = above_horizon(ti, wi, s.weight);
+        sum = sum + cube_sample(cube, wi, s.lod) * fresnel * weight;
         weights = weights + s.weight;
+        kept = kept + weight;
     }
-    if (frame.energy_compensation != 0) { // these few samples, and a Beckmann lobe, have an albedo of their own
+    if (frame.tilted != 0) { // a mean, to be scaled by the tilted lobe's albedo
+        real mean_weight = kept / count;
+        sum = sum / max(mean_weight, lit(1e-4));
+    } else if (frame.energy_compensation != 0) { // these few samples, and a Beckmann lobe, have an albedo of their own
         real own = weights / count;
         sum = sum * energy_compensation_of_albedo(ti.s.f0, own) / ti.gain;
     }
@@ -237,7 +243,7 @@ real3 mc_specular(technique_input ti)
         real3 fresnel = fresnel_schlick(ti.s.f0, ti.s.f90, b.o_dot_h);
         sum = sum + cube_sample_level(cube, b.wi, 0) * fresnel * above_horizon(ti, b.wi, b.weight);
     }
-    real dim = tilted ? ellipsoid_tilt_albedo(e.p, e.o) : 1.0;
+    real dim = tilted ? ellipsoid_mirror_albedo(e.p, e.o) : 1.0;
     return mirrors_apart(ti, sum * inv, dim);
 }
 
