@@ -14,8 +14,8 @@ struct TechniqueKernels {
     void (*grain_count)(const double in[8], double out[2]);
     // in: vxyz sigma_u sigma_v in the frame u = x, v = y, n = z; out: direction xyz lod
     void (*bent_normal)(const double in[5], double out[4]);
-    // in: normal xyz, tangent xyz, handedness; out: n t b, xyz each
-    void (*geometric_frame)(const double in[7], double out[9]);
+    // in: normal xyz, tangent xyz, handedness, tangent-space normal; out: n t b, xyz each
+    void (*mapped_frame)(const double in[10], double out[9]);
 };
 
 const TechniqueKernels& oracle_kernels();

@@ -63,9 +63,10 @@ void bent_normal(const double in[5], double out[4])
     out[3] = of_lane(r.lod);
 }
 
-void frame(const double in[7], double out[9])
+void frame(const double in[10], double out[9])
 {
-    const surface_frame f = geometric_frame(in_lanes3(in), in_lanes3(in + 3), in_lane(in[6]));
+    const surface_frame own = geometric_frame(in_lanes3(in), in_lanes3(in + 3), in_lane(in[6]));
+    const surface_frame f = mapped_frame(own, in_lanes3(in + 7), in_lane(in[6]));
     of_lanes3(f.n, out), of_lanes3(f.t, out + 3), of_lanes3(f.b, out + 6);
 }
 
