@@ -35,7 +35,8 @@ BN_FN surface_frame frame_of(real3 n, real3 t, real handedness)
 BN_FN surface_frame geometric_frame(real3 normal, real3 tangent, real handedness)
 {
     real3 n = k_normalize3(normal);
-    return frame_of(n, tangent - n * k_dot3(n, tangent), handedness);
+    real3 t = tangent - n * k_dot3(n, tangent);
+    return frame_of(n, t, handedness);
 }
 
 // The frame turned to a mapped normal. map: tangent-space normal from the texture, any length. Where it lies along the tangent, the old
