@@ -2,9 +2,22 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
+#include <new>
 #include <vector>
 
 namespace burnish {
+
+// Memory that starts with a cache line.
+template <class T> struct LineAllocator {
+    using value_type = T;
+    static constexpr std::align_val_t kLine{64};
+
+    LineAllocator() = default;
+    template <class U> LineAllocator(const LineAllocator<U>&) {}
+    T* allocate(std::size_t n) { return static_cast<T*>(::operator new(n * sizeof(T), kLine)); }
+    void deallocate(T* at, std::size_t) { ::operator delete(at, kLine); }
+    bool operator==(const LineAllocator&) const = default;
+};
 
 enum class PixelType : std::uint8_t { u8, u16, f32 };
 
@@ -17,7 +30,7 @@ struct Image {
     int width = 0, height = 0;
     int channels = 0;               // 1 gray, 2 gray+alpha, 3 RGB, 4 RGBA
     PixelType type = PixelType::u8; // u8 and u16 are normalized; f32 is linear radiance or data
-    std::vector<std::byte> bytes;   // width * height * channels * pixel_type_bytes(type)
+    std::vector<std::byte, LineAllocator<std::byte>> bytes; // width * height * channels * pixel_type_bytes(type)
 
     bool empty() const { return bytes.empty(); }
     const float* f32() const { return reinterpret_cast<const float*>(bytes.data()); }

@@ -23,12 +23,13 @@
 //   compress_store_int(to, i, m)                             lanes of m to consecutive places; gives their number
 //   expand_load expand_load_int(from, m)                     the reverse
 //   store_triples(to, more, r, g, b)                         RGB of lanes 0-7 to `to`, of lanes 8-15 to `more`
+//   stream_triples stream_fence                              the same past the caches, and its end
 //   load_triples_int                                         consecutive triples, the k-th of each to out[k]
 //   reduce_min reduce_max reduce_add                         lane k with lane k + n/2, then n/4...: depends on
 //                                                            the width
 //   load_records16 store_records16 load_quads store_quads    array-of-struct access: see lanes_scalar.h
 //   blend_records blend_records_low blend_quad
-//   texel_zero texel_add texel_values                        bilinear accumulation of RGBA half texels: see
+//   texel_zero texel_add plan_texels texel_values            bilinear accumulation of RGBA half texels: see
 //                                                            lanes_scalar.h
 //   wide: + - * /, wide_lit to_wide, to_real                 a double by lane
 // Indices of gathers are signed; those of texels are unsigned 32-bit, those of records of 64 bytes below 2^29,

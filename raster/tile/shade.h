@@ -149,12 +149,5 @@ BN_INLINE real3 shade_fragments(const FrameParams& f, const MaterialRecord& m, c
     return color;
 }
 
-BN_INLINE real3 shade_background(const FrameParams& f, real3 ray)
-{
-    if (!f.background)
-        return vec3_all(lit(0.0));
-    return cube_sample_level(lanes_cube(f.specular_cube), ray, 0) * splat(f.specular_cube.scale);
-}
-
 } // namespace BN_ISA_NS
 } // namespace burnish

@@ -327,13 +327,31 @@ BN_INLINE void store_batch(const Tile& t, const Batch& b, const real3& color)
     }
 }
 
+// First the addresses of some batches, then their texels: see cube_sum.h.
 void shade_background_slot(const Tile& t, const view_params& view, std::uint32_t begin, std::uint32_t end)
 {
-    for (std::uint32_t i = begin; i < end; i += kLanes) {
-        const Batch b = load_batch(t, i, end);
-        const real3 ray = pixel_ray(to_real(b.x) + lit(0.5), to_real(b.y) + lit(0.5), splat(t.f.half_width),
-                                         splat(t.f.half_height), view);
-        store_batch(t, b, shade_background(t.f, ray));
+    if (!t.f.background) {
+        for (std::uint32_t i = begin; i < end; i += kLanes)
+            store_batch(t, load_batch(t, i, end), vec3_all(lit(0.0)));
+        return;
+    }
+    constexpr int kGroup = 8;
+    Batch batches[kGroup];
+    texel_plan plans[kGroup];
+    const cube_desc cube = lanes_cube(t.f.specular_cube);
+    const real scale = splat(t.f.specular_cube.scale);
+    for (std::uint32_t i = begin; i < end;) {
+        int n = 0;
+        for (; n < kGroup && i < end; ++n, i += kLanes) {
+            Batch& b = batches[n];
+            b = load_batch(t, i, end);
+            const real3 ray = pixel_ray(to_real(b.x) + lit(0.5), to_real(b.y) + lit(0.5), splat(t.f.half_width), splat(t.f.half_height), view);
+            plan(plans[n], cube_level_rows(cube, cube_face_uv(ray), 0, lit(1.0)));
+        }
+        for (int k = 0; k < n; ++k) {
+            const real4 v = texel_value(texel_add(texel_zero(), cube.texels, plans[k]));
+            store_batch(t, batches[k], vec3_of(v.x, v.y, v.z) * scale);
+        }
     }
 }
 

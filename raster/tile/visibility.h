@@ -5,6 +5,8 @@
 namespace burnish {
 inline namespace BN_ISA_NS {
 
+inline constexpr std::uint32_t kAllLanes = (1u << kLanes) - 1;
+
 // Lists the fragments of the tile's width x height pixels: by block, by register of pixels, then by pass, where pass k holds the k-th
 // distinct triangle of every pixel that has one, in the order of its samples.
 BN_INLINE void list_fragments(const FrameParams& f, int width, int height, TileScratch& s)
@@ -31,7 +33,7 @@ BN_INLINE void list_fragments(const FrameParams& f, int width, int height, TileS
                     store_int(s.fragment_pixel + count, pixel);
                     store_int(s.fragment_mask + count, int_lit(full));
                     background += static_cast<std::uint32_t>(__builtin_popcount(to_bits(first < zero)));
-                    s.pass_lanes[passes++] = (1u << kLanes) - 1;
+                    s.pass_lanes[passes++] = kAllLanes;
                     *register_passes = 1;
                     count += kLanes;
                     continue;
@@ -74,13 +76,22 @@ BN_INLINE void resolve(const FrameParams& f, int x0, int y0, int width, int heig
     const std::uint32_t* lanes = s.pass_lanes;
     const std::uint8_t* register_passes = s.register_passes;
     const std::size_t row = 3 * static_cast<std::size_t>(f.width);
+    // a picture is larger than the caches and is not read before its end: reading its lines only to write them would cost as much again
+    const bool streamed = f.width % kBlock == 0 && reinterpret_cast<std::uintptr_t>(s.output) % 32 == 0;
     std::uint32_t at = 0;
     for (int by = 0; by * kBlock < height; ++by)
         for (int bx = 0; bx * kBlock < width; ++bx)
             for (int v = 0; v < kVectors; ++v, ++register_passes) {
                 real r = zero, g = zero, b = zero;
                 std::uint32_t drawn = 0;
-                for (int k = 0; k < *register_passes; ++k) {
+                int passes = *register_passes;
+                if (passes == 1 && *lanes == kAllLanes) { // every pixel is one fragment, of weight 1
+                    r = r + load(s.red + at), g = g + load(s.green + at), b = b + load(s.blue + at);
+                    at += kLanes;
+                    drawn = *lanes++;
+                    passes = 0;
+                }
+                for (int k = 0; k < passes; ++k) {
                     const std::uint32_t bits = *lanes++;
                     const mask m = mask_from_bits(bits);
                     const real weight = popcount16(expand_load_int(s.fragment_mask + at, m)) * inv;
@@ -92,8 +103,11 @@ BN_INLINE void resolve(const FrameParams& f, int x0, int y0, int width, int heig
                 }
                 const int px = bx * kBlock + (v * kLanes & 7), py = by * kBlock + (v * kLanes >> 3);
                 float* to = s.output + row * static_cast<std::size_t>(y0 + py) + 3 * static_cast<std::size_t>(x0 + px);
-                if (drawn == (1u << kLanes) - 1) {
-                    store_triples(to, to + row, r, g, b);
+                if (drawn == kAllLanes) {
+                    if (streamed)
+                        stream_triples(to, to + row, r, g, b);
+                    else
+                        store_triples(to, to + row, r, g, b);
                     continue;
                 }
                 float part[2][3 * kBlock];
@@ -104,6 +118,7 @@ BN_INLINE void resolve(const FrameParams& f, int x0, int y0, int width, int heig
                         to[row * static_cast<std::size_t>(y) + static_cast<std::size_t>(3 * x + c)] = part[y][3 * x + c];
                 }
             }
+    stream_fence();
 }
 
 } // namespace BN_ISA_NS
