@@ -112,6 +112,8 @@ void read_technique(const RenderArguments& in, OptionReader& reader, RenderOptio
     int samples = technique->default_samples;
     if (out.backend != "reference") // which reads them itself
         reader.integer("--samples", in.samples, 1, kMaxTechniqueSamples, samples);
+    if (samples > technique->most_samples)
+        return reader.refuse(usage_error("--samples", fmt::format("{} takes 1 to {}, got {}", frame.technique, technique->most_samples, samples)));
     frame.samples = samples_taken(*technique, samples);
     if (frame.samples != samples)
         out.warnings.push_back(

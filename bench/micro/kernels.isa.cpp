@@ -24,7 +24,7 @@ template <Technique kTechnique> void run(const FrameParams& f, const KernelSurfa
 }
 
 constexpr KernelFn kTechniques[] = {
-#define BN_TECHNIQUE(id, sampling, default_samples, summary) run<Technique::id>,
+#define BN_TECHNIQUE(id, sampling, default_samples, most_samples, summary) run<Technique::id>,
 #include "shading/models.def"
 };
 

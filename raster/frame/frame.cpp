@@ -157,19 +157,19 @@ Status check_desc(const FrameDesc& d)
         return usage("the tile size must be 32 or 64");
     if (d.texture_anisotropy < 1 || d.texture_anisotropy > 16)
         return usage("texture anisotropy must lie in 1..16");
-    if (d.samples < 1 || d.samples > 65536)
-        return usage("samples must lie in 1..65536");
     if (!(std::abs(d.tilt_rad.x) < 1.57f && std::abs(d.tilt_rad.y) < 1.57f))
         return usage("a lobe's tilt must stay below a quarter turn");
     if (!find_technique(d.technique))
         return usage("unknown technique '" + d.technique + "'");
+    if (const int most = find_technique(d.technique)->most_samples; d.samples < 1 || d.samples > most)
+        return usage("samples of " + d.technique + " must lie in 1.." + std::to_string(most));
     return {};
 }
 
 const std::vector<TechniqueInfo>& techniques()
 {
     static const std::vector<TechniqueInfo> table = {
-#define BN_TECHNIQUE(id, sampling, default_samples, summary) {#id, summary, Sampling::sampling, default_samples},
+#define BN_TECHNIQUE(id, sampling, default_samples, most_samples, summary) {#id, summary, Sampling::sampling, default_samples, most_samples},
 #include "shading/models.def"
     };
     return table;
@@ -185,6 +185,7 @@ const TechniqueInfo* find_technique(const std::string& name)
 
 int samples_taken(const TechniqueInfo& technique, int samples)
 {
+    samples = std::min(samples, technique.most_samples);
     if (technique.sampling == Sampling::none)
         return 1;
     if (technique.sampling == Sampling::count)

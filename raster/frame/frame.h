@@ -135,7 +135,7 @@ struct TechniqueInfo {
     const char* name;
     const char* summary;
     Sampling sampling;
-    int default_samples;
+    int default_samples, most_samples;
 };
 const std::vector<TechniqueInfo>& techniques();             // from shading/models.def
 const TechniqueInfo* find_technique(const std::string& name); // null where there is none

@@ -246,8 +246,13 @@ BN_STAGE MaterialAtHits material_at_hits(const ReferenceParams& f, const Materia
     const LobeShape shape = lobe_shape(f, m, at);
     const aniso_lobe lobe = lobe_in_frame(m, shape, frame);
     const surface s = metallic_roughness_surface(frame.n, v, at.base, at.metallic, shape.alpha_lin, at.dielectric_f0, at.dielectric_f90, at.occlusion);
-    const dfg_value dfg =
-        f.dfg_fit ? dfg_fit(s.n_dot_v, s.roughness) : dfg_lookup(f.dfg_texels, f.dfg_size, s.n_dot_v, s.roughness);
+    dfg_value dfg;
+    if (f.dfg_fit)
+        dfg = dfg_fit(s.n_dot_v, s.roughness);
+    else if (f.energy_compensation && m.anisotropic)
+        dfg = lobe_albedo_lookup(f.lobe_albedo_texels, f.lobe_albedo_size, lobe, s.n, s.v);
+    else
+        dfg = dfg_lookup(f.dfg_texels, f.dfg_size, s.n_dot_v, s.roughness);
     MaterialAtHits r;
     r.r = make_reflector(s, lobe, f.horizon || f.tilted ? own : frame, f.tilted != 0, dfg, f.energy_compensation != 0, at.dielectric_f0, at.dielectric_f90);
     r.emission = m.unlit ? at.base : at.emissive;

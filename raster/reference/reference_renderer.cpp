@@ -59,7 +59,7 @@ class ReferenceRenderer final : public Renderer {
     }
 
   private:
-    ReferenceParams params(const FrameDesc& desc, const std::vector<MaterialRecord>& materials) const;
+    ReferenceParams params(const FrameDesc& desc, const std::vector<MaterialRecord>& materials);
     Result<Accumulator> integrate(const FrameDesc& desc, const ReferenceParams& f, SamplingStats& stats);
     void advance(const ReferenceParams& f, Accumulator& a, std::uint32_t passes, BlockRange blocks);
     bool stopped() const { return options_.stop && options_.stop->load(std::memory_order_relaxed); }
@@ -70,10 +70,11 @@ class ReferenceRenderer final : public Renderer {
     std::unique_ptr<RayScene> rays_;
     SceneTables scene_;
     EnvironmentSampler sampler_;
+    LobeAlbedoTable lobe_albedo_; // made when a frame first asks for energy compensation
     std::vector<ReferenceScratch> workers_;
 };
 
-ReferenceParams ReferenceRenderer::params(const FrameDesc& desc, const std::vector<MaterialRecord>& materials) const
+ReferenceParams ReferenceRenderer::params(const FrameDesc& desc, const std::vector<MaterialRecord>& materials)
 {
     ReferenceParams f = {};
     f.view = view_params_of(desc.view);
@@ -91,6 +92,9 @@ ReferenceParams ReferenceRenderer::params(const FrameDesc& desc, const std::vect
     f.specular_cube = cube_params(input_.environment.specular);
     f.sampler = sampler_.view;
     f.dfg_texels = input_.dfg.texels.data(), f.dfg_size = input_.dfg.size;
+    if (desc.energy_compensation && lobe_albedo_.size == 0)
+        lobe_albedo_ = bake_lobe_albedo(kLobeAlbedoSize, input_.jobs);
+    f.lobe_albedo_texels = lobe_albedo_.texels.data(), f.lobe_albedo_size = lobe_albedo_.size;
     f.dfg_fit = desc.dfg_fit, f.energy_compensation = desc.energy_compensation, f.horizon = desc.horizon;
     f.background = desc.background;
     f.texture_taps = desc.texture_anisotropy;

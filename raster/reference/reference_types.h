@@ -31,6 +31,8 @@ struct ReferenceParams {
     CubeParams specular_cube;
     EnvironmentSamplerView sampler;
     const std::uint16_t* dfg_texels;
+    const std::uint16_t* lobe_albedo_texels; // only with energy_compensation
+    std::int32_t lobe_albedo_size;
     std::int32_t dfg_size, dfg_fit, energy_compensation, horizon;
     std::int32_t background;
     std::int32_t texture_taps, override_anisotropy; // read by raster/frame/lane_material.h

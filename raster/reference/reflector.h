@@ -159,7 +159,7 @@ BN_INLINE ReflectorSample sample_reflector(const Reflector& r, real2 xi, real ch
     real3 mirrored = fresnel_schlick(r.s.f0, r.s.f90, k_saturate(r.o.z)) * r.gain / max(r.choose_specular, lit(1e-6));
     if (r.tilted) {
         const TiltedLobe t = tilted_lobe(r);
-        mirrored = mirrored * ellipsoid_tilt_albedo(t.p, t.o); // what masking leaves of it
+        mirrored = mirrored * ellipsoid_mirror_albedo(t.p, t.o); // what masking leaves of it
     }
     const mask seen = k_dot3(r.own.n, s.wi) > lit(0.0);
     s.weight = select(s.exact, select(seen, mirrored, vec3_all(lit(0.0))), at.value * inv);

@@ -23,6 +23,17 @@ struct Shading {
     real dielectric_f90;
 };
 
+// Directional albedo of the lobe by the table of its roughness, which is that of a round one: what techniques scale prefiltered light by.
+// Energy compensation returns exactly what is missing, so it asks for the lobe's own.
+BN_INLINE dfg_value directional_albedo(const FrameParams& f, bool anisotropic, const surface& s, const aniso_lobe& lobe)
+{
+    if (f.dfg_fit)
+        return dfg_fit(s.n_dot_v, s.roughness);
+    if (f.energy_compensation && anisotropic)
+        return lobe_albedo_lookup(f.lobe_albedo_texels, f.lobe_albedo_size, lobe, s.n, s.v);
+    return dfg_lookup(f.dfg_texels, f.dfg_size, s.n_dot_v, s.roughness);
+}
+
 BN_INLINE real3 energy_gain(const FrameParams& f, real3 f0, const dfg_value& dfg)
 {
     return f.energy_compensation ? energy_compensation(f0, dfg) : vec3_all(lit(1.0));
@@ -33,15 +44,15 @@ template <Technique kTechnique> BN_INLINE real3 environment_light(const FramePar
 {
     const surface& s = x.s;
     const real3 albedo = s.f0 * x.dfg.scale + s.f90 * x.dfg.bias;
-    const TechniqueInput input = {f, s, x.lobe, albedo, pixel_id, x.surface_axes, x.turned};
+    const TechniqueInput input = {f, s, x.lobe, albedo, pixel_id, x.surface_axes, x.turned, x.gain};
     real3 specular = technique_specular<kTechnique>(input) * x.gain * splat(f.specular_cube.scale);
-    if (x.turned && !tests_horizon(kTechnique)) {
-        const real3 mirrored = s.n * (lit(2.0) * k_dot3(s.n, s.v)) - s.v;
-        specular = specular * horizon_fade(x.surface_axes.n, mirrored, s.roughness * s.roughness);
-    }
     if (f.tilted && kTechnique != Technique::mc) { // which samples the tilted lobe itself
         const LaneEllipsoid e = lobe_on_surface(x.lobe, s, x.surface_axes);
-        specular = specular * ellipsoid_tilt_albedo(e.p, e.o);
+        const real upright = tests_horizon(kTechnique) ? lit(1.0) : max(x.dfg.scale + x.dfg.bias, lit(0.05)); // what is in already
+        specular = specular * (ellipsoid_albedo(e.p, e.o) / upright);
+    } else if (x.turned && !tests_horizon(kTechnique)) {
+        const real3 mirrored = s.n * (lit(2.0) * k_dot3(s.n, s.v)) - s.v;
+        specular = specular * horizon_fade(x.surface_axes.n, mirrored, s.roughness * s.roughness);
     }
     if (!x.diffuse)
         return (specular + vec3_all(lit(0.0))) * s.occlusion; // as if nothing were added
@@ -130,7 +141,7 @@ BN_INLINE real3 shade_fragments(const FrameParams& f, const MaterialRecord& m, c
     x.diffuse = plan.diffuse;
     x.dielectric_f0 = at.dielectric_f0, x.dielectric_f90 = at.dielectric_f90;
     x.s = metallic_roughness_surface(frame.n, v, at.base, at.metallic, shape.alpha_lin, at.dielectric_f0, at.dielectric_f90, at.occlusion);
-    x.dfg = f.dfg_fit ? dfg_fit(x.s.n_dot_v, x.s.roughness) : dfg_lookup(f.dfg_texels, f.dfg_size, x.s.n_dot_v, x.s.roughness);
+    x.dfg = directional_albedo(f, m.anisotropic, x.s, x.lobe);
     x.gain = energy_gain(f, x.s.f0, x.dfg);
     real3 color = environment_light<kTechnique>(f, x, pixel_id) + at.emissive;
     if (f.light_count > 0)

@@ -6,6 +6,7 @@
 #include "raster/tile/tile_types.h"
 #include "shading/kernels/bent_normal.k.h"
 #include "shading/kernels/ellipsoid.k.h"
+#include "shading/kernels/energy.k.h"
 #include "shading/kernels/filtered_is.k.h"
 #include "shading/kernels/fresnel.k.h"
 #include "shading/kernels/ggx_aniso.k.h"
@@ -18,7 +19,7 @@ namespace burnish {
 inline namespace BN_ISA_NS {
 
 enum class Technique : std::int32_t {
-#define BN_TECHNIQUE(id, sampling, default_samples, summary) id,
+#define BN_TECHNIQUE(id, sampling, default_samples, most_samples, summary) id,
 #include "shading/models.def"
 };
 
@@ -30,6 +31,7 @@ struct TechniqueInput {
     integer pixel_id;  // y * width + x, for random numbers
     const surface_frame& surface_axes; // of the geometry
     bool turned;       // the lobe's normal is not the geometry's: light from below its horizon does not arrive
+    real3 gain;        // energy compensation, by which the result will be multiplied; 1 without
 };
 
 // Whether a technique asks of every sample if it lies above the horizon; the others fade.
@@ -136,7 +138,8 @@ BN_INLINE real3 major_axis_weighted_specular(const TechniqueInput& in)
     return mean_of(sum) * in.albedo;
 }
 
-// Density-placed too, but with no more samples than each fragment needs, in cells around the middle that come and go without a step.
+// Density-placed too, but with no more samples than each fragment needs, in cells around the middle that come and go without a step. One
+// sample lies in the middle and the others in pairs, so an even --samples is taken as one less: never more than asked for.
 BN_INLINE real3 major_axis_adaptive_specular(const TechniqueInput& in)
 {
     const cube_desc cube = lanes_cube(in.f.specular_cube);
@@ -184,13 +187,21 @@ template <class Place> BN_INLINE real3 filtered_is_sum(const TechniqueInput& in,
     const real texel_term = lit(0.5) * k_log2(size * size * lit(0.47746482927568601) / count); // 6 / (4 pi)
     CubeTerms sum;
     begin(sum, cube, true);
+    real weights = lit(0.0), kept = lit(0.0);
     for (int i = 0; i < in.f.grid_count; ++i) {
         const filtered_sample s = place(o, in.f.grid[i], texel_term);
         const real3 wi = from_lobe(in.lobe, in.s.n, s.wi);
         const real3 fresnel = fresnel_schlick(in.s.f0, in.s.f90, k_saturate(s.o_dot_h));
-        add_term(sum, wi, s.lod, fresnel, above_horizon(in, wi, s.weight));
+        const real weight = above_horizon(in, wi, s.weight);
+        add_term(sum, wi, s.lod, fresnel, weight);
+        weights = weights + s.weight, kept = kept + weight;
     }
-    return mirrors_apart(in, sum_of(sum) / count * splat(in.f.box_cube.scale / in.f.specular_cube.scale), lit(1.0));
+    real3 total = sum_of(sum);
+    if (in.f.tilted) // a mean, to be scaled by the tilted lobe's albedo
+        total = total / max(kept / count, lit(1e-4));
+    else if (in.f.energy_compensation) // these few samples, and a Beckmann lobe, have an albedo of their own
+        total = total * energy_compensation_of_albedo(in.s.f0, weights / count) / in.gain;
+    return mirrors_apart(in, total / count * splat(in.f.box_cube.scale / in.f.specular_cube.scale), lit(1.0));
 }
 
 BN_INLINE real3 filtered_is_specular(const TechniqueInput& in)
@@ -261,7 +272,7 @@ BN_INLINE real3 mc_specular(const TechniqueInput& in)
             b.wi = in.surface_axes.t * b.wi.x + in.surface_axes.b * b.wi.y + in.surface_axes.n * b.wi.z;
             return b;
         });
-        return mirrors_apart(in, sum, ellipsoid_tilt_albedo(e.p, e.o));
+        return mirrors_apart(in, sum, ellipsoid_mirror_albedo(e.p, e.o));
     }
     const real root2 = lit(1.4142135623730951);
     const ggx_aniso_params p = ggx_aniso_params_of(lobe.sigma_u * root2, lobe.sigma_v * root2);
@@ -278,7 +289,7 @@ BN_INLINE real3 mc_specular(const TechniqueInput& in)
 
 template <Technique kTechnique> BN_INLINE real3 technique_specular(const TechniqueInput& in)
 {
-#define BN_TECHNIQUE(id, sampling, default_samples, summary)                                                                     \
+#define BN_TECHNIQUE(id, sampling, default_samples, most_samples, summary) \
     if constexpr (kTechnique == Technique::id)                                                                         \
         return id##_specular(in);
 #include "shading/models.def"

@@ -373,7 +373,7 @@ void shade_slot(const Tile& t, const view_params& view, const MaterialRecord& m,
 
 using ShadeSlot = void (*)(const Tile&, const view_params&, const MaterialRecord&, std::uint32_t, std::uint32_t);
 constexpr ShadeSlot kShadeSlots[] = {
-#define BN_TECHNIQUE(id, sampling, default_samples, summary) shade_slot<Technique::id>,
+#define BN_TECHNIQUE(id, sampling, default_samples, most_samples, summary) shade_slot<Technique::id>,
 #include "shading/models.def"
 };
 

@@ -97,6 +97,7 @@ class TileRenderer final : public Renderer {
     const TileFns& fns_;
     SceneTables scene_;
     CubeMap box_cube_;              // made when a technique first asks for it
+    LobeAlbedoTable lobe_albedo_;   // made when a frame first asks for energy compensation
     std::vector<GridSample> grid_;
     Column<SnappedVertex> vertices_;
     Bins bins_;
@@ -123,6 +124,9 @@ FrameParams TileRenderer::frame_params(const FrameDesc& desc, const std::vector<
     f.specular_cube = cube_params(input_.environment.specular);
     f.irradiance_cube = cube_params(input_.environment.irradiance);
     f.dfg_texels = input_.dfg.texels.data(), f.dfg_size = input_.dfg.size;
+    if (desc.energy_compensation && lobe_albedo_.size == 0)
+        lobe_albedo_ = bake_lobe_albedo(kLobeAlbedoSize, input_.jobs);
+    f.lobe_albedo_texels = lobe_albedo_.texels.data(), f.lobe_albedo_size = lobe_albedo_.size;
     f.dfg_fit = desc.dfg_fit, f.energy_compensation = desc.energy_compensation, f.horizon = desc.horizon;
     f.background = desc.background, f.samples = desc.samples, f.texture_taps = desc.texture_anisotropy;
     f.technique = static_cast<std::int32_t>(find_technique(desc.technique) - techniques().data());

@@ -87,6 +87,8 @@ struct FrameParams {
     std::int32_t grid_count;
     const std::uint16_t* dfg_texels; // DfgTable::texels
     std::int32_t dfg_size;
+    const std::uint16_t* lobe_albedo_texels; // LobeAlbedoTable::texels; only with energy_compensation
+    std::int32_t lobe_albedo_size;
     std::int32_t dfg_fit, energy_compensation, horizon; // flags
     std::int32_t background, technique, samples, texture_taps, seed;
     float tilt_cos[2], tilt_sin[2];

@@ -75,6 +75,7 @@ GpuScene::GpuScene(Context& context, const RenderInput& input)
     texels_.push_back(texel_page(context, input.environment.irradiance.texels));
     texels_.emplace_back(context, 0, Buffer::Place::device, VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT); // the box chain, some day
     texels_.push_back(texel_page(context, input.dfg.texels));
+    texels_.emplace_back(context, 0, Buffer::Place::device, VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT); // the lobes' albedo, with compensation
     for (const TexturePyramid& p : scene_.pyramids)
         texels_.push_back(texel_page(context, p.texels));
     upload_pages(context);
@@ -140,6 +141,12 @@ void GpuScene::prepare(Context& context, const FrameDesc& desc, const SamplePatt
         fill_buffer(context, reals_, grid.data(), grid.size() * sizeof(GridSample));
         record_.box = gpu_cube(box_, kBoxPage);
         record_.grid_base = 0, record_.grid_count = static_cast<int>(grid.size());
+    }
+    if (desc.energy_compensation && record_.lobe_albedo_size == 0) {
+        const LobeAlbedoTable albedo = bake_lobe_albedo(kLobeAlbedoSize, input_.jobs);
+        texels_[kLobeAlbedoPage] = texel_page(context, albedo.texels);
+        upload_pages(context);
+        record_.lobe_albedo_page = kLobeAlbedoPage, record_.lobe_albedo_size = albedo.size;
     }
     material_records_.clear();
     for (const MaterialRecord& m : overridden(scene_.materials, desc))

@@ -10,7 +10,7 @@
 namespace burnish {
 
 // Pages of texels; textures follow.
-inline constexpr int kSpecularPage = 0, kIrradiancePage = 1, kBoxPage = 2, kDfgPage = 3, kFirstTexturePage = 4;
+inline constexpr int kSpecularPage = 0, kIrradiancePage = 1, kBoxPage = 2, kDfgPage = 3, kLobeAlbedoPage = 4, kFirstTexturePage = 5;
 inline constexpr std::size_t kMaxGrid = 65536; // samples of filtered importance sampling
 
 // Half the side of the rasterizer's viewport; see kGpuViewportHalf.

@@ -71,4 +71,14 @@ struct DfgTable {
 // samples: directions an entry is integrated over; their number is rounded down to a square.
 DfgTable bake_dfg(int size, int samples, const Jobs& jobs);
 
+// The same for lobes of two widths, which is what energy compensation asks for. Texels as DfgTable's; their order and axes are those of
+// lobe_albedo_lookup() in shading/kernels/energy.k.h.
+struct LobeAlbedoTable {
+    int size = 0;                 // along n.v and roughness; half of it along anisotropy and azimuth
+    Column<std::uint16_t> texels; // size^4 / 4 RGBA halves; empty until baked
+};
+inline constexpr int kLobeAlbedoSize = 20;
+// size: even, at least 4. A constant of mathematics: the same bits everywhere.
+LobeAlbedoTable bake_lobe_albedo(int size, const Jobs& jobs);
+
 } // namespace burnish

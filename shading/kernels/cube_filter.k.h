@@ -145,7 +145,8 @@ BN_FN texel_rows cube_fine_rows(cube_place place, cube_levels l)
 
 BN_FN texel_rows cube_coarse_rows(cube_place place, cube_levels l)
 {
-    return cube_bilinear_rows(place, l.base + int_lit(24), shr(l.w, 1) + int_lit(1), l.t * lit(0.5), l.coarse);
+    real t = l.t * lit(0.5);
+    return cube_bilinear_rows(place, l.base + int_lit(24), shr(l.w, 1) + int_lit(1), t, l.coarse);
 }
 
 // Adds weight times the trilinear value in direction d, any length. lod as above.

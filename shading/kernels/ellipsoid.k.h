@@ -190,23 +190,28 @@ BN_FN bsdf_sample ellipsoid_sample(ellipsoid_params p, real3 wo, real2 xi)
     return bsdf_sample_of(wi, weight, pdf, o_dot_m, valid);
 }
 
-// For a lobe that is fetched as a whole: what tilting takes from its albedo, as the weight of the one sample that mirrors wo about the
-// commonest normal, over the weight it has where that normal is the surface's own. [0,1].
-BN_FN real ellipsoid_tilt_albedo(ellipsoid_params p, real3 wo)
+// Directional albedo where nothing is absorbed, [0,1]: what a lobe that is fetched as a whole is scaled by. By 21 of its own samples, a
+// Fibonacci lattice: off by 0.02 rms, by 0.07 at most.
+BN_FN real ellipsoid_albedo(ellipsoid_params p, real3 wo)
+{
+    real part = lit(0.047619047619047616);
+    real sum = lit(0.0);
+    for (int i = 0; i < 21; ++i) {
+        real x = (to_real(int_lit(i)) + lit(0.5)) * part;
+        real y = (to_real(int_lit(i * 13 % 21)) + lit(0.5)) * part;
+        sum = sum + ellipsoid_sample(p, wo, vec2_of(x, y)).weight;
+    }
+    return sum * part;
+}
+
+// The same in the limit of a mirror: the weight of its one sample.
+BN_FN real ellipsoid_mirror_albedo(ellipsoid_params p, real3 wo)
 {
     ellipsoid_view v = ellipsoid_seen_from(p, wo);
-    real facing = k_dot3(p.r2, wo);
-    real along = max(facing, lit(1e-4));
-    real away = k_saturate(lit(1.0) + facing / (lit(0.5) * (p.alpha_x + p.alpha_y))); // a lobe that looks away fades out
     real3 wi = mirror_direction(wo, p.r2);
-    // the lobe reaches above the horizon where its middle is below it: a point half a width higher stands for it
-    real lifted = max(wi.z, lit(0.0)) + lit(0.5) * (p.alpha_x + p.alpha_y) * max(lit(0.5) - abs(wi.z), lit(0.0));
-    wi = k_normalize3(vec3_of(wi.x, wi.y, max(lifted, lit(1e-4))));
     real weight = ellipsoid_g1(p, wi) * min(lit(1.0) / max(v.k * wo.z, lit(1e-16)), lit(1.0));
-    real x = p.alpha_x * k_dot3(p.r0, wo);
-    real y = p.alpha_y * k_dot3(p.r1, wo);
-    real untilted = lit(2.0) * along / (along + sqrt(x * x + y * y + along * along));
-    return min(weight / max(untilted, lit(1e-4)), lit(1.0)) * away;
+    mask seen = both(both_above(wo, wi), k_dot3(wo, p.r2) > lit(0.0));
+    return select(seen, weight, lit(0.0));
 }
 
 BN_KERNELS_END

@@ -21,21 +21,31 @@ struct surface_frame {
     real3 n, t, b; // orthonormal, world space; b = +-cross(n, t)
 };
 
-// normal, tangent: interpolated, any length, turned to the viewer's side; handedness: +1 or -1.
-BN_FN surface_frame geometric_frame(real3 normal, real3 tangent, real handedness)
+// n: unit; t: orthogonal to it, any length; handedness: +1 or -1.
+BN_FN surface_frame frame_of(real3 n, real3 t, real handedness)
 {
     surface_frame f;
-    f.n = k_normalize3(normal);
-    f.t = k_normalize3(tangent - f.n * k_dot3(f.n, tangent));
+    f.n = n;
+    f.t = k_normalize3(t);
     f.b = k_cross(f.n, f.t) * handedness;
     return f;
 }
 
-// The frame turned to a mapped normal. map: tangent-space normal from the texture, any length.
+// normal, tangent: interpolated, any length, not along each other, turned to the viewer's side.
+BN_FN surface_frame geometric_frame(real3 normal, real3 tangent, real handedness)
+{
+    real3 n = k_normalize3(normal);
+    real3 t = tangent - n * k_dot3(n, tangent);
+    return frame_of(n, t, handedness);
+}
+
+// The frame turned to a mapped normal. map: tangent-space normal from the texture, any length. Where it lies along the tangent, the old
+// normal is the new tangent.
 BN_FN surface_frame mapped_frame(surface_frame f, real3 map, real handedness)
 {
-    real3 n = f.t * map.x + f.b * map.y + f.n * map.z;
-    return geometric_frame(n, f.t, handedness);
+    real3 n = k_normalize3(f.t * map.x + f.b * map.y + f.n * map.z);
+    real3 t = f.t - n * k_dot3(n, f.t);
+    return frame_of(n, select(k_dot3(t, t) > lit(1e-8), t, f.n), handedness); // less is rounding
 }
 
 // The frame of a lobe whose commonest normal is tilted against the surface: the rows of R = Rx(theta_x) Ry(theta_y), of which cosines and

@@ -41,7 +41,7 @@ struct GpuFrame {
     int index_base, material_base;      // into the integers: 3 a triangle; 1 a triangle
     GpuCube specular, irradiance, box;
     int grid_base, grid_count;          // into the reals: 3 a sample
-    int dfg_page, dfg_size, dfg_fit, energy_compensation, horizon;
+    int dfg_page, dfg_size, lobe_albedo_page, lobe_albedo_size, dfg_fit, energy_compensation, horizon;
     int background, samples, texture_taps, seed;
     float tilt_cos[2], tilt_sin[2];
     int tilted;

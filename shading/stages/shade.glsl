@@ -25,6 +25,15 @@ struct shading_point {
     real dielectric_f90;
 };
 
+dfg_value directional_albedo(bool anisotropic, surface s, aniso_lobe lobe)
+{
+    if (frame.dfg_fit != 0)
+        return dfg_fit(s.n_dot_v, s.roughness);
+    if (frame.energy_compensation != 0 && anisotropic)
+        return lobe_albedo_lookup(frame.lobe_albedo_page, frame.lobe_albedo_size, lobe, s.n, s.v);
+    return dfg_lookup(frame.dfg_page, frame.dfg_size, s.n_dot_v, s.roughness);
+}
+
 real3 energy_gain(real3 f0, dfg_value dfg)
 {
     if (frame.energy_compensation == 0)
@@ -36,16 +45,17 @@ real3 environment_light(shading_point x, int pixel_id)
 {
     surface s = x.s;
     real3 albedo = s.f0 * x.dfg.scale + s.f90 * x.dfg.bias;
-    technique_input ti = technique_input(s, x.lobe, albedo, pixel_id, x.surface_axes, x.turned);
+    technique_input ti = technique_input(s, x.lobe, albedo, pixel_id, x.surface_axes, x.turned, x.gain);
     real3 specular = technique_specular(ti) * x.gain * frame.specular.scale;
-    if (x.turned && !kTestsHorizon) {
+    if (frame.tilted != 0 && !kSamplesTilt) {
+        placed_ellipsoid e = lobe_on_surface(x.lobe, s, x.surface_axes);
+        real upright = kTestsHorizon ? lit(1.0) : max(x.dfg.scale + x.dfg.bias, lit(0.05)); // what is in already
+        real shown = ellipsoid_albedo(e.p, e.o) / upright;
+        specular = specular * shown;
+    } else if (x.turned && !kTestsHorizon) {
         real3 mirrored = s.n * (lit(2.0) * k_dot3(s.n, s.v)) - s.v;
         real alpha = s.roughness * s.roughness;
         specular = specular * horizon_fade(x.surface_axes.n, mirrored, alpha);
-    }
-    if (frame.tilted != 0 && !kSamplesTilt) {
-        placed_ellipsoid e = lobe_on_surface(x.lobe, s, x.surface_axes);
-        specular = specular * ellipsoid_tilt_albedo(e.p, e.o);
     }
     if (!x.diffuse) {
         real3 alone = (specular + vec3_all(lit(0.0))) * s.occlusion; // as if nothing were added
@@ -109,10 +119,7 @@ real3 shade_point(int m, material_inputs at, visible_point p, int pixel_id)
     x.dielectric_f0 = at.dielectric_f0;
     x.dielectric_f90 = at.dielectric_f90;
     x.s = metallic_roughness_surface(axes.n, v, at.base, at.metallic, shape.alpha_lin, at.dielectric_f0, at.dielectric_f90, at.occlusion);
-    if (frame.dfg_fit != 0)
-        x.dfg = dfg_fit(x.s.n_dot_v, x.s.roughness);
-    else
-        x.dfg = dfg_lookup(frame.dfg_page, frame.dfg_size, x.s.n_dot_v, x.s.roughness);
+    x.dfg = directional_albedo(materials[m].anisotropic != 0, x.s, x.lobe);
     x.gain = energy_gain(x.s.f0, x.dfg);
     real3 color = environment_light(x, pixel_id) + at.emissive;
     if (frame.light_count > 0)

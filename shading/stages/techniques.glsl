@@ -6,6 +6,7 @@
 #include "shading/stages/environment.glsl"
 #include "shading/kernels/bent_normal.k.h"
 #include "shading/kernels/ellipsoid.k.h"
+#include "shading/kernels/energy.k.h"
 #include "shading/kernels/filtered_is.k.h"
 #include "shading/kernels/fresnel.k.h"
 #include "shading/kernels/ggx_aniso.k.h"
@@ -23,6 +24,7 @@ struct technique_input {
     int pixel_id;               // y * width + x, for random numbers
     surface_frame surface_axes; // of the geometry
     bool turned;                // the lobe's normal is not the geometry's: light from below its horizon does not arrive
+    real3 gain;                 // energy compensation, by which the result will be multiplied; 1 without
 };
 
 real above_horizon(technique_input ti, real3 wi, real weight)
@@ -157,6 +159,8 @@ real3 filtered_is_sum(technique_input ti, bool ggx)
     ggx_aniso_params of_ggx = ggx_aniso_params_of(alpha_u, alpha_v);
     beckmann_params of_beckmann = beckmann_params_of(alpha_u, alpha_v);
     real3 sum = vec3_all(lit(0.0));
+    real weights = lit(0.0);
+    real kept = lit(0.0);
     for (int i = 0; i < frame.grid_count; ++i) {
         int g = frame.grid_base + 3 * i;
         filtered_sample s;
@@ -166,7 +170,17 @@ real3 filtered_is_sum(technique_input ti, bool ggx)
             s = filtered_is_beckmann(o, of_beckmann, bn_reals[g], bn_reals[g + 1], bn_reals[g + 2], texel_term);
         real3 wi = from_lobe(ti.lobe, ti.s.n, s.wi);
         real3 fresnel = fresnel_schlick(ti.s.f0, ti.s.f90, k_saturate(s.o_dot_h));
-        sum = sum + cube_sample(cube, wi, s.lod) * fresnel * above_horizon(ti, wi, s.weight);
+        real weight = above_horizon(ti, wi, s.weight);
+        sum = sum + cube_sample(cube, wi, s.lod) * fresnel * weight;
+        weights = weights + s.weight;
+        kept = kept + weight;
+    }
+    if (frame.tilted != 0) { // a mean, to be scaled by the tilted lobe's albedo
+        real mean_weight = kept / count;
+        sum = sum / max(mean_weight, lit(1e-4));
+    } else if (frame.energy_compensation != 0) { // these few samples, and a Beckmann lobe, have an albedo of their own
+        real own = weights / count;
+        sum = sum * energy_compensation_of_albedo(ti.s.f0, own) / ti.gain;
     }
     real3 mean = sum / count * (frame.box.scale / frame.specular.scale);
     return mirrors_apart(ti, mean, lit(1.0));
@@ -229,14 +243,14 @@ real3 mc_specular(technique_input ti)
         real3 fresnel = fresnel_schlick(ti.s.f0, ti.s.f90, b.o_dot_h);
         sum = sum + cube_sample_level(cube, b.wi, 0) * fresnel * above_horizon(ti, b.wi, b.weight);
     }
-    real dim = tilted ? ellipsoid_tilt_albedo(e.p, e.o) : 1.0;
+    real dim = tilted ? ellipsoid_mirror_albedo(e.p, e.o) : 1.0;
     return mirrors_apart(ti, sum * inv, dim);
 }
 
 real3 technique_specular(technique_input ti)
 {
     int at = 0;
-#define BN_TECHNIQUE(id, sampling, default_samples, summary)                                                                               \
+#define BN_TECHNIQUE(id, sampling, default_samples, most_samples, summary) \
     if (kTechnique == at++)                                                                                                                \
         return id##_specular(ti);
 #include "shading/models.def"

@@ -25,6 +25,8 @@ struct FilterOps { // n is a multiple of 16; results are interleaved
     void (*footprint)(const TextureView& texture, const float* uv, int max_taps, int n, float* lod_taps);
     void (*dfg_lookup)(const std::uint16_t* table, int size, const float* n_dot_v, const float* roughness,
                        int n, float* scale_bias);
+    // lobes: sigma_u, sigma_v, and the direction to the eye in the lobe's frame, n of each, one array after the other
+    void (*lobe_albedo)(const std::uint16_t* table, int size, const float* lobes, int n, float* scale_bias);
     void (*dfg_fit)(const float* n_dot_v, const float* roughness, int n, float* scale_bias);
 };
 

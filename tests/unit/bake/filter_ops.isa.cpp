@@ -2,6 +2,7 @@
 
 #include "shading/kernels/cube_filter.k.h"
 #include "shading/kernels/dfg.k.h"
+#include "shading/kernels/energy.k.h"
 #include "shading/kernels/texture_filter.k.h"
 
 namespace burnish {
@@ -102,6 +103,18 @@ void dfg_lookup_op(const std::uint16_t* table, int size, const float* n_dot_v, c
     }
 }
 
+void lobe_albedo_op(const std::uint16_t* table, int size, const float* lobes, int n, float* scale_bias)
+{
+    const real zero = lit(0.0), one = lit(1.0);
+    for (int i = 0; i < n; i += kLanes) {
+        const aniso_lobe lobe = {vec3_of(one, zero, zero), vec3_of(zero, one, zero), load(lobes + i), load(lobes + n + i)};
+        const real3 v = vec3_of(load(lobes + 2 * n + i), load(lobes + 3 * n + i), load(lobes + 4 * n + i));
+        const dfg_value d = lobe_albedo_lookup(table, size, lobe, vec3_of(zero, zero, one), v);
+        const real value[2] = {d.scale, d.bias};
+        scatter(value, 2, i, scale_bias);
+    }
+}
+
 void dfg_fit_op(const float* n_dot_v, const float* roughness, int n, float* scale_bias)
 {
     for (int i = 0; i < n; i += kLanes) {
@@ -111,8 +124,8 @@ void dfg_fit_op(const float* n_dot_v, const float* roughness, int n, float* scal
     }
 }
 
-constexpr FilterOps kOps = {kLanes,     place_op,     cube_op,       cube_level_op,
-                            texture_op, footprint_op, dfg_lookup_op, dfg_fit_op};
+constexpr FilterOps kOps = {kLanes,       place_op,      cube_op,        cube_level_op, texture_op,
+                            footprint_op, dfg_lookup_op, lobe_albedo_op, dfg_fit_op};
 
 } // namespace
 

@@ -65,6 +65,8 @@ TEST(chart_plan, settings_follow_what_a_technique_makes_of_samples)
     EXPECT_EQ(samples_of(settings_of({"bent_normal"}, {2, 4})), (std::vector<int>{1}));
     EXPECT_EQ(samples_of(settings_of({"major_axis"}, {8, 2})), (std::vector<int>{2, 8}));
     EXPECT_EQ(samples_of(settings_of({"filtered_is"}, {4, 8, 9, 15})), (std::vector<int>{4, 9})); // squares below
+    EXPECT_EQ(samples_of(settings_of({"major_axis"}, {4, 100, 4096})), (std::vector<int>{4, 64})); // the most it takes
+    EXPECT_EQ(samples_of(settings_of({"mc"}, {4, 4096})), (std::vector<int>{4, 4096}));
     EXPECT_FALSE(settings_of({"bent_normal"}, {})[0].sampled);
     for (const TechniqueInfo& technique : techniques()) { // its own number is always there
         const std::vector<int> usual = samples_of(settings_of({technique.name}, {}));

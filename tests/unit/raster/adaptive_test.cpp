@@ -55,16 +55,20 @@ double roughest(const Frame& f)
     return most;
 }
 
-// A fixed number of samples moves them smoothly; the adaptive number must not add steps to that.
+// A fixed number of samples moves them smoothly; the adaptive number must not add steps to that. Both fixed counts are asked: sixteen equal
+// samples leave sharper edges in narrow lobes, sixteen by density, as the adaptive ones are placed, more ripples in wide ones (alpha_lin 0.5, eta
+// 0.8 and above, where adaptive exceeds equal samples by 1.26 / 255 and samples by density by less than 1 / 255). Samples that come and go
+// without fading differ from either by ten to a hundred times as much.
 TEST(adaptive, no_seam_shows_on_a_sweep_over_a_sphere)
 {
     const Judge judge;
     for (float roughness : {0.2f, 0.35f, 0.5f})
         for (float anisotropy : {0.0f, 0.2f, 0.5f, 0.8f, -0.8f, 0.95f}) {
-            const double fixed = std::max(roughest(judge.sphere("major_axis", 16, roughness, anisotropy)),
-                                          roughest(judge.sphere("major_axis_weighted", 16, roughness, anisotropy)));
-            EXPECT_LE(roughest(judge.sphere("major_axis_adaptive", 16, roughness, anisotropy)), fixed + 1.0 / 255.0)
-                << "alpha_lin " << roughness << " eta " << anisotropy;
+            const double equal = roughest(judge.sphere("major_axis", 16, roughness, anisotropy));
+            const double by_density = roughest(judge.sphere("major_axis_weighted", 16, roughness, anisotropy));
+            const double adaptive = roughest(judge.sphere("major_axis_adaptive", 16, roughness, anisotropy));
+            EXPECT_LE(adaptive, std::max(equal, by_density) + 1.0 / 255.0) << "alpha_lin " << roughness << " eta " << anisotropy;
+            EXPECT_LE(adaptive, equal + 1.3 / 255.0) << "alpha_lin " << roughness << " eta " << anisotropy;
         }
 }
 

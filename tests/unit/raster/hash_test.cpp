@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <fmt/format.h>
+#include <iterator>
 
 #include "core/scene/builtin.h"
 #include "core/scene/gltf.h"
@@ -89,6 +91,61 @@ TEST(hash, of_every_technique_is_the_same_for_every_isa_and_thread_count)
         seen.push_back(hash);
         d.samples = 1;
         EXPECT_EQ(count_not_finite(one->render(d, best_isa()).color), 0u) << technique.name << " with one sample";
+    }
+}
+
+struct TechniqueCase {
+    const char* technique;
+    std::uint64_t golden[3]; // teapot, spheres, plate; blessed as those above
+};
+constexpr TechniqueCase kTechniqueCases[] = {
+    {"split_isotropic", {0x13dbb753d14b4987ull, 0x03612a086e50ab6dull, 0xc2d4b38a7eef6a58ull}},
+    {"bent_normal", {0xe565b965fc199a2dull, 0x339caf49e466cea0ull, 0x77e8844bb29fdb0full}},
+    {"major_axis", {0x7f4785b8b67b5e36ull, 0x764b0927e8075e1eull, 0x96b1ae6ee82b4f94ull}},
+    {"major_axis_adaptive", {0x1b48986c78f51c3cull, 0x5f039e51e4421e17ull, 0x7435df656a93ca06ull}},
+    {"major_axis_weighted", {0xda8245e9ad518812ull, 0x4ac13750e1c1bbe0ull, 0x5f18f3b5999e0dd0ull}},
+    {"filtered_is", {0x7ff00f338dd1362aull, 0x192280497d6a398dull, 0xee79ecc668c4c8b6ull}},
+    {"filtered_is_ggx", {0x4760b5a481f651d8ull, 0x9925a3cdcdc46778ull, 0x84e88abdb51bb3d3ull}},
+    {"mc", {0x5202e7c8c34027e9ull, 0x22173c92683d06cdull, 0xcce5d62cc28354f7ull}},
+};
+// On the same spheres, what a technique does not do unless asked.
+struct OptionCase {
+    const char* name;
+    void (*set)(FrameDesc& d);
+    std::uint64_t golden;
+};
+constexpr OptionCase kOptionCases[] = {
+    {"energy compensation", [](FrameDesc& d) { d.energy_compensation = true; }, 0x0d4e29929af01c43ull},
+    {"tilt", [](FrameDesc& d) { d.tilt_rad = {0.3f, -0.2f}; }, 0xd70f987ead13441cull},
+    {"fitted albedo", [](FrameDesc& d) { d.dfg_fit = true; }, 0xb2ea9b07fecaaf25ull},
+};
+
+TEST(hash, of_every_technique_is_golden)
+{
+    EXPECT_EQ(std::size(kTechniqueCases), techniques().size());
+    const char* scenes[3] = {"teapot", "spheres", "plate"};
+    for (int i = 0; i < 3; ++i) {
+        const Case c = {scenes[i], 96, 64, 4, 0};
+        const std::unique_ptr<Stage> stage = stage_of(c, 2);
+        const auto expect_golden = [&](const FrameDesc& d, const char* name, std::uint64_t golden) {
+            for (Isa isa : available_isas()) {
+                const std::uint64_t hash = pixel_hash(stage->render(d, isa).color);
+                EXPECT_EQ(hash, golden) << fmt::format("{} {} {}: the picture changed, to 0x{:016x}", name, c.scene, isa_name(isa), hash);
+            }
+        };
+        for (const TechniqueCase& t : kTechniqueCases) {
+            FrameDesc d = desc_of(c, *stage);
+            d.technique = t.technique, d.samples = find_technique(t.technique)->default_samples;
+            expect_golden(d, t.technique, t.golden[i]);
+        }
+        for (const OptionCase& o : kOptionCases) {
+            if (i != 1)
+                continue;
+            FrameDesc d = desc_of(c, *stage);
+            d.technique = "major_axis_weighted", d.samples = 16, d.roughness = 0.6f;
+            o.set(d);
+            expect_golden(d, o.name, o.golden);
+        }
     }
 }
 

@@ -130,7 +130,7 @@ TEST(technique, a_mirror_is_a_mirror_and_a_constant_environment_gives_the_albedo
 }
 
 // Light below the surface's own horizon does not arrive, and lobes that look away are not seen: what is left of a tilted lobe is what Monte
-// Carlo of the ellipsoid distribution says, within what a technique of one or a few fetches can know.
+// Carlo of the ellipsoid distribution says, over whole spheres. (energy_test.cpp asks it of single views.)
 TEST(technique, tilted_lobes_are_dimmed_as_monte_carlo_dims_them)
 {
     const Stage stage(*make_builtin_scene("spheres"));
@@ -153,8 +153,9 @@ TEST(technique, tilted_lobes_are_dimmed_as_monte_carlo_dims_them)
                 const double truth = light("mc", 256);
                 for (const TechniqueInfo& t : techniques()) {
                     const double ratio = light(t.name, t.default_samples) / truth;
-                    EXPECT_GT(ratio, tilt < 1.0f ? 0.6 : 0.4) << t.name << ", alpha_lin " << roughness << ", eta " << anisotropy << ", tilt " << tilt;
-                    EXPECT_LT(ratio, 1.5) << t.name << ", alpha_lin " << roughness << ", eta " << anisotropy << ", tilt " << tilt;
+                    const bool beckmann = std::string(t.name) == "filtered_is"; // without tails, of which all samples may be below the horizon
+                    EXPECT_GT(ratio, beckmann ? 0.85 : 0.97) << t.name << ", alpha_lin " << roughness << ", eta " << anisotropy << ", tilt " << tilt;
+                    EXPECT_LT(ratio, 1.06) << t.name << ", alpha_lin " << roughness << ", eta " << anisotropy << ", tilt " << tilt;
                 }
             }
 }

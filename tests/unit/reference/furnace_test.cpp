@@ -76,7 +76,23 @@ TEST(furnace, energy_compensation_returns_what_a_metal_loses)
     EXPECT_NEAR(e.mean, 1.0, kSigmas * e.deviation + 2e-3);
 }
 
-// A lobe of two widths has no table: its albedo by quadrature over directions, in double.
+TEST(furnace, energy_compensation_returns_what_an_anisotropic_metal_loses)
+{
+    BN_NEEDS_EMBREE();
+    const Stage stage(plane_scene(metal(0.7f, 0.5f)));
+    FrameDesc d;
+    d.energy_compensation = true, d.override_anisotropy = true;
+    for (float roughness : {0.1f, 0.4f, 0.7f, 1.0f})
+        for (float eta : {-0.5f, 0.8f, 0.95f})
+            for (float cosine : {0.9f, 0.5f, 0.2f}) {
+                d.roughness = roughness, d.anisotropy = eta;
+                const Estimate e = seen_from(stage, at_cosine(cosine), options_of(ReferenceMode::direct, 256), d);
+                EXPECT_NEAR(e.mean, 1.0, kSigmas * e.deviation + 0.015) << "roughness " << roughness << " eta " << eta << " cosine " << cosine;
+                EXPECT_LT(e.deviation, 2e-3);
+            }
+}
+
+// The albedo of a lobe of two widths by quadrature over directions, in double.
 double anisotropic_albedo(double ax, double ay, glm::dvec3 o)
 {
     const auto stretch = [&](const glm::dvec3& w) { return std::sqrt(ax * ax * w.x * w.x + ay * ay * w.y * w.y + w.z * w.z); };

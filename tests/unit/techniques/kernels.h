@@ -10,8 +10,12 @@ struct TechniqueKernels {
     void (*major_axis)(const double in[8], double out[11]);
     // in: e0xyz e1xyz oxyz s; out: direction xyz
     void (*major_axis_direction)(const double in[10], double out[3]);
+    // in: as major_axis, count being the limit; out: cells, and how many samples they hold
+    void (*grain_count)(const double in[8], double out[2]);
     // in: vxyz sigma_u sigma_v in the frame u = x, v = y, n = z; out: direction xyz lod
     void (*bent_normal)(const double in[5], double out[4]);
+    // in: normal xyz, tangent xyz, handedness, tangent-space normal; out: n t b, xyz each
+    void (*mapped_frame)(const double in[10], double out[9]);
 };
 
 const TechniqueKernels& oracle_kernels();

@@ -1,6 +1,7 @@
 #include "shading/kernels/bent_normal.k.h"
 #include "shading/kernels/lobe.k.h"
 #include "shading/kernels/major_axis.k.h"
+#include "shading/kernels/surface.k.h"
 #include "tests/unit/techniques/kernels.h"
 
 namespace burnish {
@@ -41,6 +42,16 @@ void direction(const double in[10], double out[3])
     of_lanes3(k_normalize3(major_axis_direction(major_axis_curve_of(e0, e1 - e0, in_lanes3(in + 6)), in_lane(in[9]))), out);
 }
 
+// Of samples, as major_axis_adaptive takes them: one in the middle and a pair a cell.
+void grain_count(const double in[8], double out[2])
+{
+    const major_axis_grain grain = major_axis_grain_of(in_lanes3(in), in_lane(in[3]), in_lane(in[4]), in_lane(in[5]));
+    const real count = major_axis_grain_count(grain, in_lane(in[6]), in_lane(in[7]));
+    out[0] = of_lane(count), out[1] = 1.0;
+    for (int i = 1; of_lane(major_axis_grain_cell(count, i).weight) > 0.0; ++i)
+        out[1] += 2.0;
+}
+
 void bent_normal(const double in[5], double out[4])
 {
     const real zero = lit(0.0), one = lit(1.0);
@@ -52,12 +63,19 @@ void bent_normal(const double in[5], double out[4])
     out[3] = of_lane(r.lod);
 }
 
+void frame(const double in[10], double out[9])
+{
+    const surface_frame own = geometric_frame(in_lanes3(in), in_lanes3(in + 3), in_lane(in[6]));
+    const surface_frame f = mapped_frame(own, in_lanes3(in + 7), in_lane(in[6]));
+    of_lanes3(f.n, out), of_lanes3(f.t, out + 3), of_lanes3(f.b, out + 6);
+}
+
 } // namespace
 
 const test::TechniqueKernels& technique_kernels()
 {
     static constexpr const char* kNames[] = {"scalar", "avx2", "avx512", "double"};
-    static constexpr test::TechniqueKernels table = {kNames[BN_ISA], major_axis, direction, bent_normal};
+    static constexpr test::TechniqueKernels table = {kNames[BN_ISA], major_axis, direction, grain_count, bent_normal, frame};
     return table;
 }
 

@@ -251,6 +251,31 @@ TEST(major_axis, samples_never_leave_below_the_surface)
     EXPECT_GT(lowest, -1e-3);
 }
 
+// Odd numbers of samples only, and never more than were asked for or than beta L / Delta' of the line, which
+// is where the constants of major_axis_grain_count() come from: 0.43 of it leaves room for the cells that fade.
+TEST(major_axis, adaptive_takes_no_more_samples_than_asked_for_nor_than_the_line_needs)
+{
+    Random random{29};
+    const auto in_range = [&](double lo, double hi) { return lo + (hi - lo) * static_cast<double>(random.unit()); };
+    double most = 0.0, largest = 0.0;
+    for (int trial = 0; trial < 5000; ++trial) {
+        const Vec o = unit(in_range(-1.0, 1.0), in_range(-1.0, 1.0), in_range(0.1, 1.5));
+        const double al = in_range(0.05, 0.5), eta = in_range(0.0, 0.99), s = al * al / std::sqrt(2.0);
+        const double in[8] = {o.x, o.y, o.z, s * (1 + eta), s * (1 - eta), 1.0, 2.3, 15.0};
+        double line[11], taken[2];
+        const TechniqueKernels kernels = float_kernels()[0];
+        kernels.major_axis(in, line);
+        kernels.grain_count(in, taken);
+        ASSERT_LE(taken[1], 15.0);
+        ASSERT_GE(taken[0], 1.0);
+        const double needed = std::max(1.0, 2.3 * line[9] / std::max(line[10], 1e-9));
+        most = std::max(most, taken[1]), largest = std::max(largest, taken[1] / needed);
+    }
+    std::printf("at most %g samples, %.2f of what the line needs\n", most, largest);
+    EXPECT_EQ(most, 15.0);
+    EXPECT_LE(largest, 1.0);
+}
+
 TEST(major_axis, a_mirror_is_a_mirror)
 {
     for (const TechniqueKernels& kernels : float_kernels()) {
