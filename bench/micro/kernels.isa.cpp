@@ -18,7 +18,7 @@ template <Technique kTechnique> void run(const FrameParams& f, const KernelSurfa
         const surface s = metallic_roughness_surface(frame.n, load3(in.v, i), base, lit(1.0), lobe_alpha_lin(lobe), vec3_all(lit(0.04)), lit(1.0),
                                                      lit(1.0));
         const integer pixel = iota() + int_lit(i);
-        const real3 color = technique_specular<kTechnique>({f, s, lobe, s.f0, pixel, frame, false});
+        const real3 color = technique_specular<kTechnique>({f, s, lobe, s.f0, pixel, frame, false, vec3_all(lit(1.0))});
         store(rgb, color.x), store(rgb + kLanes, color.y), store(rgb + 2 * kLanes, color.z);
     }
 }

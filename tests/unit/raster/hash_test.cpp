@@ -116,7 +116,7 @@ struct OptionCase {
 };
 constexpr OptionCase kOptionCases[] = {
     {"energy compensation", [](FrameDesc& d) { d.energy_compensation = true; }, 0x0d4e29929af01c43ull},
-    {"tilt", [](FrameDesc& d) { d.tilt_rad = {0.3f, -0.2f}; }, 0xd70f987ead13441cull},
+    {"tilt", [](FrameDesc& d) { d.tilt_rad = {0.3f, -0.2f}; }, 0xa2eff4168d4c3c6eull},
     {"fitted albedo", [](FrameDesc& d) { d.dfg_fit = true; }, 0xb2ea9b07fecaaf25ull},
 };
 
