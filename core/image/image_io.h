@@ -1,4 +1,4 @@
-// Reading and writing image files through OpenImageIO (the only place that knows it).
+// Reading and writing image files.
 #pragma once
 #include <cstdint>
 #include <string>

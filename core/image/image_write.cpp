@@ -1,7 +1,4 @@
 // Writing: the file is made in memory, so that it is complete before its name appears on the disk.
-#include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imageio.h>
-
 #include <algorithm>
 #include <cctype>
 #include <cstring>
@@ -12,8 +9,9 @@
 #include "core/base/check.h"
 #include "core/base/file.h"
 #include "core/image/image_io.h"
-#include "core/image/openimageio.h"
+#include "core/image/image_library.h"
 #include "core/image/plain_formats.h"
+#include "core/image/png_write.h"
 
 namespace burnish {
 namespace {
@@ -22,13 +20,9 @@ using Bytes = std::vector<std::uint8_t>;
 
 // Largest value of Radiance's shared-exponent pixels: mantissa 255/256, exponent 127.
 constexpr float kRgbeMax = 255.0f / 256.0f * 0x1p127f;
-// CIE xy of Rec. ITU-R BT.709's red, green, blue and its white, D65.
-constexpr float kRec709[8] = {0.640f, 0.330f, 0.300f, 0.600f, 0.150f, 0.060f, 0.3127f, 0.3290f};
-constexpr int kJpegQuality = 95;
-constexpr int kPngLevel = 4; // of 9: two thirds of level 6's time, 8 % more bytes (the teapot's picture)
 
 struct Format {
-    const char* name; // OpenImageIO's
+    const char* name; // OpenImageIO's, where it writes the format
     bool floats;
     bool alpha;
     bool gray;
@@ -81,49 +75,6 @@ Image fit_channels(const Image& image, const Format& format)
     return out;
 }
 
-OIIO::ImageSpec spec_of(const Image& image, const Format& format)
-{
-    OIIO::ImageSpec spec(image.width, image.height, image.channels,
-                         format.floats ? OIIO::TypeDesc::FLOAT : OIIO::TypeDesc::UINT8);
-    // A date of the wrong type: the library then neither adds the present time nor writes this one.
-    spec.attribute("DateTime", 0);
-    spec.attribute("oiio:UnassociatedAlpha", 1);
-    if (format.floats) {
-        static const char* const kGray[] = {"Y", "A"};
-        static const char* const kColour[] = {"R", "G", "B", "A"};
-        const char* const* names = image.channels <= 2 ? kGray : kColour;
-        spec.channelnames.assign(names, names + image.channels);
-        spec.alpha_channel = image.channels % 2 == 0 ? image.channels - 1 : -1;
-        spec.attribute("compression", "zip");
-        spec.attribute("chromaticities", OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, 8), kRec709);
-    } else {
-        spec.attribute("oiio:ColorSpace", "sRGB");
-        if (std::strcmp(format.name, "jpeg") == 0)
-            spec.attribute("compression", fmt::format("jpeg:{}", kJpegQuality));
-        spec.attribute("jpeg:subsampling", "4:4:4");
-        spec.attribute("png:compressionLevel", kPngLevel);
-    }
-    return spec;
-}
-
-Result<Bytes> encode(const std::string& path, const Image& image, const Format& format)
-{
-    configure_openimageio();
-    Bytes bytes;
-    OIIO::Filesystem::IOVecOutput writer(bytes);
-    OIIO::Filesystem::IOProxy* proxy = &writer;
-    const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(format.name);
-    if (!output)
-        return output_error(path,
-                            "the image library cannot write this format: " + first_line(OIIO::geterror()));
-    OIIO::ImageSpec spec = spec_of(image, format);
-    spec.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);
-    if (!output->open(path, spec) || !output->write_image(spec.format, image.bytes.data()) ||
-        !output->close())
-        return output_error(path, "the image cannot be encoded: " + first_line(output->geterror()));
-    return bytes;
-}
-
 // RGBE holds neither negative values nor NaN nor Inf.
 void clamp_to_rgbe(Image& image)
 {
@@ -140,9 +91,14 @@ Result<Bytes> encode_image(const std::string& path, const Image& image, const Fo
         return encode_pfm(fitted);
     if (std::strcmp(format.name, "tiff") == 0)
         return encode_tiff(fitted);
+    if (std::strcmp(format.name, "png") == 0)
+        return png_bytes(path, fitted);
     if (std::strcmp(format.name, "hdr") == 0)
         clamp_to_rgbe(fitted);
-    return encode(path, fitted, format);
+    const Result<const ImageLibrary*> library = image_library(path);
+    if (!library)
+        return library.error();
+    return (*library)->encode(path, fitted, format.name);
 }
 
 } // namespace

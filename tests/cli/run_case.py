@@ -8,6 +8,7 @@ import chart_page_cases
 import compare_cases
 import harness
 import input_cases
+import install_cases
 import limit_cases
 import model_cases
 import output_cases

@@ -15,7 +15,8 @@ RENDERERS = ("tile", "vulkan", "reference")                  # they meet in rast
 
 # Third-party headers and the folders that may include them.
 THIRD_PARTY = (
-    (r"OpenImageIO/|OpenEXR/|Imath/", ("core/image",)),
+    (r"OpenImageIO/|OpenEXR/|Imath/", ("core/image/openimageio_module.cpp",)), # what others include, the program would load
+    (r"(png|zlib)\.h$", ("core/image",)),
     (r"tiny_gltf|draco/", ("core/scene",)),
     (r"meshoptimizer", ("core/scene", "raster/tile", "tests")),
     (r"tbb/|oneapi/", ("core/jobs",)),

@@ -157,6 +157,35 @@ TEST(write, exr_header_holds_nothing_volatile)
                                         "screenWindowCenter", "screenWindowWidth"}));
 }
 
+TEST(write, png_is_marked_as_srgb_and_holds_no_more)
+{
+    const std::string path = test::temporary_folder() + "/a.png";
+    ASSERT_TRUE(write_image(path, gradient8(4)));
+    const Bytes file = test::bytes_of(path);
+    std::vector<std::string> chunks;
+    std::size_t at = 8;
+    for (std::size_t size = 0; at + 12 <= file.size(); at += 12 + size) {
+        size = static_cast<std::size_t>(file[at]) << 24 | static_cast<std::size_t>(file[at + 1]) << 16 |
+               static_cast<std::size_t>(file[at + 2]) << 8 | file[at + 3];
+        chunks.emplace_back(file.begin() + static_cast<std::ptrdiff_t>(at) + 4, file.begin() + static_cast<std::ptrdiff_t>(at) + 8);
+        if (chunks.back() == "gAMA") { // 1/2.2 in units of 1/100000, as the standard asks beside sRGB
+            EXPECT_EQ(file[at + 10] << 8 | file[at + 11], 45455);
+        }
+    }
+    EXPECT_EQ(at, file.size());
+    EXPECT_EQ(chunks, (std::vector<std::string>{"IHDR", "gAMA", "sRGB", "cHRM", "IDAT", "IEND"}));
+}
+
+TEST(write, png_errors_come_back)
+{
+    const std::string folder = test::temporary_folder();
+    const Status status = write_image(folder + "/a.png", make_image(1000001, 1, 1, PixelType::u8)); // libpng's own limit is a million
+    ASSERT_FALSE(status);
+    EXPECT_EQ(status.error().code, ExitCode::output_failed);
+    EXPECT_NE(status.error().reason.find("cannot be encoded: "), std::string::npos) << status.error().reason;
+    EXPECT_TRUE(test::names_in(folder).empty());
+}
+
 TEST(write, repeated_files_are_the_same_bytes)
 {
     const std::string folder = test::temporary_folder();

@@ -1,0 +1,67 @@
+"""What an installed program finds, and that OpenImageIO, which brings some 250 shared libraries, is loaded only for pictures that need it."""
+
+import pathlib
+import shutil
+import subprocess
+import tempfile
+
+from harness import SMALL, Skipped, case, check
+
+MODULE = "burnish_openimageio.so"
+
+
+@case("install.copy_reads_and_writes_pictures", "program", "input")
+def installed(bench):
+    """Installed outside of the build tree, whose module would be found too."""
+    cmake = shutil.which("cmake")
+    if not cmake:
+        raise Skipped("no cmake")
+    with tempfile.TemporaryDirectory(prefix="burnish-install-") as prefix:
+        subprocess.run([cmake, "--install", str(pathlib.Path(bench.program).parent), "--prefix", prefix], check=True, timeout=120,
+                       stdout=subprocess.DEVNULL)
+        program = pathlib.Path(prefix, "bin", "burnish")
+        module = pathlib.Path(prefix, "lib", "burnish", MODULE)
+        check(program.is_file() and module.is_file(), f"{program} or {module} is not installed")
+        bench.run("render", *SMALL, "-o", "a.exr", "-o", "a.hdr", "-o", "a.jpg", program=program).expect(0)
+        for env in ("a.exr", "a.hdr", "a.jpg"):
+            bench.run("render", *SMALL, "--env", env, "-o", "b.png", program=program).expect(0)
+
+
+@case("install.without_the_module", "program", "input")
+def without_module(bench):
+    """A program alone still renders what is built in to PNG, and says in one line what it cannot."""
+    bench.run("render", *SMALL, "-o", "a.hdr").expect(0)
+    with tempfile.TemporaryDirectory(prefix="burnish-alone-") as folder:
+        program = pathlib.Path(shutil.copy(bench.program, folder))
+        bench.run("render", *SMALL, "-o", "a.png", "-o", "a.tif", "-o", "a.pfm", program=program).expect(0)
+        written = bench.run("render", *SMALL, "--quiet", "-o", "b.exr", program=program).expect(77)
+        written.expect_one_line("b.exr", MODULE, folder)
+        read = bench.run("render", *SMALL, "--quiet", "--env", "a.hdr", "-o", "c.png", program=program).expect(77)
+        read.expect_one_line("a.hdr", MODULE, folder)
+        damaged = pathlib.Path(folder, MODULE)
+        damaged.write_bytes(b"no module")
+        bench.run("render", *SMALL, "--quiet", "-o", "b.exr", program=program).expect(77).expect_one_line("b.exr", damaged)
+    check(bench.left_behind() == ["a.hdr", "a.pfm", "a.png", "a.tif"], f"left: {bench.left_behind()}")
+
+
+def loaded(bench, *arguments):
+    """The dynamic loader's account of the files that a run loads."""
+    bench.run(*arguments, env={"LD_DEBUG": "files", "LD_DEBUG_OUTPUT": str(bench.folder / "loader")}).expect(0)
+    accounts = list(bench.folder.glob("loader.*"))
+    text = "".join(account.read_text("utf-8", "replace") for account in accounts)
+    for account in accounts:
+        account.unlink()
+    if "libc.so" not in text:
+        raise Skipped("this dynamic loader gives no account of what it loads")
+    return text
+
+
+@case("install.png_loads_no_image_library")
+def png_loads_none(bench):
+    bench.run("render", *SMALL).expect(0)  # the environment is in the cache from here on
+    for arguments in (("list", "techniques"), ("info",), ("render", *SMALL, "-o", "a.png")):
+        account = loaded(bench, *arguments)
+        for name in ("OpenImageIO", MODULE):
+            check(name not in account, f"{arguments[0]} loads {name}")
+    account = loaded(bench, "render", *SMALL, "-o", "a.exr")
+    check("OpenImageIO" in account and MODULE in account, "an EXR is written without OpenImageIO: this case looks for the wrong names")
