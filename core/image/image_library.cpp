@@ -14,8 +14,8 @@ namespace fs = std::filesystem;
 
 constexpr const char* kModule = "burnish_openimageio.so";
 
-// The folders that may hold the module, the first one first. Absolute, so that neither the working folder nor LD_LIBRARY_PATH decides
-// what code is loaded.
+// The folders that may hold the module, the first one first. Absolute, so that neither the working folder nor
+// LD_LIBRARY_PATH decides what code is loaded.
 std::vector<fs::path> folders()
 {
     std::error_code ignored;
@@ -23,8 +23,10 @@ std::vector<fs::path> folders()
     if (self.empty())
         return {};
     std::vector<fs::path> found = {self, (self / "../lib/burnish").lexically_normal()};
-    const fs::path build = fs::weakly_canonical(BN_BUILD_FOLDER, ignored); // tests and benchmarks lie below it
-    if (std::mismatch(build.begin(), build.end(), self.begin(), self.end()).first == build.end() && build != self)
+    const fs::path build =
+        fs::weakly_canonical(BN_BUILD_FOLDER, ignored); // tests and benchmarks lie below it
+    if (std::mismatch(build.begin(), build.end(), self.begin(), self.end()).first == build.end() &&
+        build != self)
         found.push_back(build);
     return found;
 }
@@ -44,11 +46,14 @@ Result<const ImageLibrary*> open_library()
         void* const symbol = module ? dlsym(module, kImageLibrarySymbol) : nullptr;
         if (!symbol) {
             const char* const why = dlerror();
-            return Error{ExitCode::unavailable, "", "", fmt::format("the image library cannot be loaded: {}", first_line(why ? why : kModule))};
+            return Error{
+                ExitCode::unavailable, "", "",
+                fmt::format("the image library cannot be loaded: {}", first_line(why ? why : kModule))};
         }
         return reinterpret_cast<const ImageLibrary* (*)()>(symbol)();
     }
-    return Error{ExitCode::unavailable, "", "", fmt::format("the image library {} is not in {}", kModule, missing)};
+    return Error{ExitCode::unavailable, "", "",
+                 fmt::format("the image library {} is not in {}", kModule, missing)};
 }
 
 } // namespace

@@ -1,5 +1,6 @@
-// The library behind the formats that are not read or written here: OpenImageIO, in a module of its own. It brings some 250 shared
-// libraries, which take longer to load than a small picture to render, so it is opened when the first picture needs it.
+// The library behind the formats that are not read or written here: OpenImageIO, in a module of its own. It
+// brings some 250 shared libraries, which take longer to load than a small picture to render, so it is opened
+// when the first picture needs it.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -37,16 +38,18 @@ using PlacePixels = std::function<Result<PixelRequest>(const StoredHeader&)>;
 struct ImageLibrary {
     // Errors of a damaged file have ExitCode::bad_input; those of `place` are handed on.
     Status (*read)(const ImageBytes& file, const ImageProbe& probe, const PlacePixels& place);
-    // The bytes of a file of `format`, the library's name: openexr or hdr of float pixels, jpeg of 8-bit ones. `path` names it in
-    // errors, which have ExitCode::output_failed.
-    Result<std::vector<std::uint8_t>> (*encode)(const std::string& path, const Image& image, const char* format);
+    // The bytes of a file of `format`, the library's name: openexr or hdr of float pixels, jpeg of 8-bit
+    // ones. `path` names it in errors, which have ExitCode::output_failed.
+    Result<std::vector<std::uint8_t>> (*encode)(const std::string& path, const Image& image,
+                                                const char* format);
 };
 
 // The one symbol of the module: extern "C" const ImageLibrary* burnish_image_library().
 constexpr const char* kImageLibrarySymbol = "burnish_image_library";
 
-// Opens the module at the first call: beside the program, in ../lib/burnish from there, or, for programs that lie in the build tree, at
-// that tree's root. An Error with ExitCode::unavailable where it cannot be opened; `file` is the picture that needs it. Never null.
+// Opens the module at the first call: beside the program, in ../lib/burnish from there, or, for programs that
+// lie in the build tree, at that tree's root. An Error with ExitCode::unavailable where it cannot be opened;
+// `file` is the picture that needs it. Never null.
 Result<const ImageLibrary*> image_library(const std::string& file);
 
 // The first line of a library message, without its full stop.

@@ -1,5 +1,5 @@
-// The module that holds OpenImageIO (the only file that knows it): decodes files from memory and encodes them into memory. It is linked
-// with nothing of the program; what it needs of it are inline functions.
+// The module that holds OpenImageIO (the only file that knows it): decodes files from memory and encodes them
+// into memory. It is linked with nothing of the program; what it needs of it are inline functions.
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
@@ -94,10 +94,9 @@ Error library_error(const ImageBytes& file, const std::string& place, const char
 
 StoredHeader header_of(const OIIO::ImageSpec& spec)
 {
-    return {spec.width,       spec.height,    spec.depth,        spec.x,
-            spec.y,           spec.full_x,    spec.full_y,       spec.full_width,
-            spec.full_height, spec.nchannels, spec.channelnames, pixel_type_of(spec),
-            spec.deep};
+    return {spec.width,        spec.height,         spec.depth,      spec.x,           spec.y,
+            spec.full_x,       spec.full_y,         spec.full_width, spec.full_height, spec.nchannels,
+            spec.channelnames, pixel_type_of(spec), spec.deep};
 }
 
 Status read(const ImageBytes& file, const ImageProbe& probe, const PlacePixels& place)
@@ -119,7 +118,8 @@ Status read(const ImageBytes& file, const ImageProbe& probe, const PlacePixels& 
     const Result<PixelRequest> wanted = place(header);
     if (!wanted)
         return wanted.error();
-    if (!input->read_image(probe.subimage, 0, wanted->first, wanted->end, type_desc_of(header.type), wanted->to))
+    if (!input->read_image(probe.subimage, 0, wanted->first, wanted->end, type_desc_of(header.type),
+                           wanted->to))
         return library_error(file, reader.place(), "the pixels are damaged or cut off", input->geterror());
     input->close();
     return {};
@@ -162,7 +162,8 @@ Result<Bytes> encode(const std::string& path, const Image& image, const char* fo
         return error("the image library cannot write this format", OIIO::geterror());
     OIIO::ImageSpec spec = spec_of(image, format);
     spec.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);
-    if (!output->open(path, spec) || !output->write_image(spec.format, image.bytes.data()) || !output->close())
+    if (!output->open(path, spec) || !output->write_image(spec.format, image.bytes.data()) ||
+        !output->close())
         return error("the image cannot be encoded", output->geterror());
     return bytes;
 }
