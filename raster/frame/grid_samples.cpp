@@ -18,7 +18,7 @@ std::vector<GridSample> grid_samples(int samples, bool ggx)
             const double u = (i + 0.5) / n, v = (j + 0.5) / n;
             double x, y, density;
             if (ggx) { // radius from the distribution of slopes, which is that of D h.z
-                const double r2 = v / (1.0 - v), r = std::sqrt(r2);
+                const double r2 = n == 1 ? 0.0 : v / (1.0 - v), r = std::sqrt(r2); // one sample lies in the middle
                 x = r * det_cos(2.0 * kPi * u), y = r * det_sin(2.0 * kPi * u);
                 density = 1.0 / (kPi * (1.0 + r2) * (1.0 + r2));
             } else {

@@ -31,30 +31,6 @@ struct Reflector {
 
 BN_INLINE real luminance_of(real3 c) { return c.x * lit(0.2126) + c.y * lit(0.7152) + c.z * lit(0.0722); }
 
-BN_INLINE Reflector make_reflector(const surface& s, const aniso_lobe& lobe, const surface_frame& own, bool tilted, const dfg_value& dfg,
-                                   bool compensate, real3 dielectric_f0, real dielectric_f90)
-{
-    Reflector r;
-    r.s = s, r.lobe = lobe, r.own = own, r.tilted = tilted;
-    const real root2 = lit(1.4142135623730951);
-    r.ggx = ggx_aniso_params_of(lobe.sigma_u * root2, lobe.sigma_v * root2);
-    r.o = to_lobe(lobe, s.n, s.v);
-    r.o.z = max(r.o.z, lit(1e-4));
-    r.o = k_normalize3(r.o);
-    const real3 one = vec3_all(lit(1.0));
-    r.gain = compensate ? energy_compensation(s.f0, dfg) : one;
-    const real3 dielectric = (dielectric_f0 * dfg.scale + vec3_all(dielectric_f90 * dfg.bias)) *
-                             (compensate ? energy_compensation(dielectric_f0, dfg) : one);
-    const real passed = lit(1.0) - max(dielectric.x, max(dielectric.y, dielectric.z));
-    r.diffuse = s.diffuse * (passed * lit(0.31830988618379067));
-    r.mirror = lobe.sigma_u + lobe.sigma_v <= lit(1e-6);
-    const real specular = luminance_of((s.f0 * dfg.scale + s.f90 * dfg.bias) * r.gain);
-    const real rest = luminance_of(s.diffuse) * passed;
-    const real share = specular / max(specular + rest, lit(1e-20));
-    r.choose_specular = select(rest > lit(1e-6), select(specular > lit(1e-6), min(max(share, lit(0.1)), lit(0.9)), lit(0.0)), lit(1.0));
-    return r;
-}
-
 // The lobe as an ellipsoid in the surface's own frame.
 struct TiltedLobe {
     ellipsoid_params p;
@@ -71,6 +47,34 @@ BN_INLINE TiltedLobe tilted_lobe(const Reflector& r)
     t.o.z = max(t.o.z, lit(1e-4));
     t.o = k_normalize3(t.o);
     return t;
+}
+
+BN_INLINE Reflector make_reflector(const surface& s, const aniso_lobe& lobe, const surface_frame& own, bool tilted, const dfg_value& dfg,
+                                   bool compensate, real3 dielectric_f0, real dielectric_f90)
+{
+    Reflector r;
+    r.s = s, r.lobe = lobe, r.own = own, r.tilted = tilted;
+    const real root2 = lit(1.4142135623730951);
+    r.ggx = ggx_aniso_params_of(lobe.sigma_u * root2, lobe.sigma_v * root2);
+    r.o = to_lobe(lobe, s.n, s.v);
+    r.o.z = max(r.o.z, lit(1e-4));
+    r.o = k_normalize3(r.o);
+    const real3 one = vec3_all(lit(1.0));
+    r.gain = compensate ? energy_compensation(s.f0, dfg) : one;
+    if (compensate && tilted) {
+        const TiltedLobe t = tilted_lobe(r);
+        r.gain = energy_compensation_of_albedo(s.f0, min(ellipsoid_albedo(t.p, t.o), lit(1.0)));
+    }
+    const real3 dielectric = (dielectric_f0 * dfg.scale + vec3_all(dielectric_f90 * dfg.bias)) *
+                             (compensate ? energy_compensation(dielectric_f0, dfg) : one);
+    const real passed = lit(1.0) - max(dielectric.x, max(dielectric.y, dielectric.z));
+    r.diffuse = s.diffuse * (passed * lit(0.31830988618379067));
+    r.mirror = lobe.sigma_u + lobe.sigma_v <= lit(1e-6);
+    const real specular = luminance_of((s.f0 * dfg.scale + s.f90 * dfg.bias) * r.gain);
+    const real rest = luminance_of(s.diffuse) * passed;
+    const real share = specular / max(specular + rest, lit(1e-20));
+    r.choose_specular = select(rest > lit(1e-6), select(specular > lit(1e-6), min(max(share, lit(0.1)), lit(0.9)), lit(0.0)), lit(1.0));
+    return r;
 }
 
 struct LobeValue {

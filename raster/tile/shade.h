@@ -143,6 +143,10 @@ BN_INLINE real3 shade_fragments(const FrameParams& f, const MaterialRecord& m, c
     x.s = metallic_roughness_surface(frame.n, v, at.base, at.metallic, shape.alpha_lin, at.dielectric_f0, at.dielectric_f90, at.occlusion);
     x.dfg = directional_albedo(f, m.anisotropic, x.s, x.lobe);
     x.gain = energy_gain(f, x.s.f0, x.dfg);
+    if (f.tilted && f.energy_compensation) {
+        const LaneEllipsoid e = lobe_on_surface(x.lobe, x.s, x.surface_axes);
+        x.gain = energy_compensation_of_albedo(x.s.f0, min(ellipsoid_albedo(e.p, e.o), lit(1.0)));
+    }
     real3 color = environment_light<kTechnique>(f, x, pixel_id) + at.emissive;
     if (f.light_count > 0)
         color = color + light_from_punctual(f, x, m.anisotropic && kTechnique != Technique::split_isotropic, p.position);

@@ -146,7 +146,10 @@ BN_INLINE real3 major_axis_adaptive_specular(const TechniqueInput& in)
     const major_axis_grain grain = grain_of(in);
     const real beta = splat(in.f.major_axis_beta), one = lit(1.0);
     const int limit = in.f.samples - (in.f.samples % 2 == 0); // one in the middle and pairs
-    const real count = major_axis_grain_count(grain, beta, to_real(int_lit(limit)));
+    const real k = splat(in.f.major_axis_k);
+    real count = major_axis_grain_count(grain, beta, to_real(int_lit(limit)));
+    if (any(both(count > one, major_axis_count_unsure(grain, k))))
+        count = major_axis_limited_count(grain, in.lobe.sigma_u, in.lobe.sigma_v, k, beta, count);
     const real spacing = beta * lit(2.0) / count;
     GrainSum sum;
     begin(sum, cube);

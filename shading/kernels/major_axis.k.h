@@ -247,6 +247,22 @@ BN_FN real major_axis_grain_count(major_axis_grain g, real beta, real limit)
     return min(max(count, lit(1.0)), limit);
 }
 
+// Where the count above may be more than the line of document 000 asks for: wide lobes (alpha_lin above 0.5), grazing views, k other than 1.
+BN_FN mask major_axis_count_unsure(major_axis_grain g, real k)
+{
+    mask wide = g.alpha_x + g.alpha_y > lit(0.5);
+    mask other_k = not_(k == lit(1.0));
+    return either(either(wide, g.o.z < lit(0.1)), other_k);
+}
+
+// The count with beta L / Delta' of that line as its limit there. Whole cells and parts of cells add up to it.
+BN_FN real major_axis_limited_count(major_axis_grain g, real sigma_x, real sigma_y, real k, real beta, real count)
+{
+    major_axis_line line = major_axis_setup(g.o, sigma_x, sigma_y, k, beta, lit(1.0));
+    real asked = max(beta * line.extent / max(line.width, lit(1e-6)), lit(1.0));
+    return select(major_axis_count_unsure(g, k), min(count, asked), count);
+}
+
 struct grain_cell {
     real c;      // middle of the cell
     real weight; // its size relative to a whole cell, [0,1]

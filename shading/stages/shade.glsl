@@ -121,6 +121,11 @@ real3 shade_point(int m, material_inputs at, visible_point p, int pixel_id)
     x.s = metallic_roughness_surface(axes.n, v, at.base, at.metallic, shape.alpha_lin, at.dielectric_f0, at.dielectric_f90, at.occlusion);
     x.dfg = directional_albedo(materials[m].anisotropic != 0, x.s, x.lobe);
     x.gain = energy_gain(x.s.f0, x.dfg);
+    if (frame.tilted != 0 && frame.energy_compensation != 0) {
+        placed_ellipsoid e = lobe_on_surface(x.lobe, x.s, x.surface_axes);
+        real kept = min(ellipsoid_albedo(e.p, e.o), lit(1.0));
+        x.gain = energy_compensation_of_albedo(x.s.f0, kept);
+    }
     real3 color = environment_light(x, pixel_id) + at.emissive;
     if (frame.light_count > 0)
         color = color + light_from_punctual(x, materials[m].anisotropic != 0 && !kIsotropicLights, p.position);

@@ -119,7 +119,10 @@ real3 major_axis_adaptive_specular(technique_input ti)
     major_axis_grain grain = grain_of(ti);
     int limit = frame.samples - (frame.samples % 2 == 0 ? 1 : 0); // one in the middle and pairs
     real beta = frame.major_axis_beta;
+    real k = frame.major_axis_k;
     real count = major_axis_grain_count(grain, beta, to_real(limit));
+    if (count > 1.0 && major_axis_count_unsure(grain, k))
+        count = major_axis_limited_count(grain, ti.lobe.sigma_u, ti.lobe.sigma_v, k, beta, count);
     real spacing = beta * lit(2.0) / count;
     grain_sum total = grain_sum(texel_zero(), 0.0);
     total = add_grain_sample(ti, grain, lit(0.0), lit(1.0), spacing, lit(1.0), total);

@@ -106,7 +106,8 @@ def options_of_shading(bench):
     lights = bench.shared("models/Lights.glb")
     for options in (("--tilt", "20,-10"), ("--anisotropy", "0.7", "--roughness", "0.3", "--dfg", "fit"),
                     ("--horizon", "--energy-compensation", "--texture-anisotropy", "4"),
-                    ("--energy-compensation", "--anisotropy", "0.8", "--roughness", "0.8")):
+                    ("--energy-compensation", "--anisotropy", "0.8", "--roughness", "0.8"),
+                    ("--energy-compensation", "--tilt", "20,-10", "--anisotropy", "0.5", "--roughness", "0.8")):
         check_equal(parity(bench, lights, "builtin:plate", "--size", "48x32", "--msaa", "1", *options))
 
 

@@ -113,6 +113,51 @@ TEST(energy, one_fetch_gives_back_what_sampling_does)
     std::printf("largest difference %.4f\n", largest);
 }
 
+// What a tilted lobe loses, below the surface too, comes back, and no more. Of lobes that look away so far that hardly any light returns
+// less comes back, as compensation is limited.
+TEST(energy, a_tilted_white_metal_gives_back_all_light)
+{
+    const Floor floor;
+    FrameDesc d;
+    d.override_anisotropy = true;
+    for (const TechniqueInfo& t : techniques()) {
+        d.technique = t.name;
+        const bool mc = d.technique == "mc";
+        d.samples = mc ? 256 : t.default_samples;
+        Range r, away;
+        for (const glm::vec2& tilt : {glm::vec2(30, 0), glm::vec2(0, -20), glm::vec2(-15, 25)})
+            for (float roughness : {0.3f, 0.7f, 1.0f})
+                for (float eta : {0.0f, 0.8f})
+                    for (double cosine : {0.9, 0.5})
+                        for (double azimuth : {0.0, 90.0, 210.0}) {
+                            d.tilt_rad = tilt * static_cast<float>(kDegree), d.roughness = roughness, d.anisotropy = eta;
+                            d.energy_compensation = false;
+                            const bool seen = floor.seen(d, cosine, azimuth * kDegree) > 0.1;
+                            d.energy_compensation = true;
+                            const double v = floor.seen(d, cosine, azimuth * kDegree);
+                            Range& of = seen ? r : away;
+                            of.least = std::min(of.least, v), of.most = std::max(of.most, v);
+                        }
+        std::printf("%s: %.4f to %.4f, looking away at most %.4f\n", t.name, r.least, r.most, away.most);
+        EXPECT_LT(away.most, mc ? 1.12 : 1.001) << t.name;
+        EXPECT_GT(r.least, mc ? 0.83 : 0.999) << t.name; // mc's own albedo is known by 21 samples
+        EXPECT_LT(r.most, mc ? 1.12 : 1.001) << t.name;
+    }
+}
+
+TEST(energy, one_sample_of_a_grid_lies_in_the_middle_of_the_lobe)
+{
+    const Floor floor;
+    FrameDesc d;
+    d.override_anisotropy = true, d.roughness = 0.5f, d.anisotropy = 0.8f, d.samples = 1;
+    for (const char* technique : {"filtered_is", "filtered_is_ggx"}) {
+        d.technique = technique;
+        const double v = floor.seen(d, 0.6, 0.3);
+        EXPECT_GT(v, 0.8) << technique;
+        EXPECT_LT(v, 1.001) << technique;
+    }
+}
+
 struct Difference {
     double squares = 0.0, largest = 0.0;
     int count = 0;

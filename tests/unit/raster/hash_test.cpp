@@ -102,7 +102,7 @@ constexpr TechniqueCase kTechniqueCases[] = {
     {"split_isotropic", {0x13dbb753d14b4987ull, 0x03612a086e50ab6dull, 0xc2d4b38a7eef6a58ull}},
     {"bent_normal", {0xe565b965fc199a2dull, 0x339caf49e466cea0ull, 0x77e8844bb29fdb0full}},
     {"major_axis", {0x7f4785b8b67b5e36ull, 0x764b0927e8075e1eull, 0x96b1ae6ee82b4f94ull}},
-    {"major_axis_adaptive", {0x1b48986c78f51c3cull, 0x5f039e51e4421e17ull, 0x7435df656a93ca06ull}},
+    {"major_axis_adaptive", {0x26901f03a29fc306ull, 0x431f9af03e5c36afull, 0x7435df656a93ca06ull}},
     {"major_axis_weighted", {0xda8245e9ad518812ull, 0x4ac13750e1c1bbe0ull, 0x5f18f3b5999e0dd0ull}},
     {"filtered_is", {0x7ff00f338dd1362aull, 0x192280497d6a398dull, 0xee79ecc668c4c8b6ull}},
     {"filtered_is_ggx", {0x4760b5a481f651d8ull, 0x9925a3cdcdc46778ull, 0x84e88abdb51bb3d3ull}},

@@ -46,7 +46,8 @@ void direction(const double in[10], double out[3])
 void grain_count(const double in[8], double out[2])
 {
     const major_axis_grain grain = major_axis_grain_of(in_lanes3(in), in_lane(in[3]), in_lane(in[4]), in_lane(in[5]));
-    const real count = major_axis_grain_count(grain, in_lane(in[6]), in_lane(in[7]));
+    const real first = major_axis_grain_count(grain, in_lane(in[6]), in_lane(in[7]));
+    const real count = major_axis_limited_count(grain, in_lane(in[3]), in_lane(in[4]), in_lane(in[5]), in_lane(in[6]), first);
     out[0] = of_lane(count), out[1] = 1.0;
     for (int i = 1; of_lane(major_axis_grain_cell(count, i).weight) > 0.0; ++i)
         out[1] += 2.0;

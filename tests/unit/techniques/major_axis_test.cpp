@@ -276,6 +276,29 @@ TEST(major_axis, adaptive_takes_no_more_samples_than_asked_for_nor_than_the_line
     EXPECT_LE(largest, 1.0);
 }
 
+// Wide lobes, grazing views and other k: what counts is the sum of cells, of which the outermost two may be parts.
+TEST(major_axis, adaptive_samples_of_any_lobe_add_up_to_no_more_than_the_line_needs)
+{
+    Random random{31};
+    const auto in_range = [&](double lo, double hi) { return lo + (hi - lo) * static_cast<double>(random.unit()); };
+    double largest = 0.0;
+    for (int trial = 0; trial < 8000; ++trial) {
+        const Vec o = unit(in_range(-1.0, 1.0), in_range(-1.0, 1.0), trial % 2 ? in_range(0.001, 0.1) : in_range(0.1, 1.5));
+        const double al = in_range(0.05, 1.0), eta = in_range(0.0, 0.99), s = al * al / std::sqrt(2.0), k = trial % 3 ? 1.0 : in_range(0.5, 3.0);
+        const double in[8] = {o.x, o.y, o.z, s * (1 + eta), s * (1 - eta), k, 2.3, 63.0};
+        double line[11], taken[2];
+        const TechniqueKernels kernels = float_kernels()[0];
+        kernels.major_axis(in, line);
+        kernels.grain_count(in, taken);
+        const double needed = std::max(1.0, 2.3 * line[9] / std::max(line[10], 1e-9));
+        largest = std::max(largest, taken[0] / needed);
+        ASSERT_LT(taken[1], taken[0] + 2.0);
+    }
+    std::printf("%.4f of what the line needs\n", largest);
+    EXPECT_LE(largest, 1.00001);
+    EXPECT_GT(largest, 0.9);
+}
+
 TEST(major_axis, a_mirror_is_a_mirror)
 {
     for (const TechniqueKernels& kernels : float_kernels()) {
