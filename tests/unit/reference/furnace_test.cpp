@@ -88,7 +88,7 @@ TEST(furnace, energy_compensation_returns_what_an_anisotropic_metal_loses)
                 d.roughness = roughness, d.anisotropy = eta;
                 const Estimate e = seen_from(stage, at_cosine(cosine), options_of(ReferenceMode::direct, 256), d);
                 EXPECT_NEAR(e.mean, 1.0, kSigmas * e.deviation + 0.015) << "roughness " << roughness << " eta " << eta << " cosine " << cosine;
-                EXPECT_LT(e.deviation, 2e-3);
+                EXPECT_LT(e.deviation, 3e-3);
             }
 }
 
