@@ -1,6 +1,9 @@
 #include "core/image/image_library.h"
 
 #include <dlfcn.h>
+#ifdef __SANITIZE_ADDRESS__
+#include <sanitizer/lsan_interface.h>
+#endif
 
 #include <algorithm>
 #include <filesystem>
@@ -33,6 +36,9 @@ std::vector<fs::path> folders()
 
 Result<const ImageLibrary*> open_library()
 {
+#ifdef __SANITIZE_ADDRESS__
+    const __lsan::ScopedDisabler disabled; // the libraries behind the module forget, when they are unloaded, what they allocate when loaded
+#endif
     std::string missing;
     for (const fs::path& folder : folders()) {
         const fs::path path = folder / kModule;
