@@ -23,7 +23,6 @@
 //   compress_store_int(to, i, m)                             lanes of m to consecutive places; gives their number
 //   expand_load expand_load_int(from, m)                     the reverse
 //   store_triples(to, more, r, g, b)                         RGB of lanes 0-7 to `to`, of lanes 8-15 to `more`
-//   stream_triples stream_fence                              the same past the caches, and its end
 //   load_triples_int                                         consecutive triples, the k-th of each to out[k]
 //   reduce_min reduce_max reduce_add                         lane k with lane k + n/2, then n/4...: depends on
 //                                                            the width

@@ -388,30 +388,16 @@ BN_INLINE integer expand_load_int(const std::int32_t* from, mask m)
 {
     return {expand_load_words(from, m)};
 }
-struct triple_words {
-    __m256 at[3];
-};
-BN_INLINE triple_words triples_of(real r, real g, real b)
+BN_INLINE void store_triples(float* first, float*, real r, real g, real b)
 {
     // each register of the result takes every third word of each channel
     const __m256i r_to = _mm256_setr_epi32(0, 3, 6, 1, 4, 7, 2, 5), g_to = _mm256_setr_epi32(5, 0, 3, 6, 1, 4, 7, 2),
                   b_to = _mm256_setr_epi32(2, 5, 0, 3, 6, 1, 4, 7);
     const __m256 rs = _mm256_permutevar8x32_ps(r.v, r_to), gs = _mm256_permutevar8x32_ps(g.v, g_to),
                  bs = _mm256_permutevar8x32_ps(b.v, b_to);
-    return {{_mm256_blend_ps(_mm256_blend_ps(rs, gs, 0x92), bs, 0x24), _mm256_blend_ps(_mm256_blend_ps(rs, gs, 0x24), bs, 0x49),
-             _mm256_blend_ps(_mm256_blend_ps(rs, gs, 0x49), bs, 0x92)}};
-}
-BN_INLINE void store_triples(float* first, float*, real r, real g, real b)
-{
-    const triple_words t = triples_of(r, g, b);
-    for (int k = 0; k < 3; ++k)
-        _mm256_storeu_ps(first + 8 * k, t.at[k]);
-}
-BN_INLINE void stream_triples(float* first, float*, real r, real g, real b)
-{
-    const triple_words t = triples_of(r, g, b);
-    for (int k = 0; k < 3; ++k)
-        _mm256_stream_ps(first + 8 * k, t.at[k]);
+    _mm256_storeu_ps(first, _mm256_blend_ps(_mm256_blend_ps(rs, gs, 0x92), bs, 0x24));
+    _mm256_storeu_ps(first + 8, _mm256_blend_ps(_mm256_blend_ps(rs, gs, 0x24), bs, 0x49));
+    _mm256_storeu_ps(first + 16, _mm256_blend_ps(_mm256_blend_ps(rs, gs, 0x49), bs, 0x92));
 }
 
 BN_INLINE void load_triples_int(const std::int32_t* from, integer out[3])

@@ -375,10 +375,7 @@ BN_INLINE integer expand_load_int(const std::int32_t* from, mask m)
 {
     return {_mm512_maskz_expand_epi32(m.v, _mm512_loadu_si512(from))};
 }
-struct triple_words {
-    __m512 at[3];
-};
-BN_INLINE triple_words triples_of(real r, real g, real b)
+BN_INLINE void store_triples(float* first, float* second, real r, real g, real b)
 {
     const __m512i r_to = _mm512_setr_epi32(0, 11, 6, 1, 12, 7, 2, 13, 8, 3, 14, 9, 4, 15, 10, 5),
                   g_to = _mm512_setr_epi32(5, 0, 11, 6, 1, 12, 7, 2, 13, 8, 3, 14, 9, 4, 15, 10),
@@ -388,25 +385,10 @@ BN_INLINE triple_words triples_of(real r, real g, real b)
     const __m512 low = _mm512_mask_mov_ps(_mm512_mask_mov_ps(rs, 0x2492, gs), 0x4924, bs);
     const __m512 middle = _mm512_mask_mov_ps(_mm512_mask_mov_ps(rs, 0x9249, gs), 0x2492, bs);
     const __m512 high = _mm512_mask_mov_ps(_mm512_mask_mov_ps(rs, 0x4924, gs), 0x9249, bs);
-    return {{low, middle, high}};
-}
-BN_INLINE void store_triples(float* first, float* second, real r, real g, real b)
-{
-    const triple_words t = triples_of(r, g, b);
-    _mm512_storeu_ps(first, t.at[0]);
-    _mm256_storeu_ps(first + 16, _mm512_castps512_ps256(t.at[1]));
-    _mm256_storeu_ps(second, _mm512_extractf32x8_ps(t.at[1], 1));
-    _mm512_storeu_ps(second + 8, t.at[2]);
-}
-BN_INLINE void stream_triples(float* first, float* second, real r, real g, real b)
-{
-    const triple_words t = triples_of(r, g, b);
-    _mm256_stream_ps(first, _mm512_castps512_ps256(t.at[0]));
-    _mm256_stream_ps(first + 8, _mm512_extractf32x8_ps(t.at[0], 1));
-    _mm256_stream_ps(first + 16, _mm512_castps512_ps256(t.at[1]));
-    _mm256_stream_ps(second, _mm512_extractf32x8_ps(t.at[1], 1));
-    _mm256_stream_ps(second + 8, _mm512_castps512_ps256(t.at[2]));
-    _mm256_stream_ps(second + 16, _mm512_extractf32x8_ps(t.at[2], 1));
+    _mm512_storeu_ps(first, low);
+    _mm256_storeu_ps(first + 16, _mm512_castps512_ps256(middle));
+    _mm256_storeu_ps(second, _mm512_extractf32x8_ps(middle, 1));
+    _mm512_storeu_ps(second + 8, high);
 }
 
 BN_INLINE void load_triples_int(const std::int32_t* from, integer out[3])

@@ -5,10 +5,6 @@
 namespace burnish {
 inline namespace BN_ISA_NS {
 
-BN_INLINE void stream_fence()
-{
-    _mm_sfence();
-}
 BN_INLINE real& operator+=(real& a, real b)
 {
     return a = a + b;

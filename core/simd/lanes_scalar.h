@@ -327,10 +327,6 @@ BN_INLINE void store_triples(float* first, float*, real r, real g, real b)
 {
     first[0] = static_cast<float>(r), first[1] = static_cast<float>(g), first[2] = static_cast<float>(b);
 }
-// The same past the caches, for memory that is not read soon: `first` and `second` are multiples of 32 bytes. Other threads see it after a
-// stream_fence().
-BN_INLINE void stream_triples(float* first, float* second, real r, real g, real b) { store_triples(first, second, r, g, b); }
-BN_INLINE void stream_fence() {}
 
 // kLanes triples in turn: out[k] holds the k-th of each.
 BN_INLINE void load_triples_int(const std::int32_t* from, integer out[3])

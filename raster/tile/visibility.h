@@ -76,8 +76,6 @@ BN_INLINE void resolve(const FrameParams& f, int x0, int y0, int width, int heig
     const std::uint32_t* lanes = s.pass_lanes;
     const std::uint8_t* register_passes = s.register_passes;
     const std::size_t row = 3 * static_cast<std::size_t>(f.width);
-    // a picture is larger than the caches and is not read before its end: reading its lines only to write them would cost as much again
-    const bool streamed = f.width % kBlock == 0 && reinterpret_cast<std::uintptr_t>(s.output) % 32 == 0;
     std::uint32_t at = 0;
     for (int by = 0; by * kBlock < height; ++by)
         for (int bx = 0; bx * kBlock < width; ++bx)
@@ -104,10 +102,7 @@ BN_INLINE void resolve(const FrameParams& f, int x0, int y0, int width, int heig
                 const int px = bx * kBlock + (v * kLanes & 7), py = by * kBlock + (v * kLanes >> 3);
                 float* to = s.output + row * static_cast<std::size_t>(y0 + py) + 3 * static_cast<std::size_t>(x0 + px);
                 if (drawn == kAllLanes) {
-                    if (streamed)
-                        stream_triples(to, to + row, r, g, b);
-                    else
-                        store_triples(to, to + row, r, g, b);
+                    store_triples(to, to + row, r, g, b);
                     continue;
                 }
                 float part[2][3 * kBlock];
@@ -118,7 +113,6 @@ BN_INLINE void resolve(const FrameParams& f, int x0, int y0, int width, int heig
                         to[row * static_cast<std::size_t>(y) + static_cast<std::size_t>(3 * x + c)] = part[y][3 * x + c];
                 }
             }
-    stream_fence();
 }
 
 } // namespace BN_ISA_NS

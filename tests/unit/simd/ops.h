@@ -45,7 +45,6 @@ struct LaneFns {
     int (*compress)(std::int32_t* to, const std::int32_t* x, std::uint32_t bits);
     void (*expand)(const float* from, const std::int32_t* ints, std::uint32_t bits, float* x, std::int32_t* i);
     void (*triples)(float* first, float* second, const float* r, const float* g, const float* b);
-    void (*streamed_triples)(float* first, float* second, const float* r, const float* g, const float* b);
     std::uint32_t (*mask_facts)(std::uint32_t bits); // to_bits, with any, all, none in bits 16, 17, 18
     void (*iota)(std::int32_t* out);
     void (*gather)(const float* base, const std::int32_t* index, float* out);

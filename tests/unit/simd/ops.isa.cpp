@@ -73,11 +73,6 @@ void triples_fn(float* first, float* second, const float* r, const float* g, con
 {
     store_triples(first, second, load(r), load(g), load(b));
 }
-void streamed_triples_fn(float* first, float* second, const float* r, const float* g, const float* b)
-{
-    stream_triples(first, second, load(r), load(g), load(b));
-    stream_fence();
-}
 std::uint32_t mask_facts_fn(std::uint32_t bits)
 {
     const mask m = mask_from_bits(bits);
@@ -186,7 +181,6 @@ const LaneFns kFns = {kIsaNames[BN_ISA],
                       compress_fn,
                       expand_fn,
                       triples_fn,
-                      streamed_triples_fn,
                       mask_facts_fn,
                       iota_fn,
                       gather_fn,
