@@ -6,7 +6,7 @@ Usage: compare.py OLD.json NEW.json [--threshold PERCENT]
 Reads what bench_frame --json writes and what bench_micro --benchmark_format=json prints; both files must be of one kind. A line a
 workload: medians, their ratio, and the interval in which the ratio lies with about 95 % confidence, from the rounds of both runs (a single
 value is its own interval). A change counts as slower or faster where the ratio is more than PERCENT (3) away from 1 and the interval does
-not hold 1; where only the ratio is, the line says unsure.
+not hold 1; where only the ratio is, the line says unsure. Where the pictures differ it says other pixels.
 
 Exit code: 0 nothing is slower; 1 something is slower, or was measured before and no more; 2 the files cannot be compared.
 """
@@ -25,12 +25,14 @@ class Unreadable(Exception):
 
 
 def load(path):
-    """{name: [time of each round]}, {what the machine was: value}."""
+    """{name: [time of each round]}, {name: hash of the picture}, {what the machine was: value}, load average."""
+    pixels = {}
     try:
         with open(path, encoding="utf-8") as file:
             data = json.load(file)
         if "workloads" in data:
             times = {f"{row['name']} {row['isa']}": row["cpu_ms_rounds"] for row in data["workloads"]}
+            pixels = {f"{row['name']} {row['isa']}": row.get("pixels") for row in data["workloads"]}
             machine = {**{key: data["machine"].get(key) for key in ("processor", "compiler", "build_type")}, "threads": data.get("threads")}
             load_average = data["machine"].get("load_average", -1)
         else:
@@ -47,7 +49,7 @@ def load(path):
             raise Unreadable(f"{path}: {name}: times must be above 0")
     if not times:
         raise Unreadable(f"{path}: no workloads")
-    return times, machine, load_average
+    return times, pixels, machine, load_average
 
 
 def median(values):
@@ -89,7 +91,7 @@ def main(arguments):
     parser.add_argument("--threshold", type=float, default=3.0, metavar="PERCENT")
     options = parser.parse_args(arguments)
     try:
-        (old, old_machine, old_load), (new, new_machine, new_load) = load(options.old), load(options.new)
+        (old, old_pixels, old_machine, old_load), (new, new_pixels, new_machine, new_load) = load(options.old), load(options.new)
     except Unreadable as error:
         print(f"compare: {error}", file=sys.stderr)
         return 2
@@ -114,6 +116,8 @@ def main(arguments):
         ratio, least, most, verdict = judge(old[name], new[name], options.threshold / 100)
         if verdict:
             counts[verdict] += 1
+        if old_pixels.get(name) and new_pixels.get(name) and old_pixels[name] != new_pixels[name]:
+            verdict += " other pixels"
         print(f"{name:<{width}}  {median(old[name]):>10.4g}  {median(new[name]):>10.4g}  {ratio:>7.3f}  {least:.3f} to {most:.3f}  {verdict}".rstrip())
     for name in new:
         if name not in old:

@@ -2,7 +2,7 @@
 #include <fmt/format.h>
 
 #include "bench/frame/run.h"
-#include "core/image/flip.h"
+#include "core/image/metrics/flip.h"
 #include "raster/reference/reference_renderer.h"
 #include "raster/tile/tile_renderer.h"
 
@@ -63,9 +63,14 @@ Result<std::vector<Row>> accuracy_rows(const RunOptions& options)
             flip[i] = mean_flip(truth->color, frame->color, jobs);
         }
         const double more = flip[1] - flip[0];
-        rows.push_back({"accuracy", fmt::format("FLIP, adaptive minus fixed 16, eta {:.1f}", static_cast<double>(eta)), "", kWorse, false,
-                        {more, more, more}, fmt::format("{:.4f} and {:.4f}, sphere, {} samples a pixel of the reference", flip[1], flip[0],
-                                                        kReferenceSamples)});
+        rows.push_back(
+            {"accuracy",
+             fmt::format("FLIP, adaptive minus fixed 16, eta {:.1f}", static_cast<double>(eta)),
+             "",
+             kWorse,
+             false,
+             {more, more, more},
+             fmt::format("{:.4f} and {:.4f}, sphere, {} samples a pixel of the reference", flip[1], flip[0], kReferenceSamples)});
     }
     return rows;
 }

@@ -80,9 +80,8 @@ Result<std::vector<Row>> memory_rows(const RunOptions& options)
     for (const std::int64_t triangles : {10000, 100000, 1000000, 10000000}) {
         if (options.quick && triangles > 1000000)
             continue;
-        const Result<std::string> text =
-            output_of({options.self, "--memory-of", std::to_string(triangles), "--threads", std::to_string(options.subject.threads), "--isa",
-                       isa_name(options.subject.isa)});
+        const Result<std::string> text = output_of({options.self, "--memory-of", std::to_string(triangles), "--threads",
+                                                    std::to_string(options.subject.threads), "--isa", isa_name(options.subject.isa)});
         if (!text)
             return text.error();
         Memory m{};
@@ -108,7 +107,12 @@ Result<std::vector<Row>> memory_rows(const RunOptions& options)
         input += fmt::format("{}{:.0f}", input.empty() ? "" : ", ", bytes);
         frame += fmt::format("{}{:.0f}", frame.empty() ? "" : ", ", bins);
     }
-    rows.push_back({"memory", "bytes of a further triangle, many to fewer", "x", 1.5, false, {growth, growth, growth},
+    rows.push_back({"memory",
+                    "bytes of a further triangle, many to fewer",
+                    "x",
+                    1.5,
+                    false,
+                    {growth, growth, growth},
                     fmt::format("{} bytes, of them in the frame {}", input, frame)});
     return rows;
 }
@@ -117,8 +121,8 @@ Result<std::vector<Row>> first_pixel_rows(const RunOptions& options)
 {
     const fs::path folder = fs::temp_directory_path() / fmt::format("burnish-first-pixel-{}", getpid());
     fs::create_directories(folder);
-    const std::vector<std::string> command = {options.program, "render", "builtin:teapot", "--size", "1920x1080", "--quiet",
-                                              "-o",            (folder / "first.png").string()};
+    const std::vector<std::string> command = {
+        options.program, "render", "builtin:teapot", "--size", "1920x1080", "--quiet", "-o", (folder / "first.png").string()};
     std::vector<double> seconds;
     Status failed;
     for (int i = 0; i <= options.rounds && failed; ++i) { // the first one fills the cache

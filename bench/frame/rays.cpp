@@ -14,7 +14,10 @@ namespace {
 struct BlockShape {
     int width, height;
 };
-constexpr BlockShape block_of(int packet) { return packet == 16 ? BlockShape{4, 4} : packet == 8 ? BlockShape{4, 2} : BlockShape{1, 1}; }
+constexpr BlockShape block_of(int packet)
+{
+    return packet == 16 ? BlockShape{4, 4} : packet == 8 ? BlockShape{4, 2} : BlockShape{1, 1};
+}
 
 // The three ray layouts differ in their length only.
 template <int N> struct alignas(64) Packet {
@@ -73,8 +76,8 @@ class RaySubject final : public Subject {
         scene_ = rtcNewScene(device_);
         rtcSetSceneBuildQuality(scene_, RTC_BUILD_QUALITY_HIGH);
         RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
-        auto* position = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                                                     3 * sizeof(float), tables.px.size()));
+        auto* position = static_cast<float*>(
+            rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), tables.px.size()));
         auto* index = static_cast<std::uint32_t*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
                                                                           3 * sizeof(std::uint32_t), tables.triangle_count()));
         for (std::size_t i = 0; i < tables.px.size(); ++i)

@@ -51,7 +51,7 @@ Result<std::vector<Measured>> run_group(const std::vector<const Workload*>& grou
             round_of(r);
     std::vector<Measured> out;
     for (Running& r : running)
-        out.push_back(std::move(r.measured));
+        r.measured.pixels = r.subject->pixels(), out.push_back(std::move(r.measured));
     return out;
 }
 
@@ -107,7 +107,8 @@ std::optional<Row> row_of(const Aim& aim, const std::vector<Measured>& all)
             return std::nullopt;
         row.value = unit_spread(series);
         for (const Measured* m : series)
-            row.note += fmt::format("{}{:.3g} ns at {:.3g}", row.note.empty() ? "" : ", ", spread_of(m->cpu_ms).median * 1e6 / m->units, m->units);
+            row.note +=
+                fmt::format("{}{:.3g} ns at {:.3g}", row.note.empty() ? "" : ", ", spread_of(m->cpu_ms).median * 1e6 / m->units, m->units);
         return row;
     }
     const Measured* m = named(all, aim.workload);

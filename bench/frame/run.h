@@ -13,10 +13,10 @@ namespace burnish {
 struct RunOptions {
     SubjectOptions subject;
     int rounds = 11;
-    bool quick = false;      // fewer rounds, no slow workloads
-    std::string only;        // part of a group's or a workload's name; empty: all
-    std::string program;     // burnish, for the first pixel
-    std::string self;        // this program, for memory
+    bool quick = false;  // fewer rounds, no slow workloads
+    std::string only;    // part of a group's or a workload's name; empty: all
+    std::string program; // burnish, for the first pixel
+    std::string self;    // this program, for memory
 };
 
 struct Measured { // one workload; a value a round
@@ -24,7 +24,7 @@ struct Measured { // one workload; a value a round
     std::vector<double> cpu_ms, wall_ms; // of a frame
     double units = 0.0;
     double load = 0.0; // when it began
-    std::string what;
+    std::string what, pixels;
 };
 
 struct Row { // one line of the table

@@ -9,17 +9,18 @@ namespace burnish {
 
 struct SubjectOptions {
     Isa isa = Isa::scalar;
-    int threads = 0; // of workloads that name none; 0: all cores
+    int threads = 0;                 // of workloads that name none; 0: all cores
     bool coarse_environment = false; // a small one that is baked at once, without the cache
 };
 
 class Subject {
   public:
     virtual ~Subject() = default;
-    virtual void frame() = 0;                                      // draws one
-    virtual double units() const = 0;                              // pixels; triangles where the scene is a number of them
-    virtual const Column<std::uint32_t>& triangle_ids() = 0;       // by pixel, at one sample a pixel; 0xffffffff: none
-    virtual std::string what() const { return ""; }                // library and version, where it is not burnish
+    virtual void frame() = 0;                                // draws one
+    virtual double units() const = 0;                        // pixels; triangles where the scene is a number of them
+    virtual const Column<std::uint32_t>& triangle_ids() = 0; // by pixel, at one sample a pixel; 0xffffffff: none
+    virtual std::string pixels() const { return ""; }        // hash of the last frame, where there is a picture
+    virtual std::string what() const { return ""; }          // library and version, where it is not burnish
 };
 
 // An Error with ExitCode::unavailable where the engine is not in this build.

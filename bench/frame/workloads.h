@@ -17,9 +17,9 @@ struct Workload {
     std::int64_t size = 0; // of the scene
     int width = 1920, height = 1080, msaa = 1;
     const char* technique = "bent_normal";
-    int samples = 0;   // 0: the technique's own
-    float eta = 0.0f;  // overrides the material where it is not 0, with alpha_lin 0.3
-    int threads = 0;   // 0: as --threads says
+    int samples = 0;  // 0: the technique's own
+    float eta = 0.0f; // overrides the material where it is not 0, with alpha_lin 0.3
+    int threads = 0;  // 0: as --threads says
     Engine engine = Engine::tile;
     int packet = 0;    // rays traced together
     bool slow = false; // not with --quick
@@ -44,6 +44,9 @@ struct Aim {
 
 const std::vector<Workload>& workloads();
 const std::vector<Aim>& aims();
-inline bool at_least(Measure m) { return m == Measure::speedup || m == Measure::times_faster; }
+inline bool at_least(Measure m)
+{
+    return m == Measure::speedup || m == Measure::times_faster;
+}
 
 } // namespace burnish

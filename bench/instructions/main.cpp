@@ -21,12 +21,13 @@ std::vector<Workload> small_workloads()
     using S = BenchScene;
     constexpr int W = 320, H = 180;
     std::vector<Workload> list = {
-        {"constant_1x", "instructions", S::constant, 0, W, H, 1},
-        {"constant_8x", "instructions", S::constant, 0, W, H, 8},
-        {"triangles_1x", "instructions", S::waves, 28800, W, H, 1},
-        {"triangles_4x", "instructions", S::waves, 28800, W, H, 4},
-        {"layers_10", "instructions", S::layers, 10, W, H, 1},
-        {"teapot_8x", "instructions", S::teapot, 0, W, H, 8},
+        {"constant_1x", "instructions", S::constant, 0, W, H, 1},   {"constant_8x", "instructions", S::constant, 0, W, H, 8},
+        {"triangles_1x", "instructions", S::waves, 28800, W, H, 1}, {"triangles_4x", "instructions", S::waves, 28800, W, H, 4},
+        {"layers_10", "instructions", S::layers, 10, W, H, 1},      {"teapot_8x", "instructions", S::teapot, 0, W, H, 8},
+        {"slivers", "instructions", S::slivers, 300, W, H, 1},      {"crowd_8x", "instructions", S::crowd, 30000, W, H, 8},
+        {"foliage", "instructions", S::foliage, 1000, 640, 360, 1}, {"materials_100", "instructions", S::materials, 100, W, H, 1},
+        {"lights_50", "instructions", S::lit, 50, 160, 90, 1},      {"textures_1", "instructions", S::textured, 1, 160, 90, 1},
+        {"textures_5", "instructions", S::textured, 5, 160, 90, 1}, {"floor_3", "instructions", S::floor, 0, 160, 90, 1},
     };
     for (const TechniqueInfo& t : techniques())
         list.push_back({t.name, "instructions", S::sphere, 0, 160, 90, 1, t.name, 0, 0.8f});

@@ -4,11 +4,11 @@
 #include <vector>
 
 #include "bench/micro/bake_fetch.h"
-#include "core/scene/builtin.h"
+#include "core/scene/builtin/builtin.h"
 #include "raster/frame/upload.h"
 #include "shading/bake/bake_fns.h"
-#include "shading/bake/environment.h"
-#include "shading/bake/texture.h"
+#include "shading/bake/environment/environment.h"
+#include "shading/bake/mip/texture.h"
 
 namespace burnish {
 namespace {
@@ -93,56 +93,47 @@ const Fetches& screen()
     return fetches;
 }
 
-template <int isa> const FetchFns& fetch_fns_of()
+void cube_fetch(benchmark::State& state, Isa isa, int fetches)
 {
-    return isa == 2 ? bn_avx512::fetch_fns() : isa == 1 ? bn_avx2::fetch_fns() : bn_scalar::fetch_fns();
-}
-
-template <int isa> void cube_fetch(benchmark::State& state)
-{
-    if (!bake_isa_available(isa)) {
-        state.SkipWithError("this processor cannot run it");
-        return;
-    }
     const Fetches& f = screen();
     const FetchInput input = {f.x.data(), f.y.data(), f.z.data(), f.lod.data(), static_cast<int>(f.x.size())};
     std::vector<float> rgb(f.rgb.size());
-    const FetchFns& fns = fetch_fns_of<isa>();
-    const auto run = state.range(0) == 16 ? fns.sixteen : fns.single;
+    const FetchFns& fns = pick<FetchFns>(isa);
+    const auto run = fetches == 16 ? fns.sixteen : fns.single;
     for (auto _ : state) {
         run(f.cube.texels.data(), f.cube.size, f.cube.levels, input, rgb.data());
         benchmark::DoNotOptimize(rgb.data());
     }
-    state.counters["s/fetch"] =
-        benchmark::Counter(static_cast<double>(state.iterations() * state.range(0)) * input.n,
-                           benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+    state.counters["s/fetch"] = benchmark::Counter(static_cast<double>(state.iterations() * fetches) * input.n,
+                                                   benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
 }
-BENCHMARK(cube_fetch<0>)->Arg(1)->Arg(16);
-BENCHMARK(cube_fetch<1>)->Arg(1)->Arg(16);
-BENCHMARK(cube_fetch<2>)->Arg(1)->Arg(16);
 
-// The 2D filter, of a 1024^2 texture. Argument: taps at most.
-template <int isa> void texture_fetch(benchmark::State& state)
+// The 2D filter, of a 1024^2 texture.
+void texture_fetch(benchmark::State& state, Isa isa, int taps)
 {
-    if (!bake_isa_available(isa)) {
-        state.SkipWithError("this processor cannot run it");
-        return;
-    }
     const Fetches& f = screen();
     const FetchInput input = {f.x.data(), f.y.data(), nullptr, nullptr, static_cast<int>(f.x.size())};
     std::vector<float> rgb(f.rgb.size());
     static const TexturePyramid pyramid = make_texture_pyramid(make_image(1024, 1024, 3, PixelType::u8), {}, TextureEncoding::srgb);
     static const TextureParams texture = texture_params(pyramid);
     for (auto _ : state) {
-        fetch_fns_of<isa>().texture(texture, static_cast<int>(state.range(0)), input, rgb.data());
+        pick<FetchFns>(isa).texture(texture, taps, input, rgb.data());
         benchmark::DoNotOptimize(rgb.data());
     }
-    state.counters["s/fetch"] = benchmark::Counter(static_cast<double>(state.iterations()) * input.n,
-                                                   benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+    state.counters["s/fetch"] =
+        benchmark::Counter(static_cast<double>(state.iterations()) * input.n, benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
 }
-BENCHMARK(texture_fetch<0>)->Arg(1)->Arg(4);
-BENCHMARK(texture_fetch<1>)->Arg(1)->Arg(4);
-BENCHMARK(texture_fetch<2>)->Arg(1)->Arg(4);
+
+const bool kRegistered = [] {
+    const auto name = [](const char* what, int n, Isa isa) { return std::string(what) + std::to_string(n) + "/" + isa_name(isa); };
+    for (Isa isa : isas_with<FetchFns>()) {
+        for (int n : {1, 16})
+            benchmark::RegisterBenchmark(name("cube_fetch/", n, isa).c_str(), cube_fetch, isa, n);
+        for (int n : {1, 4})
+            benchmark::RegisterBenchmark(name("texture_fetch/", n, isa).c_str(), texture_fetch, isa, n);
+    }
+    return true;
+}();
 
 } // namespace
 } // namespace burnish

@@ -2,7 +2,8 @@
 #pragma once
 #include <cstdint>
 
-#include "raster/frame/records.h"
+#include "core/simd/fns.h"
+#include "shading/lang/tables.h"
 
 namespace burnish {
 
@@ -19,15 +20,6 @@ struct FetchFns {
     // A texture at u, v = x, y, seen at a slant: at most `taps` trilinear taps along the longer side of a footprint of 1 x 4 texels.
     void (*texture)(const TextureParams& texture, int taps, const FetchInput& in, float* rgb);
 };
-// One copy an instruction set; calls are qualified.
-inline namespace bn_scalar {
-const FetchFns& fetch_fns();
-}
-inline namespace bn_avx2 {
-const FetchFns& fetch_fns();
-}
-inline namespace bn_avx512 {
-const FetchFns& fetch_fns();
-}
+BN_DECLARE_FNS(FetchFns);
 
 } // namespace burnish

@@ -43,17 +43,15 @@ void texture(const TextureParams& t, int taps, const FetchInput& in, float* rgb)
     const texture_desc desc = {t.texels, t.offset, t.level_width, t.level_height, t.levels, t.wrap_s, t.wrap_t, t.nearest};
     const real across = splat(1.0f / static_cast<float>(t.width)), along = splat(4.0f / static_cast<float>(t.height));
     for (int i = 0; i < in.n; i += kLanes, rgb += 3 * kLanes)
-        store_rgb(texture_sample(desc, vec2_of(load(in.x + i), load(in.y + i)), vec2_of(across, lit(0.0)), vec2_of(lit(0.0), along), taps), rgb);
+        store_rgb(texture_sample(desc, vec2_of(load(in.x + i), load(in.y + i)), vec2_of(across, lit(0.0)), vec2_of(lit(0.0), along), taps),
+                  rgb);
 }
 
 constexpr FetchFns kFns = {single, sixteen, texture};
 
 } // namespace
 
-const FetchFns& fetch_fns()
-{
-    return kFns;
-}
+BN_DEFINE_FNS(FetchFns, kFns)
 
 } // namespace BN_ISA_NS
 } // namespace burnish

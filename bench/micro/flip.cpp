@@ -2,8 +2,8 @@
 #include <benchmark/benchmark.h>
 #include <random>
 
-#include "core/image/flip.h"
-#include "core/image/metrics.h"
+#include "core/image/metrics/flip.h"
+#include "core/image/metrics/metrics.h"
 
 namespace burnish {
 namespace {
@@ -23,23 +23,29 @@ Image noise(unsigned seed, PixelType type)
     return image;
 }
 
-// Arguments: instruction set (0 scalar, 1 AVX2, 2 AVX-512), threads (0: all cores).
-void flip_ldr_4k(benchmark::State& state)
+// threads 0: all cores
+void flip_ldr_4k(benchmark::State& state, Isa isa, int threads)
 {
     FlipOptions options;
-    options.isa = static_cast<int>(state.range(0));
-    if (!flip_isa_available(options.isa))
-        return state.SkipWithError("this processor cannot run it");
+    options.isa = isa;
     const Image reference = noise(1, PixelType::u8), test = noise(2, PixelType::u8);
-    const Jobs jobs(static_cast<int>(state.range(1)));
+    const Jobs jobs(threads);
     for (auto _ : state)
         benchmark::DoNotOptimize(flip_ldr(reference, test, options, jobs).error.bytes.data());
 }
-BENCHMARK(flip_ldr_4k)
-    ->ArgsProduct({{0, 1, 2}, {1, 0}})
-    ->Unit(benchmark::kMillisecond)
-    ->MeasureProcessCPUTime()
-    ->UseRealTime();
+
+const bool kRegistered = [] {
+    for (Isa isa : program_isas())
+        for (int threads : {1, 0}) {
+            const std::string name = std::string("flip_ldr_4k/") + isa_name(isa) + "/threads:" + std::to_string(threads);
+            if (isa_available(isa))
+                benchmark::RegisterBenchmark(name.c_str(), flip_ldr_4k, isa, threads)
+                    ->Unit(benchmark::kMillisecond)
+                    ->MeasureProcessCPUTime()
+                    ->UseRealTime();
+        }
+    return true;
+}();
 
 // Eight exposures.
 void flip_hdr_4k(benchmark::State& state)

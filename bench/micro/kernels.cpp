@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "bench/micro/kernels.h"
-#include "raster/frame/upload.h"
+#include "raster/frame/frame_record.h"
 #include "raster/frame/grid_samples.h"
 #include "raster/tile/tile_renderer.h"
 
@@ -69,31 +69,27 @@ const Studio& studio()
     return made;
 }
 
-const KernelFns& fns_of(Isa isa)
-{
-    return isa == Isa::avx512 ? bn_avx512::kernel_fns() : isa == Isa::avx2 ? bn_avx2::kernel_fns() : bn_scalar::kernel_fns();
-}
-
 void run(benchmark::State& state, std::size_t technique, float eta, Isa isa)
 {
     const TechniqueInfo& info = techniques()[technique];
     FrameParams f = {};
-    f.specular_cube = cube_params(studio().environment.specular);
-    f.box_cube = cube_params(studio().box);
+    const CubeMap &specular = studio().environment.specular, &box = studio().box;
+    f.specular = cube_record(specular), f.specular_texels = specular.texels.data();
+    f.box = cube_record(box), f.box_texels = box.texels.data();
     f.samples = info.default_samples;
     const std::vector<GridSample> grid =
-        info.sampling == Sampling::grid ? grid_samples(info.default_samples, std::string(info.name) == "filtered_is_ggx") : std::vector<GridSample>{};
+        info.sampling == Sampling::grid ? grid_samples(info.default_samples, (info.traits & kGgxGrid) != 0) : std::vector<GridSample>{};
     f.grid = grid.data(), f.grid_count = static_cast<std::int32_t>(grid.size());
-    const FrameDesc defaults;
-    f.major_axis_k = defaults.major_axis_k, f.major_axis_beta = defaults.major_axis_beta;
+#define BN_PARAMETER(id, kind, option, fallback, least, most, unit, summary) f.id = static_cast<BN_RECORD_##kind>(fallback);
+#include "shading/models.def"
     const KernelSurfaces in = surfaces().of(eta);
     std::vector<float> rgb(3 * kCount);
 
-    const KernelFns& counting = bn_counted::kernel_fns();
+    const KernelFns& counting = counted_fns<KernelFns>();
     const KernelWork before = counting.work();
     counting.techniques[technique](f, in, rgb.data());
     const KernelWork after = counting.work();
-    const KernelFn kernel = fns_of(isa).techniques[technique];
+    const KernelFn kernel = pick<KernelFns>(isa).techniques[technique];
     for (auto _ : state) {
         kernel(f, in, rgb.data());
         benchmark::DoNotOptimize(rgb.data());
@@ -104,12 +100,13 @@ void run(benchmark::State& state, std::size_t technique, float eta, Isa isa)
 }
 
 const bool kRegistered = [] {
-    for (Isa isa : {Isa::scalar, Isa::avx2, Isa::avx512})
+    for (Isa isa : program_isas())
         for (std::size_t i = 0; i < techniques().size() && isa_available(isa); ++i)
             for (const char* eta : {"0.5", "0.8"}) {
                 const std::string name = std::string("kernel/") + techniques()[i].name + "/eta:" + eta + "/" + isa_name(isa);
-                benchmark::RegisterBenchmark(name.c_str(), [i, eta, isa](benchmark::State& state) { run(state, i, std::strtof(eta, nullptr), isa); })
-                    ->Unit(benchmark::kMicrosecond);
+                benchmark::RegisterBenchmark(name.c_str(), [i, eta, isa](benchmark::State& state) {
+                    run(state, i, std::strtof(eta, nullptr), isa);
+                })->Unit(benchmark::kMicrosecond);
             }
     return true;
 }();

@@ -2,11 +2,12 @@
 #pragma once
 #include <cstdint>
 
+#include "core/simd/fns.h"
 #include "raster/tile/tile_types.h"
 
 namespace burnish {
 
-struct KernelSurfaces { // n of them, a multiple of 16; unit vectors
+struct KernelSurfaces {              // n of them, a multiple of 16; unit vectors
     const float *n[3], *v[3], *t[3]; // normal, to the eye, tangent
     int count;
     float sigma_u, sigma_v; // of every lobe
@@ -21,17 +22,6 @@ struct KernelFns {
     const KernelFn* techniques; // in the order of shading/models.def
     KernelWork (*work)();
 };
-inline namespace bn_scalar {
-const KernelFns& kernel_fns();
-}
-inline namespace bn_avx2 {
-const KernelFns& kernel_fns();
-}
-inline namespace bn_avx512 {
-const KernelFns& kernel_fns();
-}
-inline namespace bn_counted {
-const KernelFns& kernel_fns();
-}
+BN_DECLARE_FNS(KernelFns);
 
 } // namespace burnish

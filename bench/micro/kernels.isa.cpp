@@ -6,7 +6,10 @@ namespace burnish {
 inline namespace BN_ISA_NS {
 namespace {
 
-BN_FN real3 load3(const float* const from[3], int i) { return vec3_of(load(from[0] + i), load(from[1] + i), load(from[2] + i)); }
+BN_FN real3 load3(const float* const from[3], int i)
+{
+    return vec3_of(load(from[0] + i), load(from[1] + i), load(from[2] + i));
+}
 
 // From a surface to the radiance of its specular lobe; brushed metal.
 template <Technique kTechnique> void run(const FrameParams& f, const KernelSurfaces& in, float* rgb)
@@ -15,22 +18,25 @@ template <Technique kTechnique> void run(const FrameParams& f, const KernelSurfa
         const surface_frame frame = geometric_frame(load3(in.n, i), load3(in.t, i), lit(1.0));
         const aniso_lobe lobe = {frame.t, frame.b, splat(in.sigma_u), splat(in.sigma_v)};
         const real3 base = vec3_of(lit(0.9), lit(0.85), lit(0.8));
-        const surface s = metallic_roughness_surface(frame.n, load3(in.v, i), base, lit(1.0), lobe_alpha_lin(lobe), vec3_all(lit(0.04)), lit(1.0),
-                                                     lit(1.0));
-        const integer pixel = iota() + int_lit(i);
-        const real3 color = technique_specular<kTechnique>({f, s, lobe, s.f0, pixel, frame, false, vec3_all(lit(1.0))});
+        const surface s = metallic_roughness_surface(frame.n, load3(in.v, i), base, lit(1.0), lobe_alpha_lin(lobe), vec3_all(lit(0.04)),
+                                                     lit(1.0), lit(1.0));
+        shaded_point x = {};
+        x.s = s, x.lobe = lobe, x.surface_axes = frame;
+        x.albedo = s.f0, x.gain = vec3_all(lit(1.0));
+        x.pixel_id = iota() + int_lit(i);
+        const real3 color = technique_specular<kTechnique>(f, x);
         store(rgb, color.x), store(rgb + kLanes, color.y), store(rgb + 2 * kLanes, color.z);
     }
 }
 
 constexpr KernelFn kTechniques[] = {
-#define BN_TECHNIQUE(id, sampling, default_samples, most_samples, summary) run<Technique::id>,
+#define BN_TECHNIQUE(id, sampling, default_samples, most_samples, traits, summary) run<Technique::id>,
 #include "shading/models.def"
 };
 
 KernelWork work()
 {
-#if BN_ISA == 4
+#ifdef BN_COUNTED
     return {lane_counts.operations, lane_counts.bytes};
 #else
     return {0, 0};
@@ -41,7 +47,7 @@ constexpr KernelFns kFns = {kTechniques, work};
 
 } // namespace
 
-const KernelFns& kernel_fns() { return kFns; }
+BN_DEFINE_FNS(KernelFns, kFns)
 
 } // namespace BN_ISA_NS
 } // namespace burnish

@@ -70,24 +70,19 @@ void write_in_order(benchmark::State& state)
         std::memset(memory.data(), 1, memory.size());
         benchmark::ClobberMemory();
     }
-    state.counters["bytes"] = benchmark::Counter(static_cast<double>(state.iterations()) * static_cast<double>(memory.size()),
-                                                 benchmark::Counter::kIsRate);
+    state.counters["bytes"] =
+        benchmark::Counter(static_cast<double>(state.iterations()) * static_cast<double>(memory.size()), benchmark::Counter::kIsRate);
 }
 BENCHMARK(write_in_order)->Name("limit/write/MiB")->Arg(256)->Unit(benchmark::kMillisecond);
-
-const LimitFns& fns_of(Isa isa)
-{
-    return isa == Isa::avx512 ? bn_avx512::limit_fns() : isa == Isa::avx2 ? bn_avx2::limit_fns() : bn_scalar::limit_fns();
-}
 
 void operations(benchmark::State& state, Isa isa)
 {
     constexpr int kSteps = 1000;
-    const LimitFns& fns = fns_of(isa);
+    const LimitFns& fns = pick<LimitFns>(isa);
     for (auto _ : state)
         benchmark::DoNotOptimize(fns.multiply_add(kSteps, 0.999f));
-    state.counters["operations"] = benchmark::Counter(static_cast<double>(state.iterations()) * 2.0 * kSteps * kMultiplyAddChains * fns.lanes,
-                                                      benchmark::Counter::kIsRate);
+    state.counters["operations"] = benchmark::Counter(
+        static_cast<double>(state.iterations()) * 2.0 * kSteps * kMultiplyAddChains * fns.lanes, benchmark::Counter::kIsRate);
 }
 
 void lane_loop(benchmark::State& state, Isa isa, int loop)
@@ -102,7 +97,7 @@ void lane_loop(benchmark::State& state, Isa isa, int loop)
     }
     const LaneLoopInput in = {a.data(), b.data(), index.data(), texels.data(), out.data()};
     for (auto _ : state) {
-        fns_of(isa).loops[loop].run(in);
+        pick<LimitFns>(isa).loops[loop].run(in);
         benchmark::ClobberMemory();
     }
     state.counters["s/element"] = benchmark::Counter(static_cast<double>(state.iterations()) * kLaneLoopCount,
@@ -110,13 +105,13 @@ void lane_loop(benchmark::State& state, Isa isa, int loop)
 }
 
 const bool kRegistered = [] {
-    for (Isa isa : {Isa::scalar, Isa::avx2, Isa::avx512}) {
+    for (Isa isa : program_isas()) {
         if (!isa_available(isa))
             continue;
         benchmark::RegisterBenchmark((std::string("limit/operations/") + isa_name(isa)).c_str(),
                                      [isa](benchmark::State& state) { operations(state, isa); });
-        for (int i = 0; i < fns_of(isa).loop_count; ++i)
-            benchmark::RegisterBenchmark((std::string("lanes/") + fns_of(isa).loops[i].name + "/" + isa_name(isa)).c_str(),
+        for (int i = 0; i < pick<LimitFns>(isa).loop_count; ++i)
+            benchmark::RegisterBenchmark((std::string("lanes/") + pick<LimitFns>(isa).loops[i].name + "/" + isa_name(isa)).c_str(),
                                          [isa, i](benchmark::State& state) { lane_loop(state, isa, i); });
     }
     return true;

@@ -2,11 +2,13 @@
 #pragma once
 #include <cstdint>
 
+#include "core/simd/fns.h"
+
 namespace burnish {
 
-struct LaneLoopInput { // arrays of kLaneLoopCount
-    const float *a, *b;        // a in [1, 2), b in [0.5, 1)
-    const std::int32_t* index; // a permutation
+struct LaneLoopInput {           // arrays of kLaneLoopCount
+    const float *a, *b;          // a in [1, 2), b in [0.5, 1)
+    const std::int32_t* index;   // a permutation
     const std::uint16_t* texels; // RGBA halves, kLaneLoopCount of them and a row more
     float* out;
 };
@@ -25,14 +27,6 @@ struct LimitFns {
     int loop_count;
 };
 inline constexpr int kMultiplyAddChains = 12;
-inline namespace bn_scalar {
-const LimitFns& limit_fns();
-}
-inline namespace bn_avx2 {
-const LimitFns& limit_fns();
-}
-inline namespace bn_avx512 {
-const LimitFns& limit_fns();
-}
+BN_DECLARE_FNS(LimitFns);
 
 } // namespace burnish

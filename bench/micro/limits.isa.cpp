@@ -62,7 +62,7 @@ constexpr LimitFns kFns = {kLanes, multiply_add, kLoops, sizeof kLoops / sizeof 
 
 } // namespace
 
-const LimitFns& limit_fns() { return kFns; }
+BN_DEFINE_FNS(LimitFns, kFns)
 
 } // namespace BN_ISA_NS
 } // namespace burnish

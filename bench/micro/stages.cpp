@@ -1,5 +1,5 @@
-// What each stage before shading takes, from profiled frames on one thread: vertices, triangle setup, bins, edge tests and depth, listing of
-// fragments, resolve; by instruction set, samples and the size of triangles. Time is that of the stage in one frame.
+// What each stage before shading takes, from profiled frames on one thread: vertices, triangle setup, bins, edge tests and depth, listing
+// of fragments, resolve; by instruction set, samples and the size of triangles. Time is that of the stage in one frame.
 #include <benchmark/benchmark.h>
 #include <map>
 #include <memory>
@@ -57,8 +57,9 @@ void run(benchmark::State& state, FrameStage stage, Unit unit, int pixels, int m
     const double units = unit == Unit::vertex     ? static_cast<double>(s.tables.px.size())
                          : unit == Unit::triangle ? static_cast<double>(s.tables.triangle_count())
                                                   : static_cast<double>(kWidth) * kHeight;
-    state.counters[unit == Unit::vertex ? "ns_vertex" : unit == Unit::triangle ? "ns_triangle" : "ns_pixel"] =
-        seconds * 1e9 / (units * static_cast<double>(state.iterations()));
+    state.counters[unit == Unit::vertex     ? "ns_vertex"
+                   : unit == Unit::triangle ? "ns_triangle"
+                                            : "ns_pixel"] = seconds * 1e9 / (units * static_cast<double>(state.iterations()));
 }
 
 struct Case {
@@ -67,21 +68,23 @@ struct Case {
     bool by_samples;
 };
 constexpr Case kCases[] = {
-    {FrameStage::transform, Unit::vertex, false}, {FrameStage::setup, Unit::triangle, false},    {FrameStage::bin, Unit::triangle, false},
-    {FrameStage::gather, Unit::triangle, false},  {FrameStage::coverage, Unit::triangle, true},  {FrameStage::clear, Unit::pixel, true},
+    {FrameStage::transform, Unit::vertex, false}, {FrameStage::setup, Unit::triangle, false},   {FrameStage::bin, Unit::triangle, false},
+    {FrameStage::gather, Unit::triangle, false},  {FrameStage::coverage, Unit::triangle, true}, {FrameStage::clear, Unit::pixel, true},
     {FrameStage::visibility, Unit::pixel, true},  {FrameStage::resolve, Unit::pixel, true},
 };
 
 const bool kRegistered = [] {
-    for (Isa isa : {Isa::scalar, Isa::avx2, Isa::avx512})
+    for (Isa isa : program_isas())
         for (const Case& c : kCases)
             for (int pixels : {2, 32, 2048})
                 for (int msaa : {1, 4, 8}) {
                     if (!isa_available(isa) || (msaa > 1 && !c.by_samples))
                         continue;
-                    const std::string name = std::string("stage/") + kFrameStageNames[static_cast<std::size_t>(c.stage)] + "/triangle_pixels:" +
-                                             std::to_string(pixels) + "/msaa:" + std::to_string(msaa) + "/" + isa_name(isa);
-                    benchmark::RegisterBenchmark(name.c_str(), [=](benchmark::State& state) { run(state, c.stage, c.unit, pixels, msaa, isa); })
+                    const std::string name = std::string("stage/") + kFrameStageNames[static_cast<std::size_t>(c.stage)] +
+                                             "/triangle_pixels:" + std::to_string(pixels) + "/msaa:" + std::to_string(msaa) + "/" +
+                                             isa_name(isa);
+                    benchmark::RegisterBenchmark(name.c_str(),
+                                                 [=](benchmark::State& state) { run(state, c.stage, c.unit, pixels, msaa, isa); })
                         ->UseManualTime()
                         ->Unit(benchmark::kMicrosecond)
                         ->Iterations(10); // by time a short stage would be drawn for minutes

@@ -1,6 +1,6 @@
 // What a fragment costs, by technique, instruction set and threads: 1920x1080, one sample a pixel, every pixel covered by the inside of a
-// sphere of alpha_lin 0.3 and eta 0.5 or 0.8 under the studio. ns_fragment is CPU time of the process over fragments: nanoseconds of a core,
-// whatever else runs beside it; Time is wall time of a frame.
+// sphere of alpha_lin 0.3 and eta 0.5 or 0.8 under the studio. ns_fragment is CPU time of the process over fragments: nanoseconds of a
+// core, whatever else runs beside it; Time is wall time of a frame.
 #include <benchmark/benchmark.h>
 
 #include <cstdlib>
@@ -18,7 +18,8 @@ constexpr int kWidth = 1920, kHeight = 1080;
 
 struct Stage {
     explicit Stage(int threads)
-        : jobs(threads), scene(make_bench_scene(BenchScene::sphere, 0, kWidth, kHeight)), tables(make_draw_tables(scene)), dfg(bake_dfg(64, 256, jobs))
+        : jobs(threads), scene(make_bench_scene(BenchScene::sphere, 0, kWidth, kHeight)), tables(make_draw_tables(scene)),
+          dfg(bake_dfg(64, 256, jobs))
     {
         EnvironmentOptions options;
         options.samples = 256;
@@ -42,8 +43,7 @@ const Stage& stage(int threads)
 void run(benchmark::State& state, const std::string& technique, int samples, float eta, Isa isa, int threads)
 {
     const Stage& s = stage(threads);
-    const std::unique_ptr<Renderer> renderer =
-        make_tile_renderer({s.scene, s.tables, s.environment, s.dfg, s.jobs}, isa);
+    const std::unique_ptr<Renderer> renderer = make_tile_renderer({s.scene, s.tables, s.environment, s.dfg, s.jobs}, isa);
     FrameDesc desc;
     desc.width = kWidth, desc.height = kHeight, desc.msaa = 1;
     desc.view = bench_view(BenchScene::sphere, s.tables, kWidth, kHeight);
@@ -64,17 +64,20 @@ void run(benchmark::State& state, const std::string& technique, int samples, flo
 }
 
 const bool kRegistered = [] {
-    for (Isa isa : {Isa::scalar, Isa::avx2, Isa::avx512})
+    for (Isa isa : program_isas())
         for (int threads : {1, 2})
             for (const TechniqueInfo& t : techniques()) {
                 if (!isa_available(isa) || (isa == Isa::scalar && threads > 1))
                     continue;
                 for (const char* eta : {"0.5", "0.8"}) {
-                    const std::string name = std::string("technique/") + t.name + "/eta:" + eta + "/" + isa_name(isa) +
-                                             "/threads:" + std::to_string(threads);
-                    benchmark::RegisterBenchmark(name.c_str(), [&t, eta, isa, threads](benchmark::State& state) {
-                        run(state, t.name, t.default_samples, std::strtof(eta, nullptr), isa, threads);
-                    })->UseManualTime()->Unit(benchmark::kMillisecond);
+                    const std::string name =
+                        std::string("technique/") + t.name + "/eta:" + eta + "/" + isa_name(isa) + "/threads:" + std::to_string(threads);
+                    benchmark::RegisterBenchmark(name.c_str(),
+                                                 [&t, eta, isa, threads](benchmark::State& state) {
+                                                     run(state, t.name, t.default_samples, std::strtof(eta, nullptr), isa, threads);
+                                                 })
+                        ->UseManualTime()
+                        ->Unit(benchmark::kMillisecond);
                 }
             }
     return true;

@@ -65,9 +65,34 @@ bool reset_peak_memory()
     return file.good();
 }
 
+bool Quiet::headline() const
+{
+    return waited < 0.03 && load < 0.3 * usable_cores();
+}
+
+Quiet how_quiet()
+{
+    constexpr int kRounds = 20;
+    constexpr std::uint64_t kAdditions = 10'000'000; // a cycle each, as each waits for the one before
+    double least_ms = 1e300, cpu = 0.0;
+    const double begin = wall_ms();
+    for (int round = 0; round < kRounds; ++round) {
+        const double before = process_cpu_ms();
+        std::uint64_t sum = 0;
+        for (std::uint64_t i = 0; i < kAdditions; ++i) {
+            sum += i;
+            __asm__ volatile("" : "+r"(sum)); // one addition after another
+        }
+        const double taken = process_cpu_ms() - before;
+        least_ms = std::min(least_ms, taken), cpu += taken;
+    }
+    const double wall = wall_ms() - begin;
+    return {static_cast<double>(kAdditions) / (least_ms * 1e6), std::max(0.0, 1.0 - cpu / wall), load_average()};
+}
+
 nlohmann::ordered_json machine_json()
 {
-    return {{"processor", cpu_name()},       {"cores", usable_cores()},          {"version", version()},
+    return {{"processor", cpu_name()},       {"cores", usable_cores()},           {"version", version()},
             {"compiler", BN_BENCH_COMPILER}, {"build_type", BN_BENCH_BUILD_TYPE}, {"load_average", load_average()}};
 }
 

@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/scene/builtin_surface.h"
+#include "bench/scenes/stress.h"
+#include "core/scene/builtin/surface.h"
 
 namespace burnish {
 namespace {
@@ -92,16 +93,44 @@ Scene make_sphere()
     return scene;
 }
 
+Scene make_scene(BenchScene kind, std::int64_t size, double aspect)
+{
+    switch (kind) {
+    case BenchScene::constant:
+        return make_waves(2, aspect);
+    case BenchScene::waves:
+        return make_waves(size, aspect);
+    case BenchScene::layers:
+        return make_layers(size, aspect);
+    case BenchScene::sphere:
+        return make_sphere();
+    case BenchScene::teapot:
+        return make_teapot();
+    case BenchScene::textured:
+        return make_textured(size, aspect);
+    case BenchScene::floor:
+        return make_floor();
+    case BenchScene::foliage:
+    case BenchScene::leaves:
+        return make_foliage(size, aspect, kind == BenchScene::leaves);
+    case BenchScene::slivers:
+        return make_slivers(size, aspect);
+    case BenchScene::lit:
+        return make_lit(size, aspect);
+    case BenchScene::crowd:
+        return make_crowd(size);
+    case BenchScene::materials:
+        return make_many_materials(size, aspect);
+    }
+    return {};
+}
+
 } // namespace
 
 Scene make_bench_scene(BenchScene kind, std::int64_t size, int width, int height)
 {
     const double aspect = static_cast<double>(width) / height;
-    Scene scene = kind == BenchScene::constant ? make_waves(2, aspect)
-                  : kind == BenchScene::waves  ? make_waves(size, aspect)
-                  : kind == BenchScene::layers ? make_layers(size, aspect)
-                  : kind == BenchScene::sphere ? make_sphere()
-                                               : make_teapot();
+    Scene scene = make_scene(kind, size, aspect);
     update_world(scene);
     return scene;
 }

@@ -7,6 +7,8 @@
 #include <filesystem>
 #include <vector>
 
+#include "core/base/file.h"
+
 namespace burnish {
 namespace {
 
@@ -40,13 +42,15 @@ struct KeptFile {
     std::uint64_t bytes;
 };
 
+// Temporary files of them count too: a run that was killed may have left one.
 std::vector<KeptFile> kept_files(const std::string& folder)
 {
     std::vector<KeptFile> files;
     std::error_code failed;
     for (fs::directory_iterator at(folder, failed), end; !failed && at != end; at.increment(failed)) {
         std::error_code gone; // another process may have removed it
-        if (!is_kept(at->path().filename().string()) || !fs::is_regular_file(at->symlink_status(gone)))
+        const std::string name = at->path().filename().string();
+        if (!(is_kept(name) || is_kept(name_of_temporary(name))) || !fs::is_regular_file(at->symlink_status(gone)))
             continue;
         const KeptFile file{at->last_write_time(gone), at->path(), at->file_size(gone)};
         if (!gone)
@@ -98,17 +102,18 @@ void note_cache_use(const std::string& file)
 void prune_cache(const std::string& folder, std::uint64_t limit, const std::string& keep)
 {
     std::vector<KeptFile> files = kept_files(folder);
-    std::sort(files.begin(), files.end(), [](const KeptFile& a, const KeptFile& b) {
-        return a.used != b.used ? a.used < b.used : a.path < b.path;
-    });
+    std::sort(files.begin(), files.end(),
+              [](const KeptFile& a, const KeptFile& b) { return a.used != b.used ? a.used < b.used : a.path < b.path; });
     std::uint64_t bytes = 0;
+    const auto is_temporary = [](const KeptFile& file) { return !name_of_temporary(file.path.filename().string()).empty(); };
+    std::erase_if(files, [&](const KeptFile& file) { return is_temporary(file) && remove_leftover(file.path.string()); });
     for (const KeptFile& file : files)
         bytes += file.bytes;
     for (const KeptFile& file : files) {
         if (bytes <= limit)
             return;
         std::error_code failed;
-        if (file.path == keep)
+        if (file.path == keep || is_temporary(file)) // a living process writes it
             continue;
         if (fs::remove(file.path, failed) && !failed)
             bytes -= file.bytes;

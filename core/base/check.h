@@ -11,16 +11,15 @@ namespace burnish {
 }
 } // namespace burnish
 
-#define BN_CHECK(condition)                                                                                            \
-    do {                                                                                                               \
-        if (!(condition))                                                                                              \
-            ::burnish::check_failed(__FILE__, __LINE__, #condition, 0, 0);                                             \
+#define BN_CHECK(condition)                                                                                                                \
+    do {                                                                                                                                   \
+        if (!(condition))                                                                                                                  \
+            ::burnish::check_failed(__FILE__, __LINE__, #condition, 0, 0);                                                                 \
     } while (0)
-#define BN_CHECK_OP(a, op, b)                                                                                          \
-    do {                                                                                                               \
-        if (!((a)op(b)))                                                                                               \
-            ::burnish::check_failed(__FILE__, __LINE__, #a " " #op " " #b, static_cast<long long>(a),                  \
-                                    static_cast<long long>(b));                                                        \
+#define BN_CHECK_OP(a, op, b)                                                                                                              \
+    do {                                                                                                                                   \
+        if (!((a)op(b)))                                                                                                                   \
+            ::burnish::check_failed(__FILE__, __LINE__, #a " " #op " " #b, static_cast<long long>(a), static_cast<long long>(b));          \
     } while (0)
 #ifdef NDEBUG
 #define BN_DCHECK(condition) static_cast<void>(0)

@@ -10,7 +10,13 @@ inline double clock_ms(clockid_t clock)
     clock_gettime(clock, &t);
     return static_cast<double>(t.tv_sec) * 1e3 + static_cast<double>(t.tv_nsec) * 1e-6;
 }
-inline double process_cpu_ms() { return clock_ms(CLOCK_PROCESS_CPUTIME_ID); } // of all threads of this process so far
-inline double wall_ms() { return clock_ms(CLOCK_MONOTONIC); }                 // since some fixed time
+inline double process_cpu_ms()
+{
+    return clock_ms(CLOCK_PROCESS_CPUTIME_ID);
+} // of all threads of this process so far
+inline double wall_ms()
+{
+    return clock_ms(CLOCK_MONOTONIC);
+} // since some fixed time
 
 } // namespace burnish

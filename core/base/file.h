@@ -9,13 +9,23 @@
 
 namespace burnish {
 
-// The bytes of a regular file of 1 to `max_bytes` bytes; anything else (missing, folder, pipe, empty, larger)
-// is an Error with ExitCode::bad_input.
-Result<std::vector<std::uint8_t>> read_file(const std::string& path, std::uint64_t max_bytes);
+// What a symbolic link at the end of a path is: another name of its target, or, in folders where no link belongs, an intruder.
+enum class Links { follow, refuse };
 
-// Writes a temporary file in the folder of `path` and renames it, so the name only ever shows a complete
-// file; a symbolic link keeps pointing to its target, and a device or pipe is written directly. On failure
-// nothing is left and the Error has ExitCode::output_failed.
-Status write_file_atomic(const std::string& path, const void* data, std::size_t size);
+// The bytes of a regular file of 1 to `max_bytes` bytes; anything else (missing, folder, pipe, empty, larger; a link that is refused)
+// is an Error with ExitCode::bad_input.
+Result<std::vector<std::uint8_t>> read_file(const std::string& path, std::uint64_t max_bytes, Links links = Links::follow);
+
+// Writes a file without a name where the file system has such, else one with a random name in the folder of `path`, and gives it the
+// name `path` once its bytes are on the disk: the name only ever shows a complete file. Permissions of a file that was there are kept.
+// A symbolic link keeps pointing to its target, and a device or pipe is written directly; with Links::refuse all of them are replaced.
+// What killed runs left of earlier writes of `path` is removed. On failure nothing is left and the Error has ExitCode::output_failed.
+Status write_file_atomic(const std::string& path, const void* data, std::size_t size, Links links = Links::follow);
+
+// The name that `name` is a temporary file of, or empty: ".NAME.HEX.bntmp" (and ".NAME.PID.N.tmp", as version 0.1.0 wrote them).
+std::string name_of_temporary(const std::string& name);
+
+// Removes a temporary file unless a living process writes it. True if it is gone.
+bool remove_leftover(const std::string& path);
 
 } // namespace burnish

@@ -1,5 +1,8 @@
 #include "core/base/version.h"
 
 namespace burnish {
-const char* version() { return BN_VERSION; }
+const char* version()
+{
+    return BN_VERSION;
+}
 } // namespace burnish

@@ -93,9 +93,8 @@ class SrgbTable {
     }
 
   private:
-    static constexpr std::uint32_t kShift = 16; // 128 keys an octave
-    static constexpr std::uint32_t kFirstKey =
-        0x39000000u >> kShift; // 2^-13, below the first boundary, 1/6588
+    static constexpr std::uint32_t kShift = 16;                                     // 128 keys an octave
+    static constexpr std::uint32_t kFirstKey = 0x39000000u >> kShift;               // 2^-13, below the first boundary, 1/6588
     static constexpr std::uint32_t kKeys = (0x3F800000u >> kShift) - kFirstKey + 1; // up to 1.0
     std::array<float, 257> least_;
     std::array<std::uint8_t, kKeys> start_;
@@ -148,8 +147,7 @@ Rgb multiply(const float (&m)[3][3], Rgb c)
 // published there: no extra exposure factor.
 Rgb aces_hill(Rgb c)
 {
-    static constexpr float kIn[3][3] = {
-        {0.59719f, 0.35458f, 0.04823f}, {0.07600f, 0.90834f, 0.01566f}, {0.02840f, 0.13383f, 0.83777f}};
+    static constexpr float kIn[3][3] = {{0.59719f, 0.35458f, 0.04823f}, {0.07600f, 0.90834f, 0.01566f}, {0.02840f, 0.13383f, 0.83777f}};
     static constexpr float kOut[3][3] = {
         {1.60475f, -0.53108f, -0.07367f}, {-0.10208f, 1.10813f, -0.00605f}, {-0.00327f, -0.07276f, 1.07602f}};
     const auto fit = [](float v) {
@@ -206,8 +204,7 @@ Image tonemap_to_srgb8(const Image& linear, Tonemap tonemap, float exposure_ev)
     std::uint8_t* to = reinterpret_cast<std::uint8_t*>(out.bytes.data());
     for (std::size_t i = 0; i < out.bytes.size(); i += channels) {
         const float r = expose(in[i], scale);
-        const Rgb exposed =
-            colour ? Rgb{r, expose(in[i + 1], scale), expose(in[i + 2], scale)} : Rgb{r, r, r};
+        const Rgb exposed = colour ? Rgb{r, expose(in[i + 1], scale), expose(in[i + 2], scale)} : Rgb{r, r, r};
         const Rgb mapped = apply(tonemap, exposed);
         to[i] = table.encode(mapped.r);
         if (colour) {

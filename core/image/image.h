@@ -28,8 +28,8 @@ inline std::size_t pixel_type_bytes(PixelType t)
 
 struct Image {
     int width = 0, height = 0;
-    int channels = 0;               // 1 gray, 2 gray+alpha, 3 RGB, 4 RGBA
-    PixelType type = PixelType::u8; // u8 and u16 are normalized; f32 is linear radiance or data
+    int channels = 0;                                       // 1 gray, 2 gray+alpha, 3 RGB, 4 RGBA
+    PixelType type = PixelType::u8;                         // u8 and u16 are normalized; f32 is linear radiance or data
     std::vector<std::byte, LineAllocator<std::byte>> bytes; // width * height * channels * pixel_type_bytes(type)
 
     bool empty() const { return bytes.empty(); }
@@ -40,8 +40,8 @@ struct Image {
 inline Image make_image(int width, int height, int channels, PixelType type)
 {
     Image image{width, height, channels, type, {}};
-    image.bytes.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) *
-                       static_cast<std::size_t>(channels) * pixel_type_bytes(type));
+    image.bytes.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * static_cast<std::size_t>(channels) *
+                       pixel_type_bytes(type));
     return image;
 }
 

@@ -20,7 +20,10 @@
 // Libraries that are not instrumented either: how threads wait for each other inside them is not seen. Embree builds its trees with threads
 // of its own, OpenImageIO's table of names has its own lock.
 extern "C" const char* __tsan_default_suppressions();
-extern "C" const char* __tsan_default_suppressions() { return "race:libembree3.so\nrace:libOpenImageIO\n"; }
+extern "C" const char* __tsan_default_suppressions()
+{
+    return "race:libembree3.so\nrace:libOpenImageIO\n";
+}
 #endif
 
 namespace burnish {
@@ -44,8 +47,7 @@ void allow_threads(int threads)
         return;
     delete control;
     allowed = threads;
-    control = new tbb::global_control(tbb::global_control::max_allowed_parallelism,
-                                      static_cast<std::size_t>(allowed));
+    control = new tbb::global_control(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(allowed));
 }
 
 } // namespace

@@ -30,7 +30,7 @@ class Trace {
     static bool on();
     static std::uint64_t now_ns();
     static void span(const char* name, std::uint64_t begin_ns, std::uint64_t end_ns); // `name` must outlive the trace
-    static std::string json(); // all spans so far; capped at 1,000,000 events
+    static std::string json();                                                        // all spans so far; capped at 1,000,000 events
 };
 
 class TraceSpan {

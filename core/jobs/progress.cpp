@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/text.h"
 #include "core/jobs/jobs.h"
 
 namespace burnish {
@@ -36,11 +37,10 @@ struct Progress::Impl {
 
     void draw()
     {
-        const double part =
-            total ? std::min(1.0, static_cast<double>(done.load()) / static_cast<double>(total)) : 1.0;
+        const double part = total ? std::min(1.0, static_cast<double>(done.load()) / static_cast<double>(total)) : 1.0;
         const std::size_t full = static_cast<std::size_t>(part * static_cast<double>(kBarCells));
-        std::string line = fmt::format("{} [{}{}] {:3.0f}%", label, std::string(full, '#'),
-                                       std::string(kBarCells - full, '.'), part * 100.0);
+        std::string line =
+            fmt::format("{} [{}{}] {:3.0f}%", label, std::string(full, '#'), std::string(kBarCells - full, '.'), part * 100.0);
         line.resize(std::min(line.size(), terminal_columns() - 1)); // a wrapped line could not be redrawn
         const std::size_t size = line.size();
         if (size < drawn)
@@ -56,7 +56,7 @@ Progress::Progress(std::string label, std::size_t total, bool quiet)
     if (quiet || !isatty(STDERR_FILENO))
         return;
     impl_ = std::make_unique<Impl>();
-    impl_->label = std::move(label);
+    impl_->label = printable(label);
     impl_->total = total;
 }
 

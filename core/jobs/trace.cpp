@@ -106,18 +106,16 @@ std::string micros(std::uint64_t ns)
 
 void append_thread(std::string& out, const ThreadEvents& thread, std::size_t tid, std::uint64_t start_ns)
 {
-    out += fmt::format(
-        "{}{{\"name\":\"thread_name\",\"ph\":\"M\",\"pid\":1,\"tid\":{},\"args\":{{\"name\":\"{}\"}}}}",
-        tid == 0 ? "" : ",\n", tid, tid == 0 ? std::string("main") : fmt::format("worker {}", tid));
+    out += fmt::format("{}{{\"name\":\"thread_name\",\"ph\":\"M\",\"pid\":1,\"tid\":{},\"args\":{{\"name\":\"{}\"}}}}",
+                       tid == 0 ? "" : ",\n", tid, tid == 0 ? std::string("main") : fmt::format("worker {}", tid));
     for (const Chunk* chunk = &thread.first; chunk; chunk = chunk->next.load(std::memory_order_acquire)) {
         const std::size_t n = chunk->count.load(std::memory_order_acquire);
         for (std::size_t i = 0; i < n; ++i) {
             const Event& e = chunk->events[i];
             const std::uint64_t ts = e.begin_ns > start_ns ? e.begin_ns - start_ns : 0;
             const std::uint64_t duration = e.end_ns > e.begin_ns ? e.end_ns - e.begin_ns : 0;
-            out +=
-                fmt::format(",\n{{\"name\":\"{}\",\"ph\":\"X\",\"pid\":1,\"tid\":{},\"ts\":{},\"dur\":{}}}",
-                            escaped(e.name), tid, micros(ts), micros(duration));
+            out += fmt::format(",\n{{\"name\":\"{}\",\"ph\":\"X\",\"pid\":1,\"tid\":{},\"ts\":{},\"dur\":{}}}", escaped(e.name), tid,
+                               micros(ts), micros(duration));
         }
     }
 }
@@ -142,8 +140,7 @@ bool Trace::on()
 std::uint64_t Trace::now_ns()
 {
     const auto since_epoch = std::chrono::steady_clock::now().time_since_epoch();
-    return static_cast<std::uint64_t>(
-        std::chrono::duration_cast<std::chrono::nanoseconds>(since_epoch).count());
+    return static_cast<std::uint64_t>(std::chrono::duration_cast<std::chrono::nanoseconds>(since_epoch).count());
 }
 
 void Trace::span(const char* name, std::uint64_t begin_ns, std::uint64_t end_ns)
@@ -163,8 +160,7 @@ std::string Trace::json()
     std::string out = "{\"displayTimeUnit\":\"ms\",\"traceEvents\":[\n";
     for (std::size_t tid = 0; tid < s.threads.size(); ++tid)
         append_thread(out, *s.threads[tid], tid, s.start_ns.load());
-    out += fmt::format("\n],\"otherData\":{{\"dropped_events\":{}}}}}\n",
-                       spans > kMaxEvents ? spans - kMaxEvents : 0);
+    out += fmt::format("\n],\"otherData\":{{\"dropped_events\":{}}}}}\n", spans > kMaxEvents ? spans - kMaxEvents : 0);
     return out;
 }
 

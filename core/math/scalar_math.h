@@ -73,16 +73,14 @@ inline double atan_core(double x)
 inline double det_sin(double x)
 {
     const scalar_math_detail::Reduced r = scalar_math_detail::reduce(x);
-    const double v = (r.quadrant & 1) ? scalar_math_detail::cos_core(r.x, r.rest)
-                                      : scalar_math_detail::sin_core(r.x, r.rest);
+    const double v = (r.quadrant & 1) ? scalar_math_detail::cos_core(r.x, r.rest) : scalar_math_detail::sin_core(r.x, r.rest);
     return (r.quadrant & 2) ? -v : v;
 }
 
 inline double det_cos(double x)
 {
     const scalar_math_detail::Reduced r = scalar_math_detail::reduce(x);
-    const double v = (r.quadrant & 1) ? scalar_math_detail::sin_core(r.x, r.rest)
-                                      : scalar_math_detail::cos_core(r.x, r.rest);
+    const double v = (r.quadrant & 1) ? scalar_math_detail::sin_core(r.x, r.rest) : scalar_math_detail::cos_core(r.x, r.rest);
     return (r.quadrant == 1 || r.quadrant == 2) ? -v : v;
 }
 

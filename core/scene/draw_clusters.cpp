@@ -23,8 +23,7 @@ constexpr double kMinConeCosine = 0.1;
 glm::dvec3 position(const DrawTables& tables, std::size_t corner)
 {
     const std::uint32_t i = tables.indices[corner];
-    return {static_cast<double>(tables.px[i]), static_cast<double>(tables.py[i]),
-            static_cast<double>(tables.pz[i])};
+    return {static_cast<double>(tables.px[i]), static_cast<double>(tables.py[i]), static_cast<double>(tables.pz[i])};
 }
 
 void set_sphere(const DrawTables& tables, Cluster& cluster)
@@ -45,17 +44,15 @@ void set_sphere(const DrawTables& tables, Cluster& cluster)
         largest = std::fmax(largest, std::fmax(std::fabs(p.x), std::fmax(std::fabs(p.y), std::fabs(p.z))));
     }
     const double radius = std::sqrt(radius2) * (1.0 + kRadiusSlack) + largest * kPositionSlack;
-    cluster.radius =
-        static_cast<float>(std::fmin(radius + static_cast<double>(std::numeric_limits<float>::min()),
-                                     static_cast<double>(std::numeric_limits<float>::max())));
+    cluster.radius = static_cast<float>(
+        std::fmin(radius + static_cast<double>(std::numeric_limits<float>::min()), static_cast<double>(std::numeric_limits<float>::max())));
 }
 
 // The unit normal of a triangle; zero where two corners coincide (it covers nothing however it is snapped).
 // `certain` turns false where the corners are in line but apart, so that no side can be told.
 glm::dvec3 face_normal(const DrawTables& tables, std::size_t triangle, bool& certain)
 {
-    const glm::dvec3 a = position(tables, 3 * triangle), b = position(tables, 3 * triangle + 1),
-                     c = position(tables, 3 * triangle + 2);
+    const glm::dvec3 a = position(tables, 3 * triangle), b = position(tables, 3 * triangle + 1), c = position(tables, 3 * triangle + 2);
     if (a == b || b == c || c == a)
         return glm::dvec3(0.0);
     const glm::dvec3 e = b - a, f = c - a, n = glm::cross(e, f);

@@ -65,10 +65,8 @@ glm::dvec3 direction_or(const glm::dvec3& v, const glm::dvec3& otherwise)
 
 ShadingVertex place_shading(const VertexTable& v, std::size_t i, const Placement& place)
 {
-    const glm::dvec3 n =
-        direction_or(place.cofactor * glm::dvec3(v.nx[i], v.ny[i], v.nz[i]), glm::dvec3(0.0, 0.0, 1.0));
-    const glm::dvec3 moved =
-        direction_or(place.linear * glm::dvec3(v.tx[i], v.ty[i], v.tz[i]), glm::dvec3(0.0));
+    const glm::dvec3 n = direction_or(place.cofactor * glm::dvec3(v.nx[i], v.ny[i], v.nz[i]), glm::dvec3(0.0, 0.0, 1.0));
+    const glm::dvec3 moved = direction_or(place.linear * glm::dvec3(v.tx[i], v.ty[i], v.tz[i]), glm::dvec3(0.0));
     glm::dvec3 t = moved - n * glm::dot(n, moved);
     if (!(glm::dot(t, t) > 1e-12)) // along the normal, or none
         t = glm::dvec3(any_tangent(glm::vec3(n)));
@@ -94,8 +92,7 @@ ShadingVertex place_shading(const VertexTable& v, std::size_t i, const Placement
 
 // Appends the vertices of a primitive; false, with the tables unchanged, where a position leaves the range of
 // floats.
-bool append_vertices(const VertexTable& v, const Primitive& primitive, const Placement& place,
-                     DrawTables& out)
+bool append_vertices(const VertexTable& v, const Primitive& primitive, const Placement& place, DrawTables& out)
 {
     const std::size_t base = out.px.size(), count = primitive.vertex_count;
     const auto resize = [&](std::size_t n) {
@@ -120,8 +117,7 @@ bool append_vertices(const VertexTable& v, const Primitive& primitive, const Pla
     return true;
 }
 
-void append_triangles(const Scene& scene, const Primitive& primitive, bool mirrored, Draw& draw,
-                      DrawTables& out)
+void append_triangles(const Scene& scene, const Primitive& primitive, bool mirrored, Draw& draw, DrawTables& out)
 {
     const std::size_t base = out.indices.size(), base_triangle = base / 3;
     out.indices.resize(base + primitive.index_count);
@@ -144,8 +140,7 @@ void append_triangles(const Scene& scene, const Primitive& primitive, bool mirro
     }
 }
 
-void append_draw(const Scene& scene, const Primitive& primitive, std::int32_t node, const Placement& place,
-                 DrawTables& out)
+void append_draw(const Scene& scene, const Primitive& primitive, std::int32_t node, const Placement& place, DrawTables& out)
 {
     BN_CHECK_OP(primitive.index_count % 3, ==, 0u);
     BN_CHECK_OP(std::uint64_t{primitive.first_index} + primitive.index_count, <=, scene.indices.size());
@@ -186,13 +181,11 @@ void append_light(const Light& light, const glm::mat4& world, std::vector<Punctu
     if (!finite_f(placed.position) || (needs_direction && glm::dot(shines, shines) == 0.0))
         return;
     if (!placed.directional && light.range > 0.0f)
-        placed.inv_range2 =
-            static_cast<float>(1.0 / (static_cast<double>(light.range) * static_cast<double>(light.range)));
+        placed.inv_range2 = static_cast<float>(1.0 / (static_cast<double>(light.range) * static_cast<double>(light.range)));
     if (light.type == LightType::spot) {
         // KHR_lights_punctual, "Inner and Outer Cone Angles": linear in the cosine, squared by whoever
         // evaluates it.
-        const double outer = det_cos(static_cast<double>(light.outer_cone)),
-                     inner = det_cos(static_cast<double>(light.inner_cone));
+        const double outer = det_cos(static_cast<double>(light.outer_cone)), inner = det_cos(static_cast<double>(light.inner_cone));
         const double scale = 1.0 / std::fmax(0.001, inner - outer);
         placed.spot_scale = static_cast<float>(scale);
         placed.spot_offset = static_cast<float>(-outer * scale);
@@ -235,8 +228,8 @@ Status check_draw_size(const Scene& scene, const Limits& limits, const std::stri
     const std::uint64_t bytes = vertices * kVertexBytes + indices * kIndexBytes;
     if (bytes > limits.draw_bytes || vertices > kMaxIds || indices > kMaxIds)
         return Error{ExitCode::bad_input, file, "/nodes",
-                     "with every instance expanded the scene has " + std::to_string(indices / 3) + " triangles, " +
-                         std::to_string(bytes) + " bytes; the limit is " + std::to_string(limits.draw_bytes)};
+                     "with every instance expanded the scene has " + std::to_string(indices / 3) + " triangles, " + std::to_string(bytes) +
+                         " bytes; the limit is " + std::to_string(limits.draw_bytes)};
     return {};
 }
 
@@ -258,8 +251,7 @@ DrawTables make_draw_tables(const Scene& scene)
         const Mesh& mesh = scene.meshes[static_cast<std::size_t>(node.mesh)];
         BN_CHECK_OP(std::uint64_t{mesh.first_primitive} + mesh.primitive_count, <=, scene.primitives.size());
         for (std::uint32_t k = 0; k < mesh.primitive_count; ++k)
-            append_draw(scene, scene.primitives[mesh.first_primitive + k], static_cast<std::int32_t>(i),
-                        place, out);
+            append_draw(scene, scene.primitives[mesh.first_primitive + k], static_cast<std::int32_t>(i), place, out);
     }
     set_bounds(out);
     return out;

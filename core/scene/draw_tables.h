@@ -18,7 +18,7 @@ struct alignas(64) ShadingVertex {
     float tangent[4]; // world space, unit; [3] = +1 or -1
     float pad;
     float uv0[2], uv1[2];
-    float color[4];   // linear
+    float color[4]; // linear
 };
 static_assert(sizeof(ShadingVertex) == 64);
 
@@ -35,27 +35,27 @@ inline constexpr std::uint32_t kClusterTriangles = 128;
 struct Cluster {
     std::uint32_t first_triangle = 0, triangle_count = 0;
     std::uint32_t draw = 0;
-    glm::vec3 center{0.0f};    // bounding sphere, world space
+    glm::vec3 center{0.0f}; // bounding sphere, world space
     float radius = 0.0f;
     glm::vec3 cone_axis{0.0f}; // mean normal
     float cone_cutoff = 1.0f;  // back-facing from eye where dot(center - eye, axis) >= cutoff * |center - eye| + radius; 1: never
 };
 
-struct PunctualLight { // world space
-    glm::vec3 position{0.0f}, direction{0.0f}; // direction: unit, the way it shines
-    glm::vec3 radiant{0.0f};                   // colour * intensity
-    float inv_range2 = 0.0f;                   // 1 / range^2, 0 unlimited
+struct PunctualLight {                           // world space
+    glm::vec3 position{0.0f}, direction{0.0f};   // direction: unit, the way it shines
+    glm::vec3 radiant{0.0f};                     // colour * intensity
+    float inv_range2 = 0.0f;                     // 1 / range^2, 0 unlimited
     float spot_scale = 0.0f, spot_offset = 1.0f; // clamp(dot * scale + offset, 0, 1)^2; a point light has 0 and 1
     bool directional = false;
 };
 
 struct DrawTables {
-    Column<float> px, py, pz;          // positions, world space
-    Column<ShadingVertex> shading;     // same index as the positions
-    Column<std::uint32_t> indices;     // three a triangle, absolute; counter-clockwise in world space (mirrored instances are flipped)
+    Column<float> px, py, pz;      // positions, world space
+    Column<ShadingVertex> shading; // same index as the positions
+    Column<std::uint32_t> indices; // three a triangle, absolute; counter-clockwise in world space (mirrored instances are flipped)
     Column<std::uint32_t> triangle_material; // by triangle
-    std::vector<Draw> draws;           // in node order, then primitive order
-    std::vector<Cluster> clusters;     // in triangle order
+    std::vector<Draw> draws;                 // in node order, then primitive order
+    std::vector<Cluster> clusters;           // in triangle order
     std::vector<PunctualLight> lights;
     glm::vec3 bounds_min{0.0f}, bounds_max{0.0f};
     std::size_t triangle_count() const { return indices.size() / 3; }

@@ -37,21 +37,18 @@ glm::dvec3 flattened(const glm::dvec3& v, const glm::dvec3& n)
 }
 
 // The vertex of each corner: the lowest corner with the same position, normal and texture coordinate.
-std::vector<std::uint32_t> weld(std::span<const glm::vec3> p, std::span<const glm::vec3> n,
-                                std::span<const glm::vec2> uv)
+std::vector<std::uint32_t> weld(std::span<const glm::vec3> p, std::span<const glm::vec3> n, std::span<const glm::vec2> uv)
 {
     using Key = std::array<std::uint32_t, 8>;
     std::vector<Key> keys(p.size());
     const auto bits = [](float f) { return std::bit_cast<std::uint32_t>(f + 0.0f); }; // -0 is 0
     for (std::size_t i = 0; i < p.size(); ++i)
-        keys[i] = {bits(p[i].x), bits(p[i].y), bits(p[i].z),  bits(n[i].x),
-                   bits(n[i].y), bits(n[i].z), bits(uv[i].x), bits(uv[i].y)};
+        keys[i] = {bits(p[i].x), bits(p[i].y), bits(p[i].z), bits(n[i].x), bits(n[i].y), bits(n[i].z), bits(uv[i].x), bits(uv[i].y)};
     std::vector<std::uint32_t> order(p.size());
     for (std::size_t i = 0; i < order.size(); ++i)
         order[i] = static_cast<std::uint32_t>(i);
-    std::sort(order.begin(), order.end(), [&keys](std::uint32_t a, std::uint32_t b) {
-        return keys[a] != keys[b] ? keys[a] < keys[b] : a < b;
-    });
+    std::sort(order.begin(), order.end(),
+              [&keys](std::uint32_t a, std::uint32_t b) { return keys[a] != keys[b] ? keys[a] < keys[b] : a < b; });
     std::vector<std::uint32_t> vertex(p.size());
     for (std::size_t k = 0; k < order.size(); ++k)
         vertex[order[k]] = k > 0 && keys[order[k]] == keys[order[k - 1]] ? vertex[order[k - 1]] : order[k];
@@ -59,10 +56,10 @@ std::vector<std::uint32_t> weld(std::span<const glm::vec3> p, std::span<const gl
 }
 
 struct Face {
-    glm::dvec3 gradient{0.0}; // unit, towards growing u
-    bool preserving = false;  // same orientation in space and in texture space
-    bool free = true;         // no gradient: joins any group
-    bool collapsed = false;   // two corners in one place
+    glm::dvec3 gradient{0.0};                                 // unit, towards growing u
+    bool preserving = false;                                  // same orientation in space and in texture space
+    bool free = true;                                         // no gradient: joins any group
+    bool collapsed = false;                                   // two corners in one place
     std::uint32_t neighbour[3] = {kNobody, kNobody, kNobody}; // across the edge from corner k to k + 1
     std::uint32_t group[3] = {kNobody, kNobody, kNobody};     // of each corner
 };
@@ -79,8 +76,7 @@ Face make_face(const glm::vec3* p, const glm::vec2* uv)
     if (!(std::fabs(area) > FLT_MIN))
         return face;
     const glm::vec3 d1 = p[1] - p[0], d2 = p[2] - p[0];
-    const glm::dvec3 along_u = unit_or_zero(glm::dvec3(d1 * b.y - d2 * a.y)),
-                     along_v = unit_or_zero(glm::dvec3(d2 * a.x - d1 * b.x));
+    const glm::dvec3 along_u = unit_or_zero(glm::dvec3(d1 * b.y - d2 * a.y)), along_v = unit_or_zero(glm::dvec3(d2 * a.x - d1 * b.x));
     face.gradient = face.preserving ? along_u : -along_u;
     face.free = along_u == glm::dvec3(0.0) || along_v == glm::dvec3(0.0);
     return face;
@@ -132,8 +128,8 @@ struct Group {
 };
 
 // Walks from triangle to triangle around the group's vertex.
-void spread_group(const std::vector<std::uint32_t>& vertex, std::vector<Face>& faces, const Group& group,
-                  std::uint32_t id, std::uint32_t first, std::vector<std::uint32_t>& stack)
+void spread_group(const std::vector<std::uint32_t>& vertex, std::vector<Face>& faces, const Group& group, std::uint32_t id,
+                  std::uint32_t first, std::vector<std::uint32_t>& stack)
 {
     stack.assign(1, first);
     while (!stack.empty()) {
@@ -174,8 +170,8 @@ std::vector<Group> make_groups(const std::vector<std::uint32_t>& vertex, std::ve
 }
 
 // Adds every triangle's gradient to the groups of its corners, in the order of the triangles.
-void sum_gradients(std::span<const glm::vec3> positions, std::span<const glm::vec3> normals,
-                   const std::vector<Face>& faces, std::vector<Group>& groups)
+void sum_gradients(std::span<const glm::vec3> positions, std::span<const glm::vec3> normals, const std::vector<Face>& faces,
+                   std::vector<Group>& groups)
 {
     for (std::size_t f = 0; f < faces.size(); ++f)
         for (std::size_t k = 0; k < 3; ++k) {
@@ -244,8 +240,7 @@ std::vector<glm::vec4> mikk_tangents(std::span<const glm::vec3> positions, std::
     const std::vector<std::uint32_t> lender = lenders(vertex, faces);
     std::vector<glm::vec4> out(positions.size());
     for (std::uint32_t i = 0; i < out.size(); ++i) {
-        const std::uint32_t from =
-            faces[i / 3].collapsed && lender[vertex[i]] != kNobody ? lender[vertex[i]] : i;
+        const std::uint32_t from = faces[i / 3].collapsed && lender[vertex[i]] != kNobody ? lender[vertex[i]] : i;
         const Face& face = faces[from / 3];
         const std::uint32_t id = face.group[from % 3];
         glm::dvec3 tangent = face.gradient; // where opposite gradients cancel, a corner keeps its own

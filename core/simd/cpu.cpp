@@ -41,10 +41,11 @@ bool cpu_has_avx2()
 {
     constexpr unsigned kFma = 1u << 12, kMovbe = 1u << 22, kAvx = 1u << 28, kF16c = 1u << 29; // leaf 1, ecx
     constexpr unsigned kBmi1 = 1u << 3, kAvx2 = 1u << 5, kBmi2 = 1u << 8;                     // leaf 7, ebx
-    constexpr unsigned kLzcnt = 1u << 5; // leaf 0x80000001, ecx
+    constexpr unsigned kLzcnt = 1u << 5;                                                      // leaf 0x80000001, ecx
     constexpr unsigned kXmmYmm = 0x6;
-    return has(leaf(1).c, kFma | kMovbe | kAvx | kF16c) && has(leaf(7).b, kBmi1 | kAvx2 | kBmi2) &&
-           has(leaf(0x80000001u).c, kLzcnt) && has(saved_state(), kXmmYmm);
+    static const bool found = has(leaf(1).c, kFma | kMovbe | kAvx | kF16c) && has(leaf(7).b, kBmi1 | kAvx2 | kBmi2) &&
+                              has(leaf(0x80000001u).c, kLzcnt) && has(saved_state(), kXmmYmm);
+    return found;
 }
 
 bool cpu_has_avx512()
@@ -52,7 +53,8 @@ bool cpu_has_avx512()
     constexpr unsigned kF = 1u << 16, kDq = 1u << 17, kCd = 1u << 28, kBw = 1u << 30,
                        kVl = 1u << 31;       // leaf 7, ebx
     constexpr unsigned kAllRegisters = 0xe6; // xmm, ymm, opmask, upper halves of zmm0-15, zmm16-31
-    return cpu_has_avx2() && has(leaf(7).b, kF | kDq | kCd | kBw | kVl) && has(saved_state(), kAllRegisters);
+    static const bool found = cpu_has_avx2() && has(leaf(7).b, kF | kDq | kCd | kBw | kVl) && has(saved_state(), kAllRegisters);
+    return found;
 }
 
 std::string cpu_name()

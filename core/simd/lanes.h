@@ -1,5 +1,5 @@
-// Lane types of the instruction set that this file is compiled for (BN_ISA: 0 scalar, 1 AVX2, 2 AVX-512, 3
-// the double oracle, 4 one lane that counts):
+// Lane types of the instruction set that this file is compiled for: BN_ISA is its name in isa_list.h, or oracle (double precision) or
+// counted (counts its work), both one lane.
 //   real     kLanes floating-point numbers      (scalar: float itself; oracle: double itself)
 //   integer  kLanes 32-bit integers, wrapping   (scalar and oracle: int32_t itself)
 //   mask     kLanes truth values                (scalar and oracle: bool itself)
@@ -20,7 +20,8 @@
 //                                                            stay unwritten
 //   gather gather_int table_value table_int                  element index[lane]; tables: 16 readable entries,
 //                                                            index in [0,15]
-//   compress_store_int(to, i, m)                             lanes of m to consecutive places; gives their number
+//   compress_store_int(to, i, m)                             lanes of m to consecutive places; gives their number.
+//                                                            All kLanes places may be written
 //   expand_load expand_load_int(from, m)                     the reverse
 //   store_triples(to, more, r, g, b)                         RGB of lanes 0-7 to `to`, of lanes 8-15 to `more`
 //   load_triples_int                                         consecutive triples, the k-th of each to out[k]
@@ -38,22 +39,17 @@
 #define BN_INLINE static inline __attribute__((always_inline))
 
 #ifndef BN_ISA
-#define BN_ISA 0
+#define BN_ISA scalar
 #endif
 
-#if BN_ISA == 0
-#define BN_ISA_NS bn_scalar
-#include "core/simd/lanes_scalar.h"
-#elif BN_ISA == 1
-#define BN_ISA_NS bn_avx2
-#include "core/simd/lanes_avx2.h"
-#elif BN_ISA == 2
-#define BN_ISA_NS bn_avx512
-#include "core/simd/lanes_avx512.h"
-#elif BN_ISA == 3
-#define BN_ISA_NS bn_double
-#include "core/simd/lanes_scalar.h"
-#elif BN_ISA == 4
-#define BN_ISA_NS bn_counted
-#include "core/simd/lanes_scalar.h"
-#endif
+// BN_ISA_NS: bn_<name>; BN_ISA_NAME: the name as text
+#define BN_JOINED_(a, b) a##b
+#define BN_JOINED(a, b) BN_JOINED_(a, b)
+#define BN_TEXT_(x) #x
+#define BN_TEXT(x) BN_TEXT_(x)
+#define BN_ISA_NS BN_JOINED(bn_, BN_ISA)
+#define BN_ISA_NAME BN_TEXT(BN_ISA)
+// clang-format off
+#define BN_LANES_FILE BN_TEXT(core/simd/BN_JOINED(lanes_, BN_ISA).h)
+// clang-format on
+#include BN_LANES_FILE

@@ -1,13 +1,11 @@
-// One lane: the twin that every instruction set must equal bit for bit (BN_ISA 0), and the double oracle
-// (BN_ISA 3). With BN_ISA 4 it counts its work (counted.h). The meaning of every operation is defined here. `integer` wraps because these files are
-// compiled with -fwrapv.
+// One lane: the twin that every instruction set must equal bit for bit. The meaning of every operation is defined here. `integer` wraps
+// because these files are compiled with -fwrapv. lanes_oracle.h and lanes_counted.h make other lanes of it.
 #pragma once
 #include <cstddef>
 #include <cstdint>
-#include <immintrin.h>
 
 #include "core/simd/half.h"
-#if BN_ISA == 4
+#ifdef BN_COUNTED
 #include "core/simd/counted.h"
 #define BN_COUNT(operations_, bytes_) (lane_counts.operations += (operations_), lane_counts.bytes += (bytes_))
 #else
@@ -19,9 +17,9 @@ inline namespace BN_ISA_NS {
 
 inline constexpr int kLanes = 1;
 
-#if BN_ISA == 3
+#ifdef BN_ORACLE
 using real = double;
-#elif BN_ISA == 4
+#elif defined(BN_COUNTED)
 using real = Counted;
 #else
 using real = float;
@@ -33,7 +31,7 @@ BN_INLINE real splat(float x)
 {
     return static_cast<real>(x);
 }
-#if BN_ISA == 3
+#ifdef BN_ORACLE
 BN_INLINE real lit(double x)
 {
     return x;
@@ -137,7 +135,7 @@ BN_INLINE integer clamp(integer x, integer lo, integer hi)
     return min(max(x, lo), hi);
 }
 
-#if BN_ISA == 3
+#ifdef BN_ORACLE
 BN_INLINE real abs(real x)
 {
     return __builtin_fabs(x);
@@ -156,11 +154,11 @@ BN_INLINE real ceil(real x)
 }
 BN_INLINE integer to_int(real x)
 {
-    return _mm_cvttsd_si32(_mm_set_sd(x));
+    return x > -2147483649.0 && x < 2147483648.0 ? static_cast<integer>(x) : INT32_MIN;
 }
 BN_INLINE integer round_to_int(real x)
 {
-    return _mm_cvtsd_si32(_mm_set_sd(x));
+    return to_int(__builtin_rint(x));
 }
 #else
 BN_INLINE real abs(real x)
@@ -182,12 +180,13 @@ BN_INLINE real ceil(real x)
 }
 BN_INLINE integer to_int(real x)
 {
-    return _mm_cvttss_si32(_mm_set_ss(static_cast<float>(x)));
+    const float f = static_cast<float>(x);
+    return f >= -0x1p31f && f < 0x1p31f ? static_cast<integer>(f) : INT32_MIN;
 }
-BN_INLINE integer round_to_int(real x)
+BN_INLINE integer round_to_int(real x) // ties to even
 {
-    return _mm_cvtss_si32(_mm_set_ss(static_cast<float>(x)));
-} // ties to even
+    return to_int(static_cast<real>(__builtin_rintf(static_cast<float>(x))));
+}
 #endif
 BN_INLINE real to_real(integer i)
 {
@@ -249,7 +248,7 @@ BN_INLINE void store(float* to, real x)
 {
     *to = static_cast<float>(x);
 }
-#if BN_ISA == 3
+#ifdef BN_ORACLE
 BN_INLINE void store(double* to, real x)
 {
     *to = x;
@@ -374,30 +373,25 @@ BN_INLINE void store_quads(void* base, const integer r[4], int n)
 
 // Records are 16 floats apart; r0, r1, r2 the records i0, i1, i2. out[c] = (b0 r0[c] + b1 r1[c]) + b2 r2[c],
 // rounded in that order, for the first `fields` floats.
-BN_INLINE void blend_fields(const float* base, integer i0, integer i1, integer i2, real b0, real b1, real b2,
-                            real* out, int fields)
+BN_INLINE void blend_fields(const float* base, integer i0, integer i1, integer i2, real b0, real b1, real b2, real* out, int fields)
 {
     const float* r0 = base + std::size_t{16} * static_cast<std::uint32_t>(i0);
     const float* r1 = base + std::size_t{16} * static_cast<std::uint32_t>(i1);
     const float* r2 = base + std::size_t{16} * static_cast<std::uint32_t>(i2);
     BN_COUNT(0, 12 * static_cast<unsigned>(fields));
     for (int c = 0; c < fields; ++c)
-        out[c] =
-            (b0 * static_cast<real>(r0[c]) + b1 * static_cast<real>(r1[c])) + b2 * static_cast<real>(r2[c]);
+        out[c] = (b0 * static_cast<real>(r0[c]) + b1 * static_cast<real>(r1[c])) + b2 * static_cast<real>(r2[c]);
 }
-BN_INLINE void blend_records(const float* base, integer i0, integer i1, integer i2, real b0, real b1, real b2,
-                             real out[16])
+BN_INLINE void blend_records(const float* base, integer i0, integer i1, integer i2, real b0, real b1, real b2, real out[16])
 {
     blend_fields(base, i0, i1, i2, b0, b1, b2, out, 16);
 }
-BN_INLINE void blend_records_low(const float* base, integer i0, integer i1, integer i2, real b0, real b1,
-                                 real b2, real out[8])
+BN_INLINE void blend_records_low(const float* base, integer i0, integer i1, integer i2, real b0, real b1, real b2, real out[8])
 {
     blend_fields(base, i0, i1, i2, b0, b1, b2, out, 8);
 }
 // Four floats; `base` already points at the wanted field of record 0.
-BN_INLINE void blend_quad(const float* base, integer i0, integer i1, integer i2, real b0, real b1, real b2,
-                          real out[4])
+BN_INLINE void blend_quad(const float* base, integer i0, integer i1, integer i2, real b0, real b1, real b2, real out[4])
 {
     blend_fields(base, i0, i1, i2, b0, b1, b2, out, 4);
 }
@@ -419,8 +413,7 @@ BN_INLINE texel_acc texel_zero()
 }
 // left += w00 t[row0] + w01 t[row1]; right += w10 t[row0 + 1] + w11 t[row1 + 1], a channel at a time, rounded
 // in that order.
-BN_INLINE texel_acc texel_add(texel_acc acc, texel_buffer texels, integer row0, integer row1, real w00,
-                              real w10, real w01, real w11)
+BN_INLINE texel_acc texel_add(texel_acc acc, texel_buffer texels, integer row0, integer row1, real w00, real w10, real w01, real w11)
 {
     const std::uint16_t* t0 = texels + std::size_t{4} * static_cast<std::uint32_t>(row0);
     const std::uint16_t* t1 = texels + std::size_t{4} * static_cast<std::uint32_t>(row1);

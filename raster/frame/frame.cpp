@@ -5,6 +5,7 @@
 
 #include "core/base/check.h"
 #include "core/base/hash.h"
+#include "shading/lang/records.h"
 
 namespace burnish {
 
@@ -163,24 +164,70 @@ Status check_desc(const FrameDesc& d)
         return usage("unknown technique '" + d.technique + "'");
     if (const int most = find_technique(d.technique)->most_samples; d.samples < 1 || d.samples > most)
         return usage("samples of " + d.technique + " must lie in 1.." + std::to_string(most));
+    for (const ParameterInfo& p : parameters()) // a float may lie just outside of a range of doubles
+        if (const double value = parameter_of(d, p); !(value >= p.least - 1e-6 && value <= p.most + 1e-6))
+            return usage(std::string(p.option) + " is out of its range");
     return {};
 }
 
 const std::vector<TechniqueInfo>& techniques()
 {
     static const std::vector<TechniqueInfo> table = {
-#define BN_TECHNIQUE(id, sampling, default_samples, most_samples, summary) {#id, summary, Sampling::sampling, default_samples, most_samples},
+#define BN_TECHNIQUE(id, sampling, default_samples, most_samples, traits, summary)                                                         \
+    {#id, summary, Sampling::sampling, default_samples, most_samples, traits},
 #include "shading/models.def"
     };
     return table;
 }
 
+const TechniqueInfo& automatic_technique()
+{
+    static const TechniqueInfo info = {
+        "auto", "split_isotropic for isotropic materials, lobe_line for anisotropic ones", Sampling::count, 16, 64, 0};
+    return info;
+}
+
+const TechniqueInfo& technique_of(const FrameDesc& desc, bool anisotropic)
+{
+    if (desc.technique == automatic_technique().name)
+        return *find_technique(anisotropic ? "lobe_line" : "split_isotropic");
+    return *find_technique(desc.technique);
+}
+
 const TechniqueInfo* find_technique(const std::string& name)
 {
+    if (name == automatic_technique().name)
+        return &automatic_technique();
     for (const TechniqueInfo& technique : techniques())
         if (name == technique.name)
             return &technique;
     return nullptr;
+}
+
+const std::vector<ParameterInfo>& parameters()
+{
+    static const std::vector<ParameterInfo> table = {
+#define BN_FIELD_number(id) &FrameDesc::id, nullptr
+#define BN_FIELD_whole(id) nullptr, &FrameDesc::id
+#define BN_PARAMETER(id, kind, option, fallback, least, most, unit, summary)                                                               \
+    {#id, option, fallback, least, most, unit, summary, BN_FIELD_##kind(id)},
+#include "shading/models.def"
+    };
+    return table;
+}
+
+double parameter_of(const FrameDesc& desc, const ParameterInfo& p)
+{
+    return p.number ? static_cast<double>(desc.*p.number) : static_cast<double>(desc.*p.whole);
+}
+
+void set_parameter(FrameDesc& desc, const ParameterInfo& p, double value)
+{
+    BN_CHECK(value >= p.least && value <= p.most);
+    if (p.number)
+        desc.*p.number = static_cast<float>(value);
+    else
+        desc.*p.whole = static_cast<std::uint32_t>(value);
 }
 
 int samples_taken(const TechniqueInfo& technique, int samples)
@@ -199,7 +246,7 @@ int samples_taken(const TechniqueInfo& technique, int samples)
 const std::vector<ModelInfo>& models()
 {
     static const std::vector<ModelInfo> table = {
-#define BN_MODEL(id, summary) {#id, summary},
+#define BN_MODEL(id, summary, params, laws, settings) {#id, summary},
 #include "shading/models.def"
     };
     return table;

@@ -12,14 +12,13 @@
 #include "core/jobs/jobs.h"
 #include "core/scene/draw_tables.h"
 #include "core/scene/scene.h"
+#include "core/simd/dispatch.h"
 #include "raster/frame/profile.h"
-#include "shading/bake/environment.h"
+#include "shading/bake/environment/environment.h"
 
 namespace burnish {
 
-enum class Isa { scalar, avx2, avx512 };
-
-struct View { // a resolved camera
+struct View {                                                            // a resolved camera
     glm::vec3 eye{0.0f}, right{1, 0, 0}, up{0, 1, 0}, forward{0, 0, -1}; // orthonormal, world space
     bool orthographic = false;
     float tan_half_x = 1.0f, tan_half_y = 1.0f; // perspective; orthographic: half extents in metres
@@ -35,55 +34,56 @@ View auto_frame(const DrawTables& tables, int width, int height);
 // The matrix that the view stands for, for printing (world to Vulkan clip space).
 glm::mat4 clip_from_world(const View& view);
 
-inline constexpr int kMaxPictureSide = 16384;               // pixels
+inline constexpr int kMaxPictureSide = 16384;                 // pixels
 inline constexpr std::int64_t kMaxPictureSamples = 1ll << 28; // width * height * msaa: 2 GiB of depth and triangle ids
 
 struct FrameDesc {
     int width = 1280, height = 720;
-    int msaa = 8;                          // 1, 2, 4, 8, 16
+    int msaa = 8; // 1, 2, 4, 8, 16
     View view;
-    std::string technique = "split_isotropic";
-    int samples = 16;                      // for techniques that take samples
-    float roughness = -1.0f;               // >= 0: alpha_lin of every material
-    float anisotropy = 0.0f;               // with override_anisotropy: eta of every material, [-1, 1]
+    std::string technique = "auto";
+    int samples = 16; // for techniques that take samples
+#define BN_DESC_number float
+#define BN_DESC_whole std::uint32_t
+#define BN_PARAMETER(id, kind, option, fallback, least, most, unit, summary) BN_DESC_##kind id = static_cast<BN_DESC_##kind>(fallback);
+#include "shading/models.def"
+    float roughness = -1.0f; // >= 0: alpha_lin of every material
+    float anisotropy = 0.0f; // with override_anisotropy: eta of every material, [-1, 1]
     bool override_anisotropy = false;
-    glm::vec2 tilt_rad{0.0f};              // of every lobe: its commonest normal turned towards the bitangent (x) and away from the
-                                           // tangent (y), theta_x and theta_y of the ellipsoid distribution; below a quarter turn
-    float major_axis_k = 1.0f;             // deviations that the major axis covers
-    float major_axis_beta = 2.3f;          // overlap of its samples
-    bool dfg_fit = false;                  // directional albedo from the analytic fit instead of the baked table
-    bool horizon = false;                  // lobes that a normal map turns reflect nothing from below the surface itself
-    bool energy_compensation = false;      // adds the light that single scattering between microfacets loses
-    std::uint32_t seed = 0;                // of techniques that use random numbers
-    int tile_size = 64;                    // 32 or 64; never changes the picture
-    int texture_anisotropy = 16;           // taps along the major axis at most, 1..16
-    bool background = true;                // environment behind the scene; otherwise black
-    bool triangle_ids = false;             // fill Frame::triangle_ids
-    bool profile = false;                  // fill Frame::profile, where the renderer can; never changes the picture
-    bool stages = false;                   // fill Frame::stages, and the triangle ids
+    glm::vec2 tilt_rad{0.0f};         // of every lobe: its commonest normal turned towards the bitangent (x) and away from the
+                                      // tangent (y), theta_x and theta_y of the ellipsoid distribution; below a quarter turn
+    bool dfg_fit = false;             // directional albedo from the analytic fit instead of the baked table
+    bool horizon = false;             // lobes that a normal map turns reflect nothing from below the surface itself
+    bool energy_compensation = false; // adds the light that single scattering between microfacets loses
+    int tile_size = 64;               // 32 or 64; never changes the picture
+    int texture_anisotropy = 16;      // taps along the major axis at most, 1..16
+    bool background = true;           // environment behind the scene; otherwise black
+    bool triangle_ids = false;        // fill Frame::triangle_ids
+    bool profile = false;             // fill Frame::profile, where the renderer can; never changes the picture
+    bool stages = false;              // fill Frame::stages, and the triangle ids
 };
 // Whether a rasterizer can draw it: sizes, samples, names.
 Status check_desc(const FrameDesc& desc);
 
-struct SamplingStats { // of a renderer that integrates by random samples
-    std::uint64_t samples = 0;             // a pixel
-    std::uint64_t samples_before = 0;      // of them, taken from a checkpoint
-    bool resumed = false;                  // there was a checkpoint
-    bool stopped = false;                  // asked to end before all samples were taken
-    double relative_error = 0.0;           // half width of the 95 % confidence interval over the mean, averaged over the pixels
+struct SamplingStats {                // of a renderer that integrates by random samples
+    std::uint64_t samples = 0;        // a pixel
+    std::uint64_t samples_before = 0; // of them, taken from a checkpoint
+    bool resumed = false;             // there was a checkpoint
+    bool stopped = false;             // asked to end before all samples were taken
+    double relative_error = 0.0;      // half width of the 95 % confidence interval over the mean, averaged over the pixels
     double million_samples_per_second = 0.0;
     std::uint64_t rays = 0;
-    double ray_share = 0.0;                // of the workers' time, spent in tracing rays
+    double ray_share = 0.0; // of the workers' time, spent in tracing rays
 };
 
 struct FrameStats {
-    std::uint64_t triangles = 0;           // of the scene
-    std::uint64_t triangles_drawn = 0;     // after culling and clipping
-    std::uint64_t visible_fragments = 0;   // (pixel, triangle) pairs shaded
-    std::uint64_t background_pixels = 0;   // pixels with at least one uncovered sample
-    bool samples_emulated = false;         // one pass a sample, as the device cannot take as many at once
-    bool depth_interpolated = false;       // by the device, not by the tile renderer's formula
-    double ms = 0.0;                       // wall time of the frame
+    std::uint64_t triangles = 0;                 // of the scene
+    std::uint64_t triangles_drawn = 0;           // after culling and clipping
+    std::uint64_t visible_fragments = 0;         // (pixel, triangle) pairs shaded
+    std::uint64_t background_pixels = 0;         // pixels with at least one uncovered sample
+    bool samples_emulated = false;               // one pass a sample, as the device cannot take as many at once
+    bool depth_interpolated = false;             // by the device, not by the tile renderer's formula
+    double ms = 0.0;                             // wall time of the frame
     double device_ms = 0.0, device_cpu_ms = 0.0; // of a device: from submission to its fence, wall and process time
     SamplingStats sampling;
 };
@@ -98,15 +98,20 @@ struct StageRecords {
 };
 inline constexpr int kVertexWords = 8;
 // Interpolants: normal, tangent (3 each), its sign, colour (4), then for each of two sets uv, d uv/dx, d uv/dy (2 each), front face, ray,
-// position (3 each). Material: base, alpha, metallic, roughness, occlusion, normal map, emissive, f0, f90, tensors.
-inline constexpr int kInterpolantWords = 30, kMaterialWords = 23, kPairWords = 1 + kInterpolantWords + kMaterialWords + 3;
+// position (3 each). Material: the inputs of shading/material.def.
+inline constexpr int kInterpolantWords = 30;
+inline constexpr int kMaterialWords = 0
+#define BN_INPUT(type, words, name) +words
+#include "shading/material.def"
+    ;
+inline constexpr int kPairWords = 1 + kInterpolantWords + kMaterialWords + 3;
 
 struct Frame {
-    Image color;                           // f32 RGB, linear Rec.709 scene radiance
-    Image variance;                        // of `color` as an estimate, by channel; empty where it is none
-    Column<std::uint32_t> triangle_ids;    // [pixel][sample] global triangle id, 0xffffffff where nothing was hit
-    FrameProfile profile;                  // empty unless asked for
-    StageRecords stages;                   // with FrameDesc::stages
+    Image color;                        // f32 RGB, linear Rec.709 scene radiance
+    Image variance;                     // of `color` as an estimate, by channel; empty where it is none
+    Column<std::uint32_t> triangle_ids; // [pixel][sample] global triangle id, 0xffffffff where nothing was hit
+    FrameProfile profile;               // empty unless asked for
+    StageRecords stages;                // with FrameDesc::stages
     FrameStats stats;
 };
 
@@ -136,10 +141,26 @@ struct TechniqueInfo {
     const char* summary;
     Sampling sampling;
     int default_samples, most_samples;
+    int traits; // sum of those in shading/lang/records.h
 };
-const std::vector<TechniqueInfo>& techniques();             // from shading/models.def
-const TechniqueInfo* find_technique(const std::string& name); // null where there is none
-int samples_taken(const TechniqueInfo& technique, int samples); // of `samples` asked for
+const std::vector<TechniqueInfo>& techniques();                             // from shading/models.def
+const TechniqueInfo* find_technique(const std::string& name);               // also automatic_technique(); null where there is none
+const TechniqueInfo& automatic_technique();                                 // "auto": one of techniques() for each material
+const TechniqueInfo& technique_of(const FrameDesc& desc, bool anisotropic); // of a material: one of techniques()
+int samples_taken(const TechniqueInfo& technique, int samples);             // of `samples` asked for
+
+struct ParameterInfo {  // of techniques
+    const char* name;   // the field of FrameDesc
+    const char* option; // "axis-k"; reports write it as axis_k
+    double fallback, least, most;
+    const char* unit;
+    const char* summary;
+    float FrameDesc::*number; // one of the two is null
+    std::uint32_t FrameDesc::*whole;
+};
+const std::vector<ParameterInfo>& parameters(); // from shading/models.def
+double parameter_of(const FrameDesc& desc, const ParameterInfo& parameter);
+void set_parameter(FrameDesc& desc, const ParameterInfo& parameter, double value); // in [least, most]
 
 struct ModelInfo {
     const char* name;

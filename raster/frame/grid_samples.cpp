@@ -7,26 +7,47 @@
 
 namespace burnish {
 
+namespace {
+
+GridSample ggx_sample(double azimuth, double v) // v: of the distribution of slopes, which is that of D h.z
+{
+    const double r2 = v / (1.0 - v), r = std::sqrt(r2);
+    const double density = 1.0 / (kPi * (1.0 + r2) * (1.0 + r2));
+    return {static_cast<float>(r * det_cos(azimuth)), static_cast<float>(r * det_sin(azimuth)), static_cast<float>(density)};
+}
+
+// Rings of equally many samples, in opposite pairs: an axis that turns to its opposite, as one does somewhere on every round thing, changes
+// nothing. So an odd number is one in the middle and n - 1 rings of n + 1.
+std::vector<GridSample> ggx_grid(int n)
+{
+    const bool middle = n % 2 == 1;
+    const int rings = middle ? n - 1 : n, around = middle ? n + 1 : n;
+    std::vector<GridSample> grid;
+    if (middle)
+        grid.push_back(ggx_sample(0.0, 0.0));
+    const double first = middle ? 1.0 / (n * n) : 0.0;
+    for (int i = 0; i < around; ++i)
+        for (int j = 0; j < rings; ++j)
+            grid.push_back(ggx_sample(2.0 * kPi * ((i + 0.5) / around), first + (1.0 - first) * ((j + 0.5) / rings)));
+    return grid;
+}
+
+} // namespace
+
 std::vector<GridSample> grid_samples(int samples, bool ggx)
 {
     int n = 1;
     while ((n + 1) * (n + 1) <= samples)
         ++n;
+    if (ggx)
+        return ggx_grid(n);
     std::vector<GridSample> grid;
     for (int i = 0; i < n; ++i)
         for (int j = 0; j < n; ++j) {
             const double u = (i + 0.5) / n, v = (j + 0.5) / n;
-            double x, y, density;
-            if (ggx) { // radius from the distribution of slopes, which is that of D h.z
-                const double r2 = n == 1 ? 0.0 : v / (1.0 - v), r = std::sqrt(r2); // one sample lies in the middle
-                x = r * det_cos(2.0 * kPi * u), y = r * det_sin(2.0 * kPi * u);
-                density = 1.0 / (kPi * (1.0 + r2) * (1.0 + r2));
-            } else {
-                x = static_cast<double>(k_erfinv(static_cast<float>(2.0 * u - 1.0)));
-                y = static_cast<double>(k_erfinv(static_cast<float>(2.0 * v - 1.0)));
-                density = det_exp(-x * x - y * y) / kPi;
-            }
-            grid.push_back({static_cast<float>(x), static_cast<float>(y), static_cast<float>(density)});
+            const double x = static_cast<double>(k_erfinv(static_cast<float>(2.0 * u - 1.0)));
+            const double y = static_cast<double>(k_erfinv(static_cast<float>(2.0 * v - 1.0)));
+            grid.push_back({static_cast<float>(x), static_cast<float>(y), static_cast<float>(det_exp(-x * x - y * y) / kPi)});
         }
     return grid;
 }

@@ -2,7 +2,7 @@
 #pragma once
 #include <vector>
 
-#include "raster/frame/records.h"
+#include "shading/lang/tables.h"
 
 namespace burnish {
 

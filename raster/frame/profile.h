@@ -21,9 +21,9 @@ struct FrameProfile {
     std::uint64_t wall_ns = 0;
     std::array<std::uint64_t, kFrameStages> stage_ns = {};
     std::array<LaneUse, kFrameStages> stage_lanes = {}; // of transform, setup and background
-    std::vector<KernelProfile> materials; // by material of the scene
-    std::vector<std::uint64_t> busy_ns;   // by thread; the rest of wall_ns it waited. Empty: nothing was measured
-    std::vector<std::uint64_t> tile_ns;   // by tile, row by row
+    std::vector<KernelProfile> materials;               // by material of the scene
+    std::vector<std::uint64_t> busy_ns;                 // by thread; the rest of wall_ns it waited. Empty: nothing was measured
+    std::vector<std::uint64_t> tile_ns;                 // by tile, row by row
 };
 
 } // namespace burnish

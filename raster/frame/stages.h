@@ -4,7 +4,20 @@
 
 namespace burnish {
 
-enum class FrameStage : std::int32_t { prepare, cull, transform, setup, bin, gather, clear, coverage, visibility, background, shade, resolve };
+enum class FrameStage : std::int32_t {
+    prepare,
+    cull,
+    transform,
+    setup,
+    bin,
+    gather,
+    clear,
+    coverage,
+    visibility,
+    background,
+    shade,
+    resolve
+};
 inline constexpr int kFrameStages = 12;
 inline constexpr const char* kFrameStageNames[kFrameStages] = {
     "prepare",    // memory of the picture, constants of the frame

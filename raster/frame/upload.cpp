@@ -5,7 +5,7 @@
 
 #include "core/base/check.h"
 #include "core/math/scalar_math.h"
-#include "shading/bake/anisotropy.h"
+#include "shading/bake/mip/anisotropy.h"
 
 namespace burnish {
 
@@ -15,20 +15,11 @@ struct TextureUse {
     TextureSlot slot;
     TextureRef Material::*ref;
     TextureEncoding encoding;
-    int tensor_power = 0; // 2, 4: the image's anisotropy tensors; 0: the image itself
+    int tensor_power; // 2, 4: the image's anisotropy tensors; 0: the image itself
 };
 constexpr TextureUse kTextureUses[kTextureSlots] = {
-    {kBaseColorTex, &Material::base_color_tex, TextureEncoding::srgb},
-    {kMetalRoughTex, &Material::metallic_roughness_tex, TextureEncoding::linear},
-    {kNormalTex, &Material::normal_tex, TextureEncoding::linear},
-    {kOcclusionTex, &Material::occlusion_tex, TextureEncoding::linear},
-    {kEmissiveTex, &Material::emissive_tex, TextureEncoding::srgb},
-    {kSpecularTex, &Material::specular_tex, TextureEncoding::linear},
-    {kSpecularColorTex, &Material::specular_color_tex, TextureEncoding::srgb},
-    {kTensor2Tex, &Material::anisotropy_tex, TextureEncoding::linear, 2},
-    {kTensor4Tex, &Material::anisotropy_tex, TextureEncoding::linear, 4},
-    {kTensor2RestTex, &Material::anisotropy_tex, TextureEncoding::residual, 2},
-    {kTensor4RestTex, &Material::anisotropy_tex, TextureEncoding::residual, 4},
+#define BN_TEXTURE(slot, at, reference, encoding, power) {slot, &Material::reference, TextureEncoding::encoding, power},
+#include "shading/material.def"
 };
 
 struct PyramidKey {
@@ -53,6 +44,8 @@ std::vector<PyramidKey> used_pyramids(const Scene& scene)
 MaterialRecord material_record(const Material& m)
 {
     MaterialRecord r = {};
+    for (TextureBinding& b : r.textures)
+        b.texture = -1;
     for (int i = 0; i < 4; ++i)
         r.base_color[i] = m.base_color[i];
     const float f = (m.ior - 1.0f) / (m.ior + 1.0f);
@@ -91,8 +84,8 @@ constexpr Position kSamples1[] = {{8, 8}};
 constexpr Position kSamples2[] = {{12, 12}, {4, 4}};
 constexpr Position kSamples4[] = {{6, 2}, {14, 6}, {2, 10}, {10, 14}};
 constexpr Position kSamples8[] = {{9, 5}, {7, 11}, {13, 9}, {5, 3}, {3, 13}, {1, 7}, {11, 15}, {15, 1}};
-constexpr Position kSamples16[] = {{9, 9},  {7, 5},   {5, 10}, {12, 7}, {3, 6},  {10, 13}, {13, 11}, {11, 3},
-                                   {6, 14}, {8, 1},   {4, 2},  {2, 12}, {0, 8},  {15, 4},  {14, 15}, {1, 0}};
+constexpr Position kSamples16[] = {{9, 9},  {7, 5}, {5, 10}, {12, 7}, {3, 6}, {10, 13}, {13, 11}, {11, 3},
+                                   {6, 14}, {8, 1}, {4, 2},  {2, 12}, {0, 8}, {15, 4},  {14, 15}, {1, 0}};
 
 } // namespace
 
@@ -111,11 +104,7 @@ TextureParams texture_params(const TexturePyramid& p)
 
 SamplePattern standard_samples(int count)
 {
-    const Position* table = count == 1   ? kSamples1
-                            : count == 2 ? kSamples2
-                            : count == 4 ? kSamples4
-                            : count == 8 ? kSamples8
-                                         : kSamples16;
+    const Position* table = count == 1 ? kSamples1 : count == 2 ? kSamples2 : count == 4 ? kSamples4 : count == 8 ? kSamples8 : kSamples16;
     BN_CHECK(count == 1 || count == 2 || count == 4 || count == 8 || count == 16);
     SamplePattern p = {};
     p.count = count;
@@ -129,28 +118,38 @@ SamplePattern standard_samples(int count)
     return p;
 }
 
-CubeParams cube_params(const CubeMap& cube)
+std::vector<MaterialRecord> material_records(const Scene& scene)
 {
-    CubeParams p = {};
-    BN_CHECK_OP(cube.levels, <=, 16);
-    p.texels = cube.texels.data();
-    p.size = cube.size, p.levels = cube.levels;
-    for (int l = 0; l < cube.levels; ++l)
-        p.offset[l] = static_cast<std::int32_t>(cube.offset[static_cast<std::size_t>(l)]);
-    p.scale = cube.scale;
-    return p;
+    const std::vector<PyramidKey> keys = used_pyramids(scene);
+    std::vector<MaterialRecord> records;
+    for (const Material& m : scene.materials) {
+        MaterialRecord r = material_record(m);
+        for (const TextureUse& use : kTextureUses) {
+            const TextureRef& ref = m.*use.ref;
+            if (!ref.used())
+                continue;
+            const auto key = std::find(keys.begin(), keys.end(), PyramidKey{ref.texture, use.encoding, use.tensor_power});
+            TextureBinding& b = r.textures[use.slot];
+            b.texture = static_cast<int>(key - keys.begin());
+            b.uv_set = ref.uv_set;
+            for (int c = 0; c < 3; ++c)
+                b.transform[2 * c] = ref.uv_transform[c][0], b.transform[2 * c + 1] = ref.uv_transform[c][1];
+            r.textured = 1;
+        }
+        records.push_back(r);
+    }
+    for (const Primitive& p : scene.primitives)
+        if (p.has_color)
+            records[static_cast<std::size_t>(p.material)].uses_color = 1;
+    return records;
 }
 
-ViewParams view_params_of(const View& v)
+std::vector<LightRecord> light_records(const DrawTables& tables)
 {
-    ViewParams p = {};
-    for (int i = 0; i < 3; ++i)
-        p.eye[i] = v.eye[i], p.right[i] = v.right[i], p.up[i] = v.up[i], p.forward[i] = v.forward[i];
-    p.inv_tan_x = 1.0f / v.tan_half_x, p.inv_tan_y = 1.0f / v.tan_half_y;
-    p.znear = v.znear, p.zfar = v.zfar;
-    p.orthographic = v.orthographic;
-    p.inv_depth = v.orthographic ? 1.0f / (v.zfar - v.znear) : 0.0f;
-    return p;
+    std::vector<LightRecord> records;
+    for (const PunctualLight& l : tables.lights)
+        records.push_back(light_record(l));
+    return records;
 }
 
 SceneTables upload_scene(const Scene& scene, const DrawTables& tables, const Jobs& jobs)
@@ -161,32 +160,13 @@ SceneTables upload_scene(const Scene& scene, const DrawTables& tables, const Job
     jobs.parallel_for(keys.size(), [&](std::size_t i, int) {
         const Texture& texture = scene.textures[static_cast<std::size_t>(keys[i].texture)];
         const Image& image = scene.images[static_cast<std::size_t>(texture.image)];
-        s.pyramids[i] = make_texture_pyramid(keys[i].tensor_power ? anisotropy_tensor(image, keys[i].tensor_power) : image, texture,
-                                             keys[i].encoding);
+        s.pyramids[i] =
+            make_texture_pyramid(keys[i].tensor_power ? anisotropy_tensor(image, keys[i].tensor_power) : image, texture, keys[i].encoding);
     });
     for (const TexturePyramid& p : s.pyramids)
         s.textures.push_back(texture_params(p));
-    for (const Material& m : scene.materials) {
-        MaterialRecord r = material_record(m);
-        for (const TextureUse& use : kTextureUses) {
-            const TextureRef& ref = m.*use.ref;
-            if (!ref.used())
-                continue;
-            const auto key = std::find(keys.begin(), keys.end(), PyramidKey{ref.texture, use.encoding, use.tensor_power});
-            TextureBinding& b = r.textures[use.slot];
-            b.texture = &s.textures[static_cast<std::size_t>(key - keys.begin())];
-            b.uv_set = ref.uv_set;
-            for (int c = 0; c < 3; ++c)
-                b.transform[2 * c] = ref.uv_transform[c][0], b.transform[2 * c + 1] = ref.uv_transform[c][1];
-            r.textured = 1;
-        }
-        s.materials.push_back(r);
-    }
-    for (const Primitive& p : scene.primitives)
-        if (p.has_color)
-            s.materials[static_cast<std::size_t>(p.material)].uses_color = 1;
-    for (const PunctualLight& l : tables.lights)
-        s.lights.push_back(light_record(l));
+    s.materials = material_records(scene);
+    s.lights = light_records(tables);
     return s;
 }
 

@@ -1,12 +1,12 @@
-// From the shared tables to the plain data of records.h: materials, texture pyramids, lights, cubes, sample patterns.
+// From the shared tables to the plain data of shading/lang: materials, texture pyramids, lights, sample patterns.
 #pragma once
 #include <memory>
 #include <vector>
 
 #include "core/jobs/jobs.h"
 #include "raster/frame/frame.h"
-#include "raster/frame/records.h"
-#include "shading/bake/texture.h"
+#include "shading/bake/mip/texture.h"
+#include "shading/lang/tables.h"
 
 namespace burnish {
 
@@ -17,15 +17,17 @@ struct SceneTables { // keeps alive what the records point at
     std::vector<LightRecord> lights;
 };
 
+// Textures are numbered as in SceneTables::textures.
+std::vector<MaterialRecord> material_records(const Scene& scene);
+std::vector<LightRecord> light_records(const DrawTables& tables);
+
 // Builds every texture pyramid that a material uses, once a (texture, encoding) pair, in parallel.
 SceneTables upload_scene(const Scene& scene, const DrawTables& tables, const Jobs& jobs);
 
 // With the frame's overrides of roughness and anisotropy.
 std::vector<MaterialRecord> overridden(std::vector<MaterialRecord> materials, const FrameDesc& desc);
 
-CubeParams cube_params(const CubeMap& cube);
 TextureParams texture_params(const TexturePyramid& pyramid);
-ViewParams view_params_of(const View& view);
 SamplePattern standard_samples(int count); // Vulkan's standard sample locations for 1, 2, 4, 8, 16
 
 } // namespace burnish

@@ -66,8 +66,7 @@ Image variance_image(const Accumulator& a)
     Image image = make_image(a.width, a.height, 3, PixelType::f32);
     for (std::size_t i = 0; i < a.pixels.size(); ++i)
         for (int c = 0; c < 3; ++c)
-            image.f32()[3 * i + static_cast<std::size_t>(c)] =
-                static_cast<float>(variance_of_mean(a.pixels[i], c, passes_of_pixel(a, i)));
+            image.f32()[3 * i + static_cast<std::size_t>(c)] = static_cast<float>(variance_of_mean(a.pixels[i], c, passes_of_pixel(a, i)));
     return image;
 }
 

@@ -4,7 +4,6 @@
 #include <filesystem>
 #include <vector>
 
-#include "core/base/file.h"
 #include "core/base/hash.h"
 
 namespace burnish {
@@ -26,7 +25,7 @@ std::size_t body_size(const Accumulator& a)
 
 } // namespace
 
-Status write_checkpoint(const std::string& path, std::uint64_t key, const Accumulator& a)
+Status write_checkpoint(const std::string& path, std::uint64_t key, const Accumulator& a, Links links)
 {
     std::vector<std::uint8_t> bytes(sizeof(Header) + body_size(a));
     std::uint8_t* body = bytes.data() + sizeof(Header);
@@ -38,16 +37,16 @@ Status write_checkpoint(const std::string& path, std::uint64_t key, const Accumu
     h.key = key, h.width = a.width, h.height = a.height;
     h.content_hash = hash_bytes(body, body_size(a));
     std::memcpy(bytes.data(), &h, sizeof h);
-    return write_file_atomic(path, bytes.data(), bytes.size());
+    return write_file_atomic(path, bytes.data(), bytes.size(), links);
 }
 
-Result<bool> read_checkpoint(const std::string& path, std::uint64_t key, Accumulator& into)
+Result<bool> read_checkpoint(const std::string& path, std::uint64_t key, Accumulator& into, Links links)
 {
     std::error_code ignored;
     if (!std::filesystem::exists(std::filesystem::symlink_status(path, ignored)))
         return false;
     const auto refuse = [&](const char* reason) { return Error{ExitCode::bad_input, path, "", reason}; };
-    const Result<std::vector<std::uint8_t>> bytes = read_file(path, std::uint64_t{1} << 40);
+    const Result<std::vector<std::uint8_t>> bytes = read_file(path, std::uint64_t{1} << 40, links);
     if (!bytes)
         return bytes.error();
     Header h;

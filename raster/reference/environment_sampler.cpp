@@ -54,7 +54,8 @@ EnvironmentSampler make_environment_sampler(const CubeMap& cube, const Jobs& job
     mass.back().resize(texels);
     jobs.parallel_for(std::size_t{kFaces} * static_cast<std::size_t>(size), [&](std::size_t row, int) {
         const int face = static_cast<int>(row) / size, y = static_cast<int>(row) % size;
-        const std::uint16_t* first = cube.texels.data() + 4 * (std::size_t{cube.offset[0]} + static_cast<std::size_t>(face * w) * static_cast<std::size_t>(w));
+        const std::uint16_t* first =
+            cube.texels.data() + 4 * (std::size_t{cube.offset[0]} + static_cast<std::size_t>(face * w) * static_cast<std::size_t>(w));
         const double v = (y + 0.5) / size * 2.0 - 1.0;
         for (int x = 0; x < size; ++x) {
             const double u = (x + 0.5) / size * 2.0 - 1.0;

@@ -4,7 +4,7 @@
 #pragma once
 #include "core/base/column.h"
 #include "core/jobs/jobs.h"
-#include "shading/bake/environment.h"
+#include "shading/bake/environment/environment.h"
 
 namespace burnish {
 
@@ -18,7 +18,7 @@ struct EnvironmentSamplerView {
     const float* density; // by texel [face][row][column]: probability over area on the face, whose area is 4
     float face_end[6];    // cumulative shares of the faces
     std::int32_t offset[kMaxSamplerLevels];
-    std::int32_t levels;  // log2(size)
+    std::int32_t levels; // log2(size)
     std::int32_t size;
 };
 

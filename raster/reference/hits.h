@@ -1,6 +1,7 @@
 // From rays to surfaces: camera rays, tracing with transparency, and the materials of what was hit, lanes of different materials merged.
 #pragma once
 #include "core/simd/lanes.h"
+#include "core/simd/ticks.h"
 #include "raster/frame/lane_material.h"
 #include "raster/reference/reference_types.h"
 #include "raster/reference/reflector.h"
@@ -54,9 +55,9 @@ BN_INLINE LaneHits trace_lanes(const PixelFrame& p, const LaneRays& r, mask want
     for (int i = 0; i < kRays; ++i)
         k.valid[i] = 0;
     store_int(k.valid, select(wanted, int_lit(-1), int_lit(0)));
-    const std::uint64_t begin = __builtin_ia32_rdtsc();
+    const std::uint64_t begin = ticks();
     p.f.trace(*p.f.rays, k, kind);
-    p.scratch.count.ticks += __builtin_ia32_rdtsc() - begin;
+    p.scratch.count.ticks += ticks() - begin;
     p.scratch.count.rays += static_cast<std::uint64_t>(__builtin_popcount(to_bits(wanted)));
     LaneHits h;
     h.t = load(k.tfar);
@@ -101,7 +102,7 @@ BN_INLINE real2 plane_weights(const LaneTriangle& t, const LaneRays& r)
 
 // What lies at the hits. `footprint`: the camera's rays one pixel to the right and one below, or null: textures at full detail.
 struct LaneGeometry {
-    Fragment fragment;
+    visible_point fragment;
     real3 position, normal; // normal: the triangle's own, unit, towards the ray's origin
 };
 
@@ -112,7 +113,7 @@ BN_INLINE LaneGeometry locate_hits(const ReferenceParams& f, const LaneHits& h, 
     LaneGeometry g;
     g.position = t.corner[0] * b.x + t.corner[1] * b.y + t.corner[2] * b.z;
     const real3 outside = k_normalize3(k_cross(t.corner[1] - t.corner[0], t.corner[2] - t.corner[0]));
-    Fragment& p = g.fragment;
+    visible_point& p = g.fragment;
     p.front = k_dot3(outside, r.direction) < lit(0.0);
     g.normal = select(p.front, outside, -outside);
     real a[16];
@@ -163,8 +164,9 @@ BN_STAGE mask passes_through(const PixelFrame& p, const LaneHits& h, const LaneR
         if (!located)
             g = locate_hits(p.f, h, r, footprint);
         located = true;
-        const real alpha = fetch_material(p.f, m, g.fragment).alpha;
-        const integer key = (iota() + int_lit(p.first)) ^ splat_bits(hash_seed(p.seed, 0x5000u + static_cast<std::uint32_t>(turn))) ^ bits_of(h.t);
+        const real alpha = fetch_lanes(p.f, m, g.fragment).alpha;
+        const integer key =
+            (iota() + int_lit(p.first)) ^ splat_bits(hash_seed(p.seed, 0x5000u + static_cast<std::uint32_t>(turn))) ^ bits_of(h.t);
         const real threshold = m.alpha_mode == 2 ? k_unit_from_bits(k_hash_u32(key)) : splat(m.alpha_cutoff);
         through |= to_bits(both(lanes, m.alpha_mode == 2 ? alpha <= threshold : alpha < threshold));
     });
@@ -202,25 +204,26 @@ struct LaneSurface { // what was hit, or nothing
 
 BN_INLINE real3 environment_radiance(const ReferenceParams& f, real3 direction)
 {
-    const CubeParams& c = f.specular_cube;
-    return cube_sample_level({c.texels, c.size, c.levels}, direction, 0) * splat(c.scale);
+    return cube_sample_level(specular_cube(f), direction, 0) * splat(f.specular.scale);
 }
 
 BN_INLINE Reflector select_reflector(mask m, const Reflector& a, const Reflector& b)
 {
-    Reflector r;
-    r.s.n = select(m, a.s.n, b.s.n), r.s.v = select(m, a.s.v, b.s.v);
-    r.s.n_dot_v = select(m, a.s.n_dot_v, b.s.n_dot_v);
-    r.s.diffuse = select(m, a.s.diffuse, b.s.diffuse);
-    r.s.f0 = select(m, a.s.f0, b.s.f0), r.s.f90 = select(m, a.s.f90, b.s.f90);
-    r.s.roughness = select(m, a.s.roughness, b.s.roughness), r.s.occlusion = select(m, a.s.occlusion, b.s.occlusion);
-    r.lobe.u_axis = select(m, a.lobe.u_axis, b.lobe.u_axis), r.lobe.v_axis = select(m, a.lobe.v_axis, b.lobe.v_axis);
-    r.lobe.sigma_u = select(m, a.lobe.sigma_u, b.lobe.sigma_u), r.lobe.sigma_v = select(m, a.lobe.sigma_v, b.lobe.sigma_v);
+    Reflector r = a;
+    const surface &s = a.x.s, &t = b.x.s;
+    r.x.s.n = select(m, s.n, t.n), r.x.s.v = select(m, s.v, t.v), r.x.s.n_dot_v = select(m, s.n_dot_v, t.n_dot_v);
+    r.x.s.diffuse = select(m, s.diffuse, t.diffuse);
+    r.x.s.f0 = select(m, s.f0, t.f0), r.x.s.f90 = select(m, s.f90, t.f90);
+    r.x.s.roughness = select(m, s.roughness, t.roughness), r.x.s.occlusion = select(m, s.occlusion, t.occlusion);
+    const aniso_lobe &k = a.x.lobe, &l = b.x.lobe;
+    r.x.lobe.u_axis = select(m, k.u_axis, l.u_axis), r.x.lobe.v_axis = select(m, k.v_axis, l.v_axis);
+    r.x.lobe.sigma_u = select(m, k.sigma_u, l.sigma_u), r.x.lobe.sigma_v = select(m, k.sigma_v, l.sigma_v);
+    const surface_frame &p = a.x.surface_axes, &q = b.x.surface_axes;
+    r.x.surface_axes.n = select(m, p.n, q.n), r.x.surface_axes.t = select(m, p.t, q.t), r.x.surface_axes.b = select(m, p.b, q.b);
+    r.x.gain = select(m, a.x.gain, b.x.gain);
     r.ggx.alpha_x = select(m, a.ggx.alpha_x, b.ggx.alpha_x), r.ggx.alpha_y = select(m, a.ggx.alpha_y, b.ggx.alpha_y);
-    r.o = select(m, a.o, b.o);
-    r.own.n = select(m, a.own.n, b.own.n), r.own.t = select(m, a.own.t, b.own.t), r.own.b = select(m, a.own.b, b.own.b);
-    r.tilted = a.tilted; // of the whole frame
-    r.gain = select(m, a.gain, b.gain), r.diffuse = select(m, a.diffuse, b.diffuse);
+    r.o = select(m, a.o, b.o), r.horizon = select(m, a.horizon, b.horizon);
+    r.diffuse = select(m, a.diffuse, b.diffuse);
     r.choose_specular = select(m, a.choose_specular, b.choose_specular);
     r.mirror = select(m, a.mirror, b.mirror);
     return r;
@@ -231,30 +234,13 @@ struct MaterialAtHits {
     real3 emission;
 };
 
-// The surface as raster/tile shades it.
 BN_STAGE MaterialAtHits material_at_hits(const ReferenceParams& f, const MaterialRecord& m, const LaneGeometry& g)
 {
-    const Fragment& p = g.fragment;
-    const LaneMaterial at = fetch_material(f, m, p);
-    const real3 v = k_normalize3(-p.ray);
-    const real3 normal = select(p.front, p.normal, -p.normal);
-    const real handedness = select(p.front, p.tangent_sign, -p.tangent_sign);
-    const surface_frame own = geometric_frame(normal, p.tangent, handedness);
-    surface_frame frame = m.textures[kNormalTex].texture ? mapped_frame(own, at.normal_map, handedness) : own;
-    if (f.tilted)
-        frame = tilted_frame(frame, vec2_of(splat(f.tilt_cos[0]), splat(f.tilt_cos[1])), vec2_of(splat(f.tilt_sin[0]), splat(f.tilt_sin[1])));
-    const LobeShape shape = lobe_shape(f, m, at);
-    const aniso_lobe lobe = lobe_in_frame(m, shape, frame);
-    const surface s = metallic_roughness_surface(frame.n, v, at.base, at.metallic, shape.alpha_lin, at.dielectric_f0, at.dielectric_f90, at.occlusion);
-    dfg_value dfg;
-    if (f.dfg_fit)
-        dfg = dfg_fit(s.n_dot_v, s.roughness);
-    else if (f.energy_compensation && m.anisotropic)
-        dfg = lobe_albedo_lookup(f.lobe_albedo_texels, f.lobe_albedo_size, lobe, s.n, s.v);
-    else
-        dfg = dfg_lookup(f.dfg_texels, f.dfg_size, s.n_dot_v, s.roughness);
+    const material_inputs at = fetch_lanes(f, m, g.fragment);
     MaterialAtHits r;
-    r.r = make_reflector(s, lobe, f.horizon || f.tilted ? own : frame, f.tilted != 0, dfg, f.energy_compensation != 0, at.dielectric_f0, at.dielectric_f90);
+    shaded_point x;
+    make_shaded_point(f, m, at, lobe_shape_of(f, m, at), g.fragment, int_lit(0), x);
+    r.r = make_reflector(f, x);
     r.emission = m.unlit ? at.base : at.emissive;
     return r;
 }

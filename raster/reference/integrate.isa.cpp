@@ -1,12 +1,13 @@
 // Monte Carlo integration of pixels, lanes of camera positions at a time. Compiled once for every instruction set.
 // Light from the environment is estimated twice a sample, by a direction of the environment's and by one of the lobe's, weighted by the
 // power heuristic (Veach 1997, section 9.2).
+#include "core/simd/ticks.h"
 #include "raster/reference/hits.h"
 #include "raster/reference/light_sampling.h"
 #include "raster/reference/reference_types.h"
 #include "raster/reference/reflector.h"
 #include "raster/reference/samples.h"
-#include "shading/kernels/punctual.k.h"
+#include "shading/lights/punctual.t.h"
 
 namespace burnish {
 inline namespace BN_ISA_NS {
@@ -22,7 +23,10 @@ BN_INLINE real power_weight(real own, real other)
     return lit(1.0) / (lit(1.0) + ratio * ratio);
 }
 
-BN_INLINE mask any_light(real3 c) { return max(c.x, max(c.y, c.z)) > lit(0.0); }
+BN_INLINE mask any_light(real3 c)
+{
+    return max(c.x, max(c.y, c.z)) > lit(0.0);
+}
 
 struct EnvironmentEstimate {
     real3 wi;
@@ -43,8 +47,7 @@ BN_INLINE real lobe_weight(const ReferenceParams& f, const ReflectorSample& s)
 {
     if (f.strategy == ReferenceStrategy::brdf)
         return lit(1.0);
-    const real weight =
-        f.strategy == ReferenceStrategy::mis ? power_weight(s.pdf, environment_pdf(f.sampler, s.wi)) : lit(0.0);
+    const real weight = f.strategy == ReferenceStrategy::mis ? power_weight(s.pdf, environment_pdf(f.sampler, s.wi)) : lit(0.0);
     return select(s.exact, lit(1.0), weight);
 }
 
@@ -72,25 +75,22 @@ BN_INLINE LaneRays leaving_ray(const ReferenceParams& f, const LaneSurface& s, r
     return r;
 }
 
-BN_STAGE real3 punctual_light(const PixelFrame& p, const LaneSurface& s)
+BN_STAGE real3 punctual_lights(const PixelFrame& p, const LaneSurface& s)
 {
     const ReferenceParams& f = p.f;
+    const placed_lobe lobe = s.r.tilted ? tilted_lobe(s.r) : level_lobe(s.r);
     real3 sum = vec3_all(lit(0.0));
     for (int i = 0; i < f.light_count; ++i) {
         const LightRecord& l = f.lights[i];
-        const light_sample at = sample_punctual(s.position, splat3(l.position), splat3(l.direction), splat(l.inv_range2),
-                                                splat(l.spot_scale), splat(l.spot_offset), int_lit(l.directional) != int_lit(0));
-        const real3 intensity = splat3(l.radiant) * at.attenuation;
-        const real3 light = s.r.tilted ? punctual_radiance_tilted(s.r.s, at.l, tilted_lobe_value(s.r, at.l).value, s.r.gain, intensity)
-                                       : punctual_radiance_aniso(s.r.s, s.r.lobe, at.l, s.r.gain, intensity);
-        mask lit_lanes = both(both(s.reflects, k_dot3(s.r.own.n, at.l) > lit(0.0)), any_light(light));
+        const punctual_light light = light_from(f, s.r.x, lobe, true, s.position, i);
+        mask lit_lanes = both(both(s.reflects, k_dot3(s.r.horizon, light.l) > lit(0.0)), any_light(light.radiance));
         if (f.mode != ReferenceMode::direct && any(lit_lanes)) {
-            LaneRays r = leaving_ray(f, s, at.l);
+            LaneRays r = leaving_ray(f, s, light.l);
             if (!l.directional)
                 r.tfar = k_length3(splat3(l.position) - s.position) * lit(0.99999);
             lit_lanes = both(lit_lanes, not_(find_hits(p, r, lit_lanes, RayKind::occlusion).found));
         }
-        sum = sum + select(lit_lanes, light, vec3_all(lit(0.0)));
+        sum = sum + select(lit_lanes, light.radiance, vec3_all(lit(0.0)));
     }
     return sum;
 }
@@ -130,7 +130,7 @@ BN_STAGE real3 traced_light(const PixelFrame& p, const LaneSurface& first, integ
         find_surface(f, h, r, nullptr, s);
         real3 at_surface = s.emission;
         if (f.light_count > 0 && any(s.reflects))
-            at_surface = at_surface + punctual_light(p, s);
+            at_surface = at_surface + punctual_lights(p, s);
         sum = sum + select(h.found, throughput * at_surface, zero);
     }
     return sum;
@@ -161,10 +161,10 @@ BN_STAGE real3 radiance_at_positions(const PixelFrame& p, int x, int y, int firs
     if (none(s.reflects))
         return sum;
     if (f.light_count > 0)
-        sum = sum + punctual_light(p, s) * lit(kPassShades);
+        sum = sum + punctual_lights(p, s) * lit(kPassShades);
     for (int shade = 0; shade < kPassShades; ++shade) {
         const real3 light = f.mode == ReferenceMode::direct
-                                ? open_light(f, s.r, shade_sample(*f.sobol, p.seed, position, shade, 0)) * s.r.s.occlusion
+                                ? open_light(f, s.r, shade_sample(*f.sobol, p.seed, position, shade, 0)) * s.r.x.s.occlusion
                                 : traced_light(p, s, position, shade);
         sum = sum + select(s.reflects, light, zero);
     }
@@ -173,8 +173,9 @@ BN_STAGE real3 radiance_at_positions(const PixelFrame& p, int x, int y, int firs
 
 void add_pass(const ReferenceParams& f, ReferenceScratch& scratch, int x, int y, std::uint32_t pass, PixelState& state)
 {
-    const std::uint32_t pixel = hash_seed(hash_seed(hash_seed(0x62726e73u, f.seed), static_cast<std::uint32_t>(x)),
-                                          static_cast<std::uint32_t>(y));
+    const std::uint32_t pixel =
+        hash_seed(hash_seed(hash_seed(0x62726e73u, static_cast<std::uint32_t>(f.seed)), static_cast<std::uint32_t>(x)),
+                  static_cast<std::uint32_t>(y));
     float channel[3][kPassPositions];
     for (int first = 0; first < kPassPositions; first += kLanes) {
         const PixelFrame p = {f, scratch, hash_seed(pixel, pass), first};
@@ -193,12 +194,12 @@ void add_pass(const ReferenceParams& f, ReferenceScratch& scratch, int x, int y,
 
 void add_passes(const ReferenceParams& f, const PixelBlock& b, ReferenceScratch& scratch, PixelState* state)
 {
-    const std::uint64_t begin = __builtin_ia32_rdtsc();
+    const std::uint64_t begin = ticks();
     for (int y = b.y0; y < b.y0 + b.height; ++y)
         for (int x = b.x0; x < b.x0 + b.width; ++x)
             for (std::uint32_t pass = b.first_pass; pass < b.first_pass + b.passes; ++pass)
                 add_pass(f, scratch, x, y, pass, state[static_cast<std::ptrdiff_t>(y) * f.width + x]);
-    scratch.count.all_ticks += __builtin_ia32_rdtsc() - begin;
+    scratch.count.all_ticks += ticks() - begin;
 }
 
 void trace_row(const ReferenceParams& f, int y, const SamplePattern& pattern, ReferenceScratch& scratch, std::uint32_t* ids)
@@ -211,7 +212,7 @@ void trace_row(const ReferenceParams& f, int y, const SamplePattern& pattern, Re
             px[i] = static_cast<float>(at / pattern.count) + static_cast<float>(pattern.x[sample]) * (1.0f / kSubpixel);
             py[i] = static_cast<float>(y) + static_cast<float>(pattern.y[sample]) * (1.0f / kSubpixel);
         }
-        const PixelFrame p = {f, scratch, hash_seed(f.seed, static_cast<std::uint32_t>(y)), 0};
+        const PixelFrame p = {f, scratch, hash_seed(static_cast<std::uint32_t>(f.seed), static_cast<std::uint32_t>(y)), 0};
         const LaneRays rays = camera_rays(f, load(px), load(py));
         const mask everything = mask_from_bits((1u << kLanes) - 1u);
         const LaneHits h = find_hits(p, rays, everything, RayKind::camera);
@@ -222,13 +223,11 @@ void trace_row(const ReferenceParams& f, int y, const SamplePattern& pattern, Re
     }
 }
 
+constexpr ReferenceFns kFns = {add_passes, trace_row};
+
 } // namespace
 
-const ReferenceFns& reference_fns()
-{
-    static constexpr ReferenceFns fns = {add_passes, trace_row};
-    return fns;
-}
+BN_DEFINE_FNS(ReferenceFns, kFns)
 
 } // namespace BN_ISA_NS
 } // namespace burnish

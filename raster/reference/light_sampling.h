@@ -9,8 +9,8 @@ namespace burnish {
 inline namespace BN_ISA_NS {
 
 struct LightSample {
-    real3 wi;      // unit, world space
-    real pdf;      // 1/sr
+    real3 wi; // unit, world space
+    real pdf; // 1/sr
 };
 
 // Area on the face over solid angle, at (u, v) in [-1,1]^2.

@@ -2,6 +2,7 @@
 
 #include <embree3/rtcore.h>
 
+#include <cmath>
 #include <cstddef>
 #include <cstring>
 #include <vector>
@@ -45,9 +46,7 @@ Result<std::unique_ptr<RayScene>> EmbreeScene::make(const Scene& scene, const Dr
 {
     std::unique_ptr<EmbreeScene> self(new EmbreeScene);
     self->device_ = rtcNewDevice(nullptr); // a number of threads here would limit oneTBB in the whole process
-    const auto failed = [&](const char* what) {
-        return Error{ExitCode::internal, "", "", std::string("Embree cannot ") + what};
-    };
+    const auto failed = [&](const char* what) { return Error{ExitCode::internal, "", "", std::string("Embree cannot ") + what}; };
     if (!self->device_)
         return failed("be started");
     self->scene_ = rtcNewScene(self->device_);
@@ -61,10 +60,10 @@ Result<std::unique_ptr<RayScene>> EmbreeScene::make(const Scene& scene, const Dr
     }
     if (triangles > 0) {
         RTCGeometry geometry = rtcNewGeometry(self->device_, RTC_GEOMETRY_TYPE_TRIANGLE);
-        auto* position = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                                                     3 * sizeof(float), vertices));
-        auto* index = static_cast<std::uint32_t*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                                                          3 * sizeof(std::uint32_t), triangles));
+        auto* position = static_cast<float*>(
+            rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), vertices));
+        auto* index = static_cast<std::uint32_t*>(
+            rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(std::uint32_t), triangles));
         if (!position || !index) {
             rtcReleaseGeometry(geometry);
             return Error{ExitCode::bad_input, "", "", "out of memory for the rays' copy of the scene"};
@@ -102,8 +101,21 @@ void EmbreeScene::cull(const RTCFilterFunctionNArguments* args)
     }
 }
 
+// A ray outside Embree's range, say one whose direction is NaN since its triangle has no area, meets nothing. Embree would end the program.
+void leave_out_far_rays(RayPacket& rays)
+{
+    constexpr float kLarge = 1.8e18f;
+    for (int i = 0; i < kRays; ++i) {
+        int sound = rays.tnear[i] <= rays.tfar[i]; // every comparison is false for a NaN
+        for (const float coordinate : {rays.org_x[i], rays.org_y[i], rays.org_z[i], rays.dir_x[i], rays.dir_y[i], rays.dir_z[i]})
+            sound &= std::abs(coordinate) < kLarge;
+        rays.valid[i] &= -sound;
+    }
+}
+
 void EmbreeScene::trace(RayPacket& rays, RayKind kind) const
 {
+    leave_out_far_rays(rays);
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
     if (kind == RayKind::camera) {
@@ -131,7 +143,10 @@ std::string EmbreeScene::description() const
 
 } // namespace
 
-bool ray_scene_available() { return true; }
+bool ray_scene_available()
+{
+    return true;
+}
 
 Result<std::unique_ptr<RayScene>> make_ray_scene(const Scene& scene, const DrawTables& tables)
 {

@@ -20,7 +20,7 @@ struct alignas(64) RayPacket {
     float tfar[kRays]; // becomes the distance of the hit, in lengths of dir; -inf where occluded() found something
     std::uint32_t mask[kRays], id[kRays], flags[kRays];
     float ng_x[kRays], ng_y[kRays], ng_z[kRays], u[kRays], v[kRays]; // u, v: weights of the second and the third vertex
-    std::uint32_t triangle[kRays]; // global id, undefined where `geometry` is kNoHit
+    std::uint32_t triangle[kRays];                                   // global id, undefined where `geometry` is kNoHit
     std::uint32_t geometry[kRays], instance[kRays];
     // not Embree's:
     std::int32_t valid[kRays]; // -1 trace, 0 leave alone

@@ -3,7 +3,10 @@
 
 namespace burnish {
 
-bool ray_scene_available() { return false; }
+bool ray_scene_available()
+{
+    return false;
+}
 
 Result<std::unique_ptr<RayScene>> make_ray_scene(const Scene&, const DrawTables&)
 {

@@ -6,60 +6,65 @@
 #include <vector>
 
 #include "core/base/check.h"
-#include "core/math/scalar_math.h"
 #include "core/simd/cpu.h"
-#include "raster/frame/upload.h"
+#include "raster/frame/frame_record.h"
 #include "raster/reference/accumulator.h"
 #include "raster/reference/checkpoint.h"
+#include "raster/reference/ray_range.h"
 #include "raster/reference/scene_key.h"
 
 namespace burnish {
-
-namespace bn_scalar {
-const ReferenceFns& reference_fns();
-}
-namespace bn_avx2 {
-const ReferenceFns& reference_fns();
-}
-namespace bn_avx512 {
-const ReferenceFns& reference_fns();
-}
 
 namespace {
 
 using Clock = std::chrono::steady_clock;
 
-double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
-
-const ReferenceFns& fns_of(Isa isa)
+double seconds_since(Clock::time_point begin)
 {
-    return isa == Isa::avx512 ? bn_avx512::reference_fns() : isa == Isa::avx2 ? bn_avx2::reference_fns() : bn_scalar::reference_fns();
+    return std::chrono::duration<double>(Clock::now() - begin).count();
 }
 
-const char* isa_text(Isa isa) { return isa == Isa::avx512 ? "avx512" : isa == Isa::avx2 ? "avx2" : "scalar"; }
+void trace_packet(const RayScene& scene, RayPacket& rays, RayKind kind)
+{
+    scene.trace(rays, kind);
+}
 
-void trace_packet(const RayScene& scene, RayPacket& rays, RayKind kind) { scene.trace(rays, kind); }
+Links links_of(const ReferenceOptions& options)
+{
+    return options.own_checkpoint ? Links::refuse : Links::follow;
+}
 
 struct BlockRange {
     std::size_t begin, end;
 };
 
+FrameDesc with_msaa(FrameDesc desc, int msaa)
+{
+    desc.msaa = msaa;
+    return desc;
+}
+
+Status check_options(const ReferenceOptions& o)
+{
+    if (o.samples < 1 || o.samples > kMaxReferenceSamples)
+        return Error{ExitCode::usage, "", "", "samples must lie in 1..2^32"};
+    if (o.bounces < 0)
+        return Error{ExitCode::usage, "", "", "bounces must not be negative"};
+    return {};
+}
+
 class ReferenceRenderer final : public Renderer {
   public:
     ReferenceRenderer(const RenderInput& input, const ReferenceOptions& options, std::unique_ptr<RayScene> rays)
-        : input_(input), options_(options), fns_(fns_of(options.isa)), rays_(std::move(rays)),
-          scene_(upload_scene(input.scene, input.tables, input.jobs)),
+        : input_(input), options_(options), fns_(pick<ReferenceFns>(options.isa)), rays_(std::move(rays)), maker_(input),
           sampler_(make_environment_sampler(input.environment.specular, input.jobs))
     {
     }
     Result<Frame> render(const FrameDesc& desc, Frame) override;
-    std::string device() const override
-    {
-        return cpu_name() + " (" + isa_text(options_.isa) + ", " + rays_->description() + ")";
-    }
+    std::string device() const override { return cpu_name() + " (" + isa_name(options_.isa) + ", " + rays_->description() + ")"; }
 
   private:
-    ReferenceParams params(const FrameDesc& desc, const std::vector<MaterialRecord>& materials);
+    ReferenceParams params(const FrameDesc& desc);
     Result<Accumulator> integrate(const FrameDesc& desc, const ReferenceParams& f, SamplingStats& stats);
     void advance(const ReferenceParams& f, Accumulator& a, std::uint32_t passes, BlockRange blocks);
     bool stopped() const { return options_.stop && options_.stop->load(std::memory_order_relaxed); }
@@ -68,44 +73,20 @@ class ReferenceRenderer final : public Renderer {
     ReferenceOptions options_;
     const ReferenceFns& fns_;
     std::unique_ptr<RayScene> rays_;
-    SceneTables scene_;
+    FrameMaker maker_;
     EnvironmentSampler sampler_;
-    LobeAlbedoTable lobe_albedo_; // made when a frame first asks for energy compensation
     std::vector<ReferenceScratch> workers_;
 };
 
-ReferenceParams ReferenceRenderer::params(const FrameDesc& desc, const std::vector<MaterialRecord>& materials)
+ReferenceParams ReferenceRenderer::params(const FrameDesc& desc)
 {
     ReferenceParams f = {};
-    f.view = view_params_of(desc.view);
-    f.width = desc.width, f.height = desc.height;
-    f.half_width = 0.5f * static_cast<float>(desc.width), f.half_height = 0.5f * static_cast<float>(desc.height);
-    const DrawTables& t = input_.tables;
-    f.px = t.px.data(), f.py = t.py.data(), f.pz = t.pz.data();
-    f.shading_vertices = reinterpret_cast<const float*>(t.shading.data());
-    f.indices = t.indices.data(), f.triangle_material = t.triangle_material.data();
-    f.materials = materials.data();
-    f.lights = scene_.lights.data(), f.light_count = static_cast<std::int32_t>(scene_.lights.size());
-    for (const MaterialRecord& m : materials)
+    static_cast<ShadingFrame&>(f) = maker_.make(reference_desc(desc));
+    for (const MaterialRecord& m : maker_.materials())
         f.any_alpha = f.any_alpha || m.alpha_mode != 0;
-    f.ray_epsilon = 1e-6f * glm::length(t.bounds_max - t.bounds_min);
-    f.specular_cube = cube_params(input_.environment.specular);
+    f.ray_epsilon = 1e-6f * glm::length(input_.tables.bounds_max - input_.tables.bounds_min);
     f.sampler = sampler_.view;
-    f.dfg_texels = input_.dfg.texels.data(), f.dfg_size = input_.dfg.size;
-    if (desc.energy_compensation && lobe_albedo_.size == 0)
-        lobe_albedo_ = bake_lobe_albedo(kLobeAlbedoSize, input_.jobs);
-    f.lobe_albedo_texels = lobe_albedo_.texels.data(), f.lobe_albedo_size = lobe_albedo_.size;
-    f.dfg_fit = desc.dfg_fit, f.energy_compensation = desc.energy_compensation, f.horizon = desc.horizon;
-    f.background = desc.background;
-    f.texture_taps = desc.texture_anisotropy;
-    f.override_anisotropy = desc.override_anisotropy, f.anisotropy = desc.anisotropy;
-    for (int i = 0; i < 2; ++i) {
-        f.tilt_cos[i] = static_cast<float>(det_cos(static_cast<double>(desc.tilt_rad[i])));
-        f.tilt_sin[i] = static_cast<float>(det_sin(static_cast<double>(desc.tilt_rad[i])));
-    }
-    f.tilted = desc.tilt_rad != glm::vec2(0.0f);
     f.mode = options_.mode, f.strategy = options_.strategy, f.bounces = options_.bounces;
-    f.seed = desc.seed;
     f.sobol = &sobol_table();
     f.rays = rays_.get();
     f.trace = trace_packet;
@@ -146,7 +127,7 @@ Result<Accumulator> ReferenceRenderer::integrate(const FrameDesc& desc, const Re
     Accumulator a(desc.width, desc.height);
     const std::uint64_t key = options_.checkpoint.empty() ? 0 : reference_key(input_, desc, options_);
     if (!options_.checkpoint.empty()) {
-        const Result<bool> resumed = read_checkpoint(options_.checkpoint, key, a);
+        const Result<bool> resumed = read_checkpoint(options_.checkpoint, key, a, links_of(options_));
         if (!resumed)
             return resumed.error();
         stats.resumed = *resumed;
@@ -156,8 +137,11 @@ Result<Accumulator> ReferenceRenderer::integrate(const FrameDesc& desc, const Re
     stats.samples_before = std::uint64_t{done} * kPassSamples;
     Progress progress("passes", passes > done ? passes - done : 0, options_.quiet);
     Clock::time_point written = Clock::now();
-    // Also after the last pass: a finished checkpoint may be gone on with for more samples.
-    const auto write = [&] { return options_.checkpoint.empty() ? Status{} : write_checkpoint(options_.checkpoint, key, a); };
+    // Also after the last pass: a finished checkpoint may be gone on with for more samples. A disk that is full for a while costs a
+    // checkpoint on the way, not the picture.
+    const auto write = [&] {
+        return options_.checkpoint.empty() ? Status{} : write_checkpoint(options_.checkpoint, key, a, links_of(options_));
+    };
     // After whole rounds only: what a stop left in between must not decide where the run ends.
     const auto good_enough = [&] {
         return options_.target_error > 0.0 && done >= kFewestPasses && done % round == 0 && most_passes(a) == done &&
@@ -169,8 +153,7 @@ Result<Accumulator> ReferenceRenderer::integrate(const FrameDesc& desc, const Re
         for (std::size_t begin = 0; begin < a.passes.size() && !stopped(); begin += kBlocksInSlice) {
             advance(f, a, until, {begin, std::min(begin + kBlocksInSlice, a.passes.size())});
             if (!options_.checkpoint.empty() && seconds_since(written) > options_.checkpoint_seconds) {
-                if (Status status = write(); !status)
-                    return status.error();
+                static_cast<void>(static_cast<bool>(write())); // the last one decides
                 written = Clock::now();
             }
         }
@@ -178,40 +161,23 @@ Result<Accumulator> ReferenceRenderer::integrate(const FrameDesc& desc, const Re
         progress.step(done - before);
     }
     stats.stopped = stopped() && done < passes;
-    if (Status status = write(); !status)
-        return status.error();
+    const Status kept = write();
+    if (!kept && (stats.stopped || !options_.lost_checkpoint))
+        return kept.error();
+    if (!kept)
+        options_.lost_checkpoint(kept.error());
     return a;
-}
-
-Status check_desc(const FrameDesc& d, const ReferenceOptions& o)
-{
-    const auto usage = [](std::string reason) { return Error{ExitCode::usage, "", "", std::move(reason)}; };
-    if (d.width < 1 || d.height < 1 || d.width > kMaxPictureSide || d.height > kMaxPictureSide)
-        return usage("the image's sides must lie in 1..16384 pixels");
-    if (d.msaa != 1 && d.msaa != 2 && d.msaa != 4 && d.msaa != 8 && d.msaa != 16)
-        return usage("msaa must be 1, 2, 4, 8 or 16");
-    if (std::int64_t{d.width} * d.height * d.msaa > kMaxPictureSamples)
-        return usage("width x height x msaa must not exceed 2^28 samples");
-    if (d.texture_anisotropy < 1 || d.texture_anisotropy > 16)
-        return usage("texture anisotropy must lie in 1..16");
-    if (!(std::abs(d.tilt_rad.x) < 1.57f && std::abs(d.tilt_rad.y) < 1.57f))
-        return usage("a lobe's tilt must stay below a quarter turn");
-    if (o.samples < 1 || o.samples > kMaxReferenceSamples)
-        return usage("samples must lie in 1..2^32");
-    if (o.bounces < 0)
-        return usage("bounces must not be negative");
-    return {};
 }
 
 Result<Frame> ReferenceRenderer::render(const FrameDesc& desc, Frame)
 {
-    if (const Status ok = check_desc(desc, options_); !ok)
-        return ok.error();
+    for (const Status& ok : {check_desc(with_msaa(reference_desc(desc), desc.msaa)), check_options(options_), check_ray_range(desc.view)})
+        if (!ok)
+            return ok.error();
     const TraceSpan span("reference");
     const Clock::time_point begin = Clock::now();
     Frame frame;
-    const std::vector<MaterialRecord> materials = overridden(scene_.materials, desc);
-    const ReferenceParams f = params(desc, materials);
+    const ReferenceParams f = params(desc);
     SamplingStats& s = frame.stats.sampling;
     const Result<Accumulator> a = integrate(desc, f, s);
     if (!a)
@@ -247,19 +213,24 @@ Result<Frame> ReferenceRenderer::render(const FrameDesc& desc, Frame)
 
 } // namespace
 
-bool reference_available() { return ray_scene_available(); }
+bool reference_available()
+{
+    return ray_scene_available();
+}
 
 Status check_reference_checkpoint(const RenderInput& input, const FrameDesc& desc, const ReferenceOptions& options)
 {
     if (options.checkpoint.empty())
         return {};
     Accumulator a(desc.width, desc.height);
-    const Result<bool> found = read_checkpoint(options.checkpoint, reference_key(input, desc, options), a);
+    const Result<bool> found = read_checkpoint(options.checkpoint, reference_key(input, desc, options), a, links_of(options));
     return found ? Status{} : Status{found.error()};
 }
 
 Result<std::unique_ptr<Renderer>> make_reference_renderer(const RenderInput& input, const ReferenceOptions& options)
 {
+    if (const Status near = check_ray_range(input.tables); !near)
+        return near.error();
     Result<std::unique_ptr<RayScene>> rays = make_ray_scene(input.scene, input.tables);
     if (!rays)
         return rays.error();

@@ -6,26 +6,32 @@
 #pragma once
 #include <atomic>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 
 #include "core/base/result.h"
 #include "raster/frame/frame.h"
-#include "raster/reference/reference_types.h"
 
 namespace burnish {
+
+enum class ReferenceMode : std::int32_t { direct, shadowed, path };
+enum class ReferenceStrategy : std::int32_t { mis, brdf, light }; // how directions to the environment are chosen
 
 struct ReferenceOptions {
     ReferenceMode mode = ReferenceMode::direct;
     ReferenceStrategy strategy = ReferenceStrategy::mis;
-    int bounces = 8;            // path: from surface to surface at most
-    std::uint64_t samples = 1024; // a pixel; rounded up to whole passes
-    double target_error = 0.0;  // above 0: stop early, once mean_relative_error() is not above it
-    std::string checkpoint;     // file; empty: none
+    int bounces = 8;                  // path: from surface to surface at most
+    std::uint64_t samples = 1024;     // a pixel; rounded up to whole passes
+    double target_error = 0.0;        // above 0: stop early, once mean_relative_error() is not above it
+    std::string checkpoint;           // file; empty: none
     double checkpoint_seconds = 60.0; // between two writes of it
+    bool own_checkpoint = false;      // in a folder of ours, where no link is followed
+    // Called where the picture is finished and its checkpoint cannot be written; without it that is an error of the picture too.
+    std::function<void(const Error&)> lost_checkpoint;
     const std::atomic<bool>* stop = nullptr; // set by another thread or a signal: end soon, keep everything in the checkpoint
-    Isa isa = Isa::scalar;      // never changes the picture on one machine
-    bool quiet = true;          // no progress bar
+    Isa isa = Isa::scalar;                   // never changes the picture on one machine
+    bool quiet = true;                       // no progress bar
 };
 
 inline constexpr std::uint64_t kMaxReferenceSamples = std::uint64_t{1} << 32; // a pixel

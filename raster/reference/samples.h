@@ -18,7 +18,10 @@ BN_INLINE std::uint32_t hash_seed(std::uint32_t a, std::uint32_t b)
     return h ^ (h >> 16);
 }
 
-BN_INLINE integer splat_bits(std::uint32_t bits) { return int_lit(static_cast<std::int32_t>(bits)); }
+BN_INLINE integer splat_bits(std::uint32_t bits)
+{
+    return int_lit(static_cast<std::int32_t>(bits));
+}
 
 // A hash of Laine and Karras' kind: bit k of the result depends on bits 0 to k of x. Constants: N. Vegdahl 2021, "Building a better LK
 // hash".

@@ -1,8 +1,9 @@
 #include "raster/reference/scene_key.h"
 
-#include <type_traits>
+#include <vector>
 
 #include "core/base/hash.h"
+#include "raster/frame/frame_record.h"
 
 namespace burnish {
 namespace {
@@ -25,31 +26,25 @@ class Key {
     std::uint64_t hash_ = 0;
 };
 
-void add_texture_ref(Key& key, const TextureRef& t)
+// The records that shading reads hold numbers of 32 bits and nothing else, so a field that is added to one is part of the key.
+template <class T> void add_records(Key& key, const std::vector<T>& records)
 {
-    key.add(t.texture, t.uv_set);
-    for (int c = 0; c < 3; ++c)
-        key.add(t.uv_transform[c].x, t.uv_transform[c].y);
+    key.column(records.data(), records.size());
 }
 
-void add_materials(Key& key, const Scene& scene)
+void add_textures(Key& key, const Scene& scene)
 {
-    for (const Material& m : scene.materials) {
-        key.add(m.base_color, m.metallic, m.roughness, m.normal_scale, m.occlusion_strength, m.emissive, m.ior, m.specular,
-                m.specular_color, m.anisotropy_strength, m.anisotropy_rotation, m.alpha_mode, m.alpha_cutoff, m.double_sided,
-                m.unlit);
-        for (const TextureRef* t : {&m.base_color_tex, &m.metallic_roughness_tex, &m.normal_tex, &m.occlusion_tex, &m.emissive_tex,
-                                    &m.specular_tex, &m.specular_color_tex, &m.anisotropy_tex})
-            add_texture_ref(key, *t);
-    }
     for (const Texture& t : scene.textures)
         key.add(t.image, t.wrap_s, t.wrap_t, t.nearest);
     for (const Image& i : scene.images) {
         key.add(i.width, i.height, i.channels, i.type);
         key.column(i.bytes.data(), i.bytes.size());
     }
-    for (const Primitive& p : scene.primitives)
-        key.add(p.material, p.has_color);
+    for (const Material& m : scene.materials) // which of them a record's textures are
+        key.add(
+#define BN_TEXTURE(slot, at, reference, encoding, power) m.reference.texture,
+#include "shading/material.def"
+            0);
 }
 
 void add_tables(Key& key, const DrawTables& t)
@@ -59,25 +54,33 @@ void add_tables(Key& key, const DrawTables& t)
     key.column(t.shading.data(), t.shading.size());
     key.column(t.indices.data(), t.indices.size());
     key.column(t.triangle_material.data(), t.triangle_material.size());
-    for (const PunctualLight& l : t.lights)
-        key.add(l.position, l.direction, l.radiant, l.inv_range2, l.spot_scale, l.spot_offset, l.directional);
 }
 
 } // namespace
+
+FrameDesc reference_desc(FrameDesc desc)
+{
+    const FrameDesc defaults;
+    desc.technique = "mc", desc.samples = 1, desc.msaa = 1, desc.tile_size = defaults.tile_size;
+    const std::uint32_t seed = desc.seed;
+    for (const ParameterInfo& p : parameters())
+        set_parameter(desc, p, p.fallback);
+    desc.seed = seed;
+    return desc;
+}
 
 std::uint64_t reference_key(const RenderInput& input, const FrameDesc& d, const ReferenceOptions& options)
 {
     Key key;
     key.add(kReferenceVersion);
+    add_records(key, std::vector<FrameRecord>{frame_record(input, reference_desc(d))});
+    add_records(key, overridden(material_records(input.scene), d));
+    add_records(key, light_records(input.tables));
+    add_textures(key, input.scene);
     add_tables(key, input.tables);
-    add_materials(key, input.scene);
-    key.add(input.environment.content_hash, input.environment.specular.size, input.environment.specular.scale);
+    key.add(input.environment.content_hash);
     key.column(input.environment.specular.texels.data(), input.environment.specular.texels.size());
     key.column(input.dfg.texels.data(), input.dfg.texels.size());
-    const View& v = d.view;
-    key.add(d.width, d.height, v.eye, v.right, v.up, v.forward, v.orthographic, v.tan_half_x, v.tan_half_y, v.znear, v.zfar);
-    key.add(d.roughness, d.anisotropy, d.override_anisotropy, d.dfg_fit, d.energy_compensation, d.horizon, d.seed, d.texture_anisotropy,
-            d.background, d.tilt_rad);
     key.add(options.mode, options.strategy, options.mode == ReferenceMode::path ? options.bounces : 0);
     return key.value();
 }

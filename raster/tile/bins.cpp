@@ -7,15 +7,47 @@
 namespace burnish {
 
 namespace {
+// The tiles of one row that a large triangle may touch, by the sides of its edges: of a diagonal sliver, few of those in its bounding box.
+class TileRows {
+  public:
+    TileRows(const FrameParams& f, const std::int32_t x[3], const std::int32_t y[3])
+    {
+        const std::int64_t area = std::int64_t{x[1] - x[0]} * (y[2] - y[0]) - std::int64_t{x[2] - x[0]} * (y[1] - y[0]);
+        const std::int64_t side = f.tile_size * kSubpixel / 16; // units: see TileTriangle
+        for (int i = 0; i < 3; ++i) {
+            const int p = (i + 1) % 3, q = (i + 2) % 3, sign = area > 0 ? 1 : -1;
+            const std::int64_t a = sign * std::int64_t{y[p] - y[q]}, b = sign * std::int64_t{x[q] - x[p]};
+            const bool top_left = a > 0 || (a == 0 && b > 0);
+            const std::int64_t at = a * (-f.center_x - x[p]) + b * (-f.center_y - y[p]) - (top_left ? 0 : 1);
+            greatest_[i] = (at >> 4) + (std::max<std::int64_t>(a, 0) + std::max<std::int64_t>(b, 0)) * (side - 1);
+            step_x_[i] = a * side, step_y_[i] = b * side;
+        }
+    }
+    // Narrows [first, last], tiles of row `y`.
+    void narrow(std::int64_t y, std::int64_t& first, std::int64_t& last) const
+    {
+        for (int i = 0; i < 3; ++i) {
+            const std::int64_t at = greatest_[i] + y * step_y_[i]; // at + x * step_x_ >= 0 is asked of x
+            if (step_x_[i] > 0 && at < 0)
+                first = std::max(first, (-at + step_x_[i] - 1) / step_x_[i]);
+            else if (step_x_[i] < 0)
+                last = at < 0 ? -1 : std::min(last, at / -step_x_[i]);
+            else if (step_x_[i] == 0 && at < 0)
+                last = -1;
+        }
+    }
+
+  private:
+    std::int64_t greatest_[3], step_x_[3], step_y_[3]; // edges in a tile at their greatest; by tile
+};
+
 // Chunks are large enough that their lists' ends by tile stay few beside their triangles, and many enough to share evenly.
 constexpr std::size_t kMinClusters = 16, kMaxChunks = 256;
 } // namespace
 
 void Bins::Chunk::make_room()
 {
-    const auto grow = [](auto& column, std::uint32_t count) {
-        column.resize(std::max<std::size_t>(2 * column.size(), count + kGrowRoom));
-    };
+    const auto grow = [](auto& column, std::uint32_t count) { column.resize(std::max<std::size_t>(2 * column.size(), count + kGrowRoom)); };
     if (output.count + kGrowRoom > entries.size()) {
         grow(entries, output.count);
         first_tile.resize(entries.size()), last_tile.resize(entries.size());
@@ -30,6 +62,18 @@ void Bins::Chunk::make_room()
 
 void Bins::Chunk::sort_by_tile(const FrameParams& f)
 {
+    const auto rows_of = [&](std::uint32_t entry) {
+        if (entry & kClippedEntry) {
+            const TriangleSetup& piece = pieces[entry & ~kClippedEntry].setup;
+            return TileRows(f, piece.x, piece.y);
+        }
+        std::int32_t x[3], y[3];
+        for (std::size_t k = 0; k < 3; ++k) {
+            const SnappedVertex& v = f.vertices[f.indices[3 * std::size_t{entry} + k]];
+            x[k] = v.x, y[k] = v.y;
+        }
+        return TileRows(f, x, y);
+    };
     const std::size_t tiles = static_cast<std::size_t>(f.tiles_x) * static_cast<std::size_t>(f.tiles_y);
     tile_begin.clear();
     tile_begin.resize(tiles + 1);
@@ -39,9 +83,21 @@ void Bins::Chunk::sort_by_tile(const FrameParams& f)
             visit((first >> 16) * static_cast<std::uint32_t>(f.tiles_x) + (first & 0xffff));
             return;
         }
-        for (std::uint32_t y = first >> 16; y <= last >> 16; ++y)
-            for (std::uint32_t x = first & 0xffff; x <= (last & 0xffff); ++x)
-                visit(y * static_cast<std::uint32_t>(f.tiles_x) + x);
+        const std::uint32_t x0 = first & 0xffff, x1 = last & 0xffff, y0 = first >> 16, y1 = last >> 16;
+        const std::uint32_t kFew = 6; // tiles that are not looked at closely
+        if ((x1 - x0 + 1) * (y1 - y0 + 1) < kFew || x0 == x1 || y0 == y1) {
+            for (std::uint32_t y = y0; y <= y1; ++y)
+                for (std::uint32_t x = x0; x <= x1; ++x)
+                    visit(y * static_cast<std::uint32_t>(f.tiles_x) + x);
+            return;
+        }
+        const TileRows rows = rows_of(entries[i]);
+        for (std::uint32_t y = y0; y <= y1; ++y) {
+            std::int64_t from = x0, to = x1;
+            rows.narrow(y, from, to);
+            for (std::int64_t x = from; x <= to; ++x)
+                visit(y * static_cast<std::uint32_t>(f.tiles_x) + static_cast<std::uint32_t>(x));
+        }
     };
     for (std::uint32_t i = 0; i < output.count; ++i)
         each_tile(i, [&](std::uint32_t tile) { ++tile_begin[tile]; });
@@ -87,31 +143,91 @@ void Bins::build(const FrameParams& f, const DrawTables& tables, const Visible& 
     });
 }
 
-std::size_t Bins::triangles_in(std::size_t tile) const
+void Bins::Chunk::sort_by_part(const FrameParams& parts, const std::vector<std::uint32_t>& tiles, const TileFns& fns)
+{
+    constexpr std::uint32_t kSide = TilePart::kSide, kParts = kSide * kSide;
+    const std::uint32_t tiles_x = (static_cast<std::uint32_t>(parts.tiles_x) + kSide - 1) / kSide;
+    part_begin.clear(), part_list.clear();
+    part_begin.push_back(0);
+    std::uint32_t end = 0;
+    for (const std::uint32_t tile : tiles) {
+        const std::uint32_t* const of_tile = list.data() + tile_begin[tile];
+        const std::uint32_t count = tile_begin[tile + 1] - tile_begin[tile];
+        const std::uint32_t x0 = tile % tiles_x * kSide, y0 = tile / tiles_x * kSide;
+        if (first_tile.size() < count + kColumnPad) // no longer needed for what they held
+            first_tile.resize(count + kColumnPad), last_tile.resize(count + kColumnPad);
+        fns.touch_tiles(parts, of_tile, count, first_tile.data(), last_tile.data());
+        const auto each_part = [&](const auto& visit) {
+            const auto within = [](std::uint32_t at, std::uint32_t begin) { return at < begin ? 0 : std::min(at - begin, kSide - 1); };
+            for (std::uint32_t i = 0; i < count; ++i) {
+                const std::uint32_t first = first_tile[i], last = last_tile[i];
+                for (std::uint32_t y = within(first >> 16, y0); y <= within(last >> 16, y0); ++y)
+                    for (std::uint32_t x = within(first & 0xffff, x0); x <= within(last & 0xffff, x0); ++x)
+                        visit(i, y * kSide + x);
+            }
+        };
+        std::uint32_t at[kParts] = {};
+        each_part([&](std::uint32_t, std::uint32_t part) { ++at[part]; });
+        for (std::uint32_t part = 0; part < kParts; ++part) {
+            const std::uint32_t begin = end;
+            end += at[part];
+            part_begin.push_back(end);
+            at[part] = begin;
+        }
+        part_list.resize(end);
+        each_part([&](std::uint32_t i, std::uint32_t part) { part_list[at[part]++] = of_tile[i]; });
+    }
+}
+
+void Bins::cut(const FrameParams& parts, const std::vector<std::uint32_t>& tiles, const TileFns& fns, const Jobs& jobs)
+{
+    if (!tiles.empty())
+        jobs.parallel_for(used_, [&](std::size_t i, int) { chunks_[i]->sort_by_part(parts, tiles, fns); });
+}
+
+std::vector<std::uint32_t> Bins::triangles_by_tile(std::size_t tiles) const
+{
+    std::vector<std::uint32_t> counts(tiles);
+    for (std::size_t i = 0; i < used_; ++i) {
+        const std::uint32_t* begin = chunks_[i]->tile_begin.data();
+        for (std::size_t t = 0; t < tiles; ++t)
+            counts[t] += begin[t + 1] - begin[t];
+    }
+    return counts;
+}
+
+std::span<const std::uint32_t> Bins::Chunk::entries_of(const TilePart& part) const
+{
+    const bool whole = part.cut < 0;
+    const std::uint32_t* begin =
+        whole ? tile_begin.data() + part.tile : part_begin.data() + part.cut * TilePart::kSide * TilePart::kSide + part.part;
+    return {(whole ? list : part_list).data() + begin[0], begin[1] - begin[0]};
+}
+
+std::size_t Bins::triangles_in(const TilePart& part) const
 {
     std::size_t count = 0;
     for (std::size_t i = 0; i < used_; ++i)
-        count += chunks_[i]->tile_begin[tile + 1] - chunks_[i]->tile_begin[tile];
+        count += chunks_[i]->entries_of(part).size();
     return count;
 }
 
-std::size_t Bins::gather_tile(std::size_t tile, std::uint32_t* entries, TriangleSetup* triangles, Column<ClipRecord>& clips) const
+std::size_t Bins::gather(const TilePart& part, std::uint32_t* entries, TriangleSetup* triangles, Column<ClipRecord>& clips) const
 {
     std::size_t to = 0, pieces = 0;
-    for (std::size_t i = 0; i < used_; ++i) {
-        const Chunk& c = *chunks_[i];
-        for (std::uint32_t k = c.tile_begin[tile]; k < c.tile_begin[tile + 1]; ++k, ++to) {
-            entries[to] = c.list[k];
-            if (!(entries[to] & kClippedEntry))
+    for (std::size_t i = 0; i < used_; ++i)
+        for (const std::uint32_t entry : chunks_[i]->entries_of(part)) {
+            const std::size_t at = to++;
+            entries[at] = entry;
+            if (!(entry & kClippedEntry))
                 continue;
-            const ClippedPiece& piece = c.pieces[entries[to] & ~kClippedEntry];
+            const ClippedPiece& piece = chunks_[i]->pieces[entry & ~kClippedEntry];
             if (pieces == clips.size())
                 clips.resize(2 * pieces + kGrowRoom);
-            triangles[to] = piece.setup;
-            triangles[to].vertex[0] = static_cast<std::int32_t>(pieces);
+            triangles[at] = piece.setup;
+            triangles[at].vertex[0] = static_cast<std::int32_t>(pieces);
             clips[pieces++] = piece.record;
         }
-    }
     return pieces;
 }
 

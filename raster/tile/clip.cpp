@@ -21,11 +21,16 @@ float plane_distance(const FrameParams& f, const ClipVertex& v, int p)
     const float gx = static_cast<float>(kCutBand / kSubpixel) / f.half_width;
     const float gy = static_cast<float>(kCutBand / kSubpixel) / f.half_height;
     switch (p) {
-    case 0: return f.view.orthographic ? 1.0f - v.c[3] : v.c[2] - f.view.znear;
-    case 1: return gx * v.c[2] - v.c[0];
-    case 2: return gx * v.c[2] + v.c[0];
-    case 3: return gy * v.c[2] - v.c[1];
-    default: return gy * v.c[2] + v.c[1];
+    case 0:
+        return f.view.orthographic ? 1.0f - v.c[3] : v.c[2] - f.view.znear;
+    case 1:
+        return gx * v.c[2] - v.c[0];
+    case 2:
+        return gx * v.c[2] + v.c[0];
+    case 3:
+        return gy * v.c[2] - v.c[1];
+    default:
+        return gy * v.c[2] + v.c[1];
     }
 }
 
@@ -63,7 +68,10 @@ int clip_polygon(const FrameParams& f, ClipVertex* polygon, int n)
     return n;
 }
 
-std::int32_t floor_div(std::int32_t a, std::int32_t b) { return a >= 0 ? a / b : -((-a + b - 1) / b); }
+std::int32_t floor_div(std::int32_t a, std::int32_t b)
+{
+    return a >= 0 ? a / b : -((-a + b - 1) / b);
+}
 
 // Corners of the rectangle of tiles that the bounding box can touch, as in ChunkOutput; false where it touches no sample.
 bool tile_rect(const FrameParams& f, const TriangleSetup& t, std::uint32_t corners[2])
@@ -93,14 +101,13 @@ void emit_piece(const FrameParams& f, std::uint32_t triangle, const ClipVertex* 
         // a cut may come out a rounding error behind the near plane
         const float w = f.view.orthographic || corner[i]->c[2] > f.view.znear ? corner[i]->c[2] : f.view.znear;
         const float z = f.view.orthographic && corner[i]->c[3] > 1.0f ? 1.0f : corner[i]->c[3];
-        const snapped_vertex s =
-            snap_lanes(f, lanes_view(f.view), vec4_of(corner[i]->c[0], corner[i]->c[1], w, z), kGuardBand);
+        const snapped_vertex s = snap_lanes(f, lanes_view(f.view), vec4_of(corner[i]->c[0], corner[i]->c[1], w, z), kGuardBand);
         if (!s.valid)
             return; // numerically degenerate: nothing left of it
         t.x[i] = s.x, t.y[i] = s.y, t.inv_w[i] = s.inv_w, t.z[i] = s.z;
     }
-    const std::int64_t area = static_cast<std::int64_t>(t.x[1] - t.x[0]) * (t.y[2] - t.y[0]) -
-                              static_cast<std::int64_t>(t.x[2] - t.x[0]) * (t.y[1] - t.y[0]);
+    const std::int64_t area =
+        static_cast<std::int64_t>(t.x[1] - t.x[0]) * (t.y[2] - t.y[0]) - static_cast<std::int64_t>(t.x[2] - t.x[0]) * (t.y[1] - t.y[0]);
     const std::uint32_t material = f.triangle_material[triangle];
     const bool front = area < 0; // counter-clockwise with y up
     if (area == 0 || (!front && !f.materials[material].double_sided))

@@ -37,13 +37,15 @@ std::vector<Plane> frustum(const View& v)
 }
 
 // Distances are compared with a slack well above float rounding at the sizes involved.
-float slack(const glm::vec3& p, const View& v, float size) { return 1e-4f * (glm::length(p - v.eye) + size) + 1e-6f * glm::length(v.eye); }
+float slack(const glm::vec3& p, const View& v, float size)
+{
+    return 1e-4f * (glm::length(p - v.eye) + size) + 1e-6f * glm::length(v.eye);
+}
 
 bool sphere_outside(const std::vector<Plane>& planes, const View& v, const glm::vec3& center, float radius)
 {
     const float margin = radius + slack(center, v, radius);
-    return std::any_of(planes.begin(), planes.end(),
-                       [&](const Plane& p) { return glm::dot(p.n, center) + p.d < -margin; });
+    return std::any_of(planes.begin(), planes.end(), [&](const Plane& p) { return glm::dot(p.n, center) + p.d < -margin; });
 }
 
 bool faces_away(const Cluster& c, const View& v)
@@ -78,8 +80,8 @@ Visible cull(const DrawTables& tables, const View& view)
     return visible;
 }
 
-void transform_draws(const FrameParams& f, const DrawTables& tables, const Visible& visible, const TileFns& fns,
-                     const Jobs& jobs, Profiler* profiler)
+void transform_draws(const FrameParams& f, const DrawTables& tables, const Visible& visible, const TileFns& fns, const Jobs& jobs,
+                     Profiler* profiler)
 {
     const TraceSpan span("transform");
     constexpr std::uint32_t kPiece = 16384; // vertices a task

@@ -19,7 +19,7 @@ struct Visible {
 Visible cull(const DrawTables& tables, const View& view);
 
 // Runs the vertex kernel over the visible draws' vertices.
-void transform_draws(const FrameParams& frame, const DrawTables& tables, const Visible& visible, const TileFns& fns,
-                     const Jobs& jobs, Profiler* profiler);
+void transform_draws(const FrameParams& frame, const DrawTables& tables, const Visible& visible, const TileFns& fns, const Jobs& jobs,
+                     Profiler* profiler);
 
 } // namespace burnish

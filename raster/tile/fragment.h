@@ -16,7 +16,7 @@ struct LaneSetup { // setups of the fragments' triangles, a field a register
     real3 inv_w;
     integer vertex[3];
     integer info;
-    real3 unclip[3];       // corners of a clipped piece in barycentrics of the whole triangle
+    real3 unclip[3]; // corners of a clipped piece in barycentrics of the whole triangle
     bool any_clipped;
     std::int32_t common_vertex[3]; // where all fragments are of one whole triangle; else kManyTriangles
 };
@@ -137,8 +137,8 @@ BN_INLINE real blend_gather(const float* column, const LaneSetup& t, real3 b)
 }
 
 // common: the triangle of all fragments, or kManyTriangles. samples: covered sample mask. pixel_x, pixel_y: in the image.
-BN_STAGE Fragment make_fragment(const FrameParams& f, const MaterialRecord& m, const view_params& view, const TileScratch& scratch,
-                                 integer triangle, std::int32_t common, integer pixel_x, integer pixel_y, integer samples)
+BN_STAGE visible_point make_fragment(const FrameParams& f, const MaterialRecord& m, const view_params& view, const TileScratch& scratch,
+                                     integer triangle, std::int32_t common, integer pixel_x, integer pixel_y, integer samples)
 {
     const LaneSetup t = load_setup(scratch, triangle, common);
     const integer corner_x = shl(pixel_x, 8) - int_lit(f.center_x), corner_y = shl(pixel_y, 8) - int_lit(f.center_y);
@@ -150,7 +150,7 @@ BN_STAGE Fragment make_fragment(const FrameParams& f, const MaterialRecord& m, c
         point = shade_point(f, corner_x, corner_y, samples, center.inside);
         w = weights_at(t, point.x, point.y);
     }
-    Fragment p;
+    visible_point p;
     real a[16] = {}; // the upper half is read only where it was fetched
     if (m.textured || m.uses_color)
         interpolate_records(f, t, w.b, a, 16);

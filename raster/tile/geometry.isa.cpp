@@ -21,11 +21,12 @@ void transform_vertices(const FrameParams& f, std::uint32_t first, std::uint32_t
 
 namespace {
 
-// First and last pixel whose samples the range [lo, hi] of sub-pixel positions can cover, to inclusive tiles; shift = log2 of
-// the tile side. Returns where the range holds a pixel of the image.
-BN_INLINE mask tile_range(integer lo, integer hi, int center, int sample_min, int sample_max, int size, int tile_shift,
+// First and last pixel whose samples the range [lo, hi] of sub-pixel positions can cover, to inclusive tiles. Returns where the range
+// holds a pixel of the image.
+BN_INLINE mask tile_range(const FrameParams& f, integer lo, integer hi, int center, int sample_min, int sample_max, int size,
                           integer& tile_lo, integer& tile_hi)
 {
+    const int tile_shift = __builtin_ctz(static_cast<unsigned>(f.tile_size));
     integer p0 = shr(lo + int_lit(center - sample_max + kSubpixel - 1), 8);
     integer p1 = shr(hi + int_lit(center - sample_min), 8);
     p0 = select(p0 < int_lit(0), int_lit(0), p0);
@@ -57,11 +58,10 @@ void bin_lanes(const FrameParams& f, std::uint32_t first, int n, ChunkOutput& ou
     const integer clip_mark = int_lit(kNeedsClip);
     const mask clip = both(used, either(either(t.x[0] == clip_mark, t.x[1] == clip_mark), t.x[2] == clip_mark));
 
-    const int shift = f.tile_size == 64 ? 6 : 5;
     integer tx0, tx1, ty0, ty1;
     mask keep = both(used, not_(clip));
-    keep = both(keep, tile_range(min3(t.x), max3(t.x), f.center_x, f.pattern.min_x, f.pattern.max_x, f.width, shift, tx0, tx1));
-    keep = both(keep, tile_range(min3(t.y), max3(t.y), f.center_y, f.pattern.min_y, f.pattern.max_y, f.height, shift, ty0, ty1));
+    keep = both(keep, tile_range(f, min3(t.x), max3(t.x), f.center_x, f.pattern.min_x, f.pattern.max_x, f.width, tx0, tx1));
+    keep = both(keep, tile_range(f, min3(t.y), max3(t.y), f.center_y, f.pattern.min_y, f.pattern.max_y, f.height, ty0, ty1));
     if (none(either(keep, clip)))
         return;
     const AreaSigns sign = area_signs(t, keep);
@@ -99,6 +99,23 @@ void bin_triangles(const FrameParams& f, std::uint32_t first, std::uint32_t coun
         if (out.count + kGrowRoom > out.capacity || out.piece_count + kGrowRoom > out.piece_capacity)
             out.grow(&out);
         bin_lanes(f, first + i, static_cast<int>(count - i < kLanes ? count - i : kLanes), out);
+    }
+}
+
+void touch_tiles(const FrameParams& f, const std::uint32_t* entries, std::uint32_t count, std::uint32_t* first_tile,
+                 std::uint32_t* last_tile)
+{
+    const integer zero = int_lit(0), all_tiles = int_lit(0x7fff7fff);
+    for (std::uint32_t i = 0; i < count; i += kLanes) {
+        const integer entry = load_int(entries + i);
+        const mask whole = both(iota() < int_lit(static_cast<std::int32_t>(count - i)), entry >= zero);
+        LaneTriangles t;
+        load_positions(f, select(whole, entry, zero), false, 0, t);
+        integer tx0, tx1, ty0, ty1;
+        tile_range(f, min3(t.x), max3(t.x), f.center_x, f.pattern.min_x, f.pattern.max_x, f.width, tx0, tx1);
+        tile_range(f, min3(t.y), max3(t.y), f.center_y, f.pattern.min_y, f.pattern.max_y, f.height, ty0, ty1);
+        store_int(first_tile + i, select(whole, tx0 | shl(ty0, 16), zero));
+        store_int(last_tile + i, select(whole, tx1 | shl(ty1, 16), all_tiles));
     }
 }
 

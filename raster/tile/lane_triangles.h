@@ -13,8 +13,14 @@ struct LaneTriangles {
     real inv_w[3], z[3];
 };
 
-BN_INLINE integer min3(const integer v[3]) { return min(min(v[0], v[1]), v[2]); }
-BN_INLINE integer max3(const integer v[3]) { return max(max(v[0], v[1]), v[2]); }
+BN_INLINE integer min3(const integer v[3])
+{
+    return min(min(v[0], v[1]), v[2]);
+}
+BN_INLINE integer max3(const integer v[3])
+{
+    return max(max(v[0], v[1]), v[2]);
+}
 
 // id: global, of triangles that exist, in every lane. run: they follow each other from `first` on.
 BN_INLINE void load_positions(const FrameParams& f, integer id, bool run, std::uint32_t first, LaneTriangles& t)
@@ -109,8 +115,22 @@ BN_INLINE LaneTriangles load_triangles(const FrameParams& f, const TileScratch& 
     const std::int32_t* materials = reinterpret_cast<const std::int32_t*>(f.triangle_material);
     material = run ? load_int(materials + first_id) : gather_int(materials, id);
     const integer info = shl(material, 2) | select(front, int_lit(kFrontFacing), zero);
-    const integer fields[16] = {t.x[0], t.x[1], t.x[2], t.y[0], t.y[1], t.y[2], bits_of(t.inv_w[0]), bits_of(t.inv_w[1]), bits_of(t.inv_w[2]),
-                                bits_of(t.z[0]), bits_of(t.z[1]), bits_of(t.z[2]), t.vertex[0], t.vertex[1], t.vertex[2], info};
+    const integer fields[16] = {t.x[0],
+                                t.x[1],
+                                t.x[2],
+                                t.y[0],
+                                t.y[1],
+                                t.y[2],
+                                bits_of(t.inv_w[0]),
+                                bits_of(t.inv_w[1]),
+                                bits_of(t.inv_w[2]),
+                                bits_of(t.z[0]),
+                                bits_of(t.z[1]),
+                                bits_of(t.z[2]),
+                                t.vertex[0],
+                                t.vertex[1],
+                                t.vertex[2],
+                                info};
     TriangleSetup* const to = s.triangles + first;
     if (none(clipped)) {
         store_records16(to, fields);

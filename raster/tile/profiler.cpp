@@ -1,11 +1,19 @@
 #include "raster/tile/profiler.h"
 
+#include <atomic>
+
 namespace burnish {
 namespace {
 
-constexpr std::size_t index_of(FrameStage stage) { return static_cast<std::size_t>(stage); }
+constexpr std::size_t index_of(FrameStage stage)
+{
+    return static_cast<std::size_t>(stage);
+}
 
-void add(LaneUse& to, const LaneUse& more) { to.used += more.used, to.all += more.all; }
+void add(LaneUse& to, const LaneUse& more)
+{
+    to.used += more.used, to.all += more.all;
+}
 
 } // namespace
 
@@ -34,7 +42,10 @@ void Profiler::begin(int worker)
     w.began = w.last = Trace::now_ns();
 }
 
-void Profiler::lap(int worker, FrameStage stage) { workers_[static_cast<std::size_t>(worker)].note(stage); }
+void Profiler::lap(int worker, FrameStage stage)
+{
+    workers_[static_cast<std::size_t>(worker)].note(stage);
+}
 
 void Profiler::count(int worker, FrameStage stage, std::uint64_t used)
 {
@@ -63,7 +74,7 @@ void Profiler::end(int worker)
 void Profiler::end_tile(int worker, std::size_t tile)
 {
     const Worker& w = workers_[static_cast<std::size_t>(worker)];
-    tile_ns_[tile] = w.last - w.began;
+    std::atomic_ref(tile_ns_[tile]).fetch_add(w.last - w.began, std::memory_order_relaxed); // threads may share a tile
 }
 
 FrameProfile Profiler::sum() const

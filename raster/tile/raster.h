@@ -1,30 +1,32 @@
 // Coverage and depth of one triangle in one tile, 8x8 pixels at a time. Integer edge functions on the 1/256-pixel grid with the
 // top-left rule (Pineda 1988), so shared edges neither overlap nor leave gaps; hierarchical depth by 8x8 block.
 #pragma once
-#include "raster/tile/lanes_view.h"
+#include "raster/tile/blocks.h"
 
 namespace burnish {
 inline namespace BN_ISA_NS {
 
-inline constexpr int kVectors = kBlockPixels / kLanes; // registers a block; a register holds kLanes pixels in row-major order
-
 // One triangle against one tile. Edge values are in units of 1/16 of (1/256 pixel)^2: standard sample positions lie on the 1/16
 // pixel grid, so dividing by 16 with floor keeps every sign and lets values within a block fit 32 bits.
 struct TileTriangle {
-    std::int64_t edge[3];           // at the tile's top left corner, top-left rule included: inside is >= 0
-    std::int32_t step_x[3], step_y[3]; // by 1/16 pixel
+    std::int64_t edge[3];                  // at the tile's top left corner, top-left rule included: inside is >= 0
+    std::int32_t step_x[3], step_y[3];     // by 1/16 pixel
     std::int64_t span_min[3], span_max[3]; // least and greatest change inside a block; not of small triangles
     std::int32_t sample_step[3][kMaxSamples];
-    double z, z_x, z_y;             // depth at the first vertex, and its change by sub-pixel unit
-    std::int32_t from_x, from_y;    // the tile's corner, seen from the first vertex, sub-pixel units
+    std::int32_t sample_least[3], sample_greatest[3]; // bounds of sample_step
+    double z, z_x, z_y;                               // depth at the first vertex, and its change by sub-pixel unit
+    std::int32_t from_x, from_y;                      // the tile's corner, seen from the first vertex, sub-pixel units
     float z_min, z_max, dz_x, dz_y;
     float sample_z[kMaxSamples];
-    int refresh_writes;             // triangles written to a block before its farthest depth is looked up again
-    int px0, px1, py0, py1;         // pixels of the tile that the bounding box touches, inclusive
-    bool small;                     // at most a block wide and high, in the tile or not
+    int refresh_writes;     // triangles written to a block before its farthest depth is looked up again
+    int px0, px1, py0, py1; // pixels of the tile that the bounding box touches, inclusive
+    bool small;             // at most a block wide and high, in the tile or not
 };
 
-BN_INLINE int floor_shift(std::int64_t v, int n) { return static_cast<int>(v >> n); }
+BN_INLINE int floor_shift(std::int64_t v, int n)
+{
+    return static_cast<int>(v >> n);
+}
 
 // False where the triangle touches no sample of the tile.
 BN_INLINE bool begin_triangle(const FrameParams& f, const TriangleSetup& t, int tile_x, int tile_y, TileTriangle& r)
@@ -57,6 +59,9 @@ BN_INLINE bool begin_triangle(const FrameParams& f, const TriangleSetup& t, int 
             r.span_max[i] = ((a > 0 ? a : 0) + (b > 0 ? b : 0)) * block_span;
         }
         r.step_x[i] = static_cast<std::int32_t>(a), r.step_y[i] = static_cast<std::int32_t>(b);
+        const int low_x = f.pattern.min_x / 16, high_x = f.pattern.max_x / 16, low_y = f.pattern.min_y / 16, high_y = f.pattern.max_y / 16;
+        r.sample_least[i] = r.step_x[i] * (a > 0 ? low_x : high_x) + r.step_y[i] * (b > 0 ? low_y : high_y);
+        r.sample_greatest[i] = r.step_x[i] * (a > 0 ? high_x : low_x) + r.step_y[i] * (b > 0 ? high_y : low_y);
         for (int s = 0; s < f.msaa; s += kLanes)
             store_int(r.sample_step[i] + s, int_lit(static_cast<std::int32_t>(a)) * load_int(f.pattern.x16 + s) +
                                                 int_lit(static_cast<std::int32_t>(b)) * load_int(f.pattern.y16 + s));
@@ -70,43 +75,25 @@ BN_INLINE bool begin_triangle(const FrameParams& f, const TriangleSetup& t, int 
     r.dz_x = static_cast<float>(zx * kSubpixel), r.dz_y = static_cast<float>(zy * kSubpixel);
     r.z_min = t.z[0] < t.z[1] ? t.z[0] : t.z[1], r.z_max = t.z[0] > t.z[1] ? t.z[0] : t.z[1];
     r.z_min = t.z[2] < r.z_min ? t.z[2] : r.z_min, r.z_max = t.z[2] > r.z_max ? t.z[2] : r.z_max;
-    const real dz_x = splat(r.dz_x), dz_y = splat(r.dz_y), to_pixels = splat(1.0f / 16);
     for (int s = 0; s < f.msaa; s += kLanes)
-        store(r.sample_z + s, dz_x * (to_real(load_int(f.pattern.x16 + s)) * to_pixels) +
-                                  dz_y * (to_real(load_int(f.pattern.y16 + s)) * to_pixels));
+        store(r.sample_z + s, sample_depth_step(f, splat(r.dz_x), splat(r.dz_y), s));
     return true;
 }
 
-// Constants of the lanes: pixel offsets inside a block.
-struct BlockLanes {
-    integer x16, y16; // of the first register, 1/16 pixel
-    real x, y;        // pixels
-};
-BN_INLINE BlockLanes block_lanes()
-{
-    const integer x = iota() & int_lit(7), y = shr(iota(), 3);
-    return {shl(x, 4), shl(y, 4), to_real(x), to_real(y)};
-}
-
-
-struct BlockEdges {           // the edges that cross the block
-    std::int32_t at[3];       // value at the block's corner
+struct BlockEdges {     // the edges that cross the block
+    std::int32_t at[3]; // value at the block's corner
     std::int32_t step_x[3], step_y[3];
     const std::int32_t* sample_step[3];
-    integer lane[3];          // change over the lanes of a register
+    std::int32_t sample_least[3], sample_greatest[3];
+    integer lane[3]; // change over the lanes of a register
     int count;
 };
 
 // Greatest depth that the triangle can reach in the block, against the farthest sample already there. The bound is refreshed
 // only now and then: it may be too low, never too high, so it cannot change the picture.
 template <bool kAnyOrder>
-BN_INLINE bool block_hidden(const FrameParams& f, const TileTriangle& t, float z_corner, int block, const float* depth,
-                            TileScratch& scratch)
+BN_INLINE bool block_hidden(const FrameParams& f, const TileTriangle& t, float nearest, int block, const float* depth, TileScratch& scratch)
 {
-    const float ax = t.dz_x < 0.0f ? -t.dz_x : t.dz_x, ay = t.dz_y < 0.0f ? -t.dz_y : t.dz_y;
-    const float size = z_corner < 0.0f ? -z_corner : z_corner, slack = 1e-5f * (size + (ax + ay) * kBlock); // rounding is far below
-    float nearest = z_corner + (t.dz_x + t.dz_y) * (0.5f * kBlock) + (ax + ay) * (0.5f * kBlock) + slack;
-    nearest = nearest < t.z_max ? nearest : t.z_max;
     const auto hidden = [&](float farthest) { return kAnyOrder ? nearest < farthest : nearest <= farthest; };
     if (hidden(scratch.block_far[block]))
         return true;
@@ -126,6 +113,39 @@ struct NoAlpha { // opaque: every covered sample counts
     static constexpr bool kTests = false;
 };
 
+// Depth test and write of the samples of a register of pixels, `at` the values of kEdges edges at their corners, z the depth there. alive:
+// by sample, the pixels that survive an alpha test; or null.
+template <int kEdges, bool kAnyOrder>
+BN_INLINE bool cover_register(const FrameParams& f, const TileTriangle& t, const BlockEdges& e, const integer at[3], real z,
+                              integer lane_id, float* depth, std::int32_t* ids, const std::uint32_t* alive)
+{
+    const real z_min = splat(t.z_min), z_max = splat(t.z_max);
+    bool wrote = false;
+    for (int s = 0; s < f.msaa; ++s) {
+        float* d = depth + s * kBlockPixels;
+        std::int32_t* to = ids + s * kBlockPixels;
+        const real zs = min(max(z + splat(t.sample_z[s]), z_min), z_max);
+        const real old = load(d);
+        mask pass = zs > old;
+        if constexpr (kAnyOrder)
+            pass = either(pass, both(zs == old, lane_id < load_int(to)));
+        if constexpr (kEdges > 0) {
+            integer side = at[0] + int_lit(e.sample_step[0][s]);
+            for (int i = 1; i < kEdges; ++i)
+                side = side | (at[i] + int_lit(e.sample_step[i][s]));
+            pass = both(pass, side >= int_lit(0));
+        }
+        if (alive)
+            pass = both(pass, mask_from_bits(alive[s]));
+        if (!any(pass))
+            continue;
+        store(d, select(pass, zs, old));
+        store_int(to, select(pass, lane_id, load_int(to)));
+        wrote = true;
+    }
+    return wrote;
+}
+
 // Depth test and write of one block; `alpha(v, pixels)` gives the sample masks that survive an alpha test.
 template <int kEdges, bool kAnyOrder, class Alpha>
 BN_INLINE bool cover_block(const FrameParams& f, const TileTriangle& t, const BlockEdges& e, const BlockLanes& lanes, float z_corner,
@@ -136,48 +156,35 @@ BN_INLINE bool cover_block(const FrameParams& f, const TileTriangle& t, const Bl
     bool wrote = false;
     for (int v = row0 * kBlock / kLanes, end = (row1 * kBlock + kBlock - 1) / kLanes; v <= end; ++v) {
         const int vx = v * kLanes & 7, vy = v * kLanes >> 3;
-        integer at[3] = {zero, zero, zero};
-        for (int i = 0; i < kEdges; ++i)
+        integer at[3] = {zero, zero, zero}, greatest = zero, least = zero; // signs of the samples inside and outside by most
+        for (int i = 0; i < kEdges; ++i) {
             at[i] = int_lit(e.at[i] + 16 * (e.step_x[i] * vx + e.step_y[i] * vy)) + e.lane[i];
+            greatest = greatest | (at[i] + int_lit(e.sample_greatest[i]));
+            least = least | (at[i] + int_lit(e.sample_least[i]));
+        }
+        if (kEdges > 0 && f.msaa > 1 && all(greatest < zero))
+            continue;
         const real x = lanes.x + splat(static_cast<float>(vx)), y = lanes.y + splat(static_cast<float>(vy));
         const real z = splat(z_corner) + (dz_x * x + dz_y * y);
-        std::uint32_t alive[kMaxSamples];
+        float* const to_depth = depth + v * kLanes;
+        std::int32_t* const to_ids = reinterpret_cast<std::int32_t*>(ids) + v * kLanes;
         if constexpr (Alpha::kTests) {
-            std::uint32_t covered[kMaxSamples], some = 0;
+            std::uint32_t alive[kMaxSamples], some = 0;
             for (int s = 0; s < f.msaa; ++s) {
                 integer side = zero;
                 for (int i = 0; i < kEdges; ++i)
                     side = side | (at[i] + int_lit(e.sample_step[i][s]));
                 const real zs = min(max(z + splat(t.sample_z[s]), z_min), z_max);
-                covered[s] = to_bits(both(side >= zero, zs >= load(depth + s * kBlockPixels + v * kLanes)));
-                some |= covered[s];
+                some |= to_bits(both(side >= zero, zs >= load(to_depth + s * kBlockPixels)));
             }
             if (!some)
                 continue;
             alpha(v, some, alive);
-        }
-        for (int s = 0; s < f.msaa; ++s) {
-            float* d = depth + s * kBlockPixels + v * kLanes;
-            std::uint32_t* to = ids + s * kBlockPixels + v * kLanes;
-            const real zs = min(max(z + splat(t.sample_z[s]), z_min), z_max);
-            const real old = load(d);
-            std::int32_t* to_int = reinterpret_cast<std::int32_t*>(to);
-            mask pass = zs > old;
-            if constexpr (kAnyOrder)
-                pass = either(pass, both(zs == old, lane_id < load_int(to_int)));
-            if constexpr (kEdges > 0) {
-                integer side = at[0] + int_lit(e.sample_step[0][s]);
-                for (int i = 1; i < kEdges; ++i)
-                    side = side | (at[i] + int_lit(e.sample_step[i][s]));
-                pass = both(pass, side >= zero);
-            }
-            if constexpr (Alpha::kTests)
-                pass = both(pass, mask_from_bits(alive[s]));
-            if (!any(pass))
-                continue;
-            store(d, select(pass, zs, old));
-            store_int(to_int, select(pass, lane_id, load_int(to_int)));
-            wrote = true;
+            wrote = cover_register<kEdges, kAnyOrder>(f, t, e, at, z, lane_id, to_depth, to_ids, alive) || wrote;
+        } else if (kEdges > 0 && f.msaa > 1 && all(least >= zero)) {
+            wrote = cover_register<0, kAnyOrder>(f, t, e, at, z, lane_id, to_depth, to_ids, nullptr) || wrote;
+        } else {
+            wrote = cover_register<kEdges, kAnyOrder>(f, t, e, at, z, lane_id, to_depth, to_ids, nullptr) || wrote;
         }
     }
     return wrote;
@@ -189,8 +196,8 @@ BN_INLINE float corner_depth(const TileTriangle& t, int bx, int by)
     return static_cast<float>(t.z + t.z_x * (t.from_x + bx * kBlock * kSubpixel) + t.z_y * (t.from_y + by * kBlock * kSubpixel));
 }
 
-// Rasterizes a triangle of few pixels that lanes do not share (small_triangles.h), as its material tests alpha or it is a piece of a clipped
-// one: to ask what hides its blocks or which edges cross them would cost more than it saves.
+// Rasterizes a triangle of few pixels that lanes do not share (small_triangles.h), as its material tests alpha or it is a piece of a
+// clipped one: to ask what hides its blocks or which edges cross them would cost more than it saves.
 template <bool kAnyOrder, class MakeAlpha>
 BN_INLINE void raster_small_triangle(const FrameParams& f, const TileTriangle& t, std::uint32_t id, TileScratch& scratch,
                                      const MakeAlpha& make_alpha)
@@ -202,6 +209,7 @@ BN_INLINE void raster_small_triangle(const FrameParams& f, const TileTriangle& t
     for (int i = 0; i < 3; ++i) {
         e.step_x[i] = t.step_x[i], e.step_y[i] = t.step_y[i];
         e.sample_step[i] = t.sample_step[i];
+        e.sample_least[i] = t.sample_least[i], e.sample_greatest[i] = t.sample_greatest[i];
         e.lane[i] = lanes.x16 * int_lit(t.step_x[i]) + lanes.y16 * int_lit(t.step_y[i]);
     }
     for (int by = t.py0 / kBlock; by <= t.py1 / kBlock; ++by) {
@@ -212,6 +220,8 @@ BN_INLINE void raster_small_triangle(const FrameParams& f, const TileTriangle& t
                 e.at[i] = static_cast<std::int32_t>(t.edge[i] + static_cast<std::int64_t>(t.step_x[i]) * (bx * kBlock * 16) +
                                                     static_cast<std::int64_t>(t.step_y[i]) * (by * kBlock * 16));
             const int block = by * blocks_x + bx, at = block * f.msaa * kBlockPixels;
+            if (scratch.block_state[block] != BlockState::drawn)
+                write_block(f, block, scratch);
             if (cover_block<3, kAnyOrder>(f, t, e, lanes, corner_depth(t, bx, by), row0, row1, id, scratch.depth + at, scratch.ids + at,
                                           make_alpha(bx, by)) &&
                 scratch.block_dirty[block] < 255)
@@ -220,8 +230,57 @@ BN_INLINE void raster_small_triangle(const FrameParams& f, const TileTriangle& t
     }
 }
 
-// Rasterizes triangle `id` of the tile's list. `make_alpha(block_x, block_y)` gives the alpha test of a block. kAnyOrder: drawn out of turn, so
-// at equal depths the lower id wins, which it does by itself in turn.
+struct TouchedBlocks {             // bit b: block b of the tile
+    std::uint64_t all, crossed[3]; // not left out by any edge; cut by edge i
+};
+static_assert(kMaxTileSize / kBlock * (kMaxTileSize / kBlock) <= 64);
+
+// kLanes blocks at once. A block's corners lie whole multiples of 128 units from the tile's, so values divided by 32 with floor keep their
+// signs, and those near enough for their sign to change fit 32 bits.
+BN_INLINE TouchedBlocks touched_blocks(const TileTriangle& t, int blocks_x)
+{
+    constexpr int kShift = 5, kStep = kBlock * 16 >> kShift;
+    const auto fitting = [](std::int64_t v) {
+        constexpr std::int64_t kFar = 1 << 30; // changes over a tile are below 2^29
+        v >>= kShift;
+        return int_lit(static_cast<std::int32_t>(v > kFar ? kFar : v < -kFar ? -kFar : v));
+    };
+    const int x0 = t.px0 / kBlock, x1 = t.px1 / kBlock, first = t.py0 / kBlock * blocks_x, end = (t.py1 / kBlock + 1) * blocks_x;
+    const std::uint64_t row = (std::uint64_t{2} << x1) - (std::uint64_t{1} << x0);
+    TouchedBlocks r = {0, {0, 0, 0}};
+    for (int block = first; block < end; block += blocks_x)
+        r.all |= row << block;
+    integer greatest[3], least[3], step_x[3], step_y[3];
+    for (int i = 0; i < 3; ++i) {
+        greatest[i] = fitting(t.edge[i] + t.span_max[i]), least[i] = fitting(t.edge[i] + t.span_min[i]);
+        step_x[i] = int_lit(t.step_x[i] * kStep), step_y[i] = int_lit(t.step_y[i] * kStep);
+    }
+    const int shift = __builtin_ctz(static_cast<unsigned>(blocks_x));
+    std::uint64_t outside = 0;
+    for (int block = first / kLanes * kLanes; block < end; block += kLanes) {
+        const integer b = iota() + int_lit(block), bx = b & int_lit(blocks_x - 1), by = shr(b, shift);
+        integer leaves = int_lit(0);
+        for (int i = 0; i < 3; ++i) {
+            const integer change = step_x[i] * bx + step_y[i] * by;
+            leaves = leaves | (greatest[i] + change);
+            r.crossed[i] |= std::uint64_t{to_bits(least[i] + change < int_lit(0))} << block;
+        }
+        outside |= std::uint64_t{to_bits(leaves < int_lit(0))} << block;
+    }
+    r.all &= ~outside;
+    return r;
+}
+
+// Whether a triangle that covers all of a block surely lies before all that is there. Depth 0 is that of nothing, and passes no test.
+BN_INLINE bool hides_block(const DepthBounds& bounds, BlockState state, int block, const TileScratch& s)
+{
+    if (state == BlockState::drawn || bounds.farthest <= 0.0f)
+        return false;
+    return state == BlockState::empty || bounds.farthest > depth_bounds(s.block_plane[block]).nearest;
+}
+
+// Rasterizes triangle `id` of the tile's list. `make_alpha(block_x, block_y)` gives the alpha test of a block. kAnyOrder: drawn out of
+// turn, so at equal depths the lower id wins, which it does by itself in turn.
 template <bool kAnyOrder, class MakeAlpha>
 BN_INLINE void raster_triangle(const FrameParams& f, const TileTriangle& t, std::uint32_t id, TileScratch& scratch,
                                const MakeAlpha& make_alpha)
@@ -235,45 +294,56 @@ BN_INLINE void raster_triangle(const FrameParams& f, const TileTriangle& t, std:
     integer lane_step[3];
     for (int i = 0; i < 3; ++i)
         lane_step[i] = lanes.x16 * int_lit(t.step_x[i]) + lanes.y16 * int_lit(t.step_y[i]);
-    for (int by = t.py0 / kBlock; by <= t.py1 / kBlock; ++by) {
+    const TouchedBlocks touched = touched_blocks(t, blocks_x);
+    for (std::uint64_t blocks = touched.all; blocks; blocks &= blocks - 1) {
+        const int block = __builtin_ctzll(blocks), bx = block % blocks_x, by = block / blocks_x;
         const int row0 = t.py0 > by * kBlock ? t.py0 - by * kBlock : 0;
         const int row1 = t.py1 < by * kBlock + kBlock - 1 ? t.py1 - by * kBlock : kBlock - 1;
-        for (int bx = t.px0 / kBlock; bx <= t.px1 / kBlock; ++bx) {
-            BlockEdges e;
-            e.count = 0;
-            bool outside = false;
-            for (int i = 0; i < 3; ++i) {
-                const std::int64_t at =
-                    t.edge[i] + static_cast<std::int64_t>(t.step_x[i]) * (bx * kBlock * 16) +
-                    static_cast<std::int64_t>(t.step_y[i]) * (by * kBlock * 16);
-                outside = outside || at + t.span_max[i] < 0;
-                if (at + t.span_min[i] >= 0)
-                    continue; // the whole block lies inside this edge
-                e.at[e.count] = static_cast<std::int32_t>(at);
-                e.step_x[e.count] = t.step_x[i], e.step_y[e.count] = t.step_y[i];
-                e.sample_step[e.count] = t.sample_step[i];
-                e.lane[e.count] = lane_step[i];
-                ++e.count;
-            }
-            if (outside)
-                continue;
-            const int block = by * blocks_x + bx;
-            const float z_corner = corner_depth(t, bx, by);
-            float* depth = scratch.depth + block * f.msaa * kBlockPixels;
-            if (block_hidden<kAnyOrder>(f, t, z_corner, block, depth, scratch))
-                continue;
-            std::uint32_t* ids = scratch.ids + block * f.msaa * kBlockPixels;
-            const auto alpha = make_alpha(bx, by);
-            bool wrote = false;
-            switch (e.count) {
-            case 0: wrote = cover_block<0, kAnyOrder>(f, t, e, lanes, z_corner, row0, row1, id, depth, ids, alpha); break;
-            case 1: wrote = cover_block<1, kAnyOrder>(f, t, e, lanes, z_corner, row0, row1, id, depth, ids, alpha); break;
-            case 2: wrote = cover_block<2, kAnyOrder>(f, t, e, lanes, z_corner, row0, row1, id, depth, ids, alpha); break;
-            default: wrote = cover_block<3, kAnyOrder>(f, t, e, lanes, z_corner, row0, row1, id, depth, ids, alpha); break;
-            }
-            if (wrote && scratch.block_dirty[block] < 255)
-                ++scratch.block_dirty[block];
+        BlockEdges e;
+        e.count = 0;
+        for (int i = 0; i < 3; ++i) {
+            if (!(touched.crossed[i] >> block & 1u))
+                continue; // the whole block lies inside this edge
+            e.at[e.count] = static_cast<std::int32_t>(t.edge[i] + static_cast<std::int64_t>(t.step_x[i]) * (bx * kBlock * 16) +
+                                                      static_cast<std::int64_t>(t.step_y[i]) * (by * kBlock * 16));
+            e.step_x[e.count] = t.step_x[i], e.step_y[e.count] = t.step_y[i];
+            e.sample_step[e.count] = t.sample_step[i];
+            e.sample_least[e.count] = t.sample_least[i], e.sample_greatest[e.count] = t.sample_greatest[i];
+            e.lane[e.count] = lane_step[i];
+            ++e.count;
         }
+        const float z_corner = corner_depth(t, bx, by);
+        const BlockPlane plane = {z_corner, t.dz_x, t.dz_y, t.z_min, t.z_max, id};
+        const DepthBounds bounds = depth_bounds(plane);
+        float* depth = scratch.depth + block * f.msaa * kBlockPixels;
+        if (block_hidden<kAnyOrder>(f, t, bounds.nearest, block, depth, scratch))
+            continue;
+        const BlockState state = scratch.block_state[block];
+        if (!MakeAlpha::kTests && e.count == 0 && hides_block(bounds, state, block, scratch)) {
+            take_block(plane, bounds.farthest, block, scratch);
+            continue;
+        }
+        if (state != BlockState::drawn)
+            write_block(f, block, scratch);
+        std::uint32_t* ids = scratch.ids + block * f.msaa * kBlockPixels;
+        const auto alpha = make_alpha(bx, by);
+        bool wrote = false;
+        switch (e.count) {
+        case 0:
+            wrote = cover_block<0, kAnyOrder>(f, t, e, lanes, z_corner, row0, row1, id, depth, ids, alpha);
+            break;
+        case 1:
+            wrote = cover_block<1, kAnyOrder>(f, t, e, lanes, z_corner, row0, row1, id, depth, ids, alpha);
+            break;
+        case 2:
+            wrote = cover_block<2, kAnyOrder>(f, t, e, lanes, z_corner, row0, row1, id, depth, ids, alpha);
+            break;
+        default:
+            wrote = cover_block<3, kAnyOrder>(f, t, e, lanes, z_corner, row0, row1, id, depth, ids, alpha);
+            break;
+        }
+        if (wrote && scratch.block_dirty[block] < 255)
+            ++scratch.block_dirty[block];
     }
 }
 

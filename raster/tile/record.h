@@ -41,7 +41,7 @@ BN_STAGE void record_vertices(const FrameParams& f, std::uint32_t count, std::ui
     }
 }
 
-BN_INLINE void record_point(const FrameParams& f, const MaterialRecord& m, const Fragment& p, WordWriter& w)
+BN_INLINE void record_point(const FrameParams& f, const MaterialRecord& m, const visible_point& p, WordWriter& w)
 {
     const real zero = lit(0.0);
     w.put(p.normal), w.put(p.tangent), w.put(p.tangent_sign);
@@ -56,18 +56,18 @@ BN_INLINE void record_point(const FrameParams& f, const MaterialRecord& m, const
     w.put(f.light_count > 0 ? p.position : vec3_all(zero));
 }
 
-BN_INLINE void record_material(const LaneMaterial& at, WordWriter& w)
+BN_INLINE void record_material(const material_inputs& at, WordWriter& w)
 {
-    w.put(at.base), w.put(at.alpha), w.put(at.metallic), w.put(at.roughness), w.put(at.occlusion);
-    w.put(at.normal_map), w.put(at.emissive), w.put(at.dielectric_f0), w.put(at.dielectric_f90);
-    w.put(at.tensor2), w.put(at.tensor4);
+#define BN_INPUT(type, words, name) w.put(at.name);
+#include "shading/material.def"
 }
 
 // After shading; x0, y0: the tile's corner, pixels.
 BN_STAGE void record_fragments(const FrameParams& f, const view_params& view, int x0, int y0, const TileScratch& s)
 {
     const auto pixel_of = [&](std::int32_t pixel) {
-        return static_cast<std::size_t>(y0 + (pixel >> 8)) * static_cast<std::size_t>(f.width) + static_cast<std::size_t>(x0 + (pixel & 255));
+        return static_cast<std::size_t>(y0 + (pixel >> 8)) * static_cast<std::size_t>(f.width) +
+               static_cast<std::size_t>(x0 + (pixel & 255));
     };
     const std::size_t msaa = static_cast<std::size_t>(f.msaa);
     for (std::uint32_t i = 0; i < s.fragment_count; ++i) {
@@ -78,9 +78,10 @@ BN_STAGE void record_fragments(const FrameParams& f, const view_params& view, in
         w.put(static_cast<std::uint32_t>(covered));
         if (id >= 0) {
             const MaterialRecord& m = f.materials[s.triangles[id].info >> 2];
-            const Fragment p = make_fragment(f, m, view, s, int_lit(id), id, int_lit(x0 + (pixel & 255)), int_lit(y0 + (pixel >> 8)), int_lit(covered));
+            const visible_point p =
+                make_fragment(f, m, view, s, int_lit(id), id, int_lit(x0 + (pixel & 255)), int_lit(y0 + (pixel >> 8)), int_lit(covered));
             record_point(f, m, p, w);
-            record_material(fetch_material(f, m, p), w);
+            record_material(fetch_lanes(f, m, p), w);
         }
         w.to = record + kPairWords - 3;
         w.put(splat(s.red[i])), w.put(splat(s.green[i])), w.put(splat(s.blue[i]));
@@ -94,8 +95,9 @@ BN_STAGE void record_depths(const FrameParams& f, int x0, int y0, int width, int
         for (int x = 0; x < width; ++x) {
             const int block = (y / kBlock) * blocks_x + x / kBlock, in_block = (y % kBlock) * kBlock + x % kBlock;
             const float* from = s.depth + block * f.msaa * kBlockPixels + in_block;
-            std::uint32_t* to = s.output_depths + (static_cast<std::size_t>(y0 + y) * static_cast<std::size_t>(f.width) +
-                                                   static_cast<std::size_t>(x0 + x)) * static_cast<std::size_t>(f.msaa);
+            std::uint32_t* to = s.output_depths +
+                                (static_cast<std::size_t>(y0 + y) * static_cast<std::size_t>(f.width) + static_cast<std::size_t>(x0 + x)) *
+                                    static_cast<std::size_t>(f.msaa);
             for (int k = 0; k < f.msaa; ++k)
                 __builtin_memcpy(to + k, from + k * kBlockPixels, sizeof *to);
         }

@@ -45,7 +45,8 @@ struct DepthPlane { // TileTriangle's, by lane
 
 BN_INLINE DepthPlane depth_plane(const LaneTriangles& t)
 {
-    const wide x10 = to_wide(t.x[1] - t.x[0]), y10 = to_wide(t.y[1] - t.y[0]), x20 = to_wide(t.x[2] - t.x[0]), y20 = to_wide(t.y[2] - t.y[0]);
+    const wide x10 = to_wide(t.x[1] - t.x[0]), y10 = to_wide(t.y[1] - t.y[0]), x20 = to_wide(t.x[2] - t.x[0]),
+               y20 = to_wide(t.y[2] - t.y[0]);
     const wide z0 = to_wide(t.z[0]), z10 = to_wide(t.z[1]) - z0, z20 = to_wide(t.z[2]) - z0;
     const wide inv_area = wide_lit(1.0) / (x10 * y20 - x20 * y10);
     DepthPlane p;
@@ -94,7 +95,8 @@ BN_STAGE void raster_small_triangles(const FrameParams& f, const LaneTriangles& 
     const integer from_x = int_lit(ox) - t.x[0] + block_x * side, from_y = int_lit(oy) - t.y[0] + block_y * side;
     const wide z_left = plane.z + plane.z_x * to_wide(from_x), z_right = plane.z + plane.z_x * to_wide(from_x + side);
     const wide z_top = plane.z_y * to_wide(from_y), z_bottom = plane.z_y * to_wide(from_y + side);
-    const real corner[2][2] = {{to_real(z_left + z_top), to_real(z_right + z_top)}, {to_real(z_left + z_bottom), to_real(z_right + z_bottom)}};
+    const real corner[2][2] = {{to_real(z_left + z_top), to_real(z_right + z_top)},
+                               {to_real(z_left + z_bottom), to_real(z_right + z_bottom)}};
 
     SampleQueue queue;
     queue.count = 0;

@@ -1,281 +1,21 @@
-// One tile from triangles to pixels: coverage and depth, visibility, shading in dense batches by material, resolve.
-// Compiled once for every instruction set.
-#include "raster/tile/draw_order.h"
+// One tile from triangles to pixels: visibility, shading in dense batches by material, resolve. Compiled once for every instruction set.
 #include "raster/tile/geometry.h"
 #include "raster/tile/record.h"
+#include "raster/tile/resolve.h"
 #include "raster/tile/shade.h"
-#include "raster/tile/small_triangles.h"
-#include "raster/tile/visibility.h"
+#include "raster/tile/visible.h"
 
 namespace burnish {
 inline namespace BN_ISA_NS {
 
 namespace {
 
-struct Tile {
-    const FrameParams& f;
-    TileScratch& s;
-    int index_x, index_y;
-    int x0, y0, width, height; // pixels
-};
-
-void clear_tile(const Tile& t)
-{
-    const int blocks = (t.f.tile_size / kBlock) * (t.f.tile_size / kBlock);
-    const int words = blocks * t.f.msaa * kBlockPixels;
-    const real zero = lit(0.0);
-    const integer nothing = int_lit(-1);
-    for (int i = 0; i < words; i += kLanes) {
-        store(t.s.depth + i, zero);
-        store_int(reinterpret_cast<std::int32_t*>(t.s.ids) + i, nothing);
-    }
-    for (int b = 0; b < blocks; ++b) {
-        t.s.block_far[b] = 0.0f;
-        t.s.block_dirty[b] = 0;
-    }
-}
-
-struct OpaqueBlocks {
-    NoAlpha operator()(int, int) const { return {}; }
-};
-
-// Alpha test of one triangle in one block. A mask discards the whole fragment; a blend becomes coverage: sample i of n stays
-// where alpha > (i + 1/2) / n, so the resolved pixel shows about `alpha` of the surface, without sorting.
-struct BlockAlpha {
-    static constexpr bool kTests = true;
-    const Tile& t;
-    const MaterialRecord& m;
-    const view_params& view;
-    std::uint32_t triangle;
-    int block_x, block_y;
-
-    void operator()(int v, std::uint32_t lanes, std::uint32_t alive[kMaxSamples]) const
-    {
-        const integer lane = iota() + int_lit(v * kLanes);
-        const integer x = (lane & int_lit(7)) + int_lit(t.x0 + block_x * kBlock);
-        const integer y = shr(lane, 3) + int_lit(t.y0 + block_y * kBlock);
-        const std::int32_t id = static_cast<std::int32_t>(triangle);
-        const Fragment p = make_fragment(t.f, m, view, t.s, int_lit(id), id, x, y, int_lit((1 << t.f.msaa) - 1));
-        const real alpha = fetch_material(t.f, m, p).alpha;
-        const bool blend = m.alpha_mode == 2;
-        for (int s = 0; s < t.f.msaa; ++s) {
-            const float threshold =
-                blend ? (static_cast<float>(s) + 0.5f) / static_cast<float>(t.f.msaa) : m.alpha_cutoff;
-            alive[s] = lanes & to_bits(blend ? alpha > splat(threshold) : alpha >= splat(threshold));
-        }
-    }
-};
-
-struct AlphaBlocks {
-    const Tile& t;
-    const MaterialRecord& m;
-    const view_params& view;
-    std::uint32_t triangle;
-    BlockAlpha operator()(int bx, int by) const { return {t, m, view, triangle, bx, by}; }
-};
-
-BN_INLINE void note_material(TileScratch& s, std::int32_t material)
-{
-    s.only_material = s.only_material == kNoMaterial || s.only_material == material ? material : kManyMaterials;
-}
-
-// Draws the small ones of a register of triangles; the others join the list of those drawn singly. Returns whether it drew any.
-bool raster_register(const Tile& t, std::uint32_t first, std::uint32_t& singly)
-{
-    TileScratch& s = t.s;
-    mask whole;
-    integer material;
-    const LaneTriangles triangles = load_triangles(t.f, s, first, whole, material);
-    const std::uint32_t used = s.triangle_count - first < kLanes ? (1u << (s.triangle_count - first)) - 1 : (1u << kLanes) - 1;
-    std::uint32_t small = to_bits(both(whole, small_triangles(triangles)));
-    std::uint32_t rest = small; // whose material was not looked at
-    while (rest) {
-        const std::int32_t id = s.triangles[first + static_cast<std::uint32_t>(__builtin_ctz(rest))].info >> 2;
-        const std::uint32_t same = rest & to_bits(material == int_lit(id));
-        if (t.f.materials[id].alpha_mode == 0)
-            note_material(s, id);
-        else
-            small &= ~same;
-        rest &= ~same;
-    }
-    for (std::uint32_t bits = used & ~small; bits; bits &= bits - 1)
-        s.drawn_singly[singly++] = first + static_cast<std::uint32_t>(__builtin_ctz(bits));
-    if (small)
-        raster_small_triangles(t.f, triangles, mask_from_bits(small), t.index_x, t.index_y, first, s);
-    return small != 0;
-}
-
-template <bool kAnyOrder>
-void raster_singly(const Tile& t, const view_params& view, std::uint32_t count, int refresh_writes)
-{
-    TileScratch& s = t.s;
-    for (std::uint32_t k = 0; k < count; ++k) {
-        const std::uint32_t i = s.drawn_singly[k];
-        const TriangleSetup& setup = s.triangles[i];
-        TileTriangle triangle;
-        if (!begin_triangle(t.f, setup, t.index_x, t.index_y, triangle))
-            continue;
-        triangle.refresh_writes = refresh_writes;
-        const std::int32_t material = setup.info >> 2;
-        note_material(s, material);
-        const MaterialRecord& m = t.f.materials[material];
-        if (m.alpha_mode == 0)
-            raster_triangle<kAnyOrder>(t.f, triangle, i, s, OpaqueBlocks{});
-        else
-            raster_triangle<kAnyOrder>(t.f, triangle, i, s, AlphaBlocks{t, m, view, i});
-    }
-}
-
-void raster_tile(const Tile& t, const view_params& view)
-{
-    TileScratch& s = t.s;
-    s.only_material = kNoMaterial;
-    std::uint32_t singly = 0;
-    bool some_small = false;
-    for (std::uint32_t i = 0; i < s.triangle_count; i += kLanes)
-        some_small = raster_register(t, i, singly) || some_small;
-    if (some_small) // the blocks' bounds are out of date
-        __builtin_memset(s.block_dirty, 255, static_cast<std::size_t>((t.f.tile_size / kBlock) * (t.f.tile_size / kBlock)));
-    const bool sorted = front_to_back(s, singly); // where it pays to know at once what hides the rest
-    if (sorted || some_small)
-        raster_singly<true>(t, view, singly, sorted ? 1 : 4);
-    else
-        raster_singly<false>(t, view, singly, 4);
-}
-
-// Global id of a triangle of the tile's list.
-BN_INLINE std::uint32_t triangle_id(const TileScratch& s, std::uint32_t i)
-{
-    return s.entries[i] & kClippedEntry ? s.clips[s.triangles[i].vertex[0]].triangle : s.entries[i];
-}
-
-// Global ids of a block's row of pixels; false, and nothing written, where one shows a piece of a clipped triangle.
-BN_INLINE bool write_row(const TileScratch& s, const std::uint32_t* from, std::uint32_t* to)
-{
-    constexpr int kStep = kLanes < kBlock ? kLanes : kBlock;
-    std::int32_t row[kBlock + kLanes];
-    for (int x = 0; x < kBlock; x += kStep) {
-        const integer id = load_first(reinterpret_cast<const std::int32_t*>(from + x), kStep), zero = int_lit(0);
-        const mask nothing = id < zero;
-        const integer entry = gather_int(reinterpret_cast<const std::int32_t*>(s.entries), select(nothing, zero, id));
-        if (any(both(not_(nothing), entry < zero)))
-            return false;
-        store_int(row + x, select(nothing, id, entry));
-    }
-    __builtin_memcpy(to, row, kBlock * sizeof *to);
-    return true;
-}
-
-void write_ids(const Tile& t)
-{
-    const int blocks_x = t.f.tile_size / kBlock, msaa = t.f.msaa;
-    for (int y = 0; y < t.height; ++y)
-        for (int bx = 0; bx * kBlock < t.width; ++bx) {
-            const std::uint32_t* from = t.s.ids + (y / kBlock * blocks_x + bx) * msaa * kBlockPixels + y % kBlock * kBlock;
-            std::uint32_t* to = t.s.output_ids + (static_cast<std::size_t>(t.y0 + y) * static_cast<std::size_t>(t.f.width) +
-                                                  static_cast<std::size_t>(t.x0 + bx * kBlock)) *
-                                                     static_cast<std::size_t>(msaa);
-            const int pixels = t.width - bx * kBlock < kBlock ? t.width - bx * kBlock : kBlock;
-            if (msaa == 1 && pixels == kBlock && write_row(t.s, from, to))
-                continue;
-            for (int x = 0; x < pixels; ++x)
-                for (int s = 0; s < msaa; ++s) {
-                    const std::uint32_t id = from[s * kBlockPixels + x];
-                    *to++ = id == kNoTriangle ? kNoTriangle : triangle_id(t.s, id);
-                }
-        }
-}
-
-inline constexpr std::int32_t kBackgroundSlot = 0;
-
-// End of the run of fragments of the triangle at `i`.
-BN_INLINE std::uint32_t run_end(const std::int32_t* triangle, std::uint32_t i, std::uint32_t count)
-{
-    const std::int32_t id = triangle[i];
-    for (++i; i + kLanes <= count && all(load_int(triangle + i) == int_lit(id)); i += kLanes) {}
-    while (i < count && triangle[i] == id)
-        ++i;
-    return i;
-}
-
-// sort_fragments() where all triangles are of one material. Where there is only background or none, the order is the list's own and is
-// not written.
-int split_background(TileScratch& s)
-{
-    const std::uint32_t count = s.fragment_count;
-    s.slot_material[1] = s.only_material;
-    s.slot_begin[0] = 0, s.slot_begin[1] = s.background_pixels, s.slot_begin[2] = count;
-    s.in_list_order = s.background_pixels == 0 || s.background_pixels == count;
-    if (s.in_list_order)
-        return s.background_pixels == count ? 1 : 2;
-    std::int32_t *behind = s.order, *before = s.order + s.background_pixels;
-    for (std::uint32_t i = 0; i < count; i += kLanes) {
-        const integer index = iota() + int_lit(static_cast<std::int32_t>(i));
-        const mask valid = index < int_lit(static_cast<std::int32_t>(count));
-        const mask nothing = load_int(s.fragment_triangle + i) < int_lit(0);
-        behind += compress_store_int(behind, index, both(valid, nothing));
-        before += compress_store_int(before, index, both(valid, not_(nothing)));
-    }
-    return 2;
-}
-
-// Sorts the fragments by material, stably. Returns the number of slots; slot 0 is the background.
-int sort_fragments(TileScratch& s)
-{
-    if (s.only_material != kManyMaterials)
-        return split_background(s);
-    s.in_list_order = false;
-    int slots = 1;
-    const std::int32_t* const triangle = s.fragment_triangle;
-    std::int32_t* const order = s.order;
-    std::uint32_t* const slot_begin = s.slot_begin;
-    const std::uint32_t count = s.fragment_count;
-    const auto slot_of = [&](std::int32_t id) -> std::int32_t& { return s.slot_of_material[s.triangles[id].info >> 2]; };
-    slot_begin[0] = 0;
-    for (std::uint32_t i = 0; i < count;) {
-        const std::uint32_t end = run_end(triangle, i, count);
-        std::int32_t at = kBackgroundSlot;
-        if (triangle[i] >= 0) {
-            std::int32_t& slot = slot_of(triangle[i]);
-            if (slot < 0) {
-                slot = slots;
-                s.slot_material[slots] = s.triangles[triangle[i]].info >> 2;
-                slot_begin[slots++] = 0;
-            }
-            at = slot;
-        }
-        slot_begin[at] += end - i;
-        i = end;
-    }
-    std::uint32_t begin = 0;
-    for (int k = 0; k < slots; ++k) {
-        const std::uint32_t size = slot_begin[k];
-        slot_begin[k] = begin;
-        begin += size;
-    }
-    for (std::uint32_t i = 0; i < count;) {
-        const std::uint32_t end = run_end(triangle, i, count);
-        std::uint32_t& to = slot_begin[triangle[i] < 0 ? kBackgroundSlot : slot_of(triangle[i])];
-        std::int32_t* const from = order + to;
-        to += end - i;
-        for (std::int32_t* at = from; i < end; ++i, ++at)
-            *at = static_cast<std::int32_t>(i);
-    }
-    for (int k = slots - 1; k > 0; --k) // each slot's end is the next one's begin
-        slot_begin[k] = slot_begin[k - 1];
-    slot_begin[0] = 0;
-    slot_begin[slots] = count;
-    for (int k = 1; k < slots; ++k)
-        s.slot_of_material[s.slot_material[k]] = -1;
-    return slots;
-}
-
 struct Batch {
     std::int32_t fragment[kLanes];
     int n;
-    bool run;                           // all lanes in use, by fragments that follow each other in the list
-    std::int32_t common;                // the triangle of all fragments, or kManyTriangles
-    integer x, y, samples, triangle;    // pixel in the image, covered samples, triangle of the tile's list
+    bool run;                        // all lanes in use, by fragments that follow each other in the list
+    std::int32_t common;             // the triangle of all fragments, or kManyTriangles
+    integer x, y, samples, triangle; // pixel in the image, covered samples, triangle of the tile's list
 };
 
 BN_INLINE Batch load_batch(const Tile& t, std::uint32_t at, std::uint32_t end)
@@ -327,6 +67,76 @@ BN_INLINE void store_batch(const Tile& t, const Batch& b, const real3& color)
     }
 }
 
+BN_INLINE void store_lines(const Tile& t, const Batch& b, const line_record& r)
+{
+    const real3 of[5] = {r.light, r.mirror, r.along, r.factor, r.rest};
+    integer words[16];
+    words[0] = bits_of(r.width);
+    for (int i = 0; i < 5; ++i)
+        words[3 * i + 1] = bits_of(of[i].x), words[3 * i + 2] = bits_of(of[i].y), words[3 * i + 3] = bits_of(of[i].z);
+    if (b.run) {
+        store_records16(t.s.lines + std::ptrdiff_t{16} * b.fragment[0], words);
+        return;
+    }
+    alignas(64) float part[kLanes][16];
+    store_records16(part, words);
+    for (int i = 0; i < b.n; ++i)
+        __builtin_memcpy(t.s.lines + std::ptrdiff_t{16} * b.fragment[i], part[i], sizeof part[i]);
+}
+
+BN_INLINE line_record load_lines(const TileScratch& s, integer fragment)
+{
+    integer words[16];
+    load_records16(s.lines, fragment, words);
+    const auto at = [&](int i) { return vec3_of(real_from_bits(words[i]), real_from_bits(words[i + 1]), real_from_bits(words[i + 2])); };
+    return {at(1), real_from_bits(words[0]), at(4), at(7), at(10), at(13)};
+}
+
+// Which fragments of a pixel share samples.
+void list_sharing(const Tile& t)
+{
+    TileScratch& s = t.s;
+    __builtin_memset(s.sharing_of_pixel, 255, sizeof(std::int32_t) * kMaxTileSize * kMaxTileSize);
+    for (std::int32_t i = static_cast<std::int32_t>(s.fragment_count); i-- > 0;) {
+        const std::int32_t triangle = s.fragment_triangle[i];
+        if (triangle < 0 || !(t.f.materials[s.triangles[triangle].info >> 2].technique_traits & kSharesSamples))
+            continue;
+        const std::int32_t pixel = s.fragment_pixel[i];
+        std::int32_t& first = s.sharing_of_pixel[(pixel & 255) + (pixel >> 8) * kMaxTileSize];
+        s.next_sharing[i] = first;
+        first = i;
+    }
+}
+
+// The mean of what the fragments in the quad found, each pixel's by how much of it they cover.
+void share_slot(const Tile& t, std::uint32_t begin, std::uint32_t end)
+{
+    const TileScratch& s = t.s;
+    const real inv = splat(1.0f / static_cast<float>(t.f.msaa)), zero = lit(0.0);
+    const integer none_left = int_lit(-1);
+    for (std::uint32_t i = begin; i < end; i += kLanes) {
+        const Batch b = load_batch(t, i, end);
+        const integer fragment = b.run ? iota() + int_lit(b.fragment[0]) : load_int(b.fragment);
+        const integer pixel = b.x - int_lit(t.x0) + (b.y - int_lit(t.y0)) * int_lit(kMaxTileSize);
+        const line_record own = load_lines(s, fragment);
+        real3 sum = own.light;
+        real weights = lit(1.0);
+        for (int k = 1; k < 4; ++k) {
+            integer at = gather_int(s.sharing_of_pixel, pixel ^ int_lit((k & 1) + (k >> 1) * kMaxTileSize));
+            for (mask some = at > none_left; any(some); some = at > none_left) {
+                const integer other = select(some, at, fragment);
+                const line_record r = load_lines(s, other);
+                const real cover = popcount16(gather_int(s.fragment_mask, other)) * inv;
+                const real w = select(some, line_likeness(own, r) * cover, zero);
+                sum = sum + r.light * w;
+                weights = weights + w;
+                at = select(some, gather_int(s.next_sharing, other), none_left);
+            }
+        }
+        store_batch(t, b, line_colour(own, sum / weights));
+    }
+}
+
 // First the addresses of some batches, then their texels: see cube_sum.h.
 void shade_background_slot(const Tile& t, const view_params& view, std::uint32_t begin, std::uint32_t end)
 {
@@ -338,14 +148,15 @@ void shade_background_slot(const Tile& t, const view_params& view, std::uint32_t
     constexpr int kGroup = 8;
     Batch batches[kGroup];
     texel_plan plans[kGroup];
-    const cube_desc cube = lanes_cube(t.f.specular_cube);
-    const real scale = splat(t.f.specular_cube.scale);
+    const cube_desc cube = specular_cube(t.f);
+    const real scale = splat(t.f.specular.scale);
     for (std::uint32_t i = begin; i < end;) {
         int n = 0;
         for (; n < kGroup && i < end; ++n, i += kLanes) {
             Batch& b = batches[n];
             b = load_batch(t, i, end);
-            const real3 ray = pixel_ray(to_real(b.x) + lit(0.5), to_real(b.y) + lit(0.5), splat(t.f.half_width), splat(t.f.half_height), view);
+            const real3 ray =
+                pixel_ray(to_real(b.x) + lit(0.5), to_real(b.y) + lit(0.5), splat(t.f.half_width), splat(t.f.half_height), view);
             plan(plans[n], cube_level_rows(cube, cube_face_uv(ray), 0, lit(1.0)));
         }
         for (int k = 0; k < n; ++k) {
@@ -366,23 +177,21 @@ void shade_slot(const Tile& t, const view_params& view, const MaterialRecord& m,
     }
     for (std::uint32_t i = begin; i < end; i += kLanes) {
         const Batch b = load_batch(t, i, end);
-        const Fragment p = make_fragment(t.f, m, view, t.s, b.triangle, b.common, b.x, b.y, b.samples);
-        store_batch(t, b, shade_fragments<kTechnique>(t.f, m, plan, p, b.y * int_lit(t.f.width) + b.x));
+        const visible_point p = make_fragment(t.f, m, view, t.s, b.triangle, b.common, b.x, b.y, b.samples);
+        line_record shared{};
+        const real3 color = shade_fragments<kTechnique>(t.f, m, plan, p, b.x, b.y, shared);
+        if (m.technique_traits & kSharesSamples)
+            store_lines(t, b, shared);
+        else
+            store_batch(t, b, color);
     }
 }
 
 using ShadeSlot = void (*)(const Tile&, const view_params&, const MaterialRecord&, std::uint32_t, std::uint32_t);
 constexpr ShadeSlot kShadeSlots[] = {
-#define BN_TECHNIQUE(id, sampling, default_samples, most_samples, summary) shade_slot<Technique::id>,
+#define BN_TECHNIQUE(id, sampling, default_samples, most_samples, traits, summary) shade_slot<Technique::id>,
 #include "shading/models.def"
 };
-
-// A stage ends: one test where nobody profiles.
-BN_INLINE void lap(const TileScratch& s, FrameStage stage, std::int32_t material = -1, std::uint32_t used = 0)
-{
-    if (s.clock)
-        s.clock->lap(*s.clock, stage, material, used, (used + kLanes - 1) / kLanes * kLanes);
-}
 
 void render_tile(const FrameParams& f, int tile_x, int tile_y, TileScratch& s)
 {
@@ -390,21 +199,21 @@ void render_tile(const FrameParams& f, int tile_x, int tile_y, TileScratch& s)
     t.width = f.width - t.x0 < f.tile_size ? f.width - t.x0 : f.tile_size;
     t.height = f.height - t.y0 < f.tile_size ? f.height - t.y0 : f.tile_size;
     const view_params view = lanes_view(f.view);
-    clear_tile(t);
-    lap(s, FrameStage::clear);
-    raster_tile(t, view);
-    lap(s, FrameStage::coverage);
-    if (s.output_ids)
-        write_ids(t);
-    list_fragments(f, t.width, t.height, s);
-    const int slots = sort_fragments(s);
-    lap(s, FrameStage::visibility);
+    const int slots = find_visible(t, view);
     shade_background_slot(t, view, s.slot_begin[0], s.slot_begin[1]);
     lap(s, FrameStage::background, -1, s.slot_begin[1] - s.slot_begin[0]);
+    bool shared = false;
     for (int k = 1; k < slots; ++k) {
-        kShadeSlots[f.technique](t, view, f.materials[s.slot_material[k]], s.slot_begin[k], s.slot_begin[k + 1]);
+        const MaterialRecord& m = f.materials[s.slot_material[k]];
+        kShadeSlots[m.technique](t, view, m, s.slot_begin[k], s.slot_begin[k + 1]);
+        shared = shared || (m.technique_traits & kSharesSamples);
         lap(s, FrameStage::shade, s.slot_material[k], s.slot_begin[k + 1] - s.slot_begin[k]);
     }
+    if (shared)
+        list_sharing(t);
+    for (int k = 1; shared && k < slots; ++k)
+        if (f.materials[s.slot_material[k]].technique_traits & kSharesSamples)
+            share_slot(t, s.slot_begin[k], s.slot_begin[k + 1]);
     if (s.output_pairs) {
         record_depths(f, t.x0, t.y0, t.width, t.height, s);
         record_fragments(f, view, t.x0, t.y0, s);
@@ -413,13 +222,11 @@ void render_tile(const FrameParams& f, int tile_x, int tile_y, TileScratch& s)
     lap(s, FrameStage::resolve);
 }
 
+constexpr TileFns kFns = {transform_vertices, bin_triangles, touch_tiles, render_tile, record_vertices, kLanes};
+
 } // namespace
 
-const TileFns& tile_fns()
-{
-    static constexpr TileFns fns = {transform_vertices, bin_triangles, render_tile, record_vertices, kLanes};
-    return fns;
-}
+BN_DEFINE_FNS(TileFns, kFns)
 
 } // namespace BN_ISA_NS
 } // namespace burnish

@@ -3,19 +3,20 @@
 #pragma once
 #include <cstdint>
 
-#include "raster/frame/records.h"
+#include "core/simd/fns.h"
 #include "raster/frame/stages.h"
+#include "shading/lang/tables.h"
 
 namespace burnish {
 
-inline constexpr int kGuardBand = 1 << 22;           // |x|, |y| of any snapped vertex stay below this, sub-pixel units
+inline constexpr int kGuardBand = 1 << 22; // |x|, |y| of any snapped vertex stay below this, sub-pixel units
 // Whole triangles stay well inside the band, clipping cuts between that and its edge: so a vertex that one triangle keeps is never cut
 // by its neighbour, and both see it at the same place.
 inline constexpr int kWholeBand = kGuardBand / 16 * 15, kCutBand = kGuardBand / 32 * 31;
 inline constexpr std::int32_t kNeedsClip = -(1 << 30); // in place of a snapped x: behind the near plane or out of the guard band
-inline constexpr int kBlock = 8;                     // coverage and hierarchical depth work on 8x8 pixels
+inline constexpr int kBlock = 8;                       // coverage and hierarchical depth work on 8x8 pixels
 inline constexpr int kBlockPixels = kBlock * kBlock;
-inline constexpr int kMaxTileSize = 64;              // pixels along a side
+inline constexpr int kMaxTileSize = 64; // pixels along a side
 
 // A vertex after transformation.
 struct alignas(16) SnappedVertex {
@@ -26,11 +27,11 @@ struct alignas(16) SnappedVertex {
 
 // A triangle ready to be rasterized, one cache line. Vertices run so that the area is positive with y down.
 struct alignas(64) TriangleSetup {
-    std::int32_t x[3], y[3];   // as SnappedVertex
+    std::int32_t x[3], y[3]; // as SnappedVertex
     float inv_w[3];
     float z[3];
-    std::int32_t vertex[3];    // into DrawTables::shading
-    std::int32_t info;         // material << 2 | kFrontFacing | kClipped; vertex[0] of a clipped piece is an index into TileScratch::clips
+    std::int32_t vertex[3]; // into DrawTables::shading
+    std::int32_t info;      // material << 2 | kFrontFacing | kClipped; vertex[0] of a clipped piece is an index into TileScratch::clips
 };
 static_assert(sizeof(TriangleSetup) == 64);
 inline constexpr std::int32_t kFrontFacing = 1, kClipped = 2;
@@ -65,37 +66,9 @@ struct ChunkOutput { // what one chunk of clusters produced, in draw order
 inline constexpr std::uint32_t kGrowRoom = 256;
 
 // Everything a tile needs to know of its frame; constant while the frame is drawn.
-struct FrameParams {
-    ViewParams view;
-    std::int32_t width, height, msaa, tile_size, tiles_x, tiles_y;
-    std::int32_t center_x, center_y; // sub-pixel units; added to a snapped position it counts from the image's top left corner
-    float half_width, half_height;   // pixels
-    SamplePattern pattern;
-    // scene
-    const float *px, *py, *pz;
-    const float* shading_vertices;   // DrawTables::shading as floats
-    const std::uint32_t* indices;
-    const std::uint32_t* triangle_material;
-    const MaterialRecord* materials;
-    const LightRecord* lights;
-    std::int32_t light_count;
+struct FrameParams : ShadingFrame {
+    std::int32_t tile_size, tiles_x, tiles_y;
     SnappedVertex* vertices; // by global vertex id
-    // environment
-    CubeParams specular_cube, irradiance_cube;
-    CubeParams box_cube;             // box-filtered chain; only for techniques that ask for it
-    const GridSample* grid;          // samples of filtered importance sampling
-    std::int32_t grid_count;
-    const std::uint16_t* dfg_texels; // DfgTable::texels
-    std::int32_t dfg_size;
-    const std::uint16_t* lobe_albedo_texels; // LobeAlbedoTable::texels; only with energy_compensation
-    std::int32_t lobe_albedo_size;
-    std::int32_t dfg_fit, energy_compensation, horizon; // flags
-    std::int32_t background, technique, samples, texture_taps, seed;
-    float tilt_cos[2], tilt_sin[2];
-    std::int32_t tilted;              // any tilt at all
-    float major_axis_k, major_axis_beta;
-    std::int32_t override_anisotropy; // by `anisotropy`, the eta of every material
-    float anisotropy;
 };
 
 inline constexpr std::int32_t kNoMaterial = -1, kManyMaterials = -2; // instead of one
@@ -106,23 +79,42 @@ struct TileClock {
     void (*lap)(TileClock& self, FrameStage stage, std::int32_t material, std::uint32_t used, std::uint32_t all);
 };
 
+// What a block's samples show. Those of an `empty` or a `whole` block are not in memory until something else is drawn there.
+enum class BlockState : std::uint8_t {
+    empty, // nothing
+    whole, // one triangle: its depths are those of the block's plane
+    drawn  // what depth and ids say
+};
+
+// The depths of a triangle in a block.
+struct BlockPlane {
+    float z, dz_x, dz_y; // at the block's corner, and their change by pixel
+    float z_min, z_max;  // of the triangle's vertices: samples are clamped to them
+    std::uint32_t id;    // index into `triangles`
+};
+
 // Scratch memory of one worker; sized for the worst case of a tile, so tile loops never allocate.
 struct TileScratch {
-    float* depth;             // [block][sample][64], reversed, 0 = nothing
-    std::uint32_t* ids;       // [block][sample][64], index into `triangles`, or kNoTriangle
-    float* block_far;         // [block] farthest depth among all samples (a lower bound)
+    float* depth;              // [block][sample][64], reversed, 0 = nothing; only of drawn blocks
+    std::uint32_t* ids;        // [block][sample][64], index into `triangles`, or kNoTriangle; only of drawn blocks
+    float* block_far;          // [block] farthest depth among all samples (a lower bound)
     std::uint8_t* block_dirty; // [block] writes since block_far was true
+    BlockState* block_state;   // [block]
+    BlockPlane* block_plane;   // [block] of whole ones
     std::uint32_t triangle_count;
-    const std::uint32_t* entries; // the tile's triangles, in draw order; kLanes may be read at any of them
-    TriangleSetup* triangles;     // by entry; those of pieces are given, the others are made here. kLanes may be written at any of them
-    const ClipRecord* clips;      // of the tile's pieces
-    std::uint32_t* drawn_singly;  // triangles that lanes do not share
+    const std::uint32_t* entries;    // the tile's triangles, in draw order; kLanes may be read at any of them
+    TriangleSetup* triangles;        // by entry; those of pieces are given, the others are made here. kLanes may be written at any of them
+    const ClipRecord* clips;         // of the tile's pieces
+    std::uint32_t* drawn_singly;     // triangles that lanes do not share
     std::int32_t* fragment_triangle; // visible (pixel, triangle) pairs, in the order of list_fragments
     std::int32_t* fragment_pixel;    // x | y << 8, in the tile
     std::int32_t* fragment_mask;     // covered samples, bit s = sample s
     std::uint8_t* register_passes;   // by register of pixels: how many fragments its fullest pixel has
     std::uint32_t* pass_lanes;       // by pass: the pixels of the register that have a fragment in it, bit i = lane i
     float *red, *green, *blue;       // shaded colour by fragment
+    float* lines;                    // [fragment][16] line_record (shading/techniques/shared_line.k.h), of those that share samples
+    std::int32_t* sharing_of_pixel;  // [64 y + x] its first fragment that shares, or -1
+    std::int32_t* next_sharing;      // by fragment: the pixel's next one, in the order of passes, or -1
     std::int32_t* order;             // fragments sorted by material slot
     bool in_list_order;              // `order` would hold 0, 1, 2... and is not written
     std::int32_t only_material;      // of all triangles of the tile; or kNoMaterial, kManyMaterials
@@ -130,19 +122,24 @@ struct TileScratch {
     std::int32_t* slot_material;     // by slot
     std::uint32_t* slot_begin;       // by slot, into `order`
     std::uint32_t fragment_count, background_pixels;
-    float* output;                   // the frame's RGB pixels
-    std::uint32_t* output_ids;       // the frame's triangle ids [pixel][sample], or null
+    float* output;                               // the frame's RGB pixels
+    std::uint32_t* output_ids;                   // the frame's triangle ids [pixel][sample], or null
     std::uint32_t *output_depths, *output_pairs; // its stage records, or null
-    TileClock* clock;                // null unless the frame is profiled
+    TileClock* clock;                            // null unless the frame is profiled
 };
 
 struct TileFns { // one table an instruction set
     void (*transform_vertices)(const FrameParams&, std::uint32_t first, std::uint32_t count);
     void (*bin_triangles)(const FrameParams&, std::uint32_t first, std::uint32_t count, ChunkOutput&);
+    // The corners of the rectangles of tiles that entries may touch, as in ChunkOutput; those of pieces: all tiles. kLanes may be read and
+    // written at any of them.
+    void (*touch_tiles)(const FrameParams&, const std::uint32_t* entries, std::uint32_t count, std::uint32_t* first_tile,
+                        std::uint32_t* last_tile);
     void (*render_tile)(const FrameParams&, int tile_x, int tile_y, TileScratch&);
     void (*record_vertices)(const FrameParams&, std::uint32_t count, std::uint32_t* out); // StageRecords::vertices
-    int lanes; // kLanes
+    int lanes;                                                                            // kLanes
 };
+BN_DECLARE_FNS(TileFns);
 
 // Clips one triangle in homogeneous space and appends its pieces (baseline code, called from the lanes for the rare triangle).
 void clip_triangle(const FrameParams& frame, std::uint32_t triangle, ChunkOutput& output);

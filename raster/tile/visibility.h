@@ -1,118 +1,103 @@
-// From triangle ids by sample to the list of visible (pixel, triangle) pairs, and from their colours back to pixels.
+// From triangle ids by sample to the list of visible (pixel, triangle) pairs.
 #pragma once
-#include "raster/tile/raster.h"
+#include "raster/tile/blocks.h"
 
 namespace burnish {
 inline namespace BN_ISA_NS {
 
-inline constexpr std::uint32_t kAllLanes = (1u << kLanes) - 1;
+// Fragments as they are listed: by block, by register of pixels, then by pass, where pass k holds the k-th distinct triangle of every pixel
+// that has one, in the order of its samples.
+struct FragmentList {
+    std::int32_t *triangle, *pixels, *masks; // the next one's
+    std::uint32_t* pass_lanes;               // of the next pass
+    std::uint8_t* register_passes;           // of the register at hand
+    std::int32_t full;                       // mask of all samples
+    std::uint32_t background = 0;
 
-// Lists the fragments of the tile's width x height pixels: by block, by register of pixels, then by pass, where pass k holds the k-th
-// distinct triangle of every pixel that has one, in the order of its samples.
+    // Every pixel of a register is one fragment.
+    void add_register(integer id, integer pixel)
+    {
+        store_int(triangle, id);
+        store_int(pixels, pixel);
+        store_int(masks, int_lit(full));
+        triangle += kLanes, pixels += kLanes, masks += kLanes;
+        *pass_lanes++ = kAllLanes;
+        *register_passes++ = 1;
+    }
+    void add_pass(integer id, integer pixel, integer samples, mask some)
+    {
+        const int n = compress_store_int(triangle, id, some);
+        compress_store_int(pixels, pixel, some);
+        compress_store_int(masks, samples, some);
+        triangle += n, pixels += n, masks += n;
+        background += static_cast<std::uint32_t>(__builtin_popcount(to_bits(both(some, id < int_lit(0)))));
+        *pass_lanes++ = to_bits(some);
+    }
+};
+
+// One register of pixels, `valid` those in the image. from: the ids of its first sample.
+BN_INLINE void list_register(const FrameParams& f, const std::int32_t* from, integer pixel, mask valid, FragmentList& list)
+{
+    const integer zero = int_lit(0), full = int_lit(list.full), first = load_int(from);
+    integer covered = int_lit(1), second = first; // samples that show what the first one shows; what the first of the others shows
+    for (int i = f.msaa - 1; i > 0; --i) {
+        const integer id = load_int(from + i * kBlockPixels);
+        const mask same = id == first;
+        covered = covered | select(same, int_lit(1 << i), zero);
+        second = select(same, second, id);
+    }
+    if (all(both(valid, covered == full))) {
+        list.background += static_cast<std::uint32_t>(__builtin_popcount(to_bits(first < zero)));
+        list.add_register(first, pixel);
+        return;
+    }
+    const std::uint32_t* const first_pass = list.pass_lanes;
+    if (any(valid))
+        list.add_pass(first, pixel, covered, valid);
+    integer rest = select(valid, full & ~covered, zero), id = second; // samples without a fragment
+    while (any(rest != zero)) {
+        covered = zero;
+        for (int i = 1; i < f.msaa; ++i)
+            covered = covered | select(load_int(from + i * kBlockPixels) == id, int_lit(1 << i), zero);
+        list.add_pass(id, pixel, covered, rest != zero);
+        rest = rest & ~covered;
+        if (none(rest != zero)) // of most
+            break;
+        id = int_lit(-2); // of no sample
+        for (int i = f.msaa - 1; i > 0; --i)
+            id = select((rest & int_lit(1 << i)) != zero, load_int(from + i * kBlockPixels), id);
+    }
+    *list.register_passes++ = static_cast<std::uint8_t>(list.pass_lanes - first_pass);
+}
+
+// Lists the fragments of the tile's width x height pixels.
 BN_INLINE void list_fragments(const FrameParams& f, int width, int height, TileScratch& s)
 {
     const int blocks_x = f.tile_size / kBlock;
-    const std::int32_t full = static_cast<std::int32_t>((1u << f.msaa) - 1);
-    const integer zero = int_lit(0);
-    std::uint32_t count = 0, passes = 0, background = 0;
-    std::uint8_t* register_passes = s.register_passes;
+    FragmentList list = {s.fragment_triangle, s.fragment_pixel,  s.fragment_mask,
+                         s.pass_lanes,        s.register_passes, static_cast<std::int32_t>((1u << f.msaa) - 1)};
     for (int by = 0; by * kBlock < height; ++by)
         for (int bx = 0; bx * kBlock < width; ++bx) {
-            const std::int32_t* ids = reinterpret_cast<const std::int32_t*>(s.ids) + (by * blocks_x + bx) * f.msaa * kBlockPixels;
-            for (int v = 0; v < kVectors; ++v, ++register_passes) {
+            const int block = by * blocks_x + bx;
+            const BlockState state = s.block_state[block];
+            const bool inside = (bx + 1) * kBlock <= width && (by + 1) * kBlock <= height;
+            if (state != BlockState::drawn && !inside)
+                write_block(f, block, s);
+            const std::int32_t* ids = reinterpret_cast<const std::int32_t*>(s.ids) + block * f.msaa * kBlockPixels;
+            const integer id = int_lit(state == BlockState::whole ? static_cast<std::int32_t>(s.block_plane[block].id) : -1);
+            if (state == BlockState::empty && inside)
+                list.background += kBlockPixels;
+            for (int v = 0; v < kVectors; ++v) {
                 const integer lane = iota() + int_lit(v * kLanes);
                 const integer x = (lane & int_lit(7)) + int_lit(bx * kBlock), y = shr(lane, 3) + int_lit(by * kBlock);
-                const mask valid = both(x < int_lit(width), y < int_lit(height));
-                const std::int32_t* from = ids + v * kLanes;
-                const integer first = load_int(from), pixel = x | shl(y, 8);
-                mask same = valid;
-                for (int i = 1; i < f.msaa; ++i)
-                    same = both(same, load_int(from + i * kBlockPixels) == first);
-                if (all(same)) {
-                    store_int(s.fragment_triangle + count, first);
-                    store_int(s.fragment_pixel + count, pixel);
-                    store_int(s.fragment_mask + count, int_lit(full));
-                    background += static_cast<std::uint32_t>(__builtin_popcount(to_bits(first < zero)));
-                    s.pass_lanes[passes++] = kAllLanes;
-                    *register_passes = 1;
-                    count += kLanes;
-                    continue;
-                }
-                *register_passes = 0;
-                integer rest = select(valid, int_lit(full), zero); // samples without a fragment
-                for (mask some = rest != zero; any(some); some = rest != zero) {
-                    integer id = int_lit(-2); // of no sample
-                    for (int i = f.msaa - 1; i >= 0; --i)
-                        id = select((rest & int_lit(1 << i)) != zero, load_int(from + i * kBlockPixels), id);
-                    integer covered = zero;
-                    for (int i = 0; i < f.msaa; ++i)
-                        covered = covered | select(load_int(from + i * kBlockPixels) == id, int_lit(1 << i), zero);
-                    compress_store_int(s.fragment_triangle + count, id, some);
-                    compress_store_int(s.fragment_mask + count, covered, some);
-                    count += static_cast<std::uint32_t>(compress_store_int(s.fragment_pixel + count, pixel, some));
-                    background += static_cast<std::uint32_t>(__builtin_popcount(to_bits(both(some, id < zero))));
-                    s.pass_lanes[passes++] = to_bits(some);
-                    ++*register_passes;
-                    rest = rest & ~covered;
-                }
+                const integer pixel = x | shl(y, 8);
+                if (state != BlockState::drawn && inside)
+                    list.add_register(id, pixel);
+                else
+                    list_register(f, ids + v * kLanes, pixel, both(x < int_lit(width), y < int_lit(height)), list);
             }
         }
-    s.fragment_count = count, s.background_pixels = background;
-}
-
-BN_INLINE real popcount16(integer i)
-{
-    i = i - (shr_logical(i, 1) & int_lit(0x5555));
-    i = (i & int_lit(0x3333)) + (shr_logical(i, 2) & int_lit(0x3333));
-    i = (i + shr_logical(i, 4)) & int_lit(0x0f0f);
-    return to_real((i + shr_logical(i, 8)) & int_lit(0x1f));
-}
-
-// Box resolve: the mean over samples, fragments of a pixel in the order of their passes, so the sum never depends on how they were
-// batched. Writes RGB to the frame.
-BN_INLINE void resolve(const FrameParams& f, int x0, int y0, int width, int height, const TileScratch& s)
-{
-    const real inv = splat(1.0f / static_cast<float>(f.msaa)), zero = lit(0.0);
-    const std::uint32_t* lanes = s.pass_lanes;
-    const std::uint8_t* register_passes = s.register_passes;
-    const std::size_t row = 3 * static_cast<std::size_t>(f.width);
-    std::uint32_t at = 0;
-    for (int by = 0; by * kBlock < height; ++by)
-        for (int bx = 0; bx * kBlock < width; ++bx)
-            for (int v = 0; v < kVectors; ++v, ++register_passes) {
-                real r = zero, g = zero, b = zero;
-                std::uint32_t drawn = 0;
-                int passes = *register_passes;
-                if (passes == 1 && *lanes == kAllLanes) { // every pixel is one fragment, of weight 1
-                    r = r + load(s.red + at), g = g + load(s.green + at), b = b + load(s.blue + at);
-                    at += kLanes;
-                    drawn = *lanes++;
-                    passes = 0;
-                }
-                for (int k = 0; k < passes; ++k) {
-                    const std::uint32_t bits = *lanes++;
-                    const mask m = mask_from_bits(bits);
-                    const real weight = popcount16(expand_load_int(s.fragment_mask + at, m)) * inv;
-                    r = r + expand_load(s.red + at, m) * weight;
-                    g = g + expand_load(s.green + at, m) * weight;
-                    b = b + expand_load(s.blue + at, m) * weight;
-                    at += static_cast<std::uint32_t>(__builtin_popcount(bits));
-                    drawn |= bits;
-                }
-                const int px = bx * kBlock + (v * kLanes & 7), py = by * kBlock + (v * kLanes >> 3);
-                float* to = s.output + row * static_cast<std::size_t>(y0 + py) + 3 * static_cast<std::size_t>(x0 + px);
-                if (drawn == kAllLanes) {
-                    store_triples(to, to + row, r, g, b);
-                    continue;
-                }
-                float part[2][3 * kBlock];
-                store_triples(part[0], part[1], r, g, b);
-                for (std::uint32_t bits = drawn; bits; bits &= bits - 1) { // at the image's border
-                    const int i = __builtin_ctz(bits), y = i / kBlock, x = i % kBlock;
-                    for (int c = 0; c < 3; ++c)
-                        to[row * static_cast<std::size_t>(y) + static_cast<std::size_t>(3 * x + c)] = part[y][3 * x + c];
-                }
-            }
+    s.fragment_count = static_cast<std::uint32_t>(list.triangle - s.fragment_triangle), s.background_pixels = list.background;
 }
 
 } // namespace BN_ISA_NS

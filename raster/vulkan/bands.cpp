@@ -22,8 +22,8 @@ std::vector<Band> bands_of(int height, int rows)
 void require_limit(const Context& context, const char* option, const char* limit, std::uint64_t need, std::uint64_t have)
 {
     if (need > have)
-        throw VulkanError{Error{ExitCode::unavailable, "", option,
-                                fmt::format("{} is needed of {}, {} has {}", need, limit, context.info().name, have)}};
+        throw VulkanError{
+            Error{ExitCode::unavailable, "", option, fmt::format("{} is needed of {}, {} has {}", need, limit, context.info().name, have)}};
 }
 
 void require_width(const Context& context, int width)

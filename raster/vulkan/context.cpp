@@ -119,7 +119,10 @@ std::string lower(std::string text)
     return text;
 }
 
-bool is_lavapipe(const VulkanDeviceInfo& info) { return info.name.find("llvmpipe") != std::string::npos; }
+bool is_lavapipe(const VulkanDeviceInfo& info)
+{
+    return info.name.find("llvmpipe") != std::string::npos;
+}
 
 // The names that --device takes besides parts of a device's own.
 bool answers_to(const VulkanDeviceInfo& info, const std::string& wanted)
@@ -292,8 +295,9 @@ static bool is_cache_of(const VkPhysicalDeviceProperties& p, const std::vector<s
     if (bytes.size() < sizeof header)
         return false;
     std::memcpy(&header, bytes.data(), sizeof header);
-    return header.headerSize >= sizeof header && header.headerVersion == VK_PIPELINE_CACHE_HEADER_VERSION_ONE && header.vendorID == p.vendorID &&
-           header.deviceID == p.deviceID && std::equal(std::begin(header.pipelineCacheUUID), std::end(header.pipelineCacheUUID), p.pipelineCacheUUID);
+    return header.headerSize >= sizeof header && header.headerVersion == VK_PIPELINE_CACHE_HEADER_VERSION_ONE &&
+           header.vendorID == p.vendorID && header.deviceID == p.deviceID &&
+           std::equal(std::begin(header.pipelineCacheUUID), std::end(header.pipelineCacheUUID), p.pipelineCacheUUID);
 }
 
 // One file a device and driver.
@@ -310,7 +314,7 @@ void Context::load_cache()
     std::error_code ignored;
     if (!std::filesystem::exists(cache_path_, ignored))
         return;
-    const Result<std::vector<std::uint8_t>> bytes = read_file(cache_path_, 256u << 20);
+    const Result<std::vector<std::uint8_t>> bytes = read_file(cache_path_, 256u << 20, Links::refuse);
     if (!bytes || !is_cache_of(p, *bytes))
         return;
     info.initialDataSize = bytes->size(), info.pInitialData = bytes->data();
@@ -331,7 +335,7 @@ void Context::save_cache() const
         return;
     std::error_code ignored;
     std::filesystem::create_directories(std::filesystem::path(cache_path_).parent_path(), ignored);
-    const Status written = write_file_atomic(cache_path_, bytes.data(), size);
+    const Status written = write_file_atomic(cache_path_, bytes.data(), size, Links::refuse);
     static_cast<void>(written); // a cache that cannot be kept costs time, nothing else
     prune_cache(cache_folder(), cache_limit(), cache_path_);
 }
@@ -390,7 +394,8 @@ Buffer::Buffer(const Context& context, VkDeviceSize bytes, Place place, VkBuffer
     VkMemoryRequirements needs;
     vkGetBufferMemoryRequirements(device_, buffer_, &needs);
     const bool mapped = place == Place::host || context.host_visible_device_memory();
-    VkMemoryPropertyFlags wanted = mapped ? VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT : VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT;
+    VkMemoryPropertyFlags wanted =
+        mapped ? VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT : VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT;
     auto flags = vk_struct<VkMemoryAllocateFlagsInfo>(VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_FLAGS_INFO);
     flags.flags = VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT;
     auto allocate = vk_struct<VkMemoryAllocateInfo>(VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO);
@@ -485,8 +490,8 @@ void full_barrier(VkCommandBuffer commands)
     auto barrier = vk_struct<VkMemoryBarrier>(VK_STRUCTURE_TYPE_MEMORY_BARRIER);
     barrier.srcAccessMask = VK_ACCESS_MEMORY_WRITE_BIT;
     barrier.dstAccessMask = VK_ACCESS_MEMORY_READ_BIT | VK_ACCESS_MEMORY_WRITE_BIT | VK_ACCESS_HOST_READ_BIT;
-    vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT | VK_PIPELINE_STAGE_HOST_BIT, 0, 1,
-                         &barrier, 0, nullptr, 0, nullptr);
+    vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT | VK_PIPELINE_STAGE_HOST_BIT, 0,
+                         1, &barrier, 0, nullptr, 0, nullptr);
 }
 
 void change_layout(VkCommandBuffer commands, const DeviceImage& image, VkImageLayout from, VkImageLayout to)
@@ -498,7 +503,8 @@ void change_layout(VkCommandBuffer commands, const DeviceImage& image, VkImageLa
     barrier.srcQueueFamilyIndex = barrier.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
     barrier.image = image.handle();
     barrier.subresourceRange = {image.aspect(), 0, VK_REMAINING_MIP_LEVELS, 0, VK_REMAINING_ARRAY_LAYERS};
-    vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, 0, 0, nullptr, 0, nullptr, 1, &barrier);
+    vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, 0, 0, nullptr, 0, nullptr, 1,
+                         &barrier);
 }
 
 } // namespace burnish

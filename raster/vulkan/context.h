@@ -32,14 +32,14 @@ template <class T> T vk_struct(VkStructureType type, void* next = nullptr)
 }
 
 struct Features {
-    bool float64 = false;          // depth by the tile renderer's formula
-    bool standard_samples = false; // samples of multisampled targets at the standard positions
-    bool primitive_id = false;     // fragments know their triangle
-    VkSampleCountFlags target_samples = 0; // of the images that pass 1 writes and pass 2 reads
-    int max_viewport = 0;          // pixels
+    bool float64 = false;                                   // depth by the tile renderer's formula
+    bool standard_samples = false;                          // samples of multisampled targets at the standard positions
+    bool primitive_id = false;                              // fragments know their triangle
+    VkSampleCountFlags target_samples = 0;                  // of the images that pass 1 writes and pass 2 reads
+    int max_viewport = 0;                                   // pixels
     std::uint32_t max_image = 0, max_framebuffer_width = 0; // pixels
-    std::uint32_t max_index = 0;   // of a vertex
-    VkDeviceSize max_buffer = 0;   // bytes of a storage buffer
+    std::uint32_t max_index = 0;                            // of a vertex
+    VkDeviceSize max_buffer = 0;                            // bytes of a storage buffer
 };
 
 // Instance, device, one queue. Made once a renderer.
@@ -54,7 +54,7 @@ class Context {
     const Features& features() const { return features_; }
     const VulkanDeviceInfo& info() const { return info_; }
     VkPipelineCache pipeline_cache() const { return cache_; }
-    bool cache_loaded() const { return cache_loaded_; } // it holds what an earlier run has left
+    bool cache_loaded() const { return cache_loaded_; }                                   // it holds what an earlier run has left
     std::uint32_t memory_type(std::uint32_t allowed, VkMemoryPropertyFlags wanted) const; // throws where there is none
     bool host_visible_device_memory() const; // one memory for both: CPU devices, GPUs whose memory is mapped
 

@@ -10,10 +10,10 @@ constexpr VkFormat kColorFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
 constexpr std::size_t kTexelBytes = 16;
 constexpr std::size_t kSampleWords = 4 * kGpuForwardGroups;
 
-std::int32_t used_textures(const GpuMaterial& m)
+std::int32_t used_textures(const MaterialRecord& m)
 {
     std::int32_t bits = 0;
-    for (int i = 0; i < kGpuTextureSlots; ++i)
+    for (int i = 0; i < kTextureSlots; ++i)
         bits |= m.textures[i].texture >= 0 ? 1 << i : 0;
     return bits;
 }
@@ -38,9 +38,11 @@ void ForwardPass::make_targets(const FrameDesc& desc, std::size_t band_bytes)
 {
     require_width(context_, desc.width);
     if (!(context_.features().target_samples & static_cast<VkSampleCountFlags>(desc.msaa)))
-        throw VulkanError{Error{ExitCode::unavailable, "", "--pipeline", fmt::format("forward: {} cannot take {} samples a pixel", context_.info().name, desc.msaa)}};
+        throw VulkanError{Error{ExitCode::unavailable, "", "--pipeline",
+                                fmt::format("forward: {} cannot take {} samples a pixel", context_.info().name, desc.msaa)}};
     const std::size_t msaa = static_cast<std::size_t>(desc.msaa);
-    const int rows = band_rows(desc.width, desc.height, desc.stages ? msaa * kSampleWords * sizeof(float) : std::max(kTexelBytes, msaa * 4), band_bytes);
+    const int rows =
+        band_rows(desc.width, desc.height, desc.stages ? msaa * kSampleWords * sizeof(float) : std::max(kTexelBytes, msaa * 4), band_bytes);
     Targets t;
     t.width = desc.width, t.rows = rows, t.msaa = desc.msaa, t.stages = desc.stages;
     if (t.width == targets_.width && t.rows == targets_.rows && t.msaa == targets_.msaa && t.stages == targets_.stages)
@@ -84,20 +86,24 @@ void ForwardPass::bind_native(VkCommandBuffer c, std::size_t material)
 // stages: words of the pass's group, by vertices that are not indexed; otherwise colours.
 void ForwardPass::draw_scene(VkCommandBuffer c, const Specialization& technique, const GpuPass& pass, bool stages)
 {
-    const char* const fragment = stages ? "forward_stages" : centroid_ ? "forward_centroid" : context_.features().primitive_id ? "forward_id" : "forward";
-    vkCmdBindIndexBuffer(c, scene_.ints().handle(), static_cast<VkDeviceSize>(scene_.record().index_base) * sizeof(std::uint32_t), VK_INDEX_TYPE_UINT32);
+    const char* const fragment = stages                             ? "forward_stages"
+                                 : centroid_                        ? "forward_centroid"
+                                 : context_.features().primitive_id ? "forward_id"
+                                                                    : "forward";
+    vkCmdBindIndexBuffer(c, scene_.ints().handle(), static_cast<VkDeviceSize>(scene_.places().index_base) * sizeof(std::uint32_t),
+                         VK_INDEX_TYPE_UINT32);
     for (const Draw& draw : input_.tables.draws) {
         const auto material = static_cast<std::size_t>(draw.material);
-        const GpuMaterial& m = scene_.material_records()[material];
-        Specialization constants = stages ? Specialization(4) : technique; // constant_id 0 to 3
-        constants.push_back(0);                                            // 4: of the compute stage only
+        const MaterialRecord& m = scene_.materials_of_frame()[material];
+        Specialization constants = stages ? Specialization(1) : technique; // constant_id 0
+        constants.insert(constants.end(), {0, 0});                         // 1, 2: of the compute stages only
         constants.push_back(used_textures(m));
         constants.push_back(targets_.msaa);
         if (stages)
             constants.insert(constants.end(), {context_.features().primitive_id, pass.group});
-        vkCmdBindPipeline(c, VK_PIPELINE_BIND_POINT_GRAPHICS,
-                          pipelines_.graphics(state(stages ? "forward_stages_vert" : "forward_vert", fragment, VK_COMPARE_OP_GREATER),
-                                              constants));
+        vkCmdBindPipeline(
+            c, VK_PIPELINE_BIND_POINT_GRAPHICS,
+            pipelines_.graphics(state(stages ? "forward_stages_vert" : "forward_vert", fragment, VK_COMPARE_OP_GREATER), constants));
         bind_native(c, material);
         vkCmdSetCullMode(c, m.double_sided ? VK_CULL_MODE_NONE : VK_CULL_MODE_BACK_BIT);
         GpuPass of_draw = pass;
@@ -113,7 +119,8 @@ void ForwardPass::draw_scene(VkCommandBuffer c, const Specialization& technique,
 // Last, where nothing was drawn: at depth 0, the farthest.
 void ForwardPass::draw_backdrop(VkCommandBuffer c, const GpuPass& pass)
 {
-    vkCmdBindPipeline(c, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines_.graphics(state("backdrop_vert", "backdrop", VK_COMPARE_OP_GREATER_OR_EQUAL)));
+    vkCmdBindPipeline(c, VK_PIPELINE_BIND_POINT_GRAPHICS,
+                      pipelines_.graphics(state("backdrop_vert", "backdrop", VK_COMPARE_OP_GREATER_OR_EQUAL)));
     bind_native(c, 0);
     vkCmdSetCullMode(c, VK_CULL_MODE_NONE);
     pipelines_.push(c, pass);
@@ -145,8 +152,8 @@ void ForwardPass::begin(VkCommandBuffer c, const Band& band, bool resolves)
     rendering.colorAttachmentCount = 1, rendering.pColorAttachments = &color, rendering.pDepthAttachment = &depth;
     vkCmdBeginRendering(c, &rendering);
     pipelines_.bind_set(c, VK_PIPELINE_BIND_POINT_GRAPHICS);
-    const VkViewport viewport = {0, -static_cast<float>(band.first_row), static_cast<float>(targets_.width),
-                                 static_cast<float>(scene_.record().height), 0.0f, 1.0f};
+    const VkViewport viewport = {
+        0, -static_cast<float>(band.first_row), static_cast<float>(targets_.width), static_cast<float>(scene_.record().height), 0.0f, 1.0f};
     vkCmdSetViewport(c, 0, 1, &viewport);
     vkCmdSetScissor(c, 0, 1, &area);
 }
@@ -207,7 +214,8 @@ void ForwardPass::fill_frame(const FrameDesc& desc, const Band& band, Frame& fra
 {
     constexpr std::size_t kFront = 23; // an integer among the interpolants
     const std::size_t width = static_cast<std::size_t>(desc.width), msaa = static_cast<std::size_t>(desc.msaa);
-    const std::size_t first = width * static_cast<std::size_t>(band.first_row) * msaa, count = width * static_cast<std::size_t>(band.rows) * msaa;
+    const std::size_t first = width * static_cast<std::size_t>(band.first_row) * msaa,
+                      count = width * static_cast<std::size_t>(band.rows) * msaa;
     const std::int32_t* ids = targets_.ids.as<std::int32_t>();
     std::copy_n(targets_.depths.as<std::uint32_t>(), count, frame.stages.depths.data() + first);
     for (std::size_t s = 0; s < count; ++s) {

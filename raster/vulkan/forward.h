@@ -1,5 +1,5 @@
-// The classical pipeline: fragments shaded as they are rasterized, multisampled, resolved by the device. Where a triangle covers only some of
-// a pixel's samples it is shaded at their mean, as by the tile renderer, though of all samples that it covers, hidden ones too.
+// The classical pipeline: fragments shaded as they are rasterized, multisampled, resolved by the device. Where a triangle covers only some
+// of a pixel's samples it is shaded at their mean, as by the tile renderer, though of all samples that it covers, hidden ones too.
 #pragma once
 #include <optional>
 

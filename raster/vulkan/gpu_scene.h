@@ -3,15 +3,11 @@
 #include <vector>
 
 #include "raster/frame/frame.h"
-#include "raster/frame/upload.h"
+#include "raster/frame/frame_record.h"
 #include "raster/vulkan/context.h"
 #include "shading/lang/gpu_records.h"
 
 namespace burnish {
-
-// Pages of texels; textures follow.
-inline constexpr int kSpecularPage = 0, kIrradiancePage = 1, kBoxPage = 2, kDfgPage = 3, kLobeAlbedoPage = 4, kFirstTexturePage = 5;
-inline constexpr std::size_t kMaxGrid = 65536; // samples of filtered importance sampling
 
 // Half the side of the rasterizer's viewport; see kGpuViewportHalf.
 int viewport_half(const Features& features);
@@ -20,8 +16,8 @@ class GpuScene {
   public:
     GpuScene(Context& context, const RenderInput& input); // throws VulkanError where the device cannot hold it
 
-    // The records of a frame, uploaded. Grid and box chain are made where the technique asks for them.
-    void prepare(Context& context, const FrameDesc& desc, const SamplePattern& pattern, std::uint32_t setup_capacity);
+    // The records of a frame, uploaded, and the tables that it is the first to ask for.
+    void prepare(Context& context, const FrameDesc& desc, std::uint32_t setup_capacity);
 
     const Buffer& pages() const { return pages_; }
     const Buffer& reals() const { return reals_; }
@@ -30,21 +26,19 @@ class GpuScene {
     const Buffer& materials() const { return materials_; }
     const Buffer& textures() const { return textures_; }
     const Buffer& lights() const { return lights_; }
-    const GpuFrame& record() const { return record_; }
-    const SceneTables& tables() const { return scene_; }
-    const std::vector<GpuMaterial>& material_records() const { return material_records_; }
-    const CubeMap& box_cube() const { return box_; }
+    const FrameRecord& record() const { return record_.frame; }
+    const GpuPlaces& places() const { return record_.places; }
+    const SceneTables& tables() const { return maker_.scene(); }
+    const std::vector<MaterialRecord>& materials_of_frame() const { return maker_.materials(); }
+    const CubeMap& box_cube() const { return maker_.box_cube(); }
 
   private:
     void upload_pages(Context& context);
     void upload_tables(Context& context);
-    void describe_frame(const FrameDesc& desc, const SamplePattern& pattern, std::uint32_t setup_capacity);
 
     RenderInput input_;
-    SceneTables scene_;
-    CubeMap box_; // made when a technique first asks for it
+    FrameMaker maker_;
     std::vector<Buffer> texels_;
-    std::vector<GpuMaterial> material_records_;
     Buffer pages_, reals_, ints_, frame_, materials_, textures_, lights_;
     GpuFrame record_ = {};
 };

@@ -64,8 +64,8 @@ DeviceImage NativeImages::upload(const std::uint16_t* texels, const std::vector<
     static_assert(kTexelBytes == 4 * sizeof(std::uint16_t));
     VkCommandBuffer c = context_.begin();
     change_layout(c, image, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
-    vkCmdCopyBufferToImage(c, staging.handle(), image.handle(), VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, static_cast<std::uint32_t>(copies.size()),
-                           copies.data());
+    vkCmdCopyBufferToImage(c, staging.handle(), image.handle(), VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
+                           static_cast<std::uint32_t>(copies.size()), copies.data());
     change_layout(c, image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
     context_.submit(c);
     return image;
@@ -92,8 +92,8 @@ VkSampler NativeImages::sampler(int wrap_s, int wrap_t, bool nearest)
 void NativeImages::make_sets(VkDescriptorSetLayout layout, const GpuScene& scene)
 {
     // one at least: the backdrop has no material of its own
-    const auto count = static_cast<std::uint32_t>(std::max<std::size_t>(scene.material_records().size(), 1));
-    const VkDescriptorPoolSize size = {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, count * (kGpuCubes + kGpuTextureSlots)};
+    const auto count = static_cast<std::uint32_t>(std::max<std::size_t>(scene.materials_of_frame().size(), 1));
+    const VkDescriptorPoolSize size = {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, count * (kGpuCubes + kTextureSlots)};
     auto pool = vk_struct<VkDescriptorPoolCreateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO);
     pool.maxSets = count, pool.poolSizeCount = 1, pool.pPoolSizes = &size;
     BN_VK(vkCreateDescriptorPool(context_.device(), &pool, nullptr, &pool_));
@@ -112,11 +112,11 @@ void NativeImages::make_sets(VkDescriptorSetLayout layout, const GpuScene& scene
         textures_.push_back(upload(black.data(), {0}, 1, 1, 1));
     }
     for (std::uint32_t m = 0; m < count; ++m) {
-        VkDescriptorImageInfo cubes[kGpuCubes], textures[kGpuTextureSlots];
+        VkDescriptorImageInfo cubes[kGpuCubes], textures[kTextureSlots];
         for (int i = 0; i < kGpuCubes; ++i)
             cubes[i] = image_info(sampler(1, 1, false), cubes_[static_cast<std::size_t>(i)]);
-        for (int i = 0; i < kGpuTextureSlots; ++i) {
-            const int id = scene.material_records().empty() ? -1 : scene.material_records()[m].textures[i].texture;
+        for (int i = 0; i < kTextureSlots; ++i) {
+            const int id = scene.materials_of_frame().empty() ? -1 : scene.materials_of_frame()[m].textures[i].texture;
             if (id < 0) {
                 textures[i] = image_info(sampler(1, 1, false), textures_.front());
                 continue;
@@ -129,7 +129,7 @@ void NativeImages::make_sets(VkDescriptorSetLayout layout, const GpuScene& scene
             writes[k] = vk_struct<VkWriteDescriptorSet>(VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET);
             writes[k].dstSet = sets_[m], writes[k].dstBinding = k;
             writes[k].descriptorType = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
-            writes[k].descriptorCount = k == 0 ? kGpuCubes : kGpuTextureSlots;
+            writes[k].descriptorCount = k == 0 ? kGpuCubes : kTextureSlots;
             writes[k].pImageInfo = k == 0 ? cubes : textures;
         }
         vkUpdateDescriptorSets(context_.device(), 2, writes, 0, nullptr);

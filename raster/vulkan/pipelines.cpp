@@ -54,8 +54,9 @@ Pipelines::Pipelines(Context& context, std::string shader_folder) : Pipelines(co
     auto set = vk_struct<VkDescriptorSetLayoutCreateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO);
     set.bindingCount = static_cast<std::uint32_t>(bindings.size()), set.pBindings = bindings.data();
     BN_VK(vkCreateDescriptorSetLayout(device, &set, nullptr, &set_layout_));
-    const VkDescriptorSetLayoutBinding native[] = {{0, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, kGpuCubes, VK_SHADER_STAGE_FRAGMENT_BIT, nullptr},
-                                                   {1, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, kGpuTextureSlots, VK_SHADER_STAGE_FRAGMENT_BIT, nullptr}};
+    const VkDescriptorSetLayoutBinding native[] = {
+        {0, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, kGpuCubes, VK_SHADER_STAGE_FRAGMENT_BIT, nullptr},
+        {1, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, kTextureSlots, VK_SHADER_STAGE_FRAGMENT_BIT, nullptr}};
     set.bindingCount = 2, set.pBindings = native;
     BN_VK(vkCreateDescriptorSetLayout(device, &set, nullptr, &native_layout_));
     const VkDescriptorSetLayout set_layouts[] = {set_layout_, native_layout_};
@@ -72,7 +73,8 @@ Pipelines::Pipelines(Context& context, std::string shader_folder) : Pipelines(co
     auto allocate = vk_struct<VkDescriptorSetAllocateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO);
     allocate.descriptorPool = pool_, allocate.descriptorSetCount = 1, allocate.pSetLayouts = &set_layout_;
     BN_VK(vkAllocateDescriptorSets(device, &allocate, &set_));
-    auto sampler = vk_struct<VkSamplerCreateInfo>(VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO); // nearest: texels are fetched by their coordinates
+    auto sampler =
+        vk_struct<VkSamplerCreateInfo>(VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO); // nearest: texels are fetched by their coordinates
     BN_VK(vkCreateSampler(device, &sampler, nullptr, &sampler_));
 }
 
@@ -129,9 +131,11 @@ VkPipeline Pipelines::graphics(const GraphicsState& state, const Specialization&
     if (known != pipelines_.end())
         return known->second;
     const SpecializationInfo specialization(constants);
-    const VkPipelineShaderStageCreateInfo stages[] = {stage_info(VK_SHADER_STAGE_VERTEX_BIT, module(state.vertex), nullptr),
-                                                      stage_info(VK_SHADER_STAGE_FRAGMENT_BIT, module(state.fragment), &specialization.info)};
-    auto input = vk_struct<VkPipelineVertexInputStateCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO); // stages fetch for themselves
+    const VkPipelineShaderStageCreateInfo stages[] = {
+        stage_info(VK_SHADER_STAGE_VERTEX_BIT, module(state.vertex), nullptr),
+        stage_info(VK_SHADER_STAGE_FRAGMENT_BIT, module(state.fragment), &specialization.info)};
+    auto input = vk_struct<VkPipelineVertexInputStateCreateInfo>(
+        VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO); // stages fetch for themselves
     auto assembly = vk_struct<VkPipelineInputAssemblyStateCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO);
     assembly.topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
     auto viewport = vk_struct<VkPipelineViewportStateCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO);

@@ -11,9 +11,26 @@ namespace burnish {
 
 // Bindings of the set, as shading/stages declares them.
 enum Binding : std::uint32_t {
-    kTexelsBinding, kRealsBinding, kIntsBinding, kFrameBinding, kMaterialsBinding, kTexturesBinding, kLightsBinding, kVerticesBinding,
-    kSetupsBinding, kCountsBinding, kDrawBinding, kIdsBinding, kDepthsBinding, kColorBinding, kRecordsBinding, kBufferBindings,
-    kIdImageBinding = kBufferBindings, kDepthImageBinding, kBindings
+    kTexelsBinding,
+    kRealsBinding,
+    kIntsBinding,
+    kFrameBinding,
+    kMaterialsBinding,
+    kTexturesBinding,
+    kLightsBinding,
+    kVerticesBinding,
+    kSetupsBinding,
+    kCountsBinding,
+    kDrawBinding,
+    kIdsBinding,
+    kDepthsBinding,
+    kColorBinding,
+    kRecordsBinding,
+    kLinesBinding,
+    kBufferBindings,
+    kIdImageBinding = kBufferBindings,
+    kDepthImageBinding,
+    kBindings
 };
 
 using Specialization = std::vector<std::int32_t>; // values of constant_id 0, 1, 2...

@@ -3,16 +3,31 @@
 
 namespace burnish {
 
-bool vulkan_built() { return false; }
+bool vulkan_built()
+{
+    return false;
+}
 
-std::vector<VulkanDeviceInfo> vulkan_devices() { return {}; }
+std::vector<VulkanDeviceInfo> vulkan_devices()
+{
+    return {};
+}
 
 namespace {
-Error not_built() { return {ExitCode::unavailable, "", "", "this program was built without Vulkan, which needs libvulkan and glslc"}; }
+Error not_built()
+{
+    return {ExitCode::unavailable, "", "", "this program was built without Vulkan, which needs libvulkan and glslc"};
+}
 } // namespace
 
-Result<std::shared_ptr<VulkanDevice>> open_vulkan_device(const VulkanOptions&) { return not_built(); }
+Result<std::shared_ptr<VulkanDevice>> open_vulkan_device(const VulkanOptions&)
+{
+    return not_built();
+}
 
-Result<std::unique_ptr<Renderer>> make_vulkan_renderer(const RenderInput&, const std::shared_ptr<VulkanDevice>&) { return not_built(); }
+Result<std::unique_ptr<Renderer>> make_vulkan_renderer(const RenderInput&, const std::shared_ptr<VulkanDevice>&)
+{
+    return not_built();
+}
 
 } // namespace burnish

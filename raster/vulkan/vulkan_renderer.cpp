@@ -12,7 +12,10 @@
 
 namespace burnish {
 
-bool vulkan_built() { return true; }
+bool vulkan_built()
+{
+    return true;
+}
 
 namespace {
 
@@ -23,9 +26,9 @@ constexpr std::uint32_t kMinSetups = 1024;
 // Images and buffers of one band.
 struct Targets {
     int width = 0, rows = 0, msaa = 0; // 0: none
-    bool stages = false, native = false;
+    bool stages = false, native = false, shares = false;
     DeviceImage id, depth;
-    Buffer ids, depths, color, records;
+    Buffer ids, depths, color, records, lines;
 };
 
 class Device final : public VulkanDevice {
@@ -79,7 +82,6 @@ class VulkanRenderer final : public Renderer {
     ForwardPass forward_;
     std::uint32_t setup_capacity_ = 0;
     double device_ms_ = 0.0, device_cpu_ms_ = 0.0;
-    SamplePattern pattern_ = {};
     Targets targets_;
 };
 
@@ -94,13 +96,21 @@ void VulkanRenderer::make_targets(const FrameDesc& desc)
 {
     require_width(context_, desc.width);
     const std::size_t msaa = static_cast<std::size_t>(desc.msaa);
-    const std::size_t words = std::max<std::size_t>(3, desc.stages ? msaa * kPairWords : msaa); // a pixel
+    const std::vector<MaterialRecord>& materials = scene_.tables().materials;
+    const bool anisotropic = desc.override_anisotropy ? desc.anisotropy != 0.0f
+                                                      : std::any_of(materials.begin(), materials.end(),
+                                                                    [](const MaterialRecord& m) { return m.anisotropic != 0; });
+    const bool shares = (technique_of(desc, anisotropic).traits & kSharesSamples) != 0;
+    const std::size_t of_sample =
+        std::max<std::size_t>({1, desc.stages ? std::size_t{kPairWords} : 0, shares ? std::size_t{kGpuLineWords} : 0});
+    const std::size_t words = std::max<std::size_t>(3, msaa * of_sample); // a pixel
     const int rows = band_rows(desc.width, desc.height, words * sizeof(float), band_bytes());
     Targets t;
-    t.width = desc.width, t.rows = rows, t.msaa = desc.msaa, t.stages = desc.stages;
-    t.native = desc.msaa == 1 || ((context_.features().target_samples & static_cast<VkSampleCountFlags>(desc.msaa)) &&
-                                  context_.features().standard_samples);
-    if (t.width == targets_.width && t.rows == targets_.rows && t.msaa == targets_.msaa && t.stages == targets_.stages)
+    t.width = desc.width, t.rows = rows, t.msaa = desc.msaa, t.stages = desc.stages, t.shares = shares;
+    t.native = desc.msaa == 1 ||
+               ((context_.features().target_samples & static_cast<VkSampleCountFlags>(desc.msaa)) && context_.features().standard_samples);
+    if (t.width == targets_.width && t.rows == targets_.rows && t.msaa == targets_.msaa && t.stages == targets_.stages &&
+        t.shares == targets_.shares)
         return;
     targets_ = Targets();
     ImageShape shape;
@@ -115,13 +125,14 @@ void VulkanRenderer::make_targets(const FrameDesc& desc)
     t.depths = Buffer(context_, samples * sizeof(float), Buffer::Place::host);
     t.color = Buffer(context_, 3 * pixels * sizeof(float), Buffer::Place::host);
     t.records = Buffer(context_, desc.stages ? samples * kPairWords * sizeof(std::uint32_t) : 0, Buffer::Place::host);
+    t.lines = Buffer(context_, shares ? samples * kGpuLineWords * sizeof(float) : 0, Buffer::Place::device);
     targets_ = std::move(t); // only what was made whole
 }
 
 std::vector<std::pair<Binding, const Buffer*>> VulkanRenderer::scene_bindings() const
 {
-    return {{kTexelsBinding, &scene_.pages()},        {kRealsBinding, &scene_.reals()},     {kIntsBinding, &scene_.ints()},
-            {kFrameBinding, &scene_.frame()},         {kMaterialsBinding, &scene_.materials()}, {kTexturesBinding, &scene_.textures()},
+    return {{kTexelsBinding, &scene_.pages()}, {kRealsBinding, &scene_.reals()},         {kIntsBinding, &scene_.ints()},
+            {kFrameBinding, &scene_.frame()},  {kMaterialsBinding, &scene_.materials()}, {kTexturesBinding, &scene_.textures()},
             {kLightsBinding, &scene_.lights()}};
 }
 
@@ -131,7 +142,7 @@ void VulkanRenderer::bind_all()
         bind(binding, *buffer);
     bind(kVerticesBinding, vertices_), bind(kSetupsBinding, setups_), bind(kCountsBinding, counts_), bind(kDrawBinding, draw_);
     bind(kIdsBinding, targets_.ids), bind(kDepthsBinding, targets_.depths);
-    bind(kColorBinding, targets_.color), bind(kRecordsBinding, targets_.records);
+    bind(kColorBinding, targets_.color), bind(kRecordsBinding, targets_.records), bind(kLinesBinding, targets_.lines);
     pipelines_.bind_image(kIdImageBinding, targets_.id), pipelines_.bind_image(kDepthImageBinding, targets_.depth);
 }
 
@@ -144,8 +155,8 @@ void VulkanRenderer::dispatch(VkCommandBuffer c, VkPipeline pipeline, std::size_
 // Vertices to the sub-pixel grid, triangles to setups.
 void VulkanRenderer::geometry(VkCommandBuffer c)
 {
-    const std::size_t triangles = static_cast<std::size_t>(scene_.record().triangle_count);
-    dispatch(c, pipelines_.compute("transform"), static_cast<std::size_t>(scene_.record().vertex_count));
+    const std::size_t triangles = static_cast<std::size_t>(scene_.places().triangle_count);
+    dispatch(c, pipelines_.compute("transform"), static_cast<std::size_t>(scene_.places().vertex_count));
     dispatch(c, pipelines_.compute("setup", {0}), triangles);
     dispatch(c, pipelines_.compute("scan"), 1);
     dispatch(c, pipelines_.compute("setup", {1}), triangles);
@@ -194,35 +205,45 @@ void VulkanRenderer::all_visibility(VkCommandBuffer c, const Band& band)
         visibility(c, {0, 0, targets_.msaa == 1 ? 0 : -1, 0, 0, band.first_row, band.rows, 0});
         return;
     }
+    const SamplePattern& pattern = scene_.record().pattern;
     for (int s = 0; s < targets_.msaa; ++s)
-        visibility(c, {kSubpixel / 2 - pattern_.x[s], kSubpixel / 2 - pattern_.y[s], s, 0, 0, band.first_row, band.rows, 0});
+        visibility(c, {kSubpixel / 2 - pattern.x[s], kSubpixel / 2 - pattern.y[s], s, 0, 0, band.first_row, band.rows, 0});
 }
 
-// constant_id 0 to 3 of shading/stages: the technique's place, whether it tests the horizon and samples the tilt itself, and whether lights
-// see an isotropic lobe.
-Specialization technique_constants(const std::string& name)
+// constant_id 0 of shading/stages: the materials' techniques, a bit each.
+Specialization technique_constants(const std::vector<MaterialRecord>& materials)
 {
-    const auto index = static_cast<std::int32_t>(find_technique(name) - techniques().data());
-    const bool monte_carlo = name == "mc", tests_horizon = monte_carlo || name == "filtered_is" || name == "filtered_is_ggx";
-    return {index, tests_horizon, monte_carlo, name == "split_isotropic"};
+    std::int32_t bits = 0;
+    for (const MaterialRecord& m : materials)
+        bits |= 1 << m.technique;
+    return {bits};
+}
+
+bool any_shares_samples(const std::vector<MaterialRecord>& materials)
+{
+    return std::any_of(materials.begin(), materials.end(),
+                       [](const MaterialRecord& m) { return (m.technique_traits & kSharesSamples) != 0; });
 }
 
 void VulkanRenderer::shade(VkCommandBuffer c, const FrameDesc& desc, const Band& band)
 {
-    Specialization constants = technique_constants(desc.technique);
-    constants.push_back(desc.stages);
+    const bool shares = any_shares_samples(scene_.materials_of_frame());
+    Specialization constants = technique_constants(scene_.materials_of_frame());
+    constants.insert(constants.end(), {desc.stages, shares});
     if (desc.stages)
         vkCmdFillBuffer(c, targets_.records.handle(), 0, VK_WHOLE_SIZE, 0);
     full_barrier(c);
     pipelines_.push(c, {0, 0, 0, 0, 0, band.first_row, band.rows, 0});
-    dispatch(c, pipelines_.compute("shade", constants),
-             static_cast<std::size_t>(targets_.width) * static_cast<std::size_t>(band.rows));
+    const std::size_t pixels = static_cast<std::size_t>(targets_.width) * static_cast<std::size_t>(band.rows);
+    dispatch(c, pipelines_.compute("shade", constants), pixels);
+    if (shares)
+        dispatch(c, pipelines_.compute("share", constants), pixels);
 }
 
 void VulkanRenderer::begin_frame(const FrameDesc& desc)
 {
     device_ms_ = device_cpu_ms_ = 0.0;
-    scene_.prepare(context_, desc, pattern_, setup_capacity_);
+    scene_.prepare(context_, desc, setup_capacity_);
     bind_all();
 }
 
@@ -263,19 +284,20 @@ void VulkanRenderer::read_band(const FrameDesc& desc, const Band& band, Frame& f
     if (!frame.triangle_ids.empty()) {
         const GpuSetup* setups = setups_.as<GpuSetup>();
         for (std::size_t i = 0; i < pixels * msaa; ++i)
-            frame.triangle_ids[first * msaa + i] = ids[i] == kGpuNoTriangle ? kNoTriangle : static_cast<std::uint32_t>(setups[ids[i]].triangle);
+            frame.triangle_ids[first * msaa + i] =
+                ids[i] == kGpuNoTriangle ? kNoTriangle : static_cast<std::uint32_t>(setups[ids[i]].triangle);
     }
     if (!desc.stages)
         return;
     std::copy_n(targets_.depths.as<std::uint32_t>(), pixels * msaa, frame.stages.depths.data() + first * msaa);
-    std::copy_n(targets_.records.as<std::uint32_t>(), pixels * msaa * kPairWords,
-                frame.stages.pairs.data() + first * msaa * kPairWords);
+    std::copy_n(targets_.records.as<std::uint32_t>(), pixels * msaa * kPairWords, frame.stages.pairs.data() + first * msaa * kPairWords);
 }
 
 // A frame with room for what is asked for.
 Frame empty_frame(const FrameDesc& desc)
 {
-    const std::size_t samples = static_cast<std::size_t>(desc.width) * static_cast<std::size_t>(desc.height) * static_cast<std::size_t>(desc.msaa);
+    const std::size_t samples =
+        static_cast<std::size_t>(desc.width) * static_cast<std::size_t>(desc.height) * static_cast<std::size_t>(desc.msaa);
     Frame frame;
     frame.color = make_image(desc.width, desc.height, 3, PixelType::f32);
     if (desc.triangle_ids || desc.stages)
@@ -300,24 +322,24 @@ Frame VulkanRenderer::render_ids(const FrameDesc& desc)
         }
         read_band(desc, band, frame);
     }
-    frame.stats.triangles = static_cast<std::uint64_t>(scene_.record().triangle_count);
+    frame.stats.triangles = static_cast<std::uint64_t>(scene_.places().triangle_count);
     frame.stats.triangles_drawn = static_cast<std::uint64_t>(draw_.as<GpuDraw>()->setups);
     frame.stats.samples_emulated = !targets_.native;
     frame.stats.depth_interpolated = !context_.features().float64;
     if (desc.stages)
-        frame.stages.vertices.assign(vertices_.as<std::uint32_t>(), static_cast<std::size_t>(scene_.record().vertex_count) * kVertexWords);
+        frame.stages.vertices.assign(vertices_.as<std::uint32_t>(), static_cast<std::size_t>(scene_.places().vertex_count) * kVertexWords);
     return frame;
 }
 
 Frame VulkanRenderer::render_forward(const FrameDesc& desc)
 {
     device_ms_ = device_cpu_ms_ = 0.0;
-    scene_.prepare(context_, desc, pattern_, setup_capacity_);
+    scene_.prepare(context_, desc, setup_capacity_);
     forward_.prepare(desc, band_bytes());
     for (const auto& [binding, buffer] : scene_bindings())
         bind(binding, *buffer);
     Frame frame = empty_frame(desc);
-    const Specialization technique = technique_constants(desc.technique);
+    const Specialization technique = technique_constants(scene_.materials_of_frame());
     for (const Band& band : bands_of(desc.height, forward_.rows())) {
         VkCommandBuffer c = context_.begin();
         forward_.draw(c, technique, band);
@@ -326,7 +348,7 @@ Frame VulkanRenderer::render_forward(const FrameDesc& desc)
         if (desc.stages)
             forward_.record(desc, band, frame);
     }
-    frame.stats.triangles = frame.stats.triangles_drawn = static_cast<std::uint64_t>(scene_.record().triangle_count);
+    frame.stats.triangles = frame.stats.triangles_drawn = static_cast<std::uint64_t>(scene_.places().triangle_count);
     frame.stats.depth_interpolated = true;
     return frame;
 }
@@ -340,7 +362,6 @@ Result<Frame> VulkanRenderer::render(const FrameDesc& desc, Frame)
         return Error{ExitCode::usage, "", "--pipeline", "forward has triangle ids only among its stages"};
     try {
         const double begin = wall_ms();
-        pattern_ = standard_samples(desc.msaa);
         Frame frame = forward ? render_forward(desc) : render_ids(desc);
         if (const std::string messages = context_.validation_messages(); !messages.empty())
             return Error{ExitCode::internal, "", "validation layer", messages};

@@ -16,20 +16,20 @@ enum class VulkanSampler { exact, native };
 enum class VulkanPipeline { ids, forward };
 
 struct VulkanOptions {
-    std::string device;        // "lavapipe", "swiftshader", "gpu", or a part of a device's name; empty: see prefer_cpu
-    bool prefer_cpu = false;   // without a name: the first CPU device (lavapipe before others), otherwise the first GPU, if any
+    std::string device;      // "lavapipe", "swiftshader", "gpu", or a part of a device's name; empty: see prefer_cpu
+    bool prefer_cpu = false; // without a name: the first CPU device (lavapipe before others), otherwise the first GPU, if any
     VulkanSampler sampler = VulkanSampler::exact;
     VulkanPipeline pipeline = VulkanPipeline::ids;
-    bool centroid = false;     // forward: partly covered pixels are shaded where the device likes, which is cheaper; without stages
-    bool validate = false;     // with the Khronos validation layer; what it says makes rendering fail
-    std::string shader_folder; // of NAME.spv in place of the program's own shaders, for tests; empty: none
-    bool use_cache = true;     // pipelines on disk
+    bool centroid = false;      // forward: partly covered pixels are shaded where the device likes, which is cheaper; without stages
+    bool validate = false;      // with the Khronos validation layer; what it says makes rendering fail
+    std::string shader_folder;  // of NAME.spv in place of the program's own shaders, for tests; empty: none
+    bool use_cache = true;      // pipelines on disk
     std::size_t band_bytes = 0; // of the buffers of one band of rows, for tests; 0: as many as every device takes
 };
 
-struct VulkanDeviceInfo { // what the driver calls itself
-    std::string name, driver;  // "llvmpipe (LLVM 15.0.6, 256 bits)", "llvmpipe Mesa 22.3.6 (LLVM 15.0.6)"
-    std::string api;           // "1.3.230"
+struct VulkanDeviceInfo {     // what the driver calls itself
+    std::string name, driver; // "llvmpipe (LLVM 15.0.6, 256 bits)", "llvmpipe Mesa 22.3.6 (LLVM 15.0.6)"
+    std::string api;          // "1.3.230"
     bool cpu = false;
 };
 

@@ -4,18 +4,23 @@
 #pragma once
 #include <cstdint>
 
+#include "core/simd/fns.h"
+
 namespace burnish {
 
-struct PrefilterInput {
-    const std::uint16_t* texels; // of the box chain, a CubeMap's
-    int size, levels;
-    float scale;
-    const float *x, *y, *z;    // sample directions in the frame of the reflected direction (z), unit
-    const float* weight;       // sum 1
-    const std::int32_t* level; // of the chain, the finer of two
-    const float* fraction;     // how far to the next level, [0,1]
-    int count;
+struct PrefilterTerm { // light from one place
+    float x, y, z;     // unit direction
+    float angle;       // sr
+    float r, g, b;     // radiance times solid angle
 };
+
+struct PrefilterInput {
+    const PrefilterTerm* terms;
+    int count;
+    float alpha; // GGX width, (0,1]
+};
+
+inline constexpr int kPrefilterBlock = 4; // texels along an edge of a block that shares its terms
 
 struct IrradianceInput {
     const float *x, *y, *z; // integrals of the unit direction over the source texels
@@ -23,26 +28,14 @@ struct IrradianceInput {
     int count, row;         // texels, and texels a partial sum
 };
 
-struct BakeFns { // both write `count` RGB texels of one face of size x size, from `first` on (row-major);
-                 // size: power of two
-    void (*prefilter)(const PrefilterInput& input, int face, int size, int first, int count, float* rgb);
+struct BakeFns { // of one face of size x size, a power of two
+    // Writes the RGB texels of the block whose first texel is (x, y), kPrefilterBlock^2 of them or the face where that is smaller, row by
+    // row: the mean of the terms under GGX with V = N = R, weighted by n.l.
+    void (*prefilter)(const PrefilterInput& input, int face, int size, int x, int y, float* rgb);
+    // Writes `count` RGB texels from `first` on (row-major).
     void (*irradiance)(const IrradianceInput& input, int face, int size, int first, int count, float* rgb);
 };
 
-// One copy an instruction set; calls are qualified.
-inline namespace bn_scalar {
-const BakeFns& bake_lanes();
-}
-inline namespace bn_avx2 {
-const BakeFns& bake_lanes();
-}
-inline namespace bn_avx512 {
-const BakeFns& bake_lanes();
-}
-
-// isa: 0 scalar, 1 AVX2, 2 AVX-512
-bool bake_isa_available(int isa);
-const BakeFns& bake_fns_of(int isa);
-const BakeFns& bake_fns(); // the widest that the processor can run
+BN_DECLARE_FNS(BakeFns);
 
 } // namespace burnish

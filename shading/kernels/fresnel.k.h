@@ -9,7 +9,7 @@
 
 BN_KERNELS_BEGIN
 
-// Schlick 1994. f0, f90: reflectance at normal incidence and at grazing.
+// Schlick 1994, "An Inexpensive BRDF Model for Physically-based Rendering". f0, f90: reflectance at normal incidence and at grazing.
 BN_FN real3 fresnel_schlick(real3 f0, real3 f90, real v_dot_h)
 {
     real m = lit(1.0) - v_dot_h;
@@ -53,7 +53,7 @@ BN_FN real fresnel_dielectric(real v_dot_h, real eta)
 }
 
 // Exact conductor. Index of refraction eta + i k over that of the near side, eta >= 0, k >= 0, both at most
-// 1e4. Born and Wolf 1999, section 14.2: (a + i b)^2 = (eta + i k)^2 - sin^2. The smaller of a and b follows
+// 1e4. Born and Wolf 1999, "Principles of Optics", section 14.2: (a + i b)^2 = (eta + i k)^2 - sin^2. The smaller of a and b follows
 // from a b = eta k, and a - c from a^2 - c^2 = eta^2 - k^2 - 1 + b^2, so that nothing cancels, not even at
 // eta = 1, k = 0.
 BN_FN real fresnel_conductor(real v_dot_h, real eta, real k)
@@ -84,8 +84,7 @@ BN_FN real fresnel_conductor(real v_dot_h, real eta, real k)
 // A colour channel each.
 BN_FN real3 fresnel_conductor3(real v_dot_h, real3 eta, real3 k)
 {
-    return vec3_of(fresnel_conductor(v_dot_h, eta.x, k.x), fresnel_conductor(v_dot_h, eta.y, k.y),
-                   fresnel_conductor(v_dot_h, eta.z, k.z));
+    return vec3_of(fresnel_conductor(v_dot_h, eta.x, k.x), fresnel_conductor(v_dot_h, eta.y, k.y), fresnel_conductor(v_dot_h, eta.z, k.z));
 }
 
 BN_KERNELS_END

@@ -1,4 +1,4 @@
-// Perspective-correct interpolation from snapped screen positions (Heckbert and Moreton 1991, in homogeneous form).
+// Perspective-correct weights: Heckbert and Moreton 1991, "Interpolation for Polygon Texture Mapping and Shading", in homogeneous form.
 #ifndef BN_INTERPOLATE_K_H
 #define BN_INTERPOLATE_K_H
 
@@ -7,8 +7,8 @@
 BN_KERNELS_BEGIN
 
 struct bary_weights {
-    real3 b;       // weights of the three vertices, sum 1 up to rounding
-    mask inside;   // the point lies in the triangle or on its edge
+    real3 b;     // weights of the three vertices, sum 1 up to rounding
+    mask inside; // the point lies in the triangle or on its edge
 };
 
 // (x, y)_i: vertex i minus the point, 1/256 pixel, exact integers below 2^24; orientation: positive area. inv_w: 1 / clip w.
@@ -21,7 +21,7 @@ BN_FN bary_weights perspective_weights(real3 x, real3 y, real3 inv_w)
     real p1 = e1 * inv_w.y;
     real p2 = e2 * inv_w.z;
     real sum = p0 + p1 + p2;
-    mask degenerate = both(sum < lit(1e-30), sum > lit(-1e-30));
+    mask degenerate = both(sum<lit(1e-30), sum> lit(-1e-30));
     real inv = lit(1.0) / select(degenerate, lit(1.0), sum);
     bary_weights r;
     r.b = select(degenerate, vec3_all(lit(1.0 / 3.0)), vec3_of(p0 * inv, p1 * inv, p2 * inv));

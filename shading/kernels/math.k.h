@@ -153,8 +153,7 @@ BN_FN k_sin_cos_pair k_sin_cos(real x)
 {
     integer n = round_to_int(x * lit(0.63661977236758134));
     real quarter = to_real(n);
-    real r = ((x - quarter * lit(1.5703125)) - quarter * lit(0.0004837512969970703125)) -
-             quarter * lit(7.5497899548918821692e-8);
+    real r = ((x - quarter * lit(1.5703125)) - quarter * lit(0.0004837512969970703125)) - quarter * lit(7.5497899548918821692e-8);
     real z = r * r;
     real ps = lit(-0.00019517298980896842);
     ps = ps * z + lit(0.0083321781463035934);
@@ -228,7 +227,7 @@ BN_FN real k_acos(real x)
     return select(x < lit(0.0), lit(3.1415926535897932) - positive, positive);
 }
 
-// A bijective hash of 32 bits: xorshift and multiply, constants of C. Wellons 2018 ("lowbias32").
+// A bijective hash of 32 bits: xorshift and multiply, constants of Wellons 2018, "Prospecting for Hash Functions" (lowbias32).
 BN_FN integer k_hash_u32(integer i)
 {
     integer h = i ^ shr_logical(i, 16);

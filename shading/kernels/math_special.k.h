@@ -56,7 +56,7 @@ BN_FN real k_log1p(real x)
 }
 
 // Inverse of the error function on (-1, 1), relative error at most 1e-6; |x| is clamped below 1, so that
-// |result| <= 3.9. M. Giles 2010, "Approximating the erfinv function", single precision.
+// |result| <= 3.9. Giles 2010, "Approximating the erfinv function", single precision.
 BN_FN real k_erfinv(real x)
 {
     real c = min(max(x, lit(-0.99999994)), lit(0.99999994));

@@ -1,10 +1,10 @@
 // What all reflection models share. Directions are unit vectors that point away from the surface, in the
 // local frame (x tangent, y bitangent, z normal): wo is known, wi is asked for or sampled. For a model of
 // that name,
-//     <model>_params_of(...)          parameters brought into the range in which nothing divides by zero
-//     <model>_eval(p, wo, wi)         the BRDF without the cosine of wi, 1/sr
-//     <model>_pdf(p, wo, wi)          density of valid samples, 1/sr; its integral is 1 less what
-//     <model>_sample rejects <model>_sample(p, wo, xi)       xi in [0,1)^2
+//     <model>_params_of(...)     parameters brought into the range in which nothing divides by zero
+//     <model>_eval(p, wo, wi)    the BRDF without the cosine of wi, 1/sr
+//     <model>_sample(p, wo, xi)  a wi with its weight and density, xi in [0,1)^2; some are rejected as invalid
+//     <model>_pdf(p, wo, wi)     density of the valid samples, 1/sr; its integral is 1 less the share rejected
 // All are 0 where wo or wi is not above the horizon. Fresnel reflectance is a factor that the caller applies:
 // it is coloured, and depends on wo.h alone, which a sample carries along.
 #ifndef BN_MICROFACET_K_H
@@ -71,7 +71,7 @@ BN_FN real3 visible_hemisphere_normal(real3 w, real2 xi)
     return vec3_of(s * turn.cosine + w.x, s * turn.sine + w.y, height);
 }
 
-// Shirley and Chiu 1997: the square [0,1)^2 to the unit disk, with little distortion.
+// The square [0,1)^2 to the unit disk. Shirley and Chiu 1997, "A Low Distortion Map Between Disk and Square".
 BN_FN real2 concentric_disk(real2 xi)
 {
     real a = lit(2.0) * xi.x - lit(1.0);

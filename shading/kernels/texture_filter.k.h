@@ -54,8 +54,7 @@ BN_FN real texture_wrap(real u, int mode)
 // one tap.
 BN_FN texture_footprint texture_footprint_of(texture_desc desc, real2 duv_dx, real2 duv_dy, int max_taps)
 {
-    real2 size =
-        vec2_of(table_value(desc.level_width, int_lit(0)), table_value(desc.level_height, int_lit(0)));
+    real2 size = vec2_of(table_value(desc.level_width, int_lit(0)), table_value(desc.level_height, int_lit(0)));
     real2 dx = duv_dx * size;
     real2 dy = duv_dy * size;
     real px2 = k_dot2(dx, dx);
@@ -95,8 +94,7 @@ BN_FN texture_level texture_level_of(texture_desc desc, integer level)
 }
 
 // uv: wrapped, [0,1].
-BN_FN texel_acc texture_bilinear_add(texel_acc acc, texel_buffer texels, texture_level level, real2 uv,
-                                     real weight)
+BN_FN texel_acc texture_bilinear_add(texel_acc acc, texel_buffer texels, texture_level level, real2 uv, real weight)
 {
     real x = uv.x * level.width + lit(0.5);
     real y = uv.y * level.height + lit(0.5);

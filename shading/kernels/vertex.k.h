@@ -10,8 +10,8 @@ BN_KERNELS_BEGIN
 
 struct view_params { // uniform; see raster/frame View
     real3 eye, right, up, forward;
-    real inv_tan_x, inv_tan_y;     // 1 / tan of the half angles; orthographic: 1 / half extents, 1/m
-    real znear, zfar, inv_depth;   // m; inv_depth = 1 / (zfar - znear), orthographic only
+    real inv_tan_x, inv_tan_y;   // 1 / tan of the half angles; orthographic: 1 / half extents, 1/m
+    real znear, zfar, inv_depth; // m; inv_depth = 1 / (zfar - znear), orthographic only
     mask orthographic;
 };
 
@@ -28,9 +28,9 @@ BN_FN real4 clip_position(real3 p, view_params view)
 }
 
 struct snapped_vertex {
-    integer x, y;   // 1/256 pixel, right and down, relative to the centre pixel's top left corner
-    real inv_w, z;  // 1 / clip w; depth in [0,1], 1 near
-    mask valid;     // in front of the near plane and inside the guard band
+    integer x, y;  // 1/256 pixel, right and down, relative to the centre pixel's top left corner
+    real inv_w, z; // 1 / clip w; depth in [0,1], 1 near
+    mask valid;    // in front of the near plane and inside the guard band
 };
 
 // c: clip position as above. half_width, half_height: half the image, pixels. center_x, center_y: the centre pixel's corner,

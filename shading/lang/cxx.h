@@ -3,15 +3,18 @@
 #include "core/simd/lanes.h"
 
 #define BN_FN static inline __attribute__((always_inline, unused))
-#define BN_KERNELS_BEGIN                                                                                     \
-    namespace burnish {                                                                                      \
+#define BN_IN(T) const T&
+#define BN_INOUT(T) T&
+#define BN_KERNELS_BEGIN                                                                                                                   \
+    namespace burnish {                                                                                                                    \
     inline namespace BN_ISA_NS {
-#define BN_KERNELS_END                                                                                       \
-    }                                                                                                        \
+#define BN_KERNELS_END                                                                                                                     \
+    }                                                                                                                                      \
     }
 
 BN_KERNELS_BEGIN
 
+using uniform_real = float;
 using real_table = const float*;       // 16 readable entries
 using int_table = const std::int32_t*; // 16 readable entries
 
@@ -50,66 +53,66 @@ BN_FN real4 vec4_all(real x)
     return {x, x, x, x};
 }
 
-#define BN_OPERATOR(op)                                                                                      \
-    BN_FN real2 operator op(real2 a, real2 b)                                                                \
-    {                                                                                                        \
-        return {a.x op b.x, a.y op b.y};                                                                     \
-    }                                                                                                        \
-    BN_FN real3 operator op(real3 a, real3 b)                                                                \
-    {                                                                                                        \
-        return {a.x op b.x, a.y op b.y, a.z op b.z};                                                         \
-    }                                                                                                        \
-    BN_FN real4 operator op(real4 a, real4 b)                                                                \
-    {                                                                                                        \
-        return {a.x op b.x, a.y op b.y, a.z op b.z, a.w op b.w};                                             \
-    }                                                                                                        \
-    BN_FN real2 operator op(real2 a, real b)                                                                 \
-    {                                                                                                        \
-        return {a.x op b, a.y op b};                                                                         \
-    }                                                                                                        \
-    BN_FN real3 operator op(real3 a, real b)                                                                 \
-    {                                                                                                        \
-        return {a.x op b, a.y op b, a.z op b};                                                               \
-    }                                                                                                        \
-    BN_FN real4 operator op(real4 a, real b)                                                                 \
-    {                                                                                                        \
-        return {a.x op b, a.y op b, a.z op b, a.w op b};                                                     \
-    }                                                                                                        \
-    BN_FN real2 operator op(real a, real2 b)                                                                 \
-    {                                                                                                        \
-        return {a op b.x, a op b.y};                                                                         \
-    }                                                                                                        \
-    BN_FN real3 operator op(real a, real3 b)                                                                 \
-    {                                                                                                        \
-        return {a op b.x, a op b.y, a op b.z};                                                               \
-    }                                                                                                        \
-    BN_FN real4 operator op(real a, real4 b)                                                                 \
-    {                                                                                                        \
-        return {a op b.x, a op b.y, a op b.z, a op b.w};                                                     \
-    }                                                                                                        \
-    BN_FN real2& operator op##=(real2& a, real2 b)                                                           \
-    {                                                                                                        \
-        return a = a op b;                                                                                   \
-    }                                                                                                        \
-    BN_FN real3& operator op##=(real3& a, real3 b)                                                           \
-    {                                                                                                        \
-        return a = a op b;                                                                                   \
-    }                                                                                                        \
-    BN_FN real4& operator op##=(real4& a, real4 b)                                                           \
-    {                                                                                                        \
-        return a = a op b;                                                                                   \
-    }                                                                                                        \
-    BN_FN real2& operator op##=(real2& a, real b)                                                            \
-    {                                                                                                        \
-        return a = a op b;                                                                                   \
-    }                                                                                                        \
-    BN_FN real3& operator op##=(real3& a, real b)                                                            \
-    {                                                                                                        \
-        return a = a op b;                                                                                   \
-    }                                                                                                        \
-    BN_FN real4& operator op##=(real4& a, real b)                                                            \
-    {                                                                                                        \
-        return a = a op b;                                                                                   \
+#define BN_OPERATOR(op)                                                                                                                    \
+    BN_FN real2 operator op(real2 a, real2 b)                                                                                              \
+    {                                                                                                                                      \
+        return {a.x op b.x, a.y op b.y};                                                                                                   \
+    }                                                                                                                                      \
+    BN_FN real3 operator op(real3 a, real3 b)                                                                                              \
+    {                                                                                                                                      \
+        return {a.x op b.x, a.y op b.y, a.z op b.z};                                                                                       \
+    }                                                                                                                                      \
+    BN_FN real4 operator op(real4 a, real4 b)                                                                                              \
+    {                                                                                                                                      \
+        return {a.x op b.x, a.y op b.y, a.z op b.z, a.w op b.w};                                                                           \
+    }                                                                                                                                      \
+    BN_FN real2 operator op(real2 a, real b)                                                                                               \
+    {                                                                                                                                      \
+        return {a.x op b, a.y op b};                                                                                                       \
+    }                                                                                                                                      \
+    BN_FN real3 operator op(real3 a, real b)                                                                                               \
+    {                                                                                                                                      \
+        return {a.x op b, a.y op b, a.z op b};                                                                                             \
+    }                                                                                                                                      \
+    BN_FN real4 operator op(real4 a, real b)                                                                                               \
+    {                                                                                                                                      \
+        return {a.x op b, a.y op b, a.z op b, a.w op b};                                                                                   \
+    }                                                                                                                                      \
+    BN_FN real2 operator op(real a, real2 b)                                                                                               \
+    {                                                                                                                                      \
+        return {a op b.x, a op b.y};                                                                                                       \
+    }                                                                                                                                      \
+    BN_FN real3 operator op(real a, real3 b)                                                                                               \
+    {                                                                                                                                      \
+        return {a op b.x, a op b.y, a op b.z};                                                                                             \
+    }                                                                                                                                      \
+    BN_FN real4 operator op(real a, real4 b)                                                                                               \
+    {                                                                                                                                      \
+        return {a op b.x, a op b.y, a op b.z, a op b.w};                                                                                   \
+    }                                                                                                                                      \
+    BN_FN real2& operator op##=(real2& a, real2 b)                                                                                         \
+    {                                                                                                                                      \
+        return a = a op b;                                                                                                                 \
+    }                                                                                                                                      \
+    BN_FN real3& operator op##=(real3& a, real3 b)                                                                                         \
+    {                                                                                                                                      \
+        return a = a op b;                                                                                                                 \
+    }                                                                                                                                      \
+    BN_FN real4& operator op##=(real4& a, real4 b)                                                                                         \
+    {                                                                                                                                      \
+        return a = a op b;                                                                                                                 \
+    }                                                                                                                                      \
+    BN_FN real2& operator op##=(real2& a, real b)                                                                                          \
+    {                                                                                                                                      \
+        return a = a op b;                                                                                                                 \
+    }                                                                                                                                      \
+    BN_FN real3& operator op##=(real3& a, real b)                                                                                          \
+    {                                                                                                                                      \
+        return a = a op b;                                                                                                                 \
+    }                                                                                                                                      \
+    BN_FN real4& operator op##=(real4& a, real b)                                                                                          \
+    {                                                                                                                                      \
+        return a = a op b;                                                                                                                 \
     }
 BN_OPERATOR(+)
 BN_OPERATOR(-)
@@ -130,18 +133,18 @@ BN_FN real4 operator-(real4 a)
     return {-a.x, -a.y, -a.z, -a.w};
 }
 
-#define BN_BY_COMPONENT(name)                                                                                \
-    BN_FN real2 name(real2 a, real2 b)                                                                       \
-    {                                                                                                        \
-        return {name(a.x, b.x), name(a.y, b.y)};                                                             \
-    }                                                                                                        \
-    BN_FN real3 name(real3 a, real3 b)                                                                       \
-    {                                                                                                        \
-        return {name(a.x, b.x), name(a.y, b.y), name(a.z, b.z)};                                             \
-    }                                                                                                        \
-    BN_FN real4 name(real4 a, real4 b)                                                                       \
-    {                                                                                                        \
-        return {name(a.x, b.x), name(a.y, b.y), name(a.z, b.z), name(a.w, b.w)};                             \
+#define BN_BY_COMPONENT(name)                                                                                                              \
+    BN_FN real2 name(real2 a, real2 b)                                                                                                     \
+    {                                                                                                                                      \
+        return {name(a.x, b.x), name(a.y, b.y)};                                                                                           \
+    }                                                                                                                                      \
+    BN_FN real3 name(real3 a, real3 b)                                                                                                     \
+    {                                                                                                                                      \
+        return {name(a.x, b.x), name(a.y, b.y), name(a.z, b.z)};                                                                           \
+    }                                                                                                                                      \
+    BN_FN real4 name(real4 a, real4 b)                                                                                                     \
+    {                                                                                                                                      \
+        return {name(a.x, b.x), name(a.y, b.y), name(a.z, b.z), name(a.w, b.w)};                                                           \
     }
 BN_BY_COMPONENT(min)
 BN_BY_COMPONENT(max)
@@ -183,6 +186,21 @@ BN_FN real3 select(mask m, real3 a, real3 b)
 BN_FN real4 select(mask m, real4 a, real4 b)
 {
     return {select(m, a.x, b.x), select(m, a.y, b.y), select(m, a.z, b.z), select(m, a.w, b.w)};
+}
+
+BN_FN bool any_lane(mask m)
+{
+    return any(m);
+}
+BN_FN bool no_lane(mask m)
+{
+    return none(m);
+}
+BN_FN uniform_real most_of_lanes(real x)
+{
+    float most[kLanes];
+    store(most, reduce_max(x));
+    return most[0];
 }
 
 BN_FN real4 texel_value(texel_acc acc)

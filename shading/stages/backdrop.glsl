@@ -2,7 +2,7 @@
 #ifndef BN_BACKDROP_GLSL
 #define BN_BACKDROP_GLSL
 
-#include "shading/stages/environment.glsl"
+#include "shading/stages/stage.glsl"
 #include "shading/kernels/camera_ray.k.h"
 
 real3 shade_background(int px, int py)
@@ -12,7 +12,7 @@ real3 shade_background(int px, int py)
     real x = to_real(px) + lit(0.5);
     real y = to_real(py) + lit(0.5);
     real3 ray = pixel_ray(x, y, frame.half_width, frame.half_height, frame_view());
-    return cube_sample(specular_cube(), ray, lit(0.0)) * frame.specular.scale;
+    return cube_sample(specular_cube(0), ray, lit(0.0)) * frame.specular.scale;
 }
 
 #endif

@@ -6,23 +6,23 @@
 #include "shading/stages/pass.glsl"
 
 #ifdef BN_CENTROID // the device's own place in partly covered pixels: cheaper, and elsewhere
-#define BN_IN centroid in
+#define BN_FROM_VERTEX centroid in
 #define BN_AT_POINT(v) v
 #else
-#define BN_IN in
+#define BN_FROM_VERTEX in
 #define BN_AT_POINT(v) (kMsaa == 1 ? v : interpolateAtOffset(v, offset))
 #endif
-layout(location = 0) BN_IN vec3 normal;
-layout(location = 1) BN_IN vec4 tangent;
-layout(location = 2) BN_IN vec4 uv;
-layout(location = 3) BN_IN vec4 color;
-layout(location = 4) BN_IN vec4 position;
+layout(location = 0) BN_FROM_VERTEX vec3 normal;
+layout(location = 1) BN_FROM_VERTEX vec4 tangent;
+layout(location = 2) BN_FROM_VERTEX vec4 uv;
+layout(location = 3) BN_FROM_VERTEX vec4 color;
+layout(location = 4) BN_FROM_VERTEX vec4 position;
 layout(location = 0) out vec4 radiance;
-layout(constant_id = 6) const int kMsaa = 1;
+layout(constant_id = 4) const int kMsaa = 1;
 
 #ifdef BN_STAGES
-layout(constant_id = 7) const bool kKnowsTriangle = false; // as the pipeline whose words these are
-layout(constant_id = 8) const int kGroup = 0;
+layout(constant_id = 5) const bool kKnowsTriangle = false; // as the pipeline whose words these are
+layout(constant_id = 6) const int kGroup = 0;
 layout(location = 5) flat in int triangle;
 int record_at = 4; // group 0 is the triangle
 
@@ -60,7 +60,7 @@ bool covers_centre(int number, int px, int py)
     real3 at = vec3(x, y, 1.0);
     real3 v[3];
     for (int i = 0; i < 3; ++i) {
-        real4 clip = clip_position(vertex_position(bn_ints[frame.index_base + 3 * number + i]), frame_view());
+        real4 clip = clip_position(vertex_position(bn_ints[places.index_base + 3 * number + i]), frame_view());
         v[i] = vec3(clip.x, clip.y, clip.z); // x, y, w
     }
     real e0 = k_dot3(k_cross(v[1], v[2]), at);
@@ -117,8 +117,8 @@ visible_point point_of_fragment(int px, int py)
     real y = to_real(py) + lit(0.5) + offset.y;
     p.ray = pixel_ray(x, y, frame.half_width, frame.half_height, frame_view());
 #ifdef BN_CENTROID
-    if (frame.orthographic == 0) {
-        real3 from_eye = p.position - vec3(frame.eye[0], frame.eye[1], frame.eye[2]);
+    if (frame.view.orthographic == 0) {
+        real3 from_eye = p.position - vec3(frame.view.eye[0], frame.view.eye[1], frame.view.eye[2]);
         p.ray = from_eye;
     }
 #endif
@@ -129,7 +129,7 @@ void main()
 {
     int m = pass.material, px = int(gl_FragCoord.x), py = int(gl_FragCoord.y) + pass.first_row;
     visible_point p = point_of_fragment(px, py);
-    material_inputs at = fetch_material(m, p);
+    material_inputs at = fetch_material(0, m, p);
     int alive = alive_samples(m, at.alpha);
     if (alive == 0)
         discard;

@@ -18,11 +18,11 @@ void main()
 {
 #ifdef BN_STAGES
     triangle = gl_VertexIndex / 3;
-    int v = bn_ints[frame.index_base + gl_VertexIndex];
+    int v = bn_ints[places.index_base + gl_VertexIndex];
 #else
     int v = gl_VertexIndex;
 #endif
-    int at = frame.shading_base + 16 * v;
+    int at = places.shading_base + 16 * v;
     real3 place = vertex_position(v);
     position = vec4(place, 1.0);
     normal = vec3(bn_reals[at], bn_reals[at + 1], bn_reals[at + 2]);

@@ -6,22 +6,13 @@
 #include "shading/stages/interface.glsl"
 #include "shading/kernels/camera_ray.k.h"
 #include "shading/kernels/interpolate.k.h"
+#include "shading/surface/surface.k.h"
 
 struct triangle_setup {
     ivec3 x, y, vertex;
     real3 inv_w;
     int info;
     real3 unclip0, unclip1, unclip2;
-};
-
-struct visible_point {
-    real3 normal, tangent; // world space, not unit
-    real tangent_sign;
-    real4 color;
-    real2 uv[2], uv_dx[2], uv_dy[2];
-    mask front;
-    real3 ray;             // from the eye, not unit
-    real3 position;        // world space; only where the frame has lights
 };
 
 triangle_setup load_setup(int slot)
@@ -54,8 +45,8 @@ ivec2 mean_of_samples(int samples)
     int sum_x = 0, sum_y = 0, count = 0;
     for (int s = 0; s < frame.msaa; ++s) {
         int bit = samples >> s & 1;
-        sum_x += bit * frame.sample_x[s];
-        sum_y += bit * frame.sample_y[s];
+        sum_x += bit * frame.pattern.x[s];
+        sum_y += bit * frame.pattern.y[s];
         count += bit;
     }
     real inv = lit(1.0) / max(to_real(count), lit(1.0));
@@ -64,7 +55,7 @@ ivec2 mean_of_samples(int samples)
     return ivec2(to_int(x), to_int(y));
 }
 
-real vertex_word(int vertex, int word) { return bn_reals[frame.shading_base + 16 * vertex + word]; }
+real vertex_word(int vertex, int word) { return bn_reals[places.shading_base + 16 * vertex + word]; }
 
 real blend_word(triangle_setup t, real3 b, int word)
 {

@@ -14,10 +14,10 @@
 #define BN_SETUP_ACCESS readonly
 #endif
 
-layout(std430, set = 0, binding = 3) readonly buffer BnFrame { GpuFrame frame; };
-layout(std430, set = 0, binding = 4) readonly buffer BnMaterials { GpuMaterial materials[]; };
+layout(std430, set = 0, binding = 3) readonly buffer BnFrame { FrameRecord frame; GpuPlaces places; };
+layout(std430, set = 0, binding = 4) readonly buffer BnMaterials { MaterialRecord materials[]; };
 layout(std430, set = 0, binding = 5) readonly buffer BnTextures { GpuTexture textures[]; };
-layout(std430, set = 0, binding = 6) readonly buffer BnLights { GpuLight lights[]; };
+layout(std430, set = 0, binding = 6) readonly buffer BnLights { LightRecord lights[]; };
 layout(std430, set = 0, binding = 7) BN_VERTEX_ACCESS buffer BnVertices { GpuVertex vertices[]; };
 layout(std430, set = 0, binding = 8) BN_SETUP_ACCESS buffer BnSetups { GpuSetup setups[]; };
 
@@ -31,22 +31,22 @@ int linear_invocation()
 view_params frame_view()
 {
     view_params v;
-    v.eye = vec3(frame.eye[0], frame.eye[1], frame.eye[2]);
-    v.right = vec3(frame.right[0], frame.right[1], frame.right[2]);
-    v.up = vec3(frame.up[0], frame.up[1], frame.up[2]);
-    v.forward = vec3(frame.forward[0], frame.forward[1], frame.forward[2]);
-    v.inv_tan_x = frame.inv_tan_x;
-    v.inv_tan_y = frame.inv_tan_y;
-    v.znear = frame.znear;
-    v.zfar = frame.zfar;
-    v.inv_depth = frame.inv_depth;
-    v.orthographic = frame.orthographic != 0;
+    v.eye = vec3(frame.view.eye[0], frame.view.eye[1], frame.view.eye[2]);
+    v.right = vec3(frame.view.right[0], frame.view.right[1], frame.view.right[2]);
+    v.up = vec3(frame.view.up[0], frame.view.up[1], frame.view.up[2]);
+    v.forward = vec3(frame.view.forward[0], frame.view.forward[1], frame.view.forward[2]);
+    v.inv_tan_x = frame.view.inv_tan_x;
+    v.inv_tan_y = frame.view.inv_tan_y;
+    v.znear = frame.view.znear;
+    v.zfar = frame.view.zfar;
+    v.inv_depth = frame.view.inv_depth;
+    v.orthographic = frame.view.orthographic != 0;
     return v;
 }
 
 real3 vertex_position(int v)
 {
-    return vec3(bn_reals[frame.position_base[0] + v], bn_reals[frame.position_base[1] + v], bn_reals[frame.position_base[2] + v]);
+    return vec3(bn_reals[places.position_base[0] + v], bn_reals[places.position_base[1] + v], bn_reals[places.position_base[2] + v]);
 }
 
 snapped_vertex snap_to_frame(real4 clip, int guard)

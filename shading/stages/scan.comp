@@ -12,8 +12,8 @@ shared int sums[kGpuGroup];
 
 void main()
 {
-    int me = int(gl_LocalInvocationID.x), each = (frame.triangle_count + kGpuGroup - 1) / kGpuGroup;
-    int begin = min(me * each, frame.triangle_count), end = min(begin + each, frame.triangle_count);
+    int me = int(gl_LocalInvocationID.x), each = (places.triangle_count + kGpuGroup - 1) / kGpuGroup;
+    int begin = min(me * each, places.triangle_count), end = min(begin + each, places.triangle_count);
     int sum = 0;
     for (int i = begin; i < end; ++i)
         sum += counts[i];
@@ -28,5 +28,5 @@ void main()
         before += count;
     }
     if (me == kGpuGroup - 1)
-        draw = GpuDraw(3 * min(before, frame.setup_capacity), 1, 0, 0, before);
+        draw = GpuDraw(3 * min(before, places.setup_capacity), 1, 0, 0, before);
 }

@@ -27,8 +27,8 @@ real plane_distance(real4 c, int p)
     real d = gy * c.z + c.y;
     if (p == 0) {
         real near_orthographic = 1.0 - c.w;
-        real near_perspective = c.z - frame.znear;
-        d = frame.orthographic != 0 ? near_orthographic : near_perspective;
+        real near_perspective = c.z - frame.view.znear;
+        d = frame.view.orthographic != 0 ? near_orthographic : near_perspective;
     }
     if (p == 1)
         d = gx * c.z - c.x;
@@ -93,14 +93,14 @@ bool touches(ivec3 v, int center, int sample_min, int sample_max, int size)
 int emit(int triangle, ivec3 x, ivec3 y, vec3 inv_w, vec3 z, mat3 bary, int clipped, int at)
 {
     int area = area_sign(x, y);
-    int material = bn_ints[frame.material_base + triangle];
+    int material = bn_ints[places.material_base + triangle];
     bool front = area < 0; // counter-clockwise with y up
     if (area == 0 || (!front && materials[material].double_sided == 0))
         return 0;
-    if (!touches(x, frame.center_x, frame.sample_min_x, frame.sample_max_x, frame.width) ||
-        !touches(y, frame.center_y, frame.sample_min_y, frame.sample_max_y, frame.height))
+    if (!touches(x, frame.center_x, frame.pattern.min_x, frame.pattern.max_x, frame.width) ||
+        !touches(y, frame.center_y, frame.pattern.min_y, frame.pattern.max_y, frame.height))
         return 0;
-    if (kPhase == 0 || at >= frame.setup_capacity)
+    if (kPhase == 0 || at >= places.setup_capacity)
         return 1;
     for (int j = 0; j < 3; ++j) {
         int o = front && j > 0 ? 3 - j : j; // a front face's second and third corner change places: the area becomes positive
@@ -108,7 +108,7 @@ int emit(int triangle, ivec3 x, ivec3 y, vec3 inv_w, vec3 z, mat3 bary, int clip
         setups[at].y[j] = y[o];
         setups[at].inv_w[j] = inv_w[o];
         setups[at].z[j] = z[o];
-        setups[at].vertex[j] = bn_ints[frame.index_base + 3 * triangle + (clipped != 0 ? j : o)];
+        setups[at].vertex[j] = bn_ints[places.index_base + 3 * triangle + (clipped != 0 ? j : o)];
         for (int k = 0; k < 3; ++k)
             setups[at].bary[3 * j + k] = bary[o][k];
     }
@@ -126,9 +126,9 @@ int emit_piece(int triangle, int i1, int i2, int at)
     for (int i = 0; i < 3; ++i) {
         clip_corner c = polygon[corner[i]];
         // a cut may come out a rounding error behind the near plane
-        if (frame.orthographic == 0 && !(c.c.z > frame.znear))
-            c.c.z = frame.znear;
-        if (frame.orthographic != 0 && c.c.w > 1.0)
+        if (frame.view.orthographic == 0 && !(c.c.z > frame.view.znear))
+            c.c.z = frame.view.znear;
+        if (frame.view.orthographic != 0 && c.c.w > 1.0)
             c.c.w = 1.0;
         snapped_vertex s = snap_to_frame(c.c, kGpuGuardBand);
         if (!s.valid)
@@ -157,12 +157,12 @@ int clip_triangle(int triangle, ivec3 v, int at)
 void main()
 {
     int triangle = linear_invocation();
-    if (triangle >= frame.triangle_count)
+    if (triangle >= places.triangle_count)
         return;
     ivec3 v, x, y;
     vec3 inv_w, z;
     for (int i = 0; i < 3; ++i) {
-        v[i] = bn_ints[frame.index_base + 3 * triangle + i];
+        v[i] = bn_ints[places.index_base + 3 * triangle + i];
         x[i] = vertices[v[i]].x;
         y[i] = vertices[v[i]].y;
         inv_w[i] = vertices[v[i]].inv_w;

@@ -6,11 +6,15 @@ layout(local_size_x = 64) in;
 #include "shading/stages/shade.glsl"
 #include "shading/stages/pass.glsl"
 
-layout(constant_id = 4) const bool kRecords = false; // writes the stages of each pair, for comparisons
+layout(constant_id = 1) const bool kRecords = false; // writes the stages of each pair, for comparisons
 
 layout(std430, set = 0, binding = 11) readonly buffer BnIds { int ids[]; };
 layout(std430, set = 0, binding = 13) writeonly buffer BnColor { float colors[]; };
+layout(constant_id = 2) const bool kShares = false; // some materials share samples: colours are made by share.comp
+
 layout(std430, set = 0, binding = 14) writeonly buffer BnRecords { int records[]; }; // [pixel of the band][first sample][kGpuPairWords]
+
+#include "shading/stages/lines.glsl"
 
 int record_at;
 
@@ -22,21 +26,30 @@ void put_int(int word)
 void put_real(real x) { put_int(floatBitsToInt(x)); }
 #include "shading/stages/record.glsl"
 
-real3 shade_pair(int slot, int px, int py, int covered)
+// Alone: a colour that is not made of shared samples.
+line_record alone(real3 color)
+{
+    real3 nothing = vec3_all(lit(0.0));
+    return line_record(nothing, lit(-1.0), nothing, nothing, nothing, color);
+}
+
+line_record shade_pair(int slot, int px, int py, int covered)
 {
     if (slot == kGpuNoTriangle) {
         record_at += kGpuInterpolantWords + kGpuMaterialWords;
-        return shade_background(px, py);
+        return alone(shade_background(px, py));
     }
     triangle_setup t = load_setup(slot);
     visible_point p = point_of(t, px, py, covered);
     int m = t.info >> 2;
-    material_inputs at = fetch_material(m, p);
+    material_inputs at = fetch_material(0, m, p);
     if (kRecords) {
         record_point(p);
         record_material(at);
     }
-    return shade_point(m, at, p, py * frame.width + px);
+    if (kShares && (materials[m].technique_traits & kSharesSamples) != 0)
+        return shade_line(m, at, p, px, py);
+    return alone(shade_point(m, at, p, py * frame.width + px));
 }
 
 void main()
@@ -57,12 +70,17 @@ void main()
         record_at = (first + begin) * kGpuPairWords;
         if (kRecords)
             put_int(covered);
-        real3 color = shade_pair(slot, px, py, covered);
-        if (kRecords)
-            put3(color);
+        line_record shaded = shade_pair(slot, px, py, covered);
+        real3 color = shaded.rest;
+        if (kShares)
+            store_line(first + begin, shaded);
+        else if (kRecords)
+            put_real3(color);
         real weight = to_real(bitCount(covered)) * inv;
         sum = sum + color * weight;
     }
+    if (kShares)
+        return;
     colors[3 * pixel] = sum.x;
     colors[3 * pixel + 1] = sum.y;
     colors[3 * pixel + 2] = sum.z;

@@ -9,7 +9,7 @@ layout(local_size_x = 64) in;
 void main()
 {
     int v = linear_invocation();
-    if (v >= frame.vertex_count)
+    if (v >= places.vertex_count)
         return;
     real4 clip = clip_position(vertex_position(v), frame_view());
     snapped_vertex s = snap_to_frame(clip, kGpuWholeBand);

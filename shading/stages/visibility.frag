@@ -2,7 +2,8 @@
 // 8x8 block, floats from there; without BN_EXACT_DEPTH it is what the rasterizer interpolates.
 #version 460
 #extension GL_EXT_buffer_reference_uvec2 : require
-#include "shading/stages/material.glsl"
+#include "shading/stages/fragment.glsl"
+#include "shading/surface/material.t.h"
 #include "shading/stages/pass.glsl"
 
 layout(location = 0) flat in int slot;
@@ -29,7 +30,7 @@ real depth_at(int px, int py, int s)
     int from_x = ((px & ~7) << 8) - frame.center_x - x0, from_y = ((py & ~7) << 8) - frame.center_y - y0;
     precise double corner = z0 + zx * double(from_x) + zy * double(from_y);
     real z = float(corner) + (dz_x * to_real(px & 7) + dz_y * to_real(py & 7));
-    real sample_z = dz_x * (to_real(frame.sample_x[s]) * lit(0.00390625)) + dz_y * (to_real(frame.sample_y[s]) * lit(0.00390625));
+    real sample_z = dz_x * (to_real(frame.pattern.x[s]) * lit(0.00390625)) + dz_y * (to_real(frame.pattern.y[s]) * lit(0.00390625));
     real at_sample = z + sample_z;
     real a = setups[slot].z[0];
     real b = setups[slot].z[1];
@@ -48,7 +49,7 @@ bool survives_alpha(int px, int py, int s)
     int m = setups[slot].info >> 2;
     if (materials[m].alpha_mode == 0)
         return true;
-    real alpha = fetch_material(m, point_of(load_setup(slot), px, py, (1 << frame.msaa) - 1)).alpha;
+    real alpha = fetch_material(0, m, point_of(load_setup(slot), px, py, (1 << frame.msaa) - 1)).alpha;
     if (materials[m].alpha_mode != 2)
         return alpha >= materials[m].alpha_cutoff;
     real threshold = (to_real(s) + lit(0.5)) / to_real(frame.msaa);

@@ -10,7 +10,7 @@ void main()
 {
     slot = gl_VertexIndex / 3;
     int corner = gl_VertexIndex % 3;
-    real x = to_real(setups[slot].x[corner] + pass.shift_x) * frame.clip_unit;
-    real y = to_real(setups[slot].y[corner] + pass.shift_y) * frame.clip_unit;
+    real x = to_real(setups[slot].x[corner] + pass.shift_x) * places.clip_unit;
+    real y = to_real(setups[slot].y[corner] + pass.shift_y) * places.clip_unit;
     gl_Position = vec4(x, y, setups[slot].z[corner], 1.0);
 }

@@ -73,6 +73,13 @@ class CompareTest(unittest.TestCase):
         self.assertEqual(code, 0)
         self.assertIn("unsure", text)
 
+    def test_other_pixels_are_said(self):
+        figures = [frame_figures({"a": STEADY}) for _ in range(2)]
+        for pixels, said in (("0123456789abcdef", False), ("0123456789abcdee", True)):
+            figures[0]["workloads"][0]["pixels"], figures[1]["workloads"][0]["pixels"] = "0123456789abcdef", pixels
+            code, text = self.run_on(*figures)
+            self.assertEqual((code, "other pixels" in text), (0, said))
+
     def test_threshold(self):
         old, new = frame_figures({"a": STEADY}), frame_figures({"a": self.scaled(1.2)})
         self.assertEqual(self.run_on(old, new, "--threshold", "25")[0], 0)

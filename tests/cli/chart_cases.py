@@ -29,7 +29,7 @@ def errors_of(rows):
     return [(row["technique"], row["settings"]["samples"], row["flip_mean"], row["rel_mse"]) for row in rows]
 
 
-@case("chart.rows_and_files", "program", "input")
+@case("chart.rows_and_files_hold_every_setting", "input")
 def rows(bench):
     needs_embree(bench)
     done = bench.run("chart", "builtin:spheres", "--env", "builtin:studio", "--env", "builtin:sky", *FEW, "--sweep", "roughness=0.2,0.4", "-o", "r").expect(0)
@@ -67,7 +67,7 @@ def rows(bench):
         check(abs(mine[name] - other[name]) < 1e-6 * max(1, abs(other[name])), f"{name}: {mine[name]} and by compare {other[name]}")
 
 
-@case("chart.wrong_options")
+@case("chart.wrong_options_say_one_line_and_exit_2")
 def wrong(bench):
     for words, needle in (
         (("--techniques", "bent_normal,fast"), "fast"),
@@ -92,7 +92,7 @@ def wrong(bench):
     check(bench.left_behind() == [], f"left behind: {bench.left_behind()}")
 
 
-@case("chart.errors_of_smaller_pictures_than_are_timed")
+@case("chart.errors_are_of_the_error_size")
 def error_size(bench):
     """Times are of frames of --size, errors of pictures of --error-size: the same errors as where that is the size of both."""
     needs_embree(bench)
@@ -109,7 +109,7 @@ def error_size(bench):
     bench.run("chart", "--size", "1000x700", "--error-size", "0x0", *FEW[2:], "-o", "r").expect(2).expect_one_line("--error-size")
 
 
-@case("chart.noise_of_the_references")
+@case("chart.noise_of_the_references_falls_with_their_samples")
 def noise(bench):
     """Every place tells what its reference's noise is worth; more samples make it less."""
     needs_embree(bench)
@@ -127,7 +127,7 @@ def noise(bench):
         check(1.5 < few[1] / many[1] < 6 and many[1] < 0.05, f"FLIP of the noise {few[1]} and {many[1]}")
 
 
-@case("chart.bad_input_and_output")
+@case("chart.bad_input_and_output_say_one_line")
 def bad_files(bench):
     needs_embree(bench)
     bench.run("chart", "no.glb", *FEW, "-o", "r").expect(4).expect_one_line("no.glb")
@@ -175,7 +175,7 @@ def wait_until(child, done, what):
         time.sleep(0.02)
 
 
-@case("chart.killed_and_gone_on_with")
+@case("chart.goes_on_after_being_killed")
 def killed(bench):
     """The runs asked for at first take minutes on any machine: each of three charts is interrupted once it has kept something of its own."""
     needs_embree(bench)
@@ -289,7 +289,7 @@ CLAIM_FAILS = {(STUDIO, 0.5, -0.5), (WORKSHOP, 0.5, -0.5)}
 def grid_of(bench, scene, techniques, samples, roughness, anisotropy, *words):
     """FLIP by (environment, roughness, anisotropy), then by technique, under a built-in environment and a photographed one."""
     text = lambda values: ",".join(map(str, values))
-    bench.run("chart", scene, "--env", STUDIO, "--env", bench.shared("env/" + WORKSHOP), "--size", "160x90", "--msaa", "4", "--reference-samples", "1024",
+    bench.run("chart", scene, "--env", STUDIO, "--env", bench.data_file("env/" + WORKSHOP), "--size", "160x90", "--msaa", "4", "--reference-samples", "1024",
               "--runs", "1", "--no-background", "--techniques", text(techniques), "--sweep", f"samples={samples}", "--sweep", f"roughness={text(roughness)}",
               "--sweep", f"anisotropy={text(anisotropy)}", *words, "-o", "grid", timeout=550).expect(0)
     cells = {}
@@ -300,7 +300,7 @@ def grid_of(bench, scene, techniques, samples, roughness, anisotropy, *words):
     return cells
 
 
-@case("chart.major_axis_and_bent_normal", "slow")
+@case("chart.major_axis_is_nearer_than_bent_normal", tier="slow")
 def claims(bench):
     """Cocco, Zanni, Chermain 2024: what 16 samples along the axis are worth, over widths and anisotropies. On average they are better than
     the bent normal; for roughness to 0.5 and anisotropy from 0.5 in every cell, but for the cells above: one that holds again must leave
@@ -330,13 +330,13 @@ def claims(bench):
     check(not faults, "\n".join(faults))
 
 
-@case("chart.what_bounds_equal_samples", "slow")
+@case("chart.equal_samples_are_bounded_by_their_line", tier="slow")
 def bounds(bench):
     """Why the first claim fails in some cells: the line is one deviation long, of a lobe without tails, and GGX has tails. The same lobe without
     tails is no better where it is integrated with 1024 samples, and a longer line is better than the bent normal there too."""
     needs_embree(bench)
     for env, roughness, anisotropy in sorted(CLAIM_FAILS):
-        words = ("builtin:spheres", "--env", env if ":" in env else bench.shared("env/" + env), "--roughness", str(roughness), "--anisotropy",
+        words = ("builtin:spheres", "--env", env if ":" in env else bench.data_file("env/" + env), "--roughness", str(roughness), "--anisotropy",
                  str(anisotropy), "--size", "160x90", "--msaa", "4", "--no-background", "-q")
         bench.run("render", *words, "--backend", "reference", "--samples", "1024", "-o", "ref.exr", timeout=200).expect(0)
 
@@ -351,7 +351,7 @@ def bounds(bench):
         check(longer < bent < equal and bent < no_tails and tails < 0.5 * no_tails, told)
 
 
-@case("chart.grazing_views", "slow")
+@case("chart.grazing_views_need_samples_by_density", tier="slow")
 def grazing(bench):
     """Seen at 8 degrees above a plate, equal samples along the axis are worse than the bent normal from roughness 0.3 on; samples by density
     are better than both."""
@@ -394,13 +394,13 @@ def check_samples(bench, names, *words):
     check(not faults, "\n".join(faults))
 
 
-@case("chart.error_by_samples", "slow")
+@case("chart.error_falls_with_samples", tier="slow")
 def samples(bench):
     needs_embree(bench)
-    check_samples(bench, ("major_axis", "major_axis_weighted"), "--env", STUDIO, "--env", "builtin:sky", "--env", bench.shared("env/" + WORKSHOP))
+    check_samples(bench, ("major_axis", "major_axis_weighted"), "--env", STUDIO, "--env", "builtin:sky", "--env", bench.data_file("env/" + WORKSHOP))
 
 
-@case("chart.error_by_samples_of_long_lobes", "slow")
+@case("chart.error_of_long_lobes_falls_with_weighted_samples", tier="slow")
 def samples_of_long_lobes(bench):
     """Where lobes are long, equal samples on a line of one deviation stop converging to the truth: from 8 on, more of them come closer to a
     line that is too short. Samples by density keep the tails and keep falling."""

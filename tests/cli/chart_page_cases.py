@@ -42,7 +42,7 @@ def point(browser, index):
         return {{x: b.x + b.width / 2, y: b.y + b.height / 2, row: p.dataset.row}}; }})()""")
 
 
-@case("chart.page_points")
+@case("chart.page_points_answer_mouse_and_keys")
 def points(bench):
     with make_page(bench) as browser:
         browser.size(1200, 900)
@@ -92,7 +92,7 @@ def points(bench):
         healthy(browser)
 
 
-@case("chart.page_wall")
+@case("chart.page_wall_compares_pictures")
 def wall(bench):
     with make_page(bench) as browser:
         browser.size(1200, 900)
@@ -157,7 +157,7 @@ def wall(bench):
         healthy(browser)
 
 
-@case("chart.page_narrow_and_dark")
+@case("chart.page_fits_narrow_and_dark_windows")
 def narrow(bench):
     with make_page(bench) as browser:
         page = bench.folder / "r/report.html"

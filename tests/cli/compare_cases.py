@@ -61,7 +61,7 @@ ALL = ("width", "height", "flip_mean", "flip_p99", "flip_weighted_median", "flip
        "differing_fraction", "nan_pixels")
 
 
-@case("compare.equal_pictures_pass", "program", "input")
+@case("compare.equal_pictures_pass", "input")
 def equal(bench):
     pictures(bench)
     for name in ("a.png", "a.pfm"):
@@ -74,10 +74,10 @@ def equal(bench):
         check((found["width"], found["height"], found["ssim"], found["psnr"]) == (24, 16, 1.0, None), f"{found}")
 
 
-@case("compare.known_pictures")
+@case("compare.known_pictures_have_their_known_errors")
 def known(bench):
     """Means of the FLIP authors' own program; see SOURCES.md beside the pictures."""
-    folder = bench.shared("flip")
+    folder = bench.data_file("flip")
     for one, other, mean in (("ldr_ref.png", "ldr_blur.png", 0.098760), ("ldr_ref.png", "ldr_tint.png", 0.263008),
                              ("hdr_ref.exr", "hdr_blur.exr", 0.125888)):
         found = figures(bench, folder / one, folder / other)
@@ -86,7 +86,7 @@ def known(bench):
     check(abs(found["start_exposure"] + 3.5562) < 1e-3, f"{found}")
 
 
-@case("compare.only_what_was_asked_for")
+@case("compare.writes_only_what_was_asked_for")
 def asked(bench):
     pictures(bench)
     found = figures(bench, "a.png", "b.png", "--metric", "mse,max")
@@ -136,7 +136,7 @@ def limits(bench):
     check(figures(bench, "a.png", "b.png", "--fail-flip", "0", code=1)["flip_mean"] > 0, "a failing run writes its figures too")
 
 
-@case("compare.sizes_and_channels_must_match", "program", "input")
+@case("compare.sizes_and_channels_must_match", "input")
 def mismatch(bench):
     pictures(bench)
     scratch(bench, "narrow.png", png(23, 16, ramp))
@@ -149,7 +149,7 @@ def mismatch(bench):
     check(not (bench.folder / "j.json").exists(), "figures of pictures that cannot be compared")
 
 
-@case("compare.unreadable_pictures", "program", "input")
+@case("compare.unreadable_pictures_are_refused", "input")
 def unreadable(bench):
     pictures(bench)
     scratch(bench, "text.png", b"no picture at all")
@@ -163,7 +163,7 @@ def unreadable(bench):
     bench.run("compare", "a.png", "b.png", "--limit-texture-bytes", "1K").expect(4).expect_one_line("a.png")
 
 
-@case("compare.nan_and_inf", "program", "input")
+@case("compare.nan_and_inf_exit_6", "input")
 def not_finite(bench):
     pictures(bench)
     holes = {(3, 4): (NAN, 1, 1), (5, 6): (1, INF, -INF)}
@@ -178,7 +178,7 @@ def not_finite(bench):
     done.expect(6)  # NaN is no difference that a limit could allow
 
 
-@case("compare.page")
+@case("compare.page_stands_alone")
 def page(bench):
     pictures(bench)
     strange = scratch(bench, 'a <b> & "c".png', png(24, 16, ramp))
@@ -206,7 +206,7 @@ def page(bench):
     check(done.out.startswith("<!DOCTYPE html>") and done.out.endswith("</html>\n"), "no page on standard output")
 
 
-@case("compare.error_map")
+@case("compare.error_map_shows_errors_in_magma")
 def error_map(bench):
     pictures(bench)
     scratch(bench, "green.png", png(8, 8, lambda x, y: (0, 255, 0)))
@@ -226,7 +226,7 @@ def error_map(bench):
     check(data.startswith(b"Pf") and all(abs(e - 1) < 1e-4 for e in errors), f"{errors}")
 
 
-@case("compare.z_test")
+@case("compare.z_test_tells_noise_from_difference")
 def z_test(bench):
     scratch(bench, "mean.pfm", pfm(10, 10, lambda x, y: (1, 1, 1)))
     scratch(bench, "near.pfm", pfm(10, 10, lambda x, y: (1.35, 0.8, 1)))
@@ -246,7 +246,7 @@ def z_test(bench):
     bench.run("compare", "-q", "mean.pfm", "near.pfm", "--variance", "variance.pfm", "--significance", "0.5").expect(1)
 
 
-@case("compare.variances_are_checked", "program", "input")
+@case("compare.variances_are_checked", "input")
 def variances(bench):
     pictures(bench)
     scratch(bench, "negative.pfm", pfm(24, 16, lambda x, y: (1, 1, -1 if (x, y) == (3, 3) else 1)))
@@ -308,7 +308,7 @@ def wrong_options(bench):
     check(bench.left_behind() == before, f"files were left: {bench.left_behind()}")
 
 
-@case("compare.outputs_that_cannot_be_written", "program", "input")
+@case("compare.outputs_that_cannot_be_written_exit_7", "input")
 def unwritable(bench):
     pictures(bench)
     (bench.folder / "folder.png").mkdir()
@@ -322,7 +322,7 @@ def unwritable(bench):
     check(json.loads((bench.folder / "j.json").read_text())["width"] == 24, "the figures that could be written are not there")
 
 
-@case("compare.words")
+@case("compare.words_go_to_stderr")
 def words(bench):
     pictures(bench)
     done = bench.run("compare", "a.pfm", "b.pfm", "--json", "j.json").expect(0)

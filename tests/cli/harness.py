@@ -3,6 +3,7 @@
 import json
 import os
 import pathlib
+import re
 import resource
 import shutil
 import subprocess
@@ -20,11 +21,15 @@ class Failed(Exception):
     pass
 
 
-def case(name, *labels):
-    """Registers a test. The label `input` marks those that the sanitizer build runs too."""
+CHECKED = {"compare", "file", "input", "limit", "malformed", "models", "output", "pixels", "profile", "usage"}  # areas of the tier check
+
+
+def case(name, *labels, tier=None):
+    """Registers a test area.claim_in_words of a tier: quick, check, gate or slow; without one, of that of its area, which is the gate unless
+    it is in CHECKED. The label `input` marks those that the sanitizer build runs too, `compilers` those that need the program of another build."""
 
     def register(function):
-        CASES[name] = (function, labels or ("program",))
+        CASES[name] = (function, (tier or ("check" if name.split(".")[0] in CHECKED else "gate"), *labels))
         return function
 
     return register
@@ -33,6 +38,21 @@ def case(name, *labels):
 def check(condition, text):
     if not condition:
         raise Failed(text)
+
+
+def data_files(roots, folder, suffixes):
+    """{name below the folder: path} of the test data's files with one of the suffixes, each name once, by name."""
+    found = {}
+    for root in roots:
+        for path in (root / folder).rglob("*"):
+            if path.suffix in suffixes:
+                found.setdefault(str(path.relative_to(root / folder)), path)
+    return dict(sorted(found.items()))
+
+
+def words_of(name):
+    """A file's name as test names are written."""
+    return re.sub(r"[^a-z0-9]+", "_", name.lower())
 
 
 class Completed:
@@ -60,11 +80,11 @@ class Completed:
 
 
 class Bench:
-    """What a case works with: the program, a folder of its own, the test data."""
+    """What a case works with: the program, a folder of its own, the test data: tests/data, and what lies beside the checkout."""
 
     def __init__(self, program, compare_program, data, folder, sanitized):
         self.program, self.compare_program = program, compare_program
-        self.data, self.sanitized = pathlib.Path(data), sanitized
+        self.data, self.sanitized = data, sanitized
         self.cache = pathlib.Path(folder) / "cache"  # shared by all cases, so that an environment is baked once
 
     def open(self, name):
@@ -72,12 +92,12 @@ class Bench:
         shutil.rmtree(self.folder, ignore_errors=True)
         self.folder.mkdir(parents=True)
 
-    def shared(self, path):
-        """A file or folder of the test data, which lies outside the checkout."""
-        found = self.data / path
-        if not found.exists():
-            raise Skipped(f"no test data at {found}")
-        return found
+    def data_file(self, path):
+        """A file or folder of the test data. What only lies beside the checkout is absent elsewhere: only slow cases may ask for it."""
+        for root in self.data:
+            if (root / path).exists():
+                return root / path
+        raise Skipped(f"no test data at {self.data[-1] / path}")
 
     def environment(self, extra):
         env = {k: v for k, v in os.environ.items() if not k.startswith("BN_")}

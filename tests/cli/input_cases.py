@@ -1,11 +1,10 @@
 """Bad input: one line that names the file, exit code 4, nothing left behind, soon and without much memory."""
 
 import os
-import pathlib
 import struct
 
 import gltf_files as files
-from harness import GIB, SMALL, Failed, Skipped, case, check, scratch
+from harness import GIB, SMALL, Failed, Skipped, case, check, data_files, scratch, words_of
 
 SECONDS = 10.0  # a run on bad input may take, at most
 SCENES = (".gltf", ".glb")
@@ -34,9 +33,7 @@ def accept(bench, scene, *extra):
 
 def add_data_cases(data):
     """One case for each malformed file of the test data."""
-    root = pathlib.Path(data) / "malformed"
-    found = sorted(path for path in root.rglob("*") if path.suffix in SCENES + PICTURES)
-    for path in found:
+    for name, path in data_files(data, "malformed", SCENES + PICTURES).items():
 
         def run(bench, path=path):
             if path.suffix in SCENES:
@@ -44,23 +41,17 @@ def add_data_cases(data):
             else:
                 refuse(bench, "builtin:plate", env=path)
 
-        case("malformed." + str(path.relative_to(root)).replace("/", "."), "input")(run)
-    if not found:
-
-        def skip(bench):
-            bench.shared("malformed")
-
-        case("malformed.files", "input")(skip)
+        case("malformed.is_refused." + words_of(name), "input")(run)
 
 
-@case("input.absent_file", "input")
+@case("input.absent_file_is_refused", "input")
 def absent_file(bench):
     for name in ("nothing.gltf", "nothing.glb", "no/folder/nothing.glb"):
         refuse(bench, name)
     refuse(bench, "builtin:plate", env="nothing.exr")
 
 
-@case("input.directory", "input")
+@case("input.directory_is_refused", "input")
 def directory(bench):
     for name in ("folder.glb", "folder.gltf", "folder.exr", "folder.hdr"):
         (bench.folder / name).mkdir()
@@ -70,7 +61,7 @@ def directory(bench):
         refuse(bench, "builtin:plate", env=name)
 
 
-@case("input.empty_file", "input")
+@case("input.empty_file_is_refused", "input")
 def empty_file(bench):
     for suffix in SCENES:
         refuse(bench, scratch(bench, "empty" + suffix, b""))
@@ -78,7 +69,7 @@ def empty_file(bench):
         refuse(bench, "builtin:plate", env=scratch(bench, "empty" + suffix, b""))
 
 
-@case("input.noise", "input")
+@case("input.noise_is_refused", "input")
 def noise(bench):
     """Bytes of a fixed generator under every name."""
     state, data = 12345, bytearray()
@@ -91,13 +82,13 @@ def noise(bench):
         refuse(bench, "builtin:plate", env=scratch(bench, "noise" + suffix, bytes(data)))
 
 
-@case("input.unknown_extension", "input")
+@case("input.unknown_extension_is_refused", "input")
 def unknown_extension(bench):
     refuse(bench, scratch(bench, "scene.obj", b"v 0 0 0\n"))
     refuse(bench, "builtin:plate", env=scratch(bench, "picture.txt", b"no picture\n"))
 
 
-@case("input.unreadable_file", "input")
+@case("input.unreadable_file_is_refused", "input")
 def unreadable_file(bench):
     path = scratch(bench, "secret.glb", files.glb(files.triangle()))
     path.chmod(0)
@@ -112,7 +103,7 @@ def unreadable_file(bench):
     refuse(bench, "secret.glb", user=user)
 
 
-@case("input.nan_in_a_position", "input")
+@case("input.nan_in_a_position_is_refused", "input")
 def nan_in_a_position(bench):
     accept(bench, scratch(bench, "good.gltf", files.text(files.triangle())))
     for name, value in (("nan", float("nan")), ("inf", float("inf"))):
@@ -120,7 +111,7 @@ def nan_in_a_position(bench):
         refuse(bench, scratch(bench, name + ".gltf", files.text(files.triangle(positions=bad))))
 
 
-@case("input.index_out_of_range", "input")
+@case("input.index_out_of_range_is_refused", "input")
 def index_out_of_range(bench):
     bad = struct.pack("<3H", 0, 1, 3)
     refuse(bench, scratch(bench, "index.gltf", files.text(files.triangle(indices=bad))), needles=("/",))
@@ -168,7 +159,7 @@ def add_edits():
         def run(bench, name=name, edit=edit):
             refuse(bench, scratch(bench, name + ".gltf", edited(edit)))
 
-        case("input.edit." + name, "input")(run)
+        case("input.edit_is_refused." + name, "input")(run)
 
 
 add_edits()
@@ -186,7 +177,7 @@ def required_extension(bench):
         check(sum(name in line for line in warnings) == 1, f"expected one warning about {name}\n{done.describe()}")
 
 
-@case("input.truncated_glb", "input")
+@case("input.truncated_glb_is_refused", "input")
 def truncated_glb(bench):
     whole = files.glb(files.triangle())
     accept(bench, scratch(bench, "whole.glb", whole))
@@ -194,14 +185,14 @@ def truncated_glb(bench):
         refuse(bench, scratch(bench, "cut.glb", whole[:length]))
 
 
-@case("input.truncated_json", "input")
+@case("input.truncated_json_is_refused", "input")
 def truncated_json(bench):
     whole = files.text(files.triangle())
     for length in range(1, len(whole), 71):
         refuse(bench, scratch(bench, "cut.gltf", whole[:length]))
 
 
-@case("input.picture_of_60000_by_60000", "input")
+@case("input.picture_of_60000_by_60000_is_refused", "input")
 def huge_picture(bench):
     huge = files.png(60000, 60000, rows=4)
     refuse(bench, "builtin:plate", env=scratch(bench, "huge.png", huge))

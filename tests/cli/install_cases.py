@@ -10,7 +10,7 @@ from harness import SMALL, Skipped, case, check
 MODULE = "burnish_openimageio.so"
 
 
-@case("install.copy_reads_and_writes_pictures", "program", "input")
+@case("install.copy_reads_and_writes_pictures", "input")
 def installed(bench):
     """Installed outside of the build tree, whose module would be found too."""
     cmake = shutil.which("cmake")
@@ -27,7 +27,34 @@ def installed(bench):
             bench.run("render", *SMALL, "--env", env, "-o", "b.png", program=program).expect(0)
 
 
-@case("install.without_the_module", "program", "input")
+@case("install.library_is_found_and_draws_the_same")
+def library(bench):
+    """Another program, built against the installed tree by find_package alone, draws what `burnish render` draws."""
+    cmake = shutil.which("cmake")
+    if not cmake:
+        raise Skipped("no cmake")
+    build = pathlib.Path(bench.program).parent
+    source = pathlib.Path(__file__).resolve().parent.parent / "package"
+    with tempfile.TemporaryDirectory(prefix="burnish-library-") as folder:
+        prefix, out = pathlib.Path(folder, "prefix"), pathlib.Path(folder, "build")
+        quiet = dict(check=True, timeout=300, stdout=subprocess.DEVNULL)
+        subprocess.run([cmake, "--build", str(build), "--target", "burnish_library"], **quiet)
+        subprocess.run([cmake, "--install", str(build), "--prefix", str(prefix)], **quiet)
+        text = "".join(path.read_text() for path in (prefix / "lib/cmake/burnish").glob("*.cmake"))
+        for word in ("-Wall", "-march", "fmt::", "TBB", "embree", str(build)):
+            check(word not in text, f"the installed package names {word}")
+        subprocess.run([cmake, "-S", str(source), "-B", str(out), f"-DCMAKE_PREFIX_PATH={prefix}", "-DCMAKE_BUILD_TYPE=Release"], **quiet)
+        subprocess.run([cmake, "--build", str(out)], **quiet)
+        run = subprocess.run([str(out / "turntable"), "builtin:spheres"], cwd=folder, capture_output=True, text=True, timeout=300)
+        check(run.returncode == 0, f"turntable ended with {run.returncode}: {run.stderr}")
+        hashes = run.stdout.split()
+        check(len(set(hashes)) == 4, f"four sides, four pictures: {hashes}")
+        for i in range(4):
+            bench.run("render", "builtin:spheres", "--env", str(pathlib.Path(folder, f"side{i}.exr")), "--size", "8x8", "--env-size", "16",
+                      "--no-cache").expect(0)  # the library found its image module
+
+
+@case("install.without_the_module_png_still_works", "input")
 def without_module(bench):
     """A program alone still renders what is built in to PNG, and says in one line what it cannot."""
     bench.run("render", *SMALL, "-o", "a.hdr").expect(0)

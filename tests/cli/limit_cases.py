@@ -5,7 +5,7 @@ from harness import case, scratch
 from input_cases import accept, refuse
 
 
-@case("limit.image_side", "input")
+@case("limit.image_side_is_kept", "input")
 def image_side(bench):
     scratch(bench, "texture.png", files.png(40, 40))
     scene = scratch(bench, "scene.gltf", files.text(files.textured("texture.png")))
@@ -14,7 +14,7 @@ def image_side(bench):
     accept(bench, scene, "--limit-image-side", "40")
 
 
-@case("limit.texture_bytes", "input")
+@case("limit.texture_bytes_are_kept", "input")
 def texture_bytes(bench):
     scratch(bench, "texture.png", files.png(40, 40))
     scene = scratch(bench, "scene.gltf", files.text(files.textured("texture.png")))
@@ -22,7 +22,7 @@ def texture_bytes(bench):
     accept(bench, scene, "--limit-texture-bytes", "1M")
 
 
-@case("limit.json_depth", "input")
+@case("limit.json_depth_is_kept", "input")
 def json_depth(bench):
     gltf = files.triangle()
     nested = value = {}
@@ -34,14 +34,14 @@ def json_depth(bench):
     accept(bench, scene, "--limit-json-depth", "100")
 
 
-@case("limit.json_bottomless", "input")
+@case("limit.bottomless_json_is_refused", "input")
 def json_bottomless(bench):
     """Nesting that would end the stack of a recursive parser."""
     refuse(bench, scratch(bench, "bottomless.gltf", "[" * 3000000))
     refuse(bench, scratch(bench, "objects.gltf", '{"a":' * 500000))
 
 
-@case("limit.node_depth", "input")
+@case("limit.node_depth_is_kept", "input")
 def node_depth(bench):
     gltf = files.triangle()
     depth = 300
@@ -51,21 +51,21 @@ def node_depth(bench):
     accept(bench, scene, "--limit-node-depth", "400")
 
 
-@case("limit.file_bytes", "input")
+@case("limit.file_bytes_are_kept", "input")
 def file_bytes(bench):
     scene = scratch(bench, "scene.glb", files.glb(files.triangle()))
     refuse(bench, scene, "--limit-file-bytes", "100")
     accept(bench, scene, "--limit-file-bytes", "1M")
 
 
-@case("limit.accessor_bytes", "input")
+@case("limit.accessor_bytes_are_kept", "input")
 def accessor_bytes(bench):
     scene = scratch(bench, "scene.glb", files.glb(files.triangle()))
     refuse(bench, scene, "--limit-accessor-bytes", "16")
     accept(bench, scene, "--limit-accessor-bytes", "1M")
 
 
-@case("limit.data_uri_bytes", "input")
+@case("limit.data_uri_bytes_are_kept", "input")
 def data_uri_bytes(bench):
     scene = scratch(bench, "scene.gltf", files.text(files.triangle()))
     refuse(bench, scene, "--limit-data-uri-bytes", "10")

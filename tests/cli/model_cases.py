@@ -1,9 +1,8 @@
 """Every model of the test data renders: no NaN, something to see, the same pixels from scalar code."""
 
-import pathlib
 import struct
 
-from harness import SMALL, case, check
+from harness import SMALL, case, check, data_files, words_of
 
 
 def read_pfm(path):
@@ -17,9 +16,7 @@ def read_pfm(path):
 
 
 def add_data_cases(data):
-    root = pathlib.Path(data) / "models"
-    found = sorted(path for path in root.rglob("*") if path.suffix in (".glb", ".gltf"))
-    for path in found:
+    for name, path in data_files(data, "models", (".glb", ".gltf")).items():
 
         def run(bench, path=path):
             figures = bench.figures(path, *SMALL, "--no-background", "-o", "model.pfm")
@@ -33,6 +30,4 @@ def add_data_cases(data):
             scalar = bench.figures(path, *SMALL, "--no-background", "--isa", "scalar", "--threads", "1")
             check(scalar["pixel_hash"] == figures["pixel_hash"], "scalar code gives other pixels")
 
-        case("models." + path.name)(run)
-    if not found:
-        case("models.files")(lambda bench: bench.shared("models"))
+        case("models.render_finite_and_lit." + words_of(name))(run)

@@ -19,7 +19,7 @@ MAGIC = {
 }
 
 
-@case("output.several_at_once", "program", "input")
+@case("output.several_files_are_written_at_once", "input")
 def several(bench):
     outputs = [word for name in MAGIC for word in ("-o", name)]
     done = bench.run("render", *SMALL, *outputs, "--stats", "s.json", "--trace", "t.json").expect(0)
@@ -37,13 +37,13 @@ STATS = {
 }
 
 
-@case("output.stats")
+@case("output.stats_hold_every_figure")
 def stats(bench):
     found = bench.figures(*SMALL, "--frames", "5", "--threads", "2")
     for key, kind in STATS.items():
         value = found.get(key)
         check(isinstance(value, (int, float) if kind is float else kind), f"{key} is {value!r}")
-    expected = {"scene": "builtin:teapot", "env": "builtin:studio", "technique": "split_isotropic", "backend": "tile",
+    expected = {"scene": "builtin:teapot", "env": "builtin:studio", "technique": "auto", "backend": "tile",
                 "threads": 2, "width": 160, "height": 120, "msaa": 4, "frames": 5, "nan_pixels": 0}
     for key, value in expected.items():
         check(found[key] == value, f"{key} is {found[key]!r}, not {value!r}")
@@ -53,7 +53,7 @@ def stats(bench):
     check(1 << 20 < found["peak_memory_bytes"] < 8 << 30, f"peak memory {found['peak_memory_bytes']}")
 
 
-@case("output.words_on_stderr")
+@case("output.words_go_to_stderr")
 def words(bench):
     done = bench.run("render", *SMALL, "--stats", "s.json").expect(0)
     found = json.loads((bench.folder / "s.json").read_text())
@@ -67,7 +67,7 @@ def words(bench):
     check("world to clip" in more.err, f"-v does not print the camera\n{more.describe()}")
 
 
-@case("output.trace")
+@case("output.trace_shows_every_stage")
 def trace(bench):
     bench.run("render", *SMALL, "--threads", "2", "--trace", "t.json").expect(0)
     loaded = json.loads((bench.folder / "t.json").read_text())
@@ -106,7 +106,7 @@ def exr_is_float(bench):
     check("half" not in said, said)
 
 
-@case("output.file_size_limit", "program", "input")
+@case("output.file_size_limit_keeps_what_was_there", "input")
 def file_size_limit(bench):
     """The EXR does not fit, the small PNG does."""
     kept = scratch(bench, "old.exr", b"kept")
@@ -118,7 +118,7 @@ def file_size_limit(bench):
     check(bench.left_behind() == ["old.exr", "s.json", "small.png"], f"left: {bench.left_behind()}")
 
 
-@case("output.full_disk", "program", "input")
+@case("output.full_disk_keeps_what_was_there", "input")
 def full_disk(bench):
     """A disk of 64 KB in a mount namespace of its own, which ends with the shell."""
     disk = bench.folder / "disk"

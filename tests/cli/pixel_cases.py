@@ -3,7 +3,7 @@
 import json
 import os
 
-from harness import SMALL, Skipped, case, check
+from harness import SMALL, Skipped, case, check, data_files
 
 BUILTINS = ("builtin:teapot", "builtin:spheres", "builtin:plate")
 
@@ -88,7 +88,7 @@ def tonemap_is_for_display(bench):
     check(read("plain.png") != read("bright.png"), "the PNG does not depend on display options")
 
 
-@case("pixels.odd_sizes", "program", "input")
+@case("pixels.odd_sizes_are_drawn", "input")
 def odd_sizes(bench):
     for size in ("1x1", "17x3", "65x1", "33x129", "2048x2"):
         for msaa in ("1", "16"):
@@ -101,7 +101,7 @@ def frames_repeat(bench):
     check(hash_of(bench, "--frames", "4") == hash_of(bench), "later frames differ")
 
 
-@case("pixels.small_pictures", "input")
+@case("pixels.small_pictures_are_drawn", "input")
 def small_pictures(bench):
     """For the sanitizers: every built-in scene and environment once."""
     for scene in BUILTINS:
@@ -113,10 +113,7 @@ def small_pictures(bench):
 def other_build(bench):
     if not os.path.exists(bench.compare_program):
         raise Skipped(f"no program at {bench.compare_program}")
-    scenes = list(BUILTINS)
-    models = bench.data / "models"
-    if models.exists():
-        scenes += sorted(path for path in models.rglob("*") if path.suffix in (".glb", ".gltf"))
+    scenes = [*BUILTINS, *data_files(bench.data, "models", (".glb", ".gltf")).values()]
     builds = {}
     for program in (bench.program, bench.compare_program):
         facts = json.loads(bench.run("info", "--json", program=program).expect(0).out)

@@ -12,7 +12,7 @@ def profile(bench, *arguments, code=0):
     return json.loads(bench.run("profile", *arguments, "--json", "-").expect(code).out)
 
 
-@case("profile.figures")
+@case("profile.figures_add_up")
 def figures(bench):
     found = profile(bench, *SMALL, "--technique", "major_axis", "--threads", "1", "--frames", "3")
     check([s["name"] for s in found["stages"]] == STAGES, f"stages: {found['stages']}")
@@ -32,7 +32,7 @@ def figures(bench):
     check(0 < found["ms_without_profile"] and 0 < found["ms"], "no frame time")
 
 
-@case("profile.fragments")
+@case("profile.fragments_are_shaded_once")
 def fragments(bench):
     for options in (("--msaa", "1"), ("--msaa", "8", "builtin:spheres"), ("--tile-size", "32")):
         options = (*SMALL, *options)
@@ -54,7 +54,7 @@ def fragments(bench):
             check(len(busy) == 2 and abs(sum(busy) - found["busy_ms"]) < 1e-6, f"threads: {busy} of {found['busy_ms']}")
 
 
-@case("profile.files")
+@case("profile.files_show_every_stage")
 def files(bench):
     done = bench.run("profile", *SMALL, "--frames", "2", "--threads", "2", "--json", "p.json", "--svg", "p.svg", "--trace", "p.trace", "-o", "p.png")
     done.expect(0)
@@ -81,7 +81,7 @@ def files(bench):
     check(boxes["frame"] > 100 and abs(boxes["stages"] / boxes["frame"] - 1) < 0.01, f"widths: {boxes}")
 
 
-@case("profile.usage")
+@case("profile.wrong_options_say_one_line_and_exit_2")
 def usage(bench):
     bench.run("profile", *SMALL, "--backend", "reference").expect(2).expect_one_line("--backend")
     bench.run("profile", *SMALL, "--stats", "-").expect(2).expect_one_line("--stats")

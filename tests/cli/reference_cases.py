@@ -15,7 +15,7 @@ def needs_embree(bench):
         raise Skipped("built without Embree")
 
 
-@case("reference.pictures_and_figures", "program", "input")
+@case("reference.pictures_and_figures_are_whole", "input")
 def pictures(bench):
     needs_embree(bench)
     found = bench.figures(*SMALL, "--samples", "256", "-o", "mean.exr", "--variance", "variance.exr")
@@ -48,7 +48,7 @@ def passes(bench):
     check("--samples 65" in done.err and "128" in done.err, done.describe())
 
 
-@case("reference.options_that_do_not_fit")
+@case("reference.options_that_do_not_fit_are_refused")
 def misfits(bench):
     needs_embree(bench)
     for words, needle in (
@@ -74,14 +74,14 @@ def misfits(bench):
     check(bench.left_behind() == [], f"left behind: {bench.left_behind()}")
 
 
-@case("reference.target_error")
+@case("reference.target_error_is_met")
 def target(bench):
     needs_embree(bench)
     found = bench.figures(*SMALL, "--samples", "1000000", "--target-error", "0.05")
     check(found["reference"]["relative_error"] <= 0.05 and 512 <= found["samples"] < 100000, f"{found}")
 
 
-@case("reference.checkpoint_of_something_else")
+@case("reference.checkpoint_of_something_else_is_refused")
 def other_checkpoint(bench):
     needs_embree(bench)
     words = (*SMALL, "--samples", "64", "--checkpoint", "part")
@@ -94,7 +94,7 @@ def other_checkpoint(bench):
     bench.run("render", *words).expect(4).expect_one_line("part", "not a checkpoint")
 
 
-@case("reference.stopped_by_a_signal")
+@case("reference.stopped_by_a_signal_goes_on")
 def stopped(bench):
     needs_embree(bench)
     words = (*SMALL, "--samples", "16384", "--reference-mode", "path", "-o", "a.exr")

@@ -1,12 +1,16 @@
 """Lists the cases, or runs one: exit code 0 passed, 1 failed, 77 skipped."""
 
 import argparse
+import pathlib
 import sys
 
 import chart_cases
 import chart_page_cases
 import compare_cases
+import fault_cases
+import file_cases
 import harness
+import hostile_cases
 import input_cases
 import install_cases
 import limit_cases
@@ -21,7 +25,7 @@ import usage_cases
 parser = argparse.ArgumentParser()
 parser.add_argument("--program", default="")
 parser.add_argument("--compare-program", default="")
-parser.add_argument("--data", required=True)
+parser.add_argument("--data", required=True, action="append", type=pathlib.Path, help="test data; of two files of a name the first counts")
 parser.add_argument("--work", default="")
 parser.add_argument("--sanitized", action="store_true")
 parser.add_argument("--list", action="store_true")

@@ -15,7 +15,7 @@ def help_is_everywhere(bench):
         check("\x1b" not in done.out, "help is coloured")
 
 
-@case("usage.version")
+@case("usage.version_is_name_and_number")
 def version(bench):
     done = bench.run("--version").expect(0)
     name, number = done.out.split()
@@ -106,14 +106,21 @@ def negative_numbers(bench):
 
 @case("usage.lists_name_what_options_accept")
 def lists(bench):
+    """Every name of a list is taken by its option; the reflection models are listed too, and no option names one."""
+    tiny = ("--size", "8x8", *SMALL[2:])
+    options = {"techniques": lambda name: ("--technique", name, "--samples", "1"), "scenes": lambda name: (name,),
+               "environments": lambda name: ("--env", name), "models": None}
     expected = {"techniques": "split_isotropic", "scenes": "builtin:teapot", "environments": "builtin:studio", "models": "ggx"}
-    for what, name in expected.items():
+    for what, option in options.items():
         lines = bench.run("list", what).expect(0).out.splitlines()
-        check(name in [line.split()[0] for line in lines], f"list {what} lacks {name}: {lines}")
+        names = [line.split()[0] for line in lines]
+        check(expected[what] in names and len(set(names)) == len(names), f"list {what} lacks {expected[what]}: {lines}")
         check(all(len(line.split(None, 1)) == 2 for line in lines), f"a name without a summary: {lines}")
+        for name in names if option else ():
+            bench.run("render", *option(name), *tiny, "-q").expect(0)
 
 
-@case("usage.info")
+@case("usage.info_names_machine_and_build")
 def info(bench):
     facts = json.loads(bench.run("info", "--json").expect(0).out)
     for key in ("version", "compiler", "processor", "cores", "isa", "isa_available", "backends", "openimageio"):

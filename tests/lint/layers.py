@@ -11,13 +11,13 @@ import sys
 
 LAYERS = {"core": 0, "shading": 1, "raster": 2, "apps": 3}  # a layer includes itself and those below
 EVERYWHERE = ("tests", "bench")                              # they see all layers
-RENDERERS = ("tile", "vulkan", "reference")                  # they meet in raster/frame
+RENDERERS = ("tile", "vulkan", "reference")                  # they meet in raster/frame; raster/session sees them all
 
 # Third-party headers and the folders that may include them.
 THIRD_PARTY = (
-    (r"OpenImageIO/|OpenEXR/|Imath/", ("core/image/openimageio_module.cpp",)), # what others include, the program would load
-    (r"(png|zlib)\.h$", ("core/image",)),
-    (r"tiny_gltf|draco/", ("core/scene",)),
+    (r"OpenImageIO/|OpenEXR/|Imath/", ("core/image/io/openimageio_module.cpp",)), # what others include, the program would load
+    (r"(png|zlib)\.h$", ("core/image/io",)),
+    (r"tiny_gltf|draco/", ("core/scene/gltf",)),
     (r"meshoptimizer", ("core/scene", "raster/tile", "tests")),
     (r"tbb/|oneapi/", ("core/jobs",)),
     (r".*intrin\.h$|cpuid\.h$", ("core/simd",)),
@@ -63,6 +63,11 @@ def lies_in(path, folders):
     return any(path.is_relative_to(folder) for folder in folders)
 
 
+def is_kernel(path):
+    """Text in the kernel language: C++ and GLSL read it."""
+    return path.parts[0] == "shading" and path.name.endswith((".k.h", ".t.h"))
+
+
 def check_include(path, quoted, name, files):
     """Faults of one #include line."""
     top = path.parts[0]
@@ -80,19 +85,21 @@ def check_include(path, quoted, name, files):
     other = target.parts[0]
     if top in LAYERS and LAYERS.get(other, 99) > LAYERS[top]:
         yield f'{top} includes "{name}", which lies above it'
-    if path.is_relative_to("shading/kernels") and not lies_in(target, ("shading/lang", "shading/kernels")):
+    if is_kernel(path) and not (lies_in(target, ("shading/lang",)) or is_kernel(target) or target.match("shading/*.def")):
         yield f'a kernel includes "{name}"'
     if top == other == "raster" and len(path.parts) > 2 and len(target.parts) > 2:
         mine, theirs = path.parts[1], target.parts[1]
         if mine != theirs and mine in RENDERERS and theirs in RENDERERS:
             yield f'{mine} includes "{name}": renderers meet in raster/frame'
-        if mine not in RENDERERS and theirs in RENDERERS:
+        if mine not in (*RENDERERS, "session") and theirs in RENDERERS:
             yield f'raster/{mine} includes "{name}" of a single renderer'
+        if theirs == "session" != mine:
+            yield f'raster/{mine} includes "{name}", which lies above it'
 
 
 def guarded(path, lines):
     """GLSL knows no #pragma once, so what it reads has a macro."""
-    glsl = path.is_relative_to("shading/kernels") or path.is_relative_to("shading/lang")
+    glsl = is_kernel(path) or path.is_relative_to("shading/lang")
     text = "\n".join(lines)
     return "#pragma once" in text or (glsl and re.search(r"#ifndef (\w+)\n#define \1", text))
 

@@ -6,9 +6,10 @@
 #include <vector>
 
 #include "core/image/image.h"
+#include "core/simd/dispatch.h"
 #include "core/simd/half.h"
 #include "shading/bake/bake_fns.h"
-#include "shading/bake/environment.h"
+#include "shading/bake/environment/environment.h"
 #include "tests/unit/bake/filter_ops.h"
 
 namespace burnish {
@@ -32,11 +33,9 @@ class Random {
 
 inline std::vector<const FilterOps*> available_filter_ops() // scalar first
 {
-    std::vector<const FilterOps*> all = {&bn_scalar::filter_ops()};
-    if (bake_isa_available(1))
-        all.push_back(&bn_avx2::filter_ops());
-    if (bake_isa_available(2))
-        all.push_back(&bn_avx512::filter_ops());
+    std::vector<const FilterOps*> all;
+    for (const Isa isa : isas_with<FilterOps>())
+        all.push_back(&pick<FilterOps>(isa));
     return all;
 }
 
@@ -48,10 +47,8 @@ inline Image equirect_of(int width, const std::function<void(double, double, dou
     for (int y = 0; y < image.height; ++y)
         for (int x = 0; x < width; ++x) {
             const double phi = ((x + 0.5) / width - 0.5) * 2.0 * pi, theta = (y + 0.5) / image.height * pi;
-            const std::size_t i =
-                static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
-            radiance(std::sin(theta) * std::cos(phi), std::cos(theta), std::sin(theta) * std::sin(phi),
-                     image.f32() + i * 3);
+            const std::size_t i = static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
+            radiance(std::sin(theta) * std::cos(phi), std::cos(theta), std::sin(theta) * std::sin(phi), image.f32() + i * 3);
         }
     return image;
 }
@@ -79,8 +76,7 @@ inline EnvironmentOptions small_bake() // without the cache
 inline float cube_texel(const CubeMap& cube, int level, int face, int x, int y, int channel)
 {
     const std::size_t side = static_cast<std::size_t>(cube.size >> level) + 2;
-    const std::size_t at = cube.offset[static_cast<std::size_t>(level)] +
-                           static_cast<std::size_t>(face) * side * side +
+    const std::size_t at = cube.offset[static_cast<std::size_t>(level)] + static_cast<std::size_t>(face) * side * side +
                            static_cast<std::size_t>(y + 1) * side + static_cast<std::size_t>(x + 1);
     return half_to_float(cube.texels[4 * at + static_cast<std::size_t>(channel)]) * cube.scale;
 }

@@ -15,16 +15,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class EnvironmentCache : public testing::Test {
+class environment_cache : public testing::Test {
   protected:
-    EnvironmentCache() : folder_(fs::path(testing::TempDir()) / ("bake_cache_" + std::to_string(getpid())))
+    environment_cache() : folder_(fs::path(testing::TempDir()) / ("bake_cache_" + std::to_string(getpid())))
     {
         fs::remove_all(folder_);
         options_ = small_bake();
         options_.use_cache = true;
         options_.cache_dir = (folder_ / "deep" / "er").string();
     }
-    ~EnvironmentCache() override { fs::remove_all(folder_); }
+    ~environment_cache() override { fs::remove_all(folder_); }
 
     Environment bake()
     {
@@ -42,8 +42,7 @@ class EnvironmentCache : public testing::Test {
     }
     static void expect_same(const Environment& a, const Environment& b)
     {
-        for (const auto& [x, y] :
-             {std::pair{&a.specular, &b.specular}, std::pair{&a.irradiance, &b.irradiance}}) {
+        for (const auto& [x, y] : {std::pair{&a.specular, &b.specular}, std::pair{&a.irradiance, &b.irradiance}}) {
             EXPECT_TRUE(std::equal(x->texels.begin(), x->texels.end(), y->texels.begin(), y->texels.end()));
             EXPECT_EQ(x->offset, y->offset);
             EXPECT_EQ(x->size, y->size);
@@ -71,7 +70,7 @@ void write_all(const fs::path& path, const std::string& bytes)
     std::ofstream(path, std::ios::binary) << bytes;
 }
 
-TEST_F(EnvironmentCache, AHitEqualsTheBakeBitForBit)
+TEST_F(environment_cache, a_hit_equals_the_bake_bit_for_bit)
 {
     const Environment baked = bake();
     EXPECT_FALSE(baked.from_cache);
@@ -82,7 +81,7 @@ TEST_F(EnvironmentCache, AHitEqualsTheBakeBitForBit)
     expect_same(hit, baked);
 }
 
-TEST_F(EnvironmentCache, EveryOptionAndPixelHasItsOwnEntry)
+TEST_F(environment_cache, every_option_and_pixel_has_its_own_entry)
 {
     bake();
     options_.rotation_deg = 10.0f;
@@ -101,19 +100,15 @@ TEST_F(EnvironmentCache, EveryOptionAndPixelHasItsOwnEntry)
     EXPECT_TRUE(bake().from_cache);
 }
 
-TEST_F(EnvironmentCache, DamagedFilesAreBakedAnew)
+TEST_F(environment_cache, damaged_files_are_baked_anew)
 {
     const Environment baked = bake();
     const fs::path file = files().at(0);
     const std::string good = read_all(file);
-    std::vector<std::string> damaged = {"",
-                                        "x",
-                                        good.substr(0, 40),
-                                        good.substr(0, good.size() - 1),
-                                        good + "x",
-                                        std::string(good.size(), '\0')};
-    for (const std::size_t at : {std::size_t{0}, std::size_t{9}, std::size_t{13}, std::size_t{25},
-                                 std::size_t{70}, std::size_t{500}, good.size() - 1}) {
+    std::vector<std::string> damaged = {
+        "", "x", good.substr(0, 40), good.substr(0, good.size() - 1), good + "x", std::string(good.size(), '\0')};
+    for (const std::size_t at :
+         {std::size_t{0}, std::size_t{9}, std::size_t{13}, std::size_t{25}, std::size_t{70}, std::size_t{500}, good.size() - 1}) {
         damaged.push_back(good);
         damaged.back()[at] = static_cast<char>(damaged.back()[at] ^ 0x10);
     }
@@ -129,7 +124,7 @@ TEST_F(EnvironmentCache, DamagedFilesAreBakedAnew)
 }
 
 // Above the limit the environment that was used longest ago goes, not the one that was baked first.
-TEST_F(EnvironmentCache, HasALimit)
+TEST_F(environment_cache, has_a_limit)
 {
     bake();
     const std::uintmax_t size = fs::file_size(files().at(0));
@@ -151,7 +146,7 @@ TEST_F(EnvironmentCache, HasALimit)
     unsetenv("BURNISH_CACHE_BYTES");
 }
 
-TEST_F(EnvironmentCache, AFolderThatCannotBeMadeCostsOnlyAWarning)
+TEST_F(environment_cache, a_folder_that_cannot_be_made_costs_only_a_warning)
 {
     fs::create_directories(folder_);
     write_all(folder_ / "deep", "a file where the folder should be");
@@ -161,14 +156,14 @@ TEST_F(EnvironmentCache, AFolderThatCannotBeMadeCostsOnlyAWarning)
     EXPECT_NE(e.warnings[0].find("not cached"), std::string::npos);
 }
 
-TEST_F(EnvironmentCache, IsNotTouchedWithoutUseCache)
+TEST_F(environment_cache, is_not_touched_without_use_cache)
 {
     options_.use_cache = false;
     bake();
     EXPECT_FALSE(fs::exists(folder_));
 }
 
-TEST_F(EnvironmentCache, LivesInTheXdgFolderByDefault)
+TEST_F(environment_cache, lives_in_the_xdg_folder_by_default)
 {
     const std::string before = std::getenv("XDG_CACHE_HOME") ? std::getenv("XDG_CACHE_HOME") : "";
     setenv("XDG_CACHE_HOME", folder_.c_str(), 1);

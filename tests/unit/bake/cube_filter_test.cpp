@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstring>
 
-#include "shading/bake/cube_map.h"
+#include "shading/bake/environment/cube_map.h"
 #include "tests/unit/bake/bake_test.h"
 
 namespace burnish {
@@ -30,8 +30,7 @@ struct Directions {
     int n() const { return static_cast<int>(x.size()); }
     void add(double dx, double dy, double dz, double l)
     {
-        x.push_back(static_cast<float>(dx)), y.push_back(static_cast<float>(dy)),
-            z.push_back(static_cast<float>(dz));
+        x.push_back(static_cast<float>(dx)), y.push_back(static_cast<float>(dy)), z.push_back(static_cast<float>(dz));
         lod.push_back(static_cast<float>(l));
     }
     void pad()
@@ -57,8 +56,7 @@ Directions random_directions(int n, int levels)
 std::vector<float> fetch(const FilterOps& ops, const CubeMap& cube, const Directions& d)
 {
     std::vector<float> rgb(3 * d.x.size());
-    ops.cube(cube.texels.data(), cube.size, cube.levels, d.x.data(), d.y.data(), d.z.data(), d.lod.data(),
-             d.n(), rgb.data());
+    ops.cube(cube.texels.data(), cube.size, cube.levels, d.x.data(), d.y.data(), d.z.data(), d.lod.data(), d.n(), rgb.data());
     return rgb;
 }
 
@@ -80,11 +78,8 @@ double naive_bilinear(const CubeMap& cube, int level, double x, double y, double
     const double px = (u + 1.0) * 0.5 * t - 0.5, py = (v + 1.0) * 0.5 * t - 0.5;
     const int ix = static_cast<int>(std::floor(px)), iy = static_cast<int>(std::floor(py));
     const double fx = px - ix, fy = py - iy;
-    const auto at = [&](int i, int j) {
-        return static_cast<double>(cube_texel(cube, level, face, std::min(i, t), std::min(j, t), c));
-    };
-    return (at(ix, iy) * (1 - fx) + at(ix + 1, iy) * fx) * (1 - fy) +
-           (at(ix, iy + 1) * (1 - fx) + at(ix + 1, iy + 1) * fx) * fy;
+    const auto at = [&](int i, int j) { return static_cast<double>(cube_texel(cube, level, face, std::min(i, t), std::min(j, t), c)); };
+    return (at(ix, iy) * (1 - fx) + at(ix + 1, iy) * fx) * (1 - fy) + (at(ix, iy + 1) * (1 - fx) + at(ix + 1, iy + 1) * fx) * fy;
 }
 
 double naive_trilinear(const CubeMap& cube, double x, double y, double z, double lod, int c)
@@ -95,35 +90,35 @@ double naive_trilinear(const CubeMap& cube, double x, double y, double z, double
     return naive_bilinear(cube, fine, x, y, z, c) * (1 - f) + naive_bilinear(cube, coarse, x, y, z, c) * f;
 }
 
-TEST(CubeFilter, EqualsTheNaiveReference)
+TEST(cube_filter, equals_the_naive_reference)
 {
     for (const int levels : {kLevels, 2, 1}) {
         const CubeMap cube = noise_cube(kSize, levels);
         const Directions d = random_directions(2000, levels);
-        const std::vector<float> rgb = fetch(bn_scalar::filter_ops(), cube, d);
+        const std::vector<float> rgb = fetch(pick<FilterOps>(Isa::scalar), cube, d);
         for (std::size_t i = 0; i < d.x.size(); ++i)
             for (int c = 0; c < 3; ++c)
                 ASSERT_NEAR(static_cast<double>(rgb[3 * i + static_cast<std::size_t>(c)]),
-                            naive_trilinear(cube, static_cast<double>(d.x[i]), static_cast<double>(d.y[i]),
-                                            static_cast<double>(d.z[i]), static_cast<double>(d.lod[i]), c),
+                            naive_trilinear(cube, static_cast<double>(d.x[i]), static_cast<double>(d.y[i]), static_cast<double>(d.z[i]),
+                                            static_cast<double>(d.lod[i]), c),
                             2e-5)
                     << i << " of " << levels << " levels";
     }
 }
 
-TEST(CubeFilter, AddressesLargeCubesExactly)
+TEST(cube_filter, addresses_large_cubes_exactly)
 {
     const CubeMap cube = noise_cube(1024, 11);
     const Directions d = random_directions(500, 11);
-    const std::vector<float> rgb = fetch(bn_scalar::filter_ops(), cube, d);
+    const std::vector<float> rgb = fetch(pick<FilterOps>(Isa::scalar), cube, d);
     for (std::size_t i = 0; i < d.x.size(); ++i)
         ASSERT_NEAR(static_cast<double>(rgb[3 * i]),
-                    naive_trilinear(cube, static_cast<double>(d.x[i]), static_cast<double>(d.y[i]),
-                                    static_cast<double>(d.z[i]), static_cast<double>(d.lod[i]), 0),
+                    naive_trilinear(cube, static_cast<double>(d.x[i]), static_cast<double>(d.y[i]), static_cast<double>(d.z[i]),
+                                    static_cast<double>(d.lod[i]), 0),
                     1e-3); // coordinates of a float have 2^-14 texels here
 }
 
-TEST(CubeFilter, FacesFollowTheirDefinition)
+TEST(cube_filter, faces_follow_their_definition)
 {
     struct {
         float x, y, z, face, u, v;
@@ -159,11 +154,10 @@ TEST(CubeFilter, FacesFollowTheirDefinition)
     }
 }
 
-TEST(CubeFilter, AnyDirectionAndLevelStaysInside)
+TEST(cube_filter, any_direction_and_level_stays_inside)
 {
     const CubeMap cube = noise_cube();
-    const float odd[] = {0.0f,      -0.0f,  1.0f,   -1.0f, NAN,           INFINITY,
-                         -INFINITY, 1e-38f, 1e-45f, 3e38f, 0x1.fffffep-1f};
+    const float odd[] = {0.0f, -0.0f, 1.0f, -1.0f, NAN, INFINITY, -INFINITY, 1e-38f, 1e-45f, 3e38f, 0x1.fffffep-1f};
     const float lods[] = {NAN, INFINITY, -INFINITY, 0.0f, 3.999f, 4.0f, 1e9f};
     Directions d;
     std::size_t k = 0;
@@ -180,7 +174,7 @@ TEST(CubeFilter, AnyDirectionAndLevelStaysInside)
 
 // Directions a hair on either side of every edge of the cube, and around every corner, give nearly the same
 // colour.
-TEST(CubeFilter, HasNoSeamAtAnyEdgeOrCornerOfAnyLevel)
+TEST(cube_filter, has_no_seam_at_any_edge_or_corner_of_any_level)
 {
     const CubeMap cube = noise_cube();
     const double e = 1e-6;
@@ -201,8 +195,7 @@ TEST(CubeFilter, HasNoSeamAtAnyEdgeOrCornerOfAnyLevel)
                     b.add(p[1][0], p[1][1], p[1][2], level);
                 }
         a.pad(), b.pad();
-        const std::vector<float> ca = fetch(bn_scalar::filter_ops(), cube, a),
-                                 cb = fetch(bn_scalar::filter_ops(), cube, b);
+        const std::vector<float> ca = fetch(pick<FilterOps>(Isa::scalar), cube, a), cb = fetch(pick<FilterOps>(Isa::scalar), cube, b);
         float jump = 0.0f;
         for (std::size_t i = 0; i < ca.size(); ++i)
             jump = std::max(jump, std::fabs(ca[i] - cb[i]));
@@ -212,29 +205,28 @@ TEST(CubeFilter, HasNoSeamAtAnyEdgeOrCornerOfAnyLevel)
     }
 }
 
-TEST(CubeFilter, UniformLevelEqualsTheTrilinearFetchThere)
+TEST(cube_filter, uniform_level_equals_the_trilinear_fetch_there)
 {
     const CubeMap cube = noise_cube();
     Directions d = random_directions(512, kLevels);
     for (int level = 0; level < kLevels; ++level) {
         std::fill(d.lod.begin(), d.lod.end(), static_cast<float>(level));
-        const std::vector<float> expected = fetch(bn_scalar::filter_ops(), cube, d);
+        const std::vector<float> expected = fetch(pick<FilterOps>(Isa::scalar), cube, d);
         std::vector<float> got(expected.size());
-        bn_scalar::filter_ops().cube_level(cube.texels.data(), cube.size, cube.levels, level, d.x.data(),
-                                           d.y.data(), d.z.data(), d.n(), got.data());
+        pick<FilterOps>(Isa::scalar)
+            .cube_level(cube.texels.data(), cube.size, cube.levels, level, d.x.data(), d.y.data(), d.z.data(), d.n(), got.data());
         EXPECT_EQ(got, expected) << level;
     }
 }
 
-TEST(CubeFilter, EveryInstructionSetGivesTheSameBits)
+TEST(cube_filter, every_instruction_set_gives_the_same_bits)
 {
     const CubeMap cube = noise_cube();
     const Directions d = random_directions(4096, kLevels);
-    const std::vector<float> expected = fetch(bn_scalar::filter_ops(), cube, d);
+    const std::vector<float> expected = fetch(pick<FilterOps>(Isa::scalar), cube, d);
     for (const FilterOps* ops : available_filter_ops()) {
         const std::vector<float> got = fetch(*ops, cube, d);
-        EXPECT_EQ(std::memcmp(got.data(), expected.data(), got.size() * sizeof(float)), 0)
-            << ops->lanes << " lanes";
+        EXPECT_EQ(std::memcmp(got.data(), expected.data(), got.size() * sizeof(float)), 0) << ops->lanes << " lanes";
     }
 }
 

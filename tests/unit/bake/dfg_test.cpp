@@ -18,11 +18,11 @@ Value lookup(const DfgTable& t, float roughness, float n_dot_v)
 {
     const std::vector<float> r(16, roughness), c(16, n_dot_v);
     float out[32];
-    bn_scalar::filter_ops().dfg_lookup(t.texels.data(), t.size, c.data(), r.data(), 16, out);
+    pick<FilterOps>(Isa::scalar).dfg_lookup(t.texels.data(), t.size, c.data(), r.data(), 16, out);
     return {out[0], out[1]};
 }
 
-TEST(Dfg, EqualsKnownAlbedos)
+TEST(dfg, equals_known_albedos)
 {
     const struct {
         float roughness, n_dot_v, scale, bias;
@@ -34,7 +34,7 @@ TEST(Dfg, EqualsKnownAlbedos)
     }
 }
 
-TEST(Dfg, ConvergesToTheIntegralOverLightDirections)
+TEST(dfg, converges_to_the_integral_over_light_directions)
 {
     // A second integral, over the hemisphere of light directions: D G2 (n.l) / (4 n.v n.l) dl.
     const double alpha = 0.36, n_dot_v = 0.5; // roughness 0.6
@@ -44,14 +44,12 @@ TEST(Dfg, ConvergesToTheIntegralOverLightDirections)
     const int n = 1000;
     for (int j = 0; j < n; ++j)
         for (int i = 0; i < n; ++i) {
-            const double lz = (j + 0.5) / n, phi = (i + 0.5) / n * 6.283185307179586,
-                         rho = std::sqrt(1.0 - lz * lz);
+            const double lz = (j + 0.5) / n, phi = (i + 0.5) / n * 6.283185307179586, rho = std::sqrt(1.0 - lz * lz);
             const double hx = vx + rho * std::cos(phi), hy = rho * std::sin(phi), hz = n_dot_v + lz;
             const double h2 = hx * hx + hy * hy + hz * hz, nh2 = hz * hz / h2;
             const double v_dot_h = (vx * hx + n_dot_v * hz) / std::sqrt(h2);
             const double q = nh2 * (a2 - 1.0) + 1.0, d = a2 / (3.141592653589793 * q * q);
-            const double f = d / (1.0 + lambda(n_dot_v) + lambda(lz)) / (4.0 * n_dot_v) * 6.283185307179586 /
-                             (n * double(n));
+            const double f = d / (1.0 + lambda(n_dot_v) + lambda(lz)) / (4.0 * n_dot_v) * 6.283185307179586 / (n * double(n));
             const double fresnel = std::pow(1.0 - v_dot_h, 5.0);
             scale += (1.0 - fresnel) * f;
             bias += fresnel * f;
@@ -61,7 +59,7 @@ TEST(Dfg, ConvergesToTheIntegralOverLightDirections)
     EXPECT_NEAR(static_cast<double>(t.bias[6 * 11 + 5]), bias, 2e-4);
 }
 
-TEST(Dfg, NeverGainsEnergyAndStartsAtTheMirror)
+TEST(dfg, never_gains_energy_and_starts_at_the_mirror)
 {
     const DfgTable& t = table();
     const std::size_t n = static_cast<std::size_t>(t.size);
@@ -77,7 +75,7 @@ TEST(Dfg, NeverGainsEnergyAndStartsAtTheMirror)
     }
 }
 
-TEST(Dfg, TexelsHoldTheTableToSixDigits)
+TEST(dfg, texels_hold_the_table_to_six_digits)
 {
     const DfgTable& t = table();
     for (std::size_t i = 0; i < t.scale.size(); ++i) {
@@ -87,19 +85,18 @@ TEST(Dfg, TexelsHoldTheTableToSixDigits)
     }
 }
 
-TEST(Dfg, LookupInterpolatesAndClamps)
+TEST(dfg, lookup_interpolates_and_clamps)
 {
     const DfgTable& t = table();
     EXPECT_NEAR(lookup(t, 0.0f, 1.0f).scale, t.scale[63], 1e-6f);
     EXPECT_NEAR(lookup(t, 1.0f, 1.0f).scale, t.scale[63 * 64 + 63], 1e-6f);
     EXPECT_NEAR(lookup(t, 7.0f, -3.0f).bias, t.bias[63 * 64], 1e-6f);
     EXPECT_NEAR(lookup(t, NAN, NAN).bias, t.bias[0], 1e-6f);
-    const float middle = 0.25f * (t.scale[10 * 64 + 20] + t.scale[10 * 64 + 21] + t.scale[11 * 64 + 20] +
-                                  t.scale[11 * 64 + 21]);
+    const float middle = 0.25f * (t.scale[10 * 64 + 20] + t.scale[10 * 64 + 21] + t.scale[11 * 64 + 20] + t.scale[11 * 64 + 21]);
     EXPECT_NEAR(lookup(t, 10.5f / 63.0f, 20.5f / 63.0f).scale, middle, 2e-6f);
 }
 
-TEST(Dfg, FitEqualsItsTestVectors)
+TEST(dfg, fit_equals_its_test_vectors)
 {
     const struct {
         float roughness, n_dot_v, scale, bias;
@@ -111,14 +108,14 @@ TEST(Dfg, FitEqualsItsTestVectors)
     float n_dot_v[16] = {}, roughness[16] = {}, out[32];
     for (std::size_t i = 0; i < 5; ++i)
         n_dot_v[i] = vectors[i].n_dot_v, roughness[i] = vectors[i].roughness;
-    bn_scalar::filter_ops().dfg_fit(n_dot_v, roughness, 16, out);
+    pick<FilterOps>(Isa::scalar).dfg_fit(n_dot_v, roughness, 16, out);
     for (std::size_t i = 0; i < 5; ++i) {
         EXPECT_NEAR(out[2 * i], vectors[i].scale, 1e-6f);
         EXPECT_NEAR(out[2 * i + 1], vectors[i].bias, 1e-6f);
     }
 }
 
-TEST(Dfg, ThreadsAndInstructionSetsGiveTheSameBits)
+TEST(dfg, threads_and_instruction_sets_give_the_same_bits)
 {
     const DfgTable a = bake_dfg(16, 64, Jobs(1)), b = bake_dfg(16, 64, Jobs(3));
     for (std::size_t i = 0; i < a.texels.size(); ++i)
@@ -128,7 +125,7 @@ TEST(Dfg, ThreadsAndInstructionSetsGiveTheSameBits)
     for (int i = 0; i < 64; ++i)
         n_dot_v[i] = random.in(-0.1, 1.1), roughness[i] = random.in(-0.1, 1.1);
     for (const FilterOps* ops : available_filter_ops()) {
-        bn_scalar::filter_ops().dfg_lookup(a.texels.data(), a.size, n_dot_v, roughness, 64, expected);
+        pick<FilterOps>(Isa::scalar).dfg_lookup(a.texels.data(), a.size, n_dot_v, roughness, 64, expected);
         ops->dfg_lookup(a.texels.data(), a.size, n_dot_v, roughness, 64, got);
         for (int i = 0; i < 128; ++i)
             ASSERT_EQ(got[i], expected[i]);

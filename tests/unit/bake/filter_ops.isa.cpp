@@ -1,9 +1,9 @@
 #include "tests/unit/bake/filter_ops.h"
 
 #include "shading/kernels/cube_filter.k.h"
-#include "shading/kernels/dfg.k.h"
-#include "shading/kernels/energy.k.h"
 #include "shading/kernels/texture_filter.k.h"
+#include "shading/surface/dfg.k.h"
+#include "shading/surface/energy.k.h"
 
 namespace burnish {
 inline namespace BN_ISA_NS {
@@ -29,8 +29,8 @@ void place_op(const float* x, const float* y, const float* z, int n, float* out)
     }
 }
 
-void cube_op(const std::uint16_t* texels, int size, int levels, const float* x, const float* y,
-             const float* z, const float* lod, int n, float* rgb)
+void cube_op(const std::uint16_t* texels, int size, int levels, const float* x, const float* y, const float* z, const float* lod, int n,
+             float* rgb)
 {
     const cube_desc cube = {texels, size, levels};
     for (int i = 0; i < n; i += kLanes) {
@@ -40,8 +40,8 @@ void cube_op(const std::uint16_t* texels, int size, int levels, const float* x, 
     }
 }
 
-void cube_level_op(const std::uint16_t* texels, int size, int levels, int level, const float* x,
-                   const float* y, const float* z, int n, float* rgb)
+void cube_level_op(const std::uint16_t* texels, int size, int levels, int level, const float* x, const float* y, const float* z, int n,
+                   float* rgb)
 {
     const cube_desc cube = {texels, size, levels};
     for (int i = 0; i < n; i += kLanes) {
@@ -62,8 +62,7 @@ BN_FN texture_footprint footprint_at(const texture_desc& desc, const float* uv, 
                                 vec2_of(load(uv + 4 * n + i), load(uv + 5 * n + i)), max_taps);
 }
 
-void texture_op(const TextureView& texture, const float* uv, int max_taps, bool exact_bound, int n,
-                float* rgba)
+void texture_op(const TextureView& texture, const float* uv, int max_taps, bool exact_bound, int n, float* rgba)
 {
     const texture_desc desc = desc_of(texture);
     for (int i = 0; i < n; i += kLanes) {
@@ -93,8 +92,7 @@ void footprint_op(const TextureView& texture, const float* uv, int max_taps, int
     }
 }
 
-void dfg_lookup_op(const std::uint16_t* table, int size, const float* n_dot_v, const float* roughness, int n,
-                   float* scale_bias)
+void dfg_lookup_op(const std::uint16_t* table, int size, const float* n_dot_v, const float* roughness, int n, float* scale_bias)
 {
     for (int i = 0; i < n; i += kLanes) {
         const dfg_value d = dfg_lookup(table, size, load(n_dot_v + i), load(roughness + i));
@@ -103,13 +101,13 @@ void dfg_lookup_op(const std::uint16_t* table, int size, const float* n_dot_v, c
     }
 }
 
-void lobe_albedo_op(const std::uint16_t* table, int size, const float* lobes, int n, float* scale_bias)
+template <bool kSlice> void lobe_albedo_op(const std::uint16_t* table, int size, const float* lobes, int n, float* scale_bias)
 {
     const real zero = lit(0.0), one = lit(1.0);
     for (int i = 0; i < n; i += kLanes) {
         const aniso_lobe lobe = {vec3_of(one, zero, zero), vec3_of(zero, one, zero), load(lobes + i), load(lobes + n + i)};
-        const real3 v = vec3_of(load(lobes + 2 * n + i), load(lobes + 3 * n + i), load(lobes + 4 * n + i));
-        const dfg_value d = lobe_albedo_lookup(table, size, lobe, vec3_of(zero, zero, one), v);
+        const real3 v = vec3_of(load(lobes + 2 * n + i), load(lobes + 3 * n + i), load(lobes + 4 * n + i)), up = vec3_of(zero, zero, one);
+        const dfg_value d = kSlice ? lobe_slice_lookup(table, 0, size, lobe, up, v) : lobe_albedo_lookup(table, size, lobe, up, v);
         const real value[2] = {d.scale, d.bias};
         scatter(value, 2, i, scale_bias);
     }
@@ -124,15 +122,13 @@ void dfg_fit_op(const float* n_dot_v, const float* roughness, int n, float* scal
     }
 }
 
-constexpr FilterOps kOps = {kLanes,       place_op,      cube_op,        cube_level_op, texture_op,
-                            footprint_op, dfg_lookup_op, lobe_albedo_op, dfg_fit_op};
+constexpr FilterOps kOps = {
+    kLanes,    place_op, cube_op, cube_level_op, texture_op, footprint_op, dfg_lookup_op, lobe_albedo_op<true>, lobe_albedo_op<false>,
+    dfg_fit_op};
 
 } // namespace
 
-const FilterOps& filter_ops()
-{
-    return kOps;
-}
+BN_DEFINE_FNS(FilterOps, kOps)
 
 } // namespace BN_ISA_NS
 } // namespace burnish

@@ -11,12 +11,6 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 
-const LobeAlbedoTable& table()
-{
-    static const LobeAlbedoTable t = bake_lobe_albedo(kLobeAlbedoSize, Jobs(2));
-    return t;
-}
-
 struct Lobe {
     double alpha_x, alpha_y;
     double x, y, z; // to the eye, unit
@@ -25,7 +19,8 @@ struct Lobe {
 Lobe lobe_of(double alpha_lin, double eta, double cosine, double azimuth_rad)
 {
     const double alpha = alpha_lin * alpha_lin, sine = std::sqrt(1.0 - cosine * cosine);
-    return {std::max(alpha * (1.0 + eta), 1e-3), std::max(alpha * (1.0 - eta), 1e-3), sine * std::cos(azimuth_rad), sine * std::sin(azimuth_rad), cosine};
+    return {std::max(alpha * (1.0 + eta), 1e-3), std::max(alpha * (1.0 - eta), 1e-3), sine * std::cos(azimuth_rad),
+            sine * std::sin(azimuth_rad), cosine};
 }
 
 struct Value {
@@ -45,7 +40,8 @@ Value integral(const Lobe& l, int n)
         for (int b = 0; b < 2 * n; ++b) {
             const double rest = 1.0 - (a + 0.5) / n, u = 1.0 - rest * rest * rest, du = 3.0 * rest * rest;
             const double r = std::sqrt(u / (1.0 - u)), phi = kPi * (b + 0.5) / n;
-            const double sx = l.alpha_x * r * std::cos(phi), sy = l.alpha_y * r * std::sin(phi), length = std::sqrt(sx * sx + sy * sy + 1.0);
+            const double sx = l.alpha_x * r * std::cos(phi), sy = l.alpha_y * r * std::sin(phi),
+                         length = std::sqrt(sx * sx + sy * sy + 1.0);
             const double hx = sx / length, hy = sy / length, hz = 1.0 / length, o_dot_h = l.x * hx + l.y * hy + l.z * hz;
             const double ix = 2.0 * o_dot_h * hx - l.x, iy = 2.0 * o_dot_h * hy - l.y, iz = 2.0 * o_dot_h * hz - l.z;
             if (o_dot_h <= 0.0 || iz <= 0.0)
@@ -60,7 +56,9 @@ Value integral(const Lobe& l, int n)
     return {sum.scale / count, sum.bias / count};
 }
 
-std::vector<Value> lookup(const FilterOps& ops, const std::vector<Lobe>& lobes)
+using LobeLookup = void (*)(const std::uint16_t* table, int size, const float* lobes, int n, float* scale_bias);
+
+std::vector<Value> lookup_by(LobeLookup of, const std::uint16_t* texels, const std::vector<Lobe>& lobes)
 {
     const std::size_t n = (lobes.size() + 15) / 16 * 16;
     std::vector<float> in(5 * n, 0.25f), out(2 * n);
@@ -70,15 +68,25 @@ std::vector<Value> lookup(const FilterOps& ops, const std::vector<Lobe>& lobes)
         for (std::size_t k = 0; k < 5; ++k)
             in[k * n + i] = static_cast<float>(values[k]);
     }
-    ops.lobe_albedo(table().texels.data(), table().size, in.data(), static_cast<int>(n), out.data());
+    of(texels, kLobeAlbedoSize, in.data(), static_cast<int>(n), out.data());
     std::vector<Value> r;
     for (std::size_t i = 0; i < lobes.size(); ++i)
         r.push_back({static_cast<double>(out[2 * i]), static_cast<double>(out[2 * i + 1])});
     return r;
 }
 
+std::vector<Value> lookup(const FilterOps& ops, const std::vector<Lobe>& lobes)
+{
+    return lookup_by(ops.lobe_albedo, lobe_albedo_texels(), lobes);
+}
+
+std::vector<Value> lookup_slice(const FilterOps& ops, const std::uint16_t* slice, const std::vector<Lobe>& lobes)
+{
+    return lookup_by(ops.lobe_slice, slice, lobes);
+}
+
 // Albedos fall to 0.25 here, and compensation divides by them: the relative error is what counts.
-TEST(LobeAlbedo, IsNearTheIntegralForAllLobesAndViews)
+TEST(lobe_albedo, is_near_the_integral_for_all_lobes_and_views)
 {
     std::vector<Lobe> lobes;
     Random random(11);
@@ -97,7 +105,8 @@ TEST(LobeAlbedo, IsNearTheIntegralForAllLobesAndViews)
         least = std::min(least, albedo);
     }
     const double rms = std::sqrt(squares / static_cast<double>(lobes.size()));
-    std::printf("albedo off by %.4f at most, relative %.4f, rms %.4f; bias by %.4f; least albedo %.3f\n", largest, relative, rms, of_bias, least);
+    std::printf("albedo off by %.4f at most, relative %.4f, rms %.4f; bias by %.4f; least albedo %.3f\n", largest, relative, rms, of_bias,
+                least);
     EXPECT_LT(largest, 0.015);
     EXPECT_LT(relative, 0.04);
     EXPECT_LT(rms, 0.005);
@@ -105,7 +114,7 @@ TEST(LobeAlbedo, IsNearTheIntegralForAllLobesAndViews)
     EXPECT_LT(least, 0.35);
 }
 
-TEST(LobeAlbedo, OfARoundLobeIsTheOtherTables)
+TEST(lobe_albedo, of_a_round_lobe_is_the_other_tables)
 {
     const DfgTable round = bake_dfg(64, 4096, Jobs(2));
     std::vector<Lobe> lobes;
@@ -118,7 +127,7 @@ TEST(LobeAlbedo, OfARoundLobeIsTheOtherTables)
             }
     cosines.resize(64), roughnesses.resize(64);
     float expected[128];
-    const FilterOps& ops = bn_scalar::filter_ops();
+    const FilterOps& ops = pick<FilterOps>(Isa::scalar);
     ops.dfg_lookup(round.texels.data(), round.size, cosines.data(), roughnesses.data(), 64, expected);
     const std::vector<Value> got = lookup(ops, lobes);
     for (std::size_t i = 0; i < lobes.size(); ++i) {
@@ -127,16 +136,16 @@ TEST(LobeAlbedo, OfARoundLobeIsTheOtherTables)
     }
 }
 
-TEST(LobeAlbedo, ThreadsAndInstructionSetsGiveTheSameBits)
+TEST(lobe_albedo, threads_and_instruction_sets_give_the_same_bits)
 {
-    const LobeAlbedoTable a = bake_lobe_albedo(8, Jobs(1)), b = bake_lobe_albedo(8, Jobs(3));
-    ASSERT_EQ(a.texels.size(), std::size_t{4 * 8 * 8 * 4 * 4});
-    EXPECT_TRUE(std::equal(a.texels.begin(), a.texels.end(), b.texels.begin()));
+    const Column<std::uint16_t> a = bake_lobe_albedo(8, Jobs(1)), b = bake_lobe_albedo(8, Jobs(3));
+    ASSERT_EQ(a.size(), std::size_t{4 * 8 * 8 * 4 * 4});
+    EXPECT_TRUE(std::equal(a.begin(), a.end(), b.begin()));
     std::vector<Lobe> lobes;
     Random random(3);
     for (int i = 0; i < 256; ++i)
         lobes.push_back(lobe_of(random(), random(), random(), 7.0 * random()));
-    const std::vector<Value> expected = lookup(bn_scalar::filter_ops(), lobes);
+    const std::vector<Value> expected = lookup(pick<FilterOps>(Isa::scalar), lobes);
     for (const FilterOps* ops : available_filter_ops()) {
         const std::vector<Value> got = lookup(*ops, lobes);
         for (std::size_t i = 0; i < lobes.size(); ++i) {
@@ -146,10 +155,52 @@ TEST(LobeAlbedo, ThreadsAndInstructionSetsGiveTheSameBits)
     }
 }
 
-TEST(LobeAlbedo, OfMirrorsThreadsAndViewsFromTheEdgeIsSound)
+TEST(lobe_albedo, of_the_program_is_the_one_that_is_baked_here)
+{
+    const Column<std::uint16_t> baked = bake_lobe_albedo(kLobeAlbedoSize, Jobs(2));
+    ASSERT_GE(lobe_albedo_bytes(), baked.size() * sizeof baked[0]);
+    EXPECT_TRUE(std::equal(baked.begin(), baked.end(), lobe_albedo_texels()));
+}
+
+// A slice knows its lobe's widths exactly, so only its two axes are interpolated.
+TEST(lobe_albedo, slices_are_near_the_integral_of_their_lobe)
+{
+    Random random(5);
+    const auto in = [&](double lo, double hi) { return lo + (hi - lo) * random(); };
+    double largest = 0.0, squares = 0.0;
+    constexpr int kLobes = 24, kViews = 32;
+    for (int i = 0; i < kLobes; ++i) {
+        const double roughness = in(0.1, 1.0), eta = in(0.0, 0.95);
+        Column<std::uint16_t> slice;
+        slice.resize(4 * kLobeAlbedoSize * kLobeAlbedoSize / 2);
+        std::vector<Lobe> lobes;
+        for (int k = 0; k < kViews; ++k)
+            lobes.push_back(lobe_of(roughness, eta, in(0.05, 1.0), in(-kPi, kPi)));
+        bake_lobe_slice(kLobeAlbedoSize, lobes[0].alpha_x, lobes[0].alpha_y, slice.data());
+        const std::vector<Value> first = lookup_slice(*available_filter_ops().front(), slice.data(), lobes);
+        for (const FilterOps* ops : available_filter_ops()) {
+            const std::vector<Value> got = lookup_slice(*ops, slice.data(), lobes);
+            for (std::size_t k = 0; k < lobes.size(); ++k) {
+                ASSERT_EQ(got[k].scale, first[k].scale);
+                ASSERT_EQ(got[k].bias, first[k].bias);
+            }
+        }
+        for (std::size_t k = 0; k < lobes.size(); ++k) {
+            const Value truth = integral(lobes[k], 96);
+            const double error = first[k].scale + first[k].bias - truth.scale - truth.bias;
+            largest = std::max(largest, std::abs(error)), squares += error * error;
+        }
+    }
+    std::printf("slices: off by %.4f at most, rms %.4f\n", largest, std::sqrt(squares / (kLobes * kViews)));
+    EXPECT_LT(largest, 0.01);
+    EXPECT_LT(std::sqrt(squares / (kLobes * kViews)), 0.002);
+}
+
+TEST(lobe_albedo, of_mirrors_threads_and_views_from_the_edge_is_sound)
 {
     const double nan = std::nan("");
-    const std::vector<Lobe> lobes = {{0, 0, 0, 0, 1}, {0, 0, 1, 0, 0}, {2, 0, 0, 1, 0}, {2, 0, 0, 0, 1}, {2, 2, 0.6, 0, 0.8}, {1, 0, 0, 1, -0.1}, {nan, nan, nan, nan, nan}};
+    const std::vector<Lobe> lobes = {{0, 0, 0, 0, 1},     {0, 0, 1, 0, 0},    {2, 0, 0, 1, 0},          {2, 0, 0, 0, 1},
+                                     {2, 2, 0.6, 0, 0.8}, {1, 0, 0, 1, -0.1}, {nan, nan, nan, nan, nan}};
     for (const FilterOps* ops : available_filter_ops()) {
         const std::vector<Value> got = lookup(*ops, lobes);
         for (const Value& v : got) {

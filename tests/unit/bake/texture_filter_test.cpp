@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstring>
 
-#include "shading/bake/texture.h"
+#include "shading/bake/mip/texture.h"
 #include "tests/unit/bake/bake_test.h"
 
 namespace burnish {
@@ -29,13 +29,7 @@ TexturePyramid noise_pyramid(int width, int height, WrapMode s, WrapMode t, bool
 
 TextureView view_of(const TexturePyramid& p)
 {
-    return {p.texels.data(),
-            p.offset,
-            p.level_width,
-            p.level_height,
-            p.levels,
-            static_cast<int>(p.wrap_s),
-            static_cast<int>(p.wrap_t),
+    return {p.texels.data(), p.offset, p.level_width, p.level_height, p.levels, static_cast<int>(p.wrap_s), static_cast<int>(p.wrap_t),
             p.nearest};
 }
 
@@ -62,14 +56,11 @@ double naive_texel(const TexturePyramid& p, int level, long x, long y, int c)
 
 double naive_bilinear(const TexturePyramid& p, int level, double u, double v, int c)
 {
-    const double x = u * static_cast<double>(p.level_width[level]) - 0.5,
-                 y = v * static_cast<double>(p.level_height[level]) - 0.5;
+    const double x = u * static_cast<double>(p.level_width[level]) - 0.5, y = v * static_cast<double>(p.level_height[level]) - 0.5;
     const double fx = x - std::floor(x), fy = y - std::floor(y);
     const long ix = static_cast<long>(std::floor(x)), iy = static_cast<long>(std::floor(y));
-    return (naive_texel(p, level, ix, iy, c) * (1 - fx) + naive_texel(p, level, ix + 1, iy, c) * fx) *
-               (1 - fy) +
-           (naive_texel(p, level, ix, iy + 1, c) * (1 - fx) + naive_texel(p, level, ix + 1, iy + 1, c) * fx) *
-               fy;
+    return (naive_texel(p, level, ix, iy, c) * (1 - fx) + naive_texel(p, level, ix + 1, iy, c) * fx) * (1 - fy) +
+           (naive_texel(p, level, ix, iy + 1, c) * (1 - fx) + naive_texel(p, level, ix + 1, iy + 1, c) * fx) * fy;
 }
 
 struct NaiveFootprint {
@@ -77,11 +68,9 @@ struct NaiveFootprint {
 };
 NaiveFootprint naive_footprint(const TexturePyramid& p, const double d[4], int max_taps)
 {
-    const double px = std::hypot(d[0] * p.width, d[1] * p.height),
-                 py = std::hypot(d[2] * p.width, d[3] * p.height);
+    const double px = std::hypot(d[0] * p.width, d[1] * p.height), py = std::hypot(d[2] * p.width, d[3] * p.height);
     const double longer = std::max(px, py), shorter = std::min(px, py);
-    const double e =
-        std::min(longer == 0.0 ? 1.0 : longer / std::max(shorter, 1e-9), static_cast<double>(max_taps));
+    const double e = std::min(longer == 0.0 ? 1.0 : longer / std::max(shorter, 1e-9), static_cast<double>(max_taps));
     NaiveFootprint f;
     f.taps = std::ceil(std::min(e, std::max(longer, 1.0)) - 1.0 / 256);
     f.lod = std::clamp(std::log2(std::max(longer / e, 1e-30)), 0.0, p.levels - 1.0);
@@ -97,8 +86,7 @@ double naive_sample(const TexturePyramid& p, double u, double v, const NaiveFoot
     for (int i = 1; i <= static_cast<int>(f.taps); ++i) {
         const double along = i / (f.taps + 1.0) - 0.5;
         const double tu = u + f.axis_u * along, tv = v + f.axis_v * along, fraction = f.lod - level;
-        sum += naive_bilinear(p, level, tu, tv, c) * (1 - fraction) +
-               naive_bilinear(p, next, tu, tv, c) * fraction;
+        sum += naive_bilinear(p, level, tu, tv, c) * (1 - fraction) + naive_bilinear(p, next, tu, tv, c) * fraction;
     }
     return sum / f.taps;
 }
@@ -116,12 +104,10 @@ std::vector<float> sample_positions(const TexturePyramid& p)
     for (std::size_t i = 0; i < kSamples; ++i) {
         uv[i] = random.in(-2.5, 2.5);
         uv[kSamples + i] = random.in(-2.5, 2.5);
-        const double angle = random() * 6.2831853, longer = std::exp2(random() * 9.0 - 3.0),
-                     ratio = std::exp2(-6.0 * random());
+        const double angle = random() * 6.2831853, longer = std::exp2(random() * 9.0 - 3.0), ratio = std::exp2(-6.0 * random());
         const bool swap = random() < 0.5;
         const double a[2] = {std::cos(angle) * longer / p.width, std::sin(angle) * longer / p.height};
-        const double b[2] = {-std::sin(angle) * longer * ratio / p.width,
-                             std::cos(angle) * longer * ratio / p.height};
+        const double b[2] = {-std::sin(angle) * longer * ratio / p.width, std::cos(angle) * longer * ratio / p.height};
         for (std::size_t c = 0; c < 2; ++c) {
             uv[(2 + c) * kSamples + i] = static_cast<float>(swap ? b[c] : a[c]);
             uv[(4 + c) * kSamples + i] = static_cast<float>(swap ? a[c] : b[c]);
@@ -130,8 +116,7 @@ std::vector<float> sample_positions(const TexturePyramid& p)
     return uv;
 }
 
-NaiveFootprint naive_footprint_at(const TexturePyramid& p, const std::vector<float>& uv, std::size_t i,
-                                  int max_taps)
+NaiveFootprint naive_footprint_at(const TexturePyramid& p, const std::vector<float>& uv, std::size_t i, int max_taps)
 {
     double d[4];
     for (std::size_t c = 0; c < 4; ++c)
@@ -143,19 +128,17 @@ void expect_equals_naive(const TexturePyramid& p, int max_taps)
 {
     const std::vector<float> uv = sample_positions(p);
     std::vector<float> rgba(4 * kSamples);
-    bn_scalar::filter_ops().texture(view_of(p), uv.data(), max_taps, true, kSamples, rgba.data());
+    pick<FilterOps>(Isa::scalar).texture(view_of(p), uv.data(), max_taps, true, kSamples, rgba.data());
     for (std::size_t i = 0; i < kSamples; ++i) {
         const NaiveFootprint f = naive_footprint_at(p, uv, i, max_taps);
         for (int c = 0; c < 4; ++c)
-            ASSERT_NEAR(
-                static_cast<double>(rgba[4 * i + static_cast<std::size_t>(c)]),
-                naive_sample(p, static_cast<double>(uv[i]), static_cast<double>(uv[kSamples + i]), f, c),
-                2e-4)
+            ASSERT_NEAR(static_cast<double>(rgba[4 * i + static_cast<std::size_t>(c)]),
+                        naive_sample(p, static_cast<double>(uv[i]), static_cast<double>(uv[kSamples + i]), f, c), 2e-4)
                 << "sample " << i << " taps " << f.taps << " lod " << f.lod;
     }
 }
 
-TEST(TextureFilter, TrilinearEqualsTheNaiveReferenceInEveryWrapMode)
+TEST(texture_filter, trilinear_equals_the_naive_reference_in_every_wrap_mode)
 {
     const WrapMode modes[] = {WrapMode::repeat, WrapMode::clamp, WrapMode::mirror};
     for (const WrapMode s : modes)
@@ -163,37 +146,36 @@ TEST(TextureFilter, TrilinearEqualsTheNaiveReferenceInEveryWrapMode)
             expect_equals_naive(noise_pyramid(37, 20, s, t), 1);
 }
 
-TEST(TextureFilter, AnisotropicEqualsTheNaiveReference)
+TEST(texture_filter, anisotropic_equals_the_naive_reference)
 {
     expect_equals_naive(noise_pyramid(64, 64, WrapMode::repeat, WrapMode::repeat), 16);
     expect_equals_naive(noise_pyramid(50, 21, WrapMode::mirror, WrapMode::clamp), 7);
 }
 
-TEST(TextureFilter, TapCountsFollowTheFootprint)
+TEST(texture_filter, tap_counts_follow_the_footprint)
 {
     const TexturePyramid p = noise_pyramid(64, 64, WrapMode::repeat, WrapMode::repeat);
     const float n = 1.0f / 64.0f;
     struct {
         float dx, dy, taps, lod;
     } const cases[] = {
-        {1.0f, 1.0f, 1.0f, 0.0f}, {0.25f, 0.25f, 1.0f, 0.0f}, {4.0f, 4.0f, 1.0f, 2.0f},
-        {8.0f, 2.0f, 4.0f, 1.0f}, {2.0f, 8.0f, 4.0f, 1.0f},   {64.0f, 2.0f, 16.0f, 2.0f},
-        {3.0f, 0.0f, 3.0f, 0.0f}, {5.0f, 2.0f, 3.0f, 1.0f},   {0.0f, 0.0f, 1.0f, 0.0f},
-        {1e3f, 1e3f, 1.0f, 6.0f},
+        {1.0f, 1.0f, 1.0f, 0.0f}, {0.25f, 0.25f, 1.0f, 0.0f}, {4.0f, 4.0f, 1.0f, 2.0f}, {8.0f, 2.0f, 4.0f, 1.0f},
+        {2.0f, 8.0f, 4.0f, 1.0f}, {64.0f, 2.0f, 16.0f, 2.0f}, {3.0f, 0.0f, 3.0f, 0.0f}, {5.0f, 2.0f, 3.0f, 1.0f},
+        {0.0f, 0.0f, 1.0f, 0.0f}, {1e3f, 1e3f, 1.0f, 6.0f},
     };
     std::vector<float> uv(6 * 16, 0.0f), out(2 * 16);
     for (std::size_t i = 0; i < std::size(cases); ++i) {
         uv[2 * 16 + i] = cases[i].dx * n;
         uv[5 * 16 + i] = cases[i].dy * n;
     }
-    bn_scalar::filter_ops().footprint(view_of(p), uv.data(), 16, 16, out.data());
+    pick<FilterOps>(Isa::scalar).footprint(view_of(p), uv.data(), 16, 16, out.data());
     for (std::size_t i = 0; i < std::size(cases); ++i) {
         EXPECT_NEAR(out[2 * i], cases[i].lod, 1e-5f) << i;
         EXPECT_EQ(out[2 * i + 1], cases[i].taps) << i;
     }
 }
 
-TEST(TextureFilter, DerivativesThatAreNotFiniteReadTheSmallestLevelOnce)
+TEST(texture_filter, derivatives_that_are_not_finite_read_the_smallest_level_once)
 {
     const TexturePyramid p = noise_pyramid(64, 16, WrapMode::repeat, WrapMode::clamp);
     const double bad[] = {kNan, kInf, -kInf, 1e30, 3e38};
@@ -212,7 +194,7 @@ TEST(TextureFilter, DerivativesThatAreNotFiniteReadTheSmallestLevelOnce)
     }
 }
 
-TEST(TextureFilter, CoordinatesThatAreNotFiniteStayInside)
+TEST(texture_filter, coordinates_that_are_not_finite_stay_inside)
 {
     const double bad[] = {kNan, kInf, -kInf, 1e30, -3e38, 16777216.0, -1e-9, 0x1.fffffep-1};
     for (const WrapMode mode : {WrapMode::repeat, WrapMode::clamp, WrapMode::mirror})
@@ -229,44 +211,42 @@ TEST(TextureFilter, CoordinatesThatAreNotFiniteStayInside)
         }
 }
 
-TEST(TextureFilter, NearestReadsTheTexelThatContainsThePoint)
+TEST(texture_filter, nearest_reads_the_texel_that_contains_the_point)
 {
     for (const WrapMode mode : {WrapMode::repeat, WrapMode::clamp, WrapMode::mirror}) {
         const TexturePyramid p = noise_pyramid(9, 6, mode, mode, true);
         const std::vector<float> uv = sample_positions(p);
         std::vector<float> rgba(4 * kSamples);
-        bn_scalar::filter_ops().texture(view_of(p), uv.data(), 16, true, kSamples, rgba.data());
+        pick<FilterOps>(Isa::scalar).texture(view_of(p), uv.data(), 16, true, kSamples, rgba.data());
         for (std::size_t i = 0; i < kSamples; ++i) {
-            const double x = static_cast<double>(uv[i]) * 9.0,
-                         y = static_cast<double>(uv[kSamples + i]) * 6.0;
+            const double x = static_cast<double>(uv[i]) * 9.0, y = static_cast<double>(uv[kSamples + i]) * 6.0;
             if (std::fabs(x - std::round(x)) < 1e-4 || std::fabs(y - std::round(y)) < 1e-4)
                 continue; // on an edge either side is right
-            EXPECT_EQ(
-                static_cast<double>(rgba[4 * i + 1]),
-                naive_texel(p, 0, static_cast<long>(std::floor(x)), static_cast<long>(std::floor(y)), 1));
+            EXPECT_EQ(static_cast<double>(rgba[4 * i + 1]),
+                      naive_texel(p, 0, static_cast<long>(std::floor(x)), static_cast<long>(std::floor(y)), 1));
         }
     }
 }
 
-TEST(TextureFilter, AConstantTextureStaysConstant)
+TEST(texture_filter, a_constant_texture_stays_constant)
 {
     Image image = make_image(23, 11, 4, PixelType::u8);
     std::fill(image.bytes.begin(), image.bytes.end(), static_cast<std::byte>(128));
     const TexturePyramid p = make_texture_pyramid(image, {}, TextureEncoding::linear);
     const std::vector<float> uv = sample_positions(p);
     std::vector<float> rgba(4 * kSamples);
-    bn_scalar::filter_ops().texture(view_of(p), uv.data(), 16, true, kSamples, rgba.data());
+    pick<FilterOps>(Isa::scalar).texture(view_of(p), uv.data(), 16, true, kSamples, rgba.data());
     const float expected = half_to_float(float_to_half(128.0f / 255.0f));
     for (const float v : rgba)
         ASSERT_NEAR(v, expected, 4e-7f);
 }
 
-TEST(TextureFilter, EveryInstructionSetAndLoopBoundGivesTheSameBits)
+TEST(texture_filter, every_instruction_set_and_loop_bound_gives_the_same_bits)
 {
     const TexturePyramid p = noise_pyramid(61, 40, WrapMode::repeat, WrapMode::mirror);
     const std::vector<float> uv = sample_positions(p);
     std::vector<float> expected(4 * kSamples), got(4 * kSamples);
-    bn_scalar::filter_ops().texture(view_of(p), uv.data(), 16, true, kSamples, expected.data());
+    pick<FilterOps>(Isa::scalar).texture(view_of(p), uv.data(), 16, true, kSamples, expected.data());
     for (const FilterOps* ops : available_filter_ops())
         for (const bool exact_bound : {true, false}) {
             ops->texture(view_of(p), uv.data(), 16, exact_bound, kSamples, got.data());

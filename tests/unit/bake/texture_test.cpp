@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "core/image/colour.h"
-#include "shading/bake/texture.h"
+#include "shading/bake/mip/texture.h"
 #include "tests/unit/bake/bake_test.h"
 
 namespace burnish {
@@ -12,8 +12,7 @@ namespace {
 float texel(const TexturePyramid& p, int level, int x, int y, int c) // x, y: -1 is the border
 {
     const int stride = static_cast<int>(p.level_width[level]) + 2;
-    return half_to_float(
-        p.texels[static_cast<std::size_t>(4 * (p.offset[level] + (y + 1) * stride + x + 1) + c)]);
+    return half_to_float(p.texels[static_cast<std::size_t>(4 * (p.offset[level] + (y + 1) * stride + x + 1) + c)]);
 }
 
 Image random_image(int width, int height, int channels, PixelType type)
@@ -25,8 +24,7 @@ Image random_image(int width, int height, int channels, PixelType type)
         if (type == PixelType::u8)
             reinterpret_cast<std::uint8_t*>(image.bytes.data())[i] = static_cast<std::uint8_t>(v * 255.99);
         else if (type == PixelType::u16)
-            reinterpret_cast<std::uint16_t*>(image.bytes.data())[i] =
-                static_cast<std::uint16_t>(v * 65535.99);
+            reinterpret_cast<std::uint16_t*>(image.bytes.data())[i] = static_cast<std::uint16_t>(v * 65535.99);
         else
             image.f32()[i] = static_cast<float>(v * 4.0);
     }
@@ -39,14 +37,11 @@ double decoded(const Image& image, bool srgb, int x, int y, int c)
     const int n = image.channels;
     if (c == 3 && (n == 1 || n == 3))
         return 1.0;
-    const std::size_t at = static_cast<std::size_t>((y * image.width + x) * n + (c == 3   ? n - 1
-                                                                                 : n >= 3 ? c
-                                                                                          : 0));
+    const std::size_t at = static_cast<std::size_t>((y * image.width + x) * n + (c == 3 ? n - 1 : n >= 3 ? c : 0));
     if (image.type == PixelType::f32)
         return static_cast<double>(image.f32()[at]);
-    const double v = image.type == PixelType::u8
-                         ? reinterpret_cast<const std::uint8_t*>(image.bytes.data())[at] / 255.0
-                         : reinterpret_cast<const std::uint16_t*>(image.bytes.data())[at] / 65535.0;
+    const double v = image.type == PixelType::u8 ? reinterpret_cast<const std::uint8_t*>(image.bytes.data())[at] / 255.0
+                                                 : reinterpret_cast<const std::uint16_t*>(image.bytes.data())[at] / 65535.0;
     if (!srgb || c == 3)
         return v;
     return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
@@ -56,10 +51,8 @@ double decoded(const Image& image, bool srgb, int x, int y, int c)
 double naive_box(const Image& image, bool srgb, int w, int h, int x, int y, int c)
 {
     double sum = 0.0;
-    const double x0 = static_cast<double>(x) * image.width / w,
-                 x1 = static_cast<double>(x + 1) * image.width / w;
-    const double y0 = static_cast<double>(y) * image.height / h,
-                 y1 = static_cast<double>(y + 1) * image.height / h;
+    const double x0 = static_cast<double>(x) * image.width / w, x1 = static_cast<double>(x + 1) * image.width / w;
+    const double y0 = static_cast<double>(y) * image.height / h, y1 = static_cast<double>(y + 1) * image.height / h;
     for (int j = 0; j < image.height; ++j)
         for (int i = 0; i < image.width; ++i) {
             const double ox = std::min(x1, i + 1.0) - std::max(x0, i + 0.0);
@@ -76,9 +69,9 @@ struct Case {
     TextureEncoding encoding;
 };
 
-class TexturePyramidOf : public testing::TestWithParam<Case> {};
+class texture_pyramid_of : public testing::TestWithParam<Case> {};
 
-TEST_P(TexturePyramidOf, EveryLevelIsTheExactBoxFilterOfLevelZero)
+TEST_P(texture_pyramid_of, every_level_is_the_exact_box_filter_of_level_zero)
 {
     const Case k = GetParam();
     const Image image = random_image(k.width, k.height, k.channels, k.type);
@@ -94,24 +87,20 @@ TEST_P(TexturePyramidOf, EveryLevelIsTheExactBoxFilterOfLevelZero)
                 for (int c = 0; c < 4; ++c) {
                     const double expected = naive_box(image, srgb, w, h, x, y, c);
                     // half an ulp of a half, and a little for float
-                    ASSERT_NEAR(static_cast<double>(texel(p, l, x, y, c)), expected,
-                                expected * 0x1.01p-11 + 1e-7)
+                    ASSERT_NEAR(static_cast<double>(texel(p, l, x, y, c)), expected, expected * 0x1.01p-11 + 1e-7)
                         << "level " << l << " at " << x << "," << y << " channel " << c;
                 }
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Sizes, TexturePyramidOf,
-                         testing::Values(Case{16, 16, 4, PixelType::u8, TextureEncoding::srgb},
-                                         Case{13, 7, 3, PixelType::u8, TextureEncoding::srgb},
-                                         Case{12, 20, 4, PixelType::u8, TextureEncoding::linear},
-                                         Case{31, 33, 1, PixelType::u8, TextureEncoding::linear},
-                                         Case{17, 2, 2, PixelType::u16, TextureEncoding::srgb},
-                                         Case{1, 9, 3, PixelType::u16, TextureEncoding::linear},
-                                         Case{24, 6, 4, PixelType::f32, TextureEncoding::linear},
-                                         Case{1, 1, 1, PixelType::u8, TextureEncoding::srgb}));
+INSTANTIATE_TEST_SUITE_P(
+    sizes, texture_pyramid_of,
+    testing::Values(Case{16, 16, 4, PixelType::u8, TextureEncoding::srgb}, Case{13, 7, 3, PixelType::u8, TextureEncoding::srgb},
+                    Case{12, 20, 4, PixelType::u8, TextureEncoding::linear}, Case{31, 33, 1, PixelType::u8, TextureEncoding::linear},
+                    Case{17, 2, 2, PixelType::u16, TextureEncoding::srgb}, Case{1, 9, 3, PixelType::u16, TextureEncoding::linear},
+                    Case{24, 6, 4, PixelType::f32, TextureEncoding::linear}, Case{1, 1, 1, PixelType::u8, TextureEncoding::srgb}));
 
-TEST(TexturePyramid, MeanOfEveryLevelOfAPowerOfTwoImageIsTheMeanOfTheImage)
+TEST(texture_pyramid, mean_of_every_level_of_a_power_of_two_image_is_the_mean_of_the_image)
 {
     const Image image = random_image(64, 32, 3, PixelType::u8);
     const TexturePyramid p = make_texture_pyramid(image, {}, TextureEncoding::srgb);
@@ -125,19 +114,17 @@ TEST(TexturePyramid, MeanOfEveryLevelOfAPowerOfTwoImageIsTheMeanOfTheImage)
     }
 }
 
-TEST(TexturePyramid, DecodesEverySrgbCodeToTheNearestHalf)
+TEST(texture_pyramid, decodes_every_srgb_code_to_the_nearest_half)
 {
     Image image = make_image(256, 1, 1, PixelType::u8);
     for (int i = 0; i < 256; ++i)
         image.bytes[static_cast<std::size_t>(i)] = static_cast<std::byte>(i);
     const TexturePyramid p = make_texture_pyramid(image, {}, TextureEncoding::srgb);
     for (int i = 0; i < 256; ++i)
-        EXPECT_EQ(texel(p, 0, i, 0, 0),
-                  half_to_float(float_to_half(srgb_to_linear(static_cast<float>(i) / 255.0f))))
-            << i;
+        EXPECT_EQ(texel(p, 0, i, 0, 0), half_to_float(float_to_half(srgb_to_linear(static_cast<float>(i) / 255.0f)))) << i;
 }
 
-TEST(TexturePyramid, BordersFollowTheWrapModeOfTheirAxis)
+TEST(texture_pyramid, borders_follow_the_wrap_mode_of_their_axis)
 {
     const Image image = random_image(12, 5, 4, PixelType::u8);
     const WrapMode modes[] = {WrapMode::repeat, WrapMode::clamp, WrapMode::mirror};
@@ -147,8 +134,7 @@ TEST(TexturePyramid, BordersFollowTheWrapModeOfTheirAxis)
             sampler.wrap_s = s, sampler.wrap_t = t;
             const TexturePyramid p = make_texture_pyramid(image, sampler, TextureEncoding::linear);
             const auto wrapped = [](WrapMode mode, int i, int n) {
-                return mode == WrapMode::repeat ? (i + n) % n
-                                                : std::clamp(i, 0, n - 1); // mirroring repeats the edge texel
+                return mode == WrapMode::repeat ? (i + n) % n : std::clamp(i, 0, n - 1); // mirroring repeats the edge texel
             };
             for (int l = 0; l < p.levels; ++l) {
                 const int w = static_cast<int>(p.level_width[l]), h = static_cast<int>(p.level_height[l]);
@@ -159,7 +145,7 @@ TEST(TexturePyramid, BordersFollowTheWrapModeOfTheirAxis)
         }
 }
 
-TEST(TexturePyramid, NanAndInfinityOfFloatImagesDoNotSpread)
+TEST(texture_pyramid, nan_and_infinity_of_float_images_do_not_spread)
 {
     Image image = make_image(4, 4, 3, PixelType::f32);
     std::fill(image.f32(), image.f32() + 48, 1.0f);

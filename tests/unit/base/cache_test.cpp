@@ -41,7 +41,8 @@ class cache : public testing::Test {
     fs::path folder_;
 };
 
-const std::string kOld = "environment-0000000000000001.bnenv", kMiddle = "reference-00000000000000ab.part", kYoung = "pipelines-fedcba9876543210.bin";
+const std::string kOld = "environment-0000000000000001.bnenv", kMiddle = "reference-00000000000000ab.part",
+                  kYoung = "pipelines-fedcba9876543210.bin";
 
 TEST_F(cache, what_was_not_used_for_longest_goes_first)
 {
@@ -70,8 +71,13 @@ TEST_F(cache, what_was_just_written_stays_whatever_its_size)
 
 TEST_F(cache, other_files_neither_count_nor_go)
 {
-    const std::set<std::string> others = {"notes.txt",          "environment-1.bnenv",      "environment-0000000000000001.part", "reference-000000000000000G.part",
-                                          "reference-.part",    "xreference-0000000000000001.part", "pipelines-00000000000000012.bin"};
+    const std::set<std::string> others = {"notes.txt",
+                                          "environment-1.bnenv",
+                                          "environment-0000000000000001.part",
+                                          "reference-000000000000000G.part",
+                                          "reference-.part",
+                                          "xreference-0000000000000001.part",
+                                          "pipelines-00000000000000012.bin"};
     for (const std::string& name : others)
         add(name, 1000, 60);
     fs::create_directory(folder_ / "reference-00000000000000aa.part");
@@ -108,7 +114,8 @@ TEST_F(cache, limit_is_the_variable_s_or_the_usual_one)
 {
     const Variable variable("BURNISH_CACHE_BYTES", nullptr);
     EXPECT_EQ(cache_limit(), kUsualCacheBytes);
-    for (const auto& [text, bytes] : {std::pair{"0", 0ull}, {"1234", 1234ull}, {"3K", 3072ull}, {"500M", 500ull << 20}, {"4G", 4ull << 30}}) {
+    for (const auto& [text, bytes] :
+         {std::pair{"0", 0ull}, {"1234", 1234ull}, {"3K", 3072ull}, {"500M", 500ull << 20}, {"4G", 4ull << 30}}) {
         variable.set(text);
         EXPECT_EQ(cache_limit(), bytes) << text;
     }

@@ -2,9 +2,9 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
-#include "apps/chart_canvas.h"
-#include "apps/chart_png.h"
-#include "apps/chart_svg.h"
+#include "apps/report/canvas.h"
+#include "apps/report/png.h"
+#include "apps/report/svg.h"
 
 namespace burnish {
 namespace {
@@ -74,7 +74,8 @@ TEST(chart_canvas, letters_stand_on_their_line_and_are_anchored_and_turned)
         canvas.text(200.0, 200.0, text, {40.0, anchor, turn, false, false, 0.0}, kBlack);
         return ink_of(canvas.image());
     };
-    const Ink start = write("HEI", 0.0, 0.0), middle = write("HEI", 0.5, 0.0), end = write("HEI", 1.0, 0.0), turned = write("HEI", 0.0, -90.0);
+    const Ink start = write("HEI", 0.0, 0.0), middle = write("HEI", 0.5, 0.0), end = write("HEI", 1.0, 0.0),
+              turned = write("HEI", 0.0, -90.0);
     EXPECT_NEAR(start.bottom, 200, 3);
     EXPECT_NEAR(start.bottom - start.top, 0.72 * 40.0 + 3.0, 3);
     EXPECT_GE(start.left, 200);
@@ -123,7 +124,8 @@ TEST(chart_canvas, what_svg_says_is_painted_with_the_looks_of_its_classes)
     ASSERT_EQ(image.height, 50 * kPngScale);
     const auto at = [&image](double x, double y) {
         const std::size_t i = 3 * static_cast<std::size_t>(static_cast<int>(y * kPngScale) * image.width + static_cast<int>(x * kPngScale));
-        return std::array<int, 3>{static_cast<int>(image.bytes[i]), static_cast<int>(image.bytes[i + 1]), static_cast<int>(image.bytes[i + 2])};
+        return std::array<int, 3>{static_cast<int>(image.bytes[i]), static_cast<int>(image.bytes[i + 1]),
+                                  static_cast<int>(image.bytes[i + 2])};
     };
     using Rgb = std::array<int, 3>;
     EXPECT_EQ(at(50, 10), (Rgb{0xe3, 0xe3, 0xe3})); // --grid

@@ -4,9 +4,9 @@
 #include <gtest/gtest.h>
 #include <limits>
 
-#include "apps/chart_noise.h"
-#include "core/image/flip.h"
-#include "core/image/metrics.h"
+#include "apps/chart/noise.h"
+#include "core/image/metrics/flip.h"
+#include "core/image/metrics/metrics.h"
 #include "tests/unit/reference/scenes.h"
 
 namespace burnish::test {
@@ -43,9 +43,9 @@ TEST(chart_noise, has_the_variance_that_was_asked_for)
 TEST(chart_noise, of_one_pass_is_unknown)
 {
     Image variance = flat(8, 8, 0.1f);
-    EXPECT_TRUE(std::isfinite(noise_flip(flat(8, 8, 1.0f), variance, -1, Jobs(1))));
+    EXPECT_TRUE(std::isfinite(noise_flip(flat(8, 8, 1.0f), variance, best_isa(), Jobs(1))));
     variance.f32()[7] = std::numeric_limits<float>::infinity();
-    EXPECT_TRUE(std::isnan(noise_flip(flat(8, 8, 1.0f), variance, -1, Jobs(1))));
+    EXPECT_TRUE(std::isnan(noise_flip(flat(8, 8, 1.0f), variance, best_isa(), Jobs(1))));
 }
 
 // Two references of independent samples differ by twice their variance, and look as different as one does from itself with that much noise.
@@ -71,8 +71,9 @@ TEST(chart_noise, is_what_two_references_differ_by)
         for (std::size_t i = 0; i < both.bytes.size() / sizeof(float); ++i)
             both.f32()[i] += other.variance.f32()[i];
         const double seen = summarise_errors(flip_hdr(one.color, other.color, {}, stage.jobs).error).mean;
-        const double told = noise_flip(one.color, both, -1, stage.jobs);
-        std::printf("%d samples: two references differ by a mean FLIP of %.5f, their variances tell %.5f\n", static_cast<int>(samples), seen, told);
+        const double told = noise_flip(one.color, both, best_isa(), stage.jobs);
+        std::printf("%d samples: two references differ by a mean FLIP of %.5f, their variances tell %.5f\n", static_cast<int>(samples),
+                    seen, told);
         EXPECT_GT(seen, 1e-4);
         EXPECT_NEAR(told / seen, 1.0, 0.2);
     }

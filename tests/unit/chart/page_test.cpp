@@ -4,9 +4,9 @@
 #include <filesystem>
 #include <gtest/gtest.h>
 
-#include "apps/chart_page.h"
-#include "apps/chart_pictures.h"
-#include "core/image/image_io.h"
+#include "apps/report/page.h"
+#include "apps/report/pictures.h"
+#include "core/image/io/image_io.h"
 #include "tests/unit/chart/sample.h"
 #include "tests/unit/chart/xml.h"
 

@@ -2,7 +2,8 @@
 #include <algorithm>
 #include <gtest/gtest.h>
 
-#include "apps/chart_plan.h"
+#include "apps/chart/plan.h"
+#include "apps/cli/parse.h"
 #include "raster/frame/frame.h"
 
 namespace burnish {
@@ -36,10 +37,19 @@ TEST(chart_plan, sweeps_go_into_their_lists_once_and_in_order)
 
 TEST(chart_plan, wrong_sweeps_are_refused_with_what_was_expected)
 {
-    for (const auto& [text, needle] :
-         {std::pair{"samples", "samples=1,4,16"}, {"=1,2", "samples=1,4,16"}, {"samples=", "samples=1,4,16"}, {"colour=1", "colour"},
-          {"samples=1,,2", "empty"}, {"samples=1,", "empty"}, {"samples=0", "--sweep"}, {"samples=1.5", "--sweep"}, {"samples=70000", "--sweep"},
-          {"roughness=1.01", "--sweep"}, {"roughness=nan", "--sweep"}, {"anisotropy=-1.01", "--sweep"}, {"anisotropy=x", "--sweep"}})
+    for (const auto& [text, needle] : {std::pair{"samples", "samples=1,4,16"},
+                                       {"=1,2", "samples=1,4,16"},
+                                       {"samples=", "samples=1,4,16"},
+                                       {"colour=1", "colour"},
+                                       {"samples=1,,2", "empty"},
+                                       {"samples=1,", "empty"},
+                                       {"samples=0", "--sweep"},
+                                       {"samples=1.5", "--sweep"},
+                                       {"samples=70000", "--sweep"},
+                                       {"roughness=1.01", "--sweep"},
+                                       {"roughness=nan", "--sweep"},
+                                       {"anisotropy=-1.01", "--sweep"},
+                                       {"anisotropy=x", "--sweep"}})
         EXPECT_NE(fault_of(text).find(needle), std::string::npos) << text << ": " << fault_of(text);
     Sweeps sweeps;
     ASSERT_TRUE(parse_sweep("samples=1", sweeps));
@@ -64,7 +74,7 @@ TEST(chart_plan, settings_follow_what_a_technique_makes_of_samples)
 {
     EXPECT_EQ(samples_of(settings_of({"bent_normal"}, {2, 4})), (std::vector<int>{1}));
     EXPECT_EQ(samples_of(settings_of({"major_axis"}, {8, 2})), (std::vector<int>{2, 8}));
-    EXPECT_EQ(samples_of(settings_of({"filtered_is"}, {4, 8, 9, 15})), (std::vector<int>{4, 9})); // squares below
+    EXPECT_EQ(samples_of(settings_of({"filtered_is"}, {4, 8, 9, 15})), (std::vector<int>{4, 9}));  // squares below
     EXPECT_EQ(samples_of(settings_of({"major_axis"}, {4, 100, 4096})), (std::vector<int>{4, 64})); // the most it takes
     EXPECT_EQ(samples_of(settings_of({"mc"}, {4, 4096})), (std::vector<int>{4, 4096}));
     EXPECT_FALSE(settings_of({"bent_normal"}, {})[0].sampled);

@@ -1,6 +1,6 @@
 // Reports made up for tests.
 #pragma once
-#include "apps/chart_rows.h"
+#include "apps/chart/rows.h"
 
 namespace burnish::test {
 
@@ -25,7 +25,8 @@ inline ChartReport report()
     report.machine = {"1", "a processor", "avx2", 2};
     report.width = 64, report.height = 36, report.msaa = 4, report.runs = 3;
     report.error_width = 32, report.error_height = 18;
-    report.rows = {row("0a", "bent_normal", 1, 2.0, 0.25), row("0b", "major_axis", 4, 3.0, 0.125), row("0c", "major_axis", 16, 5.0, 0.0625)};
+    report.rows = {row("0a", "bent_normal", 1, 2.0, 0.25), row("0b", "major_axis", 4, 3.0, 0.125),
+                   row("0c", "major_axis", 16, 5.0, 0.0625)};
     report.references[place(report.rows[0])] = {"", {4096, 0.01, 0.003}};
     return report;
 }

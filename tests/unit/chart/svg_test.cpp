@@ -4,9 +4,9 @@
 #include <limits>
 #include <set>
 
-#include "apps/chart_labels.h"
-#include "apps/chart_plots.h"
-#include "apps/chart_svg.h"
+#include "apps/report/labels.h"
+#include "apps/report/plots.h"
+#include "apps/report/svg.h"
 #include "raster/frame/frame.h"
 #include "tests/unit/chart/sample.h"
 #include "tests/unit/chart/xml.h"
@@ -35,7 +35,8 @@ int count(const std::string& text, const std::string& what)
 TEST(chart_svg, the_reader_of_xml_finds_faults)
 {
     EXPECT_EQ(xml_fault("<a b=\"1\"><c/>x &amp; y</a>"), "");
-    for (const char* bad : {"", "<a>", "<a></b>", "<a/><b/>", "<a b=1/>", "<a b=\"1\" b=\"2\"/>", "<a>&x;</a>", "<a>&</a>", "<a b=\"<\"/>", "x<a/>"})
+    for (const char* bad :
+         {"", "<a>", "<a></b>", "<a/><b/>", "<a b=1/>", "<a b=\"1\" b=\"2\"/>", "<a>&x;</a>", "<a>&</a>", "<a b=\"<\"/>", "x<a/>"})
         EXPECT_NE(xml_fault(bad), "") << bad;
 }
 
@@ -56,13 +57,15 @@ TEST(chart_svg, every_setting_is_a_point_that_says_what_it_is)
     mark_pareto(report.rows);
     const RowList rows = list_of(report);
     for (const Layout layout : {Layout::wide, Layout::narrow})
-        for (const std::string& svg : {plot_time_flip(rows, layout), plot_samples(rows, Quantity::flip, layout), plot_samples(rows, Quantity::time, layout)}) {
+        for (const std::string& svg :
+             {plot_time_flip(rows, layout), plot_samples(rows, Quantity::flip, layout), plot_samples(rows, Quantity::time, layout)}) {
             EXPECT_EQ(xml_fault(svg), "") << svg;
             for (const char* key : {"0b", "0c"})
                 EXPECT_EQ(count(svg, "data-row=\"" + std::string(key) + "\""), 1) << svg;
             EXPECT_NE(svg.find("aria-label=\"major_axis, 16 samples: 5 ms, FLIP 0.0625\""), std::string::npos) << svg;
             EXPECT_EQ(count(svg, ">bent_normal</text>"), 1);
-            EXPECT_NE(svg.find("(ms)</text>") != std::string::npos, svg.find("samples of a fragment") != std::string::npos && svg.find("mean FLIP") != std::string::npos);
+            EXPECT_NE(svg.find("(ms)</text>") != std::string::npos,
+                      svg.find("samples of a fragment") != std::string::npos && svg.find("mean FLIP") != std::string::npos);
         }
     EXPECT_NE(plot_time_flip(rows, Layout::wide).find("Pareto front"), std::string::npos);
 }
@@ -154,7 +157,8 @@ TEST(chart_svg, names_do_not_lie_on_each_other)
 {
     LabelPlacer placer(0, 0, 400, 300);
     const auto left = [](const PlacedLabel& label) { return label.end ? label.x - 35.0 : label.x; };
-    const PlacedLabel a = placer.place("first", {{100, 100}}), b = placer.place("other", {{101, 101}}), c = placer.place("third", {{100, 101}});
+    const PlacedLabel a = placer.place("first", {{100, 100}}), b = placer.place("other", {{101, 101}}),
+                      c = placer.place("third", {{100, 101}});
     for (const auto& [one, other] : {std::pair{a, b}, {a, c}, {b, c}})
         EXPECT_TRUE(std::abs(one.y - other.y) >= 14.0 || std::abs(left(one) - left(other)) >= 35.0) << one.y << " " << other.y;
     const PlacedLabel edge = placer.place("a long name at the edge", {{395, 200}});

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "asset.h"
-#include "core/scene/gltf_views.h"
+#include "core/scene/gltf/views.h"
 
 using namespace burnish;
 using namespace burnish::test;
@@ -31,27 +31,21 @@ const std::string kNormalized = R"(,"normalized":true)";
 
 } // namespace
 
-TEST(Accessors, float_components_are_taken_as_they_are)
+TEST(accessors, float_components_are_taken_as_they_are)
 {
-    EXPECT_EQ(uvs_of(floats({0, 0.25f, 3, -1, 0.5f, 1e-30f}), kF32, ""),
-              (std::vector<float>{0, 0.25f, 3, -1, 0.5f, 1e-30f}));
+    EXPECT_EQ(uvs_of(floats({0, 0.25f, 3, -1, 0.5f, 1e-30f}), kF32, ""), (std::vector<float>{0, 0.25f, 3, -1, 0.5f, 1e-30f}));
 }
 
-TEST(Accessors, integer_components_are_converted_to_their_value)
+TEST(accessors, integer_components_are_converted_to_their_value)
 {
-    EXPECT_EQ(uvs_of(bytes_of<std::int8_t>({0, 1, 2, -128, 127, 3}), kI8, ""),
-              (std::vector<float>{0, 1, 2, -128, 127, 3}));
-    EXPECT_EQ(uvs_of(bytes_of<std::uint8_t>({0, 1, 2, 255, 127, 3}), kU8, ""),
-              (std::vector<float>{0, 1, 2, 255, 127, 3}));
-    EXPECT_EQ(uvs_of(bytes_of<std::int16_t>({0, 1, 2, -32768, 32767, 3}), kI16, ""),
-              (std::vector<float>{0, 1, 2, -32768, 32767, 3}));
-    EXPECT_EQ(uvs_of(bytes_of<std::uint16_t>({0, 1, 2, 65535, 32767, 3}), kU16, ""),
-              (std::vector<float>{0, 1, 2, 65535, 32767, 3}));
-    EXPECT_EQ(uvs_of(bytes_of<std::uint32_t>({0, 1, 2, 70000, 5, 3}), kU32, ""),
-              (std::vector<float>{0, 1, 2, 70000, 5, 3}));
+    EXPECT_EQ(uvs_of(bytes_of<std::int8_t>({0, 1, 2, -128, 127, 3}), kI8, ""), (std::vector<float>{0, 1, 2, -128, 127, 3}));
+    EXPECT_EQ(uvs_of(bytes_of<std::uint8_t>({0, 1, 2, 255, 127, 3}), kU8, ""), (std::vector<float>{0, 1, 2, 255, 127, 3}));
+    EXPECT_EQ(uvs_of(bytes_of<std::int16_t>({0, 1, 2, -32768, 32767, 3}), kI16, ""), (std::vector<float>{0, 1, 2, -32768, 32767, 3}));
+    EXPECT_EQ(uvs_of(bytes_of<std::uint16_t>({0, 1, 2, 65535, 32767, 3}), kU16, ""), (std::vector<float>{0, 1, 2, 65535, 32767, 3}));
+    EXPECT_EQ(uvs_of(bytes_of<std::uint32_t>({0, 1, 2, 70000, 5, 3}), kU32, ""), (std::vector<float>{0, 1, 2, 70000, 5, 3}));
 }
 
-TEST(Accessors, normalized_integers_map_to_zero_one_or_minus_one_one)
+TEST(accessors, normalized_integers_map_to_zero_one_or_minus_one_one)
 {
     EXPECT_EQ(uvs_of(bytes_of<std::int8_t>({0, 127, -127, -128, 64, 1}), kI8, kNormalized),
               (std::vector<float>{0, 1, -1, -1, 64 / 127.0f, 1 / 127.0f}));
@@ -63,16 +57,13 @@ TEST(Accessors, normalized_integers_map_to_zero_one_or_minus_one_one)
               (std::vector<float>{0, 1, 1 / 65535.0f, 2 / 65535.0f, 3 / 65535.0f, 4 / 65535.0f}));
 }
 
-TEST(Accessors, interleaved_attributes_share_one_buffer_view)
+TEST(accessors, interleaved_attributes_share_one_buffer_view)
 {
     Asset asset;
     // Position, then texture coordinates, 20 bytes a vertex.
-    const int view = asset.view(floats({0, 0, 0, 0.1f, 0.2f, 1, 0, 0, 0.3f, 0.4f, 0, 1, 0, 0.5f, 0.6f}),
-                                R"(,"byteStride":20)");
-    asset.accessors = {R"({"bufferView":)" + std::to_string(view) +
-                           R"(,"componentType":5126,"type":"VEC3","count":3})",
-                       R"({"bufferView":)" + std::to_string(view) +
-                           R"(,"byteOffset":12,"componentType":5126,"type":"VEC2","count":3})"};
+    const int view = asset.view(floats({0, 0, 0, 0.1f, 0.2f, 1, 0, 0, 0.3f, 0.4f, 0, 1, 0, 0.5f, 0.6f}), R"(,"byteStride":20)");
+    asset.accessors = {R"({"bufferView":)" + std::to_string(view) + R"(,"componentType":5126,"type":"VEC3","count":3})",
+                       R"({"bufferView":)" + std::to_string(view) + R"(,"byteOffset":12,"componentType":5126,"type":"VEC2","count":3})"};
     asset.attribute("POSITION", 0);
     asset.attribute("TEXCOORD_0", 1);
     const Result<Scene> scene = load(asset);
@@ -84,7 +75,7 @@ TEST(Accessors, interleaved_attributes_share_one_buffer_view)
     EXPECT_EQ(scene->vertices.v0[last], 0.6f);
 }
 
-TEST(Accessors, sparse_values_replace_those_of_the_base)
+TEST(accessors, sparse_values_replace_those_of_the_base)
 {
     for (const int index_type : {kU8, kU16, kU32}) {
         Asset asset;
@@ -92,12 +83,9 @@ TEST(Accessors, sparse_values_replace_those_of_the_base)
                                    : index_type == kU16 ? bytes_of<std::uint16_t>({1, 2})
                                                         : bytes_of<std::uint32_t>({1, 2});
         const int where = asset.view(indices), what = asset.view(floats({5, 0, 0, 0, 7, 0}));
-        const std::string sparse = R"(,"sparse":{"count":2,"indices":{"bufferView":)" +
-                                   std::to_string(where) + R"(,"componentType":)" +
-                                   std::to_string(index_type) + R"(},"values":{"bufferView":)" +
-                                   std::to_string(what) + "}}";
-        asset.attribute("POSITION",
-                        asset.accessor(floats({0, 0, 1, 1, 1, 1, 2, 2, 2}), kF32, "VEC3", 3, sparse));
+        const std::string sparse = R"(,"sparse":{"count":2,"indices":{"bufferView":)" + std::to_string(where) + R"(,"componentType":)" +
+                                   std::to_string(index_type) + R"(},"values":{"bufferView":)" + std::to_string(what) + "}}";
+        asset.attribute("POSITION", asset.accessor(floats({0, 0, 1, 1, 1, 1, 2, 2, 2}), kF32, "VEC3", 3, sparse));
         const Result<Scene> scene = load(asset);
         ASSERT_TRUE(scene) << error_of(scene);
         const VertexTable& v = scene->vertices;
@@ -108,14 +96,12 @@ TEST(Accessors, sparse_values_replace_those_of_the_base)
     }
 }
 
-TEST(Accessors, sparse_values_stand_alone_over_zeros)
+TEST(accessors, sparse_values_stand_alone_over_zeros)
 {
     Asset asset;
     const int where = asset.view(bytes_of<std::uint16_t>({2})), what = asset.view(floats({3, 4, 5}));
-    asset.accessors.push_back(
-        R"({"componentType":5126,"type":"VEC3","count":3,"sparse":{"count":1,"indices":{"bufferView":)" +
-        std::to_string(where) + R"(,"componentType":5123},"values":{"bufferView":)" + std::to_string(what) +
-        "}}}");
+    asset.accessors.push_back(R"({"componentType":5126,"type":"VEC3","count":3,"sparse":{"count":1,"indices":{"bufferView":)" +
+                              std::to_string(where) + R"(,"componentType":5123},"values":{"bufferView":)" + std::to_string(what) + "}}}");
     asset.attribute("POSITION", 0);
     const Result<Scene> scene = load(asset);
     ASSERT_TRUE(scene) << error_of(scene);
@@ -123,23 +109,21 @@ TEST(Accessors, sparse_values_stand_alone_over_zeros)
     EXPECT_EQ(scene->vertices.py[scene->indices[2]], 4.0f);
 }
 
-TEST(Accessors, sparse_indices_out_of_order_or_range_are_errors)
+TEST(accessors, sparse_indices_out_of_order_or_range_are_errors)
 {
     for (const std::vector<std::uint16_t>& indices : {std::vector<std::uint16_t>{1, 1}, {2, 1}, {1, 3}}) {
         Asset asset;
         const int where = asset.view(bytes_of(indices)), what = asset.view(floats({5, 0, 0, 0, 7, 0}));
         asset.attribute("POSITION", asset.accessor(floats({0, 0, 1, 1, 1, 1, 2, 2, 2}), kF32, "VEC3", 3,
-                                                   R"(,"sparse":{"count":2,"indices":{"bufferView":)" +
-                                                       std::to_string(where) +
-                                                       R"(,"componentType":5123},"values":{"bufferView":)" +
-                                                       std::to_string(what) + "}}"));
+                                                   R"(,"sparse":{"count":2,"indices":{"bufferView":)" + std::to_string(where) +
+                                                       R"(,"componentType":5123},"values":{"bufferView":)" + std::to_string(what) + "}}"));
         const Result<Scene> scene = load(asset);
         ASSERT_FALSE(scene);
         EXPECT_EQ(scene.error().place, "/accessors/0/sparse/indices");
     }
 }
 
-TEST(Accessors, indices_of_every_unsigned_type_are_read)
+TEST(accessors, indices_of_every_unsigned_type_are_read)
 {
     for (const int type : {kU8, kU16, kU32}) {
         Asset asset = triangle();
@@ -154,12 +138,11 @@ TEST(Accessors, indices_of_every_unsigned_type_are_read)
     }
 }
 
-TEST(AccessorView, never_reaches_past_its_bytes_whatever_the_numbers)
+TEST(accessor_view, never_reaches_past_its_bytes_whatever_the_numbers)
 {
     const ByteVector bytes(36);
     const auto make = [&](std::uint64_t offset, std::uint64_t stride, std::uint64_t count) {
-        return AccessorView::make(bytes, offset, stride, count, ComponentType::f32, {3, 1}, false)
-            .has_value();
+        return AccessorView::make(bytes, offset, stride, count, ComponentType::f32, {3, 1}, false).has_value();
     };
     EXPECT_TRUE(make(0, 0, 3));
     EXPECT_TRUE(make(0, 12, 3));
@@ -179,7 +162,7 @@ TEST(AccessorView, never_reaches_past_its_bytes_whatever_the_numbers)
     EXPECT_FALSE(make(0, 1ull << 63, 3));
 }
 
-TEST(AccessorView, columns_of_small_matrices_start_at_multiples_of_four_bytes)
+TEST(accessor_view, columns_of_small_matrices_start_at_multiples_of_four_bytes)
 {
     const ByteVector bytes = {1, 2, 3, 0, 4, 5, 6, 0, 7, 8, 9, 0};
     const auto view = AccessorView::make(bytes, 0, 0, 1, ComponentType::u8, {3, 3}, false);

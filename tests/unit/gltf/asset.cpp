@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include "core/scene/gltf.h"
+#include "core/scene/gltf/gltf.h"
 
 namespace burnish::test {
 
@@ -31,17 +31,16 @@ int Asset::view(const ByteVector& data, const std::string& extra)
 {
     while (bin.size() % 4)
         bin.push_back(0);
-    views.push_back(
-        fmt::format(R"({{"buffer":0,"byteOffset":{},"byteLength":{}{}}})", bin.size(), data.size(), extra));
+    views.push_back(fmt::format(R"({{"buffer":0,"byteOffset":{},"byteLength":{}{}}})", bin.size(), data.size(), extra));
     bin.insert(bin.end(), data.begin(), data.end());
     return static_cast<int>(views.size()) - 1;
 }
 
-int Asset::accessor(const ByteVector& data, int component, const std::string& type, std::size_t count,
-                    const std::string& extra, const std::string& view_extra)
+int Asset::accessor(const ByteVector& data, int component, const std::string& type, std::size_t count, const std::string& extra,
+                    const std::string& view_extra)
 {
-    accessors.push_back(fmt::format(R"({{"bufferView":{},"componentType":{},"type":"{}","count":{}{}}})",
-                                    view(data, view_extra), component, type, count, extra));
+    accessors.push_back(fmt::format(R"({{"bufferView":{},"componentType":{},"type":"{}","count":{}{}}})", view(data, view_extra), component,
+                                    type, count, extra));
     return static_cast<int>(accessors.size()) - 1;
 }
 
@@ -53,13 +52,10 @@ void Asset::attribute(const std::string& name, int accessor_index)
 std::string Asset::json(const std::string& buffer_uri_member) const
 {
     const std::string graph =
-        nodes.empty() ? fmt::format(R"(,"scene":0,"scenes":[{{"nodes":[0]}}],"nodes":[{{"mesh":0{}}}])", node)
-                      : nodes;
-    return fmt::format(
-        R"({{"asset":{{"version":"2.0"}},"buffers":[{{"byteLength":{}{}}}],"bufferViews":[{}],)"
-        R"("accessors":[{}],"meshes":[{{"name":"m","primitives":[{{"attributes":{{{}}}{}}}]}}]{}{}}})",
-        bin.size(), buffer_uri_member, fmt::join(views, ","), fmt::join(accessors, ","), attributes,
-        primitive, graph, more);
+        nodes.empty() ? fmt::format(R"(,"scene":0,"scenes":[{{"nodes":[0]}}],"nodes":[{{"mesh":0{}}}])", node) : nodes;
+    return fmt::format(R"({{"asset":{{"version":"2.0"}},"buffers":[{{"byteLength":{}{}}}],"bufferViews":[{}],)"
+                       R"("accessors":[{}],"meshes":[{{"name":"m","primitives":[{{"attributes":{{{}}}{}}}]}}]{}{}}})",
+                       bin.size(), buffer_uri_member, fmt::join(views, ","), fmt::join(accessors, ","), attributes, primitive, graph, more);
 }
 
 std::string Asset::gltf() const
@@ -93,14 +89,13 @@ ByteVector Asset::glb() const
 Asset triangle()
 {
     Asset asset;
-    asset.attribute("POSITION", asset.accessor(floats({0, 0, 0, 1, 0, 0, 0, 1, 0}), kF32, "VEC3", 3));
+    asset.attribute("POSITION", asset.accessor(floats({0, 0, 0, 1, 0, 0, 0, 1, 0}), kF32, "VEC3", 3, R"(,"min":[0,0,0],"max":[1,1,0])"));
     return asset;
 }
 
 Result<Scene> load_text(const std::string& gltf, const Limits& limits)
 {
-    return load_gltf_bytes(reinterpret_cast<const std::uint8_t*>(gltf.data()), gltf.size(), "test.gltf",
-                           limits);
+    return load_gltf_bytes(reinterpret_cast<const std::uint8_t*>(gltf.data()), gltf.size(), "test.gltf", limits);
 }
 
 Result<Scene> load(const Asset& asset, const Limits& limits)
@@ -164,8 +159,7 @@ void expect_sound(const Scene& scene)
 TempFolder::TempFolder()
 {
     static std::atomic<int> counter{0};
-    folder_ =
-        std::filesystem::temp_directory_path() / fmt::format("burnish-gltf-{}-{}", ::getpid(), counter++);
+    folder_ = std::filesystem::temp_directory_path() / fmt::format("burnish-gltf-{}-{}", ::getpid(), counter++);
     std::filesystem::create_directories(folder_);
 }
 
@@ -185,11 +179,6 @@ std::string TempFolder::write(const std::string& name, const std::string& conten
 std::string TempFolder::write(const std::string& name, const ByteVector& content) const
 {
     return write(name, std::string(content.begin(), content.end()));
-}
-
-std::string shared_data(const std::string& name)
-{
-    return std::string(BN_SHARED_DATA) + "/" + name;
 }
 
 ByteVector read_bytes(const std::string& path)

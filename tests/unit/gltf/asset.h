@@ -9,6 +9,7 @@
 #include "core/base/limits.h"
 #include "core/base/result.h"
 #include "core/scene/scene.h"
+#include "tests/unit/data.h"
 
 namespace burnish::test {
 
@@ -41,8 +42,8 @@ struct Asset {
 
     // Each returns the index of what it adds. `extra`: members, each with a comma before it.
     int view(const ByteVector& data, const std::string& extra = "");
-    int accessor(const ByteVector& data, int component, const std::string& type, std::size_t count,
-                 const std::string& extra = "", const std::string& view_extra = "");
+    int accessor(const ByteVector& data, int component, const std::string& type, std::size_t count, const std::string& extra = "",
+                 const std::string& view_extra = "");
     void attribute(const std::string& name, int accessor);
 
     std::string json(const std::string& buffer_uri_member) const;
@@ -75,7 +76,6 @@ class TempFolder {
     std::filesystem::path folder_;
 };
 
-std::string shared_data(const std::string& name); // path below the shared test data
 ByteVector read_bytes(const std::string& path);
 
 } // namespace burnish::test

@@ -5,8 +5,8 @@
 #include <meshoptimizer.h>
 
 #include "asset.h"
-#include "core/scene/gltf.h"
-#include "core/scene/gltf_filters.h"
+#include "core/scene/gltf/filters.h"
+#include "core/scene/gltf/gltf.h"
 
 using namespace burnish;
 using namespace burnish::test;
@@ -43,16 +43,14 @@ ByteVector encoded_indices(const std::vector<std::uint32_t>& indices)
 Asset compressed_square(const std::string& from = "", const std::string& to = "")
 {
     Asset asset;
-    const auto add_view = [&](const ByteVector& data, std::size_t stride, std::size_t count,
-                              const char* mode) {
+    const auto add_view = [&](const ByteVector& data, std::size_t stride, std::size_t count, const char* mode) {
         asset.view(data);
         const std::size_t begin = asset.bin.size() - data.size();
-        std::string view = fmt::format(
-            R"({{"buffer":0,"byteLength":{},"extensions":{{"EXT_meshopt_compression":{{"buffer":0,"byteOffset":{},)"
-            R"("byteLength":{},"byteStride":{},"count":{},"mode":"{}"}}}}}})",
-            stride * count, begin, data.size(), stride, count, mode);
-        if (const std::size_t at = view.find(from);
-            !from.empty() && at != std::string::npos && asset.views.size() == 1)
+        std::string view =
+            fmt::format(R"({{"buffer":0,"byteLength":{},"extensions":{{"EXT_meshopt_compression":{{"buffer":0,"byteOffset":{},)"
+                        R"("byteLength":{},"byteStride":{},"count":{},"mode":"{}"}}}}}})",
+                        stride * count, begin, data.size(), stride, count, mode);
+        if (const std::size_t at = view.find(from); !from.empty() && at != std::string::npos && asset.views.size() == 1)
             view.replace(at, from.size(), to);
         asset.views.back() = view;
     };
@@ -68,7 +66,7 @@ Asset compressed_square(const std::string& from = "", const std::string& to = ""
 
 } // namespace
 
-TEST(Meshopt, compressed_positions_and_indices_are_decoded)
+TEST(meshopt, compressed_positions_and_indices_are_decoded)
 {
     const Result<Scene> scene = load(compressed_square());
     ASSERT_TRUE(scene) << error_of(scene);
@@ -84,7 +82,7 @@ TEST(Meshopt, compressed_positions_and_indices_are_decoded)
     EXPECT_EQ(area, 1.0f);
 }
 
-TEST(Meshopt, sizes_that_do_not_hold_together_are_errors_before_anything_is_decoded)
+TEST(meshopt, sizes_that_do_not_hold_together_are_errors_before_anything_is_decoded)
 {
     const std::pair<const char*, const char*> changes[] = {
         {R"("count":4)", R"("count":5)"},
@@ -100,34 +98,31 @@ TEST(Meshopt, sizes_that_do_not_hold_together_are_errors_before_anything_is_deco
     for (const auto& [from, to] : changes) {
         const Result<Scene> scene = load(compressed_square(from, to));
         ASSERT_FALSE(scene) << to;
-        EXPECT_EQ(scene.error().place.substr(0, 49), "/bufferViews/0/extensions/EXT_meshopt_compression")
-            << error_of(scene);
+        EXPECT_EQ(scene.error().place.substr(0, 49), "/bufferViews/0/extensions/EXT_meshopt_compression") << error_of(scene);
     }
 }
 
-TEST(Meshopt, a_count_that_the_bytes_cannot_hold_takes_no_memory)
+TEST(meshopt, a_count_that_the_bytes_cannot_hold_takes_no_memory)
 {
     Asset asset = compressed_square();
     const std::string view = asset.views[0];
-    for (const auto& [stride, count] :
-         {std::pair<std::uint64_t, std::uint64_t>{12, 1ull << 40}, {256, 1ull << 30}}) {
-        asset.views[0] = fmt::format(
-            R"({{"buffer":0,"byteLength":{},"extensions":{{"EXT_meshopt_compression":{{"buffer":0,"byteLength":30,)"
-            R"("byteStride":{},"count":{},"mode":"ATTRIBUTES"}}}}}})",
-            stride * count, stride, count);
+    for (const auto& [stride, count] : {std::pair<std::uint64_t, std::uint64_t>{12, 1ull << 40}, {256, 1ull << 30}}) {
+        asset.views[0] =
+            fmt::format(R"({{"buffer":0,"byteLength":{},"extensions":{{"EXT_meshopt_compression":{{"buffer":0,"byteLength":30,)"
+                        R"("byteStride":{},"count":{},"mode":"ATTRIBUTES"}}}}}})",
+                        stride * count, stride, count);
         EXPECT_NE(error_of(load(asset)).find("cannot be stored"), std::string::npos);
     }
 }
 
-TEST(Meshopt, damaged_data_is_an_error)
+TEST(meshopt, damaged_data_is_an_error)
 {
     Asset asset = compressed_square();
     asset.bin[0] ^= 0xff; // the header byte of the vertex codec
-    EXPECT_EQ(error_of(load(asset)),
-              "/bufferViews/0/extensions/EXT_meshopt_compression: the compressed data is damaged");
+    EXPECT_EQ(error_of(load(asset)), "/bufferViews/0/extensions/EXT_meshopt_compression: the compressed data is damaged");
 }
 
-TEST(MeshoptFilter, octahedral_vectors_agree_with_the_library_within_a_unit)
+TEST(meshopt_filter, octahedral_vectors_agree_with_the_library_within_a_unit)
 {
     constexpr int kCount = 1000;
     const std::vector<float> vectors = sphere_vectors(kCount);
@@ -142,8 +137,7 @@ TEST(MeshoptFilter, octahedral_vectors_agree_with_the_library_within_a_unit)
             meshopt_decodeFilterOct(theirs.data(), kCount, stride);
             for (std::size_t i = 0; i < ours.size(); i += stride / 4) {
                 if (stride == 4) {
-                    ASSERT_NEAR(static_cast<std::int8_t>(ours[i]), static_cast<std::int8_t>(theirs[i]), 1)
-                        << i;
+                    ASSERT_NEAR(static_cast<std::int8_t>(ours[i]), static_cast<std::int8_t>(theirs[i]), 1) << i;
                 } else {
                     std::int16_t a, b;
                     std::memcpy(&a, &ours[i], 2);
@@ -155,7 +149,7 @@ TEST(MeshoptFilter, octahedral_vectors_agree_with_the_library_within_a_unit)
     }
 }
 
-TEST(MeshoptFilter, quaternions_agree_with_the_library_within_a_unit)
+TEST(meshopt_filter, quaternions_agree_with_the_library_within_a_unit)
 {
     constexpr int kCount = 1000;
     std::vector<float> vectors = sphere_vectors(kCount);
@@ -177,7 +171,7 @@ TEST(MeshoptFilter, quaternions_agree_with_the_library_within_a_unit)
     }
 }
 
-TEST(MeshoptFilter, exponential_floats_equal_the_library)
+TEST(meshopt_filter, exponential_floats_equal_the_library)
 {
     std::vector<float> values = sphere_vectors(500);
     for (std::size_t i = 0; i < values.size(); ++i)
@@ -190,7 +184,7 @@ TEST(MeshoptFilter, exponential_floats_equal_the_library)
     EXPECT_EQ(ours, theirs);
 }
 
-TEST(MeshoptFilter, any_bytes_decode_without_undefined_behaviour)
+TEST(meshopt_filter, any_bytes_decode_without_undefined_behaviour)
 {
     std::uint32_t state = 1;
     ByteVector bytes(8 * 4096);

@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "asset.h"
-#include "core/image/image_io.h"
-#include "core/scene/gltf.h"
+#include "core/image/io/image_io.h"
+#include "core/scene/gltf/gltf.h"
 
 using namespace burnish;
 using namespace burnish::test;
@@ -43,15 +43,13 @@ std::string one_image_textures()
 
 Result<Scene> load_transform(const std::string& transform)
 {
-    return load_materials(
-        R"({"emissiveTexture":{"index":0,"texCoord":1,"extensions":{"KHR_texture_transform":)" + transform +
-            "}}}",
-        one_image_textures());
+    return load_materials(R"({"emissiveTexture":{"index":0,"texCoord":1,"extensions":{"KHR_texture_transform":)" + transform + "}}}",
+                          one_image_textures());
 }
 
 } // namespace
 
-TEST(Material, defaults_are_those_of_gltf)
+TEST(material, defaults_are_those_of_gltf)
 {
     const Result<Scene> scene = load_materials("{}");
     ASSERT_TRUE(scene) << error_of(scene);
@@ -70,7 +68,7 @@ TEST(Material, defaults_are_those_of_gltf)
     EXPECT_FALSE(m.double_sided || m.unlit || m.base_color_tex.used() || m.normal_tex.used());
 }
 
-TEST(Material, every_factor_and_extension_arrives)
+TEST(material, every_factor_and_extension_arrives)
 {
     const Result<Scene> scene = load_materials(
         R"({"name":"all","pbrMetallicRoughness":{"baseColorFactor":[0.1,0.2,0.3,0.4],"metallicFactor":0,"roughnessFactor":0.25},)"
@@ -96,22 +94,17 @@ TEST(Material, every_factor_and_extension_arrives)
     EXPECT_EQ(m.anisotropy_rotation, 1.5f);
 }
 
-TEST(Material, factors_out_of_range_are_errors_at_their_place)
+TEST(material, factors_out_of_range_are_errors_at_their_place)
 {
     const std::pair<const char*, const char*> cases[] = {
-        {R"({"pbrMetallicRoughness":{"roughnessFactor":1.01}})",
-         "/materials/0/pbrMetallicRoughness/roughnessFactor"},
-        {R"({"pbrMetallicRoughness":{"metallicFactor":-0.1}})",
-         "/materials/0/pbrMetallicRoughness/metallicFactor"},
-        {R"({"pbrMetallicRoughness":{"baseColorFactor":[0,0,2,1]}})",
-         "/materials/0/pbrMetallicRoughness/baseColorFactor/2"},
-        {R"({"pbrMetallicRoughness":{"baseColorFactor":[0,0,0]}})",
-         "/materials/0/pbrMetallicRoughness/baseColorFactor"},
+        {R"({"pbrMetallicRoughness":{"roughnessFactor":1.01}})", "/materials/0/pbrMetallicRoughness/roughnessFactor"},
+        {R"({"pbrMetallicRoughness":{"metallicFactor":-0.1}})", "/materials/0/pbrMetallicRoughness/metallicFactor"},
+        {R"({"pbrMetallicRoughness":{"baseColorFactor":[0,0,2,1]}})", "/materials/0/pbrMetallicRoughness/baseColorFactor/2"},
+        {R"({"pbrMetallicRoughness":{"baseColorFactor":[0,0,0]}})", "/materials/0/pbrMetallicRoughness/baseColorFactor"},
         {R"({"emissiveFactor":[0,0,"x"]})", "/materials/0/emissiveFactor/2"},
         {R"({"alphaMode":"GLASS"})", "/materials/0/alphaMode"},
         {R"({"alphaCutoff":-1})", "/materials/0/alphaCutoff"},
-        {R"({"extensions":{"KHR_materials_ior":{"ior":0.5}}})",
-         "/materials/0/extensions/KHR_materials_ior/ior"},
+        {R"({"extensions":{"KHR_materials_ior":{"ior":0.5}}})", "/materials/0/extensions/KHR_materials_ior/ior"},
         {R"({"extensions":{"KHR_materials_specular":{"specularFactor":2}}})",
          "/materials/0/extensions/KHR_materials_specular/specularFactor"},
         {R"({"extensions":{"KHR_materials_anisotropy":{"anisotropyStrength":1.5}}})",
@@ -129,18 +122,18 @@ TEST(Material, factors_out_of_range_are_errors_at_their_place)
     }
 }
 
-TEST(Material, whole_numbers_serve_as_factors_and_as_indices_written_with_a_point)
+TEST(material, whole_numbers_serve_as_factors_and_as_indices_written_with_a_point)
 {
-    const Result<Scene> scene = load_materials(
-        R"({"extensions":{"KHR_materials_emissive_strength":{"emissiveStrength":5000000000}},"emissiveFactor":[1,0,0],)"
-        R"("normalTexture":{"index":1.0}})",
-        one_image_textures());
+    const Result<Scene> scene =
+        load_materials(R"({"extensions":{"KHR_materials_emissive_strength":{"emissiveStrength":5000000000}},"emissiveFactor":[1,0,0],)"
+                       R"("normalTexture":{"index":1.0}})",
+                       one_image_textures());
     ASSERT_TRUE(scene) << error_of(scene);
     EXPECT_EQ(scene->materials[0].emissive.x, 5e9f);
     EXPECT_TRUE(scene->materials[0].normal_tex.used());
 }
 
-TEST(Material, an_image_is_decoded_once_however_many_textures_use_it)
+TEST(material, an_image_is_decoded_once_however_many_textures_use_it)
 {
     const Result<Scene> scene = load_materials(
         R"({"normalTexture":{"index":0,"scale":0.5},"occlusionTexture":{"index":1,"strength":0.25},"emissiveTexture":{"index":1}})",
@@ -164,30 +157,28 @@ TEST(Material, an_image_is_decoded_once_however_many_textures_use_it)
     EXPECT_TRUE(sampled.nearest);
 }
 
-TEST(Material, images_come_from_files_and_buffer_views_too)
+TEST(material, images_come_from_files_and_buffer_views_too)
 {
     const TempFolder folder;
     folder.write("pics/a.png", small_png());
     Asset asset = triangle();
     const int view = asset.view(small_png());
     folder.write("a.bin", asset.bin);
-    asset.more =
-        R"(,"materials":[{"normalTexture":{"index":0},"emissiveTexture":{"index":1}}],"textures":[{"source":0},)"
-        R"({"source":1}],"images":[{"uri":"pics/a.png"},{"mimeType":"image/png","bufferView":)" +
-        std::to_string(view) + "}]";
+    asset.more = R"(,"materials":[{"normalTexture":{"index":0},"emissiveTexture":{"index":1}}],"textures":[{"source":0},)"
+                 R"({"source":1}],"images":[{"uri":"pics/a.png"},{"mimeType":"image/png","bufferView":)" +
+                 std::to_string(view) + "}]";
     const Result<Scene> scene = load_scene(folder.write("a.gltf", asset.json(R"(,"uri":"a.bin")")), {});
     ASSERT_TRUE(scene) << error_of(scene);
     ASSERT_EQ(scene->images.size(), 2u);
     EXPECT_EQ(scene->images[0].bytes, scene->images[1].bytes);
 }
 
-TEST(Material, textures_above_the_memory_limit_are_an_error)
+TEST(material, textures_above_the_memory_limit_are_an_error)
 {
     Asset asset = triangle();
-    asset.more =
-        R"(,"materials":[{"normalTexture":{"index":0},"emissiveTexture":{"index":1}}],"textures":[{"source":0},)"
-        R"({"source":1}],"images":[{"uri":")" +
-        png_uri() + R"("},{"uri":")" + png_uri() + R"("}])";
+    asset.more = R"(,"materials":[{"normalTexture":{"index":0},"emissiveTexture":{"index":1}}],"textures":[{"source":0},)"
+                 R"({"source":1}],"images":[{"uri":")" +
+                 png_uri() + R"("},{"uri":")" + png_uri() + R"("}])";
     Limits limits;
     limits.texture_bytes = 12; // both images of 6 bytes
     EXPECT_TRUE(load(asset, limits));
@@ -197,18 +188,16 @@ TEST(Material, textures_above_the_memory_limit_are_an_error)
     EXPECT_EQ(scene.error().place, "/images/1");
 }
 
-TEST(Material, bytes_that_are_no_image_are_an_error_even_where_nothing_uses_them)
+TEST(material, bytes_that_are_no_image_are_an_error_even_where_nothing_uses_them)
 {
     EXPECT_EQ(error_of(load_materials("{}", R"(,"images":[{"uri":"data:image/png;base64,AAAA"}])")),
               "/images/0: is no PNG, JPEG or WebP image");
-    EXPECT_EQ(error_of(load_materials("{}", R"(,"images":[{}])")),
-              "/images/0: has neither a uri nor a bufferView");
+    EXPECT_EQ(error_of(load_materials("{}", R"(,"images":[{}])")), "/images/0: has neither a uri nor a bufferView");
 }
 
-TEST(TextureTransform, is_offset_after_rotation_after_scale)
+TEST(texture_transform, is_offset_after_rotation_after_scale)
 {
-    const Result<Scene> scene =
-        load_transform(R"({"offset":[0.5,0.25],"rotation":1.5707963267948966,"scale":[2,3],"texCoord":0})");
+    const Result<Scene> scene = load_transform(R"({"offset":[0.5,0.25],"rotation":1.5707963267948966,"scale":[2,3],"texCoord":0})");
     ASSERT_TRUE(scene) << error_of(scene);
     const TextureRef& ref = scene->materials[0].emissive_tex;
     EXPECT_EQ(ref.uv_set, 0); // the extension's set counts
@@ -218,7 +207,7 @@ TEST(TextureTransform, is_offset_after_rotation_after_scale)
     EXPECT_NEAR(uv.y, -1.75f, 1e-6f);
 }
 
-TEST(TextureTransform, agrees_with_the_sines_and_cosines_of_any_angle)
+TEST(texture_transform, agrees_with_the_sines_and_cosines_of_any_angle)
 {
     for (const double angle : {0.0, 0.3, -2.0, 3.1, 100.0, -12345.678}) {
         const Result<Scene> scene = load_transform("{\"rotation\":" + std::to_string(angle) + "}");
@@ -232,12 +221,10 @@ TEST(TextureTransform, agrees_with_the_sines_and_cosines_of_any_angle)
     }
 }
 
-TEST(TextureTransform, puts_the_arrow_of_the_test_model_on_its_marker)
+TEST(texture_transform, puts_the_arrow_of_the_test_model_on_its_marker)
 {
-    const Result<Scene> scene =
-        load_scene(shared_data("models/TextureTransformTest/TextureTransformTest.gltf"), {});
-    if (!scene)
-        GTEST_SKIP() << "no shared test data";
+    const Result<Scene> scene = load_scene(data_file("models/TextureTransformTest/TextureTransformTest.gltf"), {});
+    ASSERT_TRUE(scene) << scene.error().line();
     // The arrow in the picture points from its corner to (1, 1); the model's markers, children of the quads,
     // show where that must appear. Quads have their middle at the origin and a side of 1; v points down.
     const auto direction = [&](const char* marker, const char* material) {

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "asset.h"
-#include "core/scene/gltf.h"
+#include "core/scene/gltf/gltf.h"
 
 using namespace burnish;
 using namespace burnish::test;
@@ -17,27 +17,24 @@ Result<Scene> load_nodes(const std::string& nodes, const std::string& more = "")
     return load(asset);
 }
 
-const std::string kLights =
-    R"(,"extensionsUsed":["KHR_lights_punctual"],"extensions":{"KHR_lights_punctual":{"lights":[)"
-    R"({"type":"point","name":"bulb","color":[1,0.5,0.25],"intensity":40,"range":7},)"
-    R"({"type":"spot","spot":{"innerConeAngle":0.1,"outerConeAngle":0.5}},{"type":"directional"}]}})";
+const std::string kLights = R"(,"extensionsUsed":["KHR_lights_punctual"],"extensions":{"KHR_lights_punctual":{"lights":[)"
+                            R"({"type":"point","name":"bulb","color":[1,0.5,0.25],"intensity":40,"range":7},)"
+                            R"({"type":"spot","spot":{"innerConeAngle":0.1,"outerConeAngle":0.5}},{"type":"directional"}]}})";
 
 } // namespace
 
-TEST(Scene, translation_rotation_scale_equals_its_matrix)
+TEST(scene, translation_rotation_scale_equals_its_matrix)
 {
     // Half a turn about Z (quaternion 0 0 1 0) after scaling by 2 3 4, then moved by 5 6 7.
-    const Result<Scene> trs =
-        load_nodes(R"(,"nodes":[{"mesh":0,"translation":[5,6,7],"rotation":[0,0,1,0],"scale":[2,3,4]}])");
-    const Result<Scene> matrix =
-        load_nodes(R"(,"nodes":[{"mesh":0,"matrix":[-2,0,0,0, 0,-3,0,0, 0,0,4,0, 5,6,7,1]}])");
+    const Result<Scene> trs = load_nodes(R"(,"nodes":[{"mesh":0,"translation":[5,6,7],"rotation":[0,0,1,0],"scale":[2,3,4]}])");
+    const Result<Scene> matrix = load_nodes(R"(,"nodes":[{"mesh":0,"matrix":[-2,0,0,0, 0,-3,0,0, 0,0,4,0, 5,6,7,1]}])");
     ASSERT_TRUE(trs) << error_of(trs);
     ASSERT_TRUE(matrix) << error_of(matrix);
     EXPECT_EQ(trs->nodes[0].local, matrix->nodes[0].local);
     EXPECT_EQ(trs->nodes[0].world[3], glm::vec4(5, 6, 7, 1));
 }
 
-TEST(Scene, quarter_turn_about_y_takes_z_to_x)
+TEST(scene, quarter_turn_about_y_takes_z_to_x)
 {
     const Result<Scene> scene = load_nodes(R"(,"nodes":[{"rotation":[0,0.70710678,0,0.70710678]}])");
     ASSERT_TRUE(scene) << error_of(scene);
@@ -46,12 +43,12 @@ TEST(Scene, quarter_turn_about_y_takes_z_to_x)
     EXPECT_NEAR(x.z, 0.0f, 1e-6f);
 }
 
-TEST(Scene, parents_come_first_and_only_the_default_scene_is_kept)
+TEST(scene, parents_come_first_and_only_the_default_scene_is_kept)
 {
-    const Result<Scene> scene = load_nodes(
-        R"(,"scene":1,"scenes":[{"nodes":[4]},{"name":"kept","nodes":[3]}],"nodes":[{"name":"leaf","translation":[0,0,1]},)"
-        R"({"name":"left","children":[0]},{"name":"right","mesh":0},{"name":"root","children":[1,2],"translation":[1,0,0]},)"
-        R"({"name":"elsewhere"}])");
+    const Result<Scene> scene =
+        load_nodes(R"(,"scene":1,"scenes":[{"nodes":[4]},{"name":"kept","nodes":[3]}],"nodes":[{"name":"leaf","translation":[0,0,1]},)"
+                   R"({"name":"left","children":[0]},{"name":"right","mesh":0},{"name":"root","children":[1,2],"translation":[1,0,0]},)"
+                   R"({"name":"elsewhere"}])");
     ASSERT_TRUE(scene) << error_of(scene);
     expect_sound(*scene);
     ASSERT_EQ(scene->nodes.size(), 4u);
@@ -65,14 +62,14 @@ TEST(Scene, parents_come_first_and_only_the_default_scene_is_kept)
     EXPECT_EQ(scene->nodes[2].world[3], glm::vec4(1, 0, 1, 1));
 }
 
-TEST(Scene, without_scenes_all_roots_are_kept)
+TEST(scene, without_scenes_all_roots_are_kept)
 {
     const Result<Scene> scene = load_nodes(R"(,"nodes":[{"children":[2]},{"mesh":0},{}])");
     ASSERT_TRUE(scene) << error_of(scene);
     EXPECT_EQ(scene->nodes.size(), 3u);
 }
 
-TEST(Scene, a_scene_without_nodes_is_legal)
+TEST(scene, a_scene_without_nodes_is_legal)
 {
     const Result<Scene> scene = load_text(R"({"asset":{"version":"2.0"},"scenes":[{}]})");
     ASSERT_TRUE(scene) << error_of(scene);
@@ -80,7 +77,7 @@ TEST(Scene, a_scene_without_nodes_is_legal)
     EXPECT_TRUE(scene->nodes.empty());
 }
 
-TEST(Scene, negative_scale_is_left_in_the_node)
+TEST(scene, negative_scale_is_left_in_the_node)
 {
     const Result<Scene> scene = load_nodes(R"(,"nodes":[{"mesh":0,"scale":[-1,1,1]}])");
     ASSERT_TRUE(scene) << error_of(scene);
@@ -88,12 +85,11 @@ TEST(Scene, negative_scale_is_left_in_the_node)
     EXPECT_EQ(scene->vertices.px[scene->indices[1]], 1.0f); // the mesh itself stays as it is
 }
 
-TEST(Scene, cameras_are_read)
+TEST(scene, cameras_are_read)
 {
     const Result<Scene> scene =
-        load_nodes(R"(,"nodes":[{"camera":1}])",
-                   R"(,"cameras":[{"type":"perspective","name":"p","perspective":{"yfov":0.7,"znear":0.25}},)"
-                   R"({"type":"orthographic","orthographic":{"xmag":2,"ymag":3,"znear":0,"zfar":10}}])");
+        load_nodes(R"(,"nodes":[{"camera":1}])", R"(,"cameras":[{"type":"perspective","name":"p","perspective":{"yfov":0.7,"znear":0.25}},)"
+                                                 R"({"type":"orthographic","orthographic":{"xmag":2,"ymag":3,"znear":0,"zfar":10}}])");
     ASSERT_TRUE(scene) << error_of(scene);
     ASSERT_EQ(scene->cameras.size(), 2u);
     EXPECT_EQ(scene->cameras[0].name, "p");
@@ -106,10 +102,9 @@ TEST(Scene, cameras_are_read)
     EXPECT_EQ(scene->nodes[0].camera, 1);
 }
 
-TEST(Scene, punctual_lights_are_read)
+TEST(scene, punctual_lights_are_read)
 {
-    const Result<Scene> scene =
-        load_nodes(R"(,"nodes":[{"extensions":{"KHR_lights_punctual":{"light":1}}}])", kLights);
+    const Result<Scene> scene = load_nodes(R"(,"nodes":[{"extensions":{"KHR_lights_punctual":{"light":1}}}])", kLights);
     ASSERT_TRUE(scene) << error_of(scene);
     ASSERT_EQ(scene->lights.size(), 3u);
     EXPECT_EQ(scene->lights[0].type, LightType::point);
@@ -125,10 +120,9 @@ TEST(Scene, punctual_lights_are_read)
     EXPECT_EQ(scene->nodes[0].light, 1);
 }
 
-TEST(Scene, node_cycles_second_parents_and_deep_chains_are_errors)
+TEST(scene, node_cycles_second_parents_and_deep_chains_are_errors)
 {
-    EXPECT_NE(error_of(load_nodes(R"(,"nodes":[{"children":[1]},{"children":[0]}])")).find("cycle"),
-              std::string::npos);
+    EXPECT_NE(error_of(load_nodes(R"(,"nodes":[{"children":[1]},{"children":[0]}])")).find("cycle"), std::string::npos);
     EXPECT_NE(error_of(load_nodes(R"(,"nodes":[{"children":[0]}])")).find("cycle"), std::string::npos);
     EXPECT_EQ(error_of(load_nodes(R"(,"nodes":[{"children":[2]},{"children":[2]},{}])")),
               "/nodes/1/children/0: node 2 has two parents, 0 and 1");
@@ -142,16 +136,14 @@ TEST(Scene, node_cycles_second_parents_and_deep_chains_are_errors)
     EXPECT_EQ(deep.error().place, "/nodes/256"); // the 257th of the chain
 }
 
-TEST(Scene, transforms_that_overflow_are_errors)
+TEST(scene, transforms_that_overflow_are_errors)
 {
-    const Result<Scene> scene =
-        load_nodes(R"(,"nodes":[{"scale":[1e30,1,1],"children":[1]},{"scale":[1e30,1,1]}])");
+    const Result<Scene> scene = load_nodes(R"(,"nodes":[{"scale":[1e30,1,1],"children":[1]},{"scale":[1e30,1,1]}])");
     EXPECT_EQ(error_of(scene), "/nodes/1: the transform to world space overflows");
-    EXPECT_EQ(error_of(load_nodes(R"(,"nodes":[{"rotation":[0,0,0,0]}])")),
-              "/nodes/0/rotation: is not a unit quaternion");
+    EXPECT_EQ(error_of(load_nodes(R"(,"nodes":[{"rotation":[0,0,0,0]}])")), "/nodes/0/rotation: is not a unit quaternion");
 }
 
-TEST(Scene, external_files_are_read_below_the_folder)
+TEST(scene, external_files_are_read_below_the_folder)
 {
     const TempFolder folder;
     const Asset asset = triangle();
@@ -164,7 +156,7 @@ TEST(Scene, external_files_are_read_below_the_folder)
     EXPECT_TRUE(through_load_scene);
 }
 
-TEST(Scene, uris_that_leave_the_folder_are_refused_unless_allowed)
+TEST(scene, uris_that_leave_the_folder_are_refused_unless_allowed)
 {
     const TempFolder folder;
     const Asset asset = triangle();
@@ -174,14 +166,12 @@ TEST(Scene, uris_that_leave_the_folder_are_refused_unless_allowed)
         limits.uris_outside = allowed;
         return load_gltf(folder.write("sub/scene.gltf", asset.json(",\"uri\":\"" + uri + "\"")), limits);
     };
-    for (const std::string& uri :
-         {std::string("../outside.bin"), std::string("%2e%2e/outside.bin"),
-          std::string("a/../../outside.bin"), std::string("..\\\\outside.bin"), folder.path("outside.bin")}) {
+    for (const std::string& uri : {std::string("../outside.bin"), std::string("%2e%2e/outside.bin"), std::string("a/../../outside.bin"),
+                                   std::string("..\\\\outside.bin"), folder.path("outside.bin")}) {
         const Result<Scene> refused = load_with(uri, false);
         ASSERT_FALSE(refused) << uri;
         EXPECT_EQ(refused.error().place, "/buffers/0/uri");
-        EXPECT_NE(refused.error().reason.find("--allow-outside-uris"), std::string::npos)
-            << refused.error().reason;
+        EXPECT_NE(refused.error().reason.find("--allow-outside-uris"), std::string::npos) << refused.error().reason;
     }
     EXPECT_TRUE(load_with("../outside.bin", true));
     EXPECT_TRUE(load_with(folder.path("outside.bin"), true));
@@ -194,27 +184,26 @@ TEST(Scene, uris_that_leave_the_folder_are_refused_unless_allowed)
         EXPECT_FALSE(load_with(uri, false)) << uri;
 }
 
-TEST(Scene, unknown_required_extensions_are_an_error_that_lists_all_of_them)
+TEST(scene, unknown_required_extensions_are_an_error_that_lists_all_of_them)
 {
     Asset asset = triangle();
-    asset.more =
-        R"(,"extensionsRequired":["KHR_materials_ior","ACME_one","KHR_materials_volume","ACME_one"])";
+    asset.more = R"(,"extensionsRequired":["KHR_materials_ior","ACME_one","KHR_materials_volume","ACME_one"])";
     EXPECT_EQ(error_of(load(asset)), "/extensionsRequired: the file requires extensions that are not "
                                      "supported: ACME_one, KHR_materials_volume");
 }
 
-TEST(Scene, unknown_used_extensions_warn_once_each)
+TEST(scene, unknown_used_extensions_warn_once_each)
 {
     Asset asset = triangle();
     asset.more = R"(,"extensionsUsed":["ACME_one","KHR_materials_clearcoat","ACME_one","KHR_materials_ior"])";
     const Result<Scene> scene = load(asset);
     ASSERT_TRUE(scene) << error_of(scene);
-    EXPECT_EQ(scene->warnings,
-              (std::vector<std::string>{"extension ACME_one is not supported and ignored",
-                                        "extension KHR_materials_clearcoat is not supported and ignored"}));
+    EXPECT_EQ(scene->warnings, (std::vector<std::string>{"extension ACME_one is not supported and ignored",
+                                                         "extension KHR_materials_clearcoat is not supported and ignored",
+                                                         "/extensionsUsed/2: stands here twice"}));
 }
 
-TEST(Scene, builtin_names_go_to_the_generated_scenes)
+TEST(scene, builtin_names_go_to_the_generated_scenes)
 {
     EXPECT_FALSE(load_scene("builtin:no-such-scene", {}));
     EXPECT_TRUE(load_scene("builtin:spheres", {}));

@@ -66,8 +66,7 @@ TEST(colour, eight_bit_srgb_is_exact_beside_every_boundary)
     }
     for (int i = 0; i <= 100000; ++i) {
         const float x = static_cast<float>(i) * 1.001e-5f;
-        const int want =
-            static_cast<int>(std::floor(255.0 * encode(std::min(1.0, static_cast<double>(x))) + 0.5));
+        const int want = static_cast<int>(std::floor(255.0 * encode(std::min(1.0, static_cast<double>(x))) + 0.5));
         ASSERT_EQ(mapped({x, 0, 0})[0], want) << x;
     }
 }
@@ -128,13 +127,10 @@ TEST(colour, aces_follows_hills_fit)
             EXPECT_NEAR(value, code(y), 1) << x;
     }
     // Pure red, by hand: the input matrix' first column, the curve, the output matrix.
-    const auto fit = [](double v) {
-        return (v * (v + 0.0245786) - 0.000090537) / (v * (0.983729 * v + 0.4329510) + 0.238081);
-    };
+    const auto fit = [](double v) { return (v * (v + 0.0245786) - 0.000090537) / (v * (0.983729 * v + 0.4329510) + 0.238081); };
     const double r = fit(0.59719), g = fit(0.07600), b = fit(0.02840);
     EXPECT_EQ(mapped({1, 0, 0}, Tonemap::aces),
-              (std::vector<int>{code(1.60475 * r - 0.53108 * g - 0.07367 * b),
-                                code(-0.10208 * r + 1.10813 * g - 0.00605 * b),
+              (std::vector<int>{code(1.60475 * r - 0.53108 * g - 0.07367 * b), code(-0.10208 * r + 1.10813 * g - 0.00605 * b),
                                 code(-0.00327 * r - 0.07276 * g + 1.07602 * b)}));
 }
 

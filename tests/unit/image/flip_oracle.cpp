@@ -15,18 +15,14 @@ struct Plane {
     std::vector<double> v;
     double at(int x, int y) const
     {
-        return v[static_cast<std::size_t>(std::clamp(y, 0, height - 1) * width +
-                                          std::clamp(x, 0, width - 1))];
+        return v[static_cast<std::size_t>(std::clamp(y, 0, height - 1) * width + std::clamp(x, 0, width - 1))];
     }
 };
 
 struct Kernel {
     int radius;
     std::vector<double> w;
-    double at(int x, int y) const
-    {
-        return w[static_cast<std::size_t>((y + radius) * (2 * radius + 1) + x + radius)];
-    }
+    double at(int x, int y) const { return w[static_cast<std::size_t>((y + radius) * (2 * radius + 1) + x + radius)]; }
 };
 
 template <class F> Kernel make_kernel(int radius, const F& f)
@@ -62,15 +58,13 @@ const Vec kWhite = {0.950428545, 1.0, 1.088900371};
 
 Vec xyz_of(const Vec& c)
 {
-    return {(10135552 * c[0] + 8788810 * c[1] + 4435075 * c[2]) / 24577794,
-            (2613072 * c[0] + 8788810 * c[1] + 887015 * c[2]) / 12288897,
+    return {(10135552 * c[0] + 8788810 * c[1] + 4435075 * c[2]) / 24577794, (2613072 * c[0] + 8788810 * c[1] + 887015 * c[2]) / 12288897,
             (1425312 * c[0] + 8788810 * c[1] + 70074185 * c[2]) / 73733382};
 }
 
 Vec rgb_of(const Vec& c)
 {
-    return {3.241003275 * c[0] - 1.537398934 * c[1] - 0.498615861 * c[2],
-            -0.969224334 * c[0] + 1.875930071 * c[1] + 0.041554224 * c[2],
+    return {3.241003275 * c[0] - 1.537398934 * c[1] - 0.498615861 * c[2], -0.969224334 * c[0] + 1.875930071 * c[1] + 0.041554224 * c[2],
             0.055639423 * c[0] - 0.204011202 * c[1] + 1.057148933 * c[2]};
 }
 
@@ -117,8 +111,7 @@ Seen see(const Image& image)
 Vec filtered_lab(const Seen& seen, const std::array<Kernel, 3>& csf, int x, int y)
 {
     const double yy = (convolve(seen.ycxcz[0], csf[0], x, y) + 16) / 116;
-    const double cx = convolve(seen.ycxcz[1], csf[1], x, y) / 500,
-                 cz = convolve(seen.ycxcz[2], csf[2], x, y) / 200;
+    const double cx = convolve(seen.ycxcz[1], csf[1], x, y) / 500, cz = convolve(seen.ycxcz[2], csf[2], x, y) / 200;
     Vec rgb = rgb_of({(yy + cx) * kWhite[0], yy * kWhite[1], (yy - cz) * kWhite[2]});
     for (double& v : rgb)
         v = std::clamp(v, 0.0, 1.0);
@@ -131,14 +124,12 @@ std::vector<double> flip_by_definition(const Image& reference, const Image& test
 {
     const int radius = static_cast<int>(std::ceil(3 * std::sqrt(0.04 / (2 * kPiHere * kPiHere)) * ppd));
     const auto gaussian = [&](double a, double b, int x, int y) {
-        return a * kPiHere / b * std::exp(-kPiHere * kPiHere * (x * x + y * y) / (ppd * ppd) / b) /
-               std::sqrt(kPiHere / b);
+        return a * kPiHere / b * std::exp(-kPiHere * kPiHere * (x * x + y * y) / (ppd * ppd) / b) / std::sqrt(kPiHere / b);
     };
     const std::array<Kernel, 3> csf = {
         normalised(make_kernel(radius, [&](int x, int y) { return gaussian(1, 0.0047, x, y); })),
         normalised(make_kernel(radius, [&](int x, int y) { return gaussian(1, 0.0053, x, y); })),
-        normalised(make_kernel(
-            radius, [&](int x, int y) { return gaussian(34.1, 0.04, x, y) + gaussian(13.5, 0.025, x, y); }))};
+        normalised(make_kernel(radius, [&](int x, int y) { return gaussian(34.1, 0.04, x, y) + gaussian(13.5, 0.025, x, y); }))};
     const double sd = 0.5 * 0.082 * ppd;
     const int feature = static_cast<int>(std::ceil(3 * sd));
     const auto bell = [&](int x, int y) { return std::exp(-(x * x + y * y) / (2 * sd * sd)); };
@@ -159,10 +150,8 @@ std::vector<double> flip_by_definition(const Image& reference, const Image& test
             const auto strength = [&](const Plane& p, const Kernel& kx, const Kernel& ky) {
                 return std::hypot(convolve(p, kx, x, y), convolve(p, ky, x, y));
             };
-            const double edges =
-                std::fabs(strength(a.luminance, edge_x, edge_y) - strength(b.luminance, edge_x, edge_y));
-            const double points =
-                std::fabs(strength(a.luminance, point_x, point_y) - strength(b.luminance, point_x, point_y));
+            const double edges = std::fabs(strength(a.luminance, edge_x, edge_y) - strength(b.luminance, edge_x, edge_y));
+            const double points = std::fabs(strength(a.luminance, point_x, point_y) - strength(b.luminance, point_x, point_y));
             errors.push_back(std::pow(colour, 1 - std::sqrt(std::max(edges, points) / std::sqrt(2.0))));
         }
     return errors;

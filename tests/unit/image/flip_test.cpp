@@ -1,17 +1,18 @@
-#include "core/image/flip.h"
+#include "core/image/metrics/flip.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <random>
 #include <string>
 
 #include "core/image/colour.h"
-#include "core/image/image_io.h"
-#include "core/image/metrics.h"
+#include "core/image/io/image_io.h"
+#include "core/image/metrics/flip_lanes.h"
+#include "core/image/metrics/metrics.h"
 #include "flip_oracle.h"
+#include "tests/unit/data.h"
 
 namespace burnish {
 namespace {
@@ -59,17 +60,11 @@ double largest_of(const FlipResult& result)
     return summarise_errors(result.error).max;
 }
 
-class Known : public testing::Test {
+class known : public testing::Test {
   protected:
-    void SetUp() override
-    {
-        if (!std::filesystem::exists(folder()))
-            GTEST_SKIP() << "no shared data";
-    }
-    static std::string folder() { return std::string(BN_SHARED_DATA) + "/flip/"; }
     static Image picture(const std::string& name)
     {
-        Result<Image> image = read_image(folder() + name, Limits{});
+        Result<Image> image = read_image(test::data_file("flip/" + name), Limits{});
         EXPECT_TRUE(image) << (image ? "" : image.error().line());
         return image ? *image : Image{};
     }
@@ -78,7 +73,7 @@ class Known : public testing::Test {
 
 // Means printed by the authors' program, version 1.6, to six digits: SOURCES.md beside the pictures. The
 // requirement is 1e-4.
-TEST_F(Known, ldr_means)
+TEST_F(known, ldr_means_are_those_of_the_reference_implementation)
 {
     const Image reference = picture("ldr_ref.png");
     EXPECT_NEAR(mean_of(flip_ldr(reference, picture("ldr_blur.png"), {}, jobs)), 0.098760, 2e-6);
@@ -86,7 +81,7 @@ TEST_F(Known, ldr_means)
 }
 
 // That program takes the median over black pixels too, of which this picture has some: its stop is 3.4670.
-TEST_F(Known, hdr_mean_over_the_published_exposures)
+TEST_F(known, hdr_mean_over_the_published_exposures_is_the_references)
 {
     FlipOptions options;
     options.stop_ev = 3.4670f;
@@ -96,7 +91,7 @@ TEST_F(Known, hdr_mean_over_the_published_exposures)
     EXPECT_EQ(result.exposures.count, 8);
 }
 
-TEST_F(Known, hdr_mean_over_exposures_of_lit_pixels)
+TEST_F(known, hdr_mean_over_exposures_of_lit_pixels_is_near)
 {
     const FlipResult result = flip_hdr(picture("hdr_ref.exr"), picture("hdr_blur.exr"), {}, jobs);
     EXPECT_NEAR(mean_of(result), 0.125888, 1e-4);
@@ -114,8 +109,7 @@ TEST(flip, every_pixel_follows_the_definition)
 {
     const Jobs jobs;
     // More than one tile in both directions, at two viewing distances.
-    for (const auto& [width, height, ppd] :
-         {std::tuple{262, 132, 30.0f}, {41, 37, kDefaultPpd}, {17, 1, 50.0f}}) {
+    for (const auto& [width, height, ppd] : {std::tuple{262, 132, 30.0f}, {41, 37, kDefaultPpd}, {17, 1, 50.0f}}) {
         const Image a = scenery(width, height, 1, 0.9f), b = scenery(width, height, 2, 0.7f);
         FlipOptions options;
         options.ppd = ppd;
@@ -123,12 +117,12 @@ TEST(flip, every_pixel_follows_the_definition)
         const std::vector<double> expected = test::flip_by_definition(a, b, static_cast<double>(ppd));
         ASSERT_EQ(error.bytes.size() / 4, expected.size());
         for (std::size_t i = 0; i < expected.size(); ++i)
-            ASSERT_NEAR(static_cast<double>(error.f32()[i]), expected[i], 2e-5)
-                << width << "x" << height << " pixel " << i;
+            ASSERT_NEAR(static_cast<double>(error.f32()[i]), expected[i], 2e-5) << width << "x" << height << " pixel " << i;
     }
 }
 
-// Rows that are equal are left out, but not those that a difference reaches: of single pixels, beside the seam of two tiles, near the border.
+// Rows that are equal are left out, but not those that a difference reaches: of single pixels, beside the seam of two tiles, near the
+// border.
 TEST(flip, one_pixel_spreads_as_by_the_definition)
 {
     const Jobs jobs;
@@ -176,8 +170,7 @@ TEST(flip, uniform_grays_differ_by_their_lightness)
     // L/100.
     const double da = -86.18 * 0.8773 - 79.19 * 0.3230, db = 83.18 * 0.8773 + 107.86 * 0.3230;
     const double knee = 0.4 * std::pow(87.73 - 32.30 + std::hypot(da, db), 0.7);
-    EXPECT_NEAR(mean_of(flip_ldr(a, b, {}, jobs)),
-                std::pow(lightness(0.5) - lightness(0.3), 0.7) * 0.95 / knee, 1e-3);
+    EXPECT_NEAR(mean_of(flip_ldr(a, b, {}, jobs)), std::pow(lightness(0.5) - lightness(0.3), 0.7) * 0.95 / knee, 1e-3);
 }
 
 TEST(flip, error_grows_with_the_difference)
@@ -208,19 +201,15 @@ TEST(flip, the_same_bits_for_every_thread_count_and_instruction_set)
     const Image a = scenery(530, 270, 9), b = scenery(530, 270, 10, 0.8f);
     const Image c = scenery(530, 270, 9, 30.0f), d = scenery(530, 270, 10, 25.0f);
     FlipOptions scalar;
-    scalar.isa = 0;
+    scalar.isa = Isa::scalar;
     const Image ldr = flip_ldr(a, b, scalar, Jobs(1)).error, hdr = flip_hdr(c, d, scalar, Jobs(1)).error;
-    for (int isa = 0; isa <= 2; ++isa) {
-        if (!flip_isa_available(isa))
-            continue;
+    for (const Isa isa : isas_with<FlipFns>()) {
         FlipOptions options;
         options.isa = isa;
         for (const int threads : {1, 2, 5}) {
             const Jobs jobs(threads);
-            EXPECT_EQ(flip_ldr(a, b, options, jobs).error.bytes, ldr.bytes)
-                << "isa " << isa << ", threads " << threads;
-            EXPECT_EQ(flip_hdr(c, d, options, jobs).error.bytes, hdr.bytes)
-                << "isa " << isa << ", threads " << threads;
+            EXPECT_EQ(flip_ldr(a, b, options, jobs).error.bytes, ldr.bytes) << isa_name(isa) << ", threads " << threads;
+            EXPECT_EQ(flip_hdr(c, d, options, jobs).error.bytes, hdr.bytes) << isa_name(isa) << ", threads " << threads;
         }
     }
 }
@@ -393,8 +382,7 @@ TEST(flip_exposures, black_stays_black_among_the_faintest_light)
 TEST(flip_hdr, brightness_of_both_pictures_does_not_matter)
 {
     const Jobs jobs;
-    const Image a = scenery(50, 50, 14), b = scenery(50, 50, 15), c = scenery(50, 50, 14, 4.0f),
-                d = scenery(50, 50, 15, 4.0f);
+    const Image a = scenery(50, 50, 14), b = scenery(50, 50, 15), c = scenery(50, 50, 14, 4.0f), d = scenery(50, 50, 15, 4.0f);
     const FlipResult one = flip_hdr(a, b, {}, jobs), other = flip_hdr(c, d, {}, jobs);
     EXPECT_NEAR(other.exposures.start_ev, one.exposures.start_ev - 2.0f, 1e-5f);
     EXPECT_NEAR(mean_of(one), mean_of(other), 1e-5);

@@ -9,8 +9,9 @@
 #include <chrono>
 #include <filesystem>
 
-#include "core/image/image_io.h"
+#include "core/image/io/image_io.h"
 #include "small_files.h"
+#include "tests/unit/data.h"
 
 namespace burnish {
 namespace {
@@ -76,33 +77,28 @@ ChildEnd refuse_in_child(const std::string& path)
 
 TEST(malformed, every_shared_file_is_refused_in_little_time_and_memory)
 {
-    const std::string data = BN_SHARED_DATA "/malformed";
-    if (!fs::exists(data))
-        GTEST_SKIP() << "no shared data";
     int files = 0;
-    for (const char* folder : {"/exr", "/hdr", "/png", "/image"})
-        for (const fs::directory_entry& entry : fs::directory_iterator(data + folder)) {
-            if (entry.path().extension() == ".gltf")
+    for (const char* folder : {"malformed/exr", "malformed/hdr", "malformed/png", "malformed/image"})
+        for (const std::string& path : test::data_files(folder)) {
+            if (fs::path(path).extension() == ".gltf")
                 continue;
             const auto begin = std::chrono::steady_clock::now();
-            const ChildEnd end = refuse_in_child(entry.path().string());
+            const ChildEnd end = refuse_in_child(path);
             const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
-            EXPECT_EQ(end.status, 0) << entry.path();
-            EXPECT_LT(seconds.count(), 2.0) << entry.path();
+            EXPECT_EQ(end.status, 0) << path;
+            EXPECT_LT(seconds.count(), 2.0) << path;
 #ifndef BN_SANITIZED
-            EXPECT_LT(end.peak_kib, 200 * 1024) << entry.path();
+            EXPECT_LT(end.peak_kib, 200 * 1024) << path;
 #endif
-            refusal_of_path(entry.path().string());
+            refusal_of_path(path);
             ++files;
         }
-    EXPECT_EQ(files, 10);
+    EXPECT_GE(files, 10);
 }
 
 TEST(malformed, errors_say_where)
 {
-    const std::string data = BN_SHARED_DATA "/malformed";
-    if (!fs::exists(data))
-        GTEST_SKIP() << "no shared data";
+    const std::string data = BN_TEST_DATA "/malformed";
     EXPECT_EQ(refusal_of_path(data + "/png/bomb_60000x60000.png").place, "header: width 60000");
     EXPECT_EQ(refusal_of_path(data + "/hdr/huge_dims.hdr").place, "header: width 2147483647");
     EXPECT_EQ(refusal_of_path(data + "/hdr/truncated.hdr").place, "byte 40000");

@@ -1,4 +1,4 @@
-#include "core/image/metrics.h"
+#include "core/image/metrics/metrics.h"
 
 #include <gtest/gtest.h>
 
@@ -24,8 +24,7 @@ Image floats(int width, int height, int channels, const std::vector<float>& valu
 Image bytes(int width, int height, int channels, const std::vector<int>& values)
 {
     Image image = make_image(width, height, channels, PixelType::u8);
-    std::transform(values.begin(), values.end(), image.bytes.begin(),
-                   [](int v) { return static_cast<std::byte>(v); });
+    std::transform(values.begin(), values.end(), image.bytes.begin(), [](int v) { return static_cast<std::byte>(v); });
     return image;
 }
 
@@ -38,7 +37,7 @@ Image noise(int width, int height, int channels, unsigned seed)
     return image;
 }
 
-TEST(metrics, equal_pictures)
+TEST(metrics, of_equal_pictures_are_all_zero)
 {
     const Jobs jobs;
     const Image image = noise(30, 20, 3, 1);
@@ -51,7 +50,7 @@ TEST(metrics, equal_pictures)
     EXPECT_DOUBLE_EQ(ssim(image, image, jobs), 1.0);
 }
 
-TEST(metrics, by_hand)
+TEST(metrics, equal_those_done_by_hand)
 {
     const Jobs jobs;
     const Image a = floats(2, 1, 3, {1, 2, 3, 0, 0, 4}), b = floats(2, 1, 3, {1, 2.5f, 1, 0, 0, 4});
@@ -82,8 +81,7 @@ TEST(metrics, display_values_are_in_zero_to_one)
     EXPECT_EQ(figures.differing_fraction, 0.25);
     Image wide = make_image(2, 2, 1, PixelType::u16);
     for (std::size_t i = 0; i < 4; ++i)
-        reinterpret_cast<std::uint16_t*>(wide.bytes.data())[i] =
-            static_cast<std::uint16_t>(static_cast<int>(b.bytes[i]) * 257);
+        reinterpret_cast<std::uint16_t*>(wide.bytes.data())[i] = static_cast<std::uint16_t>(static_cast<int>(b.bytes[i]) * 257);
     EXPECT_EQ(pixel_figures(a, wide, jobs).mse, figures.mse);
 }
 
@@ -112,18 +110,15 @@ TEST(metrics, not_finite_pixels_are_counted_once)
     const Image clean = floats(3, 1, 2, {1, 2, 3, 4, 5, 6});
     EXPECT_EQ(not_finite_pixels(clean, clean), 0);
     EXPECT_EQ(not_finite_pixels(clean, floats(3, 1, 2, {kNan, kInf, 3, 4, 5, -kInf})), 2);
-    EXPECT_EQ(
-        not_finite_pixels(floats(3, 1, 2, {kNan, 2, 3, 4, 5, 6}), floats(3, 1, 2, {kNan, 2, 3, kInf, 5, 6})),
-        2);
+    EXPECT_EQ(not_finite_pixels(floats(3, 1, 2, {kNan, 2, 3, 4, 5, 6}), floats(3, 1, 2, {kNan, 2, 3, kInf, 5, 6})), 2);
     EXPECT_EQ(not_finite_pixels(bytes(1, 1, 1, {255}), bytes(1, 1, 1, {0})), 0);
 }
 
 // Uniform pictures have no variance: only the means count.
-TEST(ssim, uniform_pictures)
+TEST(ssim, of_uniform_pictures_compares_their_means)
 {
     const Jobs jobs;
-    const Image a = floats(16, 16, 1, std::vector<float>(256, 0.5f)),
-                b = floats(16, 16, 1, std::vector<float>(256, 0.25f));
+    const Image a = floats(16, 16, 1, std::vector<float>(256, 0.5f)), b = floats(16, 16, 1, std::vector<float>(256, 0.25f));
     const double c1 = 0.01 * 0.5 * 0.01 * 0.5; // peak 0.5
     EXPECT_NEAR(ssim(a, b, jobs), (2 * 0.5 * 0.25 + c1) / (0.25 + 0.0625 + c1), 1e-9);
 }
@@ -136,9 +131,9 @@ double ssim_by_definition(const Image& a, const Image& b, int margin)
     const auto at = [](const Image& image, int x, int y) {
         x = std::clamp(x, 0, image.width - 1), y = std::clamp(y, 0, image.height - 1);
         const float* v = image.f32() + static_cast<std::size_t>((y * image.width + x) * image.channels);
-        return image.channels < 3 ? static_cast<double>(v[0])
-                                  : 0.2126 * static_cast<double>(v[0]) + 0.7152 * static_cast<double>(v[1]) +
-                                        0.0722 * static_cast<double>(v[2]);
+        return image.channels < 3
+                   ? static_cast<double>(v[0])
+                   : 0.2126 * static_cast<double>(v[0]) + 0.7152 * static_cast<double>(v[1]) + 0.0722 * static_cast<double>(v[2]);
     };
     double sum = 0;
     int windows = 0;
@@ -147,13 +142,11 @@ double ssim_by_definition(const Image& a, const Image& b, int margin)
             double weights = 0, ma = 0, mb = 0, aa = 0, bb = 0, ab = 0;
             for (int j = -5; j <= 5; ++j)
                 for (int i = -5; i <= 5; ++i) {
-                    const double w = std::exp(-(i * i + j * j) / (2 * 1.5 * 1.5)), p = at(a, x + i, y + j),
-                                 q = at(b, x + i, y + j);
+                    const double w = std::exp(-(i * i + j * j) / (2 * 1.5 * 1.5)), p = at(a, x + i, y + j), q = at(b, x + i, y + j);
                     weights += w, ma += w * p, mb += w * q, aa += w * p * p, bb += w * q * q, ab += w * p * q;
                 }
             ma /= weights, mb /= weights;
-            const double va = aa / weights - ma * ma, vb = bb / weights - mb * mb,
-                         cov = ab / weights - ma * mb;
+            const double va = aa / weights - ma * ma, vb = bb / weights - mb * mb, cov = ab / weights - ma * mb;
             sum += (2 * ma * mb + c1) * (2 * cov + c2) / ((ma * ma + mb * mb + c1) * (va + vb + c2));
         }
     return sum / windows;
@@ -176,7 +169,7 @@ TEST(ssim, follows_the_definition)
     }
 }
 
-TEST(ssim, pictures_smaller_than_the_window)
+TEST(ssim, of_pictures_smaller_than_the_window_follows_the_definition)
 {
     const Jobs jobs;
     const Image a = noise(7, 4, 1, 5), b = noise(7, 4, 1, 6);
@@ -198,7 +191,7 @@ TEST(metrics, the_same_bits_for_every_thread_count)
     }
 }
 
-TEST(errors, of_a_ramp)
+TEST(errors, of_a_ramp_have_its_mean_percentiles_and_ends)
 {
     std::vector<float> ramp;
     for (int i = 1; i <= 200; ++i)
@@ -221,8 +214,7 @@ TEST(errors, percentiles_are_those_of_the_sorted_list)
             values.push_back(static_cast<float>(std::pow(static_cast<double>(random()) / 4294967296.0, 6.0)));
         const ErrorSummary summary = summarise_errors(floats(n, 1, 1, values));
         std::sort(values.begin(), values.end());
-        const std::size_t rank =
-            static_cast<std::size_t>((99 * n + 99) / 100); // nearest rank, counted from 1
+        const std::size_t rank = static_cast<std::size_t>((99 * n + 99) / 100); // nearest rank, counted from 1
         EXPECT_EQ(summary.p99, static_cast<double>(values[rank - 1])) << n;
         double sum = 0, part = 0;
         for (const float v : values)
@@ -235,7 +227,7 @@ TEST(errors, percentiles_are_those_of_the_sorted_list)
     }
 }
 
-TEST(errors, without_any)
+TEST(errors, of_equal_pictures_are_all_zero)
 {
     const ErrorSummary summary = summarise_errors(floats(3, 1, 1, {0, 0, -0.0f}));
     EXPECT_EQ(summary.mean, 0.0);
@@ -245,7 +237,7 @@ TEST(errors, without_any)
 }
 
 // First, middle and last colour of the published table; the eye sees it brighten all along.
-TEST(magma, ends_and_middle)
+TEST(magma, ends_and_middle_are_the_published_colours)
 {
     const Image colours = magma_map(floats(6, 1, 1, {0, 128.0f / 255.0f, 1, -1, 2, kNan}));
     const std::vector<std::vector<int>> expected = {{0, 0, 4}, {0xb7, 0x37, 0x79}, {0xfc, 0xfd, 0xbf},
@@ -261,9 +253,7 @@ TEST(magma, every_step_is_lighter_and_small)
     for (int i = 0; i < 256; ++i)
         ramp.f32()[i] = static_cast<float>(i) / 255.0f;
     const Image colours = magma_map(ramp);
-    const auto channel = [&](std::size_t i, std::size_t c) {
-        return static_cast<int>(colours.bytes[3 * i + c]);
-    };
+    const auto channel = [&](std::size_t i, std::size_t c) { return static_cast<int>(colours.bytes[3 * i + c]); };
     for (std::size_t i = 1; i < 256; ++i) {
         int lighter = 0;
         for (std::size_t c = 0; c < 3; ++c) {

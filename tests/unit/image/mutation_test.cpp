@@ -3,7 +3,7 @@
 
 #include <cstring>
 
-#include "core/image/image_io.h"
+#include "core/image/io/image_io.h"
 #include "small_files.h"
 
 namespace burnish {
@@ -33,15 +33,13 @@ void damage(Bytes& bytes, Random& random)
             bytes[at] = static_cast<std::uint8_t>(bytes[at] ^ (1u << random.below(8)));
             break;
         case 2:
-            std::memset(bytes.data() + at, random.below(2) ? 0xFF : 0x00,
-                        std::min<std::size_t>(4, bytes.size() - at));
+            std::memset(bytes.data() + at, random.below(2) ? 0xFF : 0x00, std::min<std::size_t>(4, bytes.size() - at));
             break;
         case 3:
             bytes.erase(bytes.begin() + static_cast<std::ptrdiff_t>(at));
             break;
         case 4:
-            bytes.insert(bytes.begin() + static_cast<std::ptrdiff_t>(at),
-                         static_cast<std::uint8_t>(random.below(256)));
+            bytes.insert(bytes.begin() + static_cast<std::ptrdiff_t>(at), static_cast<std::uint8_t>(random.below(256)));
             break;
         default:
             if (random.below(4) == 0)
@@ -83,8 +81,7 @@ void survive(const Bytes& sound, int rounds, std::uint64_t seed)
             ASSERT_EQ(image.error().code, ExitCode::bad_input);
         } else {
             ASSERT_EQ(image->bytes.size(),
-                      static_cast<std::size_t>(image->width * image->height * image->channels) *
-                          pixel_type_bytes(image->type));
+                      static_cast<std::size_t>(image->width * image->height * image->channels) * pixel_type_bytes(image->type));
         }
     }
     EXPECT_EQ(testing::internal::GetCapturedStderr(), ""); // errors are returned, never printed

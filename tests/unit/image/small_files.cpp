@@ -121,8 +121,7 @@ std::uint16_t half_of(float v)
     const std::uint32_t bits = std::bit_cast<std::uint32_t>(v);
     if ((bits & 0x7FFFFFFFu) == 0)
         return static_cast<std::uint16_t>(bits >> 16);
-    return static_cast<std::uint16_t>((bits >> 16 & 0x8000u) | (((bits >> 23 & 0xFFu) - 112) << 10) |
-                                      (bits >> 13 & 0x3FFu));
+    return static_cast<std::uint16_t>((bits >> 16 & 0x8000u) | (((bits >> 23 & 0xFFu) - 112) << 10) | (bits >> 13 & 0x3FFu));
 }
 
 std::string exr_line(const ExrPart& part, int row)
@@ -143,8 +142,7 @@ std::string exr_line(const ExrPart& part, int row)
 
 } // namespace
 
-Bytes make_png(int width, int height, int depth, int colour_type, const std::string& raw,
-               const std::vector<PngChunk>& extra)
+Bytes make_png(int width, int height, int depth, int colour_type, const std::string& raw, const std::vector<PngChunk>& extra)
 {
     std::string header;
     big32(header, static_cast<std::uint32_t>(width));
@@ -166,8 +164,7 @@ Bytes make_png(int width, int height, int depth, int colour_type, const std::str
 Bytes make_exr(const std::vector<ExrPart>& parts)
 {
     const bool many = parts.size() > 1;
-    const bool deep =
-        std::any_of(parts.begin(), parts.end(), [](const ExrPart& p) { return p.type == "deepscanline"; });
+    const bool deep = std::any_of(parts.begin(), parts.end(), [](const ExrPart& p) { return p.type == "deepscanline"; });
     std::string out = "\x76\x2f\x31\x01";
     little(out, 2u | (many ? 0x1000u : 0u) | (deep ? 0x800u : 0u), 4);
     for (std::size_t i = 0; i < parts.size(); ++i)

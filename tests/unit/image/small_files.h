@@ -26,8 +26,7 @@ struct PngChunk {
 
 // A PNG of stored (uncompressed) deflate blocks. `raw` holds the scanlines without filter bytes; `extra`
 // chunks (PLTE, tRNS, gAMA, ...) come before the pixels.
-Bytes make_png(int width, int height, int depth, int colour_type, const std::string& raw,
-               const std::vector<PngChunk>& extra = {});
+Bytes make_png(int width, int height, int depth, int colour_type, const std::string& raw, const std::vector<PngChunk>& extra = {});
 
 struct ExrChannel {
     std::string name; // in alphabetical order, as the format wants them

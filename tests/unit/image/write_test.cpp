@@ -12,7 +12,7 @@
 #include <limits>
 #include <thread>
 
-#include "core/image/image_io.h"
+#include "core/image/io/image_io.h"
 #include "small_files.h"
 
 namespace burnish {
@@ -152,9 +152,8 @@ TEST(write, exr_header_holds_nothing_volatile)
     const std::string path = test::temporary_folder() + "/a.exr";
     ASSERT_TRUE(write_image(path, gradient32(4)));
     EXPECT_EQ(exr_attribute_names(test::bytes_of(path)),
-              (std::vector<std::string>{"channels", "chromaticities", "compression", "dataWindow",
-                                        "displayWindow", "lineOrder", "pixelAspectRatio",
-                                        "screenWindowCenter", "screenWindowWidth"}));
+              (std::vector<std::string>{"channels", "chromaticities", "compression", "dataWindow", "displayWindow", "lineOrder",
+                                        "pixelAspectRatio", "screenWindowCenter", "screenWindowWidth"}));
 }
 
 TEST(write, png_is_marked_as_srgb_and_holds_no_more)
@@ -228,8 +227,7 @@ TEST(write, impossible_outputs_are_clear_errors)
 {
     const std::string folder = test::temporary_folder();
     const Image floats = gradient32(3);
-    EXPECT_EQ(failure(write_image(folder + "/no/a.exr", floats)).reason,
-              "cannot be written: its folder does not exist");
+    EXPECT_EQ(failure(write_image(folder + "/no/a.exr", floats)).reason, "cannot be written: its folder does not exist");
     fs::create_directory(folder + "/dir.exr");
     EXPECT_NE(failure(write_image(folder + "/dir.exr", floats)).reason.find("directory"), std::string::npos);
     failure(write_image(folder + "/a.png", floats));
@@ -249,8 +247,7 @@ TEST(write, folder_without_permission_is_an_error)
         GTEST_SKIP() << "root may write everywhere";
     const std::string folder = test::temporary_folder();
     ASSERT_EQ(chmod(folder.c_str(), 0500), 0);
-    EXPECT_NE(failure(write_image(folder + "/a.exr", gradient32(3))).reason.find("ermission"),
-              std::string::npos);
+    EXPECT_NE(failure(write_image(folder + "/a.exr", gradient32(3))).reason.find("ermission"), std::string::npos);
     ASSERT_EQ(chmod(folder.c_str(), 0700), 0);
 }
 

@@ -24,8 +24,7 @@ TEST(jobs, every_index_runs_once)
         for (const std::size_t count : {0u, 1u, 2u, 7u, 1000u, 100003u}) {
             std::vector<std::atomic<int>> runs(count);
             jobs.parallel_for(count, [&](std::size_t i, int) { ++runs[i]; });
-            EXPECT_TRUE(std::all_of(runs.begin(), runs.end(), [](const auto& n) { return n == 1; }))
-                << threads;
+            EXPECT_TRUE(std::all_of(runs.begin(), runs.end(), [](const auto& n) { return n == 1; })) << threads;
         }
     }
 }

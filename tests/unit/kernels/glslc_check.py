@@ -1,7 +1,7 @@
-"""Compiles a kernel file as GLSL and looks at the SPIR-V: every operation on reals must carry NoContraction, and of GLSL's own
-functions only the exact ones may be used. Without that, the GPU's bits are not the CPU's.
+"""Compiles a file of the kernel language (kernels *.k.h, assembly *.t.h) as GLSL and looks at the SPIR-V: every operation on reals
+must carry NoContraction, and of GLSL's own functions only the exact ones may be used. Without that, the GPU's bits are not the CPU's.
 
-usage: glslc_check.py SOURCE_ROOT KERNEL.k.h    exit 77: glslc or spirv-dis is absent
+usage: glslc_check.py SOURCE_ROOT FILE    exit 77: glslc or spirv-dis is absent
 """
 import re
 import shutil
@@ -13,7 +13,8 @@ from pathlib import Path
 ROUNDED = {"OpFAdd", "OpFSub", "OpFMul", "OpFDiv", "OpFRem", "OpFMod", "OpVectorTimesScalar", "OpMatrixTimesScalar",
            "OpVectorTimesMatrix", "OpMatrixTimesVector", "OpMatrixTimesMatrix", "OpOuterProduct", "OpDot"}
 EXACT_FUNCTIONS = {"FAbs", "SAbs", "Floor", "Ceil", "Sqrt", "RoundEven", "UnpackHalf2x16"}
-FUNCTION = re.compile(r"^BN_FN\s+(\w+)\s+(\w+)\s*\(([^)]*)\)", re.MULTILINE)
+FUNCTION = re.compile(r"^BN_FN\s+(\w+)\s+(\w+)\s*\(([^{;]*)\)\s*\{", re.MULTILINE)
+TYPE = re.compile(r"(?:BN_IN|BN_INOUT)\((\w+)\)|(?:const\s+)?(\w+)")
 
 
 def shader_for(text, include):
@@ -22,12 +23,13 @@ def shader_for(text, include):
     for result, name, parameters in FUNCTION.findall(text):
         declarations, arguments = [], []
         for k, parameter in enumerate(p.strip() for p in parameters.split(",") if p.strip()):
-            kind = " ".join(parameter.split()[:-1])
-            declarations.append(f"{kind.removeprefix('const ')} p{k};")
+            found = TYPE.match(parameter)
+            declarations.append(f"{found[1] or found[2]} p{k};")
             arguments.append(f"p{k}")
-        calls.append(f"    {{ {' '.join(declarations)} {result} r = {name}({', '.join(arguments)}); }}")
-    lines = ["#version 460", '#include "shading/lang/lang.h"', f'#include "{include}"',
-             "layout(local_size_x = 1) in;", "void main()", "{", *calls, "}"]
+        call = f"{name}({', '.join(arguments)});"
+        calls.append(f"    {{ {' '.join(declarations)} {call if result == 'void' else f'{result} r = {call}'} }}")
+    stage = ["#extension GL_EXT_buffer_reference_uvec2 : require"] if include.endswith(".t.h") else ['#include "shading/lang/lang.h"']
+    lines = ["#version 460", *stage, f'#include "{include}"', "layout(local_size_x = 1) in;", "void main()", "{", *calls, "}"]
     return "\n".join(lines) + "\n", len(calls)
 
 
@@ -36,7 +38,7 @@ def compile_shader(root, text, folder):
     source.write_text(text)
     binary = Path(folder) / "kernel.spv"
     # -w: `precise` on what needs none is only a warning, and it comes in hundreds.
-    command = ["glslc", "-w", "-O0", "--target-env=vulkan1.1", f"-I{root}", f"-I{folder}", str(source), "-o", str(binary)]
+    command = ["glslc", "-w", "-O0", "--target-env=vulkan1.3", f"-I{root}", f"-I{folder}", str(source), "-o", str(binary)]
     run = subprocess.run(command, capture_output=True, text=True)
     if run.returncode:
         return None, run.stderr

@@ -70,14 +70,11 @@ double p_value(const std::vector<double>& observed, const std::vector<double>& e
 std::size_t cell_of(const Chart& chart, Vec wi)
 {
     const std::array<double, 2> at = chart.of(wi);
-    const auto bin = [](double x) {
-        return std::min(static_cast<std::size_t>(std::max(x, 0.0) * kBins), kBins - 1);
-    };
+    const auto bin = [](double x) { return std::min(static_cast<std::size_t>(std::max(x, 0.0) * kBins), kBins - 1); };
     return bin(at[0]) * kBins + bin(at[1]);
 }
 
-std::vector<double> counted(const ModelCase& model, const std::vector<double>& params, const Chart& chart,
-                            std::uint64_t seed)
+std::vector<double> counted(const ModelCase& model, const std::vector<double>& params, const Chart& chart, std::uint64_t seed)
 {
     std::vector<double> cells(kCells);
     Random random(seed);
@@ -88,8 +85,7 @@ std::vector<double> counted(const ModelCase& model, const std::vector<double>& p
             const double x = random.next(), y = random.next(), z = random.next();
             batch.set(k, chart.wo, {x, y, z});
         }
-        const std::vector<double> s =
-            batch.run(float_fns().back().models[model.index].sample, kSampleOutputs);
+        const std::vector<double> s = batch.run(fast_fns().models[model.index].sample, kSampleOutputs);
         for (std::size_t k = 0; k < kAtOnce; ++k) {
             const bool valid = s[6 * kAtOnce + k] != 0;
             cells[valid ? cell_of(chart, {s[k], s[kAtOnce + k], s[2 * kAtOnce + k]}) : kCells - 1] += 1;
@@ -115,19 +111,17 @@ std::vector<double> foretold(const ModelCase& model, const std::vector<double>& 
             batch.set(k, chart.wo, p.wi);
             measure[k] = p.per_wi / static_cast<double>(side * side);
         }
-        const std::vector<double> pdf = batch.run(float_fns().back().models[model.index].pdf);
+        const std::vector<double> pdf = batch.run(fast_fns().models[model.index].pdf);
         for (std::size_t k = 0; k < count; ++k)
             if (measure[k] > 0)
-                cells[row * kBins + (k % side) / points] +=
-                    pdf[k] * measure[k] * static_cast<double>(kSamples);
+                cells[row * kBins + (k % side) / points] += pdf[k] * measure[k] * static_cast<double>(kSamples);
     }
     const double sum = std::accumulate(cells.begin(), cells.end(), 0.0);
     cells.back() = std::max(static_cast<double>(kSamples) - sum, 0.0);
     return cells;
 }
 
-double run(const ModelCase& model, const Setting& setting, const std::vector<double>& sampled, Vec wo,
-           std::uint64_t seed)
+double run(const ModelCase& model, const Setting& setting, const std::vector<double>& sampled, Vec wo, std::uint64_t seed)
 {
     const Chart chart = chart_of(model, setting, wo);
     return p_value(counted(model, sampled, chart, seed), foretold(model, setting.params, chart));
@@ -143,14 +137,14 @@ double limit_of_run()
     return 1 - std::pow(1 - kSignificance, 1 / runs);
 }
 
-class ChiSquare : public testing::TestWithParam<ModelCase> {};
+class chi_square : public testing::TestWithParam<ModelCase> {};
 std::string case_name(const testing::TestParamInfo<ModelCase>& info)
 {
     return info.param.name;
 }
-INSTANTIATE_TEST_SUITE_P(models, ChiSquare, testing::ValuesIn(model_cases()), case_name);
+INSTANTIATE_TEST_SUITE_P(models, chi_square, testing::ValuesIn(model_cases()), case_name);
 
-TEST_P(ChiSquare, samples_follow_the_pdf)
+TEST_P(chi_square, samples_follow_the_pdf)
 {
     const double limit = limit_of_run();
     std::uint64_t seed = 100;
@@ -165,7 +159,7 @@ TEST_P(ChiSquare, samples_follow_the_pdf)
     }
 }
 
-TEST(ChiSquarePower, sees_a_lobe_five_percent_too_wide)
+TEST(chi_square_power, sees_a_lobe_five_percent_too_wide)
 {
     const ModelCase& model = model_case("ggx_aniso");
     const Setting& setting = model.settings[0];
@@ -174,7 +168,7 @@ TEST(ChiSquarePower, sees_a_lobe_five_percent_too_wide)
     EXPECT_LT(run(model, setting, wider, rounded(direction(0.8, 2.0)), 1), 1e-6);
 }
 
-TEST(ChiSquarePower, gamma_function_has_known_values)
+TEST(chi_square_power, gamma_function_has_known_values)
 {
     EXPECT_NEAR(gamma_q(0.5, 1.9207294), 0.05, 1e-7); // chi-square 3.841459, 1 degree of freedom
     EXPECT_NEAR(gamma_q(50, 62.1710562), 0.05, 1e-6); // 124.3421, 100 degrees

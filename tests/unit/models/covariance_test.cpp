@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 #include <numbers>
 
-#include "shading/bake/anisotropy.h"
+#include "shading/bake/mip/anisotropy.h"
 #include "tests/unit/models/harness.h"
 
 namespace burnish::test {
@@ -14,8 +14,14 @@ namespace {
 
 using Tensor = std::array<double, 3>; // xx, yy, xy
 
-Tensor operator*(double s, Tensor t) { return {s * t[0], s * t[1], s * t[2]}; }
-Tensor mixed(Tensor a, Tensor b) { return .5 * Tensor{a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
+Tensor operator*(double s, Tensor t)
+{
+    return {s * t[0], s * t[1], s * t[2]};
+}
+Tensor mixed(Tensor a, Tensor b)
+{
+    return .5 * Tensor{a[0] + b[0], a[1] + b[1], a[2] + b[2]};
+}
 Tensor of_direction(double angle)
 {
     const double c = std::cos(angle), s = std::sin(angle);
@@ -48,14 +54,13 @@ std::vector<double> run(const char* name, const std::vector<double>& in)
 }
 Tensor from_eta(double alpha_lin, double eta, double turn, Tensor t)
 {
-    const std::vector<double> r =
-        run("covariance_eta_tensor", {alpha_lin, eta, std::cos(turn), std::sin(turn), t[0], t[1], t[2]});
+    const std::vector<double> r = run("covariance_eta_tensor", {alpha_lin, eta, std::cos(turn), std::sin(turn), t[0], t[1], t[2]});
     return {r[0], r[1], r[2]};
 }
 Tensor from_khr(double alpha, double strength, double turn, Tensor t2, Tensor t4)
 {
-    const std::vector<double> r = run("covariance_tensors", {alpha, strength, std::cos(turn), std::sin(turn), t2[0], t2[1], t2[2],
-                                                             t4[0], t4[1], t4[2]});
+    const std::vector<double> r =
+        run("covariance_tensors", {alpha, strength, std::cos(turn), std::sin(turn), t2[0], t2[1], t2[2], t4[0], t4[1], t4[2]});
     return {r[0], r[1], r[2]};
 }
 const Tensor kNoTexture = {1, 0, 0};
@@ -97,7 +102,7 @@ Tensor texel(double r, double g, double b, int power, PixelType type = PixelType
     return {static_cast<double>(t[0]), static_cast<double>(t[1]), static_cast<double>(t[2])};
 }
 
-TEST(Covariance, follows_roughness_anisotropy_and_direction)
+TEST(covariance, follows_roughness_anisotropy_and_direction)
 {
     for (double eta : {-1.0, -.95, -.4, 0.0, .3, .95, 1.0})
         for (double alpha_lin : {0.0, .001, .3, 1.0})
@@ -109,7 +114,7 @@ TEST(Covariance, follows_roughness_anisotropy_and_direction)
                 }
 }
 
-TEST(Covariance, deviations_are_those_of_the_test_vectors)
+TEST(covariance, deviations_are_those_of_the_test_vectors)
 {
     const Axes a = axes_of(from_eta(.5, .8, 0, kNoTexture));
     EXPECT_NEAR(a.sigma_u, .31819805, 1e-7);
@@ -127,7 +132,7 @@ TEST(Covariance, deviations_are_those_of_the_test_vectors)
     EXPECT_EQ(crossed.y, 1);
 }
 
-TEST(Covariance, decomposition_is_the_inverse)
+TEST(covariance, decomposition_is_the_inverse)
 {
     double worst = 0;
     for (int i = 0; i < 2000; ++i) {
@@ -144,26 +149,26 @@ TEST(Covariance, decomposition_is_the_inverse)
     EXPECT_LE(worst, 1e-6);
 }
 
-TEST(Covariance, degenerate_matrices_have_axes)
+TEST(covariance, degenerate_matrices_have_axes)
 {
-    const Tensor bad[] = {
-        {0, 0, 0},         {1e-3, 1e-3, 0},  {1e-3, 1e-3, 1e-20}, {1e-3, 2e-3, 1e-25},  {2e-3, 1e-3, -1e-25},
-        {0, 1e-3, 0},      {1e-3, 0, 0},     {1e-3, 1e-3, 2e-3},  {1e-3, 1e-3, -2e-3},  {1e-12, 1e-12, 1e-13},
-        {1e-30, 1e-35, 0}, {-1e-9, 1e-9, 0}, {0.5, 1e-9, 1e-5},   {1e-38, 2e-38, 1e-38}};
+    const Tensor bad[] = {{0, 0, 0},         {1e-3, 1e-3, 0},  {1e-3, 1e-3, 1e-20}, {1e-3, 2e-3, 1e-25},  {2e-3, 1e-3, -1e-25},
+                          {0, 1e-3, 0},      {1e-3, 0, 0},     {1e-3, 1e-3, 2e-3},  {1e-3, 1e-3, -2e-3},  {1e-12, 1e-12, 1e-13},
+                          {1e-30, 1e-35, 0}, {-1e-9, 1e-9, 0}, {0.5, 1e-9, 1e-5},   {1e-38, 2e-38, 1e-38}};
     for (const Tensor& m : bad) {
         const Axes a = axes_of(m);
         EXPECT_NEAR(a.x * a.x + a.y * a.y, 1, 1e-6) << m[0] << " " << m[1] << " " << m[2];
-        EXPECT_GE(a.sigma_v, 0.7071e-3);
+        const double mean = std::sqrt(std::max(0.0, 0.5 * (m[0] + m[1])));
+        EXPECT_GE(a.sigma_v, std::min(0.7071e-3, 0.9999 * mean)); // a round lobe keeps its width, however narrow
         EXPECT_GE(a.sigma_u, a.sigma_v);
         EXPECT_LE(a.sigma_u, 1);
-        EXPECT_TRUE(a.eta >= 0 && a.eta < 1);
+        EXPECT_TRUE(mean == 0.0 || (a.eta >= 0 && a.eta < 1)) << a.eta;
     }
     const Axes steep = axes_of({1e-3, 2e-3, 1e-25});
     EXPECT_EQ(steep.y, 1) << "the axis of the larger entry, though the other is lost in rounding";
 }
 
 // alpha_t = mix(alpha, 1, strength^2), alpha_b = alpha; rotation counter-clockwise from the tangent.
-TEST(Covariance, follows_khr_materials_anisotropy)
+TEST(covariance, follows_khr_materials_anisotropy)
 {
     for (double alpha : {0.0, 1e-6, .16, 1.0})
         for (double strength : {0.0, .001, .6, 1.0})
@@ -181,19 +186,18 @@ TEST(Covariance, follows_khr_materials_anisotropy)
 }
 
 // Red and green turn the axis on, blue weakens it, whatever the type of the file.
-TEST(DirectionMap, texels_turn_and_weaken_the_axis)
+TEST(direction_map, texels_turn_and_weaken_the_axis)
 {
     for (const auto& [type, step] : {std::pair{PixelType::f32, 1e-7}, {PixelType::u16, 1e-4}, {PixelType::u8, 8e-3}})
         for (double angle : {0.0, .3, 1.4, 2.9, -2.0})
             for (double blue : {0.0, .5, 1.0}) {
                 const double r = .5 + .5 * std::cos(angle), g = .5 + .5 * std::sin(angle);
-                const Tensor got =
-                    from_khr(.16, .6, .5, texel(r, g, blue, 2, type), texel(r, g, blue, 4, type));
+                const Tensor got = from_khr(.16, .6, .5, texel(r, g, blue, 2, type), texel(r, g, blue, 4, type));
                 expect_near(got, by_definition_khr(.16, .6 * blue, .5 + angle), step, "texel");
             }
 }
 
-TEST(DirectionMap, length_of_a_direction_does_not_count)
+TEST(direction_map, length_of_a_direction_does_not_count)
 {
     const Tensor full = texel(1, .5, .7, 2), faint = texel(.51, .5, .7, 2);
     expect_near(full, {.49, 0, 0}, 1e-7, "full");
@@ -201,11 +205,15 @@ TEST(DirectionMap, length_of_a_direction_does_not_count)
 }
 
 // (128, 128) in eight bits stands for no direction.
-TEST(DirectionMap, a_texel_without_direction_is_isotropic)
+TEST(direction_map, a_texel_without_direction_is_isotropic)
 {
     const double nan = std::nan("");
-    const Tensor none[] = {texel(.5, .5, 1, 2), texel(128 / 255., 128 / 255., 1, 2, PixelType::u8),
-                           texel(.5 + .003, .5 + .003, 1, 2), texel(nan, .5, 1, 2), texel(.5, HUGE_VAL, 1, 2), texel(1, .5, nan, 2)};
+    const Tensor none[] = {texel(.5, .5, 1, 2),
+                           texel(128 / 255., 128 / 255., 1, 2, PixelType::u8),
+                           texel(.5 + .003, .5 + .003, 1, 2),
+                           texel(nan, .5, 1, 2),
+                           texel(.5, HUGE_VAL, 1, 2),
+                           texel(1, .5, nan, 2)};
     for (const Tensor& t2 : none) {
         expect_near(t2, {0, 0, 0}, 0, "tensor");
         const Tensor khr = from_khr(.25, 1, .4, t2, t2);
@@ -222,29 +230,27 @@ TEST(DirectionMap, a_texel_without_direction_is_isotropic)
 }
 
 // The mean of two texels' tensors gives the mean of their covariances: filtering tensors filters the covariance.
-TEST(DirectionMap, filtering_is_exact)
+TEST(direction_map, filtering_is_exact)
 {
     const double alpha = .09, strength = .8, turn = .4;
     const auto of = [](double weight, double angle, int power) {
         return texel(.5 + .5 * std::cos(angle), .5 + .5 * std::sin(angle), weight, power);
     };
     const Tensor got = from_khr(alpha, strength, turn, mixed(of(.7, .3, 2), of(1, 2, 2)), mixed(of(.7, .3, 4), of(1, 2, 4)));
-    expect_near(got,
-                mixed(by_definition_khr(alpha, strength * .7, turn + .3), by_definition_khr(alpha, strength, turn + 2)),
-                1e-7, "mean");
+    expect_near(got, mixed(by_definition_khr(alpha, strength * .7, turn + .3), by_definition_khr(alpha, strength, turn + 2)), 1e-7, "mean");
 }
 
 // A direction and its opposite are the same grain, and a grain of any strength turns an override's axis.
-TEST(DirectionMap, strength_does_not_change_an_override)
+TEST(direction_map, strength_does_not_change_an_override)
 {
     for (double angle : {0.0, .3, 1.4, 2.9})
         for (double strength : {.2, 1.0})
             for (double turn : {0.0, std::numbers::pi})
-                expect_near(from_eta(.5, .8, 0, strength * strength * of_direction(angle + turn)),
-                            by_definition_eta(.5, .8, angle), 1e-7, "override");
+                expect_near(from_eta(.5, .8, 0, strength * strength * of_direction(angle + turn)), by_definition_eta(.5, .8, angle), 1e-7,
+                            "override");
 }
 
-TEST(Covariance, mixing_crossed_grains_gives_an_isotropic_surface)
+TEST(covariance, mixing_crossed_grains_gives_an_isotropic_surface)
 {
     const Tensor m = mixed(from_eta(.5, .8, 0, kNoTexture), from_eta(.5, .8, std::numbers::pi / 2, kNoTexture));
     const Axes a = axes_of(m);

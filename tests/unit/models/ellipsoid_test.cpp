@@ -12,58 +12,23 @@ struct EllipsoidCase {
     Vec wo, wi;
     double d_n, d_h, g1_o, g1_i, f, p_h, p_o; // negative: not known
 };
-const EllipsoidCase kEllipsoids[] = {{{.5, .5, 0, 0, 0},
-                                      kUp,
-                                      unit({.3, .2, .9}),
-                                      1.27323954,
-                                      1.03790804,
-                                      -1,
-                                      .99016546,
-                                      .27677578,
-                                      1.01912822,
-                                      .25947701},
-                                     {{.3, .6, 0, 0, 0},
-                                      unit({.5, -.2, .7}),
-                                      unit({-.3, .4, .8}),
-                                      1.76838826,
-                                      1.13572709,
-                                      .98185065,
-                                      .97557435,
-                                      .40464490,
-                                      1.17545831,
-                                      .35172941},
-                                     {{.2, .6, .25, -.3, .7},
-                                      unit({.6, .3, .4}),
-                                      unit({-.2, .1, .9}),
-                                      .27689016,
-                                      .65741958,
-                                      .61994494,
-                                      1,
-                                      .20499695,
-                                      .65930406,
-                                      .19894851},
-                                     {{.2, .6, .25, -.3, .7},
-                                      unit({-.6, -.3, .4}),
-                                      unit({.2, -.1, .9}),
-                                      -1,
-                                      .15595392,
-                                      1,
-                                      .92419292,
-                                      .07249542,
-                                      .29621431,
-                                      .08938424},
-                                     {{.7, .15, -.4, .2, 1.9},
-                                      unit({0, .9, .1}),
-                                      unit({.1, -.5, .8}),
-                                      .06099933,
-                                      .09704133,
-                                      .19451614,
-                                      -1,
-                                      .05067463,
-                                      -1,
-                                      .04273260}};
+const EllipsoidCase kEllipsoids[] = {
+    {{.5, .5, 0, 0, 0}, kUp, unit({.3, .2, .9}), 1.27323954, 1.03790804, -1, .99016546, .27677578, 1.01912822, .25947701},
+    {{.3, .6, 0, 0, 0},
+     unit({.5, -.2, .7}),
+     unit({-.3, .4, .8}),
+     1.76838826,
+     1.13572709,
+     .98185065,
+     .97557435,
+     .40464490,
+     1.17545831,
+     .35172941},
+    {{.2, .6, .25, -.3, .7}, unit({.6, .3, .4}), unit({-.2, .1, .9}), .27689016, .65741958, .61994494, 1, .20499695, .65930406, .19894851},
+    {{.2, .6, .25, -.3, .7}, unit({-.6, -.3, .4}), unit({.2, -.1, .9}), -1, .15595392, 1, .92419292, .07249542, .29621431, .08938424},
+    {{.7, .15, -.4, .2, 1.9}, unit({0, .9, .1}), unit({.1, -.5, .8}), .06099933, .09704133, .19451614, -1, .05067463, -1, .04273260}};
 
-TEST(EllipsoidVectors, distribution_masking_brdf_and_densities_are_known)
+TEST(ellipsoid_vectors, distribution_masking_brdf_and_densities_are_known)
 {
     for (const EllipsoidCase& c : kEllipsoids) {
         const auto of = [&](const char* name, Vec w) {
@@ -90,7 +55,7 @@ TEST(EllipsoidVectors, distribution_masking_brdf_and_densities_are_known)
     EXPECT_NEAR(call(oracle_fns(), "ellipsoid_k", in)[0] * lit.wo[2], 1.17413963, 2e-8);
 }
 
-TEST(EllipsoidVectors, visible_normals_and_weights_are_known)
+TEST(ellipsoid_vectors, visible_normals_and_weights_are_known)
 {
     struct Case {
         std::size_t ellipsoid;
@@ -98,12 +63,10 @@ TEST(EllipsoidVectors, visible_normals_and_weights_are_known)
         Vec m;
         double weight;
     };
-    const Case cases[] = {{0, .3, .8, {-.17556172, .30408182, .93632918}, .95645244},
-                          {1, .5, .5, {.05943914, -.09510263, .99369134}, .99330977},
-                          {1, .9, .3, {-.08644431, .41479305, .90580026}, .64019609},
-                          {2, .1, .6, {.74009509, .55691856, .37696283}, .38607045},
-                          {3, .25, .25, {-.27451695, -.72474222, .63197244}, .62149939},
-                          {4, .7, .05, {-.47130045, .40392274, .78404229}, .83308077}};
+    const Case cases[] = {
+        {0, .3, .8, {-.17556172, .30408182, .93632918}, .95645244},    {1, .5, .5, {.05943914, -.09510263, .99369134}, .99330977},
+        {1, .9, .3, {-.08644431, .41479305, .90580026}, .64019609},    {2, .1, .6, {.74009509, .55691856, .37696283}, .38607045},
+        {3, .25, .25, {-.27451695, -.72474222, .63197244}, .62149939}, {4, .7, .05, {-.47130045, .40392274, .78404229}, .83308077}};
     for (const Case& c : cases) {
         const EllipsoidCase& e = kEllipsoids[c.ellipsoid];
         std::vector<double> in = e.params;
@@ -113,13 +76,11 @@ TEST(EllipsoidVectors, visible_normals_and_weights_are_known)
         expect_near({m[0], m[1], m[2]}, c.m, 2e-8);
         EXPECT_NEAR(sample("ellipsoid", e.params, e.wo, c.x, c.y).weight, c.weight, 2e-8);
     }
-    expect_near(sample("ellipsoid", kEllipsoids[1].params, kEllipsoids[1].wo, .5, .5).wi,
-                {-.46595015, .06615402, .88233446}, 2e-8);
-    expect_near(sample("ellipsoid", kEllipsoids[2].params, kEllipsoids[2].wo, .1, .6).wi,
-                {.67575711, .70247726, .22333389}, 2e-8);
+    expect_near(sample("ellipsoid", kEllipsoids[1].params, kEllipsoids[1].wo, .5, .5).wi, {-.46595015, .06615402, .88233446}, 2e-8);
+    expect_near(sample("ellipsoid", kEllipsoids[2].params, kEllipsoids[2].wo, .1, .6).wi, {.67575711, .70247726, .22333389}, 2e-8);
 }
 
-TEST(EllipsoidVectors, tilts_move_the_commonest_normal)
+TEST(ellipsoid_vectors, tilts_move_the_commonest_normal)
 {
     const std::vector<double> x = call(oracle_fns(), "ellipsoid_peak", {.3, .3, .2, 0, 0});
     expect_near({x[0], x[1], x[2]}, {0, .19866933, .98006658}, 1e-8);
@@ -128,7 +89,7 @@ TEST(EllipsoidVectors, tilts_move_the_commonest_normal)
 }
 
 // .14 of the samples; accepted they would give an albedo of .858 (quadrature in double of the paper's formulas, 3000^2 half vectors).
-TEST(EllipsoidVectors, directions_below_the_horizon_reflect_nothing)
+TEST(ellipsoid_vectors, directions_below_the_horizon_reflect_nothing)
 {
     const Setting setting = {{.3, .5, 0, 0, 0, 0}, {.3, .5}};
     EXPECT_NEAR(albedo("ellipsoid", setting, direction(.9, 0), 512), .74060, 5e-4);
@@ -140,7 +101,7 @@ TEST(EllipsoidVectors, directions_below_the_horizon_reflect_nothing)
 
 // The normals' areas add up to the surface's; those that u sees, times G1, cover no more than the surface that u sees, and all of
 // it unless G1's minimum is at work, which is nowhere on an upright ellipsoid.
-TEST(EllipsoidVectors, masking_leaves_the_projected_area)
+TEST(ellipsoid_vectors, masking_leaves_the_projected_area)
 {
     int limited = 0;
     for (const EllipsoidCase& c : kEllipsoids) {
@@ -178,7 +139,7 @@ TEST(EllipsoidVectors, masking_leaves_the_projected_area)
 }
 
 // Walter et al. 2007: f(wo, wi) / eta(wi's side)^2 is symmetric, where f is the density of scattered power.
-TEST(DielectricVectors, refraction_is_reciprocal_up_to_the_square_of_the_index)
+TEST(dielectric_vectors, refraction_is_reciprocal_up_to_the_square_of_the_index)
 {
     Random random(21);
     const std::vector<double> params = {.4, .3, -.15, .2, 1.9, 1.5};
@@ -193,26 +154,24 @@ TEST(DielectricVectors, refraction_is_reciprocal_up_to_the_square_of_the_index)
     EXPECT_GT(largest, 0.1);
 }
 
-TEST(DielectricVectors, reflection_is_the_ellipsoids_times_fresnel)
+TEST(dielectric_vectors, reflection_is_the_ellipsoids_times_fresnel)
 {
     const std::vector<double> shape = {.2, .6, .25, -.3, .7};
     std::vector<double> params = shape;
     params.push_back(1.5);
     for (const Pair& p : kPairs) {
         const double f = call(oracle_fns(), "fresnel_dielectric", {dot(p.v, unit(p.v + p.l)), 1.5})[0];
-        EXPECT_NEAR(eval("ellipsoid_dielectric", params, p.v, p.l), f * eval("ellipsoid", shape, p.v, p.l),
-                    1e-12);
+        EXPECT_NEAR(eval("ellipsoid_dielectric", params, p.v, p.l), f * eval("ellipsoid", shape, p.v, p.l), 1e-12);
     }
 }
 
-TEST(DielectricVectors, a_nearly_smooth_interface_obeys_snell)
+TEST(dielectric_vectors, a_nearly_smooth_interface_obeys_snell)
 {
     const Vec wo = direction(.7, 0);
     std::vector<double> params = {.001, .001, 0, 0, 0, 1.5};
     Batch batch(params, 1);
     batch.set(0, wo, {.5, .5, .9});
-    const auto s =
-        batch.run(oracle_fns().models[model_case("ellipsoid_dielectric").index].sample, kSampleOutputs);
+    const auto s = batch.run(oracle_fns().models[model_case("ellipsoid_dielectric").index].sample, kSampleOutputs);
     EXPECT_NEAR(s[0], -wo[0] / 1.5, 1e-3);
     EXPECT_LT(s[2], 0);
     EXPECT_EQ(s[6], 1);

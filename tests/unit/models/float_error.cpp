@@ -51,8 +51,8 @@ void Errors::expect_within(Extent bound, const char* function, const char* resul
 {
     ASSERT_FALSE(in_ulp.empty()) << function << " " << result;
     const Extent ulps = extent_of(in_ulp), seen = extent_of(in_sway);
-    std::printf("%s %s: largest error %.1f ulp, one in a thousand above %.1f; %.1f and %.1f of what a float's step moves\n",
-                function, result, ulps.largest, ulps.common, seen.largest, seen.common);
+    std::printf("%s %s: largest error %.1f ulp, one in a thousand above %.1f; %.1f and %.1f of what a float's step moves\n", function,
+                result, ulps.largest, ulps.common, seen.largest, seen.common);
     EXPECT_LE(seen.largest, bound.largest) << function << " " << result;
     EXPECT_LE(seen.common, bound.common) << function << " " << result;
 }

@@ -6,26 +6,29 @@
 #include <numbers>
 
 #include "core/base/check.h"
-#include "core/simd/cpu.h"
+#include "core/simd/dispatch.h"
 
 namespace burnish::test {
 
 const IsaFns& oracle_fns()
 {
-    return bn_double::model_fns();
+    return burnish::oracle_fns<IsaFns>();
 }
 
 const std::vector<IsaFns>& float_fns()
 {
     static const std::vector<IsaFns> all = [] {
-        std::vector<IsaFns> list = {bn_scalar::model_fns()};
-        if (cpu_has_avx2())
-            list.push_back(bn_avx2::model_fns());
-        if (cpu_has_avx512())
-            list.push_back(bn_avx512::model_fns());
+        std::vector<IsaFns> list;
+        for (const Isa isa : isas_with<IsaFns>())
+            list.push_back(pick<IsaFns>(isa));
         return list;
     }();
     return all;
+}
+
+const IsaFns& fast_fns()
+{
+    return pick<IsaFns>();
 }
 
 const OtherFn& other(const IsaFns& isa, const char* name)
@@ -83,9 +86,9 @@ const std::vector<ModelCase>& model_cases()
     static const std::vector<ModelCase> all = [] {
         std::vector<ModelCase> list;
         int index = 0;
-#define BN_TEST_MODEL(id, params, traits, ...) list.push_back({index++, #id, traits, {__VA_ARGS__}});
-#include "tests/unit/models/model_list.def"
-#undef BN_TEST_MODEL
+#define BN_SETTINGS(...) __VA_ARGS__
+#define BN_MODEL(id, summary, params, laws, settings) list.push_back({index++, #id, laws, {BN_SETTINGS settings}});
+#include "shading/models.def"
         for (ModelCase& model : list)
             for (Setting& setting : model.settings)
                 setting.params.resize(kMaxParams);
@@ -204,10 +207,8 @@ double integral(const ModelCase& model, const Setting& setting, Vec wo, Integran
         if (what == Integrand::albedo)
             measure[k] *= std::abs(p.wi[2]);
     }
-    const ModelFns& fns = float_fns().back().models[model.index];
-    const std::vector<double> f = batch.run(what == Integrand::albedo ? fns.eval
-                                            : what == Integrand::pdf  ? fns.pdf
-                                                                      : fns.half_pdf);
+    const ModelFns& fns = fast_fns().models[model.index];
+    const std::vector<double> f = batch.run(what == Integrand::albedo ? fns.eval : what == Integrand::pdf ? fns.pdf : fns.half_pdf);
     double sum = 0;
     for (std::size_t k = 0; k < n * n; ++k)
         sum += measure[k] > 0 ? f[k] * measure[k] : 0;

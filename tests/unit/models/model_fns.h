@@ -3,6 +3,8 @@
 #pragma once
 #include <vector>
 
+#include "core/simd/fns.h"
+
 namespace burnish::test {
 
 inline constexpr int kMaxParams = 6;
@@ -29,14 +31,15 @@ struct OtherFn {
 
 struct IsaFns {
     const char* name;
-    const ModelFns* models; // in the order of model_list.def
+    const ModelFns* models; // in the order of shading/models.def
     int model_count;
     const OtherFn* others;
     int other_count;
 };
 
 const IsaFns& oracle_fns();
-const std::vector<IsaFns>& float_fns(); // scalar first, then what this processor runs; the last is the widest
+const std::vector<IsaFns>& float_fns(); // scalar first, then what this processor runs
+const IsaFns& fast_fns();               // one of these
 
 const OtherFn& other(const IsaFns& isa, const char* name);
 
@@ -46,16 +49,5 @@ std::vector<double> call(const IsaFns& isa, const char* name, const std::vector<
 } // namespace burnish::test
 
 namespace burnish {
-inline namespace bn_scalar {
-const test::IsaFns& model_fns();
-}
-inline namespace bn_avx2 {
-const test::IsaFns& model_fns();
-}
-inline namespace bn_avx512 {
-const test::IsaFns& model_fns();
-}
-inline namespace bn_double {
-const test::IsaFns& model_fns();
-}
+BN_DECLARE_FNS(test::IsaFns);
 } // namespace burnish

@@ -1,20 +1,13 @@
 #include "tests/unit/models/model_fns.h"
 
-#include "shading/kernels/ashikhmin_shirley.k.h"
-#include "shading/kernels/beckmann.k.h"
-#include "shading/kernels/covariance.k.h"
-#include "shading/kernels/ellipsoid_dielectric.k.h"
-#include "shading/kernels/energy.k.h"
-#include "shading/kernels/filtered_is.k.h"
-#include "shading/kernels/ggx.k.h"
-#include "shading/kernels/ggx_aniso_separable.k.h"
-#include "shading/kernels/heidrich_seidel.k.h"
-#include "shading/kernels/lambert.k.h"
-#include "shading/kernels/lobe.k.h"
-#include "shading/kernels/major_axis.k.h"
-#include "shading/kernels/surface.k.h"
-#include "shading/kernels/ward.k.h"
-#include "shading/kernels/ward_cheap.k.h"
+#define BN_MODEL_TEXTS
+#include "shading/models.def"
+#include "shading/surface/covariance.k.h"
+#include "shading/surface/energy.k.h"
+#include "shading/surface/lobe.k.h"
+#include "shading/surface/surface.k.h"
+#include "shading/techniques/filtered_is.k.h"
+#include "shading/techniques/major_axis.k.h"
 
 namespace burnish {
 inline namespace BN_ISA_NS {
@@ -24,7 +17,7 @@ namespace {
 void load_lanes(int n, int k, const double* in, int count, real* out)
 {
     for (int i = 0; i < count; ++i) {
-#if BN_ISA == 3
+#ifdef BN_ORACLE
         out[i] = in[i * n + k];
 #else
         float lanes[kLanes];
@@ -40,7 +33,7 @@ void load_lanes(int n, int k, const double* in, int count, real* out)
 void store_lanes(int n, int k, const real* in, int count, double* out)
 {
     for (int i = 0; i < count; ++i) {
-#if BN_ISA == 3
+#ifdef BN_ORACLE
         out[i * n + k] = in[i];
 #else
         float lanes[kLanes];
@@ -78,44 +71,19 @@ real number_of(mask m)
     return select(m, lit(1.0), lit(0.0));
 }
 
-// Models whose functions take fewer arguments than the rest, or have no density of half vectors.
+// p of models without parameters, whose functions have none.
 struct no_params {};
-real lambert_eval(no_params, real3 wo, real3 wi)
-{
-    return lambert_eval(wo, wi);
-}
-real lambert_pdf(no_params, real3 wo, real3 wi)
-{
-    return lambert_pdf(wo, wi);
-}
-bsdf_sample lambert_sample(no_params, real3 wo, real2 xi)
-{
-    return lambert_sample(wo, xi);
-}
-real lambert_half_pdf(no_params, real3, real3)
-{
-    return lit(0.0);
-}
-real heidrich_seidel_pdf(heidrich_seidel_params, real3 wo, real3 wi)
-{
-    return heidrich_seidel_pdf(wo, wi);
-}
-real heidrich_seidel_half_pdf(heidrich_seidel_params, real3, real3)
-{
-    return lit(0.0);
-}
-real ggx_aniso_separable_half_pdf(ggx_aniso_params p, real3 wo, real3 h)
-{
-    return ggx_aniso_half_pdf(p, wo, h);
-}
-real ellipsoid_dielectric_half_pdf(ellipsoid_dielectric_params, real3, real3)
-{
-    return lit(0.0);
-}
-ellipsoid_dielectric_params dielectric_of(const real* a)
-{
-    return ellipsoid_dielectric_params_of(ellipsoid_params_of(a[0], a[1], a[2], a[3], a[4]), a[5]);
-}
+
+// A model's function with p, without p where it takes none, or 0 where there is no such function.
+#define BN_CALL(fn, ...)                                                                                                                   \
+    [](auto p, auto... rest) {                                                                                                             \
+        if constexpr (requires { fn(p, rest...); })                                                                                        \
+            return fn(p, rest...);                                                                                                         \
+        else if constexpr (requires { fn(rest...); })                                                                                      \
+            return fn(rest...);                                                                                                            \
+        else                                                                                                                               \
+            return lit(0.0);                                                                                                               \
+    }(__VA_ARGS__)
 
 void put_sample(bsdf_sample s, real* r)
 {
@@ -126,41 +94,34 @@ void put_sample(bsdf_sample s, real* r)
 constexpr int kWo = test::kMaxParams, kWi = test::kMaxParams + 3;
 
 // a is unused where a model has no parameters.
-#define BN_TEST_MODEL(id, params, traits, ...)                                                               \
-    void run_##id##_eval(int n, const double* in, double* out)                                               \
-    {                                                                                                        \
-        run_lanes<test::kModelInputs, 1>(n, in, out, [](const real* a, real* r) {                            \
-            r[0] = id##_eval(params, vec3_at(a + kWo), vec3_at(a + kWi));                                    \
-        });                                                                                                  \
-    }                                                                                                        \
-    void run_##id##_pdf(int n, const double* in, double* out)                                                \
-    {                                                                                                        \
-        run_lanes<test::kModelInputs, 1>(n, in, out, [](const real* a, real* r) {                            \
-            r[0] = id##_pdf(params, vec3_at(a + kWo), vec3_at(a + kWi));                                     \
-        });                                                                                                  \
-    }                                                                                                        \
-    void run_##id##_half_pdf(int n, const double* in, double* out)                                           \
-    {                                                                                                        \
-        run_lanes<test::kModelInputs, 1>(n, in, out, [](const real* a, real* r) {                            \
-            r[0] = id##_half_pdf(params, vec3_at(a + kWo), vec3_at(a + kWi));                                \
-        });                                                                                                  \
-    }                                                                                                        \
-    void run_##id##_sample(int n, const double* in, double* out)                                             \
-    {                                                                                                        \
-        run_lanes<test::kModelInputs, test::kSampleOutputs>(n, in, out, [](const real* a, real* r) {         \
-            put_sample(id##_sample(params, vec3_at(a + kWo), RandomNumbers{a[kWi], a[kWi + 1], a[kWi + 2]}), \
-                       r);                                                                                   \
-        });                                                                                                  \
+#define BN_MODEL(id, summary, params, laws, settings)                                                                                      \
+    void run_##id##_eval(int n, const double* in, double* out)                                                                             \
+    {                                                                                                                                      \
+        run_lanes<test::kModelInputs, 1>(                                                                                                  \
+            n, in, out, [](const real* a, real* r) { r[0] = BN_CALL(id##_eval, params, vec3_at(a + kWo), vec3_at(a + kWi)); });            \
+    }                                                                                                                                      \
+    void run_##id##_pdf(int n, const double* in, double* out)                                                                              \
+    {                                                                                                                                      \
+        run_lanes<test::kModelInputs, 1>(                                                                                                  \
+            n, in, out, [](const real* a, real* r) { r[0] = BN_CALL(id##_pdf, params, vec3_at(a + kWo), vec3_at(a + kWi)); });             \
+    }                                                                                                                                      \
+    void run_##id##_half_pdf(int n, const double* in, double* out)                                                                         \
+    {                                                                                                                                      \
+        run_lanes<test::kModelInputs, 1>(                                                                                                  \
+            n, in, out, [](const real* a, real* r) { r[0] = BN_CALL(id##_half_pdf, params, vec3_at(a + kWo), vec3_at(a + kWi)); });        \
+    }                                                                                                                                      \
+    void run_##id##_sample(int n, const double* in, double* out)                                                                           \
+    {                                                                                                                                      \
+        run_lanes<test::kModelInputs, test::kSampleOutputs>(n, in, out, [](const real* a, real* r) {                                       \
+            put_sample(BN_CALL(id##_sample, params, vec3_at(a + kWo), RandomNumbers{a[kWi], a[kWi + 1], a[kWi + 2]}), r);                  \
+        });                                                                                                                                \
     }
-#include "tests/unit/models/model_list.def"
-#undef BN_TEST_MODEL
+#include "shading/models.def"
 
-#define BN_TEST_MODEL(id, params, traits, ...)                                                               \
-    {#id, run_##id##_eval, run_##id##_pdf, run_##id##_half_pdf, run_##id##_sample},
+#define BN_MODEL(id, summary, params, laws, settings) {#id, run_##id##_eval, run_##id##_pdf, run_##id##_half_pdf, run_##id##_sample},
 constexpr test::ModelFns kModels[] = {
-#include "tests/unit/models/model_list.def"
+#include "shading/models.def"
 };
-#undef BN_TEST_MODEL
 
 void put_covariance(slope_covariance s, real* r)
 {
@@ -171,10 +132,10 @@ void put_vec3(real3 v, real* r)
     r[0] = v.x, r[1] = v.y, r[2] = v.z;
 }
 
-#define BN_TEST_FN(id, inputs, outputs, body)                                                                \
-    void run_##id(int n, const double* in, double* out)                                                      \
-    {                                                                                                        \
-        run_lanes<inputs, outputs>(n, in, out, [](const real* a, real* r) { body; });                        \
+#define BN_TEST_FN(id, inputs, outputs, body)                                                                                              \
+    void run_##id(int n, const double* in, double* out)                                                                                    \
+    {                                                                                                                                      \
+        run_lanes<inputs, outputs>(n, in, out, [](const real* a, real* r) { body; });                                                      \
     }
 #include "tests/unit/models/other_list.def"
 #undef BN_TEST_FN
@@ -185,16 +146,12 @@ constexpr test::OtherFn kOthers[] = {
 };
 #undef BN_TEST_FN
 
+constexpr test::IsaFns kFns = {BN_ISA_NAME, kModels, static_cast<int>(sizeof kModels / sizeof kModels[0]), kOthers,
+                               static_cast<int>(sizeof kOthers / sizeof kOthers[0])};
+
 } // namespace
 
-const test::IsaFns& model_fns()
-{
-    static constexpr const char* kNames[] = {"scalar", "avx2", "avx512", "double"};
-    static constexpr test::IsaFns table = {kNames[BN_ISA], kModels,
-                                           static_cast<int>(sizeof kModels / sizeof kModels[0]), kOthers,
-                                           static_cast<int>(sizeof kOthers / sizeof kOthers[0])};
-    return table;
-}
+BN_DEFINE_FNS(test::IsaFns, kFns)
 
 } // namespace BN_ISA_NS
 } // namespace burnish

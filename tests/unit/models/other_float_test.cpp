@@ -44,12 +44,16 @@ const std::vector<Function>& functions()
         {"fresnel_f0", {kIndex}, {}, Measure::each, {6, 3}, 0, 1},
         {"fresnel_dielectric", {kCosine, kIndex}, {}, Measure::each, {16, 11}, 0, 1},
         {"fresnel_conductor", {kCosine, kMetal, kAbsorption}, {}, Measure::each, {52, 15}, 0, 1},
-        {"fresnel_conductor3",
-         {kCosine, kMetal, kMetal, kMetal, kAbsorption, kAbsorption, kAbsorption}, {}, Measure::each, {52, 16}, 0, 1},
-        {"covariance_tensors", {kUnit, kUnit, kTurn, kTurn, kUnit, kUnit, kMixed, kUnit, kUnit, kMixed}, {4, 7},
-         Measure::together, {2, 1}, -8, 8},
+        {"fresnel_conductor3", {kCosine, kMetal, kMetal, kMetal, kAbsorption, kAbsorption, kAbsorption}, {}, Measure::each, {52, 16}, 0, 1},
+        {"covariance_tensors",
+         {kUnit, kUnit, kTurn, kTurn, kUnit, kUnit, kMixed, kUnit, kUnit, kMixed},
+         {4, 7},
+         Measure::together,
+         {2, 1},
+         -8,
+         8},
         {"covariance_eta_tensor", {kUnit, kEta, kTurn, kTurn, kUnit, kUnit, kMixed}, {4}, Measure::together, {5, 2}, -8, 8},
-        {"covariance_sigmas", {kVariance, kVariance, kMixed}, {0}, Measure::each, {2, 2}, 7.07e-4, 1},
+        {"covariance_sigmas", {kVariance, kVariance, kMixed}, {0}, Measure::each, {2, 2}, 0, 1},
         {"covariance_axis", {kVariance, kVariance, kMixed}, {0}, Measure::together, {5, 4}, -1, 1},
     };
     return list;
@@ -83,7 +87,7 @@ std::vector<double> results(const IsaFns& isa, const Function& f, const std::vec
     return out;
 }
 
-class OtherFloats : public testing::TestWithParam<Function> {};
+class other_floats : public testing::TestWithParam<Function> {};
 void PrintTo(const Function& f, std::ostream* out)
 {
     *out << f.name;
@@ -92,9 +96,9 @@ std::string function_name(const testing::TestParamInfo<Function>& info)
 {
     return info.param.name;
 }
-INSTANTIATE_TEST_SUITE_P(functions, OtherFloats, testing::ValuesIn(functions()), function_name);
+INSTANTIATE_TEST_SUITE_P(functions, other_floats, testing::ValuesIn(functions()), function_name);
 
-TEST_P(OtherFloats, every_instruction_set_gives_the_same_bits)
+TEST_P(other_floats, every_instruction_set_gives_the_same_bits)
 {
     const std::vector<double> in = points(GetParam()), scalar = results(float_fns()[0], GetParam(), in);
     for (const IsaFns& isa : float_fns()) {
@@ -104,14 +108,14 @@ TEST_P(OtherFloats, every_instruction_set_gives_the_same_bits)
     }
 }
 
-TEST_P(OtherFloats, results_are_finite_and_in_range)
+TEST_P(other_floats, results_are_finite_and_in_range)
 {
     const std::vector<double> in = points(GetParam());
     for (double r : results(float_fns()[0], GetParam(), in))
         ASSERT_TRUE(r >= GetParam().low && r <= GetParam().high) << r; // false for NaN
 }
 
-TEST_P(OtherFloats, stay_close_to_the_double_oracle)
+TEST_P(other_floats, stay_close_to_the_double_oracle)
 {
     const std::vector<double> in = points(GetParam()), truth = results(oracle_fns(), GetParam(), in),
                               value = results(float_fns()[0], GetParam(), in);

@@ -33,7 +33,7 @@ double largest_error(const char* name, double (*exact)(double), double low, doub
     return worst;
 }
 
-TEST(SpecialFunctions, float_errors_are_as_documented)
+TEST(special_functions, float_errors_are_as_documented)
 {
     EXPECT_LE(largest_error("exp", std::exp, -86, 88), 3e-7);
     EXPECT_LE(largest_error("expm1", std::expm1, -86, 88), 4e-7);
@@ -44,7 +44,7 @@ TEST(SpecialFunctions, float_errors_are_as_documented)
     EXPECT_LE(largest_error("log1p", std::log1p, 1, 1e6), 5e-7);
 }
 
-TEST(SpecialFunctions, error_function_of_its_inverse_is_the_argument)
+TEST(special_functions, error_function_of_its_inverse_is_the_argument)
 {
     for (int i = -9999; i <= 9999; ++i) {
         const double x = as_float(i / 10000.0);
@@ -57,7 +57,7 @@ TEST(SpecialFunctions, error_function_of_its_inverse_is_the_argument)
     EXPECT_GT(at("erfinv", {-1}), -3.9);
 }
 
-TEST(SpecialFunctions, ends_of_the_domains_are_finite)
+TEST(special_functions, ends_of_the_domains_are_finite)
 {
     EXPECT_EQ(at("exp", {-1000}), 0);
     EXPECT_TRUE(std::isfinite(at("exp", {1000})));
@@ -75,13 +75,12 @@ double fresnel_exact(double c, std::complex<double> n)
     return 0.5 * (rs + rp);
 }
 
-TEST(Fresnel, equals_the_complex_equations)
+TEST(fresnel, equals_the_complex_equations)
 {
     double worst_d = 0, worst_c = 0;
     Random random(31);
     for (int i = 0; i < 20000; ++i) {
-        const double c = random.next(), eta = as_float(0.3 + 3 * random.next()),
-                     k = as_float(6 * random.next());
+        const double c = random.next(), eta = as_float(0.3 + 3 * random.next()), k = as_float(6 * random.next());
         const double d = fresnel_exact(c, eta), m = fresnel_exact(c, {eta, k});
         worst_d = std::max(worst_d, std::abs(at("fresnel_dielectric", {c, eta}) - d));
         worst_c = std::max(worst_c, std::abs(at("fresnel_conductor", {c, eta, k}) / m - 1));
@@ -94,7 +93,7 @@ TEST(Fresnel, equals_the_complex_equations)
     EXPECT_LE(worst_c, 1.5e-6);
 }
 
-TEST(Fresnel, keeps_its_digits_near_index_one)
+TEST(fresnel, keeps_its_digits_near_index_one)
 {
     for (const double eta : {1.0001, 0.9999, 1.000001}) {
         for (const double c : {1.0, 0.8125}) {
@@ -105,7 +104,7 @@ TEST(Fresnel, keeps_its_digits_near_index_one)
     }
 }
 
-TEST(Fresnel, limits_are_exact)
+TEST(fresnel, limits_are_exact)
 {
     EXPECT_FLOAT_EQ(static_cast<float>(at("fresnel_dielectric", {1, 1.5})), 0.04f);
     EXPECT_FLOAT_EQ(static_cast<float>(at("fresnel_f0", {1.5})), 0.04f);
@@ -124,8 +123,7 @@ TEST(Fresnel, limits_are_exact)
     EXPECT_EQ(at("fresnel_dielectric", {-.1, 1.5}), 1);
     EXPECT_EQ(at("fresnel_conductor", {1.1, .2, 3.9}), at("fresnel_conductor", {1, .2, 3.9}));
     EXPECT_EQ(at("fresnel_conductor", {-.1, .2, 3.9}), 1);
-    const std::vector<double> gold =
-        call(float_fns()[0], "fresnel_conductor3", {1, .143, .375, 1.44, 3.98, 2.39, 1.60});
+    const std::vector<double> gold = call(float_fns()[0], "fresnel_conductor3", {1, .143, .375, 1.44, 3.98, 2.39, 1.60});
     EXPECT_NEAR(gold[0], fresnel_exact(1, {.143, 3.98}), 1e-6);
     EXPECT_NEAR(gold[1], fresnel_exact(1, {.375, 2.39}), 1e-6);
     EXPECT_NEAR(gold[2], fresnel_exact(1, {1.44, 1.60}), 1e-6);

@@ -37,8 +37,7 @@ inline Sampled sample(const char* model, const std::vector<double>& params, Vec 
     padded.resize(kMaxParams);
     Batch batch(padded, 1);
     batch.set(0, wo, {x, y, 0});
-    const std::vector<double> s =
-        batch.run(oracle_fns().models[model_case(model).index].sample, kSampleOutputs);
+    const std::vector<double> s = batch.run(oracle_fns().models[model_case(model).index].sample, kSampleOutputs);
     return {{s[0], s[1], s[2]}, s[3], s[4], s[5], s[6]};
 }
 inline void expect_near(Vec a, Vec b, double tolerance)
@@ -57,7 +56,6 @@ inline const Vec kUp = {0, 0, 1};
 struct Pair {
     Vec v, l;
 };
-inline const Pair kPairs[] = {
-    {unit({.3, .1, .9}), unit({-.4, .2, .8})}, {kUp, kUp}, {unit({.9, .2, .3}), unit({-.7, -.1, .4})}};
+inline const Pair kPairs[] = {{unit({.3, .1, .9}), unit({-.4, .2, .8})}, {kUp, kUp}, {unit({.9, .2, .3}), unit({-.7, -.1, .4})}};
 
 } // namespace burnish::test

@@ -15,10 +15,13 @@ std::vector<double> at(const char* name, const std::vector<double>& in)
         EXPECT_EQ(call(isa, name, in), scalar) << name;
     return scalar;
 }
-double erfinv(double x) { return call(float_fns()[0], "erfinv", {x})[0]; }
+double erfinv(double x)
+{
+    return call(float_fns()[0], "erfinv", {x})[0];
+}
 
 // View (sin 0.8, 0, cos 0.8), widths 0.4 and 0.1, a 5 x 5 grid, faces of 512^2 texels.
-TEST(FilteredImportanceSampling, equals_the_printed_test_vector)
+TEST(filtered_importance_sampling, equals_the_printed_test_vector)
 {
     const double term = 0.5 * std::log2(6.0 * 512 * 512 / (4.0 * std::numbers::pi * 25));
     const auto sample = [&](int i, int j) {
@@ -40,7 +43,7 @@ TEST(FilteredImportanceSampling, equals_the_printed_test_vector)
     EXPECT_NEAR(mean, .93371920, 1e-5);
 }
 
-TEST(Grain, points_where_the_extrema_point)
+TEST(grain, points_where_the_extrema_point)
 {
     for (double theta : {.1, .7, 1.4})
         for (double phi : {.2, 1.0, 2.5}) {
@@ -54,7 +57,7 @@ TEST(Grain, points_where_the_extrema_point)
 }
 
 // The middle sample mirrors the view about the normal, at the width across; a round lobe is one such sample however many are asked for.
-TEST(Grain, middle_samples_and_round_lobes_are_mirrors)
+TEST(grain, middle_samples_and_round_lobes_are_mirrors)
 {
     const Vec o = direction(.5, .8);
     const double sigma = .1, root2 = std::numbers::sqrt2;
@@ -76,7 +79,7 @@ TEST(Grain, middle_samples_and_round_lobes_are_mirrors)
     EXPECT_EQ(at("grain_count", {0, 0, 1, .3, .001, 2.3, 16})[0], 16);
 }
 
-TEST(Grain, degenerate_inputs_stay_finite)
+TEST(grain, degenerate_inputs_stay_finite)
 {
     for (double z : {0.0, -.3, 1e-8, 1.0})
         for (double sx : {0.0, 1e-8, .3, .7})
@@ -89,7 +92,7 @@ TEST(Grain, degenerate_inputs_stay_finite)
 }
 
 // theta_x tilts the commonest normal to +y, theta_y to -x.
-TEST(Tilt, turns_the_commonest_normal_as_the_ellipsoid_does)
+TEST(tilt, turns_the_commonest_normal_as_the_ellipsoid_does)
 {
     for (const auto& [x, y] : {std::pair{.2, 0.0}, {0.0, .2}, {.3, -.5}}) {
         const std::vector<double> n = at("tilted_normal", {x, y}), peak = at("ellipsoid_peak", {.3, .1, x, y, 0});
@@ -101,7 +104,7 @@ TEST(Tilt, turns_the_commonest_normal_as_the_ellipsoid_does)
 }
 
 // Albedos against the mean weight of many samples; a mirror's is the limit of a narrow lobe's.
-TEST(Tilt, leaves_a_lobe_the_albedo_that_its_samples_have)
+TEST(tilt, leaves_a_lobe_the_albedo_that_its_samples_have)
 {
     double last = 1;
     for (double tilt : {0.0, .2, .5, .9, 1.3}) { // towards the far side of the view

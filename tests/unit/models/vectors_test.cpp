@@ -9,10 +9,9 @@
 namespace burnish::test {
 namespace {
 
-TEST(GgxVectors, directional_albedo_matches_brute_force)
+TEST(ggx_vectors, directional_albedo_matches_brute_force)
 {
-    const double cases[][3] = {
-        {.2, .5, .963 + .032}, {.5, .3, .772 + .065}, {.9, .8, .453 + .001}}; // alpha_lin, n.v, albedo
+    const double cases[][3] = {{.2, .5, .963 + .032}, {.5, .3, .772 + .065}, {.9, .8, .453 + .001}}; // alpha_lin, n.v, albedo
     for (const auto& c : cases) {
         const double alpha = c[0] * c[0];
         const Vec wo = direction(std::acos(c[1]), 0.3);
@@ -21,14 +20,13 @@ TEST(GgxVectors, directional_albedo_matches_brute_force)
     }
 }
 
-TEST(GgxVectors, equals_the_ellipsoid_where_it_is_not_tilted)
+TEST(ggx_vectors, equals_the_ellipsoid_where_it_is_not_tilted)
 {
     for (const Pair& p : kPairs)
-        EXPECT_NEAR(eval("ggx_aniso_separable", {.3, .6}, p.v, p.l), eval("ellipsoid", {.3, .6}, p.v, p.l),
-                    1e-12);
+        EXPECT_NEAR(eval("ggx_aniso_separable", {.3, .6}, p.v, p.l), eval("ellipsoid", {.3, .6}, p.v, p.l), 1e-12);
 }
 
-TEST(GgxVectors, isotropic_and_anisotropic_agree)
+TEST(ggx_vectors, isotropic_and_anisotropic_agree)
 {
     for (const Pair& p : kPairs) {
         EXPECT_NEAR(eval("ggx", {.3}, p.v, p.l), eval("ggx_aniso", {.3, .3}, p.v, p.l), 1e-12);
@@ -40,16 +38,14 @@ TEST(GgxVectors, isotropic_and_anisotropic_agree)
     }
 }
 
-TEST(BeckmannVectors, samples_are_those_of_filtered_importance_sampling)
+TEST(beckmann_vectors, samples_are_those_of_filtered_importance_sampling)
 {
     const Vec v = {std::sin(.8), 0, std::cos(.8)};
     const Sampled edge = sample("beckmann", {.4, .1}, v, .1, .5);
     expect_near(edge.wi, {-.10431564, 0, .99454424}, 2e-7);
     EXPECT_NEAR(edge.weight, 1.37322083, 2e-6);
     // lod of the filtered fetch, from the density: .5 log2(6 w^2 / (4 pi n^2 pdf)).
-    const auto lod = [](double pdf) {
-        return .5 * std::log2(6 * 512. * 512. / (4 * std::numbers::pi * 25 * pdf));
-    };
+    const auto lod = [](double pdf) { return .5 * std::log2(6 * 512. * 512. / (4 * std::numbers::pi * 25 * pdf)); };
     EXPECT_NEAR(lod(edge.pdf), 6.03098366, 2e-6);
     const Sampled middle = sample("beckmann", {.4, .1}, v, .5, .5);
     expect_near(middle.wi, {-v[0], 0, v[2]}, 2e-7);
@@ -61,7 +57,7 @@ TEST(BeckmannVectors, samples_are_those_of_filtered_importance_sampling)
     EXPECT_NEAR(sum / 25, .93371920, 2e-6);
 }
 
-TEST(BeckmannVectors, albedo_is_known)
+TEST(beckmann_vectors, albedo_is_known)
 {
     const double cases[][2] = {{.3, .968}, {1, .906}, {1.4, .945}};
     for (const auto& c : cases)
@@ -70,7 +66,7 @@ TEST(BeckmannVectors, albedo_is_known)
 
 // Smith's integral for Gaussian slopes: Lambda = (exp(-c^2) / (c sqrt(pi)) - erfc(c)) / 2; the rational function is within 0.35 %
 // of the masking that follows (Walter et al. 2007).
-TEST(BeckmannVectors, masking_is_that_of_gaussian_slopes)
+TEST(beckmann_vectors, masking_is_that_of_gaussian_slopes)
 {
     double worst = 0;
     for (int i = 1; i <= 400; ++i) {
@@ -84,11 +80,10 @@ TEST(BeckmannVectors, masking_is_that_of_gaussian_slopes)
     EXPECT_GT(worst, 1e-4);
 }
 
-TEST(WardVectors, both_exponents_and_densities_are_known)
+TEST(ward_vectors, both_exponents_and_densities_are_known)
 {
     const double cheap[] = {.47211455, 1.76838826, 2.61921078}, exact[] = {.45436818, 1.76838826, 2.60028259};
-    const double p_h[] = {1.73953138, 7.07355303, 4.16788650},
-                 p_l[] = {.47043388, 7.07355303 / 4, 2.57643840};
+    const double p_h[] = {1.73953138, 7.07355303, 4.16788650}, p_l[] = {.47043388, 7.07355303 / 4, 2.57643840};
     for (std::size_t i = 0; i < 3; ++i) {
         const auto [v, l] = kPairs[i];
         EXPECT_NEAR(eval("ward_cheap", {.3, .15}, v, l), cheap[i], 1e-7);
@@ -100,7 +95,7 @@ TEST(WardVectors, both_exponents_and_densities_are_known)
     expect_near({h[0], h[1], h[2]}, {.25899021, .09408370, .96128681}, 3e-8);
 }
 
-TEST(WardVectors, exponents_differ_by_a_fifth)
+TEST(ward_vectors, exponents_differ_by_a_fifth)
 {
     const Vec h = {.3, .2, .93273791}; // seen along itself, so that h is the half vector
     EXPECT_NEAR(half_pdf("ward", {.4, .2}, h, h) * std::numbers::pi * .08 * std::pow(h[2], 3), .16596522, 2e-8);
@@ -108,7 +103,7 @@ TEST(WardVectors, exponents_differ_by_a_fifth)
 }
 
 // The exact exponent gives less; both by quadrature in double of Ward's formulas (2000^2 half vectors).
-TEST(WardVectors, albedos_are_known)
+TEST(ward_vectors, albedos_are_known)
 {
     const double cases[][3] = {{.2, .838, .76881}, {1, .527, .46193}, {1.4, .366, .29151}, {1.5, .407, .30906}};
     for (const auto& c : cases) {
@@ -119,7 +114,7 @@ TEST(WardVectors, albedos_are_known)
 }
 
 // With xi.y = 1 - exp(-2 E (1 - cos)) the half vector's cosine is known, along either axis.
-TEST(WardVectors, half_vectors_of_the_cheap_exponent_are_known)
+TEST(ward_vectors, half_vectors_of_the_cheap_exponent_are_known)
 {
     for (const IsaFns& isa : {float_fns()[0], oracle_fns()})
         for (double z : {.999, .95, .5}) {
@@ -134,7 +129,7 @@ TEST(WardVectors, half_vectors_of_the_cheap_exponent_are_known)
     expect_near({above[0], above[1], above[2]}, {std::sqrt(1 - 1e-4), 0, .01}, 1e-7);
 }
 
-TEST(AshikhminShirleyVectors, values_and_densities_are_known)
+TEST(ashikhmin_shirley_vectors, values_and_densities_are_known)
 {
     const double p_h[] = {3.63946769, 5.30489950, 3.57121879}, p_l[] = {.98424720, 1.32622488, 2.20759976};
     const double f[] = {.04173189, .05304900, .50189264}; // with Schlick's factor, f0 = 0.04
@@ -147,14 +142,11 @@ TEST(AshikhminShirleyVectors, values_and_densities_are_known)
     }
 }
 
-TEST(AshikhminShirleyVectors, half_vectors_are_known_in_all_quadrants)
+TEST(ashikhmin_shirley_vectors, half_vectors_are_known_in_all_quadrants)
 {
-    const double cases[][7] = {{100, 10, .1, .5, .09355066, .20595495, .97407948},
-                               {100, 10, .3, .25, -.02304719, .21493459, .97635647},
-                               {100, 10, .25, .5, 0, .34410572, .93893091},
-                               {100, 10, .6, .9, -.16548205, -.36431434, .91645554},
-                               {2e4, 70, .1, .5, .00672392, .08199367, .99661017},
-                               {2e4, 70, 0, 0, 0, 0, 1}};
+    const double cases[][7] = {{100, 10, .1, .5, .09355066, .20595495, .97407948}, {100, 10, .3, .25, -.02304719, .21493459, .97635647},
+                               {100, 10, .25, .5, 0, .34410572, .93893091},        {100, 10, .6, .9, -.16548205, -.36431434, .91645554},
+                               {2e4, 70, .1, .5, .00672392, .08199367, .99661017}, {2e4, 70, 0, 0, 0, 0, 1}};
     for (const auto& c : cases)
         for (const IsaFns& isa : {float_fns()[0], oracle_fns()}) {
             const std::vector<double> h = call(isa, "ashikhmin_shirley_half", {c[0], c[1], c[2], c[3]});
@@ -162,7 +154,7 @@ TEST(AshikhminShirleyVectors, half_vectors_are_known_in_all_quadrants)
         }
 }
 
-TEST(AshikhminShirleyVectors, both_parts_of_the_albedo_are_known)
+TEST(ashikhmin_shirley_vectors, both_parts_of_the_albedo_are_known)
 {
     // nu nv theta phi; shares of the light that go with f0 and with 1 - f0 of Schlick's factor
     const double cases[][6] = {{20, 20, .5, 0, .80441089, .00032332},
@@ -177,8 +169,7 @@ TEST(AshikhminShirleyVectors, both_parts_of_the_albedo_are_known)
         Batch batch(setting.params, kGrid * kGrid);
         std::vector<double> by_f0(kGrid * kGrid), by_rest(kGrid * kGrid);
         for (std::size_t k = 0; k < kGrid * kGrid; ++k) {
-            const Chart::Point p = chart.at((static_cast<double>(k / kGrid) + .5) / kGrid,
-                                            (static_cast<double>(k % kGrid) + .5) / kGrid);
+            const Chart::Point p = chart.at((static_cast<double>(k / kGrid) + .5) / kGrid, (static_cast<double>(k % kGrid) + .5) / kGrid);
             const double chi = std::pow(1 - std::min(dot(wo, p.h), 1.0), 5), measure = p.per_wi * p.wi[2] / (kGrid * kGrid);
             batch.set(k, wo, p.wi);
             by_f0[k] = p.per_wi > 0 ? (1 - chi) * measure : 0;
@@ -190,13 +181,13 @@ TEST(AshikhminShirleyVectors, both_parts_of_the_albedo_are_known)
     }
 }
 
-TEST(AshikhminShirleyVectors, exponents_follow_from_widths)
+TEST(ashikhmin_shirley_vectors, exponents_follow_from_widths)
 {
     EXPECT_NEAR(call(oracle_fns(), "ashikhmin_shirley_of_alpha", {.1, .5})[0], 100, 1e-9);
     EXPECT_NEAR(call(oracle_fns(), "ashikhmin_shirley_of_alpha", {.1, 0})[1], 1e6, 1e-3);
 }
 
-TEST(HeidrichSeidelVectors, diffuse_and_mirror_terms_are_known)
+TEST(heidrich_seidel_vectors, diffuse_and_mirror_terms_are_known)
 {
     struct Case {
         Vec l, v;
@@ -208,8 +199,8 @@ TEST(HeidrichSeidelVectors, diffuse_and_mirror_terms_are_known)
                           {unit({.9, .1, .3}), unit({.8, .1, .3}), .33149677, -.75553595}};
     for (const Case& c : cases) {
         EXPECT_NEAR(call(oracle_fns(), "thread_diffuse", {c.l[0], c.l[1], c.l[2]})[0], c.diffuse, 1e-8);
-        EXPECT_NEAR(call(oracle_fns(), "thread_mirror", {c.v[0], c.v[1], c.v[2], c.l[0], c.l[1], c.l[2]})[0],
-                    std::max(c.mirror, 0.0), 1e-8);
+        EXPECT_NEAR(call(oracle_fns(), "thread_mirror", {c.v[0], c.v[1], c.v[2], c.l[0], c.l[1], c.l[2]})[0], std::max(c.mirror, 0.0),
+                    1e-8);
         EXPECT_NEAR(c.diffuse * call(oracle_fns(), "thread_diffuse", {c.v[0], c.v[1], c.v[2]})[0] - c.l[0] * c.v[0], c.mirror, 1e-8);
         const double expected = .3 * c.diffuse + .6 * std::pow(std::max(c.mirror, 0.0), 20);
         EXPECT_NEAR(eval("heidrich_seidel", {.3, .6, 20}, c.v, c.l), expected, 1e-6);

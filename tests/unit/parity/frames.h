@@ -4,7 +4,7 @@
 #include <bit>
 
 #include "raster/frame/frame.h"
-#include "raster/frame/records.h"
+#include "shading/lang/tables.h"
 
 namespace burnish::test {
 

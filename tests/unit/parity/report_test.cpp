@@ -3,8 +3,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "apps/parity_report.h"
-#include "apps/race_report.h"
+#include "apps/parity/race_report.h"
+#include "apps/parity/report.h"
 #include "tests/unit/parity/frames.h"
 
 namespace burnish::test {
@@ -66,7 +66,8 @@ TEST(parity_report, ends_with_the_code_of_a_row_that_failed)
     const Frame a = two_pixels();
     Frame b = a;
     b.stages.pairs[1] ^= 1u;
-    const ParityRow good = row_of(a, a), bad = row_of(a, b), absent = failed(ExitCode::unavailable), unreadable = failed(ExitCode::bad_input);
+    const ParityRow good = row_of(a, a), bad = row_of(a, b), absent = failed(ExitCode::unavailable),
+                    unreadable = failed(ExitCode::bad_input);
     EXPECT_FALSE(passed(report_of({good, absent})));
     EXPECT_EQ(outcome(report_of({good, absent})), ExitCode::unavailable);
     EXPECT_EQ(outcome(report_of({absent, unreadable})), ExitCode::bad_input);

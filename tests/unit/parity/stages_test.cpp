@@ -3,7 +3,7 @@
 
 #include <bit>
 
-#include "apps/parity_stages.h"
+#include "apps/parity/stages.h"
 #include "tests/unit/parity/frames.h"
 
 namespace burnish::test {

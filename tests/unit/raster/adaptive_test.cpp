@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/scene/builtin.h"
+#include "core/scene/builtin/builtin.h"
 #include "tests/unit/raster/fixture.h"
 
 namespace burnish::test {
@@ -38,7 +38,10 @@ struct Judge {
 };
 
 // Display values by a curve without a kink, which would hide seams behind its own.
-double shown(float linear) { return std::pow(static_cast<double>(linear) / (1.0 + static_cast<double>(linear)), 1.0 / 2.2); }
+double shown(float linear)
+{
+    return std::pow(static_cast<double>(linear) / (1.0 + static_cast<double>(linear)), 1.0 / 2.2);
+}
 
 constexpr int kNext = 3; // floats to the next pixel
 
@@ -56,9 +59,9 @@ double roughest(const Frame& f)
 }
 
 // A fixed number of samples moves them smoothly; the adaptive number must not add steps to that. Both fixed counts are asked: sixteen equal
-// samples leave sharper edges in narrow lobes, sixteen by density, as the adaptive ones are placed, more ripples in wide ones (alpha_lin 0.5, eta
-// 0.8 and above, where adaptive exceeds equal samples by 1.26 / 255 and samples by density by less than 1 / 255). Samples that come and go
-// without fading differ from either by ten to a hundred times as much.
+// samples leave sharper edges in narrow lobes, sixteen by density, as the adaptive ones are placed, more ripples in wide ones (alpha_lin
+// 0.5, eta 0.8 and above, where adaptive exceeds equal samples by 1.26 / 255 and samples by density by less than 1 / 255). Samples that
+// come and go without fading differ from either by ten to a hundred times as much.
 TEST(adaptive, no_seam_shows_on_a_sweep_over_a_sphere)
 {
     const Judge judge;
@@ -98,7 +101,8 @@ TEST(adaptive, samples_by_density_are_nearer_to_the_truth_than_equal_ones)
     EXPECT_LT(equal, 0.8 * bent);
     EXPECT_LT(weighted, 0.75 * equal);
     EXPECT_LT(adaptive, equal);
-    std::printf("mean error of bent normal %.4f, equal samples %.4f, by density %.4f, adaptive %.4f\n", bent / 12, equal / 12, weighted / 12, adaptive / 12);
+    std::printf("mean error of bent normal %.4f, equal samples %.4f, by density %.4f, adaptive %.4f\n", bent / 12, equal / 12,
+                weighted / 12, adaptive / 12);
 }
 
 } // namespace

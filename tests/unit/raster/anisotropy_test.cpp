@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "core/scene/builtin.h"
+#include "core/scene/builtin/builtin.h"
 #include "tests/unit/raster/fixture.h"
 
 namespace burnish::test {
@@ -62,9 +62,9 @@ float difference(const Frame& a, const Frame& b)
     return most;
 }
 
-class Brushing : public testing::TestWithParam<const char*> {};
+class brushing : public testing::TestWithParam<const char*> {};
 
-TEST_P(Brushing, is_the_same_by_tangents_by_rotation_and_by_texture)
+TEST_P(brushing, is_the_same_by_tangents_by_rotation_and_by_texture)
 {
     const bool overridden = std::string(GetParam()) == "eta";
     const Environment environment = sky();
@@ -84,8 +84,9 @@ TEST_P(Brushing, is_the_same_by_tangents_by_rotation_and_by_texture)
         const float angle = stored(wanted);
         const Frame by_tangents = picture({angle, 0.0f, 0.0f, false});
         EXPECT_LT(difference(by_tangents, picture({0.0f, angle, 0.0f, false})), 1e-3f) << "rotation by " << angle;
-        EXPECT_LT(difference(by_tangents, picture({0.0f, 0.0f, wanted, true})), 2e-3f) << "texture of " << angle;
-        EXPECT_LT(difference(by_tangents, picture({-0.4f, 0.4f, wanted, true})), 2e-3f) << "all three for " << angle;
+        // a lobe of one shape has its albedo from a slice, a textured one from the table of all widths
+        EXPECT_LT(difference(by_tangents, picture({0.0f, 0.0f, wanted, true})), 4e-3f) << "texture of " << angle;
+        EXPECT_LT(difference(by_tangents, picture({-0.4f, 0.4f, wanted, true})), 4e-3f) << "all three for " << angle;
         least_turn = std::min(least_turn, difference(by_tangents, straight));
     }
     EXPECT_GT(least_turn, 0.02f); // else nothing was compared
@@ -109,6 +110,33 @@ TEST(anisotropy, a_mirror_shows_the_environment_by_every_technique)
     EXPECT_GT(difference(expected, stage.render(d, best_isa())), 0.05f); // else every direction looked the same
 }
 
+// A lobe that is hardly anisotropic is the isotropic one, and nothing jumps where lobes grow thin.
+TEST(anisotropy, nothing_jumps_where_lobes_are_nearly_round_or_thin)
+{
+    Stage stage(brushed_quad({0.3f, 0.4f, 0.0f, false}));
+    stage.environment = sky();
+    FrameDesc d;
+    d.width = d.height = 16, d.background = false, d.override_anisotropy = true, d.samples = 8;
+    d.view = make_view({0.7f, -0.9f, 1.6f}, {0, 0, 0}, 0.4f, d.width, d.height);
+    float round = 0.0f, step = 0.0f;
+    for (const char* technique : {"split_isotropic", "bent_normal", "major_axis_weighted"}) {
+        d.technique = technique;
+        Frame before;
+        for (float roughness = 0.0003f; roughness < 0.09f; roughness *= 1.06f) {
+            d.roughness = roughness, d.anisotropy = 1e-5f;
+            Frame thin = stage.render(d, best_isa());
+            if (!before.color.empty())
+                step = std::max(step, difference(before, thin));
+            d.anisotropy = 0.0f;
+            round = std::max(round, difference(stage.render(d, best_isa()), thin));
+            before = std::move(thin);
+        }
+    }
+    std::printf("round against nearly round %.5f, step of 6 %% of roughness %.5f\n", static_cast<double>(round), static_cast<double>(step));
+    EXPECT_LT(round, 0.01f);
+    EXPECT_LT(step, 0.1f);
+}
+
 // A lobe of eta 0.95 is 39 times as wide along its axis as across: halves alone, with 11 bits, would bend its width across by a fifth.
 TEST(anisotropy, textures_keep_more_bits_than_a_half_has)
 {
@@ -120,7 +148,8 @@ TEST(anisotropy, textures_keep_more_bits_than_a_half_has)
         d.view = make_view({0, 0, 1.6f}, {0, 0, 0}, 0.4f, d.width, d.height);
         d.stages = true;
         const Frame f = stage.render(d, best_isa());
-        const float* tensors = reinterpret_cast<const float*>(f.stages.pairs.data() + 4 * kPairWords) + kPairWords - 3 - 6; // of the middle pixel
+        const float* tensors =
+            reinterpret_cast<const float*>(f.stages.pairs.data() + 4 * kPairWords) + kPairWords - 3 - 6; // of the middle pixel
         const double c = std::cos(static_cast<double>(stored(wanted))), s = std::sin(static_cast<double>(stored(wanted)));
         for (int power : {0, 1}) {
             EXPECT_NEAR(static_cast<double>(tensors[3 * power]), c * c, 2e-6) << wanted;
@@ -130,7 +159,7 @@ TEST(anisotropy, textures_keep_more_bits_than_a_half_has)
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(of, Brushing, testing::Values("strength", "eta"), [](const auto& p) { return std::string(p.param); });
+INSTANTIATE_TEST_SUITE_P(of, brushing, testing::Values("strength", "eta"), [](const auto& p) { return std::string(p.param); });
 
 } // namespace
 } // namespace burnish::test

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "core/scene/builtin.h"
+#include "core/scene/builtin/builtin.h"
 #include "raster/frame/upload.h"
 #include "tests/unit/raster/fixture.h"
 
@@ -78,6 +78,11 @@ Triangle to_world(const LatticeTriangle& t, float z)
     return w;
 }
 
+bool same(const Column<std::uint32_t>& a, const Column<std::uint32_t>& b)
+{
+    return std::equal(a.begin(), a.end(), b.begin(), b.end());
+}
+
 FrameDesc id_desc(int width, int height, int msaa)
 {
     FrameDesc d;
@@ -90,15 +95,33 @@ FrameDesc id_desc(int width, int height, int msaa)
 TEST(coverage, sample_positions_equal_the_vulkan_table)
 {
     // Vulkan 1.3, "Standard sample locations", as printed there: x, y in pixels
-    const std::vector<std::vector<glm::vec2>> table = {
-        {{0.5f, 0.5f}},
-        {{0.75f, 0.75f}, {0.25f, 0.25f}},
-        {{0.375f, 0.125f}, {0.875f, 0.375f}, {0.125f, 0.625f}, {0.625f, 0.875f}},
-        {{0.5625f, 0.3125f}, {0.4375f, 0.6875f}, {0.8125f, 0.5625f}, {0.3125f, 0.1875f}, {0.1875f, 0.8125f},
-         {0.0625f, 0.4375f}, {0.6875f, 0.9375f}, {0.9375f, 0.0625f}},
-        {{0.5625f, 0.5625f}, {0.4375f, 0.3125f}, {0.3125f, 0.625f}, {0.75f, 0.4375f}, {0.1875f, 0.375f}, {0.625f, 0.8125f},
-         {0.8125f, 0.6875f}, {0.6875f, 0.1875f}, {0.375f, 0.875f}, {0.5f, 0.0625f}, {0.25f, 0.125f}, {0.125f, 0.75f},
-         {0.0f, 0.5f}, {0.9375f, 0.25f}, {0.875f, 0.9375f}, {0.0625f, 0.0f}}};
+    const std::vector<std::vector<glm::vec2>> table = {{{0.5f, 0.5f}},
+                                                       {{0.75f, 0.75f}, {0.25f, 0.25f}},
+                                                       {{0.375f, 0.125f}, {0.875f, 0.375f}, {0.125f, 0.625f}, {0.625f, 0.875f}},
+                                                       {{0.5625f, 0.3125f},
+                                                        {0.4375f, 0.6875f},
+                                                        {0.8125f, 0.5625f},
+                                                        {0.3125f, 0.1875f},
+                                                        {0.1875f, 0.8125f},
+                                                        {0.0625f, 0.4375f},
+                                                        {0.6875f, 0.9375f},
+                                                        {0.9375f, 0.0625f}},
+                                                       {{0.5625f, 0.5625f},
+                                                        {0.4375f, 0.3125f},
+                                                        {0.3125f, 0.625f},
+                                                        {0.75f, 0.4375f},
+                                                        {0.1875f, 0.375f},
+                                                        {0.625f, 0.8125f},
+                                                        {0.8125f, 0.6875f},
+                                                        {0.6875f, 0.1875f},
+                                                        {0.375f, 0.875f},
+                                                        {0.5f, 0.0625f},
+                                                        {0.25f, 0.125f},
+                                                        {0.125f, 0.75f},
+                                                        {0.0f, 0.5f},
+                                                        {0.9375f, 0.25f},
+                                                        {0.875f, 0.9375f},
+                                                        {0.0625f, 0.0f}}};
     for (std::size_t k = 0; k < 5; ++k) {
         const SamplePattern p = standard_samples(kCounts[k]);
         ASSERT_EQ(p.count, kCounts[k]);
@@ -219,8 +242,34 @@ TEST(coverage, crowds_of_small_and_large_triangles_equal_a_brute_force_model)
         expect_model(60, 50, 4, flat_triangles(60, 50, 2000, sizes, 3, random));
 }
 
-// Lanes and blocks draw the same samples at the same depths: sloped triangles of few pixels, crossing each other, twice in the list, some cut
-// by the near plane. Where the material tests alpha they go by blocks, else by lanes.
+// Where several threads draw, a tile of so many triangles is cut.
+TEST(coverage, a_crowded_tile_is_the_same_by_one_thread_and_by_several)
+{
+    Random random{77};
+    std::vector<Triangle> triangles;
+    for (int i = 0; i < 40000; ++i) {
+        const float size = i % 500 ? 3.0f : 60.0f, depth = i % 50 ? 0.1f : 2.0f; // some lie across the near plane
+        const glm::vec3 c(random.unit() * 90, -random.unit() * 50, random.unit() * 1.2f - 0.1f);
+        const auto corner = [&] {
+            return c + glm::vec3((random.unit() - 0.5f) * size, (random.unit() - 0.5f) * size, (random.unit() - 0.5f) * depth);
+        };
+        triangles.push_back({corner(), corner(), corner()});
+    }
+    const Stage one(scene_of(triangles, true)), three(scene_of(triangles, true), 1.0f, 3);
+    for (int tile : {32, 64})
+        for (int msaa : {1, 4})
+            for (Isa isa : available_isas()) {
+                FrameDesc d = id_desc(90, 50, msaa);
+                d.view.znear = 0.1f, d.tile_size = tile, d.stages = true;
+                const Frame a = one.render(d, isa), b = three.render(d, isa);
+                EXPECT_TRUE(same(a.triangle_ids, b.triangle_ids)) << isa_name(isa) << " tile " << tile;
+                EXPECT_TRUE(same(a.stages.depths, b.stages.depths)) << isa_name(isa) << " tile " << tile;
+                EXPECT_EQ(pixel_hash(a.color), pixel_hash(b.color)) << isa_name(isa) << " tile " << tile;
+            }
+}
+
+// Lanes and blocks draw the same samples at the same depths: sloped triangles of few pixels, crossing each other, twice in the list, some
+// cut by the near plane. Where the material tests alpha they go by blocks, else by lanes.
 TEST(coverage, small_triangles_by_lanes_equal_those_by_blocks_bit_for_bit)
 {
     Random random{31};
@@ -245,7 +294,6 @@ TEST(coverage, small_triangles_by_lanes_equal_those_by_blocks_bit_for_bit)
         for (int tile : {32, 64})
             for (Isa isa : available_isas()) {
                 const Frame lanes = draw(AlphaMode::opaque, msaa, tile, isa);
-                const auto same = [](const Column<std::uint32_t>& a, const Column<std::uint32_t>& b) { return std::equal(a.begin(), a.end(), b.begin(), b.end()); };
                 EXPECT_TRUE(same(lanes.triangle_ids, blocks.triangle_ids)) << isa_name(isa) << " msaa " << msaa << " tile " << tile;
                 EXPECT_TRUE(same(lanes.stages.depths, blocks.stages.depths)) << isa_name(isa) << " msaa " << msaa << " tile " << tile;
             }
@@ -360,7 +408,8 @@ TEST(coverage, tiles_of_32_and_64_agree_on_crossing_slivers)
     Random random{29};
     std::vector<Triangle> slivers;
     for (int i = 0; i < 4000; ++i) {
-        const glm::vec3 a(random.unit() * 200, -random.unit() * 140, random.unit()), d(random.unit() * 90 - 45, random.unit() * 90 - 45, random.unit() - 0.5f);
+        const glm::vec3 a(random.unit() * 200, -random.unit() * 140, random.unit()),
+            d(random.unit() * 90 - 45, random.unit() * 90 - 45, random.unit() - 0.5f);
         const glm::vec3 side(random.unit() * 0.6f, random.unit() * 0.6f, random.unit() - 0.5f);
         slivers.push_back({a, a + d, a + side});
     }

@@ -1,10 +1,11 @@
-// How much light lobes give back. Energy compensation: what single scattering between microfacets loses comes back, whatever the widths of the
-// lobe. Tilts: every technique gives back what Monte Carlo of the ellipsoid distribution does.
+// How much light lobes give back. Energy compensation: what single scattering between microfacets loses comes back, whatever the widths of
+// the lobe. Tilts: every technique gives back what Monte Carlo of the ellipsoid distribution does.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "raster/frame/grid_samples.h"
 #include "tests/unit/raster/fixture.h"
 
 namespace burnish::test {
@@ -14,9 +15,9 @@ constexpr double kDegree = 3.14159265358979 / 180.0;
 
 Scene square(float metallic, float albedo)
 {
-    Scene scene = scene_of({{glm::vec3(-1, -1, 0), glm::vec3(1, -1, 0), glm::vec3(1, 1, 0)},
-                            {glm::vec3(-1, -1, 0), glm::vec3(1, 1, 0), glm::vec3(-1, 1, 0)}},
-                           false);
+    Scene scene = scene_of(
+        {{glm::vec3(-1, -1, 0), glm::vec3(1, -1, 0), glm::vec3(1, 1, 0)}, {glm::vec3(-1, -1, 0), glm::vec3(1, 1, 0), glm::vec3(-1, 1, 0)}},
+        false);
     scene.materials[0].metallic = metallic;
     scene.materials[0].base_color = glm::vec4(albedo, albedo, albedo, 1.0f);
     return scene;
@@ -25,8 +26,7 @@ Scene square(float metallic, float albedo)
 // A floor of one material under light of radiance 1.
 struct Floor {
     explicit Floor(float metallic = 1.0f, float albedo = 1.0f)
-        : stage(square(metallic, albedo)),
-          renderer(make_tile_renderer({stage.scene, stage.tables, stage.environment, stage.dfg, stage.jobs}, best_isa()))
+        : stage(square(metallic, albedo)), renderer(make_tile_renderer(stage.input(), best_isa()))
     {
     }
     // Mean radiance that it gives back to an eye at a cosine against the normal and an azimuth against x, which the grain is turned to.
@@ -106,11 +106,37 @@ TEST(energy, one_fetch_gives_back_what_sampling_does)
                         const double truth = floor.seen(d, cosine, azimuth * kDegree);
                         d.technique = "bent_normal";
                         const double error = std::abs(floor.seen(d, cosine, azimuth * kDegree) - truth);
-                        EXPECT_LT(error, 0.02) << "metallic " << metallic << ", alpha_lin " << roughness << ", eta " << eta << ", cosine " << cosine << ", azimuth " << azimuth;
+                        EXPECT_LT(error, 0.02) << "metallic " << metallic << ", alpha_lin " << roughness << ", eta " << eta << ", cosine "
+                                               << cosine << ", azimuth " << azimuth;
                         largest = std::max(largest, error);
                     }
     }
     std::printf("largest difference %.4f\n", largest);
+}
+
+// Without compensation too: the light that a technique found is scaled by what its lobe of two widths gives back.
+TEST(energy, prefiltered_techniques_give_back_what_their_lobe_does)
+{
+    const Floor floor;
+    FrameDesc d;
+    d.override_anisotropy = true;
+    double largest = 0.0;
+    for (float roughness : {0.3f, 0.5f, 0.7f, 0.9f})
+        for (float eta : {-0.9f, 0.0f, 0.5f, 0.9f})
+            for (double cosine : {0.95, 0.6, 0.25})
+                for (double azimuth : {5.0, 45.0, 88.0}) {
+                    d.roughness = roughness, d.anisotropy = eta;
+                    d.technique = "mc", d.samples = 1024;
+                    const double truth = floor.seen(d, cosine, azimuth * kDegree);
+                    for (const char* technique : {"split_isotropic", "bent_normal", "major_axis", "major_axis_weighted", "lobe_line"}) {
+                        d.technique = technique, d.samples = 4;
+                        const double error = std::abs(floor.seen(d, cosine, azimuth * kDegree) / truth - 1.0);
+                        EXPECT_LT(error, 0.01) << technique << ", alpha_lin " << roughness << ", eta " << eta << ", cosine " << cosine
+                                               << ", azimuth " << azimuth;
+                        largest = std::max(largest, error);
+                    }
+                }
+    std::printf("largest relative difference %.4f\n", largest);
 }
 
 // What a tilted lobe loses, below the surface too, comes back, and no more. Of lobes that look away so far that hardly any light returns
@@ -142,6 +168,21 @@ TEST(energy, a_tilted_white_metal_gives_back_all_light)
         EXPECT_LT(away.most, mc ? 1.12 : 1.001) << t.name;
         EXPECT_GT(r.least, mc ? 0.83 : 0.999) << t.name; // mc's own albedo is known by 21 samples
         EXPECT_LT(r.most, mc ? 1.12 : 1.001) << t.name;
+    }
+}
+
+// Somewhere on every round thing the grain's axis turns to its opposite.
+TEST(energy, samples_of_a_grid_lie_opposite_each_other)
+{
+    for (int n = 1; n <= 8; ++n) {
+        const std::vector<GridSample> grid = grid_samples(n * n, true);
+        ASSERT_EQ(grid.size(), static_cast<std::size_t>(n * n));
+        for (const GridSample& g : grid) {
+            const auto opposite = [&](const GridSample& o) {
+                return std::abs(o.slope_x + g.slope_x) < 1e-5f && std::abs(o.slope_y + g.slope_y) < 1e-5f && o.density == g.density;
+            };
+            EXPECT_TRUE(std::any_of(grid.begin(), grid.end(), opposite)) << n << ": " << g.slope_x << " " << g.slope_y;
+        }
     }
 }
 

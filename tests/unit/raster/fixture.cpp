@@ -2,15 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include "raster/tile/tile_types.h"
+
 namespace burnish::test {
 
 std::vector<Isa> available_isas()
 {
-    std::vector<Isa> isas;
-    for (Isa isa : {Isa::scalar, Isa::avx2, Isa::avx512})
-        if (isa_available(isa))
-            isas.push_back(isa);
-    return isas;
+    return isas_with<TileFns>();
 }
 
 std::uint64_t Random::next()
@@ -74,16 +72,38 @@ Environment constant_environment(float radiance, const Jobs& jobs)
 
 } // namespace
 
-Stage::Stage(Scene s, float radiance, int threads)
-    : scene(std::move(s)), tables(make_draw_tables(scene)), jobs(threads), environment(constant_environment(radiance, jobs)),
-      dfg(bake_dfg(32, 256, jobs))
+struct Stage::Parts {
+    Parts(Scene s, float radiance, int threads)
+        : data{"", std::move(s), {}}, jobs(threads), environment(constant_environment(radiance, jobs)), dfg(bake_dfg(32, 256, jobs))
+    {
+        data.tables = make_draw_tables(data.scene);
+    }
+    SceneData data;
+    Jobs jobs;
+    Environment environment;
+    DfgTable dfg;
+};
+
+Stage::Stage(Scene s, float radiance, int threads) : Stage(std::make_shared<Parts>(std::move(s), radiance, threads)) {}
+
+Stage::Stage(const std::shared_ptr<Parts>& p)
+    : parts_(p), scene(p->data.scene), tables(p->data.tables), environment(p->environment), dfg(p->dfg), jobs(p->jobs)
 {
+}
+
+SessionParts Stage::parts() const
+{
+    const auto part = [&](const auto& of) { return std::shared_ptr<const std::remove_cvref_t<decltype(of)>>(parts_, &of); };
+    return {part(parts_->data), part(parts_->environment), part(parts_->dfg), part(parts_->jobs)};
 }
 
 Frame Stage::render(const FrameDesc& desc, Isa isa) const
 {
-    const RenderInput input{scene, tables, environment, dfg, jobs};
-    Result<Frame> frame = make_tile_renderer(input, isa)->render(desc);
+    SessionOptions options;
+    options.isa = isa;
+    Result<Session> session = Session::make(parts(), options);
+    EXPECT_TRUE(session);
+    Result<Frame> frame = session->render(desc);
     EXPECT_TRUE(frame) << (frame ? "" : frame.error().line());
     return *frame;
 }

@@ -4,14 +4,15 @@
 #include <cstdint>
 #include <functional>
 #include <glm/glm.hpp>
+#include <memory>
 #include <vector>
 
 #include "raster/frame/frame.h"
-#include "raster/tile/tile_renderer.h"
+#include "raster/session/session.h"
 
 namespace burnish::test {
 
-std::vector<Isa> available_isas();
+std::vector<Isa> available_isas(); // those that the tile renderer has here
 
 // Numbers from a seed, the same on every machine (SplitMix64).
 struct Random {
@@ -26,14 +27,22 @@ using Triangle = std::array<glm::vec3, 3>;
 // One mesh with one material; normals are the triangles' own.
 Scene scene_of(const std::vector<Triangle>& triangles, bool double_sided);
 
-// A scene with everything a renderer needs, under an environment of one constant radiance.
-struct Stage {
+// A scene with everything a renderer needs, under an environment of one constant radiance. Sessions that draw it share its parts, which
+// tests may change between them.
+class Stage {
+    struct Parts;
+    explicit Stage(const std::shared_ptr<Parts>& parts);
+    std::shared_ptr<Parts> parts_;
+
+  public:
     explicit Stage(Scene s, float radiance = 1.0f, int threads = 1);
-    Scene scene;
-    DrawTables tables;
-    Jobs jobs;
-    Environment environment;
-    DfgTable dfg;
+    Scene& scene;
+    DrawTables& tables;
+    Environment& environment;
+    DfgTable& dfg;
+    const Jobs& jobs;
+    SessionParts parts() const;
+    RenderInput input() const { return {scene, tables, environment, dfg, jobs}; }
     Frame render(const FrameDesc& desc, Isa isa) const;
 };
 

@@ -46,8 +46,7 @@ TEST(interpolation, perspective_weights_equal_exact_arithmetic_within_float_roun
             (condition < 4.0 ? worst_fat : worst_thin) = std::fmax(condition < 4.0 ? worst_fat : worst_thin, error);
         }
     }
-    std::printf("largest error, in units of 2^-24 times the triangle's condition: %.2f well shaped, %.2f thin\n", worst_fat,
-                worst_thin);
+    std::printf("largest error, in units of 2^-24 times the triangle's condition: %.2f well shaped, %.2f thin\n", worst_fat, worst_thin);
     EXPECT_GT(worst_fat, 0.0);
     EXPECT_LT(worst_fat, 4.0);
     EXPECT_LT(worst_thin, 4.0);

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <glm/gtc/quaternion.hpp>
 
-#include "core/scene/builtin.h"
+#include "core/scene/builtin/builtin.h"
 #include "tests/unit/raster/fixture.h"
 
 namespace burnish::test {
@@ -26,7 +26,10 @@ FrameDesc quad_desc(int side, int msaa)
     return d;
 }
 
-const float* pixel(const Frame& f, int x, int y) { return f.color.f32() + 3 * (y * f.color.width + x); }
+const float* pixel(const Frame& f, int x, int y)
+{
+    return f.color.f32() + 3 * (y * f.color.width + x);
+}
 
 // Under radiance 1 everywhere a dielectric of albedo 1 gives back exactly what it gets: what is not reflected is diffused.
 TEST(furnace, white_dielectric_disappears_in_a_constant_environment)
@@ -56,7 +59,8 @@ TEST(furnace, metal_gives_back_its_directional_albedo)
         const Frame f = stage.render(quad_desc(33, 4), best_isa());
         const int n = stage.dfg.size;
         const float row = roughness * static_cast<float>(n - 1); // n.v = 1 at the centre: the last column
-        const std::size_t r0 = static_cast<std::size_t>(std::floor(row)), r1 = std::min<std::size_t>(r0 + 1, static_cast<std::size_t>(n) - 1);
+        const std::size_t r0 = static_cast<std::size_t>(std::floor(row)),
+                          r1 = std::min<std::size_t>(r0 + 1, static_cast<std::size_t>(n) - 1);
         const auto albedo = [&](std::size_t r) {
             const std::size_t at = r * static_cast<std::size_t>(n) + static_cast<std::size_t>(n) - 1;
             return stage.dfg.scale[at] + stage.dfg.bias[at];
@@ -124,7 +128,7 @@ TEST(technique, a_mirror_is_a_mirror_and_a_constant_environment_gives_the_albedo
         d.roughness = 0.5f;
         const Frame rough = stage.render(d, best_isa());
         const bool sampled_lobe = std::string(t.name).rfind("filtered_is", 0) == 0; // a handful of samples overshoots a little
-        for (int i = 0; i < 160 * 100 * 3; ++i) // a lobe never gives back more than it gets
+        for (int i = 0; i < 160 * 100 * 3; ++i)                                     // a lobe never gives back more than it gets
             ASSERT_LT(rough.color.f32()[i], sampled_lobe ? 1.1f : 1.005f) << t.name;
     }
 }
@@ -153,8 +157,10 @@ TEST(technique, tilted_lobes_are_dimmed_as_monte_carlo_dims_them)
                 const double truth = light("mc", 256);
                 for (const TechniqueInfo& t : techniques()) {
                     const double ratio = light(t.name, t.default_samples) / truth;
-                    const bool beckmann = std::string(t.name) == "filtered_is"; // without tails, of which all samples may be below the horizon
-                    EXPECT_GT(ratio, beckmann ? 0.85 : 0.97) << t.name << ", alpha_lin " << roughness << ", eta " << anisotropy << ", tilt " << tilt;
+                    const bool beckmann =
+                        std::string(t.name) == "filtered_is"; // without tails, of which all samples may be below the horizon
+                    EXPECT_GT(ratio, beckmann ? 0.85 : 0.97)
+                        << t.name << ", alpha_lin " << roughness << ", eta " << anisotropy << ", tilt " << tilt;
                     EXPECT_LT(ratio, 1.06) << t.name << ", alpha_lin " << roughness << ", eta " << anisotropy << ", tilt " << tilt;
                 }
             }
@@ -176,8 +182,8 @@ TEST(technique, no_lobe_and_no_sample_count_makes_a_nan)
                         d.technique = t.name, d.samples = samples_taken(t, samples);
                         d.roughness = roughness, d.anisotropy = anisotropy, d.tilt_rad = {tilt, -tilt};
                         const Frame f = stage.render(d, best_isa());
-                        ASSERT_EQ(count_not_finite(f.color), 0u)
-                            << t.name << ", " << samples << " samples, alpha_lin " << roughness << ", eta " << anisotropy << ", tilt " << tilt;
+                        ASSERT_EQ(count_not_finite(f.color), 0u) << t.name << ", " << samples << " samples, alpha_lin " << roughness
+                                                                 << ", eta " << anisotropy << ", tilt " << tilt;
                     }
 }
 
@@ -228,7 +234,8 @@ TEST(light, an_anisotropic_metal_answers_a_light_with_its_anisotropic_lobe)
         d.view = make_view({0, 0, 400}, {0, 0, 0}, 0.003f, 33, 33);
         d.technique = "bent_normal", d.override_anisotropy = true, d.anisotropy = static_cast<float>(eta);
         const double pi = 3.14159265358979, a = roughness * roughness;
-        const double width = light_along_tangent ? a * (1 + eta) : a * (1 - eta), other = light_along_tangent ? a * (1 - eta) : a * (1 + eta);
+        const double width = light_along_tangent ? a * (1 + eta) : a * (1 - eta),
+                     other = light_along_tangent ? a * (1 - eta) : a * (1 + eta);
         const double hx = std::sin(slant / 2), hz = std::cos(slant / 2), lz = std::cos(slant), lx = std::sin(slant);
         const double q = hx * hx / (width * width) + hz * hz, distribution = 1 / (pi * width * other * q * q);
         const double visibility = 0.5 / (lz + std::sqrt(width * width * lx * lx + lz * lz));
@@ -245,8 +252,7 @@ Image checker(int side)
     for (int y = 0; y < side; ++y)
         for (int x = 0; x < side; ++x)
             for (int c = 0; c < 4; ++c)
-                image.bytes[static_cast<std::size_t>(4 * (y * side + x) + c)] =
-                    static_cast<std::byte>((x + y) % 2 || c == 3 ? 255 : 0);
+                image.bytes[static_cast<std::size_t>(4 * (y * side + x) + c)] = static_cast<std::byte>((x + y) % 2 || c == 3 ? 255 : 0);
     return image;
 }
 
@@ -266,8 +272,8 @@ Scene textured_floor(float repeats)
     return scene;
 }
 
-// A mirror whose normal map leans 63 degrees: seen from the front it mirrors from below the quad. With the horizon nothing arrives from there,
-// by any technique; without, the map is taken at its word.
+// A mirror whose normal map leans 63 degrees: seen from the front it mirrors from below the quad. With the horizon nothing arrives from
+// there, by any technique; without, the map is taken at its word.
 TEST(material, a_normal_map_with_a_horizon_reflects_nothing_from_below)
 {
     Scene scene = textured_floor(1.0f);

@@ -10,7 +10,8 @@ namespace {
 TEST(accumulator, student_t_is_the_table_s)
 {
     // Abramowitz and Stegun, table 26.10
-    const std::pair<std::uint32_t, double> table[] = {{1, 12.706}, {4, 2.776}, {5, 2.571}, {7, 2.365}, {10, 2.228}, {30, 2.042}, {120, 1.980}};
+    const std::pair<std::uint32_t, double> table[] = {{1, 12.706}, {4, 2.776},  {5, 2.571},  {7, 2.365},
+                                                      {10, 2.228}, {30, 2.042}, {120, 1.980}};
     for (const auto& [degrees, t] : table)
         EXPECT_NEAR(student_t_975(degrees), t, 1.2e-3 * t) << degrees;
     EXPECT_TRUE(std::isinf(student_t_975(0)));

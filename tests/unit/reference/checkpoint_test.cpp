@@ -9,7 +9,7 @@
 #include <fstream>
 #include <thread>
 
-#include "core/scene/builtin.h"
+#include "core/scene/builtin/builtin.h"
 #include "raster/reference/accumulator.h"
 #include "raster/reference/checkpoint.h"
 #include "raster/reference/scene_key.h"
@@ -58,7 +58,7 @@ ReferenceOptions options_of(ReferenceMode mode, std::uint64_t samples)
 
 Result<Frame> try_render(const Stage& stage, const FrameDesc& d, const ReferenceOptions& o)
 {
-    const RenderInput input{stage.scene, stage.tables, stage.environment, stage.dfg, stage.jobs};
+    const RenderInput input = stage.input();
     Result<std::unique_ptr<Renderer>> renderer = make_reference_renderer(input, o);
     EXPECT_TRUE(renderer);
     return (*renderer)->render(d);
@@ -72,7 +72,7 @@ TEST(bits, are_the_same_for_any_thread_count_and_instruction_set)
         for (int threads : {1, 2, 5}) {
             const Stage stage(small_scene(), 1.0f, threads);
             for (Isa isa : available_isas()) {
-                const RenderInput input{stage.scene, stage.tables, stage.environment, stage.dfg, stage.jobs};
+                const RenderInput input = stage.input();
                 ReferenceOptions o = options_of(mode, 320);
                 o.isa = isa;
                 const Result<Frame> f = (*make_reference_renderer(input, o))->render(small_desc());
@@ -80,7 +80,8 @@ TEST(bits, are_the_same_for_any_thread_count_and_instruction_set)
                 EXPECT_EQ(f->stats.sampling.samples, 320u);
                 color = color ? color : pixel_hash(f->color);
                 variance = variance ? variance : pixel_hash(f->variance);
-                EXPECT_EQ(pixel_hash(f->color), color) << "mode " << static_cast<int>(mode) << ", " << threads << " threads, " << isa_name(isa);
+                EXPECT_EQ(pixel_hash(f->color), color)
+                    << "mode " << static_cast<int>(mode) << ", " << threads << " threads, " << isa_name(isa);
                 EXPECT_EQ(pixel_hash(f->variance), variance);
             }
         }
@@ -256,7 +257,7 @@ TEST(target_error, is_looked_at_after_whole_rounds_only)
     BN_NEEDS_EMBREE();
     const Stage stage(small_scene(), 1.0f, 2);
     const FrameDesc d = small_desc();
-    const RenderInput input{stage.scene, stage.tables, stage.environment, stage.dfg, stage.jobs};
+    const RenderInput input = stage.input();
     const std::uint64_t round = (1u << 22) / (37 * 21 * kPassSamples) * kPassSamples; // samples a pixel
     const TempFile file("uneven");
     ReferenceOptions o = options_of(ReferenceMode::direct, round);

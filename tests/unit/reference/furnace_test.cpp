@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "shading/kernels/dfg.k.h"
+#include "shading/surface/dfg.k.h"
 #include "tests/unit/reference/scenes.h"
 
 namespace burnish::test {
@@ -87,7 +87,8 @@ TEST(furnace, energy_compensation_returns_what_an_anisotropic_metal_loses)
             for (float cosine : {0.9f, 0.5f, 0.2f}) {
                 d.roughness = roughness, d.anisotropy = eta;
                 const Estimate e = seen_from(stage, at_cosine(cosine), options_of(ReferenceMode::direct, 256), d);
-                EXPECT_NEAR(e.mean, 1.0, kSigmas * e.deviation + 0.015) << "roughness " << roughness << " eta " << eta << " cosine " << cosine;
+                EXPECT_NEAR(e.mean, 1.0, kSigmas * e.deviation + 0.015)
+                    << "roughness " << roughness << " eta " << eta << " cosine " << cosine;
                 EXPECT_LT(e.deviation, 3e-3);
             }
 }
@@ -130,7 +131,8 @@ TEST(analytic, a_lambert_plane_under_a_constant_and_under_a_linear_environment)
     const Estimate constant = seen_from(stage, {0.3f, 0.2f, 1.0f}, options_of(ReferenceMode::direct, 1024));
     EXPECT_NEAR(constant.mean, 0.6 * 2.0, kSigmas * constant.deviation + 1e-4);
     // L = a + b.d gives the irradiance pi (a + 2/3 b.n)
-    stage.environment = environment_of([](const glm::vec3& d) { return glm::vec3(1.0f + 0.3f * d.x - 0.2f * d.y + 0.45f * d.z); }, 64, stage.jobs);
+    stage.environment =
+        environment_of([](const glm::vec3& d) { return glm::vec3(1.0f + 0.3f * d.x - 0.2f * d.y + 0.45f * d.z); }, 64, stage.jobs);
     for (ReferenceStrategy strategy : {ReferenceStrategy::mis, ReferenceStrategy::brdf, ReferenceStrategy::light}) {
         ReferenceOptions o = options_of(ReferenceMode::shadowed, 4096);
         o.strategy = strategy;

@@ -17,7 +17,10 @@ Frame look(const Scene& scene, const FrameDesc& d, ReferenceMode mode, std::uint
 }
 
 // From the side, so that what hangs over the origin is not in the way.
-FrameDesc of_the_origin() { return desc_of(8, 8, view_from({1.0f, 0.0f, 0.3f}, 0.01f)); }
+FrameDesc of_the_origin()
+{
+    return desc_of(8, 8, view_from({1.0f, 0.0f, 0.3f}, 0.01f));
+}
 
 TEST(paths, a_ball_above_a_plane_takes_its_form_factor)
 {

@@ -83,7 +83,7 @@ TEST(sobol, points_are_those_of_joe_and_kuo)
         return static_cast<double>(x) * 0x1p-32;
     };
     // the first eight in three dimensions, in the order of their binary index
-    constexpr double kFirst[8][3] = {{0, 0, 0},           {.5, .5, .5},         {.25, .75, .75},      {.75, .25, .25},
+    constexpr double kFirst[8][3] = {{0, 0, 0},          {.5, .5, .5},       {.25, .75, .75},    {.75, .25, .25},
                                      {.125, .625, .375}, {.625, .125, .875}, {.375, .375, .625}, {.875, .875, .125}};
     for (int i = 0; i < 8; ++i)
         for (int d = 0; d < 3; ++d)
@@ -116,10 +116,15 @@ TEST(sobol, every_point_is_uniform_over_the_seeds_and_pairs_of_points_are_as_ind
     };
     for (int i : {0, 1, 7, 30, 63}) {
         const integer point = i;
-        test([&](std::uint32_t s) { return vec2_of(owen_sobol(table, point, 0, s), owen_sobol(table, point, 1, s)); }, "dimensions 0 and 1");
-        test([&](std::uint32_t s) { return vec2_of(owen_sobol(table, point, 2, s), owen_sobol(table, point, 4, s)); }, "dimensions 2 and 4");
-        test([&](std::uint32_t s) { return vec2_of(camera_position(table, s, point % 16).x, shade_sample(table, s, point % 16, 1, 0).light.x); },
-             "camera and light");
+        test([&](std::uint32_t s) { return vec2_of(owen_sobol(table, point, 0, s), owen_sobol(table, point, 1, s)); },
+             "dimensions 0 and 1");
+        test([&](std::uint32_t s) { return vec2_of(owen_sobol(table, point, 2, s), owen_sobol(table, point, 4, s)); },
+             "dimensions 2 and 4");
+        test(
+            [&](std::uint32_t s) {
+                return vec2_of(camera_position(table, s, point % 16).x, shade_sample(table, s, point % 16, 1, 0).light.x);
+            },
+            "camera and light");
         test([&](std::uint32_t s) { return vec2_of(shade_sample(table, s, 3, 1, 0).lobe.x, shade_sample(table, s, 3, 1, 1).lobe.x); },
              "vertex 0 and 1");
         test([&](std::uint32_t s) { return vec2_of(owen_sobol(table, point, 0, s), owen_sobol(table, point, 0, hash_seed(s, 5))); },
@@ -160,7 +165,8 @@ TEST(environment_sampler, directions_follow_the_density_and_miss_no_light)
                 const double p = static_cast<double>(environment_pdf(s.view, d)) * solid;
                 integral += p;
                 expected[static_cast<std::size_t>((face * kSide + y / kFine) * kSide + x / kFine)] += p * kSamples;
-                const real3 c = cube_sample_level({environment.specular.texels.data(), environment.specular.size, environment.specular.levels}, d, 0);
+                const real3 c =
+                    cube_sample_level({environment.specular.texels.data(), environment.specular.size, environment.specular.levels}, d, 0);
                 const double light = static_cast<double>(c.x * 0.2126f + c.y * 0.7152f + c.z * 0.0722f) * solid;
                 mean += light;
                 if (light > 0.0) {
@@ -168,7 +174,8 @@ TEST(environment_sampler, directions_follow_the_density_and_miss_no_light)
                 }
             }
     EXPECT_NEAR(integral, 1.0, 1e-5);
-    EXPECT_NEAR(s.mean_luminance, mean * static_cast<double>(environment.specular.scale) / (4.0 * 3.14159265358979), 2e-3 * s.mean_luminance);
+    EXPECT_NEAR(s.mean_luminance, mean * static_cast<double>(environment.specular.scale) / (4.0 * 3.14159265358979),
+                2e-3 * s.mean_luminance);
     Random random{11};
     for (int i = 0; i < kSamples; ++i) {
         const float a = random.unit(), b = random.unit();
@@ -199,25 +206,33 @@ TEST(environment_sampler, black_is_sampled_evenly)
 
 Reflector reflector_of(float f0, float diffuse, float sigma_u, float sigma_v, real3 v, bool tilted = false)
 {
-    surface s = metallic_roughness_surface({0, 0, 1}, k_normalize3(v), vec3_all(diffuse), 0.0f, 0.5f, vec3_all(f0), 1.0f, 1.0f);
-    const surface_frame own = {{0, 0, 1}, {0.6f, 0.8f, 0.0f}, {-0.8f, 0.6f, 0.0f}};
-    const surface_frame frame = tilted ? tilted_frame(own, {0.94f, 0.96f}, {0.341174f, -0.28f}) : own;
-    s.n = frame.n;
-    return make_reflector(s, {frame.t, frame.b, sigma_u, sigma_v}, own, tilted, {0.8f, 0.02f}, false, vec3_all(f0), 1.0f);
+    ShadingFrame f = {};
+    f.tilted = tilted;
+    shaded_point x = {};
+    x.surface_axes = {{0, 0, 1}, {0.6f, 0.8f, 0.0f}, {-0.8f, 0.6f, 0.0f}};
+    const surface_frame frame = tilted ? tilted_frame(x.surface_axes, {0.94f, 0.96f}, {0.341174f, -0.28f}) : x.surface_axes;
+    x.s = metallic_roughness_surface({0, 0, 1}, k_normalize3(v), vec3_all(diffuse), 0.0f, 0.5f, vec3_all(f0), 1.0f, 1.0f);
+    x.s.n = frame.n;
+    x.lobe = {frame.t, frame.b, sigma_u, sigma_v};
+    x.turned = tilted, x.diffuse = true;
+    x.dfg = {0.8f, 0.02f}, x.gain = vec3_all(1.0f);
+    x.dielectric_f0 = vec3_all(f0), x.dielectric_f90 = 1.0f;
+    return make_reflector(f, x);
 }
 
 TEST(reflector, samples_follow_their_density_and_weigh_value_over_it)
 {
     constexpr int kZ = 16, kPhi = 24, kFine = 24, kSamples = 1 << 18;
-    const Reflector cases[] = {reflector_of(0.04f, 0.5f, 0.3f, 0.05f, {0.5f, 0.1f, 0.8f}), reflector_of(0.9f, 0.0f, 0.4f, 0.1f, {-0.7f, 0.6f, 0.3f}),
-                               reflector_of(0.5f, 0.5f, 0.15f, 0.15f, {0.0f, 0.0f, 1.0f}),
-                               reflector_of(0.9f, 0.0f, 0.4f, 0.1f, {-0.5f, 0.6f, 0.5f}, true)};
+    const Reflector cases[] = {
+        reflector_of(0.04f, 0.5f, 0.3f, 0.05f, {0.5f, 0.1f, 0.8f}), reflector_of(0.9f, 0.0f, 0.4f, 0.1f, {-0.7f, 0.6f, 0.3f}),
+        reflector_of(0.5f, 0.5f, 0.15f, 0.15f, {0.0f, 0.0f, 1.0f}), reflector_of(0.9f, 0.0f, 0.4f, 0.1f, {-0.5f, 0.6f, 0.5f}, true)};
     for (const Reflector& r : cases) {
         std::vector<double> seen(kZ * kPhi + 1), expected(kZ * kPhi + 1);
         double albedo = 0.0, inside = 0.0;
         for (int a = 0; a < kZ * kFine; ++a)
             for (int b = 0; b < kPhi * kFine; ++b) {
-                const float z = (static_cast<float>(a) + 0.5f) / (kZ * kFine), phi = (static_cast<float>(b) + 0.5f) / (kPhi * kFine) * 6.2831853f;
+                const float z = (static_cast<float>(a) + 0.5f) / (kZ * kFine),
+                            phi = (static_cast<float>(b) + 0.5f) / (kPhi * kFine) * 6.2831853f;
                 const float c = std::sqrt(1.0f - z * z);
                 const Reflection at = reflect(r, {c * std::cos(phi), c * std::sin(phi), z});
                 const double solid = 6.283185307179586 / (kZ * kFine) / (kPhi * kFine);

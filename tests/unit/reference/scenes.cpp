@@ -165,7 +165,7 @@ FrameDesc desc_of(int width, int height, const View& view)
 
 Frame render_reference(const Stage& stage, const FrameDesc& desc, const ReferenceOptions& options)
 {
-    const RenderInput input{stage.scene, stage.tables, stage.environment, stage.dfg, stage.jobs};
+    const RenderInput input = stage.input();
     ReferenceOptions o = options;
     if (o.isa == Isa::scalar)
         o.isa = best_isa();

@@ -6,8 +6,8 @@
 #include "raster/reference/reference_renderer.h"
 #include "tests/unit/raster/fixture.h"
 
-#define BN_NEEDS_EMBREE()                                                                                              \
-    if (!reference_available())                                                                                        \
+#define BN_NEEDS_EMBREE()                                                                                                                  \
+    if (!reference_available())                                                                                                            \
     GTEST_SKIP() << "built without Embree"
 
 namespace burnish::test {
@@ -19,16 +19,16 @@ Environment environment_of(const std::function<glm::vec3(const glm::vec3&)>& rad
 Scene plane_scene(const Material& material);
 // A ball of radius 1 at the origin, normals outwards or, for rooms, inwards.
 Scene ball_scene(const Material& material, bool inside);
-Scene room_scene(const Material& material); // a cube from -1 to 1, seen from within
+Scene room_scene(const Material& material);                                         // a cube from -1 to 1, seen from within
 void add_scene(Scene& to, const Scene& from, const glm::vec3& offset, float scale); // its first mesh and material
 
-Material lambert(float albedo);                               // diffuse only
-Material metal(float alpha_lin, float eta);                   // of reflectance 1 everywhere; eta by FrameDesc::anisotropy
+Material lambert(float albedo);                                // diffuse only
+Material metal(float alpha_lin, float eta);                    // of reflectance 1 everywhere; eta by FrameDesc::anisotropy
 View view_from(const glm::vec3& direction, float half_extent); // orthographic, of a small square about the origin
 Frame render_reference(const Stage& stage, const FrameDesc& desc, const ReferenceOptions& options);
 FrameDesc desc_of(int width, int height, const View& view);
 
-struct Estimate { // of the mean over a picture's pixels and channels
+struct Estimate {                       // of the mean over a picture's pixels and channels
     double mean = 0.0, deviation = 0.0; // deviation: of `mean`
 };
 Estimate estimate(const Frame& frame);

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "core/scene/builtin.h"
+#include "core/scene/builtin/builtin.h"
 #include "tests/unit/reference/scenes.h"
 
 namespace burnish::test {
@@ -60,8 +60,8 @@ void expect_agreement(const Stage& stage, const FrameDesc& desc, ReferenceMode m
     }
     for (int i = 0; i < 3; ++i) {
         const Agreement a = compare(frames[i], frames[(i + 1) % 3]);
-        std::printf("%s, mode %d, %d against %d: picture %.2f sigma, mean square %.3f, beyond 4 sigma %.2g\n", what, static_cast<int>(mode), i,
-                    (i + 1) % 3, a.picture, a.mean_square, a.worst_share);
+        std::printf("%s, mode %d, %d against %d: picture %.2f sigma, mean square %.3f, beyond 4 sigma %.2g\n", what, static_cast<int>(mode),
+                    i, (i + 1) % 3, a.picture, a.mean_square, a.worst_share);
         EXPECT_LT(a.picture, 4.0) << what;
         EXPECT_LT(a.worst_share, 4e-3) << what; // of a normal distribution 6e-5; few passes and small lamps have longer tails
         EXPECT_LT(a.mean_square, 1.3) << what;
@@ -132,8 +132,8 @@ TEST(strategies, agree_with_the_tile_renderer_s_mc)
         const Frame tile = stage.render(d, best_isa());
         const double mean = mean_of(tile);
         EXPECT_NEAR(reference.mean, mean, 4.0 * reference.deviation + 1e-3 * mean) << "tilt " << tilt.x << " " << tilt.y;
-        std::printf("tilt %.2f %.2f: reference %.5f +- %.5f, mc %.5f\n", static_cast<double>(tilt.x), static_cast<double>(tilt.y), reference.mean,
-                    reference.deviation, mean);
+        std::printf("tilt %.2f %.2f: reference %.5f +- %.5f, mc %.5f\n", static_cast<double>(tilt.x), static_cast<double>(tilt.y),
+                    reference.mean, reference.deviation, mean);
     }
 }
 

@@ -5,9 +5,9 @@
 #include <cstdio>
 #include <limits>
 
-#include "core/scene/builtin.h"
-#include "raster/frame/lanes_records.h"
-#include "raster/frame/upload.h"
+#include "core/scene/builtin/builtin.h"
+#include "raster/frame/frame_record.h"
+#include "shading/lang/stage_cxx.h"
 #include "tests/unit/reference/scenes.h"
 
 namespace burnish::test {
@@ -40,21 +40,21 @@ double distance_to_edges(const DrawTables& t, const View& v, int width, int heig
 
 struct Count {
     std::size_t samples = 0, covered = 0;
-    std::size_t silhouettes = 0;      // one of the two sees nothing there
-    std::size_t far_silhouettes = 0;  // and no edge is near
-    std::size_t triangles = 0;        // both see a triangle, not the same one
-    std::size_t far_triangles = 0;    // and no edge of either is near
-    double farthest_px = 0.0;         // of those that differ: the largest distance to an edge
+    std::size_t silhouettes = 0;     // one of the two sees nothing there
+    std::size_t far_silhouettes = 0; // and no edge is near
+    std::size_t triangles = 0;       // both see a triangle, not the same one
+    std::size_t far_triangles = 0;   // and no edge of either is near
+    double farthest_px = 0.0;        // of those that differ: the largest distance to an edge
 };
 
 // Vertices of the rasterizer lie on a grid of 1/256 pixel, so each moves by up to 1/512 along either axis, and with it the edges.
 constexpr double kSnapped = 1.0 / 128.0; // pixels
 
-// The tables with every vertex where the rasterizer draws it: at its position on the grid, as the vertex kernel finds it, and as far from the
-// eye's plane as before. Rays then meet the same triangles as the edge functions do.
+// The tables with every vertex where the rasterizer draws it: at its position on the grid, as the vertex kernel finds it, and as far from
+// the eye's plane as before. Rays then meet the same triangles as the edge functions do.
 DrawTables on_the_grid(DrawTables t, const FrameDesc& d)
 {
-    const ViewParams v = view_params_of(d.view);
+    const ViewRecord v = view_record(d.view);
     const view_params view = lanes_view(v);
     const glm::dvec3 eye(d.view.eye), right(d.view.right), up(d.view.up), forward(d.view.forward);
     const float half_x = 0.5f * static_cast<float>(d.width), half_y = 0.5f * static_cast<float>(d.height);
@@ -65,8 +65,10 @@ DrawTables on_the_grid(DrawTables t, const FrameDesc& d)
                                              int_lit(centre_x), int_lit(centre_y), 1e6f);
         EXPECT_TRUE(s.valid);
         const double depth = static_cast<double>(clip.z); // the kernel's order: (x, y, w, z)
-        const double x = (s.x + centre_x) / 256.0 / static_cast<double>(half_x) - 1.0, y = 1.0 - (s.y + centre_y) / 256.0 / static_cast<double>(half_y);
-        const glm::dvec3 p = eye + depth * (forward + x / static_cast<double>(v.inv_tan_x) * right + y / static_cast<double>(v.inv_tan_y) * up);
+        const double x = (s.x + centre_x) / 256.0 / static_cast<double>(half_x) - 1.0,
+                     y = 1.0 - (s.y + centre_y) / 256.0 / static_cast<double>(half_y);
+        const glm::dvec3 p =
+            eye + depth * (forward + x / static_cast<double>(v.inv_tan_x) * right + y / static_cast<double>(v.inv_tan_y) * up);
         t.px[i] = static_cast<float>(p.x), t.py[i] = static_cast<float>(p.y), t.pz[i] = static_cast<float>(p.z);
     }
     return t;
@@ -116,11 +118,12 @@ Count compare_ids(const char* name, Vertices vertices, int width, int height, in
         }
     }
     const auto in_100000 = [&](std::size_t n) { return static_cast<double>(n) / static_cast<double>(c.samples) * 1e5; };
-    std::printf("%s %dx%d, %d samples a pixel, rays meet vertices %s: of %zu samples %zu are covered; %zu silhouette samples differ (%.3f in "
-                "100000), %zu of them farther than 1/128 pixel from an edge; %zu show another triangle (%.3f in 100000), %zu of them farther; "
-                "farthest from an edge: %.2g pixel\n",
-                name, width, height, msaa, vertices == Vertices::as_given ? "as given" : "on the rasterizer's grid", c.samples, c.covered,
-                c.silhouettes, in_100000(c.silhouettes), c.far_silhouettes, c.triangles, in_100000(c.triangles), c.far_triangles, c.farthest_px);
+    std::printf(
+        "%s %dx%d, %d samples a pixel, rays meet vertices %s: of %zu samples %zu are covered; %zu silhouette samples differ (%.3f in "
+        "100000), %zu of them farther than 1/128 pixel from an edge; %zu show another triangle (%.3f in 100000), %zu of them farther; "
+        "farthest from an edge: %.2g pixel\n",
+        name, width, height, msaa, vertices == Vertices::as_given ? "as given" : "on the rasterizer's grid", c.samples, c.covered,
+        c.silhouettes, in_100000(c.silhouettes), c.far_silhouettes, c.triangles, in_100000(c.triangles), c.far_triangles, c.farthest_px);
     return c;
 }
 
@@ -147,7 +150,8 @@ TEST_P(visibility, differs_elsewhere_only_by_the_grid_of_the_rasterizer)
     EXPECT_LE(static_cast<double>(c.triangles), static_cast<double>(c.covered) * 2e-3);
 }
 
-INSTANTIATE_TEST_SUITE_P(of, visibility, testing::Values("teapot", "spheres", "plate"), [](const auto& name) { return std::string(name.param); });
+INSTANTIATE_TEST_SUITE_P(of, visibility, testing::Values("teapot", "spheres", "plate"),
+                         [](const auto& name) { return std::string(name.param); });
 
 } // namespace
 } // namespace burnish::test

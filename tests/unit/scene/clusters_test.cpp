@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 #include <random>
 
-#include "core/scene/builtin.h"
+#include "core/scene/builtin/builtin.h"
 #include "core/scene/draw_tables.h"
 
 namespace burnish {
@@ -20,7 +20,7 @@ DrawTables tables_of(const char* name)
     return make_draw_tables(*make_builtin_scene(name));
 }
 
-TEST(Clusters, CoverEveryTriangleOnceInOrder)
+TEST(clusters, cover_every_triangle_once_in_order)
 {
     const DrawTables t = tables_of("teapot");
     std::uint32_t next = 0;
@@ -36,15 +36,14 @@ TEST(Clusters, CoverEveryTriangleOnceInOrder)
     EXPECT_EQ(next, t.triangle_count());
 }
 
-TEST(Clusters, SpheresHoldTheirVertices)
+TEST(clusters, spheres_hold_their_vertices)
 {
     for (const char* name : {"teapot", "spheres", "plate"}) {
         const DrawTables t = tables_of(name);
         for (const Cluster& c : t.clusters)
             for (std::size_t k = 0; k < std::size_t{3} * c.triangle_count; ++k)
-                EXPECT_LE(
-                    glm::length(position(t, std::size_t{3} * c.first_triangle + k) - glm::dvec3(c.center)),
-                    static_cast<double>(c.radius))
+                EXPECT_LE(glm::length(position(t, std::size_t{3} * c.first_triangle + k) - glm::dvec3(c.center)),
+                          static_cast<double>(c.radius))
                     << name;
     }
 }
@@ -67,7 +66,7 @@ int count_wrongly_culled(const DrawTables& t, const Cluster& c, const glm::vec3&
     return wrong;
 }
 
-TEST(Clusters, OnlyTrianglesThatFaceAwayAreCulled)
+TEST(clusters, only_triangles_that_face_away_are_culled)
 {
     std::mt19937 random(1);
     std::normal_distribution<float> normal;
@@ -90,7 +89,7 @@ TEST(Clusters, OnlyTrianglesThatFaceAwayAreCulled)
     }
 }
 
-TEST(Clusters, DoubleSidedMaterialsAreNeverCulled)
+TEST(clusters, double_sided_materials_are_never_culled)
 {
     Scene scene = *make_builtin_scene("teapot");
     for (Material& m : scene.materials)
@@ -99,7 +98,7 @@ TEST(Clusters, DoubleSidedMaterialsAreNeverCulled)
         EXPECT_EQ(c.cone_cutoff, 1.0f);
 }
 
-TEST(Clusters, FarFromTheOriginTheSphereGrowsByTheRoundingOfItsCoordinates)
+TEST(clusters, far_from_the_origin_the_sphere_grows_by_the_rounding_of_its_coordinates)
 {
     Scene scene = *make_builtin_scene("spheres");
     const double far = 3e5, rounding = far * 1.2e-7; // of center - eye in float

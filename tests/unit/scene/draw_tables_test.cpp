@@ -6,8 +6,8 @@
 #include <limits>
 #include <random>
 
-#include "core/scene/builtin.h"
-#include "core/scene/builtin_surface.h"
+#include "core/scene/builtin/builtin.h"
+#include "core/scene/builtin/surface.h"
 
 namespace burnish {
 namespace {
@@ -102,7 +102,7 @@ glm::mat4 turn(float angle, glm::vec3 axis)
     return glm::rotate(glm::mat4(1.0f), angle, glm::normalize(axis));
 }
 
-TEST(DrawTables, RotationScaleAndShearKeepFramesRight)
+TEST(draw_tables, rotation_scale_and_shear_keep_frames_right)
 {
     const glm::mat4 m = glm::translate(glm::mat4(1.0f), {3, -2, 5}) * turn(0.7f, {1, 2, 3}) *
                         glm::scale(glm::mat4(1.0f), {2.0f, 0.3f, 5.0f}) * turn(-1.1f, {0, 1, 1});
@@ -111,10 +111,9 @@ TEST(DrawTables, RotationScaleAndShearKeepFramesRight)
     expect_follows_uv(t);
 }
 
-TEST(DrawTables, NegativeScalesFlipWindingAndTangentSign)
+TEST(draw_tables, negative_scales_flip_winding_and_tangent_sign)
 {
-    for (const glm::vec3& scale :
-         {glm::vec3(-1, 1, 1), glm::vec3(1, -2, 1), glm::vec3(-1, -1, -3), glm::vec3(1, -1, -1)}) {
+    for (const glm::vec3& scale : {glm::vec3(-1, 1, 1), glm::vec3(1, -2, 1), glm::vec3(-1, -1, -3), glm::vec3(1, -1, -1)}) {
         const DrawTables t = placed(turn(0.4f, {0, 1, 2}) * glm::scale(glm::mat4(1.0f), scale));
         expect_outward(t, glm::vec3(0.0f));
         expect_follows_uv(t);
@@ -123,7 +122,7 @@ TEST(DrawTables, NegativeScalesFlipWindingAndTangentSign)
     }
 }
 
-TEST(DrawTables, NormalsGoWithTheInverseTranspose)
+TEST(draw_tables, normals_go_with_the_inverse_transpose)
 {
     const DrawTables t = placed(glm::scale(glm::mat4(1.0f), {1.0f, 0.5f, 1.0f}));
     for (std::uint32_t i = 0; i < t.shading.size(); ++i) { // an ellipsoid: gradient of x^2 + 4 y^2 + z^2
@@ -132,13 +131,12 @@ TEST(DrawTables, NormalsGoWithTheInverseTranspose)
     }
 }
 
-TEST(DrawTables, ChainsOfNodesMultiplyFromTheRoot)
+TEST(draw_tables, chains_of_nodes_multiply_from_the_root)
 {
     Scene scene = sphere_scene();
     add_node(scene, "root", kNone, glm::translate(glm::mat4(1.0f), {10, 0, 0}));
     add_node(scene, "middle", kNone, turn(1.5707963f, {0, 1, 0}));
-    add_node(scene, "leaf", 0,
-             glm::translate(glm::mat4(1.0f), {0, 0, 2}) * glm::scale(glm::mat4(1.0f), {-0.5f, 0.5f, 0.5f}));
+    add_node(scene, "leaf", 0, glm::translate(glm::mat4(1.0f), {0, 0, 2}) * glm::scale(glm::mat4(1.0f), {-0.5f, 0.5f, 0.5f}));
     scene.nodes[1].parent = 0;
     scene.nodes[2].parent = 1;
     update_world(scene);
@@ -151,7 +149,7 @@ TEST(DrawTables, ChainsOfNodesMultiplyFromTheRoot)
     EXPECT_NEAR(t.bounds_max.y, 0.5f, 1e-5f);
 }
 
-TEST(DrawTables, InstancesAreExpandedInNodeOrder)
+TEST(draw_tables, instances_are_expanded_in_node_order)
 {
     Scene scene = sphere_scene();
     scene.materials.emplace_back();
@@ -176,7 +174,7 @@ TEST(DrawTables, InstancesAreExpandedInNodeOrder)
     EXPECT_EQ(t.triangle_material.size(), t.triangle_count());
 }
 
-TEST(DrawTables, AnExpansionBeyondTheLimitIsAnErrorBeforeMemoryIsTaken)
+TEST(draw_tables, an_expansion_beyond_the_limit_is_an_error_before_memory_is_taken)
 {
     Scene scene = sphere_scene();
     Limits limits;
@@ -195,11 +193,11 @@ TEST(DrawTables, AnExpansionBeyondTheLimitIsAnErrorBeforeMemoryIsTaken)
     EXPECT_EQ(status.error().file, "a.gltf");
 }
 
-TEST(DrawTables, MatricesThatLeaveNothingDrop)
+TEST(draw_tables, matrices_that_leave_nothing_drop)
 {
     const float inf = std::numeric_limits<float>::infinity(), nan = std::numeric_limits<float>::quiet_NaN();
-    for (const glm::vec3& scale : {glm::vec3(0.0f), glm::vec3(1, 0, 0), glm::vec3(inf, 1, 1),
-                                   glm::vec3(nan, 1, 1), glm::vec3(3e38f, 3e38f, 3e38f) * 4.0f}) {
+    for (const glm::vec3& scale :
+         {glm::vec3(0.0f), glm::vec3(1, 0, 0), glm::vec3(inf, 1, 1), glm::vec3(nan, 1, 1), glm::vec3(3e38f, 3e38f, 3e38f) * 4.0f}) {
         const DrawTables t = placed(glm::scale(glm::mat4(1.0f), scale));
         EXPECT_TRUE(t.draws.empty());
         EXPECT_EQ(t.triangle_count(), 0u);
@@ -216,7 +214,7 @@ TEST(DrawTables, MatricesThatLeaveNothingDrop)
     EXPECT_EQ(t.px.size(), scene.vertices.size());
 }
 
-TEST(DrawTables, SolidsPressedFlatStayWithNormalsAcross)
+TEST(draw_tables, solids_pressed_flat_stay_with_normals_across)
 {
     const DrawTables t = placed(turn(0.3f, {1, 0, 0}) * glm::scale(glm::mat4(1.0f), {1, 0, 1}));
     ASSERT_EQ(t.draws.size(), 1u);
@@ -230,7 +228,7 @@ TEST(DrawTables, SolidsPressedFlatStayWithNormalsAcross)
     }
 }
 
-TEST(DrawTables, AnEmptySceneHasAUnitBox)
+TEST(draw_tables, an_empty_scene_has_a_unit_box)
 {
     const DrawTables t = make_draw_tables(Scene{});
     EXPECT_EQ(t.bounds_max - t.bounds_min, glm::vec3(1.0f));
@@ -247,10 +245,10 @@ DrawTables lit(const Light& light, const glm::mat4& local)
     return make_draw_tables(scene);
 }
 
-TEST(DrawTables, LightsComeToWorldSpace)
+TEST(draw_tables, lights_come_to_world_space)
 {
-    const glm::mat4 m = glm::translate(glm::mat4(1.0f), {1, 2, 3}) * turn(-1.5707963f, {1, 0, 0}) *
-                        glm::scale(glm::mat4(1.0f), glm::vec3(4.0f));
+    const glm::mat4 m =
+        glm::translate(glm::mat4(1.0f), {1, 2, 3}) * turn(-1.5707963f, {1, 0, 0}) * glm::scale(glm::mat4(1.0f), glm::vec3(4.0f));
     Light light;
     light.type = LightType::spot;
     light.color = {1.0f, 0.5f, 0.25f};
@@ -269,8 +267,7 @@ TEST(DrawTables, LightsComeToWorldSpace)
     EXPECT_NEAR(std::cos(0.5f) * spot.spot_scale + spot.spot_offset, 0.0f, 1e-5f);
 
     light.type = LightType::point;
-    const PunctualLight point =
-        lit(light, glm::mat4(0.0f) + glm::scale(glm::mat4(1.0f), glm::vec3(0.0f))).lights.at(0);
+    const PunctualLight point = lit(light, glm::mat4(0.0f) + glm::scale(glm::mat4(1.0f), glm::vec3(0.0f))).lights.at(0);
     EXPECT_EQ(point.spot_scale, 0.0f);
     EXPECT_EQ(point.spot_offset, 1.0f);
     light.type = LightType::directional;

@@ -8,8 +8,7 @@ namespace burnish {
 namespace {
 
 // Largest relative error against long double over evenly spaced arguments.
-double worst(double from, double to, const std::function<double(double)>& ours,
-             const std::function<long double(long double)>& exact)
+double worst(double from, double to, const std::function<double(double)>& ours, const std::function<long double(long double)>& exact)
 {
     const int steps = 50000;
     double largest = 0.0;
@@ -24,7 +23,7 @@ double worst(double from, double to, const std::function<double(double)>& ours,
 
 constexpr double kTight = 3e-16;
 
-TEST(ScalarMath, SineAndCosineKeepTheirDigitsAlsoNearTheirZeros)
+TEST(scalar_math, sine_and_cosine_keep_their_digits_also_near_their_zeros)
 {
     EXPECT_LT(worst(-30.0, 30.0, det_sin, [](long double x) { return std::sin(x); }), kTight);
     EXPECT_LT(worst(-30.0, 30.0, det_cos, [](long double x) { return std::cos(x); }), kTight);
@@ -37,7 +36,7 @@ TEST(ScalarMath, SineAndCosineKeepTheirDigitsAlsoNearTheirZeros)
     EXPECT_EQ(det_cos(0.0), 1.0);
 }
 
-TEST(ScalarMath, ExponentialAndLogarithmKeepTheirDigits)
+TEST(scalar_math, exponential_and_logarithm_keep_their_digits)
 {
     EXPECT_LT(worst(-700.0, 700.0, det_exp, [](long double x) { return std::exp(x); }), kTight);
     EXPECT_LT(worst(-1.0, 1.0, det_exp, [](long double x) { return std::exp(x); }), kTight);
@@ -50,7 +49,7 @@ TEST(ScalarMath, ExponentialAndLogarithmKeepTheirDigits)
     EXPECT_EQ(det_log(1.0), 0.0);
 }
 
-TEST(ScalarMath, PowerIsRightForColoursAndRoughness)
+TEST(scalar_math, power_is_right_for_colours_and_roughness)
 {
     for (double y : {0.25, 1.0 / 2.4, 2.0, 2.4, 5.0})
         EXPECT_LT(worst(
@@ -62,7 +61,7 @@ TEST(ScalarMath, PowerIsRightForColoursAndRoughness)
     EXPECT_EQ(det_pow(5.0, 0.0), 1.0);
 }
 
-TEST(ScalarMath, InverseFunctionsKeepTheirDigits)
+TEST(scalar_math, inverse_functions_keep_their_digits)
 {
     EXPECT_LT(worst(-20.0, 20.0, det_atan, [](long double x) { return std::atan(x); }), 1e-15);
     EXPECT_LT(worst(-1.0, 0.999, det_acos, [](long double x) { return std::acos(x); }), 1e-15);
@@ -71,7 +70,7 @@ TEST(ScalarMath, InverseFunctionsKeepTheirDigits)
     EXPECT_EQ(det_acos(-2.0), kPi);
 }
 
-TEST(ScalarMath, Atan2KnowsEveryQuadrantAndAxis)
+TEST(scalar_math, atan2_knows_every_quadrant_and_axis)
 {
     for (int i = 0; i < 360; ++i) {
         const double a = (i - 179.5) * kPi / 180.0;

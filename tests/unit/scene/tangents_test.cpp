@@ -44,7 +44,7 @@ std::vector<Case> golden_cases()
     return cases;
 }
 
-TEST(Tangents, EqualAnIndependentImplementationInEveryCorner)
+TEST(tangents, equal_an_independent_implementation_in_every_corner)
 {
     const std::vector<Case> cases = golden_cases();
     ASSERT_EQ(cases.size(), 14u);
@@ -52,8 +52,7 @@ TEST(Tangents, EqualAnIndependentImplementationInEveryCorner)
         const std::vector<glm::vec4> got = mikk_tangents(c.positions, c.normals, c.uvs);
         ASSERT_EQ(got.size(), c.expected.size());
         for (std::size_t i = 0; i < got.size(); ++i) {
-            EXPECT_GT(glm::dot(glm::vec3(got[i]), glm::vec3(c.expected[i])), 0.9999f)
-                << c.name << " corner " << i;
+            EXPECT_GT(glm::dot(glm::vec3(got[i]), glm::vec3(c.expected[i])), 0.9999f) << c.name << " corner " << i;
             EXPECT_EQ(got[i].w, c.expected[i].w) << c.name << " corner " << i;
         }
     }
@@ -66,15 +65,14 @@ void expect_frame(const glm::vec4& t, const glm::vec3& n, std::size_t i)
     EXPECT_TRUE(t.w == 1.0f || t.w == -1.0f) << i;
 }
 
-TEST(Tangents, AreUnitAndOrthogonalWhateverComesIn)
+TEST(tangents, are_unit_and_orthogonal_whatever_comes_in)
 {
     std::mt19937 random(7);
     std::uniform_int_distribution<int> few(0, 2);
     const float odd[] = {0.0f, 1.0f, -1.0f};
     std::vector<glm::vec3> p, n;
     std::vector<glm::vec2> uv;
-    for (int i = 0; i < 3000;
-         ++i) { // few distinct values: shared, collapsed and overlapping triangles abound
+    for (int i = 0; i < 3000; ++i) { // few distinct values: shared, collapsed and overlapping triangles abound
         p.emplace_back(odd[few(random)], odd[few(random)], odd[few(random)]);
         uv.emplace_back(odd[few(random)], odd[few(random)]);
         n.push_back(few(random) ? glm::vec3(0, 0, 1) : glm::vec3(few(random) ? 1 : -1, 0, 0));
@@ -87,31 +85,28 @@ TEST(Tangents, AreUnitAndOrthogonalWhateverComesIn)
         expect_frame(t[i], n[i], i);
 }
 
-TEST(Tangents, ALargeFanNeedsNoStack)
+TEST(tangents, a_large_fan_needs_no_stack)
 {
     std::vector<glm::vec3> p;
     std::vector<glm::vec2> uv;
     const int count = 300000;
-    const auto rim = [](int i) {
-        return glm::vec3(static_cast<float>(i), 1.0f + static_cast<float>(i % 7), 0.0f);
-    };
+    const auto rim = [](int i) { return glm::vec3(static_cast<float>(i), 1.0f + static_cast<float>(i % 7), 0.0f); };
     for (int i = 0; i < count; ++i)
         for (const glm::vec3& q : {glm::vec3(0.0f), rim(i + 1), rim(i)}) {
             p.push_back(q);
             uv.emplace_back(q.x, q.y);
         }
-    const std::vector<glm::vec4> t =
-        mikk_tangents(p, std::vector<glm::vec3>(p.size(), glm::vec3(0, 0, 1)), uv);
+    const std::vector<glm::vec4> t = mikk_tangents(p, std::vector<glm::vec3>(p.size(), glm::vec3(0, 0, 1)), uv);
     EXPECT_NEAR(t[0].x, 1.0f, 1e-6f);
     EXPECT_NEAR(t[3 * 299999].x, 1.0f, 1e-6f);
 }
 
-TEST(Tangents, NothingGivesNothing)
+TEST(tangents, nothing_gives_nothing)
 {
     EXPECT_TRUE(mikk_tangents({}, {}, {}).empty());
 }
 
-TEST(Tangents, AnyTangentIsOrthogonalAndContinuousAwayFromItsPole)
+TEST(tangents, any_tangent_is_orthogonal_and_continuous_away_from_its_pole)
 {
     std::mt19937 random(3);
     std::normal_distribution<float> normal;
@@ -121,8 +116,7 @@ TEST(Tangents, AnyTangentIsOrthogonalAndContinuousAwayFromItsPole)
         ASSERT_NEAR(glm::length(t), 1.0f, 1e-6f);
         ASSERT_NEAR(glm::dot(t, n), 0.0f, 1e-6f);
         if (n.z > -0.9f) {
-            const glm::vec3 near =
-                glm::normalize(n + 1e-3f * glm::vec3(normal(random), normal(random), normal(random)));
+            const glm::vec3 near = glm::normalize(n + 1e-3f * glm::vec3(normal(random), normal(random), normal(random)));
             ASSERT_LT(glm::length(any_tangent(near) - t), 0.1f);
         }
     }

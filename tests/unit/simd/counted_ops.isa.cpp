@@ -19,7 +19,8 @@ CountedWork count_dot()
 {
     static const float a[3] = {1.0f, 2.0f, 3.0f}, b[3] = {4.0f, 5.0f, 6.0f};
     return count([] {
-        return k_dot3(vec3_of(load(a), load(a + 1), load(a + 2)), vec3_of(gather(b, int_lit(0)), gather(b, int_lit(1)), gather(b, int_lit(2))));
+        return k_dot3(vec3_of(load(a), load(a + 1), load(a + 2)),
+                      vec3_of(gather(b, int_lit(0)), gather(b, int_lit(1)), gather(b, int_lit(2))));
     });
 }
 

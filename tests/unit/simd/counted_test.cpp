@@ -13,11 +13,23 @@ void expect(const CountedWork& work, unsigned operations, unsigned bytes, float 
     EXPECT_EQ(work.value, value);
 }
 
-TEST(Counted, DotProductIsThreeProductsAndTwoSums) { expect(count_dot(), 5, 24, 32.0f); }
-TEST(Counted, DivisionRootAndDifference) { expect(count_root(), 3, 0, 1.0f); }
-TEST(Counted, WhatIsNotArithmeticIsNotCounted) { expect(count_uncounted(), 0, 0, -6.0f); }
+TEST(counted, dot_product_is_three_products_and_two_sums)
+{
+    expect(count_dot(), 5, 24, 32.0f);
+}
+TEST(counted, division_root_and_difference_are_one_each)
+{
+    expect(count_root(), 3, 0, 1.0f);
+}
+TEST(counted, what_is_not_arithmetic_is_not_counted)
+{
+    expect(count_uncounted(), 0, 0, -6.0f);
+}
 // a channel of the left and of the right texels: two products and their sum, and the sum with what was there
-TEST(Counted, BilinearFootprint) { expect(count_texel_add(), 2 * 4 * 4, 32, 0.5f); }
+TEST(counted, a_bilinear_footprint_is_its_products_and_sums)
+{
+    expect(count_texel_add(), 2 * 4 * 4, 32, 0.5f);
+}
 
 } // namespace
 } // namespace burnish

@@ -24,14 +24,11 @@ float hardware_to_float(std::uint16_t half)
 std::uint16_t hardware_to_half(float value)
 {
     std::uint32_t half;
-    __asm__("vmovss %1, %%xmm0\n\tvcvtps2ph $0, %%xmm0, %%xmm0\n\tvmovd %%xmm0, %0"
-            : "=r"(half)
-            : "m"(value)
-            : "xmm0");
+    __asm__("vmovss %1, %%xmm0\n\tvcvtps2ph $0, %%xmm0, %%xmm0\n\tvmovd %%xmm0, %0" : "=r"(half) : "m"(value) : "xmm0");
     return static_cast<std::uint16_t>(half);
 }
 
-TEST(Half, ConvertsToTheFloatOfItsDefinition)
+TEST(half, converts_to_the_float_of_its_definition)
 {
     for (std::uint32_t h = 0; h < 0x10000u; ++h) {
         const int exponent = static_cast<int>(h >> 10 & 31u), fraction = static_cast<int>(h & 1023u);
@@ -40,16 +37,15 @@ TEST(Half, ConvertsToTheFloatOfItsDefinition)
             EXPECT_EQ(std::isnan(value), fraction != 0);
             EXPECT_EQ(std::isinf(value), fraction == 0);
         } else {
-            const float magnitude = exponent
-                                        ? std::ldexp(1024.0f + static_cast<float>(fraction), exponent - 25)
-                                        : std::ldexp(static_cast<float>(fraction), -24);
+            const float magnitude = exponent ? std::ldexp(1024.0f + static_cast<float>(fraction), exponent - 25)
+                                             : std::ldexp(static_cast<float>(fraction), -24);
             ASSERT_EQ(value, h & 0x8000u ? -magnitude : magnitude) << h;
         }
         EXPECT_EQ(std::signbit(value), (h & 0x8000u) != 0);
     }
 }
 
-TEST(Half, RoundTripsEveryFiniteHalf)
+TEST(half, round_trips_every_finite_half)
 {
     for (std::uint32_t h = 0; h < 0x10000u; ++h)
         if ((h & 0x7c00u) != 0x7c00u) {
@@ -57,7 +53,7 @@ TEST(Half, RoundTripsEveryFiniteHalf)
         }
 }
 
-TEST(Half, SaturatesInsteadOfOverflowing)
+TEST(half, saturates_instead_of_overflowing)
 {
     EXPECT_EQ(float_to_half(65504.0f), 0x7bff);
     EXPECT_EQ(float_to_half(65519.99f), 0x7bff);
@@ -68,15 +64,13 @@ TEST(Half, SaturatesInsteadOfOverflowing)
     EXPECT_EQ(float_to_half(NAN) & 0x7fff, 0x7e00);
 }
 
-TEST(Half, EqualsTheProcessorsConversion)
+TEST(half, equals_the_processors_conversion)
 {
     if (!cpu_has_avx2())
         GTEST_SKIP() << "this processor has no F16C";
     for (std::uint32_t h = 0; h < 0x10000u; ++h) {
         const std::uint16_t half = static_cast<std::uint16_t>(h);
-        ASSERT_EQ(std::bit_cast<std::uint32_t>(half_to_float(half)),
-                  std::bit_cast<std::uint32_t>(hardware_to_float(half)))
-            << h;
+        ASSERT_EQ(std::bit_cast<std::uint32_t>(half_to_float(half)), std::bit_cast<std::uint32_t>(hardware_to_float(half))) << h;
     }
     std::mt19937 random(3);
     for (int k = 0; k < 2000000; ++k) {

@@ -1,44 +1,31 @@
-// The instruction sets that this processor runs; tests of the others are reported as skipped.
+// Tests of the lanes of one instruction set: those that this processor does not run are reported as skipped.
 #pragma once
 #include <gtest/gtest.h>
-#include <ostream>
 #include <string>
 
-#include "core/simd/cpu.h"
+#include "core/simd/dispatch.h"
 #include "tests/unit/simd/ops.h"
 
 namespace burnish {
 
-struct IsaCase {
-    const char* name;
-    const LaneFns& (*fns)();
-    bool runs;
-};
-
-inline void PrintTo(const IsaCase& isa, std::ostream* out)
+inline void PrintTo(Isa isa, std::ostream* out)
 {
-    *out << isa.name;
+    *out << isa_name(isa);
 } // what gtest and ctest call it
 
-inline const IsaCase kIsaCases[] = {
-    {"scalar", bn_scalar::lane_fns, true},
-    {"avx2", bn_avx2::lane_fns, cpu_has_avx2()},
-    {"avx512", bn_avx512::lane_fns, cpu_has_avx512()},
-};
-
-class OnIsa : public testing::TestWithParam<IsaCase> {
+class OnIsa : public testing::TestWithParam<Isa> {
   protected:
     void SetUp() override
     {
-        if (!GetParam().runs)
-            GTEST_SKIP() << "this processor has no " << GetParam().name;
+        if (!isa_available(GetParam()))
+            GTEST_SKIP() << "this processor has no " << isa_name(GetParam());
     }
-    const LaneFns& fns() const { return GetParam().fns(); }
+    const LaneFns& fns() const { return pick<LaneFns>(GetParam()); }
 };
 
-inline std::string isa_case_name(const testing::TestParamInfo<IsaCase>& info)
+inline std::string isa_case_name(const testing::TestParamInfo<Isa>& info)
 {
-    return info.param.name;
+    return isa_name(info.param);
 }
 
 } // namespace burnish

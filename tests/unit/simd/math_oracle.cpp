@@ -1,10 +1,10 @@
-// The math kernels with real = double (BN_ISA 3): their error is that of the fits alone.
+// The math kernels with real = double (BN_ISA oracle): their error is that of the fits alone.
 #include "tests/unit/simd/ops.h"
 
 #include "shading/kernels/math.k.h"
 
 namespace burnish {
-inline namespace bn_double {
+inline namespace BN_ISA_NS {
 namespace {
 double exp2_fn(double a, double)
 {
@@ -36,12 +36,9 @@ double acos_fn(double a, double)
 }
 const OracleFn kFns[] = {{"exp2", exp2_fn}, {"log2", log2_fn},   {"pow", pow_fn},  {"sin", sin_fn},
                          {"cos", cos_fn},   {"atan2", atan2_fn}, {"acos", acos_fn}};
+const OracleList kList = {kFns, static_cast<int>(sizeof(kFns) / sizeof(kFns[0]))};
 } // namespace
 
-const OracleFn* oracle_fns(int& count)
-{
-    count = static_cast<int>(sizeof(kFns) / sizeof(kFns[0]));
-    return kFns;
-}
-} // namespace bn_double
+BN_DEFINE_FNS(OracleList, kList)
+} // namespace BN_ISA_NS
 } // namespace burnish

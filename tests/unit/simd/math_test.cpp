@@ -40,16 +40,6 @@ struct MathCase {
     Points points;
 };
 
-// The widest instruction set here: all are equal, this one is the fastest.
-const LaneFns& widest()
-{
-    const LaneFns* fns = &bn_scalar::lane_fns();
-    for (const IsaCase& isa : kIsaCases)
-        if (isa.runs)
-            fns = &isa.fns();
-    return *fns;
-}
-
 void check(MathCase c)
 {
     while (c.points.a.size() % kMaxLanes)
@@ -59,16 +49,14 @@ void check(MathCase c)
     const OpInput in{c.points.a.data(), c.points.b.data(), c.points.b.data(),
                      zeros.data(),      zeros.data(),      static_cast<int>(c.points.a.size())};
     std::vector<std::uint32_t> out(c.points.a.size());
-    const LaneFns& fns = widest();
-    const Op* op = std::find_if(fns.ops, fns.ops + fns.op_count,
-                                [&](const Op& o) { return !std::strcmp(o.name, c.op); });
+    const LaneFns& fns = pick<LaneFns>();
+    const Op* op = std::find_if(fns.ops, fns.ops + fns.op_count, [&](const Op& o) { return !std::strcmp(o.name, c.op); });
     ASSERT_NE(op, fns.ops + fns.op_count);
     op->run(in, out.data());
-    int oracle_count = 0;
-    const OracleFn* oracles = bn_double::oracle_fns(oracle_count);
-    const OracleFn* oracle = std::find_if(oracles, oracles + oracle_count,
-                                          [&](const OracleFn& o) { return !std::strcmp(o.name, c.op); });
-    ASSERT_NE(oracle, oracles + oracle_count);
+    const OracleList oracles = oracle_fns<OracleList>();
+    const OracleFn* end = oracles.fns + oracles.count;
+    const OracleFn* oracle = std::find_if(oracles.fns, end, [&](const OracleFn& o) { return !std::strcmp(o.name, c.op); });
+    ASSERT_NE(oracle, end);
 
     double worst = 0.0, worst_oracle = 0.0;
     float worst_a = 0.0f, worst_b = 0.0f;
@@ -76,21 +64,18 @@ void check(MathCase c)
         const double a = static_cast<double>(in.a[k]), b = static_cast<double>(in.b[k]), want = c.want(a, b);
         float got;
         std::memcpy(&got, &out[k], sizeof(got));
-        const double error = want == 0.0 ? std::fabs(static_cast<double>(got))
-                                         : error_of(c.measure, static_cast<double>(got), want);
+        const double error = want == 0.0 ? std::fabs(static_cast<double>(got)) : error_of(c.measure, static_cast<double>(got), want);
         if (!(error <= worst)) {
             worst = error;
             worst_a = in.a[k];
             worst_b = in.b[k];
         }
-        const Measure fit =
-            c.measure == Measure::absolute || std::fabs(want) < 1.0 ? Measure::absolute : Measure::relative;
+        const Measure fit = c.measure == Measure::absolute || std::fabs(want) < 1.0 ? Measure::absolute : Measure::relative;
         worst_oracle = std::max(worst_oracle, want == 0.0 ? 0.0 : error_of(fit, oracle->run(a, b), want));
     }
     const char* units[] = {"ulp", "absolute", "relative"};
-    std::printf("%-6s largest error %.3g %s at (%.9g, %.9g) of %zu points; double version %.2g\n", c.op,
-                worst, units[static_cast<int>(c.measure)], static_cast<double>(worst_a),
-                static_cast<double>(worst_b), out.size(), worst_oracle);
+    std::printf("%-6s largest error %.3g %s at (%.9g, %.9g) of %zu points; double version %.2g\n", c.op, worst,
+                units[static_cast<int>(c.measure)], static_cast<double>(worst_a), static_cast<double>(worst_b), out.size(), worst_oracle);
     EXPECT_LE(worst, c.limit);
     EXPECT_LE(worst_oracle, c.oracle_limit);
 }
@@ -103,13 +88,12 @@ Points spread(double from, double to, int count)
     return points;
 }
 
-TEST(MathKernels, Exp2IsWithinTwoUlp)
+TEST(math_kernels, exp2_is_within_two_ulp)
 {
-    check({"exp2", Measure::ulp, 2.0, 4e-9, [](double a, double) { return std::exp2(a); },
-           spread(-125.0, 127.49, 1500000)});
+    check({"exp2", Measure::ulp, 2.0, 4e-9, [](double a, double) { return std::exp2(a); }, spread(-125.0, 127.49, 1500000)});
 }
 
-TEST(MathKernels, Log2IsWithinFourUlp)
+TEST(math_kernels, log2_is_within_four_ulp)
 {
     Points points = spread(0.5, 2.0, 1000000);
     for (double x = 1.2e-38; x < 8.5e37; x *= 1.0004)
@@ -117,7 +101,7 @@ TEST(MathKernels, Log2IsWithinFourUlp)
     check({"log2", Measure::ulp, 4.0, 4e-9, [](double a, double) { return std::log2(a); }, points});
 }
 
-TEST(MathKernels, SineAndCosineAreWithin1e7)
+TEST(math_kernels, sine_and_cosine_are_within_1e7)
 {
     const auto sine = [](double a, double) { return std::sin(a); };
     const auto cosine = [](double a, double) { return std::cos(a); };
@@ -128,13 +112,12 @@ TEST(MathKernels, SineAndCosineAreWithin1e7)
     check({"cos", Measure::absolute, 2e-7, 5e-9, cosine, spread(-1000.0, 1000.0, 1000000)});
 }
 
-TEST(MathKernels, AcosIsWithin3e7)
+TEST(math_kernels, acos_is_within_3e7)
 {
-    check({"acos", Measure::absolute, 3e-7, 5e-9, [](double a, double) { return std::acos(a); },
-           spread(-1.0, 1.0, 2000000)});
+    check({"acos", Measure::absolute, 3e-7, 5e-9, [](double a, double) { return std::acos(a); }, spread(-1.0, 1.0, 2000000)});
 }
 
-TEST(MathKernels, Atan2IsWithin3e7)
+TEST(math_kernels, atan2_is_within_3e7)
 {
     Points points;
     std::mt19937 random(11);
@@ -146,20 +129,17 @@ TEST(MathKernels, Atan2IsWithin3e7)
         points.a.push_back(coordinate());
         points.b.push_back(coordinate());
     }
-    check({"atan2", Measure::absolute, 3e-7, 6e-9, [](double a, double b) { return std::atan2(a, b); },
-           points});
+    check({"atan2", Measure::absolute, 3e-7, 6e-9, [](double a, double b) { return std::atan2(a, b); }, points});
 }
 
-TEST(MathKernels, PowIsWithin1e6Relative)
+TEST(math_kernels, pow_is_within_1e6_relative)
 {
     Points points;
     std::mt19937 random(13);
     while (points.a.size() < 1000000) {
-        const double log_x = static_cast<double>(static_cast<std::int32_t>(random())) * 0x1p-31 *
-                             (points.a.size() % 2 ? 10.0 : 100.0);
+        const double log_x = static_cast<double>(static_cast<std::int32_t>(random())) * 0x1p-31 * (points.a.size() % 2 ? 10.0 : 100.0);
         const float x = static_cast<float>(std::exp2(log_x));
-        const float y =
-            static_cast<float>(static_cast<double>(static_cast<std::int32_t>(random())) * 0x1p-28);
+        const float y = static_cast<float>(static_cast<double>(static_cast<std::int32_t>(random())) * 0x1p-28);
         if (std::fabs(log_x * static_cast<double>(y)) > 99.0)
             continue;
         points.a.push_back(x);

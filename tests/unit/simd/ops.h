@@ -2,6 +2,8 @@
 #pragma once
 #include <cstdint>
 
+#include "core/simd/fns.h"
+
 namespace burnish {
 
 inline constexpr int kMaxLanes = 16;
@@ -49,8 +51,7 @@ struct LaneFns {
     void (*iota)(std::int32_t* out);
     void (*gather)(const float* base, const std::int32_t* index, float* out);
     void (*gather_int)(const std::int32_t* base, const std::int32_t* index, std::int32_t* out);
-    void (*table)(const float* reals, const std::int32_t* ints, const std::int32_t* index, float* x,
-                  std::int32_t* i);
+    void (*table)(const float* reals, const std::int32_t* ints, const std::int32_t* index, float* x, std::int32_t* i);
     void (*reduce)(const float* x, float out[3]); // min, max, add
     void (*records)(const void* base, const std::int32_t* index, std::int32_t* out);
     void (*store_records)(void* base, const std::int32_t* fields);
@@ -64,23 +65,17 @@ struct LaneFns {
     void (*texel)(const Texels& in, float* out);
 };
 
-inline namespace bn_scalar {
-const LaneFns& lane_fns();
-}
-inline namespace bn_avx2 {
-const LaneFns& lane_fns();
-}
-inline namespace bn_avx512 {
-const LaneFns& lane_fns();
-}
+BN_DECLARE_FNS(LaneFns);
 
 // A function of the math kernels, in double.
 struct OracleFn {
     const char* name; // as in the ops
     double (*run)(double a, double b);
 };
-inline namespace bn_double {
-const OracleFn* oracle_fns(int& count);
-}
+struct OracleList {
+    const OracleFn* fns;
+    int count;
+};
+BN_DECLARE_FNS(OracleList);
 
 } // namespace burnish

@@ -20,16 +20,15 @@ BN_INLINE void put(std::uint32_t* out, mask m)
 }
 
 // Defines f_<name>: out = expression of the reals a, b, c, the integers i, j and the masks m, q.
-#define BN_OP(name, expression)                                                                              \
-    void f_##name(const OpInput& in, std::uint32_t* out)                                                     \
-    {                                                                                                        \
-        for (int k = 0; k < in.count; k += kLanes) {                                                         \
-            [[maybe_unused]] const real a = load(in.a + k), b = load(in.b + k), c = load(in.c + k);          \
-            [[maybe_unused]] const integer i = load_int(in.i + k), j = load_int(in.j + k);                   \
-            [[maybe_unused]] const mask m = (i & int_lit(1)) != int_lit(0),                                  \
-                                        q = (j & int_lit(2)) != int_lit(0);                                  \
-            put(out + k, expression);                                                                        \
-        }                                                                                                    \
+#define BN_OP(name, expression)                                                                                                            \
+    void f_##name(const OpInput& in, std::uint32_t* out)                                                                                   \
+    {                                                                                                                                      \
+        for (int k = 0; k < in.count; k += kLanes) {                                                                                       \
+            [[maybe_unused]] const real a = load(in.a + k), b = load(in.b + k), c = load(in.c + k);                                        \
+            [[maybe_unused]] const integer i = load_int(in.i + k), j = load_int(in.j + k);                                                 \
+            [[maybe_unused]] const mask m = (i & int_lit(1)) != int_lit(0), q = (j & int_lit(2)) != int_lit(0);                            \
+            put(out + k, expression);                                                                                                      \
+        }                                                                                                                                  \
     }
 #define BN_EXACT(name, expression) BN_OP(name, expression)
 #define BN_ARITHMETIC(name, expression) BN_OP(name, expression)
@@ -90,8 +89,7 @@ void gather_int_fn(const std::int32_t* base, const std::int32_t* index, std::int
 {
     store_int(out, gather_int(base, load_int(index)));
 }
-void table_fn(const float* reals, const std::int32_t* ints, const std::int32_t* index, float* x,
-              std::int32_t* i)
+void table_fn(const float* reals, const std::int32_t* ints, const std::int32_t* index, float* x, std::int32_t* i)
 {
     store(x, table_value(reals, load_int(index)));
     store_int(i, table_int(ints, load_int(index)));
@@ -144,14 +142,13 @@ void wide_fn(const std::int32_t* i, const float* a, const float* b, float* out)
     const wide n = to_wide(load_int(i));
     store(out, to_real(n / to_wide(load(a)) - to_wide(load(b)) * n + wide_lit(0.1)));
 }
-#define BN_BLEND(name, function, fields)                                                                     \
-    void name(const Blend& in, float* out)                                                                   \
-    {                                                                                                        \
-        real c[fields];                                                                                      \
-        function(in.base, load_int(in.i0), load_int(in.i1), load_int(in.i2), load(in.b0), load(in.b1),       \
-                 load(in.b2), c);                                                                            \
-        for (int f = 0; f < fields; ++f)                                                                     \
-            store(out + f * kLanes, c[f]);                                                                   \
+#define BN_BLEND(name, function, fields)                                                                                                   \
+    void name(const Blend& in, float* out)                                                                                                 \
+    {                                                                                                                                      \
+        real c[fields];                                                                                                                    \
+        function(in.base, load_int(in.i0), load_int(in.i1), load_int(in.i2), load(in.b0), load(in.b1), load(in.b2), c);                    \
+        for (int f = 0; f < fields; ++f)                                                                                                   \
+            store(out + f * kLanes, c[f]);                                                                                                 \
     }
 BN_BLEND(blend16_fn, blend_records, 16)
 BN_BLEND(blend8_fn, blend_records_low, 8)
@@ -160,8 +157,8 @@ void texel_fn(const Texels& in, float* out)
 {
     texel_acc acc = texel_zero();
     for (int s = 0; s < in.steps * kLanes; s += kLanes)
-        acc = texel_add(acc, in.texels, load_int(in.row0 + s), load_int(in.row1 + s), load(in.w00 + s),
-                        load(in.w10 + s), load(in.w01 + s), load(in.w11 + s));
+        acc = texel_add(acc, in.texels, load_int(in.row0 + s), load_int(in.row1 + s), load(in.w00 + s), load(in.w10 + s), load(in.w01 + s),
+                        load(in.w11 + s));
     const real4 value = texel_value(acc);
     store(out, value.x);
     store(out + kLanes, value.y);
@@ -169,8 +166,7 @@ void texel_fn(const Texels& in, float* out)
     store(out + 3 * kLanes, value.w);
 }
 
-constexpr const char* kIsaNames[] = {"scalar", "avx2", "avx512"};
-const LaneFns kFns = {kIsaNames[BN_ISA],
+const LaneFns kFns = {BN_ISA_NAME,
                       kLanes,
                       kOps,
                       static_cast<int>(sizeof(kOps) / sizeof(kOps[0])),
@@ -200,10 +196,7 @@ const LaneFns kFns = {kIsaNames[BN_ISA],
 
 } // namespace
 
-const LaneFns& lane_fns()
-{
-    return kFns;
-}
+BN_DEFINE_FNS(LaneFns, kFns)
 
 } // namespace BN_ISA_NS
 } // namespace burnish

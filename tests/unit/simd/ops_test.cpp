@@ -12,20 +12,16 @@ namespace {
 struct Columns {
     std::vector<float> a, b, c;
     std::vector<std::int32_t> i, j;
-    OpInput input() const
-    {
-        return {a.data(), b.data(), c.data(), i.data(), j.data(), static_cast<int>(a.size())};
-    }
+    OpInput input() const { return {a.data(), b.data(), c.data(), i.data(), j.data(), static_cast<int>(a.size())}; }
 };
 
 const std::vector<std::uint32_t>& special_bits()
 {
     static const std::vector<std::uint32_t> bits = {
-        0x00000000, 0x80000000, 0x00000001, 0x80000001, 0x007fffff, 0x00800000, 0x80800000, 0x3f800000,
-        0xbf800000, 0x3f7fffff, 0x3f000000, 0xbf000000, 0x3fc00000, 0x40200000, 0xc0200000, 0x4affffff,
-        0x4b000001, 0x4e800000, 0x4f000000, 0xcf000000, 0xcf000001, 0x4effffff, 0x7f7fffff, 0xff7fffff,
-        0x7f800000, 0xff800000, 0x7fc00000, 0xffc00000, 0x7f800001, 0xff812345, 0x7fffffff, 0x40490fdb,
-        0x42fe0000, 0xc2fc0000, 0x0da24260, 0x7149f2ca};
+        0x00000000, 0x80000000, 0x00000001, 0x80000001, 0x007fffff, 0x00800000, 0x80800000, 0x3f800000, 0xbf800000,
+        0x3f7fffff, 0x3f000000, 0xbf000000, 0x3fc00000, 0x40200000, 0xc0200000, 0x4affffff, 0x4b000001, 0x4e800000,
+        0x4f000000, 0xcf000000, 0xcf000001, 0x4effffff, 0x7f7fffff, 0xff7fffff, 0x7f800000, 0xff800000, 0x7fc00000,
+        0xffc00000, 0x7f800001, 0xff812345, 0x7fffffff, 0x40490fdb, 0x42fe0000, 0xc2fc0000, 0x0da24260, 0x7149f2ca};
     return bits;
 }
 
@@ -35,8 +31,7 @@ Columns make_columns()
     Columns columns;
     std::mt19937 random(20240601);
     const auto bits_at = [](std::size_t k) { return special_bits()[k % special_bits().size()]; };
-    const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t i,
-                         std::uint32_t j) {
+    const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t i, std::uint32_t j) {
         columns.a.push_back(std::bit_cast<float>(a));
         columns.b.push_back(std::bit_cast<float>(b));
         columns.c.push_back(std::bit_cast<float>(c));
@@ -47,10 +42,7 @@ Columns make_columns()
         for (std::size_t y = 0; y < special_bits().size(); ++y)
             add(bits_at(x), bits_at(y), bits_at(x + 5 * y), bits_at(x), bits_at(y));
     const auto word = [&] { return static_cast<std::uint32_t>(random()); };
-    const auto number = [&] {
-        return std::bit_cast<std::uint32_t>(static_cast<float>(static_cast<std::int32_t>(random())) *
-                                            0x1p-28f);
-    };
+    const auto number = [&] { return std::bit_cast<std::uint32_t>(static_cast<float>(static_cast<std::int32_t>(random())) * 0x1p-28f); };
     for (int k = 0; k < 20000; ++k) {
         const std::uint32_t a = word(), b = word(), c = word(), i = word(), j = word();
         add(a, b, c, i, j);
@@ -69,11 +61,11 @@ bool is_nan(std::uint32_t bits)
     return (bits & 0x7fffffffu) > 0x7f800000u;
 }
 
-class LaneOps : public OnIsa {};
+class lane_ops : public OnIsa {};
 
-TEST_P(LaneOps, EqualScalarBitForBit)
+TEST_P(lane_ops, equal_scalar_bit_for_bit)
 {
-    const LaneFns& scalar = bn_scalar::lane_fns();
+    const LaneFns& scalar = pick<LaneFns>(Isa::scalar);
     const LaneFns& wide = fns();
     ASSERT_EQ(scalar.op_count, wide.op_count);
     const Columns columns = make_columns();
@@ -87,20 +79,19 @@ TEST_P(LaneOps, EqualScalarBitForBit)
             if (want[k] == got[k] || (scalar.ops[op].any_nan && is_nan(want[k]) && is_nan(got[k])))
                 continue;
             ++shown;
-            ADD_FAILURE() << scalar.ops[op].name << std::hex << " a " << std::bit_cast<std::uint32_t>(in.a[k])
-                          << " b " << std::bit_cast<std::uint32_t>(in.b[k]) << " c "
-                          << std::bit_cast<std::uint32_t>(in.c[k]) << " i " << in.i[k] << " j " << in.j[k]
-                          << ": scalar " << want[k] << ", wide " << got[k];
+            ADD_FAILURE() << scalar.ops[op].name << std::hex << " a " << std::bit_cast<std::uint32_t>(in.a[k]) << " b "
+                          << std::bit_cast<std::uint32_t>(in.b[k]) << " c " << std::bit_cast<std::uint32_t>(in.c[k]) << " i " << in.i[k]
+                          << " j " << in.j[k] << ": scalar " << want[k] << ", wide " << got[k];
         }
     }
 }
 
 // The scalar twin itself, against definitions written without it.
-TEST(ScalarOps, MeanWhatTheySay)
+TEST(scalar_ops, mean_what_they_say)
 {
     const Columns columns = make_columns();
     const OpInput in = columns.input();
-    const LaneFns& scalar = bn_scalar::lane_fns();
+    const LaneFns& scalar = pick<LaneFns>(Isa::scalar);
     std::vector<std::uint32_t> out(columns.a.size());
     const auto check = [&](const char* name, auto expected) {
         for (int op = 0; op < scalar.op_count; ++op) {
@@ -114,20 +105,16 @@ TEST(ScalarOps, MeanWhatTheySay)
         ADD_FAILURE() << "no op " << name;
     };
     const auto truncated = [](double x) { // what cvttps2dq gives
-        return !(x > -2147483649.0 && x < 2147483648.0) ? std::numeric_limits<std::int32_t>::min()
-                                                        : static_cast<std::int32_t>(x);
+        return !(x > -2147483649.0 && x < 2147483648.0) ? std::numeric_limits<std::int32_t>::min() : static_cast<std::int32_t>(x);
     };
     const auto bits = [](float x) { return std::bit_cast<std::uint32_t>(x); };
     check("to_int", [&](std::size_t k) { return truncated(static_cast<double>(in.a[k])); });
-    check("round_to_int",
-          [&](std::size_t k) { return truncated(std::nearbyint(static_cast<double>(in.a[k]))); });
+    check("round_to_int", [&](std::size_t k) { return truncated(std::nearbyint(static_cast<double>(in.a[k]))); });
     check("min_real", [&](std::size_t k) { return bits(in.a[k] < in.b[k] ? in.a[k] : in.b[k]); });
     check("max_real", [&](std::size_t k) { return bits(in.a[k] > in.b[k] ? in.a[k] : in.b[k]); });
     check("abs", [&](std::size_t k) { return bits(in.a[k]) & 0x7fffffffu; });
     check("negate", [&](std::size_t k) { return bits(in.a[k]) ^ 0x80000000u; });
-    check("int_multiply", [&](std::size_t k) {
-        return static_cast<std::uint32_t>(in.i[k]) * static_cast<std::uint32_t>(in.j[k]);
-    });
+    check("int_multiply", [&](std::size_t k) { return static_cast<std::uint32_t>(in.i[k]) * static_cast<std::uint32_t>(in.j[k]); });
     check("shl_7", [&](std::size_t k) { return static_cast<std::uint32_t>(in.i[k]) << 7; });
     check("shr_1", [&](std::size_t k) { return static_cast<std::int32_t>(std::floor(0.5 * in.i[k])); });
     check("shr_logical_1", [&](std::size_t k) { return static_cast<std::uint32_t>(in.i[k]) / 2; });
@@ -140,7 +127,7 @@ TEST(ScalarOps, MeanWhatTheySay)
     });
 }
 
-INSTANTIATE_TEST_SUITE_P(, LaneOps, testing::ValuesIn(kIsaCases), isa_case_name);
+INSTANTIATE_TEST_SUITE_P(, lane_ops, testing::ValuesIn(all_isas()), isa_case_name);
 
 } // namespace
 } // namespace burnish

@@ -8,7 +8,10 @@
 namespace burnish::test {
 namespace {
 
-double dot(const double* a, const double* b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+double dot(const double* a, const double* b)
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
 
 std::vector<TechniqueKernels> all_kernels()
 {
@@ -21,7 +24,8 @@ std::vector<TechniqueKernels> all_kernels()
 TEST(frame, of_a_mapped_normal_is_orthonormal)
 {
     const double normals[][3] = {{0, 0, 1}, {0, -3, 0}, {1, 0, 0}, {0.6, 0.48, -0.64}, {0.3, -0.6, 0.7}};
-    const double maps[][3] = {{0, 0, 1}, {0.5, -0.2, 0.8}, {1, 0, 0}, {-1, 0, 0}, {0.4, 0, 0}, {1, 0, 1e-9}, {0, 1, 0}, {1, 1e-5, 0}, {1, 3e-4, 0}};
+    const double maps[][3] = {{0, 0, 1},    {0.5, -0.2, 0.8}, {1, 0, 0},    {-1, 0, 0},  {0.4, 0, 0},
+                              {1, 0, 1e-9}, {0, 1, 0},        {1, 1e-5, 0}, {1, 3e-4, 0}};
     for (const TechniqueKernels& kernels : all_kernels())
         for (const auto& n : normals)
             for (const auto& map : maps)
@@ -32,7 +36,8 @@ TEST(frame, of_a_mapped_normal_is_orthonormal)
                     for (int i = 0; i < 3; ++i)
                         for (int j = i; j < 3; ++j)
                             EXPECT_NEAR(dot(f + 3 * i, f + 3 * j), i == j ? 1.0 : 0.0, i == j ? 1e-5 : 2e-3)
-                                << kernels.name << ", normal " << n[0] << " " << n[1] << " " << n[2] << ", map " << map[0] << " " << map[1] << " " << map[2];
+                                << kernels.name << ", normal " << n[0] << " " << n[1] << " " << n[2] << ", map " << map[0] << " " << map[1]
+                                << " " << map[2];
                     const double c[3] = {f[1] * f[5] - f[2] * f[4], f[2] * f[3] - f[0] * f[5], f[0] * f[4] - f[1] * f[3]};
                     EXPECT_NEAR(dot(c, f + 6), handedness, 1e-3);
                 }

@@ -1,8 +1,9 @@
-#include "shading/kernels/bent_normal.k.h"
-#include "shading/kernels/lobe.k.h"
-#include "shading/kernels/major_axis.k.h"
-#include "shading/kernels/surface.k.h"
 #include "tests/unit/techniques/kernels.h"
+#include "shading/surface/lobe.k.h"
+#include "shading/surface/surface.k.h"
+#include "shading/techniques/bent_normal.k.h"
+#include "shading/techniques/lobe_line.k.h"
+#include "shading/techniques/major_axis.k.h"
 
 namespace burnish {
 inline namespace BN_ISA_NS {
@@ -10,11 +11,17 @@ inline namespace BN_ISA_NS {
 namespace {
 
 // Every lane gets the same input; the last one gives the result.
-real in_lane(double x) { return lit(x); }
-real3 in_lanes3(const double* x) { return vec3_of(lit(x[0]), lit(x[1]), lit(x[2])); }
+real in_lane(double x)
+{
+    return lit(x);
+}
+real3 in_lanes3(const double* x)
+{
+    return vec3_of(lit(x[0]), lit(x[1]), lit(x[2]));
+}
 double of_lane(real x)
 {
-#if BN_ISA == 3
+#ifdef BN_ORACLE
     return x;
 #else
     float lanes[kLanes];
@@ -22,7 +29,10 @@ double of_lane(real x)
     return static_cast<double>(lanes[kLanes - 1]);
 #endif
 }
-void of_lanes3(real3 v, double* to) { to[0] = of_lane(v.x), to[1] = of_lane(v.y), to[2] = of_lane(v.z); }
+void of_lanes3(real3 v, double* to)
+{
+    to[0] = of_lane(v.x), to[1] = of_lane(v.y), to[2] = of_lane(v.z);
+}
 
 void major_axis(const double in[8], double out[11])
 {
@@ -53,6 +63,19 @@ void grain_count(const double in[8], double out[2])
         out[1] += 2.0;
 }
 
+void line(const double in[7], double out[10])
+{
+    const lobe_line l = lobe_line_of(in_lanes3(in), in_lane(in[3]), in_lane(in[4]));
+    const real count = lobe_line_count(l, in_lane(in[5]));
+    out[0] = of_lane(l.along.x), out[1] = of_lane(l.along.y), out[2] = of_lane(l.width), out[3] = of_lane(count);
+    out[4] = 1.0;
+    for (int i = 1; of_lane(lobe_line_cell_of(count, i).weight) > 0.0; ++i)
+        out[4] += 2.0 * of_lane(lobe_line_cell_of(count, i).weight);
+    const lobe_line_sample s = lobe_line_at(l, in_lane(in[6]));
+    of_lanes3(s.direction, out + 5);
+    out[8] = of_lane(s.weight), out[9] = of_lane(s.radius);
+}
+
 void bent_normal(const double in[5], double out[4])
 {
     const real zero = lit(0.0), one = lit(1.0);
@@ -71,14 +94,11 @@ void frame(const double in[10], double out[9])
     of_lanes3(f.n, out), of_lanes3(f.t, out + 3), of_lanes3(f.b, out + 6);
 }
 
+constexpr test::TechniqueKernels kFns = {BN_ISA_NAME, major_axis, direction, grain_count, line, bent_normal, frame};
+
 } // namespace
 
-const test::TechniqueKernels& technique_kernels()
-{
-    static constexpr const char* kNames[] = {"scalar", "avx2", "avx512", "double"};
-    static constexpr test::TechniqueKernels table = {kNames[BN_ISA], major_axis, direction, grain_count, bent_normal, frame};
-    return table;
-}
+BN_DEFINE_FNS(test::TechniqueKernels, kFns)
 
 } // namespace BN_ISA_NS
 } // namespace burnish

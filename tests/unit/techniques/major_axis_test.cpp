@@ -11,30 +11,18 @@
 #include "tests/unit/techniques/kernels.h"
 
 namespace burnish {
-namespace bn_scalar {
-const test::TechniqueKernels& technique_kernels();
-}
-namespace bn_avx2 {
-const test::TechniqueKernels& technique_kernels();
-}
-namespace bn_avx512 {
-const test::TechniqueKernels& technique_kernels();
-}
-namespace bn_double {
-const test::TechniqueKernels& technique_kernels();
-}
-
 namespace test {
 
-const TechniqueKernels& oracle_kernels() { return bn_double::technique_kernels(); }
+const TechniqueKernels& oracle_kernels()
+{
+    return burnish::oracle_fns<TechniqueKernels>();
+}
 
 std::vector<TechniqueKernels> float_kernels()
 {
-    std::vector<TechniqueKernels> tables = {bn_scalar::technique_kernels()};
-    if (isa_available(Isa::avx2))
-        tables.push_back(bn_avx2::technique_kernels());
-    if (isa_available(Isa::avx512))
-        tables.push_back(bn_avx512::technique_kernels());
+    std::vector<TechniqueKernels> tables;
+    for (const Isa isa : isas_with<TechniqueKernels>())
+        tables.push_back(pick<TechniqueKernels>(isa));
     return tables;
 }
 
@@ -56,17 +44,52 @@ struct Vector { // test vectors A to F: view, alpha_lin, eta, samples; expected 
     Vec e0, e1; // an unordered pair
 };
 const Vector kVectors[] = {
-    {unit(.5, .3, .8), .5, .8, 16, -1.55186854, .02081768, .11974987, 1.10165788, .07918166,
-     {-.27144524, -.00062796, .96245368}, {.27144524, .00062796, .96245368}},
-    {unit(.6, -.2, .1), .4, .5, 16, 1.46274492, -.11078647, .04737105, .47323574, .03401382,
-     {-.06910485, .00256245, .99760611}, {.15405067, -.00571230, .98804644}},
-    {unit(.6, .2, .3), .5, 0, 16, -1.24904577, .32175055, .29386256, .68567930, .14693128,
-     {-.09472317, -.03157439, .99500280}, {.09472317, .03157439, .99500280}},
+    {unit(.5, .3, .8),
+     .5,
+     .8,
+     16,
+     -1.55186854,
+     .02081768,
+     .11974987,
+     1.10165788,
+     .07918166,
+     {-.27144524, -.00062796, .96245368},
+     {.27144524, .00062796, .96245368}},
+    {unit(.6, -.2, .1),
+     .4,
+     .5,
+     16,
+     1.46274492,
+     -.11078647,
+     .04737105,
+     .47323574,
+     .03401382,
+     {-.06910485, .00256245, .99760611},
+     {.15405067, -.00571230, .98804644}},
+    {unit(.6, .2, .3),
+     .5,
+     0,
+     16,
+     -1.24904577,
+     .32175055,
+     .29386256,
+     .68567930,
+     .14693128,
+     {-.09472317, -.03157439, .99500280},
+     {.09472317, .03157439, .99500280}},
     {{0, 0, 1}, .6, -.7, 8, 0, 1.57079633, .30369896, 1.45796195, .20958203, {0, -.31878070, .94782850}, {0, .31878070, .94782850}},
-    {unit(.7, 0, .4), .5, .6, 16, 1.57079633, 0, .14275683, 1.02005344, .07331634,
-     {-.22056970, 0, .97537121}, {.23621451, 0, .97170093}},
-    {unit(-.3, .9, .05), .9, -.9, 4, .01748846, -1.53273639, .08568375, 1.43286671, .41194918,
-     {-.00144094, .71898728, .69502174}, {.00000563, -.00280945, .99999605}},
+    {unit(.7, 0, .4), .5, .6, 16, 1.57079633, 0, .14275683, 1.02005344, .07331634, {-.22056970, 0, .97537121}, {.23621451, 0, .97170093}},
+    {unit(-.3, .9, .05),
+     .9,
+     -.9,
+     4,
+     .01748846,
+     -1.53273639,
+     .08568375,
+     1.43286671,
+     .41194918,
+     {-.00144094, .71898728, .69502174},
+     {.00000563, -.00280945, .99999605}},
 };
 
 std::vector<double> input(const Vector& v)
@@ -75,7 +98,10 @@ std::vector<double> input(const Vector& v)
     return {v.o.x, v.o.y, v.o.z, s * (1 + v.eta), s * (1 - v.eta), 1.0, 2.3, v.count};
 }
 
-double distance(const double* a, const Vec& b) { return std::hypot(a[0] - b.x, std::hypot(a[1] - b.y, a[2] - b.z)); }
+double distance(const double* a, const Vec& b)
+{
+    return std::hypot(a[0] - b.x, std::hypot(a[1] - b.y, a[2] - b.z));
+}
 
 void expect_vector(const TechniqueKernels& kernels, const Vector& v, double tolerance, int index)
 {
@@ -100,8 +126,16 @@ struct Steps {
 };
 const Steps kSteps[] = {
     {0, .09104107, -.00344818, 0, 1, 0, .89130031, {0, 0, 1}, {-.85279175, -.30385017, .42476029}, {-.00829300, -.30189650, .95330464}},
-    {1, .02567193, .00563749, .25761214, 1, .40536079, .89989968, {.04274066, -.00158485, .99908494},
-     {-.94951535, .31281002, .02388485}, {-.84447562, .30891508, .43752988}},
+    {1,
+     .02567193,
+     .00563749,
+     .25761214,
+     1,
+     .40536079,
+     .89989968,
+     {.04274066, -.00158485, .99908494},
+     {-.94951535, .31281002, .02388485},
+     {-.84447562, .30891508, .43752988}},
     {2, 0, 0, 0, 1, 0, .57142857, {0, 0, 1}, {}, {}},
     {3, 0, 0, 0, 1, 0, .79169624, {0, 0, 1}, {}, {}},
     {4, 0, 0, .03054396, 1, .04797835, .86004966, {}, {}, {}},
@@ -118,7 +152,10 @@ Vec mirrored(const Vec& w, const Vec& o)
     const double d = 2 * (w.x * o.x + w.y * o.y + w.z * o.z);
     return {d * w.x - o.x, d * w.y - o.y, d * w.z - o.z};
 }
-double apart(const Vec& a, const Vec& b) { return std::hypot(a.x - b.x, a.y - b.y, a.z - b.z); }
+double apart(const Vec& a, const Vec& b)
+{
+    return std::hypot(a.x - b.x, a.y - b.y, a.z - b.z);
+}
 
 // From the printed steps follow the kernel's results.
 TEST(major_axis, equals_the_printed_steps)
@@ -176,7 +213,8 @@ TEST(major_axis, extrema_equal_a_brute_force_scan)
 {
     Random random{17};
     for (int trial = 0; trial < 300; ++trial) {
-        const Vec o = unit(2.0 * static_cast<double>(random.unit()) - 1.0, 2.0 * static_cast<double>(random.unit()) - 1.0, 0.05 + static_cast<double>(random.unit()));
+        const Vec o = unit(2.0 * static_cast<double>(random.unit()) - 1.0, 2.0 * static_cast<double>(random.unit()) - 1.0,
+                           0.05 + static_cast<double>(random.unit()));
         const double al = 0.1 + 0.9 * static_cast<double>(random.unit()), eta = 1.9 * static_cast<double>(random.unit()) - 0.95;
         const double s = al * al / std::sqrt(2.0), rx = s * (1 + eta), ry = s * (1 - eta);
         const auto d = [&](double t) {
@@ -217,7 +255,8 @@ TEST(major_axis, degenerate_inputs_stay_finite_and_near_the_oracle_in_every_isa)
                                 double out[11];
                                 kernels.major_axis(in, out);
                                 for (double value : out)
-                                    ASSERT_TRUE(std::isfinite(value)) << kernels.name << " " << ox << " " << oy << " " << oz << " " << al << " " << eta;
+                                    ASSERT_TRUE(std::isfinite(value))
+                                        << kernels.name << " " << ox << " " << oy << " " << oz << " " << al << " " << eta;
                                 ASSERT_TRUE(!have_first || std::memcmp(first, out, sizeof out) == 0) << kernels.name;
                                 std::copy(out, out + 11, first);
                                 have_first = true;
@@ -234,7 +273,8 @@ TEST(major_axis, samples_never_leave_below_the_surface)
     Random random{23};
     double lowest = 1.0;
     for (int trial = 0; trial < 20000; ++trial) {
-        const Vec o = unit(2.0 * static_cast<double>(random.unit()) - 1.0, 2.0 * static_cast<double>(random.unit()) - 1.0, 1e-3 + static_cast<double>(random.unit()));
+        const Vec o = unit(2.0 * static_cast<double>(random.unit()) - 1.0, 2.0 * static_cast<double>(random.unit()) - 1.0,
+                           1e-3 + static_cast<double>(random.unit()));
         const double al = 0.05 + 0.95 * static_cast<double>(random.unit()), eta = 1.9 * static_cast<double>(random.unit()) - 0.95;
         const double s = al * al / std::sqrt(2.0);
         const double in[8] = {o.x, o.y, o.z, s * (1 + eta), s * (1 - eta), 1.0, 2.3, 16.0};
@@ -284,7 +324,8 @@ TEST(major_axis, adaptive_samples_of_any_lobe_add_up_to_no_more_than_the_line_ne
     double largest = 0.0;
     for (int trial = 0; trial < 8000; ++trial) {
         const Vec o = unit(in_range(-1.0, 1.0), in_range(-1.0, 1.0), trial % 2 ? in_range(0.001, 0.1) : in_range(0.1, 1.5));
-        const double al = in_range(0.05, 1.0), eta = in_range(0.0, 0.99), s = al * al / std::sqrt(2.0), k = trial % 3 ? 1.0 : in_range(0.5, 3.0);
+        const double al = in_range(0.05, 1.0), eta = in_range(0.0, 0.99), s = al * al / std::sqrt(2.0),
+                     k = trial % 3 ? 1.0 : in_range(0.5, 3.0);
         const double in[8] = {o.x, o.y, o.z, s * (1 + eta), s * (1 - eta), k, 2.3, 63.0};
         double line[11], taken[2];
         const TechniqueKernels kernels = float_kernels()[0];

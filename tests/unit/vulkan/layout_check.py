@@ -1,4 +1,4 @@
-"""The structures of shading/lang/gpu_records.h lie alike in C++ and in the stages' SPIR-V: offsets of members, strides of arrays.
+"""The structures of shading/lang/records.h and gpu_records.h lie alike in C++ and in the stages' SPIR-V: offsets of members, strides of arrays.
 usage: layout_check.py ROOT COMPILER"""
 import re
 import subprocess
@@ -10,9 +10,10 @@ import stages
 from stages import glslc_check
 
 
-def members(root):
+def members(root, compiler):
     """{structure: [member, ...]} in the order of the text."""
-    text = re.sub(r"//.*", "", (Path(root) / "shading/lang/gpu_records.h").read_text())
+    command = [compiler, "-E", "-P", "-x", "c++", f"-I{root}", Path(root) / "shading/lang/gpu_records.h"]
+    text = subprocess.run(command, capture_output=True, text=True, check=True).stdout
     found = {}
     for name, body in re.findall(r"struct (\w+) \{(.*?)\};", text, re.DOTALL):
         names = []
@@ -43,8 +44,9 @@ def cpp_layout(root, compiler, structures):
 
 
 def spirv_layout(assembly):
-    """{(structure, member): offset} of structures with offsets, and {(structure, ""): stride} where they are elements of an array."""
-    names = dict(re.findall(r'OpName (%\S+) "(\w+)"', assembly))
+    """{(structure, member): offset} of structures with offsets, and {(structure, ""): stride} where they are elements of an array. The
+    block BnFrame holds what GpuFrame does."""
+    names = dict(re.findall(r'OpName (%\S+) "(\w+)"', assembly.replace('"BnFrame"', '"GpuFrame"')))
     member = {(t, i): m for t, i, m in re.findall(r'OpMemberName (%\S+) (\d+) "(\w+)"', assembly)}
     layout = {}
     for t, i, offset in re.findall(r"OpMemberDecorate (%\S+) (\d+) Offset (\d+)", assembly):
@@ -61,7 +63,7 @@ def main():
     if glslc_check.tools_missing():
         return 77
     root, compiler = sys.argv[1:3]
-    structures = members(root)
+    structures = members(root, compiler)
     expected, seen, bad = cpp_layout(root, compiler, structures), set(), 0
     for name, file, defines in stages.lines(root):
         for key, offset in spirv_layout(stages.assembly(root, file, defines)).items():

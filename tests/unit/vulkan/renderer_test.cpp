@@ -9,7 +9,7 @@
 #include <fstream>
 #include <sys/resource.h>
 
-#include "core/scene/builtin.h"
+#include "core/scene/builtin/builtin.h"
 #include "raster/vulkan/bands.h"
 #include "raster/vulkan/vulkan_renderer.h"
 #include "tests/unit/raster/fixture.h"
@@ -40,7 +40,7 @@ struct Device { // with a renderer of a scene
             error = opened.error();
             return;
         }
-        Result<std::unique_ptr<Renderer>> made = make_vulkan_renderer({stage.scene, stage.tables, stage.environment, stage.dfg, stage.jobs}, *opened);
+        Result<std::unique_ptr<Renderer>> made = make_vulkan_renderer(stage.input(), *opened);
         if (made)
             renderer = std::move(*made);
         else
@@ -66,8 +66,8 @@ float largest_difference(const Image& a, const Image& b)
     return largest;
 }
 
-#define BN_NEEDS(device)                                                                                                                    \
-    if (!(device).renderer)                                                                                                                 \
+#define BN_NEEDS(device)                                                                                                                   \
+    if (!(device).renderer)                                                                                                                \
     GTEST_SKIP() << (device).error.line()
 
 TEST(vulkan, bands_give_the_same_words_as_one_picture)
@@ -165,7 +165,7 @@ TEST(vulkan, a_scene_of_nothing_shows_the_backdrop)
 }
 
 // In an empty folder of its own.
-class Cache : public testing::Test {
+class cache : public testing::Test {
   protected:
     void SetUp() override
     {
@@ -199,7 +199,7 @@ class Cache : public testing::Test {
     std::unique_ptr<Stage> stage = spheres();
 };
 
-TEST_F(Cache, is_used_by_the_second_run_and_ignored_where_it_is_broken)
+TEST_F(cache, is_used_by_the_second_run_and_ignored_where_it_is_broken)
 {
     BN_NEEDS(Device(*stage, lavapipe()));
     const auto first = draw();

@@ -1,0 +1,100 @@
+// `burnish chart`: what every technique costs and what it gets wrong, as figures, as charts, as a page.
+#include <fmt/core.h>
+#include <memory>
+#include <set>
+
+#include "apps/chart/measure.h"
+#include "apps/cli/command.h"
+#include "apps/cli/report.h"
+#include "apps/cli/stop_signal.h"
+#include "apps/report/page.h"
+#include "apps/report/plots.h"
+#include "core/image/io/image_io.h"
+
+namespace burnish {
+namespace {
+
+constexpr const char* kFooter =
+    R"(REPORT_DIR gets report.html (one page, needs nothing else), report.json, the charts as .svg and .png, the pictures, and rows.json: what has
+been measured, from which a stopped chart goes on. References are kept beside the cache of environments. With the defaults a scene under one
+environment takes minutes on two cores.
+
+Examples:
+  burnish chart -o report
+  burnish chart lamp.glb --env workshop.hdr --env builtin:sky --size 1280x720 -o report
+  burnish chart --techniques bent_normal,major_axis --sweep samples=2,4,8,16,32 -o report
+  burnish chart --sweep samples=16 --sweep roughness=0.1,0.3,0.5,0.7 --sweep anisotropy=-0.9,-0.5,0,0.5,0.9 -o report)";
+
+std::uint64_t pictures_with_nan(const ChartReport& chart)
+{
+    std::uint64_t count = 0;
+    for (const ChartRow& row : chart.rows)
+        count += row.measured.errors.nan_pixels != 0;
+    return count;
+}
+
+Status write_report(const ChartReport& chart, const Keeper& keeper, Report& report)
+{
+    Result<std::vector<ReportFile>> files = chart_files(chart);
+    if (!files)
+        return files.error();
+    files->push_back({"report.json", report_json(chart)});
+    Result<std::string> page = chart_page(chart);
+    if (!page)
+        return page.error();
+    files->push_back({"report.html", std::move(*page)});
+    std::set<std::string> used;
+    for (const ReportFile& file : *files) {
+        used.insert(keeper.file(file.name));
+        if (const Status written = write_file(keeper.file(file.name), file.bytes); !written)
+            return written;
+        report.detail("wrote", keeper.file(file.name));
+    }
+    for (const ChartRow& row : chart.rows)
+        used.insert({row.picture, row.error_map});
+    for (const auto& [place, reference] : chart.references)
+        used.insert(reference.picture);
+    keeper.remove_stale(used);
+    report.event("wrote", keeper.file("report.html"));
+    return {};
+}
+
+int run_chart(const ChartArguments& arguments, const OptionTable& given)
+{
+    const Result<ChartOptions> checked = check_chart_options(arguments, given);
+    if (!checked)
+        return fail(checked.error());
+    const ChartOptions& options = *checked;
+    Report report(options.base.quiet, options.base.verbosity);
+    Result<Keeper> keeper = Keeper::open(options.folder, report);
+    if (!keeper)
+        return fail(keeper.error());
+    const auto jobs = std::make_shared<const Jobs>(options.base.threads);
+    const Result<MeasuredChart> measured = measure_chart(options, jobs, *keeper, report);
+    if (!measured)
+        return fail(measured.error());
+    if (measured->stopped) {
+        report.event("stopped", fmt::format("the same command goes on from {}; no report was written", keeper->file("rows.json")));
+        return 128 + stop_signal(); // as a shell reports a process that a signal ended
+    }
+    const ChartReport& chart = measured->report;
+    for (const ChartRow& row : chart.rows)
+        report.detail("row", describe(row));
+    if (const Status written = write_report(chart, *keeper, report); !written)
+        return fail(written.error());
+    if (const std::uint64_t bad = pictures_with_nan(chart))
+        return fail(
+            Error{ExitCode::not_finite, options.folder, "", fmt::format("{} of {} pictures hold NaN or Inf", bad, chart.rows.size())});
+    return 0;
+}
+
+} // namespace
+
+Command chart_command()
+{
+    auto arguments = std::make_shared<ChartArguments>();
+    return {"chart", "Chart the speed of techniques against their accuracy", chart_option_table(*arguments), kFooter,
+            [arguments](OptionTable& given) { return run_chart(*arguments, given); }};
+}
+
+} // namespace burnish

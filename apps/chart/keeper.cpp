@@ -1,0 +1,101 @@
+#include "apps/chart/keeper.h"
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fmt/core.h>
+#include <unistd.h>
+#include <vector>
+
+#include "core/base/file.h"
+#include "core/image/io/image_io.h"
+
+namespace burnish {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uint64_t kMaxKeptBytes = 256ull << 20;
+constexpr std::chrono::milliseconds kSaveEvery{300};
+
+Status make_folder(const std::string& folder)
+{
+    std::error_code failed;
+    fs::create_directories(folder, failed);
+    if (!fs::is_directory(folder))
+        return Error{ExitCode::output_failed, folder, "", failed ? failed.message() : "is not a folder"};
+    if (::access(folder.c_str(), W_OK | X_OK) != 0)
+        return Error{ExitCode::output_failed, folder, "", std::strerror(errno)};
+    return {};
+}
+
+// Whether a file has the name of a chart: NAME-NUMBER.svg or .png.
+bool is_chart(const std::string& file)
+{
+    const std::size_t dot = file.rfind('.'), dash = file.rfind('-');
+    if (dot == std::string::npos || dash == std::string::npos || dash + 1 >= dot ||
+        (file.substr(dot) != ".svg" && file.substr(dot) != ".png"))
+        return false;
+    const std::string name = file.substr(0, dash), number = file.substr(dash + 1, dot - dash - 1);
+    return number.find_first_not_of("0123456789") == std::string::npos &&
+           (name == "time-flip" || name == "samples-flip" || name == "samples-time" || name.rfind("heat-", 0) == 0);
+}
+
+// Whether a file has the name of a row's picture or a reference's: KEY-SETTINGS.jpg.
+bool is_picture(const std::string& file)
+{
+    constexpr std::size_t kDigits = 16;
+    const std::string prefix = "reference-", key = file.substr(file.rfind(prefix, 0) == 0 ? prefix.size() : 0);
+    return key.size() > kDigits && key.find_first_not_of("0123456789abcdef") == kDigits && key[kDigits] == '-' && key.ends_with(".jpg");
+}
+
+} // namespace
+
+Result<Keeper> Keeper::open(const std::string& folder, Report& report)
+{
+    Keeper keeper;
+    keeper.folder_ = folder;
+    for (const std::string& needed : {folder, folder + "/pictures"})
+        if (const Status made = make_folder(needed); !made)
+            return made.error();
+    const std::string path = keeper.file("rows.json");
+    if (!fs::exists(path))
+        return keeper;
+    const Result<std::vector<std::uint8_t>> bytes = read_file(path, kMaxKeptBytes);
+    if (!bytes)
+        return bytes.error();
+    Result<Kept> kept = parse_kept(std::string(bytes->begin(), bytes->end()), path);
+    if (kept)
+        keeper.kept_ = std::move(*kept);
+    else
+        report.warning(fmt::format("{}: {}: everything is measured anew", path, kept.error().reason));
+    return keeper;
+}
+
+Status Keeper::save()
+{
+    saved_ = Clock::now();
+    return write_file(file("rows.json"), kept_json(kept_));
+}
+
+Status Keeper::save_sometimes()
+{
+    return Clock::now() - saved_ < kSaveEvery ? Status() : save();
+}
+
+void Keeper::remove_stale(const std::set<std::string>& used) const
+{
+    for (const auto& [folder, ours] : {std::pair{folder_, &is_chart}, std::pair{folder_ + "/pictures", &is_picture}}) {
+        std::vector<fs::path> stale;
+        std::error_code ignored;
+        for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored)) {
+            const std::string name = entry.path().filename().string();
+            if (entry.is_regular_file(ignored) && ours(name) && !used.count(folder + "/" + name))
+                stale.push_back(entry.path());
+        }
+        for (const fs::path& path : stale)
+            fs::remove(path, ignored); // what cannot be removed does no harm
+    }
+}
+
+} // namespace burnish

@@ -1,0 +1,44 @@
+// What is read back of an earlier run.
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "apps/chart/rows.h"
+
+namespace burnish {
+namespace {
+
+double number_of(const nlohmann::json& json)
+{
+    return json.is_null() ? std::numeric_limits<double>::quiet_NaN() : json.get<double>();
+}
+
+} // namespace
+
+Result<Kept> parse_kept(const std::string& text, const std::string& file)
+{
+    try {
+        const nlohmann::json json = nlohmann::json::parse(text);
+        Kept kept;
+        if (json.at("kept_version") != kKeptVersion)
+            return kept;
+        for (const auto& [key, noise] : json.at("references").items())
+            kept.references[key] = {noise.at("samples").get<std::uint64_t>(), number_of(noise.at("relative_error")),
+                                    number_of(noise.at("flip_noise"))};
+        for (const auto& [key, row] : json.at("rows").items()) {
+            Measured& m = kept.rows[key];
+            m.ms = row.at("ms").get<std::vector<double>>();
+            m.cpu_ms = row.at("cpu_ms").get<std::vector<double>>();
+            if (m.cpu_ms.size() != m.ms.size())
+                return Error{ExitCode::bad_input, file, "", "does not hold the rows of a chart"};
+            m.has_errors = row.contains("flip_mean");
+            if (m.has_errors)
+                m.errors = {number_of(row.at("flip_mean")), number_of(row.at("flip_p99")), number_of(row.at("rel_mse")),
+                            number_of(row.at("max_abs")), row.at("nan_pixels").get<std::uint64_t>()};
+        }
+        return kept;
+    } catch (const nlohmann::json::exception&) {
+        return Error{ExitCode::bad_input, file, "", "does not hold the rows of a chart"};
+    }
+}
+
+} // namespace burnish

@@ -1,0 +1,398 @@
+#include "apps/chart/measure.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fmt/core.h>
+#include <limits>
+#include <memory>
+#include <unistd.h>
+
+#include "apps/chart/noise.h"
+#include "apps/cli/seen_scene.h"
+#include "apps/cli/stop_signal.h"
+#include "apps/render/stats.h"
+#include "apps/report/pictures.h"
+#include "core/base/cache.h"
+#include "core/base/clock.h"
+#include "core/base/file.h"
+#include "core/base/hash.h"
+#include "core/base/version.h"
+#include "core/image/io/image_io.h"
+#include "core/image/magma.h"
+#include "core/image/metrics/flip.h"
+#include "core/image/metrics/metrics.h"
+#include "core/simd/cpu.h"
+#include "raster/reference/scene_key.h"
+
+namespace burnish {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Rows of an older program are not this one's: the kernels may have changed.
+std::uint64_t program_hash()
+{
+    constexpr std::uint64_t kMaxProgramBytes = 1ull << 30;
+    const Result<std::vector<std::uint8_t>> bytes = read_file("/proc/self/exe", kMaxProgramBytes);
+    const std::string name = version();
+    return bytes ? hash_bytes(bytes->data(), bytes->size()) : hash_bytes(name.data(), name.size());
+}
+
+class Chart {
+  public:
+    Chart(const ChartOptions& options, std::shared_ptr<const Jobs> jobs, Keeper& keeper, Report& report)
+        : options_(options), jobs_(jobs), keeper_(keeper), report_(report), stop_(watch_stop_signals()),
+          settings_(settings_of(options.techniques, options.sweeps.samples)), cells_(cells_of(options.sweeps))
+    {
+    }
+    Status load_all();
+    Status measure(); // ends early, without an error, where a signal came
+    bool stopped() const { return stop_.load(); }
+    ChartReport take();
+
+  private:
+    struct Place { // where rows are compared with each other
+        const SeenScene& scene;
+        Session& tile;
+        FrameDesc desc; // of the pictures that are compared, but for technique and samples
+        std::string env;
+        Cell cell;
+        std::uint64_t key = 0; // of scene, environment, view and overrides
+    };
+    Status measure_pair(const SeenScene& scene, const std::shared_ptr<const Environment>& environment, const std::string& env);
+    Status measure_place(const Place& place);
+    Result<Image> reference(const Place& place, ReferenceNoise& noise);
+    Result<std::string> reference_file(const Place& place, const ReferenceOptions& options);
+    Status find_errors(const Place& place, const Image& reference, ChartRow& row);
+    Status time_rows(const Place& place, std::vector<ChartRow>& rows);
+    Status write_small(const std::string& file, const Image& linear, bool errors);
+    ChartRow new_row(const Place& place, const Setting& setting) const;
+    FrameDesc desc_of(const Place& place, const Setting& setting) const;
+    FrameDesc timed_desc_of(const Place& place, const Setting& setting) const;
+
+    const ChartOptions& options_;
+    std::shared_ptr<const Jobs> jobs_;
+    Keeper& keeper_;
+    Report& report_;
+    const std::atomic<bool>& stop_;
+    std::vector<Setting> settings_;
+    std::vector<Cell> cells_;
+    std::vector<SeenScene> scenes_;
+    std::vector<std::shared_ptr<const Environment>> environments_;
+    std::uint64_t program_ = program_hash();
+    int picture_width_ = 0;
+    std::unique_ptr<Progress> progress_;
+    ChartReport out_;
+};
+
+// Everything is read before anything is measured: a wrong last file shall not cost minutes.
+Status Chart::load_all()
+{
+    for (const std::string& name : options_.scenes) {
+        Result<SeenScene> scene = load_seen_scene(name, options_.base, report_);
+        if (!scene)
+            return scene.error();
+        scenes_.push_back(std::move(*scene));
+    }
+    for (const std::string& env : options_.envs) {
+        Result<std::shared_ptr<const Environment>> environment =
+            load_shared_environment(env, options_.base.environment, options_.base.limits, *jobs_);
+        if (!environment)
+            return environment.error();
+        for (const std::string& warning : (*environment)->warnings)
+            report_.warning(warning);
+        environments_.push_back(std::move(*environment));
+    }
+    const FrameDesc& frame = options_.base.frame;
+    out_.machine = {version(), cpu_name(), isa_name(options_.base.isa), jobs_->threads()};
+    out_.width = frame.width, out_.height = frame.height, out_.msaa = frame.msaa;
+    out_.error_width = options_.error_width, out_.error_height = options_.error_height;
+    out_.runs = options_.runs;
+    out_.reference_samples = options_.reference_samples;
+    return {};
+}
+
+Status Chart::measure()
+{
+    const std::size_t places = scenes_.size() * environments_.size() * cells_.size();
+    picture_width_ = picture_width(places * settings_.size());
+    report_.event("chart", fmt::format("{} rows: {} settings of {} techniques at {} places, {} runs each", places * settings_.size(),
+                                       settings_.size(), options_.techniques.size(), places, options_.runs));
+    progress_ =
+        std::make_unique<Progress>("chart", places * settings_.size() * static_cast<std::size_t>(options_.runs + 1), options_.base.quiet);
+    for (const auto& scene : scenes_)
+        for (std::size_t e = 0; e < environments_.size(); ++e) {
+            if (const Status done = measure_pair(scene, environments_[e], options_.envs[e]); !done)
+                return done;
+            if (stopped())
+                return {};
+        }
+    progress_.reset();
+    return {};
+}
+
+Status Chart::measure_pair(const SeenScene& scene, const std::shared_ptr<const Environment>& environment, const std::string& env)
+{
+    SessionOptions of_tile;
+    of_tile.isa = options_.base.isa;
+    Result<Session> tile = Session::make({scene.data, environment, standard_dfg(*jobs_), jobs_}, of_tile);
+    if (!tile)
+        return tile.error();
+    for (const Cell& cell : cells_) {
+        Place place{scene, *tile, options_.base.frame, env, cell};
+        place.desc.width = options_.error_width, place.desc.height = options_.error_height;
+        place.desc.view = scene.view;
+        place.desc.roughness = cell.roughness.value_or(-1.0f);
+        place.desc.anisotropy = cell.anisotropy.value_or(0.0f);
+        place.desc.override_anisotropy = cell.anisotropy.has_value();
+        place.key = reference_key(tile->parts().input(), place.desc, {});
+        if (const Status done = measure_place(place); !done)
+            return done;
+        if (const Status saved = keeper_.save(); !saved)
+            return saved;
+        if (stopped())
+            return {};
+    }
+    return {};
+}
+
+Status Chart::measure_place(const Place& place)
+{
+    std::vector<ChartRow> rows;
+    bool complete = true; // nothing is left to be compared with the reference
+    for (const Setting& setting : settings_) {
+        rows.push_back(new_row(place, setting));
+        complete = complete && rows.back().measured.has_errors;
+    }
+    const std::string kept_reference = fmt::format("{}-{}", hash_text(place.key), options_.reference_samples);
+    complete = complete && keeper_.references().count(kept_reference);
+    const std::string picture = keeper_.picture(
+        fmt::format("reference-{}-{}-{:g}", kept_reference, picture_width_, static_cast<double>(options_.base.exposure_ev)));
+    if (!complete || !fs::exists(picture)) {
+        ReferenceNoise noise;
+        const Result<Image> truth = reference(place, noise);
+        if (!truth)
+            return truth.error();
+        if (stopped())
+            return {};
+        keeper_.references()[kept_reference] = noise;
+        if (const Status written = write_small(picture, *truth, false); !written)
+            return written;
+        for (ChartRow& row : rows) {
+            if (const Status found = row.measured.has_errors ? Status() : find_errors(place, *truth, row); !found)
+                return found;
+            progress_->step();
+            if (stopped())
+                return {};
+        }
+    } else {
+        progress_->step(rows.size());
+    }
+    out_.references[burnish::place(rows.front())] = {picture, keeper_.references().at(kept_reference)};
+    if (const Status timed = time_rows(place, rows); !timed)
+        return timed;
+    out_.rows.insert(out_.rows.end(), rows.begin(), rows.end());
+    return {};
+}
+
+// Beside the cached environments, so that every chart of a scene shares it; in REPORT_DIR where there is no such folder.
+Result<std::string> Chart::reference_file(const Place& place, const ReferenceOptions& options)
+{
+    const std::string name = fmt::format("reference-{}.part", hash_text(place.key));
+    std::string file = keeper_.file(name);
+    if (const std::string cache = cache_folder(); options_.base.environment.use_cache && !cache.empty()) {
+        std::error_code failed;
+        fs::create_directories(cache, failed);
+        if (!failed && ::access(cache.c_str(), W_OK | X_OK) == 0)
+            file = cache + "/" + name;
+    }
+    ReferenceOptions with_file = options;
+    with_file.checkpoint = file;
+    with_file.own_checkpoint = true;
+    if (const Status good = check_reference_checkpoint(place.tile.parts().input(), place.desc, with_file); !good) {
+        report_.warning(fmt::format("{}: {}: it is made anew", file, good.error().reason));
+        std::error_code failed;
+        fs::remove(file, failed);
+        if (failed)
+            return Error{ExitCode::output_failed, file, "", failed.message()};
+    }
+    return file;
+}
+
+Result<Image> Chart::reference(const Place& place, ReferenceNoise& noise)
+{
+    SessionOptions session;
+    session.backend = Backend::reference, session.isa = options_.base.isa;
+    ReferenceOptions& options = session.reference;
+    options.samples = options_.reference_samples;
+    options.checkpoint_seconds = 10.0;
+    options.stop = &stop_;
+    options.quiet = options_.base.quiet;
+    const Result<std::string> file = reference_file(place, options);
+    if (!file)
+        return file.error();
+    options.checkpoint = *file;
+    options.own_checkpoint = true;
+    options.lost_checkpoint = [&](const Error& error) { report_.warning("the reference is not kept: " + error.line()); };
+    Result<Session> renderer = Session::make(place.tile.parts(), session);
+    if (!renderer)
+        return renderer.error();
+    Result<Frame> frame = renderer->render(place.desc);
+    if (!frame)
+        return frame.error();
+    if (fs::path(*file).parent_path() == cache_folder())
+        prune_cache(cache_folder(), cache_limit(), *file);
+    const SamplingStats& s = frame->stats.sampling;
+    if (!s.stopped)
+        report_.event("reference",
+                      fmt::format("{} under {}, {}: {} samples a pixel, {} of them kept from before: {:.1f} s, relative error {:.3g}",
+                                  place.scene.data->name, place.env, describe(place.cell), s.samples, s.samples_before,
+                                  frame->stats.ms * 1e-3, s.relative_error));
+    if (const std::uint64_t bad = s.stopped ? 0 : count_not_finite(frame->color))
+        return Error{ExitCode::not_finite, place.scene.data->name, "reference", fmt::format("{} pixels are NaN or Inf", bad)};
+    if (!s.stopped)
+        noise = {s.samples, s.relative_error, noise_flip(frame->color, frame->variance, options_.base.isa, *jobs_)};
+    return std::move(frame->color);
+}
+
+FrameDesc Chart::desc_of(const Place& place, const Setting& setting) const
+{
+    FrameDesc desc = place.desc;
+    desc.technique = setting.technique;
+    desc.samples = setting.samples;
+    return desc;
+}
+
+FrameDesc Chart::timed_desc_of(const Place& place, const Setting& setting) const
+{
+    FrameDesc desc = desc_of(place, setting);
+    desc.width = options_.base.frame.width, desc.height = options_.base.frame.height;
+    return desc;
+}
+
+// The row with what was kept of it, but no errors where their pictures are gone.
+ChartRow Chart::new_row(const Place& place, const Setting& setting) const
+{
+    const FrameDesc desc = desc_of(place, setting);
+    const FrameDesc& timed = options_.base.frame;
+    const std::string text = fmt::format("{} {} {} {} {} {} {} {} {} {} {} {} {}", program_, place.key, options_.reference_samples,
+                                         desc.technique, desc.samples, timed.width, timed.height, desc.msaa, desc.tile_size,
+                                         place.tile.device(), jobs_->threads(), desc.major_axis_k, desc.major_axis_beta);
+    ChartRow row;
+    row.key = hash_text(hash_bytes(text.data(), text.size()));
+    row.scene = place.scene.data->name, row.env = place.env;
+    row.setting = setting, row.cell = place.cell;
+    row.measured = keeper_.row(row.key);
+    const std::string name = fmt::format("{}-{}-{:g}", row.key, picture_width_, static_cast<double>(options_.base.exposure_ev));
+    row.picture = keeper_.picture(name);
+    row.error_map = keeper_.picture(name + "-flip");
+    row.measured.has_errors = row.measured.has_errors && fs::exists(row.picture) && fs::exists(row.error_map);
+    return row;
+}
+
+Status Chart::write_small(const std::string& file, const Image& image, bool errors)
+{
+    const Image small = shrink(image, picture_width_);
+    return write_image(file, errors ? magma_map(small) : tonemap_to_srgb8(small, options_.base.tonemap, options_.base.exposure_ev));
+}
+
+Status Chart::find_errors(const Place& place, const Image& reference, ChartRow& row)
+{
+    Result<Frame> frame = place.tile.render(desc_of(place, row.setting));
+    if (!frame)
+        return frame.error();
+    RowErrors& e = row.measured.errors;
+    e.nan_pixels = count_not_finite(frame->color);
+    Image map = make_image(reference.width, reference.height, 1, PixelType::f32);
+    if (e.nan_pixels) {
+        e.flip_mean = e.flip_p99 = e.rel_mse = e.max_abs = std::numeric_limits<double>::quiet_NaN();
+    } else {
+        FlipOptions flip;
+        flip.isa = options_.base.isa;
+        map = flip_hdr(reference, frame->color, flip, *jobs_).error;
+        const ErrorSummary errors = summarise_errors(map);
+        const PixelFigures pixels = pixel_figures(reference, frame->color, *jobs_);
+        e.flip_mean = errors.mean, e.flip_p99 = errors.p99;
+        e.rel_mse = pixels.rel_mse, e.max_abs = pixels.max_abs;
+    }
+    for (const Status& written : {write_small(row.picture, frame->color, false), write_small(row.error_map, map, true)})
+        if (!written)
+            return written;
+    row.measured.has_errors = true;
+    Measured& kept = keeper_.row(row.key);
+    kept.has_errors = true;
+    kept.errors = e;
+    return keeper_.save_sometimes();
+}
+
+// Round robin, every other round backwards: what slows the machine down for a while slows all settings, and none always follows the
+// same neighbour.
+Status Chart::time_rows(const Place& place, std::vector<ChartRow>& rows)
+{
+    const std::size_t runs = static_cast<std::size_t>(options_.runs);
+    std::vector<std::size_t> order;
+    for (std::size_t i = 0; i < rows.size(); ++i)
+        if (rows[i].measured.ms.size() < runs)
+            order.push_back(i);
+    progress_->step((rows.size() - order.size()) * runs);
+    Frame last;
+    for (const std::size_t i : order) { // warm
+        if (stopped())
+            return {};
+        Result<Frame> frame = place.tile.render(timed_desc_of(place, rows[i].setting), std::move(last));
+        if (!frame)
+            return frame.error();
+        last = std::move(*frame);
+    }
+    for (std::size_t run = 0; run < runs; ++run) {
+        for (const std::size_t i : order) {
+            Measured& kept = keeper_.row(rows[i].key);
+            if (kept.ms.size() > run)
+                continue;
+            const double before = process_cpu_ms();
+            Result<Frame> frame = place.tile.render(timed_desc_of(place, rows[i].setting), std::move(last));
+            if (!frame)
+                return frame.error();
+            kept.ms.push_back(frame->stats.ms);
+            kept.cpu_ms.push_back(process_cpu_ms() - before);
+            last = std::move(*frame);
+            progress_->step();
+            if (stopped())
+                return {};
+        }
+        std::reverse(order.begin(), order.end());
+        if (const Status saved = keeper_.save_sometimes(); !saved)
+            return saved;
+    }
+    for (ChartRow& row : rows) {
+        const Measured& kept = keeper_.row(row.key);
+        row.measured.ms = kept.ms, row.measured.cpu_ms = kept.cpu_ms;
+        row.measured.ms.resize(runs); // an earlier chart may have asked for more
+        row.measured.cpu_ms.resize(runs);
+    }
+    return {};
+}
+
+ChartReport Chart::take()
+{
+    mark_pareto(out_.rows);
+    return std::move(out_);
+}
+
+} // namespace
+
+Result<MeasuredChart> measure_chart(const ChartOptions& options, const std::shared_ptr<const Jobs>& jobs, Keeper& keeper, Report& report)
+{
+    Chart chart(options, jobs, keeper, report);
+    if (const Status loaded = chart.load_all(); !loaded)
+        return loaded.error();
+    report.release();
+    if (const Status measured = chart.measure(); !measured)
+        return measured.error();
+    if (const Status saved = keeper.save(); !saved)
+        return saved.error();
+    return MeasuredChart{chart.take(), chart.stopped()};
+}
+
+} // namespace burnish

@@ -1,0 +1,128 @@
+#include "apps/chart/options.h"
+
+#include <algorithm>
+#include <fmt/core.h>
+
+#include "apps/cli/report.h"
+#include "apps/cli/shared_options.h"
+#include "apps/cli/values.h"
+#include "raster/reference/reference_renderer.h"
+
+namespace burnish {
+namespace {
+
+constexpr int kUsualErrorWidth = 480; // pixels: a reference of thousands of samples a pixel in a minute or two on two cores
+
+Value sweeps(Sweeps& to)
+{
+    Value value;
+    value.repeated = true;
+    value.set = [&to](const std::string&, const std::vector<std::string>& texts) -> Status {
+        to = {};
+        for (const std::string& text : texts)
+            if (const Status read = parse_sweep(text, to); !read)
+                return read;
+        return {};
+    };
+    value.get = [] { return std::string(); };
+    return value;
+}
+
+// All scenes and environments go through the checks of `burnish render`, one pair after another.
+Status check_pairs(const ChartArguments& in, const OptionTable& given, ChartOptions& out)
+{
+    RenderArguments arguments = in.render;
+    for (const std::string& scene : out.scenes)
+        for (const std::string& env : out.envs) {
+            arguments.plain.scene = scene;
+            arguments.plain.env = env;
+            const Result<RenderOptions> checked = check_render_options(arguments, given);
+            if (!checked)
+                return checked.error();
+            out.base = *checked;
+        }
+    return {};
+}
+
+// The same view in fewer pixels: sides in one proportion, but for what rounding to whole pixels needs.
+Status check_error_size(const PictureSize& size, bool given, ChartOptions& out)
+{
+    const FrameDesc& frame = out.base.frame;
+    out.error_width = std::min(frame.width, kUsualErrorWidth);
+    const auto height_at = [&](int width) {
+        return std::max(1, static_cast<int>(static_cast<double>(frame.height) * width / frame.width + 0.5));
+    };
+    out.error_height = height_at(out.error_width);
+    if (!given)
+        return {};
+    if (size.width < 1 || size.width > kMaxPictureSide || size.height != height_at(size.width))
+        return usage_error("--error-size", fmt::format("{}x{} has not the shape of --size {}x{}: for instance {}x{}", size.width,
+                                                       size.height, frame.width, frame.height, out.error_width, out.error_height));
+    out.error_width = size.width, out.error_height = size.height;
+    return {};
+}
+
+template <class T> void remove_repeated(std::vector<T>& values)
+{
+    std::vector<T> once;
+    for (const T& value : values)
+        if (std::find(once.begin(), once.end(), value) == once.end())
+            once.push_back(value);
+    values = once;
+}
+
+} // namespace
+
+OptionTable chart_option_table(ChartArguments& to)
+{
+    ChartOptions& o = to.plain;
+    const OptionTable of_render = render_option_table(to.render);
+    OptionTable table;
+    table.add("", {{"SCENE", "", "A .gltf or .glb file, or builtin:NAME; may be several", scenes(o.scenes)}});
+    table.add("What is measured",
+              {{"--env", "FILE", "Equirectangular picture or builtin:NAME; may be given several times", environments(o.envs)},
+               {"--techniques", "NAMES", "all, or names by commas; see burnish list techniques", techniques_value(o.techniques)},
+               {"--sweep", "NAME=VALUES", "samples=N,N,... (1,2,4,8,16,32,64), roughness=R,R,... or anisotropy=A,A,... of every material",
+                sweeps(o.sweeps), "as the scene has it"},
+               {"--runs", "N", "Timed frames of every setting, interleaved", integer(o.runs, 1, 10000)},
+               {"--reference-samples", "N", "Samples a pixel of the references",
+                integer(o.reference_samples, 1, static_cast<std::int64_t>(kMaxReferenceSamples))}});
+    table.add("Output",
+              {Option("-o,--output", "REPORT_DIR", "Folder of the report; made where it is not there", folder(o.folder)).must_be_given(),
+               quiet_option(to.render.plain.quiet), verbose_option(to.render.plain.verbosity)});
+    table.take(of_render, "Picture",
+               {{"--size", "Width and height in pixels of the frames that are timed"},
+                {"--msaa", "Samples a pixel of the techniques: {}"},
+                "--camera",
+                "--eye",
+                "--target",
+                "--fov",
+                {"--exposure", "Of the pictures to look at: multiply by 2^EV"},
+                "--no-background"});
+    table.add("Picture", {{"--error-size", "WxH",
+                           "Width and height in pixels of the pictures that are compared with the reference, of the shape of --size",
+                           picture_size(to.error_size), "at most 480 wide"}});
+    table.take(of_render, "Environment",
+               {{"--env-rotation", "Turn environments about +Y, counter-clockwise from above"},
+                "--env-size",
+                "--env-samples",
+                {"--no-cache", "No cache of environments; references are kept in REPORT_DIR"}});
+    table.take(of_render, "Machine", {"--threads", {"--isa", "{}"}});
+    return table;
+}
+
+Result<ChartOptions> check_chart_options(const ChartArguments& in, const OptionTable& given)
+{
+    ChartOptions out = in.plain;
+    remove_repeated(out.scenes);
+    remove_repeated(out.envs);
+    if (const Status pairs = check_pairs(in, given, out); !pairs)
+        return pairs.error();
+    if (const Status size = check_error_size(in.error_size, given.given("--error-size"), out); !size)
+        return size.error();
+    if (!reference_available())
+        return Error{ExitCode::unavailable, "", "", "this program was built without Embree 3, which the reference of a chart needs"};
+    return out;
+}
+
+} // namespace burnish

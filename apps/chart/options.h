@@ -1,0 +1,34 @@
+// Options of `burnish chart`: as written on the command line, then checked and resolved.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "apps/chart/plan.h"
+#include "apps/render/options.h"
+
+namespace burnish {
+
+struct ChartOptions {
+    RenderOptions base; // size of the timed frames, view, machine and limits; its scene and environment are those being measured
+    int error_width = 0, error_height = 0; // pixels, of the pictures that are compared with the reference
+    std::vector<std::string> scenes = {"builtin:spheres"}, envs = {"builtin:studio"};
+    std::vector<std::string> techniques = technique_names();
+    Sweeps sweeps;
+    int runs = 9;                           // timed, of every setting
+    std::uint64_t reference_samples = 4096; // a pixel
+    std::string folder;
+};
+
+struct ChartArguments {
+    ChartArguments() { render.size = {1920, 1080}; }
+    RenderArguments render; // options that mean the same as in `burnish render`
+    PictureSize error_size; // 0x0: as large as usual
+    ChartOptions plain;
+};
+
+OptionTable chart_option_table(ChartArguments& to);
+
+// Everything that can be known to be wrong before a file is opened.
+Result<ChartOptions> check_chart_options(const ChartArguments& arguments, const OptionTable& given);
+
+} // namespace burnish

@@ -1,0 +1,130 @@
+#include "apps/chart/plan.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <fmt/core.h>
+
+#include "apps/cli/parse.h"
+#include "apps/cli/report.h"
+#include "raster/frame/frame.h"
+
+namespace burnish {
+namespace {
+
+constexpr std::int64_t kMaxSamples = 65536; // as of `burnish render`
+constexpr std::size_t kMaxValues = 64;      // of one sweep: more is a slip of the keyboard
+const std::vector<int> kUsualSamples = {1, 2, 4, 8, 16, 32, 64};
+
+Error sweep_error(const std::string& reason)
+{
+    return usage_error("--sweep", reason);
+}
+
+template <class T> void add_once(std::vector<T>& values, T value)
+{
+    if (std::find(values.begin(), values.end(), value) == values.end())
+        values.push_back(value);
+}
+
+Status read_numbers(const std::vector<std::string>& texts, double low, double high, std::vector<float>& into)
+{
+    for (const std::string& text : texts) {
+        const Result<double> value = parse_number("--sweep", text, low, high);
+        if (!value)
+            return value.error();
+        add_once(into, static_cast<float>(*value) + 0.0f); // -0 is 0
+    }
+    return {};
+}
+
+Status read_samples(const std::vector<std::string>& texts, std::vector<int>& into)
+{
+    for (const std::string& text : texts) {
+        const Result<std::int64_t> value = parse_integer("--sweep", text, 1, kMaxSamples);
+        if (!value)
+            return value.error();
+        add_once(into, static_cast<int>(*value));
+    }
+    return {};
+}
+
+} // namespace
+
+Status parse_sweep(const std::string& text, Sweeps& into)
+{
+    const std::size_t equals = text.find('=');
+    if (equals == std::string::npos || equals == 0 || equals + 1 == text.size())
+        return sweep_error(fmt::format("expected a name and values such as samples=1,4,16, got '{}'", text));
+    const std::string name = text.substr(0, equals);
+    const std::vector<std::string> values = split(text.substr(equals + 1), ',');
+    if (name != "samples" && name != "roughness" && name != "anisotropy")
+        return sweep_error(fmt::format("'{}' is not one of samples, roughness, anisotropy", name));
+    const bool again = name == "samples" ? !into.samples.empty() : name == "roughness" ? !into.roughness.empty() : !into.anisotropy.empty();
+    if (again)
+        return sweep_error(fmt::format("{} is given twice", name));
+    if (values.size() > kMaxValues)
+        return sweep_error(fmt::format("{} values of {}, more than {}", values.size(), name, kMaxValues));
+    if (std::find(values.begin(), values.end(), "") != values.end())
+        return sweep_error(fmt::format("a value of {} is empty", name));
+    if (name == "samples")
+        return read_samples(values, into.samples);
+    return name == "roughness" ? read_numbers(values, 0.0, 1.0, into.roughness) : read_numbers(values, -1.0, 1.0, into.anisotropy);
+}
+
+std::vector<Setting> settings_of(const std::vector<std::string>& names, const std::vector<int>& samples)
+{
+    std::vector<Setting> settings;
+    for (const std::string& name : names) {
+        const TechniqueInfo& technique = *find_technique(name);
+        if (technique.sampling == Sampling::none) {
+            settings.push_back({name, 1, false});
+            continue;
+        }
+        std::vector<int> asked = samples.empty() ? kUsualSamples : samples, taken;
+        if (samples.empty())
+            asked.push_back(technique.default_samples);
+        for (const int n : asked)
+            add_once(taken, samples_taken(technique, n));
+        std::sort(taken.begin(), taken.end());
+        for (const int n : taken)
+            settings.push_back({name, n, true});
+    }
+    return settings;
+}
+
+std::vector<Cell> cells_of(const Sweeps& sweeps)
+{
+    std::vector<std::optional<float>> roughness(sweeps.roughness.begin(), sweeps.roughness.end());
+    std::vector<std::optional<float>> anisotropy(sweeps.anisotropy.begin(), sweeps.anisotropy.end());
+    if (roughness.empty())
+        roughness.emplace_back();
+    if (anisotropy.empty())
+        anisotropy.emplace_back();
+    std::vector<Cell> cells;
+    for (const std::optional<float>& r : roughness)
+        for (const std::optional<float>& a : anisotropy)
+            cells.push_back({r, a});
+    return cells;
+}
+
+std::string describe(const Cell& cell)
+{
+    std::vector<std::string> parts;
+    if (cell.roughness)
+        parts.push_back(fmt::format("roughness {:g}", *cell.roughness));
+    if (cell.anisotropy)
+        parts.push_back(fmt::format("anisotropy {:g}", *cell.anisotropy));
+    return parts.empty() ? "the scene's own surfaces" : join(parts);
+}
+
+int representative_samples(const std::string& technique, const std::vector<int>& samples)
+{
+    const int own = find_technique(technique)->default_samples;
+    int best = samples.front();
+    for (const int n : samples)
+        if (std::abs(n - own) < std::abs(best - own))
+            best = n;
+    return best;
+}
+
+} // namespace burnish

@@ -1,0 +1,138 @@
+#include "apps/chart/rows.h"
+
+#include <cmath>
+
+#include "apps/render/stats.h"
+#include "apps/report/json.h"
+
+namespace burnish {
+namespace {
+
+Json errors_json(const RowErrors& e)
+{
+    return {
+        {"flip_mean", e.flip_mean}, {"flip_p99", e.flip_p99}, {"rel_mse", e.rel_mse}, {"max_abs", e.max_abs}, {"nan_pixels", e.nan_pixels}};
+}
+
+Json settings_json(const ChartReport& report, const ChartRow& row)
+{
+    return {{"samples", row.setting.sampled ? Json(row.setting.samples) : Json()},
+            {"roughness", row.cell.roughness},
+            {"anisotropy", row.cell.anisotropy},
+            {"msaa", report.msaa},
+            {"width", report.width},
+            {"height", report.height},
+            {"error_width", report.error_width},
+            {"error_height", report.error_height}};
+}
+
+Json noise_json(const ReferenceNoise& noise)
+{
+    return {{"samples", noise.samples}, {"relative_error", noise.relative_error}, {"flip_noise", noise.flip}};
+}
+
+Json row_json(const ChartReport& report, const ChartRow& row)
+{
+    Json json = {{"scene", row.scene},
+                 {"env", row.env},
+                 {"technique", row.setting.technique},
+                 {"settings", settings_json(report, row)},
+                 {"ms_median", ms_of(row)},
+                 {"ms_p95", p95_of(row)},
+                 {"cpu_ms_median", median(row.measured.cpu_ms)}};
+    json.update(errors_json(row.measured.errors));
+    json["pareto"] = row.pareto;
+    return json;
+}
+
+} // namespace
+
+std::string place(const ChartRow& row)
+{
+    return row.scene + "\n" + row.env + "\n" + describe(row.cell);
+}
+
+double flip_of(const ChartRow& row)
+{
+    return row.measured.errors.flip_mean;
+}
+
+double ms_of(const ChartRow& row)
+{
+    return median(row.measured.ms);
+}
+
+double p95_of(const ChartRow& row)
+{
+    return percentile_95(row.measured.ms);
+}
+
+std::vector<bool> pareto_front(const std::vector<std::pair<double, double>>& points)
+{
+    std::vector<bool> front(points.size());
+    const auto finite = [](const auto& p) { return std::isfinite(p.first) && std::isfinite(p.second); };
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        front[i] = finite(points[i]);
+        for (const auto& other : points)
+            if (finite(other) && other.first <= points[i].first && other.second <= points[i].second && other != points[i])
+                front[i] = false;
+    }
+    return front;
+}
+
+void mark_pareto(std::vector<ChartRow>& rows)
+{
+    std::map<std::string, std::vector<std::size_t>> places;
+    for (std::size_t i = 0; i < rows.size(); ++i)
+        places[place(rows[i])].push_back(i);
+    for (const auto& [name, members] : places) {
+        std::vector<std::pair<double, double>> points;
+        for (const std::size_t i : members)
+            points.emplace_back(ms_of(rows[i]), flip_of(rows[i]));
+        const std::vector<bool> front = pareto_front(points);
+        for (std::size_t k = 0; k < members.size(); ++k)
+            rows[members[k]].pareto = front[k];
+    }
+}
+
+std::string kept_json(const Kept& kept)
+{
+    Json json = {{"kept_version", kKeptVersion}, {"rows", Json::object()}, {"references", Json::object()}};
+    for (const auto& [key, noise] : kept.references)
+        json["references"][key] = noise_json(noise);
+    for (const auto& [key, m] : kept.rows) {
+        Json row = m.has_errors ? errors_json(m.errors) : Json::object();
+        row["ms"] = m.ms;
+        row["cpu_ms"] = m.cpu_ms;
+        json["rows"][key] = row;
+    }
+    return json.dump(1) + "\n";
+}
+
+std::string report_json(const ChartReport& report)
+{
+    Json json;
+    json["machine"] = {{"version", report.machine.version},
+                       {"processor", report.machine.processor},
+                       {"isa", report.machine.isa},
+                       {"threads", report.machine.threads}};
+    json["runs"] = report.runs;
+    json["reference_samples"] = report.reference_samples;
+    json["references"] = Json::array();
+    for (std::size_t i = 0; i < report.rows.size(); ++i) {
+        const ChartRow& row = report.rows[i];
+        if (i > 0 && place(report.rows[i - 1]) == place(row))
+            continue; // rows of a place stand together
+        Json settings = settings_json(report, row);
+        Json reference = {
+            {"scene", row.scene}, {"env", row.env}, {"roughness", settings["roughness"]}, {"anisotropy", settings["anisotropy"]}};
+        reference.update(noise_json(report.references.at(place(row)).noise));
+        json["references"].push_back(reference);
+    }
+    json["rows"] = Json::array();
+    for (const ChartRow& row : report.rows)
+        json["rows"].push_back(row_json(report, row));
+    return json.dump(1) + "\n";
+}
+
+} // namespace burnish

@@ -1,0 +1,102 @@
+// `burnish info`: what this build is and what it found on this machine.
+#include <cstdio>
+#include <fmt/core.h>
+#include <fstream>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "apps/cli/command.h"
+#include "apps/cli/report.h"
+#include "apps/cli/values.h"
+#include "apps/report/json.h"
+#include "core/base/cache.h"
+#include "core/base/text.h"
+#include "core/base/version.h"
+#include "core/jobs/jobs.h"
+#include "core/simd/cpu.h"
+#include "raster/reference/reference_renderer.h"
+#include "raster/tile/tile_renderer.h"
+#include "raster/vulkan/vulkan_renderer.h"
+
+namespace burnish {
+namespace {
+
+struct Info {
+    std::string compiler = BN_COMPILER, build_type = BN_BUILD_TYPE, openimageio = BN_OPENIMAGEIO_VERSION;
+    std::string processor = cpu_name();
+    std::string isa = isa_name(best_isa());
+    std::vector<std::string> isa_available, backends = {"tile"}, vulkan_devices;
+    int cores = Jobs().threads();
+    std::string cache_folder = burnish::cache_folder();
+    CacheUse cache = cache_use(cache_folder);
+    std::uint64_t cache_limit = burnish::cache_limit();
+};
+
+Info gather()
+{
+    Info info;
+    for (const Isa isa : program_isas())
+        if (burnish::isa_available(isa))
+            info.isa_available.emplace_back(isa_name(isa));
+    if (vulkan_built())
+        info.backends.emplace_back("vulkan");
+    for (const VulkanDeviceInfo& device : vulkan_devices())
+        info.vulkan_devices.push_back(fmt::format("{} ({}, Vulkan {})", device.name, device.driver, device.api));
+    if (reference_available())
+        info.backends.emplace_back("reference");
+    return info;
+}
+
+int print_json(const Info& info)
+{
+    Json json;
+    json["version"] = version();
+    json["compiler"] = info.compiler;
+    json["build_type"] = info.build_type;
+    json["processor"] = info.processor;
+    json["cores"] = info.cores;
+    json["isa"] = info.isa;
+    json["isa_available"] = info.isa_available;
+    json["backends"] = info.backends;
+    json["vulkan_devices"] = info.vulkan_devices;
+    json["openimageio"] = info.openimageio;
+    json["cache"] = {
+        {"folder", info.cache_folder}, {"files", info.cache.files}, {"bytes", info.cache.bytes}, {"limit_bytes", info.cache_limit}};
+    fmt::print("{}\n", json.dump(2));
+    return 0;
+}
+
+int print_text(const Info& info)
+{
+    fmt::print("version      {}\n", version());
+    fmt::print("compiler     {}, {}\n", info.compiler, info.build_type);
+    fmt::print("processor    {}, {} cores\n", info.processor, info.cores);
+    fmt::print("isa          {} (available: {})\n", info.isa, join(info.isa_available));
+    fmt::print("backends     {}\n", join(info.backends));
+    for (const std::string& device : info.vulkan_devices)
+        fmt::print("vulkan       {}\n", device);
+    fmt::print("OpenImageIO  {}\n", info.openimageio);
+    const auto mega = [](std::uint64_t bytes) { return static_cast<double>(bytes) / (1 << 20); };
+    if (info.cache_folder.empty())
+        fmt::print("cache        none: neither XDG_CACHE_HOME nor HOME is an absolute path\n");
+    else
+        fmt::print("cache        {}: {} files, {:.0f} MiB of at most {:.0f}\n", printable(info.cache_folder), info.cache.files,
+                   mega(info.cache.bytes), mega(info.cache_limit));
+    return 0;
+}
+
+} // namespace
+
+Command info_command()
+{
+    auto json = std::make_shared<bool>(false);
+    OptionTable table;
+    table.add("", {{"--json", "", "Machine-readable", flag(*json)}});
+    return {"info", "Say what this build is and what it runs on", table,
+            "Examples:\n  burnish info\n  burnish info --json\n\nBN_FORCE_ISA=NAME in the environment caps the instruction set;"
+            " BURNISH_CACHE_BYTES=500M limits the cache (2G).",
+            [json](OptionTable&) { return *json ? print_json(gather()) : print_text(gather()); }};
+}
+
+} // namespace burnish

@@ -1,0 +1,75 @@
+// `burnish list`: the names that options accept, and the reflection models, which no option names; one a line with what it is.
+#include <algorithm>
+#include <cstdio>
+#include <fmt/core.h>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "apps/cli/command.h"
+#include "apps/cli/values.h"
+#include "core/scene/builtin/builtin.h"
+#include "raster/frame/frame.h"
+
+namespace burnish {
+namespace {
+
+struct Entry {
+    std::string name, summary;
+};
+
+std::vector<Entry> builtins(const std::vector<BuiltinInfo>& infos)
+{
+    std::vector<Entry> entries;
+    for (const BuiltinInfo& info : infos)
+        entries.push_back({std::string("builtin:") + info.name, info.summary});
+    return entries;
+}
+
+std::vector<Entry> technique_entries()
+{
+    std::vector<Entry> entries;
+    entries.push_back({automatic_technique().name, automatic_technique().summary});
+    for (const TechniqueInfo& technique : techniques())
+        entries.push_back({technique.name, technique.summary});
+    return entries;
+}
+
+std::vector<Entry> model_entries()
+{
+    std::vector<Entry> entries;
+    for (const ModelInfo& model : models())
+        entries.push_back({model.name, model.summary});
+    return entries;
+}
+
+int print(const std::vector<Entry>& entries)
+{
+    std::size_t width = 0;
+    for (const Entry& entry : entries)
+        width = std::max(width, entry.name.size());
+    for (const Entry& entry : entries)
+        fmt::print("{:<{}}  {}\n", entry.name, width, entry.summary);
+    return 0;
+}
+
+} // namespace
+
+Command list_command()
+{
+    auto what = std::make_shared<std::string>();
+    OptionTable table;
+    table.add("", {Option("WHAT", "", "{}", choice(*what, {"techniques", "scenes", "environments", "models"})).must_be_given()});
+    return {"list", "List the names that options accept, and the reflection models", table,
+            "Examples:\n  burnish list techniques\n  burnish list scenes", [what](OptionTable&) {
+                if (*what == "scenes")
+                    return print(builtins(builtin_scenes()));
+                if (*what == "environments")
+                    return print(builtins(builtin_environments()));
+                if (*what == "models")
+                    return print(model_entries());
+                return print(technique_entries());
+            }};
+}
+
+} // namespace burnish

@@ -1,0 +1,30 @@
+// Option values that are more than a number: sizes, vectors, byte counts. Every refusal names what was
+// expected.
+#pragma once
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <string>
+#include <vector>
+
+#include "core/base/result.h"
+
+namespace burnish {
+
+struct PictureSize {
+    int width = 0, height = 0;
+};
+
+Result<PictureSize> parse_picture_size(const std::string& option, const std::string& text); // "1280x720"
+Result<glm::vec3> parse_vec3(const std::string& option, const std::string& text);           // "x,y,z", finite
+Result<double> parse_number(const std::string& option, const std::string& text, double low, double high);
+Result<std::int64_t> parse_integer(const std::string& option, const std::string& text, std::int64_t low, std::int64_t high);
+Result<std::uint64_t> parse_bytes(const std::string& option,
+                                  const std::string& text);       // "500", "64K", "512M", "4G"
+std::vector<std::string> split(const std::string& text, char at); // n separators give n + 1 parts
+
+std::vector<std::string> technique_names(); // auto, then all in the registry's order
+
+// "all" or names by commas, in the registry's order.
+Result<std::vector<std::string>> parse_techniques(const std::string& text, const std::string& option = "--techniques");
+
+} // namespace burnish

@@ -1,0 +1,72 @@
+#include "apps/cli/report.h"
+
+#include <cstdio>
+#include <fmt/core.h>
+
+#include "core/base/text.h"
+
+namespace burnish {
+namespace {
+
+void print_line(const std::string& line)
+{
+    std::fputs((printable(line) + "\n").c_str(), stderr);
+}
+
+} // namespace
+
+int fail(const Error& error)
+{
+    print_line("burnish: " + error.line());
+    return static_cast<int>(error.code);
+}
+
+Error usage_error(const std::string& place, const std::string& reason)
+{
+    return Error{ExitCode::usage, "", place, reason};
+}
+
+std::string join(const std::vector<std::string>& names)
+{
+    std::string text;
+    for (const std::string& name : names)
+        text += (text.empty() ? "" : ", ") + name;
+    return text;
+}
+
+void Report::event(const std::string& label, const std::string& text)
+{
+    if (!quiet_)
+        say(fmt::format("{:<11} {}", label, text));
+}
+
+void Report::detail(const std::string& label, const std::string& text)
+{
+    if (verbosity_ > 0)
+        event(label, text);
+}
+
+void Report::warning(const std::string& text)
+{
+    warnings_.push_back(text);
+    if (!quiet_)
+        say("burnish: warning: " + text);
+}
+
+void Report::release()
+{
+    released_ = true;
+    for (const std::string& line : held_)
+        print_line(line);
+    held_.clear();
+}
+
+void Report::say(std::string line)
+{
+    if (released_)
+        print_line(line);
+    else
+        held_.push_back(std::move(line));
+}
+
+} // namespace burnish

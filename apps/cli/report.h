@@ -1,0 +1,42 @@
+// What the program says to people: one line an event, on stderr, without colour. Machine output goes to
+// stdout or to files.
+#pragma once
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/base/result.h"
+
+namespace burnish {
+
+// Prints "burnish: FILE: PLACE: REASON" and returns the exit code of the error.
+int fail(const Error& error);
+
+// A wrong option: exit code 2. `place` is the option as the user writes it.
+Error usage_error(const std::string& place, const std::string& reason);
+
+// "a, b, c"
+std::string join(const std::vector<std::string>& names);
+
+// Labelled lines. They are held back until release(), so that a command whose input turns out to be bad says
+// one line only.
+class Report {
+  public:
+    Report(bool quiet, int verbosity) : quiet_(quiet), verbosity_(verbosity) {}
+    void event(const std::string& label, const std::string& text);  // not with --quiet
+    void detail(const std::string& label, const std::string& text); // only with -v
+    void warning(const std::string& text);                          // "burnish: warning: ...", not with --quiet
+    void release();
+    bool quiet() const { return quiet_; }
+    const std::vector<std::string>& warnings() const { return warnings_; } // all of them, also with --quiet
+
+  private:
+    void say(std::string line);
+
+    bool quiet_;
+    int verbosity_;
+    bool released_ = false;
+    std::vector<std::string> held_, warnings_;
+};
+
+} // namespace burnish

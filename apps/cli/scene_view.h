@@ -1,0 +1,25 @@
+// Which camera a frame is seen through.
+#pragma once
+#include <string>
+
+#include "apps/render/options.h"
+#include "core/base/result.h"
+#include "core/scene/draw_tables.h"
+#include "core/scene/scene.h"
+#include "raster/frame/frame.h"
+
+namespace burnish {
+
+struct ChosenView {
+    View view;
+    std::string description; // for the log: "camera 0 'front'", "framed automatically"
+    bool framed = false;     // automatically
+};
+
+// --eye, else --camera, else the scene's first camera that a node places, else a view of the whole scene.
+Result<ChosenView> choose_view(const RenderOptions& options, const Scene& scene, const DrawTables& tables);
+
+// The world-to-clip matrix in one line, rows in brackets.
+std::string describe_matrix(const View& view);
+
+} // namespace burnish

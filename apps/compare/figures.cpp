@@ -1,0 +1,153 @@
+#include "apps/compare/figures.h"
+
+#include <cmath>
+#include <fmt/core.h>
+
+#include "apps/report/json.h"
+
+namespace burnish {
+namespace {
+
+// What suits the pictures, and what an output or a limit needs.
+Metrics wanted(const CompareOptions& options, bool floats)
+{
+    Metrics m = options.metrics.value_or(Metrics{!floats, floats, true, true, true, true, true});
+    if (options.fail_flip || !options.error_map.empty() || !options.html.empty())
+        if (!m.flip && !m.flip_hdr)
+            (floats ? m.flip_hdr : m.flip) = true;
+    m.max = m.max || options.fail_max || options.fail_fraction;
+    return m;
+}
+
+const char* flip_name(const Metrics& metrics)
+{
+    return metrics.flip_hdr ? "flip-hdr" : "flip";
+}
+
+// A number, or null: JSON has neither NaN nor infinity.
+Json value_or_null(bool known, double value)
+{
+    return known && std::isfinite(value) ? Json(value) : Json();
+}
+
+} // namespace
+
+CompareFigures compare_pictures(const CompareOptions& options, const Pictures& pictures, const Jobs& jobs)
+{
+    const Image &reference = pictures.reference, &test = pictures.test;
+    CompareFigures figures;
+    figures.asked = wanted(options, reference.type == PixelType::f32);
+    figures.width = reference.width;
+    figures.height = reference.height;
+    figures.nan_pixels = not_finite_pixels(reference, test);
+    if (figures.nan_pixels)
+        return figures;
+    const Metrics& asked = figures.asked;
+    if (asked.flip || asked.flip_hdr) {
+        const TraceSpan span("flip");
+        figures.flip = asked.flip_hdr ? flip_hdr(reference, test, options.flip, jobs) : flip_ldr(reference, test, options.flip, jobs);
+        figures.errors = summarise_errors(figures.flip.error);
+    }
+    if (asked.mse || asked.rel_mse || asked.psnr || asked.max)
+        figures.pixels = pixel_figures(reference, test, jobs);
+    if (asked.ssim)
+        figures.ssim = ssim(reference, test, jobs);
+    if (!pictures.variances.empty())
+        figures.z = z_test(reference, test, pictures.variances[0], pictures.variances.size() > 1 ? &pictures.variances[1] : nullptr,
+                           options.significance, jobs);
+    return figures;
+}
+
+std::string compare_json(const CompareOptions& options, const CompareFigures& figures)
+{
+    Json json;
+    const Metrics& asked = figures.asked;
+    json["width"] = figures.width;
+    json["height"] = figures.height;
+    const auto put = [&json](const char* name, bool wanted_here, bool known, double value) {
+        if (wanted_here)
+            json[name] = value_or_null(known, value);
+    };
+    const bool flip = asked.flip || asked.flip_hdr, errors = figures.errors.has_value(), pixels = figures.pixels.has_value();
+    if (flip) {
+        json["flip_kind"] = flip_name(asked);
+        json["ppd"] = options.flip.ppd;
+    }
+    const ErrorSummary e = figures.errors.value_or(ErrorSummary{});
+    put("flip_mean", flip, errors, e.mean);
+    put("flip_p99", flip, errors, e.p99);
+    put("flip_weighted_median", flip, errors, e.weighted_median);
+    put("flip_max", flip, errors, e.max);
+    const FlipExposures& range = figures.flip.exposures;
+    put("start_exposure", asked.flip_hdr, errors, static_cast<double>(range.start_ev));
+    put("stop_exposure", asked.flip_hdr, errors, static_cast<double>(range.stop_ev));
+    if (asked.flip_hdr)
+        json["exposures"] = errors ? Json(range.count) : Json();
+    const PixelFigures p = figures.pixels.value_or(PixelFigures{});
+    put("mse", asked.mse, pixels, p.mse);
+    put("rel_mse", asked.rel_mse, pixels, p.rel_mse);
+    put("psnr", asked.psnr, pixels, p.psnr);
+    put("ssim", asked.ssim, figures.ssim.has_value(), figures.ssim.value_or(0.0));
+    put("max_abs", asked.max, pixels, p.max_abs);
+    put("differing_fraction", asked.max, pixels, p.differing_fraction);
+    const ZTest z = figures.z.value_or(ZTest{});
+    put("z_limit", !options.variances.empty(), figures.z.has_value(), z.limit);
+    put("z_max", !options.variances.empty(), figures.z.has_value(), z.largest);
+    put("z_rejected_fraction", !options.variances.empty(), figures.z.has_value(), z.rejected_fraction);
+    json["nan_pixels"] = figures.nan_pixels;
+    return json.dump(2) + "\n";
+}
+
+std::vector<std::pair<std::string, std::string>> figure_lines(const CompareOptions& options, const CompareFigures& figures)
+{
+    std::vector<std::pair<std::string, std::string>> lines;
+    const auto add = [&lines](const char* name, double value) { lines.emplace_back(name, fmt::format("{:.6g}", value)); };
+    const Metrics& asked = figures.asked;
+    if (figures.errors) {
+        const ErrorSummary& e = *figures.errors;
+        lines.emplace_back(flip_name(asked), fmt::format("mean {:.6f}, p99 {:.6f}, weighted median {:.6f}, max {:.6f}", e.mean, e.p99,
+                                                         e.weighted_median, e.max));
+        lines.emplace_back("seen at", fmt::format("{:.2f} pixels per degree", options.flip.ppd));
+    }
+    if (figures.errors && asked.flip_hdr)
+        lines.emplace_back("exposures", fmt::format("{} from {:.4f} to {:.4f} EV", figures.flip.exposures.count,
+                                                    figures.flip.exposures.start_ev, figures.flip.exposures.stop_ev));
+    if (figures.pixels && asked.mse)
+        add("mse", figures.pixels->mse);
+    if (figures.pixels && asked.rel_mse)
+        add("rel-mse", figures.pixels->rel_mse);
+    if (figures.pixels && asked.psnr)
+        lines.emplace_back("psnr", std::isfinite(figures.pixels->psnr) ? fmt::format("{:.2f} dB", figures.pixels->psnr)
+                                                                       : "infinite: the colours are equal");
+    if (figures.ssim)
+        add("ssim", *figures.ssim);
+    if (figures.pixels && asked.max) {
+        add("max", figures.pixels->max_abs);
+        lines.emplace_back("differing", fmt::format("{:.4f} % of the pixels", 100.0 * figures.pixels->differing_fraction));
+    }
+    if (figures.z)
+        lines.emplace_back("z-test", fmt::format("largest |z| {:.3f}, limit {:.3f}, {} pixels rejected", figures.z->largest,
+                                                 figures.z->limit, figures.z->rejected));
+    return lines;
+}
+
+Status check_limits(const CompareOptions& options, const CompareFigures& figures)
+{
+    const auto differ = [&](const std::string& place, const std::string& reason) {
+        return Error{ExitCode::differ, options.test, place, reason};
+    };
+    if (options.fail_flip && figures.errors && figures.errors->mean > *options.fail_flip)
+        return differ("--fail-flip", fmt::format("FLIP's mean {:.6g} is more than {:.6g}", figures.errors->mean, *options.fail_flip));
+    if (options.fail_max && figures.pixels && figures.pixels->max_abs > *options.fail_max)
+        return differ("--fail-max",
+                      fmt::format("a channel differs by {:.6g}, more than {:.6g}", figures.pixels->max_abs, *options.fail_max));
+    if (options.fail_fraction && figures.pixels && figures.pixels->differing_fraction > *options.fail_fraction)
+        return differ("--fail-fraction", fmt::format("{:.6g} of the pixels differ, more than {:.6g}", figures.pixels->differing_fraction,
+                                                     *options.fail_fraction));
+    if (figures.z && figures.z->rejected_fraction > options.fail_z)
+        return differ("--variance", fmt::format("the z-test rejects {:.6g} of the pixels, more than {:.6g}", figures.z->rejected_fraction,
+                                                options.fail_z));
+    return {};
+}
+
+} // namespace burnish

@@ -1,0 +1,117 @@
+#include "apps/compare/options.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "apps/cli/report.h"
+#include "apps/cli/shared_options.h"
+#include "apps/cli/values.h"
+
+namespace burnish {
+namespace {
+
+constexpr std::pair<const char*, bool Metrics::*> kMetrics[] = {
+    {"flip", &Metrics::flip}, {"flip-hdr", &Metrics::flip_hdr}, {"mse", &Metrics::mse}, {"rel-mse", &Metrics::rel_mse},
+    {"psnr", &Metrics::psnr}, {"ssim", &Metrics::ssim},         {"max", &Metrics::max}};
+
+std::vector<std::string> metric_names()
+{
+    std::vector<std::string> names;
+    for (const auto& [name, member] : kMetrics)
+        names.emplace_back(name);
+    return names;
+}
+
+std::vector<Option> figure_rows(CompareArguments& to)
+{
+    CompareOptions& o = to.plain;
+    return {
+        {"--metric", "NAMES", "Any of flip or flip-hdr, mse, rel-mse, psnr, ssim, max, by commas", choices(to.metrics, metric_names()),
+         "all that suit the pictures"},
+        {"--ppd", "N", "FLIP: pixels per degree of the observer's visual field",
+         number(o.flip.ppd, static_cast<double>(kMinPpd), static_cast<double>(kMaxPpd)), "67.02"},
+        {"--tonemapper", "NAME", "HDR-FLIP: {}", choice(o.flip.tonemap, {"aces", "reinhard", "hable"})},
+        {"--start-exposure", "EV", "HDR-FLIP: lowest exposure", number(o.flip.start_ev, -kMaxExposure, kMaxExposure),
+         "found in the reference"},
+        {"--stop-exposure", "EV", "HDR-FLIP: highest exposure", number(o.flip.stop_ev, -kMaxExposure, kMaxExposure),
+         "found in the reference"},
+        {"--exposures", "N", "HDR-FLIP: number of exposures", integer(o.flip.exposures, 1, kMaxFlipExposures), "one a stop"},
+        {"--variance", "FILE", "Variance of the reference's pixel means, given again of the test's: a z-test of every pixel",
+         files(o.variances)},
+        {"--significance", "P", "z-test: probability that equal pictures are told apart", number(o.significance, 1e-9, 0.5)},
+    };
+}
+
+std::vector<Option> failure_rows(CompareOptions& to)
+{
+    return {
+        {"--fail-flip", "MEAN", "Fail where FLIP's mean is more", number(to.fail_flip, 0.0, 1.0)},
+        {"--fail-max", "V", "Fail where the largest difference of a channel is more", number(to.fail_max, 0.0, 1e38)},
+        {"--fail-fraction", "F", "Fail where more of the pixels differ", number(to.fail_fraction, 0.0, 1.0)},
+        {"--fail-z", "F", "Fail where the z-test rejects more of the pixels", number(to.fail_z, 0.0, 1.0)},
+    };
+}
+
+std::vector<Option> output_rows(CompareOptions& to)
+{
+    return {
+        {"--json", "FILE", "Write the figures; - is standard output", file(to.json)},
+        {"--html", "FILE", "Write a page with both pictures, the error map and the figures", file(to.html)},
+        {"--error-map", "FILE", "Write FLIP's errors: colours of magma, or floats (exr, hdr, pfm)", file(to.error_map)},
+        quiet_option(to.quiet),
+        verbose_option(to.verbosity),
+    };
+}
+
+Status check_metrics(const std::vector<std::string>& names, CompareOptions& out)
+{
+    if (names.empty())
+        return {};
+    out.metrics = Metrics();
+    for (const auto& [name, member] : kMetrics)
+        (*out.metrics).*member = std::find(names.begin(), names.end(), name) != names.end();
+    if (out.metrics->flip && out.metrics->flip_hdr)
+        return usage_error("--metric", "flip and flip-hdr are two readings of the same pictures: choose one");
+    return {};
+}
+
+} // namespace
+
+OptionTable compare_option_table(CompareArguments& to)
+{
+    OptionTable table, limits;
+    limits.add("", limit_options(to.plain.limits));
+    table.add("", {Option("REFERENCE", "", "What the picture should be", file(to.plain.reference)).must_be_given(),
+                   Option("TEST", "", "What it is", file(to.plain.test)).must_be_given()});
+    table.add("Figures", figure_rows(to));
+    table.add("Failing (exit code 1)", failure_rows(to.plain));
+    table.add("Output", output_rows(to.plain));
+    table.add("Machine", {threads_option(to.plain.threads, "Worker threads; never changes a figure"),
+                          isa_option(to.isa, "{}; never changes a figure")});
+    table.take(limits, "Limits on input",
+               {{"--limit-image-side", "Width and height of a picture"},
+                {"--limit-texture-bytes", "Decoded pixels of one picture"},
+                {"--limit-file-bytes", "Size of one file"}});
+    return table;
+}
+
+Result<CompareOptions> check_compare_options(const CompareArguments& in, const OptionTable& given)
+{
+    CompareOptions out = in.plain;
+    if (const Status metrics = check_metrics(in.metrics, out); !metrics)
+        return metrics.error();
+    if (out.flip.start_ev && out.flip.stop_ev && *out.flip.start_ev > *out.flip.stop_ev)
+        return usage_error("--stop-exposure", "is below --start-exposure");
+    if (out.variances.size() > 2)
+        return usage_error("--variance", "is given more than twice: once for REFERENCE, once for TEST");
+    for (const char* option : {"--significance", "--fail-z"})
+        if (out.variances.empty() && given.given(option))
+            return usage_error(option, "needs --variance");
+    const Result<Isa> isa = choose_isa(given, in.isa);
+    if (!isa)
+        return isa.error();
+    out.flip.isa = *isa;
+    return out;
+}
+
+} // namespace burnish

@@ -1,0 +1,43 @@
+// The options of `burnish compare`: as the user writes them, and checked.
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/cli/option.h"
+#include "core/base/limits.h"
+#include "core/base/result.h"
+#include "core/image/metrics/flip.h"
+#include "raster/tile/tile_renderer.h"
+
+namespace burnish {
+
+// What is asked for. FLIP's kind is chosen by the pictures where the user names none.
+struct Metrics {
+    bool flip = false, flip_hdr = false, mse = false, rel_mse = false, psnr = false, ssim = false, max = false;
+};
+
+struct CompareOptions {
+    std::string reference, test;
+    std::optional<Metrics> metrics; // none: all that suit the pictures
+    FlipOptions flip;
+    std::string json, html, error_map; // empty: not wanted; json and html: "-" is standard output
+    std::optional<double> fail_flip, fail_max, fail_fraction;
+    std::vector<std::string> variances; // of the reference, of the test
+    double significance = 0.01, fail_z = 0.0;
+    int threads = 0;
+    Limits limits;
+    bool quiet = false;
+    int verbosity = 0;
+};
+
+struct CompareArguments {
+    CompareOptions plain;
+    std::vector<std::string> metrics;
+    Isa isa = Isa::scalar;
+};
+
+OptionTable compare_option_table(CompareArguments& to);
+Result<CompareOptions> check_compare_options(const CompareArguments& arguments, const OptionTable& given);
+
+} // namespace burnish

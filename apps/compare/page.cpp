@@ -1,0 +1,96 @@
+// The page of `burnish compare --html`: one file, pictures inside it, readable on a telephone and in the
+// dark.
+#include <fmt/core.h>
+
+#include "apps/compare/figures.h"
+#include "apps/report/html.h"
+#include "core/image/colour.h"
+#include "core/image/io/image_io.h"
+#include "core/image/magma.h"
+
+namespace burnish {
+namespace {
+
+constexpr const char* kStyle = R"(
+:root { color-scheme: light dark; --line: #8886; }
+body { font: 15px/1.5 system-ui, sans-serif; margin: 1.5rem auto; padding: 0 1rem; max-width: 110rem; }
+h1 { font-size: 1.3rem; overflow-wrap: anywhere; }
+.pictures { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 22rem), 1fr)); gap: 1rem; }
+figure { margin: 0; }
+img { width: 100%; height: auto; display: block; border: 1px solid var(--line); }
+img.small { image-rendering: pixelated; }
+figcaption { overflow-wrap: anywhere; }
+table { border-collapse: collapse; margin-top: 1.5rem; }
+th, td { text-align: left; vertical-align: top; padding: .2rem 1.5rem .2rem 0; border-bottom: 1px solid var(--line); }
+.scale { height: .8rem; border: 1px solid var(--line); }
+)";
+
+// As a display shows it: floats exposed and tonemapped, 16 bits cut to 8.
+Image displayed(const Image& image, float exposure_ev)
+{
+    if (image.type == PixelType::f32)
+        return tonemap_to_srgb8(image, Tonemap::pbr_neutral, exposure_ev);
+    if (image.type == PixelType::u8)
+        return image;
+    Image out = make_image(image.width, image.height, image.channels, PixelType::u8);
+    const std::uint16_t* from = reinterpret_cast<const std::uint16_t*>(image.bytes.data());
+    for (std::size_t i = 0; i < out.bytes.size(); ++i)
+        out.bytes[i] = static_cast<std::byte>((from[i] + 128u) / 257u);
+    return out;
+}
+
+Result<std::string> figure(const std::string& title, const std::string& caption, const Image& image)
+{
+    const Result<std::string> png = encode_png(image);
+    if (!png)
+        return png.error();
+    return fmt::format("<figure><img{} src=\"data:image/png;base64,{}\" width=\"{}\" height=\"{}\" alt=\"{}\">\n"
+                       "<figcaption><strong>{}</strong> {}</figcaption></figure>\n",
+                       image.width < 512 ? " class=\"small\"" : "", base64(*png), image.width, image.height, title, title,
+                       escaped(caption));
+}
+
+// The colours of the map from 0 to 1, as a CSS gradient.
+std::string scale_of_magma()
+{
+    Image steps = make_image(17, 1, 1, PixelType::f32);
+    for (int i = 0; i < steps.width; ++i)
+        steps.f32()[i] = static_cast<float>(i) / static_cast<float>(steps.width - 1);
+    const Image colours = magma_map(steps);
+    std::string stops;
+    for (std::size_t i = 0; i < colours.bytes.size(); i += 3)
+        stops += fmt::format(",rgb({},{},{})", static_cast<int>(colours.bytes[i]), static_cast<int>(colours.bytes[i + 1]),
+                             static_cast<int>(colours.bytes[i + 2]));
+    return fmt::format("<div class=\"scale\" style=\"background:linear-gradient(to right{})\"></div>"
+                       "<div>Errors from 0 (left) to 1 (right)</div>\n",
+                       stops);
+}
+
+} // namespace
+
+Result<std::string> compare_page(const CompareOptions& options, const CompareFigures& figures, const Pictures& pictures)
+{
+    const FlipExposures& range = figures.flip.exposures;
+    const float middle = figures.asked.flip_hdr ? 0.5f * (range.start_ev + range.stop_ev) : 0.0f;
+    const std::string shown = pictures.reference.type == PixelType::f32 ? fmt::format(" (shown at {:+.2f} EV)", middle) : std::string();
+    const Result<std::string> parts[] = {figure("Reference", options.reference + shown, displayed(pictures.reference, middle)),
+                                         figure("Test", options.test + shown, displayed(pictures.test, middle)),
+                                         figure("Error", figures.asked.flip_hdr ? "HDR-FLIP" : "LDR-FLIP", magma_map(figures.flip.error))};
+    std::string page = fmt::format("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+                                   "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
+                                   "<title>{0} - {1}</title>\n<style>{2}</style>\n</head>\n<body>\n<h1>{0} and {1}</h1>\n"
+                                   "<div class=\"pictures\">\n",
+                                   escaped(options.reference), escaped(options.test), kStyle);
+    for (const Result<std::string>& part : parts) {
+        if (!part)
+            return part.error();
+        page += *part;
+    }
+    page += "</div>\n" + scale_of_magma() + "<table>\n";
+    page += fmt::format("<tr><th>size</th><td>{} x {}</td></tr>\n", figures.width, figures.height);
+    for (const auto& [name, value] : figure_lines(options, figures))
+        page += fmt::format("<tr><th>{}</th><td>{}</td></tr>\n", escaped(name), escaped(value));
+    return page + "</table>\n</body>\n</html>\n";
+}
+
+} // namespace burnish

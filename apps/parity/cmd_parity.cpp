@@ -1,0 +1,197 @@
+// `burnish parity`: the tile renderer and its twin over Vulkan, compared in bits, stage by stage.
+#include <cstdio>
+#include <fmt/core.h>
+#include <memory>
+
+#include "apps/cli/command.h"
+#include "apps/cli/outputs.h"
+#include "apps/cli/seen_scene.h"
+#include "apps/parity/options.h"
+#include "apps/parity/report.h"
+#include "core/base/text.h"
+#include "core/base/version.h"
+#include "core/image/metrics/flip.h"
+#include "core/image/metrics/metrics.h"
+#include "core/simd/cpu.h"
+#include "raster/tile/tile_renderer.h"
+
+namespace burnish {
+namespace {
+
+constexpr const char* kFooter =
+    R"(Renders with the tile renderer and with Vulkan, and compares words: clip positions, visibility (the triangle of each sample), depth,
+interpolants, material inputs, shaded colour, resolved colour; what follows visibility where visibility agrees. With the exact sampler no
+word may differ but visibility, of which one sample in a million may; pictures of --pipeline forward must look the same (mean FLIP below 0.002),
+and every pixel that differs is put down to the first stage that differs by more than a thousandth, or to rounding.
+
+Examples:
+  burnish parity
+  burnish parity lamp.glb --env workshop.hdr --technique major_axis,mc --msaa 1,4 -v
+  burnish parity --suite default --models models --junit parity.xml --json parity.json --html parity.html
+  burnish parity --pipeline forward --sampler native --msaa 4
+
+Exit codes: 0 as promised, 1 not as promised, 77 no such device, sample count or Vulkan; a row that fails otherwise: its code, at the end.)";
+
+// What all places share.
+struct Bench {
+    const ParityOptions& options;
+    std::shared_ptr<const Jobs> jobs;
+    std::shared_ptr<VulkanDevice> device;
+    std::shared_ptr<const Environment> environment;
+    Report& report;
+};
+
+// Errors of the pixels; empty where the pictures are equal, or hold what is no number.
+Image flip_map(const Image& reference, const Image& test, const Jobs& jobs)
+{
+    if (reference.bytes == test.bytes || not_finite_pixels(reference, test) > 0)
+        return {};
+    return flip_hdr(reference, test, {}, jobs).error;
+}
+
+ParityRow named_row(const ParityPlace& place, const RenderOptions& options)
+{
+    ParityRow row;
+    row.scene = place.scene, row.view = place.view, row.technique = options.frame.technique, row.msaa = options.frame.msaa;
+    row.sampler = options.vulkan.sampler == VulkanSampler::exact ? "exact" : "native";
+    row.pipeline = options.vulkan.pipeline == VulkanPipeline::ids ? "ids" : "forward";
+    return row;
+}
+
+ParityRow failed_row(const ParityPlace& place, const RenderOptions& options, const Error& error)
+{
+    ParityRow row = named_row(place, options);
+    row.error = error;
+    return row;
+}
+
+Result<ParityRow> compare(const Bench& bench, const ParityPlace& place, const RenderOptions& options, const View& view, Session& tile,
+                          Session& vulkan)
+{
+    FrameDesc desc = options.frame;
+    desc.view = view;
+    desc.triangle_ids = true;
+    desc.stages = true;
+    const Result<Frame> a = tile.render(desc);
+    if (!a)
+        return a.error();
+    const Result<Frame> b = vulkan.render(desc);
+    if (!b)
+        return b.error();
+    ParityRow row = named_row(place, options);
+    row.samples_emulated = b->stats.samples_emulated;
+    row.counts = compare_stages(*a, *b, desc.msaa);
+    const Image flip = flip_map(a->color, b->color, *bench.jobs);
+    row.flip_mean = flip.bytes.empty() ? row.counts.pixels_differ ? 1.0 : 0.0 : summarise_errors(flip).mean;
+    row.causes = share_causes(pixel_causes(*a, *b, desc.msaa), *a, desc.msaa, flip.bytes.empty() ? nullptr : flip.f32());
+    return row;
+}
+
+Status compare_place(const Bench& bench, const ParityPlace& place, ParityReport& out)
+{
+    RenderOptions base = bench.options.frames.front();
+    if (place.eye)
+        base.eye = place.eye, base.target = place.target;
+    const Result<SeenScene> scene = load_seen_scene(place.scene, base, bench.report);
+    if (!scene)
+        return scene.error();
+    SessionOptions of_tile, of_device;
+    of_tile.isa = base.isa;
+    of_device.backend = Backend::vulkan, of_device.device = bench.device;
+    const SessionParts parts{scene->data, bench.environment, standard_dfg(*bench.jobs), bench.jobs};
+    Result<Session> tile = Session::make(parts, of_tile), vulkan = Session::make(parts, of_device);
+    for (const Result<Session>* made : {&tile, &vulkan})
+        if (!*made)
+            return made->error();
+    for (const RenderOptions& options : bench.options.frames) {
+        Result<ParityRow> compared = compare(bench, place, options, scene->view, *tile, *vulkan);
+        const ParityRow row = compared ? std::move(*compared) : failed_row(place, options, compared.error());
+        if (row.failed())
+            bench.report.event("failed", describe(row));
+        else if (first_difference(row.counts))
+            bench.report.event("differs", describe(row));
+        else
+            bench.report.detail("equal", describe(row));
+        out.rows.push_back(row);
+    }
+    return {};
+}
+
+Status write_files(const ParityOptions& options, const ParityReport& parity, Report& report)
+{
+    const struct {
+        const std::string& path;
+        std::string (*text)(const ParityReport&);
+    } files[] = {{options.json, parity_json}, {options.junit, parity_junit}, {options.html, parity_html}};
+    for (const auto& file : files) {
+        if (file.path.empty())
+            continue;
+        if (const Status written = write_text(file.path, file.text(parity)); !written)
+            return written;
+        report.detail("wrote", file.path);
+    }
+    return {};
+}
+
+int verdict(const ParityReport& parity, Report& report)
+{
+    if (!report.quiet())
+        std::fputs(printable_lines(stage_table(parity)).c_str(), stderr);
+    report.event("device", fmt::format("{}; {}; Vulkan {}; {}", parity.device, parity.driver, parity.api, parity.processor));
+    std::size_t faults = 0;
+    std::string first = visibility_fault(parity);
+    for (const ParityRow& row : parity.rows)
+        if (const std::string fault = fault_of(row); !fault.empty()) {
+            ++faults;
+            if (first.empty())
+                first = row.scene + ", " + row.technique + ": " + fault;
+        }
+    if (!passed(parity))
+        return fail(
+            Error{outcome(parity), "", "", fmt::format("{} of {} rows are not as promised; {}", faults, parity.rows.size(), first)});
+    report.event("parity", fmt::format("{} rows as promised", parity.rows.size()));
+    return 0;
+}
+
+int run_parity(const ParityArguments& arguments, const OptionTable& given)
+{
+    const Result<ParityOptions> checked = check_parity_options(arguments, given);
+    if (!checked)
+        return fail(checked.error());
+    const ParityOptions& options = *checked;
+    const RenderOptions& base = options.frames.front();
+    Report report(base.quiet, base.verbosity);
+    const auto jobs = std::make_shared<const Jobs>(base.threads);
+    const Result<std::shared_ptr<VulkanDevice>> device = open_vulkan_device(base.vulkan);
+    if (!device)
+        return fail(device.error());
+    const Result<std::shared_ptr<const Environment>> environment = load_shared_environment(base.env, base.environment, base.limits, *jobs);
+    if (!environment)
+        return fail(environment.error());
+    for (const std::string& warning : (*environment)->warnings)
+        report.warning(warning);
+    const Bench bench{options, jobs, *device, *environment, report};
+    report.release();
+    const VulkanDeviceInfo& info = (*device)->info();
+    ParityReport parity{info.driver, info.name, info.api, cpu_name(), version(), base.frame.width, base.frame.height, {}};
+    for (const ParityPlace& place : options.places)
+        if (const Status done = compare_place(bench, place, parity); !done) { // no row of it can be compared
+            report.event("failed", done.error().line());
+            for (const RenderOptions& frame : options.frames)
+                parity.rows.push_back(failed_row(place, frame, done.error()));
+        }
+    if (const Status written = write_files(options, parity, report); !written)
+        return fail(written.error());
+    return verdict(parity, report);
+}
+
+} // namespace
+
+Command parity_command()
+{
+    auto arguments = std::make_shared<ParityArguments>();
+    return {"parity", "Compare the Vulkan renderer with the tile renderer, bit by bit", parity_option_table(*arguments), kFooter,
+            [arguments](OptionTable& given) { return run_parity(*arguments, given); }};
+}
+
+} // namespace burnish

@@ -1,0 +1,267 @@
+// `burnish race`: the tile renderer against Vulkan's CPU devices at the same picture.
+#include <algorithm>
+#include <fmt/core.h>
+#include <memory>
+
+#include "apps/cli/command.h"
+#include "apps/cli/outputs.h"
+#include "apps/cli/seen_scene.h"
+#include "apps/cli/shared_options.h"
+#include "apps/cli/values.h"
+#include "apps/parity/race_report.h"
+#include "apps/render/stats.h"
+#include "core/base/clock.h"
+#include "core/base/text.h"
+#include "core/base/version.h"
+#include "core/image/metrics/flip.h"
+#include "core/image/metrics/metrics.h"
+#include "core/simd/cpu.h"
+#include "raster/tile/tile_renderer.h"
+
+namespace burnish {
+namespace {
+
+constexpr const char* kFooter =
+    R"(The tile renderer and each device draw the same frame in turn, warm; the device by the classical pipeline with its own samplers, timed
+from submission to the fence. The ratio is of the process' CPU time, device over tile: above 1 the tile renderer needs less. A frame that
+differs (mean FLIP above 0.01) is marked and counts for nothing. A row that fails is reported, and its exit code given at the end.
+
+Examples:
+  burnish race
+  burnish race builtin:spheres --techniques major_axis,mc --size 1920x1080 --msaa 1,4 --json race.json)";
+
+struct RaceArguments {
+    RaceArguments()
+    {
+        render.plain.backend = "vulkan";
+        render.plain.vulkan.pipeline = VulkanPipeline::forward, render.plain.vulkan.sampler = VulkanSampler::native;
+    }
+    RenderArguments render;
+    std::vector<std::string> scenes = {"builtin:teapot"}, techniques = *parse_techniques("all"), devices = {"lavapipe", "swiftshader"};
+    std::vector<int> msaa = {1, 4};
+    int runs = 5;
+    std::string json;
+};
+
+struct Timed {
+    std::vector<double> wall_ms, cpu_ms;
+    Image picture;
+};
+
+// The frame before, whose memory is used again.
+Status draw_tile(Session& tile, const FrameDesc& desc, Frame& frame, Timed& into)
+{
+    const double wall = wall_ms(), cpu = process_cpu_ms();
+    Result<Frame> drawn = tile.render(desc, std::move(frame));
+    into.cpu_ms.push_back(process_cpu_ms() - cpu);
+    into.wall_ms.push_back(wall_ms() - wall);
+    if (!drawn)
+        return drawn.error();
+    frame = std::move(*drawn);
+    return {};
+}
+
+Status draw_device(Session& device, const FrameDesc& desc, Frame& frame, Timed& into)
+{
+    Result<Frame> drawn = device.render(desc, std::move(frame));
+    if (!drawn)
+        return drawn.error();
+    into.cpu_ms.push_back(drawn->stats.device_cpu_ms), into.wall_ms.push_back(drawn->stats.device_ms);
+    frame = std::move(*drawn);
+    return {};
+}
+
+// A B A B: whatever slows the machine slows both. The first round is not counted: pipelines are made in it.
+Result<RaceRow> race(Session& tile, Session& device, const FrameDesc& desc, int runs, const Jobs& jobs)
+{
+    Timed a, b;
+    Frame of_tile, of_device;
+    for (int i = 0; i <= runs; ++i) {
+        if (const Status drawn = draw_tile(tile, desc, of_tile, a); !drawn)
+            return drawn.error();
+        if (const Status drawn = draw_device(device, desc, of_device, b); !drawn)
+            return drawn.error();
+        if (i == 0)
+            a = Timed(), b = Timed();
+    }
+    RaceRow row;
+    row.technique = desc.technique, row.samples = desc.samples, row.msaa = desc.msaa;
+    row.tile_ms = median(a.wall_ms), row.device_ms = median(b.wall_ms);
+    row.tile_cpu_ms = median(a.cpu_ms), row.device_cpu_ms = median(b.cpu_ms);
+    row.flip_mean = not_finite_pixels(of_tile.color, of_device.color)
+                        ? 1.0
+                        : summarise_errors(flip_hdr(of_tile.color, of_device.color, {}, jobs).error).mean;
+    return row;
+}
+
+RaceRow failed_row(const FrameDesc& desc, const Error& error)
+{
+    RaceRow row;
+    row.technique = desc.technique, row.samples = desc.samples, row.msaa = desc.msaa, row.error = error.line();
+    return row;
+}
+
+// Every frame to be raced, with its scene.
+struct RacePlan {
+    std::vector<RenderOptions> frames; // by scene, technique, msaa
+    std::vector<std::string> devices;
+    int runs = 5;
+};
+
+Result<RacePlan> check(const RaceArguments& in, const OptionTable& given)
+{
+    RacePlan plan;
+    RenderArguments arguments = in.render;
+    for (const std::string& scene : in.scenes)
+        for (const std::string& technique : in.techniques)
+            for (const int msaa : in.msaa) {
+                arguments.plain.scene = scene, arguments.plain.frame.technique = technique, arguments.plain.frame.msaa = msaa;
+                const Result<RenderOptions> checked = check_render_options(arguments, given);
+                if (!checked)
+                    return checked.error();
+                plan.frames.push_back(*checked);
+            }
+    plan.devices = in.devices, plan.runs = in.runs;
+    std::vector<std::string> inputs = in.scenes;
+    inputs.push_back(in.render.plain.env);
+    if (const Status writable = check_outputs({}, {{"--json", in.json}}, inputs); !writable)
+        return writable.error();
+    return plan;
+}
+
+// Those that are there; the others get a note.
+std::vector<std::shared_ptr<VulkanDevice>> open_devices(const RacePlan& plan, RaceReport& report, Error& last)
+{
+    std::vector<std::shared_ptr<VulkanDevice>> devices;
+    for (const std::string& name : plan.devices) {
+        VulkanOptions options = plan.frames.front().vulkan;
+        options.device = name, options.centroid = true; // as cheap as the device can
+        const Result<std::shared_ptr<VulkanDevice>> device = open_vulkan_device(options);
+        if (!device) {
+            last = device.error();
+            report.notes.push_back(name + ": " + last.line());
+            continue;
+        }
+        devices.push_back(*device);
+        if ((*device)->info().name.find("SwiftShader") != std::string::npos)
+            report.notes.push_back(
+                "SwiftShader snaps vertices to 1/16 pixel, so its edges differ by design, and is slow where the level of detail "
+                "varies inside a quad");
+    }
+    return devices;
+}
+
+// What all scenes share.
+struct Race {
+    const RacePlan& plan;
+    const std::vector<std::shared_ptr<VulkanDevice>>& devices;
+    std::shared_ptr<const Environment> environment;
+    std::shared_ptr<const Jobs> jobs;
+    Report& report;
+    RaceReport& out;
+    Error first_error; // what a row failed of, 77 only where nothing worse; the others are raced nevertheless
+};
+
+void add_row(Race& bench, const RenderOptions& frame, std::size_t device, const Result<RaceRow>& raced)
+{
+    RaceRow row = raced ? *raced : failed_row(frame.frame, raced.error());
+    if (!raced && (bench.first_error.code == ExitCode::ok || bench.first_error.code == ExitCode::unavailable))
+        bench.first_error = raced.error();
+    row.scene = frame.scene, row.device = bench.devices[device]->info().name;
+    const std::string outcome = raced ? fmt::format("{:.2f}", row.ratio()) : row.error;
+    bench.report.detail("row", fmt::format("{} {} {}x {}: {}", row.scene, row.technique, row.msaa, row.device, outcome));
+    bench.out.rows.push_back(row);
+}
+
+// Frames first to last - 1 of the plan, which are of one scene.
+void race_scene(Race& bench, std::size_t first, std::size_t last)
+{
+    const std::vector<RenderOptions>& frames = bench.plan.frames;
+    const Result<SeenScene> scene = load_seen_scene(frames[first].scene, frames[first], bench.report);
+    if (!scene) {
+        for (std::size_t i = first; i < last; ++i)
+            for (std::size_t d = 0; d < bench.devices.size(); ++d)
+                add_row(bench, frames[i], d, scene.error());
+        return;
+    }
+    const SessionParts parts{scene->data, bench.environment, standard_dfg(*bench.jobs), bench.jobs};
+    SessionOptions options;
+    options.isa = frames[first].isa;
+    Result<Session> tile = Session::make(parts, options);
+    options.backend = Backend::vulkan;
+    std::vector<Result<Session>> renderers;
+    for (const auto& device : bench.devices) {
+        options.device = device;
+        renderers.push_back(Session::make(parts, options));
+    }
+    for (std::size_t i = first; i < last; ++i)
+        for (std::size_t d = 0; d < bench.devices.size(); ++d) {
+            FrameDesc desc = frames[i].frame;
+            desc.view = scene->view;
+            add_row(bench, frames[i], d,
+                    renderers[d] ? race(*tile, *renderers[d], desc, bench.plan.runs, *bench.jobs) : Result<RaceRow>(renderers[d].error()));
+        }
+}
+
+int run_race(const RaceArguments& arguments, const OptionTable& given)
+{
+    const Result<RacePlan> checked = check(arguments, given);
+    if (!checked)
+        return fail(checked.error());
+    const RenderOptions& base = checked->frames.front();
+    Report report(base.quiet, base.verbosity);
+    const auto jobs = std::make_shared<const Jobs>(base.threads);
+    RaceReport out{cpu_name(), isa_name(base.isa), version(), jobs->threads(), base.frame.width, base.frame.height, checked->runs, {}, {}};
+    Error none{ExitCode::unavailable, "", "--devices", "no device is given"};
+    const std::vector<std::shared_ptr<VulkanDevice>> devices = open_devices(*checked, out, none);
+    if (devices.empty())
+        return fail(none);
+    const Result<std::shared_ptr<const Environment>> environment = load_shared_environment(base.env, base.environment, base.limits, *jobs);
+    if (!environment)
+        return fail(environment.error());
+    for (const std::string& warning : (*environment)->warnings)
+        report.warning(warning);
+    report.release();
+    Race bench{*checked, devices, *environment, jobs, report, out, Error{ExitCode::ok, "", "", ""}};
+    for (std::size_t i = 0; i < checked->frames.size();) {
+        const std::size_t first = i;
+        while (i < checked->frames.size() && checked->frames[i].scene == checked->frames[first].scene)
+            ++i;
+        race_scene(bench, first, i);
+    }
+    if (!base.quiet)
+        std::fputs(printable_lines(race_table(out)).c_str(), stderr);
+    if (!arguments.json.empty())
+        if (const Status written = write_text(arguments.json, race_json(out)); !written)
+            return fail(written.error());
+    return bench.first_error.code == ExitCode::ok ? 0 : fail(bench.first_error);
+}
+
+OptionTable option_table(RaceArguments& to)
+{
+    RenderOptions& r = to.render.plain;
+    const OptionTable of_render = render_option_table(to.render);
+    OptionTable table;
+    table.add("", {{"SCENE", "", "A .gltf or .glb file, or builtin:NAME; may be several", scenes(to.scenes)},
+                   {"--techniques", "NAMES", "all, or names by commas; see burnish list techniques", techniques_value(to.techniques)},
+                   {"--devices", "NAMES", "By commas; those that are absent are named and left out", choices(to.devices, {})},
+                   {"--msaa", "N,N", "Samples a pixel, by commas", choices(to.msaa, {1, 2, 4, 8, 16})},
+                   {"--runs", "N", "Timed frames of every row and renderer, in turn", integer(to.runs, 1, 10000)},
+                   {"--json", "FILE", "Rows as JSON; - for standard output", file(to.json)}});
+    table.take(of_render, "",
+               {"--size", {"--samples", "Samples of the techniques, where they take any", ""}, "--env", "--env-size", "--env-samples"});
+    table.add("", {threads_option(r.threads, "Worker threads of the tile renderer"), isa_option(r.isa), quiet_option(r.quiet),
+                   verbose_option(r.verbosity, "Print rows as they come")});
+    return table;
+}
+
+} // namespace
+
+Command race_command()
+{
+    auto arguments = std::make_shared<RaceArguments>();
+    return {"race", "Time the tile renderer against Vulkan's CPU devices", option_table(*arguments), kFooter,
+            [arguments](OptionTable& given) { return run_race(*arguments, given); }};
+}
+
+} // namespace burnish

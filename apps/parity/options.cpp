@@ -1,0 +1,134 @@
+#include "apps/parity/options.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "apps/cli/outputs.h"
+#include "apps/cli/report.h"
+#include "apps/cli/shared_options.h"
+#include "apps/cli/values.h"
+
+namespace burnish {
+namespace {
+
+// Every built-in scene; and closer, so that triangles cross the near plane and fill more than the picture.
+struct SuiteEntry {
+    const char *scene, *view;
+    float eye[3], target[3];
+};
+constexpr SuiteEntry kDefaultSuite[] = {
+    {"builtin:teapot", "", {}, {}},
+    {"builtin:spheres", "", {}, {}},
+    {"builtin:plate", "", {}, {}},
+    {"builtin:teapot", "close", {0.13f, 0.09f, 0.06f}, {0.0f, 0.06f, 0.0f}},
+    {"builtin:spheres", "within", {0.3f, 0.05f, 0.2f}, {0.0f, 0.0f, 0.0f}},
+};
+
+Status add_models(const std::string& folder, std::vector<ParityPlace>& places)
+{
+    std::error_code failed;
+    std::vector<std::string> files;
+    for (auto at = std::filesystem::recursive_directory_iterator(folder, failed);
+         !failed && at != std::filesystem::recursive_directory_iterator(); at.increment(failed))
+        if (const std::string kind = at->path().extension(); kind == ".glb" || kind == ".gltf")
+            files.push_back(at->path());
+    if (failed)
+        return Error{ExitCode::bad_input, folder, "--models", failed.message()};
+    if (files.empty())
+        return Error{ExitCode::bad_input, folder, "--models", "holds no .glb and no .gltf"};
+    std::sort(files.begin(), files.end());
+    for (const std::string& file : files)
+        places.push_back({file, "", {}, {}});
+    return {};
+}
+
+Status choose_places(const ParityArguments& in, std::vector<ParityPlace>& places)
+{
+    if (!in.suite.empty() && in.render.plain.eye)
+        return usage_error("--eye", "cannot be combined with --suite");
+    for (const std::string& scene : in.scenes)
+        places.push_back({scene, in.render.plain.eye ? "--eye" : "", {}, {}});
+    if (in.suite.empty() && (!places.empty() || !in.models.empty() || in.render.plain.eye)) {
+        if (places.empty() && in.models.empty())
+            return usage_error("--eye", "needs a SCENE");
+    } else {
+        for (const SuiteEntry& e : kDefaultSuite) {
+            ParityPlace place = {e.scene, e.view, {}, {}};
+            if (*e.view)
+                place.eye = glm::vec3(e.eye[0], e.eye[1], e.eye[2]), place.target = glm::vec3(e.target[0], e.target[1], e.target[2]);
+            places.push_back(place);
+        }
+    }
+    return in.models.empty() ? Status() : add_models(in.models, places);
+}
+
+} // namespace
+
+OptionTable parity_option_table(ParityArguments& to)
+{
+    RenderOptions& r = to.render.plain;
+    const OptionTable of_render = render_option_table(to.render);
+    OptionTable table;
+    table.add("", {{"SCENE", "", "A .gltf or .glb file, or builtin:NAME; may be several", scenes(to.scenes), "the suite 'default'"}});
+    table.add("What is compared",
+              {{"--suite", "NAME", "{}: the built-in scenes, from afar and from close by", choice(to.suite, {"default"})},
+               {"--models", "DIR", "Also every .glb and .gltf below this folder", folder(to.models)},
+               {"--technique", "NAMES", "all, or names by commas; see burnish list techniques", techniques_value(to.techniques)},
+               {"--msaa", "N,N", "Samples a pixel, by commas, of 1, 2, 4, 8 and 16", choices(to.msaa, {1, 2, 4, 8, 16})}});
+    table.take(of_render, "Machine",
+               {{"--device", nullptr, "the first CPU device"},
+                {"--sampler", "exact, or native with --pipeline forward"},
+                {"--pipeline", "{}"},
+                "--validate"});
+    table.add("Machine", {{"--shaders", "DIR", "Folder of NAME.spv in place of the program's shaders: for tests of this command",
+                           folder(r.vulkan.shader_folder)},
+                          threads_option(r.threads, "Worker threads of the tile renderer"),
+                          isa_option(r.isa)});
+    table.add("Output", {{"--json", "FILE", "Rows as JSON; - for standard output", file(to.json)},
+                         {"--junit", "FILE", "Rows as JUnit XML", file(to.junit)},
+                         {"--html", "FILE", "Rows as one page", file(to.html)},
+                         quiet_option(r.quiet),
+                         verbose_option(r.verbosity, "Print every row")});
+    table.take(of_render, "Picture",
+               {"--size",
+                "--eye",
+                "--target",
+                "--env",
+                "--env-size",
+                "--env-samples",
+                {"--samples", "Samples of the techniques, where they take any", ""},
+                {"--roughness", "Override alpha_lin of every material, {}"},
+                {"--anisotropy", "Override eta of every material, {}"},
+                {"--tilt", "Tilt every lobe against its surface", ""},
+                {"--dfg", "Directional albedo: {}"},
+                "--texture-anisotropy",
+                "--horizon",
+                {"--energy-compensation", "Return the light that rough lobes lose"},
+                {"--no-cache", "Neither environments nor pipelines from disk"}});
+    return table;
+}
+
+Result<ParityOptions> check_parity_options(const ParityArguments& in, const OptionTable& given)
+{
+    ParityOptions out;
+    out.json = in.json, out.junit = in.junit, out.html = in.html;
+    if (const Status chosen = choose_places(in, out.places); !chosen)
+        return chosen.error();
+    RenderArguments arguments = in.render;
+    for (const std::string& technique : in.techniques)
+        for (const int msaa : in.msaa) {
+            arguments.plain.frame.technique = technique, arguments.plain.frame.msaa = msaa;
+            const Result<RenderOptions> checked = check_render_options(arguments, given);
+            if (!checked)
+                return checked.error();
+            out.frames.push_back(*checked);
+        }
+    std::vector<std::string> inputs = {in.render.plain.env};
+    for (const ParityPlace& place : out.places)
+        inputs.push_back(place.scene);
+    if (const Status writable = check_outputs({}, {{"--json", out.json}, {"--junit", out.junit}, {"--html", out.html}}, inputs); !writable)
+        return writable.error();
+    return out;
+}
+
+} // namespace burnish

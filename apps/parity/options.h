@@ -1,0 +1,37 @@
+// The options of `burnish parity`.
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/render/options.h"
+
+namespace burnish {
+
+struct ParityArguments {
+    ParityArguments()
+    {
+        render.size = {128, 72};
+        render.plain.backend = "vulkan", render.plain.vulkan.prefer_cpu = true;
+    }
+    RenderArguments render; // its scene, msaa and technique are not used
+    std::vector<std::string> scenes, techniques = technique_names();
+    std::vector<int> msaa = {1, 4, 8};
+    std::string suite, models, json, junit, html;
+};
+
+struct ParityPlace {         // a scene, seen from somewhere
+    std::string scene, view; // view: a name; empty: the scene's own
+    std::optional<glm::vec3> eye, target;
+};
+
+struct ParityOptions {
+    std::vector<ParityPlace> places;
+    std::vector<RenderOptions> frames; // by technique, then by msaa
+    std::string json, junit, html;     // files; empty: none
+};
+
+OptionTable parity_option_table(ParityArguments& to);
+Result<ParityOptions> check_parity_options(const ParityArguments& arguments, const OptionTable& given);
+
+} // namespace burnish

@@ -1,0 +1,179 @@
+// `burnish profile`: where the time of a frame goes.
+#include <chrono>
+#include <fmt/core.h>
+#include <memory>
+#include <utility>
+
+#include "apps/cli/command.h"
+#include "apps/cli/outputs.h"
+#include "apps/cli/report.h"
+#include "apps/cli/seen_scene.h"
+#include "apps/cli/values.h"
+#include "apps/profile/report.h"
+#include "apps/render/stats.h"
+#include "core/base/text.h"
+
+namespace burnish {
+namespace {
+
+constexpr int kFrames = 10; // profiled, where --frames says nothing
+
+constexpr const char* kFooter =
+    R"(The frame is drawn 2 x --frames times (10), with and without the clocks in turn, after two frames that warm up. Times of a stage
+are summed over the threads. --trace shows every stage of every tile on its thread.
+
+Examples:
+  burnish profile
+  burnish profile lamp.glb --technique major_axis --msaa 8 --json lamp.json --svg lamp.svg
+  burnish profile builtin:spheres --threads 1 --frames 30 --trace spheres.trace)";
+
+struct ProfileArguments {
+    RenderArguments render;
+    std::string json_file, svg_file; // empty: none; "-": standard output
+};
+
+Status check_files(const RenderOptions& options, const ProfileArguments& arguments, const std::vector<std::string>& inputs)
+{
+    return check_outputs(options.outputs, {{"--json", arguments.json_file}, {"--svg", arguments.svg_file}, {"--trace", options.trace_file}},
+                         inputs);
+}
+
+void add(FrameProfile& to, const FrameProfile& more)
+{
+    const auto sum = [](auto& a, const auto& b) {
+        if (a.size() < b.size())
+            a.resize(b.size());
+        for (std::size_t i = 0; i < b.size(); ++i)
+            a[i] += b[i];
+    };
+    to.wall_ns += more.wall_ns;
+    sum(to.busy_ns, more.busy_ns), sum(to.tile_ns, more.tile_ns);
+    to.materials.resize(more.materials.size());
+    for (std::size_t i = 0; i < more.materials.size(); ++i) {
+        to.materials[i].ns += more.materials[i].ns;
+        to.materials[i].lanes.used += more.materials[i].lanes.used, to.materials[i].lanes.all += more.materials[i].lanes.all;
+    }
+    for (std::size_t i = 0; i < kFrameStages; ++i) {
+        to.stage_ns[i] += more.stage_ns[i];
+        to.stage_lanes[i].used += more.stage_lanes[i].used, to.stage_lanes[i].all += more.stage_lanes[i].all;
+    }
+}
+
+// Frames with and without a profile, in turn: the one tells what the other costs, and both show the same picture.
+Result<Image> measure(Renderer& renderer, FrameDesc desc, const std::string& scene, ProfileFigures& figures)
+{
+    std::vector<double> plain_ms, profiled_ms;
+    Frame last;
+    for (int i = -2; i < 2 * figures.frames; ++i) { // the first two warm up
+        desc.profile = i % 2 != 0;
+        Result<Frame> frame = renderer.render(desc, std::move(last));
+        if (!frame)
+            return frame.error();
+        const std::uint64_t hash = pixel_hash(frame->color);
+        if (i == -2)
+            figures.hash = hash;
+        else if (hash != figures.hash)
+            return Error{ExitCode::differ, scene, fmt::format("frame {}", i + 2),
+                         fmt::format("pixel hash {} differs from {} of the frames before", hash_text(hash), hash_text(figures.hash))};
+        if (i >= 0) {
+            (desc.profile ? profiled_ms : plain_ms).push_back(frame->stats.ms);
+            if (desc.profile)
+                add(figures.sum, frame->profile);
+            figures.stats = frame->stats;
+        }
+        last = std::move(*frame);
+    }
+    figures.plain_ms = median(plain_ms), figures.profiled_ms = median(profiled_ms);
+    return std::move(last.color);
+}
+
+Status write_files(const RenderOptions& options, const ProfileArguments& arguments, const ProfileFigures& figures)
+{
+    if (!arguments.json_file.empty())
+        if (Status done = write_text(arguments.json_file, profile_json(options, figures)); !done)
+            return done;
+    if (!arguments.svg_file.empty())
+        if (Status done = write_text(arguments.svg_file, profile_svg(options, figures)); !done)
+            return done;
+    if (!options.trace_file.empty())
+        return write_text(options.trace_file, Trace::json());
+    return {};
+}
+
+int run_profile(const ProfileArguments& arguments, const OptionTable& given)
+{
+    Result<RenderOptions> checked = check_render_options(arguments.render, given);
+    if (!checked)
+        return fail(checked.error());
+    RenderOptions& options = *checked;
+    if (options.backend != "tile")
+        return fail(usage_error("--backend", "only the tile renderer is profiled"));
+    if (!options.stats_file.empty())
+        return fail(usage_error("--stats", "belongs to burnish render; here figures go to --json"));
+    if (Status files = check_files(options, arguments, {options.scene, options.env}); !files)
+        return fail(files.error());
+    Report report(options.quiet, options.verbosity);
+    for (const std::string& warning : options.warnings)
+        report.warning(warning);
+
+    const auto jobs = std::make_shared<const Jobs>(options.threads);
+    const Result<SeenScene> seen = load_seen_scene(options.scene, options, report);
+    if (!seen)
+        return fail(seen.error());
+    const Scene& scene = seen->data->scene;
+    if (Status files = check_files(options, arguments, scene.files); !files)
+        return fail(files.error());
+    const Result<std::shared_ptr<const Environment>> environment =
+        load_shared_environment(options.env, options.environment, options.limits, *jobs);
+    if (!environment)
+        return fail(environment.error());
+    for (const std::string& warning : (*environment)->warnings)
+        report.warning(warning);
+    SessionOptions tile;
+    tile.isa = options.isa;
+    Result<Session> session = Session::make({seen->data, *environment, standard_dfg(*jobs), jobs}, tile);
+    if (!session)
+        return fail(session.error());
+    report.release();
+
+    FrameDesc desc = options.frame;
+    desc.view = seen->view;
+    ProfileFigures figures;
+    figures.device = session->device(), figures.threads = jobs->threads();
+    figures.frames = given.given("--frames") ? options.frames : kFrames;
+    for (const Material& material : scene.materials)
+        figures.materials.push_back(material.name.empty() ? fmt::format("material {}", figures.materials.size()) : material.name);
+    if (!options.trace_file.empty())
+        Trace::start();
+    const Result<Image> picture = measure(session->renderer(), desc, options.scene, figures);
+    if (!picture)
+        return fail(picture.error());
+    const std::uint64_t begin = Trace::now_ns();
+    for (const std::string& path : options.outputs) {
+        const TraceSpan span("write picture");
+        if (Status done = write_picture(path, *picture, options.tonemap, options.exposure_ev); !done)
+            return fail(done.error());
+        report.event("wrote", path);
+    }
+    figures.write_ms = static_cast<double>(Trace::now_ns() - begin) * 1e-6;
+    if (arguments.json_file != "-" && arguments.svg_file != "-") // standard output is for one thing
+        fmt::print("{}", printable_lines(profile_table(options, figures)));
+    if (Status done = write_files(options, arguments, figures); !done)
+        return fail(done.error());
+    report.event("pixel hash:", hash_text(figures.hash));
+    return 0;
+}
+
+} // namespace
+
+Command profile_command()
+{
+    auto arguments = std::make_shared<ProfileArguments>();
+    OptionTable table = render_option_table(arguments->render);
+    table.add("Output", {{"--json", "FILE", "The figures as JSON; - for standard output", file(arguments->json_file)},
+                         {"--svg", "FILE", "A flame-style picture; - for standard output", file(arguments->svg_file)}});
+    return {"profile", "Show where the time of a frame goes", table, kFooter,
+            [arguments](OptionTable& given) { return run_profile(*arguments, given); }};
+}
+
+} // namespace burnish

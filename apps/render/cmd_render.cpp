@@ -1,0 +1,282 @@
+// `burnish render`: a scene under an environment to pictures and figures.
+#include <algorithm>
+#include <chrono>
+#include <fmt/core.h>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "apps/cli/command.h"
+#include "apps/cli/outputs.h"
+#include "apps/cli/report.h"
+#include "apps/cli/scene_view.h"
+#include "apps/cli/stop_signal.h"
+#include "apps/render/options.h"
+#include "apps/render/stats.h"
+#include "core/image/io/image_io.h"
+#include "raster/session/session.h"
+
+namespace burnish {
+namespace {
+
+constexpr const char* kFooter =
+    R"(Pictures: .exr .hdr .pfm hold linear Rec.709 radiance as it was rendered; .png .jpg .tif are exposed, tonemapped
+and encoded as sRGB. A file appears under its name only when it is complete. Without -o the frame is rendered and
+its figures are printed.
+
+Examples:
+  burnish render -o teapot.png
+  burnish render lamp.glb --env workshop.hdr --size 1920x1080 --msaa 8 -o lamp.png -o lamp.exr --stats lamp.json
+  burnish render lamp.glb --eye 0.2,0.3,1.5 --target 0,0.2,0 --fov 30 -o close.png
+  burnish render builtin:spheres --env builtin:sky --env-rotation 90 --exposure -1 -o spheres.png
+  burnish render builtin:plate --frames 50 --threads 2 --isa avx2 --stats -
+  burnish render --backend vulkan --device lavapipe -o teapot.png
+  burnish render --backend reference --samples 4096 --checkpoint teapot.part -o teapot.exr --variance teapot_var.exr)";
+
+class Stopwatch {
+  public:
+    double ms() const { return std::chrono::duration<double, std::milli>(Clock::now() - begin_).count(); }
+
+  private:
+    using Clock = std::chrono::steady_clock;
+    Clock::time_point begin_ = Clock::now();
+};
+
+struct Rendered {
+    Image color, variance;
+    RenderFigures figures;
+};
+
+// `inputs`: files that must not be written over.
+Status check_paths(const RenderOptions& options, const std::vector<std::string>& inputs)
+{
+    std::vector<std::string> pictures = options.outputs;
+    if (!options.variance_file.empty())
+        pictures.push_back(options.variance_file);
+    return check_outputs(pictures,
+                         {{"--stats", options.stats_file}, {"--trace", options.trace_file}, {"--checkpoint", options.reference.checkpoint}},
+                         inputs);
+}
+
+void report_scene(const SceneData& data, Report& report)
+{
+    const Scene& scene = data.scene;
+    report.event("scene", fmt::format("{}: {} triangles, {} materials, {} textures, {} lights", data.name, data.tables.triangle_count(),
+                                      scene.materials.size(), scene.textures.size(), data.tables.lights.size()));
+    for (const std::string& warning : scene.warnings)
+        report.warning(warning);
+}
+
+void report_environment(const RenderOptions& options, const Environment& environment, double ms, Report& report)
+{
+    report.event(
+        "environment",
+        fmt::format("{}: mean radiance {:.6g} in the source, {:.6g} in the cube, peak {:.6g}; {}", options.env, environment.energy_source,
+                    environment.energy_cube, static_cast<double>(environment.peak_source),
+                    environment.from_cache ? fmt::format("from the cache in {:.0f} ms", ms) : fmt::format("baked in {:.0f} ms", ms)));
+}
+
+// `lost_checkpoint`: why the last one could not be written.
+SessionOptions session_options(const RenderOptions& options, std::optional<Error>& lost_checkpoint)
+{
+    SessionOptions session;
+    session.backend = options.backend == "reference" ? Backend::reference : options.backend == "vulkan" ? Backend::vulkan : Backend::tile;
+    session.isa = options.isa;
+    session.vulkan = options.vulkan;
+    session.reference = options.reference;
+    if (session.backend == Backend::reference && !options.reference.checkpoint.empty())
+        session.reference.stop = &watch_stop_signals();
+    session.reference.lost_checkpoint = [&lost_checkpoint](const Error& error) { lost_checkpoint = error; };
+    return session;
+}
+
+Result<Session> prepare(const RenderOptions& options, RenderFigures& figures, std::optional<Error>& lost_checkpoint, Report& report)
+{
+    SessionParts parts;
+    parts.jobs = std::make_shared<const Jobs>(options.threads);
+    figures.threads = parts.jobs->threads();
+    const Stopwatch load;
+    {
+        const TraceSpan span("load scene");
+        const Result<std::shared_ptr<const SceneData>> data = load_scene_data(options.scene, options.limits);
+        if (!data)
+            return data.error();
+        parts.scene = *data;
+    }
+    figures.load_ms = load.ms();
+    report_scene(*parts.scene, report);
+
+    const Stopwatch bake;
+    {
+        const TraceSpan span("environment");
+        const Result<std::shared_ptr<const Environment>> environment =
+            load_shared_environment(options.env, options.environment, options.limits, *parts.jobs);
+        if (!environment)
+            return environment.error();
+        parts.environment = *environment;
+    }
+    figures.bake_ms = bake.ms();
+    figures.environment_from_cache = parts.environment->from_cache;
+    report_environment(options, *parts.environment, figures.bake_ms, report);
+    for (const std::string& warning : parts.environment->warnings)
+        report.warning(warning);
+
+    const Stopwatch make;
+    const TraceSpan span("prepare renderer");
+    parts.dfg = standard_dfg(*parts.jobs);
+    Result<Session> session = Session::make(std::move(parts), session_options(options, lost_checkpoint));
+    if (session)
+        figures.device = session->device();
+    figures.prepare_ms = make.ms();
+    return session;
+}
+
+// All frames show the same picture: a renderer that does not repeat itself is caught here.
+Result<Rendered> render_frames(const RenderOptions& options, const FrameDesc& desc, Session& session, RenderFigures figures)
+{
+    Rendered out;
+    Frame last;
+    Progress progress("frames", static_cast<std::size_t>(options.frames), options.quiet || options.frames == 1);
+    for (int i = 0; i < options.frames; ++i) {
+        const TraceSpan span("frame");
+        Result<Frame> frame = session.render(desc, std::move(last));
+        if (!frame)
+            return frame.error();
+        const std::uint64_t hash = pixel_hash(frame->color);
+        if (i > 0 && hash != figures.hash)
+            return Error{ExitCode::differ, options.scene, fmt::format("frame {}", i),
+                         fmt::format("pixel hash {} differs from {} of the frames before", hash_text(hash), hash_text(figures.hash))};
+        figures.hash = hash;
+        figures.frame = frame->stats;
+        figures.frame_ms.push_back(frame->stats.ms);
+        last = std::move(*frame);
+        progress.step();
+    }
+    out.color = std::move(last.color), out.variance = std::move(last.variance);
+    figures.nan_pixels = count_not_finite(out.color);
+    out.figures = std::move(figures);
+    return out;
+}
+
+void report_reference(const RenderOptions& options, const RenderFigures& figures, Report& report)
+{
+    const SamplingStats& s = figures.frame.sampling;
+    const std::string before = s.resumed ? fmt::format(", {} of them from {}", s.samples_before, options.reference.checkpoint) : "";
+    report.event("reference",
+                 fmt::format("{}x{}, {}, {} samples a pixel{}: {:.1f} s, {:.2f} million samples/s, {:.0f} % of the time in rays, "
+                             "relative error {:.3g}",
+                             options.frame.width, options.frame.height, reference_mode_name(options), s.samples, before,
+                             figures.frame.ms * 1e-3, s.million_samples_per_second, s.ray_share * 100.0, s.relative_error));
+}
+
+void report_frames(const RenderOptions& options, const RenderFigures& figures, Report& report)
+{
+    if (options.backend == "reference")
+        return report_reference(options, figures, report);
+    const FrameDesc& frame = options.frame;
+    const std::vector<double>& ms = figures.frame_ms;
+    const std::string times = ms.size() == 1 ? fmt::format("{:.2f} ms", ms[0])
+                                             : fmt::format("median {:.2f} ms, min {:.2f}, p95 {:.2f} over {} frames", median(ms),
+                                                           *std::min_element(ms.begin(), ms.end()), percentile_95(ms), ms.size());
+    report.event("frame", fmt::format("{}x{}, {} samples a pixel, {}: {}", frame.width, frame.height, frame.msaa, frame.technique, times));
+    if (figures.frame.samples_emulated)
+        report.event("samples",
+                     fmt::format("emulated: {} passes of one sample, as the device cannot take {} at once", frame.msaa, frame.msaa));
+    if (figures.frame.depth_interpolated)
+        report.event("depth", "interpolated by the device, which has no 64-bit floats: equal depths may be ordered otherwise");
+    report.detail("fragments",
+                  fmt::format("{} shaded, {} of {} triangles drawn, {} pixels show the background", figures.frame.visible_fragments,
+                              figures.frame.triangles_drawn, figures.frame.triangles, figures.frame.background_pixels));
+}
+
+// Tries every output even where one fails; the first failure decides.
+Status write_outputs(const RenderOptions& options, const Rendered& rendered, Report& report)
+{
+    Status first;
+    const auto note = [&](const std::string& path, const Status& status) {
+        if (status)
+            report.event("wrote", path);
+        else if (first)
+            first = status;
+        else
+            fail(status.error());
+    };
+    for (const std::string& path : options.outputs) {
+        const TraceSpan span("write picture");
+        note(path, write_picture(path, rendered.color, options.tonemap, options.exposure_ev));
+    }
+    if (!options.variance_file.empty())
+        note(options.variance_file, write_image(options.variance_file, rendered.variance));
+    if (!options.stats_file.empty())
+        note(options.stats_file, write_text(options.stats_file, stats_json(options, rendered.figures)));
+    if (!options.trace_file.empty())
+        note(options.trace_file, write_text(options.trace_file, Trace::json()));
+    return first;
+}
+
+int finish(const RenderOptions& options, const Rendered& rendered, Report& report)
+{
+    const Status written = write_outputs(options, rendered, report);
+    report.event("pixel hash:", hash_text(rendered.figures.hash));
+    int code = 0;
+    if (rendered.figures.nan_pixels)
+        code = fail(Error{ExitCode::not_finite, options.scene, "",
+                          fmt::format("{} of {} pixels are NaN or Inf", rendered.figures.nan_pixels,
+                                      std::int64_t{options.frame.width} * options.frame.height)});
+    return written ? code : fail(written.error());
+}
+
+int run_render(const RenderArguments& arguments, const OptionTable& given)
+{
+    Result<RenderOptions> checked = check_render_options(arguments, given);
+    if (!checked)
+        return fail(checked.error());
+    const RenderOptions& options = *checked;
+    if (Status paths = check_paths(options, {options.scene, options.env}); !paths)
+        return fail(paths.error());
+    if (!options.trace_file.empty())
+        Trace::start();
+
+    Report report(options.quiet, options.verbosity);
+    for (const std::string& warning : options.warnings)
+        report.warning(warning);
+    RenderFigures figures;
+    std::optional<Error> lost_checkpoint;
+    Result<Session> session = prepare(options, figures, lost_checkpoint, report);
+    if (!session)
+        return fail(session.error());
+    if (Status paths = check_paths(options, session->scene().files); !paths) // textures and buffers are known now
+        return fail(paths.error());
+    const Result<ChosenView> view = choose_view(options, session->scene(), session->tables());
+    if (!view)
+        return fail(view.error());
+    report.detail("camera", fmt::format("{}, world to clip {}", view->description, describe_matrix(view->view)));
+    report.detail("device", fmt::format("{}, {} threads", figures.device, figures.threads));
+    FrameDesc desc = options.frame;
+    desc.view = view->view;
+    if (Status checkpoint = check_reference_checkpoint(session->parts().input(), desc, options.reference); !checkpoint)
+        return fail(checkpoint.error());
+    report.release();
+    Result<Rendered> rendered = render_frames(options, desc, *session, std::move(figures));
+    if (!rendered)
+        return fail(rendered.error());
+    report_frames(options, rendered->figures, report);
+    rendered->figures.warnings = report.warnings();
+    if (rendered->figures.frame.sampling.stopped) {
+        report.event("stopped", fmt::format("the same command goes on from {}; no picture was written", options.reference.checkpoint));
+        return 128 + stop_signal(); // as a shell reports a process that a signal ended
+    }
+    const int code = finish(options, *rendered, report);
+    return lost_checkpoint ? std::max(fail(*lost_checkpoint), code) : code; // the picture comes first
+}
+
+} // namespace
+
+Command render_command()
+{
+    auto arguments = std::make_shared<RenderArguments>();
+    return {"render", "Render a scene to pictures", render_option_table(*arguments), kFooter,
+            [arguments](OptionTable& given) { return run_render(*arguments, given); }};
+}
+
+} // namespace burnish

@@ -1,0 +1,132 @@
+// The rows of `burnish render`: names, values and help texts.
+#include "apps/cli/shared_options.h"
+#include "apps/cli/values.h"
+#include "apps/render/options.h"
+
+namespace burnish {
+namespace {
+
+constexpr std::int64_t kMaxFrames = 1000000, kMaxBakeSamples = 1 << 20, kMaxBounces = 1000, kMaxSeed = 0x7fffffff;
+constexpr const char* kReferenceModes[] = {"direct", "shadowed", "path"}; // by ReferenceMode
+
+std::vector<Option> environment_rows(RenderArguments& to)
+{
+    EnvironmentOptions& e = to.plain.environment;
+    return {
+        {"--env", "FILE", "Equirectangular picture or builtin:NAME", environment(to.plain.env)},
+        {"--env-rotation", "DEG", "Turn it about +Y, counter-clockwise from above", number(e.rotation_deg, -36000.0, 36000.0)},
+        {"--env-exposure", "EV", "Multiply its radiance by 2^EV", number(e.exposure_ev, -kMaxExposure, kMaxExposure)},
+        {"--env-size", "N", "Texels along a cube edge, a power of two", choice(e.cube_size, {16, 32, 64, 128, 256, 512, 1024, 2048})},
+        {"--env-samples", "N", "Samples a texel of the prefiltered levels", integer(e.samples, 1, kMaxBakeSamples)},
+        {"--no-cache", "", "Neither read nor write the cache of baked environments", flag(e.use_cache, false)},
+    };
+}
+
+std::vector<Option> output_rows(RenderArguments& to)
+{
+    return {
+        {"-o,--output", "FILE", "Picture to write; may be given several times", files(to.plain.outputs)},
+        {"--tonemap", "NAME", "{}, for 8-bit pictures", choice(to.plain.tonemap, {"none", "pbr-neutral", "aces"})},
+        {"--exposure", "EV", "Multiply by 2^EV before tonemapping", number(to.plain.exposure_ev, -kMaxExposure, kMaxExposure)},
+        {"--stats", "FILE", "Figures as JSON; - for standard output", file(to.plain.stats_file)},
+        {"--trace", "FILE", "Chrome trace events, for ui.perfetto.dev", file(to.plain.trace_file)},
+        quiet_option(to.plain.quiet),
+        verbose_option(to.plain.verbosity),
+    };
+}
+
+std::vector<Option> picture_rows(RenderArguments& to)
+{
+    FrameDesc& f = to.plain.frame;
+    return {
+        {"--size", "WxH", "Width and height in pixels", picture_size(to.size)},
+        {"--msaa", "N", "Samples a pixel: {}", choice(f.msaa, {1, 2, 4, 8, 16})},
+        {"--camera", "N|NAME", "Camera of the scene, by index or name", text(to.plain.camera), "the first, else framed"},
+        {"--eye", "X,Y,Z", "Camera position, world space", point(to.plain.eye)},
+        {"--target", "X,Y,Z", "What --eye looks at", point(to.plain.target), "the centre of the scene"},
+        {"--fov", "DEG", "Vertical field of view of --eye", number(to.plain.fov_y_deg, 0.1, 179.0)},
+        {"--technique", "NAME", "See burnish list techniques", choice(f.technique, technique_names())},
+        {"--samples", "N", "Samples of the technique, where it takes any; of the reference, a pixel",
+         integer(to.samples, 1, static_cast<std::int64_t>(kMaxReferenceSamples)), "1024"},
+        {"--axis-k", "K", "Deviations of slope that the major axis covers", number(f.major_axis_k, 0.01, 10.0)},
+        {"--axis-beta", "B", "Overlap of samples on the major axis", number(f.major_axis_beta, 0.0, 100.0)},
+        {"--tilt", "DEG,DEG", "Tilt every lobe against its surface, towards the bitangent and away from the tangent",
+         angles(to.tilt_deg, -80.0, 80.0)},
+        {"--dfg", "NAME", "Directional albedo: table (baked, exact) or fit (analytic, coarse)", choice(f.dfg_fit, {"table", "fit"})},
+        {"--horizon", "", "Normal maps reflect nothing from below the surface itself", flag(f.horizon)},
+        {"--energy-compensation", "", "Return the light that rough lobes lose between microfacets", flag(f.energy_compensation)},
+        {"--seed", "N", "Seed of techniques that use random numbers", integer(f.seed, 0, kMaxSeed)},
+        {"--roughness", "R", "Override alpha_lin of every material, {}", number(f.roughness, 0.0, 1.0), ""},
+        {"--anisotropy", "A", "Override eta of every material, {}: alpha_lin^2 (1 +- eta) along and across",
+         number(f.anisotropy, -1.0, 1.0), ""},
+        {"--texture-anisotropy", "N", "Texture taps along the major axis at most", integer(f.texture_anisotropy, 1, 16)},
+        {"--no-background", "", "Black behind the scene instead of the environment", flag(f.background, false)},
+    };
+}
+
+std::vector<Option> machine_rows(RenderArguments& to)
+{
+    return {
+        {"--backend", "NAME",
+         "Renderer: tile, vulkan (the same on a GPU or its driver's CPU twin), or reference, which integrates by Monte Carlo",
+         choice(to.plain.backend, {"tile", "vulkan", "reference"})},
+        threads_option(to.plain.threads),
+        isa_option(to.plain.isa, "{}; never changes the picture"),
+        {"--tile-size", "N", "{} pixels; never changes the picture", choice(to.plain.frame.tile_size, {32, 64})},
+        {"--frames", "N", "Render the frame N times and report the times", integer(to.plain.frames, 1, kMaxFrames)},
+    };
+}
+
+std::vector<Option> vulkan_rows(VulkanOptions& to)
+{
+    return {
+        {"--device", "NAME", "lavapipe, swiftshader, gpu, or a part of a device's name", text(to.device),
+         "the first GPU, else a CPU device"},
+        {"--sampler", "NAME", "exact (the tile renderer's bits) or native (the device's samplers, with --pipeline forward)",
+         choice(to.sampler, {"exact", "native"})},
+        {"--pipeline", "NAME", "ids (visibility first, each visible triangle of a pixel shaded once) or forward (classical)",
+         choice(to.pipeline, {"ids", "forward"})},
+        {"--validate", "", "With the Khronos validation layer; fail where it complains", flag(to.validate)},
+    };
+}
+
+std::vector<Option> reference_rows(RenderArguments& to)
+{
+    ReferenceOptions& r = to.plain.reference;
+    return {
+        {"--reference-mode", "NAME",
+         "direct (nothing in the light's way, as the techniques have it), shadowed, or path (light between surfaces too)",
+         choice(r.mode, {std::begin(kReferenceModes), std::end(kReferenceModes)})},
+        {"--bounces", "N", "From surface to surface at most, in mode path", integer(r.bounces, 0, kMaxBounces)},
+        {"--target-error", "E",
+         "Stop early once the 95 % confidence interval's half width over the mean, averaged over the pixels, is not above E",
+         number(r.target_error, 1e-6, 1.0), ""},
+        {"--checkpoint", "FILE", "Go on from this file if it is there; keep it up to date, also when stopped by Ctrl-C",
+         file(r.checkpoint)},
+        {"--variance", "FILE", "Picture of the variance of the mean, by channel", file(to.plain.variance_file)},
+        {"--reference-strategy", "NAME", "How directions are chosen: {}, for tests", choice(r.strategy, {"mis", "brdf", "light"})},
+    };
+}
+
+} // namespace
+
+std::string reference_mode_name(const RenderOptions& options)
+{
+    return kReferenceModes[static_cast<std::size_t>(options.reference.mode)];
+}
+
+OptionTable render_option_table(RenderArguments& to)
+{
+    OptionTable table;
+    table.add("", {{"SCENE", "", "A .gltf or .glb file, or builtin:NAME", scene(to.plain.scene)}});
+    table.add("Environment", environment_rows(to));
+    table.add("Output", output_rows(to));
+    table.add("Picture", picture_rows(to));
+    table.add("Machine", machine_rows(to));
+    table.add_needing("--backend", "vulkan", vulkan_rows(to.plain.vulkan));
+    table.add_needing("--backend", "reference", reference_rows(to));
+    table.add("Limits on input", limit_options(to.plain.limits));
+    return table;
+}
+
+} // namespace burnish

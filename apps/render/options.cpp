@@ -1,0 +1,81 @@
+#include "apps/render/options.h"
+
+#include <fmt/core.h>
+
+#include "apps/cli/report.h"
+#include "apps/cli/shared_options.h"
+#include "core/math/scalar_math.h"
+
+namespace burnish {
+namespace {
+
+Status check_camera(const OptionTable& given, const RenderOptions& out)
+{
+    if (out.eye && !out.camera.empty())
+        return usage_error("--eye", "cannot be combined with --camera");
+    if (!out.eye && (out.target || given.given("--fov")))
+        return usage_error(out.target ? "--target" : "--fov", "needs --eye");
+    if (out.eye && out.target && *out.eye == *out.target)
+        return usage_error("--target", "is the same point as --eye");
+    return {};
+}
+
+Status check_picture(const RenderArguments& in, const OptionTable& given, RenderOptions& out)
+{
+    FrameDesc& frame = out.frame;
+    frame.width = in.size.width, frame.height = in.size.height;
+    for (const int side : {frame.width, frame.height})
+        if (side < 1 || side > kMaxPictureSide)
+            return usage_error("--size",
+                               fmt::format("each side must be from 1 to {} pixels, got {}x{}", kMaxPictureSide, frame.width, frame.height));
+    const std::int64_t samples = std::int64_t{frame.width} * frame.height * frame.msaa;
+    if (samples > kMaxPictureSamples)
+        return usage_error("--size", fmt::format("{}x{} with --msaa {} is {} samples, more than {}", frame.width, frame.height, frame.msaa,
+                                                 samples, kMaxPictureSamples));
+    if (given.given("--anisotropy"))
+        frame.override_anisotropy = true;
+    frame.tilt_rad = in.tilt_deg * static_cast<float>(kPi / 180.0);
+    return {};
+}
+
+Status check_technique(const RenderArguments& in, RenderOptions& out)
+{
+    FrameDesc& frame = out.frame;
+    const TechniqueInfo& technique = *find_technique(frame.technique);
+    std::int64_t samples = technique.default_samples;
+    if (in.samples && out.backend != "reference") // whose samples are of a pixel
+        samples = *in.samples;
+    if (samples > technique.most_samples)
+        return usage_error("--samples", fmt::format("{} takes 1 to {}, got {}", frame.technique, technique.most_samples, samples));
+    frame.samples = samples_taken(technique, static_cast<int>(samples));
+    if (frame.samples != samples)
+        out.warnings.push_back(fmt::format("--samples {}: {} takes {}", samples, frame.technique, frame.samples));
+    return {};
+}
+
+} // namespace
+
+Result<RenderOptions> check_render_options(const RenderArguments& arguments, const OptionTable& given)
+{
+    RenderOptions out = arguments.plain;
+    if (const Status picture = check_picture(arguments, given, out); !picture)
+        return picture.error();
+    if (const Status technique = check_technique(arguments, out); !technique)
+        return technique.error();
+    const Result<Isa> isa = choose_isa(given, out.isa);
+    if (!isa)
+        return isa.error();
+    out.isa = *isa;
+    if (out.backend == "reference")
+        if (const Status reference = check_reference_options(arguments, given, out); !reference)
+            return reference.error();
+    if (out.backend == "vulkan")
+        if (const Status vulkan = check_vulkan_options(out); !vulkan)
+            return vulkan.error();
+    if (const Status camera = check_camera(given, out); !camera)
+        return camera.error();
+    out.environment.quiet = out.quiet;
+    return out;
+}
+
+} // namespace burnish

@@ -1,0 +1,73 @@
+// The options of `burnish render`: as they are given, then checked and resolved.
+#pragma once
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/cli/option.h"
+#include "apps/cli/parse.h"
+#include "core/base/limits.h"
+#include "core/base/result.h"
+#include "core/image/colour.h"
+#include "raster/reference/reference_renderer.h"
+#include "raster/tile/tile_renderer.h"
+#include "raster/vulkan/vulkan_renderer.h"
+#include "shading/bake/environment/environment.h"
+
+namespace burnish {
+
+struct RenderOptions {
+    std::string scene = "builtin:teapot";
+    std::vector<std::string> outputs;
+    std::string stats_file; // empty: none; "-": standard output
+    std::string trace_file; // empty: none
+
+    std::string env = "builtin:studio";
+    EnvironmentOptions environment;
+
+    std::string camera;           // index or name, empty: the scene's first camera, else framed automatically
+    std::optional<glm::vec3> eye; // world space, metres
+    std::optional<glm::vec3> target;
+    float fov_y_deg = 45.0f;
+
+    FrameDesc frame; // its view is filled in once the scene is known
+    std::string backend = "tile";
+    ReferenceOptions reference; // of --backend reference
+    std::string variance_file;  // empty: none
+    VulkanOptions vulkan;       // of --backend vulkan
+    Isa isa = Isa::scalar;
+    int threads = 0; // 0: all cores the process may use
+    int frames = 1;
+    Tonemap tonemap = Tonemap::pbr_neutral;
+    float exposure_ev = 0.0f;
+
+    Limits limits;
+    std::vector<std::string> warnings; // about options, one line each
+    bool quiet = false;
+    int verbosity = 0;
+};
+
+// Where the command line puts values: most where they stay, some where they wait for what else is given.
+struct RenderArguments {
+    RenderOptions plain;
+    PictureSize size = {1280, 720};
+    std::optional<std::int64_t> samples; // none: the technique's or the reference's own number
+    glm::vec2 tilt_deg{0.0f};
+};
+
+// All options of `burnish render`, which other subcommands take theirs from; `to` must outlive the table.
+OptionTable render_option_table(RenderArguments& to);
+
+std::string reference_mode_name(const RenderOptions& options); // as --reference-mode takes it
+
+// Everything that can be known to be wrong before a file is opened. `given`: the table that `arguments` were set by; options that it does
+// not have were not given.
+Result<RenderOptions> check_render_options(const RenderArguments& arguments, const OptionTable& given);
+
+// The parts of it that belong to one backend.
+Status check_reference_options(const RenderArguments& arguments, const OptionTable& given, RenderOptions& out);
+Status check_vulkan_options(RenderOptions& out);
+
+} // namespace burnish

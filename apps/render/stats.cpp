@@ -1,0 +1,102 @@
+#include "apps/render/stats.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/core.h>
+#include <sys/resource.h>
+
+#include "apps/report/json.h"
+#include "core/base/version.h"
+
+namespace burnish {
+
+double median(std::vector<double> values)
+{
+    if (values.empty())
+        return 0.0;
+    std::sort(values.begin(), values.end());
+    const std::size_t half = values.size() / 2;
+    return values.size() % 2 ? values[half] : (values[half - 1] + values[half]) / 2.0;
+}
+
+double percentile_95(std::vector<double> values)
+{
+    if (values.empty())
+        return 0.0;
+    std::sort(values.begin(), values.end());
+    const std::size_t rank = (values.size() * 95 + 99) / 100; // the smallest rank that covers 95 %
+    return values[rank - 1];
+}
+
+std::string hash_text(std::uint64_t hash)
+{
+    return fmt::format("{:016x}", hash);
+}
+
+std::uint64_t peak_memory_bytes()
+{
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024; // Linux counts in KiB
+}
+
+std::string stats_json(const RenderOptions& options, const RenderFigures& figures)
+{
+    const FrameDesc& frame = options.frame;
+    Json json;
+    json["version"] = version();
+    json["scene"] = options.scene;
+    json["env"] = options.env;
+    json["technique"] = frame.technique;
+    json["samples"] = frame.samples;
+    json["roughness"] = frame.roughness >= 0.0f ? Json(frame.roughness) : Json();
+    json["anisotropy"] = frame.override_anisotropy ? Json(frame.anisotropy) : Json();
+    json["tilt_rad"] = Json::array({frame.tilt_rad.x, frame.tilt_rad.y});
+    json["axis_k"] = frame.major_axis_k;
+    json["axis_beta"] = frame.major_axis_beta;
+    json["seed"] = frame.seed;
+    json["dfg"] = frame.dfg_fit ? "fit" : "table";
+    json["horizon"] = frame.horizon;
+    json["energy_compensation"] = frame.energy_compensation;
+    json["backend"] = options.backend;
+    json["device"] = figures.device;
+    json["isa"] = isa_name(options.isa);
+    json["threads"] = figures.threads;
+    json["width"] = frame.width;
+    json["height"] = frame.height;
+    json["msaa"] = frame.msaa;
+    json["tile_size"] = frame.tile_size;
+    json["frames"] = options.frames;
+    if (options.backend == "reference") {
+        const SamplingStats& s = figures.frame.sampling;
+        json["technique"] = "reference";
+        json["samples"] = s.samples; // taken, which a target error may make fewer
+        json["reference"] = {{"mode", reference_mode_name(options)},
+                             {"samples_before", s.samples_before},
+                             {"relative_error", s.relative_error},
+                             {"million_samples_per_second", s.million_samples_per_second},
+                             {"rays", s.rays},
+                             {"ray_time_fraction", s.ray_share}};
+        if (options.reference.mode == ReferenceMode::path)
+            json["reference"]["bounces"] = options.reference.bounces;
+    }
+    json["ms_min"] = *std::min_element(figures.frame_ms.begin(), figures.frame_ms.end());
+    json["ms_median"] = median(figures.frame_ms);
+    json["ms_p95"] = percentile_95(figures.frame_ms);
+    json["load_ms"] = figures.load_ms;
+    json["bake_ms"] = figures.bake_ms;
+    json["prepare_ms"] = figures.prepare_ms;
+    json["environment_from_cache"] = figures.environment_from_cache;
+    json["triangles"] = figures.frame.triangles;
+    json["triangles_drawn"] = figures.frame.triangles_drawn;
+    json["visible_fragments"] = figures.frame.visible_fragments;
+    json["background_pixels"] = figures.frame.background_pixels;
+    json["pixel_hash"] = hash_text(figures.hash);
+    json["nan_pixels"] = figures.nan_pixels;
+    json["warnings"] = figures.warnings;
+    json["peak_memory_bytes"] = peak_memory_bytes();
+    // Paths are bytes to the operating system: what is not UTF-8 is replaced instead of ending the program.
+    return json.dump(2) + "\n";
+}
+
+} // namespace burnish

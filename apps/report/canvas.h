@@ -1,0 +1,48 @@
+// A picture that charts are drawn on: strokes, areas and text with smooth edges. Places are pixels from the top left corner, y down.
+#pragma once
+#include <array>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/image/image.h"
+
+namespace burnish {
+
+using Points = std::vector<std::pair<double, double>>;
+using Paint = std::array<double, 3>; // sRGB, [0,255]
+
+// How wide a text is and how it is set. Letters are strokes (apps/report/stroke_font.jhf); what is not ASCII is drawn as '?'.
+struct TextStyle {
+    double size = 13.0;    // px of the em
+    double anchor = 0.0;   // 0 starts at the place, 0.5 is centred on it, 1 ends there
+    double turn_deg = 0.0; // clockwise, about the place
+    bool bold = false, slanted = false;
+    double halo = 0.0; // px of paper around the letters, so that what they cross does not run through them
+};
+
+class Canvas {
+  public:
+    Canvas(int width, int height, const Paint& paper);
+    void stroke(const Points& line, double width, const Paint& paint, double opacity = 1.0); // round ends and corners
+    void dash(const Points& line, double width, double on, double off, const Paint& paint, double opacity = 1.0);
+    void fill(const Points& outline, const Paint& paint);                                               // closed, even-odd
+    void text(double x, double y, const std::string& text, const TextStyle& style, const Paint& paint); // y: of the baseline
+    Image image() const;                                                                                // u8 sRGB
+
+  private:
+    struct Box {
+        int x0, y0, x1, y1; // [x0, x1) x [y0, y1)
+    };
+    Box box_of(const Points& points, double margin) const;
+    void blend(const Box& box, const std::vector<float>& cover, const Paint& paint, double opacity);
+    void strokes(const std::vector<Points>& lines, double width, const Paint& paint, double opacity); // one layer: crossings do not add up
+
+    int width_, height_;
+    Paint paper_;
+    std::vector<float> pixels_; // RGB
+};
+
+double text_width(const std::string& text, double size); // px
+
+} // namespace burnish

@@ -1,0 +1,268 @@
+#include "apps/report/page.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/core.h>
+
+#include "apps/render/stats.h"
+#include "apps/report/assets.h"
+#include "apps/report/html.h"
+#include "apps/report/json.h"
+#include "apps/report/pictures.h"
+#include "apps/report/plots.h"
+#include "apps/report/png.h"
+#include "apps/report/svg.h"
+
+namespace burnish {
+namespace {
+
+struct PlaceRows { // one scene, environment and cell
+    Cell cell;
+    RowList rows;
+    const ChartReference* reference;
+};
+
+struct PairRows { // one scene and environment
+    std::string scene, env;
+    RowList rows;
+    std::vector<PlaceRows> places;
+};
+
+std::vector<PairRows> group(const ChartReport& report)
+{
+    std::vector<PairRows> pairs;
+    for (const ChartRow& row : report.rows) {
+        if (pairs.empty() || pairs.back().scene != row.scene || pairs.back().env != row.env)
+            pairs.push_back({row.scene, row.env, {}, {}});
+        PairRows& pair = pairs.back();
+        if (pair.places.empty() || pair.places.back().cell != row.cell)
+            pair.places.push_back({row.cell, {}, &report.references.at(place(row))});
+        pair.rows.push_back(&row);
+        pair.places.back().rows.push_back(&row);
+    }
+    return pairs;
+}
+
+struct Figure {
+    std::string name, caption; // name: of the file
+    std::string wide, narrow;
+};
+
+std::vector<Figure> figures_of(const RowList& rows)
+{
+    std::vector<Figure> figures = {
+        {"time-flip",
+         "Time against error: lower left is better. Filled marks are on the Pareto front: nothing else is both faster and "
+         "more accurate. The thin line to the right of a mark ends at the 95th percentile of its times.",
+         plot_time_flip(rows, Layout::wide), plot_time_flip(rows, Layout::narrow)},
+        {"samples-flip", "Error by number of samples. Broken lines: techniques that take none.",
+         plot_samples(rows, Quantity::flip, Layout::wide), plot_samples(rows, Quantity::flip, Layout::narrow)},
+        {"samples-time", "Time by number of samples.", plot_samples(rows, Quantity::time, Layout::wide),
+         plot_samples(rows, Quantity::time, Layout::narrow)}};
+    std::erase_if(figures, [](const Figure& f) { return f.wide.empty(); });
+    return figures;
+}
+
+std::string charts_html(const RowList& rows)
+{
+    std::string out = "<div class=\"charts\">\n";
+    for (const Figure& figure : figures_of(rows))
+        out += fmt::format("<figure><figcaption>{}</figcaption>\n{}{}</figure>\n", figure.caption, figure.wide, figure.narrow);
+    return out + "</div>\n";
+}
+
+std::string heats_html(const RowList& rows)
+{
+    std::string maps, differences;
+    for (const std::string& technique : techniques_of(rows)) {
+        maps += plot_heat(rows, technique, false);
+        differences += plot_heat(rows, technique, true);
+    }
+    std::string out;
+    if (!maps.empty())
+        out += "<h3>Error over roughness and anisotropy</h3>\n<p>Mean FLIP, one scale for all maps; of the numbers of samples, the one "
+               "nearest "
+               "to the technique's own.</p>\n<div class=\"heats\">\n" +
+               maps + "</div>\n";
+    if (!differences.empty())
+        out += "<h3>Difference to bent_normal</h3>\n<p>Mean FLIP minus that of bent_normal: blue is better, orange is worse.</p>\n"
+               "<div class=\"heats\">\n" +
+               differences + "</div>\n";
+    return out;
+}
+
+std::string setting_text(const ChartRow& row)
+{
+    return row.setting.sampled ? fmt::format("{} sample{}", row.setting.samples, row.setting.samples == 1 ? "" : "s") : "one fetch";
+}
+
+std::string table_html(const RowList& rows)
+{
+    std::string out =
+        "<details><summary>All figures</summary><div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"All figures\"><table>\n"
+        "<tr><th scope=\"col\">technique</th><th scope=\"col\">samples</th><th scope=\"col\">surfaces</th>"
+        "<th scope=\"col\">ms, median</th><th scope=\"col\">ms, p95</th><th scope=\"col\">CPU ms</th><th scope=\"col\">FLIP, mean</th>"
+        "<th scope=\"col\">FLIP, p99</th><th scope=\"col\">relative MSE</th><th scope=\"col\">largest error</th>"
+        "<th scope=\"col\">NaN pixels</th><th scope=\"col\">Pareto</th></tr>\n";
+    for (const ChartRow* row : rows) {
+        const RowErrors& e = row->measured.errors;
+        out += fmt::format(
+            "<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td>"
+            "<td>{}</td><td>{}</td></tr>\n",
+            escaped(row->setting.technique), row->setting.sampled ? std::to_string(row->setting.samples) : "", escaped(describe(row->cell)),
+            number(ms_of(*row)), number(p95_of(*row)), number(median(row->measured.cpu_ms)), number(e.flip_mean), number(e.flip_p99),
+            number(e.rel_mse), number(e.max_abs), e.nan_pixels, row->pareto ? "yes" : "");
+    }
+    return out + "</table></div></details>\n";
+}
+
+// What of an error may be the reference's.
+std::string noise_html(const ReferenceNoise& noise)
+{
+    if (!std::isfinite(noise.flip))
+        return fmt::format("<p>The reference has {} samples a pixel, too few to tell its noise.</p>\n", noise.samples);
+    return fmt::format(
+        "<p>The reference has {} samples a pixel: 95 % of its pixels' means are within {:.2g} % of the truth, on average over the "
+        "picture. Its noise alone makes a mean FLIP of about {}: errors of that size are the reference's own.</p>\n",
+        noise.samples, 100.0 * noise.relative_error, number(noise.flip));
+}
+
+std::string pair_html(const PairRows& pair, std::size_t& place_number)
+{
+    std::string out = fmt::format("<section class=\"pair\">\n<h2>{} under {}</h2>\n", escaped(pair.scene), escaped(pair.env));
+    if (pair.places.size() > 1) {
+        out += "<p><label>Surfaces: <select class=\"cells\">";
+        for (const PlaceRows& place : pair.places)
+            out += fmt::format("<option>{}</option>", escaped(describe(place.cell)));
+        out += "</select></label></p>\n";
+    }
+    for (const PlaceRows& place : pair.places) {
+        out += fmt::format("<div class=\"place\" data-place=\"{}\"{}>\n", place_number++, &place == &pair.places.front() ? "" : " hidden");
+        out += noise_html(place.reference->noise);
+        out += charts_html(place.rows);
+        out += "<h3>Pictures</h3>\n<p>In a picture: <kbd>+</kbd> <kbd>-</kbd> or a double click zoom, dragging or arrow keys move, "
+               "<kbd>F</kbd> "
+               "flickers, <kbd>S</kbd> <kbd>T</kbd> <kbd>R</kbd> <kbd>E</kbd> choose what is shown. All pictures follow.</p>\n"
+               "<div class=\"wall\"></div>\n</div>\n";
+    }
+    return out + heats_html(pair.rows) + table_html(pair.rows) + "</section>\n";
+}
+
+Status add_row(const ChartRow& row, Json& rows)
+{
+    const Result<std::string> picture = data_uri(row.picture), error = data_uri(row.error_map);
+    for (const Result<std::string>* uri : {&picture, &error})
+        if (!*uri)
+            return uri->error();
+    rows[row.key] = {
+        {"technique", row.setting.technique},
+        {"setting", setting_text(row)},
+        {"text", describe(row)},
+        {"figures", fmt::format("{} ms, FLIP {}, p99 {}", number(ms_of(row)), number(flip_of(row)), number(row.measured.errors.flip_p99))},
+        {"picture", *picture},
+        {"error", *error}};
+    return {};
+}
+
+// What the script needs. "</" would end the element that it stands in.
+Result<std::string> data_json(const ChartReport& report, const std::vector<PairRows>& pairs)
+{
+    Json json = {{"width", report.error_width}, {"height", report.error_height}, {"places", Json::array()}, {"rows", Json::object()}};
+    for (const PairRows& pair : pairs)
+        for (const PlaceRows& place : pair.places) {
+            const Result<std::string> reference = data_uri(place.reference->picture);
+            if (!reference)
+                return reference.error();
+            Json keys = Json::array(), shown = Json::array();
+            for (const std::string& technique : techniques_of(place.rows)) {
+                std::vector<int> samples;
+                for (const ChartRow* row : place.rows)
+                    if (row->setting.technique == technique)
+                        samples.push_back(row->setting.samples);
+                for (const ChartRow* row : place.rows)
+                    if (row->setting.technique == technique && row->setting.samples == representative_samples(technique, samples))
+                        shown.push_back(row->key);
+            }
+            for (const ChartRow* row : place.rows) {
+                keys.push_back(row->key);
+                if (const Status added = add_row(*row, json["rows"]); !added)
+                    return added.error();
+            }
+            json["places"].push_back({{"reference", *reference}, {"rows", keys}, {"shown", shown}});
+        }
+    std::string text = json.dump(-1);
+    for (std::size_t at = text.find("</"); at != std::string::npos; at = text.find("</", at + 3))
+        text.replace(at, 2, "<\\/");
+    return text;
+}
+
+std::string heading(const ChartReport& report)
+{
+    const ChartMachine& m = report.machine;
+    return fmt::format(
+        "<h1>Speed against accuracy</h1>\n<p>Times are of frames of {} x {} pixels, {} samples a pixel: medians of {} interleaved frame{} "
+        "on {}, {}, {} thread{}; burnish {}. Errors are of pictures of {} x {} pixels: HDR-FLIP of linear pixels against Monte Carlo "
+        "references of at least {} samples a pixel.</p>\n"
+        "<p>Point at a mark, or go to it with the Tab and arrow keys, to see its picture; Enter shows it among the pictures below.</p>\n"
+        "<noscript><p>The pictures need JavaScript; the charts and figures do not.</p></noscript>\n",
+        report.width, report.height, report.msaa, report.runs, report.runs == 1 ? "" : "s", escaped(m.processor), escaped(m.isa), m.threads,
+        m.threads == 1 ? "" : "s", escaped(m.version), report.error_width, report.error_height, report.reference_samples);
+}
+
+std::string with_style(std::string svg)
+{
+    return svg.insert(svg.find('>') + 1, fmt::format("\n<style>{}</style>", escaped(kChartMarksStyle)));
+}
+
+} // namespace
+
+Result<std::vector<ReportFile>> chart_files(const ChartReport& report)
+{
+    std::vector<std::pair<std::string, std::string>> charts; // name and SVG
+    std::size_t number_of_place = 0, number_of_pair = 0;
+    for (const PairRows& pair : group(report)) {
+        for (const PlaceRows& place : pair.places) {
+            ++number_of_place;
+            for (const Figure& figure : figures_of(place.rows))
+                charts.emplace_back(fmt::format("{}-{}", figure.name, number_of_place), figure.wide);
+        }
+        ++number_of_pair;
+        for (const std::string& technique : techniques_of(pair.rows))
+            for (const bool difference : {false, true})
+                if (const std::string svg = plot_heat(pair.rows, technique, difference); !svg.empty())
+                    charts.emplace_back(fmt::format("heat-{}{}-{}", technique, difference ? "-difference" : "", number_of_pair), svg);
+    }
+    std::vector<ReportFile> files;
+    for (const auto& [name, svg] : charts) {
+        Result<std::string> png = chart_png(svg);
+        if (!png)
+            return png.error();
+        files.push_back({name + ".svg", with_style(svg)});
+        files.push_back({name + ".png", std::move(*png)});
+    }
+    return files;
+}
+
+Result<std::string> chart_page(const ChartReport& report)
+{
+    const std::vector<PairRows> pairs = group(report);
+    const Result<std::string> data = data_json(report, pairs);
+    if (!data)
+        return data.error();
+    std::string page = fmt::format("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+                                   "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
+                                   "<title>Speed against accuracy</title>\n<link rel=\"icon\" href=\"data:,\">\n"
+                                   "<style>\n{}{}</style>\n</head>\n<body>\n<main>\n",
+                                   kChartPageStyle, kChartMarksStyle);
+    page += heading(report);
+    std::size_t place_number = 0;
+    for (const PairRows& pair : pairs)
+        page += pair_html(pair, place_number);
+    page +=
+        fmt::format("</main>\n<div id=\"tip\" role=\"tooltip\" hidden></div>\n<script type=\"application/json\" id=\"data\">{}</script>\n"
+                    "<script>\n{}</script>\n</body>\n</html>\n",
+                    *data, kChartPageScript);
+    return page;
+}
+
+} // namespace burnish

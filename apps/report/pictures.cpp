@@ -1,0 +1,67 @@
+#include "apps/report/pictures.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "apps/report/html.h"
+#include "core/base/file.h"
+
+namespace burnish {
+namespace {
+
+constexpr std::uint64_t kMaxPictureBytes = 64ull << 20;
+
+struct Tap {
+    int at = 0;
+    float weight = 0.0f;
+};
+
+// By output pixel: the input pixels that it covers and how much of each; the weights sum to 1.
+std::vector<std::vector<Tap>> taps(int from, int to)
+{
+    std::vector<std::vector<Tap>> out(static_cast<std::size_t>(to));
+    const double step = static_cast<double>(from) / to;
+    for (int i = 0; i < to; ++i) {
+        const double low = i * step, high = (i + 1) * step;
+        for (int k = static_cast<int>(low); k < from && k < high; ++k) {
+            const double part = std::min<double>(high, k + 1) - std::max<double>(low, k);
+            if (part > 0.0)
+                out[static_cast<std::size_t>(i)].push_back({k, static_cast<float>(part / step)});
+        }
+    }
+    return out;
+}
+
+} // namespace
+
+Image shrink(const Image& image, int width)
+{
+    if (image.width <= width)
+        return image;
+    const int height = std::max(1, static_cast<int>(static_cast<double>(image.height) * width / image.width + 0.5));
+    Image out = make_image(width, height, image.channels, PixelType::f32);
+    const auto columns = taps(image.width, width), rows = taps(image.height, height);
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x)
+            for (const Tap& row : rows[static_cast<std::size_t>(y)])
+                for (const Tap& column : columns[static_cast<std::size_t>(x)])
+                    for (int c = 0; c < image.channels; ++c)
+                        out.f32()[(y * width + x) * image.channels + c] +=
+                            row.weight * column.weight * image.f32()[(row.at * image.width + column.at) * image.channels + c];
+    return out;
+}
+
+int picture_width(std::size_t rows)
+{
+    return rows <= 100 ? 480 : rows <= 250 ? 320 : rows <= 600 ? 200 : 120;
+}
+
+Result<std::string> data_uri(const std::string& jpeg_file)
+{
+    const Result<std::vector<std::uint8_t>> bytes = read_file(jpeg_file, kMaxPictureBytes);
+    if (!bytes)
+        return bytes.error();
+    return "data:image/jpeg;base64," + base64(std::string(bytes->begin(), bytes->end()));
+}
+
+} // namespace burnish

@@ -1,0 +1,270 @@
+#include "apps/report/plots.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/core.h>
+
+#include "apps/report/labels.h"
+#include "apps/report/svg.h"
+#include "raster/frame/frame.h"
+
+namespace burnish {
+namespace {
+
+constexpr double kRadius = 5.0; // of marks, px
+
+struct Point {
+    double x = 0.0, y = 0.0, x_p95 = 0.0; // values; x_p95: above 0: a whisker from x
+    const ChartRow* row = nullptr;
+};
+
+struct Curve {
+    std::string technique;
+    std::vector<Point> points;
+    bool level = false; // one value for every x
+};
+
+struct Plot {
+    std::string name, x_title, y_title;
+    std::vector<Curve> curves;
+    bool front = false;    // draw the Pareto front; marks beside it are hollow
+    bool doubling = false; // x counts in powers of two
+};
+
+struct PlotArea { // where a plot's axes lie
+    double width, height, left, right, top, bottom;
+    Axis x, y;
+};
+
+std::string mark_class(const std::string& technique)
+{
+    return fmt::format("c{}", mark_of(technique).colour);
+}
+
+// Logarithms want positive values: an exact technique is drawn at the lower edge.
+double positive(double value, double least)
+{
+    return std::max(value, least);
+}
+
+PlotArea frame_of(Plot& plot, Layout layout)
+{
+    const bool wide = layout == Layout::wide;
+    double least_x = 1e300, least_y = 1e300, most_x = 0.0, most_y = 0.0;
+    for (const Curve& curve : plot.curves)
+        for (const Point& p : curve.points) {
+            if (p.y > 0.0)
+                least_y = std::min(least_y, p.y);
+            most_y = std::max(most_y, p.y);
+            if (curve.level)
+                continue;
+            least_x = std::min(least_x, p.x);
+            most_x = std::max({most_x, p.x, p.x_p95});
+        }
+    if (least_y > most_y)
+        least_y = 1e-6, most_y = 1.0;
+    if (least_x > most_x)
+        least_x = most_x = 1.0;
+    for (Curve& curve : plot.curves)
+        for (Point& p : curve.points)
+            p.y = positive(p.y, least_y / 2.0);
+    const double names = wide ? 0.0 : 20.0 * static_cast<double>((plot.curves.size() + 1) / 2) + 8.0;
+    PlotArea f{wide ? 650.0 : 380.0, wide ? 430.0 : 330.0 + names, 62.0, wide ? 496.0 : 368.0, 14.0, wide ? 378.0 : 276.0, {}, {}};
+    f.x = log_axis(least_x, most_x, f.left, f.right);
+    f.y = log_axis(least_y, most_y, f.bottom, f.top);
+    return f;
+}
+
+void draw_axes(Svg& svg, const Plot& plot, const PlotArea& f, Layout layout)
+{
+    const bool wide = layout == Layout::wide;
+    for (const double value : plot.doubling ? doubling_ticks(f.x, wide ? 12 : 8) : log_ticks(f.x, wide ? 9 : 6)) {
+        svg.line(f.x.at(value), f.top, f.x.at(value), f.bottom, "grid");
+        svg.text(f.x.at(value), f.bottom + 18.0, "tick middle", number(value));
+    }
+    for (const double value : log_ticks(f.y, wide ? 9 : 7)) {
+        svg.line(f.left, f.y.at(value), f.right, f.y.at(value), "grid");
+        svg.text(f.left - 7.0, f.y.at(value) + 4.5, "tick end", number(value));
+    }
+    svg.text((f.left + f.right) / 2.0, f.bottom + 40.0, "title middle", plot.x_title);
+    svg.text(14.0, (f.top + f.bottom) / 2.0, "title middle", plot.y_title, -90.0);
+}
+
+void draw_front(Svg& svg, const Plot& plot, const PlotArea& f)
+{
+    std::vector<std::pair<double, double>> front;
+    for (const Curve& curve : plot.curves)
+        for (const Point& p : curve.points)
+            if (p.row->pareto)
+                front.emplace_back(p.x, p.y);
+    std::sort(front.begin(), front.end());
+    std::vector<std::pair<double, double>> steps;
+    for (const auto& [x, y] : front) {
+        if (!steps.empty())
+            steps.emplace_back(f.x.at(x), steps.back().second);
+        steps.emplace_back(f.x.at(x), f.y.at(y));
+    }
+    if (steps.empty())
+        return;
+    steps.emplace_back(f.right, steps.back().second);
+    svg.path(steps, "front");
+    svg.text(f.right - 4.0, steps.back().second + 16.0, "note end", "Pareto front");
+}
+
+void draw_point(Svg& svg, const PlotArea& f, const Point& p, const std::string& technique, bool filled)
+{
+    const double x = f.x.at(p.x), y = f.y.at(p.y);
+    svg.open("g", {{"class", fmt::format("point {}{}", mark_class(technique), filled ? " best" : "")},
+                   {"role", "img"},
+                   {"aria-label", describe(*p.row)},
+                   {"data-row", p.row->key}});
+    svg.title(describe(*p.row));
+    if (p.x_p95 > p.x)
+        svg.line(x, y, f.x.at(p.x_p95), y, "whisker");
+    svg.leaf("circle", {{"cx", fmt::format("{:.2f}", x)}, {"cy", fmt::format("{:.2f}", y)}, {"r", "11"}, {"class", "hit"}});
+    svg.leaf("path", {{"d", shape_path(mark_of(technique).shape, x, y, kRadius)}, {"class", "mark"}});
+    svg.close();
+}
+
+void draw_names_below(Svg& svg, const Plot& plot, const PlotArea& f)
+{
+    for (std::size_t i = 0; i < plot.curves.size(); ++i) {
+        const std::string& name = plot.curves[i].technique;
+        const double x = i % 2 ? f.width / 2.0 + 6.0 : 12.0, y = f.bottom + 66.0 + 20.0 * static_cast<double>(i / 2);
+        svg.open("g", {{"class", "point best " + mark_class(name)}});
+        svg.leaf("path", {{"d", shape_path(mark_of(name).shape, x, y - 4.5, kRadius)}, {"class", "mark"}});
+        svg.close();
+        svg.text(x + 11.0, y, "name", name);
+    }
+}
+
+void draw_names_beside(Svg& svg, const Plot& plot, const PlotArea& f)
+{
+    LabelPlacer placer(f.left, f.top, f.width - 2.0, f.bottom);
+    for (const Curve& curve : plot.curves)
+        for (const Point& p : curve.points)
+            if (!curve.level)
+                placer.add_mark(f.x.at(p.x), f.y.at(p.y));
+    for (const Curve& curve : plot.curves) {
+        std::vector<std::pair<double, double>> at;
+        for (const Point& p : curve.points)
+            at.emplace_back(curve.level ? f.right : f.x.at(p.x), f.y.at(p.y));
+        if (at.empty())
+            continue;
+        const PlacedLabel label = placer.place(curve.technique, at);
+        svg.text(label.x, label.y, "name " + mark_class(curve.technique) + (label.end ? " end" : ""), curve.technique);
+    }
+}
+
+std::string draw(Plot plot, Layout layout)
+{
+    const PlotArea f = frame_of(plot, layout);
+    Svg svg(f.width, f.height, layout == Layout::wide ? "chart wide" : "chart narrow", plot.name);
+    draw_axes(svg, plot, f, layout);
+    if (plot.front)
+        draw_front(svg, plot, f);
+    for (const Curve& curve : plot.curves) {
+        std::vector<std::pair<double, double>> line;
+        for (const Point& p : curve.points)
+            line.emplace_back(f.x.at(p.x), f.y.at(p.y));
+        if (curve.level && !curve.points.empty())
+            svg.line(f.left, f.y.at(curve.points[0].y), f.right, f.y.at(curve.points[0].y), "curve level " + mark_class(curve.technique));
+        else if (line.size() > 1)
+            svg.path(line, "curve " + mark_class(curve.technique));
+    }
+    // Marks over names over lines: a name's halo hides no mark.
+    if (layout == Layout::wide)
+        draw_names_beside(svg, plot, f);
+    else
+        draw_names_below(svg, plot, f);
+    for (const Curve& curve : plot.curves)
+        for (const Point& p : curve.points)
+            if (!curve.level)
+                draw_point(svg, f, p, curve.technique, p.row->pareto || !plot.front);
+    return svg.done();
+}
+
+RowList rows_of(const RowList& rows, const std::string& technique)
+{
+    RowList out;
+    for (const ChartRow* row : rows)
+        if (row->setting.technique == technique && std::isfinite(flip_of(*row)))
+            out.push_back(row);
+    return out;
+}
+
+} // namespace
+
+std::string describe(const ChartRow& row)
+{
+    const std::string samples =
+        row.setting.sampled ? fmt::format(", {} sample{}", row.setting.samples, row.setting.samples == 1 ? "" : "s") : "";
+    const std::string flip = std::isfinite(flip_of(row)) ? "FLIP " + number(flip_of(row))
+                                                         : fmt::format("{} pixels are NaN or Inf", row.measured.errors.nan_pixels);
+    return fmt::format("{}{}: {} ms, {}", row.setting.technique, samples, number(ms_of(row)), flip);
+}
+
+Mark mark_of(const std::string& technique)
+{
+    std::vector<std::string> families;
+    Mark mark;
+    for (const TechniqueInfo& known : techniques()) {
+        const std::string name = known.name;
+        std::size_t family = 0; // the first technique that this name begins with
+        while (family < families.size() && name.rfind(families[family], 0) != 0)
+            ++family;
+        if (family == families.size())
+            families.push_back(name);
+        if (name == technique) {
+            mark.colour = static_cast<int>(family);
+            return mark;
+        }
+        ++mark.shape;
+    }
+    return mark;
+}
+
+std::vector<std::string> techniques_of(const RowList& rows)
+{
+    std::vector<std::string> names;
+    for (const ChartRow* row : rows)
+        if (std::find(names.begin(), names.end(), row->setting.technique) == names.end())
+            names.push_back(row->setting.technique);
+    return names;
+}
+
+std::string plot_time_flip(const RowList& rows, Layout layout)
+{
+    Plot plot{"Time against error", "median time of a frame (ms)", "mean FLIP error", {}, true, false};
+    for (const std::string& technique : techniques_of(rows)) {
+        Curve curve{technique, {}, false};
+        for (const ChartRow* row : rows_of(rows, technique))
+            curve.points.push_back({ms_of(*row), flip_of(*row), p95_of(*row), row});
+        plot.curves.push_back(curve);
+    }
+    return draw(std::move(plot), layout);
+}
+
+std::string plot_samples(const RowList& rows, Quantity quantity, Layout layout)
+{
+    const bool flip = quantity == Quantity::flip;
+    Plot plot{flip ? "Error by number of samples" : "Time by number of samples",
+              "samples of a fragment's lobe",
+              flip ? "mean FLIP error" : "median time of a frame (ms)",
+              {},
+              false,
+              true};
+    bool any = false;
+    for (const std::string& technique : techniques_of(rows)) {
+        Curve curve{technique, {}, false};
+        for (const ChartRow* row : rows_of(rows, technique)) {
+            curve.level = !row->setting.sampled;
+            curve.points.push_back({static_cast<double>(row->setting.samples), flip ? flip_of(*row) : ms_of(*row), 0.0, row});
+        }
+        any = any || curve.points.size() > 1;
+        plot.curves.push_back(curve);
+    }
+    return any ? draw(std::move(plot), layout) : "";
+}
+
+} // namespace burnish

@@ -1,0 +1,84 @@
+#include "core/base/text.h"
+
+#include <cstdint>
+#include <cstdio>
+
+namespace burnish {
+namespace {
+
+struct Character {
+    std::uint32_t code = 0;
+    std::size_t bytes = 0; // 0: no UTF-8 (RFC 3629)
+};
+
+Character character_at(const std::string& text, std::size_t at)
+{
+    const auto byte = [&](std::size_t i) { return static_cast<std::uint32_t>(static_cast<unsigned char>(text[i])); };
+    const std::uint32_t first = byte(at);
+    if (first < 0x80)
+        return {first, 1};
+    const std::size_t bytes = first >= 0xC2 && first <= 0xDF   ? 2
+                              : first >= 0xE0 && first <= 0xEF ? 3
+                              : first >= 0xF0 && first <= 0xF4 ? 4
+                                                               : 0;
+    if (bytes == 0 || at + bytes > text.size())
+        return {};
+    std::uint32_t code = first & (0x7Fu >> bytes);
+    for (std::size_t i = 1; i < bytes; ++i) {
+        if ((byte(at + i) & 0xC0) != 0x80)
+            return {};
+        code = code << 6 | (byte(at + i) & 0x3F);
+    }
+    const std::uint32_t least = bytes == 2 ? 0x80 : bytes == 3 ? 0x800 : 0x10000;
+    if (code < least || code > 0x10FFFF || (code >= 0xD800 && code <= 0xDFFF))
+        return {};
+    return {code, bytes};
+}
+
+bool is_hidden(std::uint32_t code)
+{
+    const bool control = code < 0x20 || (code >= 0x7F && code < 0xA0) || code == 0x2028 || code == 0x2029;
+    const bool turns = (code >= 0x202A && code <= 0x202E) || (code >= 0x2066 && code <= 0x2069) || code == 0x200E || code == 0x200F;
+    return control || turns || code == 0xFEFF || code == 0xFFFE || code == 0xFFFF; // the last two are not XML
+}
+
+std::string shown(const std::string& text, bool keep_line_feeds)
+{
+    std::string out;
+    for (std::size_t at = 0; at < text.size();) {
+        const Character c = character_at(text, at);
+        const std::size_t bytes = c.bytes ? c.bytes : 1;
+        if (c.bytes && (!is_hidden(c.code) || (keep_line_feeds && c.code == '\n'))) {
+            out.append(text, at, bytes);
+        } else if (c.bytes && (c.code == '\n' || c.code == '\r' || c.code == '\t')) {
+            out += ' ';
+        } else {
+            for (std::size_t i = 0; i < bytes; ++i) {
+                char hex[5];
+                std::snprintf(hex, sizeof(hex), "\\x%02x", static_cast<unsigned>(static_cast<unsigned char>(text[at + i])));
+                out += hex;
+            }
+        }
+        at += bytes;
+    }
+    return out;
+}
+
+} // namespace
+
+std::string printable(const std::string& text, std::size_t most_bytes)
+{
+    if (text.size() <= most_bytes)
+        return shown(text, false);
+    std::size_t end = most_bytes; // no character is cut in two
+    while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80)
+        --end;
+    return shown(text.substr(0, end), false) + "...";
+}
+
+std::string printable_lines(const std::string& text)
+{
+    return shown(text, true);
+}
+
+} // namespace burnish

@@ -1,0 +1,289 @@
+#include "core/image/io/guard.h"
+
+#include <algorithm>
+#include <cstring>
+#include <optional>
+#include <string_view>
+
+#include <fmt/format.h>
+
+namespace burnish {
+namespace {
+
+// Decoding time of a progressive JPEG grows with its scans, whose number the file chooses; real files have
+// about ten.
+constexpr int kMaxJpegScans = 200;
+
+std::uint64_t big_endian(const std::uint8_t* at, int bytes)
+{
+    std::uint64_t value = 0;
+    for (int i = 0; i < bytes; ++i)
+        value = value << 8 | at[i];
+    return value;
+}
+
+std::uint64_t little_endian(const std::uint8_t* at, int bytes)
+{
+    std::uint64_t value = 0;
+    for (int i = bytes; i-- > 0;)
+        value = value << 8 | at[i];
+    return value;
+}
+
+bool starts_with(const ImageBytes& file, std::string_view magic, std::size_t offset = 0)
+{
+    return file.size >= offset + magic.size() && std::memcmp(file.data + offset, magic.data(), magic.size()) == 0;
+}
+
+Error too_short(const ImageBytes& file)
+{
+    return file.error(fmt::format("byte {}", file.size), "the file ends inside its header");
+}
+
+// One step through JPEG's markers (ITU T.81 annex B): the next marker at or after `at`, which is moved past
+// it.
+std::optional<std::uint8_t> next_jpeg_marker(const ImageBytes& file, std::size_t& at)
+{
+    while (at + 1 < file.size) {
+        const void* found = std::memchr(file.data + at, 0xFF, file.size - at - 1);
+        if (!found)
+            return std::nullopt;
+        at = static_cast<std::size_t>(static_cast<const std::uint8_t*>(found) - file.data);
+        const std::uint8_t marker = file.data[at + 1];
+        const bool restart = marker >= 0xD0 && marker <= 0xD7;
+        at += marker == 0xFF ? 1 : 2; // any number of FF may fill up
+        if (marker != 0xFF && marker != 0x00 && !restart)
+            return marker;
+    }
+    return std::nullopt;
+}
+
+Result<ImageProbe> probe_jpeg(const ImageBytes& file, const Limits& limits)
+{
+    bool framed = false;
+    int scans = 0;
+    for (std::size_t at = 2;;) {
+        const std::optional<std::uint8_t> marker = next_jpeg_marker(file, at);
+        if (!marker)
+            return file.error(fmt::format("byte {}", file.size), "the file ends before its end-of-image marker");
+        if (*marker == 0xD9 && framed && scans > 0)
+            return ImageProbe{"jpeg", 0, false, false, false, {}};
+        if (*marker == 0xD8 || *marker == 0xD9 || *marker == 0x01)
+            continue;
+        if (at + 2 > file.size)
+            return too_short(file);
+        const std::uint64_t length = big_endian(file.data + at, 2);
+        if (length < 2 || at + length > file.size)
+            return file.error(fmt::format("byte {}", at), fmt::format("a segment of {} bytes does not fit", length));
+        const bool frame = *marker >= 0xC0 && *marker <= 0xCF && *marker != 0xC4 && *marker != 0xC8 && *marker != 0xCC;
+        if (frame && length < 8)
+            return file.error(fmt::format("byte {}", at), "the frame header is too short");
+        if (frame) {
+            const std::int64_t height = static_cast<std::int64_t>(big_endian(file.data + at + 3, 2));
+            const std::int64_t width = static_cast<std::int64_t>(big_endian(file.data + at + 5, 2));
+            if (const Status sides = check_sides(file, width, height, limits); !sides)
+                return sides.error();
+            if (const Status fits = check_proportion(file, static_cast<std::uint64_t>(width), static_cast<std::uint64_t>(height), 3); !fits)
+                return fits.error();
+            framed = true;
+        }
+        if (*marker == 0xDA && ++scans > kMaxJpegScans)
+            return file.error(fmt::format("byte {}", at), fmt::format("more than {} scans", kMaxJpegScans));
+        at += length;
+    }
+}
+
+// WebP (RFC 9649): the canvas of VP8X, or the frame of a simple file.
+Result<ImageProbe> probe_webp(const ImageBytes& file, const Limits& limits)
+{
+    if (file.size < 30)
+        return too_short(file);
+    if (little_endian(file.data + 4, 4) + 8 > file.size)
+        return file.error("byte 4", fmt::format("the file says {} bytes and has {}", little_endian(file.data + 4, 4) + 8, file.size));
+    std::uint64_t width = 0, height = 0;
+    if (starts_with(file, "VP8X", 12)) {
+        width = little_endian(file.data + 24, 3) + 1;
+        height = little_endian(file.data + 27, 3) + 1;
+    } else if (starts_with(file, "VP8L", 12)) {
+        const std::uint64_t bits = little_endian(file.data + 21, 4);
+        width = (bits & 0x3FFF) + 1;
+        height = (bits >> 14 & 0x3FFF) + 1;
+    } else if (starts_with(file, "VP8 ", 12)) {
+        width = little_endian(file.data + 26, 2) & 0x3FFF;
+        height = little_endian(file.data + 28, 2) & 0x3FFF;
+    } else {
+        return file.error("byte 12", "a WebP file without an image chunk");
+    }
+    if (const Status sides = check_sides(file, static_cast<std::int64_t>(width), static_cast<std::int64_t>(height), limits); !sides)
+        return sides.error();
+    if (const Status fits = check_proportion(file, width, height, 4); !fits)
+        return fits.error();
+    return ImageProbe{"webp", 0, false, false, false, {}};
+}
+
+// An unsigned decimal at `at`, which is moved past it; nothing where there is none or it is absurd.
+std::optional<std::int64_t> read_decimal(const ImageBytes& file, std::size_t& at)
+{
+    std::int64_t value = 0;
+    const std::size_t begin = at;
+    for (; at < file.size && file.data[at] >= '0' && file.data[at] <= '9'; ++at) {
+        value = value * 10 + (file.data[at] - '0');
+        if (value > 1'000'000'000'000)
+            return std::nullopt;
+    }
+    return at == begin ? std::nullopt : std::optional(value);
+}
+
+// Radiance (Ward, "Real Pixels", 1991; the reference manual's "picture format"): text lines, an empty line,
+// then the resolution line, for instance "-Y 512 +X 1024": the first axis is that of the scanlines.
+Result<ImageProbe> probe_hdr(const ImageBytes& file, const Limits& limits)
+{
+    const std::string_view text(reinterpret_cast<const char*>(file.data), file.size);
+    const std::size_t gap = text.find("\n\n");
+    if (gap == std::string_view::npos)
+        return file.error(fmt::format("byte {}", file.size), "the Radiance header does not end");
+    if (text.substr(0, gap).find("FORMAT=32-bit_rle_xyze") != std::string_view::npos)
+        return file.error("header: FORMAT", "XYZE pixels are not supported, only RGBE");
+    std::size_t at = gap + 2;
+    std::int64_t sides[2] = {0, 0};
+    char axes[2] = {0, 0};
+    bool negative[2] = {false, false};
+    for (int i = 0; i < 2; ++i) {
+        const std::string place = fmt::format("byte {}", at);
+        if (at + 3 > file.size || (text[at] != '-' && text[at] != '+') || (text[at + 1] != 'X' && text[at + 1] != 'Y') ||
+            text[at + 2] != ' ')
+            return file.error(place, "a resolution line such as \"-Y 512 +X 1024\" should stand here");
+        negative[i] = text[at] == '-';
+        axes[i] = text[at + 1];
+        at += 3;
+        const std::optional<std::int64_t> side = read_decimal(file, at);
+        if (!side || at >= file.size || text[at] != (i == 0 ? ' ' : '\n'))
+            return file.error(place, "a resolution line such as \"-Y 512 +X 1024\" should stand here");
+        sides[i] = *side;
+        ++at;
+    }
+    if (axes[0] == axes[1])
+        return file.error("header: resolution", "the same axis twice");
+    const bool transpose = axes[0] == 'X';
+    const Status fits = check_sides(file, sides[transpose ? 0 : 1], sides[transpose ? 1 : 0], limits);
+    if (!fits)
+        return fits.error();
+    // A run-length packet of 2 bytes holds at most 127 values, and a plain pixel takes 4 bytes.
+    if (static_cast<std::uint64_t>(sides[0]) * static_cast<std::uint64_t>(sides[1]) * 8 / 127 > file.size)
+        return file.error(fmt::format("header: {} x {} pixels", sides[1], sides[0]),
+                          fmt::format("{} bytes cannot hold that many pixels", file.size));
+    // Y points up and X to the right: "-Y" scanlines go down from the top.
+    const int x = transpose ? 0 : 1;
+    return ImageProbe{"hdr", 0, transpose, negative[x], !negative[1 - x], {}};
+}
+
+// Netpbm and PFM: magic, then width and height as text among white space and # comments.
+Result<ImageProbe> probe_pnm(const ImageBytes& file, const Limits& limits)
+{
+    std::size_t at = 2;
+    std::int64_t sides[2] = {0, 0};
+    for (std::int64_t& side : sides) {
+        bool comment = false;
+        for (; at < file.size; ++at) {
+            const char c = static_cast<char>(file.data[at]);
+            if (c == '#')
+                comment = true;
+            if (!comment && std::strchr(" \t\r\n", c) == nullptr)
+                break;
+            if (c == '\n')
+                comment = false;
+        }
+        const std::optional<std::int64_t> read = read_decimal(file, at);
+        if (!read)
+            return file.error(fmt::format("byte {}", at), "a width or height should stand here");
+        side = *read;
+    }
+    if (const Status fits = check_sides(file, sides[0], sides[1], limits); !fits)
+        return fits.error();
+    const std::uint64_t pixels = static_cast<std::uint64_t>(sides[0]) * static_cast<std::uint64_t>(sides[1]);
+    if (pixels / 8 > file.size) // one bit a pixel at least
+        return file.error(fmt::format("header: {} x {} pixels", sides[0], sides[1]),
+                          fmt::format("{} bytes cannot hold that many pixels", file.size));
+    return ImageProbe{"pnm", 0, false, false, false, {}};
+}
+
+Result<ImageProbe> probe_bmp(const ImageBytes& file, const Limits& limits)
+{
+    if (file.size < 30)
+        return too_short(file);
+    const bool core = little_endian(file.data + 14, 4) == 12; // OS/2 headers have 16-bit sides
+    const int bytes = core ? 2 : 4;
+    const auto side = [&](std::size_t at) {
+        const std::int64_t value = static_cast<std::int64_t>(little_endian(file.data + at, bytes));
+        return core || value < 0x80000000ll ? value : 0x100000000ll - value; // negative height: top row first
+    };
+    const std::int64_t width = side(18), height = side(core ? 20 : 22);
+    if (const Status fits = check_sides(file, width, height, limits); !fits)
+        return fits.error();
+    const std::uint64_t pixels = static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
+    const std::uint64_t bits = little_endian(file.data + (core ? 24 : 28), 2);
+    const std::uint64_t method = core || file.size < 34 ? 0 : little_endian(file.data + 30, 4);
+    const bool runs = method == 1 || method == 2; // of 4 and 8 bits; what they leave out is zero
+    if (!runs && pixels / 8 * bits > file.size)
+        return file.error(fmt::format("header: {} x {} pixels", width, height),
+                          fmt::format("{} bytes cannot hold that many pixels", file.size));
+    if (const Status fits = check_proportion(file, static_cast<std::uint64_t>(width), static_cast<std::uint64_t>(height), 4); !fits)
+        return fits.error();
+    return ImageProbe{"bmp", 0, false, false, false, {}};
+}
+
+bool is_pnm(const ImageBytes& file)
+{
+    return file.size > 3 && file.data[0] == 'P' && std::strchr("123456Ff", file.data[1]) && file.data[1] &&
+           std::strchr(" \t\r\n#", file.data[2]) && file.data[2];
+}
+
+} // namespace
+
+Status check_sides(const ImageBytes& file, std::int64_t width, std::int64_t height, const Limits& limits)
+{
+    if (width < 1 || height < 1)
+        return file.error(fmt::format("header: {} x {} pixels", width, height), "an image needs at least one pixel");
+    const bool wide = width > limits.image_side;
+    if (wide || height > limits.image_side)
+        return file.error(fmt::format("header: {} {}", wide ? "width" : "height", wide ? width : height),
+                          fmt::format("more than the limit of {} pixels a side", limits.image_side));
+    if (static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height) > limits.image_pixels)
+        return file.error(fmt::format("header: {} x {} pixels", width, height),
+                          fmt::format("more than the limit of {} pixels (of an environment: --limit-env-pixels)", limits.image_pixels));
+    return {};
+}
+
+// Formats that store runs and repeats in next to nothing: real pictures stay far below 4096 to 1, and what is small may be anything.
+Status check_proportion(const ImageBytes& file, std::uint64_t width, std::uint64_t height, std::uint64_t pixel_bytes)
+{
+    constexpr std::uint64_t kFreeBytes = 64ull << 20, kBest = 4096;
+    const std::uint64_t bytes = width * height * pixel_bytes;
+    if (bytes <= kFreeBytes || bytes / kBest <= file.size)
+        return {};
+    return file.error(fmt::format("header: {} x {} pixels", width, height),
+                      fmt::format("{} bytes cannot hold that many pixels", file.size));
+}
+
+Result<ImageProbe> probe_image(const ImageBytes& file, const Limits& limits)
+{
+    if (starts_with(file, "\x89PNG\r\n\x1a\n"))
+        return probe_png(file, limits);
+    if (starts_with(file, "\xFF\xD8\xFF"))
+        return probe_jpeg(file, limits);
+    if (starts_with(file, "RIFF") && starts_with(file, "WEBP", 8))
+        return probe_webp(file, limits);
+    if (starts_with(file, "\x76\x2f\x31\x01"))
+        return probe_exr(file, limits);
+    if (starts_with(file, "#?RADIANCE\n") || starts_with(file, "#?RGBE\n"))
+        return probe_hdr(file, limits);
+    if (starts_with(file, std::string_view("II*\0", 4)) || starts_with(file, std::string_view("MM\0*", 4)))
+        return probe_tiff(file, limits);
+    if (is_pnm(file))
+        return probe_pnm(file, limits);
+    if (starts_with(file, "BM"))
+        return probe_bmp(file, limits);
+    return file.error("byte 0", "not an image of a known format (PNG, JPEG, WebP, OpenEXR, Radiance, TIFF, PNM, BMP)");
+}
+
+} // namespace burnish

@@ -1,0 +1,192 @@
+// Reading: the bytes are loaded, guarded by our own look at the header, and decoded by the image library from
+// memory.
+#include "core/image/io/image_io.h"
+
+#include <algorithm>
+#include <cstring>
+#include <exception>
+
+#include <fmt/format.h>
+
+#include "core/base/file.h"
+#include "core/image/io/guard.h"
+#include "core/image/io/image_library.h"
+
+namespace burnish {
+namespace {
+
+constexpr int kMaxChannels = 1024;
+
+// The wanted channels of a file, as indices into the file's channels; count 0 where there are none.
+struct Selection {
+    int count = 0;
+    int channels[4] = {0, 0, 0, 0};
+    int first() const { return *std::min_element(channels, channels + count); }
+    int end() const { return *std::max_element(channels, channels + count) + 1; }
+};
+
+int find_channel(const StoredHeader& header, const char* name)
+{
+    const auto found = std::find(header.channel_names.begin(), header.channel_names.end(), name);
+    return found == header.channel_names.end() ? -1 : static_cast<int>(found - header.channel_names.begin());
+}
+
+Selection take(std::initializer_list<int> channels)
+{
+    Selection s;
+    for (int c : channels)
+        if (c >= 0)
+            s.channels[s.count++] = c;
+    return s;
+}
+
+Selection select_channels(const StoredHeader& header)
+{
+    const int r = find_channel(header, "R"), g = find_channel(header, "G"), b = find_channel(header, "B");
+    const int y = find_channel(header, "Y"), a = find_channel(header, "A");
+    if (r >= 0 && g >= 0 && b >= 0)
+        return take({r, g, b, a});
+    if (y >= 0)
+        return take({y, a});
+    Selection s;
+    s.count = header.channels <= 4 ? header.channels : 3;
+    for (int c = 0; c < s.count; ++c)
+        s.channels[c] = c;
+    return s;
+}
+
+// Keeps the selected ones of `stride` interleaved channels; `first` is the file's channel that comes first in
+// `from`.
+Image pick_channels(Image&& from, const Selection& selection, int first)
+{
+    bool all = selection.count == from.channels;
+    for (int c = 0; c < selection.count; ++c)
+        all = all && selection.channels[c] == first + c;
+    if (all)
+        return std::move(from);
+    Image to = make_image(from.width, from.height, selection.count, from.type);
+    const std::size_t sample = pixel_type_bytes(from.type);
+    const std::size_t stride = sample * static_cast<std::size_t>(from.channels);
+    std::byte* out = to.bytes.data();
+    for (const std::byte* in = from.bytes.data(); in != from.bytes.data() + from.bytes.size(); in += stride)
+        for (int c = 0; c < selection.count; ++c, out += sample)
+            std::memcpy(out, in + sample * static_cast<std::size_t>(selection.channels[c] - first), sample);
+    return to;
+}
+
+// Copies the data window into an image of the display window; outside it is zero.
+Image place_in_display(Image&& data, const StoredHeader& header)
+{
+    if (header.x == header.full_x && header.y == header.full_y && header.width == header.full_width && header.height == header.full_height)
+        return std::move(data);
+    Image display = make_image(header.full_width, header.full_height, data.channels, data.type);
+    const std::size_t pixel = pixel_type_bytes(data.type) * static_cast<std::size_t>(data.channels);
+    const int x0 = std::max(header.x, header.full_x);
+    const int x1 = std::min(header.x + header.width, header.full_x + header.full_width);
+    const int y0 = std::max(header.y, header.full_y);
+    const int y1 = std::min(header.y + header.height, header.full_y + header.full_height);
+    const auto offset = [&](int x, int y, int width) {
+        return (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)) * pixel;
+    };
+    for (int y = y0; y < y1 && x0 < x1; ++y)
+        std::memcpy(display.bytes.data() + offset(x0 - header.full_x, y - header.full_y, header.full_width),
+                    data.bytes.data() + offset(x0 - header.x, y - header.y, header.width), static_cast<std::size_t>(x1 - x0) * pixel);
+    return display;
+}
+
+// Puts the scanlines of a Radiance file in order. `stored` has the file's first axis as rows.
+Image orient(Image&& stored, const ImageProbe& probe)
+{
+    if (!probe.transpose && !probe.flip_x && !probe.flip_y)
+        return std::move(stored);
+    const int width = probe.transpose ? stored.height : stored.width;
+    const int height = probe.transpose ? stored.width : stored.height;
+    Image out = make_image(width, height, stored.channels, stored.type);
+    const std::size_t pixel = pixel_type_bytes(stored.type) * static_cast<std::size_t>(stored.channels);
+    std::byte* to = out.bytes.data();
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x, to += pixel) {
+            const std::size_t from_x = static_cast<std::size_t>(probe.flip_x ? width - 1 - x : x);
+            const std::size_t from_y = static_cast<std::size_t>(probe.flip_y ? height - 1 - y : y);
+            const std::size_t row = probe.transpose ? from_x : from_y;
+            const std::size_t column = probe.transpose ? from_y : from_x;
+            std::memcpy(to, stored.bytes.data() + (row * static_cast<std::size_t>(stored.width) + column) * pixel, pixel);
+        }
+    return out;
+}
+
+// What the library made of the header must fit the limits too.
+Status check_header(const ImageBytes& file, const StoredHeader& header, const Limits& limits)
+{
+    if (header.deep)
+        return file.error("header", "deep images are not supported");
+    if (header.depth > 1)
+        return file.error("header", "volume images are not supported");
+    if (header.channels < 1 || header.channels > kMaxChannels)
+        return file.error("header", fmt::format("{} channels", header.channels));
+    return check_sides(file, header.width, header.height, limits);
+}
+
+Result<Image> decode(const ImageBytes& file, const ImageProbe& probe, const Limits& limits)
+{
+    const Result<const ImageLibrary*> library = image_library(file.label);
+    if (!library)
+        return library.error();
+    StoredHeader header;
+    Selection selection;
+    Image image;
+    const auto place = [&](const StoredHeader& found) -> Result<PixelRequest> {
+        if (const Status status = check_header(file, found, limits); !status)
+            return status.error();
+        header = found;
+        selection = select_channels(header);
+        const int first = selection.first();
+        const int end = selection.end();
+        const std::uint64_t bytes = static_cast<std::uint64_t>(header.width) * static_cast<std::uint64_t>(header.height) *
+                                    static_cast<std::uint64_t>(end - first) * pixel_type_bytes(header.type);
+        if (bytes > limits.texture_bytes)
+            return file.error(fmt::format("header: {} x {} pixels", header.width, header.height),
+                              fmt::format("{} bytes of pixels are more than the limit of {}", bytes, limits.texture_bytes));
+        image = make_image(header.width, header.height, end - first, header.type);
+        return PixelRequest{first, end, image.bytes.data()};
+    };
+    if (const Status status = (*library)->read(file, probe, place); !status)
+        return status.error();
+    image = pick_channels(std::move(image), selection, selection.first());
+    // Only OpenEXR's windows mean what ours do: other formats' offsets are page layout.
+    if (std::strcmp(probe.format, "openexr") == 0)
+        image = place_in_display(std::move(image), header);
+    return orient(std::move(image), probe);
+}
+
+} // namespace
+
+Result<Image> decode_image(const std::uint8_t* data, std::size_t size, const std::string& label, const Limits& limits)
+{
+    const ImageBytes file{data, size, label};
+    if (size == 0)
+        return file.error("", "the image is empty");
+    if (size > limits.file_bytes)
+        return file.error("", fmt::format("{} bytes, more than the limit of {}", size, limits.file_bytes));
+    const Result<ImageProbe> probe = probe_image(file, limits);
+    if (!probe)
+        return probe.error();
+    try {
+        return decode(file, *probe, limits);
+    } catch (const std::bad_alloc&) {
+        return file.error("", "not enough memory for the pixels");
+    } catch (const std::exception& exception) {
+        const std::string reason = first_line(exception.what());
+        return file.error("", "the image is damaged" + (reason.empty() ? "" : ": " + reason));
+    }
+}
+
+Result<Image> read_image(const std::string& path, const Limits& limits)
+{
+    const Result<std::vector<std::uint8_t>> bytes = read_file(path, limits.file_bytes);
+    if (!bytes)
+        return bytes.error();
+    return decode_image(bytes->data(), bytes->size(), path, limits);
+}
+
+} // namespace burnish

@@ -1,0 +1,39 @@
+// Reading and writing image files.
+#pragma once
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/base/limits.h"
+#include "core/base/result.h"
+#include "core/image/image.h"
+
+namespace burnish {
+
+// Reads PNG, JPEG, WebP, OpenEXR, Radiance RGBE, TIFF, PNM/PFM and BMP, told apart by their first bytes,
+// whatever the extension. Sizes are checked against the limits before pixels are read. 8-bit files give u8,
+// 16-bit files u16, float and half files f32. Deep files are refused; of a tiled or mipmapped file the top
+// level is read; of a multi-part file the first flat part. The data window of OpenEXR is placed in the
+// display window. No colour conversion happens. Channels R,G,B(,A) or Y(,A) are picked by name; without them
+// all of up to 4 channels, else the first 3.
+Result<Image> read_image(const std::string& path, const Limits& limits);
+
+// The same from memory; `label` names the image in errors (for instance "scene.glb: /images/3").
+Result<Image> decode_image(const std::uint8_t* data, std::size_t size, const std::string& label, const Limits& limits);
+
+// Writes .exr (linear Rec.709, 32-bit float, ZIP), .hdr, .pfm; or .png .jpg .tif from u8 pixels. Nothing
+// volatile is stored (no date, host, program arguments). The file appears under its name only when it is
+// complete: it is written to a temporary name in the same folder, then renamed. On failure no file is left
+// and the Error has ExitCode::output_failed.
+Status write_image(const std::string& path, const Image& image);
+
+// An 8-bit picture as the bytes of a PNG file, for pages that carry their pictures.
+Result<std::string> encode_png(const Image& image);
+
+// True where the extension of `path` names a format that stores floats (exr, hdr, pfm).
+bool stores_floats(const std::string& path);
+
+// Writes bytes to `path` atomically (temporary name, rename), as write_image does.
+Status write_file(const std::string& path, const std::string& bytes);
+
+} // namespace burnish

@@ -1,0 +1,96 @@
+#include "core/image/io/image_library.h"
+
+#include <dlfcn.h>
+#ifdef __SANITIZE_ADDRESS__
+#include <sanitizer/lsan_interface.h>
+#endif
+
+#include <algorithm>
+#include <cstring>
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include "core/base/file.h"
+#include "core/image/io/module_hash.h"
+#include <burnish_module_hash_value.h>
+
+namespace burnish {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kModule = "burnish_openimageio.so";
+constexpr std::uint64_t kMostModuleBytes = 256u << 20;
+
+// The folder of the program or shared library that this code lies in.
+fs::path own_folder()
+{
+    Dl_info info;
+    std::error_code ignored;
+    if (dladdr(reinterpret_cast<const void*>(&image_library), &info) && info.dli_fname && std::strchr(info.dli_fname, '/'))
+        return fs::canonical(info.dli_fname, ignored).parent_path();
+    return {};
+}
+
+// The folders that may hold the module, the first one first. Absolute, so that neither the working folder nor LD_LIBRARY_PATH decides
+// what code is loaded.
+std::vector<fs::path> folders()
+{
+    std::error_code ignored;
+    const fs::path self = fs::read_symlink("/proc/self/exe", ignored).parent_path();
+    if (self.empty())
+        return {};
+    std::vector<fs::path> found = {self, (self / "../lib/burnish").lexically_normal()};
+    if (const fs::path own = own_folder(); !own.empty() && own != self)
+        found.insert(found.begin(), own / "burnish");                      // the library is installed as lib/libburnish.so
+    const fs::path build = fs::weakly_canonical(BN_BUILD_FOLDER, ignored); // tests and benchmarks lie below it
+    if (std::mismatch(build.begin(), build.end(), self.begin(), self.end()).first == build.end() && build != self)
+        found.push_back(build);
+    return found;
+}
+
+Result<const ImageLibrary*> open_library()
+{
+#ifdef __SANITIZE_ADDRESS__
+    const __lsan::ScopedDisabler disabled; // the libraries behind the module forget, when they are unloaded, what they allocate when loaded
+#endif
+    std::string missing;
+    for (const fs::path& folder : folders()) {
+        const fs::path path = folder / kModule;
+        std::error_code ignored;
+        if (!fs::exists(path, ignored)) {
+            missing += (missing.empty() ? "" : " or ") + folder.string();
+            continue;
+        }
+        const Result<std::vector<std::uint8_t>> bytes = read_file(path.string(), kMostModuleBytes);
+        if (!bytes || module_hash(*bytes) != kModuleHash)
+            return Error{ExitCode::unavailable, "", "",
+                         fmt::format("the image library {} {}", path.string(),
+                                     bytes ? "is damaged or belongs to another build" : "cannot be read: " + bytes.error().reason)};
+        // Never closed: some of the libraries behind it leave threads and exit handlers.
+        void* const module = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
+        void* const symbol = module ? dlsym(module, kImageLibrarySymbol) : nullptr;
+        if (!symbol) {
+            const char* const why = dlerror();
+            return Error{ExitCode::unavailable, "", "",
+                         fmt::format("the image library cannot be loaded: {}", first_line(why ? why : kModule))};
+        }
+        return reinterpret_cast<const ImageLibrary* (*)()>(symbol)();
+    }
+    return Error{ExitCode::unavailable, "", "", fmt::format("the image library {} is not in {}", kModule, missing)};
+}
+
+} // namespace
+
+Result<const ImageLibrary*> image_library(const std::string& file)
+{
+    static const Result<const ImageLibrary*> opened = open_library();
+    if (opened)
+        return *opened;
+    Error error = opened.error();
+    error.file = file;
+    return error;
+}
+
+} // namespace burnish

@@ -1,0 +1,175 @@
+// The module that holds OpenImageIO (the only file that knows it): decodes files from memory and encodes them
+// into memory. It is linked with nothing of the program; what it needs of it are inline functions.
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imageio.h>
+
+#include <algorithm>
+#include <cstring>
+
+#include <fmt/format.h>
+
+#include "core/image/io/image_library.h"
+
+namespace burnish {
+namespace {
+
+using Bytes = std::vector<std::uint8_t>;
+
+// CIE xy of Rec. ITU-R BT.709's red, green, blue and its white, D65.
+constexpr float kRec709[8] = {0.640f, 0.330f, 0.300f, 0.600f, 0.150f, 0.060f, 0.3127f, 0.3290f};
+constexpr int kJpegQuality = 95;
+
+// Sets the library's process-wide attributes once.
+void configure_openimageio()
+{
+    static const bool done = [] {
+        // One thread an image: burnish reads several images at once instead, and time and memory stay
+        // predictable.
+        OIIO::attribute("threads", 1);
+        OIIO::attribute("exr_threads", -1);
+        // The C++ reader stops at the first error; the core reader carries on with parts of damaged headers.
+        OIIO::attribute("openexr:core", 0);
+        // Debian's build prints notes for its own developers on stderr otherwise.
+        OIIO::attribute("debug", 0);
+        return true;
+    }();
+    static_cast<void>(done);
+}
+
+PixelType pixel_type_of(const OIIO::ImageSpec& spec)
+{
+    if (spec.format == OIIO::TypeDesc::UINT8)
+        return PixelType::u8;
+    if (spec.format == OIIO::TypeDesc::UINT16)
+        return PixelType::u16;
+    return PixelType::f32;
+}
+
+OIIO::TypeDesc type_desc_of(PixelType type)
+{
+    return type == PixelType::u8 ? OIIO::TypeDesc::UINT8 : type == PixelType::u16 ? OIIO::TypeDesc::UINT16 : OIIO::TypeDesc::FLOAT;
+}
+
+// Reads from memory and remembers how far the library came, which is where it stumbled.
+class TrackingReader : public OIIO::Filesystem::IOMemReader {
+  public:
+    TrackingReader(const ImageBytes& file, const ImageProbe& probe)
+        : TrackingReader(probe.replacement.empty() ? file.data : probe.replacement.data(),
+                         probe.replacement.empty() ? file.size : probe.replacement.size())
+    {
+        own_bytes_ = probe.replacement.empty();
+    }
+    size_t read(void* to, size_t size) override
+    {
+        const size_t n = IOMemReader::read(to, size);
+        reached_ = std::max(reached_, static_cast<std::size_t>(tell()));
+        return n;
+    }
+    size_t pread(void* to, size_t size, int64_t offset) override
+    {
+        const size_t n = IOMemReader::pread(to, size, offset);
+        reached_ = std::max(reached_, static_cast<std::size_t>(offset) + n);
+        return n;
+    }
+    std::string place() const { return own_bytes_ ? fmt::format("byte {}", reached_) : "pixels"; }
+
+  private:
+    TrackingReader(const std::uint8_t* data, std::size_t size) : IOMemReader(const_cast<std::uint8_t*>(data), size) {}
+
+    bool own_bytes_ = true;
+    std::size_t reached_ = 0;
+};
+
+Error library_error(const ImageBytes& file, const std::string& place, const char* what, const std::string& message)
+{
+    const std::string reason = first_line(message);
+    // OpenEXR and OpenImageIO catch what operator new throws and hand on its words.
+    for (const char* words : {"bad_alloc", "out of memory", "Out of memory", "not enough memory", "Insufficient memory", "allocate"})
+        if (reason.find(words) != std::string::npos)
+            return file.error("", "not enough memory for the pixels");
+    return file.error(place, reason.empty() ? std::string(what) : fmt::format("{}: {}", what, reason));
+}
+
+StoredHeader header_of(const OIIO::ImageSpec& spec)
+{
+    return {spec.width,        spec.height,         spec.depth,      spec.x,           spec.y,
+            spec.full_x,       spec.full_y,         spec.full_width, spec.full_height, spec.nchannels,
+            spec.channelnames, pixel_type_of(spec), spec.deep};
+}
+
+Status read(const ImageBytes& file, const ImageProbe& probe, const PlacePixels& place)
+{
+    configure_openimageio();
+    TrackingReader reader(file, probe);
+    OIIO::Filesystem::IOProxy* proxy = &reader;
+    OIIO::ImageSpec config, spec;
+    config.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);
+    config.attribute("oiio:UnassociatedAlpha", 1); // colours stay as stored, not multiplied by alpha
+    const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::create(probe.format);
+    if (!input)
+        return library_error(file, "", "the image library cannot read this format", OIIO::geterror());
+    if (!input->open("input", spec, config))
+        return library_error(file, reader.place(), "the header is damaged", input->geterror());
+    if (!input->seek_subimage(probe.subimage, 0))
+        return library_error(file, reader.place(), "the image is missing", input->geterror());
+    const StoredHeader header = header_of(input->spec());
+    const Result<PixelRequest> wanted = place(header);
+    if (!wanted)
+        return wanted.error();
+    if (!input->read_image(probe.subimage, 0, wanted->first, wanted->end, type_desc_of(header.type), wanted->to))
+        return library_error(file, reader.place(), "the pixels are damaged or cut off", input->geterror());
+    input->close();
+    return {};
+}
+
+OIIO::ImageSpec spec_of(const Image& image, const char* format)
+{
+    OIIO::ImageSpec spec(image.width, image.height, image.channels, type_desc_of(image.type));
+    // A date of the wrong type: the library then neither adds the present time nor writes this one.
+    spec.attribute("DateTime", 0);
+    spec.attribute("oiio:UnassociatedAlpha", 1);
+    if (image.type == PixelType::f32) {
+        static const char* const kGray[] = {"Y", "A"};
+        static const char* const kColour[] = {"R", "G", "B", "A"};
+        const char* const* names = image.channels <= 2 ? kGray : kColour;
+        spec.channelnames.assign(names, names + image.channels);
+        spec.alpha_channel = image.channels % 2 == 0 ? image.channels - 1 : -1;
+        spec.attribute("compression", "zip");
+        spec.attribute("chromaticities", OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, 8), kRec709);
+    } else {
+        spec.attribute("oiio:ColorSpace", "sRGB");
+        if (std::strcmp(format, "jpeg") == 0)
+            spec.attribute("compression", fmt::format("jpeg:{}", kJpegQuality));
+        spec.attribute("jpeg:subsampling", "4:4:4");
+    }
+    return spec;
+}
+
+Result<Bytes> encode(const std::string& path, const Image& image, const char* format)
+{
+    const auto error = [&](const char* what, const std::string& message) {
+        return Error{ExitCode::output_failed, path, "", fmt::format("{}: {}", what, first_line(message))};
+    };
+    configure_openimageio();
+    Bytes bytes;
+    OIIO::Filesystem::IOVecOutput writer(bytes);
+    OIIO::Filesystem::IOProxy* proxy = &writer;
+    const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(format);
+    if (!output)
+        return error("the image library cannot write this format", OIIO::geterror());
+    OIIO::ImageSpec spec = spec_of(image, format);
+    spec.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);
+    if (!output->open(path, spec) || !output->write_image(spec.format, image.bytes.data()) || !output->close())
+        return error("the image cannot be encoded", output->geterror());
+    return bytes;
+}
+
+} // namespace
+} // namespace burnish
+
+extern "C" __attribute__((visibility("default"))) const burnish::ImageLibrary* burnish_image_library();
+extern "C" const burnish::ImageLibrary* burnish_image_library()
+{
+    static const burnish::ImageLibrary library = {burnish::read, burnish::encode};
+    return &library;
+}

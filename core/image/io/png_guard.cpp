@@ -1,0 +1,165 @@
+// PNG (W3C PNG, third edition): the chunks are walked and their checksums tested here, and only those that
+// decide the stored samples go on to the library. Text, profiles and the like would cost time and memory, and
+// libpng writes its complaints about them straight to stderr.
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "core/image/io/guard.h"
+
+namespace burnish {
+namespace {
+
+// Deflate's longest match, 258 bytes, costs at least 2 bits: 1032 to 1 (RFC 1951 section 3.2.5).
+constexpr std::uint64_t kDeflateBest = 1032;
+
+std::uint32_t read32(const std::uint8_t* at)
+{
+    return static_cast<std::uint32_t>(at[0]) << 24 | static_cast<std::uint32_t>(at[1]) << 16 | static_cast<std::uint32_t>(at[2]) << 8 |
+           at[3];
+}
+
+// Annex D of the standard, four bytes at a time: table[k] moves a byte k further bytes on.
+class Crc {
+  public:
+    Crc()
+    {
+        for (std::uint32_t n = 0; n < 256; ++n) {
+            std::uint32_t c = n;
+            for (int bit = 0; bit < 8; ++bit)
+                c = c >> 1 ^ (c & 1 ? 0xEDB88320u : 0u);
+            table_[0][n] = c;
+        }
+        for (std::size_t k = 1; k < 4; ++k)
+            for (std::size_t n = 0; n < 256; ++n)
+                table_[k][n] = table_[k - 1][n] >> 8 ^ table_[0][table_[k - 1][n] & 0xFF];
+    }
+    std::uint32_t of(const std::uint8_t* at, std::size_t size) const
+    {
+        std::uint32_t c = 0xFFFFFFFFu;
+        for (; size >= 4; at += 4, size -= 4)
+            c = table_[3][(c ^ at[0]) & 0xFF] ^ table_[2][(c >> 8 ^ at[1]) & 0xFF] ^ table_[1][(c >> 16 ^ at[2]) & 0xFF] ^
+                table_[0][c >> 24 ^ at[3]];
+        for (; size > 0; ++at, --size)
+            c = c >> 8 ^ table_[0][(c ^ *at) & 0xFF];
+        return ~c;
+    }
+
+  private:
+    std::array<std::array<std::uint32_t, 256>, 4> table_;
+};
+
+struct Header {
+    std::uint64_t width = 0, height = 0;
+    unsigned depth = 0, colour_type = 0;
+};
+
+bool depth_fits(unsigned depth, unsigned colour_type)
+{
+    const bool power_of_two = depth == 1 || depth == 2 || depth == 4 || depth == 8 || depth == 16;
+    switch (colour_type) {
+    case 0:
+        return power_of_two;
+    case 3:
+        return power_of_two && depth <= 8;
+    case 2:
+    case 4:
+    case 6:
+        return depth == 8 || depth == 16;
+    default:
+        return false;
+    }
+}
+
+// `data` is the content of IHDR, 13 bytes at byte 16 of the file.
+Status check_header(const ImageBytes& file, const std::uint8_t* data, const Limits& limits, Header& header)
+{
+    header = {read32(data), read32(data + 4), data[8], data[9]};
+    if (Status sides = check_sides(file, static_cast<std::int64_t>(header.width), static_cast<std::int64_t>(header.height), limits); !sides)
+        return sides;
+    if (!depth_fits(header.depth, header.colour_type))
+        return file.error("byte 24", fmt::format("bit depth {} with colour type {} is no PNG", header.depth, header.colour_type));
+    if (data[10] != 0 || data[11] != 0 || data[12] > 1)
+        return file.error("byte 26", "an unknown compression, filter or interlace method");
+    constexpr std::uint64_t kSamplesByColourType[] = {1, 0, 3, 1, 2, 0, 4};
+    const std::uint64_t row_bits = header.width * header.depth * kSamplesByColourType[header.colour_type];
+    if (header.height * (row_bits / 8) / kDeflateBest > file.size)
+        return file.error(fmt::format("header: {} x {} pixels", header.width, header.height),
+                          fmt::format("{} bytes cannot hold that many pixels", file.size));
+    const std::uint64_t channels = header.colour_type == 3 ? 4 : kSamplesByColourType[header.colour_type];
+    return check_proportion(file, header.width, header.height, channels * (header.depth > 8 ? 2 : 1));
+}
+
+// Palette and transparency must have sizes that suit the header; `entries` is the palette's length once it is
+// known.
+Status check_colours(const ImageBytes& file, std::size_t at, std::string_view type, std::size_t length, const Header& header,
+                     std::size_t& entries)
+{
+    const std::string place = fmt::format("byte {}", at);
+    if (type == "PLTE") {
+        const bool possible = header.colour_type == 2 || header.colour_type == 3 || header.colour_type == 6;
+        if (!possible || entries || length == 0 || length % 3 != 0 || length > 768)
+            return file.error(place, fmt::format("a palette of {} bytes does not belong here", length));
+        entries = length / 3;
+    } else if (type == "tRNS") {
+        const bool sound = header.colour_type == 0   ? length == 2
+                           : header.colour_type == 2 ? length == 6
+                                                     : header.colour_type == 3 && length >= 1 && length <= entries;
+        if (!sound)
+            return file.error(place, fmt::format("transparency of {} bytes does not belong here", length));
+    }
+    return {};
+}
+
+} // namespace
+
+Result<ImageProbe> probe_png(const ImageBytes& file, const Limits& limits)
+{
+    static const Crc crc;
+    ImageProbe probe{"png", 0, false, false, false, {}};
+    probe.replacement.assign(file.data, file.data + std::min<std::size_t>(8, file.size));
+    Header header;
+    std::size_t palette_entries = 0;
+    bool pixels = false, pixels_over = false;
+    for (std::size_t at = 8;;) {
+        const std::string place = fmt::format("byte {}", at);
+        if (at + 12 > file.size)
+            return file.error(place, "the file ends before its IEND chunk");
+        const std::size_t length = read32(file.data + at);
+        const std::string_view type(reinterpret_cast<const char*>(file.data + at + 4), 4);
+        // The header comes first, so that an absurd picture is named before a checksum is counted.
+        if (at == 8 && (type != "IHDR" || length != 13 || at + 25 > file.size))
+            return file.error(place, "a PNG file must begin with a whole IHDR chunk");
+        if (at == 8)
+            if (const Status status = check_header(file, file.data + 16, limits, header); !status)
+                return status.error();
+        if (length > file.size - at - 12)
+            return file.error(place, fmt::format("a chunk of {} bytes does not fit into the file", length));
+        if (crc.of(file.data + at + 4, length + 4) != read32(file.data + at + 8 + length))
+            return file.error(place, "the checksum of a chunk is wrong");
+        const bool critical = (file.data[at + 4] & 0x20) == 0;
+        const bool known = type == "IHDR" || type == "PLTE" || type == "IDAT" || type == "IEND";
+        if ((critical && !known) || (at != 8 && type == "IHDR") || (type == "IDAT" && pixels_over) ||
+            (pixels && (type == "PLTE" || type == "tRNS")))
+            return file.error(place, "a chunk of an unknown type or at a wrong place");
+        if (const Status status = check_colours(file, at, type, length, header, palette_entries); !status)
+            return status.error();
+        pixels_over = pixels && type != "IDAT";
+        pixels = pixels || type == "IDAT";
+        if (known || type == "tRNS")
+            probe.replacement.insert(probe.replacement.end(), file.data + at, file.data + at + 12 + length);
+        if (type == "IEND")
+            break;
+        at += 12 + length;
+    }
+    if (probe.replacement.size() == file.size)
+        probe.replacement.clear(); // nothing was left out
+    if (!pixels || (header.colour_type == 3 && palette_entries == 0))
+        return file.error("", "the file has no pixels or no palette");
+    return probe;
+}
+
+} // namespace burnish

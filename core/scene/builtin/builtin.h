@@ -1,0 +1,23 @@
+// Scenes and environments generated in code: nothing to download, the same bits everywhere.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "core/base/result.h"
+#include "core/scene/scene.h"
+
+namespace burnish {
+
+struct BuiltinInfo {
+    const char* name; // without "builtin:"
+    const char* summary;
+};
+const std::vector<BuiltinInfo>& builtin_scenes();       // teapot, spheres, plate
+const std::vector<BuiltinInfo>& builtin_environments(); // studio, sky
+
+Result<Scene> make_builtin_scene(const std::string& name);
+
+// Equirectangular f32 RGB radiance, orientation as in shading/bake/environment/environment.h.
+Result<Image> make_builtin_environment(const std::string& name);
+
+} // namespace burnish

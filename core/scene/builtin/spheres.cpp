@@ -1,0 +1,91 @@
+// A wall of spheres: alpha_lin grows to the right, eta upwards. Tangents point east.
+#include <cmath>
+#include <cstdio>
+
+#include "core/math/scalar_math.h"
+#include "core/scene/builtin/surface.h"
+
+namespace burnish {
+namespace {
+
+constexpr int kColumns = 7, kRows = 5; // of spheres
+constexpr int kMeridians = 48, kParallels = 24;
+constexpr double kRadius = 0.045, kSpacing = 0.1; // metres
+
+void add_sphere(Scene& scene)
+{
+    add_grid(scene, kMeridians, kParallels, [](int column, int row) {
+        const double longitude = 2.0 * kPi * (column % kMeridians) / kMeridians;
+        const double latitude = kPi * (static_cast<double>(row) / kParallels - 0.5);
+        const double c = row == 0 || row == kParallels ? 0.0 : det_cos(latitude); // exact at the poles
+        const double east_x = det_cos(longitude), east_z = -det_sin(longitude);
+        SurfacePoint s;
+        s.normal = {c * -east_z, det_sin(latitude), c * east_x};
+        s.position = s.normal * kRadius;
+        s.tangent = {east_x, 0.0, east_z};
+        s.u = static_cast<double>(column) / kMeridians;
+        s.v = 1.0 - static_cast<double>(row) / kParallels;
+        return s;
+    });
+}
+
+constexpr double kEta[kRows] = {0.0, 0.25, 0.5, 0.75, 0.95};
+
+// The widths alpha_lin^2 (1 +- eta) in the terms of KHR_materials_anisotropy: alpha across the tangent, mix(alpha, 1, strength^2) along.
+void set_widths(Material& material, double alpha_lin, double eta)
+{
+    const double along = alpha_lin * alpha_lin * (1.0 + eta), across = alpha_lin * alpha_lin * (1.0 - eta);
+    material.roughness = static_cast<float>(std::sqrt(across));
+    material.anisotropy_strength = static_cast<float>(std::sqrt((along - across) / (1.0 - across)));
+}
+
+void add_front_camera(Scene& scene)
+{
+    Camera camera;
+    camera.name = "front";
+    camera.yfov = 0.35f;
+    camera.znear = 0.1f;
+    scene.cameras.push_back(camera);
+    glm::mat4 local(1.0f);
+    local[3][2] = 1.5f;
+    Node node;
+    node.name = camera.name;
+    node.camera = 0;
+    node.local = node.world = local;
+    scene.nodes.push_back(node);
+}
+
+} // namespace
+
+Scene make_spheres()
+{
+    Scene scene;
+    scene.name = "spheres";
+    for (int row = 0; row < kRows; ++row)
+        for (int column = 0; column < kColumns; ++column) {
+            Material material;
+            set_widths(material, (column + 1) * 0.1, kEta[row]);
+            char name[64];
+            std::snprintf(name, sizeof(name), "alpha_lin 0.%d eta %.2f", column + 1, kEta[row]);
+            material.name = name;
+            material.base_color = glm::vec4(0.95f, 0.93f, 0.88f, 1.0f);
+            scene.materials.push_back(material);
+
+            // All spheres share the vertices and indices of the first.
+            const std::uint32_t first = begin_primitive(scene, static_cast<std::int32_t>(scene.materials.size() - 1));
+            if (first == 0) {
+                add_sphere(scene);
+            } else {
+                scene.primitives[first] = scene.primitives[0];
+                scene.primitives[first].material = static_cast<std::int32_t>(first);
+            }
+            glm::mat4 local(1.0f);
+            local[3][0] = static_cast<float>((column - (kColumns - 1) * 0.5) * kSpacing);
+            local[3][1] = static_cast<float>((row - (kRows - 1) * 0.5) * kSpacing);
+            add_node(scene, name, add_mesh(scene, name, first), local);
+        }
+    add_front_camera(scene);
+    return scene;
+}
+
+} // namespace burnish

@@ -1,0 +1,13 @@
+// The outside of a glTF file: reading it, the GLB chunks, and JSON text into a tree.
+#pragma once
+#include "core/scene/gltf/document.h"
+
+namespace burnish::gltf {
+
+// Reads a regular file of at most `limit` bytes; `place` is where an Error points to.
+std::vector<std::uint8_t> read_file_bytes(const std::string& path, std::uint64_t limit, const std::string& place);
+
+// Fills json, bin and has_bin from bytes.
+void parse_container(Document& doc);
+
+} // namespace burnish::gltf

@@ -1,0 +1,132 @@
+#include "core/scene/gltf/gltf.h"
+
+#include <exception>
+#include <fmt/format.h>
+#include <limits>
+#include <new>
+
+#include "core/scene/builtin/builtin.h"
+#include "core/scene/gltf/accessors.h"
+#include "core/scene/gltf/buffers.h"
+#include "core/scene/gltf/checks.h"
+#include "core/scene/gltf/container.h"
+#include "core/scene/gltf/graph.h"
+#include "core/scene/gltf/material.h"
+#include "core/scene/gltf/mesh.h"
+#include "core/scene/gltf/schema.h"
+
+namespace burnish {
+
+namespace {
+
+using gltf::Document;
+using gltf::Json;
+
+// tinygltf reads only what describes, after the schema check; no file, no buffer and no image goes through
+// it.
+void read_model(Document& doc)
+{
+    Json described = Json::object();
+    for (const char* key : {"scene", "scenes", "nodes", "cameras", "materials", "textures", "samplers"})
+        if (const auto it = doc.json.find(key); it != doc.json.end())
+            described[key] = *it;
+    described["asset"] = {{"version", "2.0"}};
+    if (const Json* lights = gltf::get_extension(doc.json, "KHR_lights_punctual"))
+        described["extensions"]["KHR_lights_punctual"] = *lights;
+    const std::string text = described.dump();
+    if (text.size() > std::numeric_limits<unsigned>::max())
+        gltf::fail("/", "the JSON text is too long");
+    tinygltf::TinyGLTF reader;
+    reader.RemoveImageLoader();
+    reader.SetFsCallbacks({});
+    std::string errors, warnings;
+    if (!reader.LoadASCIIFromString(&doc.model, &errors, &warnings, text.data(), static_cast<unsigned>(text.size()), ""))
+        gltf::fail("/", gltf::printable(errors.substr(0, errors.find('\n'))));
+    const auto same = [&](const char* key, std::size_t count) {
+        if (count != gltf::table_size(doc.json, key))
+            gltf::fail(std::string("/") + key, "an entry cannot be read");
+    };
+    same("scenes", doc.model.scenes.size());
+    same("nodes", doc.model.nodes.size());
+    same("cameras", doc.model.cameras.size());
+    same("materials", doc.model.materials.size());
+    same("textures", doc.model.textures.size());
+    same("samplers", doc.model.samplers.size());
+}
+
+void read_document(Document& doc)
+{
+    doc.input_bytes = doc.bytes.size();
+    gltf::parse_container(doc);
+    gltf::check_version_and_extensions(doc);
+    gltf::check_schema(doc.json);
+    gltf::check_structure(doc);
+    gltf::check_accessor_rules(doc);
+    gltf::check_unread(doc);
+    read_model(doc);
+    gltf::load_nodes(doc);
+    gltf::load_cameras_and_lights(doc);
+    gltf::load_buffers(doc);
+    gltf::check_accessors(doc);
+    gltf::check_values(doc);
+    gltf::load_materials(doc);
+    gltf::load_meshes(doc);
+}
+
+// The one place where the reader's exceptions, its own and those of the libraries, end.
+template <class F> Result<Scene> guarded(const std::string& file, F&& read)
+{
+    const auto error = [&](std::string place, std::string reason) {
+        return Error{ExitCode::bad_input, file, std::move(place), std::move(reason)};
+    };
+    try {
+        return read();
+    } catch (const gltf::Failure& failure) {
+        return error(failure.place, failure.reason);
+    } catch (const std::bad_alloc&) {
+        return error("", "not enough memory to read the file");
+    } catch (const std::exception& e) {
+        return error("", "cannot read the file: " + gltf::printable(e.what()));
+    }
+}
+
+} // namespace
+
+Result<Scene> load_gltf(const std::string& path, const Limits& limits)
+{
+    return guarded(path, [&]() -> Result<Scene> {
+        const std::vector<std::uint8_t> bytes = gltf::read_file_bytes(path, limits.file_bytes, "");
+        const std::size_t slash = path.find_last_of('/');
+        Document doc;
+        doc.file = path;
+        doc.limits = limits;
+        doc.folder = slash == std::string::npos ? "" : slash == 0 ? "/." : path.substr(0, slash);
+        doc.has_folder = true;
+        doc.bytes = bytes;
+        doc.scene.files.push_back(path);
+        read_document(doc);
+        return std::move(doc.scene);
+    });
+}
+
+Result<Scene> load_gltf_bytes(const std::uint8_t* data, std::size_t size, const std::string& label, const Limits& limits)
+{
+    return guarded(label, [&]() -> Result<Scene> {
+        Document doc;
+        doc.file = label;
+        doc.limits = limits;
+        doc.bytes = {data, size};
+        read_document(doc);
+        return std::move(doc.scene);
+    });
+}
+
+Result<Scene> load_scene(const std::string& spec, const Limits& limits)
+{
+    const std::string kBuiltin = "builtin:";
+    if (spec.compare(0, kBuiltin.size(), kBuiltin) == 0)
+        return make_builtin_scene(spec.substr(kBuiltin.size()));
+    return load_gltf(spec, limits); // which looks at the content, not at the name
+}
+
+} // namespace burnish

@@ -1,0 +1,211 @@
+#include "core/scene/gltf/vertices.h"
+
+#include <array>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+#include "core/scene/tangents.h"
+
+namespace burnish::gltf {
+
+namespace {
+
+glm::vec3 read_vec3(const AccessorView& view, std::uint32_t i)
+{
+    return {view.number(i, 0), view.number(i, 1), view.number(i, 2)};
+}
+
+// In double: squares of any float fit. False where there is no direction.
+bool normalize(const glm::dvec3& v, glm::vec3& unit)
+{
+    const double length = std::sqrt(v.x * v.x + v.y * v.y + v.z * v.z);
+    if (!(length > 1e-30))
+        return false;
+    unit = {static_cast<float>(v.x / length), static_cast<float>(v.y / length), static_cast<float>(v.z / length)};
+    return true;
+}
+
+glm::vec3 flat_normal(const Corners& corners, std::size_t first_corner)
+{
+    glm::dvec3 p[3];
+    for (std::size_t k = 0; k < 3; ++k)
+        p[k] = glm::dvec3(read_vec3(corners.attributes.position, corners.vertices[first_corner + k]));
+    const glm::dvec3 a = p[1] - p[0], b = p[2] - p[0];
+    const glm::dvec3 cross(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
+    glm::vec3 unit(0.0f, 0.0f, 1.0f); // a triangle without area is never seen
+    normalize(cross, unit);
+    return unit;
+}
+
+// Gram-Schmidt against the normal; an unusable tangent is replaced by any.
+glm::vec4 clean_tangent(const AccessorView& view, std::uint32_t vertex, const glm::vec3& normal)
+{
+    const glm::dvec3 t(read_vec3(view, vertex)), n(normal);
+    const double along = t.x * n.x + t.y * n.y + t.z * n.z;
+    const double length2 = t.x * t.x + t.y * t.y + t.z * t.z;
+    const glm::dvec3 flat = t - along * n;
+    const double flat2 = flat.x * flat.x + flat.y * flat.y + flat.z * flat.z;
+    glm::vec3 unit;
+    // Closer to the normal than a thousandth radian its direction is rounding error.
+    if (!(flat2 > 1e-6 * length2) || !normalize(flat, unit))
+        unit = any_tangent(normal);
+    return {unit, view.number(vertex, 3) < 0.0f ? -1.0f : 1.0f};
+}
+
+void make_mikk_tangents(Corners& corners, const AccessorView& uv)
+{
+    std::vector<glm::vec3> positions(corners.vertices.size());
+    std::vector<glm::vec2> uvs(corners.vertices.size());
+    for (std::size_t i = 0; i < corners.vertices.size(); ++i) {
+        const std::uint32_t vertex = corners.vertices[i];
+        positions[i] = read_vec3(corners.attributes.position, vertex);
+        // MikkTSpace takes v upwards; so does a glTF normal map's green, against its v axis that points down.
+        uvs[i] = {uv.number(vertex, 0), 1.0f - uv.number(vertex, 1)};
+    }
+    corners.tangents = mikk_tangents(positions, corners.normals, uvs);
+}
+
+constexpr std::size_t kVertexFloats = 18;
+using VertexBits = std::array<std::uint32_t, kVertexFloats>; // every attribute, compared by its bits
+
+VertexBits vertex_at(const Corners& corners, std::size_t corner)
+{
+    const Attributes& a = corners.attributes;
+    const std::uint32_t i = corners.vertices[corner];
+    const glm::vec3 p = read_vec3(a.position, i), &n = corners.normals[corner];
+    const glm::vec4& t = corners.tangents[corner];
+    float values[kVertexFloats] = {p.x, p.y, p.z, n.x, n.y, n.z, t.x, t.y, t.z, t.w, 0, 0, 0, 0, 1, 1, 1, 1};
+    for (int set = 0; set < 2; ++set)
+        for (int c = 0; c < 2 && a.uv[set]; ++c)
+            values[10 + set * 2 + c] = a.uv[set].number(i, c);
+    for (int c = 0; a.color && c < a.color.components(); ++c)
+        values[14 + c] = a.color.number(i, c);
+    return std::bit_cast<VertexBits>(values);
+}
+
+std::array<Column<float>*, kVertexFloats> columns_of(VertexTable& t)
+{
+    return {&t.px, &t.py, &t.pz, &t.nx, &t.ny, &t.nz, &t.tx, &t.ty, &t.tz, &t.tw, &t.u0, &t.v0, &t.u1, &t.v1, &t.cr, &t.cg, &t.cb, &t.ca};
+}
+
+std::uint32_t hash_of(const VertexBits& bits)
+{
+    std::uint32_t hash = 2166136261u; // Fowler-Noll-Vo, a word at a time, with a final mix
+    for (const std::uint32_t word : bits)
+        hash = (hash ^ word) * 16777619u;
+    hash ^= hash >> 15;
+    hash *= 0x85ebca6bu;
+    return hash ^ hash >> 13;
+}
+
+// Open addressing over the vertices appended so far; only their number decides the order, never the hash.
+class Welder {
+  public:
+    explicit Welder(VertexTable& table) : columns_(columns_of(table)), first_(table.size()), slots_(1024, kFree) {}
+
+    // The scene index of the vertex; `added` says whether it is new.
+    std::size_t find_or_add(const VertexBits& bits, bool& added)
+    {
+        const std::uint32_t hash = hash_of(bits);
+        std::size_t slot = hash & (slots_.size() - 1);
+        while (slots_[slot] != kFree && !equal(slots_[slot], bits))
+            slot = (slot + 1) & (slots_.size() - 1);
+        added = slots_[slot] == kFree;
+        if (!added)
+            return first_ + slots_[slot];
+        const std::size_t vertex = hashes_.size();
+        slots_[slot] = static_cast<std::uint32_t>(vertex);
+        hashes_.push_back(hash);
+        for (std::size_t c = 0; c < kVertexFloats; ++c)
+            columns_[c]->push_back(std::bit_cast<float>(bits[c]));
+        if (hashes_.size() * 2 > slots_.size())
+            grow();
+        return first_ + vertex;
+    }
+
+  private:
+    static constexpr std::uint32_t kFree = 0xffffffffu;
+
+    bool equal(std::uint32_t vertex, const VertexBits& bits) const
+    {
+        for (std::size_t c = 0; c < kVertexFloats; ++c)
+            if (std::bit_cast<std::uint32_t>((*columns_[c])[first_ + vertex]) != bits[c])
+                return false;
+        return true;
+    }
+
+    void grow()
+    {
+        slots_.assign(slots_.size() * 2, kFree);
+        for (std::size_t v = 0; v < hashes_.size(); ++v) {
+            std::size_t slot = hashes_[v] & (slots_.size() - 1);
+            while (slots_[slot] != kFree)
+                slot = (slot + 1) & (slots_.size() - 1);
+            slots_[slot] = static_cast<std::uint32_t>(v);
+        }
+    }
+
+    std::array<Column<float>*, kVertexFloats> columns_;
+    std::size_t first_;
+    std::vector<std::uint32_t> slots_;  // vertex, counted from first_
+    std::vector<std::uint32_t> hashes_; // by vertex
+};
+
+} // namespace
+
+bool make_normals(Corners& corners)
+{
+    bool replaced = false;
+    corners.normals.resize(corners.vertices.size());
+    for (std::size_t i = 0; i < corners.vertices.size(); i += 3) {
+        glm::vec3 flat(0.0f);
+        for (std::size_t k = i; k < i + 3; ++k) {
+            const AccessorView& normal = corners.attributes.normal;
+            if (normal && normalize(glm::dvec3(read_vec3(normal, corners.vertices[k])), corners.normals[k]))
+                continue;
+            replaced = replaced || normal;
+            if (flat == glm::vec3(0.0f))
+                flat = flat_normal(corners, i);
+            corners.normals[k] = flat;
+        }
+    }
+    return replaced;
+}
+
+TangentSource make_tangents(Corners& corners, int uv_set)
+{
+    const Attributes& a = corners.attributes;
+    if (!a.tangent && a.uv[uv_set]) {
+        make_mikk_tangents(corners, a.uv[uv_set]);
+        return TangentSource::texture_coordinates;
+    }
+    corners.tangents.resize(corners.vertices.size());
+    for (std::size_t i = 0; i < corners.vertices.size(); ++i)
+        corners.tangents[i] = a.tangent ? clean_tangent(a.tangent, corners.vertices[i], corners.normals[i])
+                                        : glm::vec4(any_tangent(corners.normals[i]), 1.0f);
+    return a.tangent ? TangentSource::file : TangentSource::none;
+}
+
+void append_welded(Document& doc, const Corners& corners, Primitive& primitive, const std::string& place)
+{
+    VertexTable& table = doc.scene.vertices;
+    Column<std::uint32_t>& indices = doc.scene.indices;
+    constexpr std::size_t kMost = std::numeric_limits<std::uint32_t>::max();
+    if (corners.vertices.size() > kMost - indices.size() || corners.vertices.size() > kMost - table.size())
+        fail(place, "the scene has more than 2^32 indices");
+    primitive.first_index = static_cast<std::uint32_t>(indices.size());
+    primitive.first_vertex = static_cast<std::uint32_t>(table.size());
+    Welder welder(table);
+    indices.reserve(indices.size() + corners.vertices.size());
+    for (std::size_t i = 0; i < corners.vertices.size(); ++i) {
+        bool added = false;
+        indices.push_back(static_cast<std::uint32_t>(welder.find_or_add(vertex_at(corners, i), added)));
+        if (added)
+            doc.charge(sizeof(VertexBits), place);
+    }
+    primitive.index_count = static_cast<std::uint32_t>(corners.vertices.size());
+    primitive.vertex_count = static_cast<std::uint32_t>(table.size()) - primitive.first_vertex;
+}
+
+} // namespace burnish::gltf

@@ -1,9 +1,0 @@
-// Meshes: primitives of any triangle mode into the scene's vertex and index tables.
-#pragma once
-#include "core/scene/gltf_document.h"
-
-namespace burnish::gltf {
-
-void load_meshes(Document& doc); // after the materials
-
-} // namespace burnish::gltf

@@ -1,0 +1,8 @@
+// Eight lanes without intrinsics, for processors that have no lanes of their own here.
+#pragma once
+namespace burnish {
+inline namespace BN_ISA_NS {
+inline constexpr int kLanes = 8;
+}
+} // namespace burnish
+#include "core/simd/lanes_portable.h"

@@ -1,0 +1,20 @@
+// The processor's own clock, for shares of a time: cheap enough for inner loops, in units that differ from machine to machine.
+#pragma once
+#include <cstdint>
+
+namespace burnish {
+
+static inline __attribute__((always_inline, unused)) std::uint64_t ticks()
+{
+#if defined(__x86_64__)
+    return __builtin_ia32_rdtsc();
+#elif defined(__aarch64__)
+    std::uint64_t count;
+    __asm__ volatile("mrs %0, cntvct_el0" : "=r"(count));
+    return count;
+#else
+#error "this machine's counter"
+#endif
+}
+
+} // namespace burnish

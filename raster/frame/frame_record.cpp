@@ -1,0 +1,119 @@
+#include "raster/frame/frame_record.h"
+
+#include <algorithm>
+
+#include "core/math/scalar_math.h"
+#include "raster/frame/grid_samples.h"
+#include "shading/surface/lobe_shape.t.h"
+
+namespace burnish {
+
+ViewRecord view_record(const View& v)
+{
+    ViewRecord p = {};
+    for (int i = 0; i < 3; ++i)
+        p.eye[i] = v.eye[i], p.right[i] = v.right[i], p.up[i] = v.up[i], p.forward[i] = v.forward[i];
+    p.inv_tan_x = 1.0f / v.tan_half_x, p.inv_tan_y = 1.0f / v.tan_half_y;
+    p.znear = v.znear, p.zfar = v.zfar;
+    p.orthographic = v.orthographic;
+    p.inv_depth = v.orthographic ? 1.0f / (v.zfar - v.znear) : 0.0f;
+    return p;
+}
+
+CubeRecord cube_record(const CubeMap& cube)
+{
+    return {cube.size, cube.levels, cube.scale};
+}
+
+FrameRecord frame_record(const RenderInput& input, const FrameDesc& d)
+{
+    FrameRecord f = {};
+    f.view = view_record(d.view);
+    f.width = d.width, f.height = d.height, f.msaa = d.msaa;
+    f.center_x = d.width / 2 * kSubpixel, f.center_y = d.height / 2 * kSubpixel;
+    f.half_width = 0.5f * static_cast<float>(d.width), f.half_height = 0.5f * static_cast<float>(d.height);
+    f.pattern = standard_samples(d.msaa);
+    f.specular = cube_record(input.environment.specular), f.irradiance = cube_record(input.environment.irradiance);
+    f.dfg_size = input.dfg.size, f.lobe_albedo_size = kLobeAlbedoSize;
+    f.light_count = static_cast<int>(input.tables.lights.size());
+    f.dfg_fit = d.dfg_fit, f.energy_compensation = d.energy_compensation, f.horizon = d.horizon;
+    f.background = d.background;
+    f.samples = d.samples, f.texture_taps = d.texture_anisotropy;
+    for (int i = 0; i < 2; ++i) {
+        f.tilt_cos[i] = static_cast<float>(det_cos(static_cast<double>(d.tilt_rad[i])));
+        f.tilt_sin[i] = static_cast<float>(det_sin(static_cast<double>(d.tilt_rad[i])));
+    }
+    f.tilted = d.tilt_rad != glm::vec2(0.0f);
+#define BN_PARAMETER(id, kind, option, fallback, least, most, unit, summary) f.id = static_cast<BN_RECORD_##kind>(d.id);
+#include "shading/models.def"
+    f.override_anisotropy = d.override_anisotropy, f.anisotropy = d.anisotropy;
+    return f;
+}
+
+FrameMaker::FrameMaker(const RenderInput& input) : input_(input), scene_(upload_scene(input.scene, input.tables, input.jobs)) {}
+
+void FrameMaker::bake(const FrameDesc& desc)
+{
+    grid_.clear();
+    const TechniqueInfo& technique = *find_technique(desc.technique);
+    if ((technique.traits & kReadsBox) && box_cube_.levels == 0)
+        box_cube_ = box_filtered_chain(input_.environment.specular, input_.jobs);
+    if (technique.sampling == Sampling::grid)
+        grid_ = grid_samples(desc.samples, (technique.traits & kGgxGrid) != 0);
+}
+
+void FrameMaker::choose_techniques(const FrameDesc& desc)
+{
+    for (MaterialRecord& m : materials_) {
+        const TechniqueInfo& t = technique_of(desc, m.anisotropic != 0);
+        m.technique = static_cast<int>(&t - techniques().data());
+        m.technique_traits = m.unlit ? 0 : t.traits;
+    }
+}
+
+// Of every material whose lobe has the same two widths everywhere.
+void FrameMaker::slice_albedo(const FrameDesc& desc)
+{
+    constexpr std::size_t kTexels = std::size_t{kLobeAlbedoSize} * kLobeAlbedoSize / 2;
+    ShadingFrame f = {};
+    f.override_anisotropy = desc.override_anisotropy, f.anisotropy = desc.anisotropy;
+    for (MaterialRecord& m : materials_) {
+        m.albedo_slice = -1;
+        if (!m.anisotropic || !one_lobe_shape(m))
+            continue;
+        const lobe_shape shape = only_lobe_shape(f, m);
+        const std::array<float, 2> widths = {shape.sigma_u, shape.sigma_v};
+        const auto known = std::find(sliced_.begin(), sliced_.end(), widths);
+        m.albedo_slice = static_cast<int>(static_cast<std::size_t>(known - sliced_.begin()) * kTexels);
+        if (known != sliced_.end())
+            continue;
+        sliced_.push_back(widths);
+        lobe_slices_.resize(4 * kTexels * sliced_.size());
+        const double root2 = 1.4142135623730951;
+        bake_lobe_slice(kLobeAlbedoSize, root2 * static_cast<double>(widths[0]), root2 * static_cast<double>(widths[1]),
+                        lobe_slices_.data() + 4 * kTexels * (sliced_.size() - 1));
+    }
+}
+
+ShadingFrame FrameMaker::make(const FrameDesc& desc)
+{
+    bake(desc);
+    materials_ = overridden(scene_.materials, desc);
+    choose_techniques(desc);
+    slice_albedo(desc);
+    ShadingFrame f = {};
+    static_cast<FrameRecord&>(f) = frame_record(input_, desc);
+    const DrawTables& t = input_.tables;
+    f.px = t.px.data(), f.py = t.py.data(), f.pz = t.pz.data();
+    f.shading_vertices = reinterpret_cast<const float*>(t.shading.data());
+    f.indices = t.indices.data(), f.triangle_material = t.triangle_material.data();
+    f.materials = materials_.data(), f.textures = scene_.textures.data(), f.lights = scene_.lights.data();
+    f.specular_texels = input_.environment.specular.texels.data(), f.irradiance_texels = input_.environment.irradiance.texels.data();
+    f.dfg_texels = input_.dfg.texels.data();
+    f.lobe_albedo_texels = lobe_albedo_texels(), f.lobe_slice_texels = lobe_slices_.data();
+    f.box = cube_record(box_cube_), f.box_texels = box_cube_.texels.data();
+    f.grid = grid_.data(), f.grid_count = static_cast<int>(grid_.size());
+    return f;
+}
+
+} // namespace burnish

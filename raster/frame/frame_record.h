@@ -1,0 +1,46 @@
+// The one place where a FrameDesc becomes what shading reads of it: the record, its tables, and what is baked when a frame first asks.
+#pragma once
+#include <array>
+#include <vector>
+
+#include "raster/frame/frame.h"
+#include "raster/frame/upload.h"
+#include "shading/bake/environment/cube_map.h"
+#include "shading/lang/tables.h"
+
+namespace burnish {
+
+ViewRecord view_record(const View& view);
+CubeRecord cube_record(const CubeMap& cube); // without texels: no levels
+
+// All of the record but what a frame's technique is the first to ask for: box cube, grid and table of lobes' albedo.
+FrameRecord frame_record(const RenderInput& input, const FrameDesc& desc);
+
+class FrameMaker {
+  public:
+    explicit FrameMaker(const RenderInput& input); // its references must outlive the maker
+
+    // desc: one that check_desc() lets pass. What the frame points at stays until the next call.
+    ShadingFrame make(const FrameDesc& desc);
+
+    const SceneTables& scene() const { return scene_; }
+    const std::vector<MaterialRecord>& materials() const { return materials_; } // of the frame made last
+    const std::vector<GridSample>& grid() const { return grid_; }
+    const CubeMap& box_cube() const { return box_cube_; }
+    const Column<std::uint16_t>& lobe_slices() const { return lobe_slices_; } // of all frames so far
+
+  private:
+    void bake(const FrameDesc& desc);
+    void choose_techniques(const FrameDesc& desc);
+    void slice_albedo(const FrameDesc& desc);
+
+    RenderInput input_;
+    SceneTables scene_;
+    std::vector<MaterialRecord> materials_;
+    CubeMap box_cube_;                         // made when a technique first asks for it
+    std::vector<std::array<float, 2>> sliced_; // deviations of the lobes that have a slice, in their order
+    Column<std::uint16_t> lobe_slices_;
+    std::vector<GridSample> grid_;
+};
+
+} // namespace burnish

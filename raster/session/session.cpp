@@ -1,0 +1,129 @@
+#include "raster/session/session.h"
+
+#include <exception>
+#include <new>
+#include <utility>
+
+#include "core/scene/gltf/gltf.h"
+
+namespace burnish {
+namespace {
+
+// What `body` returns; an exception of what it calls becomes an Error.
+template <class Body> auto guarded(const std::string& what, const Body& body) -> decltype(body())
+{
+    try {
+        return body();
+    } catch (const std::bad_alloc&) {
+        return Error{ExitCode::bad_input, what, "", "out of memory"};
+    } catch (const std::exception& error) {
+        return Error{ExitCode::internal, what, "", error.what()};
+    }
+}
+
+Result<std::unique_ptr<Renderer>> make_renderer(const RenderInput& input, const SessionOptions& options)
+{
+    switch (options.backend) {
+    case Backend::reference: {
+        ReferenceOptions reference = options.reference;
+        reference.isa = options.isa;
+        return make_reference_renderer(input, reference);
+    }
+    case Backend::vulkan: {
+        std::shared_ptr<VulkanDevice> device = options.device;
+        if (!device) {
+            Result<std::shared_ptr<VulkanDevice>> opened = open_vulkan_device(options.vulkan);
+            if (!opened)
+                return opened.error();
+            device = std::move(*opened);
+        }
+        return make_vulkan_renderer(input, device);
+    }
+    case Backend::tile:
+        break;
+    }
+    return make_tile_renderer(input, options.isa);
+}
+
+} // namespace
+
+Result<std::shared_ptr<const SceneData>> make_scene_data(const std::string& name, Scene scene, const Limits& limits)
+{
+    using Made = Result<std::shared_ptr<const SceneData>>;
+    return guarded(name, [&]() -> Made {
+        auto data = std::make_shared<SceneData>();
+        data->name = name;
+        data->scene = std::move(scene);
+        update_world(data->scene);
+        if (const Status size = check_draw_size(data->scene, limits, name); !size)
+            return size.error();
+        data->tables = make_draw_tables(data->scene);
+        return std::shared_ptr<const SceneData>(std::move(data));
+    });
+}
+
+Result<std::shared_ptr<const SceneData>> load_scene_data(const std::string& spec, const Limits& limits)
+{
+    using Made = Result<std::shared_ptr<const SceneData>>;
+    return guarded(spec, [&]() -> Made {
+        Result<Scene> scene = load_scene(spec, limits);
+        if (!scene)
+            return scene.error();
+        return make_scene_data(spec, std::move(*scene), limits);
+    });
+}
+
+Result<std::shared_ptr<const Environment>> load_shared_environment(const std::string& spec, const EnvironmentOptions& options,
+                                                                   const Limits& limits, const Jobs& jobs)
+{
+    using Made = Result<std::shared_ptr<const Environment>>;
+    return guarded(spec, [&]() -> Made {
+        Result<Environment> environment = load_environment(spec, options, limits, jobs);
+        if (!environment)
+            return environment.error();
+        return std::make_shared<const Environment>(std::move(*environment));
+    });
+}
+
+std::shared_ptr<const DfgTable> standard_dfg(const Jobs& jobs)
+{
+    static const std::shared_ptr<const DfgTable> table = std::make_shared<const DfgTable>(bake_dfg(kDfgSize, kDfgSamples, jobs));
+    return table;
+}
+
+Result<Session> Session::make(SessionParts parts, const SessionOptions& options)
+{
+    return guarded(parts.scene->name, [&]() -> Result<Session> {
+        Result<std::unique_ptr<Renderer>> renderer = make_renderer(parts.input(), options);
+        if (!renderer)
+            return renderer.error();
+        return Session(std::move(parts), std::move(*renderer));
+    });
+}
+
+Result<Session> Session::open(const std::string& scene, const std::string& environment, const OpenOptions& open,
+                              const SessionOptions& options)
+{
+    return guarded(scene, [&]() -> Result<Session> {
+        SessionParts parts;
+        parts.jobs = std::make_shared<const Jobs>(open.threads);
+        const Result<std::shared_ptr<const SceneData>> data = load_scene_data(scene, open.limits);
+        if (!data)
+            return data.error();
+        const Result<std::shared_ptr<const Environment>> light =
+            load_shared_environment(environment, open.environment, open.limits, *parts.jobs);
+        if (!light)
+            return light.error();
+        parts.scene = *data;
+        parts.environment = *light;
+        parts.dfg = standard_dfg(*parts.jobs);
+        return make(std::move(parts), options);
+    });
+}
+
+Result<Frame> Session::render(const FrameDesc& desc, Frame recycled)
+{
+    return guarded(parts_.scene->name, [&]() { return renderer_->render(desc, std::move(recycled)); });
+}
+
+} // namespace burnish

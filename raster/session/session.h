@@ -1,0 +1,107 @@
+// A scene under an environment, made ready once and drawn many times: what the program, its tests and other people's programs draw with.
+//
+//   Result<Session> opened = Session::open("lamp.glb", "builtin:studio");
+//   FrameDesc desc;                                             // 1280x720, 8 samples a pixel
+//   desc.view = opened->framed(desc.width, desc.height);
+//   Result<Frame> frame = opened->render(desc);                 // frame->color: f32 RGB, linear Rec.709 radiance
+//
+// No exception leaves a function of this header: what fails is an Error. Parts (SceneData, Environment, DfgTable) never change once they
+// are made, so any number of sessions and threads may share them. One session is used by one thread at a time; sessions in different
+// threads do not know of each other, and draw the same bits as alone.
+#pragma once
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "core/base/limits.h"
+#include "core/base/result.h"
+#include "core/jobs/jobs.h"
+#include "core/scene/draw_tables.h"
+#include "core/scene/scene.h"
+#include "raster/frame/frame.h"
+#include "raster/reference/reference_renderer.h"
+#include "raster/tile/tile_renderer.h"
+#include "raster/vulkan/vulkan_renderer.h"
+#include "shading/bake/environment/environment.h"
+
+namespace burnish {
+
+inline constexpr int kDfgSize = 64;     // texels a side of the table of directional albedo
+inline constexpr int kDfgSamples = 256; // a texel
+
+struct SceneData { // a scene and what is drawn of it
+    std::string name;
+    Scene scene; // its world matrices are up to date
+    DrawTables tables;
+};
+
+// "builtin:NAME" or a path of a .gltf or .glb file.
+Result<std::shared_ptr<const SceneData>> load_scene_data(const std::string& spec, const Limits& limits);
+// From a scene made in memory. The limit on what instances expand to holds here too.
+Result<std::shared_ptr<const SceneData>> make_scene_data(const std::string& name, Scene scene, const Limits& limits);
+// "builtin:NAME" or a path of an equirectangular picture.
+Result<std::shared_ptr<const Environment>> load_shared_environment(const std::string& spec, const EnvironmentOptions& options,
+                                                                   const Limits& limits, const Jobs& jobs);
+// The table of directional albedo that pictures are made with: the same bits everywhere, made once a process.
+std::shared_ptr<const DfgTable> standard_dfg(const Jobs& jobs);
+
+// What a renderer draws. All of it is shared.
+struct SessionParts {
+    std::shared_ptr<const SceneData> scene;
+    std::shared_ptr<const Environment> environment;
+    std::shared_ptr<const DfgTable> dfg;
+    std::shared_ptr<const Jobs> jobs;
+
+    RenderInput input() const { return {scene->scene, scene->tables, *environment, *dfg, *jobs}; }
+};
+
+enum class Backend { tile, vulkan, reference };
+
+struct SessionOptions {
+    Backend backend = Backend::tile;
+    Isa isa = best_isa();                 // of tile and reference
+    ReferenceOptions reference;           // of reference; its `isa` is the one above
+    VulkanOptions vulkan;                 // of vulkan, where no device is given
+    std::shared_ptr<VulkanDevice> device; // of vulkan: one that is open already
+};
+
+// What opening by names needs besides.
+struct OpenOptions {
+    int threads = 0; // 0: all cores the process may use
+    EnvironmentOptions environment;
+    Limits limits;
+};
+
+class Session {
+  public:
+    // Loads, bakes or finds in the cache, and makes the renderer. Errors: ExitCode::bad_input, usage, unavailable.
+    static Result<Session> open(const std::string& scene, const std::string& environment, const OpenOptions& open = {},
+                                const SessionOptions& options = {});
+    static Result<Session> make(SessionParts parts, const SessionOptions& options = {});
+
+    Session(Session&&) = default;
+    Session& operator=(Session&& other)
+    {
+        renderer_ = std::move(other.renderer_); // before what it refers to
+        parts_ = std::move(other.parts_);
+        return *this;
+    }
+
+    // `recycled`: a frame that is not needed any more, whose memory may be used again. Errors: ExitCode::usage, unavailable.
+    Result<Frame> render(const FrameDesc& desc, Frame recycled = {});
+
+    const SessionParts& parts() const { return parts_; }
+    const Scene& scene() const { return parts_.scene->scene; }
+    const DrawTables& tables() const { return parts_.scene->tables; }
+    Renderer& renderer() { return *renderer_; }
+    std::string device() const { return renderer_->device(); } // what runs it: "AMD EPYC (avx512)", ...
+    // A view of the whole scene for a picture of this size.
+    View framed(int width, int height) const { return auto_frame(tables(), width, height); }
+
+  private:
+    Session(SessionParts parts, std::unique_ptr<Renderer> renderer) : parts_(std::move(parts)), renderer_(std::move(renderer)) {}
+    SessionParts parts_;
+    std::unique_ptr<Renderer> renderer_; // refers to what parts_ holds, which moves with it
+};
+
+} // namespace burnish

@@ -1,0 +1,101 @@
+// Blocks of 8x8 pixels whose samples are written late: where nothing was drawn, or one triangle covers all of it, there is nothing to
+// clear, to test against or to read again.
+#pragma once
+#include "raster/tile/lanes_view.h"
+
+namespace burnish {
+inline namespace BN_ISA_NS {
+
+inline constexpr int kVectors = kBlockPixels / kLanes; // registers a block; a register holds kLanes pixels in row-major order
+inline constexpr std::uint32_t kAllLanes = (1u << kLanes) - 1;
+
+// Constants of the lanes: pixel offsets inside a block.
+struct BlockLanes {
+    integer x16, y16; // of the first register, 1/16 pixel
+    real x, y;        // pixels
+};
+BN_INLINE BlockLanes block_lanes()
+{
+    const integer x = iota() & int_lit(7), y = shr(iota(), 3);
+    return {shl(x, 4), shl(y, 4), to_real(x), to_real(y)};
+}
+
+// What a sample's depth differs by from that of its pixel's corner.
+BN_INLINE real sample_depth_step(const FrameParams& f, real dz_x, real dz_y, int sample)
+{
+    const real to_pixels = splat(1.0f / 16);
+    return dz_x * (to_real(load_int(f.pattern.x16 + sample)) * to_pixels) + dz_y * (to_real(load_int(f.pattern.y16 + sample)) * to_pixels);
+}
+
+// Greatest and least depth that a plane can have in a block, rounding included, as far as the block lies in the triangle.
+struct DepthBounds {
+    float nearest, farthest;
+};
+BN_INLINE DepthBounds depth_bounds(const BlockPlane& p)
+{
+    const float ax = p.dz_x < 0.0f ? -p.dz_x : p.dz_x, ay = p.dz_y < 0.0f ? -p.dz_y : p.dz_y;
+    const float size = p.z < 0.0f ? -p.z : p.z, slack = 1e-5f * (size + (ax + ay) * kBlock); // rounding is far below
+    const float middle = p.z + (p.dz_x + p.dz_y) * (0.5f * kBlock), reach = (ax + ay) * (0.5f * kBlock);
+    const float nearest = middle + reach + slack, farthest = middle - reach - slack;
+    return {nearest < p.z_max ? nearest : p.z_max, farthest > p.z_min ? farthest : p.z_min};
+}
+
+BN_INLINE void empty_blocks(int count, TileScratch& s)
+{
+    for (int block = 0; block < count; ++block) {
+        s.block_far[block] = 0.0f;
+        s.block_dirty[block] = 0;
+        s.block_state[block] = BlockState::empty;
+    }
+}
+
+// A triangle covers all of a block and hides all that was there.
+BN_INLINE void take_block(const BlockPlane& plane, float farthest, int block, TileScratch& s)
+{
+    s.block_plane[block] = plane;
+    s.block_far[block] = farthest;
+    s.block_dirty[block] = 0;
+    s.block_state[block] = BlockState::whole;
+}
+
+// Depths and ids of a block that was not drawn go to memory; it is `drawn` from now on.
+BN_STAGE void write_block(const FrameParams& f, int block, TileScratch& s)
+{
+    float* depth = s.depth + block * f.msaa * kBlockPixels;
+    std::int32_t* ids = reinterpret_cast<std::int32_t*>(s.ids) + block * f.msaa * kBlockPixels;
+    const bool whole = s.block_state[block] == BlockState::whole;
+    s.block_state[block] = BlockState::drawn;
+    if (!whole) {
+        for (int i = 0; i < f.msaa * kBlockPixels; i += kLanes) {
+            store(depth + i, lit(0.0));
+            store_int(ids + i, int_lit(-1));
+        }
+        return;
+    }
+    const BlockPlane& p = s.block_plane[block];
+    const BlockLanes lanes = block_lanes();
+    const real dz_x = splat(p.dz_x), dz_y = splat(p.dz_y), z_min = splat(p.z_min), z_max = splat(p.z_max);
+    const integer id = int_lit(static_cast<std::int32_t>(p.id));
+    float sample_z[kMaxSamples];
+    for (int k = 0; k < f.msaa; k += kLanes)
+        store(sample_z + k, sample_depth_step(f, dz_x, dz_y, k));
+    for (int v = 0; v < kVectors; ++v) {
+        const real x = lanes.x + splat(static_cast<float>(v * kLanes & 7)), y = lanes.y + splat(static_cast<float>(v * kLanes >> 3));
+        const real z = splat(p.z) + (dz_x * x + dz_y * y);
+        for (int k = 0; k < f.msaa; ++k) {
+            store(depth + k * kBlockPixels + v * kLanes, min(max(z + splat(sample_z[k]), z_min), z_max));
+            store_int(ids + k * kBlockPixels + v * kLanes, id);
+        }
+    }
+}
+
+BN_INLINE void write_all_blocks(const FrameParams& f, TileScratch& s)
+{
+    const int count = (f.tile_size / kBlock) * (f.tile_size / kBlock);
+    for (int block = 0; block < count; ++block)
+        if (s.block_state[block] != BlockState::drawn)
+            write_block(f, block, s);
+}
+
+} // namespace BN_ISA_NS
+} // namespace burnish

@@ -1,0 +1,27 @@
+// The two halves of a tile: what is visible (visible.isa.cpp), and its colours (tile.isa.cpp).
+#pragma once
+#include "raster/tile/lanes_view.h"
+
+namespace burnish {
+inline namespace BN_ISA_NS {
+
+struct Tile {
+    const FrameParams& f;
+    TileScratch& s;
+    int index_x, index_y;
+    int x0, y0, width, height; // pixels
+};
+
+// Draws the tile's triangles and lists its fragments by material, slot by slot: TileScratch::slot_begin and so on. Returns the number of
+// slots; slot 0 is the background.
+int find_visible(const Tile& tile, const view_params& view);
+
+// A stage ends: one test where nobody profiles.
+BN_INLINE void lap(const TileScratch& s, FrameStage stage, std::int32_t material = -1, std::uint32_t used = 0)
+{
+    if (s.clock)
+        s.clock->lap(*s.clock, stage, material, used, (used + kLanes - 1) / kLanes * kLanes);
+}
+
+} // namespace BN_ISA_NS
+} // namespace burnish

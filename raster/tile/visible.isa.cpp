@@ -1,0 +1,275 @@
+// Which triangle every sample of a tile shows, and the fragments that this makes, sorted by material. Compiled once for every instruction
+// set.
+#include "raster/tile/visible.h"
+
+#include "raster/tile/draw_order.h"
+#include "raster/tile/raster.h"
+#include "raster/tile/shade.h"
+#include "raster/tile/small_triangles.h"
+#include "raster/tile/visibility.h"
+
+namespace burnish {
+inline namespace BN_ISA_NS {
+
+namespace {
+
+struct OpaqueBlocks {
+    static constexpr bool kTests = false;
+    NoAlpha operator()(int, int) const { return {}; }
+};
+
+// Alpha test of one triangle in one block. A mask discards the whole fragment; a blend becomes coverage: sample i of n stays
+// where alpha > (i + 1/2) / n, so the resolved pixel shows about `alpha` of the surface, without sorting.
+struct BlockAlpha {
+    static constexpr bool kTests = true;
+    const Tile& t;
+    const MaterialRecord& m;
+    const view_params& view;
+    std::uint32_t triangle;
+    int block_x, block_y;
+
+    void operator()(int v, std::uint32_t lanes, std::uint32_t alive[kMaxSamples]) const
+    {
+        const integer lane = iota() + int_lit(v * kLanes);
+        const integer x = (lane & int_lit(7)) + int_lit(t.x0 + block_x * kBlock);
+        const integer y = shr(lane, 3) + int_lit(t.y0 + block_y * kBlock);
+        const std::int32_t id = static_cast<std::int32_t>(triangle);
+        const visible_point p = make_fragment(t.f, m, view, t.s, int_lit(id), id, x, y, int_lit((1 << t.f.msaa) - 1));
+        const real alpha = fetch_lanes(t.f, m, p).alpha;
+        const bool blend = m.alpha_mode == 2;
+        for (int s = 0; s < t.f.msaa; ++s) {
+            const float threshold = blend ? (static_cast<float>(s) + 0.5f) / static_cast<float>(t.f.msaa) : m.alpha_cutoff;
+            alive[s] = lanes & to_bits(blend ? alpha > splat(threshold) : alpha >= splat(threshold));
+        }
+    }
+};
+
+struct AlphaBlocks {
+    static constexpr bool kTests = true;
+    const Tile& t;
+    const MaterialRecord& m;
+    const view_params& view;
+    std::uint32_t triangle;
+    BlockAlpha operator()(int bx, int by) const { return {t, m, view, triangle, bx, by}; }
+};
+
+BN_INLINE void note_material(TileScratch& s, std::int32_t material)
+{
+    s.only_material = s.only_material == kNoMaterial || s.only_material == material ? material : kManyMaterials;
+}
+
+// Draws the small ones of a register of triangles, and notes where there are some; the others join the list of those drawn singly.
+void raster_register(const Tile& t, std::uint32_t first, std::uint32_t& singly, bool& some_small)
+{
+    TileScratch& s = t.s;
+    mask whole;
+    integer material;
+    const LaneTriangles triangles = load_triangles(t.f, s, first, whole, material);
+    const std::uint32_t used = s.triangle_count - first < kLanes ? (1u << (s.triangle_count - first)) - 1 : (1u << kLanes) - 1;
+    std::uint32_t small = to_bits(both(whole, small_triangles(triangles)));
+    std::uint32_t rest = small; // whose material was not looked at
+    while (rest) {
+        const std::int32_t id = s.triangles[first + static_cast<std::uint32_t>(__builtin_ctz(rest))].info >> 2;
+        const std::uint32_t same = rest & to_bits(material == int_lit(id));
+        if (t.f.materials[id].alpha_mode == 0)
+            note_material(s, id);
+        else
+            small &= ~same;
+        rest &= ~same;
+    }
+    for (std::uint32_t bits = used & ~small; bits; bits &= bits - 1)
+        s.drawn_singly[singly++] = first + static_cast<std::uint32_t>(__builtin_ctz(bits));
+    if (small) {
+        if (!some_small) // where there is one there are many
+            write_all_blocks(t.f, s);
+        some_small = true;
+        raster_small_triangles(t.f, triangles, mask_from_bits(small), t.index_x, t.index_y, first, s);
+    }
+}
+
+template <bool kAnyOrder> void raster_singly(const Tile& t, const view_params& view, std::uint32_t count, int refresh_writes)
+{
+    TileScratch& s = t.s;
+    for (std::uint32_t k = 0; k < count; ++k) {
+        const std::uint32_t i = s.drawn_singly[k];
+        const TriangleSetup& setup = s.triangles[i];
+        TileTriangle triangle;
+        if (!begin_triangle(t.f, setup, t.index_x, t.index_y, triangle))
+            continue;
+        triangle.refresh_writes = refresh_writes;
+        const std::int32_t material = setup.info >> 2;
+        note_material(s, material);
+        const MaterialRecord& m = t.f.materials[material];
+        if (m.alpha_mode == 0)
+            raster_triangle<kAnyOrder>(t.f, triangle, i, s, OpaqueBlocks{});
+        else
+            raster_triangle<kAnyOrder>(t.f, triangle, i, s, AlphaBlocks{t, m, view, i});
+    }
+}
+
+void raster_tile(const Tile& t, const view_params& view)
+{
+    TileScratch& s = t.s;
+    s.only_material = kNoMaterial;
+    std::uint32_t singly = 0;
+    bool some_small = false;
+    for (std::uint32_t i = 0; i < s.triangle_count; i += kLanes)
+        raster_register(t, i, singly, some_small);
+    if (some_small) // the blocks' bounds are out of date
+        __builtin_memset(s.block_dirty, 255, static_cast<std::size_t>((t.f.tile_size / kBlock) * (t.f.tile_size / kBlock)));
+    const bool sorted = front_to_back(t.f, s, singly); // where it pays to know at once what hides the rest
+    if (sorted || some_small)
+        raster_singly<true>(t, view, singly, sorted ? 1 : 4);
+    else
+        raster_singly<false>(t, view, singly, 4);
+}
+
+// Global id of a triangle of the tile's list.
+BN_INLINE std::uint32_t triangle_id(const TileScratch& s, std::uint32_t i)
+{
+    return s.entries[i] & kClippedEntry ? s.clips[s.triangles[i].vertex[0]].triangle : s.entries[i];
+}
+
+// Global ids of a block's row of pixels; false, and nothing written, where one shows a piece of a clipped triangle.
+BN_INLINE bool write_row(const TileScratch& s, const std::uint32_t* from, std::uint32_t* to)
+{
+    constexpr int kStep = kLanes < kBlock ? kLanes : kBlock;
+    std::int32_t row[kBlock + kLanes];
+    for (int x = 0; x < kBlock; x += kStep) {
+        const integer id = load_first(reinterpret_cast<const std::int32_t*>(from + x), kStep), zero = int_lit(0);
+        const mask nothing = id < zero;
+        const integer entry = gather_int(reinterpret_cast<const std::int32_t*>(s.entries), select(nothing, zero, id));
+        if (any(both(not_(nothing), entry < zero)))
+            return false;
+        store_int(row + x, select(nothing, id, entry));
+    }
+    __builtin_memcpy(to, row, kBlock * sizeof *to);
+    return true;
+}
+
+void write_ids(const Tile& t)
+{
+    const int blocks_x = t.f.tile_size / kBlock, msaa = t.f.msaa;
+    for (int y = 0; y < t.height; ++y)
+        for (int bx = 0; bx * kBlock < t.width; ++bx) {
+            const std::uint32_t* from = t.s.ids + (y / kBlock * blocks_x + bx) * msaa * kBlockPixels + y % kBlock * kBlock;
+            std::uint32_t* to = t.s.output_ids + (static_cast<std::size_t>(t.y0 + y) * static_cast<std::size_t>(t.f.width) +
+                                                  static_cast<std::size_t>(t.x0 + bx * kBlock)) *
+                                                     static_cast<std::size_t>(msaa);
+            const int pixels = t.width - bx * kBlock < kBlock ? t.width - bx * kBlock : kBlock;
+            if (msaa == 1 && pixels == kBlock && write_row(t.s, from, to))
+                continue;
+            for (int x = 0; x < pixels; ++x)
+                for (int s = 0; s < msaa; ++s) {
+                    const std::uint32_t id = from[s * kBlockPixels + x];
+                    *to++ = id == kNoTriangle ? kNoTriangle : triangle_id(t.s, id);
+                }
+        }
+}
+
+constexpr std::int32_t kBackgroundSlot = 0;
+
+// End of the run of fragments of the triangle at `i`.
+BN_INLINE std::uint32_t run_end(const std::int32_t* triangle, std::uint32_t i, std::uint32_t count)
+{
+    const std::int32_t id = triangle[i];
+    for (++i; i + kLanes <= count && all(load_int(triangle + i) == int_lit(id)); i += kLanes) {
+    }
+    while (i < count && triangle[i] == id)
+        ++i;
+    return i;
+}
+
+// sort_fragments() where all triangles are of one material. Where there is only background or none, the order is the list's own and is
+// not written.
+int split_background(TileScratch& s)
+{
+    const std::uint32_t count = s.fragment_count;
+    s.slot_material[1] = s.only_material;
+    s.slot_begin[0] = 0, s.slot_begin[1] = s.background_pixels, s.slot_begin[2] = count;
+    s.in_list_order = s.background_pixels == 0 || s.background_pixels == count;
+    if (s.in_list_order)
+        return s.background_pixels == count ? 1 : 2;
+    std::int32_t* to = s.order;
+    for (const bool behind : {true, false}) // one after the other, as whole registers are written beyond the end
+        for (std::uint32_t i = 0; i < count; i += kLanes) {
+            const integer index = iota() + int_lit(static_cast<std::int32_t>(i));
+            const mask valid = index < int_lit(static_cast<std::int32_t>(count));
+            const mask nothing = load_int(s.fragment_triangle + i) < int_lit(0);
+            to += compress_store_int(to, index, both(valid, behind ? nothing : not_(nothing)));
+        }
+    return 2;
+}
+
+// Sorts the fragments by material, stably. Returns the number of slots; slot 0 is the background.
+int sort_fragments(TileScratch& s)
+{
+    if (s.only_material != kManyMaterials)
+        return split_background(s);
+    s.in_list_order = false;
+    int slots = 1;
+    const std::int32_t* const triangle = s.fragment_triangle;
+    std::int32_t* const order = s.order;
+    std::uint32_t* const slot_begin = s.slot_begin;
+    const std::uint32_t count = s.fragment_count;
+    const auto slot_of = [&](std::int32_t id) -> std::int32_t& { return s.slot_of_material[s.triangles[id].info >> 2]; };
+    slot_begin[0] = 0;
+    for (std::uint32_t i = 0; i < count;) {
+        const std::uint32_t end = run_end(triangle, i, count);
+        std::int32_t at = kBackgroundSlot;
+        if (triangle[i] >= 0) {
+            std::int32_t& slot = slot_of(triangle[i]);
+            if (slot < 0) {
+                slot = slots;
+                s.slot_material[slots] = s.triangles[triangle[i]].info >> 2;
+                slot_begin[slots++] = 0;
+            }
+            at = slot;
+        }
+        slot_begin[at] += end - i;
+        i = end;
+    }
+    std::uint32_t begin = 0;
+    for (int k = 0; k < slots; ++k) {
+        const std::uint32_t size = slot_begin[k];
+        slot_begin[k] = begin;
+        begin += size;
+    }
+    for (std::uint32_t i = 0; i < count;) {
+        const std::uint32_t end = run_end(triangle, i, count);
+        std::uint32_t& to = slot_begin[triangle[i] < 0 ? kBackgroundSlot : slot_of(triangle[i])];
+        std::int32_t* const from = order + to;
+        to += end - i;
+        for (std::int32_t* at = from; i < end; ++i, ++at)
+            *at = static_cast<std::int32_t>(i);
+    }
+    for (int k = slots - 1; k > 0; --k) // each slot's end is the next one's begin
+        slot_begin[k] = slot_begin[k - 1];
+    slot_begin[0] = 0;
+    slot_begin[slots] = count;
+    for (int k = 1; k < slots; ++k)
+        s.slot_of_material[s.slot_material[k]] = -1;
+    return slots;
+}
+
+} // namespace
+
+int find_visible(const Tile& t, const view_params& view)
+{
+    TileScratch& s = t.s;
+    empty_blocks((t.f.tile_size / kBlock) * (t.f.tile_size / kBlock), s);
+    lap(s, FrameStage::clear);
+    raster_tile(t, view);
+    lap(s, FrameStage::coverage);
+    if (s.output_ids || s.output_pairs)
+        write_all_blocks(t.f, s);
+    if (s.output_ids)
+        write_ids(t);
+    list_fragments(t.f, t.width, t.height, s);
+    const int slots = sort_fragments(s);
+    lap(s, FrameStage::visibility);
+    return slots;
+}
+
+} // namespace BN_ISA_NS
+} // namespace burnish

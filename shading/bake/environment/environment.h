@@ -1,0 +1,82 @@
+// The environment as the renderers use it: a cube map with its prefiltered chain, diffuse irradiance and the
+// DFG table, baked once and cached. Orientation (glTF#1761): the centre of the equirectangular image is +X,
+// up is +Y, and u grows towards +Z: a direction d has u = 1/2 + atan2(d.z, d.x) / (2 pi), v = acos(d.y) / pi.
+#pragma once
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/base/column.h"
+#include "core/base/limits.h"
+#include "core/base/result.h"
+#include "core/image/image.h"
+#include "core/jobs/jobs.h"
+
+namespace burnish {
+
+// Faces +x -x +y -y +z -z, each (size+2)^2 texels of RGBA half with a border of one texel copied from the
+// neighbouring faces (corners: mean of the three), so a 2x2 bilinear footprint never leaves its face. Levels
+// follow each other, largest first. A texel pair is one 16-byte load. Alpha is 1.
+struct CubeMap {
+    int size = 0; // texels along an edge of level 0, power of two
+    int levels = 0;
+    std::vector<std::uint32_t> offset; // by level, in texels, of face 0; faces are (size_l + 2)^2 texels apart
+    Column<std::uint16_t> texels;      // 4 halves a texel
+    float scale = 1.0f;                // power of two that multiplies what is fetched (keeps suns within half range)
+};
+
+struct Environment {
+    std::string name;
+    CubeMap specular;   // level 0: the environment; level l: GGX with alpha_lin = l / (levels - 1)
+    CubeMap irradiance; // cosine-weighted mean radiance (irradiance / pi), one level, 32^2 faces
+    double energy_source = 0.0,
+           energy_cube = 0.0; // mean radiance (luminance) over the sphere before and after, exposure included
+    float peak_source = 0.0f; // largest channel value in the source, exposure included
+    double bake_ms = 0.0;     // wall time of this bake, or of reading the cache
+    bool from_cache = false;
+    std::uint64_t content_hash = 0;    // of source pixels and all bake options
+    std::vector<std::string> warnings; // one line each: repaired pixels, an unwritable cache
+};
+
+struct EnvironmentOptions {
+    float rotation_deg = 0.0f; // turns the environment about +Y, counter-clockwise seen from above
+    float exposure_ev = 0.0f;  // radiance is multiplied by 2^ev
+    int cube_size = 512;       // power of two, 4 to 4096
+    int levels = 0;            // 0: log2(cube_size), down to 2^2 texels a face
+    int samples = 1024;        // pieces of light that a texel of a prefiltered level sums, about; 1 to 65536
+    bool use_cache = true;
+    std::string cache_dir; // empty: $XDG_CACHE_HOME/burnish or ~/.cache/burnish
+    bool quiet = true;     // no progress bar
+};
+
+// Bakes from an equirectangular image (f32, any size), or finds the result in the cache.
+Result<Environment> bake_environment(const Image& equirect, const std::string& name, const EnvironmentOptions& options, const Jobs& jobs);
+// `spec`: "builtin:NAME" or a path of an equirectangular image.
+Result<Environment> load_environment(const std::string& spec, const EnvironmentOptions& options, const Limits& limits, const Jobs& jobs);
+
+// The same level 0 with a box-filtered chain under it, for techniques that choose a level by the solid angle of a sample.
+CubeMap box_filtered_chain(const CubeMap& environment, const Jobs& jobs);
+
+// Directional albedo of GGX with height-correlated Smith (split-sum DFG): F = F0 * scale + F90 * bias
+// (Schlick). Row: alpha_lin (perceptual roughness) = y / (size - 1); column: n.v = x / (size - 1).
+struct DfgTable {
+    int size = 0;
+    Column<float> scale, bias;    // size * size
+    Column<std::uint16_t> texels; // the same as size * size RGBA halves, for shading/surface/dfg.k.h: scale =
+                                  // R + B, bias = G + A
+};
+// samples: directions an entry is integrated over; their number is rounded down to a square.
+DfgTable bake_dfg(int size, int samples, const Jobs& jobs);
+
+// The same for lobes of two widths: size^4 / 4 RGBA halves as DfgTable's, whose order and axes are those of lobe_albedo_lookup() in
+// shading/surface/energy.k.h. size, along n.v and roughness, half of it along anisotropy and azimuth: even, at least 4.
+inline constexpr int kLobeAlbedoSize = 20;
+// A constant of mathematics: the same bits everywhere.
+Column<std::uint16_t> bake_lobe_albedo(int size, const Jobs& jobs);
+// That of kLobeAlbedoSize, made when the program was built.
+const std::uint16_t* lobe_albedo_texels();
+std::size_t lobe_albedo_bytes();
+// The same for one lobe, of widths alpha_x >= alpha_y: size^2 / 2 texels for lobe_slice_lookup().
+void bake_lobe_slice(int size, double alpha_x, double alpha_y, std::uint16_t* texels);
+
+} // namespace burnish

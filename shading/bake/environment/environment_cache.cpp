@@ -1,0 +1,114 @@
+#include "shading/bake/environment/environment_cache.h"
+
+#include <bit>
+#include <cstring>
+#include <filesystem>
+#include <fmt/format.h>
+
+#include "core/base/cache.h"
+#include "core/base/file.h"
+#include "core/base/hash.h"
+#include "shading/bake/environment/cube_map.h"
+
+namespace burnish {
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "cache files are little-endian");
+
+// The file: this header, the specular texels, the irradiance texels.
+struct Header {
+    char magic[8];
+    std::uint32_t version;
+    std::int32_t size, levels, irradiance_size;
+    float specular_scale, irradiance_scale, peak_source;
+    std::uint32_t zero;
+    double energy_source, energy_cube;
+    std::uint64_t content_hash;
+    std::uint64_t payload_hash;
+    std::uint64_t header_hash; // of everything above
+};
+static_assert(sizeof(Header) == 80);
+constexpr char kMagic[8] = {'b', 'u', 'r', 'n', 'e', 'n', 'v', '\n'};
+
+std::uint64_t hash_of(const Header& h)
+{
+    return hash_bytes(&h, offsetof(Header, header_hash));
+}
+
+std::size_t bytes_of(const CubeMap& cube)
+{
+    return cube.texels.size() * sizeof(std::uint16_t);
+}
+
+} // namespace
+
+std::uint64_t environment_hash(const Image& equirect, const EnvironmentOptions& options, int levels)
+{
+    const struct {
+        std::uint32_t version;
+        std::int32_t width, height, channels, type, size, levels, samples;
+        float rotation, exposure;
+    } key = {kBakeVersion,      equirect.width, equirect.height, equirect.channels,    static_cast<std::int32_t>(equirect.type),
+             options.cube_size, levels,         options.samples, options.rotation_deg, options.exposure_ev};
+    return hash_bytes(equirect.bytes.data(), equirect.bytes.size(), hash_bytes(&key, sizeof(key)));
+}
+
+std::string environment_cache_path(const EnvironmentOptions& options, std::uint64_t content_hash)
+{
+    const std::string folder = options.cache_dir.empty() ? cache_folder() : options.cache_dir;
+    return folder.empty() ? "" : fmt::format("{}/environment-{:016x}.bnenv", folder, content_hash);
+}
+
+std::optional<Environment> read_environment_cache(const std::string& path, std::uint64_t content_hash, int size, int levels)
+{
+    Environment e;
+    e.specular = make_cube_map(size, levels, 1.0f);
+    e.irradiance = make_cube_map(kIrradianceSize, 1, 1.0f);
+    const std::size_t specular = bytes_of(e.specular), irradiance = bytes_of(e.irradiance);
+    const std::size_t expected = sizeof(Header) + specular + irradiance;
+    const Result<std::vector<std::uint8_t>> file = read_file(path, expected, Links::refuse);
+    if (!file || file->size() != expected)
+        return std::nullopt;
+    Header h;
+    std::memcpy(&h, file->data(), sizeof(h));
+    const std::uint8_t* payload = file->data() + sizeof(h);
+    if (std::memcmp(h.magic, kMagic, sizeof(kMagic)) != 0 || h.version != kBakeVersion || h.size != size || h.levels != levels ||
+        h.irradiance_size != kIrradianceSize || h.content_hash != content_hash || h.header_hash != hash_of(h) ||
+        h.payload_hash != hash_bytes(payload, specular + irradiance))
+        return std::nullopt;
+    std::memcpy(e.specular.texels.data(), payload, specular);
+    std::memcpy(e.irradiance.texels.data(), payload + specular, irradiance);
+    e.specular.scale = h.specular_scale, e.irradiance.scale = h.irradiance_scale;
+    e.energy_source = h.energy_source, e.energy_cube = h.energy_cube, e.peak_source = h.peak_source;
+    e.content_hash = content_hash;
+    e.from_cache = true;
+    note_cache_use(path);
+    return e;
+}
+
+Status write_environment_cache(const std::string& path, const Environment& e)
+{
+    const std::size_t specular = bytes_of(e.specular), irradiance = bytes_of(e.irradiance);
+    std::vector<std::uint8_t> file(sizeof(Header) + specular + irradiance);
+    std::memcpy(file.data() + sizeof(Header), e.specular.texels.data(), specular);
+    std::memcpy(file.data() + sizeof(Header) + specular, e.irradiance.texels.data(), irradiance);
+    Header h = {};
+    std::memcpy(h.magic, kMagic, sizeof(kMagic));
+    h.version = kBakeVersion;
+    h.size = e.specular.size, h.levels = e.specular.levels, h.irradiance_size = e.irradiance.size;
+    h.specular_scale = e.specular.scale, h.irradiance_scale = e.irradiance.scale, h.peak_source = e.peak_source;
+    h.energy_source = e.energy_source, h.energy_cube = e.energy_cube;
+    h.content_hash = e.content_hash;
+    h.payload_hash = hash_bytes(file.data() + sizeof(Header), specular + irradiance);
+    h.header_hash = hash_of(h);
+    std::memcpy(file.data(), &h, sizeof(h));
+
+    const std::filesystem::path folder = std::filesystem::path(path).parent_path();
+    std::error_code ignored; // a folder that cannot be made shows in the write
+    std::filesystem::create_directories(folder, ignored);
+    const Status written = write_file_atomic(path, file.data(), file.size(), Links::refuse);
+    prune_cache(folder.string(), cache_limit(), path);
+    return written;
+}
+
+} // namespace burnish

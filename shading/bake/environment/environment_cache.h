@@ -1,0 +1,25 @@
+// Baked environments on disk, found by content hash. Anything unexpected in a cache file (truncation, another
+// version, a wrong checksum) means that it is not there.
+#pragma once
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "shading/bake/environment/environment.h"
+
+namespace burnish {
+
+inline constexpr std::uint32_t kBakeVersion = 3; // raised whenever a bake gives other bits
+inline constexpr int kIrradianceSize = 32;       // texels along an edge of the irradiance cube
+
+std::uint64_t environment_hash(const Image& equirect, const EnvironmentOptions& options, int levels);
+
+// Path of the cache file; empty where there is no folder to cache in.
+std::string environment_cache_path(const EnvironmentOptions& options, std::uint64_t content_hash);
+
+std::optional<Environment> read_environment_cache(const std::string& path, std::uint64_t content_hash, int size, int levels);
+// Creates the folder where needed. The file appears when it is complete; others go where the cache has become too large
+// (core/base/cache.h).
+Status write_environment_cache(const std::string& path, const Environment& environment);
+
+} // namespace burnish

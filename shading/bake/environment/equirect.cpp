@@ -1,0 +1,244 @@
+#include "shading/bake/environment/equirect.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fmt/format.h>
+#include <limits>
+
+#include "core/image/colour.h"
+#include "core/math/scalar_math.h"
+
+namespace burnish {
+namespace {
+
+float value_of(const Image& image, std::size_t i)
+{
+    if (image.type == PixelType::f32)
+        return image.f32()[i];
+    if (image.type == PixelType::u8)
+        return srgb_to_linear(static_cast<float>(reinterpret_cast<const std::uint8_t*>(image.bytes.data())[i]) / 255.0f);
+    return srgb_to_linear(static_cast<float>(reinterpret_cast<const std::uint16_t*>(image.bytes.data())[i]) / 65535.0f);
+}
+
+// The image is constant on its pixels. A sample looks at it, along one axis, through a quadratic B-spline
+// whose variance is that of a box of one pixel (which makes linear interpolation of the constant pixels) plus
+// that of the B-spline of the sample's footprint: neighbouring samples then share out every pixel evenly,
+// also where the footprints stand askew to the image, near its poles.
+struct AxisFilter {
+    int first = 0;
+    std::vector<double> weight; // of the pixels from `first` on; sum 1
+
+    // center: pixels from the image's edge; footprint: pixels
+    void set(double center, double footprint)
+    {
+        const double f = kSpread * footprint;
+        box_ = std::sqrt((1.0 + 3.0 * f * f) / 3.0);
+        first = static_cast<int>(std::floor(center - 1.5 * box_));
+        const int end = static_cast<int>(std::ceil(center + 1.5 * box_));
+        weight.clear();
+        double before = 0.0;
+        for (int i = first; i < end; ++i) {
+            const double after = i + 1 == end ? 1.0 : cumulative((static_cast<double>(i + 1) - center) / box_ + 1.5);
+            weight.push_back(after - before);
+            before = after;
+        }
+    }
+
+  private:
+    // A little over 1 balances the unevenness along the image's axes (nil at 1) and at 45 degrees to them:
+    // both below 0.2 %.
+    static constexpr double kSpread = 1.08;
+
+    // Integral of the quadratic B-spline on [0,3] up to t.
+    static double cumulative(double t)
+    {
+        if (t <= 0.0)
+            return 0.0;
+        if (t < 1.0)
+            return t * t * t / 6.0;
+        if (t < 2.0)
+            return (((-2.0 * t + 9.0) * t - 9.0) * t + 3.0) / 6.0;
+        return t < 3.0 ? 1.0 - (3.0 - t) * (3.0 - t) * (3.0 - t) / 6.0 : 1.0;
+    }
+    double box_ = 0.0; // width of each of the three boxes, pixels
+};
+
+struct Sampler {
+    const Equirect& source;
+    double turn; // fraction of a circle added to the image's u
+    AxisFilter across{}, down{};
+
+    // Mean over the footprint of direction d, whose sides are du and dv (any parallelogram on the face).
+    std::array<double, 3> operator()(const Direction& d, const Direction& du, const Direction& dv)
+    {
+        const double rho2 = std::max(d.x * d.x + d.z * d.z, 1e-18), rho = std::sqrt(rho2), r2 = rho2 + d.y * d.y;
+        const auto longitude_by = [&](const Direction& e) { return (d.x * e.z - d.z * e.x) / rho2; };
+        const auto colatitude_by = [&](const Direction& e) { return (d.y * (d.x * e.x + d.z * e.z) / rho - rho * e.y) / r2; };
+        // a box of the same variance as the footprint's projection on the axis
+        const auto extent = [](double a, double b) { return std::sqrt(a * a + b * b); };
+        const double w = source.width, h = source.height;
+        const double u = 0.5 + det_atan2(d.z, d.x) / (2.0 * kPi) + turn, v = det_atan2(rho, d.y) / kPi;
+        across.set(u * w, std::min(extent(longitude_by(du), longitude_by(dv)) / (2.0 * kPi), 1.0) * w);
+        down.set(v * h, extent(colatitude_by(du), colatitude_by(dv)) / kPi * h);
+        return gather();
+    }
+
+  private:
+    std::array<double, 3> gather() const
+    {
+        std::array<double, 3> sum{};
+        const int start = (across.first % source.width + source.width) % source.width;
+        for (std::size_t j = 0; j < down.weight.size(); ++j) {
+            const int y = std::clamp(down.first + static_cast<int>(j), 0, source.height - 1);
+            const float* row = source.rgb.data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(source.width) * 3;
+            int x = start;
+            std::array<double, 3> line{};
+            for (const double weight : across.weight) {
+                for (std::size_t c = 0; c < 3; ++c)
+                    line[c] += weight * static_cast<double>(row[static_cast<std::size_t>(x) * 3 + c]);
+                x = x + 1 == source.width ? 0 : x + 1;
+            }
+            for (std::size_t c = 0; c < 3; ++c)
+                sum[c] += down.weight[j] * line[c];
+        }
+        return sum;
+    }
+};
+
+// Texels along an edge: bounds time and memory for large sources. Two samples an axis and texel keep a single
+// bright pixel to 0.3 % (but for the pole's own row, 10 %), one sample to 1 %: enough where a sun has many
+// pixels.
+constexpr int kLargestSampled = 2048;
+
+// The cube is sampled no coarser than the source, then averaged down: sums of texels lose nothing.
+int sampled_size(const Equirect& source, int size)
+{
+    const double texels = 2.0 / kPi * source.height; // a texel at the middle of a face is a pixel then
+    int sampled = size;
+    while (sampled < texels && sampled < kLargestSampled)
+        sampled *= 2;
+    return sampled;
+}
+
+// Level of `size` texels from n x n samples a texel.
+CubeLevel sample_cube(const Equirect& source, int size, int n, double turn, double gain, const Jobs& jobs)
+{
+    CubeLevel cube = make_cube_level(size);
+    const double step = 2.0 / size / n;
+    const std::size_t rows = 6 * static_cast<std::size_t>(size);
+    jobs.parallel_for(rows, [&](std::size_t row, int) {
+        const int face = static_cast<int>(row) / size, y = static_cast<int>(row) % size;
+        Sampler sampler{source, turn};
+        const Direction origin = cube_direction(face, 0.0, 0.0);
+        const auto side = [&](double u, double v) {
+            const Direction d = cube_direction(face, u, v);
+            return Direction{d.x - origin.x, d.y - origin.y, d.z - origin.z};
+        };
+        const Direction du = side(step, 0.0), dv = side(0.0, step);
+        for (int x = 0; x < size; ++x) {
+            std::array<double, 3> sum{};
+            double weights = 0.0;
+            for (int k = 0; k < n * n; ++k) {
+                const double u = (x * n + k % n + 0.5) * step - 1.0, v = (y * n + k / n + 0.5) * step - 1.0;
+                const double r2 = 1.0 + u * u + v * v, weight = 1.0 / (r2 * std::sqrt(r2)); // solid angle
+                const std::array<double, 3> value = sampler(cube_direction(face, u, v), du, dv);
+                weights += weight;
+                for (std::size_t c = 0; c < 3; ++c)
+                    sum[c] += weight * value[c];
+            }
+            float* out = cube.rgb.data() + (row * static_cast<std::size_t>(size) + static_cast<std::size_t>(x)) * 3;
+            for (std::size_t c = 0; c < 3; ++c)
+                out[c] = static_cast<float>(sum[c] * gain / weights);
+        }
+    });
+    return cube;
+}
+
+float largest_finite(const std::vector<float>& values)
+{
+    float largest = 0.0f;
+    for (const float v : values)
+        if (v <= std::numeric_limits<float>::max())
+            largest = std::max(largest, v);
+    return largest;
+}
+
+} // namespace
+
+Equirect make_equirect(const Image& image)
+{
+    Equirect e;
+    e.width = image.width, e.height = image.height;
+    const std::size_t pixels = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
+    const std::size_t channels = static_cast<std::size_t>(image.channels);
+    e.rgb.resize(pixels * 3);
+    for (std::size_t i = 0; i < pixels; ++i)
+        for (std::size_t c = 0; c < 3; ++c)
+            e.rgb[i * 3 + c] = value_of(image, i * channels + (channels >= 3 ? c : 0));
+    const float largest = largest_finite(e.rgb);
+    for (float& v : e.rgb)
+        if (!(v >= 0.0f && v <= largest))
+            v = v > 0.0f ? largest : 0.0f;
+    return e;
+}
+
+std::vector<std::string> equirect_warnings(const Image& image)
+{
+    if (image.type != PixelType::f32)
+        return {"the environment has no high dynamic range; taken as sRGB"};
+    const std::size_t channels = static_cast<std::size_t>(image.channels), colours = channels >= 3 ? 3 : 1;
+    const std::size_t values = image.bytes.size() / sizeof(float);
+    std::size_t nan = 0, negative = 0, infinite = 0;
+    float largest = 0.0f;
+    for (std::size_t i = 0; i < values; i += channels)
+        for (std::size_t c = 0; c < colours; ++c) {
+            const float v = image.f32()[i + c];
+            nan += std::isnan(v);
+            negative += v < 0.0f;
+            infinite += v > std::numeric_limits<float>::max();
+            largest = v <= std::numeric_limits<float>::max() ? std::max(largest, v) : largest;
+        }
+    std::vector<std::string> warnings;
+    if (nan)
+        warnings.push_back(fmt::format("{} NaN values of the environment set to 0", nan));
+    if (negative)
+        warnings.push_back(fmt::format("{} negative values of the environment set to 0", negative));
+    if (infinite)
+        warnings.push_back(fmt::format("{} infinite values of the environment set to its largest finite value, {:g}", infinite, largest));
+    return warnings;
+}
+
+double mean_luminance(const Equirect& source)
+{
+    double sum = 0.0;
+    for (int y = 0; y < source.height; ++y) {
+        const double top = det_cos(kPi * y / source.height), bottom = det_cos(kPi * (y + 1) / source.height);
+        double row = 0.0;
+        const float* rgb = source.rgb.data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(source.width) * 3;
+        for (int x = 0; x < source.width; ++x, rgb += 3)
+            row += 0.2126 * static_cast<double>(rgb[0]) + 0.7152 * static_cast<double>(rgb[1]) + 0.0722 * static_cast<double>(rgb[2]);
+        sum += row * (top - bottom);
+    }
+    return sum / (2.0 * source.width);
+}
+
+float peak_value(const Equirect& source)
+{
+    float peak = 0.0f;
+    for (const float v : source.rgb)
+        peak = std::max(peak, v);
+    return peak;
+}
+
+CubeLevel equirect_to_cube(const Equirect& source, int size, double rotation_deg, double gain, const Jobs& jobs)
+{
+    const double turn = rotation_deg / 360.0 - std::floor(rotation_deg / 360.0);
+    const int sampled = sampled_size(source, size);
+    CubeLevel cube = sample_cube(source, sampled, sampled < kLargestSampled ? 2 : 1, turn, gain, jobs);
+    while (cube.size > size)
+        cube = half_cube_level(cube, jobs);
+    return cube;
+}
+
+} // namespace burnish

@@ -1,0 +1,31 @@
+// Equirectangular images onto a cube: every texel is the integral of the image over its footprint.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "core/image/image.h"
+#include "core/jobs/jobs.h"
+#include "shading/bake/environment/cube_map.h"
+
+namespace burnish {
+
+// Linear RGB radiance, finite and not negative.
+struct Equirect {
+    int width = 0, height = 0;
+    std::vector<float> rgb;
+};
+
+// 8- and 16-bit images are taken as sRGB. NaN and negative values become 0, Inf the largest finite value of
+// the image.
+Equirect make_equirect(const Image& image);
+
+// One line for each kind of what make_equirect() repairs or has to guess in this image.
+std::vector<std::string> equirect_warnings(const Image& image);
+
+double mean_luminance(const Equirect& source); // over the sphere: pixels weighted by their solid angles
+float peak_value(const Equirect& source);      // largest channel value
+
+// The source turned counter-clockwise about +Y (seen from above), times `gain`.
+CubeLevel equirect_to_cube(const Equirect& source, int size, double rotation_deg, double gain, const Jobs& jobs);
+
+} // namespace burnish

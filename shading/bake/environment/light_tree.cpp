@@ -1,0 +1,128 @@
+#include "shading/bake/environment/light_tree.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace burnish {
+namespace {
+
+Direction unit(const Direction& d)
+{
+    const double scale = 1.0 / std::sqrt(d.x * d.x + d.y * d.y + d.z * d.z);
+    return {d.x * scale, d.y * scale, d.z * scale};
+}
+
+Direction centre_of(int face, int size, int x, int y)
+{
+    const double step = 2.0 / size;
+    return unit(cube_direction(face, (x + 0.5) * step - 1.0, (y + 0.5) * step - 1.0));
+}
+
+double brightness(const float* rgb)
+{
+    return static_cast<double>(rgb[0]) + static_cast<double>(rgb[1]) + static_cast<double>(rgb[2]);
+}
+
+// Wide lobes still have weight at the horizon, where n.l has an edge: there pieces are no larger than they would be at this distance, for
+// a lobe of width 1.
+constexpr double kWidest = 0.3;
+
+// A texel of a level of the tree.
+struct Node {
+    int level, x, y;
+};
+
+Direction place_of(const LightTree& tree, int face, const Node& node)
+{
+    const int size = tree.boxes[static_cast<std::size_t>(node.level)].size;
+    if (node.level == 0)
+        return centre_of(face, size, node.x, node.y);
+    const std::size_t texel = (static_cast<std::size_t>(face) * static_cast<std::size_t>(size) + static_cast<std::size_t>(node.y)) *
+                                  static_cast<std::size_t>(size) +
+                              static_cast<std::size_t>(node.x);
+    const float* p = tree.places[static_cast<std::size_t>(node.level)].data() + 3 * texel;
+    return {static_cast<double>(p[0]), static_cast<double>(p[1]), static_cast<double>(p[2])};
+}
+
+// Of the texels of a level, from those of the finer one: their places weighted by their light, or by their solid angles where there is
+// none.
+std::vector<float> places_of(const LightTree& tree, int level, const Jobs& jobs)
+{
+    const CubeLevel& fine = tree.boxes[static_cast<std::size_t>(level - 1)];
+    const int size = fine.size / 2;
+    std::vector<float> places(cube_texels(size) * 3);
+    jobs.parallel_for(6 * static_cast<std::size_t>(size), [&](std::size_t row, int) {
+        const int face = static_cast<int>(row) / size, y = static_cast<int>(row) % size;
+        float* to = places.data() + row * static_cast<std::size_t>(size) * 3;
+        for (int x = 0; x < size; ++x, to += 3) {
+            Direction lit = {0.0, 0.0, 0.0}, all = {0.0, 0.0, 0.0};
+            double light = 0.0;
+            for (int k = 0; k < 4; ++k) {
+                const Node child = {level - 1, 2 * x + k % 2, 2 * y + k / 2};
+                const std::size_t at =
+                    static_cast<std::size_t>(child.y) * static_cast<std::size_t>(fine.size) + static_cast<std::size_t>(child.x);
+                const Direction d = place_of(tree, face, child);
+                const double angle = fine.solid_angle[at];
+                const double w = angle * brightness(fine.rgb.data() + (static_cast<std::size_t>(face) * fine.solid_angle.size() + at) * 3);
+                lit = {lit.x + w * d.x, lit.y + w * d.y, lit.z + w * d.z};
+                all = {all.x + angle * d.x, all.y + angle * d.y, all.z + angle * d.z};
+                light += w;
+            }
+            const Direction place = unit(light > 0.0 ? lit : all);
+            to[0] = static_cast<float>(place.x), to[1] = static_cast<float>(place.y), to[2] = static_cast<float>(place.z);
+        }
+    });
+    return places;
+}
+
+} // namespace
+
+LightTree make_light_tree(const std::vector<CubeLevel>& boxes, const Jobs& jobs)
+{
+    LightTree tree = {boxes, {}};
+    tree.places.emplace_back();
+    for (int level = 1; level < static_cast<int>(boxes.size()); ++level)
+        tree.places.push_back(places_of(tree, level, jobs));
+    return tree;
+}
+
+void gather_terms(const LightTree& tree, const PrefilterBlock& block, double alpha, double opening, std::vector<PrefilterTerm>& terms)
+{
+    terms.clear();
+    const Direction centre = unit(cube_direction(block.face, 0.5 * (block.u0 + block.u1), 0.5 * (block.v0 + block.v1)));
+    double radius = 0.0; // chords stand for angles throughout
+    for (int k = 0; k < 4; ++k) {
+        const Direction d = unit(cube_direction(block.face, k % 2 ? block.u1 : block.u0, k / 2 ? block.v1 : block.v0));
+        radius = std::max(radius, std::hypot(d.x - centre.x, d.y - centre.y, d.z - centre.z));
+    }
+    const double width2 = 4.0 * alpha * alpha; // about the mirrored direction a lobe is twice as wide as in half vectors
+    const double opening2 = opening * opening, farthest = kWidest / alpha;
+    constexpr double kHorizon = 1.41421356237309505; // chord of a quarter turn
+    std::vector<Node> open;
+    for (int face = 0; face < 6; ++face) {
+        open.assign(1, {static_cast<int>(tree.boxes.size()) - 1, 0, 0});
+        while (!open.empty()) {
+            const Node node = open.back();
+            open.pop_back();
+            const CubeLevel& box = tree.boxes[static_cast<std::size_t>(node.level)];
+            const std::size_t at = static_cast<std::size_t>(node.y) * static_cast<std::size_t>(box.size) + static_cast<std::size_t>(node.x);
+            const double angle = box.solid_angle[at];
+            const Direction d = place_of(tree, face, node);
+            const double dx = d.x - centre.x, dy = d.y - centre.y, dz = d.z - centre.z;
+            const double distance = std::max(std::sqrt(dx * dx + dy * dy + dz * dz) - radius, 0.0);
+            if (node.level > 0 && angle > opening2 * std::min(distance * distance + width2, farthest * farthest)) {
+                for (int k = 3; k >= 0; --k)
+                    open.push_back({node.level - 1, 2 * node.x + k % 2, 2 * node.y + k / 2});
+                continue;
+            }
+            if (distance >= kHorizon)
+                continue;
+            const float* rgb = box.rgb.data() + (static_cast<std::size_t>(face) * box.solid_angle.size() + at) * 3;
+            const float w = static_cast<float>(angle);
+            terms.push_back(
+                {static_cast<float>(d.x), static_cast<float>(d.y), static_cast<float>(d.z), w, rgb[0] * w, rgb[1] * w, rgb[2] * w});
+        }
+    }
+}
+
+} // namespace burnish

@@ -1,0 +1,19 @@
+// What irradiance is gathered from, as lane code reads it (bake_fns.h).
+#pragma once
+#include <vector>
+
+#include "shading/bake/bake_fns.h"
+#include "shading/bake/environment/cube_map.h"
+
+namespace burnish {
+
+// The cube that irradiance is gathered from: direction times solid angle (the integral of the unit direction
+// over the texel), and radiance.
+struct IrradianceSource {
+    std::vector<float> x, y, z, r, g, b;
+    int row = 0; // texels a partial sum
+    IrradianceInput input() const;
+};
+IrradianceSource make_irradiance_source(const CubeLevel& level);
+
+} // namespace burnish

@@ -1,0 +1,45 @@
+#include "shading/bake/mip/anisotropy.h"
+
+#include <cmath>
+
+#include "core/base/check.h"
+
+namespace burnish {
+
+namespace {
+
+float channel(const Image& image, std::size_t index)
+{
+    switch (image.type) {
+    case PixelType::u8:
+        return static_cast<float>(reinterpret_cast<const std::uint8_t*>(image.bytes.data())[index]) / 255.0f;
+    case PixelType::u16:
+        return static_cast<float>(reinterpret_cast<const std::uint16_t*>(image.bytes.data())[index]) / 65535.0f;
+    default:
+        return image.f32()[index];
+    }
+}
+
+} // namespace
+
+Image anisotropy_tensor(const Image& image, int power)
+{
+    BN_CHECK(power == 2 || power == 4);
+    Image out = make_image(image.width, image.height, 4, PixelType::f32);
+    const std::size_t channels = static_cast<std::size_t>(image.channels);
+    const std::size_t pixels = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
+    for (std::size_t i = 0; i < pixels; ++i) {
+        const std::size_t at = i * channels;
+        const float r = channel(image, at), g = channels >= 3 ? channel(image, at + 1) : r, b = channels >= 3 ? channel(image, at + 2) : r;
+        const float x = 2.0f * r - 1.0f, y = 2.0f * g - 1.0f, length2 = x * x + y * y;
+        float* to = out.f32() + 4 * i;
+        to[0] = to[1] = to[2] = to[3] = 0.0f;
+        if (!(length2 >= 1e-4f && std::isfinite(length2) && std::isfinite(b))) // float images may hold NaN
+            continue;
+        const float s2 = b * b, weight = (power == 2 ? s2 : s2 * s2) / length2;
+        to[0] = weight * x * x, to[1] = weight * y * y, to[2] = weight * x * y;
+    }
+    return out;
+}
+
+} // namespace burnish

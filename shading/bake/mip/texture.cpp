@@ -1,0 +1,229 @@
+#include "shading/bake/mip/texture.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+
+#include "core/base/check.h"
+#include "core/image/colour.h"
+#include "core/simd/half.h"
+
+namespace burnish {
+namespace {
+
+struct Size {
+    int w, h;
+};
+
+// Decodes rows of an image to linear RGBA float. Gray is replicated; alpha is 1 where there is none. NaN
+// becomes 0, and what a half cannot hold is saturated, so that no filter spreads an Inf.
+class Decoder {
+  public:
+    Decoder(const Image& image, TextureEncoding encoding) : image_(image)
+    {
+        if (image.type == PixelType::f32)
+            return;
+        const int codes = image.type == PixelType::u8 ? 256 : 65536;
+        const float top = static_cast<float>(codes - 1);
+        linear_.resize(static_cast<std::size_t>(codes));
+        for (int i = 0; i < codes; ++i)
+            linear_[static_cast<std::size_t>(i)] = static_cast<float>(i) / top;
+        color_ = linear_;
+        if (encoding == TextureEncoding::srgb)
+            for (float& c : color_)
+                c = srgb_to_linear(c);
+    }
+
+    void row(int y, float* rgba) const
+    {
+        const std::size_t stride =
+            static_cast<std::size_t>(image_.width) * static_cast<std::size_t>(image_.channels) * pixel_type_bytes(image_.type);
+        const std::byte* from = image_.bytes.data() + stride * static_cast<std::size_t>(y);
+        if (image_.type == PixelType::u8)
+            expand(reinterpret_cast<const std::uint8_t*>(from), rgba);
+        else if (image_.type == PixelType::u16)
+            expand(reinterpret_cast<const std::uint16_t*>(from), rgba);
+        else
+            expand(reinterpret_cast<const float*>(from), rgba);
+    }
+
+  private:
+    template <class Code> float color(Code c) const { return color_[c]; }
+    template <class Code> float linear(Code c) const { return linear_[c]; }
+    static float sane(float x) { return x > -kHalfMax ? std::min(x, kHalfMax) : x <= -kHalfMax ? -kHalfMax : 0.0f; }
+    float color(float x) const { return sane(x); }
+    float linear(float x) const { return sane(x); }
+
+    template <class Code> void expand(const Code* from, float* rgba) const
+    {
+        const bool rgb = image_.channels >= 3, alpha = image_.channels == 2 || image_.channels == 4;
+        for (int x = 0; x < image_.width; ++x, from += image_.channels, rgba += 4) {
+            rgba[0] = color(from[0]);
+            rgba[1] = rgb ? color(from[1]) : rgba[0];
+            rgba[2] = rgb ? color(from[2]) : rgba[0];
+            rgba[3] = alpha ? linear(from[image_.channels - 1]) : 1.0f;
+        }
+    }
+
+    const Image& image_;
+    std::vector<float> color_, linear_; // by code
+};
+
+// One axis of an exact box filter: target texel i covers source texels first[i]..., with weights that sum
+// to 1.
+struct AxisWeights {
+    std::vector<int> first;
+    std::vector<int> begin;    // of texel i, into weight; one more entry than texels
+    std::vector<float> weight; // overlap / footprint
+};
+
+AxisWeights box_weights(int source, int target)
+{
+    AxisWeights a;
+    const std::int64_t s = source, t = target;
+    for (std::int64_t i = 0; i < t; ++i) {
+        // in units of 1/target source texels: the footprint is [i s, (i+1) s), texel k is [k t, (k+1) t)
+        const std::int64_t k0 = i * s / t, k1 = ((i + 1) * s + t - 1) / t;
+        a.first.push_back(static_cast<int>(k0));
+        a.begin.push_back(static_cast<int>(a.weight.size()));
+        for (std::int64_t k = k0; k < k1; ++k) {
+            const std::int64_t overlap = std::min((k + 1) * t, (i + 1) * s) - std::max(k * t, i * s);
+            a.weight.push_back(static_cast<float>(static_cast<double>(overlap) / static_cast<double>(s)));
+        }
+    }
+    a.begin.push_back(static_cast<int>(a.weight.size()));
+    return a;
+}
+
+// Box filter of source rows (float RGBA) to `to`; rows first, then columns, sums in double and in index
+// order.
+template <class Row> std::vector<float> box_filter(Size from, Size to, const Row& source_row)
+{
+    const AxisWeights ax = box_weights(from.w, to.w), ay = box_weights(from.h, to.h);
+    std::vector<float> result(static_cast<std::size_t>(to.w) * static_cast<std::size_t>(to.h) * 4);
+    std::vector<double> column(static_cast<std::size_t>(from.w) * 4);
+    float* out = result.data();
+    for (std::size_t y = 0; y < static_cast<std::size_t>(to.h); ++y) {
+        std::fill(column.begin(), column.end(), 0.0);
+        for (int k = ay.begin[y]; k < ay.begin[y + 1]; ++k) {
+            const float* row = source_row(ay.first[y] + k - ay.begin[y]);
+            const double w = static_cast<double>(ay.weight[static_cast<std::size_t>(k)]);
+            for (std::size_t i = 0; i < column.size(); ++i)
+                column[i] += w * static_cast<double>(row[i]);
+        }
+        for (std::size_t x = 0; x < static_cast<std::size_t>(to.w); ++x, out += 4) {
+            const double* c = column.data() + 4 * static_cast<std::size_t>(ax.first[x]);
+            double sum[4] = {};
+            for (int k = ax.begin[x]; k < ax.begin[x + 1]; ++k, c += 4)
+                for (int i = 0; i < 4; ++i)
+                    sum[i] += static_cast<double>(ax.weight[static_cast<std::size_t>(k)]) * c[i];
+            for (int i = 0; i < 4; ++i)
+                out[i] = static_cast<float>(sum[i]);
+        }
+    }
+    return result;
+}
+
+// Halves of the inside of a level, row y.
+void store_row(TexturePyramid& p, TextureEncoding encoding, int level, Size size, int y, const float* rgba)
+{
+    const bool residual = encoding == TextureEncoding::residual;
+    const std::size_t stride = static_cast<std::size_t>(size.w) + 2;
+    std::uint16_t* out = p.texels.data() + 4 * (static_cast<std::size_t>(p.offset[level]) + (static_cast<std::size_t>(y) + 1) * stride + 1);
+    for (std::size_t i = 0; i < static_cast<std::size_t>(size.w) * 4; ++i)
+        out[i] = float_to_half(residual ? rgba[i] - half_to_float(float_to_half(rgba[i])) : rgba[i]);
+}
+
+// The texel that border texel -1 (`high` false) or n (`high` true) repeats. Mirroring reflects at the edge of
+// the edge texel.
+int border_source(WrapMode mode, int n, bool high)
+{
+    if (mode == WrapMode::repeat)
+        return high ? 0 : n - 1;
+    return high ? n - 1 : 0;
+}
+
+void fill_border(TexturePyramid& p, int level, Size size)
+{
+    const std::size_t stride = static_cast<std::size_t>(size.w) + 2;
+    std::uint16_t* base = p.texels.data() + 4 * static_cast<std::size_t>(p.offset[level]);
+    const auto texel = [&](int x, int y) { // x, y: -1 is the border
+        return base + 4 * (static_cast<std::size_t>(y + 1) * stride + static_cast<std::size_t>(x + 1));
+    };
+    const int left = border_source(p.wrap_s, size.w, false), right = border_source(p.wrap_s, size.w, true);
+    for (int y = 0; y < size.h; ++y) {
+        std::memcpy(texel(-1, y), texel(left, y), 8);
+        std::memcpy(texel(size.w, y), texel(right, y), 8);
+    }
+    const std::size_t row_bytes = stride * 8;
+    std::memcpy(texel(-1, -1), texel(-1, border_source(p.wrap_t, size.h, false)), row_bytes);
+    std::memcpy(texel(-1, size.h), texel(-1, border_source(p.wrap_t, size.h, true)), row_bytes);
+}
+
+void lay_out(TexturePyramid& p)
+{
+    const int side = std::max(p.width, p.height);
+    p.levels = 1;
+    while (p.levels < kMaxTextureLevels && (side >> p.levels) > 0)
+        ++p.levels;
+    std::int64_t texels = 0;
+    for (int l = 0; l < kMaxTextureLevels; ++l) {
+        const int level = std::min(l, p.levels - 1); // the tables repeat their last entry
+        const int w = std::max(1, p.width >> level), h = std::max(1, p.height >> level);
+        p.level_width[l] = static_cast<float>(w);
+        p.level_height[l] = static_cast<float>(h);
+        p.offset[l] = l < p.levels ? static_cast<std::int32_t>(texels) : p.offset[p.levels - 1];
+        if (l < p.levels)
+            texels += static_cast<std::int64_t>(w + 2) * (h + 2);
+        BN_CHECK_OP(texels, <, std::int64_t{1} << 31);
+    }
+    p.texels.resize(static_cast<std::size_t>(texels) * 4);
+}
+
+} // namespace
+
+TexturePyramid make_texture_pyramid(const Image& image, const Texture& sampler, TextureEncoding encoding)
+{
+    BN_CHECK(image.width > 0 && image.height > 0 && image.channels >= 1 && image.channels <= 4);
+    TexturePyramid p;
+    p.width = image.width, p.height = image.height;
+    p.wrap_s = sampler.wrap_s, p.wrap_t = sampler.wrap_t, p.nearest = sampler.nearest;
+    lay_out(p);
+
+    const Decoder decoder(image, encoding);
+    const Size full = {p.width, p.height};
+    std::vector<float> row(static_cast<std::size_t>(p.width) * 4);
+    for (int y = 0; y < p.height; ++y) {
+        decoder.row(y, row.data());
+        store_row(p, encoding, 0, full, y, row.data());
+    }
+    fill_border(p, 0, full);
+
+    // A level comes from the smallest earlier level whose texels its footprints are unions of, else from
+    // level 0: both are exact.
+    std::array<std::vector<float>, kMaxTextureLevels> levels;
+    std::array<Size, kMaxTextureLevels> sizes;
+    sizes[0] = full;
+    for (int l = 1; l < p.levels; ++l) {
+        const std::size_t i = static_cast<std::size_t>(l);
+        const Size size = {std::max(1, p.width >> l), std::max(1, p.height >> l)};
+        std::size_t from = i - 1;
+        while (from > 0 && (sizes[from].w % size.w != 0 || sizes[from].h % size.h != 0))
+            --from;
+        sizes[i] = size;
+        const auto source_row = [&](int y) -> const float* {
+            if (from > 0)
+                return levels[from].data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(sizes[from].w) * 4;
+            decoder.row(y, row.data());
+            return row.data();
+        };
+        levels[i] = box_filter(sizes[from], size, source_row);
+        for (int y = 0; y < size.h; ++y)
+            store_row(p, encoding, l, size, y, levels[i].data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(size.w) * 4);
+        fill_border(p, l, size);
+    }
+    return p;
+}
+
+} // namespace burnish

@@ -1,0 +1,100 @@
+// What the three renderers know of a frame, one text for C++ and GLSL: structures of 32-bit scalars and arrays of them, which std430 and
+// C++ lay out alike. raster/frame/frame_record.h fills them. Pointers of C++ and places in buffers of a device are not in them.
+#ifndef BN_RECORDS_H
+#define BN_RECORDS_H
+
+#ifdef __cplusplus
+namespace burnish {
+#endif
+
+const int kMaxSamples = 16; // a pixel
+const int kTextureSlots = 0 // a material
+#define BN_TEXTURE(slot, at, reference, encoding, power) +1
+#include "shading/material.def"
+    ;
+
+// Traits of techniques (shading/models.def).
+const int kTestsHorizon = 1;    // asks of every sample if it lies above the surface's horizon; the others fade
+const int kSamplesTilt = 2;     // samples a tilted lobe itself; what the others make is scaled by its albedo
+const int kTakesRoundLobes = 4; // takes every lobe for a round one of the same roughness; lights do so then too
+const int kReadsBox = 8;        // reads the box-filtered chain of the environment
+const int kGgxGrid = 16;        // its grid's slopes are a GGX lobe's; otherwise a Beckmann lobe's
+const int kSharesSamples = 32;  // with the fragments of the 2x2 quad: see shared_line.k.h
+
+struct ViewRecord { // Renderer's View in plain numbers
+    float eye[3], right[3], up[3], forward[3];
+    float inv_tan_x, inv_tan_y; // perspective: 1/tan of the half angles; orthographic: 1/half extents
+    float znear, inv_depth;     // inv_depth: 1/(far - near), orthographic only
+    float zfar;
+    int orthographic;
+};
+
+struct SamplePattern { // Vulkan's standard sample locations in sub-pixel units (1/256 pixel) from the pixel's top left corner
+    int count;
+    int x[kMaxSamples], y[kMaxSamples];
+    int x16[kMaxSamples], y16[kMaxSamples]; // the same in units of 16, which all of them are multiples of
+    int min_x, max_x, min_y, max_y;
+};
+
+struct CubeRecord { // 0 levels: there is no such cube
+    int size, levels;
+    float scale; // of every texel
+};
+
+// Flags are 0 or 1.
+struct FrameRecord {
+    ViewRecord view;
+    int width, height, msaa;
+    int center_x, center_y;        // sub-pixel units; added to a snapped position it counts from the image's top left corner
+    float half_width, half_height; // pixels
+    SamplePattern pattern;
+    CubeRecord specular, irradiance;
+    CubeRecord box;                 // box-filtered chain; only for techniques that ask for it
+    int grid_count;                 // samples of filtered importance sampling
+    int dfg_size, lobe_albedo_size; // tables of directional albedo
+    int light_count;
+    int dfg_fit, energy_compensation, horizon;
+    int background, samples, texture_taps;
+#define BN_RECORD_number float
+#define BN_RECORD_whole int
+#define BN_PARAMETER(id, kind, option, fallback, least, most, unit, summary) BN_RECORD_##kind id;
+#include "shading/models.def"
+    float tilt_cos[2], tilt_sin[2];
+    int tilted;              // any tilt at all
+    int override_anisotropy; // by `anisotropy`, the eta of every material
+    float anisotropy;
+};
+
+struct LightRecord { // DrawTables' PunctualLight in plain numbers
+    float position[3], direction[3], radiant[3];
+    float inv_range2, spot_scale, spot_offset;
+    int directional;
+};
+
+struct TextureBinding {
+    int texture; // -1: not used
+    int uv_set;
+    float transform[6]; // u' = t0 u + t2 v + t4, v' = t1 u + t3 v + t5
+};
+
+struct MaterialRecord {
+    float base_color[4];
+    float emissive[3];
+    float metallic, roughness;
+    float normal_scale, occlusion_strength;
+    float dielectric_f0[3], dielectric_f90; // from ior and specular
+    float alpha_cutoff;
+    int alpha_mode; // AlphaMode
+    int double_sided, unlit, textured, uses_color, anisotropic;
+    int roughness_fixed;                               // by an override: the texture gives metalness only
+    float anisotropy_strength, anisotropy_rotation[2]; // rotation: cosine and sine
+    int technique, technique_traits;                   // its place in shading/models.def; of what is unlit no traits
+    int albedo_slice;                                  // of a lobe whose two widths are everywhere the same: its first texel; else -1
+    TextureBinding textures[kTextureSlots];
+};
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,24 @@
+// What assembly (*.t.h) may ask of the stage that it runs in: lanes in C++, an invocation in GLSL.
+//   frame_ref f, the_frame(f).width...   the frame's record (shading/lang/records.h)
+//   the_light(f, i).position...          light i of the_frame(f).light_count
+//   material_ref m, the_material(m).metallic...   a material's record; texture_used(m, kNormalTex)
+//   texture_fetches t = textures_at(f, m, p); texel_of(t, kNormalTex)   what its textures, where they are used, hold at a visible_point:
+//                                        to be asked for once each, as lanes fetch then and GLSL has fetched all
+//   dfg_texels(f) lobe_albedo_texels(f) lobe_slice_texels(f)   tables for dfg_lookup(), lobe_albedo_lookup(), lobe_slice_lookup()
+//   specular_cube(f) irradiance_cube(f) box_cube(f)   cubes, for cube_sample() and the sums below
+//   grid_sample(f, i)                    slopes and density of sample i of the_frame(f).grid_count (GridSample)
+// Sums of weighted fetches from a cube, which lanes plan some addresses ahead and GLSL takes one after the other; same bits.
+//   cube_sum s; cube_sum_begin(s, cube); cube_sum_add(s, direction, cube_sum_levels_at(s, lod, weight)); cube_sum_value(s)
+//   cube_terms s; cube_terms_begin(s, cube, trilinear); cube_terms_add(s, direction, lod, colour, weight); cube_terms_value(s)
+// Levels and weight of a cube_sum may be found once for many directions. Terms are each multiplied by their colour, then by their weight;
+// without `trilinear` they are of level 0. Directions are of any length. A sum needs its cube to the end: a variable, not a value.
+#ifndef BN_STAGE_H
+#define BN_STAGE_H
+
+#ifdef __cplusplus
+#include "shading/lang/stage_cxx.h"
+#else
+#include "shading/stages/stage.glsl"
+#endif
+
+#endif

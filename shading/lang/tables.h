@@ -1,0 +1,46 @@
+// Tables of a scene as plain data, and the frame with its tables: what lanes of any instruction set read, and what every renderer's
+// shading is made from. raster/frame fills them. C++ only: beside the records, they hold pointers.
+#pragma once
+#include <cstdint>
+
+#include "shading/lang/records.h"
+
+namespace burnish {
+
+inline constexpr int kSubpixel = 256; // sub-pixel units a pixel
+inline constexpr std::uint32_t kNoTriangle = 0xffffffffu;
+
+struct TextureParams { // TexturePyramid in plain data
+    const std::uint16_t* texels;
+    std::int32_t width, height, levels, wrap_s, wrap_t, nearest;
+    std::int32_t offset[16];
+    float level_width[16], level_height[16];
+};
+
+enum TextureSlot {
+#define BN_TEXTURE(slot, at, reference, encoding, power) slot = at,
+#include "shading/material.def"
+};
+
+// One sample of a unit lobe (widths 1): its slopes, and the density of normals there times h.z^4.
+struct GridSample {
+    float slope_x, slope_y, density;
+};
+
+// What the record of a frame does not hold. Pointers are null where nothing asks for them.
+struct FrameTables {
+    const float *px, *py, *pz;     // by vertex; world space, metres
+    const float* shading_vertices; // DrawTables::shading as floats, 16 a vertex
+    const std::uint32_t* indices;
+    const std::uint32_t* triangle_material;
+    const MaterialRecord* materials;
+    const TextureParams* textures;
+    const LightRecord* lights;
+    const std::uint16_t *specular_texels, *irradiance_texels, *box_texels;    // CubeMap::texels
+    const std::uint16_t *dfg_texels, *lobe_albedo_texels, *lobe_slice_texels; // DfgTable::texels, bake_lobe_albedo(), bake_lobe_slice()
+    const GridSample* grid;
+};
+
+struct ShadingFrame : FrameRecord, FrameTables {};
+
+} // namespace burnish

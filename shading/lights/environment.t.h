@@ -1,0 +1,56 @@
+// Light of the environment: what is made of a technique's result for the specular lobe.
+#ifndef BN_ENVIRONMENT_T_H
+#define BN_ENVIRONMENT_T_H
+
+#include "shading/lang/lang.h"
+#include "shading/lang/stage.h"
+#include "shading/surface/shaded_point.t.h"
+#include "shading/techniques/lobe_line.t.h"
+
+BN_KERNELS_BEGIN
+
+// traits: of the technique. What is left of a lobe that the technique took for one that is whole, upright and above the horizon.
+BN_FN real3 seen_of_lobe(frame_ref f, BN_IN(shaded_point) x, int traits, real3 specular)
+{
+    if (the_frame(f).tilted != 0 && (traits & kSamplesTilt) == 0) {
+        real shown = tilted_lobe_albedo(placed_lobe_at(f, x));
+        if ((traits & kTestsHorizon) == 0)
+            shown = shown / max(x.dfg.scale + x.dfg.bias, lit(0.05)); // what is in already
+        return specular * shown;
+    }
+    if (x.turned && (traits & kTestsHorizon) == 0) {
+        real3 mirrored = x.s.n * (lit(2.0) * k_dot3(x.s.n, x.s.v)) - x.s.v;
+        real alpha = x.s.roughness * x.s.roughness;
+        return specular * horizon_fade(x.surface_axes.n, mirrored, alpha);
+    }
+    return specular;
+}
+
+// specular: of the technique. Occlusion dims all of it.
+BN_FN real3 environment_light(frame_ref f, BN_IN(shaded_point) x, int traits, real3 specular)
+{
+    real3 scaled = specular * x.gain * splat(the_frame(f).specular.scale);
+    real3 seen = seen_of_lobe(f, x, traits, scaled);
+    if (!x.diffuse) {
+        real3 alone = (seen + vec3_all(lit(0.0))) * x.s.occlusion; // as if nothing were added
+        return alone;
+    }
+    real passed = passed_to_diffuse(f, x);
+    real3 irradiance = cube_sample(irradiance_cube(f), x.s.n, lit(0.0)) * splat(the_frame(f).irradiance.scale);
+    real3 sum = (seen + x.s.diffuse * irradiance * passed) * x.s.occlusion;
+    return sum;
+}
+
+// Of a fragment whose technique shares samples. offset: quad_offset(); more: light that is not the environment's.
+BN_FN line_record shared_light(frame_ref f, BN_IN(shaded_point) x, int traits, real offset, real3 more)
+{
+    line_record r = lobe_line_shared(f, x, offset);
+    real3 whole = x.albedo * x.gain * splat(the_frame(f).specular.scale);
+    r.factor = seen_of_lobe(f, x, traits, whole) * x.s.occlusion;
+    r.rest = environment_light(f, x, traits, vec3_all(lit(0.0))) + more;
+    return r;
+}
+
+BN_KERNELS_END
+
+#endif

@@ -1,0 +1,50 @@
+// Light of the frame's punctual lights.
+#ifndef BN_PUNCTUAL_T_H
+#define BN_PUNCTUAL_T_H
+
+#include "shading/lang/lang.h"
+#include "shading/lang/stage.h"
+#include "shading/lights/punctual.k.h"
+#include "shading/surface/shaded_point.t.h"
+
+BN_KERNELS_BEGIN
+
+struct punctual_light {
+    real3 l;        // unit, to the light
+    real3 radiance; // that it makes the surface give off towards the eye
+};
+
+// lobe: of x. anisotropic: by the lobe itself, otherwise by a round one of the same roughness. position: of x, world space.
+BN_FN punctual_light light_from(frame_ref f, BN_IN(shaded_point) x, BN_IN(placed_lobe) lobe, bool anisotropic, real3 position, int light)
+{
+    light_sample at = sample_punctual(position, splat3(the_light(f, light).position), splat3(the_light(f, light).direction),
+                                      splat(the_light(f, light).inv_range2), splat(the_light(f, light).spot_scale),
+                                      splat(the_light(f, light).spot_offset), int_lit(the_light(f, light).directional) != int_lit(0));
+    real3 intensity = splat3(the_light(f, light).radiant) * at.attenuation;
+    punctual_light r;
+    r.l = at.l;
+    if (lobe.tilted)
+        r.radiance = punctual_radiance_tilted(x.s, at.l, placed_lobe_value(lobe, at.l), x.gain, intensity);
+    else if (anisotropic)
+        r.radiance = punctual_radiance_aniso(x.s, x.lobe, at.l, x.gain, intensity);
+    else
+        r.radiance = punctual_radiance(x.s, at.l, x.gain, intensity);
+    return r;
+}
+
+BN_FN real3 light_from_punctual(frame_ref f, BN_IN(shaded_point) x, bool anisotropic, real3 position)
+{
+    real3 sum = vec3_all(lit(0.0));
+    placed_lobe lobe = placed_lobe_at(f, x);
+    for (int i = 0; i < the_frame(f).light_count; ++i) {
+        punctual_light light = light_from(f, x, lobe, anisotropic, position, i);
+        if (x.turned)
+            light.radiance = select(k_dot3(x.surface_axes.n, light.l) > lit(0.0), light.radiance, vec3_all(lit(0.0)));
+        sum = sum + light.radiance;
+    }
+    return sum;
+}
+
+BN_KERNELS_END
+
+#endif

@@ -1,0 +1,76 @@
+// After shade.comp: one pixel, whose fragments average what those of the 2x2 quad found (share_slot() of raster/tile), and resolve.
+#version 460
+#extension GL_EXT_buffer_reference_uvec2 : require
+layout(local_size_x = 64) in;
+#define BN_COMPUTE
+#include "shading/stages/interface.glsl"
+#include "shading/stages/lines.glsl"
+#include "shading/stages/pass.glsl"
+
+layout(constant_id = 1) const bool kRecords = false; // writes the colour of each pair, for comparisons
+
+layout(std430, set = 0, binding = 11) readonly buffer BnIds { int ids[]; };
+layout(std430, set = 0, binding = 13) writeonly buffer BnColor { float colors[]; };
+layout(std430, set = 0, binding = 14) writeonly buffer BnRecords { int records[]; };
+
+// Samples of the pair whose first sample is `begin`.
+int samples_of_pair(int first, int begin)
+{
+    int covered = 0;
+    for (int s = begin; s < frame.msaa; ++s)
+        covered |= ids[first + s] == ids[first + begin] ? 1 << s : 0;
+    return covered;
+}
+
+real3 shared_colour(line_record own, int x, int y)
+{
+    real inv = lit(1.0) / to_real(frame.msaa);
+    real3 sum = own.light;
+    real weights = lit(1.0);
+    for (int k = 1; k < 4; ++k) {
+        int qx = x ^ (k & 1), qy = y ^ (k >> 1);
+        if (qx >= frame.width || qy >= pass.rows)
+            continue;
+        int first = (qy * frame.width + qx) * frame.msaa, rest = (1 << frame.msaa) - 1;
+        while (rest != 0) {
+            int begin = findLSB(rest), covered = samples_of_pair(first, begin);
+            rest &= ~covered;
+            line_record r = load_line(first + begin);
+            if (r.width < 0.0)
+                continue;
+            real cover = to_real(bitCount(covered)) * inv;
+            real w = line_likeness(own, r) * cover;
+            sum = sum + r.light * w;
+            weights = weights + w;
+        }
+    }
+    real3 mean = sum / weights;
+    return line_colour(own, mean);
+}
+
+void main()
+{
+    int pixel = linear_invocation();
+    if (pixel >= frame.width * pass.rows)
+        return;
+    int x = pixel % frame.width, y = pixel / frame.width, first = pixel * frame.msaa; // of the band, which begins with an even row
+    real inv = lit(1.0) / to_real(frame.msaa);
+    int rest = (1 << frame.msaa) - 1;
+    real3 sum = vec3_all(lit(0.0));
+    while (rest != 0) {
+        int begin = findLSB(rest), covered = samples_of_pair(first, begin);
+        rest &= ~covered;
+        line_record own = load_line(first + begin);
+        real3 color = own.rest;
+        if (own.width >= 0.0)
+            color = shared_colour(own, x, y);
+        if (kRecords)
+            for (int c = 0; c < 3; ++c)
+                records[(first + begin + 1) * kGpuPairWords - 3 + c] = floatBitsToInt(color[c]);
+        real weight = to_real(bitCount(covered)) * inv;
+        sum = sum + color * weight;
+    }
+    colors[3 * pixel] = sum.x;
+    colors[3 * pixel + 1] = sum.y;
+    colors[3 * pixel + 2] = sum.z;
+}

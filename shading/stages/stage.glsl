@@ -1,0 +1,110 @@
+// The stage (shading/lang/stage.h) in GLSL. It fetches by the filter kernels from buffers, or with BN_NATIVE_SAMPLER by the device's
+// samplers.
+#ifndef BN_STAGE_GLSL
+#define BN_STAGE_GLSL
+
+#include "shading/stages/interface.glsl"
+#include "shading/stages/material.glsl"
+#include "shading/kernels/cube_filter.k.h"
+
+#define frame_ref int // of the only one
+#define the_frame(f) frame
+#define the_light(f, i) lights[i]
+#define splat3(v) vec3((v)[0], (v)[1], (v)[2])
+#define dfg_texels(f) kGpuDfgPage
+#define lobe_albedo_texels(f) kGpuLobeAlbedoPage
+#define lobe_slice_texels(f) kGpuLobeSlicePage
+
+cube_desc specular_cube(frame_ref f) { return cube_desc(kGpuSpecularPage, frame.specular.size, frame.specular.levels); }
+cube_desc irradiance_cube(frame_ref f) { return cube_desc(kGpuIrradiancePage, frame.irradiance.size, frame.irradiance.levels); }
+cube_desc box_cube(frame_ref f) { return cube_desc(kGpuBoxPage, frame.box.size, frame.box.levels); }
+real3 grid_sample(frame_ref f, int i) { return vec3(bn_reals[3 * i], bn_reals[3 * i + 1], bn_reals[3 * i + 2]); }
+
+struct cube_sum {
+    cube_desc cube;
+    texel_acc acc;
+};
+struct cube_terms {
+    cube_desc cube;
+    real3 sum;
+    bool trilinear;
+};
+
+#ifdef BN_NATIVE_SAMPLER
+layout(set = 1, binding = 0) uniform samplerCube native_cubes[kGpuCubes]; // specular, irradiance, box
+
+// Not every device indexes samplers by a variable.
+vec4 native_fetch(cube_desc cube, vec3 d, float lod)
+{
+    if (cube.texels == kGpuSpecularPage)
+        return textureLod(native_cubes[0], d, lod);
+    if (cube.texels == kGpuIrradiancePage)
+        return textureLod(native_cubes[1], d, lod);
+    return textureLod(native_cubes[2], d, lod);
+}
+real3 native_sample(cube_desc cube, real3 d, real lod) { return native_fetch(cube, d, lod).xyz; }
+real3 native_sample_level(cube_desc cube, real3 d, int level) { return native_fetch(cube, d, float(level)).xyz; }
+// What follows, kernels included, fetches natively.
+#define cube_sample native_sample
+#define cube_sample_level native_sample_level
+
+struct cube_sum_levels {
+    real lod, weight;
+};
+cube_sum_levels cube_sum_levels_at(cube_sum s, real lod, real weight) { return cube_sum_levels(lod, weight); }
+void cube_sum_add(inout cube_sum s, real3 direction, cube_sum_levels levels)
+{
+    real4 value = native_fetch(s.cube, direction, levels.lod) * levels.weight;
+    s.acc.left = s.acc.left + value;
+}
+#else
+#define cube_sum_levels cube_levels
+
+cube_levels cube_sum_levels_at(cube_sum s, real lod, real weight)
+{
+    if (s.cube.levels > 1)
+        return cube_levels_at(s.cube, lod, weight);
+    cube_levels only;
+    only.fine = weight;
+    return only;
+}
+void cube_sum_add(inout cube_sum s, real3 direction, cube_levels levels)
+{
+    cube_place place = cube_face_uv(direction);
+    if (s.cube.levels > 1) {
+        s.acc = texel_rows_add(s.acc, s.cube.texels, cube_fine_rows(place, levels));
+        s.acc = texel_rows_add(s.acc, s.cube.texels, cube_coarse_rows(place, levels));
+    } else
+        s.acc = cube_level_add(s.acc, s.cube, place, 0, levels.fine);
+}
+#endif
+
+void cube_sum_begin(inout cube_sum s, cube_desc cube)
+{
+    s.cube = cube;
+    s.acc = texel_zero();
+}
+real3 cube_sum_value(cube_sum s)
+{
+    real4 v = texel_value(s.acc);
+    return v.xyz;
+}
+
+void cube_terms_begin(inout cube_terms s, cube_desc cube, bool trilinear)
+{
+    s.cube = cube;
+    s.sum = vec3(0.0);
+    s.trilinear = trilinear;
+}
+void cube_terms_add(inout cube_terms s, real3 direction, real lod, real3 colour, real weight)
+{
+    real3 value;
+    if (s.trilinear)
+        value = cube_sample(s.cube, direction, lod);
+    else
+        value = cube_sample_level(s.cube, direction, 0);
+    s.sum = s.sum + value * colour * weight;
+}
+real3 cube_terms_value(cube_terms s) { return s.sum; }
+
+#endif

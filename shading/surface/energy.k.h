@@ -1,0 +1,99 @@
+// Light scattered more than once between microfacets, returned to the lobe: the single-scattering lobe scaled so that
+// it reflects all light where it absorbs none. Turquin 2019, "Practical multiple scattering compensation for
+// microfacet models", eq. 16, after Kulla and Conty 2017, "Revisiting Physically Based Shading at Imageworks".
+#ifndef BN_ENERGY_K_H
+#define BN_ENERGY_K_H
+#include "shading/kernels/math.k.h"
+#include "shading/lang/lang.h"
+#include "shading/surface/dfg.k.h"
+#include "shading/surface/lobe.k.h"
+
+BN_KERNELS_BEGIN
+
+// Directional albedo of a lobe of two widths, from its table: of size x size x size/2 x size/2 texels as dfg_lookup's, over (from the
+// fastest) n.v, roughness, the azimuth of the view and anisotropy, along axes that are graded to where the albedo bends:
+// sqrt(n.v), the lobe's alpha_lin, the square root of the cosine between its wide axis and the view's azimuth, 1 - sqrt(1 - eta).
+// n: the lobe's normal, v: to the eye, both unit, world space. Within 0.02 of the integral for alpha_lin from 0.1 on.
+BN_FN dfg_value lobe_albedo_lookup(texel_buffer table, int size, aniso_lobe lobe, real3 n, real3 v)
+{
+    real one = lit(1.0);
+    integer across = int_lit(size);
+    integer half_size = int_lit(size / 2);
+    real last = to_real(int_lit(size - 1));
+    real half_last = to_real(int_lit(size / 2 - 1));
+    real3 o = to_lobe(lobe, n, v);
+    real x = sqrt(k_saturate(o.z)) * last;
+    real y = lobe_alpha_lin(lobe) * last;
+    real flat2 = o.x * o.x + o.y * o.y;
+    real cosine = min(abs(o.x) / sqrt(max(flat2, lit(1e-12))), one);
+    real z = sqrt(cosine) * half_last;
+    real w = (one - sqrt(max(one - lobe_eta(lobe), lit(0.0)))) * half_last;
+    integer ix = min(to_int(x), int_lit(size - 2));
+    integer iy = min(to_int(y), int_lit(size - 2));
+    integer iz = min(to_int(z), int_lit(size / 2 - 2));
+    integer iw = min(to_int(w), int_lit(size / 2 - 2));
+    real fx = x - to_real(ix);
+    real fy = y - to_real(iy);
+    real fz = z - to_real(iz);
+    real fw = w - to_real(iw);
+    texel_acc acc = texel_zero();
+    for (int corner = 0; corner < 4; ++corner) {
+        integer up_z = int_lit(corner % 2);
+        integer up_w = int_lit(corner / 2);
+        real part = select(up_z == int_lit(1), fz, one - fz) * select(up_w == int_lit(1), fw, one - fw);
+        integer row = (((iw + up_w) * half_size + iz + up_z) * across + iy) * across + ix;
+        real right = fx * part;
+        real w11 = right * fy;
+        real w01 = (part - right) * fy;
+        acc = texel_add(acc, table, row, row + across, part - right - w01, right - w11, w01, w11);
+    }
+    real4 t = texel_value(acc);
+    dfg_value r;
+    r.scale = t.x + t.z;
+    r.bias = t.y + t.w;
+    return r;
+}
+
+// The same of a lobe whose widths are those that its slice was made for: size x size/2 texels, from texel `first` on, over sqrt(n.v) and
+// the square root of the cosine between its wide axis and the view's azimuth.
+BN_FN dfg_value lobe_slice_lookup(texel_buffer table, int first, int size, aniso_lobe lobe, real3 n, real3 v)
+{
+    real one = lit(1.0);
+    real3 o = to_lobe(lobe, n, v);
+    real x = sqrt(k_saturate(o.z)) * to_real(int_lit(size - 1));
+    real flat2 = o.x * o.x + o.y * o.y;
+    real cosine = min(abs(o.x) / sqrt(max(flat2, lit(1e-12))), one);
+    real z = sqrt(cosine) * to_real(int_lit(size / 2 - 1));
+    integer ix = min(to_int(x), int_lit(size - 2));
+    integer iz = min(to_int(z), int_lit(size / 2 - 2));
+    real fx = x - to_real(ix);
+    real fz = z - to_real(iz);
+    integer row = int_lit(first) + iz * int_lit(size) + ix;
+    real w11 = fx * fz;
+    real w10 = fx - w11;
+    real w01 = fz - w11;
+    real w00 = one - fx - w01;
+    texel_acc acc = texel_zero();
+    real4 t = texel_value(texel_add(acc, table, row, row + int_lit(size), w00, w10, w01, w11));
+    dfg_value r;
+    r.scale = t.x + t.z;
+    r.bias = t.y + t.w;
+    return r;
+}
+
+// Factor on the specular lobe. f0: reflectance at normal incidence, [0,1]; albedo: directional, of a lobe that absorbs nothing, (0,1], or
+// an estimate of it that may be above 1 and then makes a factor below 1. Albedos below 0.05 count as that.
+BN_FN real3 energy_compensation_of_albedo(real3 f0, real albedo)
+{
+    real lost = lit(1.0) / max(albedo, lit(0.05)) - lit(1.0);
+    return vec3_all(lit(1.0)) + f0 * lost;
+}
+
+// At least 1.
+BN_FN real3 energy_compensation(real3 f0, dfg_value dfg)
+{
+    return energy_compensation_of_albedo(f0, min(dfg.scale + dfg.bias, lit(1.0)));
+}
+
+BN_KERNELS_END
+#endif

@@ -1,0 +1,83 @@
+// From a material to its lobe: widths and axis, then in place on a surface. What is not anisotropic needs no axes of its own.
+#ifndef BN_LOBE_SHAPE_T_H
+#define BN_LOBE_SHAPE_T_H
+
+#include "shading/lang/lang.h"
+#include "shading/lang/stage.h"
+#include "shading/surface/covariance.k.h"
+#include "shading/surface/lobe.k.h"
+#include "shading/surface/material.t.h"
+#include "shading/surface/surface.k.h"
+
+BN_KERNELS_BEGIN
+
+struct lobe_shape {        // a lobe before it is laid onto a surface
+    real sigma_u, sigma_v; // see aniso_lobe
+    real2 u;               // its axis, along tangent and bitangent
+    real alpha_lin;        // perceptual roughness
+};
+
+BN_FN lobe_shape lobe_shape_of(frame_ref f, material_ref m, BN_IN(material_inputs) at)
+{
+    lobe_shape r;
+    real roughness = min(max(at.roughness, lit(0.0)), lit(1.0));
+    real alpha = roughness * roughness;
+    real sigma = alpha * lit(0.70710678118654752);
+    r.sigma_u = sigma;
+    r.sigma_v = sigma;
+    r.u = vec2_of(lit(1.0), lit(0.0));
+    r.alpha_lin = at.roughness;
+    if (the_material(m).anisotropic == 0)
+        return r;
+    real2 rotation = vec2_of(splat(the_material(m).anisotropy_rotation[0]), splat(the_material(m).anisotropy_rotation[1]));
+    slope_covariance covariance;
+    if (the_frame(f).override_anisotropy != 0)
+        covariance = covariance_from_eta_tensor(roughness, splat(the_frame(f).anisotropy), rotation, at.tensor2);
+    else
+        covariance = covariance_from_tensors(alpha, splat(the_material(m).anisotropy_strength), rotation, at.tensor2, at.tensor4);
+    slope_axes axes = axes_of_covariance(covariance);
+    r.sigma_u = axes.sigma_u;
+    r.sigma_v = axes.sigma_v;
+    r.u = axes.u;
+    aniso_lobe lobe;
+    lobe.u_axis = vec3_all(lit(0.0));
+    lobe.v_axis = vec3_all(lit(0.0));
+    lobe.sigma_u = r.sigma_u;
+    lobe.sigma_v = r.sigma_v;
+    r.alpha_lin = lobe_alpha_lin(lobe);
+    return r;
+}
+
+// Whether no texture changes the shape, and what it is then.
+BN_FN bool one_lobe_shape(material_ref m)
+{
+    bool textured = texture_used(m, kMetalRoughTex) && the_material(m).roughness_fixed == 0;
+    return !textured && !texture_used(m, kTensor2Tex);
+}
+
+BN_FN lobe_shape only_lobe_shape(frame_ref f, material_ref m)
+{
+    material_inputs at;
+    at.roughness = splat(the_material(m).roughness);
+    at.tensor2 = vec3_of(lit(1.0), lit(0.0), lit(0.0));
+    at.tensor4 = at.tensor2;
+    return lobe_shape_of(f, m, at);
+}
+
+BN_FN aniso_lobe lobe_in_frame(material_ref m, BN_IN(lobe_shape) shape, BN_IN(surface_frame) axes)
+{
+    aniso_lobe lobe;
+    lobe.sigma_u = shape.sigma_u;
+    lobe.sigma_v = shape.sigma_v;
+    lobe.u_axis = axes.t;
+    lobe.v_axis = axes.b;
+    if (the_material(m).anisotropic == 0)
+        return lobe;
+    lobe.u_axis = axes.t * shape.u.x + axes.b * shape.u.y;
+    lobe.v_axis = axes.b * shape.u.x - axes.t * shape.u.y;
+    return lobe;
+}
+
+BN_KERNELS_END
+
+#endif

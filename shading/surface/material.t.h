@@ -1,0 +1,76 @@
+// A material at a visible point: its factors times what its textures hold there. The values are listed in shading/material.def.
+#ifndef BN_MATERIAL_T_H
+#define BN_MATERIAL_T_H
+
+#include "shading/lang/lang.h"
+#include "shading/lang/stage.h"
+#include "shading/surface/surface.k.h"
+
+BN_KERNELS_BEGIN
+
+struct material_inputs {
+#define BN_INPUT(type, words, name) type name;
+#include "shading/material.def"
+};
+
+BN_FN real3 rgb_of(real4 t)
+{
+    return vec3_of(t.x, t.y, t.z);
+}
+
+BN_FN material_inputs fetch_material(frame_ref f, material_ref m, BN_IN(visible_point) p)
+{
+    texture_fetches t = textures_at(f, m, p);
+    material_inputs r;
+    r.base = splat3(the_material(m).base_color);
+    r.alpha = splat(the_material(m).base_color[3]);
+    if (texture_used(m, kBaseColorTex)) {
+        real4 base = texel_of(t, kBaseColorTex);
+        r.base = r.base * rgb_of(base);
+        r.alpha = r.alpha * base.w;
+    }
+    if (the_material(m).uses_color != 0) {
+        r.base = r.base * rgb_of(p.color);
+        r.alpha = r.alpha * p.color.w;
+    }
+    r.metallic = splat(the_material(m).metallic);
+    r.roughness = splat(the_material(m).roughness);
+    if (texture_used(m, kMetalRoughTex)) {
+        real4 factors = texel_of(t, kMetalRoughTex);
+        if (the_material(m).roughness_fixed == 0)
+            r.roughness = r.roughness * factors.y;
+        r.metallic = r.metallic * factors.z;
+    }
+    r.normal_map = vec3_of(lit(0.0), lit(0.0), lit(1.0));
+    if (texture_used(m, kNormalTex)) {
+        real3 n = rgb_of(texel_of(t, kNormalTex)) * lit(2.0) - vec3_all(lit(1.0));
+        real scale = splat(the_material(m).normal_scale);
+        r.normal_map = vec3_of(n.x * scale, n.y * scale, n.z);
+    }
+    r.occlusion = lit(1.0);
+    if (texture_used(m, kOcclusionTex))
+        r.occlusion = lit(1.0) + splat(the_material(m).occlusion_strength) * (texel_of(t, kOcclusionTex).x - lit(1.0));
+    r.emissive = splat3(the_material(m).emissive);
+    if (texture_used(m, kEmissiveTex))
+        r.emissive = r.emissive * rgb_of(texel_of(t, kEmissiveTex));
+    r.dielectric_f0 = splat3(the_material(m).dielectric_f0);
+    r.dielectric_f90 = splat(the_material(m).dielectric_f90);
+    if (texture_used(m, kSpecularTex)) {
+        real weight = texel_of(t, kSpecularTex).w;
+        r.dielectric_f0 = r.dielectric_f0 * weight;
+        r.dielectric_f90 = r.dielectric_f90 * weight;
+    }
+    if (texture_used(m, kSpecularColorTex))
+        r.dielectric_f0 = r.dielectric_f0 * rgb_of(texel_of(t, kSpecularColorTex));
+    r.tensor2 = vec3_of(lit(1.0), lit(0.0), lit(0.0));
+    r.tensor4 = r.tensor2;
+    if (texture_used(m, kTensor2Tex)) { // halves alone bend thin lobes: at eta 0.95 by a fifth
+        r.tensor2 = rgb_of(texel_of(t, kTensor2Tex)) + rgb_of(texel_of(t, kTensor2RestTex));
+        r.tensor4 = rgb_of(texel_of(t, kTensor4Tex)) + rgb_of(texel_of(t, kTensor4RestTex));
+    }
+    return r;
+}
+
+BN_KERNELS_END
+
+#endif

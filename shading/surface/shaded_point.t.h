@@ -1,0 +1,96 @@
+// From a material at a visible point to the surface that lights shade: normal, lobe, reflectances, albedo.
+#ifndef BN_SHADED_POINT_T_H
+#define BN_SHADED_POINT_T_H
+
+#include "shading/lang/lang.h"
+#include "shading/lang/stage.h"
+#include "shading/surface/dfg.k.h"
+#include "shading/surface/energy.k.h"
+#include "shading/surface/lobe_shape.t.h"
+#include "shading/surface/material.t.h"
+#include "shading/surface/placed_lobe.k.h"
+#include "shading/surface/surface.k.h"
+
+BN_KERNELS_BEGIN
+
+struct shaded_point {
+    surface s;
+    aniso_lobe lobe;
+    surface_frame surface_axes; // the geometry's
+    bool turned;                // s.n is not surface_axes.n: light from below its horizon does not arrive
+    bool diffuse;               // s.diffuse may be above 0
+    dfg_value dfg;
+    real3 albedo; // directional, of the lobe: for techniques of a split integral
+    real3 gain;   // energy compensation, which multiplies the specular lobe; 1 without
+    real3 dielectric_f0;
+    real dielectric_f90;
+    integer pixel_id; // y * width + x, for random numbers
+};
+
+BN_FN placed_lobe placed_lobe_at(frame_ref f, BN_IN(shaded_point) x)
+{
+    return placed_lobe_of(the_frame(f).tilted != 0, x.lobe, x.s.n, x.s.v, x.surface_axes);
+}
+
+// Directional albedo of the lobe: of its own two widths where they differ.
+BN_FN dfg_value directional_albedo(frame_ref f, material_ref m, BN_IN(surface) s, BN_IN(aniso_lobe) lobe)
+{
+    if (the_frame(f).dfg_fit != 0)
+        return dfg_fit(s.n_dot_v, s.roughness);
+    if (the_material(m).anisotropic == 0)
+        return dfg_lookup(dfg_texels(f), the_frame(f).dfg_size, s.n_dot_v, s.roughness);
+    if (the_material(m).albedo_slice >= 0)
+        return lobe_slice_lookup(lobe_slice_texels(f), the_material(m).albedo_slice, the_frame(f).lobe_albedo_size, lobe, s.n, s.v);
+    return lobe_albedo_lookup(lobe_albedo_texels(f), the_frame(f).lobe_albedo_size, lobe, s.n, s.v);
+}
+
+BN_FN real3 energy_gain(frame_ref f, real3 f0, dfg_value dfg)
+{
+    if (the_frame(f).energy_compensation == 0)
+        return vec3_all(lit(1.0));
+    return energy_compensation(f0, dfg);
+}
+
+// Fills x.
+BN_FN void make_shaded_point(frame_ref f, material_ref m, BN_IN(material_inputs) at, BN_IN(lobe_shape) shape, BN_IN(visible_point) p,
+                             integer pixel_id, BN_INOUT(shaded_point) x)
+{
+    x.pixel_id = pixel_id;
+    real3 v = k_normalize3(-p.ray);
+    // a surface seen from behind shows its other side
+    real3 normal = select(p.front, p.normal, -p.normal);
+    real handedness = select(p.front, p.tangent_sign, -p.tangent_sign);
+    x.surface_axes = geometric_frame(normal, p.tangent, handedness);
+    surface_frame axes = x.surface_axes;
+    bool mapped = texture_used(m, kNormalTex);
+    if (mapped)
+        axes = mapped_frame(axes, at.normal_map, handedness);
+    if (the_frame(f).tilted != 0)
+        axes = tilted_frame(axes, vec2_of(splat(the_frame(f).tilt_cos[0]), splat(the_frame(f).tilt_cos[1])),
+                            vec2_of(splat(the_frame(f).tilt_sin[0]), splat(the_frame(f).tilt_sin[1])));
+    x.turned = (mapped && the_frame(f).horizon != 0) || the_frame(f).tilted != 0;
+    x.lobe = lobe_in_frame(m, shape, axes);
+    x.diffuse = the_material(m).metallic < 1.0f || texture_used(m, kMetalRoughTex);
+    x.dielectric_f0 = at.dielectric_f0;
+    x.dielectric_f90 = at.dielectric_f90;
+    x.s = metallic_roughness_surface(axes.n, v, at.base, at.metallic, shape.alpha_lin, at.dielectric_f0, at.dielectric_f90, at.occlusion);
+    x.dfg = directional_albedo(f, m, x.s, x.lobe);
+    x.albedo = x.s.f0 * x.dfg.scale + x.s.f90 * x.dfg.bias;
+    x.gain = energy_gain(f, x.s.f0, x.dfg);
+    if (the_frame(f).tilted != 0 && the_frame(f).energy_compensation != 0) {
+        real kept = min(tilted_lobe_albedo(placed_lobe_at(f, x)), lit(1.0));
+        x.gain = energy_compensation_of_albedo(x.s.f0, kept);
+    }
+}
+
+// The share of light that the dielectric's specular part lets through to the diffuse one.
+BN_FN real passed_to_diffuse(frame_ref f, BN_IN(shaded_point) x)
+{
+    real bias = x.dielectric_f90 * x.dfg.bias;
+    real3 dielectric = (x.dielectric_f0 * x.dfg.scale + vec3_all(bias)) * energy_gain(f, x.dielectric_f0, x.dfg);
+    return lit(1.0) - max(dielectric.x, max(dielectric.y, dielectric.z));
+}
+
+BN_KERNELS_END
+
+#endif

@@ -1,0 +1,100 @@
+// A visible point, and the surface there that techniques shade: what is left of geometry and textures.
+#ifndef BN_SURFACE_K_H
+#define BN_SURFACE_K_H
+
+#include "shading/kernels/math.k.h"
+#include "shading/lang/lang.h"
+
+BN_KERNELS_BEGIN
+
+struct visible_point {     // what geometry gives
+    real3 normal, tangent; // world space, not unit
+    real tangent_sign;
+    real4 color;
+    real2 uv[2], uv_dx[2], uv_dy[2]; // two sets, and their change by one pixel
+    mask front;
+    real3 ray;      // from the eye to the point, not unit
+    real3 position; // world space, metres; only where the frame has lights
+};
+
+struct surface {
+    real3 n;        // shading normal, unit, world space
+    real3 v;        // to the eye, unit, world space
+    real n_dot_v;   // clamped to [1e-4, 1]
+    real3 diffuse;  // albedo of the diffuse part, [0,1]
+    real3 f0, f90;  // specular reflectance at normal and grazing incidence
+    real roughness; // perceptual (alpha_lin), [0,1]
+    real occlusion; // [0,1], 1 open
+};
+
+struct surface_frame {
+    real3 n, t, b; // orthonormal, world space; b = +-cross(n, t)
+};
+
+// n: unit; t: orthogonal to it, any length; handedness: +1 or -1.
+BN_FN surface_frame frame_of(real3 n, real3 t, real handedness)
+{
+    surface_frame f;
+    f.n = n;
+    f.t = k_normalize3(t);
+    f.b = k_cross(f.n, f.t) * handedness;
+    return f;
+}
+
+// normal, tangent: interpolated, any length, not along each other, turned to the viewer's side.
+BN_FN surface_frame geometric_frame(real3 normal, real3 tangent, real handedness)
+{
+    real3 n = k_normalize3(normal);
+    real3 t = tangent - n * k_dot3(n, tangent);
+    return frame_of(n, t, handedness);
+}
+
+// The frame turned to a mapped normal. map: tangent-space normal from the texture, any length. Where it lies along the tangent, the old
+// normal is the new tangent.
+BN_FN surface_frame mapped_frame(surface_frame f, real3 map, real handedness)
+{
+    real3 n = k_normalize3(f.t * map.x + f.b * map.y + f.n * map.z);
+    real3 t = f.t - n * k_dot3(n, f.t);
+    return frame_of(n, select(k_dot3(t, t) > lit(1e-8), t, f.n), handedness); // less is rounding
+}
+
+// The frame of a lobe whose commonest normal is tilted against the surface: the rows of R = Rx(theta_x) Ry(theta_y), of which cosines and
+// sines are given, in the frame. Positive theta_x tilts to +b, positive theta_y to -t. Walter et al. 2014, eq. 3.
+BN_FN surface_frame tilted_frame(surface_frame f, real2 cosine, real2 sine)
+{
+    surface_frame r;
+    real3 across = f.n * cosine.y - f.t * sine.y;
+    r.t = f.t * cosine.y + f.n * sine.y;
+    r.b = f.b * cosine.x - across * sine.x;
+    r.n = f.b * sine.x + across * cosine.x;
+    return r;
+}
+
+// What a lobe about a turned normal loses where it reaches below the surface's own horizon. surface_n: unit; r: unit, the mirror
+// direction about the turned normal; alpha: the lobe's width. 1 for all that the surface itself could mirror, 0 from a width below on.
+BN_FN real horizon_fade(real3 surface_n, real3 r, real alpha)
+{
+    real depth = k_dot3(surface_n, r) / max(alpha, lit(0.02));
+    return k_saturate(lit(1.0) + depth);
+}
+
+// glTF metallic-roughness to reflectances. base: linear [0,1]; metallic [0,1]; dielectric_f0, dielectric_f90: from index of
+// refraction and the specular extension.
+BN_FN surface metallic_roughness_surface(real3 n, real3 v, real3 base, real metallic, real roughness, real3 dielectric_f0,
+                                         real dielectric_f90, real occlusion)
+{
+    surface s;
+    s.n = n;
+    s.v = v;
+    s.n_dot_v = min(max(k_dot3(n, v), lit(1e-4)), lit(1.0));
+    s.diffuse = base * (lit(1.0) - metallic);
+    s.f0 = dielectric_f0 + (base - dielectric_f0) * metallic;
+    s.f90 = vec3_all(dielectric_f90 + (lit(1.0) - dielectric_f90) * metallic);
+    s.roughness = min(max(roughness, lit(0.0)), lit(1.0));
+    s.occlusion = occlusion;
+    return s;
+}
+
+BN_KERNELS_END
+
+#endif

@@ -1,0 +1,22 @@
+// One fetch about a bent normal: see bent_normal.k.h.
+#ifndef BN_BENT_NORMAL_T_H
+#define BN_BENT_NORMAL_T_H
+
+#include "shading/lang/lang.h"
+#include "shading/lang/stage.h"
+#include "shading/techniques/bent_normal.k.h"
+#include "shading/techniques/technique.t.h"
+
+BN_KERNELS_BEGIN
+
+BN_FN real3 bent_normal_specular(frame_ref f, BN_IN(shaded_point) x)
+{
+    cube_desc cube = specular_cube(f);
+    bent_ray ray = bent_normal_ray(x.s.n, x.s.v, x.lobe);
+    real lod = ray.lod * to_real(int_lit(cube.levels - 1));
+    return cube_sample(cube, ray.direction, lod) * x.albedo;
+}
+
+BN_KERNELS_END
+
+#endif

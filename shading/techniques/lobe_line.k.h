@@ -1,0 +1,112 @@
+// A line of isotropic lobes: environment light of an anisotropic GGX lobe from prefiltered samples along its grain, each as wide as the
+// lobe is narrow. Over slopes in units of the widths, GGX's density 1 / (pi (1 + u^2 + v^2)^2) is its marginal (1 + u^2)^(-3/2) / 2 times,
+// at each u, a density of width sqrt(1 + u^2) in v; so a lobe of two widths is a line of round ones that follows the marginal of scale
+// sqrt(l1 - l2), l1 >= l2 being its squared widths as the eye sees them, and whose width is sqrt(l2) sqrt(1 + z^2) at z of these scales.
+// Nothing is spread across the grain but what the lobe itself spreads. All in the ellipse frame: x along the greater slope deviation, y
+// along the smaller, z the normal; as in major_axis.k.h, a microfacet normal of slope (x, y) is normalize(-x, -y, 1).
+#ifndef BN_LOBE_LINE_K_H
+#define BN_LOBE_LINE_K_H
+
+#include "shading/kernels/math.k.h"
+#include "shading/lang/lang.h"
+
+BN_KERNELS_BEGIN
+
+struct lobe_line {
+    real3 o;      // to the eye, unit
+    real2 along;  // slopes at z = 1
+    real width;   // sqrt(l2) / o.z, of the round lobe at z = 0
+    real narrow;  // of a sample's level, see lobe_line_at()
+    real extent;  // sqrt(l1 / l2 - 1): how many widths the line is long
+    real stretch; // Smith's |(alpha_x o.x, alpha_y o.y, o.z)|
+    real alpha_x, alpha_y;
+};
+
+// o: to the eye, ellipse frame; sigma_x, sigma_y: slope deviations.
+BN_FN lobe_line lobe_line_of(real3 o, real sigma_x, real sigma_y)
+{
+    real root2 = lit(1.4142135623730951);
+    real one = lit(1.0);
+    lobe_line r;
+    o.z = max(o.z, lit(1e-4));
+    r.o = k_normalize3(o);
+    r.alpha_x = sigma_x * root2;
+    r.alpha_y = sigma_y * root2;
+    real x = r.alpha_x * r.o.x;
+    real y = r.alpha_y * r.o.y;
+    real zx = r.alpha_x * r.o.z;
+    real zy = r.alpha_y * r.o.z;
+    real m = lit(0.5) * (x * x + y * y + zx * zx + zy * zy);
+    // half of alpha_x^2 (o.z^2 + o.x^2) - alpha_y^2 (o.z^2 + o.y^2)
+    real h = lit(0.5) * ((zx - zy) * (zx + zy) + (x - y) * (x + y));
+    real shear = x * y;
+    real d = sqrt(h * h + shear * shear);
+    real l1 = max(m + d, lit(1e-20));
+    real least = r.alpha_x * zy;                      // sqrt(l1 l2)
+    real ratio = min(least * least / (l1 * l1), one); // l2 / l1
+    real steep = d - h;
+    real2 e = select(h >= lit(0.0), vec2_of(d + h, shear), vec2_of(abs(shear), select(shear < lit(0.0), -steep, steep)));
+    real inv = one / max(sqrt(k_dot2(e, e)), lit(1e-20));
+    real rest = sqrt(one - ratio) * inv;
+    r.along = vec2_of(r.alpha_x * e.x * rest, r.alpha_y * e.y * rest);
+    r.width = sqrt(l1 * ratio) / r.o.z;
+    r.narrow = lit(0.67) + lit(0.25) * ratio;
+    r.extent = sqrt((one - ratio) / max(ratio, lit(1e-12)));
+    r.stretch = sqrt(x * x + y * y + r.o.z * r.o.z);
+    return r;
+}
+
+struct lobe_line_sample {
+    real3 direction; // not unit, ellipse frame
+    real weight;     // at least 0: visible area and Smith's masking, height-correlated
+    real radius;     // alpha of the prefiltered level
+};
+
+// c: [-1,1], uniform for the marginal: z = c / sqrt(1 - c^2). A GGX of 0.77 times the round lobe's width has its median, as
+// (1 + r^2)^(-5/2) falls faster; pictures say 0.7 for long lobes, and more for round ones.
+BN_FN lobe_line_sample lobe_line_at(lobe_line line, real c)
+{
+    c = min(max(c, lit(-0.9995)), lit(0.9995));
+    real root = sqrt(lit(1.0) - c * c);
+    real3 w = vec3_of(-line.along.x * c, -line.along.y * c, root);
+    real w2 = k_dot3(w, w);
+    real w_dot_o = k_dot3(w, line.o);
+    lobe_line_sample r;
+    r.direction = w * (lit(2.0) * w_dot_o) - line.o * w2;
+    real ix = line.alpha_x * r.direction.x;
+    real iy = line.alpha_y * r.direction.y;
+    real iz = r.direction.z;
+    real stretch = sqrt(ix * ix + iy * iy + iz * iz);
+    real up = max(iz, lit(0.0));
+    real seen = max(w_dot_o, lit(0.0));
+    r.weight = seen * up / (root * max(up * line.stretch + line.o.z * stretch, lit(1e-20)));
+    r.radius = line.narrow * line.width * seen / w2;
+    return r;
+}
+
+// As many samples as a line of this length needs, a real in [1, limit]: in its middle they lie two widths apart.
+BN_FN real lobe_line_count(lobe_line line, real limit)
+{
+    return min(lit(1.0) + line.extent, limit);
+}
+
+struct lobe_line_cell {
+    real begin, size; // of c
+    real weight;      // its size relative to a whole cell, [0,1]
+};
+
+// The line cut into `count` cells of equal size, counted from its middle outwards: cell i, i = 1, 2..., on the positive side. What the end
+// cuts off is lost to the cell, so that samples come and go without a step where the count changes.
+BN_FN lobe_line_cell lobe_line_cell_of(real count, int i)
+{
+    real whole = lit(2.0) / count;
+    lobe_line_cell r;
+    r.begin = (to_real(int_lit(i)) - lit(0.5)) * whole;
+    r.size = min(max(lit(1.0) - r.begin, lit(0.0)), whole);
+    r.weight = r.size / whole;
+    return r;
+}
+
+BN_KERNELS_END
+
+#endif

@@ -1,0 +1,77 @@
+// A line of isotropic lobes (lobe_line.k.h): prefiltered samples along the grain, as many as each fragment needs.
+#ifndef BN_LOBE_LINE_T_H
+#define BN_LOBE_LINE_T_H
+
+#include "shading/lang/lang.h"
+#include "shading/lang/stage.h"
+#include "shading/surface/shaded_point.t.h"
+#include "shading/techniques/lobe_line.k.h"
+#include "shading/techniques/shared_line.k.h"
+
+BN_KERNELS_BEGIN
+
+struct line_sum {
+    cube_desc cube;
+    cube_sum light;
+    real weights;
+};
+
+BN_FN void add_line_sample(BN_IN(shaded_point) x, BN_IN(lobe_line) line, real c, real weight, BN_INOUT(line_sum) sum)
+{
+    lobe_line_sample at = lobe_line_at(line, c);
+    real w = at.weight * weight;
+    real lod = min(sqrt(at.radius), lit(1.0)) * to_real(int_lit(sum.cube.levels - 1));
+    cube_sum_levels levels = cube_sum_levels_at(sum.light, lod, w);
+    cube_sum_add(sum.light, from_lobe(x.lobe, x.s.n, at.direction), levels);
+    sum.weights = sum.weights + w;
+}
+
+BN_FN lobe_line lobe_line_for(BN_IN(shaded_point) x)
+{
+    return lobe_line_of(to_lobe(x.lobe, x.s.n, x.s.v), x.lobe.sigma_u, x.lobe.sigma_v);
+}
+
+// The mean radiance that the lobe sees, to be multiplied by its albedo. offset: where in its cell a sample lies, (0,1).
+BN_FN real3 lobe_line_radiance(frame_ref f, BN_IN(shaded_point) x, BN_IN(lobe_line) line, real offset)
+{
+    real one = lit(1.0);
+    int limit = the_frame(f).samples - (the_frame(f).samples % 2 == 0 ? 1 : 0); // one in the middle and pairs
+    real count = lobe_line_count(line, to_real(int_lit(limit)));
+    line_sum sum;
+    sum.cube = specular_cube(f);
+    sum.weights = lit(0.0);
+    cube_sum_begin(sum.light, sum.cube);
+    real middle = (offset - lit(0.5)) * lit(2.0) / count;
+    add_line_sample(x, line, middle, one, sum);
+    uniform_real most = most_of_lanes(count);
+    for (int i = 1; float(2 * i - 1) < most; ++i) {
+        lobe_line_cell cell = lobe_line_cell_of(count, i);
+        real right = cell.begin + cell.size * offset;
+        real left = cell.begin + cell.size * (one - offset);
+        add_line_sample(x, line, right, cell.weight, sum);
+        add_line_sample(x, line, -left, cell.weight, sum);
+    }
+    return cube_sum_value(sum.light) / max(sum.weights, lit(1e-20));
+}
+
+// What is shared, but for `factor` and `rest`.
+BN_FN line_record lobe_line_shared(frame_ref f, BN_IN(shaded_point) x, real offset)
+{
+    lobe_line line = lobe_line_for(x);
+    line_record r;
+    r.light = lobe_line_radiance(f, x, line, offset);
+    r.width = line.width;
+    r.mirror = x.s.n * (lit(2.0) * k_dot3(x.s.n, x.s.v)) - x.s.v;
+    r.along = x.lobe.u_axis * line.along.x + x.lobe.v_axis * line.along.y;
+    return r;
+}
+
+// Alone, as where fragments do not know their neighbours.
+BN_FN real3 lobe_line_specular(frame_ref f, BN_IN(shaded_point) x)
+{
+    return lobe_line_radiance(f, x, lobe_line_for(x), lit(0.5)) * x.albedo;
+}
+
+BN_KERNELS_END
+
+#endif

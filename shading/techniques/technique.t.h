@@ -1,0 +1,42 @@
+// What several techniques for environment light do. A technique is a function <id>_specular(f, x) of a shaded_point x, which returns the
+// radiance that its specular lobe reflects, before energy compensation and the environment's scale.
+#ifndef BN_TECHNIQUE_T_H
+#define BN_TECHNIQUE_T_H
+
+#include "shading/lang/lang.h"
+#include "shading/lang/stage.h"
+#include "shading/surface/shaded_point.t.h"
+
+BN_KERNELS_BEGIN
+
+BN_FN real above_horizon(BN_IN(shaded_point) x, real3 wi, real weight)
+{
+    if (!x.turned)
+        return weight;
+    return select(k_dot3(x.surface_axes.n, wi) > lit(0.0), weight, lit(0.0));
+}
+
+// To the eye in the lobe's own frame, never below its horizon.
+BN_FN real3 eye_in_lobe(BN_IN(shaded_point) x)
+{
+    real3 o = to_lobe(x.lobe, x.s.n, x.s.v);
+    o.z = max(o.z, lit(1e-4));
+    return k_normalize3(o);
+}
+
+// Sampled lobes have a least width; what has none is a mirror: the environment itself in the mirror direction.
+// dim: what masking leaves of a mirror.
+BN_FN real3 mirrors_apart(frame_ref f, BN_IN(shaded_point) x, real3 value, real dim)
+{
+    real width = x.lobe.sigma_u + x.lobe.sigma_v;
+    mask mirror = width <= lit(1e-6);
+    if (no_lane(mirror))
+        return value;
+    real3 r = x.s.n * (lit(2.0) * k_dot3(x.s.n, x.s.v)) - x.s.v;
+    real seen = above_horizon(x, r, dim);
+    return select(mirror, cube_sample_level(specular_cube(f), r, 0) * x.albedo * seen, value);
+}
+
+BN_KERNELS_END
+
+#endif

@@ -1,0 +1,132 @@
+"""Files that are written: nothing of a killed run stands in the way, permissions and links stay, and what is kept in the cache is ours."""
+
+import fcntl
+import os
+import pathlib
+import shutil
+import subprocess
+
+from harness import SMALL, Skipped, case, check, scratch
+
+TEMPORARY = ".o.png.0123456789abcdef.bntmp"
+
+
+def in_new_namespace(bench, *arguments):
+    """As process 1 or 2 of a namespace of its own, as in a container, where pids repeat."""
+    command = ["unshare", "--pid", "--fork", "--mount-proc"] + (["--map-root-user"] if os.geteuid() else [])
+    try:
+        probe = subprocess.run([*command, "true"], capture_output=True, timeout=60, check=False)
+    except FileNotFoundError:
+        raise Skipped("no unshare") from None
+    if probe.returncode:
+        raise Skipped(f"no namespace here: {probe.stderr.decode().strip()}")
+    return subprocess.run([*command, bench.program, *map(str, arguments)], cwd=bench.folder, env=bench.environment({}),
+                          capture_output=True, text=True, timeout=300, check=False)
+
+
+@case("file.leftovers_do_not_stand_in_the_way")
+def leftovers(bench):
+    for pid in (1, 2):
+        for number in range(4):
+            scratch(bench, f".o.png.{pid}.{number}.tmp", b"of a run that was killed")
+    scratch(bench, TEMPORARY, b"of another")
+    scratch(bench, ".other.png.1.0.tmp", b"of another picture")
+    scratch(bench, ".o.png.txt.tmp", b"of another program")
+    done = in_new_namespace(bench, "render", *SMALL, "--quiet", "-o", "o.png")
+    check(done.returncode == 0, f"exit code {done.returncode}: {done.stderr}")
+    check(bench.left_behind() == [".o.png.txt.tmp", ".other.png.1.0.tmp", "o.png"], f"left: {bench.left_behind()}")
+
+
+@case("file.a_living_writer_keeps_its_file")
+def living_writer(bench):
+    path = scratch(bench, TEMPORARY, b"being written")
+    with open(path, "rb") as file:
+        fcntl.flock(file, fcntl.LOCK_EX)
+        bench.run("render", *SMALL, "-o", "o.png").expect(0)
+        check(path.read_bytes() == b"being written", "the file of a living process was removed")
+    bench.run("render", *SMALL, "-o", "o.png").expect(0)
+    check(bench.left_behind() == ["o.png"], f"left: {bench.left_behind()}")
+
+
+@case("file.permissions_are_kept")
+def permissions(bench):
+    for mode in (0o600, 0o640, 0o755, 0o666):
+        path = scratch(bench, "o.png", b"there before")
+        path.chmod(mode)
+        bench.run("render", *SMALL, "-o", "o.png", "--stats", "s.json").expect(0)
+        check(path.stat().st_mode & 0o777 == mode, f"{mode:o} became {path.stat().st_mode & 0o777:o}")
+        check(path.read_bytes().startswith(b"\x89PNG"), "nothing was written")
+    umask = os.umask(0)
+    os.umask(umask)
+    check((bench.folder / "s.json").stat().st_mode & 0o777 == 0o666 & ~umask, "a new file has other permissions than others")
+
+
+def cache_of(bench):
+    """A cache of the case's own with one environment, and that file."""
+    cache = bench.folder / "cache"
+    bench.run("render", *SMALL, env={"XDG_CACHE_HOME": str(cache)}).expect(0)
+    files = sorted((cache / "burnish").glob("environment-*.bnenv"))
+    check(len(files) == 1, f"the cache holds {files}")
+    return {"XDG_CACHE_HOME": str(cache)}, files[0]
+
+
+@case("file.leftovers_in_the_cache_count_and_go")
+def cache_leftovers(bench):
+    env, kept = cache_of(bench)
+    for name in (f".{kept.name}.77.0.tmp", f".{kept.name}.00112233445566ff.bntmp"):
+        scratch(bench, kept.parent.relative_to(bench.folder) / name, bytes(1 << 20))
+    said = bench.run("info", env=env).expect(0).out
+    check(": 3 files" in said, f"leftovers are not seen by info\n{said}")
+    kept.unlink()
+    bench.run("render", *SMALL, env=env).expect(0)
+    check(os.listdir(kept.parent) == [kept.name], f"the cache holds {os.listdir(kept.parent)}")
+
+
+@case("file.what_stands_at_a_cache_file_s_name_is_replaced")
+def cache_intruders(bench):
+    env, kept = cache_of(bench)
+    whole = kept.read_bytes()
+    target = scratch(bench, "precious", b"precious")
+
+    def link():
+        kept.symlink_to(target)
+
+    def fifo():
+        os.mkfifo(kept)
+
+    for put in (link, fifo):
+        kept.unlink()
+        put()
+        bench.run("render", *SMALL, env=env, timeout=30.0).expect(0)
+        check(target.read_bytes() == b"precious", "the target of a link in the cache was overwritten")
+        check(kept.is_file() and not kept.is_symlink() and kept.read_bytes() == whole, "the cache file was not made anew")
+    other = pathlib.Path(shutil.copy(kept, bench.folder / "elsewhere"))
+    kept.unlink()
+    kept.symlink_to(other)
+    found = bench.figures(*SMALL, env=env)
+    check(not found["environment_from_cache"], "a link in the cache was read")
+
+
+@case("file.names_that_cannot_be")
+def impossible_names(bench):
+    (bench.folder / "a.png").symlink_to("b.png")
+    (bench.folder / "b.png").symlink_to("a.png")
+    scratch(bench, "file", b"")
+    for name in ("n" * 300 + ".png", "a.png", "file/o.png", "/".join(["x" * 200] * 30) + ".png"):
+        bench.run("render", *SMALL, "-o", name).expect(7).expect_one_line(name[:100])
+        bench.run("render", *SMALL, "--stats", name).expect(7).expect_one_line(name[:100])
+    check(bench.left_behind() == ["a.png", "b.png", "file"], f"left: {bench.left_behind()}")
+
+
+@case("file.a_lost_checkpoint_does_not_lose_the_picture", "program", "input")
+def lost_checkpoint(bench):
+    """No file may be as large as the checkpoint; the picture is smaller."""
+    if "reference" not in bench.run("info").expect(0).out:
+        raise Skipped("built without Embree")
+    words = ("render", "--backend", "reference", "--size", "48x32", "--samples", "64", "--env-size", "64", "--env-samples", "32")
+    bench.run(*words, "-o", "whole.png").expect(0)
+    done = bench.run(*words, "--checkpoint", "c.part", "-o", "o.png", "--stats", "s.json", file_size=20000).expect(7)
+    check("c.part: cannot be written" in done.err, done.describe())
+    check((bench.folder / "o.png").exists(), f"the picture is lost: {bench.left_behind()}")
+    check((bench.folder / "o.png").read_bytes() == (bench.folder / "whole.png").read_bytes(), "the picture differs")
+    check(bench.left_behind() == ["o.png", "s.json", "whole.png"], f"left: {bench.left_behind()}")

@@ -1,0 +1,280 @@
+"""Files made to harm: they cost a line and an exit code, never the machine's memory, another file or the terminal."""
+
+import pathlib
+import shutil
+import struct
+import zlib
+
+import gltf_files as files
+from harness import GIB, SMALL, Skipped, case, check, scratch
+from input_cases import accept, refuse
+
+REFERENCE = ("--backend", "reference", "--size", "32x24", "--samples", "64", "--env-size", "16", "--env-samples", "16")
+TILE = ("--size", "32x24", "--msaa", "1", "--env-size", "16", "--env-samples", "16")
+
+
+def scaled(scale=1.0, camera=None, matrix=None):
+    """The triangle as large as is asked for, seen by a camera of the file where one is given."""
+    positions = struct.pack("<9f", *(scale * x for x in (-1, 0, 0, 1, 0, 0, 0, 1, 0)))
+    gltf = files.triangle(positions=positions)
+    gltf["accessors"][0].update(min=[-scale, 0, 0], max=[scale, scale, 0])
+    if matrix:
+        gltf["nodes"][0]["matrix"] = matrix
+    if camera:
+        gltf["cameras"] = [camera]
+        gltf["nodes"].append({"camera": 0, "translation": [0, 0, scale]})
+        gltf["scenes"][0]["nodes"].append(1)
+    return gltf
+
+
+def orthographic(half, far=100.0):
+    return {"type": "orthographic", "orthographic": {"xmag": half, "ymag": half, "znear": 0.0, "zfar": far}}
+
+
+def perspective(near, yfov=1.0):
+    return {"type": "perspective", "perspective": {"yfov": yfov, "znear": near}}
+
+
+# Scenes at the edges of what floats hold, and how each is looked at.
+DEGENERATE = {
+    **{f"scale_{scale:g}": (scaled(scale), ()) for scale in (1e-38, 1e-30, 1e-18, 1e-9, 1e9, 1e16, 1e18, 1e20, 1e30, 3e38)},
+    **{f"orthographic_{half:g}": (scaled(camera=orthographic(half)), ()) for half in (0.0, -1.0, 1e-30, 1e16, 1e18, 1e30, 3e38)},
+    **{f"near_{near:g}": (scaled(camera=perspective(near)), ()) for near in (1e-30, 1e-9, 1e9, 1e18, 3e38)},
+    **{f"yfov_{yfov:g}": (scaled(camera=perspective(0.1, yfov)), ()) for yfov in (1e-6, 3.1415)},
+    **{f"eye_{far:g}": (scaled(), ("--eye", f"0,0,{far:g}", "--target", "0,0,0")) for far in (1e-30, 1e9, 1e17, 1e18, 1e20, 1e38)},
+    **{f"squeezed_{s:g}": (scaled(matrix=[1, 0, 0, 0, 0, s, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]), ()) for s in (0.0, 1e-30, 1e18, 1e30)},
+    "a_point": (scaled(0.0), ()),
+    "far_away": (scaled(matrix=[1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 1e18, 0, 0, 1]), ("--eye", "0,0,1", "--target", "0,0,0")),
+    "far_orthographic": (scaled(camera=orthographic(1.0, far=3e38)), ()),
+}
+
+
+def run_degenerate(bench, options):
+    refused = set()
+    for name, (gltf, view) in DEGENERATE.items():
+        scratch(bench, name + ".gltf", files.text(gltf))
+        done = bench.run("render", name + ".gltf", *options, *view, "-q", "-o", "out.exr")
+        check(done.code in (0, 2, 4), f"{name}: {done.describe()}")
+        if done.code:
+            done.expect_one_line()
+            refused.add(name)
+        check((bench.folder / "out.exr").exists() == (done.code == 0), f"{name}: picture and exit code do not agree")
+        (bench.folder / "out.exr").unlink(missing_ok=True)
+    return refused
+
+
+@case("hostile.degenerate_scenes", "program", "input")
+def degenerate(bench):
+    run_degenerate(bench, TILE)
+
+
+@case("hostile.degenerate_scenes_by_the_reference", "program", "input")
+def degenerate_reference(bench):
+    if "reference" not in bench.run("info").expect(0).out:
+        raise Skipped("built without Embree")
+    refused = run_degenerate(bench, REFERENCE)
+    for name in ("scale_1e+18", "orthographic_1e+30", "eye_1e+20", "eye_1e+38"):
+        check(name in refused, f"{name} was not refused, and rays go no further than 1e17")
+    for name in ("scale_1e+16", "scale_1e-09", "eye_1e+09"):
+        check(name not in refused, f"{name} was refused")
+    bench.run("render", "scale_1e+18.gltf", *REFERENCE).expect(4).expect_one_line("1e+17", "scale the scene down")
+
+
+@case("hostile.what_an_environment_needed_is_said")
+def repaired_environment(bench):
+    pixels = [1.0] * (8 * 4 * 3)
+    pixels[5], pixels[7], pixels[8], pixels[20] = float("nan"), -1.0, -2.0, float("inf")
+    scratch(bench, "bad.pfm", b"PF\n8 4\n-1.0\n" + struct.pack(f"<{len(pixels)}f", *pixels))
+    for _ in range(2):  # baked, then from the cache
+        done = bench.run("render", *SMALL, "--env", "bad.pfm", "--stats", "s.json").expect(0)
+        for words in ("1 NaN", "2 negative", "1 infinite"):
+            lines = [line for line in done.err.splitlines() if words in line]
+            check(len(lines) == 1 and lines[0].startswith("burnish: warning: "), f"'{words}' is not said once\n{done.describe()}")
+    found = bench.figures(*SMALL, "--env", "bad.pfm", "-q")
+    check(len(found["warnings"]) == 3, f"--stats has {found.get('warnings')}")
+    scratch(bench, "file", b"")
+    env = {"XDG_CACHE_HOME": str(bench.folder / "file")}
+    done = bench.run("render", *SMALL, env=env).expect(0)
+    check(done.err.count("is not cached") == 1, f"an unwritable cache is not said\n{done.describe()}")
+    check(len(bench.figures(*SMALL, env=env)["warnings"]) == 1, "an unwritable cache is not in --stats")
+    check(bench.figures(*SMALL)["warnings"] == [], "warnings without a reason")
+    for command in (("profile", "--frames", "1"), ("chart", "--techniques", "split_isotropic", "--runs", "1", "--reference-samples", "64",
+                                                   "--error-size", "32x24", "-o", "report")):
+        done = bench.run(*command, *SMALL, "--env", "bad.pfm").expect(0)
+        check("1 NaN" in done.err, f"{command[0]} does not say it\n{done.describe()}")
+
+
+def many_buffers(names, length):
+    gltf = files.triangle()
+    gltf["buffers"] += [{"byteLength": length, "uri": name} for name in names]
+    return files.text(gltf)
+
+
+@case("hostile.a_file_is_read_once_under_all_its_names", "input")
+def many_names(bench):
+    size = 24 << 20
+    with open(bench.folder / "big.bin", "wb") as big:
+        big.truncate(size)
+    (bench.folder / "link.bin").symlink_to("big.bin")
+    names = ["./" * i + "big.bin" for i in range(30)] + ["link.bin", "big%2Ebin"]
+    scene = scratch(bench, "scene.gltf", many_buffers(names, size))
+    done = accept(bench, scene)
+    if not bench.sanitized:
+        check(done.peak_bytes < GIB // 2, f"took {done.peak_bytes >> 20} MiB")
+    refuse(bench, scene, "--limit-input-bytes", "16M", needles=["--limit-input-bytes"])
+    for i in range(3):
+        shutil.copy(bench.folder / "big.bin", bench.folder / f"copy{i}.bin")
+    scene = scratch(bench, "copies.gltf", many_buffers([f"copy{i}.bin" for i in range(3)], size))
+    refuse(bench, scene, "--limit-input-bytes", "64M", needles=["/buffers/3/uri", "--limit-input-bytes"])
+    accept(bench, scene, "--limit-input-bytes", "80M")
+
+
+@case("hostile.links_do_not_lead_out_of_the_folder", "input")
+def links(bench):
+    scratch(bench, "out.bin", files.POSITIONS + files.INDICES)
+    scratch(bench, "wood.png", files.png(4, 4))
+    scene = bench.folder / "scene"
+    scratch(bench, "scene/inside.bin", files.POSITIONS + files.INDICES)
+    (scene / "sub").mkdir()
+    (scene / "link.bin").symlink_to("../out.bin")
+    (scene / "up").symlink_to("..")
+    (scene / "root").symlink_to("/")
+    (scene / "good.bin").symlink_to("inside.bin")
+    (scene / "sub" / "back.bin").symlink_to("../inside.bin")
+    (scene / "wood.png").symlink_to("../wood.png")
+    gltf = files.triangle()
+    for name in ("link.bin", "up/out.bin", "root" + str(bench.folder / "out.bin")):
+        gltf["buffers"][0]["uri"] = name
+        path = scratch(bench, "scene/scene.gltf", files.text(gltf))
+        refuse(bench, path, needles=["/buffers/0/uri", "--allow-outside-uris"])
+        accept(bench, path, "--allow-outside-uris")
+    for name in ("good.bin", "sub/back.bin"):
+        gltf["buffers"][0]["uri"] = name
+        accept(bench, scratch(bench, "scene/scene.gltf", files.text(gltf)))
+    refuse(bench, scratch(bench, "scene/textured.gltf", files.text(files.textured("wood.png"))), needles=["/images/0/uri"])
+    (bench.folder / "alias").symlink_to("scene")
+    accept(bench, "alias/scene.gltf")
+
+
+def riff(chunk):
+    return b"RIFF" + struct.pack("<I", 4 + len(chunk)) + b"WEBP" + chunk
+
+
+def tiff(width, height, compression, samples=4, bits=8, extra=(), order="<"):
+    entries = {256: (4, width), 257: (4, height), 258: (3, bits), 259: (3, compression), 262: (3, 2), 273: (4, 8), 277: (3, samples),
+               278: (4, height), 279: (4, 16), **dict(extra)}
+    body = b""
+    for tag, (kind, value) in sorted(entries.items()):
+        body += struct.pack(order + "HHI", tag, kind, 1) + (struct.pack(order + "I", value) if kind == 4 else struct.pack(order + "HH", value, 0))
+    return ((b"II" if order == "<" else b"MM") + struct.pack(order + "HI", 42, 8) + struct.pack(order + "H", len(entries)) + body +
+            bytes(4) + bytes(16))
+
+
+def bmp(width, height, bits, method):
+    return (b"BM" + struct.pack("<IHHI", 118, 0, 0, 54) +
+            struct.pack("<IiiHHIIiiII", 40, width, height, 1, bits, method, 64, 0, 0, 0, 0) + bytes(64))
+
+
+SIDE = 8000
+BOMBS = {
+    "lzw.tif": tiff(SIDE, SIDE, 5),
+    "none.tif": tiff(SIDE, SIDE, 1),
+    "deflate_mm.tif": tiff(SIDE, SIDE, 8, order=">"),
+    "float.tif": tiff(SIDE, SIDE, 8, bits=32),
+    "tiles.tif": tiff(16, 16, 8, extra={322: (4, 16384), 323: (4, 16384)}.items()),
+    "plain.bmp": bmp(SIDE, SIDE, 24, 0),
+    "runs.bmp": bmp(SIDE, -SIDE, 8, 1),
+    "lossless.webp": riff(b"VP8L" + struct.pack("<IBI", 5, 0x2F, (SIDE - 1) | (SIDE - 1) << 14) + bytes(9)),
+    "canvas.webp": riff(b"VP8X" + struct.pack("<II", 10, 0) + struct.pack("<I", SIDE - 1)[:3] + struct.pack("<I", SIDE - 1)[:3]),
+    "grey.jpg": b"\xff\xd8\xff\xc2\x00\x0b\x08" + struct.pack(">HH", SIDE, SIDE) + b"\x01\x01\x11\x00" +
+                b"\xff\xda\x00\x08\x01\x01\x00\x00\x00\x00\xff\xd9",
+    "bits.png": files.png(SIDE, SIDE, rows=1),
+}
+
+
+@case("hostile.headers_that_ask_for_memory", "input")
+def header_bombs(bench):
+    scratch(bench, "small.png", files.png(4, 4))
+    for name, data in BOMBS.items():
+        scratch(bench, name, data)
+        for words in (("compare", name, "small.png"), ("render", *TILE, "builtin:plate", "--env", name)):
+            done = bench.run(*words).expect(4).expect_one_line(name)
+            check("cannot hold" in done.err or "too large" in done.err, f"another reason\n{done.describe()}")
+            if not bench.sanitized:
+                check(done.peak_bytes < 200 << 20, f"{name} took {done.peak_bytes >> 20} MiB\n{done.describe()}")
+
+
+@case("hostile.an_environment_has_a_limit_of_pixels", "input")
+def environment_pixels(bench):
+    width, height = 16384, 8192
+    row = b"\0" + bytes(width)
+    squeeze = zlib.compressobj(9)
+    data = b"".join(squeeze.compress(row) for _ in range(height)) + squeeze.flush()
+
+    def chunk(kind, body):
+        return struct.pack(">I", len(body)) + kind + body + struct.pack(">I", zlib.crc32(kind + body))
+
+    scratch(bench, "vast.png", b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 0, 0, 0, 0)) +
+            chunk(b"IDAT", data) + chunk(b"IEND", b""))
+    refuse(bench, "builtin:plate", env="vast.png", needles=["--limit-env-pixels"])
+    scratch(bench, "small.png", files.png(40, 20))
+    small = ("render", *TILE, "builtin:plate", "--env", "small.png")
+    bench.run(*small, "--limit-env-pixels", "799").expect(4).expect_one_line("small.png", "--limit-env-pixels")
+    bench.run(*small, "--limit-env-pixels", "800").expect(0)
+
+
+EVIL = "evil\x1b[31m\x07\x9b\u202e<b>&name"
+
+
+@case("hostile.names_are_escaped", "program", "input")
+def names(bench):
+    gltf = files.triangle()
+    gltf["materials"] = [{"name": EVIL}]
+    gltf["meshes"][0]["primitives"][0]["material"] = 0
+    gltf["nodes"].append({"name": EVIL, "camera": 0})
+    gltf["cameras"] = [{"name": EVIL, **orthographic(1.0)}]
+    gltf["scenes"][0]["nodes"].append(1)
+    scratch(bench, "scene.gltf", files.text(gltf))
+    path = bench.folder / "sc\udcff\x1bene.gltf"  # no UTF-8
+    path.write_text(files.text(gltf))
+    pages = ("p.svg", "r/index.html")
+    runs = (("profile", str(path), *SMALL, "--frames", "1", "--svg", "p.svg"), ("render", str(path), *SMALL, "-v"),
+            ("render", str(path), *SMALL, "--camera", "none\x1b"), ("render", "no\x1bsuch\udcfe.gltf", *SMALL),
+            ("chart", str(path), *SMALL, "--techniques", "split_isotropic", "--runs", "1", "--reference-samples", "64",
+             "--error-size", "32x24", "-o", "r"))
+    for words in runs:
+        done = bench.run(*words)
+        check(done.code in (0, 2, 4), done.describe())
+        for text in (done.out, done.err):
+            check(all(c >= " " or c == "\n" for c in text) and "\x9b" not in text and "\u202e" not in text and "\ufffd" not in text,
+                  f"a control character comes through\n{done.describe()!r}")
+    for name in pages:
+        if (bench.folder / name).exists():
+            text = (bench.folder / name).read_text(encoding="utf-8")  # fails where it is no UTF-8
+            check("\x1b" not in text and "<b>&name" not in text, f"{name} holds the name as it is")
+    check((bench.folder / "p.svg").exists(), "no picture of the profile")
+
+
+@case("hostile.a_damaged_module_is_not_opened", "program")
+def damaged_module(bench):
+    module = pathlib.Path(bench.program).parent / "burnish_openimageio.so"
+    if not module.exists():
+        raise Skipped("the module does not lie beside the program")
+    program = bench.folder / "burnish"
+    shutil.copy(bench.program, program)
+    whole = module.read_bytes()
+    flipped = bytearray(whole)
+    flipped[len(whole) // 3] ^= 1
+    for data in (whole[:4096], whole[:-(len(whole) // 2)], whole[:20], b"", bytes(flipped), b"\x7fELF" + bytes(len(whole))):
+        (bench.folder / module.name).write_bytes(data)
+        done = bench.run("render", *SMALL, "-q", "-o", "out.exr", program=str(program)).expect(77)
+        done.expect_one_line("out.exr", "image library")
+        check(not (bench.folder / "out.exr").exists(), "a picture was written")
+    (bench.folder / module.name).write_bytes(whole)
+    bench.run("render", *SMALL, "-q", "-o", "out.exr", program=str(program)).expect(0)
+
+
+@case("hostile.a_scene_too_large_to_be_framed", "input")
+def huge_vertex(bench):
+    scene = scratch(bench, "huge.gltf", files.text(scaled(3e38)))
+    refuse(bench, scene, needles=["/nodes", "too large to be framed"])

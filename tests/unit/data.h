@@ -1,0 +1,44 @@
+// The files that tests read. tests/data holds what every test needs; the folder beside the checkout, where it is present, holds more of
+// the same tree, and a test that goes through a folder then has cases more.
+#pragma once
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace burnish::test {
+
+inline constexpr const char* kDataFolders[] = {BN_TEST_DATA, BN_SHARED_DATA};
+
+// The path of tests/data/NAME, or of the file of that name beside the checkout where tests/data has none.
+inline std::string data_file(const std::string& name)
+{
+    for (const std::string folder : kDataFolders)
+        if (std::filesystem::exists(folder + "/" + name))
+            return folder + "/" + name;
+    return std::string(BN_TEST_DATA) + "/" + name;
+}
+
+inline bool has_data_file(const std::string& name)
+{
+    return std::filesystem::exists(data_file(name));
+}
+
+// Paths of all files below FOLDER in both places, each name once, by name.
+inline std::vector<std::string> data_files(const std::string& folder)
+{
+    std::map<std::string, std::string> found; // name, path
+    for (const std::string root : kDataFolders) {
+        if (!std::filesystem::exists(root + "/" + folder))
+            continue;
+        for (const auto& entry : std::filesystem::recursive_directory_iterator(root + "/" + folder))
+            if (entry.is_regular_file())
+                found.emplace(std::filesystem::relative(entry.path(), root).string(), entry.path().string());
+    }
+    std::vector<std::string> paths;
+    for (const auto& [name, path] : found)
+        paths.push_back(path);
+    return paths;
+}
+
+} // namespace burnish::test

@@ -1,0 +1,126 @@
+// Sessions: the same bits alone, beside each other and in threads; errors in place of exceptions.
+#include <gtest/gtest.h>
+#include <thread>
+
+#include "raster/session/session.h"
+
+namespace burnish {
+namespace {
+
+OpenOptions small_open(int threads = 1)
+{
+    OpenOptions open;
+    open.threads = threads;
+    open.environment.cube_size = 16;
+    open.environment.samples = 16;
+    open.environment.use_cache = false;
+    return open;
+}
+
+FrameDesc small_frame(const Session& session, const std::string& technique)
+{
+    FrameDesc desc;
+    desc.width = 80, desc.height = 48, desc.msaa = 2;
+    desc.technique = technique;
+    desc.view = session.framed(desc.width, desc.height);
+    return desc;
+}
+
+std::uint64_t drawn(Session& session, const std::string& technique = "bent_normal")
+{
+    const Result<Frame> frame = session.render(small_frame(session, technique));
+    EXPECT_TRUE(frame) << (frame ? "" : frame.error().line());
+    return frame ? pixel_hash(frame->color) : 0;
+}
+
+TEST(session, draws_the_same_alone_and_beside_another)
+{
+    std::uint64_t teapot = 0, spheres = 0;
+    {
+        Result<Session> alone = Session::open("builtin:teapot", "builtin:studio", small_open());
+        ASSERT_TRUE(alone) << alone.error().line();
+        teapot = drawn(*alone);
+    }
+    {
+        Result<Session> alone = Session::open("builtin:spheres", "builtin:sky", small_open());
+        ASSERT_TRUE(alone) << alone.error().line();
+        spheres = drawn(*alone, "major_axis");
+    }
+    ASSERT_NE(teapot, spheres);
+    Result<Session> a = Session::open("builtin:teapot", "builtin:studio", small_open());
+    Result<Session> b = Session::open("builtin:spheres", "builtin:sky", small_open(2));
+    ASSERT_TRUE(a && b);
+    for (int i = 0; i < 2; ++i) { // in turn
+        EXPECT_EQ(drawn(*a), teapot);
+        EXPECT_EQ(drawn(*b, "major_axis"), spheres);
+    }
+    std::uint64_t of_a = 0, of_b = 0; // at once
+    std::thread other([&] { of_b = drawn(*b, "major_axis"); });
+    of_a = drawn(*a);
+    other.join();
+    EXPECT_EQ(of_a, teapot);
+    EXPECT_EQ(of_b, spheres);
+}
+
+TEST(session, shares_its_parts)
+{
+    Result<Session> first = Session::open("builtin:teapot", "builtin:studio", small_open());
+    ASSERT_TRUE(first);
+    const std::uint64_t hash = drawn(*first);
+    Result<Session> second = Session::make(first->parts());
+    ASSERT_TRUE(second);
+    EXPECT_EQ(&first->scene(), &second->scene());
+    *first = std::move(*Session::make(second->parts())); // what the renderer refers to outlives the session it was made in
+    EXPECT_EQ(drawn(*first), hash);
+    EXPECT_EQ(drawn(*second), hash);
+}
+
+TEST(session, says_what_is_wrong)
+{
+    const Result<Session> no_scene = Session::open("builtin:nothing", "builtin:studio", small_open());
+    ASSERT_FALSE(no_scene);
+    EXPECT_NE(no_scene.error().line().find("nothing"), std::string::npos);
+    const Result<Session> no_light = Session::open("builtin:teapot", "/nonexistent/a.hdr", small_open());
+    ASSERT_FALSE(no_light);
+    EXPECT_EQ(no_light.error().code, ExitCode::bad_input);
+    OpenOptions tight = small_open();
+    tight.limits.draw_bytes = 1;
+    const Result<Session> too_large = Session::open("builtin:teapot", "builtin:studio", tight);
+    ASSERT_FALSE(too_large);
+    EXPECT_EQ(too_large.error().code, ExitCode::bad_input);
+
+    Result<Session> session = Session::open("builtin:teapot", "builtin:studio", small_open());
+    ASSERT_TRUE(session);
+    FrameDesc wrong = small_frame(*session, "no_such_technique");
+    const Result<Frame> frame = session->render(wrong);
+    ASSERT_FALSE(frame);
+    EXPECT_EQ(frame.error().code, ExitCode::usage);
+}
+
+TEST(session, takes_the_other_renderers)
+{
+    Result<Session> tile = Session::open("builtin:spheres", "builtin:studio", small_open());
+    ASSERT_TRUE(tile);
+    if (reference_available()) {
+        SessionOptions options;
+        options.backend = Backend::reference;
+        options.reference.samples = 64;
+        Result<Session> reference = Session::make(tile->parts(), options);
+        ASSERT_TRUE(reference) << reference.error().line();
+        const Result<Frame> truth = reference->render(small_frame(*reference, "mc"));
+        ASSERT_TRUE(truth) << truth.error().line();
+        EXPECT_FALSE(truth->variance.empty());
+    }
+    SessionOptions options;
+    options.backend = Backend::vulkan;
+    options.vulkan.device = "lavapipe";
+    Result<Session> vulkan = Session::make(tile->parts(), options);
+    if (!vulkan) {
+        EXPECT_EQ(vulkan.error().code, ExitCode::unavailable);
+        GTEST_SKIP() << vulkan.error().line();
+    }
+    EXPECT_EQ(drawn(*vulkan), drawn(*tile));
+}
+
+} // namespace
+} // namespace burnish

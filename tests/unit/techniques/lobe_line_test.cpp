@@ -1,0 +1,173 @@
+// The line of isotropic lobes: what its parts add up to, and the pictures of samples shared in quads.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "tests/unit/raster/fixture.h"
+#include "tests/unit/techniques/kernels.h"
+
+namespace burnish::test {
+namespace {
+
+struct Line {
+    double x, y, width, count, cells;
+    double direction[3], weight, radius;
+};
+
+Line line_of(const TechniqueKernels& k, const double o[3], double alpha_x, double alpha_y, double limit = 15.0, double c = 0.0)
+{
+    const double in[7] = {o[0], o[1], o[2], alpha_x * std::sqrt(0.5), alpha_y * std::sqrt(0.5), limit, c};
+    double out[10];
+    k.lobe_line(in, out);
+    return {out[0], out[1], out[2], out[3], out[4], {out[5], out[6], out[7]}, out[8], out[9]};
+}
+
+struct View {
+    double o[3];
+};
+View view(double cosine, double azimuth)
+{
+    const double sine = std::sqrt(1.0 - cosine * cosine);
+    return {{sine * std::cos(azimuth), sine * std::sin(azimuth), cosine}};
+}
+
+// In slopes the eye's metric is G = o.z^2 + o o^T (of its x and y): round lobes of width w there are of the matrix w^2 G^-1, and a line of
+// them along s adds s s^T. Together they are the lobe.
+TEST(lobe_line, and_its_round_lobes_are_the_lobe)
+{
+    for (const View& v : {view(1.0, 0.0), view(0.8, 0.4), view(0.3, 1.5), view(0.1, -0.8), view(0.6, 3.0)})
+        for (double alpha_x : {0.5, 0.2, 0.05})
+            for (double alpha_y : {1.0, 0.5, 0.1}) {
+                const double ax = alpha_x, ay = alpha_x * alpha_y;
+                const Line l = line_of(oracle_kernels(), v.o, ax, ay);
+                const double x = v.o[0], y = v.o[1], z2 = v.o[2] * v.o[2], w2 = l.width * l.width * z2; // width is sqrt(l2) / o.z
+                const double g11 = z2 + x * x, g22 = z2 + y * y, g12 = x * y, det = g11 * g22 - g12 * g12;
+                EXPECT_NEAR(l.x * l.x + w2 * g22 / det, ax * ax, 1e-9 * ax * ax);
+                EXPECT_NEAR(l.y * l.y + w2 * g11 / det, ay * ay, 1e-9 * ax * ax);
+                EXPECT_NEAR(l.x * l.y - w2 * g12 / det, 0.0, 1e-9 * ax * ax);
+                for (const TechniqueKernels& k : float_kernels()) {
+                    const Line f = line_of(k, v.o, ax, ay), first = line_of(float_kernels()[0], v.o, ax, ay);
+                    EXPECT_EQ(f.x, first.x) << k.name;
+                    EXPECT_EQ(f.radius, first.radius) << k.name;
+                    EXPECT_NEAR(f.width, l.width, 1e-4 * l.width + 1e-6) << k.name;
+                }
+            }
+}
+
+// The density of GGX slopes is that of the line's marginal times that of a round lobe of width sqrt(1 + z^2), with
+// 3 / (2 pi) (1 + r^2)^(-5/2).
+TEST(lobe_line, sums_to_the_density_of_slopes)
+{
+    const double pi = std::numbers::pi, up[3] = {0, 0, 1};
+    const double ax = 0.4, ay = 0.1;
+    const Line l = line_of(oracle_kernels(), up, ax, ay);
+    for (double x : {0.0, 0.1, 0.5, 1.2})
+        for (double y : {0.0, 0.05, 0.3}) {
+            const double m = 1.0 + x * x / (ax * ax) + y * y / (ay * ay), truth = 1.0 / (pi * ax * ay * m * m);
+            double sum = 0.0;
+            constexpr int kCount = 20000;
+            for (int i = 0; i < kCount; ++i) {
+                const double c = 2.0 * (i + 0.5) / kCount - 1.0, z = c / std::sqrt(1.0 - c * c), w2 = l.width * l.width * (1.0 + z * z);
+                const double dx = x - l.x * z, dy = y - l.y * z, r2 = (dx * dx + dy * dy) / w2;
+                sum += 3.0 / (2.0 * pi * w2) * std::pow(1.0 + r2, -2.5) / kCount;
+            }
+            EXPECT_NEAR(sum, truth, 1e-3 * truth) << x << " " << y;
+        }
+}
+
+TEST(lobe_line, takes_as_many_samples_as_its_cells_hold_and_never_more_than_the_limit)
+{
+    for (double cosine : {1.0, 0.5, 0.05})
+        for (double thin : {1.0, 0.7, 0.2, 0.02}) {
+            double before = 0.0;
+            for (double limit : {1.0, 3.0, 7.0, 15.0}) {
+                const Line l = line_of(float_kernels()[0], view(cosine, 0.3).o, 0.5, 0.5 * thin, limit);
+                EXPECT_LE(l.count, limit);
+                EXPECT_GE(l.count, std::max(before, 1.0));
+                EXPECT_NEAR(l.cells, l.count, 1e-4);
+                before = l.count;
+            }
+        }
+    const double up[3] = {0, 0, 1};
+    EXPECT_NEAR(line_of(float_kernels()[0], up, 0.3, 0.3).count, 1.0, 1e-3) << "a round lobe seen from above has no line";
+}
+
+// A lobe and its axis turned to its opposite are the same thing.
+TEST(lobe_line, mirror_images_of_samples_lie_on_both_sides)
+{
+    const double up[3] = {0, 0, 1};
+    for (double c : {0.1, 0.6, 0.99}) {
+        const Line a = line_of(float_kernels()[0], up, 0.4, 0.1, 15.0, c), b = line_of(float_kernels()[0], up, 0.4, 0.1, 15.0, -c);
+        EXPECT_EQ(a.direction[0], -b.direction[0]);
+        EXPECT_EQ(a.direction[2], b.direction[2]);
+        EXPECT_EQ(a.weight, b.weight);
+        EXPECT_EQ(a.radius, b.radius);
+    }
+}
+
+Scene brushed_square(float half, int pieces)
+{
+    std::vector<Triangle> triangles;
+    for (int i = 0; i < pieces; ++i) {
+        const float x0 = half * (2.0f * static_cast<float>(i) / static_cast<float>(pieces) - 1.0f),
+                    x1 = half * (2.0f * static_cast<float>(i + 1) / static_cast<float>(pieces) - 1.0f);
+        triangles.push_back({glm::vec3(x0, -half, 0), glm::vec3(x1, -half, 0), glm::vec3(x1, half, 0)});
+        triangles.push_back({glm::vec3(x0, -half, 0), glm::vec3(x1, half, 0), glm::vec3(x0, half, 0)});
+    }
+    Scene s = scene_of(triangles, false);
+    s.materials[0].roughness = 0.5f, s.materials[0].anisotropy_strength = 0.8f;
+    return s;
+}
+
+FrameDesc line_desc(int side, int msaa)
+{
+    FrameDesc d;
+    d.width = d.height = side, d.msaa = msaa, d.technique = "lobe_line", d.samples = 3, d.background = false;
+    d.view = make_view({0.4f, -0.9f, 2.2f}, {0, 0, 0}, 0.5f, side, side);
+    return d;
+}
+
+Environment studio()
+{
+    EnvironmentOptions options;
+    options.cube_size = 64, options.use_cache = false;
+    return *load_environment("builtin:studio", options, Limits{}, Jobs(1));
+}
+
+// Neighbours differ by what their own samples found; shared, a quad of a flat surface is of nearly one colour, and all edges are.
+TEST(lobe_line, fragments_of_a_surface_share_what_their_quad_found)
+{
+    Stage stage(brushed_square(2.0f, 1));
+    stage.environment = studio();
+    const FrameDesc d = line_desc(32, 1);
+    const Frame f = stage.render(d, best_isa());
+    double within = 0.0, light = 0.0;
+    for (int y = 0; y < 32; y += 2)
+        for (int x = 0; x < 32; x += 2)
+            for (int k = 1; k < 4; ++k) {
+                const float *a = f.color.f32() + 3 * (y * 32 + x), *b = f.color.f32() + 3 * ((y + (k >> 1)) * 32 + x + (k & 1));
+                within += std::abs(static_cast<double>(a[1] - b[1])), light += static_cast<double>(a[1]);
+            }
+    std::printf("neighbours of a quad differ by %.5f of their light\n", within / light);
+    EXPECT_LT(within / light, 0.02);
+}
+
+// How a surface is cut into triangles does not show: a pixel's parts share as one.
+TEST(lobe_line, pieces_of_a_surface_share_as_one)
+{
+    Stage whole(brushed_square(2.0f, 1)), cut(brushed_square(2.0f, 40));
+    whole.environment = cut.environment = studio();
+    const FrameDesc d = line_desc(32, 4);
+    const Frame a = whole.render(d, best_isa()), b = cut.render(d, best_isa());
+    double most = 0.0;
+    for (int i = 0; i < 32 * 32 * 3; ++i)
+        most = std::max(most, std::abs(static_cast<double>(a.color.f32()[i] - b.color.f32()[i])) /
+                                  (static_cast<double>(a.color.f32()[i]) + 0.01));
+    std::printf("largest difference %.4f\n", most);
+    EXPECT_LT(most, 0.03);
+}
+
+} // namespace
+} // namespace burnish::test
