@@ -5,7 +5,6 @@
 #include <numeric>
 
 #include "apps/render/stats.h"
-#include "apps/report/html.h"
 #include "apps/report/json.h"
 #include "apps/report/svg.h"
 #include "core/base/version.h"
@@ -182,7 +181,7 @@ svg.flame .p0 rect { fill: #9cc9ec; } svg.flame .p1 rect { fill: #ffbe8a; } svg.
 })";
 
 struct Flame {
-    Svg& svg;
+    Drawing& out;
     double ms_to_px;
 
     // One box; its words only where there is room, and all of them when pointed at.
@@ -192,16 +191,12 @@ struct Flame {
         if (width < 0.05)
             return;
         const std::string words = fmt::format("{} {:.2f} ms, {:.1f} %", name, ms, 100.0 * ms / all_ms);
-        svg.open("g", {{"class", css_class}});
-        svg.title(words);
-        svg.leaf("rect", {{"x", fmt::format("{:.2f}", x)},
-                          {"y", fmt::format("{:.0f}", kTop + row * kRow)},
-                          {"width", fmt::format("{:.2f}", width)},
-                          {"height", fmt::format("{:.0f}", kRow)}});
+        out.open(css_class, {}, words);
+        out.rectangle(x, kTop + row * kRow, width, kRow, "");
         const std::string& shown = static_cast<double>(words.size()) * kDigit < width ? words : name;
         if (static_cast<double>(shown.size()) * kDigit < width)
-            svg.text(x + 5.0, kTop + row * kRow + 21.0, "", shown);
-        svg.close();
+            out.text(x + 5.0, kTop + row * kRow + 21.0, "", shown);
+        out.close();
     }
 };
 
@@ -212,11 +207,11 @@ std::string profile_svg(const RenderOptions& options, const ProfileFigures& f)
     const FrameDesc& d = options.frame;
     const Balance b = balance_of(f);
     const double all_ms = std::max(b.all_ms, b.busy_ms);
-    Svg svg(kWidth, kTop + 4.0 * kRow + 10.0, "flame", "Where a frame's time goes");
-    svg.text(5.0, 25.0, "head",
+    Drawing out(kWidth, kTop + 4.0 * kRow + 10.0, "flame", "Where a frame's time goes");
+    out.text(5.0, 25.0, "head",
              fmt::format("{}, {}x{}, {} samples a pixel, {}; {}, {} threads", options.scene, d.width, d.height, d.msaa, d.technique,
                          f.device, f.threads));
-    Flame flame{svg, kWidth / all_ms};
+    Flame flame{out, kWidth / all_ms};
     flame.box(0.0, all_ms, 0, "frame", fmt::format("frame, {} threads", f.threads), all_ms);
     const std::vector<Span> stages = stages_of(f);
     double at = 0.0;
@@ -236,8 +231,7 @@ std::string profile_svg(const RenderOptions& options, const ProfileFigures& f)
         flame.box(begin, at - begin, 1, fmt::format("p{}", phase), kPhases[phase], all_ms);
     }
     flame.box(at, all_ms - at, 1, "waiting", "waiting", all_ms);
-    std::string text = svg.done();
-    return text.insert(text.find('>') + 1, fmt::format("\n<style>{}</style>", escaped(kStyle)));
+    return svg_of(out, kStyle);
 }
 
 } // namespace burnish

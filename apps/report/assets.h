@@ -3,7 +3,6 @@
 
 namespace burnish {
 
-extern const char* const kChartMarksStyle; // marks.css
 extern const char* const kChartPageStyle;  // page.css
 extern const char* const kChartPageScript; // page.js
 extern const char* const kStrokeFont;      // stroke_font.jhf

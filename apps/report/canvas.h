@@ -1,16 +1,12 @@
 // A picture that charts are drawn on: strokes, areas and text with smooth edges. Places are pixels from the top left corner, y down.
 #pragma once
-#include <array>
 #include <string>
-#include <utility>
 #include <vector>
 
+#include "apps/report/drawing.h"
 #include "core/image/image.h"
 
 namespace burnish {
-
-using Points = std::vector<std::pair<double, double>>;
-using Paint = std::array<double, 3>; // sRGB, [0,255]
 
 // How wide a text is and how it is set. Letters are strokes (apps/report/stroke_font.jhf); what is not ASCII is drawn as '?'.
 struct TextStyle {

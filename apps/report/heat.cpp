@@ -5,8 +5,8 @@
 #include <fmt/core.h>
 #include <optional>
 
+#include "apps/report/axes.h"
 #include "apps/report/plots.h"
-#include "apps/report/svg.h"
 #include "core/image/magma.h"
 
 namespace burnish {
@@ -15,37 +15,29 @@ namespace {
 constexpr const char* kBaseline = "bent_normal";
 constexpr double kCharacter = 8.0; // px of the widest names' letters
 
-struct Colour {
-    int r = 0, g = 0, b = 0;
-};
-
 // FLIP's own colours, errors from 0 to `most`.
-Colour sequential(double value, double most)
+Paint sequential(double value, double most)
 {
     Image one = make_image(1, 1, 1, PixelType::f32);
     one.f32()[0] = static_cast<float>(0.95 * std::clamp(value / most, 0.0, 1.0)); // the last tints are too pale on paper
     const Image mapped = magma_map(one);
-    return {static_cast<int>(mapped.bytes[0]), static_cast<int>(mapped.bytes[1]), static_cast<int>(mapped.bytes[2])};
+    const auto channel = [&mapped](std::size_t i) { return static_cast<double>(mapped.bytes[i]); };
+    return {channel(0), channel(1), channel(2)};
 }
 
 // Blue: less error than the baseline, orange: more; both are told apart by people who do not see red and green.
-Colour diverging(double value, double most)
+Paint diverging(double value, double most)
 {
     constexpr std::array<int, 3> kLess = {0, 90, 160}, kNone = {245, 245, 245}, kMore = {190, 80, 0};
     const double t = std::clamp(std::abs(value) / most, 0.0, 1.0);
     const std::array<int, 3>& end = value < 0.0 ? kLess : kMore;
-    const auto mix = [&](std::size_t i) { return static_cast<int>(kNone[i] + t * (end[i] - kNone[i]) + 0.5); };
+    const auto mix = [&](std::size_t i) { return std::floor(kNone[i] + t * (end[i] - kNone[i]) + 0.5); };
     return {mix(0), mix(1), mix(2)};
 }
 
-std::string rgb(const Colour& c)
+const char* ink_on(const Paint& c)
 {
-    return fmt::format("rgb({},{},{})", c.r, c.g, c.b);
-}
-
-const char* ink_on(const Colour& c)
-{
-    return 0.299 * c.r + 0.587 * c.g + 0.114 * c.b > 140.0 ? "on-pale" : "on-dark";
+    return 0.299 * c[0] + 0.587 * c[1] + 0.114 * c[2] > 140.0 ? "on-pale" : "on-dark";
 }
 
 // The row that stands for a technique in a cell.
@@ -104,87 +96,78 @@ struct Map {
     double most, left, top, cell_w, cell_h;
 };
 
-Colour colour_of(const Map& map, double value)
+Paint colour_of(const Map& map, double value)
 {
     return map.difference ? diverging(value, map.most) : sequential(value, map.most);
 }
 
-void draw_cell(Svg& svg, const Map& map, const Cell& cell, double x, double y)
+void draw_cell(Drawing& out, const Map& map, const Cell& cell, double x, double y)
 {
     const ChartRow* row = row_of(map.rows, map.technique, cell);
     const std::optional<double> value = row ? value_of(map.rows, *row, map.difference) : std::nullopt;
     if (!value) {
-        svg.text(x + map.cell_w / 2.0, y + map.cell_h / 2.0 + 4.0, "tick middle", "none");
+        out.text(x + map.cell_w / 2.0, y + map.cell_h / 2.0 + 4.0, "tick middle", "none");
         return;
     }
-    const Colour colour = colour_of(map, *value);
-    svg.open("g", {{"class", "point cell"},
-                   {"role", "img"},
-                   {"aria-label", fmt::format("{}; {}{}", describe(cell), describe(*row),
-                                              map.difference ? fmt::format(", {} more than {}", number(*value), kBaseline) : "")},
-                   {"data-row", row->key}});
-    svg.title(describe(*row));
-    svg.leaf("rect", {{"x", fmt::format("{:.1f}", x)},
-                      {"y", fmt::format("{:.1f}", y)},
-                      {"width", fmt::format("{:.1f}", map.cell_w - 1.0)},
-                      {"height", fmt::format("{:.1f}", map.cell_h - 1.0)},
-                      {"fill", rgb(colour)},
-                      {"class", "mark"}});
+    const Paint colour = colour_of(map, *value);
+    out.open("point cell",
+             {{"role", "img"},
+              {"aria-label", fmt::format("{}; {}{}", describe(cell), describe(*row),
+                                         map.difference ? fmt::format(", {} more than {}", number(*value), kBaseline) : "")},
+              {"data-row", row->key}},
+             describe(*row));
+    out.rectangle(x, y, map.cell_w - 1.0, map.cell_h - 1.0, "mark", colour);
     if (map.cell_w >= 38.0)
-        svg.text(x + map.cell_w / 2.0, y + map.cell_h / 2.0 + 4.0, std::string("value middle ") + ink_on(colour),
+        out.text(x + map.cell_w / 2.0, y + map.cell_h / 2.0 + 4.0, std::string("value middle ") + ink_on(colour),
                  map.difference ? fmt::format("{:+.3f}", *value) : fmt::format("{:.3f}", *value));
-    svg.close();
+    out.close();
 }
 
-void draw_scale(Svg& svg, const Map& map, double y, double width)
+void draw_scale(Drawing& out, const Map& map, double y, double width)
 {
     constexpr int kSteps = 32;
     const double step = width / kSteps;
     for (int i = 0; i < kSteps; ++i) {
         const double t = (i + 0.5) / kSteps, value = map.difference ? (2.0 * t - 1.0) * map.most : t * map.most;
-        svg.leaf("rect", {{"x", fmt::format("{:.2f}", map.left + i * step)},
-                          {"y", fmt::format("{:.1f}", y)},
-                          {"width", fmt::format("{:.2f}", step + 0.5)},
-                          {"height", "9"},
-                          {"fill", rgb(colour_of(map, value))}});
+        out.rectangle(map.left + i * step, y, step + 0.5, 9.0, "", colour_of(map, value));
     }
-    svg.text(map.left, y + 24.0, "tick", map.difference ? fmt::format("{:.3f} (better)", -map.most) : "0");
-    svg.text(map.left + width, y + 24.0, "tick end",
+    out.text(map.left, y + 24.0, "tick", map.difference ? fmt::format("{:.3f} (better)", -map.most) : "0");
+    out.text(map.left + width, y + 24.0, "tick end",
              map.difference ? fmt::format("+{:.3f} (worse)", map.most) : fmt::format("{:.3f}", map.most));
 }
 
 } // namespace
 
-std::string plot_heat(const RowList& rows, const std::string& technique, bool difference)
+Drawing plot_heat(const RowList& rows, const std::string& technique, bool difference)
 {
     const auto roughness = values_of(rows, &Cell::roughness), anisotropy = values_of(rows, &Cell::anisotropy);
     if (roughness.size() * anisotropy.size() < 2 || (difference && technique == kBaseline))
-        return "";
+        return {};
     if (difference && std::none_of(rows.begin(), rows.end(), [](const ChartRow* row) { return row->setting.technique == kBaseline; }))
-        return "";
+        return {};
     const auto text = [](const std::optional<float>& v) { return v ? fmt::format("{:g}", *v) : std::string("scene's"); };
     const std::string title = difference ? technique + " - " + kBaseline : technique;
     const double columns = static_cast<double>(anisotropy.size()), lines = static_cast<double>(roughness.size());
     const Map map{rows, technique, difference, largest(rows, difference), 62.0, 30.0, std::clamp(300.0 / columns, 12.0, 64.0), 28.0};
     const double bottom = map.top + map.cell_h * lines,
                  width = std::max({columns * map.cell_w, 190.0, kCharacter * static_cast<double>(title.size())});
-    Svg svg(map.left + width + 12.0, bottom + 88.0, "chart heat",
-            difference ? technique + " against " + kBaseline + " over roughness and anisotropy"
-                       : technique + " over roughness and anisotropy");
-    svg.text(map.left, 18.0, "name", title);
+    Drawing out(map.left + width + 12.0, bottom + 88.0, "chart heat",
+                difference ? technique + " against " + kBaseline + " over roughness and anisotropy"
+                           : technique + " over roughness and anisotropy");
+    out.text(map.left, 18.0, "name", title);
     for (std::size_t r = 0; r < roughness.size(); ++r) {
         const double y = bottom - map.cell_h * static_cast<double>(r + 1);
-        svg.text(map.left - 7.0, y + map.cell_h / 2.0 + 4.0, "tick end", text(roughness[r]));
+        out.text(map.left - 7.0, y + map.cell_h / 2.0 + 4.0, "tick end", text(roughness[r]));
         for (std::size_t a = 0; a < anisotropy.size(); ++a)
-            draw_cell(svg, map, {roughness[r], anisotropy[a]}, map.left + map.cell_w * static_cast<double>(a), y);
+            draw_cell(out, map, {roughness[r], anisotropy[a]}, map.left + map.cell_w * static_cast<double>(a), y);
     }
     const std::size_t every = map.cell_w >= 30.0 ? 1 : static_cast<std::size_t>(std::ceil(30.0 / map.cell_w));
     for (std::size_t a = 0; a < anisotropy.size(); a += every)
-        svg.text(map.left + map.cell_w * (static_cast<double>(a) + 0.5), bottom + 16.0, "tick middle", text(anisotropy[a]));
-    svg.text(map.left + columns * map.cell_w / 2.0, bottom + 36.0, "title middle", "anisotropy");
-    svg.text(14.0, (map.top + bottom) / 2.0, "title middle", "roughness", -90.0);
-    draw_scale(svg, map, bottom + 48.0, width);
-    return svg.done();
+        out.text(map.left + map.cell_w * (static_cast<double>(a) + 0.5), bottom + 16.0, "tick middle", text(anisotropy[a]));
+    out.text(map.left + columns * map.cell_w / 2.0, bottom + 36.0, "title middle", "anisotropy");
+    out.text(14.0, (map.top + bottom) / 2.0, "title middle", "roughness", -90.0);
+    draw_scale(out, map, bottom + 48.0, width);
+    return out;
 }
 
 } // namespace burnish

@@ -6,8 +6,10 @@
 
 #include "apps/render/stats.h"
 #include "apps/report/assets.h"
+#include "apps/report/axes.h"
 #include "apps/report/html.h"
 #include "apps/report/json.h"
+#include "apps/report/looks.h"
 #include "apps/report/pictures.h"
 #include "apps/report/plots.h"
 #include "apps/report/png.h"
@@ -45,7 +47,7 @@ std::vector<PairRows> group(const ChartReport& report)
 
 struct Figure {
     std::string name, caption; // name: of the file
-    std::string wide, narrow;
+    Drawing wide, narrow;
 };
 
 std::vector<Figure> figures_of(const RowList& rows)
@@ -67,7 +69,8 @@ std::string charts_html(const RowList& rows)
 {
     std::string out = "<div class=\"charts\">\n";
     for (const Figure& figure : figures_of(rows))
-        out += fmt::format("<figure><figcaption>{}</figcaption>\n{}{}</figure>\n", figure.caption, figure.wide, figure.narrow);
+        out +=
+            fmt::format("<figure><figcaption>{}</figcaption>\n{}{}</figure>\n", figure.caption, svg_of(figure.wide), svg_of(figure.narrow));
     return out + "</div>\n";
 }
 
@@ -75,8 +78,10 @@ std::string heats_html(const RowList& rows)
 {
     std::string maps, differences;
     for (const std::string& technique : techniques_of(rows)) {
-        maps += plot_heat(rows, technique, false);
-        differences += plot_heat(rows, technique, true);
+        if (const Drawing map = plot_heat(rows, technique, false); !map.empty())
+            maps += svg_of(map);
+        if (const Drawing difference = plot_heat(rows, technique, true); !difference.empty())
+            differences += svg_of(difference);
     }
     std::string out;
     if (!maps.empty())
@@ -209,16 +214,11 @@ std::string heading(const ChartReport& report)
         m.threads == 1 ? "" : "s", escaped(m.version), report.error_width, report.error_height, report.reference_samples);
 }
 
-std::string with_style(std::string svg)
-{
-    return svg.insert(svg.find('>') + 1, fmt::format("\n<style>{}</style>", escaped(kChartMarksStyle)));
-}
-
 } // namespace
 
 Result<std::vector<ReportFile>> chart_files(const ChartReport& report)
 {
-    std::vector<std::pair<std::string, std::string>> charts; // name and SVG
+    std::vector<std::pair<std::string, Drawing>> charts; // by name
     std::size_t number_of_place = 0, number_of_pair = 0;
     for (const PairRows& pair : group(report)) {
         for (const PlaceRows& place : pair.places) {
@@ -229,15 +229,16 @@ Result<std::vector<ReportFile>> chart_files(const ChartReport& report)
         ++number_of_pair;
         for (const std::string& technique : techniques_of(pair.rows))
             for (const bool difference : {false, true})
-                if (const std::string svg = plot_heat(pair.rows, technique, difference); !svg.empty())
-                    charts.emplace_back(fmt::format("heat-{}{}-{}", technique, difference ? "-difference" : "", number_of_pair), svg);
+                if (Drawing map = plot_heat(pair.rows, technique, difference); !map.empty())
+                    charts.emplace_back(fmt::format("heat-{}{}-{}", technique, difference ? "-difference" : "", number_of_pair),
+                                        std::move(map));
     }
     std::vector<ReportFile> files;
-    for (const auto& [name, svg] : charts) {
-        Result<std::string> png = chart_png(svg);
+    for (const auto& [name, chart] : charts) {
+        Result<std::string> png = png_of(chart);
         if (!png)
             return png.error();
-        files.push_back({name + ".svg", with_style(svg)});
+        files.push_back({name + ".svg", svg_of(chart, chart_style())});
         files.push_back({name + ".png", std::move(*png)});
     }
     return files;
@@ -253,7 +254,7 @@ Result<std::string> chart_page(const ChartReport& report)
                                    "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
                                    "<title>Speed against accuracy</title>\n<link rel=\"icon\" href=\"data:,\">\n"
                                    "<style>\n{}{}</style>\n</head>\n<body>\n<main>\n",
-                                   kChartPageStyle, kChartMarksStyle);
+                                   kChartPageStyle, chart_style());
     page += heading(report);
     std::size_t place_number = 0;
     for (const PairRows& pair : pairs)

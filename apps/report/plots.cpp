@@ -4,14 +4,14 @@
 #include <cmath>
 #include <fmt/core.h>
 
+#include "apps/report/axes.h"
 #include "apps/report/labels.h"
-#include "apps/report/svg.h"
 #include "raster/frame/frame.h"
 
 namespace burnish {
 namespace {
 
-constexpr double kRadius = 5.0; // of marks, px
+constexpr double kRadius = 5.0, kHitRadius = 11.0; // of marks and of what answers to pointers, px
 
 struct Point {
     double x = 0.0, y = 0.0, x_p95 = 0.0; // values; x_p95: above 0: a whisker from x
@@ -35,11 +35,6 @@ struct PlotArea { // where a plot's axes lie
     double width, height, left, right, top, bottom;
     Axis x, y;
 };
-
-std::string mark_class(const std::string& technique)
-{
-    return fmt::format("c{}", mark_of(technique).colour);
-}
 
 // Logarithms want positive values: an exact technique is drawn at the lower edge.
 double positive(double value, double least)
@@ -68,37 +63,45 @@ PlotArea frame_of(Plot& plot, Layout layout)
     for (Curve& curve : plot.curves)
         for (Point& p : curve.points)
             p.y = positive(p.y, least_y / 2.0);
+    // Curves over samples all end at the right edge, where their names need room; elsewhere names find it within.
     const double names = wide ? 0.0 : 20.0 * static_cast<double>((plot.curves.size() + 1) / 2) + 8.0;
-    PlotArea f{wide ? 650.0 : 380.0, wide ? 430.0 : 330.0 + names, 62.0, wide ? 496.0 : 368.0, 14.0, wide ? 378.0 : 276.0, {}, {}};
+    PlotArea f{wide ? 650.0 : 380.0,
+               wide ? 430.0 : 330.0 + names,
+               62.0,
+               !wide ? 368.0 : plot.front ? 638.0 : 496.0,
+               14.0,
+               wide ? 378.0 : 276.0,
+               {},
+               {}};
     f.x = log_axis(least_x, most_x, f.left, f.right);
     f.y = log_axis(least_y, most_y, f.bottom, f.top);
     return f;
 }
 
-void draw_axes(Svg& svg, const Plot& plot, const PlotArea& f, Layout layout)
+void draw_axes(Drawing& out, const Plot& plot, const PlotArea& f, Layout layout)
 {
     const bool wide = layout == Layout::wide;
     for (const double value : plot.doubling ? doubling_ticks(f.x, wide ? 12 : 8) : log_ticks(f.x, wide ? 9 : 6)) {
-        svg.line(f.x.at(value), f.top, f.x.at(value), f.bottom, "grid");
-        svg.text(f.x.at(value), f.bottom + 18.0, "tick middle", number(value));
+        out.line({{f.x.at(value), f.top}, {f.x.at(value), f.bottom}}, "grid");
+        out.text(f.x.at(value), f.bottom + 18.0, "tick middle", number(value));
     }
     for (const double value : log_ticks(f.y, wide ? 9 : 7)) {
-        svg.line(f.left, f.y.at(value), f.right, f.y.at(value), "grid");
-        svg.text(f.left - 7.0, f.y.at(value) + 4.5, "tick end", number(value));
+        out.line({{f.left, f.y.at(value)}, {f.right, f.y.at(value)}}, "grid");
+        out.text(f.left - 7.0, f.y.at(value) + 4.5, "tick end", number(value));
     }
-    svg.text((f.left + f.right) / 2.0, f.bottom + 40.0, "title middle", plot.x_title);
-    svg.text(14.0, (f.top + f.bottom) / 2.0, "title middle", plot.y_title, -90.0);
+    out.text((f.left + f.right) / 2.0, f.bottom + 40.0, "title middle", plot.x_title);
+    out.text(14.0, (f.top + f.bottom) / 2.0, "title middle", plot.y_title, -90.0);
 }
 
-void draw_front(Svg& svg, const Plot& plot, const PlotArea& f)
+void draw_front(Drawing& out, const Plot& plot, const PlotArea& f)
 {
-    std::vector<std::pair<double, double>> front;
+    Points front;
     for (const Curve& curve : plot.curves)
         for (const Point& p : curve.points)
             if (p.row->pareto)
                 front.emplace_back(p.x, p.y);
     std::sort(front.begin(), front.end());
-    std::vector<std::pair<double, double>> steps;
+    Points steps;
     for (const auto& [x, y] : front) {
         if (!steps.empty())
             steps.emplace_back(f.x.at(x), steps.back().second);
@@ -107,38 +110,36 @@ void draw_front(Svg& svg, const Plot& plot, const PlotArea& f)
     if (steps.empty())
         return;
     steps.emplace_back(f.right, steps.back().second);
-    svg.path(steps, "front");
-    svg.text(f.right - 4.0, steps.back().second + 16.0, "note end", "Pareto front");
+    out.line(steps, "front");
+    out.text(f.right - 4.0, steps.back().second + 16.0, "note end", "Pareto front");
 }
 
-void draw_point(Svg& svg, const PlotArea& f, const Point& p, const std::string& technique, bool filled)
+void draw_point(Drawing& out, const PlotArea& f, const Point& p, const std::string& technique, bool filled)
 {
     const double x = f.x.at(p.x), y = f.y.at(p.y);
-    svg.open("g", {{"class", fmt::format("point {}{}", mark_class(technique), filled ? " best" : "")},
-                   {"role", "img"},
-                   {"aria-label", describe(*p.row)},
-                   {"data-row", p.row->key}});
-    svg.title(describe(*p.row));
+    const std::string words = describe(*p.row);
+    out.open(fmt::format("point {}{}", mark_class(technique), filled ? " best" : ""),
+             {{"role", "img"}, {"aria-label", words}, {"data-row", p.row->key}}, words);
     if (p.x_p95 > p.x)
-        svg.line(x, y, f.x.at(p.x_p95), y, "whisker");
-    svg.leaf("circle", {{"cx", fmt::format("{:.2f}", x)}, {"cy", fmt::format("{:.2f}", y)}, {"r", "11"}, {"class", "hit"}});
-    svg.leaf("path", {{"d", shape_path(mark_of(technique).shape, x, y, kRadius)}, {"class", "mark"}});
-    svg.close();
+        out.line({{x, y}, {f.x.at(p.x_p95), y}}, "whisker");
+    out.disc(x, y, kHitRadius, "hit");
+    out.mark(mark_of(technique).shape, x, y, kRadius, "mark");
+    out.close();
 }
 
-void draw_names_below(Svg& svg, const Plot& plot, const PlotArea& f)
+void draw_names_below(Drawing& out, const Plot& plot, const PlotArea& f)
 {
     for (std::size_t i = 0; i < plot.curves.size(); ++i) {
         const std::string& name = plot.curves[i].technique;
         const double x = i % 2 ? f.width / 2.0 + 6.0 : 12.0, y = f.bottom + 66.0 + 20.0 * static_cast<double>(i / 2);
-        svg.open("g", {{"class", "point best " + mark_class(name)}});
-        svg.leaf("path", {{"d", shape_path(mark_of(name).shape, x, y - 4.5, kRadius)}, {"class", "mark"}});
-        svg.close();
-        svg.text(x + 11.0, y, "name", name);
+        out.open("point best " + mark_class(name));
+        out.mark(mark_of(name).shape, x, y - 4.5, kRadius, "mark");
+        out.close();
+        out.text(x + 11.0, y, "name", name);
     }
 }
 
-void draw_names_beside(Svg& svg, const Plot& plot, const PlotArea& f)
+void draw_names_beside(Drawing& out, const Plot& plot, const PlotArea& f)
 {
     LabelPlacer placer(f.left, f.top, f.width - 2.0, f.bottom);
     for (const Curve& curve : plot.curves)
@@ -146,42 +147,42 @@ void draw_names_beside(Svg& svg, const Plot& plot, const PlotArea& f)
             if (!curve.level)
                 placer.add_mark(f.x.at(p.x), f.y.at(p.y));
     for (const Curve& curve : plot.curves) {
-        std::vector<std::pair<double, double>> at;
+        Points at;
         for (const Point& p : curve.points)
             at.emplace_back(curve.level ? f.right : f.x.at(p.x), f.y.at(p.y));
         if (at.empty())
             continue;
         const PlacedLabel label = placer.place(curve.technique, at);
-        svg.text(label.x, label.y, "name " + mark_class(curve.technique) + (label.end ? " end" : ""), curve.technique);
+        out.text(label.x, label.y, "name " + mark_class(curve.technique) + (label.end ? " end" : ""), curve.technique);
     }
 }
 
-std::string draw(Plot plot, Layout layout)
+Drawing draw(Plot plot, Layout layout)
 {
     const PlotArea f = frame_of(plot, layout);
-    Svg svg(f.width, f.height, layout == Layout::wide ? "chart wide" : "chart narrow", plot.name);
-    draw_axes(svg, plot, f, layout);
+    Drawing out(f.width, f.height, layout == Layout::wide ? "chart wide" : "chart narrow", plot.name);
+    draw_axes(out, plot, f, layout);
     if (plot.front)
-        draw_front(svg, plot, f);
+        draw_front(out, plot, f);
     for (const Curve& curve : plot.curves) {
-        std::vector<std::pair<double, double>> line;
+        Points line;
         for (const Point& p : curve.points)
             line.emplace_back(f.x.at(p.x), f.y.at(p.y));
         if (curve.level && !curve.points.empty())
-            svg.line(f.left, f.y.at(curve.points[0].y), f.right, f.y.at(curve.points[0].y), "curve level " + mark_class(curve.technique));
+            out.line({{f.left, f.y.at(curve.points[0].y)}, {f.right, f.y.at(curve.points[0].y)}}, "level " + mark_class(curve.technique));
         else if (line.size() > 1)
-            svg.path(line, "curve " + mark_class(curve.technique));
+            out.line(line, "curve " + mark_class(curve.technique));
     }
     // Marks over names over lines: a name's halo hides no mark.
     if (layout == Layout::wide)
-        draw_names_beside(svg, plot, f);
+        draw_names_beside(out, plot, f);
     else
-        draw_names_below(svg, plot, f);
+        draw_names_below(out, plot, f);
     for (const Curve& curve : plot.curves)
         for (const Point& p : curve.points)
             if (!curve.level)
-                draw_point(svg, f, p, curve.technique, p.row->pareto || !plot.front);
-    return svg.done();
+                draw_point(out, f, p, curve.technique, p.row->pareto || !plot.front);
+    return out;
 }
 
 RowList rows_of(const RowList& rows, const std::string& technique)
@@ -207,6 +208,7 @@ std::string describe(const ChartRow& row)
 Mark mark_of(const std::string& technique)
 {
     std::vector<std::string> families;
+    std::vector<int> members;
     Mark mark;
     for (const TechniqueInfo& known : techniques()) {
         const std::string name = known.name;
@@ -214,14 +216,21 @@ Mark mark_of(const std::string& technique)
         while (family < families.size() && name.rfind(families[family], 0) != 0)
             ++family;
         if (family == families.size())
-            families.push_back(name);
-        if (name == technique) {
-            mark.colour = static_cast<int>(family);
+            families.push_back(name), members.push_back(0);
+        mark.family = static_cast<int>(family), mark.relative = members[family]++;
+        if (name == technique)
             return mark;
-        }
         ++mark.shape;
     }
+    mark.family = static_cast<int>(families.size()), mark.relative = 0; // auto, which chooses among them
     return mark;
+}
+
+std::string mark_class(const std::string& technique)
+{
+    const Mark mark = mark_of(technique);
+    const std::string family = fmt::format("c{}", mark.family);
+    return mark.relative ? fmt::format("{0} {0}{1}", family, static_cast<char>('a' + mark.relative - 1)) : family;
 }
 
 std::vector<std::string> techniques_of(const RowList& rows)
@@ -233,7 +242,7 @@ std::vector<std::string> techniques_of(const RowList& rows)
     return names;
 }
 
-std::string plot_time_flip(const RowList& rows, Layout layout)
+Drawing plot_time_flip(const RowList& rows, Layout layout)
 {
     Plot plot{"Time against error", "median time of a frame (ms)", "mean FLIP error", {}, true, false};
     for (const std::string& technique : techniques_of(rows)) {
@@ -245,7 +254,7 @@ std::string plot_time_flip(const RowList& rows, Layout layout)
     return draw(std::move(plot), layout);
 }
 
-std::string plot_samples(const RowList& rows, Quantity quantity, Layout layout)
+Drawing plot_samples(const RowList& rows, Quantity quantity, Layout layout)
 {
     const bool flip = quantity == Quantity::flip;
     Plot plot{flip ? "Error by number of samples" : "Time by number of samples",
@@ -264,7 +273,7 @@ std::string plot_samples(const RowList& rows, Quantity quantity, Layout layout)
         any = any || curve.points.size() > 1;
         plot.curves.push_back(curve);
     }
-    return any ? draw(std::move(plot), layout) : "";
+    return any ? draw(std::move(plot), layout) : Drawing();
 }
 
 } // namespace burnish

@@ -1,17 +1,17 @@
-// The charts as PNG, for people whose programs show no SVG or none with style sheets.
+// Drawings as pixels, for people whose programs show no SVG or none with style sheets.
 #pragma once
 #include <string>
 
+#include "apps/report/drawing.h"
 #include "core/base/result.h"
 #include "core/image/image.h"
 
 namespace burnish {
 
-// Draws what apps/report/svg.h writes, on white paper, kPngScale pixels for each of the chart's. It reads that SVG alone: lines,
-// paths of straight lines and half circles, rectangles and text, whose looks are those of marks.css.
+// On white paper, kPngScale pixels for each of the drawing's.
 inline constexpr int kPngScale = 2;
-Image draw_svg(const std::string& svg);
+Image paint(const Drawing& drawing);
 
-Result<std::string> chart_png(const std::string& svg); // the bytes of the file
+Result<std::string> png_of(const Drawing& drawing); // the bytes of the file
 
 } // namespace burnish

@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "apps/report/canvas.h"
+#include "apps/report/looks.h"
 #include "apps/report/png.h"
-#include "apps/report/svg.h"
 
 namespace burnish {
 namespace {
@@ -105,21 +105,21 @@ TEST(chart_canvas, a_halo_keeps_lines_out_of_letters)
     EXPECT_NEAR(paper_beside_the_letter(3.0), 3.0 * 2.0 * (0.72 * 40.0 + 6.0), 70.0); // three pixels wide, around an upright stroke
 }
 
-TEST(chart_canvas, what_svg_says_is_painted_with_the_looks_of_its_classes)
+TEST(chart_canvas, drawings_are_painted_with_the_looks_of_their_classes)
 {
-    Svg svg(100, 50, "chart wide", "a \"chart\" <of> something");
-    svg.line(10, 10, 90, 10, "grid");
-    svg.open("g", {{"class", "point c1 best"}, {"aria-label", "1 > 0"}});
-    svg.title("nothing of this is painted");
-    svg.leaf("circle", {{"cx", "50"}, {"cy", "30"}, {"r", "11"}, {"class", "hit"}});
-    svg.leaf("path", {{"d", shape_path(0, 50.0, 30.0, 8.0)}, {"class", "mark"}});
-    svg.close();
-    svg.open("g", {{"class", "point c2"}});
-    svg.leaf("path", {{"d", shape_path(1, 20.0, 30.0, 8.0)}, {"class", "mark"}});
-    svg.close();
-    svg.leaf("rect", {{"x", "75"}, {"y", "25"}, {"width", "10"}, {"height", "10"}, {"fill", "rgb(1,2,3)"}});
-    svg.text(60, 45, "tick", "");
-    const Image image = draw_svg(svg.done());
+    Drawing drawing(100, 50, "chart wide", "a \"chart\" <of> something");
+    drawing.line({{10, 10}, {90, 10}}, "grid");
+    drawing.line({{10, 20}, {90, 20}}, "of no look");
+    drawing.open("point c1 best", {{"aria-label", "1 > 0"}}, "nothing of this is painted");
+    drawing.disc(50.0, 30.0, 11.0, "hit");
+    drawing.mark(0, 50.0, 30.0, 8.0, "mark");
+    drawing.close();
+    drawing.open("point c2 c2a");
+    drawing.mark(1, 20.0, 30.0, 8.0, "mark");
+    drawing.close();
+    drawing.rectangle(75, 25, 10, 10, "mark", Paint{1, 2, 3});
+    drawing.text(60, 45, "tick", "");
+    const Image image = paint(drawing);
     ASSERT_EQ(image.width, 100 * kPngScale);
     ASSERT_EQ(image.height, 50 * kPngScale);
     const auto at = [&image](double x, double y) {
@@ -128,12 +128,15 @@ TEST(chart_canvas, what_svg_says_is_painted_with_the_looks_of_its_classes)
                                   static_cast<int>(image.bytes[i + 2])};
     };
     using Rgb = std::array<int, 3>;
-    EXPECT_EQ(at(50, 10), (Rgb{0xe3, 0xe3, 0xe3})); // --grid
-    EXPECT_EQ(at(50, 30), (Rgb{0x00, 0x67, 0xa8})); // --c1, filled
-    EXPECT_EQ(at(50, 24), (Rgb{0x00, 0x67, 0xa8})); // both halves of the circle
+    const auto rgb = [](const Paint& p) { return Rgb{static_cast<int>(p[0]), static_cast<int>(p[1]), static_cast<int>(p[2])}; };
+    EXPECT_EQ(at(50, 10), rgb(tint("grid")));
+    EXPECT_EQ(at(50, 20), (Rgb{255, 255, 255}));
+    EXPECT_EQ(at(50, 30), (Rgb{0x00, 0x67, 0xa8})); // c1, filled
+    EXPECT_EQ(at(50, 24), (Rgb{0x00, 0x67, 0xa8}));
     EXPECT_EQ(at(50, 36), (Rgb{0x00, 0x67, 0xa8}));
     EXPECT_EQ(at(50, 40.5), (Rgb{255, 255, 255})); // the area that answers to pointers is not seen
     EXPECT_EQ(at(20, 30), (Rgb{255, 255, 255}));   // hollow
+    EXPECT_EQ(at(20 - 8 * std::sqrt(0.5), 30), rgb(tint("c2a")));
     EXPECT_EQ(at(80, 30), (Rgb{1, 2, 3}));
     EXPECT_EQ(at(5, 45), (Rgb{255, 255, 255}));
 }

@@ -4,7 +4,9 @@
 #include <limits>
 #include <set>
 
+#include "apps/report/axes.h"
 #include "apps/report/labels.h"
+#include "apps/report/looks.h"
 #include "apps/report/plots.h"
 #include "apps/report/svg.h"
 #include "raster/frame/frame.h"
@@ -42,11 +44,11 @@ TEST(chart_svg, the_reader_of_xml_finds_faults)
 
 TEST(chart_svg, what_users_name_does_not_become_markup)
 {
-    Svg svg(100, 50, "chart", "\"<&>");
-    svg.open("g", {{"aria-label", "a\"b<c>&\n"}});
-    svg.title("</title><script>");
-    svg.text(1, 2, "tick", "1 < 2 & 3 > 2");
-    const std::string text = svg.done();
+    Drawing drawing(100, 50, "chart", "\"<&>");
+    drawing.open("point", {{"aria-label", "a\"b<c>&\n"}}, "</title><script>");
+    drawing.text(1, 2, "tick", "1 < 2 & 3 > 2");
+    drawing.close();
+    const std::string text = svg_of(drawing, chart_style());
     EXPECT_EQ(xml_fault(text), "") << text;
     EXPECT_EQ(text.find("<script>"), std::string::npos);
 }
@@ -57,8 +59,9 @@ TEST(chart_svg, every_setting_is_a_point_that_says_what_it_is)
     mark_pareto(report.rows);
     const RowList rows = list_of(report);
     for (const Layout layout : {Layout::wide, Layout::narrow})
-        for (const std::string& svg :
+        for (const Drawing& drawing :
              {plot_time_flip(rows, layout), plot_samples(rows, Quantity::flip, layout), plot_samples(rows, Quantity::time, layout)}) {
+            const std::string svg = svg_of(drawing);
             EXPECT_EQ(xml_fault(svg), "") << svg;
             for (const char* key : {"0b", "0c"})
                 EXPECT_EQ(count(svg, "data-row=\"" + std::string(key) + "\""), 1) << svg;
@@ -67,7 +70,7 @@ TEST(chart_svg, every_setting_is_a_point_that_says_what_it_is)
             EXPECT_NE(svg.find("(ms)</text>") != std::string::npos,
                       svg.find("samples of a fragment") != std::string::npos && svg.find("mean FLIP") != std::string::npos);
         }
-    EXPECT_NE(plot_time_flip(rows, Layout::wide).find("Pareto front"), std::string::npos);
+    EXPECT_NE(svg_of(plot_time_flip(rows, Layout::wide)).find("Pareto front"), std::string::npos);
 }
 
 TEST(chart_svg, odd_figures_are_drawn_or_left_out)
@@ -75,7 +78,7 @@ TEST(chart_svg, odd_figures_are_drawn_or_left_out)
     ChartReport report = test::report();
     report.rows[0].measured.errors.flip_mean = 0.0; // a logarithm of nothing
     report.rows[1].measured.errors.flip_mean = std::numeric_limits<double>::quiet_NaN();
-    const std::string svg = plot_time_flip(list_of(report), Layout::wide);
+    const std::string svg = svg_of(plot_time_flip(list_of(report), Layout::wide));
     EXPECT_EQ(xml_fault(svg), "");
     EXPECT_EQ(svg.find("nan"), std::string::npos) << svg;
     EXPECT_EQ(svg.find("inf"), std::string::npos) << svg;
@@ -83,21 +86,21 @@ TEST(chart_svg, odd_figures_are_drawn_or_left_out)
     EXPECT_EQ(count(svg, "data-row=\"0a\""), 1);
     for (ChartRow& row : report.rows)
         row.measured.errors.flip_mean = std::numeric_limits<double>::quiet_NaN();
-    EXPECT_EQ(xml_fault(plot_time_flip(list_of(report), Layout::wide)), "");
-    EXPECT_EQ(plot_samples(list_of(report), Quantity::flip, Layout::wide), "");
+    EXPECT_EQ(xml_fault(svg_of(plot_time_flip(list_of(report), Layout::wide))), "");
+    EXPECT_TRUE(plot_samples(list_of(report), Quantity::flip, Layout::wide).empty());
 }
 
 TEST(chart_svg, techniques_without_a_sweep_have_no_chart_of_samples)
 {
     ChartReport report = test::report();
     report.rows.pop_back();
-    EXPECT_EQ(plot_samples(list_of(report), Quantity::flip, Layout::wide), "");
+    EXPECT_TRUE(plot_samples(list_of(report), Quantity::flip, Layout::wide).empty());
 }
 
 TEST(chart_svg, heat_maps_need_cells_and_a_baseline)
 {
     ChartReport report = test::report();
-    EXPECT_EQ(plot_heat(list_of(report), "major_axis", false), "");
+    EXPECT_TRUE(plot_heat(list_of(report), "major_axis", false).empty());
     for (ChartRow row : test::report().rows) {
         for (ChartRow& own : report.rows)
             own.cell = {0.25f, -0.5f};
@@ -111,28 +114,34 @@ TEST(chart_svg, heat_maps_need_cells_and_a_baseline)
     for (std::size_t i = 3; i < report.rows.size(); ++i)
         report.rows[i].cell = {0.5f, -0.5f};
     const RowList rows = list_of(report);
-    const std::string map = plot_heat(rows, "major_axis", false), difference = plot_heat(rows, "major_axis", true);
+    const std::string map = svg_of(plot_heat(rows, "major_axis", false)), difference = svg_of(plot_heat(rows, "major_axis", true));
     for (const std::string& svg : {map, difference})
         EXPECT_EQ(xml_fault(svg), "") << svg;
     EXPECT_EQ(count(map, "data-row"), 2); // of 16 samples, the technique's own number
     EXPECT_NE(map.find("0.062"), std::string::npos) << map;
     EXPECT_NE(difference.find("-0.188"), std::string::npos) << difference; // 0.0625 - 0.25
-    EXPECT_EQ(plot_heat(rows, "bent_normal", true), "");
+    EXPECT_TRUE(plot_heat(rows, "bent_normal", true).empty());
     RowList alone;
     for (const ChartRow* row : rows)
         if (row->setting.technique != "bent_normal")
             alone.push_back(row);
-    EXPECT_EQ(plot_heat(alone, "major_axis", true), "");
+    EXPECT_TRUE(plot_heat(alone, "major_axis", true).empty());
 }
 
-TEST(chart_svg, techniques_differ_in_shape_and_relatives_share_a_colour)
+TEST(chart_svg, techniques_differ_in_shape_and_shade_and_relatives_share_a_family)
 {
-    std::set<std::string> shapes;
-    for (const TechniqueInfo& technique : techniques())
-        shapes.insert(shape_path(mark_of(technique.name).shape, 0.0, 0.0, 5.0));
-    EXPECT_EQ(shapes.size(), std::min<std::size_t>(techniques().size(), kShapes));
-    EXPECT_EQ(mark_of("major_axis").colour, mark_of("major_axis_weighted").colour);
-    EXPECT_NE(mark_of("major_axis").colour, mark_of("bent_normal").colour);
+    std::set<Points> shapes;
+    std::set<Paint> shades;
+    for (const TechniqueInfo& technique : techniques()) {
+        const Mark mark = mark_of(technique.name);
+        shapes.insert(shape_outline(mark.shape, 0.0, 0.0, 5.0));
+        shades.insert(family(mark_class(technique.name)));
+    }
+    EXPECT_EQ(shapes.size(), techniques().size());
+    EXPECT_EQ(shades.size(), techniques().size());
+    EXPECT_EQ(mark_of("major_axis").family, mark_of("major_axis_weighted").family);
+    EXPECT_NE(mark_of("major_axis").family, mark_of("bent_normal").family);
+    EXPECT_NE(mark_of("auto").family, mark_of("mc").family);
 }
 
 TEST(chart_svg, ticks_are_round_and_inside)
