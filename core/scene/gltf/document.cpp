@@ -66,10 +66,22 @@ int get_index(const Json& object, const char* key)
     return it == object.end() ? -1 : it->get<int>();
 }
 
+double get_number(const Json& object, const char* key, double fallback)
+{
+    const auto it = object.find(key);
+    return it == object.end() ? fallback : it->get<double>();
+}
+
 std::string get_string(const Json& object, const char* key)
 {
     const auto it = object.find(key);
     return it == object.end() || !it->is_string() ? std::string() : it->get<std::string>();
+}
+
+const Json* get_member(const Json& object, const char* key)
+{
+    const auto it = object.find(key);
+    return it == object.end() ? nullptr : &*it;
 }
 
 const Json* get_extension(const Json& object, const char* name)

@@ -6,7 +6,6 @@
 #include <set>
 #include <span>
 #include <string>
-#include <tiny_gltf.h>
 #include <vector>
 
 #include "core/base/limits.h"
@@ -38,8 +37,7 @@ struct Document {
     Bytes bytes; // the whole file
     Bytes bin;   // BIN chunk of a GLB
     bool has_bin = false, is_glb = false;
-    Json json;             // checked against the schema; what points into bytes is read from here
-    tinygltf::Model model; // what only describes: scenes, nodes, cameras, lights, materials, textures, samplers
+    Json json; // checked against the schema before anything is read from it
     std::vector<BufferData> buffers;
     std::map<std::string, std::vector<std::uint8_t>> buffer_files; // by path without links: external buffers
     std::map<int, std::vector<std::uint8_t>> decoded_views;        // by buffer view: EXT_meshopt_compression, decoded
@@ -68,9 +66,11 @@ std::string printable(const std::string& text);
 // Reading of members whose type the schema check has already ensured.
 std::uint64_t get_uint(const Json& object, const char* key, std::uint64_t fallback);
 int get_index(const Json& object, const char* key); // -1 where absent
+double get_number(const Json& object, const char* key, double fallback);
 std::string get_string(const Json& object, const char* key);
+const Json* get_member(const Json& object, const char* key);                      // null where absent
 const Json* get_extension(const Json& object, const char* name);                  // null where absent
-std::size_t table_size(const Json& json, const char* key);                        // of a top-level array, 0 where absent
+std::size_t table_size(const Json& json, const char* key);                        // of an array, 0 where absent
 std::string quoted(const std::string& name, const char* kind, std::size_t index); // mesh 3 "name"
 
 } // namespace burnish::gltf

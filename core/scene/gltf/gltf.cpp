@@ -2,7 +2,6 @@
 
 #include <exception>
 #include <fmt/format.h>
-#include <limits>
 #include <new>
 
 #include "core/scene/builtin/builtin.h"
@@ -20,39 +19,6 @@ namespace burnish {
 namespace {
 
 using gltf::Document;
-using gltf::Json;
-
-// tinygltf reads only what describes, after the schema check; no file, no buffer and no image goes through
-// it.
-void read_model(Document& doc)
-{
-    Json described = Json::object();
-    for (const char* key : {"scene", "scenes", "nodes", "cameras", "materials", "textures", "samplers"})
-        if (const auto it = doc.json.find(key); it != doc.json.end())
-            described[key] = *it;
-    described["asset"] = {{"version", "2.0"}};
-    if (const Json* lights = gltf::get_extension(doc.json, "KHR_lights_punctual"))
-        described["extensions"]["KHR_lights_punctual"] = *lights;
-    const std::string text = described.dump();
-    if (text.size() > std::numeric_limits<unsigned>::max())
-        gltf::fail("/", "the JSON text is too long");
-    tinygltf::TinyGLTF reader;
-    reader.RemoveImageLoader();
-    reader.SetFsCallbacks({});
-    std::string errors, warnings;
-    if (!reader.LoadASCIIFromString(&doc.model, &errors, &warnings, text.data(), static_cast<unsigned>(text.size()), ""))
-        gltf::fail("/", gltf::printable(errors.substr(0, errors.find('\n'))));
-    const auto same = [&](const char* key, std::size_t count) {
-        if (count != gltf::table_size(doc.json, key))
-            gltf::fail(std::string("/") + key, "an entry cannot be read");
-    };
-    same("scenes", doc.model.scenes.size());
-    same("nodes", doc.model.nodes.size());
-    same("cameras", doc.model.cameras.size());
-    same("materials", doc.model.materials.size());
-    same("textures", doc.model.textures.size());
-    same("samplers", doc.model.samplers.size());
-}
 
 void read_document(Document& doc)
 {
@@ -63,7 +29,6 @@ void read_document(Document& doc)
     gltf::check_structure(doc);
     gltf::check_accessor_rules(doc);
     gltf::check_unread(doc);
-    read_model(doc);
     gltf::load_nodes(doc);
     gltf::load_cameras_and_lights(doc);
     gltf::load_buffers(doc);

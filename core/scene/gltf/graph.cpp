@@ -17,18 +17,37 @@ std::size_t index_of(int i)
     return static_cast<std::size_t>(i);
 }
 
+const Json& node_json(const Document& doc, std::size_t node)
+{
+    return doc.json["nodes"][node];
+}
+
+std::vector<int> indices_of(const Json& object, const char* key)
+{
+    const Json* indices = get_member(object, key);
+    return indices ? indices->get<std::vector<int>>() : std::vector<int>();
+}
+
+// Numbers of an array over those that are there; left alone where there is none.
+template <std::size_t N> void read_numbers(const Json& object, const char* key, double (&to)[N])
+{
+    if (const Json* numbers = get_member(object, key))
+        for (std::size_t i = 0; i < N; ++i)
+            to[i] = (*numbers)[i].get<double>();
+}
+
 std::vector<int> find_parents(const Document& doc)
 {
-    const auto& nodes = doc.model.nodes;
-    std::vector<int> parent(nodes.size(), kNone);
-    for (std::size_t i = 0; i < nodes.size(); ++i)
-        for (std::size_t k = 0; k < nodes[i].children.size(); ++k) {
-            int& slot = parent[index_of(nodes[i].children[k])];
+    std::vector<int> parent(table_size(doc.json, "nodes"), kNone);
+    for (std::size_t i = 0; i < parent.size(); ++i) {
+        const std::vector<int> children = indices_of(node_json(doc, i), "children");
+        for (std::size_t k = 0; k < children.size(); ++k) {
+            int& slot = parent[index_of(children[k])];
             if (slot != kNone)
-                fail(fmt::format("/nodes/{}/children/{}", i, k),
-                     fmt::format("node {} has two parents, {} and {}", nodes[i].children[k], slot, i));
+                fail(fmt::format("/nodes/{}/children/{}", i, k), fmt::format("node {} has two parents, {} and {}", children[k], slot, i));
             slot = static_cast<int>(i);
         }
+    }
     return parent;
 }
 
@@ -55,12 +74,12 @@ void check_forest(const Document& doc, const std::vector<int>& parent)
     }
 }
 
-glm::mat4 trs_matrix(const tinygltf::Node& node, const std::string& place)
+glm::mat4 trs_matrix(const Json& node, const std::string& place)
 {
     double q[4] = {0.0, 0.0, 0.0, 1.0}, s[3] = {1.0, 1.0, 1.0}, t[3] = {0.0, 0.0, 0.0};
-    std::copy(node.rotation.begin(), node.rotation.end(), q);
-    std::copy(node.scale.begin(), node.scale.end(), s);
-    std::copy(node.translation.begin(), node.translation.end(), t);
+    read_numbers(node, "rotation", q);
+    read_numbers(node, "scale", s);
+    read_numbers(node, "translation", t);
     const double length = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
     if (!(length > 1e-12 && length < 1e12))
         fail(place + "/rotation", "is not a unit quaternion");
@@ -81,13 +100,15 @@ glm::mat4 trs_matrix(const tinygltf::Node& node, const std::string& place)
 
 glm::mat4 local_matrix(Document& doc, std::size_t index)
 {
-    const tinygltf::Node& node = doc.model.nodes[index];
-    if (node.matrix.empty())
+    const Json& node = node_json(doc, index);
+    if (!node.contains("matrix"))
         return trs_matrix(node, place_of(index));
+    double numbers[16];
+    read_numbers(node, "matrix", numbers);
     glm::mat4 matrix;
     for (int c = 0; c < 4; ++c)
         for (int r = 0; r < 4; ++r)
-            matrix[c][r] = static_cast<float>(node.matrix[index_of(c * 4 + r)]);
+            matrix[c][r] = static_cast<float>(numbers[c * 4 + r]);
     constexpr float kTolerance = 1e-5f; // exporters write rounded numbers
     for (int c = 0; c < 4; ++c) {
         const float affine = c == 3 ? 1.0f : 0.0f;
@@ -100,17 +121,16 @@ glm::mat4 local_matrix(Document& doc, std::size_t index)
 
 Node load_node(Document& doc, std::size_t index, int parent)
 {
-    const tinygltf::Node& source = doc.model.nodes[index];
+    const Json& source = node_json(doc, index);
     Node node;
-    node.name = source.name;
+    node.name = get_string(source, "name");
     node.parent = parent;
-    node.mesh = source.mesh;
-    node.camera = source.camera;
-    const auto light = source.extensions.find("KHR_lights_punctual");
-    if (light != source.extensions.end())
-        node.light = light->second.Get("light").GetNumberAsInt();
+    node.mesh = get_index(source, "mesh");
+    node.camera = get_index(source, "camera");
+    if (const Json* light = get_extension(source, "KHR_lights_punctual"))
+        node.light = get_index(*light, "light");
     node.local = local_matrix(doc, index);
-    if (source.skin >= 0)
+    if (source.contains("skin"))
         doc.warn("skins are not supported; skinned meshes are drawn in their bind pose");
     return node;
 }
@@ -123,15 +143,14 @@ struct Root {
 std::vector<Root> find_roots(const Document& doc, const std::vector<int>& parent)
 {
     std::vector<Root> roots;
-    const tinygltf::Model& model = doc.model;
-    if (model.scenes.empty()) {
+    if (table_size(doc.json, "scenes") == 0) {
         for (std::size_t i = 0; i < parent.size(); ++i)
             if (parent[i] == kNone)
                 roots.push_back({static_cast<int>(i), place_of(i)});
         return roots;
     }
-    const int scene = std::max(model.defaultScene, 0);
-    const std::vector<int>& nodes = model.scenes[index_of(scene)].nodes;
+    const int scene = std::max(get_index(doc.json, "scene"), 0);
+    const std::vector<int> nodes = indices_of(doc.json["scenes"][index_of(scene)], "nodes");
     for (std::size_t k = 0; k < nodes.size(); ++k)
         roots.push_back({nodes[k], fmt::format("/scenes/{}/nodes/{}", scene, k)});
     return roots;
@@ -150,32 +169,38 @@ void check_worlds(const Document& doc, const std::vector<std::size_t>& sources)
 
 void load_cameras_and_lights(Document& doc)
 {
-    for (const tinygltf::Camera& source : doc.model.cameras) {
+    const auto number = [](const Json& object, const char* key, double fallback) {
+        return static_cast<float>(get_number(object, key, fallback));
+    };
+    for (std::size_t i = 0; i < table_size(doc.json, "cameras"); ++i) {
+        const Json& source = doc.json["cameras"][i];
+        const std::string type = get_string(source, "type");
+        const Json& lens = source[type];
         Camera camera;
-        camera.name = source.name;
-        camera.orthographic = source.type == "orthographic";
-        if (camera.orthographic) {
-            camera.xmag = static_cast<float>(source.orthographic.xmag);
-            camera.ymag = static_cast<float>(source.orthographic.ymag);
-            camera.znear = static_cast<float>(source.orthographic.znear);
-            camera.zfar = static_cast<float>(source.orthographic.zfar);
-        } else {
-            camera.yfov = static_cast<float>(source.perspective.yfov);
-            camera.znear = static_cast<float>(source.perspective.znear);
-            camera.zfar = static_cast<float>(source.perspective.zfar); // 0 where the file has none
-        }
+        camera.name = get_string(source, "name");
+        camera.orthographic = type == "orthographic";
+        camera.xmag = number(lens, "xmag", camera.xmag), camera.ymag = number(lens, "ymag", camera.ymag);
+        camera.yfov = number(lens, "yfov", camera.yfov);
+        camera.znear = number(lens, "znear", 0.0);
+        camera.zfar = number(lens, "zfar", 0.0); // 0 where the file has none
         doc.scene.cameras.push_back(std::move(camera));
     }
-    for (const tinygltf::Light& source : doc.model.lights) {
+    const Json* lights = get_extension(doc.json, "KHR_lights_punctual");
+    for (std::size_t i = 0; lights && i < table_size(*lights, "lights"); ++i) {
+        const Json& source = (*lights)["lights"][i];
+        const std::string type = get_string(source, "type");
+        double color[3] = {1.0, 1.0, 1.0};
+        read_numbers(source, "color", color);
         Light light;
-        light.name = source.name;
-        light.type = source.type == "directional" ? LightType::directional : source.type == "spot" ? LightType::spot : LightType::point;
-        for (int i = 0; i < 3 && source.color.size() == 3; ++i)
-            light.color[i] = static_cast<float>(source.color[index_of(i)]);
-        light.intensity = static_cast<float>(source.intensity);
-        light.range = static_cast<float>(source.range);
-        light.inner_cone = static_cast<float>(source.spot.innerConeAngle);
-        light.outer_cone = static_cast<float>(source.spot.outerConeAngle);
+        light.name = get_string(source, "name");
+        light.type = type == "directional" ? LightType::directional : type == "spot" ? LightType::spot : LightType::point;
+        for (int c = 0; c < 3; ++c)
+            light.color[c] = static_cast<float>(color[c]);
+        light.intensity = number(source, "intensity", 1.0);
+        light.range = number(source, "range", 0.0); // 0: without end
+        const Json none = Json::object(), *spot = get_member(source, "spot");
+        light.inner_cone = number(spot ? *spot : none, "innerConeAngle", 0.0);
+        light.outer_cone = number(spot ? *spot : none, "outerConeAngle", 0.78539816339744828);
         doc.scene.lights.push_back(std::move(light));
     }
 }
@@ -203,13 +228,13 @@ void load_nodes(Document& doc)
             const int id = static_cast<int>(doc.scene.nodes.size());
             doc.scene.nodes.push_back(load_node(doc, index, next.parent));
             sources.push_back(index);
-            const std::vector<int>& children = doc.model.nodes[index].children;
+            const std::vector<int> children = indices_of(node_json(doc, index), "children");
             for (auto child = children.rbegin(); child != children.rend(); ++child)
                 stack.push_back({*child, id});
         }
     }
-    if (!doc.model.scenes.empty())
-        doc.scene.name = doc.model.scenes[index_of(std::max(doc.model.defaultScene, 0))].name;
+    if (table_size(doc.json, "scenes") > 0)
+        doc.scene.name = get_string(doc.json["scenes"][index_of(std::max(get_index(doc.json, "scene"), 0))], "name");
     update_world(doc.scene);
     check_worlds(doc, sources);
 }

@@ -10,32 +10,40 @@ namespace burnish::gltf {
 
 namespace {
 
-using ExtensionMap = tinygltf::ExtensionMap;
+const Json kNothing = Json::object();
 
-const tinygltf::Value* find(const ExtensionMap& extensions, const char* name)
+const Json& member_or_nothing(const Json& object, const char* key)
 {
-    const auto it = extensions.find(name);
-    return it == extensions.end() || !it->second.IsObject() ? nullptr : &it->second;
+    const Json* member = get_member(object, key);
+    return member ? *member : kNothing;
 }
 
-double number(const tinygltf::Value& object, const char* key, double fallback)
+float number(const Json& object, const char* key, double fallback)
 {
-    return object.Has(key) ? object.Get(key).GetNumberAsDouble() : fallback;
+    return static_cast<float>(get_number(object, key, fallback));
 }
 
-WrapMode wrap_mode(int code)
+// What an array holds at i.
+float number_at(const Json& object, const char* key, int i, double fallback)
 {
-    return code == TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE     ? WrapMode::clamp
-           : code == TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT ? WrapMode::mirror
-                                                           : WrapMode::repeat;
+    const Json* numbers = get_member(object, key);
+    return static_cast<float>(numbers ? (*numbers)[static_cast<std::size_t>(i)].get<double>() : fallback);
 }
 
-bool is_nearest(const tinygltf::Sampler& sampler)
+// Codes of samplers (glTF 2.0, 5.26).
+constexpr std::uint64_t kRepeat = 10497, kClampToEdge = 33071, kMirroredRepeat = 33648;
+constexpr std::uint64_t kNearest = 9728, kNearestMipmapNearest = 9984, kNearestMipmapLinear = 9986;
+
+WrapMode wrap_mode(std::uint64_t code)
 {
-    const int min = sampler.minFilter;
-    return sampler.magFilter == TINYGLTF_TEXTURE_FILTER_NEAREST &&
-           (min == -1 || min == TINYGLTF_TEXTURE_FILTER_NEAREST || min == TINYGLTF_TEXTURE_FILTER_NEAREST_MIPMAP_NEAREST ||
-            min == TINYGLTF_TEXTURE_FILTER_NEAREST_MIPMAP_LINEAR);
+    return code == kClampToEdge ? WrapMode::clamp : code == kMirroredRepeat ? WrapMode::mirror : WrapMode::repeat;
+}
+
+bool is_nearest(const Json& sampler)
+{
+    const std::uint64_t min = get_uint(sampler, "minFilter", kNearest);
+    return get_uint(sampler, "magFilter", 0) == kNearest &&
+           (min == kNearest || min == kNearestMipmapNearest || min == kNearestMipmapLinear);
 }
 
 // Its index in Scene::textures; none where the file offers no image that can be read.
@@ -43,21 +51,22 @@ int scene_texture(Document& doc, int index)
 {
     if (const auto known = doc.scene_textures.find(index); known != doc.scene_textures.end())
         return known->second;
-    const tinygltf::Texture& source = doc.model.textures[static_cast<std::size_t>(index)];
-    int image = source.source;
-    if (const tinygltf::Value* webp = find(source.extensions, "EXT_texture_webp"); webp && webp->Has("source"))
-        image = webp->Get("source").GetNumberAsInt();
+    const Json& source = doc.json["textures"][static_cast<std::size_t>(index)];
+    int image = get_index(source, "source");
+    if (const Json* webp = get_extension(source, "EXT_texture_webp"); webp && webp->contains("source"))
+        image = get_index(*webp, "source");
     int id = kNone;
     if (image < 0) {
-        doc.warn(quoted(source.name, "texture", static_cast<std::size_t>(index)) + " has no image that can be read; left out");
+        doc.warn(quoted(get_string(source, "name"), "texture", static_cast<std::size_t>(index)) +
+                 " has no image that can be read; left out");
     } else {
         Texture texture;
-        texture.name = source.name;
+        texture.name = get_string(source, "name");
         texture.image = scene_image(doc, image);
-        if (source.sampler >= 0) {
-            const tinygltf::Sampler& sampler = doc.model.samplers[static_cast<std::size_t>(source.sampler)];
-            texture.wrap_s = wrap_mode(sampler.wrapS);
-            texture.wrap_t = wrap_mode(sampler.wrapT);
+        if (const int at = get_index(source, "sampler"); at >= 0) {
+            const Json& sampler = doc.json["samplers"][static_cast<std::size_t>(at)];
+            texture.wrap_s = wrap_mode(get_uint(sampler, "wrapS", kRepeat));
+            texture.wrap_t = wrap_mode(get_uint(sampler, "wrapT", kRepeat));
             texture.nearest = is_nearest(sampler);
         }
         id = static_cast<int>(doc.scene.textures.size());
@@ -67,23 +76,25 @@ int scene_texture(Document& doc, int index)
     return id;
 }
 
-TextureRef texture_ref(Document& doc, int index, int tex_coord, const ExtensionMap& extensions)
+// The texture that `object` refers to as `key`.
+TextureRef texture_ref(Document& doc, const Json& object, const char* key)
 {
     TextureRef ref;
-    if (index < 0)
+    const Json* info = get_member(object, key);
+    if (!info)
         return ref;
-    ref.texture = scene_texture(doc, index);
-    if (const tinygltf::Value* transform = find(extensions, "KHR_texture_transform")) {
+    ref.texture = scene_texture(doc, get_index(*info, "index"));
+    std::uint64_t tex_coord = get_uint(*info, "texCoord", 0);
+    if (const Json* transform = get_extension(*info, "KHR_texture_transform")) {
         double offset[2] = {0.0, 0.0}, scale[2] = {1.0, 1.0};
-        for (int i = 0; i < 2; ++i) {
-            if (transform->Has("offset"))
-                offset[i] = transform->Get("offset").Get(i).GetNumberAsDouble();
-            if (transform->Has("scale"))
-                scale[i] = transform->Get("scale").Get(i).GetNumberAsDouble();
+        for (std::size_t i = 0; i < 2; ++i) {
+            if (const Json* numbers = get_member(*transform, "offset"))
+                offset[i] = (*numbers)[i].get<double>();
+            if (const Json* numbers = get_member(*transform, "scale"))
+                scale[i] = (*numbers)[i].get<double>();
         }
-        ref.uv_transform = texture_transform(offset, number(*transform, "rotation", 0.0), scale);
-        if (transform->Has("texCoord"))
-            tex_coord = transform->Get("texCoord").GetNumberAsInt();
+        ref.uv_transform = texture_transform(offset, get_number(*transform, "rotation", 0.0), scale);
+        tex_coord = get_uint(*transform, "texCoord", tex_coord);
     }
     if (tex_coord > 1)
         doc.warn(fmt::format("texture coordinates TEXCOORD_{} are not supported, TEXCOORD_0 is used", tex_coord));
@@ -91,65 +102,50 @@ TextureRef texture_ref(Document& doc, int index, int tex_coord, const ExtensionM
     return ref;
 }
 
-template <class Info> TextureRef texture_ref(Document& doc, const Info& info)
+void load_extensions(Document& doc, const Json& source, Material& material)
 {
-    return texture_ref(doc, info.index, info.texCoord, info.extensions);
-}
-
-TextureRef texture_ref(Document& doc, const tinygltf::Value& extension, const char* key)
-{
-    if (!extension.Has(key))
-        return {};
-    const tinygltf::Value& info = extension.Get(key);
-    const bool extended = info.Has("extensions") && info.Get("extensions").IsObject();
-    return texture_ref(doc, info.Get("index").GetNumberAsInt(), info.Has("texCoord") ? info.Get("texCoord").GetNumberAsInt() : 0,
-                       extended ? info.Get("extensions").Get<tinygltf::Value::Object>() : ExtensionMap());
-}
-
-void load_extensions(Document& doc, const ExtensionMap& extensions, Material& material)
-{
-    material.unlit = find(extensions, "KHR_materials_unlit") != nullptr;
-    if (const tinygltf::Value* strength = find(extensions, "KHR_materials_emissive_strength"))
-        material.emissive *= static_cast<float>(number(*strength, "emissiveStrength", 1.0));
-    if (const tinygltf::Value* ior = find(extensions, "KHR_materials_ior"))
-        material.ior = static_cast<float>(number(*ior, "ior", 1.5));
-    if (const tinygltf::Value* specular = find(extensions, "KHR_materials_specular")) {
-        material.specular = static_cast<float>(number(*specular, "specularFactor", 1.0));
-        if (specular->Has("specularColorFactor"))
-            for (int i = 0; i < 3; ++i)
-                material.specular_color[i] = static_cast<float>(specular->Get("specularColorFactor").Get(i).GetNumberAsDouble());
+    material.unlit = get_extension(source, "KHR_materials_unlit") != nullptr;
+    if (const Json* strength = get_extension(source, "KHR_materials_emissive_strength"))
+        material.emissive *= number(*strength, "emissiveStrength", 1.0);
+    if (const Json* ior = get_extension(source, "KHR_materials_ior"))
+        material.ior = number(*ior, "ior", 1.5);
+    if (const Json* specular = get_extension(source, "KHR_materials_specular")) {
+        material.specular = number(*specular, "specularFactor", 1.0);
+        for (int i = 0; i < 3; ++i)
+            material.specular_color[i] = number_at(*specular, "specularColorFactor", i, 1.0);
         material.specular_tex = texture_ref(doc, *specular, "specularTexture");
         material.specular_color_tex = texture_ref(doc, *specular, "specularColorTexture");
     }
-    if (const tinygltf::Value* anisotropy = find(extensions, "KHR_materials_anisotropy")) {
-        material.anisotropy_strength = static_cast<float>(number(*anisotropy, "anisotropyStrength", 0.0));
-        material.anisotropy_rotation = static_cast<float>(number(*anisotropy, "anisotropyRotation", 0.0));
+    if (const Json* anisotropy = get_extension(source, "KHR_materials_anisotropy")) {
+        material.anisotropy_strength = number(*anisotropy, "anisotropyStrength", 0.0);
+        material.anisotropy_rotation = number(*anisotropy, "anisotropyRotation", 0.0);
         material.anisotropy_tex = texture_ref(doc, *anisotropy, "anisotropyTexture");
     }
 }
 
-Material load_material(Document& doc, const tinygltf::Material& source)
+Material load_material(Document& doc, const Json& source)
 {
     Material material;
-    material.name = source.name;
-    const tinygltf::PbrMetallicRoughness& pbr = source.pbrMetallicRoughness;
+    material.name = get_string(source, "name");
+    const Json& pbr = member_or_nothing(source, "pbrMetallicRoughness");
     for (int i = 0; i < 4; ++i)
-        material.base_color[i] = static_cast<float>(pbr.baseColorFactor[static_cast<std::size_t>(i)]);
+        material.base_color[i] = number_at(pbr, "baseColorFactor", i, 1.0);
     for (int i = 0; i < 3; ++i)
-        material.emissive[i] = static_cast<float>(source.emissiveFactor[static_cast<std::size_t>(i)]);
-    material.metallic = static_cast<float>(pbr.metallicFactor);
-    material.roughness = static_cast<float>(pbr.roughnessFactor);
-    material.normal_scale = static_cast<float>(source.normalTexture.scale);
-    material.occlusion_strength = static_cast<float>(source.occlusionTexture.strength);
-    material.alpha_mode = source.alphaMode == "MASK" ? AlphaMode::mask : source.alphaMode == "BLEND" ? AlphaMode::blend : AlphaMode::opaque;
-    material.alpha_cutoff = static_cast<float>(source.alphaCutoff);
-    material.double_sided = source.doubleSided;
-    material.base_color_tex = texture_ref(doc, pbr.baseColorTexture);
-    material.metallic_roughness_tex = texture_ref(doc, pbr.metallicRoughnessTexture);
-    material.normal_tex = texture_ref(doc, source.normalTexture);
-    material.occlusion_tex = texture_ref(doc, source.occlusionTexture);
-    material.emissive_tex = texture_ref(doc, source.emissiveTexture);
-    load_extensions(doc, source.extensions, material);
+        material.emissive[i] = number_at(source, "emissiveFactor", i, 0.0);
+    material.metallic = number(pbr, "metallicFactor", 1.0);
+    material.roughness = number(pbr, "roughnessFactor", 1.0);
+    material.normal_scale = number(member_or_nothing(source, "normalTexture"), "scale", 1.0);
+    material.occlusion_strength = number(member_or_nothing(source, "occlusionTexture"), "strength", 1.0);
+    const std::string mode = get_string(source, "alphaMode");
+    material.alpha_mode = mode == "MASK" ? AlphaMode::mask : mode == "BLEND" ? AlphaMode::blend : AlphaMode::opaque;
+    material.alpha_cutoff = number(source, "alphaCutoff", 0.5);
+    material.double_sided = source.value("doubleSided", false);
+    material.base_color_tex = texture_ref(doc, pbr, "baseColorTexture");
+    material.metallic_roughness_tex = texture_ref(doc, pbr, "metallicRoughnessTexture");
+    material.normal_tex = texture_ref(doc, source, "normalTexture");
+    material.occlusion_tex = texture_ref(doc, source, "occlusionTexture");
+    material.emissive_tex = texture_ref(doc, source, "emissiveTexture");
+    load_extensions(doc, source, material);
     return material;
 }
 
@@ -168,9 +164,8 @@ glm::mat3x2 texture_transform(const double offset[2], double rotation, const dou
 
 void load_materials(Document& doc)
 {
-    for (std::size_t i = 0; i < doc.model.materials.size(); ++i) {
-        const tinygltf::Material& source = doc.model.materials[i];
-        Material material = load_material(doc, source);
+    for (std::size_t i = 0; i < table_size(doc.json, "materials"); ++i) {
+        Material material = load_material(doc, doc.json["materials"][i]);
         for (int k = 0; k < 3; ++k)
             if (!std::isfinite(material.emissive[k]))
                 fail(fmt::format("/materials/{}/extensions/KHR_materials_emissive_strength", i), "the emission overflows");

@@ -10,6 +10,8 @@ namespace burnish::gltf {
 
 namespace {
 
+constexpr int kTriangles = 4, kTriangleStrip = 5; // of primitive modes (glTF 2.0, 3.7.2.1)
+
 // Corner arrays take some 150 bytes a corner while a primitive is built: a small file must not ask for too
 // many.
 constexpr std::uint64_t kFreeCorners = 1 << 20, kCornersPerByte = 16;
@@ -98,14 +100,14 @@ std::vector<std::uint32_t> read_indices(Source& source, std::uint64_t vertex_cou
 // Strips and fans as in glTF 2.0, 3.7.2.1, so that every triangle keeps its winding.
 std::vector<std::uint32_t> to_triangles(std::vector<std::uint32_t> v, int mode)
 {
-    if (mode == TINYGLTF_MODE_TRIANGLES) {
+    if (mode == kTriangles) {
         v.resize(v.size() / 3 * 3);
         return v;
     }
     std::vector<std::uint32_t> corners;
     corners.reserve(v.size() < 3 ? 0 : (v.size() - 2) * 3);
     for (std::size_t i = 0; i + 2 < v.size(); ++i) {
-        if (mode == TINYGLTF_MODE_TRIANGLE_STRIP)
+        if (mode == kTriangleStrip)
             corners.insert(corners.end(), {v[i], v[i + 1 + i % 2], v[i + 2 - i % 2]});
         else
             corners.insert(corners.end(), {v[i + 1], v[i + 2], v[0]});
@@ -154,8 +156,8 @@ void warn_missing_coordinates(Document& doc, const Material& m, const Primitive&
 
 void load_primitive(Document& doc, const Json& json, const std::string& place, const std::string& mesh)
 {
-    const int mode = static_cast<int>(get_uint(json, "mode", TINYGLTF_MODE_TRIANGLES));
-    if (mode < TINYGLTF_MODE_TRIANGLES) {
+    const int mode = static_cast<int>(get_uint(json, "mode", kTriangles));
+    if (mode < kTriangles) {
         doc.warn(mesh + ": points and lines are not supported and left out");
         return;
     }
@@ -173,10 +175,10 @@ void load_primitive(Document& doc, const Json& json, const std::string& place, c
         return;
     }
     std::vector<std::uint32_t> indices = read_indices(source, corners.attributes.position.count());
-    if (mode == TINYGLTF_MODE_TRIANGLES && indices.size() % 3 != 0)
+    if (mode == kTriangles && indices.size() % 3 != 0)
         doc.warn(mesh + ": the number of indices is not a multiple of 3; the last are left out");
     // Draco stores triangles whatever the mode says.
-    corners.vertices = to_triangles(std::move(indices), source.is_draco ? TINYGLTF_MODE_TRIANGLES : mode);
+    corners.vertices = to_triangles(std::move(indices), source.is_draco ? kTriangles : mode);
     if (corners.vertices.empty())
         return;
     doc.charge(corners.vertices.size() * kCornerCharge, place);
