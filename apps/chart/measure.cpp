@@ -11,6 +11,7 @@
 #include "apps/chart/noise.h"
 #include "apps/cli/seen_scene.h"
 #include "apps/cli/stop_signal.h"
+#include "apps/render/parameters.h"
 #include "apps/render/stats.h"
 #include "apps/report/pictures.h"
 #include "core/base/cache.h"
@@ -108,6 +109,7 @@ Status Chart::load_all()
     out_.machine = {version(), cpu_name(), isa_name(options_.base.isa), jobs_->threads()};
     out_.width = frame.width, out_.height = frame.height, out_.msaa = frame.msaa;
     out_.error_width = options_.error_width, out_.error_height = options_.error_height;
+    out_.parameters = parameters_json(frame);
     out_.runs = options_.runs;
     out_.reference_samples = options_.reference_samples;
     return {};
@@ -276,9 +278,9 @@ ChartRow Chart::new_row(const Place& place, const Setting& setting) const
 {
     const FrameDesc desc = desc_of(place, setting);
     const FrameDesc& timed = options_.base.frame;
-    const std::string text = fmt::format("{} {} {} {} {} {} {} {} {} {} {} {} {}", program_, place.key, options_.reference_samples,
-                                         desc.technique, desc.samples, timed.width, timed.height, desc.msaa, desc.tile_size,
-                                         place.tile.device(), jobs_->threads(), desc.major_axis_k, desc.major_axis_beta);
+    const std::string text =
+        fmt::format("{} {} {} {} {} {} {} {} {} {} {}{}", program_, place.key, options_.reference_samples, desc.technique, desc.samples,
+                    timed.width, timed.height, desc.msaa, desc.tile_size, place.tile.device(), jobs_->threads(), parameters_text(desc));
     ChartRow row;
     row.key = hash_text(hash_bytes(text.data(), text.size()));
     row.scene = place.scene.data->name, row.env = place.env;

@@ -6,6 +6,7 @@
 #include "apps/cli/report.h"
 #include "apps/cli/shared_options.h"
 #include "apps/cli/values.h"
+#include "apps/render/parameters.h"
 #include "raster/reference/reference_renderer.h"
 
 namespace burnish {
@@ -102,6 +103,7 @@ OptionTable chart_option_table(ChartArguments& to)
     table.add("Picture", {{"--error-size", "WxH",
                            "Width and height in pixels of the pictures that are compared with the reference, of the shape of --size",
                            picture_size(to.error_size), "at most 480 wide"}});
+    table.take(of_render, "Parameters of techniques", taken_parameters());
     table.take(of_render, "Environment",
                {{"--env-rotation", "Turn environments about +Y, counter-clockwise from above"},
                 "--env-size",

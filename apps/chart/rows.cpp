@@ -16,14 +16,16 @@ Json errors_json(const RowErrors& e)
 
 Json settings_json(const ChartReport& report, const ChartRow& row)
 {
-    return {{"samples", row.setting.sampled ? Json(row.setting.samples) : Json()},
-            {"roughness", row.cell.roughness},
-            {"anisotropy", row.cell.anisotropy},
-            {"msaa", report.msaa},
-            {"width", report.width},
-            {"height", report.height},
-            {"error_width", report.error_width},
-            {"error_height", report.error_height}};
+    Json json = {{"samples", row.setting.sampled ? Json(row.setting.samples) : Json()},
+                 {"roughness", row.cell.roughness},
+                 {"anisotropy", row.cell.anisotropy},
+                 {"msaa", report.msaa},
+                 {"width", report.width},
+                 {"height", report.height},
+                 {"error_width", report.error_width},
+                 {"error_height", report.error_height}};
+    json.update(report.parameters);
+    return json;
 }
 
 Json noise_json(const ReferenceNoise& noise)

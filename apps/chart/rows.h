@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "apps/chart/plan.h"
+#include "apps/report/json.h"
 
 namespace burnish {
 
@@ -56,6 +57,7 @@ struct ChartReport {
     int width = 0, height = 0, msaa = 0, runs = 0; // width, height: of the timed frames, pixels
     int error_width = 0, error_height = 0;         // of the pictures compared with the reference
     std::uint64_t reference_samples = 0;
+    Json parameters = Json::object();                 // of techniques, the same of all rows
     std::vector<ChartRow> rows;                       // by scene, environment, cell, technique, samples
     std::map<std::string, ChartReference> references; // by place()
 };

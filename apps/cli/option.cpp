@@ -61,7 +61,7 @@ void OptionTable::add_needing(const std::string& needed_option, const std::strin
     add(fmt::format("With {} {}", needed_option, needed_value), std::move(options));
 }
 
-void OptionTable::take(const OptionTable& from, const std::string& group, std::initializer_list<Taken> taken)
+void OptionTable::take(const OptionTable& from, const std::string& group, const std::vector<Taken>& taken)
 {
     for (const Taken& wanted : taken) {
         const Option* found = const_cast<OptionTable&>(from).find(wanted.name);

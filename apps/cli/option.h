@@ -2,7 +2,6 @@
 // whoever sets an option by its name later read the same rows.
 #pragma once
 #include <functional>
-#include <initializer_list>
 #include <optional>
 #include <string>
 #include <vector>
@@ -56,7 +55,7 @@ class OptionTable {
         }
         const char *name, *help, *initial;
     };
-    void take(const OptionTable& from, const std::string& group, std::initializer_list<Taken> taken);
+    void take(const OptionTable& from, const std::string& group, const std::vector<Taken>& taken);
 
     const std::vector<Option>& options() const { return options_; }
     std::vector<Option>& options() { return options_; }

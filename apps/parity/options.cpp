@@ -7,6 +7,7 @@
 #include "apps/cli/report.h"
 #include "apps/cli/shared_options.h"
 #include "apps/cli/values.h"
+#include "apps/render/parameters.h"
 
 namespace burnish {
 namespace {
@@ -105,6 +106,7 @@ OptionTable parity_option_table(ParityArguments& to)
                 "--horizon",
                 {"--energy-compensation", "Return the light that rough lobes lose"},
                 {"--no-cache", "Neither environments nor pipelines from disk"}});
+    table.take(of_render, "Parameters of techniques", taken_parameters());
     return table;
 }
 

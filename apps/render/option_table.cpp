@@ -2,11 +2,12 @@
 #include "apps/cli/shared_options.h"
 #include "apps/cli/values.h"
 #include "apps/render/options.h"
+#include "apps/render/parameters.h"
 
 namespace burnish {
 namespace {
 
-constexpr std::int64_t kMaxFrames = 1000000, kMaxBakeSamples = 1 << 20, kMaxBounces = 1000, kMaxSeed = 0x7fffffff;
+constexpr std::int64_t kMaxFrames = 1000000, kMaxBakeSamples = 1 << 20, kMaxBounces = 1000;
 constexpr const char* kReferenceModes[] = {"direct", "shadowed", "path"}; // by ReferenceMode
 
 std::vector<Option> environment_rows(RenderArguments& to)
@@ -48,14 +49,11 @@ std::vector<Option> picture_rows(RenderArguments& to)
         {"--technique", "NAME", "See burnish list techniques", choice(f.technique, technique_names())},
         {"--samples", "N", "Samples of the technique, where it takes any; of the reference, a pixel",
          integer(to.samples, 1, static_cast<std::int64_t>(kMaxReferenceSamples)), "1024"},
-        {"--axis-k", "K", "Deviations of slope that the major axis covers", number(f.major_axis_k, 0.01, 10.0)},
-        {"--axis-beta", "B", "Overlap of samples on the major axis", number(f.major_axis_beta, 0.0, 100.0)},
         {"--tilt", "DEG,DEG", "Tilt every lobe against its surface, towards the bitangent and away from the tangent",
          angles(to.tilt_deg, -80.0, 80.0)},
         {"--dfg", "NAME", "Directional albedo: table (baked, exact) or fit (analytic, coarse)", choice(f.dfg_fit, {"table", "fit"})},
         {"--horizon", "", "Normal maps reflect nothing from below the surface itself", flag(f.horizon)},
         {"--energy-compensation", "", "Return the light that rough lobes lose between microfacets", flag(f.energy_compensation)},
-        {"--seed", "N", "Seed of techniques that use random numbers", integer(f.seed, 0, kMaxSeed)},
         {"--roughness", "R", "Override alpha_lin of every material, {}", number(f.roughness, 0.0, 1.0), ""},
         {"--anisotropy", "A", "Override eta of every material, {}: alpha_lin^2 (1 +- eta) along and across",
          number(f.anisotropy, -1.0, 1.0), ""},
@@ -122,6 +120,7 @@ OptionTable render_option_table(RenderArguments& to)
     table.add("Environment", environment_rows(to));
     table.add("Output", output_rows(to));
     table.add("Picture", picture_rows(to));
+    table.add("Parameters of techniques", parameter_options(to.plain.frame));
     table.add("Machine", machine_rows(to));
     table.add_needing("--backend", "vulkan", vulkan_rows(to.plain.vulkan));
     table.add_needing("--backend", "reference", reference_rows(to));

@@ -5,6 +5,7 @@
 #include <fmt/core.h>
 #include <sys/resource.h>
 
+#include "apps/render/parameters.h"
 #include "apps/report/json.h"
 #include "core/base/version.h"
 
@@ -52,9 +53,7 @@ std::string stats_json(const RenderOptions& options, const RenderFigures& figure
     json["roughness"] = frame.roughness >= 0.0f ? Json(frame.roughness) : Json();
     json["anisotropy"] = frame.override_anisotropy ? Json(frame.anisotropy) : Json();
     json["tilt_rad"] = Json::array({frame.tilt_rad.x, frame.tilt_rad.y});
-    json["axis_k"] = frame.major_axis_k;
-    json["axis_beta"] = frame.major_axis_beta;
-    json["seed"] = frame.seed;
+    json.update(parameters_json(frame));
     json["dfg"] = frame.dfg_fit ? "fit" : "table";
     json["horizon"] = frame.horizon;
     json["energy_compensation"] = frame.energy_compensation;

@@ -1,0 +1,17 @@
+// The parameters of techniques, as their lines in shading/models.def have them: as options and in reports.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "apps/cli/option.h"
+#include "apps/report/json.h"
+#include "raster/frame/frame.h"
+
+namespace burnish {
+
+std::vector<Option> parameter_options(FrameDesc& to);
+std::vector<OptionTable::Taken> taken_parameters(); // all of them, for OptionTable::take
+Json parameters_json(const FrameDesc& desc);        // {"axis_k": 1.0, ...}
+std::string parameters_text(const FrameDesc& desc); // for keys: every digit
+
+} // namespace burnish
