@@ -30,6 +30,17 @@ burnish_missing() # PACKAGE...: those that are not installed
 
 burnish_apt_install() # PACKAGE...; as_root is the caller's: empty, or sudo
 {
+    local log
+    log="$(mktemp)"
+    # Hundreds of lines that nobody reads, unless it fails.
+    if burnish_apt_install_aloud "$@" > "$log" 2>&1; then rm -f "$log"; return 0; fi
+    tail -n 30 "$log" >&2
+    rm -f "$log"
+    return 1
+}
+
+burnish_apt_install_aloud() # PACKAGE...
+{
     local install=(apt-get -q -o DPkg::Lock::Timeout=300 install -y --no-install-recommends "$@")
     local as=("${as_root[@]}" env DEBIAN_FRONTEND=noninteractive) try
     # Known to the lists that are there: no update needed.
@@ -71,7 +82,7 @@ burnish_setup() # GROUP...
             exit 2
         fi
     fi
-    echo "Installing ${#missing[@]} packages: ${missing[*]}"
+    echo "Installing ${#missing[@]} packages, a minute or two: ${missing[*]}"
     if ! burnish_apt_install "${missing[@]}"; then
         echo "burnish: the packages could not be installed. By hand, as root: $command" >&2
         exit 2
