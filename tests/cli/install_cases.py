@@ -17,8 +17,8 @@ def installed(bench):
     if not cmake:
         raise Skipped("no cmake")
     with tempfile.TemporaryDirectory(prefix="burnish-install-") as prefix:
-        subprocess.run([cmake, "--install", str(pathlib.Path(bench.program).parent), "--prefix", prefix], check=True, timeout=120,
-                       stdout=subprocess.DEVNULL)
+        subprocess.run([cmake, "--install", str(pathlib.Path(bench.program).parent), "--prefix", prefix, "--component", "program"],
+                       check=True, timeout=120, stdout=subprocess.DEVNULL)
         program = pathlib.Path(prefix, "bin", "burnish")
         module = pathlib.Path(prefix, "lib", "burnish", MODULE)
         check(program.is_file() and module.is_file(), f"{program} or {module} is not installed")
