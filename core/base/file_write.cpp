@@ -92,7 +92,8 @@ std::string stem_of(const fs::path& target)
 
 std::string temporary_beside(const fs::path& target)
 {
-    return (target.parent_path() / ("." + stem_of(target) + "." + random_digits() + kEnding)).string();
+    std::string name = stem_of(target); // appended to, as GCC 12 warns of "." + name
+    return (target.parent_path() / name.insert(0, 1, '.').append(".").append(random_digits()).append(kEnding)).string();
 }
 
 // Whether this process has the file for itself: whoever writes a temporary file holds its lock, so one without is a leftover. File

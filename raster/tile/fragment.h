@@ -136,9 +136,11 @@ BN_INLINE real blend_gather(const float* column, const LaneSetup& t, real3 b)
     return b.x * gather(column, t.vertex[0]) + b.y * gather(column, t.vertex[1]) + b.z * gather(column, t.vertex[2]);
 }
 
-// common: the triangle of all fragments, or kManyTriangles. samples: covered sample mask. pixel_x, pixel_y: in the image.
-BN_STAGE visible_point make_fragment(const FrameParams& f, const MaterialRecord& m, const view_params& view, const TileScratch& scratch,
-                                     integer triangle, std::int32_t common, integer pixel_x, integer pixel_y, integer samples)
+// common: the triangle of all fragments, or kManyTriangles. samples: covered sample mask. pixel_x, pixel_y: in the image. lights: there are
+// some, which ask for the position.
+BN_INLINE visible_point make_fragment_inline(const FrameParams& f, material_ref m, const view_params& view, const TileScratch& scratch,
+                                             integer triangle, std::int32_t common, integer pixel_x, integer pixel_y, integer samples,
+                                             bool lights)
 {
     const LaneSetup t = load_setup(scratch, triangle, common);
     const integer corner_x = shl(pixel_x, 8) - int_lit(f.center_x), corner_y = shl(pixel_y, 8) - int_lit(f.center_y);
@@ -151,7 +153,7 @@ BN_STAGE visible_point make_fragment(const FrameParams& f, const MaterialRecord&
         w = weights_at(t, point.x, point.y);
     }
     visible_point p;
-    real a[16] = {}; // the upper half is read only where it was fetched
+    real a[16]; // the upper half is read only where it was fetched
     if (m.textured || m.uses_color)
         interpolate_records(f, t, w.b, a, 16);
     else
@@ -163,7 +165,7 @@ BN_STAGE visible_point make_fragment(const FrameParams& f, const MaterialRecord&
     const real to_pixels = lit(1.0 / kSubpixel);
     p.ray = pixel_ray(to_real(point.x + int_lit(f.center_x)) * to_pixels, to_real(point.y + int_lit(f.center_y)) * to_pixels,
                       splat(f.half_width), splat(f.half_height), view);
-    if (f.light_count > 0)
+    if (lights)
         p.position = vec3_of(blend_gather(f.px, t, w.b), blend_gather(f.py, t, w.b), blend_gather(f.pz, t, w.b));
     if (m.uses_color)
         p.color = vec4_of(a[12], a[13], a[14], a[15]);
@@ -184,6 +186,13 @@ BN_STAGE visible_point make_fragment(const FrameParams& f, const MaterialRecord&
         p.uv_dy[i] = (uv_y[i] - uv_center[i]) * sign_y;
     }
     return p;
+}
+
+// Compiled once in a file.
+[[maybe_unused]] BN_STAGE visible_point make_fragment(const FrameParams& f, const MaterialRecord& m, const view_params& view, const TileScratch& scratch,
+                                     integer triangle, std::int32_t common, integer pixel_x, integer pixel_y, integer samples)
+{
+    return make_fragment_inline(f, m, view, scratch, triangle, common, pixel_x, pixel_y, samples, f.light_count > 0);
 }
 
 } // namespace BN_ISA_NS

@@ -17,7 +17,7 @@ struct MaterialPlan {
     lobe_shape shape;   // then
 };
 
-BN_INLINE MaterialPlan plan_material(const FrameParams& f, const MaterialRecord& m)
+BN_INLINE MaterialPlan plan_material(frame_ref f, material_ref m)
 {
     MaterialPlan plan;
     plan.one_shape = one_lobe_shape(m);
@@ -31,16 +31,18 @@ BN_INLINE MaterialPlan plan_material(const FrameParams& f, const MaterialRecord&
 
 // x, y: pixels. Of a technique that shares samples the colour is made of `shared`, later.
 template <Technique kTechnique>
-BN_INLINE real3 shade_fragments(const FrameParams& f, const MaterialRecord& m, const MaterialPlan& plan, const visible_point& p, integer x,
-                                integer y, line_record& shared)
+BN_INLINE real3 shade_fragments(frame_ref f, material_ref m, const MaterialPlan& plan, const visible_point& p, integer x, integer y,
+                                [[maybe_unused]] line_record& shared)
 {
     constexpr int kTraits = kTechniqueTraits[static_cast<int>(kTechnique)];
     material_inputs fetched;
     if (!plan.uniform)
         fetched = fetch_lanes(f, m, p);
     const material_inputs& at = plan.uniform ? plan.at : fetched;
-    if (m.unlit)
+    if (m.unlit) {
+        shared = line_record{};
         return at.base;
+    }
     const lobe_shape shape = plan.one_shape ? plan.shape : lobe_shape_of(f, m, at);
     shaded_point point;
     make_shaded_point(f, m, at, shape, p, y * int_lit(f.width) + x, point);

@@ -166,6 +166,28 @@ void shade_background_slot(const Tile& t, const view_params& view, std::uint32_t
     }
 }
 
+// Copies, so that the compiler sees that nobody writes to them: what depends on them alone it finds once, before the loop.
+template <Technique kTechnique, class Material>
+void shade_plain_slot(const Tile& t, const view_params& view, const MaterialRecord& m, const MaterialPlan& found, std::uint32_t begin,
+                      std::uint32_t end)
+{
+    const PlainFrame frame{t.f};
+    const Material material{m};
+    const view_params eye = view;
+    MaterialPlan plan = found;
+    plan.uniform = plan.one_shape = true;
+    for (std::uint32_t i = begin; i < end; i += kLanes) {
+        const Batch b = load_batch(t, i, end);
+        const visible_point p = make_fragment_inline(t.f, material, eye, t.s, b.triangle, b.common, b.x, b.y, b.samples, false);
+        line_record shared; // filled where the technique shares
+        const real3 color = shade_fragments<kTechnique>(frame, material, plan, p, b.x, b.y, shared);
+        if constexpr ((kTechniqueTraits[static_cast<int>(kTechnique)] & kSharesSamples) != 0)
+            store_lines(t, b, shared);
+        else
+            store_batch(t, b, color);
+    }
+}
+
 template <Technique kTechnique>
 void shade_slot(const Tile& t, const view_params& view, const MaterialRecord& m, std::uint32_t begin, std::uint32_t end)
 {
@@ -175,10 +197,17 @@ void shade_slot(const Tile& t, const view_params& view, const MaterialRecord& m,
             store_batch(t, load_batch(t, i, end), plan.at.base);
         return;
     }
+    if (plan.uniform && !(t.f.light_count | t.f.tilted | t.f.energy_compensation | t.f.dfg_fit)) {
+        if (kTechnique == Technique::split_isotropic && !m.anisotropic) // what `auto` takes isotropic materials for
+            shade_plain_slot<Technique::split_isotropic, RoundMaterial>(t, view, m, plan, begin, end);
+        else
+            shade_plain_slot<kTechnique, PlainMaterial>(t, view, m, plan, begin, end);
+        return;
+    }
     for (std::uint32_t i = begin; i < end; i += kLanes) {
         const Batch b = load_batch(t, i, end);
         const visible_point p = make_fragment(t.f, m, view, t.s, b.triangle, b.common, b.x, b.y, b.samples);
-        line_record shared{};
+        line_record shared; // filled where the technique shares
         const real3 color = shade_fragments<kTechnique>(t.f, m, plan, p, b.x, b.y, shared);
         if (m.technique_traits & kSharesSamples)
             store_lines(t, b, shared);

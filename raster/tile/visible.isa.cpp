@@ -18,6 +18,11 @@ struct OpaqueBlocks {
     NoAlpha operator()(int, int) const { return {}; }
 };
 
+BN_STAGE real alpha_at(const Tile& t, const MaterialRecord& m, const view_params& view, std::int32_t id, integer x, integer y)
+{
+    return fetch_alpha(t.f, m, make_fragment_inline(t.f, m, view, t.s, int_lit(id), id, x, y, int_lit((1 << t.f.msaa) - 1), false));
+}
+
 // Alpha test of one triangle in one block. A mask discards the whole fragment; a blend becomes coverage: sample i of n stays
 // where alpha > (i + 1/2) / n, so the resolved pixel shows about `alpha` of the surface, without sorting.
 struct BlockAlpha {
@@ -34,8 +39,7 @@ struct BlockAlpha {
         const integer x = (lane & int_lit(7)) + int_lit(t.x0 + block_x * kBlock);
         const integer y = shr(lane, 3) + int_lit(t.y0 + block_y * kBlock);
         const std::int32_t id = static_cast<std::int32_t>(triangle);
-        const visible_point p = make_fragment(t.f, m, view, t.s, int_lit(id), id, x, y, int_lit((1 << t.f.msaa) - 1));
-        const real alpha = fetch_lanes(t.f, m, p).alpha;
+        const real alpha = alpha_at(t, m, view, id, x, y);
         const bool blend = m.alpha_mode == 2;
         for (int s = 0; s < t.f.msaa; ++s) {
             const float threshold = blend ? (static_cast<float>(s) + 0.5f) / static_cast<float>(t.f.msaa) : m.alpha_cutoff;

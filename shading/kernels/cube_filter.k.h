@@ -14,6 +14,7 @@
 #ifndef BN_CUBE_FILTER_K_H
 #define BN_CUBE_FILTER_K_H
 #include "shading/kernels/math.k.h"
+#include "shading/kernels/texel_rows.k.h"
 #include "shading/lang/lang.h"
 
 BN_KERNELS_BEGIN
@@ -59,17 +60,6 @@ BN_FN cube_place cube_face_uv(real3 d)
     integer axis = select(is_x, int_lit(0), axis_yz);
     p.face = axis + select(negative, int_lit(1), int_lit(0));
     return p;
-}
-
-// What one bilinear fetch loads: the left texels of two horizontal pairs, and the weights w<column><row>.
-struct texel_rows {
-    integer row0, row1;
-    real w00, w10, w01, w11;
-};
-
-BN_FN texel_acc texel_rows_add(texel_acc acc, texel_buffer texels, texel_rows r)
-{
-    return texel_add(acc, texels, r.row0, r.row1, r.w00, r.w10, r.w01, r.w11);
 }
 
 // weight times the bilinear value at `place` of the level of t texels (a real) and w = t + 2 (an integer)

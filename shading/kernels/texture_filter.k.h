@@ -14,6 +14,7 @@
 #ifndef BN_TEXTURE_FILTER_K_H
 #define BN_TEXTURE_FILTER_K_H
 #include "shading/kernels/math.k.h"
+#include "shading/kernels/texel_rows.k.h"
 #include "shading/lang/lang.h"
 
 BN_KERNELS_BEGIN
@@ -94,7 +95,7 @@ BN_FN texture_level texture_level_of(texture_desc desc, integer level)
 }
 
 // uv: wrapped, [0,1].
-BN_FN texel_acc texture_bilinear_add(texel_acc acc, texel_buffer texels, texture_level level, real2 uv, real weight)
+BN_FN texel_rows texture_bilinear_rows(texture_level level, real2 uv, real weight)
 {
     real x = uv.x * level.width + lit(0.5);
     real y = uv.y * level.height + lit(0.5);
@@ -102,49 +103,88 @@ BN_FN texel_acc texture_bilinear_add(texel_acc acc, texel_buffer texels, texture
     integer iy = to_int(y);
     real fx = x - to_real(ix);
     real fy = y - to_real(iy);
-    integer row0 = level.first + iy * level.stride + ix;
+    texel_rows r;
+    r.row0 = level.first + iy * level.stride + ix;
+    r.row1 = r.row0 + level.stride;
     real lower = weight * fy;
     real upper = weight - lower;
-    real w10 = upper * fx;
-    real w11 = lower * fx;
-    real w00 = upper - w10; // named before it is passed: glslang would not mark it precise otherwise
-    real w01 = lower - w11;
-    return texel_add(acc, texels, row0, row0 + level.stride, w00, w10, w01, w11);
+    r.w10 = upper * fx;
+    r.w11 = lower * fx;
+    r.w00 = upper - r.w10;
+    r.w01 = lower - r.w11;
+    return r;
 }
 
-BN_FN real4 texture_nearest(texture_desc desc, real2 uv)
+BN_FN texel_rows texture_nearest_rows(texture_desc desc, real2 uv)
 {
     texture_level level = texture_level_of(desc, int_lit(0));
     real x = texture_wrap(uv.x, desc.wrap_s) * level.width;
     real y = texture_wrap(uv.y, desc.wrap_t) * level.height;
-    integer at = level.first + (to_int(y) + int_lit(1)) * level.stride + (to_int(x) + int_lit(1));
-    real zero = lit(0.0);
-    texel_acc acc = texel_zero();
-    return texel_value(texel_add(acc, desc.texels, at, at, lit(1.0), zero, zero, zero));
+    texel_rows r;
+    r.row0 = level.first + (to_int(y) + int_lit(1)) * level.stride + (to_int(x) + int_lit(1));
+    r.row1 = r.row0;
+    r.w00 = lit(1.0);
+    r.w10 = lit(0.0);
+    r.w01 = lit(0.0);
+    r.w11 = lit(0.0);
+    return r;
+}
+
+// The taps of a footprint about uv: two levels each. Their number is p.taps at most; those of lanes with fewer weigh nothing.
+struct texture_taps {
+    texture_desc desc;
+    texture_level fine, coarse;
+    real2 uv, axis;
+    real count, each, spacing, f;
+};
+
+struct texture_tap {
+    texel_rows fine, coarse;
+};
+
+BN_FN texture_taps texture_taps_of(texture_desc desc, real2 uv, texture_footprint p)
+{
+    texture_taps t;
+    t.desc = desc;
+    integer level = to_int(p.lod);
+    t.f = p.lod - to_real(level);
+    t.fine = texture_level_of(desc, level);
+    t.coarse = texture_level_of(desc, min(level + int_lit(1), int_lit(desc.levels - 1)));
+    t.uv = uv;
+    t.axis = p.axis;
+    t.count = p.taps;
+    t.each = lit(1.0) / p.taps;
+    t.spacing = lit(1.0) / (p.taps + lit(1.0));
+    return t;
+}
+
+// i: from 0.
+BN_FN texture_tap texture_tap_at(BN_IN(texture_taps) t, int i)
+{
+    real number = to_real(int_lit(i + 1));
+    real weight = select(number <= t.count, t.each, lit(0.0));
+    real along = number * t.spacing - lit(0.5);
+    real2 at = t.uv + t.axis * along;
+    real2 wrapped = vec2_of(texture_wrap(at.x, t.desc.wrap_s), texture_wrap(at.y, t.desc.wrap_t));
+    real of_coarse = weight * t.f;
+    texture_tap tap;
+    tap.fine = texture_bilinear_rows(t.fine, wrapped, weight - of_coarse);
+    tap.coarse = texture_bilinear_rows(t.coarse, wrapped, of_coarse);
+    return tap;
 }
 
 // max_taps: at least the largest `taps` of all lanes (a larger one gives the same bits, later).
 BN_FN real4 texture_sample_footprint(texture_desc desc, real2 uv, texture_footprint p, int max_taps)
 {
     if (desc.nearest != 0) {
-        return texture_nearest(desc, uv);
+        return texel_value(texel_rows_add(texel_zero(), desc.texels, texture_nearest_rows(desc, uv)));
     }
-    integer level = to_int(p.lod);
-    real f = p.lod - to_real(level);
-    texture_level fine = texture_level_of(desc, level);
-    texture_level coarse = texture_level_of(desc, min(level + int_lit(1), int_lit(desc.levels - 1)));
-    real each = lit(1.0) / p.taps;
-    real spacing = lit(1.0) / (p.taps + lit(1.0));
+    texture_taps taps = texture_taps_of(desc, uv, p);
     texel_acc acc = texel_zero();
     for (int i = 0; i < max_taps; ++i) {
-        real number = to_real(int_lit(i + 1));
-        real weight = select(number <= p.taps, each, lit(0.0));
-        real along = number * spacing - lit(0.5);
-        real2 at = uv + p.axis * along;
-        real2 wrapped = vec2_of(texture_wrap(at.x, desc.wrap_s), texture_wrap(at.y, desc.wrap_t));
-        real of_coarse = weight * f;
-        acc = texture_bilinear_add(acc, desc.texels, fine, wrapped, weight - of_coarse);
-        acc = texture_bilinear_add(acc, desc.texels, coarse, wrapped, of_coarse);
+        texture_tap tap = texture_tap_at(taps, i);
+        acc = texel_rows_add(acc, desc.texels, tap.fine);
+        acc = texel_rows_add(acc, desc.texels, tap.coarse);
     }
     return texel_value(acc);
 }

@@ -49,7 +49,7 @@ bool survives_alpha(int px, int py, int s)
     int m = setups[slot].info >> 2;
     if (materials[m].alpha_mode == 0)
         return true;
-    real alpha = fetch_material(0, m, point_of(load_setup(slot), px, py, (1 << frame.msaa) - 1)).alpha;
+    real alpha = fetch_alpha(0, m, point_of(load_setup(slot), px, py, (1 << frame.msaa) - 1));
     if (materials[m].alpha_mode != 2)
         return alpha >= materials[m].alpha_cutoff;
     real threshold = (to_real(s) + lit(0.5)) / to_real(frame.msaa);

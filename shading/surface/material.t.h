@@ -18,21 +18,34 @@ BN_FN real3 rgb_of(real4 t)
     return vec3_of(t.x, t.y, t.z);
 }
 
+// Colour and alpha.
+BN_FN real4 base_color_of(material_ref m, BN_IN(texture_fetches) t, BN_IN(visible_point) p)
+{
+    real4 r = vec4_of(splat(the_material(m).base_color[0]), splat(the_material(m).base_color[1]), splat(the_material(m).base_color[2]),
+                      splat(the_material(m).base_color[3]));
+    if (texture_used(m, kBaseColorTex)) {
+        real4 base = texel_of(t, kBaseColorTex);
+        r = vec4_of(r.x * base.x, r.y * base.y, r.z * base.z, r.w * base.w);
+    }
+    if (the_material(m).uses_color != 0)
+        r = vec4_of(r.x * p.color.x, r.y * p.color.y, r.z * p.color.z, r.w * p.color.w);
+    return r;
+}
+
+// As fetch_material() finds it.
+BN_FN real fetch_alpha(frame_ref f, material_ref m, BN_IN(visible_point) p)
+{
+    texture_fetches t = textures_at(f, m, p);
+    return base_color_of(m, t, p).w;
+}
+
 BN_FN material_inputs fetch_material(frame_ref f, material_ref m, BN_IN(visible_point) p)
 {
     texture_fetches t = textures_at(f, m, p);
     material_inputs r;
-    r.base = splat3(the_material(m).base_color);
-    r.alpha = splat(the_material(m).base_color[3]);
-    if (texture_used(m, kBaseColorTex)) {
-        real4 base = texel_of(t, kBaseColorTex);
-        r.base = r.base * rgb_of(base);
-        r.alpha = r.alpha * base.w;
-    }
-    if (the_material(m).uses_color != 0) {
-        r.base = r.base * rgb_of(p.color);
-        r.alpha = r.alpha * p.color.w;
-    }
+    real4 base_color = base_color_of(m, t, p);
+    r.base = rgb_of(base_color);
+    r.alpha = base_color.w;
     r.metallic = splat(the_material(m).metallic);
     r.roughness = splat(the_material(m).roughness);
     if (texture_used(m, kMetalRoughTex)) {

@@ -1,0 +1,90 @@
+// What the textures of a material hold at visible points, in lanes. Where taps lie and what they weigh is found once for all textures that
+// are laid out alike, as the maps of one material mostly are; only their texels differ then. The bits are those of each texture by itself.
+#pragma once
+#include "core/simd/lanes.h"
+#include "shading/kernels/texture_filter.k.h"
+#include "shading/lang/cube_sum.h"
+#include "shading/lang/tables.h"
+#include "shading/surface/surface.k.h"
+
+namespace burnish {
+inline namespace BN_ISA_NS {
+
+struct texture_fetches {
+    static constexpr int kMostTaps = 16;
+
+    const TextureParams* textures;
+    const TextureBinding* bindings; // of the material, by slot
+    const visible_point& p;
+    int most_taps; // 1 to kMostTaps
+
+    // Made for a texture when it is asked for, and used again for those like it.
+    mutable const TextureBinding* planned = nullptr;
+    mutable int count = 0;
+    mutable texel_plan plans[2 * kMostTaps];
+
+    texture_fetches(const ShadingFrame& f, const MaterialRecord& m, const visible_point& at)
+        : textures(f.textures), bindings(m.textures), p(at), most_taps(f.texture_taps)
+    {
+    }
+};
+
+BN_INLINE bool laid_out_alike(const TextureParams* textures, const TextureBinding& a, const TextureBinding& b)
+{
+    const TextureParams &s = textures[a.texture], &t = textures[b.texture];
+    bool alike = s.width == t.width && s.height == t.height && s.levels == t.levels && s.wrap_s == t.wrap_s && s.wrap_t == t.wrap_t &&
+                 s.nearest == t.nearest && a.uv_set == b.uv_set;
+    for (int i = 0; i < 6; ++i)
+        alike = alike && a.transform[i] == b.transform[i];
+    return alike;
+}
+
+// The lanes with the longest footprint decide how many taps there are.
+BN_STAGE void plan_texture(const texture_fetches& t, const TextureBinding& b)
+{
+    const TextureParams& texture = t.textures[b.texture];
+    const texture_desc desc = {texture.texels, texture.offset, texture.level_width, texture.level_height,
+                               texture.levels, texture.wrap_s, texture.wrap_t, texture.nearest};
+    const int set = b.uv_set != 0;
+    const real m0 = splat(b.transform[0]), m1 = splat(b.transform[1]), m2 = splat(b.transform[2]), m3 = splat(b.transform[3]);
+    const real2 uv = t.p.uv[set], dx = t.p.uv_dx[set], dy = t.p.uv_dy[set];
+    const real2 at = vec2_of(m0 * uv.x + m2 * uv.y + splat(b.transform[4]), m1 * uv.x + m3 * uv.y + splat(b.transform[5]));
+    t.planned = &b;
+    if (texture.nearest) {
+        plan(t.plans[0], texture_nearest_rows(desc, at));
+        t.count = 1;
+        return;
+    }
+    const real2 at_dx = vec2_of(m0 * dx.x + m2 * dx.y, m1 * dx.x + m3 * dx.y);
+    const real2 at_dy = vec2_of(m0 * dy.x + m2 * dy.y, m1 * dy.x + m3 * dy.y);
+    const texture_footprint footprint = texture_footprint_of(desc, at_dx, at_dy, t.most_taps);
+    float most[kLanes];
+    store(most, reduce_max(footprint.taps));
+    const texture_taps taps = texture_taps_of(desc, at, footprint);
+    const int n = static_cast<int>(most[0]);
+    for (int i = 0; i < n; ++i) {
+        const texture_tap tap = texture_tap_at(taps, i);
+        plan(t.plans[2 * i], tap.fine);
+        plan(t.plans[2 * i + 1], tap.coarse);
+    }
+    t.count = 2 * n;
+}
+
+BN_STAGE real4 load_planned(const texture_fetches& t, texel_buffer texels)
+{
+    texel_acc acc = texel_zero();
+    for (int i = 0; i < t.count; ++i)
+        acc = texel_add(acc, texels, t.plans[i]);
+    return texel_value(acc);
+}
+
+BN_INLINE real4 texel_of(const texture_fetches& t, int slot)
+{
+    const TextureBinding& b = t.bindings[slot];
+    if (!t.planned || !laid_out_alike(t.textures, *t.planned, b))
+        plan_texture(t, b);
+    return load_planned(t, t.textures[b.texture].texels);
+}
+
+} // namespace BN_ISA_NS
+} // namespace burnish
