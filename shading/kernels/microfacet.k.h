@@ -1,6 +1,6 @@
 // What all reflection models share. Directions are unit vectors that point away from the surface, in the
-// local frame (x tangent, y bitangent, z normal): wo is known, wi is asked for or sampled. For a model of
-// that name,
+// local frame (x tangent, y bitangent, z normal): wo is known, wi is asked for or sampled. A model that is
+// called <model> has
 //     <model>_params_of(...)     parameters brought into the range in which nothing divides by zero
 //     <model>_eval(p, wo, wi)    the BRDF without the cosine of wi, 1/sr
 //     <model>_sample(p, wo, xi)  a wi with its weight and density, xi in [0,1)^2; some are rejected as invalid

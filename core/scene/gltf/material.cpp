@@ -5,6 +5,7 @@
 
 #include "core/math/scalar_math.h"
 #include "core/scene/gltf/image.h"
+#include "core/scene/gltf/textures.h"
 
 namespace burnish::gltf {
 
@@ -76,16 +77,13 @@ int scene_texture(Document& doc, int index)
     return id;
 }
 
-// The texture that `object` refers to as `key`.
-TextureRef texture_ref(Document& doc, const Json& object, const char* key)
+// What a textureInfo refers to.
+TextureRef texture_ref(Document& doc, const Json& info)
 {
     TextureRef ref;
-    const Json* info = get_member(object, key);
-    if (!info)
-        return ref;
-    ref.texture = scene_texture(doc, get_index(*info, "index"));
-    std::uint64_t tex_coord = get_uint(*info, "texCoord", 0);
-    if (const Json* transform = get_extension(*info, "KHR_texture_transform")) {
+    ref.texture = scene_texture(doc, get_index(info, "index"));
+    std::uint64_t tex_coord = get_uint(info, "texCoord", 0);
+    if (const Json* transform = get_extension(info, "KHR_texture_transform")) {
         double offset[2] = {0.0, 0.0}, scale[2] = {1.0, 1.0};
         for (std::size_t i = 0; i < 2; ++i) {
             if (const Json* numbers = get_member(*transform, "offset"))
@@ -102,7 +100,7 @@ TextureRef texture_ref(Document& doc, const Json& object, const char* key)
     return ref;
 }
 
-void load_extensions(Document& doc, const Json& source, Material& material)
+void load_extensions(const Json& source, Material& material)
 {
     material.unlit = get_extension(source, "KHR_materials_unlit") != nullptr;
     if (const Json* strength = get_extension(source, "KHR_materials_emissive_strength"))
@@ -113,13 +111,10 @@ void load_extensions(Document& doc, const Json& source, Material& material)
         material.specular = number(*specular, "specularFactor", 1.0);
         for (int i = 0; i < 3; ++i)
             material.specular_color[i] = number_at(*specular, "specularColorFactor", i, 1.0);
-        material.specular_tex = texture_ref(doc, *specular, "specularTexture");
-        material.specular_color_tex = texture_ref(doc, *specular, "specularColorTexture");
     }
     if (const Json* anisotropy = get_extension(source, "KHR_materials_anisotropy")) {
         material.anisotropy_strength = number(*anisotropy, "anisotropyStrength", 0.0);
         material.anisotropy_rotation = number(*anisotropy, "anisotropyRotation", 0.0);
-        material.anisotropy_tex = texture_ref(doc, *anisotropy, "anisotropyTexture");
     }
 }
 
@@ -140,12 +135,10 @@ Material load_material(Document& doc, const Json& source)
     material.alpha_mode = mode == "MASK" ? AlphaMode::mask : mode == "BLEND" ? AlphaMode::blend : AlphaMode::opaque;
     material.alpha_cutoff = number(source, "alphaCutoff", 0.5);
     material.double_sided = source.value("doubleSided", false);
-    material.base_color_tex = texture_ref(doc, pbr, "baseColorTexture");
-    material.metallic_roughness_tex = texture_ref(doc, pbr, "metallicRoughnessTexture");
-    material.normal_tex = texture_ref(doc, source, "normalTexture");
-    material.occlusion_tex = texture_ref(doc, source, "occlusionTexture");
-    material.emissive_tex = texture_ref(doc, source, "emissiveTexture");
-    load_extensions(doc, source, material);
+    load_extensions(source, material);
+    for (const MaterialTexture& texture : kMaterialTextures)
+        if (const Json::json_pointer at(texture.path); source.contains(at))
+            material.*texture.to = texture_ref(doc, source[at]);
     return material;
 }
 

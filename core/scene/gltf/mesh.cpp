@@ -4,6 +4,7 @@
 
 #include "core/scene/gltf/accessors.h"
 #include "core/scene/gltf/compress.h"
+#include "core/scene/gltf/textures.h"
 #include "core/scene/gltf/vertices.h"
 
 namespace burnish::gltf {
@@ -148,10 +149,9 @@ void finish_corners(Document& doc, Corners& corners, const Material& material, P
 void warn_missing_coordinates(Document& doc, const Material& m, const Primitive& primitive, const std::string& mesh)
 {
     const bool present[2] = {primitive.has_uv0, primitive.has_uv1};
-    for (const TextureRef* ref : {&m.base_color_tex, &m.metallic_roughness_tex, &m.normal_tex, &m.occlusion_tex, &m.emissive_tex,
-                                  &m.specular_tex, &m.specular_color_tex, &m.anisotropy_tex})
-        if (ref->used() && !present[ref->uv_set])
-            doc.fault(mesh, fmt::format("no TEXCOORD_{} for a texture of its material", ref->uv_set));
+    for (const MaterialTexture& texture : kMaterialTextures)
+        if (const TextureRef& ref = m.*texture.to; ref.used() && !present[ref.uv_set])
+            doc.fault(mesh, fmt::format("no TEXCOORD_{} for a texture of its material", ref.uv_set));
 }
 
 void load_primitive(Document& doc, const Json& json, const std::string& place, const std::string& mesh)

@@ -6,6 +6,8 @@
 #include <fmt/format.h>
 #include <string_view>
 
+#include "core/scene/gltf/textures.h"
+
 namespace burnish::gltf {
 
 namespace {
@@ -195,17 +197,7 @@ const Rule kRules[] = {
     {"materials/*/extensions/KHR_materials_specular/specularColorFactor", Kind::numbers, 0, kAny, "", false, 3},
 };
 
-// The same rules hold wherever a material refers to a texture.
-const char* const kTextureInfos[] = {
-    "materials/*/pbrMetallicRoughness/baseColorTexture",
-    "materials/*/pbrMetallicRoughness/metallicRoughnessTexture",
-    "materials/*/normalTexture",
-    "materials/*/occlusionTexture",
-    "materials/*/emissiveTexture",
-    "materials/*/extensions/KHR_materials_anisotropy/anisotropyTexture",
-    "materials/*/extensions/KHR_materials_specular/specularTexture",
-    "materials/*/extensions/KHR_materials_specular/specularColorTexture",
-};
+// The same rules hold wherever a material refers to a texture (textures.h).
 const Rule kTextureInfoRules[] = {
     {"", Kind::object},
     {"/index", Kind::index, 0, 0, "textures", kRequired},
@@ -466,9 +458,9 @@ void check_schema(Json& json)
     Checker checker(json);
     for (const Rule& rule : kRules)
         checker.run(rule, rule.path);
-    for (const char* slot : kTextureInfos)
+    for (const MaterialTexture& texture : kMaterialTextures)
         for (const Rule& rule : kTextureInfoRules)
-            checker.run(rule, std::string(slot) + rule.path);
+            checker.run(rule, std::string("materials/*") + texture.path + rule.path);
     check_pairs(json);
 }
 
