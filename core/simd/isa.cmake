@@ -3,6 +3,8 @@
 # namespace BN_ISA_NS; everything else in the program is x86-64-v2.
 # bn_link_isas(TARGET "isa..." from...): links the objects of the targets `from` for instruction sets that only tests have into TARGET.
 # bn_oracle_objects, bn_counted_objects(TARGET source.cpp...): in double precision; counting their work.
+# bn_check_baseline(PROGRAM): the program ends with a message on processors that it is not compiled for. bn_mark_baseline(LIBRARY): the
+# dynamic loader refuses the library there.
 # Lane integers wrap: -fwrapv says it to the compiler.
 set(BN_BASELINE_FLAGS)
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
@@ -59,4 +61,21 @@ function(bn_link_isas target isas)
       target_sources(${target} PRIVATE $<TARGET_OBJECTS:${from}_${isa}>)
     endforeach()
   endforeach()
+endfunction()
+
+function(bn_check_baseline target)
+  if(BN_MACHINE STREQUAL "x86_64")
+    set(check ${PROJECT_SOURCE_DIR}/core/simd/baseline_x86_64.cpp)
+    target_sources(${target} PRIVATE ${check})
+    set_source_files_properties(${check} PROPERTIES COMPILE_OPTIONS "-march=x86-64;$<$<BOOL:${BN_SANITIZE}>:-fno-sanitize=all>")
+  endif()
+endfunction()
+function(bn_mark_baseline target)
+  include(CheckLinkerFlag)
+  if(BN_MACHINE STREQUAL "x86_64")
+    check_linker_flag(CXX LINKER:-z,x86-64-v2 BN_HAS_MARKED_LEVEL)
+    if(BN_HAS_MARKED_LEVEL)
+      target_link_options(${target} PRIVATE LINKER:-z,x86-64-v2)
+    endif()
+  endif()
 endfunction()

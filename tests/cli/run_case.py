@@ -18,6 +18,7 @@ import model_cases
 import output_cases
 import parity_cases
 import pixel_cases
+import processor_cases
 import profile_cases
 import reference_cases
 import usage_cases
