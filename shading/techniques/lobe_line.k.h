@@ -84,10 +84,10 @@ BN_FN lobe_line_sample lobe_line_at(lobe_line line, real c)
     return r;
 }
 
-// As many samples as a line of this length needs, a real in [1, limit]: in its middle they lie two widths apart.
+// As many samples as a line of this length needs, a real in [1, limit]: in its middle they lie 1.4 widths apart.
 BN_FN real lobe_line_count(lobe_line line, real limit)
 {
-    return min(lit(1.0) + line.extent, limit);
+    return min(lit(1.0) + lit(1.4) * line.extent, limit);
 }
 
 struct lobe_line_cell {

@@ -23,7 +23,8 @@ BN_FN real quad_offset(integer odd_x, integer odd_y)
     return select(odd_y == int_lit(0), lit(0.125) + half_x, lit(0.875) - half_x);
 }
 
-// How much of b's light is a's, [0,1]: all of it where they see the same lobe, nothing from one width apart on.
+// How much of b's light is a's, [0,1]: all of it where they see the same lobe; nothing from one width across the line on, or from half of
+// its length along it, where light is spread that far.
 BN_FN real line_likeness(line_record a, line_record b)
 {
     real3 turn = (a.mirror - b.mirror) * lit(0.5); // as slopes: a mirror turns twice as far as its normal
@@ -31,9 +32,14 @@ BN_FN real line_likeness(line_record a, line_record b)
     real3 opposite = a.along + b.along; // the other end is as good
     real bend = min(k_dot3(same, same), k_dot3(opposite, opposite));
     real wider = a.width - b.width;
-    real apart = k_dot3(turn, turn) + bend + wider * wider;
     real narrow = min(a.width, b.width);
-    return max(lit(1.0) - apart / max(narrow * narrow, lit(1e-20)), lit(0.0));
+    real narrow2 = max(narrow * narrow, lit(1e-20));
+    real long2 = k_dot3(a.along, a.along);
+    real along = k_dot3(turn, a.along);
+    real along2 = along * along / max(long2, lit(1e-20));
+    real across2 = max(k_dot3(turn, turn) - along2, lit(0.0)) + bend + wider * wider;
+    real apart = across2 / narrow2 + along2 / (narrow2 + long2 * lit(0.25));
+    return max(lit(1.0) - apart, lit(0.0));
 }
 
 BN_FN real3 line_colour(line_record r, real3 light)
