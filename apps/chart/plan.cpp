@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::int64_t kMaxSamples = 65536; // as of `burnish render`
 constexpr std::size_t kMaxValues = 64;      // of one sweep: more is a slip of the keyboard
-const std::vector<int> kUsualSamples = {1, 2, 4, 8, 16, 32, 64};
+constexpr int kUsualSamples[] = {1, 2, 4, 8, 16, 32, 64};
 
 Error sweep_error(const std::string& reason)
 {
@@ -80,9 +80,11 @@ std::vector<Setting> settings_of(const std::vector<std::string>& names, const st
             settings.push_back({name, 1, false});
             continue;
         }
-        std::vector<int> asked = samples.empty() ? kUsualSamples : samples, taken;
-        if (samples.empty())
+        std::vector<int> asked = samples, taken;
+        if (samples.empty()) {
+            asked.assign(std::begin(kUsualSamples), std::end(kUsualSamples));
             asked.push_back(technique.default_samples);
+        }
         for (const int n : asked)
             add_once(taken, samples_taken(technique, n));
         std::sort(taken.begin(), taken.end());

@@ -10,7 +10,9 @@
 
 #include "apps/cli/command_line.h"
 #include "apps/cli/report.h"
+#include "core/base/cgroup.h"
 #include "core/base/version.h"
+#include "core/jobs/cores.h"
 
 namespace burnish {
 namespace {
@@ -81,6 +83,7 @@ int main(int argc, char** argv)
     // A file-size limit shall be a failed write with a message, not the death of the process.
     std::signal(SIGXFSZ, SIG_IGN);
     try {
+        burnish::bound_memory_by_cgroup(burnish::usable_cores());
         return burnish::flush_stdout(burnish::run(std::vector<std::string>(argv + std::min(argc, 1), argv + argc)));
     } catch (const std::bad_alloc&) {
         return burnish::fail(burnish::Error{burnish::ExitCode::bad_input, "", "", "out of memory"});

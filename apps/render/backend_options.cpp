@@ -21,6 +21,8 @@ Status check_reference_options(const RenderArguments& in, const OptionTable& giv
     if (whole != r.samples && in.samples)
         out.warnings.push_back(fmt::format("--samples {}: the reference takes {}, in passes of {}", r.samples, whole, kPassSamples));
     r.samples = whole;
+    if (given.given("--checkpoint-seconds") && r.checkpoint.empty())
+        return usage_error("--checkpoint-seconds", "needs --checkpoint");
     if (r.checkpoint == "-")
         return usage_error("--checkpoint", "must be a file: it is read, too");
     if (!out.variance_file.empty() && !stores_floats(out.variance_file))

@@ -101,6 +101,7 @@ std::vector<Option> reference_rows(RenderArguments& to)
          number(r.target_error, 1e-6, 1.0), ""},
         {"--checkpoint", "FILE", "Go on from this file if it is there; keep it up to date, also when stopped by Ctrl-C",
          file(r.checkpoint)},
+        {"--checkpoint-seconds", "S", "Between two writes of it", number(r.checkpoint_seconds, 0.0, 86400.0)},
         {"--variance", "FILE", "Picture of the variance of the mean, by channel", file(to.plain.variance_file)},
         {"--reference-strategy", "NAME", "How directions are chosen: {}, for tests", choice(r.strategy, {"mis", "brdf", "light"})},
     };

@@ -7,6 +7,8 @@
 #include <string>
 #include <thread>
 
+#include "core/base/cgroup.h"
+
 namespace burnish {
 namespace {
 
@@ -37,17 +39,9 @@ int quota_cores(const std::string& folder, int unlimited)
 // The tightest quota from the process's own cgroup v2 folder up to the root.
 int cgroup_cores(int unlimited)
 {
-    const std::string root = "/sys/fs/cgroup";
-    std::string path;
-    std::ifstream file("/proc/self/cgroup");
-    for (std::string line; std::getline(file, line);)
-        if (line.rfind("0::", 0) == 0)
-            path = line.substr(3);
-    int cores = quota_cores(root, unlimited);
-    while (path.size() > 1) {
-        cores = std::min(cores, quota_cores(root + path, unlimited));
-        path.erase(path.find_last_of('/'));
-    }
+    int cores = unlimited;
+    for (const std::string& folder : cgroup_folders("cpu"))
+        cores = std::min(cores, quota_cores(folder, unlimited));
     return cores;
 }
 

@@ -40,27 +40,34 @@ Status write_checkpoint(const std::string& path, std::uint64_t key, const Accumu
     return write_file_atomic(path, bytes.data(), bytes.size(), links);
 }
 
+Status parse_checkpoint(const std::uint8_t* data, std::size_t size, const std::string& path, std::uint64_t key, Accumulator& into)
+{
+    const auto refuse = [&](const char* reason) { return Error{ExitCode::bad_input, path, "", reason}; };
+    Header h;
+    if (size < sizeof h || std::memcmp(data, kMagic, sizeof kMagic) != 0)
+        return refuse("is not a checkpoint of a reference picture");
+    std::memcpy(&h, data, sizeof h);
+    if (h.width != into.width || h.height != into.height || h.key != key)
+        return refuse("is a checkpoint of another picture: scene, environment, view or options differ");
+    const std::uint8_t* body = data + sizeof h;
+    if (size != sizeof h + body_size(into) || hash_bytes(body, body_size(into)) != h.content_hash)
+        return refuse("is a damaged checkpoint");
+    const std::size_t passes = into.passes.size() * sizeof(std::uint32_t);
+    std::memcpy(into.passes.data(), body, passes);
+    std::memcpy(into.pixels.data(), body + passes, into.pixels.size() * sizeof(PixelState));
+    return {};
+}
+
 Result<bool> read_checkpoint(const std::string& path, std::uint64_t key, Accumulator& into, Links links)
 {
     std::error_code ignored;
     if (!std::filesystem::exists(std::filesystem::symlink_status(path, ignored)))
         return false;
-    const auto refuse = [&](const char* reason) { return Error{ExitCode::bad_input, path, "", reason}; };
     const Result<std::vector<std::uint8_t>> bytes = read_file(path, std::uint64_t{1} << 40, links);
     if (!bytes)
         return bytes.error();
-    Header h;
-    if (bytes->size() < sizeof h || std::memcmp(bytes->data(), kMagic, sizeof kMagic) != 0)
-        return refuse("is not a checkpoint of a reference picture");
-    std::memcpy(&h, bytes->data(), sizeof h);
-    if (h.width != into.width || h.height != into.height || h.key != key)
-        return refuse("is a checkpoint of another picture: scene, environment, view or options differ");
-    const std::uint8_t* body = bytes->data() + sizeof h;
-    if (bytes->size() != sizeof h + body_size(into) || hash_bytes(body, body_size(into)) != h.content_hash)
-        return refuse("is a damaged checkpoint");
-    const std::size_t passes = into.passes.size() * sizeof(std::uint32_t);
-    std::memcpy(into.passes.data(), body, passes);
-    std::memcpy(into.pixels.data(), body + passes, into.pixels.size() * sizeof(PixelState));
+    if (const Status read = parse_checkpoint(bytes->data(), bytes->size(), path, key, into); !read)
+        return read.error();
     return true;
 }
 

@@ -7,12 +7,14 @@ import sys
 import chart_cases
 import chart_page_cases
 import compare_cases
+import confine_cases
 import fault_cases
 import file_cases
 import harness
 import hostile_cases
 import input_cases
 import install_cases
+import kill_cases
 import limit_cases
 import model_cases
 import output_cases
@@ -21,6 +23,7 @@ import pixel_cases
 import processor_cases
 import profile_cases
 import reference_cases
+import subcommand_cases
 import usage_cases
 
 parser = argparse.ArgumentParser()

@@ -4,7 +4,15 @@
 #include <cstdint>
 
 #include "core/base/check.h"
+#include "core/image/io/image_library.h"
 #include "core/scene/gltf/gltf.h"
+
+// Loads the image library's hundreds of files before the clock of a run begins.
+extern "C" int LLVMFuzzerInitialize(int*, char***)
+{
+    static_cast<void>(static_cast<bool>(burnish::image_library("fuzz")));
+    return 0;
+}
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {

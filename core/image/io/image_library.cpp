@@ -1,6 +1,7 @@
 #include "core/image/io/image_library.h"
 
 #include <dlfcn.h>
+#include <sys/mman.h>
 #ifdef __SANITIZE_ADDRESS__
 #include <sanitizer/lsan_interface.h>
 #endif
@@ -22,6 +23,15 @@ namespace fs = std::filesystem;
 
 constexpr const char* kModule = "burnish_openimageio.so";
 constexpr std::uint64_t kMostModuleBytes = 256u << 20;
+
+// The libraries behind the module map some 500 MiB and start threads; one that gets no memory while it is loaded ends the process.
+constexpr std::size_t kRoomBytes = 640u << 20;
+
+bool has_room()
+{
+    void* const room = ::mmap(nullptr, kRoomBytes, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+    return room != MAP_FAILED && ::munmap(room, kRoomBytes) == 0;
+}
 
 // The folder of the program or shared library that this code lies in.
 fs::path own_folder()
@@ -68,6 +78,9 @@ Result<const ImageLibrary*> open_library()
             return Error{ExitCode::unavailable, "", "",
                          fmt::format("the image library {} {}", path.string(),
                                      bytes ? "is damaged or belongs to another build" : "cannot be read: " + bytes.error().reason)};
+        if (!has_room())
+            return Error{ExitCode::unavailable, "", "",
+                         fmt::format("the image library needs {} MiB of address space, and there is no memory for it", kRoomBytes >> 20)};
         // Never closed: some of the libraries behind it leave threads and exit handlers.
         void* const module = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
         void* const symbol = module ? dlsym(module, kImageLibrarySymbol) : nullptr;

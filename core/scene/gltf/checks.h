@@ -1,13 +1,32 @@
 // What glTF 2.0 asks of a file beyond types and ranges. A breach is repaired with a warning that names its place, or, with --strict,
 // refused; nothing passes in silence. The JSON has passed check_schema().
 #pragma once
+#include <string_view>
+
 #include "core/scene/gltf/document.h"
 
 namespace burnish::gltf {
 
-void check_structure(Document& doc);      // objects by themselves and together: nodes, meshes, materials, images, extensions
+void check_structure(Document& doc);      // objects by themselves and together: nodes, meshes, materials, images
+void check_extensions(Document& doc);     // named where they are used, and in their place
 void check_accessor_rules(Document& doc); // alignment, strides, formats, what an accessor and a buffer view are used for
 void check_unread(Document& doc);         // animations, skins, morph targets: nothing of them is drawn
 void check_values(Document& doc);         // what the buffers hold, once they are loaded: bounds, unit vectors
+void check_unread_values(Document& doc);  // the same of animations, skins, joints and weights; NaN anywhere
+
+// Calls visit(value, place) for every value that a path matches; '*' is any element.
+template <class F> void for_each(const Json& node, std::string_view path, const std::string& place, const F& visit)
+{
+    if (path.empty())
+        return visit(node, place);
+    const std::size_t slash = std::min(path.find('/'), path.size());
+    const std::string step(path.substr(0, slash));
+    const std::string_view rest = path.substr(std::min(slash + 1, path.size()));
+    if (step == "*" && node.is_array())
+        for (std::size_t i = 0; i < node.size(); ++i)
+            for_each(node[i], rest, place + "/" + std::to_string(i), visit);
+    else if (const auto it = node.is_object() ? node.find(step) : node.end(); it != node.end())
+        for_each(*it, rest, place + "/" + step, visit);
+}
 
 } // namespace burnish::gltf

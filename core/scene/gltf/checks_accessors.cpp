@@ -1,5 +1,6 @@
 #include <array>
 #include <fmt/format.h>
+#include <span>
 #include <string_view>
 
 #include "core/scene/gltf/accessors.h"
@@ -24,6 +25,15 @@ constexpr Semantic kSemantics[] = {
     {"COLOR", true, "VEC3:5126 VEC3:5121n VEC3:5123n VEC4:5126 VEC4:5121n VEC4:5123n", ""},
     {"JOINTS", true, "VEC4:5121 VEC4:5123", ""},
     {"WEIGHTS", true, "VEC4:5126 VEC4:5121n VEC4:5123n", ""},
+};
+
+// Of morph targets: differences, so tangents have no sign and colours may be negative.
+constexpr Semantic kTargetSemantics[] = {
+    {"POSITION", false, "VEC3:5126", "VEC3:5120 VEC3:5120n VEC3:5122 VEC3:5122n"},
+    {"NORMAL", false, "VEC3:5126", "VEC3:5120n VEC3:5122n"},
+    {"TANGENT", false, "VEC3:5126", "VEC3:5120n VEC3:5122n"},
+    {"TEXCOORD", true, "VEC2:5126 VEC2:5120n VEC2:5121n VEC2:5122n VEC2:5123n", "VEC2:5120 VEC2:5121 VEC2:5122 VEC2:5123"},
+    {"COLOR", true, "VEC3:5126 VEC3:5120n VEC3:5121n VEC3:5122n VEC3:5123n VEC4:5126 VEC4:5120n VEC4:5121n VEC4:5122n VEC4:5123n", ""},
 };
 
 bool has_word(std::string_view list, std::string_view word)
@@ -83,15 +93,33 @@ class Rules {
         for (std::size_t i = 0; i < table_size(doc_.json, "images"); ++i)
             if (const int view = get_index(doc_.json["images"][i], "bufferView"); view >= 0)
                 use_view(view, "an image", fmt::format("/images/{}/bufferView", i));
+        use_unread();
     }
 
   private:
+    static constexpr const char* kOtherData = "data of other kinds";
+
     static bool is_named(const Json& names, const char* name)
     {
         for (const Json& n : names)
             if (n == name)
                 return true;
         return false;
+    }
+
+    // Animations and skins: their views are neither of vertices nor of indices.
+    void use_unread()
+    {
+        for (std::size_t a = 0; a < table_size(doc_.json, "animations"); ++a) {
+            const Json& samplers = doc_.json["animations"][a]["samplers"];
+            for (std::size_t i = 0; i < samplers.size(); ++i)
+                for (const char* part : {"input", "output"})
+                    use_accessor(get_index(samplers[i], part), part[0] == 'i' ? "times of an animation" : "values of an animation",
+                                 fmt::format("/animations/{}/samplers/{}/{}", a, i, part), kOtherData);
+        }
+        for (std::size_t i = 0; i < table_size(doc_.json, "skins"); ++i)
+            if (const int matrices = get_index(doc_.json["skins"][i], "inverseBindMatrices"); matrices >= 0)
+                use_accessor(matrices, "inverse bind matrices", fmt::format("/skins/{}/inverseBindMatrices", i), kOtherData);
     }
 
     void check_views()
@@ -147,25 +175,32 @@ class Rules {
             doc_.fault(here + "/bufferView", "has a target, which sparse data has not");
         if (view.contains("byteStride"))
             doc_.fault(here + "/bufferView", "has a byteStride, which sparse data has not");
+        mark_view(get_index(sparse[part], "bufferView"), kOtherData, here + "/bufferView");
     }
 
-    void use_accessor(int accessor, const char* use, const std::string& place)
+    // `view_use`: what it makes of its view, where that is something else.
+    void use_accessor(int accessor, const char* use, const std::string& place, const char* view_use = nullptr)
     {
         std::string& known = accessor_use_[static_cast<std::size_t>(accessor)];
         if (!known.empty() && known != use)
             doc_.fault(place, fmt::format("accessor {} is used for {} and for {}", accessor, known, use));
         known = use;
         if (const int view = get_index(doc_.json["accessors"][static_cast<std::size_t>(accessor)], "bufferView"); view >= 0)
-            use_view(view, use, place);
+            use_view(view, view_use ? view_use : use, place);
+    }
+
+    void mark_view(int view, const char* use, const std::string& place)
+    {
+        std::string& known = view_use_[static_cast<std::size_t>(view)];
+        if (!known.empty() && known != use)
+            doc_.fault(place, fmt::format("buffer view {} is used for {} and for {}", view, known, use));
+        known = use;
     }
 
     void use_view(int view, const char* use, const std::string& place)
     {
         const Json& json = doc_.json["bufferViews"][static_cast<std::size_t>(view)];
-        std::string& known = view_use_[static_cast<std::size_t>(view)];
-        if (!known.empty() && known != use)
-            doc_.fault(place, fmt::format("buffer view {} is used for {} and for {}", view, known, use));
-        known = use;
+        mark_view(view, use, place);
         if (const std::uint64_t target = get_uint(json, "target", 0); target != 0) {
             const char* said = target == 34962 ? "vertices" : "indices";
             if (std::string_view(use) != said)
@@ -180,7 +215,8 @@ class Rules {
         const bool compressed = get_extension(primitive, "KHR_draco_mesh_compression") != nullptr;
         std::map<std::string, std::set<int>> sets;
         for (const auto& [name, index] : primitive["attributes"].items()) {
-            check_attribute(name, index.get<int>(), place + "/attributes/" + printable(name), compressed);
+            check_attribute(kSemantics, name, index.get<int>(), place + "/attributes/" + printable(name), compressed);
+            check_count(primitive, index.get<std::size_t>(), place + "/attributes/" + printable(name));
             if (const Attribute a = split_name(name); a.number >= 0)
                 sets[a.base].insert(a.number);
         }
@@ -189,6 +225,10 @@ class Rules {
                 doc_.fault(place + "/attributes", printable(base) + " does not count from 0 without gaps");
         if (sets["JOINTS"].size() != sets["WEIGHTS"].size())
             doc_.fault(place + "/attributes", "has not as many JOINTS as WEIGHTS");
+        for (std::size_t t = 0; primitive.contains("targets") && t < primitive["targets"].size(); ++t)
+            for (const auto& [name, index] : primitive["targets"][t].items())
+                check_attribute(kTargetSemantics, name, index.get<int>(), fmt::format("{}/targets/{}/{}", place, t, printable(name)),
+                                false);
         if (const int indices = get_index(primitive, "indices"); indices >= 0 && !compressed) {
             use_accessor(indices, "indices", place + "/indices");
             if (doc_.json["accessors"][static_cast<std::size_t>(indices)].value("normalized", false))
@@ -196,7 +236,16 @@ class Rules {
         }
     }
 
-    void check_attribute(const std::string& name, int index, const std::string& place, bool compressed)
+    // Of those that are not drawn; of the others a wrong count is no scene.
+    void check_count(const Json& primitive, std::size_t index, const std::string& place)
+    {
+        const auto count = [&](std::size_t i) { return get_uint(doc_.json["accessors"][i], "count", 0); };
+        const int positions = get_index(primitive["attributes"], "POSITION");
+        if (positions >= 0 && count(index) != count(static_cast<std::size_t>(positions)))
+            doc_.fault(place, fmt::format("has {} elements, and POSITION {}", count(index), count(static_cast<std::size_t>(positions))));
+    }
+
+    void check_attribute(std::span<const Semantic> semantics, const std::string& name, int index, const std::string& place, bool compressed)
     {
         const Json& accessor = doc_.json["accessors"][static_cast<std::size_t>(index)];
         if (!compressed)
@@ -204,7 +253,7 @@ class Rules {
         if (name.empty() || name[0] != '_') { // which applications may name as they like
             const Attribute a = split_name(name);
             const Semantic* known = nullptr;
-            for (const Semantic& s : kSemantics)
+            for (const Semantic& s : semantics)
                 if (s.name == a.base && s.numbered == (a.number >= 0))
                     known = &s;
             if (!known)

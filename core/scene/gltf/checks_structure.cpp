@@ -43,21 +43,6 @@ constexpr const char* kNeverEmpty[] = {
 // Arrays of indices and names where nothing may stand twice.
 constexpr const char* kUnique[] = {"extensionsUsed", "extensionsRequired", "scenes/*/nodes", "nodes/*/children", "skins/*/joints"};
 
-// Calls visit(value, place) for every value that a path matches; '*' is any element.
-template <class F> void for_each(const Json& node, std::string_view path, const std::string& place, const F& visit)
-{
-    if (path.empty())
-        return visit(node, place);
-    const std::size_t slash = std::min(path.find('/'), path.size());
-    const std::string step(path.substr(0, slash));
-    const std::string_view rest = path.substr(std::min(slash + 1, path.size()));
-    if (step == "*" && node.is_array())
-        for (std::size_t i = 0; i < node.size(); ++i)
-            for_each(node[i], rest, place + "/" + std::to_string(i), visit);
-    else if (const auto it = node.is_object() ? node.find(step) : node.end(); it != node.end())
-        for_each(*it, rest, place + "/" + step, visit);
-}
-
 void check_empty_and_double(Document& doc)
 {
     for (const char* path : kNeverEmpty)
@@ -82,41 +67,6 @@ void check_asset(Document& doc)
         doc.fault("/asset/version", "is not of the form 2.0");
 }
 
-// Names of extension objects anywhere in the file.
-void collect_extensions(const Json& node, const std::string& place, std::map<std::string, std::string>& found)
-{
-    if (node.is_array()) {
-        for (std::size_t i = 0; i < node.size(); ++i)
-            if (node[i].is_structured())
-                collect_extensions(node[i], place + "/" + std::to_string(i), found);
-        return;
-    }
-    for (const auto& [key, value] : node.items()) {
-        if (key == "extras" || !value.is_structured())
-            continue;
-        if (key == "extensions" && value.is_object())
-            for (const auto& [name, object] : value.items())
-                found.try_emplace(name, place + "/extensions/" + name);
-        collect_extensions(value, place + "/" + key, found);
-    }
-}
-
-void check_extensions(Document& doc)
-{
-    const Json none = Json::array();
-    const Json& used = doc.json.contains("extensionsUsed") ? doc.json["extensionsUsed"] : none;
-    const Json& required = doc.json.contains("extensionsRequired") ? doc.json["extensionsRequired"] : none;
-    const auto is_used = [&](const std::string& name) { return std::find(used.begin(), used.end(), name) != used.end(); };
-    for (std::size_t i = 0; i < required.size(); ++i)
-        if (!is_used(required[i]))
-            doc.fault(fmt::format("/extensionsRequired/{}", i), printable(required[i]) + " is not in extensionsUsed");
-    std::map<std::string, std::string> found;
-    collect_extensions(doc.json, "", found);
-    for (const auto& [name, place] : found)
-        if (!is_used(name))
-            doc.fault(place, "is not declared in extensionsUsed");
-}
-
 double length_of(const Json& numbers)
 {
     double sum = 0.0;
@@ -129,6 +79,9 @@ double length_of(const Json& numbers)
 bool is_decomposable(const Json& matrix)
 {
     const auto at = [&](int column, int row) { return matrix[static_cast<std::size_t>(column * 4 + row)].get<double>(); };
+    for (int a = 0; a < 3; ++a)
+        if (at(a, 0) == 0.0 && at(a, 1) == 0.0 && at(a, 2) == 0.0)
+            return false; // all that it moves is flat
     for (int a = 0; a < 3; ++a)
         for (int b = 0; b < a; ++b) {
             double dot = 0.0, aa = 0.0, bb = 0.0;
@@ -161,6 +114,87 @@ void check_nodes(Document& doc)
         for (std::size_t k = 0; k < nodes.size(); ++k)
             if (is_child[nodes[k].get<std::size_t>()])
                 doc.fault(fmt::format("/scenes/{}/nodes/{}", s, k), "is no root node");
+    }
+}
+
+// A skin's skeleton, where it names one, stands above all of its joints; joints have a common root and are in the node's scene.
+void check_skins(Document& doc)
+{
+    std::vector<int> parents(table_size(doc.json, "nodes"), -1);
+    for (std::size_t i = 0; i < parents.size(); ++i)
+        for (const Json& child : doc.json["nodes"][i].value("children", Json::array()))
+            parents[child.get<std::size_t>()] = static_cast<int>(i);
+    const auto line_of = [&](int node) { // up to its root; loops are refused later
+        std::vector<int> line;
+        for (; node >= 0 && line.size() <= parents.size(); node = parents[static_cast<std::size_t>(node)])
+            line.push_back(node);
+        return line;
+    };
+    const auto root_of = [&](int node) { return line_of(node).back(); };
+    for (std::size_t s = 0; s < table_size(doc.json, "skins"); ++s) {
+        const Json& skin = doc.json["skins"][s];
+        const int skeleton = get_index(skin, "skeleton");
+        for (const Json& joint : skin["joints"]) {
+            const std::vector<int> line = line_of(joint.get<int>());
+            if (skeleton >= 0 && std::find(line.begin(), line.end(), skeleton) == line.end()) {
+                doc.fault(fmt::format("/skins/{}/skeleton", s), "is not above all joints of the skin");
+                break;
+            }
+            if (line.back() != root_of(skin["joints"][0].get<int>())) {
+                doc.fault(fmt::format("/skins/{}/joints", s), "have no common root");
+                break;
+            }
+        }
+    }
+    for (std::size_t s = 0; s < table_size(doc.json, "scenes"); ++s) {
+        std::set<int> roots;
+        for (const Json& node : doc.json["scenes"][s].value("nodes", Json::array()))
+            roots.insert(node.get<int>());
+        for (std::size_t i = 0; i < parents.size(); ++i) {
+            const int skin = get_index(doc.json["nodes"][i], "skin");
+            if (skin < 0 || !roots.count(root_of(static_cast<int>(i))))
+                continue;
+            for (const Json& joint : doc.json["skins"][static_cast<std::size_t>(skin)]["joints"])
+                if (!roots.count(root_of(joint.get<int>()))) {
+                    doc.fault(fmt::format("/nodes/{}/skin", i), fmt::format("has joints that are not in scene {}", s));
+                    break;
+                }
+        }
+    }
+}
+
+void check_lights(Document& doc)
+{
+    for_each(doc.json, "extensions/KHR_lights_punctual/lights/*/color", "", [&](const Json& colour, const std::string& place) {
+        for (std::size_t c = 0; c < colour.size(); ++c)
+            if (colour[c].get<double>() > 1.0)
+                doc.fault(fmt::format("{}/{}", place, c), "is above 1; used as it is");
+    });
+}
+
+// A texture names its coordinates; those that KHR_texture_transform names instead are looked at where they are used.
+void check_coordinates(Document& doc)
+{
+    for (std::size_t m = 0; m < table_size(doc.json, "meshes"); ++m) {
+        const Json& primitives = doc.json["meshes"][m]["primitives"];
+        for (std::size_t p = 0; p < primitives.size(); ++p) {
+            const int material = get_index(primitives[p], "material");
+            if (material < 0)
+                continue;
+            std::uint64_t most = 0;
+            const auto look = [&](const Json& texture, const std::string&) {
+                most = std::max(most, get_uint(texture, "texCoord", 0));
+                if (const Json* transform = get_extension(texture, "KHR_texture_transform"); transform && transform->is_object())
+                    most = std::max(most, get_uint(*transform, "texCoord", 0));
+            };
+            const Json& json = doc.json["materials"][static_cast<std::size_t>(material)];
+            for (const char* path : {"pbrMetallicRoughness/baseColorTexture", "pbrMetallicRoughness/metallicRoughnessTexture",
+                                     "normalTexture", "occlusionTexture", "emissiveTexture"})
+                for_each(json, path, "", look);
+            if (most > 0 && !primitives[p]["attributes"].contains(fmt::format("TEXCOORD_{}", most)))
+                doc.fault(fmt::format("/meshes/{}/primitives/{}/material", m, p),
+                          fmt::format("needs TEXCOORD_{}, which the primitive has not", most));
+        }
     }
 }
 
@@ -225,6 +259,9 @@ void check_structure(Document& doc)
     check_empty_and_double(doc);
     check_extensions(doc);
     check_nodes(doc);
+    check_skins(doc);
+    check_lights(doc);
+    check_coordinates(doc);
     check_cameras(doc);
     check_images(doc);
     check_buffers(doc);

@@ -46,10 +46,15 @@ void check_animation(Document& doc, const Json& animation, const std::string& pl
             doc.fault(here + "/target/path", "needs a node with a mesh of morph targets");
         if (sampler >= samplers.size())
             continue;
-        const std::string type = get_string(accessor_of(doc, samplers[sampler], "output"), "type");
+        const Json& output = accessor_of(doc, samplers[sampler], "output");
+        const std::string type = get_string(output, "type");
         const char* wanted = path == "rotation" ? "VEC4" : path == "weights" ? "SCALAR" : "VEC3";
         if (type != wanted)
             doc.fault(here + "/sampler", fmt::format("gives {} where {} needs {}", type, printable(path), wanted));
+        const int component = get_index(output, "componentType");
+        const bool integers = wanted[0] != 'V' || wanted[3] == '4'; // rotations and weights may be normalized integers
+        if (component != 5126 && !(integers && component != 5125 && output.value("normalized", false)))
+            doc.fault(here + "/sampler", fmt::format("gives components of the type {}, which {} cannot have", component, printable(path)));
     }
 }
 

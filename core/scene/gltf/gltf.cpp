@@ -34,6 +34,7 @@ void read_document(Document& doc)
     gltf::load_buffers(doc);
     gltf::check_accessors(doc);
     gltf::check_values(doc);
+    gltf::check_unread_values(doc);
     gltf::load_materials(doc);
     gltf::load_meshes(doc);
 }

@@ -47,7 +47,7 @@ Image decode(Document& doc, int image, Bytes bytes)
         fail(place, is_texture_container(bytes) ? "KTX2 and DDS images are not supported" : "is no PNG, JPEG or WebP image");
     const std::string type = get_string(doc.json["images"][static_cast<std::size_t>(image)], "mimeType");
     const char* actual = starts_with(bytes, 0, "RIFF") ? "image/webp" : starts_with(bytes, 0, "\xff") ? "image/jpeg" : "image/png";
-    if (!type.empty() && type != actual)
+    if (doc.json["images"][static_cast<std::size_t>(image)].contains("mimeType") && type != actual)
         doc.fault(place + "/mimeType", "says " + printable(type) + ", and it is " + actual);
     Limits limits = doc.limits;
     limits.texture_bytes -= std::min(limits.texture_bytes, doc.texture_bytes);

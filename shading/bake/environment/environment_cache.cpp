@@ -1,6 +1,7 @@
 #include "shading/bake/environment/environment_cache.h"
 
 #include <bit>
+#include <cmath>
 #include <cstring>
 #include <filesystem>
 #include <fmt/format.h>
@@ -59,31 +60,45 @@ std::string environment_cache_path(const EnvironmentOptions& options, std::uint6
     return folder.empty() ? "" : fmt::format("{}/environment-{:016x}.bnenv", folder, content_hash);
 }
 
-std::optional<Environment> read_environment_cache(const std::string& path, std::uint64_t content_hash, int size, int levels)
+std::optional<Environment> parse_environment_cache(const std::uint8_t* data, std::size_t bytes, std::uint64_t content_hash, int size,
+                                                   int levels)
 {
     Environment e;
     e.specular = make_cube_map(size, levels, 1.0f);
     e.irradiance = make_cube_map(kIrradianceSize, 1, 1.0f);
     const std::size_t specular = bytes_of(e.specular), irradiance = bytes_of(e.irradiance);
-    const std::size_t expected = sizeof(Header) + specular + irradiance;
-    const Result<std::vector<std::uint8_t>> file = read_file(path, expected, Links::refuse);
-    if (!file || file->size() != expected)
+    if (bytes != sizeof(Header) + specular + irradiance)
         return std::nullopt;
     Header h;
-    std::memcpy(&h, file->data(), sizeof(h));
-    const std::uint8_t* payload = file->data() + sizeof(h);
+    std::memcpy(&h, data, sizeof(h));
+    const std::uint8_t* payload = data + sizeof(h);
     if (std::memcmp(h.magic, kMagic, sizeof(kMagic)) != 0 || h.version != kBakeVersion || h.size != size || h.levels != levels ||
         h.irradiance_size != kIrradianceSize || h.content_hash != content_hash || h.header_hash != hash_of(h) ||
         h.payload_hash != hash_bytes(payload, specular + irradiance))
         return std::nullopt;
+    for (const double figure : {static_cast<double>(h.specular_scale), static_cast<double>(h.irradiance_scale),
+                                static_cast<double>(h.peak_source), h.energy_source, h.energy_cube})
+        if (!std::isfinite(figure) || figure < 0.0)
+            return std::nullopt;
     std::memcpy(e.specular.texels.data(), payload, specular);
     std::memcpy(e.irradiance.texels.data(), payload + specular, irradiance);
     e.specular.scale = h.specular_scale, e.irradiance.scale = h.irradiance_scale;
     e.energy_source = h.energy_source, e.energy_cube = h.energy_cube, e.peak_source = h.peak_source;
     e.content_hash = content_hash;
     e.from_cache = true;
-    note_cache_use(path);
     return e;
+}
+
+std::optional<Environment> read_environment_cache(const std::string& path, std::uint64_t content_hash, int size, int levels)
+{
+    constexpr std::uint64_t kMostBytes = 1u << 30; // a cube of 2048 texels has 200 MB
+    const Result<std::vector<std::uint8_t>> file = read_file(path, kMostBytes, Links::refuse);
+    std::optional<Environment> found;
+    if (file)
+        found = parse_environment_cache(file->data(), file->size(), content_hash, size, levels);
+    if (found)
+        note_cache_use(path);
+    return found;
 }
 
 Status write_environment_cache(const std::string& path, const Environment& e)

@@ -1,6 +1,7 @@
 // Baked environments on disk, found by content hash. Anything unexpected in a cache file (truncation, another
 // version, a wrong checksum) means that it is not there.
 #pragma once
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -17,6 +18,10 @@ std::uint64_t environment_hash(const Image& equirect, const EnvironmentOptions& 
 // Path of the cache file; empty where there is no folder to cache in.
 std::string environment_cache_path(const EnvironmentOptions& options, std::uint64_t content_hash);
 
+// What a cache file of that content, of a cube of `size` texels and `levels` levels, holds. Nothing unless every byte is as it was written
+// and its figures are finite and not negative.
+std::optional<Environment> parse_environment_cache(const std::uint8_t* data, std::size_t bytes, std::uint64_t content_hash, int size,
+                                                   int levels);
 std::optional<Environment> read_environment_cache(const std::string& path, std::uint64_t content_hash, int size, int levels);
 // Creates the folder where needed. The file appears when it is complete; others go where the cache has become too large
 // (core/base/cache.h).

@@ -1,0 +1,75 @@
+#include "core/base/cgroup.h"
+
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <fstream>
+#include <sstream>
+
+namespace burnish {
+namespace {
+
+// A group's folder and those around it, up to the root of what is mounted at `mount`.
+void add_folders(const std::string& mount, std::string path, std::vector<std::string>& folders)
+{
+    while (path.size() > 1) {
+        folders.push_back(mount + path);
+        path.erase(path.find_last_of('/'));
+    }
+    folders.push_back(mount);
+}
+
+} // namespace
+
+std::vector<std::string> cgroup_folders(const std::string& controller, const std::string& proc, const std::string& sys)
+{
+    std::vector<std::string> folders;
+    std::ifstream file(proc);
+    for (std::string line; std::getline(file, line);) { // "4:cpu,memory:/PATH" of version 1, "0::/PATH" of version 2
+        const std::size_t first = line.find(':'), second = line.find(':', first + 1);
+        if (first == std::string::npos || second == std::string::npos)
+            continue;
+        const std::string path = line.substr(second + 1);
+        std::istringstream names(line.substr(first + 1, second - first - 1));
+        if (second == first + 1)
+            add_folders(sys, path, folders);
+        for (std::string name; std::getline(names, name, ',');)
+            if (name == controller)
+                add_folders(sys + "/" + controller, path, folders);
+    }
+    return folders;
+}
+
+std::uint64_t cgroup_memory_limit(const std::string& proc, const std::string& sys)
+{
+    constexpr std::uint64_t kUnlimited = 1ull << 62; // version 1 writes the largest number of whole pages, version 2 "max"
+    std::uint64_t least = 0;
+    for (const std::string& folder : cgroup_folders("memory", proc, sys))
+        for (const char* name : {"/memory.max", "/memory.limit_in_bytes"}) {
+            std::ifstream file(folder + name);
+            std::uint64_t limit = 0;
+            if (file >> limit && limit > 0 && limit < kUnlimited)
+                least = least ? std::min(least, limit) : limit;
+        }
+    return least;
+}
+
+void bound_memory_by_cgroup(int threads)
+{
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+    static_cast<void>(threads);
+#else
+    constexpr std::uint64_t kStackBytes = 16ull << 20; // reserved by a thread, hardly used
+    const std::uint64_t limit = cgroup_memory_limit();
+    struct rlimit now {};
+    if (limit == 0 || ::getrlimit(RLIMIT_DATA, &now) != 0)
+        return;
+    const std::uint64_t bound = limit + kStackBytes * static_cast<std::uint64_t>(std::max(1, threads));
+    if (now.rlim_cur != RLIM_INFINITY && now.rlim_cur <= bound)
+        return;
+    now.rlim_cur = bound;
+    static_cast<void>(::setrlimit(RLIMIT_DATA, &now)); // without it things are as they were
+#endif
+}
+
+} // namespace burnish

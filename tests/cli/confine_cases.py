@@ -1,0 +1,149 @@
+"""Where the program may have little: memory (ulimit -v, control groups), no rights, a root that is read-only."""
+
+import json
+import os
+import pathlib
+import resource
+import shutil
+import subprocess
+
+from fault_cases import TINY
+from harness import Skipped, case, check
+
+BIG = ("render", *TINY, "--size", "2048x2048", "--msaa", "4", "-o", "o.png")
+MIB = 1 << 20
+
+
+def with_little_memory(bench, words, output, limits):
+    """Under ulimit -v: a line and a code, or all that was asked for. Gives what was said where it did not go."""
+    if bench.sanitized:
+        raise Skipped("shadow memory reserves terabytes of addresses")
+    codes, said = [], []
+    for limit in limits:
+        done = subprocess.run([bench.program, *words], cwd=bench.folder, env=bench.environment({}), capture_output=True, text=True,
+                              preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (limit, limit)), timeout=300, check=False)
+        if done.returncode == 127 and "shared librar" in done.stderr:
+            continue  # the loader itself had no room
+        check(done.returncode in (0, 4, 7, 77), f"{limit // MIB} MiB: exit code {done.returncode}: {done.stderr}")
+        check((bench.folder / output).exists() == (done.returncode == 0), f"{limit // MIB} MiB: output and exit code do not agree")
+        (bench.folder / output).unlink(missing_ok=True)
+        codes.append(done.returncode)
+        if done.returncode:
+            said.append(f"{limit // MIB} MiB: {done.stderr}")
+    print("exit codes", codes)
+    check(0 in codes and any(codes), f"the limits are not where they should be: {codes}")
+    return said
+
+
+@case("confine.little_address_space")
+def little_memory(bench):
+    bench.run("render", *TINY).expect(0)
+    with_little_memory(bench, BIG, "o.png", [m * MIB for m in (96, 160, 256, 1024)])
+
+
+@case("confine.little_address_space_all", tier="slow")
+def little_memory_all(bench):
+    bench.run("render", *TINY).expect(0)
+    with_little_memory(bench, BIG, "o.png", [m * MIB for m in range(32, 1100, 16)])
+
+
+@case("confine.a_picture_that_does_not_fit_is_not_called_damaged")
+def exr_memory(bench):
+    """What OpenEXR says where it gets no memory is not taken for what it says of a damaged file."""
+    bench.run("render", "builtin:plate", *TINY, "--size", "2000x2000", "-o", "big.exr").expect(0)
+    words = ("compare", "big.exr", "big.exr", "--metric", "mse", "--json", "found.json")
+    said = with_little_memory(bench, words, "found.json", [m * MIB for m in (300, 820, 850, 880, 920, 1600)])
+    check(any("for the pixels" in text for text in said), f"the library was never short of memory: {said}")
+    for text in said:
+        check("damaged" not in text and "corrupt" not in text and "memory" in text, text)
+
+
+def in_memory_group(bench, limit, words):
+    """Runs the command in a control group of so many bytes."""
+    for group, name in ((pathlib.Path("/sys/fs/cgroup/memory"), "memory.limit_in_bytes"), (pathlib.Path("/sys/fs/cgroup"), "memory.max")):
+        own = group / f"burnish_test_{os.getpid()}"
+        if not (group / "cgroup.procs").exists():
+            continue
+        try:
+            own.mkdir()
+        except OSError as error:
+            raise Skipped(f"no control group can be made here: {error}") from error
+        try:
+            (own / name).write_text(str(limit))
+            join = lambda: (own / "cgroup.procs").write_text(str(os.getpid()))
+            return subprocess.run([bench.program, *words], cwd=bench.folder, env=bench.environment({}), capture_output=True, text=True,
+                                  preexec_fn=join, timeout=300, check=False)
+        except (OSError, subprocess.SubprocessError) as error:
+            raise Skipped(f"the control group cannot be used here: {error}") from error
+        finally:
+            own.rmdir()
+    raise Skipped("no control groups of memory here")
+
+
+@case("confine.little_memory_of_a_control_group")
+def memory_group(bench):
+    """What would be killed without a word ends with one, and leaves no half picture."""
+    if bench.sanitized:
+        raise Skipped("sanitizers need memory of their own")
+    words = ("--threads", "2", "-o", "o.png")
+    done = in_memory_group(bench, 256 * MIB, ("render", *TINY, *words))
+    check(done.returncode == 0 and (bench.folder / "o.png").exists(), f"exit code {done.returncode}: {done.stderr}")
+    (bench.folder / "o.png").unlink()
+    done = in_memory_group(bench, 256 * MIB, ("render", *TINY, "--size", "8192x8192", "--msaa", "4", *words))
+    check(done.returncode == 4, f"exit code {done.returncode}: {done.stderr}")
+    check("memory" in done.stderr and len(done.stderr.splitlines()) == 1, done.stderr)
+    check(not bench.left_behind(), f"left: {bench.left_behind()}")
+
+
+@case("confine.read_only_root_and_no_rights")
+def read_only_root(bench):
+    """As nobody, as process 1, without a network, with every file system read-only but one small one: as containers are run."""
+    if os.geteuid():
+        raise Skipped("needs root, to become nobody")
+    folder = bench.folder / "free"
+    folder.mkdir()
+    script = ('mount --make-rprivate / && mount -t proc none /proc && mount -t tmpfs -o mode=1777,size=4m none "$0" && mount -o remount,bind,ro / '
+              '&& cd "$0" || exit 99; exec setpriv --reuid 65534 --regid 65534 --clear-groups --no-new-privs --bounding-set=-all "$@"')
+    command = ["unshare", "--mount", "--pid", "--net", "--ipc", "--fork", "sh", "-c", script, str(folder)]
+    try:
+        probe = subprocess.run([*command, "true"], capture_output=True, text=True, timeout=60, check=False)
+    except FileNotFoundError:
+        raise Skipped("no unshare") from None
+    reach = subprocess.run([*command, bench.program, "--version"], capture_output=True, text=True, timeout=60, check=False)
+    if probe.returncode or reach.returncode:
+        raise Skipped(f"cannot be set up here: {probe.stderr} {reach.stderr}")
+    env = {"PATH": os.environ["PATH"], "XDG_CACHE_HOME": "/nowhere/at/all"}
+    outside = str(pathlib.Path(bench.folder).parent / "nobody.png")
+    for words, code in ((("render", *TINY, "-o", "o.png", "-o", "o.exr", "--stats", "-"), 0), (("render", *TINY, "-o", outside), 7), (("info",), 0),
+                        (("render", *TINY, "-o", "/o.png"), 7), (("compare", "none.png", "none.png"), 4),
+                        (("render", *TINY, "--size", "2000x2000", "-o", "o.pfm"), 7),  # more than the 4 MiB that there are
+                        (("chart", *TINY, "-o", "/report"), 7), (("list", "scenes"), 0)):
+        done = subprocess.run([*command, bench.program, *words], capture_output=True, text=True, env=env, timeout=300, check=False)
+        check(done.returncode == code, f"{words}: exit code {done.returncode}\n{done.stdout}{done.stderr}")
+        check(code == 0 or len(done.stderr.splitlines()) == 1, f"{words}: {done.stderr}")
+        if words[-1] == "-":
+            check(any("is not cached" in line for line in json.loads(done.stdout)["warnings"]), "the cache that cannot be is not told")
+    check(not os.path.exists(outside) and not os.path.exists("/o.png"), "written where nothing can be")
+
+
+@case("confine.a_folder_without_rights")
+def no_rights(bench):
+    """As nobody, in a folder that is root's: what cannot be written is said, and nothing is left."""
+    if os.geteuid():
+        raise Skipped("needs root, to become nobody")
+    bench.folder.chmod(0o755)
+    free = bench.folder / "free"
+    free.mkdir()
+    os.chown(free, 65534, 65534)
+    try:
+        bench.run("--version", user=65534).expect(0)
+    except Exception as error:
+        raise Skipped(f"nobody cannot run the program here: {error}") from error
+    env = {"XDG_CACHE_HOME": str(bench.folder / "own")}
+    bench.run("render", *TINY, "-o", "o.png", user=65534, env=env).expect(7).expect_one_line("o.png")
+    bench.run("render", *TINY, "-o", "free/o.png", user=65534, env=env).expect(0)
+    (free / "o.png").chmod(0o444)
+    bench.run("render", *TINY, "-o", "free/o.png", user=65534, env=env).expect(0)
+    check((free / "o.png").stat().st_mode & 0o777 == 0o444, "permissions have changed")
+    check(bench.left_behind() == ["free", "o.png"], f"left: {bench.left_behind()}")
+    shutil.rmtree(free)

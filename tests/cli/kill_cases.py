@@ -1,0 +1,203 @@
+"""Jobs that are killed (kill -9) at random moments and started again: nothing is lost, the same bits come out, nothing is left lying."""
+
+import json
+import random
+import signal
+import subprocess
+import time
+
+from fault_cases import CHART, REFERENCE, TINY, needs_embree
+from harness import Skipped, case, check
+
+
+def start(bench, words, env=None):
+    return subprocess.Popen([bench.program, *map(str, words)], cwd=bench.folder, env=bench.environment(env or {}),
+                            stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+
+
+def seconds_of(bench, words, env=None):
+    begin = time.monotonic()
+    bench.run(*words, env=env).expect(0)
+    return time.monotonic() - begin
+
+
+def kill_at_random(bench, words, kills, seed, longest, env=None, after=lambda: None):
+    """Starts the command until it was killed so often; `longest` seconds at most it lives. `after` looks at what is there."""
+    chance = random.Random(seed)
+    killed = 0
+    for _ in range(20 * kills):
+        if killed == kills:
+            return
+        child = start(bench, words, env)
+        time.sleep(chance.uniform(0.0, longest))
+        child.send_signal(signal.SIGKILL)
+        killed += child.wait() == -signal.SIGKILL
+        after()
+    check(killed == kills, f"killed {killed} times only")
+
+
+def temporary(names):
+    return [name for name in names if name.endswith((".tmp", ".bntmp", ".part"))]
+
+
+def killed_reference(bench, kills):
+    """Some rounds of samples, the state written after each."""
+    needs_embree(bench)
+    words = (*REFERENCE[:-1], "--samples", "8192", "--env", "builtin:sky")
+    begin = time.monotonic()
+    straight = bench.figures(*words[1:])["pixel_hash"]
+    longest = time.monotonic() - begin
+    words = (*words, "--checkpoint", "c.part", "--checkpoint-seconds", "0", "-o", "o.exr")
+    kill_at_random(bench, words, kills, 7, 0.9 * longest)
+    check((bench.folder / "c.part").exists(), "nothing was kept")
+    found = bench.figures(*words[1:])
+    check(found["reference"]["samples_before"] > 0, "it did not go on from what was kept")
+    check(found["pixel_hash"] == straight, "the picture after kills is another one")
+    check(bench.left_behind() == ["c.part", "o.exr"], f"left: {bench.left_behind()}")
+
+
+@case("kill.references_go_on")
+def references(bench):
+    killed_reference(bench, 3)
+
+
+@case("kill.references_go_on_long", tier="slow")
+def references_long(bench):
+    killed_reference(bench, 40)
+
+
+def killed_charts(bench, kills):
+    """The errors of a chart, its pictures and its reference; times differ from run to run."""
+    needs_embree(bench)
+    chart = (*CHART, "--sweep", "roughness=0.2,0.5")
+    env = lambda name: {"XDG_CACHE_HOME": str(bench.folder / name)}
+
+    def made(folder):
+        rows = json.loads((bench.folder / folder / "report.json").read_text())["rows"]
+        keys = ("technique", "settings", "flip_mean", "flip_p99", "rel_mse", "max_abs", "nan_pixels")
+        return ([[row[key] for key in keys] for row in rows],
+                {path.name: path.read_bytes() for path in (bench.folder / folder / "pictures").iterdir()})
+
+    longest = seconds_of(bench, (*chart, "-o", "straight"), env("straight_cache"))
+
+    def rows_are_whole():
+        kept = bench.folder / "report/rows.json"
+        if kept.exists():
+            json.loads(kept.read_text())
+
+    words = (*chart, "-o", "report")
+    kill_at_random(bench, words, kills, 3, longest, env("cache"), rows_are_whole)
+    bench.run(*words, env=env("cache")).expect(0)
+    check(made("report") == made("straight"), "errors or pictures after kills are other ones")
+    caches = [{path.name: path.read_bytes() for path in (bench.folder / name / "burnish").iterdir()} for name in ("cache", "straight_cache")]
+    check(caches[0] == caches[1], f"the caches hold {sorted(caches[0])} and {sorted(caches[1])}")
+    left = temporary(path.name for path in (bench.folder / "report").rglob("*"))
+    check(not left, f"left: {left}")
+
+
+@case("kill.charts_go_on")
+def charts(bench):
+    killed_charts(bench, 3)
+
+
+@case("kill.charts_go_on_long", tier="slow")
+def charts_long(bench):
+    killed_charts(bench, 40)
+
+
+def killed_bakes(bench, kills):
+    words = ("render", "--size", "32x24", "--msaa", "1", "--env-size", "64", "--env-samples", "64", "--threads", "2", "-q", "-o", "o.png")
+    env = lambda name: {"XDG_CACHE_HOME": str(bench.folder / name)}
+    kept = lambda name: {path.name: path.read_bytes() for path in (bench.folder / name / "burnish").glob("*")}
+    longest = seconds_of(bench, words, env("straight"))
+    picture = (bench.folder / "o.png").read_bytes()
+    whole = kept("straight")
+
+    def nothing_half():
+        for name, data in kept("cache").items():
+            check(name not in whole or data == whole[name], f"{name} is damaged after a kill")
+        (bench.folder / "cache/burnish" / next(iter(whole))).unlink(missing_ok=True)
+
+    kill_at_random(bench, words, kills, 5, longest, env("cache"), nothing_half)
+    bench.run(*words, env=env("cache")).expect(0)
+    check(kept("cache") == whole, f"the cache holds {sorted(kept('cache'))}")
+    check((bench.folder / "o.png").read_bytes() == picture, "the picture after kills is another one")
+
+
+@case("kill.bakes_are_whole_or_not_there")
+def bakes(bench):
+    killed_bakes(bench, 4)
+
+
+@case("kill.bakes_are_whole_or_not_there_long", tier="slow")
+def bakes_long(bench):
+    killed_bakes(bench, 40)
+
+
+def killed_reports(bench, words, kills):
+    """`race` and `parity` write once, at the end: whole or nothing, and what they keep of pipelines does no harm to the next run."""
+    env = {"XDG_CACHE_HOME": str(bench.folder / "cache")}
+    words = (*words, "--json", "found.json")
+    begin = time.monotonic()
+    done = bench.run(*words, env=env)
+    if done.code == 77:
+        raise Skipped(done.err.strip())
+    done.expect(0)
+    longest = time.monotonic() - begin
+    rows = len(json.loads((bench.folder / "found.json").read_text())["rows"])
+
+    def whole():
+        path = bench.folder / "found.json"
+        check(not path.exists() or len(json.loads(path.read_text())["rows"]) == rows, "half a report")
+        path.unlink(missing_ok=True)
+        for kept in (bench.folder / "cache/burnish").glob("pipelines-*"):
+            if kills > 10:
+                kept.unlink()  # so that it is written again
+
+    kill_at_random(bench, words, kills, 11, longest, env, whole)
+    bench.run(*words, env=env).expect(0)
+    whole()
+    left = temporary(path.name for path in bench.folder.rglob("*"))
+    check(not left, f"left: {left}")
+
+
+RACE = ("race", "builtin:teapot", "--size", "96x64", "--techniques", "split_isotropic", "--msaa", "1", "--runs", "2", "--devices", "lavapipe",
+        "--env-size", "16", "--env-samples", "16")
+PARITY = ("parity", "builtin:plate", "--size", "64x48", "--technique", "split_isotropic,mc", "--msaa", "1", "--device", "lavapipe",
+          "--env-size", "16", "--env-samples", "16")
+
+
+@case("kill.races_report_all_or_nothing")
+def races(bench):
+    killed_reports(bench, RACE, 2)
+
+
+@case("kill.races_report_all_or_nothing_long", tier="slow")
+def races_long(bench):
+    killed_reports(bench, RACE, 15)
+    killed_reports(bench, PARITY, 15)
+
+
+def killed_renders(bench, kills):
+    words = ("render", *TINY, "-o", "o.exr", "-o", "o.png", "--stats", "s.json")
+    longest = seconds_of(bench, words) + 0.05
+    whole = {name: (bench.folder / name).read_bytes() for name in ("o.exr", "o.png")}
+
+    def nothing_half():
+        for name, data in whole.items():
+            check((bench.folder / name).read_bytes() == data, f"{name} is damaged after a kill")
+        json.loads((bench.folder / "s.json").read_text())
+
+    kill_at_random(bench, words, kills, 13, longest, after=nothing_half)
+    bench.run(*words).expect(0)
+    check(bench.left_behind() == ["o.exr", "o.png", "s.json"], f"left: {bench.left_behind()}")
+
+
+@case("kill.renders_leave_whole_files")
+def renders(bench):
+    killed_renders(bench, 5)
+
+
+@case("kill.renders_leave_whole_files_long", tier="slow")
+def renders_long(bench):
+    killed_renders(bench, 60)

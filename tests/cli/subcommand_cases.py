@@ -1,0 +1,56 @@
+"""Every subcommand once, small, in a build with sanitizers too."""
+
+import json
+
+from fault_cases import CHART, REFERENCE, TINY
+from harness import case, check
+
+NO_DEVICE = {"VK_DRIVER_FILES": "/nowhere", "VK_ICD_FILENAMES": "/nowhere"}  # what drivers do is not looked at here
+VIEW = ("--size", "32x24", "--msaa", "1", "--env-size", "16", "--env-samples", "16")
+
+# Command lines by subcommand, each with the exit codes that it may have: 77 where a device or the reference is absent.
+RUNS = {
+    "render": [((*TINY, "-o", "a.png", "-o", "a.exr", "-o", "a.hdr", "-o", "a.pfm", "-o", "a.jpg", "-o", "a.tif", "--stats", "s.json",
+                 "--trace", "t.json"), (0,)),
+               ((*REFERENCE[1:], "--checkpoint", "c.part", "--checkpoint-seconds", "0", "--variance", "v.exr", "-o", "r.exr"), (0, 77)),
+               (("builtin:plate", *VIEW, "--backend", "vulkan", "-o", "v.png"), (0, 77))],
+    "compare": [(("a.exr", "a.hdr", "--json", "-", "--error-map", "e.png", "--html", "c.html"), (0,)), (("a.png", "a.tif"), (0,))],
+    "chart": [((*CHART[1:], "--sweep", "roughness=0.2,0.5", "--sweep", "anisotropy=0,0.5", "-o", "report"), (0, 77))],
+    "profile": [((*VIEW, "--frames", "2", "--json", "p.json", "--svg", "p.svg", "--trace", "pt.json"), (0,))],
+    "parity": [(("builtin:plate", *VIEW, "--technique", "mc", "--device", "lavapipe", "--json", "y.json", "--html", "y.html",
+                 "--junit", "y.xml"), (0, 77))],
+    "race": [(("builtin:plate", *VIEW, "--techniques", "split_isotropic", "--runs", "1", "--devices", "lavapipe", "--json", "z.json"), (0, 77))],
+    "list": [((what,), (0,)) for what in ("techniques", "scenes", "environments", "models")],
+    "info": [((), (0,)), (("--json",), (0,))],
+}
+
+
+@case("subcommand.each_runs_small", "input")
+def each(bench):
+    said = bench.run("--help").expect(0).out
+    named = [line.split()[0] for line in said.split("Subcommands:\n")[1].split("\n\n")[0].splitlines()]
+    check(set(named) == set(RUNS), f"{sorted(set(named) ^ set(RUNS))}: in the help or among these runs, not in both")
+    for name in named:
+        for words, codes in RUNS[name]:
+            done = bench.run(name, *words, env=NO_DEVICE)
+            check(done.code in codes, done.describe())
+            check("Sanitizer" not in done.err and "runtime error" not in done.err, done.describe())
+            for word in words:
+                if word.endswith(".json"):
+                    check(done.code or json.loads((bench.folder / word).read_text()), f"{word} is empty")
+
+
+@case("subcommand.each_refuses_bad_input", "input")
+def bad_input(bench):
+    """And each says one line where its input is none."""
+    (bench.folder / "bad.glb").write_bytes(b"glTF, not")
+    (bench.folder / "bad.exr").write_bytes(b"\x76\x2f\x31\x01, not")
+    for words, codes in ((("render", "bad.glb"), (4,)), (("render", "--env", "bad.exr"), (4,)), (("compare", "bad.exr", "bad.exr"), (4,)),
+                         (("chart", "bad.glb", "-o", "r"), (4, 77)), (("chart", "--env", "bad.exr", "-o", "r"), (4, 77)),
+                         (("profile", "bad.glb"), (4,)), (("list", "nothing"), (2,)), (("info", "nothing"), (2,))):
+        done = bench.run(*words)
+        check(done.code in codes, done.describe())
+        done.expect_one_line()
+    for words in (("parity", "bad.glb", *VIEW, "--device", "lavapipe"), ("race", "bad.glb", *VIEW, "--devices", "lavapipe")):
+        done = bench.run(*words, env=NO_DEVICE)
+        check(done.code in (4, 77), done.describe())

@@ -1,0 +1,32 @@
+// libFuzzer entry: any bytes as a baked environment in the cache. An odd first byte asks for right checksums.
+#include <cmath>
+
+#include "core/base/check.h"
+#include "shading/bake/environment/cube_map.h"
+#include "shading/bake/environment/environment_cache.h"
+#include "tests/fuzz/sealed.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
+{
+    using namespace burnish;
+    constexpr int kSize = 4, kLevels = 2;
+    constexpr std::uint64_t kContent = 0x6275726e69736821;
+    constexpr std::size_t kHeader = 80, kContentHash = 56, kPayloadHash = 64, kHeaderHash = 72;
+    if (size == 0)
+        return 0;
+    std::vector<std::uint8_t> bytes(data + 1, data + size);
+    const bool sealed = data[0] & 1;
+    if (sealed) {
+        const std::size_t texels =
+            make_cube_map(kSize, kLevels, 1.0f).texels.size() + make_cube_map(kIrradianceSize, 1, 1.0f).texels.size();
+        bytes.resize(kHeader + texels * sizeof(std::uint16_t));
+        std::memcpy(bytes.data() + kContentHash, &kContent, sizeof(kContent));
+        seal(bytes, kHeader, bytes.size(), kPayloadHash);
+        seal(bytes, 0, kHeaderHash, kHeaderHash);
+    }
+    const std::optional<Environment> found = parse_environment_cache(bytes.data(), bytes.size(), kContent, kSize, kLevels);
+    BN_CHECK(!found || sealed);
+    if (found)
+        BN_CHECK(std::isfinite(found->specular.scale + found->irradiance.scale + found->peak_source) && found->content_hash == kContent);
+    return 0;
+}

@@ -1,0 +1,19 @@
+// libFuzzer entry: any text as the rows that a chart keeps. What is read is written and read again, the same.
+#include <string>
+
+#include "apps/chart/rows.h"
+#include "core/base/check.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
+{
+    using namespace burnish;
+    const Result<Kept> kept = parse_kept(std::string(data, data + size), "fuzz");
+    if (!kept) {
+        BN_CHECK(!kept.error().reason.empty());
+        return 0;
+    }
+    const std::string text = kept_json(*kept);
+    const Result<Kept> again = parse_kept(text, "fuzz");
+    BN_CHECK(again && kept_json(*again) == text);
+    return 0;
+}

@@ -1,0 +1,64 @@
+// The bounds that control groups set, read from folders made like those of Linux.
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <gtest/gtest.h>
+
+#include "core/base/cgroup.h"
+
+using namespace burnish;
+namespace fs = std::filesystem;
+
+namespace {
+
+class cgroup : public testing::Test {
+  protected:
+    void SetUp() override
+    {
+        char name[] = "/tmp/burnish_cgroup_XXXXXX";
+        root_ = ::mkdtemp(name);
+    }
+    void TearDown() override { fs::remove_all(root_); }
+    void put(const std::string& file, const std::string& text)
+    {
+        fs::create_directories((root_ / file).parent_path());
+        std::ofstream(root_ / file) << text;
+    }
+    std::uint64_t limit() const { return cgroup_memory_limit((root_ / "proc").string(), (root_ / "sys").string()); }
+
+    fs::path root_;
+};
+
+} // namespace
+
+TEST_F(cgroup, without_files_there_is_no_limit)
+{
+    EXPECT_EQ(limit(), 0u);
+    put("proc", "nonsense\n::\n0::/\n");
+    put("sys/memory.max", "max\n");
+    EXPECT_EQ(limit(), 0u);
+}
+
+TEST_F(cgroup, of_version_2_the_tightest_around_counts)
+{
+    put("proc", "0::/system.slice/job\n");
+    put("sys/system.slice/job/memory.max", "4000000\n");
+    put("sys/system.slice/memory.max", "3000000\n");
+    put("sys/memory.max", "max\n");
+    EXPECT_EQ(limit(), 3000000u);
+}
+
+TEST_F(cgroup, of_version_1_the_controller_has_a_folder)
+{
+    put("proc", "9:name=systemd:/\n4:cpu,memory:/a/b\n0::/\n");
+    put("sys/memory/a/b/memory.limit_in_bytes", "9223372036854771712\n");
+    put("sys/memory/a/memory.limit_in_bytes", "5000000\n");
+    EXPECT_EQ(limit(), 5000000u);
+}
+
+TEST_F(cgroup, in_a_container_the_root_is_the_own_group)
+{
+    put("proc", "4:memory:/docker/0123\n");
+    put("sys/memory/memory.limit_in_bytes", "6000000\n");
+    EXPECT_EQ(limit(), 6000000u);
+}
