@@ -11,10 +11,9 @@ namespace burnish::gltf {
 
 namespace {
 
-const Json kNothing = Json::object();
-
 const Json& member_or_nothing(const Json& object, const char* key)
 {
+    static const Json kNothing = Json::object(); // made when it is needed: an allocation before main() could not fail cleanly
     const Json* member = get_member(object, key);
     return member ? *member : kNothing;
 }
