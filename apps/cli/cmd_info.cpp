@@ -23,7 +23,7 @@ namespace burnish {
 namespace {
 
 struct Info {
-    std::string compiler = BN_COMPILER, build_type = BN_BUILD_TYPE, openimageio = BN_OPENIMAGEIO_VERSION;
+    std::string compiler = BN_COMPILER, build_type = BN_BUILD_TYPE, openimageio = *BN_OPENIMAGEIO_VERSION ? BN_OPENIMAGEIO_VERSION : "none";
     std::string processor = cpu_name();
     std::string isa = isa_name(best_isa());
     std::vector<std::string> isa_available, backends = {"tile"}, vulkan_devices;

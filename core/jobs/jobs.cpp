@@ -1,4 +1,4 @@
-// Parallel loops: one task arena a Jobs object, so that two objects with different thread counts can live
+// Parallel loops over oneTBB: one task arena a Jobs object, so that two objects with different thread counts can live
 // side by side.
 #include "core/jobs/jobs.h"
 
@@ -14,23 +14,10 @@
 
 #include "core/base/check.h"
 #include "core/jobs/cores.h"
-#include "core/jobs/plain_loop.h"
-
-#ifdef BN_TSAN
-// Libraries that are not instrumented either: how threads wait for each other inside them is not seen. Embree builds its trees with threads
-// of its own, OpenImageIO's table of names has its own lock.
-extern "C" const char* __tsan_default_suppressions();
-extern "C" const char* __tsan_default_suppressions()
-{
-    return "race:libembree3.so\nrace:libOpenImageIO\n";
-}
-#endif
 
 namespace burnish {
 namespace {
 
-// More is never useful, and oneTBB would start every one of them.
-constexpr int kMaxThreads = 1024;
 // Pieces of work a thread: small enough to balance uneven tiles, large enough that handing out costs nothing.
 constexpr std::size_t kPiecesPerThread = 64;
 
@@ -60,7 +47,7 @@ struct Jobs::Impl {
 Jobs::Jobs(int threads) : impl_(std::make_unique<Impl>())
 {
     BN_CHECK_OP(threads, >=, 0);
-    impl_->threads = std::min(threads == 0 ? usable_cores() : threads, kMaxThreads);
+    impl_->threads = std::min(threads == 0 ? usable_cores() : threads, kMostThreads);
     if (impl_->threads == 1)
         return;
     allow_threads(impl_->threads);
@@ -83,9 +70,6 @@ void Jobs::parallel_for(std::size_t count, const std::function<void(std::size_t,
     }
     if (count == 0)
         return;
-#ifdef BN_TSAN
-    return plain_parallel_for(impl_->threads, count, body);
-#endif
     const std::size_t pieces = static_cast<std::size_t>(impl_->threads) * kPiecesPerThread;
     const std::size_t grain = std::max<std::size_t>(1, count / pieces);
     impl_->arena.execute([&] {

@@ -1,4 +1,4 @@
-// Parallel loops over oneTBB. What an index computes never depends on the thread that runs it.
+// Parallel loops. What an index computes never depends on the thread that runs it.
 #pragma once
 #include <cstddef>
 #include <cstdint>

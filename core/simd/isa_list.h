@@ -12,7 +12,7 @@
     BN_ON_x86_64(X(avx2, program, cpu_has_avx2(), "-march=x86-64-v3", of))                                   \
     BN_ON_x86_64(X(avx512, program, cpu_has_avx512(), "-march=x86-64-v4 -mprefer-vector-width=512", of)) \
     BN_ON_x86_64(X(portable8, tests, true, "-O1", of))                                      \
-    BN_ON_aarch64(X(portable8, program, true, "", of))                                                       \
+    BN_ON_aarch64(X(portable8, program, true, "-O1 -DBN_PORTABLE_CALLS", of))                                \
     BN_ON_any(X(portable16, tests, true, "-O1", of))
 // No instruction sets, but compiled like one: a double by lane (bn_oracle_objects), and floats that count their work (bn_counted_objects).
 #define BN_EACH_TWIN(X, of)                                                                                  \

@@ -298,7 +298,7 @@ def wrong_options(bench):
         ((*pair, "--fail-fraction", "some"), "--fail-fraction"), ((*pair, "--fail-z", "0.5"), "--variance"),
         ((*pair, "--significance", "0.5"), "--variance"),
         ((*pair, "--variance", "a", "--variance", "b", "--variance", "c"), "--variance"),
-        ((*pair, "--threads", "0"), "--threads"), ((*pair, "--isa", "sse9"), "scalar, avx2, avx512"),
+        ((*pair, "--threads", "0"), "--threads"), ((*pair, "--isa", "sse9"), "scalar, "),
         ((*pair, "--error-map", "e.xyz"), "e.xyz"), ((*pair, "--json", ""), "--json"),
         ((*pair, "--json", "x", "--html", "x"), "twice"), ((*pair, "--json", "-", "--html", "-"), "twice"),
         ((*pair, "--json", "a.png"), "input"), ((*pair, "--error-map", "./b.png"), "input"),

@@ -1,0 +1,103 @@
+// Prints hashes of small pictures of the built-in scenes, a line each, drawn with one instruction set, and of what was baked for them:
+//   burnish_hashes ISA
+// Without an argument, the instruction sets that there are.
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+
+#include "core/base/hash.h"
+#include "raster/session/session.h"
+
+namespace burnish {
+namespace {
+
+constexpr int kWidth = 48, kHeight = 32;
+
+void print(const std::string& name, std::uint64_t hash)
+{
+    std::printf("%016llx %s\n", static_cast<unsigned long long>(hash), name.c_str());
+}
+
+// Ends the program where it cannot be drawn.
+void draw(Session& session, const std::string& name, FrameDesc desc)
+{
+    desc.view = session.framed(desc.width, desc.height);
+    const Result<Frame> frame = session.render(desc);
+    if (!frame) {
+        std::fprintf(stderr, "%s: %s\n", name.c_str(), frame.error().line().c_str());
+        std::exit(1);
+    }
+    print(name, pixel_hash(frame->color));
+}
+
+FrameDesc small_desc(const std::string& technique, int msaa)
+{
+    FrameDesc desc;
+    desc.width = kWidth, desc.height = kHeight, desc.technique = technique, desc.msaa = msaa;
+    return desc;
+}
+
+void draw_all(Session& session, const std::string& scene)
+{
+    for (const int msaa : {1, 4})
+        draw(session, scene + " auto " + std::to_string(msaa) + "x", small_desc("auto", msaa));
+    for (const TechniqueInfo& technique : techniques()) {
+        FrameDesc desc = small_desc(technique.name, 1);
+        desc.samples = technique.sampling == Sampling::none ? 1 : 9;
+        desc.override_anisotropy = true, desc.anisotropy = -0.7f, desc.roughness = 0.35f;
+        draw(session, scene + " " + technique.name, desc);
+    }
+    FrameDesc tilted = small_desc("mc", 1);
+    tilted.samples = 8, tilted.tilt_rad = {0.3f, -0.2f}, tilted.seed = 7;
+    draw(session, scene + " tilted", tilted);
+    FrameDesc compensated = small_desc("major_axis", 16);
+    compensated.energy_compensation = true, compensated.horizon = true, compensated.tile_size = 32;
+    draw(session, scene + " compensated 16x", compensated);
+    FrameDesc fitted = small_desc("split_isotropic", 2);
+    fitted.dfg_fit = true, fitted.background = false;
+    draw(session, scene + " fitted", fitted);
+}
+
+int run(const std::string& isa_word)
+{
+    const Result<Isa> isa = parse_isa(isa_word);
+    if (!isa) {
+        std::fprintf(stderr, "%s\n", isa.error().line().c_str());
+        return 2;
+    }
+    setenv("BN_FORCE_ISA", isa_word.c_str(), 1); // of the bake
+    const auto jobs = std::make_shared<const Jobs>(2);
+    const auto dfg = std::make_shared<const DfgTable>(bake_dfg(16, 64, *jobs));
+    print("dfg", hash_bytes(dfg->texels.data(), dfg->texels.size() * sizeof dfg->texels[0], 0));
+    EnvironmentOptions options;
+    options.cube_size = 16, options.samples = 16, options.use_cache = false;
+    const char* const environments[] = {"builtin:studio", "builtin:sky", "builtin:studio"};
+    const char* const scenes[] = {"builtin:teapot", "builtin:spheres", "builtin:plate"};
+    for (int i = 0; i < 3; ++i) {
+        const auto environment = load_shared_environment(environments[i], options, {}, *jobs);
+        const auto scene = load_scene_data(scenes[i], {});
+        if (!environment || !scene)
+            return 1;
+        const CubeMap& cube = (*environment)->specular;
+        print(environments[i], hash_bytes(cube.texels.data(), cube.texels.size() * sizeof cube.texels[0], 0));
+        SessionOptions of_session;
+        of_session.isa = *isa;
+        Result<Session> session = Session::make({*scene, *environment, dfg, jobs}, of_session);
+        if (!session)
+            return 1;
+        draw_all(*session, scenes[i]);
+    }
+    return 0;
+}
+
+} // namespace
+} // namespace burnish
+
+int main(int argc, char** argv)
+{
+    if (argc > 1)
+        return burnish::run(argv[1]);
+    for (const burnish::Isa isa : burnish::program_isas())
+        if (burnish::isa_available(isa))
+            std::printf("%s\n", burnish::isa_name(isa));
+}
