@@ -189,8 +189,9 @@ BN_INLINE visible_point make_fragment_inline(const FrameParams& f, material_ref 
 }
 
 // Compiled once in a file.
-[[maybe_unused]] BN_STAGE visible_point make_fragment(const FrameParams& f, const MaterialRecord& m, const view_params& view, const TileScratch& scratch,
-                                     integer triangle, std::int32_t common, integer pixel_x, integer pixel_y, integer samples)
+[[maybe_unused]] BN_STAGE visible_point make_fragment(const FrameParams& f, const MaterialRecord& m, const view_params& view,
+                                                      const TileScratch& scratch, integer triangle, std::int32_t common, integer pixel_x,
+                                                      integer pixel_y, integer samples)
 {
     return make_fragment_inline(f, m, view, scratch, triangle, common, pixel_x, pixel_y, samples, f.light_count > 0);
 }

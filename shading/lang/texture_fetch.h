@@ -44,7 +44,7 @@ BN_STAGE void plan_texture(const texture_fetches& t, const TextureBinding& b)
 {
     const TextureParams& texture = t.textures[b.texture];
     const texture_desc desc = {texture.texels, texture.offset, texture.level_width, texture.level_height,
-                               texture.levels, texture.wrap_s, texture.wrap_t, texture.nearest};
+                               texture.levels, texture.wrap_s, texture.wrap_t,      texture.nearest};
     const int set = b.uv_set != 0;
     const real m0 = splat(b.transform[0]), m1 = splat(b.transform[1]), m2 = splat(b.transform[2]), m3 = splat(b.transform[3]);
     const real2 uv = t.p.uv[set], dx = t.p.uv_dx[set], dy = t.p.uv_dy[set];
