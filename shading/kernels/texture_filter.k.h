@@ -103,15 +103,19 @@ BN_FN texel_rows texture_bilinear_rows(texture_level level, real2 uv, real weigh
     integer iy = to_int(y);
     real fx = x - to_real(ix);
     real fy = y - to_real(iy);
+    real lower = weight * fy;
+    real upper = weight - lower;
+    real w10 = upper * fx;
+    real w11 = lower * fx;
+    real w00 = upper - w10;
+    real w01 = lower - w11;
     texel_rows r;
     r.row0 = level.first + iy * level.stride + ix;
     r.row1 = r.row0 + level.stride;
-    real lower = weight * fy;
-    real upper = weight - lower;
-    r.w10 = upper * fx;
-    r.w11 = lower * fx;
-    r.w00 = upper - r.w10;
-    r.w01 = lower - r.w11;
+    r.w00 = w00;
+    r.w10 = w10;
+    r.w01 = w01;
+    r.w11 = w11;
     return r;
 }
 
@@ -168,7 +172,8 @@ BN_FN texture_tap texture_tap_at(BN_IN(texture_taps) t, int i)
     real2 wrapped = vec2_of(texture_wrap(at.x, t.desc.wrap_s), texture_wrap(at.y, t.desc.wrap_t));
     real of_coarse = weight * t.f;
     texture_tap tap;
-    tap.fine = texture_bilinear_rows(t.fine, wrapped, weight - of_coarse);
+    real of_fine = weight - of_coarse; // named before it is passed: glslang would not mark it precise otherwise
+    tap.fine = texture_bilinear_rows(t.fine, wrapped, of_fine);
     tap.coarse = texture_bilinear_rows(t.coarse, wrapped, of_coarse);
     return tap;
 }

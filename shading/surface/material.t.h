@@ -21,15 +21,18 @@ BN_FN real3 rgb_of(real4 t)
 // Colour and alpha.
 BN_FN real4 base_color_of(material_ref m, BN_IN(texture_fetches) t, BN_IN(visible_point) p)
 {
-    real4 r = vec4_of(splat(the_material(m).base_color[0]), splat(the_material(m).base_color[1]), splat(the_material(m).base_color[2]),
-                      splat(the_material(m).base_color[3]));
+    real3 color = splat3(the_material(m).base_color);
+    real alpha = splat(the_material(m).base_color[3]);
     if (texture_used(m, kBaseColorTex)) {
         real4 base = texel_of(t, kBaseColorTex);
-        r = vec4_of(r.x * base.x, r.y * base.y, r.z * base.z, r.w * base.w);
+        color = color * rgb_of(base);
+        alpha = alpha * base.w;
     }
-    if (the_material(m).uses_color != 0)
-        r = vec4_of(r.x * p.color.x, r.y * p.color.y, r.z * p.color.z, r.w * p.color.w);
-    return r;
+    if (the_material(m).uses_color != 0) {
+        color = color * rgb_of(p.color);
+        alpha = alpha * p.color.w;
+    }
+    return vec4_of(color.x, color.y, color.z, alpha);
 }
 
 // As fetch_material() finds it.
