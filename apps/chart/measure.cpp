@@ -279,8 +279,9 @@ ChartRow Chart::new_row(const Place& place, const Setting& setting) const
     const FrameDesc desc = desc_of(place, setting);
     const FrameDesc& timed = options_.base.frame;
     const std::string text =
-        fmt::format("{} {} {} {} {} {} {} {} {} {} {}{}", program_, place.key, options_.reference_samples, desc.technique, desc.samples,
-                    timed.width, timed.height, desc.msaa, desc.tile_size, place.tile.device(), jobs_->threads(), parameters_text(desc));
+        fmt::format("{} {} {} {} {} {} {} {} {} {} {} {}{}", program_, place.key, place.tile.parts().environment->content_hash,
+                    options_.reference_samples, desc.technique, desc.samples, timed.width, timed.height, desc.msaa, desc.tile_size,
+                    place.tile.device(), jobs_->threads(), parameters_text(desc));
     ChartRow row;
     row.key = hash_text(hash_bytes(text.data(), text.size()));
     row.scene = place.scene.data->name, row.env = place.env;

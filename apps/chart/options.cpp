@@ -107,6 +107,7 @@ OptionTable chart_option_table(ChartArguments& to)
     table.take(of_render, "Environment",
                {{"--env-rotation", "Turn environments about +Y, counter-clockwise from above"},
                 "--env-size",
+                "--key-lights",
                 "--env-samples",
                 {"--no-cache", "No cache of environments; references are kept in REPORT_DIR"}});
     table.take(of_render, "Machine", {"--threads", {"--isa", "{}"}});

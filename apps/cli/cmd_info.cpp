@@ -1,4 +1,4 @@
-// `burnish info`: what this build is and what it found on this machine.
+// `burnish info`: what this build is and what it found on this machine, and in an environment.
 #include <cstdio>
 #include <fmt/core.h>
 #include <fstream>
@@ -7,8 +7,10 @@
 #include <vector>
 
 #include "apps/cli/command.h"
+#include "apps/cli/environment_text.h"
 #include "apps/cli/report.h"
 #include "apps/cli/values.h"
+#include "apps/render/options.h"
 #include "apps/report/json.h"
 #include "core/base/cache.h"
 #include "core/base/text.h"
@@ -16,6 +18,7 @@
 #include "core/jobs/jobs.h"
 #include "core/simd/cpu.h"
 #include "raster/reference/reference_renderer.h"
+#include "raster/session/session.h"
 #include "raster/tile/tile_renderer.h"
 #include "raster/vulkan/vulkan_renderer.h"
 
@@ -48,7 +51,19 @@ Info gather()
     return info;
 }
 
-int print_json(const Info& info)
+// The environment that was asked for, with its key lights; null where none was.
+using Seen = std::shared_ptr<const Environment>;
+
+Result<Seen> see_environment(const RenderOptions& options, const OptionTable& given)
+{
+    if (!given.given("--env"))
+        return Seen();
+    EnvironmentOptions bake = options.environment;
+    bake.quiet = true;
+    return load_shared_environment(options.env, bake, options.limits, Jobs());
+}
+
+int print_json(const Info& info, const Environment* environment)
 {
     Json json;
     json["version"] = version();
@@ -63,11 +78,17 @@ int print_json(const Info& info)
     json["openimageio"] = info.openimageio;
     json["cache"] = {
         {"folder", info.cache_folder}, {"files", info.cache.files}, {"bytes", info.cache.bytes}, {"limit_bytes", info.cache_limit}};
+    if (environment)
+        json["environment"] = {{"name", environment->name},
+                               {"mean_radiance", environment->energy_source},
+                               {"peak_radiance", environment->peak_source},
+                               {"key_lights", key_lights_json(*environment)},
+                               {"warnings", environment->warnings}};
     fmt::print("{}\n", json.dump(2));
     return 0;
 }
 
-int print_text(const Info& info)
+int print_text(const Info& info, const Environment* environment)
 {
     fmt::print("version      {}\n", version());
     fmt::print("compiler     {}, {}\n", info.compiler, info.build_type);
@@ -83,7 +104,22 @@ int print_text(const Info& info)
     else
         fmt::print("cache        {}: {} files, {:.0f} MiB of at most {:.0f}\n", printable(info.cache_folder), info.cache.files,
                    mega(info.cache.bytes), mega(info.cache_limit));
+    if (environment) {
+        fmt::print("environment  {}: {}\n", printable(environment->name), light_text(*environment));
+        for (const std::string& warning : environment->warnings)
+            fmt::print("warning      {}\n", warning);
+        for (const KeyLight& light : environment->key_lights)
+            fmt::print("key light    {}\n", key_light_text(light));
+    }
     return 0;
+}
+
+int run_info(const RenderOptions& options, bool json, const OptionTable& given)
+{
+    const Result<Seen> environment = see_environment(options, given);
+    if (!environment)
+        return fail(environment.error());
+    return json ? print_json(gather(), environment->get()) : print_text(gather(), environment->get());
 }
 
 } // namespace
@@ -91,12 +127,20 @@ int print_text(const Info& info)
 Command info_command()
 {
     auto json = std::make_shared<bool>(false);
+    auto arguments = std::make_shared<RenderArguments>();
     OptionTable table;
     table.add("", {{"--json", "", "Machine-readable", flag(*json)}});
+    table.take(render_option_table(*arguments), "Environment",
+               {{"--env", "Also what is in this environment: an equirectangular picture or builtin:NAME", ""},
+                "--env-rotation",
+                "--env-exposure",
+                "--key-lights",
+                "--no-cache"});
     return {"info", "Say what this build is and what it runs on", table,
-            "Examples:\n  burnish info\n  burnish info --json\n\nBN_FORCE_ISA=NAME in the environment caps the instruction set;"
+            "Examples:\n  burnish info\n  burnish info --json\n  burnish info --env builtin:sky\n\nBN_FORCE_ISA=NAME in the environment "
+            "caps the instruction set;"
             " BURNISH_CACHE_BYTES=500M limits the cache (2G).",
-            [json](OptionTable&) { return *json ? print_json(gather()) : print_text(gather()); }};
+            [json, arguments](OptionTable& given) { return run_info(arguments->plain, *json, given); }};
 }
 
 } // namespace burnish

@@ -6,6 +6,7 @@
 #include "apps/cli/report.h"
 #include "core/scene/builtin/builtin.h"
 #include "raster/frame/frame.h"
+#include "shading/lang/records.h"
 
 namespace burnish {
 namespace {
@@ -254,6 +255,15 @@ Value environment(std::string& to)
 Value environments(Texts& to)
 {
     return paths_value(to, names_of(builtin_environments()));
+}
+
+Value key_lights(int& to)
+{
+    Texts names = {"auto", "off"};
+    for (int n = 0; n <= kMaxKeyLights; ++n)
+        names.push_back(std::to_string(n));
+    const auto put = [&to](std::size_t i) { to = i == 0 ? kMaxKeyLights : i == 1 ? 0 : static_cast<int>(i) - 2; };
+    return value_detail::name(names, put, [&to] { return to == kMaxKeyLights ? 0 : static_cast<std::size_t>(to) + 2; });
 }
 
 Value choices(Texts& to, Texts names)

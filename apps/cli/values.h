@@ -54,6 +54,7 @@ Value scene(std::string& to);
 Value scenes(std::vector<std::string>& to);
 Value environment(std::string& to);
 Value environments(std::vector<std::string>& to);
+Value key_lights(int& to); // how many at most; auto, off, or a number
 
 // Several by commas. `names`: what each may be; empty: anything.
 Value choices(std::vector<std::string>& to, std::vector<std::string> names);

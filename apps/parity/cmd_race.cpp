@@ -249,7 +249,12 @@ OptionTable option_table(RaceArguments& to)
                    {"--runs", "N", "Timed frames of every row and renderer, in turn", integer(to.runs, 1, 10000)},
                    {"--json", "FILE", "Rows as JSON; - for standard output", file(to.json)}});
     table.take(of_render, "",
-               {"--size", {"--samples", "Samples of the techniques, where they take any", ""}, "--env", "--env-size", "--env-samples"});
+               {"--size",
+                {"--samples", "Samples of the techniques, where they take any", ""},
+                "--env",
+                "--env-size",
+                "--key-lights",
+                "--env-samples"});
     table.add("", {threads_option(r.threads, "Worker threads of the tile renderer"), isa_option(r.isa), quiet_option(r.quiet),
                    verbose_option(r.verbosity, "Print rows as they come")});
     return table;

@@ -96,6 +96,7 @@ OptionTable parity_option_table(ParityArguments& to)
                 "--target",
                 "--env",
                 "--env-size",
+                "--key-lights",
                 "--env-samples",
                 {"--samples", "Samples of the techniques, where they take any", ""},
                 {"--roughness", "Override alpha_lin of every material, {}"},

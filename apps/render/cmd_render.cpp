@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "apps/cli/command.h"
+#include "apps/cli/environment_text.h"
 #include "apps/cli/outputs.h"
 #include "apps/cli/report.h"
 #include "apps/cli/scene_view.h"
@@ -69,11 +70,10 @@ void report_scene(const SceneData& data, Report& report)
 
 void report_environment(const RenderOptions& options, const Environment& environment, double ms, Report& report)
 {
-    report.event(
-        "environment",
-        fmt::format("{}: mean radiance {:.6g} in the source, {:.6g} in the cube, peak {:.6g}; {}", options.env, environment.energy_source,
-                    environment.energy_cube, static_cast<double>(environment.peak_source),
-                    environment.from_cache ? fmt::format("from the cache in {:.0f} ms", ms) : fmt::format("baked in {:.0f} ms", ms)));
+    report.event("environment", fmt::format("{}: {}; {}", options.env, light_text(environment),
+                                            environment.from_cache ? fmt::format("from the cache in {:.0f} ms", ms)
+                                                                   : fmt::format("baked in {:.0f} ms", ms)));
+    report_key_lights(environment, report);
 }
 
 // `lost_checkpoint`: why the last one could not be written.
@@ -117,6 +117,7 @@ Result<Session> prepare(const RenderOptions& options, RenderFigures& figures, st
     }
     figures.bake_ms = bake.ms();
     figures.environment_from_cache = parts.environment->from_cache;
+    figures.key_lights = key_lights_json(*parts.environment);
     report_environment(options, *parts.environment, figures.bake_ms, report);
     for (const std::string& warning : parts.environment->warnings)
         report.warning(warning);

@@ -18,6 +18,7 @@ std::vector<Option> environment_rows(RenderArguments& to)
         {"--env-rotation", "DEG", "Turn it about +Y, counter-clockwise from above", number(e.rotation_deg, -36000.0, 36000.0)},
         {"--env-exposure", "EV", "Multiply its radiance by 2^EV", number(e.exposure_ev, -kMaxExposure, kMaxExposure)},
         {"--env-size", "N", "Texels along a cube edge, a power of two", choice(e.cube_size, {16, 32, 64, 128, 256, 512, 1024, 2048})},
+        {"--key-lights", "N", "Small strong lights that leave it and meet lobes themselves: {}", key_lights(e.key_lights)},
         {"--env-samples", "N", "Samples a texel of the prefiltered levels", integer(e.samples, 1, kMaxBakeSamples)},
         {"--no-cache", "", "Neither read nor write the cache of baked environments", flag(e.use_cache, false)},
     };

@@ -6,7 +6,6 @@
 #include <sys/resource.h>
 
 #include "apps/render/parameters.h"
-#include "apps/report/json.h"
 #include "core/base/version.h"
 
 namespace burnish {
@@ -86,6 +85,7 @@ std::string stats_json(const RenderOptions& options, const RenderFigures& figure
     json["bake_ms"] = figures.bake_ms;
     json["prepare_ms"] = figures.prepare_ms;
     json["environment_from_cache"] = figures.environment_from_cache;
+    json["key_lights"] = figures.key_lights;
     json["triangles"] = figures.frame.triangles;
     json["triangles_drawn"] = figures.frame.triangles_drawn;
     json["visible_fragments"] = figures.frame.visible_fragments;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "apps/render/options.h"
+#include "apps/report/json.h"
 
 namespace burnish {
 
@@ -19,6 +20,7 @@ struct RenderFigures {
     double bake_ms = 0.0;         // environment: baked, or read from the cache
     double prepare_ms = 0.0;      // renderer made from the tables: texture pyramids and the like
     bool environment_from_cache = false;
+    Json key_lights;                   // see key_lights_json()
     std::vector<std::string> warnings; // as they were said, or would have been without --quiet
 };
 

@@ -1,6 +1,7 @@
 #include "raster/frame/frame_record.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/math/scalar_math.h"
 #include "raster/frame/grid_samples.h"
@@ -25,6 +26,22 @@ CubeRecord cube_record(const CubeMap& cube)
     return {cube.size, cube.levels, cube.scale};
 }
 
+KeyLightRecord key_light_record(const KeyLight& light)
+{
+    KeyLightRecord r = {};
+    const auto length = [](const float* v) {
+        const double x = static_cast<double>(v[0]), y = static_cast<double>(v[1]), z = static_cast<double>(v[2]);
+        return std::sqrt(x * x + y * y + z * z);
+    };
+    const double solid_angle = kPi * length(light.axis_u) * length(light.axis_v);
+    for (int i = 0; i < 3; ++i) {
+        r.direction[i] = light.direction[i], r.axis_u[i] = light.axis_u[i], r.axis_v[i] = light.axis_v[i];
+        r.irradiance[i] = light.irradiance[i];
+        r.radiance[i] = static_cast<float>(static_cast<double>(light.irradiance[i]) / solid_angle);
+    }
+    return r;
+}
+
 FrameRecord frame_record(const RenderInput& input, const FrameDesc& d)
 {
     FrameRecord f = {};
@@ -34,6 +51,9 @@ FrameRecord frame_record(const RenderInput& input, const FrameDesc& d)
     f.half_width = 0.5f * static_cast<float>(d.width), f.half_height = 0.5f * static_cast<float>(d.height);
     f.pattern = standard_samples(d.msaa);
     f.specular = cube_record(input.environment.specular), f.irradiance = cube_record(input.environment.irradiance);
+    f.whole = cube_record(input.environment.picture());
+    f.key_light_count = static_cast<int>(input.environment.key_lights.size());
+    std::transform(input.environment.key_lights.begin(), input.environment.key_lights.end(), f.key_lights, key_light_record);
     f.dfg_size = input.dfg.size, f.lobe_albedo_size = kLobeAlbedoSize;
     f.light_count = static_cast<int>(input.tables.lights.size());
     f.dfg_fit = d.dfg_fit, f.energy_compensation = d.energy_compensation, f.horizon = d.horizon;
@@ -109,6 +129,7 @@ ShadingFrame FrameMaker::make(const FrameDesc& desc)
     f.indices = t.indices.data(), f.triangle_material = t.triangle_material.data();
     f.materials = materials_.data(), f.textures = scene_.textures.data(), f.lights = scene_.lights.data();
     f.specular_texels = input_.environment.specular.texels.data(), f.irradiance_texels = input_.environment.irradiance.texels.data();
+    f.whole_texels = input_.environment.picture().texels.data();
     f.dfg_texels = input_.dfg.texels.data();
     f.lobe_albedo_texels = lobe_albedo_texels(), f.lobe_slice_texels = lobe_slices_.data();
     f.box = cube_record(box_cube_), f.box_texels = box_cube_.texels.data();

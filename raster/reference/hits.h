@@ -204,7 +204,7 @@ struct LaneSurface { // what was hit, or nothing
 
 BN_INLINE real3 environment_radiance(const ReferenceParams& f, real3 direction)
 {
-    return cube_sample_level(specular_cube(f), direction, 0) * splat(f.specular.scale);
+    return cube_sample_level(whole_cube(f), direction, 0) * splat(f.whole.scale);
 }
 
 BN_INLINE Reflector select_reflector(mask m, const Reflector& a, const Reflector& b)

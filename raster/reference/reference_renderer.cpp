@@ -57,7 +57,7 @@ class ReferenceRenderer final : public Renderer {
   public:
     ReferenceRenderer(const RenderInput& input, const ReferenceOptions& options, std::unique_ptr<RayScene> rays)
         : input_(input), options_(options), fns_(pick<ReferenceFns>(options.isa)), rays_(std::move(rays)), maker_(input),
-          sampler_(make_environment_sampler(input.environment.specular, input.jobs))
+          sampler_(make_environment_sampler(input.environment.picture(), input.jobs))
     {
     }
     Result<Frame> render(const FrameDesc& desc, Frame) override;

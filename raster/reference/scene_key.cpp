@@ -1,5 +1,7 @@
 #include "raster/reference/scene_key.h"
 
+#include <algorithm>
+#include <iterator>
 #include <vector>
 
 #include "core/base/hash.h"
@@ -73,13 +75,17 @@ std::uint64_t reference_key(const RenderInput& input, const FrameDesc& d, const 
 {
     Key key;
     key.add(kReferenceVersion);
-    add_records(key, std::vector<FrameRecord>{frame_record(input, reference_desc(d))});
+    FrameRecord frame = frame_record(input, reference_desc(d));
+    frame.specular = frame.irradiance = {}; // it reads the whole environment, whatever part of it is lights
+    frame.whole.levels = 1, frame.key_light_count = 0;
+    std::fill(std::begin(frame.key_lights), std::end(frame.key_lights), KeyLightRecord{});
+    add_records(key, std::vector<FrameRecord>{frame});
     add_records(key, overridden(material_records(input.scene), d));
     add_records(key, light_records(input.tables));
     add_textures(key, input.scene);
     add_tables(key, input.tables);
-    key.add(input.environment.content_hash);
-    key.column(input.environment.specular.texels.data(), input.environment.specular.texels.size());
+    const CubeMap& picture = input.environment.picture();
+    key.column(picture.texels.data(), 4 * picture.level_texels(0));
     key.column(input.dfg.texels.data(), input.dfg.texels.size());
     key.add(options.mode, options.strategy, options.mode == ReferenceMode::path ? options.bounces : 0);
     return key.value();

@@ -3,6 +3,7 @@
 #include "raster/tile/fragment.h"
 #include "raster/tile/techniques.h"
 #include "shading/lights/environment.t.h"
+#include "shading/lights/key.t.h"
 #include "shading/lights/punctual.t.h"
 #include "shading/surface/shaded_point.t.h"
 
@@ -29,6 +30,11 @@ BN_INLINE MaterialPlan plan_material(frame_ref f, material_ref m)
     return plan;
 }
 
+[[maybe_unused]] BN_STAGE real3 light_of_sky(const ShadingFrame& f, const shaded_point& x, bool anisotropic)
+{
+    return light_from_key_lights(f, x, anisotropic);
+}
+
 // x, y: pixels. Of a technique that shares samples the colour is made of `shared`, later.
 template <Technique kTechnique>
 BN_INLINE real3 shade_fragments(frame_ref f, material_ref m, const MaterialPlan& plan, const visible_point& p, integer x, integer y,
@@ -51,8 +57,11 @@ BN_INLINE real3 shade_fragments(frame_ref f, material_ref m, const MaterialPlan&
         const real3 specular = technique_specular<kTechnique>(f, point);
         color = environment_light(f, point, kTraits, specular) + color;
     }
+    const bool anisotropic = m.anisotropic && !(kTraits & kTakesRoundLobes);
+    if (f.key_light_count > 0)
+        color = color + light_of_sky(f, point, anisotropic);
     if (f.light_count > 0)
-        color = color + light_from_punctual(f, point, m.anisotropic && !(kTraits & kTakesRoundLobes), p.position);
+        color = color + light_from_punctual(f, point, anisotropic, p.position);
     if constexpr ((kTraits & kSharesSamples) != 0)
         shared = shared_light(f, point, kTraits, quad_offset(x & int_lit(1), y & int_lit(1)), color);
     return color;

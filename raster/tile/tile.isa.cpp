@@ -148,8 +148,8 @@ void shade_background_slot(const Tile& t, const view_params& view, std::uint32_t
     constexpr int kGroup = 8;
     Batch batches[kGroup];
     texel_plan plans[kGroup];
-    const cube_desc cube = specular_cube(t.f);
-    const real scale = splat(t.f.specular.scale);
+    const cube_desc cube = whole_cube(t.f);
+    const real scale = splat(t.f.whole.scale);
     for (std::uint32_t i = begin; i < end;) {
         int n = 0;
         for (; n < kGroup && i < end; ++n, i += kLanes) {
@@ -197,7 +197,7 @@ void shade_slot(const Tile& t, const view_params& view, const MaterialRecord& m,
             store_batch(t, load_batch(t, i, end), plan.at.base);
         return;
     }
-    if (plan.uniform && !(t.f.light_count | t.f.tilted | t.f.energy_compensation | t.f.dfg_fit)) {
+    if (plan.uniform && !(t.f.light_count | t.f.key_light_count | t.f.tilted | t.f.energy_compensation | t.f.dfg_fit)) {
         if (kTechnique == Technique::split_isotropic && !m.anisotropic) // what `auto` takes isotropic materials for
             shade_plain_slot<Technique::split_isotropic, RoundMaterial>(t, view, m, plan, begin, end);
         else

@@ -43,6 +43,10 @@ GpuScene::GpuScene(Context& context, const RenderInput& input)
     texels_.push_back(texel_page(context, input.dfg.texels));
     texels_.push_back(make_filled_buffer(context, lobe_albedo_texels(), lobe_albedo_bytes(), VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT));
     texels_.emplace_back(context, 0, Buffer::Place::device, VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT); // slices of it
+    if (input.environment.key_lights.empty())                                                           // then it is the specular cube
+        texels_.emplace_back(context, 0, Buffer::Place::device, VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT);
+    else
+        texels_.push_back(texel_page(context, input.environment.whole.texels));
     for (const TexturePyramid& p : maker_.scene().pyramids)
         texels_.push_back(texel_page(context, p.texels));
     upload_pages(context);
@@ -54,6 +58,8 @@ void GpuScene::upload_pages(Context& context)
     std::vector<std::uint64_t> addresses;
     for (const Buffer& b : texels_)
         addresses.push_back(b.address());
+    if (input_.environment.key_lights.empty())
+        addresses[kGpuWholePage] = addresses[kGpuSpecularPage];
     pages_ = filled(context, addresses);
 }
 

@@ -24,7 +24,8 @@ NativeImages::NativeImages(Context& context, VkDescriptorSetLayout layout, const
 {
     has_box_ = scene.box_cube().levels > 0;
     const CubeMap& specular = input.environment.specular;
-    for (const CubeMap* cube : {&specular, &input.environment.irradiance, has_box_ ? &scene.box_cube() : &specular})
+    for (const CubeMap* cube :
+         {&specular, &input.environment.irradiance, has_box_ ? &scene.box_cube() : &specular, &input.environment.picture()})
         cubes_.push_back(upload(cube->texels.data(), cube->offset, cube->size, cube->size, 6));
     for (const TexturePyramid& p : scene.tables().pyramids)
         textures_.push_back(upload(p.texels.data(), {p.offset, p.offset + p.levels}, p.width, p.height, 1));

@@ -10,10 +10,10 @@
 namespace burnish {
 #endif
 
-const int kGpuCubes = 3, kGpuGroup = 64; // cubes, invocations a workgroup
+const int kGpuCubes = 4, kGpuGroup = 64; // cubes, invocations a workgroup
 // Pages of texels; textures follow. In the reals the grid of filtered importance sampling comes first, 3 a sample.
 const int kGpuSpecularPage = 0, kGpuIrradiancePage = 1, kGpuBoxPage = 2, kGpuDfgPage = 3, kGpuLobeAlbedoPage = 4, kGpuLobeSlicePage = 5,
-          kGpuFirstTexturePage = 6;
+          kGpuWholePage = 6, kGpuFirstTexturePage = 7;
 const int kGpuMaxGrid = 65536;
 const int kGpuNoTriangle = -1;
 const int kGpuFrontFacing = 1, kGpuClipped = 2;                                    // bits of GpuSetup.info

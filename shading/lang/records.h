@@ -8,6 +8,7 @@ namespace burnish {
 #endif
 
 const int kMaxSamples = 16; // a pixel
+const int kMaxKeyLights = 8;
 const int kTextureSlots = 0 // a material
 #define BN_TEXTURE(slot, at, reference, encoding, power) +1
 #include "shading/material.def"
@@ -41,6 +42,11 @@ struct CubeRecord { // 0 levels: there is no such cube
     float scale; // of every texel
 };
 
+struct KeyLightRecord {                       // an evenly bright ellipse on the sky (KeyLight in shading/bake/environment)
+    float direction[3], axis_u[3], axis_v[3]; // unit; half axes, as tangents
+    float radiance[3], irradiance[3];         // of the ellipse; on a surface that faces it
+};
+
 // Flags are 0 or 1.
 struct FrameRecord {
     ViewRecord view;
@@ -48,8 +54,11 @@ struct FrameRecord {
     int center_x, center_y;        // sub-pixel units; added to a snapped position it counts from the image's top left corner
     float half_width, half_height; // pixels
     SamplePattern pattern;
-    CubeRecord specular, irradiance;
-    CubeRecord box;                 // box-filtered chain; only for techniques that ask for it
+    CubeRecord specular, irradiance; // without key lights
+    CubeRecord whole;                // the environment with them; where there are none, `specular`
+    CubeRecord box;                  // box-filtered chain, without them; only for techniques that ask for it
+    int key_light_count;
+    KeyLightRecord key_lights[kMaxKeyLights];
     int grid_count;                 // samples of filtered importance sampling
     int dfg_size, lobe_albedo_size; // tables of directional albedo
     int light_count;

@@ -54,6 +54,10 @@ BN_INLINE cube_desc specular_cube(frame_ref f)
 {
     return {f.specular_texels, f.specular.size, f.specular.levels};
 }
+BN_INLINE cube_desc whole_cube(frame_ref f)
+{
+    return {f.whole_texels, f.whole.size, f.whole.levels};
+}
 BN_INLINE cube_desc irradiance_cube(frame_ref f)
 {
     return {f.irradiance_texels, f.irradiance.size, f.irradiance.levels};
@@ -82,9 +86,10 @@ BN_INLINE real3 grid_sample(frame_ref f, int i)
     return vec3_of(splat(g.slope_x), splat(g.slope_y), splat(g.density));
 }
 
-// A fragment of which nothing changes but the geometry: neither textures, vertex colours, lights, tilt nor energy compensation.
+// A fragment of which nothing changes but the geometry: neither textures, vertex colours, lights of either kind, tilt nor energy
+// compensation.
 struct PlainFrame : ShadingFrame {
-    static constexpr int light_count = 0, tilted = 0, energy_compensation = 0, dfg_fit = 0;
+    static constexpr int light_count = 0, key_light_count = 0, tilted = 0, energy_compensation = 0, dfg_fit = 0;
 };
 struct PlainMaterial : MaterialRecord {
     static constexpr int textured = 0, uses_color = 0, unlit = 0;

@@ -36,7 +36,7 @@ struct FrameTables {
     const MaterialRecord* materials;
     const TextureParams* textures;
     const LightRecord* lights;
-    const std::uint16_t *specular_texels, *irradiance_texels, *box_texels;    // CubeMap::texels
+    const std::uint16_t *specular_texels, *irradiance_texels, *whole_texels, *box_texels; // CubeMap::texels
     const std::uint16_t *dfg_texels, *lobe_albedo_texels, *lobe_slice_texels; // DfgTable::texels, bake_lobe_albedo(), bake_lobe_slice()
     const GridSample* grid;
 };

@@ -12,7 +12,7 @@ real3 shade_background(int px, int py)
     real x = to_real(px) + lit(0.5);
     real y = to_real(py) + lit(0.5);
     real3 ray = pixel_ray(x, y, frame.half_width, frame.half_height, frame_view());
-    return cube_sample(specular_cube(0), ray, lit(0.0)) * frame.specular.scale;
+    return cube_sample(whole_cube(0), ray, lit(0.0)) * frame.whole.scale;
 }
 
 #endif

@@ -6,8 +6,14 @@
 #include "shading/stages/fragment.glsl"
 #include "shading/stages/techniques.glsl"
 #include "shading/lights/environment.t.h"
+#include "shading/lights/key.t.h"
 #include "shading/lights/punctual.t.h"
 #include "shading/surface/shaded_point.t.h"
+
+bool meets_own_lobe(int m) // of the material, not a round one
+{
+    return materials[m].anisotropic != 0 && (materials[m].technique_traits & kTakesRoundLobes) == 0;
+}
 
 real3 shade_point(int m, material_inputs at, visible_point p, int pixel_id)
 {
@@ -18,8 +24,10 @@ real3 shade_point(int m, material_inputs at, visible_point p, int pixel_id)
     int traits = materials[m].technique_traits;
     real3 specular = technique_specular(0, materials[m].technique, x);
     real3 color = environment_light(0, x, traits, specular) + at.emissive;
+    if (frame.key_light_count > 0)
+        color = color + light_from_key_lights(0, x, meets_own_lobe(m));
     if (frame.light_count > 0)
-        color = color + light_from_punctual(0, x, materials[m].anisotropic != 0 && (traits & kTakesRoundLobes) == 0, p.position);
+        color = color + light_from_punctual(0, x, meets_own_lobe(m), p.position);
     return color;
 }
 
@@ -30,8 +38,10 @@ line_record shade_line(int m, material_inputs at, visible_point p, int px, int p
     make_shaded_point(0, m, at, lobe_shape_of(0, m, at), p, py * frame.width + px, x);
     int traits = materials[m].technique_traits;
     real3 more = at.emissive;
+    if (frame.key_light_count > 0)
+        more = more + light_from_key_lights(0, x, meets_own_lobe(m));
     if (frame.light_count > 0)
-        more = more + light_from_punctual(0, x, materials[m].anisotropic != 0 && (traits & kTakesRoundLobes) == 0, p.position);
+        more = more + light_from_punctual(0, x, meets_own_lobe(m), p.position);
     return shared_light(0, x, traits, quad_offset(px & 1, py & 1), more);
 }
 

@@ -16,6 +16,7 @@
 #define lobe_slice_texels(f) kGpuLobeSlicePage
 
 cube_desc specular_cube(frame_ref f) { return cube_desc(kGpuSpecularPage, frame.specular.size, frame.specular.levels); }
+cube_desc whole_cube(frame_ref f) { return cube_desc(kGpuWholePage, frame.whole.size, frame.whole.levels); }
 cube_desc irradiance_cube(frame_ref f) { return cube_desc(kGpuIrradiancePage, frame.irradiance.size, frame.irradiance.levels); }
 cube_desc box_cube(frame_ref f) { return cube_desc(kGpuBoxPage, frame.box.size, frame.box.levels); }
 real3 grid_sample(frame_ref f, int i) { return vec3(bn_reals[3 * i], bn_reals[3 * i + 1], bn_reals[3 * i + 2]); }
@@ -31,7 +32,7 @@ struct cube_terms {
 };
 
 #ifdef BN_NATIVE_SAMPLER
-layout(set = 1, binding = 0) uniform samplerCube native_cubes[kGpuCubes]; // specular, irradiance, box
+layout(set = 1, binding = 0) uniform samplerCube native_cubes[kGpuCubes]; // specular, irradiance, box, whole
 
 // Not every device indexes samplers by a variable.
 vec4 native_fetch(cube_desc cube, vec3 d, float lod)
@@ -40,6 +41,8 @@ vec4 native_fetch(cube_desc cube, vec3 d, float lod)
         return textureLod(native_cubes[0], d, lod);
     if (cube.texels == kGpuIrradiancePage)
         return textureLod(native_cubes[1], d, lod);
+    if (cube.texels == kGpuWholePage)
+        return textureLod(native_cubes[3], d, lod);
     return textureLod(native_cubes[2], d, lod);
 }
 real3 native_sample(cube_desc cube, real3 d, real lod) { return native_fetch(cube, d, lod).xyz; }

@@ -65,6 +65,17 @@ BN_FN real placed_lobe_value(placed_lobe a, real3 wi)
     return ggx_aniso_eval(a.ggx, a.o, i) * cosine;
 }
 
+// The same over the density of normals that D would be if it were GGX's about the lobe's own normal; i: unit, in the lobe's axes.
+BN_FN real placed_lobe_masking(placed_lobe a, real3 i)
+{
+    real cosine = max(i.z, lit(0.0));
+    if (a.tilted) {
+        real value = lit(0.25) * ellipsoid_g1_over_z(a.ellipsoid, a.o) * ellipsoid_g1_over_z(a.ellipsoid, i) * cosine;
+        return value / sqrt(a.ellipsoid.an_length2);
+    }
+    return ggx_aniso_visibility(a.ggx, a.o, vec3_of(i.x, i.y, cosine)) * cosine;
+}
+
 // Density of placed_lobe_sample(), 1/sr.
 BN_FN real placed_lobe_pdf(placed_lobe a, real3 wi)
 {

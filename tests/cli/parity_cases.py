@@ -94,6 +94,15 @@ def automatic_technique(bench):
     check(len(report["rows"]) == 2 * 2 * 2, "rows are missing")
 
 
+# Key lights: discs and needles, tilted lobes, mirrors, samples that are shared.
+@case("parity.light_of_suns_is_equal")
+def light_of_suns(bench):
+    for options in (("--technique", "all"), ("--technique", "auto,mc", "--roughness", "0.15", "--anisotropy", "0.9"),
+                    ("--technique", "auto,split_isotropic", "--roughness", "0.02"), ("--technique", "auto,bent_normal", "--tilt", "20,-10", "--roughness", "0.5")):
+        check_equal(parity(bench, "builtin:spheres", bench.data_file("models/Lights.glb"), "--env", "builtin:sky", "--size", "64x48", "--msaa", "1",
+                           "--samples", "16", *options))
+
+
 @case("parity.models_are_equal")
 def models(bench):
     report = parity(bench, "--models", bench.data_file("models"), "--size", "96x64", "--technique", "major_axis,filtered_is_ggx", "--msaa", "1,4")

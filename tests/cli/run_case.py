@@ -15,6 +15,7 @@ import hostile_cases
 import input_cases
 import install_cases
 import kill_cases
+import key_light_cases
 import limit_cases
 import model_cases
 import output_cases

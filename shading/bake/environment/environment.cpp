@@ -12,8 +12,10 @@
 #include "shading/bake/environment/cube_map.h"
 #include "shading/bake/environment/environment_cache.h"
 #include "shading/bake/environment/equirect.h"
+#include "shading/bake/environment/key_lights.h"
 #include "shading/bake/environment/light_tree.h"
 #include "shading/bake/environment/prefilter.h"
+#include "shading/lang/records.h"
 
 namespace burnish {
 namespace {
@@ -124,6 +126,8 @@ Status check(const Image& image, const std::string& name, const EnvironmentOptio
         return bad_option("the cube size of the environment must be a power of two from 4 to 4096");
     if (o.levels < 0 || o.levels > 13 || (o.levels > 0 && (o.cube_size >> (o.levels - 1)) == 0))
         return bad_option("the environment's cube is too small for that many levels");
+    if (o.key_lights < 0 || o.key_lights > kMaxKeyLights)
+        return bad_option(fmt::format("the environment's key lights must be 0 to {}", kMaxKeyLights));
     if (o.samples < 1 || o.samples > 65536)
         return bad_option("the samples of the environment must be 1 to 65536");
     if (!(std::fabs(o.exposure_ev) <= 32.0f))
@@ -133,25 +137,32 @@ Status check(const Image& image, const std::string& name, const EnvironmentOptio
     return {};
 }
 
-Result<Environment> bake(const Image& image, const std::string& name, const EnvironmentOptions& options, int levels, const Jobs& jobs)
+Environment bake(const Image& image, const std::string& name, const EnvironmentOptions& options, int levels, const Jobs& jobs)
 {
     const TraceSpan span("bake environment");
     Environment e;
-    const Equirect source = make_equirect(image);
+    Equirect source = make_equirect(image);
     const double gain = det_exp(static_cast<double>(options.exposure_ev) * det_log(2.0));
-    const double peak = static_cast<double>(peak_value(source)) * gain;
-    if (!(peak <= 1e30))
-        return Error{ExitCode::bad_input, name, "", fmt::format("a radiance of {:g} is out of range", peak)};
+    double peak = static_cast<double>(peak_value(source)) * gain;
     e.peak_source = static_cast<float>(peak);
     e.energy_source = mean_luminance(source) * gain;
 
     Progress progress("baking " + name, prefilter_texels(options.cube_size, levels), options.quiet);
-    const std::vector<CubeLevel> boxes =
-        box_chain(equirect_to_cube(source, options.cube_size, static_cast<double>(options.rotation_deg), gain, jobs), jobs);
+    const double rotation_deg = static_cast<double>(options.rotation_deg);
+    CubeLevel level0 = equirect_to_cube(source, options.cube_size, rotation_deg, gain, jobs);
+    for (const KeyLight& light : take_key_lights(source, options.key_lights))
+        e.key_lights.push_back(turned(light, rotation_deg, gain));
+    if (!e.key_lights.empty()) {
+        e.whole = make_cube_map(options.cube_size, 1, cube_scale(peak));
+        store_cube_level(e.whole, 0, level0.rgb.data(), jobs);
+        level0 = equirect_to_cube(source, options.cube_size, rotation_deg, gain, jobs);
+        peak = static_cast<double>(peak_value(source)) * gain;
+    }
+    const std::vector<CubeLevel> boxes = box_chain(std::move(level0), jobs);
     const auto gathered = std::find_if(boxes.begin(), boxes.end(), [](const CubeLevel& l) { return l.size <= kIrradianceSource; });
     e.irradiance = irradiance_cube(*gathered, jobs, progress);
     e.specular = prefilter_chain(boxes, levels, options.samples, cube_scale(peak), jobs, progress);
-    e.energy_cube = mean_luminance(e.specular);
+    e.energy_cube = mean_luminance(e.picture());
     return e;
 }
 
@@ -180,16 +191,14 @@ Result<Environment> bake_environment(const Image& equirect, const std::string& n
             cached->bake_ms = ms_since(start);
             return std::move(*cached);
         }
-    Result<Environment> e = bake(equirect, name, options, levels, jobs);
-    if (!e)
-        return e;
-    e->name = name;
-    e->warnings = equirect_warnings(equirect);
-    e->content_hash = hash;
-    e->bake_ms = ms_since(start);
+    Environment e = bake(equirect, name, options, levels, jobs);
+    e.name = name;
+    e.warnings = equirect_warnings(equirect);
+    e.content_hash = hash;
+    e.bake_ms = ms_since(start);
     if (!path.empty())
-        if (const Status written = write_environment_cache(path, *e); !written)
-            e->warnings.push_back("the baked environment is not cached: " + written.error().line());
+        if (const Status written = write_environment_cache(path, e); !written)
+            e.warnings.push_back("the baked environment is not cached: " + written.error().line());
     return e;
 }
 

@@ -20,15 +20,33 @@ namespace burnish {
 struct CubeMap {
     int size = 0; // texels along an edge of level 0, power of two
     int levels = 0;
-    std::vector<std::uint32_t> offset; // by level, in texels, of face 0; faces are (size_l + 2)^2 texels apart
-    Column<std::uint16_t> texels;      // 4 halves a texel
-    float scale = 1.0f;                // power of two that multiplies what is fetched (keeps suns within half range)
+    std::vector<std::uint32_t> offset;        // by level, in texels, of face 0; faces are (size_l + 2)^2 texels apart
+    Column<std::uint16_t> texels;             // 4 halves a texel
+    float scale = 1.0f;                       // power of two that multiplies what is fetched (keeps suns within half range)
+    std::size_t level_texels(int level) const // of all faces, with their borders
+    {
+        const std::size_t side = static_cast<std::size_t>(size >> level) + 2;
+        return 6 * side * side;
+    }
+};
+
+// A small strong light of the environment, as an evenly bright ellipse on the sky. Directions as in the cubes, turned.
+struct KeyLight {
+    float direction[3];         // unit
+    float axis_u[3], axis_v[3]; // half axes of the ellipse that has its light's moments and mean radiance, as tangents; |u| >= |v|
+    float irradiance[3];        // linear RGB, on a surface that faces it; exposure included
+    float angular_radius;       // of the disc that has the ellipse's area, radians
+    float share;                // of the environment's luminance over the sphere, (0, 1]
 };
 
 struct Environment {
     std::string name;
-    CubeMap specular;   // level 0: the environment; level l: GGX with alpha_lin = l / (levels - 1)
-    CubeMap irradiance; // cosine-weighted mean radiance (irradiance / pi), one level, 32^2 faces
+    // Both without the key lights.
+    CubeMap specular;                 // level 0: the environment; level l: GGX with alpha_lin = l / (levels - 1)
+    CubeMap irradiance;               // cosine-weighted mean radiance (irradiance / pi), one level, 32^2 faces
+    std::vector<KeyLight> key_lights; // the strongest first
+    CubeMap whole;                    // level 0 with them; empty where there are none
+    const CubeMap& picture() const { return key_lights.empty() ? specular : whole; } // whose level 0 is all of it
     double energy_source = 0.0,
            energy_cube = 0.0; // mean radiance (luminance) over the sphere before and after, exposure included
     float peak_source = 0.0f; // largest channel value in the source, exposure included
@@ -43,6 +61,7 @@ struct EnvironmentOptions {
     float exposure_ev = 0.0f;  // radiance is multiplied by 2^ev
     int cube_size = 512;       // power of two, 4 to 4096
     int levels = 0;            // 0: log2(cube_size), down to 2^2 texels a face
+    int key_lights = 8;        // that may leave the environment, 0 to 8
     int samples = 1024;        // pieces of light that a texel of a prefiltered level sums, about; 1 to 65536
     bool use_cache = true;
     std::string cache_dir; // empty: $XDG_CACHE_HOME/burnish or ~/.cache/burnish

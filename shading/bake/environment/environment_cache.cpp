@@ -1,5 +1,6 @@
 #include "shading/bake/environment/environment_cache.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstring>
@@ -10,25 +11,28 @@
 #include "core/base/file.h"
 #include "core/base/hash.h"
 #include "shading/bake/environment/cube_map.h"
+#include "shading/lang/records.h"
 
 namespace burnish {
 namespace {
 
 static_assert(std::endian::native == std::endian::little, "cache files are little-endian");
 
-// The file: this header, the specular texels, the irradiance texels.
+// The file: this header, the specular texels, the irradiance texels and, with key lights, those of the whole environment.
 struct Header {
     char magic[8];
     std::uint32_t version;
     std::int32_t size, levels, irradiance_size;
-    float specular_scale, irradiance_scale, peak_source;
+    float specular_scale, irradiance_scale, whole_scale, peak_source;
+    std::int32_t key_light_count;
+    KeyLight key_lights[kMaxKeyLights];
     std::uint32_t zero;
     double energy_source, energy_cube;
     std::uint64_t content_hash;
     std::uint64_t payload_hash;
     std::uint64_t header_hash; // of everything above
 };
-static_assert(sizeof(Header) == 80);
+static_assert(sizeof(KeyLight) == 56 && sizeof(Header) == 536);
 constexpr char kMagic[8] = {'b', 'u', 'r', 'n', 'e', 'n', 'v', '\n'};
 
 std::uint64_t hash_of(const Header& h)
@@ -47,10 +51,11 @@ std::uint64_t environment_hash(const Image& equirect, const EnvironmentOptions& 
 {
     const struct {
         std::uint32_t version;
-        std::int32_t width, height, channels, type, size, levels, samples;
+        std::int32_t width, height, channels, type, size, levels, samples, key_lights;
         float rotation, exposure;
-    } key = {kBakeVersion,      equirect.width, equirect.height, equirect.channels,    static_cast<std::int32_t>(equirect.type),
-             options.cube_size, levels,         options.samples, options.rotation_deg, options.exposure_ev};
+    } key = {kBakeVersion,       equirect.width, equirect.height, equirect.channels,  static_cast<std::int32_t>(equirect.type),
+             options.cube_size,  levels,         options.samples, options.key_lights, options.rotation_deg,
+             options.exposure_ev};
     return hash_bytes(equirect.bytes.data(), equirect.bytes.size(), hash_bytes(&key, sizeof(key)));
 }
 
@@ -66,22 +71,35 @@ std::optional<Environment> parse_environment_cache(const std::uint8_t* data, std
     Environment e;
     e.specular = make_cube_map(size, levels, 1.0f);
     e.irradiance = make_cube_map(kIrradianceSize, 1, 1.0f);
+    CubeMap whole = make_cube_map(size, 1, 1.0f);
     const std::size_t specular = bytes_of(e.specular), irradiance = bytes_of(e.irradiance);
-    if (bytes != sizeof(Header) + specular + irradiance)
+    const std::size_t least = sizeof(Header) + specular + irradiance, most = least + bytes_of(whole);
+    if (bytes != least && bytes != most)
         return std::nullopt;
     Header h;
     std::memcpy(&h, data, sizeof(h));
     const std::uint8_t* payload = data + sizeof(h);
     if (std::memcmp(h.magic, kMagic, sizeof(kMagic)) != 0 || h.version != kBakeVersion || h.size != size || h.levels != levels ||
-        h.irradiance_size != kIrradianceSize || h.content_hash != content_hash || h.header_hash != hash_of(h) ||
-        h.payload_hash != hash_bytes(payload, specular + irradiance))
+        h.irradiance_size != kIrradianceSize || h.content_hash != content_hash || h.header_hash != hash_of(h) || h.key_light_count < 0 ||
+        h.key_light_count > kMaxKeyLights || (h.key_light_count > 0) != (bytes == most) ||
+        h.payload_hash != hash_bytes(payload, bytes - sizeof(h)))
         return std::nullopt;
     for (const double figure : {static_cast<double>(h.specular_scale), static_cast<double>(h.irradiance_scale),
-                                static_cast<double>(h.peak_source), h.energy_source, h.energy_cube})
+                                static_cast<double>(h.whole_scale), static_cast<double>(h.peak_source), h.energy_source, h.energy_cube})
         if (!std::isfinite(figure) || figure < 0.0)
             return std::nullopt;
+    for (const KeyLight& k : h.key_lights)
+        for (const float* v : {k.direction, k.axis_u, k.axis_v, k.irradiance})
+            if (!std::isfinite(v[0]) || !std::isfinite(v[1]) || !std::isfinite(v[2]))
+                return std::nullopt;
     std::memcpy(e.specular.texels.data(), payload, specular);
     std::memcpy(e.irradiance.texels.data(), payload + specular, irradiance);
+    if (h.key_light_count > 0) {
+        std::memcpy(whole.texels.data(), payload + specular + irradiance, bytes_of(whole));
+        whole.scale = h.whole_scale;
+        e.whole = std::move(whole);
+        e.key_lights.assign(h.key_lights, h.key_lights + h.key_light_count);
+    }
     e.specular.scale = h.specular_scale, e.irradiance.scale = h.irradiance_scale;
     e.energy_source = h.energy_source, e.energy_cube = h.energy_cube, e.peak_source = h.peak_source;
     e.content_hash = content_hash;
@@ -103,18 +121,21 @@ std::optional<Environment> read_environment_cache(const std::string& path, std::
 
 Status write_environment_cache(const std::string& path, const Environment& e)
 {
-    const std::size_t specular = bytes_of(e.specular), irradiance = bytes_of(e.irradiance);
-    std::vector<std::uint8_t> file(sizeof(Header) + specular + irradiance);
-    std::memcpy(file.data() + sizeof(Header), e.specular.texels.data(), specular);
-    std::memcpy(file.data() + sizeof(Header) + specular, e.irradiance.texels.data(), irradiance);
+    std::vector<std::uint8_t> file(sizeof(Header) + bytes_of(e.specular) + bytes_of(e.irradiance) + bytes_of(e.whole));
+    std::uint8_t* to = file.data() + sizeof(Header);
+    for (const CubeMap* cube : {&e.specular, &e.irradiance, &e.whole})
+        to = std::copy_n(reinterpret_cast<const std::uint8_t*>(cube->texels.data()), bytes_of(*cube), to);
     Header h = {};
     std::memcpy(h.magic, kMagic, sizeof(kMagic));
     h.version = kBakeVersion;
     h.size = e.specular.size, h.levels = e.specular.levels, h.irradiance_size = e.irradiance.size;
-    h.specular_scale = e.specular.scale, h.irradiance_scale = e.irradiance.scale, h.peak_source = e.peak_source;
+    h.specular_scale = e.specular.scale, h.irradiance_scale = e.irradiance.scale, h.whole_scale = e.whole.scale;
+    h.peak_source = e.peak_source;
+    h.key_light_count = static_cast<std::int32_t>(e.key_lights.size());
+    std::copy(e.key_lights.begin(), e.key_lights.end(), h.key_lights);
     h.energy_source = e.energy_source, h.energy_cube = e.energy_cube;
     h.content_hash = e.content_hash;
-    h.payload_hash = hash_bytes(file.data() + sizeof(Header), specular + irradiance);
+    h.payload_hash = hash_bytes(file.data() + sizeof(Header), file.size() - sizeof(Header));
     h.header_hash = hash_of(h);
     std::memcpy(file.data(), &h, sizeof(h));
 

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <fmt/format.h>
-#include <limits>
 
 #include "core/image/colour.h"
 #include "core/math/scalar_math.h"
@@ -159,7 +158,7 @@ float largest_finite(const std::vector<float>& values)
 {
     float largest = 0.0f;
     for (const float v : values)
-        if (v <= std::numeric_limits<float>::max())
+        if (v <= kMostRadiance)
             largest = std::max(largest, v);
     return largest;
 }
@@ -196,8 +195,8 @@ std::vector<std::string> equirect_warnings(const Image& image)
             const float v = image.f32()[i + c];
             nan += std::isnan(v);
             negative += v < 0.0f;
-            infinite += v > std::numeric_limits<float>::max();
-            largest = v <= std::numeric_limits<float>::max() ? std::max(largest, v) : largest;
+            infinite += v > kMostRadiance;
+            largest = v <= kMostRadiance ? std::max(largest, v) : largest;
         }
     std::vector<std::string> warnings;
     if (nan)

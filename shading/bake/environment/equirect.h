@@ -15,8 +15,11 @@ struct Equirect {
     std::vector<float> rgb;
 };
 
-// 8- and 16-bit images are taken as sRGB. NaN and negative values become 0, Inf the largest finite value of
-// the image.
+// No light is brighter (the sun has 1.6e9 cd/m^2): above it, values are taken for infinite ones.
+inline constexpr float kMostRadiance = 1e12f;
+
+// 8- and 16-bit images are taken as sRGB. NaN and negative values become 0, infinite ones the largest finite
+// value of the image.
 Equirect make_equirect(const Image& image);
 
 // One line for each kind of what make_equirect() repairs or has to guess in this image.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -42,7 +43,8 @@ class environment_cache : public testing::Test {
     }
     static void expect_same(const Environment& a, const Environment& b)
     {
-        for (const auto& [x, y] : {std::pair{&a.specular, &b.specular}, std::pair{&a.irradiance, &b.irradiance}}) {
+        for (const auto& [x, y] :
+             {std::pair{&a.specular, &b.specular}, std::pair{&a.irradiance, &b.irradiance}, std::pair{&a.whole, &b.whole}}) {
             EXPECT_TRUE(std::equal(x->texels.begin(), x->texels.end(), y->texels.begin(), y->texels.end()));
             EXPECT_EQ(x->offset, y->offset);
             EXPECT_EQ(x->size, y->size);
@@ -53,6 +55,8 @@ class environment_cache : public testing::Test {
         EXPECT_EQ(a.energy_cube, b.energy_cube);
         EXPECT_EQ(a.peak_source, b.peak_source);
         EXPECT_EQ(a.content_hash, b.content_hash);
+        ASSERT_EQ(a.key_lights.size(), b.key_lights.size());
+        EXPECT_EQ(std::memcmp(a.key_lights.data(), b.key_lights.data(), a.key_lights.size() * sizeof(KeyLight)), 0);
     }
 
     fs::path folder_;
@@ -98,6 +102,26 @@ TEST_F(environment_cache, every_option_and_pixel_has_its_own_entry)
     EXPECT_FALSE(bake().from_cache);
     EXPECT_EQ(files().size(), 7u);
     EXPECT_TRUE(bake().from_cache);
+}
+
+TEST_F(environment_cache, keeps_key_lights)
+{
+    image_ = smooth_equirect(256);
+    float* sun = image_.f32() + 3 * (256 * 40 + 80);
+    sun[0] = sun[1] = 5000.0f, sun[2] = 4000.0f;
+    const Environment baked = bake();
+    ASSERT_EQ(baked.key_lights.size(), 1u);
+    const Environment read = bake();
+    EXPECT_TRUE(read.from_cache);
+    expect_same(read, baked);
+    options_.key_lights = 0;
+    const Environment off = bake();
+    EXPECT_FALSE(off.from_cache);
+    EXPECT_TRUE(off.key_lights.empty());
+    options_.key_lights = 8;
+    for (const fs::path& file : files()) // cut where the whole environment begins, or too long by it
+        write_all(file, read_all(file).substr(0, read_all(files().at(0)).size() / 2));
+    expect_same(bake(), baked);
 }
 
 TEST_F(environment_cache, damaged_files_are_baked_anew)

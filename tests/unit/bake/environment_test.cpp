@@ -244,6 +244,9 @@ TEST(environment, bad_pixels_are_repaired_and_reported)
     EXPECT_EQ(e.warnings[1], "2 negative values of the environment set to 0");
     EXPECT_EQ(e.warnings[2], "1 infinite values of the environment set to its largest finite value, 77");
     EXPECT_EQ(e.peak_source, 77.0f);
+    image.f32()[20] = 1e30f; // no light
+    EXPECT_EQ(bake(image, small_bake()).warnings, e.warnings);
+    EXPECT_EQ(bake(image, small_bake()).peak_source, 77.0f);
     for (const std::uint16_t t : e.specular.texels)
         ASSERT_TRUE(std::isfinite(half_to_float(t)));
 }
@@ -281,6 +284,7 @@ TEST(environment, bad_options_and_images_are_errors)
     EXPECT_EQ(code([](EnvironmentOptions& o) { o.cube_size = 0; }), ExitCode::usage);
     EXPECT_EQ(code([](EnvironmentOptions& o) { o.levels = 7; }), ExitCode::usage);
     EXPECT_EQ(code([](EnvironmentOptions& o) { o.samples = 0; }), ExitCode::usage);
+    EXPECT_EQ(code([](EnvironmentOptions& o) { o.key_lights = 9; }), ExitCode::usage);
     EXPECT_EQ(code([](EnvironmentOptions& o) { o.exposure_ev = NAN; }), ExitCode::usage);
     EXPECT_EQ(code([](EnvironmentOptions& o) { o.rotation_deg = INFINITY; }), ExitCode::usage);
     EXPECT_EQ(code([](EnvironmentOptions& o) { o.levels = 6; }), ExitCode::ok);
@@ -312,7 +316,7 @@ TEST(environment, a_bake_of_other_bits_raises_the_version)
     ASSERT_TRUE(e);
     const std::uint64_t specular = hash_bytes(e->specular.texels.data(), e->specular.texels.size() * 2);
     const std::uint64_t both = hash_bytes(e->irradiance.texels.data(), e->irradiance.texels.size() * 2, specular);
-    EXPECT_EQ(kBakeVersion, 3u);
+    EXPECT_EQ(kBakeVersion, 4u);
     EXPECT_EQ(both, 0x94871c52210d74f2u) << std::hex << both << ": raise kBakeVersion, then copy this hash";
 }
 

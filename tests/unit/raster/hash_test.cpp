@@ -19,20 +19,23 @@ struct Case {
 };
 constexpr Case kCases[] = {{"teapot", 317, 203, 8}, {"spheres", 256, 160, 4}, {"plate", 200, 151, 1}};
 
+Environment small_bake(const char* name)
+{
+    Result<Image> image = make_builtin_environment(name);
+    EXPECT_TRUE(image);
+    EnvironmentOptions options;
+    options.cube_size = 64;
+    options.samples = 64;
+    options.use_cache = false;
+    Result<Environment> baked = bake_environment(*image, name, options, Jobs(2));
+    EXPECT_TRUE(baked);
+    return std::move(*baked);
+}
+
 // The studio in small, baked once.
 const Environment& studio()
 {
-    static const Environment environment = [] {
-        Result<Image> image = make_builtin_environment("studio");
-        EXPECT_TRUE(image);
-        EnvironmentOptions options;
-        options.cube_size = 64;
-        options.samples = 64;
-        options.use_cache = false;
-        Result<Environment> baked = bake_environment(*image, "studio", options, Jobs(2));
-        EXPECT_TRUE(baked);
-        return std::move(*baked);
-    }();
+    static const Environment environment = small_bake("studio");
     return environment;
 }
 
@@ -142,6 +145,20 @@ TEST(golden, picture_of_every_option_is_as_it_was)
             option.set(d);
             EXPECT_TRUE(is_golden(std::string("options/") + option.name, stage->render(d, isa).color, isa_name(isa)));
         }
+}
+
+// A long gleam of the sun, which has left the environment.
+TEST(golden, picture_of_the_sun_is_as_it_was)
+{
+    const Case c = {"spheres", 96, 64, 4};
+    const std::unique_ptr<Stage> stage = stage_of(c, 2);
+    stage->environment = small_bake("sky");
+    ASSERT_EQ(stage->environment.key_lights.size(), 1u);
+    for (Isa isa : available_isas()) {
+        FrameDesc d = desc_of(c, *stage);
+        d.roughness = 0.4f, d.anisotropy = 0.8f, d.override_anisotropy = true;
+        EXPECT_TRUE(is_golden("options/sun", stage->render(d, isa).color, isa_name(isa)));
+    }
 }
 
 TEST(hash, of_a_second_frame_equals_the_first)

@@ -1,0 +1,45 @@
+#include "apps/cli/environment_text.h"
+
+#include <fmt/core.h>
+#include <utility>
+
+namespace burnish {
+
+std::string light_text(const Environment& e)
+{
+    return fmt::format("mean radiance {:.6g} in the source, {:.6g} in the cube, peak {:.6g}", e.energy_source, e.energy_cube,
+                       static_cast<double>(e.peak_source));
+}
+
+std::string key_light_text(const KeyLight& k)
+{
+    constexpr double kDegrees = 57.295779513082321;
+    return fmt::format("{:.1f} % of the light, towards {:.4f},{:.4f},{:.4f}, radius {:.2f} degrees, irradiance {:.4g},{:.4g},{:.4g}",
+                       100.0 * static_cast<double>(k.share), k.direction[0], k.direction[1], k.direction[2],
+                       kDegrees * static_cast<double>(k.angular_radius), k.irradiance[0], k.irradiance[1], k.irradiance[2]);
+}
+
+void report_key_lights(const Environment& environment, Report& report)
+{
+    for (const KeyLight& light : environment.key_lights)
+        report.detail("key light", key_light_text(light));
+}
+
+Json key_lights_json(const Environment& environment)
+{
+    const auto vector = [](const float* v) { return Json::array({v[0], v[1], v[2]}); };
+    Json lights = Json::array();
+    for (const KeyLight& k : environment.key_lights) {
+        Json light;
+        light["direction"] = vector(k.direction);
+        light["irradiance"] = vector(k.irradiance);
+        light["angular_radius_rad"] = k.angular_radius;
+        light["axis_u"] = vector(k.axis_u);
+        light["axis_v"] = vector(k.axis_v);
+        light["share"] = k.share;
+        lights.push_back(std::move(light));
+    }
+    return lights;
+}
+
+} // namespace burnish

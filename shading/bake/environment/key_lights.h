@@ -1,0 +1,24 @@
+// Key lights: small strong lights of an environment, found in its picture and taken out of it. What is left is smooth enough for
+// prefiltering and for few samples; the lights themselves are evaluated with the lobe.
+#pragma once
+#include <vector>
+
+#include "shading/bake/environment/environment.h"
+#include "shading/bake/environment/equirect.h"
+
+namespace burnish {
+
+// A region is a key light where it
+//  - is connected and brighter than a threshold that is at least four times the mean radiance of the sphere,
+//  - is compact: it lies within 5 degrees of its centre, its ellipse of inertia has half axes of at most 2.5 degrees and covers it,
+//  - has on the mean at least eight times the radiance of its surroundings, and four times that of any pixel on its rim,
+//  - gives at least 1/200 of the light of the sphere.
+// The threshold is the lowest that satisfies all this. At most `most` are taken out of `source`, the strongest first, each with the pixels
+// around it; what is left there is a mean of the surroundings, the nearer the more. Light is moved, never made or lost: what a light has is
+// the difference. Directions are those of the picture, unturned.
+std::vector<KeyLight> take_key_lights(Equirect& source, int most);
+
+// Turned as equirect_to_cube() turns the picture, and times `gain`.
+KeyLight turned(const KeyLight& light, double rotation_deg, double gain);
+
+} // namespace burnish

@@ -1,0 +1,131 @@
+// Light of the environment's key lights, which its prefiltered cubes leave out: evenly bright ellipses on the sky, met by the lobe itself.
+#ifndef BN_KEY_T_H
+#define BN_KEY_T_H
+
+#include "shading/kernels/fresnel.k.h"
+#include "shading/lang/lang.h"
+#include "shading/lang/stage.h"
+#include "shading/lights/key.k.h"
+#include "shading/surface/shaded_point.t.h"
+
+BN_KERNELS_BEGIN
+
+struct key_lobe { // the lobe that lights meet
+    aniso_lobe lobe;
+    placed_lobe placed;
+    real3 eye;     // in the lobe's own frame
+    real2 inverse; // 1 over its widths
+};
+
+// anisotropic: the point's own, as are all that are tilted; otherwise a round one of the same roughness.
+BN_FN key_lobe key_lobe_of(frame_ref f, BN_IN(shaded_point) x, bool anisotropic)
+{
+    real root2 = lit(1.4142135623730951);
+    real one = lit(1.0);
+    key_lobe r;
+    r.lobe = x.lobe;
+    if (!anisotropic && the_frame(f).tilted == 0) {
+        r.lobe.sigma_u = x.s.roughness * x.s.roughness * lit(0.70710678118654752);
+        r.lobe.sigma_v = r.lobe.sigma_u;
+    }
+    r.placed = placed_lobe_of(the_frame(f).tilted != 0, r.lobe, x.s.n, x.s.v, x.surface_axes);
+    r.eye = r.placed.o;
+    if (r.placed.tilted)
+        r.eye = to_lobe(r.lobe, x.s.n, x.s.v);
+    // masking alone: normals of silhouettes may look away from the eye, and lobes flare up there
+    r.placed.o.z = max(r.placed.o.z, lit(0.02));
+    real alpha_u = r.lobe.sigma_u * root2;
+    real alpha_v = r.lobe.sigma_v * root2;
+    r.inverse = vec2_of(one / usable_alpha(alpha_u), one / usable_alpha(alpha_v));
+    return r;
+}
+
+struct key_reflection {
+    real lobe;    // what the specular lobe gives off over the light's radiance, without Fresnel
+    real cosine;  // of the light at the surface, for the diffuse part
+    real v_dot_h; // for Fresnel
+};
+
+// light: number of a key light.
+BN_FN key_reflection key_reflection_of(frame_ref f, BN_IN(shaded_point) x, BN_IN(key_lobe) lobe, int light)
+{
+    real3 direction = splat3(the_frame(f).key_lights[light].direction);
+    real3 l = to_lobe(lobe.lobe, x.s.n, direction);
+    real3 in_place = l;
+    if (lobe.placed.tilted)
+        in_place = to_frame(lobe.placed.axes, direction);
+    mask risen = in_place.z > lit(0.0);
+    if (x.turned)
+        risen = both(risen, k_dot3(x.surface_axes.n, direction) > lit(0.0));
+    key_reflection r;
+    r.lobe = lit(0.0);
+    r.cosine = max(l.z, lit(0.0));
+    r.v_dot_h = lit(0.0);
+    if (no_lane(risen))
+        return r;
+    real3 u = to_lobe(lobe.lobe, x.s.n, splat3(the_frame(f).key_lights[light].axis_u));
+    real3 v = to_lobe(lobe.lobe, x.s.n, splat3(the_frame(f).key_lights[light].axis_v));
+    real3 h = l + lobe.eye; // twice as long as the cosine between eye and half vector
+    real h2 = k_dot3(h, h);
+    real up = lit(1.0) / max(h.z, lit(1e-4));
+    real slope_x = h.x * up;
+    real slope_y = h.y * up;
+    real over_x = up * lobe.inverse.x;
+    real over_y = up * lobe.inverse.y;
+    real2 centre = vec2_of(slope_x * lobe.inverse.x, slope_y * lobe.inverse.y);
+    // slopes change by (w.xy - slope w.z) / h.z as the light moves by w
+    real2 at_u = vec2_of((u.x - slope_x * u.z) * over_x, (u.y - slope_y * u.z) * over_y);
+    real2 at_v = vec2_of((v.x - slope_x * v.z) * over_x, (v.y - slope_y * v.z) * over_y);
+    // as far as the light reaches a quarter of the way to where half vectors lie level and slopes have no end
+    real steep = lit(16.0) * (u.z * u.z + v.z * v.z) * up * up;
+    real parts = max(steep, lit(1.0));
+    slope_ellipse ellipse = slope_ellipse_of(centre, at_u, at_v, lit(1.0) / parts);
+    real share = min(ggx_share_of_ellipse(ellipse) * parts, lit(1.0));
+    real value = lit(2.0) * h2 * up * share * placed_lobe_masking(lobe.placed, in_place); // D dl = share 4 (v.h) / h.z, of the unit h
+    r.lobe = select(risen, value, lit(0.0));
+    real half_length = lit(0.5) * sqrt(h2);
+    r.v_dot_h = k_saturate(half_length);
+    return r;
+}
+
+// What a mirror shows of the lights: the picture with them less that without.
+BN_FN real3 key_lights_mirrored(frame_ref f, BN_IN(shaded_point) x, BN_IN(placed_lobe) lobe)
+{
+    real3 r = x.s.n * (lit(2.0) * k_dot3(x.s.n, x.s.v)) - x.s.v;
+    real3 with = cube_sample_level(whole_cube(f), r, 0) * splat(the_frame(f).whole.scale);
+    real3 without = cube_sample_level(specular_cube(f), r, 0) * splat(the_frame(f).specular.scale);
+    real3 shown = (with - without) * x.albedo * placed_lobe_mirror_albedo(lobe);
+    if (x.turned)
+        return select(k_dot3(x.surface_axes.n, r) > lit(0.0), shown, vec3_all(lit(0.0)));
+    return shown;
+}
+
+// Lobes narrower than any that is evaluated blend into a mirror, which shows the lights as the environment has them. Occlusion dims all of
+// it. anisotropic: by the lobe itself, otherwise by a round one of the same roughness.
+BN_FN real3 light_from_key_lights(frame_ref f, BN_IN(shaded_point) x, bool anisotropic)
+{
+    key_lobe lobe = key_lobe_of(f, x, anisotropic);
+    real3 specular = vec3_all(lit(0.0));
+    real3 irradiance = vec3_all(lit(0.0));
+    for (int i = 0; i < the_frame(f).key_light_count; ++i) {
+        key_reflection r = key_reflection_of(f, x, lobe, i);
+        real3 fresnel = fresnel_schlick(x.s.f0, x.s.f90, r.v_dot_h);
+        specular = specular + splat3(the_frame(f).key_lights[i].radiance) * fresnel * r.lobe;
+        irradiance = irradiance + splat3(the_frame(f).key_lights[i].irradiance) * r.cosine;
+    }
+    real narrowness = lit(1.0) - lobe.lobe.sigma_u * lit(1414.2135623730951); // 0 from the least width on, alpha = 0.001
+    real mirror = k_saturate(narrowness);
+    if (any_lane(mirror > lit(0.0)))
+        specular = specular + (key_lights_mirrored(f, x, lobe.placed) - specular) * mirror;
+    real3 sum = specular * x.gain;
+    if (x.diffuse) {
+        real passed = passed_to_diffuse(f, x) * lit(0.31830988618379067);
+        sum = sum + x.s.diffuse * irradiance * passed;
+    }
+    real3 seen = sum * x.s.occlusion;
+    return seen;
+}
+
+BN_KERNELS_END
+
+#endif

@@ -1,0 +1,134 @@
+"""Key lights of environments: the option, what is said about them, and pictures of environments that are hardly any."""
+
+import json
+import pathlib
+import subprocess
+import sys
+
+from environment_files import even, exr, with_texels
+from harness import SMALL, Failed, Skipped, case, check, scratch
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+NAN, INF = float("nan"), float("inf")
+
+
+@case("key_lights.are_as_many_as_asked_for", "input", tier="check")
+def as_many(bench):
+    def found(*words):
+        return bench.figures("--env", "builtin:sky", *SMALL, *words)
+
+    auto = found()
+    check(len(auto["key_lights"]) == 1, f"{auto['key_lights']}")
+    sun = auto["key_lights"][0]
+    check(0.015 < sun["angular_radius_rad"] < 0.02 and 0.6 < sun["share"] < 0.8, f"{sun}")
+    check(len(sun["direction"]) == len(sun["irradiance"]) == 3, f"{sun}")
+    for words, count, same in ((("--key-lights", "auto"), 1, True), (("--key-lights", "8"), 1, True), (("--key-lights", "1"), 1, True),
+                               (("--key-lights", "off"), 0, False), (("--key-lights", "0"), 0, False)):
+        other = found(*words)
+        check(len(other["key_lights"]) == count, f"{words}: {other['key_lights']}")
+        check((other["pixel_hash"] == auto["pixel_hash"]) == same, f"{words}: {'other' if same else 'the same'} pixels")
+    turned = found("--env-rotation", "90")["key_lights"][0]
+    check(abs(turned["direction"][1] - sun["direction"][1]) < 1e-6 and turned["direction"][0] != sun["direction"][0], f"{turned}")
+
+
+@case("key_lights.are_none_in_the_studio", tier="check")
+def none_in_the_studio(bench):
+    """Whose picture does not change."""
+    hashes = set()
+    for words in ((), ("--key-lights", "off")):
+        found = bench.figures(*SMALL, *words)
+        check(found["key_lights"] == [], f"{found['key_lights']}")
+        hashes.add(found["pixel_hash"])
+    check(len(hashes) == 1, f"{hashes}")
+
+
+@case("key_lights.are_told", tier="check")
+def are_told(bench):
+    told = bench.run("render", "--env", "builtin:sky", *SMALL, "-v").expect(0).err
+    check("key light" in told and "% of the light" in told, told)
+    check("key light" not in bench.run("render", *SMALL, "-v").expect(0).err, "the studio's key lights are told of")
+    text = bench.run("info", "--env", "builtin:sky").expect(0).out
+    check("environment  builtin:sky" in text and text.count("key light ") == 1, text)
+    environment = json.loads(bench.run("info", "--json", "--env", "builtin:sky", "--key-lights", "off").expect(0).out)["environment"]
+    check(environment["name"] == "builtin:sky" and environment["key_lights"] == [] and environment["warnings"] == [], f"{environment}")
+    check("environment" not in json.loads(bench.run("info", "--json").expect(0).out), "info looks at an environment that was not asked for")
+    bench.run("info", "--env", "nothing.exr").expect(4).expect_one_line("nothing.exr")
+
+
+@case("key_lights.option_takes_nothing_else", "input", tier="check")
+def nothing_else(bench):
+    for word in ("-1", "9", "1000", "on", "1.5", "", "99999999999999999999"):
+        for command in (("render", "-o", "out.png"), ("info",)):
+            bench.run(*command, "--key-lights", word).expect(2).expect_one_line("--key-lights")
+    check(bench.left_behind() == [], f"{bench.left_behind()}")
+
+
+@case("key_lights.of_poor_environments_do_no_harm", "input", tier="check")
+def poor_environments(bench):
+    """Black, even, one bright texel, one pixel: pictures without NaN, and the light is there."""
+    pictures = {"black": (32, 16, even(0.0)), "even": (32, 16, even(1.0)), "texel": (64, 32, with_texels({(20, 10): 1e6}, 0.0)),
+                "bright_texel": (64, 32, with_texels({(20, 10): 1e6}, 0.5)), "dot": (1, 1, even(2.0)), "all_bright": (32, 16, even(1e9))}
+    for name, (width, height, value) in pictures.items():
+        path = scratch(bench, name + ".exr", exr(width, height, value))
+        for roughness in ("0", "0.05", "0.5"):
+            found = bench.figures("--env", path, *SMALL, "--roughness", roughness, "--anisotropy", "0.9")
+            check(found["nan_pixels"] == 0, f"{name}: {found['nan_pixels']} pixels are not finite")
+            check(found["warnings"] == [], f"{name}: {found['warnings']}")
+
+
+@case("key_lights.environments_are_repaired_and_said_so", "input", tier="check")
+def repaired(bench):
+    """A warning is one line, also in --stats, from the bake and from the cache."""
+    for name, value, words in (("nan", NAN, "1 NaN values"), ("inf", INF, "1 infinite values"), ("1e30", 1e30, "1 infinite values"),
+                               ("3e38", 3e38, "1 infinite values"), ("negative", -2.0, "1 negative values")):
+        # grey, so that each texel is one value in one channel
+        path = scratch(bench, name + ".exr", exr(64, 32, lambda x, y, v=value: (v if (x, y) == (9, 9) else 0.5, 0.5, 0.75)))
+        pixels = set()
+        for words_of_run in ((), (), ("--no-cache",)):
+            done = bench.run("render", "--env", path, *SMALL, "--stats", "s.json", *words_of_run).expect(0)
+            lines = [line for line in done.err.splitlines() if "warning" in line]
+            check(len(lines) == 1 and words in lines[0], f"{name}\n{done.describe()}")
+            stats = json.loads((bench.folder / "s.json").read_text())
+            check(len(stats["warnings"]) == 1 and words in stats["warnings"][0] and stats["nan_pixels"] == 0, f"{name}: {stats['warnings']}")
+            pixels.add(stats["pixel_hash"])
+        check(len(pixels) == 1, f"{name}: {pixels}")
+    every = scratch(bench, "all_nan.exr", exr(16, 8, even(NAN)))
+    found = bench.figures("--env", every, *SMALL)
+    check(found["nan_pixels"] == 0 and len(found["warnings"]) == 1, f"{found['warnings']}")
+
+
+@case("key_lights.cache_that_cannot_be_written_is_a_warning", tier="check")
+def unwritable_cache(bench):
+    scratch(bench, "file", b"no folder")
+    done = bench.run("render", "--env", "builtin:sky", *SMALL, "--stats", "s.json", env={"XDG_CACHE_HOME": str(bench.folder / "file")}).expect(0)
+    lines = [line for line in done.err.splitlines() if "warning" in line]
+    check(len(lines) == 1 and "not cached" in lines[0], done.describe())
+    check(len(json.loads((bench.folder / "s.json").read_text())["warnings"]) == 1, "not in --stats")
+
+
+@case("key_lights.render_the_same_on_every_road")
+def same_on_every_road(bench):
+    available = json.loads(bench.run("info", "--json").expect(0).out)["isa_available"]
+    for words in (("--technique", "auto"), ("--technique", "mc", "--samples", "4"), ("--technique", "bent_normal", "--tilt", "10,-5")):
+        hashes = {}
+        for road in [("--isa", isa) for isa in available] + [("--threads", "1"), ("--threads", "3"), ("--tile-size", "32"), ("--no-cache",)]:
+            found = bench.figures("builtin:spheres", "--env", "builtin:sky", *SMALL, *words, *road)
+            hashes.setdefault(found["pixel_hash"], []).append(road)
+        check(len(hashes) == 1, f"{words}: {hashes}")
+
+
+@case("key_lights.halve_the_error_under_suns", tier="slow")
+def halve_the_error(bench):
+    """The small table of bench/key_lights.py."""
+    if "reference" not in bench.run("info").expect(0).out:
+        raise Skipped("built without Embree")
+    done = subprocess.run([sys.executable, "-B", ROOT / "bench/key_lights.py", "--quick", "--program", bench.program, "--json", bench.folder / "t.json"],
+                          capture_output=True, text=True, env=bench.environment({}), timeout=550, check=False)
+    print(done.stdout)
+    if done.returncode not in (0, 1):
+        raise Failed(done.stderr)
+    check(done.returncode == 0, "a place is worse with key lights than without")
+    for env in ("builtin:sky", "low_sun", "two_suns"):
+        rows = [row for row in json.loads((bench.folder / "t.json").read_text()) if env in row["env"]]
+        off, on = (sum(row[f"flip_{k}"] for row in rows) for k in ("off", "auto"))
+        check(rows and rows[0]["key_lights"] > 0 and on < 0.5 * off, f"{env}: {off} -> {on}")
