@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include "apps/chart/noise.h"
+#include "apps/cli/open.h"
 #include "apps/cli/seen_scene.h"
 #include "apps/cli/stop_signal.h"
 #include "apps/render/parameters.h"
@@ -98,7 +99,7 @@ Status Chart::load_all()
     }
     for (const std::string& env : options_.envs) {
         Result<std::shared_ptr<const Environment>> environment =
-            load_shared_environment(env, options_.base.environment, options_.base.limits, *jobs_);
+            open_environment(env, options_.base.environment, options_.base.limits, *jobs_);
         if (!environment)
             return environment.error();
         for (const std::string& warning : (*environment)->warnings)

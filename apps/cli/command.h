@@ -3,6 +3,7 @@
 #pragma once
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "apps/cli/option.h"
 
@@ -18,5 +19,7 @@ struct Command {
 #define BN_COMMAND(name) Command name##_command();
 #include "apps/cli/commands.def"
 #undef BN_COMMAND
+
+std::vector<Command> all_commands(); // in the order of commands.def
 
 } // namespace burnish

@@ -4,6 +4,7 @@
 #include <fmt/core.h>
 
 #include "apps/cli/report.h"
+#include "apps/cli/suggest.h"
 
 namespace burnish {
 namespace {
@@ -14,7 +15,7 @@ constexpr const char* kHelp = "Print this text and exit";
 // What the words give each option, in the order of the table.
 struct Given {
     std::vector<std::vector<std::string>> texts;
-    bool help = false;
+    Asked asked = Asked::nothing;
     std::string wrong; // what is wrong with the words; empty: nothing
 };
 
@@ -54,12 +55,24 @@ class Reader {
     }
     void refuse_word(const std::string& word) { refuse("The following argument was not expected: " + word); }
 
+    void refuse_option(const std::string& word, const std::string& name)
+    {
+        std::vector<std::string> names = {"--help"};
+        for (const Option& option : options_)
+            if (!option.positional())
+                names.push_back(option.name);
+        refuse("The following argument was not expected: " + word + did_you_mean(name, names));
+    }
+
     void place(const std::string& word)
     {
         for (std::size_t i = 0; i < options_.size(); ++i)
             if (options_[i].positional() && (options_[i].value.repeated || given_.texts[i].empty()))
                 return take(i, word);
-        refuse_word(word);
+        const bool torn =
+            last_ < options_.size() && options_[last_].value.kind == ValueKind::vector && word.find_first_of("0123456789") == 0;
+        refuse("The following argument was not expected: " + word +
+               (torn ? fmt::format("; {} takes {}, with commas and no blanks", options_[last_].name, options_[last_].value_name) : ""));
     }
 
     void long_option(const std::string& word)
@@ -67,9 +80,9 @@ class Reader {
         const std::size_t equals = word.find('=');
         const std::string name = word.substr(0, equals);
         if (name == "--help")
-            given_.help = true;
+            given_.asked = Asked::help;
         else if (const std::size_t i = index_of(name); i == options_.size())
-            refuse_word(word);
+            name == "--version" ? static_cast<void>(given_.asked = Asked::version) : refuse_option(word, name);
         else if (!options_[i].takes_value())
             equals == std::string::npos ? given_.texts[i].push_back("") : refuse(name + ": takes no value");
         else if (equals != std::string::npos)
@@ -86,7 +99,7 @@ class Reader {
             while (i < options_.size() && options_[i].letter != word[k])
                 ++i;
             if (word[k] == 'h')
-                given_.help = true;
+                given_.asked = Asked::help;
             else if (i == options_.size())
                 return refuse_word(word);
             else if (!options_[i].takes_value())
@@ -116,12 +129,14 @@ class Reader {
     {
         if (text.empty())
             refuse(options_[i].name + ": the value is empty");
+        if (!options_[i].positional())
+            last_ = i;
         given_.texts[i].push_back(text);
     }
 
     const std::vector<Option>& options_;
     const std::vector<std::string>& words_;
-    std::size_t at_ = 0;
+    std::size_t at_ = 0, last_ = static_cast<std::size_t>(-1); // last_: the option that took a value last
     Given given_;
 };
 
@@ -148,16 +163,6 @@ std::string help_line(const Option& option)
     return help_line(names, option.help_text());
 }
 
-// "[OPTIONS] REFERENCE TEST", "[OPTIONS] [SCENE...]"
-std::string usage_of(const OptionTable& table)
-{
-    std::string usage = "[OPTIONS]";
-    for (const Option& option : table.options())
-        if (option.positional())
-            usage += (option.required ? " " : " [") + option.name + (option.value.repeated ? "..." : "") + (option.required ? "" : "]");
-    return usage;
-}
-
 } // namespace
 
 Status read_command_line(Command& command, const std::vector<std::string>& words)
@@ -179,9 +184,18 @@ Status read_command_line(Command& command, const std::vector<std::string>& words
     return command.options.check_needs();
 }
 
-bool asks_for_help(const Command& command, const std::vector<std::string>& words)
+Asked asked_by(const Command& command, const std::vector<std::string>& words)
 {
-    return Reader(command.options.options(), words).read().help;
+    return Reader(command.options.options(), words).read().asked;
+}
+
+std::string usage_of(const OptionTable& table)
+{
+    std::string usage = "[OPTIONS]";
+    for (const Option& option : table.options())
+        if (option.positional())
+            usage += (option.required ? " " : " [") + option.name + (option.value.repeated ? "..." : "") + (option.required ? "" : "]");
+    return usage;
 }
 
 std::string help_of(const Command& command)

@@ -4,12 +4,14 @@
 #include <csignal>
 #include <cstdio>
 #include <exception>
+#include <fmt/core.h>
 #include <new>
 #include <string>
 #include <vector>
 
 #include "apps/cli/command_line.h"
 #include "apps/cli/report.h"
+#include "apps/cli/suggest.h"
 #include "core/base/cgroup.h"
 #include "core/base/version.h"
 #include "core/jobs/cores.h"
@@ -30,41 +32,64 @@ Exit codes: 0 done, 1 results differ, 2 wrong option, 3 sizes do not match, 4 ba
 7 output not written, 70 a fault of the program, 77 not available on this machine, 130 or 143 stopped, with everything
 kept in a checkpoint.)";
 
+int print_help(const Command* command, const std::vector<Command>& commands)
+{
+    std::fputs((command ? help_of(*command) : help_of(commands, kFooter)).c_str(), stdout);
+    return 0;
+}
+
+int print_version()
+{
+    std::printf("burnish %s\n", version());
+    return 0;
+}
+
+int refuse_subcommand(const std::string& word, const std::vector<Command>& commands)
+{
+    std::vector<std::string> names = {"help"};
+    for (const Command& command : commands)
+        names.push_back(command.name);
+    return fail(
+        usage_error("", fmt::format("no subcommand '{}': there are {}{} (see burnish --help)", word, join(names),
+                                    looks_like_scene(word) ? "; did you mean 'burnish render " + word + "'?" : did_you_mean(word, names))));
+}
+
 int run(const std::vector<std::string>& words)
 {
-    std::vector<Command> commands;
-#define BN_COMMAND(name) commands.push_back(name##_command());
-#include "apps/cli/commands.def"
-#undef BN_COMMAND
-
+    std::vector<Command> commands = all_commands();
+    const auto find = [&](const std::string& name) {
+        return std::find_if(commands.begin(), commands.end(), [&](const Command& command) { return command.name == name; });
+    };
     const std::string first = words.empty() ? "" : words[0];
-    if (first == "-h" || first == "--help") {
-        std::fputs(help_of(commands, kFooter).c_str(), stdout);
-        return 0;
-    }
-    if (first == "--version") {
-        std::printf("burnish %s\n", version());
-        return 0;
-    }
+    if (first == "-h" || first == "--help")
+        return print_help(nullptr, commands);
+    if (first == "--version")
+        return print_version();
     if (first.empty())
         return fail(usage_error("", "A subcommand is required (see burnish --help)"));
     if (first[0] == '-')
         return fail(usage_error("", "The following argument was not expected: " + first + " (see burnish --help)"));
-    std::vector<std::string> known;
-    for (Command& command : commands) {
-        known.push_back(command.name);
-        if (command.name != first)
-            continue;
-        const std::vector<std::string> rest(words.begin() + 1, words.end());
-        if (asks_for_help(command, rest)) {
-            std::fputs(help_of(command).c_str(), stdout);
-            return 0;
-        }
-        if (const Status read = read_command_line(command, rest); !read)
-            return fail(read.error());
-        return command.run(command.options);
+    if (first == "help") {
+        const auto command = words.size() < 2 ? commands.end() : find(words[1]);
+        if (words.size() > 1 && command == commands.end())
+            return refuse_subcommand(words[1], commands);
+        return print_help(command == commands.end() ? nullptr : &*command, commands);
     }
-    return fail(usage_error("", "no subcommand '" + first + "': there are " + join(known) + " (see burnish --help)"));
+    const auto command = find(first);
+    if (command == commands.end())
+        return refuse_subcommand(first, commands);
+    const std::vector<std::string> rest(words.begin() + 1, words.end());
+    switch (asked_by(*command, rest)) {
+    case Asked::help:
+        return print_help(&*command, commands);
+    case Asked::version:
+        return print_version();
+    case Asked::nothing:
+        break;
+    }
+    if (const Status read = read_command_line(*command, rest); !read)
+        return fail(read.error());
+    return command->run(command->options);
 }
 
 int flush_stdout(int code)
@@ -76,6 +101,16 @@ int flush_stdout(int code)
 }
 
 } // namespace
+
+std::vector<Command> all_commands()
+{
+    std::vector<Command> commands;
+#define BN_COMMAND(name) commands.push_back(name##_command());
+#include "apps/cli/commands.def"
+#undef BN_COMMAND
+    return commands;
+}
+
 } // namespace burnish
 
 int main(int argc, char** argv)

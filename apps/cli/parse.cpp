@@ -6,6 +6,7 @@
 #include <fmt/core.h>
 
 #include "apps/cli/report.h"
+#include "apps/cli/suggest.h"
 #include "raster/frame/frame.h"
 
 namespace burnish {
@@ -113,7 +114,7 @@ Result<std::vector<std::string>> parse_techniques(const std::string& text, const
     const std::vector<std::string> wanted = split(text, ',');
     for (const std::string& name : wanted)
         if (!find_technique(name))
-            return usage_error(option, fmt::format("'{}' is not one of all, {}", name, join(known)));
+            return usage_error(option, fmt::format("'{}' is not one of all, {}{}", name, join(known), did_you_mean(name, known)));
     for (const std::string& name : known)
         if (std::find(wanted.begin(), wanted.end(), name) != wanted.end())
             chosen.push_back(name);

@@ -1,12 +1,13 @@
 #include "apps/cli/seen_scene.h"
 
+#include "apps/cli/open.h"
 #include "apps/cli/scene_view.h"
 
 namespace burnish {
 
 Result<SeenScene> load_seen_scene(const std::string& name, const RenderOptions& base, Report& report)
 {
-    const Result<std::shared_ptr<const SceneData>> data = load_scene_data(name, base.limits);
+    const Result<std::shared_ptr<const SceneData>> data = open_scene(name, base.limits);
     if (!data)
         return data.error();
     for (const std::string& warning : (*data)->scene.warnings)

@@ -4,6 +4,7 @@
 #include <fmt/core.h>
 
 #include "apps/cli/report.h"
+#include "apps/cli/suggest.h"
 #include "core/scene/builtin/builtin.h"
 #include "raster/frame/frame.h"
 #include "shading/lang/records.h"
@@ -37,7 +38,7 @@ template <class T, class Parse, class Use> Put reading(Parse parse, Use use)
 
 Error not_one_of(const std::string& option, const std::string& text, const Texts& names)
 {
-    return usage_error(option, fmt::format("'{}' is not one of {}", text, join(names)));
+    return usage_error(option, fmt::format("'{}' is not one of {}{}", text, join(names), did_you_mean(text, names)));
 }
 
 bool contains(const Texts& names, const std::string& text)

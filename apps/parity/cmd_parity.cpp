@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "apps/cli/command.h"
+#include "apps/cli/open.h"
 #include "apps/cli/outputs.h"
 #include "apps/cli/seen_scene.h"
 #include "apps/parity/options.h"
@@ -165,7 +166,7 @@ int run_parity(const ParityArguments& arguments, const OptionTable& given)
     const Result<std::shared_ptr<VulkanDevice>> device = open_vulkan_device(base.vulkan);
     if (!device)
         return fail(device.error());
-    const Result<std::shared_ptr<const Environment>> environment = load_shared_environment(base.env, base.environment, base.limits, *jobs);
+    const Result<std::shared_ptr<const Environment>> environment = open_environment(base.env, base.environment, base.limits, *jobs);
     if (!environment)
         return fail(environment.error());
     for (const std::string& warning : (*environment)->warnings)

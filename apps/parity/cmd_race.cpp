@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "apps/cli/command.h"
+#include "apps/cli/open.h"
 #include "apps/cli/outputs.h"
 #include "apps/cli/seen_scene.h"
 #include "apps/cli/shared_options.h"
@@ -216,7 +217,7 @@ int run_race(const RaceArguments& arguments, const OptionTable& given)
     const std::vector<std::shared_ptr<VulkanDevice>> devices = open_devices(*checked, out, none);
     if (devices.empty())
         return fail(none);
-    const Result<std::shared_ptr<const Environment>> environment = load_shared_environment(base.env, base.environment, base.limits, *jobs);
+    const Result<std::shared_ptr<const Environment>> environment = open_environment(base.env, base.environment, base.limits, *jobs);
     if (!environment)
         return fail(environment.error());
     for (const std::string& warning : (*environment)->warnings)

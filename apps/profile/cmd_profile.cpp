@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "apps/cli/command.h"
+#include "apps/cli/open.h"
 #include "apps/cli/outputs.h"
 #include "apps/cli/report.h"
 #include "apps/cli/seen_scene.h"
@@ -124,7 +125,7 @@ int run_profile(const ProfileArguments& arguments, const OptionTable& given)
     if (Status files = check_files(options, arguments, scene.files); !files)
         return fail(files.error());
     const Result<std::shared_ptr<const Environment>> environment =
-        load_shared_environment(options.env, options.environment, options.limits, *jobs);
+        open_environment(options.env, options.environment, options.limits, *jobs);
     if (!environment)
         return fail(environment.error());
     for (const std::string& warning : (*environment)->warnings)

@@ -8,6 +8,7 @@
 
 #include "apps/cli/command.h"
 #include "apps/cli/environment_text.h"
+#include "apps/cli/open.h"
 #include "apps/cli/outputs.h"
 #include "apps/cli/report.h"
 #include "apps/cli/scene_view.h"
@@ -98,7 +99,7 @@ Result<Session> prepare(const RenderOptions& options, RenderFigures& figures, st
     const Stopwatch load;
     {
         const TraceSpan span("load scene");
-        const Result<std::shared_ptr<const SceneData>> data = load_scene_data(options.scene, options.limits);
+        const Result<std::shared_ptr<const SceneData>> data = open_scene(options.scene, options.limits);
         if (!data)
             return data.error();
         parts.scene = *data;
@@ -110,7 +111,7 @@ Result<Session> prepare(const RenderOptions& options, RenderFigures& figures, st
     {
         const TraceSpan span("environment");
         const Result<std::shared_ptr<const Environment>> environment =
-            load_shared_environment(options.env, options.environment, options.limits, *parts.jobs);
+            open_environment(options.env, options.environment, options.limits, *parts.jobs);
         if (!environment)
             return environment.error();
         parts.environment = *environment;

@@ -22,6 +22,10 @@ def installed(bench):
         program = pathlib.Path(prefix, "bin", "burnish")
         module = pathlib.Path(prefix, "lib", "burnish", MODULE)
         check(program.is_file() and module.is_file(), f"{program} or {module} is not installed")
+        for text in ("man/man1/burnish.1", "bash-completion/completions/burnish", "zsh/site-functions/_burnish",
+                     "fish/vendor_completions.d/burnish.fish"):
+            file = pathlib.Path(prefix, "share", text)
+            check(file.is_file() and "--technique" in file.read_text().replace("\\-", "-").replace("-l t", "--t"), f"{file} is not installed")
         bench.run("render", *SMALL, "-o", "a.exr", "-o", "a.hdr", "-o", "a.jpg", program=program).expect(0)
         for env in ("a.exr", "a.hdr", "a.jpg"):
             bench.run("render", *SMALL, "--env", env, "-o", "b.png", program=program).expect(0)

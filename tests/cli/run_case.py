@@ -17,6 +17,8 @@ import install_cases
 import kill_cases
 import key_light_cases
 import limit_cases
+import manual_cases
+import mistake_cases
 import model_cases
 import output_cases
 import parity_cases

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "apps/cli/command_line.h"
+#include "apps/cli/suggest.h"
 #include "apps/cli/values.h"
 
 namespace burnish {
@@ -76,10 +77,10 @@ TEST(cli_words, what_is_wrong_is_named)
 TEST(cli_words, help_is_asked_for_anywhere_but_in_a_value)
 {
     const Command command = Sample().command;
-    EXPECT_TRUE(asks_for_help(command, {"here", "--bogus", "--help"}));
-    EXPECT_TRUE(asks_for_help(command, {"-ph"}));
-    EXPECT_FALSE(asks_for_help(command, {"-o", "--help"}));
-    EXPECT_FALSE(asks_for_help(command, {"-oh", "--", "-h"}));
+    EXPECT_EQ(asked_by(command, {"here", "--bogus", "--help"}), Asked::help);
+    EXPECT_EQ(asked_by(command, {"-ph"}), Asked::help);
+    EXPECT_EQ(asked_by(command, {"-o", "--help"}), Asked::nothing);
+    EXPECT_EQ(asked_by(command, {"-oh", "--", "-h"}), Asked::nothing);
 }
 
 TEST(cli_words, help_holds_every_option_with_its_values_and_its_default)
@@ -91,6 +92,20 @@ TEST(cli_words, help_holds_every_option_with_its_values_and_its_default)
                              "  --name NAME                       one, two or three (one)\n", "  -o,--output FILE ...              Files\n",
                              "\nExamples:\n  none\n"})
         EXPECT_NE(help.find(line), std::string::npos) << line << "\nin\n" << help;
+}
+
+TEST(cli_words, names_that_were_meant_are_near_and_others_get_no_guess)
+{
+    const std::vector<std::string> names = {"major_axis", "major_axis_weighted", "mc", "bent_normal"};
+    EXPECT_EQ(nearest_name("major-axis", names), "major_axis");
+    EXPECT_EQ(nearest_name("bnet_normal", names), "bent_normal"); // two letters swapped are one slip
+    EXPECT_EQ(nearest_name("weighted", names), "major_axis_weighted");
+    EXPECT_EQ(nearest_name("cm", names), "mc");
+    for (const char* word : {"", "x", "nothing", "a_word_of_another_language"})
+        EXPECT_EQ(nearest_name(word, names), "") << word;
+    Sample s;
+    EXPECT_NE(s.read({"--nmae", "one"}).find("did you mean '--name'?"), std::string::npos);
+    EXPECT_NE(s.read({"--name", "tow"}).find("did you mean 'two'?"), std::string::npos);
 }
 
 } // namespace

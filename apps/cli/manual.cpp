@@ -1,0 +1,225 @@
+#include "apps/cli/manual.h"
+
+#include <fmt/core.h>
+
+#include "apps/cli/command_line.h"
+#include "core/base/version.h"
+
+namespace burnish {
+namespace {
+
+std::string replaced(std::string text, const std::string& what, const std::string& by)
+{
+    for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + by.size()))
+        text.replace(at, what.size(), by);
+    return text;
+}
+
+// As roff reads it: no escape, no request at a line's beginning, a minus that can be copied.
+std::string roff(const std::string& text)
+{
+    std::string out = replaced(replaced(text, "\\", "\\e"), "-", "\\-");
+    out = replaced(out, "\n.", "\n\\&.");
+    out = replaced(out, "\n'", "\n\\&'");
+    return out.empty() || (out[0] != '.' && out[0] != '\'') ? out : "\\&" + out;
+}
+
+std::string roff_option(const Option& option)
+{
+    std::string names = option.letter ? fmt::format("-{}, {}", option.letter, option.name) : option.name;
+    if (option.takes_value() && !option.positional())
+        names += " " + option.value_name;
+    return fmt::format(".TP\n.B {}\n{}\n", roff(names), roff(option.help_text()));
+}
+
+bool takes_path(const Option& option)
+{
+    return option.value.kind == ValueKind::file || option.value.kind == ValueKind::folder;
+}
+
+// All that an option, or a place, may be told by name; with blanks between.
+std::string words_of(const Option& option)
+{
+    std::string words;
+    for (const std::string& name : option.value.names)
+        words += (words.empty() ? "" : " ") + name;
+    return words;
+}
+
+std::string names_of(const Command& command)
+{
+    std::string names = "--help --version";
+    for (const Option& option : command.options.options())
+        if (!option.positional())
+            names += " " + option.name;
+    return names;
+}
+
+std::string subcommands(const std::vector<Command>& commands)
+{
+    std::string names;
+    for (const Command& command : commands)
+        names += command.name + " ";
+    return names + "help";
+}
+
+// In single quotes, for shells.
+std::string quoted(const std::string& text)
+{
+    return "'" + replaced(text, "'", "'\\''") + "'";
+}
+
+// What zsh's _arguments takes between brackets and colons.
+std::string zsh_text(const std::string& text)
+{
+    std::string out;
+    for (const char c : text)
+        out += c == '[' || c == ']' || c == ':' || c == '\\' ? std::string("\\") + c : std::string(1, c);
+    return out;
+}
+
+std::string zsh_values(const Option& option)
+{
+    const std::string words = words_of(option);
+    const std::string message = zsh_text(option.positional() ? option.name : option.value_name);
+    if (words.empty())
+        return fmt::format(":{}:{}", message, takes_path(option) ? "_files" : "");
+    const std::string list = zsh_text(words);
+    return takes_path(option) ? fmt::format(":{}:{{compadd -- {}; _files}}", message, words) : fmt::format(":{}:({})", message, list);
+}
+
+std::string zsh_option(const Option& option)
+{
+    if (option.positional())
+        return quoted((option.value.repeated ? "*" : "") + zsh_values(option));
+    const std::string help = fmt::format("[{}]", zsh_text(option.help_text()));
+    const std::string values = option.takes_value() ? zsh_values(option) : "";
+    const std::string many = option.value.repeated || !option.takes_value() ? "*" : "";
+    std::string out = quoted(many + option.name + help + values);
+    if (option.letter)
+        out += " " + quoted(fmt::format("{}-{}{}{}", many, option.letter, help, values));
+    return out;
+}
+
+} // namespace
+
+std::string man_page(const std::vector<Command>& commands)
+{
+    std::string out = fmt::format(".TH BURNISH 1 \"\" \"burnish {}\" \"User Commands\"\n.ad l\n", version());
+    out += ".SH NAME\nburnish \\- renders anisotropic materials on the CPU\n.SH SYNOPSIS\n";
+    for (const Command& command : commands)
+        out += fmt::format(".B burnish {}\n{}\n.br\n", roff(command.name),
+                           roff(replaced(usage_of(command.options), "[OPTIONS]", "[options]")));
+    out += ".SH DESCRIPTION\nA tile\\-based, SIMD, multithreaded rasterizer that takes glTF 2.0 scenes and HDR environments and writes "
+           "linear EXR and display\\-ready PNG.\n";
+    for (const Command& command : commands) {
+        out += fmt::format(".SH burnish {}\n{}\n", roff(command.name), roff(command.summary + "."));
+        std::string heading;
+        for (const Option& option : command.options.options()) {
+            if (option.group != heading && !option.group.empty())
+                out += fmt::format(".SS {}\n", roff(option.group));
+            heading = option.group;
+            out += roff_option(option);
+        }
+        if (!command.footer.empty())
+            out += ".PP\n.nf\n" + roff(command.footer) + "\n.fi\n";
+    }
+    return out;
+}
+
+std::string bash_completion(const std::vector<Command>& commands)
+{
+    std::string values, plain;
+    for (const Command& command : commands) {
+        std::string places, words;
+        for (const Option& option : command.options.options()) {
+            if (option.positional()) {
+                words += words_of(option) + " ";
+                places = takes_path(option) ? " files=1" : places;
+            } else if (option.takes_value()) {
+                const std::string pattern = fmt::format("\"{} {}\"", command.name, option.name) +
+                                            (option.letter ? fmt::format("|\"{} -{}\"", command.name, option.letter) : "");
+                values += fmt::format("    {}) words={}{} ;;\n", pattern, quoted(words_of(option)), takes_path(option) ? " files=1" : "");
+            }
+        }
+        plain += fmt::format("        {}) words={}{} ;;\n", command.name, quoted(words + names_of(command)), places);
+    }
+    return fmt::format(R"(# Completion of burnish in bash.
+# Names such as builtin:teapot are one word.
+COMP_WORDBREAKS=${{COMP_WORDBREAKS//:}}
+_burnish()
+{{
+    local cur=${{COMP_WORDS[COMP_CWORD]}} prev=${{COMP_WORDS[COMP_CWORD - 1]}} words= files=
+    if [ "$COMP_CWORD" = 1 ]; then
+        words={}
+    else
+        case "${{COMP_WORDS[1]}} $prev" in
+{}        *)
+            case "${{COMP_WORDS[1]}}" in
+{}            help) words={} ;;
+            esac ;;
+        esac
+    fi
+    COMPREPLY=($(compgen -W "$words" -- "$cur"))
+    if [ -n "$files" ]; then COMPREPLY+=($(compgen -f -- "$cur")); fi
+}}
+complete -o filenames -F _burnish burnish
+)",
+                       quoted(subcommands(commands) + " --help --version"), values, plain, quoted(subcommands(commands)));
+}
+
+std::string zsh_completion(const std::vector<Command>& commands)
+{
+    std::string names, cases;
+    for (const Command& command : commands) {
+        names += fmt::format("    {}\n", quoted(zsh_text(command.name) + ":" + command.summary));
+        cases += fmt::format(
+            "    {})\n      _arguments '(-h --help)'{{-h,--help}}'[Print the help and exit]' '--version[Print the version and exit]'",
+            command.name);
+        for (const Option& option : command.options.options())
+            cases += " \\\n        " + zsh_option(option);
+        cases += " ;;\n";
+    }
+    return fmt::format(R"(#compdef burnish
+# Completion of burnish in zsh.
+_burnish() {{
+  local curcontext="$curcontext" state line
+  local -a commands=(
+{}    'help:Print the help of a subcommand'
+  )
+  _arguments -C '1:subcommand:->command' '*::argument:->arguments'
+  case $state in
+  command) _describe subcommand commands ;;
+  arguments)
+    case $words[1] in
+{}    help) _describe subcommand commands ;;
+    esac ;;
+  esac
+}}
+_burnish "$@"
+)",
+                       names, cases);
+}
+
+std::string fish_completion(const std::vector<Command>& commands)
+{
+    std::string out = "# Completion of burnish in fish.\ncomplete -c burnish -f\n";
+    for (const Command& command : commands) {
+        out += fmt::format("complete -c burnish -n __fish_use_subcommand -a {} -d {}\n", command.name, quoted(command.summary));
+        const std::string when = fmt::format("complete -c burnish -n '__fish_seen_subcommand_from {}'", command.name);
+        for (const Option& option : command.options.options()) {
+            const std::string words = words_of(option), files = takes_path(option) ? " -F" : "";
+            if (option.positional()) {
+                out += when + files + (words.empty() ? "" : " -a " + quoted(words)) + "\n";
+                continue;
+            }
+            out += when + " -l " + option.name.substr(2) + (option.letter ? fmt::format(" -s {}", option.letter) : "");
+            if (option.takes_value())
+                out += " -r" + files + (words.empty() ? "" : " -a " + quoted(words));
+            out += " -d " + quoted(option.help_text()) + "\n";
+        }
+    }
+    return out;
+}
+
+} // namespace burnish

@@ -1,0 +1,24 @@
+#include "apps/cli/open.h"
+
+#include "apps/cli/suggest.h"
+
+namespace burnish {
+
+Result<std::shared_ptr<const SceneData>> open_scene(const std::string& name, const Limits& limits)
+{
+    Result<std::shared_ptr<const SceneData>> scene = load_scene_data(name, limits);
+    if (!scene)
+        return with_scene_hint(scene.error(), name);
+    return scene;
+}
+
+Result<std::shared_ptr<const Environment>> open_environment(const std::string& name, const EnvironmentOptions& options,
+                                                            const Limits& limits, const Jobs& jobs)
+{
+    Result<std::shared_ptr<const Environment>> environment = load_shared_environment(name, options, limits, jobs);
+    if (!environment)
+        return with_environment_hint(environment.error(), name);
+    return environment;
+}
+
+} // namespace burnish

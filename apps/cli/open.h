@@ -1,0 +1,14 @@
+// Scenes and environments as users name them; what cannot be opened comes with a hint where the name tells what was meant.
+#pragma once
+#include <memory>
+#include <string>
+
+#include "raster/session/session.h"
+
+namespace burnish {
+
+Result<std::shared_ptr<const SceneData>> open_scene(const std::string& name, const Limits& limits);
+Result<std::shared_ptr<const Environment>> open_environment(const std::string& name, const EnvironmentOptions& options,
+                                                            const Limits& limits, const Jobs& jobs);
+
+} // namespace burnish
