@@ -97,7 +97,9 @@ OptionTable chart_option_table(ChartArguments& to)
                 "--camera",
                 "--eye",
                 "--target",
+                "--orbit",
                 "--fov",
+                "--zoom",
                 {"--exposure", "Of the pictures to look at: multiply by 2^EV"},
                 "--no-background"});
     table.add("Picture", {{"--error-size", "WxH",

@@ -9,7 +9,7 @@
 namespace burnish {
 namespace {
 
-constexpr float kRadiansPerDegree = 0.017453292519943295f;
+constexpr float kRadiansPerDegree = 0.017453292519943295f, kUsualFovDeg = 45.0f;
 
 bool is_placed(const Scene& scene, int camera)
 {
@@ -49,29 +49,63 @@ Result<int> find_camera(const Scene& scene, const std::string& wanted)
     return found;
 }
 
-} // namespace
+// --fov and --target change what a camera of the scene says.
+Result<View> changed(View view, const RenderOptions& options, const std::string& camera)
+{
+    const int width = options.frame.width, height = options.frame.height;
+    if (options.fov_y_deg) {
+        if (view.orthographic)
+            return usage_error("--fov", camera + " is orthographic: --zoom changes what it shows");
+        const glm::vec3 ahead = view.eye + view.forward;
+        const float tan_half = make_view(view.eye, ahead, *options.fov_y_deg * kRadiansPerDegree, width, height).tan_half_y;
+        view.tan_half_x *= tan_half / view.tan_half_y, view.tan_half_y = tan_half;
+    }
+    if (options.target) {
+        if (*options.target == view.eye)
+            return usage_error("--target", "is where " + camera + " stands");
+        const View turned = make_view(view.eye, *options.target, 1.0f, width, height);
+        view.right = turned.right, view.up = turned.up, view.forward = turned.forward;
+    }
+    return view;
+}
 
-namespace {
+int first_placed_camera(const Scene& scene)
+{
+    for (int camera = 0; camera < static_cast<int>(scene.cameras.size()); ++camera)
+        if (is_placed(scene, camera))
+            return camera;
+    return kNone;
+}
 
 Result<ChosenView> wanted_view(const RenderOptions& options, const Scene& scene, const DrawTables& tables)
 {
     const int width = options.frame.width, height = options.frame.height;
+    const float fov_y_rad = options.fov_y_deg.value_or(kUsualFovDeg) * kRadiansPerDegree;
     if (options.eye) {
         const glm::vec3 target = options.target ? *options.target : (tables.bounds_min + tables.bounds_max) * 0.5f;
         if (target == *options.eye)
             return usage_error("--eye", "is the centre of the scene: give a --target");
-        return ChosenView{make_view(*options.eye, target, options.fov_y_deg * kRadiansPerDegree, width, height), "from --eye"};
+        return ChosenView{make_view(*options.eye, target, fov_y_rad, width, height), "from --eye"};
     }
+    int camera = options.orbit_deg ? kNone : first_placed_camera(scene);
     if (!options.camera.empty()) {
-        const Result<int> camera = find_camera(scene, options.camera);
-        if (!camera)
-            return camera.error();
-        return ChosenView{make_view(scene, *camera, width, height), "camera " + camera_label(scene, *camera)};
+        const Result<int> found = find_camera(scene, options.camera);
+        if (!found)
+            return found.error();
+        camera = *found;
     }
-    for (int camera = 0; camera < static_cast<int>(scene.cameras.size()); ++camera)
-        if (is_placed(scene, camera))
-            return ChosenView{make_view(scene, camera, width, height), "camera " + camera_label(scene, camera)};
-    return ChosenView{auto_frame(tables, width, height), "framed automatically", true};
+    if (camera != kNone) {
+        const std::string label = "camera " + camera_label(scene, camera);
+        const Result<View> view = changed(make_view(scene, camera, width, height), options, label);
+        if (!view)
+            return view.error();
+        return ChosenView{*view, label};
+    }
+    Framing framing;
+    framing.fov_y_rad = fov_y_rad, framing.target = options.target;
+    if (options.orbit_deg)
+        framing.azimuth_rad = options.orbit_deg->x * kRadiansPerDegree, framing.elevation_rad = options.orbit_deg->y * kRadiansPerDegree;
+    return ChosenView{auto_frame(tables, width, height, framing), options.orbit_deg ? "from --orbit" : "framed automatically", true};
 }
 
 } // namespace
@@ -81,7 +115,8 @@ Result<ChosenView> choose_view(const RenderOptions& options, const Scene& scene,
     Result<ChosenView> chosen = wanted_view(options, scene, tables);
     if (!chosen)
         return chosen;
-    const View& view = chosen->view;
+    View& view = chosen->view;
+    view.tan_half_x /= options.zoom, view.tan_half_y /= options.zoom;
     for (const glm::vec3& v : {view.eye, view.right, view.up, view.forward})
         if (!std::isfinite(v.x) || !std::isfinite(v.y) || !std::isfinite(v.z)) // a camera node scaled to nothing, say
             return options.eye      ? usage_error("--eye", "gives no view: too near or too far from its target")
@@ -89,6 +124,17 @@ Result<ChosenView> choose_view(const RenderOptions& options, const Scene& scene,
                                             "the scene is too large to be framed; give it a camera or --eye"}
                                     : Error{ExitCode::bad_input, options.scene, "/cameras", "the camera's node gives no view"};
     return chosen;
+}
+
+std::string camera_options(const View& view, const DrawTables& tables)
+{
+    if (view.orthographic)
+        return "orthographic, which no options give";
+    const glm::vec3 to_center = (tables.bounds_min + tables.bounds_max) * 0.5f - view.eye;
+    const glm::vec3 target = view.eye + view.forward * std::max(glm::dot(to_center, view.forward), 10.0f * view.znear);
+    const auto text = [](const glm::vec3& p) { return fmt::format("{:.7g},{:.7g},{:.7g}", p.x, p.y, p.z); };
+    return fmt::format("--eye {} --target {} --fov {:.7g}", text(view.eye), text(target),
+                       2.0f * std::atan(view.tan_half_y) / kRadiansPerDegree);
 }
 
 std::string describe_matrix(const View& view)

@@ -16,8 +16,11 @@ struct ChosenView {
     bool framed = false;     // automatically
 };
 
-// --eye, else --camera, else the scene's first camera that a node places, else a view of the whole scene.
+// --eye, else --camera, else the scene's first camera that a node places, else (and with --orbit) a view of the whole scene.
 Result<ChosenView> choose_view(const RenderOptions& options, const Scene& scene, const DrawTables& tables);
+
+// "--eye X,Y,Z --target X,Y,Z --fov DEG", which gives the same view but for rounding, and for a camera's roll.
+std::string camera_options(const View& view, const DrawTables& tables);
 
 // The world-to-clip matrix in one line, rows in brackets.
 std::string describe_matrix(const View& view);

@@ -36,6 +36,21 @@ template <class T, class Parse, class Use> Put reading(Parse parse, Use use)
     };
 }
 
+// Two numbers with a comma between, each in [low, high].
+Result<glm::vec2> parse_angles(const std::string& option, const std::string& written, const glm::dvec2& low, const glm::dvec2& high)
+{
+    const std::size_t comma = written.find(',');
+    if (comma == std::string::npos || comma == 0 || comma + 1 == written.size())
+        return usage_error(option, fmt::format("expected two angles such as 20,0, got '{}'", written));
+    const Result<double> x = parse_number(option, written.substr(0, comma), low.x, high.x);
+    if (!x)
+        return x.error();
+    const Result<double> y = parse_number(option, written.substr(comma + 1), low.y, high.y);
+    if (!y)
+        return y.error();
+    return glm::vec2(static_cast<float>(*x), static_cast<float>(*y));
+}
+
 Error not_one_of(const std::string& option, const std::string& text, const Texts& names)
 {
     return usage_error(option, fmt::format("'{}' is not one of {}{}", text, join(names), did_you_mean(text, names)));
@@ -192,24 +207,26 @@ Value picture_size(PictureSize& to)
 
 Value angles(glm::vec2& to, double low, double high)
 {
-    Value value = make(
-        ValueKind::vector,
-        [&to, low, high](const std::string& option, const std::string& written) -> Status {
-            const std::size_t comma = written.find(',');
-            if (comma == std::string::npos || comma == 0 || comma + 1 == written.size())
-                return usage_error(option, fmt::format("expected two angles such as 20,0, got '{}'", written));
-            const Result<double> x = parse_number(option, written.substr(0, comma), low, high);
-            if (!x)
-                return x.error();
-            const Result<double> y = parse_number(option, written.substr(comma + 1), low, high);
-            if (!y)
-                return y.error();
-            to = glm::vec2(static_cast<float>(*x), static_cast<float>(*y));
-            return {};
-        },
-        [&to] { return fmt::format("{:g},{:g}", to.x, to.y); });
+    Value value = make(ValueKind::vector,
+                       reading<glm::vec2>(
+                           [=](const std::string& option, const std::string& written) {
+                               return parse_angles(option, written, {low, low}, {high, high});
+                           },
+                           [&to](const glm::vec2& read) { to = read; }),
+                       [&to] { return fmt::format("{:g},{:g}", to.x, to.y); });
     value.low = low, value.high = high;
     return value;
+}
+
+Value direction(std::optional<glm::vec2>& to)
+{
+    return make(ValueKind::vector,
+                reading<glm::vec2>(
+                    [](const std::string& option, const std::string& written) {
+                        return parse_angles(option, written, {-360.0, -90.0}, {360.0, 90.0});
+                    },
+                    [&to](const glm::vec2& read) { to = read; }),
+                [&to] { return to ? fmt::format("{:g},{:g}", to->x, to->y) : std::string(); });
 }
 
 Value point(std::optional<glm::vec3>& to)

@@ -31,8 +31,6 @@ Status check_reference_options(const RenderArguments& in, const OptionTable& giv
         return usage_error("--variance", fmt::format("needs --samples of at least {}", 2 * kPassSamples));
     if (out.frames != 1)
         return usage_error("--frames", "the reference renders one");
-    if (given.given("--technique"))
-        out.warnings.push_back("--technique is not looked at: the reference integrates");
     r.isa = out.isa;
     r.quiet = out.quiet;
     return {};

@@ -252,7 +252,11 @@ int run_render(const RenderArguments& arguments, const OptionTable& given)
     const Result<ChosenView> view = choose_view(options, session->scene(), session->tables());
     if (!view)
         return fail(view.error());
-    report.detail("camera", fmt::format("{}, world to clip {}", view->description, describe_matrix(view->view)));
+    const DrawTables& tables = session->tables();
+    report.detail("bounds", fmt::format("{:.5g},{:.5g},{:.5g} to {:.5g},{:.5g},{:.5g} m", tables.bounds_min.x, tables.bounds_min.y,
+                                        tables.bounds_min.z, tables.bounds_max.x, tables.bounds_max.y, tables.bounds_max.z));
+    report.detail("camera", fmt::format("{}: {}", view->description, camera_options(view->view, tables)));
+    report.detail("", fmt::format("world to clip {}", describe_matrix(view->view)));
     report.detail("device", fmt::format("{}, {} threads", figures.device, figures.threads));
     FrameDesc desc = options.frame;
     desc.view = view->view;

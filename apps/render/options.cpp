@@ -9,12 +9,13 @@
 namespace burnish {
 namespace {
 
-Status check_camera(const OptionTable& given, const RenderOptions& out)
+Status check_camera(const RenderOptions& out)
 {
-    if (out.eye && !out.camera.empty())
-        return usage_error("--eye", "cannot be combined with --camera");
-    if (!out.eye && (out.target || given.given("--fov")))
-        return usage_error(out.target ? "--target" : "--fov", "needs --eye");
+    for (const auto& [given, name] : {std::pair{out.eye.has_value(), "--eye"}, {out.orbit_deg.has_value(), "--orbit"}})
+        if (given && !out.camera.empty())
+            return usage_error(name, "cannot be combined with --camera");
+    if (out.eye && out.orbit_deg)
+        return usage_error("--orbit", "cannot be combined with --eye");
     if (out.eye && out.target && *out.eye == *out.target)
         return usage_error("--target", "is the same point as --eye");
     return {};
@@ -72,8 +73,9 @@ Result<RenderOptions> check_render_options(const RenderArguments& arguments, con
     if (out.backend == "vulkan")
         if (const Status vulkan = check_vulkan_options(out); !vulkan)
             return vulkan.error();
-    if (const Status camera = check_camera(given, out); !camera)
+    if (const Status camera = check_camera(out); !camera)
         return camera.error();
+    warn_of_no_effect(given, out);
     out.environment.quiet = out.quiet;
     return out;
 }

@@ -30,7 +30,9 @@ struct RenderOptions {
     std::string camera;           // index or name, empty: the scene's first camera, else framed automatically
     std::optional<glm::vec3> eye; // world space, metres
     std::optional<glm::vec3> target;
-    float fov_y_deg = 45.0f;
+    std::optional<float> fov_y_deg;     // none: the camera's, else 45
+    std::optional<glm::vec2> orbit_deg; // azimuth, elevation: the whole scene from there
+    float zoom = 1.0f;                  // things are so many times larger
 
     FrameDesc frame; // its view is filled in once the scene is known
     std::string backend = "tile";
@@ -69,5 +71,8 @@ Result<RenderOptions> check_render_options(const RenderArguments& arguments, con
 // The parts of it that belong to one backend.
 Status check_reference_options(const RenderArguments& arguments, const OptionTable& given, RenderOptions& out);
 Status check_vulkan_options(RenderOptions& out);
+
+// Options that were given and change nothing under the others: one warning each, which names both.
+void warn_of_no_effect(const OptionTable& given, RenderOptions& out);
 
 } // namespace burnish

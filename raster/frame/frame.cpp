@@ -5,6 +5,7 @@
 
 #include "core/base/check.h"
 #include "core/base/hash.h"
+#include "core/math/scalar_math.h"
 #include "shading/lang/records.h"
 
 namespace burnish {
@@ -90,15 +91,17 @@ View make_view(const Scene& scene, int camera, int width, int height)
     return view;
 }
 
+namespace {
+
 // With the direction fixed, each side plane touches the outermost vertex. Along x, with t the tangent of the half angle and z the
 // distance along the view: x_i - t z_i <= x_e - t z_e and -x_i - t z_i <= -x_e - t z_e for an eye at (x_e, z_e).
-View auto_frame(const DrawTables& tables, int width, int height)
+View framed_from(const DrawTables& tables, int width, int height, const glm::vec3& from, float fov_y_rad,
+                 const std::optional<glm::vec3>& target)
 {
     constexpr float kMargin = 1.08f;
-    const glm::vec3 center = 0.5f * (tables.bounds_min + tables.bounds_max);
+    const glm::vec3 center = target ? *target : 0.5f * (tables.bounds_min + tables.bounds_max);
     const float radius = std::max(1e-6f, 0.5f * glm::length(tables.bounds_max - tables.bounds_min));
-    const glm::vec3 from = glm::normalize(glm::vec3(0.35f, 0.35f, 1.0f)); // front, a little right and above
-    View view = make_view(center + from, center, 0.78539816f, width, height);
+    View view = make_view(center + from, center, fov_y_rad, width, height);
     const float tx = view.tan_half_x / kMargin, ty = view.tan_half_y / kMargin;
     float right = -1e30f, left = -1e30f, top = -1e30f, bottom = -1e30f, nearest = 1e30f;
     const auto touch = [&](const glm::vec3& p) {
@@ -114,10 +117,26 @@ View auto_frame(const DrawTables& tables, int width, int height)
         for (int i = 0; i < 8; ++i)
             touch({(i & 1 ? tables.bounds_max : tables.bounds_min).x, (i & 2 ? tables.bounds_max : tables.bounds_min).y,
                    (i & 4 ? tables.bounds_max : tables.bounds_min).z});
+    if (target) // both sides at the same distance from the middle
+        right = left = std::max(right, left), top = bottom = std::max(top, bottom);
     const float back = std::min({-(right + left) / (2 * tx), -(top + bottom) / (2 * ty), nearest - 0.05f * radius});
     view.eye = center + view.right * (0.5f * (right - left)) + view.up * (0.5f * (top - bottom)) + view.forward * back;
     view.znear = std::max(1e-6f, 0.5f * (nearest - back));
     return view;
+}
+
+} // namespace
+
+View auto_frame(const DrawTables& tables, int width, int height, const Framing& f)
+{
+    const double a = static_cast<double>(f.azimuth_rad), e = static_cast<double>(f.elevation_rad);
+    const glm::vec3 from(glm::dvec3(det_cos(e) * det_sin(a), det_sin(e), det_cos(e) * det_cos(a)));
+    return framed_from(tables, width, height, from, f.fov_y_rad, f.target);
+}
+
+View auto_frame(const DrawTables& tables, int width, int height)
+{
+    return framed_from(tables, width, height, glm::normalize(glm::vec3(0.35f, 0.35f, 1.0f)), 0.78539816f, {});
 }
 
 glm::mat4 clip_from_world(const View& v)
@@ -209,11 +228,20 @@ const std::vector<ParameterInfo>& parameters()
     static const std::vector<ParameterInfo> table = {
 #define BN_FIELD_number(id) &FrameDesc::id, nullptr
 #define BN_FIELD_whole(id) nullptr, &FrameDesc::id
-#define BN_PARAMETER(id, kind, option, fallback, least, most, unit, summary)                                                               \
-    {#id, option, fallback, least, most, unit, summary, BN_FIELD_##kind(id)},
+#define BN_PARAMETER(id, kind, option, fallback, least, most, unit, summary, readers)                                                      \
+    {#id, option, fallback, least, most, unit, summary, readers, BN_FIELD_##kind(id)},
 #include "shading/models.def"
     };
     return table;
+}
+
+bool reads(const std::string& technique, const ParameterInfo& p)
+{
+    const std::string readers = std::string(p.readers) + " ";
+    for (std::size_t at = 0, end; (end = readers.find(' ', at)) != std::string::npos; at = end + 1)
+        if (technique.compare(0, end - at, readers, at, end - at) == 0)
+            return true;
+    return false;
 }
 
 double parameter_of(const FrameDesc& desc, const ParameterInfo& p)

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,8 +30,15 @@ struct View {                                                            // a re
 // The image's aspect ratio decides the horizontal field of view.
 View make_view(const Scene& scene, int camera, int width, int height); // a camera of the scene (by index, must have a node)
 View make_view(const glm::vec3& eye, const glm::vec3& target, float fov_y_rad, int width, int height);
-// Looks at the whole scene from the front, a little to the right and above, 45 degrees of vertical field of view.
-View auto_frame(const DrawTables& tables, int width, int height);
+struct Framing {                       // how the whole scene is looked at: three quarters, so that a cube shows three faces
+    float azimuth_rad = 0.61086524f;   // of the eye: from +Z towards +X
+    float elevation_rad = 0.38397244f; // above the horizon
+    float fov_y_rad = 0.78539816f;     // vertical field of view
+    std::optional<glm::vec3> target;   // in the middle of the picture; without it the scene's outline is
+};
+// From the nearest place in that direction that has all of the scene in the picture, with a margin.
+View auto_frame(const DrawTables& tables, int width, int height, const Framing& framing);
+View auto_frame(const DrawTables& tables, int width, int height); // of tests and benchmarks, which keep their pictures: more from the front
 // The matrix that the view stands for, for printing (world to Vulkan clip space).
 glm::mat4 clip_from_world(const View& view);
 
@@ -45,7 +53,8 @@ struct FrameDesc {
     int samples = 16; // for techniques that take samples
 #define BN_DESC_number float
 #define BN_DESC_whole std::uint32_t
-#define BN_PARAMETER(id, kind, option, fallback, least, most, unit, summary) BN_DESC_##kind id = static_cast<BN_DESC_##kind>(fallback);
+#define BN_PARAMETER(id, kind, option, fallback, least, most, unit, summary, readers)                                                      \
+    BN_DESC_##kind id = static_cast<BN_DESC_##kind>(fallback);
 #include "shading/models.def"
     float roughness = -1.0f; // >= 0: alpha_lin of every material
     float anisotropy = 0.0f; // with override_anisotropy: eta of every material, [-1, 1]
@@ -155,10 +164,12 @@ struct ParameterInfo {  // of techniques
     double fallback, least, most;
     const char* unit;
     const char* summary;
+    const char* readers;      // beginnings of names of techniques, and "reference"
     float FrameDesc::*number; // one of the two is null
     std::uint32_t FrameDesc::*whole;
 };
-const std::vector<ParameterInfo>& parameters(); // from shading/models.def
+const std::vector<ParameterInfo>& parameters();                           // from shading/models.def
+bool reads(const std::string& technique, const ParameterInfo& parameter); // whether a technique, or "reference", looks at it
 double parameter_of(const FrameDesc& desc, const ParameterInfo& parameter);
 void set_parameter(FrameDesc& desc, const ParameterInfo& parameter, double value); // in [least, most]
 

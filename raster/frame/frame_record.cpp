@@ -64,7 +64,7 @@ FrameRecord frame_record(const RenderInput& input, const FrameDesc& d)
         f.tilt_sin[i] = static_cast<float>(det_sin(static_cast<double>(d.tilt_rad[i])));
     }
     f.tilted = d.tilt_rad != glm::vec2(0.0f);
-#define BN_PARAMETER(id, kind, option, fallback, least, most, unit, summary) f.id = static_cast<BN_RECORD_##kind>(d.id);
+#define BN_PARAMETER(id, kind, option, fallback, least, most, unit, summary, readers) f.id = static_cast<BN_RECORD_##kind>(d.id);
 #include "shading/models.def"
     f.override_anisotropy = d.override_anisotropy, f.anisotropy = d.anisotropy;
     return f;

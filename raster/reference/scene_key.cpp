@@ -64,10 +64,9 @@ FrameDesc reference_desc(FrameDesc desc)
 {
     const FrameDesc defaults;
     desc.technique = "mc", desc.samples = 1, desc.msaa = 1, desc.tile_size = defaults.tile_size;
-    const std::uint32_t seed = desc.seed;
     for (const ParameterInfo& p : parameters())
-        set_parameter(desc, p, p.fallback);
-    desc.seed = seed;
+        if (!reads("reference", p))
+            set_parameter(desc, p, p.fallback);
     return desc;
 }
 

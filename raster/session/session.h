@@ -96,7 +96,7 @@ class Session {
     Renderer& renderer() { return *renderer_; }
     std::string device() const { return renderer_->device(); } // what runs it: "AMD EPYC (avx512)", ...
     // A view of the whole scene for a picture of this size.
-    View framed(int width, int height) const { return auto_frame(tables(), width, height); }
+    View framed(int width, int height, const Framing& framing = {}) const { return auto_frame(tables(), width, height, framing); }
 
   private:
     Session(SessionParts parts, std::unique_ptr<Renderer> renderer) : parts_(std::move(parts)), renderer_(std::move(renderer)) {}

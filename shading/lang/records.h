@@ -66,7 +66,7 @@ struct FrameRecord {
     int background, samples, texture_taps;
 #define BN_RECORD_number float
 #define BN_RECORD_whole int
-#define BN_PARAMETER(id, kind, option, fallback, least, most, unit, summary) BN_RECORD_##kind id;
+#define BN_PARAMETER(id, kind, option, fallback, least, most, unit, summary, readers) BN_RECORD_##kind id;
 #include "shading/models.def"
     float tilt_cos[2], tilt_sin[2];
     int tilted;              // any tilt at all

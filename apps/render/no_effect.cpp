@@ -1,0 +1,37 @@
+// Options without effect under the others.
+#include <algorithm>
+#include <fmt/core.h>
+
+#include "apps/render/options.h"
+#include "core/image/io/image_io.h"
+#include "shading/lang/records.h"
+
+namespace burnish {
+
+void warn_of_no_effect(const OptionTable& given, RenderOptions& out)
+{
+    const bool reference = out.backend == "reference";
+    const TechniqueInfo& technique = *find_technique(out.frame.technique);
+    const std::string of_technique = std::string("--technique ") + technique.name, of_backend = "--backend " + out.backend;
+    const auto warn = [&](const std::string& option, const std::string& other) {
+        if (given.given(option))
+            out.warnings.push_back(fmt::format("{} has no effect with {}", option, other));
+    };
+    for (const ParameterInfo& p : parameters())
+        if (!reads(reference ? "reference" : technique.name, p))
+            warn(std::string("--") + p.option, reference ? of_backend : of_technique);
+    if (!reference && technique.traits & kTakesRoundLobes && out.frame.anisotropy != 0.0f)
+        warn("--anisotropy", of_technique);
+    if (reference)
+        for (const char* option : {"--technique", "--msaa", "--tile-size"})
+            warn(option, of_backend);
+    if (out.backend == "vulkan")
+        warn("--tile-size", of_backend);
+    const bool displayed =
+        std::any_of(out.outputs.begin(), out.outputs.end(), [](const std::string& path) { return !stores_floats(path); });
+    if (!out.outputs.empty() && !displayed)
+        for (const char* option : {"--exposure", "--tonemap"})
+            warn(option, "-o " + out.outputs.front());
+}
+
+} // namespace burnish
