@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cstdio>
+#include <cstdlib>
 #include <mutex>
 
 #include <fmt/format.h>
@@ -15,7 +16,28 @@ namespace burnish {
 namespace {
 
 constexpr std::uint64_t kRedrawNs = 100'000'000; // at most ten times a second
+constexpr double kLineSeconds = 10.0;            // between lines where there is no terminal
+constexpr double kTellSeconds = 1.0;             // before the time left is guessed
 constexpr std::size_t kBarCells = 30;
+
+// Nanoseconds between lines; BURNISH_PROGRESS_SECONDS says otherwise.
+std::uint64_t line_ns()
+{
+    const char* text = std::getenv("BURNISH_PROGRESS_SECONDS");
+    const double seconds = text ? std::strtod(text, nullptr) : kLineSeconds;
+    return static_cast<std::uint64_t>((seconds > 0.0 && seconds < 1e6 ? seconds : kLineSeconds) * 1e9);
+}
+
+// ", 1:05 min left"; nothing where it is too early to tell.
+std::string time_left(double part, double elapsed_s)
+{
+    if (elapsed_s < kTellSeconds || part <= 0.0 || part >= 1.0)
+        return "";
+    const auto left = static_cast<std::uint64_t>(std::min(elapsed_s / part * (1.0 - part) + 0.5, 1e9));
+    return left < 60     ? fmt::format(", {} s left", left)
+           : left < 3600 ? fmt::format(", {}:{:02} min left", left / 60, left % 60)
+                         : fmt::format(", {}:{:02} h left", left / 3600, left / 60 % 60);
+}
 
 std::size_t terminal_columns()
 {
@@ -30,18 +52,28 @@ std::size_t terminal_columns()
 struct Progress::Impl {
     std::string label;
     std::size_t total = 0;
+    bool terminal = false;
+    std::uint64_t begin_ns = 0, period_ns = kRedrawNs;
     std::atomic<std::size_t> done{0};
     std::atomic<std::uint64_t> next_draw_ns{0};
     std::mutex drawing;
     std::size_t drawn = 0; // characters now on the line, guarded by `drawing`
 
+    double part() const { return total ? std::min(1.0, static_cast<double>(done.load()) / static_cast<double>(total)) : 1.0; }
+    std::string left() const { return time_left(part(), static_cast<double>(Trace::now_ns() - begin_ns) * 1e-9); }
+
     void draw()
     {
-        const double part = total ? std::min(1.0, static_cast<double>(done.load()) / static_cast<double>(total)) : 1.0;
-        const std::size_t full = static_cast<std::size_t>(part * static_cast<double>(kBarCells));
-        std::string line =
-            fmt::format("{} [{}{}] {:3.0f}%", label, std::string(full, '#'), std::string(kBarCells - full, '.'), part * 100.0);
-        line.resize(std::min(line.size(), terminal_columns() - 1)); // a wrapped line could not be redrawn
+        if (!terminal) {
+            std::fprintf(stderr, "%s: %.0f %%%s\n", label.c_str(), part() * 100.0, left().c_str());
+            return;
+        }
+        const std::size_t room = terminal_columns() - 1; // a wrapped line could not be redrawn
+        const std::string tail = fmt::format("] {:3.0f}%{}", part() * 100.0, left()), head = label + " [";
+        const std::size_t words = std::min(room, head.size() + tail.size()), cells = std::min(kBarCells, room - words);
+        const std::size_t full = static_cast<std::size_t>(part() * static_cast<double>(cells));
+        std::string line = head + std::string(full, '#') + std::string(cells - full, '.') + tail;
+        line.resize(std::min(line.size(), room));
         const std::size_t size = line.size();
         if (size < drawn)
             line.append(drawn - size, ' ');
@@ -53,11 +85,15 @@ struct Progress::Impl {
 
 Progress::Progress(std::string label, std::size_t total, bool quiet)
 {
-    if (quiet || !isatty(STDERR_FILENO))
+    if (quiet)
         return;
     impl_ = std::make_unique<Impl>();
     impl_->label = printable(label);
     impl_->total = total;
+    impl_->terminal = isatty(STDERR_FILENO) != 0;
+    impl_->period_ns = impl_->terminal ? kRedrawNs : line_ns();
+    impl_->begin_ns = Trace::now_ns();
+    impl_->next_draw_ns = impl_->begin_ns + (impl_->terminal ? 0 : impl_->period_ns); // short work says nothing
 }
 
 Progress::~Progress()
@@ -75,7 +111,7 @@ void Progress::step(std::size_t n)
     impl_->done.fetch_add(n, std::memory_order_relaxed);
     const std::uint64_t now = Trace::now_ns();
     std::uint64_t due = impl_->next_draw_ns.load(std::memory_order_relaxed);
-    if (now < due || !impl_->next_draw_ns.compare_exchange_strong(due, now + kRedrawNs))
+    if (now < due || !impl_->next_draw_ns.compare_exchange_strong(due, now + impl_->period_ns))
         return; // not yet, or another thread draws
     const std::lock_guard lock(impl_->drawing);
     impl_->draw();

@@ -5,6 +5,7 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <string>
 #include <thread>
@@ -55,13 +56,49 @@ void work(bool quiet)
         progress.step();
 }
 
-TEST(progress, nothing_where_stderr_is_no_terminal)
+TEST(progress, nothing_of_short_work_where_stderr_is_no_terminal)
 {
     int ends[2];
     ASSERT_EQ(pipe(ends), 0);
     EXPECT_EQ(printed(ends[1], ends[0], [] { work(false); }), "");
     close(ends[0]);
     close(ends[1]);
+}
+
+TEST(progress, a_line_now_and_then_where_stderr_is_no_terminal)
+{
+    int ends[2];
+    ASSERT_EQ(pipe(ends), 0);
+    setenv("BURNISH_PROGRESS_SECONDS", "0.4", 1);
+    const std::string text = printed(ends[1], ends[0], [] {
+        Progress progress("bake", 100, false);
+        for (int i = 0; i < 30; ++i) {
+            progress.step();
+            std::this_thread::sleep_for(std::chrono::milliseconds(50));
+        }
+    });
+    unsetenv("BURNISH_PROGRESS_SECONDS");
+    close(ends[0]);
+    close(ends[1]);
+    EXPECT_EQ(text.find('\r'), std::string::npos);
+    const auto lines = std::count(text.begin(), text.end(), '\n');
+    EXPECT_GE(lines, 2);
+    EXPECT_EQ(text.substr(0, 6), "bake: ");
+    EXPECT_NE(text.find(" s left\n"), std::string::npos) << text; // after a second
+    EXPECT_EQ(text.back(), '\n');
+}
+
+TEST(progress, tells_the_time_that_is_left)
+{
+    const std::string text = printed_on_terminal([] {
+        Progress progress("bake", 10, false);
+        for (int i = 0; i < 5; ++i) {
+            std::this_thread::sleep_for(std::chrono::milliseconds(260));
+            progress.step();
+        }
+    });
+    EXPECT_NE(text.find(" s left"), std::string::npos) << text;
+    EXPECT_NE(text.find("bake ["), std::string::npos) << text; // the bar is the shorter for it
 }
 
 TEST(progress, nothing_when_quiet)
