@@ -15,7 +15,7 @@ namespace burnish {
 namespace {
 
 constexpr const char* kFooter =
-    R"(REPORT_DIR gets report.html (one page, needs nothing else), report.json, the charts as .svg and .png, the pictures, and rows.json: what has
+    R"(REPORT_DIR gets report.html (one page, needs nothing else), report.json, report.csv, the charts as .svg and .png, the pictures, and rows.json: what has
 been measured, from which a stopped chart goes on. References are kept beside the cache of environments. With the defaults a scene under one
 environment takes minutes on two cores.
 
@@ -39,6 +39,7 @@ Status write_report(const ChartReport& chart, const Keeper& keeper, Report& repo
     if (!files)
         return files.error();
     files->push_back({"report.json", report_json(chart)});
+    files->push_back({"report.csv", report_csv(chart)});
     Result<std::string> page = chart_page(chart);
     if (!page)
         return page.error();
@@ -80,6 +81,9 @@ int run_chart(const ChartArguments& arguments, const OptionTable& given)
     const ChartReport& chart = measured->report;
     for (const ChartRow& row : chart.rows)
         report.detail("row", describe(row));
+    if (const std::optional<double> others = chart.machine.others; others.value_or(0.0) > kBusy)
+        report.warning(
+            fmt::format("other programs took {:.0f} % of the cores while frames were timed: times are too long", 100.0 * *others));
     if (const Status written = write_report(chart, *keeper, report); !written)
         return fail(written.error());
     if (const std::uint64_t bad = pictures_with_nan(chart))

@@ -8,6 +8,7 @@
 #include <memory>
 #include <unistd.h>
 
+#include "apps/chart/load.h"
 #include "apps/chart/noise.h"
 #include "apps/cli/open.h"
 #include "apps/cli/seen_scene.h"
@@ -39,6 +40,18 @@ std::uint64_t program_hash()
     const Result<std::vector<std::uint8_t>> bytes = read_file("/proc/self/exe", kMaxProgramBytes);
     const std::string name = version();
     return bytes ? hash_bytes(bytes->data(), bytes->size()) : hash_bytes(name.data(), name.size());
+}
+
+// Of a file its name, whatever folders it lies in: lines stay short.
+std::string base_name(const std::string& name)
+{
+    return fs::path(name).filename();
+}
+
+// ", +- 1.2 %"; nothing where too few samples tell nothing.
+std::string error_text(double relative_error)
+{
+    return std::isfinite(relative_error) ? fmt::format(", +- {:.2g} %", 100.0 * relative_error) : "";
 }
 
 class Chart {
@@ -85,6 +98,7 @@ class Chart {
     std::uint64_t program_ = program_hash();
     int picture_width_ = 0;
     std::unique_ptr<Progress> progress_;
+    LoadMeter load_; // while frames are timed
     ChartReport out_;
 };
 
@@ -107,7 +121,7 @@ Status Chart::load_all()
         environments_.push_back(std::move(*environment));
     }
     const FrameDesc& frame = options_.base.frame;
-    out_.machine = {version(), cpu_name(), isa_name(options_.base.isa), jobs_->threads()};
+    out_.machine = {version(), cpu_name(), isa_name(options_.base.isa), jobs_->threads(), {}};
     out_.width = frame.width, out_.height = frame.height, out_.msaa = frame.msaa;
     out_.error_width = options_.error_width, out_.error_height = options_.error_height;
     out_.parameters = parameters_json(frame);
@@ -120,8 +134,9 @@ Status Chart::measure()
 {
     const std::size_t places = scenes_.size() * environments_.size() * cells_.size();
     picture_width_ = picture_width(places * settings_.size());
-    report_.event("chart", fmt::format("{} rows: {} settings of {} techniques at {} places, {} runs each", places * settings_.size(),
-                                       settings_.size(), options_.techniques.size(), places, options_.runs));
+    report_.event("chart", fmt::format("{}: {} of {} at {}, {} each", counted(places * settings_.size(), "row"),
+                                       counted(settings_.size(), "setting"), counted(options_.techniques.size(), "technique"),
+                                       counted(places, "place"), counted(static_cast<std::uint64_t>(options_.runs), "run")));
     progress_ =
         std::make_unique<Progress>("chart", places * settings_.size() * static_cast<std::size_t>(options_.runs + 1), options_.base.quiet);
     for (const auto& scene : scenes_)
@@ -193,7 +208,10 @@ Status Chart::measure_place(const Place& place)
         progress_->step(rows.size());
     }
     out_.references[burnish::place(rows.front())] = {picture, keeper_.references().at(kept_reference)};
-    if (const Status timed = time_rows(place, rows); !timed)
+    load_.begin();
+    const Status timed = time_rows(place, rows);
+    load_.end();
+    if (!timed)
         return timed;
     out_.rows.insert(out_.rows.end(), rows.begin(), rows.end());
     return {};
@@ -248,10 +266,10 @@ Result<Image> Chart::reference(const Place& place, ReferenceNoise& noise)
         prune_cache(cache_folder(), cache_limit(), *file);
     const SamplingStats& s = frame->stats.sampling;
     if (!s.stopped)
-        report_.event("reference",
-                      fmt::format("{} under {}, {}: {} samples a pixel, {} of them kept from before: {:.1f} s, relative error {:.3g}",
-                                  place.scene.data->name, place.env, describe(place.cell), s.samples, s.samples_before,
-                                  frame->stats.ms * 1e-3, s.relative_error));
+        report_.event("reference", fmt::format("{} under {}, {}: {}{}{}, {:.1f} s", base_name(place.scene.data->name), base_name(place.env),
+                                               describe(place.cell), counted(s.samples, "sample"),
+                                               s.samples_before ? fmt::format(" ({} kept)", s.samples_before) : "",
+                                               error_text(s.relative_error), frame->stats.ms * 1e-3));
     if (const std::uint64_t bad = s.stopped ? 0 : count_not_finite(frame->color))
         return Error{ExitCode::not_finite, place.scene.data->name, "reference", fmt::format("{} pixels are NaN or Inf", bad)};
     if (!s.stopped)
@@ -381,6 +399,7 @@ Status Chart::time_rows(const Place& place, std::vector<ChartRow>& rows)
 ChartReport Chart::take()
 {
     mark_pareto(out_.rows);
+    out_.machine.others = load_.others();
     return std::move(out_);
 }
 

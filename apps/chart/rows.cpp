@@ -117,7 +117,8 @@ std::string report_json(const ChartReport& report)
     json["machine"] = {{"version", report.machine.version},
                        {"processor", report.machine.processor},
                        {"isa", report.machine.isa},
-                       {"threads", report.machine.threads}};
+                       {"threads", report.machine.threads},
+                       {"other_load", report.machine.others}};
     json["runs"] = report.runs;
     json["reference_samples"] = report.reference_samples;
     json["references"] = Json::array();
@@ -135,6 +136,14 @@ std::string report_json(const ChartReport& report)
     for (const ChartRow& row : report.rows)
         json["rows"].push_back(row_json(report, row));
     return json.dump(1) + "\n";
+}
+
+std::string report_csv(const ChartReport& report)
+{
+    Json rows = Json::array();
+    for (const ChartRow& row : report.rows)
+        rows.push_back(row_json(report, row));
+    return rows.csv();
 }
 
 } // namespace burnish

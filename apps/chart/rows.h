@@ -3,6 +3,7 @@
 #pragma once
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -45,7 +46,9 @@ struct ChartRow {
 struct ChartMachine {
     std::string version, processor, isa;
     int threads = 0;
+    std::optional<double> others{}; // mean share of the machine's cores that other programs took while frames were timed, [0, 1]
 };
+inline constexpr double kBusy = 0.1; // of them: times are not to be trusted
 
 struct ChartReference {
     std::string picture; // file
@@ -76,5 +79,6 @@ inline constexpr int kKeptVersion = 2; // of the layout of the text
 std::string kept_json(const Kept& kept);
 Result<Kept> parse_kept(const std::string& text, const std::string& file);
 std::string report_json(const ChartReport& report);
+std::string report_csv(const ChartReport& report); // of the rows
 
 } // namespace burnish

@@ -1,5 +1,6 @@
 #include "apps/cli/report.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <fmt/core.h>
 
@@ -24,6 +25,11 @@ int fail(const Error& error)
 Error usage_error(const std::string& place, const std::string& reason)
 {
     return Error{ExitCode::usage, "", place, reason};
+}
+
+std::string counted(std::uint64_t count, const std::string& noun)
+{
+    return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
 }
 
 std::string join(const std::vector<std::string>& names)
@@ -51,6 +57,28 @@ void Report::warning(const std::string& text)
     warnings_.push_back(text);
     if (!quiet_)
         say("burnish: warning: " + text);
+}
+
+void Report::wrote(const std::string& path)
+{
+    if (path != "-")
+        event("wrote", path);
+}
+
+void Report::figures(const std::string& lines)
+{
+    if (!quiet_)
+        std::fputs(printable_lines(lines).c_str(), stdout_promised_ ? stderr : stdout);
+}
+
+void Report::figure(const std::string& label, const std::string& text)
+{
+    figures(fmt::format("{:<11} {}\n", label, text));
+}
+
+void Report::promise_stdout(const std::vector<std::string>& files)
+{
+    stdout_promised_ = std::find(files.begin(), files.end(), "-") != files.end();
 }
 
 void Report::release()

@@ -1,6 +1,7 @@
-// What the program says to people: one line an event, on stderr, without colour. Machine output goes to
-// stdout or to files.
+// What the program says to people: words on stderr, one line an event, figures on stdout, without colour. Machine output goes to stdout
+// or to files.
 #pragma once
+#include <cstdint>
 #include <string>
 #include <utility>
 #include <vector>
@@ -15,6 +16,8 @@ int fail(const Error& error);
 // A wrong option: exit code 2. `place` is the option as the user writes it.
 Error usage_error(const std::string& place, const std::string& reason);
 
+std::string counted(std::uint64_t count, const std::string& noun); // "1 place", "2 places"
+
 // "a, b, c"
 std::string join(const std::vector<std::string>& names);
 
@@ -26,6 +29,11 @@ class Report {
     void event(const std::string& label, const std::string& text);  // not with --quiet
     void detail(const std::string& label, const std::string& text); // only with -v
     void warning(const std::string& text);                          // "burnish: warning: ...", not with --quiet
+    void wrote(const std::string& path);                            // an event, but of standard output
+    // Results, on stdout; on stderr where stdout has been promised to machine output. Not with --quiet.
+    void figures(const std::string& lines);
+    void figure(const std::string& label, const std::string& text); // one line, labelled as events are
+    void promise_stdout(const std::vector<std::string>& files);     // where one of them is "-"
     void release();
     bool quiet() const { return quiet_; }
     const std::vector<std::string>& warnings() const { return warnings_; } // all of them, also with --quiet
@@ -35,7 +43,7 @@ class Report {
 
     bool quiet_;
     int verbosity_;
-    bool released_ = false;
+    bool released_ = false, stdout_promised_ = false;
     std::vector<std::string> held_, warnings_;
 };
 

@@ -33,7 +33,8 @@ Examples:
 std::vector<std::pair<std::string, std::string>> outputs_of(const CompareOptions& options)
 {
     std::vector<std::pair<std::string, std::string>> outputs;
-    for (const auto& [option, path] : {std::pair{"--json", options.json}, {"--html", options.html}, {"--error-map", options.error_map}})
+    for (const auto& [option, path] :
+         {std::pair{"--json", options.json}, {"--csv", options.csv}, {"--html", options.html}, {"--error-map", options.error_map}})
         if (!path.empty())
             outputs.emplace_back(option, path);
     return outputs;
@@ -134,13 +135,14 @@ Status write_outputs(const CompareOptions& options, const CompareFigures& figure
 {
     Status first;
     for (const auto& [option, path] : outputs_of(options)) {
-        if (figures.nan_pixels && option != "--json")
+        if (figures.nan_pixels && option != "--json" && option != "--csv")
             continue;
-        const Status status = option == "--json"   ? write_text(path, compare_json(options, figures))
+        const Status status = option == "--json"   ? write_text(path, compare_json(options, figures).dump(2) + "\n")
+                              : option == "--csv"  ? write_text(path, Json::array({compare_json(options, figures)}).csv())
                               : option == "--html" ? write_page(options, figures, pictures)
                                                    : write_error_map(path, figures.flip.error);
         if (status)
-            report.event("wrote", path);
+            report.wrote(path);
         else if (first)
             first = status;
         else
@@ -171,12 +173,13 @@ int run_compare(const CompareArguments& arguments, const OptionTable& given)
     if (!pictures)
         return fail(pictures.error());
     Report report(options.quiet, options.verbosity);
+    report.promise_stdout({options.json, options.csv, options.html});
     report.release();
     report.detail("pictures", describe(pictures->reference));
 
     const CompareFigures figures = compare_pictures(options, *pictures, jobs);
     for (const auto& [name, value] : figure_lines(options, figures))
-        report.event(name, value);
+        report.figure(name, value);
     const Status written = write_outputs(options, figures, *pictures, report);
     const Status equal = figures.nan_pixels ? Status(not_finite_error(options, figures, *pictures)) : check_limits(options, figures);
     const int code = equal ? 0 : fail(equal.error());

@@ -58,7 +58,7 @@ CompareFigures compare_pictures(const CompareOptions& options, const Pictures& p
     return figures;
 }
 
-std::string compare_json(const CompareOptions& options, const CompareFigures& figures)
+Json compare_json(const CompareOptions& options, const CompareFigures& figures)
 {
     Json json;
     const Metrics& asked = figures.asked;
@@ -95,7 +95,7 @@ std::string compare_json(const CompareOptions& options, const CompareFigures& fi
     put("z_max", !options.variances.empty(), figures.z.has_value(), z.largest);
     put("z_rejected_fraction", !options.variances.empty(), figures.z.has_value(), z.rejected_fraction);
     json["nan_pixels"] = figures.nan_pixels;
-    return json.dump(2) + "\n";
+    return json;
 }
 
 std::vector<std::pair<std::string, std::string>> figure_lines(const CompareOptions& options, const CompareFigures& figures)

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "apps/compare/options.h"
+#include "apps/report/json.h"
 #include "core/image/metrics/metrics.h"
 #include "core/image/metrics/z_scores.h"
 
@@ -32,7 +33,7 @@ CompareFigures compare_pictures(const CompareOptions& options, const Pictures& p
 
 // {width, height, flip_mean, ...}: what was asked for, null where a figure has no value (psnr of equal
 // pictures, everything about pictures with NaN).
-std::string compare_json(const CompareOptions& options, const CompareFigures& figures);
+Json compare_json(const CompareOptions& options, const CompareFigures& figures);
 
 // Name and value for people to read, a figure a line.
 std::vector<std::pair<std::string, std::string>> figure_lines(const CompareOptions& options, const CompareFigures& figures);

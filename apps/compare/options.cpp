@@ -56,6 +56,7 @@ std::vector<Option> output_rows(CompareOptions& to)
 {
     return {
         {"--json", "FILE", "Write the figures; - is standard output", file(to.json)},
+        {"--csv", "FILE", "Write them as a line of names and one of values", file(to.csv)},
         {"--html", "FILE", "Write a page with both pictures, the error map and the figures", file(to.html)},
         {"--error-map", "FILE", "Write FLIP's errors: colours of magma, or floats (exr, hdr, pfm)", file(to.error_map)},
         quiet_option(to.quiet),

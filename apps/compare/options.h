@@ -21,7 +21,7 @@ struct CompareOptions {
     std::string reference, test;
     std::optional<Metrics> metrics; // none: all that suit the pictures
     FlipOptions flip;
-    std::string json, html, error_map; // empty: not wanted; json and html: "-" is standard output
+    std::string json, csv, html, error_map; // empty: not wanted; json, csv and html: "-" is standard output
     std::optional<double> fail_flip, fail_max, fail_fraction;
     std::vector<std::string> variances; // of the reference, of the test
     double significance = 0.01, fail_z = 0.0;

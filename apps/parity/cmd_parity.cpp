@@ -123,21 +123,21 @@ Status write_files(const ParityOptions& options, const ParityReport& parity, Rep
     const struct {
         const std::string& path;
         std::string (*text)(const ParityReport&);
-    } files[] = {{options.json, parity_json}, {options.junit, parity_junit}, {options.html, parity_html}};
+    } files[] = {{options.json, parity_json}, {options.csv, parity_csv}, {options.junit, parity_junit}, {options.html, parity_html}};
     for (const auto& file : files) {
         if (file.path.empty())
             continue;
         if (const Status written = write_text(file.path, file.text(parity)); !written)
             return written;
-        report.detail("wrote", file.path);
+        if (file.path != "-")
+            report.detail("wrote", file.path);
     }
     return {};
 }
 
 int verdict(const ParityReport& parity, Report& report)
 {
-    if (!report.quiet())
-        std::fputs(printable_lines(stage_table(parity)).c_str(), stderr);
+    report.figures(stage_table(parity));
     report.event("device", fmt::format("{}; {}; Vulkan {}; {}", parity.device, parity.driver, parity.api, parity.processor));
     std::size_t faults = 0;
     std::string first = visibility_fault(parity);
@@ -149,8 +149,8 @@ int verdict(const ParityReport& parity, Report& report)
         }
     if (!passed(parity))
         return fail(
-            Error{outcome(parity), "", "", fmt::format("{} of {} rows are not as promised; {}", faults, parity.rows.size(), first)});
-    report.event("parity", fmt::format("{} rows as promised", parity.rows.size()));
+            Error{outcome(parity), "", "", fmt::format("{} of {} not as promised; {}", faults, counted(parity.rows.size(), "row"), first)});
+    report.event("parity", counted(parity.rows.size(), "row") + " as promised");
     return 0;
 }
 
@@ -171,6 +171,7 @@ int run_parity(const ParityArguments& arguments, const OptionTable& given)
         return fail(environment.error());
     for (const std::string& warning : (*environment)->warnings)
         report.warning(warning);
+    report.promise_stdout({options.json, options.csv, options.junit, options.html});
     const Bench bench{options, jobs, *device, *environment, report};
     report.release();
     const VulkanDeviceInfo& info = (*device)->info();

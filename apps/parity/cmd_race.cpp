@@ -41,7 +41,7 @@ struct RaceArguments {
     std::vector<std::string> scenes = {"builtin:teapot"}, techniques = *parse_techniques("all"), devices = {"lavapipe", "swiftshader"};
     std::vector<int> msaa = {1, 4};
     int runs = 5;
-    std::string json;
+    std::string json, csv;
 };
 
 struct Timed {
@@ -125,7 +125,7 @@ Result<RacePlan> check(const RaceArguments& in, const OptionTable& given)
     plan.devices = in.devices, plan.runs = in.runs;
     std::vector<std::string> inputs = in.scenes;
     inputs.push_back(in.render.plain.env);
-    if (const Status writable = check_outputs({}, {{"--json", in.json}}, inputs); !writable)
+    if (const Status writable = check_outputs({}, {{"--json", in.json}, {"--csv", in.csv}}, inputs); !writable)
         return writable.error();
     return plan;
 }
@@ -230,11 +230,12 @@ int run_race(const RaceArguments& arguments, const OptionTable& given)
             ++i;
         race_scene(bench, first, i);
     }
-    if (!base.quiet)
-        std::fputs(printable_lines(race_table(out)).c_str(), stderr);
-    if (!arguments.json.empty())
-        if (const Status written = write_text(arguments.json, race_json(out)); !written)
-            return fail(written.error());
+    report.promise_stdout({arguments.json, arguments.csv});
+    report.figures(race_table(out));
+    for (const auto& [path, text] : {std::pair{arguments.json, &race_json}, {arguments.csv, &race_csv}})
+        if (!path.empty())
+            if (const Status written = write_text(path, text(out)); !written)
+                return fail(written.error());
     return bench.first_error.code == ExitCode::ok ? 0 : fail(bench.first_error);
 }
 
@@ -248,7 +249,8 @@ OptionTable option_table(RaceArguments& to)
                    {"--devices", "NAMES", "By commas; those that are absent are named and left out", choices(to.devices, {})},
                    {"--msaa", "N,N", "Samples a pixel, by commas", choices(to.msaa, {1, 2, 4, 8, 16})},
                    {"--runs", "N", "Timed frames of every row and renderer, in turn", integer(to.runs, 1, 10000)},
-                   {"--json", "FILE", "Rows as JSON; - for standard output", file(to.json)}});
+                   {"--json", "FILE", "Rows as JSON; - for standard output", file(to.json)},
+                   {"--csv", "FILE", "Rows by commas; - for standard output", file(to.csv)}});
     table.take(of_render, "",
                {"--size",
                 {"--samples", "Samples of the techniques, where they take any", ""},

@@ -86,6 +86,7 @@ OptionTable parity_option_table(ParityArguments& to)
                           threads_option(r.threads, "Worker threads of the tile renderer"),
                           isa_option(r.isa)});
     table.add("Output", {{"--json", "FILE", "Rows as JSON; - for standard output", file(to.json)},
+                         {"--csv", "FILE", "Rows by commas, without their stages; - for standard output", file(to.csv)},
                          {"--junit", "FILE", "Rows as JUnit XML", file(to.junit)},
                          {"--html", "FILE", "Rows as one page", file(to.html)},
                          quiet_option(r.quiet),
@@ -114,7 +115,7 @@ OptionTable parity_option_table(ParityArguments& to)
 Result<ParityOptions> check_parity_options(const ParityArguments& in, const OptionTable& given)
 {
     ParityOptions out;
-    out.json = in.json, out.junit = in.junit, out.html = in.html;
+    out.json = in.json, out.csv = in.csv, out.junit = in.junit, out.html = in.html;
     if (const Status chosen = choose_places(in, out.places); !chosen)
         return chosen.error();
     RenderArguments arguments = in.render;
@@ -129,7 +130,9 @@ Result<ParityOptions> check_parity_options(const ParityArguments& in, const Opti
     std::vector<std::string> inputs = {in.render.plain.env};
     for (const ParityPlace& place : out.places)
         inputs.push_back(place.scene);
-    if (const Status writable = check_outputs({}, {{"--json", out.json}, {"--junit", out.junit}, {"--html", out.html}}, inputs); !writable)
+    if (const Status writable =
+            check_outputs({}, {{"--json", out.json}, {"--csv", out.csv}, {"--junit", out.junit}, {"--html", out.html}}, inputs);
+        !writable)
         return writable.error();
     return out;
 }

@@ -17,7 +17,7 @@ struct ParityArguments {
     RenderArguments render; // its scene, msaa and technique are not used
     std::vector<std::string> scenes, techniques = technique_names();
     std::vector<int> msaa = {1, 4, 8};
-    std::string suite, models, json, junit, html;
+    std::string suite, models, json, csv, junit, html;
 };
 
 struct ParityPlace {         // a scene, seen from somewhere
@@ -27,8 +27,8 @@ struct ParityPlace {         // a scene, seen from somewhere
 
 struct ParityOptions {
     std::vector<ParityPlace> places;
-    std::vector<RenderOptions> frames; // by technique, then by msaa
-    std::string json, junit, html;     // files; empty: none
+    std::vector<RenderOptions> frames;  // by technique, then by msaa
+    std::string json, csv, junit, html; // files; empty: none
 };
 
 OptionTable parity_option_table(ParityArguments& to);

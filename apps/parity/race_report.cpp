@@ -24,26 +24,34 @@ double geomean_ratio(const RaceReport& report)
 
 std::string race_table(const RaceReport& report)
 {
-    std::string text = fmt::format("{:<18} {:<20} {:>7} {:>5} {:<34} {:>9} {:>10} {:>9} {:>10} {:>6} {:>9}\n", "scene", "technique",
-                                   "samples", "msaa", "device", "tile cpu", "device cpu", "tile ms", "device ms", "ratio", "FLIP");
+    std::string text, place;
+    bool another = false;
     for (const RaceRow& row : report.rows) {
-        if (!row.error.empty()) {
-            text += fmt::format("{:<18} {:<20} {:>7} {:>5} {:<34} {}\n", row.scene, row.technique, row.samples, row.msaa, row.device,
-                                row.error);
-            continue;
+        if (const std::string here = fmt::format("{} on {}\n", row.scene, row.device); here != place) {
+            text += (place.empty() ? "" : "\n") + here;
+            text += fmt::format("{:<20} {:>7} {:>4} {:>9} {:>10} {:>9} {:>9} {:>6} {:>8}\n", "technique", "samples", "msaa", "tile cpu",
+                                "device cpu", "tile ms", "device ms", "ratio", "FLIP");
+            place = here;
         }
-        text += fmt::format("{:<18} {:<20} {:>7} {:>5} {:<34} {:>9.2f} {:>10.2f} {:>9.2f} {:>10.2f} {:>6.2f} {:>9.2g}{}\n", row.scene,
-                            row.technique, row.samples, row.msaa, row.device, row.tile_cpu_ms, row.device_cpu_ms, row.tile_ms,
-                            row.device_ms, row.ratio(), row.flip_mean, same_picture(row) ? "" : "  another picture");
+        text += fmt::format("{:<20} {:>7} {:>4} ", row.technique, row.samples, row.msaa);
+        text += row.error.empty()
+                    ? fmt::format("{:>9.2f} {:>10.2f} {:>9.2f} {:>9.2f} {:>6.2f} {:>8.2g}{}\n", row.tile_cpu_ms, row.device_cpu_ms,
+                                  row.tile_ms, row.device_ms, row.ratio(), row.flip_mean, same_picture(row) ? "" : " *")
+                    : row.error + "\n";
+        another = another || (row.error.empty() && !same_picture(row));
     }
+    if (another)
+        text += fmt::format("\n* another picture, mean FLIP above {:g}: counts for nothing\n", kMaxRaceFlip);
     if (const double mean = geomean_ratio(report); mean > 0.0)
-        text += fmt::format("device CPU time over tile CPU time, geometric mean of the rows with the same picture: {:.2f}\n", mean);
+        text += fmt::format("\nratio of CPU times, device over tile, geometric mean over the same pictures: {:.2f}\n", mean);
     for (const std::string& note : report.notes)
         text += note + "\n";
     return text;
 }
 
-std::string race_json(const RaceReport& report)
+namespace {
+
+Json race_document(const RaceReport& report)
 {
     Json json;
     json["machine"] = {{"processor", report.processor}, {"isa", report.isa}, {"threads", report.threads}, {"version", report.version}};
@@ -64,7 +72,19 @@ std::string race_json(const RaceReport& report)
         json["rows"].push_back(r);
     }
     json["geomean_ratio"] = geomean_ratio(report);
-    return json.dump(2) + "\n";
+    return json;
+}
+
+} // namespace
+
+std::string race_json(const RaceReport& report)
+{
+    return race_document(report).dump(2) + "\n";
+}
+
+std::string race_csv(const RaceReport& report)
+{
+    return race_document(report)["rows"].csv();
 }
 
 } // namespace burnish

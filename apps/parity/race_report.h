@@ -28,5 +28,6 @@ double geomean_ratio(const RaceReport& report); // of the rows with the same pic
 
 std::string race_table(const RaceReport& report);
 std::string race_json(const RaceReport& report);
+std::string race_csv(const RaceReport& report); // of the rows
 
 } // namespace burnish

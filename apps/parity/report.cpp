@@ -168,7 +168,9 @@ std::string stage_table(const ParityReport& report)
     return text;
 }
 
-std::string parity_json(const ParityReport& report)
+namespace {
+
+Json parity_document(const ParityReport& report)
 {
     Json json;
     json["driver"] = report.driver;
@@ -201,7 +203,19 @@ std::string parity_json(const ParityReport& report)
         r["error"] = row.failed() ? Json(row.error.line()) : Json();
         json["rows"].push_back(r);
     }
-    return json.dump(2) + "\n";
+    return json;
+}
+
+} // namespace
+
+std::string parity_json(const ParityReport& report)
+{
+    return parity_document(report).dump(2) + "\n";
+}
+
+std::string parity_csv(const ParityReport& report)
+{
+    return parity_document(report)["rows"].csv();
 }
 
 std::string parity_junit(const ParityReport& report)

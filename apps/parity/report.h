@@ -40,6 +40,7 @@ ExitCode outcome(const ParityReport& report);
 std::string describe(const ParityRow& row);          // one line
 std::string stage_table(const ParityReport& report); // sums over all rows, a line a stage
 std::string parity_json(const ParityReport& report);
+std::string parity_csv(const ParityReport& report); // of the rows, without their stages
 std::string parity_junit(const ParityReport& report);
 std::string parity_html(const ParityReport& report);
 

@@ -154,7 +154,7 @@ int run_profile(const ProfileArguments& arguments, const OptionTable& given)
         const TraceSpan span("write picture");
         if (Status done = write_picture(path, *picture, options.tonemap, options.exposure_ev); !done)
             return fail(done.error());
-        report.event("wrote", path);
+        report.wrote(path);
     }
     figures.write_ms = static_cast<double>(Trace::now_ns() - begin) * 1e-6;
     if (arguments.json_file != "-" && arguments.svg_file != "-") // standard output is for one thing

@@ -1,6 +1,7 @@
 // `burnish render`: a scene under an environment to pictures and figures.
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <fmt/core.h>
 #include <memory>
 #include <optional>
@@ -63,8 +64,9 @@ Status check_paths(const RenderOptions& options, const std::vector<std::string>&
 void report_scene(const SceneData& data, Report& report)
 {
     const Scene& scene = data.scene;
-    report.event("scene", fmt::format("{}: {} triangles, {} materials, {} textures, {} lights", data.name, data.tables.triangle_count(),
-                                      scene.materials.size(), scene.textures.size(), data.tables.lights.size()));
+    report.event("scene", fmt::format("{}: {}, {}, {}, {}", data.name, counted(data.tables.triangle_count(), "triangle"),
+                                      counted(scene.materials.size(), "material"), counted(scene.textures.size(), "texture"),
+                                      counted(data.tables.lights.size(), "light")));
     for (const std::string& warning : scene.warnings)
         report.warning(warning);
 }
@@ -165,10 +167,10 @@ void report_reference(const RenderOptions& options, const RenderFigures& figures
     const SamplingStats& s = figures.frame.sampling;
     const std::string before = s.resumed ? fmt::format(", {} of them from {}", s.samples_before, options.reference.checkpoint) : "";
     report.event("reference",
-                 fmt::format("{}x{}, {}, {} samples a pixel{}: {:.1f} s, {:.2f} million samples/s, {:.0f} % of the time in rays, "
-                             "relative error {:.3g}",
+                 fmt::format("{}x{}, {}, {} samples a pixel{}: {:.1f} s, {:.2f} million samples/s, {:.0f} % of the time in rays{}",
                              options.frame.width, options.frame.height, reference_mode_name(options), s.samples, before,
-                             figures.frame.ms * 1e-3, s.million_samples_per_second, s.ray_share * 100.0, s.relative_error));
+                             figures.frame.ms * 1e-3, s.million_samples_per_second, s.ray_share * 100.0,
+                             std::isfinite(s.relative_error) ? fmt::format(", relative error {:.3g}", s.relative_error) : ""));
 }
 
 void report_frames(const RenderOptions& options, const RenderFigures& figures, Report& report)
@@ -197,7 +199,7 @@ Status write_outputs(const RenderOptions& options, const Rendered& rendered, Rep
     Status first;
     const auto note = [&](const std::string& path, const Status& status) {
         if (status)
-            report.event("wrote", path);
+            report.wrote(path);
         else if (first)
             first = status;
         else

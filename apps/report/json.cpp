@@ -1,5 +1,6 @@
 #include "apps/report/json.h"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "core/base/check.h"
@@ -68,6 +69,58 @@ void Json::update(const Json& object)
     const Items& items = std::get<Items>(object.value_);
     for (std::size_t i = 0; i < items.keys.size(); ++i)
         (*this)[items.keys[i]] = items.values[i];
+}
+
+struct CsvWriter {
+    std::vector<std::string> names;
+    std::vector<std::vector<std::string>> lines; // by name
+
+    static std::string cell(std::string text)
+    {
+        if (text.find_first_of(",\"\r\n") == std::string::npos)
+            return text;
+        for (std::size_t at = text.find('"'); at != std::string::npos; at = text.find('"', at + 2))
+            text.insert(at, 1, '"');
+        return '"' + text + '"';
+    }
+
+    void put(const std::string& name, const Json& value)
+    {
+        if (const Json::Items* items = std::get_if<Json::Items>(&value.value_)) {
+            for (std::size_t i = 0; i < items->values.size() && !items->array; ++i)
+                put(name.empty() ? items->keys[i] : name + "." + items->keys[i], items->values[i]);
+            return;
+        }
+        std::size_t at = 0;
+        while (at < names.size() && names[at] != name)
+            ++at;
+        if (at == names.size())
+            names.push_back(name);
+        lines.back().resize(std::max(lines.back().size(), at + 1));
+        const std::string* text = std::get_if<std::string>(&value.value_);
+        const bool nothing = std::holds_alternative<std::monostate>(value.value_);
+        const std::string dumped = nothing ? "" : text ? *text : value.dump(-1);
+        lines.back()[at] = cell(dumped == "null" ? "" : dumped); // NaN and infinities
+    }
+};
+
+std::string Json::csv() const
+{
+    CsvWriter writer;
+    for (const Json& row : std::get<Items>(value_).values) {
+        writer.lines.emplace_back();
+        writer.put("", row);
+    }
+    const auto joined = [&](const std::vector<std::string>& cells) {
+        std::string line;
+        for (std::size_t i = 0; i < writer.names.size(); ++i)
+            line += (i ? "," : "") + (i < cells.size() ? cells[i] : "");
+        return line + "\n";
+    };
+    std::string out = joined(writer.names);
+    for (const std::vector<std::string>& line : writer.lines)
+        out += joined(line);
+    return out;
 }
 
 std::string Json::dump(int indent) const

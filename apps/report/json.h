@@ -46,8 +46,13 @@ class Json {
     // operating system.
     std::string dump(int indent) const;
 
+    // Of an array of objects: a line of names, then one an object, by commas (RFC 4180). Members of objects in them are named a.b; arrays
+    // and what is null are left out.
+    std::string csv() const;
+
   private:
     friend struct JsonWriter;
+    friend struct CsvWriter;
     struct Items {
         std::vector<std::string> keys; // of an object
         std::vector<Json> values;

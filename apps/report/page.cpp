@@ -204,14 +204,21 @@ Result<std::string> data_json(const ChartReport& report, const std::vector<PairR
 std::string heading(const ChartReport& report)
 {
     const ChartMachine& m = report.machine;
+    const std::string busy =
+        m.others.value_or(0.0) > kBusy
+            ? fmt::format(
+                  "<p><strong>Other programs took {:.0f} % of this machine's cores while the frames were timed: the times are longer "
+                  "than they are alone.</strong></p>\n",
+                  100.0 * *m.others)
+            : "";
     return fmt::format(
         "<h1>Speed against accuracy</h1>\n<p>Times are of frames of {} x {} pixels, {} samples a pixel: medians of {} interleaved frame{} "
         "on {}, {}, {} thread{}; burnish {}. Errors are of pictures of {} x {} pixels: HDR-FLIP of linear pixels against Monte Carlo "
-        "references of at least {} samples a pixel.</p>\n"
+        "references of at least {} samples a pixel.</p>\n{}"
         "<p>Point at a mark, or go to it with the Tab and arrow keys, to see its picture; Enter shows it among the pictures below.</p>\n"
         "<noscript><p>The pictures need JavaScript; the charts and figures do not.</p></noscript>\n",
         report.width, report.height, report.msaa, report.runs, report.runs == 1 ? "" : "s", escaped(m.processor), escaped(m.isa), m.threads,
-        m.threads == 1 ? "" : "s", escaped(m.version), report.error_width, report.error_height, report.reference_samples);
+        m.threads == 1 ? "" : "s", escaped(m.version), report.error_width, report.error_height, report.reference_samples, busy);
 }
 
 } // namespace

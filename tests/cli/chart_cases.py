@@ -1,10 +1,12 @@
 """burnish chart: what it measures, what it writes, how it stops and goes on; and what the techniques' errors must show."""
 
+import csv
 import json
 import os
 import re
 import signal
 import subprocess
+import sys
 import time
 import xml.dom.minidom
 
@@ -29,11 +31,33 @@ def errors_of(rows):
     return [(row["technique"], row["settings"]["samples"], row["flip_mean"], row["rel_mse"]) for row in rows]
 
 
+@case("chart.a_busy_machine_is_said")
+def busy(bench):
+    needs_embree(bench)
+    words = ("chart", "builtin:plate", *TINY, "--size", "640x360", "--error-size", "64x36", "--runs", "20", "--techniques", "mc", "--sweep", "samples=16",
+             "-t", "1", "-o", "r")
+    others = [subprocess.Popen([sys.executable, "-c", "while True: pass"]) for _ in range(max(1, os.cpu_count() or 1))]
+    try:
+        done = bench.run(*words).expect(0)
+    finally:
+        for other in others:
+            other.kill()
+            other.wait()
+    load = json.loads((bench.folder / "r/report.json").read_text())["machine"]["other_load"]
+    check(load is not None and 0.2 < load <= 1, f"others took {load} of the machine")
+    check(done.err.count("other programs took") == 1, done.describe())
+    check("Other programs took" in (bench.folder / "r/report.html").read_text(), "the page does not say that the machine was busy")
+
+
 @case("chart.rows_and_files_hold_every_setting", "input")
 def rows(bench):
     needs_embree(bench)
     done = bench.run("chart", "builtin:spheres", "--env", "builtin:studio", "--env", "builtin:sky", *FEW, "--sweep", "roughness=0.2,0.4", "-o", "r").expect(0)
     check("report.html" in done.err and done.out == "", done.describe())
+    lines = [line for line in done.err.splitlines() if str(bench.folder) not in line and "warning" not in line]
+    check(max(map(len, lines)) <= 100 and "12 rows: 3 settings of 2 techniques at 4 places, 2 runs each" in done.err, done.describe())
+    table = list(csv.DictReader((bench.folder / "r/report.csv").open(newline="")))
+    check(len(table) == 12 and {"technique", "settings.samples", "settings.axis_k", "ms_median", "flip_mean"} <= set(table[0]), f"{table[0]}")
     report = json.loads((bench.folder / "r/report.json").read_text())
     found = report["rows"]
     check(len(found) == 2 * 2 * 3 and set(report["machine"]) >= {"processor", "isa", "threads", "version"}, f"{report}")

@@ -2,6 +2,7 @@
 
 import base64
 import html.parser
+import csv
 import json
 import os
 import re
@@ -322,14 +323,30 @@ def unwritable(bench):
     check(json.loads((bench.folder / "j.json").read_text())["width"] == 24, "the figures that could be written are not there")
 
 
-@case("compare.words_go_to_stderr")
+@case("compare.figures_go_to_stdout_and_words_to_stderr")
 def words(bench):
     pictures(bench)
     done = bench.run("compare", "a.pfm", "b.pfm", "--json", "j.json").expect(0)
-    for word in ("flip-hdr", "mean", "p99", "exposures", "mse", "psnr", "ssim", "differing", "j.json"):
-        check(word in done.err, f"'{word}' is not said\n{done.describe()}")
-    check(done.out == "" and "\x1b" not in done.err, done.describe())
+    for word in ("flip-hdr", "mean", "p99", "exposures", "mse", "psnr", "ssim", "differing"):
+        check(word in done.out, f"'{word}' is not said\n{done.describe()}")
+    check(done.err == "wrote       j.json\n" and "\x1b" not in done.out, done.describe())
     quiet = bench.run("compare", "-q", "a.pfm", "b.pfm").expect(0)
     check(quiet.out == "" and quiet.err == "", f"--quiet speaks\n{quiet.describe()}")
     more = bench.run("compare", "-v", "a.pfm", "b.pfm").expect(0)
     check("24x16, 3 channels, floats" in more.err, more.describe())
+    piped = bench.run("compare", "a.pfm", "b.pfm", "--json", "-").expect(0)
+    json.loads(piped.out)  # nothing else is there
+    check("flip-hdr" in piped.err and "wrote" not in piped.err, piped.describe())
+
+
+@case("compare.csv_holds_what_json_holds")
+def csv_figures(bench):
+    pictures(bench)
+    bench.run("compare", "-q", "a.pfm", "b.pfm", "--json", "j.json", "--csv", "c.csv").expect(0)
+    figures = json.loads((bench.folder / "j.json").read_text())
+    rows = list(csv.DictReader((bench.folder / "c.csv").open(newline="")))
+    check(len(rows) == 1 and list(rows[0]) == list(figures), f"{rows}")
+    for name, value in figures.items():
+        check(rows[0][name] == ("" if value is None else value if isinstance(value, str) else rows[0][name]), f"{name}: {rows[0][name]}")
+        if isinstance(value, (int, float)):
+            check(float(rows[0][name]) == value, f"{name}: {rows[0][name]} is not {value}")

@@ -1,5 +1,6 @@
 """The Vulkan renderer against the tile renderer, bit by bit, and that `burnish parity` sees what it is there to see."""
 
+import csv
 import json
 import pathlib
 import re
@@ -20,6 +21,8 @@ def parity(bench, *arguments, code=0, timeout=240.0, device="lavapipe"):
     if done.code == 77 and code != 77:
         raise Skipped(done.err.strip())
     done.expect(code)
+    if code == 0:
+        check("clip positions" in done.out and "clip positions" not in done.err, f"figures belong on stdout\n{done.describe()}")
     return json.loads((bench.folder / "parity.json").read_text())
 
 
@@ -253,12 +256,16 @@ def wrong_options(bench):
 @case("race.rows_hold_picture_and_times")
 def race_rows(bench):
     done = bench.run("race", "--size", "96x64", "--techniques", "split_isotropic", "--msaa", "1", "--runs", "2", "--devices", "lavapipe,abacus", *COARSE,
-                     "--json", "race.json")
+                     "--json", "race.json", "--csv", "race.csv")
     if done.code == 77:
         raise Skipped(done.err.strip())
     done.expect(0)
+    check("split_isotropic" in done.out and "geometric mean" in done.out and "split_isotropic" not in done.err, done.describe())
+    check(max(map(len, done.out.splitlines()[:3])) <= 100, f"lines are longer than 100 columns\n{done.describe()}")
     report = json.loads((bench.folder / "race.json").read_text())
     row, = report["rows"]
+    line, = csv.DictReader((bench.folder / "race.csv").open(newline=""))
+    check(line["technique"] == "split_isotropic" and float(line["ratio"]) == row["ratio"], f"{line}")
     check(row["flip_mean"] < 0.01 and row["same_picture"], f"another picture: {row}")
     check(all(row[key] > 0 for key in ("tile_ms", "device_ms", "tile_cpu_ms", "device_cpu_ms")), f"no times: {row}")
     check(abs(row["ratio"] - row["device_cpu_ms"] / row["tile_cpu_ms"]) < 1e-6 * row["ratio"], f"another ratio: {row}")

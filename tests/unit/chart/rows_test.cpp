@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
+#include "apps/chart/load.h"
 #include "tests/unit/chart/sample.h"
 
 namespace burnish {
@@ -121,6 +122,25 @@ TEST(chart_rows, the_report_holds_every_field)
     EXPECT_TRUE(json["references"][0]["roughness"].is_null());
     EXPECT_EQ(json["rows"][0]["settings"]["width"], 64);
     EXPECT_EQ(json["rows"][0]["settings"]["error_width"], 32);
+}
+
+TEST(chart_rows, lines_by_commas_hold_plain_members_under_all_names)
+{
+    Json rows = Json::array();
+    rows.push_back({{"name", "a \"b\", c"}, {"sub", Json({{"x", 1.5}, {"none", Json()}})}, {"list", Json::array({1, 2})}});
+    rows.push_back({{"name", "plain"}, {"late", true}, {"nan", kNan}});
+    EXPECT_EQ(rows.csv(), "name,sub.x,sub.none,late,nan\n\"a \"\"b\"\", c\",1.5,,,\nplain,,,true,\n");
+    EXPECT_EQ(Json::array().csv(), "\n");
+}
+
+TEST(chart_rows, ticks_of_the_machine_are_busy_ones_and_all)
+{
+    const auto ticks = ticks_of("cpu  100 20 30 400 50 6 7 8 90 0\ncpu0 1 2 3 4 5");
+    ASSERT_TRUE(ticks);
+    EXPECT_EQ(ticks->first, 171.0); // without idle and iowait; guests are in user's already
+    EXPECT_EQ(ticks->second, 621.0);
+    for (const char* other : {"", "cpu", "cpu 1 2", "intr 1 2 3 4 5 6 7 8", "x"})
+        EXPECT_FALSE(ticks_of(other)) << other;
 }
 
 } // namespace
