@@ -3,7 +3,11 @@
 #include <fmt/core.h>
 
 #include "apps/compare/figures.h"
+#include "apps/compare/histogram.h"
+#include "apps/report/assets.h"
 #include "apps/report/html.h"
+#include "apps/report/looks.h"
+#include "apps/report/svg.h"
 #include "core/image/colour.h"
 #include "core/image/io/image_io.h"
 #include "core/image/magma.h"
@@ -12,17 +16,14 @@ namespace burnish {
 namespace {
 
 constexpr const char* kStyle = R"(
-:root { color-scheme: light dark; --line: #8886; }
-body { font: 15px/1.5 system-ui, sans-serif; margin: 1.5rem auto; padding: 0 1rem; max-width: 110rem; }
-h1 { font-size: 1.3rem; overflow-wrap: anywhere; }
-.pictures { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 22rem), 1fr)); gap: 1rem; }
-figure { margin: 0; }
-img { width: 100%; height: auto; display: block; border: 1px solid var(--line); }
+.pictures { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 22rem), 1fr)); gap: 1rem; margin: 1rem 0; }
+.pictures img { width: 100%; height: auto; display: block; border: 1px solid var(--line); }
 img.small { image-rendering: pixelated; }
 figcaption { overflow-wrap: anywhere; }
-table { border-collapse: collapse; margin-top: 1.5rem; }
-th, td { text-align: left; vertical-align: top; padding: .2rem 1.5rem .2rem 0; border-bottom: 1px solid var(--line); }
+.tiles { grid-template-columns: minmax(0, 60rem); }
 .scale { height: .8rem; border: 1px solid var(--line); }
+table { margin: 1.5rem 0; }
+th, td, td:first-child { text-align: left; vertical-align: top; white-space: normal; }
 )";
 
 // As a display shows it: floats exposed and tonemapped, 16 bits cut to 8.
@@ -39,14 +40,14 @@ Image displayed(const Image& image, float exposure_ev)
     return out;
 }
 
-Result<std::string> figure(const std::string& title, const std::string& caption, const Image& image)
+Result<std::string> figure(const std::string& id, const std::string& title, const std::string& caption, const Image& image)
 {
     const Result<std::string> png = encode_png(image);
     if (!png)
         return png.error();
-    return fmt::format("<figure><img{} src=\"data:image/png;base64,{}\" width=\"{}\" height=\"{}\" alt=\"{}\">\n"
+    return fmt::format("<figure><img id=\"{}\"{} src=\"data:image/png;base64,{}\" width=\"{}\" height=\"{}\" alt=\"{}\">\n"
                        "<figcaption><strong>{}</strong> {}</figcaption></figure>\n",
-                       image.width < 512 ? " class=\"small\"" : "", base64(*png), image.width, image.height, title, title,
+                       id, image.width < 512 ? " class=\"small\"" : "", base64(*png), image.width, image.height, title, title,
                        escaped(caption));
 }
 
@@ -66,6 +67,26 @@ std::string scale_of_magma()
                        stops);
 }
 
+// Both pictures over each other; the script makes it of the page's own pictures.
+std::string wall_html()
+{
+    return "<noscript><p>Slider, flicker and zoom need JavaScript; pictures and figures do not.</p></noscript>\n"
+           "<section class=\"pair\"><div class=\"place\" data-place=\"0\">\n<p>In the picture: <kbd>+</kbd> <kbd>-</kbd> or a double click "
+           "zoom, dragging or arrow keys move, <kbd>F</kbd> flickers, <kbd>S</kbd> <kbd>T</kbd> <kbd>R</kbd> <kbd>E</kbd> choose what is "
+           "shown.</p>\n<div class=\"wall\"></div>\n</div></section>\n";
+}
+
+Json wall_data(const CompareFigures& figures)
+{
+    const std::string flip = figures.errors ? fmt::format("FLIP {:.4f}", figures.errors->mean) : "";
+    Json row = {{"technique", "Test"}, {"setting", ""},      {"text", "Test against reference, " + flip},
+                {"figures", flip},     {"picture", "#test"}, {"error", "#error"}};
+    Json place = {{"reference", "#reference"}, {"rows", Json::array({"0"})}, {"shown", Json::array({"0"})}};
+    Json rows = Json::object();
+    rows["0"] = row;
+    return {{"subject", "Test"}, {"width", figures.width}, {"height", figures.height}, {"places", Json::array({place})}, {"rows", rows}};
+}
+
 } // namespace
 
 Result<std::string> compare_page(const CompareOptions& options, const CompareFigures& figures, const Pictures& pictures)
@@ -73,14 +94,17 @@ Result<std::string> compare_page(const CompareOptions& options, const CompareFig
     const FlipExposures& range = figures.flip.exposures;
     const float middle = figures.asked.flip_hdr ? 0.5f * (range.start_ev + range.stop_ev) : 0.0f;
     const std::string shown = pictures.reference.type == PixelType::f32 ? fmt::format(" (shown at {:+.2f} EV)", middle) : std::string();
-    const Result<std::string> parts[] = {figure("Reference", options.reference + shown, displayed(pictures.reference, middle)),
-                                         figure("Test", options.test + shown, displayed(pictures.test, middle)),
-                                         figure("Error", figures.asked.flip_hdr ? "HDR-FLIP" : "LDR-FLIP", magma_map(figures.flip.error))};
-    std::string page = fmt::format("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
-                                   "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
-                                   "<title>{0} - {1}</title>\n<style>{2}</style>\n</head>\n<body>\n<h1>{0} and {1}</h1>\n"
-                                   "<div class=\"pictures\">\n",
-                                   escaped(options.reference), escaped(options.test), kStyle);
+    const Result<std::string> parts[] = {
+        figure("reference", "Reference", options.reference + shown, displayed(pictures.reference, middle)),
+        figure("test", "Test", options.test + shown, displayed(pictures.test, middle)),
+        figure("error", "Error", figures.asked.flip_hdr ? "HDR-FLIP" : "LDR-FLIP", magma_map(figures.flip.error))};
+    std::string page =
+        fmt::format("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+                    "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
+                    "<title>{0} - {1}</title>\n<link rel=\"icon\" href=\"data:,\">\n<style>{2}{3}{4}</style>\n</head>\n<body>\n"
+                    "<main>\n<h1>{0} and {1}</h1>\n",
+                    escaped(options.reference), escaped(options.test), kChartPageStyle, chart_style(), kStyle);
+    page += wall_html() + "<div class=\"pictures\">\n";
     for (const Result<std::string>& part : parts) {
         if (!part)
             return part.error();
@@ -90,7 +114,14 @@ Result<std::string> compare_page(const CompareOptions& options, const CompareFig
     page += fmt::format("<tr><th>size</th><td>{} x {}</td></tr>\n", figures.width, figures.height);
     for (const auto& [name, value] : figure_lines(options, figures))
         page += fmt::format("<tr><th>{}</th><td>{}</td></tr>\n", escaped(name), escaped(value));
-    return page + "</table>\n</body>\n</html>\n";
+    page += "</table>\n";
+    if (figures.errors)
+        page += "<figure><figcaption>How the errors are spread over the pixels, on a logarithmic scale.</figcaption>\n" +
+                svg_of(plot_histogram(figures.flip.error, *figures.errors)) + "</figure>\n";
+    return page + fmt::format(
+                      "</main>\n<div id=\"tip\" role=\"tooltip\" hidden></div>\n<script type=\"application/json\" id=\"data\">{}</script>\n"
+                      "<script>\n{}</script>\n</body>\n</html>\n",
+                      script_json(wall_data(figures)), kChartPageScript);
 }
 
 } // namespace burnish

@@ -30,6 +30,14 @@ std::string escaped(const std::string& text)
     return out;
 }
 
+std::string script_json(const Json& json)
+{
+    std::string text = json.dump(-1);
+    for (std::size_t at = text.find("</"); at != std::string::npos; at = text.find("</", at + 3))
+        text.replace(at, 2, "<\\/");
+    return text;
+}
+
 std::string base64(const std::string& bytes)
 {
     constexpr const char* kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";

@@ -169,10 +169,14 @@ Status add_row(const ChartRow& row, Json& rows)
     return {};
 }
 
-// What the script needs. "</" would end the element that it stands in.
+// What the script needs.
 Result<std::string> data_json(const ChartReport& report, const std::vector<PairRows>& pairs)
 {
-    Json json = {{"width", report.error_width}, {"height", report.error_height}, {"places", Json::array()}, {"rows", Json::object()}};
+    Json json = {{"subject", "Technique"},
+                 {"width", report.error_width},
+                 {"height", report.error_height},
+                 {"places", Json::array()},
+                 {"rows", Json::object()}};
     for (const PairRows& pair : pairs)
         for (const PlaceRows& place : pair.places) {
             const Result<std::string> reference = data_uri(place.reference->picture);
@@ -195,10 +199,7 @@ Result<std::string> data_json(const ChartReport& report, const std::vector<PairR
             }
             json["places"].push_back({{"reference", *reference}, {"rows", keys}, {"shown", shown}});
         }
-    std::string text = json.dump(-1);
-    for (std::size_t at = text.find("</"); at != std::string::npos; at = text.find("</", at + 3))
-        text.replace(at, 2, "<\\/");
-    return text;
+    return script_json(json);
 }
 
 std::string heading(const ChartReport& report)

@@ -1,8 +1,9 @@
-// The report's page: pictures beside the points of charts, and walls of pictures that zoom and flicker together.
+// Pages with pictures, those of charts and of comparisons: pictures beside the points of charts, and walls of pictures that zoom and flicker together.
 'use strict';
 (() => {
   const data = JSON.parse(document.getElementById('data').textContent);
   const tip = document.getElementById('tip');
+  const picture = text => text[0] === '#' ? document.querySelector(text).src : text;  // one of the page's own, by its id
   const kFlickerMs = 400;  // a picture; slower than three flashes a second, which some people cannot bear
   const kMostZoom = 16;
 
@@ -20,7 +21,7 @@
     const row = data.rows[point.dataset.row];
     for (const other of document.querySelectorAll('.point.shown')) other.classList.remove('shown');
     point.classList.add('shown');
-    tip.replaceChildren(element('img', {src: row.picture, alt: ''}), row.text);
+    tip.replaceChildren(element('img', {src: picture(row.picture), alt: ''}), row.text);
     tip.dataset.row = point.dataset.row;
     tip.hidden = false;
     placeTip(point);
@@ -93,7 +94,7 @@
     const first = data.rows[keys[0]];
     const image = (css, alt) => element('img', {className: css, alt, draggable: false});
     const technique = image('picture', ''), error = image('error', '');
-    const reference = element('img', {className: 'reference', alt: '', src: place.reference, draggable: false});
+    const reference = element('img', {className: 'reference', alt: '', src: picture(place.reference), draggable: false});
     const view = element('div', {className: 'view', tabIndex: 0, role: 'img', style: `aspect-ratio: ${data.width} / ${data.height}`},
                          reference, element('div', {className: 'clip technique'}, technique), error);
     const list = element('select', {}, ...keys.map(key => element('option', {value: key}, data.rows[key].setting)));
@@ -101,8 +102,8 @@
     const figures = element('span', {className: 'figures'});
     list.addEventListener('change', () => {
       const row = data.rows[list.value];
-      technique.src = row.picture;
-      error.src = row.error;
+      technique.src = picture(row.picture);
+      error.src = picture(row.error);
       figures.textContent = row.figures;
       view.setAttribute('aria-label', `${row.text}. Arrow keys move, plus and minus zoom, F flickers.`);
     });
@@ -118,7 +119,7 @@
   class Wall {
     constructor(place, index) {
       this.zoom = 1, this.x = 0, this.y = 0;  // x, y: of the picture's corner, in parts of the view
-      const modes = [['split', 'Side by side'], ['technique', 'Technique'], ['reference', 'Reference'], ['error', 'Error map']];
+      const modes = [['split', 'Side by side'], ['technique', data.subject], ['reference', 'Reference'], ['error', 'Error map']];
       this.radios = modes.map(([value]) => element('input', {type: 'radio', name: 'mode-' + index, value, checked: value === 'split'}));
       this.split = element('input', {type: 'range', min: 0, max: 100, step: 1, value: 50, className: 'split'});
       this.zoomer = element('input', {type: 'range', min: 0, max: Math.log2(kMostZoom), step: 0.1, value: 0, className: 'zoom'});
@@ -131,7 +132,7 @@
       const legend = element('legend', {}, 'Show');
       const controls = element('div', {className: 'controls'},
         element('fieldset', {}, legend, ...modes.map(([, text], i) => element('label', {}, this.radios[i], text))),
-        element('label', {}, 'Reference | technique', this.split), this.button, element('label', {}, 'Zoom', this.zoomer), reset);
+        element('label', {}, 'Reference | ' + data.subject.toLowerCase(), this.split), this.button, element('label', {}, 'Zoom', this.zoomer), reset);
       this.node = element('div', {}, controls, this.tiles);
       this.radios.forEach(radio => radio.addEventListener('change', () => this.setMode(radio.value)));
       this.split.addEventListener('input', () => this.tiles.style.setProperty('--split', this.split.value + '%'));

@@ -1,14 +1,15 @@
 """burnish compare: figures, outputs, limits, and an exit code for each way to fail."""
 
 import base64
-import html.parser
 import csv
+import html.parser
 import json
 import os
 import re
 import struct
 import zlib
 
+from browser import Browser
 from harness import Failed, Skipped, case, check, scratch
 
 NAN, INF = float("nan"), float("inf")
@@ -195,7 +196,7 @@ def page(bench):
         for image in images:
             data = base64.b64decode(image["src"].removeprefix("data:image/png;base64,"), validate=True)
             check(data.startswith(b"\x89PNG") and struct.unpack(">II", data[16:24]) == (24, 16), "not the picture as PNG")
-        check(not re.search(r'(src|href)="(?!data:)|url\(|https?://|<script', text), "the page needs something from outside")
+        check(not re.search(r'(src|href)="(?!data:)|url\(|https?://(?!www.w3.org/2000/svg)|<script src', text), "the page needs something from outside")
         name = "a &lt;b&gt; &amp; &quot;c&quot;.png" if reference == strange.name else reference
         check(text.count(name) == 3, "title, heading and caption name the reference, escaped")
         for word in (kind_name, "weighted median", "psnr", "24 x 16", "width=device-width", "color-scheme"):
@@ -205,6 +206,33 @@ def page(bench):
     check((bench.folder / "p.html").read_bytes() == first, "two pages differ")
     done = bench.run("compare", "-q", "a.png", "b.png", "--html", "-").expect(0)
     check(done.out.startswith("<!DOCTYPE html>") and done.out.endswith("</html>\n"), "no page on standard output")
+
+
+@case("compare.page_slides_flickers_zooms_and_shows_the_histogram", tier="gate")
+def page_in_browser(bench):
+    pictures(bench)
+    with Browser(bench.folder / "browser") as browser:
+        bench.run("compare", "-q", "a.pfm", "b.pfm", "--html", "p.html").expect(0)
+        browser.size(1200, 900)
+        browser.open(bench.folder / "p.html")
+        browser.until("document.querySelectorAll('.tile img').length === 3 && [...document.querySelectorAll('.tile img')].every(i => i.complete && i.naturalWidth === 24)")
+        check(browser.value("document.querySelector('.tile .picture').src === document.getElementById('test').src"), "the tile shows another picture")
+        tiles = "document.querySelector('.tiles')"
+        browser.value("document.querySelector('.view').focus()")
+        for key, mode in (("r", "reference"), ("e", "error"), ("t", "technique"), ("s", "split")):
+            browser.press(key, text=key)
+            check(browser.value(f"{tiles}.dataset.mode") == mode, f"{key} shows {browser.value(f'{tiles}.dataset.mode')}")
+        browser.press("f", text="f")
+        browser.until(f"{tiles}.dataset.mode === 'reference'")
+        browser.until(f"{tiles}.dataset.mode === 'technique'")
+        browser.press("f", text="f")
+        browser.press("+", text="+")
+        check(browser.value("getComputedStyle(document.querySelector('.view img')).transform").startswith("matrix(2,"), "no zoom")
+        check(browser.value("[...document.querySelectorAll('.controls label')].some(l => l.textContent === 'Test')"), "what is compared is called a technique")
+        bars = browser.value("[...document.querySelectorAll('svg.chart rect')].map(r => r.getBoundingClientRect().height)")
+        check(bars and min(bars) > 0, f"bars: {bars}")
+        check(not browser.faults, f"the console says {browser.faults}")
+        browser.screenshot(bench.folder / "page.png")
 
 
 @case("compare.error_map_shows_errors_in_magma")

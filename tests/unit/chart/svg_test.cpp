@@ -4,6 +4,7 @@
 #include <limits>
 #include <set>
 
+#include "apps/compare/histogram.h"
 #include "apps/report/axes.h"
 #include "apps/report/labels.h"
 #include "apps/report/looks.h"
@@ -142,6 +143,21 @@ TEST(chart_svg, techniques_differ_in_shape_and_shade_and_relatives_share_a_famil
     EXPECT_EQ(mark_of("major_axis").family, mark_of("major_axis_weighted").family);
     EXPECT_NE(mark_of("major_axis").family, mark_of("bent_normal").family);
     EXPECT_NE(mark_of("auto").family, mark_of("mc").family);
+}
+
+TEST(chart_svg, a_histogram_counts_every_pixel)
+{
+    Image error = make_image(4, 2, 1, PixelType::f32);
+    const float values[] = {0.0f, 0.001f, 0.5f, 0.51f, 0.999f, 1.0f, 2.0f, 0.03f};
+    std::copy(std::begin(values), std::end(values), error.f32());
+    const std::vector<double> bins = histogram_of(error);
+    EXPECT_EQ(bins[0], 2.0 / 8.0);
+    EXPECT_EQ(bins[1], 1.0 / 8.0);
+    EXPECT_EQ(bins[25], 2.0 / 8.0);
+    EXPECT_EQ(bins.back(), 3.0 / 8.0);
+    const std::string svg = svg_of(plot_histogram(error, {}));
+    EXPECT_EQ(xml_fault(svg), "");
+    EXPECT_EQ(count(svg, "<rect "), 4);
 }
 
 TEST(chart_svg, ticks_are_round_and_inside)
