@@ -1,4 +1,5 @@
-// `burnish list`: the names that options accept, and the reflection models, which no option names; one a line with what it is.
+// `burnish list`: the names that options accept; the reflection models and what is read of glTF, which no option names. One a line with
+// what it is.
 #include <algorithm>
 #include <cstdio>
 #include <fmt/core.h>
@@ -9,6 +10,7 @@
 #include "apps/cli/command.h"
 #include "apps/cli/values.h"
 #include "core/scene/builtin/builtin.h"
+#include "core/scene/gltf/extensions.h"
 #include "raster/frame/frame.h"
 
 namespace burnish {
@@ -43,6 +45,16 @@ std::vector<Entry> model_entries()
     return entries;
 }
 
+std::vector<Entry> extension_entries()
+{
+    std::vector<Entry> entries;
+    for (const GltfFeature& feature : gltf_features()) {
+        const std::string what = feature.what;
+        entries.push_back({feature.name, fmt::format("{:<9}{}{}", support_name(feature.support), what.empty() ? "" : "  ", what)});
+    }
+    return entries;
+}
+
 int print(const std::vector<Entry>& entries)
 {
     std::size_t width = 0;
@@ -59,8 +71,9 @@ Command list_command()
 {
     auto what = std::make_shared<std::string>();
     OptionTable table;
-    table.add("", {Option("WHAT", "", "{}", choice(*what, {"techniques", "scenes", "environments", "models"})).must_be_given()});
-    return {"list", "List the names that options accept, and the reflection models", table,
+    table.add("",
+              {Option("WHAT", "", "{}", choice(*what, {"techniques", "scenes", "environments", "models", "extensions"})).must_be_given()});
+    return {"list", "List the names that options accept, the reflection models, what is read of glTF", table,
             "Examples:\n  burnish list techniques\n  burnish list scenes", [what](OptionTable&) {
                 if (*what == "scenes")
                     return print(builtins(builtin_scenes()));
@@ -68,6 +81,8 @@ Command list_command()
                     return print(builtins(builtin_environments()));
                 if (*what == "models")
                     return print(model_entries());
+                if (*what == "extensions")
+                    return print(extension_entries());
                 return print(technique_entries());
             }};
 }

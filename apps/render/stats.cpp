@@ -7,6 +7,7 @@
 
 #include "apps/render/parameters.h"
 #include "core/base/version.h"
+#include "core/scene/gltf/extensions.h"
 
 namespace burnish {
 
@@ -93,6 +94,7 @@ std::string stats_json(const RenderOptions& options, const RenderFigures& figure
     json["pixel_hash"] = hash_text(figures.hash);
     json["nan_pixels"] = figures.nan_pixels;
     json["warnings"] = figures.warnings;
+    json["ignored_extensions"] = ignored_extensions(figures.warnings);
     json["peak_memory_bytes"] = peak_memory_bytes();
     // Paths are bytes to the operating system: what is not UTF-8 is replaced instead of ending the program.
     return json.dump(2) + "\n";

@@ -3,7 +3,8 @@
 import json
 import os
 
-from harness import SMALL, Skipped, case, check
+import gltf_files
+from harness import SMALL, Skipped, case, check, scratch
 
 
 @case("usage.help_is_everywhere")
@@ -112,8 +113,9 @@ def lists(bench):
     """Every name of a list is taken by its option; the reflection models are listed too, and no option names one."""
     tiny = ("--size", "8x8", *SMALL[2:])
     options = {"techniques": lambda name: ("--technique", name, "--samples", "1"), "scenes": lambda name: (name,),
-               "environments": lambda name: ("--env", name), "models": None}
-    expected = {"techniques": "split_isotropic", "scenes": "builtin:teapot", "environments": "builtin:studio", "models": "ggx"}
+               "environments": lambda name: ("--env", name), "models": None, "extensions": None}
+    expected = {"techniques": "split_isotropic", "scenes": "builtin:teapot", "environments": "builtin:studio", "models": "ggx",
+                "extensions": "KHR_materials_anisotropy"}
     for what, option in options.items():
         lines = bench.run("list", what).expect(0).out.splitlines()
         names = [line.split()[0] for line in lines]
@@ -121,6 +123,18 @@ def lists(bench):
         check(all(len(line.split(None, 1)) == 2 for line in lines), f"a name without a summary: {lines}")
         for name in names if option else ():
             bench.run("render", *option(name), *tiny, "-q").expect(0)
+
+
+@case("usage.ignored_extensions_are_in_the_figures_and_strict_refuses_them")
+def ignored(bench):
+    gltf = gltf_files.triangle()
+    gltf["extensionsUsed"] = ["KHR_materials_ior", "KHR_materials_sheen"]
+    scratch(bench, "a.gltf", gltf_files.text(gltf))
+    found = bench.figures("a.gltf", *SMALL)
+    check(found["ignored_extensions"] == ["KHR_materials_sheen"], f"{found['ignored_extensions']}")
+    bench.run("render", "a.gltf", *SMALL, "--strict").expect(4).expect_one_line("KHR_materials_sheen")
+    listed = dict(line.split(None, 1) for line in bench.run("list", "extensions").out.splitlines())
+    check(listed["KHR_materials_sheen"].startswith("ignored") and listed["KHR_materials_ior"].startswith("supported"), f"{listed}")
 
 
 @case("usage.info_names_machine_and_build")

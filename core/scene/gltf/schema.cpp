@@ -1,11 +1,11 @@
 #include "core/scene/gltf/schema.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <fmt/format.h>
 #include <string_view>
 
+#include "core/scene/gltf/extensions.h"
 #include "core/scene/gltf/textures.h"
 
 namespace burnish::gltf {
@@ -208,12 +208,6 @@ const Rule kTextureInfoRules[] = {
     {"/extensions/KHR_texture_transform/scale", Kind::numbers, -kAny, kAny, "", false, 2},
     {"/extensions/KHR_texture_transform/rotation", Kind::number},
     {"/extensions/KHR_texture_transform/texCoord", Kind::integer, 0, 1000},
-};
-
-constexpr std::array<std::string_view, 11> kSupported = {
-    "EXT_meshopt_compression",         "EXT_texture_webp",  "KHR_draco_mesh_compression", "KHR_lights_punctual", "KHR_materials_anisotropy",
-    "KHR_materials_emissive_strength", "KHR_materials_ior", "KHR_materials_specular",     "KHR_materials_unlit", "KHR_mesh_quantization",
-    "KHR_texture_transform",
 };
 
 bool has_word(std::string_view list, std::string_view word)
@@ -438,19 +432,18 @@ void check_version_and_extensions(Document& doc)
     if (asset.contains("minVersion") && asset["minVersion"] != "2.0")
         fail("/asset/minVersion", "glTF version " + printable(asset["minVersion"].dump()) + " is needed, 2.0 is supported");
 
-    const auto supported = [](const std::string& name) {
-        return std::find(kSupported.begin(), kSupported.end(), name) != kSupported.end();
-    };
     std::set<std::string> seen;
     std::string missing;
     for (const Json& name : doc.json.value("extensionsRequired", Json::array()))
-        if (!supported(name) && seen.insert(name).second)
+        if (!is_read(name) && seen.insert(name).second)
             missing += (missing.empty() ? "" : ", ") + printable(name);
     if (!missing.empty())
         fail("/extensionsRequired", "the file requires extensions that are not supported: " + missing);
     for (const Json& name : doc.json.value("extensionsUsed", Json::array()))
-        if (!supported(name))
-            doc.warn("extension " + printable(name) + " is not supported and ignored");
+        if (!is_read(name) && doc.limits.strict)
+            fail("/extensionsUsed", "extension " + printable(name) + " is not supported (--strict)");
+        else if (!is_read(name))
+            doc.warn(ignored_warning(printable(name)));
 }
 
 void check_schema(Json& json)

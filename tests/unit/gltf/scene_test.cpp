@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "asset.h"
+#include "core/scene/gltf/extensions.h"
 #include "core/scene/gltf/gltf.h"
 
 using namespace burnish;
@@ -201,6 +202,20 @@ TEST(scene, unknown_used_extensions_warn_once_each)
     EXPECT_EQ(scene->warnings, (std::vector<std::string>{"extension ACME_one is not supported and ignored",
                                                          "extension KHR_materials_clearcoat is not supported and ignored",
                                                          "/extensionsUsed/2: stands here twice"}));
+}
+
+TEST(scene, ignored_extensions_are_counted_and_with_strict_refused)
+{
+    Asset asset = triangle();
+    asset.more = R"(,"extensionsUsed":["KHR_materials_ior","KHR_materials_clearcoat","ACME_one"])";
+    const Result<Scene> scene = load(asset);
+    ASSERT_TRUE(scene) << error_of(scene);
+    EXPECT_EQ(ignored_extensions(scene->warnings), (std::vector<std::string>{"KHR_materials_clearcoat", "ACME_one"}));
+    Limits strict;
+    strict.strict = true;
+    EXPECT_EQ(error_of(load(asset, strict)), "/extensionsUsed: extension KHR_materials_clearcoat is not supported (--strict)");
+    EXPECT_FALSE(is_read("animations")); // no extension
+    EXPECT_TRUE(is_read("KHR_draco_mesh_compression"));
 }
 
 TEST(scene, builtin_names_go_to_the_generated_scenes)
