@@ -10,6 +10,7 @@ namespace burnish {
 namespace {
 
 constexpr float kRadiansPerDegree = 0.017453292519943295f, kUsualFovDeg = 45.0f;
+const glm::vec2 kUsualOrbitDeg(35.0f, 28.0f); // three quarters: a cube shows three faces
 
 bool is_placed(const Scene& scene, int camera)
 {
@@ -103,8 +104,8 @@ Result<ChosenView> wanted_view(const RenderOptions& options, const Scene& scene,
     }
     Framing framing;
     framing.fov_y_rad = fov_y_rad, framing.target = options.target;
-    if (options.orbit_deg)
-        framing.azimuth_rad = options.orbit_deg->x * kRadiansPerDegree, framing.elevation_rad = options.orbit_deg->y * kRadiansPerDegree;
+    const glm::vec2 orbit_deg = options.orbit_deg.value_or(kUsualOrbitDeg);
+    framing.azimuth_rad = orbit_deg.x * kRadiansPerDegree, framing.elevation_rad = orbit_deg.y * kRadiansPerDegree;
     return ChosenView{auto_frame(tables, width, height, framing), options.orbit_deg ? "from --orbit" : "framed automatically", true};
 }
 

@@ -47,7 +47,7 @@ std::vector<Option> picture_rows(RenderArguments& to)
         {"--eye", "X,Y,Z", "Camera position, world space", point(to.plain.eye)},
         {"--target", "X,Y,Z", "What the camera looks at", point(to.plain.target), "the centre of the scene"},
         {"--orbit", "AZ,EL", "Frame the whole scene, seen from AZ degrees to the right of +Z and EL above the horizon",
-         direction(to.plain.orbit_deg), "35,22 without a camera"},
+         direction(to.plain.orbit_deg), "35,28 without a camera"},
         {"--fov", "DEG", "Vertical field of view", number(to.plain.fov_y_deg, 0.1, 179.0), "the camera's, else 45"},
         {"--zoom", "F", "Show things F times as large", number(to.plain.zoom, 0.01, 1000.0)},
         {"--technique", "NAME", "See burnish list techniques", choice(f.technique, technique_names())},
