@@ -8,6 +8,15 @@
 
 namespace burnish {
 
+std::vector<Command> all_commands()
+{
+    std::vector<Command> commands;
+#define BN_COMMAND(name) commands.push_back(name##_command());
+#include "apps/cli/commands.def"
+#undef BN_COMMAND
+    return commands;
+}
+
 Command manual_command()
 {
     auto what = std::make_shared<std::string>("man");

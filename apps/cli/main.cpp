@@ -102,15 +102,6 @@ int flush_stdout(int code)
 
 } // namespace
 
-std::vector<Command> all_commands()
-{
-    std::vector<Command> commands;
-#define BN_COMMAND(name) commands.push_back(name##_command());
-#include "apps/cli/commands.def"
-#undef BN_COMMAND
-    return commands;
-}
-
 } // namespace burnish
 
 int main(int argc, char** argv)

@@ -66,7 +66,7 @@ std::string subcommands(const std::vector<Command>& commands)
 // In single quotes, for shells.
 std::string quoted(const std::string& text)
 {
-    return "'" + replaced(text, "'", "'\\''") + "'";
+    return fmt::format("'{}'", replaced(text, "'", "'\\''"));
 }
 
 // What zsh's _arguments takes between brackets and colons.
@@ -91,7 +91,7 @@ std::string zsh_values(const Option& option)
 std::string zsh_option(const Option& option)
 {
     if (option.positional())
-        return quoted((option.value.repeated ? "*" : "") + zsh_values(option));
+        return quoted(fmt::format("{}{}", option.value.repeated ? "*" : "", zsh_values(option)));
     const std::string help = fmt::format("[{}]", zsh_text(option.help_text()));
     const std::string values = option.takes_value() ? zsh_values(option) : "";
     const std::string many = option.value.repeated || !option.takes_value() ? "*" : "";

@@ -20,7 +20,8 @@ RUNS = {
     "parity": [(("builtin:plate", *VIEW, "--technique", "mc", "--device", "lavapipe", "--json", "y.json", "--html", "y.html",
                  "--junit", "y.xml"), (0, 77))],
     "race": [(("builtin:plate", *VIEW, "--techniques", "split_isotropic", "--runs", "1", "--devices", "lavapipe", "--json", "z.json"), (0, 77))],
-    "list": [((what,), (0,)) for what in ("techniques", "scenes", "environments", "models")],
+    "list": [((what,), (0,)) for what in ("techniques", "scenes", "environments", "models", "extensions")],
+    "manual": [((what,), (0,)) for what in ("man", "bash", "zsh", "fish")],
     "info": [((), (0,)), (("--json",), (0,))],
 }
 

@@ -27,7 +27,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         Command command = make();
         if (command.name != first)
             continue;
-        static_cast<void>(asks_for_help(command, words));
+        static_cast<void>(asked_by(command, words));
         const Status read = read_command_line(command, words);
         if (!read) {
             BN_CHECK(read.error().code == ExitCode::usage && !read.error().reason.empty());
