@@ -94,10 +94,10 @@ std::string zsh_option(const Option& option)
         return quoted(fmt::format("{}{}", option.value.repeated ? "*" : "", zsh_values(option)));
     const std::string help = fmt::format("[{}]", zsh_text(option.help_text()));
     const std::string values = option.takes_value() ? zsh_values(option) : "";
-    const std::string many = option.value.repeated || !option.takes_value() ? "*" : "";
-    std::string out = quoted(many + option.name + help + values);
+    const char* many = option.value.repeated || !option.takes_value() ? "*" : "";
+    std::string out = quoted(fmt::format("{}{}{}{}", many, option.name, help, values));
     if (option.letter)
-        out += " " + quoted(fmt::format("{}-{}{}{}", many, option.letter, help, values));
+        out += fmt::format(" {}", quoted(fmt::format("{}-{}{}{}", many, option.letter, help, values)));
     return out;
 }
 
