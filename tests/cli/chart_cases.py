@@ -242,7 +242,7 @@ def stale(bench):
     check(found >= set(own), f"{set(own) - found} were removed")
     charts = {f"{name}-1.{kind}" for name in ("time-flip", "samples-flip", "samples-time") for kind in ("svg", "png")}
     pictures = {name for name in found if name.startswith("pictures/")} - set(own)
-    check(found == charts | pictures | set(own) | {"report.html", "report.json", "rows.json"}, f"{found}")
+    check(found == charts | pictures | set(own) | {"report.html", "report.json", "report.csv", "rows.json"}, f"{found}")
     check(len(pictures) == 2 * 3 + 1 and not {name.split("/")[1] for name in pictures} & before, f"{pictures}")
     check(len(json.loads((bench.folder / "r/rows.json").read_text())["rows"]) == 9, "times of before were dropped")
 
@@ -256,7 +256,8 @@ def cpu_seconds(pid):
 def reference_samples(done):
     """(all, kept from before) of a chart's one reference."""
     line = next(line for line in done.err.splitlines() if line.startswith("reference"))
-    return tuple(map(int, re.search(r"(\d+) samples a pixel, (\d+) of them kept", line).groups()))
+    found = re.search(r": (\d+) samples?(?: \((\d+) kept\))?", line)
+    return int(found[1]), int(found[2] or 0)
 
 
 @case("chart.a_stopped_reference_goes_on")

@@ -319,7 +319,7 @@ def compile_stages(source, folder, only=None):
                        check=True)
 
 
-def compare_changed(bench, replacements, msaa, code, only=None):
+def compare_changed(bench, replacements, msaa, code, only=None, size="128x96"):
     if not shutil.which("glslc"):
         raise Skipped("no glslc here")
     source, shaders = bench.folder / "source", bench.folder / "shaders"
@@ -332,7 +332,8 @@ def compare_changed(bench, replacements, msaa, code, only=None):
         path.write_text(text.replace(old, new))
     compile_stages(ROOT, shaders)
     compile_stages(source, shaders, only)
-    return parity(bench, "builtin:teapot", "builtin:plate", "--size", "128x96", "--technique", "major_axis", "--msaa", msaa, "--shaders", shaders, code=code)
+    return parity(bench, "builtin:teapot", "builtin:plate", "--size", size, "--technique", "major_axis", "--msaa", msaa, "--shaders", shaders,
+                  code=code)
 
 
 @case("parity.sees_nothing_where_nothing_is")
@@ -343,7 +344,8 @@ def sees_nothing_where_nothing_is(bench):
 def add_defect(name, replacements, msaa, stages, only=None):
     @case(f"parity.sees_a_defect.{name}")
     def sees(bench):
-        report = compare_changed(bench, replacements, msaa, 1, only)
+        # few samples lie on an edge: small pictures may have none
+        report = compare_changed(bench, replacements, msaa, 1, only, "320x240" if name == "top_left_rule" else "128x96")
         first = [row["first_difference"] for row in report["rows"]]
         first = min((f for f in first if f), key=STAGES.index, default=None)
         check(first in stages, f"expected the first difference in {stages}, found it in {first}")

@@ -66,7 +66,9 @@ def files(bench):
     spans = [e["name"] for e in json.loads((bench.folder / "p.trace").read_text())["traceEvents"] if e["ph"] == "X"]
     for stage in STAGES:
         check(stage in spans, f"the trace does not show {stage}")
-    check(spans.count("coverage") == 3 * found["tiles"]["count"], "a span of coverage for every tile of the three profiled frames")
+    parts = spans.count("coverage")  # a crowded tile is drawn in 16 parts
+    check(parts % 3 == 0 and (parts // 3 - found["tiles"]["count"]) % 15 == 0 and parts >= 3 * found["tiles"]["count"],
+          f"a span of coverage for every tile, or part of one, of the three profiled frames: {parts}")
     root = tree.parse(bench.folder / "p.svg").getroot()
     svg = "{http://www.w3.org/2000/svg}"
     titles = [t.text for t in root.iter(svg + "title")]
