@@ -82,7 +82,7 @@ BN_STAGE real3 punctual_lights(const PixelFrame& p, const LaneSurface& s)
     real3 sum = vec3_all(lit(0.0));
     for (int i = 0; i < f.light_count; ++i) {
         const LightRecord& l = f.lights[i];
-        const punctual_light light = light_from(f, s.r.x, lobe, true, s.position, i);
+        const punctual_light light = light_from(f, s.r.x, lobe, true, light_towards(f, s.position, i), i);
         mask lit_lanes = both(both(s.reflects, k_dot3(s.r.horizon, light.l) > lit(0.0)), any_light(light.radiance));
         if (f.mode != ReferenceMode::direct && any(lit_lanes)) {
             LaneRays r = leaving_ray(f, s, light.l);

@@ -14,12 +14,16 @@ struct punctual_light {
     real3 radiance; // that it makes the surface give off towards the eye
 };
 
-// lobe: of x. anisotropic: by the lobe itself, otherwise by a round one of the same roughness. position: of x, world space.
-BN_FN punctual_light light_from(frame_ref f, BN_IN(shaded_point) x, BN_IN(placed_lobe) lobe, bool anisotropic, real3 position, int light)
+BN_FN light_sample light_towards(frame_ref f, real3 position, int light)
 {
-    light_sample at = sample_punctual(position, splat3(the_light(f, light).position), splat3(the_light(f, light).direction),
-                                      splat(the_light(f, light).inv_range2), splat(the_light(f, light).spot_scale),
-                                      splat(the_light(f, light).spot_offset), int_lit(the_light(f, light).directional) != int_lit(0));
+    return sample_punctual(position, splat3(the_light(f, light).position), splat3(the_light(f, light).direction),
+                           splat(the_light(f, light).inv_range2), splat(the_light(f, light).spot_scale),
+                           splat(the_light(f, light).spot_offset), int_lit(the_light(f, light).directional) != int_lit(0));
+}
+
+// at: light_towards(). lobe: of x. anisotropic: by the lobe itself, otherwise by a round one of the same roughness.
+BN_FN punctual_light light_from(frame_ref f, BN_IN(shaded_point) x, BN_IN(placed_lobe) lobe, bool anisotropic, light_sample at, int light)
+{
     real3 intensity = splat3(the_light(f, light).radiant) * at.attenuation;
     punctual_light r;
     r.l = at.l;
@@ -32,12 +36,16 @@ BN_FN punctual_light light_from(frame_ref f, BN_IN(shaded_point) x, BN_IN(placed
     return r;
 }
 
+// position: of x, world space.
 BN_FN real3 light_from_punctual(frame_ref f, BN_IN(shaded_point) x, bool anisotropic, real3 position)
 {
     real3 sum = vec3_all(lit(0.0));
     placed_lobe lobe = placed_lobe_at(f, x);
     for (int i = 0; i < the_frame(f).light_count; ++i) {
-        punctual_light light = light_from(f, x, lobe, anisotropic, position, i);
+        light_sample at = light_towards(f, position, i);
+        if (no_lane(at.attenuation > lit(0.0))) // out of its range or cone
+            continue;
+        punctual_light light = light_from(f, x, lobe, anisotropic, at, i);
         if (x.turned)
             light.radiance = select(k_dot3(x.surface_axes.n, light.l) > lit(0.0), light.radiance, vec3_all(lit(0.0)));
         sum = sum + light.radiance;

@@ -61,7 +61,7 @@ def middle(places):
     return (min(xs) + max(xs) + 1) / 2, (min(ys) + max(ys) + 1) / 2
 
 
-@case("usage.camera.a_scene_without_one_is_framed_from_three_quarters")
+@case("camera.a_scene_without_one_is_framed_from_three_quarters")
 def three_quarters(bench):
     scratch(bench, "cube.gltf", cube())
     found = seen(bench)
@@ -74,7 +74,7 @@ def three_quarters(bench):
     check(max(max(p) for p in places) - min(min(p) for p in places) > 75, "the picture is empty")
 
 
-@case("usage.camera.orbit_zoom_fov_and_target_do_what_they_say")
+@case("camera.orbit_zoom_fov_and_target_do_what_they_say")
 def options(bench):
     scratch(bench, "cube.gltf", cube())
     for orbit, face in (("0,0", "front"), ("90,0", "right"), ("-90,0", "left"), ("180,0", "back"), ("0,90", "top"), ("0,-90", "bottom")):
@@ -93,7 +93,7 @@ def options(bench):
     check(set(seen(bench, "--orbit", "90,0")) == {"right"}, "--orbit does without the camera of the scene")
 
 
-@case("usage.camera.verbose_prints_bounds_and_options_that_give_the_view_again")
+@case("camera.verbose_prints_bounds_and_options_that_give_the_view_again")
 def verbose(bench):
     for camera in (None, [0.3, 0.2, 4]):
         scratch(bench, "cube.gltf", cube(camera=camera))
