@@ -68,7 +68,7 @@ Paint tint(const std::string& name)
     for (const Tint& t : kTints)
         if (t.name == name)
             return paint_of(t.light);
-    BN_CHECK(!"a tint of the table");
+    BN_CHECK(false); // every name is a tint of the table
     return {};
 }
 
