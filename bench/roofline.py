@@ -13,6 +13,7 @@ conversions, shuffles. All of one core and CPU time.
 """
 
 import argparse
+import itertools
 import json
 import math
 import re
@@ -20,7 +21,7 @@ import subprocess
 import sys
 import xml.sax.saxutils
 
-ISAS = {"scalar": "#5c5c5c", "avx2": "#0067a8", "avx512": "#c64f00"}
+COLOURS = ("#5c5c5c", "#0067a8", "#c64f00", "#1f7a3a", "#7a3fa8")  # of instruction sets, as they come
 CACHES = {"16": "L1", "512": "L2", "8192": "L3"}
 LOAD_BYTES = 16
 
@@ -82,7 +83,8 @@ def table(limits, kernels):
     return "\n".join(lines)
 
 
-WIDTH, HEIGHT, LEFT, RIGHT, TOP, BOTTOM = 1160, 620, 70, 420, 50, 560
+HEIGHT, LEFT, RIGHT, TOP, BOTTOM = 620, 70, 740, 50, 560  # edges of the plot; names and columns stand right of it
+NAMES, COLUMN = 260, 90
 
 
 def chart(limits, kernels):
@@ -90,11 +92,13 @@ def chart(limits, kernels):
     intensity = {key: kernel["operations"] / kernel["bytes"] for key, kernel in kernels.items()}
     rate = {key: kernel["operations"] / kernel["ns"] for key, kernel in kernels.items()}  # Gop/s
     ceilings = {isa: value / 1e9 for isa, value in limits["operations"].items() if any(key[2] == isa for key in kernels)}
+    colours = dict(zip(ceilings, itertools.cycle(COLOURS)))
+    width = RIGHT + NAMES - COLUMN // 2 + COLUMN * len(ceilings) + 25
     x_low, x_high = min(0.5, min(intensity.values()) / 1.5), max(16.0, max(intensity.values()) * 1.5)
     y_low, y_high = min(rate.values()) / 1.6, max(*ceilings.values(), *rate.values()) * 1.6
 
     def x_of(value):
-        return LEFT + (WIDTH - RIGHT - LEFT) * math.log(value / x_low) / math.log(x_high / x_low)
+        return LEFT + (RIGHT - LEFT) * math.log(value / x_low) / math.log(x_high / x_low)
 
     def y_of(value):
         return BOTTOM - (BOTTOM - TOP) * math.log(value / y_low) / math.log(y_high / y_low)
@@ -106,7 +110,7 @@ def chart(limits, kernels):
                         f' {key.rstrip("_").replace("_", "-")}={xml.sax.saxutils.quoteattr(str(value))}' for key, value in attributes.items())
         out.append(f"<{name}{shown}/>" if text is None else f"<{name}{shown}>{xml.sax.saxutils.escape(text)}</{name}>")
 
-    out.append(f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {WIDTH} {HEIGHT}" width="{WIDTH}" height="{HEIGHT}" role="img" '
+    out.append(f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {HEIGHT}" width="{width}" height="{HEIGHT}" role="img" '
                'aria-label="Roofline of the kernels">')
     out.append("<style>svg { background: #fff; font: 12px system-ui, 'DejaVu Sans', sans-serif; } text { fill: #1c1c1c; } .soft { fill: #5f5f5f; } "
                ".grid { stroke: #e3e3e3; } .head { font-weight: 600; font-size: 14px; }</style>")
@@ -117,16 +121,17 @@ def chart(limits, kernels):
             element("text", f"{tick:g}", x=x_of(tick), y=BOTTOM + 18, text_anchor="middle", class_="soft")
     for tick in [2.0**k for k in range(-4, 12)]:
         if y_low <= tick <= y_high:
-            element("line", x1=LEFT, x2=WIDTH - RIGHT, y1=y_of(tick), y2=y_of(tick), class_="grid")
+            element("line", x1=LEFT, x2=RIGHT, y1=y_of(tick), y2=y_of(tick), class_="grid")
             element("text", f"{tick:g}", x=LEFT - 8, y=y_of(tick) + 4, text_anchor="end", class_="soft")
-    element("text", "operations a byte fetched", x=(LEFT + WIDTH - RIGHT) / 2, y=BOTTOM + 40, text_anchor="middle")
+    element("text", "operations a byte fetched", x=(LEFT + RIGHT) / 2, y=BOTTOM + 40, text_anchor="middle")
     element("text", "Gop/s", x=LEFT - 40, y=TOP - 12)
-    for isa, ceiling in ceilings.items():
-        element("line", x1=LEFT, x2=WIDTH - RIGHT, y1=y_of(ceiling), y2=y_of(ceiling), stroke=ISAS[isa], stroke_width=2, class_="ceiling")
-        # ceilings may be as good as equal: their names stand on both sides
-        below = isa == "avx2" and "avx512" in ceilings
-        element("text", f"{isa}: {ceiling:.0f} Gop/s, not fused", x=WIDTH - RIGHT - 4, y=y_of(ceiling) + (16 if below else -6), text_anchor="end",
-                style=f"fill: {ISAS[isa]}")
+    label = -math.inf
+    for isa, ceiling in sorted(ceilings.items(), key=lambda item: -item[1]):
+        element("line", x1=LEFT, x2=RIGHT, y1=y_of(ceiling), y2=y_of(ceiling), stroke=colours[isa], stroke_width=2, class_="ceiling")
+        above = y_of(ceiling) - 6
+        label = above if above - label >= 16 else label + 22  # ceilings may be as good as equal: their names stand one below the other
+        element("text", f"{isa}: {ceiling:.0f} Gop/s, not fused", x=RIGHT - 4, y=label, text_anchor="end",
+                style=f"fill: {colours[isa]}")
     for cache, loads in limits["loads"].items():
         slope = loads * LOAD_BYTES / 1e9
         first, last = max(x_low, y_low / slope), min(x_high, y_high / slope)
@@ -139,16 +144,16 @@ def chart(limits, kernels):
     places = list(dict.fromkeys((name, eta) for name, eta, _ in kernels))
     numbers = {name: number for number, name in enumerate(dict.fromkeys(name for name, _ in places), 1)}
     for name, number in numbers.items():  # at the longest lobe; those of one kernel lie close together
-        for isa, colour in ISAS.items():
+        for isa, colour in colours.items():
             key = (name, max(eta for other, eta in places if other == name), isa)
             if key in kernels:
                 element("circle", cx=x_of(intensity[key]), cy=y_of(rate[key]), r=9, fill=colour, class_="kernel")
                 element("text", str(number), x=x_of(intensity[key]), y=y_of(rate[key]) + 4, text_anchor="middle", style="fill: #fff; font-size: 10px")
-    x = WIDTH - RIGHT + 20
+    x = RIGHT + 20
     element("text", "share of the limit of operations, of loads", x=x, y=TOP)
-    columns = {isa: x + 240 + 90 * i for i, isa in enumerate(isa for isa in ("avx2", "avx512") if isa in ceilings)}
+    columns = {isa: RIGHT + NAMES + COLUMN * i for i, isa in enumerate(ceilings)}
     for isa, at in columns.items():
-        element("text", isa, x=at, y=TOP + 24, text_anchor="middle", style=f"fill: {ISAS[isa]}")
+        element("text", isa, x=at, y=TOP + 24, text_anchor="middle", style=f"fill: {colours[isa]}")
     for line, (name, eta) in enumerate(places, 1):
         y = TOP + 24 + 22 * line
         element("text", f"{numbers[name]}  {name}, eta {eta}", x=x, y=y)

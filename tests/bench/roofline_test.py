@@ -63,6 +63,21 @@ class RooflineTest(unittest.TestCase):
         # logarithmic: 5 times down to the mark from the ceiling, 2 times from the slope
         self.assertAlmostEqual((y_mark - at_slope) / (y_mark - y_ceiling), 0.6931 / 1.6094, places=2)
 
+    def test_instruction_sets_are_those_of_the_figures(self):
+        limits, kernels = self.figures()
+        isas = ["avx2", "neon", "sve"]
+        limits["operations"] = dict.fromkeys(isas, 100e9)
+        kernels = {("some_kernel", "0.5", isa): next(iter(kernels.values())) for isa in isas}
+        root = tree.fromstring(roofline.chart(limits, kernels))
+        marks, lines = root.findall(f"{SVG}circle[@class='kernel']"), root.findall(f"{SVG}line[@class='ceiling']")
+        self.assertEqual(len({mark.get("fill") for mark in marks}), 3)
+        self.assertEqual({mark.get("fill") for mark in marks}, {line.get("stroke") for line in lines})
+        heads = [text for text in root.iter(f"{SVG}text") if text.text in isas]
+        self.assertEqual([text.text for text in heads], isas)
+        self.assertTrue(all(float(text.get("x")) + 40 < float(root.get("width")) for text in heads))
+        labels = sorted(float(text.get("y")) for text in root.iter(f"{SVG}text") if "not fused" in text.text)
+        self.assertTrue(all(b - a >= 16 for a, b in zip(labels, labels[1:])))  # three equal ceilings, each with its name
+
     def test_command(self):
         with tempfile.TemporaryDirectory() as folder:
             source, target = pathlib.Path(folder, "in.json"), pathlib.Path(folder, "out.svg")
