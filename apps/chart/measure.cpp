@@ -154,7 +154,7 @@ Status Chart::measure_pair(const SeenScene& scene, const std::shared_ptr<const E
 {
     SessionOptions of_tile;
     of_tile.isa = options_.base.isa;
-    Result<Session> tile = Session::make({scene.data, environment, standard_dfg(*jobs_), jobs_}, of_tile);
+    Result<Session> tile = Session::make({scene.data, environment, jobs_, {}}, of_tile);
     if (!tile)
         return tile.error();
     for (const Cell& cell : cells_) {

@@ -99,7 +99,7 @@ Status compare_place(const Bench& bench, const ParityPlace& place, ParityReport&
     SessionOptions of_tile, of_device;
     of_tile.isa = base.isa;
     of_device.backend = Backend::vulkan, of_device.device = bench.device;
-    const SessionParts parts{scene->data, bench.environment, standard_dfg(*bench.jobs), bench.jobs};
+    const SessionParts parts{scene->data, bench.environment, bench.jobs, {}};
     Result<Session> tile = Session::make(parts, of_tile), vulkan = Session::make(parts, of_device);
     for (const Result<Session>* made : {&tile, &vulkan})
         if (!*made)

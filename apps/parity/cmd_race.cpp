@@ -185,7 +185,7 @@ void race_scene(Race& bench, std::size_t first, std::size_t last)
                 add_row(bench, frames[i], d, scene.error());
         return;
     }
-    const SessionParts parts{scene->data, bench.environment, standard_dfg(*bench.jobs), bench.jobs};
+    const SessionParts parts{scene->data, bench.environment, bench.jobs, {}};
     SessionOptions options;
     options.isa = frames[first].isa;
     Result<Session> tile = Session::make(parts, options);

@@ -132,7 +132,7 @@ int run_profile(const ProfileArguments& arguments, const OptionTable& given)
         report.warning(warning);
     SessionOptions tile;
     tile.isa = options.isa;
-    Result<Session> session = Session::make({seen->data, *environment, standard_dfg(*jobs), jobs}, tile);
+    Result<Session> session = Session::make({seen->data, *environment, jobs, {}}, tile);
     if (!session)
         return fail(session.error());
     report.release();

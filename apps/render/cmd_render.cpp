@@ -127,7 +127,6 @@ Result<Session> prepare(const RenderOptions& options, RenderFigures& figures, st
 
     const Stopwatch make;
     const TraceSpan span("prepare renderer");
-    parts.dfg = standard_dfg(*parts.jobs);
     Result<Session> session = Session::make(std::move(parts), session_options(options, lost_checkpoint));
     if (session)
         figures.device = session->device();

@@ -30,7 +30,7 @@ const Result<std::shared_ptr<const Environment>>& studio(bool coarse)
 std::shared_ptr<const DfgTable> dfg(bool coarse)
 {
     if (!coarse)
-        return standard_dfg(Jobs(0));
+        return *standard_dfg(Jobs(0));
     static const auto table = std::make_shared<const DfgTable>(bake_dfg(kDfgSize, 16, Jobs(0)));
     return table;
 }
@@ -89,9 +89,8 @@ Result<std::unique_ptr<Subject>> make_subject(const Workload& workload, const Su
         return scene.error();
     SessionOptions tile;
     tile.isa = options.isa;
-    Result<Session> session = Session::make(
-        {*scene, *environment, dfg(options.coarse_environment), std::make_shared<const Jobs>(w.threads ? w.threads : options.threads)},
-        tile);
+    const auto jobs = std::make_shared<const Jobs>(w.threads ? w.threads : options.threads);
+    Result<Session> session = Session::make({*scene, *environment, jobs, dfg(options.coarse_environment)}, tile);
     if (!session)
         return session.error();
     return std::unique_ptr<Subject>(std::make_unique<TileSubject>(w, std::move(*session)));

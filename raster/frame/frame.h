@@ -32,7 +32,7 @@ View make_view(const Scene& scene, int camera, int width, int height); // a came
 View make_view(const glm::vec3& eye, const glm::vec3& target, float fov_y_rad, int width, int height);
 struct Framing {                       // how the whole scene is looked at: three quarters, so that a cube shows three faces
     float azimuth_rad = 0.61086524f;   // of the eye: from +Z towards +X
-    float elevation_rad = 0.38397244f; // above the horizon
+    float elevation_rad = 0.48869219f; // above the horizon
     float fov_y_rad = 0.78539816f;     // vertical field of view
     std::optional<glm::vec3> target;   // in the middle of the picture; without it the scene's outline is
 };

@@ -85,15 +85,28 @@ Result<std::shared_ptr<const Environment>> load_shared_environment(const std::st
     });
 }
 
-std::shared_ptr<const DfgTable> standard_dfg(const Jobs& jobs)
+Result<std::shared_ptr<const DfgTable>> standard_dfg(const Jobs& jobs)
 {
-    static const std::shared_ptr<const DfgTable> table = std::make_shared<const DfgTable>(bake_dfg(kDfgSize, kDfgSamples, jobs));
-    return table;
+    using Made = Result<std::shared_ptr<const DfgTable>>;
+    return guarded("", [&]() -> Made {
+        static const std::shared_ptr<const DfgTable> table = std::make_shared<const DfgTable>(bake_dfg(kDfgSize, kDfgSamples, jobs));
+        return table;
+    });
 }
 
 Result<Session> Session::make(SessionParts parts, const SessionOptions& options)
 {
+    if (!parts.scene || !parts.environment)
+        return Error{ExitCode::usage, "", "", parts.scene ? "a session needs an environment" : "a session needs a scene"};
     return guarded(parts.scene->name, [&]() -> Result<Session> {
+        if (!parts.jobs)
+            parts.jobs = std::make_shared<const Jobs>(0);
+        if (!parts.dfg) {
+            const Result<std::shared_ptr<const DfgTable>> table = standard_dfg(*parts.jobs);
+            if (!table)
+                return table.error();
+            parts.dfg = *table;
+        }
         Result<std::unique_ptr<Renderer>> renderer = make_renderer(parts.input(), options);
         if (!renderer)
             return renderer.error();
@@ -116,7 +129,6 @@ Result<Session> Session::open(const std::string& scene, const std::string& envir
             return light.error();
         parts.scene = *data;
         parts.environment = *light;
-        parts.dfg = standard_dfg(*parts.jobs);
         return make(std::move(parts), options);
     });
 }

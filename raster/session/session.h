@@ -43,15 +43,16 @@ Result<std::shared_ptr<const SceneData>> make_scene_data(const std::string& name
 Result<std::shared_ptr<const Environment>> load_shared_environment(const std::string& spec, const EnvironmentOptions& options,
                                                                    const Limits& limits, const Jobs& jobs);
 // The table of directional albedo that pictures are made with: the same bits everywhere, made once a process.
-std::shared_ptr<const DfgTable> standard_dfg(const Jobs& jobs);
+Result<std::shared_ptr<const DfgTable>> standard_dfg(const Jobs& jobs);
 
 // What a renderer draws. All of it is shared.
 struct SessionParts {
     std::shared_ptr<const SceneData> scene;
     std::shared_ptr<const Environment> environment;
-    std::shared_ptr<const DfgTable> dfg;
-    std::shared_ptr<const Jobs> jobs;
+    std::shared_ptr<const Jobs> jobs;    // none: all cores the process may use
+    std::shared_ptr<const DfgTable> dfg; // none: standard_dfg()
 
+    // Of parts that a session has: nothing is missing.
     RenderInput input() const { return {scene->scene, scene->tables, *environment, *dfg, *jobs}; }
 };
 
@@ -77,6 +78,7 @@ class Session {
     // Loads, bakes or finds in the cache, and makes the renderer. Errors: ExitCode::bad_input, usage, unavailable.
     static Result<Session> open(const std::string& scene, const std::string& environment, const OpenOptions& open = {},
                                 const SessionOptions& options = {});
+    // Errors: ExitCode::usage where scene or environment is missing, unavailable, bad_input where memory is short.
     static Result<Session> make(SessionParts parts, const SessionOptions& options = {});
 
     Session(Session&&) = default;

@@ -16,17 +16,9 @@ BN_FN real k_dot3(real3 a, real3 b)
 {
     return a.x * b.x + a.y * b.y + a.z * b.z;
 }
-BN_FN real k_dot4(real4 a, real4 b)
-{
-    return a.x * b.x + a.y * b.y + (a.z * b.z + a.w * b.w);
-}
 BN_FN real3 k_cross(real3 a, real3 b)
 {
     return vec3_of(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
-}
-BN_FN real k_length2(real2 a)
-{
-    return sqrt(k_dot2(a, a));
 }
 BN_FN real k_length3(real3 a)
 {
@@ -52,17 +44,9 @@ BN_FN real3 k_mix3(real3 a, real3 b, real t)
 {
     return a + (b - a) * t;
 }
-BN_FN real4 k_mix4(real4 a, real4 b, real t)
-{
-    return a + (b - a) * t;
-}
 BN_FN real k_saturate(real x)
 {
     return min(max(x, lit(0.0)), lit(1.0));
-}
-BN_FN real3 k_saturate3(real3 a)
-{
-    return min(max(a, vec3_all(lit(0.0))), vec3_all(lit(1.0)));
 }
 
 // 2^n for n in [-126, 127].

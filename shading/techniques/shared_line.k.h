@@ -1,6 +1,6 @@
 // Samples shared in a 2x2 quad of pixels. Each fragment's samples lie elsewhere in their cells; fragments that see alike lobes average what
-// all of them found, four times as many samples for the price of one's. Interleaved sampling: Keller and Heidrich 2001. Light comes from
-// afar, so all that tells two fragments apart is where their lobes look, how long they are and how wide.
+// all of them found, four times as many samples for the price of one's: Keller and Heidrich 2001, "Interleaved Sampling". Light
+// comes from afar, so all that tells two fragments apart is where their lobes look, how long they are and how wide.
 #ifndef BN_SHARED_LINE_K_H
 #define BN_SHARED_LINE_K_H
 

@@ -94,7 +94,7 @@ Stage::Stage(const std::shared_ptr<Parts>& p)
 SessionParts Stage::parts() const
 {
     const auto part = [&](const auto& of) { return std::shared_ptr<const std::remove_cvref_t<decltype(of)>>(parts_, &of); };
-    return {part(parts_->data), part(parts_->environment), part(parts_->dfg), part(parts_->jobs)};
+    return {part(parts_->data), part(parts_->environment), part(parts_->jobs), part(parts_->dfg)};
 }
 
 Frame Stage::render(const FrameDesc& desc, Isa isa) const

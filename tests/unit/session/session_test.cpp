@@ -67,6 +67,11 @@ TEST(session, shares_its_parts)
     Result<Session> first = Session::open("builtin:teapot", "builtin:studio", small_open());
     ASSERT_TRUE(first);
     const std::uint64_t hash = drawn(*first);
+    SessionParts parts = first->parts();
+    parts.jobs.reset(), parts.dfg.reset();
+    Result<Session> filled_up = Session::make(parts);
+    ASSERT_TRUE(filled_up);
+    EXPECT_EQ(drawn(*filled_up), hash);
     Result<Session> second = Session::make(first->parts());
     ASSERT_TRUE(second);
     EXPECT_EQ(&first->scene(), &second->scene());
@@ -91,6 +96,13 @@ TEST(session, says_what_is_wrong)
 
     Result<Session> session = Session::open("builtin:teapot", "builtin:studio", small_open());
     ASSERT_TRUE(session);
+    for (int missing = 0; missing < 2; ++missing) {
+        SessionParts parts = session->parts();
+        missing == 0 ? parts.scene.reset() : parts.environment.reset();
+        const Result<Session> partial = Session::make(parts);
+        ASSERT_FALSE(partial);
+        EXPECT_EQ(partial.error().code, ExitCode::usage);
+    }
     FrameDesc wrong = small_frame(*session, "no_such_technique");
     const Result<Frame> frame = session->render(wrong);
     ASSERT_FALSE(frame);
