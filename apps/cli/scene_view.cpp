@@ -9,9 +9,6 @@
 namespace burnish {
 namespace {
 
-constexpr float kRadiansPerDegree = 0.017453292519943295f, kUsualFovDeg = 45.0f;
-const glm::vec2 kUsualOrbitDeg(35.0f, 28.0f); // three quarters: a cube shows three faces
-
 bool is_placed(const Scene& scene, int camera)
 {
     for (const Node& node : scene.nodes)

@@ -10,6 +10,9 @@
 
 namespace burnish {
 
+inline constexpr float kRadiansPerDegree = 0.017453292519943295f, kUsualFovDeg = 45.0f;
+inline const glm::vec2 kUsualOrbitDeg(35.0f, 28.0f); // three quarters: a cube shows three faces
+
 struct ChosenView {
     View view;
     std::string description; // for the log: "camera 0 'front'", "framed automatically"

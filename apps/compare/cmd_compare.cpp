@@ -27,6 +27,7 @@ Examples:
   burnish compare reference.exr test.exr --metric flip-hdr,rel-mse --json -
   burnish compare reference.png test.png --error-map error.png --html report.html
   burnish compare reference.exr test.exr --fail-flip 0.02 --fail-max 0.5
+  burnish compare --sequence truth_%04d.exr test_%04d.exr --fail-flicker 0.002 --csv frames.csv
   burnish compare mean.exr test.exr --variance variance.exr --significance 0.01)";
 
 // Each output's name with the option it belongs to.
@@ -168,6 +169,8 @@ int run_compare(const CompareArguments& arguments, const OptionTable& given)
     const CompareOptions& options = *checked;
     if (Status paths = check_paths(options); !paths)
         return fail(paths.error());
+    if (options.sequence)
+        return compare_sequences(options);
     const Jobs jobs(options.threads);
     const Result<Pictures> pictures = read_pictures(options, jobs);
     if (!pictures)

@@ -1,8 +1,10 @@
 #include "apps/compare/options.h"
 
 #include <algorithm>
+#include <fmt/core.h>
 #include <utility>
 
+#include "apps/cli/numbered.h"
 #include "apps/cli/report.h"
 #include "apps/cli/shared_options.h"
 #include "apps/cli/values.h"
@@ -38,6 +40,7 @@ std::vector<Option> figure_rows(CompareArguments& to)
         {"--exposures", "N", "HDR-FLIP: number of exposures", integer(o.flip.exposures, 1, kMaxFlipExposures), "one a stop"},
         {"--variance", "FILE", "Variance of the reference's pixel means, given again of the test's: a z-test of every pixel",
          files(o.variances)},
+        {"--sequence", "", "REFERENCE and TEST are rows of files such as out_%04d.exr: flicker too", flag(o.sequence)},
         {"--significance", "P", "z-test: probability that equal pictures are told apart", number(o.significance, 1e-9, 0.5)},
     };
 }
@@ -46,6 +49,8 @@ std::vector<Option> failure_rows(CompareOptions& to)
 {
     return {
         {"--fail-flip", "MEAN", "Fail where FLIP's mean is more", number(to.fail_flip, 0.0, 1.0)},
+        {"--fail-flicker", "F", "With --sequence: fail where the test's neighbours differ by more than the reference's by F",
+         number(to.fail_flicker, 0.0, 1.0)},
         {"--fail-max", "V", "Fail where the largest difference of a channel is more", number(to.fail_max, 0.0, 1e38)},
         {"--fail-fraction", "F", "Fail where more of the pixels differ", number(to.fail_fraction, 0.0, 1.0)},
         {"--fail-z", "F", "Fail where the z-test rejects more of the pixels", number(to.fail_z, 0.0, 1.0)},
@@ -108,6 +113,18 @@ Result<CompareOptions> check_compare_options(const CompareArguments& in, const O
     for (const char* option : {"--significance", "--fail-z"})
         if (out.variances.empty() && given.given(option))
             return usage_error(option, "needs --variance");
+    if (out.sequence) {
+        for (const auto& [name, pattern] : {std::pair{"REFERENCE", out.reference}, {"TEST", out.test}})
+            if (!has_number(pattern))
+                return usage_error(name, fmt::format("'{}' needs a number such as %04d with --sequence", pattern));
+        for (const char* option : {"--variance", "--html", "--error-map", "--fail-max", "--fail-fraction"})
+            if (given.given(option))
+                return usage_error(option, "cannot be combined with --sequence");
+        if (out.metrics && !out.metrics->flip && !out.metrics->flip_hdr)
+            return usage_error("--metric", "--sequence takes flip or flip-hdr");
+    } else if (out.fail_flicker) {
+        return usage_error("--fail-flicker", "needs --sequence");
+    }
     const Result<Isa> isa = choose_isa(given, in.isa);
     if (!isa)
         return isa.error();

@@ -25,6 +25,8 @@ struct CompareOptions {
     std::optional<double> fail_flip, fail_max, fail_fraction;
     std::vector<std::string> variances; // of the reference, of the test
     double significance = 0.01, fail_z = 0.0;
+    bool sequence = false; // reference and test are patterns of files in a row
+    std::optional<double> fail_flicker;
     int threads = 0;
     Limits limits;
     bool quiet = false;
@@ -36,6 +38,9 @@ struct CompareArguments {
     std::vector<std::string> metrics;
     Isa isa = Isa::scalar;
 };
+
+// With --sequence: how each picture of a row differs from its reference, and from the one after it. Returns the exit code.
+int compare_sequences(const CompareOptions& options);
 
 OptionTable compare_option_table(CompareArguments& to);
 Result<CompareOptions> check_compare_options(const CompareArguments& arguments, const OptionTable& given);

@@ -1,6 +1,5 @@
 // `burnish render`: a scene under an environment to pictures and figures.
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <fmt/core.h>
 #include <memory>
@@ -8,16 +7,11 @@
 #include <utility>
 
 #include "apps/cli/command.h"
-#include "apps/cli/environment_text.h"
-#include "apps/cli/open.h"
 #include "apps/cli/outputs.h"
-#include "apps/cli/report.h"
 #include "apps/cli/scene_view.h"
 #include "apps/cli/stop_signal.h"
-#include "apps/render/options.h"
-#include "apps/render/stats.h"
+#include "apps/render/picture.h"
 #include "core/image/io/image_io.h"
-#include "raster/session/session.h"
 
 namespace burnish {
 namespace {
@@ -34,132 +28,9 @@ Examples:
   burnish render builtin:spheres --env builtin:sky --env-rotation 90 --exposure -1 -o spheres.png
   burnish render builtin:plate --frames 50 --threads 2 --isa avx2 --stats -
   burnish render --backend vulkan --device lavapipe -o teapot.png
+  burnish render builtin:plate --animate roughness=0.1:0.6,tilt=0,0:20,0 --steps 30 -o plate_%03d.png
+  burnish render lamp.glb --turntable 60 -o lamp_%03d.png
   burnish render --backend reference --samples 4096 --checkpoint teapot.part -o teapot.exr --variance teapot_var.exr)";
-
-class Stopwatch {
-  public:
-    double ms() const { return std::chrono::duration<double, std::milli>(Clock::now() - begin_).count(); }
-
-  private:
-    using Clock = std::chrono::steady_clock;
-    Clock::time_point begin_ = Clock::now();
-};
-
-struct Rendered {
-    Image color, variance;
-    RenderFigures figures;
-};
-
-// `inputs`: files that must not be written over.
-Status check_paths(const RenderOptions& options, const std::vector<std::string>& inputs)
-{
-    std::vector<std::string> pictures = options.outputs;
-    if (!options.variance_file.empty())
-        pictures.push_back(options.variance_file);
-    return check_outputs(pictures,
-                         {{"--stats", options.stats_file}, {"--trace", options.trace_file}, {"--checkpoint", options.reference.checkpoint}},
-                         inputs);
-}
-
-void report_scene(const SceneData& data, Report& report)
-{
-    const Scene& scene = data.scene;
-    report.event("scene", fmt::format("{}: {}, {}, {}, {}", data.name, counted(data.tables.triangle_count(), "triangle"),
-                                      counted(scene.materials.size(), "material"), counted(scene.textures.size(), "texture"),
-                                      counted(data.tables.lights.size(), "light")));
-    for (const std::string& warning : scene.warnings)
-        report.warning(warning);
-}
-
-void report_environment(const RenderOptions& options, const Environment& environment, double ms, Report& report)
-{
-    report.event("environment", fmt::format("{}: {}; {}", options.env, light_text(environment),
-                                            environment.from_cache ? fmt::format("from the cache in {:.0f} ms", ms)
-                                                                   : fmt::format("baked in {:.0f} ms", ms)));
-    report_key_lights(environment, report);
-}
-
-// `lost_checkpoint`: why the last one could not be written.
-SessionOptions session_options(const RenderOptions& options, std::optional<Error>& lost_checkpoint)
-{
-    SessionOptions session;
-    session.backend = options.backend == "reference" ? Backend::reference : options.backend == "vulkan" ? Backend::vulkan : Backend::tile;
-    session.isa = options.isa;
-    session.vulkan = options.vulkan;
-    session.reference = options.reference;
-    if (session.backend == Backend::reference && !options.reference.checkpoint.empty())
-        session.reference.stop = &watch_stop_signals();
-    session.reference.lost_checkpoint = [&lost_checkpoint](const Error& error) { lost_checkpoint = error; };
-    return session;
-}
-
-Result<Session> prepare(const RenderOptions& options, RenderFigures& figures, std::optional<Error>& lost_checkpoint, Report& report)
-{
-    SessionParts parts;
-    parts.jobs = std::make_shared<const Jobs>(options.threads);
-    figures.threads = parts.jobs->threads();
-    const Stopwatch load;
-    {
-        const TraceSpan span("load scene");
-        const Result<std::shared_ptr<const SceneData>> data = open_scene(options.scene, options.limits);
-        if (!data)
-            return data.error();
-        parts.scene = *data;
-    }
-    figures.load_ms = load.ms();
-    report_scene(*parts.scene, report);
-
-    const Stopwatch bake;
-    {
-        const TraceSpan span("environment");
-        const Result<std::shared_ptr<const Environment>> environment =
-            open_environment(options.env, options.environment, options.limits, *parts.jobs);
-        if (!environment)
-            return environment.error();
-        parts.environment = *environment;
-    }
-    figures.bake_ms = bake.ms();
-    figures.environment_from_cache = parts.environment->from_cache;
-    figures.key_lights = key_lights_json(*parts.environment);
-    report_environment(options, *parts.environment, figures.bake_ms, report);
-    for (const std::string& warning : parts.environment->warnings)
-        report.warning(warning);
-
-    const Stopwatch make;
-    const TraceSpan span("prepare renderer");
-    Result<Session> session = Session::make(std::move(parts), session_options(options, lost_checkpoint));
-    if (session)
-        figures.device = session->device();
-    figures.prepare_ms = make.ms();
-    return session;
-}
-
-// All frames show the same picture: a renderer that does not repeat itself is caught here.
-Result<Rendered> render_frames(const RenderOptions& options, const FrameDesc& desc, Session& session, RenderFigures figures)
-{
-    Rendered out;
-    Frame last;
-    Progress progress("frames", static_cast<std::size_t>(options.frames), options.quiet || options.frames == 1);
-    for (int i = 0; i < options.frames; ++i) {
-        const TraceSpan span("frame");
-        Result<Frame> frame = session.render(desc, std::move(last));
-        if (!frame)
-            return frame.error();
-        const std::uint64_t hash = pixel_hash(frame->color);
-        if (i > 0 && hash != figures.hash)
-            return Error{ExitCode::differ, options.scene, fmt::format("frame {}", i),
-                         fmt::format("pixel hash {} differs from {} of the frames before", hash_text(hash), hash_text(figures.hash))};
-        figures.hash = hash;
-        figures.frame = frame->stats;
-        figures.frame_ms.push_back(frame->stats.ms);
-        last = std::move(*frame);
-        progress.step();
-    }
-    out.color = std::move(last.color), out.variance = std::move(last.variance);
-    figures.nan_pixels = count_not_finite(out.color);
-    out.figures = std::move(figures);
-    return out;
-}
 
 void report_reference(const RenderOptions& options, const RenderFigures& figures, Report& report)
 {
@@ -211,7 +82,7 @@ Status write_outputs(const RenderOptions& options, const Rendered& rendered, Rep
     if (!options.variance_file.empty())
         note(options.variance_file, write_image(options.variance_file, rendered.variance));
     if (!options.stats_file.empty())
-        note(options.stats_file, write_text(options.stats_file, stats_json(options, rendered.figures)));
+        note(options.stats_file, write_text(options.stats_file, stats_json(options, rendered.figures).dump(2) + "\n"));
     if (!options.trace_file.empty())
         note(options.trace_file, write_text(options.trace_file, Trace::json()));
     return first;
@@ -229,8 +100,12 @@ int finish(const RenderOptions& options, const Rendered& rendered, Report& repor
     return written ? code : fail(written.error());
 }
 
-int run_render(const RenderArguments& arguments, const OptionTable& given)
+int run_render(RenderArguments& arguments, OptionTable& given)
 {
+    if (arguments.plain.turntable || !arguments.animate.empty())
+        return run_row(arguments, given);
+    if (given.given("--steps"))
+        return fail(usage_error("--steps", "needs --animate"));
     Result<RenderOptions> checked = check_render_options(arguments, given);
     if (!checked)
         return fail(checked.error());

@@ -7,7 +7,7 @@
 namespace burnish {
 namespace {
 
-constexpr std::int64_t kMaxFrames = 1000000, kMaxBakeSamples = 1 << 20, kMaxBounces = 1000;
+constexpr std::int64_t kMaxFrames = 1000000, kMaxBakeSamples = 1 << 20, kMaxBounces = 1000, kMaxSteps = 100000;
 constexpr const char* kReferenceModes[] = {"direct", "shadowed", "path"}; // by ReferenceMode
 
 std::vector<Option> environment_rows(RenderArguments& to)
@@ -63,6 +63,16 @@ std::vector<Option> picture_rows(RenderArguments& to)
          number(f.anisotropy, -1.0, 1.0), ""},
         {"--texture-anisotropy", "N", "Texture taps along the major axis at most", integer(f.texture_anisotropy, 1, 16)},
         {"--no-background", "", "Black behind the scene instead of the environment", flag(f.background, false)},
+    };
+}
+
+std::vector<Option> row_rows(RenderArguments& to)
+{
+    return {
+        {"--animate", "NAME=A:B",
+         "Options that go from A to B, several by commas, such as roughness=0.1:0.6; -o holds the step: o_%04d.png", text(to.animate)},
+        {"--steps", "N", "Pictures of --animate", integer(to.steps, 2, kMaxSteps)},
+        {"--turntable", "N", "Once around the scene in N pictures, at one distance", integer(to.plain.turntable, 2, kMaxSteps), ""},
     };
 }
 
@@ -126,6 +136,7 @@ OptionTable render_option_table(RenderArguments& to)
     table.add("Output", output_rows(to));
     table.add("Picture", picture_rows(to));
     table.add("Parameters of techniques", parameter_options(to.plain.frame));
+    table.add("Pictures in a row", row_rows(to));
     table.add("Machine", machine_rows(to));
     table.add_needing("--backend", "vulkan", vulkan_rows(to.plain.vulkan));
     table.add_needing("--backend", "reference", reference_rows(to));

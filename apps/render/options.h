@@ -42,6 +42,7 @@ struct RenderOptions {
     Isa isa = Isa::scalar;
     int threads = 0; // 0: all cores the process may use
     int frames = 1;
+    int turntable = 0; // pictures once around the scene; 0: none
     Tonemap tonemap = Tonemap::pbr_neutral;
     float exposure_ev = 0.0f;
 
@@ -57,6 +58,8 @@ struct RenderArguments {
     PictureSize size = {1280, 720};
     std::optional<std::int64_t> samples; // none: the technique's or the reference's own number
     glm::vec2 tilt_deg{0.0f};
+    std::string animate; // as --animate takes it
+    int steps = 60;      // of it
 };
 
 // All options of `burnish render`, which other subcommands take theirs from; `to` must outlive the table.

@@ -41,7 +41,7 @@ std::uint64_t peak_memory_bytes()
     return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024; // Linux counts in KiB
 }
 
-std::string stats_json(const RenderOptions& options, const RenderFigures& figures)
+Json stats_json(const RenderOptions& options, const RenderFigures& figures)
 {
     const FrameDesc& frame = options.frame;
     Json json;
@@ -96,8 +96,7 @@ std::string stats_json(const RenderOptions& options, const RenderFigures& figure
     json["warnings"] = figures.warnings;
     json["ignored_extensions"] = ignored_extensions(figures.warnings);
     json["peak_memory_bytes"] = peak_memory_bytes();
-    // Paths are bytes to the operating system: what is not UTF-8 is replaced instead of ending the program.
-    return json.dump(2) + "\n";
+    return json;
 }
 
 } // namespace burnish

@@ -30,6 +30,6 @@ double percentile_95(std::vector<double> values); // nearest rank
 std::string hash_text(std::uint64_t hash); // 16 hexadecimal digits
 std::uint64_t peak_memory_bytes();         // largest resident size of this process so far
 
-std::string stats_json(const RenderOptions& options, const RenderFigures& figures);
+Json stats_json(const RenderOptions& options, const RenderFigures& figures);
 
 } // namespace burnish

@@ -4,6 +4,7 @@ import argparse
 import pathlib
 import sys
 
+import animation_cases
 import camera_cases
 import chart_cases
 import chart_page_cases

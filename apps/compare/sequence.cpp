@@ -1,0 +1,161 @@
+// Rows of pictures against rows of references: the error of each, and flicker, which no picture shows alone. Flicker is how much a picture
+// differs from the next one (mean FLIP), less what the reference differs from its own next one: moving things may change, not more.
+#include <algorithm>
+#include <fmt/core.h>
+#include <optional>
+#include <utility>
+
+#include "apps/cli/numbered.h"
+#include "apps/cli/outputs.h"
+#include "apps/cli/report.h"
+#include "apps/compare/options.h"
+#include "apps/report/json.h"
+#include "core/image/io/image_io.h"
+#include "core/image/metrics/metrics.h"
+
+namespace burnish {
+namespace {
+
+struct Frames {
+    int number = 0;
+    Image reference, test;
+};
+
+double mean_of(const Image& errors)
+{
+    return summarise_errors(errors).mean;
+}
+
+std::string shape_of(const Image& image)
+{
+    return fmt::format("{}x{}, {}, {}", image.width, image.height, counted(static_cast<std::uint64_t>(image.channels), "channel"),
+                       image.type == PixelType::f32 ? "floats" : "display values");
+}
+
+Status check_like(const std::string& name, const Image& image, const std::string& first_name, const Image& first)
+{
+    if (image.width != first.width || image.height != first.height || image.channels != first.channels ||
+        (image.type == PixelType::f32) != (first.type == PixelType::f32))
+        return Error{ExitCode::size_mismatch, name, "", fmt::format("{}; {} has {}", shape_of(image), first_name, shape_of(first))};
+    if (const std::int64_t bad = not_finite_pixels(image, image))
+        return Error{ExitCode::not_finite, name, "", fmt::format("{} pixels are NaN or Inf", bad)};
+    return {};
+}
+
+// The numbers that both rows have, which must be the same, in a row without gaps.
+Result<std::vector<int>> numbers_of(const CompareOptions& options)
+{
+    const Result<std::vector<int>> reference = existing_numbers(options.reference), test = existing_numbers(options.test);
+    if (!reference)
+        return reference.error();
+    if (!test)
+        return test.error();
+    for (const auto& [mine, others, pattern] :
+         {std::tuple{&*reference, &*test, &options.test}, std::tuple{&*test, &*reference, &options.reference}})
+        for (const int number : *mine)
+            if (!std::binary_search(others->begin(), others->end(), number))
+                return Error{ExitCode::bad_input, numbered(*pattern, number), "", "is missing"};
+    if (reference->size() < 2)
+        return Error{ExitCode::bad_input, options.reference, "",
+                     fmt::format("names {}, two are the least", counted(reference->size(), "file"))};
+    for (std::size_t i = 1; i < reference->size(); ++i)
+        if ((*reference)[i] != (*reference)[i - 1] + 1)
+            return Error{ExitCode::bad_input, numbered(options.reference, (*reference)[i - 1] + 1), "", "is missing"};
+    return *reference;
+}
+
+Result<Frames> read_frames(const CompareOptions& options, int number, const Image* first)
+{
+    Frames frames;
+    frames.number = number;
+    for (const auto& [pattern, to] : {std::pair{&options.reference, &frames.reference}, {&options.test, &frames.test}}) {
+        const std::string name = numbered(*pattern, number);
+        Result<Image> image = read_image(name, options.limits);
+        if (!image)
+            return image.error();
+        *to = std::move(*image);
+        const Image& like = first ? *first : frames.reference;
+        if (const Status good = check_like(name, *to, options.reference, like); !good)
+            return good.error();
+    }
+    return frames;
+}
+
+} // namespace
+
+int compare_sequences(const CompareOptions& options)
+{
+    const Result<std::vector<int>> numbers = numbers_of(options);
+    if (!numbers)
+        return fail(numbers.error());
+    const Jobs jobs(options.threads);
+    Report report(options.quiet, options.verbosity);
+    report.promise_stdout({options.json, options.csv});
+    report.release();
+    Json rows = Json::array();
+    double errors = 0.0, worst = 0.0, test_changes = 0.0, reference_changes = 0.0;
+    int worst_number = numbers->front();
+    std::optional<Frames> before;
+    bool floats = false;
+    for (const int number : *numbers) {
+        Result<Frames> frames = read_frames(options, number, before ? &before->reference : nullptr);
+        if (!frames)
+            return fail(frames.error());
+        floats = frames->reference.type == PixelType::f32;
+        if (options.metrics && options.metrics->flip_hdr && !floats)
+            return fail(usage_error("--metric", "flip-hdr needs float pictures"));
+        const bool hdr = floats && !(options.metrics && options.metrics->flip);
+        FlipOptions flip = options.flip;
+        if (hdr) { // all four differences are seen at the reference's exposures
+            const FlipExposures range = find_exposures(frames->reference, flip, jobs);
+            flip.start_ev = range.start_ev, flip.stop_ev = range.stop_ev, flip.exposures = range.count;
+        }
+        const auto difference = [&](const Image& a, const Image& b) {
+            return mean_of((hdr ? flip_hdr(a, b, flip, jobs) : flip_ldr(a, b, flip, jobs)).error);
+        };
+        Json row;
+        row["frame"] = number;
+        const double error = difference(frames->reference, frames->test);
+        row["flip_mean"] = error;
+        errors += error;
+        if (error > worst)
+            worst = error, worst_number = number;
+        if (before) {
+            const double of_reference = difference(before->reference, frames->reference), of_test = difference(before->test, frames->test);
+            row["change"] = of_test, row["reference_change"] = of_reference;
+            test_changes += of_test, reference_changes += of_reference;
+        }
+        rows.push_back(std::move(row));
+        before = std::move(*frames);
+    }
+    const double count = static_cast<double>(numbers->size());
+    test_changes /= count - 1.0, reference_changes /= count - 1.0;
+    const double flicker = test_changes - reference_changes;
+    report.figure("frames", fmt::format("{} to {}", numbers->front(), numbers->back()));
+    report.figure("FLIP mean", fmt::format("{:.6f}, at most {:.6f} in frame {}", errors / count, worst, worst_number));
+    report.figure("changes", fmt::format("{:.6f} from frame to frame, {:.6f} of the reference", test_changes, reference_changes));
+    report.figure("flicker", fmt::format("{:.6f}", flicker));
+    Status written;
+    Json json;
+    json["frames"] = numbers->size(), json["flip_mean"] = errors / count, json["flip_worst"] = worst, json["worst_frame"] = worst_number;
+    json["change"] = test_changes, json["reference_change"] = reference_changes, json["flicker"] = flicker;
+    json["by_frame"] = rows;
+    for (const auto& [path, text] : {std::pair{options.json, json.dump(2) + "\n"}, {options.csv, rows.csv()}}) {
+        if (path.empty())
+            continue;
+        const Status status = write_text(path, text);
+        if (status)
+            report.wrote(path);
+        else if (written)
+            written = status;
+    }
+    if (!written)
+        return fail(written.error());
+    for (const auto& [limit, value, what] :
+         {std::tuple{options.fail_flip, errors / count, "FLIP's mean"}, std::tuple{options.fail_flicker, flicker, "flicker"}})
+        if (limit && value > *limit)
+            return fail(Error{ExitCode::differ, options.test, "", fmt::format("{} is {:.6f}, more than {:g}", what, value, *limit)});
+    return 0;
+}
+
+} // namespace burnish

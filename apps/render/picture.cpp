@@ -1,0 +1,135 @@
+#include "apps/render/picture.h"
+
+#include <chrono>
+#include <fmt/core.h>
+#include <utility>
+
+#include "apps/cli/environment_text.h"
+#include "apps/cli/open.h"
+#include "apps/cli/outputs.h"
+#include "apps/cli/stop_signal.h"
+#include "core/image/image.h"
+
+namespace burnish {
+namespace {
+
+class Stopwatch {
+  public:
+    double ms() const { return std::chrono::duration<double, std::milli>(Clock::now() - begin_).count(); }
+
+  private:
+    using Clock = std::chrono::steady_clock;
+    Clock::time_point begin_ = Clock::now();
+};
+
+void report_scene(const SceneData& data, Report& report)
+{
+    const Scene& scene = data.scene;
+    report.event("scene", fmt::format("{}: {}, {}, {}, {}", data.name, counted(data.tables.triangle_count(), "triangle"),
+                                      counted(scene.materials.size(), "material"), counted(scene.textures.size(), "texture"),
+                                      counted(data.tables.lights.size(), "light")));
+    for (const std::string& warning : scene.warnings)
+        report.warning(warning);
+}
+
+void report_environment(const RenderOptions& options, const Environment& environment, double ms, Report& report)
+{
+    report.event("environment", fmt::format("{}: {}; {}", options.env, light_text(environment),
+                                            environment.from_cache ? fmt::format("from the cache in {:.0f} ms", ms)
+                                                                   : fmt::format("baked in {:.0f} ms", ms)));
+    report_key_lights(environment, report);
+}
+
+} // namespace
+
+Status check_paths(const RenderOptions& options, const std::vector<std::string>& inputs)
+{
+    std::vector<std::string> pictures = options.outputs;
+    if (!options.variance_file.empty())
+        pictures.push_back(options.variance_file);
+    return check_outputs(pictures,
+                         {{"--stats", options.stats_file}, {"--trace", options.trace_file}, {"--checkpoint", options.reference.checkpoint}},
+                         inputs);
+}
+
+SessionOptions session_options(const RenderOptions& options, std::optional<Error>& lost_checkpoint)
+{
+    SessionOptions session;
+    session.backend = options.backend == "reference" ? Backend::reference : options.backend == "vulkan" ? Backend::vulkan : Backend::tile;
+    session.isa = options.isa;
+    session.vulkan = options.vulkan;
+    session.reference = options.reference;
+    if (session.backend == Backend::reference && !options.reference.checkpoint.empty())
+        session.reference.stop = &watch_stop_signals();
+    session.reference.lost_checkpoint = [&lost_checkpoint](const Error& error) { lost_checkpoint = error; };
+    return session;
+}
+
+Result<Session> prepare(const RenderOptions& options, RenderFigures& figures, std::optional<Error>& lost_checkpoint, Report& report)
+{
+    SessionParts parts;
+    parts.jobs = std::make_shared<const Jobs>(options.threads);
+    figures.threads = parts.jobs->threads();
+    const Stopwatch load;
+    {
+        const TraceSpan span("load scene");
+        const Result<std::shared_ptr<const SceneData>> data = open_scene(options.scene, options.limits);
+        if (!data)
+            return data.error();
+        parts.scene = *data;
+    }
+    figures.load_ms = load.ms();
+    report_scene(*parts.scene, report);
+
+    const Stopwatch bake;
+    {
+        const TraceSpan span("environment");
+        const Result<std::shared_ptr<const Environment>> environment =
+            open_environment(options.env, options.environment, options.limits, *parts.jobs);
+        if (!environment)
+            return environment.error();
+        parts.environment = *environment;
+    }
+    figures.bake_ms = bake.ms();
+    figures.environment_from_cache = parts.environment->from_cache;
+    figures.key_lights = key_lights_json(*parts.environment);
+    report_environment(options, *parts.environment, figures.bake_ms, report);
+    for (const std::string& warning : parts.environment->warnings)
+        report.warning(warning);
+
+    const Stopwatch make;
+    const TraceSpan span("prepare renderer");
+    Result<Session> session = Session::make(std::move(parts), session_options(options, lost_checkpoint));
+    if (session)
+        figures.device = session->device();
+    figures.prepare_ms = make.ms();
+    return session;
+}
+
+Result<Rendered> render_frames(const RenderOptions& options, const FrameDesc& desc, Session& session, RenderFigures figures)
+{
+    Rendered out;
+    Frame last;
+    Progress progress("frames", static_cast<std::size_t>(options.frames), options.quiet || options.frames == 1);
+    for (int i = 0; i < options.frames; ++i) {
+        const TraceSpan span("frame");
+        Result<Frame> frame = session.render(desc, std::move(last));
+        if (!frame)
+            return frame.error();
+        const std::uint64_t hash = pixel_hash(frame->color);
+        if (i > 0 && hash != figures.hash)
+            return Error{ExitCode::differ, options.scene, fmt::format("frame {}", i),
+                         fmt::format("pixel hash {} differs from {} of the frames before", hash_text(hash), hash_text(figures.hash))};
+        figures.hash = hash;
+        figures.frame = frame->stats;
+        figures.frame_ms.push_back(frame->stats.ms);
+        last = std::move(*frame);
+        progress.step();
+    }
+    out.color = std::move(last.color), out.variance = std::move(last.variance);
+    figures.nan_pixels = count_not_finite(out.color);
+    out.figures = std::move(figures);
+    return out;
+}
+
+} // namespace burnish

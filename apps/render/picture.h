@@ -1,0 +1,34 @@
+// How a picture is rendered: its scene and environment made ready, its frames drawn.
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/cli/report.h"
+#include "apps/render/options.h"
+#include "apps/render/stats.h"
+#include "raster/session/session.h"
+
+namespace burnish {
+
+struct Rendered {
+    Image color, variance;
+    RenderFigures figures;
+};
+
+// `inputs`: files that must not be written over.
+Status check_paths(const RenderOptions& options, const std::vector<std::string>& inputs);
+
+// `lost_checkpoint`: why the last one could not be written.
+SessionOptions session_options(const RenderOptions& options, std::optional<Error>& lost_checkpoint);
+
+// Loads and bakes, with a line of the report each, and makes the renderer.
+Result<Session> prepare(const RenderOptions& options, RenderFigures& figures, std::optional<Error>& lost_checkpoint, Report& report);
+
+// All frames show the same picture: a renderer that does not repeat itself is caught here.
+Result<Rendered> render_frames(const RenderOptions& options, const FrameDesc& desc, Session& session, RenderFigures figures);
+
+// A row of pictures, --animate or --turntable. Returns the exit code.
+int run_row(RenderArguments& arguments, OptionTable& given);
+
+} // namespace burnish

@@ -1,0 +1,65 @@
+#!/usr/bin/env python3
+"""threads.tsan: small runs of every kind of work on several threads, under ThreadSanitizer.
+
+Usage: race_free.py SOURCE-FOLDER BUILD-FOLDER [PROGRAM]    PROGRAM: one that is built already
+Exit code 77 where the compiler has no ThreadSanitizer.
+"""
+
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+
+SMALL = ("--size", "96x64", "--env-size", "16", "--threads", "4")
+RUNS = {
+    "tile": ("render", "builtin:spheres", *SMALL, "--msaa", "4", "--tile-size", "32", "-o", "tile.exr"),
+    "tile by every technique": ("render", "builtin:plate", *SMALL, "--technique", "major_axis_adaptive", "-o", "plate.png"),
+    "bake": ("render", "builtin:teapot", "--size", "32x32", "--env-size", "64", "--threads", "4", "--no-cache", "-o", "bake.png"),
+    "reference": ("render", "builtin:teapot", *SMALL, "--backend", "reference", "--samples", "4", "--checkpoint", "state", "-o", "truth.exr"),
+    "reference of paths": ("render", "builtin:plate", *SMALL, "--backend", "reference", "--reference-mode", "path", "--samples", "2", "-o", "p.exr"),
+    "compare": ("compare", "tile.exr", "tile.exr", "--metric", "flip-hdr,ssim,mse"),
+    "parity": ("parity", "builtin:plate", "--size", "64x48", "--env-size", "16", "--technique", "bent_normal,lobe_line", "--msaa", "1", "--device",
+               "lavapipe"),
+    "chart": ("chart", "builtin:plate", "--size", "48x32", "--env-size", "16", "--techniques", "bent_normal", "--sweep", "samples=1", "--reference-samples", "4", "-o",
+              "report"),
+}
+MAY_BE_ABSENT = {"parity": 77}  # no device
+
+
+def build(source, folder):
+    launcher = ["-DCMAKE_CXX_COMPILER_LAUNCHER=ccache"] if shutil.which("ccache") else []
+    for command in (["cmake", "--preset", "tsan", "-B", folder, "-DBN_BUILD_TESTS=OFF", *launcher],
+                    ["cmake", "--build", folder, "--target", "burnish"]):
+        done = subprocess.run(list(map(str, command)), cwd=source, capture_output=True, text=True)
+        if done.returncode != 0:
+            print(done.stdout[-4000:], done.stderr[-4000:])
+            sys.exit(77 if "libtsan" in done.stdout + done.stderr else 1)
+    return folder / "burnish"
+
+
+def main():
+    source, folder = pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2])
+    program = pathlib.Path(sys.argv[3]) if len(sys.argv) > 3 else build(source, folder)
+    program = program.resolve()
+    suppressions = pathlib.Path(__file__).with_name("suppressions.txt").resolve()
+    failed = 0
+    with tempfile.TemporaryDirectory(prefix="burnish-threads-") as place:
+        environment = {**os.environ, "XDG_CACHE_HOME": place + "/cache",
+                       "TSAN_OPTIONS": f"suppressions={suppressions} halt_on_error=0 exitcode=66 second_deadlock_stack=1"}
+        for what, arguments in RUNS.items():
+            done = subprocess.run([program, *arguments], cwd=place, env=environment, capture_output=True, text=True, timeout=1200)
+            if done.returncode == MAY_BE_ABSENT.get(what):
+                print(f"{what}: skipped, {done.stderr.strip().splitlines()[-1]}")
+                continue
+            races = done.stderr.count("WARNING: ThreadSanitizer")
+            print(f"{what}: exit code {done.returncode}, {races} reports")
+            if done.returncode != 0 or races:
+                failed += 1
+                print(done.stderr[:6000])
+    sys.exit(failed != 0)
+
+
+if __name__ == "__main__":
+    main()
