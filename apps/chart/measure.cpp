@@ -11,6 +11,7 @@
 #include "apps/chart/load.h"
 #include "apps/chart/noise.h"
 #include "apps/cli/open.h"
+#include "apps/cli/scene_view.h"
 #include "apps/cli/seen_scene.h"
 #include "apps/cli/stop_signal.h"
 #include "apps/render/parameters.h"
@@ -58,7 +59,7 @@ class Chart {
   public:
     Chart(const ChartOptions& options, std::shared_ptr<const Jobs> jobs, Keeper& keeper, Report& report)
         : options_(options), jobs_(jobs), keeper_(keeper), report_(report), stop_(watch_stop_signals()),
-          settings_(settings_of(options.techniques, options.sweeps.samples)), cells_(cells_of(options.sweeps))
+          settings_(settings_of(options.techniques, options.sweeps.samples))
     {
     }
     Status load_all();
@@ -77,6 +78,7 @@ class Chart {
     };
     Status measure_pair(const SeenScene& scene, const std::shared_ptr<const Environment>& environment, const std::string& env);
     Status measure_place(const Place& place);
+    bool sweeps_environments() const; // options of theirs
     Result<Image> reference(const Place& place, ReferenceNoise& noise);
     Result<std::string> reference_file(const Place& place, const ReferenceOptions& options);
     Status find_errors(const Place& place, const Image& reference, ChartRow& row);
@@ -92,7 +94,6 @@ class Chart {
     Report& report_;
     const std::atomic<bool>& stop_;
     std::vector<Setting> settings_;
-    std::vector<Cell> cells_;
     std::vector<SeenScene> scenes_;
     std::vector<std::shared_ptr<const Environment>> environments_;
     std::uint64_t program_ = program_hash();
@@ -125,6 +126,7 @@ Status Chart::load_all()
     out_.width = frame.width, out_.height = frame.height, out_.msaa = frame.msaa;
     out_.error_width = options_.error_width, out_.error_height = options_.error_height;
     out_.parameters = parameters_json(frame);
+    out_.display_flip = options_.display_flip;
     out_.runs = options_.runs;
     out_.reference_samples = options_.reference_samples;
     return {};
@@ -132,7 +134,7 @@ Status Chart::load_all()
 
 Status Chart::measure()
 {
-    const std::size_t places = scenes_.size() * environments_.size() * cells_.size();
+    const std::size_t places = scenes_.size() * environments_.size() * options_.cells.size();
     picture_width_ = picture_width(places * settings_.size());
     report_.event("chart", fmt::format("{}: {} of {} at {}, {} each", counted(places * settings_.size(), "row"),
                                        counted(settings_.size(), "setting"), counted(options_.techniques.size(), "technique"),
@@ -157,14 +159,25 @@ Status Chart::measure_pair(const SeenScene& scene, const std::shared_ptr<const E
     Result<Session> tile = Session::make({scene.data, environment, jobs_, {}}, of_tile);
     if (!tile)
         return tile.error();
-    for (const Cell& cell : cells_) {
-        Place place{scene, *tile, options_.base.frame, env, cell};
+    for (std::size_t i = 0; i < options_.cells.size(); ++i) {
+        RenderOptions options = options_.cell_options[i];
+        options.scene = scene.data->name;
+        if (sweeps_environments()) {
+            const Result<std::shared_ptr<const Environment>> own = open_environment(env, options.environment, options.limits, *jobs_);
+            if (!own)
+                return own.error();
+            Result<Session> next = Session::make({scene.data, *own, jobs_, {}}, of_tile);
+            if (!next)
+                return next.error();
+            *tile = std::move(*next);
+        }
+        const Result<ChosenView> view = choose_view(options, scene.data->scene, scene.data->tables);
+        if (!view)
+            return view.error();
+        Place place{scene, *tile, options.frame, env, options_.cells[i]};
         place.desc.width = options_.error_width, place.desc.height = options_.error_height;
-        place.desc.view = scene.view;
-        place.desc.roughness = cell.roughness.value_or(-1.0f);
-        place.desc.anisotropy = cell.anisotropy.value_or(0.0f);
-        place.desc.override_anisotropy = cell.anisotropy.has_value();
-        place.key = reference_key(tile->parts().input(), place.desc, {});
+        place.desc.view = view->view;
+        place.key = reference_key(tile->parts().input(), place.desc, options_.base.reference);
         if (const Status done = measure_place(place); !done)
             return done;
         if (const Status saved = keeper_.save(); !saved)
@@ -173,6 +186,12 @@ Status Chart::measure_pair(const SeenScene& scene, const std::shared_ptr<const E
             return {};
     }
     return {};
+}
+
+bool Chart::sweeps_environments() const
+{
+    return std::any_of(options_.sweeps.others.begin(), options_.sweeps.others.end(),
+                       [](const Sweeps::Named& named) { return named.option.rfind("env-", 0) == 0 || named.option == "key-lights"; });
 }
 
 Status Chart::measure_place(const Place& place)
@@ -247,6 +266,7 @@ Result<Image> Chart::reference(const Place& place, ReferenceNoise& noise)
     session.backend = Backend::reference, session.isa = options_.base.isa;
     ReferenceOptions& options = session.reference;
     options.samples = options_.reference_samples;
+    options.full_textures = options_.base.reference.full_textures;
     options.checkpoint_seconds = 10.0;
     options.stop = &stop_;
     options.quiet = options_.base.quiet;
@@ -297,10 +317,11 @@ ChartRow Chart::new_row(const Place& place, const Setting& setting) const
 {
     const FrameDesc desc = desc_of(place, setting);
     const FrameDesc& timed = options_.base.frame;
-    const std::string text =
-        fmt::format("{} {} {} {} {} {} {} {} {} {} {} {}{}", program_, place.key, place.tile.parts().environment->content_hash,
-                    options_.reference_samples, desc.technique, desc.samples, timed.width, timed.height, desc.msaa, desc.tile_size,
-                    place.tile.device(), jobs_->threads(), parameters_text(desc));
+    const std::string text = fmt::format(
+        "{} {} {} {} {} {} {} {} {} {} {} {}{} {}", program_, place.key, place.tile.parts().environment->content_hash,
+        options_.reference_samples, desc.technique, desc.samples, timed.width, timed.height, desc.msaa, desc.tile_size, place.tile.device(),
+        jobs_->threads(), parameters_text(desc),
+        options_.display_flip ? fmt::format("{} flip {}", describe(place.cell), options_.base.exposure_ev) : describe(place.cell));
     ChartRow row;
     row.key = hash_text(hash_bytes(text.data(), text.size()));
     row.scene = place.scene.data->name, row.env = place.env;
@@ -332,7 +353,9 @@ Status Chart::find_errors(const Place& place, const Image& reference, ChartRow& 
     } else {
         FlipOptions flip;
         flip.isa = options_.base.isa;
-        map = flip_hdr(reference, frame->color, flip, *jobs_).error;
+        const auto shown = [&](const Image& linear) { return tonemap_to_srgb8(linear, options_.base.tonemap, options_.base.exposure_ev); };
+        map = options_.display_flip ? flip_ldr(shown(reference), shown(frame->color), flip, *jobs_).error
+                                    : flip_hdr(reference, frame->color, flip, *jobs_).error;
         const ErrorSummary errors = summarise_errors(map);
         const PixelFigures pixels = pixel_figures(reference, frame->color, *jobs_);
         e.flip_mean = errors.mean, e.flip_p99 = errors.p99;

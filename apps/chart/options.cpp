@@ -5,6 +5,7 @@
 
 #include "apps/cli/report.h"
 #include "apps/cli/shared_options.h"
+#include "apps/cli/suggest.h"
 #include "apps/cli/values.h"
 #include "apps/render/parameters.h"
 #include "raster/reference/reference_renderer.h"
@@ -12,6 +13,7 @@
 namespace burnish {
 namespace {
 
+constexpr std::size_t kMaxCells = 10000;
 constexpr int kUsualErrorWidth = 480; // pixels: a reference of thousands of samples a pixel in a minute or two on two cores
 
 Value sweeps(Sweeps& to)
@@ -27,6 +29,50 @@ Value sweeps(Sweeps& to)
     };
     value.get = [] { return std::string(); };
     return value;
+}
+
+// The options of every cell, checked as `burnish render` does.
+Status check_cells(const ChartArguments& in, const OptionTable& given, ChartOptions& out)
+{
+    out.cells = cells_of(out.sweeps);
+    if (out.cells.size() > kMaxCells)
+        return usage_error("--sweep", fmt::format("{} places under each environment, more than {}", out.cells.size(), kMaxCells));
+    for (const Cell& cell : out.cells) {
+        RenderArguments arguments = in.render;
+        OptionTable table = render_option_table(arguments);
+        for (const Option& option : given.options())
+            if (Option* of_render = table.find(option.name))
+                of_render->given = option.given;
+        const auto set = [&](const std::string& name, const std::string& value) {
+            const Option* option = table.find("--" + name);
+            if (!option || !changes_pictures(*option, true)) {
+                std::vector<std::string> names;
+                for (const Option& other : table.options())
+                    if (changes_pictures(other, true))
+                        names.push_back(other.name.substr(2));
+                return Status(usage_error("--sweep", fmt::format("'{}' is not one of {}{}", name, join(names), did_you_mean(name, names))));
+            }
+            if (given.given("--" + name))
+                return Status(usage_error("--" + name, "is swept"));
+            return table.set(option->name, value);
+        };
+        if (cell.roughness)
+            if (const Status done = set("roughness", fmt::format("{}", *cell.roughness)); !done)
+                return done;
+        if (cell.anisotropy)
+            if (const Status done = set("anisotropy", fmt::format("{}", *cell.anisotropy)); !done)
+                return done;
+        for (const auto& [name, value] : cell.others)
+            if (const Status done = set(name, value); !done)
+                return done;
+        const Result<RenderOptions> options = check_render_options(arguments, table);
+        if (!options)
+            return options.error();
+        if (options->frame.width != out.base.frame.width || options->frame.height != out.base.frame.height)
+            return usage_error("--sweep", "size is one for all");
+        out.cell_options.push_back(*options);
+    }
+    return {};
 }
 
 // All scenes and environments go through the checks of `burnish render`, one pair after another.
@@ -80,14 +126,21 @@ OptionTable chart_option_table(ChartArguments& to)
     const OptionTable of_render = render_option_table(to.render);
     OptionTable table;
     table.add("", {{"SCENE", "", "A .gltf or .glb file, or builtin:NAME; may be several", scenes(o.scenes)}});
-    table.add("What is measured",
-              {{"--env", "FILE", "Equirectangular picture or builtin:NAME; may be given several times", environments(o.envs)},
-               {"--techniques", "NAMES", "all, or names by commas; see burnish list techniques", techniques_value(o.techniques)},
-               {"--sweep", "NAME=VALUES", "samples=N,N,... (1,2,4,8,16,32,64), roughness=R,R,... or anisotropy=A,A,... of every material",
-                sweeps(o.sweeps), "as the scene has it"},
-               {"--runs", "N", "Timed frames of every setting, interleaved", integer(o.runs, 1, 10000)},
-               {"--reference-samples", "N", "Samples a pixel of the references",
-                integer(o.reference_samples, 1, static_cast<std::int64_t>(kMaxReferenceSamples))}});
+    table.add(
+        "What is measured",
+        {{"--env", "FILE", "Equirectangular picture or builtin:NAME; may be given several times", environments(o.envs)},
+         {"--techniques", "NAMES", "all, or names by commas; see burnish list techniques", techniques_value(o.techniques)},
+         {"--sweep", "NAME=VALUES",
+          "samples=N,N,... (1,2,4,8,16,32,64), roughness=R,R,... and anisotropy=A,A,... of every material, or any option of "
+          "pictures; may be several",
+          sweeps(o.sweeps), "as the scene has it"},
+         {"--metric", "NAME", "Of errors: {}; flip sees the pictures as --exposure and the tone curve show them",
+          choice(o.display_flip, {"flip-hdr", "flip"})},
+         {"--reference-textures", "NAME", "Of references: full, read where each ray meets them, or footprint, filtered as techniques do",
+          choice(to.render.plain.reference.full_textures, {"footprint", "full"})},
+         {"--runs", "N", "Timed frames of every setting, interleaved", integer(o.runs, 1, 10000)},
+         {"--reference-samples", "N", "Samples a pixel of the references",
+          integer(o.reference_samples, 1, static_cast<std::int64_t>(kMaxReferenceSamples))}});
     table.add("Output",
               {Option("-o,--output", "REPORT_DIR", "Folder of the report; made where it is not there", folder(o.folder)).must_be_given(),
                quiet_option(to.render.plain.quiet), verbose_option(to.render.plain.verbosity)});
@@ -123,6 +176,8 @@ Result<ChartOptions> check_chart_options(const ChartArguments& in, const OptionT
     remove_repeated(out.envs);
     if (const Status pairs = check_pairs(in, given, out); !pairs)
         return pairs.error();
+    if (const Status cells = check_cells(in, given, out); !cells)
+        return cells.error();
     if (const Status size = check_error_size(in.error_size, given.given("--error-size"), out); !size)
         return size.error();
     if (!reference_available())

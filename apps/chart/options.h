@@ -14,13 +14,16 @@ struct ChartOptions {
     std::vector<std::string> scenes = {"builtin:spheres"}, envs = {"builtin:studio"};
     std::vector<std::string> techniques = technique_names();
     Sweeps sweeps;
-    int runs = 9;                           // timed, of every setting
-    std::uint64_t reference_samples = 4096; // a pixel
+    std::vector<Cell> cells;                 // of the sweeps
+    std::vector<RenderOptions> cell_options; // `base` as each of them changes it
+    bool display_flip = false;               // FLIP of pictures as they are shown, in place of HDR-FLIP of linear ones
+    int runs = 9;                            // timed, of every setting
+    std::uint64_t reference_samples = 4096;  // a pixel
     std::string folder;
 };
 
 struct ChartArguments {
-    ChartArguments() { render.size = {1920, 1080}; }
+    ChartArguments() { render.size = {1920, 1080}, render.plain.reference.full_textures = true; }
     RenderArguments render; // options that mean the same as in `burnish render`
     PictureSize error_size; // 0x0: as large as usual
     ChartOptions plain;

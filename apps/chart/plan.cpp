@@ -56,10 +56,13 @@ Status parse_sweep(const std::string& text, Sweeps& into)
     if (equals == std::string::npos || equals == 0 || equals + 1 == text.size())
         return sweep_error(fmt::format("expected a name and values such as samples=1,4,16, got '{}'", text));
     const std::string name = text.substr(0, equals);
-    const std::vector<std::string> values = split(text.substr(equals + 1), ',');
-    if (name != "samples" && name != "roughness" && name != "anisotropy")
-        return sweep_error(fmt::format("'{}' is not one of samples, roughness, anisotropy", name));
-    const bool again = name == "samples" ? !into.samples.empty() : name == "roughness" ? !into.roughness.empty() : !into.anisotropy.empty();
+    const std::string written = text.substr(equals + 1);
+    const std::vector<std::string> values = split(written, written.find(':') == std::string::npos ? ',' : ':');
+    const auto same_name = [&](const Sweeps::Named& other) { return other.option == name; };
+    const bool again = name == "samples"      ? !into.samples.empty()
+                       : name == "roughness"  ? !into.roughness.empty()
+                       : name == "anisotropy" ? !into.anisotropy.empty()
+                                              : std::any_of(into.others.begin(), into.others.end(), same_name);
     if (again)
         return sweep_error(fmt::format("{} is given twice", name));
     if (values.size() > kMaxValues)
@@ -68,7 +71,15 @@ Status parse_sweep(const std::string& text, Sweeps& into)
         return sweep_error(fmt::format("a value of {} is empty", name));
     if (name == "samples")
         return read_samples(values, into.samples);
-    return name == "roughness" ? read_numbers(values, 0.0, 1.0, into.roughness) : read_numbers(values, -1.0, 1.0, into.anisotropy);
+    if (name == "roughness")
+        return read_numbers(values, 0.0, 1.0, into.roughness);
+    if (name == "anisotropy")
+        return read_numbers(values, -1.0, 1.0, into.anisotropy);
+    Sweeps::Named named{name, {}};
+    for (const std::string& value : values)
+        add_once(named.values, value);
+    into.others.push_back(std::move(named));
+    return {};
 }
 
 std::vector<Setting> settings_of(const std::vector<std::string>& names, const std::vector<int>& samples)
@@ -106,6 +117,15 @@ std::vector<Cell> cells_of(const Sweeps& sweeps)
     for (const std::optional<float>& r : roughness)
         for (const std::optional<float>& a : anisotropy)
             cells.push_back({r, a});
+    for (const Sweeps::Named& named : sweeps.others) { // each cell so far with each value
+        std::vector<Cell> more;
+        for (const Cell& cell : cells)
+            for (const std::string& value : named.values) {
+                more.push_back(cell);
+                more.back().others.emplace_back(named.option, value);
+            }
+        cells = std::move(more);
+    }
     return cells;
 }
 
@@ -116,6 +136,8 @@ std::string describe(const Cell& cell)
         parts.push_back(fmt::format("roughness {:g}", *cell.roughness));
     if (cell.anisotropy)
         parts.push_back(fmt::format("anisotropy {:g}", *cell.anisotropy));
+    for (const auto& [option, value] : cell.others)
+        parts.push_back(option + " " + value);
     return parts.empty() ? "the scene's own surfaces" : join(parts);
 }
 

@@ -2,18 +2,25 @@
 #pragma once
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/base/result.h"
 
 namespace burnish {
 
-struct Sweeps { // values in the order given, each once; empty: not swept
+struct Sweeps {    // values in the order given, each once; empty: not swept
+    struct Named { // any other option of the picture
+        std::string option;
+        std::vector<std::string> values;
+    };
     std::vector<int> samples;
     std::vector<float> roughness, anisotropy;
+    std::vector<Named> others;
 };
 
-// "samples=1,2,4", "roughness=0.1,0.5" or "anisotropy=-0.9,0,0.9" into its list. Each list may be given once.
+// "samples=1,2,4", "roughness=0.1,0.5", "anisotropy=-0.9,0,0.9" or NAME=VALUES of another option into its list; values that have commas
+// are kept apart by colons. Each list may be given once. Whether NAME is an option, and what it takes, is not looked at.
 Status parse_sweep(const std::string& text, Sweeps& into);
 
 struct Setting {
@@ -25,12 +32,13 @@ struct Setting {
 // one give one setting. By technique in the order given, then by samples.
 std::vector<Setting> settings_of(const std::vector<std::string>& techniques, const std::vector<int>& samples);
 
-struct Cell { // an override of every material; empty: as the scene has it
-    std::optional<float> roughness, anisotropy;
+struct Cell {                                                     // what a place has of its own
+    std::optional<float> roughness, anisotropy;                   // overrides of every material; empty: as the scene has it
+    std::vector<std::pair<std::string, std::string>> others = {}; // options that are swept besides, with their values
     bool operator==(const Cell&) const = default;
 };
 std::vector<Cell> cells_of(const Sweeps& sweeps);
-std::string describe(const Cell& cell); // "roughness 0.2, anisotropy 0.9", or "the scene's own surfaces"
+std::string describe(const Cell& cell); // "roughness 0.2, anisotropy 0.9, axis-k 2", or "the scene's own surfaces"
 
 // The setting that stands for a technique where only one can be shown: of `samples` the one nearest to the technique's own number.
 int representative_samples(const std::string& technique, const std::vector<int>& samples);

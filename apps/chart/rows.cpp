@@ -1,5 +1,7 @@
 #include "apps/chart/rows.h"
 
+#include <algorithm>
+#include <charconv>
 #include <cmath>
 
 #include "apps/render/stats.h"
@@ -25,6 +27,12 @@ Json settings_json(const ChartReport& report, const ChartRow& row)
                  {"error_width", report.error_width},
                  {"error_height", report.error_height}};
     json.update(report.parameters);
+    for (const auto& [option, value] : row.cell.others) {
+        const std::optional<double> number = number_in(value);
+        std::string key = option;
+        std::replace(key.begin(), key.end(), '-', '_');
+        json[key] = number ? Json(*number) : Json(value);
+    }
     return json;
 }
 
@@ -48,6 +56,14 @@ Json row_json(const ChartReport& report, const ChartRow& row)
 }
 
 } // namespace
+
+std::optional<double> number_in(const std::string& value)
+{
+    double number = 0.0;
+    const std::from_chars_result read = std::from_chars(value.data(), value.data() + value.size(), number);
+    return read.ec == std::errc() && read.ptr == value.data() + value.size() && std::isfinite(number) ? std::optional(number)
+                                                                                                      : std::nullopt;
+}
 
 std::string place(const ChartRow& row)
 {
@@ -121,6 +137,7 @@ std::string report_json(const ChartReport& report)
                        {"other_load", report.machine.others}};
     json["runs"] = report.runs;
     json["reference_samples"] = report.reference_samples;
+    json["metric"] = report.display_flip ? "flip" : "flip-hdr";
     json["references"] = Json::array();
     for (std::size_t i = 0; i < report.rows.size(); ++i) {
         const ChartRow& row = report.rows[i];

@@ -60,12 +60,14 @@ struct ChartReport {
     int width = 0, height = 0, msaa = 0, runs = 0; // width, height: of the timed frames, pixels
     int error_width = 0, error_height = 0;         // of the pictures compared with the reference
     std::uint64_t reference_samples = 0;
+    bool display_flip = false;                        // errors are LDR-FLIP of pictures as they are shown; else HDR-FLIP
     Json parameters = Json::object();                 // of techniques, the same of all rows
     std::vector<ChartRow> rows;                       // by scene, environment, cell, technique, samples
     std::map<std::string, ChartReference> references; // by place()
 };
 
-std::string place(const ChartRow& row); // scene, environment and cell as one text: rows of one place are compared
+std::optional<double> number_in(const std::string& value); // of a swept option; none where it is a name or a vector
+std::string place(const ChartRow& row);                    // scene, environment and cell as one text: rows of one place are compared
 
 double flip_of(const ChartRow& row);
 double ms_of(const ChartRow& row);

@@ -7,24 +7,17 @@
 #include "apps/cli/parse.h"
 #include "apps/cli/report.h"
 #include "apps/cli/suggest.h"
+#include "apps/render/options.h"
 
 namespace burnish {
 namespace {
-
-bool is_of_pictures(const Option& option)
-{
-    const bool numbers =
-        option.value.kind == ValueKind::integer || option.value.kind == ValueKind::number || option.value.kind == ValueKind::vector;
-    return numbers && (option.group == "Environment" || option.group == "Picture" || option.group == "Parameters of techniques" ||
-                       option.name == "--exposure");
-}
 
 // What --animate takes.
 std::vector<std::string> names_of_paths(const OptionTable& table)
 {
     std::vector<std::string> names;
     for (const Option& option : table.options())
-        if (is_of_pictures(option))
+        if (changes_pictures(option, false))
             names.push_back(option.name.substr(2));
     return names;
 }

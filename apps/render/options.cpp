@@ -56,6 +56,15 @@ Status check_technique(const RenderArguments& in, RenderOptions& out)
 
 } // namespace
 
+bool changes_pictures(const Option& option, bool names)
+{
+    const ValueKind kind = option.value.kind;
+    const bool taken = kind == ValueKind::integer || kind == ValueKind::number || kind == ValueKind::vector ||
+                       (names && kind == ValueKind::name && option.name != "--technique");
+    return taken && (option.group == "Environment" || option.group == "Picture" || option.group == "Parameters of techniques" ||
+                     option.name == "--exposure");
+}
+
 Result<RenderOptions> check_render_options(const RenderArguments& arguments, const OptionTable& given)
 {
     RenderOptions out = arguments.plain;

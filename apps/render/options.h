@@ -75,6 +75,9 @@ Result<RenderOptions> check_render_options(const RenderArguments& arguments, con
 Status check_reference_options(const RenderArguments& arguments, const OptionTable& given, RenderOptions& out);
 Status check_vulkan_options(RenderOptions& out);
 
+// Options that change a picture and can be swept or go from one value to another: numbers and, with `names`, names too.
+bool changes_pictures(const Option& option, bool names);
+
 // Options that were given and change nothing under the others: one warning each, which names both.
 void warn_of_no_effect(const OptionTable& given, RenderOptions& out);
 

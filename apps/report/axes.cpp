@@ -25,6 +25,8 @@ std::string number(double value)
 
 double Axis::at(double value) const
 {
+    if (linear)
+        return from_px + (value - low) / (high - low) * (to_px - from_px);
     const double t = (std::log(value) - std::log(low)) / (std::log(high) - std::log(low));
     return from_px + t * (to_px - from_px);
 }
@@ -33,7 +35,7 @@ Axis log_axis(double low, double high, double from_px, double to_px)
 {
     constexpr double kMargin = 1.15, kLeastRange = 2.0;
     const double widen = std::max(kMargin, std::sqrt(kLeastRange / std::max(1.0, high / low)));
-    return {low / widen, high * widen, from_px, to_px};
+    return {low / widen, high * widen, from_px, to_px, false};
 }
 
 std::vector<double> log_ticks(const Axis& axis, std::size_t most)
@@ -55,6 +57,26 @@ std::vector<double> log_ticks(const Axis& axis, std::size_t most)
             break;
     }
     return ticks;
+}
+
+Axis linear_axis(double low, double high, double from_px, double to_px)
+{
+    const double margin = high > low ? 0.04 * (high - low) : 0.5;
+    return {low - margin, high + margin, from_px, to_px, true};
+}
+
+std::vector<double> linear_ticks(const Axis& axis, std::size_t most)
+{
+    const double range = axis.high - axis.low;
+    for (double decade = std::pow(10.0, std::floor(std::log10(range)) - 2.0);; decade *= 10.0)
+        for (const double step : {decade, 2.0 * decade, 5.0 * decade}) {
+            if (range / step > static_cast<double>(most))
+                continue;
+            std::vector<double> ticks;
+            for (double i = std::ceil(axis.low / step); i * step <= axis.high; ++i)
+                ticks.push_back(i * step + 0.0); // -0 is 0
+            return ticks;
+        }
 }
 
 std::vector<double> doubling_ticks(const Axis& axis, std::size_t most)

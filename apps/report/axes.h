@@ -10,10 +10,14 @@ std::string number(double value); // at most 4 digits, as people write it
 struct Axis {
     double low = 0.0, high = 1.0; // of what is shown, widened to fit the data
     double from_px = 0.0, to_px = 1.0;
-    double at(double value) const; // px; logarithmic
+    bool linear = false;
+    double at(double value) const; // px
 };
 Axis log_axis(double low, double high, double from_px, double to_px); // a little wider than the values
 std::vector<double> log_ticks(const Axis& axis, std::size_t most);    // round numbers, at least two, not more than asked if that can be
+
+Axis linear_axis(double low, double high, double from_px, double to_px); // a little wider than the values
+std::vector<double> linear_ticks(const Axis& axis, std::size_t most);    // round numbers
 
 std::vector<double> doubling_ticks(const Axis& axis, std::size_t most); // powers of two, or of four and so on
 

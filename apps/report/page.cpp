@@ -50,6 +50,19 @@ struct Figure {
     Drawing wide, narrow;
 };
 
+std::string sweeps_html(const RowList& rows)
+{
+    std::string out;
+    for (const std::string& option : swept_numbers(rows)) {
+        const Drawing wide = plot_sweep(rows, option, Layout::wide), narrow = plot_sweep(rows, option, Layout::narrow);
+        if (!wide.empty())
+            out += fmt::format("<figure><figcaption>Error by {}; of the numbers of samples, the one nearest to each technique's own; other "
+                               "options as in the first place.</figcaption>\n{}{}</figure>\n",
+                               escaped(option), svg_of(wide), svg_of(narrow));
+    }
+    return out.empty() ? out : "<div class=\"charts\">\n" + out + "</div>\n";
+}
+
 std::vector<Figure> figures_of(const RowList& rows)
 {
     std::vector<Figure> figures = {
@@ -77,6 +90,8 @@ std::string charts_html(const RowList& rows)
 std::string heats_html(const RowList& rows)
 {
     std::string maps, differences;
+    if (rows.empty() || !rows.front()->cell.others.empty()) // over more than the two
+        return "";
     for (const std::string& technique : techniques_of(rows)) {
         if (const Drawing map = plot_heat(rows, technique, false); !map.empty())
             maps += svg_of(map);
@@ -128,7 +143,7 @@ std::string noise_html(const ReferenceNoise& noise)
         return fmt::format("<p>The reference has {} samples a pixel, too few to tell its noise.</p>\n", noise.samples);
     return fmt::format(
         "<p>The reference has {} samples a pixel: 95 % of its pixels' means are within {:.2g} % of the truth, on average over the "
-        "picture. Its noise alone makes a mean FLIP of about {}: errors of that size are the reference's own.</p>\n",
+        "picture. Its noise alone makes a mean HDR-FLIP of about {}: errors of that size are the reference's own.</p>\n",
         noise.samples, 100.0 * noise.relative_error, number(noise.flip));
 }
 
@@ -150,7 +165,7 @@ std::string pair_html(const PairRows& pair, std::size_t& place_number)
                "flickers, <kbd>S</kbd> <kbd>T</kbd> <kbd>R</kbd> <kbd>E</kbd> choose what is shown. All pictures follow.</p>\n"
                "<div class=\"wall\"></div>\n</div>\n";
     }
-    return out + heats_html(pair.rows) + table_html(pair.rows) + "</section>\n";
+    return out + sweeps_html(pair.rows) + heats_html(pair.rows) + table_html(pair.rows) + "</section>\n";
 }
 
 Status add_row(const ChartRow& row, Json& rows)
@@ -214,12 +229,13 @@ std::string heading(const ChartReport& report)
             : "";
     return fmt::format(
         "<h1>Speed against accuracy</h1>\n<p>Times are of frames of {} x {} pixels, {} samples a pixel: medians of {} interleaved frame{} "
-        "on {}, {}, {} thread{}; burnish {}. Errors are of pictures of {} x {} pixels: HDR-FLIP of linear pixels against Monte Carlo "
+        "on {}, {}, {} thread{}; burnish {}. Errors are of pictures of {} x {} pixels: {} against Monte Carlo "
         "references of at least {} samples a pixel.</p>\n{}"
         "<p>Point at a mark, or go to it with the Tab and arrow keys, to see its picture; Enter shows it among the pictures below.</p>\n"
         "<noscript><p>The pictures need JavaScript; the charts and figures do not.</p></noscript>\n",
         report.width, report.height, report.msaa, report.runs, report.runs == 1 ? "" : "s", escaped(m.processor), escaped(m.isa), m.threads,
-        m.threads == 1 ? "" : "s", escaped(m.version), report.error_width, report.error_height, report.reference_samples, busy);
+        m.threads == 1 ? "" : "s", escaped(m.version), report.error_width, report.error_height,
+        report.display_flip ? "FLIP of pictures as they are shown" : "HDR-FLIP of linear pixels", report.reference_samples, busy);
 }
 
 } // namespace
@@ -235,6 +251,9 @@ Result<std::vector<ReportFile>> chart_files(const ChartReport& report)
                 charts.emplace_back(fmt::format("{}-{}", figure.name, number_of_place), figure.wide);
         }
         ++number_of_pair;
+        for (const std::string& option : swept_numbers(pair.rows))
+            if (Drawing sweep = plot_sweep(pair.rows, option, Layout::wide); !sweep.empty())
+                charts.emplace_back(fmt::format("{}-flip-{}", option, number_of_pair), std::move(sweep));
         for (const std::string& technique : techniques_of(pair.rows))
             for (const bool difference : {false, true})
                 if (Drawing map = plot_heat(pair.rows, technique, difference); !map.empty())

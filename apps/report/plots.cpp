@@ -29,6 +29,7 @@ struct Plot {
     std::vector<Curve> curves;
     bool front = false;    // draw the Pareto front; marks beside it are hollow
     bool doubling = false; // x counts in powers of two
+    bool linear = false;   // x is no logarithm
 };
 
 struct PlotArea { // where a plot's axes lie
@@ -45,7 +46,7 @@ double positive(double value, double least)
 PlotArea frame_of(Plot& plot, Layout layout)
 {
     const bool wide = layout == Layout::wide;
-    double least_x = 1e300, least_y = 1e300, most_x = 0.0, most_y = 0.0;
+    double least_x = 1e300, least_y = 1e300, most_x = -1e300, most_y = 0.0;
     for (const Curve& curve : plot.curves)
         for (const Point& p : curve.points) {
             if (p.y > 0.0)
@@ -54,7 +55,7 @@ PlotArea frame_of(Plot& plot, Layout layout)
             if (curve.level)
                 continue;
             least_x = std::min(least_x, p.x);
-            most_x = std::max({most_x, p.x, p.x_p95});
+            most_x = std::max(most_x, p.x_p95 > 0.0 ? std::max(p.x, p.x_p95) : p.x);
         }
     if (least_y > most_y)
         least_y = 1e-6, most_y = 1.0;
@@ -73,7 +74,7 @@ PlotArea frame_of(Plot& plot, Layout layout)
                wide ? 378.0 : 276.0,
                {},
                {}};
-    f.x = log_axis(least_x, most_x, f.left, f.right);
+    f.x = plot.linear ? linear_axis(least_x, most_x, f.left, f.right) : log_axis(least_x, most_x, f.left, f.right);
     f.y = log_axis(least_y, most_y, f.bottom, f.top);
     return f;
 }
@@ -81,7 +82,10 @@ PlotArea frame_of(Plot& plot, Layout layout)
 void draw_axes(Drawing& out, const Plot& plot, const PlotArea& f, Layout layout)
 {
     const bool wide = layout == Layout::wide;
-    for (const double value : plot.doubling ? doubling_ticks(f.x, wide ? 12 : 8) : log_ticks(f.x, wide ? 9 : 6)) {
+    const std::size_t most = wide ? 9 : 6;
+    for (const double value : plot.doubling ? doubling_ticks(f.x, wide ? 12 : 8)
+                              : plot.linear ? linear_ticks(f.x, most)
+                                            : log_ticks(f.x, most)) {
         out.line({{f.x.at(value), f.top}, {f.x.at(value), f.bottom}}, "grid");
         out.text(f.x.at(value), f.bottom + 18.0, "tick middle", number(value));
     }
@@ -252,6 +256,59 @@ Drawing plot_time_flip(const RowList& rows, Layout layout)
         plot.curves.push_back(curve);
     }
     return draw(std::move(plot), layout);
+}
+
+namespace {
+
+std::optional<double> swept(const ChartRow& row, const std::string& option)
+{
+    for (const auto& [name, value] : row.cell.others)
+        if (name == option)
+            return number_in(value);
+    return std::nullopt;
+}
+
+// All but `option` is as in the first row.
+bool only_differs_by(const ChartRow& row, const ChartRow& first, const std::string& option)
+{
+    if (row.cell.roughness != first.cell.roughness || row.cell.anisotropy != first.cell.anisotropy)
+        return false;
+    for (std::size_t i = 0; i < row.cell.others.size(); ++i)
+        if (row.cell.others[i] != first.cell.others[i] && row.cell.others[i].first != option)
+            return false;
+    return true;
+}
+
+} // namespace
+
+std::vector<std::string> swept_numbers(const RowList& rows)
+{
+    std::vector<std::string> names;
+    for (const ChartRow* row : rows)
+        for (const auto& [name, value] : row->cell.others)
+            if (number_in(value) && std::find(names.begin(), names.end(), name) == names.end())
+                names.push_back(name);
+    return names;
+}
+
+Drawing plot_sweep(const RowList& rows, const std::string& option, Layout layout)
+{
+    Plot plot{"Error by " + option, option, "mean FLIP error", {}, false, false, true};
+    bool any = false;
+    for (const std::string& technique : techniques_of(rows)) {
+        Curve curve{technique, {}, false};
+        std::vector<int> samples;
+        for (const ChartRow* row : rows_of(rows, technique))
+            samples.push_back(row->setting.samples);
+        for (const ChartRow* row : rows_of(rows, technique))
+            if (const std::optional<double> x = swept(*row, option);
+                x && only_differs_by(*row, *rows.front(), option) && row->setting.samples == representative_samples(technique, samples))
+                curve.points.push_back({*x, flip_of(*row), 0.0, row});
+        std::sort(curve.points.begin(), curve.points.end(), [](const Point& a, const Point& b) { return a.x < b.x; });
+        any = any || curve.points.size() > 1;
+        plot.curves.push_back(curve);
+    }
+    return any ? draw(std::move(plot), layout) : Drawing();
 }
 
 Drawing plot_samples(const RowList& rows, Quantity quantity, Layout layout)

@@ -28,6 +28,10 @@ enum class Quantity { flip, time };
 // Against the number of samples; techniques that take none are level lines. Empty where no technique has two numbers.
 Drawing plot_samples(const RowList& rows, Quantity quantity, Layout layout);
 
+// FLIP against the numbers of a swept option, a curve a technique; rows of one scene and environment. Empty where it has fewer than two.
+Drawing plot_sweep(const RowList& rows, const std::string& option, Layout layout);
+std::vector<std::string> swept_numbers(const RowList& rows); // such options
+
 // FLIP of one technique over roughness and anisotropy, or how much more it is than bent_normal's; rows of one scene and environment,
 // all techniques. Empty where there is nothing to compare.
 Drawing plot_heat(const RowList& rows, const std::string& technique, bool difference);

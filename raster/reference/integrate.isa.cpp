@@ -145,8 +145,9 @@ BN_STAGE real3 radiance_at_positions(const PixelFrame& p, int x, int y, int firs
     const real px = splat(static_cast<float>(x)) + in_pixel.x, py = splat(static_cast<float>(y)) + in_pixel.y;
     const LaneRays rays = camera_rays(f, px, py);
     // the neighbour that belongs to the same quad of 2x2 pixels, as the rasterizer takes its derivatives
-    const LaneRays footprint[2] = {camera_rays(f, px + splat(x & 1 ? -1.0f : 1.0f), py),
-                                   camera_rays(f, px, py + splat(y & 1 ? -1.0f : 1.0f))};
+    const LaneRays neighbours[2] = {camera_rays(f, px + splat(x & 1 ? -1.0f : 1.0f), py),
+                                    camera_rays(f, px, py + splat(y & 1 ? -1.0f : 1.0f))};
+    const LaneRays* footprint = f.full_textures ? nullptr : neighbours;
     const mask everything = mask_from_bits((1u << kLanes) - 1u);
     const LaneHits h = find_hits(p, rays, everything, RayKind::camera, footprint);
     LaneSurface s;

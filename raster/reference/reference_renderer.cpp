@@ -87,6 +87,7 @@ ReferenceParams ReferenceRenderer::params(const FrameDesc& desc)
     f.ray_epsilon = 1e-6f * glm::length(input_.tables.bounds_max - input_.tables.bounds_min);
     f.sampler = sampler_.view;
     f.mode = options_.mode, f.strategy = options_.strategy, f.bounces = options_.bounces;
+    f.full_textures = options_.full_textures;
     f.sobol = &sobol_table();
     f.rays = rays_.get();
     f.trace = trace_packet;

@@ -19,6 +19,7 @@ struct ReferenceParams : ShadingFrame {
     ReferenceMode mode;
     ReferenceStrategy strategy;
     std::int32_t bounces; // from surface to surface, path only
+    bool full_textures;
     const SobolTable* sobol;
     const RayScene* rays;
     void (*trace)(const RayScene& scene, RayPacket& rays, RayKind kind);

@@ -87,6 +87,8 @@ std::uint64_t reference_key(const RenderInput& input, const FrameDesc& d, const 
     key.column(picture.texels.data(), 4 * picture.level_texels(0));
     key.column(input.dfg.texels.data(), input.dfg.texels.size());
     key.add(options.mode, options.strategy, options.mode == ReferenceMode::path ? options.bounces : 0);
+    if (options.full_textures) // without it the key is that of earlier checkpoints
+        key.add(options.full_textures);
     return key.value();
 }
 

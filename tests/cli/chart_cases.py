@@ -91,6 +91,47 @@ def rows(bench):
         check(abs(mine[name] - other[name]) < 1e-6 * max(1, abs(other[name])), f"{name}: {mine[name]} and by compare {other[name]}")
 
 
+@case("chart.flip_of_shown_pictures_is_what_compare_says_of_them")
+def display_flip(bench):
+    needs_embree(bench)
+    shown = ("--exposure", "-1")
+    bench.run("chart", "builtin:plate", "--env", "builtin:studio", *TINY, "--techniques", "bent_normal", "--metric", "flip", *shown, "-o", "r").expect(0)
+    report = json.loads((bench.folder / "r/report.json").read_text())
+    check(report["metric"] == "flip" and "as they are shown" in (bench.folder / "r/report.html").read_text(), "the report does not say which FLIP")
+    same = ("builtin:plate", *TINY[:8], *shown)
+    bench.run("render", *same, "--technique", "bent_normal", "-o", "t.png", "-q").expect(0)
+    bench.run("render", *same, "--backend", "reference", "--samples", "64", "-o", "ref.png", "-q").expect(0)
+    other = json.loads(bench.run("compare", "ref.png", "t.png", "--json", "-", "-q").expect(0).out)["flip_mean"]
+    check(abs(report["rows"][0]["flip_mean"] - other) < 1e-6, f"{report['rows'][0]['flip_mean']} and by compare {other}")
+
+
+@case("chart.sweeps_any_option_of_pictures")
+def sweeps_any_option(bench):
+    needs_embree(bench)
+    words = ("chart", "builtin:plate", "--env", "builtin:studio", *FEW, "--sweep", "axis-k=1,2.5", "--sweep", "env-rotation=0,90", "--sweep", "tilt=0,0:15,0")
+    bench.run(*words, "-o", "r").expect(0)
+    report = json.loads((bench.folder / "r/report.json").read_text())
+    errors = {}
+    for row in report["rows"]:
+        s = row["settings"]
+        errors.setdefault(row["technique"], {})[s["axis_k"], s["env_rotation"], s["tilt"], s["samples"]] = row["flip_mean"]
+    check(len(errors["bent_normal"]) == 8 and len(errors["major_axis"]) == 16, f"{errors}")
+    for (k, rotation, tilt, samples), flip in errors["bent_normal"].items():
+        check(flip == errors["bent_normal"][1, rotation, tilt, samples], "bent_normal has no k, and differs by it")
+        check((rotation, tilt) == (0, "0,0") or flip != errors["bent_normal"][k, 0, "0,0", samples], f"{rotation}, {tilt} change nothing")
+    check(errors["major_axis"][1, 0, "0,0", 4] != errors["major_axis"][2.5, 0, "0,0", 4], "k changes nothing")
+    for name in ("axis-k-flip-1.svg", "env-rotation-flip-1.png"):
+        check((bench.folder / "r" / name).exists(), f"no {name}")
+    check(not (bench.folder / "r/tilt-flip-1.svg").exists(), "a chart over vectors")
+    # A row is the picture that render makes of the same options.
+    same = ("builtin:plate", *TINY[:8], "--env-rotation", "90", "--tilt", "15,0")
+    bench.run("render", *same, "--technique", "major_axis", "--samples", "4", "--axis-k", "2.5", "-o", "t.exr", "-q").expect(0)
+    bench.run("render", *same, "--backend", "reference", "--samples", "64", "-o", "ref.exr", "-q").expect(0)
+    other = json.loads(bench.run("compare", "ref.exr", "t.exr", "--json", "-", "-q").expect(0).out)["flip_mean"]
+    mine = errors["major_axis"][2.5, 90, "15,0", 4]
+    check(abs(mine - other) < 1e-6, f"{mine} and by compare {other}")
+
+
 @case("chart.wrong_options_say_one_line_and_exit_2")
 def wrong(bench):
     for words, needle in (
@@ -99,6 +140,13 @@ def wrong(bench):
         (("--sweep", "samples"), "samples=1,4,16"),
         (("--sweep", "samples=0"), "--sweep"),
         (("--sweep", "hue=1"), "hue"),
+        (("--sweep", "axis_k=1"), "did you mean 'axis-k'"),
+        (("--sweep", "axis-k=1,x"), "x"),
+        (("--sweep", "axis-k=99"), "--axis-k"),
+        (("--sweep", "threads=1,2"), "threads"),
+        (("--sweep", "technique=mc"), "technique"),
+        (("--sweep", "size=8x8"), "size"),
+        (("--sweep", "axis-k=1", "--axis-k", "2"), "--axis-k"),
         (("--sweep", "roughness=2"), "--sweep"),
         (("--sweep", "samples=1", "--sweep", "samples=2"), "twice"),
         (("--runs", "0"), "--runs"),

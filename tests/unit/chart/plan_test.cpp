@@ -40,7 +40,6 @@ TEST(chart_plan, wrong_sweeps_are_refused_with_what_was_expected)
     for (const auto& [text, needle] : {std::pair{"samples", "samples=1,4,16"},
                                        {"=1,2", "samples=1,4,16"},
                                        {"samples=", "samples=1,4,16"},
-                                       {"colour=1", "colour"},
                                        {"samples=1,,2", "empty"},
                                        {"samples=1,", "empty"},
                                        {"samples=0", "--sweep"},
@@ -91,10 +90,19 @@ TEST(chart_plan, cells_are_all_pairs_or_the_scene_as_it_is)
     const std::vector<Cell> own = cells_of({});
     ASSERT_EQ(own.size(), 1u);
     EXPECT_FALSE(own[0].roughness || own[0].anisotropy);
-    const std::vector<Cell> grid = cells_of({{}, {0.1f, 0.5f}, {-0.5f, 0.0f, 0.5f}});
+    const std::vector<Cell> grid = cells_of({{}, {0.1f, 0.5f}, {-0.5f, 0.0f, 0.5f}, {}});
     ASSERT_EQ(grid.size(), 6u);
     EXPECT_EQ(grid[4], (Cell{0.5f, 0.0f}));
     EXPECT_EQ(describe(grid[0]), "roughness 0.1, anisotropy -0.5");
+    Sweeps sweeps;
+    ASSERT_TRUE(parse_sweep("roughness=0.1,0.5", sweeps));
+    ASSERT_TRUE(parse_sweep("tilt=0,0:20,5:0,0", sweeps)); // vectors stay whole
+    ASSERT_TRUE(parse_sweep("dfg=table,fit", sweeps));
+    EXPECT_FALSE(parse_sweep("dfg=fit", sweeps));
+    const std::vector<Cell> more = cells_of(sweeps);
+    ASSERT_EQ(more.size(), 8u);
+    EXPECT_EQ(describe(more[1]), "roughness 0.1, tilt 0,0, dfg fit");
+    EXPECT_EQ(describe(more[6]), "roughness 0.5, tilt 20,5, dfg table");
 }
 
 } // namespace
