@@ -162,9 +162,9 @@ int run_row(RenderArguments& arguments, OptionTable& given)
         for (const std::string& path : step.options.outputs)
             if (const Status written = write_picture(path, rendered->color, step.options.tonemap, step.options.exposure_ev); !written)
                 return fail(written.error());
-        report.figure(fmt::format("{} of {}", i + 1, row->count()),
-                      fmt::format("{}{:.2f} ms, pixel hash {}{}", step.values.empty() ? "" : step.values + ": ", last.frame.ms,
-                                  hash_text(last.hash), step.options.outputs.empty() ? "" : ", " + join(step.options.outputs)));
+        report.event(fmt::format("{} of {}", i + 1, row->count()),
+                     fmt::format("{}{:.2f} ms, pixel hash {}{}", step.values.empty() ? "" : step.values + ": ", last.frame.ms,
+                                 hash_text(last.hash), step.options.outputs.empty() ? "" : ", " + join(step.options.outputs)));
         if (last.nan_pixels)
             return fail(Error{ExitCode::not_finite, first.scene, fmt::format("step {}", i),
                               fmt::format("{} pixels are NaN or Inf", last.nan_pixels)});

@@ -102,7 +102,7 @@ class Bench:
     def environment(self, extra):
         env = {k: v for k, v in os.environ.items() if not k.startswith("BN_")}
         env["XDG_CACHE_HOME"] = str(self.cache)
-        env["ASAN_OPTIONS"] = "allocator_may_return_null=1:hard_rss_limit_mb=4096:" + env.get("ASAN_OPTIONS", "")
+        env["ASAN_OPTIONS"] = "allocator_may_return_null=1:hard_rss_limit_mb=4096:intercept_tls_get_addr=0:" + env.get("ASAN_OPTIONS", "")
         env["UBSAN_OPTIONS"] = "print_stacktrace=1"
         if self.sanitized:  # Vulkan's drivers leak, and they are not what is looked at
             env["VK_DRIVER_FILES"] = env["VK_ICD_FILENAMES"] = str(self.cache / "none")

@@ -6,7 +6,6 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <chrono>
 #include <filesystem>
 
 #include "core/image/io/image_io.h"
@@ -52,6 +51,7 @@ Bytes cut(Bytes bytes, std::size_t size)
 struct ChildEnd {
     int status = 0;
     long peak_kib = 0;
+    double cpu_seconds = 0.0; // which other programs do not lengthen
 };
 
 // Runs `read_image` in a process of its own with 2 GiB of address space; the exit status is 0 for a good
@@ -64,7 +64,7 @@ ChildEnd refuse_in_child(const std::string& path)
         const rlimit two_gib{2ull << 30, 2ull << 30};
         setrlimit(RLIMIT_AS, &two_gib);
 #endif
-        alarm(10);
+        alarm(60);
         const Result<Image> image = read_image(path, Limits{});
         _exit(!image && image.error().code == ExitCode::bad_input && !image.error().reason.empty() ? 0 : 1);
     }
@@ -72,6 +72,8 @@ ChildEnd refuse_in_child(const std::string& path)
     rusage usage{};
     wait4(child, &end.status, 0, &usage);
     end.peak_kib = usage.ru_maxrss;
+    for (const timeval& t : {usage.ru_utime, usage.ru_stime})
+        end.cpu_seconds += static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
     return end;
 }
 
@@ -82,11 +84,9 @@ TEST(malformed, every_shared_file_is_refused_in_little_time_and_memory)
         for (const std::string& path : test::data_files(folder)) {
             if (fs::path(path).extension() == ".gltf")
                 continue;
-            const auto begin = std::chrono::steady_clock::now();
             const ChildEnd end = refuse_in_child(path);
-            const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
             EXPECT_EQ(end.status, 0) << path;
-            EXPECT_LT(seconds.count(), 2.0) << path;
+            EXPECT_LT(end.cpu_seconds, 2.0) << path;
 #ifndef BN_SANITIZED
             EXPECT_LT(end.peak_kib, 200 * 1024) << path;
 #endif
