@@ -42,7 +42,7 @@ std::vector<std::string> entries_of(const std::string& text)
         if (entries.empty() || part.find('=') != std::string::npos)
             entries.push_back(part);
         else
-            entries.back() += "," + part;
+            entries.back().append(1, ',').append(part);
     return entries;
 }
 
@@ -56,7 +56,7 @@ Result<OptionPath> parse_path(const std::string& option, const std::string& entr
     if (std::find(names.begin(), names.end(), name) == names.end())
         return usage_error(option, fmt::format("'{}' is not one of {}{}", name, join(names), did_you_mean(name, names)));
     OptionPath path;
-    path.option = "--" + name;
+    path.option = fmt::format("--{}", name);
     path.whole = table.find(name)->value.kind == ValueKind::integer;
     for (const auto& [text, to] :
          {std::pair{entry.substr(equals + 1, colon - equals - 1), &path.from}, {entry.substr(colon + 1), &path.to}}) {
