@@ -95,7 +95,8 @@ std::string value_at(const OptionPath& path, double t)
     std::string text;
     for (std::size_t i = 0; i < path.from.size(); ++i) {
         const double value = t < 1.0 ? path.from[i] + (path.to[i] - path.from[i]) * t : path.to[i];
-        text += (i ? "," : "") + (path.whole ? fmt::format("{}", std::llround(value)) : fmt::format("{:.9g}", value));
+        const std::string number = path.whole ? fmt::format("{}", std::llround(value)) : fmt::format("{:.9g}", value);
+        text += fmt::format("{}{}", i ? "," : "", number);
     }
     return text;
 }
