@@ -26,6 +26,7 @@ import output_cases
 import parity_cases
 import pixel_cases
 import processor_cases
+import plot_cases
 import profile_cases
 import reference_cases
 import subcommand_cases
