@@ -1,4 +1,4 @@
-// What several tests of the bake share: test images, random numbers, lists of lane operations.
+// What several tests of the bake share: test images, random numbers, results of kernels.
 #pragma once
 #include <cmath>
 #include <cstdint>
@@ -6,11 +6,10 @@
 #include <vector>
 
 #include "core/image/image.h"
-#include "core/simd/dispatch.h"
 #include "core/simd/half.h"
 #include "shading/bake/bake_fns.h"
 #include "shading/bake/environment/environment.h"
-#include "tests/unit/bake/filter_ops.h"
+#include "tests/unit/lanes/kernels.h"
 
 namespace burnish {
 
@@ -31,12 +30,22 @@ class Random {
     std::uint64_t state_;
 };
 
-inline std::vector<const FilterOps*> available_filter_ops() // scalar first
+using test::float_fns, test::oracle_fns, test::IsaFns, test::TexelView;
+
+inline TexelView view_of(const CubeMap& cube)
 {
-    std::vector<const FilterOps*> all;
-    for (const Isa isa : isas_with<FilterOps>())
-        all.push_back(&pick<FilterOps>(isa));
-    return all;
+    return {.texels = cube.texels.data(), .size = cube.size, .levels = cube.levels};
+}
+
+// Results of a kernel, one point after the other; arguments as Kernel has them.
+inline std::vector<float> results(const IsaFns& isa, const char* name, const std::vector<float>& in, const TexelView& t = {})
+{
+    const std::vector<double> out = test::call(isa, name, {in.begin(), in.end()}, t);
+    const std::size_t count = static_cast<std::size_t>(test::kernel(isa, name).outputs), n = out.size() / count;
+    std::vector<float> points(out.size());
+    for (std::size_t i = 0; i < out.size(); ++i)
+        points[i % n * count + i / n] = static_cast<float>(out[i]);
+    return points;
 }
 
 // Equirectangular f32 RGB image of radiance(x, y, z, rgb), a function of the unit direction.

@@ -27,16 +27,18 @@ CubeMap noise_cube(int size = kSize, int levels = kLevels)
 
 struct Directions {
     std::vector<float> x, y, z, lod;
-    int n() const { return static_cast<int>(x.size()); }
     void add(double dx, double dy, double dz, double l)
     {
         x.push_back(static_cast<float>(dx)), y.push_back(static_cast<float>(dy)), z.push_back(static_cast<float>(dz));
         lod.push_back(static_cast<float>(l));
     }
-    void pad()
+    std::vector<float> arguments(bool level) const
     {
-        while (x.size() % 16 != 0)
-            add(1.0, 0.0, 0.0, 0.0);
+        std::vector<float> all = x;
+        for (const std::vector<float>* column : {&y, &z, &lod})
+            if (column != &lod || level)
+                all.insert(all.end(), column->begin(), column->end());
+        return all;
     }
 };
 
@@ -49,15 +51,12 @@ Directions random_directions(int n, int levels)
         const double x = random() * 2.0 - 1.0, y = random() * 2.0 - 1.0, z = random() * 2.0 - 1.0;
         d.add(x * length, y * length, z * length, random() * (levels + 1.0) - 1.0);
     }
-    d.pad();
     return d;
 }
 
-std::vector<float> fetch(const FilterOps& ops, const CubeMap& cube, const Directions& d)
+std::vector<float> fetch(const IsaFns& isa, const CubeMap& cube, const Directions& d)
 {
-    std::vector<float> rgb(3 * d.x.size());
-    ops.cube(cube.texels.data(), cube.size, cube.levels, d.x.data(), d.y.data(), d.z.data(), d.lod.data(), d.n(), rgb.data());
-    return rgb;
+    return results(isa, "cube", d.arguments(true), view_of(cube));
 }
 
 // ---- naive reference in double ----
@@ -95,14 +94,14 @@ TEST(cube_filter, equals_the_naive_reference)
     for (const int levels : {kLevels, 2, 1}) {
         const CubeMap cube = noise_cube(kSize, levels);
         const Directions d = random_directions(2000, levels);
-        const std::vector<float> rgb = fetch(pick<FilterOps>(Isa::scalar), cube, d);
+        const std::vector<float> rgb = fetch(float_fns()[0], cube, d), exact = fetch(oracle_fns(), cube, d);
         for (std::size_t i = 0; i < d.x.size(); ++i)
-            for (int c = 0; c < 3; ++c)
-                ASSERT_NEAR(static_cast<double>(rgb[3 * i + static_cast<std::size_t>(c)]),
-                            naive_trilinear(cube, static_cast<double>(d.x[i]), static_cast<double>(d.y[i]), static_cast<double>(d.z[i]),
-                                            static_cast<double>(d.lod[i]), c),
-                            2e-5)
-                    << i << " of " << levels << " levels";
+            for (std::size_t c = 0; c < 3; ++c) {
+                const double x = static_cast<double>(d.x[i]), y = static_cast<double>(d.y[i]), z = static_cast<double>(d.z[i]);
+                const double naive = naive_trilinear(cube, x, y, z, static_cast<double>(d.lod[i]), static_cast<int>(c));
+                ASSERT_NEAR(static_cast<double>(rgb[3 * i + c]), naive, 2e-5) << i << " of " << levels << " levels";
+                ASSERT_NEAR(static_cast<double>(exact[3 * i + c]), naive, 1e-7) << i << " of " << levels << " levels";
+            }
     }
 }
 
@@ -110,7 +109,7 @@ TEST(cube_filter, addresses_large_cubes_exactly)
 {
     const CubeMap cube = noise_cube(1024, 11);
     const Directions d = random_directions(500, 11);
-    const std::vector<float> rgb = fetch(pick<FilterOps>(Isa::scalar), cube, d);
+    const std::vector<float> rgb = fetch(float_fns()[0], cube, d);
     for (std::size_t i = 0; i < d.x.size(); ++i)
         ASSERT_NEAR(static_cast<double>(rgb[3 * i]),
                     naive_trilinear(cube, static_cast<double>(d.x[i]), static_cast<double>(d.y[i]), static_cast<double>(d.z[i]),
@@ -141,11 +140,11 @@ TEST(cube_filter, faces_follow_their_definition)
         {0, -1, -1, 3, .5f, 1},
         {0, 0, 0, 4, .5f, .5f},
     };
-    float x[16], y[16], z[16], out[48];
-    for (std::size_t i = 0; i < 16; ++i)
-        x[i] = cases[i].x, y[i] = cases[i].y, z[i] = cases[i].z;
-    for (const FilterOps* ops : available_filter_ops()) {
-        ops->cube_place(x, y, z, 16, out);
+    Directions d;
+    for (const auto& c : cases)
+        d.add(static_cast<double>(c.x), static_cast<double>(c.y), static_cast<double>(c.z), 0.0);
+    for (const IsaFns& isa : float_fns()) {
+        const std::vector<float> out = results(isa, "cube_place", d.arguments(false));
         for (std::size_t i = 0; i < 16; ++i) {
             EXPECT_EQ(out[3 * i], cases[i].face) << i;
             EXPECT_EQ(out[3 * i + 1], cases[i].u) << i;
@@ -166,9 +165,8 @@ TEST(cube_filter, any_direction_and_level_stays_inside)
             for (const float z : odd)
                 d.add(static_cast<double>(x), static_cast<double>(y), static_cast<double>(z),
                       static_cast<double>(lods[k++ % std::size(lods)]));
-    d.pad();
-    for (const FilterOps* ops : available_filter_ops())
-        for (const float v : fetch(*ops, cube, d))
+    for (const IsaFns& isa : float_fns())
+        for (const float v : fetch(isa, cube, d))
             ASSERT_TRUE(v >= 0.0f && v <= 1.00001f);
 }
 
@@ -194,8 +192,7 @@ TEST(cube_filter, has_no_seam_at_any_edge_or_corner_of_any_level)
                     a.add(p[0][0], p[0][1], p[0][2], level);
                     b.add(p[1][0], p[1][1], p[1][2], level);
                 }
-        a.pad(), b.pad();
-        const std::vector<float> ca = fetch(pick<FilterOps>(Isa::scalar), cube, a), cb = fetch(pick<FilterOps>(Isa::scalar), cube, b);
+        const std::vector<float> ca = fetch(float_fns()[0], cube, a), cb = fetch(float_fns()[0], cube, b);
         float jump = 0.0f;
         for (std::size_t i = 0; i < ca.size(); ++i)
             jump = std::max(jump, std::fabs(ca[i] - cb[i]));
@@ -211,11 +208,10 @@ TEST(cube_filter, uniform_level_equals_the_trilinear_fetch_there)
     Directions d = random_directions(512, kLevels);
     for (int level = 0; level < kLevels; ++level) {
         std::fill(d.lod.begin(), d.lod.end(), static_cast<float>(level));
-        const std::vector<float> expected = fetch(pick<FilterOps>(Isa::scalar), cube, d);
-        std::vector<float> got(expected.size());
-        pick<FilterOps>(Isa::scalar)
-            .cube_level(cube.texels.data(), cube.size, cube.levels, level, d.x.data(), d.y.data(), d.z.data(), d.n(), got.data());
-        EXPECT_EQ(got, expected) << level;
+        const std::vector<float> expected = fetch(float_fns()[0], cube, d);
+        TexelView view = view_of(cube);
+        view.level = level;
+        EXPECT_EQ(results(float_fns()[0], "cube_level", d.arguments(false), view), expected) << level;
     }
 }
 
@@ -223,10 +219,10 @@ TEST(cube_filter, every_instruction_set_gives_the_same_bits)
 {
     const CubeMap cube = noise_cube();
     const Directions d = random_directions(4096, kLevels);
-    const std::vector<float> expected = fetch(pick<FilterOps>(Isa::scalar), cube, d);
-    for (const FilterOps* ops : available_filter_ops()) {
-        const std::vector<float> got = fetch(*ops, cube, d);
-        EXPECT_EQ(std::memcmp(got.data(), expected.data(), got.size() * sizeof(float)), 0) << ops->lanes << " lanes";
+    const std::vector<float> expected = fetch(float_fns()[0], cube, d);
+    for (const IsaFns& isa : float_fns()) {
+        const std::vector<float> got = fetch(isa, cube, d);
+        EXPECT_EQ(std::memcmp(got.data(), expected.data(), got.size() * sizeof(float)), 0) << isa.name;
     }
 }
 

@@ -16,9 +16,7 @@ struct Value {
 };
 Value lookup(const DfgTable& t, float roughness, float n_dot_v)
 {
-    const std::vector<float> r(16, roughness), c(16, n_dot_v);
-    float out[32];
-    pick<FilterOps>(Isa::scalar).dfg_lookup(t.texels.data(), t.size, c.data(), r.data(), 16, out);
+    const std::vector<float> out = results(float_fns()[0], "dfg_lookup", {n_dot_v, roughness}, {.texels = t.texels.data(), .size = t.size});
     return {out[0], out[1]};
 }
 
@@ -105,13 +103,10 @@ TEST(dfg, fit_equals_its_test_vectors)
                    {0.9f, 0.8f, .62035780f, .00218220f},
                    {1.0f, .05f, .62981349f, .04903651f},
                    {0.0f, 1.0f, .99218750f, .00781250f}};
-    float n_dot_v[16] = {}, roughness[16] = {}, out[32];
-    for (std::size_t i = 0; i < 5; ++i)
-        n_dot_v[i] = vectors[i].n_dot_v, roughness[i] = vectors[i].roughness;
-    pick<FilterOps>(Isa::scalar).dfg_fit(n_dot_v, roughness, 16, out);
-    for (std::size_t i = 0; i < 5; ++i) {
-        EXPECT_NEAR(out[2 * i], vectors[i].scale, 1e-6f);
-        EXPECT_NEAR(out[2 * i + 1], vectors[i].bias, 1e-6f);
+    for (const auto& v : vectors) {
+        const std::vector<float> out = results(float_fns()[0], "dfg_fit", {v.n_dot_v, v.roughness});
+        EXPECT_NEAR(out[0], v.scale, 1e-6f);
+        EXPECT_NEAR(out[1], v.bias, 1e-6f);
     }
 }
 
@@ -121,15 +116,12 @@ TEST(dfg, threads_and_instruction_sets_give_the_same_bits)
     for (std::size_t i = 0; i < a.texels.size(); ++i)
         ASSERT_EQ(a.texels[i], b.texels[i]);
     Random random(5);
-    float n_dot_v[64], roughness[64], expected[128], got[128];
-    for (int i = 0; i < 64; ++i)
-        n_dot_v[i] = random.in(-0.1, 1.1), roughness[i] = random.in(-0.1, 1.1);
-    for (const FilterOps* ops : available_filter_ops()) {
-        pick<FilterOps>(Isa::scalar).dfg_lookup(a.texels.data(), a.size, n_dot_v, roughness, 64, expected);
-        ops->dfg_lookup(a.texels.data(), a.size, n_dot_v, roughness, 64, got);
-        for (int i = 0; i < 128; ++i)
-            ASSERT_EQ(got[i], expected[i]);
-    }
+    std::vector<float> in(128); // n.v, roughness
+    for (float& x : in)
+        x = random.in(-0.1, 1.1);
+    const TexelView view = {.texels = a.texels.data(), .size = a.size};
+    for (const IsaFns& isa : float_fns())
+        ASSERT_EQ(results(isa, "dfg_lookup", in, view), results(float_fns()[0], "dfg_lookup", in, view)) << isa.name;
 }
 
 } // namespace

@@ -26,12 +26,8 @@ using Rgb = std::array<float, 3>;
 
 Rgb fetch(const CubeMap& cube, double x, double y, double z, double lod = 0.0)
 {
-    float dx[16], dy[16], dz[16], l[16], rgb[48];
-    std::fill(dx, dx + 16, static_cast<float>(x));
-    std::fill(dy, dy + 16, static_cast<float>(y));
-    std::fill(dz, dz + 16, static_cast<float>(z));
-    std::fill(l, l + 16, static_cast<float>(lod));
-    pick<FilterOps>(Isa::scalar).cube(cube.texels.data(), cube.size, cube.levels, dx, dy, dz, l, 16, rgb);
+    const std::vector<float> at = {static_cast<float>(x), static_cast<float>(y), static_cast<float>(z), static_cast<float>(lod)};
+    const std::vector<float> rgb = results(float_fns()[0], "cube", at, view_of(cube));
     return {rgb[0] * cube.scale, rgb[1] * cube.scale, rgb[2] * cube.scale};
 }
 

@@ -56,33 +56,31 @@ Value integral(const Lobe& l, int n)
     return {sum.scale / count, sum.bias / count};
 }
 
-using LobeLookup = void (*)(const std::uint16_t* table, int size, const float* lobes, int n, float* scale_bias);
-
-std::vector<Value> lookup_by(LobeLookup of, const std::uint16_t* texels, const std::vector<Lobe>& lobes)
+std::vector<Value> lookup(const IsaFns& isa, const char* name, const std::uint16_t* texels, const std::vector<Lobe>& lobes)
 {
-    const std::size_t n = (lobes.size() + 15) / 16 * 16;
-    std::vector<float> in(5 * n, 0.25f), out(2 * n);
-    for (std::size_t i = 0; i < lobes.size(); ++i) {
+    const std::size_t n = lobes.size();
+    std::vector<double> in(5 * n);
+    for (std::size_t i = 0; i < n; ++i) {
         const Lobe& l = lobes[i];
         const double values[5] = {l.alpha_x * std::sqrt(0.5), l.alpha_y * std::sqrt(0.5), l.x, l.y, l.z};
         for (std::size_t k = 0; k < 5; ++k)
-            in[k * n + i] = static_cast<float>(values[k]);
+            in[k * n + i] = values[k];
     }
-    of(texels, kLobeAlbedoSize, in.data(), static_cast<int>(n), out.data());
+    const std::vector<double> out = test::call(isa, name, in, {.texels = texels, .size = kLobeAlbedoSize});
     std::vector<Value> r;
-    for (std::size_t i = 0; i < lobes.size(); ++i)
-        r.push_back({static_cast<double>(out[2 * i]), static_cast<double>(out[2 * i + 1])});
+    for (std::size_t i = 0; i < n; ++i)
+        r.push_back({out[i], out[n + i]});
     return r;
 }
 
-std::vector<Value> lookup(const FilterOps& ops, const std::vector<Lobe>& lobes)
+std::vector<Value> lookup(const IsaFns& isa, const std::vector<Lobe>& lobes)
 {
-    return lookup_by(ops.lobe_albedo, lobe_albedo_texels(), lobes);
+    return lookup(isa, "lobe_albedo", lobe_albedo_texels(), lobes);
 }
 
-std::vector<Value> lookup_slice(const FilterOps& ops, const std::uint16_t* slice, const std::vector<Lobe>& lobes)
+std::vector<Value> lookup_slice(const IsaFns& isa, const std::uint16_t* slice, const std::vector<Lobe>& lobes)
 {
-    return lookup_by(ops.lobe_slice, slice, lobes);
+    return lookup(isa, "lobe_slice", slice, lobes);
 }
 
 // Albedos fall to 0.25 here, and compensation divides by them: the relative error is what counts.
@@ -95,7 +93,7 @@ TEST(lobe_albedo, is_near_the_integral_for_all_lobes_and_views)
         const double eta = i % 5 == 0 ? 0.95 : in(0.0, 0.95), cosine = in(0.05, i % 3 == 0 ? 0.3 : 1.0);
         lobes.push_back(lobe_of(in(0.1, 1.0), eta, cosine, i % 4 == 0 ? in(0.45, 0.5) * kPi : in(-kPi, kPi))); // many across the wide axis
     }
-    const std::vector<Value> got = lookup(*available_filter_ops().back(), lobes);
+    const std::vector<Value> got = lookup(float_fns().back(), lobes);
     double largest = 0.0, relative = 0.0, squares = 0.0, of_bias = 0.0, least = 1.0;
     for (std::size_t i = 0; i < lobes.size(); ++i) {
         const Value truth = integral(lobes[i], 128);
@@ -125,11 +123,10 @@ TEST(lobe_albedo, of_a_round_lobe_is_the_other_tables)
                 lobes.push_back(lobe_of(roughness, 0.0, cosine, azimuth));
                 cosines.push_back(static_cast<float>(cosine)), roughnesses.push_back(static_cast<float>(roughness));
             }
-    cosines.resize(64), roughnesses.resize(64);
-    float expected[128];
-    const FilterOps& ops = pick<FilterOps>(Isa::scalar);
-    ops.dfg_lookup(round.texels.data(), round.size, cosines.data(), roughnesses.data(), 64, expected);
-    const std::vector<Value> got = lookup(ops, lobes);
+    std::vector<float> in = cosines;
+    in.insert(in.end(), roughnesses.begin(), roughnesses.end());
+    const std::vector<float> expected = results(float_fns()[0], "dfg_lookup", in, {.texels = round.texels.data(), .size = round.size});
+    const std::vector<Value> got = lookup(float_fns()[0], lobes);
     for (std::size_t i = 0; i < lobes.size(); ++i) {
         EXPECT_NEAR(got[i].scale, static_cast<double>(expected[2 * i]), 0.008) << cosines[i] << " " << roughnesses[i];
         EXPECT_NEAR(got[i].bias, static_cast<double>(expected[2 * i + 1]), 0.005) << cosines[i] << " " << roughnesses[i];
@@ -145,9 +142,9 @@ TEST(lobe_albedo, threads_and_instruction_sets_give_the_same_bits)
     Random random(3);
     for (int i = 0; i < 256; ++i)
         lobes.push_back(lobe_of(random(), random(), random(), 7.0 * random()));
-    const std::vector<Value> expected = lookup(pick<FilterOps>(Isa::scalar), lobes);
-    for (const FilterOps* ops : available_filter_ops()) {
-        const std::vector<Value> got = lookup(*ops, lobes);
+    const std::vector<Value> expected = lookup(float_fns()[0], lobes);
+    for (const IsaFns& isa : float_fns()) {
+        const std::vector<Value> got = lookup(isa, lobes);
         for (std::size_t i = 0; i < lobes.size(); ++i) {
             ASSERT_EQ(got[i].scale, expected[i].scale);
             ASSERT_EQ(got[i].bias, expected[i].bias);
@@ -177,9 +174,9 @@ TEST(lobe_albedo, slices_are_near_the_integral_of_their_lobe)
         for (int k = 0; k < kViews; ++k)
             lobes.push_back(lobe_of(roughness, eta, in(0.05, 1.0), in(-kPi, kPi)));
         bake_lobe_slice(kLobeAlbedoSize, lobes[0].alpha_x, lobes[0].alpha_y, slice.data());
-        const std::vector<Value> first = lookup_slice(*available_filter_ops().front(), slice.data(), lobes);
-        for (const FilterOps* ops : available_filter_ops()) {
-            const std::vector<Value> got = lookup_slice(*ops, slice.data(), lobes);
+        const std::vector<Value> first = lookup_slice(float_fns().front(), slice.data(), lobes);
+        for (const IsaFns& isa : float_fns()) {
+            const std::vector<Value> got = lookup_slice(isa, slice.data(), lobes);
             for (std::size_t k = 0; k < lobes.size(); ++k) {
                 ASSERT_EQ(got[k].scale, first[k].scale);
                 ASSERT_EQ(got[k].bias, first[k].bias);
@@ -201,8 +198,8 @@ TEST(lobe_albedo, of_mirrors_threads_and_views_from_the_edge_is_sound)
     const double nan = std::nan("");
     const std::vector<Lobe> lobes = {{0, 0, 0, 0, 1},     {0, 0, 1, 0, 0},    {2, 0, 0, 1, 0},          {2, 0, 0, 0, 1},
                                      {2, 2, 0.6, 0, 0.8}, {1, 0, 0, 1, -0.1}, {nan, nan, nan, nan, nan}};
-    for (const FilterOps* ops : available_filter_ops()) {
-        const std::vector<Value> got = lookup(*ops, lobes);
+    for (const IsaFns& isa : float_fns()) {
+        const std::vector<Value> got = lookup(isa, lobes);
         for (const Value& v : got) {
             EXPECT_GE(v.scale, 0.0);
             EXPECT_GE(v.bias, 0.0);

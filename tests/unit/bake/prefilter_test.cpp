@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "core/scene/builtin/builtin.h"
+#include "core/simd/dispatch.h"
 #include "shading/bake/environment/equirect.h"
 #include "shading/bake/environment/light_tree.h"
 #include "shading/bake/environment/prefilter.h"

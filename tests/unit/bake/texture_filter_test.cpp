@@ -27,10 +27,17 @@ TexturePyramid noise_pyramid(int width, int height, WrapMode s, WrapMode t, bool
     return make_texture_pyramid(noise(width, height), sampler, TextureEncoding::linear);
 }
 
-TextureView view_of(const TexturePyramid& p)
+TexelView view_of(const TexturePyramid& p, int max_taps = 16)
 {
-    return {p.texels.data(), p.offset, p.level_width, p.level_height, p.levels, static_cast<int>(p.wrap_s), static_cast<int>(p.wrap_t),
-            p.nearest};
+    return {.texels = p.texels.data(),
+            .levels = p.levels,
+            .offset = p.offset,
+            .level_width = p.level_width,
+            .level_height = p.level_height,
+            .wrap_s = static_cast<int>(p.wrap_s),
+            .wrap_t = static_cast<int>(p.wrap_t),
+            .nearest = p.nearest,
+            .max_taps = max_taps};
 }
 
 // ---- naive reference: textbook formulas on the inner texels, in double ----
@@ -126,15 +133,15 @@ NaiveFootprint naive_footprint_at(const TexturePyramid& p, const std::vector<flo
 
 void expect_equals_naive(const TexturePyramid& p, int max_taps)
 {
-    const std::vector<float> uv = sample_positions(p);
-    std::vector<float> rgba(4 * kSamples);
-    pick<FilterOps>(Isa::scalar).texture(view_of(p), uv.data(), max_taps, true, kSamples, rgba.data());
+    const std::vector<float> uv = sample_positions(p), rgba = results(float_fns()[0], "texture_exact", uv, view_of(p, max_taps)),
+                             exact = results(oracle_fns(), "texture_exact", uv, view_of(p, max_taps));
     for (std::size_t i = 0; i < kSamples; ++i) {
         const NaiveFootprint f = naive_footprint_at(p, uv, i, max_taps);
-        for (int c = 0; c < 4; ++c)
-            ASSERT_NEAR(static_cast<double>(rgba[4 * i + static_cast<std::size_t>(c)]),
-                        naive_sample(p, static_cast<double>(uv[i]), static_cast<double>(uv[kSamples + i]), f, c), 2e-4)
-                << "sample " << i << " taps " << f.taps << " lod " << f.lod;
+        for (std::size_t c = 0; c < 4; ++c) {
+            const double naive = naive_sample(p, static_cast<double>(uv[i]), static_cast<double>(uv[kSamples + i]), f, static_cast<int>(c));
+            ASSERT_NEAR(static_cast<double>(rgba[4 * i + c]), naive, 2e-4) << "sample " << i << " taps " << f.taps << " lod " << f.lod;
+            ASSERT_NEAR(static_cast<double>(exact[4 * i + c]), naive, 1e-6) << "sample " << i << " taps " << f.taps << " lod " << f.lod;
+        }
     }
 }
 
@@ -163,12 +170,12 @@ TEST(texture_filter, tap_counts_follow_the_footprint)
         {2.0f, 8.0f, 4.0f, 1.0f}, {64.0f, 2.0f, 16.0f, 2.0f}, {3.0f, 0.0f, 3.0f, 0.0f}, {5.0f, 2.0f, 3.0f, 1.0f},
         {0.0f, 0.0f, 1.0f, 0.0f}, {1e3f, 1e3f, 1.0f, 6.0f},
     };
-    std::vector<float> uv(6 * 16, 0.0f), out(2 * 16);
+    std::vector<float> uv(6 * 16, 0.0f);
     for (std::size_t i = 0; i < std::size(cases); ++i) {
         uv[2 * 16 + i] = cases[i].dx * n;
         uv[5 * 16 + i] = cases[i].dy * n;
     }
-    pick<FilterOps>(Isa::scalar).footprint(view_of(p), uv.data(), 16, 16, out.data());
+    const std::vector<float> out = results(float_fns()[0], "footprint", uv, view_of(p));
     for (std::size_t i = 0; i < std::size(cases); ++i) {
         EXPECT_NEAR(out[2 * i], cases[i].lod, 1e-5f) << i;
         EXPECT_EQ(out[2 * i + 1], cases[i].taps) << i;
@@ -179,13 +186,12 @@ TEST(texture_filter, derivatives_that_are_not_finite_read_the_smallest_level_onc
 {
     const TexturePyramid p = noise_pyramid(64, 16, WrapMode::repeat, WrapMode::clamp);
     const double bad[] = {kNan, kInf, -kInf, 1e30, 3e38};
-    std::vector<float> uv(6 * 16, 0.001f), lod_taps(2 * 16), rgba(4 * 16);
+    std::vector<float> uv(6 * 16, 0.001f);
     for (std::size_t i = 0; i < std::size(bad); ++i)
         for (std::size_t c = 0; c < 3; ++c) // one of three derivatives is bad
             uv[(2 + c) * 16 + 3 * i + c] = static_cast<float>(bad[i]);
-    for (const FilterOps* ops : available_filter_ops()) {
-        ops->footprint(view_of(p), uv.data(), 16, 16, lod_taps.data());
-        ops->texture(view_of(p), uv.data(), 16, false, 16, rgba.data());
+    for (const IsaFns& isa : float_fns()) {
+        const std::vector<float> lod_taps = results(isa, "footprint", uv, view_of(p)), rgba = results(isa, "texture", uv, view_of(p));
         for (std::size_t i = 0; i < 15; ++i) {
             EXPECT_EQ(lod_taps[2 * i], static_cast<float>(p.levels - 1)) << i;
             EXPECT_EQ(lod_taps[2 * i + 1], 1.0f) << i;
@@ -200,14 +206,12 @@ TEST(texture_filter, coordinates_that_are_not_finite_stay_inside)
     for (const WrapMode mode : {WrapMode::repeat, WrapMode::clamp, WrapMode::mirror})
         for (const bool nearest : {false, true}) {
             const TexturePyramid p = noise_pyramid(5, 3, mode, mode, nearest);
-            std::vector<float> uv(6 * 16, 0.01f), rgba(4 * 16);
+            std::vector<float> uv(6 * 16, 0.01f);
             for (std::size_t i = 0; i < 16; ++i)
                 uv[(i / 8) * 16 + i] = static_cast<float>(bad[i % 8]);
-            for (const FilterOps* ops : available_filter_ops()) {
-                ops->texture(view_of(p), uv.data(), 16, true, 16, rgba.data());
-                for (const float v : rgba)
+            for (const IsaFns& isa : float_fns())
+                for (const float v : results(isa, "texture_exact", uv, view_of(p)))
                     EXPECT_TRUE(v >= 0.0f && v <= 1.0001f);
-            }
         }
 }
 
@@ -216,8 +220,7 @@ TEST(texture_filter, nearest_reads_the_texel_that_contains_the_point)
     for (const WrapMode mode : {WrapMode::repeat, WrapMode::clamp, WrapMode::mirror}) {
         const TexturePyramid p = noise_pyramid(9, 6, mode, mode, true);
         const std::vector<float> uv = sample_positions(p);
-        std::vector<float> rgba(4 * kSamples);
-        pick<FilterOps>(Isa::scalar).texture(view_of(p), uv.data(), 16, true, kSamples, rgba.data());
+        const std::vector<float> rgba = results(float_fns()[0], "texture_exact", uv, view_of(p));
         for (std::size_t i = 0; i < kSamples; ++i) {
             const double x = static_cast<double>(uv[i]) * 9.0, y = static_cast<double>(uv[kSamples + i]) * 6.0;
             if (std::fabs(x - std::round(x)) < 1e-4 || std::fabs(y - std::round(y)) < 1e-4)
@@ -234,8 +237,7 @@ TEST(texture_filter, a_constant_texture_stays_constant)
     std::fill(image.bytes.begin(), image.bytes.end(), static_cast<std::byte>(128));
     const TexturePyramid p = make_texture_pyramid(image, {}, TextureEncoding::linear);
     const std::vector<float> uv = sample_positions(p);
-    std::vector<float> rgba(4 * kSamples);
-    pick<FilterOps>(Isa::scalar).texture(view_of(p), uv.data(), 16, true, kSamples, rgba.data());
+    const std::vector<float> rgba = results(float_fns()[0], "texture_exact", uv, view_of(p));
     const float expected = half_to_float(float_to_half(128.0f / 255.0f));
     for (const float v : rgba)
         ASSERT_NEAR(v, expected, 4e-7f);
@@ -245,13 +247,11 @@ TEST(texture_filter, every_instruction_set_and_loop_bound_gives_the_same_bits)
 {
     const TexturePyramid p = noise_pyramid(61, 40, WrapMode::repeat, WrapMode::mirror);
     const std::vector<float> uv = sample_positions(p);
-    std::vector<float> expected(4 * kSamples), got(4 * kSamples);
-    pick<FilterOps>(Isa::scalar).texture(view_of(p), uv.data(), 16, true, kSamples, expected.data());
-    for (const FilterOps* ops : available_filter_ops())
-        for (const bool exact_bound : {true, false}) {
-            ops->texture(view_of(p), uv.data(), 16, exact_bound, kSamples, got.data());
-            EXPECT_EQ(std::memcmp(got.data(), expected.data(), got.size() * sizeof(float)), 0)
-                << ops->lanes << " lanes, exact bound " << exact_bound;
+    const std::vector<float> expected = results(float_fns()[0], "texture_exact", uv, view_of(p));
+    for (const IsaFns& isa : float_fns())
+        for (const char* name : {"texture_exact", "texture"}) {
+            const std::vector<float> got = results(isa, name, uv, view_of(p));
+            EXPECT_EQ(std::memcmp(got.data(), expected.data(), got.size() * sizeof(float)), 0) << isa.name << " " << name;
         }
 }
 

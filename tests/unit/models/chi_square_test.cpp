@@ -85,7 +85,7 @@ std::vector<double> counted(const ModelCase& model, const std::vector<double>& p
             const double x = random.next(), y = random.next(), z = random.next();
             batch.set(k, chart.wo, {x, y, z});
         }
-        const std::vector<double> s = batch.run(fast_fns().models[model.index].sample, kSampleOutputs);
+        const std::vector<double> s = batch.run(fns_of(fast_fns(), model).sample);
         for (std::size_t k = 0; k < kAtOnce; ++k) {
             const bool valid = s[6 * kAtOnce + k] != 0;
             cells[valid ? cell_of(chart, {s[k], s[kAtOnce + k], s[2 * kAtOnce + k]}) : kCells - 1] += 1;
@@ -111,7 +111,7 @@ std::vector<double> foretold(const ModelCase& model, const std::vector<double>& 
             batch.set(k, chart.wo, p.wi);
             measure[k] = p.per_wi / static_cast<double>(side * side);
         }
-        const std::vector<double> pdf = batch.run(fast_fns().models[model.index].pdf);
+        const std::vector<double> pdf = batch.run(fns_of(fast_fns(), model).pdf);
         for (std::size_t k = 0; k < count; ++k)
             if (measure[k] > 0)
                 cells[row * kBins + (k % side) / points] += pdf[k] * measure[k] * static_cast<double>(kSamples);

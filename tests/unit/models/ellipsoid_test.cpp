@@ -106,8 +106,7 @@ TEST(ellipsoid_vectors, masking_leaves_the_projected_area)
     int limited = 0;
     for (const EllipsoidCase& c : kEllipsoids) {
         constexpr std::size_t kGrid = 600, kCount = kGrid * kGrid;
-        const OtherFn& d = other(oracle_fns(), "ellipsoid_d");
-        std::vector<double> in(8 * kCount), value(kCount), measure(kCount);
+        std::vector<double> in(8 * kCount), measure(kCount);
         const Chart chart{kUp, true, 1, {.7, .7}};
         for (std::size_t k = 0; k < kCount; ++k) {
             const Chart::Point p = chart.at((static_cast<double>(k / kGrid) + .5) / kGrid, (static_cast<double>(k % kGrid) + .5) / kGrid);
@@ -115,7 +114,7 @@ TEST(ellipsoid_vectors, masking_leaves_the_projected_area)
                 in[i * kCount + k] = i < 5 ? c.params[i] : p.h[i - 5];
             measure[k] = p.per_h / kCount;
         }
-        d.run(kCount, in.data(), value.data());
+        const std::vector<double> value = call(oracle_fns(), "ellipsoid_d", in);
         double area = 0;
         for (std::size_t k = 0; k < kCount; ++k)
             area += value[k] * measure[k] * in[7 * kCount + k];
@@ -171,7 +170,7 @@ TEST(dielectric_vectors, a_nearly_smooth_interface_obeys_snell)
     std::vector<double> params = {.001, .001, 0, 0, 0, 1.5};
     Batch batch(params, 1);
     batch.set(0, wo, {.5, .5, .9});
-    const auto s = batch.run(oracle_fns().models[model_case("ellipsoid_dielectric").index].sample, kSampleOutputs);
+    const auto s = batch.run(fns_of(oracle_fns(), model_case("ellipsoid_dielectric")).sample);
     EXPECT_NEAR(s[0], -wo[0] / 1.5, 1e-3);
     EXPECT_LT(s[2], 0);
     EXPECT_EQ(s[6], 1);

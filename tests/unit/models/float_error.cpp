@@ -25,16 +25,16 @@ double ulp(double truth, double least)
     return std::ldexp(1.0, exponent - 24);
 }
 
-std::vector<double> sway(RunFn exact, int n, const std::vector<double>& in, int outputs)
+std::vector<double> sway(const Kernel& exact, const std::vector<double>& in)
 {
-    std::vector<double> at(static_cast<std::size_t>(n) * static_cast<std::size_t>(outputs)), moved(at.size()), largest(at.size());
-    exact(n, in.data(), at.data());
+    const std::vector<double> at = run(exact, in);
+    std::vector<double> largest(at.size());
     for (std::uint64_t seed = 1; seed <= 6; ++seed) {
         Random random(seed);
         std::vector<double> nudged = in;
         for (double& x : nudged)
             x *= 1 + (std::floor(3 * random.next()) - 1) * 0x1p-23;
-        exact(n, nudged.data(), moved.data());
+        const std::vector<double> moved = run(exact, nudged);
         for (std::size_t k = 0; k < at.size(); ++k)
             largest[k] = std::max(largest[k], std::abs(moved[k] - at[k]));
     }

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "tests/unit/models/model_fns.h"
+#include "tests/unit/lanes/kernels.h"
 
 namespace burnish::test {
 
@@ -12,10 +12,10 @@ namespace burnish::test {
 // may be cut off.
 double ulp(double truth, double least = 1e-24);
 
-// How far results of `exact` move when arguments (n points as in RunFn) move by a float's step or not at all: the largest of
+// How far results of `exact` move when arguments move by a float's step or not at all: the largest of
 // six tries. The density of a lobe of width 0.001 moves by thousands of ulp, a refraction's cosine without bound where the facet
 // is seen edge on.
-std::vector<double> sway(RunFn exact, int n, const std::vector<double>& in, int outputs);
+std::vector<double> sway(const Kernel& exact, const std::vector<double>& in);
 
 // The largest of many errors, and that which one in a thousand exceeds.
 struct Extent {

@@ -19,14 +19,10 @@ std::string case_name(const testing::TestParamInfo<ModelCase>& info)
 }
 INSTANTIATE_TEST_SUITE_P(models, float_models, testing::ValuesIn(model_cases()), case_name);
 
-struct Function {
-    RunFn fn;
-    int outputs;
-    const char* name;
-};
-std::vector<Function> runs_of(const ModelFns& fns)
+std::vector<const Kernel*> kernels_of(const IsaFns& isa, const ModelCase& model)
 {
-    return {{fns.eval, 1, "eval"}, {fns.pdf, 1, "pdf"}, {fns.half_pdf, 1, "half_pdf"}, {fns.sample, kSampleOutputs, "sample"}};
+    const ModelFns fns = fns_of(isa, model);
+    return {&fns.eval, &fns.pdf, &fns.half_pdf, &fns.sample};
 }
 
 Batch random_samples(const Setting& setting, std::size_t n, std::uint64_t seed)
@@ -45,7 +41,7 @@ Batch random_samples(const Setting& setting, std::size_t n, std::uint64_t seed)
 Batch random_pairs(const ModelCase& model, const Setting& setting, bool halves, std::size_t n, std::uint64_t seed)
 {
     const Batch draws = random_samples(setting, n, seed + 1000);
-    const std::vector<double> s = draws.run(oracle_fns().models[model.index].sample, kSampleOutputs);
+    const std::vector<double> s = draws.run(fns_of(oracle_fns(), model).sample);
     const bool both_sides = (model.traits & kBothSides) != 0;
     Batch batch(setting.params, n);
     Random random(seed);
@@ -116,16 +112,16 @@ void harsh_batches(const Check& check)
 TEST_P(float_models, every_instruction_set_gives_the_same_bits)
 {
     const auto compare = [&](const Batch& batch, bool samples) {
-        const std::vector<Function> scalar = runs_of(float_fns()[0].models[GetParam().index]);
+        const std::vector<const Kernel*> scalar = kernels_of(float_fns()[0], GetParam());
         for (std::size_t i = 1; i < float_fns().size(); ++i) {
-            const std::vector<Function> simd = runs_of(float_fns()[i].models[GetParam().index]);
+            const std::vector<const Kernel*> simd = kernels_of(float_fns()[i], GetParam());
             for (std::size_t f = 0; f < simd.size(); ++f) {
-                if (samples != (simd[f].outputs > 1))
+                if (samples != (simd[f]->outputs > 1))
                     continue;
-                const std::vector<double> a = batch.run(scalar[f].fn, scalar[f].outputs), b = batch.run(simd[f].fn, simd[f].outputs);
+                const std::vector<double> a = batch.run(*scalar[f]), b = batch.run(*simd[f]);
                 for (std::size_t k = 0; k < a.size(); ++k)
                     ASSERT_EQ(std::bit_cast<std::uint64_t>(a[k]), std::bit_cast<std::uint64_t>(b[k]))
-                        << float_fns()[i].name << " " << simd[f].name << ": " << a[k] << " " << b[k];
+                        << float_fns()[i].name << " " << simd[f]->name << ": " << a[k] << " " << b[k];
             }
         }
     };
@@ -138,15 +134,14 @@ TEST_P(float_models, every_instruction_set_gives_the_same_bits)
 
 TEST_P(float_models, degenerate_inputs_give_finite_results)
 {
-    const ModelFns& fns = fast_fns().models[GetParam().index];
     harsh_batches([&](const Batch& batch, bool samples) {
-        for (const Function& run : runs_of(fns)) {
-            if (samples != (run.outputs > 1))
+        for (const Kernel* run : kernels_of(fast_fns(), GetParam())) {
+            if (samples != (run->outputs > 1))
                 continue;
-            const std::vector<double> r = batch.run(run.fn, run.outputs);
+            const std::vector<double> r = batch.run(*run);
             for (std::size_t k = 0; k < r.size(); ++k) {
-                ASSERT_TRUE(std::isfinite(r[k])) << run.name << " " << k;
-                ASSERT_TRUE(samples || r[k] >= 0) << run.name << " " << k;
+                ASSERT_TRUE(std::isfinite(r[k])) << run->name << " " << k;
+                ASSERT_TRUE(samples || r[k] >= 0) << run->name << " " << k;
             }
             const std::size_t n = static_cast<std::size_t>(batch.size());
             for (std::size_t k = 0; samples && k < n; ++k) {
@@ -186,10 +181,9 @@ constexpr Bound kBounds[] = {
 void sample_errors(const ModelCase& model, const Setting& setting, std::size_t n, Errors* of)
 {
     const Batch samples = random_samples(setting, n, 44);
-    const RunFn exact = oracle_fns().models[model.index].sample;
-    const std::vector<double> t = samples.run(exact, kSampleOutputs),
-                              moved = sway(exact, samples.size(), samples.arguments(), kSampleOutputs),
-                              v = samples.run(float_fns()[0].models[model.index].sample, kSampleOutputs);
+    const Kernel& exact = fns_of(oracle_fns(), model).sample;
+    const std::vector<double> t = samples.run(exact), moved = sway(exact, samples.arguments()),
+                              v = samples.run(fns_of(float_fns()[0], model).sample);
     for (std::size_t k = 0; k < n; ++k) {
         if (t[6 * n + k] != v[6 * n + k]) {
             const Vec wi = {t[k], t[n + k], t[2 * n + k]};
@@ -206,8 +200,7 @@ void sample_errors(const ModelCase& model, const Setting& setting, std::size_t n
 
 TEST_P(float_models, stay_close_to_the_double_oracle)
 {
-    const std::vector<Function> exact = runs_of(oracle_fns().models[GetParam().index]),
-                                narrow = runs_of(float_fns()[0].models[GetParam().index]);
+    const std::vector<const Kernel*> exact = kernels_of(oracle_fns(), GetParam()), narrow = kernels_of(float_fns()[0], GetParam());
     Errors of[kKinds];
     for (Setting setting : GetParam().settings) {
         for (double& p : setting.params)
@@ -215,8 +208,8 @@ TEST_P(float_models, stay_close_to_the_double_oracle)
         const std::size_t n = 20000;
         for (std::size_t f = 0; f < 3; ++f) {
             const Batch pairs = random_pairs(GetParam(), setting, f == 2, n, 43);
-            const std::vector<double> truth = pairs.run(exact[f].fn), value = pairs.run(narrow[f].fn),
-                                      moved = sway(exact[f].fn, pairs.size(), pairs.arguments(), 1);
+            const std::vector<double> truth = pairs.run(*exact[f]), value = pairs.run(*narrow[f]),
+                                      moved = sway(*exact[f], pairs.arguments());
             for (std::size_t k = 0; k < n; ++k)
                 of[f].add(value[k], truth[k], ulp(truth[k]), moved[k]);
         }

@@ -2,52 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <numbers>
 
 #include "core/base/check.h"
-#include "core/simd/dispatch.h"
 
 namespace burnish::test {
 
-const IsaFns& oracle_fns()
+ModelFns fns_of(const IsaFns& isa, const ModelCase& model)
 {
-    return burnish::oracle_fns<IsaFns>();
-}
-
-const std::vector<IsaFns>& float_fns()
-{
-    static const std::vector<IsaFns> all = [] {
-        std::vector<IsaFns> list;
-        for (const Isa isa : isas_with<IsaFns>())
-            list.push_back(pick<IsaFns>(isa));
-        return list;
-    }();
-    return all;
-}
-
-const IsaFns& fast_fns()
-{
-    return pick<IsaFns>();
-}
-
-const OtherFn& other(const IsaFns& isa, const char* name)
-{
-    int found = -1;
-    for (int i = 0; i < isa.other_count; ++i)
-        if (std::strcmp(isa.others[i].name, name) == 0)
-            found = i;
-    BN_CHECK(found >= 0);
-    return isa.others[found];
-}
-
-std::vector<double> call(const IsaFns& isa, const char* name, const std::vector<double>& in)
-{
-    const OtherFn& fn = other(isa, name);
-    BN_CHECK(static_cast<int>(in.size()) == fn.inputs);
-    std::vector<double> out(static_cast<std::size_t>(fn.outputs));
-    fn.run(1, in.data(), out.data());
-    return out;
+    const auto of = [&](const char* what) -> const Kernel& { return kernel(isa, (model.name + std::string(what)).c_str()); };
+    return {of("_eval"), of("_pdf"), of("_half_pdf"), of("_sample")};
 }
 
 Vec operator+(Vec a, Vec b)
@@ -85,9 +49,8 @@ const std::vector<ModelCase>& model_cases()
 {
     static const std::vector<ModelCase> all = [] {
         std::vector<ModelCase> list;
-        int index = 0;
 #define BN_SETTINGS(...) __VA_ARGS__
-#define BN_MODEL(id, summary, params, laws, settings) list.push_back({index++, #id, laws, {BN_SETTINGS settings}});
+#define BN_MODEL(id, summary, params, laws, settings) list.push_back({#id, laws, {BN_SETTINGS settings}});
 #include "shading/models.def"
         for (ModelCase& model : list)
             for (Setting& setting : model.settings)
@@ -145,11 +108,9 @@ Vec Batch::wo(std::size_t k) const
     return {in[kMaxParams * n + k], in[(kMaxParams + 1) * n + k], in[(kMaxParams + 2) * n + k]};
 }
 
-std::vector<double> Batch::run(RunFn fn, int outputs) const
+std::vector<double> Batch::run(const Kernel& kernel) const
 {
-    std::vector<double> out(n * static_cast<std::size_t>(outputs));
-    fn(size(), in.data(), out.data());
-    return out;
+    return test::run(kernel, in);
 }
 
 Chart chart_of(const ModelCase& model, const Setting& setting, Vec wo)
@@ -207,7 +168,7 @@ double integral(const ModelCase& model, const Setting& setting, Vec wo, Integran
         if (what == Integrand::albedo)
             measure[k] *= std::abs(p.wi[2]);
     }
-    const ModelFns& fns = fast_fns().models[model.index];
+    const ModelFns& fns = fns_of(fast_fns(), model);
     const std::vector<double> f = batch.run(what == Integrand::albedo ? fns.eval : what == Integrand::pdf ? fns.pdf : fns.half_pdf);
     double sum = 0;
     for (std::size_t k = 0; k < n * n; ++k)

@@ -36,7 +36,6 @@ struct Setting {
 };
 
 struct ModelCase {
-    int index; // into IsaFns::models
     const char* name;
     unsigned traits;
     std::vector<Setting> settings;
@@ -47,6 +46,7 @@ inline void PrintTo(const ModelCase& model, std::ostream* out) // gtest would pr
 }
 const std::vector<ModelCase>& model_cases();
 const ModelCase& model_case(const std::string& name);
+ModelFns fns_of(const IsaFns& isa, const ModelCase& model);
 
 class Random { // splitmix64
   public:
@@ -63,7 +63,7 @@ class Batch {
     Batch(const std::vector<double>& params, std::size_t count);
     void set(std::size_t k, Vec wo, Vec other);
     Vec wo(std::size_t k) const;
-    std::vector<double> run(RunFn fn, int outputs = 1) const;
+    std::vector<double> run(const Kernel& kernel) const;
     const std::vector<double>& arguments() const { return in; }
     int size() const { return static_cast<int>(n); }
 

@@ -60,7 +60,7 @@ TEST_P(energy_laws, albedo_is_at_most_one)
 
 TEST_P(reciprocity_laws, is_reciprocal)
 {
-    const ModelFns& fns = oracle_fns().models[GetParam().index];
+    const ModelFns fns = fns_of(oracle_fns(), GetParam());
     for (const Setting& setting : GetParam().settings) {
         Random random(11);
         const std::size_t n = 4096;
@@ -79,7 +79,7 @@ TEST_P(reciprocity_laws, is_reciprocal)
 // Over wi, with what is rejected, the density adds up to one.
 TEST_P(model_laws, pdf_and_rejections_add_up_to_one)
 {
-    const ModelFns& fns = fast_fns().models[GetParam().index];
+    const ModelFns fns = fns_of(fast_fns(), GetParam());
     for (const Setting& setting : integrable_settings(GetParam()))
         for (Vec wo : views(GetParam())) {
             Random random(12);
@@ -87,7 +87,7 @@ TEST_P(model_laws, pdf_and_rejections_add_up_to_one)
             Batch batch(setting.params, n);
             for (std::size_t k = 0; k < n; ++k)
                 batch.set(k, wo, {random.next(), random.next(), random.next()});
-            const std::vector<double> samples = batch.run(fns.sample, kSampleOutputs);
+            const std::vector<double> samples = batch.run(fns.sample);
             double valid = 0;
             for (std::size_t k = 0; k < n; ++k)
                 valid += samples[6 * n + k];
@@ -110,7 +110,7 @@ TEST_P(half_vector_laws, half_vector_density_integrates_to_one)
 // the horizon.
 TEST_P(model_laws, samples_agree_with_eval_and_pdf)
 {
-    const ModelFns& fns = oracle_fns().models[GetParam().index];
+    const ModelFns fns = fns_of(oracle_fns(), GetParam());
     const bool cosine_inside = std::string(GetParam().name) == "heidrich_seidel"; // its eval is BRDF times cosine
     for (const Setting& setting : GetParam().settings)
         for (Vec view : views(GetParam())) {
@@ -120,7 +120,7 @@ TEST_P(model_laws, samples_agree_with_eval_and_pdf)
             Batch batch(setting.params, n), pairs(setting.params, n);
             for (std::size_t k = 0; k < n; ++k)
                 batch.set(k, wo, {random.next(), random.next(), random.next()});
-            const std::vector<double> s = batch.run(fns.sample, kSampleOutputs);
+            const std::vector<double> s = batch.run(fns.sample);
             for (std::size_t k = 0; k < n; ++k)
                 pairs.set(k, wo, {s[k], s[n + k], s[2 * n + k]});
             const std::vector<double> f = pairs.run(fns.eval), pdf = pairs.run(fns.pdf);
@@ -150,7 +150,7 @@ TEST_P(weight_laws, weights_are_at_most_one)
                 const Vec wo = random.hemisphere();
                 batch.set(k, wo, {random.next(), random.next(), random.next()});
             }
-            const std::vector<double> s = batch.run(isa.models[GetParam().index].sample, kSampleOutputs);
+            const std::vector<double> s = batch.run(fns_of(isa, GetParam()).sample);
             for (std::size_t k = 0; k < n; ++k)
                 largest = std::max(largest, s[3 * n + k]);
         }
@@ -173,7 +173,7 @@ template <class Fn> void each_sample(const ModelCase& model, const Fn& fn)
             wo[k] = unit(random.hemisphere());
             batch.set(k, wo[k], {random.next(), random.next(), random.next()});
         }
-        const std::vector<double> s = batch.run(oracle_fns().models[model.index].sample, kSampleOutputs);
+        const std::vector<double> s = batch.run(fns_of(oracle_fns(), model).sample);
         for (std::size_t k = 0; k < n; ++k)
             if (s[6 * n + k] != 0)
                 fn(setting, wo[k], Vec{s[k], s[n + k], s[2 * n + k]}, s[3 * n + k]);
@@ -214,7 +214,7 @@ TEST(model_limits, wide_lobes_of_the_cheap_exponent_lose_half_vectors)
         Batch batch(setting.params, n);
         for (std::size_t k = 0; k < n; ++k)
             batch.set(k, {0, 0, 1}, {random.next(), random.next(), random.next()});
-        const std::vector<double> s = batch.run(float_fns()[0].models[model.index].sample, kSampleOutputs);
+        const std::vector<double> s = batch.run(fns_of(float_fns()[0], model).sample);
         double valid = 0;
         for (std::size_t k = 0; k < n; ++k)
             valid += s[6 * n + k];
@@ -269,7 +269,7 @@ TEST(model_limits, threads_reflect_their_known_integrals)
             batch.set(k, wo, {s * std::cos(turn), s * std::sin(turn), z});
         }
         double sum = 0;
-        for (double f : batch.run(fast_fns().models[model.index].eval))
+        for (double f : batch.run(fns_of(fast_fns(), model).eval))
             sum += f;
         return sum * 2 * std::numbers::pi / (grid * grid);
     };
@@ -286,7 +286,7 @@ TEST(model_limits, threads_reflect_their_known_integrals)
 TEST(model_limits, threads_are_reciprocal_in_their_gloss_alone)
 {
     const ModelCase& model = model_case("heidrich_seidel");
-    const ModelFns& fns = oracle_fns().models[model.index];
+    const ModelFns fns = fns_of(oracle_fns(), model);
     for (const auto& params : {std::vector<double>{0, .6, 20, 0, 0, 0}, {.3, .6, 20, 0, 0, 0}}) {
         Random random(16);
         const std::size_t n = 4096;

@@ -80,11 +80,9 @@ std::vector<double> points(const Function& f)
 }
 std::vector<double> results(const IsaFns& isa, const Function& f, const std::vector<double>& in)
 {
-    const OtherFn& fn = other(isa, f.name);
+    const Kernel& fn = kernel(isa, f.name);
     EXPECT_EQ(static_cast<std::size_t>(fn.inputs), f.arguments.size()) << f.name;
-    std::vector<double> out(kPoints * static_cast<std::size_t>(fn.outputs));
-    fn.run(kPoints, in.data(), out.data());
-    return out;
+    return run(fn, in);
 }
 
 class other_floats : public testing::TestWithParam<Function> {};
@@ -119,8 +117,7 @@ TEST_P(other_floats, stay_close_to_the_double_oracle)
 {
     const std::vector<double> in = points(GetParam()), truth = results(oracle_fns(), GetParam(), in),
                               value = results(float_fns()[0], GetParam(), in);
-    const OtherFn& exact = other(oracle_fns(), GetParam().name);
-    const std::vector<double> moved = sway(exact.run, kPoints, in, exact.outputs);
+    const std::vector<double> moved = sway(kernel(oracle_fns(), GetParam().name), in);
     Errors errors;
     for (std::size_t k = 0; k < truth.size(); ++k) {
         double size = std::abs(truth[k]);

@@ -12,7 +12,7 @@ inline double value(const char* model, bool pdf, const std::vector<double>& para
     padded.resize(kMaxParams);
     Batch batch(padded, 1);
     batch.set(0, wo, wi);
-    const ModelFns& fns = oracle_fns().models[model_case(model).index];
+    const ModelFns fns = fns_of(oracle_fns(), model_case(model));
     return batch.run(pdf ? fns.pdf : fns.eval)[0];
 }
 inline double eval(const char* model, const std::vector<double>& params, Vec wo, Vec wi)
@@ -25,7 +25,7 @@ inline double half_pdf(const char* model, const std::vector<double>& params, Vec
     padded.resize(kMaxParams);
     Batch batch(padded, 1);
     batch.set(0, wo, unit(wo + wi));
-    return batch.run(oracle_fns().models[model_case(model).index].half_pdf)[0];
+    return batch.run(fns_of(oracle_fns(), model_case(model)).half_pdf)[0];
 }
 struct Sampled {
     Vec wi;
@@ -37,7 +37,7 @@ inline Sampled sample(const char* model, const std::vector<double>& params, Vec 
     padded.resize(kMaxParams);
     Batch batch(padded, 1);
     batch.set(0, wo, {x, y, 0});
-    const std::vector<double> s = batch.run(oracle_fns().models[model_case(model).index].sample, kSampleOutputs);
+    const std::vector<double> s = batch.run(fns_of(oracle_fns(), model_case(model)).sample);
     return {{s[0], s[1], s[2]}, s[3], s[4], s[5], s[6]};
 }
 inline void expect_near(Vec a, Vec b, double tolerance)

@@ -175,7 +175,7 @@ TEST(ashikhmin_shirley_vectors, both_parts_of_the_albedo_are_known)
             by_f0[k] = p.per_wi > 0 ? (1 - chi) * measure : 0;
             by_rest[k] = p.per_wi > 0 ? chi * measure : 0;
         }
-        const std::vector<double> f = batch.run(oracle_fns().models[model_case("ashikhmin_shirley").index].eval);
+        const std::vector<double> f = batch.run(fns_of(oracle_fns(), model_case("ashikhmin_shirley")).eval);
         EXPECT_NEAR(std::inner_product(f.begin(), f.end(), by_f0.begin(), 0.0), c[4], 3e-4);
         EXPECT_NEAR(std::inner_product(f.begin(), f.end(), by_rest.begin(), 0.0), c[5], 3e-4 * c[5] + 1e-6);
     }

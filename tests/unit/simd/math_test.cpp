@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <cstring>
 #include <functional>
+#include <gtest/gtest.h>
 #include <random>
 #include <vector>
 
-#include "tests/unit/simd/isa_list.h"
+#include "tests/unit/lanes/kernels.h"
 
 namespace burnish {
 namespace {
@@ -32,7 +32,7 @@ struct Points {
 };
 
 struct MathCase {
-    const char* op;
+    const char* kernel;
     Measure measure;
     double limit;        // of the float version
     double oracle_limit; // of the double version: the fit's absolute or relative error
@@ -42,40 +42,23 @@ struct MathCase {
 
 void check(MathCase c)
 {
-    while (c.points.a.size() % kMaxLanes)
-        c.points.a.push_back(c.points.a.back());
-    c.points.b.resize(c.points.a.size(), c.points.b.empty() ? 0.0f : c.points.b.back());
-    const std::vector<std::int32_t> zeros(c.points.a.size());
-    const OpInput in{c.points.a.data(), c.points.b.data(), c.points.b.data(),
-                     zeros.data(),      zeros.data(),      static_cast<int>(c.points.a.size())};
-    std::vector<std::uint32_t> out(c.points.a.size());
-    const LaneFns& fns = pick<LaneFns>();
-    const Op* op = std::find_if(fns.ops, fns.ops + fns.op_count, [&](const Op& o) { return !std::strcmp(o.name, c.op); });
-    ASSERT_NE(op, fns.ops + fns.op_count);
-    op->run(in, out.data());
-    const OracleList oracles = oracle_fns<OracleList>();
-    const OracleFn* end = oracles.fns + oracles.count;
-    const OracleFn* oracle = std::find_if(oracles.fns, end, [&](const OracleFn& o) { return !std::strcmp(o.name, c.op); });
-    ASSERT_NE(oracle, end);
-
-    double worst = 0.0, worst_oracle = 0.0;
-    float worst_a = 0.0f, worst_b = 0.0f;
-    for (std::size_t k = 0; k < out.size(); ++k) {
-        const double a = static_cast<double>(in.a[k]), b = static_cast<double>(in.b[k]), want = c.want(a, b);
-        float got;
-        std::memcpy(&got, &out[k], sizeof(got));
-        const double error = want == 0.0 ? std::fabs(static_cast<double>(got)) : error_of(c.measure, static_cast<double>(got), want);
-        if (!(error <= worst)) {
-            worst = error;
-            worst_a = in.a[k];
-            worst_b = in.b[k];
-        }
+    const std::size_t n = c.points.a.size();
+    c.points.b.resize(n);
+    std::vector<double> in(c.points.a.begin(), c.points.a.end());
+    in.insert(in.end(), c.points.b.begin(), c.points.b.end());
+    const std::vector<double> got = test::call(test::fast_fns(), c.kernel, in), oracle = test::call(test::oracle_fns(), c.kernel, in);
+    double worst = 0.0, worst_oracle = 0.0, worst_a = 0.0, worst_b = 0.0;
+    for (std::size_t k = 0; k < n; ++k) {
+        const double want = c.want(in[k], in[n + k]);
+        const double error = want == 0.0 ? std::fabs(got[k]) : error_of(c.measure, got[k], want);
+        if (!(error <= worst))
+            worst = error, worst_a = in[k], worst_b = in[n + k];
         const Measure fit = c.measure == Measure::absolute || std::fabs(want) < 1.0 ? Measure::absolute : Measure::relative;
-        worst_oracle = std::max(worst_oracle, want == 0.0 ? 0.0 : error_of(fit, oracle->run(a, b), want));
+        worst_oracle = std::max(worst_oracle, want == 0.0 ? 0.0 : error_of(fit, oracle[k], want));
     }
     const char* units[] = {"ulp", "absolute", "relative"};
-    std::printf("%-6s largest error %.3g %s at (%.9g, %.9g) of %zu points; double version %.2g\n", c.op, worst,
-                units[static_cast<int>(c.measure)], static_cast<double>(worst_a), static_cast<double>(worst_b), out.size(), worst_oracle);
+    std::printf("%-6s largest error %.3g %s at (%.9g, %.9g) of %zu points; double version %.2g\n", c.kernel, worst,
+                units[static_cast<int>(c.measure)], worst_a, worst_b, n, worst_oracle);
     EXPECT_LE(worst, c.limit);
     EXPECT_LE(worst_oracle, c.oracle_limit);
 }

@@ -67,15 +67,4 @@ struct LaneFns {
 
 BN_DECLARE_FNS(LaneFns);
 
-// A function of the math kernels, in double.
-struct OracleFn {
-    const char* name; // as in the ops
-    double (*run)(double a, double b);
-};
-struct OracleList {
-    const OracleFn* fns;
-    int count;
-};
-BN_DECLARE_FNS(OracleList);
-
 } // namespace burnish

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "tests/unit/techniques/kernels.h"
+#include "tests/unit/lanes/kernels.h"
 
 namespace burnish::test {
 namespace {
@@ -20,14 +20,11 @@ TEST(bent_normal, equals_the_printed_test_vectors)
         {{.3, .5, .8}, .4, .8, .75894664, {y, 0, z}, {.25994350, 0, .96562383}, {.14359783, -.50507627, .85104502}, .16},
         {{-.2, .9, .3}, .2, .5, .33541020, {-.20628425, 0, .30942637}, {-.08968415, 0, .99597026}, {.14768823, -.92827912, .34130054}, .14},
     };
-    std::vector<TechniqueKernels> all = float_kernels();
-    all.push_back(oracle_kernels());
     for (const Vector& t : vectors)
-        for (const TechniqueKernels& kernels : all) {
+        for (const IsaFns& kernels : all_fns()) {
             const double l = std::sqrt(t.v[0] * t.v[0] + t.v[1] * t.v[1] + t.v[2] * t.v[2]), s = t.alpha_lin * t.alpha_lin / std::sqrt(2.0);
-            const double in[5] = {t.v[0] / l, t.v[1] / l, t.v[2] / l, s * (1 + t.eta), s * (1 - t.eta)};
-            double out[4];
-            kernels.bent_normal(in, out);
+            const std::vector<double> in = {t.v[0] / l, t.v[1] / l, t.v[2] / l, s * (1 + t.eta), s * (1 - t.eta)};
+            const std::vector<double> out = call(kernels, "bent_normal", in);
             double bent[3], mixed[3]; // the normal between direction and view; (1 - stretch) n + stretch projected
             for (std::size_t i = 0; i < 3; ++i) {
                 EXPECT_NEAR(out[i], t.direction[i], 2e-6) << kernels.name;

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "tests/unit/lanes/kernels.h"
 #include "tests/unit/raster/fixture.h"
-#include "tests/unit/techniques/kernels.h"
 
 namespace burnish::test {
 namespace {
@@ -16,11 +16,10 @@ struct Line {
     double direction[3], weight, radius;
 };
 
-Line line_of(const TechniqueKernels& k, const double o[3], double alpha_x, double alpha_y, double limit = 15.0, double c = 0.0)
+Line line_of(const IsaFns& k, const double o[3], double alpha_x, double alpha_y, double limit = 15.0, double c = 0.0)
 {
-    const double in[7] = {o[0], o[1], o[2], alpha_x * std::sqrt(0.5), alpha_y * std::sqrt(0.5), limit, c};
-    double out[10];
-    k.lobe_line(in, out);
+    const std::vector<double> in = {o[0], o[1], o[2], alpha_x * std::sqrt(0.5), alpha_y * std::sqrt(0.5), limit, c};
+    const std::vector<double> out = call(k, "lobe_line", in);
     return {out[0], out[1], out[2], out[3], out[4], {out[5], out[6], out[7]}, out[8], out[9]};
 }
 
@@ -41,14 +40,14 @@ TEST(lobe_line, and_its_round_lobes_are_the_lobe)
         for (double alpha_x : {0.5, 0.2, 0.05})
             for (double alpha_y : {1.0, 0.5, 0.1}) {
                 const double ax = alpha_x, ay = alpha_x * alpha_y;
-                const Line l = line_of(oracle_kernels(), v.o, ax, ay);
+                const Line l = line_of(oracle_fns(), v.o, ax, ay);
                 const double x = v.o[0], y = v.o[1], z2 = v.o[2] * v.o[2], w2 = l.width * l.width * z2; // width is sqrt(l2) / o.z
                 const double g11 = z2 + x * x, g22 = z2 + y * y, g12 = x * y, det = g11 * g22 - g12 * g12;
                 EXPECT_NEAR(l.x * l.x + w2 * g22 / det, ax * ax, 1e-9 * ax * ax);
                 EXPECT_NEAR(l.y * l.y + w2 * g11 / det, ay * ay, 1e-9 * ax * ax);
                 EXPECT_NEAR(l.x * l.y - w2 * g12 / det, 0.0, 1e-9 * ax * ax);
-                for (const TechniqueKernels& k : float_kernels()) {
-                    const Line f = line_of(k, v.o, ax, ay), first = line_of(float_kernels()[0], v.o, ax, ay);
+                for (const IsaFns& k : float_fns()) {
+                    const Line f = line_of(k, v.o, ax, ay), first = line_of(float_fns()[0], v.o, ax, ay);
                     EXPECT_EQ(f.x, first.x) << k.name;
                     EXPECT_EQ(f.radius, first.radius) << k.name;
                     EXPECT_NEAR(f.width, l.width, 1e-4 * l.width + 1e-6) << k.name;
@@ -62,7 +61,7 @@ TEST(lobe_line, sums_to_the_density_of_slopes)
 {
     const double pi = std::numbers::pi, up[3] = {0, 0, 1};
     const double ax = 0.4, ay = 0.1;
-    const Line l = line_of(oracle_kernels(), up, ax, ay);
+    const Line l = line_of(oracle_fns(), up, ax, ay);
     for (double x : {0.0, 0.1, 0.5, 1.2})
         for (double y : {0.0, 0.05, 0.3}) {
             const double m = 1.0 + x * x / (ax * ax) + y * y / (ay * ay), truth = 1.0 / (pi * ax * ay * m * m);
@@ -83,7 +82,7 @@ TEST(lobe_line, takes_as_many_samples_as_its_cells_hold_and_never_more_than_the_
         for (double thin : {1.0, 0.7, 0.2, 0.02}) {
             double before = 0.0;
             for (double limit : {1.0, 3.0, 7.0, 15.0}) {
-                const Line l = line_of(float_kernels()[0], view(cosine, 0.3).o, 0.5, 0.5 * thin, limit);
+                const Line l = line_of(float_fns()[0], view(cosine, 0.3).o, 0.5, 0.5 * thin, limit);
                 EXPECT_LE(l.count, limit);
                 EXPECT_GE(l.count, std::max(before, 1.0));
                 EXPECT_NEAR(l.cells, l.count, 1e-4);
@@ -91,7 +90,7 @@ TEST(lobe_line, takes_as_many_samples_as_its_cells_hold_and_never_more_than_the_
             }
         }
     const double up[3] = {0, 0, 1};
-    EXPECT_NEAR(line_of(float_kernels()[0], up, 0.3, 0.3).count, 1.0, 1e-3) << "a round lobe seen from above has no line";
+    EXPECT_NEAR(line_of(float_fns()[0], up, 0.3, 0.3).count, 1.0, 1e-3) << "a round lobe seen from above has no line";
 }
 
 // A lobe and its axis turned to its opposite are the same thing.
@@ -99,7 +98,7 @@ TEST(lobe_line, mirror_images_of_samples_lie_on_both_sides)
 {
     const double up[3] = {0, 0, 1};
     for (double c : {0.1, 0.6, 0.99}) {
-        const Line a = line_of(float_kernels()[0], up, 0.4, 0.1, 15.0, c), b = line_of(float_kernels()[0], up, 0.4, 0.1, 15.0, -c);
+        const Line a = line_of(float_fns()[0], up, 0.4, 0.1, 15.0, c), b = line_of(float_fns()[0], up, 0.4, 0.1, 15.0, -c);
         EXPECT_EQ(a.direction[0], -b.direction[0]);
         EXPECT_EQ(a.direction[2], b.direction[2]);
         EXPECT_EQ(a.weight, b.weight);

@@ -7,24 +7,11 @@
 #include <cstring>
 
 #include "raster/tile/tile_renderer.h"
+#include "tests/unit/lanes/kernels.h"
 #include "tests/unit/raster/fixture.h"
-#include "tests/unit/techniques/kernels.h"
 
 namespace burnish {
 namespace test {
-
-const TechniqueKernels& oracle_kernels()
-{
-    return burnish::oracle_fns<TechniqueKernels>();
-}
-
-std::vector<TechniqueKernels> float_kernels()
-{
-    std::vector<TechniqueKernels> tables;
-    for (const Isa isa : isas_with<TechniqueKernels>())
-        tables.push_back(pick<TechniqueKernels>(isa));
-    return tables;
-}
 
 namespace {
 
@@ -103,17 +90,16 @@ double distance(const double* a, const Vec& b)
     return std::hypot(a[0] - b.x, std::hypot(a[1] - b.y, a[2] - b.z));
 }
 
-void expect_vector(const TechniqueKernels& kernels, const Vector& v, double tolerance, int index)
+void expect_vector(const IsaFns& kernels, const Vector& v, double tolerance, int index)
 {
-    double out[11];
-    kernels.major_axis(input(v).data(), out);
+    const std::vector<double> out = call(kernels, "major_axis", input(v));
     EXPECT_NEAR(out[0], v.t_near, 40 * tolerance) << kernels.name << " vector " << index;
     EXPECT_NEAR(out[1], v.t_far, 40 * tolerance) << kernels.name << " vector " << index;
     EXPECT_NEAR(out[8], v.radius, tolerance) << kernels.name << " vector " << index;
     EXPECT_NEAR(out[9], v.length, tolerance) << kernels.name << " vector " << index;
     EXPECT_NEAR(out[10], v.width, tolerance) << kernels.name << " vector " << index;
-    const double straight = std::max(distance(out + 2, v.e0), distance(out + 5, v.e1));
-    const double swapped = std::max(distance(out + 2, v.e1), distance(out + 5, v.e0));
+    const double straight = std::max(distance(&out[2], v.e0), distance(&out[5], v.e1));
+    const double swapped = std::max(distance(&out[2], v.e1), distance(&out[5], v.e0));
     EXPECT_LT(std::min(straight, swapped), tolerance) << kernels.name << " vector " << index;
 }
 
@@ -162,8 +148,7 @@ TEST(major_axis, equals_the_printed_steps)
 {
     for (const Steps& step : kSteps) {
         const Vector& v = kVectors[step.vector];
-        double out[11];
-        oracle_kernels().major_axis(input(v).data(), out);
+        const std::vector<double> out = call(oracle_fns(), "major_axis", input(v));
         if (step.f2 != 0) { // appendix A as printed
             const double s = v.alpha_lin * v.alpha_lin / std::sqrt(2.0), rx = s * (1 + v.eta), ry = s * (1 - v.eta);
             const double f3 = -step.f2 * step.f2 * (1 + rx * rx) / (1 + ry * ry), root = std::sqrt(step.f1 * step.f1 - f3);
@@ -184,15 +169,14 @@ TEST(major_axis, equals_the_printed_steps)
         const auto drawn = [&](const Vec& e) {
             return unit(c.x + step.zeta * (e.x - c.x), c.y + step.zeta * (e.y - c.y), c.z + step.zeta * (e.z - c.z));
         };
-        EXPECT_LT(distance(out + 2, drawn(far0)), 1e-7) << step.vector;
-        EXPECT_LT(distance(out + 5, drawn(far1)), 1e-7) << step.vector;
+        EXPECT_LT(distance(&out[2], drawn(far0)), 1e-7) << step.vector;
+        EXPECT_LT(distance(&out[5], drawn(far1)), 1e-7) << step.vector;
         if (step.refl0.z != 0)
-            for (const TechniqueKernels& kernels : float_kernels())
+            for (const IsaFns& kernels : float_fns())
                 for (double s : {0.0, 1.0}) {
-                    const double at[10] = {out[2], out[3], out[4], out[5], out[6], out[7], v.o.x, v.o.y, v.o.z, s};
-                    double dir[3];
-                    kernels.major_axis_direction(at, dir);
-                    EXPECT_LT(distance(dir, s == 0 ? step.refl0 : step.refl1), 1e-6) << step.vector << " " << kernels.name;
+                    const std::vector<double> at = {out[2], out[3], out[4], out[5], out[6], out[7], v.o.x, v.o.y, v.o.z, s};
+                    const std::vector<double> dir = call(kernels, "major_axis_direction", at);
+                    EXPECT_LT(distance(dir.data(), s == 0 ? step.refl0 : step.refl1), 1e-6) << step.vector << " " << kernels.name;
                 }
     }
 }
@@ -201,8 +185,8 @@ TEST(major_axis, equals_the_printed_test_vectors)
 {
     int index = 0;
     for (const Vector& v : kVectors) {
-        expect_vector(oracle_kernels(), v, 1e-6, index);
-        for (const TechniqueKernels& kernels : float_kernels())
+        expect_vector(oracle_fns(), v, 1e-6, index);
+        for (const IsaFns& kernels : float_fns())
             expect_vector(kernels, v, 1e-5, index);
         ++index;
     }
@@ -226,9 +210,8 @@ TEST(major_axis, extrema_equal_a_brute_force_scan)
             const double value = d(M_PI * i / 20000.0);
             lowest = std::min(lowest, value), highest = std::max(highest, value);
         }
-        const double in[8] = {o.x, o.y, o.z, rx, ry, 1.0, 2.3, 16.0};
-        double out[11];
-        oracle_kernels().major_axis(in, out);
+        const std::vector<double> in = {o.x, o.y, o.z, rx, ry, 1.0, 2.3, 16.0};
+        const std::vector<double> out = call(oracle_fns(), "major_axis", in);
         EXPECT_GE(d(out[0]), highest - 1e-6) << trial;
         EXPECT_LE(d(out[1]), lowest + 1e-6) << trial;
     }
@@ -247,19 +230,15 @@ TEST(major_axis, degenerate_inputs_stay_finite_and_near_the_oracle_in_every_isa)
                         for (double count : {1.0, 2.0, 16.0}) {
                             const double s = al * al / std::sqrt(2.0), l = std::sqrt(ox * ox + oy * oy + oz * oz);
                             const double inv = l > 0 ? 1.0 / l : 1.0;
-                            const double in[8] = {ox * inv, oy * inv, oz * inv, s * (1 + eta), s * (1 - eta), 1.0, 2.3, count};
-                            double want[11], first[11];
-                            oracle_kernels().major_axis(in, want);
-                            bool have_first = false;
-                            for (const TechniqueKernels& kernels : float_kernels()) {
-                                double out[11];
-                                kernels.major_axis(in, out);
+                            const std::vector<double> in = {ox * inv, oy * inv, oz * inv, s * (1 + eta), s * (1 - eta), 1.0, 2.3, count};
+                            const std::vector<double> want = call(oracle_fns(), "major_axis", in);
+                            const std::vector<double> first = call(float_fns()[0], "major_axis", in);
+                            for (const IsaFns& kernels : float_fns()) {
+                                const std::vector<double> out = call(kernels, "major_axis", in);
                                 for (double value : out)
                                     ASSERT_TRUE(std::isfinite(value))
                                         << kernels.name << " " << ox << " " << oy << " " << oz << " " << al << " " << eta;
-                                ASSERT_TRUE(!have_first || std::memcmp(first, out, sizeof out) == 0) << kernels.name;
-                                std::copy(out, out + 11, first);
-                                have_first = true;
+                                ASSERT_EQ(std::memcmp(first.data(), out.data(), 11 * sizeof out[0]), 0) << kernels.name;
                                 worst = std::max(worst, std::fabs(out[8] - want[8]));
                                 EXPECT_GE(out[4], 0.0) << "a normal below the surface";
                             }
@@ -277,14 +256,11 @@ TEST(major_axis, samples_never_leave_below_the_surface)
                            1e-3 + static_cast<double>(random.unit()));
         const double al = 0.05 + 0.95 * static_cast<double>(random.unit()), eta = 1.9 * static_cast<double>(random.unit()) - 0.95;
         const double s = al * al / std::sqrt(2.0);
-        const double in[8] = {o.x, o.y, o.z, s * (1 + eta), s * (1 - eta), 1.0, 2.3, 16.0};
-        double out[11];
-        const TechniqueKernels kernels = float_kernels()[0];
-        kernels.major_axis(in, out);
+        const std::vector<double> in = {o.x, o.y, o.z, s * (1 + eta), s * (1 - eta), 1.0, 2.3, 16.0};
+        const std::vector<double> out = call(float_fns()[0], "major_axis", in);
         for (int j = 0; j < 16; ++j) {
-            const double at[10] = {out[2], out[3], out[4], out[5], out[6], out[7], o.x, o.y, o.z, j / 15.0};
-            double dir[3];
-            kernels.major_axis_direction(at, dir);
+            const std::vector<double> at = {out[2], out[3], out[4], out[5], out[6], out[7], o.x, o.y, o.z, j / 15.0};
+            const std::vector<double> dir = call(float_fns()[0], "major_axis_direction", at);
             lowest = std::min(lowest, dir[2]);
         }
     }
@@ -301,11 +277,8 @@ TEST(major_axis, adaptive_takes_no_more_samples_than_asked_for_nor_than_the_line
     for (int trial = 0; trial < 5000; ++trial) {
         const Vec o = unit(in_range(-1.0, 1.0), in_range(-1.0, 1.0), in_range(0.1, 1.5));
         const double al = in_range(0.05, 0.5), eta = in_range(0.0, 0.99), s = al * al / std::sqrt(2.0);
-        const double in[8] = {o.x, o.y, o.z, s * (1 + eta), s * (1 - eta), 1.0, 2.3, 15.0};
-        double line[11], taken[2];
-        const TechniqueKernels kernels = float_kernels()[0];
-        kernels.major_axis(in, line);
-        kernels.grain_count(in, taken);
+        const std::vector<double> in = {o.x, o.y, o.z, s * (1 + eta), s * (1 - eta), 1.0, 2.3, 15.0};
+        const std::vector<double> line = call(float_fns()[0], "major_axis", in), taken = call(float_fns()[0], "grain_count", in);
         ASSERT_LE(taken[1], 15.0);
         ASSERT_GE(taken[0], 1.0);
         const double needed = std::max(1.0, 2.3 * line[9] / std::max(line[10], 1e-9));
@@ -326,11 +299,8 @@ TEST(major_axis, adaptive_samples_of_any_lobe_add_up_to_no_more_than_the_line_ne
         const Vec o = unit(in_range(-1.0, 1.0), in_range(-1.0, 1.0), trial % 2 ? in_range(0.001, 0.1) : in_range(0.1, 1.5));
         const double al = in_range(0.05, 1.0), eta = in_range(0.0, 0.99), s = al * al / std::sqrt(2.0),
                      k = trial % 3 ? 1.0 : in_range(0.5, 3.0);
-        const double in[8] = {o.x, o.y, o.z, s * (1 + eta), s * (1 - eta), k, 2.3, 63.0};
-        double line[11], taken[2];
-        const TechniqueKernels kernels = float_kernels()[0];
-        kernels.major_axis(in, line);
-        kernels.grain_count(in, taken);
+        const std::vector<double> in = {o.x, o.y, o.z, s * (1 + eta), s * (1 - eta), k, 2.3, 63.0};
+        const std::vector<double> line = call(float_fns()[0], "major_axis", in), taken = call(float_fns()[0], "grain_count", in);
         const double needed = std::max(1.0, 2.3 * line[9] / std::max(line[10], 1e-9));
         largest = std::max(largest, taken[0] / needed);
         ASSERT_LT(taken[1], taken[0] + 2.0);
@@ -342,15 +312,13 @@ TEST(major_axis, adaptive_samples_of_any_lobe_add_up_to_no_more_than_the_line_ne
 
 TEST(major_axis, a_mirror_is_a_mirror)
 {
-    for (const TechniqueKernels& kernels : float_kernels()) {
+    for (const IsaFns& kernels : float_fns()) {
         const Vec o = unit(.3, -.4, .6);
-        const double in[8] = {o.x, o.y, o.z, 0, 0, 1.0, 2.3, 16.0};
-        double out[11];
-        kernels.major_axis(in, out);
+        const std::vector<double> in = {o.x, o.y, o.z, 0, 0, 1.0, 2.3, 16.0};
+        const std::vector<double> out = call(kernels, "major_axis", in);
         EXPECT_EQ(out[8], 0.0);
-        const double at[10] = {out[2], out[3], out[4], out[5], out[6], out[7], o.x, o.y, o.z, 0.4};
-        double dir[3];
-        kernels.major_axis_direction(at, dir);
+        const std::vector<double> at = {out[2], out[3], out[4], out[5], out[6], out[7], o.x, o.y, o.z, 0.4};
+        const std::vector<double> dir = call(kernels, "major_axis_direction", at);
         EXPECT_NEAR(dir[0], -o.x, 1e-6);
         EXPECT_NEAR(dir[1], -o.y, 1e-6);
         EXPECT_NEAR(dir[2], o.z, 1e-6);

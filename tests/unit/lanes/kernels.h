@@ -1,0 +1,49 @@
+// The lane harness: kernels under test as functions over arrays of doubles, compiled once for each instruction set and for the double
+// oracle. A test program lists its kernels in kernels.def, which its kernels.isa.cpp includes (run_lanes.h); bn_lane_kernels() builds them.
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "core/simd/fns.h"
+
+namespace burnish::test {
+
+// What a kernel looks at that fetches texels: a cube, a table or a texture of halves. Kernels leave alone what they do not ask for.
+struct TexelView {
+    const std::uint16_t* texels = nullptr;
+    int size = 0, levels = 1; // a cube's or a table's; level: the one to look at
+    int level = 0;
+    const std::int32_t* offset = nullptr; // a texture's, by level
+    const float *level_width = nullptr, *level_height = nullptr;
+    int wrap_s = 0, wrap_t = 0, nearest = 0, max_taps = 1;
+};
+
+// n points; argument i of point k is in[i * n + k], result j is out[j * n + k]. Arguments of float versions are rounded to float.
+struct Kernel {
+    const char* name;
+    int inputs, outputs;
+    void (*run)(const TexelView& t, int n, const double* in, double* out);
+};
+
+struct IsaFns {
+    const char* name; // of the instruction set
+    const Kernel* kernels;
+    int count;
+};
+
+const IsaFns& oracle_fns();
+const std::vector<IsaFns>& float_fns(); // scalar first, then what this processor runs
+const std::vector<IsaFns>& all_fns();   // these, then the oracle
+const IsaFns& fast_fns();               // one of float_fns()
+
+const Kernel& kernel(const IsaFns& isa, const char* name);
+std::vector<double> run(const Kernel& kernel, const std::vector<double>& in, const TexelView& t = {});
+
+// The kernel `name` at as many points as `in` holds.
+std::vector<double> call(const IsaFns& isa, const char* name, const std::vector<double>& in, const TexelView& t = {});
+
+} // namespace burnish::test
+
+namespace burnish {
+BN_DECLARE_FNS(test::IsaFns);
+} // namespace burnish

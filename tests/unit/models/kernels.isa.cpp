@@ -1,0 +1,59 @@
+// Every reflection model, and the functions that go with them.
+#include "tests/unit/lanes/run_lanes.h"
+#include "tests/unit/models/model_fns.h"
+
+#define BN_MODEL_TEXTS
+#include "shading/models.def"
+#include "shading/surface/covariance.k.h"
+#include "shading/surface/energy.k.h"
+#include "shading/surface/lobe.k.h"
+#include "shading/surface/surface.k.h"
+#include "shading/techniques/filtered_is.k.h"
+#include "shading/techniques/major_axis.k.h"
+
+namespace burnish {
+inline namespace BN_ISA_NS {
+namespace {
+
+struct RandomNumbers {
+    real x, y, z;
+    operator real2() const { return vec2_of(x, y); }
+    operator real3() const { return vec3_of(x, y, z); }
+};
+
+// p of models without parameters, whose functions have none.
+struct no_params {};
+
+// A model's function with p, without p where it takes none, or 0 where there is no such function.
+#define BN_CALL(fn, ...)                                                                                                                   \
+    [](auto p, auto... rest) {                                                                                                             \
+        if constexpr (requires { fn(p, rest...); })                                                                                        \
+            return fn(p, rest...);                                                                                                         \
+        else if constexpr (requires { fn(rest...); })                                                                                      \
+            return fn(rest...);                                                                                                            \
+        else                                                                                                                               \
+            return lit(0.0);                                                                                                               \
+    }(__VA_ARGS__)
+
+void put_sample(bsdf_sample s, real* r)
+{
+    put_vec3(s.wi, r);
+    r[3] = s.weight, r[4] = s.pdf, r[5] = s.o_dot_h, r[6] = number_of(s.valid);
+}
+void put_covariance(slope_covariance s, real* r)
+{
+    r[0] = s.xx, r[1] = s.yy, r[2] = s.xy;
+}
+
+constexpr int kWo = test::kMaxParams, kWi = test::kMaxParams + 3;
+
+constexpr test::Kernel kKernels[] = {
+#include "tests/unit/models/kernels.def"
+};
+
+} // namespace
+
+BN_DEFINE_KERNELS(kKernels)
+
+} // namespace BN_ISA_NS
+} // namespace burnish
