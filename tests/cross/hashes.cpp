@@ -82,7 +82,7 @@ int run(const std::string& isa_word)
         print(environments[i], hash_bytes(cube.texels.data(), cube.texels.size() * sizeof cube.texels[0], 0));
         SessionOptions of_session;
         of_session.isa = *isa;
-        Result<Session> session = Session::make({*scene, *environment, dfg, jobs}, of_session);
+        Result<Session> session = Session::make({*scene, *environment, jobs, dfg}, of_session);
         if (!session)
             return 1;
         draw_all(*session, scenes[i]);
