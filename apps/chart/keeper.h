@@ -16,6 +16,7 @@ class Keeper {
 
     Measured& row(const std::string& key) { return kept_.rows[key]; }
     std::map<std::string, ReferenceNoise>& references() { return kept_.references; }
+    std::optional<double>& others() { return kept_.others; }
     Status save();           // now
     Status save_sometimes(); // unless that was a moment ago
     std::string picture(const std::string& name) const { return folder_ + "/pictures/" + name + ".jpg"; }

@@ -21,6 +21,8 @@ Result<Kept> parse_kept(const std::string& text, const std::string& file)
         Kept kept;
         if (json.at("kept_version") != kKeptVersion)
             return kept;
+        if (json.contains("other_load") && !json["other_load"].is_null())
+            kept.others = json["other_load"].get<double>();
         for (const auto& [key, noise] : json.at("references").items())
             kept.references[key] = {noise.at("samples").get<std::uint64_t>(), number_of(noise.at("relative_error")),
                                     number_of(noise.at("flip_noise"))};

@@ -422,7 +422,9 @@ Status Chart::time_rows(const Place& place, std::vector<ChartRow>& rows)
 ChartReport Chart::take()
 {
     mark_pareto(out_.rows);
-    out_.machine.others = load_.others();
+    if (const std::optional<double> others = load_.others())
+        keeper_.others() = std::max(*others, keeper_.others().value_or(0.0));
+    out_.machine.others = keeper_.others();
     return std::move(out_);
 }
 
@@ -436,9 +438,10 @@ Result<MeasuredChart> measure_chart(const ChartOptions& options, const std::shar
     report.release();
     if (const Status measured = chart.measure(); !measured)
         return measured.error();
+    MeasuredChart measured_chart{chart.take(), chart.stopped()};
     if (const Status saved = keeper.save(); !saved)
         return saved.error();
-    return MeasuredChart{chart.take(), chart.stopped()};
+    return measured_chart;
 }
 
 } // namespace burnish

@@ -115,7 +115,7 @@ void mark_pareto(std::vector<ChartRow>& rows)
 
 std::string kept_json(const Kept& kept)
 {
-    Json json = {{"kept_version", kKeptVersion}, {"rows", Json::object()}, {"references", Json::object()}};
+    Json json = {{"kept_version", kKeptVersion}, {"rows", Json::object()}, {"references", Json::object()}, {"other_load", kept.others}};
     for (const auto& [key, noise] : kept.references)
         json["references"][key] = noise_json(noise);
     for (const auto& [key, m] : kept.rows) {

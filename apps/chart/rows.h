@@ -31,6 +31,7 @@ struct ReferenceNoise {          // how far a reference may be from the truth
 struct Kept {                                         // of earlier runs
     std::map<std::string, Measured> rows;             // by ChartRow::key
     std::map<std::string, ReferenceNoise> references; // by key of the place and samples asked for
+    std::optional<double> others{};                   // the most of ChartMachine::others of the runs that timed them
 };
 
 struct ChartRow {
