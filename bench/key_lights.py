@@ -1,11 +1,13 @@
 #!/usr/bin/env python3
 """What key lights do to pictures: FLIP to the reference with and without them, by environment, roughness and anisotropy.
 
-Usage: key_lights.py --program build/release/burnish [--env FILE]... [--technique NAME,...] [--scene SCENE]... [--quick] [--json FILE]
+Usage: key_lights.py --program build/release/burnish [--env FILE|FOLDER]... [--technique NAME,...] [--scene SCENE]... [--work FOLDER]
+                     [--quick] [--json FILE]
 
-Under builtin:sky, three skies that it makes (a low sun, two suns, a sun behind thin cloud) and the environments given, `burnish chart`
-measures every technique twice, with --key-lights auto and off, against one reference. A line a place: mean FLIP without and with, and the
-ratio. At the end, by environment, how many key lights it has, the means, and what is aimed at:
+Under builtin:sky, three skies that it makes (a low sun, two suns, a sun behind thin cloud) and the environments given, or else those that
+lie beside the checkout, `burnish chart` measures every technique twice, with --key-lights auto and off, against one reference. What is
+stopped goes on where --work names the same folder. A line a place: mean FLIP without and with, and the ratio. At the end, by environment,
+how many key lights it has, the means, and what is aimed at:
   - no place is worse by more than 0.002;
   - where there are key lights and alpha_lin is at most 0.65, the mean is at most half.
 
@@ -23,7 +25,7 @@ import tempfile
 
 WORSE = 0.002
 SHARP = 0.65  # alpha_lin up to which the mean is to be halved
-FULL = {"roughness": "0.2,0.35,0.5,0.65,0.8", "anisotropy": "-0.9,-0.5,0,0.5,0.8,0.95", "size": "320x180", "samples": "1024"}
+FULL = {"roughness": "0.2,0.4,0.6,0.8", "anisotropy": "-0.9,0.5,0.8,0.95", "size": "128x72", "samples": "256"}
 QUICK = {"roughness": "0.3,0.6", "anisotropy": "-0.5,0.8", "size": "96x54", "samples": "256"}
 
 
@@ -86,6 +88,16 @@ def write_sky(path, radiance, width=1024):
             file.write(row)
 
 
+def environments_of(given):
+    """Paths and names; of a folder, what is an environment in it. Nothing given: the folder beside the checkout, where there is one."""
+    beside = pathlib.Path(__file__).resolve().parents[2] / "shared/data/env"
+    found = []
+    for name in given or ([beside] if beside.is_dir() else []):
+        path = pathlib.Path(name)
+        found += sorted(str(p) for p in path.iterdir() if p.suffix in (".exr", ".hdr")) if path.is_dir() else [str(name)]
+    return found
+
+
 def run(command):
     done = subprocess.run([str(word) for word in command], capture_output=True, text=True, check=False)
     if done.returncode:
@@ -98,8 +110,8 @@ def measure(program, folder, scenes, environments, techniques, size, key_lights)
     """{(scene, environment, technique, roughness, anisotropy): mean FLIP}"""
     report = folder / f"report_{key_lights}"
     command = [program, "chart", *scenes, "--techniques", techniques, "--sweep", "roughness=" + size["roughness"], "--sweep",
-               "anisotropy=" + size["anisotropy"], "--size", size["size"], "--msaa", "4", "--reference-samples", size["samples"], "--runs", "1",
-               "--no-background", "--key-lights", key_lights, "-q", "-o", report]
+               "anisotropy=" + size["anisotropy"], "--sweep", "samples=16", "--size", size["size"], "--msaa", "16", "--reference-samples", size["samples"], "--runs", "1",
+               "--no-background", "--key-lights", key_lights, "-t", "1", "-q", "-o", report]
     for environment in environments:
         command += ["--env", environment]
     run(command)
@@ -114,7 +126,7 @@ def mean(values):
 def main():
     parser = argparse.ArgumentParser(description="FLIP with and without key lights")
     parser.add_argument("--program", required=True, type=pathlib.Path)
-    parser.add_argument("--env", action="append", default=[], help="further environments; several times")
+    parser.add_argument("--env", action="append", default=[], help="further environments, or folders of them; several times (../shared/data/env)")
     parser.add_argument("--scene", action="append", default=[], help="builtin:spheres and builtin:teapot")
     parser.add_argument("--technique", default="lobe_line")
     parser.add_argument("--work", type=pathlib.Path, help="folder for skies and reports; a temporary one")
@@ -131,7 +143,7 @@ def main():
             if not path.exists():
                 write_sky(path, sky, 512 if given.quick else 1024)
             environments.append(str(path))
-        environments += given.env
+        environments += [] if given.quick and not given.env else environments_of(given.env)
         scenes = given.scene or (["builtin:spheres"] if given.quick else ["builtin:spheres", "builtin:teapot"])
         lights = {e: len(json.loads(run([program, "info", "--json", "--env", e]))["environment"]["key_lights"]) for e in environments}
         off, on = (measure(program, folder, scenes, environments, given.technique, size, k) for k in ("off", "auto"))

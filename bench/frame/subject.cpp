@@ -8,8 +8,6 @@
 namespace burnish {
 namespace {
 
-constexpr float kRoughness = 0.3f; // where a workload overrides eta
-
 // One environment for all. The fine one comes from the cache after the first run.
 Result<std::shared_ptr<const Environment>> bake_studio(bool coarse)
 {
@@ -44,7 +42,7 @@ class TileSubject final : public Subject {
         desc_.technique = w.technique;
         desc_.samples = w.samples ? w.samples : find_technique(w.technique)->default_samples;
         if (w.eta != 0.0f)
-            desc_.roughness = kRoughness, desc_.override_anisotropy = true, desc_.anisotropy = w.eta;
+            desc_.roughness = w.alpha_lin, desc_.override_anisotropy = true, desc_.anisotropy = w.eta;
     }
     void frame() override { last_ = draw(desc_, std::move(last_)); }
     std::string pixels() const override { return fmt::format("{:016x}", pixel_hash(last_.color)); }

@@ -18,11 +18,12 @@ struct Workload {
     int width = 1920, height = 1080, msaa = 1;
     const char* technique = "bent_normal";
     int samples = 0;  // 0: the technique's own
-    float eta = 0.0f; // overrides the material where it is not 0, with alpha_lin 0.3
+    float eta = 0.0f; // overrides the material where it is not 0, with alpha_lin
     int threads = 0;  // 0: as --threads says
     Engine engine = Engine::tile;
     int packet = 0;    // rays traced together
     bool slow = false; // not with --quick
+    float alpha_lin = 0.3f;
 };
 
 enum class Measure {

@@ -34,10 +34,10 @@ def made_with(program):
     return made
 
 
-def count(program):
-    """{workload: instructions} of one frame each."""
+def count(program, *workloads):
+    """{workload: instructions} of one frame each; without names, of those that have budgets."""
     with tempfile.TemporaryDirectory() as folder:
-        command = ["valgrind", "--tool=callgrind", "--instr-atstart=no", "--callgrind-out-file=" + folder + "/out", program]
+        command = ["valgrind", "--tool=callgrind", "--instr-atstart=no", "--callgrind-out-file=" + folder + "/out", program, *workloads]
         done = subprocess.run(command, capture_output=True, text=True)
         if done.returncode == SKIPPED:
             raise Skip(done.stderr.strip().splitlines()[-1])

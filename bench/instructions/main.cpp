@@ -1,8 +1,12 @@
 // Draws small frames for valgrind to count their instructions, one thread and AVX2. Each workload is drawn once before it counts, so
-// memory has grown and pages are there; then one frame is counted and its figures go to a file of its own. See count.py.
+// memory has grown and pages are there; then one frame is counted and its figures go to a file of its own. See count.py. Given
+// TECHNIQUE:SAMPLES:ALPHA_LIN:ETA, it counts these on the inside of a brushed sphere instead (lobe_line.py).
+#include <cmath>
 #include <cstdio>
 #include <fmt/format.h>
 #include <gnu/libc-version.h>
+#include <optional>
+#include <string_view>
 
 #include "bench/frame/subject.h"
 #include "bench/scenes/figures.h"
@@ -34,8 +38,25 @@ std::vector<Workload> small_workloads()
     return list;
 }
 
+// One TECHNIQUE:SAMPLES:ALPHA_LIN:ETA, as a workload of that name; nothing where it is none.
+std::optional<Workload> place(const char* text)
+{
+    const std::string_view all = text;
+    const std::string name(all.substr(0, all.find(':')));
+    const TechniqueInfo* technique = find_technique(name);
+    Workload w = {text, "instructions", BenchScene::sphere, 0, 160, 90, 1};
+    char end = 0;
+    if (!technique || std::sscanf(text + name.size(), ":%d:%f:%f%c", &w.samples, &w.alpha_lin, &w.eta, &end) != 3)
+        return std::nullopt;
+    const bool in_range = w.samples >= 1 && w.samples <= technique->most_samples && w.alpha_lin >= 0.0f && w.alpha_lin <= 1.0f;
+    if (!in_range || std::abs(w.eta) > 1.0f || w.eta == 0.0f)
+        return std::nullopt;
+    w.technique = technique->name;
+    return w;
+}
+
 #ifdef BN_HAVE_CALLGRIND
-int run()
+int run(const std::vector<Workload>& list)
 {
     if (!RUNNING_ON_VALGRIND) {
         fmt::print(stderr, "bench_instructions: counts nothing without valgrind; see bench/instructions/count.py\n");
@@ -47,7 +68,7 @@ int run()
     }
     SubjectOptions options;
     options.isa = Isa::avx2, options.threads = 1, options.coarse_environment = true;
-    for (const Workload& w : small_workloads()) {
+    for (const Workload& w : list) {
         Result<std::unique_ptr<Subject>> subject = make_subject(w, options);
         if (!subject) {
             fmt::print(stderr, "bench_instructions: {}\n", subject.error().line());
@@ -63,7 +84,7 @@ int run()
     return 0;
 }
 #else
-int run()
+int run(const std::vector<Workload>&)
 {
     fmt::print(stderr, "bench_instructions: built without valgrind's headers\n");
     return static_cast<int>(ExitCode::unavailable);
@@ -77,10 +98,18 @@ int main(int argc, char** argv)
 {
     using namespace burnish;
     if (argc == 1)
-        return run();
-    if (std::string(argv[1]) != "--made-with") {
-        fmt::print(stderr, "usage: bench_instructions [--made-with]\n");
-        return static_cast<int>(ExitCode::usage);
+        return run(small_workloads());
+    if (argc > 2 || std::string_view(argv[1]) != "--made-with") {
+        std::vector<Workload> list;
+        for (int i = 1; i < argc; ++i) {
+            const std::optional<Workload> w = place(argv[i]);
+            if (!w) {
+                fmt::print(stderr, "usage: bench_instructions [--made-with | TECHNIQUE:SAMPLES:ALPHA_LIN:ETA...] (ETA is not 0)\n");
+                return static_cast<int>(ExitCode::usage);
+            }
+            list.push_back(*w);
+        }
+        return run(list);
     }
     nlohmann::ordered_json made = machine_json(); // what the number of instructions depends on
     made = {{"compiler", made["compiler"]}, {"build_type", made["build_type"]}, {"libc", gnu_get_libc_version()}};
