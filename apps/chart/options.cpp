@@ -31,6 +31,14 @@ Value sweeps(Sweeps& to)
     return value;
 }
 
+Status check_lobes(const FrameDesc& frame, const std::vector<std::string>& techniques)
+{
+    for (const std::string& technique : techniques)
+        if (const Status lobe = check_lobe(frame, *find_technique(technique)); !lobe)
+            return lobe;
+    return {};
+}
+
 // The options of every cell, checked as `burnish render` does.
 Status check_cells(const ChartArguments& in, const OptionTable& given, ChartOptions& out)
 {
@@ -39,6 +47,7 @@ Status check_cells(const ChartArguments& in, const OptionTable& given, ChartOpti
         return usage_error("--sweep", fmt::format("{} places under each environment, more than {}", out.cells.size(), kMaxCells));
     for (const Cell& cell : out.cells) {
         RenderArguments arguments = in.render;
+        arguments.plain.frame.technique = out.techniques.front();
         OptionTable table = render_option_table(arguments);
         for (const Option& option : given.options())
             if (Option* of_render = table.find(option.name))
@@ -70,6 +79,8 @@ Status check_cells(const ChartArguments& in, const OptionTable& given, ChartOpti
             return options.error();
         if (options->frame.width != out.base.frame.width || options->frame.height != out.base.frame.height)
             return usage_error("--sweep", "size is one for all");
+        if (const Status lobes = check_lobes(options->frame, out.techniques); !lobes)
+            return lobes.error();
         out.cell_options.push_back(*options);
     }
     return {};
@@ -83,12 +94,13 @@ Status check_pairs(const ChartArguments& in, const OptionTable& given, ChartOpti
         for (const std::string& env : out.envs) {
             arguments.plain.scene = scene;
             arguments.plain.env = env;
+            arguments.plain.frame.technique = out.techniques.front();
             const Result<RenderOptions> checked = check_render_options(arguments, given);
             if (!checked)
                 return checked.error();
             out.base = *checked;
         }
-    return {};
+    return check_lobes(out.base.frame, out.techniques);
 }
 
 // The same view in fewer pixels: sides in one proportion, but for what rounding to whole pixels needs.

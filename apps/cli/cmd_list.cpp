@@ -1,5 +1,5 @@
-// `burnish list`: the names that options accept; the reflection models and what is read of glTF, which no option names. One a line with
-// what it is.
+// `burnish list`: the names that options accept; the reflection models, and which of them --brdf takes; what is read of glTF. One a line
+// with what it is.
 #include <algorithm>
 #include <cstdio>
 #include <fmt/core.h>
@@ -12,6 +12,7 @@
 #include "core/scene/builtin/builtin.h"
 #include "core/scene/gltf/extensions.h"
 #include "raster/frame/frame.h"
+#include "shading/lang/records.h"
 
 namespace burnish {
 namespace {
@@ -37,11 +38,19 @@ std::vector<Entry> technique_entries()
     return entries;
 }
 
+// What --brdf makes of it.
+const char* model_use(const ModelInfo& model)
+{
+    if (model.lobe < 0)
+        return "-";
+    return model.lobe_traits & kPunctualOnly ? "--brdf, lights" : "--brdf";
+}
+
 std::vector<Entry> model_entries()
 {
     std::vector<Entry> entries;
     for (const ModelInfo& model : models())
-        entries.push_back({model.name, model.summary});
+        entries.push_back({model.name, fmt::format("{:<15}{}", model_use(model), model.summary)});
     return entries;
 }
 

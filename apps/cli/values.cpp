@@ -5,6 +5,7 @@
 
 #include "apps/cli/report.h"
 #include "apps/cli/suggest.h"
+#include "core/math/scalar_math.h"
 #include "core/scene/builtin/builtin.h"
 #include "raster/frame/frame.h"
 #include "shading/lang/records.h"
@@ -205,17 +206,32 @@ Value picture_size(PictureSize& to)
                 [&to] { return to.width ? fmt::format("{}x{}", to.width, to.height) : std::string(); });
 }
 
-Value angles(glm::vec2& to, double low, double high)
+namespace {
+
+// unit: of one degree in what is held.
+Value angles_in(glm::vec2& to, double low, double high, float unit)
 {
     Value value = make(ValueKind::vector,
                        reading<glm::vec2>(
                            [=](const std::string& option, const std::string& written) {
                                return parse_angles(option, written, {low, low}, {high, high});
                            },
-                           [&to](const glm::vec2& read) { to = read; }),
-                       [&to] { return fmt::format("{:g},{:g}", to.x, to.y); });
+                           [&to, unit](const glm::vec2& read) { to = read * unit; }),
+                       [&to, unit] { return fmt::format("{:g},{:g}", to.x / unit, to.y / unit); });
     value.low = low, value.high = high;
     return value;
+}
+
+} // namespace
+
+Value angles(glm::vec2& to, double low, double high)
+{
+    return angles_in(to, low, high, 1.0f);
+}
+
+Value angles_rad(glm::vec2& to, double low, double high)
+{
+    return angles_in(to, low, high, static_cast<float>(kPi / 180.0));
 }
 
 Value direction(std::optional<glm::vec2>& to)

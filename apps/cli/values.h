@@ -42,8 +42,9 @@ Value flag(bool& to, bool becomes = true);
 Value count(int& to); // how often it is given
 Value bytes(std::uint64_t& to);
 Value picture_size(PictureSize& to);
-Value angles(glm::vec2& to, double low, double high); // degrees
-Value direction(std::optional<glm::vec2>& to);        // azimuth and elevation, degrees
+Value angles(glm::vec2& to, double low, double high);     // degrees
+Value angles_rad(glm::vec2& to, double low, double high); // written in degrees, as is the range
+Value direction(std::optional<glm::vec2>& to);            // azimuth and elevation, degrees
 Value point(std::optional<glm::vec3>& to);
 Value text(std::string& to);
 Value file(std::string& to);

@@ -102,11 +102,7 @@ OptionTable parity_option_table(ParityArguments& to)
                 {"--samples", "Samples of the techniques, where they take any", ""},
                 {"--roughness", "Override alpha_lin of every material, {}"},
                 {"--anisotropy", "Override eta of every material, {}"},
-                {"--tilt", "Tilt every lobe against its surface", ""},
-                {"--dfg", "Directional albedo: {}"},
                 "--texture-anisotropy",
-                "--horizon",
-                {"--energy-compensation", "Return the light that rough lobes lose"},
                 {"--no-cache", "Neither environments nor pipelines from disk"}});
     table.take(of_render, "Parameters of techniques", taken_parameters());
     return table;

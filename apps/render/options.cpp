@@ -4,7 +4,6 @@
 
 #include "apps/cli/report.h"
 #include "apps/cli/shared_options.h"
-#include "core/math/scalar_math.h"
 
 namespace burnish {
 namespace {
@@ -35,7 +34,6 @@ Status check_picture(const RenderArguments& in, const OptionTable& given, Render
                                                  samples, kMaxPictureSamples));
     if (given.given("--anisotropy"))
         frame.override_anisotropy = true;
-    frame.tilt_rad = in.tilt_deg * static_cast<float>(kPi / 180.0);
     return {};
 }
 
@@ -48,6 +46,8 @@ Status check_technique(const RenderArguments& in, RenderOptions& out)
         samples = *in.samples;
     if (samples > technique.most_samples)
         return usage_error("--samples", fmt::format("{} takes 1 to {}, got {}", frame.technique, technique.most_samples, samples));
+    if (const Status lobe = check_lobe(frame, *find_technique(out.backend == "reference" ? "mc" : frame.technique)); !lobe)
+        return lobe.error();
     frame.samples = samples_taken(technique, static_cast<int>(samples));
     if (frame.samples != samples)
         out.warnings.push_back(fmt::format("--samples {}: {} takes {}", samples, frame.technique, frame.samples));

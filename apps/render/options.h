@@ -57,9 +57,8 @@ struct RenderArguments {
     RenderOptions plain;
     PictureSize size = {1280, 720};
     std::optional<std::int64_t> samples; // none: the technique's or the reference's own number
-    glm::vec2 tilt_deg{0.0f};
-    std::string animate; // as --animate takes it
-    int steps = 60;      // of it
+    std::string animate;                 // as --animate takes it
+    int steps = 60;                      // of it
 };
 
 // All options of `burnish render`, which other subcommands take theirs from; `to` must outlive the table.

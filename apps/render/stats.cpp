@@ -52,11 +52,7 @@ Json stats_json(const RenderOptions& options, const RenderFigures& figures)
     json["samples"] = frame.samples;
     json["roughness"] = frame.roughness >= 0.0f ? Json(frame.roughness) : Json();
     json["anisotropy"] = frame.override_anisotropy ? Json(frame.anisotropy) : Json();
-    json["tilt_rad"] = Json::array({frame.tilt_rad.x, frame.tilt_rad.y});
     json.update(parameters_json(frame));
-    json["dfg"] = frame.dfg_fit ? "fit" : "table";
-    json["horizon"] = frame.horizon;
-    json["energy_compensation"] = frame.energy_compensation;
     json["backend"] = options.backend;
     json["device"] = figures.device;
     json["isa"] = isa_name(options.isa);

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
+#include <string_view>
 
 #include "core/base/check.h"
 #include "core/base/hash.h"
 #include "core/math/scalar_math.h"
-#include "shading/lang/records.h"
+#include "shading/lang/tables.h"
 
 namespace burnish {
 
@@ -177,16 +179,16 @@ Status check_desc(const FrameDesc& d)
         return usage("the tile size must be 32 or 64");
     if (d.texture_anisotropy < 1 || d.texture_anisotropy > 16)
         return usage("texture anisotropy must lie in 1..16");
-    if (!(std::abs(d.tilt_rad.x) < 1.57f && std::abs(d.tilt_rad.y) < 1.57f))
-        return usage("a lobe's tilt must stay below a quarter turn");
     if (!find_technique(d.technique))
         return usage("unknown technique '" + d.technique + "'");
     if (const int most = find_technique(d.technique)->most_samples; d.samples < 1 || d.samples > most)
         return usage("samples of " + d.technique + " must lie in 1.." + std::to_string(most));
-    for (const ParameterInfo& p : parameters()) // a float may lie just outside of a range of doubles
-        if (const double value = parameter_of(d, p); !(value >= p.least - 1e-6 && value <= p.most + 1e-6))
+    for (const ParameterInfo& p : parameters()) { // a float may lie just outside of a range of doubles
+        const glm::dvec2 value = parameter_of(d, p);
+        if (!(std::min(value.x, value.y) >= p.least - 1e-4 && std::max(value.x, value.y) <= p.most + 1e-4))
             return usage(std::string(p.option) + " is out of its range");
-    return {};
+    }
+    return check_lobe(d, *find_technique(d.technique));
 }
 
 const std::vector<TechniqueInfo>& techniques()
@@ -199,17 +201,27 @@ const std::vector<TechniqueInfo>& techniques()
     return table;
 }
 
+namespace {
+
+const TechniqueInfo& technique_with(int trait) // that has it
+{
+    return *std::find_if(techniques().begin(), techniques().end(), [=](const TechniqueInfo& t) { return (t.traits & trait) != 0; });
+}
+
+} // namespace
+
 const TechniqueInfo& automatic_technique()
 {
-    static const TechniqueInfo info = {
-        "auto", "split_isotropic for isotropic materials, lobe_line for anisotropic ones", Sampling::count, 16, 64, 0};
+    static const TechniqueInfo &round = technique_with(kAutoRound), &grain = technique_with(kAutoGrain);
+    static const std::string summary = std::string(round.name) + " for isotropic materials, " + grain.name + " for anisotropic ones";
+    static const TechniqueInfo info = {"auto", summary.c_str(), grain.sampling, grain.default_samples, grain.most_samples, 0};
     return info;
 }
 
 const TechniqueInfo& technique_of(const FrameDesc& desc, bool anisotropic)
 {
     if (desc.technique == automatic_technique().name)
-        return *find_technique(anisotropic ? "lobe_line" : "split_isotropic");
+        return technique_with(anisotropic ? kAutoGrain : kAutoRound);
     return *find_technique(desc.technique);
 }
 
@@ -226,10 +238,14 @@ const TechniqueInfo* find_technique(const std::string& name)
 const std::vector<ParameterInfo>& parameters()
 {
     static const std::vector<ParameterInfo> table = {
-#define BN_FIELD_number(id) &FrameDesc::id, nullptr
-#define BN_FIELD_whole(id) nullptr, &FrameDesc::id
+#define BN_FIELD_number(id) &FrameDesc::id, nullptr, nullptr, nullptr, nullptr
+#define BN_FIELD_whole(id) nullptr, &FrameDesc::id, nullptr, nullptr, nullptr
+#define BN_FIELD_flag(id) nullptr, nullptr, &FrameDesc::id, nullptr, nullptr
+#define BN_FIELD_choice(id) nullptr, nullptr, nullptr, &FrameDesc::id, nullptr
+#define BN_FIELD_lobe(id) nullptr, nullptr, nullptr, &FrameDesc::id, nullptr
+#define BN_FIELD_angles(id) nullptr, nullptr, nullptr, nullptr, &FrameDesc::id##_rad
 #define BN_PARAMETER(id, kind, option, fallback, least, most, unit, summary, readers)                                                      \
-    {#id, option, fallback, least, most, unit, summary, readers, BN_FIELD_##kind(id)},
+    {#id, option, fallback, least, most, unit, summary, readers, BN_FIELD_##kind(id), std::string_view(#kind) == "lobe"},
 #include "shading/models.def"
     };
     return table;
@@ -244,9 +260,31 @@ bool reads(const std::string& technique, const ParameterInfo& p)
     return false;
 }
 
-double parameter_of(const FrameDesc& desc, const ParameterInfo& p)
+glm::dvec2 parameter_of(const FrameDesc& desc, const ParameterInfo& p)
 {
-    return p.number ? static_cast<double>(desc.*p.number) : static_cast<double>(desc.*p.whole);
+    if (p.angles)
+        return glm::degrees(glm::dvec2(desc.*p.angles));
+    if (p.number)
+        return glm::dvec2(static_cast<double>(desc.*p.number));
+    if (p.whole)
+        return glm::dvec2(static_cast<double>(desc.*p.whole));
+    return glm::dvec2(p.flag ? desc.*p.flag : desc.*p.choice);
+}
+
+std::vector<std::string> choices_of(const ParameterInfo& p)
+{
+    std::vector<std::string> names;
+    if (!p.choice)
+        return names;
+    if (p.is_lobe) {
+        for (int lobe = 0; lobe < kLobeCount; ++lobe)
+            names.emplace_back(lobe_model(lobe).name);
+        return names;
+    }
+    std::istringstream text(p.unit);
+    for (std::string name; std::getline(text, name, '|');)
+        names.push_back(name);
+    return names;
 }
 
 void set_parameter(FrameDesc& desc, const ParameterInfo& p, double value)
@@ -254,6 +292,12 @@ void set_parameter(FrameDesc& desc, const ParameterInfo& p, double value)
     BN_CHECK(value >= p.least && value <= p.most);
     if (p.number)
         desc.*p.number = static_cast<float>(value);
+    else if (p.flag)
+        desc.*p.flag = value != 0.0;
+    else if (p.choice)
+        desc.*p.choice = static_cast<int>(value);
+    else if (p.angles)
+        desc.*p.angles = glm::vec2(static_cast<float>(glm::radians(value)));
     else
         desc.*p.whole = static_cast<std::uint32_t>(value);
 }
@@ -271,13 +315,50 @@ int samples_taken(const TechniqueInfo& technique, int samples)
     return side * side;
 }
 
+namespace {
+
+int lobe_named(std::string_view name)
+{
+#define BN_LOBE(id, at, type, lies, normals, traits, made_of)                                                                              \
+    if (name == #id)                                                                                                                       \
+        return at;
+#include "shading/models.def"
+    return -1;
+}
+
+} // namespace
+
 const std::vector<ModelInfo>& models()
 {
     static const std::vector<ModelInfo> table = {
-#define BN_MODEL(id, summary, params, laws, settings) {#id, summary},
+#define BN_MODEL(id, summary, params, laws, settings) {#id, summary, lobe_named(#id), lobe_traits_of(lobe_named(#id))},
 #include "shading/models.def"
     };
     return table;
+}
+
+const ModelInfo& lobe_model(int lobe)
+{
+    return *std::find_if(models().begin(), models().end(), [=](const ModelInfo& m) { return m.lobe == lobe; });
+}
+
+int lobe_of(const FrameDesc& d)
+{
+    const bool replaced = d.tilt_rad != glm::vec2(0.0f) && (lobe_traits_of(d.brdf) & kLobeOfAll);
+    return replaced ? lobe_with(kLobeOfTilted) : d.brdf;
+}
+
+Status check_lobe(const FrameDesc& d, const TechniqueInfo& technique)
+{
+    const int lobe = lobe_of(d);
+    const std::string name = lobe_model(lobe).name;
+    if (d.tilt_rad != glm::vec2(0.0f) && !(lobe_traits_of(lobe) & kLies_surface))
+        return Error{ExitCode::usage, "--tilt", "",
+                     "lobes of " + name + " cannot be tilted; those of " + lobe_model(lobe_with(kLobeOfTilted)).name + " can"};
+    if (!(technique.traits & kSamplesLobe) && !(lobe_traits_of(d.brdf) & kLobeOfAll))
+        return Error{ExitCode::usage, "--technique", "",
+                     std::string(technique.name) + " is made for " + lobe_model(lobe_with(kLobeOfAll)).name + ", not for --brdf " + name};
+    return {};
 }
 
 std::uint64_t pixel_hash(const Image& image)

@@ -51,25 +51,23 @@ struct FrameDesc {
     View view;
     std::string technique = "auto";
     int samples = 16; // for techniques that take samples
-#define BN_DESC_number float
-#define BN_DESC_whole std::uint32_t
-#define BN_PARAMETER(id, kind, option, fallback, least, most, unit, summary, readers)                                                      \
-    BN_DESC_##kind id = static_cast<BN_DESC_##kind>(fallback);
+#define BN_DESC_number(id, fallback) float id = static_cast<float>(fallback);
+#define BN_DESC_whole(id, fallback) std::uint32_t id = fallback;
+#define BN_DESC_flag(id, fallback) bool id = (fallback) != 0;
+#define BN_DESC_choice(id, fallback) int id = fallback;
+#define BN_DESC_lobe(id, fallback) int id = fallback;
+#define BN_DESC_angles(id, fallback) glm::vec2 id##_rad{glm::radians(static_cast<float>(fallback))};
+#define BN_PARAMETER(id, kind, option, fallback, least, most, unit, summary, readers) BN_DESC_##kind(id, fallback)
 #include "shading/models.def"
     float roughness = -1.0f; // >= 0: alpha_lin of every material
     float anisotropy = 0.0f; // with override_anisotropy: eta of every material, [-1, 1]
     bool override_anisotropy = false;
-    glm::vec2 tilt_rad{0.0f};         // of every lobe: its commonest normal turned towards the bitangent (x) and away from the
-                                      // tangent (y), theta_x and theta_y of the ellipsoid distribution; below a quarter turn
-    bool dfg_fit = false;             // directional albedo from the analytic fit instead of the baked table
-    bool horizon = false;             // lobes that a normal map turns reflect nothing from below the surface itself
-    bool energy_compensation = false; // adds the light that single scattering between microfacets loses
-    int tile_size = 64;               // 32 or 64; never changes the picture
-    int texture_anisotropy = 16;      // taps along the major axis at most, 1..16
-    bool background = true;           // environment behind the scene; otherwise black
-    bool triangle_ids = false;        // fill Frame::triangle_ids
-    bool profile = false;             // fill Frame::profile, where the renderer can; never changes the picture
-    bool stages = false;              // fill Frame::stages, and the triangle ids
+    int tile_size = 64;          // 32 or 64; never changes the picture
+    int texture_anisotropy = 16; // taps along the major axis at most, 1..16
+    bool background = true;      // environment behind the scene; otherwise black
+    bool triangle_ids = false;   // fill Frame::triangle_ids
+    bool profile = false;        // fill Frame::profile, where the renderer can; never changes the picture
+    bool stages = false;         // fill Frame::stages, and the triangle ids
 };
 // Whether a rasterizer can draw it: sizes, samples, names.
 Status check_desc(const FrameDesc& desc);
@@ -158,26 +156,35 @@ const TechniqueInfo& automatic_technique();                                 // "
 const TechniqueInfo& technique_of(const FrameDesc& desc, bool anisotropic); // of a material: one of techniques()
 int samples_taken(const TechniqueInfo& technique, int samples);             // of `samples` asked for
 
-struct ParameterInfo {  // of techniques
-    const char* name;   // the field of FrameDesc
-    const char* option; // "axis-k"; reports write it as axis_k
-    double fallback, least, most;
-    const char* unit;
+struct ParameterInfo {            // of techniques
+    const char* name;             // the field of FrameDesc, of angles without its _rad
+    const char* option;           // "axis-k"; reports write it as axis_k
+    double fallback, least, most; // of angles in degrees
+    const char* unit;             // of a choice the names
     const char* summary;
     const char* readers;      // beginnings of names of techniques, and "reference"
-    float FrameDesc::*number; // one of the two is null
+    float FrameDesc::*number; // all but one are null
     std::uint32_t FrameDesc::*whole;
+    bool FrameDesc::*flag;
+    int FrameDesc::*choice;
+    glm::vec2 FrameDesc::*angles;
+    bool is_lobe; // the choice
 };
-const std::vector<ParameterInfo>& parameters();                           // from shading/models.def
-bool reads(const std::string& technique, const ParameterInfo& parameter); // whether a technique, or "reference", looks at it
-double parameter_of(const FrameDesc& desc, const ParameterInfo& parameter);
+const std::vector<ParameterInfo>& parameters();                                    // from shading/models.def
+bool reads(const std::string& technique, const ParameterInfo& parameter);          // whether a technique, or "reference", looks at it
+glm::dvec2 parameter_of(const FrameDesc& desc, const ParameterInfo& parameter);    // of angles both, in degrees; else twice the same
+std::vector<std::string> choices_of(const ParameterInfo& parameter);               // names, by number; of what is no choice none
 void set_parameter(FrameDesc& desc, const ParameterInfo& parameter, double value); // in [least, most]
 
 struct ModelInfo {
     const char* name;
     const char* summary;
+    int lobe, lobe_traits; // its place among lobes and their traits (shading/lang/records.h); -1 where it cannot lie on a surface
 };
 const std::vector<ModelInfo>& models(); // from shading/models.def
+const ModelInfo& lobe_model(int lobe);  // by its place
+int lobe_of(const FrameDesc& desc);     // of the frame's lobes: its brdf, or what takes its place where lobes are tilted
+Status check_lobe(const FrameDesc& desc, const TechniqueInfo& technique); // whether the technique takes it; part of check_desc()
 
 // 64-bit hash of size and the bits of every colour word, the same on every machine for the same picture.
 std::uint64_t pixel_hash(const Image& image);

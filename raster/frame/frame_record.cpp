@@ -42,6 +42,31 @@ KeyLightRecord key_light_record(const KeyLight& light)
     return r;
 }
 
+namespace {
+
+void put_angles(const glm::vec2& rad, float cosines[2], float sines[2])
+{
+    for (int i = 0; i < 2; ++i) {
+        cosines[i] = static_cast<float>(det_cos(static_cast<double>(rad[i])));
+        sines[i] = static_cast<float>(det_sin(static_cast<double>(rad[i])));
+    }
+}
+
+} // namespace
+
+void put_parameters(const FrameDesc& d, FrameRecord& f)
+{
+#define BN_PUT_number(id) f.id = d.id;
+#define BN_PUT_whole(id) f.id = static_cast<int>(d.id);
+#define BN_PUT_flag(id) f.id = d.id;
+#define BN_PUT_choice(id) f.id = d.id;
+#define BN_PUT_lobe(id) f.id = d.id;
+#define BN_PUT_angles(id) put_angles(d.id##_rad, f.id##_cos, f.id##_sin);
+#define BN_PARAMETER(id, kind, option, fallback, least, most, unit, summary, readers) BN_PUT_##kind(id)
+#include "shading/models.def"
+    f.lobe = lobe_of(d), f.lobe_traits = lobe_traits_of(f.lobe);
+}
+
 FrameRecord frame_record(const RenderInput& input, const FrameDesc& d)
 {
     FrameRecord f = {};
@@ -56,16 +81,9 @@ FrameRecord frame_record(const RenderInput& input, const FrameDesc& d)
     std::transform(input.environment.key_lights.begin(), input.environment.key_lights.end(), f.key_lights, key_light_record);
     f.dfg_size = input.dfg.size, f.lobe_albedo_size = kLobeAlbedoSize;
     f.light_count = static_cast<int>(input.tables.lights.size());
-    f.dfg_fit = d.dfg_fit, f.energy_compensation = d.energy_compensation, f.horizon = d.horizon;
     f.background = d.background;
     f.samples = d.samples, f.texture_taps = d.texture_anisotropy;
-    for (int i = 0; i < 2; ++i) {
-        f.tilt_cos[i] = static_cast<float>(det_cos(static_cast<double>(d.tilt_rad[i])));
-        f.tilt_sin[i] = static_cast<float>(det_sin(static_cast<double>(d.tilt_rad[i])));
-    }
-    f.tilted = d.tilt_rad != glm::vec2(0.0f);
-#define BN_PARAMETER(id, kind, option, fallback, least, most, unit, summary, readers) f.id = static_cast<BN_RECORD_##kind>(d.id);
-#include "shading/models.def"
+    put_parameters(d, f);
     f.override_anisotropy = d.override_anisotropy, f.anisotropy = d.anisotropy;
     return f;
 }
@@ -88,6 +106,8 @@ void FrameMaker::choose_techniques(const FrameDesc& desc)
         const TechniqueInfo& t = technique_of(desc, m.anisotropic != 0);
         m.technique = static_cast<int>(&t - techniques().data());
         m.technique_traits = m.unlit ? 0 : t.traits;
+        const bool round = !m.anisotropic || (t.traits & kTakesRoundLobes);
+        m.lights_lobe = round && lobe_of(desc) == lobe_with(kLobeOfAll) ? lobe_with(kLobeOfRound) : lobe_of(desc);
     }
 }
 

@@ -13,6 +13,8 @@ namespace burnish {
 ViewRecord view_record(const View& view);
 CubeRecord cube_record(const CubeMap& cube); // without texels: no levels
 
+void put_parameters(const FrameDesc& desc, FrameRecord& to); // those of shading/models.def, and the lobe that they choose
+
 // All of the record but what a frame's technique is the first to ask for: box cube, grid and table of lobes' albedo.
 FrameRecord frame_record(const RenderInput& input, const FrameDesc& desc);
 

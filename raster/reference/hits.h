@@ -221,7 +221,6 @@ BN_INLINE Reflector select_reflector(mask m, const Reflector& a, const Reflector
     const surface_frame &p = a.x.surface_axes, &q = b.x.surface_axes;
     r.x.surface_axes.n = select(m, p.n, q.n), r.x.surface_axes.t = select(m, p.t, q.t), r.x.surface_axes.b = select(m, p.b, q.b);
     r.x.gain = select(m, a.x.gain, b.x.gain);
-    r.ggx.alpha_x = select(m, a.ggx.alpha_x, b.ggx.alpha_x), r.ggx.alpha_y = select(m, a.ggx.alpha_y, b.ggx.alpha_y);
     r.o = select(m, a.o, b.o), r.horizon = select(m, a.horizon, b.horizon);
     r.diffuse = select(m, a.diffuse, b.diffuse);
     r.choose_specular = select(m, a.choose_specular, b.choose_specular);

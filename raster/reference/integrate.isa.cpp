@@ -78,11 +78,11 @@ BN_INLINE LaneRays leaving_ray(const ReferenceParams& f, const LaneSurface& s, r
 BN_STAGE real3 punctual_lights(const PixelFrame& p, const LaneSurface& s)
 {
     const ReferenceParams& f = p.f;
-    const placed_lobe lobe = s.r.tilted ? tilted_lobe(s.r) : level_lobe(s.r);
+    const placed_lobe lobe = placed_lobe_under_lights(f.lobe, s.r.x.lobe, s.r.x.s, s.r.x.surface_axes);
     real3 sum = vec3_all(lit(0.0));
     for (int i = 0; i < f.light_count; ++i) {
         const LightRecord& l = f.lights[i];
-        const punctual_light light = light_from(f, s.r.x, lobe, true, light_towards(f, s.position, i), i);
+        const punctual_light light = light_from(f, s.r.x, lobe, light_towards(f, s.position, i), i);
         mask lit_lanes = both(both(s.reflects, k_dot3(s.r.horizon, light.l) > lit(0.0)), any_light(light.radiance));
         if (f.mode != ReferenceMode::direct && any(lit_lanes)) {
             LaneRays r = leaving_ray(f, s, light.l);

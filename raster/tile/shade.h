@@ -30,9 +30,14 @@ BN_INLINE MaterialPlan plan_material(frame_ref f, material_ref m)
     return plan;
 }
 
-[[maybe_unused]] BN_STAGE real3 light_of_sky(const ShadingFrame& f, const shaded_point& x, bool anisotropic)
+[[maybe_unused]] BN_STAGE real3 light_of_sky(const ShadingFrame& f, const shaded_point& x, int lobe)
 {
-    return light_from_key_lights(f, x, anisotropic);
+    return light_from_key_lights(f, x, lobe);
+}
+
+[[maybe_unused]] BN_STAGE real3 light_of_lamps(const ShadingFrame& f, const shaded_point& x, int lobe, const real3& position)
+{
+    return light_from_punctual(f, x, lobe, position);
 }
 
 // x, y: pixels. Of a technique that shares samples the colour is made of `shared`, later.
@@ -57,13 +62,13 @@ BN_INLINE real3 shade_fragments(frame_ref f, material_ref m, const MaterialPlan&
         const real3 specular = technique_specular<kTechnique>(f, point);
         color = environment_light(f, point, kTraits, specular) + color;
     }
-    const bool anisotropic = m.anisotropic && !(kTraits & kTakesRoundLobes);
     if (f.key_light_count > 0)
-        color = color + light_of_sky(f, point, anisotropic);
+        color = color + light_of_sky(f, point, m.lights_lobe);
     if (f.light_count > 0)
-        color = color + light_from_punctual(f, point, anisotropic, p.position);
+        color = color + light_of_lamps(f, point, m.lights_lobe, p.position);
     if constexpr ((kTraits & kSharesSamples) != 0)
-        shared = shared_light(f, point, kTraits, quad_offset(x & int_lit(1), y & int_lit(1)), color);
+        shared =
+            shared_light(f, point, kTraits, technique_shared<kTechnique>(f, point, quad_offset(x & int_lit(1), y & int_lit(1))), color);
     return color;
 }
 

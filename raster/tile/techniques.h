@@ -24,5 +24,14 @@ template <Technique kTechnique> BN_INLINE real3 technique_specular(frame_ref f, 
 #include "shading/models.def"
 }
 
+// Of a technique that shares samples. offset: quad_offset().
+template <Technique kTechnique> BN_INLINE line_record technique_shared(frame_ref f, const shaded_point& x, real offset)
+{
+#define BN_SHARING(id)                                                                                                                     \
+    if constexpr (kTechnique == Technique::id)                                                                                             \
+        return id##_shared(f, x, offset);
+#include "shading/models.def"
+}
+
 } // namespace BN_ISA_NS
 } // namespace burnish

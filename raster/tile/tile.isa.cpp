@@ -197,9 +197,10 @@ void shade_slot(const Tile& t, const view_params& view, const MaterialRecord& m,
             store_batch(t, load_batch(t, i, end), plan.at.base);
         return;
     }
-    if (plan.uniform && !(t.f.light_count | t.f.key_light_count | t.f.tilted | t.f.energy_compensation | t.f.dfg_fit)) {
-        if (kTechnique == Technique::split_isotropic && !m.anisotropic) // what `auto` takes isotropic materials for
-            shade_plain_slot<Technique::split_isotropic, RoundMaterial>(t, view, m, plan, begin, end);
+    if (plan.uniform && !(t.f.light_count | t.f.key_light_count | t.f.energy_compensation | t.f.dfg_fit) && t.f.lobe == PlainFrame::lobe) {
+        constexpr bool kAlsoRound = (kTechniqueTraits[static_cast<int>(kTechnique)] & kAutoRound) != 0;
+        if (kAlsoRound && !m.anisotropic)
+            shade_plain_slot<kTechnique, std::conditional_t<kAlsoRound, RoundMaterial, PlainMaterial>>(t, view, m, plan, begin, end);
         else
             shade_plain_slot<kTechnique, PlainMaterial>(t, view, m, plan, begin, end);
         return;

@@ -95,8 +95,8 @@ void ForwardPass::draw_scene(VkCommandBuffer c, const Specialization& technique,
     for (const Draw& draw : input_.tables.draws) {
         const auto material = static_cast<std::size_t>(draw.material);
         const MaterialRecord& m = scene_.materials_of_frame()[material];
-        Specialization constants = stages ? Specialization(1) : technique; // constant_id 0
-        constants.insert(constants.end(), {0, 0});                         // 1, 2: of the compute stages only
+        Specialization constants = stages ? Specialization(2) : technique; // constant_id 0, 1
+        constants.insert(constants.end(), {0, 0});                         // 2, 3: of the compute stages only
         constants.push_back(used_textures(m));
         constants.push_back(targets_.msaa);
         if (stages)

@@ -210,13 +210,13 @@ void VulkanRenderer::all_visibility(VkCommandBuffer c, const Band& band)
         visibility(c, {kSubpixel / 2 - pattern.x[s], kSubpixel / 2 - pattern.y[s], s, 0, 0, band.first_row, band.rows, 0});
 }
 
-// constant_id 0 of shading/stages: the materials' techniques, a bit each.
-Specialization technique_constants(const std::vector<MaterialRecord>& materials)
+// constant_id 0 and 1 of shading/stages: the materials' techniques and lobes, a bit each.
+Specialization technique_constants(const std::vector<MaterialRecord>& materials, const FrameRecord& frame)
 {
-    std::int32_t bits = 0;
+    std::int32_t techniques = 0, lobes = 1 << frame.lobe;
     for (const MaterialRecord& m : materials)
-        bits |= 1 << m.technique;
-    return {bits};
+        techniques |= 1 << m.technique, lobes |= 1 << m.lights_lobe;
+    return {techniques, lobes};
 }
 
 bool any_shares_samples(const std::vector<MaterialRecord>& materials)
@@ -228,7 +228,7 @@ bool any_shares_samples(const std::vector<MaterialRecord>& materials)
 void VulkanRenderer::shade(VkCommandBuffer c, const FrameDesc& desc, const Band& band)
 {
     const bool shares = any_shares_samples(scene_.materials_of_frame());
-    Specialization constants = technique_constants(scene_.materials_of_frame());
+    Specialization constants = technique_constants(scene_.materials_of_frame(), scene_.record());
     constants.insert(constants.end(), {desc.stages, shares});
     if (desc.stages)
         vkCmdFillBuffer(c, targets_.records.handle(), 0, VK_WHOLE_SIZE, 0);
@@ -339,7 +339,7 @@ Frame VulkanRenderer::render_forward(const FrameDesc& desc)
     for (const auto& [binding, buffer] : scene_bindings())
         bind(binding, *buffer);
     Frame frame = empty_frame(desc);
-    const Specialization technique = technique_constants(scene_.materials_of_frame());
+    const Specialization technique = technique_constants(scene_.materials_of_frame(), scene_.record());
     for (const Band& band : bands_of(desc.height, forward_.rows())) {
         VkCommandBuffer c = context_.begin();
         forward_.draw(c, technique, band);

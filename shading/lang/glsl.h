@@ -12,6 +12,7 @@
 #endif
 
 #define BN_FN
+#define BN_APART
 #define BN_IN(T) T
 #define BN_INOUT(T) inout T
 #define BN_KERNELS_BEGIN

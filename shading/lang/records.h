@@ -16,11 +16,25 @@ const int kTextureSlots = 0 // a material
 
 // Traits of techniques (shading/models.def).
 const int kTestsHorizon = 1;    // asks of every sample if it lies above the surface's horizon; the others fade
-const int kSamplesTilt = 2;     // samples a tilted lobe itself; what the others make is scaled by its albedo
+const int kSamplesLobe = 2;     // samples the lobe itself, whatever its model; what others make of a tilted one is scaled by its albedo
 const int kTakesRoundLobes = 4; // takes every lobe for a round one of the same roughness; lights do so then too
 const int kReadsBox = 8;        // reads the box-filtered chain of the environment
 const int kGgxGrid = 16;        // its grid's slopes are a GGX lobe's; otherwise a Beckmann lobe's
 const int kSharesSamples = 32;  // with the fragments of the 2x2 quad: see shared_line.k.h
+const int kAutoRound = 64;      // what `auto` takes for materials without a grain
+const int kAutoGrain = 128;     // and for the others
+
+// Traits of lobes (shading/models.def), and what the words of their lines mean.
+const int kLobeOfAll = 1;    // the usual one
+const int kLobeOfRound = 2;  // in its place, what lights meet on materials without a grain, and where a technique takes round lobes
+const int kLobeOfTilted = 4; // in its place, where lobes are tilted
+const int kPunctualOnly = 8; // has no albedo: nothing but punctual lights meets it
+const int kLies_round = 16, kLies_level = 32, kLies_surface = 64, kLies_thread = 128;
+const int kNormals_ggx = 256, kNormals_own = 512;
+const int kLobeCount = 0
+#define BN_LOBE(id, at, type, lies, normals, traits, made_of) +1
+#include "shading/models.def"
+    ;
 
 struct ViewRecord { // Renderer's View in plain numbers
     float eye[3], right[3], up[3], forward[3];
@@ -62,14 +76,16 @@ struct FrameRecord {
     int grid_count;                 // samples of filtered importance sampling
     int dfg_size, lobe_albedo_size; // tables of directional albedo
     int light_count;
-    int dfg_fit, energy_compensation, horizon;
     int background, samples, texture_taps;
-#define BN_RECORD_number float
-#define BN_RECORD_whole int
-#define BN_PARAMETER(id, kind, option, fallback, least, most, unit, summary, readers) BN_RECORD_##kind id;
+#define BN_RECORD_number(id) float id;
+#define BN_RECORD_whole(id) int id;
+#define BN_RECORD_flag(id) int id;
+#define BN_RECORD_choice(id) int id;
+#define BN_RECORD_lobe(id) int id;
+#define BN_RECORD_angles(id) float id##_cos[2], id##_sin[2];
+#define BN_PARAMETER(id, kind, option, fallback, least, most, unit, summary, readers) BN_RECORD_##kind(id)
 #include "shading/models.def"
-    float tilt_cos[2], tilt_sin[2];
-    int tilted;              // any tilt at all
+    int lobe, lobe_traits;   // of the frame's lobes: its place in shading/models.def
     int override_anisotropy; // by `anisotropy`, the eta of every material
     float anisotropy;
 };
@@ -98,6 +114,7 @@ struct MaterialRecord {
     int roughness_fixed;                               // by an override: the texture gives metalness only
     float anisotropy_strength, anisotropy_rotation[2]; // rotation: cosine and sine
     int technique, technique_traits;                   // its place in shading/models.def; of what is unlit no traits
+    int lights_lobe;                                   // what punctual lights meet: its place in shading/models.def
     int albedo_slice;                                  // of a lobe whose two widths are everywhere the same: its first texel; else -1
     TextureBinding textures[kTextureSlots];
 };

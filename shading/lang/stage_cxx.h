@@ -86,10 +86,16 @@ BN_INLINE real3 grid_sample(frame_ref f, int i)
     return vec3_of(splat(g.slope_x), splat(g.slope_y), splat(g.density));
 }
 
-// A fragment of which nothing changes but the geometry: neither textures, vertex colours, lights of either kind, tilt nor energy
-// compensation.
+BN_INLINE constexpr bool lobe_used(int)
+{
+    return true;
+}
+
+// A fragment of which nothing changes but the geometry: neither textures, vertex colours, lights of either kind, energy compensation nor a
+// lobe other than the usual one.
 struct PlainFrame : ShadingFrame {
-    static constexpr int light_count = 0, key_light_count = 0, tilted = 0, energy_compensation = 0, dfg_fit = 0;
+    static constexpr int light_count = 0, key_light_count = 0, energy_compensation = 0, dfg_fit = 0;
+    static constexpr int lobe = lobe_with(kLobeOfAll), lobe_traits = lobe_traits_of(lobe);
 };
 struct PlainMaterial : MaterialRecord {
     static constexpr int textured = 0, uses_color = 0, unlit = 0;

@@ -22,6 +22,24 @@ enum TextureSlot {
 #include "shading/material.def"
 };
 
+constexpr int lobe_traits_of(int lobe)
+{
+#define BN_LOBE(id, at, type, lies, normals, traits, made_of)                                                                              \
+    if (lobe == at)                                                                                                                        \
+        return (traits) + kLies_##lies + kNormals_##normals;
+#include "shading/models.def"
+    return 0;
+}
+
+// The lobe of shading/models.def that has the trait.
+constexpr int lobe_with(int trait)
+{
+    int lobe = 0;
+    while (!(lobe_traits_of(lobe) & trait))
+        ++lobe;
+    return lobe;
+}
+
 // One sample of a unit lobe (widths 1): its slopes, and the density of normals there times h.z^4.
 struct GridSample {
     float slope_x, slope_y, density;

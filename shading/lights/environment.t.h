@@ -5,15 +5,15 @@
 #include "shading/lang/lang.h"
 #include "shading/lang/stage.h"
 #include "shading/surface/shaded_point.t.h"
-#include "shading/techniques/lobe_line.t.h"
+#include "shading/techniques/shared_line.k.h"
 
 BN_KERNELS_BEGIN
 
 // traits: of the technique. What is left of a lobe that the technique took for one that is whole, upright and above the horizon.
 BN_FN real3 seen_of_lobe(frame_ref f, BN_IN(shaded_point) x, int traits, real3 specular)
 {
-    if (the_frame(f).tilted != 0 && (traits & kSamplesTilt) == 0) {
-        real shown = tilted_lobe_albedo(placed_lobe_at(f, x));
+    if (lies_in_surface(f) && (traits & kSamplesLobe) == 0) {
+        real shown = x.shown;
         if ((traits & kTestsHorizon) == 0)
             shown = shown / max(x.dfg.scale + x.dfg.bias, lit(0.05)); // what is in already
         return specular * shown;
@@ -41,10 +41,9 @@ BN_FN real3 environment_light(frame_ref f, BN_IN(shaded_point) x, int traits, re
     return sum;
 }
 
-// Of a fragment whose technique shares samples. offset: quad_offset(); more: light that is not the environment's.
-BN_FN line_record shared_light(frame_ref f, BN_IN(shaded_point) x, int traits, real offset, real3 more)
+// Of a fragment whose technique shares samples. r: what it found; more: light that is not the environment's.
+BN_FN line_record shared_light(frame_ref f, BN_IN(shaded_point) x, int traits, line_record r, real3 more)
 {
-    line_record r = lobe_line_shared(f, x, offset);
     real3 whole = x.albedo * x.gain * splat(the_frame(f).specular.scale);
     r.factor = seen_of_lobe(f, x, traits, whole) * x.s.occlusion;
     r.rest = environment_light(f, x, traits, vec3_all(lit(0.0))) + more;

@@ -17,20 +17,20 @@ struct key_lobe { // the lobe that lights meet
     real2 inverse; // 1 over its widths
 };
 
-// anisotropic: the point's own, as are all that are tilted; otherwise a round one of the same roughness.
-BN_FN key_lobe key_lobe_of(frame_ref f, BN_IN(shaded_point) x, bool anisotropic)
+// model: what punctual lights meet; where it is round, the frame's lobe is taken for one of the same roughness, too.
+BN_FN key_lobe key_lobe_of(frame_ref f, BN_IN(shaded_point) x, int model)
 {
     real root2 = lit(1.4142135623730951);
     real one = lit(1.0);
     key_lobe r;
     r.lobe = x.lobe;
-    if (!anisotropic && the_frame(f).tilted == 0) {
+    if (lobe_has(model, kLies_round)) {
         r.lobe.sigma_u = x.s.roughness * x.s.roughness * lit(0.70710678118654752);
         r.lobe.sigma_v = r.lobe.sigma_u;
     }
-    r.placed = placed_lobe_of(the_frame(f).tilted != 0, r.lobe, x.s.n, x.s.v, x.surface_axes);
+    r.placed = placed_lobe_of(the_frame(f).lobe, r.lobe, x.s.n, x.s.v, x.surface_axes);
     r.eye = r.placed.o;
-    if (r.placed.tilted)
+    if (lies_in_surface(f))
         r.eye = to_lobe(r.lobe, x.s.n, x.s.v);
     // masking alone: normals of silhouettes may look away from the eye, and lobes flare up there
     r.placed.o.z = max(r.placed.o.z, lit(0.02));
@@ -52,7 +52,7 @@ BN_FN key_reflection key_reflection_of(frame_ref f, BN_IN(shaded_point) x, BN_IN
     real3 direction = splat3(the_frame(f).key_lights[light].direction);
     real3 l = to_lobe(lobe.lobe, x.s.n, direction);
     real3 in_place = l;
-    if (lobe.placed.tilted)
+    if (lies_in_surface(f))
         in_place = to_frame(lobe.placed.axes, direction);
     mask risen = in_place.z > lit(0.0);
     if (x.turned)
@@ -61,7 +61,7 @@ BN_FN key_reflection key_reflection_of(frame_ref f, BN_IN(shaded_point) x, BN_IN
     r.lobe = lit(0.0);
     r.cosine = max(l.z, lit(0.0));
     r.v_dot_h = lit(0.0);
-    if (no_lane(risen))
+    if (no_lane(risen) || (the_frame(f).lobe_traits & kNormals_own) != 0)
         return r;
     real3 u = to_lobe(lobe.lobe, x.s.n, splat3(the_frame(f).key_lights[light].axis_u));
     real3 v = to_lobe(lobe.lobe, x.s.n, splat3(the_frame(f).key_lights[light].axis_v));
@@ -101,10 +101,11 @@ BN_FN real3 key_lights_mirrored(frame_ref f, BN_IN(shaded_point) x, BN_IN(placed
 }
 
 // Lobes narrower than any that is evaluated blend into a mirror, which shows the lights as the environment has them. Occlusion dims all of
-// it. anisotropic: by the lobe itself, otherwise by a round one of the same roughness.
-BN_FN real3 light_from_key_lights(frame_ref f, BN_IN(shaded_point) x, bool anisotropic)
+// it. Of lobes whose normals are not GGX's only mirrors meet them here, and the diffuse part: `mc` samples the others with the lights in
+// their place. model: see key_lobe_of().
+BN_FN real3 light_from_key_lights(frame_ref f, BN_IN(shaded_point) x, int model)
 {
-    key_lobe lobe = key_lobe_of(f, x, anisotropic);
+    key_lobe lobe = key_lobe_of(f, x, model);
     real3 specular = vec3_all(lit(0.0));
     real3 irradiance = vec3_all(lit(0.0));
     for (int i = 0; i < the_frame(f).key_light_count; ++i) {
@@ -115,6 +116,12 @@ BN_FN real3 light_from_key_lights(frame_ref f, BN_IN(shaded_point) x, bool aniso
     }
     real narrowness = lit(1.0) - lobe.lobe.sigma_u * lit(1414.2135623730951); // 0 from the least width on, alpha = 0.001
     real mirror = k_saturate(narrowness);
+    if ((the_frame(f).lobe_traits & kNormals_own) != 0) {
+        real width = lobe.lobe.sigma_u + lobe.lobe.sigma_v;
+        mirror = select(width <= lit(1e-6), lit(1.0), lit(0.0));
+        if ((the_frame(f).lobe_traits & kPunctualOnly) != 0)
+            mirror = lit(0.0);
+    }
     if (any_lane(mirror > lit(0.0)))
         specular = specular + (key_lights_mirrored(f, x, lobe.placed) - specular) * mirror;
     real3 sum = specular * x.gain;

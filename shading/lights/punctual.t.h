@@ -21,31 +21,29 @@ BN_FN light_sample light_towards(frame_ref f, real3 position, int light)
                            splat(the_light(f, light).spot_offset), int_lit(the_light(f, light).directional) != int_lit(0));
 }
 
-// at: light_towards(). lobe: of x. anisotropic: by the lobe itself, otherwise by a round one of the same roughness.
-BN_FN punctual_light light_from(frame_ref f, BN_IN(shaded_point) x, BN_IN(placed_lobe) lobe, bool anisotropic, light_sample at, int light)
+// lobe: of x, under lights. at: light_towards().
+BN_FN punctual_light light_from(frame_ref f, BN_IN(shaded_point) x, BN_IN(placed_lobe) lobe, light_sample at, int light)
 {
     real3 intensity = splat3(the_light(f, light).radiant) * at.attenuation;
     punctual_light r;
     r.l = at.l;
-    if (lobe.tilted)
-        r.radiance = punctual_radiance_tilted(x.s, at.l, placed_lobe_value(lobe, at.l), x.gain, intensity);
-    else if (anisotropic)
-        r.radiance = punctual_radiance_aniso(x.s, x.lobe, at.l, x.gain, intensity);
+    if (lobe_has(lobe.model, kLies_surface + kLies_thread))
+        r.radiance = punctual_radiance_apart(x.s, at.l, placed_lobe_value(lobe, at.l), x.gain, intensity);
     else
-        r.radiance = punctual_radiance(x.s, at.l, x.gain, intensity);
+        r.radiance = punctual_radiance(x.s, at.l, placed_lobe_light(lobe, x.s, at.l), x.gain, intensity);
     return r;
 }
 
-// position: of x, world space.
-BN_FN real3 light_from_punctual(frame_ref f, BN_IN(shaded_point) x, bool anisotropic, real3 position)
+// model: the lobe that they meet. position: of x, world space.
+BN_FN real3 light_from_punctual(frame_ref f, BN_IN(shaded_point) x, int model, real3 position)
 {
     real3 sum = vec3_all(lit(0.0));
-    placed_lobe lobe = placed_lobe_at(f, x);
+    placed_lobe lobe = placed_lobe_under_lights(model, x.lobe, x.s, x.surface_axes);
     for (int i = 0; i < the_frame(f).light_count; ++i) {
         light_sample at = light_towards(f, position, i);
         if (no_lane(at.attenuation > lit(0.0))) // out of its range or cone
             continue;
-        punctual_light light = light_from(f, x, lobe, anisotropic, at, i);
+        punctual_light light = light_from(f, x, lobe, at, i);
         if (x.turned)
             light.radiance = select(k_dot3(x.surface_axes.n, light.l) > lit(0.0), light.radiance, vec3_all(lit(0.0)));
         sum = sum + light.radiance;

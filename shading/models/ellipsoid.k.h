@@ -123,6 +123,13 @@ BN_FN real ellipsoid_eval(ellipsoid_params p, real3 wo, real3 wi)
     return select(both_above(wo, wi), value, lit(0.0));
 }
 
+// eval times the cosine of wi, over the density that D has about its own normal.
+BN_FN real ellipsoid_masking(ellipsoid_params p, real3 wo, real3 wi)
+{
+    real value = lit(0.25) * ellipsoid_g1_over_z(p, wo) * ellipsoid_g1_over_z(p, wi) * wi.z;
+    return value / sqrt(p.an_length2);
+}
+
 // Density of the normals that wo sees, 1/sr (Eq. 33).
 BN_FN real ellipsoid_half_pdf(ellipsoid_params p, real3 wo, real3 h)
 {
@@ -187,21 +194,7 @@ BN_FN bsdf_sample ellipsoid_sample(ellipsoid_params p, real3 wo, real2 xi)
     return bsdf_sample_of(wi, weight, pdf, o_dot_m, valid);
 }
 
-// Directional albedo where nothing is absorbed, [0,1]: what a lobe that is fetched as a whole is scaled by. By 21 of its own samples, a
-// Fibonacci lattice: off by 0.02 rms, by 0.07 at most.
-BN_FN real ellipsoid_albedo(ellipsoid_params p, real3 wo)
-{
-    real part = lit(0.047619047619047616);
-    real sum = lit(0.0);
-    for (int i = 0; i < 21; ++i) {
-        real x = (to_real(int_lit(i)) + lit(0.5)) * part;
-        real y = (to_real(int_lit(i * 13 % 21)) + lit(0.5)) * part;
-        sum = sum + ellipsoid_sample(p, wo, vec2_of(x, y)).weight;
-    }
-    return sum * part;
-}
-
-// The same in the limit of a mirror: the weight of its one sample.
+// Directional albedo in the limit of a mirror: the weight of its one sample.
 BN_FN real ellipsoid_mirror_albedo(ellipsoid_params p, real3 wo)
 {
     ellipsoid_view v = ellipsoid_seen_from(p, wo);

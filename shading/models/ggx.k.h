@@ -55,6 +55,24 @@ BN_FN real ggx_eval(ggx_params p, real3 wo, real3 wi)
     return select(both_above(wo, wi), value, lit(0.0));
 }
 
+// eval times the cosine of wi, over D.
+BN_FN real ggx_masking(ggx_params p, real3 wo, real3 wi)
+{
+    real bottom = wi.z * ggx_stretch(p, wo) + wo.z * ggx_stretch(p, wi);
+    return lit(0.5) * wi.z / max(bottom, lit(1e-16));
+}
+
+// eval about any normal n, without axes; n, v, l: unit, in one space; n_dot_v in (0,1]. Lights lower than 1e-4 count as that low.
+BN_FN real ggx_eval_about(ggx_params p, real3 n, real3 v, real n_dot_v, real3 l)
+{
+    real3 h = k_normalize3(l + v);
+    real n_dot_h = min(max(k_dot3(n, h), lit(0.0)), lit(1.0));
+    real3 c = k_cross(n, h);
+    real d = ggx_d(n_dot_h, k_dot3(c, c), p.alpha);
+    real g = ggx_visibility(max(k_dot3(n, l), lit(1e-4)), n_dot_v, p.alpha);
+    return d * g;
+}
+
 // Density of normals visible from wo: G1 D (wo.h) / wo.z, 1/sr.
 BN_FN real ggx_half_pdf(ggx_params p, real3 wo, real3 h)
 {

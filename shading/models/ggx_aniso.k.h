@@ -45,6 +45,12 @@ BN_FN real ggx_aniso_visibility(ggx_aniso_params p, real3 wo, real3 wi)
     return lit(0.5) / max(bottom, lit(1e-16));
 }
 
+// eval times the cosine of wi, over D.
+BN_FN real ggx_aniso_masking(ggx_aniso_params p, real3 wo, real3 wi)
+{
+    return ggx_aniso_visibility(p, wo, wi) * wi.z;
+}
+
 BN_FN real ggx_aniso_eval(ggx_aniso_params p, real3 wo, real3 wi)
 {
     real value = ggx_aniso_d(p, half_vector(wo, wi)) * ggx_aniso_visibility(p, wo, wi);

@@ -26,6 +26,15 @@ BN_FN heidrich_seidel_params heidrich_seidel_params_of(real kd, real ks, real ex
     return p;
 }
 
+// Of a brushed surface: a shiny thread of reflectance 1 along x, as wide along it as a lobe of GGX width alpha, to second order: the mirror
+// direction turns twice as far as the normal, so that cos^e has the curvature of a half vector's 1 / alpha^2.
+BN_FN heidrich_seidel_params heidrich_seidel_params_of_alpha(real alpha)
+{
+    real a = usable_alpha(alpha);
+    real exponent = lit(0.5) / (a * a);
+    return heidrich_seidel_params_of(lit(0.0), lit(1.0), exponent);
+}
+
 // Sine of the angle between w and the thread: the diffuse term, for light from w.
 BN_FN real heidrich_seidel_diffuse(real3 w)
 {

@@ -18,11 +18,11 @@ layout(location = 2) BN_FROM_VERTEX vec4 uv;
 layout(location = 3) BN_FROM_VERTEX vec4 color;
 layout(location = 4) BN_FROM_VERTEX vec4 position;
 layout(location = 0) out vec4 radiance;
-layout(constant_id = 4) const int kMsaa = 1;
+layout(constant_id = 5) const int kMsaa = 1;
 
 #ifdef BN_STAGES
-layout(constant_id = 5) const bool kKnowsTriangle = false; // as the pipeline whose words these are
-layout(constant_id = 6) const int kGroup = 0;
+layout(constant_id = 6) const bool kKnowsTriangle = false; // as the pipeline whose words these are
+layout(constant_id = 7) const int kGroup = 0;
 layout(location = 5) flat in int triangle;
 int record_at = 4; // group 0 is the triangle
 

@@ -25,7 +25,7 @@ vec4 native_texel(int wanted, vec2 uv, float lod) // not every device indexes sa
 }
 #endif
 
-layout(constant_id = 3) const int kUsedTextures = -1; // of the only material, a bit a slot; -1: of any material, see its record
+layout(constant_id = 4) const int kUsedTextures = -1; // of the only material, a bit a slot; -1: of any material, see its record
 
 bool texture_used(material_ref material, int slot)
 {

@@ -6,11 +6,11 @@ layout(local_size_x = 64) in;
 #include "shading/stages/shade.glsl"
 #include "shading/stages/pass.glsl"
 
-layout(constant_id = 1) const bool kRecords = false; // writes the stages of each pair, for comparisons
+layout(constant_id = 2) const bool kRecords = false; // writes the stages of each pair, for comparisons
 
 layout(std430, set = 0, binding = 11) readonly buffer BnIds { int ids[]; };
 layout(std430, set = 0, binding = 13) writeonly buffer BnColor { float colors[]; };
-layout(constant_id = 2) const bool kShares = false; // some materials share samples: colours are made by share.comp
+layout(constant_id = 3) const bool kShares = false; // some materials share samples: colours are made by share.comp
 
 layout(std430, set = 0, binding = 14) writeonly buffer BnRecords { int records[]; }; // [pixel of the band][first sample][kGpuPairWords]
 

@@ -10,11 +10,6 @@
 #include "shading/lights/punctual.t.h"
 #include "shading/surface/shaded_point.t.h"
 
-bool meets_own_lobe(int m) // of the material, not a round one
-{
-    return materials[m].anisotropic != 0 && (materials[m].technique_traits & kTakesRoundLobes) == 0;
-}
-
 real3 shade_point(int m, material_inputs at, visible_point p, int pixel_id)
 {
     if (materials[m].unlit != 0)
@@ -25,9 +20,9 @@ real3 shade_point(int m, material_inputs at, visible_point p, int pixel_id)
     real3 specular = technique_specular(0, materials[m].technique, x);
     real3 color = environment_light(0, x, traits, specular) + at.emissive;
     if (frame.key_light_count > 0)
-        color = color + light_from_key_lights(0, x, meets_own_lobe(m));
+        color = color + light_from_key_lights(0, x, materials[m].lights_lobe);
     if (frame.light_count > 0)
-        color = color + light_from_punctual(0, x, meets_own_lobe(m), p.position);
+        color = color + light_from_punctual(0, x, materials[m].lights_lobe, p.position);
     return color;
 }
 
@@ -39,10 +34,10 @@ line_record shade_line(int m, material_inputs at, visible_point p, int px, int p
     int traits = materials[m].technique_traits;
     real3 more = at.emissive;
     if (frame.key_light_count > 0)
-        more = more + light_from_key_lights(0, x, meets_own_lobe(m));
+        more = more + light_from_key_lights(0, x, materials[m].lights_lobe);
     if (frame.light_count > 0)
-        more = more + light_from_punctual(0, x, meets_own_lobe(m), p.position);
-    return shared_light(0, x, traits, quad_offset(px & 1, py & 1), more);
+        more = more + light_from_punctual(0, x, materials[m].lights_lobe, p.position);
+    return shared_light(0, x, traits, technique_shared(0, materials[m].technique, x, quad_offset(px & 1, py & 1)), more);
 }
 
 #endif

@@ -7,7 +7,7 @@ layout(local_size_x = 64) in;
 #include "shading/stages/lines.glsl"
 #include "shading/stages/pass.glsl"
 
-layout(constant_id = 1) const bool kRecords = false; // writes the colour of each pair, for comparisons
+layout(constant_id = 2) const bool kRecords = false; // writes the colour of each pair, for comparisons
 
 layout(std430, set = 0, binding = 11) readonly buffer BnIds { int ids[]; };
 layout(std430, set = 0, binding = 13) writeonly buffer BnColor { float colors[]; };

@@ -21,6 +21,9 @@ cube_desc irradiance_cube(frame_ref f) { return cube_desc(kGpuIrradiancePage, fr
 cube_desc box_cube(frame_ref f) { return cube_desc(kGpuBoxPage, frame.box.size, frame.box.levels); }
 real3 grid_sample(frame_ref f, int i) { return vec3(bn_reals[3 * i], bn_reals[3 * i + 1], bn_reals[3 * i + 2]); }
 
+layout(constant_id = 1) const int kLobes = -1; // that materials and the frame have, a bit a place in models.def
+bool lobe_used(int at) { return (kLobes >> at & 1) != 0; }
+
 struct cube_sum {
     cube_desc cube;
     texel_acc acc;

@@ -18,4 +18,17 @@ real3 technique_specular(frame_ref f, int technique, shaded_point x)
     return vec3_all(lit(0.0));
 }
 
+// Of a technique that shares samples. offset: quad_offset().
+line_record technique_shared(frame_ref f, int technique, shaded_point x, real offset)
+{
+    int at = -1; // of the technique before
+    line_record r;
+#define BN_TECHNIQUE(id, sampling, default_samples, most_samples, traits, summary) ++at;
+#define BN_SHARING(id) \
+    if (technique == at)                                                                                                                   \
+        r = id##_shared(f, x, offset);
+#include "shading/models.def"
+    return r;
+}
+
 #endif

@@ -8,7 +8,7 @@
 #include "shading/surface/energy.k.h"
 #include "shading/surface/lobe_shape.t.h"
 #include "shading/surface/material.t.h"
-#include "shading/surface/placed_lobe.k.h"
+#include "shading/surface/placed_lobe.t.h"
 #include "shading/surface/surface.k.h"
 
 BN_KERNELS_BEGIN
@@ -21,6 +21,7 @@ struct shaded_point {
     bool diffuse;               // s.diffuse may be above 0
     dfg_value dfg;
     real3 albedo; // directional, of the lobe: for techniques of a split integral
+    real shown;   // directional albedo of a lobe that no table is of, by its own samples, where the frame asks for it
     real3 gain;   // energy compensation, which multiplies the specular lobe; 1 without
     real3 dielectric_f0;
     real dielectric_f90;
@@ -29,7 +30,13 @@ struct shaded_point {
 
 BN_FN placed_lobe placed_lobe_at(frame_ref f, BN_IN(shaded_point) x)
 {
-    return placed_lobe_of(the_frame(f).tilted != 0, x.lobe, x.s.n, x.s.v, x.surface_axes);
+    return placed_lobe_of(the_frame(f).lobe, x.lobe, x.s.n, x.s.v, x.surface_axes);
+}
+
+// Whether lobes may be tilted against the surface, and know where it is.
+BN_FN bool lies_in_surface(frame_ref f)
+{
+    return (the_frame(f).lobe_traits & kLies_surface) != 0;
 }
 
 // Directional albedo of the lobe: of its own two widths where they differ.
@@ -65,10 +72,10 @@ BN_FN void make_shaded_point(frame_ref f, material_ref m, BN_IN(material_inputs)
     bool mapped = texture_used(m, kNormalTex);
     if (mapped)
         axes = mapped_frame(axes, at.normal_map, handedness);
-    if (the_frame(f).tilted != 0)
+    if (lies_in_surface(f))
         axes = tilted_frame(axes, vec2_of(splat(the_frame(f).tilt_cos[0]), splat(the_frame(f).tilt_cos[1])),
                             vec2_of(splat(the_frame(f).tilt_sin[0]), splat(the_frame(f).tilt_sin[1])));
-    x.turned = (mapped && the_frame(f).horizon != 0) || the_frame(f).tilted != 0;
+    x.turned = (mapped && the_frame(f).horizon != 0) || lies_in_surface(f);
     x.lobe = lobe_in_frame(m, shape, axes);
     x.diffuse = the_material(m).metallic < 1.0f || texture_used(m, kMetalRoughTex);
     x.dielectric_f0 = at.dielectric_f0;
@@ -77,9 +84,15 @@ BN_FN void make_shaded_point(frame_ref f, material_ref m, BN_IN(material_inputs)
     x.dfg = directional_albedo(f, m, x.s, x.lobe);
     x.albedo = x.s.f0 * x.dfg.scale + x.s.f90 * x.dfg.bias;
     x.gain = energy_gain(f, x.s.f0, x.dfg);
-    if (the_frame(f).tilted != 0 && the_frame(f).energy_compensation != 0) {
-        real kept = min(tilted_lobe_albedo(placed_lobe_at(f, x)), lit(1.0));
-        x.gain = energy_compensation_of_albedo(x.s.f0, kept);
+    x.shown = lit(1.0);
+    if ((the_frame(f).lobe_traits & kPunctualOnly) != 0)
+        x.gain = vec3_all(lit(1.0));
+    else if ((the_frame(f).lobe_traits & kLobeOfAll) == 0) {
+        bool compensated = the_frame(f).energy_compensation != 0;
+        if (compensated || (the_material(m).technique_traits & kSamplesLobe) == 0)
+            x.shown = placed_lobe_albedo(placed_lobe_at(f, x));
+        if (compensated)
+            x.gain = energy_compensation_of_albedo(x.s.f0, min(x.shown, lit(1.0)));
     }
 }
 

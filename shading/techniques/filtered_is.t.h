@@ -43,7 +43,7 @@ BN_FN real3 filtered_is_sum(frame_ref f, BN_IN(shaded_point) x, bool ggx)
         kept = kept + weight;
     }
     real3 total = cube_terms_value(sum);
-    if (the_frame(f).tilted != 0) { // a mean, to be scaled by the tilted lobe's albedo
+    if (lies_in_surface(f)) { // a mean, to be scaled by the tilted lobe's albedo
         real mean_weight = kept / count;
         total = total / max(mean_weight, lit(1e-4));
     } else if (the_frame(f).energy_compensation != 0) { // these few samples, and a Beckmann lobe, have an albedo of their own

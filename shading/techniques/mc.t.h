@@ -1,11 +1,11 @@
-// Monte Carlo over the lobe (placed_lobe.k.h): visible normals, height-correlated masking, Fresnel by sample.
+// Monte Carlo over the lobe (placed_lobe.t.h), whatever its model, by its own samples; Fresnel by sample.
 #ifndef BN_MC_T_H
 #define BN_MC_T_H
 
 #include "shading/kernels/fresnel.k.h"
 #include "shading/lang/lang.h"
 #include "shading/lang/stage.h"
-#include "shading/surface/placed_lobe.k.h"
+#include "shading/surface/placed_lobe.t.h"
 #include "shading/techniques/technique.t.h"
 
 BN_KERNELS_BEGIN
@@ -13,7 +13,13 @@ BN_KERNELS_BEGIN
 // By a Hammersley set rotated by a hash of the pixel.
 BN_FN real3 mc_of_lobe(frame_ref f, BN_IN(shaded_point) x, BN_IN(placed_lobe) lobe)
 {
+    bool meets_keys = !lobe_has(lobe.model, kNormals_ggx); // key lights leave it to samples
     cube_desc cube = specular_cube(f);
+    uniform_real scale = 1.0f;
+    if (meets_keys) {
+        cube = whole_cube(f);
+        scale = the_frame(f).whole.scale / the_frame(f).specular.scale;
+    }
     int n = the_frame(f).samples;
     uniform_real inv = 1.0f / float(n);
     integer seed = k_hash_u32(x.pixel_id ^ int_lit(the_frame(f).seed));
@@ -29,15 +35,17 @@ BN_FN real3 mc_of_lobe(frame_ref f, BN_IN(shaded_point) x, BN_IN(placed_lobe) lo
         real3 fresnel = fresnel_schlick(x.s.f0, x.s.f90, b.o_dot_h);
         cube_terms_add(sum, b.wi, lit(0.0), fresnel, above_horizon(x, b.wi, b.weight));
     }
-    return mirrors_apart(f, x, cube_terms_value(sum) * splat(inv), placed_lobe_mirror_albedo(lobe));
+    real3 mean = cube_terms_value(sum) * splat(inv);
+    if (meets_keys)
+        mean = mean * splat(scale);
+    return mirrors_apart(f, x, mean, placed_lobe_mirror_albedo(lobe));
 }
 
-// Of either kind of lobe apart, so that no sample asks which it is.
 BN_FN real3 mc_specular(frame_ref f, BN_IN(shaded_point) x)
 {
-    if (the_frame(f).tilted != 0)
-        return mc_of_lobe(f, x, placed_lobe_of(true, x.lobe, x.s.n, x.s.v, x.surface_axes));
-    return mc_of_lobe(f, x, placed_lobe_of(false, x.lobe, x.s.n, x.s.v, x.surface_axes));
+    if ((the_frame(f).lobe_traits & kPunctualOnly) != 0)
+        return vec3_all(lit(0.0));
+    return mc_of_lobe(f, x, placed_lobe_at(f, x));
 }
 
 BN_KERNELS_END

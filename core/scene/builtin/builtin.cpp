@@ -13,6 +13,7 @@ template <class T> struct Maker {
 constexpr Maker<Scene> kScenes[] = {
     {{"teapot", "the Utah teapot in steel, brushed around its axis"}, make_teapot},
     {{"spheres", "silver spheres over roughness (right) and anisotropy (up)"}, make_spheres},
+    {{"sphere", "one of them under a lamp, to look at a single lobe"}, make_sphere},
     {{"plate", "a brass plate whose brushing follows a direction texture"}, make_plate},
 };
 constexpr Maker<Image> kEnvironments[] = {

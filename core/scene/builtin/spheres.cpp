@@ -1,4 +1,4 @@
-// A wall of spheres: alpha_lin grows to the right, eta upwards. Tangents point east.
+// A wall of spheres: alpha_lin grows to the right, eta upwards; and one sphere under a lamp. Tangents point east.
 #include <cmath>
 #include <cstdio>
 
@@ -8,23 +8,22 @@
 namespace burnish {
 namespace {
 
-constexpr int kColumns = 7, kRows = 5; // of spheres
-constexpr int kMeridians = 48, kParallels = 24;
+constexpr int kColumns = 7, kRows = 5;            // of spheres
 constexpr double kRadius = 0.045, kSpacing = 0.1; // metres
 
-void add_sphere(Scene& scene)
+void add_sphere(Scene& scene, int meridians, int parallels, double radius)
 {
-    add_grid(scene, kMeridians, kParallels, [](int column, int row) {
-        const double longitude = 2.0 * kPi * (column % kMeridians) / kMeridians;
-        const double latitude = kPi * (static_cast<double>(row) / kParallels - 0.5);
-        const double c = row == 0 || row == kParallels ? 0.0 : det_cos(latitude); // exact at the poles
+    add_grid(scene, meridians, parallels, [=](int column, int row) {
+        const double longitude = 2.0 * kPi * (column % meridians) / meridians;
+        const double latitude = kPi * (static_cast<double>(row) / parallels - 0.5);
+        const double c = row == 0 || row == parallels ? 0.0 : det_cos(latitude); // exact at the poles
         const double east_x = det_cos(longitude), east_z = -det_sin(longitude);
         SurfacePoint s;
         s.normal = {c * -east_z, det_sin(latitude), c * east_x};
-        s.position = s.normal * kRadius;
+        s.position = s.normal * radius;
         s.tangent = {east_x, 0.0, east_z};
-        s.u = static_cast<double>(column) / kMeridians;
-        s.v = 1.0 - static_cast<double>(row) / kParallels;
+        s.u = static_cast<double>(column) / meridians;
+        s.v = 1.0 - static_cast<double>(row) / parallels;
         return s;
     });
 }
@@ -37,6 +36,14 @@ void set_widths(Material& material, double alpha_lin, double eta)
     const double along = alpha_lin * alpha_lin * (1.0 + eta), across = alpha_lin * alpha_lin * (1.0 - eta);
     material.roughness = static_cast<float>(std::sqrt(across));
     material.anisotropy_strength = static_cast<float>(std::sqrt((along - across) / (1.0 - across)));
+}
+
+Material silver(double alpha_lin, double eta)
+{
+    Material material;
+    set_widths(material, alpha_lin, eta);
+    material.base_color = glm::vec4(0.95f, 0.93f, 0.88f, 1.0f);
+    return material;
 }
 
 void add_front_camera(Scene& scene)
@@ -63,18 +70,16 @@ Scene make_spheres()
     scene.name = "spheres";
     for (int row = 0; row < kRows; ++row)
         for (int column = 0; column < kColumns; ++column) {
-            Material material;
-            set_widths(material, (column + 1) * 0.1, kEta[row]);
+            Material material = silver((column + 1) * 0.1, kEta[row]);
             char name[64];
             std::snprintf(name, sizeof(name), "alpha_lin 0.%d eta %.2f", column + 1, kEta[row]);
             material.name = name;
-            material.base_color = glm::vec4(0.95f, 0.93f, 0.88f, 1.0f);
             scene.materials.push_back(material);
 
             // All spheres share the vertices and indices of the first.
             const std::uint32_t first = begin_primitive(scene, static_cast<std::int32_t>(scene.materials.size() - 1));
             if (first == 0) {
-                add_sphere(scene);
+                add_sphere(scene, 48, 24, kRadius);
             } else {
                 scene.primitives[first] = scene.primitives[0];
                 scene.primitives[first].material = static_cast<std::int32_t>(first);
@@ -84,6 +89,32 @@ Scene make_spheres()
             local[3][1] = static_cast<float>((row - (kRows - 1) * 0.5) * kSpacing);
             add_node(scene, name, add_mesh(scene, name, first), local);
         }
+    add_front_camera(scene);
+    return scene;
+}
+
+Scene make_sphere()
+{
+    Scene scene;
+    scene.name = "sphere";
+    scene.materials.push_back(silver(0.5, 0.6));
+    const std::uint32_t first = begin_primitive(scene, 0);
+    add_sphere(scene, 120, 60, 0.2);
+    add_node(scene, "sphere", add_mesh(scene, "sphere", first), glm::mat4(1.0f));
+    Light lamp;
+    lamp.name = "lamp";
+    lamp.type = LightType::directional;
+    lamp.intensity = 1.0f; // lux
+    scene.lights.push_back(lamp);
+    Node node;
+    node.name = lamp.name, node.light = 0;
+    // shines along -Z, from above, the right and the front: rows of a rotation by 30 degrees about Y, then -40 about X
+    const float cy = 0.8660254f, sy = 0.5f, cx = 0.7660444f, sx = 0.6427876f;
+    node.local[0] = glm::vec4(cy, 0.0f, -sy, 0.0f);
+    node.local[1] = glm::vec4(-sy * sx, cx, -cy * sx, 0.0f);
+    node.local[2] = glm::vec4(sy * cx, sx, cy * cx, 0.0f);
+    node.world = node.local;
+    scene.nodes.push_back(node);
     add_front_camera(scene);
     return scene;
 }

@@ -52,6 +52,7 @@ inline double smooth_step(double a, double b, double x)
 // The scenes and environments, by file.
 Scene make_teapot();
 Scene make_spheres();
+Scene make_sphere();
 Scene make_plate();
 Image make_studio();
 Image make_sky();

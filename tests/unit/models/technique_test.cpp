@@ -103,28 +103,5 @@ TEST(tilt, turns_the_commonest_normal_as_the_ellipsoid_does)
     EXPECT_NEAR(at("tilted_normal", {0, .2})[0], -.19866933, 1e-6);
 }
 
-// Albedos against the mean weight of many samples; a mirror's is the limit of a narrow lobe's.
-TEST(tilt, leaves_a_lobe_the_albedo_that_its_samples_have)
-{
-    double last = 1;
-    for (double tilt : {0.0, .2, .5, .9, 1.3}) { // towards the far side of the view
-        const Vec o = {0, std::sin(.6), std::cos(.6)};
-        double sum = 0;
-        constexpr int kSide = 64;
-        for (int i = 0; i < kSide * kSide; ++i) {
-            const double x = (i % kSide + .5) / kSide, y = (i / kSide + .5) / kSide;
-            sum += at("ellipsoid_weight", {.6, .2, -tilt, .1, o[0], o[1], o[2], x, y})[0];
-        }
-        EXPECT_NEAR(at("tilt_albedo", {.6, .2, -tilt, .1, o[0], o[1], o[2]})[0], sum / (kSide * kSide), .04) << tilt;
-        const std::vector<double> narrow = at("tilt_albedo", {.004, .002, -tilt, .1, o[0], o[1], o[2]});
-        EXPECT_NEAR(narrow[0], narrow[1], .02) << tilt;
-        const double now = at("tilt_albedo", {.1, .1, -tilt, 0, o[0], o[1], o[2]})[0];
-        EXPECT_LT(now, last + .01) << tilt;
-        last = now;
-    }
-    EXPECT_LT(last, .03);
-    EXPECT_EQ(at("tilt_albedo", {.1, .1, -1.3, 0, 0, std::sin(.6), std::cos(.6)})[1], 0);
-}
-
 } // namespace
 } // namespace burnish::test

@@ -8,39 +8,11 @@
 #include "raster/reference/light_sampling.h"
 #include "raster/reference/reflector.h"
 #include "raster/reference/samples.h"
+#include "tests/unit/reference/chi_square.h"
 #include "tests/unit/reference/scenes.h"
 
 namespace burnish::test {
 namespace {
-
-// Deviations by which a chi-square exceeds its degrees of freedom (Wilson and Hilferty 1931).
-double chi_square_sigmas(double chi2, double degrees)
-{
-    const double k = 2.0 / (9.0 * degrees);
-    return (std::cbrt(chi2 / degrees) - (1.0 - k)) / std::sqrt(k);
-}
-
-// Bins of small expectation are pooled.
-double sigmas_of(const std::vector<double>& seen, const std::vector<double>& expected)
-{
-    double chi2 = 0.0, pool_seen = 0.0, pool_expected = 0.0;
-    int degrees = -1;
-    for (std::size_t i = 0; i < seen.size(); ++i) {
-        if (expected[i] < 8.0) {
-            pool_seen += seen[i], pool_expected += expected[i];
-            continue;
-        }
-        chi2 += (seen[i] - expected[i]) * (seen[i] - expected[i]) / expected[i];
-        ++degrees;
-    }
-    if (pool_expected > 0.5) {
-        chi2 += (pool_seen - pool_expected) * (pool_seen - pool_expected) / pool_expected;
-        ++degrees;
-    } else {
-        EXPECT_LE(pool_seen, 10.0) << "samples where none should be";
-    }
-    return chi_square_sigmas(chi2, degrees);
-}
 
 TEST(sobol, points_of_a_pass_are_stratified_whatever_the_seed)
 {
@@ -207,7 +179,7 @@ TEST(environment_sampler, black_is_sampled_evenly)
 Reflector reflector_of(float f0, float diffuse, float sigma_u, float sigma_v, real3 v, bool tilted = false)
 {
     ShadingFrame f = {};
-    f.tilted = tilted;
+    f.lobe = lobe_with(tilted ? kLobeOfTilted : kLobeOfAll), f.lobe_traits = lobe_traits_of(f.lobe);
     shaded_point x = {};
     x.surface_axes = {{0, 0, 1}, {0.6f, 0.8f, 0.0f}, {-0.8f, 0.6f, 0.0f}};
     const surface_frame frame = tilted ? tilted_frame(x.surface_axes, {0.94f, 0.96f}, {0.341174f, -0.28f}) : x.surface_axes;

@@ -1,0 +1,91 @@
+"""--brdf: every model that can lie on a surface, under lamps, in mc, in the reference, on a device."""
+
+import json
+
+from harness import Skipped, case, check
+
+from parity_cases import check_equal, parity
+from reference_cases import needs_embree
+
+ONE_LOBE = ("auto", "split_isotropic", "bent_normal", "major_axis", "lobe_line", "filtered_is", "filtered_is_ggx")
+# One sphere that fills the picture, so that no edge is in it; an environment that is soft, since mc takes few samples of it.
+CLOSE = ("builtin:sphere", "--eye", "0,0,0.5", "--fov", "35", "--size", "40x40", "--msaa", "1", "--no-background",
+         "--env-size", "64", "--env-samples", "64")
+
+
+def lobes(bench):
+    """{name: whether nothing but lamps meets it} of what --brdf takes, as list models has it."""
+    found = {}
+    for line in bench.run("list", "models").expect(0).out.splitlines():
+        if "--brdf" in line:
+            found[line.split()[0]] = "--brdf, lights" in line
+    return found
+
+
+@case("brdf.list_models_names_what_it_takes", tier="check")
+def names(bench):
+    found = lobes(bench)
+    check(len(found) == 9 and [name for name, lamps in found.items() if lamps] == ["heidrich_seidel"], f"{found}")
+    hashes = {}
+    for name in found:
+        hashes[name] = bench.figures(*CLOSE, "--technique", "mc", "--samples", "4", "--brdf", name)
+        check(hashes[name]["brdf"] == name and hashes[name]["nan_pixels"] == 0, f"{name}: {hashes[name]}")
+    check(len({figures["pixel_hash"] for figures in hashes.values()}) == len(found), "two models give one picture")
+    check(bench.figures(*CLOSE, "--technique", "mc", "--samples", "4")["pixel_hash"] == hashes["ggx_aniso"]["pixel_hash"],
+          "ggx_aniso is not what is taken where nothing is said")
+    bench.run("render", "--brdf", "lambert").expect(2).expect_one_line("--brdf", "lambert", "ashikhmin_shirley")
+
+
+@case("brdf.a_technique_made_for_one_lobe_refuses_others", tier="check")
+def refusals(bench):
+    for technique in ONE_LOBE:
+        done = bench.run("render", *CLOSE, "--technique", technique, "--brdf", "ward", "-o", "a.exr").expect(2)
+        done.expect_one_line("--technique", technique, "ward")
+    bench.run("render", *CLOSE, "--technique", "mc", "--brdf", "ward", "--tilt", "10,0", "-o", "a.exr").expect(2).expect_one_line("--tilt", "ward")
+    bench.run("render", *CLOSE, "--backend", "reference", "--brdf", "beckmann", "--tilt", "10,0").expect(2).expect_one_line("--tilt", "beckmann")
+    bench.run("chart", "builtin:sphere", "--brdf", "ward", "--techniques", "mc,lobe_line", "-o", "r").expect(2).expect_one_line("lobe_line", "ward")
+    bench.run("parity", "builtin:sphere", "--brdf", "ward", "--technique", "mc,major_axis").expect(2).expect_one_line("major_axis", "ward")
+    check(bench.left_behind() == [], f"left behind: {bench.left_behind()}")
+
+
+# A patch of the sphere, over which little changes from one side of a pixel to the other: mc shades its middle, the reference all of it.
+PATCH = ("builtin:sphere", "--eye", "0,0,0.5", "--target", "0.08,0.06,0.173", "--fov", "3", "--size", "24x24", "--msaa", "1",
+         "--no-background", "--env-size", "64", "--env-samples", "64", "--env-rotation", "60", "--key-lights", "off", "-q")
+
+
+def reference_of(bench, name):
+    bench.run("render", *PATCH, "--backend", "reference", "--samples", "1024", "--brdf", name, "-o", "r.pfm", "--variance", "v.pfm").expect(0)
+
+
+def against_reference(bench, samples, name):
+    """How mc by `name` differs from the reference that is there."""
+    bench.run("render", *PATCH, "--technique", "mc", "--samples", samples, "--brdf", name, "-o", "mc.pfm").expect(0)
+    done = bench.run("compare", "r.pfm", "mc.pfm", "--variance", "v.pfm", "--significance", "0.01", "--json", "c.json", "-q")
+    check(done.code in (0, 1), done.describe())
+    return json.loads((bench.folder / "c.json").read_text())
+
+
+# So many samples that the noise is the reference's, and few.
+@case("brdf.mc_agrees_with_the_reference")
+def agrees(bench):
+    needs_embree(bench)
+    for name, lamps in lobes(bench).items():
+        reference_of(bench, name)
+        few = against_reference(bench, "256", name)
+        check(few["rel_mse"] < (1e-6 if lamps else 1e-3), f"{name}: {few}")
+        many = against_reference(bench, "16384", name)
+        check(lamps or many["z_rejected_fraction"] <= 0.01, f"{name}: {many}")
+    reference_of(bench, "beckmann")
+    for name in ("ggx_aniso", "ward"):
+        found = against_reference(bench, "16384", name)
+        check(found["z_rejected_fraction"] > 0.2, f"{name} passes for beckmann: {found}")
+
+
+@case("brdf.devices_give_the_same_words")
+def devices(bench):
+    lights = bench.data_file("models/Lights.glb")
+    for name in lobes(bench):
+        check_equal(parity(bench, "builtin:sphere", lights, "--brdf", name, "--technique", "mc", "--samples", "9", "--size", "48x32", "--msaa", "1",
+                           "--env", "builtin:sky"))
+    check_equal(parity(bench, lights, "--brdf", "beckmann", "--technique", "mc", "--samples", "9", "--size", "48x32", "--msaa", "1",
+                       "--energy-compensation"))
