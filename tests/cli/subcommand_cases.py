@@ -24,6 +24,7 @@ RUNS = {
                  "--junit", "y.xml"), (0, 77))],
     "race": [(("builtin:plate", *VIEW, "--techniques", "split_isotropic", "--runs", "1", "--devices", "lavapipe", "--json", "z.json"), (0, 77))],
     "plot": [(("axis", "-o", "axis.svg"), (0,)), (("axis", "-o", "axis.png"), (0,))],
+    "bake": [(("ltc", "--resolution", "3", "--steps", "1", "--samples", "1", "-o", "t.ltc"), (0,)), (("ltc", "--table", "t.ltc"), (0,))],
     "list": [((what,), (0,)) for what in ("techniques", "scenes", "environments", "models", "extensions")],
     "manual": [((what,), (0,)) for what in ("man", "bash", "zsh", "fish")],
     "info": [((), (0,)), (("--json",), (0,))],

@@ -1,0 +1,161 @@
+// `burnish bake`: tables that shading reads, made from nothing.
+#include <filesystem>
+#include <fmt/core.h>
+#include <memory>
+
+#include "apps/bake/report.h"
+#include "apps/cli/command.h"
+#include "apps/cli/outputs.h"
+#include "apps/cli/report.h"
+#include "apps/cli/shared_options.h"
+#include "apps/cli/stop_signal.h"
+#include "apps/cli/values.h"
+#include "apps/report/looks.h"
+#include "apps/report/png.h"
+#include "apps/report/svg.h"
+#include "core/base/file.h"
+#include "core/jobs/cores.h"
+#include "shading/bake/ltc/bake_ltc.h"
+
+namespace burnish {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kFooter =
+    R"(ltc: linearly transformed cosines for anisotropic GGX lobes under area lights, and their albedo, by the eye's angles, the greater width
+and the ratio of both. What is done so far is kept in TABLE.part: the same command goes on from there, to the same bytes.
+
+Examples:
+  burnish bake ltc -o ggx.ltc
+  burnish bake ltc -o ggx.ltc --report quality
+  burnish bake ltc --table ggx.ltc --report quality)";
+
+struct BakeArguments {
+    std::string what = "ltc", output, table, report;
+    int resolution = 8, steps = 12, samples = 8, threads = 0;
+    bool half = false, quiet = false;
+    int verbosity = 0;
+};
+
+OptionTable bake_option_table(BakeArguments& to)
+{
+    OptionTable table;
+    table.add("", {{"WHAT", "", "{}", choice(to.what, {"ltc"})}});
+    table.add("The table", {{"--resolution", "N", "Nodes along each axis, {}", integer(to.resolution, 3, 16)},
+                            {"--steps", "N", "Of the fit of all entries at once, {}; 0: each node alone", integer(to.steps, 0, 100)},
+                            {"--samples", "N", "Lobes in each cell that this fit looks at, {}", integer(to.samples, 1, 64)},
+                            {"--half", "", "Entries as halves, not floats", flag(to.half)},
+                            {"--table", "FILE", "Measure this table instead of making one", file(to.table)}});
+    table.add("Output", {{"-o,--output", "FILE", "The table", file(to.output)},
+                         {"--report", "FOLDER", "Also measure the table: quality.json, quality.svg, quality.png", folder(to.report)},
+                         quiet_option(to.quiet),
+                         verbose_option(to.verbosity),
+                         threads_option(to.threads)});
+    return table;
+}
+
+Status check_arguments(const BakeArguments& a, const OptionTable& given)
+{
+    if (a.table.empty() == a.output.empty())
+        return usage_error("-o", "is needed, or --table, and not both");
+    if (!a.table.empty())
+        for (const char* option : {"--steps", "--samples", "--half"})
+            if (given.given(option))
+                return usage_error(option, "says how a table is made, and --table FILE is made already");
+    if (a.output == "-")
+        return usage_error("-o", "the table is no text for standard output");
+    if (a.output.empty())
+        return {};
+    if (Status path = check_text_path("-o", a.output, {}); !path)
+        return path;
+    return check_text_path("-o", a.output + ".part", {});
+}
+
+Status write_report_files(const BakeArguments& a, const LtcQuality& quality, const ltc::Table& table, Report& report)
+{
+    std::error_code failed;
+    fs::create_directories(a.report, failed);
+    if (failed)
+        return Error{ExitCode::output_failed, a.report, "", failed.message()};
+    const Drawing drawing = plot_ltc_quality(quality, table);
+    const Result<std::string> png = png_of(drawing);
+    if (!png)
+        return png.error();
+    const std::pair<const char*, std::string> files[] = {
+        {"quality.json", ltc_json(quality, table).dump(2) + "\n"}, {"quality.svg", svg_of(drawing, chart_style())}, {"quality.png", *png}};
+    for (const auto& [name, bytes] : files) {
+        const std::string path = (fs::path(a.report) / name).string();
+        if (Status written = write_file_atomic(path, bytes.data(), bytes.size()); !written)
+            return written;
+        report.wrote(path);
+    }
+    return {};
+}
+
+// The table that was asked for; nothing where it was stopped.
+Result<std::optional<ltc::Table>> table_of(const BakeArguments& a, const OptionTable& given, const Jobs& jobs, Report& report)
+{
+    if (!a.table.empty()) {
+        Result<ltc::Table> read = ltc::read_table(a.table, given.given("--resolution") ? a.resolution : 0);
+        if (!read)
+            return read.error();
+        return std::optional(std::move(*read));
+    }
+    ltc::BakeOptions options;
+    options.grid.size = a.resolution;
+    options.steps = a.steps, options.samples_a_cell = a.samples;
+    options.checkpoint = a.output + ".part";
+    options.stop = &watch_stop_signals();
+    std::optional<Progress> progress;
+    progress.emplace("transformed cosines", ltc::bake_units(options), a.quiet);
+    options.advance = [&progress](std::size_t units) { progress->step(units); };
+    Result<std::optional<ltc::Baked>> baked = ltc::bake_table(options, jobs);
+    progress.reset();
+    if (!baked)
+        return baked.error();
+    if (!*baked)
+        return std::optional<ltc::Table>();
+    report.event("fit", fmt::format("mean L1 {:.4f} of nodes alone; {:.4f} between them, {:.4f} before", (*baked)->node_l1,
+                                    (*baked)->fit_l1, (*baked)->fit_l1_before));
+    if (Status written = ltc::write_table(a.output, (*baked)->table, a.half); !written)
+        return written.error();
+    report.wrote(a.output);
+    std::error_code ignored;
+    fs::remove(options.checkpoint, ignored);
+    return std::optional(std::move((*baked)->table));
+}
+
+int run_bake(const BakeArguments& arguments, const OptionTable& given)
+{
+    if (Status checked = check_arguments(arguments, given); !checked)
+        return fail(checked.error());
+    Report report(arguments.quiet, arguments.verbosity);
+    const Jobs jobs(arguments.threads);
+    const Result<std::optional<ltc::Table>> table = table_of(arguments, given, jobs, report);
+    if (!table)
+        return fail(table.error());
+    report.release();
+    if (!*table) {
+        report.event("stopped", fmt::format("the same command goes on from {}.part; no table was written", arguments.output));
+        return 128 + stop_signal(); // as a shell reports a process that a signal ended
+    }
+    if (arguments.report.empty())
+        return 0;
+    const LtcQuality quality = measure_ltc(**table, jobs);
+    if (Status written = write_report_files(arguments, quality, **table, report); !written)
+        return fail(written.error());
+    report.figures(ltc_lines(quality));
+    return 0;
+}
+
+} // namespace
+
+Command bake_command()
+{
+    auto arguments = std::make_shared<BakeArguments>();
+    return {"bake", "Make tables that shading reads", bake_option_table(*arguments), kFooter,
+            [arguments](OptionTable& given) { return run_bake(*arguments, given); }};
+}
+
+} // namespace burnish

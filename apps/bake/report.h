@@ -1,0 +1,36 @@
+// What a table of transformed cosines is worth, as figures and as a drawing.
+#pragma once
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "apps/report/drawing.h"
+#include "apps/report/json.h"
+#include "core/jobs/jobs.h"
+#include "shading/bake/ltc/quality.h"
+
+namespace burnish {
+
+// Figures of a list of lobes, or of a part of one.
+struct LtcFigures {
+    const char* name; // "all", "grazing", ...
+    std::size_t lobes = 0;
+    ltc::Spread l1, best_l1, light_relative, light_absolute, all_relative, grazing_absolute;
+};
+
+struct LtcQuality {
+    std::vector<LtcFigures> parts;
+    std::size_t probes = 0, broken = 0; // lookups, and those without a positive determinant
+    std::vector<double> l1_of_cells;    // see ltc::l1_of_cells
+    int cells = 0;                      // along an axis
+};
+
+LtcQuality measure_ltc(const ltc::Table& table, const Jobs& jobs);
+
+std::string ltc_lines(const LtcQuality& quality); // a line a part
+Json ltc_json(const LtcQuality& quality, const ltc::Table& table);
+
+// Mean L1 over each pair of axes, darker where there is more.
+Drawing plot_ltc_quality(const LtcQuality& quality, const ltc::Table& table);
+
+} // namespace burnish

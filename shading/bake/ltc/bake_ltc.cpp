@@ -1,0 +1,243 @@
+#include "shading/bake/ltc/bake_ltc.h"
+
+#include <algorithm>
+#include <cstring>
+#include <filesystem>
+
+#include "core/base/file.h"
+#include "core/base/hash.h"
+#include "shading/bake/ltc/interpolant_fit.h"
+
+namespace burnish::ltc {
+namespace {
+
+constexpr std::size_t kStepUnits = 64;    // a step of the interpolant, in chains of nodes
+constexpr std::size_t kChainsKept = 64;   // chains between two checkpoints
+constexpr std::size_t kProbes = 1u << 18; // lookups that the guard looks at
+constexpr char kMagic[8] = {'b', 'n', 'l', 't', 'c', 'p', '1', '\n'};
+
+// Everything that the work has so far.
+struct Progressed {
+    std::uint64_t chains = 0, steps = 0;
+    std::vector<double> l1;        // of the nodes
+    std::vector<Matrix> nodes;     // fitted alone
+    InterpolantFit::State state{}; // of the fit of all
+    double cost_before = 0.0;
+};
+
+std::uint64_t key_of(const BakeOptions& o)
+{
+    const std::int32_t key[] = {static_cast<std::int32_t>(kTableVersion), o.grid.size,      o.grid.root_alpha,
+                                static_cast<std::int32_t>(o.grid.basis),  o.samples_a_cell, o.steps};
+    return hash_bytes(key, sizeof key);
+}
+
+Status keep(const BakeOptions& options, const Progressed& p)
+{
+    if (options.checkpoint.empty())
+        return {};
+    std::vector<std::uint8_t> bytes;
+    const auto append = [&bytes](const void* data, std::size_t size) {
+        const std::size_t at = bytes.size();
+        bytes.resize(at + size);
+        std::memcpy(bytes.data() + at, data, size);
+    };
+    const std::uint64_t words[] = {key_of(options), p.chains, p.steps, p.state.entries.empty() ? 0u : 1u};
+    const double numbers[] = {p.state.cost, p.state.mu, p.cost_before};
+    append(kMagic, sizeof kMagic);
+    append(words, sizeof words);
+    append(numbers, sizeof numbers);
+    append(p.l1.data(), p.l1.size() * sizeof(double));
+    append(p.nodes.data(), p.nodes.size() * sizeof(Matrix));
+    append(p.state.entries.data(), p.state.entries.size() * sizeof(Matrix));
+    const std::uint64_t hash = hash_bytes(bytes.data(), bytes.size());
+    append(&hash, sizeof hash);
+    return write_file_atomic(options.checkpoint, bytes.data(), bytes.size());
+}
+
+Status go_on(const BakeOptions& options, Progressed& p)
+{
+    std::error_code ignored;
+    if (options.checkpoint.empty() || !std::filesystem::exists(std::filesystem::symlink_status(options.checkpoint, ignored)))
+        return {};
+    const auto refuse = [&](const char* reason) { return Error{ExitCode::bad_input, options.checkpoint, "", reason}; };
+    const Result<std::vector<std::uint8_t>> read = read_file(options.checkpoint, std::uint64_t{1} << 32);
+    if (!read)
+        return read.error();
+    const std::vector<std::uint8_t>& bytes = *read;
+    std::uint64_t words[4], hash = 0;
+    double numbers[3];
+    const std::size_t head = sizeof kMagic + sizeof words + sizeof numbers, nodes = options.grid.nodes();
+    const std::size_t fitted = nodes * (sizeof(double) + sizeof(Matrix));
+    if (bytes.size() < head + sizeof hash || std::memcmp(bytes.data(), kMagic, sizeof kMagic) != 0)
+        return refuse("is not what is kept of a table");
+    std::memcpy(words, bytes.data() + sizeof kMagic, sizeof words);
+    std::memcpy(numbers, bytes.data() + sizeof kMagic + sizeof words, sizeof numbers);
+    std::memcpy(&hash, bytes.data() + bytes.size() - sizeof hash, sizeof hash);
+    if (hash != hash_bytes(bytes.data(), bytes.size() - sizeof hash))
+        return refuse("is damaged: its hash is another one");
+    if (words[0] != key_of(options))
+        return refuse("is what is kept of a table of other options");
+    const bool begun = words[3] == 1;
+    if (bytes.size() != head + fitted + (begun ? nodes * sizeof(Matrix) : 0) + sizeof hash)
+        return refuse("is damaged: its size is another one");
+    p.chains = words[1], p.steps = words[2];
+    p.state.cost = numbers[0], p.state.mu = numbers[1], p.cost_before = numbers[2];
+    const std::uint8_t* at = bytes.data() + head;
+    std::memcpy(p.l1.data(), at, nodes * sizeof(double));
+    std::memcpy(p.nodes.data(), at + nodes * sizeof(double), nodes * sizeof(Matrix));
+    if (begun) {
+        p.state.entries.resize(nodes);
+        std::memcpy(p.state.entries.data(), at + fitted, nodes * sizeof(Matrix));
+    }
+    return {};
+}
+
+std::size_t chains_of(const Grid& grid)
+{
+    return grid.nodes() / static_cast<std::size_t>(grid.size);
+}
+
+// Puts a chain and what is equal to it by symmetry where they belong.
+void put(const Grid& grid, int phi, int alpha, int lambda, const Chain& chain, Progressed& p)
+{
+    const int last = grid.size - 1;
+    for (int theta = 0; theta <= last; ++theta) {
+        const std::size_t node = grid.node(theta, phi, alpha, lambda), i = static_cast<std::size_t>(theta);
+        p.nodes[node] = chain.entries[i], p.l1[node] = chain.l1[i];
+        if (lambda == last) { // see Grid::first_equal
+            const std::size_t other = grid.node(theta, last - phi, alpha, lambda);
+            p.nodes[other] = with_axes_exchanged(chain.entries[i]), p.l1[other] = chain.l1[i];
+        }
+    }
+}
+
+// Entries that have to be equal by symmetry made so to the last bit; they differ by rounding.
+void make_equal(const Grid& grid, std::vector<Matrix>& entries)
+{
+    for (std::size_t node = 0; node < entries.size(); ++node)
+        for (std::size_t e = 0; e < 9; ++e) {
+            const auto [first, element] = grid.first_equal(node, e);
+            entries[node][e] = entries[first][element];
+        }
+}
+
+std::vector<Albedo> albedos_of(const Grid& grid, const Jobs& jobs)
+{
+    const Rule rule(22);
+    std::vector<Albedo> albedos(grid.nodes());
+    jobs.parallel_for(grid.nodes(), [&](std::size_t node, int) {
+        const std::array<int, 4> i = grid.indices(node);
+        if (i[1] == 0 || (i[0] != 0 && i[3] != grid.size - 1)) // else all azimuths see one lobe
+            albedos[node] = albedo(Lobe(grid.place(node)), rule);
+    });
+    for (std::size_t node = 0; node < grid.nodes(); ++node) {
+        const std::array<int, 4> i = grid.indices(node);
+        if (i[0] == 0 || i[3] == grid.size - 1)
+            albedos[node] = albedos[grid.node(i[0], 0, i[2], i[3])];
+    }
+    return albedos;
+}
+
+} // namespace
+
+Chain fit_chain(const Grid& grid, int phi, int alpha, int lambda)
+{
+    static const Rule rule(15), albedo_rule(18);
+    Chain chain;
+    Matrix before{}, natural_before{};
+    for (int theta = 0; theta < grid.size; ++theta) {
+        const std::size_t node = grid.node(theta, theta == 0 ? 0 : phi, alpha, lambda);
+        const Place place = grid.place(node);
+        const LobePoints points(normalised_lobe(place, albedo_rule), rule);
+        const Matrix natural = natural_matrix(place);
+        NodeFit best = fit_lobe(points, natural, grid.zero(node));
+        if (theta > 0) { // where the neighbour's fit would be, turned as the mirror direction is
+            const Matrix start = natural * inverse(natural_before) * before;
+            if (determinant(start) > 0.0)
+                if (const NodeFit other = fit_lobe(points, start, grid.zero(node)); other.l1 < best.l1)
+                    best = other;
+        }
+        before = best.m, natural_before = natural;
+        Matrix m = in_natural_gauge(best.m, place);
+        for (std::size_t e = 0; e < 9; ++e)
+            if (grid.zero(node) >> e & 1u)
+                m[e] = 0.0;
+        chain.entries.push_back(grid.held(m, place));
+        chain.l1.push_back(best.l1);
+    }
+    return chain;
+}
+
+std::size_t bake_units(const BakeOptions& options)
+{
+    return chains_of(options.grid) + static_cast<std::size_t>(options.steps) * kStepUnits;
+}
+
+Result<std::optional<Baked>> bake_table(const BakeOptions& options, const Jobs& jobs)
+{
+    const Grid& grid = options.grid;
+    const auto advance = [&](std::size_t units) {
+        if (options.advance && units > 0)
+            options.advance(units);
+    };
+    const auto stopped = [&] { return options.stop && options.stop->load(); };
+    Progressed p;
+    p.l1.resize(grid.nodes());
+    p.nodes.resize(grid.nodes());
+    if (Status resumed = go_on(options, p); !resumed)
+        return resumed.error();
+    advance(p.chains + p.steps * kStepUnits);
+    const std::size_t chains = chains_of(grid), n = static_cast<std::size_t>(grid.size);
+    while (p.chains < chains) {
+        const std::size_t from = p.chains, to = std::min(chains, from + kChainsKept);
+        jobs.parallel_for(to - from, [&](std::size_t i, int) {
+            const std::size_t c = from + i;
+            const int phi = static_cast<int>(c / (n * n)), alpha = static_cast<int>(c / n % n), lambda = static_cast<int>(c % n);
+            if (lambda < grid.size - 1 || 2 * phi < grid.size)
+                put(grid, phi, alpha, lambda, fit_chain(grid, phi, alpha, lambda), p);
+            advance(1);
+        });
+        p.chains = to;
+        if (Status kept = keep(options, p); !kept)
+            return kept.error();
+        if (stopped())
+            return std::optional<Baked>();
+    }
+    make_equal(grid, p.nodes);
+
+    Baked baked;
+    for (double l1 : p.l1)
+        baked.node_l1 += l1 / static_cast<double>(p.l1.size());
+    std::vector<Matrix> entries = p.nodes;
+    if (options.steps > 0) {
+        InterpolantFit fit(grid, options.samples_a_cell, jobs);
+        if (p.state.entries.empty()) {
+            p.state = fit.begin(p.nodes);
+            p.cost_before = p.state.cost;
+        }
+        while (p.steps < static_cast<std::uint64_t>(options.steps)) {
+            if (stopped())
+                return std::optional<Baked>();
+            fit.step(p.state);
+            ++p.steps;
+            if (Status kept = keep(options, p); !kept)
+                return kept.error();
+            advance(kStepUnits);
+        }
+        entries = p.state.entries;
+        baked.probes = kProbes;
+        fit.guard(entries, p.nodes, 0.2, kProbes);
+        // At grazing views across thin lobes the nodes alone are no better: the natural matrices are safe everywhere.
+        std::vector<Matrix> natural;
+        for (std::size_t node = 0; node < grid.nodes(); ++node)
+            natural.push_back(grid.held(natural_matrix(grid.place(node)), grid.place(node)));
+        make_equal(grid, natural);
+        baked.weak_lookups = fit.guard(entries, natural, 0.005, kProbes);
+        baked.fit_l1_before = p.cost_before, baked.fit_l1 = p.state.cost;
+    }
+    baked.table = make_table(grid, entries, albedos_of(grid, jobs));
+    return std::optional(std::move(baked));
+}
+
+} // namespace burnish::ltc

@@ -1,0 +1,135 @@
+#include "shading/bake/ltc/lobe.h"
+
+#include <algorithm>
+
+#include "core/math/scalar_math.h"
+
+namespace burnish::ltc {
+namespace {
+
+Vec eye_of(const Place& place)
+{
+    const double sine = det_sin(place.theta);
+    return {sine * det_cos(place.phi), sine * det_sin(place.phi), det_cos(place.theta)};
+}
+
+double shadow(double alpha_x, double alpha_y, const Vec& w)
+{
+    const double x = alpha_x * w.x, y = alpha_y * w.y;
+    return 0.5 * (std::sqrt(1.0 + (x * x + y * y) / (w.z * w.z)) - 1.0);
+}
+
+} // namespace
+
+Lobe::Lobe(const Place& place, double white) : v(eye_of(place)), alpha_x(place.alpha), alpha_y(place.alpha * place.lambda), albedo(white)
+{
+    shadow_v = shadow(alpha_x, alpha_y, v);
+    scale = 1.0 / (4.0 * kPi * alpha_x * alpha_y * v.z);
+}
+
+Reflected density(const Lobe& lobe, const Vec& l)
+{
+    const Vec h = {lobe.v.x + l.x, lobe.v.y + l.y, lobe.v.z + l.z};
+    if (!(h.z > 0.0))
+        return {0.0, 0.0};
+    const double x = h.x / lobe.alpha_x, y = h.y / lobe.alpha_y, length2 = dot(h, h), s = x * x + y * y + h.z * h.z;
+    const double ratio = length2 / s, d = ratio * ratio * lobe.scale;
+    Reflected r = {d / (1.0 + lobe.shadow_v), 0.0};
+    if (l.z > 0.0)
+        r.reflected = d / ((1.0 + lobe.shadow_v + shadow(lobe.alpha_x, lobe.alpha_y, l)) * lobe.albedo);
+    return r;
+}
+
+Rule::Rule(int k)
+{
+    int count = 1, before = 1;
+    for (int i = 2; i < k; ++i) {
+        const int next = count + before;
+        before = count, count = next;
+    }
+    for (int i = 0; i < count; ++i) {
+        const long turn = static_cast<long>(i) * before % count;
+        const double u = (i + 0.5) / count, azimuth = 2.0 * kPi * static_cast<double>(turn) / count;
+        const double c = det_cos(azimuth), s = det_sin(azimuth), radius = std::sqrt(u);
+        points.push_back({u, c, s, {radius * c, radius * s, std::sqrt(1.0 - u)}});
+    }
+}
+
+Vec mirrored_normal(const Lobe& lobe, const Rule::Point& point)
+{
+    const Vec w = unit({lobe.alpha_x * lobe.v.x, lobe.alpha_y * lobe.v.y, lobe.v.z});
+    const double z = 1.0 - point.depth * (1.0 + w.z), radius = std::sqrt(std::max(0.0, 1.0 - z * z));
+    const Vec h =
+        unit({lobe.alpha_x * (radius * point.cosine + w.x), lobe.alpha_y * (radius * point.sine + w.y), std::max(z + w.z, 1e-300)});
+    const double twice = 2.0 * dot(lobe.v, h);
+    return {twice * h.x - lobe.v.x, twice * h.y - lobe.v.y, twice * h.z - lobe.v.z};
+}
+
+Albedo albedo(const Lobe& lobe, const Rule& rule)
+{
+    Albedo sum = {0.0, 0.0};
+    for (const Rule::Point& point : rule.points) {
+        const Vec l = mirrored_normal(lobe, point);
+        if (!(l.z > 0.0))
+            continue;
+        const double g = (1.0 + lobe.shadow_v) / (1.0 + lobe.shadow_v + shadow(lobe.alpha_x, lobe.alpha_y, l));
+        const double m = std::max(0.0, 1.0 - std::sqrt(std::max(0.0, 0.5 * (1.0 + dot(lobe.v, l))))), m2 = m * m;
+        sum.all += g;
+        sum.grazing += g * m2 * m2 * m;
+    }
+    const double count = static_cast<double>(rule.points.size());
+    return {sum.all / count, sum.grazing / count};
+}
+
+Lobe normalised_lobe(const Place& place, const Rule& rule)
+{
+    return Lobe(place, albedo(Lobe(place), rule).all);
+}
+
+double transformed_cosine(const Matrix& n, const Vec& l)
+{
+    const Vec u = n * l;
+    if (!(u.z > 0.0))
+        return 0.0;
+    const double length2 = dot(u, u);
+    return u.z * std::abs(determinant(n)) / (kPi * length2 * length2);
+}
+
+Matrix natural_matrix(const Place& place)
+{
+    const Vec v = eye_of(place);
+    const double ax = place.alpha, ay = place.alpha * place.lambda, z = std::max(v.z, 0.02);
+    // Columns: how the mirror direction moves with the slope along x and along y, and itself.
+    Matrix m = {2.0 * ax * z, 0.0, -v.x, 0.0, 2.0 * ay * z, -v.y, 2.0 * ax * v.x, 2.0 * ay * v.y, v.z};
+    // At grazing views both columns point upwards: what the second order adds across the plane of incidence keeps them apart.
+    const double c = det_cos(place.phi), s = det_sin(place.phi), across2 = 0.5 / (c * c / (ax * ax) + s * s / (ay * ay));
+    m[0] += across2 * s * s, m[1] -= across2 * s * c;
+    m[3] -= across2 * s * c, m[4] += across2 * c * c;
+    return m;
+}
+
+Matrix in_natural_gauge(const Matrix& m, const Place& place)
+{
+    Matrix r = m;
+    if (determinant(r) < 0.0)
+        r[1] = -r[1], r[4] = -r[4], r[7] = -r[7];
+    const Matrix natural = natural_matrix(place);
+    double b[2][2];
+    for (std::size_t i = 0; i < 2; ++i) {
+        const Vec column = unit({natural[i], natural[3 + i], natural[6 + i]});
+        for (std::size_t j = 0; j < 2; ++j)
+            b[i][j] = dot(column, {r[j], r[3 + j], r[6 + j]});
+    }
+    const double sine = b[0][1] - b[1][0], cosine = b[0][0] + b[1][1], length = std::sqrt(sine * sine + cosine * cosine);
+    if (!(length > 0.0))
+        return r;
+    const double s = sine / length, c = cosine / length;
+    for (std::size_t row = 0; row < 3; ++row) {
+        const double a0 = r[3 * row], a1 = r[3 * row + 1];
+        r[3 * row] = a0 * c + a1 * s;
+        r[3 * row + 1] = a1 * c - a0 * s;
+    }
+    return r;
+}
+
+} // namespace burnish::ltc

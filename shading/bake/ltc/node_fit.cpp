@@ -1,0 +1,189 @@
+#include "shading/bake/ltc/node_fit.h"
+
+#include <algorithm>
+
+#include "core/math/scalar_math.h"
+
+namespace burnish::ltc {
+namespace {
+
+constexpr double kSoft = 0.05;    // of the sum of both densities: keeps weights finite where they are equal
+constexpr double kLongest = 0.4;  // step of an element of E
+constexpr int kEvaluations = 60;  // of a fit, at most
+constexpr double kSettled = 2e-6; // relative gain of a step below which the fit may end
+
+// One point's share. x: the point in the cosine's space, unit, x.z > 0 where q > 0.
+template <bool with_sums> inline void add(Sums& sums, double p, double q, double visible, const Vec& x)
+{
+    const double weight = 1.0 / (visible + q), r = p - q, apart = std::abs(r);
+    sums.l1 += apart * weight;
+    if constexpr (with_sums) {
+        if (!(q > 0.0))
+            return;
+        const double w = weight / (apart + kSoft * (p + q)) * q;
+        double g[9] = {1.0 - 4.0 * x.x * x.x,
+                       -4.0 * x.x * x.y,
+                       -4.0 * x.x * x.z,
+                       -4.0 * x.y * x.x,
+                       1.0 - 4.0 * x.y * x.y,
+                       -4.0 * x.y * x.z,
+                       x.x / x.z - 4.0 * x.z * x.x,
+                       x.y / x.z - 4.0 * x.z * x.y,
+                       2.0 - 4.0 * x.z * x.z};
+        const double wr = w * r, wq = w * q;
+        double* h = sums.hessian.data();
+        for (int i = 0; i < 9; ++i) {
+            sums.gradient[static_cast<std::size_t>(i)] += wr * g[i];
+            const double s = wq * g[i];
+            for (int j = i; j < 9; ++j)
+                *h++ += s * g[j];
+        }
+    }
+}
+
+template <bool with_sums> Sums evaluate(const LobePoints& lobe, const Matrix& m)
+{
+    Sums sums;
+    const Matrix n = inverse(m);
+    const double det_m = determinant(m), det_n = std::abs(determinant(n));
+    for (const LobePoints::Point& point : lobe.points) {
+        const Vec u = n * point.l;
+        const double length2 = dot(u, u);
+        const double q = u.z > 0.0 ? u.z * det_n / (kPi * length2 * length2) : 0.0;
+        add<with_sums>(sums, point.value.reflected, q, point.value.visible, scaled(u, 1.0 / std::sqrt(length2)));
+    }
+    for (const Rule::Point& point : lobe.rule->points) {
+        const Vec w = m * point.clamped;
+        const double length = std::sqrt(dot(w, w));
+        const double q = point.clamped.z * length * length * length / (kPi * det_m);
+        const Reflected f = density(lobe.lobe, scaled(w, 1.0 / length));
+        add<with_sums>(sums, f.reflected, q, f.visible, point.clamped);
+    }
+    const double share = 1.0 / static_cast<double>(lobe.points.size());
+    sums.l1 *= share;
+    if constexpr (with_sums) {
+        for (double& h : sums.hessian)
+            h *= share;
+        for (double& g : sums.gradient)
+            g *= share;
+    }
+    return sums;
+}
+
+// M (I + E)^-1 in the table's scale, its zeros kept.
+Matrix moved(const Matrix& m, const std::array<double, 9>& e, Mask zero)
+{
+    Matrix turn = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0};
+    for (std::size_t i = 0; i < 9; ++i)
+        turn[i] += e[i];
+    Matrix r = m * inverse(turn);
+    for (std::size_t i = 0; i < 9; ++i)
+        if (zero >> i & 1u)
+            r[i] = 0.0;
+    return with_unit_axis(r);
+}
+
+} // namespace
+
+LobePoints::LobePoints(const Lobe& of, const Rule& r) : lobe(of), rule(&r)
+{
+    points.reserve(r.points.size());
+    for (const Rule::Point& point : r.points) {
+        const Vec l = mirrored_normal(lobe, point);
+        points.push_back({l, density(lobe, l)});
+    }
+}
+
+double l1_distance(const LobePoints& lobe, const Matrix& m)
+{
+    return evaluate<false>(lobe, m).l1;
+}
+
+Sums sums_of(const LobePoints& lobe, const Matrix& m)
+{
+    return evaluate<true>(lobe, m);
+}
+
+bool solve_damped(const Sums& sums, double mu, Mask zero, std::array<double, 9>& x)
+{
+    double a[9][9], trace = 0.0;
+    const double* h = sums.hessian.data();
+    for (int i = 0; i < 9; ++i)
+        for (int j = i; j < 9; ++j)
+            a[j][i] = a[i][j] = *h++;
+    for (int i = 0; i < 9; ++i)
+        trace += a[i][i];
+    for (int i = 0; i < 9; ++i) {
+        a[i][i] += mu * (a[i][i] + 0.01 * trace);
+        x[static_cast<std::size_t>(i)] = sums.gradient[static_cast<std::size_t>(i)];
+    }
+    for (int i = 0; i < 9; ++i)
+        if (zero >> i & 1u) {
+            for (int j = 0; j < 9; ++j)
+                a[i][j] = a[j][i] = 0.0;
+            a[i][i] = 1.0;
+            x[static_cast<std::size_t>(i)] = 0.0;
+        }
+    for (int i = 0; i < 9; ++i) { // Cholesky, the lower triangle in place
+        for (int j = 0; j <= i; ++j) {
+            double s = a[i][j];
+            for (int k = 0; k < j; ++k)
+                s -= a[i][k] * a[j][k];
+            if (i != j)
+                a[i][j] = s / a[j][j];
+            else if (s > 0.0)
+                a[i][i] = std::sqrt(s);
+            else
+                return false;
+        }
+    }
+    for (std::size_t i = 0; i < 9; ++i) {
+        for (std::size_t k = 0; k < i; ++k)
+            x[i] -= a[i][k] * x[k];
+        x[i] /= a[i][i];
+    }
+    for (std::size_t i = 9; i-- > 0;) {
+        for (std::size_t k = i + 1; k < 9; ++k)
+            x[i] -= a[k][i] * x[k];
+        x[i] /= a[i][i];
+    }
+    return true;
+}
+
+NodeFit fit_lobe(const LobePoints& lobe, const Matrix& start, Mask zero)
+{
+    NodeFit best = {with_unit_axis(start), 0.0, 1};
+    Sums sums = sums_of(lobe, best.m);
+    best.l1 = sums.l1;
+    double mu = 0.02;
+    int settled = 0;
+    while (best.evaluations < kEvaluations && mu < 1e4 && settled < 2) {
+        std::array<double, 9> e;
+        if (!solve_damped(sums, mu, zero, e)) {
+            mu *= 5.0;
+            continue;
+        }
+        double longest = 0.0;
+        for (double v : e)
+            longest = std::max(longest, std::abs(v));
+        for (double& v : e)
+            v *= longest > kLongest ? kLongest / longest : 1.0;
+        const Matrix m = moved(best.m, e, zero);
+        ++best.evaluations;
+        if (!(determinant(m) > 0.0)) {
+            mu *= 5.0;
+            continue;
+        }
+        const Sums next = sums_of(lobe, m);
+        if (next.l1 < best.l1) {
+            settled = best.l1 - next.l1 < kSettled * best.l1 ? settled + 1 : 0;
+            best.m = m, best.l1 = next.l1, sums = next;
+            mu = std::max(mu / 3.0, 1e-5);
+        } else {
+            mu *= 4.0;
+        }
+    }
+    return best;
+}
+
+} // namespace burnish::ltc

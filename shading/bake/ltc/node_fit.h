@@ -1,0 +1,51 @@
+// The transformed cosine that is the nearest to one lobe, by the integral of the absolute difference (L1, twice the total variation).
+#pragma once
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "shading/bake/ltc/lobe.h"
+
+namespace burnish::ltc {
+
+// Sums over points of both densities (multiple importance sampling, balance heuristic): the L1 distance and, of its iteratively reweighted
+// least squares, the normal equations in E of M' = M (I + E)^-1. hessian: the upper triangle by rows.
+struct Sums {
+    double l1 = 0.0;
+    std::array<double, 45> hessian{};
+    std::array<double, 9> gradient{}; // of descent
+};
+
+// A lobe with the points of its visible normals, which do not move with the matrix.
+struct LobePoints {
+    LobePoints(const Lobe& lobe, const Rule& rule); // whose albedo is known; `rule` must outlive it
+    Lobe lobe;
+    const Rule* rule;
+    struct Point {
+        Vec l;
+        Reflected value;
+    };
+    std::vector<Point> points;
+};
+
+double l1_distance(const LobePoints& lobe, const Matrix& m);
+Sums sums_of(const LobePoints& lobe, const Matrix& m);
+
+// Elements of M, and of E, that are zero by symmetry: bit 3 row + column.
+using Mask = std::uint32_t;
+inline constexpr Mask kMirrorY = 1u << 1 | 1u << 3 | 1u << 5 | 1u << 7; // the eye lies in the plane y = 0
+inline constexpr Mask kMirrorX = 1u << 1 | 1u << 2 | 1u << 3 | 1u << 6; // in x = 0
+
+struct NodeFit {
+    Matrix m;
+    double l1;
+    int evaluations;
+};
+
+// Levenberg-Marquardt from `start`, which has a positive determinant; the result has one too, and a unit third column.
+NodeFit fit_lobe(const LobePoints& lobe, const Matrix& start, Mask zero);
+
+// (H + mu (diag H + .01 trace H)) x = b by Cholesky, without the elements of `zero`, which stay 0. False where H is no use.
+bool solve_damped(const Sums& sums, double mu, Mask zero, std::array<double, 9>& x);
+
+} // namespace burnish::ltc

@@ -1,0 +1,189 @@
+#include "shading/bake/ltc/quality.h"
+
+#include <algorithm>
+
+#include "core/math/scalar_math.h"
+#include "shading/bake/ltc/interpolant_fit.h"
+#include "shading/bake/ltc/polygon.h"
+
+namespace burnish::ltc {
+namespace {
+
+using Quad = std::vector<Vec>;
+
+Quad parallelogram(const Vec& middle, const Vec& a, const Vec& b) // a, b: half sides
+{
+    Quad quad;
+    for (const auto& [s, t] : {std::pair{-1.0, -1.0}, {1.0, -1.0}, {1.0, 1.0}, {-1.0, 1.0}})
+        quad.push_back({middle.x + s * a.x + t * b.x, middle.y + s * a.y + t * b.y, middle.z + s * a.z + t * b.z});
+    return quad;
+}
+
+// Quads around the mirror direction of an eye, from the shading point.
+std::vector<Quad> lights_of(const Vec& v)
+{
+    const Vec r = {-v.x, -v.y, v.z};
+    const double flat = std::sqrt(v.x * v.x + v.y * v.y);
+    const Vec ahead = flat > 1e-9 ? Vec{r.x / flat, r.y / flat, 0.0} : Vec{-1.0, 0.0, 0.0}, across = {-ahead.y, ahead.x, 0.0};
+    const Vec up = cross(r, across); // with `across` and r a frame
+    return {
+        parallelogram({0.3, 0.2, 1.0}, {1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}),
+        parallelogram({ahead.x, ahead.y, 0.25}, scaled(across, 1.0), {0.0, 0.0, 0.75}),
+        parallelogram(r, scaled(across, 0.15), scaled(up, 0.15)),
+        parallelogram(r, scaled(across, 0.5), scaled(up, 0.02)),
+        parallelogram({r.x + 20.0 * across.x, r.y + 20.0 * across.y, r.z + 20.0 * across.z}, scaled(across, 20.0), scaled(up, 20.0)),
+        parallelogram({2.0 * ahead.x, 2.0 * ahead.y, 0.1}, scaled(across, 2.0), {0.0, 0.0, 0.1}),
+    };
+}
+
+struct Cone { // of a quad: l is in it where it is on the inner side of all planes
+    explicit Cone(const Quad& quad)
+    {
+        Vec middle = {0.0, 0.0, 0.0};
+        for (const Vec& p : quad)
+            middle = {middle.x + p.x, middle.y + p.y, middle.z + p.z};
+        for (std::size_t i = 0; i < 4; ++i) {
+            const Vec n = cross(quad[i], quad[(i + 1) % 4]);
+            planes[i] = dot(n, middle) < 0.0 ? scaled(n, -1.0) : n;
+        }
+    }
+    bool holds(const Vec& l) const
+    {
+        return dot(planes[0], l) > 0.0 && dot(planes[1], l) > 0.0 && dot(planes[2], l) > 0.0 && dot(planes[3], l) > 0.0;
+    }
+    Vec planes[4];
+};
+
+struct Differences {
+    double l1 = 0.0, lights[kLights] = {};
+};
+
+// Integrals of |p - q| and of p - q over cones, by points of both densities. The difference is small where both are large, so the cones'
+// light is known much better from it than from p alone.
+Differences differences(const Lobe& lobe, const Matrix& m, const std::vector<Cone>& cones, const Rule& rule)
+{
+    Differences sum;
+    const Matrix n = inverse(m);
+    const auto add = [&](const Vec& l) {
+        const Reflected f = density(lobe, l);
+        const double q = transformed_cosine(n, l), both = f.visible + q;
+        if (!(both > 0.0))
+            return;
+        const double d = (f.reflected - q) / both;
+        sum.l1 += std::abs(d);
+        for (std::size_t i = 0; i < cones.size(); ++i)
+            if (cones[i].holds(l))
+                sum.lights[i] += d;
+    };
+    for (const Rule::Point& point : rule.points) {
+        add(mirrored_normal(lobe, point));
+        add(unit(m * point.clamped));
+    }
+    const double share = 1.0 / static_cast<double>(rule.points.size());
+    sum.l1 *= share;
+    for (double& light : sum.lights)
+        light *= share;
+    return sum;
+}
+
+Judged judged(const Table& table, const Place& place, bool with_best, const Rule& rule)
+{
+    static const Rule fit_rule(15);
+    Judged j;
+    j.place = place;
+    Lobe lobe(place);
+    const Albedo white = albedo(lobe, rule);
+    lobe.albedo = white.all;
+    const Looked looked = lookup(table, place);
+    const std::vector<Quad> quads = lights_of(lobe.v);
+    std::vector<Cone> cones(quads.begin(), quads.end());
+    const Differences d = differences(lobe, looked.m, cones, rule);
+    j.l1 = d.l1;
+    for (std::size_t i = 0; i < kLights; ++i) {
+        const double part = polygon_part(inverse(looked.m), quads[i]), truth = part + d.lights[i];
+        j.light_absolute[i] = std::abs(d.lights[i]);
+        j.light_relative[i] = std::abs(d.lights[i]) / std::max(truth, 0.02);
+    }
+    j.all_relative = std::abs(looked.all - white.all) / white.all;
+    j.grazing_absolute = std::abs(looked.grazing - white.grazing);
+    if (with_best) {
+        const LobePoints points(lobe, fit_rule);
+        NodeFit best = fit_lobe(points, natural_matrix(place), 0);
+        if (determinant(looked.m) > 0.0)
+            if (const NodeFit other = fit_lobe(points, looked.m, 0); other.l1 < best.l1)
+                best = other;
+        j.best_l1 = differences(lobe, best.m, {}, rule).l1;
+    }
+    return j;
+}
+
+} // namespace
+
+std::vector<Place> judged_places(std::size_t count, std::size_t on_nodes, std::size_t from)
+{
+    std::vector<Place> places;
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::array<double, 4> u = spread_point(from + i);
+        if (i < on_nodes) {
+            const auto step = [](double v, int least, int most) { return least + std::floor(v * (most - least + 1)); };
+            places.push_back(
+                {step(u[0], 0, 6) / 7.0 * 0.5 * kPi, step(u[1], 0, 7) / 7.0 * 0.5 * kPi, step(u[2], 1, 7) / 7.0, step(u[3], 1, 7) / 7.0});
+            continue;
+        }
+        const double alpha = i % 2 == 0 ? 0.05 + 0.95 * u[2] : det_exp(det_log(0.05) * (1.0 - u[2]));
+        places.push_back({u[0] * 85.0 / 180.0 * kPi, u[1] * 0.5 * kPi, alpha, 0.1 + 0.9 * u[3]});
+    }
+    return places;
+}
+
+std::vector<Judged> judge(const Table& table, const std::vector<Place>& places, bool with_best, const Jobs& jobs)
+{
+    const Rule rule(22);
+    std::vector<Judged> all(places.size());
+    jobs.parallel_for(places.size(), [&](std::size_t i, int) { all[i] = judged(table, places[i], with_best, rule); });
+    return all;
+}
+
+Spread spread_of(std::vector<double> values)
+{
+    if (values.empty())
+        return {};
+    std::sort(values.begin(), values.end());
+    Spread s;
+    for (double v : values)
+        s.mean += v / static_cast<double>(values.size());
+    const auto at = [&](double part) { return values[static_cast<std::size_t>(part * static_cast<double>(values.size() - 1) + 0.5)]; };
+    s.median = at(0.5), s.p95 = at(0.95), s.most = values.back();
+    return s;
+}
+
+std::vector<double> l1_of_cells(const Table& table, const Jobs& jobs)
+{
+    const Rule rule(15), albedo_rule(17);
+    const int cells = table.grid.size - 1;
+    std::vector<double> l1(static_cast<std::size_t>(cells) * cells * cells * cells);
+    jobs.parallel_for(l1.size(), [&](std::size_t index, int) {
+        const int i = static_cast<int>(index);
+        const Place place = table.grid.between(i / (cells * cells * cells), i / (cells * cells) % cells, i / cells % cells, i % cells,
+                                               {0.5, 0.5, 0.5, 0.5});
+        const Matrix m = lookup(table, place).m;
+        l1[index] = determinant(m) > 0.0 ? l1_distance(LobePoints(normalised_lobe(place, albedo_rule), rule), m) : 2.0;
+    });
+    return l1;
+}
+
+std::size_t broken_lookups(const Table& table, std::size_t probes, const Jobs& jobs)
+{
+    constexpr std::size_t kChunk = 4096;
+    std::vector<std::size_t> broken((probes + kChunk - 1) / kChunk, 0);
+    jobs.parallel_for(broken.size(), [&](std::size_t c, int) {
+        for (std::size_t i = c * kChunk; i < std::min(probes, (c + 1) * kChunk); ++i)
+            broken[c] += determinant(lookup(table, usable_place(spread_point(i + 1000003))).m) > 0.0 ? 0 : 1;
+    });
+    std::size_t sum = 0;
+    for (std::size_t b : broken)
+        sum += b;
+    return sum;
+}
+
+} // namespace burnish::ltc

@@ -1,0 +1,41 @@
+// How far a table's lobes are from those that they stand for.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "core/jobs/jobs.h"
+#include "shading/bake/ltc/table.h"
+
+namespace burnish::ltc {
+
+inline constexpr int kLights = 6; // under which a lobe is judged: ceiling, wall, square, strip, half plane, low wall
+
+// One lobe and the errors of what a table has for it.
+struct Judged {
+    Place place;
+    double l1 = 0.0, best_l1 = 0.0;      // of the table; of the transformed cosine fitted to this very lobe
+    double light_relative[kLights] = {}; // |difference| over the greater of the light and 0.02
+    double light_absolute[kLights] = {}; // of the lobe's parts that six quads light, each in [0,1]
+    double all_relative = 0.0;           // of nD
+    double grazing_absolute = 0.0;       // of fD
+};
+
+// `count` lobes without random numbers: theta to 85 degrees, alpha from 0.05, half evenly and half by its logarithm, lambda from 0.1; the
+// first `on_nodes` of them on nodes of a grid of 8. `from`: the first point of the sequence.
+std::vector<Place> judged_places(std::size_t count, std::size_t on_nodes, std::size_t from);
+
+// `with_best`: also fits each lobe alone, what no table can surpass.
+std::vector<Judged> judge(const Table& table, const std::vector<Place>& places, bool with_best, const Jobs& jobs);
+
+struct Spread {
+    double mean = 0.0, median = 0.0, p95 = 0.0, most = 0.0;
+};
+Spread spread_of(std::vector<double> values); // of none: zeros
+
+// L1 in the middle of every cell, [theta][phi][alpha][lambda].
+std::vector<double> l1_of_cells(const Table& table, const Jobs& jobs);
+
+// Of `probes` lookups in the usable range, those whose matrix has no positive determinant.
+std::size_t broken_lookups(const Table& table, std::size_t probes, const Jobs& jobs);
+
+} // namespace burnish::ltc

@@ -1,0 +1,151 @@
+#include "shading/bake/ltc/table.h"
+
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <fmt/format.h>
+
+#include "core/base/check.h"
+#include "core/base/file.h"
+#include "core/base/hash.h"
+#include "core/simd/half.h"
+
+namespace burnish::ltc {
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "tables are little-endian");
+constexpr char kMagic[8] = {'b', 'n', 'l', 't', 'c', '0', '1', '\n'};
+
+struct Header {
+    char magic[8];
+    std::uint32_t version, size, flags, channels;
+};
+static_assert(sizeof(Header) == 24);
+
+Matrix matrix_of(const float* entry)
+{
+    Matrix m;
+    for (std::size_t e = 0; e < 9; ++e)
+        m[e] = static_cast<double>(entry[e]);
+    return m;
+}
+
+std::string entry_name(const Grid& grid, std::size_t node)
+{
+    const std::array<int, 4> i = grid.indices(node);
+    return fmt::format("entry [theta {}][phi {}][alpha {}][lambda {}]", i[0], i[1], i[2], i[3]);
+}
+
+} // namespace
+
+Table make_table(const Grid& grid, const std::vector<Matrix>& entries, const std::vector<Albedo>& albedos)
+{
+    BN_CHECK(entries.size() == grid.nodes() && albedos.size() == grid.nodes());
+    Table table = {grid, {}};
+    for (std::size_t node = 0; node < entries.size(); ++node) {
+        for (std::size_t e = 0; e < 9; ++e) // what symmetry makes zero is off by rounding
+            table.entries.push_back(grid.zero(node) >> e & 1u ? 0.0f : static_cast<float>(entries[node][e]));
+        table.entries.push_back(static_cast<float>(albedos[node].all));
+        table.entries.push_back(static_cast<float>(albedos[node].grazing));
+    }
+    return table;
+}
+
+Looked lookup(const Table& table, const Place& place)
+{
+    double sum[kChannels] = {};
+    for (const Corner& corner : table.grid.corners(place))
+        for (std::size_t c = 0; c < kChannels; ++c)
+            sum[c] += corner.weight * static_cast<double>(table.entries[kChannels * corner.node + c]);
+    Matrix entry;
+    for (std::size_t e = 0; e < 9; ++e)
+        entry[e] = sum[e];
+    return {table.grid.shown(entry, place), sum[9], sum[10]};
+}
+
+std::vector<std::uint8_t> table_bytes(const Table& table, bool half)
+{
+    Header h = {};
+    std::memcpy(h.magic, kMagic, sizeof kMagic);
+    h.version = kTableVersion, h.size = static_cast<std::uint32_t>(table.grid.size), h.channels = kChannels;
+    h.flags = (table.grid.root_alpha ? kRootAlpha : 0u) | static_cast<std::uint32_t>(table.grid.basis) << kBasisShift | (half ? kHalf : 0u);
+    std::vector<std::uint8_t> bytes(sizeof h);
+    std::memcpy(bytes.data(), &h, sizeof h);
+    const auto append = [&bytes](const auto& value) {
+        const std::size_t at = bytes.size();
+        bytes.resize(at + sizeof value);
+        std::memcpy(bytes.data() + at, &value, sizeof value);
+    };
+    for (float value : table.entries)
+        if (half)
+            append(float_to_half(value));
+        else
+            append(value);
+    append(hash_bytes(bytes.data(), bytes.size()));
+    return bytes;
+}
+
+Result<Table> parse_table(const std::uint8_t* data, std::size_t bytes, const std::string& path, int size)
+{
+    const auto refuse = [&](const std::string& place, const std::string& reason) {
+        return Error{ExitCode::bad_input, path, place, reason};
+    };
+    Header h;
+    if (bytes < sizeof h || std::memcmp(data, kMagic, sizeof kMagic) != 0)
+        return refuse("byte 0", "is not a table of transformed cosines");
+    std::memcpy(&h, data, sizeof h);
+    if (h.version != kTableVersion)
+        return refuse("byte 8", fmt::format("has version {}, this program reads version {}", h.version, kTableVersion));
+    if (h.size < kLeastSize || h.size > kMostSize)
+        return refuse("byte 12", fmt::format("has {} nodes along an axis, which must be {} to {}", h.size, kLeastSize, kMostSize));
+    if (size != 0 && h.size != static_cast<std::uint32_t>(size))
+        return refuse("byte 12", fmt::format("has {} nodes along an axis, {} are asked for", h.size, size));
+    if ((h.flags & ~(kRootAlpha | kHalf | kBasisMask)) != 0 || (h.flags & kBasisMask) == kBasisMask)
+        return refuse("byte 16", fmt::format("has flags {:#x}, of which some are not known", h.flags));
+    if (h.channels != kChannels)
+        return refuse("byte 20", fmt::format("has {} channels, which must be {}", h.channels, kChannels));
+    Table table;
+    table.grid.size = static_cast<int>(h.size);
+    table.grid.root_alpha = (h.flags & kRootAlpha) != 0, table.grid.basis = static_cast<Basis>((h.flags & kBasisMask) >> kBasisShift);
+    const bool half = (h.flags & kHalf) != 0;
+    const std::size_t values = table.grid.nodes() * kChannels, width = half ? 2 : 4, whole = sizeof h + values * width + 8;
+    if (bytes != whole)
+        return refuse(fmt::format("byte {}", std::min(bytes, whole)), fmt::format("has {} bytes, which must be {}", bytes, whole));
+    std::uint64_t hash = 0;
+    std::memcpy(&hash, data + whole - 8, sizeof hash);
+    if (hash != hash_bytes(data, whole - 8))
+        return refuse(fmt::format("byte {}", whole - 8), "is damaged: its hash is another one");
+    table.entries.resize(values);
+    for (std::size_t i = 0; i < values; ++i) {
+        if (half) {
+            std::uint16_t value = 0;
+            std::memcpy(&value, data + sizeof h + 2 * i, 2);
+            table.entries[i] = half_to_float(value);
+        } else {
+            std::memcpy(&table.entries[i], data + sizeof h + 4 * i, 4);
+        }
+        if (!std::isfinite(table.entries[i]))
+            return refuse(entry_name(table.grid, i / kChannels), fmt::format("channel {} is not finite", i % kChannels));
+    }
+    for (std::size_t node = 0; node < table.grid.nodes(); ++node)
+        if (!(determinant(matrix_of(&table.entries[kChannels * node])) > 0.0))
+            return refuse(entry_name(table.grid, node), "has no positive determinant");
+    return table;
+}
+
+Result<Table> read_table(const std::string& path, int size)
+{
+    constexpr std::uint64_t kMostBytes = 64u << 20; // 32 nodes along an axis
+    const Result<std::vector<std::uint8_t>> bytes = read_file(path, kMostBytes);
+    if (!bytes)
+        return bytes.error();
+    return parse_table(bytes->data(), bytes->size(), path, size);
+}
+
+Status write_table(const std::string& path, const Table& table, bool half)
+{
+    const std::vector<std::uint8_t> bytes = table_bytes(table, half);
+    return write_file_atomic(path, bytes.data(), bytes.size());
+}
+
+} // namespace burnish::ltc

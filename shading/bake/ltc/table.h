@@ -1,0 +1,44 @@
+// A table of transformed cosines as a file and in memory.
+//
+// The file, little-endian: 8 bytes "bnltc01\n"; uint32 version (1), nodes along an axis, flags (kRootAlpha, kOverWidths, kHalf), channels
+// (11); the entries; uint64 xxHash64 of all before. Entries go by theta, phi, alpha, lambda, the last one fastest; each holds the matrix
+// row by row, then nD and fD, as float32 or, with kHalf, as IEEE halves (both to nearest even). See Grid for where nodes lie. The matrix
+// takes the cosine's space to the lobe's; its third column is a unit vector, and with kOverWidths the first one is over alpha and the
+// second over alpha lambda. nD: directional albedo of the lobe where Fresnel is 1; fD: where it is (1 - v.h)^5: reflectance is f0 nD + (f90
+// - f0) fD.
+#pragma once
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/base/result.h"
+#include "shading/bake/ltc/grid.h"
+
+namespace burnish::ltc {
+
+inline constexpr std::uint32_t kTableVersion = 1, kRootAlpha = 1, kHalf = 2, kBasisShift = 2, kBasisMask = 3u << kBasisShift;
+inline constexpr std::size_t kChannels = 11;
+inline constexpr int kLeastSize = 2, kMostSize = 32;
+
+struct Table {
+    Grid grid;
+    std::vector<float> entries; // [theta][phi][alpha][lambda][kChannels]
+};
+
+// Rounded to what the file holds, so that what is measured is what is shipped.
+Table make_table(const Grid& grid, const std::vector<Matrix>& entries, const std::vector<Albedo>& albedos);
+
+struct Looked {
+    Matrix m; // of a lobe, its third column nearly unit
+    double all, grazing;
+};
+Looked lookup(const Table& table, const Place& place);
+
+std::vector<std::uint8_t> table_bytes(const Table& table, bool half = false);
+
+// `size`: nodes along an axis that are asked for, 0: any. What is damaged, not finite or without a positive determinant is refused.
+Result<Table> parse_table(const std::uint8_t* data, std::size_t bytes, const std::string& path, int size);
+Result<Table> read_table(const std::string& path, int size);
+Status write_table(const std::string& path, const Table& table, bool half = false);
+
+} // namespace burnish::ltc

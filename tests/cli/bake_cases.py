@@ -1,0 +1,81 @@
+"""burnish bake: tables that shading reads."""
+
+import hashlib
+import json
+import pathlib
+import signal
+import subprocess
+import time
+import xml.dom.minidom
+
+from harness import case, check
+
+SMALL = ("bake", "ltc", "--resolution", "3", "--steps", "2", "--samples", "2")
+SHIPPED = pathlib.Path(__file__).resolve().parents[2] / "shading/bake/ltc/ggx.ltc"
+
+
+@case("bake.threads_make_no_difference", tier="check")
+def threads(bench):
+    for n in ("1", "2", "3"):
+        bench.run(*SMALL, "--threads", n, "-o", f"t{n}.ltc", "-q").expect(0)
+    hashes = {hashlib.sha256((bench.folder / f"t{n}.ltc").read_bytes()).hexdigest() for n in (1, 2, 3)}
+    check(len(hashes) == 1, "tables by 1, 2 and 3 threads differ")
+    check(bench.left_behind() == ["t1.ltc", "t2.ltc", "t3.ltc"], f"left {bench.left_behind()}")
+
+
+@case("bake.killed_goes_on_to_the_same_bytes", tier="gate")
+def killed(bench):
+    words = ("bake", "ltc", "--resolution", "4", "--steps", "6", "--samples", "4")
+    bench.run(*words, "-o", "straight.ltc", "-q").expect(0)
+    part = bench.folder / "t.ltc.part"
+    for sent, code in ((signal.SIGKILL, -signal.SIGKILL), (signal.SIGTERM, 128 + signal.SIGTERM)):
+        child = subprocess.Popen([bench.program, *words, "-o", "t.ltc", "-q"], cwd=bench.folder, env=bench.environment({}))
+        before = part.read_bytes() if part.exists() else None
+        while child.poll() is None and (not part.exists() or part.read_bytes() == before):
+            time.sleep(0.005)
+        child.send_signal(sent)
+        check(child.wait() in (code, 0), f"it ended with {child.returncode}")
+    check((bench.folder / "t.ltc").exists() or part.exists(), "nothing was kept")
+    bench.run(*words, "-o", "t.ltc", "-q").expect(0)
+    check((bench.folder / "t.ltc").read_bytes() == (bench.folder / "straight.ltc").read_bytes(), "the table after kills is another one")
+    check(bench.left_behind() == ["straight.ltc", "t.ltc"], f"left {bench.left_behind()}")
+
+
+@case("bake.a_report_holds_figures_and_a_drawing", tier="gate")
+def report(bench):
+    said = bench.run("bake", "ltc", "--table", SHIPPED, "--report", "quality", timeout=600).expect(0)
+    check("det <= 0" in said.out and "theta > 70" in said.out, said.describe())
+    found = json.loads((bench.folder / "quality/quality.json").read_text())
+    check(found["table"]["size"] == 8 and found["lookups"]["broken"] == 0, f"{found['table']}, {found['lookups']}")
+    parts = {part["lobes"]: part for part in found["parts"]}
+    for name, most in (("all", 0.132), ("others", 0.142)):
+        check(parts[name]["l1"]["mean"] <= most, f"mean L1 of {name}: {parts[name]['l1']}")
+        check(parts[name]["best_l1"]["mean"] <= parts[name]["l1"]["mean"], "a table beats what fits each lobe alone")
+    check(parts["all"]["light_relative"]["mean"] <= 0.069 and parts["all"]["light_absolute"]["mean"] <= 0.0067, f"{parts['all']}")
+    check(len(found["l1_of_cells"]) == 7 ** 4, "a cell is missing")
+    xml.dom.minidom.parse(str(bench.folder / "quality/quality.svg"))
+    check((bench.folder / "quality/quality.png").read_bytes()[:4] == b"\x89PNG", "no PNG")
+
+
+@case("bake.the_shipped_table_is_what_the_command_makes", tier="slow")
+def shipped(bench):
+    bench.run("bake", "ltc", "-o", "ggx.ltc", "-q", timeout=3600).expect(0)
+    check((bench.folder / "ggx.ltc").read_bytes() == SHIPPED.read_bytes(), "the shipped table is another one")
+
+
+@case("bake.what_is_wrong_says_one_line", "input", tier="check")
+def wrong(bench):
+    data = SHIPPED.read_bytes()
+    files = {"magic.ltc": b"x" + data[1:], "short.ltc": data[:-100], "damaged.ltc": data[:5000] + b"\1\2\3\4" + data[5004:], "empty.ltc": b""}
+    for name, text in files.items():
+        (bench.folder / name).write_bytes(text)
+    (bench.folder / "t.ltc.part").write_bytes(b"no checkpoint")
+    for words, code, needle in (
+            (("--table", "magic.ltc"), 4, "not a table"), (("--table", "short.ltc"), 4, "bytes, which must be"),
+            (("--table", "damaged.ltc"), 4, "damaged"), (("--table", "empty.ltc"), 4, "empty.ltc"), (("--table", "none.ltc"), 4, "none.ltc"),
+            (("--table", SHIPPED, "--resolution", "12"), 4, "12 are asked for"), (("-o", "t.ltc"), 4, "t.ltc.part"), ((), 2, "-o"),
+            (("-o", "u.ltc", "--table", SHIPPED), 2, "-o"), (("--table", SHIPPED, "--steps", "3"), 2, "--steps"),
+            (("-o", "no/t.ltc"), 7, "no/t.ltc"), (("-o", "-"), 2, "-o"), (("-o", "u.ltc", "--resolution", "2"), 2, "--resolution")):
+        bench.run("bake", "ltc", *words).expect(code).expect_one_line(needle)
+    bench.run("bake", "lct", "-o", "u.ltc").expect(2).expect_one_line("lct")
+    check(bench.left_behind() == sorted([*files, "t.ltc.part"]), f"left {bench.left_behind()}")

@@ -1,0 +1,153 @@
+// Fits: one lobe, a table, and that nothing about how the work was done shows in its bytes.
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <filesystem>
+
+#include "core/base/file.h"
+#include "core/math/scalar_math.h"
+#include "shading/bake/ltc/bake_ltc.h"
+#include "shading/bake/ltc/interpolant_fit.h"
+#include "shading/bake/ltc/quality.h"
+
+namespace burnish::ltc {
+namespace {
+
+BakeOptions small()
+{
+    BakeOptions options;
+    options.grid.size = 3;
+    options.steps = 2, options.samples_a_cell = 2;
+    return options;
+}
+
+std::vector<std::uint8_t> bytes_of(const BakeOptions& options, int threads)
+{
+    const Jobs jobs(threads);
+    const Result<std::optional<Baked>> baked = bake_table(options, jobs);
+    EXPECT_TRUE(baked) << (baked ? "" : baked.error().line());
+    return baked && *baked ? table_bytes((*baked)->table) : std::vector<std::uint8_t>();
+}
+
+TEST(fit, single_lobes_reach_what_is_known)
+{
+    // {theta, phi, alpha, lambda} in sevenths, and the L1 of fits by an implementation of its own
+    const struct {
+        int at[4];
+        double l1;
+    } known[] = {{{0, 0, 7, 7}, 0.0307}, {{2, 3, 4, 4}, 0.0656}, {{3, 2, 6, 5}, 0.0456},
+                 {{5, 3, 4, 2}, 0.3243}, {{6, 5, 3, 1}, 0.5595}, {{6, 4, 7, 2}, 0.2588}};
+    const Rule rule(15), white(18);
+    for (const auto& k : known) {
+        const Place place = {k.at[0] / 14.0 * kPi, k.at[1] / 14.0 * kPi, k.at[2] / 7.0, k.at[3] / 7.0};
+        const LobePoints points(normalised_lobe(place, white), rule);
+        const NodeFit fit = fit_lobe(points, natural_matrix(place), 0);
+        EXPECT_NEAR(fit.l1, k.l1, 0.002) << k.at[0] << k.at[1] << k.at[2] << k.at[3];
+        EXPECT_GT(determinant(fit.m), 0.0);
+        EXPECT_NEAR(fit.m[2] * fit.m[2] + fit.m[5] * fit.m[5] + fit.m[8] * fit.m[8], 1.0, 1e-12);
+    }
+}
+
+TEST(fit, equations_are_the_derivative)
+{
+    // Along every element of E the sums' gradient is that of sum W (p - q)^2 / 2, with the weights of the start.
+    const Place place = {0.8, 0.5, 0.4, 0.5};
+    const Rule rule(15), white(18);
+    const LobePoints points(normalised_lobe(place, white), rule);
+    const Matrix m = with_unit_axis(natural_matrix(place));
+    const Sums sums = sums_of(points, m);
+    const auto energy = [&](const Matrix& moved) {
+        const Matrix n = inverse(m), n2 = inverse(moved);
+        double sum = 0.0;
+        const auto add = [&](const Vec& l) {
+            const Reflected f = density(points.lobe, l);
+            const double q = transformed_cosine(n, l), r = f.reflected - transformed_cosine(n2, l);
+            if (!(q > 0.0)) // no step moves its density in the first order
+                return;
+            sum += 0.5 * r * r / ((f.visible + q) * (std::abs(f.reflected - q) + 0.05 * (f.reflected + q)));
+        };
+        for (const LobePoints::Point& p : points.points)
+            add(p.l);
+        for (const Rule::Point& p : rule.points)
+            add(unit(m * p.clamped));
+        return sum / static_cast<double>(rule.points.size());
+    };
+    for (std::size_t e = 0; e < 9; ++e) {
+        const double h = 1e-5;
+        Matrix up = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0}, down = up;
+        up[e] += h, down[e] -= h;
+        const double slope = (energy(m * inverse(up)) - energy(m * inverse(down))) / (2.0 * h);
+        EXPECT_NEAR(-sums.gradient[e], slope, 2e-3 * std::abs(slope) + 2e-3) << "element " << e;
+    }
+}
+
+TEST(fit, threads_make_no_difference)
+{
+    const std::vector<std::uint8_t> one = bytes_of(small(), 1);
+    EXPECT_EQ(one, bytes_of(small(), 2));
+    EXPECT_EQ(one, bytes_of(small(), 3));
+}
+
+TEST(fit, stopped_and_gone_on_with_it_is_the_same)
+{
+    const std::string path = testing::TempDir() + "ltc_fit_test.part";
+    std::filesystem::remove(path);
+    const std::vector<std::uint8_t> straight = bytes_of(small(), 1);
+    const Jobs jobs(1);
+    int stops = 0;
+    for (bool done = false; !done;) {
+        std::atomic<bool> stop{false}; // as soon as something was done: after the nodes, and after each step
+        BakeOptions options = small();
+        options.checkpoint = path;
+        options.stop = &stop;
+        options.advance = [&stop](std::size_t units) { stop = units == 1 || units == 64; }; // more at once: what was done before
+        const Result<std::optional<Baked>> baked = bake_table(options, jobs);
+        ASSERT_TRUE(baked) << baked.error().line();
+        done = baked->has_value();
+        if (done) {
+            EXPECT_EQ(table_bytes((*baked)->table), straight);
+        } else {
+            ASSERT_LT(++stops, 10);
+        }
+    }
+    EXPECT_EQ(stops, 2);
+    // What is kept of another table, or damaged, is refused.
+    BakeOptions other = small();
+    other.checkpoint = path, other.steps = 3;
+    EXPECT_FALSE(bake_table(other, jobs));
+    Result<std::vector<std::uint8_t>> kept = read_file(path, 1u << 30);
+    ASSERT_TRUE(kept);
+    (*kept)[kept->size() / 2] ^= 1;
+    ASSERT_TRUE(write_file_atomic(path, kept->data(), kept->size()));
+    other.steps = 2;
+    const Result<std::optional<Baked>> damaged = bake_table(other, jobs);
+    ASSERT_FALSE(damaged);
+    EXPECT_NE(damaged.error().reason.find("damaged"), std::string::npos);
+    std::filesystem::remove(path);
+}
+
+TEST(fit, a_coarse_table_is_nearer_between_its_nodes_than_its_nodes_alone_make_it)
+{
+    BakeOptions options;
+    options.grid.size = 5;
+    options.steps = 5, options.samples_a_cell = 4;
+    const Jobs jobs;
+    const Result<std::optional<Baked>> fitted = bake_table(options, jobs);
+    options.steps = 0;
+    const Result<std::optional<Baked>> nodes = bake_table(options, jobs);
+    ASSERT_TRUE(fitted && nodes && *fitted && *nodes);
+    EXPECT_LT((*fitted)->fit_l1, 0.95 * (*fitted)->fit_l1_before);
+    const std::vector<Place> places = judged_places(200, 0, 5000);
+    const auto mean = [&](const Table& table) {
+        std::vector<double> l1;
+        for (const Judged& j : judge(table, places, false, jobs))
+            l1.push_back(j.l1);
+        return spread_of(l1).mean;
+    };
+    const double with = mean((*fitted)->table), without = mean((*nodes)->table);
+    EXPECT_LT(with, 0.97 * without);
+    EXPECT_LT(with, 0.2);
+}
+
+} // namespace
+} // namespace burnish::ltc
