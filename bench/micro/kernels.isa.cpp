@@ -1,6 +1,7 @@
 #include "bench/micro/kernels.h"
 
-#include "raster/tile/techniques.h"
+#include "raster/tile/tile_types.h"
+#include "shading/lang/techniques.h"
 
 namespace burnish {
 inline namespace BN_ISA_NS {
@@ -24,7 +25,7 @@ template <Technique kTechnique> void run(const FrameParams& f, const KernelSurfa
         x.s = s, x.lobe = lobe, x.surface_axes = frame;
         x.albedo = s.f0, x.gain = vec3_all(lit(1.0));
         x.pixel_id = iota() + int_lit(i);
-        const real3 color = technique_specular<kTechnique>(f, x);
+        const real3 color = technique_specular(f, technique_tag<kTechnique>{}, x);
         store(rgb, color.x), store(rgb + kLanes, color.y), store(rgb + 2 * kLanes, color.z);
     }
 }

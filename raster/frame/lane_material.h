@@ -5,7 +5,7 @@
 namespace burnish {
 inline namespace BN_ISA_NS {
 
-[[maybe_unused]] BN_STAGE material_inputs fetch_lanes(const ShadingFrame& f, const MaterialRecord& m, const visible_point& p)
+BN_STAGE material_inputs fetch_lanes(const ShadingFrame& f, const MaterialRecord& m, const visible_point& p)
 {
     return fetch_material(f, m, p);
 }

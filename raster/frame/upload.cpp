@@ -76,6 +76,9 @@ LightRecord light_record(const PunctualLight& l)
     return r;
 }
 
+static_assert(static_cast<int>(AlphaMode::opaque) == kAlphaOpaque && static_cast<int>(AlphaMode::mask) == kAlphaMask &&
+              static_cast<int>(AlphaMode::blend) == kAlphaBlend);
+
 // Vulkan 1.3, "Standard sample locations", in 1/16 pixel.
 struct Position {
     std::int8_t x, y;

@@ -5,7 +5,9 @@
 #include "raster/frame/lane_material.h"
 #include "raster/reference/reference_types.h"
 #include "raster/reference/reflector.h"
-#include "shading/kernels/camera_ray.k.h"
+#include "shading/kernels/camera.t.h"
+#include "shading/lights/background.t.h"
+#include "shading/surface/coverage.t.h"
 
 namespace burnish {
 inline namespace BN_ISA_NS {
@@ -31,9 +33,9 @@ struct PixelFrame { // what a batch of lanes knows of its place
 // (px, py): pixels from the image's top left corner.
 BN_INLINE LaneRays camera_rays(const ReferenceParams& f, real px, real py)
 {
-    const view_params view = lanes_view(f.view);
+    const view_params view = view_params_of(f.view);
     LaneRays r;
-    r.direction = pixel_ray(px, py, splat(f.half_width), splat(f.half_height), view);
+    r.direction = ray_through(f, view, px, py);
     r.origin = view.eye;
     r.tnear = view.znear;
     r.tfar = splat(__builtin_inff());
@@ -159,7 +161,7 @@ BN_STAGE mask passes_through(const PixelFrame& p, const LaneHits& h, const LaneR
     LaneGeometry g;
     bool located = false;
     for_each_material(p.f, h.triangle, h.found, [&](const MaterialRecord& m, mask lanes) {
-        if (m.alpha_mode == 0)
+        if (m.alpha_mode == kAlphaOpaque)
             return;
         if (!located)
             g = locate_hits(p.f, h, r, footprint);
@@ -167,8 +169,7 @@ BN_STAGE mask passes_through(const PixelFrame& p, const LaneHits& h, const LaneR
         const real alpha = fetch_lanes(p.f, m, g.fragment).alpha;
         const integer key =
             (iota() + int_lit(p.first)) ^ splat_bits(hash_seed(p.seed, 0x5000u + static_cast<std::uint32_t>(turn))) ^ bits_of(h.t);
-        const real threshold = m.alpha_mode == 2 ? k_unit_from_bits(k_hash_u32(key)) : splat(m.alpha_cutoff);
-        through |= to_bits(both(lanes, m.alpha_mode == 2 ? alpha <= threshold : alpha < threshold));
+        through |= to_bits(both(lanes, not_(alpha_stays(m, alpha, k_unit_from_bits(k_hash_u32(key))))));
     });
     return mask_from_bits(through);
 }
@@ -201,11 +202,6 @@ struct LaneSurface { // what was hit, or nothing
     real3 position, normal; // normal: the triangle's
     mask reflects;
 };
-
-BN_INLINE real3 environment_radiance(const ReferenceParams& f, real3 direction)
-{
-    return cube_sample_level(whole_cube(f), direction, 0) * splat(f.whole.scale);
-}
 
 BN_INLINE Reflector select_reflector(mask m, const Reflector& a, const Reflector& b)
 {
@@ -240,7 +236,7 @@ BN_STAGE MaterialAtHits material_at_hits(const ReferenceParams& f, const Materia
     shaded_point x;
     make_shaded_point(f, m, at, lobe_shape_of(f, m, at), g.fragment, int_lit(0), x);
     r.r = make_reflector(f, x);
-    r.emission = m.unlit ? at.base : at.emissive;
+    r.emission = own_light(m, at);
     return r;
 }
 

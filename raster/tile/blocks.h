@@ -1,7 +1,8 @@
 // Blocks of 8x8 pixels whose samples are written late: where nothing was drawn, or one triangle covers all of it, there is nothing to
 // clear, to test against or to read again.
 #pragma once
-#include "raster/tile/lanes_view.h"
+#include "core/simd/lanes.h"
+#include "raster/tile/tile_types.h"
 
 namespace burnish {
 inline namespace BN_ISA_NS {

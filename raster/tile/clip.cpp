@@ -1,8 +1,8 @@
 // Clipping of the rare triangle that crosses the near plane or leaves the guard band. Sutherland and Hodgman 1974, in
 // homogeneous coordinates. Every cut is computed from the inside to the outside vertex, so two triangles that share an edge get
 // the same cut whatever their order, and no crack opens.
-#include "raster/tile/lanes_view.h"
 #include "raster/tile/tile_types.h"
+#include "shading/kernels/camera.t.h"
 
 namespace burnish {
 
@@ -96,12 +96,13 @@ bool tile_rect(const FrameParams& f, const TriangleSetup& t, std::uint32_t corne
 
 void emit_piece(const FrameParams& f, std::uint32_t triangle, const ClipVertex* const corner[3], ChunkOutput& out)
 {
+    const view_params view = view_params_of(f.view);
     TriangleSetup t = {};
     for (int i = 0; i < 3; ++i) {
         // a cut may come out a rounding error behind the near plane
         const float w = f.view.orthographic || corner[i]->c[2] > f.view.znear ? corner[i]->c[2] : f.view.znear;
         const float z = f.view.orthographic && corner[i]->c[3] > 1.0f ? 1.0f : corner[i]->c[3];
-        const snapped_vertex s = snap_lanes(f, lanes_view(f.view), vec4_of(corner[i]->c[0], corner[i]->c[1], w, z), kGuardBand);
+        const snapped_vertex s = snap_to_frame(f, vec4_of(corner[i]->c[0], corner[i]->c[1], w, z), view, kGuardBand);
         if (!s.valid)
             return; // numerically degenerate: nothing left of it
         t.x[i] = s.x, t.y[i] = s.y, t.inv_w[i] = s.inv_w, t.z[i] = s.z;
@@ -141,7 +142,7 @@ void clip_triangle(const FrameParams& f, std::uint32_t triangle, ChunkOutput& ou
     ClipVertex polygon[kMaxVertices + 1];
     for (std::uint32_t i = 0; i < 3; ++i) {
         const std::uint32_t v = f.indices[3 * triangle + i];
-        const real4 c = clip_position(vec3_of(f.px[v], f.py[v], f.pz[v]), lanes_view(f.view));
+        const real4 c = clip_position(vec3_of(f.px[v], f.py[v], f.pz[v]), view_params_of(f.view));
         polygon[i] = {{c.x, c.y, c.z, c.w}, {i == 0 ? 1.0f : 0.0f, i == 1 ? 1.0f : 0.0f, i == 2 ? 1.0f : 0.0f}};
     }
     const int n = clip_polygon(f, polygon, 3);

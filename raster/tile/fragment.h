@@ -2,9 +2,10 @@
 // (differences in the 2x2 quad, taken from the plane equations, so no helper lanes run).
 #pragma once
 #include "raster/frame/lane_material.h"
-#include "raster/tile/lanes_view.h"
-#include "shading/kernels/camera_ray.k.h"
+#include "raster/tile/tile_types.h"
+#include "shading/kernels/camera.t.h"
 #include "shading/kernels/interpolate.k.h"
+#include "shading/surface/coverage.t.h"
 
 namespace burnish {
 inline namespace BN_ISA_NS {
@@ -93,16 +94,9 @@ BN_INLINE ShadePoint shade_point(const FrameParams& f, integer corner_x, integer
     ShadePoint p = {corner_x + int_lit(kSubpixel / 2), corner_y + int_lit(kSubpixel / 2)};
     if (all(center_inside))
         return p;
-    integer sum_x = int_lit(0), sum_y = int_lit(0), count = int_lit(0);
-    for (int s = 0; s < f.msaa; ++s) {
-        const integer bit = shr_logical(samples, s) & int_lit(1);
-        sum_x = sum_x + bit * int_lit(f.pattern.x[s]);
-        sum_y = sum_y + bit * int_lit(f.pattern.y[s]);
-        count = count + bit;
-    }
-    const real inv = lit(1.0) / max(to_real(count), lit(1.0));
-    p.x = select(center_inside, p.x, corner_x + to_int(to_real(sum_x) * inv));
-    p.y = select(center_inside, p.y, corner_y + to_int(to_real(sum_y) * inv));
+    const sample_mean mean = mean_of_samples(f, samples);
+    p.x = select(center_inside, p.x, corner_x + mean.x);
+    p.y = select(center_inside, p.y, corner_y + mean.y);
     return p;
 }
 
@@ -163,8 +157,7 @@ BN_INLINE visible_point make_fragment_inline(const FrameParams& f, material_ref 
     p.tangent_sign = select(a[6] < lit(0.0), lit(-1.0), lit(1.0));
     p.front = (t.info & int_lit(kFrontFacing)) != int_lit(0);
     const real to_pixels = lit(1.0 / kSubpixel);
-    p.ray = pixel_ray(to_real(point.x + int_lit(f.center_x)) * to_pixels, to_real(point.y + int_lit(f.center_y)) * to_pixels,
-                      splat(f.half_width), splat(f.half_height), view);
+    p.ray = ray_through(f, view, to_real(point.x + int_lit(f.center_x)) * to_pixels, to_real(point.y + int_lit(f.center_y)) * to_pixels);
     if (lights)
         p.position = vec3_of(blend_gather(f.px, t, w.b), blend_gather(f.py, t, w.b), blend_gather(f.pz, t, w.b));
     if (m.uses_color)
@@ -189,9 +182,8 @@ BN_INLINE visible_point make_fragment_inline(const FrameParams& f, material_ref 
 }
 
 // Compiled once in a file.
-[[maybe_unused]] BN_STAGE visible_point make_fragment(const FrameParams& f, const MaterialRecord& m, const view_params& view,
-                                                      const TileScratch& scratch, integer triangle, std::int32_t common, integer pixel_x,
-                                                      integer pixel_y, integer samples)
+BN_STAGE visible_point make_fragment(const FrameParams& f, const MaterialRecord& m, const view_params& view, const TileScratch& scratch,
+                                     integer triangle, std::int32_t common, integer pixel_x, integer pixel_y, integer samples)
 {
     return make_fragment_inline(f, m, view, scratch, triangle, common, pixel_x, pixel_y, samples, f.light_count > 0);
 }

@@ -2,18 +2,19 @@
 #include "raster/tile/geometry.h"
 
 #include "raster/tile/lane_triangles.h"
+#include "shading/kernels/camera.t.h"
 
 namespace burnish {
 inline namespace BN_ISA_NS {
 
 void transform_vertices(const FrameParams& f, std::uint32_t first, std::uint32_t count)
 {
-    const view_params view = lanes_view(f.view);
+    const view_params view = view_params_of(f.view);
     for (std::uint32_t i = 0; i < count; i += kLanes) {
         const std::uint32_t v = first + i;
         const int n = static_cast<int>(count - i < kLanes ? count - i : kLanes);
         const real3 p = vec3_of(load_first(f.px + v, n), load_first(f.py + v, n), load_first(f.pz + v, n));
-        const snapped_vertex s = snap_lanes(f, view, clip_position(p, view), kWholeBand);
+        const snapped_vertex s = snap_to_frame(f, clip_position(p, view), view, kWholeBand);
         const integer fields[4] = {select(s.valid, s.x, int_lit(kNeedsClip)), s.y, bits_of(s.inv_w), bits_of(s.z)};
         store_quads(f.vertices + v, fields, n);
     }

@@ -1,7 +1,8 @@
 // Whole triangles a lane each: fetched by id from the frame's vertices.
 #pragma once
 #include "core/base/column.h"
-#include "raster/tile/lanes_view.h"
+#include "core/simd/lanes.h"
+#include "raster/tile/tile_types.h"
 
 namespace burnish {
 inline namespace BN_ISA_NS {

@@ -4,7 +4,6 @@
 #pragma once
 #include "raster/frame/frame.h"
 #include "raster/tile/fragment.h"
-#include "raster/tile/lanes_view.h"
 #include "raster/tile/raster.h"
 
 namespace burnish {
@@ -28,11 +27,11 @@ struct WordWriter {
 
 BN_STAGE void record_vertices(const FrameParams& f, std::uint32_t count, std::uint32_t* out)
 {
-    const view_params view = lanes_view(f.view);
+    const view_params view = view_params_of(f.view);
     WordWriter w{out};
     for (std::uint32_t v = 0; v < count; ++v) {
         const real4 clip = clip_position(vec3_of(splat(f.px[v]), splat(f.py[v]), splat(f.pz[v])), view);
-        const snapped_vertex s = snap_lanes(f, view, clip, kWholeBand);
+        const snapped_vertex s = snap_to_frame(f, clip, view, kWholeBand);
         w.put(clip);
         w.put(select(s.valid, s.x, int_lit(kNeedsClip)));
         w.put(s.y);

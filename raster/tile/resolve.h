@@ -1,23 +1,16 @@
 // From the colours of fragments to pixels.
 #pragma once
 #include "raster/tile/blocks.h"
+#include "shading/surface/coverage.t.h"
 
 namespace burnish {
 inline namespace BN_ISA_NS {
-
-BN_INLINE real popcount16(integer i)
-{
-    i = i - (shr_logical(i, 1) & int_lit(0x5555));
-    i = (i & int_lit(0x3333)) + (shr_logical(i, 2) & int_lit(0x3333));
-    i = (i + shr_logical(i, 4)) & int_lit(0x0f0f);
-    return to_real((i + shr_logical(i, 8)) & int_lit(0x1f));
-}
 
 // Box resolve: the mean over samples, fragments of a pixel in the order of their passes, so the sum never depends on how they were
 // batched. Writes RGB to the frame.
 BN_INLINE void resolve(const FrameParams& f, int x0, int y0, int width, int height, const TileScratch& s)
 {
-    const real inv = splat(1.0f / static_cast<float>(f.msaa)), zero = lit(0.0);
+    const real each = splat(1.0f / static_cast<float>(f.msaa)), zero = lit(0.0);
     const std::uint32_t* lanes = s.pass_lanes;
     const std::uint8_t* register_passes = s.register_passes;
     const std::size_t row = 3 * static_cast<std::size_t>(f.width);
@@ -37,7 +30,7 @@ BN_INLINE void resolve(const FrameParams& f, int x0, int y0, int width, int heig
                 for (int k = 0; k < passes; ++k) {
                     const std::uint32_t bits = *lanes++;
                     const mask m = mask_from_bits(bits);
-                    const real weight = popcount16(expand_load_int(s.fragment_mask + at, m)) * inv;
+                    const real weight = covered_share(expand_load_int(s.fragment_mask + at, m), each);
                     r = r + expand_load(s.red + at, m) * weight;
                     g = g + expand_load(s.green + at, m) * weight;
                     b = b + expand_load(s.blue + at, m) * weight;

@@ -4,6 +4,7 @@
 #include "raster/tile/resolve.h"
 #include "raster/tile/shade.h"
 #include "raster/tile/visible.h"
+#include "shading/lights/background.t.h"
 
 namespace burnish {
 inline namespace BN_ISA_NS {
@@ -69,11 +70,10 @@ BN_INLINE void store_batch(const Tile& t, const Batch& b, const real3& color)
 
 BN_INLINE void store_lines(const Tile& t, const Batch& b, const line_record& r)
 {
-    const real3 of[5] = {r.light, r.mirror, r.along, r.factor, r.rest};
+    const line_words line = words_of_line(r);
     integer words[16];
-    words[0] = bits_of(r.width);
-    for (int i = 0; i < 5; ++i)
-        words[3 * i + 1] = bits_of(of[i].x), words[3 * i + 2] = bits_of(of[i].y), words[3 * i + 3] = bits_of(of[i].z);
+    for (int i = 0; i < 16; ++i)
+        words[i] = bits_of(line.at[i]);
     if (b.run) {
         store_records16(t.s.lines + std::ptrdiff_t{16} * b.fragment[0], words);
         return;
@@ -88,8 +88,10 @@ BN_INLINE line_record load_lines(const TileScratch& s, integer fragment)
 {
     integer words[16];
     load_records16(s.lines, fragment, words);
-    const auto at = [&](int i) { return vec3_of(real_from_bits(words[i]), real_from_bits(words[i + 1]), real_from_bits(words[i + 2])); };
-    return {at(1), real_from_bits(words[0]), at(4), at(7), at(10), at(13)};
+    line_words line;
+    for (int i = 0; i < 16; ++i)
+        line.at[i] = real_from_bits(words[i]);
+    return line_of_words(line);
 }
 
 // Which fragments of a pixel share samples.
@@ -108,32 +110,28 @@ void list_sharing(const Tile& t)
     }
 }
 
-// The mean of what the fragments in the quad found, each pixel's by how much of it they cover.
 void share_slot(const Tile& t, std::uint32_t begin, std::uint32_t end)
 {
     const TileScratch& s = t.s;
-    const real inv = splat(1.0f / static_cast<float>(t.f.msaa)), zero = lit(0.0);
+    const real each = splat(1.0f / static_cast<float>(t.f.msaa));
     const integer none_left = int_lit(-1);
     for (std::uint32_t i = begin; i < end; i += kLanes) {
         const Batch b = load_batch(t, i, end);
         const integer fragment = b.run ? iota() + int_lit(b.fragment[0]) : load_int(b.fragment);
         const integer pixel = b.x - int_lit(t.x0) + (b.y - int_lit(t.y0)) * int_lit(kMaxTileSize);
         const line_record own = load_lines(s, fragment);
-        real3 sum = own.light;
-        real weights = lit(1.0);
+        line_mean mean = line_mean_begin(own);
         for (int k = 1; k < 4; ++k) {
             integer at = gather_int(s.sharing_of_pixel, pixel ^ int_lit((k & 1) + (k >> 1) * kMaxTileSize));
             for (mask some = at > none_left; any(some); some = at > none_left) {
                 const integer other = select(some, at, fragment);
                 const line_record r = load_lines(s, other);
-                const real cover = popcount16(gather_int(s.fragment_mask, other)) * inv;
-                const real w = select(some, line_likeness(own, r) * cover, zero);
-                sum = sum + r.light * w;
-                weights = weights + w;
+                const real cover = covered_share(gather_int(s.fragment_mask, other), each);
+                mean = line_mean_add(mean, own, r, cover, some);
                 at = select(some, gather_int(s.next_sharing, other), none_left);
             }
         }
-        store_batch(t, b, line_colour(own, sum / weights));
+        store_batch(t, b, line_mean_colour(mean, own));
     }
 }
 
@@ -149,19 +147,17 @@ void shade_background_slot(const Tile& t, const view_params& view, std::uint32_t
     Batch batches[kGroup];
     texel_plan plans[kGroup];
     const cube_desc cube = whole_cube(t.f);
-    const real scale = splat(t.f.whole.scale);
     for (std::uint32_t i = begin; i < end;) {
         int n = 0;
         for (; n < kGroup && i < end; ++n, i += kLanes) {
             Batch& b = batches[n];
             b = load_batch(t, i, end);
-            const real3 ray =
-                pixel_ray(to_real(b.x) + lit(0.5), to_real(b.y) + lit(0.5), splat(t.f.half_width), splat(t.f.half_height), view);
+            const real3 ray = background_ray(t.f, view, b.x, b.y);
             plan(plans[n], cube_level_rows(cube, cube_face_uv(ray), 0, lit(1.0)));
         }
         for (int k = 0; k < n; ++k) {
             const real4 v = texel_value(texel_add(texel_zero(), cube.texels, plans[k]));
-            store_batch(t, batches[k], vec3_of(v.x, v.y, v.z) * scale);
+            store_batch(t, batches[k], radiance_of_texel(t.f, vec3_of(v.x, v.y, v.z)));
         }
     }
 }
@@ -179,12 +175,11 @@ void shade_plain_slot(const Tile& t, const view_params& view, const MaterialReco
     for (std::uint32_t i = begin; i < end; i += kLanes) {
         const Batch b = load_batch(t, i, end);
         const visible_point p = make_fragment_inline(t.f, material, eye, t.s, b.triangle, b.common, b.x, b.y, b.samples, false);
-        line_record shared; // filled where the technique shares
-        const real3 color = shade_fragments<kTechnique>(frame, material, plan, p, b.x, b.y, shared);
-        if constexpr ((kTechniqueTraits[static_cast<int>(kTechnique)] & kSharesSamples) != 0)
-            store_lines(t, b, shared);
+        const line_record light = shade_fragments<kTechnique>(frame, material, plan, p, b.x, b.y);
+        if constexpr ((technique_tag<kTechnique>::kTraits & kSharesSamples) != 0)
+            store_lines(t, b, light);
         else
-            store_batch(t, b, color);
+            store_batch(t, b, light.rest);
     }
 }
 
@@ -208,12 +203,11 @@ void shade_slot(const Tile& t, const view_params& view, const MaterialRecord& m,
     for (std::uint32_t i = begin; i < end; i += kLanes) {
         const Batch b = load_batch(t, i, end);
         const visible_point p = make_fragment(t.f, m, view, t.s, b.triangle, b.common, b.x, b.y, b.samples);
-        line_record shared; // filled where the technique shares
-        const real3 color = shade_fragments<kTechnique>(t.f, m, plan, p, b.x, b.y, shared);
+        const line_record light = shade_fragments<kTechnique>(t.f, m, plan, p, b.x, b.y);
         if (m.technique_traits & kSharesSamples)
-            store_lines(t, b, shared);
+            store_lines(t, b, light);
         else
-            store_batch(t, b, color);
+            store_batch(t, b, light.rest);
     }
 }
 
@@ -228,7 +222,7 @@ void render_tile(const FrameParams& f, int tile_x, int tile_y, TileScratch& s)
     Tile t{f, s, tile_x, tile_y, tile_x * f.tile_size, tile_y * f.tile_size, 0, 0};
     t.width = f.width - t.x0 < f.tile_size ? f.width - t.x0 : f.tile_size;
     t.height = f.height - t.y0 < f.tile_size ? f.height - t.y0 : f.tile_size;
-    const view_params view = lanes_view(f.view);
+    const view_params view = view_params_of(f.view);
     const int slots = find_visible(t, view);
     shade_background_slot(t, view, s.slot_begin[0], s.slot_begin[1]);
     lap(s, FrameStage::background, -1, s.slot_begin[1] - s.slot_begin[0]);

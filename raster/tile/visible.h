@@ -1,6 +1,8 @@
 // The two halves of a tile: what is visible (visible.isa.cpp), and its colours (tile.isa.cpp).
 #pragma once
-#include "raster/tile/lanes_view.h"
+#include "core/simd/lanes.h"
+#include "raster/tile/tile_types.h"
+#include "shading/kernels/vertex.k.h"
 
 namespace burnish {
 inline namespace BN_ISA_NS {

@@ -23,8 +23,7 @@ BN_STAGE real alpha_at(const Tile& t, const MaterialRecord& m, const view_params
     return fetch_alpha(t.f, m, make_fragment_inline(t.f, m, view, t.s, int_lit(id), id, x, y, int_lit((1 << t.f.msaa) - 1), false));
 }
 
-// Alpha test of one triangle in one block. A mask discards the whole fragment; a blend becomes coverage: sample i of n stays
-// where alpha > (i + 1/2) / n, so the resolved pixel shows about `alpha` of the surface, without sorting.
+// Alpha test of one triangle in one block.
 struct BlockAlpha {
     static constexpr bool kTests = true;
     const Tile& t;
@@ -40,11 +39,8 @@ struct BlockAlpha {
         const integer y = shr(lane, 3) + int_lit(t.y0 + block_y * kBlock);
         const std::int32_t id = static_cast<std::int32_t>(triangle);
         const real alpha = alpha_at(t, m, view, id, x, y);
-        const bool blend = m.alpha_mode == 2;
-        for (int s = 0; s < t.f.msaa; ++s) {
-            const float threshold = blend ? (static_cast<float>(s) + 0.5f) / static_cast<float>(t.f.msaa) : m.alpha_cutoff;
-            alive[s] = lanes & to_bits(blend ? alpha > splat(threshold) : alpha >= splat(threshold));
-        }
+        for (int s = 0; s < t.f.msaa; ++s)
+            alive[s] = lanes & to_bits(alpha_stays(m, alpha, splat(blend_threshold(s, t.f.msaa))));
     }
 };
 
@@ -75,7 +71,7 @@ void raster_register(const Tile& t, std::uint32_t first, std::uint32_t& singly, 
     while (rest) {
         const std::int32_t id = s.triangles[first + static_cast<std::uint32_t>(__builtin_ctz(rest))].info >> 2;
         const std::uint32_t same = rest & to_bits(material == int_lit(id));
-        if (t.f.materials[id].alpha_mode == 0)
+        if (t.f.materials[id].alpha_mode == kAlphaOpaque)
             note_material(s, id);
         else
             small &= ~same;
@@ -104,7 +100,7 @@ template <bool kAnyOrder> void raster_singly(const Tile& t, const view_params& v
         const std::int32_t material = setup.info >> 2;
         note_material(s, material);
         const MaterialRecord& m = t.f.materials[material];
-        if (m.alpha_mode == 0)
+        if (m.alpha_mode == kAlphaOpaque)
             raster_triangle<kAnyOrder>(t.f, triangle, i, s, OpaqueBlocks{});
         else
             raster_triangle<kAnyOrder>(t.f, triangle, i, s, AlphaBlocks{t, m, view, i});

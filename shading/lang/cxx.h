@@ -7,7 +7,7 @@
 #define BN_IN(T) const T&
 #define BN_INOUT(T) T&
 // A stage that several techniques share: compiled once, called once a batch.
-#define BN_STAGE static __attribute__((noinline))
+#define BN_STAGE static __attribute__((noinline, unused))
 #define BN_KERNELS_BEGIN                                                                                                                   \
     namespace burnish {                                                                                                                    \
     inline namespace BN_ISA_NS {

@@ -13,6 +13,7 @@
 
 #define BN_FN
 #define BN_APART
+#define BN_STAGE
 #define BN_IN(T) T
 #define BN_INOUT(T) inout T
 #define BN_KERNELS_BEGIN

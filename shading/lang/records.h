@@ -14,6 +14,8 @@ const int kTextureSlots = 0 // a material
 #include "shading/material.def"
     ;
 
+const int kAlphaOpaque = 0, kAlphaMask = 1, kAlphaBlend = 2; // AlphaMode
+
 // Traits of techniques (shading/models.def).
 const int kTestsHorizon = 1;    // asks of every sample if it lies above the surface's horizon; the others fade
 const int kSamplesLobe = 2;     // samples the lobe itself, whatever its model; what others make of a tilted one is scaled by its albedo
@@ -109,7 +111,7 @@ struct MaterialRecord {
     float normal_scale, occlusion_strength;
     float dielectric_f0[3], dielectric_f90; // from ior and specular
     float alpha_cutoff;
-    int alpha_mode; // AlphaMode
+    int alpha_mode; // kAlphaOpaque...
     int double_sided, unlit, textured, uses_color, anisotropic;
     int roughness_fixed;                               // by an override: the texture gives metalness only
     float anisotropy_strength, anisotropy_rotation[2]; // rotation: cosine and sine

@@ -1,5 +1,5 @@
 // What assembly (*.t.h) may ask of the stage that it runs in: lanes in C++, an invocation in GLSL.
-//   frame_ref f, the_frame(f).width...   the frame's record (shading/lang/records.h)
+//   frame_ref f, the_frame(f).width...   the frame's record (shading/lang/records.h); any_frame f: of a BN_STAGE, compiled once for all
 //   the_light(f, i).position...          light i of the_frame(f).light_count
 //   material_ref m, the_material(m).metallic...   a material's record; texture_used(m, kNormalTex)
 //   texture_fetches t = textures_at(f, m, p); texel_of(t, kNormalTex)   what its textures, where they are used, hold at a visible_point:
@@ -16,6 +16,8 @@
 // without `trilinear` they are of level 0. Directions are of any length. A sum needs its cube to the end: a variable, not a value.
 #ifndef BN_STAGE_H
 #define BN_STAGE_H
+
+#include "shading/lang/frame.h"
 
 #ifdef __cplusplus
 #include "shading/lang/stage_cxx.h"

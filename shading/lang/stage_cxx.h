@@ -3,8 +3,8 @@
 #pragma once
 #include "core/simd/lanes.h"
 #include "shading/kernels/cube_filter.k.h"
-#include "shading/kernels/vertex.k.h"
 #include "shading/lang/cube_sum.h"
+#include "shading/lang/frame.h"
 #include "shading/lang/tables.h"
 #include "shading/lang/texture_fetch.h"
 #include "shading/surface/surface.k.h"
@@ -12,39 +12,6 @@
 namespace burnish {
 inline namespace BN_ISA_NS {
 
-BN_FN real3 splat3(const float* v)
-{
-    return vec3_of(splat(v[0]), splat(v[1]), splat(v[2]));
-}
-
-BN_FN view_params lanes_view(const ViewRecord& v)
-{
-    view_params r;
-    r.eye = splat3(v.eye);
-    r.right = splat3(v.right);
-    r.up = splat3(v.up);
-    r.forward = splat3(v.forward);
-    r.inv_tan_x = splat(v.inv_tan_x);
-    r.inv_tan_y = splat(v.inv_tan_y);
-    r.znear = splat(v.znear);
-    r.zfar = splat(v.zfar);
-    r.inv_depth = splat(v.inv_depth);
-    r.orthographic = int_lit(v.orthographic) != int_lit(0);
-    return r;
-}
-
-// Whatever has the members of a ShadingFrame, a MaterialRecord: a type derived of it may give some of them values that the compiler knows.
-#define frame_ref const auto&
-#define material_ref const auto&
-
-BN_INLINE const auto& the_frame(frame_ref f)
-{
-    return f;
-}
-BN_INLINE const auto& the_material(material_ref m)
-{
-    return m;
-}
 BN_INLINE const LightRecord& the_light(frame_ref f, int i)
 {
     return f.lights[i];

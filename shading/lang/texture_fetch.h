@@ -5,7 +5,7 @@
 #include "shading/kernels/texture_filter.k.h"
 #include "shading/lang/cube_sum.h"
 #include "shading/lang/tables.h"
-#include "shading/surface/surface.k.h"
+#include "shading/surface/texture_place.k.h"
 
 namespace burnish {
 inline namespace BN_ISA_NS {
@@ -45,22 +45,17 @@ BN_STAGE void plan_texture(const texture_fetches& t, const TextureBinding& b)
     const TextureParams& texture = t.textures[b.texture];
     const texture_desc desc = {texture.texels, texture.offset, texture.level_width, texture.level_height,
                                texture.levels, texture.wrap_s, texture.wrap_t,      texture.nearest};
-    const int set = b.uv_set != 0;
-    const real m0 = splat(b.transform[0]), m1 = splat(b.transform[1]), m2 = splat(b.transform[2]), m3 = splat(b.transform[3]);
-    const real2 uv = t.p.uv[set], dx = t.p.uv_dx[set], dy = t.p.uv_dy[set];
-    const real2 at = vec2_of(m0 * uv.x + m2 * uv.y + splat(b.transform[4]), m1 * uv.x + m3 * uv.y + splat(b.transform[5]));
+    const texture_place place = texture_place_of(b, t.p);
     t.planned = &b;
     if (texture.nearest) {
-        plan(t.plans[0], texture_nearest_rows(desc, at));
+        plan(t.plans[0], texture_nearest_rows(desc, place.uv));
         t.count = 1;
         return;
     }
-    const real2 at_dx = vec2_of(m0 * dx.x + m2 * dx.y, m1 * dx.x + m3 * dx.y);
-    const real2 at_dy = vec2_of(m0 * dy.x + m2 * dy.y, m1 * dy.x + m3 * dy.y);
-    const texture_footprint footprint = texture_footprint_of(desc, at_dx, at_dy, t.most_taps);
+    const texture_footprint footprint = texture_footprint_of(desc, place.dx, place.dy, t.most_taps);
     float most[kLanes];
     store(most, reduce_max(footprint.taps));
-    const texture_taps taps = texture_taps_of(desc, at, footprint);
+    const texture_taps taps = texture_taps_of(desc, place.uv, footprint);
     const int n = static_cast<int>(most[0]);
     for (int i = 0; i < n; ++i) {
         const texture_tap tap = texture_tap_at(taps, i);

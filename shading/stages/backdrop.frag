@@ -1,9 +1,13 @@
 // The environment behind the scene.
 #version 460
 #extension GL_EXT_buffer_reference_uvec2 : require
-#include "shading/stages/backdrop.glsl"
+#include "shading/stages/interface.glsl"
+#include "shading/lights/background.t.h"
 #include "shading/stages/pass.glsl"
 
 layout(location = 0) out vec4 radiance;
 
-void main() { radiance = vec4(shade_background(int(gl_FragCoord.x), int(gl_FragCoord.y) + pass.first_row), 1.0); }
+void main()
+{
+    radiance = vec4(background_color(0, view_params_of(frame.view), int(gl_FragCoord.x), int(gl_FragCoord.y) + pass.first_row), 1.0);
+}

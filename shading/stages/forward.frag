@@ -2,7 +2,8 @@
 // place of its colour (kGpuForwardGroups).
 #version 460
 #extension GL_EXT_buffer_reference_uvec2 : require
-#include "shading/stages/shade.glsl"
+#include "shading/stages/fragment.glsl"
+#include "shading/lights/fragment_light.t.h"
 #include "shading/stages/pass.glsl"
 
 #ifdef BN_CENTROID // the device's own place in partly covered pixels: cheaper, and elsewhere
@@ -36,19 +37,15 @@ void put_int(int word) { put_real(to_real(word)); }
 #include "shading/stages/record.glsl"
 #endif
 
-// A mask discards the fragment; a blend becomes coverage: sample s of n stays where alpha > (s + 1/2) / n.
+// Bit s: sample s.
 int alive_samples(int m, real alpha)
 {
     int all = (1 << frame.msaa) - 1;
-    if (materials[m].alpha_mode == 0)
+    if (materials[m].alpha_mode == kAlphaOpaque)
         return all;
-    if (materials[m].alpha_mode != 2)
-        return alpha >= materials[m].alpha_cutoff ? all : 0;
     int alive = 0;
-    for (int s = 0; s < frame.msaa; ++s) {
-        real threshold = (to_real(s) + lit(0.5)) / to_real(frame.msaa);
-        alive |= alpha > threshold ? 1 << s : 0;
-    }
+    for (int s = 0; s < frame.msaa; ++s)
+        alive |= alpha_stays(m, alpha, blend_threshold(s, frame.msaa)) ? 1 << s : 0;
     return alive;
 }
 
@@ -58,9 +55,10 @@ bool covers_centre(int number, int px, int py)
     real x = (to_real(px) + lit(0.5)) / frame.half_width - lit(1.0);
     real y = lit(1.0) - (to_real(py) + lit(0.5)) / frame.half_height;
     real3 at = vec3(x, y, 1.0);
+    view_params view = view_params_of(frame.view);
     real3 v[3];
     for (int i = 0; i < 3; ++i) {
-        real4 clip = clip_position(vertex_position(bn_ints[places.index_base + 3 * number + i]), frame_view());
+        real4 clip = clip_position(vertex_position(bn_ints[places.index_base + 3 * number + i]), view);
         v[i] = vec3(clip.x, clip.y, clip.z); // x, y, w
     }
     real e0 = k_dot3(k_cross(v[1], v[2]), at);
@@ -86,8 +84,8 @@ vec2 shaded_offset(int px, int py)
     if (covers_centre(pass.first_triangle + gl_PrimitiveID, px, py))
         return vec2(0.0);
 #endif
-    ivec2 mean = mean_of_samples(covered) - 128;
-    real2 offset = vec2(mean) * lit(0.00390625);
+    sample_mean mean = mean_of_samples(0, covered);
+    real2 offset = vec2(float(mean.x - 128), float(mean.y - 128)) * lit(0.00390625);
     return offset;
 #endif
 }
@@ -115,7 +113,7 @@ visible_point point_of_fragment(int px, int py)
     p.front = gl_FrontFacing;
     real x = to_real(px) + lit(0.5) + offset.x;
     real y = to_real(py) + lit(0.5) + offset.y;
-    p.ray = pixel_ray(x, y, frame.half_width, frame.half_height, frame_view());
+    p.ray = ray_through(0, view_params_of(frame.view), x, y);
 #ifdef BN_CENTROID
     if (frame.view.orthographic == 0) {
         real3 from_eye = p.position - vec3(frame.view.eye[0], frame.view.eye[1], frame.view.eye[2]);
@@ -146,6 +144,8 @@ void main()
     record_point(p);
     record_material(at);
 #else
-    radiance = vec4(shade_point(m, at, p, py * frame.width + px), 1.0);
+    // alone: fragments do not meet their neighbours
+    line_record light = light_of_fragment(0, m, materials[m].technique, at, lobe_shape_of(0, m, at), p, px, py, false);
+    radiance = vec4(light.rest, 1.0);
 #endif
 }

@@ -3,6 +3,7 @@
 #version 460
 #extension GL_EXT_buffer_reference_uvec2 : require
 #include "shading/stages/interface.glsl"
+#include "shading/kernels/camera.t.h"
 
 layout(location = 0) out vec3 normal;
 layout(location = 1) out vec4 tangent;
@@ -29,9 +30,10 @@ void main()
     tangent = vec4(bn_reals[at + 3], bn_reals[at + 4], bn_reals[at + 5], bn_reals[at + 6]);
     uv = vec4(bn_reals[at + 8], bn_reals[at + 9], bn_reals[at + 10], bn_reals[at + 11]);
     color = vec4(bn_reals[at + 12], bn_reals[at + 13], bn_reals[at + 14], bn_reals[at + 15]);
-    real4 clip = clip_position(place, frame_view()); // x, y, w, z
+    view_params view = view_params_of(frame.view);
+    real4 clip = clip_position(place, view); // x, y, w, z
     // On the sub-pixel grid already, so that attributes are interpolated between the positions that are rasterized.
-    snapped_vertex s = snap_to_frame(clip, kGpuWholeBand);
+    snapped_vertex s = snap_to_frame(0, clip, view, kGpuWholeBand);
     if (s.valid) {
         real x = to_real(s.x + frame.center_x) * lit(0.00390625) / frame.half_width - lit(1.0);
         real y = lit(1.0) - to_real(s.y + frame.center_y) * lit(0.00390625) / frame.half_height;

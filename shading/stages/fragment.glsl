@@ -4,8 +4,9 @@
 #define BN_FRAGMENT_GLSL
 
 #include "shading/stages/interface.glsl"
-#include "shading/kernels/camera_ray.k.h"
+#include "shading/kernels/camera.t.h"
 #include "shading/kernels/interpolate.k.h"
+#include "shading/surface/coverage.t.h"
 #include "shading/surface/surface.k.h"
 
 struct triangle_setup {
@@ -39,22 +40,6 @@ bary_weights weights_at(triangle_setup t, int x, int y)
     return w;
 }
 
-// The mean of the covered samples, which lies in the triangle, from the pixel's corner.
-ivec2 mean_of_samples(int samples)
-{
-    int sum_x = 0, sum_y = 0, count = 0;
-    for (int s = 0; s < frame.msaa; ++s) {
-        int bit = samples >> s & 1;
-        sum_x += bit * frame.pattern.x[s];
-        sum_y += bit * frame.pattern.y[s];
-        count += bit;
-    }
-    real inv = lit(1.0) / max(to_real(count), lit(1.0));
-    real x = to_real(sum_x) * inv;
-    real y = to_real(sum_y) * inv;
-    return ivec2(to_int(x), to_int(y));
-}
-
 real vertex_word(int vertex, int word) { return bn_reals[places.shading_base + 16 * vertex + word]; }
 
 real blend_word(triangle_setup t, real3 b, int word)
@@ -77,7 +62,8 @@ visible_point point_of(triangle_setup t, int px, int py, int samples)
     bary_weights w = center;
     ivec2 at = ivec2(corner_x + 128, corner_y + 128);
     if (!center.inside) {
-        at = ivec2(corner_x, corner_y) + mean_of_samples(samples);
+        sample_mean mean = mean_of_samples(0, samples);
+        at = ivec2(corner_x + mean.x, corner_y + mean.y);
         w = weights_at(t, at.x, at.y);
     }
     visible_point p;
@@ -87,7 +73,7 @@ visible_point point_of(triangle_setup t, int px, int py, int samples)
     p.front = (t.info & kGpuFrontFacing) != 0;
     real x = to_real(at.x + frame.center_x) * lit(0.00390625);
     real y = to_real(at.y + frame.center_y) * lit(0.00390625);
-    p.ray = pixel_ray(x, y, frame.half_width, frame.half_height, frame_view());
+    p.ray = ray_through(0, view_params_of(frame.view), x, y);
     p.position = vec3(0.0);
     if (frame.light_count > 0) {
         real3 x_of = vec3(vertex_position(t.vertex.x));

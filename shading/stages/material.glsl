@@ -2,12 +2,9 @@
 #ifndef BN_MATERIAL_GLSL
 #define BN_MATERIAL_GLSL
 
-#include "shading/stages/interface.glsl"
+#include "shading/lang/frame.h"
 #include "shading/kernels/texture_filter.k.h"
-#include "shading/surface/surface.k.h"
-
-#define material_ref int
-#define the_material(m) materials[m]
+#include "shading/surface/texture_place.k.h"
 
 #define BN_TEXTURE(slot, at, reference, encoding, power) const int slot = at;
 #include "shading/material.def"
@@ -34,20 +31,11 @@ bool texture_used(material_ref material, int slot)
 
 real4 fetch_texture(material_ref material, int slot, visible_point p)
 {
-    int set = materials[material].textures[slot].uv_set != 0 ? 1 : 0;
-    real m[6];
-    for (int i = 0; i < 6; ++i)
-        m[i] = materials[material].textures[slot].transform[i];
-    real2 uv = p.uv[set];
-    real2 dx = p.uv_dx[set];
-    real2 dy = p.uv_dy[set];
-    real2 at = vec2(m[0] * uv.x + m[2] * uv.y + m[4], m[1] * uv.x + m[3] * uv.y + m[5]);
-    real2 at_dx = vec2(m[0] * dx.x + m[2] * dx.y, m[1] * dx.x + m[3] * dx.y);
-    real2 at_dy = vec2(m[0] * dy.x + m[2] * dy.y, m[1] * dy.x + m[3] * dy.y);
+    texture_place place = texture_place_of(materials[material].textures[slot], p);
     int id = materials[material].textures[slot].texture;
     texture_desc desc = texture_desc(textures[id].page, textures[id].offset_base, textures[id].width_base, textures[id].height_base,
                                      textures[id].levels, textures[id].wrap_s, textures[id].wrap_t, textures[id].nearest);
-    texture_footprint footprint = texture_footprint_of(desc, at_dx, at_dy, frame.texture_taps);
+    texture_footprint footprint = texture_footprint_of(desc, place.dx, place.dy, frame.texture_taps);
 #ifdef BN_NATIVE_SAMPLER
     // the kernel's taps, each filtered by the device: anisotropic filters of devices differ, and lavapipe's takes a millisecond a pixel
     int taps = desc.nearest != 0 ? 1 : to_int(footprint.taps);
@@ -55,13 +43,13 @@ real4 fetch_texture(material_ref material, int slot, visible_point p)
     real4 sum = vec4(0.0);
     for (int i = 1; i <= taps; ++i) {
         real along = to_real(i) * spacing - lit(0.5);
-        real2 tap = at + footprint.axis * along;
+        real2 tap = place.uv + footprint.axis * along;
         sum += native_texel(slot, tap, footprint.lod);
     }
     real4 mean = sum / to_real(taps);
     return mean;
 #else
-    return texture_sample_footprint(desc, at, footprint, to_int(footprint.taps));
+    return texture_sample_footprint(desc, place.uv, footprint, to_int(footprint.taps));
 #endif
 }
 

@@ -7,6 +7,7 @@ layout(local_size_x = 64) in;
 #define BN_COMPUTE
 #define BN_SETUP_ACCESS writeonly
 #include "shading/stages/interface.glsl"
+#include "shading/kernels/camera.t.h"
 
 layout(constant_id = 0) const int kPhase = 0; // 0: count, 1: write
 layout(std430, set = 0, binding = 9) buffer BnCounts { int counts[]; }; // by triangle: setups; after the prefix sum: the first of them
@@ -130,7 +131,7 @@ int emit_piece(int triangle, int i1, int i2, int at)
             c.c.z = frame.view.znear;
         if (frame.view.orthographic != 0 && c.c.w > 1.0)
             c.c.w = 1.0;
-        snapped_vertex s = snap_to_frame(c.c, kGpuGuardBand);
+        snapped_vertex s = snap_to_frame(0, c.c, view_params_of(frame.view), kGpuGuardBand);
         if (!s.valid)
             return 0; // numerically degenerate: nothing left of it
         x[i] = s.x;

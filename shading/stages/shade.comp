@@ -3,7 +3,9 @@
 #extension GL_EXT_buffer_reference_uvec2 : require
 layout(local_size_x = 64) in;
 #define BN_COMPUTE
-#include "shading/stages/shade.glsl"
+#include "shading/stages/fragment.glsl"
+#include "shading/lights/background.t.h"
+#include "shading/lights/fragment_light.t.h"
 #include "shading/stages/pass.glsl"
 
 layout(constant_id = 2) const bool kRecords = false; // writes the stages of each pair, for comparisons
@@ -26,18 +28,11 @@ void put_int(int word)
 void put_real(real x) { put_int(floatBitsToInt(x)); }
 #include "shading/stages/record.glsl"
 
-// Alone: a colour that is not made of shared samples.
-line_record alone(real3 color)
-{
-    real3 nothing = vec3_all(lit(0.0));
-    return line_record(nothing, lit(-1.0), nothing, nothing, nothing, color);
-}
-
 line_record shade_pair(int slot, int px, int py, int covered)
 {
     if (slot == kGpuNoTriangle) {
         record_at += kGpuInterpolantWords + kGpuMaterialWords;
-        return alone(shade_background(px, py));
+        return line_alone(background_color(0, view_params_of(frame.view), px, py));
     }
     triangle_setup t = load_setup(slot);
     visible_point p = point_of(t, px, py, covered);
@@ -47,9 +42,8 @@ line_record shade_pair(int slot, int px, int py, int covered)
         record_point(p);
         record_material(at);
     }
-    if (kShares && (materials[m].technique_traits & kSharesSamples) != 0)
-        return shade_line(m, at, p, px, py);
-    return alone(shade_point(m, at, p, py * frame.width + px));
+    bool shares = kShares && (materials[m].technique_traits & kSharesSamples) != 0;
+    return light_of_fragment(0, m, materials[m].technique, at, lobe_shape_of(0, m, at), p, px, py, shares);
 }
 
 void main()
@@ -76,7 +70,7 @@ void main()
             store_line(first + begin, shaded);
         else if (kRecords)
             put_real3(color);
-        real weight = to_real(bitCount(covered)) * inv;
+        real weight = covered_share(covered, inv);
         sum = sum + color * weight;
     }
     if (kShares)

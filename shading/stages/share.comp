@@ -1,4 +1,4 @@
-// After shade.comp: one pixel, whose fragments average what those of the 2x2 quad found (share_slot() of raster/tile), and resolve.
+// After shade.comp: one pixel, whose fragments average what those of the 2x2 quad found and resolve.
 #version 460
 #extension GL_EXT_buffer_reference_uvec2 : require
 layout(local_size_x = 64) in;
@@ -6,6 +6,7 @@ layout(local_size_x = 64) in;
 #include "shading/stages/interface.glsl"
 #include "shading/stages/lines.glsl"
 #include "shading/stages/pass.glsl"
+#include "shading/surface/coverage.t.h"
 
 layout(constant_id = 2) const bool kRecords = false; // writes the colour of each pair, for comparisons
 
@@ -25,8 +26,7 @@ int samples_of_pair(int first, int begin)
 real3 shared_colour(line_record own, int x, int y)
 {
     real inv = lit(1.0) / to_real(frame.msaa);
-    real3 sum = own.light;
-    real weights = lit(1.0);
+    line_mean mean = line_mean_begin(own);
     for (int k = 1; k < 4; ++k) {
         int qx = x ^ (k & 1), qy = y ^ (k >> 1);
         if (qx >= frame.width || qy >= pass.rows)
@@ -36,16 +36,10 @@ real3 shared_colour(line_record own, int x, int y)
             int begin = findLSB(rest), covered = samples_of_pair(first, begin);
             rest &= ~covered;
             line_record r = load_line(first + begin);
-            if (r.width < 0.0)
-                continue;
-            real cover = to_real(bitCount(covered)) * inv;
-            real w = line_likeness(own, r) * cover;
-            sum = sum + r.light * w;
-            weights = weights + w;
+            mean = line_mean_add(mean, own, r, covered_share(covered, inv), r.width >= 0.0);
         }
     }
-    real3 mean = sum / weights;
-    return line_colour(own, mean);
+    return line_mean_colour(mean, own);
 }
 
 void main()
@@ -67,7 +61,7 @@ void main()
         if (kRecords)
             for (int c = 0; c < 3; ++c)
                 records[(first + begin + 1) * kGpuPairWords - 3 + c] = floatBitsToInt(color[c]);
-        real weight = to_real(bitCount(covered)) * inv;
+        real weight = covered_share(covered, inv);
         sum = sum + color * weight;
     }
     colors[3 * pixel] = sum.x;

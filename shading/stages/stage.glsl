@@ -3,14 +3,11 @@
 #ifndef BN_STAGE_GLSL
 #define BN_STAGE_GLSL
 
-#include "shading/stages/interface.glsl"
+#include "shading/lang/frame.h"
 #include "shading/stages/material.glsl"
 #include "shading/kernels/cube_filter.k.h"
 
-#define frame_ref int // of the only one
-#define the_frame(f) frame
 #define the_light(f, i) lights[i]
-#define splat3(v) vec3((v)[0], (v)[1], (v)[2])
 #define dfg_texels(f) kGpuDfgPage
 #define lobe_albedo_texels(f) kGpuLobeAlbedoPage
 #define lobe_slice_texels(f) kGpuLobeSlicePage

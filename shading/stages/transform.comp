@@ -5,14 +5,16 @@ layout(local_size_x = 64) in;
 #define BN_COMPUTE
 #define BN_VERTEX_ACCESS writeonly
 #include "shading/stages/interface.glsl"
+#include "shading/kernels/camera.t.h"
 
 void main()
 {
     int v = linear_invocation();
     if (v >= places.vertex_count)
         return;
-    real4 clip = clip_position(vertex_position(v), frame_view());
-    snapped_vertex s = snap_to_frame(clip, kGpuWholeBand);
+    view_params view = view_params_of(frame.view);
+    real4 clip = clip_position(vertex_position(v), view);
+    snapped_vertex s = snap_to_frame(0, clip, view, kGpuWholeBand);
     vertices[v].clip = float[4](clip.x, clip.y, clip.z, clip.w);
     vertices[v].x = s.valid ? s.x : kGpuNeedsClip;
     vertices[v].y = s.y;

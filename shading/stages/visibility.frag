@@ -43,17 +43,13 @@ real depth_at(int px, int py, int s)
 }
 #endif
 
-// A mask discards the whole fragment; a blend becomes coverage: sample s of n stays where alpha > (s + 1/2) / n.
 bool survives_alpha(int px, int py, int s)
 {
     int m = setups[slot].info >> 2;
-    if (materials[m].alpha_mode == 0)
+    if (materials[m].alpha_mode == kAlphaOpaque)
         return true;
     real alpha = fetch_alpha(0, m, point_of(load_setup(slot), px, py, (1 << frame.msaa) - 1));
-    if (materials[m].alpha_mode != 2)
-        return alpha >= materials[m].alpha_cutoff;
-    real threshold = (to_real(s) + lit(0.5)) / to_real(frame.msaa);
-    return alpha > threshold;
+    return alpha_stays(m, alpha, blend_threshold(s, frame.msaa));
 }
 
 void main()

@@ -87,6 +87,14 @@ BN_FN material_inputs fetch_material(frame_ref f, material_ref m, BN_IN(visible_
     return r;
 }
 
+// What it gives off, whatever shines on it; all that an unlit one does.
+BN_FN real3 own_light(material_ref m, BN_IN(material_inputs) at)
+{
+    if (the_material(m).unlit != 0)
+        return at.base;
+    return at.emissive;
+}
+
 BN_KERNELS_END
 
 #endif

@@ -42,9 +42,87 @@ BN_FN real line_likeness(line_record a, line_record b)
     return max(lit(1.0) - apart, lit(0.0));
 }
 
-BN_FN real3 line_colour(line_record r, real3 light)
+// A colour that is not made of shared samples.
+BN_FN line_record line_alone(real3 colour)
 {
-    return light * r.factor + r.rest;
+    line_record r;
+    r.light = vec3_all(lit(0.0));
+    r.width = lit(-1.0);
+    r.mirror = r.light;
+    r.along = r.light;
+    r.factor = r.light;
+    r.rest = colour;
+    return r;
+}
+
+// The mean of what the fragments of a quad found, as far as they see what one of them sees, each pixel's by how much of it they cover.
+struct line_mean {
+    real3 sum;
+    real weights;
+};
+
+BN_FN line_mean line_mean_begin(line_record own)
+{
+    line_mean r;
+    r.sum = own.light;
+    r.weights = lit(1.0);
+    return r;
+}
+
+// cover: the share of its pixel that `other` covers; counts: it is a fragment of another pixel in the quad, and shares.
+BN_FN line_mean line_mean_add(line_mean mean, line_record own, line_record other, real cover, mask counts)
+{
+    real alike = line_likeness(own, other) * cover;
+    real w = select(counts, alike, lit(0.0));
+    line_mean r;
+    r.sum = mean.sum + other.light * w;
+    r.weights = mean.weights + w;
+    return r;
+}
+
+BN_FN real3 line_mean_colour(line_mean mean, line_record own)
+{
+    real3 light = mean.sum / mean.weights;
+    return light * own.factor + own.rest;
+}
+
+// As it is kept: 16 words.
+struct line_words {
+    real at[16];
+};
+
+BN_FN line_words words_of_line(line_record r)
+{
+    line_words w;
+    w.at[0] = r.width;
+    w.at[1] = r.light.x;
+    w.at[2] = r.light.y;
+    w.at[3] = r.light.z;
+    w.at[4] = r.mirror.x;
+    w.at[5] = r.mirror.y;
+    w.at[6] = r.mirror.z;
+    w.at[7] = r.along.x;
+    w.at[8] = r.along.y;
+    w.at[9] = r.along.z;
+    w.at[10] = r.factor.x;
+    w.at[11] = r.factor.y;
+    w.at[12] = r.factor.z;
+    w.at[13] = r.rest.x;
+    w.at[14] = r.rest.y;
+    w.at[15] = r.rest.z;
+    return w;
+}
+
+BN_FN line_record line_of_words(line_words w)
+{
+    line_record r;
+    r.width = w.at[0];
+    r.light = vec3_of(w.at[1], w.at[2], w.at[3]);
+    r.mirror = vec3_of(w.at[4], w.at[5], w.at[6]);
+    r.along = vec3_of(w.at[7], w.at[8], w.at[9]);
+    r.factor = vec3_of(w.at[10], w.at[11], w.at[12]);
+    r.rest = vec3_of(w.at[13], w.at[14], w.at[15]);
+    return r;
 }
 
 BN_KERNELS_END

@@ -7,7 +7,7 @@
 
 #include "core/scene/builtin/builtin.h"
 #include "raster/frame/frame_record.h"
-#include "shading/lang/stage_cxx.h"
+#include "shading/kernels/camera.t.h"
 #include "tests/unit/reference/scenes.h"
 
 namespace burnish::test {
@@ -55,7 +55,7 @@ constexpr double kSnapped = 1.0 / 128.0; // pixels
 DrawTables on_the_grid(DrawTables t, const FrameDesc& d)
 {
     const ViewRecord v = view_record(d.view);
-    const view_params view = lanes_view(v);
+    const view_params view = view_params_of(v);
     const glm::dvec3 eye(d.view.eye), right(d.view.right), up(d.view.up), forward(d.view.forward);
     const float half_x = 0.5f * static_cast<float>(d.width), half_y = 0.5f * static_cast<float>(d.height);
     const int centre_x = d.width / 2 * kSubpixel, centre_y = d.height / 2 * kSubpixel;

@@ -1,0 +1,40 @@
+// The environment with its key lights, as it is seen where no triangle is.
+#ifndef BN_BACKGROUND_T_H
+#define BN_BACKGROUND_T_H
+
+#include "shading/kernels/camera.t.h"
+#include "shading/lang/lang.h"
+#include "shading/lang/stage.h"
+
+BN_KERNELS_BEGIN
+
+// texel: what level 0 of whole_cube() holds in a direction.
+BN_FN real3 radiance_of_texel(frame_ref f, real3 texel)
+{
+    return texel * splat(the_frame(f).whole.scale);
+}
+
+// direction: of any length.
+BN_FN real3 environment_radiance(frame_ref f, real3 direction)
+{
+    return radiance_of_texel(f, cube_sample_level(whole_cube(f), direction, 0));
+}
+
+// view: the frame's. x, y: pixel.
+BN_FN real3 background_ray(frame_ref f, BN_IN(view_params) view, integer x, integer y)
+{
+    real center_x = to_real(x) + lit(0.5);
+    real center_y = to_real(y) + lit(0.5);
+    return ray_through(f, view, center_x, center_y);
+}
+
+BN_FN real3 background_color(frame_ref f, BN_IN(view_params) view, integer x, integer y)
+{
+    if (the_frame(f).background == 0)
+        return vec3_all(lit(0.0));
+    return environment_radiance(f, background_ray(f, view, x, y));
+}
+
+BN_KERNELS_END
+
+#endif

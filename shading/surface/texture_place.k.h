@@ -1,0 +1,34 @@
+// Where a texture of a material is read at a visible point: its set of coordinates, moved as KHR_texture_transform says.
+#ifndef BN_TEXTURE_PLACE_K_H
+#define BN_TEXTURE_PLACE_K_H
+
+#include "shading/lang/lang.h"
+#include "shading/lang/records.h"
+#include "shading/surface/surface.k.h"
+
+BN_KERNELS_BEGIN
+
+struct texture_place {
+    real2 uv, dx, dy; // coordinates, not wrapped yet, and their change by one pixel
+};
+
+BN_FN texture_place texture_place_of(BN_IN(TextureBinding) b, BN_IN(visible_point) p)
+{
+    int set = b.uv_set != 0 ? 1 : 0;
+    real2 uv = p.uv[set];
+    real2 dx = p.uv_dx[set];
+    real2 dy = p.uv_dy[set];
+    real m0 = splat(b.transform[0]);
+    real m1 = splat(b.transform[1]);
+    real m2 = splat(b.transform[2]);
+    real m3 = splat(b.transform[3]);
+    texture_place r;
+    r.uv = vec2_of(m0 * uv.x + m2 * uv.y + splat(b.transform[4]), m1 * uv.x + m3 * uv.y + splat(b.transform[5]));
+    r.dx = vec2_of(m0 * dx.x + m2 * dx.y, m1 * dx.x + m3 * dx.y);
+    r.dy = vec2_of(m0 * dy.x + m2 * dy.y, m1 * dy.x + m3 * dy.y);
+    return r;
+}
+
+BN_KERNELS_END
+
+#endif
