@@ -41,12 +41,9 @@ struct Cluster {
     float cone_cutoff = 1.0f;  // back-facing from eye where dot(center - eye, axis) >= cutoff * |center - eye| + radius; 1: never
 };
 
-struct PunctualLight {                           // world space
-    glm::vec3 position{0.0f}, direction{0.0f};   // direction: unit, the way it shines
-    glm::vec3 radiant{0.0f};                     // colour * intensity
-    float inv_range2 = 0.0f;                     // 1 / range^2, 0 unlimited
-    float spot_scale = 0.0f, spot_offset = 1.0f; // clamp(dot * scale + offset, 0, 1)^2; a point light has 0 and 1
-    bool directional = false;
+struct PunctualLight { // light.def
+#define BN_LIGHT_FIELD(kind, name, initial) FieldKinds::kind name = FieldKinds::kind(initial);
+#include "core/scene/light.def"
 };
 
 struct DrawTables {

@@ -53,30 +53,20 @@ struct TextureRef {
     bool used() const { return texture != kNone; }
 };
 
-// glTF 2.0 metallic-roughness with the extensions of the same names. Factors multiply textures.
-struct Material {
+struct FieldKinds { // of material.def and light.def
+    using number = float;
+    using vec3 = glm::vec3;
+    using vec4 = glm::vec4;
+    using flag = bool;
+};
+
+struct Material { // material.def
     std::string name;
-    glm::vec4 base_color{1.0f};              // linear, alpha
-    float metallic = 1.0f, roughness = 1.0f; // perceptual roughness, alpha = roughness^2
-    float normal_scale = 1.0f, occlusion_strength = 1.0f;
-    glm::vec3 emissive{0.0f}; // emissiveFactor * KHR_materials_emissive_strength, cd/m^2 up to exposure
-    float ior = 1.5f;         // KHR_materials_ior
-    float specular = 1.0f;    // KHR_materials_specular
-    glm::vec3 specular_color{1.0f};
-    float anisotropy_strength = 0.0f; // KHR_materials_anisotropy, [0,1]
-    float anisotropy_rotation = 0.0f; // radians, counter-clockwise from the tangent
     AlphaMode alpha_mode = AlphaMode::opaque;
-    float alpha_cutoff = 0.5f;
-    bool double_sided = false;
-    bool unlit = false;                // KHR_materials_unlit
-    TextureRef base_color_tex;         // sRGB, alpha linear
-    TextureRef metallic_roughness_tex; // linear; G roughness, B metallic
-    TextureRef normal_tex;             // linear, tangent space
-    TextureRef occlusion_tex;          // linear, R
-    TextureRef emissive_tex;           // sRGB
-    TextureRef specular_tex;           // linear, A
-    TextureRef specular_color_tex;     // sRGB
-    TextureRef anisotropy_tex;         // linear; RG direction, B strength
+#define BN_FACTOR(kind, name, fallback, path, least, most) FieldKinds::kind name = FieldKinds::kind(fallback);
+#define BN_FLAG(kind, name, path) bool name = false;
+#define BN_TEXTURE(name, path) TextureRef name;
+#include "core/scene/material.def"
 };
 
 enum class WrapMode : std::uint8_t { repeat, clamp, mirror };
@@ -90,13 +80,11 @@ struct Texture { // an image with its sampler
 
 enum class LightType : std::uint8_t { directional, point, spot };
 
-struct Light { // KHR_lights_punctual; shines along -Z of its node
+struct Light { // light.def; shines along -Z of its node
     std::string name;
     LightType type = LightType::point;
-    glm::vec3 color{1.0f};
-    float intensity = 1.0f;                            // candela, or lux for directional
-    float range = 0.0f;                                // metres; 0: unlimited
-    float inner_cone = 0.0f, outer_cone = 0.78539816f; // radians
+#define BN_LIGHT_FACTOR(kind, name, fallback, path, least, most) FieldKinds::kind name = FieldKinds::kind(fallback);
+#include "core/scene/light.def"
 };
 
 struct Camera { // looks along -Z of its node, +Y up

@@ -238,14 +238,14 @@ const TechniqueInfo* find_technique(const std::string& name)
 const std::vector<ParameterInfo>& parameters()
 {
     static const std::vector<ParameterInfo> table = {
-#define BN_FIELD_number(id) &FrameDesc::id, nullptr, nullptr, nullptr, nullptr
-#define BN_FIELD_whole(id) nullptr, &FrameDesc::id, nullptr, nullptr, nullptr
-#define BN_FIELD_flag(id) nullptr, nullptr, &FrameDesc::id, nullptr, nullptr
-#define BN_FIELD_choice(id) nullptr, nullptr, nullptr, &FrameDesc::id, nullptr
-#define BN_FIELD_lobe(id) nullptr, nullptr, nullptr, &FrameDesc::id, nullptr
-#define BN_FIELD_angles(id) nullptr, nullptr, nullptr, nullptr, &FrameDesc::id##_rad
+#define BN_MEMBER_number(id) &FrameDesc::id, nullptr, nullptr, nullptr, nullptr
+#define BN_MEMBER_whole(id) nullptr, &FrameDesc::id, nullptr, nullptr, nullptr
+#define BN_MEMBER_flag(id) nullptr, nullptr, &FrameDesc::id, nullptr, nullptr
+#define BN_MEMBER_choice(id) nullptr, nullptr, nullptr, &FrameDesc::id, nullptr
+#define BN_MEMBER_lobe(id) nullptr, nullptr, nullptr, &FrameDesc::id, nullptr
+#define BN_MEMBER_angles(id) nullptr, nullptr, nullptr, nullptr, &FrameDesc::id##_rad
 #define BN_PARAMETER(id, kind, option, fallback, least, most, unit, summary, readers)                                                      \
-    {#id, option, fallback, least, most, unit, summary, readers, BN_FIELD_##kind(id), std::string_view(#kind) == "lobe"},
+    {#id, option, fallback, least, most, unit, summary, readers, BN_MEMBER_##kind(id), std::string_view(#kind) == "lobe"},
 #include "shading/models.def"
     };
     return table;

@@ -18,9 +18,23 @@ struct TextureUse {
     int tensor_power; // 2, 4: the image's anisotropy tensors; 0: the image itself
 };
 constexpr TextureUse kTextureUses[kTextureSlots] = {
-#define BN_TEXTURE(slot, at, reference, encoding, power) {slot, &Material::reference, TextureEncoding::encoding, power},
-#include "shading/material.def"
+#define BN_SLOT(slot, at, texture, encoding, power) {slot, &Material::texture, TextureEncoding::encoding, power},
+#include "core/scene/material.def"
 };
+
+void put(float& to, float from)
+{
+    to = from;
+}
+void put(int& to, bool from)
+{
+    to = from;
+}
+template <int kCount> void put(float (&to)[kCount], const glm::vec<kCount, float>& from)
+{
+    for (int i = 0; i < kCount; ++i)
+        to[i] = from[i];
+}
 
 struct PyramidKey {
     std::int32_t texture;
@@ -46,33 +60,27 @@ MaterialRecord material_record(const Material& m)
     MaterialRecord r = {};
     for (TextureBinding& b : r.textures)
         b.texture = -1;
-    for (int i = 0; i < 4; ++i)
-        r.base_color[i] = m.base_color[i];
+#define BN_FACTOR(kind, name, fallback, path, least, most) put(r.name, m.name);
+#define BN_FLAG(kind, name, path) put(r.name, m.name);
+#include "core/scene/material.def"
     const float f = (m.ior - 1.0f) / (m.ior + 1.0f);
     for (int i = 0; i < 3; ++i) {
-        r.emissive[i] = m.emissive[i];
+        r.emissive[i] = m.emissive[i] * m.emissive_strength;
         r.dielectric_f0[i] = std::min(f * f * m.specular_color[i], 1.0f) * m.specular; // KHR_materials_specular
     }
     r.dielectric_f90 = m.specular;
-    r.metallic = m.metallic, r.roughness = m.roughness;
-    r.normal_scale = m.normal_scale, r.occlusion_strength = m.occlusion_strength;
-    r.alpha_cutoff = m.alpha_cutoff;
+    r.grain[0] = static_cast<float>(det_cos(static_cast<double>(m.anisotropy_rotation)));
+    r.grain[1] = static_cast<float>(det_sin(static_cast<double>(m.anisotropy_rotation)));
     r.alpha_mode = static_cast<std::int32_t>(m.alpha_mode);
-    r.double_sided = m.double_sided, r.unlit = m.unlit;
     r.anisotropic = m.anisotropy_strength > 0.0f;
-    r.anisotropy_strength = m.anisotropy_strength;
-    r.anisotropy_rotation[0] = static_cast<float>(det_cos(static_cast<double>(m.anisotropy_rotation)));
-    r.anisotropy_rotation[1] = static_cast<float>(det_sin(static_cast<double>(m.anisotropy_rotation)));
     return r;
 }
 
 LightRecord light_record(const PunctualLight& l)
 {
     LightRecord r = {};
-    for (int i = 0; i < 3; ++i)
-        r.position[i] = l.position[i], r.direction[i] = l.direction[i], r.radiant[i] = l.radiant[i];
-    r.inv_range2 = l.inv_range2, r.spot_scale = l.spot_scale, r.spot_offset = l.spot_offset;
-    r.directional = l.directional;
+#define BN_LIGHT_FIELD(kind, name, initial) put(r.name, l.name);
+#include "core/scene/light.def"
     return r;
 }
 

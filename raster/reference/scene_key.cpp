@@ -44,8 +44,8 @@ void add_textures(Key& key, const Scene& scene)
     }
     for (const Material& m : scene.materials) // which of them a record's textures are
         key.add(
-#define BN_TEXTURE(slot, at, reference, encoding, power) m.reference.texture,
-#include "shading/material.def"
+#define BN_TEXTURE(name, path) m.name.texture,
+#include "core/scene/material.def"
             0);
 }
 

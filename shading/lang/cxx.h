@@ -3,7 +3,6 @@
 #include "core/simd/lanes.h"
 
 #define BN_FN static inline __attribute__((always_inline, unused))
-#define BN_APART static __attribute__((noinline, unused))
 #define BN_IN(T) const T&
 #define BN_INOUT(T) T&
 // A stage that several techniques share: compiled once, called once a batch.

@@ -12,7 +12,6 @@
 #endif
 
 #define BN_FN
-#define BN_APART
 #define BN_STAGE
 #define BN_IN(T) T
 #define BN_INOUT(T) inout T

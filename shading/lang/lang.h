@@ -27,7 +27,7 @@
 // Assembly, what a technique, a surface or a light makes of kernels, is text in the same language (NAME.t.h). It knows the frame and
 // fetches: shading/lang/stage.h. Beside what kernels have there are
 //  - uniform_real, a float that all lanes share, with literals 0.5f and float(i);
-//  - BN_APART instead of BN_FN for what is long and seldom asked for, which lanes then call;
+//  - BN_STAGE instead of BN_FN for what is long and seldom asked for, which lanes then call;
 //  - BN_IN(T) x for structs that are large, BN_INOUT(T) x for those that a function changes; void functions, early returns on what is
 //    uniform;
 //  - any_lane(m) no_lane(m), to leave out what no lane needs, and most_of_lanes(x), a bound for loops whose count varies: what a lane

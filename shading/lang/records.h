@@ -10,8 +10,8 @@ namespace burnish {
 const int kMaxSamples = 16; // a pixel
 const int kMaxKeyLights = 8;
 const int kTextureSlots = 0 // a material
-#define BN_TEXTURE(slot, at, reference, encoding, power) +1
-#include "shading/material.def"
+#define BN_SLOT(slot, at, texture, encoding, power) +1
+#include "core/scene/material.def"
     ;
 
 const int kAlphaOpaque = 0, kAlphaMask = 1, kAlphaBlend = 2; // AlphaMode
@@ -92,10 +92,14 @@ struct FrameRecord {
     float anisotropy;
 };
 
+#define BN_FIELD_number(name) float name;
+#define BN_FIELD_vec3(name) float name[3];
+#define BN_FIELD_vec4(name) float name[4];
+#define BN_FIELD_flag(name) int name;
+
 struct LightRecord { // DrawTables' PunctualLight in plain numbers
-    float position[3], direction[3], radiant[3];
-    float inv_range2, spot_scale, spot_offset;
-    int directional;
+#define BN_LIGHT_FIELD(kind, name, initial) BN_FIELD_##kind(name)
+#include "core/scene/light.def"
 };
 
 struct TextureBinding {
@@ -104,20 +108,18 @@ struct TextureBinding {
     float transform[6]; // u' = t0 u + t2 v + t4, v' = t1 u + t3 v + t5
 };
 
-struct MaterialRecord {
-    float base_color[4];
-    float emissive[3];
-    float metallic, roughness;
-    float normal_scale, occlusion_strength;
+struct MaterialRecord { // Material in plain numbers, and what follows from them; emissive: times its strength
+#define BN_FACTOR(kind, name, fallback, path, least, most) BN_FIELD_##kind(name)
+#define BN_FLAG(kind, name, path) BN_FIELD_flag(name)
+#include "core/scene/material.def"
     float dielectric_f0[3], dielectric_f90; // from ior and specular
-    float alpha_cutoff;
-    int alpha_mode; // kAlphaOpaque...
-    int double_sided, unlit, textured, uses_color, anisotropic;
-    int roughness_fixed;                               // by an override: the texture gives metalness only
-    float anisotropy_strength, anisotropy_rotation[2]; // rotation: cosine and sine
-    int technique, technique_traits;                   // its place in shading/models.def; of what is unlit no traits
-    int lights_lobe;                                   // what punctual lights meet: its place in shading/models.def
-    int albedo_slice;                                  // of a lobe whose two widths are everywhere the same: its first texel; else -1
+    float grain[2];                         // cosine and sine of anisotropy_rotation
+    int alpha_mode;                         // kAlphaOpaque...
+    int textured, uses_color, anisotropic;
+    int roughness_fixed;             // by an override: the texture gives metalness only
+    int technique, technique_traits; // its place in shading/models.def; of what is unlit no traits
+    int lights_lobe;                 // what punctual lights meet: its place in shading/models.def
+    int albedo_slice;                // of a lobe whose two widths are everywhere the same: its first texel; else -1
     TextureBinding textures[kTextureSlots];
 };
 

@@ -18,8 +18,8 @@ struct TextureParams { // TexturePyramid in plain data
 };
 
 enum TextureSlot {
-#define BN_TEXTURE(slot, at, reference, encoding, power) slot = at,
-#include "shading/material.def"
+#define BN_SLOT(slot, at, texture, encoding, power) slot = at,
+#include "core/scene/material.def"
 };
 
 constexpr int lobe_traits_of(int lobe)

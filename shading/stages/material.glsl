@@ -6,18 +6,18 @@
 #include "shading/kernels/texture_filter.k.h"
 #include "shading/surface/texture_place.k.h"
 
-#define BN_TEXTURE(slot, at, reference, encoding, power) const int slot = at;
-#include "shading/material.def"
+#define BN_SLOT(slot, at, texture, encoding, power) const int slot = at;
+#include "core/scene/material.def"
 
 #ifdef BN_NATIVE_SAMPLER
 layout(set = 1, binding = 1) uniform sampler2D native_textures[kTextureSlots]; // of the drawn material
 
 vec4 native_texel(int wanted, vec2 uv, float lod) // not every device indexes samplers by a variable
 {
-#define BN_TEXTURE(slot, at, reference, encoding, power)                                                                                   \
+#define BN_SLOT(slot, at, texture, encoding, power)                                                                                   \
     if (wanted == at)                                                                                                                      \
         return textureLod(native_textures[at], uv, lod);
-#include "shading/material.def"
+#include "core/scene/material.def"
     return vec4(0.0);
 }
 #endif

@@ -29,7 +29,7 @@ BN_FN lobe_shape lobe_shape_of(frame_ref f, material_ref m, BN_IN(material_input
     r.alpha_lin = at.roughness;
     if (the_material(m).anisotropic == 0)
         return r;
-    real2 rotation = vec2_of(splat(the_material(m).anisotropy_rotation[0]), splat(the_material(m).anisotropy_rotation[1]));
+    real2 rotation = vec2_of(splat(the_material(m).grain[0]), splat(the_material(m).grain[1]));
     slope_covariance covariance;
     if (the_frame(f).override_anisotropy != 0)
         covariance = covariance_from_eta_tensor(roughness, splat(the_frame(f).anisotropy), rotation, at.tensor2);

@@ -139,7 +139,7 @@ BN_FN bsdf_sample placed_lobe_sample(placed_lobe a, real2 xi)
 
 // Directional albedo where nothing is absorbed: what a lobe that is fetched as a whole is scaled by. By 21 of its own samples, a Fibonacci
 // lattice: off by 0.02 rms, by 0.07 at most. Tables have it for the usual lobes: see directional_albedo().
-BN_APART real placed_lobe_albedo(BN_IN(placed_lobe) a)
+BN_STAGE real placed_lobe_albedo(BN_IN(placed_lobe) a)
 {
     real part = lit(0.047619047619047616);
     real sum = lit(0.0);

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "core/scene/gltf/checks.h"
+#include "core/scene/gltf/textures.h"
 
 namespace burnish::gltf {
 
@@ -182,15 +183,14 @@ void check_coordinates(Document& doc)
             if (material < 0)
                 continue;
             std::uint64_t most = 0;
-            const auto look = [&](const Json& texture, const std::string&) {
-                most = std::max(most, get_uint(texture, "texCoord", 0));
-                if (const Json* transform = get_extension(texture, "KHR_texture_transform"); transform && transform->is_object())
-                    most = std::max(most, get_uint(*transform, "texCoord", 0));
-            };
             const Json& json = doc.json["materials"][static_cast<std::size_t>(material)];
-            for (const char* path : {"pbrMetallicRoughness/baseColorTexture", "pbrMetallicRoughness/metallicRoughnessTexture",
-                                     "normalTexture", "occlusionTexture", "emissiveTexture"})
-                for_each(json, path, "", look);
+            for (const MaterialTexture& read : kMaterialTextures)
+                if (const Json::json_pointer at(read.path); json.contains(at)) {
+                    const Json& texture = json[at];
+                    most = std::max(most, get_uint(texture, "texCoord", 0));
+                    if (const Json* transform = get_extension(texture, "KHR_texture_transform"); transform && transform->is_object())
+                        most = std::max(most, get_uint(*transform, "texCoord", 0));
+                }
             if (most > 0 && !primitives[p]["attributes"].contains(fmt::format("TEXCOORD_{}", most)))
                 doc.fault(fmt::format("/meshes/{}/primitives/{}/material", m, p),
                           fmt::format("needs TEXCOORD_{}, which the primitive has not", most));

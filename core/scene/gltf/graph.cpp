@@ -3,6 +3,8 @@
 #include <cmath>
 #include <fmt/format.h>
 
+#include "core/scene/gltf/factors.h"
+
 namespace burnish::gltf {
 
 namespace {
@@ -189,18 +191,11 @@ void load_cameras_and_lights(Document& doc)
     for (std::size_t i = 0; lights && i < table_size(*lights, "lights"); ++i) {
         const Json& source = (*lights)["lights"][i];
         const std::string type = get_string(source, "type");
-        double color[3] = {1.0, 1.0, 1.0};
-        read_numbers(source, "color", color);
         Light light;
         light.name = get_string(source, "name");
         light.type = type == "directional" ? LightType::directional : type == "spot" ? LightType::spot : LightType::point;
-        for (int c = 0; c < 3; ++c)
-            light.color[c] = static_cast<float>(color[c]);
-        light.intensity = number(source, "intensity", 1.0);
-        light.range = number(source, "range", 0.0); // 0: without end
-        const Json none = Json::object(), *spot = get_member(source, "spot");
-        light.inner_cone = number(spot ? *spot : none, "innerConeAngle", 0.0);
-        light.outer_cone = number(spot ? *spot : none, "outerConeAngle", 0.78539816339744828);
+#define BN_LIGHT_FACTOR(kind, name, fallback, path, least, most) read_factor(source, path, light.name);
+#include "core/scene/light.def"
         doc.scene.lights.push_back(std::move(light));
     }
 }

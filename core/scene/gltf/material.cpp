@@ -4,31 +4,13 @@
 #include <fmt/format.h>
 
 #include "core/math/scalar_math.h"
+#include "core/scene/gltf/factors.h"
 #include "core/scene/gltf/image.h"
 #include "core/scene/gltf/textures.h"
 
 namespace burnish::gltf {
 
 namespace {
-
-const Json& member_or_nothing(const Json& object, const char* key)
-{
-    static const Json kNothing = Json::object(); // made when it is needed: an allocation before main() could not fail cleanly
-    const Json* member = get_member(object, key);
-    return member ? *member : kNothing;
-}
-
-float number(const Json& object, const char* key, double fallback)
-{
-    return static_cast<float>(get_number(object, key, fallback));
-}
-
-// What an array holds at i.
-float number_at(const Json& object, const char* key, int i, double fallback)
-{
-    const Json* numbers = get_member(object, key);
-    return static_cast<float>(numbers ? (*numbers)[static_cast<std::size_t>(i)].get<double>() : fallback);
-}
 
 // Codes of samplers (glTF 2.0, 5.26).
 constexpr std::uint64_t kRepeat = 10497, kClampToEdge = 33071, kMirroredRepeat = 33648;
@@ -99,42 +81,15 @@ TextureRef texture_ref(Document& doc, const Json& info)
     return ref;
 }
 
-void load_extensions(const Json& source, Material& material)
-{
-    material.unlit = get_extension(source, "KHR_materials_unlit") != nullptr;
-    if (const Json* strength = get_extension(source, "KHR_materials_emissive_strength"))
-        material.emissive *= number(*strength, "emissiveStrength", 1.0);
-    if (const Json* ior = get_extension(source, "KHR_materials_ior"))
-        material.ior = number(*ior, "ior", 1.5);
-    if (const Json* specular = get_extension(source, "KHR_materials_specular")) {
-        material.specular = number(*specular, "specularFactor", 1.0);
-        for (int i = 0; i < 3; ++i)
-            material.specular_color[i] = number_at(*specular, "specularColorFactor", i, 1.0);
-    }
-    if (const Json* anisotropy = get_extension(source, "KHR_materials_anisotropy")) {
-        material.anisotropy_strength = number(*anisotropy, "anisotropyStrength", 0.0);
-        material.anisotropy_rotation = number(*anisotropy, "anisotropyRotation", 0.0);
-    }
-}
-
 Material load_material(Document& doc, const Json& source)
 {
     Material material;
     material.name = get_string(source, "name");
-    const Json& pbr = member_or_nothing(source, "pbrMetallicRoughness");
-    for (int i = 0; i < 4; ++i)
-        material.base_color[i] = number_at(pbr, "baseColorFactor", i, 1.0);
-    for (int i = 0; i < 3; ++i)
-        material.emissive[i] = number_at(source, "emissiveFactor", i, 0.0);
-    material.metallic = number(pbr, "metallicFactor", 1.0);
-    material.roughness = number(pbr, "roughnessFactor", 1.0);
-    material.normal_scale = number(member_or_nothing(source, "normalTexture"), "scale", 1.0);
-    material.occlusion_strength = number(member_or_nothing(source, "occlusionTexture"), "strength", 1.0);
     const std::string mode = get_string(source, "alphaMode");
     material.alpha_mode = mode == "MASK" ? AlphaMode::mask : mode == "BLEND" ? AlphaMode::blend : AlphaMode::opaque;
-    material.alpha_cutoff = number(source, "alphaCutoff", 0.5);
-    material.double_sided = source.value("doubleSided", false);
-    load_extensions(source, material);
+#define BN_FACTOR(kind, name, fallback, path, least, most) read_factor(source, path, material.name);
+#define BN_FLAG(kind, name, path) read_flag(source, path, material.name);
+#include "core/scene/material.def"
     for (const MaterialTexture& texture : kMaterialTextures)
         if (const Json::json_pointer at(texture.path); source.contains(at))
             material.*texture.to = texture_ref(doc, source[at]);
@@ -159,7 +114,7 @@ void load_materials(Document& doc)
     for (std::size_t i = 0; i < table_size(doc.json, "materials"); ++i) {
         Material material = load_material(doc, doc.json["materials"][i]);
         for (int k = 0; k < 3; ++k)
-            if (!std::isfinite(material.emissive[k]))
+            if (!std::isfinite(material.emissive[k] * material.emissive_strength))
                 fail(fmt::format("/materials/{}/extensions/KHR_materials_emissive_strength", i), "the emission overflows");
         doc.scene.materials.push_back(std::move(material));
     }

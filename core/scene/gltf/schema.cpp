@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <span>
 #include <string_view>
 
 #include "core/scene/gltf/extensions.h"
@@ -53,12 +54,6 @@ const Rule kRules[] = {
     {"extensions/KHR_lights_punctual/lights", Kind::objects},
     {"extensions/KHR_lights_punctual/lights/*/name", Kind::text},
     {"extensions/KHR_lights_punctual/lights/*/type", Kind::word, 0, 0, "directional point spot", kRequired},
-    {"extensions/KHR_lights_punctual/lights/*/color", Kind::numbers, 0, kAny, "", false, 3},
-    {"extensions/KHR_lights_punctual/lights/*/intensity", Kind::number, 0, kAny},
-    {"extensions/KHR_lights_punctual/lights/*/range", Kind::number, 1e-30, kAny},
-    {"extensions/KHR_lights_punctual/lights/*/spot", Kind::object},
-    {"extensions/KHR_lights_punctual/lights/*/spot/innerConeAngle", Kind::number, 0, 1.5707964},
-    {"extensions/KHR_lights_punctual/lights/*/spot/outerConeAngle", Kind::number, 1e-6, 1.5707964},
 
     {"cameras", Kind::objects},
     {"cameras/*/name", Kind::text},
@@ -174,27 +169,24 @@ const Rule kRules[] = {
     {"materials", Kind::objects},
     {"materials/*/name", Kind::text},
     {"materials/*/alphaMode", Kind::word, 0, 0, "OPAQUE MASK BLEND"},
-    {"materials/*/alphaCutoff", Kind::number, 0, kAny},
-    {"materials/*/doubleSided", Kind::boolean},
-    {"materials/*/emissiveFactor", Kind::numbers, 0, 1, "", false, 3},
-    {"materials/*/pbrMetallicRoughness", Kind::object},
-    {"materials/*/pbrMetallicRoughness/baseColorFactor", Kind::numbers, 0, 1, "", false, 4},
-    {"materials/*/pbrMetallicRoughness/metallicFactor", Kind::number, 0, 1},
-    {"materials/*/pbrMetallicRoughness/roughnessFactor", Kind::number, 0, 1},
-    {"materials/*/normalTexture/scale", Kind::number},
-    {"materials/*/occlusionTexture/strength", Kind::number, 0, 1},
-    {"materials/*/extensions", Kind::object},
-    {"materials/*/extensions/KHR_materials_unlit", Kind::object},
-    {"materials/*/extensions/KHR_materials_anisotropy", Kind::object},
-    {"materials/*/extensions/KHR_materials_anisotropy/anisotropyStrength", Kind::number, 0, 1},
-    {"materials/*/extensions/KHR_materials_anisotropy/anisotropyRotation", Kind::number},
-    {"materials/*/extensions/KHR_materials_emissive_strength", Kind::object},
-    {"materials/*/extensions/KHR_materials_emissive_strength/emissiveStrength", Kind::number, 0, kAny},
-    {"materials/*/extensions/KHR_materials_ior", Kind::object},
-    {"materials/*/extensions/KHR_materials_ior/ior", Kind::number, 0, kAny},
-    {"materials/*/extensions/KHR_materials_specular", Kind::object},
-    {"materials/*/extensions/KHR_materials_specular/specularFactor", Kind::number, 0, 1},
-    {"materials/*/extensions/KHR_materials_specular/specularColorFactor", Kind::numbers, 0, kAny, "", false, 3},
+};
+
+template <class Field> constexpr Rule factor_rule(const char* path, double least, double most)
+{
+    constexpr std::size_t kCount = sizeof(Field) / sizeof(float);
+    return {path, kCount == 1 ? Kind::number : Kind::numbers, least, most, "", false, kCount == 1 ? 0 : kCount};
+}
+
+// Below a material, a light: what a .def of core/scene lists.
+const Rule kMaterialRules[] = {
+#define BN_FACTOR(kind, name, fallback, path, least, most) factor_rule<FieldKinds::kind>(path, least, most),
+#define BN_FLAG(kind, name, path) {path, Kind::kind},
+#define BN_TEXTURE(name, path) {path, Kind::object},
+#include "core/scene/material.def"
+};
+const Rule kLightRules[] = {
+#define BN_LIGHT_FACTOR(kind, name, fallback, path, least, most) factor_rule<FieldKinds::kind>(path, least, most),
+#include "core/scene/light.def"
 };
 
 // The same rules hold wherever a material refers to a texture (textures.h).
@@ -374,6 +366,19 @@ class Checker {
     std::string place_;
 };
 
+// Rules of values below each of some objects, and that what the values lie in are objects.
+void check_below(Checker& checker, const std::string& where, std::span<const Rule> rules)
+{
+    for (const Rule& rule : rules) {
+        const std::string_view path = rule.path;
+        for (std::size_t slash = path.find('/', 1); slash != std::string_view::npos; slash = path.find('/', slash + 1)) {
+            const Rule object = {"", Kind::object};
+            checker.run(object, where + std::string(path.substr(0, slash)));
+        }
+        checker.run(rule, where + rule.path);
+    }
+}
+
 // Camera and light members that only hold together.
 void check_pairs(const Json& json)
 {
@@ -451,6 +456,8 @@ void check_schema(Json& json)
     Checker checker(json);
     for (const Rule& rule : kRules)
         checker.run(rule, rule.path);
+    check_below(checker, "materials/*", kMaterialRules);
+    check_below(checker, "extensions/KHR_lights_punctual/lights/*", kLightRules);
     for (const MaterialTexture& texture : kMaterialTextures)
         for (const Rule& rule : kTextureInfoRules)
             checker.run(rule, std::string("materials/*") + texture.path + rule.path);

@@ -82,7 +82,8 @@ TEST(material, every_factor_and_extension_arrives)
     EXPECT_EQ(m.base_color, glm::vec4(0.1f, 0.2f, 0.3f, 0.4f));
     EXPECT_EQ(m.metallic, 0.0f);
     EXPECT_EQ(m.roughness, 0.25f);
-    EXPECT_EQ(m.emissive, glm::vec3(10, 5, 0));
+    EXPECT_EQ(m.emissive, glm::vec3(1.0f, 0.5f, 0.0f));
+    EXPECT_EQ(m.emissive_strength, 10.0f);
     EXPECT_EQ(m.alpha_mode, AlphaMode::mask);
     EXPECT_EQ(m.alpha_cutoff, 0.75f);
     EXPECT_TRUE(m.double_sided);
@@ -129,7 +130,7 @@ TEST(material, whole_numbers_serve_as_factors_and_as_indices_written_with_a_poin
                        R"("normalTexture":{"index":1.0}})",
                        one_image_textures());
     ASSERT_TRUE(scene) << error_of(scene);
-    EXPECT_EQ(scene->materials[0].emissive.x, 5e9f);
+    EXPECT_EQ(scene->materials[0].emissive_strength, 5e9f);
     EXPECT_TRUE(scene->materials[0].normal_tex.used());
 }
 

@@ -1,0 +1,27 @@
+// Values that a .def of core/scene lists, by their path below an object whose types the schema check has ensured. What a file does not say
+// stays as it is: the default.
+#pragma once
+#include "core/scene/gltf/document.h"
+
+namespace burnish::gltf {
+
+inline void read_factor(const Json& object, const char* path, float& to)
+{
+    if (const Json::json_pointer at(path); object.contains(at))
+        to = static_cast<float>(object[at].get<double>());
+}
+
+template <int kCount> void read_factor(const Json& object, const char* path, glm::vec<kCount, float>& to)
+{
+    if (const Json::json_pointer at(path); object.contains(at))
+        for (int i = 0; i < kCount; ++i)
+            to[i] = static_cast<float>(object[at][static_cast<std::size_t>(i)].get<double>());
+}
+
+inline void read_flag(const Json& object, const char* path, bool& to)
+{
+    if (const Json::json_pointer at(path); object.contains(at))
+        to = !object[at].is_boolean() || object[at].get<bool>();
+}
+
+} // namespace burnish::gltf

@@ -1,0 +1,106 @@
+// What core/scene's lists (material.def, light.def) name is read from where they say, and checked as they say.
+#include <cmath>
+#include <gtest/gtest.h>
+#include <map>
+
+#include <nlohmann/json.hpp>
+
+#include "asset.h"
+#include "core/scene/gltf/gltf.h"
+
+using namespace burnish;
+using namespace burnish::test;
+using nlohmann::json;
+
+namespace {
+
+constexpr double kAny = 3.4028234663852886e38;
+
+Asset with(const json& material, const json& light)
+{
+    Asset asset = triangle();
+    asset.more = R"(,"textures":[{}],"materials":[)" + material.dump() + R"(],"extensions":{"KHR_lights_punctual":{"lights":[)" +
+                 light.dump() + "]}}";
+    return asset;
+}
+
+const json kPlain = {{"type", "spot"}, {"spot", json::object()}};
+
+// The object with a value at a path; a texture on the way refers to one.
+json with_value(json object, const std::string& path, const json& value)
+{
+    object[json::json_pointer(path)] = value;
+    const std::string parent = path.substr(0, path.rfind('/'));
+    if (parent.ends_with("Texture"))
+        object[json::json_pointer(parent + "/index")] = 0;
+    return object;
+}
+
+template <class T> json filled(double value)
+{
+    return sizeof(T) == sizeof(float) ? json(value) : json(std::vector<double>(sizeof(T) / sizeof(float), value));
+}
+
+// make: an asset of a value and its path, "" for none; member: what a Scene has of it.
+template <class T, class Make, class Member>
+void expect_read_and_checked(const std::string& where, const char* path, T fallback, double least, double most, const Make& make,
+                             const Member& member)
+{
+    const Result<Scene> without = load(make(json::object(), ""));
+    ASSERT_TRUE(without) << path << ": " << error_of(without);
+    EXPECT_EQ(member(*without), fallback) << path;
+    const double value = most >= kAny ? 1.25 : 0.25;
+    const Result<Scene> with_it = load(make(filled<T>(value), path));
+    ASSERT_TRUE(with_it) << path << ": " << error_of(with_it);
+    EXPECT_EQ(member(*with_it), T(static_cast<float>(value))) << path;
+    const std::string place = where + path + (sizeof(T) == sizeof(float) ? "" : "/0");
+    for (const double wrong : {least - 1.0, most + 1.0}) {
+        if (std::abs(wrong) >= kAny)
+            continue;
+        const Result<Scene> bad = load(make(filled<T>(wrong), path));
+        ASSERT_FALSE(bad) << path << " of " << wrong;
+        EXPECT_EQ(bad.error().place, place);
+    }
+}
+
+} // namespace
+
+TEST(lists, every_factor_of_materials_is_read_and_checked)
+{
+    const auto make = [](const json& value, const std::string& path) {
+        return with(path.empty() ? json::object() : with_value(json::object(), path, value), kPlain);
+    };
+#define BN_FACTOR(kind, name, fallback, path, least, most)                                                                                 \
+    expect_read_and_checked("/materials/0", path, FieldKinds::kind(fallback), least, most, make,                                           \
+                            [](const Scene& s) { return s.materials[0].name; });
+#include "core/scene/material.def"
+}
+
+TEST(lists, every_flag_of_materials_is_read)
+{
+    const auto load_with = [](const char* path, const json& value) { return load(with(with_value(json::object(), path, value), kPlain)); };
+    const std::map<std::string, json> values = {{"boolean", true}, {"object", json::object()}};
+#define BN_FLAG(kind, name, path)                                                                                                          \
+    {                                                                                                                                      \
+        const Result<Scene> set = load_with(path, values.at(#kind));                                                                       \
+        ASSERT_TRUE(set) << error_of(set);                                                                                                 \
+        EXPECT_TRUE(set->materials[0].name) << path;                                                                                       \
+        EXPECT_FALSE(load_with(path, "yes")) << path;                                                                                      \
+    }
+#include "core/scene/material.def"
+    const Result<Scene> plain = load(with(json::object(), kPlain));
+    ASSERT_TRUE(plain);
+#define BN_FLAG(kind, name, path) EXPECT_FALSE(plain->materials[0].name) << path;
+#include "core/scene/material.def"
+}
+
+TEST(lists, every_factor_of_lights_is_read_and_checked)
+{
+    const auto make = [](const json& value, const std::string& path) {
+        return with(json::object(), path.empty() ? kPlain : with_value(kPlain, path, value));
+    };
+#define BN_LIGHT_FACTOR(kind, name, fallback, path, least, most)                                                                           \
+    expect_read_and_checked("/extensions/KHR_lights_punctual/lights/0", path, FieldKinds::kind(fallback), least, most, make,               \
+                            [](const Scene& s) { return s.lights[0].name; });
+#include "core/scene/light.def"
+}
