@@ -3,6 +3,7 @@
 #pragma once
 #include "core/simd/lanes.h"
 #include "raster/tile/tile_types.h"
+#include "shading/lang/lang.h"
 
 namespace burnish {
 inline namespace BN_ISA_NS {

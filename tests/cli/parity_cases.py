@@ -324,6 +324,9 @@ def compare_changed(bench, replacements, msaa, code, only=None, size="128x96"):
         raise Skipped("no glslc here")
     source, shaders = bench.folder / "source", bench.folder / "shaders"
     shutil.copytree(ROOT / "shading", source / "shading", ignore=shutil.ignore_patterns("bake"))
+    (source / "core/scene").mkdir(parents=True)
+    for table in (ROOT / "core/scene").glob("*.def"): # of what records hold
+        shutil.copy(table, source / "core/scene")
     shaders.mkdir()
     for file, old, new in replacements:
         path = source / "shading" / file
