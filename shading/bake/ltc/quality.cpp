@@ -161,7 +161,7 @@ std::vector<double> l1_of_cells(const Table& table, const Jobs& jobs)
 {
     const Rule rule(15), albedo_rule(17);
     const int cells = table.grid.size - 1;
-    std::vector<double> l1(static_cast<std::size_t>(cells) * cells * cells * cells);
+    std::vector<double> l1(static_cast<std::size_t>(cells * cells * cells * cells));
     jobs.parallel_for(l1.size(), [&](std::size_t index, int) {
         const int i = static_cast<int>(index);
         const Place place = table.grid.between(i / (cells * cells * cells), i / (cells * cells) % cells, i / cells % cells, i % cells,
