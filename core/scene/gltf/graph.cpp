@@ -171,8 +171,8 @@ void check_worlds(const Document& doc, const std::vector<std::size_t>& sources)
 
 void load_cameras_and_lights(Document& doc)
 {
-    const auto number = [](const Json& object, const char* key, double fallback) {
-        return static_cast<float>(get_number(object, key, fallback));
+    const auto number = [](const Json& object, const char* key, float fallback) {
+        return static_cast<float>(get_number(object, key, static_cast<double>(fallback)));
     };
     for (std::size_t i = 0; i < table_size(doc.json, "cameras"); ++i) {
         const Json& source = doc.json["cameras"][i];
@@ -183,8 +183,8 @@ void load_cameras_and_lights(Document& doc)
         camera.orthographic = type == "orthographic";
         camera.xmag = number(lens, "xmag", camera.xmag), camera.ymag = number(lens, "ymag", camera.ymag);
         camera.yfov = number(lens, "yfov", camera.yfov);
-        camera.znear = number(lens, "znear", 0.0);
-        camera.zfar = number(lens, "zfar", 0.0); // 0 where the file has none
+        camera.znear = number(lens, "znear", 0.0f);
+        camera.zfar = number(lens, "zfar", 0.0f); // 0 where the file has none
         doc.scene.cameras.push_back(std::move(camera));
     }
     const Json* lights = get_extension(doc.json, "KHR_lights_punctual");
