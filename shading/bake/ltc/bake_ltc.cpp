@@ -40,7 +40,8 @@ Status keep(const BakeOptions& options, const Progressed& p)
     const auto append = [&bytes](const void* data, std::size_t size) {
         const std::size_t at = bytes.size();
         bytes.resize(at + size);
-        std::memcpy(bytes.data() + at, data, size);
+        if (size) // a column of nothing has no address
+            std::memcpy(bytes.data() + at, data, size);
     };
     const std::uint64_t words[] = {key_of(options), p.chains, p.steps, p.state.entries.empty() ? 0u : 1u};
     const double numbers[] = {p.state.cost, p.state.mu, p.cost_before};
