@@ -22,7 +22,7 @@
 namespace burnish {
 namespace {
 
-constexpr const char* kFooter =
+constexpr const char* kRaceFooter =
     R"(The tile renderer and each device draw the same frame in turn, warm; the device by the classical pipeline with its own samplers, timed
 from submission to the fence. The ratio is of the process' CPU time, device over tile: above 1 the tile renderer needs less. A frame that
 differs (mean FLIP above 0.01) is marked and counts for nothing. A row that fails is reported, and its exit code given at the end.
@@ -268,7 +268,7 @@ OptionTable option_table(RaceArguments& to)
 Command race_command()
 {
     auto arguments = std::make_shared<RaceArguments>();
-    return {"race", "Time the tile renderer against Vulkan's CPU devices", option_table(*arguments), kFooter,
+    return {"race", "Time the tile renderer against Vulkan's CPU devices", option_table(*arguments), kRaceFooter,
             [arguments](OptionTable& given) { return run_race(*arguments, given); }};
 }
 

@@ -12,8 +12,8 @@
 namespace burnish {
 namespace {
 
-constexpr const char* kBaseline = "bent_normal";
-constexpr double kCharacter = 8.0; // px of the widest names' letters
+constexpr const char* kComparedWith = "bent_normal";
+constexpr double kLetter = 8.0; // px of the widest names' letters
 
 // FLIP's own colours, errors from 0 to `most`.
 Paint sequential(double value, double most)
@@ -60,7 +60,7 @@ std::optional<double> value_of(const RowList& rows, const ChartRow& row, bool di
 {
     double value = flip_of(row);
     if (difference) {
-        const ChartRow* baseline = row_of(rows, kBaseline, row.cell);
+        const ChartRow* baseline = row_of(rows, kComparedWith, row.cell);
         if (!baseline)
             return std::nullopt;
         value -= flip_of(*baseline);
@@ -113,7 +113,7 @@ void draw_cell(Drawing& out, const Map& map, const Cell& cell, double x, double 
     out.open("point cell",
              {{"role", "img"},
               {"aria-label", fmt::format("{}; {}{}", describe(cell), describe(*row),
-                                         map.difference ? fmt::format(", {} more than {}", number(*value), kBaseline) : "")},
+                                         map.difference ? fmt::format(", {} more than {}", number(*value), kComparedWith) : "")},
               {"data-row", row->key}},
              describe(*row));
     out.rectangle(x, y, map.cell_w - 1.0, map.cell_h - 1.0, "mark", colour);
@@ -141,18 +141,18 @@ void draw_scale(Drawing& out, const Map& map, double y, double width)
 Drawing plot_heat(const RowList& rows, const std::string& technique, bool difference)
 {
     const auto roughness = values_of(rows, &Cell::roughness), anisotropy = values_of(rows, &Cell::anisotropy);
-    if (roughness.size() * anisotropy.size() < 2 || (difference && technique == kBaseline))
+    if (roughness.size() * anisotropy.size() < 2 || (difference && technique == kComparedWith))
         return {};
-    if (difference && std::none_of(rows.begin(), rows.end(), [](const ChartRow* row) { return row->setting.technique == kBaseline; }))
+    if (difference && std::none_of(rows.begin(), rows.end(), [](const ChartRow* row) { return row->setting.technique == kComparedWith; }))
         return {};
     const auto text = [](const std::optional<float>& v) { return v ? fmt::format("{:g}", *v) : std::string("scene's"); };
-    const std::string title = difference ? technique + " - " + kBaseline : technique;
+    const std::string title = difference ? technique + " - " + kComparedWith : technique;
     const double columns = static_cast<double>(anisotropy.size()), lines = static_cast<double>(roughness.size());
     const Map map{rows, technique, difference, largest(rows, difference), 62.0, 30.0, std::clamp(300.0 / columns, 12.0, 64.0), 28.0};
     const double bottom = map.top + map.cell_h * lines,
-                 width = std::max({columns * map.cell_w, 190.0, kCharacter * static_cast<double>(title.size())});
+                 width = std::max({columns * map.cell_w, 190.0, kLetter * static_cast<double>(title.size())});
     Drawing out(map.left + width + 12.0, bottom + 88.0, "chart heat",
-                difference ? technique + " against " + kBaseline + " over roughness and anisotropy"
+                difference ? technique + " against " + kComparedWith + " over roughness and anisotropy"
                            : technique + " over roughness and anisotropy");
     out.text(map.left, 18.0, "name", title);
     for (std::size_t r = 0; r < roughness.size(); ++r) {

@@ -6,7 +6,7 @@ namespace burnish {
 
 namespace {
 
-constexpr std::size_t kTexelBytes = 8; // RGBA halves
+constexpr std::size_t kHalfTexelBytes = 8; // RGBA halves
 
 // A level without its border of one texel, from `from` to `to`.
 void strip_border(const std::uint16_t* from, int width, int height, std::vector<std::uint16_t>& to)
@@ -62,7 +62,7 @@ DeviceImage NativeImages::upload(const std::uint16_t* texels, const std::vector<
     DeviceImage image(context_, shape);
     const Buffer staging(context_, packed.size() * sizeof(std::uint16_t), Buffer::Place::host);
     std::memcpy(staging.data(), packed.data(), packed.size() * sizeof(std::uint16_t));
-    static_assert(kTexelBytes == 4 * sizeof(std::uint16_t));
+    static_assert(kHalfTexelBytes == 4 * sizeof(std::uint16_t));
     VkCommandBuffer c = context_.begin();
     change_layout(c, image, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
     vkCmdCopyBufferToImage(c, staging.handle(), image.handle(), VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,

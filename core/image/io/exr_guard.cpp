@@ -14,7 +14,6 @@ namespace {
 
 constexpr std::uint32_t kTiled = 0x200, kDeep = 0x800, kMultiPart = 0x1000;
 constexpr int kMaxParts = 256;
-constexpr int kMaxChannels = 1024;
 constexpr std::size_t kMaxNameBytes = 255;
 // The library decodes one tile or scanline block at a time: 256 lines of 16384 RGBA floats are 64 MiB.
 constexpr std::uint64_t kMaxBlockBytes = 512ull << 20;

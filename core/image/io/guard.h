@@ -19,6 +19,8 @@ struct ImageBytes {
     Error error(const std::string& place, const std::string& reason) const { return {ExitCode::bad_input, label, place, reason}; }
 };
 
+constexpr int kMaxChannels = 1024; // of a file
+
 // How to hand a guarded file to OpenImageIO.
 struct ImageProbe {
     const char* format = ""; // OpenImageIO's name of the format

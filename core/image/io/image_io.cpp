@@ -15,8 +15,6 @@
 namespace burnish {
 namespace {
 
-constexpr int kMaxChannels = 1024;
-
 // The wanted channels of a file, as indices into the file's channels; count 0 where there are none.
 struct Selection {
     int count = 0;

@@ -8,8 +8,8 @@
 namespace burnish {
 namespace {
 
-constexpr double kWidth = 0.3, kHeight = 0.2, kThickness = 0.004, kDome = 0.006; // metres
-constexpr int kColumns = 120, kRows = 80;
+constexpr double kPlateWidth = 0.3, kPlateHeight = 0.2, kThickness = 0.004, kDome = 0.006; // metres
+constexpr int kGridColumns = 120, kGridRows = 80;
 constexpr int kTextureWidth = 768, kTextureHeight = 512;
 constexpr double kTilt = -0.25; // radians about +X: leans back
 
@@ -20,18 +20,18 @@ struct Dome {
 Dome dome(double x, double y)
 {
     const double a = 1.0 - x * x, b = 1.0 - y * y;
-    return {0.5 * kThickness + kDome * a * b, kDome * -2.0 * x * b / (0.5 * kWidth), kDome * -2.0 * y * a / (0.5 * kHeight)};
+    return {0.5 * kThickness + kDome * a * b, kDome * -2.0 * x * b / (0.5 * kPlateWidth), kDome * -2.0 * y * a / (0.5 * kPlateHeight)};
 }
 
 void add_faces(Scene& scene)
 {
     for (const double side : {1.0, -1.0}) // front, back
-        add_grid(scene, kColumns, kRows, [side](int column, int row) {
-            const double u = static_cast<double>(column) / kColumns, v = 1.0 - static_cast<double>(row) / kRows;
+        add_grid(scene, kGridColumns, kGridRows, [side](int column, int row) {
+            const double u = static_cast<double>(column) / kGridColumns, v = 1.0 - static_cast<double>(row) / kGridRows;
             const double x = side * (2.0 * u - 1.0), y = 1.0 - 2.0 * v;
             const Dome d = side > 0.0 ? dome(x, y) : Dome{-0.5 * kThickness, 0.0, 0.0};
             SurfacePoint s;
-            s.position = {0.5 * kWidth * x, 0.5 * kHeight * y, d.z};
+            s.position = {0.5 * kPlateWidth * x, 0.5 * kPlateHeight * y, d.z};
             s.normal = {-d.dz_dx, -d.dz_dy, side};
             s.tangent = {side, 0.0, side * d.dz_dx};
             s.u = u;
@@ -45,12 +45,12 @@ void add_edges(Scene& scene)
     const glm::dvec2 corners[5] = {{-1.0, -1.0}, {1.0, -1.0}, {1.0, 1.0}, {-1.0, 1.0}, {-1.0, -1.0}};
     for (int edge = 0; edge < 4; ++edge) {
         const glm::dvec2 a = corners[edge], way = corners[edge + 1] - a;
-        const int steps = edge % 2 ? kRows : kColumns;
+        const int steps = edge % 2 ? kGridRows : kGridColumns;
         add_grid(scene, steps, 1, [&](int column, int row) {
             const double t = static_cast<double>(column) / steps;
             const glm::dvec2 at = a + way * t;
             SurfacePoint s;
-            s.position = {0.5 * kWidth * at.x, 0.5 * kHeight * at.y, (row - 0.5) * kThickness};
+            s.position = {0.5 * kPlateWidth * at.x, 0.5 * kPlateHeight * at.y, (row - 0.5) * kThickness};
             s.normal = {way.y, -way.x, 0.0};
             s.tangent = {way.x, way.y, 0.0};
             // The middle of a weave cell: brushed along the edge.

@@ -14,6 +14,8 @@ void check_unread(Document& doc);         // animations, skins, morph targets: n
 void check_values(Document& doc);         // what the buffers hold, once they are loaded: bounds, unit vectors
 void check_unread_values(Document& doc);  // the same of animations, skins, joints and weights; NaN anywhere
 
+constexpr double kUnitTolerance = 5e-4; // of unit vectors and quaternions in float; the validator's too
+
 // Calls visit(value, place) for every value that a path matches; '*' is any element.
 template <class F> void for_each(const Json& node, std::string_view path, const std::string& place, const F& visit)
 {

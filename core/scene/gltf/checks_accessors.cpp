@@ -36,16 +36,6 @@ constexpr Semantic kTargetSemantics[] = {
     {"COLOR", true, "VEC3:5126 VEC3:5120n VEC3:5121n VEC3:5122n VEC3:5123n VEC4:5126 VEC4:5120n VEC4:5121n VEC4:5122n VEC4:5123n", ""},
 };
 
-bool has_word(std::string_view list, std::string_view word)
-{
-    for (std::size_t at = list.find(word); at != std::string_view::npos; at = list.find(word, at + 1)) {
-        const std::size_t end = at + word.size();
-        if ((at == 0 || list[at - 1] == ' ') && (end == list.size() || list[end] == ' '))
-            return true;
-    }
-    return false;
-}
-
 std::string format_of(const Json& accessor)
 {
     return fmt::format("{}:{}{}", get_string(accessor, "type"), get_index(accessor, "componentType"),

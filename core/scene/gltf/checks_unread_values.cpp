@@ -9,8 +9,6 @@ namespace burnish::gltf {
 
 namespace {
 
-constexpr double kUnitTolerance = 5e-4; // of the validator too
-
 // Times begin at 0 or later and grow.
 void check_times(Document& doc, int accessor, const std::string& place)
 {
@@ -41,7 +39,7 @@ void check_quaternions(Document& doc, int accessor, bool cubic, const std::strin
     }
 }
 
-void check_animation(Document& doc, const Json& animation, const std::string& place)
+void check_animation_values(Document& doc, const Json& animation, const std::string& place)
 {
     const Json &samplers = animation["samplers"], &channels = animation["channels"];
     for (std::size_t i = 0; i < samplers.size(); ++i)
@@ -147,7 +145,7 @@ void check_unread_values(Document& doc)
         if (doc.json["accessors"][i].contains("bufferView") || doc.json["accessors"][i].contains("sparse"))
             check_numbers(doc, i);
     for (std::size_t i = 0; i < table_size(doc.json, "animations"); ++i)
-        check_animation(doc, doc.json["animations"][i], fmt::format("/animations/{}", i));
+        check_animation_values(doc, doc.json["animations"][i], fmt::format("/animations/{}", i));
     for (std::size_t i = 0; i < table_size(doc.json, "skins"); ++i)
         if (const Json& skin = doc.json["skins"][i]; skin.contains("inverseBindMatrices"))
             check_matrices(doc, get_index(skin, "inverseBindMatrices"), fmt::format("/skins/{}/inverseBindMatrices", i));

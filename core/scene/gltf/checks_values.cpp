@@ -9,8 +9,6 @@ namespace burnish::gltf {
 
 namespace {
 
-constexpr float kUnitTolerance = 5e-4f; // of the validator too
-
 // As stored: bounds are of the numbers before they are normalized.
 double stored(const AccessorView& view, std::uint64_t i, int c)
 {
@@ -55,7 +53,9 @@ void check_unit(Document& doc, int accessor, const std::string& name)
     if (view.components() != (tangent ? 4 : 3) || view.all_zero())
         return;
     // Integers are rounded: a step of the coarsest, 1 / 127, in each of three components.
-    const float tolerance = view.type() == ComponentType::f32 ? kUnitTolerance : component_bytes(view.type()) == 1 ? 0.02f : 1e-3f;
+    const float tolerance = static_cast<float>(view.type() == ComponentType::f32   ? kUnitTolerance
+                                               : component_bytes(view.type()) == 1 ? 0.02
+                                                                                   : 1e-3);
     for (std::uint64_t i = 0; i < view.count(); ++i) {
         const float x = view.number(i, 0), y = view.number(i, 1), z = view.number(i, 2), length2 = x * x + y * y + z * z;
         if (std::abs(std::sqrt(length2) - 1.0f) > tolerance) {

@@ -104,4 +104,15 @@ std::string quoted(const std::string& name, const char* kind, std::size_t index)
     return name.empty() ? fmt::format("{} {}", kind, index) : fmt::format("{} \"{}\"", kind, printable(name));
 }
 
+bool has_word(std::string_view list, std::string_view word)
+{
+    while (!list.empty() && !word.empty()) {
+        const std::size_t end = std::min(list.find(' '), list.size());
+        if (list.substr(0, end) == word)
+            return true;
+        list.remove_prefix(std::min(end + 1, list.size()));
+    }
+    return false;
+}
+
 } // namespace burnish::gltf

@@ -6,6 +6,7 @@
 #include <set>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/base/limits.h"
@@ -72,5 +73,8 @@ const Json* get_member(const Json& object, const char* key);                    
 const Json* get_extension(const Json& object, const char* name);                  // null where absent
 std::size_t table_size(const Json& json, const char* key);                        // of an array, 0 where absent
 std::string quoted(const std::string& name, const char* kind, std::size_t index); // mesh 3 "name"
+
+// Whether a list, its words apart by single spaces, has the word.
+bool has_word(std::string_view list, std::string_view word);
 
 } // namespace burnish::gltf

@@ -202,17 +202,6 @@ const Rule kTextureInfoRules[] = {
     {"/extensions/KHR_texture_transform/texCoord", Kind::integer, 0, 1000},
 };
 
-bool has_word(std::string_view list, std::string_view word)
-{
-    while (!list.empty() && !word.empty()) {
-        const std::size_t end = std::min(list.find(' '), list.size());
-        if (list.substr(0, end) == word)
-            return true;
-        list.remove_prefix(std::min(end + 1, list.size()));
-    }
-    return false;
-}
-
 class Checker {
   public:
     explicit Checker(Json& root) : root_(root) {}

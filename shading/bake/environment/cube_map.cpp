@@ -11,8 +11,6 @@
 namespace burnish {
 namespace {
 
-constexpr double kLuminance[3] = {0.2126, 0.7152, 0.0722}; // Rec.709
-
 // Solid angle of the part of a face from its centre to (u, v), signed.
 double corner_solid_angle(double u, double v)
 {

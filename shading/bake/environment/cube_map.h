@@ -10,6 +10,8 @@
 
 namespace burnish {
 
+constexpr double kLuminance[3] = {0.2126, 0.7152, 0.0722}; // Rec.709
+
 struct Direction {
     double x, y, z;
 };

@@ -18,8 +18,6 @@ constexpr double kLeastContrast = 8.0, kLeastDrop = 4.0, kLeastShare = 0.005;
 
 constexpr std::size_t kMostOfRim = 512; // pixels that a hole is filled from: about a pole a rim has a whole row
 
-constexpr double kLuminance[3] = {0.2126, 0.7152, 0.0722}; // Rec.709
-
 using Pixels = std::vector<std::uint32_t>;
 
 struct Ellipse {            // of inertia, weighted by luminance

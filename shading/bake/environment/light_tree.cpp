@@ -6,7 +6,7 @@
 namespace burnish {
 namespace {
 
-Direction unit(const Direction& d)
+Direction normalized(const Direction& d)
 {
     const double scale = 1.0 / std::sqrt(d.x * d.x + d.y * d.y + d.z * d.z);
     return {d.x * scale, d.y * scale, d.z * scale};
@@ -15,7 +15,7 @@ Direction unit(const Direction& d)
 Direction centre_of(int face, int size, int x, int y)
 {
     const double step = 2.0 / size;
-    return unit(cube_direction(face, (x + 0.5) * step - 1.0, (y + 0.5) * step - 1.0));
+    return normalized(cube_direction(face, (x + 0.5) * step - 1.0, (y + 0.5) * step - 1.0));
 }
 
 double brightness(const float* rgb)
@@ -28,11 +28,11 @@ double brightness(const float* rgb)
 constexpr double kWidest = 0.3;
 
 // A texel of a level of the tree.
-struct Node {
+struct TreeNode {
     int level, x, y;
 };
 
-Direction place_of(const LightTree& tree, int face, const Node& node)
+Direction place_of(const LightTree& tree, int face, const TreeNode& node)
 {
     const int size = tree.boxes[static_cast<std::size_t>(node.level)].size;
     if (node.level == 0)
@@ -58,7 +58,7 @@ std::vector<float> places_of(const LightTree& tree, int level, const Jobs& jobs)
             Direction lit = {0.0, 0.0, 0.0}, all = {0.0, 0.0, 0.0};
             double light = 0.0;
             for (int k = 0; k < 4; ++k) {
-                const Node child = {level - 1, 2 * x + k % 2, 2 * y + k / 2};
+                const TreeNode child = {level - 1, 2 * x + k % 2, 2 * y + k / 2};
                 const std::size_t at =
                     static_cast<std::size_t>(child.y) * static_cast<std::size_t>(fine.size) + static_cast<std::size_t>(child.x);
                 const Direction d = place_of(tree, face, child);
@@ -68,7 +68,7 @@ std::vector<float> places_of(const LightTree& tree, int level, const Jobs& jobs)
                 all = {all.x + angle * d.x, all.y + angle * d.y, all.z + angle * d.z};
                 light += w;
             }
-            const Direction place = unit(light > 0.0 ? lit : all);
+            const Direction place = normalized(light > 0.0 ? lit : all);
             to[0] = static_cast<float>(place.x), to[1] = static_cast<float>(place.y), to[2] = static_cast<float>(place.z);
         }
     });
@@ -89,20 +89,20 @@ LightTree make_light_tree(const std::vector<CubeLevel>& boxes, const Jobs& jobs)
 void gather_terms(const LightTree& tree, const PrefilterBlock& block, double alpha, double opening, std::vector<PrefilterTerm>& terms)
 {
     terms.clear();
-    const Direction centre = unit(cube_direction(block.face, 0.5 * (block.u0 + block.u1), 0.5 * (block.v0 + block.v1)));
+    const Direction centre = normalized(cube_direction(block.face, 0.5 * (block.u0 + block.u1), 0.5 * (block.v0 + block.v1)));
     double radius = 0.0; // chords stand for angles throughout
     for (int k = 0; k < 4; ++k) {
-        const Direction d = unit(cube_direction(block.face, k % 2 ? block.u1 : block.u0, k / 2 ? block.v1 : block.v0));
+        const Direction d = normalized(cube_direction(block.face, k % 2 ? block.u1 : block.u0, k / 2 ? block.v1 : block.v0));
         radius = std::max(radius, std::hypot(d.x - centre.x, d.y - centre.y, d.z - centre.z));
     }
     const double width2 = 4.0 * alpha * alpha; // about the mirrored direction a lobe is twice as wide as in half vectors
     const double opening2 = opening * opening, farthest = kWidest / alpha;
     constexpr double kHorizon = 1.41421356237309505; // chord of a quarter turn
-    std::vector<Node> open;
+    std::vector<TreeNode> open;
     for (int face = 0; face < 6; ++face) {
         open.assign(1, {static_cast<int>(tree.boxes.size()) - 1, 0, 0});
         while (!open.empty()) {
-            const Node node = open.back();
+            const TreeNode node = open.back();
             open.pop_back();
             const CubeLevel& box = tree.boxes[static_cast<std::size_t>(node.level)];
             const std::size_t at = static_cast<std::size_t>(node.y) * static_cast<std::size_t>(box.size) + static_cast<std::size_t>(node.x);

@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t kStepUnits = 64;    // a step of the interpolant, in chains of nodes
 constexpr std::size_t kChainsKept = 64;   // chains between two checkpoints
 constexpr std::size_t kProbes = 1u << 18; // lookups that the guard looks at
-constexpr char kMagic[8] = {'b', 'n', 'l', 't', 'c', 'p', '1', '\n'};
+constexpr char kPartMagic[8] = {'b', 'n', 'l', 't', 'c', 'p', '1', '\n'};
 
 // Everything that the work has so far.
 struct Progressed {
@@ -45,7 +45,7 @@ Status keep(const BakeOptions& options, const Progressed& p)
     };
     const std::uint64_t words[] = {key_of(options), p.chains, p.steps, p.state.entries.empty() ? 0u : 1u};
     const double numbers[] = {p.state.cost, p.state.mu, p.cost_before};
-    append(kMagic, sizeof kMagic);
+    append(kPartMagic, sizeof kPartMagic);
     append(words, sizeof words);
     append(numbers, sizeof numbers);
     append(p.l1.data(), p.l1.size() * sizeof(double));
@@ -68,12 +68,12 @@ Status go_on(const BakeOptions& options, Progressed& p)
     const std::vector<std::uint8_t>& bytes = *read;
     std::uint64_t words[4], hash = 0;
     double numbers[3];
-    const std::size_t head = sizeof kMagic + sizeof words + sizeof numbers, nodes = options.grid.nodes();
+    const std::size_t head = sizeof kPartMagic + sizeof words + sizeof numbers, nodes = options.grid.nodes();
     const std::size_t fitted = nodes * (sizeof(double) + sizeof(Matrix));
-    if (bytes.size() < head + sizeof hash || std::memcmp(bytes.data(), kMagic, sizeof kMagic) != 0)
+    if (bytes.size() < head + sizeof hash || std::memcmp(bytes.data(), kPartMagic, sizeof kPartMagic) != 0)
         return refuse("is not what is kept of a table");
-    std::memcpy(words, bytes.data() + sizeof kMagic, sizeof words);
-    std::memcpy(numbers, bytes.data() + sizeof kMagic + sizeof words, sizeof numbers);
+    std::memcpy(words, bytes.data() + sizeof kPartMagic, sizeof words);
+    std::memcpy(numbers, bytes.data() + sizeof kPartMagic + sizeof words, sizeof numbers);
     std::memcpy(&hash, bytes.data() + bytes.size() - sizeof hash, sizeof hash);
     if (hash != hash_bytes(bytes.data(), bytes.size() - sizeof hash))
         return refuse("is damaged: its hash is another one");

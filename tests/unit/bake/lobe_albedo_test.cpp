@@ -23,19 +23,19 @@ Lobe lobe_of(double alpha_lin, double eta, double cosine, double azimuth_rad)
             sine * std::sin(azimuth_rad), cosine};
 }
 
-struct Value {
+struct Albedo {
     double scale, bias;
 };
 
 // The BRDF's integral over all normals, not the visible ones that the table is made from: slopes of length alpha r, of which
 // r^2 / (1 + r^2) is uniform in [0,1], finer where they are steep. Schlick's Fresnel is split at F0.
-Value integral(const Lobe& l, int n)
+Albedo integral(const Lobe& l, int n)
 {
     const auto stretch = [&](double x, double y, double z) {
         return std::sqrt(l.alpha_x * x * l.alpha_x * x + l.alpha_y * y * l.alpha_y * y + z * z);
     };
     const double so = stretch(l.x, l.y, l.z);
-    Value sum = {0.0, 0.0};
+    Albedo sum = {0.0, 0.0};
     for (int a = 0; a < n; ++a)
         for (int b = 0; b < 2 * n; ++b) {
             const double rest = 1.0 - (a + 0.5) / n, u = 1.0 - rest * rest * rest, du = 3.0 * rest * rest;
@@ -56,7 +56,7 @@ Value integral(const Lobe& l, int n)
     return {sum.scale / count, sum.bias / count};
 }
 
-std::vector<Value> lookup(const IsaFns& isa, const char* name, const std::uint16_t* texels, const std::vector<Lobe>& lobes)
+std::vector<Albedo> lookup(const IsaFns& isa, const char* name, const std::uint16_t* texels, const std::vector<Lobe>& lobes)
 {
     const std::size_t n = lobes.size();
     std::vector<double> in(5 * n);
@@ -67,18 +67,18 @@ std::vector<Value> lookup(const IsaFns& isa, const char* name, const std::uint16
             in[k * n + i] = values[k];
     }
     const std::vector<double> out = test::call(isa, name, in, {.texels = texels, .size = kLobeAlbedoSize});
-    std::vector<Value> r;
+    std::vector<Albedo> r;
     for (std::size_t i = 0; i < n; ++i)
         r.push_back({out[i], out[n + i]});
     return r;
 }
 
-std::vector<Value> lookup(const IsaFns& isa, const std::vector<Lobe>& lobes)
+std::vector<Albedo> lookup(const IsaFns& isa, const std::vector<Lobe>& lobes)
 {
     return lookup(isa, "lobe_albedo", lobe_albedo_texels(), lobes);
 }
 
-std::vector<Value> lookup_slice(const IsaFns& isa, const std::uint16_t* slice, const std::vector<Lobe>& lobes)
+std::vector<Albedo> lookup_slice(const IsaFns& isa, const std::uint16_t* slice, const std::vector<Lobe>& lobes)
 {
     return lookup(isa, "lobe_slice", slice, lobes);
 }
@@ -93,10 +93,10 @@ TEST(lobe_albedo, is_near_the_integral_for_all_lobes_and_views)
         const double eta = i % 5 == 0 ? 0.95 : in(0.0, 0.95), cosine = in(0.05, i % 3 == 0 ? 0.3 : 1.0);
         lobes.push_back(lobe_of(in(0.1, 1.0), eta, cosine, i % 4 == 0 ? in(0.45, 0.5) * kPi : in(-kPi, kPi))); // many across the wide axis
     }
-    const std::vector<Value> got = lookup(float_fns().back(), lobes);
+    const std::vector<Albedo> got = lookup(float_fns().back(), lobes);
     double largest = 0.0, relative = 0.0, squares = 0.0, of_bias = 0.0, least = 1.0;
     for (std::size_t i = 0; i < lobes.size(); ++i) {
-        const Value truth = integral(lobes[i], 128);
+        const Albedo truth = integral(lobes[i], 128);
         const double albedo = truth.scale + truth.bias, error = std::abs(got[i].scale + got[i].bias - albedo);
         largest = std::max(largest, error), relative = std::max(relative, error / albedo), squares += error / albedo * (error / albedo);
         of_bias = std::max(of_bias, std::abs(got[i].bias - truth.bias));
@@ -126,7 +126,7 @@ TEST(lobe_albedo, of_a_round_lobe_is_the_other_tables)
     std::vector<float> in = cosines;
     in.insert(in.end(), roughnesses.begin(), roughnesses.end());
     const std::vector<float> expected = results(float_fns()[0], "dfg_lookup", in, {.texels = round.texels.data(), .size = round.size});
-    const std::vector<Value> got = lookup(float_fns()[0], lobes);
+    const std::vector<Albedo> got = lookup(float_fns()[0], lobes);
     for (std::size_t i = 0; i < lobes.size(); ++i) {
         EXPECT_NEAR(got[i].scale, static_cast<double>(expected[2 * i]), 0.008) << cosines[i] << " " << roughnesses[i];
         EXPECT_NEAR(got[i].bias, static_cast<double>(expected[2 * i + 1]), 0.005) << cosines[i] << " " << roughnesses[i];
@@ -142,9 +142,9 @@ TEST(lobe_albedo, threads_and_instruction_sets_give_the_same_bits)
     Random random(3);
     for (int i = 0; i < 256; ++i)
         lobes.push_back(lobe_of(random(), random(), random(), 7.0 * random()));
-    const std::vector<Value> expected = lookup(float_fns()[0], lobes);
+    const std::vector<Albedo> expected = lookup(float_fns()[0], lobes);
     for (const IsaFns& isa : float_fns()) {
-        const std::vector<Value> got = lookup(isa, lobes);
+        const std::vector<Albedo> got = lookup(isa, lobes);
         for (std::size_t i = 0; i < lobes.size(); ++i) {
             ASSERT_EQ(got[i].scale, expected[i].scale);
             ASSERT_EQ(got[i].bias, expected[i].bias);
@@ -174,16 +174,16 @@ TEST(lobe_albedo, slices_are_near_the_integral_of_their_lobe)
         for (int k = 0; k < kViews; ++k)
             lobes.push_back(lobe_of(roughness, eta, in(0.05, 1.0), in(-kPi, kPi)));
         bake_lobe_slice(kLobeAlbedoSize, lobes[0].alpha_x, lobes[0].alpha_y, slice.data());
-        const std::vector<Value> first = lookup_slice(float_fns().front(), slice.data(), lobes);
+        const std::vector<Albedo> first = lookup_slice(float_fns().front(), slice.data(), lobes);
         for (const IsaFns& isa : float_fns()) {
-            const std::vector<Value> got = lookup_slice(isa, slice.data(), lobes);
+            const std::vector<Albedo> got = lookup_slice(isa, slice.data(), lobes);
             for (std::size_t k = 0; k < lobes.size(); ++k) {
                 ASSERT_EQ(got[k].scale, first[k].scale);
                 ASSERT_EQ(got[k].bias, first[k].bias);
             }
         }
         for (std::size_t k = 0; k < lobes.size(); ++k) {
-            const Value truth = integral(lobes[k], 96);
+            const Albedo truth = integral(lobes[k], 96);
             const double error = first[k].scale + first[k].bias - truth.scale - truth.bias;
             largest = std::max(largest, std::abs(error)), squares += error * error;
         }
@@ -199,8 +199,8 @@ TEST(lobe_albedo, of_mirrors_threads_and_views_from_the_edge_is_sound)
     const std::vector<Lobe> lobes = {{0, 0, 0, 0, 1},     {0, 0, 1, 0, 0},    {2, 0, 0, 1, 0},          {2, 0, 0, 0, 1},
                                      {2, 2, 0.6, 0, 0.8}, {1, 0, 0, 1, -0.1}, {nan, nan, nan, nan, nan}};
     for (const IsaFns& isa : float_fns()) {
-        const std::vector<Value> got = lookup(isa, lobes);
-        for (const Value& v : got) {
+        const std::vector<Albedo> got = lookup(isa, lobes);
+        for (const Albedo& v : got) {
             EXPECT_GE(v.scale, 0.0);
             EXPECT_GE(v.bias, 0.0);
             EXPECT_LE(v.scale + v.bias, 1.0 + 1e-6);

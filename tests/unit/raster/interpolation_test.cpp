@@ -10,7 +10,7 @@
 namespace burnish::test {
 namespace {
 
-using wide = __float128; // 113 bits: edge functions times a float are exact in it, one division rounds
+using quad = __float128; // 113 bits: edge functions times a float are exact in it, one division rounds
 
 TEST(interpolation, perspective_weights_equal_exact_arithmetic_within_float_rounding)
 {
@@ -24,15 +24,15 @@ TEST(interpolation, perspective_weights_equal_exact_arithmetic_within_float_roun
             y[i] = static_cast<float>(random.below(size) - size / 2);
             inv_w[i] = std::ldexp(0.5f + random.unit(), -random.below(8));
         }
-        wide e[3], sum = 0, scale = 0;
+        quad e[3], sum = 0, scale = 0;
         bool inside = true;
         for (int i = 0; i < 3; ++i) {
             const int p = (i + 1) % 3, q = (i + 2) % 3;
-            const wide a = static_cast<wide>(x[p]) * static_cast<wide>(y[q]), b = static_cast<wide>(x[q]) * static_cast<wide>(y[p]);
-            e[i] = (a - b) * static_cast<wide>(inv_w[i]);
+            const quad a = static_cast<quad>(x[p]) * static_cast<quad>(y[q]), b = static_cast<quad>(x[q]) * static_cast<quad>(y[p]);
+            e[i] = (a - b) * static_cast<quad>(inv_w[i]);
             inside = inside && a - b >= 0;
             sum += e[i];
-            scale += ((a < 0 ? -a : a) + (b < 0 ? -b : b)) * static_cast<wide>(inv_w[i]);
+            scale += ((a < 0 ? -a : a) + (b < 0 ? -b : b)) * static_cast<quad>(inv_w[i]);
         }
         if (!inside || sum <= 0)
             continue;
@@ -42,7 +42,7 @@ TEST(interpolation, perspective_weights_equal_exact_arithmetic_within_float_roun
         const double condition = static_cast<double>(scale / sum);
         const float got[3] = {w.b.x, w.b.y, w.b.z};
         for (int i = 0; i < 3; ++i) {
-            const double error = std::fabs(static_cast<double>(static_cast<wide>(got[i]) - e[i] / sum)) * 0x1p24 / condition;
+            const double error = std::fabs(static_cast<double>(static_cast<quad>(got[i]) - e[i] / sum)) * 0x1p24 / condition;
             (condition < 4.0 ? worst_fat : worst_thin) = std::fmax(condition < 4.0 ? worst_fat : worst_thin, error);
         }
     }

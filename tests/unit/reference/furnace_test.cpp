@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kSigmas = 4.5; // several dozen comparisons: 1 in 10,000 runs would fail if the seeds were not fixed
 
-ReferenceOptions options_of(ReferenceMode mode, std::uint64_t samples)
+ReferenceOptions to_samples(ReferenceMode mode, std::uint64_t samples)
 {
     ReferenceOptions o;
     o.mode = mode, o.samples = samples;
@@ -39,7 +39,7 @@ TEST(furnace, a_white_metal_reflects_its_directional_albedo)
             for (ReferenceStrategy strategy : {ReferenceStrategy::mis, ReferenceStrategy::brdf, ReferenceStrategy::light}) {
                 Stage stage(plane_scene(metal(roughness, 0.0f)));
                 stage.dfg = bake_dfg(64, 4096, stage.jobs);
-                ReferenceOptions o = options_of(ReferenceMode::direct, 1024);
+                ReferenceOptions o = to_samples(ReferenceMode::direct, 1024);
                 o.strategy = strategy;
                 const Estimate e = seen_from(stage, at_cosine(cosine), o);
                 const dfg_value albedo = dfg_lookup(stage.dfg.texels.data(), stage.dfg.size, cosine, roughness);
@@ -60,7 +60,7 @@ TEST(furnace, a_dielectric_loses_nothing_but_what_its_base_absorbs)
         stage.dfg = bake_dfg(64, 4096, stage.jobs);
         const dfg_value a = dfg_lookup(stage.dfg.texels.data(), stage.dfg.size, cosine, 0.4f);
         const double specular = 0.04 * static_cast<double>(a.scale) + static_cast<double>(a.bias);
-        const Estimate e = seen_from(stage, at_cosine(cosine), options_of(ReferenceMode::shadowed, 4096));
+        const Estimate e = seen_from(stage, at_cosine(cosine), to_samples(ReferenceMode::shadowed, 4096));
         EXPECT_NEAR(e.mean, specular + 0.5 * (1.0 - specular), kSigmas * e.deviation + 1e-3) << cosine;
     }
 }
@@ -72,7 +72,7 @@ TEST(furnace, energy_compensation_returns_what_a_metal_loses)
     stage.dfg = bake_dfg(64, 4096, stage.jobs);
     FrameDesc d;
     d.energy_compensation = true;
-    const Estimate e = seen_from(stage, at_cosine(0.5f), options_of(ReferenceMode::direct, 4096), d);
+    const Estimate e = seen_from(stage, at_cosine(0.5f), to_samples(ReferenceMode::direct, 4096), d);
     EXPECT_NEAR(e.mean, 1.0, kSigmas * e.deviation + 2e-3);
 }
 
@@ -86,7 +86,7 @@ TEST(furnace, energy_compensation_returns_what_an_anisotropic_metal_loses)
         for (float eta : {-0.5f, 0.8f, 0.95f})
             for (float cosine : {0.9f, 0.5f, 0.2f}) {
                 d.roughness = roughness, d.anisotropy = eta;
-                const Estimate e = seen_from(stage, at_cosine(cosine), options_of(ReferenceMode::direct, 256), d);
+                const Estimate e = seen_from(stage, at_cosine(cosine), to_samples(ReferenceMode::direct, 256), d);
                 EXPECT_NEAR(e.mean, 1.0, kSigmas * e.deviation + 0.015)
                     << "roughness " << roughness << " eta " << eta << " cosine " << cosine;
                 EXPECT_LT(e.deviation, 3e-3);
@@ -119,7 +119,7 @@ TEST(furnace, an_anisotropic_metal_reflects_its_directional_albedo)
         d.roughness = 0.6f, d.anisotropy = eta, d.override_anisotropy = true;
         const double alpha = 0.36, e = static_cast<double>(eta);
         const glm::dvec3 o = glm::normalize(glm::dvec3(at_cosine(0.5f)));
-        const Estimate got = seen_from(stage, at_cosine(0.5f), options_of(ReferenceMode::direct, 4096), d);
+        const Estimate got = seen_from(stage, at_cosine(0.5f), to_samples(ReferenceMode::direct, 4096), d);
         EXPECT_NEAR(got.mean, anisotropic_albedo(alpha * (1.0 + e), alpha * (1.0 - e), o), kSigmas * got.deviation + 5e-4) << eta;
     }
 }
@@ -128,13 +128,13 @@ TEST(analytic, a_lambert_plane_under_a_constant_and_under_a_linear_environment)
 {
     BN_NEEDS_EMBREE();
     Stage stage(plane_scene(lambert(0.6f)), 2.0f);
-    const Estimate constant = seen_from(stage, {0.3f, 0.2f, 1.0f}, options_of(ReferenceMode::direct, 1024));
+    const Estimate constant = seen_from(stage, {0.3f, 0.2f, 1.0f}, to_samples(ReferenceMode::direct, 1024));
     EXPECT_NEAR(constant.mean, 0.6 * 2.0, kSigmas * constant.deviation + 1e-4);
     // L = a + b.d gives the irradiance pi (a + 2/3 b.n)
     stage.environment =
         environment_of([](const glm::vec3& d) { return glm::vec3(1.0f + 0.3f * d.x - 0.2f * d.y + 0.45f * d.z); }, 64, stage.jobs);
     for (ReferenceStrategy strategy : {ReferenceStrategy::mis, ReferenceStrategy::brdf, ReferenceStrategy::light}) {
-        ReferenceOptions o = options_of(ReferenceMode::shadowed, 4096);
+        ReferenceOptions o = to_samples(ReferenceMode::shadowed, 4096);
         o.strategy = strategy;
         const Estimate linear = seen_from(stage, {0.3f, 0.2f, 1.0f}, o);
         EXPECT_NEAR(linear.mean, 0.6 * (1.0 + 0.45 * 2.0 / 3.0), kSigmas * linear.deviation + 5e-4) << static_cast<int>(strategy);
@@ -150,7 +150,7 @@ TEST(analytic, a_mirror_shows_the_environment_and_what_stands_in_it)
     stage.environment = environment_of([](const glm::vec3& d) { return glm::vec3(1.0f + 0.5f * d.x); }, 64, stage.jobs);
     const glm::vec3 from = glm::normalize(glm::vec3(0.6f, 0.0f, 0.8f));
     for (ReferenceStrategy strategy : {ReferenceStrategy::mis, ReferenceStrategy::brdf, ReferenceStrategy::light}) {
-        ReferenceOptions o = options_of(ReferenceMode::shadowed, 256);
+        ReferenceOptions o = to_samples(ReferenceMode::shadowed, 256);
         o.strategy = strategy;
         const Estimate e = seen_from(stage, from, o);
         EXPECT_NEAR(e.mean, 1.0 - 0.5 * 0.6, 2e-3) << static_cast<int>(strategy);
@@ -159,7 +159,7 @@ TEST(analytic, a_mirror_shows_the_environment_and_what_stands_in_it)
     glow.emissive = glm::vec3(7.0f);
     add_scene(scene, ball_scene(glow, false), glm::vec3(-0.6f, 0.0f, 0.8f) * 2.0f, 0.4f);
     const Stage lamp(scene);
-    ReferenceOptions o = options_of(ReferenceMode::path, 256);
+    ReferenceOptions o = to_samples(ReferenceMode::path, 256);
     EXPECT_NEAR(seen_from(lamp, from, o).mean, 7.0, 1e-3);
     o.bounces = 0;
     EXPECT_EQ(seen_from(lamp, from, o).mean, 0.0);
