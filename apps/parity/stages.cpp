@@ -102,8 +102,16 @@ bool beyond_rounding(const std::uint32_t* a, const std::uint32_t* b, int words)
     return difference > kRounding * largest;
 }
 
-// Components of the vectors that a pair's words are (raster/frame/frame.h).
-constexpr int kInterpolantVectors[] = {3, 3, 1, 4, 2, 2, 2, 2, 2, 2, 1, 3, 3}, kMaterialVectors[] = {3, 1, 1, 1, 1, 3, 3, 3, 1, 3, 3};
+// Components of the vectors that a pair's words are (shading/lang/recorded.h).
+constexpr int kInterpolantVectors[] = {
+#define BN_POINT(type, words, name, asked) words,
+#define BN_INTERPOLATED(type, words, name, asked, first) words,
+#include "shading/visible_point.def"
+};
+constexpr int kMaterialVectors[] = {
+#define BN_INPUT(type, words, name) words,
+#include "shading/material.def"
+};
 
 template <std::size_t N> bool any_beyond_rounding(const int (&vectors)[N], const std::uint32_t* a, const std::uint32_t* b)
 {

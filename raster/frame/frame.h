@@ -16,6 +16,7 @@
 #include "core/simd/dispatch.h"
 #include "raster/frame/profile.h"
 #include "shading/bake/environment/environment.h"
+#include "shading/lang/recorded.h"
 
 namespace burnish {
 
@@ -99,19 +100,11 @@ struct FrameStats {
 struct StageRecords {
     Column<std::uint32_t> vertices; // [vertex][kVertexWords]: clip x, y, w, z; snapped x, y, 1/256 pixel; 1/w; depth
     Column<std::uint32_t> depths;   // [pixel][sample]
-    // [pixel][sample][kPairWords], at the first sample of each visible (pixel, triangle) pair: mask of its samples, interpolants, material
-    // inputs, colour; all 0 elsewhere. Of a background pair only mask and colour are set.
+    // [pixel][sample][kPairWords] (shading/lang/recorded.h), at the first sample of each visible (pixel, triangle) pair: mask of its
+    // samples, interpolants, material inputs, colour; all 0 elsewhere. Of a background pair only mask and colour are set.
     Column<std::uint32_t> pairs;
 };
 inline constexpr int kVertexWords = 8;
-// Interpolants: normal, tangent (3 each), its sign, colour (4), then for each of two sets uv, d uv/dx, d uv/dy (2 each), front face, ray,
-// position (3 each). Material: the inputs of shading/material.def.
-inline constexpr int kInterpolantWords = 30;
-inline constexpr int kMaterialWords = 0
-#define BN_INPUT(type, words, name) +words
-#include "shading/material.def"
-    ;
-inline constexpr int kPairWords = 1 + kInterpolantWords + kMaterialWords + 3;
 
 struct Frame {
     Image color;                        // f32 RGB, linear Rec.709 scene radiance

@@ -118,24 +118,19 @@ BN_INLINE LaneGeometry locate_hits(const ReferenceParams& f, const LaneHits& h, 
     visible_point& p = g.fragment;
     p.front = k_dot3(outside, r.direction) < lit(0.0);
     g.normal = select(p.front, outside, -outside);
-    real a[16];
-    blend_records(f.shading_vertices, t.vertex[0], t.vertex[1], t.vertex[2], b.x, b.y, b.z, a);
-    p.normal = vec3_of(a[0], a[1], a[2]);
-    p.tangent = vec3_of(a[3], a[4], a[5]);
-    p.tangent_sign = select(a[6] < lit(0.0), lit(-1.0), lit(1.0));
-    p.uv[0] = vec2_of(a[8], a[9]), p.uv[1] = vec2_of(a[10], a[11]);
-    p.color = vec4_of(a[12], a[13], a[14], a[15]);
+    vertex_words a;
+    blend_records(f.shading_vertices, t.vertex[0], t.vertex[1], t.vertex[2], b.x, b.y, b.z, a.at);
+    set_interpolants(a, true, true, p);
     p.ray = r.direction;
     p.position = g.position;
-    p.uv_dx[0] = p.uv_dx[1] = p.uv_dy[0] = p.uv_dy[1] = vec2_all(lit(0.0));
+    p.uv0_dx = p.uv0_dy = p.uv1_dx = p.uv1_dy = vec2_all(lit(0.0));
     if (footprint)
         for (int axis = 0; axis < 2; ++axis) {
             const real2 w = plane_weights(t, footprint[axis]);
             real c[4];
             blend_quad(f.shading_vertices + 8, t.vertex[0], t.vertex[1], t.vertex[2], lit(1.0) - w.x - w.y, w.x, w.y, c);
-            real2* to = axis == 0 ? p.uv_dx : p.uv_dy;
-            to[0] = vec2_of(c[0], c[1]) - p.uv[0];
-            to[1] = vec2_of(c[2], c[3]) - p.uv[1];
+            (axis == 0 ? p.uv0_dx : p.uv0_dy) = vec2_of(c[0], c[1]) - p.uv0;
+            (axis == 0 ? p.uv1_dx : p.uv1_dy) = vec2_of(c[2], c[3]) - p.uv1;
         }
     return g;
 }

@@ -1,25 +1,16 @@
-// From the tile's triangles to kLanes fragments: attributes interpolated at the shaded point, and the derivatives that a GPU would see
-// (differences in the 2x2 quad, taken from the plane equations, so no helper lanes run).
+// From the tile's triangles to kLanes fragments: setups fetched for shading/surface/visible_point.t.h.
 #pragma once
 #include "raster/frame/lane_material.h"
 #include "raster/tile/tile_types.h"
-#include "shading/kernels/camera.t.h"
-#include "shading/kernels/interpolate.k.h"
-#include "shading/surface/coverage.t.h"
+#include "shading/surface/visible_point.t.h"
 
 namespace burnish {
 inline namespace BN_ISA_NS {
 
 inline constexpr std::int32_t kManyTriangles = -1;
 
-struct LaneSetup { // setups of the fragments' triangles, a field a register
-    integer x[3], y[3];
-    real3 inv_w;
-    integer vertex[3];
-    integer info;
-    real3 unclip[3]; // corners of a clipped piece in barycentrics of the whole triangle
-    bool any_clipped;
-    std::int32_t common_vertex[3]; // where all fragments are of one whole triangle; else kManyTriangles
+struct LaneSetup : triangle_setup { // of the fragments' triangles, a field a register
+    std::int32_t common_vertex[3];  // where all fragments are of one whole triangle; else kManyTriangles
 };
 
 BN_INLINE void unclip_setup(const TileScratch& scratch, mask clipped, LaneSetup& r)
@@ -68,66 +59,39 @@ BN_INLINE LaneSetup load_setup(const TileScratch& scratch, integer triangle, std
     r.inv_w = vec3_of(real_from_bits(field[6]), real_from_bits(field[7]), real_from_bits(field[8]));
     r.info = field[15];
     const mask clipped = (r.info & int_lit(kClipped)) != int_lit(0);
-    r.any_clipped = any(clipped);
-    if (r.any_clipped)
+    r.clipped = any(clipped);
+    if (r.clipped)
         unclip_setup(scratch, clipped, r);
     return r;
 }
 
-// Weights of the whole triangle's vertices at a point, 1/256 pixel.
-BN_INLINE bary_weights weights_at(const LaneSetup& t, integer x, integer y)
-{
-    bary_weights w = perspective_weights(vec3_of(to_real(t.x[0] - x), to_real(t.x[1] - x), to_real(t.x[2] - x)),
-                                         vec3_of(to_real(t.y[0] - y), to_real(t.y[1] - y), to_real(t.y[2] - y)), t.inv_w);
-    if (t.any_clipped)
-        w.b = unclip_weights(w.b, t.unclip[0], t.unclip[1], t.unclip[2]);
-    return w;
-}
-
-struct ShadePoint {
-    integer x, y; // 1/256 pixel
-};
-
-// The pixel's centre where the triangle covers it; else the mean of the visible samples, which lies in the triangle.
-BN_INLINE ShadePoint shade_point(const FrameParams& f, integer corner_x, integer corner_y, integer samples, mask center_inside)
-{
-    ShadePoint p = {corner_x + int_lit(kSubpixel / 2), corner_y + int_lit(kSubpixel / 2)};
-    if (all(center_inside))
-        return p;
-    const sample_mean mean = mean_of_samples(f, samples);
-    p.x = select(center_inside, p.x, corner_x + mean.x);
-    p.y = select(center_inside, p.y, corner_y + mean.y);
-    return p;
-}
-
-BN_INLINE void interpolate_uv(const FrameParams& f, const LaneSetup& t, real3 b, real2 uv[2])
+// What assembly asks of triangles: shading/lang/triangle.h.
+BN_INLINE real4 blend_coordinates(const FrameParams& f, const LaneSetup& t, real3 b)
 {
     real r[4];
     blend_quad(f.shading_vertices + 8, t.vertex[0], t.vertex[1], t.vertex[2], b.x, b.y, b.z, r);
-    uv[0] = vec2_of(r[0], r[1]);
-    uv[1] = vec2_of(r[2], r[3]);
+    return vec4_of(r[0], r[1], r[2], r[3]);
 }
 
-// The first `count` floats of the vertices' records, blended.
-BN_INLINE void interpolate_records(const FrameParams& f, const LaneSetup& t, real3 b, real* out, int count)
+BN_INLINE void blend_vertices(const FrameParams& f, const LaneSetup& t, real3 b, bool all_words, vertex_words& a)
 {
     if (t.common_vertex[0] == kManyTriangles) {
-        if (count > 8)
-            blend_records(f.shading_vertices, t.vertex[0], t.vertex[1], t.vertex[2], b.x, b.y, b.z, out);
+        if (all_words)
+            blend_records(f.shading_vertices, t.vertex[0], t.vertex[1], t.vertex[2], b.x, b.y, b.z, a.at);
         else
-            blend_records_low(f.shading_vertices, t.vertex[0], t.vertex[1], t.vertex[2], b.x, b.y, b.z, out);
+            blend_records_low(f.shading_vertices, t.vertex[0], t.vertex[1], t.vertex[2], b.x, b.y, b.z, a.at);
         return;
     }
     const float* v0 = f.shading_vertices + std::size_t{16} * static_cast<std::uint32_t>(t.common_vertex[0]);
     const float* v1 = f.shading_vertices + std::size_t{16} * static_cast<std::uint32_t>(t.common_vertex[1]);
     const float* v2 = f.shading_vertices + std::size_t{16} * static_cast<std::uint32_t>(t.common_vertex[2]);
-    for (int c = 0; c < count; ++c)
-        out[c] = b.x * splat(v0[c]) + b.y * splat(v1[c]) + b.z * splat(v2[c]);
+    for (int c = 0; c < (all_words ? 16 : 8); ++c)
+        a.at[c] = b.x * splat(v0[c]) + b.y * splat(v1[c]) + b.z * splat(v2[c]);
 }
 
-BN_INLINE real blend_gather(const float* column, const LaneSetup& t, real3 b)
+BN_INLINE real3 vertex_place(const FrameParams& f, const LaneSetup& t, int k)
 {
-    return b.x * gather(column, t.vertex[0]) + b.y * gather(column, t.vertex[1]) + b.z * gather(column, t.vertex[2]);
+    return vec3_of(gather(f.px, t.vertex[k]), gather(f.py, t.vertex[k]), gather(f.pz, t.vertex[k]));
 }
 
 // common: the triangle of all fragments, or kManyTriangles. samples: covered sample mask. pixel_x, pixel_y: in the image. lights: there are
@@ -137,48 +101,7 @@ BN_INLINE visible_point make_fragment_inline(const FrameParams& f, material_ref 
                                              bool lights)
 {
     const LaneSetup t = load_setup(scratch, triangle, common);
-    const integer corner_x = shl(pixel_x, 8) - int_lit(f.center_x), corner_y = shl(pixel_y, 8) - int_lit(f.center_y);
-    const integer half = int_lit(kSubpixel / 2);
-    const bary_weights center = weights_at(t, corner_x + half, corner_y + half);
-    bary_weights w = center;
-    ShadePoint point = {corner_x + half, corner_y + half};
-    if (!all(center.inside)) {
-        point = shade_point(f, corner_x, corner_y, samples, center.inside);
-        w = weights_at(t, point.x, point.y);
-    }
-    visible_point p;
-    real a[16]; // the upper half is read only where it was fetched
-    if (m.textured || m.uses_color)
-        interpolate_records(f, t, w.b, a, 16);
-    else
-        interpolate_records(f, t, w.b, a, 8);
-    p.normal = vec3_of(a[0], a[1], a[2]);
-    p.tangent = vec3_of(a[3], a[4], a[5]);
-    p.tangent_sign = select(a[6] < lit(0.0), lit(-1.0), lit(1.0));
-    p.front = (t.info & int_lit(kFrontFacing)) != int_lit(0);
-    const real to_pixels = lit(1.0 / kSubpixel);
-    p.ray = ray_through(f, view, to_real(point.x + int_lit(f.center_x)) * to_pixels, to_real(point.y + int_lit(f.center_y)) * to_pixels);
-    if (lights)
-        p.position = vec3_of(blend_gather(f.px, t, w.b), blend_gather(f.py, t, w.b), blend_gather(f.pz, t, w.b));
-    if (m.uses_color)
-        p.color = vec4_of(a[12], a[13], a[14], a[15]);
-    if (!m.textured)
-        return p;
-    p.uv[0] = vec2_of(a[8], a[9]);
-    p.uv[1] = vec2_of(a[10], a[11]);
-    // the other pixel of the quad in x and in y: to the right of or below an even one, to the left of or above an odd one
-    const integer odd_x = pixel_x & int_lit(1), odd_y = pixel_y & int_lit(1), pixel = int_lit(kSubpixel);
-    const integer step_x = pixel - odd_x * (pixel + pixel), step_y = pixel - odd_y * (pixel + pixel);
-    real2 uv_center[2], uv_x[2], uv_y[2];
-    interpolate_uv(f, t, center.b, uv_center);
-    interpolate_uv(f, t, weights_at(t, corner_x + half + step_x, corner_y + half).b, uv_x);
-    interpolate_uv(f, t, weights_at(t, corner_x + half, corner_y + half + step_y).b, uv_y);
-    const real sign_x = to_real(int_lit(1) - odd_x * int_lit(2)), sign_y = to_real(int_lit(1) - odd_y * int_lit(2));
-    for (int i = 0; i < 2; ++i) {
-        p.uv_dx[i] = (uv_x[i] - uv_center[i]) * sign_x;
-        p.uv_dy[i] = (uv_y[i] - uv_center[i]) * sign_y;
-    }
-    return p;
+    return point_of(f, view, t, pixel_x, pixel_y, samples, m.uses_color != 0, m.textured != 0, lights);
 }
 
 // Compiled once in a file.

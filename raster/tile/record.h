@@ -5,6 +5,7 @@
 #include "raster/frame/frame.h"
 #include "raster/tile/fragment.h"
 #include "raster/tile/raster.h"
+#include "shading/surface/recorded.t.h"
 
 namespace burnish {
 inline namespace BN_ISA_NS {
@@ -20,10 +21,13 @@ struct WordWriter {
         put(static_cast<std::uint32_t>(lanes[0]));
     }
     void put(real x) { put(bits_of(x)); }
-    void put(real2 v) { put(v.x), put(v.y); }
-    void put(real3 v) { put(v.x), put(v.y), put(v.z); }
-    void put(real4 v) { put(v.x), put(v.y), put(v.z), put(v.w); }
 };
+
+// What assembly asks of recorders: shading/lang/recorder.h.
+BN_INLINE void put_real(WordWriter& w, real x)
+{
+    w.put(x);
+}
 
 BN_STAGE void record_vertices(const FrameParams& f, std::uint32_t count, std::uint32_t* out)
 {
@@ -32,33 +36,12 @@ BN_STAGE void record_vertices(const FrameParams& f, std::uint32_t count, std::ui
     for (std::uint32_t v = 0; v < count; ++v) {
         const real4 clip = clip_position(vec3_of(splat(f.px[v]), splat(f.py[v]), splat(f.pz[v])), view);
         const snapped_vertex s = snap_to_frame(f, clip, view, kWholeBand);
-        w.put(clip);
+        put_real4(w, clip);
         w.put(select(s.valid, s.x, int_lit(kNeedsClip)));
         w.put(s.y);
         w.put(s.inv_w);
         w.put(s.z);
     }
-}
-
-BN_INLINE void record_point(const FrameParams& f, const MaterialRecord& m, const visible_point& p, WordWriter& w)
-{
-    const real zero = lit(0.0);
-    w.put(p.normal), w.put(p.tangent), w.put(p.tangent_sign);
-    w.put(m.uses_color ? p.color : vec4_all(zero));
-    for (int i = 0; i < 2; ++i) {
-        w.put(m.textured ? p.uv[i] : vec2_all(zero));
-        w.put(m.textured ? p.uv_dx[i] : vec2_all(zero));
-        w.put(m.textured ? p.uv_dy[i] : vec2_all(zero));
-    }
-    w.put(select(p.front, int_lit(1), int_lit(0)));
-    w.put(p.ray);
-    w.put(f.light_count > 0 ? p.position : vec3_all(zero));
-}
-
-BN_INLINE void record_material(const material_inputs& at, WordWriter& w)
-{
-#define BN_INPUT(type, words, name) w.put(at.name);
-#include "shading/material.def"
 }
 
 // After shading; x0, y0: the tile's corner, pixels.
@@ -79,8 +62,8 @@ BN_STAGE void record_fragments(const FrameParams& f, const view_params& view, in
             const MaterialRecord& m = f.materials[s.triangles[id].info >> 2];
             const visible_point p =
                 make_fragment(f, m, view, s, int_lit(id), id, int_lit(x0 + (pixel & 255)), int_lit(y0 + (pixel >> 8)), int_lit(covered));
-            record_point(f, m, p, w);
-            record_material(fetch_lanes(f, m, p), w);
+            record_point(w, p, m.uses_color != 0, m.textured != 0, f.light_count > 0);
+            record_material(w, fetch_lanes(f, m, p));
         }
         w.to = record + kPairWords - 3;
         w.put(splat(s.red[i])), w.put(splat(s.green[i])), w.put(splat(s.blue[i]));

@@ -9,12 +9,7 @@
 
 namespace burnish {
 
-inline constexpr int kGuardBand = 1 << 22; // |x|, |y| of any snapped vertex stay below this, sub-pixel units
-// Whole triangles stay well inside the band, clipping cuts between that and its edge: so a vertex that one triangle keeps is never cut
-// by its neighbour, and both see it at the same place.
-inline constexpr int kWholeBand = kGuardBand / 16 * 15, kCutBand = kGuardBand / 32 * 31;
-inline constexpr std::int32_t kNeedsClip = -(1 << 30); // in place of a snapped x: behind the near plane or out of the guard band
-inline constexpr int kBlock = 8;                       // coverage and hierarchical depth work on 8x8 pixels
+inline constexpr int kBlock = 8; // coverage and hierarchical depth work on 8x8 pixels
 inline constexpr int kBlockPixels = kBlock * kBlock;
 inline constexpr int kMaxTileSize = 64; // pixels along a side
 
@@ -34,7 +29,6 @@ struct alignas(64) TriangleSetup {
     std::int32_t info;      // material << 2 | kFrontFacing | kClipped; vertex[0] of a clipped piece is an index into TileScratch::clips
 };
 static_assert(sizeof(TriangleSetup) == 64);
-inline constexpr std::int32_t kFrontFacing = 1, kClipped = 2;
 
 // Piece of a triangle that crossed the near plane or left the guard band: its corners in barycentrics of the whole one.
 struct alignas(64) ClipRecord {

@@ -212,7 +212,6 @@ void ForwardPass::record(const FrameDesc& desc, const Band& band, Frame& frame)
 
 void ForwardPass::fill_frame(const FrameDesc& desc, const Band& band, Frame& frame) const
 {
-    constexpr std::size_t kFront = 23; // an integer among the interpolants
     const std::size_t width = static_cast<std::size_t>(desc.width), msaa = static_cast<std::size_t>(desc.msaa);
     const std::size_t first = width * static_cast<std::size_t>(band.first_row) * msaa,
                       count = width * static_cast<std::size_t>(band.rows) * msaa;
@@ -230,10 +229,8 @@ void ForwardPass::fill_frame(const FrameDesc& desc, const Band& band, Frame& fra
         std::uint32_t* const to = frame.stages.pairs.data() + (first + s) * kPairWords;
         const std::uint32_t* const words = targets_.words.as<std::uint32_t>() + s * kSampleWords;
         to[0] = mask;
-        if (ids[s] != kGpuNoTriangle) {
+        if (ids[s] != kGpuNoTriangle)
             std::copy_n(words, kInterpolantWords + kMaterialWords, to + 1);
-            to[1 + kFront] = words[kFront] != 0;
-        }
         std::copy_n(words + 4 * (kGpuColorGroup - 1), 3, to + kPairWords - 3);
     }
 }

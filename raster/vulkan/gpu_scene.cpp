@@ -9,7 +9,6 @@ namespace burnish {
 
 namespace {
 
-static_assert(kInterpolantWords == kGpuInterpolantWords && kMaterialWords == kGpuMaterialWords && kPairWords == kGpuPairWords);
 static_assert(sizeof(GpuVertex) == kVertexWords * sizeof(std::uint32_t));
 
 template <class T> Buffer filled(Context& context, const std::vector<T>& table, VkBufferUsageFlags more = 0)

@@ -29,10 +29,30 @@ BN_FN bary_weights perspective_weights(real3 x, real3 y, real3 inv_w)
     return r;
 }
 
+// A triangle, or the piece of one that clipping left, as interpolation wants it.
+struct triangle_setup {
+    integer x[3], y[3]; // corners, 1/256 pixel
+    real3 inv_w;        // 1 / clip w of the corners
+    integer vertex[3];  // of the whole triangle
+    integer info;       // material << 2 | kFrontFacing | kClipped
+    real3 unclip[3];    // corners of a piece in barycentrics of the whole triangle
+    bool clipped;       // it is a piece; of lanes: some are
+};
+
 // Weights of a piece that clipping cut off, in terms of the whole triangle: corner j of the piece is m_j in its barycentrics.
 BN_FN real3 unclip_weights(real3 b, real3 m0, real3 m1, real3 m2)
 {
     return m0 * b.x + m1 * b.y + m2 * b.z;
+}
+
+// Weights of the whole triangle's vertices at a point, 1/256 pixel.
+BN_FN bary_weights weights_at(BN_IN(triangle_setup) t, integer x, integer y)
+{
+    bary_weights w = perspective_weights(vec3_of(to_real(t.x[0] - x), to_real(t.x[1] - x), to_real(t.x[2] - x)),
+                                         vec3_of(to_real(t.y[0] - y), to_real(t.y[1] - y), to_real(t.y[2] - y)), t.inv_w);
+    if (t.clipped)
+        w.b = unclip_weights(w.b, t.unclip[0], t.unclip[1], t.unclip[2]);
+    return w;
 }
 
 BN_KERNELS_END

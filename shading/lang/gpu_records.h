@@ -4,6 +4,7 @@
 #ifndef BN_GPU_RECORDS_H
 #define BN_GPU_RECORDS_H
 
+#include "shading/lang/recorded.h"
 #include "shading/lang/records.h"
 
 #ifdef __cplusplus
@@ -16,24 +17,14 @@ const int kGpuSpecularPage = 0, kGpuIrradiancePage = 1, kGpuBoxPage = 2, kGpuDfg
           kGpuWholePage = 6, kGpuFirstTexturePage = 7;
 const int kGpuMaxGrid = 65536;
 const int kGpuNoTriangle = -1;
-const int kGpuFrontFacing = 1, kGpuClipped = 2;                                    // bits of GpuSetup.info
-const int kGpuWholeBand = 3932160, kGpuCutPixels = 15872, kGpuGuardBand = 4194304; // as raster/tile/tile_types.h; cut band in pixels
-const int kGpuNeedsClip = -1073741824;
 // The rasterizer's viewport is twice as many pixels wide, around the centre pixel, or as wide as the device allows: a power of two, so
 // every snapped position survives the driver's arithmetic, and no whole triangle leaves a guard band of the same width on either side.
 const int kGpuViewportHalf = 8192;
 
-// Words that a recorded stage takes a visible (pixel, triangle) pair.
-const int kGpuInterpolantWords = 30;
-const int kGpuMaterialWords = 0
-#define BN_INPUT(type, words, name) +words
-#include "shading/material.def"
-    ;
-const int kGpuPairWords = 1 + kGpuInterpolantWords + kGpuMaterialWords + 3; // mask, interpolants, material inputs, colour
-const int kGpuLineWords = 16;                                               // line_record (shading/techniques/shared_line.k.h)
+const int kGpuLineWords = 16; // line_record (shading/techniques/shared_line.k.h)
 // The forward pipeline records a sample's words four at a time, as colours: 0 triangle ids, then interpolants and material inputs, then
 // colour.
-const int kGpuForwardGroups = 1 + (kGpuInterpolantWords + kGpuMaterialWords + 3) / 4, kGpuColorGroup = kGpuForwardGroups;
+const int kGpuForwardGroups = 1 + (kInterpolantWords + kMaterialWords + 3) / 4, kGpuColorGroup = kGpuForwardGroups;
 
 // Where a stage finds what lies in the buffers, and what the device alone needs to know.
 struct GpuPlaces {
@@ -55,7 +46,7 @@ struct GpuTexture {
 
 struct GpuVertex {
     float clip[4]; // x, y, w, z
-    int x, y;      // snapped; x = kGpuNeedsClip where there is no such position
+    int x, y;      // snapped; x = kNeedsClip where there is no such position
     float inv_w, z;
 };
 
@@ -64,7 +55,7 @@ struct GpuSetup {
     int x[3], y[3];
     float inv_w[3], z[3];
     int vertex[3]; // of the whole triangle
-    int info;      // material << 2 | kGpuFrontFacing | kGpuClipped
+    int info;      // material << 2 | kFrontFacing | kClipped
     int triangle;
     float bary[9]; // of a piece: corner j = sum_k bary[3j+k] * vertex k
 };

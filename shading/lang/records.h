@@ -14,6 +14,15 @@ const int kTextureSlots = 0 // a material
 #include "core/scene/material.def"
     ;
 
+// The sub-pixel grid: x right, y down, from the integer centre pixel of the image.
+const int kSubpixel = 256;      // units a pixel
+const int kGuardBand = 1 << 22; // |x|, |y| of any snapped vertex stay below this
+// Whole triangles stay well inside the band, clipping cuts between that and its edge: so a vertex that one triangle keeps is never cut
+// by its neighbour, and both see it at the same place.
+const int kWholeBand = kGuardBand / 16 * 15, kCutBand = kGuardBand / 32 * 31;
+const int kNeedsClip = -(1 << 30);        // in place of a snapped x: behind the near plane or out of the guard band
+const int kFrontFacing = 1, kClipped = 2; // bits of a triangle's info, below its material
+
 const int kAlphaOpaque = 0, kAlphaMask = 1, kAlphaBlend = 2; // AlphaMode
 
 // Traits of techniques (shading/models.def).

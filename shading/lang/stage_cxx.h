@@ -7,7 +7,7 @@
 #include "shading/lang/frame.h"
 #include "shading/lang/tables.h"
 #include "shading/lang/texture_fetch.h"
-#include "shading/surface/surface.k.h"
+#include "shading/surface/visible_point.k.h"
 
 namespace burnish {
 inline namespace BN_ISA_NS {

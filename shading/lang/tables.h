@@ -7,7 +7,6 @@
 
 namespace burnish {
 
-inline constexpr int kSubpixel = 256; // sub-pixel units a pixel
 inline constexpr std::uint32_t kNoTriangle = 0xffffffffu;
 
 struct TextureParams { // TexturePyramid in plain data

@@ -2,8 +2,9 @@
 // place of its colour (kGpuForwardGroups).
 #version 460
 #extension GL_EXT_buffer_reference_uvec2 : require
-#include "shading/stages/fragment.glsl"
+#include "shading/kernels/camera.t.h"
 #include "shading/lights/fragment_light.t.h"
+#include "shading/surface/coverage.t.h"
 #include "shading/stages/pass.glsl"
 
 #ifdef BN_CENTROID // the device's own place in partly covered pixels: cheaper, and elsewhere
@@ -25,16 +26,10 @@ layout(constant_id = 5) const int kMsaa = 1;
 layout(constant_id = 6) const bool kKnowsTriangle = false; // as the pipeline whose words these are
 layout(constant_id = 7) const int kGroup = 0;
 layout(location = 5) flat in int triangle;
-int record_at = 4; // group 0 is the triangle
-
-void put_real(real x)
-{
-    if (record_at / 4 == kGroup)
-        radiance[record_at % 4] = x;
-    ++record_at;
-}
-void put_int(int word) { put_real(to_real(word)); }
-#include "shading/stages/record.glsl"
+#define BN_TAKE_WORD(at, x)                                                                                                                \
+    if ((at) / 4 == kGroup)                                                                                                                \
+        radiance[(at) % 4] = x;
+#include "shading/surface/recorded.t.h"
 #endif
 
 // Bit s: sample s.
@@ -93,10 +88,10 @@ vec2 shaded_offset(int px, int py)
 visible_point point_of_fragment(int px, int py)
 {
     visible_point p;
-    p.uv_dx[0] = dFdxFine(uv.xy); // of pixel centres, by row and column of the quad
-    p.uv_dx[1] = dFdxFine(uv.zw);
-    p.uv_dy[0] = dFdyFine(uv.xy);
-    p.uv_dy[1] = dFdyFine(uv.zw);
+    p.uv0_dx = dFdxFine(uv.xy); // of pixel centres, by row and column of the quad
+    p.uv1_dx = dFdxFine(uv.zw);
+    p.uv0_dy = dFdyFine(uv.xy);
+    p.uv1_dy = dFdyFine(uv.zw);
     vec2 offset = shaded_offset(px, py);
     vec4 place = BN_AT_POINT(position);
     // what a vertex has 1 of is 1 here, unless the device divides by the centre's w: Mesa 22.3 does
@@ -108,8 +103,8 @@ visible_point point_of_fragment(int px, int py)
     p.tangent_sign = t.w < 0.0 ? -1.0 : 1.0;
     p.color = BN_AT_POINT(color) / w;
     vec4 uv_at = BN_AT_POINT(uv) / w;
-    p.uv[0] = uv_at.xy;
-    p.uv[1] = uv_at.zw;
+    p.uv0 = uv_at.xy;
+    p.uv1 = uv_at.zw;
     p.front = gl_FrontFacing;
     real x = to_real(px) + lit(0.5) + offset.x;
     real y = to_real(py) + lit(0.5) + offset.y;
@@ -134,15 +129,9 @@ void main()
     gl_SampleMask[0] = alive;
 #ifdef BN_STAGES
     radiance = vec4(float(triangle & 0xffff), float(triangle >> 16), 0.0, 0.0);
-    if (materials[m].textured == 0) // what is not used is 0
-        for (int i = 0; i < 2; ++i)
-            p.uv[i] = p.uv_dx[i] = p.uv_dy[i] = vec2(0.0);
-    if (materials[m].uses_color == 0)
-        p.color = vec4(0.0);
-    if (frame.light_count == 0)
-        p.position = vec3(0.0);
-    record_point(p);
-    record_material(at);
+    int word = 4; // group 0 is the triangle
+    record_point(word, p, materials[m].uses_color != 0, materials[m].textured != 0, frame.light_count > 0);
+    record_material(word, at);
 #else
     // alone: fragments do not meet their neighbours
     line_record light = light_of_fragment(0, m, materials[m].technique, at, lobe_shape_of(0, m, at), p, px, py, false);

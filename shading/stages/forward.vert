@@ -33,7 +33,7 @@ void main()
     view_params view = view_params_of(frame.view);
     real4 clip = clip_position(place, view); // x, y, w, z
     // On the sub-pixel grid already, so that attributes are interpolated between the positions that are rasterized.
-    snapped_vertex s = snap_to_frame(0, clip, view, kGpuWholeBand);
+    snapped_vertex s = snap_to_frame(0, clip, view, kWholeBand);
     if (s.valid) {
         real x = to_real(s.x + frame.center_x) * lit(0.00390625) / frame.half_width - lit(1.0);
         real y = lit(1.0) - to_real(s.y + frame.center_y) * lit(0.00390625) / frame.half_height;

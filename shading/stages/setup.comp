@@ -23,8 +23,8 @@ clip_corner next[kMaxCorners + 1];
 
 real plane_distance(real4 c, int p)
 {
-    real gx = to_real(kGpuCutPixels) / frame.half_width;
-    real gy = to_real(kGpuCutPixels) / frame.half_height;
+    real gx = to_real(kCutBand / kSubpixel) / frame.half_width;
+    real gy = to_real(kCutBand / kSubpixel) / frame.half_height;
     real d = gy * c.z + c.y;
     if (p == 0) {
         real near_orthographic = 1.0 - c.w;
@@ -113,7 +113,7 @@ int emit(int triangle, ivec3 x, ivec3 y, vec3 inv_w, vec3 z, mat3 bary, int clip
         for (int k = 0; k < 3; ++k)
             setups[at].bary[3 * j + k] = bary[o][k];
     }
-    setups[at].info = material << 2 | (front ? kGpuFrontFacing : 0) | clipped;
+    setups[at].info = material << 2 | (front ? kFrontFacing : 0) | clipped;
     setups[at].triangle = triangle;
     return 1;
 }
@@ -131,7 +131,7 @@ int emit_piece(int triangle, int i1, int i2, int at)
             c.c.z = frame.view.znear;
         if (frame.view.orthographic != 0 && c.c.w > 1.0)
             c.c.w = 1.0;
-        snapped_vertex s = snap_to_frame(0, c.c, view_params_of(frame.view), kGpuGuardBand);
+        snapped_vertex s = snap_to_frame(0, c.c, view_params_of(frame.view), kGuardBand);
         if (!s.valid)
             return 0; // numerically degenerate: nothing left of it
         x[i] = s.x;
@@ -140,7 +140,7 @@ int emit_piece(int triangle, int i1, int i2, int at)
         z[i] = s.z;
         bary[i] = c.bary;
     }
-    return emit(triangle, x, y, inv_w, z, bary, kGpuClipped, at);
+    return emit(triangle, x, y, inv_w, z, bary, kClipped, at);
 }
 
 int clip_triangle(int triangle, ivec3 v, int at)
@@ -170,7 +170,7 @@ void main()
         z[i] = vertices[v[i]].z;
     }
     int at = kPhase == 0 ? 0 : counts[triangle], count;
-    if (x[0] == kGpuNeedsClip || x[1] == kGpuNeedsClip || x[2] == kGpuNeedsClip)
+    if (x[0] == kNeedsClip || x[1] == kNeedsClip || x[2] == kNeedsClip)
         count = clip_triangle(triangle, v, at);
     else
         count = emit(triangle, x, y, inv_w, z, mat3(1.0), 0, at);

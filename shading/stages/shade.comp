@@ -3,9 +3,9 @@
 #extension GL_EXT_buffer_reference_uvec2 : require
 layout(local_size_x = 64) in;
 #define BN_COMPUTE
-#include "shading/stages/fragment.glsl"
 #include "shading/lights/background.t.h"
 #include "shading/lights/fragment_light.t.h"
+#include "shading/surface/visible_point.t.h"
 #include "shading/stages/pass.glsl"
 
 layout(constant_id = 2) const bool kRecords = false; // writes the stages of each pair, for comparisons
@@ -14,33 +14,29 @@ layout(std430, set = 0, binding = 11) readonly buffer BnIds { int ids[]; };
 layout(std430, set = 0, binding = 13) writeonly buffer BnColor { float colors[]; };
 layout(constant_id = 3) const bool kShares = false; // some materials share samples: colours are made by share.comp
 
-layout(std430, set = 0, binding = 14) writeonly buffer BnRecords { int records[]; }; // [pixel of the band][first sample][kGpuPairWords]
+layout(std430, set = 0, binding = 14) writeonly buffer BnRecords { int records[]; }; // [pixel of the band][first sample][kPairWords]
 
 #include "shading/stages/lines.glsl"
 
 int record_at;
 
-void put_int(int word)
-{
-    records[record_at] = word;
-    ++record_at;
-}
-void put_real(real x) { put_int(floatBitsToInt(x)); }
-#include "shading/stages/record.glsl"
+#define BN_TAKE_WORD(at, x) records[at] = floatBitsToInt(x);
+#include "shading/surface/recorded.t.h"
 
 line_record shade_pair(int slot, int px, int py, int covered)
 {
     if (slot == kGpuNoTriangle) {
-        record_at += kGpuInterpolantWords + kGpuMaterialWords;
+        record_at += kInterpolantWords + kMaterialWords;
         return line_alone(background_color(0, view_params_of(frame.view), px, py));
     }
     triangle_setup t = load_setup(slot);
-    visible_point p = point_of(t, px, py, covered);
     int m = t.info >> 2;
+    bool uses_color = materials[m].uses_color != 0, textured = materials[m].textured != 0, lights = frame.light_count > 0;
+    visible_point p = point_of(0, view_params_of(frame.view), t, px, py, covered, uses_color, textured, lights);
     material_inputs at = fetch_material(0, m, p);
     if (kRecords) {
-        record_point(p);
-        record_material(at);
+        record_point(record_at, p, uses_color, textured, lights);
+        record_material(record_at, at);
     }
     bool shares = kShares && (materials[m].technique_traits & kSharesSamples) != 0;
     return light_of_fragment(0, m, materials[m].technique, at, lobe_shape_of(0, m, at), p, px, py, shares);
@@ -61,15 +57,15 @@ void main()
             if ((rest >> s & 1) != 0 && ids[first + s] == slot)
                 covered |= 1 << s;
         rest &= ~covered;
-        record_at = (first + begin) * kGpuPairWords;
+        record_at = (first + begin) * kPairWords + 1;
         if (kRecords)
-            put_int(covered);
+            records[record_at - 1] = covered;
         line_record shaded = shade_pair(slot, px, py, covered);
         real3 color = shaded.rest;
         if (kShares)
             store_line(first + begin, shaded);
         else if (kRecords)
-            put_real3(color);
+            put_real3(record_at, color);
         real weight = covered_share(covered, inv);
         sum = sum + color * weight;
     }

@@ -60,7 +60,7 @@ void main()
             color = shared_colour(own, x, y);
         if (kRecords)
             for (int c = 0; c < 3; ++c)
-                records[(first + begin + 1) * kGpuPairWords - 3 + c] = floatBitsToInt(color[c]);
+                records[(first + begin + 1) * kPairWords - 3 + c] = floatBitsToInt(color[c]);
         real weight = covered_share(covered, inv);
         sum = sum + color * weight;
     }

@@ -14,9 +14,9 @@ void main()
         return;
     view_params view = view_params_of(frame.view);
     real4 clip = clip_position(vertex_position(v), view);
-    snapped_vertex s = snap_to_frame(0, clip, view, kGpuWholeBand);
+    snapped_vertex s = snap_to_frame(0, clip, view, kWholeBand);
     vertices[v].clip = float[4](clip.x, clip.y, clip.z, clip.w);
-    vertices[v].x = s.valid ? s.x : kGpuNeedsClip;
+    vertices[v].x = s.valid ? s.x : kNeedsClip;
     vertices[v].y = s.y;
     vertices[v].inv_w = s.inv_w;
     vertices[v].z = s.z;

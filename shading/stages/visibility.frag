@@ -2,8 +2,8 @@
 // 8x8 block, floats from there; without BN_EXACT_DEPTH it is what the rasterizer interpolates.
 #version 460
 #extension GL_EXT_buffer_reference_uvec2 : require
-#include "shading/stages/fragment.glsl"
 #include "shading/surface/material.t.h"
+#include "shading/surface/visible_point.t.h"
 #include "shading/stages/pass.glsl"
 
 layout(location = 0) flat in int slot;
@@ -48,7 +48,9 @@ bool survives_alpha(int px, int py, int s)
     int m = setups[slot].info >> 2;
     if (materials[m].alpha_mode == kAlphaOpaque)
         return true;
-    real alpha = fetch_alpha(0, m, point_of(load_setup(slot), px, py, (1 << frame.msaa) - 1));
+    visible_point p = point_of(0, view_params_of(frame.view), load_setup(slot), px, py, (1 << frame.msaa) - 1, materials[m].uses_color != 0,
+                               materials[m].textured != 0, false);
+    real alpha = fetch_alpha(0, m, p);
     return alpha_stays(m, alpha, blend_threshold(s, frame.msaa));
 }
 

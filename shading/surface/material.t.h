@@ -4,7 +4,7 @@
 
 #include "shading/lang/lang.h"
 #include "shading/lang/stage.h"
-#include "shading/surface/surface.k.h"
+#include "shading/surface/visible_point.k.h"
 
 BN_KERNELS_BEGIN
 

@@ -10,6 +10,7 @@
 #include "shading/surface/material.t.h"
 #include "shading/surface/placed_lobe.t.h"
 #include "shading/surface/surface.k.h"
+#include "shading/surface/visible_point.k.h"
 
 BN_KERNELS_BEGIN
 

@@ -1,4 +1,4 @@
-// A visible point, and the surface there that techniques shade: what is left of geometry and textures.
+// The surface at a visible point that techniques shade: what is left of geometry and textures.
 #ifndef BN_SURFACE_K_H
 #define BN_SURFACE_K_H
 
@@ -6,16 +6,6 @@
 #include "shading/lang/lang.h"
 
 BN_KERNELS_BEGIN
-
-struct visible_point {     // what geometry gives
-    real3 normal, tangent; // world space, not unit
-    real tangent_sign;
-    real4 color;
-    real2 uv[2], uv_dx[2], uv_dy[2]; // two sets, and their change by one pixel
-    mask front;
-    real3 ray;      // from the eye to the point, not unit
-    real3 position; // world space, metres; only where the frame has lights
-};
 
 struct surface {
     real3 n;        // shading normal, unit, world space

@@ -4,7 +4,7 @@
 
 #include "shading/lang/lang.h"
 #include "shading/lang/records.h"
-#include "shading/surface/surface.k.h"
+#include "shading/surface/visible_point.k.h"
 
 BN_KERNELS_BEGIN
 
@@ -14,10 +14,14 @@ struct texture_place {
 
 BN_FN texture_place texture_place_of(BN_IN(TextureBinding) b, BN_IN(visible_point) p)
 {
-    int set = b.uv_set != 0 ? 1 : 0;
-    real2 uv = p.uv[set];
-    real2 dx = p.uv_dx[set];
-    real2 dy = p.uv_dy[set];
+    real2 uv = p.uv0;
+    real2 dx = p.uv0_dx;
+    real2 dy = p.uv0_dy;
+    if (b.uv_set != 0) {
+        uv = p.uv1;
+        dx = p.uv1_dx;
+        dy = p.uv1_dy;
+    }
     real m0 = splat(b.transform[0]);
     real m1 = splat(b.transform[1]);
     real m2 = splat(b.transform[2]);

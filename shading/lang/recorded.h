@@ -1,0 +1,24 @@
+// How many words recorded stages hold of a visible (pixel, triangle) pair. One text for C++ and GLSL.
+#ifndef BN_RECORDED_H
+#define BN_RECORDED_H
+
+#ifdef __cplusplus
+namespace burnish {
+#endif
+
+const int kInterpolantWords = 0
+#define BN_POINT(type, words, name, asked) +words
+#define BN_INTERPOLATED(type, words, name, asked, first) +words
+#include "shading/visible_point.def"
+    ;
+const int kMaterialWords = 0
+#define BN_INPUT(type, words, name) +words
+#include "shading/material.def"
+    ;
+const int kPairWords = 1 + kInterpolantWords + kMaterialWords + 3; // mask of its samples, interpolants, material inputs, colour
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,68 @@
+// From a triangle's setup to what shading knows of a visible point: attributes interpolated at the shaded point, and the derivatives that a
+// GPU would see: differences in the 2x2 quad, taken from the plane equations, so no helper lanes run.
+#ifndef BN_VISIBLE_POINT_T_H
+#define BN_VISIBLE_POINT_T_H
+
+#include "shading/kernels/camera.t.h"
+#include "shading/kernels/interpolate.k.h"
+#include "shading/lang/lang.h"
+#include "shading/lang/triangle.h"
+#include "shading/surface/coverage.t.h"
+#include "shading/surface/visible_point.k.h"
+
+BN_KERNELS_BEGIN
+
+// view: the frame's. px, py: pixel in the image. samples: mask of those that the triangle covers there. uses_color, textured, lights: what
+// is asked for (shading/visible_point.def). It lies at the pixel's centre where the triangle covers that; else at the mean of the covered
+// samples, which lies in the triangle.
+BN_FN visible_point point_of(frame_ref f, BN_IN(view_params) view, triangle_ref t, integer px, integer py, integer samples, bool uses_color,
+                             bool textured, bool lights)
+{
+    integer corner_x = shl(px, 8) - int_lit(the_frame(f).center_x);
+    integer corner_y = shl(py, 8) - int_lit(the_frame(f).center_y);
+    integer middle_x = corner_x + int_lit(kSubpixel / 2);
+    integer middle_y = corner_y + int_lit(kSubpixel / 2);
+    bary_weights center = weights_at(t, middle_x, middle_y);
+    bary_weights w = center;
+    integer x = middle_x;
+    integer y = middle_y;
+    if (any_lane(not_(center.inside))) {
+        sample_mean mean = mean_of_samples(f, samples);
+        x = select(center.inside, x, corner_x + mean.x);
+        y = select(center.inside, y, corner_y + mean.y);
+        w = weights_at(t, x, y);
+    }
+    visible_point p;
+    vertex_words a;
+    blend_vertices(f, t, w.b, uses_color || textured, a);
+    set_interpolants(a, uses_color, textured, p);
+    p.front = (t.info & int_lit(kFrontFacing)) != int_lit(0);
+    real across = to_real(x + int_lit(the_frame(f).center_x)) * lit(0.00390625);
+    real down = to_real(y + int_lit(the_frame(f).center_y)) * lit(0.00390625);
+    p.ray = ray_through(f, view, across, down);
+    if (lights) {
+        real3 v0 = vertex_place(f, t, 0);
+        real3 v1 = vertex_place(f, t, 1);
+        real3 v2 = vertex_place(f, t, 2);
+        p.position = w.b.x * v0 + w.b.y * v1 + w.b.z * v2;
+    }
+    if (!textured)
+        return p;
+    // the other pixel of the quad in x and in y: to the right of or below an even one, to the left of or above an odd one
+    integer odd_x = px & int_lit(1);
+    integer odd_y = py & int_lit(1);
+    bary_weights wx = weights_at(t, middle_x + int_lit(kSubpixel) - shl(odd_x, 9), middle_y);
+    bary_weights wy = weights_at(t, middle_x, middle_y + int_lit(kSubpixel) - shl(odd_y, 9));
+    real4 here = blend_coordinates(f, t, center.b);
+    real4 dx = (blend_coordinates(f, t, wx.b) - here) * to_real(int_lit(1) - shl(odd_x, 1));
+    real4 dy = (blend_coordinates(f, t, wy.b) - here) * to_real(int_lit(1) - shl(odd_y, 1));
+    p.uv0_dx = vec2_of(dx.x, dx.y);
+    p.uv0_dy = vec2_of(dy.x, dy.y);
+    p.uv1_dx = vec2_of(dx.z, dx.w);
+    p.uv1_dy = vec2_of(dy.z, dy.w);
+    return p;
+}
+
+BN_KERNELS_END
+
+#endif
