@@ -3,6 +3,7 @@
 
 #include "raster/tile/lane_triangles.h"
 #include "shading/kernels/camera.t.h"
+#include "shading/kernels/pixel_range.k.h"
 
 namespace burnish {
 inline namespace BN_ISA_NS {
@@ -28,14 +29,10 @@ BN_INLINE mask tile_range(const FrameParams& f, integer lo, integer hi, int cent
                           integer& tile_lo, integer& tile_hi)
 {
     const int tile_shift = __builtin_ctz(static_cast<unsigned>(f.tile_size));
-    integer p0 = shr(lo + int_lit(center - sample_max + kSubpixel - 1), 8);
-    integer p1 = shr(hi + int_lit(center - sample_min), 8);
-    p0 = select(p0 < int_lit(0), int_lit(0), p0);
-    p1 = select(p1 > int_lit(size - 1), int_lit(size - 1), p1);
-    const mask some = p0 <= p1;
-    tile_lo = shr(p0, tile_shift);
-    tile_hi = shr(p1, tile_shift);
-    return some;
+    const pixel_range r = pixels_touched(lo, hi, center, sample_min, sample_max, size);
+    tile_lo = shr(r.first, tile_shift);
+    tile_hi = shr(r.last, tile_shift);
+    return r.first <= r.last;
 }
 
 // Backs of triangles that are seen from the front only.

@@ -20,8 +20,9 @@ const int kGuardBand = 1 << 22; // |x|, |y| of any snapped vertex stay below thi
 // Whole triangles stay well inside the band, clipping cuts between that and its edge: so a vertex that one triangle keeps is never cut
 // by its neighbour, and both see it at the same place.
 const int kWholeBand = kGuardBand / 16 * 15, kCutBand = kGuardBand / 32 * 31;
-const int kNeedsClip = -(1 << 30);        // in place of a snapped x: behind the near plane or out of the guard band
-const int kFrontFacing = 1, kClipped = 2; // bits of a triangle's info, below its material
+const int kNeedsClip = -(1 << 30);                             // in place of a snapped x: behind the near plane or out of the guard band
+const int kClipPlanes = 5, kMostCorners = 3 + kClipPlanes + 1; // near and guard band; of a clipped triangle, and one to spare
+const int kFrontFacing = 1, kClipped = 2;                      // bits of a triangle's info, below its material
 
 const int kAlphaOpaque = 0, kAlphaMask = 1, kAlphaBlend = 2; // AlphaMode
 
