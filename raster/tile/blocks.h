@@ -3,6 +3,7 @@
 #pragma once
 #include "core/simd/lanes.h"
 #include "raster/tile/tile_types.h"
+#include "shading/kernels/depth_plane.k.h"
 #include "shading/lang/lang.h"
 
 namespace burnish {
@@ -26,7 +27,8 @@ BN_INLINE BlockLanes block_lanes()
 BN_INLINE real sample_depth_step(const FrameParams& f, real dz_x, real dz_y, int sample)
 {
     const real to_pixels = splat(1.0f / 16);
-    return dz_x * (to_real(load_int(f.pattern.x16 + sample)) * to_pixels) + dz_y * (to_real(load_int(f.pattern.y16 + sample)) * to_pixels);
+    const real x = to_real(load_int(f.pattern.x16 + sample)) * to_pixels, y = to_real(load_int(f.pattern.y16 + sample)) * to_pixels;
+    return depth_change(dz_x, dz_y, x, y);
 }
 
 // Greatest and least depth that a plane can have in a block, rounding included, as far as the block lies in the triangle.
@@ -83,9 +85,9 @@ BN_STAGE void write_block(const FrameParams& f, int block, TileScratch& s)
         store(sample_z + k, sample_depth_step(f, dz_x, dz_y, k));
     for (int v = 0; v < kVectors; ++v) {
         const real x = lanes.x + splat(static_cast<float>(v * kLanes & 7)), y = lanes.y + splat(static_cast<float>(v * kLanes >> 3));
-        const real z = splat(p.z) + (dz_x * x + dz_y * y);
+        const real z = splat(p.z) + depth_change(dz_x, dz_y, x, y);
         for (int k = 0; k < f.msaa; ++k) {
-            store(depth + k * kBlockPixels + v * kLanes, min(max(z + splat(sample_z[k]), z_min), z_max));
+            store(depth + k * kBlockPixels + v * kLanes, depth_at_sample(z, splat(sample_z[k]), z_min, z_max));
             store_int(ids + k * kBlockPixels + v * kLanes, id);
         }
     }

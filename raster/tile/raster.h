@@ -68,11 +68,10 @@ BN_INLINE bool begin_triangle(const FrameParams& f, const TriangleSetup& t, int 
     }
     const double x10 = t.x[1] - t.x[0], y10 = t.y[1] - t.y[0], x20 = t.x[2] - t.x[0], y20 = t.y[2] - t.y[0];
     const double z0 = static_cast<double>(t.z[0]), z10 = static_cast<double>(t.z[1]) - z0, z20 = static_cast<double>(t.z[2]) - z0;
-    const double inv_area = 1.0 / (x10 * y20 - x20 * y10);
-    const double zx = (z10 * y20 - z20 * y10) * inv_area, zy = (x10 * z20 - x20 * z10) * inv_area; // by sub-pixel unit
-    r.z = z0, r.z_x = zx, r.z_y = zy;
+    depth_slopes(x10, y10, x20, y20, z10, z20, r.z_x, r.z_y);
+    r.z = z0;
     r.from_x = ox - t.x[0], r.from_y = oy - t.y[0];
-    r.dz_x = static_cast<float>(zx * kSubpixel), r.dz_y = static_cast<float>(zy * kSubpixel);
+    r.dz_x = static_cast<float>(depth_slope_by_pixel(r.z_x)), r.dz_y = static_cast<float>(depth_slope_by_pixel(r.z_y));
     r.z_min = t.z[0] < t.z[1] ? t.z[0] : t.z[1], r.z_max = t.z[0] > t.z[1] ? t.z[0] : t.z[1];
     r.z_min = t.z[2] < r.z_min ? t.z[2] : r.z_min, r.z_max = t.z[2] > r.z_max ? t.z[2] : r.z_max;
     for (int s = 0; s < f.msaa; s += kLanes)
@@ -124,7 +123,7 @@ BN_INLINE bool cover_register(const FrameParams& f, const TileTriangle& t, const
     for (int s = 0; s < f.msaa; ++s) {
         float* d = depth + s * kBlockPixels;
         std::int32_t* to = ids + s * kBlockPixels;
-        const real zs = min(max(z + splat(t.sample_z[s]), z_min), z_max);
+        const real zs = depth_at_sample(z, splat(t.sample_z[s]), z_min, z_max);
         const real old = load(d);
         mask pass = zs > old;
         if constexpr (kAnyOrder)
@@ -165,7 +164,7 @@ BN_INLINE bool cover_block(const FrameParams& f, const TileTriangle& t, const Bl
         if (kEdges > 0 && f.msaa > 1 && all(greatest < zero))
             continue;
         const real x = lanes.x + splat(static_cast<float>(vx)), y = lanes.y + splat(static_cast<float>(vy));
-        const real z = splat(z_corner) + (dz_x * x + dz_y * y);
+        const real z = splat(z_corner) + depth_change(dz_x, dz_y, x, y);
         float* const to_depth = depth + v * kLanes;
         std::int32_t* const to_ids = reinterpret_cast<std::int32_t*>(ids) + v * kLanes;
         if constexpr (Alpha::kTests) {
@@ -174,7 +173,7 @@ BN_INLINE bool cover_block(const FrameParams& f, const TileTriangle& t, const Bl
                 integer side = zero;
                 for (int i = 0; i < kEdges; ++i)
                     side = side | (at[i] + int_lit(e.sample_step[i][s]));
-                const real zs = min(max(z + splat(t.sample_z[s]), z_min), z_max);
+                const real zs = depth_at_sample(z, splat(t.sample_z[s]), z_min, z_max);
                 some |= to_bits(both(side >= zero, zs >= load(to_depth + s * kBlockPixels)));
             }
             if (!some)
@@ -193,7 +192,8 @@ BN_INLINE bool cover_block(const FrameParams& f, const TileTriangle& t, const Bl
 // Depth at a block's corner: from the vertex, not from the tile, so that it is the same for every tile size.
 BN_INLINE float corner_depth(const TileTriangle& t, int bx, int by)
 {
-    return static_cast<float>(t.z + t.z_x * (t.from_x + bx * kBlock * kSubpixel) + t.z_y * (t.from_y + by * kBlock * kSubpixel));
+    const double from_x = t.from_x + bx * kBlock * kSubpixel, from_y = t.from_y + by * kBlock * kSubpixel;
+    return static_cast<float>(depth_at(t.z, t.z_x, t.z_y, from_x, from_y));
 }
 
 // Rasterizes a triangle of few pixels that lanes do not share (small_triangles.h), as its material tests alpha or it is a piece of a

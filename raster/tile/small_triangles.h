@@ -1,5 +1,5 @@
-// Triangles of few pixels, a lane each: all walk the pixels of their own bounding boxes together. Depths are those of raster.h, operation
-// for operation, so it does not show which of the two drew a triangle.
+// Triangles of few pixels, a lane each: all walk the pixels of their own bounding boxes together. Depths are those of raster.h, so it
+// does not show which of the two drew a triangle.
 #pragma once
 #include "raster/tile/lane_triangles.h"
 #include "raster/tile/raster.h"
@@ -48,12 +48,10 @@ BN_INLINE DepthPlane depth_plane(const LaneTriangles& t)
     const wide x10 = to_wide(t.x[1] - t.x[0]), y10 = to_wide(t.y[1] - t.y[0]), x20 = to_wide(t.x[2] - t.x[0]),
                y20 = to_wide(t.y[2] - t.y[0]);
     const wide z0 = to_wide(t.z[0]), z10 = to_wide(t.z[1]) - z0, z20 = to_wide(t.z[2]) - z0;
-    const wide inv_area = wide_lit(1.0) / (x10 * y20 - x20 * y10);
     DepthPlane p;
     p.z = z0;
-    p.z_x = (z10 * y20 - z20 * y10) * inv_area;
-    p.z_y = (x10 * z20 - x20 * z10) * inv_area;
-    p.dz_x = to_real(p.z_x * wide_lit(kSubpixel)), p.dz_y = to_real(p.z_y * wide_lit(kSubpixel));
+    depth_slopes(x10, y10, x20, y20, z10, z20, p.z_x, p.z_y);
+    p.dz_x = to_real(depth_slope_by_pixel(p.z_x)), p.dz_y = to_real(depth_slope_by_pixel(p.z_y));
     p.z_min = min(t.z[2], min(t.z[0], t.z[1])), p.z_max = max(t.z[2], max(t.z[0], t.z[1]));
     return p;
 }
@@ -88,15 +86,15 @@ BN_STAGE void raster_small_triangles(const FrameParams& f, const LaneTriangles& 
     const DepthPlane plane = depth_plane(t);
     real sample_z[kMaxSamples];
     for (int k = 0; k < f.msaa; ++k)
-        sample_z[k] = plane.dz_x * splat(static_cast<float>(f.pattern.x16[k]) * (1.0f / 16)) +
-                      plane.dz_y * splat(static_cast<float>(f.pattern.y16[k]) * (1.0f / 16));
+        sample_z[k] = depth_change(plane.dz_x, plane.dz_y, splat(static_cast<float>(f.pattern.x16[k]) * (1.0f / 16)),
+                                   splat(static_cast<float>(f.pattern.y16[k]) * (1.0f / 16)));
     // depth at the corners of the one to four blocks that the bounding box meets
     const integer block_x = shr(px0, 3), block_y = shr(py0, 3), side = int_lit(kBlock * kSubpixel);
     const integer from_x = int_lit(ox) - t.x[0] + block_x * side, from_y = int_lit(oy) - t.y[0] + block_y * side;
-    const wide z_left = plane.z + plane.z_x * to_wide(from_x), z_right = plane.z + plane.z_x * to_wide(from_x + side);
-    const wide z_top = plane.z_y * to_wide(from_y), z_bottom = plane.z_y * to_wide(from_y + side);
-    const real corner[2][2] = {{to_real(z_left + z_top), to_real(z_right + z_top)},
-                               {to_real(z_left + z_bottom), to_real(z_right + z_bottom)}};
+    const wide left_x = to_wide(from_x), right_x = to_wide(from_x + side), top_y = to_wide(from_y), bottom_y = to_wide(from_y + side);
+    const auto corner_depth = [&](wide x, wide y) { return to_real(depth_at(plane.z, plane.z_x, plane.z_y, x, y)); };
+    const real corner[2][2] = {{corner_depth(left_x, top_y), corner_depth(right_x, top_y)},
+                               {corner_depth(left_x, bottom_y), corner_depth(right_x, bottom_y)}};
 
     SampleQueue queue;
     queue.count = 0;
@@ -106,18 +104,18 @@ BN_STAGE void raster_small_triangles(const FrameParams& f, const LaneTriangles& 
     for (mask rows = drawn; any(rows); y = y + one, rows = both(drawn, y <= py1)) {
         const mask upper = shr(y, 3) == block_y;
         const real left = select(upper, corner[0][0], corner[1][0]), right = select(upper, corner[0][1], corner[1][1]);
-        const real row_z = plane.dz_y * to_real(y & in_block);
+        const real row_y = to_real(y & in_block);
         const integer row_at = shr(y, 3) * blocks_x * block_samples + shl(y & in_block, 3);
         integer x = px0, at_x[3] = {edge[0], edge[1], edge[2]};
         for (mask pixels = rows; any(pixels); x = x + one, pixels = both(rows, x <= px1)) {
-            const real z = select(shr(x, 3) == block_x, left, right) + (plane.dz_x * to_real(x & in_block) + row_z);
+            const real z = select(shr(x, 3) == block_x, left, right) + depth_change(plane.dz_x, plane.dz_y, to_real(x & in_block), row_y);
             const integer at = row_at + shr(x, 3) * block_samples + (x & in_block);
             for (int k = 0; k < f.msaa; ++k) {
                 const integer outside = (at_x[0] + sample_step[0][k]) | (at_x[1] + sample_step[1][k]) | (at_x[2] + sample_step[2][k]);
                 const mask covered = both(pixels, outside >= zero);
                 if (none(covered))
                     continue;
-                const real depth = min(max(z + sample_z[k], plane.z_min), plane.z_max);
+                const real depth = depth_at_sample(z, sample_z[k], plane.z_min, plane.z_max);
                 compress_store_int(queue.depth + queue.count, bits_of(depth), covered);
                 queue.count += compress_store_int(queue.where + queue.count, (at + int_lit(k * kBlockPixels)) | lane_tag, covered);
                 if (queue.count > SampleQueue::kRoom - kLanes)

@@ -190,6 +190,16 @@ BN_FN real4 select(mask m, real4 a, real4 b)
     return {select(m, a.x, b.x), select(m, a.y, b.y), select(m, a.z, b.z), select(m, a.w, b.w)};
 }
 
+#define any_wide auto // a wide, or one double for all lanes
+BN_FN wide wide_like(wide, double x)
+{
+    return wide_lit(x);
+}
+BN_FN double wide_like(double, double x)
+{
+    return x;
+}
+
 BN_FN bool any_lane(mask m)
 {
     return any(m);

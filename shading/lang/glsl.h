@@ -25,6 +25,7 @@
 #define real4 precise vec4
 #define integer precise int
 #define mask precise bool
+#define any_wide precise double
 
 #define lit(x) (x)
 #define int_lit(x) (x)
@@ -37,6 +38,8 @@
 #define vec4_all vec4
 
 #define to_real(i) float(i)
+#define to_wide(x) double(x)
+#define wide_like(w, x) double(x)
 #define to_int(x) int(x)
 #define round_to_int(x) int(roundEven(x))
 #define bits_of(x) floatBitsToInt(x)

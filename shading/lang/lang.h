@@ -30,6 +30,8 @@
 //  - BN_STAGE instead of BN_FN for what is long and seldom asked for, which lanes then call;
 //  - BN_IN(T) x for structs that are large, BN_INOUT(T) x for those that a function changes; void functions, early returns on what is
 //    uniform;
+//  - any_wide, in double precision: a wide of each lane or, in C++ where all share it, a double; wide_like(w, 1.0) is a number of the same
+//    kind; few GPUs are fast at it and some have none, so it is for what a pass can do without;
 //  - any_lane(m) no_lane(m), to leave out what no lane needs, and most_of_lanes(x), a bound for loops whose count varies: what a lane
 //    does not need must then leave its result as it is.
 #ifndef BN_LANG_H
