@@ -44,7 +44,10 @@ struct Node {
     glm::mat4 world{1.0f}; // to world space; update_world() fills it
 };
 
-enum class AlphaMode : std::uint8_t { opaque, mask, blend };
+enum class AlphaMode : std::uint8_t {
+#define BN_ALPHA_MODE(name, at) name = at,
+#include "core/scene/material.def"
+};
 
 struct TextureRef {
     std::int32_t texture = kNone;   // into Scene::textures
@@ -62,9 +65,9 @@ struct FieldKinds { // of material.def and light.def
 
 struct Material { // material.def
     std::string name;
-    AlphaMode alpha_mode = AlphaMode::opaque;
 #define BN_FACTOR(kind, name, fallback, path, least, most) FieldKinds::kind name = FieldKinds::kind(fallback);
 #define BN_FLAG(kind, name, path) bool name = false;
+#define BN_CHOICE(type, name, words, path) type name = type{};
 #define BN_TEXTURE(name, path) TextureRef name;
 #include "core/scene/material.def"
 };

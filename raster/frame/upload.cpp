@@ -30,6 +30,10 @@ void put(int& to, bool from)
 {
     to = from;
 }
+void put(int& to, AlphaMode from)
+{
+    to = static_cast<int>(from);
+}
 template <int kCount> void put(float (&to)[kCount], const glm::vec<kCount, float>& from)
 {
     for (int i = 0; i < kCount; ++i)
@@ -62,6 +66,7 @@ MaterialRecord material_record(const Material& m)
         b.texture = -1;
 #define BN_FACTOR(kind, name, fallback, path, least, most) put(r.name, m.name);
 #define BN_FLAG(kind, name, path) put(r.name, m.name);
+#define BN_CHOICE(type, name, words, path) put(r.name, m.name);
 #include "core/scene/material.def"
     const float f = (m.ior - 1.0f) / (m.ior + 1.0f);
     for (int i = 0; i < 3; ++i) {
@@ -71,7 +76,6 @@ MaterialRecord material_record(const Material& m)
     r.dielectric_f90 = m.specular;
     r.grain[0] = static_cast<float>(det_cos(static_cast<double>(m.anisotropy_rotation)));
     r.grain[1] = static_cast<float>(det_sin(static_cast<double>(m.anisotropy_rotation)));
-    r.alpha_mode = static_cast<std::int32_t>(m.alpha_mode);
     r.anisotropic = m.anisotropy_strength > 0.0f;
     return r;
 }
@@ -83,9 +87,6 @@ LightRecord light_record(const PunctualLight& l)
 #include "core/scene/light.def"
     return r;
 }
-
-static_assert(static_cast<int>(AlphaMode::opaque) == kAlphaOpaque && static_cast<int>(AlphaMode::mask) == kAlphaMask &&
-              static_cast<int>(AlphaMode::blend) == kAlphaBlend);
 
 // Vulkan 1.3, "Standard sample locations", in 1/16 pixel.
 struct Position {

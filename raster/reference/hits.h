@@ -156,7 +156,7 @@ BN_STAGE mask passes_through(const PixelFrame& p, const LaneHits& h, const LaneR
     LaneGeometry g;
     bool located = false;
     for_each_material(p.f, h.triangle, h.found, [&](const MaterialRecord& m, mask lanes) {
-        if (m.alpha_mode == kAlphaOpaque)
+        if (m.alpha_mode == kAlpha_opaque)
             return;
         if (!located)
             g = locate_hits(p.f, h, r, footprint);

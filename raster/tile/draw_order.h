@@ -37,7 +37,7 @@ BN_INLINE bool front_to_back(const FrameParams& f, const TileScratch& s, std::ui
         from[i] = i;
         in_order = in_order && (i == 0 || nearest[i - 1] >= nearest[i]);
         large += larger_than_a_block(t);
-        tested += f.materials[t.info >> 2].alpha_mode != kAlphaOpaque;
+        tested += f.materials[t.info >> 2].alpha_mode != kAlpha_opaque;
     }
     if (in_order || (2 * tested < n && (n > kSortedTriangles || 2 * large < n)))
         return false;

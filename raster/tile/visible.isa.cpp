@@ -71,7 +71,7 @@ void raster_register(const Tile& t, std::uint32_t first, std::uint32_t& singly, 
     while (rest) {
         const std::int32_t id = s.triangles[first + static_cast<std::uint32_t>(__builtin_ctz(rest))].info >> 2;
         const std::uint32_t same = rest & to_bits(material == int_lit(id));
-        if (t.f.materials[id].alpha_mode == kAlphaOpaque)
+        if (t.f.materials[id].alpha_mode == kAlpha_opaque)
             note_material(s, id);
         else
             small &= ~same;
@@ -100,7 +100,7 @@ template <bool kAnyOrder> void raster_singly(const Tile& t, const view_params& v
         const std::int32_t material = setup.info >> 2;
         note_material(s, material);
         const MaterialRecord& m = t.f.materials[material];
-        if (m.alpha_mode == kAlphaOpaque)
+        if (m.alpha_mode == kAlpha_opaque)
             raster_triangle<kAnyOrder>(t.f, triangle, i, s, OpaqueBlocks{});
         else
             raster_triangle<kAnyOrder>(t.f, triangle, i, s, AlphaBlocks{t, m, view, i});

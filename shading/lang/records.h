@@ -24,7 +24,8 @@ const int kNeedsClip = -(1 << 30);                             // in place of a 
 const int kClipPlanes = 5, kMostCorners = 3 + kClipPlanes + 1; // near and guard band; of a clipped triangle, and one to spare
 const int kFrontFacing = 1, kClipped = 2;                      // bits of a triangle's info, below its material
 
-const int kAlphaOpaque = 0, kAlphaMask = 1, kAlphaBlend = 2; // AlphaMode
+#define BN_ALPHA_MODE(name, at) const int kAlpha_##name = at;
+#include "core/scene/material.def"
 
 // Traits of techniques (shading/models.def).
 const int kTestsHorizon = 1;    // asks of every sample if it lies above the surface's horizon; the others fade
@@ -121,10 +122,10 @@ struct TextureBinding {
 struct MaterialRecord { // Material in plain numbers, and what follows from them; emissive: times its strength
 #define BN_FACTOR(kind, name, fallback, path, least, most) BN_FIELD_##kind(name)
 #define BN_FLAG(kind, name, path) BN_FIELD_flag(name)
+#define BN_CHOICE(type, name, words, path) int name; // kAlpha_opaque...
 #include "core/scene/material.def"
     float dielectric_f0[3], dielectric_f90; // from ior and specular
     float grain[2];                         // cosine and sine of anisotropy_rotation
-    int alpha_mode;                         // kAlphaOpaque...
     int textured, uses_color, anisotropic;
     int roughness_fixed;             // by an override: the texture gives metalness only
     int technique, technique_traits; // its place in shading/models.def; of what is unlit no traits

@@ -36,7 +36,7 @@ layout(location = 5) flat in int triangle;
 int alive_samples(int m, real alpha)
 {
     int all = (1 << frame.msaa) - 1;
-    if (materials[m].alpha_mode == kAlphaOpaque)
+    if (materials[m].alpha_mode == kAlpha_opaque)
         return all;
     int alive = 0;
     for (int s = 0; s < frame.msaa; ++s)

@@ -40,7 +40,7 @@ real depth_at(int px, int py, int s)
 bool survives_alpha(int px, int py, int s)
 {
     int m = setups[slot].info >> 2;
-    if (materials[m].alpha_mode == kAlphaOpaque)
+    if (materials[m].alpha_mode == kAlpha_opaque)
         return true;
     visible_point p = point_of(0, view_params_of(frame.view), load_setup(slot), px, py, (1 << frame.msaa) - 1, materials[m].uses_color != 0,
                                materials[m].textured != 0, false);

@@ -51,7 +51,7 @@ BN_FN uniform_real blend_threshold(int s, int n)
 // pixel shows about `alpha` of the surface, without sorting. threshold: of a blend, blend_threshold() or a random number in [0,1).
 BN_FN mask alpha_stays(material_ref m, real alpha, real threshold)
 {
-    if (the_material(m).alpha_mode == kAlphaBlend)
+    if (the_material(m).alpha_mode == kAlpha_blend)
         return alpha > threshold;
     real cutoff = splat(the_material(m).alpha_cutoff);
     return alpha >= cutoff;

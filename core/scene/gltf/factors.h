@@ -1,6 +1,10 @@
 // Values that a .def of core/scene lists, by their path below an object whose types the schema check has ensured. What a file does not say
 // stays as it is: the default.
 #pragma once
+#include <algorithm>
+#include <string>
+#include <string_view>
+
 #include "core/scene/gltf/document.h"
 
 namespace burnish::gltf {
@@ -22,6 +26,17 @@ inline void read_flag(const Json& object, const char* path, bool& to)
 {
     if (const Json::json_pointer at(path); object.contains(at))
         to = !object[at].is_boolean() || object[at].get<bool>();
+}
+
+// words: with blanks between, one a value of the enum.
+template <class Enum> void read_choice(const Json& object, const char* path, std::string_view words, Enum& to)
+{
+    const Json::json_pointer at(path);
+    if (!object.contains(at))
+        return;
+    const std::string_view before =
+        words.substr(0, words.find(object[at].get_ref<const std::string&>())); // the check has seen that it is there
+    to = static_cast<Enum>(std::count(before.begin(), before.end(), ' '));
 }
 
 } // namespace burnish::gltf

@@ -85,10 +85,9 @@ Material load_material(Document& doc, const Json& source)
 {
     Material material;
     material.name = get_string(source, "name");
-    const std::string mode = get_string(source, "alphaMode");
-    material.alpha_mode = mode == "MASK" ? AlphaMode::mask : mode == "BLEND" ? AlphaMode::blend : AlphaMode::opaque;
 #define BN_FACTOR(kind, name, fallback, path, least, most) read_factor(source, path, material.name);
 #define BN_FLAG(kind, name, path) read_flag(source, path, material.name);
+#define BN_CHOICE(type, name, words, path) read_choice(source, path, words, material.name);
 #include "core/scene/material.def"
     for (const MaterialTexture& texture : kMaterialTextures)
         if (const Json::json_pointer at(texture.path); source.contains(at))

@@ -168,7 +168,6 @@ const Rule kRules[] = {
 
     {"materials", Kind::objects},
     {"materials/*/name", Kind::text},
-    {"materials/*/alphaMode", Kind::word, 0, 0, "OPAQUE MASK BLEND"},
 };
 
 template <class Field> constexpr Rule factor_rule(const char* path, double least, double most)
@@ -181,6 +180,7 @@ template <class Field> constexpr Rule factor_rule(const char* path, double least
 const Rule kMaterialRules[] = {
 #define BN_FACTOR(kind, name, fallback, path, least, most) factor_rule<FieldKinds::kind>(path, least, most),
 #define BN_FLAG(kind, name, path) {path, Kind::kind},
+#define BN_CHOICE(type, name, words, path) {path, Kind::word, 0, 0, words},
 #define BN_TEXTURE(name, path) {path, Kind::object},
 #include "core/scene/material.def"
 };

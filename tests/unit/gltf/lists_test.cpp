@@ -2,6 +2,8 @@
 #include <cmath>
 #include <gtest/gtest.h>
 #include <map>
+#include <sstream>
+#include <string>
 
 #include <nlohmann/json.hpp>
 
@@ -91,6 +93,28 @@ TEST(lists, every_flag_of_materials_is_read)
     const Result<Scene> plain = load(with(json::object(), kPlain));
     ASSERT_TRUE(plain);
 #define BN_FLAG(kind, name, path) EXPECT_FALSE(plain->materials[0].name) << path;
+#include "core/scene/material.def"
+}
+
+TEST(lists, every_choice_of_materials_is_read_and_checked)
+{
+    const auto load_with = [](const char* path, const json& value) { return load(with(with_value(json::object(), path, value), kPlain)); };
+    const Result<Scene> plain = load(with(json::object(), kPlain));
+    ASSERT_TRUE(plain);
+#define BN_CHOICE(type, name, words, path)                                                                                                 \
+    {                                                                                                                                      \
+        std::istringstream list(words);                                                                                                    \
+        int at = 0;                                                                                                                        \
+        for (std::string word; list >> word; ++at) {                                                                                       \
+            const Result<Scene> set = load_with(path, word);                                                                               \
+            ASSERT_TRUE(set) << error_of(set);                                                                                             \
+            EXPECT_EQ(static_cast<int>(set->materials[0].name), at) << word;                                                               \
+        }                                                                                                                                  \
+        EXPECT_GT(at, 1) << path;                                                                                                          \
+        EXPECT_EQ(static_cast<int>(plain->materials[0].name), 0) << path;                                                                  \
+        EXPECT_FALSE(load_with(path, "ANY")) << path;                                                                                      \
+        EXPECT_FALSE(load_with(path, 1)) << path;                                                                                          \
+    }
 #include "core/scene/material.def"
 }
 
