@@ -2,6 +2,7 @@
 // place of its colour (kGpuForwardGroups).
 #version 460
 #extension GL_EXT_buffer_reference_uvec2 : require
+#include "shading/stages/interface.glsl"
 #include "shading/kernels/camera.t.h"
 #include "shading/lights/fragment_light.t.h"
 #include "shading/surface/coverage.t.h"

@@ -1,4 +1,5 @@
-// What all stages read: the frame and the scene. Bindings 0 to 2 belong to the kernel language.
+// What all stages read: the frame and the scene. Bindings 0 to 2 belong to the kernel language. A stage includes it before all else: it says
+// how the language finds texels.
 #ifndef BN_INTERFACE_GLSL
 #define BN_INTERFACE_GLSL
 

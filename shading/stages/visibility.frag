@@ -2,6 +2,7 @@
 // without BN_EXACT_DEPTH it is what the rasterizer interpolates.
 #version 460
 #extension GL_EXT_buffer_reference_uvec2 : require
+#include "shading/stages/interface.glsl"
 #ifdef BN_EXACT_DEPTH
 #include "shading/kernels/depth_plane.k.h"
 #endif
