@@ -8,27 +8,39 @@
 #include "apps/cli/report.h"
 #include "apps/cli/shared_options.h"
 #include "apps/cli/values.h"
+#include "apps/plot/ellipsoid.h"
 #include "apps/plot/plot.h"
+#include "apps/render/parameters.h"
 #include "apps/report/looks.h"
 #include "apps/report/png.h"
 #include "apps/report/svg.h"
 #include "core/image/io/image_io.h"
+#include "raster/frame/frame.h"
 
 namespace burnish {
 namespace {
 
 constexpr const char* kFooter =
     R"(axis: densities of slopes, of microfacet normals and of reflected directions of a GGX lobe, with the ellipse of k
-deviations, the points closest to the mirror direction and farthest from it, the major axis and its samples.
+deviations, the points closest to the mirror direction and farthest from it, clamped at the horizon and moved with it, the major axis and
+its samples. lobe: any model's lobe, tilted ones too: the half vectors that the eye sees, the reflected directions and polar cuts, of BRDF
+times cosine without Fresnel. side: a sphere from which bent_normal and major_axis look up or down,
+and where that is not the way of the lobe's mean, by anisotropy. ellipsoid: a page of what the ellipsoid distribution of normals promises,
+measured: mean normals, visible areas, samplers, a skewed lobe against a normal map.
 
 Examples:
   burnish plot axis -o axis.svg
-  burnish plot axis --roughness 0.7 --anisotropy 0.9 --eye 75,20 --samples 8 -o grazing.png)";
+  burnish plot axis --roughness 0.7 --anisotropy 0.9 --eye 75,20 --samples 8 -o grazing.png
+  burnish plot lobe --brdf ward --eye 60,0 -o ward.svg
+  burnish plot lobe --tilt 20,0 --roughness 0.4 -o tilted.svg
+  burnish plot side --roughness 0.4 --anisotropy 0.8 -o side.svg
+  burnish plot ellipsoid -o ellipsoid.html)";
 
 struct PlotArguments {
     std::string what = "axis", output;
     LobePlot lobe;
     glm::vec2 eye_deg{50.0f, 30.0f};
+    FrameDesc frame; // of which --brdf and --tilt count
     bool quiet = false;
     int verbosity = 0;
 };
@@ -37,31 +49,62 @@ OptionTable plot_option_table(PlotArguments& to)
 {
     LobePlot& l = to.lobe;
     OptionTable table;
-    table.add("", {{"WHAT", "", "{}", choice(to.what, {"axis"})}});
+    table.add("", {{"WHAT", "", "{}", choice(to.what, {"axis", "lobe", "side", "ellipsoid"})}});
     table.add("The lobe", {{"--roughness", "R", "alpha_lin, {}", number(l.roughness, 0.03, 1.0)},
                            {"--anisotropy", "A", "eta, {}: alpha_lin^2 (1 +- eta) along and across", number(l.anisotropy, -1.0, 1.0)},
                            {"--eye", "DEG,DEG", "Where it is seen from: off the normal, and about it from the grain",
-                            angles(to.eye_deg, -360.0, 360.0)},
-                           {"--axis-k", "K", "Deviations of slope that the axis covers, {}", number(l.k, 0.01, 10.0)},
-                           {"--axis-beta", "B", "Overlap of samples, {}", number(l.beta, 0.0, 100.0)},
-                           {"--samples", "N", "On the axis, {}", integer(l.samples, 1, 64)}});
-    table.add("Output", {Option("-o,--output", "FILE", "A .svg or a .png", file(to.output)).must_be_given(), quiet_option(to.quiet),
-                         verbose_option(to.verbosity)});
+                            angles(to.eye_deg, -360.0, 360.0)}});
+    table.add_needing("WHAT", "axis",
+                      {{"--axis-k", "K", "Deviations of slope that the axis covers, {}", number(l.k, 0.01, 10.0)},
+                       {"--axis-beta", "B", "Overlap of samples, {}", number(l.beta, 0.0, 100.0)},
+                       {"--samples", "N", "On the axis, {}", integer(l.samples, 1, 64)}});
+    table.add_needing("WHAT", "side",
+                      {{"--rotation", "DEG", "Of the grain, from the sphere's parallels", number(l.rotation_deg, -180.0, 180.0)}});
+    std::vector<Option> models;
+    for (Option& option : parameter_options(to.frame))
+        if (option.name == "--brdf" || option.name == "--tilt")
+            models.push_back(option);
+    table.add_needing("WHAT", "lobe", models);
+    table.add("Output", {Option("-o,--output", "FILE", "A .svg or a .png; of ellipsoid a .html", file(to.output)).must_be_given(),
+                         quiet_option(to.quiet), verbose_option(to.verbosity)});
     return table;
 }
 
-int run_plot(const PlotArguments& arguments)
+int write(const PlotArguments& arguments, const std::string& bytes)
 {
+    if (Status written = write_file(arguments.output, bytes); !written)
+        return fail(written.error());
+    Report report(arguments.quiet, arguments.verbosity);
+    report.release();
+    report.wrote(arguments.output);
+    return 0;
+}
+
+int run_plot(const PlotArguments& arguments, const OptionTable& given)
+{
+    const bool page = arguments.what == "ellipsoid";
+    for (const char* option : {"--eye", "--roughness", "--anisotropy"})
+        if (page && given.given(option))
+            return fail(usage_error(option, "is no part of WHAT ellipsoid, which has lobes of its own"));
+    if (arguments.what == "side" && given.given("--eye"))
+        return fail(usage_error("--eye", "is no part of WHAT side, which is seen from afar"));
     LobePlot lobe = arguments.lobe;
     lobe.theta_deg = static_cast<double>(arguments.eye_deg.x), lobe.phi_deg = static_cast<double>(arguments.eye_deg.y);
     if (!(lobe.theta_deg >= 0.0 && lobe.theta_deg < 90.0))
         return fail(usage_error("--eye", fmt::format("the first angle must be from 0 to below 90 degrees, got {:g}", lobe.theta_deg)));
     const std::string extension = std::filesystem::path(arguments.output).extension().string();
-    if (extension != ".svg" && extension != ".png")
-        return fail(usage_error("-o", fmt::format("'{}' must end in .svg or .png", arguments.output)));
+    if (page ? extension != ".html" : extension != ".svg" && extension != ".png")
+        return fail(usage_error("-o", fmt::format("'{}' must end in {}", arguments.output, page ? ".html" : ".svg or .png")));
     if (Status path = check_text_path("-o", arguments.output, {}); !path)
         return fail(path.error());
-    const Drawing drawing = plot_axis(lobe);
+    if (Status checked = check_lobe(arguments.frame, *find_technique("mc")); !checked)
+        return fail(checked.error());
+    lobe.model = lobe_of(arguments.frame);
+    lobe.tilt_x_deg = static_cast<double>(glm::degrees(arguments.frame.tilt_rad.x));
+    lobe.tilt_y_deg = static_cast<double>(glm::degrees(arguments.frame.tilt_rad.y));
+    if (page)
+        return write(arguments, ellipsoid_page());
+    const Drawing drawing = arguments.what == "axis" ? plot_axis(lobe) : arguments.what == "lobe" ? plot_lobe(lobe) : plot_side(lobe);
     std::string bytes;
     if (extension == ".svg") {
         bytes = svg_of(drawing, chart_style());
@@ -71,12 +114,7 @@ int run_plot(const PlotArguments& arguments)
             return fail(png.error());
         bytes = std::move(*png);
     }
-    if (Status written = write_file(arguments.output, bytes); !written)
-        return fail(written.error());
-    Report report(arguments.quiet, arguments.verbosity);
-    report.release();
-    report.wrote(arguments.output);
-    return 0;
+    return write(arguments, bytes);
 }
 
 } // namespace
@@ -84,8 +122,8 @@ int run_plot(const PlotArguments& arguments)
 Command plot_command()
 {
     auto arguments = std::make_shared<PlotArguments>();
-    return {"plot", "Draw where a technique samples a lobe", plot_option_table(*arguments), kFooter,
-            [arguments](OptionTable&) { return run_plot(*arguments); }};
+    return {"plot", "Draw lobes, and where a technique samples them", plot_option_table(*arguments), kFooter,
+            [arguments](OptionTable& given) { return run_plot(*arguments, given); }};
 }
 
 } // namespace burnish

@@ -1,4 +1,4 @@
-// Figures of lobes: where a technique samples one, in three spaces.
+// Figures of lobes: what they look like, and where a technique samples one.
 #pragma once
 #include "apps/report/drawing.h"
 
@@ -9,10 +9,21 @@ struct LobePlot {
     double theta_deg = 50.0, phi_deg = 30.0;  // to the eye: from the normal, and about it from the grain
     double k = 1.0, beta = 2.3;
     int samples = 16;
+    int model = 0;                             // of the lobe, its place in shading/models.def
+    double rotation_deg = 45.0;                // of the grain, from the parallels of plot_side()
+    double tilt_x_deg = 0.0, tilt_y_deg = 0.0; // of one that can be tilted: towards the bitangent and away from the tangent
 };
 
 // Density of slopes, of microfacet normals and of reflected directions, seen along the normal; the ellipse of k deviations, its extrema,
 // the major axis and the samples on it with what each stands for. Cocco, Zanni, Chermain 2024, figures 2 and 6 to 12.
 Drawing plot_axis(const LobePlot& lobe);
+
+// A lobe of any model, BRDF times cosine without Fresnel: the half vectors that the eye sees, the reflected directions with contours, and
+// cuts through its peak, along the normal and across.
+Drawing plot_lobe(const LobePlot& lobe);
+
+// Which way techniques look from the points of a sphere, up or down, where that is not the way of the lobe's mean, and the share of such
+// points by anisotropy; the same, figure 20.
+Drawing plot_side(const LobePlot& lobe);
 
 } // namespace burnish

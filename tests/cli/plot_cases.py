@@ -1,5 +1,6 @@
 """burnish plot: figures of lobes."""
 
+import math
 import re
 import xml.dom.minidom
 
@@ -39,12 +40,97 @@ def clamped(bench):
     check(len(beyond) == 1, f"{beyond}")
 
 
+# What appendices A to D give: (eye, roughness, anisotropy, width, radius) for 16 samples.
+WIDTHS = (((0.5, 0.3, 0.8), "0.5", "0.8", 0.11974987, 0.07918166), ((0.6, -0.2, 0.1), "0.4", "0.5", 0.04737105, 0.03401382),
+          ((0.7, 0.0, 0.4), "0.5", "0.6", 0.14275683, 0.07331634))
+
+
+@case("plot.the_points_that_are_drawn_are_the_lobe_s_width_apart", tier="quick")
+def width(bench):
+    for (x, y, z), roughness, anisotropy, wide, radius in WIDTHS:
+        eye = f"{math.degrees(math.atan2(math.hypot(x, y), z))},{math.degrees(math.atan2(y, x))}"
+        bench.run("plot", "axis", "--eye", eye, "--roughness", roughness, "--anisotropy", anisotropy, "-o", "a.svg").expect(0)
+        found = re.search(r"width ([\d.]+), radius ([\d.]+)", (bench.folder / "a.svg").read_text())
+        check(abs(float(found[1]) - wide) < 2e-5 and abs(float(found[2]) - radius) < 2e-5, f"{found[0]}, not {wide} and {radius}")
+
+
+def lobe(bench, *words):
+    """What a figure says of a lobe: the peak and where it is, the value along the mirror direction and where that is; and the figure."""
+    bench.run("plot", "lobe", *words, "-o", "l.svg", "-q").expect(0)
+    text = (bench.folder / "l.svg").read_text()
+    xml.dom.minidom.parseString(text)
+    number = r"([-\d.e+]+)"
+    found = re.search(rf"peak {number} at {number},{number}, mirror direction {number} at {number},{number}", text)
+    return [float(group) for group in found.groups()] + [text]
+
+
+@case("plot.every_model_has_its_peak_where_it_must", tier="quick")
+def peaks(bench):
+    names = [line.split()[0] for line in bench.run("list", "models").expect(0).out.splitlines() if line.strip()]
+    drawn = 0
+    for name in names:
+        done = bench.run("plot", "lobe", "--brdf", name, "-o", "l.svg")
+        if done.code == 2: # a model that lies on no surface
+            continue
+        drawn += 1
+        peak, theta, _, mirrored, off, _, _ = lobe(bench, "--brdf", name, "--anisotropy", "0", "--eye", "0,0")
+        if name == "heidrich_seidel": # threads are bright all the way around
+            check(abs(mirrored - 1) < 1e-4 and peak < 1 + 1e-6, f"{name}: {peak} {mirrored}")
+            continue
+        # alpha is 1/4: D / 4, or what stands for it, is 4 / pi, of Ashikhmin's Phong (17 / 16) / 2 as much
+        value = 17 / (8 * math.pi) if name == "ashikhmin_shirley" else 4 / math.pi
+        check(theta < 0.01 and off < 0.01 and abs(peak / value - 1) < 1e-4, f"{name}: {peak} at {theta}, not {value}")
+    check(drawn >= 9, f"{drawn} of {names}")
+
+
+@case("plot.a_tilted_lobe_is_mirrored_about_its_own_normal", tier="quick")
+def tilted(bench):
+    for tilt, where in (("20,0", (40, 90)), ("0,20", (40, 180)), ("-10,0", (20, -90))):
+        _, theta, phi, _, _, _, text = lobe(bench, "--tilt", tilt, "--roughness", "0.15", "--anisotropy", "0.5", "--eye", "0,0")
+        check(abs(theta - where[0]) < 0.2 and abs(abs(phi) - abs(where[1])) < 0.2 and phi * where[1] > 0, f"{tilt}: peak at {theta},{phi}")
+        check("ellipsoid" in text, "what is tilted is no ellipsoid")
+    straight, skewed = (lobe(bench, "--tilt", tilt, "--eye", "30,0")[0] for tilt in ("0,0", "15,10"))
+    check(abs(straight - skewed) > 0.01 * straight, "tilt changes nothing")
+
+
+@case("plot.contours_of_a_round_lobe_are_circles", tier="quick")
+def contours(bench):
+    text = lobe(bench, "--anisotropy", "0", "--eye", "0,0", "--roughness", "0.6")[-1]
+    group = re.search(r'<g class="c1"[^>]*>(.*?)</g>', text, re.S)[1]
+    middle = 24 + 300 + 24 + 150, 190 # of the second panel
+    far = sorted(math.hypot(float(x) - middle[0], float(y) - middle[1]) for x, y in re.findall(r"([\d.]+)[ ,]([\d.]+)", group))
+    rings = [[far[0]]]
+    for distance in far[1:]:
+        if distance - rings[-1][-1] > 3:
+            rings.append([])
+        rings[-1].append(distance)
+    check(len(rings) == 4 and all(ring[-1] - ring[0] < 1.5 for ring in rings), f"{[(ring[0], ring[-1]) for ring in rings]}")
+
+
+def sides(bench, *words):
+    bench.run("plot", "side", *words, "-o", "s.svg", "-q").expect(0)
+    text = (bench.folder / "s.svg").read_text()
+    xml.dom.minidom.parseString(text)
+    found = re.search(r"bent_normal ([\d.]+) %, major_axis ([\d.]+) %", text)
+    return float(found[1]), float(found[2])
+
+
+@case("plot.a_bent_normal_looks_to_the_wrong_side_and_the_axis_does_not", tier="check")
+def sides_of_techniques(bench):
+    for eta, rotation in (("0", "45"), ("0.8", "0"), ("0.8", "90")): # nothing is bent, or along parallels or meridians
+        bent, axis = sides(bench, "--roughness", "0.4", "--anisotropy", eta, "--rotation", rotation)
+        check(bent < 1 and axis < 1, f"{eta}: {bent} and {axis}")
+    bent, axis = sides(bench, "--roughness", "0.4", "--anisotropy", "0.8")
+    check(bent > 5 and axis < 0.5 * bent, f"{bent} and {axis}")
+
+
 @case("plot.files_are_the_same_every_time", tier="quick")
 def same(bench):
-    for name in ("a.svg", "b.svg", "a.png", "b.png"):
-        bench.run("plot", "axis", "-o", name, "-q").expect(0)
-    for kind in ("svg", "png"):
-        check((bench.folder / f"a.{kind}").read_bytes() == (bench.folder / f"b.{kind}").read_bytes(), f"two runs make different {kind} files")
+    for what in ("axis", "lobe"):
+        for name in ("a.svg", "b.svg", "a.png", "b.png"):
+            bench.run("plot", what, "-o", name, "-q").expect(0)
+        for kind in ("svg", "png"):
+            check((bench.folder / f"a.{kind}").read_bytes() == (bench.folder / f"b.{kind}").read_bytes(), f"two runs make different {kind} files")
 
 
 @case("plot.wrong_options_say_one_line", tier="quick")
@@ -53,6 +139,77 @@ def wrong(bench):
             (("axes", "-o", "a.svg"), 2, "axis"), (("axis",), 2, "--output"), (("axis", "-o", "a.pdf"), 2, ".svg"),
             (("axis", "-o", "no/a.svg"), 7, "no/a.svg"), (("axis", "--eye", "95,0", "-o", "a.svg"), 2, "--eye"),
             (("axis", "--eye", "nan,0", "-o", "a.svg"), 2, "--eye"), (("axis", "--samples", "0", "-o", "a.svg"), 2, "--samples"),
-            (("axis", "--roughness", "0", "-o", "a.svg"), 2, "--roughness")):
+            (("axis", "--roughness", "0", "-o", "a.svg"), 2, "--roughness"), (("axis", "--tilt", "5,0", "-o", "a.svg"), 2, "--tilt"),
+            (("side", "--eye", "5,0", "-o", "a.svg"), 2, "--eye"), (("side", "--brdf", "ward", "-o", "a.svg"), 2, "--brdf"),
+            (("lobe", "--samples", "4", "-o", "a.svg"), 2, "--samples"), (("lobe", "--brdf", "phong", "-o", "a.svg"), 2, "phong"),
+            (("lobe", "--brdf", "ward", "--tilt", "5,0", "-o", "a.svg"), 2, "ward"), (("lobe", "--tilt", "90,0", "-o", "a.svg"), 2, "--tilt")):
         bench.run("plot", *words).expect(code).expect_one_line(needle)
+    check(bench.left_behind() == [], f"left {bench.left_behind()}")
+
+
+def rotation(x, y, z):
+    """Rx Ry Rz of the ellipsoid's angles, by rows."""
+    def product(a, b):
+        return [[sum(a[i][k] * b[k][j] for k in range(3)) for j in range(3)] for i in range(3)]
+
+    (cx, sx), (cy, sy), (cz, sz) = ((math.cos(a), math.sin(a)) for a in (x, y, z))
+    return product([[1, 0, 0], [0, cx, -sx], [0, sx, cx]], product([[cy, 0, sy], [0, 1, 0], [-sy, 0, cy]], [[cz, -sz, 0], [sz, cz, 0], [0, 0, 1]]))
+
+
+def mean_normal(ax, ay, angles, rows=160):
+    """Integral of the distribution times normals, a sum in double precision apart from the program: equation 1."""
+    turn = rotation(*angles)
+    length = math.sqrt((ax * turn[0][2])**2 + (ay * turn[1][2])**2 + turn[2][2]**2)
+    mean = [0.0, 0.0, 0.0]
+    for row in range(rows):
+        z = (row + 0.5) / rows
+        r = math.sqrt(1 - z * z)
+        for column in range(2 * rows):
+            phi = math.pi * (column + 0.5) / rows
+            m = (r * math.cos(phi), r * math.sin(phi), z)
+            q = [sum(turn[i][k] * m[k] for k in range(3)) for i in range(3)]
+            d = 1 / (math.pi * ax * ay * length * ((q[0] / ax)**2 + (q[1] / ay)**2 + q[2]**2)**2) * math.pi / rows**2
+            mean = [a + d * b for a, b in zip(mean, m)]
+    return mean
+
+
+@case("plot.figures_of_the_ellipsoid_are_its_integrals", tier="check")
+def ellipsoid(bench):
+    bench.run("plot", "ellipsoid", "-o", "e.html", "-q").expect(0)
+    text = (bench.folder / "e.html").read_text()
+
+    def table(name):
+        body = re.search(rf'<table id="{name}">(.*?)</table>', text, re.S)[1]
+        return [re.findall(r"<td>(.*?)</td>", row) for row in body.split("</tr>")[1:] if "<td>" in row]
+
+    normals = table("normals")
+    check(len(normals) == 4, f"{len(normals)} settings")
+    for widths, angles, *figures in normals:
+        projected, off_n, off_shape, area, clamped, least, wall, walled = map(float, figures)
+        (ax, ay), angles = map(float, widths.split(", ")), tuple(map(float, angles.split(", ")))
+        mean = mean_normal(ax, ay, angles)
+        flat = math.hypot(mean[0], mean[1])
+        check(abs(projected - 1) < 1e-4 and abs(mean[2] - 1) < 1e-3, f"projected area {projected}, {mean[2]}")
+        check(abs(off_n - math.degrees(math.atan2(flat, mean[2]))) < 0.02, f"mean normal {off_n} degrees off, {mean}")
+        check(abs(wall - flat) < 1e-3, f"wall of {wall}, not {flat}")
+        check(off_shape < 0.01 and area < 2e-3, f"{figures}")
+        tilted = angles[0] or angles[1]
+        check((clamped > 1 and least < 0.99) if tilted else (clamped == 0 and abs(least - 1) < 0.1), f"{figures}")
+        check(walled > 0.999, f"the wall leaves {walled}")
+    for _, _, *figures in table("samplers"):
+        for version in range(3):
+            kept, by_area, distance = figures[3 * version:3 * version + 3]
+            chi2, freedom = map(float, distance.split(" / "))
+            check(abs(float(kept) - float(by_area)) < 0.005, f"version {version + 1} keeps {kept}, not {by_area}")
+            check(freedom > 20 and abs(chi2 - freedom) < 5 * math.sqrt(2 * freedom), f"version {version + 1}: {distance}")
+    energy = [list(map(float, row)) for row in table("energy")]
+    check(max(skew for _, skew, _ in energy) <= 1 and max(mapped for _, _, mapped in energy) > 1.2, f"{energy}")
+    check(min(mapped for _, _, mapped in energy) == 0, "a normal map that faces away reflects")
+
+
+@case("plot.a_page_is_a_page", tier="quick")
+def page(bench):
+    for words, needle in ((("-o", "e.svg"), ".html"), (("-o", "e.html", "--eye", "3,3"), "--eye"), (("-o", "e.html", "--roughness", "0.5"), "--roughness"),
+                          (("-o", "e.html", "--tilt", "3,3"), "--tilt")):
+        bench.run("plot", "ellipsoid", *words).expect(2).expect_one_line(needle)
     check(bench.left_behind() == [], f"left {bench.left_behind()}")

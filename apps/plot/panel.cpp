@@ -1,0 +1,151 @@
+#include "apps/plot/panel.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/core.h>
+
+namespace burnish {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+constexpr int kCells = 75;         // of a density, along a side
+constexpr int kContourCells = 150; // of the grid that contours are found on
+constexpr int kCirclePoints = 180;
+
+Place grid_place(const Panel& panel, double column, double row, int cells)
+{
+    return {panel.reach * (2.0 * column / cells - 1.0), panel.reach * (1.0 - 2.0 * row / cells)};
+}
+
+} // namespace
+
+bool Panel::holds(const Place& p) const
+{
+    return std::isfinite(p.x) && std::abs(p.x) <= reach && std::abs(p.y) <= reach;
+}
+
+double dot(const PlotVec& a, const PlotVec& b)
+{
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+PlotVec cross(const PlotVec& a, const PlotVec& b)
+{
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+PlotVec unit(const PlotVec& v)
+{
+    const double length = std::sqrt(dot(v, v));
+    return {v.x / length, v.y / length, v.z / length};
+}
+
+PlotVec mix(const PlotVec& a, const PlotVec& b, double t)
+{
+    return unit({a.x + (b.x - a.x) * t, a.y + (b.y - a.y) * t, a.z + (b.z - a.z) * t});
+}
+
+void draw_density(Drawing& out, const Panel& panel, const Density& density)
+{
+    std::vector<double> values;
+    for (int row = 0; row < kCells; ++row)
+        for (int column = 0; column < kCells; ++column)
+            values.push_back(density(grid_place(panel, column + 0.5, row + 0.5, kCells)));
+    const double most = *std::max_element(values.begin(), values.end());
+    if (!(most > 0.0))
+        return;
+    const double side = kSide / kCells;
+    for (int row = 0; row < kCells; ++row)
+        for (int column = 0; column < kCells; ++column) {
+            const double shade = std::sqrt(values[static_cast<std::size_t>(row * kCells + column)] / most);
+            if (shade < 0.02)
+                continue;
+            const Paint paint = {255.0 - 215.0 * shade, 255.0 - 175.0 * shade, 255.0 - 105.0 * shade};
+            out.rectangle(panel.left + side * column, kTop + side * row, side + 0.3, side + 0.3, "", paint);
+        }
+}
+
+// Marching squares, a stroke a cell; a cell that two strokes cross is split by the value of its middle.
+void draw_contour(Drawing& out, const Panel& panel, const Density& density, double level, const std::string& css_class)
+{
+    constexpr int kWide = kContourCells + 1;
+    std::vector<double> values;
+    for (int row = 0; row < kWide; ++row)
+        for (int column = 0; column < kWide; ++column)
+            values.push_back(density(grid_place(panel, column, row, kContourCells)) - level);
+    const auto value = [&](int column, int row) { return values[static_cast<std::size_t>(row * kWide + column)]; };
+    constexpr int kCorner[5][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}, {0, 0}}; // around the cell
+    for (int row = 0; row < kContourCells; ++row)
+        for (int column = 0; column < kContourCells; ++column) {
+            Points crossings;
+            for (int edge = 0; edge < 4; ++edge) {
+                const int x0 = column + kCorner[edge][0], y0 = row + kCorner[edge][1];
+                const int x1 = column + kCorner[edge + 1][0], y1 = row + kCorner[edge + 1][1];
+                const double a = value(x0, y0), b = value(x1, y1);
+                if ((a > 0.0) == (b > 0.0))
+                    continue;
+                const double t = a / (a - b);
+                crossings.push_back(panel.at(grid_place(panel, x0 + t * (x1 - x0), y0 + t * (y1 - y0), kContourCells)));
+            }
+            if (crossings.size() == 4) {
+                const double middle = value(column, row) + value(column + 1, row) + value(column, row + 1) + value(column + 1, row + 1);
+                if ((middle > 0.0) == (value(column, row) > 0.0)) // the first corner's side is one piece: edges 0, 1 and 2, 3 are met
+                    out.line({crossings[0], crossings[1]}, css_class), out.line({crossings[2], crossings[3]}, css_class);
+                else
+                    out.line({crossings[0], crossings[3]}, css_class), out.line({crossings[1], crossings[2]}, css_class);
+            } else if (crossings.size() == 2) {
+                out.line(crossings, css_class);
+            }
+        }
+}
+
+Points line_of(const Panel& panel, const std::vector<PlotVec>& directions, const ToPlace& place)
+{
+    Points points;
+    for (const PlotVec& direction : directions) {
+        const Place p = place(direction);
+        if (panel.holds(p))
+            points.push_back(panel.at(p));
+    }
+    return points;
+}
+
+void draw_dot(Drawing& out, const Panel& panel, const Place& p, double radius, const std::string& family)
+{
+    if (!panel.holds(p))
+        return;
+    const auto [x, y] = panel.at(p);
+    out.open("best " + family);
+    out.disc(x, y, radius, "mark");
+    out.close();
+}
+
+void draw_frame(Drawing& out, const Panel& panel, Edge edge)
+{
+    out.text(panel.left + kSide / 2.0, kTop - 14.0, "title middle", panel.title);
+    const double l = panel.left, t = kTop, below = kTop + kSide + 16.0;
+    if (edge == Edge::slopes || edge == Edge::units) {
+        out.line({{l, t}, {l + kSide, t}, {l + kSide, t + kSide}, {l, t + kSide}, {l, t}}, "grid");
+        out.text(l + kSide, below, "tick end", fmt::format("{} to {:.3g}", edge == Edge::slopes ? "slopes" : "values", panel.reach));
+        return;
+    }
+    Points circle;
+    for (int i = 0; i <= kCirclePoints; ++i)
+        circle.push_back(panel.at({std::cos(2.0 * kPi * i / kCirclePoints), std::sin(2.0 * kPi * i / kCirclePoints)}));
+    out.line(circle, "grid");
+    out.text(l + kSide, below, "tick end", edge == Edge::sphere ? "a sphere from afar" : "seen along the normal, to the horizon");
+}
+
+void draw_key(Drawing& out, double y, const std::vector<KeyEntry>& entries)
+{
+    double x = kGap;
+    for (const KeyEntry& entry : entries) {
+        out.open(std::string("best ") + entry.family);
+        out.disc(x, y - 4.5, 4.5, "mark");
+        out.close();
+        out.text(x + 11.0, y, "name", entry.text);
+        x += 40.0 + 8.2 * static_cast<double>(std::string(entry.text).size());
+    }
+}
+
+} // namespace burnish

@@ -1,0 +1,50 @@
+// A square on paper that shows a space: directions or slopes, their density, its contours, curves and dots.
+#pragma once
+#include <functional>
+#include <vector>
+
+#include "apps/plot/shapes.h"
+#include "apps/report/drawing.h"
+
+namespace burnish {
+
+inline constexpr double kSide = 300.0, kGap = 24.0, kTop = 40.0; // px, of a panel and around it
+
+struct Place {
+    double x = 0.0, y = 0.0;
+};
+
+struct Panel {
+    const char* title;
+    double left, reach; // px; how far from the middle to the edge, in units of the space
+    std::pair<double, double> at(const Place& p) const
+    {
+        return {left + kSide * (0.5 + 0.5 * p.x / reach), kTop + kSide * (0.5 - 0.5 * p.y / reach)};
+    }
+    bool holds(const Place& p) const; // NaN: not in the space
+};
+
+PlotVec unit(const PlotVec& v);
+PlotVec mix(const PlotVec& a, const PlotVec& b, double t); // along the arc, unit
+double dot(const PlotVec& a, const PlotVec& b);
+PlotVec cross(const PlotVec& a, const PlotVec& b);
+
+using Density = std::function<double(const Place&)>;
+using ToPlace = std::function<Place(const PlotVec&)>; // of a direction, in a space; NaN: not in it
+
+// Pale where the density is small, dark where it is large; the square root shows tails too.
+void draw_density(Drawing& out, const Panel& panel, const Density& density);
+// Where it is `share` of `most`.
+void draw_contour(Drawing& out, const Panel& panel, const Density& density, double level, const std::string& css_class);
+Points line_of(const Panel& panel, const std::vector<PlotVec>& directions, const ToPlace& place);
+void draw_dot(Drawing& out, const Panel& panel, const Place& p, double radius, const std::string& family);
+
+enum class Edge { slopes, horizon, units, sphere }; // what is said of the panel's edge
+void draw_frame(Drawing& out, const Panel& panel, Edge edge);
+
+struct KeyEntry {
+    const char *family, *text;
+};
+void draw_key(Drawing& out, double y, const std::vector<KeyEntry>& entries);
+
+} // namespace burnish
