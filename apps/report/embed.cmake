@@ -1,23 +1,17 @@
-# Turns files into a C++ source of string constants: cmake -DOUT=FILE -DFILES=NAME=FILE,... -P embed.cmake
-# Names are those that apps/report/assets.h declares. Literals are cut, since compilers limit how long one may be.
-set(text "#include \"apps/report/assets.h\"\n\nnamespace burnish {\n")
+# Turns text files into a C++ source of string constants: cmake -DOUT=FILE -DHEADER=FILE -DFILES=NAME=FILE,... -P embed.cmake
+# HEADER declares the names. A line of the file is a literal of its own, since compilers limit how long one may be.
+set(text "#include \"${HEADER}\"\n\nnamespace burnish {\n")
 string(REPLACE "," ";" FILES "${FILES}")
 foreach(entry IN LISTS FILES)
   string(REPLACE "=" ";" parts "${entry}")
   list(GET parts 0 name)
   list(GET parts 1 file)
-  file(READ "${file}" hex HEX)
-  string(REGEX REPLACE "([0-9a-f][0-9a-f])" "\\\\x\\1" bytes "${hex}")
-  string(LENGTH "${bytes}" length)
-  string(APPEND text "const char* const ${name} =\n")
-  set(at 0)
-  # 64 bytes a literal; the compiler joins neighbours.
-  while(at LESS length)
-    string(SUBSTRING "${bytes}" ${at} 256 piece)
-    string(APPEND text "    \"${piece}\"\n")
-    math(EXPR at "${at} + 256")
-  endwhile()
-  string(APPEND text "    \"\";\n")
+  file(READ "${file}" bytes)
+  string(REPLACE "\\" "\\\\" bytes "${bytes}")
+  string(REPLACE "\"" "\\\"" bytes "${bytes}")
+  string(REPLACE "\t" "\\t" bytes "${bytes}")
+  string(REPLACE "\n" "\\n\"\n    \"" bytes "${bytes}")
+  string(APPEND text "const char* const ${name} =\n    \"${bytes}\";\n")
 endforeach()
 string(APPEND text "} // namespace burnish\n")
 file(WRITE "${OUT}" "${text}")

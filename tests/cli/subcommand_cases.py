@@ -26,6 +26,7 @@ RUNS = {
     "plot": [(("axis", "-o", "axis.svg"), (0,)), (("axis", "-o", "axis.png"), (0,)), (("lobe", "--tilt", "9,4", "-o", "lobe.png"), (0,)),
              (("side", "-o", "side.svg"), (0,)), (("ellipsoid", "-o", "e.html"), (0,))],
     "bake": [(("ltc", "--resolution", "3", "--steps", "1", "--samples", "1", "-o", "t.ltc"), (0,)), (("ltc", "--table", "t.ltc"), (0,))],
+    "export": [(("glsl", "--technique", "lobe_line", "-o", "l.glsl"), (0,)), (("glsl", "--technique", "filtered_is", "-o", "-"), (0,))],
     "list": [((what,), (0,)) for what in ("techniques", "scenes", "environments", "models", "extensions")],
     "manual": [((what,), (0,)) for what in ("man", "bash", "zsh", "fish")],
     "info": [((), (0,)), (("--json",), (0,))],

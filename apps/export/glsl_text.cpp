@@ -1,0 +1,361 @@
+#include "apps/export/glsl_text.h"
+
+#include <algorithm>
+#include <cctype>
+#include <fmt/core.h>
+#include <map>
+#include <set>
+#include <sstream>
+
+#include "core/base/check.h"
+
+namespace burnish {
+namespace {
+
+bool is_word(char c)
+{
+    return std::isalnum(static_cast<unsigned char>(c)) || c == '_';
+}
+
+struct Token {
+    std::string text; // a word, or one other character
+    bool word = false;
+};
+
+// Blanks and comments are tokens too, so that all tokens together are the text.
+std::vector<Token> tokens_of(const std::string& text)
+{
+    std::vector<Token> tokens;
+    for (std::size_t at = 0; at < text.size();) {
+        std::size_t end = at + 1;
+        if (is_word(text[at])) {
+            const bool word = !std::isdigit(static_cast<unsigned char>(text[at]));
+            while (end < text.size() && (is_word(text[end]) || (!word && text[end] == '.')))
+                ++end;
+            tokens.push_back({text.substr(at, end - at), word});
+        } else {
+            if (text.compare(at, 2, "//") == 0)
+                end = std::min(text.find('\n', at), text.size());
+            tokens.push_back({text.substr(at, end - at), false});
+        }
+        at = end;
+    }
+    return tokens;
+}
+
+bool is_space(const Token& t)
+{
+    return !t.word && (std::isspace(static_cast<unsigned char>(t.text[0])) || t.text.compare(0, 2, "//") == 0);
+}
+
+std::vector<Token> without_spaces(const std::string& text)
+{
+    std::vector<Token> tokens = tokens_of(text);
+    tokens.erase(std::remove_if(tokens.begin(), tokens.end(), is_space), tokens.end());
+    return tokens;
+}
+
+struct Piece { // a declaration
+    std::string comment, text, file;
+    std::vector<std::string> defines;
+    bool fetches = false; // of the part that users may replace
+};
+
+struct FlatText {
+    std::vector<Piece> pieces;
+    std::map<std::string, std::string> headings; // of files
+};
+
+bool ends_with(const std::string& text, const std::string& end)
+{
+    return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
+}
+
+// Names that a declaration brings into the outermost scope.
+std::vector<std::string> defined_by(const std::string& text)
+{
+    const std::vector<Token> tokens = without_spaces(text);
+    std::vector<std::string> names;
+    if (tokens[0].text == "struct")
+        return {tokens[1].text};
+    const auto open = std::find_if(tokens.begin(), tokens.end(), [](const Token& t) { return t.text == "(" || t.text == "="; });
+    if (tokens[0].text != "layout" && open != tokens.end() && open->text == "(")
+        return {(open - 1)->text};
+    int depth = 0;
+    const bool block = tokens[0].text == "layout" && text.find('{') != std::string::npos; // its members are in the outermost scope too
+    for (std::size_t i = 0; i + 1 < tokens.size(); ++i) {
+        depth += tokens[i].text == "(" || tokens[i].text == "[" || (tokens[i].text == "{" && !block);
+        depth -= tokens[i].text == ")" || tokens[i].text == "]" || (tokens[i].text == "}" && !block);
+        const std::string& next = tokens[i + 1].text;
+        if (tokens[i].word && depth == 0 && (next == "=" || next == "[" || next == "{" || next == ";" || next == ","))
+            names.push_back(tokens[i].text);
+    }
+    return names;
+}
+
+// Reads the preprocessor's output line by line: markers, comments, declarations.
+class Reader {
+  public:
+    FlatText read(const std::string& flat)
+    {
+        std::istringstream lines(flat);
+        for (std::string line; std::getline(lines, line);)
+            take(line);
+        return std::move(out_);
+    }
+
+  private:
+    void take(const std::string& line)
+    {
+        const std::size_t first = line.find_first_not_of(" \t");
+        if (line.compare(0, 2, "# ") == 0)
+            return enter(line);
+        if (!open_.empty())
+            return first == std::string::npos || from_list(line, first) ? void() : add(line);
+        if (first == std::string::npos)
+            return end_comment();
+        if (line.compare(first, 2, "//") != 0)
+            return add(line.substr(first));
+        if (ends_with(line, "[fetches"))
+            fetches_ = true;
+        else if (ends_with(line, "fetches]"))
+            fetches_ = false;
+        else if (!ends_with(file_, ".def"))
+            comment_ += line + "\n";
+    }
+
+    // Comments of lists, inside of what is made of them.
+    bool from_list(const std::string& line, std::size_t first) const
+    {
+        return ends_with(file_, ".def") && line.compare(first, 2, "//") == 0;
+    }
+
+    void enter(const std::string& marker)
+    {
+        const std::size_t begin = marker.find('"'), end = marker.rfind('"');
+        end_comment();
+        file_ = marker.substr(begin + 1, end - begin - 1);
+    }
+
+    // A comment that no declaration follows: where it is the first of its file, it is about all of it.
+    void end_comment()
+    {
+        if (comment_.empty() || !open_.empty())
+            return;
+        if (file_.find("/lang/") == std::string::npos) // what those say is of burnish
+            out_.headings.emplace(file_, comment_);
+        comment_.clear();
+    }
+
+    void add(const std::string& line)
+    {
+        if (open_.empty())
+            begun_in_ = file_;
+        open_ += line + "\n";
+        bool function = false;
+        int braces = 0;
+        std::string last;
+        for (const Token& t : without_spaces(open_)) {
+            braces += t.text == "{";
+            function = function || (braces == 1 && t.text == "{" && last == ")");
+            braces -= t.text == "}";
+            last = t.text;
+        }
+        if (braces != 0 || !(last == ";" || (function && last == "}")))
+            return;
+        out_.pieces.push_back({comment_, open_, begun_in_, defined_by(open_), fetches_});
+        open_.clear(), comment_.clear();
+    }
+
+    FlatText out_;
+    std::string file_, begun_in_, comment_, open_;
+    bool fetches_ = false;
+};
+
+// Words that may be names of the outermost scope: not members behind a point; of a struct, types, which stand before another word.
+std::set<std::string> names_in(const std::string& text)
+{
+    std::set<std::string> names;
+    const std::vector<Token> tokens = without_spaces(text);
+    const bool structure = tokens[0].text == "struct";
+    for (std::size_t i = 0; i < tokens.size(); ++i) {
+        const bool type = i + 1 < tokens.size() && tokens[i + 1].word;
+        if (tokens[i].word && (i == 0 || tokens[i - 1].text != ".") && (!structure || type))
+            names.insert(tokens[i].text);
+    }
+    return names;
+}
+
+// Members of what functions call `variable`.
+std::set<std::string> members_read(const std::string& text, const std::string& variable)
+{
+    std::set<std::string> names;
+    const std::vector<Token> tokens = without_spaces(text);
+    for (std::size_t i = 0; i + 2 < tokens.size(); ++i)
+        if (tokens[i].text == variable && tokens[i + 1].text == ".")
+            names.insert(tokens[i + 2].text);
+    return names;
+}
+
+using Kept = std::vector<bool>; // of pieces
+
+Kept reached(const std::vector<Piece>& pieces, const std::vector<std::string>& roots)
+{
+    std::map<std::string, std::vector<std::size_t>> of_name;
+    for (std::size_t i = 0; i < pieces.size(); ++i)
+        for (const std::string& name : pieces[i].defines)
+            of_name[name].push_back(i);
+    Kept kept(pieces.size(), false);
+    std::vector<std::string> open = roots;
+    for (const std::string& root : roots)
+        BN_CHECK(of_name.count(root));
+    while (!open.empty()) {
+        const std::string name = open.back();
+        open.pop_back();
+        for (const std::size_t i : of_name[name]) {
+            if (kept[i])
+                continue;
+            kept[i] = true;
+            for (const std::string& used : names_in(pieces[i].text))
+                if (of_name.count(used))
+                    open.push_back(used);
+        }
+    }
+    return kept;
+}
+
+// The members of a struct that are read, one a line.
+std::string trimmed_struct(const std::string& text, const std::set<std::string>& read, std::set<std::string>& lost)
+{
+    const std::size_t open = text.find('{'), close = text.rfind('}');
+    std::string out = text.substr(0, open + 1) + "\n";
+    std::string bare; // without comments, which lines that are cut apart would leave behind
+    for (const Token& t : tokens_of(text.substr(open + 1, close - open - 1)))
+        bare += t.text.compare(0, 2, "//") == 0 ? "" : t.text;
+    std::istringstream members(bare);
+    for (std::string member; std::getline(members, member, ';');) {
+        const std::vector<Token> tokens = without_spaces(member);
+        std::size_t type_end = 0; // `precise vec3` are two words
+        while (type_end + 1 < tokens.size() && tokens[type_end + 1].word)
+            ++type_end;
+        std::string type, names, name;
+        for (std::size_t i = 0; i < type_end; ++i)
+            type += tokens[i].text + " ";
+        std::string wanted;
+        for (std::size_t i = type_end; i <= tokens.size() && !tokens.empty(); ++i) {
+            if (i < tokens.size() && tokens[i].text != ",") {
+                name += tokens[i].text;
+                continue;
+            }
+            const std::string word = name.substr(0, name.find('['));
+            if (read.count(word))
+                wanted += (wanted.empty() ? "" : ", ") + name;
+            else
+                lost.insert(word);
+            name.clear();
+        }
+        if (!wanted.empty())
+            out += "    " + type + wanted + ";\n";
+    }
+    return out + "};\n";
+}
+
+// A function without the statements that fill members which are lost.
+std::string trimmed_maker(const std::string& text, const std::string& variable, const std::set<std::string>& lost)
+{
+    std::string out, statement;
+    const auto is_lost = [&](const std::string& of) {
+        const std::vector<Token> t = without_spaces(of);
+        return t.size() > 3 && t[0].text == variable && t[1].text == "." && lost.count(t[2].text);
+    };
+    const std::size_t open = text.find('{'), close = text.rfind('}');
+    for (const char c : text.substr(open + 1, close - open - 1)) {
+        statement += c;
+        if (c != ';')
+            continue;
+        out += is_lost(statement) ? "" : "\n    " + statement.substr(statement.find_first_not_of(" \t\n"));
+        statement.clear();
+    }
+    return text.substr(0, open + 1) + out + "\n}\n";
+}
+
+std::string public_name(const std::string& name)
+{
+    return "burnish_" + (name.compare(0, 3, "bn_") == 0 ? name.substr(3) : name);
+}
+
+// Members of structs keep their names: there only what stands before another word is a type.
+std::string renamed(const std::string& text, const std::set<std::string>& names)
+{
+    const std::vector<Token> tokens = tokens_of(text);
+    const bool structure = text.compare(0, 6, "struct") == 0;
+    std::string out, last;
+    for (std::size_t i = 0; i < tokens.size(); ++i) {
+        const Token& t = tokens[i];
+        std::size_t next = i + 1;
+        while (next < tokens.size() && is_space(tokens[next]))
+            ++next;
+        const bool member = last == "." || (structure && last != "struct" && !(next < tokens.size() && tokens[next].word));
+        out += t.word && !member && names.count(t.text) ? public_name(t.text) : t.text;
+        if (!is_space(t))
+            last = t.text;
+    }
+    return out;
+}
+
+std::string grid_text(const std::vector<GridSample>& grid)
+{
+    std::string values;
+    for (const GridSample& g : grid)
+        values += fmt::format("{}\n    vec3({:#.9g}, {:#.9g}, {:#.9g})", values.empty() ? "" : ",", g.slope_x, g.slope_y, g.density);
+    return fmt::format("const vec3 kGrid[{0}] = vec3[{0}]({1});\n", grid.size(), values);
+}
+
+} // namespace
+
+std::string glsl_of(const std::string& flat, const GlslWish& wish)
+{
+    FlatText text = Reader().read(flat);
+    std::vector<Piece>& pieces = text.pieces;
+    pieces.insert(pieces.begin(), {"", fmt::format("const int kGridCount = {};\n", wish.grid.size()), "", {"kGridCount"}, false});
+    if (!wish.grid.empty())
+        pieces.insert(std::find_if(pieces.begin(), pieces.end(), [](const Piece& p) { return p.fetches; }),
+                      {"// Slopes of the samples, and the density of normals there.\n", grid_text(wish.grid), "", {"kGrid"}, true});
+    Kept kept = reached(pieces, wish.roots);
+    for (const TrimmedStruct& wanted : wish.trimmed) {
+        std::set<std::string> read, lost;
+        for (std::size_t i = 0; i < pieces.size(); ++i)
+            if (kept[i] && pieces[i].defines[0] != wanted.maker)
+                read.merge(members_read(pieces[i].text, wanted.variable));
+        for (Piece& piece : pieces)
+            if (piece.defines[0] == wanted.name)
+                piece.text = trimmed_struct(piece.text, read, lost);
+        for (Piece& piece : pieces)
+            if (piece.defines[0] == wanted.maker)
+                piece.text = trimmed_maker(piece.text, wanted.variable, lost);
+    }
+    kept = reached(pieces, wish.roots);
+
+    std::set<std::string> names;
+    for (std::size_t i = 0; i < pieces.size(); ++i)
+        if (kept[i])
+            names.insert(pieces[i].defines.begin(), pieces[i].defines.end());
+    std::string out = wish.heading;
+    std::set<std::string> headed;
+    bool fetches = false;
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+        if (!kept[i])
+            continue;
+        const Piece& piece = pieces[i];
+        if (piece.fetches != fetches)
+            out += piece.fetches ? "\n#ifndef BURNISH_OWN_FETCHES\n" : "\n#endif // BURNISH_OWN_FETCHES\n";
+        fetches = piece.fetches;
+        const auto heading = text.headings.find(piece.file);
+        if (heading != text.headings.end() && headed.insert(piece.file).second)
+            out += "\n" + heading->second;
+        out += "\n" + piece.comment + renamed(piece.text, names);
+    }
+    return out + (fetches ? "\n#endif // BURNISH_OWN_FETCHES\n" : "");
+}
+
+} // namespace burnish

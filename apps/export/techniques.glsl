@@ -1,0 +1,172 @@
+// What `burnish export glsl` takes its files from: all techniques with a stage (shading/lang/stage.h) that knows no buffers, only fetches
+// that its user has. The C preprocessor flattens this when the program is built, apps/export keeps what one technique needs.
+#define BN_FRAME_H
+#define BN_STAGE_GLSL
+#define BN_CUBE_FILTER_K_H
+#include "shading/lang/lang.h"
+#include "shading/lang/records.h"
+#include "shading/kernels/math.k.h"
+#include "shading/surface/dfg.k.h"
+
+#define frame_ref settings
+#define any_frame settings
+#define material_ref int
+#define the_frame(f) f
+#define the_material(m) materials[m]
+#define lobe_used(at) true
+
+// What a frame tells the technique, the same for every point.
+// specular, box, whole: of the environments that are fetched, size (texels along a face's side) and levels; scale: 1, or what fetched values
+// are to be multiplied by. samples, grid_count: how many. lobe: the model, lobe_traits: 1 for the usual one.
+// The others are options of `burnish render`, angles as cosine and sine.
+struct settings {
+    CubeRecord specular, whole, box;
+    int grid_count, samples;
+#define BN_PARAMETER(id, kind, option, fallback, least, most, unit, summary, readers) BN_RECORD_##kind(id)
+#include "shading/models.def"
+    int lobe, lobe_traits;
+};
+
+// The usual ones.
+settings usual_settings(int specular_size, int specular_levels, int sample_count)
+{
+    settings f;
+    f.specular = CubeRecord(specular_size, specular_levels, 1.0);
+    f.whole = f.specular;
+    f.box = f.specular;
+    f.grid_count = kGridCount;
+    f.samples = sample_count;
+#define BN_USUAL_number(id, fallback) f.id = fallback;
+#define BN_USUAL_whole(id, fallback) f.id = fallback;
+#define BN_USUAL_flag(id, fallback) f.id = fallback;
+#define BN_USUAL_choice(id, fallback) f.id = fallback;
+#define BN_USUAL_lobe(id, fallback) f.id = fallback;
+#define BN_USUAL_angles(id, fallback) f.id##_cos[0] = f.id##_cos[1] = 1.0; f.id##_sin[0] = f.id##_sin[1] = 0.0;
+#define BN_PARAMETER(id, kind, option, fallback, least, most, unit, summary, readers) BN_USUAL_##kind(id, fallback)
+#include "shading/models.def"
+    f.lobe = 0;
+    f.lobe_traits = 1;
+    return f;
+}
+
+// [fetches
+// Yours: radiance of an environment towards `direction`, which need not be unit, at a level of detail that is no whole number.
+// cube 0: prefiltered by GGX lobes, level l of N for alpha = (l / (N - 1))^2, textureLod() of a cube map; 1: its box-filtered chain;
+// 2: the environment itself, level 0, with suns and lamps that the others leave out.
+vec4 radiance(int cube, vec3 direction, float lod);
+
+struct cube_desc {
+    int which;
+    int size, levels;
+};
+struct cube_sum {
+    cube_desc cube;
+    real3 value;
+};
+struct cube_sum_levels {
+    real lod, weight;
+};
+struct cube_terms {
+    cube_desc cube;
+    real3 value;
+    bool trilinear;
+};
+
+real3 fetched(cube_desc cube, real3 direction, real lod)
+{
+    real4 value = radiance(cube.which, direction, lod);
+    return value.xyz;
+}
+real3 fetched_level(cube_desc cube, real3 direction, int level)
+{
+    return fetched(cube, direction, float(level));
+}
+
+cube_desc specular_cube(settings f)
+{
+    return cube_desc(0, f.specular.size, f.specular.levels);
+}
+cube_desc box_cube(settings f)
+{
+    return cube_desc(1, f.box.size, f.box.levels);
+}
+cube_desc whole_cube(settings f)
+{
+    return cube_desc(2, f.whole.size, f.whole.levels);
+}
+
+void cube_sum_begin(inout cube_sum s, cube_desc cube)
+{
+    s.cube = cube;
+    s.value = vec3(0.0);
+}
+cube_sum_levels cube_sum_levels_at(cube_sum s, real lod, real weight)
+{
+    return cube_sum_levels(lod, weight);
+}
+void cube_sum_add(inout cube_sum s, real3 direction, cube_sum_levels levels)
+{
+    real3 value = fetched(s.cube, direction, levels.lod) * levels.weight;
+    s.value = s.value + value;
+}
+real3 cube_sum_value(cube_sum s)
+{
+    return s.value;
+}
+
+void cube_terms_begin(inout cube_terms s, cube_desc cube, bool trilinear)
+{
+    s.cube = cube;
+    s.value = vec3(0.0);
+    s.trilinear = trilinear;
+}
+void cube_terms_add(inout cube_terms s, real3 direction, real lod, real3 colour, real weight)
+{
+    real3 value = fetched(s.cube, direction, s.trilinear ? lod : 0.0);
+    s.value = s.value + value * colour * weight;
+}
+real3 cube_terms_value(cube_terms s)
+{
+    return s.value;
+}
+
+real3 grid_sample(settings f, int i)
+{
+    return kGrid[i];
+}
+// fetches]
+
+#define cube_sample fetched
+#define cube_sample_level fetched_level
+#define BN_TECHNIQUE_TEXTS
+#include "shading/models.def"
+
+// The point that a technique shades. n: the shading normal, v: to the eye, tangent: the grain, across n, all unit, in world space;
+// f0, f90: reflectance at normal and at grazing incidence; roughness: perceptual, alpha = roughness^2; anisotropy: in [-1, 1], widths
+// alpha (1 + anisotropy) along the grain; dfg: directional albedo of the lobe as f0 x + f90 y, of your table or by dfg_fit();
+// pixel: y * width + x, for random numbers.
+shaded_point point_of(vec3 n, vec3 v, vec3 tangent, vec3 f0, vec3 f90, float roughness, float anisotropy, vec2 dfg, int pixel)
+{
+    real alpha = roughness * roughness;
+    real root = lit(0.70710678118654752);
+    real along = alpha * (1.0 + anisotropy) * root;
+    real across = alpha * (1.0 - anisotropy) * root;
+    surface_frame axes = frame_of(n, tangent, 1.0);
+    shaded_point x;
+    x.surface_axes = axes;
+    x.turned = false;
+    x.lobe.u_axis = select(along >= across, axes.t, axes.b);
+    x.lobe.v_axis = select(along >= across, axes.b, -axes.t);
+    x.lobe.sigma_u = max(along, across);
+    x.lobe.sigma_v = min(along, across);
+    x.s.n = n;
+    x.s.v = v;
+    x.s.n_dot_v = clamp(k_dot3(n, v), lit(1e-4), lit(1.0));
+    x.s.f0 = f0;
+    x.s.f90 = f90;
+    x.s.roughness = roughness;
+    x.albedo = f0 * dfg.x + f90 * dfg.y;
+    x.gain = vec3(1.0);
+    x.pixel_id = pixel;
+    return x;
+}
