@@ -1,8 +1,9 @@
-// `burnish bake`: tables that shading reads, made from nothing.
+// `burnish bake`: tables and maps that shading reads.
 #include <filesystem>
 #include <fmt/core.h>
 #include <memory>
 
+#include "apps/bake/direction.h"
 #include "apps/bake/report.h"
 #include "apps/cli/command.h"
 #include "apps/cli/outputs.h"
@@ -14,6 +15,7 @@
 #include "apps/report/png.h"
 #include "apps/report/svg.h"
 #include "core/base/file.h"
+#include "core/image/io/image_io.h"
 #include "core/jobs/cores.h"
 #include "shading/bake/ltc/bake_ltc.h"
 
@@ -25,14 +27,20 @@ namespace fs = std::filesystem;
 constexpr const char* kFooter =
     R"(ltc: linearly transformed cosines for anisotropic GGX lobes under area lights, and their albedo, by the eye's angles, the greater width
 and the ratio of both. What is done so far is kept in TABLE.part: the same command goes on from there, to the same bytes.
+direction: a map of the grain's direction from a picture's hues or luminance, which are angles from 0 to 180 degrees; see render
+--direction-map.
 
 Examples:
   burnish bake ltc -o ggx.ltc
   burnish bake ltc -o ggx.ltc --report quality
-  burnish bake ltc --table ggx.ltc --report quality)";
+  burnish bake ltc --table ggx.ltc --report quality
+  burnish bake direction wave.jpg --from hue -o directions.png)";
 
 struct BakeArguments {
-    std::string what = "ltc", output, table, report;
+    std::string what = "ltc", picture, output, table, report;
+    DirectionFrom from = DirectionFrom::hue;
+    double strength = 1.0;
+    Limits limits;
     int resolution = 8, steps = 12, samples = 8, threads = 0;
     bool half = false, quiet = false;
     int verbosity = 0;
@@ -40,23 +48,45 @@ struct BakeArguments {
 
 OptionTable bake_option_table(BakeArguments& to)
 {
-    OptionTable table;
-    table.add("", {{"WHAT", "", "{}", choice(to.what, {"ltc"})}});
-    table.add("The table", {{"--resolution", "N", "Nodes along each axis, {}", integer(to.resolution, 3, 16)},
-                            {"--steps", "N", "Of the fit of all entries at once, {}; 0: each node alone", integer(to.steps, 0, 100)},
-                            {"--samples", "N", "Lobes in each cell that this fit looks at, {}", integer(to.samples, 1, 64)},
-                            {"--half", "", "Entries as halves, not floats", flag(to.half)},
-                            {"--table", "FILE", "Measure this table instead of making one", file(to.table)}});
-    table.add("Output", {{"-o,--output", "FILE", "The table", file(to.output)},
-                         {"--report", "FOLDER", "Also measure the table: quality.json, quality.svg, quality.png", folder(to.report)},
+    OptionTable table, limits;
+    limits.add("", limit_options(to.limits));
+    table.add("", {{"WHAT", "", "{}", choice(to.what, {"ltc", "direction"})},
+                   {"PICTURE", "", "That directions are made of", file(to.picture), ""}});
+    table.add_needing("WHAT", "direction",
+                      {{"--from", "NAME", "{}", choice(to.from, {"hue", "luminance"})},
+                       {"--strength", "S", "Of the anisotropy that the map gives, {}", number(to.strength, 0.0, 1.0)}});
+    table.add_needing("WHAT", "ltc",
+                      {{"--resolution", "N", "Nodes along each axis, {}", integer(to.resolution, 3, 16)},
+                       {"--steps", "N", "Of the fit of all entries at once, {}; 0: each node alone", integer(to.steps, 0, 100)},
+                       {"--samples", "N", "Lobes in each cell that this fit looks at, {}", integer(to.samples, 1, 64)},
+                       {"--half", "", "Entries as halves, not floats", flag(to.half)},
+                       {"--table", "FILE", "Measure this table instead of making one", file(to.table)},
+                       {"--report", "FOLDER", "Also measure the table: quality.json, quality.svg, quality.png", folder(to.report)}});
+    table.add("Output", {{"-o,--output", "FILE", "The table, or the map: a .png or a .tif", file(to.output)},
                          quiet_option(to.quiet),
                          verbose_option(to.verbosity),
                          threads_option(to.threads)});
+    table.take(limits, "Limits on input",
+               {{"--limit-image-side", "Width and height of the picture"}, {"--limit-file-bytes", "Size of its file"}});
     return table;
+}
+
+Status check_direction(const BakeArguments& a)
+{
+    if (a.picture.empty())
+        return usage_error("PICTURE", "is needed: what directions are made of");
+    if (a.output.empty())
+        return usage_error("-o", "is needed");
+    const std::string extension = fs::path(a.output).extension().string();
+    if (extension != ".png" && extension != ".tif")
+        return usage_error("-o", fmt::format("'{}' must end in .png or .tif, which lose nothing", a.output));
+    return check_picture_path(a.output, {a.picture});
 }
 
 Status check_arguments(const BakeArguments& a, const OptionTable& given)
 {
+    if (!a.picture.empty())
+        return usage_error("PICTURE", fmt::format("'{}': a table is made of nothing", a.picture));
     if (a.table.empty() == a.output.empty())
         return usage_error("-o", "is needed, or --table, and not both");
     if (!a.table.empty())
@@ -126,8 +156,25 @@ Result<std::optional<ltc::Table>> table_of(const BakeArguments& a, const OptionT
     return std::optional(std::move((*baked)->table));
 }
 
+int run_direction(const BakeArguments& arguments)
+{
+    if (Status checked = check_direction(arguments); !checked)
+        return fail(checked.error());
+    const Result<Image> picture = read_image(arguments.picture, arguments.limits);
+    if (!picture)
+        return fail(picture.error());
+    if (Status written = write_image(arguments.output, direction_map(*picture, arguments.from, arguments.strength)); !written)
+        return fail(written.error());
+    Report report(arguments.quiet, arguments.verbosity);
+    report.release();
+    report.wrote(arguments.output);
+    return 0;
+}
+
 int run_bake(const BakeArguments& arguments, const OptionTable& given)
 {
+    if (arguments.what == "direction")
+        return run_direction(arguments);
     if (Status checked = check_arguments(arguments, given); !checked)
         return fail(checked.error());
     Report report(arguments.quiet, arguments.verbosity);
@@ -154,7 +201,7 @@ int run_bake(const BakeArguments& arguments, const OptionTable& given)
 Command bake_command()
 {
     auto arguments = std::make_shared<BakeArguments>();
-    return {"bake", "Make tables that shading reads", bake_option_table(*arguments), kFooter,
+    return {"bake", "Make tables and maps that shading reads", bake_option_table(*arguments), kFooter,
             [arguments](OptionTable& given) { return run_bake(*arguments, given); }};
 }
 

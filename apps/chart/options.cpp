@@ -165,6 +165,7 @@ OptionTable chart_option_table(ChartArguments& to)
                 "--orbit",
                 "--fov",
                 "--zoom",
+                "--direction-map",
                 {"--exposure", "Of the pictures to look at: multiply by 2^EV"},
                 "--no-background"});
     table.add("Picture", {{"--error-size", "WxH",

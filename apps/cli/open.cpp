@@ -4,11 +4,11 @@
 
 namespace burnish {
 
-Result<std::shared_ptr<const SceneData>> open_scene(const std::string& name, const Limits& limits)
+Result<std::shared_ptr<const SceneData>> open_scene(const std::string& name, const Limits& limits, const std::string& direction_map)
 {
-    Result<std::shared_ptr<const SceneData>> scene = load_scene_data(name, limits);
+    Result<std::shared_ptr<const SceneData>> scene = load_scene_data(name, limits, direction_map);
     if (!scene)
-        return with_scene_hint(scene.error(), name);
+        return direction_map.empty() || scene.error().file != direction_map ? with_scene_hint(scene.error(), name) : scene.error();
     return scene;
 }
 

@@ -56,6 +56,8 @@ std::vector<Option> picture_rows(RenderArguments& to)
         {"--roughness", "R", "Override alpha_lin of every material, {}", number(f.roughness, 0.0, 1.0), ""},
         {"--anisotropy", "A", "Override eta of every material, {}: alpha_lin^2 (1 +- eta) along and across",
          number(f.anisotropy, -1.0, 1.0), ""},
+        {"--direction-map", "FILE", "Picture that all materials take as anisotropy texture, of burnish bake direction",
+         file(to.plain.direction_map)},
         {"--texture-anisotropy", "N", "Texture taps along the major axis at most", integer(f.texture_anisotropy, 1, 16)},
         {"--no-background", "", "Black behind the scene instead of the environment", flag(f.background, false)},
     };

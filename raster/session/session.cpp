@@ -4,6 +4,7 @@
 #include <new>
 #include <utility>
 
+#include "core/scene/direction_map.h"
 #include "core/scene/gltf/gltf.h"
 
 namespace burnish {
@@ -62,13 +63,16 @@ Result<std::shared_ptr<const SceneData>> make_scene_data(const std::string& name
     });
 }
 
-Result<std::shared_ptr<const SceneData>> load_scene_data(const std::string& spec, const Limits& limits)
+Result<std::shared_ptr<const SceneData>> load_scene_data(const std::string& spec, const Limits& limits, const std::string& direction_map)
 {
     using Made = Result<std::shared_ptr<const SceneData>>;
     return guarded(spec, [&]() -> Made {
         Result<Scene> scene = load_scene(spec, limits);
         if (!scene)
             return scene.error();
+        if (!direction_map.empty())
+            if (Status put = put_direction_map(*scene, direction_map, limits); !put)
+                return put.error();
         return make_scene_data(spec, std::move(*scene), limits);
     });
 }
