@@ -67,9 +67,11 @@ std::vector<Option> row_rows(RenderArguments& to)
 {
     return {
         {"--animate", "NAME=A:B",
-         "Options that go from A to B, several by commas, such as roughness=0.1:0.6; -o holds the step: o_%04d.png", text(to.animate)},
+         "Options that go from A to B, several by commas, such as roughness=0.1:0.6; -o holds the step, o_%04d.png, or all of them, o.apng",
+         text(to.animate)},
         {"--steps", "N", "Pictures of --animate", integer(to.steps, 2, kMaxSteps)},
         {"--turntable", "N", "Once around the scene in N pictures, at one distance", integer(to.plain.turntable, 2, kMaxSteps), ""},
+        {"--fps", "N", "Pictures a second of an .apng, {}", integer(to.plain.fps, 1, 1000)},
     };
 }
 

@@ -44,6 +44,7 @@ struct RenderOptions {
     int threads = 0; // 0: all cores the process may use
     int frames = 1;
     int turntable = 0; // pictures once around the scene; 0: none
+    int fps = 30;      // of moving pictures
     Tonemap tonemap = Tonemap::pbr_neutral;
     float exposure_ev = 0.0f;
 

@@ -1,4 +1,6 @@
 // A row of pictures: options that change from one to the next, or a way around the scene.
+#include <algorithm>
+#include <filesystem>
 #include <fmt/core.h>
 #include <utility>
 
@@ -8,9 +10,18 @@
 #include "apps/cli/scene_view.h"
 #include "apps/render/animate.h"
 #include "apps/render/picture.h"
+#include "core/image/io/apng.h"
+#include "core/image/io/image_io.h"
 
 namespace burnish {
 namespace {
+
+namespace fs = std::filesystem;
+
+bool is_one_of(const std::string& text, const std::vector<std::string>& of)
+{
+    return std::find(of.begin(), of.end(), text) != of.end();
+}
 
 // Options of one picture of a row.
 struct Step {
@@ -34,8 +45,15 @@ class Row {
                 if (given.given(other))
                     return usage_error(other, "cannot be combined with --turntable");
         for (const std::string& pattern : arguments.plain.outputs)
-            if (!has_number(pattern))
+            if (const std::string extension = fs::path(pattern).extension();
+                is_one_of(extension, {".gif", ".webp", ".mp4", ".avi", ".webm", ".mov"}))
+                return usage_error("-o", fmt::format("'{}': a moving picture is an .apng, others are not written", pattern));
+            else if (extension == ".apng")
+                row.movies_.push_back(pattern);
+            else if (!has_number(pattern))
                 return usage_error("-o", fmt::format("'{}' needs a number such as %04d with {}", pattern, asked));
+        if (row.movies_.empty() && given.given("--fps"))
+            return usage_error("--fps", "needs -o FILE.apng");
         row.count_ = arguments.plain.turntable ? arguments.plain.turntable : arguments.steps;
         if (!arguments.animate.empty()) {
             Result<std::vector<OptionPath>> paths = parse_option_paths("--animate", arguments.animate, given);
@@ -52,6 +70,7 @@ class Row {
     }
 
     int count() const { return count_; }
+    const std::vector<std::string>& movies() const { return movies_; } // files of all pictures
     bool lights_change() const { return lights_change_; }
 
     Result<Step> step(int i)
@@ -69,8 +88,11 @@ class Row {
         if (!options)
             return options.error();
         out.options = std::move(*options);
-        for (std::string& output : out.options.outputs)
-            output = numbered(output, i);
+        std::vector<std::string> pictures;
+        for (const std::string& output : out.options.outputs)
+            if (!is_one_of(output, movies_))
+                pictures.push_back(numbered(output, i));
+        out.options.outputs = std::move(pictures);
         return out;
     }
 
@@ -79,6 +101,7 @@ class Row {
     RenderArguments& arguments_;
     OptionTable& given_;
     std::vector<OptionPath> paths_;
+    std::vector<std::string> movies_;
     int count_ = 0;
     bool lights_change_ = false;
 };
@@ -89,6 +112,13 @@ Status check_row_paths(Row& row, const std::vector<std::string>& inputs)
     for (int i = 0; i < row.count(); ++i)
         if (const Status paths = check_paths(row.step(i)->options, inputs); !paths)
             return paths;
+    for (std::size_t i = 0; i < row.movies().size(); ++i) {
+        if (const Status path = check_text_path("-o", row.movies()[i], inputs); !path)
+            return path;
+        for (std::size_t k = 0; k < i; ++k)
+            if (same_file(row.movies()[i], row.movies()[k]))
+                return usage_error("-o", fmt::format("'{}' is given twice", row.movies()[i]));
+    }
     return {};
 }
 
@@ -133,6 +163,7 @@ int run_row(RenderArguments& arguments, OptionTable& given)
     Json steps = Json::array();
     RenderFigures last = figures;
     std::vector<double> times;
+    MovingPicture movie(first.fps);
     for (int i = 0; i < row->count(); ++i) {
         const Step step = std::move(*row->step(i));
         if (i > 0 && row->lights_change()) {
@@ -162,12 +193,23 @@ int run_row(RenderArguments& arguments, OptionTable& given)
         for (const std::string& path : step.options.outputs)
             if (const Status written = write_picture(path, rendered->color, step.options.tonemap, step.options.exposure_ev); !written)
                 return fail(written.error());
+        if (!row->movies().empty())
+            if (const Status added =
+                    movie.add(row->movies()[0], tonemap_to_srgb8(rendered->color, step.options.tonemap, step.options.exposure_ev));
+                !added)
+                return fail(added.error());
         report.event(fmt::format("{} of {}", i + 1, row->count()),
                      fmt::format("{}{:.2f} ms, pixel hash {}{}", step.values.empty() ? "" : step.values + ": ", last.frame.ms,
                                  hash_text(last.hash), step.options.outputs.empty() ? "" : ", " + join(step.options.outputs)));
         if (last.nan_pixels)
             return fail(Error{ExitCode::not_finite, first.scene, fmt::format("step {}", i),
                               fmt::format("{} pixels are NaN or Inf", last.nan_pixels)});
+    }
+    for (const std::string& path : row->movies()) {
+        const std::vector<std::uint8_t> bytes = movie.bytes();
+        if (const Status written = write_file(path, std::string(bytes.begin(), bytes.end())); !written)
+            return fail(written.error());
+        report.wrote(path);
     }
     if (first.stats_file.empty())
         return 0;

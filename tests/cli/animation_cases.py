@@ -1,6 +1,8 @@
 """Pictures in a row: render --animate and --turntable, compare --sequence."""
 
 import json
+import struct
+import zlib
 
 from camera_cases import TINY, area, cube, seen
 from compare_cases import bright, pfm
@@ -63,6 +65,39 @@ def seen_in_file(bench):
     return seen(Still)
 
 
+def chunks(data):
+    at, found = 8, []
+    while at < len(data):
+        size, = struct.unpack(">I", data[at:at + 4])
+        kind, body, sum_, = data[at + 4:at + 8], data[at + 8:at + 8 + size], data[at + 8 + size:at + 12 + size]
+        check(struct.unpack(">I", sum_)[0] == zlib.crc32(kind + body), f"the check sum of {kind}")
+        found.append((kind, body))
+        at += 12 + size
+    return found
+
+
+@case("animation.a_moving_picture_holds_the_pictures_of_its_row")
+def a_moving_picture_holds_the_pictures_of_its_row(bench):
+    bench.run("render", *ROW, "--animate", "roughness=0.2:0.6", "--steps", "3", "--fps", "12", "-o", "a.apng", "-o", "s%d.png").expect(0)
+    found = chunks((bench.folder / "a.apng").read_bytes())
+    kinds = [kind for kind, _ in found]
+    check(kinds[0] == b"IHDR" and kinds[-1] == b"IEND" and kinds.index(b"acTL") < kinds.index(b"IDAT"), f"{kinds}")
+    check(dict(found)[b"acTL"] == struct.pack(">II", 3, 0), "not three pictures for ever")
+    frames, sequence = [], []
+    for kind, body in found:
+        if kind in (b"fcTL", b"fdAT"):
+            sequence.append(struct.unpack(">I", body[:4])[0])
+        if kind == b"fcTL":
+            check(struct.unpack(">IIIIHHBB", body[4:]) == (48, 32, 0, 0, 1, 12, 0, 0), f"{body}")
+            frames.append(b"")
+        elif kind in (b"IDAT", b"fdAT"):
+            frames[-1] += body if kind == b"IDAT" else body[4:]
+    check(sequence == list(range(len(sequence))), f"{sequence}")
+    single = [b"".join(body for kind, body in chunks((bench.folder / f"s{i}.png").read_bytes()) if kind == b"IDAT") for i in range(3)]
+    check(frames == single and len(set(frames)) == 3, "other pictures than those of the row")
+    check(len(zlib.decompress(frames[0])) == 32 * (1 + 3 * 48), "a picture of another size")
+
+
 @case("animation.what_cannot_be_a_row_is_refused")
 def what_cannot_be_a_row_is_refused(bench):
     animate = ("--animate", "roughness=0:1")
@@ -83,6 +118,13 @@ def what_cannot_be_a_row_is_refused(bench):
             ((*animate, "--steps", "2", "-o", "a%d_%d.png"), ("-o", "%04d")),
             ((*animate, "--steps", "2", "-o", "no/such/a%d.png"), ("no/such",)),
             ((*animate, "--frames", "3"), ("--frames", "--animate")),
+            ((*animate, "--steps", "2", "-o", "a.gif"), ("-o", "a.gif", ".apng")),
+            ((*animate, "--steps", "2", "-o", "a.mp4"), ("-o", "a.mp4", ".apng")),
+            ((*animate, "--steps", "2", "-o", "a%d.webp"), ("-o", "a%d.webp", ".apng")),
+            ((*animate, "--steps", "2", "-o", "a.apng", "-o", "./a.apng"), ("-o", "a.apng", "twice")),
+            ((*animate, "--steps", "2", "-o", "no/a.apng"), ("no/a.apng",)),
+            ((*animate, "--steps", "2", "-o", "a%d.png", "--fps", "9"), ("--fps", ".apng")),
+            (("-o", "a.apng"), ("a.apng",)),
             (("--turntable", "1"), ("--turntable", "1")),
             (("--turntable", "4", "--eye", "0,0,1"), ("--eye", "--turntable")),
             (("--turntable", "4", *animate), ("--animate", "--turntable"))):

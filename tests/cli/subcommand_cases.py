@@ -15,7 +15,7 @@ RUNS = {
                ((*REFERENCE[1:], "--checkpoint", "c.part", "--checkpoint-seconds", "0", "--variance", "v.exr", "-o", "r.exr"), (0, 77)),
                (("builtin:plate", *VIEW, "--backend", "vulkan", "-o", "v.png"), (0, 77)),
                (("builtin:plate", *VIEW, "--animate", "roughness=0.1:0.6", "--steps", "2", "-o", "m%d.exr"), (0,)),
-               (("builtin:plate", *VIEW, "--turntable", "2", "-o", "t%d.exr"), (0,)),
+               (("builtin:plate", *VIEW, "--turntable", "2", "-o", "t%d.exr", "-o", "t.apng"), (0,)),
                (("builtin:plate", *VIEW, "--direction-map", "a.png", "-o", "d.exr"), (0,))],
     "compare": [(("a.exr", "a.hdr", "--json", "-", "--error-map", "e.png", "--html", "c.html"), (0,)), (("a.png", "a.tif"), (0,)),
                 (("--sequence", "m%d.exr", "t%d.exr", "--json", "-"), (0,))],
