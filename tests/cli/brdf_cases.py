@@ -1,6 +1,9 @@
 """--brdf: every model that can lie on a surface, under lamps, in mc, in the reference, on a device."""
 
 import json
+import pathlib
+import subprocess
+import sys
 
 from harness import Skipped, case, check
 
@@ -89,3 +92,22 @@ def devices(bench):
                            "--env", "builtin:sky"))
     check_equal(parity(bench, lights, "--brdf", "beckmann", "--technique", "mc", "--samples", "9", "--size", "48x32", "--msaa", "1",
                        "--energy-compensation"))
+
+
+@case("brdf.models_match_their_references_on_one_sheet")
+def models_match_their_references_on_one_sheet(bench):
+    needs_embree(bench)
+    script = pathlib.Path(__file__).resolve().parents[2] / "bench/models_sheet.py"
+    words = (sys.executable, "-B", script, "--program", bench.program, "-o", "sheet.png", "--side", "32", "--samples", "256",
+             "--reference-samples", "128", "--work", "work", "--fail-flip")
+
+    def sheet(limit):
+        return subprocess.run([*words, limit], cwd=bench.folder, env=bench.environment({}), capture_output=True, text=True)
+
+    done = sheet("0.12")
+    check(done.returncode == 0, f"{done.stdout}{done.stderr}")
+    drawn = {line.split()[0] for line in done.stdout.splitlines()}
+    check(drawn == set(lobes(bench)) | {"lambert"}, f"it shows {drawn}")
+    check((bench.folder / "sheet.png").read_bytes().startswith(b"\x89PNG"), "no sheet")
+    (bench.folder / "work/ward.pfm").write_bytes((bench.folder / "work/heidrich_seidel.pfm").read_bytes())
+    check(sheet("0.12").returncode == 1, "another picture than the model's is close to its reference too")
