@@ -212,12 +212,12 @@ EllipsoidFigures measure(const EllipsoidShape& shape, const PlotVec& eye)
 
 std::vector<EllipsoidFigures> measure_ellipsoids()
 {
-    constexpr EllipsoidShape kShapes[] = {
+    constexpr EllipsoidShape kSettings[] = {
         {0.3, 0.5, 0.0, 0.0, 0.0}, {0.3, 0.6, 0.1, -0.08, 0.9}, {0.2, 0.6, 0.25, -0.3, 0.7}, {0.7, 0.15, -0.4, 0.2, 1.9}};
     const PlotVec eyes[] = {unit({0.5, -0.2, 0.7}), unit({0.3, 0.2, 0.9}), unit({0.6, 0.3, 0.4}), unit({0.0, 0.9, 0.1})};
     std::vector<EllipsoidFigures> figures;
-    for (std::size_t i = 0; i < std::size(kShapes); ++i)
-        figures.push_back(measure(kShapes[i], eyes[i]));
+    for (std::size_t i = 0; i < std::size(kSettings); ++i)
+        figures.push_back(measure(kSettings[i], eyes[i]));
     return figures;
 }
 
