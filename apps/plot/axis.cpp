@@ -10,14 +10,7 @@
 namespace burnish {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
-constexpr double kBelow = 92.0; // px
 constexpr int kCurvePoints = 180;
-
-const PlotFns& fns()
-{
-    return FnsByIsa<PlotFns>::oracle(nullptr);
-}
 
 struct Shapes { // as microfacet normals
     std::vector<PlotVec> ellipse, axis, between, samples;
@@ -30,12 +23,12 @@ struct Shapes { // as microfacet normals
 double clamped_share(const PlotVec& end, const PlotVec& o)
 {
     const auto at = [&](double share) { return unit({share * end.x, share * end.y, end.z}); };
-    if (fns().mirrored(end, o).z >= 0.0)
+    if (plot_fns().mirrored(end, o).z >= 0.0)
         return 1.0;
     double inside = 0.0, outside = 1.0;
     for (int i = 0; i < 60; ++i) {
         const double middle = 0.5 * (inside + outside);
-        (fns().mirrored(at(middle), o).z >= 0.0 ? inside : outside) = middle;
+        (plot_fns().mirrored(at(middle), o).z >= 0.0 ? inside : outside) = middle;
     }
     return inside;
 }
@@ -45,10 +38,10 @@ Shapes shapes_of(const LobePlot& lobe, double alpha_x, double alpha_y, const Plo
     const double rx = lobe.k * alpha_x / std::sqrt(2.0), ry = lobe.k * alpha_y / std::sqrt(2.0);
     Shapes s;
     for (int i = 0; i <= kCurvePoints; ++i)
-        s.ellipse.push_back(fns().normal_at(2.0 * kPi * i / kCurvePoints, rx, ry));
+        s.ellipse.push_back(plot_fns().normal_at(2.0 * kPi * i / kCurvePoints, rx, ry));
     for (int i = 0; i < 2; ++i) {
-        s.near[i] = fns().normal_at(axis.t_near + kPi * i, rx, ry);
-        s.far[i] = fns().normal_at(axis.t_far + kPi * i, rx, ry);
+        s.near[i] = plot_fns().normal_at(axis.t_near + kPi * i, rx, ry);
+        s.far[i] = plot_fns().normal_at(axis.t_far + kPi * i, rx, ry);
     }
     double share[2];
     for (int i = 0; i < 2; ++i) {
@@ -57,7 +50,7 @@ Shapes shapes_of(const LobePlot& lobe, double alpha_x, double alpha_y, const Plo
     }
     const double turn_in = 0.5 * (share[0] - share[1]) * (axis.t_near - axis.t_far); // towards the end that is clamped less
     for (int i = 0; i < 2; ++i)
-        s.moved[i] = fns().normal_at(axis.t_near + kPi * i + (i == 0 ? -turn_in : turn_in), rx, ry);
+        s.moved[i] = plot_fns().normal_at(axis.t_near + kPi * i + (i == 0 ? -turn_in : turn_in), rx, ry);
     for (int i = 0; i <= kCurvePoints; ++i) {
         s.axis.push_back(mix(s.far[0], s.far[1], static_cast<double>(i) / kCurvePoints));
         s.between.push_back(mix(axis.ends[0], axis.ends[1], static_cast<double>(i) / kCurvePoints));
@@ -66,7 +59,7 @@ Shapes shapes_of(const LobePlot& lobe, double alpha_x, double alpha_y, const Plo
         s.samples.push_back(mix(axis.ends[0], axis.ends[1], lobe.samples == 1 ? 0.5 : static_cast<double>(i) / (lobe.samples - 1)));
     const double turn = 2.0 * std::asin(std::min(1.0, lobe.k * axis.radius / 2.0)); // of a direction, for that distance
     for (const PlotVec& w : s.samples) {
-        const PlotVec d = fns().mirrored(w, o);
+        const PlotVec d = plot_fns().mirrored(w, o);
         const PlotVec helper = std::abs(d.z) < 0.9 ? PlotVec{0, 0, 1} : PlotVec{1, 0, 0};
         const PlotVec a = unit(cross(d, helper)), b = cross(d, a);
         std::vector<PlotVec> circle;
@@ -116,7 +109,7 @@ Drawing plot_axis(const LobePlot& lobe)
     }
     const PlotVec o = {std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)};
     AxisShape axis{};
-    fns().axis(alpha_x, alpha_y, o, lobe.k, lobe.beta, lobe.samples, axis);
+    plot_fns().axis(alpha_x, alpha_y, o, lobe.k, lobe.beta, lobe.samples, axis);
     const Shapes shapes = shapes_of(lobe, alpha_x, alpha_y, o, axis);
 
     const double nan = std::nan("");
@@ -126,7 +119,7 @@ Drawing plot_axis(const LobePlot& lobe)
     draw_density(out, slopes, [&](const Place& p) {
         const PlotVec w = unit({p.x, p.y, 1.0});
         const double z2 = w.z * w.z;
-        return fns().normals(alpha_x, alpha_y, w) * z2 * z2; // of slopes: D times the fourth power of the cosine
+        return plot_fns().normals(alpha_x, alpha_y, w) * z2 * z2; // of slopes: D times the fourth power of the cosine
     });
     draw_frame(out, slopes, Edge::slopes);
     draw_shapes(out, slopes, shapes, [&](const PlotVec& w) { return w.z > 0.0 ? Place{w.x / w.z, w.y / w.z} : Place{nan, nan}; });
@@ -134,7 +127,7 @@ Drawing plot_axis(const LobePlot& lobe)
     const Panel normals{"microfacet normals", 2.0 * kGap + kSide, 1.0};
     draw_density(out, normals, [&](const Place& p) {
         const double z2 = 1.0 - p.x * p.x - p.y * p.y;
-        return z2 > 0.0 ? fns().normals(alpha_x, alpha_y, {p.x, p.y, std::sqrt(z2)}) : 0.0;
+        return z2 > 0.0 ? plot_fns().normals(alpha_x, alpha_y, {p.x, p.y, std::sqrt(z2)}) : 0.0;
     });
     draw_frame(out, normals, Edge::horizon);
     draw_shapes(out, normals, shapes, [&](const PlotVec& w) { return w.z >= 0.0 ? Place{w.x, w.y} : Place{nan, nan}; });
@@ -142,14 +135,14 @@ Drawing plot_axis(const LobePlot& lobe)
     const Panel reflected{"reflected directions", 3.0 * kGap + 2.0 * kSide, 1.0};
     draw_density(out, reflected, [&](const Place& p) {
         const double z2 = 1.0 - p.x * p.x - p.y * p.y;
-        return z2 > 0.0 ? fns().lobe(alpha_x, alpha_y, o, {p.x, p.y, std::sqrt(z2)}) : 0.0;
+        return z2 > 0.0 ? plot_fns().lobe(alpha_x, alpha_y, o, {p.x, p.y, std::sqrt(z2)}) : 0.0;
     });
     draw_frame(out, reflected, Edge::horizon);
     draw_shapes(out, reflected, shapes, [&](const PlotVec& w) {
-        const PlotVec i = fns().mirrored(w, o);
+        const PlotVec i = plot_fns().mirrored(w, o);
         return i.z >= 0.0 ? Place{i.x, i.y} : Place{nan, nan};
     });
-    const PlotVec left = fns().mirrored(shapes.moved[0], o), right = fns().mirrored(shapes.moved[1], o);
+    const PlotVec left = plot_fns().mirrored(shapes.moved[0], o), right = plot_fns().mirrored(shapes.moved[1], o);
     out.text(kGap, kTop + kSide + 44.0, "note",
              fmt::format("alpha_lin {:g}, eta {:g}, seen from {:g} degrees off the normal, {:g} about it; k {:g}, beta {:g}, {} samples; "
                          "width {:.5f}, radius {:.5f}",

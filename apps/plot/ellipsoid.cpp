@@ -10,14 +10,13 @@
 namespace burnish {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr int kBinRows = 8, kBinColumns = 16; // of histograms, in cosine and azimuth
 constexpr double kLeastExpected = 20.0;       // normals a bin; bins with fewer are one
 constexpr int kDirections = 24;               // rows of directions that areas are looked at from
 constexpr double kTiltDeg = 25.0;             // of measure_skew()
 constexpr int kEnergySide = 96;               // of its samples, squared
 
-const EllipsoidFns& fns()
+const EllipsoidFns& ellipsoid_fns()
 {
     return FnsByIsa<EllipsoidFns>::oracle(nullptr);
 }
@@ -96,26 +95,26 @@ bool is_seen(const PlotVec& m, const PlotVec& eye)
 bool from_sphere(const EllipsoidShape& s, const PlotVec& eye, Random& random, PlotVec& m)
 {
     const PlotVec start = disk_point(random, eye, 1.0 / std::min({s.alpha_x, s.alpha_y, 1.0}));
-    const PlotVec p = fns().map(s, start), w = fns().map(s, eye); // |p + t w| = 1
+    const PlotVec p = ellipsoid_fns().map(s, start), w = ellipsoid_fns().map(s, eye); // |p + t w| = 1
     const double a = dot(w, w), b = dot(p, w), c = dot(p, p) - 1.0, under = b * b - a * c;
     if (under < 0.0)
         return false;
     const double t = (-b + std::sqrt(under)) / a; // the side that the eye sees
-    m = unit(fns().transposed(s, sum(p, scaled(w, t))));
+    m = unit(ellipsoid_fns().transposed(s, sum(p, scaled(w, t))));
     return is_seen(m, eye);
 }
 
 bool from_outline(const EllipsoidShape& s, const PlotVec& eye, Random& random, PlotVec& m)
 {
-    const PlotVec w = unit(fns().map(s, eye)), disk = disk_point(random, w, 1.0);
-    m = unit(fns().transposed(s, sum(disk, scaled(w, std::sqrt(std::max(0.0, 1.0 - dot(disk, disk)))))));
+    const PlotVec w = unit(ellipsoid_fns().map(s, eye)), disk = disk_point(random, w, 1.0);
+    m = unit(ellipsoid_fns().transposed(s, sum(disk, scaled(w, std::sqrt(std::max(0.0, 1.0 - dot(disk, disk)))))));
     return is_seen(m, eye);
 }
 
 bool without_rejection(const EllipsoidShape& s, const PlotVec& eye, Random& random, PlotVec& m)
 {
     const double x = random.next();
-    m = fns().sample(s, eye, x, random.next()).m;
+    m = ellipsoid_fns().sample(s, eye, x, random.next()).m;
     return true;
 }
 
@@ -163,9 +162,9 @@ SamplerFigures measure_sampler(int version, const EllipsoidShape& shape, const P
     add(rest_found, rest_expected);
     --figures.freedom;
     // areas in units of the part of the ellipsoid with normals above the horizon, as the surface's normal sees it: pi |A n| / |det A|
-    const PlotVec an = fns().map(shape, {0, 0, 1}), ao = fns().map(shape, eye);
+    const PlotVec an = ellipsoid_fns().map(shape, {0, 0, 1}), ao = ellipsoid_fns().map(shape, eye);
     const double smallest = std::min({shape.alpha_x, shape.alpha_y, 1.0}), det = shape.alpha_x * shape.alpha_y;
-    const double seen = fns().visible_area(shape, eye) * std::sqrt(dot(an, an)) / det;
+    const double seen = ellipsoid_fns().visible_area(shape, eye) * std::sqrt(dot(an, an)) / det;
     const double of[] = {1.0 / (smallest * smallest), std::sqrt(dot(ao, ao)) / det, seen};
     figures.kept_by_area = seen / of[version];
     return figures;
@@ -181,22 +180,22 @@ EllipsoidFigures measure(const EllipsoidShape& shape, const PlotVec& eye)
     PlotVec mean = {0, 0, 0};
     int cell = 0;
     each_normal([&](const PlotVec& m, double part) {
-        const double d = fns().d(shape, m) * part;
+        const double d = ellipsoid_fns().d(shape, m) * part;
         f.projected += d * m.z;
         mean = sum(mean, scaled(m, d));
-        expected[bin_of(m)] += fns().half_pdf(shape, eye, m) * part;
+        expected[bin_of(m)] += ellipsoid_fns().half_pdf(shape, eye, m) * part;
         if (++cell % 7 == 0) // areas need fewer normals
             for (std::size_t i = 0; i < areas.size(); i += 5)
                 areas[i] += 7.0 * d * std::max(0.0, dot(m, seen_from[i]));
     });
     f.mean = unit(mean);
-    f.mean_by_shape = unit(fns().transposed(shape, fns().map(shape, {0, 0, 1})));
+    f.mean_by_shape = unit(ellipsoid_fns().transposed(shape, ellipsoid_fns().map(shape, {0, 0, 1})));
     const PlotVec wall = {-mean.x, -mean.y, 0.0}; // with it the mean of all normals is the surface's
     f.wall = std::sqrt(dot(wall, wall));
     f.least_visible = f.least_with_wall = 1e30;
     for (std::size_t i = 0; i < areas.size(); ++i) {
         const PlotVec& u = seen_from[i];
-        const double area = fns().visible_area(shape, u);
+        const double area = ellipsoid_fns().visible_area(shape, u);
         if (i % 5 == 0)
             f.area_error = std::max(f.area_error, std::abs(areas[i] - area));
         f.clamped += area < u.z * (1.0 - 1e-12) ? 1.0 / static_cast<double>(areas.size()) : 0.0;
@@ -224,7 +223,7 @@ std::vector<EllipsoidFigures> measure_ellipsoids()
 std::vector<EnergyRow> measure_skew()
 {
     const EllipsoidShape shape = {0.25, 0.25, kTiltDeg * kPi / 180.0, 0.0, 0.0};
-    const PlotVec peak = fns().peak(shape), t = {1, 0, 0}, b = cross(peak, t);
+    const PlotVec peak = ellipsoid_fns().peak(shape), t = {1, 0, 0}, b = cross(peak, t);
     std::vector<EnergyRow> rows;
     for (int degrees = -85; degrees <= 85; degrees += 5) {
         const double theta = degrees * kPi / 180.0;
@@ -234,11 +233,11 @@ std::vector<EnergyRow> measure_skew()
         for (int i = 0; i < kEnergySide; ++i)
             for (int k = 0; k < kEnergySide; ++k) {
                 const double x = (i + 0.5) / kEnergySide, y = (k + 0.5) / kEnergySide;
-                row.skew += fns().sample(shape, light, x, y).weight;
+                row.skew += ellipsoid_fns().sample(shape, light, x, y).weight;
                 if (turned.z <= 0.0)
                     continue;
                 // What leaves the surface is measured by the surface's own cosines, which the turned frame's weights do not know.
-                const NormalSample s = fns().upright(shape, turned, x, y);
+                const NormalSample s = ellipsoid_fns().upright(shape, turned, x, y);
                 const PlotVec out = sum(sum(scaled(t, s.wi.x), scaled(b, s.wi.y)), scaled(peak, s.wi.z));
                 if (out.z > 0.0 && s.wi.z > 0.0)
                     row.normal_map += s.weight * out.z / s.wi.z * turned.z / light.z;

@@ -12,16 +12,9 @@
 namespace burnish {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846, kDegree = kPi / 180.0;
-constexpr double kBelow = 92.0;                     // px
 constexpr int kGrid = 200;                          // places along a side among which the peak is looked for
 constexpr double kShares[] = {0.9, 0.5, 0.1, 0.01}; // of the peak, of contours
 constexpr int kCutPoints = 1440;                    // of half a turn
-
-const PlotFns& fns()
-{
-    return FnsByIsa<PlotFns>::oracle(nullptr);
-}
 
 // A direction above the horizon by what it is seen along the normal; below: none.
 bool risen(const Place& p, PlotVec& w)
@@ -100,13 +93,13 @@ Drawing plot_lobe(const LobePlot& plot)
     const LobeInPlace lobe = {plot.model, std::max(a * (1.0 + plot.anisotropy), 1e-3), std::max(a * (1.0 - plot.anisotropy), 1e-3),
                               plot.tilt_x_deg * kDegree, plot.tilt_y_deg * kDegree};
     const PlotVec o = {std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)};
-    const PlotVec normal = {0, 0, 1}, mirror = fns().mirrored(normal, o), common = fns().peak_normal(lobe);
-    const auto value = [&](const PlotVec& w) { return fns().value(lobe, o, w); };
+    const PlotVec normal = {0, 0, 1}, mirror = plot_fns().mirrored(normal, o), common = plot_fns().peak_normal(lobe);
+    const auto value = [&](const PlotVec& w) { return plot_fns().value(lobe, o, w); };
     const Density reflected = [&](const Place& p) {
         PlotVec w;
         return risen(p, w) ? value(w) : 0.0;
     };
-    const Place peak_place = peak_of(reflected, {mirror, fns().mirrored(common, o)});
+    const Place peak_place = peak_of(reflected, {mirror, plot_fns().mirrored(common, o)});
     PlotVec peak;
     risen(peak_place, peak);
     const double most = value(peak), sine = std::hypot(peak.x, peak.y);
@@ -117,7 +110,7 @@ Drawing plot_lobe(const LobePlot& plot)
     const Panel halves{"half vectors that the eye sees", kGap, 1.0};
     const Density half = [&](const Place& p) {
         PlotVec h;
-        return risen(p, h) ? fns().visible(lobe, o, h) : 0.0;
+        return risen(p, h) ? plot_fns().visible(lobe, o, h) : 0.0;
     };
     draw_density(out, halves, half);
     draw_frame(out, halves, Edge::horizon);

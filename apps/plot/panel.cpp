@@ -7,7 +7,6 @@
 namespace burnish {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr int kCells = 75;         // of a density, along a side
 constexpr int kContourCells = 150; // of the grid that contours are found on
 constexpr int kCirclePoints = 180;

@@ -5,10 +5,17 @@
 
 #include "apps/plot/shapes.h"
 #include "apps/report/drawing.h"
+#include "core/math/scalar_math.h"
 
 namespace burnish {
 
-inline constexpr double kSide = 300.0, kGap = 24.0, kTop = 40.0; // px, of a panel and around it
+inline constexpr double kSide = 300.0, kGap = 24.0, kTop = 40.0, kBelow = 92.0; // px, of a panel and around it
+inline constexpr double kDegree = kPi / 180.0;                                  // rad
+
+inline const PlotFns& plot_fns()
+{
+    return FnsByIsa<PlotFns>::oracle(nullptr);
+}
 
 struct Place {
     double x = 0.0, y = 0.0;

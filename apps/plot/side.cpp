@@ -12,16 +12,10 @@
 namespace burnish {
 namespace {
 
-constexpr double kBelow = 92.0;                  // px
 constexpr int kMapCells = 100, kShareCells = 60; // along a side, of a sphere that is shown and of one that is counted
 constexpr int kMeanSamples = 8;                  // of a lobe, squared
 constexpr int kSteps = 20;                       // of eta from -0.95 to 0.95
-constexpr double kMostEta = 0.95, kDegree = 3.14159265358979323846 / 180.0;
-
-const PlotFns& fns()
-{
-    return FnsByIsa<PlotFns>::oracle(nullptr);
-}
+constexpr double kMostEta = 0.95;
 
 enum Looker { lobe_itself, bent_normal, major_axis, lookers };
 constexpr const char* kNames[lookers] = {"the lobe's mean", "bent_normal", "major_axis, mean of samples"};
@@ -46,14 +40,14 @@ Looks looks_at(const LobePlot& plot, double eta, const PlotVec& n)
     }
     const PlotVec o = {u.z, v.z, n.z}; // to the eye: (0, 0, 1)
     Looks looks;
-    looks.along[lobe_itself] = fns().mean_direction(lobe, o, kMeanSamples);
-    looks.along[bent_normal] = fns().bent_direction(lobe, o);
+    looks.along[lobe_itself] = plot_fns().mean_direction(lobe, o, kMeanSamples);
+    looks.along[bent_normal] = plot_fns().bent_direction(lobe, o);
     AxisShape axis{};
-    fns().axis(lobe.alpha_x, lobe.alpha_y, o, plot.k, plot.beta, plot.samples, axis);
+    plot_fns().axis(lobe.alpha_x, lobe.alpha_y, o, plot.k, plot.beta, plot.samples, axis);
     PlotVec sum = {0, 0, 0};
     for (int i = 0; i < plot.samples; ++i) {
         const double t = plot.samples == 1 ? 0.5 : static_cast<double>(i) / (plot.samples - 1);
-        const PlotVec d = fns().mirrored(mix(axis.ends[0], axis.ends[1], t), o);
+        const PlotVec d = plot_fns().mirrored(mix(axis.ends[0], axis.ends[1], t), o);
         sum = {sum.x + d.x, sum.y + d.y, sum.z + d.z};
     }
     looks.along[major_axis] = sum;
