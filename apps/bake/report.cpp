@@ -6,11 +6,11 @@
 #include <functional>
 
 #include "core/image/magma.h"
+#include "core/math/scalar_math.h"
 
 namespace burnish {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr std::size_t kProbes = 1u << 20;
 
 using Choice = std::function<bool(const ltc::Place&)>;
