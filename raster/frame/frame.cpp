@@ -344,8 +344,10 @@ const ModelInfo& lobe_model(int lobe)
 
 int lobe_of(const FrameDesc& d)
 {
-    const bool replaced = d.tilt_rad != glm::vec2(0.0f) && (lobe_traits_of(d.brdf) & kLobeOfAll);
-    return replaced ? lobe_with(kLobeOfTilted) : d.brdf;
+    const bool tilted = d.tilt_rad != glm::vec2(0.0f), separable = d.masking != 0;
+    if (!(lobe_traits_of(d.brdf) & kLobeOfAll) || !(tilted || separable))
+        return d.brdf;
+    return lobe_with(!separable ? kLobeOfTilted : tilted ? kSeparableOfTilted : kSeparableOfAll);
 }
 
 Status check_lobe(const FrameDesc& d, const TechniqueInfo& technique)
@@ -355,6 +357,10 @@ Status check_lobe(const FrameDesc& d, const TechniqueInfo& technique)
     if (d.tilt_rad != glm::vec2(0.0f) && !(lobe_traits_of(lobe) & kLies_surface))
         return Error{ExitCode::usage, "--tilt", "",
                      "lobes of " + name + " cannot be tilted; those of " + lobe_model(lobe_with(kLobeOfTilted)).name + " can"};
+    if (d.masking != 0 && !(lobe_traits_of(d.brdf) & kLobeOfAll))
+        return Error{ExitCode::usage, "--masking", "",
+                     "lobes of " + name + " have a masking of their own; that of " + lobe_model(lobe_with(kLobeOfAll)).name +
+                         " can be chosen"};
     if (!(technique.traits & kSamplesLobe) && !(lobe_traits_of(d.brdf) & kLobeOfAll))
         return Error{ExitCode::usage, "--technique", "",
                      std::string(technique.name) + " is made for " + lobe_model(lobe_with(kLobeOfAll)).name + ", not for --brdf " + name};

@@ -214,6 +214,8 @@ void VulkanRenderer::all_visibility(VkCommandBuffer c, const Band& band)
 Specialization technique_constants(const std::vector<MaterialRecord>& materials, const FrameRecord& frame)
 {
     std::int32_t techniques = 0, lobes = 1 << frame.lobe;
+    if (frame.masking != 0) // which is compared with the usual one
+        lobes |= 1 << lobe_with(kLobeOfAll) | 1 << lobe_with(kSeparableOfAll);
     for (const MaterialRecord& m : materials)
         techniques |= 1 << m.technique, lobes |= 1 << m.lights_lobe;
     return {techniques, lobes};

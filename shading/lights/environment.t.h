@@ -9,21 +9,21 @@
 
 BN_KERNELS_BEGIN
 
-// traits: of the technique. What is left of a lobe that the technique took for one that is whole, upright and above the horizon.
+// traits: of the technique. What is left of a lobe that the technique took for the usual one, whole, upright and above the horizon.
 BN_FN real3 seen_of_lobe(frame_ref f, BN_IN(shaded_point) x, int traits, real3 specular)
 {
-    if (lies_in_surface(f) && (traits & kSamplesLobe) == 0) {
-        real shown = x.shown;
-        if ((traits & kTestsHorizon) == 0)
-            shown = shown / max(x.dfg.scale + x.dfg.bias, lit(0.05)); // what is in already
-        return specular * shown;
+    real3 left = specular;
+    if (stands_in(f) && (traits & kSamplesLobe) == 0) {
+        left = specular * x.shown;
+        if (lies_in_surface(f)) // the horizon's part is in it
+            return left;
     }
     if (x.turned && (traits & kTestsHorizon) == 0) {
         real3 mirrored = x.s.n * (lit(2.0) * k_dot3(x.s.n, x.s.v)) - x.s.v;
         real alpha = x.s.roughness * x.s.roughness;
-        return specular * horizon_fade(x.surface_axes.n, mirrored, alpha);
+        return left * horizon_fade(x.surface_axes.n, mirrored, alpha);
     }
-    return specular;
+    return left;
 }
 
 // specular: of the technique. Occlusion dims all of it.

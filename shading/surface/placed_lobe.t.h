@@ -44,6 +44,16 @@ BN_FN bool lobe_has(int model, int trait)
     return false;
 }
 
+// The place of the lobe that has the trait.
+BN_FN int lobe_that_has(int trait)
+{
+#define BN_LOBE(id, at, type, lies, normals, traits, made_of)                                                                              \
+    if (((traits)&trait) != 0)                                                                                                             \
+        return at;
+#include "shading/models.def"
+    return 0;
+}
+
 BN_FN placed_lobe with_params(placed_lobe lobe)
 {
     placed_lobe a = lobe;
@@ -137,18 +147,24 @@ BN_FN bsdf_sample placed_lobe_sample(placed_lobe a, real2 xi)
     return b;
 }
 
-// Directional albedo where nothing is absorbed: what a lobe that is fetched as a whole is scaled by. By 21 of its own samples, a Fibonacci
-// lattice: off by 0.02 rms, by 0.07 at most. Tables have it for the usual lobes: see directional_albedo().
-BN_STAGE real placed_lobe_albedo(BN_IN(placed_lobe) a)
+// Directional albedo where nothing is absorbed, by the lobe's own samples, a Fibonacci lattice. count, before: a Fibonacci number of them
+// and the one before it.
+BN_STAGE real placed_lobe_mean(BN_IN(placed_lobe) a, int count, int before)
 {
-    real part = lit(0.047619047619047616);
+    real part = lit(1.0) / to_real(int_lit(count));
     real sum = lit(0.0);
-    for (int i = 0; i < 21; ++i) {
+    for (int i = 0; i < count; ++i) {
         real x = (to_real(int_lit(i)) + lit(0.5)) * part;
-        real y = (to_real(int_lit(i * 13 % 21)) + lit(0.5)) * part;
+        real y = (to_real(int_lit(i * before % count)) + lit(0.5)) * part;
         sum = sum + placed_lobe_sample(a, vec2_of(x, y)).weight;
     }
     return sum * part;
+}
+
+// By 21 samples: off by 0.02 rms, by 0.07 at most. Tables have it for the usual lobes: see directional_albedo().
+BN_FN real placed_lobe_albedo(BN_IN(placed_lobe) a)
+{
+    return placed_lobe_mean(a, 21, 13);
 }
 
 // BRDF times cosine over the density of normals that D would be if it were GGX's about the lobe's own normal, of a model whose normals are

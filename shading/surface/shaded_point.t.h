@@ -22,7 +22,7 @@ struct shaded_point {
     bool diffuse;               // s.diffuse may be above 0
     dfg_value dfg;
     real3 albedo; // directional, of the lobe: for techniques of a split integral
-    real shown;   // directional albedo of a lobe that no table is of, by its own samples, where the frame asks for it
+    real shown;   // directional albedo of a lobe that takes the usual one's place, over that of the usual one, upright; 1 otherwise
     real3 gain;   // energy compensation, which multiplies the specular lobe; 1 without
     real3 dielectric_f0;
     real dielectric_f90;
@@ -38,6 +38,35 @@ BN_FN placed_lobe placed_lobe_at(frame_ref f, BN_IN(shaded_point) x)
 BN_FN bool lies_in_surface(frame_ref f)
 {
     return (the_frame(f).lobe_traits & kLies_surface) != 0;
+}
+
+// Whether the frame's lobes take the place of the usual one, of which the tables are: tilted or masked in another way.
+BN_FN bool stands_in(frame_ref f)
+{
+    return (the_frame(f).lobe_traits & kLobeOfAll) == 0 && lobe_has(the_frame(f).brdf, kLobeOfAll);
+}
+
+// See shaded_point::shown. By the same samples of both, whose errors are alike: it goes to 1 with the tilt. So many that none of them is
+// seen to go below the horizon as the tilt changes.
+BN_FN real share_of_usual(frame_ref f, BN_IN(shaded_point) x)
+{
+    real least = lit(0.05);
+    surface_frame upright;
+    upright.n = x.s.n;
+    upright.t = x.lobe.u_axis;
+    upright.b = x.lobe.v_axis;
+    real share = lit(1.0);
+    if (lies_in_surface(f)) {
+        placed_lobe own = placed_lobe_of(the_frame(f).lobe, x.lobe, x.s.n, x.s.v, upright);
+        share = placed_lobe_mean(placed_lobe_at(f, x), 55, 34) / max(placed_lobe_mean(own, 55, 34), least);
+    }
+    if (the_frame(f).masking != 0) {
+        placed_lobe separable = placed_lobe_of(lobe_that_has(kSeparableOfAll), x.lobe, x.s.n, x.s.v, upright);
+        placed_lobe usual = placed_lobe_of(lobe_that_has(kLobeOfAll), x.lobe, x.s.n, x.s.v, upright);
+        share = share * placed_lobe_mean(separable, 55, 34) / max(placed_lobe_mean(usual, 55, 34), least);
+    }
+    real most = lit(1.0) / max(x.dfg.scale + x.dfg.bias, least); // no lobe gives back more than it gets
+    return min(share, most);
 }
 
 // Directional albedo of the lobe: of its own two widths where they differ.
@@ -90,10 +119,15 @@ BN_FN void make_shaded_point(frame_ref f, material_ref m, BN_IN(material_inputs)
         x.gain = vec3_all(lit(1.0));
     else if ((the_frame(f).lobe_traits & kLobeOfAll) == 0) {
         bool compensated = the_frame(f).energy_compensation != 0;
-        if (compensated || (the_material(m).technique_traits & kSamplesLobe) == 0)
-            x.shown = placed_lobe_albedo(placed_lobe_at(f, x));
+        real albedo = lit(1.0);
+        if (stands_in(f)) {
+            if (compensated || (the_material(m).technique_traits & kSamplesLobe) == 0)
+                x.shown = share_of_usual(f, x);
+            albedo = (x.dfg.scale + x.dfg.bias) * x.shown;
+        } else if (compensated)
+            albedo = placed_lobe_albedo(placed_lobe_at(f, x));
         if (compensated)
-            x.gain = energy_compensation_of_albedo(x.s.f0, min(x.shown, lit(1.0)));
+            x.gain = energy_compensation_of_albedo(x.s.f0, min(albedo, lit(1.0)));
     }
 }
 

@@ -43,11 +43,14 @@ BN_FN real3 filtered_is_sum(frame_ref f, BN_IN(shaded_point) x, bool ggx)
         kept = kept + weight;
     }
     real3 total = cube_terms_value(sum);
-    if (lies_in_surface(f)) { // a mean, to be scaled by the tilted lobe's albedo
+    real own = weights / count;
+    if (lies_in_surface(f)) { // as if the lobe were upright: what a tilted one loses below the horizon is in x.shown
         real mean_weight = kept / count;
-        total = total / max(mean_weight, lit(1e-4));
-    } else if (the_frame(f).energy_compensation != 0) { // these few samples, and a Beckmann lobe, have an albedo of their own
-        real own = weights / count;
+        total = total * own / max(mean_weight, lit(1e-4));
+    }
+    if (the_frame(f).energy_compensation != 0) { // these few samples, and a Beckmann lobe, have an albedo of their own
+        if (stands_in(f))
+            own = own * x.shown;
         total = total * energy_compensation_of_albedo(x.s.f0, own) / x.gain;
     }
     uniform_real scale = the_frame(f).box.scale / the_frame(f).specular.scale;

@@ -28,7 +28,7 @@ def lobes(bench):
 @case("brdf.list_models_names_what_it_takes", tier="check")
 def names(bench):
     found = lobes(bench)
-    check(len(found) == 9 and [name for name, lamps in found.items() if lamps] == ["heidrich_seidel"], f"{found}")
+    check(len(found) == 10 and [name for name, lamps in found.items() if lamps] == ["heidrich_seidel"], f"{found}")
     hashes = {}
     for name in found:
         hashes[name] = bench.figures(*CLOSE, "--technique", "mc", "--samples", "4", "--brdf", name)
@@ -46,9 +46,25 @@ def refusals(bench):
         done.expect_one_line("--technique", technique, "ward")
     bench.run("render", *CLOSE, "--technique", "mc", "--brdf", "ward", "--tilt", "10,0", "-o", "a.exr").expect(2).expect_one_line("--tilt", "ward")
     bench.run("render", *CLOSE, "--backend", "reference", "--brdf", "beckmann", "--tilt", "10,0").expect(2).expect_one_line("--tilt", "beckmann")
+    for words in (("--technique", "mc"), ("--backend", "reference")):
+        bench.run("render", *CLOSE, *words, "--brdf", "ward", "--masking", "separable", "-o", "a.exr").expect(2).expect_one_line("--masking", "ward")
+    bench.run("render", *CLOSE, "--masking", "none", "-o", "a.exr").expect(2).expect_one_line("--masking", "correlated", "separable")
     bench.run("chart", "builtin:sphere", "--brdf", "ward", "--techniques", "mc,lobe_line", "-o", "r").expect(2).expect_one_line("lobe_line", "ward")
     bench.run("parity", "builtin:sphere", "--brdf", "ward", "--technique", "mc,major_axis").expect(2).expect_one_line("major_axis", "ward")
     check(bench.left_behind() == [], f"left behind: {bench.left_behind()}")
+
+
+# The models that lie level and those that can be tilted are one where nothing is tilted.
+@case("brdf.masking_chooses_among_the_models", tier="check")
+def masking(bench):
+    mc = (*CLOSE, "--technique", "mc", "--samples", "4")
+    hashes = {}
+    for name, words in (("usual", ()), ("separable", ("--masking", "separable")), ("tilted", ("--tilt", "20,0")),
+                        ("tilted, separable", ("--tilt", "20,0", "--masking", "separable")), ("ggx_aniso_separable", ("--brdf", "ggx_aniso_separable")),
+                        ("correlated", ("--masking", "correlated"))):
+        hashes[name] = bench.figures(*mc, *words)["pixel_hash"]
+    check(hashes["separable"] == hashes["ggx_aniso_separable"] and hashes["correlated"] == hashes["usual"], f"{hashes}")
+    check(len(set(hashes.values())) == 4, f"{hashes}")
 
 
 # A patch of the sphere, over which little changes from one side of a pixel to the other: mc shades its middle, the reference all of it.
@@ -60,12 +76,17 @@ def reference_of(bench, name):
     bench.run("render", *PATCH, "--backend", "reference", "--samples", "1024", "--brdf", name, "-o", "r.pfm", "--variance", "v.pfm").expect(0)
 
 
+def against_files(bench, reference, test, variance):
+    """How a picture differs from a reference of known variance."""
+    done = bench.run("compare", reference, test, "--variance", variance, "--significance", "0.01", "--json", "c.json", "-q")
+    check(done.code in (0, 1), done.describe())
+    return json.loads((bench.folder / "c.json").read_text())
+
+
 def against_reference(bench, samples, name):
     """How mc by `name` differs from the reference that is there."""
     bench.run("render", *PATCH, "--technique", "mc", "--samples", samples, "--brdf", name, "-o", "mc.pfm").expect(0)
-    done = bench.run("compare", "r.pfm", "mc.pfm", "--variance", "v.pfm", "--significance", "0.01", "--json", "c.json", "-q")
-    check(done.code in (0, 1), done.describe())
-    return json.loads((bench.folder / "c.json").read_text())
+    return against_files(bench, "r.pfm", "mc.pfm", "v.pfm")
 
 
 # So many samples that the noise is the reference's, and few.

@@ -125,7 +125,8 @@ def emulated_samples(bench):
 @case("parity.options_of_shading_are_equal")
 def options_of_shading(bench):
     lights = bench.data_file("models/Lights.glb")
-    for options in (("--tilt", "20,-10"), ("--anisotropy", "0.7", "--roughness", "0.3", "--dfg", "fit"),
+    for options in (("--tilt", "20,-10"), ("--masking", "separable", "--energy-compensation"), ("--masking", "separable", "--tilt", "20,-10"),
+                    ("--anisotropy", "0.7", "--roughness", "0.3", "--dfg", "fit"),
                     ("--horizon", "--energy-compensation", "--texture-anisotropy", "4"),
                     ("--energy-compensation", "--anisotropy", "0.8", "--roughness", "0.8"),
                     ("--energy-compensation", "--tilt", "20,-10", "--anisotropy", "0.5", "--roughness", "0.8")):

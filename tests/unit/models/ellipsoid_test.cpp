@@ -55,6 +55,22 @@ TEST(ellipsoid_vectors, distribution_masking_brdf_and_densities_are_known)
     EXPECT_NEAR(call(oracle_fns(), "ellipsoid_k", in)[0] * lit.wo[2], 1.17413963, 2e-8);
 }
 
+// Smith's G2 of G1s whose microfacets' heights are one for both directions, where a minimum is at work too.
+TEST(ellipsoid_vectors, correlated_masking_follows_from_that_of_either_direction)
+{
+    for (const EllipsoidCase& c : kEllipsoids) {
+        const auto g1 = [&](Vec w) {
+            std::vector<double> in = c.params;
+            in.insert(in.end(), w.begin(), w.end());
+            return call(oracle_fns(), "ellipsoid_g1", in)[0];
+        };
+        const double o = g1(c.wo), i = g1(c.wi), correlated = 1 / (1 / o + 1 / i - 1);
+        EXPECT_NEAR(eval("ellipsoid_correlated", c.params, c.wo, c.wi), eval("ellipsoid", c.params, c.wo, c.wi) * correlated / (o * i),
+                    1e-12);
+        EXPECT_GE(correlated, o * i);
+    }
+}
+
 TEST(ellipsoid_vectors, visible_normals_and_weights_are_known)
 {
     struct Case {

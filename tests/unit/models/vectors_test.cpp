@@ -24,6 +24,13 @@ TEST(ggx_vectors, equals_the_ellipsoid_where_it_is_not_tilted)
 {
     for (const Pair& p : kPairs)
         EXPECT_NEAR(eval("ggx_aniso_separable", {.3, .6}, p.v, p.l), eval("ellipsoid", {.3, .6}, p.v, p.l), 1e-12);
+    for (const Pair& p : kPairs) {
+        EXPECT_NEAR(eval("ggx_aniso", {.3, .6}, p.v, p.l), eval("ellipsoid_correlated", {.3, .6}, p.v, p.l), 1e-12);
+        const Sampled level = sample("ggx_aniso", {.3, .6}, p.v, .3, .8), upright = sample("ellipsoid_correlated", {.3, .6}, p.v, .3, .8);
+        expect_near(level.wi, upright.wi, 1e-12);
+        EXPECT_NEAR(level.weight, upright.weight, 1e-12);
+        EXPECT_NEAR(level.pdf, upright.pdf, 1e-12);
+    }
 }
 
 TEST(ggx_vectors, isotropic_and_anisotropic_agree)

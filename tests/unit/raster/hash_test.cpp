@@ -109,6 +109,11 @@ constexpr OptionCase kOptionCases[] = {
      [](FrameDesc& d) {
          d.tilt_rad = {0.3f, -0.2f};
      }},
+    {"separable_masking",
+     [](FrameDesc& d) {
+         d.masking = 1;
+         d.tilt_rad = {0.0f, -0.2f};
+     }},
     {"fitted_albedo", [](FrameDesc& d) { d.dfg_fit = true; }},
 };
 

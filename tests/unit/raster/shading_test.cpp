@@ -161,7 +161,8 @@ TEST(technique, tilted_lobes_are_dimmed_as_monte_carlo_dims_them)
                         std::string(t.name) == "filtered_is"; // without tails, of which all samples may be below the horizon
                     EXPECT_GT(ratio, beckmann ? 0.85 : 0.97)
                         << t.name << ", alpha_lin " << roughness << ", eta " << anisotropy << ", tilt " << tilt;
-                    EXPECT_LT(ratio, 1.06) << t.name << ", alpha_lin " << roughness << ", eta " << anisotropy << ", tilt " << tilt;
+                    const bool own = t.sampling == Sampling::grid; // whose samples have an albedo of their own, tilted or not
+                    EXPECT_LT(ratio, own ? 1.2 : 1.06) << t.name << ", alpha_lin " << roughness << ", eta " << anisotropy << ", tilt " << tilt;
                 }
             }
 }
