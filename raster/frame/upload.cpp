@@ -77,6 +77,7 @@ MaterialRecord material_record(const Material& m)
     r.grain[0] = static_cast<float>(det_cos(static_cast<double>(m.anisotropy_rotation)));
     r.grain[1] = static_cast<float>(det_sin(static_cast<double>(m.anisotropy_rotation)));
     r.anisotropic = m.anisotropy_strength > 0.0f;
+    r.conductor = m.conductor_eta != glm::vec3(0.0f) || m.conductor_k != glm::vec3(0.0f);
     return r;
 }
 

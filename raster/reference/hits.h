@@ -198,6 +198,17 @@ struct LaneSurface { // what was hit, or nothing
     mask reflects;
 };
 
+BN_INLINE fresnel_parts select_parts(mask m, const fresnel_parts& a, const fresnel_parts& b)
+{
+    fresnel_parts r;
+    r.dielectric = select(m, a.dielectric, b.dielectric), r.conductor = select(m, a.conductor, b.conductor);
+    r.dielectric_f0 = select(m, a.dielectric_f0, b.dielectric_f0);
+    r.dielectric_f90 = select(m, a.dielectric_f90, b.dielectric_f90), r.ior = select(m, a.ior, b.ior);
+    r.eta = select(m, a.eta, b.eta), r.k = select(m, a.k, b.k);
+    r.rest_f0 = select(m, a.rest_f0, b.rest_f0), r.rest_f90 = select(m, a.rest_f90, b.rest_f90);
+    return r;
+}
+
 BN_INLINE Reflector select_reflector(mask m, const Reflector& a, const Reflector& b)
 {
     Reflector r = a;
@@ -206,6 +217,8 @@ BN_INLINE Reflector select_reflector(mask m, const Reflector& a, const Reflector
     r.x.s.diffuse = select(m, s.diffuse, t.diffuse);
     r.x.s.f0 = select(m, s.f0, t.f0), r.x.s.f90 = select(m, s.f90, t.f90);
     r.x.s.roughness = select(m, s.roughness, t.roughness), r.x.s.occlusion = select(m, s.occlusion, t.occlusion);
+    if (s.exact)
+        r.x.s.parts = select_parts(m, s.parts, t.parts);
     const aniso_lobe &k = a.x.lobe, &l = b.x.lobe;
     r.x.lobe.u_axis = select(m, k.u_axis, l.u_axis), r.x.lobe.v_axis = select(m, k.v_axis, l.v_axis);
     r.x.lobe.sigma_u = select(m, k.sigma_u, l.sigma_u), r.x.lobe.sigma_v = select(m, k.sigma_v, l.sigma_v);

@@ -1,8 +1,7 @@
-// A surface ready to reflect: the BRDF that the technique `mc` samples, one term for the lobe (placed_lobe.t.h, Schlick's Fresnel) and one
+// A surface ready to reflect: the BRDF that the technique `mc` samples, one term for the lobe (placed_lobe.t.h, reflectance.t.h) and one
 // for the diffuse rest, as values, densities and samples. Directions are world space, unit.
 #pragma once
 #include "raster/reference/samples.h"
-#include "shading/kernels/fresnel.k.h"
 #include "shading/models/lambert.k.h"
 #include "shading/surface/shaded_point.t.h"
 
@@ -96,7 +95,7 @@ BN_INLINE Reflection reflect(const Reflector& r, real3 wi)
     if (lobe_has(r.lobe, kPunctualOnly))
         shines = mask_from_bits(0);
     const real lobe = select(shines, l.value, lit(0.0));
-    const real3 fresnel = fresnel_schlick(r.x.s.f0, r.x.s.f90, k_saturate(l.o_dot_h));
+    const real3 fresnel = reflectance_of(r.x.s, k_saturate(l.o_dot_h));
     const real cosine = max(k_dot3(r.x.s.n, wi), lit(0.0));
     Reflection to;
     to.value = fresnel * r.x.gain * lobe + r.diffuse * cosine;
@@ -124,7 +123,7 @@ BN_INLINE ReflectorSample sample_reflector(const Reflector& r, real2 xi, real ch
     const Reflection at = reflect(r, s.wi);
     s.pdf = at.pdf;
     const real inv = select(at.pdf > lit(0.0), lit(1.0) / max(at.pdf, lit(1e-20)), lit(0.0));
-    const real3 whole = fresnel_schlick(r.x.s.f0, r.x.s.f90, k_saturate(r.o.z)) * r.x.gain / max(r.choose_specular, lit(1e-6));
+    const real3 whole = reflectance_of(r.x.s, k_saturate(r.o.z)) * r.x.gain / max(r.choose_specular, lit(1e-6));
     const real3 of_mirror = whole * placed_lobe_mirror_albedo(lobe_of(r, r.lobe));
     const mask seen = k_dot3(r.horizon, s.wi) > lit(0.0);
     s.weight = select(s.exact, select(seen, of_mirror, vec3_all(lit(0.0))), at.value * inv);

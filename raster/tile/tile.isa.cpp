@@ -192,7 +192,8 @@ void shade_slot(const Tile& t, const view_params& view, const MaterialRecord& m,
             store_batch(t, load_batch(t, i, end), plan.at.base);
         return;
     }
-    if (plan.uniform && !(t.f.light_count | t.f.key_light_count | t.f.energy_compensation | t.f.dfg_fit) && t.f.lobe == PlainFrame::lobe) {
+    const int more = t.f.light_count | t.f.key_light_count | t.f.energy_compensation | t.f.dfg_fit | t.f.fresnel;
+    if (plan.uniform && !more && t.f.lobe == PlainFrame::lobe) {
         constexpr bool kAlsoRound = (kTechniqueTraits[static_cast<int>(kTechnique)] & kAutoRound) != 0;
         if (kAlsoRound && !m.anisotropic)
             shade_plain_slot<kTechnique, std::conditional_t<kAlsoRound, RoundMaterial, PlainMaterial>>(t, view, m, plan, begin, end);

@@ -37,6 +37,8 @@ const int kSharesSamples = 32;  // with the fragments of the 2x2 quad: see share
 const int kAutoRound = 64;      // what `auto` takes for materials without a grain
 const int kAutoGrain = 128;     // and for the others
 
+const int kFresnelSchlick = 0, kFresnelConductor = 1, kFresnelDielectric = 2; // FrameDesc::fresnel
+
 // Traits of lobes (shading/models.def), and what the words of their lines mean.
 const int kLobeOfAll = 1;    // the usual one
 const int kLobeOfRound = 2;  // in its place, what lights meet on materials without a grain, and where a technique takes round lobes
@@ -128,6 +130,7 @@ struct MaterialRecord { // Material in plain numbers, and what follows from them
     float dielectric_f0[3], dielectric_f90; // from ior and specular
     float grain[2];                         // cosine and sine of anisotropy_rotation
     int textured, uses_color, anisotropic;
+    int conductor;                   // it has an index of its own: conductor_eta, conductor_k
     int roughness_fixed;             // by an override: the texture gives metalness only
     int technique, technique_traits; // its place in shading/models.def; of what is unlit no traits
     int lights_lobe;                 // what punctual lights meet: its place in shading/models.def

@@ -2,7 +2,6 @@
 #ifndef BN_KEY_T_H
 #define BN_KEY_T_H
 
-#include "shading/kernels/fresnel.k.h"
 #include "shading/lang/lang.h"
 #include "shading/lang/stage.h"
 #include "shading/lights/key.k.h"
@@ -110,7 +109,7 @@ BN_FN real3 light_from_key_lights(frame_ref f, BN_IN(shaded_point) x, int model)
     real3 irradiance = vec3_all(lit(0.0));
     for (int i = 0; i < the_frame(f).key_light_count; ++i) {
         key_reflection r = key_reflection_of(f, x, lobe, i);
-        real3 fresnel = fresnel_schlick(x.s.f0, x.s.f90, r.v_dot_h);
+        real3 fresnel = reflectance_of(x.s, r.v_dot_h);
         specular = specular + splat3(the_frame(f).key_lights[i].radiance) * fresnel * r.lobe;
         irradiance = irradiance + splat3(the_frame(f).key_lights[i].irradiance) * r.cosine;
     }

@@ -1,22 +1,26 @@
-// One punctual light on a surface: a specular lobe with Schlick's Fresnel, plus Lambert.
+// One punctual light on a surface: a specular lobe with its reflectance, plus Lambert.
 // glTF 2.0, appendix B ("BRDF Implementation"), and its extension KHR_lights_punctual.
 #ifndef BN_PUNCTUAL_K_H
 #define BN_PUNCTUAL_K_H
 
-#include "shading/kernels/fresnel.k.h"
+#include "shading/kernels/math.k.h"
 #include "shading/lang/lang.h"
 #include "shading/surface/surface.k.h"
 
 BN_KERNELS_BEGIN
 
-// l: unit, to the light. lobe: the specular lobe's BRDF there, without Fresnel. gain: factor on the specular lobe.
-// intensity: irradiance on a surface facing the light, lux. Returns outgoing radiance.
-BN_FN real3 punctual_radiance(surface s, real3 l, real lobe, real3 gain, real3 intensity)
+// Cosine between the eye and the half vector, for Fresnel. l: unit, to the light.
+BN_FN real punctual_v_dot_h(surface s, real3 l)
 {
     real3 h = k_normalize3(l + s.v);
+    return min(max(k_dot3(s.v, h), lit(0.0)), lit(1.0));
+}
+
+// l: unit, to the light. lobe: the specular lobe's BRDF there, without Fresnel's reflectance f. gain: factor on the specular lobe.
+// intensity: irradiance on a surface facing the light, lux. Returns outgoing radiance.
+BN_FN real3 punctual_radiance(surface s, real3 l, real lobe, real3 f, real3 gain, real3 intensity)
+{
     real n_dot_l = k_dot3(s.n, l);
-    real v_dot_h = min(max(k_dot3(s.v, h), lit(0.0)), lit(1.0));
-    real3 f = fresnel_schlick(s.f0, s.f90, v_dot_h);
     real3 one = vec3_all(lit(1.0));
     real3 f_diffuse = (one - f) * s.diffuse * lit(0.31830988618379067);
     real3 value = (f_diffuse + f * gain * lobe) * intensity * n_dot_l;
@@ -24,11 +28,8 @@ BN_FN real3 punctual_radiance(surface s, real3 l, real lobe, real3 gain, real3 i
 }
 
 // Of a lobe whose value times the light's cosine is given: that of one that knows the surface is not the shading normal's.
-BN_FN real3 punctual_radiance_apart(surface s, real3 l, real lobe_cosine, real3 gain, real3 intensity)
+BN_FN real3 punctual_radiance_apart(surface s, real3 l, real lobe_cosine, real3 f, real3 gain, real3 intensity)
 {
-    real3 h = k_normalize3(l + s.v);
-    real v_dot_h = min(max(k_dot3(s.v, h), lit(0.0)), lit(1.0));
-    real3 f = fresnel_schlick(s.f0, s.f90, v_dot_h);
     real3 one = vec3_all(lit(1.0));
     real n_dot_l = max(k_dot3(s.n, l), lit(0.0));
     real diffuse_cosine = n_dot_l * lit(0.31830988618379067);

@@ -25,12 +25,13 @@ BN_FN light_sample light_towards(frame_ref f, real3 position, int light)
 BN_FN punctual_light light_from(frame_ref f, BN_IN(shaded_point) x, BN_IN(placed_lobe) lobe, light_sample at, int light)
 {
     real3 intensity = splat3(the_light(f, light).radiant) * at.attenuation;
+    real3 reflectance = reflectance_of(x.s, punctual_v_dot_h(x.s, at.l));
     punctual_light r;
     r.l = at.l;
     if (lobe_has(lobe.model, kLies_surface + kLies_thread))
-        r.radiance = punctual_radiance_apart(x.s, at.l, placed_lobe_value(lobe, at.l), x.gain, intensity);
+        r.radiance = punctual_radiance_apart(x.s, at.l, placed_lobe_value(lobe, at.l), reflectance, x.gain, intensity);
     else
-        r.radiance = punctual_radiance(x.s, at.l, placed_lobe_light(lobe, x.s, at.l), x.gain, intensity);
+        r.radiance = punctual_radiance(x.s, at.l, placed_lobe_light(lobe, x.s, at.l), reflectance, x.gain, intensity);
     return r;
 }
 

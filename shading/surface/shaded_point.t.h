@@ -9,6 +9,7 @@
 #include "shading/surface/lobe_shape.t.h"
 #include "shading/surface/material.t.h"
 #include "shading/surface/placed_lobe.t.h"
+#include "shading/surface/reflectance.t.h"
 #include "shading/surface/surface.k.h"
 #include "shading/surface/visible_point.k.h"
 
@@ -111,8 +112,13 @@ BN_FN void make_shaded_point(frame_ref f, material_ref m, BN_IN(material_inputs)
     x.dielectric_f0 = at.dielectric_f0;
     x.dielectric_f90 = at.dielectric_f90;
     x.s = metallic_roughness_surface(axes.n, v, at.base, at.metallic, shape.alpha_lin, at.dielectric_f0, at.dielectric_f90, at.occlusion);
+    x.s.exact = the_frame(f).fresnel;
+    if (x.s.exact != 0) {
+        x.s.parts = fresnel_parts_of(f, m, at.base, at.metallic, at.dielectric_f0, at.dielectric_f90);
+        x.s.f0 = exact_reflectance(x.s.parts, lit(1.0));
+    }
     x.dfg = directional_albedo(f, m, x.s, x.lobe);
-    x.albedo = x.s.f0 * x.dfg.scale + x.s.f90 * x.dfg.bias;
+    x.albedo = albedo_of(x.s, x.dfg);
     x.gain = energy_gain(f, x.s.f0, x.dfg);
     x.shown = lit(1.0);
     if ((the_frame(f).lobe_traits & kPunctualOnly) != 0)
@@ -134,8 +140,7 @@ BN_FN void make_shaded_point(frame_ref f, material_ref m, BN_IN(material_inputs)
 // The share of light that the dielectric's specular part lets through to the diffuse one.
 BN_FN real passed_to_diffuse(frame_ref f, BN_IN(shaded_point) x)
 {
-    real bias = x.dielectric_f90 * x.dfg.bias;
-    real3 dielectric = (x.dielectric_f0 * x.dfg.scale + vec3_all(bias)) * energy_gain(f, x.dielectric_f0, x.dfg);
+    real3 dielectric = dielectric_albedo_of(x.s, x.dielectric_f0, x.dielectric_f90, x.dfg) * energy_gain(f, x.dielectric_f0, x.dfg);
     return lit(1.0) - max(dielectric.x, max(dielectric.y, dielectric.z));
 }
 

@@ -7,14 +7,24 @@
 
 BN_KERNELS_BEGIN
 
+struct fresnel_parts {          // what reflectances by Fresnel's equations are made of: see reflectance.t.h
+    real dielectric, conductor; // shares of the surface, [0,1]
+    real3 dielectric_f0;        // of the dielectric, at normal incidence
+    real dielectric_f90, ior;   // and at grazing; its index
+    real3 eta, k;               // index of the conductor
+    real3 rest_f0, rest_f90;    // Schlick's, times the share of the rest
+};
+
 struct surface {
-    real3 n;        // shading normal, unit, world space
-    real3 v;        // to the eye, unit, world space
-    real n_dot_v;   // clamped to [1e-4, 1]
-    real3 diffuse;  // albedo of the diffuse part, [0,1]
-    real3 f0, f90;  // specular reflectance at normal and grazing incidence
-    real roughness; // perceptual (alpha_lin), [0,1]
-    real occlusion; // [0,1], 1 open
+    real3 n;             // shading normal, unit, world space
+    real3 v;             // to the eye, unit, world space
+    real n_dot_v;        // clamped to [1e-4, 1]
+    real3 diffuse;       // albedo of the diffuse part, [0,1]
+    real3 f0, f90;       // specular reflectance at normal and grazing incidence
+    real roughness;      // perceptual (alpha_lin), [0,1]
+    real occlusion;      // [0,1], 1 open
+    int exact;           // uniform; whether parts of it reflect by Fresnel's equations
+    fresnel_parts parts; // then
 };
 
 struct surface_frame {
@@ -82,6 +92,7 @@ BN_FN surface metallic_roughness_surface(real3 n, real3 v, real3 base, real meta
     s.f90 = vec3_all(dielectric_f90 + (lit(1.0) - dielectric_f90) * metallic);
     s.roughness = min(max(roughness, lit(0.0)), lit(1.0));
     s.occlusion = occlusion;
+    s.exact = 0;
     return s;
 }
 

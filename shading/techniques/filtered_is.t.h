@@ -2,7 +2,6 @@
 #ifndef BN_FILTERED_IS_T_H
 #define BN_FILTERED_IS_T_H
 
-#include "shading/kernels/fresnel.k.h"
 #include "shading/lang/lang.h"
 #include "shading/lang/stage.h"
 #include "shading/surface/energy.k.h"
@@ -36,7 +35,7 @@ BN_FN real3 filtered_is_sum(frame_ref f, BN_IN(shaded_point) x, bool ggx)
         else
             s = filtered_is_beckmann(o, of_beckmann, g.x, g.y, g.z, texel_term);
         real3 wi = from_lobe(x.lobe, x.s.n, s.wi);
-        real3 fresnel = fresnel_schlick(x.s.f0, x.s.f90, k_saturate(s.o_dot_h));
+        real3 fresnel = reflectance_of(x.s, k_saturate(s.o_dot_h));
         real weight = above_horizon(x, wi, s.weight);
         cube_terms_add(sum, wi, s.lod, fresnel, weight);
         weights = weights + s.weight;

@@ -2,7 +2,6 @@
 #ifndef BN_MC_T_H
 #define BN_MC_T_H
 
-#include "shading/kernels/fresnel.k.h"
 #include "shading/lang/lang.h"
 #include "shading/lang/stage.h"
 #include "shading/surface/placed_lobe.t.h"
@@ -32,7 +31,7 @@ BN_FN real3 mc_of_lobe(frame_ref f, BN_IN(shaded_point) x, BN_IN(placed_lobe) lo
         real u = splat(column) + shift_x;
         real v = k_radical_inverse2(int_lit(i)) + shift_y;
         bsdf_sample b = placed_lobe_sample(lobe, vec2_of(u - floor(u), v - floor(v)));
-        real3 fresnel = fresnel_schlick(x.s.f0, x.s.f90, b.o_dot_h);
+        real3 fresnel = reflectance_of(x.s, b.o_dot_h);
         cube_terms_add(sum, b.wi, lit(0.0), fresnel, above_horizon(x, b.wi, b.weight));
     }
     real3 mean = cube_terms_value(sum) * splat(inv);

@@ -16,6 +16,7 @@ import direction_cases
 import export_cases
 import fault_cases
 import file_cases
+import fresnel_cases
 import harness
 import hostile_cases
 import input_cases

@@ -361,14 +361,16 @@ void check_below(Checker& checker, const std::string& where, std::span<const Rul
     for (const Rule& rule : rules) {
         const std::string_view path = rule.path;
         for (std::size_t slash = path.find('/', 1); slash != std::string_view::npos; slash = path.find('/', slash + 1)) {
+            const std::string_view holder = path.substr(0, slash);
             const Rule object = {"", Kind::object};
-            checker.run(object, where + std::string(path.substr(0, slash)));
+            if (holder != "/extras") // anything may be there
+                checker.run(object, where + std::string(holder));
         }
         checker.run(rule, where + rule.path);
     }
 }
 
-// Camera and light members that only hold together.
+// Camera, light and material members that only hold together.
 void check_pairs(const Json& json)
 {
     for (std::size_t i = 0; i < table_size(json, "cameras"); ++i) {
@@ -395,6 +397,11 @@ void check_pairs(const Json& json)
         if (spot.value("innerConeAngle", 0.0) >= spot.value("outerConeAngle", 0.78539816339744828))
             fail(place + "/spot", "innerConeAngle must be smaller than outerConeAngle");
     }
+    const Json::json_pointer conductor("/extras/burnish/conductor");
+    for (std::size_t i = 0; i < table_size(json, "materials"); ++i)
+        for (const char* key : {"eta", "k"})
+            if (const Json& material = json["materials"][i]; material.contains(conductor) && !material[conductor].contains(key))
+                fail(fmt::format("/materials/{}{}", i, conductor.to_string()), fmt::format("\"{}\" is missing", key));
     for (std::size_t i = 0; i < table_size(json, "materials"); ++i)
         if (const Json* ior = get_extension(json["materials"][i], "KHR_materials_ior")) {
             const double value = ior->value("ior", 1.5);

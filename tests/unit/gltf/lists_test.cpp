@@ -35,6 +35,8 @@ json with_value(json object, const std::string& path, const json& value)
     const std::string parent = path.substr(0, path.rfind('/'));
     if (parent.ends_with("Texture"))
         object[json::json_pointer(parent + "/index")] = 0;
+    if (parent.ends_with("/conductor")) // one needs the other
+        object[json::json_pointer(parent + (path.ends_with("eta") ? "/k" : "/eta"))] = {1, 1, 1};
     return object;
 }
 
