@@ -29,7 +29,7 @@ const int kFrontFacing = 1, kClipped = 2;                      // bits of a tria
 
 // Traits of techniques (shading/models.def).
 const int kTestsHorizon = 1;    // asks of every sample if it lies above the surface's horizon; the others fade
-const int kSamplesLobe = 2;     // samples the lobe itself, whatever its model; others are scaled by how its albedo differs from the usual one's
+const int kSamplesLobe = 2;     // samples the lobe itself; others are scaled by how its albedo differs from the usual one's
 const int kTakesRoundLobes = 4; // takes every lobe for a round one of the same roughness; lights do so then too
 const int kReadsBox = 8;        // reads the box-filtered chain of the environment
 const int kGgxGrid = 16;        // its grid's slopes are a GGX lobe's; otherwise a Beckmann lobe's
@@ -43,9 +43,9 @@ const int kFresnelSchlick = 0, kFresnelConductor = 1, kFresnelDielectric = 2; //
 const int kLobeOfAll = 1;    // the usual one
 const int kLobeOfRound = 2;  // in its place, what lights meet on materials without a grain, and where a technique takes round lobes
 const int kLobeOfTilted = 4; // in its place, where lobes are tilted
-const int kSeparableOfAll = 1024, kSeparableOfTilted = 2048; // in those places, where masking is separable
 const int kPunctualOnly = 8; // has no albedo: nothing but punctual lights meets it
 const int kLies_round = 16, kLies_level = 32, kLies_surface = 64, kLies_thread = 128;
+const int kSeparableOfAll = 1024, kSeparableOfTilted = 2048; // in the usual one's place and the tilted one's, where masking is separable
 const int kNormals_ggx = 256, kNormals_own = 512;
 const int kLobeCount = 0
 #define BN_LOBE(id, at, type, lies, normals, traits, made_of) +1
