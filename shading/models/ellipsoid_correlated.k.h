@@ -78,6 +78,7 @@ BN_FN real3 ellipsoid_visible_normal_by_cap(ellipsoid_params p, ellipsoid_view v
     real x = sine * round.cosine + k_dot3(w, t);
     real y = sine * round.sine + k_dot3(w, s);
     real3 point = t * x + s * y + n * height;
+    point = select(k_dot3(point, point) > lit(1e-18), k_normalize3(point), n); // nothing is seen straight from behind
     real3 m = p.r0 * (p.alpha_x * point.x) + p.r1 * (p.alpha_y * point.y) + p.r2 * point.z;
     return k_normalize3(m);
 }
