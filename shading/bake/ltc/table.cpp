@@ -63,6 +63,17 @@ Looked lookup(const Table& table, const Place& place)
     return {table.grid.shown(entry, place), sum[9], sum[10]};
 }
 
+std::vector<std::uint16_t> table_texels(const Table& table)
+{
+    BN_CHECK(table.grid.size == 8);
+    const std::size_t nodes = table.grid.nodes();
+    std::vector<std::uint16_t> texels(3 * 4 * nodes, 0);
+    for (std::size_t node = 0; node < nodes; ++node)
+        for (std::size_t c = 0; c < kChannels; ++c)
+            texels[4 * (c / 4 * nodes + node) + c % 4] = float_to_half(table.entries[kChannels * node + c]);
+    return texels;
+}
+
 std::vector<std::uint8_t> table_bytes(const Table& table, bool half)
 {
     Header h = {};

@@ -34,6 +34,10 @@ struct Looked {
 };
 Looked lookup(const Table& table, const Place& place);
 
+// What shading/lights/ltc_table.k.h reads: three planes of RGBA halves by [theta][phi][alpha][lambda], which hold the channels in turn and
+// a 0. The table has 8 nodes along an axis.
+std::vector<std::uint16_t> table_texels(const Table& table);
+
 std::vector<std::uint8_t> table_bytes(const Table& table, bool half = false);
 
 // `size`: nodes along an axis that are asked for, 0: any. What is damaged, not finite or without a positive determinant is refused.

@@ -1,0 +1,260 @@
+// The transformed cosine that stands for an anisotropic GGX lobe seen from one eye, looked up in a baked table (shading/bake/ltc).
+// Heitz, Dupuy, Hill, Neubelt 2016, "Real-Time Polygonal-Light Shading with Linearly Transformed Cosines"; the four dimensional table:
+// KT, Heitz, Dupuy, Narasimhan 2022, "Bringing Linearly Transformed Cosines to Anisotropic GGX".
+//
+// Ellipse frame: x and y the axes of alpha_x and alpha_y, z the normal. Cosine's space: where the lobe is max(z, 0) / pi. The matrix M
+// takes the cosine's space to the ellipse frame, its inverse N takes lights the other way; the density of a direction l is, with u = N l,
+//     q(l) = max(u.z, 0) |det N| / (pi |u|^4).
+//
+// The table holds eyes of one quadrant and alpha_x >= alpha_y. Others are mirrored into it and their matrices back: rows change their sign
+// or their place, which negates the determinant each time.
+#ifndef BN_LTC_TABLE_K_H
+#define BN_LTC_TABLE_K_H
+#include "shading/kernels/math.k.h"
+#include "shading/kernels/texel_rows.k.h"
+#include "shading/lang/lang.h"
+
+BN_KERNELS_BEGIN
+
+struct ltc_table {       // uniform
+    texel_buffer texels; // ltc::table_texels()
+    int root_alpha;      // 1: nodes lie evenly in the square root of alpha, 0: in alpha
+    int basis;           // entries are seen from 0: the ellipse frame, 1: the mirror direction, 2: the natural matrix
+};
+
+// What is outside of [0.01, 1], of [0.02, 1] or below a cosine of 0.02 is taken at the border: narrower lobes are for floats a mirror.
+// NaN counts as a border, too.
+struct ltc_place {
+    real3 eye;           // as the table has it: unit, x and y >= 0
+    real theta, phi;     // of it, [0, pi/2] rad
+    real alpha, lambda;  // the greater width, of the table's x; the smaller one over it
+    real sign_x, sign_y; // 1 or -1: of the eye in the ellipse frame
+    mask swapped;        // the greater width is alpha_y
+};
+
+struct ltc_lobe {
+    real3 m0, m1, m2;  // columns of M; m2 is nearly unit
+    real3 n0, n1, n2;  // rows of N
+    real det;          // of M; negative where M mirrors
+    real all, grazing; // albedo where Fresnel is 1, and where it is (1 - v.h)^5: reflectance f0 all + (f90 - f0) grazing
+};
+
+// eye: unit, in the ellipse frame.
+BN_FN ltc_place ltc_place_of(real3 eye, real alpha_x, real alpha_y)
+{
+    ltc_place p;
+    real wide_x = min(max(alpha_x, lit(1e-6)), lit(1.0));
+    real wide_y = min(max(alpha_y, lit(1e-6)), lit(1.0));
+    p.swapped = wide_y > wide_x;
+    real wider = max(wide_x, wide_y);
+    real ratio = min(wide_x, wide_y) / wider;
+    p.alpha = max(wider, lit(0.01));
+    p.lambda = max(ratio, lit(0.02));
+    p.sign_x = select(eye.x < lit(0.0), lit(-1.0), lit(1.0));
+    p.sign_y = select(eye.y < lit(0.0), lit(-1.0), lit(1.0));
+    real across_x = min(abs(eye.x), lit(1.0));
+    real across_y = min(abs(eye.y), lit(1.0));
+    real x = select(p.swapped, across_y, across_x);
+    real y = select(p.swapped, across_x, across_y);
+    real flat2 = x * x + y * y;
+    real flat_length = sqrt(max(flat2, lit(1e-12)));
+    mask upright = flat2 < lit(1e-12); // where every azimuth is the same
+    real cosine = select(upright, lit(1.0), x / flat_length);
+    real sine = select(upright, lit(0.0), y / flat_length);
+    // Not from z near 1, whose rounding would turn the eye.
+    mask above = eye.z > lit(0.02);
+    real z = select(above, min(eye.z, lit(1.0)), lit(0.02));
+    real radius = select(above, min(flat_length, lit(1.0)), lit(0.99979998));
+    p.eye = vec3_of(radius * cosine, radius * sine, z);
+    p.theta = k_atan2(radius, z);
+    p.phi = k_atan2(sine, cosine);
+    return p;
+}
+
+// The first order of how slopes turn the mirror direction, its columns as those of M: near the fit where widths are small. At grazing views
+// the second order adds what keeps the first two columns apart.
+BN_FN ltc_lobe ltc_natural(ltc_lobe lobe, ltc_place p)
+{
+    ltc_lobe r = lobe;
+    real alpha_y = p.alpha * p.lambda;
+    real twice_x = lit(2.0) * p.alpha;
+    real twice_y = lit(2.0) * alpha_y;
+    real flat2 = p.eye.x * p.eye.x + p.eye.y * p.eye.y;
+    mask upright = flat2 < lit(1e-12);
+    real scale = lit(1.0) / sqrt(max(flat2, lit(1e-12)));
+    real c = select(upright, lit(1.0), p.eye.x * scale);
+    real s = select(upright, lit(0.0), p.eye.y * scale);
+    real cy = c * alpha_y;
+    real sx = s * p.alpha;
+    real both_widths = p.alpha * alpha_y;
+    real across2 = lit(0.5) * both_widths * both_widths / (cy * cy + sx * sx);
+    real mixed = across2 * s * c;
+    r.m0 = vec3_of(twice_x * p.eye.z + across2 * s * s, -mixed, twice_x * p.eye.x);
+    r.m1 = vec3_of(-mixed, twice_y * p.eye.z + across2 * c * c, twice_y * p.eye.y);
+    r.m2 = vec3_of(-p.eye.x, -p.eye.y, p.eye.z);
+    return r;
+}
+
+BN_FN texel_acc ltc_corner(texel_acc acc, ltc_table table, integer node, real weight, real along_alpha, real along_lambda)
+{
+    texel_rows r;
+    real lower = weight * along_alpha;
+    real upper = weight - lower;
+    r.row0 = node;
+    r.row1 = node + int_lit(8);
+    r.w10 = upper * along_lambda;
+    r.w11 = lower * along_lambda;
+    r.w00 = upper - r.w10;
+    r.w01 = lower - r.w11;
+    return texel_rows_add(acc, table.texels, r);
+}
+
+struct ltc_cell {  // of 16 nodes
+    integer first; // the one of the smallest theta, phi, alpha, lambda: ((theta 8 + phi) 8 + alpha) 8 + lambda
+    real u_theta, u_phi, u_alpha, u_lambda;
+};
+
+BN_FN ltc_cell ltc_cell_of(ltc_table table, ltc_place p)
+{
+    real alpha = p.alpha;
+    if (table.root_alpha != 0) {
+        alpha = sqrt(p.alpha);
+    }
+    real theta_at = p.theta * lit(4.4563384065730693); // 7 / (pi / 2)
+    real phi_at = p.phi * lit(4.4563384065730693);
+    real alpha_at = alpha * lit(7.0);
+    real lambda_at = p.lambda * lit(7.0);
+    integer i = min(to_int(theta_at), int_lit(6));
+    integer j = min(to_int(phi_at), int_lit(6));
+    integer k = min(to_int(alpha_at), int_lit(6));
+    integer l = min(to_int(lambda_at), int_lit(6));
+    ltc_cell c;
+    c.first = shl(i, 9) + shl(j, 6) + shl(k, 3) + l;
+    c.u_theta = min(theta_at - to_real(i), lit(1.0));
+    c.u_phi = min(phi_at - to_real(j), lit(1.0));
+    c.u_alpha = alpha_at - to_real(k);
+    c.u_lambda = lambda_at - to_real(l);
+    return c;
+}
+
+// Four channels of the table in a cell. plane: 0, 1, 2.
+BN_FN real4 ltc_channels(ltc_table table, ltc_cell c, int plane)
+{
+    integer node = c.first + int_lit(plane * 4096);
+    real up = c.u_theta * c.u_phi;
+    real w10 = c.u_theta - up;
+    real w01 = c.u_phi - up;
+    real w00 = lit(1.0) - c.u_theta - w01;
+    texel_acc acc = ltc_corner(texel_zero(), table, node, w00, c.u_alpha, c.u_lambda);
+    acc = ltc_corner(acc, table, node + int_lit(64), w01, c.u_alpha, c.u_lambda);
+    acc = ltc_corner(acc, table, node + int_lit(512), w10, c.u_alpha, c.u_lambda);
+    acc = ltc_corner(acc, table, node + int_lit(576), up, c.u_alpha, c.u_lambda);
+    return texel_value(acc);
+}
+
+// A column of the table's matrix in the ellipse frame of its place.
+BN_FN real3 ltc_shown(ltc_table table, ltc_lobe natural, ltc_place p, real3 column)
+{
+    real3 r = column;
+    if (table.basis == 1) { // the shortest turn that takes the normal to the mirror direction m2
+        real x = natural.m2.x;
+        real y = natural.m2.y;
+        real s = lit(1.0) / (lit(1.0) + p.eye.z);
+        real towards = x * column.x + y * column.y;
+        real back = column.z - s * towards;
+        r = vec3_of(column.x + x * back, column.y + y * back, p.eye.z * column.z - towards);
+    }
+    if (table.basis == 2) {
+        r = natural.m0 * column.x + natural.m1 * column.y + natural.m2 * column.z;
+    }
+    return r;
+}
+
+// From the table's quadrant to the ellipse frame.
+BN_FN real3 ltc_unfolded(ltc_place p, real3 v)
+{
+    real x = select(p.swapped, v.y, v.x);
+    real y = select(p.swapped, v.x, v.y);
+    return vec3_of(p.sign_x * x, p.sign_y * y, v.z);
+}
+
+// N and the determinant of an M that has one other than 0.
+BN_FN ltc_lobe ltc_inverted(ltc_lobe lobe)
+{
+    ltc_lobe r = lobe;
+    real3 row0 = k_cross(lobe.m1, lobe.m2);
+    real3 row1 = k_cross(lobe.m2, lobe.m0);
+    real3 row2 = k_cross(lobe.m0, lobe.m1);
+    r.det = k_dot3(lobe.m0, row0);
+    real scale = lit(1.0) / r.det;
+    r.n0 = row0 * scale;
+    r.n1 = row1 * scale;
+    r.n2 = row2 * scale;
+    return r;
+}
+
+// eye: unit, in the ellipse frame. From alpha 0.06 down to 0.03 the table's matrix fades into the natural one, whose L1 distance from the
+// lobe is the smaller one from about 0.045 on (0.10 against 0.15 at 0.03). Where that has no positive determinant, it is all natural.
+BN_FN ltc_lobe ltc_lookup(ltc_table table, real3 eye, real alpha_x, real alpha_y)
+{
+    ltc_place p = ltc_place_of(eye, alpha_x, alpha_y);
+    ltc_cell cell = ltc_cell_of(table, p);
+    real4 a = ltc_channels(table, cell, 0);
+    real4 b = ltc_channels(table, cell, 1);
+    real4 c = ltc_channels(table, cell, 2);
+    ltc_lobe lobe;
+    lobe.all = k_saturate(c.y);
+    lobe.grazing = k_saturate(c.z);
+    ltc_lobe natural = ltc_natural(lobe, p);
+    real baked = k_saturate((p.alpha - lit(0.03)) * lit(33.333333333333333));
+    lobe.m0 = k_mix3(natural.m0, ltc_shown(table, natural, p, vec3_of(a.x, a.w, b.z)), baked);
+    lobe.m1 = k_mix3(natural.m1, ltc_shown(table, natural, p, vec3_of(a.y, b.x, b.w)), baked);
+    lobe.m2 = k_mix3(natural.m2, ltc_shown(table, natural, p, vec3_of(a.z, b.y, c.x)), baked);
+    real det = k_dot3(lobe.m0, k_cross(lobe.m1, lobe.m2));
+    mask usable = det > lit(1e-9);
+    lobe.m0 = ltc_unfolded(p, select(usable, lobe.m0, natural.m0));
+    lobe.m1 = ltc_unfolded(p, select(usable, lobe.m1, natural.m1));
+    lobe.m2 = ltc_unfolded(p, select(usable, lobe.m2, natural.m2));
+    return ltc_inverted(lobe);
+}
+
+// The plain cosine about the normal: what a diffuse surface reflects.
+BN_FN ltc_lobe ltc_cosine()
+{
+    ltc_lobe lobe;
+    lobe.m0 = vec3_of(lit(1.0), lit(0.0), lit(0.0));
+    lobe.m1 = vec3_of(lit(0.0), lit(1.0), lit(0.0));
+    lobe.m2 = vec3_of(lit(0.0), lit(0.0), lit(1.0));
+    lobe.n0 = lobe.m0;
+    lobe.n1 = lobe.m1;
+    lobe.n2 = lobe.m2;
+    lobe.det = lit(1.0);
+    lobe.all = lit(1.0);
+    lobe.grazing = lit(0.0);
+    return lobe;
+}
+
+// N p: from the ellipse frame to the cosine's space.
+BN_FN real3 ltc_to_cosine(BN_IN(ltc_lobe) lobe, real3 p)
+{
+    return vec3_of(k_dot3(lobe.n0, p), k_dot3(lobe.n1, p), k_dot3(lobe.n2, p));
+}
+
+// det(M) N n for a normal n, the product of two vectors, from the ellipse frame: the product of the two in the cosine's space is this over
+// det(M). It has the digits that a product of stretched vectors loses.
+BN_FN real3 ltc_normal_to_cosine(BN_IN(ltc_lobe) lobe, real3 n)
+{
+    return vec3_of(k_dot3(lobe.m0, n), k_dot3(lobe.m1, n), k_dot3(lobe.m2, n));
+}
+
+// Density q of the lobe at l, 1/sr. l: unit, in the ellipse frame.
+BN_FN real ltc_density(BN_IN(ltc_lobe) lobe, real3 l)
+{
+    real3 u = ltc_to_cosine(lobe, l);
+    real length2 = max(k_dot3(u, u), lit(1e-12));
+    real above = max(u.z, lit(0.0));
+    return above * lit(0.31830988618379067) / (abs(lobe.det) * length2 * length2);
+}
+
+BN_KERNELS_END
+#endif
