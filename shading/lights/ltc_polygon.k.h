@@ -1,0 +1,192 @@
+// Light of polygons through a transformed cosine: the part of the lobe that lies in the polygon's cone, times its radiance what arrives.
+// Heitz, Dupuy, Hill, Neubelt 2016, section 4: N takes the polygon to where the lobe is a cosine, and there Lambert's sum over edges holds.
+// Corners are in the ellipse frame, relative to the shading point, in order, either way around; the polygon is convex and flat. Any unit of
+// length does, as only directions count.
+#ifndef BN_LTC_POLYGON_K_H
+#define BN_LTC_POLYGON_K_H
+#include "shading/kernels/math.k.h"
+#include "shading/lang/lang.h"
+#include "shading/lights/ltc_table.k.h"
+
+BN_KERNELS_BEGIN
+
+struct ltc_polygon {
+    real3 corner[16];
+};
+
+struct ltc_light {
+    real part;  // of the lobe, [0,1]
+    real3 flow; // where its light comes from in the cosine's space: the vector form factor of what is seen, or 0
+};
+
+// Of the arc from a to b: its angle times the unit vector that it turns about; 0 where a and b are parallel. Scale does not matter, but |a|
+// |b| in [1e-12, 1e12]. By the arc's tangent, as its cosine has no digits of small angles and none that is safe of large ones.
+BN_FN real3 ltc_arc(real3 a, real3 b)
+{
+    real3 c = k_cross(a, b);
+    real sine = sqrt(max(k_dot3(c, c), lit(1e-30)));
+    real angle = k_atan2(sine, k_dot3(a, b));
+    return c * (angle / sine);
+}
+
+// Of the arc along the horizon.
+BN_FN real ltc_horizon_arc(real2 a, real2 b)
+{
+    real sine = a.x * b.y - a.y * b.x;
+    return k_atan2(sine, k_dot2(a, b));
+}
+
+// To the cosine's space, the largest coordinate of the corners 1 before.
+BN_FN ltc_polygon ltc_polygon_to_cosine(BN_IN(ltc_lobe) lobe, BN_IN(ltc_polygon) polygon, int corners)
+{
+    real largest = lit(1e-30);
+    for (int i = 0; i < corners; ++i) {
+        real3 p = abs(polygon.corner[i]);
+        largest = max(largest, max(max(p.x, p.y), p.z));
+    }
+    real scale = lit(1.0) / largest;
+    ltc_polygon u;
+    for (int i = 0; i < corners; ++i) {
+        u.corner[i] = ltc_to_cosine(lobe, polygon.corner[i] * scale);
+    }
+    return u;
+}
+
+// Clipped at the horizon of the cosine's space, exactly: what lies on it counts as below. A convex polygon goes down at most once, but a
+// flat one on the horizon may do so at every second edge by rounding; each of its pieces is closed along the horizon then.
+BN_FN ltc_light ltc_polygon_light(BN_IN(ltc_lobe) lobe, BN_IN(ltc_polygon) polygon, int corners)
+{
+    ltc_polygon u = ltc_polygon_to_cosine(lobe, polygon, corners);
+    real2 rise = vec2_all(lit(0.0)); // where the boundary came up
+    real2 cut[16];
+    for (int i = 0; i < corners; ++i) {
+        real3 a = u.corner[i];
+        real3 b = u.corner[i + 1 < corners ? i + 1 : 0];
+        mask a_up = a.z > lit(0.0);
+        mask b_up = b.z > lit(0.0);
+        mask cuts = either(both(a_up, not_(b_up)), both(b_up, not_(a_up)));
+        real height = a.z - b.z;
+        real t = select(cuts, a.z, lit(0.0)) / select(cuts, height, lit(1.0));
+        cut[i] = vec2_of(a.x + (b.x - a.x) * t, a.y + (b.y - a.y) * t);
+        rise = select(both(b_up, not_(a_up)), cut[i], rise);
+    }
+    real3 sum = vec3_all(lit(0.0));
+    real2 fall = vec2_all(lit(0.0)); // where it goes down, and where it had come up: once in two edges at most
+    real2 risen = vec2_all(lit(0.0));
+    for (int i = 0; i < corners; ++i) {
+        real3 a = u.corner[i];
+        real3 b = u.corner[i + 1 < corners ? i + 1 : 0];
+        mask a_up = a.z > lit(0.0);
+        mask b_up = b.z > lit(0.0);
+        real3 on_horizon = vec3_of(cut[i].x, cut[i].y, lit(0.0));
+        real3 from = select(a_up, a, on_horizon);
+        real3 to = select(b_up, b, on_horizon);
+        sum = sum + select(either(a_up, b_up), ltc_arc(from, to), vec3_all(lit(0.0)));
+        mask falls = both(a_up, not_(b_up));
+        fall = select(falls, cut[i], fall);
+        risen = select(falls, rise, risen);
+        rise = select(both(b_up, not_(a_up)), cut[i], rise);
+        if ((i & 1) == 1 || i + 1 == corners) {
+            sum.z = sum.z + ltc_horizon_arc(fall, risen);
+            fall = vec2_all(lit(0.0));
+            risen = fall;
+        }
+    }
+    ltc_light light;
+    real3 flow = sum * select(sum.z < lit(0.0), lit(-0.15915494309189534), lit(0.15915494309189534));
+    light.part = k_saturate(flow.z);
+    light.flow = flow;
+    return light;
+}
+
+// The part of a clamped cosine that a sphere takes whose vector form factor is `flow`, clipped at the horizon exactly. Snyder 1996, "Area
+// Light Sources for Real-Time Graphics". The sine squared of the sphere's angular radius is |flow|.
+BN_FN real ltc_sphere_part(real3 flow)
+{
+    real size = min(k_length3(flow), lit(1.0));
+    real z = flow.z / max(size, lit(1e-15));
+    z = min(max(z, lit(-1.0)), lit(1.0));
+    real sine = sqrt(size); // of the radius
+    real cosine = sqrt(lit(1.0) - size);
+    real across = sqrt(max(lit(1.0) - z * z, lit(1e-12)));
+    real sine_g = min(cosine / across, lit(1.0));
+    real g_left = k_acos(sine_g); // pi / 2 - g
+    real k = sqrt(lit(1.0) - sine_g * sine_g);
+    real in_plane = g_left + sine_g * k - lit(2.0) * across * cosine * k;
+    real ratio = min(k / max(sine, lit(1e-15)), lit(1.0));
+    real arc_sine = lit(1.5707963267948966) - k_acos(ratio);
+    real off_plane = abs(z) * (k * sqrt(max(size - k * k, lit(0.0))) + size * arc_sine);
+    real part = max(z, lit(0.0)) * size + (in_plane - off_plane) * lit(0.31830988618379067);
+    part = select(z >= sine, z * size, part);
+    return k_saturate(select(z <= -sine, lit(0.0), part));
+}
+
+// Without clipping: the sphere of the same vector form factor is clipped instead. On quads 0.005 off in the mean, 0.07 at most.
+BN_FN ltc_light ltc_polygon_clipless(BN_IN(ltc_lobe) lobe, BN_IN(ltc_polygon) polygon, int corners)
+{
+    ltc_polygon u = ltc_polygon_to_cosine(lobe, polygon, corners);
+    real3 sum = vec3_all(lit(0.0));
+    real3 inside = vec3_all(lit(0.0));
+    for (int i = 0; i < corners; ++i) {
+        real3 a = u.corner[i];
+        real3 b = u.corner[i + 1 < corners ? i + 1 : 0];
+        sum = sum + ltc_arc(a, b);
+        inside = inside + k_normalize3(a);
+    }
+    // Towards the light, whichever way around the corners are.
+    real ahead = k_dot3(sum, inside);
+    real3 flow = sum * select(ahead < lit(0.0), lit(-0.15915494309189534), lit(0.15915494309189534));
+    ltc_light light;
+    light.part = ltc_sphere_part(flow);
+    light.flow = flow;
+    return light;
+}
+
+// A light of one side is dark from behind and from within its plane. to_light: from the shading point to any point of it; normal: of the
+// side that shines.
+BN_FN real ltc_sided(real part, real3 to_light, real3 normal, int two_sided)
+{
+    real shown = part;
+    if (two_sided == 0) {
+        real behind = k_dot3(to_light, normal);
+        shown = select(behind < lit(0.0), part, lit(0.0));
+    }
+    return shown;
+}
+
+struct ltc_texture_place {
+    real2 uv;   // (0,0) at the first corner, u towards the second, v towards the last; [0,1]
+    real level; // of a chain of mean values by halves, from 0
+};
+
+// What stands for the texture of a parallelogram: where its plane is met in the direction that its light comes from, and the level whose
+// texels have the area of the disc from which half of a cosine's light would come to that plane. corner: the first; side_u, side_v: from
+// there; texels: of the whole of level 0; last: the coarsest level, which is the answer where there is no flow. After Heitz, Dupuy, Hill,
+// Neubelt 2016, section 5.
+BN_FN ltc_texture_place ltc_texture_place_of(BN_IN(ltc_lobe) lobe, real3 flow, real3 corner, real3 side_u, real3 side_v, real texels,
+                                             real last)
+{
+    real3 normal = k_cross(side_u, side_v);
+    real3 d = lobe.m0 * flow.x + lobe.m1 * flow.y + lobe.m2 * flow.z;
+    real towards = k_dot3(d, normal);
+    real distance = k_dot3(corner, normal);
+    mask met = abs(towards) > lit(1e-30);
+    real along = select(met, distance, lit(0.0)) / select(met, towards, lit(1.0));
+    real3 at = d * along - corner;
+    real area2 = max(k_dot3(normal, normal), lit(1e-30));
+    real u = k_dot3(k_cross(at, side_v), normal) / area2;
+    real v = k_dot3(k_cross(side_u, at), normal) / area2;
+    ltc_texture_place place;
+    place.uv = vec2_of(select(met, k_saturate(u), lit(0.5)), select(met, k_saturate(v), lit(0.5)));
+    // In the cosine's space: the plane's distance over the root of the area, both by the product of the sides there.
+    real3 n = ltc_normal_to_cosine(lobe, normal);
+    real area = max(k_length3(n), lit(1e-30)) / abs(lobe.det);
+    real height = abs(distance / lobe.det) / (area * sqrt(area));
+    real wide = lit(3.1415926535897932) * height * height * texels;
+    real level = lit(0.5) * k_log2(max(wide, lit(1.0)));
+    place.level = select(met, min(level, last), last);
+    return place;
+}
+
+BN_KERNELS_END
+#endif
