@@ -1,0 +1,48 @@
+#include "tests/unit/lanes/run_lanes.h"
+
+#include "shading/lights/ltc_polygon.k.h"
+#include "shading/lights/ltc_round.k.h"
+#include "shading/lights/ltc_table.k.h"
+
+namespace burnish {
+inline namespace BN_ISA_NS {
+namespace {
+
+// Of a view: level is the table's basis.
+ltc_table table_of(const test::TexelView& t)
+{
+    return {t.texels, 1, t.level};
+}
+
+// By the columns of M.
+ltc_lobe lobe_at(const real* a)
+{
+    ltc_lobe lobe = ltc_cosine();
+    lobe.m0 = vec3_at(a), lobe.m1 = vec3_at(a + 3), lobe.m2 = vec3_at(a + 6);
+    return ltc_inverted(lobe);
+}
+
+ltc_polygon polygon_at(const real* a, int corners)
+{
+    ltc_polygon p;
+    for (int i = 0; i < corners; ++i)
+        p.corner[i] = vec3_at(a + 3 * i);
+    return p;
+}
+
+void put_light(ltc_light light, real* r)
+{
+    r[0] = light.part;
+    put_vec3(light.flow, r + 1);
+}
+
+constexpr test::Kernel kKernels[] = {
+#include "tests/unit/ltc/kernels.def"
+};
+
+} // namespace
+
+BN_DEFINE_KERNELS(kKernels)
+
+} // namespace BN_ISA_NS
+} // namespace burnish

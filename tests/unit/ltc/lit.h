@@ -1,0 +1,34 @@
+// What tests of the run-time kernels share: the shipped table as they read it, points by row, places and directions without a pattern.
+#pragma once
+#include <initializer_list>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "shading/bake/ltc/table.h"
+#include "tests/unit/lanes/kernels.h"
+
+namespace burnish::ltc {
+
+using Row = std::vector<double>; // arguments of a kernel at one point, or its results
+
+std::vector<Row> run_rows(const test::IsaFns& isa, const char* name, const std::vector<Row>& rows, const test::TexelView& t = {});
+Row run_row(const test::IsaFns& isa, const char* name, const Row& row, const test::TexelView& t = {});
+Row joined(std::initializer_list<Row> rows);
+Row rounded(Row row); // to floats, so that double versions get what float versions get
+
+const Table& halves();          // the shipped table as halves hold it
+test::TexelView shipped_view(); // its texels
+Row columns(const Matrix& m);   // as kernels take M
+Matrix from_columns(const Row& row);
+Row flat(const std::vector<Vec>& points);
+
+struct Chance {
+    std::mt19937 bits{1};
+    double from(double low, double high);
+    Vec point(double size);                               // in a cube about 0
+    Vec upper();                                          // unit, above the horizon
+    Matrix lobe(double least_alpha, double least_lambda); // of the table, any quadrant
+};
+
+} // namespace burnish::ltc
