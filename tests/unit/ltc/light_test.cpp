@@ -1,6 +1,7 @@
 // Polygons at run time, against the fit's own polygons in double, against sums and limits, and where they are hard.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -201,6 +202,20 @@ TEST(light, on_the_horizon_and_below_there_is_none)
         EXPECT_NEAR(part(isa, "ltc_quad", kCosine, {{1e5, -1e5, 1.0}, {1e5, 1e5, 1.0}, {-1e5, 1e5, 1.0}, {-1e5, -1e5, 1.0}}), 1.0, 1e-5);
         // A wall that stands on the floor around the corner of a room: the half of it that can be seen.
         EXPECT_NEAR(part(isa, "ltc_quad", kCosine, {{1.0, -1e4, -5.0}, {1.0, 1e4, -5.0}, {1.0, 1e4, 1e4}, {1.0, -1e4, 1e4}}), 0.5, 1e-3);
+    }
+}
+
+TEST(light, corners_on_the_horizon_cut_once)
+{
+    const std::vector<Vec> diamond = {{1.0, 0.0, 1.0}, {1.0, 1.0, 0.0}, {1.0, 0.0, -1.0}, {1.0, -1.0, 0.0}};
+    for (std::size_t first = 0; first < 4; ++first) {
+        std::vector<Vec> corners = diamond;
+        std::rotate(corners.begin(), corners.begin() + static_cast<std::ptrdiff_t>(first), corners.end());
+        const std::vector<Vec> other_way(corners.rbegin(), corners.rend());
+        for (const IsaFns& isa : all_fns()) {
+            EXPECT_NEAR(part(isa, "ltc_quad", kCosine, corners), polygon_part(kCosine, diamond), 1e-6) << isa.name << first;
+            EXPECT_NEAR(part(isa, "ltc_quad", kCosine, other_way), polygon_part(kCosine, diamond), 1e-6) << isa.name << first;
+        }
     }
 }
 

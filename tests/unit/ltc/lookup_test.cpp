@@ -67,6 +67,12 @@ TEST(lookup, every_quadrant_and_order_of_widths_has_its_own_lobe)
     }
 }
 
+TEST(lookup, equal_widths_are_not_exchanged)
+{
+    for (const test::IsaFns& isa : test::all_fns())
+        EXPECT_GT(looked_at(isa, eye_at(0.7, 0.4), 0.3, 0.3)[9], 0.0) << isa.name; // an exchange mirrors
+}
+
 TEST(lookup, along_the_normal_all_azimuths_are_one)
 {
     for (const test::IsaFns& isa : test::all_fns())

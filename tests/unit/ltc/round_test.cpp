@@ -190,16 +190,18 @@ TEST(round, textures_are_met_where_their_light_comes_from)
             EXPECT_NEAR(got[1], t, 2e-4) << isa.name << i;
         }
     }
-    // A cosine at height h over a square of side 1: half of its light comes from the disc of radius h.
+    // A cosine at height 2 h over a square of side 2: half of its light comes from the disc of radius 2 h.
     for (const IsaFns& isa : all_fns())
         for (const double h : {0.001, 0.01, 0.1, 5.0}) {
             const Row got = run_row(
                 isa, "ltc_texture",
-                joined({columns(kPlain), flat({{0.0, 0.0, 1.0}, {-0.5, -0.5, h}, {1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}}), {65536.0, 8.0}}));
+                joined(
+                    {columns(kPlain), flat({{0.0, 0.0, 1.0}, {-1.0, -1.0, 2.0 * h}, {2.0, 0.0, 0.0}, {0.0, 2.0, 0.0}}), {65536.0, 8.0}}));
             EXPECT_NEAR(got[2], std::min(8.0, std::max(0.0, 0.5 * std::log2(kPi * h * h * 65536.0))), 1e-4) << isa.name << h;
             const Row none = run_row(
                 isa, "ltc_texture",
-                joined({columns(kPlain), flat({{0.0, 0.0, 0.0}, {-0.5, -0.5, h}, {1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}}), {65536.0, 8.0}}));
+                joined(
+                    {columns(kPlain), flat({{0.0, 0.0, 0.0}, {-1.0, -1.0, 2.0 * h}, {2.0, 0.0, 0.0}, {0.0, 2.0, 0.0}}), {65536.0, 8.0}}));
             EXPECT_EQ(none, (Row{0.5, 0.5, 8.0})) << isa.name;
         }
 }
