@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 #include "core/math/scalar_math.h"
 #include "shading/bake/ltc/node_fit.h"
@@ -145,7 +146,7 @@ TEST(lookup, without_a_matrix_in_the_table_the_natural_one_stands_in)
 
 TEST(lookup, of_what_is_outside_is_defined)
 {
-    const double nan = std::nan(""), inf = INFINITY;
+    const double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
     for (const test::IsaFns& isa : test::all_fns())
         for (const Row& row :
              {Row{nan, nan, nan, nan, nan}, Row{inf, -inf, inf, inf, inf}, Row{0.0, 0.0, 0.0, 0.0, 0.0}, Row{0.6, 0.0, -0.8, 0.5, 0.5},
