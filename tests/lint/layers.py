@@ -29,6 +29,8 @@ THIRD_PARTY = (
     (r"(ranges|format)$", ()),  # GCC 12 and clang 14 do not agree on them
 )
 
+INTERFACE = "shading/stages/interface.glsl" # says that texels lie on pages, to all that comes after it
+
 ROOT_ENTRIES = {"CMakeLists.txt", "CMakePresets.json", "LICENSE", "README.md", "core", "shading", "raster", "apps", "tests", "bench"}
 SOURCES = (".h", ".cpp", ".py", ".sh", ".cmake", ".vert", ".frag", ".comp")
 TICKS = re.compile("rdts" + "c|cntvct" + "_el0")  # core/simd/ticks.h reads them
@@ -97,6 +99,11 @@ def check_include(path, quoted, name, files):
             yield f'raster/{mine} includes "{name}", which lies above it'
 
 
+def is_stage(path):
+    """An entry of a shader; *.glsl beside it are parts of them."""
+    return path.parent == pathlib.PurePosixPath("shading/stages") and path.suffix != ".glsl"
+
+
 def guarded(path, lines):
     """GLSL knows no #pragma once, so what it reads has a macro."""
     glsl = is_kernel(path) or path.is_relative_to("shading/lang")
@@ -108,8 +115,12 @@ def check_source(path, lines, files):
     top = path.parts[0]
     if path.suffix == ".h" and not guarded(path, lines):
         yield 1, "can be included twice"
+    first = is_stage(path)
     for number, line in enumerate(lines, 1):
         include = re.match(r'\s*#\s*include\s*(["<])([^">]+)[">]', line)
+        if include and first and include[2] != INTERFACE:
+            yield number, f'a stage includes "{include[2]}" before "{INTERFACE}": it would find no texels'
+        first = first and not include
         if include and (top in LAYERS or top in EVERYWHERE):
             for fault in check_include(path, include[1] == '"', include[2], files):
                 yield number, fault
