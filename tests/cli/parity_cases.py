@@ -299,7 +299,7 @@ DEFECTS = {
     "one_ulp_in_the_vertex_kernel": ([("kernels/vertex.k.h", "lit(1.0) / select(in_front", "lit(0.99999994) / select(in_front")], "1", {"clip positions"}),
     "swapped_sample_positions": ([("stages/gather.comp", "copy_sample(pixel, at, s, s)", "copy_sample(pixel, at, s, s < 2 ? 1 - s : s)")], "4",
                                  {"visibility"}),
-    "another_depth": ([("stages/visibility.frag", "real at_sample = z + sample_z;", "real at_sample = (z + sample_z) * 0.99999994;")], "1", {"depth"}),
+    "another_depth": ([("kernels/depth_plane.k.h", "real z = pixel + step;", "real z = (pixel + step) * lit(0.99999994);")], "1", {"depth"}),
     "no_contraction_missing": ([("lang/glsl.h", "#define real precise float", "#define real float"),
                                 ("lang/glsl.h", "#define real2 precise vec2", "#define real2 vec2"),
                                 ("lang/glsl.h", "#define real3 precise vec3", "#define real3 vec3"),

@@ -23,7 +23,8 @@ double least_distance(const ShadingFrame& f, const double c[4])
 // Twice the area of (a, b, p), each in barycentrics of the triangle.
 double side(const clip_corner& a, const clip_corner& b, const double p[3])
 {
-    const double ax = a.bary[1], ay = a.bary[2], bx = b.bary[1], by = b.bary[2];
+    const double ax = static_cast<double>(a.bary[1]), ay = static_cast<double>(a.bary[2]);
+    const double bx = static_cast<double>(b.bary[1]), by = static_cast<double>(b.bary[2]);
     return (bx - ax) * (p[2] - ay) - (by - ay) * (p[1] - ax);
 }
 
@@ -61,7 +62,9 @@ TEST(clip, leaves_what_lies_inside_of_all_planes)
                 }
             }
             for (int n = 0; n < 30; ++n) {
-                double b[3] = {random.unit(), random.unit(), random.unit()}, c[4] = {0, 0, 0, 0};
+                double b[3], c[4] = {0, 0, 0, 0};
+                for (double& share : b)
+                    share = static_cast<double>(random.unit());
                 const double sum = b[0] + b[1] + b[2];
                 for (int j = 0; j < 3; ++j) {
                     b[j] /= sum;
