@@ -3,12 +3,12 @@
 //   BN_ON_<machine>(X(name, use, runs, flags, of))
 // machine: any, x86_64, aarch64, what the program is compiled for. use: "program", compiled from every file of bn_isa_objects; "tests",
 // compiled only where tests ask for it and unknown to options. runs: whether this processor and its system can run it (core/simd/cpu.h).
-// flags: of the compiler, after those that the rest of the program is compiled with.
+// flags: of the compiler, after those that the rest of the program is compiled with; -O1 or -O2 where more only takes longer to compile.
 #pragma once
 
 // clang-format off
 #define BN_EACH_ISA(X, of)                                                                                   \
-    BN_ON_any(X(scalar, program, true, "", of))                                                              \
+    BN_ON_any(X(scalar, program, true, "-O2", of))                                                           \
     BN_ON_x86_64(X(avx2, program, cpu_has_avx2(), "-march=x86-64-v3", of))                                   \
     BN_ON_x86_64(X(avx512, program, cpu_has_avx512(), "-march=x86-64-v4 -mprefer-vector-width=512", of)) \
     BN_ON_x86_64(X(portable8, tests, true, "-O1", of))                                      \
@@ -16,8 +16,8 @@
     BN_ON_any(X(portable16, tests, true, "-O1", of))
 // No instruction sets, but compiled like one: a double by lane (bn_oracle_objects), and floats that count their work (bn_counted_objects).
 #define BN_EACH_TWIN(X, of)                                                                                  \
-    X(oracle, tests, true, "", of)                                                                           \
-    X(counted, tests, true, "", of)
+    X(oracle, tests, true, "-O1", of)                                                                        \
+    X(counted, tests, true, "-O1", of)
 // clang-format on
 
 #define BN_ON_any(row) row

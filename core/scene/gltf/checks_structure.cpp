@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <regex>
 #include <string_view>
 
 #include "core/scene/gltf/checks.h"
@@ -63,8 +62,11 @@ void check_empty_and_double(Document& doc)
 void check_asset(Document& doc)
 {
     const std::string version = doc.json["asset"]["version"];
-    static const std::regex pattern("^[0-9]+\\.[0-9]+$");
-    if (!std::regex_match(version, pattern))
+    const std::size_t dot = version.find('.');
+    const auto number = [&](std::size_t from, std::size_t to) {
+        return from < to && version.find_first_not_of("0123456789", from) >= to;
+    };
+    if (dot == std::string::npos || !number(0, dot) || !number(dot + 1, version.size()))
         doc.fault("/asset/version", "is not of the form 2.0");
 }
 
