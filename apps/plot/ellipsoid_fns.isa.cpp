@@ -1,21 +1,12 @@
 #include "apps/plot/ellipsoid_fns.h"
 
+#include "apps/plot/plot_vec.h"
 #include "shading/models/ellipsoid.k.h"
 #include "shading/models/ggx_aniso.k.h"
 
 namespace burnish {
 inline namespace BN_ISA_NS {
 namespace {
-
-real3 of(const PlotVec& v)
-{
-    return vec3_of(v.x, v.y, v.z);
-}
-
-PlotVec to(real3 v)
-{
-    return {v.x, v.y, v.z};
-}
 
 ellipsoid_params of(const EllipsoidShape& s)
 {

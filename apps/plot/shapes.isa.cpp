@@ -1,5 +1,6 @@
 #include "apps/plot/shapes.h"
 
+#include "apps/plot/plot_vec.h"
 #include "shading/lang/tables.h"
 #include "shading/surface/lobe.k.h"
 #include "shading/techniques/bent_normal.k.h"
@@ -10,16 +11,6 @@
 namespace burnish {
 inline namespace BN_ISA_NS {
 namespace {
-
-real3 of(const PlotVec& v)
-{
-    return vec3_of(v.x, v.y, v.z);
-}
-
-PlotVec to(real3 v)
-{
-    return {v.x, v.y, v.z};
-}
 
 void axis(double alpha_x, double alpha_y, const PlotVec& o, double k, double beta, int samples, AxisShape& shape)
 {

@@ -19,7 +19,7 @@ def discs(bench, *words):
 
 
 # A panel is 300 px wide and shows slopes to 1.5 times k deviations; the middle of the first one lies at (174, 190).
-@case("plot.seen_along_the_normal_everything_is_symmetric", tier="quick")
+@case("plot.seen_along_the_normal_everything_is_symmetric", tier="check")
 def symmetric(bench):
     found = discs(bench, "--eye", "0,0", "--samples", "5")
     far = sorted(p for p in found["c4"] if p[0] < 324 and p[1] < 340)
@@ -30,7 +30,7 @@ def symmetric(bench):
     check(turned == found, "an ellipse that is turned is drawn along its own axes")
 
 
-@case("plot.at_grazing_views_the_axis_ends_at_the_horizon", tier="quick")
+@case("plot.at_grazing_views_the_axis_ends_at_the_horizon", tier="check")
 def clamped(bench):
     found = discs(bench, "--eye", "75,0", "--roughness", "0.7", "--samples", "9")
     far = sorted(x for x, y in found["c4"] if x < 324 and y < 340)
@@ -45,7 +45,7 @@ WIDTHS = (((0.5, 0.3, 0.8), "0.5", "0.8", 0.11974987, 0.07918166), ((0.6, -0.2, 
           ((0.7, 0.0, 0.4), "0.5", "0.6", 0.14275683, 0.07331634))
 
 
-@case("plot.the_points_that_are_drawn_are_the_lobe_s_width_apart", tier="quick")
+@case("plot.the_points_that_are_drawn_are_the_lobe_s_width_apart", tier="check")
 def width(bench):
     for (x, y, z), roughness, anisotropy, wide, radius in WIDTHS:
         eye = f"{math.degrees(math.atan2(math.hypot(x, y), z))},{math.degrees(math.atan2(y, x))}"
@@ -64,7 +64,7 @@ def lobe(bench, *words):
     return [float(group) for group in found.groups()] + [text]
 
 
-@case("plot.every_model_has_its_peak_where_it_must", tier="quick")
+@case("plot.every_model_has_its_peak_where_it_must", tier="check")
 def peaks(bench):
     names = [line.split()[0] for line in bench.run("list", "models").expect(0).out.splitlines() if line.strip()]
     drawn = 0
@@ -83,7 +83,7 @@ def peaks(bench):
     check(drawn >= 9, f"{drawn} of {names}")
 
 
-@case("plot.a_tilted_lobe_is_mirrored_about_its_own_normal", tier="quick")
+@case("plot.a_tilted_lobe_is_mirrored_about_its_own_normal", tier="check")
 def tilted(bench):
     for tilt, where in (("20,0", (40, 90)), ("0,20", (40, 180)), ("-10,0", (20, -90))):
         _, theta, phi, _, _, _, text = lobe(bench, "--tilt", tilt, "--roughness", "0.15", "--anisotropy", "0.5", "--eye", "0,0")
@@ -93,7 +93,7 @@ def tilted(bench):
     check(abs(straight - skewed) > 0.01 * straight, "tilt changes nothing")
 
 
-@case("plot.contours_of_a_round_lobe_are_circles", tier="quick")
+@case("plot.contours_of_a_round_lobe_are_circles", tier="check")
 def contours(bench):
     text = lobe(bench, "--anisotropy", "0", "--eye", "0,0", "--roughness", "0.6")[-1]
     group = re.search(r'<g class="c1"[^>]*>(.*?)</g>', text, re.S)[1]
@@ -124,7 +124,7 @@ def sides_of_techniques(bench):
     check(bent > 5 and axis < 0.5 * bent, f"{bent} and {axis}")
 
 
-@case("plot.files_are_the_same_every_time", tier="quick")
+@case("plot.files_are_the_same_every_time", tier="check")
 def same(bench):
     for what in ("axis", "lobe"):
         for name in ("a.svg", "b.svg", "a.png", "b.png"):
@@ -133,7 +133,7 @@ def same(bench):
             check((bench.folder / f"a.{kind}").read_bytes() == (bench.folder / f"b.{kind}").read_bytes(), f"two runs make different {kind} files")
 
 
-@case("plot.wrong_options_say_one_line", tier="quick")
+@case("plot.wrong_options_say_one_line", tier="check")
 def wrong(bench):
     for words, code, needle in (
             (("axes", "-o", "a.svg"), 2, "axis"), (("axis",), 2, "--output"), (("axis", "-o", "a.pdf"), 2, ".svg"),
@@ -207,7 +207,7 @@ def ellipsoid(bench):
     check(min(mapped for _, _, mapped in energy) == 0, "a normal map that faces away reflects")
 
 
-@case("plot.a_page_is_a_page", tier="quick")
+@case("plot.a_page_is_a_page", tier="check")
 def page(bench):
     for words, needle in ((("-o", "e.svg"), ".html"), (("-o", "e.html", "--eye", "3,3"), "--eye"), (("-o", "e.html", "--roughness", "0.5"), "--roughness"),
                           (("-o", "e.html", "--tilt", "3,3"), "--tilt")):

@@ -63,9 +63,7 @@ void check_asset(Document& doc)
 {
     const std::string version = doc.json["asset"]["version"];
     const std::size_t dot = version.find('.');
-    const auto number = [&](std::size_t from, std::size_t to) {
-        return from < to && version.find_first_not_of("0123456789", from) >= to;
-    };
+    const auto number = [&](std::size_t from, std::size_t to) { return from < to && version.find_first_not_of("0123456789", from) >= to; };
     if (dot == std::string::npos || !number(0, dot) || !number(dot + 1, version.size()))
         doc.fault("/asset/version", "is not of the form 2.0");
 }

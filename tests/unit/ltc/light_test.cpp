@@ -21,13 +21,6 @@ using test::float_fns;
 using test::IsaFns;
 using test::oracle_fns;
 
-constexpr Matrix kCosine = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0};
-
-Vec along(const Vec& a, double s, const Vec& b, double t, const Vec& c)
-{
-    return {a.x + s * b.x + t * c.x, a.y + s * b.y + t * c.y, a.z + s * b.z + t * c.z};
-}
-
 std::vector<Vec> parallelogram_of(const Vec& middle, const Vec& a, const Vec& b)
 {
     return {along(middle, -1.0, a, -1.0, b), along(middle, 1.0, a, -1.0, b), along(middle, 1.0, a, 1.0, b), along(middle, -1.0, a, 1.0, b)};

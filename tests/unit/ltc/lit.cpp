@@ -105,4 +105,9 @@ Matrix Chance::lobe(double least_alpha, double least_lambda)
         run_row(test::oracle_fns(), "ltc_lookup", {eye.x, eye.y, eye.z, swap ? other : alpha, swap ? alpha : other}, shipped_view()));
 }
 
+Vec along(const Vec& a, double s, const Vec& b, double t, const Vec& c)
+{
+    return {a.x + s * b.x + t * c.x, a.y + s * b.y + t * c.y, a.z + s * b.z + t * c.z};
+}
+
 } // namespace burnish::ltc

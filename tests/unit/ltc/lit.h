@@ -23,6 +23,9 @@ Row columns(const Matrix& m);   // as kernels take M
 Matrix from_columns(const Row& row);
 Row flat(const std::vector<Vec>& points);
 
+constexpr Matrix kCosine = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0}; // the lobe that is the clamped cosine itself
+Vec along(const Vec& a, double s, const Vec& b, double t, const Vec& c);  // a + s b + t c
+
 struct Chance {
     std::mt19937 bits{1};
     double from(double low, double high);

@@ -14,13 +14,6 @@ using test::all_fns;
 using test::IsaFns;
 using test::oracle_fns;
 
-constexpr Matrix kPlain = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0};
-
-Vec moved(const Vec& a, double s, const Vec& b, double t, const Vec& c)
-{
-    return {a.x + s * b.x + t * c.x, a.y + s * b.y + t * c.y, a.z + s * b.z + t * c.z};
-}
-
 Row of_disk(const IsaFns& isa, const Matrix& m, const Vec& middle, const Vec& a, const Vec& b)
 {
     return run_row(isa, "ltc_disk", joined({columns(m), flat({middle, a, b})}));
@@ -45,7 +38,7 @@ double many_corners(const Matrix& m, const Vec& middle, const Vec& a, const Vec&
 {
     std::vector<Vec> corners;
     for (int k = 0; k < 2000; ++k)
-        corners.push_back(moved(middle, std::cos(k * kPi / 1000.0), a, std::sin(k * kPi / 1000.0), b));
+        corners.push_back(along(middle, std::cos(k * kPi / 1000.0), a, std::sin(k * kPi / 1000.0), b));
     return polygon_part(inverse(m), corners);
 }
 
@@ -55,14 +48,14 @@ TEST(round, discs_above_the_horizon_are_polygons_of_many_corners)
     int above = 0;
     double off = 0.0;
     for (int i = 0; i < 400; ++i) {
-        const Matrix m = i % 4 ? chance.lobe(0.05, 0.1) : kPlain;
+        const Matrix m = i % 4 ? chance.lobe(0.05, 0.1) : kCosine;
         const double size = std::pow(10.0, chance.from(-2.0, 0.7));
         const Axes axes = axes_about(chance.upper());
         const Vec middle = chance.upper(), a = scaled(axes.s, size), b = scaled(axes.t, size * chance.from(0.2, 1.0));
         const Matrix n = inverse(m);
         bool up = true, down = true;
         for (int k = 0; k < 64; ++k) {
-            const double z = (n * moved(middle, std::cos(k * kPi / 32.0), a, std::sin(k * kPi / 32.0), b)).z;
+            const double z = (n * along(middle, std::cos(k * kPi / 32.0), a, std::sin(k * kPi / 32.0), b)).z;
             up = up && z > 0.0, down = down && z < 0.0;
         }
         const double expected = many_corners(m, middle, a, b);
@@ -102,8 +95,8 @@ TEST(round, spheres_under_a_cosine_are_exact)
     // Seen whole: sine squared of the radius times the cosine of the elevation. Half sunk: by summing directions.
     for (const IsaFns& isa : all_fns())
         for (const double r : {0.05, 0.3, 0.6}) {
-            EXPECT_NEAR(of_sphere(isa, kPlain, {0.6, 0.0, 0.8}, r)[0], r * r * 0.8, 2e-6) << isa.name << r;
-            EXPECT_EQ(of_sphere(isa, kPlain, {0.3, 0.2, -0.99}, r)[0], 0.0);
+            EXPECT_NEAR(of_sphere(isa, kCosine, {0.6, 0.0, 0.8}, r)[0], r * r * 0.8, 2e-6) << isa.name << r;
+            EXPECT_EQ(of_sphere(isa, kCosine, {0.3, 0.2, -0.99}, r)[0], 0.0);
             for (const double z : {-0.6 * r, 0.0, 0.5 * r}) {
                 const Vec w = {std::sqrt(1.0 - z * z), 0.0, z};
                 const Axes axes = axes_about(w);
@@ -114,10 +107,10 @@ TEST(round, spheres_under_a_cosine_are_exact)
                     for (int k = 0; k < kSteps; ++k) {
                         const double c = 1.0 - (1.0 - least) * (i + 0.5) / kSteps, s = std::sqrt(1.0 - c * c),
                                      turn = 2.0 * kPi * (k + 0.5) / kSteps;
-                        sum += std::max(0.0, moved(scaled(w, c), s * std::cos(turn), axes.s, s * std::sin(turn), axes.t).z);
+                        sum += std::max(0.0, along(scaled(w, c), s * std::cos(turn), axes.s, s * std::sin(turn), axes.t).z);
                     }
                 sum *= 2.0 * (1.0 - least) / (static_cast<double>(kSteps) * kSteps);
-                EXPECT_NEAR(of_sphere(isa, kPlain, w, r)[0], sum, 2e-5) << isa.name << r << " " << z;
+                EXPECT_NEAR(of_sphere(isa, kCosine, w, r)[0], sum, 2e-5) << isa.name << r << " " << z;
             }
         }
 }
@@ -148,11 +141,11 @@ TEST(round, lines_are_thin_quads)
     Chance chance;
     double most = 0.0;
     for (int i = 0; i < 300; ++i) {
-        const Matrix m = i % 4 ? chance.lobe(0.1, 0.2) : kPlain;
+        const Matrix m = i % 4 ? chance.lobe(0.1, 0.2) : kCosine;
         const Vec p = chance.point(1.0), q = chance.point(1.0), o = unit(cross(p, q));
         const double thin = 1e-5;
-        const double quad = polygon_part(inverse(m), {moved(p, -thin, o, 0.0, o), moved(q, -thin, o, 0.0, o), moved(q, thin, o, 0.0, o),
-                                                      moved(p, thin, o, 0.0, o)}) /
+        const double quad = polygon_part(inverse(m), {along(p, -thin, o, 0.0, o), along(q, -thin, o, 0.0, o), along(q, thin, o, 0.0, o),
+                                                      along(p, thin, o, 0.0, o)}) /
                             thin;
         most = std::max(most, quad);
         for (const IsaFns& isa : all_fns())
@@ -166,7 +159,7 @@ TEST(round, lines_that_point_here_or_lie_below_are_dark)
 {
     for (const IsaFns& isa : all_fns()) {
         const auto part = [&isa](const Vec& p, const Vec& q) {
-            return run_row(isa, "ltc_line", joined({columns(kPlain), flat({p, q}), {0.01}}))[0];
+            return run_row(isa, "ltc_line", joined({columns(kCosine), flat({p, q}), {0.01}}))[0];
         };
         EXPECT_EQ(part({0.0, 0.0, 1.0}, {0.0, 0.0, 3.0}), 0.0);
         EXPECT_EQ(part({1.0, 0.0, -0.1}, {0.0, 1.0, -0.5}), 0.0);
@@ -181,9 +174,9 @@ TEST(round, textures_are_met_where_their_light_comes_from)
     for (int i = 0; i < 200; ++i) {
         const Matrix m = chance.lobe(0.05, 0.2);
         const Axes axes = axes_about(chance.upper());
-        const Vec corner = moved(axes.w, -0.4, axes.s, -0.3, axes.t), u = scaled(axes.s, 0.9), v = scaled(axes.t, 0.8);
+        const Vec corner = along(axes.w, -0.4, axes.s, -0.3, axes.t), u = scaled(axes.s, 0.9), v = scaled(axes.t, 0.8);
         const double s = chance.from(0.05, 0.95), t = chance.from(0.05, 0.95);
-        const Vec flow = inverse(m) * moved(corner, s, u, t, v); // towards a known place
+        const Vec flow = inverse(m) * along(corner, s, u, t, v); // towards a known place
         for (const IsaFns& isa : all_fns()) {
             const Row got = run_row(isa, "ltc_texture", joined({columns(m), flat({flow, corner, u, v}), {65536.0, 8.0}}));
             EXPECT_NEAR(got[0], s, 2e-4) << isa.name << i;
@@ -196,12 +189,12 @@ TEST(round, textures_are_met_where_their_light_comes_from)
             const Row got = run_row(
                 isa, "ltc_texture",
                 joined(
-                    {columns(kPlain), flat({{0.0, 0.0, 1.0}, {-1.0, -1.0, 2.0 * h}, {2.0, 0.0, 0.0}, {0.0, 2.0, 0.0}}), {65536.0, 8.0}}));
+                    {columns(kCosine), flat({{0.0, 0.0, 1.0}, {-1.0, -1.0, 2.0 * h}, {2.0, 0.0, 0.0}, {0.0, 2.0, 0.0}}), {65536.0, 8.0}}));
             EXPECT_NEAR(got[2], std::min(8.0, std::max(0.0, 0.5 * std::log2(kPi * h * h * 65536.0))), 1e-4) << isa.name << h;
             const Row none = run_row(
                 isa, "ltc_texture",
                 joined(
-                    {columns(kPlain), flat({{0.0, 0.0, 0.0}, {-1.0, -1.0, 2.0 * h}, {2.0, 0.0, 0.0}, {0.0, 2.0, 0.0}}), {65536.0, 8.0}}));
+                    {columns(kCosine), flat({{0.0, 0.0, 0.0}, {-1.0, -1.0, 2.0 * h}, {2.0, 0.0, 0.0}, {0.0, 2.0, 0.0}}), {65536.0, 8.0}}));
             EXPECT_EQ(none, (Row{0.5, 0.5, 8.0})) << isa.name;
         }
 }
