@@ -142,6 +142,32 @@ TEST(flip, one_pixel_spreads_as_by_the_definition)
     }
 }
 
+// Where filters leave next to nothing, as of a checkerboard against its mean, the definition takes roots of differences near 0, which
+// make much of a float's rounding.
+TEST(flip, means_of_patterns_and_mirrored_pictures_are_those_of_the_definition)
+{
+    const Jobs jobs;
+    const int side = 48;
+    Image checker = uniform(side, side, 0.0f, 0.0f, 0.0f), stripes = checker, mirrored = checker;
+    const Image plain = uniform(side, side, 0.5f, 0.5f, 0.5f), picture = scenery(side, side, 3, 0.9f);
+    for (int y = 0; y < side; ++y)
+        for (int x = 0; x < side; ++x)
+            for (int c = 0; c < 3; ++c) {
+                const int i = 3 * (y * side + x) + c;
+                checker.f32()[i] = static_cast<float>((x + y) & 1);
+                stripes.f32()[i] = static_cast<float>(x & 1);
+                mirrored.f32()[i] = picture.f32()[3 * (y * side + side - 1 - x) + c];
+            }
+    for (const auto& [reference, test] : std::initializer_list<std::pair<const Image*, const Image*>>{
+             {&checker, &plain}, {&plain, &checker}, {&stripes, &plain}, {&picture, &mirrored}}) {
+        const std::vector<double> expected = test::flip_by_definition(*reference, *test, static_cast<double>(kDefaultPpd));
+        double mean = 0.0;
+        for (const double e : expected)
+            mean += e / static_cast<double>(expected.size());
+        EXPECT_NEAR(mean_of(flip_ldr(*reference, *test, {}, jobs)), mean, 1e-5);
+    }
+}
+
 TEST(flip, equal_pictures_have_no_error)
 {
     const Jobs jobs;
