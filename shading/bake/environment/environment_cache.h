@@ -10,7 +10,7 @@
 
 namespace burnish {
 
-inline constexpr std::uint32_t kBakeVersion = 4; // raised whenever a bake gives other bits
+inline constexpr std::uint32_t kBakeVersion = 5; // raised whenever a bake gives other bits
 inline constexpr int kIrradianceSize = 32;       // texels along an edge of the irradiance cube
 
 std::uint64_t environment_hash(const Image& equirect, const EnvironmentOptions& options, int levels);

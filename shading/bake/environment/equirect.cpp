@@ -163,6 +163,57 @@ float largest_finite(const std::vector<float>& values)
     return largest;
 }
 
+// Cosines of rows' edges, whose differences are the solid angles that pixels of a row have.
+double row_weight(int y, int height)
+{
+    return det_cos(kPi * y / height) - det_cos(kPi * (y + 1) / height);
+}
+
+// Of one channel of the pixels [x0, x0 + side) x [y0, y0 + side): the negative light becomes 0 and the rest darker by as much. false, and
+// nothing changed, where there is less of the rest.
+bool share_out_negative(Equirect& e, int x0, int y0, int side, std::size_t channel)
+{
+    const int x1 = static_cast<int>(std::min<std::int64_t>(e.width, std::int64_t{x0} + side)),
+              y1 = static_cast<int>(std::min<std::int64_t>(e.height, std::int64_t{y0} + side));
+    const auto at = [&](int x, int y) -> float& {
+        return e.rgb[(static_cast<std::size_t>(y) * static_cast<std::size_t>(e.width) + static_cast<std::size_t>(x)) * 3 + channel];
+    };
+    double positive = 0.0, negative = 0.0;
+    for (int y = y0; y < y1; ++y) {
+        const double weight = row_weight(y, e.height);
+        for (int x = x0; x < x1; ++x)
+            (at(x, y) < 0.0f ? negative : positive) += weight * std::fabs(static_cast<double>(at(x, y)));
+    }
+    if (negative == 0.0)
+        return true;
+    if (positive < negative)
+        return false;
+    const float rest = static_cast<float>((positive - negative) / positive);
+    for (int y = y0; y < y1; ++y)
+        for (int x = x0; x < x1; ++x)
+            at(x, y) = at(x, y) < 0.0f ? 0.0f : at(x, y) * rest;
+    return true;
+}
+
+// Lossy compression leaves negative values beside bright ones that it made too bright: in blocks of 8 x 8 pixels, as DWA has them, and
+// where those hold too little light in ever larger ones, the sum is kept.
+void keep_sum(Equirect& e)
+{
+    for (std::size_t channel = 0; channel < 3; ++channel) {
+        bool done = false;
+        for (int side = 8; !done; side *= 2) {
+            done = true;
+            for (int y = 0; y < e.height; y += side)
+                for (int x = 0; x < e.width; x += side)
+                    done = share_out_negative(e, x, y, side, channel) && done;
+            if (side >= std::max(e.width, e.height))
+                break;
+        }
+    }
+    for (float& v : e.rgb)
+        v = std::max(v, 0.0f); // less than no light altogether
+}
+
 } // namespace
 
 Equirect make_equirect(const Image& image)
@@ -176,9 +227,14 @@ Equirect make_equirect(const Image& image)
         for (std::size_t c = 0; c < 3; ++c)
             e.rgb[i * 3 + c] = value_of(image, i * channels + (channels >= 3 ? c : 0));
     const float largest = largest_finite(e.rgb);
-    for (float& v : e.rgb)
-        if (!(v >= 0.0f && v <= largest))
+    bool negative = false;
+    for (float& v : e.rgb) {
+        if (!(v >= -largest && v <= largest))
             v = v > 0.0f ? largest : 0.0f;
+        negative = negative || v < 0.0f;
+    }
+    if (negative)
+        keep_sum(e);
     return e;
 }
 
@@ -202,7 +258,7 @@ std::vector<std::string> equirect_warnings(const Image& image)
     if (nan)
         warnings.push_back(fmt::format("{} NaN values of the environment set to 0", nan));
     if (negative)
-        warnings.push_back(fmt::format("{} negative values of the environment set to 0", negative));
+        warnings.push_back(fmt::format("{} negative values of the environment set to 0, their surroundings darker by as much", negative));
     if (infinite)
         warnings.push_back(fmt::format("{} infinite values of the environment set to its largest finite value, {:g}", infinite, largest));
     return warnings;
@@ -212,12 +268,11 @@ double mean_luminance(const Equirect& source)
 {
     double sum = 0.0;
     for (int y = 0; y < source.height; ++y) {
-        const double top = det_cos(kPi * y / source.height), bottom = det_cos(kPi * (y + 1) / source.height);
         double row = 0.0;
         const float* rgb = source.rgb.data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(source.width) * 3;
         for (int x = 0; x < source.width; ++x, rgb += 3)
             row += 0.2126 * static_cast<double>(rgb[0]) + 0.7152 * static_cast<double>(rgb[1]) + 0.0722 * static_cast<double>(rgb[2]);
-        sum += row * (top - bottom);
+        sum += row * row_weight(y, source.height);
     }
     return sum / (2.0 * source.width);
 }

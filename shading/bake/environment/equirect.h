@@ -18,8 +18,8 @@ struct Equirect {
 // No light is brighter (the sun has 1.6e9 cd/m^2): above it, values are taken for infinite ones.
 inline constexpr float kMostRadiance = 1e12f;
 
-// 8- and 16-bit images are taken as sRGB. NaN and negative values become 0, infinite ones the largest finite
-// value of the image.
+// 8- and 16-bit images are taken as sRGB. NaN becomes 0, infinite values the largest finite value of the image. Negative values become 0,
+// and what is around them darker by as much, so that the light of each channel, by solid angle, stays as it is.
 Equirect make_equirect(const Image& image);
 
 // One line for each kind of what make_equirect() repairs or has to guess in this image.

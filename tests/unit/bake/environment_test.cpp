@@ -6,9 +6,11 @@
 
 #include "core/base/hash.h"
 #include "core/image/io/image_io.h"
+#include "core/math/scalar_math.h"
 #include "core/scene/builtin/builtin.h"
 #include "shading/bake/environment/cube_map.h"
 #include "shading/bake/environment/environment_cache.h"
+#include "shading/bake/environment/equirect.h"
 #include "tests/unit/bake/bake_test.h"
 #include "tests/unit/data.h"
 
@@ -237,7 +239,7 @@ TEST(environment, bad_pixels_are_repaired_and_reported)
     const Environment e = bake(image, small_bake());
     ASSERT_EQ(e.warnings.size(), 3u);
     EXPECT_EQ(e.warnings[0], "1 NaN values of the environment set to 0");
-    EXPECT_EQ(e.warnings[1], "2 negative values of the environment set to 0");
+    EXPECT_EQ(e.warnings[1], "2 negative values of the environment set to 0, their surroundings darker by as much");
     EXPECT_EQ(e.warnings[2], "1 infinite values of the environment set to its largest finite value, 77");
     EXPECT_EQ(e.peak_source, 77.0f);
     image.f32()[20] = 1e30f; // no light
@@ -245,6 +247,34 @@ TEST(environment, bad_pixels_are_repaired_and_reported)
     EXPECT_EQ(bake(image, small_bake()).peak_source, 77.0f);
     for (const std::uint16_t t : e.specular.texels)
         ASSERT_TRUE(std::isfinite(half_to_float(t)));
+}
+
+TEST(environment, negative_light_is_taken_from_what_is_around_it)
+{
+    Image image = smooth_equirect(64);
+    const auto at = [&](int x, int y) { return image.f32() + 3 * (static_cast<std::size_t>(y) * 64 + static_cast<std::size_t>(x)); };
+    const Equirect before = make_equirect(image);
+    for (const auto& [x, y, value] : {std::tuple{18, 10, -4.0f},
+                                      {20, 10, 300.0f},
+                                      {22, 10, -4.0f},
+                                      {20, 13, -9.0f},
+                                      {63, 1, -20.0f} /* more than there is in its block */})
+        std::fill_n(at(x, y), 3, value);
+    double sum = 0.0;
+    for (int y = 0; y < 32; ++y)
+        for (int x = 0; x < 64; ++x)
+            sum += (0.2126 * static_cast<double>(at(x, y)[0]) + 0.7152 * static_cast<double>(at(x, y)[1]) +
+                    0.0722 * static_cast<double>(at(x, y)[2])) *
+                   (std::cos(kPi * y / 32.0) - std::cos(kPi * (y + 1) / 32.0)) / 128.0;
+    const Equirect e = make_equirect(image);
+    EXPECT_NEAR(mean_luminance(e), sum, 1e-6 * sum);
+    EXPECT_GE(*std::min_element(e.rgb.begin(), e.rgb.end()), 0.0f);
+    for (int x = 24; x < 32; ++x) // of a block without any
+        EXPECT_EQ(e.rgb[static_cast<std::size_t>(3 * (10 * 64 + x))], before.rgb[static_cast<std::size_t>(3 * (10 * 64 + x))]);
+
+    Image dark = make_image(8, 4, 3, PixelType::f32);
+    std::fill_n(dark.f32(), 96, -1.0f);
+    EXPECT_EQ(peak_value(make_equirect(dark)), 0.0f);
 }
 
 TEST(environment, a_black_environment_is_black)
@@ -312,7 +342,7 @@ TEST(environment, a_bake_of_other_bits_raises_the_version)
     ASSERT_TRUE(e);
     const std::uint64_t specular = hash_bytes(e->specular.texels.data(), e->specular.texels.size() * 2);
     const std::uint64_t both = hash_bytes(e->irradiance.texels.data(), e->irradiance.texels.size() * 2, specular);
-    EXPECT_EQ(kBakeVersion, 4u);
+    EXPECT_EQ(kBakeVersion, 5u);
     EXPECT_EQ(both, 0x94871c52210d74f2u) << std::hex << both << ": raise kBakeVersion, then copy this hash";
 }
 
