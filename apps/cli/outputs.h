@@ -25,6 +25,9 @@ Status check_outputs(const std::vector<std::string>& pictures, const std::vector
 // Two names of one file, whether or not it exists yet; pipes and devices aside.
 bool same_file(const std::string& a, const std::string& b);
 
+// What a display shows of linear pixels, exposed and tonemapped: 8 bits, with alpha that colours are not multiplied by.
+Image shown_picture(const Image& linear, Tonemap tonemap, float exposure_ev);
+
 // Linear pixels to a float format, or exposed and tonemapped to an 8-bit one, by extension.
 Status write_picture(const std::string& path, const Image& linear, Tonemap tonemap, float exposure_ev);
 

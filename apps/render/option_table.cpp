@@ -59,7 +59,7 @@ std::vector<Option> picture_rows(RenderArguments& to)
         {"--direction-map", "FILE", "Picture that all materials take as anisotropy texture, of burnish bake direction",
          file(to.plain.direction_map)},
         {"--texture-anisotropy", "N", "Texture taps along the major axis at most", integer(f.texture_anisotropy, 1, 16)},
-        {"--no-background", "", "Black behind the scene instead of the environment", flag(f.background, false)},
+        {"--no-background", "", "Nothing behind the scene instead of the environment: black, alpha is coverage", flag(f.background, false)},
     };
 }
 

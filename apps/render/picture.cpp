@@ -40,6 +40,12 @@ void report_environment(const RenderOptions& options, const Environment& environ
     report_key_lights(environment, report);
 }
 
+// Behind what is drawn without a background there is nothing. The reference has no samples that a triangle covers.
+bool draws_alpha(const RenderOptions& options)
+{
+    return !options.frame.background && options.backend != "reference";
+}
+
 } // namespace
 
 Status check_paths(const RenderOptions& options, const std::vector<std::string>& inputs)
@@ -106,10 +112,11 @@ Result<Session> prepare(const RenderOptions& options, RenderFigures& figures, st
     return session;
 }
 
-Result<Rendered> render_frames(const RenderOptions& options, const FrameDesc& desc, Session& session, RenderFigures figures)
+Result<Rendered> render_frames(const RenderOptions& options, FrameDesc desc, Session& session, RenderFigures figures)
 {
     Rendered out;
     Frame last;
+    desc.triangle_ids = desc.triangle_ids || draws_alpha(options);
     Progress progress("frames", static_cast<std::size_t>(options.frames), options.quiet || options.frames == 1);
     for (int i = 0; i < options.frames; ++i) {
         const TraceSpan span("frame");
@@ -128,6 +135,8 @@ Result<Rendered> render_frames(const RenderOptions& options, const FrameDesc& de
     }
     out.color = std::move(last.color), out.variance = std::move(last.variance);
     figures.nan_pixels = count_not_finite(out.color);
+    if (draws_alpha(options))
+        out.color = with_coverage(out.color, last.triangle_ids);
     out.figures = std::move(figures);
     return out;
 }

@@ -12,7 +12,8 @@
 namespace burnish {
 
 struct Rendered {
-    Image color, variance;
+    Image color; // RGBA of pictures without a background
+    Image variance;
     RenderFigures figures;
 };
 
@@ -26,7 +27,7 @@ SessionOptions session_options(const RenderOptions& options, std::optional<Error
 Result<Session> prepare(const RenderOptions& options, RenderFigures& figures, std::optional<Error>& lost_checkpoint, Report& report);
 
 // All frames show the same picture: a renderer that does not repeat itself is caught here.
-Result<Rendered> render_frames(const RenderOptions& options, const FrameDesc& desc, Session& session, RenderFigures figures);
+Result<Rendered> render_frames(const RenderOptions& options, FrameDesc desc, Session& session, RenderFigures figures);
 
 // A row of pictures, --animate or --turntable. Returns the exit code.
 int run_row(RenderArguments& arguments, OptionTable& given);

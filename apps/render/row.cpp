@@ -195,7 +195,7 @@ int run_row(RenderArguments& arguments, OptionTable& given)
                 return fail(written.error());
         if (!row->movies().empty())
             if (const Status added =
-                    movie.add(row->movies()[0], tonemap_to_srgb8(rendered->color, step.options.tonemap, step.options.exposure_ev));
+                    movie.add(row->movies()[0], shown_picture(rendered->color, step.options.tonemap, step.options.exposure_ev));
                 !added)
                 return fail(added.error());
         report.event(fmt::format("{} of {}", i + 1, row->count()),

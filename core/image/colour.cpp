@@ -217,6 +217,17 @@ Image tonemap_to_srgb8(const Image& linear, Tonemap tonemap, float exposure_ev)
     return out;
 }
 
+Image unassociated(const Image& image)
+{
+    BN_CHECK(image.type == PixelType::f32 && image.channels == 4);
+    Image out = image;
+    float* v = out.f32();
+    for (std::size_t i = 0; i < out.bytes.size() / sizeof(float); i += 4)
+        for (std::size_t c = 0; c < 3; ++c)
+            v[i + c] = v[i + 3] > 0.0f ? v[i + c] / v[i + 3] : 0.0f;
+    return out;
+}
+
 float srgb_to_linear(float encoded)
 {
     return static_cast<float>(decode_srgb(static_cast<double>(clamp01(encoded))));

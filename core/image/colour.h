@@ -18,6 +18,9 @@ Result<Tonemap> parse_tonemap(const std::string& name);
 // tonemapper.
 Image tonemap_to_srgb8(const Image& linear, Tonemap tonemap, float exposure_ev);
 
+// Float RGBA whose colours are not multiplied by alpha, as 8-bit formats have it; black where alpha is 0. image: colours multiplied by it.
+Image unassociated(const Image& image);
+
 float srgb_to_linear(float encoded); // IEC 61966-2-1, [0,1] to [0,1]
 float linear_to_srgb(float linear);
 

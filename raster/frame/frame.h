@@ -109,7 +109,7 @@ inline constexpr int kVertexWords = 8;
 struct Frame {
     Image color;                        // f32 RGB, linear Rec.709 scene radiance
     Image variance;                     // of `color` as an estimate, by channel; empty where it is none
-    Column<std::uint32_t> triangle_ids; // [pixel][sample] global triangle id, 0xffffffff where nothing was hit
+    Column<std::uint32_t> triangle_ids; // [pixel][sample] global triangle id, kNoTriangle where nothing was hit
     FrameProfile profile;               // empty unless asked for
     StageRecords stages;                // with FrameDesc::stages
     FrameStats stats;
@@ -182,5 +182,8 @@ Status check_lobe(const FrameDesc& desc, const TechniqueInfo& technique); // whe
 // 64-bit hash of size and the bits of every colour word, the same on every machine for the same picture.
 std::uint64_t pixel_hash(const Image& image);
 std::uint64_t count_not_finite(const Image& image); // pixels with a NaN or Inf channel
+// RGBA of a frame drawn with triangle_ids and without background: alpha is the share of a pixel's samples that a triangle covers, and
+// colours are associated (multiplied by it), as they are in `color`.
+Image with_coverage(const Image& color, const Column<std::uint32_t>& triangle_ids);
 
 } // namespace burnish

@@ -3,6 +3,7 @@
 import json
 import os
 import shutil
+import struct
 import subprocess
 import time
 
@@ -51,6 +52,41 @@ def stats(bench):
     check(found["triangles"] > 1000 and found["visible_fragments"] > 1000, f"an empty picture: {found}")
     check(len(found["pixel_hash"]) == 16 and int(found["pixel_hash"], 16) != 0, found["pixel_hash"])
     check(1 << 20 < found["peak_memory_bytes"] < 8 << 30, f"peak memory {found['peak_memory_bytes']}")
+
+
+def tiff_pixels(path):
+    """Of a TIFF file of ours, 8 bits RGBA: its pixels, each as (r, g, b, a)."""
+    data = path.read_bytes()
+    fields = {}
+    for i in range(int.from_bytes(data[8:10], "little")):
+        tag, kind, _, value = struct.unpack_from("<HHII", data, 10 + 12 * i)
+        fields[tag] = value & 0xFFFF if kind == 3 else value
+    check(fields[277] == 4, f"{fields[277]} channels")
+    check(fields[338] == 2, f"alpha of kind {fields[338]}")
+    begin = fields[273]
+    return [tuple(data[i : i + 4]) for i in range(begin, begin + fields[279], 4)]
+
+
+@case("output.without_a_background_alpha_is_coverage", tier="check")
+def alpha(bench):
+    drawn = ("render", "builtin:sphere", "--size", "64x64", "--msaa", "8", "--env-size", "32", "--roughness", "0.9", "--technique", "split_isotropic",
+             "--tonemap", "none", "-q")
+    bench.run(*drawn, "--no-background", "-o", "a.tif", "-o", "a.exr", "-o", "a.pfm").expect(0)
+    pixels = tiff_pixels(bench.folder / "a.tif")
+    check(pixels[0] == (0, 0, 0, 0), f"a corner is {pixels[0]}")
+    check(pixels[32 * 64 + 32][3] == 255, f"the middle is {pixels[32 * 64 + 32]}")
+    edge = {pixel[3] for pixel in pixels} - {0, 255}
+    check(len(edge) >= 5 and all(min(abs(a - 255 * k / 8) for k in range(9)) < 1 for a in edge), f"edges are {sorted(edge)}")
+    for y in range(1, 63):  # a rough sphere: its edge is no darker than what lies inside, if alpha is taken out of it
+        row = pixels[64 * y : 64 * y + 64]
+        inside = [x for x in range(64) if row[x][3] == 255]
+        if inside and 0 < row[inside[0] - 1][3] < 255:
+            edge, next_to = row[inside[0] - 1], row[inside[0]]
+            check(all(edge[c] >= next_to[c] - 24 for c in range(3)), f"row {y}: {edge} beside {next_to}")
+    done = bench.run(*drawn, "--backend", "vulkan", "--no-background", "-o", "v.tif")
+    if done.code != 77:  # a machine without a device
+        done.expect(0)
+        check(tiff_pixels(bench.folder / "v.tif") == pixels, "Vulkan's alpha is another")
 
 
 @case("output.words_go_to_stderr")
