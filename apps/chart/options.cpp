@@ -166,6 +166,8 @@ OptionTable chart_option_table(ChartArguments& to)
                 "--fov",
                 "--zoom",
                 "--direction-map",
+                "--time",
+                "--animation",
                 {"--exposure", "Of the pictures to look at: multiply by 2^EV"},
                 "--no-background"});
     table.add("Picture", {{"--error-size", "WxH",

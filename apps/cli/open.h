@@ -7,7 +7,8 @@
 
 namespace burnish {
 
-Result<std::shared_ptr<const SceneData>> open_scene(const std::string& name, const Limits& limits, const std::string& direction_map);
+Result<std::shared_ptr<const SceneData>> open_scene(const std::string& name, const Limits& limits, const std::string& direction_map,
+                                                    const Moment& moment);
 Result<std::shared_ptr<const Environment>> open_environment(const std::string& name, const EnvironmentOptions& options,
                                                             const Limits& limits, const Jobs& jobs);
 

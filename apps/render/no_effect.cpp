@@ -25,6 +25,11 @@ void warn_of_no_effect(const OptionTable& given, RenderOptions& out)
     if (reference)
         for (const char* option : {"--technique", "--msaa", "--tile-size"})
             warn(option, of_backend);
+    if (!out.moment.seconds)
+        if (given.given("--animation"))
+            out.warnings.push_back("--animation has no effect without --time");
+    if (out.scene.starts_with("builtin:"))
+        warn("--time", out.scene);
     if (out.backend == "vulkan")
         warn("--tile-size", of_backend);
     const bool displayed =

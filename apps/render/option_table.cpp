@@ -7,7 +7,7 @@
 namespace burnish {
 namespace {
 
-constexpr std::int64_t kMaxFrames = 1000000, kMaxBakeSamples = 1 << 20, kMaxBounces = 1000, kMaxSteps = 100000;
+constexpr std::int64_t kMaxFrames = 1000000, kMaxBakeSamples = 1 << 20, kMaxBounces = 1000, kMaxSteps = 100000, kMaxAnimations = 1000000;
 constexpr const char* kReferenceModes[] = {"direct", "shadowed", "path"}; // by ReferenceMode
 
 std::vector<Option> environment_rows(RenderArguments& to)
@@ -58,6 +58,8 @@ std::vector<Option> picture_rows(RenderArguments& to)
          number(f.anisotropy, -1.0, 1.0), ""},
         {"--direction-map", "FILE", "Picture that all materials take as anisotropy texture, of burnish bake direction",
          file(to.plain.direction_map)},
+        {"--time", "S", "Seconds into the scene's animation, {}", number(to.plain.moment.seconds, 0.0, 1e6), "as it rests"},
+        {"--animation", "N", "Which animation --time is of", integer(to.plain.moment.animation, 0, kMaxAnimations)},
         {"--texture-anisotropy", "N", "Texture taps along the major axis at most", integer(f.texture_anisotropy, 1, 16)},
         {"--no-background", "", "Nothing behind the scene instead of the environment: black, alpha is coverage", flag(f.background, false)},
     };

@@ -20,6 +20,7 @@ namespace burnish {
 
 struct RenderOptions {
     std::string scene = "builtin:teapot";
+    Moment moment;
     std::string direction_map; // picture that all materials take as their anisotropy texture; empty: none
     std::vector<std::string> outputs;
     std::string stats_file; // empty: none; "-": standard output

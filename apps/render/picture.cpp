@@ -79,7 +79,8 @@ Result<Session> prepare(const RenderOptions& options, RenderFigures& figures, st
     const Stopwatch load;
     {
         const TraceSpan span("load scene");
-        const Result<std::shared_ptr<const SceneData>> data = open_scene(options.scene, options.limits, options.direction_map);
+        const Result<std::shared_ptr<const SceneData>> data =
+            open_scene(options.scene, options.limits, options.direction_map, options.moment);
         if (!data)
             return data.error();
         parts.scene = *data;

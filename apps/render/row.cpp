@@ -61,8 +61,10 @@ class Row {
                 return paths.error();
             row.paths_ = std::move(*paths);
         }
-        for (const OptionPath& path : row.paths_)
+        for (const OptionPath& path : row.paths_) {
             row.lights_change_ = row.lights_change_ || given.find(path.option)->group == "Environment";
+            row.scene_changes_ = row.scene_changes_ || path.option == "--time" || path.option == "--animation";
+        }
         for (int i = 0; i < row.count_; ++i) // what is wrong in the middle is said at the beginning
             if (const Result<Step> step = row.step(i); !step)
                 return step.error();
@@ -72,6 +74,7 @@ class Row {
     int count() const { return count_; }
     const std::vector<std::string>& movies() const { return movies_; } // files of all pictures
     bool lights_change() const { return lights_change_; }
+    bool scene_changes() const { return scene_changes_; }
 
     Result<Step> step(int i)
     {
@@ -103,7 +106,7 @@ class Row {
     std::vector<OptionPath> paths_;
     std::vector<std::string> movies_;
     int count_ = 0;
-    bool lights_change_ = false;
+    bool lights_change_ = false, scene_changes_ = false;
 };
 
 // No picture lies where something is read from, or another one is written.
@@ -133,6 +136,24 @@ Result<View> view_of_step(const Step& step, int i, const Session& session, const
     if (!view)
         return view.error();
     return view->view;
+}
+
+// Of the step before, with what changes made anew.
+Result<SessionParts> parts_of_step(const RenderOptions& options, SessionParts parts, bool lights, bool scene)
+{
+    if (lights) {
+        const auto environment = open_environment(options.env, options.environment, options.limits, *parts.jobs);
+        if (!environment)
+            return environment.error();
+        parts.environment = *environment;
+    }
+    if (scene) {
+        const auto data = open_scene(options.scene, options.limits, options.direction_map, options.moment);
+        if (!data)
+            return data.error();
+        parts.scene = *data;
+    }
+    return parts;
 }
 
 } // namespace
@@ -166,13 +187,11 @@ int run_row(RenderArguments& arguments, OptionTable& given)
     MovingPicture movie(first.fps);
     for (int i = 0; i < row->count(); ++i) {
         const Step step = std::move(*row->step(i));
-        if (i > 0 && row->lights_change()) {
-            SessionParts parts = session->parts();
-            const auto environment = open_environment(step.options.env, step.options.environment, step.options.limits, *parts.jobs);
-            if (!environment)
-                return fail(environment.error());
-            parts.environment = *environment;
-            Result<Session> next = Session::make(std::move(parts), session_options(step.options, lost_checkpoint));
+        if (i > 0 && (row->lights_change() || row->scene_changes())) {
+            Result<SessionParts> parts = parts_of_step(step.options, session->parts(), row->lights_change(), row->scene_changes());
+            if (!parts)
+                return fail(parts.error());
+            Result<Session> next = Session::make(std::move(*parts), session_options(step.options, lost_checkpoint));
             if (!next)
                 return fail(next.error());
             *session = std::move(*next);

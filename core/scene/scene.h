@@ -4,6 +4,7 @@
 #pragma once
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -112,6 +113,12 @@ struct Scene {
     std::vector<Camera> cameras;
     std::vector<std::string> files;    // paths of every file that was read for it
     std::vector<std::string> warnings; // one line each, in the order found
+};
+
+// Which moment of which of its animations a scene is read at; without seconds, as it rests.
+struct Moment {
+    std::optional<float> seconds; // from 0 on
+    int animation = 0;
 };
 
 void update_world(Scene& scene); // fills Node::world from Node::local

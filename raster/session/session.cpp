@@ -63,11 +63,12 @@ Result<std::shared_ptr<const SceneData>> make_scene_data(const std::string& name
     });
 }
 
-Result<std::shared_ptr<const SceneData>> load_scene_data(const std::string& spec, const Limits& limits, const std::string& direction_map)
+Result<std::shared_ptr<const SceneData>> load_scene_data(const std::string& spec, const Limits& limits, const std::string& direction_map,
+                                                         const Moment& moment)
 {
     using Made = Result<std::shared_ptr<const SceneData>>;
     return guarded(spec, [&]() -> Made {
-        Result<Scene> scene = load_scene(spec, limits);
+        Result<Scene> scene = load_scene(spec, limits, moment);
         if (!scene)
             return scene.error();
         if (!direction_map.empty())

@@ -35,10 +35,10 @@ struct SceneData { // a scene and what is drawn of it
     DrawTables tables;
 };
 
-// "builtin:NAME" or a path of a .gltf or .glb file. direction_map: a picture that all materials take (core/scene/direction_map.h); empty:
-// none.
+// "builtin:NAME" or a path of a .gltf or .glb file, at a moment of its animation. direction_map: a picture that all materials take
+// (core/scene/direction_map.h); empty: none.
 Result<std::shared_ptr<const SceneData>> load_scene_data(const std::string& spec, const Limits& limits,
-                                                         const std::string& direction_map = "");
+                                                         const std::string& direction_map = "", const Moment& moment = {});
 // From a scene made in memory. The limit on what instances expand to holds here too.
 Result<std::shared_ptr<const SceneData>> make_scene_data(const std::string& name, Scene scene, const Limits& limits);
 // "builtin:NAME" or a path of an equirectangular picture.

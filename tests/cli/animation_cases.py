@@ -4,6 +4,7 @@ import json
 import struct
 import zlib
 
+import gltf_files as files
 from camera_cases import TINY, area, cube, seen
 from compare_cases import bright, pfm
 from harness import case, check, scratch
@@ -33,6 +34,36 @@ def environments_and_whole_numbers_change_too(bench):
     row = bench.figures(*ROW, "--animate", "env-rotation=0:90,samples=4:9", "--steps", "2", "--technique", "major_axis")
     for step, rotation, samples in zip(row["steps"], ("0", "90"), ("4", "9")):
         same(step, bench.figures(*ROW, "--technique", "major_axis", "--env-rotation", rotation, "--samples", samples))
+
+
+def turning():
+    """A triangle that turns about y, by 90 degrees in two seconds."""
+    gltf = files.triangle()
+    keys = struct.pack("<2f", 0, 2) + struct.pack("<8f", 0, 0, 0, 1, 0, 0.5**0.5, 0, 0.5**0.5)
+    gltf["buffers"].append({"uri": files.data_uri(keys), "byteLength": len(keys)})
+    buffer, view, accessor = len(gltf["buffers"]) - 1, len(gltf["bufferViews"]), len(gltf["accessors"])
+    gltf["bufferViews"] += [{"buffer": buffer, "byteLength": 8}, {"buffer": buffer, "byteOffset": 8, "byteLength": 32}]
+    gltf["accessors"] += [{"bufferView": view, "componentType": 5126, "type": "SCALAR", "count": 2, "min": [0], "max": [2]},
+                          {"bufferView": view + 1, "componentType": 5126, "type": "VEC4", "count": 2}]
+    gltf["animations"] = [{"samplers": [{"input": accessor, "output": accessor + 1}],
+                           "channels": [{"sampler": 0, "target": {"node": 0, "path": "rotation"}}]}]
+    return files.text(gltf)
+
+
+@case("animation.time_goes_through_the_scene_s_own")
+def time_goes_through_the_scene_s_own(bench):
+    scratch(bench, "turning.gltf", turning())
+    seen = ("turning.gltf", "--eye", "0,0,3", "--target", "0,0,0", "--size", "32x32", "--env-size", "16", "--env-samples", "4")
+    steps = bench.figures(*seen, "--animate", "time=0:2", "--steps", "3")["steps"]
+    check(len({s["pixel_hash"] for s in steps}) == 3, "nothing changes")
+    for step, time in zip(steps, ("0", "1", "2")):
+        same(step, bench.figures(*seen, "--time", time))
+    done = bench.run("render", *seen, "--time", "5", "-o", "a.png").expect(0)
+    check("ends at 2 s" in done.err, done.err)
+    same(steps[2], bench.figures(*seen, "--time", "5"))
+    bench.run("render", *seen, "--time", "1", "--animation", "4", "-o", "b.png").expect(4).expect_one_line("turning.gltf", "--animation")
+    bench.run("render", *seen, "--time", "-1", "-o", "b.png").expect(2).expect_one_line("--time")
+    check(not (bench.folder / "b.png").exists(), "b.png was written")
 
 
 @case("animation.a_turntable_goes_once_around_at_one_distance")

@@ -10,9 +10,9 @@ namespace burnish::gltf {
 void check_structure(Document& doc);      // objects by themselves and together: nodes, meshes, materials, images
 void check_extensions(Document& doc);     // named where they are used, and in their place
 void check_accessor_rules(Document& doc); // alignment, strides, formats, what an accessor and a buffer view are used for
-void check_unread(Document& doc);         // animations, skins, morph targets: nothing of them is drawn
+void check_moving(Document& doc);         // animations, skins, morph targets
 void check_values(Document& doc);         // what the buffers hold, once they are loaded: bounds, unit vectors
-void check_unread_values(Document& doc);  // the same of animations, skins, joints and weights; NaN anywhere
+void check_moving_values(Document& doc);  // the same of animations, skins, joints and weights; NaN anywhere
 
 constexpr double kUnitTolerance = 5e-4; // of unit vectors and quaternions in float; the validator's too
 

@@ -83,7 +83,7 @@ class Rules {
         for (std::size_t i = 0; i < table_size(doc_.json, "images"); ++i)
             if (const int view = get_index(doc_.json["images"][i], "bufferView"); view >= 0)
                 use_view(view, "an image", fmt::format("/images/{}/bufferView", i));
-        use_unread();
+        use_moving();
     }
 
   private:
@@ -98,7 +98,7 @@ class Rules {
     }
 
     // Animations and skins: their views are neither of vertices nor of indices.
-    void use_unread()
+    void use_moving()
     {
         for (std::size_t a = 0; a < table_size(doc_.json, "animations"); ++a) {
             const Json& samplers = doc_.json["animations"][a]["samplers"];

@@ -47,9 +47,10 @@ struct Document {
     std::uint64_t input_bytes = 0;                                 // the file and its external buffers
     std::uint64_t charged_bytes = 0;                               // decoded so far
     std::map<int, int> scene_images,
-        scene_textures;              // of glTF images and textures in use, their place in the scene
-    std::uint64_t texture_bytes = 0; // decoded images in the scene
-    int default_material = kNone;    // in the scene, added for primitives without one
+        scene_textures;                    // of glTF images and textures in use, their place in the scene
+    std::uint64_t texture_bytes = 0;       // decoded images in the scene
+    int default_material = kNone;          // in the scene, added for primitives without one
+    std::vector<std::size_t> node_sources; // by node of the scene, its glTF node
     std::set<std::string> warned;
     Scene scene;
 

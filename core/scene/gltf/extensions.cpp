@@ -17,7 +17,7 @@ const std::vector<GltfFeature>& gltf_features()
     using enum GltfSupport;
     static const std::vector<GltfFeature> table = {
         {"EXT_lights_image_based", ignored, "environments come by --env"},
-        {"EXT_mesh_gpu_instancing", ignored, "one instance is drawn"},
+        {"EXT_mesh_gpu_instancing", supported, "translation, rotation, scale"},
         {"EXT_meshopt_compression", supported, "all modes and filters"},
         {"EXT_texture_webp", supported, ""},
         {"KHR_animation_pointer", ignored, "nothing moves"},
@@ -39,10 +39,10 @@ const std::vector<GltfFeature>& gltf_features()
         {"KHR_texture_basisu", ignored, "the texture's plain image is drawn, where it has one"},
         {"KHR_texture_transform", supported, ""},
         {"KHR_xmp_json_ld", ignored, "nothing to see"},
-        {"animations", ignored, "drawn as the scene rests"},
-        {"morph targets", ignored, "drawn without them"},
+        {"animations", in_part, "one moment, at --time; of nodes and morph targets"},
+        {"morph targets", supported, "positions, normals, tangents"},
         {"points and lines", ignored, "left out"},
-        {"skins", in_part, "drawn in the bind pose"},
+        {"skins", supported, ""},
         {"texture coordinates", in_part, "sets 0 and 1"},
     };
     return table;

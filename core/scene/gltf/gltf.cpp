@@ -12,6 +12,7 @@
 #include "core/scene/gltf/graph.h"
 #include "core/scene/gltf/material.h"
 #include "core/scene/gltf/mesh.h"
+#include "core/scene/gltf/pose.h"
 #include "core/scene/gltf/schema.h"
 
 namespace burnish {
@@ -20,7 +21,7 @@ namespace {
 
 using gltf::Document;
 
-void read_document(Document& doc)
+void read_document(Document& doc, const Moment& moment)
 {
     doc.input_bytes = doc.bytes.size();
     gltf::parse_container(doc);
@@ -28,13 +29,14 @@ void read_document(Document& doc)
     gltf::check_schema(doc.json);
     gltf::check_structure(doc);
     gltf::check_accessor_rules(doc);
-    gltf::check_unread(doc);
-    gltf::load_nodes(doc);
+    gltf::check_moving(doc);
     gltf::load_cameras_and_lights(doc);
     gltf::load_buffers(doc);
     gltf::check_accessors(doc);
     gltf::check_values(doc);
-    gltf::check_unread_values(doc);
+    gltf::check_moving_values(doc);
+    gltf::set_moment(doc, moment);
+    gltf::load_nodes(doc);
     gltf::load_materials(doc);
     gltf::load_meshes(doc);
 }
@@ -58,7 +60,7 @@ template <class F> Result<Scene> guarded(const std::string& file, F&& read)
 
 } // namespace
 
-Result<Scene> load_gltf(const std::string& path, const Limits& limits)
+Result<Scene> load_gltf(const std::string& path, const Limits& limits, const Moment& moment)
 {
     return guarded(path, [&]() -> Result<Scene> {
         const std::vector<std::uint8_t> bytes = gltf::read_file_bytes(path, limits.file_bytes, "");
@@ -70,29 +72,30 @@ Result<Scene> load_gltf(const std::string& path, const Limits& limits)
         doc.has_folder = true;
         doc.bytes = bytes;
         doc.scene.files.push_back(path);
-        read_document(doc);
+        read_document(doc, moment);
         return std::move(doc.scene);
     });
 }
 
-Result<Scene> load_gltf_bytes(const std::uint8_t* data, std::size_t size, const std::string& label, const Limits& limits)
+Result<Scene> load_gltf_bytes(const std::uint8_t* data, std::size_t size, const std::string& label, const Limits& limits,
+                              const Moment& moment)
 {
     return guarded(label, [&]() -> Result<Scene> {
         Document doc;
         doc.file = label;
         doc.limits = limits;
         doc.bytes = {data, size};
-        read_document(doc);
+        read_document(doc, moment);
         return std::move(doc.scene);
     });
 }
 
-Result<Scene> load_scene(const std::string& spec, const Limits& limits)
+Result<Scene> load_scene(const std::string& spec, const Limits& limits, const Moment& moment)
 {
     const std::string kBuiltin = "builtin:";
     if (spec.compare(0, kBuiltin.size(), kBuiltin) == 0)
         return make_builtin_scene(spec.substr(kBuiltin.size()));
-    return load_gltf(spec, limits); // which looks at the content, not at the name
+    return load_gltf(spec, limits, moment); // which looks at the content, not at the name
 }
 
 } // namespace burnish

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "core/scene/gltf/factors.h"
+#include "core/scene/gltf/pose.h"
 
 namespace burnish::gltf {
 
@@ -76,6 +77,8 @@ void check_forest(const Document& doc, const std::vector<int>& parent)
     }
 }
 
+} // namespace
+
 glm::mat4 trs_matrix(const Json& node, const std::string& place)
 {
     double q[4] = {0.0, 0.0, 0.0, 1.0}, s[3] = {1.0, 1.0, 1.0}, t[3] = {0.0, 0.0, 0.0};
@@ -99,6 +102,8 @@ glm::mat4 trs_matrix(const Json& node, const std::string& place)
         matrix[3][r] = static_cast<float>(t[r]);
     return matrix;
 }
+
+namespace {
 
 glm::mat4 local_matrix(Document& doc, std::size_t index)
 {
@@ -132,8 +137,6 @@ Node load_node(Document& doc, std::size_t index, int parent)
     if (const Json* light = get_extension(source, "KHR_lights_punctual"))
         node.light = get_index(*light, "light");
     node.local = local_matrix(doc, index);
-    if (source.contains("skin"))
-        doc.warn("skins are not supported; skinned meshes are drawn in their bind pose");
     return node;
 }
 
@@ -158,13 +161,32 @@ std::vector<Root> find_roots(const Document& doc, const std::vector<int>& parent
     return roots;
 }
 
-void check_worlds(const Document& doc, const std::vector<std::size_t>& sources)
+// Nodes below it, each with its mesh. Of a skinned one there is one only: it is where its joints are.
+void add_instances(Document& doc, std::size_t index, int id)
+{
+    const Json& source = node_json(doc, index);
+    const int mesh = get_index(source, "mesh");
+    if (mesh == kNone || source.contains("skin"))
+        return;
+    const std::vector<glm::mat4> instances = instances_of(doc, source, place_of(index));
+    if (instances.empty())
+        return;
+    doc.scene.nodes[index_of(id)].mesh = kNone;
+    for (const glm::mat4& matrix : instances) {
+        Node node;
+        node.parent = id, node.mesh = mesh, node.local = matrix;
+        doc.scene.nodes.push_back(std::move(node));
+        doc.node_sources.push_back(index);
+    }
+}
+
+void check_worlds(const Document& doc)
 {
     for (std::size_t i = 0; i < doc.scene.nodes.size(); ++i)
         for (int c = 0; c < 4; ++c)
             for (int r = 0; r < 4; ++r)
                 if (!std::isfinite(doc.scene.nodes[i].world[c][r]))
-                    fail(place_of(sources[i]), "the transform to world space overflows");
+                    fail(place_of(doc.node_sources[i]), "the transform to world space overflows");
 }
 
 } // namespace
@@ -206,7 +228,6 @@ void load_nodes(Document& doc)
     check_forest(doc, parent);
     const std::vector<Root> roots = find_roots(doc, parent);
     std::vector<bool> visited(parent.size(), false);
-    std::vector<std::size_t> sources; // by scene node, its glTF node
     struct Pending {
         int node, parent; // glTF, scene
     };
@@ -222,7 +243,8 @@ void load_nodes(Document& doc)
             visited[index] = true;
             const int id = static_cast<int>(doc.scene.nodes.size());
             doc.scene.nodes.push_back(load_node(doc, index, next.parent));
-            sources.push_back(index);
+            doc.node_sources.push_back(index);
+            add_instances(doc, index, id);
             const std::vector<int> children = indices_of(node_json(doc, index), "children");
             for (auto child = children.rbegin(); child != children.rend(); ++child)
                 stack.push_back({*child, id});
@@ -231,7 +253,7 @@ void load_nodes(Document& doc)
     if (table_size(doc.json, "scenes") > 0)
         doc.scene.name = get_string(doc.json["scenes"][index_of(std::max(get_index(doc.json, "scene"), 0))], "name");
     update_world(doc.scene);
-    check_worlds(doc, sources);
+    check_worlds(doc);
 }
 
 } // namespace burnish::gltf

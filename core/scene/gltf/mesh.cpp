@@ -4,6 +4,7 @@
 
 #include "core/scene/gltf/accessors.h"
 #include "core/scene/gltf/compress.h"
+#include "core/scene/gltf/pose.h"
 #include "core/scene/gltf/textures.h"
 #include "core/scene/gltf/vertices.h"
 
@@ -26,16 +27,17 @@ struct Source { // of one primitive
     bool is_draco = false;
 };
 
-AccessorView attribute_view(Source& source, const char* name, int fewest, int most)
+// attributes: of the primitive, or one of its morph targets, which Draco does not hold.
+AccessorView attribute_view(Source& source, const Json& attributes, const std::string& name, int fewest, int most)
 {
-    const Json& attributes = source.json["attributes"];
     const auto it = attributes.find(name);
     if (it == attributes.end())
         return {};
     const int accessor = it->get<int>();
-    const std::string place = source.place + "/attributes/" + name;
+    const bool target = &attributes != &source.json["attributes"];
+    const std::string place = fmt::format("{}/{}/{}", source.place, target ? "targets" : "attributes", name);
     AccessorView view;
-    if (const auto decoded = source.draco.attributes.find(name); decoded != source.draco.attributes.end()) {
+    if (const auto decoded = source.draco.attributes.find(name); !target && decoded != source.draco.attributes.end()) {
         const Json& json = source.doc.json["accessors"][static_cast<std::size_t>(accessor)];
         view = AccessorView::make(decoded->second, 0, 0, source.draco.vertex_count,
                                   static_cast<ComponentType>(get_index(json, "componentType")), element_shape(get_string(json, "type")),
@@ -54,12 +56,12 @@ AccessorView attribute_view(Source& source, const char* name, int fewest, int mo
 Attributes read_attributes(Source& source)
 {
     Attributes a;
-    a.position = attribute_view(source, "POSITION", 3, 3);
-    a.normal = attribute_view(source, "NORMAL", 3, 3);
-    a.tangent = attribute_view(source, "TANGENT", 4, 4);
-    a.uv[0] = attribute_view(source, "TEXCOORD_0", 2, 2);
-    a.uv[1] = attribute_view(source, "TEXCOORD_1", 2, 2);
-    a.color = attribute_view(source, "COLOR_0", 3, 4);
+    a.position = attribute_view(source, source.json["attributes"], "POSITION", 3, 3);
+    a.normal = attribute_view(source, source.json["attributes"], "NORMAL", 3, 3);
+    a.tangent = attribute_view(source, source.json["attributes"], "TANGENT", 4, 4);
+    a.uv[0] = attribute_view(source, source.json["attributes"], "TEXCOORD_0", 2, 2);
+    a.uv[1] = attribute_view(source, source.json["attributes"], "TEXCOORD_1", 2, 2);
+    a.color = attribute_view(source, source.json["attributes"], "COLOR_0", 3, 4);
     for (const AccessorView* view : {&a.normal, &a.tangent, &a.uv[0], &a.uv[1], &a.color})
         if (*view && view->count() != a.position.count())
             fail(source.place + "/attributes", fmt::format("attributes differ in count, {} and {}", a.position.count(), view->count()));
@@ -154,15 +156,14 @@ void warn_missing_coordinates(Document& doc, const Material& m, const Primitive&
             doc.fault(mesh, fmt::format("no TEXCOORD_{} for a texture of its material", ref.uv_set));
 }
 
-void load_primitive(Document& doc, const Json& json, const std::string& place, const std::string& mesh)
+// by: how the mesh is bent; nothing of it: as it is in the file.
+void load_primitive(Document& doc, const Json& json, const Bend& by, const std::string& place, const std::string& mesh)
 {
     const int mode = static_cast<int>(get_uint(json, "mode", kTriangles));
     if (mode < kTriangles) {
         doc.warn(mesh + ": points and lines are not supported and left out");
         return;
     }
-    if (json.contains("targets") && !json["targets"].empty())
-        doc.warn("morph targets are not supported; meshes are drawn without them");
     Source source{doc, json, place, {}, false};
     if (const Json* draco = get_extension(json, "KHR_draco_mesh_compression")) {
         source.draco = decode_draco(doc, json, *draco, place);
@@ -175,6 +176,15 @@ void load_primitive(Document& doc, const Json& json, const std::string& place, c
         return;
     }
     std::vector<std::uint32_t> indices = read_indices(source, corners.attributes.position.count());
+    Bent bent; // what the attributes refer to
+    if (by.any()) {
+        if (corners.attributes.position.all_zero())
+            fail(place + "/attributes/POSITION", "has no buffer view, and is bent by joints or morph targets");
+        const AttributeOf attribute = [&](const Json& attributes, const std::string& name, int components) {
+            return attribute_view(source, attributes, name, components, components);
+        };
+        bent = bend(doc, json, by, corners.attributes, attribute, place);
+    }
     if (mode == kTriangles && indices.size() % 3 != 0)
         doc.warn(mesh + ": the number of indices is not a multiple of 3; the last are left out");
     // Draco stores triangles whatever the mode says.
@@ -195,21 +205,55 @@ void load_primitive(Document& doc, const Json& json, const std::string& place, c
     doc.scene.primitives.push_back(primitive);
 }
 
+Mesh load_mesh(Document& doc, std::size_t m, const Bend& by)
+{
+    const Json& json = doc.json["meshes"][m];
+    Mesh mesh;
+    mesh.name = get_string(json, "name");
+    mesh.first_primitive = static_cast<std::uint32_t>(doc.scene.primitives.size());
+    const Json& primitives = json["primitives"];
+    for (std::size_t p = 0; p < primitives.size(); ++p)
+        load_primitive(doc, primitives[p], by, fmt::format("/meshes/{}/primitives/{}", m, p), quoted(mesh.name, "mesh", m));
+    mesh.primitive_count = static_cast<std::uint32_t>(doc.scene.primitives.size()) - mesh.first_primitive;
+    return mesh;
+}
+
+// A mesh of its own for each node that bends one. What joints bend lies in world space, whatever the node.
+void load_bent_meshes(Document& doc, const std::vector<Bend>& bends)
+{
+    for (std::size_t i = 0; i < bends.size(); ++i) {
+        if (!bends[i].any())
+            continue;
+        const int mesh = static_cast<int>(doc.scene.meshes.size());
+        doc.scene.meshes.push_back(load_mesh(doc, static_cast<std::size_t>(doc.scene.nodes[i].mesh), bends[i]));
+        doc.scene.nodes[i].mesh = bends[i].joints.empty() ? mesh : kNone;
+        if (bends[i].joints.empty())
+            continue;
+        Node node;
+        node.name = doc.scene.nodes[i].name, node.mesh = mesh;
+        doc.scene.nodes.push_back(std::move(node));
+    }
+}
+
 } // namespace
 
 void load_meshes(Document& doc)
 {
-    for (std::size_t m = 0; m < table_size(doc.json, "meshes"); ++m) {
-        const Json& json = doc.json["meshes"][m];
-        Mesh mesh;
-        mesh.name = get_string(json, "name");
-        mesh.first_primitive = static_cast<std::uint32_t>(doc.scene.primitives.size());
-        const Json& primitives = json["primitives"];
-        for (std::size_t p = 0; p < primitives.size(); ++p)
-            load_primitive(doc, primitives[p], fmt::format("/meshes/{}/primitives/{}", m, p), quoted(mesh.name, "mesh", m));
-        mesh.primitive_count = static_cast<std::uint32_t>(doc.scene.primitives.size()) - mesh.first_primitive;
-        doc.scene.meshes.push_back(std::move(mesh));
-    }
+    std::vector<Bend> bends(doc.scene.nodes.size());
+    std::vector<bool> plain(table_size(doc.json, "meshes"), true); // drawn as they are in the file, or not at all
+    for (std::size_t i = 0; i < bends.size(); ++i)
+        if (doc.scene.nodes[i].mesh != kNone) {
+            bends[i] = bend_of(doc, i);
+            if (bends[i].any())
+                plain[static_cast<std::size_t>(doc.scene.nodes[i].mesh)] = false;
+        }
+    for (std::size_t i = 0; i < bends.size(); ++i)
+        if (doc.scene.nodes[i].mesh != kNone && !bends[i].any())
+            plain[static_cast<std::size_t>(doc.scene.nodes[i].mesh)] = true;
+    for (std::size_t m = 0; m < plain.size(); ++m)
+        doc.scene.meshes.push_back(plain[m] ? load_mesh(doc, m, {}) : Mesh{});
+    load_bent_meshes(doc, bends);
+    update_world(doc.scene);
     if (doc.scene.materials.empty())
         doc.scene.materials.emplace_back();
 }

@@ -303,17 +303,6 @@ TEST(mesh, quantized_positions_are_scaled_by_the_node)
     EXPECT_EQ(scene->nodes[0].world[0][0], 2.0f);
 }
 
-TEST(mesh, morph_targets_and_skins_warn_once)
-{
-    Asset asset = triangle();
-    asset.primitive = R"(,"targets":[{"POSITION":0}])";
-    asset.node = R"(,"skin":0)";
-    asset.more = R"(,"skins":[{"joints":[0]}])";
-    const Result<Scene> scene = load(asset);
-    ASSERT_TRUE(scene) << error_of(scene);
-    EXPECT_EQ(said_of(*scene).size(), 2u);
-}
-
 TEST(mesh, a_primitive_without_positions_is_left_out)
 {
     Asset asset = triangle();

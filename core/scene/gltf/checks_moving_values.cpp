@@ -139,7 +139,7 @@ void check_numbers(Document& doc, std::size_t index)
 
 } // namespace
 
-void check_unread_values(Document& doc)
+void check_moving_values(Document& doc)
 {
     for (std::size_t i = 0; i < table_size(doc.json, "accessors"); ++i)
         if (doc.json["accessors"][i].contains("bufferView") || doc.json["accessors"][i].contains("sparse"))

@@ -97,10 +97,8 @@ void check_morphs(Document& doc, const Json& mesh, const std::string& place)
 
 } // namespace
 
-void check_unread(Document& doc)
+void check_moving(Document& doc)
 {
-    if (table_size(doc.json, "animations") > 0)
-        doc.warn("animations are not supported; the scene is drawn as it rests");
     for (std::size_t i = 0; i < table_size(doc.json, "animations"); ++i)
         check_animation(doc, doc.json["animations"][i], fmt::format("/animations/{}", i));
     for (std::size_t i = 0; i < table_size(doc.json, "skins"); ++i)
