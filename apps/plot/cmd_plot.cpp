@@ -99,7 +99,7 @@ int run_plot(const PlotArguments& arguments, const OptionTable& given)
         return fail(path.error());
     if (Status checked = check_lobe(arguments.frame, *find_technique("mc")); !checked)
         return fail(checked.error());
-    lobe.model = lobe_of(arguments.frame);
+    lobe.model = lobe_of(arguments.frame, arguments.frame.tilt_rad != glm::vec2(0.0f));
     lobe.tilt_x_deg = static_cast<double>(glm::degrees(arguments.frame.tilt_rad.x));
     lobe.tilt_y_deg = static_cast<double>(glm::degrees(arguments.frame.tilt_rad.y));
     if (page)

@@ -80,7 +80,7 @@ void run(benchmark::State& state, std::size_t technique, float eta, Isa isa)
     const std::vector<GridSample> grid =
         info.sampling == Sampling::grid ? grid_samples(info.default_samples, (info.traits & kGgxGrid) != 0) : std::vector<GridSample>{};
     f.grid = grid.data(), f.grid_count = static_cast<std::int32_t>(grid.size());
-    put_parameters(FrameDesc{}, f);
+    put_parameters(FrameDesc{}, false, f);
     const KernelSurfaces in = surfaces().of(eta);
     std::vector<float> rgb(3 * kCount);
 

@@ -59,6 +59,7 @@ struct TextureRef {
 
 struct FieldKinds { // of material.def and light.def
     using number = float;
+    using vec2 = glm::vec2;
     using vec3 = glm::vec3;
     using vec4 = glm::vec4;
     using flag = bool;

@@ -342,9 +342,9 @@ const ModelInfo& lobe_model(int lobe)
     return *std::find_if(models().begin(), models().end(), [=](const ModelInfo& m) { return m.lobe == lobe; });
 }
 
-int lobe_of(const FrameDesc& d)
+int lobe_of(const FrameDesc& d, bool tilted)
 {
-    const bool tilted = d.tilt_rad != glm::vec2(0.0f), separable = d.masking != 0;
+    const bool separable = d.masking != 0;
     if (!(lobe_traits_of(d.brdf) & kLobeOfAll) || !(tilted || separable))
         return d.brdf;
     return lobe_with(!separable ? kLobeOfTilted : tilted ? kSeparableOfTilted : kSeparableOfAll);
@@ -352,9 +352,10 @@ int lobe_of(const FrameDesc& d)
 
 Status check_lobe(const FrameDesc& d, const TechniqueInfo& technique)
 {
-    const int lobe = lobe_of(d);
+    const bool tilted = d.tilt_rad != glm::vec2(0.0f);
+    const int lobe = lobe_of(d, tilted);
     const std::string name = lobe_model(lobe).name;
-    if (d.tilt_rad != glm::vec2(0.0f) && !(lobe_traits_of(lobe) & kLies_surface))
+    if (tilted && !(lobe_traits_of(lobe) & kLies_surface))
         return Error{ExitCode::usage, "--tilt", "",
                      "lobes of " + name + " cannot be tilted; those of " + lobe_model(lobe_with(kLobeOfTilted)).name + " can"};
     if (d.masking != 0 && !(lobe_traits_of(d.brdf) & kLobeOfAll))

@@ -176,7 +176,8 @@ struct ModelInfo {
 };
 const std::vector<ModelInfo>& models(); // from shading/models.def
 const ModelInfo& lobe_model(int lobe);  // by its place
-int lobe_of(const FrameDesc& desc);     // of the frame's lobes: its brdf, or what takes its place under its tilt and masking
+// Of the frame's lobes: its brdf, or what takes its place where they are tilted, or masked in another way.
+int lobe_of(const FrameDesc& desc, bool tilted);
 Status check_lobe(const FrameDesc& desc, const TechniqueInfo& technique); // whether the technique takes it; part of check_desc()
 
 // 64-bit hash of size and the bits of every colour word, the same on every machine for the same picture.

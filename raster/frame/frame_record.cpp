@@ -42,29 +42,17 @@ KeyLightRecord key_light_record(const KeyLight& light)
     return r;
 }
 
-namespace {
-
-void put_angles(const glm::vec2& rad, float cosines[2], float sines[2])
-{
-    for (int i = 0; i < 2; ++i) {
-        cosines[i] = static_cast<float>(det_cos(static_cast<double>(rad[i])));
-        sines[i] = static_cast<float>(det_sin(static_cast<double>(rad[i])));
-    }
-}
-
-} // namespace
-
-void put_parameters(const FrameDesc& d, FrameRecord& f)
+void put_parameters(const FrameDesc& d, bool tilted, FrameRecord& f)
 {
 #define BN_PUT_number(id) f.id = d.id;
 #define BN_PUT_whole(id) f.id = static_cast<int>(d.id);
 #define BN_PUT_flag(id) f.id = d.id;
 #define BN_PUT_choice(id) f.id = d.id;
 #define BN_PUT_lobe(id) f.id = d.id;
-#define BN_PUT_angles(id) put_angles(d.id##_rad, f.id##_cos, f.id##_sin);
+#define BN_PUT_angles(id) // see overridden()
 #define BN_PARAMETER(id, kind, option, fallback, least, most, unit, summary, readers) BN_PUT_##kind(id)
 #include "shading/models.def"
-    f.lobe = lobe_of(d), f.lobe_traits = lobe_traits_of(f.lobe);
+    f.lobe = lobe_of(d, tilted), f.lobe_traits = lobe_traits_of(f.lobe);
 }
 
 FrameRecord frame_record(const RenderInput& input, const FrameDesc& d)
@@ -83,7 +71,7 @@ FrameRecord frame_record(const RenderInput& input, const FrameDesc& d)
     f.light_count = static_cast<int>(input.tables.lights.size());
     f.background = d.background;
     f.samples = d.samples, f.texture_taps = d.texture_anisotropy;
-    put_parameters(d, f);
+    put_parameters(d, tilts(input.scene, d), f);
     f.override_anisotropy = d.override_anisotropy, f.anisotropy = d.anisotropy;
     return f;
 }
@@ -102,12 +90,13 @@ void FrameMaker::bake(const FrameDesc& desc)
 
 void FrameMaker::choose_techniques(const FrameDesc& desc)
 {
+    const int lobe = lobe_of(desc, tilts(input_.scene, desc));
     for (MaterialRecord& m : materials_) {
         const TechniqueInfo& t = technique_of(desc, m.anisotropic != 0);
         m.technique = static_cast<int>(&t - techniques().data());
         m.technique_traits = m.unlit ? 0 : t.traits;
         const bool round = !m.anisotropic || (t.traits & kTakesRoundLobes);
-        m.lights_lobe = round && lobe_of(desc) == lobe_with(kLobeOfAll) ? lobe_with(kLobeOfRound) : lobe_of(desc);
+        m.lights_lobe = round && lobe == lobe_with(kLobeOfAll) ? lobe_with(kLobeOfRound) : lobe;
     }
 }
 

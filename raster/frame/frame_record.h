@@ -13,7 +13,8 @@ namespace burnish {
 ViewRecord view_record(const View& view);
 CubeRecord cube_record(const CubeMap& cube); // without texels: no levels
 
-void put_parameters(const FrameDesc& desc, FrameRecord& to); // those of shading/models.def, and the lobe that they choose
+// Those of shading/models.def, and the lobe that they choose. tilted: see tilts().
+void put_parameters(const FrameDesc& desc, bool tilted, FrameRecord& to);
 
 // All of the record but what a frame's technique is the first to ask for: box cube, grid and table of lobes' albedo.
 FrameRecord frame_record(const RenderInput& input, const FrameDesc& desc);
@@ -22,7 +23,7 @@ class FrameMaker {
   public:
     explicit FrameMaker(const RenderInput& input); // its references must outlive the maker
 
-    // desc: one that check_desc() lets pass. What the frame points at stays until the next call.
+    // desc: one that check_frame() lets pass. What the frame points at stays until the next call.
     ShadingFrame make(const FrameDesc& desc);
 
     const SceneTables& scene() const { return scene_; }

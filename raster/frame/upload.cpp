@@ -34,6 +34,13 @@ void put(int& to, AlphaMode from)
 {
     to = static_cast<int>(from);
 }
+// Of a material and of the frame, together: radians.
+glm::vec2 tilt_rad(const glm::vec2& material_deg, const FrameDesc& desc)
+{
+    const auto most = static_cast<float>(glm::radians(80.0));
+    return glm::clamp(glm::radians(material_deg) + desc.tilt_rad, -most, most);
+}
+
 template <int kCount> void put(float (&to)[kCount], const glm::vec<kCount, float>& from)
 {
     for (int i = 0; i < kCount; ++i)
@@ -183,6 +190,23 @@ SceneTables upload_scene(const Scene& scene, const DrawTables& tables, const Job
     return s;
 }
 
+bool tilts(const Scene& scene, const FrameDesc& desc)
+{
+    return std::any_of(scene.materials.begin(), scene.materials.end(),
+                       [&](const Material& m) { return tilt_rad(m.tilt, desc) != glm::vec2(0.0f); });
+}
+
+Status check_frame(const Scene& scene, const FrameDesc& desc)
+{
+    if (const Status ok = check_desc(desc); !ok || !tilts(scene, desc))
+        return ok;
+    if (const int lobe = lobe_of(desc, true); !(lobe_traits_of(lobe) & kLies_surface))
+        return Error{ExitCode::usage, "--brdf", "",
+                     std::string("lobes of ") + lobe_model(lobe).name + " cannot be tilted, as materials of the scene are; those of " +
+                         lobe_model(lobe_with(kLobeOfTilted)).name + " can"};
+    return {};
+}
+
 std::vector<MaterialRecord> overridden(std::vector<MaterialRecord> materials, const FrameDesc& desc)
 {
     for (MaterialRecord& m : materials) {
@@ -192,6 +216,12 @@ std::vector<MaterialRecord> overridden(std::vector<MaterialRecord> materials, co
         }
         if (desc.override_anisotropy)
             m.anisotropic = desc.anisotropy != 0.0f;
+        const glm::vec2 tilt = tilt_rad({m.tilt[0], m.tilt[1]}, desc);
+        m.tilted = tilt != glm::vec2(0.0f);
+        for (int i = 0; i < 2; ++i) {
+            m.tilt_cos[i] = static_cast<float>(det_cos(static_cast<double>(tilt[i])));
+            m.tilt_sin[i] = static_cast<float>(det_sin(static_cast<double>(tilt[i])));
+        }
     }
     return materials;
 }

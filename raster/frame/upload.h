@@ -24,7 +24,12 @@ std::vector<LightRecord> light_records(const DrawTables& tables);
 // Builds every texture pyramid that a material uses, once a (texture, encoding) pair, in parallel.
 SceneTables upload_scene(const Scene& scene, const DrawTables& tables, const Jobs& jobs);
 
-// With the frame's overrides of roughness and anisotropy.
+// Whether the lobes of any material are tilted against their surfaces in the frame.
+bool tilts(const Scene& scene, const FrameDesc& desc);
+// check_desc(), and whether the frame's lobes can be tilted where the scene's are.
+Status check_frame(const Scene& scene, const FrameDesc& desc);
+
+// With the frame's overrides of roughness and anisotropy, and tilted.
 std::vector<MaterialRecord> overridden(std::vector<MaterialRecord> materials, const FrameDesc& desc);
 
 TextureParams texture_params(const TexturePyramid& pyramid);

@@ -28,6 +28,7 @@ class GpuScene {
     const Buffer& lights() const { return lights_; }
     const FrameRecord& record() const { return record_.frame; }
     const GpuPlaces& places() const { return record_.places; }
+    const Scene& scene() const { return input_.scene; }
     const SceneTables& tables() const { return maker_.scene(); }
     const std::vector<MaterialRecord>& materials_of_frame() const { return maker_.materials(); }
     const CubeMap& box_cube() const { return maker_.box_cube(); }

@@ -357,7 +357,7 @@ Frame VulkanRenderer::render_forward(const FrameDesc& desc)
 
 Result<Frame> VulkanRenderer::render(const FrameDesc& desc, Frame)
 {
-    if (const Status ok = check_desc(desc); !ok)
+    if (const Status ok = check_frame(scene_.scene(), desc); !ok)
         return ok.error();
     const bool forward = device_->options.pipeline == VulkanPipeline::forward;
     if (forward && desc.triangle_ids && !desc.stages)

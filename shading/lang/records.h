@@ -98,7 +98,7 @@ struct FrameRecord {
 #define BN_RECORD_flag(id) int id;
 #define BN_RECORD_choice(id) int id;
 #define BN_RECORD_lobe(id) int id;
-#define BN_RECORD_angles(id) float id##_cos[2], id##_sin[2];
+#define BN_RECORD_angles(id) // with each material's own, in its record
 #define BN_PARAMETER(id, kind, option, fallback, least, most, unit, summary, readers) BN_RECORD_##kind(id)
 #include "shading/models.def"
     int lobe, lobe_traits;   // of the frame's lobes: its place in shading/models.def
@@ -107,6 +107,7 @@ struct FrameRecord {
 };
 
 #define BN_FIELD_number(name) float name;
+#define BN_FIELD_vec2(name) float name[2];
 #define BN_FIELD_vec3(name) float name[3];
 #define BN_FIELD_vec4(name) float name[4];
 #define BN_FIELD_flag(name) int name;
@@ -130,6 +131,8 @@ struct MaterialRecord { // Material in plain numbers, and what follows from them
     float dielectric_f0[3], dielectric_f90; // from ior and specular
     float grain[2];                         // cosine and sine of anisotropy_rotation
     int textured, uses_color, anisotropic;
+    int tilted;                      // against its surface: of tilt and the frame's
+    float tilt_cos[2], tilt_sin[2];  // of their sum
     int conductor;                   // it has an index of its own: conductor_eta, conductor_k
     int roughness_fixed;             // by an override: the texture gives metalness only
     int technique, technique_traits; // its place in shading/models.def; of what is unlit no traits

@@ -41,6 +41,13 @@ BN_FN bool lies_in_surface(frame_ref f)
     return (the_frame(f).lobe_traits & kLies_surface) != 0;
 }
 
+// Whether a material's lobes may lie otherwise than about the normal of their surface.
+BN_FN bool leans(frame_ref f, material_ref m)
+{
+    bool upright = the_material(m).tilted == 0 && !texture_used(m, kNormalTex) && the_frame(f).lobe != the_frame(f).brdf;
+    return lies_in_surface(f) && !upright;
+}
+
 // Whether the frame's lobes take the place of the usual one, of which the tables are: tilted or masked in another way.
 BN_FN bool stands_in(frame_ref f)
 {
@@ -49,7 +56,7 @@ BN_FN bool stands_in(frame_ref f)
 
 // See shaded_point::shown. By the same samples of both, whose errors are alike: it goes to 1 with the tilt. So many that none of them is
 // seen to go below the horizon as the tilt changes.
-BN_FN real share_of_usual(frame_ref f, BN_IN(shaded_point) x)
+BN_FN real share_of_usual(frame_ref f, material_ref m, BN_IN(shaded_point) x)
 {
     real least = lit(0.05);
     surface_frame upright;
@@ -57,7 +64,7 @@ BN_FN real share_of_usual(frame_ref f, BN_IN(shaded_point) x)
     upright.t = x.lobe.u_axis;
     upright.b = x.lobe.v_axis;
     real share = lit(1.0);
-    if (lies_in_surface(f)) {
+    if (leans(f, m)) {
         placed_lobe own = placed_lobe_of(the_frame(f).lobe, x.lobe, x.s.n, x.s.v, upright);
         share = placed_lobe_mean(placed_lobe_at(f, x), 55, 34) / max(placed_lobe_mean(own, 55, 34), least);
     }
@@ -104,9 +111,9 @@ BN_FN void make_shaded_point(frame_ref f, material_ref m, BN_IN(material_inputs)
     if (mapped)
         axes = mapped_frame(axes, at.normal_map, handedness);
     if (lies_in_surface(f))
-        axes = tilted_frame(axes, vec2_of(splat(the_frame(f).tilt_cos[0]), splat(the_frame(f).tilt_cos[1])),
-                            vec2_of(splat(the_frame(f).tilt_sin[0]), splat(the_frame(f).tilt_sin[1])));
-    x.turned = (mapped && the_frame(f).horizon != 0) || lies_in_surface(f);
+        axes = tilted_frame(axes, vec2_of(splat(the_material(m).tilt_cos[0]), splat(the_material(m).tilt_cos[1])),
+                            vec2_of(splat(the_material(m).tilt_sin[0]), splat(the_material(m).tilt_sin[1])));
+    x.turned = (mapped && the_frame(f).horizon != 0) || leans(f, m);
     x.lobe = lobe_in_frame(m, shape, axes);
     x.diffuse = the_material(m).metallic < 1.0f || texture_used(m, kMetalRoughTex);
     x.dielectric_f0 = at.dielectric_f0;
@@ -128,7 +135,7 @@ BN_FN void make_shaded_point(frame_ref f, material_ref m, BN_IN(material_inputs)
         real albedo = lit(1.0);
         if (stands_in(f)) {
             if (compensated || (the_material(m).technique_traits & kSamplesLobe) == 0)
-                x.shown = share_of_usual(f, x);
+                x.shown = share_of_usual(f, m, x);
             albedo = (x.dfg.scale + x.dfg.bias) * x.shown;
         } else if (compensated)
             albedo = placed_lobe_albedo(placed_lobe_at(f, x));

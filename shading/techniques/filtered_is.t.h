@@ -43,7 +43,7 @@ BN_FN real3 filtered_is_sum(frame_ref f, BN_IN(shaded_point) x, bool ggx)
     }
     real3 total = cube_terms_value(sum);
     real own = weights / count;
-    if (lies_in_surface(f)) { // as if the lobe were upright: what a tilted one loses below the horizon is in x.shown
+    if (x.turned && lies_in_surface(f)) { // as if the lobe were upright: what a tilted one loses below the horizon is in x.shown
         real mean_weight = kept / count;
         total = total * own / max(mean_weight, lit(1e-4));
     }

@@ -35,6 +35,7 @@ import plot_cases
 import profile_cases
 import reference_cases
 import subcommand_cases
+import tilt_cases
 import usage_cases
 
 parser = argparse.ArgumentParser()

@@ -140,11 +140,11 @@ void finish_corners(Document& doc, Corners& corners, const Material& material, P
                                                         : 0;
     const TangentSource tangents = make_tangents(corners, uv_set);
     primitive.has_file_tangents = tangents == TangentSource::file;
-    const bool directed = material.anisotropy_strength > 0.0f || material.normal_tex.used();
+    const bool directed = material.anisotropy_strength > 0.0f || material.normal_tex.used() || material.tilt != glm::vec2(0.0f);
     if (directed && tangents == TangentSource::texture_coordinates)
-        doc.warn(mesh + ": no TANGENT for its normal map or anisotropy; made from texture coordinates (MikkTSpace)");
+        doc.warn(mesh + ": no TANGENT for its normal map, anisotropy or tilt; made from texture coordinates (MikkTSpace)");
     if (directed && tangents == TangentSource::none)
-        doc.warn(mesh + ": neither TANGENT nor texture coordinates for its normal map or anisotropy; the "
+        doc.warn(mesh + ": neither TANGENT nor texture coordinates for its normal map, anisotropy or tilt; the "
                         "direction is arbitrary");
 }
 

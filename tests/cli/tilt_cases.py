@@ -1,0 +1,95 @@
+"""extras.burnish.tilt: lobes tilted against their surface by a file, in every technique, in the reference, on a device."""
+
+import json
+
+import gltf_files as files
+from brdf_cases import against_files
+from fresnel_cases import triangle_of
+from harness import case, check
+from input_cases import refuse, scratch
+from parity_cases import check_equal, parity
+from reference_cases import needs_embree
+
+VIEW = ("--eye", "0.5,0.8,1", "--target", "0,0.3,0", "--fov", "12", "--size", "24x24", "--msaa", "1", "--no-background",
+        "--env-size", "64", "--env-samples", "64", "--key-lights", "off")
+GRAIN = {"extensions": {"KHR_materials_anisotropy": {"anisotropyStrength": 0.7, "anisotropyRotation": 0.4}}}
+
+
+def tilted(tilt, **more):
+    gltf = triangle_of(**GRAIN, **({} if tilt is None else {"extras": {"burnish": {"tilt": tilt}}}), **more)
+    gltf["extensionsUsed"] = ["KHR_materials_anisotropy"]
+    return gltf
+
+
+def beside_another(tilt):
+    """A tilted triangle and, above it, one that is not."""
+    gltf = tilted(tilt)
+    gltf["materials"].append({key: value for key, value in gltf["materials"][0].items() if key != "extras"})
+    gltf["meshes"].append({"primitives": [dict(gltf["meshes"][0]["primitives"][0], material=1)]})
+    gltf["nodes"].append({"mesh": 1, "translation": [0, 1.05, 0]})
+    gltf["scenes"][0]["nodes"].append(1)
+    return gltf
+
+
+@case("tilt.faults_are_named_by_their_place", "input", tier="check")
+def faults(bench):
+    at = "/materials/0/extras/burnish/tilt"
+    for tilt, place in ((3, at), ([1], at), ([1, 2, 3], at), ("1,2", at), ([1, "2"], at + "/1"), ([81, 0], at + "/0"), ([0, -80.5], at + "/1")):
+        refuse(bench, scratch(bench, "bad.gltf", files.text(tilted(tilt))), needles=(place,))
+
+
+@case("tilt.of_a_file_is_that_of_the_option", tier="check")
+def same(bench):
+    for name, tilt in (("plain", None), ("level", [0, 0]), ("tilted", [20, -10]), ("half", [10, -5]), ("steep", [80, 0])):
+        scratch(bench, name + ".gltf", files.text(tilted(tilt)))
+    for technique in ("auto", "major_axis", "filtered_is", "mc"):
+        words = (*VIEW, "--technique", technique, "--samples", "16")
+        plain, option = (bench.figures("plain.gltf", *words, *more)["pixel_hash"] for more in ((), ("--tilt", "20,-10")))
+        check(plain != option, f"{technique}: --tilt changes nothing")
+        check(bench.figures("tilted.gltf", *words)["pixel_hash"] == option, f"{technique}: extras.burnish.tilt is not --tilt")
+        check(bench.figures("level.gltf", *words)["pixel_hash"] == plain, f"{technique}: no tilt is one")
+        check(bench.figures("half.gltf", *words, "--tilt", "10,-5")["pixel_hash"] == option, f"{technique}: tilts are not added")
+        check(bench.figures("tilted.gltf", *words, "--tilt=-20,10")["pixel_hash"] == plain, f"{technique}: tilts that cancel leave something")
+        check(bench.figures("steep.gltf", *words, "--tilt", "40,0")["pixel_hash"] == bench.figures("plain.gltf", *words, "--tilt", "80,0")["pixel_hash"],
+              f"{technique}: a sum is not held below the horizon")
+
+
+# What is beside it keeps its look, by the lobe that can be tilted.
+@case("tilt.is_of_one_material_alone", tier="check")
+def alone(bench):
+    for technique in ("auto", "filtered_is_ggx", "mc"):
+        words = (*VIEW, "--target", "0,1.3,0", "--technique", technique, "--samples", "64", "--roughness", "0.5", "-q")
+        for name, tilt in (("plain", None), ("tilted", [25, -15])):
+            bench.run("render", scratch(bench, name + ".gltf", files.text(beside_another(tilt))), *words, "-o", name + ".pfm").expect(0)
+        bench.run("compare", "plain.pfm", "tilted.pfm", "--metric", "max", "--json", "c.json", "-q").expect(0)
+        off = json.loads((bench.folder / "c.json").read_text())
+        check(off["max_abs"] < 1e-3, f"{technique}: a material is tilted by its neighbour: {off}")
+
+
+@case("tilt.is_refused_by_models_that_cannot_be_tilted", tier="check")
+def refusals(bench):
+    scene = scratch(bench, "tilted.gltf", files.text(tilted([5, 0])))
+    for words in (("--technique", "mc"), ("--backend", "reference")):
+        bench.run("render", scene, *VIEW, *words, "--brdf", "ward", "-q", "-o", "a.exr").expect(2).expect_one_line("--brdf", "ward", "ellipsoid_correlated")
+    bench.run("render", scene, *VIEW, "--technique", "mc", "--brdf", "ward", "--tilt=-5,0", "-o", "a.pfm").expect(2).expect_one_line("--tilt", "ward")
+    bench.run("render", scene, *VIEW, "--technique", "mc", "--brdf", "ellipsoid", "-o", "a.pfm").expect(0)
+
+
+@case("tilt.is_seen_by_the_reference")
+def agrees(bench):
+    needs_embree(bench)
+    for name, tilt in (("plain", None), ("tilted", [20, -10])):
+        scratch(bench, name + ".gltf", files.text(tilted(tilt)))
+    sampled = ("--backend", "reference", "--samples", "1024", "-q", "--variance", "v.pfm")
+    bench.run("render", "tilted.gltf", *VIEW, *sampled, "-o", "r.pfm").expect(0)
+    for name, agree in (("tilted", True), ("plain", False)):
+        bench.run("render", name + ".gltf", *VIEW, "--technique", "mc", "--samples", "16384", "-q", "-o", "mc.pfm").expect(0)
+        found = against_files(bench, "r.pfm", "mc.pfm", "v.pfm")
+        check((found["z_rejected_fraction"] <= 0.01) == agree, f"{name}: {found}")
+
+
+@case("tilt.devices_give_the_same_words")
+def devices(bench):
+    scene = scratch(bench, "both.gltf", files.text(beside_another([20, -10])))
+    for words in (("all",), ("auto", "--tilt", "5,5", "--energy-compensation"), ("mc", "--masking", "separable")):
+        check_equal(parity(bench, scene, "--samples", "9", "--size", "48x32", "--msaa", "1", "--env", "builtin:sky", "--technique", *words))
