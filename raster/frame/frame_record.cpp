@@ -49,7 +49,7 @@ void put_parameters(const FrameDesc& d, bool tilted, FrameRecord& f)
 #define BN_PUT_flag(id) f.id = d.id;
 #define BN_PUT_choice(id) f.id = d.id;
 #define BN_PUT_lobe(id) f.id = d.id;
-#define BN_PUT_angles(id) // see overridden()
+#define BN_PUT_angles(id) // see in_frame()
 #define BN_PARAMETER(id, kind, option, fallback, least, most, unit, summary, readers) BN_PUT_##kind(id)
 #include "shading/models.def"
     f.lobe = lobe_of(d, tilted), f.lobe_traits = lobe_traits_of(f.lobe);
@@ -127,7 +127,7 @@ void FrameMaker::slice_albedo(const FrameDesc& desc)
 ShadingFrame FrameMaker::make(const FrameDesc& desc)
 {
     bake(desc);
-    materials_ = overridden(scene_.materials, desc);
+    materials_ = in_frame(overrides(desc) ? scene_.overridden : scene_.materials, desc);
     choose_techniques(desc);
     slice_albedo(desc);
     ShadingFrame f = {};

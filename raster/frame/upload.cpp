@@ -5,22 +5,11 @@
 
 #include "core/base/check.h"
 #include "core/math/scalar_math.h"
-#include "shading/bake/mip/anisotropy.h"
+#include "raster/frame/pyramids.h"
 
 namespace burnish {
 
 namespace {
-
-struct TextureUse {
-    TextureSlot slot;
-    TextureRef Material::*ref;
-    TextureEncoding encoding;
-    int tensor_power; // 2, 4: the image's anisotropy tensors; 0: the image itself
-};
-constexpr TextureUse kTextureUses[kTextureSlots] = {
-#define BN_SLOT(slot, at, texture, encoding, power) {slot, &Material::texture, TextureEncoding::encoding, power},
-#include "core/scene/material.def"
-};
 
 void put(float& to, float from)
 {
@@ -47,30 +36,9 @@ template <int kCount> void put(float (&to)[kCount], const glm::vec<kCount, float
         to[i] = from[i];
 }
 
-struct PyramidKey {
-    std::int32_t texture;
-    TextureEncoding encoding;
-    int tensor_power;
-    bool operator==(const PyramidKey&) const = default;
-};
-
-std::vector<PyramidKey> used_pyramids(const Scene& scene)
-{
-    std::vector<PyramidKey> keys;
-    for (const Material& m : scene.materials)
-        for (const TextureUse& use : kTextureUses) {
-            const PyramidKey key = {(m.*use.ref).texture, use.encoding, use.tensor_power};
-            if (key.texture != kNone && std::find(keys.begin(), keys.end(), key) == keys.end())
-                keys.push_back(key);
-        }
-    return keys;
-}
-
 MaterialRecord material_record(const Material& m)
 {
     MaterialRecord r = {};
-    for (TextureBinding& b : r.textures)
-        b.texture = -1;
 #define BN_FACTOR(kind, name, fallback, path, least, most) put(r.name, m.name);
 #define BN_FLAG(kind, name, path) put(r.name, m.name);
 #define BN_CHOICE(type, name, words, path) put(r.name, m.name);
@@ -83,7 +51,8 @@ MaterialRecord material_record(const Material& m)
     r.dielectric_f90 = m.specular;
     r.grain[0] = static_cast<float>(det_cos(static_cast<double>(m.anisotropy_rotation)));
     r.grain[1] = static_cast<float>(det_sin(static_cast<double>(m.anisotropy_rotation)));
-    r.anisotropic = m.anisotropy_strength > 0.0f;
+    r.anisotropic = m.anisotropy_strength > 0.0f || m.tilt_tex.used();
+    r.tilt_mapped = m.tilt_tex.used();
     r.conductor = m.conductor_eta != glm::vec3(0.0f) || m.conductor_k != glm::vec3(0.0f);
     return r;
 }
@@ -138,25 +107,13 @@ SamplePattern standard_samples(int count)
     return p;
 }
 
-std::vector<MaterialRecord> material_records(const Scene& scene)
+std::vector<MaterialRecord> material_records(const Scene& scene, bool overridden)
 {
     const std::vector<PyramidKey> keys = used_pyramids(scene);
     std::vector<MaterialRecord> records;
-    for (const Material& m : scene.materials) {
-        MaterialRecord r = material_record(m);
-        for (const TextureUse& use : kTextureUses) {
-            const TextureRef& ref = m.*use.ref;
-            if (!ref.used())
-                continue;
-            const auto key = std::find(keys.begin(), keys.end(), PyramidKey{ref.texture, use.encoding, use.tensor_power});
-            TextureBinding& b = r.textures[use.slot];
-            b.texture = static_cast<int>(key - keys.begin());
-            b.uv_set = ref.uv_set;
-            for (int c = 0; c < 3; ++c)
-                b.transform[2 * c] = ref.uv_transform[c][0], b.transform[2 * c + 1] = ref.uv_transform[c][1];
-            r.textured = 1;
-        }
-        records.push_back(r);
+    for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+        records.push_back(material_record(scene.materials[i]));
+        bind_textures(scene, i, overridden, keys, records.back());
     }
     for (const Primitive& p : scene.primitives)
         if (p.has_color)
@@ -177,15 +134,11 @@ SceneTables upload_scene(const Scene& scene, const DrawTables& tables, const Job
     SceneTables s;
     const std::vector<PyramidKey> keys = used_pyramids(scene);
     s.pyramids.resize(keys.size());
-    jobs.parallel_for(keys.size(), [&](std::size_t i, int) {
-        const Texture& texture = scene.textures[static_cast<std::size_t>(keys[i].texture)];
-        const Image& image = scene.images[static_cast<std::size_t>(texture.image)];
-        s.pyramids[i] =
-            make_texture_pyramid(keys[i].tensor_power ? anisotropy_tensor(image, keys[i].tensor_power) : image, texture, keys[i].encoding);
-    });
+    jobs.parallel_for(keys.size(), [&](std::size_t i, int) { s.pyramids[i] = make_pyramid(scene, keys[i]); });
     for (const TexturePyramid& p : s.pyramids)
         s.textures.push_back(texture_params(p));
-    s.materials = material_records(scene);
+    s.materials = material_records(scene, false);
+    s.overridden = material_records(scene, true);
     s.lights = light_records(tables);
     return s;
 }
@@ -193,7 +146,7 @@ SceneTables upload_scene(const Scene& scene, const DrawTables& tables, const Job
 bool tilts(const Scene& scene, const FrameDesc& desc)
 {
     return std::any_of(scene.materials.begin(), scene.materials.end(),
-                       [&](const Material& m) { return tilt_rad(m.tilt, desc) != glm::vec2(0.0f); });
+                       [&](const Material& m) { return m.tilt_tex.used() || tilt_rad(m.tilt, desc) != glm::vec2(0.0f); });
 }
 
 Status check_frame(const Scene& scene, const FrameDesc& desc)
@@ -207,7 +160,12 @@ Status check_frame(const Scene& scene, const FrameDesc& desc)
     return {};
 }
 
-std::vector<MaterialRecord> overridden(std::vector<MaterialRecord> materials, const FrameDesc& desc)
+bool overrides(const FrameDesc& desc)
+{
+    return desc.roughness >= 0.0f || desc.override_anisotropy;
+}
+
+std::vector<MaterialRecord> in_frame(std::vector<MaterialRecord> materials, const FrameDesc& desc)
 {
     for (MaterialRecord& m : materials) {
         if (desc.roughness >= 0.0f) {
@@ -215,13 +173,15 @@ std::vector<MaterialRecord> overridden(std::vector<MaterialRecord> materials, co
             m.roughness_fixed = 1;
         }
         if (desc.override_anisotropy)
-            m.anisotropic = desc.anisotropy != 0.0f;
+            m.anisotropic = desc.anisotropy != 0.0f || m.tilt_mapped;
         const glm::vec2 tilt = tilt_rad({m.tilt[0], m.tilt[1]}, desc);
-        m.tilted = tilt != glm::vec2(0.0f);
+        m.tilted = m.tilt_mapped || tilt != glm::vec2(0.0f);
         for (int i = 0; i < 2; ++i) {
             m.tilt_cos[i] = static_cast<float>(det_cos(static_cast<double>(tilt[i])));
             m.tilt_sin[i] = static_cast<float>(det_sin(static_cast<double>(tilt[i])));
         }
+        m.tilt_slope[0] = m.tilt_sin[1] / m.tilt_cos[1];
+        m.tilt_slope[1] = -m.tilt_sin[0] / (m.tilt_cos[0] * m.tilt_cos[1]);
     }
     return materials;
 }

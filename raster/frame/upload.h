@@ -14,14 +14,15 @@ struct SceneTables { // keeps alive what the records point at
     std::vector<TexturePyramid> pyramids;
     std::vector<TextureParams> textures;
     std::vector<MaterialRecord> materials;
+    std::vector<MaterialRecord> overridden; // for frames that override(): with other textures
     std::vector<LightRecord> lights;
 };
 
 // Textures are numbered as in SceneTables::textures.
-std::vector<MaterialRecord> material_records(const Scene& scene);
+std::vector<MaterialRecord> material_records(const Scene& scene, bool overridden);
 std::vector<LightRecord> light_records(const DrawTables& tables);
 
-// Builds every texture pyramid that a material uses, once a (texture, encoding) pair, in parallel.
+// Builds every texture pyramid that a material uses (pyramids.h), in parallel.
 SceneTables upload_scene(const Scene& scene, const DrawTables& tables, const Jobs& jobs);
 
 // Whether the lobes of any material are tilted against their surfaces in the frame.
@@ -29,8 +30,9 @@ bool tilts(const Scene& scene, const FrameDesc& desc);
 // check_desc(), and whether the frame's lobes can be tilted where the scene's are.
 Status check_frame(const Scene& scene, const FrameDesc& desc);
 
-// With the frame's overrides of roughness and anisotropy, and tilted.
-std::vector<MaterialRecord> overridden(std::vector<MaterialRecord> materials, const FrameDesc& desc);
+bool overrides(const FrameDesc& desc); // roughness or anisotropy of materials
+// Those of SceneTables that the frame takes, with its overrides, and tilted.
+std::vector<MaterialRecord> in_frame(std::vector<MaterialRecord> materials, const FrameDesc& desc);
 
 TextureParams texture_params(const TexturePyramid& pyramid);
 SamplePattern standard_samples(int count); // Vulkan's standard sample locations for 1, 2, 4, 8, 16

@@ -79,7 +79,7 @@ std::uint64_t reference_key(const RenderInput& input, const FrameDesc& d, const 
     frame.whole.levels = 1, frame.key_light_count = 0;
     std::fill(std::begin(frame.key_lights), std::end(frame.key_lights), KeyLightRecord{});
     add_records(key, std::vector<FrameRecord>{frame});
-    add_records(key, overridden(material_records(input.scene), d));
+    add_records(key, in_frame(material_records(input.scene, overrides(d)), d));
     add_records(key, light_records(input.tables));
     add_textures(key, input.scene);
     add_tables(key, input.tables);

@@ -52,6 +52,10 @@ const int kLobeCount = 0
 #include "shading/models.def"
     ;
 
+// What a material's textures hold of slopes: nothing; moments of those that a map of tilts has; of those and of the lobe.
+const int kNoMoments = 0, kMomentsOfTilt = 1, kMomentsOfAll = 2;
+const float kSlopeScale = 16.0f, kMomentScale = 256.0f; // of means and second moments in texels
+
 struct ViewRecord { // Renderer's View in plain numbers
     float eye[3], right[3], up[3], forward[3];
     float inv_tan_x, inv_tan_y; // perspective: 1/tan of the half angles; orthographic: 1/half extents
@@ -133,6 +137,8 @@ struct MaterialRecord { // Material in plain numbers, and what follows from them
     int textured, uses_color, anisotropic;
     int tilted;                      // against its surface: of tilt and the frame's
     float tilt_cos[2], tilt_sin[2];  // of their sum
+    float tilt_slope[2];             // its mean slopes, along tangent and bitangent
+    int tilt_mapped, moments;        // a texture has slopes; kNoMoments...
     int conductor;                   // it has an index of its own: conductor_eta, conductor_k
     int roughness_fixed;             // by an override: the texture gives metalness only
     int technique, technique_traits; // its place in shading/models.def; of what is unlit no traits

@@ -43,6 +43,25 @@ BN_FN slope_covariance covariance_from_tensors(real alpha, real strength, real2 
     return r;
 }
 
+BN_FN slope_covariance sum_of_covariances(slope_covariance a, slope_covariance b)
+{
+    slope_covariance r;
+    r.xx = a.xx + b.xx;
+    r.yy = a.yy + b.yy;
+    r.xy = a.xy + b.xy;
+    return r;
+}
+
+// Of slopes whose mean and second moments xx, yy, xy are known.
+BN_FN slope_covariance covariance_of_moments(real2 mean, real3 second)
+{
+    slope_covariance r;
+    r.xx = second.x - mean.x * mean.x;
+    r.yy = second.y - mean.y * mean.y;
+    r.xy = second.z - mean.x * mean.y;
+    return r;
+}
+
 // alpha_lin in [0,1]; eta in [-1,1], the degree of anisotropy: the width is alpha_lin^2 (1 + eta) along the main
 // direction of a filtered tensor and alpha_lin^2 (1 - eta) across it. Without a direction the surface is isotropic.
 BN_FN slope_covariance covariance_from_eta_tensor(real alpha_lin, real eta, real2 rotation, real3 power2)

@@ -31,10 +31,16 @@ BN_FN lobe_shape lobe_shape_of(frame_ref f, material_ref m, BN_IN(material_input
         return r;
     real2 rotation = vec2_of(splat(the_material(m).grain[0]), splat(the_material(m).grain[1]));
     slope_covariance covariance;
-    if (the_frame(f).override_anisotropy != 0)
+    if (the_material(m).moments == kMomentsOfAll)
+        covariance = covariance_of_moments(at.slope, at.slope_moments);
+    else if (the_frame(f).override_anisotropy != 0)
         covariance = covariance_from_eta_tensor(roughness, splat(the_frame(f).anisotropy), rotation, at.tensor2);
     else
         covariance = covariance_from_tensors(alpha, splat(the_material(m).anisotropy_strength), rotation, at.tensor2, at.tensor4);
+    if (the_material(m).moments == kMomentsOfTilt) {
+        slope_covariance more = covariance_of_moments(at.slope, at.slope_moments);
+        covariance = sum_of_covariances(covariance, more);
+    }
     slope_axes axes = axes_of_covariance(covariance);
     r.sigma_u = axes.sigma_u;
     r.sigma_v = axes.sigma_v;
@@ -61,6 +67,8 @@ BN_FN lobe_shape only_lobe_shape(frame_ref f, material_ref m)
     at.roughness = splat(the_material(m).roughness);
     at.tensor2 = vec3_of(lit(1.0), lit(0.0), lit(0.0));
     at.tensor4 = at.tensor2;
+    at.slope = vec2_all(lit(0.0));
+    at.slope_moments = vec3_all(lit(0.0));
     return lobe_shape_of(f, m, at);
 }
 

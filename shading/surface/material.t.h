@@ -80,9 +80,18 @@ BN_FN material_inputs fetch_material(frame_ref f, material_ref m, BN_IN(visible_
         r.dielectric_f0 = r.dielectric_f0 * rgb_of(texel_of(t, kSpecularColorTex));
     r.tensor2 = vec3_of(lit(1.0), lit(0.0), lit(0.0));
     r.tensor4 = r.tensor2;
+    r.slope = vec2_all(lit(0.0));
+    r.slope_moments = vec3_all(lit(0.0));
     if (texture_used(m, kTensor2Tex)) { // halves alone bend thin lobes: at eta 0.95 by a fifth
-        r.tensor2 = rgb_of(texel_of(t, kTensor2Tex)) + rgb_of(texel_of(t, kTensor2RestTex));
-        r.tensor4 = rgb_of(texel_of(t, kTensor4Tex)) + rgb_of(texel_of(t, kTensor4RestTex));
+        real4 two = texel_of(t, kTensor2Tex) + texel_of(t, kTensor2RestTex);
+        real4 four = texel_of(t, kTensor4Tex) + texel_of(t, kTensor4RestTex);
+        r.tensor2 = rgb_of(two);
+        r.tensor4 = rgb_of(four);
+        if (the_material(m).moments != kNoMoments) { // see shading/bake/mip/slopes.h
+            r.slope = vec2_of(four.x, four.y) * splat(1.0f / kSlopeScale);
+            r.slope_moments = vec3_of(two.w, four.z, four.w) * splat(1.0f / kMomentScale);
+            r.tensor4 = r.tensor2 * (two.x + two.y); // as where the map's strength is the same everywhere
+        }
     }
     return r;
 }

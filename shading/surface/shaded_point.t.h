@@ -110,7 +110,10 @@ BN_FN void make_shaded_point(frame_ref f, material_ref m, BN_IN(material_inputs)
     bool mapped = texture_used(m, kNormalTex);
     if (mapped)
         axes = mapped_frame(axes, at.normal_map, handedness);
-    if (lies_in_surface(f))
+    if (lies_in_surface(f) && the_material(m).tilt_mapped != 0) {
+        real2 slope = at.slope + vec2_of(splat(the_material(m).tilt_slope[0]), splat(the_material(m).tilt_slope[1]));
+        axes = sloped_frame(axes, slope);
+    } else if (lies_in_surface(f))
         axes = tilted_frame(axes, vec2_of(splat(the_material(m).tilt_cos[0]), splat(the_material(m).tilt_cos[1])),
                             vec2_of(splat(the_material(m).tilt_sin[0]), splat(the_material(m).tilt_sin[1])));
     x.turned = (mapped && the_frame(f).horizon != 0) || leans(f, m);

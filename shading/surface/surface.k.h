@@ -70,6 +70,22 @@ BN_FN surface_frame tilted_frame(surface_frame f, real2 cosine, real2 sine)
     return r;
 }
 
+// The same by the lobe's mean slopes, d height / d t and d height / d b.
+BN_FN surface_frame sloped_frame(surface_frame f, real2 slope)
+{
+    real one = lit(1.0);
+    real2 cosine;
+    real2 sine;
+    real along2 = one + slope.x * slope.x;
+    cosine.y = one / sqrt(along2);
+    sine.y = slope.x * cosine.y;
+    real across = -(slope.y * cosine.y); // tan theta_x
+    real across2 = one + across * across;
+    cosine.x = one / sqrt(across2);
+    sine.x = across * cosine.x;
+    return tilted_frame(f, cosine, sine);
+}
+
 // What a lobe about a turned normal loses where it reaches below the surface's own horizon. surface_n: unit; r: unit, the mirror
 // direction about the turned normal; alpha: the lobe's width. 1 for all that the surface itself could mirror, 0 from a width below on.
 BN_FN real horizon_fade(real3 surface_n, real3 r, real alpha)

@@ -64,9 +64,12 @@ def glb(gltf, binary=POSITIONS + INDICES):
     return struct.pack("<4sII", b"glTF", 2, 12 + len(chunks)) + chunks
 
 
-def png(width, height, rows=None):
-    """An RGB picture; `rows` fewer than `height` make a header that promises more than the file holds."""
-    raw = b"".join(b"\0" + b"\x80\x40\x20" * min(width, 4096) for _ in range(height if rows is None else rows))
+def png(width, height, rows=None, color=None):
+    """An RGB picture, of one colour or of color(x, y); `rows` fewer than `height` make a header that promises more than the file holds."""
+    if color:
+        raw = b"".join(b"\0" + b"".join(bytes(color(x, y)) for x in range(width)) for y in range(height))
+    else:
+        raw = b"".join(b"\0" + b"\x80\x40\x20" * min(width, 4096) for _ in range(height if rows is None else rows))
 
     def chunk(kind, data):
         return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))

@@ -1,5 +1,6 @@
-"""extras.burnish.tilt: lobes tilted against their surface by a file, in every technique, in the reference, on a device."""
+"""extras.burnish.tilt and tiltTexture: lobes tilted against their surface by a file, in every technique, in the reference, on a device."""
 
+import base64
 import json
 
 import gltf_files as files
@@ -88,8 +89,52 @@ def agrees(bench):
         check((found["z_rejected_fraction"] <= 0.01) == agree, f"{name}: {found}")
 
 
+def mapped(*names, transform=None):
+    """A triangle with maps of checks, many to a pixel: of tilts, of directions, of roughness."""
+    colors = {"tilt": lambda x, y: ((255, 40, 0), (1, 200, 0))[(x + y) % 2], "grain": lambda x, y: ((255, 128, 255), (128, 255, 100))[x % 2],
+              "rough": lambda x, y: (0, (51, 204)[(x + y) % 2], 255)}
+    picture = lambda name: "data:image/png;base64," + base64.b64encode(files.png(64, 64, color=colors[name])).decode()
+    gltf = files.textured(picture("rough"))
+    material = {"pbrMetallicRoughness": {"roughnessFactor": 0.9}, "extensions": {"KHR_materials_anisotropy": {"anisotropyStrength": 0.8}}}
+    gltf["images"], gltf["textures"] = ([{"uri": picture(name)} for name in names], [{"source": i} for i in range(len(names))])
+    for i, name in enumerate(names):
+        info = {"index": i}
+        if name == transform:
+            info["extensions"] = {"KHR_texture_transform": {"scale": [2, 2]}}
+        if name == "tilt":
+            material["extras"] = {"burnish": {"tiltTexture": dict(info, scale=0.3)}}
+        elif name == "grain":
+            material["extensions"]["KHR_materials_anisotropy"]["anisotropyTexture"] = info
+        else:
+            material["pbrMetallicRoughness"]["metallicRoughnessTexture"] = info
+    gltf["materials"] = [material]
+    gltf["extensionsUsed"] = ["KHR_materials_anisotropy", "KHR_texture_transform"]
+    return gltf
+
+
+@case("tilt.faults_of_a_map_are_named_by_their_place", "input", tier="check")
+def map_faults(bench):
+    at = "/materials/0/extras/burnish/tiltTexture"
+    for info, place in ((3, at), ({}, at), ({"index": 7}, at + "/index"), ({"index": 0, "scale": "1"}, at + "/scale"),
+                        ({"index": 0, "texCoord": -1}, at + "/texCoord")):
+        gltf = mapped("tilt")
+        gltf["materials"][0]["extras"]["burnish"]["tiltTexture"] = info
+        refuse(bench, scratch(bench, "bad.gltf", files.text(gltf)), needles=(place,))
+
+
+@case("tilt.maps_give_the_same_words_on_devices")
+def map_devices(bench):
+    scenes = [scratch(bench, "-".join(names) + ".gltf", files.text(mapped(*names)))
+              for names in (("tilt",), ("tilt", "grain"), ("grain", "rough"), ("tilt", "grain", "rough"))]
+    common = ("--samples", "9", "--size", "48x32", "--msaa", "1", "--env", "builtin:sky", "--technique")
+    check_equal(parity(bench, *scenes, *common, "auto"))
+    check_equal(parity(bench, scenes[-1], *common, "mc", "--tilt", "5,5"))
+    for words in (("--roughness", "0.4"), ("--anisotropy", "0.6")):
+        check_equal(parity(bench, scenes[1], scenes[2], *common, "auto", *words))
+
+
 @case("tilt.devices_give_the_same_words")
 def devices(bench):
     scene = scratch(bench, "both.gltf", files.text(beside_another([20, -10])))
-    for words in (("all",), ("auto", "--tilt", "5,5", "--energy-compensation"), ("mc", "--masking", "separable")):
+    for words in (("auto",), ("filtered_is", "--tilt", "5,5", "--energy-compensation"), ("mc", "--masking", "separable")):
         check_equal(parity(bench, scene, "--samples", "9", "--size", "48x32", "--msaa", "1", "--env", "builtin:sky", "--technique", *words))

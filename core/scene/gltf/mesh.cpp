@@ -137,10 +137,12 @@ void finish_corners(Document& doc, Corners& corners, const Material& material, P
         doc.warn(mesh + ": normals without length are replaced by the triangle's");
     const int uv_set = material.normal_tex.used()       ? material.normal_tex.uv_set
                        : material.anisotropy_tex.used() ? material.anisotropy_tex.uv_set
+                       : material.tilt_tex.used()       ? material.tilt_tex.uv_set
                                                         : 0;
     const TangentSource tangents = make_tangents(corners, uv_set);
     primitive.has_file_tangents = tangents == TangentSource::file;
-    const bool directed = material.anisotropy_strength > 0.0f || material.normal_tex.used() || material.tilt != glm::vec2(0.0f);
+    const bool directed =
+        material.anisotropy_strength > 0.0f || material.normal_tex.used() || material.tilt != glm::vec2(0.0f) || material.tilt_tex.used();
     if (directed && tangents == TangentSource::texture_coordinates)
         doc.warn(mesh + ": no TANGENT for its normal map, anisotropy or tilt; made from texture coordinates (MikkTSpace)");
     if (directed && tangents == TangentSource::none)

@@ -6,10 +6,10 @@
 
 namespace burnish {
 
-namespace {
-
-float channel(const Image& image, std::size_t index)
+float texel_channel(const Image& image, std::size_t texel, std::size_t channel)
 {
+    const std::size_t channels = static_cast<std::size_t>(image.channels);
+    const std::size_t index = texel * channels + (channels >= 3 ? channel : 0);
     switch (image.type) {
     case PixelType::u8:
         return static_cast<float>(reinterpret_cast<const std::uint8_t*>(image.bytes.data())[index]) / 255.0f;
@@ -20,17 +20,13 @@ float channel(const Image& image, std::size_t index)
     }
 }
 
-} // namespace
-
 Image anisotropy_tensor(const Image& image, int power)
 {
     BN_CHECK(power == 2 || power == 4);
     Image out = make_image(image.width, image.height, 4, PixelType::f32);
-    const std::size_t channels = static_cast<std::size_t>(image.channels);
     const std::size_t pixels = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
     for (std::size_t i = 0; i < pixels; ++i) {
-        const std::size_t at = i * channels;
-        const float r = channel(image, at), g = channels >= 3 ? channel(image, at + 1) : r, b = channels >= 3 ? channel(image, at + 2) : r;
+        const float r = texel_channel(image, i, 0), g = texel_channel(image, i, 1), b = texel_channel(image, i, 2);
         const float x = 2.0f * r - 1.0f, y = 2.0f * g - 1.0f, length2 = x * x + y * y;
         float* to = out.f32() + 4 * i;
         to[0] = to[1] = to[2] = to[3] = 0.0f;

@@ -15,4 +15,7 @@ namespace burnish {
 // the covariance exactly, and +d and -d are the same.
 Image anisotropy_tensor(const Image& image, int power);
 
+// Of an image of any type, as a number; gray stands for all colours.
+float texel_channel(const Image& image, std::size_t texel, std::size_t channel);
+
 } // namespace burnish

@@ -1,0 +1,121 @@
+#include "shading/bake/mip/slopes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/base/check.h"
+#include "core/math/scalar_math.h"
+#include "shading/bake/mip/anisotropy.h"
+#include "shading/lang/records.h"
+#include "shading/surface/covariance.k.h"
+
+namespace burnish {
+
+namespace {
+
+constexpr float kMostSlope = 5.6712818f; // of 80 degrees
+
+struct Grid { // of the result, and how maps are read between its points
+    int width = 0, height = 0;
+    WrapMode wrap_s, wrap_t;
+    bool nearest;
+};
+
+// The two texels of a row or column on either side of a point of the grid, and the share of the second.
+struct Neighbours {
+    int low, high;
+    float share;
+};
+Neighbours neighbours(int at, int count, int texels, WrapMode wrap, bool nearest)
+{
+    const double place = (at + 0.5) * texels / count;
+    if (nearest || count == texels)
+        return {static_cast<int>(place), static_cast<int>(place), 0.0f};
+    const int low = static_cast<int>(std::floor(place - 0.5));
+    const auto inside = [&](int i) { return wrap == WrapMode::repeat ? (i + texels) % texels : std::clamp(i, 0, texels - 1); };
+    return {inside(low), inside(low + 1), static_cast<float>(place - 0.5 - low)};
+}
+
+// A quantity of a map at a point of the grid; value: of a texel by its number.
+template <class Value> float on_grid(const Image& map, const Grid& grid, int x, int y, const Value& value)
+{
+    const Neighbours u = neighbours(x, grid.width, map.width, grid.wrap_s, grid.nearest);
+    const Neighbours v = neighbours(y, grid.height, map.height, grid.wrap_t, grid.nearest);
+    const auto row = [&](int at) {
+        const std::size_t first = static_cast<std::size_t>(at) * static_cast<std::size_t>(map.width);
+        const float low = value(first + static_cast<std::size_t>(u.low));
+        return u.share == 0.0f ? low : low + u.share * (value(first + static_cast<std::size_t>(u.high)) - low);
+    };
+    const float low = row(v.low);
+    return v.share == 0.0f ? low : low + v.share * (row(v.high) - low);
+}
+
+float slope(const Image& map, float scale, std::size_t texel, int axis)
+{
+    const std::size_t channels = static_cast<std::size_t>(map.channels);
+    const std::size_t at = texel * channels + (channels >= 3 ? static_cast<std::size_t>(axis) : 0);
+    float s = 0.0f;
+    if (map.type == PixelType::u8)
+        s = static_cast<float>(std::to_integer<int>(map.bytes[at]) - 128) / 127.0f;
+    else if (map.type == PixelType::u16)
+        s = static_cast<float>(reinterpret_cast<const std::uint16_t*>(map.bytes.data())[at] - 32768) / 32767.0f;
+    else
+        s = map.f32()[at];
+    if (map.type != PixelType::f32)
+        s = std::max(s, -1.0f);
+    s *= scale;
+    return std::isnan(s) ? 0.0f : std::clamp(s, -kMostSlope, kMostSlope);
+}
+
+real3 tensor_at(const Image* tensors, const Grid& grid, int x, int y)
+{
+    if (!tensors)
+        return vec3_of(1.0f, 0.0f, 0.0f);
+    const auto entry = [&](std::size_t c) {
+        return on_grid(*tensors, grid, x, y, [&](std::size_t texel) { return tensors->f32()[4 * texel + c]; });
+    };
+    return vec3_of(entry(0), entry(1), entry(2));
+}
+
+} // namespace
+
+Image slope_moments(const SlopeMaps& maps, const SlopeFactors& factors, int part)
+{
+    BN_CHECK(part == 2 || part == 4);
+    Grid grid = {0, 0, maps.wrap_s, maps.wrap_t, maps.nearest};
+    for (const Image* map : {maps.tilt, maps.direction})
+        if (map)
+            grid.width = std::max(grid.width, map->width), grid.height = std::max(grid.height, map->height);
+    Image tensors[2];
+    if (maps.direction)
+        tensors[0] = anisotropy_tensor(*maps.direction, 2), tensors[1] = anisotropy_tensor(*maps.direction, 4);
+    const auto turn = static_cast<double>(factors.anisotropy_rotation);
+    const real2 rotation = vec2_of(static_cast<float>(det_cos(turn)), static_cast<float>(det_sin(turn)));
+    Image out = make_image(grid.width, grid.height, 4, PixelType::f32);
+    float* to = out.f32();
+    for (int y = 0; y < grid.height; ++y)
+        for (int x = 0; x < grid.width; ++x, to += 4) {
+            const auto moment = [&](auto value) { return maps.tilt ? on_grid(*maps.tilt, grid, x, y, value) : 0.0f; };
+            const auto of = [&](std::size_t texel, int axis) { return slope(*maps.tilt, factors.tilt_scale, texel, axis); };
+            const auto second = [&](int a, int b) { return moment([&](std::size_t i) { return of(i, a) * of(i, b); }); };
+            const real3 power2 = tensor_at(maps.direction ? &tensors[0] : nullptr, grid, x, y);
+            slope_covariance moments = {second(0, 0), second(1, 1), second(0, 1)};
+            if (factors.with_lobe) {
+                const float roughness = std::clamp(factors.roughness, 0.0f, 1.0f);
+                const real3 power4 = tensor_at(maps.direction ? &tensors[1] : nullptr, grid, x, y);
+                const slope_covariance lobe =
+                    covariance_from_tensors(roughness * roughness, factors.anisotropy_strength, rotation, power2, power4);
+                moments = sum_of_covariances(moments, lobe);
+            }
+            if (part == 2)
+                to[0] = power2.x, to[1] = power2.y, to[2] = power2.z, to[3] = kMomentScale * moments.xx;
+            else
+                to[0] = kSlopeScale * moment([&](std::size_t i) { return of(i, 0); }),
+                to[1] = kSlopeScale * moment([&](std::size_t i) { return of(i, 1); }), to[2] = kMomentScale * moments.yy,
+                to[3] = kMomentScale * moments.xy;
+        }
+    return out;
+}
+
+} // namespace burnish
