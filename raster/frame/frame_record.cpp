@@ -88,6 +88,16 @@ void FrameMaker::bake(const FrameDesc& desc)
         grid_ = grid_samples(desc.samples, (technique.traits & kGgxGrid) != 0);
 }
 
+namespace {
+
+// Whether its technique follows the light that it lets through. An index of 0 reflects everything.
+bool refracts(const MaterialRecord& m, const FrameDesc& desc)
+{
+    return (m.technique_traits & kRefracts) && m.transmission > 0.0f && m.ior > 0.0f && !(lobe_traits_of(lobe_of(desc)) & kPunctualOnly);
+}
+
+} // namespace
+
 void FrameMaker::choose_techniques(const FrameDesc& desc)
 {
     const int lobe = lobe_of(desc, tilts(input_.scene, desc));
@@ -95,6 +105,7 @@ void FrameMaker::choose_techniques(const FrameDesc& desc)
         const TechniqueInfo& t = technique_of(desc, m.anisotropic != 0);
         m.technique = static_cast<int>(&t - techniques().data());
         m.technique_traits = m.unlit ? 0 : t.traits;
+        m.refracts = refracts(m, desc);
         const bool round = !m.anisotropic || (t.traits & kTakesRoundLobes);
         m.lights_lobe = round && lobe == lobe_with(kLobeOfAll) ? lobe_with(kLobeOfRound) : lobe;
     }

@@ -227,6 +227,12 @@ BN_INLINE Reflector select_reflector(mask m, const Reflector& a, const Reflector
     r.x.gain = select(m, a.x.gain, b.x.gain);
     r.o = select(m, a.o, b.o), r.horizon = select(m, a.horizon, b.horizon);
     r.diffuse = select(m, a.diffuse, b.diffuse);
+    if (a.x.refracts || b.x.refracts) {
+        r.x.refracts = true;
+        r.x.through.tint = select(m, a.x.through.tint, b.x.through.tint);
+        r.x.through.parts = select_parts(m, a.x.through.parts, b.x.through.parts);
+        r.refracts = either(both(m, a.refracts), both(not_(m), b.refracts));
+    }
     r.choose_specular = select(m, a.choose_specular, b.choose_specular);
     r.mirror = select(m, a.mirror, b.mirror);
     return r;
@@ -243,6 +249,8 @@ BN_STAGE MaterialAtHits material_at_hits(const ReferenceParams& f, const Materia
     MaterialAtHits r;
     shaded_point x;
     make_shaded_point(f, m, at, lobe_shape_of(f, m, at), g.fragment, int_lit(0), x);
+    if (!x.refracts)
+        x.through = interface_inputs(); // lanes of other materials may refract
     r.r = make_reflector(f, x);
     r.emission = own_light(m, at);
     return r;

@@ -62,6 +62,14 @@ BN_INLINE real3 open_light(const ReferenceParams& f, const Reflector& r, const S
     return sum + s.weight * environment_radiance(f, s.wi) * weight;
 }
 
+// Through one interface the environment is seen with nothing in its way, but by paths, which go on to where the light comes out.
+BN_INLINE mask sees_through(const ReferenceParams& f, const Reflector& r, real3 wi)
+{
+    if (!r.x.refracts || f.mode == ReferenceMode::path)
+        return mask_from_bits(0);
+    return both(r.refracts, k_dot3(r.x.surface_axes.n, wi) < lit(0.0));
+}
+
 // A ray that leaves a surface, from a point lifted off it by what rounding may have lost.
 BN_INLINE LaneRays leaving_ray(const ReferenceParams& f, const LaneSurface& s, real3 wi)
 {
@@ -82,8 +90,15 @@ BN_STAGE real3 punctual_lights(const PixelFrame& p, const LaneSurface& s)
     real3 sum = vec3_all(lit(0.0));
     for (int i = 0; i < f.light_count; ++i) {
         const LightRecord& l = f.lights[i];
-        const punctual_light light = light_from(f, s.r.x, lobe, light_towards(f, s.position, i), i);
+        const light_sample towards = light_towards(f, s.position, i);
+        punctual_light light = light_from(f, s.r.x, lobe, towards, i);
         mask lit_lanes = both(both(s.reflects, k_dot3(s.r.horizon, light.l) > lit(0.0)), any_light(light.radiance));
+        if (s.r.x.refracts && f.mode == ReferenceMode::path) {
+            const mask behind = both(both(s.reflects, s.r.refracts), k_dot3(s.r.x.surface_axes.n, light.l) < lit(0.0));
+            const real3 arriving = splat3(l.radiant) * towards.attenuation;
+            light.radiance = select(behind, reflect(s.r, light.l).value * arriving, light.radiance);
+            lit_lanes = either(both(lit_lanes, not_(behind)), both(behind, any_light(light.radiance)));
+        }
         if (f.mode != ReferenceMode::direct && any(lit_lanes)) {
             LaneRays r = leaving_ray(f, s, light.l);
             if (!l.directional)
@@ -110,7 +125,8 @@ BN_STAGE real3 traced_light(const PixelFrame& p, const LaneSurface& first, integ
             const real3 value = throughput * e.value;
             const mask wanted = both(s.reflects, any_light(value));
             if (any(wanted)) {
-                const mask blocked = find_hits(p, leaving_ray(f, s, e.wi), wanted, RayKind::occlusion).found;
+                const mask traced = both(wanted, not_(sees_through(f, s.r, e.wi)));
+                const mask blocked = find_hits(p, leaving_ray(f, s, e.wi), traced, RayKind::occlusion).found;
                 sum = sum + select(both(wanted, not_(blocked)), value, zero);
             }
         }
@@ -120,7 +136,8 @@ BN_STAGE real3 traced_light(const PixelFrame& p, const LaneSurface& first, integ
             break;
         const bool last = depth == bounces;
         const LaneRays r = leaving_ray(f, s, b.wi);
-        const LaneHits h = find_hits(p, r, wanted, last ? RayKind::occlusion : RayKind::bounce);
+        const mask traced = both(wanted, not_(sees_through(f, s.r, b.wi)));
+        const LaneHits h = find_hits(p, r, traced, last ? RayKind::occlusion : RayKind::bounce);
         const real3 carried = throughput * b.weight;
         const real3 outside = carried * environment_radiance(f, b.wi) * lobe_weight(f, b);
         sum = sum + select(both(wanted, not_(h.found)), outside, zero);

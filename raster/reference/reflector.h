@@ -1,5 +1,6 @@
-// A surface ready to reflect: the BRDF that the technique `mc` samples, one term for the lobe (placed_lobe.t.h, reflectance.t.h) and one
-// for the diffuse rest, as values, densities and samples. Directions are world space, unit.
+// A surface ready to reflect: the BRDF that the technique `mc` samples, one term for the lobe (placed_lobe.t.h, reflectance.t.h) or for a
+// rough interface, which light passes too (refraction.t.h), and one for the diffuse rest, as values, densities and samples. Directions are
+// world space, unit.
 #pragma once
 #include "raster/reference/samples.h"
 #include "shading/models/lambert.k.h"
@@ -16,6 +17,7 @@ struct Reflector {
     real3 diffuse;        // BRDF of the diffuse part, 1/sr
     real choose_specular; // probability
     mask mirror;          // the lobe has no width: only samples meet it
+    mask refracts;        // an interface is in the lobe's place; none of them where !x.refracts
 };
 
 constexpr int kUsualLobe = lobe_with(kLobeOfAll);
@@ -35,7 +37,10 @@ BN_INLINE Reflector make_reflector(const ShadingFrame& f, const shaded_point& x)
     const real passed = passed_to_diffuse(f, x);
     r.diffuse = s.diffuse * (passed * lit(0.31830988618379067));
     r.mirror = x.lobe.sigma_u + x.lobe.sigma_v <= lit(1e-6);
-    const real specular = luminance_of((s.f0 * x.dfg.scale + s.f90 * x.dfg.bias) * x.gain);
+    r.refracts = mask_from_bits(x.refracts ? (1u << kLanes) - 1u : 0u);
+    real specular = luminance_of((s.f0 * x.dfg.scale + s.f90 * x.dfg.bias) * x.gain);
+    if (x.refracts)
+        specular = specular + luminance_of(x.through.tint) * passed;
     const real rest = luminance_of(s.diffuse) * passed;
     const real share = specular / max(specular + rest, lit(1e-20));
     r.choose_specular = select(rest > lit(1e-6), select(specular > lit(1e-6), min(max(share, lit(0.1)), lit(0.9)), lit(0.0)), lit(1.0));
@@ -87,6 +92,27 @@ struct Reflection {
     real pdf;    // of sample_reflector(), 1/sr
 };
 
+// Probability that a sample of an interface is what its microfacet reflects.
+BN_INLINE real reflecting_share(const rough_interface& g, real o_dot_m)
+{
+    const real reflected = luminance_of(interface_reflects(g.at, o_dot_m)), passed = luminance_of(interface_passes(g.at, o_dot_m));
+    return reflected / max(reflected + passed, lit(1e-20));
+}
+
+// In the place of the lobe's value and density.
+BN_STAGE Reflection scatter(const Reflector& r, real3 wi)
+{
+    const rough_interface g = rough_interface_at(r.x);
+    const real3 i = to_frame(g.axes, wi);
+    const ellipsoid_scattering s = ellipsoid_scattering_of(g.p, g.o, i);
+    const real3 share = select(s.transmits, interface_passes(g.at, s.o_dot_m), interface_reflects(g.at, s.o_dot_m));
+    const real reflecting = reflecting_share(g, s.o_dot_m);
+    Reflection to;
+    to.value = select(r.mirror, vec3_all(lit(0.0)), share * r.x.gain * (s.value * abs(i.z)));
+    to.pdf = select(r.mirror, lit(0.0), s.pdf * select(s.transmits, lit(1.0) - reflecting, reflecting));
+    return to;
+}
+
 // A mirror's own reflection is not in it.
 BN_INLINE Reflection reflect(const Reflector& r, real3 wi)
 {
@@ -97,9 +123,15 @@ BN_INLINE Reflection reflect(const Reflector& r, real3 wi)
     const real lobe = select(shines, l.value, lit(0.0));
     const real3 fresnel = reflectance_of(r.x.s, k_saturate(l.o_dot_h));
     const real cosine = max(k_dot3(r.x.s.n, wi), lit(0.0));
+    real3 specular = fresnel * r.x.gain * lobe;
+    real specular_pdf = select(r.mirror, lit(0.0), l.pdf);
+    if (r.x.refracts) {
+        const Reflection s = scatter(r, wi);
+        specular = select(r.refracts, s.value, specular);
+        specular_pdf = select(r.refracts, s.pdf, specular_pdf);
+    }
     Reflection to;
-    to.value = fresnel * r.x.gain * lobe + r.diffuse * cosine;
-    const real specular_pdf = select(r.mirror, lit(0.0), l.pdf);
+    to.value = specular + r.diffuse * cosine;
     to.pdf = r.choose_specular * specular_pdf + (lit(1.0) - r.choose_specular) * cosine * lit(0.31830988618379067);
     return to;
 }
@@ -111,6 +143,33 @@ struct ReflectorSample {
     mask exact;   // the direction of a mirror, which nothing else finds
 };
 
+struct InterfaceSample {
+    real3 wi;
+    real3 weight; // value / pdf
+    real pdf;
+    mask alone; // no other term of the surface goes there
+};
+
+// choice: in [0,1), whether to reflect.
+BN_STAGE InterfaceSample sample_interface(const Reflector& r, real2 xi, real choice)
+{
+    const rough_interface g = rough_interface_at(r.x);
+    const ellipsoid_view v = ellipsoid_seen_from(g.p.shape, g.o);
+    const real3 normal = select(r.mirror, g.n, ellipsoid_visible_normal(g.p.shape, v, g.o, xi));
+    const ellipsoid_facet m = ellipsoid_facet_of(g.p.shape, v, g.o, normal);
+    const bsdf_sample up = ellipsoid_facet_reflects(g.p.shape, m, g.o), down = ellipsoid_facet_refracts(g.p.shape, m, g.o, g.p.eta);
+    const real reflecting = reflecting_share(g, m.o_dot_m), passing = lit(1.0) - reflecting;
+    const mask reflects = choice < reflecting;
+    const real3 reflected = interface_reflects(g.at, m.o_dot_m) * (up.weight / max(reflecting, lit(1e-20)));
+    const real3 passed = interface_passes(g.at, m.o_dot_m) * (down.weight / max(passing, lit(1e-20)));
+    InterfaceSample s;
+    s.wi = from_frame(g.axes, select(reflects, up.wi, down.wi));
+    s.weight = select(reflects, reflected, passed) * r.x.gain;
+    s.pdf = select(reflects, up.pdf * reflecting, down.pdf * passing);
+    s.alone = either(either(not_(reflects), r.mirror), not_(up.valid));
+    return s;
+}
+
 BN_INLINE ReflectorSample sample_reflector(const Reflector& r, real2 xi, real choice)
 {
     const mask specular = choice < r.choose_specular;
@@ -119,6 +178,11 @@ BN_INLINE ReflectorSample sample_reflector(const Reflector& r, real2 xi, real ch
     const real3 dull = from_lobe(r.x.lobe, r.x.s.n, lambert_sample(r.o, xi).wi);
     ReflectorSample s;
     s.wi = k_normalize3(select(specular, select(r.mirror, mirrored, shiny), dull));
+    InterfaceSample through;
+    if (r.x.refracts) {
+        through = sample_interface(r, xi, choice / max(r.choose_specular, lit(1e-6)));
+        s.wi = select(both(specular, r.refracts), k_normalize3(through.wi), s.wi);
+    }
     s.exact = both(specular, r.mirror);
     const Reflection at = reflect(r, s.wi);
     s.pdf = at.pdf;
@@ -127,6 +191,11 @@ BN_INLINE ReflectorSample sample_reflector(const Reflector& r, real2 xi, real ch
     const real3 of_mirror = whole * placed_lobe_mirror_albedo(lobe_of(r, r.lobe));
     const mask seen = k_dot3(r.horizon, s.wi) > lit(0.0);
     s.weight = select(s.exact, select(seen, of_mirror, vec3_all(lit(0.0))), at.value * inv);
+    if (r.x.refracts) {
+        const mask alone = both(both(specular, r.refracts), through.alone);
+        s.weight = select(alone, through.weight / max(r.choose_specular, lit(1e-6)), s.weight);
+        s.pdf = select(alone, through.pdf * r.choose_specular, s.pdf);
+    }
     return s;
 }
 

@@ -37,6 +37,8 @@ const int kSharesSamples = 32;  // with the fragments of the 2x2 quad: see share
 const int kAutoRound = 64;      // what `auto` takes for materials without a grain
 const int kAutoGrain = 128;     // and for the others
 
+const int kRefracts = 256; // follows light through materials that let it; others draw them opaque
+
 const int kFresnelSchlick = 0, kFresnelConductor = 1, kFresnelDielectric = 2; // FrameDesc::fresnel
 
 // Traits of lobes (shading/models.def), and what the words of their lines mean.
@@ -142,6 +144,7 @@ struct MaterialRecord { // Material in plain numbers, and what follows from them
     int conductor;                   // it has an index of its own: conductor_eta, conductor_k
     int roughness_fixed;             // by an override: the texture gives metalness only
     int technique, technique_traits; // its place in shading/models.def; of what is unlit no traits
+    int refracts;                    // it lets light through, and its technique follows that
     int lights_lobe;                 // what punctual lights meet: its place in shading/models.def
     int albedo_slice;                // of a lobe whose two widths are everywhere the same: its first texel; else -1
     TextureBinding textures[kTextureSlots];

@@ -59,13 +59,13 @@ BN_INLINE constexpr bool lobe_used(int)
 }
 
 // A fragment of which nothing changes but the geometry: neither textures, vertex colours, lights of either kind, energy compensation, exact
-// reflectances nor a lobe other than the usual one.
+// reflectances, light that passes nor a lobe other than the usual one.
 struct PlainFrame : ShadingFrame {
     static constexpr int light_count = 0, key_light_count = 0, energy_compensation = 0, dfg_fit = 0, fresnel = 0;
     static constexpr int lobe = lobe_with(kLobeOfAll), lobe_traits = lobe_traits_of(lobe);
 };
 struct PlainMaterial : MaterialRecord {
-    static constexpr int textured = 0, uses_color = 0, unlit = 0;
+    static constexpr int textured = 0, uses_color = 0, unlit = 0, refracts = 0;
 };
 struct RoundMaterial : PlainMaterial {
     static constexpr int anisotropic = 0;

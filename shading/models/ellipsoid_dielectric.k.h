@@ -74,54 +74,116 @@ BN_FN real ellipsoid_refraction_jacobian(ellipsoid_crossing c)
     return select(both(i_dot_m<lit(0.0), o_dot_m> lit(0.0)), value, lit(0.0));
 }
 
-BN_FN real ellipsoid_dielectric_eval(ellipsoid_dielectric_params p, real3 wo, real3 wi)
+// What scatters from wo to wi, without Fresnel's factor: reflectance where it is reflected, the rest where it crosses.
+struct ellipsoid_scattering {
+    real value;   // 1/sr, of a perfect reflector and of an interface that reflects nothing
+    real pdf;     // of the side's samples, 1/sr
+    real o_dot_m; // of the microfacet: the argument of Fresnel's equations
+    mask transmits;
+};
+
+BN_FN ellipsoid_scattering ellipsoid_scattering_of(ellipsoid_dielectric_params p, real3 wo, real3 wi)
 {
     ellipsoid_crossing c = ellipsoid_crossing_of(p, wo, wi);
-    real o_dot_m = max(k_dot3(c.wo, c.m), lit(0.0));
-    real f = fresnel_dielectric(o_dot_m, c.eta);
-    real shared_part =
-        ellipsoid_d(p.shape, c.m) * ellipsoid_g1_over_z(p.shape, c.wo) * ellipsoid_g1_over_z(p.shape, ellipsoid_masked_as(c));
-    real reflected = lit(0.25) * f * shared_part;
-    real refracted = (lit(1.0) - f) * shared_part * o_dot_m * ellipsoid_refraction_jacobian(c);
-    return select(c.possible, select(c.transmits, refracted, reflected), lit(0.0));
+    ellipsoid_scattering s;
+    s.transmits = c.transmits;
+    s.o_dot_m = max(k_dot3(c.wo, c.m), lit(0.0));
+    real side = select(c.transmits, s.o_dot_m * ellipsoid_refraction_jacobian(c), lit(0.25));
+    real d = ellipsoid_d(p.shape, c.m);
+    real masked = d * ellipsoid_g1_over_z(p.shape, c.wo) * ellipsoid_g1_over_z(p.shape, ellipsoid_masked_as(c));
+    ellipsoid_view v = ellipsoid_seen_from(p.shape, c.wo);
+    real seen = v.k * d;
+    s.value = select(c.possible, masked * side, lit(0.0));
+    s.pdf = select(c.possible, seen * side, lit(0.0));
+    return s;
+}
+
+// Its share of the light that meets the microfacet.
+BN_FN real ellipsoid_dielectric_share(ellipsoid_dielectric_params p, real3 wo, ellipsoid_scattering s)
+{
+    real eta = select(wo.z < lit(0.0), lit(1.0) / p.eta, p.eta);
+    real f = fresnel_dielectric(s.o_dot_m, eta);
+    return select(s.transmits, lit(1.0) - f, f);
+}
+
+BN_FN real ellipsoid_dielectric_eval(ellipsoid_dielectric_params p, real3 wo, real3 wi)
+{
+    ellipsoid_scattering s = ellipsoid_scattering_of(p, wo, wi);
+    return ellipsoid_dielectric_share(p, wo, s) * s.value;
 }
 
 BN_FN real ellipsoid_dielectric_pdf(ellipsoid_dielectric_params p, real3 wo, real3 wi)
 {
-    ellipsoid_crossing c = ellipsoid_crossing_of(p, wo, wi);
-    real o_dot_m = max(k_dot3(c.wo, c.m), lit(0.0));
-    real f = fresnel_dielectric(o_dot_m, c.eta);
-    ellipsoid_view v = ellipsoid_seen_from(p.shape, c.wo);
-    real seen = v.k * ellipsoid_d(p.shape, c.m);
-    real reflected = lit(0.25) * f * seen;
-    real refracted = (lit(1.0) - f) * seen * o_dot_m * ellipsoid_refraction_jacobian(c);
-    return select(c.possible, select(c.transmits, refracted, reflected), lit(0.0));
+    ellipsoid_scattering s = ellipsoid_scattering_of(p, wo, wi);
+    return ellipsoid_dielectric_share(p, wo, s) * s.pdf;
 }
 
-// xi.x, xi.y choose the microfacet, xi.z between reflection and refraction. The weight is G1(wi) min(1, 1 /
-// (k |wo.z|)).
+// A microfacet that wo, above the surface, sees.
+struct ellipsoid_facet {
+    real3 m; // its normal, unit
+    real o_dot_m;
+    real seen;     // density of m over o_dot_m
+    real lit_part; // of it, by wo's masking: min(1, 1 / (k wo.z))
+    mask sound;
+};
+
+// v: ellipsoid_seen_from(shape, wo).
+BN_FN ellipsoid_facet ellipsoid_facet_of(ellipsoid_params shape, ellipsoid_view v, real3 wo, real3 m)
+{
+    ellipsoid_facet r;
+    r.m = m;
+    r.o_dot_m = max(k_dot3(wo, m), lit(0.0));
+    r.seen = v.k * ellipsoid_d(shape, m);
+    r.lit_part = min(lit(1.0) / max(v.k * wo.z, lit(1e-16)), lit(1.0));
+    r.sound = both(wo.z > lit(0.0), both(r.o_dot_m > lit(0.0), m.z > lit(0.0)));
+    return r;
+}
+
+BN_FN ellipsoid_facet ellipsoid_facet_seen(ellipsoid_params shape, real3 wo, real2 xi)
+{
+    ellipsoid_view v = ellipsoid_seen_from(shape, wo);
+    return ellipsoid_facet_of(shape, v, wo, ellipsoid_visible_normal(shape, v, wo, xi));
+}
+
+// Samples through a microfacet, without Fresnel's factor in weight and density. The weight is G1(wi) min(1, 1 / (k wo.z)).
+BN_FN bsdf_sample ellipsoid_facet_reflects(ellipsoid_params shape, ellipsoid_facet f, real3 wo)
+{
+    real3 wi = mirror_direction(wo, f.m);
+    real weight = ellipsoid_g1(shape, wi) * f.lit_part;
+    real pdf = lit(0.25) * f.seen;
+    return bsdf_sample_of(wi, weight, pdf, f.o_dot_m, both(f.sound, wi.z > lit(0.0)));
+}
+
+// eta: index of the far side over that of wo's.
+BN_FN bsdf_sample ellipsoid_facet_refracts(ellipsoid_params shape, ellipsoid_facet f, real3 wo, real eta)
+{
+    real sine2 = max((lit(1.0) - f.o_dot_m) * (lit(1.0) + f.o_dot_m), lit(0.0)) / (eta * eta);
+    real cosine = sqrt(max(lit(1.0) - sine2, lit(0.0))); // of the refracted direction, below the facet
+    real3 wi = k_normalize3(f.m * (f.o_dot_m / eta - cosine) - wo / eta);
+    real weight = ellipsoid_g1(shape, -wi) * f.lit_part;
+    real travel = eta * cosine - f.o_dot_m; // |wo + eta wi|
+    real jacobian = eta * eta * cosine / max(travel * travel, lit(1e-12));
+    real pdf = f.seen * f.o_dot_m * jacobian;
+    mask below = both(wi.z < lit(0.0), sine2 < lit(1.0));
+    return bsdf_sample_of(wi, weight, pdf, f.o_dot_m, both(f.sound, below));
+}
+
+// xi.x, xi.y choose the microfacet, xi.z between reflection and refraction.
 BN_FN bsdf_sample ellipsoid_dielectric_sample(ellipsoid_dielectric_params p, real3 wo, real3 xi)
 {
     mask under = wo.z < lit(0.0);
     real3 up = select(under, -wo, wo);
     real eta = select(under, lit(1.0) / p.eta, p.eta);
-    ellipsoid_view v = ellipsoid_seen_from(p.shape, up);
-    real3 m = ellipsoid_visible_normal(p.shape, v, up, vec2_of(xi.x, xi.y));
-    real o_dot_m = max(k_dot3(up, m), lit(0.0));
-    real f = fresnel_dielectric(o_dot_m, eta);
+    ellipsoid_facet m = ellipsoid_facet_seen(p.shape, up, vec2_of(xi.x, xi.y));
+    real f = fresnel_dielectric(m.o_dot_m, eta);
     mask reflects = xi.z < f;
-    real sine2 = max((lit(1.0) - o_dot_m) * (lit(1.0) + o_dot_m), lit(0.0)) / (eta * eta);
-    real cosine = sqrt(max(lit(1.0) - sine2, lit(0.0))); // of the refracted direction, below the facet
-    real3 through = k_normalize3(m * (o_dot_m / eta - cosine) - up / eta);
-    real3 wi = select(reflects, mirror_direction(up, m), through);
-    real3 masked = select(reflects, wi, -wi);
-    real weight = ellipsoid_g1(p.shape, masked) * min(lit(1.0) / max(v.k * up.z, lit(1e-16)), lit(1.0));
-    real travel = eta * cosine - o_dot_m; // |wo + eta wi|
-    real jacobian = eta * eta * cosine / max(travel * travel, lit(1e-12));
-    real seen = v.k * ellipsoid_d(p.shape, m);
-    real pdf = select(reflects, lit(0.25) * f * seen, (lit(1.0) - f) * seen * o_dot_m * jacobian);
-    mask sides = both(both_above(up, masked), both(o_dot_m > lit(0.0), m.z > lit(0.0)));
-    return bsdf_sample_of(select(under, -wi, wi), weight, pdf, o_dot_m, sides);
+    bsdf_sample r = ellipsoid_facet_reflects(p.shape, m, up);
+    bsdf_sample t = ellipsoid_facet_refracts(p.shape, m, up, eta);
+    real3 wi = select(reflects, r.wi, t.wi);
+    real weight = select(reflects, r.weight, t.weight);
+    real pdf = select(reflects, f * r.pdf, (lit(1.0) - f) * t.pdf);
+    mask valid = either(both(reflects, r.valid), both(not_(reflects), t.valid));
+    return bsdf_sample_of(select(under, -wi, wi), weight, pdf, m.o_dot_m, valid);
 }
 
 BN_KERNELS_END

@@ -93,6 +93,9 @@ BN_FN material_inputs fetch_material(frame_ref f, material_ref m, BN_IN(visible_
             r.tensor4 = r.tensor2 * (two.x + two.y); // as where the map's strength is the same everywhere
         }
     }
+    r.transmission = splat(the_material(m).transmission);
+    if (texture_used(m, kTransmissionTex))
+        r.transmission = r.transmission * texel_of(t, kTransmissionTex).x;
     return r;
 }
 

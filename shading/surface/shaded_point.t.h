@@ -10,6 +10,7 @@
 #include "shading/surface/material.t.h"
 #include "shading/surface/placed_lobe.t.h"
 #include "shading/surface/reflectance.t.h"
+#include "shading/surface/refraction.t.h"
 #include "shading/surface/surface.k.h"
 #include "shading/surface/visible_point.k.h"
 
@@ -27,12 +28,19 @@ struct shaded_point {
     real3 gain;   // energy compensation, which multiplies the specular lobe; 1 without
     real3 dielectric_f0;
     real dielectric_f90;
-    integer pixel_id; // y * width + x, for random numbers
+    integer pixel_id;         // y * width + x, for random numbers
+    bool refracts;            // it lets light through, and its technique follows that
+    interface_inputs through; // then
 };
 
 BN_FN placed_lobe placed_lobe_at(frame_ref f, BN_IN(shaded_point) x)
 {
     return placed_lobe_of(the_frame(f).lobe, x.lobe, x.s.n, x.s.v, x.surface_axes);
+}
+
+BN_FN rough_interface rough_interface_at(BN_IN(shaded_point) x)
+{
+    return rough_interface_of(x.through, x.lobe, x.s.n, x.s.v, x.surface_axes);
 }
 
 // Whether lobes may be tilted against the surface, and know where it is.
@@ -96,6 +104,18 @@ BN_FN real3 energy_gain(frame_ref f, real3 f0, dfg_value dfg)
     return energy_compensation(f0, dfg);
 }
 
+// Of a material that lets light through: its interface takes a share of what the diffuse part has, and the gain of the whole is its own.
+BN_STAGE void make_interface(any_frame f, material_ref m, BN_IN(material_inputs) at, mask front, BN_INOUT(shaded_point) x)
+{
+    x.through.parts = fresnel_parts_of(f, m, at.base, at.metallic, at.dielectric_f0, at.dielectric_f90);
+    x.through.parts.ior = index_of_far_side(splat(the_material(m).ior), front);
+    x.through.tint = x.s.diffuse * at.transmission;
+    x.s.diffuse = x.s.diffuse * (lit(1.0) - at.transmission);
+    x.gain = vec3_all(lit(1.0));
+    if (the_frame(f).energy_compensation != 0)
+        x.gain = vec3_all(lit(1.0) / max(interface_albedo(rough_interface_at(x)), lit(0.05)));
+}
+
 // Fills x.
 BN_FN void make_shaded_point(frame_ref f, material_ref m, BN_IN(material_inputs) at, BN_IN(lobe_shape) shape, BN_IN(visible_point) p,
                              integer pixel_id, BN_INOUT(shaded_point) x)
@@ -145,11 +165,18 @@ BN_FN void make_shaded_point(frame_ref f, material_ref m, BN_IN(material_inputs)
         if (compensated)
             x.gain = energy_compensation_of_albedo(x.s.f0, min(albedo, lit(1.0)));
     }
+    x.refracts = the_material(m).refracts != 0;
+    if (x.refracts)
+        make_interface(f, m, at, p.front, x);
 }
 
 // The share of light that the dielectric's specular part lets through to the diffuse one.
 BN_FN real passed_to_diffuse(frame_ref f, BN_IN(shaded_point) x)
 {
+    if (x.refracts) { // from within as well, where light is reflected as a whole
+        real3 r = dielectric_reflectance(x.dielectric_f0, x.dielectric_f90, x.through.parts.ior, x.s.n_dot_v);
+        return max(lit(1.0) - max(r.x, max(r.y, r.z)), lit(0.0));
+    }
     real3 dielectric = dielectric_albedo_of(x.s, x.dielectric_f0, x.dielectric_f90, x.dfg) * energy_gain(f, x.dielectric_f0, x.dfg);
     return lit(1.0) - max(dielectric.x, max(dielectric.y, dielectric.z));
 }

@@ -60,6 +60,7 @@ TEST(material, defaults_are_those_of_gltf)
     EXPECT_EQ(m.emissive, glm::vec3(0.0f));
     EXPECT_EQ(m.ior, 1.5f);
     EXPECT_EQ(m.specular, 1.0f);
+    EXPECT_EQ(m.transmission, 0.0f);
     EXPECT_EQ(m.alpha_mode, AlphaMode::opaque);
     EXPECT_EQ(m.alpha_cutoff, 0.5f);
     EXPECT_EQ(m.anisotropy_strength, 0.0f);
@@ -74,6 +75,7 @@ TEST(material, every_factor_and_extension_arrives)
         R"({"name":"all","pbrMetallicRoughness":{"baseColorFactor":[0.1,0.2,0.3,0.4],"metallicFactor":0,"roughnessFactor":0.25},)"
         R"("emissiveFactor":[1,0.5,0],"alphaMode":"MASK","alphaCutoff":0.75,"doubleSided":true,"extensions":{)"
         R"("KHR_materials_unlit":{},"KHR_materials_emissive_strength":{"emissiveStrength":10},"KHR_materials_ior":{"ior":1.33},)"
+        R"("KHR_materials_transmission":{"transmissionFactor":0.75},)"
         R"("KHR_materials_specular":{"specularFactor":0.5,"specularColorFactor":[2,1,0]},)"
         R"("KHR_materials_anisotropy":{"anisotropyStrength":0.6,"anisotropyRotation":1.5}}})");
     ASSERT_TRUE(scene) << error_of(scene);
@@ -89,6 +91,7 @@ TEST(material, every_factor_and_extension_arrives)
     EXPECT_TRUE(m.double_sided);
     EXPECT_TRUE(m.unlit);
     EXPECT_EQ(m.ior, 1.33f);
+    EXPECT_EQ(m.transmission, 0.75f);
     EXPECT_EQ(m.specular, 0.5f);
     EXPECT_EQ(m.specular_color, glm::vec3(2, 1, 0));
     EXPECT_EQ(m.anisotropy_strength, 0.6f);
@@ -106,6 +109,8 @@ TEST(material, factors_out_of_range_are_errors_at_their_place)
         {R"({"alphaMode":"GLASS"})", "/materials/0/alphaMode"},
         {R"({"alphaCutoff":-1})", "/materials/0/alphaCutoff"},
         {R"({"extensions":{"KHR_materials_ior":{"ior":0.5}}})", "/materials/0/extensions/KHR_materials_ior/ior"},
+        {R"({"extensions":{"KHR_materials_transmission":{"transmissionFactor":2}}})",
+         "/materials/0/extensions/KHR_materials_transmission/transmissionFactor"},
         {R"({"extensions":{"KHR_materials_specular":{"specularFactor":2}}})",
          "/materials/0/extensions/KHR_materials_specular/specularFactor"},
         {R"({"extensions":{"KHR_materials_anisotropy":{"anisotropyStrength":1.5}}})",
