@@ -110,6 +110,7 @@ Status Chart::load_all()
         Result<SeenScene> scene = load_seen_scene(name, options_.base, report_);
         if (!scene)
             return scene.error();
+        warn_of_opaque_glass(scene->data->scene, options_.techniques, report_);
         scenes_.push_back(std::move(*scene));
     }
     for (const std::string& env : options_.envs) {

@@ -1,7 +1,11 @@
 #include "apps/cli/seen_scene.h"
 
+#include <algorithm>
+#include <fmt/core.h>
+
 #include "apps/cli/open.h"
 #include "apps/cli/scene_view.h"
+#include "shading/lang/records.h"
 
 namespace burnish {
 
@@ -18,6 +22,19 @@ Result<SeenScene> load_seen_scene(const std::string& name, const RenderOptions& 
     if (!view)
         return view.error();
     return SeenScene{*data, view->view};
+}
+
+void warn_of_opaque_glass(const Scene& scene, const std::vector<std::string>& techniques, Report& report)
+{
+    if (std::none_of(scene.materials.begin(), scene.materials.end(), [](const Material& m) { return m.transmission > 0.0f; }))
+        return;
+    std::vector<std::string> opaque;
+    for (const std::string& name : techniques)
+        if (!(find_technique(name)->traits & kRefracts))
+            opaque.push_back(name);
+    if (!opaque.empty())
+        report.warning(
+            fmt::format("materials that let light through are drawn opaque by {}; mc and the reference refract it", join(opaque)));
 }
 
 } // namespace burnish

@@ -2,6 +2,7 @@
 #pragma once
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "apps/cli/report.h"
 #include "apps/render/options.h"
@@ -16,5 +17,8 @@ struct SeenScene {
 
 // Of `base` the limits, the camera and the picture's size are read.
 Result<SeenScene> load_seen_scene(const std::string& name, const RenderOptions& base, Report& report);
+
+// Warns where some of the techniques draw opaque what lets light through.
+void warn_of_opaque_glass(const Scene& scene, const std::vector<std::string>& techniques, Report& report);
 
 } // namespace burnish

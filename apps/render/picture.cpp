@@ -7,6 +7,7 @@
 #include "apps/cli/environment_text.h"
 #include "apps/cli/open.h"
 #include "apps/cli/outputs.h"
+#include "apps/cli/seen_scene.h"
 #include "apps/cli/stop_signal.h"
 #include "core/image/image.h"
 
@@ -87,6 +88,8 @@ Result<Session> prepare(const RenderOptions& options, RenderFigures& figures, st
     }
     figures.load_ms = load.ms();
     report_scene(*parts.scene, report);
+    if (options.backend != "reference")
+        warn_of_opaque_glass(parts.scene->scene, {options.frame.technique}, report);
 
     const Stopwatch bake;
     {

@@ -193,7 +193,7 @@ void shade_slot(const Tile& t, const view_params& view, const MaterialRecord& m,
         return;
     }
     const int more = t.f.light_count | t.f.key_light_count | t.f.energy_compensation | t.f.dfg_fit | t.f.fresnel;
-    if (plan.uniform && !more && t.f.lobe == PlainFrame::lobe) {
+    if (plan.uniform && !more && !m.refracts && t.f.lobe == PlainFrame::lobe) {
         constexpr bool kAlsoRound = (kTechniqueTraits[static_cast<int>(kTechnique)] & kAutoRound) != 0;
         if (kAlsoRound && !m.anisotropic)
             shade_plain_slot<kTechnique, std::conditional_t<kAlsoRound, RoundMaterial, PlainMaterial>>(t, view, m, plan, begin, end);

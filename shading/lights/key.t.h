@@ -9,6 +9,12 @@
 
 BN_KERNELS_BEGIN
 
+// `mc` samples lobes whose normals are not GGX's, and interfaces, with the lights in their place.
+BN_FN bool keys_are_sampled(frame_ref f, BN_IN(shaded_point) x)
+{
+    return (the_frame(f).lobe_traits & kNormals_own) != 0 || x.refracts;
+}
+
 struct key_lobe { // the lobe that lights meet
     aniso_lobe lobe;
     placed_lobe placed;
@@ -60,7 +66,7 @@ BN_FN key_reflection key_reflection_of(frame_ref f, BN_IN(shaded_point) x, BN_IN
     r.lobe = lit(0.0);
     r.cosine = max(l.z, lit(0.0));
     r.v_dot_h = lit(0.0);
-    if (no_lane(risen) || (the_frame(f).lobe_traits & kNormals_own) != 0)
+    if (no_lane(risen) || keys_are_sampled(f, x))
         return r;
     real3 u = to_lobe(lobe.lobe, x.s.n, splat3(the_frame(f).key_lights[light].axis_u));
     real3 v = to_lobe(lobe.lobe, x.s.n, splat3(the_frame(f).key_lights[light].axis_v));
@@ -100,8 +106,7 @@ BN_FN real3 key_lights_mirrored(frame_ref f, BN_IN(shaded_point) x, BN_IN(placed
 }
 
 // Lobes narrower than any that is evaluated blend into a mirror, which shows the lights as the environment has them. Occlusion dims all of
-// it. Of lobes whose normals are not GGX's only mirrors meet them here, and the diffuse part: `mc` samples the others with the lights in
-// their place. model: see key_lobe_of().
+// it. Of lobes that are sampled with the lights in their place only mirrors meet them here, and the diffuse part. model: see key_lobe_of().
 BN_FN real3 light_from_key_lights(frame_ref f, BN_IN(shaded_point) x, int model)
 {
     key_lobe lobe = key_lobe_of(f, x, model);
@@ -115,10 +120,10 @@ BN_FN real3 light_from_key_lights(frame_ref f, BN_IN(shaded_point) x, int model)
     }
     real narrowness = lit(1.0) - lobe.lobe.sigma_u * lit(1414.2135623730951); // 0 from the least width on, alpha = 0.001
     real mirror = k_saturate(narrowness);
-    if ((the_frame(f).lobe_traits & kNormals_own) != 0) {
+    if (keys_are_sampled(f, x)) {
         real width = lobe.lobe.sigma_u + lobe.lobe.sigma_v;
         mirror = select(width <= lit(1e-6), lit(1.0), lit(0.0));
-        if ((the_frame(f).lobe_traits & kPunctualOnly) != 0)
+        if ((the_frame(f).lobe_traits & kPunctualOnly) != 0 || x.refracts)
             mirror = lit(0.0);
     }
     if (any_lane(mirror > lit(0.0)))

@@ -1,4 +1,5 @@
-// Monte Carlo over the lobe (placed_lobe.t.h), whatever its model, by its own samples; Fresnel by sample.
+// Monte Carlo over the lobe (placed_lobe.t.h), whatever its model, or over a rough interface (refraction.t.h), by its own samples; Fresnel
+// by sample.
 #ifndef BN_MC_T_H
 #define BN_MC_T_H
 
@@ -9,7 +10,30 @@
 
 BN_KERNELS_BEGIN
 
-// By a Hammersley set rotated by a hash of the pixel.
+// A Hammersley set rotated by a hash of the pixel.
+struct mc_points {
+    real shift_x, shift_y;
+    uniform_real inv; // 1 over their number
+};
+
+BN_FN mc_points mc_points_of(frame_ref f, BN_IN(shaded_point) x)
+{
+    mc_points r;
+    r.inv = 1.0f / float(the_frame(f).samples);
+    integer seed = k_hash_u32(x.pixel_id ^ int_lit(the_frame(f).seed));
+    r.shift_x = k_unit_from_bits(seed);
+    r.shift_y = k_unit_from_bits(k_hash_u32(seed));
+    return r;
+}
+
+BN_FN real2 mc_point(BN_IN(mc_points) points, int i)
+{
+    uniform_real column = (float(i) + 0.5f) * points.inv;
+    real u = splat(column) + points.shift_x;
+    real v = k_radical_inverse2(int_lit(i)) + points.shift_y;
+    return vec2_of(u - floor(u), v - floor(v));
+}
+
 BN_FN real3 mc_of_lobe(frame_ref f, BN_IN(shaded_point) x, BN_IN(placed_lobe) lobe)
 {
     bool meets_keys = !lobe_has(lobe.model, kNormals_ggx); // key lights leave it to samples
@@ -19,29 +43,46 @@ BN_FN real3 mc_of_lobe(frame_ref f, BN_IN(shaded_point) x, BN_IN(placed_lobe) lo
         cube = whole_cube(f);
         scale = the_frame(f).whole.scale / the_frame(f).specular.scale;
     }
-    int n = the_frame(f).samples;
-    uniform_real inv = 1.0f / float(n);
-    integer seed = k_hash_u32(x.pixel_id ^ int_lit(the_frame(f).seed));
-    real shift_x = k_unit_from_bits(seed);
-    real shift_y = k_unit_from_bits(k_hash_u32(seed));
+    mc_points points = mc_points_of(f, x);
     cube_terms sum;
     cube_terms_begin(sum, cube, false);
-    for (int i = 0; i < n; ++i) {
-        uniform_real column = (float(i) + 0.5f) * inv;
-        real u = splat(column) + shift_x;
-        real v = k_radical_inverse2(int_lit(i)) + shift_y;
-        bsdf_sample b = placed_lobe_sample(lobe, vec2_of(u - floor(u), v - floor(v)));
+    for (int i = 0; i < the_frame(f).samples; ++i) {
+        bsdf_sample b = placed_lobe_sample(lobe, mc_point(points, i));
         real3 fresnel = reflectance_of(x.s, b.o_dot_h);
         cube_terms_add(sum, b.wi, lit(0.0), fresnel, above_horizon(x, b.wi, b.weight));
     }
-    real3 mean = cube_terms_value(sum) * splat(inv);
+    real3 mean = cube_terms_value(sum) * splat(points.inv);
     if (meets_keys)
         mean = mean * splat(scale);
     return mirrors_apart(f, x, mean, placed_lobe_mirror_albedo(lobe));
 }
 
+// One interface: of every microfacet what it reflects and what it refracts, from the environment with its key lights.
+BN_STAGE real3 mc_of_interface(any_frame f, BN_IN(shaded_point) x)
+{
+    rough_interface g = rough_interface_at(x);
+    cube_desc cube = whole_cube(f);
+    mc_points points = mc_points_of(f, x);
+    cube_terms sum;
+    cube_terms_begin(sum, cube, false);
+    for (int i = 0; i < the_frame(f).samples; ++i) {
+        ellipsoid_facet m = ellipsoid_facet_seen(g.p.shape, g.o, mc_point(points, i));
+        bsdf_sample r = ellipsoid_facet_reflects(g.p.shape, m, g.o);
+        bsdf_sample t = ellipsoid_facet_refracts(g.p.shape, m, g.o, g.p.eta);
+        real3 reflected = interface_reflects(g.at, m.o_dot_m);
+        real3 refracted = interface_passes(g.at, m.o_dot_m);
+        cube_terms_add(sum, from_frame(g.axes, r.wi), lit(0.0), reflected, r.weight);
+        cube_terms_add(sum, from_frame(g.axes, t.wi), lit(0.0), refracted, t.weight);
+    }
+    uniform_real scale = the_frame(f).whole.scale / the_frame(f).specular.scale;
+    real3 mean = cube_terms_value(sum) * splat(points.inv);
+    return mean * splat(scale);
+}
+
 BN_FN real3 mc_specular(frame_ref f, BN_IN(shaded_point) x)
 {
+    if (x.refracts)
+        return mc_of_interface(f, x);
     if ((the_frame(f).lobe_traits & kPunctualOnly) != 0)
         return vec3_all(lit(0.0));
     return mc_of_lobe(f, x, placed_lobe_at(f, x));

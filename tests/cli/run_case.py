@@ -17,6 +17,7 @@ import export_cases
 import fault_cases
 import file_cases
 import fresnel_cases
+import glass_cases
 import harness
 import hostile_cases
 import input_cases

@@ -1,0 +1,79 @@
+"""KHR_materials_transmission: in files, in mc, in the reference, on a device, and by techniques that draw it opaque."""
+
+import gltf_files as files
+from brdf_cases import against_files
+from fresnel_cases import CLOSE
+from harness import case, check
+from input_cases import refuse, scratch
+from parity_cases import check_equal, parity
+from reference_cases import needs_embree
+
+PLACE = "/materials/0/extensions/KHR_materials_"
+
+
+def glass(factor=1.0, ior=1.5, texture=False, roughness=0.4, **more):
+    """A triangle that the view lies in."""
+    gltf = files.textured("data:image/png;base64," + files.base64.b64encode(files.png(4, 4)).decode())
+    transmission = {"transmissionFactor": factor, **({"transmissionTexture": {"index": 0}} if texture else {})}
+    extensions = {"KHR_materials_transmission": transmission, "KHR_materials_ior": {"ior": ior},
+                  "KHR_materials_anisotropy": {"anisotropyStrength": 0.6}}
+    gltf["materials"] = [{"pbrMetallicRoughness": {"metallicFactor": 0, "roughnessFactor": roughness, "baseColorFactor": [0.9, 0.6, 0.3, 1]},
+                          "extensions": extensions, "doubleSided": True, **more}]
+    gltf["extensionsUsed"] = list(extensions)
+    return gltf
+
+
+def scene(bench, name, **material):
+    return scratch(bench, name + ".gltf", files.text(glass(**material)))
+
+
+@case("glass.faults_are_named_by_their_place", "input", tier="check")
+def faults(bench):
+    for material, place in ((dict(factor=2), "transmission/transmissionFactor"), (dict(factor=-0.1), "transmission/transmissionFactor"),
+                            (dict(factor="much"), "transmission/transmissionFactor"), (dict(ior=0.5), "ior/ior"), (dict(ior=-1), "ior/ior")):
+        refuse(bench, scene(bench, "bad", **material), needles=(PLACE + place,))
+    bad = glass(texture=True)
+    bad["materials"][0]["extensions"]["KHR_materials_transmission"]["transmissionTexture"]["index"] = 3
+    refuse(bench, scratch(bench, "bad.gltf", files.text(bad)), needles=(PLACE + "transmission/transmissionTexture/index",))
+    listed = bench.run("list", "extensions").expect(0).out
+    check(any(line.split()[:2] == ["KHR_materials_transmission", "supported"] for line in listed.splitlines()), listed)
+
+
+@case("glass.techniques_that_draw_it_opaque_say_so", tier="check")
+def opaque(bench):
+    clear, none = scene(bench, "clear"), scene(bench, "none", factor=0)
+    warning = "drawn opaque by"
+    for technique in ("auto", "bent_normal", "filtered_is_ggx"):
+        words = (*CLOSE, "--technique", technique)
+        check(bench.run("render", clear, *words).expect(0).err.count(warning) == 1, f"{technique} draws it opaque and does not say so once")
+        check(warning not in bench.run("render", none, *words).expect(0).err, f"{technique} warns of what is opaque")
+        check(bench.figures(clear, *words)["pixel_hash"] == bench.figures(none, *words)["pixel_hash"], f"{technique} draws something else")
+    words = (*CLOSE, "--technique", "mc", "--samples", "16")
+    check(warning not in bench.run("render", clear, *words).expect(0).err, "mc refracts, and warns")
+    drawn = {name: bench.figures(scene(bench, name, **material), *words)["pixel_hash"] for name, material in
+             (("clear", {}), ("none", dict(factor=0)), ("half", dict(factor=0.5)), ("textured", dict(texture=True)), ("dense", dict(ior=2.4)),
+              ("mirror", dict(ior=0)))}
+    check(len(set(drawn.values())) == len(drawn), f"two materials give one picture: {drawn}")
+    opaque_mirror = scene(bench, "opaque", ior=0, factor=0)
+    check(bench.figures(opaque_mirror, *words)["pixel_hash"] == drawn["mirror"], "an index of 0 lets light through")
+
+
+@case("glass.mc_agrees_with_the_reference")
+def agrees(bench):
+    needs_embree(bench)
+    for name, more in (("clear", ()), ("tilted", ("--tilt", "20,-10")), ("whole", ("--energy-compensation",))):
+        path = scene(bench, name, factor=0.8)
+        words = (path, *CLOSE, "--key-lights", "off", "-q", *more)
+        bench.run("render", *words, "--backend", "reference", "--samples", "1024", "-o", "r.pfm", "--variance", "v.pfm").expect(0)
+        bench.run("render", *words, "--technique", "mc", "--samples", "16384", "-o", "mc.pfm").expect(0)
+        found = against_files(bench, "r.pfm", "mc.pfm", "v.pfm")
+        check(found["z_rejected_fraction"] <= 0.01, f"{name}: {found}")
+    bench.run("render", *words[:-1], "--technique", "mc", "--samples", "16384", "-o", "mc.pfm").expect(0)
+    check(against_files(bench, "r.pfm", "mc.pfm", "v.pfm")["z_rejected_fraction"] > 0.1, "energy compensation does nothing to glass")
+
+
+@case("glass.devices_give_the_same_words")
+def devices(bench):
+    textured, smooth, dense = scene(bench, "textured", texture=True), scene(bench, "smooth", roughness=0, factor=0.5), scene(bench, "dense", ior=2.4, roughness=1)
+    for scenes, options in (((textured, smooth, dense), ()), ((textured,), ("--tilt", "20,-10", "--energy-compensation", "--env", "builtin:sky"))):
+        check_equal(parity(bench, *scenes, "--technique", "mc", "--samples", "4", "--size", "32x24", "--msaa", "1", *options))
