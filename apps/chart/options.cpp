@@ -168,6 +168,7 @@ OptionTable chart_option_table(ChartArguments& to)
                 "--direction-map",
                 "--time",
                 "--animation",
+                "--light",
                 {"--exposure", "Of the pictures to look at: multiply by 2^EV"},
                 "--no-background"});
     table.add("Picture", {{"--error-size", "WxH",

@@ -54,6 +54,14 @@ std::vector<Entry> model_entries()
     return entries;
 }
 
+std::vector<Entry> area_way_entries()
+{
+    std::vector<Entry> entries;
+    for (const AreaWayInfo& way : area_ways())
+        entries.push_back({way.name, way.summary});
+    return entries;
+}
+
 std::vector<Entry> extension_entries()
 {
     std::vector<Entry> entries;
@@ -81,7 +89,7 @@ Command list_command()
     auto what = std::make_shared<std::string>();
     OptionTable table;
     table.add("",
-              {Option("WHAT", "", "{}", choice(*what, {"techniques", "scenes", "environments", "models", "extensions"})).must_be_given()});
+              {Option("WHAT", "", "{}", choice(*what, {"techniques", "scenes", "environments", "models", "area-lights", "extensions"})).must_be_given()});
     return {"list", "List the names that options accept, the reflection models, what is read of glTF", table,
             "Examples:\n  burnish list techniques\n  burnish list scenes", [what](OptionTable&) {
                 if (*what == "scenes")
@@ -90,6 +98,8 @@ Command list_command()
                     return print(builtins(builtin_environments()));
                 if (*what == "models")
                     return print(model_entries());
+                if (*what == "area-lights")
+                    return print(area_way_entries());
                 if (*what == "extensions")
                     return print(extension_entries());
                 return print(technique_entries());

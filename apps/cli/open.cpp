@@ -5,9 +5,9 @@
 namespace burnish {
 
 Result<std::shared_ptr<const SceneData>> open_scene(const std::string& name, const Limits& limits, const std::string& direction_map,
-                                                    const Moment& moment)
+                                                    const Moment& moment, const std::vector<AreaLight>& lights)
 {
-    Result<std::shared_ptr<const SceneData>> scene = load_scene_data(name, limits, direction_map, moment);
+    Result<std::shared_ptr<const SceneData>> scene = load_scene_data(name, limits, direction_map, moment, lights);
     if (!scene)
         return direction_map.empty() || scene.error().file != direction_map ? with_scene_hint(scene.error(), name) : scene.error();
     return scene;

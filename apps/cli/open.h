@@ -2,13 +2,14 @@
 #pragma once
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "raster/session/session.h"
 
 namespace burnish {
 
 Result<std::shared_ptr<const SceneData>> open_scene(const std::string& name, const Limits& limits, const std::string& direction_map,
-                                                    const Moment& moment);
+                                                    const Moment& moment, const std::vector<AreaLight>& lights);
 Result<std::shared_ptr<const Environment>> open_environment(const std::string& name, const EnvironmentOptions& options,
                                                             const Limits& limits, const Jobs& jobs);
 

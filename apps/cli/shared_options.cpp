@@ -55,6 +55,7 @@ std::vector<Option> limit_options(Limits& to)
         {"--limit-draw-bytes", "BYTES", "Vertices and triangles with every instance expanded", bytes(to.draw_bytes)},
         {"--limit-input-bytes", "BYTES", "Size of all files of the scene", bytes(to.input_bytes)},
         {"--limit-env-pixels", "N", "Pixels of the environment", integer(to.env_pixels, 1, std::int64_t{1} << 30)},
+        {"--limit-lights", "N", "Area lights of the scene", integer(to.area_lights, 0, std::int64_t{1} << 16)},
         {"--strict", "", "Refuse glTF files that break the specification in any way or use extensions that are ignored", flag(to.strict)},
         {"--allow-outside-uris", "", "Read files outside the scene's folder", flag(to.uris_outside)},
     };

@@ -291,6 +291,25 @@ Value environments(Texts& to)
     return paths_value(to, names_of(builtin_environments()));
 }
 
+Value area_lights(std::vector<AreaLight>& to)
+{
+    Value value;
+    value.kind = ValueKind::text, value.repeated = true;
+    value.set = [&to](const std::string& option, const Texts& texts) -> Status {
+        std::vector<AreaLight> lights;
+        for (const std::string& text : texts) {
+            const Result<AreaLight> light = parse_area_light(option, text);
+            if (!light)
+                return light.error();
+            lights.push_back(*light);
+        }
+        to = std::move(lights);
+        return {};
+    };
+    value.get = [] { return std::string(); };
+    return value;
+}
+
 Value key_lights(int& to)
 {
     Texts names = {"auto", "off"};

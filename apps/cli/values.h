@@ -10,6 +10,7 @@
 
 #include "apps/cli/option.h"
 #include "apps/cli/parse.h"
+#include "core/scene/scene.h"
 
 namespace burnish {
 namespace value_detail {
@@ -56,6 +57,7 @@ Value scene(std::string& to);
 Value scenes(std::vector<std::string>& to);
 Value environment(std::string& to);
 Value environments(std::vector<std::string>& to);
+Value area_lights(std::vector<AreaLight>& to); // one each time it is given
 Value key_lights(int& to); // how many at most; auto, off, or a number
 
 // Several by commas. `names`: what each may be; empty: anything.

@@ -41,6 +41,7 @@ settings usual_settings(int specular_size, int specular_levels, int sample_count
 #define BN_USUAL_flag(id, fallback) f.id = fallback;
 #define BN_USUAL_choice(id, fallback) f.id = fallback;
 #define BN_USUAL_lobe(id, fallback) f.id = fallback;
+#define BN_USUAL_way(id, fallback) f.id = 0;
 #define BN_USUAL_angles(id, fallback) f.id##_cos[0] = f.id##_cos[1] = 1.0; f.id##_sin[0] = f.id##_sin[1] = 0.0;
 #define BN_PARAMETER(id, kind, option, fallback, least, most, unit, summary, readers) BN_USUAL_##kind(id, fallback)
 #include "shading/models.def"

@@ -102,6 +102,7 @@ OptionTable parity_option_table(ParityArguments& to)
                 {"--samples", "Samples of the techniques, where they take any", ""},
                 {"--roughness", "Override alpha_lin of every material, {}"},
                 {"--anisotropy", "Override eta of every material, {}"},
+                "--light",
                 "--texture-anisotropy",
                 {"--no-cache", "Neither environments nor pipelines from disk"}});
     table.take(of_render, "Parameters of techniques", taken_parameters());

@@ -60,6 +60,8 @@ std::vector<Option> picture_rows(RenderArguments& to)
          file(to.plain.direction_map)},
         {"--time", "S", "Seconds into the scene's animation, {}", number(to.plain.moment.seconds, 0.0, 1e6), "as it rests"},
         {"--animation", "N", "Which animation --time is of", integer(to.plain.moment.animation, 0, kMaxAnimations)},
+        {"--light", "SPEC", "Area light, such as sphere:points=0,1,0:radius=0.1:radiance=9,9,9; may be given several times",
+         area_lights(to.plain.lights)},
         {"--texture-anisotropy", "N", "Texture taps along the major axis at most", integer(f.texture_anisotropy, 1, 16)},
         {"--no-background", "", "Nothing behind the scene instead of the environment: black, alpha is coverage", flag(f.background, false)},
     };

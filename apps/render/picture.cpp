@@ -26,9 +26,10 @@ class Stopwatch {
 void report_scene(const SceneData& data, Report& report)
 {
     const Scene& scene = data.scene;
-    report.event("scene", fmt::format("{}: {}, {}, {}, {}", data.name, counted(data.tables.triangle_count(), "triangle"),
+    report.event("scene", fmt::format("{}: {}, {}, {}, {}{}", data.name, counted(data.tables.triangle_count(), "triangle"),
                                       counted(scene.materials.size(), "material"), counted(scene.textures.size(), "texture"),
-                                      counted(data.tables.lights.size(), "light")));
+                                      counted(data.tables.lights.size(), "light"),
+                                      data.tables.area_lights.empty() ? "" : ", " + counted(data.tables.area_lights.size(), "area light")));
     for (const std::string& warning : scene.warnings)
         report.warning(warning);
 }
@@ -81,7 +82,7 @@ Result<Session> prepare(const RenderOptions& options, RenderFigures& figures, st
     {
         const TraceSpan span("load scene");
         const Result<std::shared_ptr<const SceneData>> data =
-            open_scene(options.scene, options.limits, options.direction_map, options.moment);
+            open_scene(options.scene, options.limits, options.direction_map, options.moment, options.lights);
         if (!data)
             return data.error();
         parts.scene = *data;

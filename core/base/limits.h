@@ -16,6 +16,7 @@ struct Limits {
     std::uint64_t accessor_bytes = 2ull << 30;   // decoded accessors of one scene in total, --limit-accessor-bytes
     std::uint64_t data_uri_bytes = 512ull << 20; // one data URI, --limit-data-uri-bytes
     std::uint64_t draw_bytes = 8ull << 30;       // vertices and triangles with every instance expanded, --limit-draw-bytes
+    int area_lights = 256;                       // of a scene, --limit-lights
     bool strict = false;                         // refuse what breaks glTF 2.0 in any way, --strict
     bool uris_outside = false;                   // external files outside the scene's folder, --allow-outside-uris
 };

@@ -242,6 +242,11 @@ DrawTables make_draw_tables(const Scene& scene)
             BN_CHECK_OP(static_cast<std::size_t>(node.light), <, scene.lights.size());
             append_light(scene.lights[static_cast<std::size_t>(node.light)], node.world, out.lights);
         }
+        if (node.area_light != kNone) {
+            BN_CHECK_OP(static_cast<std::size_t>(node.area_light), <, scene.area_lights.size());
+            if (const auto placed = place_area_light(scene.area_lights[static_cast<std::size_t>(node.area_light)], node.world))
+                out.area_lights.push_back(*placed);
+        }
         if (node.mesh == kNone)
             continue;
         BN_CHECK_OP(static_cast<std::size_t>(node.mesh), <, scene.meshes.size());

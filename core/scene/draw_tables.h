@@ -8,6 +8,7 @@
 
 #include "core/base/limits.h"
 #include "core/base/result.h"
+#include "core/scene/area_light.h"
 #include "core/scene/scene.h"
 
 namespace burnish {
@@ -54,6 +55,7 @@ struct DrawTables {
     std::vector<Draw> draws;                 // in node order, then primitive order
     std::vector<Cluster> clusters;           // in triangle order
     std::vector<PunctualLight> lights;
+    std::vector<PlacedAreaLight> area_lights;
     glm::vec3 bounds_min{0.0f}, bounds_max{0.0f};
     std::size_t triangle_count() const { return indices.size() / 3; }
 };

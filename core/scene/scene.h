@@ -40,7 +40,7 @@ struct Mesh {
 // Parents come before their children.
 struct Node {
     std::string name;
-    std::int32_t parent = kNone, mesh = kNone, camera = kNone, light = kNone;
+    std::int32_t parent = kNone, mesh = kNone, camera = kNone, light = kNone, area_light = kNone;
     glm::mat4 local{1.0f}; // to the parent's space
     glm::mat4 world{1.0f}; // to world space; update_world() fills it
 };
@@ -57,7 +57,7 @@ struct TextureRef {
     bool used() const { return texture != kNone; }
 };
 
-struct FieldKinds { // of material.def and light.def
+struct FieldKinds { // of material.def, light.def and area_light.def
     using number = float;
     using vec2 = glm::vec2;
     using vec3 = glm::vec3;
@@ -72,6 +72,7 @@ struct Material { // material.def
 #define BN_CHOICE(type, name, words, path) type name = type{};
 #define BN_TEXTURE(name, path) TextureRef name;
 #include "core/scene/material.def"
+    bool emitter = false; // of what shows an area light
 };
 
 enum class WrapMode : std::uint8_t { repeat, clamp, mirror };
@@ -90,6 +91,19 @@ struct Light { // light.def; shines along -Z of its node
     LightType type = LightType::point;
 #define BN_LIGHT_FACTOR(kind, name, fallback, path, least, most) FieldKinds::kind name = FieldKinds::kind(fallback);
 #include "core/scene/light.def"
+};
+
+enum class AreaShape : std::uint8_t {
+#define BN_AREA_SHAPE(name, at, least, most, what) name = at,
+#include "core/scene/area_light.def"
+};
+
+struct AreaLight { // area_light.def
+    AreaShape shape = AreaShape::quad;
+    std::vector<glm::vec3> points; // metres, in its node's space
+    bool two_sided = false;
+#define BN_AREA_FACTOR(kind, name, path, least, most) FieldKinds::kind name = FieldKinds::kind(0.0f);
+#include "core/scene/area_light.def"
 };
 
 struct Camera { // looks along -Z of its node, +Y up
@@ -111,6 +125,7 @@ struct Scene {
     std::vector<Texture> textures;
     std::vector<Image> images; // decoded, as stored in the file
     std::vector<Light> lights;
+    std::vector<AreaLight> area_lights;
     std::vector<Camera> cameras;
     std::vector<std::string> files;    // paths of every file that was read for it
     std::vector<std::string> warnings; // one line each, in the order found

@@ -243,9 +243,10 @@ const std::vector<ParameterInfo>& parameters()
 #define BN_MEMBER_flag(id) nullptr, nullptr, &FrameDesc::id, nullptr, nullptr
 #define BN_MEMBER_choice(id) nullptr, nullptr, nullptr, &FrameDesc::id, nullptr
 #define BN_MEMBER_lobe(id) nullptr, nullptr, nullptr, &FrameDesc::id, nullptr
+#define BN_MEMBER_way(id) nullptr, nullptr, nullptr, &FrameDesc::id, nullptr
 #define BN_MEMBER_angles(id) nullptr, nullptr, nullptr, nullptr, &FrameDesc::id##_rad
 #define BN_PARAMETER(id, kind, option, fallback, least, most, unit, summary, readers)                                                      \
-    {#id, option, fallback, least, most, unit, summary, readers, BN_MEMBER_##kind(id), std::string_view(#kind) == "lobe"},
+    {#id, option, fallback, least, most, unit, summary, readers, BN_MEMBER_##kind(id), #kind},
 #include "shading/models.def"
     };
     return table;
@@ -276,7 +277,12 @@ std::vector<std::string> choices_of(const ParameterInfo& p)
     std::vector<std::string> names;
     if (!p.choice)
         return names;
-    if (p.is_lobe) {
+    if (p.kind == "way") {
+        for (const AreaWayInfo& way : area_ways())
+            names.emplace_back(way.name);
+        return names;
+    }
+    if (p.kind == "lobe") {
         for (int lobe = 0; lobe < kLobeCount; ++lobe)
             names.emplace_back(lobe_model(lobe).name);
         return names;
@@ -332,6 +338,15 @@ const std::vector<ModelInfo>& models()
 {
     static const std::vector<ModelInfo> table = {
 #define BN_MODEL(id, summary, params, laws, settings) {#id, summary, lobe_named(#id), lobe_traits_of(lobe_named(#id))},
+#include "shading/models.def"
+    };
+    return table;
+}
+
+const std::vector<AreaWayInfo>& area_ways()
+{
+    static const std::vector<AreaWayInfo> table = {
+#define BN_AREA_LIGHTS(id, at, name, summary) {name, summary},
 #include "shading/models.def"
     };
     return table;

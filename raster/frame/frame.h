@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/base/result.h"
@@ -57,6 +58,7 @@ struct FrameDesc {
 #define BN_DESC_flag(id, fallback) bool id = (fallback) != 0;
 #define BN_DESC_choice(id, fallback) int id = fallback;
 #define BN_DESC_lobe(id, fallback) int id = fallback;
+#define BN_DESC_way(id, fallback) int id = fallback;
 #define BN_DESC_angles(id, fallback) glm::vec2 id##_rad{glm::radians(static_cast<float>(fallback))};
 #define BN_PARAMETER(id, kind, option, fallback, least, most, unit, summary, readers) BN_DESC_##kind(id, fallback)
 #include "shading/models.def"
@@ -161,13 +163,19 @@ struct ParameterInfo {            // of techniques
     bool FrameDesc::*flag;
     int FrameDesc::*choice;
     glm::vec2 FrameDesc::*angles;
-    bool is_lobe; // the choice
+    std::string_view kind;    // as shading/models.def has it
 };
 const std::vector<ParameterInfo>& parameters();                                    // from shading/models.def
 bool reads(const std::string& technique, const ParameterInfo& parameter);          // whether a technique, or "reference", looks at it
 glm::dvec2 parameter_of(const FrameDesc& desc, const ParameterInfo& parameter);    // of angles both, in degrees; else twice the same
 std::vector<std::string> choices_of(const ParameterInfo& parameter);               // names, by number; of what is no choice none
 void set_parameter(FrameDesc& desc, const ParameterInfo& parameter, double value); // in [least, most]
+
+struct AreaWayInfo { // of finding the light of area lights
+    const char* name;
+    const char* summary;
+};
+const std::vector<AreaWayInfo>& area_ways(); // from shading/models.def, by place
 
 struct ModelInfo {
     const char* name;

@@ -5,6 +5,7 @@
 
 #include "core/math/scalar_math.h"
 #include "raster/frame/grid_samples.h"
+#include "shading/bake/ltc/shipped.h"
 #include "shading/surface/lobe_shape.t.h"
 
 namespace burnish {
@@ -49,6 +50,7 @@ void put_parameters(const FrameDesc& d, bool tilted, FrameRecord& f)
 #define BN_PUT_flag(id) f.id = d.id;
 #define BN_PUT_choice(id) f.id = d.id;
 #define BN_PUT_lobe(id) f.id = d.id;
+#define BN_PUT_way(id) f.id = d.id;
 #define BN_PUT_angles(id) // see in_frame()
 #define BN_PARAMETER(id, kind, option, fallback, least, most, unit, summary, readers) BN_PUT_##kind(id)
 #include "shading/models.def"
@@ -69,6 +71,11 @@ FrameRecord frame_record(const RenderInput& input, const FrameDesc& d)
     std::transform(input.environment.key_lights.begin(), input.environment.key_lights.end(), f.key_lights, key_light_record);
     f.dfg_size = input.dfg.size, f.lobe_albedo_size = kLobeAlbedoSize;
     f.light_count = static_cast<int>(input.tables.lights.size());
+    if (d.area_way != kAreaWay_off && !input.tables.area_lights.empty()) {
+        f.area_light_count = static_cast<int>(input.tables.area_lights.size());
+        f.ltc_root_alpha = ltc::shipped_table().root_alpha, f.ltc_basis = ltc::shipped_table().basis;
+    }
+    f.positions = f.light_count > 0 || f.area_light_count > 0;
     f.background = d.background;
     f.samples = d.samples, f.texture_taps = d.texture_anisotropy;
     put_parameters(d, tilts(input.scene, d), f);
@@ -77,6 +84,12 @@ FrameRecord frame_record(const RenderInput& input, const FrameDesc& d)
 }
 
 FrameMaker::FrameMaker(const RenderInput& input) : input_(input), scene_(upload_scene(input.scene, input.tables, input.jobs)) {}
+
+const std::vector<std::uint16_t>& FrameMaker::ltc_texels() const
+{
+    static const std::vector<std::uint16_t> none;
+    return input_.tables.area_lights.empty() ? none : ltc::shipped_table().texels;
+}
 
 void FrameMaker::bake(const FrameDesc& desc)
 {
@@ -148,6 +161,7 @@ ShadingFrame FrameMaker::make(const FrameDesc& desc)
     f.shading_vertices = reinterpret_cast<const float*>(t.shading.data());
     f.indices = t.indices.data(), f.triangle_material = t.triangle_material.data();
     f.materials = materials_.data(), f.textures = scene_.textures.data(), f.lights = scene_.lights.data();
+    f.area_lights = scene_.area_lights.data(), f.ltc_texels = ltc_texels().data();
     f.specular_texels = input_.environment.specular.texels.data(), f.irradiance_texels = input_.environment.irradiance.texels.data();
     f.whole_texels = input_.environment.picture().texels.data();
     f.dfg_texels = input_.dfg.texels.data();

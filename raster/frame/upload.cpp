@@ -53,6 +53,7 @@ MaterialRecord material_record(const Material& m)
     r.grain[1] = static_cast<float>(det_sin(static_cast<double>(m.anisotropy_rotation)));
     r.anisotropic = m.anisotropy_strength > 0.0f || m.tilt_tex.used();
     r.tilt_mapped = m.tilt_tex.used();
+    r.emitter = m.emitter;
     r.conductor = m.conductor_eta != glm::vec3(0.0f) || m.conductor_k != glm::vec3(0.0f);
     return r;
 }
@@ -62,6 +63,19 @@ LightRecord light_record(const PunctualLight& l)
     LightRecord r = {};
 #define BN_LIGHT_FIELD(kind, name, initial) put(r.name, l.name);
 #include "core/scene/light.def"
+    return r;
+}
+
+AreaLightRecord area_light_record(const PlacedAreaLight& l)
+{
+    static_assert(kMostAreaCorners == kMostAreaPoints);
+    AreaLightRecord r = {};
+#define BN_AREA_FIELD(kind, name, initial) put(r.name, l.name);
+#include "core/scene/area_light.def"
+    r.shape = static_cast<int>(l.shape), r.corners = l.point_count;
+    for (int i = 0; i < l.point_count; ++i)
+        for (int c = 0; c < 3; ++c)
+            r.points[3 * i + c] = l.points[i][c];
     return r;
 }
 
@@ -129,6 +143,14 @@ std::vector<LightRecord> light_records(const DrawTables& tables)
     return records;
 }
 
+std::vector<AreaLightRecord> area_light_records(const DrawTables& tables)
+{
+    std::vector<AreaLightRecord> records;
+    for (const PlacedAreaLight& l : tables.area_lights)
+        records.push_back(area_light_record(l));
+    return records;
+}
+
 SceneTables upload_scene(const Scene& scene, const DrawTables& tables, const Jobs& jobs)
 {
     SceneTables s;
@@ -140,6 +162,7 @@ SceneTables upload_scene(const Scene& scene, const DrawTables& tables, const Job
     s.materials = material_records(scene, false);
     s.overridden = material_records(scene, true);
     s.lights = light_records(tables);
+    s.area_lights = area_light_records(tables);
     return s;
 }
 

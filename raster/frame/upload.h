@@ -16,11 +16,13 @@ struct SceneTables { // keeps alive what the records point at
     std::vector<MaterialRecord> materials;
     std::vector<MaterialRecord> overridden; // for frames that override(): with other textures
     std::vector<LightRecord> lights;
+    std::vector<AreaLightRecord> area_lights;
 };
 
 // Textures are numbered as in SceneTables::textures.
 std::vector<MaterialRecord> material_records(const Scene& scene, bool overridden);
 std::vector<LightRecord> light_records(const DrawTables& tables);
+std::vector<AreaLightRecord> area_light_records(const DrawTables& tables);
 
 // Builds every texture pyramid that a material uses (pyramids.h), in parallel.
 SceneTables upload_scene(const Scene& scene, const DrawTables& tables, const Jobs& jobs);

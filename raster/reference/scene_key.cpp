@@ -63,6 +63,8 @@ void add_tables(Key& key, const DrawTables& t)
 FrameDesc reference_desc(FrameDesc desc)
 {
     const FrameDesc defaults;
+    if (desc.area_way != kAreaWay_off) // which way, is the techniques' business
+        desc.area_way = defaults.area_way;
     desc.technique = "mc", desc.samples = 1, desc.msaa = 1, desc.tile_size = defaults.tile_size;
     for (const ParameterInfo& p : parameters())
         if (!reads("reference", p))
@@ -78,9 +80,11 @@ std::uint64_t reference_key(const RenderInput& input, const FrameDesc& d, const 
     frame.specular = frame.irradiance = {}; // it reads the whole environment, whatever part of it is lights
     frame.whole.levels = 1, frame.key_light_count = 0;
     std::fill(std::begin(frame.key_lights), std::end(frame.key_lights), KeyLightRecord{});
+    frame.ltc_root_alpha = frame.ltc_basis = 0;
     add_records(key, std::vector<FrameRecord>{frame});
     add_records(key, in_frame(material_records(input.scene, overrides(d)), d));
     add_records(key, light_records(input.tables));
+    add_records(key, area_light_records(input.tables));
     add_textures(key, input.scene);
     add_tables(key, input.tables);
     const CubeMap& picture = input.environment.picture();

@@ -56,6 +56,9 @@ Result<std::shared_ptr<const SceneData>> make_scene_data(const std::string& name
         data->name = name;
         data->scene = std::move(scene);
         update_world(data->scene);
+        if (const Status lit = add_emitters(data->scene, limits.area_lights, name); !lit)
+            return lit.error();
+        update_world(data->scene);
         if (const Status size = check_draw_size(data->scene, limits, name); !size)
             return size.error();
         data->tables = make_draw_tables(data->scene);
@@ -64,7 +67,7 @@ Result<std::shared_ptr<const SceneData>> make_scene_data(const std::string& name
 }
 
 Result<std::shared_ptr<const SceneData>> load_scene_data(const std::string& spec, const Limits& limits, const std::string& direction_map,
-                                                         const Moment& moment)
+                                                         const Moment& moment, const std::vector<AreaLight>& lights)
 {
     using Made = Result<std::shared_ptr<const SceneData>>;
     return guarded(spec, [&]() -> Made {
@@ -74,6 +77,8 @@ Result<std::shared_ptr<const SceneData>> load_scene_data(const std::string& spec
         if (!direction_map.empty())
             if (Status put = put_direction_map(*scene, direction_map, limits); !put)
                 return put.error();
+        for (const AreaLight& light : lights)
+            add_area_light(*scene, light);
         return make_scene_data(spec, std::move(*scene), limits);
     });
 }

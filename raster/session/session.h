@@ -12,6 +12,7 @@
 #include <memory>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "core/base/limits.h"
 #include "core/base/result.h"
@@ -36,10 +37,11 @@ struct SceneData { // a scene and what is drawn of it
 };
 
 // "builtin:NAME" or a path of a .gltf or .glb file, at a moment of its animation. direction_map: a picture that all materials take
-// (core/scene/direction_map.h); empty: none.
+// (core/scene/direction_map.h); empty: none. lights: that are added to those of the scene, in world space.
 Result<std::shared_ptr<const SceneData>> load_scene_data(const std::string& spec, const Limits& limits,
-                                                         const std::string& direction_map = "", const Moment& moment = {});
-// From a scene made in memory. The limit on what instances expand to holds here too.
+                                                         const std::string& direction_map = "", const Moment& moment = {},
+                                                         const std::vector<AreaLight>& lights = {});
+// From a scene made in memory. The limits on area lights and on what instances expand to hold here too.
 Result<std::shared_ptr<const SceneData>> make_scene_data(const std::string& name, Scene scene, const Limits& limits);
 // "builtin:NAME" or a path of an equirectangular picture.
 Result<std::shared_ptr<const Environment>> load_shared_environment(const std::string& spec, const EnvironmentOptions& options,

@@ -108,7 +108,7 @@ BN_INLINE visible_point make_fragment_inline(const FrameParams& f, material_ref 
 BN_STAGE visible_point make_fragment(const FrameParams& f, const MaterialRecord& m, const view_params& view, const TileScratch& scratch,
                                      integer triangle, std::int32_t common, integer pixel_x, integer pixel_y, integer samples)
 {
-    return make_fragment_inline(f, m, view, scratch, triangle, common, pixel_x, pixel_y, samples, f.light_count > 0);
+    return make_fragment_inline(f, m, view, scratch, triangle, common, pixel_x, pixel_y, samples, f.positions != 0);
 }
 
 } // namespace BN_ISA_NS

@@ -62,7 +62,7 @@ BN_STAGE void record_fragments(const FrameParams& f, const view_params& view, in
             const MaterialRecord& m = f.materials[s.triangles[id].info >> 2];
             const visible_point p =
                 make_fragment(f, m, view, s, int_lit(id), id, int_lit(x0 + (pixel & 255)), int_lit(y0 + (pixel >> 8)), int_lit(covered));
-            record_point(w, p, m.uses_color != 0, m.textured != 0, f.light_count > 0);
+            record_point(w, p, m.uses_color != 0, m.textured != 0, f.positions != 0);
             record_material(w, fetch_lanes(f, m, p));
         }
         w.to = record + kPairWords - 3;

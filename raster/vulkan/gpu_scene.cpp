@@ -46,6 +46,8 @@ GpuScene::GpuScene(Context& context, const RenderInput& input)
         texels_.emplace_back(context, 0, Buffer::Place::device, VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT);
     else
         texels_.push_back(texel_page(context, input.environment.whole.texels));
+    const std::vector<std::uint16_t>& ltc = maker_.ltc_texels();
+    texels_.push_back(make_filled_buffer(context, ltc.data(), ltc.size() * sizeof(std::uint16_t), VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT));
     for (const TexturePyramid& p : maker_.scene().pyramids)
         texels_.push_back(texel_page(context, p.texels));
     upload_pages(context);
@@ -93,6 +95,7 @@ void GpuScene::upload_tables(Context& context)
     ints_ = filled(context, ints, VK_BUFFER_USAGE_INDEX_BUFFER_BIT);
     textures_ = filled(context, textures);
     lights_ = filled(context, scene.lights);
+    area_lights_ = filled(context, scene.area_lights);
     materials_ = Buffer(context, scene.materials.size() * sizeof(MaterialRecord), Buffer::Place::device);
 }
 

@@ -26,6 +26,7 @@ class GpuScene {
     const Buffer& materials() const { return materials_; }
     const Buffer& textures() const { return textures_; }
     const Buffer& lights() const { return lights_; }
+    const Buffer& area_lights() const { return area_lights_; }
     const FrameRecord& record() const { return record_.frame; }
     const GpuPlaces& places() const { return record_.places; }
     const Scene& scene() const { return input_.scene; }
@@ -40,7 +41,7 @@ class GpuScene {
     RenderInput input_;
     FrameMaker maker_;
     std::vector<Buffer> texels_;
-    Buffer pages_, reals_, ints_, frame_, materials_, textures_, lights_;
+    Buffer pages_, reals_, ints_, frame_, materials_, textures_, lights_, area_lights_;
     GpuFrame record_ = {};
 };
 

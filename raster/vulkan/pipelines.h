@@ -27,6 +27,7 @@ enum Binding : std::uint32_t {
     kColorBinding,
     kRecordsBinding,
     kLinesBinding,
+    kAreaLightsBinding,
     kBufferBindings,
     kIdImageBinding = kBufferBindings,
     kDepthImageBinding,

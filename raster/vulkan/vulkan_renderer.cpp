@@ -133,7 +133,7 @@ std::vector<std::pair<Binding, const Buffer*>> VulkanRenderer::scene_bindings() 
 {
     return {{kTexelsBinding, &scene_.pages()}, {kRealsBinding, &scene_.reals()},         {kIntsBinding, &scene_.ints()},
             {kFrameBinding, &scene_.frame()},  {kMaterialsBinding, &scene_.materials()}, {kTexturesBinding, &scene_.textures()},
-            {kLightsBinding, &scene_.lights()}};
+            {kLightsBinding, &scene_.lights()}, {kAreaLightsBinding, &scene_.area_lights()}};
 }
 
 void VulkanRenderer::bind_all()

@@ -57,6 +57,15 @@ const int kLobeCount = 0
 // What a material's textures hold of slopes: nothing; moments of those that a map of tilts has; of those and of the lobe.
 const int kNoMoments = 0, kMomentsOfTilt = 1, kMomentsOfAll = 2;
 const float kSlopeScale = 16.0f, kMomentScale = 256.0f; // of means and second moments in texels
+const int kAreaWays = 0 // of finding the light of area lights
+#define BN_AREA_LIGHTS(id, at, name, summary) +1
+#include "shading/models.def"
+    ;
+#define BN_AREA_LIGHTS(id, at, name, summary) const int kAreaWay_##id = at;
+#include "shading/models.def"
+#define BN_AREA_SHAPE(name, at, least, most, what) const int kArea_##name = at;
+#include "core/scene/area_light.def"
+const int kMostAreaCorners = 16;
 
 struct ViewRecord { // Renderer's View in plain numbers
     float eye[3], right[3], up[3], forward[3];
@@ -98,6 +107,9 @@ struct FrameRecord {
     int grid_count;                 // samples of filtered importance sampling
     int dfg_size, lobe_albedo_size; // tables of directional albedo
     int light_count;
+    int area_light_count;          // 0 where the frame wants none of their light
+    int ltc_root_alpha, ltc_basis; // of the table of transformed cosines
+    int positions;                 // something asks where visible points lie
     int background, samples, texture_taps;
 #define BN_RECORD_number(id) float id;
 #define BN_RECORD_whole(id) int id;
@@ -105,6 +117,7 @@ struct FrameRecord {
 #define BN_RECORD_choice(id) int id;
 #define BN_RECORD_lobe(id) int id;
 #define BN_RECORD_angles(id) // with each material's own, in its record
+#define BN_RECORD_way(id) int id;
 #define BN_PARAMETER(id, kind, option, fallback, least, most, unit, summary, readers) BN_RECORD_##kind(id)
 #include "shading/models.def"
     int lobe, lobe_traits;   // of the frame's lobes: its place in shading/models.def
@@ -121,6 +134,13 @@ struct FrameRecord {
 struct LightRecord { // DrawTables' PunctualLight in plain numbers
 #define BN_LIGHT_FIELD(kind, name, initial) BN_FIELD_##kind(name)
 #include "core/scene/light.def"
+};
+
+struct AreaLightRecord { // PlacedAreaLight in plain numbers
+#define BN_AREA_FIELD(kind, name, initial) BN_FIELD_##kind(name)
+#include "core/scene/area_light.def"
+    int shape, corners;                 // kArea_quad...; how many points
+    float points[3 * kMostAreaCorners];
 };
 
 struct TextureBinding {
@@ -141,6 +161,7 @@ struct MaterialRecord { // Material in plain numbers, and what follows from them
     float tilt_cos[2], tilt_sin[2];  // of their sum
     float tilt_slope[2];             // its mean slopes, along tangent and bitangent
     int tilt_mapped, moments;        // a texture has slopes; kNoMoments...
+    int emitter;                     // it shows an area light
     int conductor;                   // it has an index of its own: conductor_eta, conductor_k
     int roughness_fixed;             // by an override: the texture gives metalness only
     int technique, technique_traits; // its place in shading/models.def; of what is unlit no traits

@@ -1,10 +1,12 @@
 // What assembly (*.t.h) may ask of the stage that it runs in: lanes in C++, an invocation in GLSL.
 //   frame_ref f, the_frame(f).width...   the frame's record (shading/lang/records.h); any_frame f: of a BN_STAGE, compiled once for all
 //   the_light(f, i).position...          light i of the_frame(f).light_count
+//   the_area_light(f, i).radiance...     area light i of the_frame(f).area_light_count
 //   material_ref m, the_material(m).metallic...   a material's record; texture_used(m, kNormalTex)
 //   texture_fetches t = textures_at(f, m, p); texel_of(t, kNormalTex)   what its textures, where they are used, hold at a visible_point:
 //                                        to be asked for once each, as lanes fetch then and GLSL has fetched all
 //   dfg_texels(f) lobe_albedo_texels(f) lobe_slice_texels(f)   tables for dfg_lookup(), lobe_albedo_lookup(), lobe_slice_lookup()
+//   ltc_texels(f)                        of the table of transformed cosines, for ltc_lookup()
 //   specular_cube(f) irradiance_cube(f) box_cube(f)   cubes, for cube_sample() and the sums below
 //   whole_cube(f)                        the environment with its key lights, which the others leave out; level 0 alone
 //   lobe_used(at)                        whether the lobe at this place of shading/models.def may be met at all

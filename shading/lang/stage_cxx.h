@@ -17,6 +17,11 @@ BN_INLINE const LightRecord& the_light(frame_ref f, int i)
     return f.lights[i];
 }
 
+BN_INLINE const AreaLightRecord& the_area_light(frame_ref f, int i)
+{
+    return f.area_lights[i];
+}
+
 BN_INLINE cube_desc specular_cube(frame_ref f)
 {
     return {f.specular_texels, f.specular.size, f.specular.levels};
@@ -47,6 +52,11 @@ BN_INLINE texel_buffer lobe_slice_texels(frame_ref f)
     return f.lobe_slice_texels;
 }
 
+BN_INLINE texel_buffer ltc_texels(frame_ref f)
+{
+    return f.ltc_texels;
+}
+
 BN_INLINE real3 grid_sample(frame_ref f, int i)
 {
     const GridSample& g = f.grid[i];
@@ -61,7 +71,7 @@ BN_INLINE constexpr bool lobe_used(int)
 // A fragment of which nothing changes but the geometry: neither textures, vertex colours, lights of either kind, energy compensation, exact
 // reflectances, light that passes nor a lobe other than the usual one.
 struct PlainFrame : ShadingFrame {
-    static constexpr int light_count = 0, key_light_count = 0, energy_compensation = 0, dfg_fit = 0, fresnel = 0;
+    static constexpr int light_count = 0, area_light_count = 0, key_light_count = 0, energy_compensation = 0, dfg_fit = 0, fresnel = 0;
     static constexpr int lobe = lobe_with(kLobeOfAll), lobe_traits = lobe_traits_of(lobe);
 };
 struct PlainMaterial : MaterialRecord {

@@ -5,6 +5,7 @@
 #include "shading/lang/lang.h"
 #include "shading/lang/stage.h"
 #include "shading/lang/techniques.h"
+#include "shading/lights/area.t.h"
 #include "shading/lights/environment.t.h"
 #include "shading/lights/key.t.h"
 #include "shading/lights/punctual.t.h"
@@ -24,6 +25,11 @@ BN_STAGE real3 light_of_lamps(any_frame f, BN_IN(shaded_point) x, int lobe, BN_I
     return light_from_punctual(f, x, lobe, position);
 }
 
+BN_STAGE real3 light_of_area_lights(any_frame f, BN_IN(shaded_point) x, int lobe, BN_IN(real3) position)
+{
+    return light_from_area(f, x, lobe, position);
+}
+
 // shape: lobe_shape_of(f, m, at). px, py: pixel. shares: the technique shares samples, and fragments meet their neighbours; the colour is
 // then made of what they all found (line_mean).
 BN_FN line_record light_of_fragment(frame_ref f, material_ref m, technique_ref t, BN_IN(material_inputs) at, BN_IN(lobe_shape) shape,
@@ -41,6 +47,8 @@ BN_FN line_record light_of_fragment(frame_ref f, material_ref m, technique_ref t
         light = light + light_of_sky(f, x, the_material(m).lights_lobe);
     if (the_frame(f).light_count > 0)
         light = light + light_of_lamps(f, x, the_material(m).lights_lobe, p.position);
+    if (the_frame(f).area_light_count > 0)
+        light = light + light_of_area_lights(f, x, the_material(m).lights_lobe, p.position);
     if (shares)
         return shared_light(f, x, traits, technique_shared(f, t, x, quad_offset(px & int_lit(1), py & int_lit(1))), light);
     return line_alone(light);

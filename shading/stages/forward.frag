@@ -131,7 +131,7 @@ void main()
 #ifdef BN_STAGES
     radiance = vec4(float(triangle & 0xffff), float(triangle >> 16), 0.0, 0.0);
     int word = 4; // group 0 is the triangle
-    record_point(word, p, materials[m].uses_color != 0, materials[m].textured != 0, frame.light_count > 0);
+    record_point(word, p, materials[m].uses_color != 0, materials[m].textured != 0, frame.positions != 0);
     record_material(word, at);
 #else
     // alone: fragments do not meet their neighbours

@@ -18,6 +18,7 @@ layout(std430, set = 0, binding = 3) readonly buffer BnFrame { FrameRecord frame
 layout(std430, set = 0, binding = 4) readonly buffer BnMaterials { MaterialRecord materials[]; };
 layout(std430, set = 0, binding = 5) readonly buffer BnTextures { GpuTexture textures[]; };
 layout(std430, set = 0, binding = 6) readonly buffer BnLights { LightRecord lights[]; };
+layout(std430, set = 0, binding = 16) readonly buffer BnAreaLights { AreaLightRecord area_lights[]; };
 layout(std430, set = 0, binding = 7) BN_VERTEX_ACCESS buffer BnVertices { GpuVertex vertices[]; };
 layout(std430, set = 0, binding = 8) BN_SETUP_ACCESS buffer BnSetups { GpuSetup setups[]; };
 

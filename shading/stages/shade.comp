@@ -32,7 +32,7 @@ line_record shade_pair(int slot, int px, int py, int covered)
     }
     triangle_setup t = load_setup(slot);
     int m = t.info >> 2;
-    bool uses_color = materials[m].uses_color != 0, textured = materials[m].textured != 0, lights = frame.light_count > 0;
+    bool uses_color = materials[m].uses_color != 0, textured = materials[m].textured != 0, lights = frame.positions != 0;
     visible_point p = point_of(0, view_params_of(frame.view), t, px, py, covered, uses_color, textured, lights);
     material_inputs at = fetch_material(0, m, p);
     if (kRecords) {

@@ -8,9 +8,11 @@
 #include "shading/kernels/cube_filter.k.h"
 
 #define the_light(f, i) lights[i]
+#define the_area_light(f, i) area_lights[i]
 #define dfg_texels(f) kGpuDfgPage
 #define lobe_albedo_texels(f) kGpuLobeAlbedoPage
 #define lobe_slice_texels(f) kGpuLobeSlicePage
+#define ltc_texels(f) kGpuLtcPage
 
 cube_desc specular_cube(frame_ref f) { return cube_desc(kGpuSpecularPage, frame.specular.size, frame.specular.levels); }
 cube_desc whole_cube(frame_ref f) { return cube_desc(kGpuWholePage, frame.whole.size, frame.whole.levels); }

@@ -157,7 +157,7 @@ BN_FN void make_shaded_point(frame_ref f, material_ref m, BN_IN(material_inputs)
         bool compensated = the_frame(f).energy_compensation != 0;
         real albedo = lit(1.0);
         if (stands_in(f)) {
-            if (compensated || (the_material(m).technique_traits & kSamplesLobe) == 0)
+            if (compensated || (the_material(m).technique_traits & kSamplesLobe) == 0 || the_frame(f).area_light_count > 0)
                 x.shown = share_of_usual(f, m, x);
             albedo = (x.dfg.scale + x.dfg.bias) * x.shown;
         } else if (compensated)

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <fmt/format.h>
 
+#include "core/scene/area_light.h"
 #include "core/scene/gltf/factors.h"
 #include "core/scene/gltf/pose.h"
 
@@ -126,6 +127,32 @@ glm::mat4 local_matrix(Document& doc, std::size_t index)
     return matrix;
 }
 
+// What apps/README.md describes: extras.burnish.areaLight of a node.
+int load_area_light(Document& doc, const Json& node, const std::string& node_place)
+{
+    const Json::json_pointer at("/extras/burnish/areaLight");
+    if (!node.contains(at))
+        return kNone;
+    const Json& source = node[at];
+    const std::string place = node_place + at.to_string();
+    AreaLight light;
+    read_choice(source, "/shape", "quad polygon disk sphere line", light.shape);
+    read_flag(source, "/twoSided", light.two_sided);
+#define BN_AREA_FACTOR(kind, name, path, least, most) read_factor(source, path, light.name);
+#include "core/scene/area_light.def"
+    const std::vector<double> numbers = source["points"].get<std::vector<double>>();
+    if (numbers.size() % 3 != 0)
+        fail(place + "/points", fmt::format("must be three numbers a point, are {}", numbers.size()));
+    for (std::size_t k = 0; k < numbers.size(); k += 3)
+        light.points.emplace_back(static_cast<float>(numbers[k]), static_cast<float>(numbers[k + 1]), static_cast<float>(numbers[k + 2]));
+    if (const std::string fault = area_light_fault(light); !fault.empty())
+        fail(place, fault);
+    doc.scene.area_lights.push_back(std::move(light));
+    if (doc.scene.area_lights.size() > static_cast<std::size_t>(doc.limits.area_lights))
+        fail(place, fmt::format("the scene has more than {} area lights (--limit-lights)", doc.limits.area_lights));
+    return static_cast<int>(doc.scene.area_lights.size()) - 1;
+}
+
 Node load_node(Document& doc, std::size_t index, int parent)
 {
     const Json& source = node_json(doc, index);
@@ -136,6 +163,7 @@ Node load_node(Document& doc, std::size_t index, int parent)
     node.camera = get_index(source, "camera");
     if (const Json* light = get_extension(source, "KHR_lights_punctual"))
         node.light = get_index(*light, "light");
+    node.area_light = load_area_light(doc, source, place_of(index));
     node.local = local_matrix(doc, index);
     return node;
 }

@@ -189,6 +189,15 @@ const Rule kLightRules[] = {
 #include "core/scene/light.def"
 };
 
+const Rule kAreaLightRules[] = { // below a node
+    {"/extras/burnish/areaLight", Kind::object},
+    {"/extras/burnish/areaLight/shape", Kind::word, 0, 0, "quad polygon disk sphere line", kRequired},
+    {"/extras/burnish/areaLight/points", Kind::numbers, -kAny, kAny, "", kRequired},
+    {"/extras/burnish/areaLight/twoSided", Kind::boolean},
+#define BN_AREA_FACTOR(kind, name, path, least, most) factor_rule<FieldKinds::kind>("/extras/burnish/areaLight" path, least, most),
+#include "core/scene/area_light.def"
+};
+
 // The same rules hold wherever a material refers to a texture (textures.h).
 const Rule kTextureInfoRules[] = {
     {"", Kind::object},
@@ -454,6 +463,7 @@ void check_schema(Json& json)
         checker.run(rule, rule.path);
     check_below(checker, "materials/*", kMaterialRules);
     check_below(checker, "extensions/KHR_lights_punctual/lights/*", kLightRules);
+    check_below(checker, "nodes/*", kAreaLightRules);
     for (const MaterialTexture& texture : kMaterialTextures)
         for (const Rule& rule : kTextureInfoRules)
             checker.run(rule, std::string("materials/*") + texture.path + rule.path);
