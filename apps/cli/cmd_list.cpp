@@ -88,8 +88,8 @@ Command list_command()
 {
     auto what = std::make_shared<std::string>();
     OptionTable table;
-    table.add("",
-              {Option("WHAT", "", "{}", choice(*what, {"techniques", "scenes", "environments", "models", "area-lights", "extensions"})).must_be_given()});
+    table.add("", {Option("WHAT", "", "{}", choice(*what, {"techniques", "scenes", "environments", "models", "area-lights", "extensions"}))
+                       .must_be_given()});
     return {"list", "List the names that options accept, the reflection models, what is read of glTF", table,
             "Examples:\n  burnish list techniques\n  burnish list scenes", [what](OptionTable&) {
                 if (*what == "scenes")

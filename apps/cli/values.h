@@ -58,7 +58,7 @@ Value scenes(std::vector<std::string>& to);
 Value environment(std::string& to);
 Value environments(std::vector<std::string>& to);
 Value area_lights(std::vector<AreaLight>& to); // one each time it is given
-Value key_lights(int& to); // how many at most; auto, off, or a number
+Value key_lights(int& to);                     // how many at most; auto, off, or a number
 
 // Several by commas. `names`: what each may be; empty: anything.
 Value choices(std::vector<std::string>& to, std::vector<std::string> names);

@@ -71,7 +71,8 @@ Result<RenderOptions> check_render_options(const RenderArguments& arguments, con
     if (const Status picture = check_picture(arguments, given, out); !picture)
         return picture.error();
     if (out.lights.size() > static_cast<std::size_t>(out.limits.area_lights))
-        return usage_error("--light", fmt::format("{} are given, more than {} (--limit-lights)", out.lights.size(), out.limits.area_lights));
+        return usage_error("--light",
+                           fmt::format("{} are given, more than {} (--limit-lights)", out.lights.size(), out.limits.area_lights));
     if (const Status technique = check_technique(arguments, out); !technique)
         return technique.error();
     const Result<Isa> isa = choose_isa(given, out.isa);

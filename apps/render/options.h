@@ -23,7 +23,7 @@ struct RenderOptions {
     std::string scene = "builtin:teapot";
     Moment moment;
     std::vector<AreaLight> lights; // besides those of the scene
-    std::string direction_map; // picture that all materials take as their anisotropy texture; empty: none
+    std::string direction_map;     // picture that all materials take as their anisotropy texture; empty: none
     std::vector<std::string> outputs;
     std::string stats_file; // empty: none; "-": standard output
     std::string trace_file; // empty: none

@@ -93,9 +93,9 @@ std::string area_light_fault(const AreaLight& light)
     const AreaShapeInfo& shape = area_shape_info(light.shape);
     const int count = static_cast<int>(light.points.size());
     if (count < shape.least || count > shape.most)
-        return shape.least == shape.most ? fmt::format("a {} has {} points ({}), {} are given", shape.name, shape.least, shape.what, count)
-                                         : fmt::format("a {} has {} to {} points ({}), {} are given", shape.name, shape.least, shape.most,
-                                                       shape.what, count);
+        return shape.least == shape.most
+                   ? fmt::format("a {} has {} points ({}), {} are given", shape.name, shape.least, shape.what, count)
+                   : fmt::format("a {} has {} to {} points ({}), {} are given", shape.name, shape.least, shape.most, shape.what, count);
     const Points p(light.points.begin(), light.points.end());
     for (int k = 0; k < count; ++k)
         if (!finite(p[static_cast<std::size_t>(k)]))

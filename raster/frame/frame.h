@@ -163,7 +163,7 @@ struct ParameterInfo {            // of techniques
     bool FrameDesc::*flag;
     int FrameDesc::*choice;
     glm::vec2 FrameDesc::*angles;
-    std::string_view kind;    // as shading/models.def has it
+    std::string_view kind; // as shading/models.def has it
 };
 const std::vector<ParameterInfo>& parameters();                                    // from shading/models.def
 bool reads(const std::string& technique, const ParameterInfo& parameter);          // whether a technique, or "reference", looks at it

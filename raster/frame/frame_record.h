@@ -30,7 +30,7 @@ class FrameMaker {
     const std::vector<MaterialRecord>& materials() const { return materials_; } // of the frame made last
     const std::vector<GridSample>& grid() const { return grid_; }
     const CubeMap& box_cube() const { return box_cube_; }
-    const std::vector<std::uint16_t>& ltc_texels() const; // empty where the scene has no area lights
+    const std::vector<std::uint16_t>& ltc_texels() const;                     // empty where the scene has no area lights
     const Column<std::uint16_t>& lobe_slices() const { return lobe_slices_; } // of all frames so far
 
   private:

@@ -196,6 +196,7 @@ struct LaneSurface { // what was hit, or nothing
     real3 emission;         // towards the ray's origin, the environment's where nothing was hit
     real3 position, normal; // normal: the triangle's
     mask reflects;
+    mask emitter; // it shows an area light
 };
 
 BN_INLINE fresnel_parts select_parts(mask m, const fresnel_parts& a, const fresnel_parts& b)
@@ -258,7 +259,7 @@ BN_STAGE MaterialAtHits material_at_hits(const ReferenceParams& f, const Materia
 
 BN_STAGE void find_surface(const ReferenceParams& f, const LaneHits& h, const LaneRays& r, const LaneRays* footprint, LaneSurface& out)
 {
-    out.reflects = mask_from_bits(0);
+    out.reflects = out.emitter = mask_from_bits(0);
     if (none(h.found))
         return;
     const LaneGeometry g = locate_hits(f, h, r, footprint);
@@ -268,6 +269,8 @@ BN_STAGE void find_surface(const ReferenceParams& f, const LaneHits& h, const La
         const MaterialAtHits at = material_at_hits(f, m, g);
         out.r = first ? at.r : select_reflector(lanes, at.r, out.r); // lanes without a hit hold something harmless
         out.emission = first ? at.emission : select(lanes, at.emission, out.emission);
+        if (m.emitter)
+            out.emitter = either(out.emitter, lanes);
         if (!m.unlit)
             out.reflects = either(out.reflects, lanes);
         first = false;

@@ -7,6 +7,7 @@
 #include "raster/reference/reference_types.h"
 #include "raster/reference/reflector.h"
 #include "raster/reference/samples.h"
+#include "shading/lights/area_sample.t.h"
 #include "shading/lights/punctual.t.h"
 
 namespace burnish {
@@ -52,12 +53,11 @@ BN_INLINE real lobe_weight(const ReferenceParams& f, const ReflectorSample& s)
 }
 
 // Nothing is in the way of the environment.
-BN_INLINE real3 open_light(const ReferenceParams& f, const Reflector& r, const ShadeSample& x)
+BN_INLINE real3 open_light(const ReferenceParams& f, const Reflector& r, const ShadeSample& x, const ReflectorSample& s)
 {
     real3 sum = vec3_all(lit(0.0));
     if (f.strategy != ReferenceStrategy::brdf)
         sum = by_environment(f, r, x.light).value;
-    const ReflectorSample s = sample_reflector(r, x.lobe, x.choice);
     const real weight = lobe_weight(f, s);
     return sum + s.weight * environment_radiance(f, s.wi) * weight;
 }
@@ -110,6 +110,41 @@ BN_STAGE real3 punctual_lights(const PixelFrame& p, const LaneSurface& s)
     return sum;
 }
 
+// Light of area lights: of each by a point of its own, and by the lobe's sample where that meets it. open: how far nothing is in that
+// sample's way.
+BN_STAGE real3 area_lights(const PixelFrame& p, const LaneSurface& s, const ReflectorSample& b, real open, integer position, int shade,
+                           int vertex)
+{
+    const ReferenceParams& f = p.f;
+    const real3 zero = vec3_all(lit(0.0));
+    real3 sum = zero;
+    for (int i = 0; i < f.area_light_count; ++i) {
+        const real3 radiance = splat3(f.area_lights[i].radiance);
+        if (f.strategy != ReferenceStrategy::brdf) {
+            const area_sample l = area_sample_at(f, i, s.position, area_light_point(*f.sobol, p.seed, position, shade, vertex, i));
+            const Reflection at = reflect(s.r, l.wi);
+            const real weight = f.strategy == ReferenceStrategy::mis ? power_weight(l.pdf, at.pdf) : lit(1.0);
+            const real3 value = at.value * radiance * (weight / max(l.pdf, lit(1e-20)));
+            mask seen = both(both(s.reflects, l.pdf > lit(0.0)), any_light(value));
+            if (f.mode != ReferenceMode::direct && any(seen)) {
+                LaneRays r = leaving_ray(f, s, l.wi);
+                r.tfar = l.distance * lit(0.9999);
+                seen = both(seen, not_(find_hits(p, r, seen, RayKind::occlusion).found));
+            }
+            sum = sum + select(seen, value, zero);
+        }
+        if (f.strategy == ReferenceStrategy::light && none(b.exact))
+            continue;
+        const area_sample met = area_along(f, i, s.position, b.wi);
+        real weight =
+            f.strategy == ReferenceStrategy::mis ? power_weight(b.pdf, met.pdf) : lit(f.strategy == ReferenceStrategy::brdf ? 1.0 : 0.0);
+        weight = select(b.exact, lit(1.0), weight);
+        const mask seen = both(both(s.reflects, met.pdf > lit(0.0)), met.distance < open);
+        sum = sum + select(seen, b.weight * radiance * weight, zero);
+    }
+    return sum;
+}
+
 // Light of the environment, and with bounces that of other surfaces, with everything in its way.
 BN_STAGE real3 traced_light(const PixelFrame& p, const LaneSurface& first, integer position, int shade)
 {
@@ -132,12 +167,16 @@ BN_STAGE real3 traced_light(const PixelFrame& p, const LaneSurface& first, integ
         }
         const ReflectorSample b = sample_reflector(s.r, x.lobe, x.choice);
         const mask wanted = both(s.reflects, any_light(b.weight));
-        if (none(wanted))
+        if (none(wanted) && f.area_light_count == 0)
             break;
         const bool last = depth == bounces;
         const LaneRays r = leaving_ray(f, s, b.wi);
         const mask traced = both(wanted, not_(sees_through(f, s.r, b.wi)));
-        const LaneHits h = find_hits(p, r, traced, last ? RayKind::occlusion : RayKind::bounce);
+        const LaneHits h = find_hits(p, r, traced, last && f.area_light_count == 0 ? RayKind::occlusion : RayKind::bounce);
+        if (f.area_light_count > 0) { // what shows a light lies where that is
+            const real open = select(h.found, h.t * lit(1.0005) + splat(f.ray_epsilon), splat(__builtin_inff()));
+            sum = sum + throughput * area_lights(p, s, b, open, position, shade, depth);
+        }
         const real3 carried = throughput * b.weight;
         const real3 outside = carried * environment_radiance(f, b.wi) * lobe_weight(f, b);
         sum = sum + select(both(wanted, not_(h.found)), outside, zero);
@@ -145,12 +184,24 @@ BN_STAGE real3 traced_light(const PixelFrame& p, const LaneSurface& first, integ
             break;
         throughput = select(h.found, carried, zero);
         find_surface(f, h, r, nullptr, s);
-        real3 at_surface = s.emission;
+        real3 at_surface = select(s.emitter, zero, s.emission); // whose light came by area_lights()
         if (f.light_count > 0 && any(s.reflects))
             at_surface = at_surface + punctual_lights(p, s);
         sum = sum + select(h.found, throughput * at_surface, zero);
     }
     return sum;
+}
+
+// Nothing is in any light's way.
+BN_STAGE real3 direct_light(const PixelFrame& p, const LaneSurface& s, integer position, int shade)
+{
+    const ReferenceParams& f = p.f;
+    const ShadeSample x = shade_sample(*f.sobol, p.seed, position, shade, 0);
+    const ReflectorSample b = sample_reflector(s.r, x.lobe, x.choice);
+    const real3 light = open_light(f, s.r, x, b) * s.r.x.s.occlusion;
+    if (f.area_light_count == 0)
+        return light;
+    return light + area_lights(p, s, b, splat(__builtin_inff()), position, shade, 0);
 }
 
 // Sum over the shades of lanes `first`, first + 1... of a pixel's camera positions.
@@ -181,9 +232,7 @@ BN_STAGE real3 radiance_at_positions(const PixelFrame& p, int x, int y, int firs
     if (f.light_count > 0)
         sum = sum + punctual_lights(p, s) * lit(kPassShades);
     for (int shade = 0; shade < kPassShades; ++shade) {
-        const real3 light = f.mode == ReferenceMode::direct
-                                ? open_light(f, s.r, shade_sample(*f.sobol, p.seed, position, shade, 0)) * s.r.x.s.occlusion
-                                : traced_light(p, s, position, shade);
+        const real3 light = f.mode == ReferenceMode::direct ? direct_light(p, s, position, shade) : traced_light(p, s, position, shade);
         sum = sum + select(s.reflects, light, zero);
     }
     return sum;

@@ -71,5 +71,14 @@ BN_INLINE ShadeSample shade_sample(const SobolTable& table, std::uint32_t pass_s
     return s;
 }
 
+// A point of an area light from a vertex, [0,1)^2.
+BN_INLINE real2 area_light_point(const SobolTable& table, std::uint32_t pass_seed, integer position, int shade, int vertex, int light)
+{
+    const std::uint32_t of_vertex = hash_seed(pass_seed, 0x6000u + static_cast<std::uint32_t>(vertex));
+    const std::uint32_t seed = hash_seed(of_vertex, static_cast<std::uint32_t>(light));
+    const integer index = shuffled(position * int_lit(kPassShades) + int_lit(shade), hash_seed(seed, 99));
+    return vec2_of(owen_sobol(table, index, 0, seed), owen_sobol(table, index, 1, seed));
+}
+
 } // namespace BN_ISA_NS
 } // namespace burnish

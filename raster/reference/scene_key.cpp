@@ -65,6 +65,7 @@ FrameDesc reference_desc(FrameDesc desc)
     const FrameDesc defaults;
     if (desc.area_way != kAreaWay_off) // which way, is the techniques' business
         desc.area_way = defaults.area_way;
+    desc.light_samples = defaults.light_samples;
     desc.technique = "mc", desc.samples = 1, desc.msaa = 1, desc.tile_size = defaults.tile_size;
     for (const ParameterInfo& p : parameters())
         if (!reads("reference", p))

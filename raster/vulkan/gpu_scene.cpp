@@ -47,7 +47,8 @@ GpuScene::GpuScene(Context& context, const RenderInput& input)
     else
         texels_.push_back(texel_page(context, input.environment.whole.texels));
     const std::vector<std::uint16_t>& ltc = maker_.ltc_texels();
-    texels_.push_back(make_filled_buffer(context, ltc.data(), ltc.size() * sizeof(std::uint16_t), VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT));
+    texels_.push_back(
+        make_filled_buffer(context, ltc.data(), ltc.size() * sizeof(std::uint16_t), VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT));
     for (const TexturePyramid& p : maker_.scene().pyramids)
         texels_.push_back(texel_page(context, p.texels));
     upload_pages(context);

@@ -131,8 +131,8 @@ void VulkanRenderer::make_targets(const FrameDesc& desc)
 
 std::vector<std::pair<Binding, const Buffer*>> VulkanRenderer::scene_bindings() const
 {
-    return {{kTexelsBinding, &scene_.pages()}, {kRealsBinding, &scene_.reals()},         {kIntsBinding, &scene_.ints()},
-            {kFrameBinding, &scene_.frame()},  {kMaterialsBinding, &scene_.materials()}, {kTexturesBinding, &scene_.textures()},
+    return {{kTexelsBinding, &scene_.pages()},  {kRealsBinding, &scene_.reals()},           {kIntsBinding, &scene_.ints()},
+            {kFrameBinding, &scene_.frame()},   {kMaterialsBinding, &scene_.materials()},   {kTexturesBinding, &scene_.textures()},
             {kLightsBinding, &scene_.lights()}, {kAreaLightsBinding, &scene_.area_lights()}};
 }
 

@@ -139,7 +139,7 @@ struct LightRecord { // DrawTables' PunctualLight in plain numbers
 struct AreaLightRecord { // PlacedAreaLight in plain numbers
 #define BN_AREA_FIELD(kind, name, initial) BN_FIELD_##kind(name)
 #include "core/scene/area_light.def"
-    int shape, corners;                 // kArea_quad...; how many points
+    int shape, corners; // kArea_quad...; how many points
     float points[3 * kMostAreaCorners];
 };
 

@@ -24,6 +24,7 @@ import input_cases
 import install_cases
 import kill_cases
 import key_light_cases
+import light_cases
 import limit_cases
 import manual_cases
 import mistake_cases

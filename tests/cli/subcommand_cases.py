@@ -16,7 +16,8 @@ RUNS = {
                (("builtin:plate", *VIEW, "--backend", "vulkan", "-o", "v.png"), (0, 77)),
                (("builtin:plate", *VIEW, "--animate", "roughness=0.1:0.6", "--steps", "2", "-o", "m%d.exr"), (0,)),
                (("builtin:plate", *VIEW, "--turntable", "2", "-o", "t%d.exr", "-o", "t.apng"), (0,)),
-               (("builtin:plate", *VIEW, "--direction-map", "a.png", "-o", "d.exr"), (0,))],
+               (("builtin:plate", *VIEW, "--direction-map", "a.png", "-o", "d.exr"), (0,)),
+               (("builtin:lights", *VIEW, "--light", "sphere:points=0,1,0:radius=0.1:radiance=9,9,9", "-o", "l.exr"), (0,))],
     "compare": [(("a.exr", "a.hdr", "--json", "-", "--error-map", "e.png", "--html", "c.html"), (0,)), (("a.png", "a.tif"), (0,)),
                 (("--sequence", "m%d.exr", "t%d.exr", "--json", "-"), (0,))],
     "chart": [((*CHART[1:], "--sweep", "roughness=0.2,0.5", "--sweep", "anisotropy=0,0.5", "-o", "report"), (0, 77))],
@@ -29,7 +30,7 @@ RUNS = {
     "bake": [(("ltc", "--resolution", "3", "--steps", "1", "--samples", "1", "-o", "t.ltc"), (0,)), (("ltc", "--table", "t.ltc"), (0,)),
              (("direction", "a.png", "--from", "luminance", "-o", "d.png"), (0,))],
     "export": [(("glsl", "--technique", "lobe_line", "-o", "l.glsl"), (0,)), (("glsl", "--technique", "filtered_is", "-o", "-"), (0,))],
-    "list": [((what,), (0,)) for what in ("techniques", "scenes", "environments", "models", "extensions")],
+    "list": [((what,), (0,)) for what in ("techniques", "scenes", "environments", "models", "area-lights", "extensions")],
     "manual": [((what,), (0,)) for what in ("man", "bash", "zsh", "fish")],
     "info": [((), (0,)), (("--json",), (0,))],
 }

@@ -15,10 +15,12 @@ constexpr Maker<Scene> kScenes[] = {
     {{"spheres", "silver spheres over roughness (right) and anisotropy (up)"}, make_spheres},
     {{"sphere", "one of them under a lamp, to look at a single lobe"}, make_sphere},
     {{"plate", "a brass plate whose brushing follows a direction texture"}, make_plate},
+    {{"lights", "a dark room: brushed plates and spheres under area lights, for --env builtin:night"}, make_lights},
 };
 constexpr Maker<Image> kEnvironments[] = {
     {{"studio", "a dim studio with soft boxes and strips"}, make_studio},
     {{"sky", "a clear sky with a small sun"}, make_sky},
+    {{"night", "next to no light, for scenes with lights of their own"}, make_night},
 };
 
 template <class T, std::size_t N> std::vector<BuiltinInfo> infos(const Maker<T> (&makers)[N])

@@ -12,8 +12,8 @@ struct BuiltinInfo {
     const char* name; // without "builtin:"
     const char* summary;
 };
-const std::vector<BuiltinInfo>& builtin_scenes();       // teapot, spheres, sphere, plate
-const std::vector<BuiltinInfo>& builtin_environments(); // studio, sky
+const std::vector<BuiltinInfo>& builtin_scenes();       // teapot, spheres, sphere, plate, lights
+const std::vector<BuiltinInfo>& builtin_environments(); // studio, sky, night
 
 Result<Scene> make_builtin_scene(const std::string& name);
 

@@ -123,4 +123,9 @@ Image make_sky()
     });
 }
 
+Image make_night()
+{
+    return paint([](const glm::dvec3& d) { return glm::dvec3(0.003, 0.0035, 0.005) * (1.0 + 0.8 * d.y); });
+}
+
 } // namespace burnish

@@ -11,6 +11,8 @@ namespace {
 constexpr int kColumns = 7, kRows = 5;            // of spheres
 constexpr double kRadius = 0.045, kSpacing = 0.1; // metres
 
+} // namespace
+
 void add_sphere(Scene& scene, int meridians, int parallels, double radius)
 {
     add_grid(scene, meridians, parallels, [=](int column, int row) {
@@ -28,6 +30,8 @@ void add_sphere(Scene& scene, int meridians, int parallels, double radius)
     });
 }
 
+namespace {
+
 constexpr double kEta[kRows] = {0.0, 0.25, 0.5, 0.75, 0.95};
 
 // The widths alpha_lin^2 (1 +- eta) in the terms of KHR_materials_anisotropy: alpha across the tangent, mix(alpha, 1, strength^2) along.
@@ -40,10 +44,7 @@ void set_widths(Material& material, double alpha_lin, double eta)
 
 Material silver(double alpha_lin, double eta)
 {
-    Material material;
-    set_widths(material, alpha_lin, eta);
-    material.base_color = glm::vec4(0.95f, 0.93f, 0.88f, 1.0f);
-    return material;
+    return brushed_metal(alpha_lin, eta, glm::vec3(0.95f, 0.93f, 0.88f));
 }
 
 void add_front_camera(Scene& scene)
@@ -63,6 +64,14 @@ void add_front_camera(Scene& scene)
 }
 
 } // namespace
+
+Material brushed_metal(double alpha_lin, double eta, const glm::vec3& colour)
+{
+    Material material;
+    set_widths(material, alpha_lin, eta);
+    material.base_color = glm::vec4(colour, 1.0f);
+    return material;
+}
 
 Scene make_spheres()
 {

@@ -26,6 +26,12 @@ std::uint32_t begin_primitive(Scene& scene, std::int32_t material); // its id
 // x 8 blocks of quads, so that a cluster is compact; those that have collapsed, as at a pole, are left out.
 void add_grid(Scene& scene, int columns, int rows, const Surface& surface);
 
+// About the origin. Tangents point east.
+void add_sphere(Scene& scene, int meridians, int parallels, double radius);
+
+// Of GGX widths alpha_lin^2 (1 +- eta) along the tangent and across it.
+Material brushed_metal(double alpha_lin, double eta, const glm::vec3& colour);
+
 // A mesh of the primitives from `first_primitive` on, and a node that places it; returns the mesh.
 std::int32_t add_mesh(Scene& scene, const char* name, std::uint32_t first_primitive);
 void add_node(Scene& scene, const char* name, std::int32_t mesh, const glm::mat4& local);
@@ -54,7 +60,9 @@ Scene make_teapot();
 Scene make_spheres();
 Scene make_sphere();
 Scene make_plate();
+Scene make_lights();
 Image make_studio();
 Image make_sky();
+Image make_night();
 
 } // namespace burnish

@@ -189,7 +189,8 @@ const Rule kLightRules[] = {
 #include "core/scene/light.def"
 };
 
-const Rule kAreaLightRules[] = { // below a node
+const Rule kAreaLightRules[] = {
+    // below a node
     {"/extras/burnish/areaLight", Kind::object},
     {"/extras/burnish/areaLight/shape", Kind::word, 0, 0, "quad polygon disk sphere line", kRequired},
     {"/extras/burnish/areaLight/points", Kind::numbers, -kAny, kAny, "", kRequired},

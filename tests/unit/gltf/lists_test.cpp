@@ -1,4 +1,4 @@
-// What core/scene's lists (material.def, light.def) name is read from where they say, and checked as they say.
+// What core/scene's lists (material.def, light.def, area_light.def) name is read from where they say, and checked as they say.
 #include <cmath>
 #include <gtest/gtest.h>
 #include <map>
@@ -129,4 +129,58 @@ TEST(lists, every_factor_of_lights_is_read_and_checked)
     expect_read_and_checked("/extensions/KHR_lights_punctual/lights/0", path, FieldKinds::kind(fallback), least, most, make,               \
                             [](const Scene& s) { return s.lights[0].name; });
 #include "core/scene/light.def"
+}
+
+namespace {
+
+Asset with_area_light(const json& light)
+{
+    Asset asset = triangle();
+    asset.node = R"(,"extras":{"burnish":{"areaLight":)" + light.dump() + "}}";
+    return asset;
+}
+
+// A light of a form with as many points as it takes at least, round about.
+json area_light(const std::string& shape, int count)
+{
+    json points = json::array();
+    const double around[][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+    for (int k = 0; k < count; ++k)
+        points.insert(points.end(), {around[k][0], around[k][1], 2.0});
+    return {{"shape", shape}, {"points", points}, {"radius", 0.5}, {"radiance", {1, 2, 3}}};
+}
+
+} // namespace
+
+TEST(lists, every_form_of_area_lights_is_read){
+#define BN_AREA_SHAPE(name, at, least, most, what)                                                                                         \
+    {                                                                                                                                      \
+        const Result<Scene> scene = load(with_area_light(area_light(#name, least)));                                                       \
+        ASSERT_TRUE(scene) << #name << error_of(scene);                                                                                    \
+        ASSERT_EQ(scene->area_lights.size(), 1u);                                                                                          \
+        EXPECT_EQ(scene->nodes[0].area_light, 0);                                                                                          \
+        EXPECT_EQ(static_cast<int>(scene->area_lights[0].shape), at);                                                                      \
+        EXPECT_EQ(scene->area_lights[0].points.size(), std::size_t{least});                                                                \
+        EXPECT_FALSE(scene->area_lights[0].two_sided);                                                                                     \
+    }
+#include "core/scene/area_light.def"
+}
+
+TEST(lists, every_factor_of_area_lights_is_read_and_checked)
+{
+    const auto make = [](const json& value, const std::string& path) {
+        return with_area_light(path.empty() ? area_light("quad", 4) : with_value(area_light("quad", 4), path, value));
+    };
+#define BN_AREA_FACTOR(kind, name, path, least, most)                                                                                      \
+    {                                                                                                                                      \
+        using Value = FieldKinds::kind;                                                                                                    \
+        const Result<Scene> scene = load(make(filled<Value>(1.25), path));                                                                 \
+        ASSERT_TRUE(scene) << path << error_of(scene);                                                                                     \
+        EXPECT_EQ(scene->area_lights[0].name, Value(1.25f)) << path;                                                                       \
+        const Result<Scene> bad = load(make(filled<Value>(least - 1.0), path));                                                            \
+        ASSERT_FALSE(bad) << path;                                                                                                         \
+        EXPECT_EQ(bad.error().place,                                                                                                       \
+                  std::string("/nodes/0/extras/burnish/areaLight" path) + (sizeof(Value) == sizeof(float) ? "" : "/0"));                   \
+    }
+#include "core/scene/area_light.def"
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 
+#include "core/scene/area_light.h"
 #include "core/scene/builtin/builtin.h"
 #include "core/scene/gltf/gltf.h"
 #include "tests/unit/data.h"
@@ -164,6 +165,22 @@ TEST(golden, picture_of_the_sun_is_as_it_was)
         d.roughness = 0.4f, d.anisotropy = 0.8f, d.override_anisotropy = true;
         EXPECT_TRUE(is_golden("options/sun", stage->render(d, isa).color, isa_name(isa)));
     }
+}
+
+// Every form of area light, on anisotropic metal, paint, floor and wall.
+TEST(golden, picture_of_area_lights_is_as_it_was)
+{
+    Result<Scene> scene = make_builtin_scene("lights");
+    ASSERT_TRUE(scene);
+    ASSERT_TRUE(add_emitters(*scene, 256, "lights"));
+    update_world(*scene);
+    Stage stage(std::move(*scene), 1.0f, 2);
+    stage.environment = small_bake("night");
+    FrameDesc d;
+    d.width = 96, d.height = 64, d.msaa = 4;
+    d.view = make_view(stage.scene, 0, d.width, d.height);
+    for (Isa isa : available_isas())
+        EXPECT_TRUE(is_golden("options/area_lights", stage.render(d, isa).color, isa_name(isa)));
 }
 
 TEST(hash, of_a_second_frame_equals_the_first)
