@@ -216,6 +216,9 @@ Specialization technique_constants(const std::vector<MaterialRecord>& materials,
     std::int32_t techniques = 0, lobes = 1 << frame.lobe;
     if (frame.masking != 0) // which is compared with the usual one
         lobes |= 1 << lobe_with(kLobeOfAll) | 1 << lobe_with(kSeparableOfAll);
+    static_assert(kLobeCount <= kGpuFirstAreaWay && kGpuFirstAreaWay + kAreaWays <= 31);
+    if (frame.area_light_count > 0)
+        lobes |= 1 << (kGpuFirstAreaWay + frame.area_way);
     for (const MaterialRecord& m : materials)
         techniques |= 1 << m.technique, lobes |= 1 << m.lights_lobe;
     return {techniques, lobes};

@@ -10,6 +10,7 @@
 //   specular_cube(f) irradiance_cube(f) box_cube(f)   cubes, for cube_sample() and the sums below
 //   whole_cube(f)                        the environment with its key lights, which the others leave out; level 0 alone
 //   lobe_used(at)                        whether the lobe at this place of shading/models.def may be met at all
+//   area_way_used(at)                    the same of a way of area lights, BN_AREA_LIGHTS
 //   grid_sample(f, i)                    slopes and density of sample i of the_frame(f).grid_count (GridSample)
 // Sums of weighted fetches from a cube, which lanes plan some addresses ahead and GLSL takes one after the other; same bits.
 //   cube_sum s; cube_sum_begin(s, cube); cube_sum_add(s, direction, cube_sum_levels_at(s, lod, weight)); cube_sum_value(s)

@@ -68,6 +68,11 @@ BN_INLINE constexpr bool lobe_used(int)
     return true;
 }
 
+BN_INLINE constexpr bool area_way_used(int)
+{
+    return true;
+}
+
 // A fragment of which nothing changes but the geometry: neither textures, vertex colours, lights of either kind, energy compensation, exact
 // reflectances, light that passes nor a lobe other than the usual one.
 struct PlainFrame : ShadingFrame {

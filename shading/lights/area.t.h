@@ -63,7 +63,7 @@ BN_STAGE real area_part(BN_IN(area_view) v, BN_IN(ltc_lobe) lobe, bool clipless)
         return ltc_sphere_light(lobe, v.at.corner[0], v.radius).part;
     if (v.shape == kArea_line)
         return ltc_line_light(lobe, v.at.corner[0], v.at.corner[1], v.radius).part;
-    if (clipless)
+    if (area_way_used(kAreaWay_ltc_clipless) && clipless)
         return ltc_polygon_clipless(lobe, v.at, v.corners).part;
     return ltc_polygon_light(lobe, v.at, v.corners).part;
 }
@@ -160,9 +160,11 @@ BN_FN real3 area_light_by_samples(frame_ref f, BN_IN(shaded_point) x, int model,
 
 BN_FN real3 light_from_area(frame_ref f, BN_IN(shaded_point) x, int model, real3 position)
 {
-    if (the_frame(f).area_way == kAreaWay_mc)
+    if (area_way_used(kAreaWay_mc) && the_frame(f).area_way == kAreaWay_mc)
         return area_light_by_samples(f, x, model, position);
-    return area_light_by_cosines(f, x, model, position);
+    if (area_way_used(kAreaWay_ltc) || area_way_used(kAreaWay_ltc_clipless))
+        return area_light_by_cosines(f, x, model, position);
+    return vec3_all(lit(0.0));
 }
 
 BN_KERNELS_END

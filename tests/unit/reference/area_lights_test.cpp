@@ -11,7 +11,7 @@
 namespace burnish::test {
 namespace {
 
-AreaLight light_of(AreaShape shape, const std::vector<glm::vec3>& points, float radius = 0.0f)
+AreaLight area_light_of(AreaShape shape, const std::vector<glm::vec3>& points, float radius = 0.0f)
 {
     AreaLight light;
     light.shape = shape, light.points = points, light.radius = radius;
@@ -19,19 +19,19 @@ AreaLight light_of(AreaShape shape, const std::vector<glm::vec3>& points, float 
     return light;
 }
 
-const std::vector<AreaLight>& one_of_each()
+const std::vector<AreaLight>& each_area_light()
 {
     static const std::vector<AreaLight> lights = {
-        light_of(AreaShape::quad, {{-1.0f, 0.8f, -0.3f}, {1.0f, 0.9f, -0.3f}, {1.0f, 0.9f, 1.0f}, {-1.0f, 0.8f, 1.0f}}),
-        light_of(AreaShape::polygon, {{0.2f, 0.0f, 0.8f}, {0.1f, 0.5f, 0.9f}, {-0.3f, 0.6f, 0.95f}, {-0.5f, 0.1f, 0.9f}}),
-        light_of(AreaShape::disk, {{0.3f, -0.3f, 1.0f}, {0.3f, 0.2f, 1.0f}, {0.6f, -0.3f, 1.1f}}),
-        light_of(AreaShape::sphere, {{-0.4f, -0.2f, 0.6f}}, 0.2f),
-        light_of(AreaShape::line, {{-0.8f, 0.1f, 0.4f}, {0.7f, 0.3f, 0.9f}}, 0.02f)};
+        area_light_of(AreaShape::quad, {{-1.0f, 0.8f, -0.3f}, {1.0f, 0.9f, -0.3f}, {1.0f, 0.9f, 1.0f}, {-1.0f, 0.8f, 1.0f}}),
+        area_light_of(AreaShape::polygon, {{0.2f, 0.0f, 0.9f}, {0.1f, 0.5f, 0.9f}, {-0.3f, 0.6f, 0.9f}, {-0.5f, 0.1f, 0.9f}}),
+        area_light_of(AreaShape::disk, {{0.3f, -0.3f, 1.0f}, {0.3f, 0.2f, 1.0f}, {0.6f, -0.3f, 1.1f}}),
+        area_light_of(AreaShape::sphere, {{-0.4f, -0.2f, 0.6f}}, 0.2f),
+        area_light_of(AreaShape::line, {{-0.8f, 0.1f, 0.4f}, {0.7f, 0.3f, 0.9f}}, 0.02f)};
     return lights;
 }
-const char* const kNames[] = {"quad", "polygon", "disk", "sphere", "line"};
+const char* const kAreaShapeNames[] = {"quad", "polygon", "disk", "sphere", "line"};
 
-Scene lit(Scene scene, const std::vector<AreaLight>& lights, bool shown)
+Scene lit_by(Scene scene, const std::vector<AreaLight>& lights, bool shown)
 {
     for (const AreaLight& light : lights)
         add_area_light(scene, light);
@@ -43,7 +43,7 @@ Scene lit(Scene scene, const std::vector<AreaLight>& lights, bool shown)
     return scene;
 }
 
-FrameDesc desc_at(const glm::vec3& eye, float roughness, float eta)
+FrameDesc desc_of_lit(const glm::vec3& eye, float roughness, float eta)
 {
     FrameDesc d = desc_of(6, 6, view_from(eye, 0.1f));
     d.background = false;
@@ -54,10 +54,10 @@ FrameDesc desc_at(const glm::vec3& eye, float roughness, float eta)
 TEST(area_lights, are_found_alike_by_their_points_by_the_lobe_and_by_both)
 {
     BN_NEEDS_EMBREE();
-    for (std::size_t i = 0; i < one_of_each().size(); ++i)
+    for (std::size_t i = 0; i < each_area_light().size(); ++i)
         for (const ReferenceMode mode : {ReferenceMode::direct, ReferenceMode::shadowed}) {
-            const Stage stage(lit(plane_scene(metal(0.6f, 0.6f)), {one_of_each()[i]}, true), 0.0f, 2);
-            FrameDesc d = desc_at({0.3f, -1.0f, 0.8f}, 0.6f, 0.6f);
+            const Stage stage(lit_by(plane_scene(metal(0.6f, 0.6f)), {each_area_light()[i]}, true), 0.0f, 2);
+            FrameDesc d = desc_of_lit({0.3f, -1.0f, 0.8f}, 0.6f, 0.6f);
             Estimate found[3];
             const ReferenceStrategy strategies[] = {ReferenceStrategy::mis, ReferenceStrategy::brdf, ReferenceStrategy::light};
             for (int k = 0; k < 3; ++k) {
@@ -69,25 +69,25 @@ TEST(area_lights, are_found_alike_by_their_points_by_the_lobe_and_by_both)
             for (int k = 0; k < 3; ++k) {
                 const Estimate &a = found[k], &b = found[(k + 1) % 3];
                 EXPECT_NEAR(a.mean, b.mean, 4.0 * std::hypot(a.deviation, b.deviation) + 1e-5)
-                    << kNames[i] << ", mode " << static_cast<int>(mode) << ", " << k;
+                    << kAreaShapeNames[i] << ", mode " << static_cast<int>(mode) << ", " << k;
             }
-            EXPECT_GT(found[0].mean, 1e-3) << kNames[i];
-            EXPECT_LT(found[0].deviation, 1.3 * std::min(found[1].deviation, found[2].deviation)) << kNames[i];
-            std::printf("%s mode %d: %.5f %.5f %.5f, deviations %.2g %.2g %.2g\n", kNames[i], static_cast<int>(mode), found[0].mean,
-                        found[1].mean, found[2].mean, found[0].deviation, found[1].deviation, found[2].deviation);
+            EXPECT_GT(found[0].mean, 1e-3) << kAreaShapeNames[i];
+            EXPECT_LT(found[0].deviation, 1.3 * std::min(found[1].deviation, found[2].deviation)) << kAreaShapeNames[i];
+            std::printf("%s mode %d: %.5f %.5f %.5f, deviations %.2g %.2g %.2g\n", kAreaShapeNames[i], static_cast<int>(mode),
+                        found[0].mean, found[1].mean, found[2].mean, found[0].deviation, found[1].deviation, found[2].deviation);
         }
 }
 
 TEST(area_lights, by_cosines_are_the_reference_s)
 {
     BN_NEEDS_EMBREE();
-    for (std::size_t i = 0; i < one_of_each().size(); ++i)
+    for (std::size_t i = 0; i < each_area_light().size(); ++i)
         for (const bool shiny : {false, true})
             for (const float roughness : {0.3f, 0.6f}) {
                 Material material = metal(roughness, 0.7f);
                 material.metallic = shiny ? 1.0f : 0.0f;
-                const Stage stage(lit(plane_scene(material), {one_of_each()[i]}, false), 0.0f, 2);
-                FrameDesc d = desc_at({0.3f, -1.0f, 0.8f}, roughness, 0.7f);
+                const Stage stage(lit_by(plane_scene(material), {each_area_light()[i]}, false), 0.0f, 2);
+                FrameDesc d = desc_of_lit({0.3f, -1.0f, 0.8f}, roughness, 0.7f);
                 ReferenceOptions o;
                 o.samples = 4096;
                 const Estimate truth = estimate(render_reference(stage, d, o));
@@ -96,9 +96,11 @@ TEST(area_lights, by_cosines_are_the_reference_s)
                 double mean = 0.0;
                 for (std::size_t k = 0; k < 6 * 6 * 3; ++k)
                     mean += static_cast<double>(tile.f32()[k]) / (6 * 6 * 3);
-                std::printf("%s %s roughness %.1f: reference %.5f +- %.1g, cosines %+.2f %%\n", kNames[i], shiny ? "metal" : "paint",
-                            static_cast<double>(roughness), truth.mean, truth.deviation, 100.0 * (mean / truth.mean - 1.0));
-                EXPECT_NEAR(mean / truth.mean, 1.0, shiny ? 0.2 : 0.04) << kNames[i] << ", roughness " << roughness;
+                std::printf("%s %s roughness %.1f: reference %.5f +- %.1g, cosines %+.2f %%\n", kAreaShapeNames[i],
+                            shiny ? "metal" : "paint", static_cast<double>(roughness), truth.mean, truth.deviation,
+                            100.0 * (mean / truth.mean - 1.0));
+                EXPECT_NEAR(mean, truth.mean, shiny ? 0.05 * truth.mean + 0.06 : 0.03 * truth.mean)
+                    << kAreaShapeNames[i] << ", roughness " << roughness; // of a radiance of 2
             }
 }
 
@@ -106,7 +108,8 @@ TEST(area_lights, by_cosines_are_the_reference_s)
 TEST(area_lights, are_shadowed_by_what_is_in_between)
 {
     BN_NEEDS_EMBREE();
-    const AreaLight light = light_of(AreaShape::quad, {{-0.5f, -0.5f, 1.6f}, {-0.5f, 0.5f, 1.6f}, {0.5f, 0.5f, 1.6f}, {0.5f, -0.5f, 1.6f}});
+    const AreaLight light =
+        area_light_of(AreaShape::quad, {{-0.5f, -0.5f, 1.6f}, {-0.5f, 0.5f, 1.6f}, {0.5f, 0.5f, 1.6f}, {0.5f, -0.5f, 1.6f}});
     Scene walled = plane_scene(lambert(0.7f));
     add_scene(walled, plane_scene(lambert(0.0f)), {0.0f, 0.0f, 1.2f}, 5.0f);
     FrameDesc d = desc_of(6, 6, view_from({0.0f, -1.0f, 0.4f}, 0.1f)); // from below the wall
@@ -115,7 +118,7 @@ TEST(area_lights, are_shadowed_by_what_is_in_between)
     o.samples = 512;
     const auto seen = [&](const Scene& scene, ReferenceMode mode) {
         o.mode = mode;
-        return estimate(render_reference(Stage(lit(scene, {light}, true), 0.0f, 2), d, o)).mean;
+        return estimate(render_reference(Stage(lit_by(scene, {light}, true), 0.0f, 2), d, o)).mean;
     };
     const double open = seen(plane_scene(lambert(0.7f)), ReferenceMode::direct);
     EXPECT_GT(open, 0.05);
@@ -130,14 +133,14 @@ TEST(area_lights, are_shadowed_by_what_is_in_between)
 TEST(area_lights, are_counted_once_along_a_path)
 {
     BN_NEEDS_EMBREE();
-    const AreaLight light = light_of(AreaShape::sphere, {{0.0f, 0.0f, 0.0f}}, 0.5f);
+    const AreaLight light = area_light_of(AreaShape::sphere, {{0.0f, 0.0f, 0.0f}}, 0.5f);
     FrameDesc d = desc_of(8, 8, make_view(glm::vec3(0.0f, 0.0f, 0.9f), glm::vec3(0.3f, 0.2f, 2.0f), 0.3f, 8, 8));
     ReferenceOptions o;
     o.samples = 4096, o.bounces = 60;
     // on a ball around it the first light is even: radiance r^2 / R^2 times albedo; half of what leaves a wall may meet the light again
     const auto seen = [&](ReferenceMode mode) {
         o.mode = mode;
-        return estimate(render_reference(Stage(lit(ball_scene(lambert(0.5f), true), {light}, true), 0.0f, 2), d, o)).mean;
+        return estimate(render_reference(Stage(lit_by(ball_scene(lambert(0.5f), true), {light}, true), 0.0f, 2), d, o)).mean;
     };
     const double once = seen(ReferenceMode::shadowed), all = seen(ReferenceMode::path);
     EXPECT_NEAR(once, 2.0 * 0.25 * 0.5, 0.01);                       // mean radiance 2
