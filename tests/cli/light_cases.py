@@ -52,7 +52,7 @@ def wrong(bench):
                           ("sphere:points=0,nan,0:radius=1:radiance=1,1,1", "nan"), ("sphere:points=0,0,0:radius=1:radiance=1,-1,1", "radiance"),
                           ("sphere:points=0,0,0:radius=1", "radiance=R,G,B"), ("sphere:points=0,0,0:radius=nan:radiance=1,1,1", "nan"),
                           ("sphere:points=0,0,0:radius=1:radius=2:radiance=1,1,1", "twice"), ("sphere:point=0,0,0:radius=1:radiance=1,1,1", "did you mean 'points'"),
-                          ("line:points=0,0,0/0,0,0:radius=1:radiance=1,1,1", "one point"), ("", "sphere"), ("quad:points=", "three numbers")):
+                          ("line:points=0,0,0/0,0,0:radius=1:radiance=1,1,1", "one point"), ("", "empty"), ("quad:points=", "three numbers")):
         bench.run("render", "builtin:plate", *SMALL, "--light", light, "-o", "a.png").expect(2).expect_one_line("--light", needle)
     check("a.png" not in bench.left_behind(), "a picture was written")
 
