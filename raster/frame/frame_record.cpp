@@ -104,9 +104,9 @@ void FrameMaker::bake(const FrameDesc& desc)
 namespace {
 
 // Whether its technique follows the light that it lets through. An index of 0 reflects everything.
-bool refracts(const MaterialRecord& m, const FrameDesc& desc)
+bool refracts(const MaterialRecord& m, int lobe)
 {
-    return (m.technique_traits & kRefracts) && m.transmission > 0.0f && m.ior > 0.0f && !(lobe_traits_of(lobe_of(desc)) & kPunctualOnly);
+    return (m.technique_traits & kRefracts) && m.transmission > 0.0f && m.ior > 0.0f && !(lobe_traits_of(lobe) & kPunctualOnly);
 }
 
 } // namespace
@@ -118,7 +118,7 @@ void FrameMaker::choose_techniques(const FrameDesc& desc)
         const TechniqueInfo& t = technique_of(desc, m.anisotropic != 0);
         m.technique = static_cast<int>(&t - techniques().data());
         m.technique_traits = m.unlit ? 0 : t.traits;
-        m.refracts = refracts(m, desc);
+        m.refracts = refracts(m, lobe);
         const bool round = !m.anisotropic || (t.traits & kTakesRoundLobes);
         m.lights_lobe = round && lobe == lobe_with(kLobeOfAll) ? lobe_with(kLobeOfRound) : lobe;
     }

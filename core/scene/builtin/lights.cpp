@@ -51,7 +51,7 @@ void add_room(Scene& scene)
 // Leaning against the wall: brushed along, brushed across, and hardly brushed.
 void add_plates(Scene& scene)
 {
-    constexpr double kWidth = 0.72, kHeight = 0.8, kLean = 0.3; // of the top, backwards
+    constexpr double kPlateWidth = 0.72, kPlateHeight = 0.8, kLean = 0.3; // of the top, backwards
     struct Plate {
         const char* name;
         double x, alpha_lin, eta;
@@ -64,7 +64,7 @@ void add_plates(Scene& scene)
         Material material = brushed_metal(plate.alpha_lin, plate.eta, glm::vec3(0.85f, 0.8f, 0.74f));
         material.name = plate.name;
         const std::uint32_t first = begin_surface(scene, material);
-        const glm::dvec3 corner(plate.x - 0.5 * kWidth, 0.0, -0.75), across(kWidth, 0.0, 0.0), up(0.0, kHeight, -kLean);
+        const glm::dvec3 corner(plate.x - 0.5 * kPlateWidth, 0.0, -0.75), across(kPlateWidth, 0.0, 0.0), up(0.0, kPlateHeight, -kLean);
         if (plate.upright)
             add_panel(scene, corner + across, up, -across, 12);
         else
