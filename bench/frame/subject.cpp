@@ -1,5 +1,6 @@
 #include "bench/frame/subject.h"
 
+#include <cmath>
 #include <fmt/format.h>
 #include <utility>
 
@@ -31,6 +32,24 @@ std::shared_ptr<const DfgTable> dfg(bool coarse)
         return *standard_dfg(Jobs(0));
     static const auto table = std::make_shared<const DfgTable>(bake_dfg(kDfgSize, 16, Jobs(0)));
     return table;
+}
+
+// With suns of one degree, one beside the other; what the environment shows stays as it is.
+std::shared_ptr<const Environment> with_key_lights(const Environment& environment, int count)
+{
+    auto lit = std::make_shared<Environment>(environment);
+    lit->key_lights.clear();
+    for (int i = 0; i < count; ++i) {
+        const float turn = static_cast<float>(i), radius = 0.00873f;
+        lit->key_lights.push_back({{0.6f * std::cos(turn), 0.8f, 0.6f * std::sin(turn)},
+                                   {radius * -std::sin(turn), 0.0f, radius * std::cos(turn)},
+                                   {radius * 0.8f * std::cos(turn), radius * -0.6f, radius * 0.8f * std::sin(turn)},
+                                   {3.0f, 2.0f, 1.0f},
+                                   radius,
+                                   0.1f});
+    }
+    lit->whole = lit->specular;
+    return lit;
 }
 
 class TileSubject final : public Subject {
@@ -88,7 +107,8 @@ Result<std::unique_ptr<Subject>> make_subject(const Workload& workload, const Su
     SessionOptions tile;
     tile.isa = options.isa;
     const auto jobs = std::make_shared<const Jobs>(w.threads ? w.threads : options.threads);
-    Result<Session> session = Session::make({*scene, *environment, jobs, dfg(options.coarse_environment)}, tile);
+    const std::shared_ptr<const Environment> light = w.key_lights ? with_key_lights(**environment, w.key_lights) : *environment;
+    Result<Session> session = Session::make({*scene, light, jobs, dfg(options.coarse_environment)}, tile);
     if (!session)
         return session.error();
     return std::unique_ptr<Subject>(std::make_unique<TileSubject>(w, std::move(*session)));

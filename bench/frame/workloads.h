@@ -24,6 +24,7 @@ struct Workload {
     int packet = 0;    // rays traced together
     bool slow = false; // not with --quick
     float alpha_lin = 0.3f;
+    int key_lights = 0; // made ones, above the scene
 };
 
 enum class Measure {
