@@ -17,11 +17,13 @@
 
 // What a frame tells the technique, the same for every point.
 // specular, box, whole: of the environments that are fetched, size (texels along a face's side) and levels; scale: 1, or what fetched values
-// are to be multiplied by. samples, grid_count: how many. lobe: the model, lobe_traits: 1 for the usual one.
+// are to be multiplied by. samples, grid_count: how many. joins_round: 1 where round lobes are drawn by split_isotropic, to which others are
+// to go over as they become round. lobe: the model, lobe_traits: 1 for the usual one.
 // The others are options of `burnish render`, angles as cosine and sine.
 struct settings {
     CubeRecord specular, whole, box;
     int grid_count, samples;
+    int joins_round;
 #define BN_PARAMETER(id, kind, option, fallback, least, most, unit, summary, readers) BN_RECORD_##kind(id)
 #include "shading/models.def"
     int lobe, lobe_traits;
@@ -36,6 +38,7 @@ settings usual_settings(int specular_size, int specular_levels, int sample_count
     f.box = f.specular;
     f.grid_count = kGridCount;
     f.samples = sample_count;
+    f.joins_round = 0;
 #define BN_USUAL_number(id, fallback) f.id = fallback;
 #define BN_USUAL_whole(id, fallback) f.id = fallback;
 #define BN_USUAL_flag(id, fallback) f.id = fallback;
@@ -167,6 +170,7 @@ shaded_point point_of(vec3 n, vec3 v, vec3 tangent, vec3 f0, vec3 f90, float rou
     x.s.f90 = f90;
     x.s.roughness = roughness;
     x.albedo = f0 * dfg.x + f90 * dfg.y;
+    x.brushed = brushed_part(x.lobe.sigma_u, x.lobe.sigma_v);
     x.gain = vec3(1.0);
     x.pixel_id = pixel;
     return x;

@@ -78,6 +78,7 @@ FrameRecord frame_record(const RenderInput& input, const FrameDesc& d)
     f.positions = f.light_count > 0 || f.area_light_count > 0;
     f.background = d.background;
     f.samples = d.samples, f.texture_taps = d.texture_anisotropy;
+    f.joins_round = &technique_of(d, true) != &technique_of(d, false);
     put_parameters(d, tilts(input.scene, d), f);
     f.override_anisotropy = d.override_anisotropy, f.anisotropy = d.anisotropy;
     return f;
@@ -131,10 +132,12 @@ void FrameMaker::slice_albedo(const FrameDesc& desc)
     ShadingFrame f = {};
     f.override_anisotropy = desc.override_anisotropy, f.anisotropy = desc.anisotropy;
     for (MaterialRecord& m : materials_) {
-        m.albedo_slice = -1;
+        m.albedo_slice = -1, m.brushed = 1.0f;
         if (!m.anisotropic || !one_lobe_shape(m))
             continue;
         const lobe_shape shape = only_lobe_shape(f, m);
+        if (m.technique_traits & kSharesSamples)
+            m.brushed = brushed_part(shape.sigma_u, shape.sigma_v);
         const std::array<float, 2> widths = {shape.sigma_u, shape.sigma_v};
         const auto known = std::find(sliced_.begin(), sliced_.end(), widths);
         m.albedo_slice = static_cast<int>(static_cast<std::size_t>(known - sliced_.begin()) * kTexels);

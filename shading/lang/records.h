@@ -111,6 +111,7 @@ struct FrameRecord {
     int ltc_root_alpha, ltc_basis; // of the table of transformed cosines
     int positions;                 // something asks where visible points lie
     int background, samples, texture_taps;
+    int joins_round; // round lobes are drawn by another technique than brushed ones, which go over to it as they become round
 #define BN_RECORD_number(id) float id;
 #define BN_RECORD_whole(id) int id;
 #define BN_RECORD_flag(id) int id;
@@ -167,7 +168,8 @@ struct MaterialRecord { // Material in plain numbers, and what follows from them
     int technique, technique_traits; // its place in shading/models.def; of what is unlit no traits
     int refracts;                    // it lets light through, and its technique follows that
     int lights_lobe;                 // what punctual lights meet: its place in shading/models.def
-    int albedo_slice;                // of a lobe whose two widths are everywhere the same: its first texel; else -1
+    float brushed;    // brushed_part() where the technique shares samples and the lobe is everywhere the same, so could be round; else 1
+    int albedo_slice; // of a lobe whose two widths are everywhere the same: its first texel; else -1
     TextureBinding textures[kTextureSlots];
 };
 

@@ -27,6 +27,13 @@ BN_FN real lobe_eta(aniso_lobe lobe)
     return select(sum > lit(1e-20), difference / max(sum, lit(1e-20)), lit(0.0));
 }
 
+// How much of what two widths make is shown, [0,1]: nothing where they are equal, all from an eighth of difference on. What is not brushed
+// is drawn in simpler ways, which give something else; so brushing sets in without a step.
+BN_FN real brushed_part(real sigma_u, real sigma_v)
+{
+    return k_saturate(lit(8.0) * (sigma_u - sigma_v) / max(sigma_u, lit(1e-20)));
+}
+
 // To the ellipse frame (u, v, n) and back.
 BN_FN real3 to_lobe(aniso_lobe lobe, real3 n, real3 w)
 {

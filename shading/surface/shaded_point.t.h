@@ -22,6 +22,7 @@ struct shaded_point {
     surface_frame surface_axes; // the geometry's
     bool turned;                // s.n is not surface_axes.n: light from below its horizon does not arrive
     bool diffuse;               // s.diffuse may be above 0
+    real brushed;               // the material's
     dfg_value dfg;
     real3 albedo; // directional, of the lobe: for techniques of a split integral
     real shown;   // directional albedo of a lobe that takes the usual one's place, over that of the usual one, upright; 1 otherwise
@@ -92,9 +93,17 @@ BN_FN dfg_value directional_albedo(frame_ref f, material_ref m, BN_IN(surface) s
         return dfg_fit(s.n_dot_v, s.roughness);
     if (the_material(m).anisotropic == 0)
         return dfg_lookup(dfg_texels(f), the_frame(f).dfg_size, s.n_dot_v, s.roughness);
-    if (the_material(m).albedo_slice >= 0)
-        return lobe_slice_lookup(lobe_slice_texels(f), the_material(m).albedo_slice, the_frame(f).lobe_albedo_size, lobe, s.n, s.v);
-    return lobe_albedo_lookup(lobe_albedo_texels(f), the_frame(f).lobe_albedo_size, lobe, s.n, s.v);
+    if (the_material(m).albedo_slice < 0)
+        return lobe_albedo_lookup(lobe_albedo_texels(f), the_frame(f).lobe_albedo_size, lobe, s.n, s.v);
+    dfg_value own = lobe_slice_lookup(lobe_slice_texels(f), the_material(m).albedo_slice, the_frame(f).lobe_albedo_size, lobe, s.n, s.v);
+    if (the_material(m).brushed == 1.0f)
+        return own;
+    real part = splat(the_material(m).brushed);
+    real still = lit(1.0) - part;
+    dfg_value round = dfg_lookup(dfg_texels(f), the_frame(f).dfg_size, s.n_dot_v, s.roughness);
+    own.scale = round.scale * still + own.scale * part;
+    own.bias = round.bias * still + own.bias * part;
+    return own;
 }
 
 BN_FN real3 energy_gain(frame_ref f, real3 f0, dfg_value dfg)
@@ -147,6 +156,7 @@ BN_FN void make_shaded_point(frame_ref f, material_ref m, BN_IN(material_inputs)
         x.s.parts = fresnel_parts_of(f, m, at.base, at.metallic, at.dielectric_f0, at.dielectric_f90);
         x.s.f0 = exact_reflectance(x.s.parts, lit(1.0));
     }
+    x.brushed = splat(the_material(m).brushed);
     x.dfg = directional_albedo(f, m, x.s, x.lobe);
     x.albedo = albedo_of(x.s, x.dfg);
     x.gain = energy_gain(f, x.s.f0, x.dfg);

@@ -14,16 +14,19 @@ BN_KERNELS_BEGIN
 
 struct lobe_line {
     real3 o;      // to the eye, unit
+    real part;    // how much of it is taken
     real2 along;  // slopes at z = 1
     real width;   // sqrt(l2) / o.z, of the round lobe at z = 0
-    real narrow;  // of a sample's level, see lobe_line_at()
+    real level;   // alpha of the prefiltered level at z = 0, seen from above: see lobe_line_at()
+    real blunt;   // 1 - part^2: levels widen along the line as the line is long
     real extent;  // sqrt(l1 / l2 - 1): how many widths the line is long
     real stretch; // Smith's |(alpha_x o.x, alpha_y o.y, o.z)|
     real alpha_x, alpha_y;
 };
 
-// o: to the eye, ellipse frame; sigma_x, sigma_y: slope deviations.
-BN_FN lobe_line lobe_line_of(real3 o, real sigma_x, real sigma_y)
+// o: to the eye, ellipse frame; sigma_x >= sigma_y: slope deviations. part: how much of the line is taken, [0,1]. Seen at a slant a lobe of
+// one width is a line too; with less of it, it shrinks to what split_isotropic takes: the mirror direction at the lobe's own width.
+BN_FN lobe_line lobe_line_of(real3 o, real sigma_x, real sigma_y, real part)
 {
     real root2 = lit(1.4142135623730951);
     real one = lit(1.0);
@@ -47,11 +50,15 @@ BN_FN lobe_line lobe_line_of(real3 o, real sigma_x, real sigma_y)
     real steep = d - h;
     real2 e = select(h >= lit(0.0), vec2_of(d + h, shear), vec2_of(abs(shear), select(shear < lit(0.0), -steep, steep)));
     real inv = one / max(sqrt(k_dot2(e, e)), lit(1e-20));
-    real rest = sqrt(one - ratio) * inv;
+    real rest = sqrt(one - ratio) * inv * part;
     r.along = vec2_of(r.alpha_x * e.x * rest, r.alpha_y * e.y * rest);
     r.width = sqrt(l1 * ratio) / r.o.z;
-    r.narrow = lit(0.67) + lit(0.25) * ratio;
-    r.extent = sqrt((one - ratio) / max(ratio, lit(1e-12)));
+    real narrow = lit(0.67) + lit(0.25) * ratio;
+    real own = lit(0.5) * (r.alpha_x + r.alpha_y) / r.o.z;
+    r.level = own * (one - part) + narrow * r.width * part;
+    r.blunt = one - part * part;
+    r.extent = sqrt((one - ratio) / max(ratio, lit(1e-12))) * part;
+    r.part = part;
     r.stretch = sqrt(x * x + y * y + r.o.z * r.o.z);
     return r;
 }
@@ -67,7 +74,8 @@ struct lobe_line_sample {
 BN_FN lobe_line_sample lobe_line_at(lobe_line line, real c)
 {
     c = min(max(c, lit(-0.9995)), lit(0.9995));
-    real root = sqrt(lit(1.0) - c * c);
+    real one = lit(1.0);
+    real root = sqrt(one - c * c);
     real3 w = vec3_of(-line.along.x * c, -line.along.y * c, root);
     real w2 = k_dot3(w, w);
     real w_dot_o = k_dot3(w, line.o);
@@ -80,7 +88,7 @@ BN_FN lobe_line_sample lobe_line_at(lobe_line line, real c)
     real up = max(iz, lit(0.0));
     real seen = max(w_dot_o, lit(0.0));
     r.weight = seen * up / (root * max(up * line.stretch + line.o.z * stretch, lit(1e-20)));
-    r.radius = line.narrow * line.width * seen / w2;
+    r.radius = line.level * seen / w2 * sqrt(one - line.blunt * c * c);
     return r;
 }
 

@@ -26,9 +26,12 @@ BN_FN void add_line_sample(BN_IN(shaded_point) x, BN_IN(lobe_line) line, real c,
     sum.weights = sum.weights + w;
 }
 
-BN_FN lobe_line lobe_line_for(BN_IN(shaded_point) x)
+BN_FN lobe_line lobe_line_for(frame_ref f, BN_IN(shaded_point) x)
 {
-    return lobe_line_of(to_lobe(x.lobe, x.s.n, x.s.v), x.lobe.sigma_u, x.lobe.sigma_v);
+    real part = lit(1.0);
+    if (the_frame(f).joins_round != 0)
+        part = x.brushed;
+    return lobe_line_of(to_lobe(x.lobe, x.s.n, x.s.v), x.lobe.sigma_u, x.lobe.sigma_v, part);
 }
 
 // The mean radiance that the lobe sees, to be multiplied by its albedo. offset: where in its cell a sample lies, (0,1).
@@ -57,10 +60,10 @@ BN_FN real3 lobe_line_radiance(frame_ref f, BN_IN(shaded_point) x, BN_IN(lobe_li
 // What is shared, but for `factor` and `rest`.
 BN_FN line_record lobe_line_shared(frame_ref f, BN_IN(shaded_point) x, real offset)
 {
-    lobe_line line = lobe_line_for(x);
+    lobe_line line = lobe_line_for(f, x);
     line_record r;
     r.light = lobe_line_radiance(f, x, line, offset);
-    r.width = line.width;
+    r.width = line.width * line.part; // round lobes share nothing
     r.mirror = x.s.n * (lit(2.0) * k_dot3(x.s.n, x.s.v)) - x.s.v;
     r.along = x.lobe.u_axis * line.along.x + x.lobe.v_axis * line.along.y;
     return r;
@@ -69,7 +72,7 @@ BN_FN line_record lobe_line_shared(frame_ref f, BN_IN(shaded_point) x, real offs
 // Alone, as where fragments do not know their neighbours.
 BN_FN real3 lobe_line_specular(frame_ref f, BN_IN(shaded_point) x)
 {
-    return lobe_line_radiance(f, x, lobe_line_for(x), lit(0.5)) * x.albedo;
+    return lobe_line_radiance(f, x, lobe_line_for(f, x), lit(0.5)) * x.albedo;
 }
 
 BN_KERNELS_END

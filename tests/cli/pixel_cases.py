@@ -125,3 +125,18 @@ def other_build(bench):
             hashes = {program: hash_of(bench, scene, "--no-cache", *isa, program=program) for program in builds}
             check(len(set(hashes.values())) == 1, f"{scene} {isa}: {[(builds[p], h) for p, h in hashes.items()]}")
     print(f"{len(scenes)} scenes, equal pixels from {' and '.join(builds.values())}")
+
+
+@case("pixels.brushing_sets_in_without_a_step")
+def brushing_sets_in(bench):
+    """What is brushed is drawn by another technique than what is not; the least of it must not show."""
+    view = ("builtin:spheres", "--size", "160x90", "--env-size", "64", "--env-samples", "64")
+    for msaa in ("1", "8"):
+        for roughness in ("0.15", "0.4", "0.7"):
+            for technique in ("auto", "lobe_line"):
+                words = (*view, "--msaa", msaa, "--roughness", roughness, "--technique", technique)
+                bench.run("render", *words, "--anisotropy", "0", "-o", "none.exr").expect(0)
+                bench.run("render", *words, "--anisotropy", "0.00001", "-o", "least.exr").expect(0)
+                found = json.loads(bench.run("compare", "none.exr", "least.exr", "--metric", "flip-hdr", "--json", "-", "-q").expect(0).out)["flip_mean"]
+                print(f"{technique}, alpha_lin {roughness}, {msaa}x: {found:.5f}")
+                check(found <= 0.002, f"{technique}, alpha_lin {roughness}, {msaa}x: FLIP {found}")
