@@ -32,7 +32,7 @@ import count as instructions  # noqa: E402
 TUNED = ("builtin:studio", "workshop_1k.hdr", "blender_studio_1k.exr")  # that constants were chosen on
 UNSEEN = ("low_sun.hdr", "blender_city_1k.exr", "pmndrs_lobby_512.exr")
 TECHNIQUES = ("lobe_line", "major_axis_weighted", "bent_normal", "split_isotropic")
-FULL = {"roughness": "0.2,0.4,0.6,0.8", "anisotropy": "-0.9,0.5,0.8,0.95", "size": "128x72", "samples": "256"}
+FULL = {"roughness": "0.2,0.35,0.5,0.65,0.8", "anisotropy": "-0.9,-0.5,-0.2,0.2,0.5,0.8,0.95", "size": "80x45", "samples": "256"}
 QUICK = {"roughness": "0.5", "anisotropy": "-0.9,0.8", "size": "96x54", "samples": "128"}
 LOOKS = (("builtin:studio", 0.4, 0.8), ("builtin:studio", 0.5, -0.9), ("low_sun.hdr", 0.4, 0.8), ("low_sun.hdr", 0.63, 0.8))
 
