@@ -237,8 +237,9 @@ TEST(builtin, environments_are_finite_and_span_a_thousand_to_one)
             high = std::fmax(high, image.f32()[i]);
         }
         EXPECT_GT(low, 0.0f) << info.name;
-        if (std::string(info.name) != "night")
+        if (std::string(info.name) != "night") {
             EXPECT_GE(high, 1000.0f * low) << info.name;
+        }
     }
 }
 
