@@ -19,7 +19,7 @@
 // specular, box, whole: of the environments that are fetched, size (texels along a face's side) and levels; scale: 1, or what fetched values
 // are to be multiplied by. samples, grid_count: how many. joins_round: 1 where round lobes are drawn by split_isotropic, to which others are
 // to go over as they become round. lobe: the model, lobe_traits: 1 for the usual one.
-// The others are options of `burnish render`, angles as cosine and sine.
+// The others are options of `burnish render`.
 struct settings {
     CubeRecord specular, whole, box;
     int grid_count, samples;
@@ -45,7 +45,7 @@ settings usual_settings(int specular_size, int specular_levels, int sample_count
 #define BN_USUAL_choice(id, fallback) f.id = fallback;
 #define BN_USUAL_lobe(id, fallback) f.id = fallback;
 #define BN_USUAL_way(id, fallback) f.id = 0;
-#define BN_USUAL_angles(id, fallback) f.id##_cos[0] = f.id##_cos[1] = 1.0; f.id##_sin[0] = f.id##_sin[1] = 0.0;
+#define BN_USUAL_angles(id, fallback) // of materials
 #define BN_PARAMETER(id, kind, option, fallback, least, most, unit, summary, readers) BN_USUAL_##kind(id, fallback)
 #include "shading/models.def"
     f.lobe = 0;

@@ -57,7 +57,7 @@ const int kLobeCount = 0
 // What a material's textures hold of slopes: nothing; moments of those that a map of tilts has; of those and of the lobe.
 const int kNoMoments = 0, kMomentsOfTilt = 1, kMomentsOfAll = 2;
 const float kSlopeScale = 16.0f, kMomentScale = 256.0f; // of means and second moments in texels
-const int kAreaWays = 0 // of finding the light of area lights
+const int kAreaWays = 0                                 // of finding the light of area lights
 #define BN_AREA_LIGHTS(id, at, name, summary) +1
 #include "shading/models.def"
     ;
