@@ -163,7 +163,10 @@ int run_parity(const ParityArguments& arguments, const OptionTable& given)
     const RenderOptions& base = options.frames.front();
     Report report(base.quiet, base.verbosity);
     const auto jobs = std::make_shared<const Jobs>(base.threads);
-    const Result<std::shared_ptr<VulkanDevice>> device = open_vulkan_device(base.vulkan);
+    VulkanOptions of_device = base.vulkan;
+    if (arguments.techniques.size() > 1) // a pipeline of all takes a driver less time than one for each
+        of_device.techniques = arguments.techniques;
+    const Result<std::shared_ptr<VulkanDevice>> device = open_vulkan_device(of_device);
     if (!device)
         return fail(device.error());
     const Result<std::shared_ptr<const Environment>> environment = open_environment(base.env, base.environment, base.limits, *jobs);

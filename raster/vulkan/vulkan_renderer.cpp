@@ -210,10 +210,21 @@ void VulkanRenderer::all_visibility(VkCommandBuffer c, const Band& band)
         visibility(c, {kSubpixel / 2 - pattern.x[s], kSubpixel / 2 - pattern.y[s], s, 0, 0, band.first_row, band.rows, 0});
 }
 
-// constant_id 0 and 1 of shading/stages: the materials' techniques and lobes, a bit each.
-Specialization technique_constants(const std::vector<MaterialRecord>& materials, const FrameRecord& frame)
+// Of `names`, those that share samples or those that do not: a bit a place in models.def.
+std::int32_t techniques_of(const std::vector<std::string>& names, bool sharing)
 {
-    std::int32_t techniques = 0, lobes = 1 << frame.lobe;
+    const auto& all = techniques();
+    std::int32_t bits = 0;
+    for (std::size_t at = 0; at < all.size(); ++at)
+        if (((all[at].traits & kSharesSamples) != 0) == sharing && std::find(names.begin(), names.end(), all[at].name) != names.end())
+            bits |= 1 << at;
+    return bits;
+}
+
+// constant_id 0 and 1 of shading/stages: techniques, the materials' beside those given, and lobes, a bit each.
+Specialization technique_constants(const std::vector<MaterialRecord>& materials, const FrameRecord& frame, std::int32_t techniques)
+{
+    std::int32_t lobes = 1 << frame.lobe;
     if (frame.masking != 0) // which is compared with the usual one
         lobes |= 1 << lobe_with(kLobeOfAll) | 1 << lobe_with(kSeparableOfAll);
     static_assert(kLobeCount <= kGpuFirstAreaWay && kGpuFirstAreaWay + kAreaWays <= 31);
@@ -233,7 +244,8 @@ bool any_shares_samples(const std::vector<MaterialRecord>& materials)
 void VulkanRenderer::shade(VkCommandBuffer c, const FrameDesc& desc, const Band& band)
 {
     const bool shares = any_shares_samples(scene_.materials_of_frame());
-    Specialization constants = technique_constants(scene_.materials_of_frame(), scene_.record());
+    const std::int32_t others = techniques_of(device_->options.techniques, shares);
+    Specialization constants = technique_constants(scene_.materials_of_frame(), scene_.record(), others);
     constants.insert(constants.end(), {desc.stages, shares});
     if (desc.stages)
         vkCmdFillBuffer(c, targets_.records.handle(), 0, VK_WHOLE_SIZE, 0);
@@ -344,7 +356,8 @@ Frame VulkanRenderer::render_forward(const FrameDesc& desc)
     for (const auto& [binding, buffer] : scene_bindings())
         bind(binding, *buffer);
     Frame frame = empty_frame(desc);
-    const Specialization technique = technique_constants(scene_.materials_of_frame(), scene_.record());
+    const std::int32_t others = techniques_of(device_->options.techniques, false);
+    const Specialization technique = technique_constants(scene_.materials_of_frame(), scene_.record(), others);
     for (const Band& band : bands_of(desc.height, forward_.rows())) {
         VkCommandBuffer c = context_.begin();
         forward_.draw(c, technique, band);
