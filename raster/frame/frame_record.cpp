@@ -125,6 +125,22 @@ void FrameMaker::choose_techniques(const FrameDesc& desc)
     }
 }
 
+namespace {
+
+// brushed_part() of a material as its factors have it. A texture of roughness makes places smoother, and so more brushed: then of a smooth
+// place. Textured or not, brushing sets in without a step as its strength grows from 0.
+float brushed_by_factors(const ShadingFrame& f, const MaterialRecord& material)
+{
+    constexpr float kSmooth = 0.3f;
+    MaterialRecord m = material;
+    if (texture_used(m, kMetalRoughTex) && m.roughness_fixed == 0)
+        m.roughness = std::min(m.roughness, kSmooth);
+    const lobe_shape shape = only_lobe_shape(f, m);
+    return brushed_part(shape.sigma_u, shape.sigma_v);
+}
+
+} // namespace
+
 // Of every material whose lobe has the same two widths everywhere.
 void FrameMaker::slice_albedo(const FrameDesc& desc)
 {
@@ -133,11 +149,11 @@ void FrameMaker::slice_albedo(const FrameDesc& desc)
     f.override_anisotropy = desc.override_anisotropy, f.anisotropy = desc.anisotropy;
     for (MaterialRecord& m : materials_) {
         m.albedo_slice = -1, m.brushed = 1.0f;
+        if (m.anisotropic && (m.technique_traits & kSharesSamples) && m.moments == kNoMoments)
+            m.brushed = brushed_by_factors(f, m);
         if (!m.anisotropic || !one_lobe_shape(m))
             continue;
         const lobe_shape shape = only_lobe_shape(f, m);
-        if (m.technique_traits & kSharesSamples)
-            m.brushed = brushed_part(shape.sigma_u, shape.sigma_v);
         const std::array<float, 2> widths = {shape.sigma_u, shape.sigma_v};
         const auto known = std::find(sliced_.begin(), sliced_.end(), widths);
         m.albedo_slice = static_cast<int>(static_cast<std::size_t>(known - sliced_.begin()) * kTexels);

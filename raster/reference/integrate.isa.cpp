@@ -87,11 +87,16 @@ BN_STAGE real3 punctual_lights(const PixelFrame& p, const LaneSurface& s)
 {
     const ReferenceParams& f = p.f;
     const placed_lobe lobe = placed_lobe_under_lights(f.lobe, s.r.x.lobe, s.r.x.s, s.r.x.surface_axes);
+    rough_interface through;
+    if (s.r.x.refracts)
+        through = rough_interface_at(s.r.x);
     real3 sum = vec3_all(lit(0.0));
     for (int i = 0; i < f.light_count; ++i) {
         const LightRecord& l = f.lights[i];
         const light_sample towards = light_towards(f, s.position, i);
         punctual_light light = light_from(f, s.r.x, lobe, towards, i);
+        if (s.r.x.refracts)
+            light.radiance = select(s.r.refracts, light_from_interface(f, s.r.x, through, towards, i).radiance, light.radiance);
         mask lit_lanes = both(both(s.reflects, k_dot3(s.r.horizon, light.l) > lit(0.0)), any_light(light.radiance));
         if (s.r.x.refracts && f.mode == ReferenceMode::path) {
             const mask behind = both(both(s.reflects, s.r.refracts), k_dot3(s.r.x.surface_axes.n, light.l) < lit(0.0));

@@ -117,6 +117,9 @@ BN_FN real3 area_light_by_samples(frame_ref f, BN_IN(shaded_point) x, int model,
 {
     placed_lobe lobe = placed_lobe_under_lights(model, x.lobe, x.s, x.surface_axes);
     bool apart = lobe_has(lobe.model, kLies_surface + kLies_thread); // whose value knows the cosine
+    rough_interface through;
+    if (x.refracts)
+        through = rough_interface_at(x);
     int n = the_frame(f).light_samples;
     uniform_real inv = 1.0f / float(n);
     integer seed = k_hash_u32(x.pixel_id ^ int_lit(the_frame(f).seed));
@@ -145,7 +148,10 @@ BN_FN real3 area_light_by_samples(frame_ref f, BN_IN(shaded_point) x, int model,
                 value = select(cosine > lit(0.0), placed_lobe_light(lobe, x.s, s.wi), lit(0.0)) * cosine;
             real3 fresnel = reflectance_of(x.s, punctual_v_dot_h(x.s, s.wi));
             real part = value * weight;
-            specular = specular + radiance * fresnel * part;
+            real3 reflected = fresnel * part;
+            if (x.refracts)
+                reflected = interface_value(through, s.wi) * weight;
+            specular = specular + radiance * reflected;
             real fallen = cosine * weight;
             irradiance = irradiance + radiance * fallen;
         }

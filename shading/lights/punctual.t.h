@@ -35,16 +35,37 @@ BN_FN punctual_light light_from(frame_ref f, BN_IN(shaded_point) x, BN_IN(placed
     return r;
 }
 
-// model: the lobe that they meet. position: of x, world space.
+// The same of a surface that light passes: its interface is in the lobe's place.
+BN_STAGE punctual_light light_from_interface(any_frame f, BN_IN(shaded_point) x, BN_IN(rough_interface) g, light_sample at, int light)
+{
+    real3 intensity = splat3(the_light(f, light).radiant) * at.attenuation;
+    real3 rest = vec3_all(lit(1.0)) - reflectance_of(x.s, punctual_v_dot_h(x.s, at.l));
+    real diffuse_cosine = max(k_dot3(x.s.n, at.l), lit(0.0)) * lit(0.31830988618379067);
+    real3 diffused = rest * x.s.diffuse * diffuse_cosine;
+    real3 shiny = interface_value(g, at.l) * x.gain;
+    punctual_light r;
+    r.l = at.l;
+    r.radiance = (diffused + shiny) * intensity;
+    return r;
+}
+
+// model: the lobe that they meet, of what lets no light through. position: of x, world space.
 BN_FN real3 light_from_punctual(frame_ref f, BN_IN(shaded_point) x, int model, real3 position)
 {
     real3 sum = vec3_all(lit(0.0));
     placed_lobe lobe = placed_lobe_under_lights(model, x.lobe, x.s, x.surface_axes);
+    rough_interface through;
+    if (x.refracts)
+        through = rough_interface_at(x);
     for (int i = 0; i < the_frame(f).light_count; ++i) {
         light_sample at = light_towards(f, position, i);
         if (no_lane(at.attenuation > lit(0.0))) // out of its range or cone
             continue;
-        punctual_light light = light_from(f, x, lobe, at, i);
+        punctual_light light;
+        if (x.refracts)
+            light = light_from_interface(f, x, through, at, i);
+        else
+            light = light_from(f, x, lobe, at, i);
         if (x.turned)
             light.radiance = select(k_dot3(x.surface_axes.n, light.l) > lit(0.0), light.radiance, vec3_all(lit(0.0)));
         sum = sum + light.radiance;

@@ -60,6 +60,17 @@ BN_FN real3 interface_passes(BN_IN(interface_inputs) at, real o_dot_m)
     return at.tint * rest;
 }
 
+// What it reflects of light from wi, unit, world space: BRDF times cosine, 1/sr; nothing of light from below. That it is a mirror is not
+// looked at.
+BN_FN real3 interface_value(BN_IN(rough_interface) g, real3 wi)
+{
+    real3 i = to_frame(g.axes, wi);
+    i.z = max(i.z, lit(0.0));
+    ellipsoid_scattering s = ellipsoid_scattering_of(g.p, g.o, i);
+    real value = s.value * i.z;
+    return interface_reflects(g.at, s.o_dot_m) * value;
+}
+
 // Directional albedo where nothing is absorbed, by samples on a Fibonacci lattice: single scattering loses the rest.
 BN_STAGE real interface_albedo(BN_IN(rough_interface) g)
 {

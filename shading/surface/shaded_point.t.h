@@ -93,9 +93,11 @@ BN_FN dfg_value directional_albedo(frame_ref f, material_ref m, BN_IN(surface) s
         return dfg_fit(s.n_dot_v, s.roughness);
     if (the_material(m).anisotropic == 0)
         return dfg_lookup(dfg_texels(f), the_frame(f).dfg_size, s.n_dot_v, s.roughness);
+    dfg_value own;
     if (the_material(m).albedo_slice < 0)
-        return lobe_albedo_lookup(lobe_albedo_texels(f), the_frame(f).lobe_albedo_size, lobe, s.n, s.v);
-    dfg_value own = lobe_slice_lookup(lobe_slice_texels(f), the_material(m).albedo_slice, the_frame(f).lobe_albedo_size, lobe, s.n, s.v);
+        own = lobe_albedo_lookup(lobe_albedo_texels(f), the_frame(f).lobe_albedo_size, lobe, s.n, s.v);
+    else
+        own = lobe_slice_lookup(lobe_slice_texels(f), the_material(m).albedo_slice, the_frame(f).lobe_albedo_size, lobe, s.n, s.v);
     if (the_material(m).brushed == 1.0f)
         return own;
     real part = splat(the_material(m).brushed);

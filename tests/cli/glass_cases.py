@@ -61,7 +61,9 @@ def opaque(bench):
 @case("glass.mc_agrees_with_the_reference")
 def agrees(bench):
     needs_embree(bench)
-    for name, more in (("clear", ()), ("tilted", ("--tilt", "20,-10")), ("whole", ("--energy-compensation",))):
+    lamp = ("--light", "quad:points=-1,-0.2,0.1/-1,0.8,0.1/-1,0.8,0.7/-1,-0.2,0.7:radiance=5,5,5:two-sided", "--area-lights", "mc")
+    for name, more in (("lit", (*lamp, "--light-samples", "4096")), ("clear", ()), ("tilted", ("--tilt", "20,-10")),
+                       ("whole", ("--energy-compensation",))):
         path = scene(bench, name, factor=0.8)
         words = (path, *CLOSE, "--key-lights", "off", "-q", *more)
         bench.run("render", *words, "--backend", "reference", "--samples", "1024", "-o", "r.pfm", "--variance", "v.pfm").expect(0)
@@ -75,5 +77,5 @@ def agrees(bench):
 @case("glass.devices_give_the_same_words")
 def devices(bench):
     textured, smooth, dense = scene(bench, "textured", texture=True), scene(bench, "smooth", roughness=0, factor=0.5), scene(bench, "dense", ior=2.4, roughness=1)
-    for scenes, options in (((textured, smooth, dense), ()), ((textured,), ("--tilt", "20,-10", "--energy-compensation", "--env", "builtin:sky"))):
+    for scenes, options in (((textured, smooth, dense), ()), (("builtin:glass",), ()), ((textured,), ("--tilt", "20,-10", "--energy-compensation", "--env", "builtin:sky"))):
         check_equal(parity(bench, *scenes, "--technique", "mc", "--samples", "4", "--size", "32x24", "--msaa", "1", *options))

@@ -17,6 +17,7 @@ RUNS = {
                (("builtin:plate", *VIEW, "--animate", "roughness=0.1:0.6", "--steps", "2", "-o", "m%d.exr"), (0,)),
                (("builtin:plate", *VIEW, "--turntable", "2", "-o", "t%d.exr", "-o", "t.apng"), (0,)),
                (("builtin:plate", *VIEW, "--direction-map", "a.png", "-o", "d.exr"), (0,)),
+               (("builtin:glass", *VIEW, "--technique", "mc", "-o", "g.exr"), (0,)),
                (("builtin:lights", *VIEW, "--light", "sphere:points=0,1,0:radius=0.1:radiance=9,9,9", "-o", "l.exr"), (0,))],
     "compare": [(("a.exr", "a.hdr", "--json", "-", "--error-map", "e.png", "--html", "c.html"), (0,)), (("a.png", "a.tif"), (0,)),
                 (("--sequence", "m%d.exr", "t%d.exr", "--json", "-"), (0,))],

@@ -16,6 +16,7 @@ constexpr Maker<Scene> kScenes[] = {
     {{"sphere", "one of them under a lamp, to look at a single lobe"}, make_sphere},
     {{"plate", "a brass plate whose brushing follows a direction texture"}, make_plate},
     {{"lights", "a dark room: brushed plates and spheres under area lights, for --env builtin:night"}, make_lights},
+    {{"glass", "balls and a ring of glass on a turned steel disc, for --technique mc and the reference"}, make_glass},
 };
 constexpr Maker<Image> kEnvironments[] = {
     {{"studio", "a dim studio with soft boxes and strips"}, make_studio},

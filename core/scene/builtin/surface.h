@@ -61,6 +61,7 @@ Scene make_spheres();
 Scene make_sphere();
 Scene make_plate();
 Scene make_lights();
+Scene make_glass();
 Image make_studio();
 Image make_sky();
 Image make_night();

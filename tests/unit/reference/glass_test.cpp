@@ -162,6 +162,29 @@ TEST(glass, mc_shows_what_the_reference_does_through_one_interface)
             }
 }
 
+// In the mirror direction, at 45 degrees: the interface's own masking and Fresnel's exact factor, eq. 20.
+TEST(glass, a_lamp_glints_by_the_interface_s_lobe)
+{
+    BN_NEEDS_EMBREE();
+    Scene scene = plane_scene(glass(0.6f));
+    Light light;
+    light.intensity = 3.0f;
+    scene.lights.push_back(light);
+    Node node;
+    node.light = 0;
+    node.local[3] = glm::vec4(-1.0f, 0.0f, 1.0f, 1.0f);
+    scene.nodes.push_back(node);
+    update_world(scene);
+    const Stage stage(scene, 0.0f, 2);
+    FrameDesc d = anisotropic(desc_of(4, 4, view_from({1, 0, 1}, 0.001f)), 0.0f);
+    const double alpha2 = 0.36 * 0.36, cosine = std::sqrt(0.5), masked = 2.0 / (1.0 + std::sqrt(1.0 + alpha2));
+    const double expected = reflectance(cosine, 1.5) / (kHalfTurn * alpha2) * masked * masked / (4.0 * cosine) * 3.0 / 2.0;
+    for (ReferenceMode mode : {ReferenceMode::direct, ReferenceMode::shadowed, ReferenceMode::path})
+        EXPECT_NEAR(estimate(render_reference(stage, d, by(mode, 64))).mean, expected, 2e-3 * expected) << static_cast<int>(mode);
+    d.technique = "mc";
+    EXPECT_NEAR(static_cast<double>(stage.render(d, best_isa()).color.f32()[0]), expected, 2e-3 * expected);
+}
+
 // At normal incidence: Walter et al. 2007, eq. 21.
 TEST(glass, a_lamp_shines_through_where_paths_are_followed)
 {

@@ -50,7 +50,7 @@ TEST(builtin, bits_are_pinned)
 
 TEST(builtin, lists_name_what_can_be_made)
 {
-    ASSERT_EQ(builtin_scenes().size(), 5u);
+    ASSERT_EQ(builtin_scenes().size(), 6u);
     ASSERT_EQ(builtin_environments().size(), 3u);
     for (const BuiltinInfo& info : builtin_scenes())
         EXPECT_TRUE(make_builtin_scene(info.name)) << info.name;
@@ -62,7 +62,8 @@ TEST(builtin, unknown_names_are_errors_that_list_the_known)
 {
     const Result<Scene> scene = make_builtin_scene("kettle");
     ASSERT_FALSE(scene);
-    EXPECT_EQ(scene.error().line(), "builtin:kettle: no built-in scene has this name; there are teapot, spheres, sphere, plate, lights");
+    EXPECT_EQ(scene.error().line(),
+              "builtin:kettle: no built-in scene has this name; there are teapot, spheres, sphere, plate, lights, glass");
     EXPECT_FALSE(make_builtin_environment("cave"));
 }
 
@@ -126,11 +127,12 @@ template <class Use> int count_open_edges(const DrawTables& t, const Use& use)
     return open;
 }
 
-TEST(builtin, spheres_and_plate_and_teapot_body_are_closed)
+TEST(builtin, spheres_plate_glass_and_teapot_body_are_closed)
 {
     const auto all = [](std::size_t) { return true; };
     EXPECT_EQ(count_open_edges(make_draw_tables(*make_builtin_scene("spheres")), all), 0);
     EXPECT_EQ(count_open_edges(make_draw_tables(*make_builtin_scene("plate")), all), 0);
+    EXPECT_EQ(count_open_edges(make_draw_tables(*make_builtin_scene("glass")), all), 0);
     // Of the pot, handle and spout end openly inside the body: the handle with two rings of 32 edges, the
     // spout with one; each edge is counted from both sides.
     const DrawTables t = make_draw_tables(*make_builtin_scene("teapot"));
