@@ -8,7 +8,7 @@
 
 // clang-format off
 #define BN_EACH_ISA(X, of)                                                                                   \
-    BN_ON_any(X(scalar, program, true, "-O2", of))                                                           \
+    BN_ON_any(X(scalar, program, true, "-O1", of))                                                           \
     BN_ON_x86_64(X(avx2, program, cpu_has_avx2(), "-march=x86-64-v3", of))                                   \
     BN_ON_x86_64(X(avx512, program, cpu_has_avx512(), "-march=x86-64-v4 -mprefer-vector-width=512", of)) \
     BN_ON_x86_64(X(portable8, tests, true, "-O1", of))                                      \
