@@ -23,8 +23,9 @@ BN_FN real quad_offset(integer odd_x, integer odd_y)
     return select(odd_y == int_lit(0), lit(0.125) + half_x, lit(0.875) - half_x);
 }
 
-// How much of b's light is a's, [0,1]: all of it where they see the same lobe; nothing from one width across the line on, or from half of
-// its length along it, where light is spread that far.
+// How much of b's light is a's, [0,1]: all of it where they see the same lobe; nothing from as far across the line on as its width and what
+// lies between sixteen samples in its middle, an eighth of its length at z = 1, or from half of that length along it, where light is spread
+// so far. What a fragment's own samples do not resolve it takes from others: where lines turn fast, quads would show as dots.
 BN_FN real line_likeness(line_record a, line_record b)
 {
     real3 turn = (a.mirror - b.mirror) * lit(0.5); // as slopes: a mirror turns twice as far as its normal
@@ -38,7 +39,7 @@ BN_FN real line_likeness(line_record a, line_record b)
     real along = k_dot3(turn, a.along);
     real along2 = along * along / max(long2, lit(1e-20));
     real across2 = max(k_dot3(turn, turn) - along2, lit(0.0)) + bend + wider * wider;
-    real apart = across2 / narrow2 + along2 / (narrow2 + long2 * lit(0.25));
+    real apart = across2 / (narrow2 + long2 * lit(0.015625)) + along2 / (narrow2 + long2 * lit(0.25));
     return max(lit(1.0) - apart, lit(0.0));
 }
 

@@ -1,9 +1,16 @@
 """The promise: pixels are a function of version, scene and options alone."""
 
+import colorsys
 import json
+import math
 import os
+import pathlib
+import sys
 
-from harness import SMALL, Skipped, case, check, data_files
+from compare_cases import png
+from harness import SMALL, Skipped, case, check, data_files, scratch
+
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[2] / "bench"))
 
 BUILTINS = ("builtin:teapot", "builtin:spheres", "builtin:plate")
 
@@ -141,3 +148,24 @@ def brushing_sets_in(bench):
                 found = json.loads(bench.run("compare", "none.exr", "least.exr", "--metric", "flip-hdr", "--json", "-", "-q").expect(0).out)["flip_mean"]
                 print(f"{scene} {technique}, alpha_lin {roughness}, {msaa}x: {found:.5f}")
                 check(found <= 0.002, f"{scene} {technique}, alpha_lin {roughness}, {msaa}x: FLIP {found}")
+
+
+@case("pixels.lines_that_turn_fast_leave_no_dots")
+def no_dots(bench):
+    """Where fragments of a quad share too little of what their samples found, quads show: their error correlates more at two pixels than at one."""
+    from lobe_line import pattern, read_pfm
+
+    def hue(x, y):
+        u, v = x / 128 - 1.5, y / 128 - 1.0
+        angle = 0.5 * math.sin(5 * u + 2 * math.sin(4 * v)) + 0.6 * v * v + 0.15 * math.sin(17 * u * v + 9 * v)
+        return tuple(int(255 * c) for c in colorsys.hsv_to_rgb(angle % 1.0, 1, 1))
+
+    scratch(bench, "p.png", png(384, 256, hue))
+    bench.run("bake", "direction", "p.png", "-o", "d.png").expect(0)
+    for samples in ("16", "64"):
+        bench.run("render", "builtin:plate", "--direction-map", "d.png", "--roughness", "0.3", "--anisotropy", "0.95", "--size", "300x200", "--msaa", "1",
+                  "--env-size", "64", "--env-samples", "64", "--no-background", "--samples", samples, "-o", samples + ".pfm").expect(0)
+    width, height, many = read_pfm(bench.folder / "64.pfm")
+    found = pattern(many, read_pfm(bench.folder / "16.pfm")[2], width, height)
+    print(found)
+    check(found["two"] < found["one"], f"dots: {found}")
