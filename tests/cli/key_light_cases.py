@@ -5,6 +5,7 @@ import pathlib
 import subprocess
 import sys
 
+from compare_cases import png
 from environment_files import even, exr, with_texels
 from harness import SMALL, Failed, Skipped, case, check, scratch
 
@@ -95,6 +96,17 @@ def repaired(bench):
     every = scratch(bench, "all_nan.exr", exr(16, 8, even(NAN)))
     found = bench.figures("--env", every, *SMALL)
     check(found["nan_pixels"] == 0 and len(found["warnings"]) == 1, f"{found['warnings']}")
+
+
+@case("key_lights.an_environment_of_8_bits_is_said_to_be_one", "input", tier="check")
+def low_dynamic_range(bench):
+    path = scratch(bench, "day.png", png(64, 32, lambda x, y: (200, 220, 255) if y < 16 else (60, 50, 40)))
+    for words in ((), ("--no-cache",)):
+        done = bench.run("render", "--env", path, *SMALL, "--stats", "s.json", *words).expect(0)
+        lines = [line for line in done.err.splitlines() if "warning" in line]
+        check(len(lines) == 1 and "no high dynamic range" in lines[0], done.describe())
+        stats = json.loads((bench.folder / "s.json").read_text())
+        check(len(stats["warnings"]) == 1 and "no high dynamic range" in stats["warnings"][0] and stats["nan_pixels"] == 0, f"{stats['warnings']}")
 
 
 @case("key_lights.cache_that_cannot_be_written_is_a_warning", tier="check")
