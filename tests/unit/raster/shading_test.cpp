@@ -327,6 +327,27 @@ TEST(texture, a_minified_checkerboard_becomes_its_mean)
             EXPECT_NEAR(pixel(top, x, y)[0], 0.5f, 0.02f);
 }
 
+// Texels larger and smaller than pixels side by side, holes among them: what is found for many pixels at once is what each has alone.
+TEST(texture, of_pixels_shaded_together_is_what_each_has_alone)
+{
+    for (const AlphaMode mode : {AlphaMode::opaque, AlphaMode::mask, AlphaMode::blend}) {
+        Scene scene = textured_floor(24.0f);
+        std::uint32_t noise = 1;
+        for (Image& image : scene.images)
+            for (std::byte& b : image.bytes)
+                b = static_cast<std::byte>((noise = noise * 1664525u + 1013904223u) >> 24);
+        scene.materials[0].alpha_mode = mode;
+        const Stage stage(std::move(scene), 0.0f);
+        for (const int msaa : {1, 4}) {
+            FrameDesc d = quad_desc(64, msaa);
+            d.view = make_view({0, -1.6f, 0.25f}, {0, 0, 0}, 0.5f, 64, 64);
+            const std::uint64_t alone = pixel_hash(stage.render(d, Isa::scalar).color);
+            for (const Isa isa : available_isas())
+                EXPECT_EQ(pixel_hash(stage.render(d, isa).color), alone) << static_cast<int>(mode) << " " << msaa << " " << isa_name(isa);
+        }
+    }
+}
+
 TEST(texture, a_magnified_texel_keeps_its_colour_and_place)
 {
     Scene scene = textured_floor(8.0f);
