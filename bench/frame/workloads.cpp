@@ -18,6 +18,7 @@ const std::vector<Workload>& workloads()
         {"layers_10", "overdraw", S::layers, 10, W, H, 1},
         {"bent_normal_eta05", "samples", S::sphere, 0, W, H, 1, "bent_normal", 0, 0.5f},
         {"bent_normal_eta08", "samples", S::sphere, 0, W, H, 1, "bent_normal", 0, 0.8f},
+        {"split_isotropic", "samples", S::sphere, 0, W, H, 1, "split_isotropic"},
         {"major_axis_16_eta05", "samples", S::sphere, 0, W, H, 1, "major_axis", 16, 0.5f},
         {"major_axis_16_eta08", "samples", S::sphere, 0, W, H, 1, "major_axis", 16, 0.8f},
         {"adaptive_eta05", "samples", S::sphere, 0, W, H, 1, "major_axis_adaptive", 16, 0.5f},

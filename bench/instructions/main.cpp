@@ -1,6 +1,7 @@
 // Draws small frames for valgrind to count their instructions, one thread and AVX2. Each workload is drawn once before it counts, so
-// memory has grown and pages are there; then one frame is counted and its figures go to a file of its own. See count.py. Given
-// TECHNIQUE:SAMPLES:ALPHA_LIN:ETA, it counts these on the inside of a brushed sphere instead (lobe_line.py).
+// memory has grown and pages are there; then one frame is counted and its figures go to a file of its own. See count.py. Given the names
+// of some it counts these, NAME@WIDTHxHEIGHT in another size (mix.py); given TECHNIQUE:SAMPLES:ALPHA_LIN:ETA, that on the inside of a
+// brushed sphere (lobe_line.py).
 #include <cmath>
 #include <cstdio>
 #include <fmt/format.h>
@@ -40,6 +41,25 @@ std::vector<Workload> small_workloads()
         list.back().key_lights = lights;
     }
     return list;
+}
+
+// NAME or NAME@WIDTHxHEIGHT; nothing where it is none.
+std::optional<Workload> known(const char* text)
+{
+    const std::string_view all = text;
+    for (Workload w : small_workloads()) {
+        const std::string_view name = w.name;
+        char end = 0;
+        const bool sized = all.size() > name.size() && all[name.size()] == '@';
+        if (!all.starts_with(name) || (!sized && all != name))
+            continue;
+        if (sized && (std::sscanf(text + name.size(), "@%dx%d%c", &w.width, &w.height, &end) != 2 || w.width < 1 || w.height < 1 ||
+                      w.width > 16384 || w.height > 16384))
+            return std::nullopt;
+        w.name = text;
+        return w;
+    }
+    return std::nullopt;
 }
 
 // One TECHNIQUE:SAMPLES:ALPHA_LIN:ETA, as a workload of that name; nothing where it is none.
@@ -106,9 +126,12 @@ int main(int argc, char** argv)
     if (argc > 2 || std::string_view(argv[1]) != "--made-with") {
         std::vector<Workload> list;
         for (int i = 1; i < argc; ++i) {
-            const std::optional<Workload> w = place(argv[i]);
+            std::optional<Workload> w = known(argv[i]);
+            if (!w)
+                w = place(argv[i]);
             if (!w) {
-                fmt::print(stderr, "usage: bench_instructions [--made-with | TECHNIQUE:SAMPLES:ALPHA_LIN:ETA...] (ETA is not 0)\n");
+                fmt::print(stderr, "usage: bench_instructions [--made-with | NAME[@WIDTHxHEIGHT]... | TECHNIQUE:SAMPLES:ALPHA_LIN:ETA...] "
+                                   "(ETA is not 0)\n");
                 return static_cast<int>(ExitCode::usage);
             }
             list.push_back(*w);

@@ -114,31 +114,39 @@ BN_INLINE void store_quads(void* base, const integer r[4], int n)
             _mm256_maskstore_ps(to + 8 * j, first_lanes(4 * n - 8 * j), rows[j]);
 }
 
-BN_INLINE void blend_fields(const float* base, integer i0, integer i1, integer i2, real b0, real b1, real b2, real* out, int fields)
+template <int kPart>
+BN_INLINE __m256 blend_part(const float* base, const lane_indices& s0, const lane_indices& s1, const lane_indices& s2, real b0, real b1,
+                            real b2)
 {
-    const lane_indices s0 = spill_records(i0), s1 = spill_records(i1), s2 = spill_records(i2);
-    for (int c = 0; c < fields; c += 4) {
-        __m256 r[4];
-        for (int j = 0; j < 4; ++j) {
-            const __m256 p0 = _mm256_mul_ps(lane_weight(b0.v, j), quads_at(base + c, s0, j));
-            const __m256 p1 = _mm256_mul_ps(lane_weight(b1.v, j), quads_at(base + c, s1, j));
-            const __m256 p2 = _mm256_mul_ps(lane_weight(b2.v, j), quads_at(base + c, s2, j));
-            r[j] = _mm256_add_ps(_mm256_add_ps(p0, p1), p2);
-        }
-        transpose_quads(r, out + c);
-    }
+    const __m256 p0 = _mm256_mul_ps(lane_weight(b0.v, kPart), quads_at(base, s0, kPart));
+    const __m256 p1 = _mm256_mul_ps(lane_weight(b1.v, kPart), quads_at(base, s1, kPart));
+    const __m256 p2 = _mm256_mul_ps(lane_weight(b2.v, kPart), quads_at(base, s2, kPart));
+    return _mm256_add_ps(_mm256_add_ps(p0, p1), p2);
+}
+BN_INLINE void blend_four(const float* base, const lane_indices& s0, const lane_indices& s1, const lane_indices& s2, real b0, real b1,
+                          real b2, real out[4])
+{
+    const __m256 r[4] = {blend_part<0>(base, s0, s1, s2, b0, b1, b2), blend_part<1>(base, s0, s1, s2, b0, b1, b2),
+                         blend_part<2>(base, s0, s1, s2, b0, b1, b2), blend_part<3>(base, s0, s1, s2, b0, b1, b2)};
+    transpose_quads(r, out);
 }
 BN_INLINE void blend_records(const float* base, integer i0, integer i1, integer i2, real b0, real b1, real b2, real out[16])
 {
-    blend_fields(base, i0, i1, i2, b0, b1, b2, out, 16);
+    const lane_indices s0 = spill_records(i0), s1 = spill_records(i1), s2 = spill_records(i2);
+    blend_four(base, s0, s1, s2, b0, b1, b2, out);
+    blend_four(base + 4, s0, s1, s2, b0, b1, b2, out + 4);
+    blend_four(base + 8, s0, s1, s2, b0, b1, b2, out + 8);
+    blend_four(base + 12, s0, s1, s2, b0, b1, b2, out + 12);
 }
 BN_INLINE void blend_records_low(const float* base, integer i0, integer i1, integer i2, real b0, real b1, real b2, real out[8])
 {
-    blend_fields(base, i0, i1, i2, b0, b1, b2, out, 8);
+    const lane_indices s0 = spill_records(i0), s1 = spill_records(i1), s2 = spill_records(i2);
+    blend_four(base, s0, s1, s2, b0, b1, b2, out);
+    blend_four(base + 4, s0, s1, s2, b0, b1, b2, out + 4);
 }
 BN_INLINE void blend_quad(const float* base, integer i0, integer i1, integer i2, real b0, real b1, real b2, real out[4])
 {
-    blend_fields(base, i0, i1, i2, b0, b1, b2, out, 4);
+    blend_four(base, spill_records(i0), spill_records(i1), spill_records(i2), b0, b1, b2, out);
 }
 
 // One register a lane: [left texel, right texel].
@@ -165,18 +173,28 @@ BN_INLINE void plan_texels(texel_plan& p, integer row0, integer row1, real w00, 
     _mm256_store_si256(reinterpret_cast<__m256i*>(p.row1.at), row1.v);
     p.w00 = w00, p.w10 = w10, p.w01 = w01, p.w11 = w11;
 }
+// w0, w1: [left of four lanes, right of the same] of the upper and the lower row.
+template <int kLane> BN_INLINE void texel_add_lane(texel_acc& acc, texel_buffer texels, const texel_plan& p, __m256 w0, __m256 w1)
+{
+    const __m256 p0 = _mm256_mul_ps(lane_weight(w0, kLane & 3), texel_pair(texels, p.row0, kLane));
+    const __m256 p1 = _mm256_mul_ps(lane_weight(w1, kLane & 3), texel_pair(texels, p.row1, kLane));
+    __m256 sum = _mm256_add_ps(p0, p1);
+    __asm__("" : "+x"(sum)); // now: GCC would put it off to where it is used, and keep what it is made of in memory
+    acc.at[kLane] = _mm256_add_ps(acc.at[kLane], sum);
+}
+// Without a loop, so that the compiler keeps sums of several in registers.
 BN_INLINE texel_acc texel_add(texel_acc acc, texel_buffer texels, const texel_plan& p)
 {
-    for (int half = 0; half < 2; ++half) { // weights: [left of four lanes, right of the same]
-        const __m256 w0 = half ? _mm256_permute2f128_ps(p.w00.v, p.w10.v, 0x31) : _mm256_permute2f128_ps(p.w00.v, p.w10.v, 0x20);
-        const __m256 w1 = half ? _mm256_permute2f128_ps(p.w01.v, p.w11.v, 0x31) : _mm256_permute2f128_ps(p.w01.v, p.w11.v, 0x20);
-        for (int j = 0; j < 4; ++j) {
-            const int lane = 4 * half + j;
-            const __m256 p0 = _mm256_mul_ps(lane_weight(w0, j), texel_pair(texels, p.row0, lane));
-            const __m256 p1 = _mm256_mul_ps(lane_weight(w1, j), texel_pair(texels, p.row1, lane));
-            acc.at[lane] = _mm256_add_ps(acc.at[lane], _mm256_add_ps(p0, p1));
-        }
-    }
+    const __m256 low0 = _mm256_permute2f128_ps(p.w00.v, p.w10.v, 0x20), low1 = _mm256_permute2f128_ps(p.w01.v, p.w11.v, 0x20);
+    texel_add_lane<0>(acc, texels, p, low0, low1);
+    texel_add_lane<1>(acc, texels, p, low0, low1);
+    texel_add_lane<2>(acc, texels, p, low0, low1);
+    texel_add_lane<3>(acc, texels, p, low0, low1);
+    const __m256 high0 = _mm256_permute2f128_ps(p.w00.v, p.w10.v, 0x31), high1 = _mm256_permute2f128_ps(p.w01.v, p.w11.v, 0x31);
+    texel_add_lane<4>(acc, texels, p, high0, high1);
+    texel_add_lane<5>(acc, texels, p, high0, high1);
+    texel_add_lane<6>(acc, texels, p, high0, high1);
+    texel_add_lane<7>(acc, texels, p, high0, high1);
     return acc;
 }
 BN_INLINE texel_acc texel_add(texel_acc acc, texel_buffer texels, integer row0, integer row1, real w00, real w10, real w01, real w11)

@@ -199,17 +199,29 @@ BN_INLINE void plan_texels(texel_plan& p, integer row0, integer row1, real w00, 
     _mm512_store_si512(p.row1.at, row1.v);
     p.w00 = w00, p.w10 = w10, p.w01 = w01, p.w11 = w11;
 }
+// Lanes kLane and kLane + 4. w0, w1: texel_weights() of the upper and the lower row.
+template <int kLane> BN_INLINE void texel_add_lanes(texel_acc& acc, texel_buffer texels, const texel_plan& p, real w0, real w1)
+{
+    constexpr int kAt = kLane < 8 ? kLane : kLane - 4;
+    const __m512 p0 = _mm512_mul_ps(lane_weight(w0, kLane & 3), texel_pairs(texels, p.row0, kLane, kLane + 4));
+    const __m512 p1 = _mm512_mul_ps(lane_weight(w1, kLane & 3), texel_pairs(texels, p.row1, kLane, kLane + 4));
+    __m512 sum = _mm512_add_ps(p0, p1);
+    __asm__("" : "+v"(sum)); // now: GCC would put it off to where it is used, and keep what it is made of in memory
+    acc.at[kAt] = _mm512_add_ps(acc.at[kAt], sum);
+}
+// Without a loop, so that the compiler keeps sums of several in registers.
 BN_INLINE texel_acc texel_add(texel_acc acc, texel_buffer texels, const texel_plan& p)
 {
-    for (int half = 0; half < 2; ++half) {
-        const real w0 = texel_weights(p.w00, p.w10, 8 * half), w1 = texel_weights(p.w01, p.w11, 8 * half);
-        for (int j = 0; j < 4; ++j) {
-            const int a = 8 * half + j;
-            const __m512 p0 = _mm512_mul_ps(lane_weight(w0, j), texel_pairs(texels, p.row0, a, a + 4));
-            const __m512 p1 = _mm512_mul_ps(lane_weight(w1, j), texel_pairs(texels, p.row1, a, a + 4));
-            acc.at[4 * half + j] = _mm512_add_ps(acc.at[4 * half + j], _mm512_add_ps(p0, p1));
-        }
-    }
+    const real low0 = texel_weights(p.w00, p.w10, 0), low1 = texel_weights(p.w01, p.w11, 0);
+    texel_add_lanes<0>(acc, texels, p, low0, low1);
+    texel_add_lanes<1>(acc, texels, p, low0, low1);
+    texel_add_lanes<2>(acc, texels, p, low0, low1);
+    texel_add_lanes<3>(acc, texels, p, low0, low1);
+    const real high0 = texel_weights(p.w00, p.w10, 8), high1 = texel_weights(p.w01, p.w11, 8);
+    texel_add_lanes<8>(acc, texels, p, high0, high1);
+    texel_add_lanes<9>(acc, texels, p, high0, high1);
+    texel_add_lanes<10>(acc, texels, p, high0, high1);
+    texel_add_lanes<11>(acc, texels, p, high0, high1);
     return acc;
 }
 BN_INLINE texel_acc texel_add(texel_acc acc, texel_buffer texels, integer row0, integer row1, real w00, real w10, real w01, real w11)

@@ -180,6 +180,7 @@ ShadingFrame FrameMaker::make(const FrameDesc& desc)
     f.shading_vertices = reinterpret_cast<const float*>(t.shading.data());
     f.indices = t.indices.data(), f.triangle_material = t.triangle_material.data();
     f.materials = materials_.data(), f.textures = scene_.textures.data(), f.lights = scene_.lights.data();
+    f.light_columns = scene_.light_columns.data(), f.light_stride = scene_.light_stride;
     f.area_lights = scene_.area_lights.data(), f.ltc_texels = ltc_texels().data();
     f.specular_texels = input_.environment.specular.texels.data(), f.irradiance_texels = input_.environment.irradiance.texels.data();
     f.whole_texels = input_.environment.picture().texels.data();

@@ -143,6 +143,18 @@ std::vector<LightRecord> light_records(const DrawTables& tables)
     return records;
 }
 
+void put_light_columns(SceneTables& s)
+{
+    const std::size_t stride = s.lights.size() + kColumnPad;
+    s.light_stride = static_cast<int>(stride);
+    s.light_columns.resize(4 * stride);
+    for (std::size_t i = 0; i < s.lights.size(); ++i) {
+        for (std::size_t k = 0; k < 3; ++k)
+            s.light_columns[k * stride + i] = s.lights[i].position[k];
+        s.light_columns[3 * stride + i] = s.lights[i].directional ? 0.0f : s.lights[i].inv_range2;
+    }
+}
+
 std::vector<AreaLightRecord> area_light_records(const DrawTables& tables)
 {
     std::vector<AreaLightRecord> records;
@@ -162,6 +174,7 @@ SceneTables upload_scene(const Scene& scene, const DrawTables& tables, const Job
     s.materials = material_records(scene, false);
     s.overridden = material_records(scene, true);
     s.lights = light_records(tables);
+    put_light_columns(s);
     s.area_lights = area_light_records(tables);
     return s;
 }

@@ -16,6 +16,8 @@ struct SceneTables { // keeps alive what the records point at
     std::vector<MaterialRecord> materials;
     std::vector<MaterialRecord> overridden; // for frames that override(): with other textures
     std::vector<LightRecord> lights;
+    std::vector<float> light_columns; // FrameTables
+    int light_stride = 0;
     std::vector<AreaLightRecord> area_lights;
 };
 

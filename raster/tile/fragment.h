@@ -38,26 +38,24 @@ BN_INLINE void unclip_setup(const TileScratch& scratch, mask clipped, LaneSetup&
 // common: the triangle of all fragments, or kManyTriangles.
 BN_INLINE LaneSetup load_setup(const TileScratch& scratch, integer triangle, std::int32_t common)
 {
-    integer field[16];
     LaneSetup r;
     r.common_vertex[0] = kManyTriangles;
     if (common != kManyTriangles) {
-        std::int32_t words[16];
-        __builtin_memcpy(words, scratch.triangles + common, sizeof words);
-        for (int k = 0; k < 16; ++k)
-            field[k] = int_lit(words[k]);
-        for (int k = 0; k < 3 && !(words[15] & kClipped); ++k)
-            r.common_vertex[k] = words[12 + k];
+        const TriangleSetup& t = scratch.triangles[common];
+        for (int k = 0; k < 3; ++k)
+            r.x[k] = int_lit(t.x[k]), r.y[k] = int_lit(t.y[k]), r.vertex[k] = int_lit(t.vertex[k]);
+        r.inv_w = vec3_of(splat(t.inv_w[0]), splat(t.inv_w[1]), splat(t.inv_w[2]));
+        r.info = int_lit(t.info);
+        for (int k = 0; k < 3 && !(t.info & kClipped); ++k)
+            r.common_vertex[k] = t.vertex[k];
     } else {
+        integer field[16];
         load_records16(scratch.triangles, triangle, field);
+        for (int k = 0; k < 3; ++k)
+            r.x[k] = field[k], r.y[k] = field[3 + k], r.vertex[k] = field[12 + k];
+        r.inv_w = vec3_of(real_from_bits(field[6]), real_from_bits(field[7]), real_from_bits(field[8]));
+        r.info = field[15];
     }
-    for (int k = 0; k < 3; ++k) {
-        r.x[k] = field[k];
-        r.y[k] = field[3 + k];
-        r.vertex[k] = field[12 + k];
-    }
-    r.inv_w = vec3_of(real_from_bits(field[6]), real_from_bits(field[7]), real_from_bits(field[8]));
-    r.info = field[15];
     const mask clipped = (r.info & int_lit(kClipped)) != int_lit(0);
     r.clipped = any(clipped);
     if (r.clipped)
@@ -66,14 +64,14 @@ BN_INLINE LaneSetup load_setup(const TileScratch& scratch, integer triangle, std
 }
 
 // What assembly asks of triangles: shading/lang/triangle.h.
-BN_INLINE real4 blend_coordinates(const FrameParams& f, const LaneSetup& t, real3 b)
+BN_INLINE real4 blend_coordinates(any_frame f, const LaneSetup& t, real3 b)
 {
     real r[4];
     blend_quad(f.shading_vertices + 8, t.vertex[0], t.vertex[1], t.vertex[2], b.x, b.y, b.z, r);
     return vec4_of(r[0], r[1], r[2], r[3]);
 }
 
-BN_INLINE void blend_vertices(const FrameParams& f, const LaneSetup& t, real3 b, bool all_words, vertex_words& a)
+BN_INLINE void blend_vertices(any_frame f, const LaneSetup& t, real3 b, bool all_words, vertex_words& a)
 {
     if (t.common_vertex[0] == kManyTriangles) {
         if (all_words)
@@ -85,18 +83,25 @@ BN_INLINE void blend_vertices(const FrameParams& f, const LaneSetup& t, real3 b,
     const float* v0 = f.shading_vertices + std::size_t{16} * static_cast<std::uint32_t>(t.common_vertex[0]);
     const float* v1 = f.shading_vertices + std::size_t{16} * static_cast<std::uint32_t>(t.common_vertex[1]);
     const float* v2 = f.shading_vertices + std::size_t{16} * static_cast<std::uint32_t>(t.common_vertex[2]);
-    for (int c = 0; c < (all_words ? 16 : 8); ++c)
+    const auto four = [&](int c) {
         a.at[c] = b.x * splat(v0[c]) + b.y * splat(v1[c]) + b.z * splat(v2[c]);
+        a.at[c + 1] = b.x * splat(v0[c + 1]) + b.y * splat(v1[c + 1]) + b.z * splat(v2[c + 1]);
+        a.at[c + 2] = b.x * splat(v0[c + 2]) + b.y * splat(v1[c + 2]) + b.z * splat(v2[c + 2]);
+        a.at[c + 3] = b.x * splat(v0[c + 3]) + b.y * splat(v1[c + 3]) + b.z * splat(v2[c + 3]);
+    };
+    four(0), four(4);
+    if (all_words)
+        four(8), four(12);
 }
 
-BN_INLINE real3 vertex_place(const FrameParams& f, const LaneSetup& t, int k)
+BN_INLINE real3 vertex_place(any_frame f, const LaneSetup& t, int k)
 {
     return vec3_of(gather(f.px, t.vertex[k]), gather(f.py, t.vertex[k]), gather(f.pz, t.vertex[k]));
 }
 
 // common: the triangle of all fragments, or kManyTriangles. samples: covered sample mask. pixel_x, pixel_y: in the image. lights: there are
 // some, which ask for the position.
-BN_INLINE visible_point make_fragment_inline(const FrameParams& f, material_ref m, const view_params& view, const TileScratch& scratch,
+BN_INLINE visible_point make_fragment_inline(frame_ref f, material_ref m, const view_params& view, const TileScratch& scratch,
                                              integer triangle, std::int32_t common, integer pixel_x, integer pixel_y, integer samples,
                                              bool lights)
 {

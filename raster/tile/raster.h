@@ -108,9 +108,7 @@ BN_INLINE bool block_hidden(const FrameParams& f, const TileTriangle& t, float n
     return hidden(farthest[0]);
 }
 
-struct NoAlpha { // opaque: every covered sample counts
-    static constexpr bool kTests = false;
-};
+struct NoAlpha {}; // opaque: every covered sample counts
 
 // Depth test and write of the samples of a register of pixels, `at` the values of kEdges edges at their corners, z the depth there. alive:
 // by sample, the pixels that survive an alpha test; or null.
@@ -145,46 +143,103 @@ BN_INLINE bool cover_register(const FrameParams& f, const TileTriangle& t, const
     return wrote;
 }
 
-// Depth test and write of one block; `alpha(v, pixels)` gives the sample masks that survive an alpha test.
+// The pixels of register v of a block: the triangle's depth at their corners, and the values of the edges that cross the block.
+struct BlockRegister {
+    real z;
+    integer at[3];
+};
+template <int kEdges>
+BN_INLINE BlockRegister block_register(const BlockEdges& e, const BlockLanes& lanes, real z_corner, real dz_x, real dz_y, int v)
+{
+    const int vx = v * kLanes & 7, vy = v * kLanes >> 3;
+    BlockRegister r;
+    for (int i = 0; i < kEdges; ++i)
+        r.at[i] = int_lit(e.at[i] + 16 * (e.step_x[i] * vx + e.step_y[i] * vy)) + e.lane[i];
+    const real x = lanes.x + splat(static_cast<float>(vx)), y = lanes.y + splat(static_cast<float>(vy));
+    r.z = z_corner + depth_change(dz_x, dz_y, x, y);
+    return r;
+}
+
+// Registers of a block's rows.
+struct RegisterRange {
+    int first, last;
+};
+BN_INLINE RegisterRange registers_of_rows(int row0, int row1)
+{
+    return {row0 * kBlock / kLanes, (row1 * kBlock + kBlock - 1) / kLanes};
+}
+
+// Depth test and write of one block of an opaque triangle.
+template <int kEdges, bool kAnyOrder>
+BN_INLINE bool cover_block(const FrameParams& f, const TileTriangle& t, const BlockEdges& e, const BlockLanes& lanes, float z_corner,
+                           int row0, int row1, std::uint32_t id, float* depth, std::uint32_t* ids, const NoAlpha&)
+{
+    const real dz_x = splat(t.dz_x), dz_y = splat(t.dz_y);
+    const integer lane_id = int_lit(static_cast<std::int32_t>(id)), zero = int_lit(0);
+    const RegisterRange range = registers_of_rows(row0, row1);
+    bool wrote = false;
+    for (int v = range.first; v <= range.last; ++v) {
+        const BlockRegister r = block_register<kEdges>(e, lanes, splat(z_corner), dz_x, dz_y, v);
+        integer greatest = zero, least = zero; // signs of the samples inside and outside by most
+        for (int i = 0; i < kEdges; ++i) {
+            greatest = greatest | (r.at[i] + int_lit(e.sample_greatest[i]));
+            least = least | (r.at[i] + int_lit(e.sample_least[i]));
+        }
+        if (kEdges > 0 && f.msaa > 1 && all(greatest < zero))
+            continue;
+        float* const to_depth = depth + v * kLanes;
+        std::int32_t* const to_ids = reinterpret_cast<std::int32_t*>(ids) + v * kLanes;
+        if (kEdges > 0 && f.msaa > 1 && all(least >= zero))
+            wrote = cover_register<0, kAnyOrder>(f, t, e, r.at, r.z, lane_id, to_depth, to_ids, nullptr) || wrote;
+        else
+            wrote = cover_register<kEdges, kAnyOrder>(f, t, e, r.at, r.z, lane_id, to_depth, to_ids, nullptr) || wrote;
+    }
+    return wrote;
+}
+
+// The same of a triangle whose alpha is tested: first the pixels that may show it are put together, so that `alpha.find(pixels, n, to)`
+// finds the alpha of full registers of them; alpha.staying() gives those whose sample stays.
 template <int kEdges, bool kAnyOrder, class Alpha>
 BN_INLINE bool cover_block(const FrameParams& f, const TileTriangle& t, const BlockEdges& e, const BlockLanes& lanes, float z_corner,
                            int row0, int row1, std::uint32_t id, float* depth, std::uint32_t* ids, const Alpha& alpha)
 {
     const real z_min = splat(t.z_min), z_max = splat(t.z_max), dz_x = splat(t.dz_x), dz_y = splat(t.dz_y);
     const integer lane_id = int_lit(static_cast<std::int32_t>(id)), zero = int_lit(0);
+    const RegisterRange range = registers_of_rows(row0, row1);
+    std::int32_t pixels[kBlockPixels + kLanes]; // whole registers are written
+    float found[kBlockPixels + kLanes];
+    std::uint32_t shown[kVectors]; // by register: pixels that may show it at some sample
+    int count = 0;
+    for (int v = range.first; v <= range.last; ++v) {
+        const BlockRegister r = block_register<kEdges>(e, lanes, splat(z_corner), dz_x, dz_y, v);
+        shown[v] = 0;
+        for (int s = 0; s < f.msaa; ++s) {
+            integer side = zero;
+            for (int i = 0; i < kEdges; ++i)
+                side = side | (r.at[i] + int_lit(e.sample_step[i][s]));
+            const real zs = depth_at_sample(r.z, splat(t.sample_z[s]), z_min, z_max);
+            shown[v] |= to_bits(both(side >= zero, zs >= load(depth + s * kBlockPixels + v * kLanes)));
+        }
+        if (shown[v])
+            count += compress_store_int(pixels + count, iota() + int_lit(v * kLanes), mask_from_bits(shown[v]));
+    }
+    if (count == 0)
+        return false;
+    alpha.find(pixels, count, found);
+    const float* of_register = found;
     bool wrote = false;
-    for (int v = row0 * kBlock / kLanes, end = (row1 * kBlock + kBlock - 1) / kLanes; v <= end; ++v) {
-        const int vx = v * kLanes & 7, vy = v * kLanes >> 3;
-        integer at[3] = {zero, zero, zero}, greatest = zero, least = zero; // signs of the samples inside and outside by most
-        for (int i = 0; i < kEdges; ++i) {
-            at[i] = int_lit(e.at[i] + 16 * (e.step_x[i] * vx + e.step_y[i] * vy)) + e.lane[i];
-            greatest = greatest | (at[i] + int_lit(e.sample_greatest[i]));
-            least = least | (at[i] + int_lit(e.sample_least[i]));
-        }
-        if (kEdges > 0 && f.msaa > 1 && all(greatest < zero))
+    for (int v = range.first; v <= range.last; ++v) {
+        if (!shown[v])
             continue;
-        const real x = lanes.x + splat(static_cast<float>(vx)), y = lanes.y + splat(static_cast<float>(vy));
-        const real z = splat(z_corner) + depth_change(dz_x, dz_y, x, y);
-        float* const to_depth = depth + v * kLanes;
-        std::int32_t* const to_ids = reinterpret_cast<std::int32_t*>(ids) + v * kLanes;
-        if constexpr (Alpha::kTests) {
-            std::uint32_t alive[kMaxSamples], some = 0;
-            for (int s = 0; s < f.msaa; ++s) {
-                integer side = zero;
-                for (int i = 0; i < kEdges; ++i)
-                    side = side | (at[i] + int_lit(e.sample_step[i][s]));
-                const real zs = depth_at_sample(z, splat(t.sample_z[s]), z_min, z_max);
-                some |= to_bits(both(side >= zero, zs >= load(to_depth + s * kBlockPixels)));
-            }
-            if (!some)
-                continue;
-            alpha(v, some, alive);
-            wrote = cover_register<kEdges, kAnyOrder>(f, t, e, at, z, lane_id, to_depth, to_ids, alive) || wrote;
-        } else if (kEdges > 0 && f.msaa > 1 && all(least >= zero)) {
-            wrote = cover_register<0, kAnyOrder>(f, t, e, at, z, lane_id, to_depth, to_ids, nullptr) || wrote;
-        } else {
-            wrote = cover_register<kEdges, kAnyOrder>(f, t, e, at, z, lane_id, to_depth, to_ids, nullptr) || wrote;
-        }
+        const real value = expand_load(of_register, mask_from_bits(shown[v]));
+        of_register += __builtin_popcount(shown[v]);
+        std::uint32_t alive[kMaxSamples];
+        for (int s = 0; s < f.msaa; ++s)
+            alive[s] = shown[v] & alpha.staying(value, s);
+        const BlockRegister r = block_register<kEdges>(e, lanes, splat(z_corner), dz_x, dz_y, v);
+        wrote = cover_register<kEdges, kAnyOrder>(f, t, e, r.at, r.z, lane_id, depth + v * kLanes,
+                                                  reinterpret_cast<std::int32_t*>(ids) + v * kLanes, alive) ||
+                wrote;
     }
     return wrote;
 }

@@ -28,15 +28,22 @@ BN_INLINE MaterialPlan plan_material(frame_ref f, material_ref m)
 
 // x, y: pixels.
 template <Technique kTechnique>
-BN_INLINE line_record shade_fragments(frame_ref f, material_ref m, const MaterialPlan& plan, const visible_point& p, integer x, integer y)
+BN_INLINE line_record shade_fragments(frame_ref f, material_ref m, const material_inputs& at, const lobe_shape& shape,
+                                      const visible_point& p, integer x, integer y)
 {
     using Tag = technique_tag<kTechnique>;
+    return light_of_fragment(f, m, Tag{}, at, shape, p, x, y, (Tag::kTraits & kSharesSamples) != 0);
+}
+
+template <Technique kTechnique>
+BN_INLINE line_record shade_planned(frame_ref f, material_ref m, const MaterialPlan& plan, const visible_point& p, integer x, integer y)
+{
     material_inputs fetched;
     if (!plan.uniform)
         fetched = fetch_lanes(f, m, p);
     const material_inputs& at = plan.uniform ? plan.at : fetched;
     const lobe_shape shape = plan.one_shape ? plan.shape : lobe_shape_of(f, m, at);
-    return light_of_fragment(f, m, Tag{}, at, shape, p, x, y, (Tag::kTraits & kSharesSamples) != 0);
+    return shade_fragments<kTechnique>(f, m, at, shape, p, x, y);
 }
 
 } // namespace BN_ISA_NS

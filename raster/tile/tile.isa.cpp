@@ -170,12 +170,12 @@ void shade_plain_slot(const Tile& t, const view_params& view, const MaterialReco
     const PlainFrame frame{t.f};
     const Material material{m};
     const view_params eye = view;
-    MaterialPlan plan = found;
-    plan.uniform = plan.one_shape = true;
+    const material_inputs at = found.at;
+    const lobe_shape shape = found.shape;
     for (std::uint32_t i = begin; i < end; i += kLanes) {
         const Batch b = load_batch(t, i, end);
-        const visible_point p = make_fragment_inline(t.f, material, eye, t.s, b.triangle, b.common, b.x, b.y, b.samples, false);
-        const line_record light = shade_fragments<kTechnique>(frame, material, plan, p, b.x, b.y);
+        const visible_point p = make_fragment_inline(frame, material, eye, t.s, b.triangle, b.common, b.x, b.y, b.samples, false);
+        const line_record light = shade_fragments<kTechnique>(frame, material, at, shape, p, b.x, b.y);
         if constexpr ((technique_tag<kTechnique>::kTraits & kSharesSamples) != 0)
             store_lines(t, b, light);
         else
@@ -204,7 +204,7 @@ void shade_slot(const Tile& t, const view_params& view, const MaterialRecord& m,
     for (std::uint32_t i = begin; i < end; i += kLanes) {
         const Batch b = load_batch(t, i, end);
         const visible_point p = make_fragment(t.f, m, view, t.s, b.triangle, b.common, b.x, b.y, b.samples);
-        const line_record light = shade_fragments<kTechnique>(t.f, m, plan, p, b.x, b.y);
+        const line_record light = shade_planned<kTechnique>(t.f, m, plan, p, b.x, b.y);
         if (m.technique_traits & kSharesSamples)
             store_lines(t, b, light);
         else

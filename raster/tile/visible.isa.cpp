@@ -25,23 +25,23 @@ BN_STAGE real alpha_at(const Tile& t, const MaterialRecord& m, const view_params
 
 // Alpha test of one triangle in one block.
 struct BlockAlpha {
-    static constexpr bool kTests = true;
     const Tile& t;
     const MaterialRecord& m;
     const view_params& view;
     std::uint32_t triangle;
     int block_x, block_y;
 
-    void operator()(int v, std::uint32_t lanes, std::uint32_t alive[kMaxSamples]) const
+    // Alpha of n pixels of the block, counted by rows; whole registers are read and written.
+    void find(const std::int32_t* pixels, int n, float* to) const
     {
-        const integer lane = iota() + int_lit(v * kLanes);
-        const integer x = (lane & int_lit(7)) + int_lit(t.x0 + block_x * kBlock);
-        const integer y = shr(lane, 3) + int_lit(t.y0 + block_y * kBlock);
         const std::int32_t id = static_cast<std::int32_t>(triangle);
-        const real alpha = alpha_at(t, m, view, id, x, y);
-        for (int s = 0; s < t.f.msaa; ++s)
-            alive[s] = lanes & to_bits(alpha_stays(m, alpha, splat(blend_threshold(s, t.f.msaa))));
+        const integer x0 = int_lit(t.x0 + block_x * kBlock), y0 = int_lit(t.y0 + block_y * kBlock);
+        for (int i = 0; i < n; i += kLanes) { // spare lanes repeat the first pixel
+            const integer pixel = select(iota() < int_lit(n - i), load_int(pixels + i), int_lit(pixels[i]));
+            store(to + i, alpha_at(t, m, view, id, (pixel & int_lit(7)) + x0, shr(pixel, 3) + y0));
+        }
     }
+    std::uint32_t staying(real alpha, int sample) const { return to_bits(alpha_stays(m, alpha, splat(blend_threshold(sample, t.f.msaa)))); }
 };
 
 struct AlphaBlocks {

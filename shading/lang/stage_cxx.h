@@ -17,6 +17,51 @@ BN_INLINE const LightRecord& the_light(frame_ref f, int i)
     return f.lights[i];
 }
 
+// Which of the frame's lights may reach some of kLanes places: those that are nearer to the box around the places than their range. A
+// light's distance from a place is never below that from the box, with the same roundings, so that none is left out that would shine.
+struct light_reach {
+    real3 least, most;  // the box
+    std::uint32_t bits; // of the kLanes lights from `first` on, those that may
+    int first;
+};
+
+BN_INLINE std::uint32_t lights_near(frame_ref f, const light_reach& r)
+{
+    const float* const columns = f.light_columns + r.first;
+    const int stride = f.light_stride;
+    const real3 position = vec3_of(load(columns), load(columns + stride), load(columns + 2 * stride));
+    const real3 d = max(max(r.least - position, position - r.most), vec3_all(lit(0.0)));
+    const real d2 = max(k_dot3(d, d), lit(1e-12));
+    const int left = f.light_count - r.first;
+    return to_bits(both(iota() < int_lit(left), not_(d2 * load(columns + 3 * stride) >= lit(1.0))));
+}
+BN_INLINE light_reach lights_reaching(frame_ref f, const real3& p)
+{
+    light_reach r;
+    r.least = vec3_of(reduce_min(p.x), reduce_min(p.y), reduce_min(p.z));
+    r.most = vec3_of(reduce_max(p.x), reduce_max(p.y), reduce_max(p.z));
+    if (!all(k_dot3(p, p) < lit(1e30))) { // some place is nowhere: then it is asked of each light by itself
+        r.least = vec3_all(lit(-1e30));
+        r.most = vec3_all(lit(1e30));
+    }
+    r.first = 0;
+    r.bits = lights_near(f, r);
+    return r;
+}
+// The next of them, or what is not below light_count; each is given once.
+BN_INLINE int next_light(frame_ref f, light_reach& r)
+{
+    while (!r.bits && r.first + kLanes < f.light_count) {
+        r.first += kLanes;
+        r.bits = lights_near(f, r);
+    }
+    if (!r.bits)
+        return f.light_count;
+    const int i = r.first + __builtin_ctz(r.bits);
+    r.bits &= r.bits - 1;
+    return i;
+}
+
 BN_INLINE const AreaLightRecord& the_area_light(frame_ref f, int i)
 {
     return f.area_lights[i];

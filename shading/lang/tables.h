@@ -53,6 +53,8 @@ struct FrameTables {
     const MaterialRecord* materials;
     const TextureParams* textures;
     const LightRecord* lights;
+    const float* light_columns; // of the same lights: x, y, z, inv_range2, light_stride of each; a register may be read at any light
+    int light_stride;
     const AreaLightRecord* area_lights;
     const std::uint16_t *specular_texels, *irradiance_texels, *whole_texels, *box_texels; // CubeMap::texels
     const std::uint16_t *dfg_texels, *lobe_albedo_texels, *lobe_slice_texels; // DfgTable::texels, bake_lobe_albedo(), bake_lobe_slice()

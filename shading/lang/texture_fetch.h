@@ -57,12 +57,15 @@ BN_STAGE void plan_texture(const texture_fetches& t, const TextureBinding& b)
     store(most, reduce_max(footprint.taps));
     const texture_taps taps = texture_taps_of(desc, place.uv, footprint);
     const int n = static_cast<int>(most[0]);
+    const bool between = any(taps.f > lit(0.0)); // else the coarser level weighs nothing, as where texels are larger than pixels
+    int count = 0;
     for (int i = 0; i < n; ++i) {
         const texture_tap tap = texture_tap_at(taps, i);
-        plan(t.plans[2 * i], tap.fine);
-        plan(t.plans[2 * i + 1], tap.coarse);
+        plan(t.plans[count++], tap.fine);
+        if (between)
+            plan(t.plans[count++], tap.coarse);
     }
-    t.count = 2 * n;
+    t.count = count;
 }
 
 BN_STAGE real4 load_planned(const texture_fetches& t, texel_buffer texels)

@@ -57,7 +57,8 @@ BN_FN real3 light_from_punctual(frame_ref f, BN_IN(shaded_point) x, int model, r
     rough_interface through;
     if (x.refracts)
         through = rough_interface_at(x);
-    for (int i = 0; i < the_frame(f).light_count; ++i) {
+    light_reach reach = lights_reaching(f, position);
+    for (int i = next_light(f, reach); i < the_frame(f).light_count; i = next_light(f, reach)) {
         light_sample at = light_towards(f, position, i);
         if (no_lane(at.attenuation > lit(0.0))) // out of its range or cone
             continue;

@@ -8,6 +8,9 @@
 #include "shading/kernels/cube_filter.k.h"
 
 #define the_light(f, i) lights[i]
+#define light_reach int // the next one
+#define lights_reaching(f, position) 0
+#define next_light(f, reach) reach++
 #define the_area_light(f, i) area_lights[i]
 #define dfg_texels(f) kGpuDfgPage
 #define lobe_albedo_texels(f) kGpuLobeAlbedoPage

@@ -212,6 +212,49 @@ TEST(light, a_point_light_follows_the_inverse_square_and_lambert)
     EXPECT_NEAR(pixel(f, 16, 16)[2], expected, 1e-4f);
 }
 
+// Lights are left out where none of the places that are shaded together lies in their range: here every pixel has others, and some pixels
+// lie near to the end of a range.
+TEST(light, of_many_each_shines_as_far_as_its_range)
+{
+    constexpr int kSide = 33;
+    constexpr double kHalf = 0.6, kHeight = 0.1, kRange = 0.3;
+    Scene scene = quad_scene(1.0f);
+    scene.materials[0].metallic = 0.0f;
+    scene.materials[0].roughness = 1.0f;
+    scene.materials[0].specular = 0.0f;
+    scene.materials[0].base_color = glm::vec4(1.0f);
+    for (int i = 0; i < 40; ++i) { // more than a register holds
+        Light light;
+        light.intensity = 0.01f * static_cast<float>(1 + i % 7);
+        light.range = static_cast<float>(kRange);
+        scene.lights.push_back(light);
+        Node node;
+        node.light = i;
+        node.local[3] = glm::vec4(0.17 * (i % 8) - 0.6, 0.25 * (i / 8) - 0.5, kHeight, 1.0);
+        scene.nodes.push_back(node);
+    }
+    update_world(scene);
+    const Stage stage(scene, 0.0f);
+    FrameDesc d = quad_desc(kSide, 1);
+    d.view = make_view({0, 0, 400}, {0, 0, 0}, 2.0f * static_cast<float>(std::atan(kHalf / 400.0)), kSide, kSide);
+    for (const Isa isa : available_isas()) {
+        const Frame f = stage.render(d, isa);
+        for (int y = 0; y < kSide; ++y)
+            for (int x = 0; x < kSide; ++x) {
+                const double px = kHalf * (2 * x + 1 - kSide) / kSide, py = kHalf * (kSide - 1 - 2 * y) / kSide;
+                double expected = 0.0;
+                for (std::size_t i = 0; i < scene.lights.size(); ++i) {
+                    const double dx = scene.nodes[scene.nodes.size() - 40 + i].local[3].x - static_cast<float>(px);
+                    const double dy = scene.nodes[scene.nodes.size() - 40 + i].local[3].y - static_cast<float>(py);
+                    const double d2 = dx * dx + dy * dy + kHeight * kHeight, share = d2 / (kRange * kRange);
+                    const double window = std::max(1.0 - share * share, 0.0);
+                    expected += static_cast<double>(scene.lights[i].intensity) * window / d2 * kHeight / std::sqrt(d2) / 3.14159265358979;
+                }
+                ASSERT_NEAR(pixel(f, x, y)[0], expected, 1e-4 * (1.0 + expected)) << isa_name(isa) << " " << x << " " << y;
+            }
+    }
+}
+
 // A metal quad facing +z under one directional light, seen from straight above: the lobe's value in closed form.
 TEST(light, an_anisotropic_metal_answers_a_light_with_its_anisotropic_lobe)
 {
@@ -325,6 +368,27 @@ TEST(texture, a_minified_checkerboard_becomes_its_mean)
     for (int y = 8; y < 16; ++y)
         for (int x = 8; x < 16; ++x)
             EXPECT_NEAR(pixel(top, x, y)[0], 0.5f, 0.02f);
+}
+
+// Texels larger and smaller than pixels side by side, holes among them: what is found for many pixels at once is what each has alone.
+TEST(texture, of_pixels_shaded_together_is_what_each_has_alone)
+{
+    for (const AlphaMode mode : {AlphaMode::opaque, AlphaMode::mask, AlphaMode::blend}) {
+        Scene scene = textured_floor(24.0f);
+        std::uint32_t noise = 1;
+        for (Image& image : scene.images)
+            for (std::byte& b : image.bytes)
+                b = static_cast<std::byte>((noise = noise * 1664525u + 1013904223u) >> 24);
+        scene.materials[0].alpha_mode = mode;
+        const Stage stage(std::move(scene), 0.0f);
+        for (const int msaa : {1, 4}) {
+            FrameDesc d = quad_desc(64, msaa);
+            d.view = make_view({0, -1.6f, 0.25f}, {0, 0, 0}, 0.5f, 64, 64);
+            const std::uint64_t alone = pixel_hash(stage.render(d, Isa::scalar).color);
+            for (const Isa isa : available_isas())
+                EXPECT_EQ(pixel_hash(stage.render(d, isa).color), alone) << static_cast<int>(mode) << " " << msaa << " " << isa_name(isa);
+        }
+    }
 }
 
 TEST(texture, a_magnified_texel_keeps_its_colour_and_place)
