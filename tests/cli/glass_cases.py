@@ -62,7 +62,7 @@ def opaque(bench):
 def agrees(bench):
     needs_embree(bench)
     lamp = ("--light", "quad:points=-1,-0.2,0.1/-1,0.8,0.1/-1,0.8,0.7/-1,-0.2,0.7:radiance=5,5,5:two-sided", "--area-lights", "mc")
-    for name, more in (("lit", (*lamp, "--light-samples", "4096")), ("clear", ()), ("tilted", ("--tilt", "20,-10")),
+    for name, more in (("lit", (*lamp, "--light-samples", "4096", "--env", "builtin:night")), ("clear", ()), ("tilted", ("--tilt", "20,-10")),
                        ("whole", ("--energy-compensation",))):
         path = scene(bench, name, factor=0.8)
         words = (path, *CLOSE, "--key-lights", "off", "-q", *more)
