@@ -5,8 +5,8 @@ Usage: models_sheet.py --program build/release/burnish -o models.png [--env FILE
                        [--exposure EV] [--side PIXELS] [--samples N] [--reference-samples N] [--work FOLDER]
 
 Columns: the picture of the tile renderer (mc), that of the reference, HDR-FLIP between them. `lambert`, which is no lobe, is a sphere that
-reflects diffusely and nothing else; a model that lies on no surface yet has its name alone. What is there in the work folder is not made
-again. Exit code: 0 drawn; 1 a model is further from its reference than --fail-flip; 2 something could not be run.
+reflects diffusely and nothing else, `ellipsoid_dielectric` one of glass, through whose near side the environment is seen.
+What is there in the work folder is not made again. Exit code: 0 drawn; 1 a model is further from its reference than --fail-flip; 2 something could not be run.
 """
 
 import argparse
@@ -24,6 +24,9 @@ FONT = pathlib.Path(__file__).resolve().parents[1] / "apps/report/stroke_font.jh
 GAP, LINE = 12, 22  # px: around pictures, of a line of text
 DIFFUSE = {"pbrMetallicRoughness": {"baseColorFactor": [0.8, 0.8, 0.8, 1], "metallicFactor": 0},
            "extensions": {"KHR_materials_specular": {"specularFactor": 0}}}
+GLASS = {"pbrMetallicRoughness": {"metallicFactor": 0, "roughnessFactor": 0.3},
+         "extensions": {"KHR_materials_transmission": {"transmissionFactor": 1}}}
+OF_MATERIAL = {"lambert": DIFFUSE, "ellipsoid_dielectric": GLASS}
 
 
 def run(words):
@@ -34,8 +37,8 @@ def run(words):
     return done.stdout
 
 
-def sphere_file(path, rings=48):
-    """A glTF sphere that reflects as Lambert's law has it."""
+def sphere_file(path, material, rings=48):
+    """A glTF sphere."""
     points, triangles = [], []
     for i in range(rings + 1):
         for k in range(2 * rings + 1):
@@ -49,7 +52,7 @@ def sphere_file(path, rings=48):
     path.with_suffix(".bin").write_bytes(data + indices)
     path.write_text(json.dumps({
         "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
-        "extensionsUsed": ["KHR_materials_specular"], "materials": [DIFFUSE],
+        "extensionsUsed": list(material["extensions"]), "materials": [material],
         "meshes": [{"primitives": [{"attributes": {"POSITION": 0, "NORMAL": 0}, "indices": 1, "material": 0}]}],
         "accessors": [{"bufferView": 0, "componentType": 5126, "count": len(points), "type": "VEC3", "min": [-1, -1, -1], "max": [1, 1, 1]},
                       {"bufferView": 1, "componentType": 5125, "count": 3 * len(triangles), "type": "SCALAR"}],
@@ -135,14 +138,14 @@ def main():
         scene, words = "builtin:sphere", ["--brdf", name]
         if name == "ellipsoid":
             words.append(f"--tilt={given.tilt}")
-        if name == "lambert":
-            scene, words = work / "lambert.gltf", []
-            sphere_file(scene)
+        if name in OF_MATERIAL:
+            scene, words = work / f"{name}.gltf", []
+            sphere_file(scene, OF_MATERIAL[name])
         elif not option.startswith("--brdf"):
             sheet.text(left, top - 6, f"{name}: on no surface")
             continue
         base = [given.program, "render", scene, *words, "--env", given.env, "--size", f"{given.side}x{given.side}", "--no-background", "-q"]
-        if name != "lambert":
+        if name not in OF_MATERIAL:
             base += ["--roughness", given.roughness, f"--anisotropy={given.anisotropy}"]
         test, reference = work / f"{name}.pfm", work / f"{name}_reference.pfm"
         if not test.exists():
