@@ -34,6 +34,7 @@ Examples:
   burnish bake ltc -o ggx.ltc
   burnish bake ltc -o ggx.ltc --report quality
   burnish bake ltc --table ggx.ltc --report quality
+  burnish bake ltc --fit sw --interpolate matrix -o document.ltc
   burnish bake direction wave.jpg --from hue -o directions.png)";
 
 struct BakeArguments {
@@ -42,7 +43,10 @@ struct BakeArguments {
     double strength = 1.0;
     Limits limits;
     int resolution = 8, steps = 12, samples = 8, threads = 0;
-    bool half = false, quiet = false;
+    ltc::Norm norm = ltc::Norm::l1;
+    std::string interpolate = "mirror";
+    bool unaligned = false, unsymmetric = false;
+    bool half = false, isotropic = false, quiet = false;
     int verbosity = 0;
 };
 
@@ -56,9 +60,14 @@ OptionTable bake_option_table(BakeArguments& to)
                       {{"--from", "NAME", "{}", choice(to.from, {"hue", "luminance"})},
                        {"--strength", "S", "Of the anisotropy that the map gives, {}", number(to.strength, 0.0, 1.0)}});
     table.add_needing("WHAT", "ltc",
-                      {{"--resolution", "N", "Nodes along each axis, {}", integer(to.resolution, 3, 16)},
+                      {{"--resolution", "N", "Nodes along each axis, {}", integer(to.resolution, 3, 128), "8, isotropic 64"},
+                       {"--isotropic", "", "Round lobes alone: nodes along theta and alpha, as engines have them", flag(to.isotropic)},
                        {"--steps", "N", "Of the fit of all entries at once, {}; 0: each node alone", integer(to.steps, 0, 100)},
                        {"--samples", "N", "Lobes in each cell that this fit looks at, {}", integer(to.samples, 1, 64)},
+                       {"--fit", "NAME", "What makes a node's matrix the nearest: {}", choice(to.norm, {"l1", "l3", "sw"})},
+                       {"--interpolate", "NAME", "What is held of matrices: {}", choice(to.interpolate, {"mirror", "matrix", "inverse"})},
+                       {"--no-align", "", "Leave matrices turned as they are, whatever their neighbours are", flag(to.unaligned)},
+                       {"--no-symmetry", "", "Fit every node by itself, whatever symmetry says of it", flag(to.unsymmetric)},
                        {"--half", "", "Entries as halves, not floats", flag(to.half)},
                        {"--table", "FILE", "Measure this table instead of making one", file(to.table)},
                        {"--report", "FOLDER", "Also measure the table: quality.json, quality.svg, quality.png", folder(to.report)}});
@@ -83,6 +92,12 @@ Status check_direction(const BakeArguments& a)
     return check_picture_path(a.output, {a.picture});
 }
 
+// Whether a table is made as others make theirs: each node by itself.
+bool others_path(const BakeArguments& a)
+{
+    return a.norm != ltc::Norm::l1 || a.interpolate != "mirror" || a.unaligned || a.unsymmetric;
+}
+
 Status check_arguments(const BakeArguments& a, const OptionTable& given)
 {
     if (!a.picture.empty())
@@ -90,9 +105,19 @@ Status check_arguments(const BakeArguments& a, const OptionTable& given)
     if (a.table.empty() == a.output.empty())
         return usage_error("-o", "is needed, or --table, and not both");
     if (!a.table.empty())
-        for (const char* option : {"--steps", "--samples", "--half"})
+        for (const char* option :
+             {"--steps", "--samples", "--half", "--isotropic", "--fit", "--interpolate", "--no-align", "--no-symmetry"})
             if (given.given(option))
                 return usage_error(option, "says how a table is made, and --table FILE is made already");
+    if (others_path(a) && given.given("--steps") && a.steps > 0)
+        return usage_error(
+            "--steps", "is of the fit between nodes, which needs --fit l1, --interpolate mirror, and aligned entries with their symmetry");
+    if (a.isotropic)
+        for (const char* option : {"--steps", "--samples", "--interpolate", "--no-align", "--no-symmetry"})
+            if (given.given(option))
+                return usage_error(option, "is of tables of all lobes, and this one is of --isotropic");
+    if (!a.isotropic && a.table.empty() && a.resolution > 16)
+        return usage_error("--resolution", fmt::format("{} is more than 16, which only a table of --isotropic may have", a.resolution));
     if (a.output == "-")
         return usage_error("-o", "the table is no text for standard output");
     if (a.output.empty())
@@ -108,7 +133,7 @@ Status write_report_files(const BakeArguments& a, const LtcQuality& quality, con
     fs::create_directories(a.report, failed);
     if (failed)
         return Error{ExitCode::output_failed, a.report, "", failed.message()};
-    const Drawing drawing = plot_ltc_quality(quality, table);
+    const Drawing drawing = plot_ltc_quality(quality);
     const Result<std::string> png = png_of(drawing);
     if (!png)
         return png.error();
@@ -133,8 +158,15 @@ Result<std::optional<ltc::Table>> table_of(const BakeArguments& a, const OptionT
         return std::optional(std::move(*read));
     }
     ltc::BakeOptions options;
-    options.grid.size = a.resolution;
-    options.steps = a.steps, options.samples_a_cell = a.samples;
+    options.grid = a.isotropic ? ltc::round_grid() : ltc::grid_of(a.resolution);
+    if (given.given("--resolution"))
+        options.grid.size = a.resolution;
+    options.steps = a.isotropic || others_path(a) ? 0 : a.steps, options.samples_a_cell = a.samples;
+    options.norm = a.norm, options.align = !a.unaligned, options.symmetry = !a.unsymmetric;
+    if (a.interpolate != "mirror") {
+        options.grid.beyond = 0, options.grid.root_alpha = options.grid.over_alpha = false;
+        options.grid.basis = ltc::Basis::tangent, options.grid.inverse = a.interpolate == "inverse";
+    }
     options.checkpoint = a.output + ".part";
     options.stop = &watch_stop_signals();
     std::optional<Progress> progress;

@@ -1,6 +1,7 @@
 #include "apps/bake/report.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fmt/core.h>
 #include <functional>
@@ -40,18 +41,12 @@ Json json_of(const ltc::Spread& s)
     return {{"mean", s.mean}, {"median", s.median}, {"p95", s.p95}, {"max", s.most}};
 }
 
-struct AxisOfTable {
-    const char* name;
-    double most; // at the last node, in what is written beside the axis
-    bool rooted; // nodes lie at squares where the table says so
-};
-constexpr AxisOfTable kAxes[4] = {
-    {"theta, degrees", 90.0, false}, {"phi, degrees", 90.0, false}, {"alpha", 1.0, true}, {"lambda", 1.0, false}};
+constexpr const char* kAxes[4] = {"theta, degrees", "phi, degrees", "alpha", "lambda"};
 
-std::string tick(const AxisOfTable& axis, int node, int cells, bool root_alpha)
+std::string tick(const ltc::Grid& grid, int axis, int node)
 {
-    const double u = static_cast<double>(node) / cells;
-    return fmt::format("{:.2g}", axis.most * (axis.rooted && root_alpha ? u * u : u));
+    const double u = static_cast<double>(node) / (grid.size - 1);
+    return fmt::format("{:.2g}", axis < 2 ? 90.0 * u : axis == 2 ? grid.alpha_at(node) : u);
 }
 
 std::vector<Paint> colours(const std::vector<double>& values, double most)
@@ -67,42 +62,49 @@ std::vector<Paint> colours(const std::vector<double>& values, double most)
     return paints;
 }
 
-// Means over the other two axes, rows from the top.
-std::vector<double> means(const LtcQuality& quality, int across, int up)
+struct Means { // over the other two axes, rows from the top
+    int columns, rows;
+    std::vector<double> values;
+};
+
+Means means(const LtcQuality& quality, int across, int up)
 {
-    const int n = quality.cells;
-    std::vector<double> sum(static_cast<std::size_t>(n) * static_cast<std::size_t>(n), 0.0);
-    for (std::size_t i = 0; i < quality.l1_of_cells.size(); ++i) {
-        const int at = static_cast<int>(i), index[4] = {at / (n * n * n), at / (n * n) % n, at / n % n, at % n};
-        sum[static_cast<std::size_t>((n - 1 - index[up]) * n + index[across])] += quality.l1_of_cells[i] / (n * n);
+    const std::array<int, 4> n = quality.grid.sizes();
+    const auto cells = [&n](int axis) { return n[static_cast<std::size_t>(axis)] - 1; };
+    Means m = {cells(across), cells(up), {}};
+    m.values.assign(static_cast<std::size_t>(m.columns) * static_cast<std::size_t>(m.rows), 0.0);
+    const double share = static_cast<double>(m.values.size()) / static_cast<double>(quality.l1_of_cells.size());
+    const std::vector<std::array<int, 4>> all = quality.grid.cells();
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        const int column = all[i][static_cast<std::size_t>(across)], row = m.rows - 1 - all[i][static_cast<std::size_t>(up)];
+        m.values[static_cast<std::size_t>(row * m.columns + column)] += quality.l1_of_cells[i] * share;
     }
-    return sum;
+    return m;
 }
 
 constexpr double kSide = 252.0, kLeft = 66.0, kBelow = 52.0, kTop = 40.0;
 
-void draw_map(Drawing& out, const LtcQuality& quality, bool root_alpha, int across, int up, double x, double y, double most)
+void draw_map(Drawing& out, const LtcQuality& quality, int across, int up, double x, double y, double most)
 {
-    const int n = quality.cells;
-    const double cell = kSide / n;
-    const std::vector<double> values = means(quality, across, up);
-    const std::vector<Paint> paints = colours(values, most);
-    for (int row = 0; row < n; ++row)
-        for (int column = 0; column < n; ++column) {
-            const std::size_t i = static_cast<std::size_t>(row * n + column);
+    const Means m = means(quality, across, up);
+    const double wide = kSide / m.columns, high = kSide / m.rows;
+    const std::vector<Paint> paints = colours(m.values, most);
+    for (int row = 0; row < m.rows; ++row)
+        for (int column = 0; column < m.columns; ++column) {
+            const std::size_t i = static_cast<std::size_t>(row * m.columns + column);
             const Paint& c = paints[i];
-            out.rectangle(x + cell * column, y + cell * row, cell - 1.0, cell - 1.0, "mark", c);
+            out.rectangle(x + wide * column, y + high * row, wide - 1.0, high - 1.0, "mark", c);
             const bool pale = 0.299 * c[0] + 0.587 * c[1] + 0.114 * c[2] > 140.0;
-            if (cell >= 32.0)
-                out.text(x + cell * (column + 0.5), y + cell * (row + 0.5) + 4.0, pale ? "value middle on-pale" : "value middle on-dark",
-                         fmt::format("{:.2f}", values[i]));
+            if (wide >= 24.0 && high >= 20.0)
+                out.text(x + wide * (column + 0.5), y + high * (row + 0.5) + 4.0, pale ? "value middle on-pale" : "value middle on-dark",
+                         fmt::format("{:.2f}", m.values[i]));
         }
-    for (int node = 0; node <= n; ++node) {
-        out.text(x + cell * node, y + kSide + 15.0, "tick middle", tick(kAxes[across], node, n, root_alpha));
-        out.text(x - 6.0, y + kSide - cell * node + 4.0, "tick end", tick(kAxes[up], node, n, root_alpha));
-    }
-    out.text(x + kSide / 2.0, y + kSide + 33.0, "title middle", kAxes[across].name);
-    out.text(x - 48.0, y + kSide / 2.0, "title middle", kAxes[up].name, -90.0);
+    for (int node = 0; node <= m.columns; ++node)
+        out.text(x + wide * node, y + kSide + 15.0, "tick middle", tick(quality.grid, across, node));
+    for (int node = 0; node <= m.rows; ++node)
+        out.text(x - 6.0, y + kSide - high * node + 4.0, "tick end", tick(quality.grid, up, node));
+    out.text(x + kSide / 2.0, y + kSide + 33.0, "title middle", kAxes[across]);
+    out.text(x - 48.0, y + kSide / 2.0, "title middle", kAxes[up], -90.0);
 }
 
 } // namespace
@@ -119,7 +121,7 @@ LtcQuality measure_ltc(const ltc::Table& table, const Jobs& jobs)
     q.parts.push_back(figures_of("lambda < .3", first, [](const ltc::Place& p) { return p.lambda < 0.3; }));
     q.parts.push_back(figures_of("others", others, all));
     q.probes = kProbes, q.broken = ltc::broken_lookups(table, kProbes, jobs);
-    q.cells = table.grid.size - 1, q.l1_of_cells = ltc::l1_of_cells(table, jobs);
+    q.grid = table.grid.round ? ltc::Grid() : table.grid, q.l1_of_cells = ltc::l1_of_cells(table, jobs);
     return q;
 }
 
@@ -136,6 +138,7 @@ std::string ltc_lines(const LtcQuality& quality)
 
 Json ltc_json(const LtcQuality& quality, const ltc::Table& table)
 {
+    constexpr const char* kNorms[] = {"l1", "l3", "sw"};
     constexpr const char* kBases[] = {"tangent", "mirror", "natural"};
     Json parts = Json::array();
     for (const LtcFigures& f : quality.parts)
@@ -150,25 +153,32 @@ Json ltc_json(const LtcQuality& quality, const ltc::Table& table)
     return {{"table",
              {{"size", table.grid.size},
               {"alpha_nodes", table.grid.root_alpha ? "squares" : "even"},
+              {"most_alpha", table.grid.most_alpha()},
+              {"round", table.grid.round},
+              {"fit", kNorms[(table.made & ltc::kNormMask) >> ltc::kNormShift]},
+              {"aligned", (table.made & ltc::kUnaligned) == 0},
+              {"symmetric", (table.made & ltc::kUnsymmetric) == 0},
+              {"held", table.grid.inverse      ? "inverse"
+                       : table.grid.over_alpha ? "over alpha"
+                                               : "matrix"},
               {"basis", kBases[static_cast<int>(table.grid.basis)]}}},
             {"parts", parts},
             {"lookups", {{"probed", quality.probes}, {"broken", quality.broken}}},
             {"l1_of_cells", Json(quality.l1_of_cells)}};
 }
 
-Drawing plot_ltc_quality(const LtcQuality& quality, const ltc::Table& table)
+Drawing plot_ltc_quality(const LtcQuality& quality)
 {
     constexpr std::pair<int, int> kPairs[] = {{0, 2}, {0, 3}, {2, 3}, {1, 0}, {1, 2}, {1, 3}}; // across, up
     double most = 1e-6;
     for (const auto& [across, up] : kPairs)
-        for (double v : means(quality, across, up))
+        for (double v : means(quality, across, up).values)
             most = std::max(most, v);
     const double step_x = kLeft + kSide + 14.0, step_y = kSide + kBelow;
     Drawing out(3.0 * step_x + 10.0, kTop + 2.0 * step_y + 8.0, "chart", "L1 distance of transformed cosines from their lobes");
     out.text(kLeft, 22.0, "name", "L1 in the middle of cells, mean over the other two axes");
     for (int i = 0; i < 6; ++i)
-        draw_map(out, quality, table.grid.root_alpha, kPairs[i].first, kPairs[i].second, kLeft + step_x * (i % 3), kTop + step_y * (i / 3),
-                 most);
+        draw_map(out, quality, kPairs[i].first, kPairs[i].second, kLeft + step_x * (i % 3), kTop + step_y * (i / 3), most);
     return out;
 }
 

@@ -22,7 +22,7 @@ struct LtcQuality {
     std::vector<LtcFigures> parts;
     std::size_t probes = 0, broken = 0; // lookups, and those without a positive determinant
     std::vector<double> l1_of_cells;    // see ltc::l1_of_cells
-    int cells = 0;                      // along an axis
+    ltc::Grid grid;                     // whose cells they are
 };
 
 LtcQuality measure_ltc(const ltc::Table& table, const Jobs& jobs);
@@ -31,6 +31,6 @@ std::string ltc_lines(const LtcQuality& quality); // a line a part
 Json ltc_json(const LtcQuality& quality, const ltc::Table& table);
 
 // Mean L1 over each pair of axes, darker where there is more.
-Drawing plot_ltc_quality(const LtcQuality& quality, const ltc::Table& table);
+Drawing plot_ltc_quality(const LtcQuality& quality);
 
 } // namespace burnish

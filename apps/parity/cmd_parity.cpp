@@ -99,7 +99,13 @@ Status compare_place(const Bench& bench, const ParityPlace& place, ParityReport&
     SessionOptions of_tile, of_device;
     of_tile.isa = base.isa;
     of_device.backend = Backend::vulkan, of_device.device = bench.device;
-    const SessionParts parts{scene->data, bench.environment, bench.jobs, {}};
+    SessionParts parts{scene->data, bench.environment, bench.jobs, {}};
+    if (!base.ltc_table.empty()) {
+        Result<std::shared_ptr<const ltc::ShadingTables>> table = load_ltc_table(base.ltc_table);
+        if (!table)
+            return table.error();
+        parts.ltc = std::move(*table);
+    }
     Result<Session> tile = Session::make(parts, of_tile), vulkan = Session::make(parts, of_device);
     for (const Result<Session>* made : {&tile, &vulkan})
         if (!*made)

@@ -103,6 +103,7 @@ OptionTable parity_option_table(ParityArguments& to)
                 {"--roughness", "Override alpha_lin of every material, {}"},
                 {"--anisotropy", "Override eta of every material, {}"},
                 "--light",
+                "--ltc-table",
                 "--texture-anisotropy",
                 {"--no-cache", "Neither environments nor pipelines from disk"}});
     table.take(of_render, "Parameters of techniques", taken_parameters());

@@ -62,6 +62,8 @@ std::vector<Option> picture_rows(RenderArguments& to)
         {"--animation", "N", "Which animation --time is of", integer(to.plain.moment.animation, 0, kMaxAnimations)},
         {"--light", "SPEC", "Area light, such as sphere:points=0,1,0:radius=0.1:radiance=9,9,9; may be given several times",
          area_lights(to.plain.lights)},
+        {"--ltc-table", "FILE", "Transformed cosines of --area-lights: a table of burnish bake ltc", file(to.plain.ltc_table),
+         "the program's own"},
         {"--texture-anisotropy", "N", "Texture taps along the major axis at most", integer(f.texture_anisotropy, 1, 16)},
         {"--no-background", "", "Nothing behind the scene instead of the environment: black, alpha is coverage", flag(f.background, false)},
     };

@@ -23,6 +23,7 @@ struct RenderOptions {
     std::string scene = "builtin:teapot";
     Moment moment;
     std::vector<AreaLight> lights; // besides those of the scene
+    std::string ltc_table;         // of area lights; empty: the program's own
     std::string direction_map;     // picture that all materials take as their anisotropy texture; empty: none
     std::vector<std::string> outputs;
     std::string stats_file; // empty: none; "-": standard output

@@ -78,6 +78,12 @@ Result<Session> prepare(const RenderOptions& options, RenderFigures& figures, st
     SessionParts parts;
     parts.jobs = std::make_shared<const Jobs>(options.threads);
     figures.threads = parts.jobs->threads();
+    if (!options.ltc_table.empty()) {
+        Result<std::shared_ptr<const ltc::ShadingTables>> table = load_ltc_table(options.ltc_table);
+        if (!table)
+            return table.error();
+        parts.ltc = std::move(*table);
+    }
     const Stopwatch load;
     {
         const TraceSpan span("load scene");

@@ -127,6 +127,10 @@ class Renderer {
     virtual std::string device() const = 0; // what runs it: "AMD EPYC (avx512)", ...
 };
 
+namespace ltc {
+struct ShadingTables;
+}
+
 // Everything a renderer needs; the references must outlive it.
 struct RenderInput {
     const Scene& scene;
@@ -134,6 +138,7 @@ struct RenderInput {
     const Environment& environment;
     const DfgTable& dfg;
     const Jobs& jobs;
+    const ltc::ShadingTables* ltc = nullptr; // of area lights; none: ltc::shipped_tables()
 };
 
 enum class Sampling { none, count, grid }; // what a technique makes of FrameDesc::samples: nothing, N samples, n x n

@@ -57,6 +57,11 @@ void put_parameters(const FrameDesc& d, bool tilted, FrameRecord& f)
     f.lobe = lobe_of(d, tilted), f.lobe_traits = lobe_traits_of(f.lobe);
 }
 
+static const ltc::ShadingTables& ltc_tables(const RenderInput& input)
+{
+    return input.ltc ? *input.ltc : ltc::shipped_tables();
+}
+
 FrameRecord frame_record(const RenderInput& input, const FrameDesc& d)
 {
     FrameRecord f = {};
@@ -73,7 +78,7 @@ FrameRecord frame_record(const RenderInput& input, const FrameDesc& d)
     f.light_count = static_cast<int>(input.tables.lights.size());
     if (d.area_way != kAreaWay_off && !input.tables.area_lights.empty()) {
         f.area_light_count = static_cast<int>(input.tables.area_lights.size());
-        f.ltc_root_alpha = ltc::shipped_table().root_alpha, f.ltc_basis = ltc::shipped_table().basis;
+        f.ltc = ltc_tables(input).record;
     }
     f.positions = f.light_count > 0 || f.area_light_count > 0;
     f.background = d.background;
@@ -89,7 +94,7 @@ FrameMaker::FrameMaker(const RenderInput& input) : input_(input), scene_(upload_
 const std::vector<std::uint16_t>& FrameMaker::ltc_texels() const
 {
     static const std::vector<std::uint16_t> none;
-    return input_.tables.area_lights.empty() ? none : ltc::shipped_table().texels;
+    return input_.tables.area_lights.empty() ? none : ltc_tables(input_).texels;
 }
 
 void FrameMaker::bake(const FrameDesc& desc)

@@ -81,7 +81,7 @@ std::uint64_t reference_key(const RenderInput& input, const FrameDesc& d, const 
     frame.specular = frame.irradiance = {}; // it reads the whole environment, whatever part of it is lights
     frame.whole.levels = 1, frame.key_light_count = 0;
     std::fill(std::begin(frame.key_lights), std::end(frame.key_lights), KeyLightRecord{});
-    frame.ltc_root_alpha = frame.ltc_basis = 0;
+    frame.ltc = {};
     add_records(key, std::vector<FrameRecord>{frame});
     add_records(key, in_frame(material_records(input.scene, overrides(d)), d));
     add_records(key, light_records(input.tables));

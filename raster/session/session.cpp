@@ -6,6 +6,7 @@
 
 #include "core/scene/direction_map.h"
 #include "core/scene/gltf/gltf.h"
+#include "shading/bake/ltc/shipped.h"
 
 namespace burnish {
 namespace {
@@ -47,6 +48,20 @@ Result<std::unique_ptr<Renderer>> make_renderer(const RenderInput& input, const 
 }
 
 } // namespace
+
+Result<std::shared_ptr<const ltc::ShadingTables>> load_ltc_table(const std::string& path)
+{
+    using Made = Result<std::shared_ptr<const ltc::ShadingTables>>;
+    return guarded(path, [&]() -> Made {
+        const Result<ltc::Table> table = ltc::read_table(path, 0);
+        if (!table)
+            return table.error();
+        Result<ltc::ShadingTables> tables = ltc::with_table(*table, path);
+        if (!tables)
+            return tables.error();
+        return std::make_shared<const ltc::ShadingTables>(std::move(*tables));
+    });
+}
 
 Result<std::shared_ptr<const SceneData>> make_scene_data(const std::string& name, Scene scene, const Limits& limits)
 {

@@ -49,15 +49,19 @@ Result<std::shared_ptr<const Environment>> load_shared_environment(const std::st
 // The table of directional albedo that pictures are made with: the same bits everywhere, made once a process.
 Result<std::shared_ptr<const DfgTable>> standard_dfg(const Jobs& jobs);
 
+// A table of `burnish bake ltc`, in place of the program's own one of its kind.
+Result<std::shared_ptr<const ltc::ShadingTables>> load_ltc_table(const std::string& path);
+
 // What a renderer draws. All of it is shared.
 struct SessionParts {
     std::shared_ptr<const SceneData> scene;
     std::shared_ptr<const Environment> environment;
-    std::shared_ptr<const Jobs> jobs;    // none: all cores the process may use
-    std::shared_ptr<const DfgTable> dfg; // none: standard_dfg()
+    std::shared_ptr<const Jobs> jobs;                   // none: all cores the process may use
+    std::shared_ptr<const DfgTable> dfg;                // none: standard_dfg()
+    std::shared_ptr<const ltc::ShadingTables> ltc = {}; // transformed cosines of area lights; none: the program's own
 
     // Of parts that a session has: nothing is missing.
-    RenderInput input() const { return {scene->scene, scene->tables, *environment, *dfg, *jobs}; }
+    RenderInput input() const { return {scene->scene, scene->tables, *environment, *dfg, *jobs, ltc.get()}; }
 };
 
 enum class Backend { tile, vulkan, reference };

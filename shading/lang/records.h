@@ -92,6 +92,11 @@ struct KeyLightRecord {                       // an evenly bright ellipse on the
     float radiance[3], irradiance[3];         // of the ellipse; on a surface that faces it
 };
 
+struct LtcTableRecord { // what shading must know of a table of transformed cosines (shading/bake/ltc/grid.h)
+    int root_alpha, basis, over_alpha, inverse, alphas;
+    int round_first; // the texel that the table of round lobes begins at
+};
+
 // Flags are 0 or 1.
 struct FrameRecord {
     ViewRecord view;
@@ -107,9 +112,9 @@ struct FrameRecord {
     int grid_count;                 // samples of filtered importance sampling
     int dfg_size, lobe_albedo_size; // tables of directional albedo
     int light_count;
-    int area_light_count;          // 0 where the frame wants none of their light
-    int ltc_root_alpha, ltc_basis; // of the table of transformed cosines
-    int positions;                 // something asks where visible points lie
+    int area_light_count; // 0 where the frame wants none of their light
+    LtcTableRecord ltc;
+    int positions; // something asks where visible points lie
     int background, samples, texture_taps;
     int joins_round; // round lobes are drawn by another technique than brushed ones, which go over to it as they become round
 #define BN_RECORD_number(id) float id;

@@ -38,6 +38,44 @@ struct area_view {
     ltc_polygon at; // its points; of a disk the centre and half axes
 };
 
+// The same of what lies above a plane through the point. Discs are polygons there, and spheres the discs of their outline. normal: of the
+// plane, upwards, in the lobe's axes.
+BN_STAGE area_view area_above(BN_IN(area_view) v, BN_IN(real3) normal)
+{
+    area_view r = v;
+    if (v.shape == kArea_line) {
+        real a = k_dot3(v.at.corner[0], normal);
+        real b = k_dot3(v.at.corner[1], normal);
+        real start = k_saturate(-a / select(b - a > lit(1e-30), b - a, lit(1e30)));
+        real end = k_saturate(-b / select(a - b > lit(1e-30), a - b, lit(1e30)));
+        real3 span = v.at.corner[1] - v.at.corner[0];
+        mask below = both(a <= lit(0.0), b <= lit(0.0));
+        r.at.corner[0] = v.at.corner[0] + span * start;
+        r.at.corner[1] = select(below, r.at.corner[0], v.at.corner[1] - span * end);
+        return r;
+    }
+    if (v.shape == kArea_disk || v.shape == kArea_sphere) {
+        real3 middle = v.at.corner[0];
+        real3 p = v.at.corner[1];
+        real3 q = v.at.corner[2];
+        if (v.shape == kArea_sphere) {
+            ltc_outline outline = ltc_sphere_outline(middle, v.radius, normal);
+            middle = outline.middle;
+            p = outline.axis_a;
+            q = outline.axis_b;
+        }
+        for (int k = 0; k < 16; ++k) { // of the ellipse's area
+            k_sin_cos_pair turn = k_sin_cos(splat(float(k)) * lit(0.39269908169872415));
+            r.at.corner[k] = middle + (p * turn.cosine + q * turn.sine) * lit(1.0130015562559769);
+        }
+        r.shape = kArea_polygon;
+        r.corners = 16;
+    }
+    r.at = ltc_polygon_above(r.at, r.corners, normal);
+    r.corners = r.corners + 1;
+    return r;
+}
+
 BN_FN area_view area_seen_by(frame_ref f, int light, aniso_lobe lobe, real3 n, real3 position)
 {
     area_view v;
@@ -54,22 +92,66 @@ BN_FN area_view area_seen_by(frame_ref f, int light, aniso_lobe lobe, real3 n, r
     return v;
 }
 
+BN_FN ltc_light area_through(BN_IN(area_view) v, BN_IN(ltc_lobe) lobe, bool clipless)
+{
+    if (v.shape == kArea_disk)
+        return ltc_disk_light(lobe, v.at.corner[0], v.at.corner[1], v.at.corner[2]);
+    if (v.shape == kArea_sphere)
+        return ltc_sphere_light(lobe, v.at.corner[0], v.radius);
+    if (v.shape == kArea_line)
+        return ltc_line_light(lobe, v.at.corner[0], v.at.corner[1], v.radius);
+    if (area_way_used(kAreaWay_ltc_clipless) && clipless)
+        return ltc_polygon_clipless(lobe, v.at, v.corners);
+    return ltc_polygon_light(lobe, v.at, v.corners);
+}
+
 // The part of a lobe that a light fills, [0,1]. clipless: polygons are not clipped at the horizon, but spheres like them.
 BN_STAGE real area_part(BN_IN(area_view) v, BN_IN(ltc_lobe) lobe, bool clipless)
 {
-    if (v.shape == kArea_disk)
-        return ltc_disk_light(lobe, v.at.corner[0], v.at.corner[1], v.at.corner[2]).part;
-    if (v.shape == kArea_sphere)
-        return ltc_sphere_light(lobe, v.at.corner[0], v.radius).part;
-    if (v.shape == kArea_line)
-        return ltc_line_light(lobe, v.at.corner[0], v.at.corner[1], v.radius).part;
-    if (area_way_used(kAreaWay_ltc_clipless) && clipless)
-        return ltc_polygon_clipless(lobe, v.at, v.corners).part;
-    return ltc_polygon_light(lobe, v.at, v.corners).part;
+    return area_through(v, lobe, clipless).part;
+}
+
+// The same of a lobe that is tilted against its surface, whose masking is another one than that of the upright lobe which the cosine
+// stands for: as they are in the direction that the light comes from. lobe: x's.
+BN_STAGE real area_part_leaning(any_frame f, BN_IN(area_view) v, BN_IN(ltc_lobe) cosine, bool clipless, BN_IN(shaded_point) x,
+                                BN_IN(aniso_lobe) lobe)
+{
+    ltc_light light = area_through(v, cosine, clipless);
+    real3 d = k_normalize3(cosine.m0 * light.flow.x + cosine.m1 * light.flow.y + cosine.m2 * light.flow.z + vec3_all(lit(1e-20)));
+    surface_frame axes;
+    axes.n = x.s.n;
+    axes.t = lobe.u_axis;
+    axes.b = lobe.v_axis;
+    real3 wi = axes.t * d.x + axes.b * d.y + axes.n * d.z;
+    int usual = the_frame(f).masking != 0 ? lobe_that_has(kLobeOfAll) : the_frame(f).lobe;
+    placed_lobe leaning = placed_lobe_at(f, x);
+    placed_lobe upright = placed_lobe_of(usual, lobe, x.s.n, x.s.v, axes);
+    real share = placed_lobe_value(leaning, wi) / max(placed_lobe_value(upright, wi), lit(1e-12));
+    // An eye below the lobe's own horizon sees no upright lobe: its albedo's share, then.
+    real above = k_saturate(k_dot3(x.s.n, x.s.v) * lit(10.0));
+    real shown = x.shown + (min(share, lit(4.0)) - x.shown) * above;
+    return light.part * shown;
+}
+
+BN_FN ltc_lobe area_lobe(frame_ref f, real3 eye, real alpha_u, real alpha_v)
+{
+    if (area_way_used(kAreaWay_ltc_isotropic) && the_frame(f).area_way == kAreaWay_ltc_isotropic) {
+        real both_widths = alpha_u * alpha_v;
+        return ltc_round_lookup(ltc_texels(f), the_frame(f).ltc.round_first, eye, sqrt(both_widths));
+    }
+    ltc_table table;
+    table.texels = ltc_texels(f);
+    table.root_alpha = the_frame(f).ltc.root_alpha;
+    table.basis = the_frame(f).ltc.basis;
+    table.over_alpha = the_frame(f).ltc.over_alpha;
+    table.inverse = the_frame(f).ltc.inverse;
+    table.alphas = the_frame(f).ltc.alphas;
+    return ltc_lookup(table, eye, alpha_u, alpha_v);
 }
 
 // model: the lobe that lights meet; a round one is about the normal, as wide as the surface is rough. position: of x, world space. Lobes of
-// other models are taken for GGX's of the same widths; those that only lamps meet have none of this light.
+// other models are taken for GGX's of the same widths; those that only lamps meet have none of this light. Where the surface is turned,
+// lights are cut at its own horizon.
 BN_FN real3 area_light_by_cosines(frame_ref f, BN_IN(shaded_point) x, int model, real3 position)
 {
     aniso_lobe lobe = x.lobe;
@@ -80,13 +162,13 @@ BN_FN real3 area_light_by_cosines(frame_ref f, BN_IN(shaded_point) x, int model,
     real root2 = lit(1.4142135623730951);
     real alpha_u = lobe.sigma_u * root2;
     real alpha_v = lobe.sigma_v * root2;
-    ltc_table table;
-    table.texels = ltc_texels(f);
-    table.root_alpha = the_frame(f).ltc_root_alpha;
-    table.basis = the_frame(f).ltc_basis;
-    ltc_lobe shiny = ltc_lookup(table, to_lobe(lobe, x.s.n, x.s.v), alpha_u, alpha_v);
+    ltc_lobe shiny = area_lobe(f, to_lobe(lobe, x.s.n, x.s.v), alpha_u, alpha_v);
     ltc_lobe dull = ltc_cosine();
     bool clipless = the_frame(f).area_way == kAreaWay_ltc_clipless;
+    real3 up = vec3_of(lit(0.0), lit(0.0), lit(1.0));
+    if (x.turned)
+        up = to_lobe(lobe, x.s.n, x.surface_axes.n);
+    bool leans = x.turned && stands_in(f) && lies_in_surface(f);
     real3 specular = vec3_all(lit(0.0));
     real3 diffuse = vec3_all(lit(0.0));
     for (int i = 0; i < the_frame(f).area_light_count; ++i) {
@@ -94,15 +176,22 @@ BN_FN real3 area_light_by_cosines(frame_ref f, BN_IN(shaded_point) x, int model,
         if (no_lane(faces))
             continue;
         area_view view = area_seen_by(f, i, lobe, x.s.n, position);
+        if (x.turned)
+            view = area_above(view, up);
         real3 radiance = select(faces, splat3(the_area_light(f, i).radiance), vec3_all(lit(0.0)));
-        specular = specular + radiance * area_part(view, shiny, clipless);
+        if (leans)
+            specular = specular + radiance * area_part_leaning(f, view, shiny, clipless, x, lobe);
+        else
+            specular = specular + radiance * area_part(view, shiny, clipless);
         if (x.diffuse)
             diffuse = diffuse + radiance * area_part(view, dull, clipless);
     }
     dfg_value albedo;
     albedo.scale = shiny.all - shiny.grazing;
     albedo.bias = shiny.grazing;
-    real3 sum = seen_of_lobe(f, x, 0, specular * albedo_of(x.s, albedo) * x.gain);
+    real3 sum = specular * albedo_of(x.s, albedo) * x.gain;
+    if (stands_in(f) && !leans)
+        sum = sum * x.shown;
     if ((the_frame(f).lobe_traits & kPunctualOnly) != 0)
         sum = vec3_all(lit(0.0));
     if (x.diffuse) {
@@ -168,7 +257,7 @@ BN_FN real3 light_from_area(frame_ref f, BN_IN(shaded_point) x, int model, real3
 {
     if (area_way_used(kAreaWay_mc) && the_frame(f).area_way == kAreaWay_mc)
         return area_light_by_samples(f, x, model, position);
-    if (area_way_used(kAreaWay_ltc) || area_way_used(kAreaWay_ltc_clipless))
+    if (area_way_used(kAreaWay_ltc) || area_way_used(kAreaWay_ltc_clipless) || area_way_used(kAreaWay_ltc_isotropic))
         return area_light_by_cosines(f, x, model, position);
     return vec3_all(lit(0.0));
 }

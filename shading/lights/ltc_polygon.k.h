@@ -11,7 +11,7 @@
 BN_KERNELS_BEGIN
 
 struct ltc_polygon {
-    real3 corner[16];
+    real3 corner[17]; // 16, and one more where a plane cuts it
 };
 
 struct ltc_light {
@@ -58,7 +58,7 @@ BN_FN ltc_light ltc_polygon_light(BN_IN(ltc_lobe) lobe, BN_IN(ltc_polygon) polyg
 {
     ltc_polygon u = ltc_polygon_to_cosine(lobe, polygon, corners);
     real2 rise = vec2_all(lit(0.0)); // where the boundary came up
-    real2 cut[16];
+    real2 cut[17];
     for (int i = 0; i < corners; ++i) {
         real3 a = u.corner[i];
         real3 b = u.corner[i + 1 < corners ? i + 1 : 0];
@@ -97,6 +97,46 @@ BN_FN ltc_light ltc_polygon_light(BN_IN(ltc_lobe) lobe, BN_IN(ltc_polygon) polyg
     light.part = k_saturate(flow.z);
     light.flow = flow;
     return light;
+}
+
+// What of a convex polygon lies above a plane through the shading point: a corner more than it has. Corners below go to where the boundary
+// comes up, and the one more is put before the first of them: where it goes down. Of a polygon below, all corners are one. normal: of the
+// plane, upwards.
+BN_FN ltc_polygon ltc_polygon_above(BN_IN(ltc_polygon) polygon, int corners, real3 normal)
+{
+    ltc_polygon r;
+    real height[17];
+    for (int i = 0; i < corners; ++i) {
+        height[i] = k_dot3(polygon.corner[i], normal);
+    }
+    real3 rise = polygon.corner[0];
+    real3 fall = rise;
+    for (int i = 0; i < corners; ++i) {
+        int next = i + 1 < corners ? i + 1 : 0;
+        mask a_up = height[i] > lit(0.0);
+        mask b_up = height[next] > lit(0.0);
+        mask rises = both(b_up, not_(a_up));
+        mask falls = both(a_up, not_(b_up));
+        mask cuts = either(rises, falls);
+        real span = height[i] - height[next];
+        real t = select(cuts, height[i], lit(0.0)) / select(cuts, span, lit(1.0));
+        real3 at = polygon.corner[i] + (polygon.corner[next] - polygon.corner[i]) * t;
+        rise = select(rises, at, rise);
+        fall = select(falls, at, fall);
+    }
+    mask fallen = lit(1.0) < lit(0.0); // past the place of the one more
+    real3 before = rise;               // the corner that moved on by one
+    for (int i = 0; i < corners; ++i) {
+        int next = i + 1 < corners ? i + 1 : 0;
+        mask up = height[i] > lit(0.0);
+        real3 kept = select(up, polygon.corner[i], rise);
+        r.corner[i] = select(fallen, before, kept);
+        mask falls = both(up, not_(height[next] > lit(0.0)));
+        before = select(falls, fall, kept);
+        fallen = either(fallen, falls);
+    }
+    r.corner[corners] = select(fallen, before, r.corner[corners - 1]);
+    return r;
 }
 
 // The part of a clamped cosine that a sphere takes whose vector form factor is `flow`, clipped at the horizon exactly. Snyder 1996, "Area

@@ -103,25 +103,42 @@ BN_FN ltc_light ltc_disk_light(BN_IN(ltc_lobe) lobe, real3 middle, real3 axis_a,
     return light;
 }
 
-// The disc that has the sphere's outline. From within, all of the lobe is lit.
-BN_FN ltc_light ltc_sphere_light(BN_IN(ltc_lobe) lobe, real3 middle, real radius)
+struct ltc_outline {
+    real3 middle, axis_a, axis_b; // of a disc; half axes, orthogonal
+    mask outside;                 // of the sphere; within, the disc is nearly all that lies above the plane of `up`
+};
+
+// The disc that has a sphere's outline.
+BN_FN ltc_outline ltc_sphere_outline(real3 middle, real radius, real3 up)
 {
+    ltc_outline o;
     real distance2 = k_dot3(middle, middle);
     real radius2 = radius * radius;
     real outside2 = distance2 - radius2;
-    mask outside = outside2 > lit(0.0);
-    real3 w = select(outside, k_normalize3(middle), vec3_of(lit(0.0), lit(0.0), lit(1.0)));
-    real tangent = select(outside, radius, lit(0.0)) / sqrt(select(outside, max(outside2, radius2 * lit(1e-8)), lit(1.0)));
+    o.outside = outside2 > lit(0.0);
+    real3 w = select(o.outside, k_normalize3(middle), up);
+    real seen = select(o.outside, radius, lit(1e4));
+    real tangent = seen / sqrt(select(o.outside, max(outside2, radius2 * lit(1e-8)), lit(1.0)));
     // Duff et al. 2017, "Building an Orthonormal Basis, Revisited".
     real sign_z = select(w.z < lit(0.0), lit(-1.0), lit(1.0));
     real k = lit(-1.0) / (sign_z + w.z);
     real mixed = w.x * w.y * k;
     real3 s = vec3_of(lit(1.0) + sign_z * w.x * w.x * k, sign_z * mixed, -(sign_z * w.x));
     real3 t = vec3_of(mixed, sign_z + w.y * w.y * k, -w.y);
-    ltc_light seen = ltc_disk_light(lobe, w, s * tangent, t * tangent);
+    o.middle = w;
+    o.axis_a = s * tangent;
+    o.axis_b = t * tangent;
+    return o;
+}
+
+// From within, all of the lobe is lit.
+BN_FN ltc_light ltc_sphere_light(BN_IN(ltc_lobe) lobe, real3 middle, real radius)
+{
+    ltc_outline o = ltc_sphere_outline(middle, radius, vec3_of(lit(0.0), lit(0.0), lit(1.0)));
+    ltc_light seen = ltc_disk_light(lobe, o.middle, o.axis_a, o.axis_b);
     ltc_light light;
-    light.part = select(outside, seen.part, lit(1.0));
-    light.flow = select(outside, seen.flow, vec3_of(lit(0.0), lit(0.0), lit(1.0)));
+    light.part = select(o.outside, seen.part, lit(1.0));
+    light.flow = select(o.outside, seen.flow, vec3_of(lit(0.0), lit(0.0), lit(1.0)));
     return light;
 }
 

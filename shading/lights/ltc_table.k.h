@@ -16,13 +16,16 @@
 
 BN_KERNELS_BEGIN
 
-struct ltc_table {       // uniform
+struct ltc_table {       // uniform; LtcTableRecord
     texel_buffer texels; // ltc::table_texels()
     int root_alpha;      // 1: nodes lie evenly in the square root of alpha, 0: in alpha
     int basis;           // entries are seen from 0: the ellipse frame, 1: the mirror direction, 2: the natural matrix
+    int over_alpha;      // 1: their first two columns are over alpha
+    int inverse;         // 1: they are N, in the ellipse frame
+    int alphas;          // nodes along alpha, of which 8 are up to 1; 8 along the others
 };
 
-// What is outside of [0.01, 1], of [0.02, 1] or below a cosine of 0.02 is taken at the border: narrower lobes are for floats a mirror.
+// What is outside of [0.002, 2], of [0.02, 1] or below a cosine of 0.02 is taken at the border: narrower lobes are for floats a mirror.
 // NaN counts as a border, too.
 struct ltc_place {
     real3 eye;           // as the table has it: unit, x and y >= 0
@@ -43,12 +46,12 @@ struct ltc_lobe {
 BN_FN ltc_place ltc_place_of(real3 eye, real alpha_x, real alpha_y)
 {
     ltc_place p;
-    real wide_x = min(max(alpha_x, lit(1e-6)), lit(1.0));
-    real wide_y = min(max(alpha_y, lit(1e-6)), lit(1.0));
+    real wide_x = min(max(alpha_x, lit(1e-6)), lit(2.0));
+    real wide_y = min(max(alpha_y, lit(1e-6)), lit(2.0));
     p.swapped = wide_y > wide_x;
     real wider = max(wide_x, wide_y);
     real ratio = min(wide_x, wide_y) / wider;
-    p.alpha = max(wider, lit(0.01));
+    p.alpha = max(wider, lit(0.002));
     p.lambda = max(ratio, lit(0.02));
     p.sign_x = select(eye.x < lit(0.0), lit(-1.0), lit(1.0));
     p.sign_y = select(eye.y < lit(0.0), lit(-1.0), lit(1.0));
@@ -110,7 +113,7 @@ BN_FN texel_acc ltc_corner(texel_acc acc, ltc_table table, integer node, real we
 }
 
 struct ltc_cell {  // of 16 nodes
-    integer first; // the one of the smallest theta, phi, alpha, lambda: ((theta 8 + phi) 8 + alpha) 8 + lambda
+    integer first; // the one of the smallest theta, phi, alpha, lambda: ((theta 8 + phi) alphas + alpha) 8 + lambda
     real u_theta, u_phi, u_alpha, u_lambda;
 };
 
@@ -126,13 +129,13 @@ BN_FN ltc_cell ltc_cell_of(ltc_table table, ltc_place p)
     real lambda_at = p.lambda * lit(7.0);
     integer i = min(to_int(theta_at), int_lit(6));
     integer j = min(to_int(phi_at), int_lit(6));
-    integer k = min(to_int(alpha_at), int_lit(6));
+    integer k = min(to_int(alpha_at), int_lit(table.alphas - 2));
     integer l = min(to_int(lambda_at), int_lit(6));
     ltc_cell c;
-    c.first = shl(i, 9) + shl(j, 6) + shl(k, 3) + l;
+    c.first = (shl(i, 3) + j) * int_lit(8 * table.alphas) + shl(k, 3) + l;
     c.u_theta = min(theta_at - to_real(i), lit(1.0));
     c.u_phi = min(phi_at - to_real(j), lit(1.0));
-    c.u_alpha = alpha_at - to_real(k);
+    c.u_alpha = min(alpha_at - to_real(k), lit(1.0));
     c.u_lambda = lambda_at - to_real(l);
     return c;
 }
@@ -140,15 +143,16 @@ BN_FN ltc_cell ltc_cell_of(ltc_table table, ltc_place p)
 // Four channels of the table in a cell. plane: 0, 1, 2.
 BN_FN real4 ltc_channels(ltc_table table, ltc_cell c, int plane)
 {
-    integer node = c.first + int_lit(plane * 4096);
+    int azimuth = 8 * table.alphas; // between nodes of two
+    integer node = c.first + int_lit(plane * 64 * azimuth);
     real up = c.u_theta * c.u_phi;
     real w10 = c.u_theta - up;
     real w01 = c.u_phi - up;
     real w00 = lit(1.0) - c.u_theta - w01;
     texel_acc acc = ltc_corner(texel_zero(), table, node, w00, c.u_alpha, c.u_lambda);
-    acc = ltc_corner(acc, table, node + int_lit(64), w01, c.u_alpha, c.u_lambda);
-    acc = ltc_corner(acc, table, node + int_lit(512), w10, c.u_alpha, c.u_lambda);
-    acc = ltc_corner(acc, table, node + int_lit(576), up, c.u_alpha, c.u_lambda);
+    acc = ltc_corner(acc, table, node + int_lit(azimuth), w01, c.u_alpha, c.u_lambda);
+    acc = ltc_corner(acc, table, node + int_lit(8 * azimuth), w10, c.u_alpha, c.u_lambda);
+    acc = ltc_corner(acc, table, node + int_lit(9 * azimuth), up, c.u_alpha, c.u_lambda);
     return texel_value(acc);
 }
 
@@ -193,8 +197,7 @@ BN_FN ltc_lobe ltc_inverted(ltc_lobe lobe)
     return r;
 }
 
-// eye: unit, in the ellipse frame. From alpha 0.06 down to 0.03 the table's matrix fades into the natural one, whose L1 distance from the
-// lobe is the smaller one from about 0.045 on (0.10 against 0.15 at 0.03). Where that has no positive determinant, it is all natural.
+// eye: unit, in the ellipse frame. Where the table's matrix has no positive determinant, the natural one stands in.
 BN_FN ltc_lobe ltc_lookup(ltc_table table, real3 eye, real alpha_x, real alpha_y)
 {
     ltc_place p = ltc_place_of(eye, alpha_x, alpha_y);
@@ -206,15 +209,68 @@ BN_FN ltc_lobe ltc_lookup(ltc_table table, real3 eye, real alpha_x, real alpha_y
     lobe.all = k_saturate(c.y);
     lobe.grazing = k_saturate(c.z);
     ltc_lobe natural = ltc_natural(lobe, p);
-    real baked = k_saturate((p.alpha - lit(0.03)) * lit(33.333333333333333));
-    lobe.m0 = k_mix3(natural.m0, ltc_shown(table, natural, p, vec3_of(a.x, a.w, b.z)), baked);
-    lobe.m1 = k_mix3(natural.m1, ltc_shown(table, natural, p, vec3_of(a.y, b.x, b.w)), baked);
-    lobe.m2 = k_mix3(natural.m2, ltc_shown(table, natural, p, vec3_of(a.z, b.y, c.x)), baked);
+    real3 m0 = vec3_of(a.x, a.w, b.z);
+    real3 m1 = vec3_of(a.y, b.x, b.w);
+    real3 m2 = vec3_of(a.z, b.y, c.x);
+    if (table.inverse != 0) { // of N its cofactors, transposed
+        ltc_lobe n = lobe;
+        n.m0 = m0;
+        n.m1 = m1;
+        n.m2 = m2;
+        n = ltc_inverted(n);
+        m0 = vec3_of(n.n0.x, n.n1.x, n.n2.x);
+        m1 = vec3_of(n.n0.y, n.n1.y, n.n2.y);
+        m2 = vec3_of(n.n0.z, n.n1.z, n.n2.z);
+    }
+    if (table.over_alpha != 0) {
+        m0 = m0 * p.alpha;
+        m1 = m1 * p.alpha;
+    }
+    lobe.m0 = ltc_shown(table, natural, p, m0);
+    lobe.m1 = ltc_shown(table, natural, p, m1);
+    lobe.m2 = ltc_shown(table, natural, p, m2);
     real det = k_dot3(lobe.m0, k_cross(lobe.m1, lobe.m2));
     mask usable = det > lit(1e-9);
     lobe.m0 = ltc_unfolded(p, select(usable, lobe.m0, natural.m0));
     lobe.m1 = ltc_unfolded(p, select(usable, lobe.m1, natural.m1));
     lobe.m2 = ltc_unfolded(p, select(usable, lobe.m2, natural.m2));
+    return ltc_inverted(lobe);
+}
+
+// A table of round lobes by 64 nodes evenly in sqrt(1 - cos theta) and 64 evenly in sqrt(alpha): two planes of RGBA halves, which hold five
+// elements of the matrix in the frame whose x the eye leans to (columns' x x, y y, z x, x z; z z), and albedos. first: its first texel.
+BN_FN ltc_lobe ltc_round_lookup(texel_buffer texels, int first, real3 eye, real alpha)
+{
+    real flat2 = eye.x * eye.x + eye.y * eye.y;
+    mask upright = flat2 < lit(1e-12);
+    real flat_length = sqrt(max(flat2, lit(1e-12)));
+    real cosine = select(upright, lit(1.0), eye.x / flat_length);
+    real sine = select(upright, lit(0.0), eye.y / flat_length);
+    mask above = eye.z > lit(0.02);
+    real fall = select(above, min(flat2, lit(1.0)), lit(0.9996)) / (lit(1.0) + select(above, eye.z, lit(0.02)));
+    real theta_at = sqrt(fall) * lit(63.0);
+    real alpha_at = sqrt(min(max(alpha, lit(0.002)), lit(1.0))) * lit(63.0);
+    integer i = min(to_int(theta_at), int_lit(62));
+    integer k = min(to_int(alpha_at), int_lit(62));
+    real u = min(theta_at - to_real(i), lit(1.0));
+    real v = alpha_at - to_real(k);
+    texel_rows r;
+    r.w11 = u * v;
+    r.w01 = u - r.w11;
+    r.w10 = v - r.w11;
+    r.w00 = lit(1.0) - u - r.w10;
+    r.row0 = shl(i, 6) + k + int_lit(first);
+    r.row1 = r.row0 + int_lit(64);
+    real4 a = texel_value(texel_rows_add(texel_zero(), texels, r));
+    r.row0 = r.row0 + int_lit(4096);
+    r.row1 = r.row1 + int_lit(4096);
+    real4 b = texel_value(texel_rows_add(texel_zero(), texels, r));
+    ltc_lobe lobe;
+    lobe.m0 = vec3_of(a.x * cosine, a.x * sine, a.z);
+    lobe.m1 = vec3_of(-(a.y * sine), a.y * cosine, lit(0.0));
+    lobe.m2 = vec3_of(a.w * cosine, a.w * sine, b.x);
+    lobe.all = k_saturate(b.y);
+    lobe.grazing = k_saturate(b.z);
     return ltc_inverted(lobe);
 }
 

@@ -1,5 +1,8 @@
 """Area lights: --light, extras.burnish.areaLight of nodes, --limit-lights, --area-lights; and what is wrong with some."""
 
+import struct
+
+from bake_cases import SHIPPED
 from direction_cases import SMALL
 from gltf_files import text, triangle
 from harness import case, check, scratch
@@ -57,6 +60,67 @@ def wrong(bench):
     check("a.png" not in bench.left_behind(), "a picture was written")
 
 
+def xxh64(data):
+    """xxHash64 with seed 0, as tables end with."""
+    p, mask = (0x9E3779B185EBCA87, 0xC2B2AE3D27D4EB4F, 0x165667B19E3779F9, 0x85EBCA77C2B2AE63, 0x27D4EB2F165667C5), (1 << 64) - 1
+    turn = lambda x, n: (x << n | x >> (64 - n)) & mask
+    mix = lambda acc, lane: turn((acc + lane * p[1]) & mask, 31) * p[0] & mask
+    v, at = [(p[0] + p[1]) & mask, p[1], 0, -p[0] & mask], 0
+    while at + 32 <= len(data):
+        v = [mix(acc, lane) for acc, lane in zip(v, struct.unpack_from("<4Q", data, at))]
+        at += 32
+    h = sum(turn(acc, n) for acc, n in zip(v, (1, 7, 12, 18))) & mask
+    for acc in v:
+        h = ((h ^ mix(0, acc)) * p[0] + p[3]) & mask
+    h = (h + len(data)) & mask
+    while at + 8 <= len(data):
+        h = (turn(h ^ mix(0, struct.unpack_from("<Q", data, at)[0]), 27) * p[0] + p[3]) & mask
+        at += 8
+    check(at == len(data), "a table is not of whole words")
+    for shift, factor in ((33, p[1]), (29, p[2]), (32, 1)):
+        h = (h ^ h >> shift) * factor & mask
+    return h
+
+
+def sealed(data):
+    return data[:-8] + struct.pack("<Q", xxh64(data[:-8]))
+
+
+@case("lights.tables_that_are_none_say_one_line", "input", tier="check")
+def tables(bench):
+    data = SHIPPED.read_bytes()
+    check(sealed(data) == data, "the shipped table does not end with its hash")
+    at = 32 + 4 * 11 * (((3 * 8 + 2) * 11 + 5) * 8 + 1)  # entry [theta 3][phi 2][alpha 5][lambda 1]
+    place, (turned,) = "[theta 3][phi 2][alpha 5][lambda 1]", struct.unpack_from("<f", data, at + 16)
+    put = lambda offset, value: sealed(data[:offset] + struct.pack("<f", value) + data[offset + 4:])
+    bench.run("bake", "ltc", "--resolution", "4", "--steps", "0", "-o", "four.ltc", "-q").expect(0)
+    files = {"magic": (b"x" + data[1:], "not a table"), "short": (data[:-100], "bytes, which must be"), "empty": (b"", "empty.ltc"),
+             "nan": (put(at + 20, float("nan")), place), "flat": (put(at + 16, -turned), f"{place}: has no positive determinant"),
+             "other": (data[:8] + b"\1\0\0\0" + data[12:], "version 1")}
+    for name, (text_of, needle) in files.items():
+        (bench.folder / f"{name}.ltc").write_bytes(text_of)
+        bench.run("render", "builtin:lights", *SMALL, "--ltc-table", f"{name}.ltc", "-o", "a.png").expect(4).expect_one_line(f"{name}.ltc", needle)
+    bench.run("render", *SMALL, "--ltc-table", "four.ltc", "-o", "a.png").expect(4).expect_one_line("four.ltc", "has 4 nodes", "tables of 8")
+    bench.run("render", *SMALL, "--ltc-table", "none.ltc", "-o", "a.png").expect(4).expect_one_line("none.ltc")
+    check("a.png" not in bench.left_behind(), "a picture was written")
+
+
+@case("lights.tables_take_the_place_of_the_program_s_own", tier="check")
+def own(bench):
+    round_table = SHIPPED.parent / "ggx_round.ltc"
+    hashes = {}
+    for way in ("ltc", "ltc-isotropic"):
+        words = ("builtin:lights", *DARK, "--area-lights", way)
+        hashes[way] = bench.figures(*words)["pixel_hash"]
+        for table in (SHIPPED, round_table):
+            check(bench.figures(*words, "--ltc-table", table)["pixel_hash"] == hashes[way], f"{way} by {table.name} is another picture")
+    check(hashes["ltc"] != hashes["ltc-isotropic"], "round lobes look as all lobes do")
+    bench.run("bake", "ltc", "--resolution", "8", "--steps", "0", "-o", "nodes.ltc", "-q", timeout=600).expect(0)
+    for way in ("ltc", "ltc-isotropic"):
+        other = bench.figures("builtin:lights", *DARK, "--area-lights", way, "--ltc-table", "nodes.ltc")["pixel_hash"]
+        check((other == hashes[way]) == (way == "ltc-isotropic"), f"{way} by a table of nodes fitted alone")
+
+
 @case("lights.more_than_the_limit_are_refused", "input", tier="check")
 def many(bench):
     ball = {"shape": "sphere", "points": [0, 0, 3], "radius": 0.1, "radiance": [1, 1, 1]}
@@ -73,6 +137,8 @@ def many(bench):
 @case("parity.area_lights_are_equal")
 def equal(bench):
     for options in (("--technique", "auto,mc", "--msaa", "1,4"), ("--technique", "auto", "--msaa", "1", "--area-lights", "ltc-clipless"),
+                    ("--technique", "auto", "--msaa", "1", "--area-lights", "ltc-isotropic", "--tilt", "25,10"),
+                    ("--technique", "auto", "--msaa", "1", "--area-lights", "ltc-clipless", "--tilt", "-25,10", "--roughness", "0.9"),
                     ("--technique", "bent_normal", "--msaa", "1", "--area-lights", "mc", "--light-samples", "5"),
                     ("--technique", "auto", "--msaa", "1", "--tilt", "15,-10", "--energy-compensation", "--fresnel", "dielectric")):
         report = parity(bench, "builtin:lights", "--env", "builtin:night", "--size", "64x48", "--light", QUAD, *options)

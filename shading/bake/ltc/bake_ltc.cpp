@@ -6,14 +6,15 @@
 
 #include "core/base/file.h"
 #include "core/base/hash.h"
+#include "core/math/scalar_math.h"
 #include "shading/bake/ltc/interpolant_fit.h"
 
 namespace burnish::ltc {
 namespace {
 
-constexpr std::size_t kStepUnits = 64;    // a step of the interpolant, in chains of nodes
-constexpr std::size_t kChainsKept = 64;   // chains between two checkpoints
-constexpr std::size_t kProbes = 1u << 18; // lookups that the guard looks at
+constexpr std::size_t kStepUnits = 64;   // a step of the interpolant, in chains of nodes
+constexpr std::size_t kChainsKept = 64;  // chains between two checkpoints
+constexpr std::size_t kProbesANode = 93; // lookups that the guard looks at
 constexpr char kPartMagic[8] = {'b', 'n', 'l', 't', 'c', 'p', '1', '\n'};
 
 // Everything that the work has so far.
@@ -27,8 +28,20 @@ struct Progressed {
 
 std::uint64_t key_of(const BakeOptions& o)
 {
-    const std::int32_t key[] = {static_cast<std::int32_t>(kTableVersion), o.grid.size,      o.grid.root_alpha,
-                                static_cast<std::int32_t>(o.grid.basis),  o.samples_a_cell, o.steps};
+    const Grid& g = o.grid;
+    const std::int32_t key[] = {static_cast<std::int32_t>(kTableVersion),
+                                g.size,
+                                g.beyond,
+                                g.round,
+                                g.root_alpha,
+                                g.over_alpha,
+                                g.inverse,
+                                static_cast<std::int32_t>(g.basis),
+                                o.samples_a_cell,
+                                o.steps,
+                                static_cast<std::int32_t>(o.norm),
+                                o.align,
+                                o.symmetry};
     return hash_bytes(key, sizeof key);
 }
 
@@ -100,13 +113,14 @@ std::size_t chains_of(const Grid& grid)
 }
 
 // Puts a chain and what is equal to it by symmetry where they belong.
-void put(const Grid& grid, int phi, int alpha, int lambda, const Chain& chain, Progressed& p)
+void put(const BakeOptions& options, int phi, int alpha, int lambda, const Chain& chain, Progressed& p)
 {
+    const Grid& grid = options.grid;
     const int last = grid.size - 1;
     for (int theta = 0; theta <= last; ++theta) {
         const std::size_t node = grid.node(theta, phi, alpha, lambda), i = static_cast<std::size_t>(theta);
         p.nodes[node] = chain.entries[i], p.l1[node] = chain.l1[i];
-        if (lambda == last) { // see Grid::first_equal
+        if (lambda == last && !grid.round && options.symmetry) { // see Grid::first_equal
             const std::size_t other = grid.node(theta, last - phi, alpha, lambda);
             p.nodes[other] = with_axes_exchanged(chain.entries[i]), p.l1[other] = chain.l1[i];
         }
@@ -140,32 +154,49 @@ std::vector<Albedo> albedos_of(const Grid& grid, const Jobs& jobs)
     return albedos;
 }
 
+Matrix in_own_gauge(const Matrix& m)
+{
+    // The turn that makes the first two columns orthogonal, the longer one first: tan 2t = 2 a.b / (a.a - b.b).
+    const Vec a = {m[0], m[3], m[6]}, b = {m[1], m[4], m[7]};
+    const double angle = 0.5 * det_atan2(2.0 * dot(a, b), dot(a, a) - dot(b, b)), c = det_cos(angle), s = det_sin(angle);
+    return m * Matrix{c, -s, 0.0, s, c, 0.0, 0.0, 0.0, 1.0};
+}
+
 } // namespace
 
-Chain fit_chain(const Grid& grid, int phi, int alpha, int lambda)
+Chain fit_chain(const BakeOptions& options, int phi, int alpha, int lambda)
 {
     static const Rule rule(15), albedo_rule(18);
+    const Grid& grid = options.grid;
     Chain chain;
-    Matrix before{}, natural_before{};
+    Matrix before{}, plain_before{};
     for (int theta = 0; theta < grid.size; ++theta) {
-        const std::size_t node = grid.node(theta, theta == 0 ? 0 : phi, alpha, lambda);
+        const std::size_t node = grid.node(theta, theta == 0 && options.symmetry ? 0 : phi, alpha, lambda);
         const Place place = grid.place(node);
+        const Mask zero = options.symmetry ? grid.zero(node) : 0; // of what was turned by itself, other elements
         const LobePoints points(normalised_lobe(place, albedo_rule), rule);
-        const Matrix natural = natural_matrix(place);
-        NodeFit best = fit_lobe(points, natural, grid.zero(node));
+        Matrix plain = natural_matrix(place);
+        if (options.norm != Norm::l1) {
+            Grid about; // whose frame is the mirror direction's
+            plain = about.frame(place) * Matrix{place.alpha, 0.0, 0.0, 0.0, place.alpha * place.lambda, 0.0, 0.0, 0.0, 1.0};
+        }
+        const auto fit = [&](const Matrix& start) {
+            return options.norm == Norm::sliced ? fit_sliced(points, start, zero) : fit_lobe(points, start, zero, options.norm);
+        };
+        NodeFit best = fit(plain);
         if (theta > 0) { // where the neighbour's fit would be, turned as the mirror direction is
-            const Matrix start = natural * inverse(natural_before) * before;
+            const Matrix start = plain * inverse(plain_before) * before;
             if (determinant(start) > 0.0)
-                if (const NodeFit other = fit_lobe(points, start, grid.zero(node)); other.l1 < best.l1)
+                if (const NodeFit other = fit(start); other.l1 < best.l1)
                     best = other;
         }
-        before = best.m, natural_before = natural;
-        Matrix m = in_natural_gauge(best.m, place);
+        before = best.m, plain_before = plain;
+        Matrix m = options.align ? in_natural_gauge(best.m, place) : in_own_gauge(best.m);
         for (std::size_t e = 0; e < 9; ++e)
-            if (grid.zero(node) >> e & 1u)
+            if (options.align && (zero >> e & 1u))
                 m[e] = 0.0;
         chain.entries.push_back(grid.held(m, place));
-        chain.l1.push_back(best.l1);
+        chain.l1.push_back(options.norm == Norm::l1 ? best.l1 : l1_distance(points, best.m));
     }
     return chain;
 }
@@ -189,14 +220,16 @@ Result<std::optional<Baked>> bake_table(const BakeOptions& options, const Jobs& 
     if (Status resumed = go_on(options, p); !resumed)
         return resumed.error();
     advance(p.chains + p.steps * kStepUnits);
-    const std::size_t chains = chains_of(grid), n = static_cast<std::size_t>(grid.size);
+    const std::size_t chains = chains_of(grid), alphas = static_cast<std::size_t>(grid.sizes()[2]),
+                      lambdas = static_cast<std::size_t>(grid.sizes()[3]);
     while (p.chains < chains) {
         const std::size_t from = p.chains, to = std::min(chains, from + kChainsKept);
         jobs.parallel_for(to - from, [&](std::size_t i, int) {
             const std::size_t c = from + i;
-            const int phi = static_cast<int>(c / (n * n)), alpha = static_cast<int>(c / n % n), lambda = static_cast<int>(c % n);
-            if (lambda < grid.size - 1 || 2 * phi < grid.size)
-                put(grid, phi, alpha, lambda, fit_chain(grid, phi, alpha, lambda), p);
+            const int phi = static_cast<int>(c / (alphas * lambdas)), alpha = static_cast<int>(c / lambdas % alphas),
+                      lambda = static_cast<int>(c % lambdas);
+            if (grid.round || !options.symmetry || lambda < grid.size - 1 || 2 * phi < grid.size)
+                put(options, phi, alpha, lambda, fit_chain(options, phi, alpha, lambda), p);
             advance(1);
         });
         p.chains = to;
@@ -205,7 +238,8 @@ Result<std::optional<Baked>> bake_table(const BakeOptions& options, const Jobs& 
         if (stopped())
             return std::optional<Baked>();
     }
-    make_equal(grid, p.nodes);
+    if (options.symmetry && options.align)
+        make_equal(grid, p.nodes);
 
     Baked baked;
     for (double l1 : p.l1)
@@ -227,17 +261,19 @@ Result<std::optional<Baked>> bake_table(const BakeOptions& options, const Jobs& 
             advance(kStepUnits);
         }
         entries = p.state.entries;
-        baked.probes = kProbes;
-        fit.guard(entries, p.nodes, 0.2, kProbes);
+        baked.probes = kProbesANode * grid.nodes();
+        fit.guard(entries, p.nodes, 0.2, baked.probes);
         // At grazing views across thin lobes the nodes alone are no better: the natural matrices are safe everywhere.
         std::vector<Matrix> natural;
         for (std::size_t node = 0; node < grid.nodes(); ++node)
             natural.push_back(grid.held(natural_matrix(grid.place(node)), grid.place(node)));
         make_equal(grid, natural);
-        baked.weak_lookups = fit.guard(entries, natural, 0.005, kProbes);
+        baked.weak_lookups = fit.guard(entries, natural, 0.005, baked.probes);
         baked.fit_l1_before = p.cost_before, baked.fit_l1 = p.state.cost;
     }
-    baked.table = make_table(grid, entries, albedos_of(grid, jobs));
+    const std::uint32_t made =
+        static_cast<std::uint32_t>(options.norm) << kNormShift | (options.align ? 0u : kUnaligned) | (options.symmetry ? 0u : kUnsymmetric);
+    baked.table = make_table(grid, entries, albedos_of(grid, jobs), made);
     return std::optional(std::move(baked));
 }
 

@@ -6,22 +6,49 @@
 
 namespace burnish::ltc {
 
+std::size_t Grid::nodes() const
+{
+    std::size_t count = 1;
+    for (int n : sizes())
+        count *= static_cast<std::size_t>(n);
+    return count;
+}
+
 std::size_t Grid::node(int theta, int phi, int alpha, int lambda) const
 {
-    const auto at = [](int i) { return static_cast<std::size_t>(i); };
-    return ((at(theta) * n() + at(phi)) * n() + at(alpha)) * n() + at(lambda);
+    const int at[4] = {theta, phi, alpha, lambda};
+    const std::array<int, 4> n = sizes();
+    std::size_t node = 0;
+    for (std::size_t a = 0; a < 4; ++a)
+        node = node * static_cast<std::size_t>(n[a]) + static_cast<std::size_t>(at[a]);
+    return node;
 }
 
 std::array<int, 4> Grid::indices(std::size_t node) const
 {
-    return {static_cast<int>(node / (n() * n() * n())), static_cast<int>(node / (n() * n()) % n()), static_cast<int>(node / n() % n()),
-            static_cast<int>(node % n())};
+    const std::array<int, 4> n = sizes();
+    std::array<int, 4> at{};
+    for (std::size_t a = 4; a-- > 0; node /= static_cast<std::size_t>(n[a]))
+        at[a] = static_cast<int>(node % static_cast<std::size_t>(n[a]));
+    return at;
+}
+
+double Grid::alpha_at(double node) const
+{
+    const double u = node / (size - 1.0);
+    return root_alpha ? u * u : u;
 }
 
 Place Grid::between(int theta, int phi, int alpha, int lambda, const std::array<double, 4>& u) const
 {
-    const double last = size - 1.0, a = (alpha + u[2]) / last;
-    return {(theta + u[0]) / last * (0.5 * kPi), (phi + u[1]) / last * (0.5 * kPi), root_alpha ? a * a : a, (lambda + u[3]) / last};
+    const double last = size - 1.0, t = (theta + u[0]) / last;
+    Place place = {t * (0.5 * kPi), (phi + u[1]) / last * (0.5 * kPi), alpha_at(alpha + u[2]), (lambda + u[3]) / last};
+    if (round) {
+        const double z = 1.0 - t * t;
+        place.theta = det_atan2(std::sqrt(std::max(0.0, 1.0 - z * z)), z);
+        place.phi = 0.0, place.lambda = 1.0;
+    }
+    return place;
 }
 
 Place Grid::place(std::size_t node) const
@@ -36,14 +63,15 @@ Place Grid::place(std::size_t node) const
 
 Corners Grid::corners(const Place& place) const
 {
-    const double last = size - 1.0;
-    const double u[4] = {place.theta * (2.0 / kPi), place.phi * (2.0 / kPi), root_alpha ? std::sqrt(place.alpha) : place.alpha,
-                         place.lambda};
-    int low[4];
+    const double theta = round ? std::sqrt(std::max(0.0, 1.0 - det_cos(place.theta))) : place.theta * (2.0 / kPi);
+    const double u[4] = {theta, place.phi * (2.0 / kPi), root_alpha ? std::sqrt(place.alpha) : place.alpha, place.lambda};
+    const std::array<int, 4> n = sizes();
+    int low[4], high[4];
     double part[4];
-    for (int a = 0; a < 4; ++a) {
-        const double at = std::clamp(u[a] * last, 0.0, last);
-        low[a] = std::min(static_cast<int>(at), size - 2);
+    for (std::size_t a = 0; a < 4; ++a) {
+        const double at = std::clamp(u[a] * (size - 1.0), 0.0, n[a] - 1.0);
+        low[a] = std::clamp(static_cast<int>(at), 0, std::max(0, n[a] - 2));
+        high[a] = std::min(low[a] + 1, n[a] - 1);
         part[a] = at - low[a];
     }
     Corners corners;
@@ -52,12 +80,21 @@ Corners Grid::corners(const Place& place) const
         double weight = 1.0;
         for (int a = 0; a < 4; ++a) {
             const int up = c >> a & 1;
-            i[a] = low[a] + up;
+            i[a] = up ? high[a] : low[a];
             weight *= up ? part[a] : 1.0 - part[a];
         }
         corners[static_cast<std::size_t>(c)] = {node(i[0], i[1], i[2], i[3]), weight};
     }
     return corners;
+}
+
+std::vector<std::array<int, 4>> Grid::cells() const
+{
+    std::vector<std::array<int, 4>> all;
+    for (std::size_t k = 0; k < nodes(); ++k)
+        if (const std::array<int, 4> i = indices(k); i[0] < size - 1 && i[1] < size - 1 && i[2] < sizes()[2] - 1 && i[3] < size - 1)
+            all.push_back(i);
+    return all;
 }
 
 Matrix Grid::frame(const Place& place) const
@@ -73,12 +110,18 @@ Matrix Grid::frame(const Place& place) const
 
 Matrix Grid::held(const Matrix& m, const Place& place) const
 {
-    return with_unit_axis(inverse(frame(place)) * m);
+    if (inverse)
+        return with_unit_axis(burnish::ltc::inverse(m));
+    const double s = 1.0 / width(place);
+    return with_unit_axis(burnish::ltc::inverse(frame(place)) * m * Matrix{s, 0.0, 0.0, 0.0, s, 0.0, 0.0, 0.0, 1.0});
 }
 
 Matrix Grid::shown(const Matrix& entry, const Place& place) const
 {
-    return frame(place) * entry;
+    if (inverse)
+        return burnish::ltc::inverse(entry);
+    const double s = width(place);
+    return frame(place) * entry * Matrix{s, 0.0, 0.0, 0.0, s, 0.0, 0.0, 0.0, 1.0};
 }
 
 Matrix Grid::lookup(const std::vector<Matrix>& entries, const Place& place) const
@@ -96,7 +139,7 @@ Mask Grid::zero(std::size_t node) const
     Mask mask = 0;
     if (i[0] == 0 || i[1] == 0)
         mask |= kMirrorY;
-    if (i[0] == 0 || i[1] == size - 1)
+    if (i[0] == 0 || (!round && i[1] == size - 1))
         mask |= kMirrorX;
     return mask;
 }
@@ -104,6 +147,8 @@ Mask Grid::zero(std::size_t node) const
 std::pair<std::size_t, std::size_t> Grid::first_equal(std::size_t node_index, std::size_t element) const
 {
     const std::array<int, 4> i = indices(node_index);
+    if (round) // seen along the normal x and y are alike
+        return {node_index, i[0] == 0 && element == 4 ? 0 : element};
     const int phi = i[0] == 0 ? 0 : i[1];
     std::pair<std::size_t, std::size_t> first = {node(i[0], phi, i[2], i[3]), element};
     if (i[3] == size - 1) { // element of P M P: both its row and its column exchanged
@@ -113,9 +158,24 @@ std::pair<std::size_t, std::size_t> Grid::first_equal(std::size_t node_index, st
     return first;
 }
 
-Place usable_place(const std::array<double, 4>& u)
+Grid grid_of(int size)
 {
-    const double root = 0.1 + 0.9 * u[2];
+    Grid grid;
+    grid.size = size;
+    grid.beyond = static_cast<int>(std::ceil((std::sqrt(2.0) - 1.0) * (size - 1.0)));
+    return grid;
+}
+
+Grid round_grid()
+{
+    Grid grid;
+    grid.size = 64, grid.beyond = 0, grid.round = true, grid.over_alpha = false, grid.basis = Basis::tangent;
+    return grid;
+}
+
+Place usable_place(const std::array<double, 4>& u, double most_alpha)
+{
+    const double root = 0.1 + (std::sqrt(most_alpha) - 0.1) * u[2];
     return {u[0] * (89.0 / 180.0 * kPi), u[1] * (0.5 * kPi), root * root, 0.02 + 0.98 * u[3]};
 }
 

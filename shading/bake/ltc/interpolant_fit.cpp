@@ -8,7 +8,7 @@ namespace burnish::ltc {
 namespace {
 
 constexpr double kNodeWeight = 0.3;
-constexpr double kLeastSampleAlpha = 0.005; // below, the node fits' natural start is right and the lookup's clamp cuts in
+constexpr double kLeastSampleAlpha = 0.005; // of columns that shrink with alpha: below, no interpolation of them is near
 constexpr double kLeastMu = 1e-3, kWorstL1 = 2.0;
 constexpr int kSolverSteps = 60;
 constexpr std::size_t kChunk = 64; // samples of one job
@@ -44,14 +44,12 @@ std::array<double, 4> spread_point(std::size_t k)
 InterpolantFit::InterpolantFit(const Grid& grid, int a_cell, const Jobs& jobs)
     : grid_(grid), jobs_(&jobs), rule_(14), albedo_rule_(17), variable_(grid.nodes() * 9, -1), touched_(grid.nodes())
 {
-    const int cells = grid.size - 1;
     std::size_t k = 0;
-    for (int i = 0; i < cells * cells * cells * cells; ++i)
+    for (const std::array<int, 4>& cell : grid.cells())
         for (int s = 0; s < a_cell; ++s) {
-            Place place =
-                grid.between(i / (cells * cells * cells), i / (cells * cells) % cells, i / cells % cells, i % cells, spread_point(k++));
+            Place place = grid.between(cell[0], cell[1], cell[2], cell[3], spread_point(k++));
             place.theta = std::min(place.theta, Grid::kMostTheta);
-            place.alpha = std::max(place.alpha, kLeastSampleAlpha);
+            place.alpha = std::max(place.alpha, grid.over_alpha ? Grid::kLeastAlpha : kLeastSampleAlpha);
             place.lambda = std::max(place.lambda, Grid::kLeastLambda);
             samples_.push_back({place, 1.0, grid.corners(place)});
         }
@@ -92,7 +90,15 @@ void InterpolantFit::measure(const std::vector<Matrix>& entries)
             out = {{}, {}, kWorstL1};
             return;
         }
-        const Sums sums = sums_of(LobePoints(Lobe(sample.place, albedo_[index]), rule_), m);
+        Sums sums = sums_of(LobePoints(Lobe(sample.place, albedo_[index]), rule_), m);
+        // of E = -D^-1 N dT D, where D holds the widths
+        const double width[3] = {grid_.width(sample.place), grid_.width(sample.place), 1.0};
+        for (std::size_t i = 0, at = 0; i < 9; ++i) {
+            const double s = width[i % 3] / width[i / 3];
+            sums.gradient[i] *= s;
+            for (std::size_t j = i; j < 9; ++j)
+                sums.hessian[at++] *= s * (width[j % 3] / width[j / 3]);
+        }
         const Matrix n = inverse(entry); // E = -N dM = -(entry)^-1 d(entry)
         out.l1 = sums.l1;
         for (std::size_t k = 0; k < 3; ++k)
@@ -256,7 +262,7 @@ std::size_t InterpolantFit::guard(std::vector<Matrix>& entries, const std::vecto
         std::vector<std::vector<std::size_t>> found(chunks); // nodes around probes that are too flat
         jobs_->parallel_for(chunks, [&](std::size_t c, int) {
             for (std::size_t i = c * chunk; i < std::min(probes, (c + 1) * chunk); ++i) {
-                const Place place = usable_place(spread_point(i));
+                const Place place = usable_place(spread_point(i), grid_.most_alpha());
                 if (determinant(grid_.lookup(entries, place)) >= part * determinant(grid_.lookup(safe, place)))
                     continue;
                 for (const Corner& corner : grid_.corners(place))

@@ -13,14 +13,14 @@ constexpr int kEvaluations = 60;  // of a fit, at most
 constexpr double kSettled = 2e-6; // relative gain of a step below which the fit may end
 
 // One point's share. x: the point in the cosine's space, unit, x.z > 0 where q > 0.
-template <bool with_sums> inline void add(Sums& sums, double p, double q, double visible, const Vec& x)
+template <bool with_sums, Norm norm> inline void add(Sums& sums, double p, double q, double visible, const Vec& x)
 {
     const double weight = 1.0 / (visible + q), r = p - q, apart = std::abs(r);
-    sums.l1 += apart * weight;
+    sums.l1 += (norm == Norm::l1 ? apart : apart * apart * apart) * weight;
     if constexpr (with_sums) {
         if (!(q > 0.0))
             return;
-        const double w = weight / (apart + kSoft * (p + q)) * q;
+        const double w = (norm == Norm::l1 ? weight / (apart + kSoft * (p + q)) : weight * apart) * q;
         double g[9] = {1.0 - 4.0 * x.x * x.x,
                        -4.0 * x.x * x.y,
                        -4.0 * x.x * x.z,
@@ -41,7 +41,7 @@ template <bool with_sums> inline void add(Sums& sums, double p, double q, double
     }
 }
 
-template <bool with_sums> Sums evaluate(const LobePoints& lobe, const Matrix& m)
+template <bool with_sums, Norm norm = Norm::l1> Sums evaluate(const LobePoints& lobe, const Matrix& m)
 {
     Sums sums;
     const Matrix n = inverse(m);
@@ -50,14 +50,14 @@ template <bool with_sums> Sums evaluate(const LobePoints& lobe, const Matrix& m)
         const Vec u = n * point.l;
         const double length2 = dot(u, u);
         const double q = u.z > 0.0 ? u.z * det_n / (kPi * length2 * length2) : 0.0;
-        add<with_sums>(sums, point.value.reflected, q, point.value.visible, scaled(u, 1.0 / std::sqrt(length2)));
+        add<with_sums, norm>(sums, point.value.reflected, q, point.value.visible, scaled(u, 1.0 / std::sqrt(length2)));
     }
     for (const Rule::Point& point : lobe.rule->points) {
         const Vec w = m * point.clamped;
         const double length = std::sqrt(dot(w, w));
         const double q = point.clamped.z * length * length * length / (kPi * det_m);
         const Reflected f = density(lobe.lobe, scaled(w, 1.0 / length));
-        add<with_sums>(sums, f.reflected, q, f.visible, point.clamped);
+        add<with_sums, norm>(sums, f.reflected, q, f.visible, point.clamped);
     }
     const double share = 1.0 / static_cast<double>(lobe.points.size());
     sums.l1 *= share;
@@ -99,9 +99,9 @@ double l1_distance(const LobePoints& lobe, const Matrix& m)
     return evaluate<false>(lobe, m).l1;
 }
 
-Sums sums_of(const LobePoints& lobe, const Matrix& m)
+Sums sums_of(const LobePoints& lobe, const Matrix& m, Norm norm)
 {
-    return evaluate<true>(lobe, m);
+    return norm == Norm::l3 ? evaluate<true, Norm::l3>(lobe, m) : evaluate<true>(lobe, m);
 }
 
 bool solve_damped(const Sums& sums, double mu, Mask zero, std::array<double, 9>& x)
@@ -150,10 +150,10 @@ bool solve_damped(const Sums& sums, double mu, Mask zero, std::array<double, 9>&
     return true;
 }
 
-NodeFit fit_lobe(const LobePoints& lobe, const Matrix& start, Mask zero)
+NodeFit fit_lobe(const LobePoints& lobe, const Matrix& start, Mask zero, Norm norm)
 {
     NodeFit best = {with_unit_axis(start), 0.0, 1};
-    Sums sums = sums_of(lobe, best.m);
+    Sums sums = sums_of(lobe, best.m, norm);
     best.l1 = sums.l1;
     double mu = 0.02;
     int settled = 0;
@@ -174,7 +174,7 @@ NodeFit fit_lobe(const LobePoints& lobe, const Matrix& start, Mask zero)
             mu *= 5.0;
             continue;
         }
-        const Sums next = sums_of(lobe, m);
+        const Sums next = sums_of(lobe, m, norm);
         if (next.l1 < best.l1) {
             settled = best.l1 - next.l1 < kSettled * best.l1 ? settled + 1 : 0;
             best.m = m, best.l1 = next.l1, sums = next;

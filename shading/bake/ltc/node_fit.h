@@ -28,8 +28,12 @@ struct LobePoints {
     std::vector<Point> points;
 };
 
+// What a fit makes small: the integral of |p - q|, of its third power (Heitz et al. 2016), or how far samples of one have to be carried to
+// be samples of the other, along many axes (the sliced Wasserstein distance; KT et al. 2022).
+enum class Norm { l1, l3, sliced };
+
 double l1_distance(const LobePoints& lobe, const Matrix& m);
-Sums sums_of(const LobePoints& lobe, const Matrix& m);
+Sums sums_of(const LobePoints& lobe, const Matrix& m, Norm norm = Norm::l1); // l1: of the norm, which is not the sliced one
 
 // Elements of M, and of E, that are zero by symmetry: bit 3 row + column.
 using Mask = std::uint32_t;
@@ -43,7 +47,10 @@ struct NodeFit {
 };
 
 // Levenberg-Marquardt from `start`, which has a positive determinant; the result has one too, and a unit third column.
-NodeFit fit_lobe(const LobePoints& lobe, const Matrix& start, Mask zero);
+NodeFit fit_lobe(const LobePoints& lobe, const Matrix& start, Mask zero, Norm norm = Norm::l1);
+
+// By the sliced distance: steps along its gradient, as many for every lobe. l1 of the result is that of `fit_lobe`.
+NodeFit fit_sliced(const LobePoints& lobe, const Matrix& start, Mask zero);
 
 // (H + mu (diag H + .01 trace H)) x = b by Cholesky, without the elements of `zero`, which stay 0. False where H is no use.
 bool solve_damped(const Sums& sums, double mu, Mask zero, std::array<double, 9>& x);

@@ -160,12 +160,12 @@ Spread spread_of(std::vector<double> values)
 std::vector<double> l1_of_cells(const Table& table, const Jobs& jobs)
 {
     const Rule rule(15), albedo_rule(17);
-    const int cells = table.grid.size - 1;
-    std::vector<double> l1(static_cast<std::size_t>(cells * cells * cells * cells));
+    const Grid grid = table.grid.round ? Grid() : table.grid; // whose cells
+    const std::vector<std::array<int, 4>> cells = grid.cells();
+    std::vector<double> l1(cells.size());
     jobs.parallel_for(l1.size(), [&](std::size_t index, int) {
-        const int i = static_cast<int>(index);
-        const Place place = table.grid.between(i / (cells * cells * cells), i / (cells * cells) % cells, i / cells % cells, i % cells,
-                                               {0.5, 0.5, 0.5, 0.5});
+        const std::array<int, 4>& i = cells[index];
+        const Place place = grid.between(i[0], i[1], i[2], i[3], {0.5, 0.5, 0.5, 0.5});
         const Matrix m = lookup(table, place).m;
         l1[index] = determinant(m) > 0.0 ? l1_distance(LobePoints(normalised_lobe(place, albedo_rule), rule), m) : 2.0;
     });
@@ -178,7 +178,7 @@ std::size_t broken_lookups(const Table& table, std::size_t probes, const Jobs& j
     std::vector<std::size_t> broken((probes + kChunk - 1) / kChunk, 0);
     jobs.parallel_for(broken.size(), [&](std::size_t c, int) {
         for (std::size_t i = c * kChunk; i < std::min(probes, (c + 1) * kChunk); ++i)
-            broken[c] += determinant(lookup(table, usable_place(spread_point(i + 1000003))).m) > 0.0 ? 0 : 1;
+            broken[c] += determinant(lookup(table, usable_place(spread_point(i + 1000003), table.grid.most_alpha())).m) > 0.0 ? 0 : 1;
     });
     std::size_t sum = 0;
     for (std::size_t b : broken)

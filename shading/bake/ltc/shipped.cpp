@@ -1,17 +1,55 @@
 #include "shading/bake/ltc/shipped.h"
 
+#include <fmt/format.h>
+
 #include "core/base/check.h"
 
 namespace burnish::ltc {
+namespace {
 
-const ShadingTable& shipped_table()
+const Table& shipped(bool round)
 {
-    static const ShadingTable shipped = [] {
-        const Result<Table> table = parse_table(reinterpret_cast<const std::uint8_t*>(kShippedWords), kShippedBytes, "ggx.ltc", 8);
+    const auto read = [](const std::uint32_t* words, std::size_t bytes, const char* name, int size) {
+        const Result<Table> table = parse_table(reinterpret_cast<const std::uint8_t*>(words), bytes, name, size);
         BN_CHECK(table);
-        return ShadingTable{table_texels(*table), table->grid.root_alpha, static_cast<int>(table->grid.basis)};
-    }();
-    return shipped;
+        return *table;
+    };
+    static const Table all = read(kShippedWords, kShippedBytes, "ggx.ltc", kShadingSize);
+    static const Table of_round = read(kShippedRoundWords, kShippedRoundBytes, "ggx_round.ltc", kShadingRoundSize);
+    return round ? of_round : all;
+}
+
+ShadingTables joined(const Table& all, const Table& round)
+{
+    ShadingTables tables;
+    tables.texels = table_texels(all);
+    const std::vector<std::uint16_t> more = table_texels(round);
+    const Grid& grid = all.grid;
+    tables.record = {grid.root_alpha, static_cast<int>(grid.basis),
+                     grid.over_alpha, grid.inverse,
+                     grid.sizes()[2], static_cast<int>(tables.texels.size() / 4)};
+    tables.texels.insert(tables.texels.end(), more.begin(), more.end());
+    return tables;
+}
+
+} // namespace
+
+const ShadingTables& shipped_tables()
+{
+    static const ShadingTables tables = joined(shipped(false), shipped(true));
+    return tables;
+}
+
+Result<ShadingTables> with_table(const Table& own, const std::string& path)
+{
+    const int size = own.grid.round ? kShadingRoundSize : kShadingSize;
+    if (own.grid.size != size)
+        return Error{ExitCode::bad_input, path, "byte 12",
+                     fmt::format("has {} nodes along an axis; shading reads tables of {}, round ones of {}", own.grid.size, kShadingSize,
+                                 kShadingRoundSize)};
+    if (own.grid.round && (own.grid.basis != Basis::tangent || own.grid.over_alpha || own.grid.inverse || !own.grid.root_alpha))
+        return Error{ExitCode::bad_input, path, "byte 16", "is a round table whose matrices are held in another way than shading reads"};
+    return own.grid.round ? joined(shipped(false), own) : joined(own, shipped(true));
 }
 
 } // namespace burnish::ltc

@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <filesystem>
+#include <functional>
 
 #include "core/base/file.h"
 #include "core/math/scalar_math.h"
@@ -16,7 +17,7 @@ namespace {
 BakeOptions small()
 {
     BakeOptions options;
-    options.grid.size = 3;
+    options.grid = grid_of(3);
     options.steps = 2, options.samples_a_cell = 2;
     return options;
 }
@@ -46,6 +47,58 @@ TEST(fit, single_lobes_reach_what_is_known)
         EXPECT_GT(determinant(fit.m), 0.0);
         EXPECT_NEAR(fit.m[2] * fit.m[2] + fit.m[5] * fit.m[5] + fit.m[8] * fit.m[8], 1.0, 1e-12);
     }
+}
+
+TEST(fit, the_sliced_distance_leads_near_the_lobe_from_a_plain_start)
+{
+    const Rule rule(14), white(18);
+    const Grid about; // whose frame is the mirror direction's
+    for (const Place& place : {Place{0.3, 0.4, 0.5, 0.6}, Place{0.8, 1.0, 0.3, 0.4}, Place{1.1, 0.5, 0.6, 0.8}}) {
+        const LobePoints points(normalised_lobe(place, white), rule);
+        const Matrix plain = about.frame(place) * Matrix{place.alpha, 0.0, 0.0, 0.0, place.alpha * place.lambda, 0.0, 0.0, 0.0, 1.0};
+        const NodeFit sliced = fit_sliced(points, plain, 0), best = fit_lobe(points, natural_matrix(place), 0);
+        printf("start %.3f, sliced %.3f, best %.3f\n", l1_distance(points, with_unit_axis(plain)), sliced.l1, best.l1);
+        EXPECT_LT(sliced.l1, 2.0 * best.l1 + 0.02);
+        EXPECT_LT(sliced.l1, 0.6 * l1_distance(points, with_unit_axis(plain)));
+        EXPECT_GT(sliced.l1, best.l1 - 1e-3);
+        EXPECT_GT(determinant(sliced.m), 0.0);
+    }
+}
+
+// Mean L1 in the middle of cells, and what the file says that it was made with.
+std::pair<double, std::uint32_t> nodes_alone(const std::function<void(BakeOptions&)>& change)
+{
+    BakeOptions options = small();
+    options.grid = grid_of(4), options.steps = 0;
+    change(options);
+    const Jobs jobs(1);
+    const Result<std::optional<Baked>> baked = bake_table(options, jobs);
+    EXPECT_TRUE(baked && *baked);
+    const std::vector<std::uint8_t> bytes = table_bytes((*baked)->table);
+    const Result<Table> read = parse_table(bytes.data(), bytes.size(), "t", 4);
+    EXPECT_TRUE(read) << (read ? "" : read.error().line());
+    const std::vector<double> l1 = read ? l1_of_cells(*read, jobs) : std::vector<double>{2.0};
+    return {spread_of(l1).mean, read ? read->made : 0};
+}
+
+TEST(fit, as_others_do_it_is_worse_and_the_file_says_how)
+{
+    const auto [own, plain] = nodes_alone([](BakeOptions&) {});
+    const auto [cubed, l3] = nodes_alone([](BakeOptions& o) { o.norm = Norm::l3; });
+    const auto [turned, unaligned] = nodes_alone([](BakeOptions& o) { o.align = false; });
+    const auto [apart, unsymmetric] = nodes_alone([](BakeOptions& o) { o.symmetry = false; });
+    const auto [inverted, inverse] = nodes_alone(
+        [](BakeOptions& o) { o.grid.inverse = true, o.grid.root_alpha = o.grid.over_alpha = false, o.grid.basis = Basis::tangent; });
+    printf("own %.4f, l3 %.4f, unaligned %.4f, without symmetry %.4f, inverse %.4f\n", own, cubed, turned, apart, inverted);
+    EXPECT_EQ(plain, 0u);
+    EXPECT_EQ(l3, 1u << kNormShift);
+    EXPECT_EQ(unaligned, kUnaligned);
+    EXPECT_EQ(unsymmetric, kUnsymmetric);
+    EXPECT_EQ(inverse, 0u); // the grid's
+    EXPECT_GT(cubed, own + 0.01);
+    EXPECT_GT(turned, own + 0.03);
+    EXPECT_GT(inverted, own + 0.05);
+    EXPECT_NEAR(apart, own, 0.02);
 }
 
 TEST(fit, equations_are_the_derivative)
@@ -129,7 +182,7 @@ TEST(fit, stopped_and_gone_on_with_it_is_the_same)
 TEST(fit, a_coarse_table_is_nearer_between_its_nodes_than_its_nodes_alone_make_it)
 {
     BakeOptions options;
-    options.grid.size = 5;
+    options.grid = grid_of(5);
     options.steps = 5, options.samples_a_cell = 4;
     const Jobs jobs;
     const Result<std::optional<Baked>> fitted = bake_table(options, jobs);

@@ -8,10 +8,10 @@ namespace burnish {
 inline namespace BN_ISA_NS {
 namespace {
 
-// Of a view: level is the table's basis.
+// Of a view: levels are the nodes along alpha, level how entries are held: their basis, over alpha 4, inverse 8.
 ltc_table table_of(const test::TexelView& t)
 {
-    return {t.texels, 1, t.level};
+    return {t.texels, 1, t.level & 3, t.level >> 2 & 1, t.level >> 3 & 1, t.levels};
 }
 
 // By the columns of M.

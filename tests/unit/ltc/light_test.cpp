@@ -140,6 +140,43 @@ TEST(light, five_sides_of_a_room_take_what_does_not_leak)
     }
 }
 
+// Sutherland and Hodgman's way, in double.
+std::vector<Vec> cut(const std::vector<Vec>& corners, const Vec& normal)
+{
+    std::vector<Vec> above;
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+        const Vec &a = corners[i], &b = corners[(i + 1) % corners.size()];
+        const double ha = dot(a, normal), hb = dot(b, normal);
+        if (ha > 0.0)
+            above.push_back(a);
+        if ((ha > 0.0) != (hb > 0.0))
+            above.push_back(along(a, ha / (ha - hb), b, -ha / (ha - hb), a));
+    }
+    return above;
+}
+
+TEST(light, quads_are_cut_at_a_plane_that_leans)
+{
+    Chance chance;
+    int cuts = 0, below = 0;
+    for (int i = 0; i < 400; ++i) {
+        const Matrix m = chance.lobe(0.05, 0.1);
+        const Vec middle = chance.point(1.0), a = chance.point(0.9), b = chance.point(0.9), normal = unit(chance.point(1.0));
+        const std::vector<Vec> corners = parallelogram_of(middle, a, b), left = cut(corners, normal);
+        cuts += !left.empty() && left.size() != 4, below += left.empty();
+        const double expected = left.empty() ? 0.0 : polygon_part(inverse(m), left);
+        for (const IsaFns& isa : all_fns()) {
+            const Row got = run_row(isa, "ltc_quad_above", joined({columns(m), flat(corners), flat({normal})}));
+            ASSERT_NEAR(got[0], expected, 1e-4) << isa.name << i;
+            if (left.empty()) {
+                ASSERT_NEAR(got[1], 0.0, 1e-6) << isa.name << i;
+            }
+        }
+    }
+    EXPECT_GT(cuts, 50);
+    EXPECT_GT(below, 20);
+}
+
 TEST(light, parts_of_a_quad_sum_to_it)
 {
     Chance chance;

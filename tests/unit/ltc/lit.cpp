@@ -40,16 +40,37 @@ Row rounded(Row row)
     return row;
 }
 
+namespace {
+
+Table as_halves(const char* name, int size)
+{
+    const std::string path = std::string(BN_SOURCE_DIR) + "/shading/bake/ltc/" + name;
+    const Result<Table> whole = read_table(path, size);
+    EXPECT_TRUE(whole) << (whole ? "" : whole.error().line());
+    const std::vector<std::uint8_t> bytes = table_bytes(*whole, true);
+    return *parse_table(bytes.data(), bytes.size(), path, size);
+}
+
+} // namespace
+
 const Table& halves()
 {
-    static const Table table = [] {
-        const std::string path = std::string(BN_SOURCE_DIR) + "/shading/bake/ltc/ggx.ltc";
-        const Result<Table> whole = read_table(path, 8);
-        EXPECT_TRUE(whole) << (whole ? "" : whole.error().line());
-        const std::vector<std::uint8_t> bytes = table_bytes(*whole, true);
-        return *parse_table(bytes.data(), bytes.size(), path, 8);
-    }();
+    static const Table table = as_halves("ggx.ltc", kShadingSize);
     return table;
+}
+
+const Table& round_halves()
+{
+    static const Table table = as_halves("ggx_round.ltc", kShadingRoundSize);
+    return table;
+}
+
+test::TexelView round_view()
+{
+    static const std::vector<std::uint16_t> texels = table_texels(round_halves());
+    test::TexelView t;
+    t.texels = texels.data();
+    return t;
 }
 
 test::TexelView shipped_view()
@@ -57,7 +78,7 @@ test::TexelView shipped_view()
     static const std::vector<std::uint16_t> texels = table_texels(halves());
     test::TexelView t;
     t.texels = texels.data();
-    t.level = static_cast<int>(halves().grid.basis);
+    t.level = static_cast<int>(halves().grid.basis) + 4 * halves().grid.over_alpha, t.levels = halves().grid.sizes()[2];
     return t;
 }
 

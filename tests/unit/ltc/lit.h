@@ -19,7 +19,9 @@ Row rounded(Row row); // to floats, so that double versions get what float versi
 
 const Table& halves();          // the shipped table as halves hold it
 test::TexelView shipped_view(); // its texels
-Row columns(const Matrix& m);   // as kernels take M
+const Table& round_halves();    // the same of the shipped table of round lobes
+test::TexelView round_view();
+Row columns(const Matrix& m); // as kernels take M
 Matrix from_columns(const Row& row);
 Row flat(const std::vector<Vec>& points);
 

@@ -35,7 +35,7 @@ TEST(table, seen_along_the_normal_all_azimuths_are_one)
 {
     const Table& t = shipped();
     for (int phi = 1; phi < 8; ++phi)
-        for (int alpha = 0; alpha < 8; ++alpha)
+        for (int alpha = 0; alpha < t.grid.sizes()[2]; ++alpha)
             for (int lambda = 0; lambda < 8; ++lambda)
                 EXPECT_EQ(std::memcmp(&t.entries[kChannels * t.grid.node(0, phi, alpha, lambda)],
                                       &t.entries[kChannels * t.grid.node(0, 0, alpha, lambda)], kChannels * sizeof(float)),
@@ -58,7 +58,7 @@ TEST(table, round_lobes_are_the_same_from_both_sides_of_the_diagonal)
     const Table& t = shipped();
     for (int theta = 0; theta < 8; ++theta)
         for (int phi = 0; phi < 8; ++phi)
-            for (int alpha = 0; alpha < 8; ++alpha) {
+            for (int alpha = 0; alpha < t.grid.sizes()[2]; ++alpha) {
                 const Matrix a = entry(t, t.grid.node(theta, phi, alpha, 7)),
                              b = with_axes_exchanged(entry(t, t.grid.node(theta, 7 - phi, alpha, 7)));
                 for (std::size_t e = 0; e < 9; ++e)
@@ -123,7 +123,7 @@ TEST(table, halves_change_next_to_nothing)
     const std::vector<std::uint8_t> bytes = table_bytes(shipped(), true);
     const Result<Table> halves = parse_table(bytes.data(), bytes.size(), "halves", 8);
     ASSERT_TRUE(halves) << halves.error().line();
-    EXPECT_EQ(bytes.size(), 24u + 4096u * 11u * 2u + 8u);
+    EXPECT_EQ(bytes.size(), 32u + 64u * 11u * 8u * 11u * 2u + 8u);
     const Jobs jobs(1);
     const std::vector<Place> places = judged_places(20, 0, 0);
     const std::vector<Judged> a = judge(shipped(), places, false, jobs), b = judge(*halves, places, false, jobs);
@@ -158,7 +158,7 @@ std::string refusal(const std::function<void(std::vector<std::uint8_t>&)>& chang
 
 std::function<void(std::vector<std::uint8_t>&)> with_entry(std::size_t node, std::size_t channel, float value)
 {
-    return [=](std::vector<std::uint8_t>& b) { std::memcpy(b.data() + 24 + 4 * (kChannels * node + channel), &value, 4); };
+    return [=](std::vector<std::uint8_t>& b) { std::memcpy(b.data() + 32 + 4 * (kChannels * node + channel), &value, 4); };
 }
 
 TEST(table, what_is_wrong_is_named)
@@ -174,8 +174,9 @@ TEST(table, what_is_wrong_is_named)
     EXPECT_TRUE(names(refusal([](Bytes& b) { b[1000] ^= 1; }, false), "damaged"));
     EXPECT_TRUE(names(refusal([](Bytes& b) { b[12] = 200; }, true), "200 nodes"));
     EXPECT_TRUE(names(refusal([](Bytes&) {}, true, 12), "12 are asked for"));
-    EXPECT_TRUE(names(refusal([](Bytes& b) { b[17] = 1; }, true), "flags"));
+    EXPECT_TRUE(names(refusal([](Bytes& b) { b[18] = 1; }, true), "flags"));
     EXPECT_TRUE(names(refusal([](Bytes& b) { b[20] = 12; }, true), "channels"));
+    EXPECT_TRUE(names(refusal([](Bytes& b) { b[24] = 9; }, true), "beyond 1"));
     const Grid grid;
     const std::size_t node = grid.node(3, 2, 5, 1);
     for (const float bad : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {

@@ -11,16 +11,6 @@
 namespace burnish::test {
 namespace {
 
-Scene lit_plate(float metallic)
-{
-    Scene scene = scene_of(
-        {{glm::vec3(-1, -1, 0), glm::vec3(1, -1, 0), glm::vec3(1, 1, 0)}, {glm::vec3(-1, -1, 0), glm::vec3(1, 1, 0), glm::vec3(-1, 1, 0)}},
-        false);
-    scene.materials[0].metallic = metallic;
-    scene.materials[0].base_color = glm::vec4(0.8f, 0.5f, 0.3f, 1.0f);
-    return scene;
-}
-
 AreaLight area_light_of(AreaShape shape, const std::vector<glm::vec3>& points, float radius = 0.0f)
 {
     AreaLight light;
@@ -53,7 +43,7 @@ const glm::vec3 kPlateEyes[] = {{0.2f, -0.5f, 2.0f}, {1.2f, -1.0f, 0.9f}};
 
 class LitPlate {
   public:
-    explicit LitPlate(float metallic) : stage_(lit_plate(metallic), 0.0f) {}
+    explicit LitPlate(float metallic) : stage_(plate(metallic), 0.0f) {}
     void light(const std::vector<AreaLight>& lights, const glm::mat4& world = glm::mat4(1.0f))
     {
         stage_.tables.area_lights.clear();
@@ -130,7 +120,8 @@ TEST(area_lights, of_one_side_are_dark_from_behind)
             d.area_way = way_named(way);
             AreaLight light = each_area_light()[which];
             room.light({light});
-            const bool shines = mean_radiance(room.seen(d)) > 0.0;
+            const bool shines = place_area_light(light, glm::mat4(1.0f))->normal.z < 0.0f; // on the plate, from above
+            EXPECT_EQ(mean_radiance(room.seen(d)) > 0.0, shines) << way << " " << which;
             std::reverse(light.points.begin() + 1, light.points.end());
             room.light({light});
             EXPECT_NE(mean_radiance(room.seen(d)) > 0.0, shines) << way << " " << which;
@@ -170,7 +161,7 @@ TEST(area_lights, by_cosines_are_what_sampling_finds)
 {
     const char* names[] = {"quad", "polygon", "disk", "sphere", "line"};
     for (const float metallic : {0.0f, 1.0f})
-        for (const float roughness : {0.35f, 0.6f, 0.7f})
+        for (const float roughness : {0.35f, 0.6f, 0.9f})
             for (const float eta : {0.0f, 0.8f})
                 for (const glm::vec3& eye : kPlateEyes)
                     for (std::size_t i = 0; i < 5; ++i) {
@@ -194,6 +185,55 @@ TEST(area_lights, by_cosines_are_what_sampling_finds)
                     }
 }
 
+TEST(area_lights, of_round_lobes_by_the_round_table_are_what_sampling_finds)
+{
+    for (const float roughness : {0.35f, 0.6f, 0.9f})
+        for (const glm::vec3& eye : kPlateEyes)
+            for (AreaLight light : each_area_light()) {
+                LitPlate room(1.0f);
+                light.two_sided = true;
+                room.light({light});
+                FrameDesc d = desc_of_plate(eye, roughness, 0.0f);
+                d.area_way = way_named("ltc-isotropic");
+                const double found = mean_radiance(room.seen(d));
+                d.area_way = way_named("mc"), d.light_samples = 1024;
+                const double mc = mean_radiance(room.seen(d));
+                EXPECT_NEAR(found, mc, 0.06 * mc + 0.012) << "roughness " << roughness << ", eye " << eye.z;
+            }
+}
+
+// Lobes that are tilted against their surface: of light from below it nothing arrives, and of the rest what sampling finds.
+TEST(area_lights, are_cut_at_the_horizon_of_a_surface_whose_lobes_are_tilted)
+{
+    for (const float metallic : {0.0f, 1.0f})
+        for (const glm::vec2& tilt : {glm::vec2(0.5f, 0.0f), glm::vec2(-0.4f, 0.5f)})
+            for (const glm::vec3& eye : kPlateEyes)
+                for (std::size_t i = 0; i < 5; ++i) {
+                    LitPlate room(metallic);
+                    AreaLight light = each_area_light()[i];
+                    light.two_sided = true;
+                    FrameDesc d = desc_of_plate(eye, 0.6f, 0.5f);
+                    d.tilt_rad = tilt;
+                    const auto found = [&](const char* way) {
+                        d.area_way = way_named(way), d.light_samples = 1024;
+                        return mean_radiance(room.seen(d));
+                    };
+                    for (glm::vec3& p : light.points) // half below
+                        p.z -= 0.6f;
+                    room.light({light});
+                    const double ltc = found("ltc"), clipless = found("ltc-clipless"), mc = found("mc");
+                    EXPECT_NEAR(ltc, mc, 0.08 * mc + 0.015) << i << " metallic " << metallic << " tilt " << tilt.x << " eye " << eye.z;
+                    EXPECT_NEAR(clipless, mc, 0.14 * mc + 0.015) << i;
+                    std::printf("%zu metallic %.0f tilt %.1f eye %.1f: %.4f, ltc %+.2f %%\n", i, static_cast<double>(metallic),
+                                static_cast<double>(tilt.x), static_cast<double>(eye.z), mc, 100.0 * (ltc / mc - 1.0));
+                    for (glm::vec3& p : light.points)
+                        p.z -= 2.0f;
+                    room.light({light});
+                    for (const char* way : {"ltc", "ltc-clipless", "mc"})
+                        EXPECT_LT(found(way), 1e-5) << i << " " << way;
+                }
+}
+
 TEST(area_lights, change_nothing_where_there_are_none_or_none_are_wanted)
 {
     LitPlate room(1.0f);
@@ -209,14 +249,14 @@ TEST(area_lights, change_nothing_where_there_are_none_or_none_are_wanted)
 
 TEST(area_lights, are_the_same_bits_on_every_instruction_set)
 {
-    Stage stage(lit_plate(0.5f), 0.1f);
+    Stage stage(plate(0.5f), 0.1f);
     for (AreaLight light : each_area_light()) {
         light.two_sided = true;
         stage.tables.area_lights.push_back(*place_area_light(light, glm::mat4(1.0f)));
     }
-    for (const char* way : {"ltc", "ltc-clipless", "mc"}) {
+    for (const char* way : {"ltc", "ltc-clipless", "ltc-isotropic", "mc"}) {
         FrameDesc d = desc_of_plate(kPlateEyes[1], 0.4f, 0.7f);
-        d.area_way = way_named(way);
+        d.area_way = way_named(way), d.tilt_rad = glm::vec2(0.3f, 0.1f);
         const std::uint64_t want = pixel_hash(stage.render(d, Isa::scalar).color);
         for (const Isa isa : available_isas())
             EXPECT_EQ(pixel_hash(stage.render(d, isa).color), want) << way << " " << isa_name(isa);

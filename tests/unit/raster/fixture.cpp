@@ -54,6 +54,16 @@ Scene scene_of(const std::vector<Triangle>& triangles, bool double_sided)
     return s;
 }
 
+Scene plate(float metallic)
+{
+    Scene scene = scene_of(
+        {{glm::vec3(-1, -1, 0), glm::vec3(1, -1, 0), glm::vec3(1, 1, 0)}, {glm::vec3(-1, -1, 0), glm::vec3(1, 1, 0), glm::vec3(-1, 1, 0)}},
+        false);
+    scene.materials[0].metallic = metallic;
+    scene.materials[0].base_color = glm::vec4(0.8f, 0.5f, 0.3f, 1.0f);
+    return scene;
+}
+
 namespace {
 
 Environment constant_environment(float radiance, const Jobs& jobs)

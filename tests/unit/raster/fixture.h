@@ -26,6 +26,7 @@ using Triangle = std::array<glm::vec3, 3>;
 
 // One mesh with one material; normals are the triangles' own.
 Scene scene_of(const std::vector<Triangle>& triangles, bool double_sided);
+Scene plate(float metallic); // coloured, of x and y in [-1, 1] at z = 0, seen from above
 
 // A scene with everything a renderer needs, under an environment of one constant radiance. Sessions that draw it share its parts, which
 // tests may change between them.

@@ -14,16 +14,6 @@ namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
 
-Scene plate(float metallic)
-{
-    Scene scene = scene_of(
-        {{glm::vec3(-1, -1, 0), glm::vec3(1, -1, 0), glm::vec3(1, 1, 0)}, {glm::vec3(-1, -1, 0), glm::vec3(1, 1, 0), glm::vec3(-1, 1, 0)}},
-        false);
-    scene.materials[0].metallic = metallic;
-    scene.materials[0].base_color = glm::vec4(0.8f, 0.5f, 0.3f, 1.0f);
-    return scene;
-}
-
 struct Disc {
     glm::dvec3 centre, u, v; // unit; half axes as tangents, orthogonal to the centre
 };
