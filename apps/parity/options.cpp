@@ -104,6 +104,15 @@ OptionTable parity_option_table(ParityArguments& to)
                 {"--anisotropy", "Override eta of every material, {}"},
                 "--light",
                 "--texture-anisotropy",
+                "--material",
+                "--normal-map",
+                "--quaternion-map",
+                "--normal-y",
+                "--direction-map",
+                "--rotation-map",
+                "--rotation-encoding",
+                "--mip-filter",
+                "--f0",
                 {"--no-cache", "Neither environments nor pipelines from disk"}});
     table.take(of_render, "Parameters of techniques", taken_parameters());
     return table;
