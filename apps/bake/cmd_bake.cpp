@@ -4,8 +4,11 @@
 #include <memory>
 
 #include "apps/bake/direction.h"
+#include "apps/bake/maps.h"
 #include "apps/bake/report.h"
+#include "apps/bake/straighten.h"
 #include "apps/cli/command.h"
+#include "apps/cli/open.h"
 #include "apps/cli/outputs.h"
 #include "apps/cli/report.h"
 #include "apps/cli/shared_options.h"
@@ -25,22 +28,34 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kFooter =
-    R"(ltc: linearly transformed cosines for anisotropic GGX lobes under area lights, and their albedo, by the eye's angles, the greater width
+    R"~(ltc: linearly transformed cosines for anisotropic GGX lobes under area lights, and their albedo, by the eye's angles, the greater width
 and the ratio of both. What is done so far is kept in TABLE.part: the same command goes on from there, to the same bytes.
 direction: a map of the grain's direction from a picture's hues or luminance, which are angles from 0 to 180 degrees; see render
 --direction-map.
+quaternion: the shortest rotations to a normal map's normals; see render --quaternion-map.
+tpr: rotations of the grain in the tangent plane, by two expressions of u and v along tangent and bitangent, or such that the grain of
+a mesh lies along one direction; see render --rotation-map.
+The parts of both lie from -1 to 1: code 128 of 8 bits is 0, 255 is 1; .exr and .pfm hold the numbers themselves.
 
 Examples:
   burnish bake ltc -o ggx.ltc
   burnish bake ltc -o ggx.ltc --report quality
   burnish bake ltc --table ggx.ltc --report quality
   burnish bake ltc --fit sw --interpolate matrix -o document.ltc
-  burnish bake direction wave.jpg --from hue -o directions.png)";
+  burnish bake direction wave.jpg --from hue -o directions.png
+  burnish bake quaternion normal.png -o quaternion.png
+  burnish bake tpr --expr "cos(pi*v)" "sin(pi*v)" -o turned.exr
+  burnish bake tpr --straighten spot.obj --direction 0,1,0 --size 512x512 -o straight.exr)~";
 
 struct BakeArguments {
     std::string what = "ltc", picture, output, table, report;
     DirectionFrom from = DirectionFrom::hue;
     double strength = 1.0;
+    std::vector<std::string> expressions;
+    std::string mesh;
+    std::optional<glm::vec3> along;
+    PictureSize size = {256, 256};
+    RotationEncoding encoding = RotationEncoding::vector;
     Limits limits;
     int resolution = 8, steps = 12, samples = 8, threads = 0;
     ltc::Norm norm = ltc::Norm::l1;
@@ -54,11 +69,19 @@ OptionTable bake_option_table(BakeArguments& to)
 {
     OptionTable table, limits;
     limits.add("", limit_options(to.limits));
-    table.add("", {{"WHAT", "", "{}", choice(to.what, {"ltc", "direction"})},
-                   {"PICTURE", "", "That directions are made of", file(to.picture), ""}});
+    table.add("", {{"WHAT", "", "{}", choice(to.what, {"ltc", "direction", "quaternion", "tpr"})},
+                   {"PICTURE", "", "That directions or quaternions are made of; of tpr the second expression", file(to.picture), ""}});
     table.add_needing("WHAT", "direction",
                       {{"--from", "NAME", "{}", choice(to.from, {"hue", "luminance"})},
                        {"--strength", "S", "Of the anisotropy that the map gives, {}", number(to.strength, 0.0, 1.0)}});
+    table.add_needing("WHAT", "tpr",
+                      {{"--expr", "EXPR", "Of u and v: the grain along the tangent, and given again or as PICTURE, along the bitangent",
+                        texts(to.expressions)},
+                       {"--straighten", "SCENE", "In place of expressions: a mesh with texture coordinates, whose grain --direction gives",
+                        scene(to.mesh)},
+                       {"--direction", "X,Y,Z", "Of the grain in space", point(to.along), ""},
+                       {"--size", "WxH", "Texels of the map", picture_size(to.size)},
+                       {"--encoding", "NAME", "{}", choice(to.encoding, {"vector", "double-angle", "direction"})}});
     table.add_needing("WHAT", "ltc",
                       {{"--resolution", "N", "Nodes along each axis, {}", integer(to.resolution, 3, 128), "8, isotropic 64"},
                        {"--isotropic", "", "Round lobes alone: nodes along theta and alpha, as engines have them", flag(to.isotropic)},
@@ -71,10 +94,11 @@ OptionTable bake_option_table(BakeArguments& to)
                        {"--half", "", "Entries as halves, not floats", flag(to.half)},
                        {"--table", "FILE", "Measure this table instead of making one", file(to.table)},
                        {"--report", "FOLDER", "Also measure the table: quality.json, quality.svg, quality.png", folder(to.report)}});
-    table.add("Output", {{"-o,--output", "FILE", "The table, or the map: a .png or a .tif", file(to.output)},
-                         quiet_option(to.quiet),
-                         verbose_option(to.verbosity),
-                         threads_option(to.threads)});
+    table.add("Output",
+              {{"-o,--output", "FILE", "The table, or the map: .png or .tif; of quaternion and tpr .exr or .pfm, too", file(to.output)},
+               quiet_option(to.quiet),
+               verbose_option(to.verbosity),
+               threads_option(to.threads)});
     table.take(limits, "Limits on input",
                {{"--limit-image-side", "Width and height of the picture"}, {"--limit-file-bytes", "Size of its file"}});
     return table;
@@ -203,10 +227,99 @@ int run_direction(const BakeArguments& arguments)
     return 0;
 }
 
+// Of quaternions and rotations, which keep floats where the file does. inputs: that it must not overwrite.
+Result<PixelType> map_type(const BakeArguments& a, const std::vector<std::string>& inputs)
+{
+    if (a.output.empty())
+        return usage_error("-o", "is needed");
+    const std::string extension = fs::path(a.output).extension().string();
+    const bool floats = extension == ".exr" || extension == ".pfm";
+    if (!floats && extension != ".png" && extension != ".tif")
+        return usage_error("-o", fmt::format("'{}' must end in .png, .tif, .exr or .pfm, which lose nothing", a.output));
+    if (const Status path = check_picture_path(a.output, inputs); !path)
+        return path.error();
+    return floats ? PixelType::f32 : PixelType::u8;
+}
+
+int write_map(const BakeArguments& arguments, const Image& map, const std::string& warning)
+{
+    if (const Status written = write_image(arguments.output, map); !written)
+        return fail(written.error());
+    Report report(arguments.quiet, arguments.verbosity);
+    report.release();
+    if (!warning.empty())
+        report.warning(warning);
+    report.wrote(arguments.output);
+    return 0;
+}
+
+int run_quaternion(const BakeArguments& a)
+{
+    if (a.picture.empty())
+        return fail(usage_error("PICTURE", "is needed: the normal map"));
+    const Result<PixelType> type = map_type(a, {a.picture});
+    if (!type)
+        return fail(type.error());
+    const Result<Image> normals = read_image(a.picture, a.limits);
+    if (!normals)
+        return fail(normals.error());
+    if (normals->channels < 3)
+        return fail({ExitCode::bad_input, a.picture, "", "a normal map has red, green and blue"});
+    const SurfaceMap map = quaternions_of_normals(*normals, *type);
+    return write_map(a, map.image,
+                     map.repaired ? fmt::format("{}: {} normals have no length and turn nothing", a.picture, map.repaired) : "");
+}
+
+int run_straighten(const BakeArguments& a)
+{
+    if (!a.expressions.empty() || !a.picture.empty())
+        return fail(usage_error("--expr", "and --straighten both say what is made"));
+    if (a.mesh.empty() || !a.along)
+        return fail(usage_error(a.along ? "--straighten" : "--direction", "is needed"));
+    if (!(glm::dot(*a.along, *a.along) > 1e-12f))
+        return fail(usage_error("--direction", "has no length"));
+    const Result<PixelType> type = map_type(a, {a.mesh});
+    if (!type)
+        return fail(type.error());
+    const auto data = open_scene(a.mesh, a.limits, {}, {}, {});
+    if (!data)
+        return fail(data.error());
+    const Straightened made = straighten((*data)->tables, *a.along, a.size);
+    if (made.covered == 0)
+        return fail({ExitCode::bad_input, a.mesh, "", "has no texture coordinates that cover a texel"});
+    std::string warning;
+    if (made.without > 0 || made.twice > made.covered / 100) // edges are of two triangles
+        warning = fmt::format("{}: of {} texels {} have the direction along their normal; {} lie in another triangle too", a.mesh,
+                              made.covered, made.without, made.twice);
+    return write_map(a, encoded_rotations(made.directions, a.encoding, *type), warning);
+}
+
+int run_tpr(const BakeArguments& a)
+{
+    if (!a.mesh.empty() || a.along)
+        return run_straighten(a);
+    std::vector<std::string> expressions = a.expressions;
+    if (!a.picture.empty())
+        expressions.push_back(a.picture);
+    if (expressions.size() != 2)
+        return fail(usage_error("--expr", fmt::format("{} given, not two: along tangent and bitangent", expressions.size())));
+    const Result<PixelType> type = map_type(a, {});
+    if (!type)
+        return fail(type.error());
+    const Result<Image> directions = rotations_of(expressions, a.size);
+    if (!directions)
+        return fail(directions.error());
+    return write_map(a, encoded_rotations(*directions, a.encoding, *type), "");
+}
+
 int run_bake(const BakeArguments& arguments, const OptionTable& given)
 {
     if (arguments.what == "direction")
         return run_direction(arguments);
+    if (arguments.what == "quaternion")
+        return run_quaternion(arguments);
+    if (arguments.what == "tpr")
+        return run_tpr(arguments);
     if (Status checked = check_arguments(arguments, given); !checked)
         return fail(checked.error());
     Report report(arguments.quiet, arguments.verbosity);

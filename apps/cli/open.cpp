@@ -4,12 +4,12 @@
 
 namespace burnish {
 
-Result<std::shared_ptr<const SceneData>> open_scene(const std::string& name, const Limits& limits, const std::string& direction_map,
-                                                    const Moment& moment, const std::vector<AreaLight>& lights)
+Result<std::shared_ptr<const SceneData>> open_scene(const std::string& name, const Limits& limits, const Dress& with, const Moment& moment,
+                                                    const std::vector<AreaLight>& lights)
 {
-    Result<std::shared_ptr<const SceneData>> scene = load_scene_data(name, limits, direction_map, moment, lights);
+    Result<std::shared_ptr<const SceneData>> scene = load_scene_data(name, limits, with, moment, lights);
     if (!scene)
-        return direction_map.empty() || scene.error().file != direction_map ? with_scene_hint(scene.error(), name) : scene.error();
+        return with.names(scene.error().file) ? scene.error() : with_scene_hint(scene.error(), name);
     return scene;
 }
 

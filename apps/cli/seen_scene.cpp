@@ -11,7 +11,7 @@ namespace burnish {
 
 Result<SeenScene> load_seen_scene(const std::string& name, const RenderOptions& base, Report& report)
 {
-    const Result<std::shared_ptr<const SceneData>> data = open_scene(name, base.limits, base.direction_map, base.moment, base.lights);
+    const Result<std::shared_ptr<const SceneData>> data = open_scene(name, base.limits, base.dress, base.moment, base.lights);
     if (!data)
         return data.error();
     for (const std::string& warning : (*data)->scene.warnings)

@@ -251,9 +251,33 @@ Value point(std::optional<glm::vec3>& to)
                 [&to] { return to ? fmt::format("{:g},{:g},{:g}", to->x, to->y, to->z) : std::string(); });
 }
 
+Value colour(std::optional<glm::vec3>& to)
+{
+    const auto parse = [](const std::string& option, const std::string& written) -> Result<glm::vec3> {
+        const Result<glm::vec3> read = parse_vec3(option, written);
+        if (read && (glm::any(glm::lessThan(*read, glm::vec3(0.0f))) || glm::any(glm::greaterThan(*read, glm::vec3(1.0f)))))
+            return usage_error(option, fmt::format("'{}' is not within 0..1", written));
+        return read;
+    };
+    return make(ValueKind::vector, reading<glm::vec3>(parse, [&to](const glm::vec3& value) { to = value; }),
+                [&to] { return to ? fmt::format("{:g},{:g},{:g}", to->x, to->y, to->z) : std::string(); });
+}
+
 Value text(std::string& to)
 {
     return path_value(to, ValueKind::text);
+}
+
+Value texts(Texts& to)
+{
+    Value value;
+    value.kind = ValueKind::text, value.repeated = true;
+    value.set = [&to](const std::string&, const Texts& given) -> Status {
+        to = given;
+        return {};
+    };
+    value.get = [] { return std::string(); };
+    return value;
 }
 
 Value file(std::string& to)

@@ -71,8 +71,7 @@ std::string text_of(const TechniqueInfo& technique, int samples)
         wish.roots.push_back(std::string(technique.name) + "_shared");
     wish.heading = fmt::format(kHeading, technique.name, technique.summary, version(), samples);
     wish.trimmed = {{"settings", "f", "usual_settings"}, {"shaded_point", "x", "point_of"}};
-    if (technique.sampling == Sampling::grid)
-        wish.grid = grid_samples(samples, (technique.traits & kGgxGrid) != 0);
+    wish.grid = grid_samples(samples, technique.sampling, technique.traits);
     return glsl_of(kFlatTechniques, wish);
 }
 

@@ -105,6 +105,15 @@ OptionTable parity_option_table(ParityArguments& to)
                 "--light",
                 "--ltc-table",
                 "--texture-anisotropy",
+                "--material",
+                "--normal-map",
+                "--quaternion-map",
+                "--normal-y",
+                "--direction-map",
+                "--rotation-map",
+                "--rotation-encoding",
+                "--mip-filter",
+                "--f0",
                 {"--no-cache", "Neither environments nor pipelines from disk"}});
     table.take(of_render, "Parameters of techniques", taken_parameters());
     return table;

@@ -56,8 +56,6 @@ std::vector<Option> picture_rows(RenderArguments& to)
         {"--roughness", "R", "Override alpha_lin of every material, {}", number(f.roughness, 0.0, 1.0), ""},
         {"--anisotropy", "A", "Override eta of every material, {}: alpha_lin^2 (1 +- eta) along and across",
          number(f.anisotropy, -1.0, 1.0), ""},
-        {"--direction-map", "FILE", "Picture that all materials take as anisotropy texture, of burnish bake direction",
-         file(to.plain.direction_map)},
         {"--time", "S", "Seconds into the scene's animation, {}", number(to.plain.moment.seconds, 0.0, 1e6), "as it rests"},
         {"--animation", "N", "Which animation --time is of", integer(to.plain.moment.animation, 0, kMaxAnimations)},
         {"--light", "SPEC", "Area light, such as sphere:points=0,1,0:radius=0.1:radiance=9,9,9; may be given several times",
@@ -66,6 +64,24 @@ std::vector<Option> picture_rows(RenderArguments& to)
          "the program's own"},
         {"--texture-anisotropy", "N", "Texture taps along the major axis at most", integer(f.texture_anisotropy, 1, 16)},
         {"--no-background", "", "Nothing behind the scene instead of the environment: black, alpha is coverage", flag(f.background, false)},
+    };
+}
+
+std::vector<Option> dress_rows(Dress& to)
+{
+    return {
+        {"--material", "FOLDER", "Pictures that all materials are made of, by the ends of their names: x_basecolor.png, normal.exr, ...",
+         folder(to.material)},
+        {"--normal-map", "FILE", "Normal map of all materials", file(to.normal)},
+        {"--quaternion-map", "FILE", "The same as quaternions, of burnish bake quaternion", file(to.quaternion)},
+        {"--normal-y", "NAME", "Green of normal maps: {}, as DirectX has it", choice(to.normal_y_down, {"up", "down"})},
+        {"--direction-map", "FILE", "Picture that all materials take as anisotropy texture, of burnish bake direction", file(to.direction)},
+        {"--rotation-map", "FILE", "The same in another encoding", file(to.rotation)},
+        {"--rotation-encoding", "NAME", "{}: what red and green of rotations are",
+         choice(to.rotation_encoding, {"vector", "double-angle", "direction"})},
+        {"--mip-filter", "NAME", "What distant normal maps do to lobes: {} (they grow by how normals differ within a pixel)",
+         choice(to.lean, {"box", "lean"})},
+        {"--f0", "R,G,B", "Reflectance at normal incidence of all materials, each 0 to 1", colour(to.f0)},
     };
 }
 
@@ -139,10 +155,11 @@ std::string reference_mode_name(const RenderOptions& options)
 OptionTable render_option_table(RenderArguments& to)
 {
     OptionTable table;
-    table.add("", {{"SCENE", "", "A .gltf or .glb file, or builtin:NAME", scene(to.plain.scene)}});
+    table.add("", {{"SCENE", "", "A .gltf, .glb or .obj file, or builtin:NAME", scene(to.plain.scene)}});
     table.add("Environment", environment_rows(to));
     table.add("Output", output_rows(to));
     table.add("Picture", picture_rows(to));
+    table.add("Materials", dress_rows(to.plain.dress));
     table.add("Parameters of techniques", parameter_options(to.plain.frame));
     table.add("Pictures in a row", row_rows(to));
     table.add("Machine", machine_rows(to));

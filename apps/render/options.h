@@ -11,6 +11,7 @@
 #include "core/base/limits.h"
 #include "core/base/result.h"
 #include "core/image/colour.h"
+#include "core/scene/dress.h"
 #include "core/scene/scene.h"
 #include "raster/reference/reference_renderer.h"
 #include "raster/tile/tile_renderer.h"
@@ -24,7 +25,7 @@ struct RenderOptions {
     Moment moment;
     std::vector<AreaLight> lights; // besides those of the scene
     std::string ltc_table;         // of area lights; empty: the program's own
-    std::string direction_map;     // picture that all materials take as their anisotropy texture; empty: none
+    Dress dress;                   // what all materials take
     std::vector<std::string> outputs;
     std::string stats_file; // empty: none; "-": standard output
     std::string trace_file; // empty: none

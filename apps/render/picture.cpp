@@ -88,7 +88,7 @@ Result<Session> prepare(const RenderOptions& options, RenderFigures& figures, st
     {
         const TraceSpan span("load scene");
         const Result<std::shared_ptr<const SceneData>> data =
-            open_scene(options.scene, options.limits, options.direction_map, options.moment, options.lights);
+            open_scene(options.scene, options.limits, options.dress, options.moment, options.lights);
         if (!data)
             return data.error();
         parts.scene = *data;

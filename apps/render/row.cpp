@@ -148,7 +148,7 @@ Result<SessionParts> parts_of_step(const RenderOptions& options, SessionParts pa
         parts.environment = *environment;
     }
     if (scene) {
-        const auto data = open_scene(options.scene, options.limits, options.direction_map, options.moment, options.lights);
+        const auto data = open_scene(options.scene, options.limits, options.dress, options.moment, options.lights);
         if (!data)
             return data.error();
         parts.scene = *data;

@@ -77,8 +77,7 @@ void run(benchmark::State& state, std::size_t technique, float eta, Isa isa)
     f.specular = cube_record(specular), f.specular_texels = specular.texels.data();
     f.box = cube_record(box), f.box_texels = box.texels.data();
     f.samples = info.default_samples;
-    const std::vector<GridSample> grid =
-        info.sampling == Sampling::grid ? grid_samples(info.default_samples, (info.traits & kGgxGrid) != 0) : std::vector<GridSample>{};
+    const std::vector<GridSample> grid = grid_samples(info.default_samples, info.sampling, info.traits);
     f.grid = grid.data(), f.grid_count = static_cast<std::int32_t>(grid.size());
     put_parameters(FrameDesc{}, false, f);
     const KernelSurfaces in = surfaces().of(eta);

@@ -103,8 +103,7 @@ void FrameMaker::bake(const FrameDesc& desc)
     const TechniqueInfo& technique = *find_technique(desc.technique);
     if ((technique.traits & kReadsBox) && box_cube_.levels == 0)
         box_cube_ = box_filtered_chain(input_.environment.specular, input_.jobs);
-    if (technique.sampling == Sampling::grid)
-        grid_ = grid_samples(desc.samples, (technique.traits & kGgxGrid) != 0);
+    grid_ = grid_samples(desc.samples, technique.sampling, technique.traits);
 }
 
 namespace {

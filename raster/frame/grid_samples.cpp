@@ -32,14 +32,31 @@ std::vector<GridSample> ggx_grid(int n)
     return grid;
 }
 
+std::vector<GridSample> phong_set(int samples)
+{
+    std::vector<GridSample> set;
+    for (int i = 0; i < samples; ++i) {
+        std::uint32_t bits = static_cast<std::uint32_t>(i), mirrored = 0;
+        for (int b = 0; b < 32; ++b, bits >>= 1)
+            mirrored = mirrored << 1 | (bits & 1u);
+        const double azimuth = 2.0 * kPi * i / samples, xi = mirrored / 4294967296.0;
+        set.push_back({static_cast<float>(det_cos(azimuth)), static_cast<float>(det_sin(azimuth)), static_cast<float>(det_log(1.0 - xi))});
+    }
+    return set;
+}
+
 } // namespace
 
-std::vector<GridSample> grid_samples(int samples, bool ggx)
+std::vector<GridSample> grid_samples(int samples, Sampling sampling, int traits)
 {
+    if (traits & kPhongGrid)
+        return phong_set(samples);
+    if (sampling != Sampling::grid)
+        return {};
     int n = 1;
     while ((n + 1) * (n + 1) <= samples)
         ++n;
-    if (ggx)
+    if (traits & kGgxGrid)
         return ggx_grid(n);
     std::vector<GridSample> grid;
     for (int i = 0; i < n; ++i)

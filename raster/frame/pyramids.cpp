@@ -31,20 +31,30 @@ bool alike(const Scene& scene, const TextureRef& a, const TextureRef& b)
 
 struct Moments {
     int kind = kNoMoments;
-    const TextureRef* place = nullptr;    // where they lie
-    bool tilt = false, direction = false; // maps that they are of
+    const TextureRef* place = nullptr;  // where they lie
+    const TextureRef* slopes = nullptr; // of tilts or normals
+    bool direction = false;             // a map of directions lies there too
 };
 Moments moments_of(const Scene& scene, const Material& m, bool overridden)
 {
     Moments r;
-    r.tilt = m.tilt_tex.used();
-    r.place = r.tilt ? &m.tilt_tex : &m.anisotropy_tex;
+    const bool tilt = m.tilt_tex.used();
+    // a grain that lies otherwise than the normals weighs more than how they differ
+    const bool normals =
+        !tilt && m.lean && m.normal_tex.used() && (!m.anisotropy_tex.used() || alike(scene, m.normal_tex, m.anisotropy_tex));
+    r.slopes = tilt ? &m.tilt_tex : normals ? &m.normal_tex : nullptr;
+    r.place = r.slopes ? r.slopes : &m.anisotropy_tex;
     r.direction = alike(scene, *r.place, m.anisotropy_tex);
-    if (!overridden && r.tilt && r.direction && !m.metallic_roughness_tex.used())
+    if (!overridden && tilt && r.direction && !m.metallic_roughness_tex.used())
         r.kind = kMomentsOfAll;
-    else if (r.tilt)
+    else if (r.slopes)
         r.kind = kMomentsOfTilt;
     return r;
+}
+
+float slope_scale(const Material& m)
+{
+    return m.tilt_tex.used() ? m.tilt_scale : m.normal_scale;
 }
 
 // The first material with the same moments.
@@ -52,8 +62,9 @@ std::int32_t owner_of(const Scene& scene, std::size_t material, bool overridden)
 {
     const auto content = [&](const Material& m) {
         const Moments of = moments_of(scene, m, overridden);
-        return std::tuple(of.kind, of.tilt ? m.tilt_tex.texture : kNone, of.direction ? m.anisotropy_tex.texture : kNone, m.tilt_scale,
-                          m.roughness, m.anisotropy_strength, m.anisotropy_rotation);
+        return std::tuple(of.kind, of.slopes ? of.slopes->texture : kNone, of.slopes == &m.tilt_tex,
+                          of.direction ? m.anisotropy_tex.texture : kNone, slope_scale(m), m.roughness, m.anisotropy_strength,
+                          m.anisotropy_rotation);
     };
     const auto wanted = content(scene.materials[material]);
     const auto found =
@@ -77,20 +88,24 @@ std::optional<Held> held_by(const Scene& scene, std::size_t material, const Text
     return ref.used() ? std::optional(Held{{ref.texture, use.encoding, use.tensor_power}, &ref}) : std::nullopt;
 }
 
-const Image* image_of(const Scene& scene, bool wanted, const TextureRef& ref)
+const Image* image_of(const Scene& scene, const TextureRef* ref)
 {
-    if (!wanted)
+    if (!ref)
         return nullptr;
-    return &scene.images[static_cast<std::size_t>(scene.textures[static_cast<std::size_t>(ref.texture)].image)];
+    return &scene.images[static_cast<std::size_t>(scene.textures[static_cast<std::size_t>(ref->texture)].image)];
 }
 
 Image moments_image(const Scene& scene, const Texture& sampler, const PyramidKey& key)
 {
     const Material& m = scene.materials[static_cast<std::size_t>(key.material)];
     const Moments of = moments_of(scene, m, key.moments != kMomentsOfAll);
-    const SlopeMaps maps = {image_of(scene, of.tilt, m.tilt_tex), image_of(scene, of.direction, m.anisotropy_tex), sampler.wrap_s,
-                            sampler.wrap_t, sampler.nearest};
-    return slope_moments(maps, {m.tilt_scale, key.moments == kMomentsOfAll, m.roughness, m.anisotropy_strength, m.anisotropy_rotation},
+    const SlopeMaps maps = {image_of(scene, of.slopes),
+                            image_of(scene, of.direction ? &m.anisotropy_tex : nullptr),
+                            sampler.wrap_s,
+                            sampler.wrap_t,
+                            sampler.nearest,
+                            !m.tilt_tex.used()};
+    return slope_moments(maps, {slope_scale(m), key.moments == kMomentsOfAll, m.roughness, m.anisotropy_strength, m.anisotropy_rotation},
                          key.tensor_power);
 }
 
@@ -124,6 +139,7 @@ void bind_textures(const Scene& scene, std::size_t material, bool overridden, co
         to.textured = 1;
     }
     to.moments = moments_of(scene, scene.materials[material], overridden).kind;
+    to.anisotropic |= to.moments != kNoMoments;
 }
 
 TexturePyramid make_pyramid(const Scene& scene, const PyramidKey& key)

@@ -1,7 +1,8 @@
 // Which texture pyramids the materials of a scene need, and what they are made of. A slot of a material holds an image as it is, tensors of
 // an anisotropy texture, or, in their place, moments of slopes:
 //   of all, where a map of tilts lies over one of anisotropy and roughness is the same everywhere: the texels' lobes are in them
-//   of tilts, where there is a map of them else: beside the lobe of the material, and in frames that override roughness or anisotropy
+//   of tilts, where there is a map of them else: beside the lobe of the material, and in frames that override roughness or anisotropy;
+//     or of normals, in a material that is `lean`
 #pragma once
 #include <cstdint>
 #include <optional>

@@ -209,7 +209,12 @@ std::vector<MaterialRecord> in_frame(std::vector<MaterialRecord> materials, cons
             m.roughness_fixed = 1;
         }
         if (desc.override_anisotropy)
-            m.anisotropic = desc.anisotropy != 0.0f || m.tilt_mapped;
+            m.anisotropic = desc.anisotropy != 0.0f || m.moments != kNoMoments;
+        if (desc.frame_map == kFrameOff) {
+            m.textures[kNormalTex].texture = -1;
+            if (m.moments != kNoMoments && !m.tilt_mapped)
+                m.moments = kMomentsUnseen;
+        }
         const glm::vec2 tilt = tilt_rad({m.tilt[0], m.tilt[1]}, desc);
         m.tilted = m.tilt_mapped || tilt != glm::vec2(0.0f);
         for (int i = 0; i < 2; ++i) {

@@ -4,7 +4,6 @@
 #include <new>
 #include <utility>
 
-#include "core/scene/direction_map.h"
 #include "core/scene/gltf/gltf.h"
 #include "shading/bake/ltc/shipped.h"
 
@@ -81,7 +80,7 @@ Result<std::shared_ptr<const SceneData>> make_scene_data(const std::string& name
     });
 }
 
-Result<std::shared_ptr<const SceneData>> load_scene_data(const std::string& spec, const Limits& limits, const std::string& direction_map,
+Result<std::shared_ptr<const SceneData>> load_scene_data(const std::string& spec, const Limits& limits, const Dress& with,
                                                          const Moment& moment, const std::vector<AreaLight>& lights)
 {
     using Made = Result<std::shared_ptr<const SceneData>>;
@@ -89,9 +88,8 @@ Result<std::shared_ptr<const SceneData>> load_scene_data(const std::string& spec
         Result<Scene> scene = load_scene(spec, limits, moment);
         if (!scene)
             return scene.error();
-        if (!direction_map.empty())
-            if (Status put = put_direction_map(*scene, direction_map, limits); !put)
-                return put.error();
+        if (Status put = dress(*scene, with, limits); !put)
+            return put.error();
         for (const AreaLight& light : lights)
             add_area_light(*scene, light);
         return make_scene_data(spec, std::move(*scene), limits);

@@ -18,6 +18,7 @@
 #include "core/base/result.h"
 #include "core/jobs/jobs.h"
 #include "core/scene/draw_tables.h"
+#include "core/scene/dress.h"
 #include "core/scene/scene.h"
 #include "raster/frame/frame.h"
 #include "raster/reference/reference_renderer.h"
@@ -36,11 +37,10 @@ struct SceneData { // a scene and what is drawn of it
     DrawTables tables;
 };
 
-// "builtin:NAME" or a path of a .gltf or .glb file, at a moment of its animation. direction_map: a picture that all materials take
-// (core/scene/direction_map.h); empty: none. lights: that are added to those of the scene, in world space.
-Result<std::shared_ptr<const SceneData>> load_scene_data(const std::string& spec, const Limits& limits,
-                                                         const std::string& direction_map = "", const Moment& moment = {},
-                                                         const std::vector<AreaLight>& lights = {});
+// "builtin:NAME" or a path of a .gltf, .glb or .obj file, at a moment of its animation. with: what is put on its materials. lights: that
+// are added to those of the scene, in world space.
+Result<std::shared_ptr<const SceneData>> load_scene_data(const std::string& spec, const Limits& limits, const Dress& with = {},
+                                                         const Moment& moment = {}, const std::vector<AreaLight>& lights = {});
 // From a scene made in memory. The limits on area lights and on what instances expand to hold here too.
 Result<std::shared_ptr<const SceneData>> make_scene_data(const std::string& name, Scene scene, const Limits& limits);
 // "builtin:NAME" or a path of an equirectangular picture.

@@ -37,9 +37,11 @@ const int kSharesSamples = 32;  // with the fragments of the 2x2 quad: see share
 const int kAutoRound = 64;      // what `auto` takes for materials without a grain
 const int kAutoGrain = 128;     // and for the others
 
-const int kRefracts = 256; // follows light through materials that let it; others draw them opaque
+const int kRefracts = 256;  // follows light through materials that let it; others draw them opaque
+const int kPhongGrid = 512; // its grid is of points of an Ashikhmin-Shirley lobe, as many as there are samples
 
-const int kFresnelSchlick = 0, kFresnelConductor = 1, kFresnelDielectric = 2; // FrameDesc::fresnel
+const int kFrameGramSchmidt = 0, kFrameQuaternion = 1, kFrameNormalOnly = 2, kFrameOff = 3; // FrameDesc::frame_map
+const int kFresnelSchlick = 0, kFresnelConductor = 1, kFresnelDielectric = 2;               // FrameDesc::fresnel
 
 // Traits of lobes (shading/models.def), and what the words of their lines mean.
 const int kLobeOfAll = 1;    // the usual one
@@ -54,8 +56,9 @@ const int kLobeCount = 0
 #include "shading/models.def"
     ;
 
-// What a material's textures hold of slopes: nothing; moments of those that a map of tilts has; of those and of the lobe.
-const int kNoMoments = 0, kMomentsOfTilt = 1, kMomentsOfAll = 2;
+// What a material's textures hold of slopes: nothing; moments of those that a map of tilts or normals has; of those and of the lobe; what
+// the frame does not want to see.
+const int kNoMoments = 0, kMomentsOfTilt = 1, kMomentsOfAll = 2, kMomentsUnseen = 3;
 const float kSlopeScale = 16.0f, kMomentScale = 256.0f; // of means and second moments in texels
 const int kAreaWays = 0                                 // of finding the light of area lights
 #define BN_AREA_LIGHTS(id, at, name, summary) +1

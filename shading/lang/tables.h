@@ -40,7 +40,7 @@ constexpr int lobe_with(int trait)
 }
 
 // One sample of a unit lobe (widths 1): its slopes, and the density of normals there times h.z^4.
-struct GridSample {
+struct GridSample { // or, with kPhongGrid, what as_mc.t.h says
     float slope_x, slope_y, density;
 };
 

@@ -58,6 +58,56 @@ BN_FN surface_frame mapped_frame(surface_frame f, real3 map, real handedness)
     return frame_of(n, select(k_dot3(t, t) > lit(1e-8), t, f.n), handedness); // less is rounding
 }
 
+// The shortest rotation from (0,0,1) to n, unit, as the quaternion (a; b, c, 0) of conj(q) v q. Its square root loses nothing near z = -1,
+// where it goes to half a turn about x.
+BN_FN real3 rotation_to(real3 n)
+{
+    real flat_part = n.x * n.x + n.y * n.y;
+    real upper = (lit(1.0) + n.z) * lit(0.5);
+    real lower = flat_part / (lit(2.0) + abs(n.z) * lit(2.0));
+    real a = sqrt(max(select(n.z < lit(0.0), lower, upper), lit(0.0)));
+    real part = lit(0.5) / max(a, lit(1e-6));
+    return select(a < lit(1e-6), vec3_of(lit(0.0), lit(1.0), lit(0.0)), vec3_of(a, n.y * part, -(n.x * part)));
+}
+
+// Tangent, bitangent and normal of a rotation (a; b, c, 0), unit, in the space that it turns.
+BN_FN surface_frame rotated_axes(real3 q)
+{
+    real a2 = q.x * q.x;
+    real b2 = q.y * q.y;
+    real c2 = q.z * q.z;
+    real ab = lit(2.0) * q.x * q.y;
+    real ac = lit(2.0) * q.x * q.z;
+    real bc = lit(2.0) * q.y * q.z;
+    surface_frame r;
+    r.t = vec3_of(a2 + b2 - c2, bc, ac);
+    r.b = vec3_of(bc, a2 - b2 + c2, -ab);
+    r.n = vec3_of(-ac, ab, a2 - b2 - c2);
+    return r;
+}
+
+// The frame turned to a mapped normal by the shortest way, which turns tangent and bitangent alike. map: as in mapped_frame; one without
+// length turns nothing.
+BN_FN surface_frame turned_frame(surface_frame f, real3 map)
+{
+    real3 up = vec3_of(lit(0.0), lit(0.0), lit(1.0));
+    real3 n = k_normalize3(select(k_dot3(map, map) > lit(1e-12), map, up));
+    surface_frame by = rotated_axes(rotation_to(n));
+    surface_frame r;
+    r.t = f.t * by.t.x + f.b * by.t.y + f.n * by.t.z;
+    r.b = f.t * by.b.x + f.b * by.b.y + f.n * by.b.z;
+    r.n = f.t * by.n.x + f.b * by.n.y + f.n * by.n.z;
+    return r;
+}
+
+// With a mapped normal and the mesh's own tangent and bitangent, which are not orthogonal to it any more.
+BN_FN surface_frame bent_frame(surface_frame f, real3 map)
+{
+    real3 n = f.t * map.x + f.b * map.y + f.n * map.z;
+    f.n = k_normalize3(select(k_dot3(n, n) > lit(1e-12), n, f.n));
+    return f;
+}
+
 // The frame of a lobe whose commonest normal is tilted against the surface: the rows of R = Rx(theta_x) Ry(theta_y), of which cosines and
 // sines are given, in the frame. Positive theta_x tilts to +b, positive theta_y to -t. Walter et al. 2014, eq. 3.
 BN_FN surface_frame tilted_frame(surface_frame f, real2 cosine, real2 sine)

@@ -12,6 +12,7 @@ import chart_cases
 import chart_page_cases
 import compare_cases
 import confine_cases
+import detail_cases
 import direction_cases
 import export_cases
 import fault_cases

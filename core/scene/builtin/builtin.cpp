@@ -17,6 +17,7 @@ constexpr Maker<Scene> kScenes[] = {
     {{"plate", "a brass plate whose brushing follows a direction texture"}, make_plate},
     {{"lights", "a dark room: brushed plates and spheres under area lights, for --env builtin:night"}, make_lights},
     {{"glass", "balls and a ring of glass on a turned steel disc, for --technique mc and the reference"}, make_glass},
+    {{"bumps", "a hammered sphere, a turned disc, a record and tiles: surfaces whose look is in their maps"}, make_bumps},
 };
 constexpr Maker<Image> kEnvironments[] = {
     {{"studio", "a dim studio with soft boxes and strips"}, make_studio},

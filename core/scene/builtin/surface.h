@@ -62,6 +62,7 @@ Scene make_sphere();
 Scene make_plate();
 Scene make_lights();
 Scene make_glass();
+Scene make_bumps();
 Image make_studio();
 Image make_sky();
 Image make_night();

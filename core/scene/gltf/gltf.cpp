@@ -14,6 +14,7 @@
 #include "core/scene/gltf/mesh.h"
 #include "core/scene/gltf/pose.h"
 #include "core/scene/gltf/schema.h"
+#include "core/scene/obj/obj.h"
 
 namespace burnish {
 
@@ -95,6 +96,8 @@ Result<Scene> load_scene(const std::string& spec, const Limits& limits, const Mo
     const std::string kBuiltin = "builtin:";
     if (spec.compare(0, kBuiltin.size(), kBuiltin) == 0)
         return make_builtin_scene(spec.substr(kBuiltin.size()));
+    if (is_obj(spec))
+        return guarded(spec, [&]() -> Result<Scene> { return load_obj(spec, limits); });
     return load_gltf(spec, limits, moment); // which looks at the content, not at the name
 }
 

@@ -23,6 +23,11 @@ bool is_readable(Bytes bytes)
            (starts_with(bytes, 0, "RIFF") && starts_with(bytes, 8, "WEBP"));
 }
 
+bool is_exr(Bytes bytes)
+{
+    return starts_with(bytes, 0, "\x76\x2f\x31\x01");
+}
+
 bool is_texture_container(Bytes bytes) // KTX2 or DDS, which other extensions bring
 {
     return starts_with(bytes, 0, "\xabKTX 20\xbb") || starts_with(bytes, 0, "DDS ");
@@ -40,13 +45,17 @@ Bytes encoded_image(Document& doc, int image, std::vector<std::uint8_t>& own)
     return read_uri(doc, json["uri"].get_ref<const std::string&>(), place + "/uri", own);
 }
 
-Image decode(Document& doc, int image, Bytes bytes)
+// floats: OpenEXR is read too.
+Image decode(Document& doc, int image, Bytes bytes, bool floats)
 {
     const std::string place = fmt::format("/images/{}", image);
-    if (!is_readable(bytes))
+    if (!is_readable(bytes) && !(floats && is_exr(bytes)))
         fail(place, is_texture_container(bytes) ? "KTX2 and DDS images are not supported" : "is no PNG, JPEG or WebP image");
     const std::string type = get_string(doc.json["images"][static_cast<std::size_t>(image)], "mimeType");
-    const char* actual = starts_with(bytes, 0, "RIFF") ? "image/webp" : starts_with(bytes, 0, "\xff") ? "image/jpeg" : "image/png";
+    const char* actual = starts_with(bytes, 0, "RIFF")   ? "image/webp"
+                         : starts_with(bytes, 0, "\xff") ? "image/jpeg"
+                         : is_exr(bytes)                 ? "image/x-exr"
+                                                         : "image/png";
     if (doc.json["images"][static_cast<std::size_t>(image)].contains("mimeType") && type != actual)
         doc.fault(place + "/mimeType", "says " + printable(type) + ", and it is " + actual);
     Limits limits = doc.limits;
@@ -61,13 +70,13 @@ Image decode(Document& doc, int image, Bytes bytes)
 
 } // namespace
 
-int scene_image(Document& doc, int image)
+int scene_image(Document& doc, int image, bool floats)
 {
     const auto [it, is_new] = doc.scene_images.try_emplace(image, static_cast<int>(doc.scene.images.size()));
     if (is_new) {
         std::vector<std::uint8_t> own;
         const Bytes bytes = encoded_image(doc, image, own);
-        doc.scene.images.push_back(decode(doc, image, bytes));
+        doc.scene.images.push_back(decode(doc, image, bytes, floats));
         doc.texture_bytes += doc.scene.images.back().bytes.size();
     }
     return it->second;
@@ -83,7 +92,7 @@ void check_unused_images(Document& doc)
         if (is_texture_container(bytes))
             doc.warn(fmt::format("image {} is a KTX2 or DDS image, which are not supported; nothing uses it", i));
         else
-            static_cast<void>(decode(doc, i, bytes));
+            static_cast<void>(decode(doc, i, bytes, false));
     }
 }
 

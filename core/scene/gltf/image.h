@@ -4,7 +4,8 @@
 
 namespace burnish::gltf {
 
-int scene_image(Document& doc, int image); // its index in Scene::images, decoded at the first call
+// Its index in Scene::images, decoded at the first call. floats: it may be OpenEXR.
+int scene_image(Document& doc, int image, bool floats);
 
 // Images that no material uses are decoded too, one at a time, and dropped: a broken one is an error all the
 // same.

@@ -2,11 +2,14 @@
 
 #include <cmath>
 #include <fmt/format.h>
+#include <map>
+#include <utility>
 
 #include "core/math/scalar_math.h"
 #include "core/scene/gltf/factors.h"
 #include "core/scene/gltf/image.h"
 #include "core/scene/gltf/textures.h"
+#include "core/scene/surface_maps.h"
 
 namespace burnish::gltf {
 
@@ -28,8 +31,8 @@ bool is_nearest(const Json& sampler)
            (min == kNearest || min == kNearestMipmapNearest || min == kNearestMipmapLinear);
 }
 
-// Its index in Scene::textures; none where the file offers no image that can be read.
-int scene_texture(Document& doc, int index)
+// Its index in Scene::textures; none where the file offers no image that can be read. extras: our own, in which images of floats may be.
+int scene_texture(Document& doc, int index, bool extras)
 {
     if (const auto known = doc.scene_textures.find(index); known != doc.scene_textures.end())
         return known->second;
@@ -44,7 +47,7 @@ int scene_texture(Document& doc, int index)
     } else {
         Texture texture;
         texture.name = get_string(source, "name");
-        texture.image = scene_image(doc, image);
+        texture.image = scene_image(doc, image, extras);
         if (const int at = get_index(source, "sampler"); at >= 0) {
             const Json& sampler = doc.json["samplers"][static_cast<std::size_t>(at)];
             texture.wrap_s = wrap_mode(get_uint(sampler, "wrapS", kRepeat));
@@ -59,10 +62,10 @@ int scene_texture(Document& doc, int index)
 }
 
 // What a textureInfo refers to.
-TextureRef texture_ref(Document& doc, const Json& info)
+TextureRef texture_ref(Document& doc, const Json& info, bool extras)
 {
     TextureRef ref;
-    ref.texture = scene_texture(doc, get_index(info, "index"));
+    ref.texture = scene_texture(doc, get_index(info, "index"), extras);
     std::uint64_t tex_coord = get_uint(info, "texCoord", 0);
     if (const Json* transform = get_extension(info, "KHR_texture_transform")) {
         double offset[2] = {0.0, 0.0}, scale[2] = {1.0, 1.0};
@@ -91,8 +94,51 @@ Material load_material(Document& doc, const Json& source)
 #include "core/scene/material.def"
     for (const MaterialTexture& texture : kMaterialTextures)
         if (const Json::json_pointer at(texture.path); source.contains(at))
-            material.*texture.to = texture_ref(doc, source[at]);
+            material.*texture.to = texture_ref(doc, source[at], std::string_view(texture.path).starts_with("/extras/"));
     return material;
+}
+
+// Maps in encodings of our own, once each: the file's texture and its encoding -> the scene's.
+using Imported = std::map<std::pair<std::int32_t, int>, std::int32_t>;
+
+// to: where the map belongs once `convert` has made of it what scenes hold.
+template <class Convert>
+void import_map(Document& doc, Imported& known, TextureRef& from, int encoding, const std::string& place, TextureRef& to,
+                const Convert& convert)
+{
+    if (!from.used())
+        return;
+    const auto [it, is_new] = known.try_emplace({from.texture, encoding}, static_cast<std::int32_t>(doc.scene.textures.size()));
+    if (is_new) {
+        Texture texture = doc.scene.textures[static_cast<std::size_t>(from.texture)];
+        SurfaceMap map = convert(doc.scene.images[static_cast<std::size_t>(texture.image)]);
+        if (map.repaired > 0)
+            doc.warn(fmt::format("{}: {} texels hold nothing of their kind and are repaired", place, map.repaired));
+        texture.image = static_cast<std::int32_t>(doc.scene.images.size());
+        doc.texture_bytes += map.image.bytes.size();
+        doc.scene.images.push_back(std::move(map.image));
+        doc.scene.textures.push_back(std::move(texture));
+    }
+    to = from;
+    to.texture = it->second;
+    from = TextureRef();
+}
+
+void import_maps(Document& doc, Imported& known, const Json& source, std::size_t index, Material& m)
+{
+    const std::string place = fmt::format("/materials/{}/extras/burnish/", index);
+    import_map(doc, known, m.quaternion_tex, -1, place + "quaternionTexture", m.normal_tex, normals_of_quaternions);
+    if (!m.rotation_tex.used())
+        return;
+    const std::string_view words = kRotationEncodings;
+    RotationEncoding encoding = RotationEncoding::vector;
+    read_choice(source, "/extras/burnish/rotationTexture/encoding", words, encoding);
+    if (m.anisotropy_tex.used())
+        doc.warn(place + "rotationTexture takes the place of the anisotropy texture");
+    import_map(doc, known, m.rotation_tex, static_cast<int>(encoding), place + "rotationTexture", m.anisotropy_tex,
+               [encoding](const Image& image) { return directions_of_rotations(image, encoding); });
+    if (!(m.anisotropy_strength > 0.0f))
+        m.anisotropy_strength = 1.0f;
 }
 
 } // namespace
@@ -110,11 +156,13 @@ glm::mat3x2 texture_transform(const double offset[2], double rotation, const dou
 
 void load_materials(Document& doc)
 {
+    Imported known;
     for (std::size_t i = 0; i < table_size(doc.json, "materials"); ++i) {
         Material material = load_material(doc, doc.json["materials"][i]);
         for (int k = 0; k < 3; ++k)
             if (!std::isfinite(material.emissive[k] * material.emissive_strength))
                 fail(fmt::format("/materials/{}/extensions/KHR_materials_emissive_strength", i), "the emission overflows");
+        import_maps(doc, known, doc.json["materials"][i], i, material);
         doc.scene.materials.push_back(std::move(material));
     }
     check_unused_images(doc);

@@ -13,4 +13,6 @@ inline constexpr MaterialTexture kMaterialTextures[] = {
 #include "core/scene/material.def"
 };
 
+inline constexpr const char* kRotationEncodings = "vector doubleAngle direction"; // by RotationEncoding
+
 } // namespace burnish::gltf

@@ -68,6 +68,14 @@ float slope(const Image& map, float scale, std::size_t texel, int axis)
     return std::isnan(s) ? 0.0f : std::clamp(s, -kMostSlope, kMostSlope);
 }
 
+// Of a normal map's texel, as shading decodes it; one below the surface lies as far over as slopes may.
+float slope_of_normal(const Image& map, float scale, std::size_t texel, int axis)
+{
+    const float s = scale * (1.0f - 2.0f * texel_channel(map, texel, static_cast<std::size_t>(axis)));
+    const float z = std::max(2.0f * texel_channel(map, texel, 2) - 1.0f, 1e-3f);
+    return std::isfinite(s) && std::isfinite(z) ? std::clamp(s / z, -kMostSlope, kMostSlope) : 0.0f;
+}
+
 real3 tensor_at(const Image* tensors, const Grid& grid, int x, int y)
 {
     if (!tensors)
@@ -97,7 +105,10 @@ Image slope_moments(const SlopeMaps& maps, const SlopeFactors& factors, int part
     for (int y = 0; y < grid.height; ++y)
         for (int x = 0; x < grid.width; ++x, to += 4) {
             const auto moment = [&](auto value) { return maps.tilt ? on_grid(*maps.tilt, grid, x, y, value) : 0.0f; };
-            const auto of = [&](std::size_t texel, int axis) { return slope(*maps.tilt, factors.tilt_scale, texel, axis); };
+            const auto of = [&](std::size_t texel, int axis) {
+                return maps.normals ? slope_of_normal(*maps.tilt, factors.tilt_scale, texel, axis)
+                                    : slope(*maps.tilt, factors.tilt_scale, texel, axis);
+            };
             const auto second = [&](int a, int b) { return moment([&](std::size_t i) { return of(i, a) * of(i, b); }); };
             const real3 power2 = tensor_at(maps.direction ? &tensors[0] : nullptr, grid, x, y);
             slope_covariance moments = {second(0, 0), second(1, 1), second(0, 1)};

@@ -12,6 +12,7 @@ struct SlopeMaps { // null where there is none; all of one place: the same coord
     const Image* direction = nullptr; // KHR_materials_anisotropy
     WrapMode wrap_s = WrapMode::repeat, wrap_t = WrapMode::repeat;
     bool nearest = false;
+    bool normals = false; // `tilt` is a normal map (glTF), not of slopes
 };
 
 struct SlopeFactors {

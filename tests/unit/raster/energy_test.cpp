@@ -141,7 +141,7 @@ TEST(energy, a_tilted_white_metal_gives_back_all_light)
 TEST(energy, samples_of_a_grid_lie_opposite_each_other)
 {
     for (int n = 1; n <= 8; ++n) {
-        const std::vector<GridSample> grid = grid_samples(n * n, true);
+        const std::vector<GridSample> grid = grid_samples(n * n, Sampling::grid, kGgxGrid);
         ASSERT_EQ(grid.size(), static_cast<std::size_t>(n * n));
         for (const GridSample& g : grid) {
             const auto opposite = [&](const GridSample& o) {
@@ -211,7 +211,7 @@ TEST(tilt, every_technique_gives_back_what_monte_carlo_does)
                             const TechniqueInfo& t = techniques()[i];
                             d.technique = upright.technique = t.name, d.samples = upright.samples = t.default_samples;
                             double own = 1.0;
-                            if (level && t.sampling == Sampling::grid)
+                            if (level && (t.sampling == Sampling::grid || t.traits & kPhongGrid)) // lobes of their own
                                 own = floor.seen(upright, eye.cosine, eye.azimuth_rad) / of_level;
                             off[i].add(floor.seen(d, cosine, azimuth * kDegree) - truth * own);
                         }
@@ -219,8 +219,9 @@ TEST(tilt, every_technique_gives_back_what_monte_carlo_does)
     for (std::size_t i = 0; i < off.size(); ++i) {
         const std::string name = techniques()[i].name;
         std::printf("%s: rms %.4f, at most %.4f\n", name.c_str(), off[i].rms(), off[i].largest);
-        EXPECT_LT(off[i].rms(), 0.02) << name;
-        EXPECT_LT(off[i].largest, techniques()[i].sampling == Sampling::grid ? 0.25 : 0.08) << name; // few samples see the eye from behind
+        const bool phong = techniques()[i].traits & kPhongGrid, box = techniques()[i].traits & kReadsBox;
+        EXPECT_LT(off[i].rms(), phong ? 0.04 : 0.02) << name;               // whose lobe loses more the lower it is seen
+        EXPECT_LT(off[i].largest, phong ? 0.4 : box ? 0.25 : 0.08) << name; // few samples see the eye from behind
     }
 }
 

@@ -159,7 +159,10 @@ TEST(technique, tilted_lobes_are_dimmed_as_monte_carlo_dims_them)
                     const double ratio = light(t.name, t.default_samples) / truth;
                     const bool beckmann =
                         std::string(t.name) == "filtered_is"; // without tails, of which all samples may be below the horizon
-                    EXPECT_GT(ratio, beckmann ? 0.85 : 0.97)
+                    const bool phong = t.traits & kPhongGrid; // which loses light where it is rough, upright too
+                    EXPECT_GT(ratio, phong      ? 0.7
+                                     : beckmann ? 0.85
+                                                : 0.97)
                         << t.name << ", alpha_lin " << roughness << ", eta " << anisotropy << ", tilt " << tilt;
                     const bool own = t.sampling == Sampling::grid; // whose samples have an albedo of their own, tilted or not
                     EXPECT_LT(ratio, own ? 1.25 : 1.06)

@@ -1,0 +1,309 @@
+#include "core/scene/dress.h"
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <fmt/format.h>
+#include <iterator>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "core/image/io/image_io.h"
+
+namespace burnish {
+namespace {
+
+namespace fs = std::filesystem;
+
+enum Role { kAlbedo, kOcclusion, kHeight, kMetallic, kRoughness, kNormal, kQuaternion, kRotation, kRoles };
+struct RoleName {
+    const char* ending;
+    Role role;
+};
+constexpr RoleName kRoleNames[] = {
+    {"albedo", kAlbedo},         {"basecolor", kAlbedo},  {"ao", kOcclusion},      {"ambient_occlusion", kOcclusion},
+    {"depth", kHeight},          {"height", kHeight},     {"metallic", kMetallic}, {"metal", kMetallic},
+    {"normal", kNormal},         {"rotation", kRotation}, {"flow", kRotation},     {"roughness", kRoughness},
+    {"quaternion", kQuaternion},
+};
+
+// A file's name without extension ends in a role's: after a character that is no letter, or as a whole.
+std::optional<Role> role_of(std::string stem)
+{
+    std::transform(stem.begin(), stem.end(), stem.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    for (const RoleName& name : kRoleNames) {
+        const std::string ending = name.ending;
+        if (stem.size() < ending.size() || stem.compare(stem.size() - ending.size(), ending.size(), ending) != 0)
+            continue;
+        if (stem.size() == ending.size() || !std::isalpha(static_cast<unsigned char>(stem[stem.size() - ending.size() - 1])))
+            return name.role;
+    }
+    return std::nullopt;
+}
+
+bool is_picture(const fs::path& path)
+{
+    static const std::set<std::string> kExtensions = {".png", ".jpg", ".jpeg", ".webp", ".tif", ".tiff", ".exr", ".hdr", ".pfm"};
+    std::string extension = path.extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return kExtensions.count(extension) > 0;
+}
+
+// The red channel of a picture where another one's texel lies, [0,65535]; of none: the largest.
+std::uint16_t red_at(const Image& image, int x, int y, int width, int height)
+{
+    if (image.empty())
+        return 65535;
+    const auto along = [](int at, int count, int texels) {
+        return static_cast<std::size_t>((2 * static_cast<std::int64_t>(at) + 1) * texels / (2 * count));
+    };
+    const std::size_t texel = along(y, height, image.height) * static_cast<std::size_t>(image.width) + along(x, width, image.width);
+    const std::size_t at = texel * static_cast<std::size_t>(image.channels);
+    if (image.type == PixelType::u8)
+        return static_cast<std::uint16_t>(257 * std::to_integer<int>(image.bytes[at]));
+    if (image.type == PixelType::u16)
+        return reinterpret_cast<const std::uint16_t*>(image.bytes.data())[at];
+    const float value = image.f32()[at];
+    return static_cast<std::uint16_t>((value > 0.0f ? std::min(value, 1.0f) : 0.0f) * 65535.0f + 0.5f);
+}
+
+// Green roughness, blue metalness, as wide and high as the larger of both.
+Image metal_rough(const Image& metallic, const Image& roughness)
+{
+    const int width = std::max(metallic.width, roughness.width), height = std::max(metallic.height, roughness.height);
+    Image out = make_image(width, height, 3, PixelType::u16);
+    auto* to = reinterpret_cast<std::uint16_t*>(out.bytes.data());
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x, to += 3)
+            to[0] = 65535, to[1] = red_at(roughness, x, y, width, height), to[2] = red_at(metallic, x, y, width, height);
+    return out;
+}
+
+class Dresser {
+  public:
+    Dresser(Scene& scene, const Limits& limits) : scene_(scene), limits_(limits), worn_(scene.materials.size(), false)
+    {
+        for (const Primitive& primitive : scene.primitives)
+            if (primitive.has_uv0)
+                worn_[static_cast<std::size_t>(primitive.material)] = true;
+    }
+
+    Status check_coordinates(const std::string& path) const
+    {
+        if (std::find(worn_.begin(), worn_.end(), true) == worn_.end())
+            return Error{ExitCode::bad_input, path, "", "nothing in the scene has texture coordinates for a map"};
+        return {};
+    }
+
+    Result<Image> read(const std::string& path, int channels)
+    {
+        if (const Status worn = check_coordinates(path); !worn)
+            return worn.error();
+        Limits rest = limits_;
+        for (const Image& image : scene_.images)
+            rest.texture_bytes -= std::min<std::uint64_t>(rest.texture_bytes, image.bytes.size());
+        Result<Image> image = read_image(path, rest);
+        if (!image)
+            return image.error();
+        if (image->channels < channels)
+            return Error{ExitCode::bad_input, path, "", "a map of directions or normals has red, green and blue"};
+        if (image->bytes.size() > rest.texture_bytes)
+            return Error{ExitCode::bad_input, path, "",
+                         fmt::format("the scene's textures need more than {} bytes (--limit-texture-bytes)", limits_.texture_bytes)};
+        scene_.files.push_back(path);
+        return image;
+    }
+
+    std::int32_t add(Image image, const char* name)
+    {
+        Texture texture;
+        texture.name = name;
+        texture.image = static_cast<std::int32_t>(scene_.images.size());
+        scene_.images.push_back(std::move(image));
+        scene_.textures.push_back(texture);
+        return static_cast<std::int32_t>(scene_.textures.size()) - 1;
+    }
+
+    std::int32_t add(SurfaceMap map, const std::string& path, const char* name)
+    {
+        if (map.repaired > 0)
+            scene_.warnings.push_back(fmt::format("{}: {} texels of {} hold none and are repaired", path, map.repaired, name));
+        return add(std::move(map.image), name);
+    }
+
+    template <class Change> void each(const Change& change)
+    {
+        for (std::size_t i = 0; i < worn_.size(); ++i)
+            if (worn_[i])
+                change(scene_.materials[i]);
+    }
+
+    void put(std::int32_t texture, TextureRef Material::*to)
+    {
+        each([&](Material& m) {
+            m.*to = TextureRef();
+            (m.*to).texture = texture;
+        });
+    }
+
+    void put_directions(std::int32_t texture)
+    {
+        put(texture, &Material::anisotropy_tex);
+        each([](Material& m) { m.anisotropy_strength = m.anisotropy_strength > 0.0f ? m.anisotropy_strength : 1.0f; });
+    }
+
+  private:
+    Scene& scene_;
+    const Limits& limits_;
+    std::vector<bool> worn_; // by something with texture coordinates
+};
+
+Status put_maps(Dresser& on, const Dress& with)
+{
+    if (!with.direction.empty()) {
+        Result<Image> image = on.read(with.direction, 3);
+        if (!image)
+            return image.error();
+        on.put_directions(on.add(std::move(*image), "direction map"));
+    }
+    if (!with.rotation.empty()) {
+        const Result<Image> image = on.read(with.rotation, 3);
+        if (!image)
+            return image.error();
+        on.put_directions(on.add(directions_of_rotations(*image, with.rotation_encoding), with.rotation, "rotations"));
+    }
+    if (!with.normal.empty()) {
+        Result<Image> image = on.read(with.normal, 3);
+        if (!image)
+            return image.error();
+        on.put(on.add(std::move(*image), "normal map"), &Material::normal_tex);
+    }
+    if (!with.quaternion.empty()) {
+        const Result<Image> image = on.read(with.quaternion, 3);
+        if (!image)
+            return image.error();
+        on.put(on.add(normals_of_quaternions(*image), with.quaternion, "quaternions"), &Material::normal_tex);
+    }
+    return {};
+}
+
+// The pictures of a folder by role.
+Status find_pictures(const std::string& folder, std::string (&found)[kRoles], std::vector<std::string>& warnings)
+{
+    std::error_code failed;
+    std::vector<fs::path> files;
+    for (fs::directory_iterator it(folder, failed), end; !failed && it != end; it.increment(failed))
+        if (is_picture(it->path()))
+            files.push_back(it->path());
+    if (failed)
+        return Error{ExitCode::bad_input, folder, "", failed.message()};
+    if (files.empty())
+        return Error{ExitCode::bad_input, folder, "", "holds no pictures"};
+    std::sort(files.begin(), files.end());
+    std::string unknown;
+    for (const fs::path& file : files) {
+        const std::optional<Role> role = role_of(file.stem().string());
+        if (!role || *role == kHeight) {
+            unknown += (unknown.empty() ? "" : ", ") + file.filename().string();
+            continue;
+        }
+        if (!found[*role].empty())
+            return Error{ExitCode::usage, "--material", "",
+                         fmt::format("{} and {} are both for one part of the material", found[*role], file.string())};
+        found[*role] = file.string();
+    }
+    if (!unknown.empty())
+        warnings.push_back(fmt::format("{}: nothing is made of {}", folder, unknown));
+    if (!found[kNormal].empty() && !found[kQuaternion].empty())
+        return Error{ExitCode::usage, "--material", "",
+                     fmt::format("{} and {} are both for one part of the material", found[kNormal], found[kQuaternion])};
+    return {};
+}
+
+Status put_material(Dresser& on, Scene& scene, const Dress& with)
+{
+    std::string found[kRoles];
+    if (Status pictures = find_pictures(with.material, found, scene.warnings); !pictures)
+        return pictures;
+    if (Status worn = on.check_coordinates(with.material); !worn)
+        return worn;
+    on.each([](Material& m) {
+        const std::string name = m.name;
+        m = Material();
+        m.name = name;
+    });
+    if (!found[kAlbedo].empty()) {
+        Result<Image> image = on.read(found[kAlbedo], 1);
+        if (!image)
+            return image.error();
+        on.put(on.add(std::move(*image), "albedo"), &Material::base_color_tex);
+    }
+    if (!found[kOcclusion].empty()) {
+        Result<Image> image = on.read(found[kOcclusion], 1);
+        if (!image)
+            return image.error();
+        on.put(on.add(std::move(*image), "occlusion"), &Material::occlusion_tex);
+    }
+    Image parts[2];
+    for (const int i : {0, 1})
+        if (const std::string& path = found[i ? kRoughness : kMetallic]; !path.empty()) {
+            Result<Image> image = on.read(path, 1);
+            if (!image)
+                return image.error();
+            parts[i] = std::move(*image);
+        }
+    if (parts[0].empty())
+        on.each([](Material& m) { m.metallic = 0.0f; });
+    if (!parts[0].empty() || !parts[1].empty())
+        on.put(on.add(metal_rough(parts[0], parts[1]), "metalness and roughness"), &Material::metallic_roughness_tex);
+    Dress maps;
+    maps.normal = found[kNormal], maps.quaternion = found[kQuaternion], maps.rotation = found[kRotation];
+    maps.rotation_encoding = with.rotation_encoding;
+    return put_maps(on, maps);
+}
+
+void put_f0(Material& m, const glm::vec3& f0)
+{
+    for (int i = 0; i < 3; ++i)
+        m.base_color[i] *= 1.0f - m.metallic; // a metal has no diffuse part
+    m.metallic = 0.0f;
+    m.ior = 1.5f, m.specular = 1.0f;
+    m.specular_color = f0 / 0.04f;
+    m.specular_tex = m.specular_color_tex = TextureRef();
+}
+
+} // namespace
+
+bool Dress::names(const std::string& path) const
+{
+    return !path.empty() && (path == direction || path == rotation || path == normal || path == quaternion || path == material ||
+                             (!material.empty() && path.starts_with(material)));
+}
+
+Status dress(Scene& scene, const Dress& with, const Limits& limits)
+{
+    Dresser on(scene, limits);
+    if (!with.material.empty())
+        if (Status put = put_material(on, scene, with); !put)
+            return put;
+    if (Status put = put_maps(on, with); !put)
+        return put;
+    if (with.normal_y_down) {
+        std::set<std::int32_t> flipped;
+        for (const Material& m : scene.materials)
+            if (m.normal_tex.used())
+                flipped.insert(scene.textures[static_cast<std::size_t>(m.normal_tex.texture)].image);
+        for (const std::int32_t image : flipped)
+            flip_green(scene.images[static_cast<std::size_t>(image)]);
+    }
+    for (Material& m : scene.materials) {
+        m.lean |= with.lean;
+        if (with.f0)
+            put_f0(m, *with.f0);
+    }
+    return {};
+}
+
+} // namespace burnish

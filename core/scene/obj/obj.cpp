@@ -1,0 +1,209 @@
+#include "core/scene/obj/obj.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <fmt/format.h>
+#include <map>
+#include <utility>
+
+#include "core/base/file.h"
+#include "core/scene/obj/parse.h"
+#include "core/scene/tangents.h"
+
+namespace burnish {
+namespace {
+
+constexpr std::size_t kMostCorners = 1000; // of a polygon, whose ears are cut one by one
+constexpr std::uint64_t kCornerBytes = 128;
+
+glm::dvec3 position_of(const obj::Parsed& from, const obj::Corner& c)
+{
+    const float* p = from.positions.data() + 3 * c.position;
+    return {static_cast<double>(p[0]), static_cast<double>(p[1]), static_cast<double>(p[2])};
+}
+
+glm::dvec3 cross(const glm::dvec3& a, const glm::dvec3& b)
+{
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+double dot(const glm::dvec3& a, const glm::dvec3& b)
+{
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+// Corners of triangles, by their places in a polygon: ears are cut off, the first that holds no other corner; where all hold one, as in
+// what crosses itself, the first.
+std::vector<std::size_t> triangles_of(const std::vector<glm::dvec3>& corners)
+{
+    std::vector<std::size_t> left(corners.size()), out;
+    for (std::size_t i = 0; i < left.size(); ++i)
+        left[i] = i;
+    glm::dvec3 normal(0.0);
+    for (std::size_t i = 0; i + 1 < corners.size(); ++i)
+        normal += cross(corners[i] - corners[0], corners[i + 1] - corners[0]);
+    const auto turn = [&](std::size_t a, std::size_t b, std::size_t c) {
+        return dot(normal, cross(corners[b] - corners[a], corners[c] - corners[a]));
+    };
+    const auto is_ear = [&](std::size_t at) {
+        const std::size_t n = left.size(), a = left[(at + n - 1) % n], b = left[at], c = left[(at + 1) % n];
+        if (!(turn(a, b, c) > 0.0))
+            return false;
+        return std::none_of(left.begin(), left.end(), [&](std::size_t p) {
+            return p != a && p != b && p != c && turn(a, b, p) >= 0.0 && turn(b, c, p) >= 0.0 && turn(c, a, p) >= 0.0;
+        });
+    };
+    while (left.size() > 3) {
+        const std::size_t n = left.size();
+        std::size_t at = 1 % n; // of what is convex a fan about its first corner
+        for (std::size_t tried = 0; tried < n; ++tried)
+            if (is_ear((1 + tried) % n)) {
+                at = (1 + tried) % n;
+                break;
+            }
+        out.insert(out.end(), {left[(at + n - 1) % n], left[at], left[(at + 1) % n]});
+        left.erase(left.begin() + static_cast<std::ptrdiff_t>(at));
+    }
+    out.insert(out.end(), left.begin(), left.end());
+    return out;
+}
+
+// Sums of the areas about each position.
+std::vector<glm::dvec3> smooth_normals(const obj::Parsed& from, const std::vector<std::vector<obj::Corner>>& groups)
+{
+    std::vector<glm::dvec3> sums(from.positions.size() / 3, glm::dvec3(0.0));
+    for (const std::vector<obj::Corner>& corners : groups)
+        for (std::size_t i = 0; i < corners.size(); i += 3) {
+            const glm::dvec3 a = position_of(from, corners[i]);
+            const glm::dvec3 area = cross(position_of(from, corners[i + 1]) - a, position_of(from, corners[i + 2]) - a);
+            for (std::size_t k = 0; k < 3; ++k)
+                sums[static_cast<std::size_t>(corners[i + k].position)] += area;
+        }
+    return sums;
+}
+
+glm::vec3 unit(const glm::dvec3& v)
+{
+    const double length = std::sqrt(dot(v, v));
+    return length > 1e-30 ? glm::vec3(v / length) : glm::vec3(0.0f, 0.0f, 1.0f); // of no area, and never seen
+}
+
+// Equal corners once, in the order of their first use.
+void append(Scene& scene, const std::vector<glm::vec3>& positions, const std::vector<glm::vec3>& normals,
+            const std::vector<glm::vec4>& tangents, const std::vector<glm::vec2>& uvs, bool has_uvs)
+{
+    Primitive primitive;
+    primitive.material = 0;
+    primitive.has_uv0 = has_uvs;
+    primitive.first_index = static_cast<std::uint32_t>(scene.indices.size());
+    primitive.first_vertex = static_cast<std::uint32_t>(scene.vertices.size());
+    VertexTable& v = scene.vertices;
+    const std::array<Column<float>*, 18> columns = {&v.px, &v.py, &v.pz, &v.nx, &v.ny, &v.nz, &v.tx, &v.ty, &v.tz,
+                                                    &v.tw, &v.u0, &v.v0, &v.u1, &v.v1, &v.cr, &v.cg, &v.cb, &v.ca};
+    std::map<std::array<std::uint32_t, 12>, std::uint32_t> known;
+    for (std::size_t i = 0; i < positions.size(); ++i) {
+        const glm::vec3 &p = positions[i], &n = normals[i];
+        const glm::vec4& t = tangents[i];
+        const float values[18] = {p.x, p.y, p.z, n.x, n.y, n.z, t.x, t.y, t.z, t.w, uvs[i].x, uvs[i].y, 0, 0, 1, 1, 1, 1};
+        std::array<std::uint32_t, 12> bits;
+        std::memcpy(bits.data(), values, sizeof bits);
+        const auto [it, is_new] = known.try_emplace(bits, static_cast<std::uint32_t>(v.size()));
+        for (std::size_t c = 0; is_new && c < columns.size(); ++c)
+            columns[c]->push_back(values[c]);
+        scene.indices.push_back(it->second);
+    }
+    primitive.index_count = static_cast<std::uint32_t>(positions.size());
+    primitive.vertex_count = static_cast<std::uint32_t>(v.size()) - primitive.first_vertex;
+    scene.primitives.push_back(primitive);
+}
+
+void add_group(Scene& scene, const obj::Parsed& from, const std::vector<obj::Corner>& corners, const std::vector<glm::dvec3>& smooth)
+{
+    std::vector<glm::vec3> positions, normals;
+    std::vector<glm::vec2> uvs, upwards; // v down as glTF has it; up as in the file and for MikkTSpace
+    const bool has_uvs = std::all_of(corners.begin(), corners.end(), [](const obj::Corner& c) { return c.uv >= 0; });
+    for (const obj::Corner& c : corners) {
+        positions.push_back(glm::vec3(position_of(from, c)));
+        const float* n = c.normal >= 0 ? from.normals.data() + 3 * c.normal : nullptr;
+        const glm::dvec3 own =
+            n ? glm::dvec3(static_cast<double>(n[0]), static_cast<double>(n[1]), static_cast<double>(n[2])) : glm::dvec3(0.0);
+        normals.push_back(unit(dot(own, own) > 1e-30 ? own : smooth[static_cast<std::size_t>(c.position)]));
+        upwards.push_back(has_uvs
+                              ? glm::vec2(from.uvs[static_cast<std::size_t>(2 * c.uv)], from.uvs[static_cast<std::size_t>(2 * c.uv + 1)])
+                              : glm::vec2(0.0f));
+        uvs.push_back(has_uvs ? glm::vec2(upwards.back().x, 1.0f - upwards.back().y) : glm::vec2(0.0f));
+    }
+    std::vector<glm::vec4> tangents;
+    if (has_uvs)
+        tangents = mikk_tangents(positions, normals, upwards);
+    else
+        for (const glm::vec3& n : normals)
+            tangents.push_back(glm::vec4(any_tangent(n), 1.0f));
+    append(scene, positions, normals, tangents, uvs, has_uvs);
+}
+
+} // namespace
+
+bool is_obj(const std::string& path)
+{
+    return path.ends_with(".obj") || path.ends_with(".OBJ");
+}
+
+Result<Scene> load_obj(const std::string& path, const Limits& limits)
+{
+    const Result<std::vector<std::uint8_t>> bytes = read_file(path, limits.file_bytes);
+    if (!bytes)
+        return bytes.error();
+    const obj::Parsed parsed = obj::parse(path, std::string(bytes->begin(), bytes->end()));
+    if (parsed.wrong)
+        return *parsed.wrong;
+    if (parsed.groups.empty())
+        return Error{ExitCode::bad_input, path, "", "holds no faces"};
+    std::uint64_t corners = 0;
+    std::vector<std::vector<obj::Corner>> triangles; // by group
+    for (const obj::Group& group : parsed.groups) {
+        std::vector<obj::Corner>& to = triangles.emplace_back();
+        std::size_t first = 0;
+        for (const std::uint32_t count : group.counts) {
+            if (count > kMostCorners)
+                return Error{ExitCode::bad_input, path, "", fmt::format("a polygon has {} corners, more than {}", count, kMostCorners)};
+            corners += 3 * (count - 2);
+            if (corners * kCornerBytes > limits.accessor_bytes)
+                return Error{ExitCode::bad_input, path, "",
+                             fmt::format("its faces need more than {} bytes (--limit-accessor-bytes)", limits.accessor_bytes)};
+            std::vector<glm::dvec3> points;
+            for (std::size_t i = first; i < first + count; ++i)
+                points.push_back(position_of(parsed, group.corners[i]));
+            for (const std::size_t at : triangles_of(points))
+                to.push_back(group.corners[first + at]);
+            first += count;
+        }
+    }
+    Scene scene;
+    scene.files.push_back(path);
+    Material white;
+    white.name = "white";
+    white.metallic = 0.0f, white.roughness = 0.4f;
+    scene.materials.push_back(white);
+    const std::vector<glm::dvec3> smooth = smooth_normals(parsed, triangles);
+    for (std::size_t g = 0; g < triangles.size(); ++g) {
+        Mesh mesh;
+        mesh.name = parsed.groups[g].name;
+        mesh.first_primitive = static_cast<std::uint32_t>(scene.primitives.size());
+        mesh.primitive_count = 1;
+        add_group(scene, parsed, triangles[g], smooth);
+        Node node;
+        node.name = mesh.name, node.mesh = static_cast<std::int32_t>(g);
+        scene.meshes.push_back(std::move(mesh));
+        scene.nodes.push_back(std::move(node));
+    }
+    if (parsed.names_materials)
+        scene.warnings.push_back("its materials (MTL) are not read; all of it is white (--material FOLDER)");
+    update_world(scene);
+    return scene;
+}
+
+} // namespace burnish

@@ -1,0 +1,18 @@
+// Wavefront OBJ files to scenes.
+#pragma once
+#include <string>
+
+#include "core/base/limits.h"
+#include "core/base/result.h"
+#include "core/scene/scene.h"
+
+namespace burnish {
+
+bool is_obj(const std::string& path); // by its name
+
+// Polygons of any number of corners, groups and objects as meshes, indices from either end. Without normals they are smooth, by area;
+// tangents are MikkTSpace's where there are texture coordinates. One white material of roughness 0.4 wears all; MTL files are not read,
+// with a warning. Errors: indices without a vertex, numbers that no float holds, files without faces, what limits refuse.
+Result<Scene> load_obj(const std::string& path, const Limits& limits);
+
+} // namespace burnish

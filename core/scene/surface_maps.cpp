@@ -1,0 +1,138 @@
+#include "core/scene/surface_maps.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace burnish {
+namespace {
+
+std::size_t texels_of(const Image& image)
+{
+    return static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
+}
+
+// Gray stands for all colours.
+std::size_t place_of(const Image& image, std::size_t texel, std::size_t channel)
+{
+    return texel * static_cast<std::size_t>(image.channels) + (image.channels >= 3 ? channel : 0);
+}
+
+const std::uint16_t* u16(const Image& image)
+{
+    return reinterpret_cast<const std::uint16_t*>(image.bytes.data());
+}
+
+double signed_value(const Image& image, std::size_t texel, std::size_t channel)
+{
+    const std::size_t at = place_of(image, texel, channel);
+    if (image.type == PixelType::u8)
+        return std::max((std::to_integer<int>(image.bytes[at]) - 128) / 127.0, -1.0);
+    if (image.type == PixelType::u16)
+        return std::max((u16(image)[at] - 32768) / 32767.0, -1.0);
+    return static_cast<double>(image.f32()[at]);
+}
+
+double unit_value(const Image& image, std::size_t texel, std::size_t channel)
+{
+    const std::size_t at = place_of(image, texel, channel);
+    if (image.type == PixelType::u8)
+        return std::to_integer<int>(image.bytes[at]) / 255.0;
+    return image.type == PixelType::u16 ? u16(image)[at] / 65535.0 : static_cast<double>(image.f32()[at]);
+}
+
+std::uint16_t code16(double unit)
+{
+    return static_cast<std::uint16_t>(std::clamp(unit, 0.0, 1.0) * 65535.0 + 0.5);
+}
+
+// (x, y, z) to unit length; false where it has none.
+bool normalize(double& x, double& y, double& z)
+{
+    const double length = std::sqrt(x * x + y * y + z * z);
+    if (!(length > 1e-4 && length < 1e30))
+        return false;
+    x /= length, y /= length, z /= length;
+    return true;
+}
+
+} // namespace
+
+SurfaceMap normals_of_quaternions(const Image& quaternions)
+{
+    SurfaceMap map = {make_image(quaternions.width, quaternions.height, 3, PixelType::u16)};
+    auto* to = reinterpret_cast<std::uint16_t*>(map.image.bytes.data());
+    for (std::size_t i = 0; i < texels_of(quaternions); ++i, to += 3) {
+        double a = signed_value(quaternions, i, 0), b = signed_value(quaternions, i, 1), c = signed_value(quaternions, i, 2);
+        if (!normalize(a, b, c))
+            a = 1.0, b = c = 0.0, ++map.repaired;
+        to[0] = code16(0.5 - a * c), to[1] = code16(0.5 + a * b), to[2] = code16(0.5 + 0.5 * (a * a - b * b - c * c));
+    }
+    return map;
+}
+
+SurfaceMap quaternions_of_normals(const Image& normals, PixelType type)
+{
+    SurfaceMap map = {make_image(normals.width, normals.height, 3, type)};
+    for (std::size_t i = 0; i < texels_of(normals); ++i) {
+        double x = 2.0 * unit_value(normals, i, 0) - 1.0, y = 2.0 * unit_value(normals, i, 1) - 1.0;
+        double z = 2.0 * unit_value(normals, i, 2) - 1.0;
+        if (!normalize(x, y, z))
+            x = y = 0.0, z = 1.0, ++map.repaired;
+        double q[3] = {0.0, 1.0, 0.0}; // half a turn about x
+        const double a = std::sqrt(z < 0.0 ? (x * x + y * y) / (2.0 * (1.0 - z)) : 0.5 * (1.0 + z));
+        if (a >= 1e-6)
+            q[0] = a, q[1] = y / (2.0 * a), q[2] = -x / (2.0 * a);
+        for (std::size_t c = 0; c < 3; ++c)
+            if (type == PixelType::u8)
+                map.image.bytes[3 * i + c] = static_cast<std::byte>(128 + static_cast<int>(std::lround(127.0 * q[c])));
+            else if (type == PixelType::u16)
+                reinterpret_cast<std::uint16_t*>(map.image.bytes.data())[3 * i + c] =
+                    static_cast<std::uint16_t>(32768 + std::lround(32767.0 * q[c]));
+            else
+                map.image.f32()[3 * i + c] = static_cast<float>(q[c]);
+    }
+    return map;
+}
+
+SurfaceMap directions_of_rotations(const Image& rotations, RotationEncoding encoding)
+{
+    SurfaceMap map = {make_image(rotations.width, rotations.height, 3, PixelType::u16)};
+    auto* to = reinterpret_cast<std::uint16_t*>(map.image.bytes.data());
+    const bool khr = encoding == RotationEncoding::direction;
+    for (std::size_t i = 0; i < texels_of(rotations); ++i, to += 3) {
+        double x = khr ? 2.0 * unit_value(rotations, i, 0) - 1.0 : signed_value(rotations, i, 0);
+        double y = khr ? 2.0 * unit_value(rotations, i, 1) - 1.0 : signed_value(rotations, i, 1), none = 0.0;
+        double strength = khr ? unit_value(rotations, i, 2) : 1.0;
+        if (khr && (x * x + y * y < 1e-4 || !std::isfinite(strength)))
+            x = 1.0, y = 0.0, strength = 0.0; // as such a texture says it
+        if (!normalize(x, y, none))
+            x = 1.0, y = 0.0, ++map.repaired;
+        if (encoding == RotationEncoding::double_angle) { // half of an angle from -180 to 180 degrees
+            const double cosine = std::sqrt(std::max(0.5 + 0.5 * x, 0.0)), sine = std::sqrt(std::max(0.5 - 0.5 * x, 0.0));
+            x = cosine, y = y < 0.0 ? -sine : sine;
+        }
+        if (code16(0.5 + 0.5 * y) < code16(0.5)) // of two opposite ones the upper, or that along the tangent
+            x = -x, y = -y;
+        if (code16(0.5 + 0.5 * y) == code16(0.5))
+            x = std::abs(x);
+        to[0] = code16(0.5 + 0.5 * x), to[1] = code16(0.5 + 0.5 * y), to[2] = code16(strength);
+    }
+    return map;
+}
+
+void flip_green(Image& normals)
+{
+    if (normals.channels < 3)
+        return;
+    for (std::size_t i = 0; i < texels_of(normals); ++i) {
+        const std::size_t at = place_of(normals, i, 1);
+        if (normals.type == PixelType::u8)
+            normals.bytes[at] = static_cast<std::byte>(255 - std::to_integer<int>(normals.bytes[at]));
+        else if (normals.type == PixelType::u16)
+            reinterpret_cast<std::uint16_t*>(normals.bytes.data())[at] = static_cast<std::uint16_t>(65535 - u16(normals)[at]);
+        else
+            normals.f32()[at] = 1.0f - normals.f32()[at];
+    }
+}
+
+} // namespace burnish

@@ -1,0 +1,86 @@
+// Samples of an Ashikhmin-Shirley lobe (shading/models/ashikhmin_shirley.k.h), each fetched from the box-filtered environment at the level
+// whose texels are as large as its share of the sphere. Frames bring a Hammersley set, as cosine and sine of the azimuth that isotropic
+// lobes have and the logarithm of 1 - xi; what is left is the same for each width, so that roughness may vary by fragment.
+#ifndef BN_AS_MC_T_H
+#define BN_AS_MC_T_H
+
+#include "shading/lang/lang.h"
+#include "shading/lang/stage.h"
+#include "shading/models/ashikhmin_shirley.k.h"
+#include "shading/surface/energy.k.h"
+#include "shading/techniques/technique.t.h"
+
+BN_KERNELS_BEGIN
+
+struct as_half_vector {
+    real3 h;         // unit
+    real log_cosine; // natural, times its exponent: of the density over that at the normal
+};
+
+// wide: roots of 1 + nv and 1 + nu.
+BN_FN as_half_vector as_half_vector_of(ashikhmin_shirley_params p, real2 wide, real3 g)
+{
+    real2 d = k_normalize2(vec2_of(wide.x * g.x, wide.y * g.y));
+    real e = p.nu * d.x * d.x + p.nv * d.y * d.y;
+    real lg = g.z / (e + lit(1.0));
+    real less = k_expm1(lg); // cosine - 1, with its digits near the normal
+    real q = sqrt(max(-(less * (less + lit(2.0))), lit(0.0)));
+    as_half_vector r;
+    real z = less + lit(1.0);
+    r.h = vec3_of(d.x * q, d.y * q, z);
+    r.log_cosine = e * lg;
+    return r;
+}
+
+BN_FN real3 as_mc_specular(frame_ref f, BN_IN(shaded_point) x)
+{
+    cube_desc cube = box_cube(f);
+    real3 o = eye_in_lobe(x);
+    real root2 = lit(1.4142135623730951);
+    real alpha_u = x.lobe.sigma_u * root2;
+    real alpha_v = x.lobe.sigma_v * root2;
+    ashikhmin_shirley_params p = ashikhmin_shirley_params_of_alpha(alpha_u, alpha_v);
+    real2 wide = vec2_of(sqrt(p.nv + lit(1.0)), sqrt(p.nu + lit(1.0)));
+    real size = to_real(int_lit(cube.size));
+    real count = to_real(int_lit(the_frame(f).grid_count));
+    real peak = wide.x * wide.y * lit(0.15915494309189534);
+    real texels =
+        size * size * lit(0.47746482927568601) * lit(4.0) / (count * peak); // 6 / (4 pi), of 4 o.h times the density at the normal
+    real texel_term = lit(0.5) * k_log2(texels);
+    cube_terms sum;
+    cube_terms_begin(sum, cube, true);
+    real weights = lit(0.0);
+    real kept = lit(0.0);
+    for (int i = 0; i < the_frame(f).grid_count; ++i) {
+        as_half_vector s = as_half_vector_of(p, wide, grid_sample(f, i));
+        real o_dot_h = k_dot3(o, s.h);
+        real3 i_lobe = mirror_direction(o, s.h);
+        mask valid = both(o_dot_h > lit(0.0), i_lobe.z > lit(0.0));
+        real own = select(valid, i_lobe.z / max(max(o.z, i_lobe.z), lit(1e-4)), lit(0.0));
+        real lod = texel_term + lit(0.5) * k_log2(max(o_dot_h, lit(1e-4))) - s.log_cosine * lit(0.72134752044448170);
+        real3 wi = from_lobe(x.lobe, x.s.n, i_lobe);
+        real3 fresnel = reflectance_of(x.s, k_saturate(o_dot_h));
+        real weight = above_horizon(x, wi, own);
+        cube_terms_add(sum, wi, max(lod, lit(0.0)), fresnel, weight);
+        weights = weights + own;
+        kept = kept + weight;
+    }
+    real3 total = cube_terms_value(sum);
+    real albedo = weights / count;
+    if (x.turned && lies_in_surface(f)) { // as if the lobe were upright, as filtered_is has it
+        real mean_weight = kept / count;
+        total = total * albedo / max(mean_weight, lit(1e-4));
+    }
+    if (the_frame(f).energy_compensation != 0) { // of this lobe, not of the usual one
+        if (stands_in(f))
+            albedo = albedo * x.shown;
+        total = total * energy_compensation_of_albedo(x.s.f0, albedo) / x.gain;
+    }
+    uniform_real scale = the_frame(f).box.scale / the_frame(f).specular.scale;
+    real3 mean = total / count * splat(scale);
+    return mirrors_apart(f, x, mean, lit(1.0));
+}
+
+BN_KERNELS_END
+
+#endif

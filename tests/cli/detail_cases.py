@@ -1,0 +1,284 @@
+"""Detail of surfaces: normal, quaternion and rotation maps by option and by file, frames under them, material folders, OBJ files."""
+
+import json
+import math
+import pathlib
+import random
+
+import gltf_files as files
+from compare_cases import pfm, png
+from harness import case, check
+from input_cases import refuse, scratch
+from parity_cases import check_equal, parity
+from reference_cases import needs_embree
+
+VIEW = ("--eye", "0.3,0.3,1.2", "--target", "0.3,0.3,0", "--fov", "40", "--size", "40x40", "--msaa", "1", "--env-size", "64", "--env-samples", "32")
+METAL = ("--roughness", "0.4", "--anisotropy", "0.8")
+
+
+def bare(**material):
+    """A triangle with texture coordinates and no texture."""
+    gltf = files.textured("x.png")
+    del gltf["textures"], gltf["images"]
+    gltf["materials"] = [{"pbrMetallicRoughness": {"roughnessFactor": 0.5}, "doubleSided": True, **material}]
+    return gltf
+
+
+def bumps(x, y):
+    """A normal map that leans all ways, by smooth waves."""
+    nx, ny = 0.5 * math.sin(x * 0.7), 0.5 * math.cos(y * 0.9)
+    nz = math.sqrt(1 - nx * nx - ny * ny)
+    return tuple(int(127.5 + 127.5 * n) for n in (nx, ny, nz))
+
+
+def scenes(bench):
+    scratch(bench, "bare.gltf", files.text(bare()))
+    scratch(bench, "n.png", png(16, 16, bumps))
+    return "bare.gltf"
+
+
+def hash_of(bench, *words):
+    found = bench.figures(*words)
+    check(found["nan_pixels"] == 0, f"{words}: not all pixels are finite")
+    return found["pixel_hash"]
+
+
+def off_by(bench, a, b):
+    bench.run("compare", a, b, "--metric", "max,mse", "--json", "c.json", "-q").expect(0)
+    return json.loads((bench.folder / "c.json").read_text())
+
+
+@case("detail.frames_under_a_map_differ_as_they_are_named", tier="check")
+def frames(bench):
+    scene = scenes(bench)
+    plain = hash_of(bench, scene, *VIEW, *METAL)
+    by = {way: hash_of(bench, scene, *VIEW, *METAL, "--normal-map", "n.png", "--frame-map", way)
+          for way in ("gram-schmidt", "quaternion", "normal-only", "off")}
+    check(by["off"] == plain, "a map that is off is seen")
+    check(len(set(by.values())) == 4, f"two ways give one picture: {by}")
+    check(hash_of(bench, scene, *VIEW, *METAL, "--normal-map", "n.png") == by["gram-schmidt"], "gram-schmidt is not the default")
+    for way in by:
+        check(hash_of(bench, scene, *VIEW, *METAL, "--frame-map", way) == plain, f"{way} changes what has no map")
+    # without a length, straight down, and what decodes to nearly nothing
+    scratch(bench, "odd.png", png(4, 4, lambda x, y: ((128, 128, 128), (128, 128, 0), (127, 128, 0), (128, 128, 255))[(x + y) % 4]))
+    for way in by:
+        hash_of(bench, scene, *VIEW, *METAL, "--normal-map", "odd.png", "--frame-map", way)
+
+
+@case("detail.normal_maps_of_green_down", tier="check")
+def green_down(bench):
+    scene = scenes(bench)
+    scratch(bench, "d.png", png(16, 16, lambda x, y: (bumps(x, y)[0], 255 - bumps(x, y)[1], bumps(x, y)[2])))
+    up, down = (hash_of(bench, scene, *VIEW, "--normal-map", *words) for words in (("n.png",), ("d.png", "--normal-y", "down")))
+    check(up == down, "green down is not green up upside down")
+    check(hash_of(bench, scene, *VIEW, "--normal-map", "d.png") != up, "both ways look alike")
+
+
+@case("detail.quaternion_maps_are_normal_maps", tier="check")
+def quaternions(bench):
+    scene = scenes(bench)
+    bench.run("render", scene, *VIEW, *METAL, "--normal-map", "n.png", "-q", "-o", "n.pfm").expect(0)
+    scratch(bench, "level.png", png(2, 2, lambda x, y: (128, 128, 255)))
+    bench.run("render", scene, *VIEW, *METAL, "-q", "-o", "plain.pfm").expect(0)
+    for name, most in (("q.exr", 0.03), ("q.pfm", 0.03), ("q.png", 0.3)):
+        bench.run("bake", "quaternion", "n.png", "-o", name).expect(0)
+        first = (bench.folder / name).read_bytes()
+        bench.run("bake", "quaternion", "n.png", "-o", name).expect(0)
+        check((bench.folder / name).read_bytes() == first, f"{name}: other bytes the second time")
+        bench.run("render", scene, *VIEW, *METAL, "--quaternion-map", name, "-q", "-o", "q_.pfm").expect(0)
+        found = off_by(bench, "n.pfm", "q_.pfm")
+        check(found["max_abs"] <= most, f"{name}: {found}")
+    # by file, as by option
+    gltf = bare(extras={"burnish": {"quaternionTexture": {"index": 0}}})
+    gltf["textures"], gltf["images"] = [{"source": 0}], [{"uri": "q.exr"}]
+    scratch(bench, "own.gltf", files.text(gltf))
+    check(hash_of(bench, "own.gltf", *VIEW, *METAL) == hash_of(bench, scene, *VIEW, *METAL, "--quaternion-map", "q.exr"), "another picture by file")
+    # texels that are none are level, and counted
+    scratch(bench, "nan.pfm", pfm(4, 4, lambda x, y: (float("nan"), 0, 0) if x == 1 else (0, 0, 0) if x == 2 else (1, 0, 0)))
+    done = bench.run("render", scene, *VIEW, *METAL, "--quaternion-map", "nan.pfm", "-o", "r.pfm").expect(0)
+    check("8 texels" in done.err, done.describe())
+    check(off_by(bench, "plain.pfm", "r.pfm")["max_abs"] < 0.02, "repaired texels are not level")
+
+
+@case("detail.rotations_are_one_whatever_says_them", tier="check")
+def rotations(bench):
+    scene = scenes(bench)
+    expressions = ("cos(pi*v)", "sin(pi*v)")
+    found = set()
+    for encoding in ("vector", "double-angle", "direction"):
+        bench.run("bake", "tpr", "--expr", *expressions, "--size", "8x16", "--encoding", encoding, "-o", encoding + ".exr").expect(0)
+        found.add(hash_of(bench, scene, *VIEW, *METAL, "--rotation-map", encoding + ".exr", "--rotation-encoding", encoding))
+        gltf = bare(extras={"burnish": {"rotationTexture": {"index": 0, "encoding": encoding.replace("-a", "A")}}})
+        gltf["textures"], gltf["images"] = [{"source": 0}], [{"uri": encoding + ".exr"}]
+        scratch(bench, "own.gltf", files.text(gltf))
+        found.add(hash_of(bench, "own.gltf", *VIEW, *METAL))
+    check(len(found) == 1, f"encodings give {len(found)} pictures")
+    check(hash_of(bench, scene, *VIEW, *METAL) not in found, "the rotation is not seen")
+    check(hash_of(bench, scene, *VIEW, *METAL, "--rotation-map", "vector.exr", "--rotation-encoding", "double-angle") not in found,
+          "encodings are not told apart")
+    # a rotation of 30 degrees after one of 20 is one of 50
+    for name, degrees in (("a", 20), ("b", 50)):
+        c, s = math.cos(math.radians(degrees)), math.sin(math.radians(degrees))
+        bench.run("bake", "tpr", "--expr", f"{c!r}", "--expr", f"{s!r}", "--size", "2x2", "-o", name + ".pfm").expect(0)
+    gltf = bare(extensions={"KHR_materials_anisotropy": {"anisotropyStrength": 0.8, "anisotropyRotation": math.radians(30)}})
+    gltf["extensionsUsed"] = ["KHR_materials_anisotropy"]
+    scratch(bench, "turned.gltf", files.text(gltf))
+    gltf["materials"][0]["extensions"]["KHR_materials_anisotropy"]["anisotropyRotation"] = 0
+    scratch(bench, "straight.gltf", files.text(gltf))
+    bench.run("render", "turned.gltf", *VIEW, "--rotation-map", "a.pfm", "-q", "-o", "ab.pfm").expect(0)
+    bench.run("render", "straight.gltf", *VIEW, "--rotation-map", "b.pfm", "-q", "-o", "b_.pfm").expect(0)
+    check(off_by(bench, "ab.pfm", "b_.pfm")["max_abs"] < 0.01, "rotations do not add up")
+
+
+# Rotation first, then bump: the frame turned by a normal map carries the rotated grain.
+@case("detail.rotations_and_bumps_give_the_same_words_on_devices")
+def devices(bench):
+    scene = scenes(bench)
+    bench.run("bake", "tpr", "--expr", "cos(pi*v)", "sin(pi*v)", "--size", "8x16", "-o", "r.exr").expect(0)
+    common = (scene, "--size", "48x32", "--msaa", "1", "--env", "builtin:sky", "--normal-map", "n.png")
+    for words in (("--frame-map", "quaternion", "--rotation-map", "r.exr", "--mip-filter", "lean"),
+                  ("--frame-map", "normal-only", "--technique", "mc", "--samples", "9")):
+        check_equal(parity(bench, *common, *words))
+
+
+@case("detail.lean_keeps_what_a_mip_level_loses")
+def lean(bench):
+    needs_embree(bench)
+    chance = random.Random(7)
+
+    def grain(x, y):
+        """Slopes by chance, about as the bell curve has them."""
+        sx, sy = (0.15 * sum(chance.uniform(-1, 1) for _ in range(3)) for _ in range(2))
+        length = math.sqrt(1 + sx * sx + sy * sy)
+        return tuple(int(127.5 + 127.5 * n / length + 0.5) for n in (-sx, -sy, 1))
+
+    scratch(bench, "fine.png", png(512, 256, grain))
+    words = ("builtin:sphere", "--size", "24x24", "--env-size", "64", "--env-samples", "64", "--key-lights", "off", "--no-background",
+             "--roughness", "0.25", "--anisotropy", "0", "--normal-map", "fine.png", "-q")
+    bench.run("render", *words, "--backend", "reference", "--reference-textures", "full", "--samples", "2048", "-o", "truth.pfm").expect(0)
+    off = {}
+    for way in ("box", "lean"):
+        for taps in ("1", "16"):
+            bench.run("render", *words, "--mip-filter", way, "--texture-anisotropy", taps, "--technique", "mc", "--samples", "1024", "--msaa", "4",
+                      "-o", "t.pfm").expect(0)
+            off[way, taps] = off_by(bench, "truth.pfm", "t.pfm")["mse"]
+    for taps in ("1", "16"):
+        check(off["lean", taps] < 0.4 * off["box", taps], f"{off}")
+
+
+@case("detail.reflectance_of_all_materials", tier="check")
+def reflectance(bench):
+    metal = bare(pbrMetallicRoughness={"roughnessFactor": 0.3, "baseColorFactor": [0.5, 0.6, 0.7, 1]})
+    scratch(bench, "metal.gltf", files.text(metal))
+    bench.run("render", "metal.gltf", *VIEW, "-q", "-o", "a.pfm").expect(0)
+    bench.run("render", "metal.gltf", *VIEW, "--f0", "0.5,0.6,0.7", "-q", "-o", "b.pfm").expect(0)
+    check(off_by(bench, "a.pfm", "b.pfm")["max_abs"] < 1e-3, "a metal of its own reflectance looks otherwise")
+    for bad in ("1,2", "0.5,0.5,1.5", "-0.1,0,0", "red", "nan,0,0"):
+        bench.run("render", "metal.gltf", "--f0=" + bad, "-o", "a.png").expect(2).expect_one_line("--f0")
+
+
+@case("detail.material_folders_are_read_by_name", tier="check")
+def folders(bench):
+    scene = scenes(bench)
+    folder = pathlib.Path(bench.folder) / "set"
+    folder.mkdir()
+    grey = lambda value, side: png(side, side, lambda x, y: (value,), channels=1)
+    for name, data in (("brass_basecolor.png", png(8, 8, lambda x, y: (200, 150, 90))), ("brass_Metallic.png", grey(255, 2)),
+                       ("brass-roughness.png", png(4, 4, lambda x, y: (20000,), channels=1, bits=16)), ("normal.png", png(16, 16, bumps)),
+                       ("brass_ao.png", grey(200, 3))):
+        (folder / name).write_bytes(data)
+    by_folder = hash_of(bench, scene, *VIEW, "--material", "set")
+    gltf = bare(pbrMetallicRoughness={"baseColorTexture": {"index": 0}, "metallicRoughnessTexture": {"index": 1}}, normalTexture={"index": 2},
+                occlusionTexture={"index": 3})
+    del gltf["materials"][0]["doubleSided"]
+    scratch(bench, "mr.png", png(4, 4, lambda x, y: (65535, 20000, 65535), bits=16))
+    scratch(bench, "ao.png", png(3, 3, lambda x, y: (200, 200, 200)))
+    scratch(bench, "b.png", png(8, 8, lambda x, y: (200, 150, 90)))
+    gltf["textures"] = [{"source": i} for i in range(4)]
+    gltf["images"] = [{"uri": uri} for uri in ("b.png", "mr.png", "n.png", "ao.png")]
+    scratch(bench, "own.gltf", files.text(gltf))
+    check(hash_of(bench, "own.gltf", *VIEW) == by_folder, "a folder is not the file's own material")
+    (folder / "brass_glow.png").write_bytes(grey(1, 1))
+    done = bench.run("render", scene, *VIEW, "--material", "set", "-o", "a.pfm").expect(0)
+    check(done.err.count("warning") == 1 and "brass_glow.png" in done.err, done.describe())
+    (folder / "other_albedo.png").write_bytes(grey(1, 1))
+    bench.run("render", scene, *VIEW, "--material", "set", "-o", "a.png").expect(2).expect_one_line("--material", "basecolor", "albedo")
+    empty = pathlib.Path(bench.folder) / "empty"
+    empty.mkdir()
+    for words, needle in ((("--material", "empty"), "empty"), (("--material", "nowhere"), "nowhere"), (("--normal-map", "no.png"), "no.png")):
+        bench.run("render", scene, *VIEW, *words, "-o", "a.png").expect(4).expect_one_line(needle)
+    gltf = files.triangle()
+    scratch(bench, "flat.gltf", files.text(gltf))
+    for option in ("--normal-map", "--quaternion-map", "--rotation-map"):
+        bench.run("render", "flat.gltf", *VIEW, option, "n.png", "-o", "a.png").expect(4).expect_one_line("n.png", "texture coordinates")
+
+
+@case("detail.faults_of_maps_are_named_by_their_place", "input", tier="check")
+def faults(bench):
+    at = "/materials/0/extras/burnish/"
+    for key, info, place in (("quaternionTexture", 3, "quaternionTexture"), ("quaternionTexture", {"index": 9}, "quaternionTexture/index"),
+                             ("rotationTexture", {}, "rotationTexture"), ("rotationTexture", {"index": 0, "encoding": "hue"}, "rotationTexture/encoding"),
+                             ("rotationTexture", {"index": 0, "encoding": 2}, "rotationTexture/encoding"), ("lean", 1, "lean")):
+        gltf = bare(extras={"burnish": {key: info}})
+        gltf["textures"], gltf["images"] = [{"source": 0}], [{"uri": "n.png"}]
+        refuse(bench, scratch(bench, "bad.gltf", files.text(gltf)), needles=(at + place,))
+
+
+@case("detail.expressions_say_where_they_are_wrong", "input", tier="check")
+def expressions(bench):
+    there = bench.left_behind()
+    for expr, needles in ((("cos(pi*v", "1"), ("--expr", "column 9")), (("1+*u", "1"), ("column 3",)), (("sin(w)", "1"), ("column 5", "w")),
+                          (("1/(u-0.75)", "v"), ("texel 1,0", "u 0.75", "v 0.5")), (("0", "u-u"), ("texel 0,0",)), (("1",), ("--expr", "two")),
+                          (("", "1"), ("--expr",)), (("1" + "+1" * 600, "1"), ("--expr", "1000")), (("1,2", "1"), ("--expr",)),
+                          (("u=2", "1"), ("column 2",)), (("((((" * 100, "1"), ("--expr", "column"))):
+        given = [word for text in expr for word in ("--expr", text)]
+        bench.run("bake", "tpr", *given, "--size", "2x1", "-o", "t.exr").expect(2).expect_one_line(*needles)
+        check(bench.left_behind() == there, "something is left behind")
+    for words, code, needles in ((("quaternion", "-o", "q.png"), 2, ("PICTURE",)), (("quaternion", "no.png", "-o", "q.png"), 4, ("no.png",)),
+                                 (("tpr", "--expr", "1", "0", "-o", "q.jpg"), 2, ("-o",)), (("tpr", "--expr", "1", "0"), 2, ("-o",)),
+                                 (("quaternion", "n.png", "--expr", "1", "-o", "q.png"), 2, ("--expr", "tpr"))):
+        bench.run("bake", *words).expect(code).expect_one_line(*needles)
+
+
+QUAD = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n"
+
+
+@case("detail.obj_files_are_read", "input", tier="check")
+def obj(bench):
+    scratch(bench, "n.png", png(16, 16, bumps))
+    texts = {"triangles": QUAD + "f 1/1 2/2 3/3\nf 1/1 3/3 4/4\n", "quad": QUAD + "f 1/1 2/2 3/3 4/4\n", "back": QUAD + "f -4/-4 -3/-3 -2/-2 -1/-1\n",
+             "groups": QUAD + "g a\nf 1/1 2/2 3/3\no b\nf 1/1 3/3 4/4\n", "normals": "vn 0 0 2\n" + QUAD + "f 1/1/1 2/2/1 3/3/1 4/4/1\r\n"}
+    found = {}
+    for name, text in texts.items():
+        scratch(bench, name + ".obj", text)
+        found[name] = hash_of(bench, name + ".obj", *VIEW, "--normal-map", "n.png")
+    check(len(set(found.values())) == 1, f"one square looks {len(set(found.values()))} ways: {found}")
+    scratch(bench, "turned.obj", QUAD.replace("vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1", "vt 1 0\nvt 1 1\nvt 0 1\nvt 0 0") + "f 1/1 2/2 3/3 4/4\n")
+    check(hash_of(bench, "turned.obj", *VIEW, "--normal-map", "n.png") not in found.values(), "texture coordinates do not count")
+    # a polygon with a notch, of which a fan would fill what is outside
+    scratch(bench, "notch.obj", "v 0 0 0\nv 1 0 0\nv 0.2 0.2 0\nv 0 1 0\nf 2 3 4 1\n")
+    scratch(bench, "cut.obj", "v 0 0 0\nv 1 0 0\nv 0.2 0.2 0\nv 0 1 0\nf 1 2 3\nf 1 3 4\n")
+    a, b = (bench.figures(name, *VIEW, "--no-background")["pixel_hash"] for name in ("notch.obj", "cut.obj"))
+    check(a == b, "a polygon with a notch is filled")
+    done = bench.run("render", scratch(bench, "m.obj", "mtllib x.mtl\n" + QUAD + "usemtl a\nf 1 2 3\nusemtl b\nf 1 3 4\n"), *VIEW, "-o", "a.pfm").expect(0)
+    check(done.err.count("warning") == 1 and "MTL" in done.err, done.describe())
+    for text, needle in ((QUAD + "f 1 2 9\n", "face 1"), (QUAD + "f 1 2 3\nf 1 2 -9\n", "face 2"), (QUAD + "f 1/9 2/2 3/3\n", "texture coordinates"),
+                         (QUAD + "f 1//1 2//1 3//1\n", "normals"), ("v 1e999 0 0\n" + QUAD + "f 1 2 3\n", "position 1"), (QUAD, "no faces"), ("", ""),
+                         (QUAD + "f 1 2\n", "face 1"), (QUAD + "f 2000000000 1 2\n", "face 1"), (QUAD + "f 0 1 2\n", "face 1"),
+                         (QUAD + "f 99999999999999999999 1 2\n", "face 1"), (QUAD + "f " + "1 2 3 " * 400 + "\n", "1200"), (QUAD + "f a b c\n", "face 1")):
+        refuse(bench, scratch(bench, "bad.obj", text), needles=(needle,))
+    bench.run("render", "no.obj", "-o", "a.png").expect(4).expect_one_line("no.obj")
+    bench.run("render", "quad.obj", "--limit-accessor-bytes", "100", "-o", "a.png").expect(4).expect_one_line("--limit-accessor-bytes")
+
+
+# The same lobe by the same Fresnel factors, sampled otherwise; with few samples the filter does what more of them would.
+@case("detail.as_mc_is_monte_carlo_of_its_lobe")
+def phong(bench):
+    words = ("builtin:spheres", "--size", "48x36", "--msaa", "1", "--env-size", "64", "--env-samples", "64", "--key-lights", "off", "--no-background",
+             "-q", "--technique")
+    bench.run("render", *words, "mc", "--brdf", "ashikhmin_shirley", "--samples", "4096", "-o", "truth.pfm").expect(0)
+    for samples, most in (("2048", 1e-4), ("64", 3e-3), ("16", 2e-2)):
+        bench.run("render", *words, "as_mc", "--samples", samples, "-o", "t.pfm").expect(0)
+        found = off_by(bench, "truth.pfm", "t.pfm")
+        check(found["mse"] < most, f"{samples} samples: {found}")
+    bench.run("render", *words, "as_mc", "--brdf", "ashikhmin_shirley", "-o", "t.pfm").expect(2).expect_one_line("as_mc", "ggx_aniso")
