@@ -82,7 +82,7 @@ def every_technique(bench):
     report = parity(bench, "--suite", "default", "--size", "96x64", "--msaa", "1,4", "--junit", "parity.xml", "--html", "parity.html")
     check_equal(report)
     techniques = {row["technique"] for row in report["rows"]}
-    check(len(techniques) == 10 and len(report["rows"]) == 5 * 10 * 2, f"{len(report['rows'])} rows of {techniques}")
+    check(len(techniques) == 11 and len(report["rows"]) == 5 * 11 * 2, f"{len(report['rows'])} rows of {techniques}")
     suite = tree.parse(bench.folder / "parity.xml").getroot()
     check(suite.get("failures") == "0" and int(suite.get("tests")) == len(report["rows"]) + 1, "the JUnit report counts otherwise")
     check("<table>" in (bench.folder / "parity.html").read_text(), "no table in the page")
@@ -228,7 +228,7 @@ def validation_layer_is_silent(bench):
         report = parity(bench, *small, *extra)
         check(report["rows"] and all(row["error"] is None for row in report["rows"]), f"{report['rows']}")
         techniques = techniques or sorted({row["technique"] for row in report["rows"]})
-    check(len(techniques) == 10, f"techniques: {techniques}")
+    check(len(techniques) == 11, f"techniques: {techniques}")
     for i, technique in enumerate(techniques):
         for sampler, msaa in (("exact", "14"[i % 2]), ("native", "41"[i % 2])):
             bench.run("render", *small, "--backend", "vulkan", "--device", "lavapipe", "--pipeline", "forward", "--sampler", sampler, "--msaa", msaa,
