@@ -130,6 +130,33 @@ def rotations(bench):
     check(off_by(bench, "ab.pfm", "b_.pfm")["max_abs"] < 0.01, "rotations do not add up")
 
 
+def square(turned):
+    """An OBJ file: a square in the plane of x and y whose texture lies `turned` degrees off it."""
+    c, s = 0.5 * math.cos(math.radians(turned)), 0.5 * math.sin(math.radians(turned))
+    corners = [(x, y) for x, y in ((-0.5, -0.5), (0.5, -0.5), (0.5, 0.5), (-0.5, 0.5))]
+    lines = [f"v {0.3 + 0.6 * x} {0.3 + 0.6 * y} 0" for x, y in corners]
+    lines += [f"vt {0.5 + c * x + s * y} {0.5 - s * x + c * y}" for x, y in corners]
+    return "\n".join(lines + ["f 1/1 2/2 3/3 4/4", ""]).encode()
+
+
+# However the texture lies on it, the grain is the one asked for; the border of a texel's width is the filter's.
+@case("detail.straightened_grain_lies_in_one_direction", tier="check")
+def straightened(bench):
+    drawn = {}
+    for turned in (0, 30, 200):
+        scratch(bench, f"{turned}.obj", square(turned))
+        bench.run("bake", "tpr", "--straighten", f"{turned}.obj", "--direction", "0.8,0.6,0", "--size", "32x32", "-o", f"{turned}.exr", "-q").expect(0)
+        for name, words in (("with", ("--rotation-map", f"{turned}.exr")), ("without", ())):
+            bench.run("render", f"{turned}.obj", *VIEW, *METAL, "--f0", "1,1,1", *words, "-q", "-o", f"{name}{turned}.pfm").expect(0)
+            drawn[name, turned] = f"{name}{turned}.pfm"
+    for turned in (30, 200):
+        apart = off_by(bench, drawn["with", 0], drawn["with", turned])["mse"]
+        check(apart < 1e-4, f"{turned} degrees: {apart}")
+    bench.run("render", "30.obj", *VIEW, *METAL, "--f0", "1,1,1", "--rotation-map", "0.exr", "-q", "-o", "other.pfm").expect(0)
+    check(off_by(bench, "other.pfm", drawn["with", 30])["mse"] > 1e-3, "the square's own map is not what turns it")
+    check(off_by(bench, drawn["without", 0], drawn["without", 30])["mse"] > 1e-3, "the grain does not lie with the texture")
+
+
 # Rotation first, then bump: the frame turned by a normal map carries the rotated grain.
 @case("detail.rotations_and_bumps_give_the_same_words_on_devices")
 def devices(bench):
