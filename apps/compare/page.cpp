@@ -103,7 +103,7 @@ Result<std::string> compare_page(const CompareOptions& options, const CompareFig
                     "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
                     "<title>{0} - {1}</title>\n<link rel=\"icon\" href=\"data:,\">\n<style>{2}{3}{4}</style>\n</head>\n<body>\n"
                     "<main>\n<h1>{0} and {1}</h1>\n",
-                    escaped(options.reference), escaped(options.test), kChartPageStyle, chart_style(), kStyle);
+                    escaped(options.reference), escaped(options.test), kChartPageStyle.bytes, chart_style(), kStyle);
     page += wall_html() + "<div class=\"pictures\">\n";
     for (const Result<std::string>& part : parts) {
         if (!part)
@@ -121,7 +121,7 @@ Result<std::string> compare_page(const CompareOptions& options, const CompareFig
     return page + fmt::format(
                       "</main>\n<div id=\"tip\" role=\"tooltip\" hidden></div>\n<script type=\"application/json\" id=\"data\">{}</script>\n"
                       "<script>\n{}</script>\n</body>\n</html>\n",
-                      script_json(wall_data(figures)), kChartPageScript);
+                      script_json(wall_data(figures)), kChartPageScript.bytes);
 }
 
 } // namespace burnish

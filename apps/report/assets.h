@@ -1,10 +1,11 @@
-// Files of this folder as text, put into the program when it is built (embed.cmake).
+// Files of this folder as text, put into the program when it is built.
 #pragma once
+#include "core/base/embedded.h"
 
 namespace burnish {
 
-extern const char* const kChartPageStyle;  // page.css
-extern const char* const kChartPageScript; // page.js
-extern const char* const kStrokeFont;      // stroke_font.jhf
+extern const EmbeddedFile kChartPageStyle;  // page.css
+extern const EmbeddedFile kChartPageScript; // page.js
+extern const EmbeddedFile kStrokeFont;      // stroke_font.jhf
 
 } // namespace burnish

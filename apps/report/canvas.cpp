@@ -19,7 +19,7 @@ struct Glyph {
 std::vector<Glyph> read_glyphs()
 {
     std::vector<Glyph> glyphs;
-    std::istringstream file(kStrokeFont);
+    std::istringstream file(kStrokeFont.bytes);
     for (std::string line; std::getline(file, line);) {
         constexpr std::size_t kPairs = 8;
         if (line.size() < kPairs + 2 || line[0] == '#')

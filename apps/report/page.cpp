@@ -281,7 +281,7 @@ Result<std::string> chart_page(const ChartReport& report)
                                    "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
                                    "<title>Speed against accuracy</title>\n<link rel=\"icon\" href=\"data:,\">\n"
                                    "<style>\n{}{}</style>\n</head>\n<body>\n<main>\n",
-                                   kChartPageStyle, chart_style());
+                                   kChartPageStyle.bytes, chart_style());
     page += heading(report);
     std::size_t place_number = 0;
     for (const PairRows& pair : pairs)
@@ -289,7 +289,7 @@ Result<std::string> chart_page(const ChartReport& report)
     page +=
         fmt::format("</main>\n<div id=\"tip\" role=\"tooltip\" hidden></div>\n<script type=\"application/json\" id=\"data\">{}</script>\n"
                     "<script>\n{}</script>\n</body>\n</html>\n",
-                    *data, kChartPageScript);
+                    *data, kChartPageScript.bytes);
     return page;
 }
 

@@ -5,13 +5,34 @@
 #include "core/base/file.h"
 
 namespace burnish {
+namespace {
+
+struct Stage {
+    const char* name;
+    const EmbeddedFile* file;
+};
+
+const Stage kStages[] = {
+#define BN_STAGE_ROW(NAME) {#NAME, &stage_##NAME},
+    BN_STAGES(BN_STAGE_ROW)
+#undef BN_STAGE_ROW
+};
+
+std::vector<std::uint32_t> words_of(const void* bytes, std::size_t size)
+{
+    std::vector<std::uint32_t> words(size / sizeof(std::uint32_t));
+    std::memcpy(words.data(), bytes, words.size() * sizeof(std::uint32_t));
+    return words;
+}
+
+} // namespace
 
 Result<std::vector<std::uint32_t>> shader_words(const std::string& name, const std::string& folder)
 {
     if (folder.empty()) {
-        for (const ShaderText& shader : built_in_shaders())
-            if (name == shader.name)
-                return std::vector<std::uint32_t>(shader.words.begin(), shader.words.end());
+        for (const Stage& stage : kStages)
+            if (name == stage.name)
+                return words_of(stage.file->bytes, stage.file->size);
         return Error{ExitCode::internal, "", "", "no shader '" + name + "' in the program"};
     }
     const std::string path = folder + "/" + name + ".spv";
@@ -19,8 +40,7 @@ Result<std::vector<std::uint32_t>> shader_words(const std::string& name, const s
     if (!bytes)
         return bytes.error();
     constexpr std::uint32_t kMagic = 0x07230203;
-    std::vector<std::uint32_t> words(bytes->size() / sizeof(std::uint32_t));
-    std::memcpy(words.data(), bytes->data(), words.size() * sizeof(std::uint32_t));
+    std::vector<std::uint32_t> words = words_of(bytes->data(), bytes->size());
     if (words.size() < 5 || words[0] != kMagic || bytes->size() % sizeof(std::uint32_t))
         return Error{ExitCode::bad_input, path, "", "is no SPIR-V"};
     return words;

@@ -115,7 +115,7 @@ std::vector<std::uint8_t> base64_decode(std::string_view text, const std::string
             group = 0;
         }
     }
-    bytes.resize(bytes.size() - pad);
+    bytes.erase(bytes.end() - static_cast<std::ptrdiff_t>(pad), bytes.end());
     return bytes;
 }
 

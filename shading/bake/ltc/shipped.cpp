@@ -9,13 +9,13 @@ namespace {
 
 const Table& shipped(bool round)
 {
-    const auto read = [](const std::uint32_t* words, std::size_t bytes, const char* name, int size) {
-        const Result<Table> table = parse_table(reinterpret_cast<const std::uint8_t*>(words), bytes, name, size);
+    const auto read = [](const EmbeddedFile& file, const char* name, int size) {
+        const Result<Table> table = parse_table(reinterpret_cast<const std::uint8_t*>(file.bytes), file.size, name, size);
         BN_CHECK(table);
         return *table;
     };
-    static const Table all = read(kShippedWords, kShippedBytes, "ggx.ltc", kShadingSize);
-    static const Table of_round = read(kShippedRoundWords, kShippedRoundBytes, "ggx_round.ltc", kShadingRoundSize);
+    static const Table all = read(kShippedFile, "ggx.ltc", kShadingSize);
+    static const Table of_round = read(kShippedRoundFile, "ggx_round.ltc", kShadingRoundSize);
     return round ? of_round : all;
 }
 

@@ -5,13 +5,15 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/base/embedded.h"
 #include "shading/bake/ltc/table.h"
 #include "shading/lang/records.h"
 
-namespace burnish::ltc {
+namespace burnish {
+extern const EmbeddedFile kShippedFile, kShippedRoundFile;
+}
 
-extern const std::uint32_t kShippedWords[], kShippedRoundWords[]; // of the files, little-endian
-extern const std::size_t kShippedBytes, kShippedRoundBytes;       // multiples of 4
+namespace burnish::ltc {
 
 struct ShadingTables {
     std::vector<std::uint16_t> texels; // table_texels() of the table of all lobes, then of that of round ones
