@@ -62,6 +62,8 @@ Status check_cells(const ChartArguments& in, const OptionTable& given, ChartOpti
             }
             if (given.given("--" + name))
                 return Status(usage_error("--" + name, "is swept"));
+            out.sweeps_environments = out.sweeps_environments || option->group == "Environment";
+            out.sweeps_scenes = out.sweeps_scenes || changes_scene(*option);
             return table.set(option->name, value);
         };
         if (cell.roughness)
