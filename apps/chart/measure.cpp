@@ -78,7 +78,6 @@ class Chart {
     };
     Status measure_pair(const SeenScene& scene, const std::shared_ptr<const Environment>& environment, const std::string& env);
     Status measure_place(const Place& place);
-    bool sweeps_environments() const; // options of theirs
     Result<Image> reference(const Place& place, ReferenceNoise& noise);
     Result<std::string> reference_file(const Place& place, const ReferenceOptions& options);
     Status find_errors(const Place& place, const Image& reference, ChartRow& row);
@@ -163,16 +162,26 @@ Status Chart::measure_pair(const SeenScene& scene, const std::shared_ptr<const E
     for (std::size_t i = 0; i < options_.cells.size(); ++i) {
         RenderOptions options = options_.cell_options[i];
         options.scene = scene.data->name;
-        if (sweeps_environments()) {
-            const Result<std::shared_ptr<const Environment>> own = open_environment(env, options.environment, options.limits, *jobs_);
-            if (!own)
-                return own.error();
-            Result<Session> next = Session::make({scene.data, *own, jobs_, {}}, of_tile);
+        if (options_.sweeps_environments || options_.sweeps_scenes) {
+            SessionParts parts = tile->parts();
+            if (options_.sweeps_environments) {
+                const auto own = open_environment(env, options.environment, options.limits, *jobs_);
+                if (!own)
+                    return own.error();
+                parts.environment = *own;
+            }
+            if (options_.sweeps_scenes) {
+                const auto own = open_scene(options.scene, options.limits, options.dress, options.moment, options.lights);
+                if (!own)
+                    return own.error();
+                parts.scene = *own;
+            }
+            Result<Session> next = Session::make(std::move(parts), of_tile);
             if (!next)
                 return next.error();
             *tile = std::move(*next);
         }
-        const Result<ChosenView> view = choose_view(options, scene.data->scene, scene.data->tables);
+        const Result<ChosenView> view = choose_view(options, tile->scene(), tile->tables());
         if (!view)
             return view.error();
         Place place{scene, *tile, options.frame, env, options_.cells[i]};
@@ -187,12 +196,6 @@ Status Chart::measure_pair(const SeenScene& scene, const std::shared_ptr<const E
             return {};
     }
     return {};
-}
-
-bool Chart::sweeps_environments() const
-{
-    return std::any_of(options_.sweeps.others.begin(), options_.sweeps.others.end(),
-                       [](const Sweeps::Named& named) { return named.option.rfind("env-", 0) == 0 || named.option == "key-lights"; });
 }
 
 Status Chart::measure_place(const Place& place)

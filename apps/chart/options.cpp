@@ -7,7 +7,6 @@
 #include "apps/cli/shared_options.h"
 #include "apps/cli/suggest.h"
 #include "apps/cli/values.h"
-#include "apps/render/parameters.h"
 #include "raster/reference/reference_renderer.h"
 
 namespace burnish {
@@ -63,6 +62,8 @@ Status check_cells(const ChartArguments& in, const OptionTable& given, ChartOpti
             }
             if (given.given("--" + name))
                 return Status(usage_error("--" + name, "is swept"));
+            out.sweeps_environments = out.sweeps_environments || option->group == "Environment";
+            out.sweeps_scenes = out.sweeps_scenes || changes_scene(*option);
             return table.set(option->name, value);
         };
         if (cell.roughness)
@@ -137,7 +138,7 @@ OptionTable chart_option_table(ChartArguments& to)
     ChartOptions& o = to.plain;
     const OptionTable of_render = render_option_table(to.render);
     OptionTable table;
-    table.add("", {{"SCENE", "", "A .gltf or .glb file, or builtin:NAME; may be several", scenes(o.scenes)}});
+    table.add("", {{"SCENE", "", "A .gltf, .glb or .obj file, or builtin:NAME; may be several", scenes(o.scenes)}});
     table.add(
         "What is measured",
         {{"--env", "FILE", "Equirectangular picture or builtin:NAME; may be given several times", environments(o.envs)},
@@ -165,15 +166,6 @@ OptionTable chart_option_table(ChartArguments& to)
                 "--orbit",
                 "--fov",
                 "--zoom",
-                "--material",
-                "--normal-map",
-                "--quaternion-map",
-                "--normal-y",
-                "--direction-map",
-                "--rotation-map",
-                "--rotation-encoding",
-                "--mip-filter",
-                "--f0",
                 "--time",
                 "--animation",
                 "--light",
@@ -182,7 +174,8 @@ OptionTable chart_option_table(ChartArguments& to)
     table.add("Picture", {{"--error-size", "WxH",
                            "Width and height in pixels of the pictures that are compared with the reference, of the shape of --size",
                            picture_size(to.error_size), "at most 480 wide"}});
-    table.take(of_render, "Parameters of techniques", taken_parameters());
+    table.take_all(of_render, "Materials");
+    table.take_all(of_render, "Parameters of techniques");
     table.take(of_render, "Environment",
                {{"--env-rotation", "Turn environments about +Y, counter-clockwise from above"},
                 "--env-size",

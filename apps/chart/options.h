@@ -14,11 +14,12 @@ struct ChartOptions {
     std::vector<std::string> scenes = {"builtin:spheres"}, envs = {"builtin:studio"};
     std::vector<std::string> techniques = technique_names();
     Sweeps sweeps;
-    std::vector<Cell> cells;                 // of the sweeps
-    std::vector<RenderOptions> cell_options; // `base` as each of them changes it
-    bool display_flip = false;               // FLIP of pictures as they are shown, in place of HDR-FLIP of linear ones
-    int runs = 9;                            // timed, of every setting
-    std::uint64_t reference_samples = 4096;  // a pixel
+    std::vector<Cell> cells;                                 // of the sweeps
+    std::vector<RenderOptions> cell_options;                 // `base` as each of them changes it
+    bool sweeps_environments = false, sweeps_scenes = false; // options that these are made by
+    bool display_flip = false;                               // FLIP of pictures as they are shown, in place of HDR-FLIP of linear ones
+    int runs = 9;                                            // timed, of every setting
+    std::uint64_t reference_samples = 4096;                  // a pixel
     std::string folder;
 };
 

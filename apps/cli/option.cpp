@@ -1,6 +1,8 @@
 #include "apps/cli/option.h"
 
+#include <algorithm>
 #include <fmt/core.h>
+#include <iterator>
 
 #include "apps/cli/report.h"
 #include "core/base/check.h"
@@ -74,6 +76,14 @@ void OptionTable::take(const OptionTable& from, const std::string& group, const 
             option.initial = wanted.initial;
         options_.push_back(std::move(option));
     }
+}
+
+void OptionTable::take_all(const OptionTable& from, const std::string& group)
+{
+    const std::size_t before = options_.size();
+    std::copy_if(from.options_.begin(), from.options_.end(), std::back_inserter(options_),
+                 [&](const Option& o) { return o.group == group; });
+    BN_CHECK(options_.size() > before);
 }
 
 Option* OptionTable::find(const std::string& name)

@@ -56,6 +56,7 @@ class OptionTable {
         const char *name, *help, *initial;
     };
     void take(const OptionTable& from, const std::string& group, const std::vector<Taken>& taken);
+    void take_all(const OptionTable& from, const std::string& group); // that are under this heading there
 
     const std::vector<Option>& options() const { return options_; }
     std::vector<Option>& options() { return options_; }

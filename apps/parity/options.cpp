@@ -7,7 +7,6 @@
 #include "apps/cli/report.h"
 #include "apps/cli/shared_options.h"
 #include "apps/cli/values.h"
-#include "apps/render/parameters.h"
 
 namespace burnish {
 namespace {
@@ -70,7 +69,7 @@ OptionTable parity_option_table(ParityArguments& to)
     RenderOptions& r = to.render.plain;
     const OptionTable of_render = render_option_table(to.render);
     OptionTable table;
-    table.add("", {{"SCENE", "", "A .gltf or .glb file, or builtin:NAME; may be several", scenes(to.scenes), "the suite 'default'"}});
+    table.add("", {{"SCENE", "", "A .gltf, .glb or .obj file, or builtin:NAME; may be several", scenes(to.scenes), "the suite 'default'"}});
     table.add("What is compared",
               {{"--suite", "NAME", "{}: the built-in scenes, from afar and from close by", choice(to.suite, {"default"})},
                {"--models", "DIR", "Also every .glb and .gltf below this folder", folder(to.models)},
@@ -105,17 +104,9 @@ OptionTable parity_option_table(ParityArguments& to)
                 "--light",
                 "--ltc-table",
                 "--texture-anisotropy",
-                "--material",
-                "--normal-map",
-                "--quaternion-map",
-                "--normal-y",
-                "--direction-map",
-                "--rotation-map",
-                "--rotation-encoding",
-                "--mip-filter",
-                "--f0",
                 {"--no-cache", "Neither environments nor pipelines from disk"}});
-    table.take(of_render, "Parameters of techniques", taken_parameters());
+    table.take_all(of_render, "Materials");
+    table.take_all(of_render, "Parameters of techniques");
     return table;
 }
 

@@ -116,7 +116,7 @@ Drawing plot_axis(const LobePlot& lobe)
     Drawing out(3.0 * kSide + 4.0 * kGap, kTop + kSide + kBelow, "chart",
                 fmt::format("Major axis of a lobe of alpha_lin {:g} and eta {:g}", lobe.roughness, lobe.anisotropy));
     const Panel slopes{"slopes", kGap, 1.5 * lobe.k * alpha_x / std::sqrt(2.0)};
-    draw_density(out, slopes, [&](const Place& p) {
+    draw_density(out, slopes, Edge::slopes, [&](const Place& p) {
         const PlotVec w = unit({p.x, p.y, 1.0});
         const double z2 = w.z * w.z;
         return plot_fns().normals(alpha_x, alpha_y, w) * z2 * z2; // of slopes: D times the fourth power of the cosine
@@ -125,7 +125,7 @@ Drawing plot_axis(const LobePlot& lobe)
     draw_shapes(out, slopes, shapes, [&](const PlotVec& w) { return w.z > 0.0 ? Place{w.x / w.z, w.y / w.z} : Place{nan, nan}; });
 
     const Panel normals{"microfacet normals", 2.0 * kGap + kSide, 1.0};
-    draw_density(out, normals, [&](const Place& p) {
+    draw_density(out, normals, Edge::horizon, [&](const Place& p) {
         const double z2 = 1.0 - p.x * p.x - p.y * p.y;
         return z2 > 0.0 ? plot_fns().normals(alpha_x, alpha_y, {p.x, p.y, std::sqrt(z2)}) : 0.0;
     });
@@ -133,7 +133,7 @@ Drawing plot_axis(const LobePlot& lobe)
     draw_shapes(out, normals, shapes, [&](const PlotVec& w) { return w.z >= 0.0 ? Place{w.x, w.y} : Place{nan, nan}; });
 
     const Panel reflected{"reflected directions", 3.0 * kGap + 2.0 * kSide, 1.0};
-    draw_density(out, reflected, [&](const Place& p) {
+    draw_density(out, reflected, Edge::horizon, [&](const Place& p) {
         const double z2 = 1.0 - p.x * p.x - p.y * p.y;
         return z2 > 0.0 ? plot_fns().lobe(alpha_x, alpha_y, o, {p.x, p.y, std::sqrt(z2)}) : 0.0;
     });

@@ -112,14 +112,14 @@ Drawing plot_lobe(const LobePlot& plot)
         PlotVec h;
         return risen(p, h) ? plot_fns().visible(lobe, o, h) : 0.0;
     };
-    draw_density(out, halves, half);
+    draw_density(out, halves, Edge::horizon, half);
     draw_frame(out, halves, Edge::horizon);
     draw_dot(out, halves, {0.0, 0.0}, 3.5, "c0");
     if (lobe_traits_of(plot.model) & kLies_surface)
         draw_dot(out, halves, seen_along_normal(common), 3.5, "c2");
 
     const Panel directions{"reflected directions", 2.0 * kGap + kSide, 1.0};
-    draw_density(out, directions, reflected);
+    draw_density(out, directions, Edge::horizon, reflected);
     out.open("c1");
     for (const double share : kShares)
         draw_contour(out, directions, reflected, share * most, "curve");

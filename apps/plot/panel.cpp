@@ -7,7 +7,8 @@
 namespace burnish {
 namespace {
 
-constexpr int kCells = 75;         // of a density, along a side
+constexpr int kCells = 150; // of a density, along a side
+constexpr double kShades = 96.0;
 constexpr int kContourCells = 150; // of the grid that contours are found on
 constexpr int kCirclePoints = 180;
 
@@ -44,7 +45,7 @@ PlotVec mix(const PlotVec& a, const PlotVec& b, double t)
     return unit({a.x + (b.x - a.x) * t, a.y + (b.y - a.y) * t, a.z + (b.z - a.z) * t});
 }
 
-void draw_density(Drawing& out, const Panel& panel, const Density& density)
+void draw_density(Drawing& out, const Panel& panel, Edge edge, const Density& density)
 {
     std::vector<double> values;
     for (int row = 0; row < kCells; ++row)
@@ -54,14 +55,24 @@ void draw_density(Drawing& out, const Panel& panel, const Density& density)
     if (!(most > 0.0))
         return;
     const double side = kSide / kCells;
-    for (int row = 0; row < kCells; ++row)
-        for (int column = 0; column < kCells; ++column) {
-            const double shade = std::sqrt(values[static_cast<std::size_t>(row * kCells + column)] / most);
-            if (shade < 0.02)
-                continue;
-            const Paint paint = {255.0 - 215.0 * shade, 255.0 - 175.0 * shade, 255.0 - 105.0 * shade};
-            out.rectangle(panel.left + side * column, kTop + side * row, side + 0.3, side + 0.3, "", paint);
+    for (int row = 0; row < kCells; ++row) {
+        const double y = grid_place(panel, 0.0, row + 0.5, kCells).y;
+        const double reach = edge == Edge::horizon ? std::sqrt(1.0 - y * y) : panel.reach;
+        const auto [least, unused] = panel.at({-reach, y});
+        const double greatest = panel.at({reach, y}).first;
+        const auto shade_of = [&](int column) { // in steps that the eye does not tell apart
+            return std::round(kShades * std::sqrt(std::max(values[static_cast<std::size_t>(row * kCells + column)], 0.0) / most)) / kShades;
+        };
+        for (int begin = 0, end; begin < kCells; begin = end) { // cells of one shade are one rectangle
+            const double shade = shade_of(begin);
+            for (end = begin + 1; end < kCells && shade_of(end) == shade;)
+                ++end;
+            const double left = std::max(panel.left + side * begin, least), right = std::min(panel.left + side * end + 0.3, greatest);
+            if (left < right)
+                out.rectangle(left, kTop + side * row, right - left, side + (row + 1 < kCells ? 0.3 : 0.0), "",
+                              Paint{255.0 - 215.0 * shade, 255.0 - 175.0 * shade, 255.0 - 105.0 * shade});
         }
+    }
 }
 
 // Marching squares, a stroke a cell; a cell that two strokes cross is split by the value of its middle.

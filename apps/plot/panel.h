@@ -39,14 +39,15 @@ PlotVec cross(const PlotVec& a, const PlotVec& b);
 using Density = std::function<double(const Place&)>;
 using ToPlace = std::function<Place(const PlotVec&)>; // of a direction, in a space; NaN: not in it
 
-// Pale where the density is small, dark where it is large; the square root shows tails too.
-void draw_density(Drawing& out, const Panel& panel, const Density& density);
+enum class Edge { slopes, horizon, units, sphere }; // what is said of the panel's edge
+
+// White where there is none, dark where it is large, by any colours of the paper; the square root shows tails too. Of horizon: within the
+// circle.
+void draw_density(Drawing& out, const Panel& panel, Edge edge, const Density& density);
 // Where it is `share` of `most`.
 void draw_contour(Drawing& out, const Panel& panel, const Density& density, double level, const std::string& css_class);
 Points line_of(const Panel& panel, const std::vector<PlotVec>& directions, const ToPlace& place);
 void draw_dot(Drawing& out, const Panel& panel, const Place& p, double radius, const std::string& family);
-
-enum class Edge { slopes, horizon, units, sphere }; // what is said of the panel's edge
 void draw_frame(Drawing& out, const Panel& panel, Edge edge);
 
 struct KeyEntry {

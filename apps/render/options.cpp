@@ -61,8 +61,13 @@ bool changes_pictures(const Option& option, bool names)
     const ValueKind kind = option.value.kind;
     const bool taken = kind == ValueKind::integer || kind == ValueKind::number || kind == ValueKind::vector ||
                        (names && kind == ValueKind::name && option.name != "--technique");
-    return taken && (option.group == "Environment" || option.group == "Picture" || option.group == "Parameters of techniques" ||
-                     option.name == "--exposure");
+    return taken && (option.group == "Environment" || option.group == "Picture" || option.group == "Materials" ||
+                     option.group == "Parameters of techniques" || option.name == "--exposure");
+}
+
+bool changes_scene(const Option& option)
+{
+    return option.group == "Materials" || option.name == "--time" || option.name == "--animation";
 }
 
 Result<RenderOptions> check_render_options(const RenderArguments& arguments, const OptionTable& given)

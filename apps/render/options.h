@@ -84,6 +84,9 @@ Status check_vulkan_options(RenderOptions& out);
 // Options that change a picture and can be swept or go from one value to another: numbers and, with `names`, names too.
 bool changes_pictures(const Option& option, bool names);
 
+// Those for which a scene has to be read again.
+bool changes_scene(const Option& option);
+
 // Options that were given and change nothing under the others: one warning each, which names both.
 void warn_of_no_effect(const OptionTable& given, RenderOptions& out);
 

@@ -48,14 +48,6 @@ std::vector<Option> parameter_options(FrameDesc& to)
     return options;
 }
 
-std::vector<OptionTable::Taken> taken_parameters()
-{
-    std::vector<OptionTable::Taken> taken;
-    for (const ParameterInfo& p : parameters())
-        taken.emplace_back(p.option);
-    return taken;
-}
-
 Json parameters_json(const FrameDesc& desc)
 {
     Json json = Json::object();

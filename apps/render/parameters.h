@@ -10,7 +10,6 @@
 namespace burnish {
 
 std::vector<Option> parameter_options(FrameDesc& to);
-std::vector<OptionTable::Taken> taken_parameters(); // all of them, for OptionTable::take
 Json parameters_json(const FrameDesc& desc);        // {"axis_k": 1.0, ...}
 std::string parameters_text(const FrameDesc& desc); // for keys: every digit
 

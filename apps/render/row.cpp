@@ -62,8 +62,9 @@ class Row {
             row.paths_ = std::move(*paths);
         }
         for (const OptionPath& path : row.paths_) {
-            row.lights_change_ = row.lights_change_ || given.find(path.option)->group == "Environment";
-            row.scene_changes_ = row.scene_changes_ || path.option == "--time" || path.option == "--animation";
+            const Option& option = *given.find(path.option);
+            row.lights_change_ = row.lights_change_ || option.group == "Environment";
+            row.scene_changes_ = row.scene_changes_ || changes_scene(option);
         }
         for (int i = 0; i < row.count_; ++i) // what is wrong in the middle is said at the beginning
             if (const Result<Step> step = row.step(i); !step)

@@ -36,6 +36,14 @@ def environments_and_whole_numbers_change_too(bench):
         same(step, bench.figures(*ROW, "--technique", "major_axis", "--env-rotation", rotation, "--samples", samples))
 
 
+@case("animation.materials_change_too")
+def materials_change_too(bench):
+    row = bench.figures(*ROW, "--animate", "f0=0.04,0.04,0.04:1,0.5,0", "--steps", "2")
+    check(row["steps"][0]["pixel_hash"] != row["steps"][1]["pixel_hash"], "nothing changes")
+    for step, f0 in zip(row["steps"], ("0.04,0.04,0.04", "1,0.5,0")):
+        same(step, bench.figures(*ROW, "--f0", f0))
+
+
 def turning():
     """A triangle that turns about y, by 90 degrees in two seconds."""
     gltf = files.triangle()

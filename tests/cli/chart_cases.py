@@ -10,6 +10,7 @@ import sys
 import time
 import xml.dom.minidom
 
+from animation_cases import turning
 from harness import Skipped, case, check, scratch
 
 TINY = ("--size", "64x36", "--msaa", "4", "--env-size", "64", "--env-samples", "32", "--reference-samples", "64", "--runs", "2")
@@ -131,6 +132,24 @@ def sweeps_any_option(bench):
     other = json.loads(bench.run("compare", "ref.exr", "t.exr", "--json", "-", "-q").expect(0).out)["flip_mean"]
     mine = errors["major_axis"][2.5, 90, "15,0", 4]
     check(abs(mine - other) < 1e-6, f"{mine} and by compare {other}")
+
+
+@case("chart.sweeps_what_a_scene_is_read_by")
+def sweeps_scenes(bench):
+    """Time and materials: each row is the picture of its own scene, and has its own reference."""
+    needs_embree(bench)
+    scratch(bench, "turning.gltf", turning())
+    seen = ("turning.gltf", "--eye", "0,0,3", "--target", "0,0,0", "--msaa", "4", "--env-size", "64", "--env-samples", "32")
+    bench.run("chart", *seen, "--size", "64x36", "--reference-samples", "64", "--runs", "1", "--techniques", "bent_normal", "--sweep", "samples=1",
+              "--sweep", "time=0,1", "--sweep", "f0=0.04,0.04,0.04:1,0,0", "-o", "r").expect(0)
+    rows = rows_of(bench, "r")
+    check(len({(row["flip_mean"], row["rel_mse"]) for row in rows}) == len(rows) == 4, f"rows are alike: {rows}")
+    of_last = next(row for row in rows if (row["settings"]["time"], row["settings"]["f0"]) == (1, "1,0,0"))
+    same = (*seen, "--size", "64x36", "--time", "1", "--f0", "1,0,0", "-q")
+    bench.run("render", *same, "--technique", "bent_normal", "-o", "t.exr").expect(0)
+    bench.run("render", *same, *TRUTH, "-o", "ref.exr").expect(0)
+    other = json.loads(bench.run("compare", "ref.exr", "t.exr", "--json", "-", "-q").expect(0).out)["flip_mean"]
+    check(abs(of_last["flip_mean"] - other) < 1e-6, f"{of_last['flip_mean']} and by compare {other}")
 
 
 @case("chart.wrong_options_say_one_line_and_exit_2")

@@ -93,6 +93,23 @@ def tilted(bench):
     check(abs(straight - skewed) > 0.01 * straight, "tilt changes nothing")
 
 
+@case("plot.densities_fill_the_circle_and_end_there", tier="check")
+def densities(bench):
+    bench.run("plot", "axis", "--roughness", "0.9", "-o", "a.svg", "-q").expect(0)
+    number = r'"([-\d.]+)"'
+    cells = [[float(v) for v in c] for c in re.findall(rf'<rect x={number} y={number} width={number} height={number} fill="rgb', (bench.folder / "a.svg").read_text())]
+    for middle in (498, 822): # of microfacet normals and of reflected directions, 150 px around
+        rows = {}
+        for x, y, width, height in cells:
+            if abs(x - middle) < 151 and y < 341:
+                rows.setdefault(y, []).append((x, x + width))
+        check(len(rows) == 150, f"{len(rows)} rows")
+        for y, spans in rows.items():
+            half = math.sqrt(max(150**2 - (y + 1 - 190) ** 2, 0))
+            least, most = min(a for a, _ in spans) - middle + half, max(b for _, b in spans) - middle - half
+            check(abs(least) < 0.2 and abs(most) < 0.2, f"row {y}: off the circle by {least} and {most}")
+
+
 @case("plot.contours_of_a_round_lobe_are_circles", tier="check")
 def contours(bench):
     text = lobe(bench, "--anisotropy", "0", "--eye", "0,0", "--roughness", "0.6")[-1]

@@ -64,6 +64,18 @@ Scene plate(float metallic)
     return scene;
 }
 
+void add_lamp(Scene& to, const glm::vec3& at, float intensity, float range)
+{
+    Light light;
+    light.intensity = intensity, light.range = range;
+    Node node;
+    node.light = static_cast<int>(to.lights.size());
+    node.local[3] = glm::vec4(at, 1.0f);
+    to.lights.push_back(light);
+    to.nodes.push_back(node);
+    update_world(to);
+}
+
 namespace {
 
 Environment constant_environment(float radiance, const Jobs& jobs)

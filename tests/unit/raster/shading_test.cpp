@@ -199,14 +199,7 @@ TEST(light, a_point_light_follows_the_inverse_square_and_lambert)
     scene.materials[0].roughness = 1.0f;
     scene.materials[0].specular = 0.0f; // no dielectric reflection: Lambert alone
     scene.materials[0].base_color = glm::vec4(0.5f, 0.25f, 1.0f, 1.0f);
-    Light light;
-    light.intensity = 8.0f;
-    scene.lights.push_back(light);
-    Node node;
-    node.light = 0;
-    node.local[3] = glm::vec4(0, 0, 2, 1);
-    scene.nodes.push_back(node);
-    update_world(scene);
+    add_lamp(scene, {0, 0, 2}, 8.0f);
     const Stage stage(std::move(scene), 0.0f);
     const Frame f = stage.render(quad_desc(33, 4), best_isa());
     const float expected = 8.0f / 4.0f / 3.14159265f; // intensity / d^2 * albedo / pi
@@ -226,17 +219,9 @@ TEST(light, of_many_each_shines_as_far_as_its_range)
     scene.materials[0].roughness = 1.0f;
     scene.materials[0].specular = 0.0f;
     scene.materials[0].base_color = glm::vec4(1.0f);
-    for (int i = 0; i < 40; ++i) { // more than a register holds
-        Light light;
-        light.intensity = 0.01f * static_cast<float>(1 + i % 7);
-        light.range = static_cast<float>(kRange);
-        scene.lights.push_back(light);
-        Node node;
-        node.light = i;
-        node.local[3] = glm::vec4(0.17 * (i % 8) - 0.6, 0.25 * (i / 8) - 0.5, kHeight, 1.0);
-        scene.nodes.push_back(node);
-    }
-    update_world(scene);
+    for (int i = 0; i < 40; ++i) // more than a register holds
+        add_lamp(scene, glm::vec3(0.17 * (i % 8) - 0.6, 0.25 * (i / 8) - 0.5, kHeight), 0.01f * static_cast<float>(1 + i % 7),
+                 static_cast<float>(kRange));
     const Stage stage(scene, 0.0f);
     FrameDesc d = quad_desc(kSide, 1);
     d.view = make_view({0, 0, 400}, {0, 0, 0}, 2.0f * static_cast<float>(std::atan(kHalf / 400.0)), kSide, kSide);

@@ -167,14 +167,7 @@ TEST(glass, a_lamp_glints_by_the_interface_s_lobe)
 {
     BN_NEEDS_EMBREE();
     Scene scene = plane_scene(glass(0.6f));
-    Light light;
-    light.intensity = 3.0f;
-    scene.lights.push_back(light);
-    Node node;
-    node.light = 0;
-    node.local[3] = glm::vec4(-1.0f, 0.0f, 1.0f, 1.0f);
-    scene.nodes.push_back(node);
-    update_world(scene);
+    add_lamp(scene, {-1.0f, 0.0f, 1.0f}, 3.0f);
     const Stage stage(scene, 0.0f, 2);
     FrameDesc d = anisotropic(desc_of(4, 4, view_from({1, 0, 1}, 0.001f)), 0.0f);
     const double alpha2 = 0.36 * 0.36, cosine = std::sqrt(0.5), masked = 2.0 / (1.0 + std::sqrt(1.0 + alpha2));
@@ -190,14 +183,7 @@ TEST(glass, a_lamp_shines_through_where_paths_are_followed)
 {
     BN_NEEDS_EMBREE();
     Scene scene = plane_scene(glass(0.6f));
-    Light light;
-    light.intensity = 3.0f;
-    scene.lights.push_back(light);
-    Node node;
-    node.light = 0;
-    node.local[3] = glm::vec4(0.0f, 0.0f, -1.5f, 1.0f);
-    scene.nodes.push_back(node);
-    update_world(scene);
+    add_lamp(scene, {0.0f, 0.0f, -1.5f}, 3.0f);
     const Stage stage(scene, 0.0f, 2);
     const FrameDesc d = anisotropic(desc_of(4, 4, view_from({0, 0, 1}, 0.001f)), 0.0f);
     const double alpha = 0.36, jacobian = 1.5 * 1.5 / (0.5 * 0.5);

@@ -61,14 +61,7 @@ TEST(paths, a_point_light_follows_its_square_law_and_casts_shadows)
 {
     BN_NEEDS_EMBREE();
     Scene scene = plane_scene(lambert(0.7f));
-    Light light;
-    light.intensity = 3.0f;
-    scene.lights.push_back(light);
-    Node node;
-    node.light = 0;
-    node.local[3] = glm::vec4(0.0f, 0.0f, 1.5f, 1.0f);
-    scene.nodes.push_back(node);
-    update_world(scene);
+    add_lamp(scene, {0.0f, 0.0f, 1.5f}, 3.0f);
     const double expected = 0.7 / 3.14159265358979 * 3.0 / (1.5 * 1.5);
     for (ReferenceMode mode : {ReferenceMode::direct, ReferenceMode::shadowed, ReferenceMode::path})
         EXPECT_NEAR(estimate(look(scene, of_the_origin(), mode, 64 * 4, 2, 0.0f)).mean, expected, 1e-3 * expected);
