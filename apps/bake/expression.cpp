@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <fmt/core.h>
 #include <muParser.h>
+#include <optional>
 
 #include "apps/cli/report.h"
 #include "core/math/scalar_math.h"
@@ -25,6 +26,8 @@ class Parsed : public Expression {
 
     Result<double> at(double u, double v) override
     {
+        if (wrong_) // the library must not be asked twice
+            return *wrong_;
         u_ = u, v_ = v;
         try {
             int count = 0;
@@ -35,8 +38,9 @@ class Parsed : public Expression {
         } catch (const mu::Parser::exception_type& wrong) {
             const int column = std::min(wrong.GetPos(), static_cast<int>(text_.size())) + 1;
             const std::string token = wrong.GetToken();
-            return usage_error("--expr", fmt::format("'{}' is no expression of u and v: column {}{}", text_, std::max(column, 1),
-                                                     token.empty() ? "" : fmt::format(", '{}'", token)));
+            wrong_ = usage_error("--expr", fmt::format("'{}' is no expression of u and v: column {}{}", text_, std::max(column, 1),
+                                                       token.empty() ? "" : fmt::format(", '{}'", token)));
+            return *wrong_;
         }
     }
 
@@ -44,6 +48,7 @@ class Parsed : public Expression {
     std::string text_;
     mu::Parser parser_;
     double u_ = 0.0, v_ = 0.0;
+    std::optional<Error> wrong_;
 };
 
 } // namespace

@@ -1,6 +1,6 @@
 // Loaded before a program, fails one of its calls: BN_FAIL=NAME:N fails the N-th call of NAME, and all after it with NAME:N+. Memory is
-// counted from BN_FAIL_BYTES on (65536), so that the calls are the program's own tables and pictures. Whether the call came is told by
-// the file BN_FAIL_MARK.
+// counted from BN_FAIL_BYTES on (65536), so that the calls are the program's own tables and pictures; fsync_folder counts those of folders.
+// Whether the call came is told by the file BN_FAIL_MARK. BN_FAIL_ALWAYS=NAME fails every call of NAME besides.
 #include <dlfcn.h>
 #include <fcntl.h>
 #include <stdarg.h>
@@ -10,6 +10,7 @@
 #include <sys/file.h>
 #include <sys/mman.h>
 #include <sys/random.h>
+#include <sys/stat.h>
 #include <sys/syscall.h>
 #include <unistd.h>
 
@@ -31,6 +32,7 @@ struct Plan {
     bool all_after = false;
     size_t bytes = 65536;
     const char* mark = nullptr;
+    const char* always = nullptr;
 };
 
 Plan plan;
@@ -39,6 +41,7 @@ std::atomic<long> calls{0};
 
 __attribute__((constructor)) void read_plan()
 {
+    plan.always = getenv("BN_FAIL_ALWAYS");
     const char* text = getenv("BN_FAIL");
     const char* colon = text ? strchr(text, ':') : nullptr;
     if (!colon || static_cast<size_t>(colon - text) >= sizeof(plan.name))
@@ -54,7 +57,13 @@ __attribute__((constructor)) void read_plan()
 
 bool fails(const char* name, int code)
 {
-    if (!ready.load(std::memory_order_relaxed) || strcmp(name, plan.name) != 0)
+    if (!ready.load(std::memory_order_relaxed))
+        return false;
+    if (plan.always && strcmp(name, plan.always) == 0) {
+        errno = code;
+        return true;
+    }
+    if (strcmp(name, plan.name) != 0)
         return false;
     const long call = calls.fetch_add(1) + 1;
     if (call != plan.at && !(plan.all_after && call > plan.at))
@@ -114,7 +123,9 @@ ssize_t write(int fd, const void* data, size_t size)
 int fsync(int fd)
 {
     static auto* const real = next<int(int)>("fsync");
-    return fails("fsync", EIO) ? -1 : real(fd);
+    struct stat info;
+    const bool folder = fstat(fd, &info) == 0 && S_ISDIR(info.st_mode);
+    return fails("fsync", EIO) || (folder && fails("fsync_folder", EIO)) ? -1 : real(fd);
 }
 int rename(const char* from, const char* to)
 {

@@ -54,9 +54,9 @@ def check_report(bench, n):
     check(not page.exists() or page.read_text().rstrip().endswith("</html>"), f"{n}: the page is cut off")
 
 
-def fail_in_turn(bench, job, calls, steps, every=1, least=None, fail_bytes=65536):
+def fail_in_turn(bench, job, calls, steps, every=1, fail_bytes=65536, always=""):
     """Fails the n-th call for n in `steps` until a run has fewer calls. What is there afterwards is whole or what was there before, and
-    after each `every`-th failure the command, given again, makes the same files."""
+    after each `every`-th failure the command, given again, makes the same files. Calls of `always` fail each time besides."""
     library = preloaded(bench)
     env = {"XDG_CACHE_HOME": str(bench.folder / "own")}
 
@@ -70,11 +70,11 @@ def fail_in_turn(bench, job, calls, steps, every=1, least=None, fail_bytes=65536
 
     run().expect(0)
     whole = {name: (bench.folder / name).read_bytes() for name in job.same}
-    fired, codes = 0, {}
+    fired, codes, came = 0, {}, set()
     for call in calls:
         for n in steps:
             mark = bench.folder / "mark"
-            done = run(LD_PRELOAD=library, BN_FAIL=f"{call}:{n}", BN_FAIL_MARK=str(mark), BN_FAIL_BYTES=str(fail_bytes))
+            done = run(LD_PRELOAD=library, BN_FAIL=f"{call}:{n}", BN_FAIL_MARK=str(mark), BN_FAIL_BYTES=str(fail_bytes), BN_FAIL_ALWAYS=always)
             place = f"{call} {n}"
             check(done.code in DOCUMENTED, f"{place}: {done.describe()}")
             check(done.code == 0 or done.err.startswith("burnish: "), f"{place}: no reason is given\n{done.describe()}")
@@ -91,15 +91,16 @@ def fail_in_turn(bench, job, calls, steps, every=1, least=None, fail_bytes=65536
                 break
             mark.unlink()
             fired += 1
+            came.add(call)
             if fired % every == 0:  # whatever was kept, it must be good
                 bench.run(*job.words, env=env).expect(0)
                 for name in job.same:
                     check((bench.folder / name).read_bytes() == whole[name], f"{place}: the next run makes another {name}")
-    check(fired >= (len(calls) if least is None else least), f"only {fired} calls failed")
+    check(came == set(calls), f"never called: {sorted(set(calls) - came)}")
     print(f"{fired} failed calls, exit codes {codes}")
 
 
-FILE_CALLS = ("write", "fsync", "rename", "linkat", "flock", "tmpfile", "create", "getrandom")
+FILE_CALLS = ("write", "fsync", "fsync_folder", "rename", "linkat", "flock", "tmpfile", "getrandom")
 WRITES = ("write", "fsync", "rename", "linkat")
 ALL = range(1, 20000)
 
@@ -107,6 +108,7 @@ ALL = range(1, 20000)
 @case("fault.calls_on_files")
 def file_calls(bench):
     fail_in_turn(bench, RENDER, FILE_CALLS, ALL, every=4)
+    fail_in_turn(bench, RENDER, ("create", "write", "fsync", "fsync_folder", "rename", "flock", "getrandom"), ALL, every=4, always="tmpfile")
 
 
 @case("fault.calls_of_a_bake")

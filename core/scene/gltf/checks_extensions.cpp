@@ -63,7 +63,9 @@ void check_homes(Document& doc, const Json& node, const std::string& place, cons
     if (!node.is_object())
         return;
     for (const auto& [key, value] : node.items()) {
-        if (key == "extensions" && value.is_object())
+        if (key == "extensions" && !value.is_object())
+            doc.fault(place + "/extensions", "is no object; ignored");
+        else if (key == "extensions")
             for (const auto& [name, object] : value.items()) {
                 const std::string here = place + "/extensions/" + printable(name);
                 for (const Home& home : kHomes)

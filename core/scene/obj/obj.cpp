@@ -157,7 +157,12 @@ Result<Scene> load_obj(const std::string& path, const Limits& limits)
     const Result<std::vector<std::uint8_t>> bytes = read_file(path, limits.file_bytes);
     if (!bytes)
         return bytes.error();
-    const obj::Parsed parsed = obj::parse(path, std::string(bytes->begin(), bytes->end()));
+    return load_obj_text(std::string(bytes->begin(), bytes->end()), path, limits);
+}
+
+Result<Scene> load_obj_text(const std::string& text, const std::string& path, const Limits& limits)
+{
+    const obj::Parsed parsed = obj::parse(path, text);
     if (parsed.wrong)
         return *parsed.wrong;
     if (parsed.groups.empty())

@@ -14,5 +14,7 @@ bool is_obj(const std::string& path); // by its name
 // tangents are MikkTSpace's where there are texture coordinates. One white material of roughness 0.4 wears all; MTL files are not read,
 // with a warning. Errors: indices without a vertex, numbers that no float holds, files without faces, what limits refuse.
 Result<Scene> load_obj(const std::string& path, const Limits& limits);
+// The same of a file's text; `path` names it in messages.
+Result<Scene> load_obj_text(const std::string& text, const std::string& path, const Limits& limits);
 
 } // namespace burnish
