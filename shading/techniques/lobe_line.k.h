@@ -20,6 +20,7 @@ struct lobe_line {
     real level;   // alpha of the prefiltered level at z = 0, seen from above: see lobe_line_at()
     real blunt;   // 1 - part^2: levels widen along the line as the line is long
     real extent;  // sqrt(l1 / l2 - 1): how many widths the line is long
+    real even;    // [0,1): from samples of equal shares of the lobe, 0, to samples at equal distances in widths, see lobe_line_at()
     real stretch; // Smith's |(alpha_x o.x, alpha_y o.y, o.z)|
     real alpha_x, alpha_y;
 };
@@ -58,6 +59,7 @@ BN_FN lobe_line lobe_line_of(real3 o, real sigma_x, real sigma_y, real part)
     r.level = own * (one - part) + narrow * r.width * part;
     r.blunt = one - part * part;
     r.extent = sqrt((one - ratio) / max(ratio, lit(1e-12))) * part;
+    r.even = r.extent / (r.extent + lit(6.0));
     r.part = part;
     r.stretch = sqrt(x * x + y * y + r.o.z * r.o.z);
     return r;
@@ -69,13 +71,19 @@ struct lobe_line_sample {
     real radius;     // alpha of the prefiltered level
 };
 
-// c: [-1,1], uniform for the marginal: z = c / sqrt(1 - c^2). A GGX of 0.77 times the round lobe's width has its median, as
-// (1 + r^2)^(-5/2) falls faster; pictures say 0.7 for long lobes, and more for round ones.
-BN_FN lobe_line_sample lobe_line_at(lobe_line line, real c)
+// t: [-1,1]; its z is c / sqrt(1 - c^2) with c = (1 + e) t / (1 + e t^2), e being line.even. The marginal is uniform in c: with e = 0
+// samples take equal shares of the lobe, which leaves so long gaps in the tails of a long line that each sample shows there by itself; with
+// e = 1 they are as far apart, in widths, as sqrt(1 + z^2). Their weight holds dc / dt. The vector w is 1 + e t^2 times as long as by c.
+// A GGX of 0.77 times the round lobe's width has its median, as (1 + r^2)^(-5/2) falls faster; pictures say 0.7 for long lobes, and more
+// for round ones.
+BN_FN lobe_line_sample lobe_line_at(lobe_line line, real t)
 {
-    c = min(max(c, lit(-0.9995)), lit(0.9995));
     real one = lit(1.0);
-    real root = sqrt(one - c * c);
+    real t2 = t * t;
+    real bend = line.even * t2;
+    real scale = one + bend;
+    real root = sqrt(max((one - t2) * (one - line.even * bend), lit(1e-3)));
+    real c = t + line.even * t;
     real3 w = vec3_of(-line.along.x * c, -line.along.y * c, root);
     real w2 = k_dot3(w, w);
     real w_dot_o = k_dot3(w, line.o);
@@ -87,19 +95,20 @@ BN_FN lobe_line_sample lobe_line_at(lobe_line line, real c)
     real stretch = sqrt(ix * ix + iy * iy + iz * iz);
     real up = max(iz, lit(0.0));
     real seen = max(w_dot_o, lit(0.0));
-    r.weight = seen * up / (root * max(up * line.stretch + line.o.z * stretch, lit(1e-20)));
-    r.radius = line.level * seen / w2 * sqrt(one - line.blunt * c * c);
+    real scale2 = scale * scale;
+    r.weight = seen * up * (one - bend) / (root * scale2 * max(up * line.stretch + line.o.z * stretch, lit(1e-20)));
+    r.radius = line.level * seen / w2 * sqrt(scale2 - line.blunt * c * c);
     return r;
 }
 
-// As many samples as a line of this length needs, a real in [1, limit]: in its middle they lie 1.4 widths apart.
+// As many samples as a line of this length needs, a real in [1, limit]: in its middle they lie 1.25 widths apart, 2.5 in a long one.
 BN_FN real lobe_line_count(lobe_line line, real limit)
 {
-    return min(lit(1.0) + lit(1.4) * line.extent, limit);
+    return min(lit(1.0) + lit(1.6) * line.extent, limit);
 }
 
 struct lobe_line_cell {
-    real begin, size; // of c
+    real begin, size; // of t
     real weight;      // its size relative to a whole cell, [0,1]
 };
 

@@ -16,9 +16,9 @@ struct line_sum {
     real weights;
 };
 
-BN_FN void add_line_sample(BN_IN(shaded_point) x, BN_IN(lobe_line) line, real c, real weight, BN_INOUT(line_sum) sum)
+BN_FN void add_line_sample(BN_IN(shaded_point) x, BN_IN(lobe_line) line, real t, real weight, BN_INOUT(line_sum) sum)
 {
-    lobe_line_sample at = lobe_line_at(line, c);
+    lobe_line_sample at = lobe_line_at(line, t);
     real w = at.weight * weight;
     real lod = min(sqrt(at.radius), lit(1.0)) * to_real(int_lit(sum.cube.levels - 1));
     cube_sum_levels levels = cube_sum_levels_at(sum.light, lod, w);

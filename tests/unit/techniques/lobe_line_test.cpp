@@ -76,6 +76,38 @@ TEST(lobe_line, sums_to_the_density_of_slopes)
         }
 }
 
+// Where samples lie is a choice: their weighted means are the marginal's, c = z / sqrt(1 + z^2) taken evenly, whatever the line's length.
+TEST(lobe_line, samples_weigh_what_they_stand_for)
+{
+    constexpr int kCount = 4000;
+    for (const View& v : {view(1.0, 0.0), view(0.6, 0.5), view(0.25, -0.7)})
+        for (double thin : {0.6, 0.2, 0.03}) {
+            const double ax = 0.5, ay = ax * thin;
+            const Line middle = line_of(oracle_fns(), v.o, ax, ay);
+            const auto smith = [&](const double d[3]) { return std::hypot(ax * d[0], ay * d[1], d[2]); };
+            double sum = 0.0, weights = 0.0, expected = 0.0, expected_weights = 0.0, least = 1.0, most = 0.0;
+            for (int i = 0; i < kCount; ++i) {
+                const double t = 2.0 * (i + 0.5) / kCount - 1.0;
+                const Line l = line_of(oracle_fns(), v.o, ax, ay, 15.0, t);
+                const double length = std::hypot(l.direction[0], l.direction[1], l.direction[2]), up = l.direction[2] / length;
+                sum += l.weight * (up + l.radius), weights += l.weight;
+                const double z = t / std::sqrt(1.0 - t * t), w[3] = {-middle.x * z, -middle.y * z, 1.0};
+                const double w2 = w[0] * w[0] + w[1] * w[1] + 1.0, seen = w[0] * v.o[0] + w[1] * v.o[1] + v.o[2];
+                double d[3];
+                for (int k = 0; k < 3; ++k)
+                    d[k] = 2.0 * seen / w2 * w[k] - v.o[k];
+                if (seen <= 0.0 || d[2] <= 0.0)
+                    continue;
+                const double weight = seen * d[2] / (d[2] * smith(v.o) + v.o[2] * smith(d));
+                const double radius = middle.radius / v.o[2] * seen / w2 * std::sqrt(1.0 + z * z); // o is unit: at z = 0 seen is o.z
+                expected += weight * (d[2] + radius), expected_weights += weight;
+                least = std::min(least, radius), most = std::max(most, radius);
+            }
+            EXPECT_NEAR(sum / weights, expected / expected_weights, 1e-3 * expected / expected_weights) << v.o[2] << ' ' << thin;
+            EXPECT_GT(most, 1.02 * least) << "all lobes are alike: nothing would be seen";
+        }
+}
+
 TEST(lobe_line, takes_as_many_samples_as_its_cells_hold_and_never_more_than_the_limit)
 {
     for (double cosine : {1.0, 0.5, 0.05})
