@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "apps/bake/direction.h"
+#include "apps/bake/displaced.h"
 #include "apps/bake/maps.h"
 #include "apps/bake/report.h"
 #include "apps/bake/straighten.h"
@@ -35,7 +36,8 @@ direction: a map of the grain's direction from a picture's hues or luminance, wh
 quaternion: the shortest rotations to a normal map's normals; see render --quaternion-map.
 tpr: rotations of the grain in the tangent plane, by two expressions of u and v along tangent and bitangent, or such that the grain of
 a mesh lies along one direction; see render --rotation-map.
-The parts of both lie from -1 to 1: code 128 of 8 bits is 0, 255 is 1; .exr and .pfm hold the numbers themselves.
+displaced: a mesh whose heights are triangles, as render --height-map shows them without any; materials are not kept.
+The parts of quaternion and tpr lie from -1 to 1: code 128 of 8 bits is 0, 255 is 1; .exr and .pfm hold the numbers themselves.
 
 Examples:
   burnish bake ltc -o ggx.ltc
@@ -45,10 +47,11 @@ Examples:
   burnish bake direction wave.jpg --from hue -o directions.png
   burnish bake quaternion normal.png -o quaternion.png
   burnish bake tpr --expr "cos(pi*v)" "sin(pi*v)" -o turned.exr
-  burnish bake tpr --straighten spot.obj --direction 0,1,0 --size 512x512 -o straight.exr)~";
+  burnish bake tpr --straighten spot.obj --direction 0,1,0 --size 512x512 -o straight.exr
+  burnish bake displaced wall.obj heights.png --height-scale 0.02 -o wall.glb)~";
 
 struct BakeArguments {
-    std::string what = "ltc", picture, output, table, report;
+    std::string what = "ltc", picture, heights, output, table, report;
     DirectionFrom from = DirectionFrom::hue;
     double strength = 1.0;
     std::vector<std::string> expressions;
@@ -56,6 +59,8 @@ struct BakeArguments {
     std::optional<glm::vec3> along;
     PictureSize size = {256, 256};
     RotationEncoding encoding = RotationEncoding::vector;
+    double depth = 0.05;
+    int triangles = 1000000;
     Limits limits;
     int resolution = 8, steps = 12, samples = 8, threads = 0;
     ltc::Norm norm = ltc::Norm::l1;
@@ -69,8 +74,13 @@ OptionTable bake_option_table(BakeArguments& to)
 {
     OptionTable table, limits;
     limits.add("", limit_options(to.limits));
-    table.add("", {{"WHAT", "", "{}", choice(to.what, {"ltc", "direction", "quaternion", "tpr"})},
-                   {"PICTURE", "", "That directions or quaternions are made of; of tpr the second expression", file(to.picture), ""}});
+    table.add("", {{"WHAT", "", "{}", choice(to.what, {"ltc", "direction", "quaternion", "tpr", "displaced"})},
+                   {"PICTURE", "", "That directions or quaternions are made of; of tpr the second expression, of displaced the mesh",
+                    file(to.picture), ""},
+                   {"HEIGHTS", "", "Of displaced: the height map", file(to.heights), ""}});
+    table.add_needing("WHAT", "displaced",
+                      {{"--height-scale", "S", "Depth of height 0, in lengths of texture coordinates", number(to.depth, 0.0, 1000.0)},
+                       {"--triangles", "N", "At least so many", integer(to.triangles, 1, 1 << 26)}});
     table.add_needing("WHAT", "direction",
                       {{"--from", "NAME", "{}", choice(to.from, {"hue", "luminance"})},
                        {"--strength", "S", "Of the anisotropy that the map gives, {}", number(to.strength, 0.0, 1.0)}});
@@ -95,7 +105,8 @@ OptionTable bake_option_table(BakeArguments& to)
                        {"--table", "FILE", "Measure this table instead of making one", file(to.table)},
                        {"--report", "FOLDER", "Also measure the table: quality.json, quality.svg, quality.png", folder(to.report)}});
     table.add("Output",
-              {{"-o,--output", "FILE", "The table, or the map: .png or .tif; of quaternion and tpr .exr or .pfm, too", file(to.output)},
+              {{"-o,--output", "FILE", "The table, or the map: .png or .tif; of quaternion and tpr .exr or .pfm, too; of displaced .glb",
+                file(to.output)},
                quiet_option(to.quiet),
                verbose_option(to.verbosity),
                threads_option(to.threads)});
@@ -312,8 +323,40 @@ int run_tpr(const BakeArguments& a)
     return write_map(a, encoded_rotations(*directions, a.encoding, *type), "");
 }
 
+int run_displaced(const BakeArguments& a)
+{
+    if (a.picture.empty() || a.heights.empty())
+        return fail(usage_error(a.picture.empty() ? "PICTURE" : "HEIGHTS", "is needed: a mesh and its height map"));
+    if (fs::path(a.output).extension() != ".glb")
+        return fail(usage_error("-o", a.output.empty() ? "is needed" : fmt::format("'{}' must end in .glb", a.output)));
+    if (const Status path = check_text_path("-o", a.output, {a.picture, a.heights}); !path)
+        return fail(path.error());
+    const auto data = open_scene(a.picture, a.limits, {}, {}, {});
+    if (!data)
+        return fail(data.error());
+    const auto& primitives = (*data)->scene.primitives;
+    if (std::none_of(primitives.begin(), primitives.end(), [](const Primitive& p) { return p.has_uv0; }))
+        return fail({ExitCode::bad_input, a.picture, "", "has no texture coordinates for a height map"});
+    const Result<Image> heights = read_image(a.heights, a.limits);
+    if (!heights)
+        return fail(heights.error());
+    const Result<Displaced> made = displaced((*data)->tables, *heights, a.depth, static_cast<std::size_t>(a.triangles), a.picture);
+    if (!made)
+        return fail(made.error());
+    if (const Status written = write_file_atomic(a.output, made->glb.data(), made->glb.size()); !written)
+        return fail(written.error());
+    Report report(a.quiet, a.verbosity);
+    report.release();
+    report.wrote(a.output);
+    return 0;
+}
+
 int run_bake(const BakeArguments& arguments, const OptionTable& given)
 {
+    if (arguments.what == "displaced")
+        return run_displaced(arguments);
+    if (!arguments.heights.empty())
+        return fail(usage_error("HEIGHTS", fmt::format("'{}': only displaced takes two files", arguments.heights)));
     if (arguments.what == "direction")
         return run_direction(arguments);
     if (arguments.what == "quaternion")

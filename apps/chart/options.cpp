@@ -167,6 +167,7 @@ OptionTable chart_option_table(ChartArguments& to)
                 "--zoom",
                 "--material",
                 "--normal-map",
+                "--height-map",
                 "--quaternion-map",
                 "--normal-y",
                 "--direction-map",

@@ -107,6 +107,7 @@ OptionTable parity_option_table(ParityArguments& to)
                 "--texture-anisotropy",
                 "--material",
                 "--normal-map",
+                "--height-map",
                 "--quaternion-map",
                 "--normal-y",
                 "--direction-map",
