@@ -6,6 +6,7 @@
 #include "apps/bake/direction.h"
 #include "apps/bake/displaced.h"
 #include "apps/bake/maps.h"
+#include "apps/bake/phong_tables.h"
 #include "apps/bake/report.h"
 #include "apps/bake/straighten.h"
 #include "apps/cli/command.h"
@@ -36,6 +37,8 @@ direction: a map of the grain's direction from a picture's hues or luminance, wh
 quaternion: the shortest rotations to a normal map's normals; see render --quaternion-map.
 tpr: rotations of the grain in the tangent plane, by two expressions of u and v along tangent and bitangent, or such that the grain of
 a mesh lies along one direction; see render --rotation-map.
+half-vectors: those that a lobe of Ashikhmin and Shirley samples, over both random numbers, and in .exr their density.
+brdf-lut: that lobe's directional albedo, f0 red + green, over the eye's azimuth and the root of its cosine.
 displaced: a mesh whose heights are triangles, as render --height-map shows them without any; materials are not kept.
 The parts of quaternion and tpr lie from -1 to 1: code 128 of 8 bits is 0, 255 is 1; .exr and .pfm hold the numbers themselves.
 
@@ -48,6 +51,8 @@ Examples:
   burnish bake quaternion normal.png -o quaternion.png
   burnish bake tpr --expr "cos(pi*v)" "sin(pi*v)" -o turned.exr
   burnish bake tpr --straighten spot.obj --direction 0,1,0 --size 512x512 -o straight.exr
+  burnish bake half-vectors --nu 70 --nv 400 --size 64x64 -o half_vectors.exr
+  burnish bake brdf-lut --nu 70 --nv 400 --size 128x128 -o albedo.exr
   burnish bake displaced wall.obj heights.png --height-scale 0.02 -o wall.glb)~";
 
 struct BakeArguments {
@@ -61,6 +66,7 @@ struct BakeArguments {
     RotationEncoding encoding = RotationEncoding::vector;
     double depth = 0.05;
     int triangles = 1000000;
+    double nu = -1.0, nv = -1.0;
     Limits limits;
     int resolution = 8, steps = 12, samples = 8, threads = 0;
     ltc::Norm norm = ltc::Norm::l1;
@@ -74,7 +80,7 @@ OptionTable bake_option_table(BakeArguments& to)
 {
     OptionTable table, limits;
     limits.add("", limit_options(to.limits));
-    table.add("", {{"WHAT", "", "{}", choice(to.what, {"ltc", "direction", "quaternion", "tpr", "displaced"})},
+    table.add("", {{"WHAT", "", "{}", choice(to.what, {"ltc", "direction", "quaternion", "tpr", "displaced", "half-vectors", "brdf-lut"})},
                    {"PICTURE", "", "That directions or quaternions are made of; of tpr the second expression, of displaced the mesh",
                     file(to.picture), ""},
                    {"HEIGHTS", "", "Of displaced: the height map", file(to.heights), ""}});
@@ -90,7 +96,6 @@ OptionTable bake_option_table(BakeArguments& to)
                        {"--straighten", "SCENE", "In place of expressions: a mesh with texture coordinates, whose grain --direction gives",
                         scene(to.mesh)},
                        {"--direction", "X,Y,Z", "Of the grain in space", point(to.along), ""},
-                       {"--size", "WxH", "Texels of the map", picture_size(to.size)},
                        {"--encoding", "NAME", "{}", choice(to.encoding, {"vector", "double-angle", "direction"})}});
     table.add_needing("WHAT", "ltc",
                       {{"--resolution", "N", "Nodes along each axis, {}", integer(to.resolution, 3, 128), "8, isotropic 64"},
@@ -104,9 +109,13 @@ OptionTable bake_option_table(BakeArguments& to)
                        {"--half", "", "Entries as halves, not floats", flag(to.half)},
                        {"--table", "FILE", "Measure this table instead of making one", file(to.table)},
                        {"--report", "FOLDER", "Also measure the table: quality.json, quality.svg, quality.png", folder(to.report)}});
+    table.add("Maps and tables of texels",
+              {{"--size", "WxH", "Texels of tpr, half-vectors and brdf-lut", picture_size(to.size)},
+               {"--nu", "N", "Of half-vectors and brdf-lut: exponent along the tangent, 1 / alpha^2", number(to.nu, 0.0, 1e7), ""},
+               {"--nv", "N", "And along the bitangent", number(to.nv, 0.0, 1e7), ""}});
     table.add("Output",
-              {{"-o,--output", "FILE", "The table, or the map: .png or .tif; of quaternion and tpr .exr or .pfm, too; of displaced .glb",
-                file(to.output)},
+              {{"-o,--output", "FILE",
+                "The table, or the map: .png or .tif; of quaternion, tpr and half-vectors .exr, too; of displaced .glb", file(to.output)},
                quiet_option(to.quiet),
                verbose_option(to.verbosity),
                threads_option(to.threads)});
@@ -351,8 +360,42 @@ int run_displaced(const BakeArguments& a)
     return 0;
 }
 
+int run_phong(const BakeArguments& a, const OptionTable& given)
+{
+    for (const char* option : {"--nu", "--nv"})
+        if (!given.given(option))
+            return fail(usage_error(option, "is needed: an exponent of the lobe"));
+    if (!a.picture.empty())
+        return fail(usage_error("PICTURE", fmt::format("'{}': a table is made of nothing", a.picture)));
+    const Result<PixelType> type = map_type(a, {});
+    if (!type)
+        return fail(type.error());
+    if (a.what == "brdf-lut") {
+        if (*type != PixelType::f32)
+            return fail(usage_error("-o", fmt::format("'{}' must end in .exr or .pfm, which hold floats", a.output)));
+        return write_map(a, albedo_table(a.nu, a.nv, a.size), "");
+    }
+    const bool density = fs::path(a.output).extension() == ".exr";
+    Image table = half_vector_table(a.nu, a.nv, a.size, *type);
+    if (*type == PixelType::f32 && !density)
+        return fail(usage_error("-o", fmt::format("'{}' must end in .exr, which holds the density too, or in .png or .tif", a.output)));
+    std::string warning;
+    if (*type == PixelType::u8)
+        warning = fmt::format("8 bits leave {} values along the tangent, and no densities", codes_of(table));
+    return write_map(a, table, warning);
+}
+
 int run_bake(const BakeArguments& arguments, const OptionTable& given)
 {
+    if (arguments.what != "half-vectors" && arguments.what != "brdf-lut")
+        for (const char* option : {"--nu", "--nv"})
+            if (given.given(option))
+                return fail(usage_error(option, "is of half-vectors and brdf-lut"));
+    if (given.given("--size") &&
+        (arguments.what == "ltc" || arguments.what == "direction" || arguments.what == "quaternion" || arguments.what == "displaced"))
+        return fail(usage_error("--size", "is of tpr, half-vectors and brdf-lut"));
+    if (arguments.what == "half-vectors" || arguments.what == "brdf-lut")
+        return run_phong(arguments, given);
     if (arguments.what == "displaced")
         return run_displaced(arguments);
     if (!arguments.heights.empty())

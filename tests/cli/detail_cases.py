@@ -4,6 +4,7 @@ import json
 import math
 import pathlib
 import random
+import struct
 
 import gltf_files as files
 from compare_cases import pfm, png
@@ -309,3 +310,37 @@ def phong(bench):
         found = off_by(bench, "truth.pfm", "t.pfm")
         check(found["mse"] < most, f"{samples} samples: {found}")
     bench.run("render", *words, "as_mc", "--brdf", "ashikhmin_shirley", "-o", "t.pfm").expect(2).expect_one_line("as_mc", "ggx_aniso")
+
+
+
+@case("detail.tables_of_phong_lobes_are_written", "input", tier="check")
+def phong_tables(bench):
+    bench.run("bake", "brdf-lut", "--nu", "100", "--nv", "10", "--size", "9x9", "-q", "-o", "a.pfm").expect(0)
+    values = struct.unpack("<243f", (bench.folder / "a.pfm").read_bytes()[-972:])
+    rows = [[values[3 * (9 * y + x):3 * (9 * y + x) + 2] for x in range(9)] for y in reversed(range(9))]  # the file begins with the bottom row
+    # from the normal there is no azimuth, and an even lobe gives back what it has at both ends
+    check(max(abs(sum(rows[8][x]) - sum(rows[8][0])) for x in range(9)) < 2e-3, f"{rows[8]}")
+    check(all(0 < s + b <= 1.002 for row in rows for s, b in row), "an albedo above 1")
+    bench.run("bake", "brdf-lut", "--nu", "10", "--nv", "100", "--size", "9x9", "-q", "-o", "b.pfm").expect(0)
+    other = struct.unpack("<243f", (bench.folder / "b.pfm").read_bytes()[-972:])
+    turned = [[other[3 * (9 * y + x):3 * (9 * y + x) + 2] for x in reversed(range(9))] for y in reversed(range(9))]
+    check(max(abs(p - q) for a, b in zip(rows, turned) for c, d in zip(a, b) for p, q in zip(c, d)) < 4e-3, "axes are not turned")
+    bench.run("bake", "half-vectors", "--nu", "20000", "--nv", "70", "--size", "64x64", "-o", "h.exr").expect(0)
+    done = bench.run("bake", "half-vectors", "--nu", "20000", "--nv", "70", "--size", "64x64", "-o", "h.png").expect(0)
+    check("8 bits leave" in done.err, done.describe())
+    there = bench.left_behind()
+    for words, needle in ((("brdf-lut", "--nu", "1"), "--nv"), (("half-vectors", "--nv", "1"), "--nu"), (("brdf-lut", "--nu=-1", "--nv", "1"), "--nu"),
+                          (("brdf-lut", "--nu", "nan", "--nv", "1"), "--nu"), (("brdf-lut", "--nu", "1", "--nv", "1e8"), "--nv"),
+                          (("quaternion", "n.png", "--nu", "1"), "--nu"), (("ltc", "--size", "4x4"), "--size")):
+        bench.run("bake", *words, "-o", "t.exr").expect(2).expect_one_line(needle)
+    bench.run("bake", "brdf-lut", "--nu", "1", "--nv", "1", "-o", "t.png").expect(2).expect_one_line("-o", ".exr")
+    check(bench.left_behind() == there, "something is left behind")
+
+
+@case("detail.a_scene_alone_is_drawn", tier="check")
+def alone(bench):
+    scratch(bench, "q.obj", square(0))
+    bench.run("q.obj", *VIEW, "-q", "-o", "a.pfm").expect(0)
+    bench.run("render", "q.obj", *VIEW, "-q", "-o", "b.pfm").expect(0)
+    check((bench.folder / "a.pfm").read_bytes() == (bench.folder / "b.pfm").read_bytes(), "not as render draws it")
+    bench.run("q.stl", "-o", "a.png").expect(2).expect_one_line("no subcommand")
