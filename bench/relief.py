@@ -2,11 +2,14 @@
 """Parallax against the same heights as triangles: FLIP by depth, angle and metric.
 
 Usage: relief.py --program build/release/burnish [--work FOLDER] [--size WxH] [--triangles N] [--quick] [--json FILE]
+       relief.py --program build/release/burnish --sheet FILE.png
 
 A cobbled wall, 1 m wide and --stretch times as high, is drawn as a flat square with heights and normals in maps, by --pom-metric uv and
 surface and without parallax, and as `burnish bake displaced` makes it, of 1 M triangles. A line a depth (lengths of texture coordinates)
 and angle (degrees off the wall's normal): mean FLIP of each over the pixels that both cover whole, and the share of the picture's
 covered pixels that were masked for being part of a silhouette of one of them.
+
+--sheet draws builtin:bumps' wall with 0, .33, .67 and 1 times four times its own depth, in place of all that.
 
 Exit code: 0 parallax is nearer than the flat wall everywhere; 1 it is not; 2 something could not be run.
 """
@@ -79,27 +82,55 @@ def normals(heights, depth, stretch):
     return rows
 
 
-def alpha_of(path):
-    """The last of four channels of 8 bits, which is how much of a pixel is covered, by rows."""
+def read_png(path):
+    """Rows of 8 bits, and how many channels: 3 or 4."""
     data, at, packed = path.read_bytes(), 8, b""
     while at < len(data):
         size, kind = struct.unpack(">I4s", data[at : at + 8])
         if kind == b"IHDR":
             width, height, bits, colour = struct.unpack(">IIBB", data[at + 8 : at + 18])
-            assert (bits, colour) == (8, 6), path
+            assert bits == 8 and colour in (2, 6), path
         if kind == b"IDAT":
             packed += data[at + 8 : at + 8 + size]
         at += 12 + size
-    raw, stride, before, out = zlib.decompress(packed), 4 * width, bytes(4 * width), bytearray()
+    n = 3 if colour == 2 else 4
+    raw, stride, before, rows = zlib.decompress(packed), n * width, bytes(n * width), []
     for y in range(height):
         way, line = raw[y * (stride + 1)], bytearray(raw[y * (stride + 1) + 1 : (y + 1) * (stride + 1)])
-        for i in range(3, stride, 4):
-            a, b, c = line[i - 4] if i >= 4 else 0, before[i], before[i - 4] if i >= 4 else 0
+        for i in range(stride):
+            a, b, c = line[i - n] if i >= n else 0, before[i], before[i - n] if i >= n else 0
             paeth = min((abs(b - c), 0, a), (abs(a - c), 1, b), (abs(a + b - 2 * c), 2, c))[2]
             line[i] = line[i] + (0, a, b, (a + b) // 2, paeth)[way] & 255
-        out += line[3::4]
+        rows.append(line)
         before = line
-    return out
+    return rows, n
+
+
+def alpha_of(path):
+    """How much of each pixel is covered, 0 to 255, by rows."""
+    rows, channels = read_png(path)
+    assert channels == 4, path
+    return [alpha for row in rows for alpha in row[3::4]]
+
+
+def write_png(path, rows, channels):
+    def chunk(kind, data):
+        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+
+    head = struct.pack(">IIBBBBB", len(rows[0]) // channels, len(rows), 8, 2 if channels == 3 else 6, 0, 0, 0)
+    body = zlib.compress(b"".join(b"\0" + bytes(row) for row in rows), 9)
+    path.write_bytes(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", head) + chunk(b"IDAT", body) + chunk(b"IEND", b""))
+
+
+def draw_sheet(run, work, sheet):
+    """builtin:bumps' wall at four height scales, side by side."""
+    rows = None
+    for scale in (0, 0.33, 0.67, 1):
+        run("render", "builtin:bumps", "--eye", "1.1,-0.3,0.85", "--target", "0.52,-0.54,0.02", "--fov", 40, "--size", "320x280", "--msaa", 16, "--env",
+            "builtin:sky", "--height-scale", 4 * scale, "-q", "-o", "part.png")
+        part, channels = read_png(work / "part.png")
+        rows = part if rows is None else [a + b for a, b in zip(rows, part)]
+    write_png(sheet, rows, channels)
 
 
 def main():
@@ -111,6 +142,7 @@ def main():
     arguments.add_argument("--triangles", type=int, default=1000000)
     arguments.add_argument("--quick", action="store_true")
     arguments.add_argument("--json")
+    arguments.add_argument("--sheet")
     options = arguments.parse_args()
     work = pathlib.Path(options.work or tempfile.mkdtemp())
     work.mkdir(parents=True, exist_ok=True)
@@ -121,6 +153,9 @@ def main():
             print(done.stderr, file=sys.stderr)
             sys.exit(2)
 
+    if options.sheet:
+        draw_sheet(run, work, pathlib.Path(options.sheet))
+        return 0
     heights = cobbles()
     write_pfm(work / "heights.pfm", heights, 1)
     albedo = [[c for h in row for c in (0.25 + 0.35 * h, 0.22 + 0.3 * h, 0.2 + 0.25 * h)] for row in heights]
