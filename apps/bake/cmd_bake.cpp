@@ -4,7 +4,9 @@
 #include <memory>
 
 #include "apps/bake/direction.h"
+#include "apps/bake/displaced.h"
 #include "apps/bake/maps.h"
+#include "apps/bake/phong_tables.h"
 #include "apps/bake/report.h"
 #include "apps/bake/straighten.h"
 #include "apps/cli/command.h"
@@ -35,7 +37,10 @@ direction: a map of the grain's direction from a picture's hues or luminance, wh
 quaternion: the shortest rotations to a normal map's normals; see render --quaternion-map.
 tpr: rotations of the grain in the tangent plane, by two expressions of u and v along tangent and bitangent, or such that the grain of
 a mesh lies along one direction; see render --rotation-map.
-The parts of both lie from -1 to 1: code 128 of 8 bits is 0, 255 is 1; .exr and .pfm hold the numbers themselves.
+half-vectors: those that a lobe of Ashikhmin and Shirley samples, over both random numbers, and in .exr their density.
+brdf-lut: that lobe's directional albedo, f0 red + green, over the eye's azimuth and the root of its cosine.
+displaced: a mesh whose heights are triangles, as render --height-map shows them without any; materials are not kept.
+The parts of quaternion and tpr lie from -1 to 1: code 128 of 8 bits is 0, 255 is 1; .exr and .pfm hold the numbers themselves.
 
 Examples:
   burnish bake ltc -o ggx.ltc
@@ -45,10 +50,13 @@ Examples:
   burnish bake direction wave.jpg --from hue -o directions.png
   burnish bake quaternion normal.png -o quaternion.png
   burnish bake tpr --expr "cos(pi*v)" "sin(pi*v)" -o turned.exr
-  burnish bake tpr --straighten spot.obj --direction 0,1,0 --size 512x512 -o straight.exr)~";
+  burnish bake tpr --straighten spot.obj --direction 0,1,0 --size 512x512 -o straight.exr
+  burnish bake half-vectors --nu 70 --nv 400 --size 64x64 -o half_vectors.exr
+  burnish bake brdf-lut --nu 70 --nv 400 --size 128x128 -o albedo.exr
+  burnish bake displaced wall.obj heights.png --height-scale 0.02 -o wall.glb)~";
 
 struct BakeArguments {
-    std::string what = "ltc", picture, output, table, report;
+    std::string what = "ltc", picture, heights, output, table, report;
     DirectionFrom from = DirectionFrom::hue;
     double strength = 1.0;
     std::vector<std::string> expressions;
@@ -56,6 +64,9 @@ struct BakeArguments {
     std::optional<glm::vec3> along;
     PictureSize size = {256, 256};
     RotationEncoding encoding = RotationEncoding::vector;
+    double depth = 0.05;
+    int triangles = 1000000;
+    double nu = -1.0, nv = -1.0;
     Limits limits;
     int resolution = 8, steps = 12, samples = 8, threads = 0;
     ltc::Norm norm = ltc::Norm::l1;
@@ -69,8 +80,13 @@ OptionTable bake_option_table(BakeArguments& to)
 {
     OptionTable table, limits;
     limits.add("", limit_options(to.limits));
-    table.add("", {{"WHAT", "", "{}", choice(to.what, {"ltc", "direction", "quaternion", "tpr"})},
-                   {"PICTURE", "", "That directions or quaternions are made of; of tpr the second expression", file(to.picture), ""}});
+    table.add("", {{"WHAT", "", "{}", choice(to.what, {"ltc", "direction", "quaternion", "tpr", "displaced", "half-vectors", "brdf-lut"})},
+                   {"PICTURE", "", "That directions or quaternions are made of; of tpr the second expression, of displaced the mesh",
+                    file(to.picture), ""},
+                   {"HEIGHTS", "", "Of displaced: the height map", file(to.heights), ""}});
+    table.add_needing("WHAT", "displaced",
+                      {{"--height-scale", "S", "Depth of height 0, in lengths of texture coordinates", number(to.depth, 0.0, 1000.0)},
+                       {"--triangles", "N", "At least so many", integer(to.triangles, 1, 1 << 26)}});
     table.add_needing("WHAT", "direction",
                       {{"--from", "NAME", "{}", choice(to.from, {"hue", "luminance"})},
                        {"--strength", "S", "Of the anisotropy that the map gives, {}", number(to.strength, 0.0, 1.0)}});
@@ -80,7 +96,6 @@ OptionTable bake_option_table(BakeArguments& to)
                        {"--straighten", "SCENE", "In place of expressions: a mesh with texture coordinates, whose grain --direction gives",
                         scene(to.mesh)},
                        {"--direction", "X,Y,Z", "Of the grain in space", point(to.along), ""},
-                       {"--size", "WxH", "Texels of the map", picture_size(to.size)},
                        {"--encoding", "NAME", "{}", choice(to.encoding, {"vector", "double-angle", "direction"})}});
     table.add_needing("WHAT", "ltc",
                       {{"--resolution", "N", "Nodes along each axis, {}", integer(to.resolution, 3, 128), "8, isotropic 64"},
@@ -94,8 +109,13 @@ OptionTable bake_option_table(BakeArguments& to)
                        {"--half", "", "Entries as halves, not floats", flag(to.half)},
                        {"--table", "FILE", "Measure this table instead of making one", file(to.table)},
                        {"--report", "FOLDER", "Also measure the table: quality.json, quality.svg, quality.png", folder(to.report)}});
+    table.add("Maps and tables of texels",
+              {{"--size", "WxH", "Texels of tpr, half-vectors and brdf-lut", picture_size(to.size)},
+               {"--nu", "N", "Of half-vectors and brdf-lut: exponent along the tangent, 1 / alpha^2", number(to.nu, 0.0, 1e7), ""},
+               {"--nv", "N", "And along the bitangent", number(to.nv, 0.0, 1e7), ""}});
     table.add("Output",
-              {{"-o,--output", "FILE", "The table, or the map: .png or .tif; of quaternion and tpr .exr or .pfm, too", file(to.output)},
+              {{"-o,--output", "FILE",
+                "The table, or the map: .png or .tif; of quaternion, tpr and half-vectors .exr, too; of displaced .glb", file(to.output)},
                quiet_option(to.quiet),
                verbose_option(to.verbosity),
                threads_option(to.threads)});
@@ -312,8 +332,74 @@ int run_tpr(const BakeArguments& a)
     return write_map(a, encoded_rotations(*directions, a.encoding, *type), "");
 }
 
+int run_displaced(const BakeArguments& a)
+{
+    if (a.picture.empty() || a.heights.empty())
+        return fail(usage_error(a.picture.empty() ? "PICTURE" : "HEIGHTS", "is needed: a mesh and its height map"));
+    if (fs::path(a.output).extension() != ".glb")
+        return fail(usage_error("-o", a.output.empty() ? "is needed" : fmt::format("'{}' must end in .glb", a.output)));
+    if (const Status path = check_text_path("-o", a.output, {a.picture, a.heights}); !path)
+        return fail(path.error());
+    const auto data = open_scene(a.picture, a.limits, {}, {}, {});
+    if (!data)
+        return fail(data.error());
+    const auto& primitives = (*data)->scene.primitives;
+    if (std::none_of(primitives.begin(), primitives.end(), [](const Primitive& p) { return p.has_uv0; }))
+        return fail({ExitCode::bad_input, a.picture, "", "has no texture coordinates for a height map"});
+    const Result<Image> heights = read_image(a.heights, a.limits);
+    if (!heights)
+        return fail(heights.error());
+    const Result<Displaced> made = displaced((*data)->tables, *heights, a.depth, static_cast<std::size_t>(a.triangles), a.picture);
+    if (!made)
+        return fail(made.error());
+    if (const Status written = write_file_atomic(a.output, made->glb.data(), made->glb.size()); !written)
+        return fail(written.error());
+    Report report(a.quiet, a.verbosity);
+    report.release();
+    report.wrote(a.output);
+    return 0;
+}
+
+int run_phong(const BakeArguments& a, const OptionTable& given)
+{
+    for (const char* option : {"--nu", "--nv"})
+        if (!given.given(option))
+            return fail(usage_error(option, "is needed: an exponent of the lobe"));
+    if (!a.picture.empty())
+        return fail(usage_error("PICTURE", fmt::format("'{}': a table is made of nothing", a.picture)));
+    const Result<PixelType> type = map_type(a, {});
+    if (!type)
+        return fail(type.error());
+    if (a.what == "brdf-lut") {
+        if (*type != PixelType::f32)
+            return fail(usage_error("-o", fmt::format("'{}' must end in .exr or .pfm, which hold floats", a.output)));
+        return write_map(a, albedo_table(a.nu, a.nv, a.size), "");
+    }
+    const bool density = fs::path(a.output).extension() == ".exr";
+    Image table = half_vector_table(a.nu, a.nv, a.size, *type);
+    if (*type == PixelType::f32 && !density)
+        return fail(usage_error("-o", fmt::format("'{}' must end in .exr, which holds the density too, or in .png or .tif", a.output)));
+    std::string warning;
+    if (*type == PixelType::u8)
+        warning = fmt::format("8 bits leave {} values along the tangent, and no densities", codes_of(table));
+    return write_map(a, table, warning);
+}
+
 int run_bake(const BakeArguments& arguments, const OptionTable& given)
 {
+    if (arguments.what != "half-vectors" && arguments.what != "brdf-lut")
+        for (const char* option : {"--nu", "--nv"})
+            if (given.given(option))
+                return fail(usage_error(option, "is of half-vectors and brdf-lut"));
+    if (given.given("--size") &&
+        (arguments.what == "ltc" || arguments.what == "direction" || arguments.what == "quaternion" || arguments.what == "displaced"))
+        return fail(usage_error("--size", "is of tpr, half-vectors and brdf-lut"));
+    if (arguments.what == "half-vectors" || arguments.what == "brdf-lut")
+        return run_phong(arguments, given);
+    if (arguments.what == "displaced")
+        return run_displaced(arguments);
+    if (!arguments.heights.empty())
+        return fail(usage_error("HEIGHTS", fmt::format("'{}': only displaced takes two files", arguments.heights)));
     if (arguments.what == "direction")
         return run_direction(arguments);
     if (arguments.what == "quaternion")

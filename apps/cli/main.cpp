@@ -49,9 +49,8 @@ int refuse_subcommand(const std::string& word, const std::vector<Command>& comma
     std::vector<std::string> names = {"help"};
     for (const Command& command : commands)
         names.push_back(command.name);
-    return fail(
-        usage_error("", fmt::format("no subcommand '{}': there are {}{} (see burnish --help)", word, join(names),
-                                    looks_like_scene(word) ? "; did you mean 'burnish render " + word + "'?" : did_you_mean(word, names))));
+    return fail(usage_error(
+        "", fmt::format("no subcommand '{}': there are {}{} (see burnish --help)", word, join(names), did_you_mean(word, names))));
 }
 
 int run(const std::vector<std::string>& words)
@@ -75,10 +74,12 @@ int run(const std::vector<std::string>& words)
             return refuse_subcommand(words[1], commands);
         return print_help(command == commands.end() ? nullptr : &*command, commands);
     }
-    const auto command = find(first);
+    const auto named = find(first);
+    const bool drawn = named == commands.end() && looks_like_scene(first);
+    const auto command = drawn ? find("render") : named;
     if (command == commands.end())
         return refuse_subcommand(first, commands);
-    const std::vector<std::string> rest(words.begin() + 1, words.end());
+    const std::vector<std::string> rest(words.begin() + !drawn, words.end());
     switch (asked_by(*command, rest)) {
     case Asked::help:
         return print_help(&*command, commands);

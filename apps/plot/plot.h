@@ -22,6 +22,10 @@ Drawing plot_axis(const LobePlot& lobe);
 // cuts through its peak, along the normal and across.
 Drawing plot_lobe(const LobePlot& lobe);
 
+// Half vectors that a lobe of Ashikhmin and Shirley samples, seen from above and as a table over both random numbers, and the table of its
+// directional albedo: exponents 1 / alpha^2. As figures 5 to 7 of what as_mc is after.
+Drawing plot_half_vectors(const LobePlot& lobe);
+
 // Which way techniques look from the points of a sphere, up or down, where that is not the way of the lobe's mean, and the share of such
 // points by anisotropy; the same, figure 20.
 Drawing plot_side(const LobePlot& lobe);

@@ -74,6 +74,7 @@ std::vector<Option> dress_rows(Dress& to)
          folder(to.material)},
         {"--normal-map", "FILE", "Normal map of all materials", file(to.normal)},
         {"--quaternion-map", "FILE", "The same as quaternions, of burnish bake quaternion", file(to.quaternion)},
+        {"--height-map", "FILE", "Heights below the surface, red: 1 is the surface; see --height-scale", file(to.height)},
         {"--normal-y", "NAME", "Green of normal maps: {}, as DirectX has it", choice(to.normal_y_down, {"up", "down"})},
         {"--direction-map", "FILE", "Picture that all materials take as anisotropy texture, of burnish bake direction", file(to.direction)},
         {"--rotation-map", "FILE", "The same in another encoding", file(to.rotation)},

@@ -60,6 +60,7 @@ class TileSubject final : public Subject {
         desc_.view = bench_view(w.scene, session_.tables(), w.width, w.height);
         desc_.technique = w.technique;
         desc_.samples = w.samples ? w.samples : find_technique(w.technique)->default_samples;
+        desc_.frame_map = w.frame_map;
         if (w.eta != 0.0f)
             desc_.roughness = w.alpha_lin, desc_.override_anisotropy = true, desc_.anisotropy = w.eta;
     }

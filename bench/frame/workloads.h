@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "bench/scenes/scenes.h"
+#include "shading/lang/records.h"
 
 namespace burnish {
 
@@ -25,6 +26,7 @@ struct Workload {
     bool slow = false; // not with --quick
     float alpha_lin = 0.3f;
     int key_lights = 0; // made ones, above the scene
+    int frame_map = kFrameGramSchmidt;
 };
 
 enum class Measure {

@@ -85,6 +85,10 @@ Scene make_textured(std::int64_t textures, double aspect)
     TextureRef* const refs[] = {&m.base_color_tex, &m.normal_tex, &m.metallic_roughness_tex, &m.occlusion_tex, &m.anisotropy_tex};
     for (std::size_t i = 0; i < std::min(static_cast<std::size_t>(textures), std::size(refs)); ++i)
         refs[i]->texture = add_texture(scene, 512, 96, numbers);
+    if (textures > 5) { // so that every ray goes all the way
+        m.height_tex.texture = add_texture(scene, 512, 0, numbers);
+        std::fill(scene.images.back().bytes.begin(), scene.images.back().bytes.end(), std::byte{0});
+    }
     scene.materials.push_back(m);
     begin_primitive(scene, 0);
     add_sheet(scene, 64, 36, kBeyond * aspect, kBeyond, 2.0);

@@ -10,20 +10,21 @@
 #include <vector>
 
 #include "core/image/io/image_io.h"
+#include "core/scene/heights.h"
 
 namespace burnish {
 namespace {
 
 namespace fs = std::filesystem;
 
-enum Role { kAlbedo, kOcclusion, kHeight, kMetallic, kRoughness, kNormal, kQuaternion, kRotation, kRoles };
+enum Role { kAlbedo, kOcclusion, kDepth, kHeight, kMetallic, kRoughness, kNormal, kQuaternion, kRotation, kRoles };
 struct RoleName {
     const char* ending;
     Role role;
 };
 constexpr RoleName kRoleNames[] = {
     {"albedo", kAlbedo},         {"basecolor", kAlbedo},  {"ao", kOcclusion},      {"ambient_occlusion", kOcclusion},
-    {"depth", kHeight},          {"height", kHeight},     {"metallic", kMetallic}, {"metal", kMetallic},
+    {"depth", kDepth},           {"height", kHeight},     {"metallic", kMetallic}, {"metal", kMetallic},
     {"normal", kNormal},         {"rotation", kRotation}, {"flow", kRotation},     {"roughness", kRoughness},
     {"quaternion", kQuaternion},
 };
@@ -186,6 +187,12 @@ Status put_maps(Dresser& on, const Dress& with)
             return image.error();
         on.put(on.add(normals_of_quaternions(*image), with.quaternion, "quaternions"), &Material::normal_tex);
     }
+    if (!with.height.empty()) {
+        Result<Image> image = on.read(with.height, 1);
+        if (!image)
+            return image.error();
+        on.put(on.add(std::move(*image), "height map"), &Material::height_tex);
+    }
     return {};
 }
 
@@ -205,7 +212,7 @@ Status find_pictures(const std::string& folder, std::string (&found)[kRoles], st
     std::string unknown;
     for (const fs::path& file : files) {
         const std::optional<Role> role = role_of(file.stem().string());
-        if (!role || *role == kHeight) {
+        if (!role) {
             unknown += (unknown.empty() ? "" : ", ") + file.filename().string();
             continue;
         }
@@ -216,9 +223,10 @@ Status find_pictures(const std::string& folder, std::string (&found)[kRoles], st
     }
     if (!unknown.empty())
         warnings.push_back(fmt::format("{}: nothing is made of {}", folder, unknown));
-    if (!found[kNormal].empty() && !found[kQuaternion].empty())
-        return Error{ExitCode::usage, "--material", "",
-                     fmt::format("{} and {} are both for one part of the material", found[kNormal], found[kQuaternion])};
+    for (const auto& [a, b] : {std::pair(kNormal, kQuaternion), std::pair(kDepth, kHeight)})
+        if (!found[a].empty() && !found[b].empty())
+            return Error{ExitCode::usage, "--material", "",
+                         fmt::format("{} and {} are both for one part of the material", found[a], found[b])};
     return {};
 }
 
@@ -258,7 +266,14 @@ Status put_material(Dresser& on, Scene& scene, const Dress& with)
         on.each([](Material& m) { m.metallic = 0.0f; });
     if (!parts[0].empty() || !parts[1].empty())
         on.put(on.add(metal_rough(parts[0], parts[1]), "metalness and roughness"), &Material::metallic_roughness_tex);
+    if (!found[kDepth].empty()) {
+        const Result<Image> image = on.read(found[kDepth], 1);
+        if (!image)
+            return image.error();
+        on.put(on.add(heights_of_depths(*image), found[kDepth], "depths"), &Material::height_tex);
+    }
     Dress maps;
+    maps.height = found[kHeight];
     maps.normal = found[kNormal], maps.quaternion = found[kQuaternion], maps.rotation = found[kRotation];
     maps.rotation_encoding = with.rotation_encoding;
     return put_maps(on, maps);
@@ -278,8 +293,8 @@ void put_f0(Material& m, const glm::vec3& f0)
 
 bool Dress::names(const std::string& path) const
 {
-    return !path.empty() && (path == direction || path == rotation || path == normal || path == quaternion || path == material ||
-                             (!material.empty() && path.starts_with(material)));
+    return !path.empty() && (path == direction || path == rotation || path == normal || path == quaternion || path == height ||
+                             path == material || (!material.empty() && path.starts_with(material)));
 }
 
 Status dress(Scene& scene, const Dress& with, const Limits& limits)

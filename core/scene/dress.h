@@ -17,6 +17,7 @@ struct Dress {              // empty: left as it is
     std::string rotation;   // the same in another encoding
     std::string normal;     // normal map
     std::string quaternion; // the same as quaternions
+    std::string height;     // height map, red
     RotationEncoding rotation_encoding = RotationEncoding::vector;
     bool normal_y_down = false;  // all normal maps have green down
     bool lean = false;           // all materials

@@ -73,6 +73,7 @@ struct Material { // material.def
 #define BN_TEXTURE(name, path) TextureRef name;
 #include "core/scene/material.def"
     bool emitter = false; // of what shows an area light
+    bool heights = false; // the alpha of normal_tex holds heights, [0,1]
 };
 
 enum class WrapMode : std::uint8_t { repeat, clamp, mirror };

@@ -145,29 +145,39 @@ float brushed_by_factors(const ShadingFrame& f, const MaterialRecord& material)
 
 } // namespace
 
+// The first texel of the table of a lobe's albedo, which is made where there is none yet.
+int FrameMaker::slice_of(float sigma_u, float sigma_v, bool phong)
+{
+    constexpr std::size_t kTexels = std::size_t{kLobeAlbedoSize} * kLobeAlbedoSize / 2;
+    const SlicedLobe wanted = {sigma_u, sigma_v, phong};
+    const auto known = std::find(sliced_.begin(), sliced_.end(), wanted);
+    const int first = static_cast<int>(static_cast<std::size_t>(known - sliced_.begin()) * kTexels);
+    if (known != sliced_.end())
+        return first;
+    sliced_.push_back(wanted);
+    lobe_slices_.resize(4 * kTexels * sliced_.size());
+    const double root2 = 1.4142135623730951;
+    (phong ? bake_phong_slice : bake_lobe_slice)(kLobeAlbedoSize, root2 * static_cast<double>(sigma_u),
+                                                 root2 * static_cast<double>(sigma_v), lobe_slices_.data() + 4 * first);
+    return first;
+}
+
 // Of every material whose lobe has the same two widths everywhere.
 void FrameMaker::slice_albedo(const FrameDesc& desc)
 {
-    constexpr std::size_t kTexels = std::size_t{kLobeAlbedoSize} * kLobeAlbedoSize / 2;
     ShadingFrame f = {};
     f.override_anisotropy = desc.override_anisotropy, f.anisotropy = desc.anisotropy;
     for (MaterialRecord& m : materials_) {
-        m.albedo_slice = -1, m.brushed = 1.0f;
+        m.albedo_slice = m.phong_slice = -1, m.brushed = 1.0f;
         if (m.anisotropic && (m.technique_traits & kSharesSamples) && m.moments == kNoMoments)
             m.brushed = brushed_by_factors(f, m);
-        if (!m.anisotropic || !one_lobe_shape(m))
+        if (!one_lobe_shape(m))
             continue;
         const lobe_shape shape = only_lobe_shape(f, m);
-        const std::array<float, 2> widths = {shape.sigma_u, shape.sigma_v};
-        const auto known = std::find(sliced_.begin(), sliced_.end(), widths);
-        m.albedo_slice = static_cast<int>(static_cast<std::size_t>(known - sliced_.begin()) * kTexels);
-        if (known != sliced_.end())
-            continue;
-        sliced_.push_back(widths);
-        lobe_slices_.resize(4 * kTexels * sliced_.size());
-        const double root2 = 1.4142135623730951;
-        bake_lobe_slice(kLobeAlbedoSize, root2 * static_cast<double>(widths[0]), root2 * static_cast<double>(widths[1]),
-                        lobe_slices_.data() + 4 * kTexels * (sliced_.size() - 1));
+        if (m.anisotropic)
+            m.albedo_slice = slice_of(shape.sigma_u, shape.sigma_v, false);
+        if ((m.technique_traits & kPhongGrid) && desc.as_tables == 0)
+            m.phong_slice = slice_of(shape.sigma_u, shape.sigma_v, true);
     }
 }
 

@@ -1,6 +1,6 @@
 // The one place where a FrameDesc becomes what shading reads of it: the record, its tables, and what is baked when a frame first asks.
 #pragma once
-#include <array>
+#include <tuple>
 #include <vector>
 
 #include "raster/frame/frame.h"
@@ -36,13 +36,15 @@ class FrameMaker {
   private:
     void bake(const FrameDesc& desc);
     void choose_techniques(const FrameDesc& desc);
+    int slice_of(float sigma_u, float sigma_v, bool phong);
     void slice_albedo(const FrameDesc& desc);
 
     RenderInput input_;
     SceneTables scene_;
     std::vector<MaterialRecord> materials_;
-    CubeMap box_cube_;                         // made when a technique first asks for it
-    std::vector<std::array<float, 2>> sliced_; // deviations of the lobes that have a slice, in their order
+    CubeMap box_cube_;                                 // made when a technique first asks for it
+    using SlicedLobe = std::tuple<float, float, bool>; // deviations of slope; whether it is an Ashikhmin-Shirley lobe
+    std::vector<SlicedLobe> sliced_;                   // that have a slice, in their order
     Column<std::uint16_t> lobe_slices_;
     std::vector<GridSample> grid_;
 };

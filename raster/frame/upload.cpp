@@ -54,6 +54,7 @@ MaterialRecord material_record(const Material& m)
     r.anisotropic = m.anisotropy_strength > 0.0f || m.tilt_tex.used();
     r.tilt_mapped = m.tilt_tex.used();
     r.emitter = m.emitter;
+    r.relief = m.heights;
     r.conductor = m.conductor_eta != glm::vec3(0.0f) || m.conductor_k != glm::vec3(0.0f);
     return r;
 }
@@ -187,8 +188,13 @@ bool tilts(const Scene& scene, const FrameDesc& desc)
 
 Status check_frame(const Scene& scene, const FrameDesc& desc)
 {
-    if (const Status ok = check_desc(desc); !ok || !tilts(scene, desc))
+    if (const Status ok = check_desc(desc); !ok)
         return ok;
+    const auto has_heights = [](const Material& m) { return m.heights; };
+    if (desc.height_scale != FrameDesc().height_scale && std::none_of(scene.materials.begin(), scene.materials.end(), has_heights))
+        return Error{ExitCode::usage, "--height-scale", "", "nothing in the scene has a height map"};
+    if (!tilts(scene, desc))
+        return {};
     if (const int lobe = lobe_of(desc, true); !(lobe_traits_of(lobe) & kLies_surface))
         return Error{ExitCode::usage, "--brdf", "",
                      std::string("lobes of ") + lobe_model(lobe).name + " cannot be tilted, as materials of the scene are; those of " +
@@ -215,6 +221,8 @@ std::vector<MaterialRecord> in_frame(std::vector<MaterialRecord> materials, cons
             if (m.moments != kNoMoments && !m.tilt_mapped)
                 m.moments = kMomentsUnseen;
         }
+        m.relief_depth = m.height_scale * desc.height_scale;
+        m.relief = m.relief && m.textures[kNormalTex].texture >= 0 && m.relief_depth > 0.0f;
         const glm::vec2 tilt = tilt_rad({m.tilt[0], m.tilt[1]}, desc);
         m.tilted = m.tilt_mapped || tilt != glm::vec2(0.0f);
         for (int i = 0; i < 2; ++i) {

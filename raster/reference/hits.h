@@ -8,6 +8,7 @@
 #include "shading/kernels/camera.t.h"
 #include "shading/lights/background.t.h"
 #include "shading/surface/coverage.t.h"
+#include "shading/surface/relief.t.h"
 
 namespace burnish {
 inline namespace BN_ISA_NS {
@@ -135,6 +136,28 @@ BN_INLINE LaneGeometry locate_hits(const ReferenceParams& f, const LaneHits& h, 
     return g;
 }
 
+BN_INLINE relief_plane relief_plane_at(const ReferenceParams& f, integer triangle)
+{
+    const LaneTriangle t = load_triangle(f, triangle);
+    const auto coordinates = [&](integer vertex) {
+        real c[4];
+        blend_quad(f.shading_vertices + 8, vertex, vertex, vertex, lit(1.0), lit(0.0), lit(0.0), c);
+        return vec4_of(c[0], c[1], c[2], c[3]);
+    };
+    const real4 first = coordinates(t.vertex[0]);
+    return {t.corner[1] - t.corner[0], t.corner[2] - t.corner[0], coordinates(t.vertex[1]) - first, coordinates(t.vertex[2]) - first};
+}
+
+// What textures hold at the hits.
+BN_INLINE material_inputs fetch_at_hits(const ReferenceParams& f, const MaterialRecord& m, const LaneHits& h, const visible_point& p)
+{
+    if (!m.relief)
+        return fetch_lanes(f, m, p);
+    visible_point seen = p;
+    see_relief(f, m, relief_plane_at(f, h.triangle), seen);
+    return fetch_lanes(f, m, seen);
+}
+
 // Calls body(material, lanes) once for every material of the lanes.
 template <class Body> BN_INLINE void for_each_material(const ReferenceParams& f, integer triangle, mask lanes, const Body& body)
 {
@@ -161,7 +184,7 @@ BN_STAGE mask passes_through(const PixelFrame& p, const LaneHits& h, const LaneR
         if (!located)
             g = locate_hits(p.f, h, r, footprint);
         located = true;
-        const real alpha = fetch_lanes(p.f, m, g.fragment).alpha;
+        const real alpha = fetch_at_hits(p.f, m, h, g.fragment).alpha;
         const integer key =
             (iota() + int_lit(p.first)) ^ splat_bits(hash_seed(p.seed, 0x5000u + static_cast<std::uint32_t>(turn))) ^ bits_of(h.t);
         through |= to_bits(both(lanes, not_(alpha_stays(m, alpha, k_unit_from_bits(k_hash_u32(key))))));
@@ -244,9 +267,9 @@ struct MaterialAtHits {
     real3 emission;
 };
 
-BN_STAGE MaterialAtHits material_at_hits(const ReferenceParams& f, const MaterialRecord& m, const LaneGeometry& g)
+BN_STAGE MaterialAtHits material_at_hits(const ReferenceParams& f, const MaterialRecord& m, const LaneHits& h, const LaneGeometry& g)
 {
-    const material_inputs at = fetch_lanes(f, m, g.fragment);
+    const material_inputs at = fetch_at_hits(f, m, h, g.fragment);
     MaterialAtHits r;
     shaded_point x;
     make_shaded_point(f, m, at, lobe_shape_of(f, m, at), g.fragment, int_lit(0), x);
@@ -266,7 +289,7 @@ BN_STAGE void find_surface(const ReferenceParams& f, const LaneHits& h, const La
     out.position = g.position, out.normal = g.normal;
     bool first = true;
     for_each_material(f, h.triangle, h.found, [&](const MaterialRecord& m, mask lanes) {
-        const MaterialAtHits at = material_at_hits(f, m, g);
+        const MaterialAtHits at = material_at_hits(f, m, h, g);
         out.r = first ? at.r : select_reflector(lanes, at.r, out.r); // lanes without a hit hold something harmless
         out.emission = first ? at.emission : select(lanes, at.emission, out.emission);
         if (m.emitter)

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/scene/gltf/gltf.h"
+#include "core/scene/heights.h"
 #include "shading/bake/ltc/shipped.h"
 
 namespace burnish {
@@ -69,6 +70,8 @@ Result<std::shared_ptr<const SceneData>> make_scene_data(const std::string& name
         auto data = std::make_shared<SceneData>();
         data->name = name;
         data->scene = std::move(scene);
+        if (Status laid = lay_heights(data->scene, limits, name); !laid)
+            return laid.error();
         update_world(data->scene);
         if (const Status lit = add_emitters(data->scene, limits.area_lights, name); !lit)
             return lit.error();

@@ -2,6 +2,7 @@
 #pragma once
 #include "raster/frame/lane_material.h"
 #include "raster/tile/tile_types.h"
+#include "shading/surface/relief.t.h"
 #include "shading/surface/visible_point.t.h"
 
 namespace burnish {
@@ -106,7 +107,10 @@ BN_INLINE visible_point make_fragment_inline(frame_ref f, material_ref m, const 
                                              bool lights)
 {
     const LaneSetup t = load_setup(scratch, triangle, common);
-    return point_of(f, view, t, pixel_x, pixel_y, samples, m.uses_color != 0, m.textured != 0, lights);
+    visible_point p = point_of(f, view, t, pixel_x, pixel_y, samples, m.uses_color != 0, m.textured != 0, lights);
+    if (m.relief != 0)
+        see_relief(f, m, relief_plane_of(f, t), p);
+    return p;
 }
 
 // Compiled once in a file.

@@ -194,6 +194,35 @@ BN_FN real4 texture_sample_footprint(texture_desc desc, real2 uv, texture_footpr
     return texel_value(acc);
 }
 
+struct texture_one_level { // of a pyramid
+    texture_desc desc;
+    texture_level level;
+    real lod; // its number
+};
+
+// The level nearest to a footprint's.
+BN_FN texture_one_level texture_one_level_of(texture_desc desc, texture_footprint p)
+{
+    real nearest = p.lod + lit(0.5);
+    integer level = to_int(nearest);
+    texture_one_level t;
+    t.desc = desc;
+    t.level = texture_level_of(desc, level);
+    t.lod = to_real(level);
+    return t;
+}
+
+// uv: not wrapped.
+BN_FN real4 texture_sample_level(texture_one_level t, real2 uv)
+{
+    texel_rows rows;
+    if (t.desc.nearest != 0)
+        rows = texture_nearest_rows(t.desc, uv);
+    else
+        rows = texture_bilinear_rows(t.level, vec2_of(texture_wrap(uv.x, t.desc.wrap_s), texture_wrap(uv.y, t.desc.wrap_t)), lit(1.0));
+    return texel_value(texel_rows_add(texel_zero(), t.desc.texels, rows));
+}
+
 // uv and its change by one pixel; up to max_taps (uniform, 1 to 16) taps along the longer axis of the
 // footprint. Where lanes can be compared, texture_footprint_of(), the maximum of `taps` over the lanes, and
 // texture_sample_footprint() give the same bits sooner.

@@ -41,7 +41,9 @@ const int kRefracts = 256;  // follows light through materials that let it; othe
 const int kPhongGrid = 512; // its grid is of points of an Ashikhmin-Shirley lobe, as many as there are samples
 
 const int kFrameGramSchmidt = 0, kFrameQuaternion = 1, kFrameNormalOnly = 2, kFrameOff = 3; // FrameDesc::frame_map
-const int kFresnelSchlick = 0, kFresnelConductor = 1, kFresnelDielectric = 2;               // FrameDesc::fresnel
+const int kReliefInTexture = 0, kReliefOnSurface = 1;                                       // FrameDesc::pom_metric
+const int kLeastReliefSteps = 8, kMostReliefSteps = 32; // down to the deepest place: straight from above, and at grazing angles
+const int kFresnelSchlick = 0, kFresnelConductor = 1, kFresnelDielectric = 2; // FrameDesc::fresnel
 
 // Traits of lobes (shading/models.def), and what the words of their lines mean.
 const int kLobeOfAll = 1;    // the usual one
@@ -170,6 +172,8 @@ struct MaterialRecord { // Material in plain numbers, and what follows from them
     float tilt_cos[2], tilt_sin[2];  // of their sum
     float tilt_slope[2];             // its mean slopes, along tangent and bitangent
     int tilt_mapped, moments;        // a texture has slopes; kNoMoments...
+    int relief;                      // the alpha of its normal map holds heights, which the frame wants to see
+    float relief_depth;              // of height 0, lengths of texture coordinates
     int emitter;                     // it shows an area light
     int conductor;                   // it has an index of its own: conductor_eta, conductor_k
     int roughness_fixed;             // by an override: the texture gives metalness only
@@ -178,6 +182,7 @@ struct MaterialRecord { // Material in plain numbers, and what follows from them
     int lights_lobe;                 // what punctual lights meet: its place in shading/models.def
     float brushed;    // brushed_part() of its factors where the technique shares samples; else, or where slopes widen lobes, 1
     int albedo_slice; // of a lobe whose two widths are everywhere the same: its first texel; else -1
+    int phong_slice;  // of the Ashikhmin-Shirley lobe of these widths, where the technique samples it and wants a table; else -1
     TextureBinding textures[kTextureSlots];
 };
 

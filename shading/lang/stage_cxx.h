@@ -125,7 +125,7 @@ struct PlainFrame : ShadingFrame {
     static constexpr int lobe = lobe_with(kLobeOfAll), lobe_traits = lobe_traits_of(lobe);
 };
 struct PlainMaterial : MaterialRecord {
-    static constexpr int textured = 0, uses_color = 0, unlit = 0, refracts = 0;
+    static constexpr int textured = 0, uses_color = 0, unlit = 0, refracts = 0, relief = 0;
 };
 struct RoundMaterial : PlainMaterial {
     static constexpr int anisotropic = 0;

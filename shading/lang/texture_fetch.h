@@ -39,12 +39,17 @@ BN_INLINE bool laid_out_alike(const TextureParams* textures, const TextureBindin
     return alike;
 }
 
+BN_INLINE texture_desc desc_of(const TextureParams& texture)
+{
+    return {texture.texels, texture.offset, texture.level_width, texture.level_height,
+            texture.levels, texture.wrap_s, texture.wrap_t,      texture.nearest};
+}
+
 // The lanes with the longest footprint decide how many taps there are.
 BN_STAGE void plan_texture(const texture_fetches& t, const TextureBinding& b)
 {
     const TextureParams& texture = t.textures[b.texture];
-    const texture_desc desc = {texture.texels, texture.offset, texture.level_width, texture.level_height,
-                               texture.levels, texture.wrap_s, texture.wrap_t,      texture.nearest};
+    const texture_desc desc = desc_of(texture);
     const texture_place place = texture_place_of(b, t.p);
     t.planned = &b;
     if (texture.nearest) {
@@ -82,6 +87,15 @@ BN_INLINE real4 texel_of(const texture_fetches& t, int slot)
     if (!t.planned || !laid_out_alike(t.textures, *t.planned, b))
         plan_texture(t, b);
     return load_planned(t, t.textures[b.texture].texels);
+}
+
+BN_INLINE texture_desc texture_desc_of(const ShadingFrame& f, const MaterialRecord& m, int slot)
+{
+    return desc_of(f.textures[m.textures[slot].texture]);
+}
+BN_INLINE real4 texel_at_level(const texture_one_level& t, int, real2 uv)
+{
+    return texture_sample_level(t, uv);
 }
 
 } // namespace BN_ISA_NS

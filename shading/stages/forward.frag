@@ -6,6 +6,7 @@
 #include "shading/kernels/camera.t.h"
 #include "shading/lights/fragment_light.t.h"
 #include "shading/surface/coverage.t.h"
+#include "shading/surface/relief.t.h"
 #include "shading/stages/pass.glsl"
 
 #ifdef BN_CENTROID // the device's own place in partly covered pixels: cheaper, and elsewhere
@@ -119,10 +120,22 @@ visible_point point_of_fragment(int px, int py)
     return p;
 }
 
+relief_plane plane_of_fragment(visible_point p)
+{
+    relief_plane plane;
+    plane.along = dFdxFine(position.xyz);
+    plane.across = dFdyFine(position.xyz);
+    plane.coordinates_along = vec4(p.uv0_dx, p.uv1_dx);
+    plane.coordinates_across = vec4(p.uv0_dy, p.uv1_dy);
+    return plane;
+}
+
 void main()
 {
     int m = pass.material, px = int(gl_FragCoord.x), py = int(gl_FragCoord.y) + pass.first_row;
     visible_point p = point_of_fragment(px, py);
+    if (materials[m].relief != 0)
+        see_relief(0, m, plane_of_fragment(p), p);
     material_inputs at = fetch_material(0, m, p);
     int alive = alive_samples(m, at.alpha);
     if (alive == 0)

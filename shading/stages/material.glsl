@@ -29,12 +29,26 @@ bool texture_used(material_ref material, int slot)
     return kUsedTextures >= 0 ? (kUsedTextures >> slot & 1) != 0 : materials[material].textures[slot].texture >= 0;
 }
 
+texture_desc texture_desc_of(int f, material_ref material, int slot)
+{
+    int id = materials[material].textures[slot].texture;
+    return texture_desc(textures[id].page, textures[id].offset_base, textures[id].width_base, textures[id].height_base, textures[id].levels,
+                        textures[id].wrap_s, textures[id].wrap_t, textures[id].nearest);
+}
+
+real4 texel_at_level(texture_one_level t, int slot, real2 uv)
+{
+#ifdef BN_NATIVE_SAMPLER
+    return native_texel(slot, uv, t.lod);
+#else
+    return texture_sample_level(t, uv);
+#endif
+}
+
 real4 fetch_texture(material_ref material, int slot, visible_point p)
 {
     texture_place place = texture_place_of(materials[material].textures[slot], p);
-    int id = materials[material].textures[slot].texture;
-    texture_desc desc = texture_desc(textures[id].page, textures[id].offset_base, textures[id].width_base, textures[id].height_base,
-                                     textures[id].levels, textures[id].wrap_s, textures[id].wrap_t, textures[id].nearest);
+    texture_desc desc = texture_desc_of(0, material, slot);
     texture_footprint footprint = texture_footprint_of(desc, place.dx, place.dy, frame.texture_taps);
 #ifdef BN_NATIVE_SAMPLER
     // the kernel's taps, each filtered by the device: anisotropic filters of devices differ, and lavapipe's takes a millisecond a pixel

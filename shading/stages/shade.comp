@@ -6,6 +6,7 @@ layout(local_size_x = 64) in;
 #include "shading/stages/interface.glsl"
 #include "shading/lights/background.t.h"
 #include "shading/lights/fragment_light.t.h"
+#include "shading/surface/relief.t.h"
 #include "shading/surface/visible_point.t.h"
 #include "shading/stages/pass.glsl"
 
@@ -34,6 +35,8 @@ line_record shade_pair(int slot, int px, int py, int covered)
     int m = t.info >> 2;
     bool uses_color = materials[m].uses_color != 0, textured = materials[m].textured != 0, lights = frame.positions != 0;
     visible_point p = point_of(0, view_params_of(frame.view), t, px, py, covered, uses_color, textured, lights);
+    if (materials[m].relief != 0)
+        see_relief(0, m, relief_plane_of(0, t), p);
     material_inputs at = fetch_material(0, m, p);
     if (kRecords) {
         record_point(record_at, p, uses_color, textured, lights);

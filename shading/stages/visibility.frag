@@ -7,6 +7,7 @@
 #include "shading/kernels/depth_plane.k.h"
 #endif
 #include "shading/surface/material.t.h"
+#include "shading/surface/relief.t.h"
 #include "shading/surface/visible_point.t.h"
 #include "shading/stages/pass.glsl"
 
@@ -43,8 +44,11 @@ bool survives_alpha(int px, int py, int s)
     int m = setups[slot].info >> 2;
     if (materials[m].alpha_mode == kAlpha_opaque)
         return true;
-    visible_point p = point_of(0, view_params_of(frame.view), load_setup(slot), px, py, (1 << frame.msaa) - 1, materials[m].uses_color != 0,
+    triangle_setup t = load_setup(slot);
+    visible_point p = point_of(0, view_params_of(frame.view), t, px, py, (1 << frame.msaa) - 1, materials[m].uses_color != 0,
                                materials[m].textured != 0, false);
+    if (materials[m].relief != 0)
+        see_relief(0, m, relief_plane_of(0, t), p);
     real alpha = fetch_alpha(0, m, p);
     return alpha_stays(m, alpha, blend_threshold(s, frame.msaa));
 }

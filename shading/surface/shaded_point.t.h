@@ -24,9 +24,10 @@ struct shaded_point {
     bool diffuse;               // s.diffuse may be above 0
     real brushed;               // the material's
     dfg_value dfg;
-    real3 albedo; // directional, of the lobe: for techniques of a split integral
-    real shown;   // directional albedo of a lobe that takes the usual one's place, over that of the usual one, upright; 1 otherwise
-    real3 gain;   // energy compensation, which multiplies the specular lobe; 1 without
+    real3 albedo;      // directional, of the lobe: for techniques of a split integral
+    real phong_albedo; // directional, of an Ashikhmin-Shirley lobe of the same widths, where there is a table of it; else -1
+    real shown;        // directional albedo of a lobe that takes the usual one's place, over that of the usual one, upright; 1 otherwise
+    real3 gain;        // energy compensation, which multiplies the specular lobe; 1 without
     real3 dielectric_f0;
     real dielectric_f90;
     integer pixel_id;         // y * width + x, for random numbers
@@ -171,6 +172,12 @@ BN_FN void make_shaded_point(frame_ref f, material_ref m, BN_IN(material_inputs)
     x.brushed = splat(the_material(m).brushed);
     x.dfg = directional_albedo(f, m, x.s, x.lobe);
     x.albedo = albedo_of(x.s, x.dfg);
+    x.phong_albedo = lit(-1.0);
+    if (the_material(m).phong_slice >= 0) {
+        dfg_value own =
+            lobe_slice_lookup(lobe_slice_texels(f), the_material(m).phong_slice, the_frame(f).lobe_albedo_size, x.lobe, x.s.n, x.s.v);
+        x.phong_albedo = own.scale + own.bias;
+    }
     x.gain = energy_gain(f, x.s.f0, x.dfg);
     x.shown = lit(1.0);
     if ((the_frame(f).lobe_traits & kPunctualOnly) != 0)

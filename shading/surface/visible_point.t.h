@@ -8,6 +8,7 @@
 #include "shading/lang/lang.h"
 #include "shading/lang/triangle.h"
 #include "shading/surface/coverage.t.h"
+#include "shading/surface/relief.k.h"
 #include "shading/surface/visible_point.k.h"
 
 BN_KERNELS_BEGIN
@@ -60,6 +61,18 @@ BN_FN visible_point point_of(frame_ref f, BN_IN(view_params) view, triangle_ref 
     p.uv0_dy = vec2_of(dy.x, dy.y);
     p.uv1_dx = vec2_of(dx.z, dx.w);
     p.uv1_dy = vec2_of(dy.z, dy.w);
+    return p;
+}
+
+BN_FN relief_plane relief_plane_of(frame_ref f, triangle_ref t)
+{
+    real3 corner = vertex_place(f, t, 0);
+    real4 coordinates = blend_coordinates(f, t, vec3_of(lit(1.0), lit(0.0), lit(0.0)));
+    relief_plane p;
+    p.along = vertex_place(f, t, 1) - corner;
+    p.across = vertex_place(f, t, 2) - corner;
+    p.coordinates_along = blend_coordinates(f, t, vec3_of(lit(0.0), lit(1.0), lit(0.0))) - coordinates;
+    p.coordinates_across = blend_coordinates(f, t, vec3_of(lit(0.0), lit(0.0), lit(1.0))) - coordinates;
     return p;
 }
 

@@ -1,6 +1,8 @@
 // Samples of an Ashikhmin-Shirley lobe (shading/models/ashikhmin_shirley.k.h), each fetched from the box-filtered environment at the level
 // whose texels are as large as its share of the sphere. Frames bring a Hammersley set, as cosine and sine of the azimuth that isotropic
-// lobes have and the logarithm of 1 - xi; what is left is the same for each width, so that roughness may vary by fragment.
+// lobes have and the logarithm of 1 - xi; what is left is the same for each width, so that roughness may vary by fragment. Where the lobe's
+// widths are the same everywhere, its albedo is known (MaterialRecord::phong_slice), and samples are weighted to it: what a few of them get
+// wrong is mostly how many of them lie below the horizon. One sample is a mirror.
 #ifndef BN_AS_MC_T_H
 #define BN_AS_MC_T_H
 
@@ -32,8 +34,18 @@ BN_FN as_half_vector as_half_vector_of(ashikhmin_shirley_params p, real2 wide, r
     return r;
 }
 
+// By which a pixel's samples are turned, before they are stretched to the lobe.
+BN_FN k_sin_cos_pair turn_of_pixel(frame_ref f, BN_IN(shaded_point) x)
+{
+    real part = k_unit_from_bits(k_hash_u32(x.pixel_id ^ int_lit(the_frame(f).seed)));
+    real angle = lit(6.2831853071795865) * part;
+    return k_sin_cos(angle);
+}
+
 BN_FN real3 as_mc_specular(frame_ref f, BN_IN(shaded_point) x)
 {
+    if (the_frame(f).grid_count == 1)
+        return mirrored(f, x, lit(1.0));
     cube_desc cube = box_cube(f);
     real3 o = eye_in_lobe(x);
     real root2 = lit(1.4142135623730951);
@@ -51,8 +63,12 @@ BN_FN real3 as_mc_specular(frame_ref f, BN_IN(shaded_point) x)
     cube_terms_begin(sum, cube, true);
     real weights = lit(0.0);
     real kept = lit(0.0);
+    k_sin_cos_pair turn = turn_of_pixel(f, x);
     for (int i = 0; i < the_frame(f).grid_count; ++i) {
-        as_half_vector s = as_half_vector_of(p, wide, grid_sample(f, i));
+        real3 g = grid_sample(f, i);
+        if (the_frame(f).seed != 0)
+            g = vec3_of(g.x * turn.cosine - g.y * turn.sine, g.x * turn.sine + g.y * turn.cosine, g.z);
+        as_half_vector s = as_half_vector_of(p, wide, g);
         real o_dot_h = k_dot3(o, s.h);
         real3 i_lobe = mirror_direction(o, s.h);
         mask valid = both(o_dot_h > lit(0.0), i_lobe.z > lit(0.0));
@@ -66,11 +82,15 @@ BN_FN real3 as_mc_specular(frame_ref f, BN_IN(shaded_point) x)
         kept = kept + weight;
     }
     real3 total = cube_terms_value(sum);
-    real albedo = weights / count;
-    if (x.turned && lies_in_surface(f)) { // as if the lobe were upright, as filtered_is has it
-        real mean_weight = kept / count;
+    real of_samples = weights / count;
+    real albedo = of_samples;
+    if (the_frame(f).as_tables == 0)
+        albedo = select(x.phong_albedo > lit(0.0), x.phong_albedo, albedo);
+    real mean_weight = kept / count;
+    if (x.turned && lies_in_surface(f)) // as if the lobe were upright, as filtered_is has it
         total = total * albedo / max(mean_weight, lit(1e-4));
-    }
+    else if (the_frame(f).as_tables == 0)
+        total = total * (albedo / max(of_samples, lit(1e-4)));
     if (the_frame(f).energy_compensation != 0) { // of this lobe, not of the usual one
         if (stands_in(f))
             albedo = albedo * x.shown;

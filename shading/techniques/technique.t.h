@@ -24,17 +24,22 @@ BN_FN real3 eye_in_lobe(BN_IN(shaded_point) x)
     return k_normalize3(o);
 }
 
-// Sampled lobes have a least width; what has none is a mirror: the environment itself in the mirror direction.
-// dim: what masking leaves of a mirror.
+// The environment itself in the mirror direction. dim: what masking leaves of a mirror.
+BN_FN real3 mirrored(frame_ref f, BN_IN(shaded_point) x, real dim)
+{
+    real3 r = x.s.n * (lit(2.0) * k_dot3(x.s.n, x.s.v)) - x.s.v;
+    real seen = above_horizon(x, r, dim);
+    return cube_sample_level(specular_cube(f), r, 0) * x.albedo * seen;
+}
+
+// Sampled lobes have a least width; what has none is a mirror.
 BN_FN real3 mirrors_apart(frame_ref f, BN_IN(shaded_point) x, real3 value, real dim)
 {
     real width = x.lobe.sigma_u + x.lobe.sigma_v;
     mask mirror = width <= lit(1e-6);
     if (no_lane(mirror))
         return value;
-    real3 r = x.s.n * (lit(2.0) * k_dot3(x.s.n, x.s.v)) - x.s.v;
-    real seen = above_horizon(x, r, dim);
-    return select(mirror, cube_sample_level(specular_cube(f), r, 0) * x.albedo * seen, value);
+    return select(mirror, mirrored(f, x, dim), value);
 }
 
 BN_KERNELS_END

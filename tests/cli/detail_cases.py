@@ -4,6 +4,7 @@ import json
 import math
 import pathlib
 import random
+import struct
 
 import gltf_files as files
 from compare_cases import pfm, png
@@ -309,3 +310,88 @@ def phong(bench):
         found = off_by(bench, "truth.pfm", "t.pfm")
         check(found["mse"] < most, f"{samples} samples: {found}")
     bench.run("render", *words, "as_mc", "--brdf", "ashikhmin_shirley", "-o", "t.pfm").expect(2).expect_one_line("as_mc", "ggx_aniso")
+
+
+def smooth(x, y):
+    """A texel of an environment of 64 x 32 without an edge."""
+    t, p = math.pi * (y + 0.5) / 32, 2 * math.pi * (x + 0.5) / 64
+    a, b, c = math.cos(t), math.sin(t) * math.cos(p), math.sin(t) * math.sin(p)
+    return (1 + 0.5 * a + 0.4 * b * c, 1 + 0.6 * a - 0.3 * b, 1.2 + 0.5 * c * a)
+
+
+# Where every pixel sees one place of a plane, so that nothing but the lobe is compared: over a pixel's square the reference takes a mean,
+# techniques one place of each triangle, and a z-test of any curved thing finds that, whatever the lobe.
+@case("detail.phong_lobes_meet_the_reference")
+def phong_reference(bench):
+    needs_embree(bench)
+    scratch(bench, "smooth.pfm", pfm(64, 32, smooth))
+    scratch(bench, "q.obj", square(0))
+
+    def mean(*words):
+        bench.run("render", "q.obj", "--size", "32x24", "--msaa", "1", "--fov", "0.1", "--env", "smooth.pfm", "--env-size", "64", "--env-samples", "32",
+                  "--key-lights", "off", "--no-background", "--roughness", "0.6", *words, "-q", "-o", "m.pfm").expect(0)
+        data = (bench.folder / "m.pfm").read_bytes()
+        values = struct.unpack("<%df" % (32 * 24 * 3), data[-32 * 24 * 12:])
+        return [sum(values[c::3]) / (32 * 24) for c in range(3)]
+
+    off = {}
+    for degrees, eta in ((20, "-0.5"), (60, "0.5"), (80, "0.5"), (84, "-0.5")):
+        a = math.radians(degrees)
+        words = ("--eye", f"{0.3 + 3 * math.sin(a)},0.3,{3 * math.cos(a)}", "--target", "0.3,0.3,0", "--anisotropy", eta, "--f0", "0.9,0.6,0.3")
+        truth = mean(*words, "--backend", "reference", "--brdf", "ashikhmin_shirley", "--samples", "1024")
+        for name, given in (("mc", ("--technique", "mc", "--brdf", "ashikhmin_shirley", "--samples", "512")),
+                            ("1024", ("--technique", "as_mc", "--samples", "1024")), ("16", ("--technique", "as_mc", "--samples", "16")),
+                            ("turned", ("--technique", "as_mc", "--samples", "16", "--seed", "5")),
+                            ("16 alone", ("--technique", "as_mc", "--samples", "16", "--as-tables", "off"))):
+            found = mean(*words, *given)
+            off.setdefault(name, []).append(max(abs(x / t - 1) for x, t in zip(found, truth)))
+    check(max(off["mc"]) < 0.002, f"mc: {off}")
+    check(max(off["1024"]) < 0.005, f"as_mc: {off}")
+    check(max(off["16"]) < 0.045 and max(off["16 alone"]) > 0.05, f"as_mc of 16 samples: {off}")
+    check(max(off["turned"]) < 0.03 and off["turned"] != off["16"], f"as_mc, turned: {off}")
+
+
+# One sample is what a mirror shows, dimmed by the lobe's albedo, which compensation gives back.
+@case("detail.one_sample_of_as_mc_is_a_mirror", tier="check")
+def one_sample(bench):
+    words = ("builtin:teapot", "--size", "48x36", "--msaa", "1", "--env-size", "64", "--env-samples", "32", "--key-lights", "off", "--no-background", "-q",
+             "--f0", "1,1,1", "--anisotropy", "0.5", "--technique", "as_mc")
+    bench.run("render", *words, "--roughness", "0.4", "--samples", "1", "--energy-compensation", "-o", "one.pfm").expect(0)
+    bench.run("render", *words, "--roughness", "0", "--samples", "64", "-o", "mirror.pfm").expect(0)
+    bench.run("render", *words, "--roughness", "0.4", "--samples", "16", "--energy-compensation", "-o", "more.pfm").expect(0)
+    found = off_by(bench, "mirror.pfm", "one.pfm")
+    check(found["mse"] < 1e-5, f"{found}")
+    check(off_by(bench, "mirror.pfm", "more.pfm")["mse"] > 1e-3, "16 samples are a mirror, too")
+
+
+@case("detail.tables_of_phong_lobes_are_written", "input", tier="check")
+def phong_tables(bench):
+    bench.run("bake", "brdf-lut", "--nu", "100", "--nv", "10", "--size", "9x9", "-q", "-o", "a.pfm").expect(0)
+    values = struct.unpack("<243f", (bench.folder / "a.pfm").read_bytes()[-972:])
+    rows = [[values[3 * (9 * y + x):3 * (9 * y + x) + 2] for x in range(9)] for y in reversed(range(9))]  # the file begins with the bottom row
+    # from the normal there is no azimuth, and an even lobe gives back what it has at both ends
+    check(max(abs(sum(rows[8][x]) - sum(rows[8][0])) for x in range(9)) < 2e-3, f"{rows[8]}")
+    check(all(0 < s + b <= 1.002 for row in rows for s, b in row), "an albedo above 1")
+    bench.run("bake", "brdf-lut", "--nu", "10", "--nv", "100", "--size", "9x9", "-q", "-o", "b.pfm").expect(0)
+    other = struct.unpack("<243f", (bench.folder / "b.pfm").read_bytes()[-972:])
+    turned = [[other[3 * (9 * y + x):3 * (9 * y + x) + 2] for x in reversed(range(9))] for y in reversed(range(9))]
+    check(max(abs(p - q) for a, b in zip(rows, turned) for c, d in zip(a, b) for p, q in zip(c, d)) < 4e-3, "axes are not turned")
+    bench.run("bake", "half-vectors", "--nu", "20000", "--nv", "70", "--size", "64x64", "-o", "h.exr").expect(0)
+    done = bench.run("bake", "half-vectors", "--nu", "20000", "--nv", "70", "--size", "64x64", "-o", "h.png").expect(0)
+    check("8 bits leave" in done.err, done.describe())
+    there = bench.left_behind()
+    for words, needle in ((("brdf-lut", "--nu", "1"), "--nv"), (("half-vectors", "--nv", "1"), "--nu"), (("brdf-lut", "--nu=-1", "--nv", "1"), "--nu"),
+                          (("brdf-lut", "--nu", "nan", "--nv", "1"), "--nu"), (("brdf-lut", "--nu", "1", "--nv", "1e8"), "--nv"),
+                          (("quaternion", "n.png", "--nu", "1"), "--nu"), (("ltc", "--size", "4x4"), "--size")):
+        bench.run("bake", *words, "-o", "t.exr").expect(2).expect_one_line(needle)
+    bench.run("bake", "brdf-lut", "--nu", "1", "--nv", "1", "-o", "t.png").expect(2).expect_one_line("-o", ".exr")
+    check(bench.left_behind() == there, "something is left behind")
+
+
+@case("detail.a_scene_alone_is_drawn", tier="check")
+def alone(bench):
+    scratch(bench, "q.obj", square(0))
+    bench.run("q.obj", *VIEW, "-q", "-o", "a.pfm").expect(0)
+    bench.run("render", "q.obj", *VIEW, "-q", "-o", "b.pfm").expect(0)
+    check((bench.folder / "a.pfm").read_bytes() == (bench.folder / "b.pfm").read_bytes(), "not as render draws it")
+    bench.run("q.stl", "-o", "a.png").expect(2).expect_one_line("no subcommand")

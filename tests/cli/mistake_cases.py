@@ -20,7 +20,7 @@ MISTAKES = (
     ("render --env studio", 4, "builtin:studio"),
     ("render --env https://example.org/workshop.hdr", 4, "download it first"),
     ("render https://example.org/lamp.glb", 4, "download it first"),
-    ("render chair.obj", 4, "scenes are .gltf or .glb files"),
+    ("render chair.fbx", 4, "scenes are .gltf, .glb or .obj files"),
     ("render teapot.png", 4, "-o teapot.png"),
     ("render workshop.hdr --env builtin:sky", 4, "--env workshop.hdr"),
     ("render --env lamp.glb", 4, "burnish render lamp.glb"),

@@ -37,6 +37,7 @@ import processor_cases
 import plot_cases
 import profile_cases
 import reference_cases
+import relief_cases
 import subcommand_cases
 import tilt_cases
 import usage_cases

@@ -109,10 +109,11 @@ glm::dvec3 record_colour(double u, double v)
     return r2 < kLabel * kLabel ? glm::dvec3(0.78, 0.22, 0.12) : glm::dvec3(0.13);
 }
 
-constexpr double kTiles = 5.0, kBevel = 0.09;
+constexpr double kTiles = 5.0, kMortar = 0.03, kBevel = 0.09; // of a tile: half the mortar, and from its edge to its level
 
-// A tile's slope and whether it is mortar; u and v along the wall.
+// A tile's height, [0,1], slope and whether it is mortar; u and v along the wall.
 struct Tile {
+    double height;
     glm::dvec2 slope;
     bool mortar;
     int column, row;
@@ -121,12 +122,17 @@ Tile tile_at(double u, double v)
 {
     const double x = u * kTiles, y = v * kTiles;
     const glm::dvec2 in(x - std::floor(x), y - std::floor(y));
-    const auto bevel = [](double t) { return t < kBevel ? 1.0 : t > 1.0 - kBevel ? -1.0 : 0.0; };
-    const auto gap = [](double t) { return t < 0.03 || t > 0.97; };
-    Tile tile = {{bevel(in.x), -bevel(in.y)}, gap(in.x) || gap(in.y), static_cast<int>(x), static_cast<int>(y)};
-    if (tile.mortar)
-        tile.slope = glm::dvec2(0.0);
+    const double from_x = std::min(in.x, 1.0 - in.x), from_y = std::min(in.y, 1.0 - in.y), edge = std::min(from_x, from_y);
+    Tile tile = {std::clamp((edge - kMortar) / (kBevel - kMortar), 0.0, 1.0), glm::dvec2(0.0), edge < kMortar, static_cast<int>(x),
+                 static_cast<int>(y)};
+    if (!tile.mortar && edge < kBevel)
+        tile.slope = from_x < from_y ? glm::dvec2(in.x < 0.5 ? 1.0 : -1.0, 0.0) : glm::dvec2(0.0, in.y < 0.5 ? -1.0 : 1.0);
     return tile;
+}
+
+glm::dvec3 tile_heights(double u, double v)
+{
+    return glm::dvec3(tile_at(u, v).height);
 }
 
 glm::dvec3 tiles(double u, double v)
@@ -224,6 +230,8 @@ Scene make_bumps()
     glazed.metallic = 0.0f, glazed.roughness = 0.25f;
     glazed.base_color_tex.texture = add_texture(scene, "glaze", picture(512, 512, tile_colour));
     glazed.normal_tex.texture = add_texture(scene, "bevels", picture(512, 512, tiles));
+    glazed.height_tex.texture = add_texture(scene, "heights", picture(512, 512, tile_heights));
+    glazed.height_scale = static_cast<float>((kBevel - kMortar) / kTiles); // bevels of 45 degrees, as their normals are
     first = begin(scene, "tiles", glazed);
     add_wall(scene);
     place(scene, "wall", first, kApart, -kApart, kBackwards);

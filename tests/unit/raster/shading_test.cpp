@@ -6,6 +6,7 @@
 #include <glm/gtc/quaternion.hpp>
 
 #include "core/scene/builtin/builtin.h"
+#include "shading/lang/records.h"
 #include "tests/unit/raster/fixture.h"
 
 namespace burnish::test {

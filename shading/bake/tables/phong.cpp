@@ -1,0 +1,55 @@
+#include "shading/bake/tables/phong.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/check.h"
+#include "core/math/scalar_math.h"
+#include "core/simd/half.h"
+#include "shading/bake/environment/environment.h"
+
+namespace burnish {
+
+PhongHalfVector phong_half_vector(double nu, double nv, double xi_x, double xi_y)
+{
+    const double azimuth = 2.0 * kPi * xi_x;
+    const double x = std::sqrt(nv + 1.0) * det_cos(azimuth), y = std::sqrt(nu + 1.0) * det_sin(azimuth), length = std::sqrt(x * x + y * y);
+    const double c = x / length, s = y / length, e = nu * c * c + nv * s * s, lg = det_log(1.0 - xi_y) / (e + 1.0);
+    const double z = det_exp(lg), q = std::sqrt(std::max(0.0, 1.0 - z * z));
+    return {c * q, s * q, z, std::sqrt((nu + 1.0) * (nv + 1.0)) / (2.0 * kPi) * det_exp(e * lg)};
+}
+
+PhongAlbedo phong_albedo(const double (&v)[3], double nu, double nv, int points, int before)
+{
+    PhongAlbedo sum = {0.0, 0.0};
+    for (int i = 0; i < points; ++i) {
+        const double turn = static_cast<double>(static_cast<std::int64_t>(i) * before % points) + 0.5;
+        const PhongHalfVector h = phong_half_vector(nu, nv, turn / points, (i + 0.5) / points);
+        const double v_dot_h = v[0] * h.x + v[1] * h.y + v[2] * h.z, out = 2.0 * v_dot_h * h.z - v[2];
+        if (!(out > 0.0))
+            continue;
+        const double weight = out / std::max(v[2], out), m = 1.0 - std::min(v_dot_h, 1.0), fresnel = m * m * m * m * m;
+        sum.s += weight * (1.0 - fresnel), sum.b += weight * fresnel;
+    }
+    return {sum.s / points, sum.b / points};
+}
+
+void bake_phong_slice(int size, double alpha_x, double alpha_y, std::uint16_t* texels)
+{
+    BN_CHECK(size >= 4 && size % 2 == 0);
+    const auto exponent = [](double alpha) { return std::min(1.0 / std::max(alpha * alpha, 1e-6), 1e6); };
+    for (int j = 0; j < size / 2; ++j)
+        for (int i = 0; i < size; ++i, texels += 4) { // axes as of lobe_slice_lookup()
+            const double eye = static_cast<double>(i) / (size - 1), root = static_cast<double>(j) / (size / 2 - 1);
+            const double n_dot_v = std::max(eye * eye, 1e-4), sine = std::sqrt(1.0 - n_dot_v * n_dot_v), along = root * root;
+            const PhongAlbedo a =
+                phong_albedo({sine * along, sine * std::sqrt(1.0 - along * along), n_dot_v}, exponent(alpha_x), exponent(alpha_y));
+            const float value[2] = {static_cast<float>(a.s), static_cast<float>(a.b)};
+            for (int c = 0; c < 2; ++c) {
+                texels[c] = float_to_half(value[c]);
+                texels[2 + c] = float_to_half(value[c] - half_to_float(texels[c]));
+            }
+        }
+}
+
+} // namespace burnish

@@ -1,0 +1,148 @@
+// Parallax: where rays meet heights whose meeting points are known, on planes however texture coordinates lie on them.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/scene/heights.h"
+#include "core/simd/half.h"
+#include "raster/frame/frame_record.h"
+#include "shading/surface/relief.t.h"
+#include "tests/unit/raster/fixture.h"
+
+namespace burnish::test {
+namespace {
+
+constexpr float kDepth = 0.2f; // lengths of texture coordinates
+
+// A plane of one triangle whose heights are the texels of a row.
+Scene plane_of(const std::vector<int>& heights)
+{
+    Scene s = scene_of({Triangle{glm::vec3(0, 0, 0), glm::vec3(1, 0, 0), glm::vec3(0, 1, 0)}}, true);
+    Texture t;
+    t.image = 0, t.wrap_s = t.wrap_t = WrapMode::clamp;
+    s.images.push_back(make_image(static_cast<int>(heights.size()), 1, 1, PixelType::u8));
+    for (std::size_t i = 0; i < heights.size(); ++i)
+        s.images[0].bytes[i] = static_cast<std::byte>(heights[i]);
+    s.textures.push_back(t);
+    s.materials[0].height_tex.texture = 0;
+    s.materials[0].height_scale = kDepth;
+    EXPECT_TRUE(lay_heights(s, Limits(), ""));
+    EXPECT_TRUE(s.materials[0].heights);
+    return s;
+}
+
+struct Plane { // place = u * along_u + v * along_v
+    glm::vec3 along_u, along_v;
+};
+
+struct Moved {
+    glm::vec2 uv;
+    visible_point p;
+};
+
+// v: to the eye, any length, along (u, v against the bitangent, normal) of a plane whose tangent is along_u.
+Moved moved(const Stage& stage, const Plane& plane, const glm::vec3& v, const glm::vec2& from, int metric, float scale = 1.0f)
+{
+    FrameDesc desc;
+    desc.width = desc.height = 8;
+    desc.view = make_view({0, 0, 2}, {0, 0, 0}, 0.4f, 8, 8);
+    desc.pom_metric = metric, desc.height_scale = scale;
+    FrameMaker maker(stage.input());
+    const ShadingFrame f = maker.make(desc);
+    const auto real3_of = [](const glm::vec3& a) { return real3{a.x, a.y, a.z}; };
+    const glm::vec3 n = glm::normalize(glm::cross(plane.along_v, plane.along_u)); // v points down where the bitangent points up
+    visible_point p = {};
+    p.normal = real3_of(n), p.tangent = real3_of(plane.along_u), p.tangent_sign = 1.0f, p.front = true;
+    p.ray = real3_of(-v);
+    p.uv0 = {from.x, from.y};
+    p.uv0_dx = {0.01f, 0.0f}, p.uv0_dy = {0.0f, 0.02f};
+    relief_plane of = {};
+    of.along = real3_of(plane.along_u * 0.3f + plane.along_v * 0.1f), of.across = real3_of(plane.along_v * 0.7f - plane.along_u * 0.2f);
+    of.coordinates_along = {0.3f, 0.1f, 0.0f, 0.0f}, of.coordinates_across = {-0.2f, 0.7f, 0.0f, 0.0f};
+    if (f.materials[0].relief)
+        see_relief(f, f.materials[0], of, p);
+    return {{p.uv0.x, p.uv0.y}, p};
+}
+
+// Where a ray that goes down to depth d (in lengths of texture coordinates) below `from` leaves it, in double precision.
+glm::dvec2 expected(const Plane& plane, const glm::dvec3& v, const glm::dvec2& from, double d)
+{
+    const glm::dvec3 u = plane.along_u, w = plane.along_v, n = glm::normalize(glm::cross(w, u));
+    const double metres = d * std::sqrt(glm::length(glm::cross(u, w)));
+    const glm::dvec3 unit = glm::normalize(v), along = (n * glm::dot(n, unit) - unit) * (metres / glm::dot(n, unit));
+    const double a = glm::dot(u, u), b = glm::dot(u, w), c = glm::dot(w, w), det = a * c - b * b;
+    const double x = glm::dot(u, along), y = glm::dot(w, along);
+    return from + glm::dvec2(c * x - b * y, a * y - b * x) / det;
+}
+
+const Plane kEven = {{1, 0, 0}, {0, -1, 0}}, kStretched = {{1, 0, 0}, {0, -3, 0}}, kSkewed = {{0.7f, 0.1f, 0.2f}, {0.3f, -1.1f, 0.4f}};
+const glm::vec3 kViews[] = {{0.3f, 0.4f, 0.8660254f}, {-0.7f, 0.2f, 0.5f}, {0.0f, -0.8f, 0.3f}, {0.0f, 0.0f, 1.0f}};
+
+TEST(relief, of_one_depth_moves_by_it_however_a_plane_is_stretched)
+{
+    for (const int height : {0, 51, 204}) { // of 255
+        const Stage stage(plane_of({height, height}));
+        const double depth =
+            (1.0 - static_cast<double>(half_to_float(float_to_half(static_cast<float>(height) / 255.0f)))) * static_cast<double>(kDepth);
+        for (const Plane& plane : {kEven, kStretched})
+            for (const glm::vec3& v : kViews) {
+                const glm::vec2 from(0.4f, 0.6f);
+                const Moved on = moved(stage, plane, v, from, kReliefOnSurface), in = moved(stage, plane, v, from, kReliefInTexture);
+                const glm::dvec2 right = expected(plane, v, from, depth);
+                EXPECT_LT(glm::length(glm::dvec2(on.uv) - right), 1e-5) << height;
+                const double off = glm::length(glm::dvec2(in.uv) - right), way = glm::length(right - glm::dvec2(from));
+                if (&plane == &kEven || plane.along_v == kEven.along_v)
+                    EXPECT_LT(off, 1e-5);
+                else if (v.x != 0.0f || v.y != 0.0f)
+                    EXPECT_GT(off, 0.4 * way); // by the root of 3 along each axis
+                EXPECT_EQ(on.p.uv0_dx.x, 0.01f);
+                EXPECT_EQ(on.p.uv0_dy.y, 0.02f);
+            }
+    }
+}
+
+TEST(relief, knows_skewed_coordinates)
+{
+    const Stage stage(plane_of({0, 0}));
+    const glm::vec3 n = glm::normalize(glm::cross(kSkewed.along_v, kSkewed.along_u));
+    for (const glm::vec3& lean : {glm::vec3(0.3f, 0.1f, 0.0f), glm::vec3(-0.5f, 0.4f, 0.2f), glm::vec3(0.1f, -0.6f, -0.3f)}) {
+        const glm::vec3 v = n + lean;
+        const glm::dvec2 right = expected(kSkewed, v, {0.2, 0.3}, static_cast<double>(kDepth));
+        EXPECT_LT(glm::length(glm::dvec2(moved(stage, kSkewed, v, {0.2f, 0.3f}, kReliefOnSurface).uv) - right), 1e-5);
+    }
+}
+
+// Between two texels heights are a ramp, which a ray meets where two lines cross.
+TEST(relief, of_a_ramp_is_met_where_lines_cross)
+{
+    const Stage stage(plane_of({255, 0})); // depth goes from 0 at u = 1/4 to 1 at u = 3/4
+    for (const float slope : {0.2f, -0.6f, 1.5f}) {
+        const glm::vec3 v(slope, 0.0f, 1.0f);
+        const double way = -static_cast<double>(slope) * static_cast<double>(kDepth); // change of u down to the deepest place
+        const double from = 0.5;
+        const double met = (from - 0.25) * 2.0 / (1.0 - 2.0 * way); // depth(u + way s) = s
+        const Moved at = moved(stage, kEven, v, {0.5f, 0.5f}, kReliefOnSurface);
+        EXPECT_NEAR(static_cast<double>(at.uv.x), from + way * met, 2e-4) << slope; // heights are halves
+        EXPECT_NEAR(static_cast<double>(at.uv.y), 0.5, 1e-6);
+    }
+    EXPECT_EQ(moved(stage, kEven, {0.5f, 0.2f, 1.0f}, {0.2f, 0.5f}, kReliefOnSurface).uv, glm::vec2(0.2f, 0.5f)); // height 1 is the surface
+    EXPECT_EQ(moved(stage, kEven, {0.5f, 0.2f, 1.0f}, {0.6f, 0.5f}, kReliefOnSurface, 0.0f).uv, glm::vec2(0.6f, 0.5f)); // no depth
+}
+
+// A wall in the way: what lies behind it is not seen, at any angle that steps are taken at.
+TEST(relief, hides_what_lies_behind)
+{
+    std::vector<int> heights(64, 0);
+    for (int i = 24; i < 32; ++i)
+        heights[static_cast<std::size_t>(i)] = 255;
+    const Stage stage(plane_of(heights)); // a ridge from u = .375 to .5, as high as the surface
+    for (const float slope : {1.0f, 2.0f, 3.0f}) {
+        const glm::vec2 at = moved(stage, kEven, {slope, 0.0f, 1.0f}, {0.55f, 0.5f}, kReliefOnSurface).uv;
+        const float step = slope * kDepth / kLeastReliefSteps;
+        EXPECT_GT(at.x, 0.5f - step) << slope; // its ridge, to within a step, not the ground beyond
+        EXPECT_LT(at.x, 0.52f);
+    }
+}
+
+} // namespace
+} // namespace burnish::test
