@@ -106,6 +106,7 @@ class Bench:
         env["UBSAN_OPTIONS"] = "print_stacktrace=1"
         if self.sanitized:  # Vulkan's drivers leak, and they are not what is looked at
             env["VK_DRIVER_FILES"] = env["VK_ICD_FILENAMES"] = str(self.cache / "none")
+            env["BN_FORCE_ISA"] = "scalar"  # the lanes that sanitizers look at
         env.update(extra)
         return env
 
