@@ -103,8 +103,8 @@ Error with_scene_hint(Error error, const std::string& scene)
     if (is_picture(scene))
         return with_hint(std::move(error),
                          fmt::format("it is named as a picture: to write one, -o {0}; to be lit by one, --env {0}", scene));
-    if (has_ending(scene, {".obj", ".fbx", ".ply", ".stl", ".dae", ".usd", ".usda", ".usdz", ".blend", ".3ds"}))
-        return with_hint(std::move(error), "scenes are .gltf or .glb files: Blender, for instance, exports them");
+    if (has_ending(scene, {".fbx", ".ply", ".stl", ".dae", ".usd", ".usda", ".usdz", ".blend", ".3ds"}))
+        return with_hint(std::move(error), "scenes are .gltf, .glb or .obj files: Blender, for instance, exports them");
     return with_hint(std::move(error), builtin_hint(scene, builtin_scenes(), "scene"));
 }
 
