@@ -1,7 +1,9 @@
 #include "apps/bake/expression.h"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/core.h>
+#include <limits>
 #include <muParser.h>
 #include <optional>
 
@@ -11,6 +13,13 @@
 namespace burnish {
 namespace {
 
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+bool is_angle(double x) // that det_sin() takes
+{
+    return std::fabs(x) < 1e6;
+}
+
 class Parsed : public Expression {
   public:
     explicit Parsed(const std::string& text) : text_(text)
@@ -18,8 +27,8 @@ class Parsed : public Expression {
         parser_.DefineVar("u", &u_);
         parser_.DefineVar("v", &v_);
         parser_.DefineConst("pi", kPi);
-        parser_.DefineFun("sin", [](double x) { return det_sin(x); });
-        parser_.DefineFun("cos", [](double x) { return det_cos(x); });
+        parser_.DefineFun("sin", [](double x) { return is_angle(x) ? det_sin(x) : kNone; });
+        parser_.DefineFun("cos", [](double x) { return is_angle(x) ? det_cos(x) : kNone; });
         parser_.DefineFun("atan2", [](double y, double x) { return det_atan2(y, x); });
         parser_.SetExpr(text);
     }

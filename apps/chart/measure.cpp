@@ -187,7 +187,7 @@ Status Chart::measure_pair(const SeenScene& scene, const std::shared_ptr<const E
         Place place{scene, *tile, options.frame, env, options_.cells[i]};
         place.desc.width = options_.error_width, place.desc.height = options_.error_height;
         place.desc.view = view->view;
-        place.key = reference_key(tile->parts().input(), place.desc, options_.base.reference);
+        place.key = reference_key(tile->parts().input(), tile->drawn(place.desc), options_.base.reference);
         if (const Status done = measure_place(place); !done)
             return done;
         if (const Status saved = keeper_.save(); !saved)
@@ -254,7 +254,7 @@ Result<std::string> Chart::reference_file(const Place& place, const ReferenceOpt
     ReferenceOptions with_file = options;
     with_file.checkpoint = file;
     with_file.own_checkpoint = true;
-    if (const Status good = check_reference_checkpoint(place.tile.parts().input(), place.desc, with_file); !good) {
+    if (const Status good = check_reference_checkpoint(place.tile.parts().input(), place.tile.drawn(place.desc), with_file); !good) {
         report_.warning(fmt::format("{}: {}: it is made anew", file, good.error().reason));
         std::error_code failed;
         fs::remove(file, failed);

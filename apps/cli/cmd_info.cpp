@@ -21,6 +21,7 @@
 #include "raster/session/session.h"
 #include "raster/tile/tile_renderer.h"
 #include "raster/vulkan/vulkan_renderer.h"
+#include "shading/bake/environment/key_lights.h"
 
 namespace burnish {
 namespace {
@@ -109,7 +110,7 @@ int print_text(const Info& info, const Environment* environment)
         for (const std::string& warning : environment->warnings)
             fmt::print("warning      {}\n", warning);
         for (const KeyLight& light : environment->key_lights)
-            fmt::print("key light    {}\n", key_light_text(light));
+            fmt::print("key light    {}\n", key_light_text(turned(light, environment->rotation_deg)));
     }
     return 0;
 }

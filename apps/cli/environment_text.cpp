@@ -3,6 +3,8 @@
 #include <fmt/core.h>
 #include <utility>
 
+#include "shading/bake/environment/key_lights.h"
+
 namespace burnish {
 
 std::string light_text(const Environment& e)
@@ -22,14 +24,15 @@ std::string key_light_text(const KeyLight& k)
 void report_key_lights(const Environment& environment, Report& report)
 {
     for (const KeyLight& light : environment.key_lights)
-        report.detail("key light", key_light_text(light));
+        report.detail("key light", key_light_text(turned(light, environment.rotation_deg)));
 }
 
 Json key_lights_json(const Environment& environment)
 {
     const auto vector = [](const float* v) { return Json::array({v[0], v[1], v[2]}); };
     Json lights = Json::array();
-    for (const KeyLight& k : environment.key_lights) {
+    for (const KeyLight& baked : environment.key_lights) {
+        const KeyLight k = turned(baked, environment.rotation_deg);
         Json light;
         light["direction"] = vector(k.direction);
         light["irradiance"] = vector(k.irradiance);

@@ -146,7 +146,7 @@ int run_profile(const ProfileArguments& arguments, const OptionTable& given)
         figures.materials.push_back(material.name.empty() ? fmt::format("material {}", figures.materials.size()) : material.name);
     if (!options.trace_file.empty())
         Trace::start();
-    const Result<Image> picture = measure(session->renderer(), desc, options.scene, figures);
+    const Result<Image> picture = measure(session->renderer(), session->drawn(desc), options.scene, figures);
     if (!picture)
         return fail(picture.error());
     const std::uint64_t begin = Trace::now_ns();

@@ -136,7 +136,7 @@ int run_render(RenderArguments& arguments, OptionTable& given)
     report.detail("device", fmt::format("{}, {} threads", figures.device, figures.threads));
     FrameDesc desc = options.frame;
     desc.view = view->view;
-    if (Status checkpoint = check_reference_checkpoint(session->parts().input(), desc, options.reference); !checkpoint)
+    if (Status checkpoint = check_reference_checkpoint(session->parts().input(), session->drawn(desc), options.reference); !checkpoint)
         return fail(checkpoint.error());
     report.release();
     Result<Rendered> rendered = render_frames(options, desc, *session, std::move(figures));

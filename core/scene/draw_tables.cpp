@@ -233,24 +233,25 @@ Status check_draw_size(const Scene& scene, const Limits& limits, const std::stri
     return {};
 }
 
-DrawTables make_draw_tables(const Scene& scene)
+DrawTables make_draw_tables(const Scene& scene, const glm::dmat4* motion)
 {
     DrawTables out;
     for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
         const Node& node = scene.nodes[i];
+        const glm::mat4 world = motion ? glm::mat4(*motion * glm::dmat4(node.world)) : node.world;
         if (node.light != kNone) {
             BN_CHECK_OP(static_cast<std::size_t>(node.light), <, scene.lights.size());
-            append_light(scene.lights[static_cast<std::size_t>(node.light)], node.world, out.lights);
+            append_light(scene.lights[static_cast<std::size_t>(node.light)], world, out.lights);
         }
         if (node.area_light != kNone) {
             BN_CHECK_OP(static_cast<std::size_t>(node.area_light), <, scene.area_lights.size());
-            if (const auto placed = place_area_light(scene.area_lights[static_cast<std::size_t>(node.area_light)], node.world))
+            if (const auto placed = place_area_light(scene.area_lights[static_cast<std::size_t>(node.area_light)], world))
                 out.area_lights.push_back(*placed);
         }
         if (node.mesh == kNone)
             continue;
         BN_CHECK_OP(static_cast<std::size_t>(node.mesh), <, scene.meshes.size());
-        const Placement place = make_placement(node.world);
+        const Placement place = make_placement(world);
         if (!place.usable)
             continue;
         const Mesh& mesh = scene.meshes[static_cast<std::size_t>(node.mesh)];

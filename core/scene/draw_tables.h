@@ -63,6 +63,7 @@ struct DrawTables {
 // Whether the tables of a scene stay within the limits: a small file can ask for any number of instances. `file` names it in errors.
 Status check_draw_size(const Scene& scene, const Limits& limits, const std::string& file);
 
-DrawTables make_draw_tables(const Scene& scene);
+// motion: rigid, of all of the world.
+DrawTables make_draw_tables(const Scene& scene, const glm::dmat4* motion = nullptr);
 
 } // namespace burnish

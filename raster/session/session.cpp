@@ -6,6 +6,7 @@
 
 #include "core/scene/gltf/gltf.h"
 #include "core/scene/heights.h"
+#include "shading/bake/environment/turn.h"
 #include "shading/bake/ltc/shipped.h"
 
 namespace burnish {
@@ -133,6 +134,11 @@ Result<Session> Session::make(SessionParts parts, const SessionOptions& options)
                 return table.error();
             parts.dfg = *table;
         }
+        parts.turned.reset();
+        if (parts.environment->rotation_deg != 0.0f) {
+            const glm::dmat4 motion(sky_from_world(parts.environment->rotation_deg));
+            parts.turned = std::make_shared<const DrawTables>(make_draw_tables(parts.scene->scene, &motion));
+        }
         Result<std::unique_ptr<Renderer>> renderer = make_renderer(parts.input(), options);
         if (!renderer)
             return renderer.error();
@@ -159,9 +165,20 @@ Result<Session> Session::open(const std::string& scene, const std::string& envir
     });
 }
 
+FrameDesc Session::drawn(const FrameDesc& desc) const
+{
+    FrameDesc out = desc;
+    if (parts_.turned) {
+        const glm::dmat3 motion = sky_from_world(parts_.environment->rotation_deg);
+        for (glm::vec3* v : {&out.view.eye, &out.view.right, &out.view.up, &out.view.forward})
+            *v = glm::vec3(motion * glm::dvec3(*v));
+    }
+    return out;
+}
+
 Result<Frame> Session::render(const FrameDesc& desc, Frame recycled)
 {
-    return guarded(parts_.scene->name, [&]() { return renderer_->render(desc, std::move(recycled)); });
+    return guarded(parts_.scene->name, [&]() { return renderer_->render(drawn(desc), std::move(recycled)); });
 }
 
 } // namespace burnish

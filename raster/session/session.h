@@ -59,9 +59,10 @@ struct SessionParts {
     std::shared_ptr<const Jobs> jobs;                   // none: all cores the process may use
     std::shared_ptr<const DfgTable> dfg;                // none: standard_dfg()
     std::shared_ptr<const ltc::ShadingTables> ltc = {}; // transformed cosines of area lights; none: the program's own
+    std::shared_ptr<const DrawTables> turned = {};      // the scene as it stands under an environment that is turned; a session makes them
 
     // Of parts that a session has: nothing is missing.
-    RenderInput input() const { return {scene->scene, scene->tables, *environment, *dfg, *jobs, ltc.get()}; }
+    RenderInput input() const { return {scene->scene, turned ? *turned : scene->tables, *environment, *dfg, *jobs, ltc.get()}; }
 };
 
 enum class Backend { tile, vulkan, reference };
@@ -97,6 +98,8 @@ class Session {
         return *this;
     }
 
+    // What the renderer is given for it: environments are not turned, the world and its cameras are, the other way.
+    FrameDesc drawn(const FrameDesc& desc) const;
     // `recycled`: a frame that is not needed any more, whose memory may be used again. Errors: ExitCode::usage, unavailable.
     Result<Frame> render(const FrameDesc& desc, Frame recycled = {});
 

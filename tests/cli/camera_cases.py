@@ -129,3 +129,27 @@ def no_effect(bench):
     for words in EFFECT:
         done = bench.run("render", *small, *words).expect(0)
         check("no effect" not in done.err, done.describe())
+
+
+@case("camera.an_environment_that_is_turned_is_a_world_that_is_turned_the_other_way")
+def turned_environment(bench):
+    """By each renderer: under an environment at 90 degrees a camera at azimuth 30 sees what one at -60 sees of the turned scene without."""
+    gltf = gltf_files.triangle()
+    gltf["materials"] = [{"pbrMetallicRoughness": {"metallicFactor": 1.0, "roughnessFactor": 0.3}}]
+    gltf["meshes"][0]["primitives"][0]["material"] = 0
+    scratch(bench, "rests.gltf", gltf_files.text(gltf))
+    gltf["nodes"][0]["rotation"] = [0.0, -(0.5**0.5), 0.0, 0.5**0.5]
+    scratch(bench, "walks.gltf", gltf_files.text(gltf))
+    small = ("--env", "builtin:sky", "--size", "64x64", "--env-size", "64", "--env-samples", "16", "-q")
+    runs = {"turned": ("rests.gltf", "--orbit", "30,20", "--env-rotation", "90"), "walked": ("walks.gltf", "--orbit", "-60,20"),
+            "plain": ("rests.gltf", "--orbit", "30,20")}
+    drawn = 0
+    for backend in (("tile",), ("vulkan", "--device", "lavapipe"), ("reference", "--samples", "256")):
+        codes = {bench.run("render", *small, "--backend", *backend, *words, "-o", name + ".pfm").code for name, words in runs.items()}
+        check(codes in ({0}, {77}), f"{backend}: exit codes {codes}")
+        if codes == {0}:
+            drawn += 1
+            bench.run("compare", "walked.pfm", "turned.pfm", "--metric", "flip-hdr", "--fail-flip", "0.001").expect(0)
+            bench.run("compare", "plain.pfm", "turned.pfm", "--metric", "flip-hdr", "--fail-flip", "0.02").expect(1)
+    print(f"{drawn} renderers")
+    check(drawn > 0, "no renderer")

@@ -130,3 +130,11 @@ def lost_checkpoint(bench):
     check((bench.folder / "o.png").exists(), f"the picture is lost: {bench.left_behind()}")
     check((bench.folder / "o.png").read_bytes() == (bench.folder / "whole.png").read_bytes(), "the picture differs")
     check(bench.left_behind() == ["o.png", "s.json", "whole.png"], f"left: {bench.left_behind()}")
+
+
+@case("file.an_environment_is_baked_once_however_it_is_turned_and_exposed")
+def one_bake(bench):
+    env, kept = cache_of(bench)
+    for words in (("--env-rotation", "70"), ("--env-exposure", "1.5"), ("--env-rotation", "-90", "--env-exposure", "-2")):
+        check(bench.figures(*SMALL, *words, env=env)["environment_from_cache"], f"{words} baked it anew")
+    check(os.listdir(kept.parent) == [kept.name], f"the cache holds {os.listdir(kept.parent)}")

@@ -4,7 +4,7 @@ import re
 import shutil
 import subprocess
 
-from harness import case, check
+from harness import Skipped, case, check
 
 COMMANDS = ("render", "compare", "chart", "profile", "parity", "race", "list", "info", "manual")
 
@@ -60,6 +60,23 @@ def bash(bench):
     check(completed(here, "render", "la") == ["lamp.glb"] and completed(here, "render", "-o", "la") == ["lamp.glb"], "a file")
     check(completed(script, "render", "--samples", "") == [], "numbers are not guessed")
     check("compare" in completed(script, "help", ""), "help of a subcommand")
+
+
+@case("usage.zsh_and_fish_take_their_completions")
+def other_shells(bench):
+    """Where they are installed: both read the text, and fish offers what bash does."""
+    shells = [shell for shell in ("zsh", "fish") if shutil.which(shell)]
+    if not shells:
+        raise Skipped("neither zsh nor fish")
+    for shell in shells:
+        (bench.folder / shell).write_text(bench.run("manual", shell).expect(0).out)
+        done = subprocess.run([shell, "-n", shell], cwd=bench.folder, capture_output=True, text=True, timeout=60)
+        check(done.returncode == 0 and done.stderr == "", f"{shell}: {done.stderr}")
+    for typed, offered in (("burnish comp", "compare"), ("burnish render --tech", "--technique"), ("burnish render --technique lobe_", "lobe_line")):
+        if "fish" in shells:
+            done = subprocess.run(["fish", "--no-config", "-c", f"source fish; complete -C '{typed}'"], cwd=bench.folder, capture_output=True, text=True,
+                                  timeout=60)
+            check(offered in done.stdout.split() and done.stderr == "", f"{typed}: {done.stdout}{done.stderr}")
 
 
 @case("usage.manual_page_is_good_roff")

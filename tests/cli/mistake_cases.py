@@ -21,6 +21,7 @@ MISTAKES = (
     ("render --env https://example.org/workshop.hdr", 4, "download it first"),
     ("render https://example.org/lamp.glb", 4, "download it first"),
     ("render chair.fbx", 4, "scenes are .gltf, .glb or .obj files"),
+    ("render chair.obj", 4, "chair.obj: cannot be opened: No such file or directory"),
     ("render teapot.png", 4, "-o teapot.png"),
     ("render workshop.hdr --env builtin:sky", 4, "--env workshop.hdr"),
     ("render --env lamp.glb", 4, "burnish render lamp.glb"),

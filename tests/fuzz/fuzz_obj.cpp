@@ -19,7 +19,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     for (const Primitive& p : scene->primitives) {
         BN_CHECK(p.index_count > 0 && p.index_count % 3 == 0);
         for (std::uint32_t i = 0; i < p.index_count; ++i)
-            BN_CHECK(scene->indices[p.first_index + i] < p.vertex_count);
+            BN_CHECK(scene->indices[p.first_index + i] - p.first_vertex < p.vertex_count);
     }
     const VertexTable& v = scene->vertices;
     for (std::size_t i = 0; i < v.size(); ++i)

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <fmt/format.h>
 
+#include "core/base/hash.h"
 #include "core/image/io/image_io.h"
 #include "core/math/scalar_math.h"
 #include "core/scene/builtin/builtin.h"
@@ -142,21 +143,18 @@ Environment bake(const Image& image, const std::string& name, const EnvironmentO
     const TraceSpan span("bake environment");
     Environment e;
     Equirect source = make_equirect(image);
-    const double gain = det_exp(static_cast<double>(options.exposure_ev) * det_log(2.0));
-    double peak = static_cast<double>(peak_value(source)) * gain;
-    e.peak_source = static_cast<float>(peak);
-    e.energy_source = mean_luminance(source) * gain;
+    e.peak_source = peak_value(source);
+    e.energy_source = mean_luminance(source);
+    double peak = static_cast<double>(e.peak_source);
 
     Progress progress("baking " + name, prefilter_texels(options.cube_size, levels), options.quiet);
-    const double rotation_deg = static_cast<double>(options.rotation_deg);
-    CubeLevel level0 = equirect_to_cube(source, options.cube_size, rotation_deg, gain, jobs);
-    for (const KeyLight& light : take_key_lights(source, options.key_lights))
-        e.key_lights.push_back(turned(light, rotation_deg, gain));
+    CubeLevel level0 = equirect_to_cube(source, options.cube_size, jobs);
+    e.key_lights = take_key_lights(source, options.key_lights);
     if (!e.key_lights.empty()) {
         e.whole = make_cube_map(options.cube_size, 1, cube_scale(peak));
         store_cube_level(e.whole, 0, level0.rgb.data(), jobs);
-        level0 = equirect_to_cube(source, options.cube_size, rotation_deg, gain, jobs);
-        peak = static_cast<double>(peak_value(source)) * gain;
+        level0 = equirect_to_cube(source, options.cube_size, jobs);
+        peak = static_cast<double>(peak_value(source));
     }
     const std::vector<CubeLevel> boxes = box_chain(std::move(level0), jobs);
     const auto gathered = std::find_if(boxes.begin(), boxes.end(), [](const CubeLevel& l) { return l.size <= kIrradianceSource; });
@@ -164,6 +162,24 @@ Environment bake(const Image& image, const std::string& name, const EnvironmentO
     e.specular = prefilter_chain(boxes, levels, options.samples, cube_scale(peak), jobs, progress);
     e.energy_cube = mean_luminance(e.picture());
     return e;
+}
+
+// What is baked as it is asked for: one bake is drawn turned and exposed in any way.
+void turn_and_expose(Environment& e, const EnvironmentOptions& options)
+{
+    if (options.rotation_deg == 0.0f && options.exposure_ev == 0.0f)
+        return;
+    e.rotation_deg = options.rotation_deg;
+    const double gain = det_exp(static_cast<double>(options.exposure_ev) * det_log(2.0));
+    const auto expose = [gain](float& value) { value = static_cast<float>(static_cast<double>(value) * gain); };
+    for (float* value : {&e.specular.scale, &e.irradiance.scale, &e.whole.scale, &e.peak_source})
+        expose(*value);
+    for (KeyLight& light : e.key_lights)
+        for (float& irradiance : light.irradiance)
+            expose(irradiance);
+    e.energy_source *= gain, e.energy_cube *= gain;
+    const float both[] = {options.rotation_deg, options.exposure_ev};
+    e.content_hash = hash_bytes(both, sizeof both, e.content_hash);
 }
 
 double ms_since(std::chrono::steady_clock::time_point start)
@@ -189,6 +205,7 @@ Result<Environment> bake_environment(const Image& equirect, const std::string& n
             cached->name = name;
             cached->warnings = equirect_warnings(equirect);
             cached->bake_ms = ms_since(start);
+            turn_and_expose(*cached, options);
             return std::move(*cached);
         }
     Environment e = bake(equirect, name, options, levels, jobs);
@@ -199,6 +216,7 @@ Result<Environment> bake_environment(const Image& equirect, const std::string& n
     if (!path.empty())
         if (const Status written = write_environment_cache(path, e); !written)
             e.warnings.push_back("the baked environment is not cached: " + written.error().line());
+    turn_and_expose(e, options);
     return e;
 }
 

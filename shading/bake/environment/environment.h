@@ -22,7 +22,7 @@ struct CubeMap {
     int levels = 0;
     std::vector<std::uint32_t> offset;        // by level, in texels, of face 0; faces are (size_l + 2)^2 texels apart
     Column<std::uint16_t> texels;             // 4 halves a texel
-    float scale = 1.0f;                       // power of two that multiplies what is fetched (keeps suns within half range)
+    float scale = 1.0f;                       // multiplies what is fetched: keeps suns within half range, and exposes
     std::size_t level_texels(int level) const // of all faces, with their borders
     {
         const std::size_t side = static_cast<std::size_t>(size >> level) + 2;
@@ -30,7 +30,7 @@ struct CubeMap {
     }
 };
 
-// A small strong light of the environment, as an evenly bright ellipse on the sky. Directions as in the cubes, turned.
+// A small strong light of the environment, as an evenly bright ellipse on the sky. Directions as in the cubes.
 struct KeyLight {
     float direction[3];         // unit
     float axis_u[3], axis_v[3]; // half axes of the ellipse that has its light's moments and mean radiance, as tangents; |u| >= |v|
@@ -41,6 +41,7 @@ struct KeyLight {
 
 struct Environment {
     std::string name;
+    float rotation_deg = 0.0f; // that it is drawn with, about +Y, counter-clockwise seen from above; what follows is not turned
     // Both without the key lights.
     CubeMap specular;                 // level 0: the environment; level l: GGX with alpha_lin = l / (levels - 1)
     CubeMap irradiance;               // cosine-weighted mean radiance (irradiance / pi), one level, 32^2 faces
@@ -52,17 +53,19 @@ struct Environment {
     float peak_source = 0.0f; // largest channel value in the source, exposure included
     double bake_ms = 0.0;     // wall time of this bake, or of reading the cache
     bool from_cache = false;
-    std::uint64_t content_hash = 0;    // of source pixels and all bake options
+    std::uint64_t content_hash = 0;    // of source pixels and all options
     std::vector<std::string> warnings; // one line each: repaired pixels, an unwritable cache
 };
 
 struct EnvironmentOptions {
+    // No part of what is baked and cached:
     float rotation_deg = 0.0f; // turns the environment about +Y, counter-clockwise seen from above
     float exposure_ev = 0.0f;  // radiance is multiplied by 2^ev
-    int cube_size = 512;       // power of two, 4 to 4096
-    int levels = 0;            // 0: log2(cube_size), down to 2^2 texels a face
-    int key_lights = 8;        // that may leave the environment, 0 to 8
-    int samples = 1024;        // pieces of light that a texel of a prefiltered level sums, about; 1 to 65536
+    // The bake:
+    int cube_size = 512; // power of two, 4 to 4096
+    int levels = 0;      // 0: log2(cube_size), down to 2^2 texels a face
+    int key_lights = 8;  // that may leave the environment, 0 to 8
+    int samples = 1024;  // pieces of light that a texel of a prefiltered level sums, about; 1 to 65536
     bool use_cache = true;
     std::string cache_dir; // empty: $XDG_CACHE_HOME/burnish or ~/.cache/burnish
     bool quiet = true;     // no progress bar

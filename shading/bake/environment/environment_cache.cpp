@@ -52,10 +52,18 @@ std::uint64_t environment_hash(const Image& equirect, const EnvironmentOptions& 
     const struct {
         std::uint32_t version;
         std::int32_t width, height, channels, type, size, levels, samples, key_lights;
-        float rotation, exposure;
-    } key = {kBakeVersion,       equirect.width, equirect.height, equirect.channels,  static_cast<std::int32_t>(equirect.type),
-             options.cube_size,  levels,         options.samples, options.key_lights, options.rotation_deg,
-             options.exposure_ev};
+        float zero[2];
+    } key = {kBakeVersion,
+             equirect.width,
+             equirect.height,
+             equirect.channels,
+             static_cast<std::int32_t>(equirect.type),
+             options.cube_size,
+             levels,
+             options.samples,
+             options.key_lights,
+             0.0f,
+             0.0f};
     return hash_bytes(equirect.bytes.data(), equirect.bytes.size(), hash_bytes(&key, sizeof(key)));
 }
 

@@ -65,7 +65,6 @@ struct AxisFilter {
 
 struct Sampler {
     const Equirect& source;
-    double turn; // fraction of a circle added to the image's u
     AxisFilter across{}, down{};
 
     // Mean over the footprint of direction d, whose sides are du and dv (any parallelogram on the face).
@@ -77,7 +76,7 @@ struct Sampler {
         // a box of the same variance as the footprint's projection on the axis
         const auto extent = [](double a, double b) { return std::sqrt(a * a + b * b); };
         const double w = source.width, h = source.height;
-        const double u = 0.5 + det_atan2(d.z, d.x) / (2.0 * kPi) + turn, v = det_atan2(rho, d.y) / kPi;
+        const double u = 0.5 + det_atan2(d.z, d.x) / (2.0 * kPi), v = det_atan2(rho, d.y) / kPi;
         across.set(u * w, std::min(extent(longitude_by(du), longitude_by(dv)) / (2.0 * kPi), 1.0) * w);
         down.set(v * h, extent(colatitude_by(du), colatitude_by(dv)) / kPi * h);
         return gather();
@@ -121,14 +120,14 @@ int sampled_size(const Equirect& source, int size)
 }
 
 // Level of `size` texels from n x n samples a texel.
-CubeLevel sample_cube(const Equirect& source, int size, int n, double turn, double gain, const Jobs& jobs)
+CubeLevel sample_cube(const Equirect& source, int size, int n, const Jobs& jobs)
 {
     CubeLevel cube = make_cube_level(size);
     const double step = 2.0 / size / n;
     const std::size_t rows = 6 * static_cast<std::size_t>(size);
     jobs.parallel_for(rows, [&](std::size_t row, int) {
         const int face = static_cast<int>(row) / size, y = static_cast<int>(row) % size;
-        Sampler sampler{source, turn};
+        Sampler sampler{source};
         const Direction origin = cube_direction(face, 0.0, 0.0);
         const auto side = [&](double u, double v) {
             const Direction d = cube_direction(face, u, v);
@@ -148,7 +147,7 @@ CubeLevel sample_cube(const Equirect& source, int size, int n, double turn, doub
             }
             float* out = cube.rgb.data() + (row * static_cast<std::size_t>(size) + static_cast<std::size_t>(x)) * 3;
             for (std::size_t c = 0; c < 3; ++c)
-                out[c] = static_cast<float>(sum[c] * gain / weights);
+                out[c] = static_cast<float>(sum[c] / weights);
         }
     });
     return cube;
@@ -285,11 +284,10 @@ float peak_value(const Equirect& source)
     return peak;
 }
 
-CubeLevel equirect_to_cube(const Equirect& source, int size, double rotation_deg, double gain, const Jobs& jobs)
+CubeLevel equirect_to_cube(const Equirect& source, int size, const Jobs& jobs)
 {
-    const double turn = rotation_deg / 360.0 - std::floor(rotation_deg / 360.0);
     const int sampled = sampled_size(source, size);
-    CubeLevel cube = sample_cube(source, sampled, sampled < kLargestSampled ? 2 : 1, turn, gain, jobs);
+    CubeLevel cube = sample_cube(source, sampled, sampled < kLargestSampled ? 2 : 1, jobs);
     while (cube.size > size)
         cube = half_cube_level(cube, jobs);
     return cube;

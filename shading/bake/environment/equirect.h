@@ -28,7 +28,6 @@ std::vector<std::string> equirect_warnings(const Image& image);
 double mean_luminance(const Equirect& source); // over the sphere: pixels weighted by their solid angles
 float peak_value(const Equirect& source);      // largest channel value
 
-// The source turned counter-clockwise about +Y (seen from above), times `gain`.
-CubeLevel equirect_to_cube(const Equirect& source, int size, double rotation_deg, double gain, const Jobs& jobs);
+CubeLevel equirect_to_cube(const Equirect& source, int size, const Jobs& jobs);
 
 } // namespace burnish

@@ -5,6 +5,7 @@
 
 #include "core/math/scalar_math.h"
 #include "shading/bake/environment/cube_map.h"
+#include "shading/bake/environment/turn.h"
 
 namespace burnish {
 namespace {
@@ -392,17 +393,15 @@ std::vector<KeyLight> take_key_lights(Equirect& source, int most)
     return lights;
 }
 
-KeyLight turned(const KeyLight& light, double rotation_deg, double gain)
+KeyLight turned(const KeyLight& light, float rotation_deg)
 {
-    const double turn = (rotation_deg / 360.0 - std::floor(rotation_deg / 360.0)) * 2.0 * kPi;
-    const double c = det_cos(turn), s = det_sin(turn);
+    const glm::dmat3 world_from_sky = glm::transpose(sky_from_world(rotation_deg));
     KeyLight r = light;
     for (float* v : {r.direction, r.axis_u, r.axis_v}) {
-        const double x = static_cast<double>(v[0]), z = static_cast<double>(v[2]);
-        v[0] = static_cast<float>(c * x + s * z), v[2] = static_cast<float>(c * z - s * x);
+        const glm::dvec3 at = world_from_sky * glm::dvec3(static_cast<double>(v[0]), static_cast<double>(v[1]), static_cast<double>(v[2]));
+        for (int i = 0; i < 3; ++i)
+            v[i] = static_cast<float>(at[i]);
     }
-    for (float& e : r.irradiance)
-        e = static_cast<float>(static_cast<double>(e) * gain);
     return r;
 }
 

@@ -15,10 +15,10 @@ namespace burnish {
 //  - gives at least 1/200 of the light of the sphere.
 // The threshold is the lowest that satisfies all this. At most `most` are taken out of `source`, the strongest first, each with the pixels
 // around it; what is left there is a mean of the surroundings, the nearer the more. Light is moved, never made or lost: what a light has is
-// the difference. Directions are those of the picture, unturned.
+// the difference. Directions are those of the picture.
 std::vector<KeyLight> take_key_lights(Equirect& source, int most);
 
-// Turned as equirect_to_cube() turns the picture, and times `gain`.
-KeyLight turned(const KeyLight& light, double rotation_deg, double gain);
+// As it stands in a world under an environment that is turned counter-clockwise about +Y (seen from above).
+KeyLight turned(const KeyLight& light, float rotation_deg);
 
 } // namespace burnish

@@ -85,13 +85,9 @@ TEST_F(environment_cache, a_hit_equals_the_bake_bit_for_bit)
     expect_same(hit, baked);
 }
 
-TEST_F(environment_cache, every_option_and_pixel_has_its_own_entry)
+TEST_F(environment_cache, every_option_of_the_bake_and_every_pixel_has_its_own_entry)
 {
     bake();
-    options_.rotation_deg = 10.0f;
-    EXPECT_FALSE(bake().from_cache);
-    options_.exposure_ev = 1.0f;
-    EXPECT_FALSE(bake().from_cache);
     options_.samples = 64;
     EXPECT_FALSE(bake().from_cache);
     options_.levels = 3;
@@ -100,8 +96,21 @@ TEST_F(environment_cache, every_option_and_pixel_has_its_own_entry)
     EXPECT_FALSE(bake().from_cache);
     image_.f32()[100] += 0.001f;
     EXPECT_FALSE(bake().from_cache);
-    EXPECT_EQ(files().size(), 7u);
+    EXPECT_EQ(files().size(), 5u);
     EXPECT_TRUE(bake().from_cache);
+}
+
+TEST_F(environment_cache, one_entry_is_drawn_turned_and_exposed_in_any_way)
+{
+    const Environment plain = bake();
+    options_.rotation_deg = 10.0f, options_.exposure_ev = 1.5f;
+    const Environment read = bake();
+    EXPECT_TRUE(read.from_cache);
+    EXPECT_EQ(files().size(), 1u);
+    options_.use_cache = false;
+    expect_same(bake(), read);
+    EXPECT_NEAR(read.specular.scale / plain.specular.scale, 2.8284271f, 1e-6f);
+    EXPECT_NEAR(read.irradiance.scale / plain.irradiance.scale, 2.8284271f, 1e-6f);
 }
 
 TEST_F(environment_cache, keeps_key_lights)
@@ -150,23 +159,24 @@ TEST_F(environment_cache, damaged_files_are_baked_anew)
 // Above the limit the environment that was used longest ago goes, not the one that was baked first.
 TEST_F(environment_cache, has_a_limit)
 {
+    const int least = options_.samples;
     bake();
     const std::uintmax_t size = fs::file_size(files().at(0));
     setenv("BURNISH_CACHE_BYTES", std::to_string(2 * size).c_str(), 1);
-    const auto with_rotation = [&](float degrees) {
-        options_.rotation_deg = degrees;
+    const auto with_samples = [&](int samples) {
+        options_.samples = samples;
         const bool hit = bake().from_cache;
         for (const fs::path& file : files()) // half a minute passes
             fs::last_write_time(file, fs::last_write_time(file) - std::chrono::seconds(30));
         return hit;
     };
-    EXPECT_TRUE(with_rotation(0.0f));
-    EXPECT_FALSE(with_rotation(10.0f));
-    EXPECT_TRUE(with_rotation(0.0f));
-    EXPECT_FALSE(with_rotation(20.0f)); // 10 degrees go
+    EXPECT_TRUE(with_samples(least));
+    EXPECT_FALSE(with_samples(least + 1));
+    EXPECT_TRUE(with_samples(least));
+    EXPECT_FALSE(with_samples(least + 2)); // the second one goes
     EXPECT_EQ(files().size(), 2u);
-    EXPECT_TRUE(with_rotation(0.0f));
-    EXPECT_FALSE(with_rotation(10.0f));
+    EXPECT_TRUE(with_samples(least));
+    EXPECT_FALSE(with_samples(least + 1));
     unsetenv("BURNISH_CACHE_BYTES");
 }
 

@@ -140,7 +140,7 @@ TEST(prefilter, every_level_is_within_one_percent_of_quadrature)
         o.key_lights = 0; // the sun stays in
         const Result<Environment> e = bake_environment(*image, name, o, Jobs(2));
         ASSERT_TRUE(e);
-        const CubeLevel level0 = equirect_to_cube(make_equirect(*image), o.cube_size, 0.0, 1.0, Jobs(2));
+        const CubeLevel level0 = equirect_to_cube(make_equirect(*image), o.cube_size, Jobs(2));
         for (int level = 1; level < e->specular.levels; ++level) {
             const double error = relative_error(level0, e->specular, level, 24);
             EXPECT_LT(error, 0.01) << name << " level " << level;
@@ -152,7 +152,7 @@ TEST(prefilter, every_instruction_set_and_split_gives_the_same_bits)
 {
     const Jobs jobs(1);
     std::vector<CubeLevel> boxes;
-    boxes.push_back(equirect_to_cube(make_equirect(smooth_equirect(64)), 32, 0.0, 1.0, jobs));
+    boxes.push_back(equirect_to_cube(make_equirect(smooth_equirect(64)), 32, jobs));
     while (boxes.back().size > 1)
         boxes.push_back(half_cube_level(boxes.back(), jobs));
     const LightTree tree = make_light_tree(boxes, jobs);
