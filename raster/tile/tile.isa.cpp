@@ -194,11 +194,13 @@ void shade_slot(const Tile& t, const view_params& view, const MaterialRecord& m,
     }
     const int more = t.f.light_count | t.f.area_light_count | t.f.key_light_count | t.f.energy_compensation | t.f.dfg_fit | t.f.fresnel;
     if (plan.uniform && !more && !m.refracts && t.f.lobe == PlainFrame::lobe) {
-        constexpr bool kAlsoRound = (kTechniqueTraits[static_cast<int>(kTechnique)] & kAutoRound) != 0;
+        constexpr int kTraits = kTechniqueTraits[static_cast<int>(kTechnique)];
+        constexpr bool kAlsoRound = (kTraits & kAutoRound) != 0;
+        using Material = std::conditional_t<(kTraits & kPhongGrid) != 0, PlainMaterial, UntabledMaterial>;
         if (kAlsoRound && !m.anisotropic)
-            shade_plain_slot<kTechnique, std::conditional_t<kAlsoRound, RoundMaterial, PlainMaterial>>(t, view, m, plan, begin, end);
+            shade_plain_slot<kTechnique, std::conditional_t<kAlsoRound, RoundMaterial, Material>>(t, view, m, plan, begin, end);
         else
-            shade_plain_slot<kTechnique, PlainMaterial>(t, view, m, plan, begin, end);
+            shade_plain_slot<kTechnique, Material>(t, view, m, plan, begin, end);
         return;
     }
     for (std::uint32_t i = begin; i < end; i += kLanes) {

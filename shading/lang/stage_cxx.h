@@ -127,7 +127,10 @@ struct PlainFrame : ShadingFrame {
 struct PlainMaterial : MaterialRecord {
     static constexpr int textured = 0, uses_color = 0, unlit = 0, refracts = 0, relief = 0;
 };
-struct RoundMaterial : PlainMaterial {
+struct UntabledMaterial : PlainMaterial { // of techniques that sample no Ashikhmin-Shirley lobe
+    static constexpr int phong_slice = -1;
+};
+struct RoundMaterial : UntabledMaterial {
     static constexpr int anisotropic = 0;
 };
 

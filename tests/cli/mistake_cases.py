@@ -5,7 +5,7 @@ from harness import case, check
 # What is typed, the exit code, what the line must say.
 MISTAKES = (
     ("rendr", 2, "did you mean 'render'?"),
-    ("lamp.glb", 2, "burnish render lamp.glb"),
+    ("lamp.glb", 4, "lamp.glb: cannot be opened"),
     ("help rendre", 2, "did you mean 'render'?"),
     ("list technique", 2, "did you mean 'techniques'?"),
     ("render --techniqe major_axis", 2, "did you mean '--technique'?"),
