@@ -42,7 +42,7 @@ Drawing plot_half_vectors(const LobePlot& lobe)
     Drawing out(3.0 * kSide + 4.0 * kGap, kTop + kSide + kBelow, "chart",
                 fmt::format("Half vectors of an Ashikhmin-Shirley lobe, {:g} and {:g}", nu, nv));
     const Panel above{"half vectors", kGap, 1.0};
-    draw_density(out, above, [&](const Place& p) {
+    draw_density(out, above, Edge::horizon, [&](const Place& p) {
         const double r2 = p.x * p.x + p.y * p.y, z = std::sqrt(std::max(1.0 - r2, 0.0));
         return r2 < 1.0 ? std::pow(z, (nu * p.x * p.x + nv * p.y * p.y) / std::max(r2, 1e-12)) : 0.0;
     });
