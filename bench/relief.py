@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Parallax against the same heights as triangles: FLIP by depth, angle and metric.
 
-Usage: relief.py --program build/release/burnish [--work FOLDER] [--size WxH] [--triangles N] [--quick] [--json FILE]
+Usage: relief.py --program build/release/burnish [--work FOLDER] [--size WxH] [--stretch F] [--triangles N] [--quick] [--json FILE]
        relief.py --program build/release/burnish --sheet FILE.png
 
 A cobbled wall, 1 m wide and --stretch times as high, is drawn as a flat square with heights and normals in maps, by --pom-metric uv and
@@ -179,12 +179,10 @@ def main():
                     "--no-background", "--roughness", 0.5, "--texture-anisotropy", 16, "-q")
             name = f"{depth}_{angle}_"
             run("render", "wall.glb", *view, "--material", "plain", "-o", name + "truth.pfm", "-o", name + "truth.png")
-            shapes = {"truth": ("wall.glb", "--material", "plain")}
             flat = ("wall.obj", "--material", "mapped")
             for way, words in (("flat", ()), ("uv", ("--pom-metric", "uv")), ("surface", ("--pom-metric", "surface"))):
                 given = () if way == "flat" else ("--height-map", "heights.pfm", "--height-scale", depth / 0.05)
-                shapes[way] = (*flat, *given, *words)
-                run("render", *shapes[way], *view, "-o", name + way + ".pfm", "-o", name + way + ".png")
+                run("render", *flat, *given, *words, *view, "-o", name + way + ".pfm", "-o", name + way + ".png")
             covered = [alpha_of(work / (name + way + ".png")) for way in ("truth", "flat")]
             row = {"depth": depth, "angle": angle}
             kept = [i for i in range(len(covered[0])) if covered[0][i] == covered[1][i] == 255]

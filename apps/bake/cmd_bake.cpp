@@ -376,9 +376,9 @@ int run_phong(const BakeArguments& a, const OptionTable& given)
         return write_map(a, albedo_table(a.nu, a.nv, a.size), "");
     }
     const bool density = fs::path(a.output).extension() == ".exr";
-    Image table = half_vector_table(a.nu, a.nv, a.size, *type);
     if (*type == PixelType::f32 && !density)
         return fail(usage_error("-o", fmt::format("'{}' must end in .exr, which holds the density too, or in .png or .tif", a.output)));
+    const Image table = half_vector_table(a.nu, a.nv, a.size, *type);
     std::string warning;
     if (*type == PixelType::u8)
         warning = fmt::format("8 bits leave {} values along the tangent, and no densities", codes_of(table));

@@ -1,5 +1,6 @@
 #include "apps/bake/displaced.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
@@ -13,7 +14,7 @@
 namespace burnish {
 namespace {
 
-constexpr std::size_t kMostDisplaced = std::size_t{1} << 26;
+constexpr std::size_t kMostDisplaced = std::size_t{1} << 24; // 156 bytes each at most, and a .glb holds less than 2^32
 
 template <std::size_t N> glm::dvec3 vector_of(const float (&v)[N])
 {
@@ -192,6 +193,8 @@ Result<Displaced> displaced(const DrawTables& tables, const Image& heights, doub
                             const std::string& file)
 {
     const std::size_t whole = tables.triangle_count();
+    if (whole == 0)
+        return Error{ExitCode::bad_input, file, "", "has no triangle of any size"};
     int parts = 1;
     while (whole * static_cast<std::size_t>(parts) * static_cast<std::size_t>(parts) < least_triangles)
         ++parts;

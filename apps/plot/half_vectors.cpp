@@ -11,11 +11,6 @@ namespace {
 
 constexpr int kSampleSide = 16, kCells = 50; // samples and cells along each side
 
-double exponent_of(double alpha)
-{
-    return std::min(1.0 / std::max(alpha * alpha, 1e-6), 1e6);
-}
-
 // A square of colours over [0,1]^2, x to the right and y up.
 template <class Colour> void draw_table(Drawing& out, const char* title, double left, const Colour& colour)
 {
@@ -38,7 +33,7 @@ Paint paint_of(double r, double g, double b)
 Drawing plot_half_vectors(const LobePlot& lobe)
 {
     const double a = lobe.roughness * lobe.roughness;
-    const double nu = exponent_of(a * (1.0 + lobe.anisotropy)), nv = exponent_of(a * (1.0 - lobe.anisotropy));
+    const double nu = phong_exponent(a * (1.0 + lobe.anisotropy)), nv = phong_exponent(a * (1.0 - lobe.anisotropy));
     Drawing out(3.0 * kSide + 4.0 * kGap, kTop + kSide + kBelow, "chart",
                 fmt::format("Half vectors of an Ashikhmin-Shirley lobe, {:g} and {:g}", nu, nv));
     const Panel above{"half vectors", kGap, 1.0};

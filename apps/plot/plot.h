@@ -23,7 +23,7 @@ Drawing plot_axis(const LobePlot& lobe);
 Drawing plot_lobe(const LobePlot& lobe);
 
 // Half vectors that a lobe of Ashikhmin and Shirley samples, seen from above and as a table over both random numbers, and the table of its
-// directional albedo: exponents 1 / alpha^2. As figures 5 to 7 of what as_mc is after.
+// directional albedo: exponents 1 / alpha^2. Ashikhmin and Shirley 2000.
 Drawing plot_half_vectors(const LobePlot& lobe);
 
 // Which way techniques look from the points of a sphere, up or down, where that is not the way of the lobe's mean, and the share of such

@@ -13,8 +13,7 @@ enum class BenchScene {
     layers,   // `size` sheets of brushed metal, each over the whole picture, drawn from the farthest to the nearest
     sphere,   // the inside of a sphere of brushed metal around the eye: every pixel covered, every direction reflected
     teapot,   // builtin:teapot, framed as `burnish render` does
-    textured, // a sheet of brushed metal with `size` textures, of 6: colour, normal, roughness, occlusion, direction, heights that are all
-              // 0
+    textured, // a sheet of brushed metal with `size` textures, of 6: colour, normal, roughness, occlusion, direction, heights without depth
     floor,    // a floor with three textures from below the eye to the horizon
     foliage,  // `size` leaves all over the picture, quads whose texture is cut out by alpha
     leaves,   // the same quads, opaque

@@ -4,6 +4,7 @@
 
 namespace burnish {
 
+// Not before main(): the size is no constant expression.
 struct EmbeddedFile {
     const char* bytes; // as in the file, at an address divisible by 16; a zero follows them
     std::size_t size;

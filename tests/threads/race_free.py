@@ -48,7 +48,7 @@ def main():
     suppressions = pathlib.Path(__file__).with_name("suppressions.txt").resolve()
     failed = 0
     with tempfile.TemporaryDirectory(prefix="burnish-threads-") as place:
-        environment = {**os.environ, "XDG_CACHE_HOME": place + "/cache",
+        environment = {**os.environ, "XDG_CACHE_HOME": place + "/cache", "BN_FORCE_ISA": "scalar",  # the lanes that are looked at
                        "TSAN_OPTIONS": f"suppressions={suppressions} halt_on_error=0 exitcode=66 second_deadlock_stack=1"}
         for what, arguments in RUNS.items():
             stays = {"LD_PRELOAD": DRIVER} if what == "parity" and ctypes.util.find_library("vulkan_lvp") else {}

@@ -52,7 +52,7 @@ std::uint64_t environment_hash(const Image& equirect, const EnvironmentOptions& 
     const struct {
         std::uint32_t version;
         std::int32_t width, height, channels, type, size, levels, samples, key_lights;
-        float zero[2];
+        float zero[2]; // where rotation and exposure stood, so that files of before are still good
     } key = {kBakeVersion,
              equirect.width,
              equirect.height,
