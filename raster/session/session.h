@@ -106,7 +106,7 @@ class Session {
     const SessionParts& parts() const { return parts_; }
     const Scene& scene() const { return parts_.scene->scene; }
     const DrawTables& tables() const { return parts_.scene->tables; }
-    Renderer& renderer() { return *renderer_; } // draws what drawn() gives; render() asks it
+    Renderer& renderer() { return *renderer_; }                // draws what drawn() gives; render() asks it
     std::string device() const { return renderer_->device(); } // what runs it: "AMD EPYC (avx512)", ...
     // A view of the whole scene for a picture of this size.
     View framed(int width, int height, const Framing& framing = {}) const { return auto_frame(tables(), width, height, framing); }

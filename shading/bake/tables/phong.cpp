@@ -46,8 +46,8 @@ void bake_phong_slice(int size, double alpha_x, double alpha_y, std::uint16_t* t
         for (int i = 0; i < size; ++i, texels += 4) { // axes as of lobe_slice_lookup()
             const double eye = static_cast<double>(i) / (size - 1), root = static_cast<double>(j) / (size / 2 - 1);
             const double n_dot_v = std::max(eye * eye, 1e-4), sine = std::sqrt(1.0 - n_dot_v * n_dot_v), along = root * root;
-            const PhongAlbedo a =
-                phong_albedo({sine * along, sine * std::sqrt(1.0 - along * along), n_dot_v}, phong_exponent(alpha_x), phong_exponent(alpha_y));
+            const PhongAlbedo a = phong_albedo({sine * along, sine * std::sqrt(1.0 - along * along), n_dot_v}, phong_exponent(alpha_x),
+                                               phong_exponent(alpha_y));
             const float value[2] = {static_cast<float>(a.s), static_cast<float>(a.b)};
             for (int c = 0; c < 2; ++c) {
                 texels[c] = float_to_half(value[c]);
