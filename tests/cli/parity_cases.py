@@ -15,7 +15,7 @@ COARSE = ("--env-size", "64", "--env-samples", "32")  # a bake of a second
 STAGES = ["clip positions", "visibility", "depth", "interpolants", "material inputs", "shaded colour", "resolved colour"]
 
 
-def parity(bench, *arguments, code=0, timeout=240.0, device="lavapipe"):
+def parity(bench, *arguments, code=0, timeout=540.0, device="lavapipe"):
     """Runs the command and gives its JSON; skips where the device or Vulkan is absent."""
     done = bench.run("parity", *arguments, "--device", device, *COARSE, "--json", "parity.json", timeout=timeout)
     if done.code == 77 and code != 77:

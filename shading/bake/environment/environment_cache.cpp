@@ -62,8 +62,7 @@ std::uint64_t environment_hash(const Image& equirect, const EnvironmentOptions& 
              levels,
              options.samples,
              options.key_lights,
-             0.0f,
-             0.0f};
+             {0.0f, 0.0f}};
     return hash_bytes(equirect.bytes.data(), equirect.bytes.size(), hash_bytes(&key, sizeof(key)));
 }
 
