@@ -53,16 +53,8 @@ std::uint64_t environment_hash(const Image& equirect, const EnvironmentOptions& 
         std::uint32_t version;
         std::int32_t width, height, channels, type, size, levels, samples, key_lights;
         float zero[2]; // where rotation and exposure stood, so that files of before are still good
-    } key = {kBakeVersion,
-             equirect.width,
-             equirect.height,
-             equirect.channels,
-             static_cast<std::int32_t>(equirect.type),
-             options.cube_size,
-             levels,
-             options.samples,
-             options.key_lights,
-             {0.0f, 0.0f}};
+    } key = {kBakeVersion,      equirect.width, equirect.height, equirect.channels,  static_cast<std::int32_t>(equirect.type),
+             options.cube_size, levels,         options.samples, options.key_lights, {0.0f, 0.0f}};
     return hash_bytes(equirect.bytes.data(), equirect.bytes.size(), hash_bytes(&key, sizeof(key)));
 }
 
