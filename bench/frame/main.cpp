@@ -109,6 +109,8 @@ nlohmann::ordered_json workloads_json(const std::vector<Measured>& all, Isa isa)
                         {"width", m.workload->width},
                         {"height", m.workload->height},
                         {"msaa", m.workload->msaa},
+                        {"group", m.workload->group},
+                        {"along", m.workload->along},
                         {"units", m.units},
                         {"pixels", m.pixels},
                         {"load_average", m.load},

@@ -154,7 +154,7 @@ Result<std::vector<Measured>> run_workloads(const RunOptions& options, void (*sa
     std::vector<std::string> order;
     std::map<std::string, std::vector<const Workload*>> groups;
     for (const Workload& w : workloads()) {
-        if (!chosen(options, w.group, w.name) || (options.quick && w.slow))
+        if (!chosen(options, w.group, w.name) || (options.quick && w.slow) || (options.only.empty() && w.only_named))
             continue;
         if (groups[w.group].empty())
             order.push_back(w.group);

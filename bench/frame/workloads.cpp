@@ -1,12 +1,13 @@
 #include "bench/frame/workloads.h"
 
 namespace burnish {
+namespace {
 
-const std::vector<Workload>& workloads()
+std::vector<Workload> all_workloads()
 {
     using S = BenchScene;
     constexpr int W = 1920, H = 1080;
-    static const std::vector<Workload> table = {
+    std::vector<Workload> table = {
         {"trivial_1x", "trivial", S::constant, 0, W, H, 1},
         {"trivial_8x", "trivial", S::constant, 0, W, H, 8},
         // Depth alone cannot be drawn: one unlit colour is the nearest, so visibility, listing and resolving of every pixel is in it.
@@ -68,6 +69,15 @@ const std::vector<Workload>& workloads()
         {"visibility_rays_8", "rays", S::waves, 1036800, W, H, 1, "", 0, 0.0f, 0, Engine::rays, 8},
         {"visibility_rays_16", "rays", S::waves, 1036800, W, H, 1, "", 0, 0.0f, 0, Engine::rays, 16},
     };
+    append_growth(table);
+    return table;
+}
+
+} // namespace
+
+const std::vector<Workload>& workloads()
+{
+    static const std::vector<Workload> table = all_workloads();
     return table;
 }
 

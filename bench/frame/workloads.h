@@ -27,6 +27,8 @@ struct Workload {
     float alpha_lin = 0.3f;
     int key_lights = 0; // made ones, above the scene
     int frame_map = kFrameGramSchmidt;
+    double along = 0.0;      // of a row of workloads that differ in one number: that number
+    bool only_named = false; // drawn only where --only names it or its group
 };
 
 enum class Measure {
@@ -47,6 +49,7 @@ struct Aim {
 };
 
 const std::vector<Workload>& workloads();
+void append_growth(std::vector<Workload>& table); // part of workloads()
 const std::vector<Aim>& aims();
 inline bool at_least(Measure m)
 {
