@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <fmt/core.h>
 #include <new>
@@ -101,6 +102,19 @@ int flush_stdout(int code)
     return fail(Error{ExitCode::output_failed, "standard output", "", "cannot be written"});
 }
 
+// Where an exception cannot be caught: in what a library does as it is loaded, for one.
+[[noreturn]] void terminate()
+{
+    try {
+        if (const std::exception_ptr thrown = std::current_exception())
+            std::rethrow_exception(thrown);
+    } catch (const std::bad_alloc&) {
+        std::_Exit(fail(Error{ExitCode::bad_input, "", "", "out of memory"}));
+    } catch (...) {
+    }
+    std::abort();
+}
+
 } // namespace
 
 } // namespace burnish
@@ -109,6 +123,7 @@ int main(int argc, char** argv)
 {
     // A file-size limit shall be a failed write with a message, not the death of the process.
     std::signal(SIGXFSZ, SIG_IGN);
+    std::set_terminate(burnish::terminate);
     try {
         burnish::bound_memory_by_cgroup(burnish::usable_cores());
         return burnish::flush_stdout(burnish::run(std::vector<std::string>(argv + std::min(argc, 1), argv + argc)));

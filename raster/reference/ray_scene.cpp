@@ -42,13 +42,22 @@ class EmbreeScene final : public RayScene {
     bool any_single_sided_ = false;
 };
 
+// What Embree says of a call that failed. what: as in "Embree cannot ...".
+Error error_of(RTCError code, const std::string& what)
+{
+    if (code == RTC_ERROR_OUT_OF_MEMORY)
+        return {ExitCode::bad_input, "", "", "out of memory: Embree cannot " + what};
+    if (code == RTC_ERROR_UNSUPPORTED_CPU)
+        return {ExitCode::unavailable, "", "", "Embree cannot " + what + " on this processor"};
+    return {ExitCode::internal, "", "", "Embree cannot " + what};
+}
+
 Result<std::unique_ptr<RayScene>> EmbreeScene::make(const Scene& scene, const DrawTables& tables)
 {
     std::unique_ptr<EmbreeScene> self(new EmbreeScene);
     self->device_ = rtcNewDevice(nullptr); // a number of threads here would limit oneTBB in the whole process
-    const auto failed = [&](const char* what) { return Error{ExitCode::internal, "", "", std::string("Embree cannot ") + what}; };
     if (!self->device_)
-        return failed("be started");
+        return error_of(rtcGetDeviceError(nullptr), "be started");
     self->scene_ = rtcNewScene(self->device_);
     rtcSetSceneFlags(self->scene_, static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION));
 
@@ -80,8 +89,8 @@ Result<std::unique_ptr<RayScene>> EmbreeScene::make(const Scene& scene, const Dr
         rtcReleaseGeometry(geometry);
     }
     rtcCommitScene(self->scene_);
-    if (rtcGetDeviceError(self->device_) != RTC_ERROR_NONE)
-        return failed("build its tree over the scene");
+    if (const RTCError code = rtcGetDeviceError(self->device_); code != RTC_ERROR_NONE)
+        return error_of(code, "build its tree over the scene");
     return std::unique_ptr<RayScene>(std::move(self));
 }
 
