@@ -106,16 +106,21 @@ def run(command):
     return done.stdout
 
 
-def measure(program, folder, scenes, environments, techniques, size, key_lights):
-    """{(scene, environment, technique, roughness, anisotropy): mean FLIP}"""
-    report = folder / f"report_{key_lights}"
+def charted(program, report, scenes, environments, techniques, size, key_lights, samples="16", more=()):
+    """What `burnish chart` reports of every technique at every place; pictures are as large as frames are timed, on one thread."""
     command = [program, "chart", *scenes, "--techniques", techniques, "--sweep", "roughness=" + size["roughness"], "--sweep",
-               "anisotropy=" + size["anisotropy"], "--sweep", "samples=16", "--size", size["size"], "--msaa", "16", "--reference-samples", size["samples"], "--runs", "1",
-               "--no-background", "--key-lights", key_lights, "-t", "1", "-q", "-o", report]
+               "anisotropy=" + size["anisotropy"], "--sweep", "samples=" + samples, "--size", size["size"], "--msaa", "16",
+               "--reference-samples", size["samples"], "--runs", size.get("runs", "1"), "--no-background", "--key-lights", key_lights,
+               "-t", "1", "-q", *more, "-o", report]
     for environment in environments:
         command += ["--env", environment]
     run(command)
-    rows = json.loads((report / "report.json").read_text())["rows"]
+    return json.loads((report / "report.json").read_text())
+
+
+def measure(program, folder, scenes, environments, techniques, size, key_lights):
+    """{(scene, environment, technique, roughness, anisotropy): mean FLIP}"""
+    rows = charted(program, folder / f"report_{key_lights}", scenes, environments, techniques, size, key_lights)["rows"]
     return {(r["scene"], r["env"], r["technique"], r["settings"]["roughness"], r["settings"]["anisotropy"]): r["flip_mean"] for r in rows}
 
 

@@ -1,17 +1,14 @@
 #!/usr/bin/env python3
-"""How far lobe_line is from the reference, beside other techniques: FLIP, patterns of the error, flicker, instructions.
+"""How lobe_line's pictures differ from the reference's: patterns of the error, flicker, instructions. How far on the mean: aims.py.
 
-Usage: lobe_line.py --program build/release/burnish [--instructions build/release/bench_instructions] [--before PROGRAM]
-                    [--env FILE|FOLDER]... [--work FOLDER] [--quick] [--json FILE]
+Usage: lobe_line.py --program build/release/burnish [--instructions build/release/bench_instructions] [--env FILE|FOLDER]... [--work FOLDER]
+                    [--quick] [--json FILE]
 
-  - Mean HDR-FLIP of `burnish chart` over environments, alpha_lin, eta and two scenes. Each technique has 16 samples. Its ratios are to
-    major_axis_weighted as it is in PROGRAM (--before: an older burnish; else the same) without key lights, and to what else has one fetch
-    a fragment; places where these do better are listed. Environments that no constant was ever tuned on are averaged apart.
-  - Instructions of a frame under valgrind, which do not depend on what else the machine does (--instructions).
   - Patterns: the error less its mean over 5x5 and 17x17 pixels, correlated with itself. At a lag of one and of two pixels: a checker that
     quads leave correlates more at two than at one. Up to 16 pixels: bands are a rise after the first fall. Beside it what the reference's
     own noise gives.
   - Flicker: mean FLIP from frame to frame as the camera moves by a tenth of a degree, less the reference's.
+  - Instructions of a frame under valgrind, which do not depend on what else the machine does (--instructions).
 
 What is stopped goes on where --work names the same folder. Exit code: 0 measured; 2 something could not be run.
 """
@@ -31,9 +28,7 @@ import count as instructions  # noqa: E402
 
 TUNED = ("builtin:studio", "workshop_1k.hdr", "blender_studio_1k.exr")  # that constants were chosen on
 UNSEEN = ("low_sun.hdr", "blender_city_1k.exr", "pmndrs_lobby_512.exr")
-TECHNIQUES = ("lobe_line", "major_axis_weighted", "bent_normal", "split_isotropic")
-FULL = {"roughness": "0.2,0.35,0.5,0.65,0.8", "anisotropy": "-0.9,-0.5,-0.2,0.2,0.5,0.8,0.95", "size": "80x45", "samples": "256"}
-QUICK = {"roughness": "0.5", "anisotropy": "-0.9,0.8", "size": "96x54", "samples": "128"}
+TECHNIQUES = ("lobe_line", "major_axis_weighted")
 LOOKS = (("builtin:studio", 0.4, 0.8), ("builtin:studio", 0.5, -0.9), ("low_sun.hdr", 0.4, 0.8), ("low_sun.hdr", 0.63, 0.8))
 
 
@@ -112,7 +107,7 @@ def patterns(program, folder, environments, samples):
             continue
         pictures = {"reference": picture(program, folder, environment, roughness, eta, ("--backend", "reference", "--samples", samples)),
                     "noise": picture(program, folder, environment, roughness, eta, ("--backend", "reference", "--samples", samples, "--seed", "7"))}
-        for technique in TECHNIQUES[:2]:
+        for technique in TECHNIQUES:
             pictures[technique] = picture(program, folder, environment, roughness, eta, ("--technique", technique, "--samples", "16"))
         width, height, truth = read_pfm(pictures.pop("reference"))
         for name, path in pictures.items():
@@ -131,7 +126,7 @@ def flicker(program, folder, environments, samples, frames):
         if not environment:
             continue
         found = {}
-        for name, words in (("reference", ("--backend", "reference", "--samples", samples)), *((t, ("--technique", t, "--samples", "16")) for t in TECHNIQUES[:2])):
+        for name, words in (("reference", ("--backend", "reference", "--samples", samples)), *((t, ("--technique", t, "--samples", "16")) for t in TECHNIQUES)):
             files = [picture(program, folder, environment, roughness, eta, (*words, "--orbit", f"{35 + 0.1 * k:.1f},28"), size="96x54") for k in range(frames)]
             found[name] = mean([json.loads(run([program, "compare", a, b, "--metric", "flip-hdr", "--json", "-", "-q", "-t", "1"]))["flip_mean"]
                                 for a, b in zip(files, files[1:])])
@@ -153,73 +148,37 @@ def count_instructions(program, etas):
     return counts
 
 
-def table(found, before, environments):
-    """found: {key lights: {place: FLIP}} of this program, before: {place: FLIP}."""
-    def of(rows, technique, names):
-        return mean([v for (_, env, t, _, _), v in rows.items() if t == technique and env in names])
-
-    groups = {pathlib.Path(e).name: [e] for e in environments}
-    groups["never tuned on"] = [e for e in environments if pathlib.Path(e).name in UNSEEN]
-    groups["all"] = environments
-    print("mean HDR-FLIP, key lights auto / off, and lobe_line's ratio to major_axis_weighted as it was and to bent_normal")
-    for name, members in groups.items():
-        print(f"{name:<24} " + "  ".join(f"{t} {of(found['auto'], t, members):.4f} / {of(found['off'], t, members):.4f}" for t in TECHNIQUES) +
-              f"  before {of(before, 'major_axis_weighted', members):.4f}")
-        for lights in ("auto", "off"):
-            line = of(found[lights], "lobe_line", members)
-            print(f"{'':<24} key lights {lights}: {line / max(of(before, 'major_axis_weighted', members), 1e-9):.2f} of weighted as it was, "
-                  f"{line / max(of(found[lights], 'bent_normal', members), 1e-9):.2f} of bent_normal, "
-                  f"{line / max(of(found['off'], 'bent_normal', members), 1e-9):.2f} of it without key lights")
-    for lights in ("auto", "off"):
-        lost = {"bent_normal": [], "split_isotropic": []}
-        places = [p for p in found[lights] if p[2] == "lobe_line" and p[4] != 0.0]
-        for scene, env, _, roughness, eta in places:
-            for other, where in lost.items():
-                gap = found[lights][(scene, env, "lobe_line", roughness, eta)] - found[lights][(scene, env, other, roughness, eta)]
-                if gap > 0.0:
-                    where.append(f"{pathlib.Path(env).name} {scene} alpha_lin {roughness:.2f} eta {eta:+.2f} by {gap:.4f}")
-        for other, where in lost.items():
-            print(f"key lights {lights}: better than {other} at {100.0 * (1.0 - len(where) / len(places)):.1f} % of {len(places)} places" +
-                  "".join("\n    not at " + w for w in where))
+def six(folder, quick, given=()):
+    """The environments of the tables: three that constants were chosen on and three that none was, or those given."""
+    sky = folder / "low_sun.hdr"
+    if not sky.exists():
+        key_lights.write_sky(sky, key_lights.low_sun, 512 if quick else 1024)
+    if given:
+        return key_lights.environments_of(given)
+    known = {pathlib.Path(e).name: e for e in (*key_lights.environments_of([]), str(sky))}
+    known["builtin:studio"] = "builtin:studio"
+    return [known[e] for e in (*TUNED, *UNSEEN) if e in known and (not quick or known[e] in ("builtin:studio", str(sky)))]
 
 
 def main():
-    parser = argparse.ArgumentParser(description="lobe_line against the reference and other techniques")
+    parser = argparse.ArgumentParser(description="lobe_line against the reference: patterns, flicker, instructions")
     parser.add_argument("--program", required=True, type=pathlib.Path)
     parser.add_argument("--instructions", type=pathlib.Path, help="bench_instructions")
-    parser.add_argument("--before", type=pathlib.Path, help="an older burnish, for its major_axis_weighted")
     parser.add_argument("--env", action="append", default=[], help="environments or folders, instead of six")
-    parser.add_argument("--work", type=pathlib.Path, help="folder for skies, pictures and reports; a temporary one")
+    parser.add_argument("--work", type=pathlib.Path, help="folder for skies and pictures; a temporary one")
     parser.add_argument("--quick", action="store_true")
     parser.add_argument("--json", type=pathlib.Path)
     given = parser.parse_args()
-    program, size = given.program.resolve(), QUICK if given.quick else FULL
+    program = given.program.resolve()
     with tempfile.TemporaryDirectory() as temporary:
         folder = given.work or pathlib.Path(temporary)
         folder.mkdir(parents=True, exist_ok=True)
-        sky = folder / "low_sun.hdr"
-        if not sky.exists():
-            key_lights.write_sky(sky, key_lights.low_sun, 512 if given.quick else 1024)
-        if given.env:
-            environments = key_lights.environments_of(given.env)
-        else:
-            known = {pathlib.Path(e).name: e for e in (*key_lights.environments_of([]), str(sky))}
-            known["builtin:studio"] = "builtin:studio"
-            environments = [known[e] for e in (*TUNED, *UNSEEN) if e in known and (not given.quick or known[e] in ("builtin:studio", str(sky)))]
-        scenes = ["builtin:spheres"] if given.quick else ["builtin:spheres", "builtin:teapot"]
-        found = {k: key_lights.measure(program, folder, scenes, environments, ",".join(TECHNIQUES), size, k) for k in ("off", "auto")}
-        before = found["off"]
-        if given.before:
-            (folder / "before").mkdir(exist_ok=True)
-            before = key_lights.measure(given.before.resolve(), folder / "before", scenes, environments, "major_axis_weighted", size, "off")
-        table(found, before, environments)
+        environments = six(folder, given.quick, given.env)
         samples, frames = ("64", 2) if given.quick else ("1024", 5)
         result = {"patterns": patterns(program, folder, environments, samples), "flicker": flicker(program, folder, environments, samples, frames)}
         if given.instructions:
             result["instructions"] = count_instructions(given.instructions.resolve(), ("0.8",) if given.quick else ("-0.9", "-0.5", "0.5", "0.8", "0.95"))
     if given.json:
-        result["flip"] = [{"scene": p[0], "env": p[1], "technique": p[2], "roughness": p[3], "anisotropy": p[4], "key_lights": k, "flip": v}
-                          for k, rows in found.items() for p, v in rows.items()]
         given.json.write_text(json.dumps(result, indent=1))
     return 0
 

@@ -144,3 +144,47 @@ def lower_the_error(bench):
         rows = [row for row in json.loads((bench.folder / "t.json").read_text()) if env in row["env"]]
         off, on = (sum(row[f"flip_{k}"] for row in rows) for k in ("off", "auto"))
         check(rows and rows[0]["key_lights"] > 0 and on < 0.85 * off, f"{env}: {off} -> {on}")
+
+
+def made_up_report(flips, cpu=1.0):
+    """As `burnish chart` writes it, of two places; flips: by technique, a number a place."""
+    return {"rows": [{"scene": "s", "env": env, "technique": technique, "flip_mean": flip, "cpu_ms_median": cpu * (samples or 1),
+                      "settings": {"samples": samples, "roughness": 0.5, "anisotropy": 0.8}}
+                     for technique, found in flips.items()
+                     for samples in ((None,) if technique in ("bent_normal", "split_isotropic") else (16, 12))
+                     for env, flip in zip(("sun", "none"), found)]}
+
+
+@case("key_lights.table_of_aims_is_counted_by_places")
+def table_of_aims(_):
+    """bench/aims.py on reports that are made up."""
+    sys.path.append(str(ROOT / "bench"))
+    import aims  # noqa: PLC0415
+    flips = {"lobe_line": (0.02, 0.05), "major_axis_weighted": (0.1, 0.1), "bent_normal": (0.06, 0.04), "split_isotropic": (0.2, 0.2)}
+    on = aims.places_of(made_up_report(flips))
+    off = aims.places_of(made_up_report({**flips, "lobe_line": (0.035, 0.045)}))
+    cpu = aims.places_of(made_up_report(flips), "cpu_ms_median")
+    ratios = aims.ratios_of_time(cpu)
+    check(ratios == {16: 1.0, 12: 0.75} and aims.most_within(ratios) == 16, f"{ratios}")
+    check(aims.most_within({16: 1.01, 14: 0.9, 12: 0.8}) == 14 and aims.most_within({16: 1.2, 12: 1.1}) == 12, "the most within the time, or the least")
+    found = aims.judge(on, off, on["major_axis_weighted:16"], "lobe_line:16", {"sun": 1, "none": 0})
+    reached = [(result["reached"], result["met"]) for result in found]
+    check(reached == [("0.350", True), ("0.700", False), ("0.700", False), ("50.0 %", False), ("100.0 %", True), ("1", False), ("0.571", False)],
+          f"{reached}")
+
+
+@case("key_lights.aims_are_measured_by_one_command", tier="slow")
+def aims_are_measured(bench):
+    """Its short form, four places, where lobe_line is to be the best."""
+    if "reference" not in bench.run("info").expect(0).out:
+        raise Skipped("built without Embree")
+    done = subprocess.run([sys.executable, "-B", ROOT / "bench/aims.py", "--quick", "--program", bench.program, "--json", bench.folder / "a.json"],
+                          capture_output=True, text=True, env=bench.environment({}), timeout=550, check=False)
+    print(done.stdout)
+    if done.returncode:
+        raise Failed(done.stderr)
+    found = json.loads((bench.folder / "a.json").read_text())
+    check(len(found["places"]) == 4 and all(0.0 < place["noise"] < 0.1 for place in found["places"]), f"{found['places']}")
+    reached = {result["aim"]: result["reached"] for result in found["aims"]}
+    check(float(reached["lobe_line to major_axis_weighted as it was, equal time"]) < 0.9, f"{reached}")
+    check(float(reached["lobe_line to bent_normal, both with key lights"]) < 0.7, f"{reached}")

@@ -148,15 +148,17 @@ Environment bake(const Image& image, const std::string& name, const EnvironmentO
     double peak = static_cast<double>(e.peak_source);
 
     Progress progress("baking " + name, prefilter_texels(options.cube_size, levels), options.quiet);
-    CubeLevel level0 = equirect_to_cube(source, options.cube_size, jobs);
-    e.key_lights = take_key_lights(source, options.key_lights);
+    CubeLevel sampled = sample_equirect(source, options.cube_size, jobs);
+    std::vector<SkyCap> changed;
+    e.key_lights = take_key_lights(source, options.key_lights, changed);
     if (!e.key_lights.empty()) {
         e.whole = make_cube_map(options.cube_size, 1, cube_scale(peak));
-        store_cube_level(e.whole, 0, level0.rgb.data(), jobs);
-        level0 = equirect_to_cube(source, options.cube_size, jobs);
+        store_cube_level(e.whole, 0, averaged_to(sampled, options.cube_size, jobs).rgb.data(), jobs);
+        sample_equirect_again(sampled, source, changed, jobs);
         peak = static_cast<double>(peak_value(source));
     }
-    const std::vector<CubeLevel> boxes = box_chain(std::move(level0), jobs);
+    const std::vector<CubeLevel> boxes = box_chain(averaged_to(sampled, options.cube_size, jobs), jobs);
+    sampled = {}; // as large as all the rest
     const auto gathered = std::find_if(boxes.begin(), boxes.end(), [](const CubeLevel& l) { return l.size <= kIrradianceSource; });
     e.irradiance = irradiance_cube(*gathered, jobs, progress);
     e.specular = prefilter_chain(boxes, levels, options.samples, cube_scale(peak), jobs, progress);

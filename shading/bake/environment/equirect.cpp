@@ -119,10 +119,10 @@ int sampled_size(const Equirect& source, int size)
     return sampled;
 }
 
-// Level of `size` texels from n x n samples a texel.
-CubeLevel sample_cube(const Equirect& source, int size, int n, const Jobs& jobs)
+// Of the texels whose centre, a direction that is not unit, is wanted.
+template <class Wanted> void sample_texels(CubeLevel& cube, const Equirect& source, const Jobs& jobs, const Wanted& wanted)
 {
-    CubeLevel cube = make_cube_level(size);
+    const int size = cube.size, n = size < kLargestSampled ? 2 : 1;
     const double step = 2.0 / size / n;
     const std::size_t rows = 6 * static_cast<std::size_t>(size);
     jobs.parallel_for(rows, [&](std::size_t row, int) {
@@ -135,6 +135,8 @@ CubeLevel sample_cube(const Equirect& source, int size, int n, const Jobs& jobs)
         };
         const Direction du = side(step, 0.0), dv = side(0.0, step);
         for (int x = 0; x < size; ++x) {
+            if (!wanted(cube_direction(face, (2 * x + 1.0) / size - 1.0, (2 * y + 1.0) / size - 1.0)))
+                continue;
             std::array<double, 3> sum{};
             double weights = 0.0;
             for (int k = 0; k < n * n; ++k) {
@@ -150,7 +152,6 @@ CubeLevel sample_cube(const Equirect& source, int size, int n, const Jobs& jobs)
                 out[c] = static_cast<float>(sum[c] / weights);
         }
     });
-    return cube;
 }
 
 float largest_finite(const std::vector<float>& values)
@@ -284,13 +285,46 @@ float peak_value(const Equirect& source)
     return peak;
 }
 
-CubeLevel equirect_to_cube(const Equirect& source, int size, const Jobs& jobs)
+CubeLevel sample_equirect(const Equirect& source, int size, const Jobs& jobs)
 {
-    const int sampled = sampled_size(source, size);
-    CubeLevel cube = sample_cube(source, sampled, sampled < kLargestSampled ? 2 : 1, jobs);
+    CubeLevel cube = make_cube_level(sampled_size(source, size));
+    sample_texels(cube, source, jobs, [](const Direction&) { return true; });
+    return cube;
+}
+
+void sample_equirect_again(CubeLevel& sampled, const Equirect& source, const std::vector<SkyCap>& changed, const Jobs& jobs)
+{
+    // A sample's filters reach 1.5 times sqrt(1/3 + (1.08 f)^2) pixels and one more along each axis, f being its footprint: at most 1.9
+    // pixels and 2.3 texels. Towards a pole rows grow by less than twice within that; at the pole itself it is twice that from end to end.
+    constexpr double kReach = 8.0;
+    const double pixel = std::max(kPi / source.height, 2.0 * kPi / source.width), texel = 2.0 / sampled.size;
+    std::vector<double> least;
+    for (const SkyCap& cap : changed)
+        least.push_back(det_cos(std::min(cap.radius + kReach * (pixel + texel), kPi)));
+    sample_texels(sampled, source, jobs, [&](const Direction& d) {
+        const double length = std::sqrt(d.x * d.x + d.y * d.y + d.z * d.z);
+        for (std::size_t i = 0; i < changed.size(); ++i) {
+            const Direction& c = changed[i].centre;
+            if (d.x * c.x + d.y * c.y + d.z * c.z >= least[i] * length)
+                return true;
+        }
+        return false;
+    });
+}
+
+CubeLevel averaged_to(const CubeLevel& sampled, int size, const Jobs& jobs)
+{
+    if (sampled.size == size)
+        return sampled;
+    CubeLevel cube = half_cube_level(sampled, jobs);
     while (cube.size > size)
         cube = half_cube_level(cube, jobs);
     return cube;
+}
+
+CubeLevel equirect_to_cube(const Equirect& source, int size, const Jobs& jobs)
+{
+    return averaged_to(sample_equirect(source, size, jobs), size, jobs);
 }
 
 } // namespace burnish

@@ -28,6 +28,19 @@ std::vector<std::string> equirect_warnings(const Image& image);
 double mean_luminance(const Equirect& source); // over the sphere: pixels weighted by their solid angles
 float peak_value(const Equirect& source);      // largest channel value
 
-CubeLevel equirect_to_cube(const Equirect& source, int size, const Jobs& jobs);
+// Directions within an angle of one.
+struct SkyCap {
+    Direction centre; // unit
+    double radius;    // radians
+};
+
+// The source on a cube of at least `size` texels along an edge, a power of two, that is no coarser than the source.
+CubeLevel sample_equirect(const Equirect& source, int size, const Jobs& jobs);
+// The same again where the source has changed within caps and nowhere else: with all of sample_equirect()'s bits, and little of its time.
+void sample_equirect_again(CubeLevel& sampled, const Equirect& source, const std::vector<SkyCap>& changed, const Jobs& jobs);
+// Averaged down to `size` texels along an edge: sums of texels lose nothing.
+CubeLevel averaged_to(const CubeLevel& sampled, int size, const Jobs& jobs);
+
+CubeLevel equirect_to_cube(const Equirect& source, int size, const Jobs& jobs); // both
 
 } // namespace burnish

@@ -363,10 +363,24 @@ KeyLight light_of(const Picture& picture, const Equirect& source, double total, 
     return key;
 }
 
+// Of the pixels' centres.
+SkyCap cap_of(const Picture& picture, const Pixels& pixels)
+{
+    Direction middle = {0.0, 0.0, 0.0};
+    for (const std::uint32_t p : pixels)
+        middle = sum(middle, picture.direction(p));
+    middle = unit(middle);
+    double nearest = 1.0;
+    for (const std::uint32_t p : pixels)
+        nearest = std::min(nearest, dot(picture.direction(p), middle));
+    return {middle, det_acos(std::max(nearest, -1.0))};
+}
+
 } // namespace
 
-std::vector<KeyLight> take_key_lights(Equirect& source, int most)
+std::vector<KeyLight> take_key_lights(Equirect& source, int most, std::vector<SkyCap>& changed)
 {
+    changed.clear();
     if (most <= 0)
         return {};
     const Picture picture(source);
@@ -386,6 +400,7 @@ std::vector<KeyLight> take_key_lights(Equirect& source, int most)
     for (const Region& r : regions) {
         filled.push_back(surroundings(picture, source, r.pixels, place));
         lights.push_back(light_of(picture, source, finder.total(), r.pixels, filled.back()));
+        changed.push_back(cap_of(picture, r.pixels));
     }
     for (std::size_t i = 0; i < regions.size(); ++i)
         for (std::size_t k = 0; k < regions[i].pixels.size(); ++k)

@@ -15,8 +15,8 @@ namespace burnish {
 //  - gives at least 1/200 of the light of the sphere.
 // The threshold is the lowest that satisfies all this. At most `most` are taken out of `source`, the strongest first, each with the pixels
 // around it; what is left there is a mean of the surroundings, the nearer the more. Light is moved, never made or lost: what a light has is
-// the difference. Directions are those of the picture.
-std::vector<KeyLight> take_key_lights(Equirect& source, int most);
+// the difference. Directions are those of the picture. changed: where the source has become another, a cap a light.
+std::vector<KeyLight> take_key_lights(Equirect& source, int most, std::vector<SkyCap>& changed);
 
 // As it stands in a world under an environment that is turned counter-clockwise about +Y (seen from above).
 KeyLight turned(const KeyLight& light, float rotation_deg);

@@ -65,12 +65,13 @@ double degrees_between(const float* a, const Direction& b)
 struct Taken {
     Equirect before, after;
     std::vector<KeyLight> lights;
+    std::vector<SkyCap> changed;
 };
 Taken take(const Image& image, int most = 8)
 {
     Taken t;
     t.before = t.after = make_equirect(image);
-    t.lights = take_key_lights(t.after, most);
+    t.lights = take_key_lights(t.after, most, t.changed);
     return t;
 }
 
@@ -176,6 +177,27 @@ TEST(key_lights, are_not_windows_nor_stars_nor_tubes)
     EXPECT_TRUE(none(equirect_of(512, [](double, double y, double, float* rgb) { // a ring of light
         rgb[0] = rgb[1] = rgb[2] = std::fabs(y) < 0.01 ? 100.0f : 0.1f;
     })));
+}
+
+// What is left of the picture lies on a cube as if all of it were sampled anew, though only what is near the lights is.
+TEST(key_lights, leave_a_cube_that_is_sampled_again_around_them)
+{
+    const Jobs jobs(2);
+    const std::vector<Lamp> places = {
+        {0.0, -90.0, 2.0, 3000.0}, {45.0, 35.3, 2.0, 3000.0}, {180.0, 0.0, 2.0, 3000.0}, {10.0, 88.0, 2.0, 3000.0}};
+    for (const Lamp& lamp : places)
+        for (const int size : {64, 256}) {
+            const Taken t = take(sky_with({lamp, {lamp.azimuth_deg + 100.0, 20.0, 2.0, 3000.0}}, 0.3, 256));
+            ASSERT_EQ(t.lights.size(), 2u);
+            CubeLevel cube = sample_equirect(t.before, size, jobs);
+            sample_equirect_again(cube, t.after, t.changed, jobs);
+            EXPECT_EQ(cube.rgb, sample_equirect(t.after, size, jobs).rgb) << lamp.elevation_deg << " " << size;
+            Equirect black = t.after;
+            std::fill(black.rgb.begin(), black.rgb.end(), 0.0f);
+            sample_equirect_again(cube, black, t.changed, jobs);
+            const auto sampled = std::count(cube.rgb.begin(), cube.rgb.end(), 0.0f);
+            EXPECT_LT(static_cast<double>(sampled), 0.25 * static_cast<double>(cube.rgb.size())) << lamp.elevation_deg << " " << size;
+        }
 }
 
 TEST(key_lights, need_no_particular_picture)
