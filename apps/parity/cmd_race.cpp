@@ -14,8 +14,6 @@
 #include "core/base/clock.h"
 #include "core/base/text.h"
 #include "core/base/version.h"
-#include "core/image/metrics/flip.h"
-#include "core/image/metrics/metrics.h"
 #include "core/simd/cpu.h"
 #include "raster/tile/tile_renderer.h"
 
@@ -24,8 +22,10 @@ namespace {
 
 constexpr const char* kRaceFooter =
     R"(The tile renderer and each device draw the same frame in turn, warm; the device by the classical pipeline with its own samplers, timed
-from submission to the fence. The ratio is of the process' CPU time, device over tile: above 1 the tile renderer needs less. A frame that
-differs (mean FLIP above 0.01) is marked and counts for nothing. A row that fails is reported, and its exit code given at the end.
+from submission to the fence, by the project's own shader, which has the kernels' text, and by a lean one, as an engine would write it. The
+ratio is of the process' CPU time, device over tile: above 1 the tile renderer needs less. A frame that differs (mean FLIP above 0.01, where
+no silhouette crosses the pixel) is marked and counts for nothing. A row that fails, or that the lean shader does not draw, is reported, and
+its exit code given at the end.
 
 Examples:
   burnish race
@@ -38,7 +38,8 @@ struct RaceArguments {
         render.plain.vulkan.pipeline = VulkanPipeline::forward, render.plain.vulkan.sampler = VulkanSampler::native;
     }
     RenderArguments render;
-    std::vector<std::string> scenes = {"builtin:teapot"}, techniques = *parse_techniques("all"), devices = {"lavapipe", "swiftshader"};
+    std::vector<std::string> scenes = {"builtin:teapot"}, techniques = *parse_techniques("all"), devices = {"lavapipe", "swiftshader"},
+                             shaders = {std::begin(kRaceShaders), std::end(kRaceShaders)};
     std::vector<int> msaa = {1, 4};
     int runs = 5;
     std::string json, csv;
@@ -89,9 +90,17 @@ Result<RaceRow> race(Session& tile, Session& device, const FrameDesc& desc, int 
     row.technique = desc.technique, row.samples = desc.samples, row.msaa = desc.msaa;
     row.tile_ms = median(a.wall_ms), row.device_ms = median(b.wall_ms);
     row.tile_cpu_ms = median(a.cpu_ms), row.device_cpu_ms = median(b.cpu_ms);
-    row.flip_mean = not_finite_pixels(of_tile.color, of_device.color)
-                        ? 1.0
-                        : summarise_errors(flip_hdr(of_tile.color, of_device.color, {}, jobs).error).mean;
+    std::vector<std::uint8_t> silhouettes;
+    if (desc.msaa > 1) {
+        FrameDesc seen = desc;
+        seen.triangle_ids = true;
+        Result<Frame> ids = tile.render(seen, std::move(of_tile));
+        if (!ids)
+            return ids.error();
+        of_tile = std::move(*ids);
+        silhouettes = silhouettes_of(of_tile, desc.msaa, tile.tables());
+    }
+    compare_pictures(of_tile.color, of_device.color, silhouettes, jobs, row);
     return row;
 }
 
@@ -105,7 +114,7 @@ RaceRow failed_row(const FrameDesc& desc, const Error& error)
 // Every frame to be raced, with its scene.
 struct RacePlan {
     std::vector<RenderOptions> frames; // by scene, technique, msaa
-    std::vector<std::string> devices;
+    std::vector<std::string> devices, shaders;
     int runs = 5;
 };
 
@@ -122,7 +131,7 @@ Result<RacePlan> check(const RaceArguments& in, const OptionTable& given)
                     return checked.error();
                 plan.frames.push_back(*checked);
             }
-    plan.devices = in.devices, plan.runs = in.runs;
+    plan.devices = in.devices, plan.shaders = in.shaders, plan.runs = in.runs;
     std::vector<std::string> inputs = in.scenes;
     inputs.push_back(in.render.plain.env);
     if (const Status writable = check_outputs({}, {{"--json", in.json}, {"--csv", in.csv}}, inputs); !writable)
@@ -130,32 +139,40 @@ Result<RacePlan> check(const RaceArguments& in, const OptionTable& given)
     return plan;
 }
 
+// A device with one of its shaders.
+struct Opponent {
+    std::shared_ptr<VulkanDevice> device;
+    std::string shader;
+};
+
 // Those that are there; the others get a note.
-std::vector<std::shared_ptr<VulkanDevice>> open_devices(const RacePlan& plan, RaceReport& report, Error& last)
+std::vector<Opponent> open_devices(const RacePlan& plan, RaceReport& report, Error& last)
 {
-    std::vector<std::shared_ptr<VulkanDevice>> devices;
-    for (const std::string& name : plan.devices) {
-        VulkanOptions options = plan.frames.front().vulkan;
-        options.device = name, options.centroid = true; // as cheap as the device can
-        const Result<std::shared_ptr<VulkanDevice>> device = open_vulkan_device(options);
-        if (!device) {
-            last = device.error();
-            report.notes.push_back(name + ": " + last.line());
-            continue;
+    std::vector<Opponent> devices;
+    for (const std::string& name : plan.devices)
+        for (const std::string& shader : plan.shaders) {
+            VulkanOptions options = plan.frames.front().vulkan;
+            options.device = name, options.centroid = true; // as cheap as the device can
+            options.pipeline = shader == "lean" ? VulkanPipeline::lean : VulkanPipeline::forward;
+            const Result<std::shared_ptr<VulkanDevice>> device = open_vulkan_device(options);
+            if (!device) {
+                last = device.error();
+                report.notes.push_back(name + ": " + last.line());
+                break;
+            }
+            devices.push_back({*device, shader});
+            if (shader == plan.shaders.front() && (*device)->info().name.find("SwiftShader") != std::string::npos)
+                report.notes.push_back(
+                    "SwiftShader snaps vertices to 1/16 pixel, so its edges differ by design, and is slow where the level of detail "
+                    "varies inside a quad");
         }
-        devices.push_back(*device);
-        if ((*device)->info().name.find("SwiftShader") != std::string::npos)
-            report.notes.push_back(
-                "SwiftShader snaps vertices to 1/16 pixel, so its edges differ by design, and is slow where the level of detail "
-                "varies inside a quad");
-    }
     return devices;
 }
 
 // What all scenes share.
 struct Race {
     const RacePlan& plan;
-    const std::vector<std::shared_ptr<VulkanDevice>>& devices;
+    const std::vector<Opponent>& devices;
     std::shared_ptr<const Environment> environment;
     std::shared_ptr<const Jobs> jobs;
     Report& report;
@@ -168,9 +185,9 @@ void add_row(Race& bench, const RenderOptions& frame, std::size_t device, const 
     RaceRow row = raced ? *raced : failed_row(frame.frame, raced.error());
     if (!raced && (bench.first_error.code == ExitCode::ok || bench.first_error.code == ExitCode::unavailable))
         bench.first_error = raced.error();
-    row.scene = frame.scene, row.device = bench.devices[device]->info().name;
+    row.scene = frame.scene, row.device = bench.devices[device].device->info().name, row.shader = bench.devices[device].shader;
     const std::string outcome = raced ? fmt::format("{:.2f}", row.ratio()) : row.error;
-    bench.report.detail("row", fmt::format("{} {} {}x {}: {}", row.scene, row.technique, row.msaa, row.device, outcome));
+    bench.report.detail("row", fmt::format("{} {} {}x {} {}: {}", row.scene, row.technique, row.msaa, row.shader, row.device, outcome));
     bench.out.rows.push_back(row);
 }
 
@@ -191,8 +208,8 @@ void race_scene(Race& bench, std::size_t first, std::size_t last)
     Result<Session> tile = Session::make(parts, options);
     options.backend = Backend::vulkan;
     std::vector<Result<Session>> renderers;
-    for (const auto& device : bench.devices) {
-        options.device = device;
+    for (const Opponent& opponent : bench.devices) {
+        options.device = opponent.device;
         renderers.push_back(Session::make(parts, options));
     }
     for (std::size_t i = first; i < last; ++i)
@@ -214,7 +231,7 @@ int run_race(const RaceArguments& arguments, const OptionTable& given)
     const auto jobs = std::make_shared<const Jobs>(base.threads);
     RaceReport out{cpu_name(), isa_name(base.isa), version(), jobs->threads(), base.frame.width, base.frame.height, checked->runs, {}, {}};
     Error none{ExitCode::unavailable, "", "--devices", "no device is given"};
-    const std::vector<std::shared_ptr<VulkanDevice>> devices = open_devices(*checked, out, none);
+    const std::vector<Opponent> devices = open_devices(*checked, out, none);
     if (devices.empty())
         return fail(none);
     const Result<std::shared_ptr<const Environment>> environment = open_environment(base.env, base.environment, base.limits, *jobs);
@@ -247,6 +264,8 @@ OptionTable option_table(RaceArguments& to)
     table.add("", {{"SCENE", "", "A .gltf or .glb file, or builtin:NAME; may be several", scenes(to.scenes)},
                    {"--techniques", "NAMES", "all, or names by commas; see burnish list techniques", techniques_value(to.techniques)},
                    {"--devices", "NAMES", "By commas; those that are absent are named and left out", choices(to.devices, {})},
+                   {"--shaders", "NAMES", "own (the kernels' text) and lean (as an engine would write it), by commas",
+                    choices(to.shaders, {std::begin(kRaceShaders), std::end(kRaceShaders)})},
                    {"--msaa", "N,N", "Samples a pixel, by commas", choices(to.msaa, {1, 2, 4, 8, 16})},
                    {"--runs", "N", "Timed frames of every row and renderer, in turn", integer(to.runs, 1, 10000)},
                    {"--json", "FILE", "Rows as JSON; - for standard output", file(to.json)},
@@ -258,7 +277,11 @@ OptionTable option_table(RaceArguments& to)
                 "--env-size",
                 "--key-lights",
                 "--env-samples"});
-    table.add("", {threads_option(r.threads, "Worker threads of the tile renderer"), isa_option(r.isa), quiet_option(r.quiet),
+    table.add("", {threads_option(r.threads, "Worker threads of the tile renderer"),
+                   isa_option(r.isa),
+                   {"--shader-folder", "DIR", "Folder of NAME.spv in place of the program's shaders: for tests of this command",
+                    folder(r.vulkan.shader_folder)},
+                   quiet_option(r.quiet),
                    verbose_option(r.verbosity, "Print rows as they come")});
     return table;
 }

@@ -76,14 +76,14 @@ OptionTable parity_option_table(ParityArguments& to)
                {"--technique", "NAMES", "all, or names by commas; see burnish list techniques", techniques_value(to.techniques)},
                {"--msaa", "N,N", "Samples a pixel, by commas, of 1, 2, 4, 8 and 16", choices(to.msaa, {1, 2, 4, 8, 16})}});
     table.take(of_render, "Machine",
-               {{"--device", nullptr, "the first CPU device"},
-                {"--sampler", "exact, or native with --pipeline forward"},
-                {"--pipeline", "{}"},
-                "--validate"});
-    table.add("Machine", {{"--shaders", "DIR", "Folder of NAME.spv in place of the program's shaders: for tests of this command",
-                           folder(r.vulkan.shader_folder)},
-                          threads_option(r.threads, "Worker threads of the tile renderer"),
-                          isa_option(r.isa)});
+               {{"--device", nullptr, "the first CPU device"}, {"--sampler", "exact, or native with --pipeline forward"}, "--validate"});
+    table.add("Machine",
+              {{"--pipeline", "NAME", "ids (visibility first, each visible triangle of a pixel shaded once) or forward (classical)",
+                choice(r.vulkan.pipeline, {"ids", "forward"})},
+               {"--shaders", "DIR", "Folder of NAME.spv in place of the program's shaders: for tests of this command",
+                folder(r.vulkan.shader_folder)},
+               threads_option(r.threads, "Worker threads of the tile renderer"),
+               isa_option(r.isa)});
     table.add("Output", {{"--json", "FILE", "Rows as JSON; - for standard output", file(to.json)},
                          {"--csv", "FILE", "Rows by commas, without their stages; - for standard output", file(to.csv)},
                          {"--junit", "FILE", "Rows as JUnit XML", file(to.junit)},

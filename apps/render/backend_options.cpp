@@ -41,7 +41,7 @@ Status check_vulkan_options(RenderOptions& out)
     if (!vulkan_built())
         return Error{ExitCode::unavailable, "", "--backend", "this program was built without Vulkan, which 'vulkan' needs"};
     out.vulkan.use_cache = out.environment.use_cache;
-    if (out.vulkan.sampler == VulkanSampler::native && out.vulkan.pipeline != VulkanPipeline::forward)
+    if (out.vulkan.sampler == VulkanSampler::native && out.vulkan.pipeline == VulkanPipeline::ids)
         return usage_error("--sampler", "native needs --pipeline forward");
     return {};
 }

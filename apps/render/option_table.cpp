@@ -118,8 +118,10 @@ std::vector<Option> vulkan_rows(VulkanOptions& to)
          "the first GPU, else a CPU device"},
         {"--sampler", "NAME", "exact (the tile renderer's bits) or native (the device's samplers, with --pipeline forward)",
          choice(to.sampler, {"exact", "native"})},
-        {"--pipeline", "NAME", "ids (visibility first, each visible triangle of a pixel shaded once) or forward (classical)",
-         choice(to.pipeline, {"ids", "forward"})},
+        {"--pipeline", "NAME",
+         "ids (visibility first, each visible triangle of a pixel shaded once), forward (classical) or lean (forward, as an engine would "
+         "shade it, with native samplers)",
+         choice(to.pipeline, {"ids", "forward", "lean"})},
         {"--validate", "", "With the Khronos validation layer; fail where it complains", flag(to.validate)},
     };
 }

@@ -453,9 +453,10 @@ DeviceImage::DeviceImage(const Context& context, const ImageShape& shape) : Devi
     device_ = context.device();
     auto info = vk_struct<VkImageCreateInfo>(VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO);
     info.flags = shape.layers == 6 ? VK_IMAGE_CREATE_CUBE_COMPATIBLE_BIT : 0;
-    info.imageType = VK_IMAGE_TYPE_2D;
+    info.imageType = shape.depth > 1 ? VK_IMAGE_TYPE_3D : VK_IMAGE_TYPE_2D;
     info.format = shape.format;
-    info.extent = {static_cast<std::uint32_t>(shape.width), static_cast<std::uint32_t>(shape.height), 1};
+    info.extent = {static_cast<std::uint32_t>(shape.width), static_cast<std::uint32_t>(shape.height),
+                   static_cast<std::uint32_t>(shape.depth)};
     info.mipLevels = static_cast<std::uint32_t>(shape.levels), info.arrayLayers = static_cast<std::uint32_t>(shape.layers);
     info.samples = shape.samples;
     info.usage = shape.usage;
@@ -470,7 +471,7 @@ DeviceImage::DeviceImage(const Context& context, const ImageShape& shape) : Devi
     aspect_ = shape.format == VK_FORMAT_D32_SFLOAT ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT;
     auto view = vk_struct<VkImageViewCreateInfo>(VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO);
     view.image = image_;
-    view.viewType = shape.layers == 6 ? VK_IMAGE_VIEW_TYPE_CUBE : VK_IMAGE_VIEW_TYPE_2D;
+    view.viewType = shape.depth > 1 ? VK_IMAGE_VIEW_TYPE_3D : shape.layers == 6 ? VK_IMAGE_VIEW_TYPE_CUBE : VK_IMAGE_VIEW_TYPE_2D;
     view.format = shape.format;
     view.subresourceRange = {aspect_, 0, info.mipLevels, 0, info.arrayLayers};
     BN_VK(vkCreateImageView(device_, &view, nullptr, &view_));

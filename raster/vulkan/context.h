@@ -128,6 +128,7 @@ void fill_buffer(Context& context, const Buffer& buffer, const void* data, std::
 struct ImageShape {
     VkFormat format = VK_FORMAT_UNDEFINED;
     int width = 0, height = 0, levels = 1, layers = 1; // 6 layers: a cube
+    int depth = 1;                                     // above 1: of three dimensions
     VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
     VkImageUsageFlags usage = 0;
 };

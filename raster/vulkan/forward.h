@@ -5,6 +5,7 @@
 
 #include "raster/vulkan/bands.h"
 #include "raster/vulkan/gpu_scene.h"
+#include "raster/vulkan/lean.h"
 #include "raster/vulkan/native_images.h"
 #include "raster/vulkan/pipelines.h"
 
@@ -13,8 +14,11 @@ namespace burnish {
 class ForwardPass {
   public:
     ForwardPass(Context& context, Pipelines& pipelines, GpuScene& scene, const RenderInput& input, const VulkanOptions& options)
-        : context_(context), pipelines_(pipelines), scene_(scene), input_(input), sampler_(options.sampler), centroid_(options.centroid)
+        : context_(context), pipelines_(pipelines), scene_(scene), input_(input),
+          sampler_(options.pipeline == VulkanPipeline::lean ? VulkanSampler::native : options.sampler), centroid_(options.centroid)
     {
+        if (options.pipeline == VulkanPipeline::lean)
+            lean_.emplace(context, pipelines, scene, input);
     }
     // Makes images and pipelines ready; ExitCode::unavailable where the device does not take so many samples.
     void prepare(const FrameDesc& desc, std::size_t band_bytes);
@@ -49,6 +53,7 @@ class ForwardPass {
     VulkanSampler sampler_;
     bool centroid_;
     std::optional<NativeImages> native_;
+    std::optional<LeanScene> lean_;
     Targets targets_;
 };
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <fmt/format.h>
 
+#include "core/scene/draw_tables.h"
 #include "raster/vulkan/shaders.h"
 
 namespace burnish {
@@ -32,6 +33,15 @@ VkPipelineShaderStageCreateInfo stage_info(VkShaderStageFlagBits stage, VkShader
     info.stage = stage, info.module = module, info.pName = "main", info.pSpecializationInfo = constants;
     return info;
 }
+
+// Of the lean stages: positions, then what shading reads.
+constexpr VkVertexInputBindingDescription kLeanBuffers[] = {{0, 3 * sizeof(float), VK_VERTEX_INPUT_RATE_VERTEX},
+                                                            {1, sizeof(ShadingVertex), VK_VERTEX_INPUT_RATE_VERTEX}};
+constexpr VkVertexInputAttributeDescription kLeanAttributes[] = {{0, 0, VK_FORMAT_R32G32B32_SFLOAT, 0},
+                                                                 {1, 1, VK_FORMAT_R32G32B32_SFLOAT, offsetof(ShadingVertex, normal)},
+                                                                 {2, 1, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(ShadingVertex, tangent)},
+                                                                 {3, 1, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(ShadingVertex, uv0)},
+                                                                 {4, 1, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(ShadingVertex, color)}};
 
 std::string key_of(const std::string& name, const Specialization& constants)
 {
@@ -66,6 +76,7 @@ Pipelines::Pipelines(Context& context, std::string shader_folder) : Pipelines(co
     layout.setLayoutCount = 2, layout.pSetLayouts = set_layouts;
     layout.pushConstantRangeCount = 1, layout.pPushConstantRanges = &range;
     BN_VK(vkCreatePipelineLayout(device, &layout, nullptr, &layout_));
+    make_lean_layout();
     const VkDescriptorPoolSize sizes[] = {{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kBufferBindings},
                                           {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, kBindings - kBufferBindings}};
     auto pool = vk_struct<VkDescriptorPoolCreateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO);
@@ -89,8 +100,33 @@ Pipelines::~Pipelines()
     vkDestroySampler(device, sampler_, nullptr);
     vkDestroyDescriptorPool(device, pool_, nullptr);
     vkDestroyPipelineLayout(device, layout_, nullptr);
+    vkDestroyPipelineLayout(device, lean_pipeline_layout_, nullptr);
+    vkDestroyDescriptorSetLayout(device, lean_layout_, nullptr);
     vkDestroyDescriptorSetLayout(device, native_layout_, nullptr);
     vkDestroyDescriptorSetLayout(device, set_layout_, nullptr);
+}
+
+// Set 0: of a frame, of a material, a grid, tables of albedo. Set 1 is that of native samplers.
+void Pipelines::make_lean_layout()
+{
+    constexpr VkShaderStageFlags kBoth = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
+    const VkDescriptorSetLayoutBinding bindings[] = {
+        {0, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 1, kBoth, nullptr},
+        {1, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 1, VK_SHADER_STAGE_FRAGMENT_BIT, nullptr},
+        {2, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1, VK_SHADER_STAGE_FRAGMENT_BIT, nullptr},
+        {3, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1, VK_SHADER_STAGE_FRAGMENT_BIT, nullptr},
+        {4, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1, VK_SHADER_STAGE_FRAGMENT_BIT, nullptr},
+        {5, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1, VK_SHADER_STAGE_FRAGMENT_BIT, nullptr},
+        {6, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1, VK_SHADER_STAGE_FRAGMENT_BIT, nullptr}};
+    auto set = vk_struct<VkDescriptorSetLayoutCreateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO);
+    set.bindingCount = static_cast<std::uint32_t>(std::size(bindings)), set.pBindings = bindings;
+    BN_VK(vkCreateDescriptorSetLayout(context_.device(), &set, nullptr, &lean_layout_));
+    const VkDescriptorSetLayout sets[] = {lean_layout_, native_layout_};
+    const VkPushConstantRange range = {VK_SHADER_STAGE_FRAGMENT_BIT, 0, sizeof(std::int32_t)};
+    auto layout = vk_struct<VkPipelineLayoutCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO);
+    layout.setLayoutCount = 2, layout.pSetLayouts = sets;
+    layout.pushConstantRangeCount = 1, layout.pPushConstantRanges = &range;
+    BN_VK(vkCreatePipelineLayout(context_.device(), &layout, nullptr, &lean_pipeline_layout_));
 }
 
 VkShaderModule Pipelines::module(const std::string& shader)
@@ -137,6 +173,12 @@ VkPipeline Pipelines::graphics(const GraphicsState& state, const Specialization&
         stage_info(VK_SHADER_STAGE_FRAGMENT_BIT, module(state.fragment), &specialization.info)};
     auto input = vk_struct<VkPipelineVertexInputStateCreateInfo>(
         VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO); // stages fetch for themselves
+    if (state.lean) {
+        input.vertexBindingDescriptionCount = static_cast<std::uint32_t>(std::size(kLeanBuffers)),
+        input.pVertexBindingDescriptions = kLeanBuffers;
+        input.vertexAttributeDescriptionCount = static_cast<std::uint32_t>(std::size(kLeanAttributes));
+        input.pVertexAttributeDescriptions = kLeanAttributes;
+    }
     auto assembly = vk_struct<VkPipelineInputAssemblyStateCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO);
     assembly.topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
     auto viewport = vk_struct<VkPipelineViewportStateCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO);
@@ -162,7 +204,7 @@ VkPipeline Pipelines::graphics(const GraphicsState& state, const Specialization&
     info.pVertexInputState = &input, info.pInputAssemblyState = &assembly, info.pViewportState = &viewport;
     info.pRasterizationState = &raster, info.pMultisampleState = &multisample, info.pDepthStencilState = &depth;
     info.pColorBlendState = &blend, info.pDynamicState = &dynamic;
-    info.layout = layout_;
+    info.layout = state.lean ? lean_pipeline_layout_ : layout_;
     VkPipeline made = VK_NULL_HANDLE;
     BN_VK(vkCreateGraphicsPipelines(context_.device(), context_.pipeline_cache(), 1, &info, nullptr, &made));
     return pipelines_[key] = made;

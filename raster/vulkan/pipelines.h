@@ -41,6 +41,7 @@ struct GraphicsState {
     VkFormat color = VK_FORMAT_UNDEFINED;
     VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
     VkCompareOp compare = VK_COMPARE_OP_GREATER;
+    bool lean = false; // of lean_pipeline_layout(), with vertices from buffers
 };
 
 class Pipelines {
@@ -52,6 +53,8 @@ class Pipelines {
 
     VkPipelineLayout layout() const { return layout_; }
     VkDescriptorSetLayout native_layout() const { return native_layout_; } // of set 1: three cubes, a material's textures
+    VkDescriptorSetLayout lean_layout() const { return lean_layout_; }     // of set 0 of the lean stages: see lean.cpp
+    VkPipelineLayout lean_pipeline_layout() const { return lean_pipeline_layout_; }
     // Made on first use, then kept.
     VkPipeline compute(const std::string& shader, const Specialization& constants = {});
     VkPipeline graphics(const GraphicsState& state, const Specialization& constants = {});
@@ -65,11 +68,12 @@ class Pipelines {
   private:
     Pipelines(Context& context) : context_(context) {}
     VkShaderModule module(const std::string& shader);
+    void make_lean_layout();
 
     Context& context_;
     std::string folder_;
-    VkDescriptorSetLayout set_layout_ = VK_NULL_HANDLE, native_layout_ = VK_NULL_HANDLE;
-    VkPipelineLayout layout_ = VK_NULL_HANDLE;
+    VkDescriptorSetLayout set_layout_ = VK_NULL_HANDLE, native_layout_ = VK_NULL_HANDLE, lean_layout_ = VK_NULL_HANDLE;
+    VkPipelineLayout layout_ = VK_NULL_HANDLE, lean_pipeline_layout_ = VK_NULL_HANDLE;
     VkDescriptorPool pool_ = VK_NULL_HANDLE;
     VkDescriptorSet set_ = VK_NULL_HANDLE;
     VkSampler sampler_ = VK_NULL_HANDLE;

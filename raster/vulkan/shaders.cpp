@@ -12,7 +12,7 @@ struct Stage {
     const EmbeddedFile* file;
 };
 
-const Stage kStages[] = {
+const Stage kEmbedded[] = {
 #define BN_STAGE_ROW(NAME) {#NAME, &stage_##NAME},
     BN_STAGES(BN_STAGE_ROW)
 #undef BN_STAGE_ROW
@@ -30,7 +30,7 @@ std::vector<std::uint32_t> words_of(const void* bytes, std::size_t size)
 Result<std::vector<std::uint32_t>> shader_words(const std::string& name, const std::string& folder)
 {
     if (folder.empty()) {
-        for (const Stage& stage : kStages)
+        for (const Stage& stage : kEmbedded)
             if (name == stage.name)
                 return words_of(stage.file->bytes, stage.file->size);
         return Error{ExitCode::internal, "", "", "no shader '" + name + "' in the program"};

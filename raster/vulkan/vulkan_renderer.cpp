@@ -375,7 +375,9 @@ Result<Frame> VulkanRenderer::render(const FrameDesc& desc, Frame)
 {
     if (const Status ok = check_frame(scene_.scene(), desc); !ok)
         return ok.error();
-    const bool forward = device_->options.pipeline == VulkanPipeline::forward;
+    const bool forward = device_->options.pipeline != VulkanPipeline::ids;
+    if (device_->options.pipeline == VulkanPipeline::lean && (desc.stages || desc.triangle_ids))
+        return Error{ExitCode::usage, "", "--pipeline", "lean has neither stages nor triangle ids"};
     if (forward && desc.triangle_ids && !desc.stages)
         return Error{ExitCode::usage, "", "--pipeline", "forward has triangle ids only among its stages"};
     try {

@@ -2,6 +2,8 @@
 // finds, without a window. Two pipelines:
 //   ids      the rasterizer gives triangle ids and depths by sample; a compute stage shades each distinct (pixel, triangle) pair once
 //   forward  the classical one: fragments are shaded as they are rasterized, multisampled, and resolved by the device
+//   lean     forward by the shaders that an engine would write (shading/stages/lean), for races: not the tile renderer's bits, and
+//            ExitCode::unavailable where a frame wants what they do not draw
 // With the exact sampler textures are filtered by the same kernel as on the CPU, from buffers; with the native one by the device.
 #pragma once
 #include <memory>
@@ -13,7 +15,7 @@
 namespace burnish {
 
 enum class VulkanSampler { exact, native };
-enum class VulkanPipeline { ids, forward };
+enum class VulkanPipeline { ids, forward, lean };
 
 struct VulkanOptions {
     std::string device;      // "lavapipe", "swiftshader", "gpu", or a part of a device's name; empty: see prefer_cpu

@@ -280,20 +280,21 @@ def wrong_options(bench):
 @case("race.rows_hold_picture_and_times")
 def race_rows(bench):
     done = bench.run("race", "--size", "96x64", "--techniques", "split_isotropic", "--msaa", "1", "--runs", "2", "--devices", "lavapipe,abacus", *COARSE,
-                     "--json", "race.json", "--csv", "race.csv")
+                     "--json", "race.json", "--csv", "race.csv", timeout=540.0)
     if done.code == 77:
         raise Skipped(done.err.strip())
     done.expect(0)
     check("split_isotropic" in done.out and "geometric mean" in done.out and "split_isotropic" not in done.err, done.describe())
     check(max(map(len, done.out.splitlines()[:3])) <= 100, f"lines are longer than 100 columns\n{done.describe()}")
     report = json.loads((bench.folder / "race.json").read_text())
-    row, = report["rows"]
-    line, = csv.DictReader((bench.folder / "race.csv").open(newline=""))
-    check(line["technique"] == "split_isotropic" and float(line["ratio"]) == row["ratio"], f"{line}")
-    check(row["flip_mean"] < 0.01 and row["same_picture"], f"another picture: {row}")
-    check(all(row[key] > 0 for key in ("tile_ms", "device_ms", "tile_cpu_ms", "device_cpu_ms")), f"no times: {row}")
-    check(abs(row["ratio"] - row["device_cpu_ms"] / row["tile_cpu_ms"]) < 1e-6 * row["ratio"], f"another ratio: {row}")
-    check(abs(report["geomean_ratio"] - row["ratio"]) < 1e-6 * row["ratio"], "the mean of one row is that row")
+    lines = list(csv.DictReader((bench.folder / "race.csv").open(newline="")))
+    check([row["shader"] for row in report["rows"]] == [line["shader"] for line in lines] == ["own", "lean"], f"{lines}")
+    for row, line in zip(report["rows"], lines):
+        check(line["technique"] == "split_isotropic" and float(line["ratio"]) == row["ratio"], f"{line}")
+        check(row["flip_mean"] < 0.01 and row["same_picture"], f"another picture: {row}")
+        check(all(row[key] > 0 for key in ("tile_ms", "device_ms", "tile_cpu_ms", "device_cpu_ms")), f"no times: {row}")
+        check(abs(row["ratio"] - row["device_cpu_ms"] / row["tile_cpu_ms"]) < 1e-6 * row["ratio"], f"another ratio: {row}")
+        check(abs(report["geomean_ratio"][row["shader"]] - row["ratio"]) < 1e-6 * row["ratio"], "the mean of one row is that row")
     check(any("abacus" in note for note in report["notes"]), "nothing is said of the device that is absent")
 
 
@@ -301,13 +302,102 @@ def race_rows(bench):
 def race_goes_on(bench):
     (bench.folder / "broken.glb").write_text("glTF, not")
     done = bench.run("race", "broken.glb", "builtin:teapot", "--size", "32x24", "--techniques", "split_isotropic", "--msaa", "8,1", "--runs", "1", "--devices",
-                     "lavapipe", *COARSE, "--json", "race.json")
+                     "lavapipe", *COARSE, "--json", "race.json", timeout=540.0)
     if done.code == 77 and not (bench.folder / "race.json").exists():
         raise Skipped(done.err.strip())
     done.expect(4)
     rows = json.loads((bench.folder / "race.json").read_text())["rows"]
-    check([bool(row["error"]) for row in rows] == [True, True, True, False], f"{rows}")
-    check("ratio" not in rows[2] and rows[3]["ratio"] > 0, f"{rows}")
+    check([bool(row["error"]) for row in rows] == 6 * [True] + 2 * [False], f"{rows}")
+    check("ratio" not in rows[5] and rows[6]["ratio"] > 0, f"{rows}")
+
+
+def lean_rows(bench, *arguments, code=0, timeout=540.0):
+    """Rows of a race against the lean shader."""
+    done = bench.run("race", *arguments, "--runs", "1", "--shaders", "lean", "--devices", "lavapipe", *COARSE, "--json", "race.json", timeout=timeout)
+    if done.code == 77 and not (bench.folder / "race.json").exists():
+        raise Skipped(done.err.strip())
+    done.expect(code)
+    return json.loads((bench.folder / "race.json").read_text())["rows"]
+
+
+def check_lean(rows, count):
+    for row in rows:
+        check(not row["error"] and row["same_picture"] and row["flip_mean"] <= 0.01, f"another picture: {row}")
+        check((row["silhouettes"] > 0) == (row["msaa"] > 1) and row["silhouettes"] < 0.2, f"silhouettes: {row}")
+    check(len(rows) == count, f"{len(rows)} rows")
+
+
+@case("race.lean_draws_the_same")
+def lean_draws(bench):
+    check_lean(lean_rows(bench, "builtin:teapot", "--size", "480x270", "--techniques", "split_isotropic,major_axis_adaptive", "--msaa", "4"), 2)
+
+
+@case("race.lean_draws_the_same_everywhere", tier="slow")
+def lean_draws_all(bench):
+    """But for lobe_line, whose samples the tile renderer shares between pixels and a fragment does not."""
+    alone = ",".join(("split_isotropic", "bent_normal", "major_axis", "major_axis_adaptive", "major_axis_weighted", "filtered_is", "filtered_is_ggx", "mc",
+                      "as_mc"))
+    small = lean_rows(bench, "builtin:spheres", "builtin:teapot", "builtin:plate", "--size", "480x270", "--techniques", alone, "--msaa", "1")
+    check_lean(small, 27)
+    # triangles of spheres are smaller than pixels there
+    check_lean(lean_rows(bench, "builtin:spheres", "builtin:teapot", "builtin:plate", "--size", "1920x1080", "--techniques", alone, "--msaa", "4",
+                         timeout=3000.0), 27)
+
+
+# Of the lean shader: the file, what is replaced in it, the technique that must then draw another picture.
+LEAN_DEFECTS = (("techniques.glsl", "reflect(-s.v, bent)", "reflect(-s.v, s.n)", "bent_normal"),
+                ("techniques.glsl", "min(sqrt(radius), 1.0)", "min(radius, 1.0)", "major_axis_weighted"),
+                ("lean.vert", "normal = in_normal;", "normal = vec3(in_normal.xy, 1.0);", "split_isotropic"))
+
+
+def lean_with(bench, replaced, name):
+    """Whether the lean shader, so changed, is said to draw the same."""
+    if not shutil.which("glslc"):
+        raise Skipped("no glslc here")
+    source, shaders = bench.folder / name / "source", bench.folder / name / "shaders"
+    shutil.copytree(ROOT / "shading/stages/lean", source / "shading/stages/lean")
+    shaders.mkdir()
+    for file, old, new in replaced:
+        path = source / "shading/stages/lean" / file
+        check(old in path.read_text(), f"{file} does not hold '{old}' any more")
+        path.write_text(path.read_text().replace(old, new))
+    for stage in ("lean_vert", "lean", "lean_sky_vert", "lean_sky"):
+        compile_stages(source, shaders, stage)
+    return shaders
+
+
+def sees_lean_defects(bench, defects):
+    for i, (file, old, new, technique) in enumerate(defects):
+        row, = lean_rows(bench, "builtin:spheres", "--size", "160x90", "--techniques", technique, "--msaa", "1", "--shader-folder",
+                         lean_with(bench, [(file, old, new)], str(i)))
+        check(not row["error"] and not row["same_picture"], f"'{new}' in place of '{old}' is not seen: {row}")
+
+
+@case("race.sees_a_defect_of_lean")
+def sees_lean_defect(bench):
+    sees_lean_defects(bench, LEAN_DEFECTS[:1])
+
+
+@case("race.sees_defects_of_lean", tier="slow")
+def sees_all_lean_defects(bench):
+    check_lean(lean_rows(bench, "builtin:spheres", "--size", "160x90", "--techniques", "bent_normal", "--msaa", "1", "--shader-folder",
+                         lean_with(bench, [], "whole")), 1)
+    sees_lean_defects(bench, LEAN_DEFECTS)
+
+
+@case("race.lean_refuses_what_it_does_not_draw")
+def lean_refuses(bench):
+    """By row, the others being raced; a picture that it draws wrongly there is none."""
+    row, = lean_rows(bench, "builtin:sphere", "--size", "32x24", "--techniques", "split_isotropic", "--msaa", "1", code=77)
+    check("punctual lights" in row["error"] and "ratio" not in row, f"{row}")
+    row, = lean_rows(bench, "builtin:spheres", "--env", "builtin:sky", "--size", "32x24", "--techniques", "split_isotropic", "--msaa", "1", code=77)
+    check("key lights" in row["error"], f"{row}")
+    refused = ("--backend", "vulkan", "--device", "lavapipe", "--pipeline", "lean", "--size", "32x24", "-q", *COARSE, "-o", "a.exr")
+    for words, needle in ((("builtin:spheres", "--tilt", "10,0"), "--tilt"), (("builtin:bumps",), "heights"),
+                          (("builtin:spheres", "--fresnel", "dielectric"), "--fresnel")):
+        bench.run("render", *words, *refused).expect(77).expect_one_line(needle)
+        check(not (bench.folder / "a.exr").exists(), f"{words} made a picture")
+    bench.run("parity", "--pipeline", "lean").expect(2).expect_one_line("--pipeline")
 
 
 # What `parity` must catch. Each defect: files of the shading text, what is replaced in them, samples a pixel, the first stage that must
