@@ -144,9 +144,13 @@ def main():
     arguments.add_argument("--json")
     arguments.add_argument("--sheet")
     options = arguments.parse_args()
-    work = pathlib.Path(options.work or tempfile.mkdtemp())
-    work.mkdir(parents=True, exist_ok=True)
+    with tempfile.TemporaryDirectory() as scratch:
+        work = pathlib.Path(options.work or scratch)
+        work.mkdir(parents=True, exist_ok=True)
+        return measure(options, work)
 
+
+def measure(options, work):
     def run(*words):
         done = subprocess.run([options.program, *map(str, words)], cwd=work, capture_output=True, text=True)
         if done.returncode != 0:

@@ -22,7 +22,9 @@
 #include "core/base/file.h"
 #include "core/image/io/image_io.h"
 #include "core/jobs/cores.h"
+#include "shading/bake/environment/environment_cache.h"
 #include "shading/bake/ltc/bake_ltc.h"
+#include "shading/bake/tables/phong.h"
 
 namespace burnish {
 namespace {
@@ -38,7 +40,9 @@ quaternion: the shortest rotations to a normal map's normals; see render --quate
 tpr: rotations of the grain in the tangent plane, by two expressions of u and v along tangent and bitangent, or such that the grain of
 a mesh lies along one direction; see render --rotation-map.
 half-vectors: those that a lobe of Ashikhmin and Shirley samples, over both random numbers, and in .exr their density.
-brdf-lut: that lobe's directional albedo, f0 red + green, over the eye's azimuth and the root of its cosine.
+brdf-lut: that lobe's directional albedo, f0 red + green, over the eye's azimuth and the root of its cosine. Both are read back by render
+--as-table; exponents count to five digits.
+environment: an environment as it is baked before it is drawn; render --env FOLDER reads it.
 displaced: a mesh whose heights are triangles, as render --height-map shows them without any; materials are not kept.
 The parts of quaternion and tpr lie from -1 to 1: code 128 of 8 bits is 0, 255 is 1; .exr and .pfm hold the numbers themselves.
 
@@ -52,7 +56,8 @@ Examples:
   burnish bake tpr --expr "cos(pi*v)" "sin(pi*v)" -o turned.exr
   burnish bake tpr --straighten spot.obj --direction 0,1,0 --size 512x512 -o straight.exr
   burnish bake half-vectors --nu 70 --nv 400 --size 64x64 -o half_vectors.exr
-  burnish bake brdf-lut --nu 70 --nv 400 --size 128x128 -o albedo.exr
+  burnish bake brdf-lut --nu 70 --nv 400 -o albedo.exr
+  burnish bake environment workshop.hdr -o workshop
   burnish bake displaced wall.obj heights.png --height-scale 0.02 -o wall.glb)~";
 
 struct BakeArguments {
@@ -62,7 +67,9 @@ struct BakeArguments {
     std::vector<std::string> expressions;
     std::string mesh;
     std::optional<glm::vec3> along;
-    PictureSize size = {256, 256};
+    PictureSize size = {0, 0};
+    AzimuthAxis azimuth = AzimuthAxis::root;
+    EnvironmentOptions environment;
     RotationEncoding encoding = RotationEncoding::vector;
     double depth = 0.05;
     int triangles = 1000000;
@@ -76,11 +83,18 @@ struct BakeArguments {
     int verbosity = 0;
 };
 
+// The size that was asked for, or the usual one of what is made.
+PictureSize size_of(const BakeArguments& a, PictureSize usual)
+{
+    return a.size.width > 0 ? a.size : usual;
+}
+
 OptionTable bake_option_table(BakeArguments& to)
 {
     OptionTable table, limits;
     limits.add("", limit_options(to.limits));
-    table.add("", {{"WHAT", "", "{}", choice(to.what, {"ltc", "direction", "quaternion", "tpr", "displaced", "half-vectors", "brdf-lut"})},
+    table.add("", {{"WHAT", "", "{}",
+                    choice(to.what, {"ltc", "direction", "quaternion", "tpr", "displaced", "half-vectors", "brdf-lut", "environment"})},
                    {"PICTURE", "", "That directions or quaternions are made of; of tpr the second expression, of displaced the mesh",
                     file(to.picture), ""},
                    {"HEIGHTS", "", "Of displaced: the height map", file(to.heights), ""}});
@@ -109,10 +123,18 @@ OptionTable bake_option_table(BakeArguments& to)
                        {"--half", "", "Entries as halves, not floats", flag(to.half)},
                        {"--table", "FILE", "Measure this table instead of making one", file(to.table)},
                        {"--report", "FOLDER", "Also measure the table: quality.json, quality.svg, quality.png", folder(to.report)}});
-    table.add("Maps and tables of texels",
-              {{"--size", "WxH", "Texels of tpr, half-vectors and brdf-lut", picture_size(to.size)},
-               {"--nu", "N", "Of half-vectors and brdf-lut: exponent along the tangent, 1 / alpha^2", number(to.nu, 0.0, 1e7), ""},
-               {"--nv", "N", "And along the bitangent", number(to.nv, 0.0, 1e7), ""}});
+    table.add(
+        "Maps and tables of texels",
+        {{"--size", "WxH", "Texels of tpr, half-vectors and brdf-lut", picture_size(to.size),
+          "256x256; of half-vectors 64x64, of brdf-lut 10x20, which is what pictures are made with"},
+         {"--nu", "N", "Of half-vectors and brdf-lut: exponent along the tangent, 1 / alpha^2", number(to.nu, 0.0, kMostPhongExponent), ""},
+         {"--nv", "N", "And along the bitangent", number(to.nv, 0.0, kMostPhongExponent), ""},
+         {"--azimuth", "NAME", "How columns of brdf-lut go through the eye's azimuth: {}", choice(to.azimuth, {"root", "linear"})}});
+    table.add_needing("WHAT", "environment",
+                      {{"--env-size", "N", "Texels along a cube edge, a power of two",
+                        choice(to.environment.cube_size, {16, 32, 64, 128, 256, 512, 1024, 2048})},
+                       {"--key-lights", "N", "Small strong lights that leave it: {}", key_lights(to.environment.key_lights)},
+                       {"--env-samples", "N", "Samples a texel of the prefiltered levels", integer(to.environment.samples, 1, 1 << 20)}});
     table.add("Output",
               {{"-o,--output", "FILE",
                 "The table, or the map: .png or .tif; of quaternion, tpr and half-vectors .exr, too; of displaced .glb", file(to.output)},
@@ -304,7 +326,7 @@ int run_straighten(const BakeArguments& a)
     const auto data = open_scene(a.mesh, a.limits, {}, {}, {});
     if (!data)
         return fail(data.error());
-    const Straightened made = straighten((*data)->tables, *a.along, a.size);
+    const Straightened made = straighten((*data)->tables, *a.along, size_of(a, {256, 256}));
     if (made.covered == 0)
         return fail({ExitCode::bad_input, a.mesh, "", "has no texture coordinates that cover a texel"});
     std::string warning;
@@ -326,10 +348,38 @@ int run_tpr(const BakeArguments& a)
     const Result<PixelType> type = map_type(a, {});
     if (!type)
         return fail(type.error());
-    const Result<Image> directions = rotations_of(expressions, a.size);
+    const Result<Image> directions = rotations_of(expressions, size_of(a, {256, 256}));
     if (!directions)
         return fail(directions.error());
     return write_map(a, encoded_rotations(*directions, a.encoding, *type), "");
+}
+
+int write_bytes(const BakeArguments& a, const std::string& path, const void* bytes, std::size_t count)
+{
+    if (const Status written = write_file_atomic(path, bytes, count); !written)
+        return fail(written.error());
+    Report report(a.quiet, a.verbosity);
+    report.release();
+    report.wrote(path);
+    return 0;
+}
+
+int run_environment(const BakeArguments& a)
+{
+    if (a.picture.empty() || a.output.empty())
+        return fail(usage_error(a.picture.empty() ? "PICTURE" : "-o", "is needed: an environment, and the folder that it is baked to"));
+    const Jobs jobs(a.threads);
+    EnvironmentOptions options = a.environment;
+    options.quiet = a.quiet, options.use_cache = false;
+    const auto baked = open_environment(a.picture, options, a.limits, jobs);
+    if (!baked)
+        return fail(baked.error());
+    std::error_code failed;
+    fs::create_directories(a.output, failed);
+    if (failed)
+        return fail({ExitCode::output_failed, a.output, "", failed.message()});
+    const std::vector<std::uint8_t> bytes = environment_cache_bytes(**baked);
+    return write_bytes(a, (fs::path(a.output) / kBakedEnvironment).string(), bytes.data(), bytes.size());
 }
 
 int run_displaced(const BakeArguments& a)
@@ -352,12 +402,7 @@ int run_displaced(const BakeArguments& a)
     const Result<Displaced> made = displaced((*data)->tables, *heights, a.depth, static_cast<std::size_t>(a.triangles), a.picture);
     if (!made)
         return fail(made.error());
-    if (const Status written = write_file_atomic(a.output, made->glb.data(), made->glb.size()); !written)
-        return fail(written.error());
-    Report report(a.quiet, a.verbosity);
-    report.release();
-    report.wrote(a.output);
-    return 0;
+    return write_bytes(a, a.output, made->glb.data(), made->glb.size());
 }
 
 int run_phong(const BakeArguments& a, const OptionTable& given)
@@ -370,15 +415,16 @@ int run_phong(const BakeArguments& a, const OptionTable& given)
     const Result<PixelType> type = map_type(a, {});
     if (!type)
         return fail(type.error());
+    const double nu = rounded_exponent(a.nu), nv = rounded_exponent(a.nv);
     if (a.what == "brdf-lut") {
         if (*type != PixelType::f32)
             return fail(usage_error("-o", fmt::format("'{}' must end in .exr or .pfm, which hold floats", a.output)));
-        return write_map(a, albedo_table(a.nu, a.nv, a.size), "");
+        return write_map(a, albedo_table(nu, nv, size_of(a, {kLobeAlbedoSize / 2, kLobeAlbedoSize}), a.azimuth), "");
     }
     const bool density = fs::path(a.output).extension() == ".exr";
     if (*type == PixelType::f32 && !density)
         return fail(usage_error("-o", fmt::format("'{}' must end in .exr, which holds the density too, or in .png or .tif", a.output)));
-    const Image table = half_vector_table(a.nu, a.nv, a.size, *type);
+    const Image table = half_vector_table(nu, nv, size_of(a, {64, 64}), *type);
     std::string warning;
     if (*type == PixelType::u8)
         warning = fmt::format("8 bits leave {} values along the tangent, and no densities", codes_of(table));
@@ -391,8 +437,9 @@ int run_bake(const BakeArguments& arguments, const OptionTable& given)
         for (const char* option : {"--nu", "--nv"})
             if (given.given(option))
                 return fail(usage_error(option, "is of half-vectors and brdf-lut"));
-    if (given.given("--size") &&
-        (arguments.what == "ltc" || arguments.what == "direction" || arguments.what == "quaternion" || arguments.what == "displaced"))
+    if (given.given("--azimuth") && arguments.what != "brdf-lut")
+        return fail(usage_error("--azimuth", "is of brdf-lut"));
+    if (given.given("--size") && arguments.what != "tpr" && arguments.what != "half-vectors" && arguments.what != "brdf-lut")
         return fail(usage_error("--size", "is of tpr, half-vectors and brdf-lut"));
     if (arguments.what == "half-vectors" || arguments.what == "brdf-lut")
         return run_phong(arguments, given);
@@ -400,6 +447,8 @@ int run_bake(const BakeArguments& arguments, const OptionTable& given)
         return run_displaced(arguments);
     if (!arguments.heights.empty())
         return fail(usage_error("HEIGHTS", fmt::format("'{}': only displaced takes two files", arguments.heights)));
+    if (arguments.what == "environment")
+        return run_environment(arguments);
     if (arguments.what == "direction")
         return run_direction(arguments);
     if (arguments.what == "quaternion")

@@ -36,16 +36,17 @@ int codes_of(const Image& image)
     return static_cast<int>(codes.size());
 }
 
-Image albedo_table(double nu, double nv, const PictureSize& size)
+Image albedo_table(double nu, double nv, const PictureSize& size, AzimuthAxis azimuth)
 {
     Image image = make_image(size.width, size.height, 3, PixelType::f32);
     float* to = image.f32();
     for (int y = 0; y < size.height; ++y)
         for (int x = 0; x < size.width; ++x, to += 3) {
-            const double azimuth = 0.5 * kPi * x / std::max(size.width - 1, 1),
-                         root = static_cast<double>(y) / std::max(size.height - 1, 1);
-            const double n_dot_v = std::max(root * root, 1e-4), sine = std::sqrt(1.0 - n_dot_v * n_dot_v);
-            const PhongAlbedo a = phong_albedo({sine * det_cos(azimuth), sine * det_sin(azimuth), n_dot_v}, nu, nv);
+            const double across = static_cast<double>(x) / std::max(size.width - 1, 1),
+                         eye = static_cast<double>(y) / std::max(size.height - 1, 1);
+            const double wide = nu <= nv ? across : 1.0 - across; // off the wide axis, of 90 degrees
+            const double root = azimuth == AzimuthAxis::root ? across : std::sqrt(std::max(det_cos(0.5 * kPi * wide), 0.0));
+            const PhongAlbedo a = phong_albedo_at(nu, nv, eye, root);
             to[0] = static_cast<float>(a.s), to[1] = static_cast<float>(a.b), to[2] = 0.0f;
         }
     return image;

@@ -2,6 +2,7 @@
 #pragma once
 #include "apps/cli/values.h"
 #include "core/image/image.h"
+#include "shading/bake/tables/phong.h"
 
 namespace burnish {
 
@@ -12,8 +13,8 @@ Image half_vector_table(double nu, double nv, const PictureSize& size, PixelType
 // How many different values a picture's first channel has: what is left of the direction across the lobe.
 int codes_of(const Image& image);
 
-// Directional albedo without absorption as f0 red + green, floats: of an eye at azimuth (pi / 2) x / (width - 1) from the first axis, whose
-// cosine is (y / (height - 1))^2.
-Image albedo_table(double nu, double nv, const PictureSize& size);
+// Directional albedo without absorption as f0 red + green, floats: of an eye whose cosine is (y / (height - 1))^2, at an azimuth whose
+// cosine off the lobe's wide axis is (x / (width - 1))^2, or by AzimuthAxis::linear at (pi / 2) x / (width - 1) from the axis of nu.
+Image albedo_table(double nu, double nv, const PictureSize& size, AzimuthAxis azimuth);
 
 } // namespace burnish

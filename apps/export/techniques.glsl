@@ -171,6 +171,7 @@ shaded_point point_of(vec3 n, vec3 v, vec3 tangent, vec3 f0, vec3 f90, float rou
     x.s.roughness = roughness;
     x.albedo = f0 * dfg.x + f90 * dfg.y;
     x.phong_albedo = lit(-1.0);
+    x.phong_set = -1;
     x.brushed = brushed_part(x.lobe.sigma_u, x.lobe.sigma_v);
     x.gain = vec3(1.0);
     x.pixel_id = pixel;

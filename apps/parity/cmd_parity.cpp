@@ -106,6 +106,12 @@ Status compare_place(const Bench& bench, const ParityPlace& place, ParityReport&
             return table.error();
         parts.ltc = std::move(*table);
     }
+    if (!base.as_tables.empty()) {
+        Result<std::shared_ptr<const PhongFiles>> tables = load_phong_tables(base.as_tables, base.limits);
+        if (!tables)
+            return tables.error();
+        parts.phong = std::move(*tables);
+    }
     Result<Session> tile = Session::make(parts, of_tile), vulkan = Session::make(parts, of_device);
     for (const Result<Session>* made : {&tile, &vulkan})
         if (!*made)

@@ -103,6 +103,7 @@ OptionTable parity_option_table(ParityArguments& to)
                 {"--anisotropy", "Override eta of every material, {}"},
                 "--light",
                 "--ltc-table",
+                "--as-table",
                 "--texture-anisotropy",
                 {"--no-cache", "Neither environments nor pipelines from disk"}});
     table.take_all(of_render, "Materials");

@@ -26,7 +26,7 @@ deviations, the points closest to the mirror direction and farthest from it, cla
 its samples. lobe: any model's lobe, tilted ones too: the half vectors that the eye sees, the reflected directions and polar cuts, of BRDF
 times cosine without Fresnel. side: a sphere from which bent_normal and major_axis look up or down,
 and where that is not the way of the lobe's mean, by anisotropy. half-vectors: what a lobe of Ashikhmin and Shirley samples, and its albedo, as
-tables. ellipsoid: a page of what the ellipsoid distribution of normals promises,
+tables. energy: what such a surface loses with its own diffuse part, by exponents. ellipsoid: a page of what the ellipsoid distribution of normals promises,
 measured: mean normals, visible areas, samplers, a skewed lobe against a normal map.
 
 Examples:
@@ -36,6 +36,7 @@ Examples:
   burnish plot lobe --tilt 20,0 --roughness 0.4 -o tilted.svg
   burnish plot side --roughness 0.4 --anisotropy 0.8 -o side.svg
   burnish plot half-vectors --roughness 0.3 --anisotropy 0.6 -o half_vectors.png
+  burnish plot energy -o energy.png
   burnish plot ellipsoid -o ellipsoid.html)";
 
 struct PlotArguments {
@@ -51,7 +52,7 @@ OptionTable plot_option_table(PlotArguments& to)
 {
     LobePlot& l = to.lobe;
     OptionTable table;
-    table.add("", {{"WHAT", "", "{}", choice(to.what, {"axis", "lobe", "side", "ellipsoid", "half-vectors"})}});
+    table.add("", {{"WHAT", "", "{}", choice(to.what, {"axis", "lobe", "side", "ellipsoid", "half-vectors", "energy"})}});
     table.add("The lobe", {{"--roughness", "R", "alpha_lin, {}", number(l.roughness, 0.03, 1.0)},
                            {"--anisotropy", "A", "eta, {}: alpha_lin^2 (1 +- eta) along and across", number(l.anisotropy, -1.0, 1.0)},
                            {"--eye", "DEG,DEG", "Where it is seen from: off the normal, and about it from the grain",
@@ -90,6 +91,9 @@ int run_plot(const PlotArguments& arguments, const OptionTable& given)
             return fail(usage_error(option, "is no part of WHAT ellipsoid, which has lobes of its own"));
     if (arguments.what == "side" && given.given("--eye"))
         return fail(usage_error("--eye", "is no part of WHAT side, which is seen from afar"));
+    for (const char* option : {"--eye", "--roughness", "--anisotropy"})
+        if (arguments.what == "energy" && given.given(option))
+            return fail(usage_error(option, "is no part of WHAT energy, which shows all of them"));
     if (arguments.what == "half-vectors" && given.given("--eye"))
         return fail(usage_error("--eye", "is no part of WHAT half-vectors, which are seen from above"));
     LobePlot lobe = arguments.lobe;
@@ -108,10 +112,11 @@ int run_plot(const PlotArguments& arguments, const OptionTable& given)
     lobe.tilt_y_deg = static_cast<double>(glm::degrees(arguments.frame.tilt_rad.y));
     if (page)
         return write(arguments, ellipsoid_page());
-    const Drawing drawing = arguments.what == "axis"   ? plot_axis(lobe)
-                            : arguments.what == "lobe" ? plot_lobe(lobe)
-                            : arguments.what == "side" ? plot_side(lobe)
-                                                       : plot_half_vectors(lobe);
+    const Drawing drawing = arguments.what == "axis"     ? plot_axis(lobe)
+                            : arguments.what == "lobe"   ? plot_lobe(lobe)
+                            : arguments.what == "side"   ? plot_side(lobe)
+                            : arguments.what == "energy" ? plot_energy()
+                                                         : plot_half_vectors(lobe);
     std::string bytes;
     if (extension == ".svg") {
         bytes = svg_of(drawing, chart_style());

@@ -1,9 +1,11 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/core.h>
+#include <string>
 
 #include "apps/plot/panel.h"
 #include "apps/plot/plot.h"
+#include "core/math/scalar_math.h"
 #include "shading/bake/tables/phong.h"
 
 namespace burnish {
@@ -28,7 +30,41 @@ Paint paint_of(double r, double g, double b)
     return {code(r), code(g), code(b)};
 }
 
+// What a white dielectric of that lobe, with the diffuse part of Ashikhmin and Shirley, does not give back of what it gets.
+double energy_lost(double nu, double nv, double theta, double azimuth, double f0)
+{
+    const double sine = std::sin(theta), n_dot_v = std::max(std::cos(theta), 1e-4);
+    const PhongAlbedo a = phong_albedo({sine * std::cos(azimuth), sine * std::sin(azimuth), n_dot_v}, nu, nv, 144, 89);
+    const double rise = 1.0 - std::pow(1.0 - 0.5 * n_dot_v, 5.0);
+    return 1.0 - (f0 * a.s + a.b) - (1.0 - f0) * rise;
+}
+
 } // namespace
+
+Drawing plot_energy()
+{
+    constexpr double kThetas[] = {0.0, 45.0, 70.0, 85.0}, kAzimuth = 45.0 * kDegree, kF0 = 0.04, kMost = 0.5;
+    Drawing out(4.0 * kSide + 5.0 * kGap, kTop + kSide + kBelow, "chart", "Light that Ashikhmin and Shirley's surface loses");
+    std::string note;
+    for (int k = 0; k < 4; ++k) {
+        double least = 1.0, most = -1.0;
+        const std::string title = fmt::format("seen from {:g} degrees", kThetas[k]);
+        draw_table(out, title.c_str(), kGap + k * (kSide + kGap), [&](double x, double y) {
+            const double lost = energy_lost(std::pow(10.0, 5.0 * x), std::pow(10.0, 5.0 * y), kThetas[k] * kDegree, kAzimuth, kF0);
+            least = std::min(least, lost), most = std::max(most, lost);
+            const double part = lost / kMost;
+            return lost < 0.0 ? paint_of(0.2, 0.4, 1.0) : paint_of(1.0 - 0.3 * part, 1.0 - 0.9 * part, 1.0 - part);
+        });
+        note += fmt::format("{}{:g}: {:.3f} to {:.3f}", k ? ", " : "share lost from ", kThetas[k], least, most);
+    }
+    out.text(kGap, kTop + kSide + 44.0, "note", note);
+    out.text(kGap, kTop + kSide + 68.0, "note",
+             fmt::format(
+                 "to the right and up: exponents nu and nv from 1 to 100000, by their logarithms; f0 {:g}, white; seen from 45 degrees off "
+                 "the grain; white: nothing is lost, red: {:g}, blue: more than there is",
+                 kF0, kMost));
+    return out;
+}
 
 Drawing plot_half_vectors(const LobePlot& lobe)
 {

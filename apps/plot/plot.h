@@ -26,6 +26,9 @@ Drawing plot_lobe(const LobePlot& lobe);
 // directional albedo: exponents 1 / alpha^2. Ashikhmin and Shirley 2000.
 Drawing plot_half_vectors(const LobePlot& lobe);
 
+// What a white dielectric of that lobe, with its own diffuse part, loses: over both exponents, seen from four angles.
+Drawing plot_energy();
+
 // Which way techniques look from the points of a sphere, up or down, where that is not the way of the lobe's mean, and the share of such
 // points by anisotropy; the same, figure 20.
 Drawing plot_side(const LobePlot& lobe);

@@ -20,6 +20,10 @@ void warn_of_no_effect(const OptionTable& given, RenderOptions& out)
     for (const ParameterInfo& p : parameters())
         if (!reads(reference ? "reference" : technique.name, p))
             warn(std::string("--") + p.option, reference ? of_backend : of_technique);
+    if (reference || !(technique.traits & kPhongGrid))
+        warn("--as-table", reference ? of_backend : of_technique);
+    else if (out.frame.as_tables != 0)
+        warn("--as-table", "--as-tables off");
     if (!reference && technique.traits & kTakesRoundLobes && out.frame.anisotropy != 0.0f)
         warn("--anisotropy", of_technique);
     if (reference)

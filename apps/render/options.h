@@ -23,9 +23,10 @@ namespace burnish {
 struct RenderOptions {
     std::string scene = "builtin:teapot";
     Moment moment;
-    std::vector<AreaLight> lights; // besides those of the scene
-    std::string ltc_table;         // of area lights; empty: the program's own
-    Dress dress;                   // what all materials take
+    std::vector<AreaLight> lights;      // besides those of the scene
+    std::vector<std::string> as_tables; // of as_mc's lobes, or folders of them; empty: frames make their own
+    std::string ltc_table;              // of area lights; empty: the program's own
+    Dress dress;                        // what all materials take
     std::vector<std::string> outputs;
     std::string stats_file; // empty: none; "-": standard output
     std::string trace_file; // empty: none

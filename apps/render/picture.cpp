@@ -10,6 +10,8 @@
 #include "apps/cli/seen_scene.h"
 #include "apps/cli/stop_signal.h"
 #include "core/image/image.h"
+#include "shading/bake/tables/phong_files.h"
+#include "shading/lang/records.h"
 
 namespace burnish {
 namespace {
@@ -83,6 +85,15 @@ Result<Session> prepare(const RenderOptions& options, RenderFigures& figures, st
         if (!table)
             return table.error();
         parts.ltc = std::move(*table);
+    }
+    if (!options.as_tables.empty()) {
+        Result<std::shared_ptr<const PhongFiles>> tables = load_phong_tables(options.as_tables, options.limits);
+        if (!tables)
+            return tables.error();
+        if (find_technique(options.frame.technique)->traits & kPhongGrid)
+            for (const std::string& warning : (*tables)->warnings(options.frame.samples))
+                report.warning(warning);
+        parts.phong = std::move(*tables);
     }
     const Stopwatch load;
     {

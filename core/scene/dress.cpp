@@ -175,6 +175,13 @@ Status put_maps(Dresser& on, const Dress& with)
             return image.error();
         on.put_directions(on.add(directions_of_rotations(*image, with.rotation_encoding), with.rotation, "rotations"));
     }
+    if (!with.roughness.empty()) {
+        const Result<Image> image = on.read(with.roughness, 3);
+        if (!image)
+            return image.error();
+        on.put(on.add(roughness_of(*image, with.roughness_encoding), with.roughness, "roughness by direction"),
+               &Material::directional_roughness_tex);
+    }
     if (!with.normal.empty()) {
         Result<Image> image = on.read(with.normal, 3);
         if (!image)
@@ -294,7 +301,7 @@ void put_f0(Material& m, const glm::vec3& f0)
 bool Dress::names(const std::string& path) const
 {
     return !path.empty() && (path == direction || path == rotation || path == normal || path == quaternion || path == height ||
-                             path == material || (!material.empty() && path.starts_with(material)));
+                             path == roughness || path == material || (!material.empty() && path.starts_with(material)));
 }
 
 Status dress(Scene& scene, const Dress& with, const Limits& limits)

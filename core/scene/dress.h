@@ -6,6 +6,7 @@
 
 #include "core/base/limits.h"
 #include "core/base/result.h"
+#include "core/scene/directional_roughness.h"
 #include "core/scene/scene.h"
 #include "core/scene/surface_maps.h"
 
@@ -18,6 +19,8 @@ struct Dress {              // empty: left as it is
     std::string normal;     // normal map
     std::string quaternion; // the same as quaternions
     std::string height;     // height map, red
+    std::string roughness;  // roughness by direction
+    RoughnessEncoding roughness_encoding = RoughnessEncoding::widths;
     RotationEncoding rotation_encoding = RotationEncoding::vector;
     bool normal_y_down = false;  // all normal maps have green down
     bool lean = false;           // all materials

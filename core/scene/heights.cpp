@@ -37,9 +37,13 @@ int wrapped_at(std::int64_t at, int count, WrapMode mode)
     return static_cast<int>(in < n ? in : period - 1 - in);
 }
 
-// Between texel centres; x, y: texels from the corner. `value` makes of a texel's number what is blended.
+// Between texel centres, or of the texel itself where the sampler takes the nearest; x, y: texels from the corner. `value` makes of a
+// texel's number what is blended.
 template <class Value> double between(const Image& image, const Texture& sampler, double x, double y, int channel, const Value& value)
 {
+    if (sampler.nearest)
+        return value(channel_at(image, wrapped_at(static_cast<std::int64_t>(std::floor(x)), image.width, sampler.wrap_s),
+                                wrapped_at(static_cast<std::int64_t>(std::floor(y)), image.height, sampler.wrap_t), channel));
     const double left = std::floor(x - 0.5), top = std::floor(y - 0.5), fx = x - 0.5 - left, fy = y - 0.5 - top;
     double sum = 0.0;
     for (const int j : {0, 1})
@@ -50,13 +54,6 @@ template <class Value> double between(const Image& image, const Texture& sampler
                                                  wrapped_at(static_cast<std::int64_t>(top) + j, image.height, sampler.wrap_t), channel));
         }
     return sum;
-}
-
-bool lie_alike(const Scene& scene, const TextureRef& a, const TextureRef& b)
-{
-    const Texture &s = scene.textures[static_cast<std::size_t>(a.texture)], &t = scene.textures[static_cast<std::size_t>(b.texture)];
-    return a.uv_set == b.uv_set && a.uv_transform == b.uv_transform && s.wrap_s == t.wrap_s && s.wrap_t == t.wrap_t &&
-           s.nearest == t.nearest;
 }
 
 Image normals_with_heights(const Image& normals, const Image& heights, const Texture& sampler)
@@ -78,6 +75,13 @@ Image normals_with_heights(const Image& normals, const Image& heights, const Tex
 }
 
 } // namespace
+
+bool lie_alike(const Scene& scene, const TextureRef& a, const TextureRef& b)
+{
+    const Texture &s = scene.textures[static_cast<std::size_t>(a.texture)], &t = scene.textures[static_cast<std::size_t>(b.texture)];
+    return a.uv_set == b.uv_set && a.uv_transform == b.uv_transform && s.wrap_s == t.wrap_s && s.wrap_t == t.wrap_t &&
+           s.nearest == t.nearest;
+}
 
 float height_at(const Image& heights, const Texture& sampler, double u, double v)
 {

@@ -8,7 +8,10 @@
 
 namespace burnish {
 
-// Height of a picture's red at texel centres between its own, [0,1]: bilinear, as the wrap modes have it. u, v: texture coordinates.
+// Whether two textures have the same coordinates, transform and sampler.
+bool lie_alike(const Scene& scene, const TextureRef& a, const TextureRef& b);
+
+// Height of a picture's red at texel centres between its own, [0,1]: bilinear or nearest, as the sampler has it. u, v: texture coordinates.
 float height_at(const Image& heights, const Texture& sampler, double u, double v);
 
 // A picture of depths as heights, 16 bits, red alone. Repaired: at the surface.

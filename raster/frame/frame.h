@@ -130,6 +130,7 @@ class Renderer {
 namespace ltc {
 struct ShadingTables;
 }
+class PhongFiles;
 
 // Everything a renderer needs; the references must outlive it.
 struct RenderInput {
@@ -139,6 +140,7 @@ struct RenderInput {
     const DfgTable& dfg;
     const Jobs& jobs;
     const ltc::ShadingTables* ltc = nullptr; // of area lights; none: ltc::shipped_tables()
+    const PhongFiles* phong = nullptr;       // of as_mc's lobes; none: frames make their own
 };
 
 enum class Sampling { none, count, grid }; // what a technique makes of FrameDesc::samples: nothing, N samples, n x n

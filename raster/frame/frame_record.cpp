@@ -6,6 +6,7 @@
 #include "core/math/scalar_math.h"
 #include "raster/frame/grid_samples.h"
 #include "shading/bake/ltc/shipped.h"
+#include "shading/bake/tables/phong_files.h"
 #include "shading/surface/lobe_shape.t.h"
 
 namespace burnish {
@@ -99,7 +100,7 @@ const std::vector<std::uint16_t>& FrameMaker::ltc_texels() const
 
 void FrameMaker::bake(const FrameDesc& desc)
 {
-    grid_.clear();
+    grid_.clear(), sets_.clear();
     const TechniqueInfo& technique = *find_technique(desc.technique);
     if ((technique.traits & kReadsBox) && box_cube_.levels == 0)
         box_cube_ = box_filtered_chain(input_.environment.specular, input_.jobs);
@@ -157,8 +158,28 @@ int FrameMaker::slice_of(float sigma_u, float sigma_v, bool phong)
     sliced_.push_back(wanted);
     lobe_slices_.resize(4 * kTexels * sliced_.size());
     const double root2 = 1.4142135623730951;
-    (phong ? bake_phong_slice : bake_lobe_slice)(kLobeAlbedoSize, root2 * static_cast<double>(sigma_u),
-                                                 root2 * static_cast<double>(sigma_v), lobe_slices_.data() + 4 * first);
+    const double alpha_u = root2 * static_cast<double>(sigma_u), alpha_v = root2 * static_cast<double>(sigma_v);
+    if (phong && input_.phong && input_.phong->has_albedo())
+        input_.phong->slice(phong_exponent(alpha_u), phong_exponent(alpha_v), kLobeAlbedoSize, lobe_slices_.data() + 4 * first);
+    else
+        (phong ? bake_phong_slice : bake_lobe_slice)(kLobeAlbedoSize, alpha_u, alpha_v, lobe_slices_.data() + 4 * first);
+    return first;
+}
+
+// The first of the grid's samples that are the lobe's half vectors, which are added where there are none yet; -1 where the grid is full.
+int FrameMaker::set_of(float sigma_u, float sigma_v, int samples)
+{
+    const auto known = std::find(sets_.begin(), sets_.end(), std::pair(sigma_u, sigma_v));
+    const int first = samples + static_cast<int>(known - sets_.begin()) * 2 * samples;
+    if (known != sets_.end())
+        return first;
+    if (first + 2 * samples > kMostGridSamples)
+        return -1;
+    const double root2 = 1.4142135623730951, nu = phong_exponent(root2 * static_cast<double>(sigma_u)),
+                 nv = phong_exponent(root2 * static_cast<double>(sigma_v));
+    sets_.emplace_back(sigma_u, sigma_v);
+    const bool from_file = input_.phong && input_.phong->has_half_vectors();
+    add_half_vectors(from_file ? input_.phong->half_vectors(nu, nv, samples) : phong_half_vectors(nu, nv, samples), grid_);
     return first;
 }
 
@@ -168,7 +189,7 @@ void FrameMaker::slice_albedo(const FrameDesc& desc)
     ShadingFrame f = {};
     f.override_anisotropy = desc.override_anisotropy, f.anisotropy = desc.anisotropy;
     for (MaterialRecord& m : materials_) {
-        m.albedo_slice = m.phong_slice = -1, m.brushed = 1.0f;
+        m.albedo_slice = m.phong_slice = m.phong_set = -1, m.brushed = 1.0f;
         if (m.anisotropic && (m.technique_traits & kSharesSamples) && m.moments == kNoMoments)
             m.brushed = brushed_by_factors(f, m);
         if (!one_lobe_shape(m))
@@ -178,7 +199,29 @@ void FrameMaker::slice_albedo(const FrameDesc& desc)
             m.albedo_slice = slice_of(shape.sigma_u, shape.sigma_v, false);
         if ((m.technique_traits & kPhongGrid) && desc.as_tables == 0)
             m.phong_slice = slice_of(shape.sigma_u, shape.sigma_v, true);
+        if ((m.technique_traits & kPhongGrid) && desc.as_tables == 0 && desc.seed == 0)
+            m.phong_set = set_of(shape.sigma_u, shape.sigma_v, desc.samples);
     }
+}
+
+Status FrameMaker::check(const FrameDesc& desc) const
+{
+    if (const Status ok = check_frame(input_.scene, desc); !ok || !input_.phong || desc.as_tables != 0)
+        return ok;
+    ShadingFrame f = {};
+    f.override_anisotropy = desc.override_anisotropy, f.anisotropy = desc.anisotropy;
+    for (const MaterialRecord& m : in_frame(overrides(desc) ? scene_.overridden : scene_.materials, desc)) {
+        if (!(technique_of(desc, m.anisotropic != 0).traits & kPhongGrid) || m.unlit || !one_lobe_shape(m))
+            continue;
+        const double root2 = 1.4142135623730951;
+        const lobe_shape shape = only_lobe_shape(f, m);
+        if (shape.sigma_u > 0.0f)
+            if (const Status fits = input_.phong->check(phong_exponent(root2 * static_cast<double>(shape.sigma_u)),
+                                                        phong_exponent(root2 * static_cast<double>(shape.sigma_v)));
+                !fits)
+                return fits;
+    }
+    return {};
 }
 
 ShadingFrame FrameMaker::make(const FrameDesc& desc)
@@ -201,7 +244,7 @@ ShadingFrame FrameMaker::make(const FrameDesc& desc)
     f.dfg_texels = input_.dfg.texels.data();
     f.lobe_albedo_texels = lobe_albedo_texels(), f.lobe_slice_texels = lobe_slices_.data();
     f.box = cube_record(box_cube_), f.box_texels = box_cube_.texels.data();
-    f.grid = grid_.data(), f.grid_count = static_cast<int>(grid_.size());
+    f.grid = grid_.data(), f.grid_count = static_cast<int>(grid_.size() - 2 * sets_.size() * static_cast<std::size_t>(desc.samples));
     return f;
 }
 

@@ -23,7 +23,9 @@ class FrameMaker {
   public:
     explicit FrameMaker(const RenderInput& input); // its references must outlive the maker
 
-    // desc: one that check_frame() lets pass. What the frame points at stays until the next call.
+    // check_frame(), and whether tables from files are of the lobes that would take them.
+    Status check(const FrameDesc& desc) const;
+    // desc: one that check() lets pass. What the frame points at stays until the next call.
     ShadingFrame make(const FrameDesc& desc);
 
     const SceneTables& scene() const { return scene_; }
@@ -37,6 +39,7 @@ class FrameMaker {
     void bake(const FrameDesc& desc);
     void choose_techniques(const FrameDesc& desc);
     int slice_of(float sigma_u, float sigma_v, bool phong);
+    int set_of(float sigma_u, float sigma_v, int samples);
     void slice_albedo(const FrameDesc& desc);
 
     RenderInput input_;
@@ -47,6 +50,7 @@ class FrameMaker {
     std::vector<SlicedLobe> sliced_;                   // that have a slice, in their order
     Column<std::uint16_t> lobe_slices_;
     std::vector<GridSample> grid_;
+    std::vector<std::pair<float, float>> sets_; // deviations of slope of the lobes whose half vectors follow in the grid
 };
 
 } // namespace burnish

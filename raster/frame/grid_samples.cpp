@@ -1,5 +1,6 @@
 #include "raster/frame/grid_samples.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/math/scalar_math.h"
@@ -36,16 +37,24 @@ std::vector<GridSample> phong_set(int samples)
 {
     std::vector<GridSample> set;
     for (int i = 0; i < samples; ++i) {
-        std::uint32_t bits = static_cast<std::uint32_t>(i), mirrored = 0;
-        for (int b = 0; b < 32; ++b, bits >>= 1)
-            mirrored = mirrored << 1 | (bits & 1u);
-        const double azimuth = 2.0 * kPi * i / samples, xi = mirrored / 4294967296.0;
-        set.push_back({static_cast<float>(det_cos(azimuth)), static_cast<float>(det_sin(azimuth)), static_cast<float>(det_log(1.0 - xi))});
+        const PhongPoint xi = phong_point(i, samples);
+        const double azimuth = 2.0 * kPi * xi.x;
+        set.push_back(
+            {static_cast<float>(det_cos(azimuth)), static_cast<float>(det_sin(azimuth)), static_cast<float>(det_log(1.0 - xi.y))});
     }
     return set;
 }
 
 } // namespace
+
+void add_half_vectors(const std::vector<PhongHalfVector>& half_vectors, std::vector<GridSample>& to)
+{
+    for (const PhongHalfVector& h : half_vectors) {
+        to.push_back({static_cast<float>(h.x), static_cast<float>(h.y), static_cast<float>(h.z)});
+        const double bits = det_log(std::max(h.density, 1e-30)) / det_log(2.0);
+        to.push_back({static_cast<float>(0.5 * bits), 0.0f, 0.0f});
+    }
+}
 
 std::vector<GridSample> grid_samples(int samples, Sampling sampling, int traits)
 {

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "raster/frame/frame.h"
+#include "shading/bake/tables/phong.h"
 #include "shading/lang/tables.h"
 
 namespace burnish {
@@ -10,5 +11,8 @@ namespace burnish {
 // traits: of the technique. n = floor(sqrt(samples)): Gaussian slopes (Beckmann) or GGX; of kPhongGrid all samples, the first of which is
 // the normal. None where a technique brings none.
 std::vector<GridSample> grid_samples(int samples, Sampling sampling, int traits);
+
+// Two a half vector, as as_mc.t.h has them: the vector, and half the logarithm to base 2 of its density.
+void add_half_vectors(const std::vector<PhongHalfVector>& half_vectors, std::vector<GridSample>& to);
 
 } // namespace burnish

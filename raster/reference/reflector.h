@@ -11,10 +11,11 @@ inline namespace BN_ISA_NS {
 
 struct Reflector {
     shaded_point x;
-    int lobe;             // of the frame: its place in shading/models.def
-    real3 o;              // to the eye, in the lobe's own frame
-    real3 horizon;        // normal of the surface, whatever a normal map or a tilt says: the lobe reflects nothing below its horizon
-    real3 diffuse;        // BRDF of the diffuse part, 1/sr
+    int lobe;      // of the frame: its place in shading/models.def
+    real3 o;       // to the eye, in the lobe's own frame
+    real3 horizon; // normal of the surface, whatever a normal map or a tilt says: the lobe reflects nothing below its horizon
+    real3 diffuse; // BRDF of the diffuse part, 1/sr; by light at a cosine times phong_diffuse_lit() where it is that
+    bool phong_diffuse;
     real choose_specular; // probability
     mask mirror;          // the lobe has no width: only samples meet it
     mask refracts;        // an interface is in the lobe's place; none of them where !x.refracts
@@ -35,6 +36,7 @@ BN_INLINE Reflector make_reflector(const ShadingFrame& f, const shaded_point& x)
     r.horizon = x.turned ? x.surface_axes.n : s.n;
     r.o = placed_lobe_of(kUsualLobe, x.lobe, s.n, s.v, x.surface_axes).o;
     const real passed = passed_to_diffuse(f, x);
+    r.phong_diffuse = f.diffuse_model != 0;
     r.diffuse = s.diffuse * (passed * lit(0.31830988618379067));
     r.mirror = x.lobe.sigma_u + x.lobe.sigma_v <= lit(1e-6);
     r.refracts = mask_from_bits(x.refracts ? (1u << kLanes) - 1u : 0u);
@@ -131,7 +133,7 @@ BN_INLINE Reflection reflect(const Reflector& r, real3 wi)
         specular_pdf = select(r.refracts, s.pdf, specular_pdf);
     }
     Reflection to;
-    to.value = specular + r.diffuse * cosine;
+    to.value = specular + r.diffuse * (r.phong_diffuse ? cosine * phong_diffuse_lit(cosine) : cosine);
     to.pdf = r.choose_specular * specular_pdf + (lit(1.0) - r.choose_specular) * cosine * lit(0.31830988618379067);
     return to;
 }

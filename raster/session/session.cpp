@@ -4,10 +4,12 @@
 #include <new>
 #include <utility>
 
+#include "core/scene/directional_roughness.h"
 #include "core/scene/gltf/gltf.h"
 #include "core/scene/heights.h"
 #include "shading/bake/environment/turn.h"
 #include "shading/bake/ltc/shipped.h"
+#include "shading/bake/tables/phong_files.h"
 
 namespace burnish {
 namespace {
@@ -64,6 +66,17 @@ Result<std::shared_ptr<const ltc::ShadingTables>> load_ltc_table(const std::stri
     });
 }
 
+Result<std::shared_ptr<const PhongFiles>> load_phong_tables(const std::vector<std::string>& paths, const Limits& limits)
+{
+    using Made = Result<std::shared_ptr<const PhongFiles>>;
+    return guarded(paths.empty() ? "" : paths.front(), [&]() -> Made {
+        Result<PhongFiles> tables = PhongFiles::read(paths, limits);
+        if (!tables)
+            return tables.error();
+        return std::make_shared<const PhongFiles>(std::move(*tables));
+    });
+}
+
 Result<std::shared_ptr<const SceneData>> make_scene_data(const std::string& name, Scene scene, const Limits& limits)
 {
     using Made = Result<std::shared_ptr<const SceneData>>;
@@ -71,6 +84,8 @@ Result<std::shared_ptr<const SceneData>> make_scene_data(const std::string& name
         auto data = std::make_shared<SceneData>();
         data->name = name;
         data->scene = std::move(scene);
+        if (Status laid = lay_directional_roughness(data->scene, limits, name); !laid)
+            return laid.error();
         if (Status laid = lay_heights(data->scene, limits, name); !laid)
             return laid.error();
         update_world(data->scene);

@@ -52,6 +52,9 @@ Result<std::shared_ptr<const DfgTable>> standard_dfg(const Jobs& jobs);
 // A table of `burnish bake ltc`, in place of the program's own one of its kind.
 Result<std::shared_ptr<const ltc::ShadingTables>> load_ltc_table(const std::string& path);
 
+// Tables of `burnish bake half-vectors` and `brdf-lut`, or folders of them, in place of those that frames make for as_mc.
+Result<std::shared_ptr<const PhongFiles>> load_phong_tables(const std::vector<std::string>& paths, const Limits& limits);
+
 // What a renderer draws. All of it is shared.
 struct SessionParts {
     std::shared_ptr<const SceneData> scene;
@@ -59,10 +62,14 @@ struct SessionParts {
     std::shared_ptr<const Jobs> jobs;                   // none: all cores the process may use
     std::shared_ptr<const DfgTable> dfg;                // none: standard_dfg()
     std::shared_ptr<const ltc::ShadingTables> ltc = {}; // transformed cosines of area lights; none: the program's own
+    std::shared_ptr<const PhongFiles> phong = {};       // tables of as_mc; none: frames make their own
     std::shared_ptr<const DrawTables> turned = {};      // the scene as it stands under an environment that is turned; a session makes them
 
     // Of parts that a session has: nothing is missing.
-    RenderInput input() const { return {scene->scene, turned ? *turned : scene->tables, *environment, *dfg, *jobs, ltc.get()}; }
+    RenderInput input() const
+    {
+        return {scene->scene, turned ? *turned : scene->tables, *environment, *dfg, *jobs, ltc.get(), phong.get()};
+    }
 };
 
 enum class Backend { tile, vulkan, reference };

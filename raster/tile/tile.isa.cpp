@@ -192,7 +192,8 @@ void shade_slot(const Tile& t, const view_params& view, const MaterialRecord& m,
             store_batch(t, load_batch(t, i, end), plan.at.base);
         return;
     }
-    const int more = t.f.light_count | t.f.area_light_count | t.f.key_light_count | t.f.energy_compensation | t.f.dfg_fit | t.f.fresnel;
+    const int more = t.f.light_count | t.f.area_light_count | t.f.key_light_count | t.f.energy_compensation | t.f.dfg_fit | t.f.fresnel |
+                     t.f.diffuse_model;
     if (plan.uniform && !more && !m.refracts && t.f.lobe == PlainFrame::lobe) {
         constexpr int kTraits = kTechniqueTraits[static_cast<int>(kTechnique)];
         constexpr bool kAlsoRound = (kTraits & kAutoRound) != 0;

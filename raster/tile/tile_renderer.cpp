@@ -221,7 +221,7 @@ Frame frame_for(const FrameDesc& desc, Frame recycled)
 
 Result<Frame> TileRenderer::render(const FrameDesc& desc, Frame recycled)
 {
-    if (const Status ok = check_frame(input_.scene, desc); !ok)
+    if (const Status ok = maker_.check(desc); !ok)
         return ok.error();
     const TraceSpan span("frame");
     const auto begin = std::chrono::steady_clock::now();

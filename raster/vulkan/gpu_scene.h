@@ -29,7 +29,7 @@ class GpuScene {
     const Buffer& area_lights() const { return area_lights_; }
     const FrameRecord& record() const { return record_.frame; }
     const GpuPlaces& places() const { return record_.places; }
-    const Scene& scene() const { return input_.scene; }
+    Status check(const FrameDesc& desc) const { return maker_.check(desc); }
     const SceneTables& tables() const { return maker_.scene(); }
     const std::vector<MaterialRecord>& materials_of_frame() const { return maker_.materials(); }
     const CubeMap& box_cube() const { return maker_.box_cube(); }

@@ -1,6 +1,9 @@
 #include "raster/vulkan/shaders.h"
 
+#include <cstdint>
 #include <cstring>
+#include <string>
+#include <vector>
 
 #include "core/base/file.h"
 

@@ -373,7 +373,7 @@ Frame VulkanRenderer::render_forward(const FrameDesc& desc)
 
 Result<Frame> VulkanRenderer::render(const FrameDesc& desc, Frame)
 {
-    if (const Status ok = check_frame(scene_.scene(), desc); !ok)
+    if (const Status ok = scene_.check(desc); !ok)
         return ok.error();
     const bool forward = device_->options.pipeline != VulkanPipeline::ids;
     if (device_->options.pipeline == VulkanPipeline::lean && (desc.stages || desc.triangle_ids))

@@ -15,7 +15,7 @@ const int kGpuCubes = 4, kGpuGroup = 64; // cubes, invocations a workgroup
 // Pages of texels; textures follow. In the reals the grid of filtered importance sampling comes first, 3 a sample.
 const int kGpuSpecularPage = 0, kGpuIrradiancePage = 1, kGpuBoxPage = 2, kGpuDfgPage = 3, kGpuLobeAlbedoPage = 4, kGpuLobeSlicePage = 5,
           kGpuWholePage = 6, kGpuLtcPage = 7, kGpuFirstTexturePage = 8;
-const int kGpuMaxGrid = 65536;
+const int kGpuMaxGrid = 65536; // kMostGridSamples
 const int kGpuNoTriangle = -1;
 const int kGpuFirstAreaWay = 16; // bit of a stage's constant 1; lobes have those below
 // The rasterizer's viewport is twice as many pixels wide, around the centre pixel, or as wide as the device allows: a power of two, so

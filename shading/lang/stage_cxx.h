@@ -121,14 +121,15 @@ BN_INLINE constexpr bool area_way_used(int)
 // A fragment of which nothing changes but the geometry: neither textures, vertex colours, lights of either kind, energy compensation, exact
 // reflectances, light that passes nor a lobe other than the usual one.
 struct PlainFrame : ShadingFrame {
-    static constexpr int light_count = 0, area_light_count = 0, key_light_count = 0, energy_compensation = 0, dfg_fit = 0, fresnel = 0;
+    static constexpr int light_count = 0, area_light_count = 0, key_light_count = 0, energy_compensation = 0, dfg_fit = 0, fresnel = 0,
+                         diffuse_model = 0;
     static constexpr int lobe = lobe_with(kLobeOfAll), lobe_traits = lobe_traits_of(lobe);
 };
 struct PlainMaterial : MaterialRecord {
     static constexpr int textured = 0, uses_color = 0, unlit = 0, refracts = 0, relief = 0;
 };
 struct UntabledMaterial : PlainMaterial { // of techniques that sample no Ashikhmin-Shirley lobe
-    static constexpr int phong_slice = -1;
+    static constexpr int phong_slice = -1, phong_set = -1;
 };
 struct RoundMaterial : UntabledMaterial {
     static constexpr int anisotropic = 0;

@@ -242,6 +242,8 @@ BN_FN real3 area_light_by_samples(frame_ref f, BN_IN(shaded_point) x, int model,
                 reflected = interface_value(through, s.wi) * weight;
             specular = specular + radiance * reflected;
             real fallen = cosine * weight;
+            if (the_frame(f).diffuse_model != 0)
+                fallen = fallen * diffuse_lit(f, cosine);
             irradiance = irradiance + radiance * fallen;
         }
     }

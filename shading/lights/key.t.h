@@ -116,7 +116,10 @@ BN_FN real3 light_from_key_lights(frame_ref f, BN_IN(shaded_point) x, int model)
         key_reflection r = key_reflection_of(f, x, lobe, i);
         real3 fresnel = reflectance_of(x.s, r.v_dot_h);
         specular = specular + splat3(the_frame(f).key_lights[i].radiance) * fresnel * r.lobe;
-        irradiance = irradiance + splat3(the_frame(f).key_lights[i].irradiance) * r.cosine;
+        real fallen = r.cosine;
+        if (the_frame(f).diffuse_model != 0)
+            fallen = fallen * diffuse_lit(f, r.cosine);
+        irradiance = irradiance + splat3(the_frame(f).key_lights[i].irradiance) * fallen;
     }
     real narrowness = lit(1.0) - lobe.lobe.sigma_u * lit(1414.2135623730951); // 0 from the least width on, alpha = 0.001
     real mirror = k_saturate(narrowness);

@@ -26,12 +26,17 @@ BN_FN punctual_light light_from(frame_ref f, BN_IN(shaded_point) x, BN_IN(placed
 {
     real3 intensity = splat3(the_light(f, light).radiant) * at.attenuation;
     real3 reflectance = reflectance_of(x.s, punctual_v_dot_h(x.s, at.l));
+    real3 passed = vec3_all(lit(1.0)) - reflectance;
+    if (the_frame(f).diffuse_model != 0) {
+        real share = passed_to_diffuse(f, x) * diffuse_lit(f, max(k_dot3(x.s.n, at.l), lit(0.0)));
+        passed = vec3_all(share);
+    }
     punctual_light r;
     r.l = at.l;
     if (lobe_has(lobe.model, kLies_surface + kLies_thread))
-        r.radiance = punctual_radiance_apart(x.s, at.l, placed_lobe_value(lobe, at.l), reflectance, x.gain, intensity);
+        r.radiance = punctual_radiance_apart(x.s, at.l, placed_lobe_value(lobe, at.l), reflectance, passed, x.gain, intensity);
     else
-        r.radiance = punctual_radiance(x.s, at.l, placed_lobe_light(lobe, x.s, at.l), reflectance, x.gain, intensity);
+        r.radiance = punctual_radiance(x.s, at.l, placed_lobe_light(lobe, x.s, at.l), reflectance, passed, x.gain, intensity);
     return r;
 }
 

@@ -5,6 +5,7 @@
 #include "shading/lang/lang.h"
 #include "shading/lang/stage.h"
 #include "shading/surface/dfg.k.h"
+#include "shading/surface/diffuse.k.h"
 #include "shading/surface/energy.k.h"
 #include "shading/surface/lobe_shape.t.h"
 #include "shading/surface/material.t.h"
@@ -26,6 +27,7 @@ struct shaded_point {
     dfg_value dfg;
     real3 albedo;      // directional, of the lobe: for techniques of a split integral
     real phong_albedo; // directional, of an Ashikhmin-Shirley lobe of the same widths, where there is a table of it; else -1
+    int phong_set;     // MaterialRecord's
     real shown;        // directional albedo of a lobe that takes the usual one's place, over that of the usual one, upright; 1 otherwise
     real3 gain;        // energy compensation, which multiplies the specular lobe; 1 without
     real3 dielectric_f0;
@@ -173,6 +175,7 @@ BN_FN void make_shaded_point(frame_ref f, material_ref m, BN_IN(material_inputs)
     x.dfg = directional_albedo(f, m, x.s, x.lobe);
     x.albedo = albedo_of(x.s, x.dfg);
     x.phong_albedo = lit(-1.0);
+    x.phong_set = the_material(m).phong_set;
     if (the_material(m).phong_slice >= 0) {
         dfg_value own =
             lobe_slice_lookup(lobe_slice_texels(f), the_material(m).phong_slice, the_frame(f).lobe_albedo_size, x.lobe, x.s.n, x.s.v);
@@ -199,9 +202,22 @@ BN_FN void make_shaded_point(frame_ref f, material_ref m, BN_IN(material_inputs)
         make_interface(f, m, at, p.front, x);
 }
 
-// The share of light that the dielectric's specular part lets through to the diffuse one.
+// Of light at a cosine, what the diffuse part makes more or less of than Lambert's.
+BN_FN real diffuse_lit(frame_ref f, real n_dot_l)
+{
+    if (the_frame(f).diffuse_model == 0)
+        return lit(1.0);
+    return phong_diffuse_lit(n_dot_l);
+}
+
+// The share of light that the dielectric's specular part lets through to the diffuse one. Compensated, both diffuse parts have all that the
+// lobe does not give back.
 BN_FN real passed_to_diffuse(frame_ref f, BN_IN(shaded_point) x)
 {
+    if (the_frame(f).diffuse_model != 0 && the_frame(f).energy_compensation == 0 && !x.refracts) {
+        real3 own = x.dielectric_f0;
+        return phong_diffuse_seen(max(own.x, max(own.y, own.z)), x.s.n_dot_v);
+    }
     if (x.refracts) { // from within as well, where light is reflected as a whole
         real3 r = dielectric_reflectance(x.dielectric_f0, x.dielectric_f90, x.through.parts.ior, x.s.n_dot_v);
         return max(lit(1.0) - max(r.x, max(r.y, r.z)), lit(0.0));

@@ -1,8 +1,10 @@
 // Samples of an Ashikhmin-Shirley lobe (shading/models/ashikhmin_shirley.k.h), each fetched from the box-filtered environment at the level
-// whose texels are as large as its share of the sphere. Frames bring a Hammersley set, as cosine and sine of the azimuth that isotropic
-// lobes have and the logarithm of 1 - xi; what is left is the same for each width, so that roughness may vary by fragment. Where the lobe's
-// widths are the same everywhere, its albedo is known (MaterialRecord::phong_slice), and samples are weighted to it: what a few of them get
-// wrong is mostly how many of them lie below the horizon. One sample is a mirror.
+// whose texels are twice as large as its share of the sphere: so filters overlap, and few samples leave no gaps. Frames bring a Hammersley
+// set, as cosine and sine of the azimuth that isotropic lobes have and the logarithm of 1 - xi; what is left is the same for each width, so
+// that roughness may vary by fragment. Where the lobe's widths are the same everywhere, frames bring its own half vectors
+// (MaterialRecord::phong_set): two of the grid a sample, the vector and half the logarithm to base 2 of its density. Then its albedo is
+// known, too (phong_slice), and samples are weighted to it: what a few of them get wrong is mostly how many of them lie below the horizon.
+// One sample is a mirror.
 #ifndef BN_AS_MC_T_H
 #define BN_AS_MC_T_H
 
@@ -15,22 +17,40 @@
 BN_KERNELS_BEGIN
 
 struct as_half_vector {
-    real3 h;         // unit
-    real log_cosine; // natural, times its exponent: of the density over that at the normal
+    real3 h;           // unit
+    real half_density; // half its logarithm to base 2; 1/sr
 };
 
-// wide: roots of 1 + nv and 1 + nu.
-BN_FN as_half_vector as_half_vector_of(ashikhmin_shirley_params p, real2 wide, real3 g)
+struct as_lobe {
+    ashikhmin_shirley_params p;
+    real2 wide;        // roots of 1 + nv and 1 + nu
+    real half_density; // at the normal, as above
+};
+
+BN_FN as_lobe as_lobe_of(BN_IN(shaded_point) x)
 {
-    real2 d = k_normalize2(vec2_of(wide.x * g.x, wide.y * g.y));
-    real e = p.nu * d.x * d.x + p.nv * d.y * d.y;
+    real root2 = lit(1.4142135623730951);
+    as_lobe r;
+    real alpha_u = x.lobe.sigma_u * root2;
+    real alpha_v = x.lobe.sigma_v * root2;
+    r.p = ashikhmin_shirley_params_of_alpha(alpha_u, alpha_v);
+    r.wide = vec2_of(sqrt(r.p.nv + lit(1.0)), sqrt(r.p.nu + lit(1.0)));
+    real peak = r.wide.x * r.wide.y * lit(0.15915494309189534);
+    r.half_density = lit(0.5) * k_log2(peak);
+    return r;
+}
+
+BN_FN as_half_vector as_half_vector_of(as_lobe lobe, real3 g)
+{
+    real2 d = k_normalize2(vec2_of(lobe.wide.x * g.x, lobe.wide.y * g.y));
+    real e = lobe.p.nu * d.x * d.x + lobe.p.nv * d.y * d.y;
     real lg = g.z / (e + lit(1.0));
     real less = k_expm1(lg); // cosine - 1, with its digits near the normal
     real q = sqrt(max(-(less * (less + lit(2.0))), lit(0.0)));
     as_half_vector r;
     real z = less + lit(1.0);
     r.h = vec3_of(d.x * q, d.y * q, z);
-    r.log_cosine = e * lg;
+    r.half_density = lobe.half_density + e * lg * lit(0.72134752044448170);
     return r;
 }
 
@@ -48,32 +68,35 @@ BN_FN real3 as_mc_specular(frame_ref f, BN_IN(shaded_point) x)
         return mirrored(f, x, lit(1.0));
     cube_desc cube = box_cube(f);
     real3 o = eye_in_lobe(x);
-    real root2 = lit(1.4142135623730951);
-    real alpha_u = x.lobe.sigma_u * root2;
-    real alpha_v = x.lobe.sigma_v * root2;
-    ashikhmin_shirley_params p = ashikhmin_shirley_params_of_alpha(alpha_u, alpha_v);
-    real2 wide = vec2_of(sqrt(p.nv + lit(1.0)), sqrt(p.nu + lit(1.0)));
     real size = to_real(int_lit(cube.size));
     real count = to_real(int_lit(the_frame(f).grid_count));
-    real peak = wide.x * wide.y * lit(0.15915494309189534);
-    real texels =
-        size * size * lit(0.47746482927568601) * lit(4.0) / (count * peak); // 6 / (4 pi), of 4 o.h times the density at the normal
+    real texels = size * size * lit(0.47746482927568601) * lit(8.0) / count; // 6 / (4 pi), of 4 o.h times the density, twice
     real texel_term = lit(0.5) * k_log2(texels);
+    bool by_table = x.phong_set >= 0;
+    as_lobe lobe;
+    if (!by_table)
+        lobe = as_lobe_of(x);
     cube_terms sum;
     cube_terms_begin(sum, cube, true);
     real weights = lit(0.0);
     real kept = lit(0.0);
     k_sin_cos_pair turn = turn_of_pixel(f, x);
     for (int i = 0; i < the_frame(f).grid_count; ++i) {
-        real3 g = grid_sample(f, i);
-        if (the_frame(f).seed != 0)
-            g = vec3_of(g.x * turn.cosine - g.y * turn.sine, g.x * turn.sine + g.y * turn.cosine, g.z);
-        as_half_vector s = as_half_vector_of(p, wide, g);
+        as_half_vector s;
+        if (by_table) {
+            s.h = grid_sample(f, x.phong_set + 2 * i);
+            s.half_density = grid_sample(f, x.phong_set + 2 * i + 1).x;
+        } else {
+            real3 g = grid_sample(f, i);
+            if (the_frame(f).seed != 0)
+                g = vec3_of(g.x * turn.cosine - g.y * turn.sine, g.x * turn.sine + g.y * turn.cosine, g.z);
+            s = as_half_vector_of(lobe, g);
+        }
         real o_dot_h = k_dot3(o, s.h);
         real3 i_lobe = mirror_direction(o, s.h);
         mask valid = both(o_dot_h > lit(0.0), i_lobe.z > lit(0.0));
         real own = select(valid, i_lobe.z / max(max(o.z, i_lobe.z), lit(1e-4)), lit(0.0));
-        real lod = texel_term + lit(0.5) * k_log2(max(o_dot_h, lit(1e-4))) - s.log_cosine * lit(0.72134752044448170);
+        real lod = texel_term + lit(0.5) * k_log2(max(o_dot_h, lit(1e-4))) - s.half_density;
         real3 wi = from_lobe(x.lobe, x.s.n, i_lobe);
         real3 fresnel = reflectance_of(x.s, k_saturate(o_dot_h));
         real weight = above_horizon(x, wi, own);

@@ -32,6 +32,7 @@ import mistake_cases
 import model_cases
 import output_cases
 import parity_cases
+import phong_cases
 import pixel_cases
 import processor_cases
 import plot_cases

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/math/scalar_math.h"
+#include "core/scene/directional_roughness.h"
 #include "core/scene/gltf/factors.h"
 #include "core/scene/gltf/image.h"
 #include "core/scene/gltf/textures.h"
@@ -128,6 +129,15 @@ void import_maps(Document& doc, Imported& known, const Json& source, std::size_t
 {
     const std::string place = fmt::format("/materials/{}/extras/burnish/", index);
     import_map(doc, known, m.quaternion_tex, -1, place + "quaternionTexture", m.normal_tex, normals_of_quaternions);
+    if (m.directional_roughness_tex.used()) {
+        constexpr int kFirstOfRoughness = 16; // beyond those of rotations
+        RoughnessEncoding by = RoughnessEncoding::widths;
+        const std::string_view ways = kRoughnessEncodings;
+        read_choice(source, "/extras/burnish/directionalRoughnessTexture/encoding", ways, by);
+        TextureRef from = std::exchange(m.directional_roughness_tex, TextureRef());
+        import_map(doc, known, from, kFirstOfRoughness + static_cast<int>(by), place + "directionalRoughnessTexture",
+                   m.directional_roughness_tex, [by](const Image& image) { return roughness_of(image, by); });
+    }
     if (!m.rotation_tex.used())
         return;
     const std::string_view words = kRotationEncodings;

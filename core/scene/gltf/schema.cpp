@@ -184,6 +184,7 @@ const Rule kMaterialRules[] = {
 #define BN_TEXTURE(name, path) {path, Kind::object},
 #include "core/scene/material.def"
     {"/extras/burnish/rotationTexture/encoding", Kind::word, 0, 0, kRotationEncodings},
+    {"/extras/burnish/directionalRoughnessTexture/encoding", Kind::word, 0, 0, kRoughnessEncodings},
 };
 const Rule kLightRules[] = {
 #define BN_LIGHT_FACTOR(kind, name, fallback, path, least, most) factor_rule<FieldKinds::kind>(path, least, most),

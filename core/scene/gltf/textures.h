@@ -14,5 +14,6 @@ inline constexpr MaterialTexture kMaterialTextures[] = {
 };
 
 inline constexpr const char* kRotationEncodings = "vector doubleAngle direction"; // by RotationEncoding
+inline constexpr const char* kRoughnessEncodings = "widths anisotropy";           // by RoughnessEncoding
 
 } // namespace burnish::gltf

@@ -225,6 +225,15 @@ Result<Environment> bake_environment(const Image& equirect, const std::string& n
 Result<Environment> load_environment(const std::string& spec, const EnvironmentOptions& options, const Limits& limits, const Jobs& jobs)
 {
     const std::string builtin = "builtin:";
+    if (!spec.starts_with(builtin) && is_baked_environment(spec)) {
+        const auto start = std::chrono::steady_clock::now();
+        Result<Environment> baked = read_baked_environment(spec);
+        if (!baked)
+            return baked;
+        baked->name = spec, baked->bake_ms = ms_since(start);
+        turn_and_expose(*baked, options);
+        return baked;
+    }
     Limits of_environment = limits; // a bake takes time and memory by the pixel
     of_environment.image_pixels = limits.env_pixels;
     const Result<Image> image =

@@ -73,7 +73,7 @@ struct EnvironmentOptions {
 
 // Bakes from an equirectangular image (f32, any size), or finds the result in the cache.
 Result<Environment> bake_environment(const Image& equirect, const std::string& name, const EnvironmentOptions& options, const Jobs& jobs);
-// `spec`: "builtin:NAME" or a path of an equirectangular image.
+// `spec`: "builtin:NAME", a path of an equirectangular image, or what `burnish bake environment` wrote, whose own options of the bake hold.
 Result<Environment> load_environment(const std::string& spec, const EnvironmentOptions& options, const Limits& limits, const Jobs& jobs);
 
 // The same level 0 with a box-filtered chain under it, for techniques that choose a level by the solid angle of a sample.

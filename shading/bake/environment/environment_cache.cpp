@@ -35,6 +35,8 @@ struct Header {
 static_assert(sizeof(KeyLight) == 56 && sizeof(Header) == 536);
 constexpr char kMagic[8] = {'b', 'u', 'r', 'n', 'e', 'n', 'v', '\n'};
 
+constexpr std::uint64_t kMostBytes = 1u << 30; // a cube of 2048 texels has 200 MB
+
 std::uint64_t hash_of(const Header& h)
 {
     return hash_bytes(&h, offsetof(Header, header_hash));
@@ -108,7 +110,6 @@ std::optional<Environment> parse_environment_cache(const std::uint8_t* data, std
 
 std::optional<Environment> read_environment_cache(const std::string& path, std::uint64_t content_hash, int size, int levels)
 {
-    constexpr std::uint64_t kMostBytes = 1u << 30; // a cube of 2048 texels has 200 MB
     const Result<std::vector<std::uint8_t>> file = read_file(path, kMostBytes, Links::refuse);
     std::optional<Environment> found;
     if (file)
@@ -118,7 +119,7 @@ std::optional<Environment> read_environment_cache(const std::string& path, std::
     return found;
 }
 
-Status write_environment_cache(const std::string& path, const Environment& e)
+std::vector<std::uint8_t> environment_cache_bytes(const Environment& e)
 {
     std::vector<std::uint8_t> file(sizeof(Header) + bytes_of(e.specular) + bytes_of(e.irradiance) + bytes_of(e.whole));
     std::uint8_t* to = file.data() + sizeof(Header);
@@ -137,7 +138,45 @@ Status write_environment_cache(const std::string& path, const Environment& e)
     h.payload_hash = hash_bytes(file.data() + sizeof(Header), file.size() - sizeof(Header));
     h.header_hash = hash_of(h);
     std::memcpy(file.data(), &h, sizeof(h));
+    return file;
+}
 
+bool is_baked_environment(const std::string& path)
+{
+    std::error_code ignored;
+    return std::filesystem::path(path).extension() == ".bnenv" || std::filesystem::is_directory(path, ignored);
+}
+
+Result<Environment> read_baked_environment(const std::string& path)
+{
+    std::error_code ignored;
+    const std::string name =
+        std::filesystem::is_directory(path, ignored) ? (std::filesystem::path(path) / kBakedEnvironment).string() : path;
+    const Result<std::vector<std::uint8_t>> file = read_file(name, kMostBytes);
+    if (!file)
+        return file.error();
+    const auto refused = [&](const char* why) { return Error{ExitCode::bad_input, name, "", why}; };
+    Header h;
+    if (file->size() < sizeof(h))
+        return refused("is no baked environment");
+    std::memcpy(&h, file->data(), sizeof(h));
+    if (std::memcmp(h.magic, kMagic, sizeof(kMagic)) != 0)
+        return refused("is no baked environment");
+    if (h.version != kBakeVersion)
+        return refused("was baked by another version of burnish");
+    const bool sized = h.size >= 4 && h.size <= 4096 && (h.size & (h.size - 1)) == 0 && h.levels >= 1 && h.levels <= 13 &&
+                       h.size >> (h.levels - 1) > 0 && h.header_hash == hash_of(h);
+    std::optional<Environment> found;
+    if (sized)
+        found = parse_environment_cache(file->data(), file->size(), h.content_hash, h.size, h.levels);
+    if (!found)
+        return refused("is damaged: not all bytes are as they were written");
+    return std::move(*found);
+}
+
+Status write_environment_cache(const std::string& path, const Environment& e)
+{
+    const std::vector<std::uint8_t> file = environment_cache_bytes(e);
     const std::filesystem::path folder = std::filesystem::path(path).parent_path();
     std::error_code ignored; // a folder that cannot be made shows in the write
     std::filesystem::create_directories(folder, ignored);

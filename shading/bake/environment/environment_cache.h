@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "shading/bake/environment/environment.h"
 
@@ -23,6 +24,12 @@ std::string environment_cache_path(const EnvironmentOptions& options, std::uint6
 std::optional<Environment> parse_environment_cache(const std::uint8_t* data, std::size_t bytes, std::uint64_t content_hash, int size,
                                                    int levels);
 std::optional<Environment> read_environment_cache(const std::string& path, std::uint64_t content_hash, int size, int levels);
+// The same bytes every time, of an environment that is neither turned nor exposed.
+std::vector<std::uint8_t> environment_cache_bytes(const Environment& environment);
+// Of such bytes in a file of any name, or in kBakedEnvironment of a folder: what `burnish bake environment` writes. Errors: bad_input.
+inline constexpr const char* kBakedEnvironment = "environment.bnenv";
+bool is_baked_environment(const std::string& path); // by its name, or as a folder
+Result<Environment> read_baked_environment(const std::string& path);
 // Creates the folder where needed. The file appears when it is complete; others go where the cache has become too large
 // (core/base/cache.h).
 Status write_environment_cache(const std::string& path, const Environment& environment);

@@ -10,18 +10,53 @@
 
 namespace burnish {
 
+double rounded_exponent(double exponent)
+{
+    if (!(exponent > 0.0))
+        return 0.0;
+    double unit = 1e-12; // of the fifth digit
+    while (unit * 99999.5 <= exponent)
+        unit *= 10.0;
+    return std::round(exponent / unit) * unit;
+}
+
 double phong_exponent(double alpha)
 {
-    return std::min(1.0 / std::max(alpha * alpha, 1e-6), 1e6);
+    return rounded_exponent(std::min(1.0 / std::max(alpha * alpha, 1e-6), kMostPhongExponent));
 }
 
 PhongHalfVector phong_half_vector(double nu, double nv, double xi_x, double xi_y)
 {
+    if (nu > nv) {
+        const double turned = 1.25 - xi_x;
+        const PhongHalfVector h = phong_half_vector(nv, nu, turned < 1.0 ? turned : turned - 1.0, xi_y);
+        return {h.y, h.x, h.z, h.density};
+    }
     const double azimuth = 2.0 * kPi * xi_x;
     const double x = std::sqrt(nv + 1.0) * det_cos(azimuth), y = std::sqrt(nu + 1.0) * det_sin(azimuth), length = std::sqrt(x * x + y * y);
     const double c = x / length, s = y / length, e = nu * c * c + nv * s * s, lg = det_log(1.0 - xi_y) / (e + 1.0);
     const double z = det_exp(lg), q = std::sqrt(std::max(0.0, 1.0 - z * z));
     return {c * q, s * q, z, std::sqrt((nu + 1.0) * (nv + 1.0)) / (2.0 * kPi) * det_exp(e * lg)};
+}
+
+PhongPoint phong_point(int i, int n)
+{
+    std::uint32_t bits = static_cast<std::uint32_t>(i), mirrored = 0;
+    for (int b = 0; b < 32; ++b, bits >>= 1)
+        mirrored = mirrored << 1 | (bits & 1u);
+    return {static_cast<double>(i) / n, mirrored / 4294967296.0};
+}
+
+std::vector<PhongHalfVector> phong_half_vectors(double nu, double nv, int samples)
+{
+    const auto held = [](double value) { return static_cast<double>(static_cast<float>(value)); };
+    std::vector<PhongHalfVector> all;
+    for (int i = 0; i < samples; ++i) {
+        const PhongPoint xi = phong_point(i, samples);
+        const PhongHalfVector h = phong_half_vector(nu, nv, xi.x, xi.y);
+        all.push_back({held(h.x), held(h.y), held(h.z), held(h.density)});
+    }
+    return all;
 }
 
 PhongAlbedo phong_albedo(const double (&v)[3], double nu, double nv, int points, int before)
@@ -39,21 +74,32 @@ PhongAlbedo phong_albedo(const double (&v)[3], double nu, double nv, int points,
     return {sum.s / points, sum.b / points};
 }
 
-void bake_phong_slice(int size, double alpha_x, double alpha_y, std::uint16_t* texels)
+void fill_phong_slice(int size, const std::function<PhongAlbedo(double, double)>& at, std::uint16_t* texels)
 {
     BN_CHECK(size >= 4 && size % 2 == 0);
     for (int j = 0; j < size / 2; ++j)
         for (int i = 0; i < size; ++i, texels += 4) { // axes as of lobe_slice_lookup()
-            const double eye = static_cast<double>(i) / (size - 1), root = static_cast<double>(j) / (size / 2 - 1);
-            const double n_dot_v = std::max(eye * eye, 1e-4), sine = std::sqrt(1.0 - n_dot_v * n_dot_v), along = root * root;
-            const PhongAlbedo a = phong_albedo({sine * along, sine * std::sqrt(1.0 - along * along), n_dot_v}, phong_exponent(alpha_x),
-                                               phong_exponent(alpha_y));
+            const PhongAlbedo a = at(static_cast<double>(i) / (size - 1), static_cast<double>(j) / (size / 2 - 1));
             const float value[2] = {static_cast<float>(a.s), static_cast<float>(a.b)};
             for (int c = 0; c < 2; ++c) {
                 texels[c] = float_to_half(value[c]);
                 texels[2 + c] = float_to_half(value[c] - half_to_float(texels[c]));
             }
         }
+}
+
+PhongAlbedo phong_albedo_at(double nu, double nv, double root_n_dot_v, double root_along)
+{
+    const double n_dot_v = std::max(root_n_dot_v * root_n_dot_v, 1e-4), sine = std::sqrt(1.0 - n_dot_v * n_dot_v);
+    const double along = root_along * root_along;
+    return phong_albedo({sine * along, sine * std::sqrt(1.0 - along * along), n_dot_v}, std::min(nu, nv), std::max(nu, nv));
+}
+
+void bake_phong_slice(int size, double alpha_x, double alpha_y, std::uint16_t* texels)
+{
+    const double nu = phong_exponent(alpha_x), nv = phong_exponent(alpha_y);
+    fill_phong_slice(
+        size, [&](double eye, double root) { return phong_albedo_at(nu, nv, eye, root); }, texels);
 }
 
 } // namespace burnish
