@@ -36,6 +36,17 @@ std::size_t texel_at(const Image& image, int x, int y, int width, int height)
     return along(y, height, image.height) * static_cast<std::size_t>(image.width) + along(x, width, image.width);
 }
 
+struct Khr {
+    double roughness, strength;
+};
+
+// As KHR_materials_anisotropy has them: the smaller width is roughness^2, the greater one that, mixed with 1 by strength^2.
+Khr khr_of(double roughness, double anisotropy)
+{
+    const double mean = roughness * roughness, across = mean * (1.0 - anisotropy), along = std::min(mean * (1.0 + anisotropy), 1.0);
+    return {std::sqrt(across), across < along ? std::sqrt((along - across) / (1.0 - across)) : 0.0};
+}
+
 struct LaidImages {
     Image directions, metal_rough;
 };
@@ -59,8 +70,9 @@ LaidImages laid(const Image& roughness, const Image& directions, const Image& me
             }
             if (anisotropy < 0.0) // wide across the grain
                 std::tie(along, across) = std::pair(-across, along);
-            axis[0] = code16(0.5 + 0.5 * along), axis[1] = code16(0.5 + 0.5 * across), axis[2] = code16(std::abs(anisotropy));
-            rough[0] = 65535, rough[1] = code16(channel_of(roughness, own, 0, false));
+            const Khr khr = khr_of(channel_of(roughness, own, 0, false), std::abs(anisotropy));
+            axis[0] = code16(0.5 + 0.5 * along), axis[1] = code16(0.5 + 0.5 * across), axis[2] = code16(khr.strength);
+            rough[0] = 65535, rough[1] = code16(khr.roughness);
             rough[2] = metal_rough.empty() ? 65535 : code16(channel_of(metal_rough, texel_at(metal_rough, x, y, width, height), 2, false));
         }
     return out;
