@@ -1,10 +1,9 @@
 // Samples of an Ashikhmin-Shirley lobe (shading/models/ashikhmin_shirley.k.h), each fetched from the box-filtered environment at the level
-// whose texels are twice as large as its share of the sphere: so filters overlap, and few samples leave no gaps. Frames bring a Hammersley
-// set, as cosine and sine of the azimuth that isotropic lobes have and the logarithm of 1 - xi; what is left is the same for each width, so
-// that roughness may vary by fragment. Where the lobe's widths are the same everywhere, frames bring its own half vectors
-// (MaterialRecord::phong_set): two of the grid a sample, the vector and half the logarithm to base 2 of its density. Then its albedo is
-// known, too (phong_slice), and samples are weighted to it: what a few of them get wrong is mostly how many of them lie below the horizon.
-// One sample is a mirror.
+// whose texels are as large as its share of the sphere. Frames bring a Hammersley set, as cosine and sine of the azimuth that isotropic
+// lobes have and the logarithm of 1 - xi; what is left is the same for each width, so that roughness may vary by fragment. Where the lobe's
+// widths are the same everywhere, frames bring its own half vectors (MaterialRecord::phong_set): two of the grid a sample, the vector and
+// half the logarithm to base 2 of its density. Then its albedo is known, too (phong_slice), and samples are weighted to it: what a few of
+// them get wrong is mostly how many of them lie below the horizon. One sample is a mirror.
 #ifndef BN_AS_MC_T_H
 #define BN_AS_MC_T_H
 
@@ -70,7 +69,7 @@ BN_FN real3 as_mc_specular(frame_ref f, BN_IN(shaded_point) x)
     real3 o = eye_in_lobe(x);
     real size = to_real(int_lit(cube.size));
     real count = to_real(int_lit(the_frame(f).grid_count));
-    real texels = size * size * lit(0.47746482927568601) * lit(8.0) / count; // 6 / (4 pi), of 4 o.h times the density, twice
+    real texels = size * size * lit(0.47746482927568601) * lit(4.0) / count; // 6 / (4 pi), of 4 o.h times the density
     real texel_term = lit(0.5) * k_log2(texels);
     bool by_table = x.phong_set >= 0;
     as_lobe lobe;
