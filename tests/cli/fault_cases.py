@@ -134,6 +134,15 @@ def memory_calls(bench):
     fail_in_turn(bench, BAKE, ("mmap",), (1, 2, 3, 5, 8, 13, 21, 34, 55), every=100)
 
 
+@case("fault.memory_of_libraries_runs_out")
+def library_memory_calls(bench):
+    """What they ask for as they are loaded, or as they build a tree over the scene."""
+    needs_embree(bench)
+    fail_in_turn(bench, PICTURES, ("malloc",), range(52, 66), every=100)
+    fail_in_turn(bench, KEPT, ("malloc",), range(52, 60), every=100)
+    fail_in_turn(bench, KEPT, ("mmap",), range(6, 10), every=100)
+
+
 @case("fault.small_memory_runs_out")
 def small_memory_calls(bench):
     """Every allocation counts, the first of the program too."""

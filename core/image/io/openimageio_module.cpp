@@ -145,6 +145,34 @@ OIIO::ImageSpec spec_of(const Image& image, const char* format)
     return spec;
 }
 
+// Whether an OpenEXR file of scan lines, sixteen a chunk, has all its chunks. Short of memory the library leaves some out and says nothing.
+bool has_all_chunks(const Bytes& file, int height)
+{
+    const auto number = [&](std::size_t at, std::size_t size) {
+        std::uint64_t value = 0;
+        for (std::size_t i = 0; i < size && at + i < file.size(); ++i)
+            value |= static_cast<std::uint64_t>(file[at + i]) << 8 * i;
+        return value;
+    };
+    const auto after_word = [&](std::size_t at) {
+        while (at < file.size() && file[at] != 0)
+            ++at;
+        return at + 1;
+    };
+    std::size_t at = 8;                         // after magic and version
+    while (at < file.size() && file[at] != 0) { // an attribute: name, type, size, value
+        at = after_word(after_word(at));
+        at += 4 + static_cast<std::size_t>(number(at, 4));
+    }
+    const std::size_t table = at + 1, chunks = (static_cast<std::size_t>(height) + 15) / 16;
+    for (std::size_t i = 0; i < chunks; ++i) {
+        const std::uint64_t begin = number(table + 8 * i, 8);
+        if (begin < table + 8 * chunks || begin + 8 > file.size() || begin + 8 + number(begin + 4, 4) > file.size())
+            return false;
+    }
+    return true;
+}
+
 Result<Bytes> encode(const std::string& path, const Image& image, const char* format)
 {
     const auto error = [&](const char* what, const std::string& message) {
@@ -161,6 +189,8 @@ Result<Bytes> encode(const std::string& path, const Image& image, const char* fo
     spec.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);
     if (!output->open(path, spec) || !output->write_image(spec.format, image.bytes.data()) || !output->close())
         return error("the image cannot be encoded", output->geterror());
+    if (std::strcmp(format, "openexr") == 0 && !has_all_chunks(bytes, image.height))
+        return error("the image cannot be encoded", "not all rows were written");
     return bytes;
 }
 
