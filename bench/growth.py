@@ -5,8 +5,8 @@ Usage: growth.py --program build/release/bench_frame -o growth.svg [--isa NAME] 
        growth.py --from figures.json -o growth.svg [--fail-bend PERCENT]
 
 Runs the rows growth_* of bench_frame, or reads what its --json wrote: workloads that differ in one number. Through the medians of CPU time
-(of threads: wall time times threads, which is constant where they divide the work and have cores) a line is laid that makes the greatest
-relative distance least; `bend` is that distance, in percent. A row of threads goes no further than the machine's cores.
+a line is laid that makes the greatest relative distance least; `bend` is that distance, in percent. Of threads it is wall time times threads,
+and the line is level: threads that divide the work, each on a core, need no more of it together. Their row ends with the machine's cores.
 Exit code: 0; 1 a row bends more than --fail-bend; 2 something could not be run or read.
 """
 
@@ -64,6 +64,16 @@ def rows_of(text):
     return heading, {row: sorted(points) for row, points in rows.items()}
 
 
+def level_through(points):
+    """As line_through, of slope 0."""
+    least, most = min(y for _, y in points), max(y for _, y in points)
+    return 2.0 * least * most / (least + most), 0.0, 100.0 * (most - least) / (most + least)
+
+
+def line_of(row, points):
+    return level_through(points) if row == "growth_threads" else line_through(points)
+
+
 def line_through(points):
     """(at 0, slope, bend in percent) of the line with the least greatest relative distance. One of three points decides it, as among straight
     lines that are as far above two of them as below the third the farthest is the nearest to all."""
@@ -110,7 +120,7 @@ def unit_of(slope, row):
 def table(rows):
     lines = [f"{'row':<34} {'at 0':>9} {'each more':>11} {'bend':>7}"]
     for row, points in rows.items():
-        start, slope, bend = line_through(points)
+        start, slope, bend = line_of(row, points)
         lines.append(f"{LABELS.get(row, row):<34} {start:>6.2f} ms {unit_of(slope, row):>11} {bend:>5.1f} %")
     return "\n".join(lines)
 
@@ -132,7 +142,7 @@ def chart(heading, rows):
     for place, (row, points) in enumerate(rows.items()):
         x0, y0 = WIDTH * (place % COLUMNS), 50 + HEIGHT * (place // COLUMNS)
         left, right, top, bottom = x0 + LEFT, x0 + WIDTH - RIGHT, y0 + TOP, y0 + HEIGHT - BOTTOM
-        start, slope, bend = line_through(points)
+        start, slope, bend = line_of(row, points)
         most_x = points[-1][0]
         most_y = 1.08 * max(start + slope * most_x, *(y for _, y in points))
         for part in (0.0, 0.5, 1.0):
@@ -181,7 +191,7 @@ def main(arguments):
         print(f"growth: {error}", file=sys.stderr)
         return 2
     print(table(rows))
-    bent = [row for row, points in rows.items() if options.fail_bend is not None and line_through(points)[2] > options.fail_bend]
+    bent = [row for row, points in rows.items() if options.fail_bend is not None and line_of(row, points)[2] > options.fail_bend]
     if bent:
         print(f"growth: no straight line: {', '.join(bent)}", file=sys.stderr)
     return 1 if bent else 0

@@ -44,6 +44,13 @@ class Growth(unittest.TestCase):
         for x, y in rows["growth_layers"]:
             self.assertAlmostEqual(abs(start + slope * x - y) / y, 1.0 / 9.0)
         self.assertEqual(rows["growth_threads"], [(1.0, 8.0), (2.0, 8.0)])  # no more than there are cores
+        self.assertEqual(growth.line_of("growth_threads", rows["growth_threads"]), (8.0, 0.0, 0.0))
+        # a second thread that does nothing: any line goes through two points, a level one does not
+        start, slope, bend = growth.line_of("growth_threads", [(1.0, 8.0), (2.0, 16.0)])
+        self.assertEqual(slope, 0.0)
+        self.assertAlmostEqual(bend, 100.0 / 3.0)
+        for y in (8.0, 16.0):
+            self.assertAlmostEqual(abs(start - y) / y, 1.0 / 3.0)
 
     def test_nearest_of_all(self):
         points = [(1.0, 2.0), (2.0, 2.9), (3.0, 4.3), (5.0, 5.6), (8.0, 9.4)]
