@@ -1,4 +1,5 @@
 // `burnish parity`: the tile renderer and its twin over Vulkan, compared in bits, stage by stage.
+#include <algorithm>
 #include <cstdio>
 #include <fmt/core.h>
 #include <memory>
@@ -50,24 +51,24 @@ Image flip_map(const Image& reference, const Image& test, const Jobs& jobs)
     return flip_hdr(reference, test, {}, jobs).error;
 }
 
-ParityRow named_row(const ParityPlace& place, const RenderOptions& options)
+ParityRow named_row(const ParityPlace& place, const ParitySet& set, const RenderOptions& options)
 {
     ParityRow row;
+    row.also = set.also;
     row.scene = place.scene, row.view = place.view, row.technique = options.frame.technique, row.msaa = options.frame.msaa;
     row.sampler = options.vulkan.sampler == VulkanSampler::exact ? "exact" : "native";
     row.pipeline = options.vulkan.pipeline == VulkanPipeline::ids ? "ids" : "forward";
     return row;
 }
 
-ParityRow failed_row(const ParityPlace& place, const RenderOptions& options, const Error& error)
+ParityRow failed_row(const ParityPlace& place, const ParitySet& set, const RenderOptions& options, const Error& error)
 {
-    ParityRow row = named_row(place, options);
+    ParityRow row = named_row(place, set, options);
     row.error = error;
     return row;
 }
 
-Result<ParityRow> compare(const Bench& bench, const ParityPlace& place, const RenderOptions& options, const View& view, Session& tile,
-                          Session& vulkan)
+Result<ParityRow> compare(const Bench& bench, ParityRow row, const RenderOptions& options, const View& view, Session& tile, Session& vulkan)
 {
     FrameDesc desc = options.frame;
     desc.view = view;
@@ -79,7 +80,7 @@ Result<ParityRow> compare(const Bench& bench, const ParityPlace& place, const Re
     const Result<Frame> b = vulkan.render(desc);
     if (!b)
         return b.error();
-    ParityRow row = named_row(place, options);
+    row.pixel_hash = pixel_hash(a->color);
     row.samples_emulated = b->stats.samples_emulated;
     row.counts = compare_stages(*a, *b, desc.msaa);
     const Image flip = flip_map(a->color, b->color, *bench.jobs);
@@ -88,9 +89,9 @@ Result<ParityRow> compare(const Bench& bench, const ParityPlace& place, const Re
     return row;
 }
 
-Status compare_place(const Bench& bench, const ParityPlace& place, ParityReport& out)
+Status compare_place(const Bench& bench, const ParityPlace& place, const ParitySet& set, ParityReport& out)
 {
-    RenderOptions base = bench.options.frames.front();
+    RenderOptions base = set.frames.front();
     if (place.eye)
         base.eye = place.eye, base.target = place.target;
     const Result<SeenScene> scene = load_seen_scene(place.scene, base, bench.report);
@@ -116,9 +117,9 @@ Status compare_place(const Bench& bench, const ParityPlace& place, ParityReport&
     for (const Result<Session>* made : {&tile, &vulkan})
         if (!*made)
             return made->error();
-    for (const RenderOptions& options : bench.options.frames) {
-        Result<ParityRow> compared = compare(bench, place, options, scene->view, *tile, *vulkan);
-        const ParityRow row = compared ? std::move(*compared) : failed_row(place, options, compared.error());
+    for (const RenderOptions& options : set.frames) {
+        Result<ParityRow> compared = compare(bench, named_row(place, set, options), options, scene->view, *tile, *vulkan);
+        const ParityRow row = compared ? std::move(*compared) : failed_row(place, set, options, compared.error());
         if (row.failed())
             bench.report.event("failed", describe(row));
         else if (first_difference(row.counts))
@@ -166,19 +167,29 @@ int verdict(const ParityReport& parity, Report& report)
     return 0;
 }
 
+// Pipelines that hold what any of the frames asks for take a driver less time than one for each.
+VulkanOptions device_options(const ParityOptions& options)
+{
+    VulkanOptions out = options.sets.front().frames.front().vulkan;
+    const std::string first = options.sets.front().frames.front().frame.technique;
+    const auto another = [&](const RenderOptions& frame) { return frame.frame.technique != first; };
+    if (options.sets.size() > 1 || std::any_of(options.sets.front().frames.begin(), options.sets.front().frames.end(), another))
+        for (const ParitySet& set : options.sets)
+            for (const RenderOptions& frame : set.frames)
+                out.frames.push_back(frame.frame);
+    return out;
+}
+
 int run_parity(const ParityArguments& arguments, const OptionTable& given)
 {
     const Result<ParityOptions> checked = check_parity_options(arguments, given);
     if (!checked)
         return fail(checked.error());
     const ParityOptions& options = *checked;
-    const RenderOptions& base = options.frames.front();
+    const RenderOptions& base = options.sets.front().frames.front();
     Report report(base.quiet, base.verbosity);
     const auto jobs = std::make_shared<const Jobs>(base.threads);
-    VulkanOptions of_device = base.vulkan;
-    if (arguments.techniques.size() > 1) // a pipeline of all takes a driver less time than one for each
-        of_device.techniques = arguments.techniques;
-    const Result<std::shared_ptr<VulkanDevice>> device = open_vulkan_device(of_device);
+    const Result<std::shared_ptr<VulkanDevice>> device = open_vulkan_device(device_options(options));
     if (!device)
         return fail(device.error());
     const Result<std::shared_ptr<const Environment>> environment = open_environment(base.env, base.environment, base.limits, *jobs);
@@ -192,11 +203,12 @@ int run_parity(const ParityArguments& arguments, const OptionTable& given)
     const VulkanDeviceInfo& info = (*device)->info();
     ParityReport parity{info.driver, info.name, info.api, cpu_name(), version(), base.frame.width, base.frame.height, {}};
     for (const ParityPlace& place : options.places)
-        if (const Status done = compare_place(bench, place, parity); !done) { // no row of it can be compared
-            report.event("failed", done.error().line());
-            for (const RenderOptions& frame : options.frames)
-                parity.rows.push_back(failed_row(place, frame, done.error()));
-        }
+        for (const ParitySet& set : options.sets)
+            if (const Status done = compare_place(bench, place, set, parity); !done) { // no row of it can be compared
+                report.event("failed", done.error().line());
+                for (const RenderOptions& frame : set.frames)
+                    parity.rows.push_back(failed_row(place, set, frame, done.error()));
+            }
     if (const Status written = write_files(options, parity, report); !written)
         return fail(written.error());
     return verdict(parity, report);

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <fmt/core.h>
 
 #include "apps/cli/outputs.h"
+#include "apps/cli/parse.h"
 #include "apps/cli/report.h"
 #include "apps/cli/shared_options.h"
 #include "apps/cli/values.h"
@@ -62,6 +64,61 @@ Status choose_places(const ParityArguments& in, std::vector<ParityPlace>& places
     return in.models.empty() ? Status() : add_models(in.models, places);
 }
 
+// What another look may change: what is drawn, but for its size, its environment and where it is seen from.
+bool changes_look(const Option& option)
+{
+    constexpr const char* kLooks[] = {"--technique",  "--msaa",  "--samples",   "--roughness",
+                                      "--anisotropy", "--light", "--ltc-table", "--texture-anisotropy"};
+    return option.group == "Materials" || option.group == "Parameters of techniques" ||
+           std::find(std::begin(kLooks), std::end(kLooks), option.name) != std::end(kLooks);
+}
+
+// "--tilt 20,-10 --horizon", as if written on the command line.
+Status set_words(const std::string& words, OptionTable& table)
+{
+    std::vector<std::string> parts = split(words, ' ');
+    parts.erase(std::remove(parts.begin(), parts.end(), ""), parts.end());
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        const Option* option = table.find(parts[i]);
+        if (!option || parts[i] != option->name || !changes_look(*option))
+            return usage_error("--also", fmt::format("'{}' is no option that another look may change", parts[i]));
+        const bool takes = option->takes_value();
+        if (takes && i + 1 == parts.size())
+            return usage_error("--also", fmt::format("{} needs a value", parts[i]));
+        if (const Status set = table.set(parts[i], takes ? parts[i + 1] : ""); !set)
+            return set;
+        i += takes;
+    }
+    return parts.empty() ? usage_error("--also", "needs options such as '--tilt 20,-10'") : table.check_needs();
+}
+
+Result<std::vector<RenderOptions>> frames_of(const ParityArguments& in, const OptionTable& given)
+{
+    std::vector<RenderOptions> frames;
+    RenderArguments arguments = in.render;
+    for (const std::string& technique : in.techniques)
+        for (const int msaa : in.msaa) {
+            arguments.plain.frame.technique = technique, arguments.plain.frame.msaa = msaa;
+            const Result<RenderOptions> checked = check_render_options(arguments, given);
+            if (!checked)
+                return checked.error();
+            frames.push_back(*checked);
+        }
+    return frames;
+}
+
+// The same frames with other words on top; `given`: what the command line gave.
+Result<std::vector<RenderOptions>> frames_of_look(const std::string& also, const ParityArguments& in, const OptionTable& given)
+{
+    ParityArguments arguments = in;
+    OptionTable table = parity_option_table(arguments);
+    for (std::size_t i = 0; i < table.options().size(); ++i)
+        table.options()[i].given = given.options()[i].given;
+    if (const Status set = set_words(also, table); !set)
+        return set.error();
+    return frames_of(arguments, table);
+}
+
 } // namespace
 
 OptionTable parity_option_table(ParityArguments& to)
@@ -70,11 +127,15 @@ OptionTable parity_option_table(ParityArguments& to)
     const OptionTable of_render = render_option_table(to.render);
     OptionTable table;
     table.add("", {{"SCENE", "", "A .gltf, .glb or .obj file, or builtin:NAME; may be several", scenes(to.scenes), "the suite 'default'"}});
-    table.add("What is compared",
-              {{"--suite", "NAME", "{}: the built-in scenes, from afar and from close by", choice(to.suite, {"default"})},
-               {"--models", "DIR", "Also every .glb and .gltf below this folder", folder(to.models)},
-               {"--technique", "NAMES", "all, or names by commas; see burnish list techniques", techniques_value(to.techniques)},
-               {"--msaa", "N,N", "Samples a pixel, by commas, of 1, 2, 4, 8 and 16", choices(to.msaa, {1, 2, 4, 8, 16})}});
+    table.add(
+        "What is compared",
+        {{"--suite", "NAME", "{}: the built-in scenes, from afar and from close by", choice(to.suite, {"default"})},
+         {"--models", "DIR", "Also every .glb and .gltf below this folder", folder(to.models)},
+         {"--technique", "NAMES", "all, or names by commas; see burnish list techniques", techniques_value(to.techniques)},
+         {"--msaa", "N,N", "Samples a pixel, by commas, of 1, 2, 4, 8 and 16", choices(to.msaa, {1, 2, 4, 8, 16})},
+         {"--also", "OPTIONS",
+          "All of it once more with options of materials and techniques, such as '--tilt 20,-10 --horizon'; may be given several times",
+          texts(to.also)}});
     table.take(of_render, "Machine",
                {{"--device", nullptr, "the first CPU device"}, {"--sampler", "exact, or native with --pipeline forward"}, "--validate"});
     table.add("Machine",
@@ -117,15 +178,13 @@ Result<ParityOptions> check_parity_options(const ParityArguments& in, const Opti
     out.json = in.json, out.csv = in.csv, out.junit = in.junit, out.html = in.html;
     if (const Status chosen = choose_places(in, out.places); !chosen)
         return chosen.error();
-    RenderArguments arguments = in.render;
-    for (const std::string& technique : in.techniques)
-        for (const int msaa : in.msaa) {
-            arguments.plain.frame.technique = technique, arguments.plain.frame.msaa = msaa;
-            const Result<RenderOptions> checked = check_render_options(arguments, given);
-            if (!checked)
-                return checked.error();
-            out.frames.push_back(*checked);
-        }
+    for (std::size_t i = 0; i <= in.also.size(); ++i) {
+        const std::string also = i ? in.also[i - 1] : "";
+        Result<std::vector<RenderOptions>> frames = i ? frames_of_look(also, in, given) : frames_of(in, given);
+        if (!frames)
+            return frames.error();
+        out.sets.push_back({also, std::move(*frames)});
+    }
     std::vector<std::string> inputs = {in.render.plain.env};
     for (const ParityPlace& place : out.places)
         inputs.push_back(place.scene);

@@ -17,6 +17,7 @@ struct ParityArguments {
     RenderArguments render; // its scene, msaa and technique are not used
     std::vector<std::string> scenes, techniques = technique_names();
     std::vector<int> msaa = {1, 4, 8};
+    std::vector<std::string> also;
     std::string suite, models, json, csv, junit, html;
 };
 
@@ -25,9 +26,14 @@ struct ParityPlace {         // a scene, seen from somewhere
     std::optional<glm::vec3> eye, target;
 };
 
+struct ParitySet {                     // one look of all places
+    std::string also;                  // what --also said of it; the first one: nothing
+    std::vector<RenderOptions> frames; // by technique, then by msaa
+};
+
 struct ParityOptions {
     std::vector<ParityPlace> places;
-    std::vector<RenderOptions> frames;  // by technique, then by msaa
+    std::vector<ParitySet> sets;
     std::string json, csv, junit, html; // files; empty: none
 };
 

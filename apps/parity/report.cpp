@@ -11,8 +11,8 @@ namespace {
 
 std::string row_name(const ParityRow& row)
 {
-    return fmt::format("{}{} {} {}x {} {}", row.scene, row.view.empty() ? "" : " (" + row.view + ")", row.technique, row.msaa, row.sampler,
-                       row.pipeline);
+    return fmt::format("{}{} {} {}x {} {}{}", row.scene, row.view.empty() ? "" : " (" + row.view + ")", row.technique, row.msaa,
+                       row.sampler, row.pipeline, row.also.empty() ? "" : " " + row.also);
 }
 
 std::string place_of(const ParityStage& stage)
@@ -183,8 +183,9 @@ Json parity_document(const ParityReport& report)
     json["rows"] = Json::array();
     for (const ParityRow& row : report.rows) {
         Json r;
-        r["scene"] = row.scene, r["view"] = row.view, r["technique"] = row.technique, r["msaa"] = row.msaa;
+        r["scene"] = row.scene, r["view"] = row.view, r["technique"] = row.technique, r["msaa"] = row.msaa, r["also"] = row.also;
         r["sampler"] = row.sampler, r["pipeline"] = row.pipeline, r["samples_emulated"] = row.samples_emulated;
+        r["pixel_hash"] = fmt::format("{:016x}", row.pixel_hash);
         r["samples"] = row.counts.samples, r["visibility_differ"] = row.counts.visibility_differ;
         r["pixels_differ"] = row.counts.pixels_differ, r["edge_pixels_differ"] = row.counts.edge_pixels_differ;
         r["stages"] = Json::array();
@@ -256,9 +257,9 @@ std::string parity_html(const ParityReport& report)
         const ParityStage* first = first_difference(row.counts);
         rows += fmt::format("<tr{}><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td class=\"n\">{}{}</td><td class=\"n\">{}</td>"
                             "<td class=\"n\">{}</td><td>{}</td><td>{}</td><td class=\"n\">{:.3g}</td></tr>\n",
-                            fault_of(row).empty() ? "" : " class=\"bad\"", escaped(row.scene), escaped(row.view), row.technique,
-                            row.sampler + ", " + row.pipeline, row.msaa, row.samples_emulated ? " (emulated)" : "", row.counts.samples,
-                            row.counts.visibility_differ,
+                            fault_of(row).empty() ? "" : " class=\"bad\"", escaped(row.scene), escaped(row.view),
+                            escaped(row.also.empty() ? row.technique : row.technique + " " + row.also), row.sampler + ", " + row.pipeline,
+                            row.msaa, row.samples_emulated ? " (emulated)" : "", row.counts.samples, row.counts.visibility_differ,
                             row.failed() ? escaped(row.error.line())
                             : first      ? first->name
                                          : "none",

@@ -9,9 +9,11 @@ namespace burnish {
 
 struct ParityRow {
     std::string scene, view, technique; // view: "" for the scene's own
+    std::string also;                   // options beside those of the command: see --also
     int msaa = 1;
     std::string sampler, pipeline;
     bool samples_emulated = false;
+    std::uint64_t pixel_hash = 0; // of the tile renderer's picture
     ParityCounts counts;
     double flip_mean = 0.0;
     std::vector<CauseShare> causes;        // of the pixels that differ

@@ -210,21 +210,31 @@ void VulkanRenderer::all_visibility(VkCommandBuffer c, const Band& band)
         visibility(c, {kSubpixel / 2 - pattern.x[s], kSubpixel / 2 - pattern.y[s], s, 0, 0, band.first_row, band.rows, 0});
 }
 
-// Of `names`, those that share samples or those that do not: a bit a place in models.def.
-std::int32_t techniques_of(const std::vector<std::string>& names, bool sharing)
+// constant_id 0 and 1 of shading/stages: bits of techniques, by their places in models.def, and of lobes.
+struct Used {
+    std::int32_t techniques = 0, lobes = 0;
+};
+
+// What frames take, of their techniques those that share samples or those that do not.
+Used used_by(const std::vector<FrameDesc>& frames, bool sharing)
 {
     const auto& all = techniques();
-    std::int32_t bits = 0;
-    for (std::size_t at = 0; at < all.size(); ++at)
-        if (((all[at].traits & kSharesSamples) != 0) == sharing && std::find(names.begin(), names.end(), all[at].name) != names.end())
-            bits |= 1 << at;
-    return bits;
+    Used used;
+    for (const FrameDesc& frame : frames) {
+        for (std::size_t at = 0; at < all.size(); ++at)
+            if (((all[at].traits & kSharesSamples) != 0) == sharing && frame.technique == all[at].name)
+                used.techniques |= 1 << at;
+        used.lobes |= 1 << lobe_with(kLobeOfRound) | 1 << lobe_of(frame, frame.tilt_rad != glm::vec2(0.0f));
+        if (frame.masking != 0)
+            used.lobes |= 1 << lobe_with(kLobeOfAll) | 1 << lobe_with(kSeparableOfAll);
+    }
+    return used;
 }
 
-// constant_id 0 and 1 of shading/stages: techniques, the materials' beside those given, and lobes, a bit each.
-Specialization technique_constants(const std::vector<MaterialRecord>& materials, const FrameRecord& frame, std::int32_t techniques)
+// The frame's own with `others`.
+Specialization technique_constants(const std::vector<MaterialRecord>& materials, const FrameRecord& frame, const Used& others)
 {
-    std::int32_t lobes = 1 << frame.lobe;
+    std::int32_t techniques = others.techniques, lobes = others.lobes | 1 << frame.lobe;
     if (frame.masking != 0) // which is compared with the usual one
         lobes |= 1 << lobe_with(kLobeOfAll) | 1 << lobe_with(kSeparableOfAll);
     static_assert(kLobeCount <= kGpuFirstAreaWay && kGpuFirstAreaWay + kAreaWays <= 31);
@@ -244,7 +254,7 @@ bool any_shares_samples(const std::vector<MaterialRecord>& materials)
 void VulkanRenderer::shade(VkCommandBuffer c, const FrameDesc& desc, const Band& band)
 {
     const bool shares = any_shares_samples(scene_.materials_of_frame());
-    const std::int32_t others = techniques_of(device_->options.techniques, shares);
+    const Used others = used_by(device_->options.frames, shares);
     Specialization constants = technique_constants(scene_.materials_of_frame(), scene_.record(), others);
     constants.insert(constants.end(), {desc.stages, shares});
     if (desc.stages)
@@ -356,7 +366,7 @@ Frame VulkanRenderer::render_forward(const FrameDesc& desc)
     for (const auto& [binding, buffer] : scene_bindings())
         bind(binding, *buffer);
     Frame frame = empty_frame(desc);
-    const std::int32_t others = techniques_of(device_->options.techniques, false);
+    const Used others = used_by(device_->options.frames, false);
     const Specialization technique = technique_constants(scene_.materials_of_frame(), scene_.record(), others);
     for (const Band& band : bands_of(desc.height, forward_.rows())) {
         VkCommandBuffer c = context_.begin();

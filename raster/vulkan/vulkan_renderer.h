@@ -22,12 +22,12 @@ struct VulkanOptions {
     bool prefer_cpu = false; // without a name: the first CPU device (lavapipe before others), otherwise the first GPU, if any
     VulkanSampler sampler = VulkanSampler::exact;
     VulkanPipeline pipeline = VulkanPipeline::ids;
-    bool centroid = false;     // forward: partly covered pixels are shaded where the device likes, which is cheaper; without stages
-    bool validate = false;     // with the Khronos validation layer; what it says makes rendering fail
-    std::string shader_folder; // of NAME.spv in place of the program's own shaders, for tests; empty: none
-    bool use_cache = true;     // pipelines on disk
-    std::vector<std::string> techniques; // that pipelines hold beside their frame's own, so that frames of any of them share one
-    std::size_t band_bytes = 0;          // of the buffers of one band of rows, for tests; 0: as many as every device takes
+    bool centroid = false;         // forward: partly covered pixels are shaded where the device likes, which is cheaper; without stages
+    bool validate = false;         // with the Khronos validation layer; what it says makes rendering fail
+    std::string shader_folder;     // of NAME.spv in place of the program's own shaders, for tests; empty: none
+    bool use_cache = true;         // pipelines on disk
+    std::vector<FrameDesc> frames; // whose techniques and lobes pipelines hold beside their frame's own, so that all of them share one
+    std::size_t band_bytes = 0;    // of the buffers of one band of rows, for tests; 0: as many as every device takes
 };
 
 struct VulkanDeviceInfo {     // what the driver calls itself

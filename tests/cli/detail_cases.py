@@ -164,9 +164,8 @@ def devices(bench):
     scene = scenes(bench)
     bench.run("bake", "tpr", "--expr", "cos(pi*v)", "sin(pi*v)", "--size", "8x16", "-o", "r.exr").expect(0)
     common = (scene, "--size", "48x32", "--msaa", "1", "--env", "builtin:sky", "--normal-map", "n.png")
-    for words in (("--frame-map", "quaternion", "--rotation-map", "r.exr", "--mip-filter", "lean"),
-                  ("--frame-map", "normal-only", "--technique", "mc", "--samples", "9")):
-        check_equal(parity(bench, *common, *words))
+    check_equal(parity(bench, *common, also=(("--frame-map", "quaternion", "--rotation-map", "r.exr", "--mip-filter", "lean"),
+                                             ("--frame-map", "normal-only", "--technique", "mc", "--samples", "9"))))
 
 
 @case("detail.lean_keeps_what_a_mip_level_loses")

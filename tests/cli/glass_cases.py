@@ -77,5 +77,5 @@ def agrees(bench):
 @case("glass.devices_give_the_same_words")
 def devices(bench):
     textured, smooth, dense = scene(bench, "textured", texture=True), scene(bench, "smooth", roughness=0, factor=0.5), scene(bench, "dense", ior=2.4, roughness=1)
-    for scenes, options in (((textured, smooth, dense), ()), (("builtin:glass",), ()), ((textured,), ("--tilt", "20,-10", "--energy-compensation", "--env", "builtin:sky"))):
-        check_equal(parity(bench, *scenes, "--technique", "mc", "--samples", "4", "--size", "32x24", "--msaa", "1", *options))
+    check_equal(parity(bench, textured, smooth, dense, "builtin:glass", "--technique", "mc", "--samples", "4", "--size", "32x24", "--msaa", "1",
+                       "--env", "builtin:sky", also=[("--tilt", "20,-10", "--energy-compensation")]))

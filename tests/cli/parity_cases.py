@@ -15,9 +15,11 @@ COARSE = ("--env-size", "64", "--env-samples", "32")  # a bake of a second
 STAGES = ["clip positions", "visibility", "depth", "interpolants", "material inputs", "shaded colour", "resolved colour"]
 
 
-def parity(bench, *arguments, code=0, timeout=540.0, device="lavapipe"):
-    """Runs the command and gives its JSON; skips where the device or Vulkan is absent."""
-    done = bench.run("parity", *arguments, "--device", device, *COARSE, "--json", "parity.json", timeout=timeout)
+def parity(bench, *arguments, also=(), code=0, timeout=540.0, device="lavapipe"):
+    """Runs the command and gives its JSON; skips where the device or Vulkan is absent. also: option lists of more looks, for which a driver
+    compiles nothing again."""
+    looks = [word for look in also for word in ("--also", " ".join(map(str, look)))]
+    done = bench.run("parity", *arguments, *looks, "--device", device, *COARSE, "--json", "parity.json", timeout=timeout)
     if done.code == 77 and code != 77:
         raise Skipped(done.err.strip())
     done.expect(code)
@@ -100,10 +102,11 @@ def automatic_technique(bench):
 # Key lights: discs and needles, tilted lobes, mirrors, samples that are shared.
 @case("parity.light_of_suns_is_equal")
 def light_of_suns(bench):
-    for options in (("--technique", "all"), ("--technique", "auto,mc", "--roughness", "0.15", "--anisotropy", "0.9"),
-                    ("--technique", "auto,split_isotropic", "--roughness", "0.02"), ("--technique", "auto,bent_normal", "--tilt", "20,-10", "--roughness", "0.5")):
-        check_equal(parity(bench, "builtin:spheres", bench.data_file("models/Lights.glb"), "--env", "builtin:sky", "--size", "64x48", "--msaa", "1",
-                           "--samples", "16", *options))
+    check_equal(parity(bench, "builtin:spheres", bench.data_file("models/Lights.glb"), "--env", "builtin:sky", "--size", "64x48", "--msaa", "1",
+                       "--samples", "16", "--technique", "all",
+                       also=(("--technique", "auto,mc", "--roughness", "0.15", "--anisotropy", "0.9"),
+                             ("--technique", "auto,split_isotropic", "--roughness", "0.02"),
+                             ("--technique", "auto,bent_normal", "--tilt", "20,-10", "--roughness", "0.5"))))
 
 
 @case("parity.models_are_equal")
@@ -124,11 +127,12 @@ def emulated_samples(bench):
 
 def options_agree(bench, *sets):
     lights = bench.data_file("models/Lights.glb")
-    for options in sets:
-        check_equal(parity(bench, lights, "builtin:plate", "--size", "48x32", "--msaa", "1", *options))
+    report = parity(bench, lights, "builtin:plate", "--size", "48x32", "--msaa", "1", also=sets)
+    check_equal(report)
+    check(len(report["rows"]) == 2 * 11 * (1 + len(sets)), f"{len(report['rows'])} rows")
 
 
-# Each option once; a driver compiles a minute for each set.
+# Each option once.
 @case("parity.options_of_shading_are_equal")
 def options_of_shading(bench):
     options_agree(bench, ("--masking", "separable", "--tilt", "20,-10"), ("--anisotropy", "0.7", "--roughness", "0.3", "--dfg", "fit"),
@@ -258,6 +262,20 @@ def validation_by_every_technique(bench):
         forward_is_valid(bench, technique, i)
 
 
+# Looks differ, and each is compared with its own.
+@case("parity.looks_are_drawn_each")
+def looks(bench):
+    report = parity(bench, "builtin:plate", "--size", "32x24", "--msaa", "1", "--technique", "bent_normal", "--roughness", "0.3",
+                    also=(("--roughness", "0.7"), ("--technique", "major_axis", "--msaa", "1,4")))
+    check_equal(report)
+    check([(row["also"], row["technique"], row["msaa"]) for row in report["rows"]] ==
+          [("", "bent_normal", 1), ("--roughness 0.7", "bent_normal", 1)] + [("--technique major_axis --msaa 1,4", "major_axis", n) for n in (1, 4)],
+          f"{report['rows']}")
+    alone = parity(bench, "builtin:plate", "--size", "32x24", "--msaa", "1", "--technique", "bent_normal", "--roughness", "0.7")
+    hashes = [row["pixel_hash"] for row in report["rows"]]
+    check(len(set(hashes)) == 4 and hashes[1] == alone["rows"][0]["pixel_hash"], f"{hashes}, {alone['rows']}")
+
+
 @case("parity.unknown_device_is_said")
 def unknown_device(bench):
     done = bench.run("parity", "builtin:teapot", "--device", "abacus", "--size", "16x16", "--msaa", "1", *COARSE)
@@ -267,6 +285,9 @@ def unknown_device(bench):
 @case("parity.wrong_options_say_one_line_and_exit_2")
 def wrong_options(bench):
     for arguments, needle in ((("--suite", "none"), "--suite"), (("--technique", "none"), "--technique"), (("--msaa", "3"), "--msaa"),
+                              (("--also", "--env builtin:sky"), "--also"), (("--also", "--tilt"), "--also"), (("--also", " "), "--also"),
+                              (("--also", "--size=8x8"), "--also"), (("--also", "--technique mc --masking none"), "--masking"),
+                              (("--also", "--technique bent_normal --brdf beckmann"), "--technique"),
                               (("--pipeline", "backward"), "--pipeline"), (("--sampler", "native"), "--sampler"), (("--msaa", "1,"), "--msaa")):
         done = bench.run("parity", *arguments)
         if done.code == 77:
