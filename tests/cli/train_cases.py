@@ -1,6 +1,8 @@
 """burnish train: nets that make mipmaps."""
 
 import hashlib
+import json
+import pathlib
 import signal
 import subprocess
 import time
@@ -8,6 +10,7 @@ import time
 from harness import case, check
 
 SMALL = ("train", "mip", "--steps", "20")
+SHIPPED = pathlib.Path(__file__).resolve().parents[2] / "shading/bake/mipnet"
 
 
 @case("train.threads_and_instruction_sets_make_no_difference", tier="gate")
@@ -49,3 +52,22 @@ def wrong(bench):
         bench.run("train", "mip", *words).expect(code).expect_one_line(needle)
     bench.run("train", "map", "-o", "w.mipnet").expect(2).expect_one_line("map")
     check(bench.left_behind() == ["bad.mipnet", "t.mipnet.part"], f"left {bench.left_behind()}")
+
+
+@case("train.shipped_weights_say_what_they_are", tier="check")
+def shipped(bench):
+    for file in sorted(SHIPPED.glob("*.mipnet")):
+        name = file.stem
+        check(file.stat().st_size < 100000, f"{file} is too large")
+        said = json.loads(bench.run("info", "--json", "--weights", file).expect(0).out)
+        check(said["brdf"] == name and said["steps"] > 0, f"{said}")
+        check(said["command"].startswith(f"burnish train mip --brdf {name} ") and f"--seed {said['seed']}" in said["command"], f"{said}")
+        check("hammered" in said["families"] and "twill" not in said["families"], f"{said}")
+
+
+@case("train.the_shipped_weights_are_what_the_commands_make", tier="slow")
+def remade(bench):
+    for file in sorted(SHIPPED.glob("*.mipnet")):
+        words = json.loads(bench.run("info", "--json", "--weights", file).expect(0).out)["command"].split()[1:]
+        bench.run(*words, "-o", file.name, "-q", timeout=3600).expect(0)
+        check((bench.folder / file.name).read_bytes() == file.read_bytes(), f"{file.name} is another one")

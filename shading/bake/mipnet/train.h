@@ -16,7 +16,7 @@ namespace burnish::mipnet {
 struct TrainOptions {
     Shape shape;
     std::uint64_t seed = 1;
-    int steps = 8000;
+    int steps = 3000;
     int shards = 2;             // of a step, 16 tiles each; what threads share
     int pairs = 32;             // of directions, a tile and step
     int seeds = 24, side = 128; // of the training set: materials a family, texels
