@@ -22,6 +22,7 @@
 #include "raster/tile/tile_renderer.h"
 #include "raster/vulkan/vulkan_renderer.h"
 #include "shading/bake/environment/key_lights.h"
+#include "shading/bake/mipnet/weights.h"
 
 namespace burnish {
 namespace {
@@ -115,8 +116,37 @@ int print_text(const Info& info, const Environment* environment)
     return 0;
 }
 
-int run_info(const RenderOptions& options, bool json, const OptionTable& given)
+int print_weights(const std::string& path, bool json)
 {
+    const Result<mipnet::Weights> read = mipnet::read_weights(path);
+    if (!read)
+        return fail(read.error());
+    const mipnet::Weights& w = *read;
+    const auto hidden = [](const mipnet::Hidden& h) { return fmt::format("{}x{}", h.layers, h.width); };
+    const Json said = {{"brdf", mipnet::lobe_name(w.shape.lobe)},
+                       {"layout", mipnet::layout_name(w.shape.layout)},
+                       {"size", hidden(w.shape.a) + "/" + hidden(w.shape.b)},
+                       {"numbers", w.numbers.size()},
+                       {"seed", w.seed},
+                       {"steps", w.steps},
+                       {"families", w.families},
+                       {"training_set", fmt::format("{:016x}", w.data)},
+                       {"command", w.command}};
+    if (json) {
+        fmt::print("{}\n", said.dump(2));
+        return 0;
+    }
+    fmt::print("weights      {}, {} {}, {} steps from seed {}\n", mipnet::lobe_name(w.shape.lobe), mipnet::layout_name(w.shape.layout),
+               hidden(w.shape.a) + "/" + hidden(w.shape.b), w.steps, w.seed);
+    fmt::print("trained on   {}\n", printable(w.families));
+    fmt::print("made by      {}\n", printable(w.command));
+    return 0;
+}
+
+int run_info(const RenderOptions& options, const std::string& weights, bool json, const OptionTable& given)
+{
+    if (!weights.empty())
+        return print_weights(weights, json);
     const Result<Seen> environment = see_environment(options, given);
     if (!environment)
         return fail(environment.error());
@@ -130,7 +160,10 @@ Command info_command()
     auto json = std::make_shared<bool>(false);
     auto arguments = std::make_shared<RenderArguments>();
     OptionTable table;
-    table.add("", {{"--json", "", "Machine-readable", flag(*json)}});
+    auto weights = std::make_shared<std::string>();
+    table.add("", {{"--json", "", "Machine-readable", flag(*json)},
+                   {"--weights", "FILE", "Instead: what these weights of burnish train are of, and the command that makes them",
+                    file(*weights)}});
     table.take(render_option_table(*arguments), "Environment",
                {{"--env", "Also what is in this environment: an equirectangular picture or builtin:NAME", ""},
                 "--env-rotation",
@@ -141,7 +174,7 @@ Command info_command()
             "Examples:\n  burnish info\n  burnish info --json\n  burnish info --env builtin:sky\n\nBN_FORCE_ISA=NAME in the environment "
             "caps the instruction set;"
             " BURNISH_CACHE_BYTES=500M limits the cache (2G).",
-            [json, arguments](OptionTable& given) { return run_info(arguments->plain, *json, given); }};
+            [json, arguments, weights](OptionTable& given) { return run_info(arguments->plain, *weights, *json, given); }};
 }
 
 } // namespace burnish

@@ -41,6 +41,7 @@ import reference_cases
 import relief_cases
 import subcommand_cases
 import tilt_cases
+import train_cases
 import usage_cases
 
 parser = argparse.ArgumentParser()

@@ -38,6 +38,7 @@ RUNS = {
              (("brdf-lut", "--nu", "9", "--nv", "70", "--size", "4x4", "-o", "l.exr"), (0,)),
              (("environment", "builtin:sky", "--env-size", "16", "--env-samples", "4", "-o", "baked"), (0,)),
              (("displaced", "builtin:sphere", "a.png", "--triangles", "1", "-o", "s.glb"), (0,))],
+    "train": [(("mip", "--steps", "1", "-o", "w.mipnet", "-q"), (0,))],
     "export": [(("glsl", "--technique", "lobe_line", "-o", "l.glsl"), (0,)), (("glsl", "--technique", "filtered_is", "-o", "-"), (0,))],
     "list": [((what,), (0,)) for what in ("techniques", "scenes", "environments", "models", "area-lights", "extensions")],
     "manual": [((what,), (0,)) for what in ("man", "bash", "zsh", "fish")],
@@ -67,7 +68,7 @@ def bad_input(bench):
     (bench.folder / "bad.exr").write_bytes(b"\x76\x2f\x31\x01, not")
     for words, codes in ((("render", "bad.glb"), (4,)), (("render", "--env", "bad.exr"), (4,)), (("compare", "bad.exr", "bad.exr"), (4,)),
                          (("chart", "bad.glb", "-o", "r"), (4, 77)), (("chart", "--env", "bad.exr", "-o", "r"), (4, 77)),
-                         (("profile", "bad.glb"), (4,)), (("list", "nothing"), (2,)), (("info", "nothing"), (2,))):
+                         (("profile", "bad.glb"), (4,)), (("train", "mip", "--evaluate", "bad.exr"), (4,)), (("list", "nothing"), (2,)), (("info", "nothing"), (2,))):
         done = bench.run(*words)
         check(done.code in codes, done.describe())
         done.expect_one_line()

@@ -1,0 +1,231 @@
+// `burnish train`: nets that make mipmaps, from nothing.
+#include <algorithm>
+#include <filesystem>
+#include <fmt/core.h>
+#include <memory>
+#include <optional>
+
+#include "apps/cli/command.h"
+#include "apps/cli/outputs.h"
+#include "apps/cli/report.h"
+#include "apps/cli/shared_options.h"
+#include "apps/cli/stop_signal.h"
+#include "apps/cli/values.h"
+#include "apps/report/json.h"
+#include "apps/train/real_maps.h"
+#include "core/base/clock.h"
+#include "shading/bake/mipnet/evaluate.h"
+#include "shading/bake/mipnet/train.h"
+
+namespace burnish {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kFooter =
+    R"(mip: a cascade of two nets that makes mipmaps of normals and anisotropic widths whose levels look as level 0 does from afar
+(MIPNet, Gauthier et al. 2022). It is trained on materials made in code: tiles of 32 x 32 texels, lit in random directions at one to one,
+averaged, and compared on every level as a display shows them. Layout cov begins at a closed form (covariances of normals added to widths)
+and learns what is left; paper adds to plain means, as published. What is done so far is kept in WEIGHTS.part, or where --checkpoint says:
+the same command goes on from there, to the same bytes, whatever the threads and the instruction set.
+--evaluate measures weights against closed forms on families that are never trained on, on new materials of those that are, and with
+--maps on pictures: FLIP, L1 and MSE of what is shown, times 1000, means over levels 1 to 5. --validation: only what may be looked at while
+something is chosen, new materials of trained families.
+
+Examples:
+  burnish train mip --brdf ggx_aniso -o ggx_aniso.mipnet
+  burnish train mip --brdf beckmann --layout paper --size 2x64/2x128 --steps 4000 -o paper.mipnet
+  burnish train mip --evaluate ggx_aniso.mipnet --maps textures --json figures.json)";
+
+struct TrainArguments {
+    std::string what = "mip", output, evaluate, maps, json, checkpoint;
+    std::string size = "2x32/2x64";
+    mipnet::TrainOptions train;
+    bool validation = false, quiet = false;
+    int verbosity = 0, threads = 0;
+    Limits limits;
+};
+
+struct NamedSize {
+    const char* name;
+    mipnet::Hidden a, b;
+};
+constexpr NamedSize kNamedSizes[] = {
+    {"2x32/2x64", {2, 32}, {2, 64}}, {"2x64/2x128", {2, 64}, {2, 128}}, {"2x512/3x1024", {2, 512}, {3, 1024}}};
+
+OptionTable train_option_table(TrainArguments& to)
+{
+    OptionTable table, limits;
+    limits.add("", limit_options(to.limits));
+    mipnet::TrainOptions& t = to.train;
+    std::vector<std::string> sizes;
+    for (const NamedSize& size : kNamedSizes)
+        sizes.emplace_back(size.name);
+    table.add("", {{"WHAT", "", "{}", choice(to.what, {"mip"})}});
+    table.add("The nets", {{"--brdf", "NAME", "The lobe that shows the mipmaps: {}",
+                            choice(t.shape.lobe, {"ggx_aniso", "beckmann", "ashikhmin_shirley"})},
+                           {"--layout", "NAME", "{}", choice(t.shape.layout, {"paper", "cov"})},
+                           {"--size", "NAME", "Hidden layers x units of both nets: {}", choice(to.size, sizes)}});
+    table.add("Training", {{"--steps", "N", "Of 32 tiles each", integer(t.steps, 1, 100000000)},
+                           {"--seed", "N", "Of everything random", integer(t.seed, 0, 1 << 30)},
+                           {"--checkpoint", "FILE", "Where to keep what is done", file(to.checkpoint), "WEIGHTS.part"}});
+    table.add("Measuring",
+              {{"--evaluate", "WEIGHTS", "Measure these instead of training", file(to.evaluate)},
+               {"--maps", "FOLDER", "Also on these materials, a folder each: normal, roughness, metallic maps", folder(to.maps)},
+               {"--validation", "", "On materials to choose by, none of those to report", flag(to.validation)},
+               {"--json", "FILE", "Figures of every material and level", file(to.json)}});
+    table.add("Output", {{"-o,--output", "FILE", "The weights", file(to.output)},
+                         quiet_option(to.quiet),
+                         verbose_option(to.verbosity),
+                         threads_option(to.threads)});
+    table.take(limits, "Limits on input",
+               {{"--limit-image-side", "Width and height of pictures"}, {"--limit-file-bytes", "Size of their files"}});
+    return table;
+}
+
+Status check_arguments(const TrainArguments& a, const OptionTable& given)
+{
+    if (a.evaluate.empty() == a.output.empty())
+        return usage_error("-o", "is needed, or --evaluate, and not both");
+    if (a.evaluate.empty())
+        for (const char* option : {"--maps", "--validation", "--json"})
+            if (given.given(option))
+                return usage_error(option, "needs --evaluate WEIGHTS");
+    if (!a.evaluate.empty())
+        for (const char* option : {"--brdf", "--layout", "--size", "--steps", "--seed", "--checkpoint"})
+            if (given.given(option))
+                return usage_error(option, "says how nets are trained, and those of --evaluate are trained already");
+    if (a.validation && !a.maps.empty())
+        return usage_error("--maps", "are for reports, --validation is for what is chosen");
+    if (a.output == "-")
+        return usage_error("-o", "weights are no text for standard output");
+    if (!a.json.empty())
+        if (const Status path = check_text_path("--json", a.json, {a.evaluate}); !path)
+            return path;
+    if (a.output.empty())
+        return {};
+    if (const Status path = check_text_path("-o", a.output, {}); !path)
+        return path;
+    return check_text_path("--checkpoint", a.train.checkpoint, {});
+}
+
+int run_training(TrainArguments& a, Report& report)
+{
+    const Jobs jobs(a.threads);
+    a.train.stop = &watch_stop_signals();
+    report.release();
+    const double begin_ms = wall_ms();
+    const int told = std::max(1, a.train.steps / 20);
+    double sum = 0.0;
+    int summed = 0;
+    std::optional<Progress> progress;
+    progress.emplace("steps", static_cast<std::size_t>(a.train.steps), a.quiet);
+    int seen = 0;
+    a.train.advance = [&](int step, double loss) {
+        progress->step(static_cast<std::size_t>(step - seen));
+        seen = step;
+        sum += loss, ++summed;
+        if (step % told != 0 && step != a.train.steps)
+            return;
+        report.event("step", fmt::format("{} of {}: loss {:.2f}e-3, {:.0f} s", step, a.train.steps, 1e3 * sum / summed,
+                                         1e-3 * (wall_ms() - begin_ms)));
+        sum = 0.0, summed = 0;
+    };
+    const Result<std::optional<mipnet::Weights>> trained = mipnet::train(a.train, jobs);
+    progress.reset();
+    if (!trained)
+        return fail(trained.error());
+    if (!*trained) {
+        report.event("stopped", fmt::format("the same command goes on from {}; no weights were written", a.train.checkpoint));
+        return 128 + stop_signal(); // as a shell reports a process that a signal ended
+    }
+    if (const Status written = mipnet::write_weights(a.output, **trained); !written)
+        return fail(written.error());
+    report.wrote(a.output);
+    std::error_code ignored;
+    fs::remove(a.train.checkpoint, ignored);
+    return 0;
+}
+
+Json figures_json(const mipnet::Figures& f)
+{
+    return {{"flip", f.flip}, {"l1", f.l1}, {"mse", f.mse}};
+}
+
+std::string summary_lines(const std::vector<mipnet::Summary>& all)
+{
+    std::string lines = fmt::format("{:10} {:10} {:>4} {:>7} {:>7} {:>7}   {:>6} {:>6} {:>6}   {:>5} {:>6}  {}\n", "set", "filter", "of",
+                                    "FLIP", "L1", "MSE", "dFLIP", "dL1", "dMSE", "worst", "LoD1", "wins FLIP/L1/MSE");
+    const mipnet::Summary* base = nullptr;
+    for (const mipnet::Summary& s : all) {
+        if (s.filter == "baseline")
+            base = &s;
+        const auto change = [](double is, double was) { return 100.0 * (is / was - 1.0); };
+        const mipnet::Figures &m = s.mean, &b = base->mean;
+        lines += fmt::format(
+            "{:10} {:10} {:4} {:7.1f} {:7.2f} {:7.2f}   {:+5.1f}% {:+5.1f}% {:+5.1f}%   {:5.2f} {:6.2f}  {:.0f}/{:.0f}/{:.0f} %\n", s.set,
+            s.filter, s.materials, 1e3 * m.flip, 1e3 * m.l1, 1e3 * m.mse, change(m.flip, b.flip), change(m.l1, b.l1), change(m.mse, b.mse),
+            s.worst_l1, 1e3 * s.first_level_l1, 100.0 * s.wins[0], 100.0 * s.wins[1], 100.0 * s.wins[2]);
+    }
+    return lines;
+}
+
+int run_evaluation(const TrainArguments& a, Report& report)
+{
+    const Result<mipnet::Weights> weights = mipnet::read_weights(a.evaluate);
+    if (!weights)
+        return fail(weights.error());
+    const Jobs jobs(a.threads);
+    std::vector<mipnet::TestMaterial> set = a.validation ? mipnet::make_validation_set(jobs) : mipnet::make_test_set(jobs);
+    if (!a.maps.empty()) {
+        Result<std::vector<mipnet::TestMaterial>> real = real_materials(a.maps, a.limits);
+        if (!real)
+            return fail(real.error());
+        set.insert(set.end(), real->begin(), real->end());
+    }
+    const std::vector<mipnet::Judged> rows = mipnet::judge(set, weights->shape.lobe, {*weights}, jobs);
+    report.promise_stdout({a.json});
+    report.release();
+    if (!a.json.empty()) {
+        Json json = {{"brdf", mipnet::lobe_name(weights->shape.lobe)}, {"command", weights->command}, {"rows", Json::array()}};
+        for (const mipnet::Judged& row : rows) {
+            Json levels = Json::array();
+            for (int k = 1; k <= mipnet::kJudgedLevels; ++k)
+                levels.push_back(figures_json(row.level[k]));
+            json["rows"].push_back({{"set", row.set},
+                                    {"material", row.material},
+                                    {"filter", row.filter},
+                                    {"mean", figures_json(row.level[0])},
+                                    {"levels", levels}});
+        }
+        if (const Status written = write_text(a.json, json.dump(1) + "\n"); !written)
+            return fail(written.error());
+        report.wrote(a.json);
+    }
+    report.figures(summary_lines(mipnet::summaries(rows)));
+    return 0;
+}
+
+int run_train(TrainArguments& a, const OptionTable& given)
+{
+    if (a.train.checkpoint = a.checkpoint; a.checkpoint.empty())
+        a.train.checkpoint = a.output + ".part";
+    if (const Status checked = check_arguments(a, given); !checked)
+        return fail(checked.error());
+    for (const NamedSize& size : kNamedSizes)
+        if (a.size == size.name)
+            a.train.shape.a = size.a, a.train.shape.b = size.b;
+    Report report(a.quiet, a.verbosity);
+    return a.evaluate.empty() ? run_training(a, report) : run_evaluation(a, report);
+}
+
+} // namespace
+
+Command train_command()
+{
+    auto arguments = std::make_shared<TrainArguments>();
+    return {"train", "Train nets that make mipmaps, and measure them", train_option_table(*arguments), kFooter,
+            [arguments](OptionTable& given) { return run_train(*arguments, given); }};
+}
+
+} // namespace burnish

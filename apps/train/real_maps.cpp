@@ -1,0 +1,109 @@
+#include "apps/train/real_maps.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <filesystem>
+#include <optional>
+
+#include "core/image/io/image_io.h"
+#include "shading/bake/mip/anisotropy.h"
+
+namespace burnish {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Found {
+    std::string normal, roughness, metallic;
+    std::size_t roughness_channel = 0;
+};
+
+Found look_into(const fs::path& folder)
+{
+    Found found;
+    std::vector<fs::path> files;
+    std::error_code ignored;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored))
+        files.push_back(entry.path());
+    std::sort(files.begin(), files.end());
+    for (const fs::path& file : files) {
+        std::string name = file.stem().string();
+        std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+        const auto has = [&name](const char* word) { return name.find(word) != std::string::npos; };
+        if (has("rough"))
+            found.roughness = file.string(), found.roughness_channel = 0;
+        else if (has("_orm") || has("_arm"))
+            found.roughness = file.string(), found.roughness_channel = 1;
+        else if (has("metal"))
+            found.metallic = file.string();
+        else if (has("norm") || has("_nor_"))
+            found.normal = file.string();
+    }
+    return found;
+}
+
+} // namespace
+
+Result<std::vector<mipnet::TestMaterial>> real_materials(const std::string& folder, const Limits& limits)
+{
+    std::vector<fs::path> folders;
+    std::error_code failed;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder, failed))
+        if (entry.is_directory())
+            folders.push_back(entry.path());
+    if (failed)
+        return Error{ExitCode::bad_input, folder, "", failed.message()};
+    std::sort(folders.begin(), folders.end());
+    std::vector<mipnet::TestMaterial> set;
+    for (const fs::path& path : folders) {
+        const Found found = look_into(path);
+        if (found.normal.empty())
+            continue;
+        const Result<Image> normal = read_image(found.normal, limits);
+        if (!normal)
+            return normal.error();
+        std::optional<Image> roughness, metallic;
+        for (auto [file, image] : {std::pair{&found.roughness, &roughness}, {&found.metallic, &metallic}}) {
+            if (file->empty())
+                continue;
+            Result<Image> read = read_image(*file, limits);
+            if (!read)
+                return read.error();
+            if (read->width == normal->width && read->height == normal->height)
+                *image = std::move(*read);
+        }
+        int side = 256;
+        while (side > std::min(normal->width, normal->height))
+            side /= 2;
+        if (side < 32 || normal->channels < 3)
+            continue;
+        mipnet::TestMaterial m = {{path.filename().string(), mipnet::make_texels(side, side), false}, "real"};
+        const int x0 = (normal->width - side) / 2, y0 = (normal->height - side) / 2;
+        double metal = 0.0;
+        for (int y = 0; y < side; ++y)
+            for (int x = 0; x < side; ++x) {
+                const std::size_t at =
+                    static_cast<std::size_t>(y0 + y) * static_cast<std::size_t>(normal->width) + static_cast<std::size_t>(x0 + x);
+                const auto part = [&](int c) {
+                    return 2.0 * static_cast<double>(texel_channel(*normal, at, static_cast<std::size_t>(c))) - 1.0;
+                };
+                const double nx = part(0), ny = part(1), nz = std::max(part(2), 0.05);
+                const double inverse = 1.0 / std::sqrt(nx * nx + ny * ny + nz * nz);
+                const double r = roughness ? static_cast<double>(texel_channel(*roughness, at, found.roughness_channel)) : 0.35;
+                const std::size_t i = static_cast<std::size_t>(y * side + x);
+                m.material.texels.channel[0][i] = static_cast<float>(nx * inverse);
+                m.material.texels.channel[1][i] = static_cast<float>(ny * inverse);
+                m.material.texels.channel[2][i] = m.material.texels.channel[3][i] = static_cast<float>(r * r);
+                metal += metallic ? static_cast<double>(texel_channel(*metallic, at, 0)) / (side * side) : 0.0;
+            }
+        m.material.metal = metal > 0.5;
+        mipnet::make_valid(m.material.texels);
+        set.push_back(std::move(m));
+    }
+    if (set.empty())
+        return Error{ExitCode::bad_input, folder, "", "has no folder with a normal map"};
+    return set;
+}
+
+} // namespace burnish

@@ -1,0 +1,251 @@
+// Numbers that know their derivatives, over lanes: `dual` carries five of them forward, `var` is a place on a tape that is read backward.
+// Texts that are templates over them, or over `real` itself, are written once for values and for gradients.
+#pragma once
+#include "shading/kernels/math_special.k.h"
+
+BN_KERNELS_BEGIN
+namespace mipnet_lanes {
+
+using burnish::max;
+using burnish::min;
+using burnish::select;
+using burnish::sqrt;
+
+#ifdef BN_ORACLE
+using number = double;
+BN_FN real get(const number* from)
+{
+    return *from;
+}
+BN_FN void put(number* to, real x)
+{
+    *to = x;
+}
+BN_FN real all_lanes(number x)
+{
+    return x;
+}
+BN_FN real exp_of(real x)
+{
+    return __builtin_exp(x);
+}
+BN_FN real log_of(real x)
+{
+    return __builtin_log(x);
+}
+BN_FN real log1p_of(real x)
+{
+    return __builtin_log1p(x);
+}
+#else
+using number = float;
+BN_FN real get(const number* from)
+{
+    return load(from);
+}
+BN_FN void put(number* to, real x)
+{
+    store(to, x);
+}
+BN_FN real all_lanes(number x)
+{
+    return splat(x);
+}
+BN_FN real exp_of(real x)
+{
+    return k_exp(x);
+}
+BN_FN real log_of(real x)
+{
+    return k_log2(x) * lit(0.69314718055994531);
+}
+BN_FN real log1p_of(real x)
+{
+    return k_log1p(x);
+}
+#endif
+
+BN_FN real value(real x)
+{
+    return x;
+}
+
+struct dual {
+    real v, d0, d1, d2, d3, d4;
+};
+BN_FN real value(const dual& x)
+{
+    return x.v;
+}
+BN_FN dual constant(real v)
+{
+    const real zero = lit(0.0);
+    return {v, zero, zero, zero, zero, zero};
+}
+// The number v that changes by da as a does, and by db as b does.
+BN_FN dual chain(real v, const dual& a, real da)
+{
+    return {v, a.d0 * da, a.d1 * da, a.d2 * da, a.d3 * da, a.d4 * da};
+}
+BN_FN dual chain(real v, const dual& a, real da, const dual& b, real db)
+{
+    return {v, a.d0 * da + b.d0 * db, a.d1 * da + b.d1 * db, a.d2 * da + b.d2 * db, a.d3 * da + b.d3 * db, a.d4 * da + b.d4 * db};
+}
+
+// A tape: every number made, with the two that it was made of and how it changes with them. Number 0 is nobody's.
+struct tape_node {
+    real d0, d1;
+    int from0, from1;
+};
+inline constexpr int kTapeLength = 4096; // numbers of one texel's gradient; about 1500 are used
+struct tape {
+    tape_node* nodes;
+    real *values, *adjoints;
+    int count;
+};
+struct var {
+    tape* on;
+    int at;
+};
+BN_FN real value(const var& x)
+{
+    return x.on->values[x.at];
+}
+static __attribute__((noinline, unused)) int tape_push(tape* t, real v, int from0, real d0, int from1, real d1)
+{
+    if (t->count >= kTapeLength)
+        __builtin_trap();
+    const int at = t->count++;
+    t->nodes[at] = {d0, d1, from0, from1};
+    t->values[at] = v;
+    t->adjoints[at] = lit(0.0);
+    return at;
+}
+BN_FN void tape_begin(tape& t)
+{
+    t.count = 0;
+    tape_push(&t, lit(0.0), 0, lit(0.0), 0, lit(0.0));
+}
+BN_FN var leaf(tape& t, real v)
+{
+    return {&t, tape_push(&t, v, 0, lit(0.0), 0, lit(0.0))};
+}
+BN_FN void seed(const var& x, real adjoint)
+{
+    x.on->adjoints[x.at] += adjoint;
+}
+BN_FN real adjoint_of(const var& x)
+{
+    return x.on->adjoints[x.at];
+}
+BN_FN var chain(real v, const var& a, real da)
+{
+    return {a.on, tape_push(a.on, v, a.at, da, 0, lit(0.0))};
+}
+BN_FN var chain(real v, const var& a, real da, const var& b, real db)
+{
+    return {a.on, tape_push(a.on, v, a.at, da, b.at, db)};
+}
+static __attribute__((noinline, unused)) void tape_reverse(tape& t)
+{
+    for (int i = t.count - 1; i > 0; --i) {
+        const tape_node& node = t.nodes[i];
+        const real adjoint = t.adjoints[i];
+        t.adjoints[node.from0] += adjoint * node.d0;
+        t.adjoints[node.from1] += adjoint * node.d1;
+    }
+}
+
+#define BN_DIFFERENTIABLE(D)                                                                                                               \
+    BN_FN D operator+(const D& a, const D& b)                                                                                              \
+    {                                                                                                                                      \
+        return chain(value(a) + value(b), a, lit(1.0), b, lit(1.0));                                                                       \
+    }                                                                                                                                      \
+    BN_FN D operator-(const D& a, const D& b)                                                                                              \
+    {                                                                                                                                      \
+        return chain(value(a) - value(b), a, lit(1.0), b, lit(-1.0));                                                                      \
+    }                                                                                                                                      \
+    BN_FN D operator*(const D& a, const D& b)                                                                                              \
+    {                                                                                                                                      \
+        return chain(value(a) * value(b), a, value(b), b, value(a));                                                                       \
+    }                                                                                                                                      \
+    BN_FN D operator/(const D& a, const D& b)                                                                                              \
+    {                                                                                                                                      \
+        const real inverse = lit(1.0) / value(b), ratio = value(a) * inverse;                                                              \
+        return chain(ratio, a, inverse, b, -(ratio * inverse));                                                                            \
+    }                                                                                                                                      \
+    BN_FN D operator-(const D& a)                                                                                                          \
+    {                                                                                                                                      \
+        return chain(-value(a), a, lit(-1.0));                                                                                             \
+    }                                                                                                                                      \
+    BN_FN D operator+(const D& a, real b)                                                                                                  \
+    {                                                                                                                                      \
+        return chain(value(a) + b, a, lit(1.0));                                                                                           \
+    }                                                                                                                                      \
+    BN_FN D operator+(real a, const D& b)                                                                                                  \
+    {                                                                                                                                      \
+        return chain(a + value(b), b, lit(1.0));                                                                                           \
+    }                                                                                                                                      \
+    BN_FN D operator-(const D& a, real b)                                                                                                  \
+    {                                                                                                                                      \
+        return chain(value(a) - b, a, lit(1.0));                                                                                           \
+    }                                                                                                                                      \
+    BN_FN D operator-(real a, const D& b)                                                                                                  \
+    {                                                                                                                                      \
+        return chain(a - value(b), b, lit(-1.0));                                                                                          \
+    }                                                                                                                                      \
+    BN_FN D operator*(const D& a, real b)                                                                                                  \
+    {                                                                                                                                      \
+        return chain(value(a) * b, a, b);                                                                                                  \
+    }                                                                                                                                      \
+    BN_FN D operator*(real a, const D& b)                                                                                                  \
+    {                                                                                                                                      \
+        return chain(a * value(b), b, a);                                                                                                  \
+    }                                                                                                                                      \
+    BN_FN D operator/(real a, const D& b)                                                                                                  \
+    {                                                                                                                                      \
+        const real inverse = lit(1.0) / value(b), ratio = a * inverse;                                                                     \
+        return chain(ratio, b, -(ratio * inverse));                                                                                        \
+    }                                                                                                                                      \
+    BN_FN D sqrt(const D& a) /* of what is above 0 */                                                                                      \
+    {                                                                                                                                      \
+        const real root = sqrt(value(a));                                                                                                  \
+        return chain(root, a, lit(0.5) / root);                                                                                            \
+    }                                                                                                                                      \
+    BN_FN D exp_of(const D& a)                                                                                                             \
+    {                                                                                                                                      \
+        const real e = exp_of(value(a));                                                                                                   \
+        return chain(e, a, e);                                                                                                             \
+    }                                                                                                                                      \
+    BN_FN D log_of(const D& a)                                                                                                             \
+    {                                                                                                                                      \
+        return chain(log_of(value(a)), a, lit(1.0) / value(a));                                                                            \
+    }                                                                                                                                      \
+    BN_FN D log1p_of(const D& a)                                                                                                           \
+    {                                                                                                                                      \
+        return chain(log1p_of(value(a)), a, lit(1.0) / (lit(1.0) + value(a)));                                                             \
+    }                                                                                                                                      \
+    BN_FN D max(const D& a, real b)                                                                                                        \
+    {                                                                                                                                      \
+        return chain(max(value(a), b), a, select(value(a) > b, lit(1.0), lit(0.0)));                                                       \
+    }                                                                                                                                      \
+    BN_FN D min(const D& a, real b)                                                                                                        \
+    {                                                                                                                                      \
+        return chain(min(value(a), b), a, select(value(a) < b, lit(1.0), lit(0.0)));                                                       \
+    }                                                                                                                                      \
+    BN_FN D max(const D& a, const D& b)                                                                                                    \
+    {                                                                                                                                      \
+        const mask first = value(a) > value(b);                                                                                            \
+        return chain(max(value(a), value(b)), a, select(first, lit(1.0), lit(0.0)), b, select(first, lit(0.0), lit(1.0)));                 \
+    }                                                                                                                                      \
+    BN_FN D min(const D& a, const D& b)                                                                                                    \
+    {                                                                                                                                      \
+        const mask first = value(a) < value(b);                                                                                            \
+        return chain(min(value(a), value(b)), a, select(first, lit(1.0), lit(0.0)), b, select(first, lit(0.0), lit(1.0)));                 \
+    }
+BN_DIFFERENTIABLE(dual)
+BN_DIFFERENTIABLE(var)
+#undef BN_DIFFERENTIABLE
+
+} // namespace mipnet_lanes
+BN_KERNELS_END

@@ -1,0 +1,21 @@
+// What one step of training looks at: tiles of materials, mirrored at random, and pairs of directions to light and eye.
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "shading/bake/mipnet/families.h"
+
+namespace burnish::mipnet {
+
+struct Batch { // a shard, as StepWork wants it
+    std::vector<float> texels, tiles, pairs;
+};
+
+// Where texel (x, y) of tile `tile` lies in a plane of level 0.
+std::size_t place_in_shard(int x, int y, int tile);
+
+// Nothing but the numbers given decides what is in it. pairs: directions a tile; 4 of 10 light and eye from anywhere, the others mirror
+// directions of normals near +z, of lobes cos^10 and cos^80, where highlights are.
+Batch make_batch(const TrainingSet& set, std::uint64_t seed, int pairs);
+
+} // namespace burnish::mipnet

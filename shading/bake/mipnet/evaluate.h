@@ -1,0 +1,37 @@
+// How far mipmaps are from the truth: level 0 lit at one to one, its linear radiance averaged.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "core/jobs/jobs.h"
+#include "shading/bake/mipnet/families.h"
+#include "shading/bake/mipnet/weights.h"
+
+namespace burnish::mipnet {
+
+inline constexpr int kJudgedLevels = 5; // levels 1 to 5, FLIP of those of 16 texels a side or more
+
+struct Figures {
+    double flip = 0.0;          // mean LDR-FLIP of x / (1 + x), over three lights and eyes
+    double l1 = 0.0, mse = 0.0; // of what tone() of tensor.h shows, over 48 pairs of directions to light and eye
+};
+
+struct Judged {
+    std::string set, material, filter;
+    Figures level[kJudgedLevels + 1]; // 0: the mean over levels
+};
+
+// Filters of one lobe: baseline, kappa .25, .5 and 1, ssgt or leadr, and the cascades given, "mipnet" and a number where there are several.
+std::vector<Judged> judge(const std::vector<TestMaterial>& set, Lobe lobe, const std::vector<Weights>& cascades, const Jobs& jobs);
+
+struct Summary {
+    std::string set, filter;
+    std::size_t materials = 0;
+    Figures mean;
+    double wins[3] = {};         // share of materials better than baseline: FLIP, L1, MSE
+    double worst_l1 = 0.0;       // largest ratio to baseline's L1
+    double first_level_l1 = 0.0; // level 1 alone
+};
+std::vector<Summary> summaries(const std::vector<Judged>& rows); // by set, then filter, as they come
+
+} // namespace burnish::mipnet

@@ -1,0 +1,84 @@
+// What nets of mipmaps spend their time in, as lane code: texels are in the lanes, sums run over inputs in their order, and sums over
+// texels have sixteen parts, so the bits depend neither on the lane width nor on how work is shared out. Plain pointers only.
+//
+// Numbers are floats, in the oracle of tests doubles. Texels have five channels, kept as planes: nx, ny (of the unit normal), a, b, c (of
+// the tensor, see tensor.h). Where a level has n texels, texel j n + i of the level below it is the j-th of the four that texel i covers: j
+// = 0 to 3 go along x first. All n are multiples of kSlots.
+#pragma once
+#include <cstddef>
+#include <cstdint>
+
+#include "core/simd/fns.h"
+
+namespace burnish::mipnet {
+
+enum class Lobe : std::uint32_t { ggx_aniso, beckmann, ashikhmin_shirley };
+enum class Layout : std::uint32_t { paper, cov };
+
+inline constexpr int kChannels = 5, kMostLayers = 8, kSlots = 16;
+inline constexpr int kTrainedLevels = 5, kTileSide = 32, kTiles = kSlots; // of a shard: 16 tiles of 32 x 32, the lane says which
+inline constexpr float kLeak = 0.01f;                                     // slope of a hidden unit where it is negative
+
+struct Dense { // layers of a net; width[0] inputs, width[count] outputs
+    int count = 0;
+    int width[kMostLayers + 1] = {};
+    std::size_t weights[kMostLayers] = {}, bias[kMostLayers] = {}; // where they begin; [output][input]
+};
+
+struct Plan { // which numbers are what
+    Lobe lobe = Lobe::ggx_aniso;
+    Layout layout = Layout::cov;
+    Dense a, b; // of four texels; of sixteen, those four, and what `a` makes of them
+    std::size_t kappa = 0, count = 0;
+};
+
+struct ForwardWork { // one level
+    const Plan* plan;
+    const void* weights;       // plan->count numbers
+    std::size_t texels;        // of the level, n
+    const void* children;      // kChannels planes of 4 n
+    const void* grandchildren; // of 16 n; null: there are none, and net `a` alone speaks
+    void* out;                 // of n
+    void* memory;              // forward_bytes(), at a cache line
+};
+
+struct StepWork { // one shard of a step of training: loss and its gradient
+    const Plan* plan;
+    const void* weights;
+    const void* turned; // the same, but each layer's weights as [input][output]
+    const void* texels; // level 0: kChannels planes of kTiles 32^2
+    const void* tiles;  // [3][kTiles]: f0, diffuse reflectance, intensity
+    const void* pairs;  // [pairs][6][kTiles]: unit directions to the light and to the eye
+    int pair_count;
+    const double* level_weight; // of levels 1 to kTrainedLevels
+    void* gradient;             // [plan->count][kSlots], added to
+    void* loss;                 // [kTrainedLevels][kSlots], written
+    void* memory;               // step_bytes(), at a cache line
+};
+
+struct RadianceWork { // reflected radiance of texels
+    Lobe lobe;
+    std::size_t texels;
+    const float* planes;   // kChannels planes
+    const float* to_light; // 3 planes of unit vectors
+    const float* to_eye;
+    const float* intensity; // a plane
+    float f0, diffuse;      // reflectances
+    float* out;
+};
+
+struct Fns {
+    std::size_t number_bytes;
+    std::size_t (*forward_bytes)(const Plan& plan, std::size_t texels);
+    void (*forward)(const ForwardWork& work);
+    std::size_t (*step_bytes)(const Plan& plan, int pair_count);
+    void (*step)(const StepWork& work);
+    void (*radiance)(const RadianceWork& work);
+    void (*toned)(std::size_t count, const float* radiance, float* shown); // see tone() of tensor.h; count: a multiple of kSlots
+};
+
+} // namespace burnish::mipnet
+
+namespace burnish {
+BN_DECLARE_FNS(mipnet::Fns);
+} // namespace burnish

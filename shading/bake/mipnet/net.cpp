@@ -1,0 +1,69 @@
+#include "shading/bake/mipnet/net.h"
+
+#include <cmath>
+
+#include "core/base/check.h"
+
+namespace burnish::mipnet {
+namespace {
+
+// Inputs of both nets: cascade.h
+constexpr int kInputs[2][2] = {{20, 105}, {26, 111}};
+
+Dense layers_of(int inputs, const Hidden& hidden, std::size_t& next)
+{
+    BN_CHECK(hidden.layers >= 1 && hidden.layers <= kMostHidden && hidden.width >= 1 && hidden.width <= kMostWidth);
+    Dense d;
+    d.count = hidden.layers + 1;
+    d.width[0] = inputs;
+    for (int l = 0; l < d.count; ++l) {
+        d.width[l + 1] = l + 1 < d.count ? hidden.width : kChannels;
+        d.weights[l] = next;
+        next += static_cast<std::size_t>(d.width[l]) * static_cast<std::size_t>(d.width[l + 1]);
+        d.bias[l] = next;
+        next += static_cast<std::size_t>(d.width[l + 1]);
+    }
+    return d;
+}
+
+} // namespace
+
+Plan plan_of(const Shape& shape)
+{
+    const int* inputs = kInputs[static_cast<int>(shape.layout)];
+    Plan plan;
+    plan.lobe = shape.lobe, plan.layout = shape.layout;
+    plan.a = layers_of(inputs[0], shape.a, plan.count);
+    plan.b = layers_of(inputs[1], shape.b, plan.count);
+    plan.kappa = plan.count;
+    plan.count += 2;
+    return plan;
+}
+
+const char* lobe_name(Lobe lobe)
+{
+    return lobe == Lobe::ggx_aniso ? "ggx_aniso" : lobe == Lobe::beckmann ? "beckmann" : "ashikhmin_shirley";
+}
+
+const char* layout_name(Layout layout)
+{
+    return layout == Layout::cov ? "cov" : "paper";
+}
+
+std::vector<float> start_weights(const Plan& plan, std::uint64_t seed)
+{
+    Random random(seed);
+    std::vector<float> weights(plan.count, 0.0f);
+    for (const Dense* d : {&plan.a, &plan.b})
+        for (int l = 0; l + 1 < d->count; ++l) {
+            const double most = 1.0 / std::sqrt(static_cast<double>(d->width[l]));
+            const std::size_t end = d->bias[l] + static_cast<std::size_t>(d->width[l + 1]);
+            for (std::size_t i = d->weights[l]; i < end; ++i)
+                weights[i] = static_cast<float>(random.between(-most, most));
+        }
+    // Where one number for all reliefs lies best: about a third of GGX's covariance, more of lobes with shorter tails.
+    weights[plan.kappa] = plan.lobe == Lobe::ggx_aniso ? 0.35f : 0.8f;
+    return weights;
+}
+
+} // namespace burnish::mipnet

@@ -1,0 +1,199 @@
+#include "shading/bake/mipnet/train.h"
+
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <fmt/format.h>
+
+#include "core/base/clock.h"
+#include "core/base/file.h"
+#include "core/base/hash.h"
+#include "core/image/image.h"
+#include "core/math/scalar_math.h"
+#include "core/simd/half.h"
+
+namespace burnish::mipnet {
+namespace {
+
+constexpr char kTrainMagic[8] = {'b', 'n', 'm', 'i', 'p', 'p', '1', '\n'};
+constexpr double kFirstDecay = 0.9, kSecondDecay = 0.999, kMeanDecay = 0.999, kMostGradient = 1.0;
+constexpr int kWarmSteps = 100; // of a rate that grows
+
+struct Trained { // everything that the work has so far
+    std::uint64_t step = 0;
+    std::vector<float> numbers, first, second, mean; // moments of the gradient; the moving average of the numbers
+    std::vector<float>* all[4] = {&numbers, &first, &second, &mean};
+};
+
+std::uint64_t training_key(const TrainOptions& o, const TrainingSet& set)
+{
+    const std::string words = fmt::format("{} {} {} {} {} {:x}", train_command(o), o.shards, o.pairs, o.seeds, o.side, set.hash);
+    return hash_bytes(words.data(), words.size());
+}
+
+Status keep_training(const TrainOptions& options, std::uint64_t key, const Trained& t)
+{
+    if (options.checkpoint.empty())
+        return {};
+    std::vector<std::uint8_t> bytes;
+    const auto append = [&bytes](const void* data, std::size_t size) {
+        const std::size_t at = bytes.size();
+        bytes.resize(at + size);
+        std::memcpy(bytes.data() + at, data, size);
+    };
+    append(kTrainMagic, sizeof kTrainMagic);
+    append(&key, sizeof key);
+    append(&t.step, sizeof t.step);
+    for (const std::vector<float>* numbers : t.all)
+        append(numbers->data(), numbers->size() * sizeof(float));
+    const std::uint64_t hash = hash_bytes(bytes.data(), bytes.size());
+    append(&hash, sizeof hash);
+    return write_file_atomic(options.checkpoint, bytes.data(), bytes.size());
+}
+
+Status go_on_training(const TrainOptions& options, std::uint64_t key, Trained& t)
+{
+    std::error_code ignored;
+    if (options.checkpoint.empty() || !std::filesystem::exists(std::filesystem::symlink_status(options.checkpoint, ignored)))
+        return {};
+    const auto refuse = [&](const char* reason) { return Error{ExitCode::bad_input, options.checkpoint, "", reason}; };
+    const Result<std::vector<std::uint8_t>> read = read_file(options.checkpoint, std::uint64_t{1} << 30);
+    if (!read)
+        return read.error();
+    const std::vector<std::uint8_t>& bytes = *read;
+    const std::size_t each = t.numbers.size() * sizeof(float), head = sizeof kTrainMagic + 16;
+    if (bytes.size() < head + 8 || std::memcmp(bytes.data(), kTrainMagic, sizeof kTrainMagic) != 0)
+        return refuse("is not what is kept of a training");
+    std::uint64_t hash = 0, kept = 0;
+    std::memcpy(&hash, bytes.data() + bytes.size() - 8, 8);
+    if (hash != hash_bytes(bytes.data(), bytes.size() - 8))
+        return refuse("is damaged: its hash is another one");
+    std::memcpy(&kept, bytes.data() + sizeof kTrainMagic, 8);
+    if (kept != key)
+        return refuse("is what is kept of a training with other options");
+    if (bytes.size() != head + 4 * each + 8)
+        return refuse("is damaged: its size is another one");
+    std::memcpy(&t.step, bytes.data() + sizeof kTrainMagic + 8, 8);
+    const std::uint8_t* at = bytes.data() + head;
+    for (std::vector<float>* numbers : t.all) {
+        std::memcpy(numbers->data(), at, each);
+        at += each;
+    }
+    return {};
+}
+
+using Memory = std::vector<std::byte, LineAllocator<std::byte>>;
+
+// Sum over slots in a fixed tree.
+double slots_sum(const float* slots)
+{
+    float part[kSlots];
+    std::memcpy(part, slots, sizeof part);
+    for (int half = kSlots / 2; half > 0; half /= 2)
+        for (int k = 0; k < half; ++k)
+            part[k] += part[k + half];
+    return static_cast<double>(part[0]);
+}
+
+struct Shard {
+    std::vector<float> gradient, loss;
+    Memory memory;
+};
+
+void adam(const TrainOptions& o, const std::vector<double>& gradient, Trained& t)
+{
+    double squares = 0.0;
+    for (const double g : gradient)
+        squares += g * g;
+    const double length = std::sqrt(squares), by = length > kMostGradient ? kMostGradient / length : 1.0;
+    const double step = static_cast<double>(t.step) + 1.0;
+    if (!std::isfinite(length))
+        return; // nothing to go by
+    const double warm = std::fmin(1.0, step / kWarmSteps);
+    const double rate = o.rate * warm * 0.5 * (1.0 + det_cos(kPi * std::fmin(1.0, (step - 1.0) / o.steps)));
+    const double first = 1.0 / (1.0 - det_pow(kFirstDecay, step)), second = 1.0 / (1.0 - det_pow(kSecondDecay, step));
+    const double decay = std::fmin(kMeanDecay, step / (step + 9.0));
+    for (std::size_t i = 0; i < gradient.size(); ++i) {
+        const double g = gradient[i] * by;
+        const double m = kFirstDecay * static_cast<double>(t.first[i]) + (1.0 - kFirstDecay) * g;
+        const double v = kSecondDecay * static_cast<double>(t.second[i]) + (1.0 - kSecondDecay) * g * g;
+        t.first[i] = static_cast<float>(m), t.second[i] = static_cast<float>(v);
+        const double moved = static_cast<double>(t.numbers[i]) - rate * (m * first) / (std::sqrt(v * second) + 1e-8);
+        t.numbers[i] = static_cast<float>(moved);
+        t.mean[i] = static_cast<float>(decay * static_cast<double>(t.mean[i]) + (1.0 - decay) * moved);
+    }
+}
+
+} // namespace
+
+std::string train_command(const TrainOptions& o)
+{
+    const Hidden &a = o.shape.a, &b = o.shape.b;
+    return fmt::format("burnish train mip --brdf {} --layout {} --size {}x{}/{}x{} --steps {} --seed {}", lobe_name(o.shape.lobe),
+                       layout_name(o.shape.layout), a.layers, a.width, b.layers, b.width, o.steps, o.seed);
+}
+
+Result<std::optional<Weights>> train(const TrainOptions& options, const Jobs& jobs)
+{
+    const Fns& fns = pick<Fns>(options.isa);
+    const Plan plan = plan_of(options.shape);
+    const TrainingSet set = make_training_set(options.seeds, options.side, jobs);
+    const std::uint64_t key = training_key(options, set);
+    Trained t;
+    t.numbers = start_weights(plan, options.seed);
+    t.mean = t.numbers;
+    t.first.assign(plan.count, 0.0f), t.second.assign(plan.count, 0.0f);
+    if (const Status resumed = go_on_training(options, key, t); !resumed)
+        return resumed.error();
+    std::vector<Shard> shards(static_cast<std::size_t>(options.shards));
+    for (Shard& shard : shards) {
+        shard.loss.resize(kTrainedLevels * kSlots);
+        shard.memory.resize(fns.step_bytes(plan, options.pairs));
+    }
+    double level_weight[kTrainedLevels];
+    for (double& weight : level_weight)
+        weight = 1.0 / kTrainedLevels;
+    std::vector<double> gradient(plan.count);
+    double kept_ms = wall_ms();
+    while (t.step < static_cast<std::uint64_t>(options.steps)) {
+        const std::vector<float> turned = turned_weights(plan, t.numbers);
+        jobs.parallel_for(shards.size(), [&](std::size_t s, int) {
+            Shard& shard = shards[s];
+            const std::uint64_t words[] = {options.seed, t.step, s};
+            const Batch batch = make_batch(set, hash_bytes(words, sizeof words), options.pairs);
+            shard.gradient.assign(plan.count * kSlots, 0.0f);
+            fns.step({&plan, t.numbers.data(), turned.data(), batch.texels.data(), batch.tiles.data(), batch.pairs.data(), options.pairs,
+                      level_weight, shard.gradient.data(), shard.loss.data(), shard.memory.data()});
+        });
+        double loss = 0.0;
+        for (std::size_t i = 0; i < plan.count; ++i) {
+            gradient[i] = 0.0;
+            for (const Shard& shard : shards)
+                gradient[i] += slots_sum(&shard.gradient[i * kSlots]) / options.shards;
+        }
+        for (const Shard& shard : shards)
+            for (std::size_t k = 0; k < kTrainedLevels; ++k)
+                loss += slots_sum(&shard.loss[k * kSlots]) / options.shards;
+        adam(options, gradient, t);
+        ++t.step;
+        if (options.advance)
+            options.advance(static_cast<int>(t.step), loss);
+        const bool stopped = options.stop && options.stop->load();
+        if (stopped || wall_ms() - kept_ms > 1000.0 * options.checkpoint_seconds) {
+            if (const Status kept = keep_training(options, key, t); !kept)
+                return kept.error();
+            kept_ms = wall_ms();
+        }
+        if (stopped)
+            return std::optional<Weights>();
+    }
+    Weights w;
+    w.shape = options.shape, w.seed = options.seed, w.steps = t.step, w.data = set.hash;
+    w.families = trained_families(), w.command = train_command(options);
+    w.numbers = t.mean;
+    for (float& number : w.numbers)
+        number = half_to_float(float_to_half(number));
+    return std::optional(std::move(w));
+}
+
+} // namespace burnish::mipnet

@@ -1,0 +1,37 @@
+// A cascade from nothing: materials made in code, differences of what is shown as the loss, Adam (Kingma, Ba 2015) with a cosine's rate and
+// a moving average of the numbers as the result.
+#pragma once
+#include <atomic>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "core/jobs/jobs.h"
+#include "core/simd/dispatch.h"
+#include "shading/bake/mipnet/batch.h"
+#include "shading/bake/mipnet/weights.h"
+
+namespace burnish::mipnet {
+
+struct TrainOptions {
+    Shape shape;
+    std::uint64_t seed = 1;
+    int steps = 3000;
+    int shards = 2;             // of a step, 16 tiles each; what threads share
+    int pairs = 32;             // of directions, a tile and step
+    int seeds = 24, side = 128; // of the training set: materials a family, texels
+    double rate = 2e-3;
+    std::string checkpoint;                               // a file to go on from and to keep up to date; empty: none
+    double checkpoint_seconds = 15;                       // between two of them
+    const std::atomic<bool>* stop = nullptr;              // set by another thread or a signal: end soon, with everything in the checkpoint
+    std::function<void(int step, double loss)> advance{}; // after each step; mean over shards and levels
+    Isa isa = best_isa();
+};
+
+// Bytes do not depend on threads, on the instruction set, or on where the work was interrupted. Nothing where it was stopped. A checkpoint
+// of other options, or a damaged one, is an Error.
+Result<std::optional<Weights>> train(const TrainOptions& options, const Jobs& jobs);
+
+std::string train_command(const TrainOptions& options); // what makes the same weights, without their name
+
+} // namespace burnish::mipnet

@@ -1,0 +1,73 @@
+"""burnish train: nets that make mipmaps."""
+
+import hashlib
+import json
+import pathlib
+import signal
+import subprocess
+import time
+
+from harness import case, check
+
+SMALL = ("train", "mip", "--steps", "20")
+SHIPPED = pathlib.Path(__file__).resolve().parents[2] / "shading/bake/mipnet"
+
+
+@case("train.threads_and_instruction_sets_make_no_difference", tier="gate")
+def threads(bench):
+    hashes = set()
+    for name, options, env in (("1", ("--threads", "1"), {}), ("2", ("--threads", "2"), {}), ("3", ("--threads", "3"), {}), ("s", (), {"BN_FORCE_ISA": "avx2"})):
+        bench.run("train", "mip", "--steps", "8", *options, "-o", f"w{name}.mipnet", "-q", env=env).expect(0)
+        hashes.add(hashlib.sha256((bench.folder / f"w{name}.mipnet").read_bytes()).hexdigest())
+    check(len(hashes) == 1, "weights by 1, 2 and 3 threads and by AVX2 differ")
+    check(bench.left_behind() == ["w1.mipnet", "w2.mipnet", "w3.mipnet", "ws.mipnet"], f"left {bench.left_behind()}")
+
+
+@case("train.killed_goes_on_to_the_same_bytes", tier="gate")
+def killed(bench):
+    bench.run(*SMALL, "-o", "straight.mipnet", "-q").expect(0)
+    part = bench.folder / "kept.part"
+    words = (*SMALL, "--checkpoint", "kept.part", "-o", "w.mipnet", "-q")
+    child = subprocess.Popen([bench.program, *words], cwd=bench.folder, env=bench.environment({}))
+    time.sleep(1.0)
+    child.send_signal(signal.SIGTERM)
+    code = child.wait()
+    check(code in (128 + signal.SIGTERM, 0, -signal.SIGTERM), f"it ended with {code}")
+    check(code != 128 + signal.SIGTERM or part.exists(), "nothing was kept")
+    bench.run(*words).expect(0)
+    check((bench.folder / "w.mipnet").read_bytes() == (bench.folder / "straight.mipnet").read_bytes(), "the weights after a stop are others")
+    check(bench.left_behind() == ["straight.mipnet", "w.mipnet"], f"left {bench.left_behind()}")
+
+
+@case("train.what_is_wrong_says_one_line", "input", tier="check")
+def wrong(bench):
+    (bench.folder / "bad.mipnet").write_bytes(b"bnmip01\n" + b"\1\0\0\0" * 20)
+    (bench.folder / "t.mipnet.part").write_bytes(b"something else")
+    for words, code, needle in (
+            ((), 2, "-o"), (("-o", "w.mipnet", "--evaluate", "w.mipnet"), 2, "-o"), (("--evaluate", "no.mipnet"), 4, "no.mipnet"),
+            (("--evaluate", "bad.mipnet"), 4, "bad.mipnet"), (("--evaluate", "bad.mipnet", "--steps", "5"), 2, "--steps"),
+            (("-o", "w.mipnet", "--maps", "."), 2, "--maps"), (("-o", "w.mipnet", "--brdf", "ward"), 2, "--brdf"),
+            (("-o", "w.mipnet", "--size", "3x3"), 2, "--size"), (("-o", "-"), 2, "-o"), (("-o", "no/w.mipnet"), 7, "no/w.mipnet"),
+            (("-o", "t.mipnet"), 4, "t.mipnet.part"), (("-o", "w.mipnet", "--steps", "0"), 2, "--steps")):
+        bench.run("train", "mip", *words).expect(code).expect_one_line(needle)
+    bench.run("train", "map", "-o", "w.mipnet").expect(2).expect_one_line("map")
+    check(bench.left_behind() == ["bad.mipnet", "t.mipnet.part"], f"left {bench.left_behind()}")
+
+
+@case("train.shipped_weights_say_what_they_are", tier="check")
+def shipped(bench):
+    for file in sorted(SHIPPED.glob("*.mipnet")):
+        name = file.stem
+        check(file.stat().st_size < 100000, f"{file} is too large")
+        said = json.loads(bench.run("info", "--json", "--weights", file).expect(0).out)
+        check(said["brdf"] == name and said["steps"] > 0, f"{said}")
+        check(said["command"].startswith(f"burnish train mip --brdf {name} ") and f"--seed {said['seed']}" in said["command"], f"{said}")
+        check("hammered" in said["families"] and "twill" not in said["families"], f"{said}")
+
+
+@case("train.the_shipped_weights_are_what_the_commands_make", tier="slow")
+def remade(bench):
+    for file in sorted(SHIPPED.glob("*.mipnet")):
+        words = json.loads(bench.run("info", "--json", "--weights", file).expect(0).out)["command"].split()[1:]
+        bench.run(*words, "-o", file.name, "-q", timeout=3600).expect(0)
+        check((bench.folder / file.name).read_bytes() == file.read_bytes(), f"{file.name} is another one")

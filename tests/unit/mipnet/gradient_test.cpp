@@ -1,0 +1,181 @@
+// Gradients against central differences, in double precision.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+
+#include "core/image/image.h"
+#include "core/math/scalar_math.h"
+#include "core/simd/dispatch.h"
+#include "shading/bake/mipnet/batch.h"
+#include "shading/bake/mipnet/net.h"
+#include "tests/unit/lanes/kernels.h"
+
+namespace burnish::mipnet {
+namespace {
+
+// Every result of `kernel` has its partials by the first five (or fewer) arguments behind it: compares them with differences.
+void check_kernel(const char* kernel, const std::function<std::vector<double>(Random&)>& arguments, int points, int partials)
+{
+    Random random(11);
+    for (int k = 0; k < points; ++k) {
+        const std::vector<double> at = arguments(random);
+        const std::vector<double> found = test::call(test::oracle_fns(), kernel, at);
+        for (int p = 0; p < partials; ++p) {
+            const double step = 1e-6;
+            std::vector<double> more = at, less = at;
+            more[static_cast<std::size_t>(p)] += step, less[static_cast<std::size_t>(p)] -= step;
+            const std::vector<double> high = test::call(test::oracle_fns(), kernel, more),
+                                      low = test::call(test::oracle_fns(), kernel, less);
+            for (std::size_t r = 0; r < found.size(); r += 6) {
+                const double wanted = (high[r] - low[r]) / (2.0 * step), own = found[r + 1 + static_cast<std::size_t>(p)];
+                EXPECT_NEAR(own, wanted, 1e-5 * std::max(1.0, std::fabs(wanted))) << kernel << " result " << r / 6 << " by " << p;
+            }
+        }
+    }
+}
+
+std::vector<double> some_texel(Random& random)
+{
+    const Tensor t = tensor_of(random.between(0.1, 0.8), random.between(0.1, 0.8), random.between(-3.0, 3.0));
+    return {random.between(-0.5, 0.5), random.between(-0.5, 0.5), t.a, t.b, t.c};
+}
+
+std::vector<double> up(Random& random, double least = 0.75)
+{
+    const double z = random.between(least, 0.98), turn = random.between(0.0, 6.2), r = std::sqrt(1.0 - z * z);
+    return {r * det_cos(turn), r * det_sin(turn), z};
+}
+
+std::vector<double> some_light(Random& random)
+{
+    std::vector<double> all = some_texel(random);
+    for (int k = 0; k < 2; ++k) {
+        const std::vector<double> d = up(random);
+        all.insert(all.end(), d.begin(), d.end());
+    }
+    all.insert(all.end(), {random.between(0.04, 0.9), random.between(0.0, 0.8)});
+    return all;
+}
+
+TEST(gradient, of_projection_and_frame)
+{
+    check_kernel("projected", some_texel, 50, 5);
+    // Outside: what is clamped.
+    check_kernel(
+        "projected",
+        [](Random& r) {
+            return std::vector<double>{r.between(0.9, 1.4), r.between(0.9, 1.4), r.between(0.3, 0.5), 1.3, 2.0};
+        },
+        20, 5);
+    check_kernel(
+        "projected",
+        [](Random& r) {
+            return std::vector<double>{0.1, 0.2, r.between(0.3, 0.5), r.between(0.2, 0.6), r.between(0.9, 1.2)};
+        },
+        20, 5);
+    check_kernel(
+        "frame",
+        [](Random& r) {
+            return std::vector<double>{r.between(-0.6, 0.6), r.between(-0.6, 0.6)};
+        },
+        50, 2);
+}
+
+TEST(gradient, of_three_lobes)
+{
+    for (const char* lobe : {"radiance_ggx", "radiance_beckmann", "radiance_phong"})
+        check_kernel(lobe, some_light, 200, 5);
+}
+
+// A shard, in double.
+struct Work {
+    Plan plan;
+    std::vector<double> weights, texels, tiles, pairs, gradient, loss;
+    std::vector<std::byte, LineAllocator<std::byte>> memory;
+    int pair_count;
+    double level_weight[kTrainedLevels] = {0.2, 0.2, 0.2, 0.2, 0.2};
+
+    double run()
+    {
+        const Fns& fns = oracle_fns<Fns>();
+        gradient.assign(plan.count * kSlots, 0.0), loss.assign(kTrainedLevels * kSlots, 0.0);
+        memory.resize(fns.step_bytes(plan, pair_count));
+        const std::vector<double> turned = turned_weights(plan, weights);
+        fns.step({&plan, weights.data(), turned.data(), texels.data(), tiles.data(), pairs.data(), pair_count, level_weight,
+                  gradient.data(), loss.data(), memory.data()});
+        double sum = 0.0;
+        for (const double l : loss)
+            sum += l;
+        return sum;
+    }
+    double slope(std::size_t i) const
+    {
+        double sum = 0.0;
+        for (std::size_t slot = 0; slot < kSlots; ++slot)
+            sum += gradient[i * kSlots + slot];
+        return sum;
+    }
+};
+
+void check_cascade(Lobe lobe, Layout layout)
+{
+    const TrainingSet set = make_training_set(1, 64, Jobs(1));
+    Work w;
+    w.plan = plan_of({lobe, layout, {2, 6}, {2, 7}});
+    Random random(21);
+    for (const float v : start_weights(w.plan, 3))
+        w.weights.push_back(static_cast<double>(v));
+    for (const Dense* d : {&w.plan.a, &w.plan.b}) // outputs too, so that they are on their way
+        for (std::size_t i = d->weights[d->count - 1]; i < d->bias[d->count - 1] + kChannels; ++i)
+            w.weights[i] = random.between(-0.3, 0.3) * (layout == Layout::paper ? 0.1 : 1.0);
+    w.weights[w.plan.kappa + 1] = 0.1;
+    w.pair_count = 1;
+    w.pairs.resize(6 * kSlots);
+    const Batch batch = make_batch(set, 4, w.pair_count);
+    w.texels.assign(batch.texels.begin(), batch.texels.end());
+    w.tiles.assign(batch.tiles.begin(), batch.tiles.end());
+    // From above: at the horizon radiance jumps, which differences see and slopes do not.
+    for (std::size_t slot = 0; slot < kSlots; ++slot)
+        for (std::size_t way = 0; way < 2; ++way) {
+            const std::vector<double> d = up(random, 0.93);
+            for (std::size_t k = 0; k < 3; ++k)
+                w.pairs[(3 * way + k) * kSlots + slot] = d[k];
+        }
+    w.run();
+    Work moved = w;
+    std::vector<std::size_t> places = {w.plan.kappa, w.plan.kappa + 1};
+    for (const Dense* d : {&w.plan.a, &w.plan.b})
+        for (int l = 0; l < d->count; ++l) {
+            places.push_back(d->weights[l] + static_cast<std::size_t>(random.below(d->width[l] * d->width[l + 1])));
+            places.push_back(d->bias[l] + static_cast<std::size_t>(random.below(d->width[l + 1])));
+        }
+    for (const std::size_t i : places) {
+        if (layout == Layout::paper && i >= w.plan.kappa)
+            continue;
+        const double step = 1e-6;
+        moved.weights[i] = w.weights[i] + step;
+        const double high = moved.run();
+        moved.weights[i] = w.weights[i] - step;
+        const double low = moved.run();
+        moved.weights[i] = w.weights[i];
+        const double wanted = (high - low) / (2.0 * step);
+        EXPECT_NEAR(w.slope(i), wanted, 1e-5 * std::max(1.0, std::fabs(wanted)))
+            << lobe_name(lobe) << " " << layout_name(layout) << " " << i;
+        EXPECT_GT(std::fabs(wanted), 1e-12) << "nothing is seen of number " << i;
+    }
+}
+
+TEST(gradient, of_the_whole_cascade_as_a_closed_form_and_what_is_left)
+{
+    for (const Lobe lobe : {Lobe::ggx_aniso, Lobe::beckmann, Lobe::ashikhmin_shirley})
+        check_cascade(lobe, Layout::cov);
+}
+
+TEST(gradient, of_the_whole_cascade_as_published)
+{
+    check_cascade(Lobe::ggx_aniso, Layout::paper);
+}
+
+} // namespace
+} // namespace burnish::mipnet

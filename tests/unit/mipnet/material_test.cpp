@@ -1,0 +1,130 @@
+// Materials made in code, and closed forms.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "shading/bake/mipnet/batch.h"
+#include "shading/bake/mipnet/classical.h"
+#include "shading/bake/mipnet/families.h"
+#include "shading/bake/mipnet/net.h"
+
+namespace burnish::mipnet {
+namespace {
+
+TEST(material, nothing_that_is_tested_is_trained_on_not_even_mirrored)
+{
+    const Jobs jobs(2);
+    std::set<std::uint64_t> trained;
+    for (const Material& m : make_training_set(24, 128, jobs).materials)
+        trained.insert(source_hash(m.texels));
+    EXPECT_EQ(trained.size(), 8u * 24u);
+    for (const Family& f : families())
+        if (f.held_out) {
+            EXPECT_EQ(trained_families().find(f.name), std::string::npos) << f.name;
+        }
+    const auto all = {make_test_set(jobs), make_validation_set(jobs)};
+    for (const std::vector<TestMaterial>& set : all)
+        for (const TestMaterial& m : set) {
+            EXPECT_EQ(trained.count(source_hash(m.material.texels)), 0u) << m.material.name;
+            Material as_trained = make_material({m.material.name.substr(0, m.material.name.find(' ')).c_str(), false},
+                                                std::stoull(m.material.name.substr(m.material.name.find(' ') + 1)), 128);
+            EXPECT_EQ(trained.count(source_hash(as_trained.texels)), 0u) << m.material.name;
+        }
+    // And it would be seen.
+    const Material known = make_material(families()[3], 7, 128);
+    for (int symmetry = 0; symmetry < 8; ++symmetry)
+        EXPECT_EQ(trained.count(source_hash(mirrored(known.texels, symmetry))), 1u) << symmetry;
+}
+
+TEST(material, is_the_same_for_the_same_seed_and_tiles)
+{
+    for (const Family& f : families()) {
+        const Material a = make_material(f, 3, 64), b = make_material(f, 3, 64), c = make_material(f, 4, 64);
+        EXPECT_EQ(a.texels.channel[0], b.texels.channel[0]) << f.name;
+        EXPECT_NE(source_hash(a.texels), source_hash(c.texels)) << f.name;
+        double most = 0.0, border = 0.0; // mean difference of normals between two columns, and across the border
+        for (std::size_t x = 0; x < 64; ++x) {
+            double sum = 0.0;
+            for (std::size_t y = 0; y < 64; ++y)
+                sum += std::fabs(static_cast<double>(a.texels.channel[0][64 * y + x]) -
+                                 static_cast<double>(a.texels.channel[0][64 * y + (x + 1) % 64])) /
+                       64.0;
+            (x == 63 ? border : most) = x == 63 ? sum : std::max(most, sum);
+        }
+        EXPECT_LT(border, 1.6 * most + 0.02) << f.name;
+    }
+}
+
+TEST(batch, tiles_lie_as_levels_gather_them)
+{
+    // Texel i of a level of n covers j n + i of the one below.
+    std::set<std::size_t> places;
+    for (int y = 0; y < kTileSide; ++y)
+        for (int x = 0; x < kTileSide; ++x)
+            for (int tile = 0; tile < kTiles; ++tile) {
+                std::size_t at = place_in_shard(x, y, tile);
+                places.insert(at);
+                int px = x, py = y;
+                for (std::size_t n = 16u * 256u; n >= 16u; n /= 4, px /= 2, py /= 2) {
+                    EXPECT_EQ(at / n, static_cast<std::size_t>((px & 1) | (py & 1) << 1));
+                    at %= n;
+                }
+                EXPECT_EQ(at, static_cast<std::size_t>(tile));
+            }
+    EXPECT_EQ(places.size(), 16u * 1024u);
+}
+
+Texels constant(int width, int height, double nx, double ny, const Tensor& t)
+{
+    Texels texels = make_texels(width, height);
+    const double v[kChannels] = {nx, ny, t.a, t.b, t.c};
+    for (std::size_t c = 0; c < kChannels; ++c)
+        texels.channel[c].assign(texels.count(), static_cast<float>(v[c]));
+    return texels;
+}
+
+TEST(classical, what_is_the_same_everywhere_stays)
+{
+    for (const auto& [nx, ny] : {std::pair{0.0, 0.0}, {0.4, -0.3}})
+        for (const Method method : {Method::baseline, Method::kappa, Method::ssgt, Method::leadr}) {
+            if (method == Method::ssgt && nx != 0.0)
+                continue; // as a lobe of slopes, a tilted SGGX matrix has its mean elsewhere
+            const Texels t = constant(17, 9, nx, ny, tensor_of(0.4, 0.05, 0.7));
+            const std::vector<Texels> levels = classical_pyramid(t, method, 1.0);
+            EXPECT_EQ(levels.size(), 5u);
+            for (const Texels& level : levels)
+                for (std::size_t c = 0; c < kChannels; ++c)
+                    for (const float v : level.channel[c])
+                        EXPECT_NEAR(v, t.channel[c][0], 2e-6) << static_cast<int>(method) << " channel " << c;
+        }
+}
+
+TEST(classical, two_slopes_become_their_covariance)
+{
+    // Texels that lean +-s along x: one level texel whose covariance along x grew by s^2.
+    const double s = 0.1, nz = 1.0 / std::sqrt(1.0 + s * s), alpha = 0.2;
+    Texels t = constant(2, 2, s * nz, 0.0, tensor_of(alpha, alpha, 0.0));
+    t.channel[0][1] = t.channel[0][3] = -t.channel[0][0];
+    const Texels leadr = classical_pyramid(t, Method::leadr).back(), kappa = classical_pyramid(t, Method::kappa, 2.0).back();
+    EXPECT_NEAR(leadr.channel[0][0], 0.0, 1e-7);
+    EXPECT_NEAR(leadr.channel[3][0], std::sqrt(alpha * alpha / (nz * nz * nz * nz) + 2.0 * s * s), 1e-5); // b: the width along x
+    EXPECT_NEAR(kappa.channel[3][0], std::sqrt(alpha * alpha * nz * nz + 2.0 * s * s * nz * nz), 1e-5);
+    EXPECT_NEAR(kappa.channel[2][0], alpha, 1e-5);
+}
+
+TEST(classical, odd_sides_are_shared_out_by_area)
+{
+    Texels t = constant(3, 1, 0.0, 0.0, tensor_of(0.3, 0.3, 0.0));
+    t.channel[2] = {0.1f, 0.4f, 0.7f};
+    const Texels two = shrunk(t, 2, 1, Method::baseline, 0.0);
+    EXPECT_NEAR(two.channel[2][0], (0.1 + 0.5 * 0.4) / 1.5, 1e-6);
+    EXPECT_NEAR(two.channel[2][1], (0.7 + 0.5 * 0.4) / 1.5, 1e-6);
+    const Texels six = shrunk(t, 6, 2, Method::baseline, 0.0);
+    EXPECT_EQ(six.channel[2][0], t.channel[2][0]);
+    EXPECT_EQ(six.channel[2][11], t.channel[2][2]);
+}
+
+} // namespace
+} // namespace burnish::mipnet
