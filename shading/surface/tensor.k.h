@@ -103,7 +103,9 @@ BN_FN tensor_axes axes_of_tensor(lobe_tensor t)
 BN_FN lobe_tensor tensor_of_roughness(real alpha_lin, real eta, real2 direction)
 {
     real alpha = alpha_lin * alpha_lin;
-    return tensor_of_axes(alpha * (lit(1.0) + eta), alpha * (lit(1.0) - eta), k_normalize2(direction));
+    real along = alpha * (lit(1.0) + eta);
+    real across = alpha * (lit(1.0) - eta);
+    return tensor_of_axes(along, across, k_normalize2(direction));
 }
 
 BN_FN tensor_roughness roughness_of_tensor(lobe_tensor t)
