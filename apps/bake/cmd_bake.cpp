@@ -138,7 +138,7 @@ OptionTable bake_option_table(BakeArguments& to)
     table.add_needing(
         "WHAT", "mip",
         {{"--mip-filter", "NAME", "{}", choice(to.mip_filter, filters_of_lobes())},
-         {"--mip-kappa", "K", "Of filter kappa", number(to.mip_kappa, 0.0, 4.0), "1.1 of lobes with GGX's normals, 1.8 of others"},
+         {"--mip-kappa", "K", "Of filter kappa", number(to.mip_kappa, 0.0, 4.0), "0.7 of lobes with GGX's normals, 1.8 of others"},
          {"--brdf", "NAME", "Model of the lobes, whose usual kappa is taken", lobe_value(to.brdf)},
          {"--preview", "FOLDER", "Also every level as two pictures: normals, and lobes in false colour", folder(to.preview)}});
     table.add_needing("WHAT", "direction",

@@ -24,7 +24,7 @@ struct Dress {              // empty: left as it is
     RotationEncoding rotation_encoding = RotationEncoding::vector;
     bool normal_y_down = false;     // all normal maps have green down
     MipFilter mip_filter{};         // of all materials; the first: as their file has it
-    std::optional<float> mip_kappa; // of filter kappa; none: 1.1
+    std::optional<float> mip_kappa; // of filter kappa; none: 0.7
     std::string mip_pyramid;        // levels of `burnish bake mip`
     std::optional<glm::vec3> f0;    // reflectance at normal incidence of all materials, which are dielectrics then
 

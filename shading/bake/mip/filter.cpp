@@ -27,7 +27,7 @@ bool makes_lobes(MipFilter filter)
 
 float usual_kappa(bool ggx_normals)
 {
-    return ggx_normals ? 1.1f : 1.8f;
+    return ggx_normals ? 0.7f : 1.8f;
 }
 
 float gain_of_taps(MipFilter filter, float kappa)
