@@ -12,6 +12,7 @@
 #include "core/scene/builtin/builtin.h"
 #include "core/scene/gltf/extensions.h"
 #include "raster/frame/frame.h"
+#include "shading/bake/mip/levels.h"
 #include "shading/lang/records.h"
 
 namespace burnish {
@@ -62,6 +63,14 @@ std::vector<Entry> area_way_entries()
     return entries;
 }
 
+std::vector<Entry> mip_filter_entries()
+{
+    std::vector<Entry> entries;
+    for (const MipFilterInfo& filter : mip_filters())
+        entries.push_back({filter.name, filter.summary});
+    return entries;
+}
+
 std::vector<Entry> extension_entries()
 {
     std::vector<Entry> entries;
@@ -88,7 +97,8 @@ Command list_command()
 {
     auto what = std::make_shared<std::string>();
     OptionTable table;
-    table.add("", {Option("WHAT", "", "{}", choice(*what, {"techniques", "scenes", "environments", "models", "area-lights", "extensions"}))
+    table.add("", {Option("WHAT", "", "{}",
+                          choice(*what, {"techniques", "scenes", "environments", "models", "area-lights", "mip-filters", "extensions"}))
                        .must_be_given()});
     return {"list", "List the names that options accept, the reflection models, what is read of glTF", table,
             "Examples:\n  burnish list techniques\n  burnish list scenes", [what](OptionTable&) {
@@ -100,6 +110,8 @@ Command list_command()
                     return print(model_entries());
                 if (*what == "area-lights")
                     return print(area_way_entries());
+                if (*what == "mip-filters")
+                    return print(mip_filter_entries());
                 if (*what == "extensions")
                     return print(extension_entries());
                 return print(technique_entries());

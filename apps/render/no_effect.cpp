@@ -4,6 +4,7 @@
 
 #include "apps/render/options.h"
 #include "core/image/io/image_io.h"
+#include "shading/bake/mip/levels.h"
 #include "shading/lang/records.h"
 
 namespace burnish {
@@ -34,6 +35,8 @@ void warn_of_no_effect(const OptionTable& given, RenderOptions& out)
             out.warnings.push_back("--animation has no effect without --time");
     if (out.scene.starts_with("builtin:"))
         warn("--time", out.scene);
+    if (out.dress.mip_filter != kMipFilter_kappa)
+        warn("--mip-kappa", std::string("--mip-filter ") + mip_filters()[static_cast<std::size_t>(out.dress.mip_filter)].name);
     if (out.backend == "vulkan")
         warn("--tile-size", of_backend);
     const bool displayed =

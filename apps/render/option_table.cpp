@@ -3,6 +3,7 @@
 #include "apps/cli/values.h"
 #include "apps/render/options.h"
 #include "apps/render/parameters.h"
+#include "shading/bake/mip/levels.h"
 
 namespace burnish {
 namespace {
@@ -70,6 +71,14 @@ std::vector<Option> picture_rows(RenderArguments& to)
     };
 }
 
+std::vector<std::string> mip_filter_names()
+{
+    std::vector<std::string> names;
+    for (const MipFilterInfo& filter : mip_filters())
+        names.emplace_back(filter.name);
+    return names;
+}
+
 std::vector<Option> dress_rows(Dress& to)
 {
     return {
@@ -86,8 +95,11 @@ std::vector<Option> dress_rows(Dress& to)
         {"--roughness-map", "FILE", "Roughness by direction of all materials: along the grain, and across it", file(to.roughness)},
         {"--roughness-encoding", "NAME", "{}: alpha along and across in red and green, or roughness and anisotropy",
          choice(to.roughness_encoding, {"widths", "anisotropy"})},
-        {"--mip-filter", "NAME", "What distant normal maps do to lobes: {} (they grow by how normals differ within a pixel)",
-         choice(to.lean, {"box", "lean"})},
+        {"--mip-filter", "NAME", "What distant maps of normals and roughness become: {} (see burnish list mip-filters)",
+         choice(to.mip_filter, mip_filter_names())},
+        {"--mip-kappa", "K", "Of --mip-filter kappa: how much of the covariance of normals lobes grow by", number(to.mip_kappa, 0.0, 4.0),
+         "0.7 of lobes with GGX's normals, 1.8 of others"},
+        {"--mip-pyramid", "FILE", "Levels of burnish bake mip, in place of those made here; it says the filter", file(to.mip_pyramid), ""},
         {"--f0", "R,G,B", "Reflectance at normal incidence of all materials, each 0 to 1", colour(to.f0)},
     };
 }

@@ -300,8 +300,9 @@ void put_f0(Material& m, const glm::vec3& f0)
 
 bool Dress::names(const std::string& path) const
 {
-    return !path.empty() && (path == direction || path == rotation || path == normal || path == quaternion || path == height ||
-                             path == roughness || path == material || (!material.empty() && path.starts_with(material)));
+    return !path.empty() &&
+           (path == direction || path == rotation || path == normal || path == quaternion || path == height || path == roughness ||
+            path == material || path == mip_pyramid || (!material.empty() && path.starts_with(material)));
 }
 
 Status dress(Scene& scene, const Dress& with, const Limits& limits)
@@ -321,7 +322,8 @@ Status dress(Scene& scene, const Dress& with, const Limits& limits)
             flip_green(scene.images[static_cast<std::size_t>(image)]);
     }
     for (Material& m : scene.materials) {
-        m.lean |= with.lean;
+        if (with.mip_filter != MipFilter{})
+            m.mip_filter = with.mip_filter, m.mip_kappa = with.mip_kappa.value_or(0.7f);
         if (with.f0)
             put_f0(m, *with.f0);
     }

@@ -22,9 +22,11 @@ struct Dress {              // empty: left as it is
     std::string roughness;  // roughness by direction
     RoughnessEncoding roughness_encoding = RoughnessEncoding::widths;
     RotationEncoding rotation_encoding = RotationEncoding::vector;
-    bool normal_y_down = false;  // all normal maps have green down
-    bool lean = false;           // all materials
-    std::optional<glm::vec3> f0; // reflectance at normal incidence of all materials, which are dielectrics then
+    bool normal_y_down = false;     // all normal maps have green down
+    MipFilter mip_filter{};         // of all materials; the first: as their file has it
+    std::optional<float> mip_kappa; // of filter kappa; none: 0.7
+    std::string mip_pyramid;        // levels of `burnish bake mip`
+    std::optional<glm::vec3> f0;    // reflectance at normal incidence of all materials, which are dielectrics then
 
     bool names(const std::string& path) const; // one of its pictures
 };

@@ -4,6 +4,7 @@
 #pragma once
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -57,6 +58,8 @@ struct TextureRef {
     bool used() const { return texture != kNone; }
 };
 
+enum class MipFilter : std::int32_t {}; // a line of BN_MIP_FILTER in shading/models.def, by its place
+
 struct FieldKinds { // of material.def, light.def and area_light.def
     using number = float;
     using vec2 = glm::vec2;
@@ -72,8 +75,10 @@ struct Material { // material.def
 #define BN_CHOICE(type, name, words, path) type name = type{};
 #define BN_TEXTURE(name, path) TextureRef name;
 #include "core/scene/material.def"
-    bool emitter = false; // of what shows an area light
-    bool heights = false; // the alpha of normal_tex holds heights, [0,1]
+    bool emitter = false;   // of what shows an area light
+    bool heights = false;   // the alpha of normal_tex holds heights, [0,1]
+    MipFilter mip_filter{}; // of its normals and lobes
+    float mip_kappa = 0.0f; // of filter kappa
 };
 
 enum class WrapMode : std::uint8_t { repeat, clamp, mirror };
@@ -115,6 +120,8 @@ struct Camera { // looks along -Z of its node, +Y up
     float xmag = 1.0f, ymag = 1.0f;  // half extents, orthographic
 };
 
+struct MipLevels; // shading/bake/mip/levels.h
+
 struct Scene {
     std::string name;
     VertexTable vertices;
@@ -128,8 +135,9 @@ struct Scene {
     std::vector<Light> lights;
     std::vector<AreaLight> area_lights;
     std::vector<Camera> cameras;
-    std::vector<std::string> files;    // paths of every file that was read for it
-    std::vector<std::string> warnings; // one line each, in the order found
+    std::shared_ptr<const std::vector<MipLevels>> mips; // baked beforehand; none: made of the maps
+    std::vector<std::string> files;                     // paths of every file that was read for it
+    std::vector<std::string> warnings;                  // one line each, in the order found
 };
 
 // Which moment of which of its animations a scene is read at; without seconds, as it rests.

@@ -210,7 +210,7 @@ Status FrameMaker::check(const FrameDesc& desc) const
         return ok;
     ShadingFrame f = {};
     f.override_anisotropy = desc.override_anisotropy, f.anisotropy = desc.anisotropy;
-    for (const MaterialRecord& m : in_frame(overrides(desc) ? scene_.overridden : scene_.materials, desc)) {
+    for (const MaterialRecord& m : in_frame(overrides(input_.scene, desc) ? scene_.overridden : scene_.materials, desc)) {
         if (!(technique_of(desc, m.anisotropic != 0).traits & kPhongGrid) || m.unlit || !one_lobe_shape(m))
             continue;
         const double root2 = 1.4142135623730951;
@@ -227,7 +227,7 @@ Status FrameMaker::check(const FrameDesc& desc) const
 ShadingFrame FrameMaker::make(const FrameDesc& desc)
 {
     bake(desc);
-    materials_ = in_frame(overrides(desc) ? scene_.overridden : scene_.materials, desc);
+    materials_ = in_frame(overrides(input_.scene, desc) ? scene_.overridden : scene_.materials, desc);
     choose_techniques(desc);
     slice_albedo(desc);
     ShadingFrame f = {};

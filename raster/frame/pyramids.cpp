@@ -1,10 +1,14 @@
 #include "raster/frame/pyramids.h"
 
 #include <algorithm>
+#include <cmath>
 #include <tuple>
 
+#include "core/simd/half.h"
 #include "shading/bake/mip/anisotropy.h"
+#include "shading/bake/mip/filter.h"
 #include "shading/bake/mip/slopes.h"
+#include "shading/surface/tensor.k.h"
 
 namespace burnish {
 
@@ -29,19 +33,60 @@ bool alike(const Scene& scene, const TextureRef& a, const TextureRef& b)
     return s.wrap_s == t.wrap_s && s.wrap_t == t.wrap_t && s.nearest == t.nearest;
 }
 
+const Image* image_of(const Scene& scene, const TextureRef& ref)
+{
+    return ref.used() ? &scene.images[static_cast<std::size_t>(scene.textures[static_cast<std::size_t>(ref.texture)].image)] : nullptr;
+}
+
+// The maps that a mip filter looks at.
+constexpr TextureRef Material::*kFilteredMaps[] = {&Material::normal_tex, &Material::anisotropy_tex, &Material::metallic_roughness_tex};
+
+const TextureRef* first_filtered(const Material& m)
+{
+    for (const auto map : kFilteredMaps)
+        if ((m.*map).used())
+            return &(m.*map);
+    return nullptr;
+}
+
+MipMaps maps_of(const Scene& scene, const Material& m)
+{
+    MipMaps maps;
+    maps.normal = image_of(scene, m.normal_tex), maps.direction = image_of(scene, m.anisotropy_tex);
+    maps.roughness = image_of(scene, m.metallic_roughness_tex);
+    const Texture& sampler = scene.textures[static_cast<std::size_t>(first_filtered(m)->texture)];
+    maps.wrap_s = sampler.wrap_s, maps.wrap_t = sampler.wrap_t, maps.nearest = sampler.nearest;
+    maps.normal_scale = m.normal_scale, maps.roughness_factor = m.roughness;
+    maps.anisotropy_strength = m.anisotropy_strength, maps.anisotropy_rotation = m.anisotropy_rotation;
+    return maps;
+}
+
+// As `lean`, where a frame leaves the levels of a filter aside.
+bool widens(const Scene& scene, const Material& m)
+{
+    if (makes_lobes(m.mip_filter))
+        return is_filtered(scene, m) && gain_of_taps(m.mip_filter, m.mip_kappa) > 0.0f;
+    return m.lean || m.mip_filter == kMipFilter_lean;
+}
+
 struct Moments {
     int kind = kNoMoments;
     const TextureRef* place = nullptr;  // where they lie
     const TextureRef* slopes = nullptr; // of tilts or normals
     bool direction = false;             // a map of directions lies there too
+    bool filtered = false;              // they are of a mip filter's levels
 };
 Moments moments_of(const Scene& scene, const Material& m, bool overridden)
 {
     Moments r;
+    if (!overridden && is_filtered(scene, m)) {
+        r.kind = kMomentsOfAll, r.place = first_filtered(m), r.filtered = true;
+        return r;
+    }
     const bool tilt = m.tilt_tex.used();
     // a grain that lies otherwise than the normals weighs more than how they differ
     const bool normals =
-        !tilt && m.lean && m.normal_tex.used() && (!m.anisotropy_tex.used() || alike(scene, m.normal_tex, m.anisotropy_tex));
+        !tilt && widens(scene, m) && m.normal_tex.used() && (!m.anisotropy_tex.used() || alike(scene, m.normal_tex, m.anisotropy_tex));
     r.slopes = tilt ? &m.tilt_tex : normals ? &m.normal_tex : nullptr;
     r.place = r.slopes ? r.slopes : &m.anisotropy_tex;
     r.direction = alike(scene, *r.place, m.anisotropy_tex);
@@ -62,9 +107,12 @@ std::int32_t owner_of(const Scene& scene, std::size_t material, bool overridden)
 {
     const auto content = [&](const Material& m) {
         const Moments of = moments_of(scene, m, overridden);
+        const bool own = makes_lobes(m.mip_filter);
         return std::tuple(of.kind, of.slopes ? of.slopes->texture : kNone, of.slopes == &m.tilt_tex,
-                          of.direction ? m.anisotropy_tex.texture : kNone, slope_scale(m), m.roughness, m.anisotropy_strength,
-                          m.anisotropy_rotation);
+                          of.direction || of.filtered ? m.anisotropy_tex.texture : kNone, slope_scale(m), m.roughness,
+                          m.anisotropy_strength, m.anisotropy_rotation, of.filtered, own ? m.mip_filter : MipFilter{},
+                          own ? m.mip_kappa : 0.0f, of.filtered ? m.normal_tex.texture : kNone,
+                          of.filtered ? m.metallic_roughness_tex.texture : kNone);
     };
     const auto wanted = content(scene.materials[material]);
     const auto found =
@@ -80,36 +128,149 @@ struct Held {
 std::optional<Held> held_by(const Scene& scene, std::size_t material, const TextureUse& use, bool overridden)
 {
     const Material& m = scene.materials[material];
-    const Moments moments = use.tensor_power ? moments_of(scene, m, overridden) : Moments{};
+    const bool normals = use.slot == kNormalTex && m.normal_tex.used() && !overridden && is_filtered(scene, m);
+    const Moments moments = use.tensor_power || normals ? moments_of(scene, m, overridden) : Moments{};
     if (moments.kind != kNoMoments)
-        return Held{{moments.place->texture, use.encoding, use.tensor_power, moments.kind, owner_of(scene, material, overridden)},
-                    moments.place};
+        return Held{
+            {moments.place->texture, use.encoding, use.tensor_power, moments.kind, owner_of(scene, material, overridden), moments.filtered},
+            moments.place};
     const TextureRef& ref = m.*use.ref;
     return ref.used() ? std::optional(Held{{ref.texture, use.encoding, use.tensor_power}, &ref}) : std::nullopt;
-}
-
-const Image* image_of(const Scene& scene, const TextureRef* ref)
-{
-    if (!ref)
-        return nullptr;
-    return &scene.images[static_cast<std::size_t>(scene.textures[static_cast<std::size_t>(ref->texture)].image)];
 }
 
 Image moments_image(const Scene& scene, const Texture& sampler, const PyramidKey& key)
 {
     const Material& m = scene.materials[static_cast<std::size_t>(key.material)];
     const Moments of = moments_of(scene, m, key.moments != kMomentsOfAll);
-    const SlopeMaps maps = {image_of(scene, of.slopes),
-                            image_of(scene, of.direction ? &m.anisotropy_tex : nullptr),
+    const SlopeMaps maps = {of.slopes ? image_of(scene, *of.slopes) : nullptr,
+                            of.direction ? image_of(scene, m.anisotropy_tex) : nullptr,
                             sampler.wrap_s,
                             sampler.wrap_t,
                             sampler.nearest,
                             !m.tilt_tex.used()};
-    return slope_moments(maps, {slope_scale(m), key.moments == kMomentsOfAll, m.roughness, m.anisotropy_strength, m.anisotropy_rotation},
+    const bool unit = makes_lobes(m.mip_filter) && !m.tilt_tex.used() && m.mip_filter != kMipFilter_leadr;
+    return slope_moments(maps,
+                         {slope_scale(m), key.moments == kMomentsOfAll, m.roughness, m.anisotropy_strength, m.anisotropy_rotation,
+                          unit ? gain_of_taps(m.mip_filter, m.mip_kappa) : 0.0f},
                          key.tensor_power);
 }
 
+// Texels of a row of levels as moments: see moments of all in shading/surface/lobe_shape.t.h. part: 2 or 4.
+void put_moments(int part, float gain, real3 n, slope_covariance s, float* rgba)
+{
+    const float x = gain * n.x, y = gain * n.y;
+    if (part == 2)
+        rgba[0] = 1.0f, rgba[1] = rgba[2] = 0.0f, rgba[3] = kMomentScale * (s.xx + x * x);
+    else
+        rgba[0] = kSlopeScale * x, rgba[1] = kSlopeScale * y, rgba[2] = kMomentScale * (s.yy + y * y),
+        rgba[3] = kMomentScale * (s.xy + x * y);
+}
+
+MipPoint point_of(const MipTexel& t)
+{
+    const float z2 = 1.0f - (t.nx * t.nx + t.ny * t.ny);
+    return {vec3_of(t.nx, t.ny, std::sqrt(std::max(z2, 0.0f))), covariance_of_tensor({t.a, t.b, t.c})};
+}
+
+TexturePyramid filtered_pyramid(const Scene& scene, const Texture& sampler, const PyramidKey& key, const MipLevels& levels)
+{
+    const Material& m = scene.materials[static_cast<std::size_t>(key.material)];
+    const MipSource source = mip_source(scene, m);
+    const float gain = gain_of_taps(m.mip_filter, m.mip_kappa);
+    // Normals as their map has them: what shading multiplies by the scale; alpha is the map's own.
+    const bool normals = key.tensor_power == 0;
+    const float unscale = std::abs(m.normal_scale) > 1e-3f ? 0.5f / m.normal_scale : 0.0f;
+    TexturePyramid own; // of the map, whose alpha may hold heights
+    if (normals)
+        own = make_texture_pyramid(*image_of(scene, m.normal_tex), sampler, key.encoding);
+    const bool same = normals && own.width == source.width() && own.height == source.height();
+    const bool codes = same && image_of(scene, m.normal_tex)->type != PixelType::f32; // in floats what is not finite was repaired
+    std::vector<MipPoint> points(static_cast<std::size_t>(source.width()));
+    return make_texture_pyramid(source.width(), source.height(), sampler, key.encoding, [&](int level, int width, int y, float* rgba) {
+        if (level == 0)
+            source.row(y, points.data());
+        const MipLevel* made = level > 0 ? &levels.levels[static_cast<std::size_t>(level) - 1] : nullptr;
+        for (int x = 0; x < width; ++x, rgba += 4) {
+            const MipPoint p =
+                made ? point_of(made->texels[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)])
+                     : points[static_cast<std::size_t>(x)];
+            if (!normals) {
+                put_moments(key.tensor_power, gain, p.n, p.s, rgba);
+                continue;
+            }
+            const std::uint16_t* texel =
+                same ? own.texels.data() +
+                           4 * (static_cast<std::size_t>(own.offset[level]) +
+                                static_cast<std::size_t>(y + 1) * static_cast<std::size_t>(width + 2) + static_cast<std::size_t>(x + 1))
+                     : nullptr;
+            rgba[3] = texel ? half_to_float(texel[3]) : 1.0f;
+            if (level == 0 && codes) // as box has it, bit for bit
+                for (int c = 0; c < 3; ++c)
+                    rgba[c] = half_to_float(texel[c]);
+            else
+                rgba[0] = 0.5f + unscale * p.n.x, rgba[1] = 0.5f + unscale * p.n.y, rgba[2] = 0.5f + 0.5f * p.n.z;
+        }
+    });
+}
+
 } // namespace
+
+bool is_filtered(const Scene& scene, const Material& m)
+{
+    return makes_lobes(m.mip_filter) && first_filtered(m) && !m.unlit && why_unfiltered(scene, m).empty();
+}
+
+std::string why_unfiltered(const Scene& scene, const Material& m)
+{
+    const TextureRef* first = makes_lobes(m.mip_filter) && !m.unlit ? first_filtered(m) : nullptr;
+    if (!first)
+        return "";
+    if (m.tilt_tex.used())
+        return "it has a map of tilts";
+    for (const auto map : kFilteredMaps)
+        if ((m.*map).used() && !alike(scene, *first, m.*map))
+            return "its maps of normals, roughness and anisotropy lie otherwise (coordinates, transform, sampler)";
+    const Image* normals = image_of(scene, m.normal_tex);
+    const Grid grid = grid_of(maps_of(scene, m));
+    if (m.heights && (normals->width != grid.width || normals->height != grid.height))
+        return "its normal map, which holds heights, is smaller than its other maps";
+    return "";
+}
+
+MipSource mip_source(const Scene& scene, const Material& m)
+{
+    return MipSource(maps_of(scene, m));
+}
+
+bool fits(const MipLevels& levels, std::uint64_t source, const Material& m)
+{
+    return levels.source == source && levels.filter == m.mip_filter && (m.mip_filter != kMipFilter_kappa || levels.kappa == m.mip_kappa);
+}
+
+MaterialLevels filtered_levels(const Scene& scene, const Jobs& jobs)
+{
+    MaterialLevels all(scene.materials.size());
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        const Material& m = scene.materials[i];
+        if (!is_filtered(scene, m))
+            continue;
+        const auto owner = static_cast<std::size_t>(owner_of(scene, i, false));
+        if (owner != i) {
+            all[i] = all[owner];
+            continue;
+        }
+        const MipSource source = mip_source(scene, m);
+        if (scene.mips) {
+            const std::uint64_t hash = source.hash(jobs);
+            for (const MipLevels& levels : *scene.mips)
+                if (fits(levels, hash, m))
+                    all[i] = std::shared_ptr<const MipLevels>(scene.mips, &levels);
+        }
+        if (!all[i])
+            all[i] = std::make_shared<const MipLevels>(make_mip_levels(source, m.mip_filter, m.mip_kappa, jobs));
+    }
+    return all;
+}
 
 std::vector<PyramidKey> used_pyramids(const Scene& scene)
 {
@@ -139,12 +300,15 @@ void bind_textures(const Scene& scene, std::size_t material, bool overridden, co
         to.textured = 1;
     }
     to.moments = moments_of(scene, scene.materials[material], overridden).kind;
+    to.frame_map = is_filtered(scene, scene.materials[material]) ? kFrameQuaternion : -1;
     to.anisotropic |= to.moments != kNoMoments;
 }
 
-TexturePyramid make_pyramid(const Scene& scene, const PyramidKey& key)
+TexturePyramid make_pyramid(const Scene& scene, const PyramidKey& key, const MaterialLevels& levels)
 {
     const Texture& texture = scene.textures[static_cast<std::size_t>(key.texture)];
+    if (key.filtered)
+        return filtered_pyramid(scene, texture, key, *levels[static_cast<std::size_t>(key.material)]);
     const Image& image = scene.images[static_cast<std::size_t>(texture.image)];
     if (key.moments != kNoMoments)
         return make_texture_pyramid(moments_image(scene, texture, key), texture, key.encoding);

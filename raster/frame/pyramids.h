@@ -3,16 +3,25 @@
 //   of all, where a map of tilts lies over one of anisotropy and roughness is the same everywhere: the texels' lobes are in them
 //   of tilts, where there is a map of them else: beside the lobe of the material, and in frames that override roughness or anisotropy;
 //     or of normals, in a material that is `lean`
+//   of all, of levels that a mip filter has made of normals and lobes (shading/bake/mip/filter.h): their means are what the filter takes of
+//     normals that differ between taps, x and y times gain_of_taps(), and in the normal map's place lie the levels' normals. Frames that
+//     override roughness or anisotropy, or want no normal maps, have moments of the normals alone there, as `lean` has them
 #pragma once
 #include <cstdint>
+#include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
+#include "core/jobs/jobs.h"
 #include "core/scene/scene.h"
+#include "shading/bake/mip/levels.h"
 #include "shading/bake/mip/texture.h"
 #include "shading/lang/tables.h"
 
 namespace burnish {
+
+class MipSource;
 
 struct PyramidKey {
     std::int32_t texture; // its sampler, and without moments its image
@@ -20,6 +29,7 @@ struct PyramidKey {
     int tensor_power;              // 2, 4: tensors of an anisotropy texture, or a part of moments; 0: the image itself
     int moments = kNoMoments;      // kMomentsOfTilt...
     std::int32_t material = kNone; // whose moments: the first of those that have them in common
+    bool filtered = false;         // made of a mip filter's levels of that material
     bool operator==(const PyramidKey&) const = default;
 };
 
@@ -28,6 +38,18 @@ std::vector<PyramidKey> used_pyramids(const Scene& scene); // each once
 // Textures, by their places in `keys`, and moments of a material. overridden: in frames that override roughness or anisotropy.
 void bind_textures(const Scene& scene, std::size_t material, bool overridden, const std::vector<PyramidKey>& keys, MaterialRecord& to);
 
-TexturePyramid make_pyramid(const Scene& scene, const PyramidKey& key);
+// Levels by material, null where no filter makes any: those that the scene has brought, or made here, each once.
+using MaterialLevels = std::vector<std::shared_ptr<const MipLevels>>;
+MaterialLevels filtered_levels(const Scene& scene, const Jobs& jobs);
+
+// Where the filter of the material makes no levels of its maps, why: empty where it does, or has nothing to do.
+std::string why_unfiltered(const Scene& scene, const Material& material);
+// What a filter makes levels of, of a material that it makes any of.
+bool is_filtered(const Scene& scene, const Material& material);
+MipSource mip_source(const Scene& scene, const Material& material);
+// Whether levels that were baked beforehand are of these maps and filters.
+bool fits(const MipLevels& levels, std::uint64_t source, const Material& material);
+
+TexturePyramid make_pyramid(const Scene& scene, const PyramidKey& key, const MaterialLevels& levels);
 
 } // namespace burnish

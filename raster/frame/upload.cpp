@@ -169,7 +169,8 @@ SceneTables upload_scene(const Scene& scene, const DrawTables& tables, const Job
     SceneTables s;
     const std::vector<PyramidKey> keys = used_pyramids(scene);
     s.pyramids.resize(keys.size());
-    jobs.parallel_for(keys.size(), [&](std::size_t i, int) { s.pyramids[i] = make_pyramid(scene, keys[i]); });
+    const MaterialLevels levels = filtered_levels(scene, jobs);
+    jobs.parallel_for(keys.size(), [&](std::size_t i, int) { s.pyramids[i] = make_pyramid(scene, keys[i], levels); });
     for (const TexturePyramid& p : s.pyramids)
         s.textures.push_back(texture_params(p));
     s.materials = material_records(scene, false);
@@ -202,9 +203,11 @@ Status check_frame(const Scene& scene, const FrameDesc& desc)
     return {};
 }
 
-bool overrides(const FrameDesc& desc)
+bool overrides(const Scene& scene, const FrameDesc& desc)
 {
-    return desc.roughness >= 0.0f || desc.override_anisotropy;
+    const bool unmapped = desc.frame_map == kFrameOff && std::any_of(scene.materials.begin(), scene.materials.end(),
+                                                                     [&](const Material& m) { return is_filtered(scene, m); });
+    return desc.roughness >= 0.0f || desc.override_anisotropy || unmapped;
 }
 
 std::vector<MaterialRecord> in_frame(std::vector<MaterialRecord> materials, const FrameDesc& desc)
@@ -216,6 +219,8 @@ std::vector<MaterialRecord> in_frame(std::vector<MaterialRecord> materials, cons
         }
         if (desc.override_anisotropy)
             m.anisotropic = desc.anisotropy != 0.0f || m.moments != kNoMoments;
+        if (m.frame_map < 0 || desc.frame_map == kFrameOff)
+            m.frame_map = desc.frame_map;
         if (desc.frame_map == kFrameOff) {
             m.textures[kNormalTex].texture = -1;
             if (m.moments != kNoMoments && !m.tilt_mapped)

@@ -34,7 +34,8 @@ bool tilts(const Scene& scene, const FrameDesc& desc);
 // check_desc(), and whether the frame's lobes can be tilted where the scene's are.
 Status check_frame(const Scene& scene, const FrameDesc& desc);
 
-bool overrides(const FrameDesc& desc); // roughness or anisotropy of materials
+// Roughness or anisotropy of materials, or normal maps that lobes were filtered with.
+bool overrides(const Scene& scene, const FrameDesc& desc);
 // Those of SceneTables that the frame takes, with its overrides, and tilted.
 std::vector<MaterialRecord> in_frame(std::vector<MaterialRecord> materials, const FrameDesc& desc);
 

@@ -6,6 +6,7 @@
 
 #include "core/base/hash.h"
 #include "raster/frame/frame_record.h"
+#include "shading/bake/mip/levels.h"
 
 namespace burnish {
 namespace {
@@ -49,6 +50,18 @@ void add_textures(Key& key, const Scene& scene)
             0);
 }
 
+// What a mip filter makes levels of is in the textures; what it makes of them, here.
+void add_filters(Key& key, const Scene& scene)
+{
+    for (const Material& m : scene.materials)
+        if (makes_lobes(m.mip_filter))
+            key.add(m.mip_filter, m.mip_kappa);
+    if (scene.mips)
+        for (const MipLevels& levels : *scene.mips)
+            for (const MipLevel& level : levels.levels)
+                key.column(level.texels.data(), level.texels.size());
+}
+
 void add_tables(Key& key, const DrawTables& t)
 {
     for (const Column<float>* c : {&t.px, &t.py, &t.pz})
@@ -83,10 +96,11 @@ std::uint64_t reference_key(const RenderInput& input, const FrameDesc& d, const 
     std::fill(std::begin(frame.key_lights), std::end(frame.key_lights), KeyLightRecord{});
     frame.ltc = {};
     add_records(key, std::vector<FrameRecord>{frame});
-    add_records(key, in_frame(material_records(input.scene, overrides(d)), d));
+    add_records(key, in_frame(material_records(input.scene, overrides(input.scene, d)), d));
     add_records(key, light_records(input.tables));
     add_records(key, area_light_records(input.tables));
     add_textures(key, input.scene);
+    add_filters(key, input.scene);
     add_tables(key, input.tables);
     const CubeMap& picture = input.environment.picture();
     key.column(picture.texels.data(), 4 * picture.level_texels(0));

@@ -7,6 +7,7 @@
 #include "core/scene/directional_roughness.h"
 #include "core/scene/gltf/gltf.h"
 #include "core/scene/heights.h"
+#include "raster/frame/mip_files.h"
 #include "shading/bake/environment/turn.h"
 #include "shading/bake/ltc/shipped.h"
 #include "shading/bake/tables/phong_files.h"
@@ -95,6 +96,7 @@ Result<std::shared_ptr<const SceneData>> make_scene_data(const std::string& name
         if (const Status size = check_draw_size(data->scene, limits, name); !size)
             return size.error();
         data->tables = make_draw_tables(data->scene);
+        warn_of_unfiltered(data->scene);
         return std::shared_ptr<const SceneData>(std::move(data));
     });
 }
@@ -107,11 +109,19 @@ Result<std::shared_ptr<const SceneData>> load_scene_data(const std::string& spec
         Result<Scene> scene = load_scene(spec, limits, moment);
         if (!scene)
             return scene.error();
-        if (Status put = dress(*scene, with, limits); !put)
+        Dress on = with;
+        if (!with.mip_pyramid.empty())
+            if (const Status read = read_mips(*scene, on, limits); !read)
+                return read.error();
+        if (Status put = dress(*scene, on, limits); !put)
             return put.error();
         for (const AreaLight& light : lights)
             add_area_light(*scene, light);
-        return make_scene_data(spec, std::move(*scene), limits);
+        Made made = make_scene_data(spec, std::move(*scene), limits);
+        if (made && (*made)->scene.mips)
+            if (const Status fit = check_mips((*made)->scene, with.mip_pyramid); !fit)
+                return fit.error();
+        return made;
     });
 }
 

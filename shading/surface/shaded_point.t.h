@@ -130,12 +130,12 @@ BN_STAGE void make_interface(any_frame f, material_ref m, BN_IN(material_inputs)
         x.gain = vec3_all(lit(1.0) / max(interface_albedo(rough_interface_at(x)), lit(0.05)));
 }
 
-// The surface's frame under a normal map, as the frame wants it turned.
-BN_FN surface_frame frame_by_map(frame_ref f, surface_frame axes, real3 map, real handedness)
+// The surface's frame under a normal map, as the frame or the material wants it turned.
+BN_FN surface_frame frame_by_map(material_ref m, surface_frame axes, real3 map, real handedness)
 {
-    if (the_frame(f).frame_map == kFrameQuaternion)
+    if (the_material(m).frame_map == kFrameQuaternion)
         return turned_frame(axes, map);
-    if (the_frame(f).frame_map == kFrameNormalOnly)
+    if (the_material(m).frame_map == kFrameNormalOnly)
         return bent_frame(axes, map);
     return mapped_frame(axes, map, handedness);
 }
@@ -153,7 +153,7 @@ BN_FN void make_shaded_point(frame_ref f, material_ref m, BN_IN(material_inputs)
     surface_frame axes = x.surface_axes;
     bool mapped = texture_used(m, kNormalTex);
     if (mapped)
-        axes = frame_by_map(f, axes, at.normal_map, handedness);
+        axes = frame_by_map(m, axes, at.normal_map, handedness);
     if (lies_in_surface(f) && the_material(m).tilt_mapped != 0) {
         real2 slope = at.slope + vec2_of(splat(the_material(m).tilt_slope[0]), splat(the_material(m).tilt_slope[1]));
         axes = sloped_frame(axes, slope);

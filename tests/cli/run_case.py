@@ -28,6 +28,7 @@ import key_light_cases
 import light_cases
 import limit_cases
 import manual_cases
+import mip_cases
 import mistake_cases
 import model_cases
 import output_cases

@@ -7,49 +7,13 @@
 #include "core/base/check.h"
 #include "core/math/scalar_math.h"
 #include "shading/bake/mip/anisotropy.h"
+#include "shading/bake/mip/grid.h"
 #include "shading/lang/records.h"
 #include "shading/surface/covariance.k.h"
 
 namespace burnish {
 
 namespace {
-
-constexpr float kMostSlope = 5.6712818f; // of 80 degrees
-
-struct Grid { // of the result, and how maps are read between its points
-    int width = 0, height = 0;
-    WrapMode wrap_s, wrap_t;
-    bool nearest;
-};
-
-// The two texels of a row or column on either side of a point of the grid, and the share of the second.
-struct Neighbours {
-    int low, high;
-    float share;
-};
-Neighbours neighbours(int at, int count, int texels, WrapMode wrap, bool nearest)
-{
-    const double place = (at + 0.5) * texels / count;
-    if (nearest || count == texels)
-        return {static_cast<int>(place), static_cast<int>(place), 0.0f};
-    const int low = static_cast<int>(std::floor(place - 0.5));
-    const auto inside = [&](int i) { return wrap == WrapMode::repeat ? (i + texels) % texels : std::clamp(i, 0, texels - 1); };
-    return {inside(low), inside(low + 1), static_cast<float>(place - 0.5 - low)};
-}
-
-// A quantity of a map at a point of the grid; value: of a texel by its number.
-template <class Value> float on_grid(const Image& map, const Grid& grid, int x, int y, const Value& value)
-{
-    const Neighbours u = neighbours(x, grid.width, map.width, grid.wrap_s, grid.nearest);
-    const Neighbours v = neighbours(y, grid.height, map.height, grid.wrap_t, grid.nearest);
-    const auto row = [&](int at) {
-        const std::size_t first = static_cast<std::size_t>(at) * static_cast<std::size_t>(map.width);
-        const float low = value(first + static_cast<std::size_t>(u.low));
-        return u.share == 0.0f ? low : low + u.share * (value(first + static_cast<std::size_t>(u.high)) - low);
-    };
-    const float low = row(v.low);
-    return v.share == 0.0f ? low : low + v.share * (row(v.high) - low);
-}
 
 float slope(const Image& map, float scale, std::size_t texel, int axis)
 {
@@ -76,6 +40,13 @@ float slope_of_normal(const Image& map, float scale, std::size_t texel, int axis
     return std::isfinite(s) && std::isfinite(z) ? std::clamp(s / z, -kMostSlope, kMostSlope) : 0.0f;
 }
 
+// Of its unit normal, along the surface.
+float part_of_normal(const Image& map, float scale, std::size_t texel, int axis)
+{
+    const float x = slope_of_normal(map, scale, texel, 0), y = slope_of_normal(map, scale, texel, 1);
+    return (axis == 0 ? x : y) / std::sqrt(1.0f + (x * x + y * y));
+}
+
 real3 tensor_at(const Image* tensors, const Grid& grid, int x, int y)
 {
     if (!tensors)
@@ -92,9 +63,7 @@ Image slope_moments(const SlopeMaps& maps, const SlopeFactors& factors, int part
 {
     BN_CHECK(part == 2 || part == 4);
     Grid grid = {0, 0, maps.wrap_s, maps.wrap_t, maps.nearest};
-    for (const Image* map : {maps.tilt, maps.direction})
-        if (map)
-            grid.width = std::max(grid.width, map->width), grid.height = std::max(grid.height, map->height);
+    grid.cover(maps.tilt), grid.cover(maps.direction);
     Image tensors[2];
     if (maps.direction)
         tensors[0] = anisotropy_tensor(*maps.direction, 2), tensors[1] = anisotropy_tensor(*maps.direction, 4);
@@ -106,8 +75,10 @@ Image slope_moments(const SlopeMaps& maps, const SlopeFactors& factors, int part
         for (int x = 0; x < grid.width; ++x, to += 4) {
             const auto moment = [&](auto value) { return maps.tilt ? on_grid(*maps.tilt, grid, x, y, value) : 0.0f; };
             const auto of = [&](std::size_t texel, int axis) {
-                return maps.normals ? slope_of_normal(*maps.tilt, factors.tilt_scale, texel, axis)
-                                    : slope(*maps.tilt, factors.tilt_scale, texel, axis);
+                if (!maps.normals)
+                    return slope(*maps.tilt, factors.tilt_scale, texel, axis);
+                return factors.unit_gain > 0.0f ? factors.unit_gain * part_of_normal(*maps.tilt, factors.tilt_scale, texel, axis)
+                                                : slope_of_normal(*maps.tilt, factors.tilt_scale, texel, axis);
             };
             const auto second = [&](int a, int b) { return moment([&](std::size_t i) { return of(i, a) * of(i, b); }); };
             const real3 power2 = tensor_at(maps.direction ? &tensors[0] : nullptr, grid, x, y);

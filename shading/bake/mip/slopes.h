@@ -5,6 +5,8 @@
 
 namespace burnish {
 
+inline constexpr float kMostSlope = 5.6712818f; // of 80 degrees
+
 struct SlopeMaps { // null where there is none; all of one place: the same coordinates see the same point in each
     // Red and green: mean slopes d height / d tangent and d height / d bitangent, -1 to 1. Code 128 of 8 bits and 32768 of 16 is 0, the
     // largest 1; floats are slopes themselves.
@@ -19,6 +21,7 @@ struct SlopeFactors {
     float tilt_scale = 1.0f; // of slopes, of which at most that of 80 degrees is left
     bool with_lobe = false;  // second moments hold the lobe too, of
     float roughness = 1.0f, anisotropy_strength = 0.0f, anisotropy_rotation = 0.0f;
+    float unit_gain = 0.0f; // above 0: in place of slopes of normals, so many times x and y of the unit normals
 };
 
 // An f32 image, as wide as the widest map and as high as the highest. A texel's slopes s have a mean and, with the lobe, a covariance about

@@ -226,4 +226,22 @@ TexturePyramid make_texture_pyramid(const Image& image, const Texture& sampler, 
     return p;
 }
 
+TexturePyramid make_texture_pyramid(int width, int height, const Texture& sampler, TextureEncoding encoding, const TexelRow& row)
+{
+    TexturePyramid p;
+    p.width = width, p.height = height;
+    p.wrap_s = sampler.wrap_s, p.wrap_t = sampler.wrap_t, p.nearest = sampler.nearest;
+    lay_out(p);
+    std::vector<float> texels(static_cast<std::size_t>(width) * 4);
+    for (int l = 0; l < p.levels; ++l) {
+        const Size size = {std::max(1, width >> l), std::max(1, height >> l)};
+        for (int y = 0; y < size.h; ++y) {
+            row(l, size.w, y, texels.data());
+            store_row(p, encoding, l, size, y, texels.data());
+        }
+        fill_border(p, l, size);
+    }
+    return p;
+}
+
 } // namespace burnish

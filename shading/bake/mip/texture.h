@@ -1,6 +1,7 @@
 // Material textures as the renderers use them: whole mip pyramids in RGBA half, linear, bordered.
 #pragma once
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "core/base/column.h"
@@ -31,5 +32,9 @@ struct TexturePyramid {
 
 // Each level is a box filter of level 0 with exact footprints, also for sides that are not powers of two.
 TexturePyramid make_texture_pyramid(const Image& image, const Texture& sampler, TextureEncoding encoding);
+
+// The same of levels that are made elsewhere. row: writes the texels of a row of a level, 4 floats each, as they are stored.
+using TexelRow = std::function<void(int level, int width, int y, float* rgba)>;
+TexturePyramid make_texture_pyramid(int width, int height, const Texture& sampler, TextureEncoding encoding, const TexelRow& row);
 
 } // namespace burnish

@@ -8,6 +8,7 @@
 #include "shading/surface/energy.k.h"
 #include "shading/surface/lobe.k.h"
 #include "shading/surface/surface.k.h"
+#include "shading/surface/tensor.k.h"
 #include "shading/techniques/filtered_is.k.h"
 #include "shading/techniques/major_axis.k.h"
 
@@ -43,6 +44,23 @@ void put_sample(bsdf_sample s, real* r)
 void put_covariance(slope_covariance s, real* r)
 {
     r[0] = s.xx, r[1] = s.yy, r[2] = s.xy;
+}
+
+void put_tensor(lobe_tensor t, real* r)
+{
+    r[0] = t.a, r[1] = t.b, r[2] = t.c;
+}
+slope_covariance covariance_at(const real* a)
+{
+    return {a[0], a[1], a[2]};
+}
+lobe_tensor tensor_at(const real* a)
+{
+    return {a[0], a[1], a[2]};
+}
+space_covariance space_at(const real* a)
+{
+    return {a[0], a[1], a[2], a[3], a[4], a[5]};
 }
 
 constexpr int kWo = test::kMaxParams, kWi = test::kMaxParams + 3;

@@ -1,0 +1,55 @@
+// One grid for maps of several sizes, and how each is read at its points.
+#pragma once
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include "core/image/image.h"
+#include "core/scene/scene.h"
+
+namespace burnish {
+
+struct Grid { // of the result, and how maps are read between its points
+    int width = 0, height = 0;
+    WrapMode wrap_s = WrapMode::repeat, wrap_t = WrapMode::repeat;
+    bool nearest = false;
+
+    void cover(const Image* map) // as wide as the widest, as high as the highest
+    {
+        if (map)
+            width = std::max(width, map->width), height = std::max(height, map->height);
+    }
+};
+
+// The two texels of a row or column on either side of a point of the grid, and the share of the second.
+struct Neighbours {
+    int low, high;
+    float share;
+};
+inline Neighbours neighbours(int at, int count, int texels, WrapMode wrap, bool nearest)
+{
+    if (count == texels)
+        return {at, at, 0.0f};
+    const double place = (at + 0.5) * texels / count;
+    if (nearest)
+        return {static_cast<int>(place), static_cast<int>(place), 0.0f};
+    const int low = static_cast<int>(std::floor(place - 0.5));
+    const auto inside = [&](int i) { return wrap == WrapMode::repeat ? (i + texels) % texels : std::clamp(i, 0, texels - 1); };
+    return {inside(low), inside(low + 1), static_cast<float>(place - 0.5 - low)};
+}
+
+// A quantity of a map at a point of the grid; value: of a texel by its number.
+template <class Value> float on_grid(const Image& map, const Grid& grid, int x, int y, const Value& value)
+{
+    const Neighbours u = neighbours(x, grid.width, map.width, grid.wrap_s, grid.nearest);
+    const Neighbours v = neighbours(y, grid.height, map.height, grid.wrap_t, grid.nearest);
+    const auto row = [&](int at) {
+        const std::size_t first = static_cast<std::size_t>(at) * static_cast<std::size_t>(map.width);
+        const float low = value(first + static_cast<std::size_t>(u.low));
+        return u.share == 0.0f ? low : low + u.share * (value(first + static_cast<std::size_t>(u.high)) - low);
+    };
+    const float low = row(v.low);
+    return v.share == 0.0f ? low : low + v.share * (row(v.high) - low);
+}
+
+} // namespace burnish

@@ -1,0 +1,44 @@
+// Mip filters by name, and what they make: levels of a material's normals and lobes.
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "core/scene/scene.h"
+
+namespace burnish {
+
+#define BN_MIP_FILTER(id, at, name, summary) inline constexpr MipFilter kMipFilter_##id = static_cast<MipFilter>(at);
+#include "shading/models.def"
+
+struct MipFilterInfo {
+    const char* name;
+    const char* summary;
+};
+const std::vector<MipFilterInfo>& mip_filters(); // from shading/models.def, by place
+
+bool makes_lobes(MipFilter filter);  // levels of lobes, all but box and lean
+float usual_kappa(bool ggx_normals); // of filter kappa: shares of the covariance of normals that make the least error (bench/README.md)
+
+// What the normals of a fetch's texels differ by, as part of the lobe's covariance: (gain n)(gain n)^T of x and y of unit normals.
+float gain_of_taps(MipFilter filter, float kappa);
+
+struct MipTexel {
+    float nx, ny;  // of a unit normal in tangent space, z > 0
+    float a, b, c; // the lobe in that normal's frame: lobe_tensor, projected
+    bool operator==(const MipTexel&) const = default;
+};
+
+struct MipLevel {
+    int width, height;
+    std::vector<MipTexel> texels; // rows from the top
+};
+
+struct MipLevels {
+    MipFilter filter = MipFilter{};
+    float kappa = 0.0f;           // of filter kappa; else 0
+    std::uint64_t source = 0;     // hash of level 0
+    int width = 0, height = 0;    // of level 0
+    std::vector<MipLevel> levels; // from 1 on; none of a single texel
+};
+
+} // namespace burnish

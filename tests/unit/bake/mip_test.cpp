@@ -1,0 +1,336 @@
+// Levels of normals and lobes by mip filters.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include "shading/bake/mip/filter.h"
+#include "shading/bake/mip/pyramid_file.h"
+#include "shading/surface/tensor.k.h"
+#include "tests/unit/bake/bake_test.h"
+
+namespace burnish {
+namespace {
+
+std::vector<MipFilter> lobe_filters()
+{
+    std::vector<MipFilter> filters;
+    for (std::size_t i = 0; i < mip_filters().size(); ++i)
+        if (makes_lobes(static_cast<MipFilter>(i)))
+            filters.push_back(static_cast<MipFilter>(i));
+    return filters;
+}
+
+struct Maps {
+    Image normal, roughness, direction;
+    MipMaps of() const
+    {
+        MipMaps maps;
+        maps.normal = normal.empty() ? nullptr : &normal;
+        maps.roughness = roughness.empty() ? nullptr : &roughness;
+        maps.direction = direction.empty() ? nullptr : &direction;
+        maps.roughness_factor = 0.6f, maps.anisotropy_strength = 0.8f, maps.anisotropy_rotation = 0.0f;
+        return maps;
+    }
+};
+
+using Texel = std::function<std::array<float, 3>(int x, int y)>;
+Image floats(int width, int height, const Texel& texel)
+{
+    Image image = make_image(width, height, 3, PixelType::f32);
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) {
+            const std::array<float, 3> t = texel(x, y);
+            std::copy(t.begin(), t.end(), image.f32() + 3 * (y * width + x));
+        }
+    return image;
+}
+
+std::array<float, 3> code_of(float x, float y)
+{
+    return {0.5f + 0.5f * x, 0.5f + 0.5f * y, 0.5f + 0.5f * std::sqrt(1.0f - x * x - y * y)};
+}
+
+Maps rough_maps(int width, int height, std::uint64_t seed, double lean = 0.6)
+{
+    Random random(seed);
+    Maps m;
+    m.normal = floats(width, height, [&](int, int) { return code_of(random.in(-lean, lean), random.in(-lean, lean)); });
+    m.roughness = floats(width, height, [&](int, int) { return std::array{0.0f, random.in(0.2, 1.0), 1.0f}; });
+    m.direction = floats(width, height, [&](int, int) {
+        const double angle = 6.28 * random();
+        return std::array{static_cast<float>(0.5 + 0.5 * std::cos(angle)), static_cast<float>(0.5 + 0.5 * std::sin(angle)),
+                          random.in(0.1, 1.0)};
+    });
+    return m;
+}
+
+MipLevels levels_of(const Maps& maps, MipFilter filter, float kappa = 1.1f, int threads = 1)
+{
+    return make_mip_levels(MipSource(maps.of()), filter, kappa, Jobs(threads));
+}
+
+MipTexel alone(const MipPoint& p)
+{
+    const lobe_tensor t = projected_tensor(tensor_of_covariance(p.s));
+    return {p.n.x, p.n.y, t.a, t.b, t.c};
+}
+
+void expect_near(const MipTexel& a, const MipTexel& b, double off)
+{
+    EXPECT_NEAR(a.nx, b.nx, off);
+    EXPECT_NEAR(a.ny, b.ny, off);
+    EXPECT_NEAR(a.a, b.a, off);
+    EXPECT_NEAR(a.b, b.b, off);
+    EXPECT_NEAR(a.c, b.c, off);
+}
+
+// A map of one normal and one lobe is that at each level, flat or tilted: so a tilted lobe does not turn either.
+TEST(mip, one_value_stays_at_every_level)
+{
+    for (const auto& [width, height] : {std::pair(64, 32), {257, 129}, {1, 64}, {3, 5}, {1, 1}})
+        for (const float tilt : {0.0f, 0.5f, -0.9f}) {
+            Maps maps;
+            maps.normal = floats(width, height, [&](int, int) { return code_of(tilt, 0.3f * tilt); });
+            maps.direction = floats(width, height, [](int, int) { return std::array{0.9f, 0.8f, 0.7f}; });
+            const MipSource source(maps.of());
+            std::vector<MipPoint> row(static_cast<std::size_t>(width));
+            source.row(0, row.data());
+            for (const MipFilter filter : lobe_filters()) {
+                const MipLevels made = levels_of(maps, filter);
+                SCOPED_TRACE(testing::Message()
+                             << width << "x" << height << " " << tilt << " " << mip_filters()[static_cast<std::size_t>(filter)].name);
+                EXPECT_EQ(static_cast<int>(made.levels.size()), static_cast<int>(std::log2(std::max(width, height))));
+                for (const MipLevel& level : made.levels)
+                    for (const MipTexel& texel : level.texels)
+                        expect_near(texel, alone(row[0]), 5e-6);
+            }
+        }
+}
+
+TEST(mip, levels_of_odd_sides_are_exact_means)
+{
+    for (const auto& [width, height] : {std::pair(257, 129), {1, 64}, {5, 3}, {64, 48}}) {
+        const Maps maps = rough_maps(width, height, 7, 0.3);
+        const MipSource source(maps.of());
+        const MipLevels made = levels_of(maps, kMipFilter_covariance), spread = levels_of(maps, kMipFilter_leadr);
+        // the last level is one texel, the mean of all
+        double n[3] = {}, s[3] = {}, slope[2] = {}, flat[3] = {};
+        std::vector<MipPoint> row(static_cast<std::size_t>(width));
+        const double share = 1.0 / (static_cast<double>(width) * height);
+        for (int y = 0; y < height; ++y) {
+            source.row(y, row.data());
+            for (const MipPoint& p : row) {
+                const float of[6] = {p.n.x, p.n.y, p.n.z, p.s.xx, p.s.yy, p.s.xy};
+                for (int i = 0; i < 3; ++i)
+                    n[i] += share * static_cast<double>(of[i]), s[i] += share * static_cast<double>(of[i + 3]);
+                const double sx = static_cast<double>(p.n.x) / static_cast<double>(p.n.z);
+                const double sy = static_cast<double>(p.n.y) / static_cast<double>(p.n.z);
+                const slope_covariance own = covariance_from_frame(p.n, p.s);
+                slope[0] += share * sx, slope[1] += share * sy;
+                flat[0] += share * (static_cast<double>(own.xx) + sx * sx), flat[1] += share * (static_cast<double>(own.yy) + sy * sy);
+                flat[2] += share * (static_cast<double>(own.xy) + sx * sy);
+            }
+        }
+        const double length = std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+        const MipTexel last = made.levels.back().texels.front();
+        const slope_covariance got = covariance_of_tensor({last.a, last.b, last.c});
+        EXPECT_NEAR(last.nx, n[0] / length, 2e-6);
+        EXPECT_NEAR(last.ny, n[1] / length, 2e-6);
+        EXPECT_NEAR(got.xx, s[0], 2e-6);
+        EXPECT_NEAR(got.yy, s[1], 2e-6);
+        EXPECT_NEAR(got.xy, s[2], 2e-6);
+        const MipTexel mean = spread.levels.back().texels.front();
+        const double steep = std::sqrt(1.0 + slope[0] * slope[0] + slope[1] * slope[1]);
+        EXPECT_NEAR(mean.nx, slope[0] / steep, 3e-6);
+        EXPECT_NEAR(mean.ny, slope[1] / steep, 3e-6);
+        const real3 up = vec3_of(mean.nx, mean.ny, std::sqrt(1.0f - mean.nx * mean.nx - mean.ny * mean.ny));
+        const slope_covariance all = covariance_from_frame(up, covariance_of_tensor({mean.a, mean.b, mean.c}));
+        EXPECT_NEAR(all.xx, flat[0] - slope[0] * slope[0], 5e-6);
+        EXPECT_NEAR(all.yy, flat[1] - slope[1] * slope[1], 5e-6);
+        EXPECT_NEAR(all.xy, flat[2] - slope[0] * slope[1], 5e-6);
+    }
+}
+
+// Two texels of normals (x, 0) and (-x, 0): what each filter makes of their difference, by hand.
+TEST(mip, filters_widen_lobes_by_what_their_formulas_say)
+{
+    const float x = 0.4f, z = std::sqrt(1.0f - x * x);
+    Maps maps;
+    maps.normal = floats(2, 1, [&](int at, int) { return code_of(at == 0 ? x : -x, 0.0f); });
+    MipMaps of = maps.of();
+    of.roughness_factor = 0.5f, of.anisotropy_strength = 0.0f; // alpha 0.25
+    const MipSource source(of);
+    const Jobs jobs(1);
+    const double a2 = 0.0625, xd = 0.4, z2 = 1.0 - xd * xd, s = xd / static_cast<double>(z);
+    const auto widths = [&](MipFilter filter, float kappa) {
+        const MipTexel t = make_mip_levels(source, filter, kappa, jobs).levels[0].texels[0];
+        EXPECT_NEAR(t.nx, 0.0, 1e-6);
+        EXPECT_NEAR(t.c, 0.0, 1e-6);
+        return std::pair(static_cast<double>(t.b) * static_cast<double>(t.b), static_cast<double>(t.a) * static_cast<double>(t.a));
+    };
+    const auto near = [](std::pair<double, double> got, double along, double across) {
+        EXPECT_NEAR(got.first, along, 1e-6);
+        EXPECT_NEAR(got.second, across, 1e-6);
+    };
+    near(widths(kMipFilter_baseline, 0.0f), a2, a2);
+    near(widths(kMipFilter_covariance, 0.0f), a2, a2);
+    near(widths(kMipFilter_kappa, 1.0f), a2 * z2 + xd * xd, a2); // seen at an angle, plus the spread of normals
+    near(widths(kMipFilter_kappa, 0.5f), a2 * z2 + 0.5 * xd * xd, a2);
+    const double nn = a2 * xd * xd + z2;
+    near(widths(kMipFilter_ssgt, 0.0f), (a2 * z2 + xd * xd) / nn, a2 / nn);
+    near(widths(kMipFilter_leadr, 0.0f), a2 / (z2 * z2) + 2.0 * s * s, a2 / z2);
+    EXPECT_EQ(gain_of_taps(kMipFilter_baseline, 1.0f), 0.0f);
+    EXPECT_NEAR(gain_of_taps(kMipFilter_kappa, 2.0f), 1.0f, 1e-6f);
+}
+
+// Mirroring a material, or exchanging its axes, does so to its levels, bit for bit.
+TEST(mip, squares_are_filtered_alike_however_they_lie)
+{
+    constexpr int kSide = 32;
+    const Maps maps = rough_maps(kSide, kSide, 3);
+    struct Turn {
+        bool flip_x, flip_y, swap;
+    };
+    const auto place = [](const Turn& t, int side, int x, int y) { // where a texel of the turned map was
+        if (t.swap)
+            std::swap(x, y);
+        return std::pair(t.flip_x ? side - 1 - x : x, t.flip_y ? side - 1 - y : y);
+    };
+    for (int turns = 1; turns < 8; ++turns) {
+        const Turn t = {(turns & 1) != 0, (turns & 2) != 0, (turns & 4) != 0};
+        const auto turned_map = [&](const Image& from, bool is_signed) {
+            return floats(kSide, kSide, [&](int x, int y) {
+                const auto [u, v] = place(t, kSide, x, y);
+                const float* texel = from.f32() + 3 * (v * kSide + u);
+                std::array<float, 3> to = {texel[0], texel[1], texel[2]};
+                if (is_signed) {
+                    if (t.flip_x)
+                        to[0] = 1.0f - to[0];
+                    if (t.flip_y)
+                        to[1] = 1.0f - to[1];
+                    if (t.swap)
+                        std::swap(to[0], to[1]);
+                }
+                return to;
+            });
+        };
+        // halves of which 1 - x is exact
+        Maps coarse = maps;
+        for (std::size_t i = 0; i < coarse.normal.bytes.size() / 4; ++i) {
+            coarse.normal.f32()[i] = std::round(coarse.normal.f32()[i] * 4096.0f) / 4096.0f;
+            const float d = 2.0f * coarse.direction.f32()[i] - 1.0f; // and of whose products rounding knows no order
+            if (i % 3 != 2)
+                coarse.direction.f32()[i] = 0.5f + 0.5f * std::copysign(std::exp2(std::floor(std::log2(std::abs(d) + 0.01f))), d);
+        }
+        const Maps turned = {turned_map(coarse.normal, true), turned_map(coarse.roughness, false), turned_map(coarse.direction, true)};
+        const auto without_factor = [](const Maps& m) {
+            MipMaps of = m.of();
+            of.anisotropy_strength = 0.8f;
+            return of;
+        };
+        const Jobs jobs(1);
+        for (const MipFilter filter : lobe_filters()) {
+            const MipLevels a = make_mip_levels(MipSource(without_factor(coarse)), filter, 1.1f, jobs);
+            const MipLevels b = make_mip_levels(MipSource(without_factor(turned)), filter, 1.1f, jobs);
+            for (std::size_t l = 0; l < a.levels.size(); ++l)
+                for (int y = 0; y < a.levels[l].height; ++y)
+                    for (int x = 0; x < a.levels[l].width; ++x) {
+                        const auto [u, v] = place(t, a.levels[l].width, x, y);
+                        MipTexel want = a.levels[l].texels[static_cast<std::size_t>(v * a.levels[l].width + u)];
+                        if (t.flip_x)
+                            want.nx = -want.nx, want.c = -want.c;
+                        if (t.flip_y)
+                            want.ny = -want.ny, want.c = -want.c;
+                        if (t.swap)
+                            std::swap(want.nx, want.ny), std::swap(want.a, want.b);
+                        ASSERT_EQ(b.levels[l].texels[static_cast<std::size_t>(y * a.levels[l].width + x)], want)
+                            << mip_filters()[static_cast<std::size_t>(filter)].name << " turn " << turns << " level " << l + 1 << " " << x
+                            << "," << y;
+                    }
+        }
+    }
+}
+
+TEST(mip, texels_that_are_not_numbers_are_level_and_do_not_spread)
+{
+    Maps maps = rough_maps(16, 16, 5);
+    Maps repaired = maps; // level normals, the factor's roughness, no direction
+    for (int i = 0; i < 2; ++i) {
+        const std::array<float, 3> texels[3] = {{0.5f, 0.5f, 1.0f}, {1.0f, 1.0f, 1.0f}, {0.5f, 0.5f, 0.0f}};
+        std::copy(texels[0].begin(), texels[0].end(), repaired.normal.f32() + 3 * i);
+        std::copy(texels[1].begin(), texels[1].end(), repaired.roughness.f32() + 3 * i);
+        std::copy(texels[2].begin(), texels[2].end(), repaired.direction.f32() + 3 * i);
+    }
+    const float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
+    for (Image* image : {&maps.normal, &maps.roughness, &maps.direction}) {
+        std::fill_n(image->f32(), 3, nan);
+        std::fill_n(image->f32() + 3, 3, inf);
+    }
+    for (const MipFilter filter : lobe_filters()) {
+        const MipLevels made = levels_of(maps, filter), whole = levels_of(repaired, filter);
+        EXPECT_EQ(mip_file_bytes({&made}), mip_file_bytes({&whole}));
+    }
+    std::vector<MipPoint> row(16);
+    MipSource(maps.of()).row(0, row.data());
+    EXPECT_EQ(row[0].n.z, 1.0f);
+}
+
+// A smaller map is read between its texels: across the border where it repeats, not where it is clamped.
+TEST(mip, smaller_maps_wrap_as_their_sampler_says)
+{
+    Maps maps;
+    maps.normal = floats(4, 4, [](int, int) { return code_of(0.0f, 0.0f); });
+    maps.roughness = floats(2, 1, [](int x, int) { return std::array{0.0f, x == 0 ? 0.25f : 0.75f, 0.0f}; });
+    for (const WrapMode wrap : {WrapMode::repeat, WrapMode::clamp}) {
+        MipMaps of = maps.of();
+        of.roughness_factor = 1.0f, of.anisotropy_strength = 0.0f, of.wrap_s = of.wrap_t = wrap;
+        std::vector<MipPoint> row(4);
+        MipSource(of).row(0, row.data());
+        const double roughness = wrap == WrapMode::repeat ? 0.25 + 0.25 * 0.5 : 0.25; // a quarter of a texel from the border
+        EXPECT_NEAR(row[0].s.xx, 0.5 * std::pow(roughness, 4.0), 1e-6);
+        EXPECT_NEAR(row[1].s.xx, 0.5 * std::pow(0.25 + 0.25 * 0.5, 4.0), 1e-6);
+    }
+}
+
+TEST(mip, bytes_do_not_depend_on_threads)
+{
+    const Maps maps = rough_maps(61, 47, 11);
+    for (const MipFilter filter : lobe_filters()) {
+        const MipLevels one = levels_of(maps, filter), three = levels_of(maps, filter, 1.1f, 3);
+        EXPECT_EQ(mip_file_bytes({&one}), mip_file_bytes({&three}));
+    }
+}
+
+TEST(mip, files_give_back_what_was_written_and_refuse_the_rest)
+{
+    const Maps maps = rough_maps(13, 8, 2);
+    const MipLevels a = levels_of(maps, kMipFilter_kappa, 0.7f), b = levels_of(rough_maps(1, 1, 4), kMipFilter_ssgt);
+    const std::vector<std::uint8_t> bytes = mip_file_bytes({&a, &b});
+    const Result<std::vector<MipLevels>> read = parse_mip_file(bytes, "x.mip");
+    ASSERT_TRUE(read);
+    ASSERT_EQ(read->size(), 2u);
+    EXPECT_EQ((*read)[0].source, a.source);
+    EXPECT_EQ((*read)[0].kappa, 0.7f);
+    EXPECT_EQ((*read)[0].filter, kMipFilter_kappa);
+    ASSERT_EQ((*read)[0].levels.size(), a.levels.size());
+    for (std::size_t l = 0; l < a.levels.size(); ++l)
+        EXPECT_EQ((*read)[0].levels[l].texels, a.levels[l].texels);
+    EXPECT_TRUE((*read)[1].levels.empty());
+    for (std::size_t at = 0; at < bytes.size(); at += 7) {
+        std::vector<std::uint8_t> bad = bytes;
+        bad[at] ^= 0x10;
+        EXPECT_FALSE(parse_mip_file(bad, "x.mip")) << at;
+    }
+    for (std::size_t size = 0; size < bytes.size(); size += 5)
+        EXPECT_FALSE(parse_mip_file(std::vector<std::uint8_t>(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(size)), "x.mip"));
+    Maps other = maps;
+    other.roughness.f32()[1] += 0.01f;
+    EXPECT_NE(MipSource(other.of()).hash(Jobs(1)), a.source);
+}
+
+} // namespace
+} // namespace burnish
