@@ -151,16 +151,16 @@ Status check_text_path(const std::string& option, const std::string& path, const
     return check_folder(path);
 }
 
-Image shown_picture(const Image& linear, Tonemap tonemap, float exposure_ev)
+Image shown_picture(const Image& linear, Tonemap tonemap, float exposure_ev, const std::vector<PixelPart>& parts)
 {
-    return tonemap_to_srgb8(linear.channels == 4 ? unassociated(linear) : linear, tonemap, exposure_ev);
+    return tonemap_to_srgb8(linear.channels == 4 ? unassociated(linear) : linear, tonemap, exposure_ev, parts);
 }
 
-Status write_picture(const std::string& path, const Image& linear, Tonemap tonemap, float exposure_ev)
+Status write_picture(const std::string& path, const Image& linear, Tonemap tonemap, float exposure_ev, const std::vector<PixelPart>& parts)
 {
     if (stores_floats(path))
         return write_image(path, linear);
-    return write_image(path, shown_picture(linear, tonemap, exposure_ev));
+    return write_image(path, shown_picture(linear, tonemap, exposure_ev, parts));
 }
 
 Status write_text(const std::string& path, const std::string& text)

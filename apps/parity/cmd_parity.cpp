@@ -22,7 +22,7 @@ namespace {
 
 constexpr const char* kFooter =
     R"(Renders with the tile renderer and with Vulkan, and compares words: clip positions, visibility (the triangle of each sample), depth,
-interpolants, material inputs, shaded colour, resolved colour; what follows visibility where visibility agrees. With the exact sampler no
+interpolants, material inputs, shaded colour, resolved colour, layers; what follows visibility where visibility agrees. With the exact sampler no
 word may differ but visibility, of which one sample in a million may; pictures of --pipeline forward must look the same (mean FLIP below 0.002),
 and every pixel that differs is put down to the first stage that differs by more than a thousandth, or to rounding.
 
@@ -74,6 +74,7 @@ Result<ParityRow> compare(const Bench& bench, ParityRow row, const RenderOptions
     desc.view = view;
     desc.triangle_ids = true;
     desc.stages = true;
+    desc.layers = options.vulkan.pipeline == VulkanPipeline::ids;
     const Result<Frame> a = tile.render(desc);
     if (!a)
         return a.error();

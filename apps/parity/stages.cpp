@@ -77,6 +77,11 @@ const std::uint32_t* color_words(const Frame& f, std::size_t pixel)
     return reinterpret_cast<const std::uint32_t*>(f.color.f32() + 3 * pixel);
 }
 
+const std::uint32_t* layer_words(const Frame& f, std::size_t pixel)
+{
+    return reinterpret_cast<const std::uint32_t*>(&f.layers[pixel]);
+}
+
 void count_pixel_differences(const Frame& tile, const Frame& other, std::size_t msaa, ParityCounts& out)
 {
     const std::size_t pixels = tile.triangle_ids.size() / msaa;
@@ -147,7 +152,8 @@ ParityCounts compare_stages(const Frame& tile, const Frame& other, int msaa)
     const std::size_t n = static_cast<std::size_t>(msaa), pixels = tile.triangle_ids.size() / n;
     const int width = tile.color.width;
     StageCounter clip("clip positions", 0), visibility(kVisibilityStage, width), depth("depth", width), interpolants("interpolants", width),
-        material("material inputs", width), shaded("shaded colour", width), resolved("resolved colour", width);
+        material("material inputs", width), shaded("shaded colour", width), resolved("resolved colour", width), layers("layers", width);
+    const bool have_layers = !tile.layers.empty() && !other.layers.empty();
     for (std::size_t i = 0; i < std::min(tile.stages.vertices.size(), other.stages.vertices.size()); ++i)
         clip.add(tile.stages.vertices[i], other.stages.vertices[i], 0);
     ParityCounts out;
@@ -179,9 +185,13 @@ ParityCounts compare_stages(const Frame& tile, const Frame& other, int msaa)
         }
         if (same)
             resolved.add(color_words(tile, p), color_words(other, p), 3, p);
+        if (same && have_layers)
+            layers.add(layer_words(tile, p), layer_words(other, p), kLayerWords, p);
     }
     for (const StageCounter* c : {&clip, &visibility, &depth, &interpolants, &material, &shaded, &resolved})
         out.stages.push_back(c->stage());
+    if (have_layers)
+        out.stages.push_back(layers.stage());
     count_pixel_differences(tile, other, n, out);
     return out;
 }

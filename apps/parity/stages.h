@@ -19,14 +19,15 @@ struct ParityStage {
 struct ParityCounts {
     std::uint64_t samples = 0, visibility_differ = 0;        // a sample differs where its triangle does
     std::uint64_t pixels_differ = 0, edge_pixels_differ = 0; // of the resolved picture; of them, pixels that show several triangles
-    std::vector<ParityStage> stages; // clip positions, visibility, depth, interpolants, material inputs, shaded colour, resolved colour
+    std::vector<ParityStage>
+        stages; // clip positions, visibility, depth, interpolants, material inputs, shaded colour, resolved colour, layers
 };
 
 inline constexpr const char* kVisibilityStage = "visibility";
 
 // Both frames with FrameDesc::stages, of one description; clip positions only where both have them. What follows visibility is compared
 // where visibility agrees: depths by sample, interpolants to shaded colour by pairs of the same triangle and the same samples, resolved
-// colour in pixels whose pairs are all the same.
+// colour and layers, where both have them, in pixels whose pairs are all the same.
 ParityCounts compare_stages(const Frame& tile, const Frame& other, int msaa);
 
 // Why a pixel differs: the first stage that differs by more than kRounding of a vector's largest component, in any of the pixel's

@@ -31,6 +31,7 @@ Status check_reference_options(const RenderArguments& in, const OptionTable& giv
         return usage_error("--variance", fmt::format("needs --samples of at least {}", 2 * kPassSamples));
     if (out.frames != 1)
         return usage_error("--frames", "the reference renders one");
+    out.environment.picture_only = true;
     r.isa = out.isa;
     r.quiet = out.quiet;
     return {};
@@ -43,6 +44,8 @@ Status check_vulkan_options(RenderOptions& out)
     out.vulkan.use_cache = out.environment.use_cache;
     if (out.vulkan.sampler == VulkanSampler::native && out.vulkan.pipeline == VulkanPipeline::ids)
         return usage_error("--sampler", "native needs --pipeline forward");
+    if (out.vulkan.pipeline != VulkanPipeline::ids && (!out.aov.empty() || out.resolve_display))
+        return usage_error(out.aov.empty() ? "--resolve" : "--aov", "needs --pipeline ids");
     return {};
 }
 

@@ -77,7 +77,7 @@ Status write_outputs(const RenderOptions& options, const Rendered& rendered, Rep
     };
     for (const std::string& path : options.outputs) {
         const TraceSpan span("write picture");
-        note(path, write_picture(path, rendered.color, options.tonemap, options.exposure_ev));
+        note(path, write_rendered(path, rendered, options));
     }
     if (!options.variance_file.empty())
         note(options.variance_file, write_image(options.variance_file, rendered.variance));

@@ -28,7 +28,7 @@ void warn_of_no_effect(const OptionTable& given, RenderOptions& out)
     if (!reference && technique.traits & kTakesRoundLobes && out.frame.anisotropy != 0.0f)
         warn("--anisotropy", of_technique);
     if (reference)
-        for (const char* option : {"--technique", "--msaa", "--tile-size"})
+        for (const char* option : {"--technique", "--msaa", "--tile-size", "--resolve"})
             warn(option, of_backend);
     if (!out.moment.seconds)
         if (given.given("--animation"))
@@ -42,7 +42,7 @@ void warn_of_no_effect(const OptionTable& given, RenderOptions& out)
     const bool displayed =
         std::any_of(out.outputs.begin(), out.outputs.end(), [](const std::string& path) { return !stores_floats(path); });
     if (!out.outputs.empty() && !displayed)
-        for (const char* option : {"--exposure", "--tonemap"})
+        for (const char* option : {"--exposure", "--tonemap", "--resolve"})
             warn(option, "-o " + out.outputs.front());
 }
 

@@ -3,6 +3,7 @@
 #include "apps/cli/values.h"
 #include "apps/render/options.h"
 #include "apps/render/parameters.h"
+#include "raster/frame/layers.h"
 #include "shading/bake/mip/levels.h"
 
 namespace burnish {
@@ -25,11 +26,23 @@ std::vector<Option> environment_rows(RenderArguments& to)
     };
 }
 
+std::vector<std::string> layer_names()
+{
+    std::vector<std::string> names;
+    for (const LayerInfo& layer : layers())
+        names.push_back(layer.name);
+    return names;
+}
+
 std::vector<Option> output_rows(RenderArguments& to)
 {
     return {
         {"-o,--output", "FILE", "Picture to write; may be given several times", files(to.plain.outputs)},
         {"--tonemap", "NAME", "{}, for 8-bit pictures", choice(to.plain.tonemap, {"none", "pbr-neutral", "aces"})},
+        {"--resolve", "NAME",
+         "What pixels of 8-bit pictures are the mean of: samples as they are, tonemapped afterwards, or display: each as it is shown",
+         choice(to.plain.resolve_display, {"linear", "display"})},
+        {"--aov", "NAMES", "Layers of .exr outputs, by commas: {}", choices(to.plain.aov, layer_names()), ""},
         {"--exposure", "EV", "Multiply by 2^EV before tonemapping", number(to.plain.exposure_ev, -kMaxExposure, kMaxExposure)},
         {"--stats", "FILE", "Figures as JSON; - for standard output", file(to.plain.stats_file)},
         {"--trace", "FILE", "Chrome trace events, for ui.perfetto.dev", file(to.plain.trace_file)},

@@ -1,9 +1,11 @@
 #include "apps/render/options.h"
 
+#include <algorithm>
 #include <fmt/core.h>
 
 #include "apps/cli/report.h"
 #include "apps/cli/shared_options.h"
+#include "core/image/io/image_io.h"
 #include "shading/bake/mip/levels.h"
 #include "shading/lang/records.h"
 
@@ -36,6 +38,18 @@ Status check_picture(const RenderArguments& in, const OptionTable& given, Render
                                                  samples, kMaxPictureSamples));
     if (given.given("--anisotropy"))
         frame.override_anisotropy = true;
+    return {};
+}
+
+Status check_layers(const RenderOptions& out)
+{
+    for (auto name = out.aov.begin(); name != out.aov.end(); ++name)
+        if (std::find(out.aov.begin(), name, *name) != name)
+            return usage_error("--aov", fmt::format("'{}' is given twice", *name));
+    if (!out.aov.empty() && std::none_of(out.outputs.begin(), out.outputs.end(), stores_channels))
+        return usage_error("--aov", "needs -o FILE.exr: no other format has layers");
+    if (!out.aov.empty() && out.backend == "reference")
+        return usage_error("--aov", "the reference has no layers");
     return {};
 }
 
@@ -94,6 +108,8 @@ Result<RenderOptions> check_render_options(const RenderArguments& arguments, con
     if (out.backend == "vulkan")
         if (const Status vulkan = check_vulkan_options(out); !vulkan)
             return vulkan.error();
+    if (const Status layers = check_layers(out); !layers)
+        return layers.error();
     if (const Status camera = check_camera(out); !camera)
         return camera.error();
     warn_of_no_effect(given, out);

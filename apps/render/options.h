@@ -28,8 +28,10 @@ struct RenderOptions {
     std::string ltc_table;              // of area lights; empty: the program's own
     Dress dress;                        // what all materials take
     std::vector<std::string> outputs;
-    std::string stats_file; // empty: none; "-": standard output
-    std::string trace_file; // empty: none
+    std::vector<std::string> aov; // layers of .exr outputs
+    bool resolve_display = false; // 8-bit outputs: samples are tonemapped before they are averaged
+    std::string stats_file;       // empty: none; "-": standard output
+    std::string trace_file;       // empty: none
 
     std::string env = "builtin:studio";
     EnvironmentOptions environment;

@@ -10,6 +10,7 @@
 #include "apps/cli/seen_scene.h"
 #include "apps/cli/stop_signal.h"
 #include "core/image/image.h"
+#include "core/image/io/image_io.h"
 #include "shading/bake/tables/phong_files.h"
 #include "shading/lang/records.h"
 
@@ -50,7 +51,20 @@ bool draws_alpha(const RenderOptions& options)
     return !options.frame.background && options.backend != "reference";
 }
 
+// The reference has no samples of its own to resolve.
+bool resolves_display(const RenderOptions& options)
+{
+    return options.resolve_display && options.backend != "reference";
+}
+
 } // namespace
+
+Status write_rendered(const std::string& path, const Rendered& rendered, const RenderOptions& options)
+{
+    if (!options.aov.empty() && stores_channels(path))
+        return write_channels(path, rendered.layered.image, rendered.layered.names);
+    return write_picture(path, rendered.color, options.tonemap, options.exposure_ev, rendered.parts);
+}
 
 Status check_paths(const RenderOptions& options, const std::vector<std::string>& inputs)
 {
@@ -139,6 +153,8 @@ Result<Rendered> render_frames(const RenderOptions& options, FrameDesc desc, Ses
     Rendered out;
     Frame last;
     desc.triangle_ids = desc.triangle_ids || draws_alpha(options);
+    desc.parts = resolves_display(options);
+    ask_for_layers(options.aov, desc);
     Progress progress("frames", static_cast<std::size_t>(options.frames), options.quiet || options.frames == 1);
     for (int i = 0; i < options.frames; ++i) {
         const TraceSpan span("frame");
@@ -159,6 +175,9 @@ Result<Rendered> render_frames(const RenderOptions& options, FrameDesc desc, Ses
     figures.nan_pixels = count_not_finite(out.color);
     if (draws_alpha(options))
         out.color = with_coverage(out.color, last.triangle_ids);
+    if (!options.aov.empty())
+        out.layered = with_layers(out.color, last, session.tables(), options.aov);
+    out.parts = std::move(last.parts);
     out.figures = std::move(figures);
     return out;
 }

@@ -7,6 +7,7 @@
 #include "apps/cli/report.h"
 #include "apps/render/options.h"
 #include "apps/render/stats.h"
+#include "raster/frame/layers.h"
 #include "raster/session/session.h"
 
 namespace burnish {
@@ -14,8 +15,13 @@ namespace burnish {
 struct Rendered {
     Image color; // RGBA of pictures without a background
     Image variance;
+    std::vector<PixelPart> parts; // with --resolve display
+    NamedChannels layered;        // with --aov: `color` and its layers
     RenderFigures figures;
 };
+
+// By the extension of `path`.
+Status write_rendered(const std::string& path, const Rendered& rendered, const RenderOptions& options);
 
 // `inputs`: files that must not be written over.
 Status check_paths(const RenderOptions& options, const std::vector<std::string>& inputs);

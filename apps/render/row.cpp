@@ -211,11 +211,11 @@ int run_row(RenderArguments& arguments, OptionTable& given)
         json["pixel_hash"] = hash_text(last.hash), json["ms"] = last.frame.ms;
         steps.push_back(json);
         for (const std::string& path : step.options.outputs)
-            if (const Status written = write_picture(path, rendered->color, step.options.tonemap, step.options.exposure_ev); !written)
+            if (const Status written = write_rendered(path, *rendered, step.options); !written)
                 return fail(written.error());
         if (!row->movies().empty())
-            if (const Status added =
-                    movie.add(row->movies()[0], shown_picture(rendered->color, step.options.tonemap, step.options.exposure_ev));
+            if (const Status added = movie.add(
+                    row->movies()[0], shown_picture(rendered->color, step.options.tonemap, step.options.exposure_ev, rendered->parts));
                 !added)
                 return fail(added.error());
         report.event(fmt::format("{} of {}", i + 1, row->count()),

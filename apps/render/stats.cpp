@@ -61,6 +61,8 @@ Json stats_json(const RenderOptions& options, const RenderFigures& figures)
     json["height"] = frame.height;
     json["msaa"] = frame.msaa;
     json["tile_size"] = frame.tile_size;
+    json["resolve"] = options.resolve_display ? "display" : "linear";
+    json["aov"] = options.aov;
     json["frames"] = options.frames;
     if (options.backend == "reference") {
         const SamplingStats& s = figures.frame.sampling;

@@ -179,6 +179,12 @@ float expose(float radiance, float scale)
     return x > 0.0f ? std::min(x, kBrightest) : 0.0f;
 }
 
+const SrgbTable& srgb_table()
+{
+    static const SrgbTable table;
+    return table;
+}
+
 } // namespace
 
 Result<Tonemap> parse_tonemap(const std::string& name)
@@ -195,7 +201,7 @@ Result<Tonemap> parse_tonemap(const std::string& name)
 Image tonemap_to_srgb8(const Image& linear, Tonemap tonemap, float exposure_ev)
 {
     BN_CHECK(linear.type == PixelType::f32);
-    static const SrgbTable table;
+    const SrgbTable& table = srgb_table();
     const float scale = exposure_scale(exposure_ev);
     Image out = make_image(linear.width, linear.height, linear.channels, PixelType::u8);
     const std::size_t channels = static_cast<std::size_t>(linear.channels);
@@ -213,6 +219,31 @@ Image tonemap_to_srgb8(const Image& linear, Tonemap tonemap, float exposure_ev)
         }
         if (alpha) // coverage is linear
             to[i + channels - 1] = static_cast<std::uint8_t>(clamp01(in[i + channels - 1]) * 255.0f + 0.5f);
+    }
+    return out;
+}
+
+Image tonemap_to_srgb8(const Image& linear, Tonemap tonemap, float exposure_ev, const std::vector<PixelPart>& parts)
+{
+    Image out = tonemap_to_srgb8(linear, tonemap, exposure_ev);
+    const float scale = exposure_scale(exposure_ev);
+    const std::size_t channels = static_cast<std::size_t>(linear.channels);
+    BN_CHECK(parts.empty() || channels >= 3);
+    for (auto part = parts.begin(); part != parts.end();) {
+        const std::uint32_t pixel = part->pixel;
+        float sum[3] = {}, samples = 0.0f;
+        for (; part != parts.end() && part->pixel == pixel; ++part) {
+            if (part->background && channels == 4)
+                continue;
+            const std::array<float, 3>& c = part->color;
+            const Rgb mapped = apply(tonemap, {expose(c[0], scale), expose(c[1], scale), expose(c[2], scale)});
+            const float weight = static_cast<float>(part->samples);
+            sum[0] += clamp01(mapped.r) * weight, sum[1] += clamp01(mapped.g) * weight, sum[2] += clamp01(mapped.b) * weight;
+            samples += weight;
+        }
+        std::uint8_t* const to = reinterpret_cast<std::uint8_t*>(out.bytes.data()) + channels * pixel;
+        for (std::size_t c = 0; samples > 0.0f && c < 3; ++c)
+            to[c] = srgb_table().encode(sum[c] / samples);
     }
     return out;
 }

@@ -9,7 +9,9 @@
 #include <string_view>
 #include <vector>
 
+#include "core/base/column.h"
 #include "core/base/result.h"
+#include "core/image/colour.h"
 #include "core/image/image.h"
 #include "core/jobs/jobs.h"
 #include "core/scene/draw_tables.h"
@@ -71,6 +73,8 @@ struct FrameDesc {
     bool triangle_ids = false;   // fill Frame::triangle_ids
     bool profile = false;        // fill Frame::profile, where the renderer can; never changes the picture
     bool stages = false;         // fill Frame::stages, and the triangle ids
+    bool layers = false;         // fill Frame::layers; never changes the picture
+    bool parts = false;          // fill Frame::parts; never changes the picture
 };
 // Whether a rasterizer can draw it: sizes, samples, names.
 Status check_desc(const FrameDesc& desc);
@@ -108,12 +112,22 @@ struct StageRecords {
 };
 inline constexpr int kVertexWords = 8;
 
+// Of what a pixel shows at its central sample, the nearest to its centre (central_sample()); all 0 where that shows no triangle. Values are
+// those of the (pixel, triangle) pair, where it is shaded.
+struct PixelLayers {
+#define BN_LAYER(type, words, name, channels) float name[words];
+#include "shading/layers.def"
+};
+static_assert(sizeof(PixelLayers) == kLayerWords * sizeof(float));
+
 struct Frame {
     Image color;                        // f32 RGB, linear Rec.709 scene radiance
     Image variance;                     // of `color` as an estimate, by channel; empty where it is none
     Column<std::uint32_t> triangle_ids; // [pixel][sample] global triangle id, kNoTriangle where nothing was hit
     FrameProfile profile;               // empty unless asked for
     StageRecords stages;                // with FrameDesc::stages
+    Column<PixelLayers> layers;         // [pixel], with FrameDesc::layers
+    std::vector<PixelPart> parts; // with FrameDesc::parts: of all pixels that show more than one thing, by pixel, then by first sample
     FrameStats stats;
 };
 

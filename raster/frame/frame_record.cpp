@@ -81,7 +81,8 @@ FrameRecord frame_record(const RenderInput& input, const FrameDesc& d)
         f.area_light_count = static_cast<int>(input.tables.area_lights.size());
         f.ltc = ltc_tables(input).record;
     }
-    f.positions = f.light_count > 0 || f.area_light_count > 0;
+    f.layer_sample = d.layers ? central_sample(f.pattern) : -1;
+    f.positions = f.light_count > 0 || f.area_light_count > 0 || d.layers;
     f.background = d.background;
     f.samples = d.samples, f.texture_taps = d.texture_anisotropy;
     f.joins_round = &technique_of(d, true) != &technique_of(d, false);
@@ -192,7 +193,7 @@ void FrameMaker::slice_albedo(const FrameDesc& desc)
         m.albedo_slice = m.phong_slice = m.phong_set = -1, m.brushed = 1.0f;
         if (m.anisotropic && (m.technique_traits & kSharesSamples) && m.moments == kNoMoments)
             m.brushed = brushed_by_factors(f, m);
-        if (!one_lobe_shape(m))
+        if (!one_lobe_shape(m) || desc.specular_aa)
             continue;
         const lobe_shape shape = only_lobe_shape(f, m);
         if (m.anisotropic)
@@ -211,7 +212,7 @@ Status FrameMaker::check(const FrameDesc& desc) const
     ShadingFrame f = {};
     f.override_anisotropy = desc.override_anisotropy, f.anisotropy = desc.anisotropy;
     for (const MaterialRecord& m : in_frame(overrides(input_.scene, desc) ? scene_.overridden : scene_.materials, desc)) {
-        if (!(technique_of(desc, m.anisotropic != 0).traits & kPhongGrid) || m.unlit || !one_lobe_shape(m))
+        if (!(technique_of(desc, m.anisotropic != 0).traits & kPhongGrid) || m.unlit || !one_lobe_shape(m) || desc.specular_aa)
             continue;
         const double root2 = 1.4142135623730951;
         const lobe_shape shape = only_lobe_shape(f, m);

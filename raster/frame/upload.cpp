@@ -122,6 +122,19 @@ SamplePattern standard_samples(int count)
     return p;
 }
 
+int central_sample(const SamplePattern& p)
+{
+    const auto far = [&](int s) {
+        const int x = p.x[s] - kSubpixel / 2, y = p.y[s] - kSubpixel / 2;
+        return x * x + y * y;
+    };
+    int nearest = 0;
+    for (int s = 1; s < p.count; ++s)
+        if (far(s) < far(nearest))
+            nearest = s;
+    return nearest;
+}
+
 std::vector<MaterialRecord> material_records(const Scene& scene, bool overridden)
 {
     const std::vector<PyramidKey> keys = used_pyramids(scene);

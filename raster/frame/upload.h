@@ -40,6 +40,7 @@ bool overrides(const Scene& scene, const FrameDesc& desc);
 std::vector<MaterialRecord> in_frame(std::vector<MaterialRecord> materials, const FrameDesc& desc);
 
 TextureParams texture_params(const TexturePyramid& pyramid);
-SamplePattern standard_samples(int count); // Vulkan's standard sample locations for 1, 2, 4, 8, 16
+SamplePattern standard_samples(int count);        // Vulkan's standard sample locations for 1, 2, 4, 8, 16
+int central_sample(const SamplePattern& pattern); // the first of those nearest to the pixel's centre
 
 } // namespace burnish

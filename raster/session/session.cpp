@@ -51,6 +51,18 @@ Result<std::unique_ptr<Renderer>> make_renderer(const RenderInput& input, const 
     return make_tile_renderer(input, options.isa);
 }
 
+// Layers as the world stands.
+void turn_layers(const glm::dmat3& world_from_drawn, Frame& frame)
+{
+    const auto turn = [&](float(&v)[3]) {
+        const glm::dvec3 turned = world_from_drawn * glm::dvec3(glm::vec3(v[0], v[1], v[2]));
+        for (int i = 0; i < 3; ++i)
+            v[i] = static_cast<float>(turned[i]);
+    };
+    for (PixelLayers& p : frame.layers)
+        turn(p.normal), turn(p.tangent);
+}
+
 } // namespace
 
 Result<std::shared_ptr<const ltc::ShadingTables>> load_ltc_table(const std::string& path)
@@ -203,7 +215,12 @@ FrameDesc Session::drawn(const FrameDesc& desc) const
 
 Result<Frame> Session::render(const FrameDesc& desc, Frame recycled)
 {
-    return guarded(parts_.scene->name, [&]() { return renderer_->render(drawn(desc), std::move(recycled)); });
+    return guarded(parts_.scene->name, [&]() {
+        Result<Frame> frame = renderer_->render(drawn(desc), std::move(recycled));
+        if (frame && parts_.turned)
+            turn_layers(glm::transpose(sky_from_world(parts_.environment->rotation_deg)), *frame);
+        return frame;
+    });
 }
 
 } // namespace burnish

@@ -5,6 +5,7 @@
 #include "raster/frame/frame.h"
 #include "raster/tile/fragment.h"
 #include "raster/tile/raster.h"
+#include "shading/surface/layers.t.h"
 #include "shading/surface/recorded.t.h"
 
 namespace burnish {
@@ -27,6 +28,16 @@ struct WordWriter {
 BN_INLINE void put_real(WordWriter& w, real x)
 {
     w.put(x);
+}
+
+// Takes all lanes of registers, one register after another.
+struct LaneWriter {
+    float* to; // [word][kLanes]
+};
+BN_INLINE void put_real(LaneWriter& w, real x)
+{
+    store(w.to, x);
+    w.to += kLanes;
 }
 
 BN_STAGE void record_vertices(const FrameParams& f, std::uint32_t count, std::uint32_t* out)

@@ -2,6 +2,7 @@
 #pragma once
 #include "raster/tile/fragment.h"
 #include "shading/lights/fragment_light.t.h"
+#include "shading/surface/specular_aa.t.h"
 
 namespace burnish {
 inline namespace BN_ISA_NS {
@@ -17,7 +18,7 @@ struct MaterialPlan {
 BN_INLINE MaterialPlan plan_material(frame_ref f, material_ref m)
 {
     MaterialPlan plan;
-    plan.one_shape = m.unlit || one_lobe_shape(m);
+    plan.one_shape = m.unlit || (one_lobe_shape(m) && !f.specular_aa);
     plan.uniform = !m.textured && !m.uses_color;
     if (plan.uniform)
         plan.at = fetch_lanes(f, m, visible_point{});
@@ -42,7 +43,7 @@ BN_INLINE line_record shade_planned(frame_ref f, material_ref m, const MaterialP
     if (!plan.uniform)
         fetched = fetch_lanes(f, m, p);
     const material_inputs& at = plan.uniform ? plan.at : fetched;
-    const lobe_shape shape = plan.one_shape ? plan.shape : lobe_shape_of(f, m, at);
+    const lobe_shape shape = plan.one_shape ? plan.shape : lobe_shape_at(f, m, at, p);
     return shade_fragments<kTechnique>(f, m, at, shape, p, x, y);
 }
 

@@ -193,7 +193,7 @@ void shade_slot(const Tile& t, const view_params& view, const MaterialRecord& m,
         return;
     }
     const int more = t.f.light_count | t.f.area_light_count | t.f.key_light_count | t.f.energy_compensation | t.f.dfg_fit | t.f.fresnel |
-                     t.f.diffuse_model;
+                     t.f.diffuse_model | t.f.specular_aa;
     if (plan.uniform && !more && !m.refracts && t.f.lobe == PlainFrame::lobe) {
         constexpr int kTraits = kTechniqueTraits[static_cast<int>(kTechnique)];
         constexpr bool kAlsoRound = (kTraits & kAutoRound) != 0;
@@ -212,6 +212,30 @@ void shade_slot(const Tile& t, const view_params& view, const MaterialRecord& m,
             store_lines(t, b, light);
         else
             store_batch(t, b, light.rest);
+    }
+}
+
+// Of what each pixel shows at its central sample.
+void draw_layers(const Tile& t, const view_params& view, const MaterialRecord& m, std::uint32_t begin, std::uint32_t end)
+{
+    const integer central = int_lit(1 << t.f.layer_sample);
+    for (std::uint32_t i = begin; i < end; i += kLanes) {
+        const Batch b = load_batch(t, i, end);
+        const mask seen = (b.samples & central) != int_lit(0);
+        if (none(seen))
+            continue;
+        const visible_point p = make_fragment(t.f, m, view, t.s, b.triangle, b.common, b.x, b.y, b.samples);
+        float words[kLayerWords][kLanes];
+        LaneWriter writer{words[0]};
+        record_layers(writer, layers_of(t.f, m, fetch_lanes(t.f, m, p), p));
+        std::int32_t pixel[kLanes];
+        store_int(pixel, b.x + b.y * int_lit(t.f.width));
+        for (std::uint32_t bits = to_bits(seen) & ((1u << b.n) - 1); bits; bits &= bits - 1) {
+            const int lane = __builtin_ctz(bits);
+            float* const to = t.s.output_layers + std::ptrdiff_t{kLayerWords} * pixel[lane];
+            for (int k = 0; k < kLayerWords; ++k)
+                to[k] = words[k][lane];
+        }
     }
 }
 
@@ -242,6 +266,8 @@ void render_tile(const FrameParams& f, int tile_x, int tile_y, TileScratch& s)
     for (int k = 1; shared && k < slots; ++k)
         if (f.materials[s.slot_material[k]].technique_traits & kSharesSamples)
             share_slot(t, s.slot_begin[k], s.slot_begin[k + 1]);
+    for (int k = 1; s.output_layers && k < slots; ++k)
+        draw_layers(t, view, f.materials[s.slot_material[k]], s.slot_begin[k], s.slot_begin[k + 1]);
     if (s.output_pairs) {
         record_depths(f, t.x0, t.y0, t.width, t.height, s);
         record_fragments(f, view, t.x0, t.y0, s);

@@ -29,6 +29,7 @@ struct WorkerScratch {
     Column<ClipRecord> clips;
     Column<std::int32_t> fragment_triangle, fragment_pixel, fragment_mask, order, slot_of_material, slot_material, sharing_of_pixel,
         next_sharing;
+    std::vector<PixelPart> parts;
     FrameStats stats;
 
     void prepare(int tile_size, int msaa, std::size_t materials, bool shares)
@@ -46,7 +47,7 @@ struct WorkerScratch {
             lines.resize(16 * samples), next_sharing.resize(samples), sharing_of_pixel.resize(kMaxTileSize * kMaxTileSize);
         slot_begin.resize(materials + 3), slot_material.resize(materials + 2), slot_of_material.resize(materials);
         std::fill(slot_of_material.begin(), slot_of_material.end(), -1);
-        stats = {};
+        stats = {}, parts.clear();
     }
 
     // Grows to the largest tile that this worker has met, and keeps that from frame to frame.
@@ -89,6 +90,7 @@ struct WorkerScratch {
                 frame.triangle_ids.empty() ? nullptr : frame.triangle_ids.data(),
                 frame.stages.depths.empty() ? nullptr : frame.stages.depths.data(),
                 frame.stages.pairs.empty() ? nullptr : frame.stages.pairs.data(),
+                frame.layers.empty() ? nullptr : frame.layers.data()->depth,
                 nullptr};
     }
 };
@@ -104,7 +106,7 @@ class TileRenderer final : public Renderer {
 
   private:
     FrameParams frame_params(const FrameDesc& desc);
-    void draw_tiles(const FrameParams& f, Frame& frame, Profiler* profiler);
+    void draw_tiles(const FrameParams& f, bool parts_wanted, Frame& frame, Profiler* profiler);
 
     RenderInput input_;
     Isa isa_;
@@ -141,7 +143,21 @@ std::vector<std::uint32_t> tiles_to_cut(const std::vector<std::uint32_t>& triang
     return cut;
 }
 
-void TileRenderer::draw_tiles(const FrameParams& f, Frame& frame, Profiler* profiler)
+// The tile's fragments that leave some of their pixel to others. x0, y0: its corner, pixels.
+void collect_parts(const FrameParams& f, int x0, int y0, const TileScratch& s, std::vector<PixelPart>& to)
+{
+    const std::uint32_t whole = (1u << f.msaa) - 1;
+    for (std::uint32_t i = 0; i < s.fragment_count; ++i) {
+        const std::uint32_t samples = static_cast<std::uint32_t>(s.fragment_mask[i]);
+        if (samples == whole)
+            continue;
+        const int x = x0 + (s.fragment_pixel[i] & 255), y = y0 + (s.fragment_pixel[i] >> 8);
+        to.push_back(pixel_part(static_cast<std::uint32_t>(y * f.width + x), samples, s.fragment_triangle[i] < 0,
+                                {s.red[i], s.green[i], s.blue[i]}));
+    }
+}
+
+void TileRenderer::draw_tiles(const FrameParams& f, bool parts_wanted, Frame& frame, Profiler* profiler)
 {
     const TraceSpan span("tiles");
     workers_.resize(static_cast<std::size_t>(input_.jobs.threads()));
@@ -177,6 +193,8 @@ void TileRenderer::draw_tiles(const FrameParams& f, Frame& frame, Profiler* prof
         scratch.clips = w.clips.data();
         work.lap(FrameStage::gather);
         fns_.render_tile(p, x, y, scratch);
+        if (parts_wanted)
+            collect_parts(p, x * p.tile_size, y * p.tile_size, scratch, w.parts);
         w.stats.visible_fragments += scratch.fragment_count - scratch.background_pixels;
         w.stats.background_pixels += scratch.background_pixels;
         if (profiler)
@@ -193,7 +211,10 @@ void TileRenderer::draw_tiles(const FrameParams& f, Frame& frame, Profiler* prof
     for (const WorkerScratch& w : workers_) {
         frame.stats.visible_fragments += w.stats.visible_fragments;
         frame.stats.background_pixels += w.stats.background_pixels;
+        frame.parts.insert(frame.parts.end(), w.parts.begin(), w.parts.end());
     }
+    std::sort(frame.parts.begin(), frame.parts.end(),
+              [](const PixelPart& a, const PixelPart& b) { return a.pixel != b.pixel ? a.pixel < b.pixel : a.first < b.first; });
 }
 
 std::size_t tiles_of(const FrameDesc& d)
@@ -216,6 +237,8 @@ Frame frame_for(const FrameDesc& desc, Frame recycled)
         frame.triangle_ids.resize(samples);
     if (desc.stages)
         frame.stages.depths.resize(samples), frame.stages.pairs.resize(samples * kPairWords);
+    if (desc.layers)
+        frame.layers.resize(samples / static_cast<std::size_t>(desc.msaa));
     return frame;
 }
 
@@ -240,7 +263,7 @@ Result<Frame> TileRenderer::render(const FrameDesc& desc, Frame recycled)
     before.end();
     transform_draws(f, input_.tables, visible, fns_, input_.jobs, profiler);
     bins_.build(f, input_.tables, visible, fns_, input_.jobs, profiler);
-    draw_tiles(f, frame, profiler);
+    draw_tiles(f, desc.parts, frame, profiler);
     if (desc.stages)
         fns_.record_vertices(f, static_cast<std::uint32_t>(input_.tables.px.size()), frame.stages.vertices.data());
     if (profiler)

@@ -119,6 +119,7 @@ struct TileScratch {
     float* output;                               // the frame's RGB pixels
     std::uint32_t* output_ids;                   // the frame's triangle ids [pixel][sample], or null
     std::uint32_t *output_depths, *output_pairs; // its stage records, or null
+    float* output_layers;                        // [pixel][kLayerWords] its layers, or null
     TileClock* clock;                            // null unless the frame is profiled
 };
 

@@ -1,6 +1,8 @@
 #include "raster/vulkan/vulkan_renderer.h"
 
 #include <algorithm>
+#include <bit>
+#include <cstring>
 
 #include "core/base/check.h"
 #include "core/base/clock.h"
@@ -23,10 +25,23 @@ constexpr VkFormat kIdFormat = VK_FORMAT_R32G32_SFLOAT; // lower and upper 16 bi
 constexpr VkFormat kDepthFormat = VK_FORMAT_D32_SFLOAT;
 constexpr std::uint32_t kMinSetups = 1024;
 
+std::int32_t recorded_of(const FrameDesc& desc)
+{
+    return (desc.stages ? kGpuRecordStages : 0) | (desc.layers ? kGpuRecordLayers : 0) | (desc.parts ? kGpuRecordColors : 0);
+}
+
+// Words that are recorded of so many pixels.
+std::size_t recorded_words(const FrameDesc& desc, std::size_t pixels)
+{
+    const std::size_t samples = pixels * static_cast<std::size_t>(desc.msaa);
+    return (desc.stages ? samples * kPairWords : 0) + (desc.layers ? pixels * kLayerWords : 0) + (desc.parts ? 3 * samples : 0);
+}
+
 // Images and buffers of one band.
 struct Targets {
     int width = 0, rows = 0, msaa = 0; // 0: none
-    bool stages = false, native = false, shares = false;
+    std::int32_t recorded = 0;         // kGpuRecordStages...
+    bool native = false, shares = false;
     DeviceImage id, depth;
     Buffer ids, depths, color, records, lines;
 };
@@ -101,15 +116,14 @@ void VulkanRenderer::make_targets(const FrameDesc& desc)
                                                       : std::any_of(materials.begin(), materials.end(),
                                                                     [](const MaterialRecord& m) { return m.anisotropic != 0; });
     const bool shares = (technique_of(desc, anisotropic).traits & kSharesSamples) != 0;
-    const std::size_t of_sample =
-        std::max<std::size_t>({1, desc.stages ? std::size_t{kPairWords} : 0, shares ? std::size_t{kGpuLineWords} : 0});
-    const std::size_t words = std::max<std::size_t>(3, msaa * of_sample); // a pixel
+    const std::size_t words =
+        std::max({std::size_t{3}, msaa * static_cast<std::size_t>(shares ? kGpuLineWords : 1), recorded_words(desc, 1)}); // a pixel
     const int rows = band_rows(desc.width, desc.height, words * sizeof(float), band_bytes());
     Targets t;
-    t.width = desc.width, t.rows = rows, t.msaa = desc.msaa, t.stages = desc.stages, t.shares = shares;
+    t.width = desc.width, t.rows = rows, t.msaa = desc.msaa, t.recorded = recorded_of(desc), t.shares = shares;
     t.native = desc.msaa == 1 ||
                ((context_.features().target_samples & static_cast<VkSampleCountFlags>(desc.msaa)) && context_.features().standard_samples);
-    if (t.width == targets_.width && t.rows == targets_.rows && t.msaa == targets_.msaa && t.stages == targets_.stages &&
+    if (t.width == targets_.width && t.rows == targets_.rows && t.msaa == targets_.msaa && t.recorded == targets_.recorded &&
         t.shares == targets_.shares)
         return;
     targets_ = Targets();
@@ -124,7 +138,7 @@ void VulkanRenderer::make_targets(const FrameDesc& desc)
     t.ids = Buffer(context_, samples * sizeof(std::int32_t), Buffer::Place::host);
     t.depths = Buffer(context_, samples * sizeof(float), Buffer::Place::host);
     t.color = Buffer(context_, 3 * pixels * sizeof(float), Buffer::Place::host);
-    t.records = Buffer(context_, desc.stages ? samples * kPairWords * sizeof(std::uint32_t) : 0, Buffer::Place::host);
+    t.records = Buffer(context_, recorded_words(desc, pixels) * sizeof(std::uint32_t), Buffer::Place::host);
     t.lines = Buffer(context_, shares ? samples * kGpuLineWords * sizeof(float) : 0, Buffer::Place::device);
     targets_ = std::move(t); // only what was made whole
 }
@@ -256,7 +270,7 @@ void VulkanRenderer::shade(VkCommandBuffer c, const FrameDesc& desc, const Band&
     const bool shares = any_shares_samples(scene_.materials_of_frame());
     const Used others = used_by(device_->options.frames, shares);
     Specialization constants = technique_constants(scene_.materials_of_frame(), scene_.record(), others);
-    constants.insert(constants.end(), {desc.stages, shares});
+    constants.insert(constants.end(), {recorded_of(desc), shares});
     if (desc.stages)
         vkCmdFillBuffer(c, targets_.records.handle(), 0, VK_WHOLE_SIZE, 0);
     full_barrier(c);
@@ -293,6 +307,23 @@ void VulkanRenderer::submit(VkCommandBuffer c)
     device_ms_ += wall_ms() - wall, device_cpu_ms_ += process_cpu_ms() - cpu;
 }
 
+// ids, colors: by sample of a band that begins with pixel `before` of the picture; colours at the first sample of each pair.
+void add_parts(int msaa, std::size_t before, std::size_t pixels, const std::int32_t* ids, const float* colors, std::vector<PixelPart>& to)
+{
+    const std::uint32_t whole = (1u << msaa) - 1;
+    for (std::size_t p = 0; p < pixels; ++p, ids += msaa, colors += 3 * msaa)
+        for (std::uint32_t rest = whole; rest;) {
+            const int begin = std::countr_zero(rest);
+            std::uint32_t samples = 0;
+            for (int s = begin; s < msaa; ++s)
+                samples |= ids[s] == ids[begin] ? 1u << s : 0u;
+            rest &= ~samples;
+            const float* const c = colors + 3 * begin;
+            if (samples != whole)
+                to.push_back(pixel_part(static_cast<std::uint32_t>(before + p), samples, ids[begin] == kGpuNoTriangle, {c[0], c[1], c[2]}));
+        }
+}
+
 // What a band holds to its rows of the frame.
 void VulkanRenderer::read_band(const FrameDesc& desc, const Band& band, Frame& frame)
 {
@@ -314,10 +345,18 @@ void VulkanRenderer::read_band(const FrameDesc& desc, const Band& band, Frame& f
             frame.triangle_ids[first * msaa + i] =
                 ids[i] == kGpuNoTriangle ? kNoTriangle : static_cast<std::uint32_t>(setups[ids[i]].triangle);
     }
-    if (!desc.stages)
-        return;
-    std::copy_n(targets_.depths.as<std::uint32_t>(), pixels * msaa, frame.stages.depths.data() + first * msaa);
-    std::copy_n(targets_.records.as<std::uint32_t>(), pixels * msaa * kPairWords, frame.stages.pairs.data() + first * msaa * kPairWords);
+    const std::uint32_t* records = targets_.records.as<std::uint32_t>();
+    if (desc.stages) {
+        std::copy_n(targets_.depths.as<std::uint32_t>(), pixels * msaa, frame.stages.depths.data() + first * msaa);
+        std::copy_n(records, pixels * msaa * kPairWords, frame.stages.pairs.data() + first * msaa * kPairWords);
+        records += pixels * msaa * kPairWords;
+    }
+    if (desc.layers) {
+        std::memcpy(static_cast<void*>(frame.layers.data() + first), records, pixels * sizeof(PixelLayers));
+        records += pixels * kLayerWords;
+    }
+    if (desc.parts)
+        add_parts(desc.msaa, first, pixels, ids, reinterpret_cast<const float*>(records), frame.parts);
 }
 
 // A frame with room for what is asked for.
@@ -331,6 +370,8 @@ Frame empty_frame(const FrameDesc& desc)
         frame.triangle_ids.resize(samples);
     if (desc.stages)
         frame.stages.depths.resize(samples), frame.stages.pairs.resize(samples * kPairWords);
+    if (desc.layers)
+        frame.layers.resize(samples / static_cast<std::size_t>(desc.msaa));
     return frame;
 }
 
@@ -388,6 +429,8 @@ Result<Frame> VulkanRenderer::render(const FrameDesc& desc, Frame)
     const bool forward = device_->options.pipeline != VulkanPipeline::ids;
     if (device_->options.pipeline == VulkanPipeline::lean && (desc.stages || desc.triangle_ids))
         return Error{ExitCode::usage, "", "--pipeline", "lean has neither stages nor triangle ids"};
+    if (forward && (desc.layers || desc.parts))
+        return Error{ExitCode::usage, "", "--pipeline", "only ids has layers and parts of pixels"};
     if (forward && desc.triangle_ids && !desc.stages)
         return Error{ExitCode::usage, "", "--pipeline", "forward has triangle ids only among its stages"};
     try {

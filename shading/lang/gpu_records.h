@@ -22,7 +22,8 @@ const int kGpuFirstAreaWay = 16; // bit of a stage's constant 1; lobes have thos
 // every snapped position survives the driver's arithmetic, and no whole triangle leaves a guard band of the same width on either side.
 const int kGpuViewportHalf = 8192;
 
-const int kGpuLineWords = 16; // line_record (shading/techniques/shared_line.k.h)
+const int kGpuRecordStages = 1, kGpuRecordLayers = 2, kGpuRecordColors = 4; // bits of what a band records: stages/records.glsl
+const int kGpuLineWords = 16;                                               // line_record (shading/techniques/shared_line.k.h)
 // The forward pipeline records a sample's words four at a time, as colours: 0 triangle ids, then interpolants and material inputs, then
 // colour.
 const int kGpuForwardGroups = 1 + (kInterpolantWords + kMaterialWords + 3) / 4, kGpuColorGroup = kGpuForwardGroups;

@@ -1,4 +1,4 @@
-// How many words recorded stages hold of a visible (pixel, triangle) pair. One text for C++ and GLSL.
+// How many words recorded stages hold of a visible (pixel, triangle) pair, and layers of a pixel. One text for C++ and GLSL.
 #ifndef BN_RECORDED_H
 #define BN_RECORDED_H
 
@@ -16,6 +16,10 @@ const int kMaterialWords = 0
 #include "shading/material.def"
     ;
 const int kPairWords = 1 + kInterpolantWords + kMaterialWords + 3; // mask of its samples, interpolants, material inputs, colour
+const int kLayerWords = 0
+#define BN_LAYER(type, words, name, channels) +words
+#include "shading/layers.def"
+    ;
 
 #ifdef __cplusplus
 }

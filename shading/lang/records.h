@@ -119,7 +119,8 @@ struct FrameRecord {
     int light_count;
     int area_light_count; // 0 where the frame wants none of their light
     LtcTableRecord ltc;
-    int positions; // something asks where visible points lie
+    int positions;    // something asks where visible points lie
+    int layer_sample; // of a pixel, that its layers are drawn of: kLayerWords of each; -1: none are
     int background, samples, texture_taps;
     int joins_round; // round lobes are drawn by another technique than brushed ones, which go over to it as they become round
 #define BN_RECORD_number(id) float id;

@@ -7,6 +7,7 @@
 //   material_ref m, the_material(m).metallic...   a material's record; texture_used(m, kNormalTex)
 //   texture_fetches t = textures_at(f, m, p); texel_of(t, kNormalTex)   what its textures, where they are used, hold at a visible_point:
 //                                        to be asked for once each, as lanes fetch then and GLSL has fetched all
+//   texel_beside(f, m, slot, p)          a slot's texture, where it is used, at another point
 //   texture_desc_of(f, m, slot); texel_at_level(one_level, slot, uv)   a slot's texture, where it is used, and a texel of it, anywhere
 //   dfg_texels(f) lobe_albedo_texels(f) lobe_slice_texels(f)   tables for dfg_lookup(), lobe_albedo_lookup(), lobe_slice_lookup()
 //   ltc_texels(f)                        of the table of transformed cosines, for ltc_lookup()

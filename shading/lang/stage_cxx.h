@@ -149,5 +149,11 @@ BN_INLINE texture_fetches textures_at(frame_ref f, material_ref m, const visible
     return {f, m, p};
 }
 
+BN_STAGE real4 texel_beside(const ShadingFrame& f, const MaterialRecord& m, int slot, const visible_point& p)
+{
+    const texture_fetches t(f, m, p);
+    return texel_of(t, slot);
+}
+
 } // namespace BN_ISA_NS
 } // namespace burnish

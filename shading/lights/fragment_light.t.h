@@ -30,8 +30,8 @@ BN_STAGE real3 light_of_area_lights(any_frame f, BN_IN(shaded_point) x, int lobe
     return light_from_area(f, x, lobe, position);
 }
 
-// shape: lobe_shape_of(f, m, at). px, py: pixel. shares: the technique shares samples, and fragments meet their neighbours; the colour is
-// then made of what they all found (line_mean).
+// shape: lobe_shape_at(f, m, at, p). px, py: pixel. shares: the technique shares samples, and fragments meet their neighbours; the colour
+// is then made of what they all found (line_mean).
 BN_FN line_record light_of_fragment(frame_ref f, material_ref m, technique_ref t, BN_IN(material_inputs) at, BN_IN(lobe_shape) shape,
                                     BN_IN(visible_point) p, integer px, integer py, bool shares)
 {

@@ -7,6 +7,7 @@
 #include "shading/lights/fragment_light.t.h"
 #include "shading/surface/coverage.t.h"
 #include "shading/surface/relief.t.h"
+#include "shading/surface/specular_aa.t.h"
 #include "shading/stages/pass.glsl"
 
 #ifdef BN_CENTROID // the device's own place in partly covered pixels: cheaper, and elsewhere
@@ -90,6 +91,8 @@ vec2 shaded_offset(int px, int py)
 visible_point point_of_fragment(int px, int py)
 {
     visible_point p;
+    p.normal_dx = dFdxFine(normal);
+    p.normal_dy = dFdyFine(normal);
     p.uv0_dx = dFdxFine(uv.xy); // of pixel centres, by row and column of the quad
     p.uv1_dx = dFdxFine(uv.zw);
     p.uv0_dy = dFdyFine(uv.xy);
@@ -148,7 +151,7 @@ void main()
     record_material(word, at);
 #else
     // alone: fragments do not meet their neighbours
-    line_record light = light_of_fragment(0, m, materials[m].technique, at, lobe_shape_of(0, m, at), p, px, py, false);
+    line_record light = light_of_fragment(0, m, materials[m].technique, at, lobe_shape_at(0, m, at, p), p, px, py, false);
     radiance = vec4(light.rest, 1.0);
 #endif
 }

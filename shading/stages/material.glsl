@@ -67,6 +67,11 @@ real4 fetch_texture(material_ref material, int slot, visible_point p)
 #endif
 }
 
+real4 texel_beside(int f, material_ref m, int slot, visible_point p)
+{
+    return fetch_texture(m, slot, p);
+}
+
 struct texture_fetches {
     real4 texel[kTextureSlots]; // of slots that are used
 };

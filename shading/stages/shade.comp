@@ -7,28 +7,27 @@ layout(local_size_x = 64) in;
 #include "shading/lights/background.t.h"
 #include "shading/lights/fragment_light.t.h"
 #include "shading/surface/relief.t.h"
+#include "shading/surface/specular_aa.t.h"
 #include "shading/surface/visible_point.t.h"
 #include "shading/stages/pass.glsl"
-
-layout(constant_id = 2) const bool kRecords = false; // writes the stages of each pair, for comparisons
+#include "shading/stages/records.glsl"
+#include "shading/surface/layers.t.h"
 
 layout(std430, set = 0, binding = 11) readonly buffer BnIds { int ids[]; };
 layout(std430, set = 0, binding = 13) writeonly buffer BnColor { float colors[]; };
 layout(constant_id = 3) const bool kShares = false; // some materials share samples: colours are made by share.comp
 
-layout(std430, set = 0, binding = 14) writeonly buffer BnRecords { int records[]; }; // [pixel of the band][first sample][kPairWords]
-
 #include "shading/stages/lines.glsl"
 
-int record_at;
-
-#define BN_TAKE_WORD(at, x) records[at] = floatBitsToInt(x);
-#include "shading/surface/recorded.t.h"
-
-line_record shade_pair(int slot, int px, int py, int covered)
+// pixel: of the band. pair: of its samples, the pair's first.
+line_record shade_pair(int slot, int px, int py, int covered, int pixel, int pair)
 {
+    if (recorded(kGpuRecordStages))
+        records[stages_at(pair)] = covered;
+    bool central = recorded(kGpuRecordLayers) && (covered >> frame.layer_sample & 1) != 0;
     if (slot == kGpuNoTriangle) {
-        record_at += kInterpolantWords + kMaterialWords;
+        for (int i = 0; central && i < kLayerWords; ++i)
+            records[layers_at(pixel) + i] = 0;
         return line_alone(background_color(0, view_params_of(frame.view), px, py));
     }
     triangle_setup t = load_setup(slot);
@@ -38,12 +37,17 @@ line_record shade_pair(int slot, int px, int py, int covered)
     if (materials[m].relief != 0)
         see_relief(0, m, relief_plane_of(0, t), p);
     material_inputs at = fetch_material(0, m, p);
-    if (kRecords) {
-        record_point(record_at, p, uses_color, textured, lights);
-        record_material(record_at, at);
+    if (recorded(kGpuRecordStages)) {
+        int w = stages_at(pair) + 1;
+        record_point(w, p, uses_color, textured, lights);
+        record_material(w, at);
+    }
+    if (central) {
+        int w = layers_at(pixel);
+        record_layers(w, layers_of(0, m, at, p));
     }
     bool shares = kShares && (materials[m].technique_traits & kSharesSamples) != 0;
-    return light_of_fragment(0, m, materials[m].technique, at, lobe_shape_of(0, m, at), p, px, py, shares);
+    return light_of_fragment(0, m, materials[m].technique, at, lobe_shape_at(0, m, at, p), p, px, py, shares);
 }
 
 void main()
@@ -61,15 +65,12 @@ void main()
             if ((rest >> s & 1) != 0 && ids[first + s] == slot)
                 covered |= 1 << s;
         rest &= ~covered;
-        record_at = (first + begin) * kPairWords + 1;
-        if (kRecords)
-            records[record_at - 1] = covered;
-        line_record shaded = shade_pair(slot, px, py, covered);
+        line_record shaded = shade_pair(slot, px, py, covered, pixel, first + begin);
         real3 color = shaded.rest;
         if (kShares)
             store_line(first + begin, shaded);
-        else if (kRecords)
-            put_real3(record_at, color);
+        else if (kRecords != 0)
+            record_color(first + begin, color);
         real weight = covered_share(covered, inv);
         sum = sum + color * weight;
     }

@@ -6,13 +6,11 @@ layout(local_size_x = 64) in;
 #include "shading/stages/interface.glsl"
 #include "shading/stages/lines.glsl"
 #include "shading/stages/pass.glsl"
+#include "shading/stages/records.glsl"
 #include "shading/surface/coverage.t.h"
-
-layout(constant_id = 2) const bool kRecords = false; // writes the colour of each pair, for comparisons
 
 layout(std430, set = 0, binding = 11) readonly buffer BnIds { int ids[]; };
 layout(std430, set = 0, binding = 13) writeonly buffer BnColor { float colors[]; };
-layout(std430, set = 0, binding = 14) writeonly buffer BnRecords { int records[]; };
 
 // Samples of the pair whose first sample is `begin`.
 int samples_of_pair(int first, int begin)
@@ -58,9 +56,8 @@ void main()
         real3 color = own.rest;
         if (own.width >= 0.0)
             color = shared_colour(own, x, y);
-        if (kRecords)
-            for (int c = 0; c < 3; ++c)
-                records[(first + begin + 1) * kPairWords - 3 + c] = floatBitsToInt(color[c]);
+        if (kRecords != 0)
+            record_color(first + begin, color);
         real weight = covered_share(covered, inv);
         sum = sum + color * weight;
     }

@@ -35,6 +35,14 @@ BN_FN real4 base_color_of(material_ref m, BN_IN(texture_fetches) t, BN_IN(visibl
     return vec4_of(color.x, color.y, color.z, alpha);
 }
 
+// Tangent space, any length.
+BN_FN real3 normal_of_texel(material_ref m, real4 texel)
+{
+    real3 n = rgb_of(texel) * lit(2.0) - vec3_all(lit(1.0));
+    real scale = splat(the_material(m).normal_scale);
+    return vec3_of(n.x * scale, n.y * scale, n.z);
+}
+
 // As fetch_material() finds it.
 BN_FN real fetch_alpha(frame_ref f, material_ref m, BN_IN(visible_point) p)
 {
@@ -58,11 +66,8 @@ BN_FN material_inputs fetch_material(frame_ref f, material_ref m, BN_IN(visible_
         r.metallic = r.metallic * factors.z;
     }
     r.normal_map = vec3_of(lit(0.0), lit(0.0), lit(1.0));
-    if (texture_used(m, kNormalTex)) {
-        real3 n = rgb_of(texel_of(t, kNormalTex)) * lit(2.0) - vec3_all(lit(1.0));
-        real scale = splat(the_material(m).normal_scale);
-        r.normal_map = vec3_of(n.x * scale, n.y * scale, n.z);
-    }
+    if (texture_used(m, kNormalTex))
+        r.normal_map = normal_of_texel(m, texel_of(t, kNormalTex));
     r.occlusion = lit(1.0);
     if (texture_used(m, kOcclusionTex))
         r.occlusion = lit(1.0) + splat(the_material(m).occlusion_strength) * (texel_of(t, kOcclusionTex).x - lit(1.0));

@@ -140,19 +140,21 @@ BN_FN surface_frame frame_by_map(material_ref m, surface_frame axes, real3 map, 
     return mapped_frame(axes, map, handedness);
 }
 
-// Fills x.
-BN_FN void make_shaded_point(frame_ref f, material_ref m, BN_IN(material_inputs) at, BN_IN(lobe_shape) shape, BN_IN(visible_point) p,
-                             integer pixel_id, BN_INOUT(shaded_point) x)
+// The frame of the geometry; a surface seen from behind shows its other side.
+BN_FN real seen_handedness(BN_IN(visible_point) p)
 {
-    x.pixel_id = pixel_id;
-    real3 v = k_normalize3(-p.ray);
-    // a surface seen from behind shows its other side
+    return select(p.front, p.tangent_sign, -p.tangent_sign);
+}
+BN_FN surface_frame seen_axes(BN_IN(visible_point) p)
+{
     real3 normal = select(p.front, p.normal, -p.normal);
-    real handedness = select(p.front, p.tangent_sign, -p.tangent_sign);
-    x.surface_axes = geometric_frame(normal, p.tangent, handedness);
-    surface_frame axes = x.surface_axes;
-    bool mapped = texture_used(m, kNormalTex);
-    if (mapped)
+    return geometric_frame(normal, p.tangent, seen_handedness(p));
+}
+
+// The frame that the lobe lies in: that of the geometry turned by the normal map, and tilted.
+BN_FN surface_frame lobe_axes(frame_ref f, material_ref m, BN_IN(material_inputs) at, surface_frame axes, real handedness)
+{
+    if (texture_used(m, kNormalTex))
         axes = frame_by_map(m, axes, at.normal_map, handedness);
     if (lies_in_surface(f) && the_material(m).tilt_mapped != 0) {
         real2 slope = at.slope + vec2_of(splat(the_material(m).tilt_slope[0]), splat(the_material(m).tilt_slope[1]));
@@ -160,7 +162,18 @@ BN_FN void make_shaded_point(frame_ref f, material_ref m, BN_IN(material_inputs)
     } else if (lies_in_surface(f))
         axes = tilted_frame(axes, vec2_of(splat(the_material(m).tilt_cos[0]), splat(the_material(m).tilt_cos[1])),
                             vec2_of(splat(the_material(m).tilt_sin[0]), splat(the_material(m).tilt_sin[1])));
-    x.turned = (mapped && the_frame(f).horizon != 0) || leans(f, m);
+    return axes;
+}
+
+// Fills x.
+BN_FN void make_shaded_point(frame_ref f, material_ref m, BN_IN(material_inputs) at, BN_IN(lobe_shape) shape, BN_IN(visible_point) p,
+                             integer pixel_id, BN_INOUT(shaded_point) x)
+{
+    x.pixel_id = pixel_id;
+    real3 v = k_normalize3(-p.ray);
+    x.surface_axes = seen_axes(p);
+    surface_frame axes = lobe_axes(f, m, at, x.surface_axes, seen_handedness(p));
+    x.turned = (texture_used(m, kNormalTex) && the_frame(f).horizon != 0) || leans(f, m);
     x.lobe = lobe_in_frame(m, shape, axes);
     x.diffuse = the_material(m).metallic < 1.0f || texture_used(m, kMetalRoughTex);
     x.dielectric_f0 = at.dielectric_f0;

@@ -10,6 +10,7 @@ struct visible_point {
 #define BN_POINT(type, words, name, asked) type name;
 #define BN_INTERPOLATED(type, words, name, asked, first) type name;
 #include "shading/visible_point.def"
+    real3 normal_dx, normal_dy; // change of `normal` by one pixel to the right and down, where the frame's specular_aa asks; never recorded
 };
 
 struct vertex_words { // of a vertex (DrawTables::shading), or a blend of several vertices'

@@ -13,6 +13,13 @@
 
 BN_KERNELS_BEGIN
 
+BN_FN real3 blend_normal(frame_ref f, triangle_ref t, real3 b)
+{
+    vertex_words a;
+    blend_vertices(f, t, b, false, a);
+    return real3_of_words(a, 0);
+}
+
 // view: the frame's. px, py: pixel in the image. samples: mask of those that the triangle covers there. uses_color, textured, lights: what
 // is asked for (shading/visible_point.def). It lies at the pixel's centre where the triangle covers that; else at the mean of the covered
 // samples, which lies in the triangle.
@@ -47,13 +54,21 @@ BN_FN visible_point point_of(frame_ref f, BN_IN(view_params) view, triangle_ref 
         real3 v2 = vertex_place(f, t, 2);
         p.position = w.b.x * v0 + w.b.y * v1 + w.b.z * v2;
     }
-    if (!textured)
+    bool bends = the_frame(f).specular_aa != 0;
+    if (!textured && !bends)
         return p;
     // the other pixel of the quad in x and in y: to the right of or below an even one, to the left of or above an odd one
     integer odd_x = px & int_lit(1);
     integer odd_y = py & int_lit(1);
     bary_weights wx = weights_at(t, middle_x + int_lit(kSubpixel) - shl(odd_x, 9), middle_y);
     bary_weights wy = weights_at(t, middle_x, middle_y + int_lit(kSubpixel) - shl(odd_y, 9));
+    if (bends) {
+        real3 normal = blend_normal(f, t, center.b);
+        p.normal_dx = (blend_normal(f, t, wx.b) - normal) * to_real(int_lit(1) - shl(odd_x, 1));
+        p.normal_dy = (blend_normal(f, t, wy.b) - normal) * to_real(int_lit(1) - shl(odd_y, 1));
+    }
+    if (!textured)
+        return p;
     real4 here = blend_coordinates(f, t, center.b);
     real4 dx = (blend_coordinates(f, t, wx.b) - here) * to_real(int_lit(1) - shl(odd_x, 1));
     real4 dy = (blend_coordinates(f, t, wy.b) - here) * to_real(int_lit(1) - shl(odd_y, 1));

@@ -13,6 +13,7 @@ from harness import Skipped, case, check
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 COARSE = ("--env-size", "64", "--env-samples", "32")  # a bake of a second
 STAGES = ["clip positions", "visibility", "depth", "interpolants", "material inputs", "shaded colour", "resolved colour"]
+OF_IDS = [*STAGES, "layers"]  # of --pipeline ids
 
 
 def parity(bench, *arguments, also=(), code=0, timeout=540.0, device="lavapipe"):
@@ -32,10 +33,10 @@ def check_equal(report):
     check(report["passed"], "the report does not say that it passed")
     for row in report["rows"]:
         name = f"{row['scene']} {row['technique']} {row['msaa']}x"
-        check([stage["name"] for stage in row["stages"]] == STAGES, f"{name}: other stages")
+        check([stage["name"] for stage in row["stages"]] == OF_IDS, f"{name}: other stages")
         check(row["visibility_differ"] == 0 and row["first_difference"] is None, f"{name}: {row}")
         check(row["samples"] == report["width"] * report["height"] * row["msaa"], f"{name}: wrong number of samples")
-        for stage in row["stages"][:3] + row["stages"][-2:]:
+        for stage in row["stages"][:3] + row["stages"][-3:]:
             check(stage["values"] > 0, f"{name}: nothing was compared in {stage['name']}")
         for stage in row["stages"] if row["scene"].startswith("builtin:") else ():
             check(stage["values"] > 0, f"{name}: nothing was compared in {stage['name']}")
@@ -439,6 +440,7 @@ DEFECTS = {
                                 ("lang/glsl.h", "#define real3 precise vec3", "#define real3 vec3"),
                                 ("lang/glsl.h", "#define real4 precise vec4", "#define real4 vec4")], "1",
                                {"interpolants", "material inputs", "shaded colour"}, "shade"),
+    "another_layer": ([("surface/layers.t.h", "r.normal = axes.n;", "r.normal = axes.b;")], "4", {"layers"}, "shade"),
 }
 
 
@@ -485,7 +487,7 @@ def add_defect(name, replacements, msaa, stages, only=None):
         # few samples lie on an edge: small pictures may have none
         report = compare_changed(bench, replacements, msaa, 1, only, "320x240" if name == "top_left_rule" else "128x96")
         first = [row["first_difference"] for row in report["rows"]]
-        first = min((f for f in first if f), key=STAGES.index, default=None)
+        first = min((f for f in first if f), key=OF_IDS.index, default=None)
         check(first in stages, f"expected the first difference in {stages}, found it in {first}")
 
 

@@ -41,6 +41,23 @@ def modes(bench):
     check(len(hashes) == 3, "two modes give one picture")
 
 
+@case("reference.bakes_only_what_it_reads")
+def bakes_little(bench):
+    """Without a bake in the cache it makes none, and its picture is the same."""
+    needs_embree(bench)
+    own = {"XDG_CACHE_HOME": str(bench.folder / "own")}
+    for environment in ("builtin:sky", "builtin:studio"):
+        words = (*SMALL, "--env", environment, "--samples", "64")
+        alone = bench.figures(*words, env=own)
+        check(not alone["environment_from_cache"] and not list((bench.folder / "own").rglob("*.bnenv")), f"{environment} was baked as a whole")
+        bench.figures("--size", "16x16", "--env", environment, *SMALL[4:], env=own)
+        cached = bench.figures(*words, env=own)
+        check(cached["environment_from_cache"], f"the bake of {environment} is not taken")
+        check(alone["pixel_hash"] == cached["pixel_hash"] and alone["key_lights"] == cached["key_lights"], f"{environment}: {alone} and {cached}")
+        for kept in (bench.folder / "own").rglob("*.bnenv"):
+            kept.unlink()
+
+
 @case("reference.samples_are_whole_passes")
 def passes(bench):
     needs_embree(bench)

@@ -25,6 +25,7 @@ import input_cases
 import install_cases
 import kill_cases
 import key_light_cases
+import layer_cases
 import light_cases
 import limit_cases
 import manual_cases

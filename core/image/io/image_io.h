@@ -27,11 +27,17 @@ Result<Image> decode_image(const std::uint8_t* data, std::size_t size, const std
 // and the Error has ExitCode::output_failed.
 Status write_image(const std::string& path, const Image& image);
 
+// OpenEXR of any channels, a name each, as write_image() writes it.
+Status write_channels(const std::string& path, const Image& image, const std::vector<std::string>& names);
+
 // An 8-bit picture as the bytes of a PNG file, for pages that carry their pictures.
 Result<std::string> encode_png(const Image& image);
 
 // True where the extension of `path` names a format that stores floats (exr, hdr, pfm).
 bool stores_floats(const std::string& path);
+
+// True where it names a format that takes channels of any name (exr).
+bool stores_channels(const std::string& path);
 
 // Writes bytes to `path` atomically (temporary name, rename), as write_image does.
 Status write_file(const std::string& path, const std::string& bytes);

@@ -39,8 +39,9 @@ struct ImageLibrary {
     // Errors of a damaged file have ExitCode::bad_input; those of `place` are handed on.
     Status (*read)(const ImageBytes& file, const ImageProbe& probe, const PlacePixels& place);
     // The bytes of a file of `format`, the library's name: openexr or hdr of float pixels, jpeg of 8-bit
-    // ones. `path` names it in errors, which have ExitCode::output_failed.
-    Result<std::vector<std::uint8_t>> (*encode)(const std::string& path, const Image& image, const char* format);
+    // ones. `path` names it in errors, which have ExitCode::output_failed. channels: names; empty: those of the image's number.
+    Result<std::vector<std::uint8_t>> (*encode)(const std::string& path, const Image& image, const char* format,
+                                                const std::vector<std::string>& channels);
 };
 
 // The one symbol of the module: extern "C" const ImageLibrary* burnish_image_library().

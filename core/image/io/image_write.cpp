@@ -97,7 +97,7 @@ Result<Bytes> encode_image(const std::string& path, const Image& image, const Fo
     const Result<const ImageLibrary*> library = image_library(path);
     if (!library)
         return library.error();
-    return (*library)->encode(path, fitted, format.name);
+    return (*library)->encode(path, fitted, format.name, {});
 }
 
 } // namespace
@@ -106,6 +106,12 @@ bool stores_floats(const std::string& path)
 {
     const Format format = format_of(path);
     return format.name && format.floats;
+}
+
+bool stores_channels(const std::string& path)
+{
+    const Format format = format_of(path);
+    return format.name && std::strcmp(format.name, "openexr") == 0;
 }
 
 Status write_image(const std::string& path, const Image& image)
@@ -121,6 +127,25 @@ Status write_image(const std::string& path, const Image& image)
         return output_error(path, format.floats ? "this format needs float pixels" : "this format needs 8-bit pixels");
     try {
         const Result<Bytes> bytes = encode_image(path, image, format);
+        if (!bytes)
+            return bytes.error();
+        return write_file_atomic(path, bytes->data(), bytes->size());
+    } catch (const std::exception& exception) {
+        return output_error(path, "the image cannot be encoded: " + first_line(exception.what()));
+    }
+}
+
+Status write_channels(const std::string& path, const Image& image, const std::vector<std::string>& names)
+{
+    BN_CHECK(image.width > 0 && image.height > 0 && image.type == PixelType::f32);
+    BN_CHECK_OP(names.size(), ==, static_cast<std::size_t>(image.channels));
+    if (!stores_channels(path))
+        return output_error(path, "this format has no channels of any name (exr)");
+    try {
+        const Result<const ImageLibrary*> library = image_library(path);
+        if (!library)
+            return library.error();
+        const Result<Bytes> bytes = (*library)->encode(path, image, format_of(path).name, names);
         if (!bytes)
             return bytes.error();
         return write_file_atomic(path, bytes->data(), bytes->size());

@@ -122,7 +122,7 @@ Status read(const ImageBytes& file, const ImageProbe& probe, const PlacePixels& 
     return {};
 }
 
-OIIO::ImageSpec spec_of(const Image& image, const char* format)
+OIIO::ImageSpec spec_of(const Image& image, const char* format, const std::vector<std::string>& channels)
 {
     OIIO::ImageSpec spec(image.width, image.height, image.channels, type_desc_of(image.type));
     // A date of the wrong type: the library then neither adds the present time nor writes this one.
@@ -132,8 +132,11 @@ OIIO::ImageSpec spec_of(const Image& image, const char* format)
         static const char* const kGray[] = {"Y", "A"};
         static const char* const kColour[] = {"R", "G", "B", "A"};
         const char* const* names = image.channels <= 2 ? kGray : kColour;
-        spec.channelnames.assign(names, names + image.channels);
-        spec.alpha_channel = image.channels % 2 == 0 ? image.channels - 1 : -1;
+        spec.channelnames = channels;
+        if (channels.empty())
+            spec.channelnames.assign(names, names + image.channels);
+        const auto alpha = std::find(spec.channelnames.begin(), spec.channelnames.end(), "A");
+        spec.alpha_channel = alpha == spec.channelnames.end() ? -1 : static_cast<int>(alpha - spec.channelnames.begin());
         spec.attribute("compression", "zip");
         spec.attribute("chromaticities", OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, 8), kRec709);
     } else {
@@ -173,7 +176,7 @@ bool has_all_chunks(const Bytes& file, int height)
     return true;
 }
 
-Result<Bytes> encode(const std::string& path, const Image& image, const char* format)
+Result<Bytes> encode(const std::string& path, const Image& image, const char* format, const std::vector<std::string>& channels)
 {
     const auto error = [&](const char* what, const std::string& message) {
         return Error{ExitCode::output_failed, path, "", fmt::format("{}: {}", what, first_line(message))};
@@ -185,7 +188,7 @@ Result<Bytes> encode(const std::string& path, const Image& image, const char* fo
     const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(format);
     if (!output)
         return error("the image library cannot write this format", OIIO::geterror());
-    OIIO::ImageSpec spec = spec_of(image, format);
+    OIIO::ImageSpec spec = spec_of(image, format, channels);
     spec.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);
     if (!output->open(path, spec) || !output->write_image(spec.format, image.bytes.data()) || !output->close())
         return error("the image cannot be encoded", output->geterror());

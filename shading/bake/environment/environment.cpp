@@ -147,7 +147,7 @@ Environment bake(const Image& image, const std::string& name, const EnvironmentO
     e.energy_source = mean_luminance(source);
     double peak = static_cast<double>(e.peak_source);
 
-    Progress progress("baking " + name, prefilter_texels(options.cube_size, levels), options.quiet);
+    Progress progress("baking " + name, prefilter_texels(options.cube_size, levels), options.quiet || options.picture_only);
     CubeLevel sampled = sample_equirect(source, options.cube_size, jobs);
     std::vector<SkyCap> changed;
     e.key_lights = take_key_lights(source, options.key_lights, changed);
@@ -156,6 +156,14 @@ Environment bake(const Image& image, const std::string& name, const EnvironmentO
         store_cube_level(e.whole, 0, averaged_to(sampled, options.cube_size, jobs).rgb.data(), jobs);
         sample_equirect_again(sampled, source, changed, jobs);
         peak = static_cast<double>(peak_value(source));
+    }
+    if (options.picture_only) {
+        if (e.key_lights.empty()) {
+            e.specular = make_cube_map(options.cube_size, 1, cube_scale(peak));
+            store_cube_level(e.specular, 0, averaged_to(sampled, options.cube_size, jobs).rgb.data(), jobs);
+        }
+        e.energy_cube = mean_luminance(e.picture());
+        return e;
     }
     const std::vector<CubeLevel> boxes = box_chain(averaged_to(sampled, options.cube_size, jobs), jobs);
     sampled = {}; // as large as all the rest
@@ -215,7 +223,7 @@ Result<Environment> bake_environment(const Image& equirect, const std::string& n
     e.warnings = equirect_warnings(equirect);
     e.content_hash = hash;
     e.bake_ms = ms_since(start);
-    if (!path.empty())
+    if (!path.empty() && !options.picture_only)
         if (const Status written = write_environment_cache(path, e); !written)
             e.warnings.push_back("the baked environment is not cached: " + written.error().line());
     turn_and_expose(e, options);

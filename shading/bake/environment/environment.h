@@ -42,7 +42,7 @@ struct KeyLight {
 struct Environment {
     std::string name;
     float rotation_deg = 0.0f; // that it is drawn with, about +Y, counter-clockwise seen from above; what follows is not turned
-    // Both without the key lights.
+    // Both without the key lights; with EnvironmentOptions::picture_only empty, but for level 0 where there are no key lights.
     CubeMap specular;                 // level 0: the environment; level l: GGX with alpha_lin = l / (levels - 1)
     CubeMap irradiance;               // cosine-weighted mean radiance (irradiance / pi), one level, 32^2 faces
     std::vector<KeyLight> key_lights; // the strongest first
@@ -62,10 +62,11 @@ struct EnvironmentOptions {
     float rotation_deg = 0.0f; // turns the environment about +Y, counter-clockwise seen from above
     float exposure_ev = 0.0f;  // radiance is multiplied by 2^ev
     // The bake:
-    int cube_size = 512; // power of two, 4 to 4096
-    int levels = 0;      // 0: log2(cube_size), down to 2^2 texels a face
-    int key_lights = 8;  // that may leave the environment, 0 to 8
-    int samples = 1024;  // pieces of light that a texel of a prefiltered level sums, about; 1 to 65536
+    int cube_size = 512;       // power of two, 4 to 4096
+    int levels = 0;            // 0: log2(cube_size), down to 2^2 texels a face
+    int key_lights = 8;        // that may leave the environment, 0 to 8
+    int samples = 1024;        // pieces of light that a texel of a prefiltered level sums, about; 1 to 65536
+    bool picture_only = false; // nothing but picture() and the key lights, where no bake is cached; that is not cached. For the reference
     bool use_cache = true;
     std::string cache_dir; // empty: $XDG_CACHE_HOME/burnish or ~/.cache/burnish
     bool quiet = true;     // no progress bar

@@ -144,5 +144,22 @@ TEST(colour, tonemap_names_are_parsed)
     EXPECT_EQ(wrong.error().code, ExitCode::usage);
 }
 
+// A white edge against black, half of each: linear it is as bright as half the light, shown it is half as bright as white.
+TEST(colour, parts_of_a_pixel_are_tonemapped_before_they_are_averaged)
+{
+    const float kBright = 100.0f;
+    const auto shown = [&](std::initializer_list<float> pixel, bool background) {
+        const std::vector<PixelPart> parts = {pixel_part(0, 0b0011, false, {kBright, kBright, kBright}),
+                                              pixel_part(0, 0b1100, background, {0.0f, 0.0f, 0.0f})};
+        return tonemap_to_srgb8(one_pixel(pixel), Tonemap::none, 0.0f, parts);
+    };
+    EXPECT_EQ(mapped({kBright / 2, kBright / 2, kBright / 2}), (std::vector<int>{255, 255, 255}));
+    EXPECT_EQ(static_cast<int>(shown({kBright / 2, kBright / 2, kBright / 2}, true).bytes[0]), mapped({0.5f})[0]);
+    const Image covered = shown({kBright, kBright, kBright, 0.5f}, true); // of a picture with alpha: nothing lies behind
+    EXPECT_EQ(static_cast<int>(covered.bytes[0]), 255);
+    EXPECT_EQ(static_cast<int>(covered.bytes[3]), 128);
+    EXPECT_EQ(static_cast<int>(shown({kBright, kBright, kBright, 1.0f}, false).bytes[0]), mapped({0.5f})[0]);
+}
+
 } // namespace
 } // namespace burnish

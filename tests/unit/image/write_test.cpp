@@ -69,6 +69,26 @@ TEST(write, exr_keeps_every_bit)
     }
 }
 
+// Colours are found among other channels, in any order; their names and numbers are in the file.
+TEST(write, exr_takes_channels_of_any_name)
+{
+    const std::string folder = test::temporary_folder();
+    const Image image = gradient32(5);
+    ASSERT_TRUE(write_channels(folder + "/a.exr", image, {"R", "G", "B", "Z", "N.X"}));
+    ASSERT_TRUE(write_channels(folder + "/b.exr", image, {"R", "G", "B", "Z", "N.X"}));
+    const Bytes bytes = test::bytes_of(folder + "/a.exr");
+    EXPECT_EQ(bytes, test::bytes_of(folder + "/b.exr"));
+    const std::string text(bytes.begin(), bytes.end());
+    EXPECT_NE(text.find(std::string("N.X\0\2", 5)), std::string::npos); // 2: float
+    EXPECT_NE(text.find(std::string("Z\0\2", 3)), std::string::npos);
+    const Image colours = back(folder + "/a.exr");
+    ASSERT_EQ(colours.channels, 3);
+    for (std::size_t p = 0; p < 13 * 7; ++p)
+        for (std::size_t c = 0; c < 3; ++c)
+            EXPECT_EQ(colours.f32()[3 * p + c], image.f32()[5 * p + c]);
+    EXPECT_FALSE(write_channels(folder + "/a.hdr", image, {"R", "G", "B", "Z", "N.X"}));
+}
+
 TEST(write, pfm_and_png_and_tiff_keep_every_bit)
 {
     const std::string folder = test::temporary_folder();

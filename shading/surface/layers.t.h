@@ -1,0 +1,42 @@
+// The layers of a picture at a visible point (shading/layers.def), and their words, one after another.
+#ifndef BN_LAYERS_T_H
+#define BN_LAYERS_T_H
+
+#include "shading/lang/lang.h"
+#include "shading/lang/stage.h"
+#include "shading/surface/recorded.t.h"
+#include "shading/surface/specular_aa.t.h"
+
+BN_KERNELS_BEGIN
+
+struct layer_values {
+#define BN_LAYER(type, words, name, channels) type name;
+#include "shading/layers.def"
+};
+
+// p: its position is asked for, too.
+BN_STAGE layer_values layers_of(any_frame f, material_ref m, BN_IN(material_inputs) at, BN_IN(visible_point) p)
+{
+    lobe_shape shape = lobe_shape_at(f, m, at, p);
+    surface_frame axes = lobe_axes(f, m, at, seen_axes(p), seen_handedness(p));
+    aniso_lobe lobe = lobe_in_frame(m, shape, axes);
+    layer_values r;
+    real3 from_eye = p.position - splat3(the_frame(f).view.eye);
+    real3 forward = splat3(the_frame(f).view.forward);
+    r.depth = k_dot3(from_eye, forward);
+    r.normal = axes.n;
+    r.albedo = at.base;
+    r.roughness = min(max(shape.alpha_lin, lit(0.0)), lit(1.0));
+    r.tangent = lobe.u_axis;
+    return r;
+}
+
+BN_FN void record_layers(BN_INOUT(recorder) w, BN_IN(layer_values) v)
+{
+#define BN_LAYER(type, words, name, channels) put_##type(w, v.name);
+#include "shading/layers.def"
+}
+
+BN_KERNELS_END
+
+#endif

@@ -1,0 +1,93 @@
+// Specular antialiasing: a lobe grows by how much shading normals differ between neighbouring pixels, so that what glints between two
+// samples is shown by both, dimmer. Tokuyoshi and Kaplanyan 2019, "Improved geometric specular antialiasing": the covariance of slopes
+// within a pixel is added to the lobe's, within a bound. There half vectors are differentiated, and the pixel's filter is a Gaussian of
+// variance 1 / (2 pi); here normals, as in Kaplanyan et al. 2016, which need no lights, and it is what resolves pixels: a box, of variance
+// 1 / 12.
+#ifndef BN_SPECULAR_AA_T_H
+#define BN_SPECULAR_AA_T_H
+
+#include "shading/lang/lang.h"
+#include "shading/lang/stage.h"
+#include "shading/surface/shaded_point.t.h"
+
+BN_KERNELS_BEGIN
+
+// The shading normal a step away: p's, moved by what changes by one pixel.
+BN_FN real3 normal_beside(frame_ref f, material_ref m, BN_IN(material_inputs) at, visible_point p, real3 normal_step, real2 uv0_step,
+                          real2 uv1_step)
+{
+    p.normal = p.normal + normal_step;
+    material_inputs there = at;
+    if (texture_used(m, kNormalTex)) {
+        p.uv0 = p.uv0 + uv0_step;
+        p.uv1 = p.uv1 + uv1_step;
+        there.normal_map = normal_of_texel(m, texel_beside(f, m, kNormalTex, p));
+    }
+    surface_frame axes = lobe_axes(f, m, there, seen_axes(p), seen_handedness(p));
+    return axes.n;
+}
+
+// Of slopes along t and b.
+BN_STAGE slope_covariance covariance_of_pixel(any_frame f, material_ref m, BN_IN(material_inputs) at, BN_IN(visible_point) p)
+{
+    surface_frame here = lobe_axes(f, m, at, seen_axes(p), seen_handedness(p));
+    real3 dx = normal_beside(f, m, at, p, p.normal_dx, p.uv0_dx, p.uv1_dx) - here.n;
+    real3 dy = normal_beside(f, m, at, p, p.normal_dy, p.uv0_dy, p.uv1_dy) - here.n;
+    real2 x = vec2_of(k_dot3(here.t, dx), k_dot3(here.b, dx));
+    real2 y = vec2_of(k_dot3(here.t, dy), k_dot3(here.b, dy));
+    real filter2 = lit(0.083333333333333333); // a pixel's own variance, square pixels
+    slope_covariance r;
+    r.xx = filter2 * (x.x * x.x + y.x * y.x);
+    r.yy = filter2 * (x.y * x.y + y.y * y.y);
+    r.xy = filter2 * (x.x * x.y + y.x * y.y);
+    real trace = r.xx + r.yy;
+    real most = lit(0.09); // half of their kappa, which bounds what alpha^2 = 2 sigma^2 grows by
+    real part = min(most / max(trace, lit(1e-12)), lit(1.0));
+    mask known = trace >= lit(0.0); // no number where a neighbour lies behind the eye
+    r.xx = select(known, r.xx * part, lit(0.0));
+    r.yy = select(known, r.yy * part, lit(0.0));
+    r.xy = select(known, r.xy * part, lit(0.0));
+    return r;
+}
+
+// A round lobe grows to a round one.
+BN_STAGE lobe_shape grown_shape(any_frame f, material_ref m, BN_IN(material_inputs) at, BN_IN(visible_point) p, BN_IN(lobe_shape) shape)
+{
+    slope_covariance more = covariance_of_pixel(f, m, at, p);
+    real u2 = shape.sigma_u * shape.sigma_u;
+    real v2 = shape.sigma_v * shape.sigma_v;
+    lobe_shape r = shape;
+    if (the_material(m).anisotropic == 0) {
+        r.sigma_u = sqrt(u2 + lit(0.5) * (more.xx + more.yy));
+        r.sigma_v = r.sigma_u;
+    } else {
+        slope_covariance own;
+        own.xx = u2 * shape.u.x * shape.u.x + v2 * shape.u.y * shape.u.y;
+        own.yy = u2 * shape.u.y * shape.u.y + v2 * shape.u.x * shape.u.x;
+        own.xy = (u2 - v2) * shape.u.x * shape.u.y;
+        slope_axes axes = axes_of_covariance(sum_of_covariances(own, more));
+        r.sigma_u = axes.sigma_u;
+        r.sigma_v = axes.sigma_v;
+        r.u = axes.u;
+    }
+    aniso_lobe lobe;
+    lobe.u_axis = vec3_all(lit(0.0));
+    lobe.v_axis = vec3_all(lit(0.0));
+    lobe.sigma_u = r.sigma_u;
+    lobe.sigma_v = r.sigma_v;
+    r.alpha_lin = lobe_alpha_lin(lobe);
+    return r;
+}
+
+// What the frame draws there.
+BN_FN lobe_shape lobe_shape_at(frame_ref f, material_ref m, BN_IN(material_inputs) at, BN_IN(visible_point) p)
+{
+    lobe_shape shape = lobe_shape_of(f, m, at);
+    if (the_frame(f).specular_aa != 0)
+        return grown_shape(f, m, at, p, shape);
+    return shape;
+}
+
+BN_KERNELS_END
+
+#endif

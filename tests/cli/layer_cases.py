@@ -1,0 +1,148 @@
+"""Layers of pictures, and pixels that are tonemapped before they are averaged."""
+
+import json
+import struct
+import zlib
+
+from harness import Skipped, case, check
+
+DRAWN = ("--size", "96x64", "--env-size", "32", "--env-samples", "16", "-q")
+ALL = "depth,normal,albedo,roughness,tangent,object-id,material-id"
+
+
+def exr_channels(path):
+    """{channel: rows of floats} of a file of ours: scan lines of floats, sixteen a chunk, ZIP."""
+    data = path.read_bytes()
+    at, attributes = 8, {}
+    while data[at]:
+        name, at = data[at : data.index(0, at)].decode(), data.index(0, at) + 1
+        at = data.index(0, at) + 1
+        size = struct.unpack_from("<i", data, at)[0]
+        attributes[name], at = data[at + 4 : at + 4 + size], at + 4 + size
+    names, chlist = [], attributes["channels"]
+    while chlist[0]:
+        end = chlist.index(0)
+        check(struct.unpack_from("<i", chlist, end + 1)[0] == 2, "a channel that holds no floats")
+        names.append(chlist[:end].decode())
+        chlist = chlist[end + 17 :]
+    x0, y0, x1, y1 = struct.unpack("<4i", attributes["dataWindow"])
+    width, height = x1 - x0 + 1, y1 - y0 + 1
+    rows = {name: [] for name in names}
+    for offset in struct.unpack_from(f"<{(height + 15) // 16}q", data, at + 1):
+        first, size = struct.unpack_from("<ii", data, offset)
+        lines = min(16, y1 + 1 - first)
+        packed = data[offset + 8 : offset + 8 + size]
+        if size < 4 * width * len(names) * lines:
+            packed = bytearray(zlib.decompress(packed))
+            for i in range(1, len(packed)):
+                packed[i] = (packed[i - 1] + packed[i] - 128) & 255
+            half = (len(packed) + 1) // 2
+            plain = bytearray(len(packed))
+            plain[0::2], plain[1::2] = packed[:half], packed[half:]
+            packed = bytes(plain)
+        values = struct.unpack(f"<{width * len(names) * lines}f", packed)
+        for line in range(lines):
+            for k, name in enumerate(names):
+                begin = (line * len(names) + k) * width
+                rows[name].append(values[begin : begin + width])
+    return rows
+
+
+def drawn_by(bench, name, backend, *words):
+    done = bench.run("render", *words, *DRAWN, "--backend", backend, *(("--device", "lavapipe") if backend == "vulkan" else ()), *name)
+    if done.code == 77 and backend == "vulkan":
+        raise Skipped(done.err.strip())
+    done.expect(0)
+
+
+@case("layers.have_the_names_that_others_know", tier="check")
+def names(bench):
+    bench.run("render", "builtin:bumps", *DRAWN, "--aov", ALL, "-o", "a.exr", "-o", "a.png").expect(0)
+    bench.run("render", "builtin:bumps", *DRAWN, "-o", "b.exr", "-o", "b.png").expect(0)
+    layered, plain = exr_channels(bench.folder / "a.exr"), exr_channels(bench.folder / "b.exr")
+    check(sorted(plain) == ["B", "G", "R"], f"a plain picture has {sorted(plain)}")
+    check(sorted(set(layered) - set(plain)) == sorted(["Z", "N.X", "N.Y", "N.Z", "albedo.R", "albedo.G", "albedo.B", "roughness", "tangent.X",
+                                                       "tangent.Y", "tangent.Z", "id", "materialId"]), f"{sorted(layered)}")
+    check(all(layered[c] == plain[c] for c in plain), "layers change the colours")
+    check((bench.folder / "a.png").read_bytes() == (bench.folder / "b.png").read_bytes(), "layers change the PNG")
+    seen = 0
+    for y in range(64):
+        for x in range(96):
+            point = {name: rows[y][x] for name, rows in layered.items()}
+            if point["id"] == 0:
+                check(point["Z"] == float("inf") and point["N.Z"] == 0 and point["materialId"] == 0, f"nothing at {x},{y}: {point}")
+                continue
+            seen += 1
+            check(0 < point["Z"] < 100 and point["materialId"] >= 1, f"at {x},{y}: {point}")
+            for v in ("N", "tangent"):
+                length = sum(point[f"{v}.{axis}"] ** 2 for axis in "XYZ")
+                check(abs(length - 1) < 1e-4, f"{v} at {x},{y} is {length} long")
+            check(abs(sum(point[f"N.{a}"] * point[f"tangent.{a}"] for a in "XYZ")) < 1e-4, f"N and tangent at {x},{y}: {point}")
+    check(1000 < seen < 96 * 64, f"{seen} pixels show something")
+
+
+@case("layers.are_the_same_bytes_by_vulkan", tier="gate")
+def twins(bench):
+    """So are the pictures of samples tonemapped each by itself, and those of samples shared between pixels (auto)."""
+    for scene, more in (("builtin:bumps", ()), ("builtin:spheres", ("--env-rotation", "40", "--no-background"))):
+        for backend in ("tile", "vulkan"):
+            drawn_by(bench, ("--aov", ALL, "--resolve", "display", "-o", f"{backend}.exr", "-o", f"{backend}.png"), backend, scene, *more)
+        for kind in ("exr", "png"):
+            check((bench.folder / f"tile.{kind}").read_bytes() == (bench.folder / f"vulkan.{kind}").read_bytes(), f"{scene}: .{kind} differs")
+
+
+@case("layers.of_a_row_and_of_a_film", tier="check")
+def rows(bench):
+    bench.run("render", "builtin:plate", *DRAWN, "--aov", "depth", "--turntable", "2", "-o", "t%d.exr").expect(0)
+    check("Z" in exr_channels(bench.folder / "t1.exr"), "a picture of a row has no layer")
+
+
+@case("layers.resolve_changes_edges_of_shown_pictures_alone", tier="check")
+def resolve(bench):
+    drawn = ("render", "builtin:sphere", *DRAWN, "--env", "builtin:studio", "--exposure", "3", "--stats", "s.json")
+    bench.run(*drawn, "-o", "l.tif", "-o", "l.exr").expect(0)
+    bench.run(*drawn, "--resolve", "display", "-o", "d.tif", "-o", "d.exr").expect(0)
+    check(json.loads((bench.folder / "s.json").read_text())["resolve"] == "display", "the figures do not say it")
+    check((bench.folder / "l.exr").read_bytes() == (bench.folder / "d.exr").read_bytes(), "the EXR changed")
+    linear, display = (bench.folder / "l.tif").read_bytes(), (bench.folder / "d.tif").read_bytes()
+    differ = sum(a != b for a, b in zip(linear, display))
+    check(50 < differ < len(linear) // 5, f"{differ} of {len(linear)} bytes differ")
+    bench.run(*drawn, "--msaa", "1", "-o", "l.tif").expect(0)
+    bench.run(*drawn, "--msaa", "1", "--resolve", "display", "-o", "d.tif").expect(0)
+    check((bench.folder / "l.tif").read_bytes() == (bench.folder / "d.tif").read_bytes(), "one sample a pixel has nothing to resolve")
+
+
+@case("layers.that_cannot_be_are_refused", tier="check")
+def refused(bench):
+    def no(code, needle, *words):
+        bench.run("render", "builtin:plate", *DRAWN, *words).expect(code).expect_one_line(needle)
+        check(bench.left_behind() == [], f"{words}: files were left")
+
+    no(2, "did you mean 'normal'?", "--aov", "depth,normals", "-o", "a.exr")
+    no(2, "'depth' is given twice", "--aov", "depth,normal,depth", "-o", "a.exr")
+    no(2, "no other format has layers", "--aov", "depth", "-o", "a.png", "-o", "a.pfm")
+    no(2, "no other format has layers", "--aov", "depth")
+    no(2, "empty entry", "--aov", "depth,", "-o", "a.exr")
+    no(2, "the reference has no layers", "--aov", "depth", "--backend", "reference", "-o", "a.exr")
+    no(2, "needs --pipeline ids", "--aov", "depth", "--backend", "vulkan", "--pipeline", "forward", "-o", "a.exr")
+
+
+@case("layers.specular_antialiasing_brings_normal_maps_nearer_to_the_truth", tier="gate")
+def specular_aa(bench):
+    """Still, against the reference; by Vulkan it is the same picture."""
+    view = ("builtin:bumps", "--size", "120x68", "--env-size", "128", "--env-samples", "64", "-q")
+    done = bench.run("render", *view, "--backend", "reference", "--reference-textures", "full", "--samples", "256", "-o", "truth.exr")
+    if done.code == 77:
+        raise Skipped(done.err.strip())
+    done.expect(0)
+    for msaa in ("1", "8"):
+        flip = []
+        for more in ((), ("--specular-aa",)):
+            bench.run("render", *view, "--msaa", msaa, *more, "-o", "a.exr").expect(0)
+            flip.append(json.loads(bench.run("compare", "truth.exr", "a.exr", "--metric", "flip-hdr", "--json", "-").expect(0).out)["flip_mean"])
+        check(flip[1] < 0.98 * flip[0], f"{msaa} samples a pixel: mean FLIP {flip}")
+    pictures = []
+    for backend in ("tile", "vulkan"):
+        drawn_by(bench, ("--specular-aa", "-o", f"{backend}.exr"), backend, "builtin:bumps", "--msaa", "4")
+        pictures.append((bench.folder / f"{backend}.exr").read_bytes())
+    check(pictures[0] == pictures[1], "Vulkan draws another picture")
