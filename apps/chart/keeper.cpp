@@ -1,12 +1,10 @@
 #include "apps/chart/keeper.h"
 
-#include <cerrno>
-#include <cstring>
 #include <filesystem>
 #include <fmt/core.h>
-#include <unistd.h>
 #include <vector>
 
+#include "apps/cli/outputs.h"
 #include "core/base/file.h"
 #include "core/image/io/image_io.h"
 
@@ -17,17 +15,6 @@ namespace fs = std::filesystem;
 
 constexpr std::uint64_t kMaxKeptBytes = 256ull << 20;
 constexpr std::chrono::milliseconds kSaveEvery{300};
-
-Status make_folder(const std::string& folder)
-{
-    std::error_code failed;
-    fs::create_directories(folder, failed);
-    if (!fs::is_directory(folder))
-        return Error{ExitCode::output_failed, folder, "", failed ? failed.message() : "is not a folder"};
-    if (::access(folder.c_str(), W_OK | X_OK) != 0)
-        return Error{ExitCode::output_failed, folder, "", std::strerror(errno)};
-    return {};
-}
 
 // Whether a file has the name of a chart: NAME-NUMBER.svg or .png.
 bool is_chart(const std::string& file)
@@ -56,7 +43,7 @@ Result<Keeper> Keeper::open(const std::string& folder, Report& report)
     Keeper keeper;
     keeper.folder_ = folder;
     for (const std::string& needed : {folder, folder + "/pictures"})
-        if (const Status made = make_folder(needed); !made)
+        if (const Status made = make_output_folder(needed); !made)
             return made.error();
     const std::string path = keeper.file("rows.json");
     if (!fs::exists(path))

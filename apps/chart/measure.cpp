@@ -6,10 +6,10 @@
 #include <fmt/core.h>
 #include <limits>
 #include <memory>
-#include <unistd.h>
 
 #include "apps/chart/load.h"
 #include "apps/chart/noise.h"
+#include "apps/chart/reference.h"
 #include "apps/cli/open.h"
 #include "apps/cli/scene_view.h"
 #include "apps/cli/seen_scene.h"
@@ -17,9 +17,7 @@
 #include "apps/render/parameters.h"
 #include "apps/render/stats.h"
 #include "apps/report/pictures.h"
-#include "core/base/cache.h"
 #include "core/base/clock.h"
-#include "core/base/file.h"
 #include "core/base/hash.h"
 #include "core/base/version.h"
 #include "core/image/io/image_io.h"
@@ -33,15 +31,6 @@ namespace burnish {
 namespace {
 
 namespace fs = std::filesystem;
-
-// Rows of an older program are not this one's: the kernels may have changed.
-std::uint64_t program_hash()
-{
-    constexpr std::uint64_t kMaxProgramBytes = 1ull << 30;
-    const Result<std::vector<std::uint8_t>> bytes = read_file("/proc/self/exe", kMaxProgramBytes);
-    const std::string name = version();
-    return bytes ? hash_bytes(bytes->data(), bytes->size()) : hash_bytes(name.data(), name.size());
-}
 
 // Of a file its name, whatever folders it lies in: lines stay short.
 std::string base_name(const std::string& name)
@@ -79,7 +68,6 @@ class Chart {
     Status measure_pair(const SeenScene& scene, const std::shared_ptr<const Environment>& environment, const std::string& env);
     Status measure_place(const Place& place);
     Result<Image> reference(const Place& place, ReferenceNoise& noise);
-    Result<std::string> reference_file(const Place& place, const ReferenceOptions& options);
     Status find_errors(const Place& place, const Image& reference, ChartRow& row);
     Status time_rows(const Place& place, std::vector<ChartRow>& rows);
     Status write_small(const std::string& file, const Image& linear, bool errors);
@@ -95,7 +83,7 @@ class Chart {
     std::vector<Setting> settings_;
     std::vector<SeenScene> scenes_;
     std::vector<std::shared_ptr<const Environment>> environments_;
-    std::uint64_t program_ = program_hash();
+    std::uint64_t program_ = program_hash(); // rows of an older program are not this one's: the kernels may have changed
     int picture_width_ = 0;
     std::unique_ptr<Progress> progress_;
     LoadMeter load_; // while frames are timed
@@ -240,54 +228,17 @@ Status Chart::measure_place(const Place& place)
     return {};
 }
 
-// Beside the cached environments, so that every chart of a scene shares it; in REPORT_DIR where there is no such folder.
-Result<std::string> Chart::reference_file(const Place& place, const ReferenceOptions& options)
-{
-    const std::string name = fmt::format("reference-{}.part", hash_text(place.key));
-    std::string file = keeper_.file(name);
-    if (const std::string cache = cache_folder(); options_.base.environment.use_cache && !cache.empty()) {
-        std::error_code failed;
-        fs::create_directories(cache, failed);
-        if (!failed && ::access(cache.c_str(), W_OK | X_OK) == 0)
-            file = cache + "/" + name;
-    }
-    ReferenceOptions with_file = options;
-    with_file.checkpoint = file;
-    with_file.own_checkpoint = true;
-    if (const Status good = check_reference_checkpoint(place.tile.parts().input(), place.tile.drawn(place.desc), with_file); !good) {
-        report_.warning(fmt::format("{}: {}: it is made anew", file, good.error().reason));
-        std::error_code failed;
-        fs::remove(file, failed);
-        if (failed)
-            return Error{ExitCode::output_failed, file, "", failed.message()};
-    }
-    return file;
-}
-
 Result<Image> Chart::reference(const Place& place, ReferenceNoise& noise)
 {
-    SessionOptions session;
-    session.backend = Backend::reference, session.isa = options_.base.isa;
-    ReferenceOptions& options = session.reference;
+    ReferenceOptions options;
     options.samples = options_.reference_samples;
     options.full_textures = options_.base.reference.full_textures;
-    options.checkpoint_seconds = 10.0;
     options.stop = &stop_;
     options.quiet = options_.base.quiet;
-    const Result<std::string> file = reference_file(place, options);
-    if (!file)
-        return file.error();
-    options.checkpoint = *file;
-    options.own_checkpoint = true;
-    options.lost_checkpoint = [&](const Error& error) { report_.warning("the reference is not kept: " + error.line()); };
-    Result<Session> renderer = Session::make(place.tile.parts(), session);
-    if (!renderer)
-        return renderer.error();
-    Result<Frame> frame = renderer->render(place.desc);
+    const ReferenceHome home = {options_.base.environment.use_cache, options_.folder};
+    Result<Frame> frame = kept_reference(place.tile, place.desc, options, options_.base.isa, home, report_);
     if (!frame)
         return frame.error();
-    if (fs::path(*file).parent_path() == cache_folder())
-        prune_cache(cache_folder(), cache_limit(), *file);
     const SamplingStats& s = frame->stats.sampling;
     if (!s.stopped)
         report_.event("reference", fmt::format("{} under {}, {}: {}{}{}, {:.1f} s", base_name(place.scene.data->name), base_name(place.env),

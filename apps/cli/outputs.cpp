@@ -151,6 +151,17 @@ Status check_text_path(const std::string& option, const std::string& path, const
     return check_folder(path);
 }
 
+Status make_output_folder(const std::string& folder)
+{
+    std::error_code failed;
+    fs::create_directories(folder, failed);
+    if (!fs::is_directory(folder))
+        return output_error(folder, failed ? failed.message() : "is not a folder");
+    if (::access(folder.c_str(), W_OK | X_OK) != 0)
+        return output_error(folder, std::strerror(errno));
+    return {};
+}
+
 Image shown_picture(const Image& linear, Tonemap tonemap, float exposure_ev, const std::vector<PixelPart>& parts)
 {
     return tonemap_to_srgb8(linear.channels == 4 ? unassociated(linear) : linear, tonemap, exposure_ev, parts);

@@ -22,6 +22,9 @@ Status check_text_path(const std::string& option, const std::string& path, const
 Status check_outputs(const std::vector<std::string>& pictures, const std::vector<std::pair<std::string, std::string>>& texts,
                      const std::vector<std::string>& inputs);
 
+// Made where it is not there; it can be written to.
+Status make_output_folder(const std::string& folder);
+
 // Two names of one file, whether or not it exists yet; pipes and devices aside.
 bool same_file(const std::string& a, const std::string& b);
 

@@ -94,7 +94,9 @@ std::string value_at(const OptionPath& path, double t)
 {
     std::string text;
     for (std::size_t i = 0; i < path.from.size(); ++i) {
-        const double value = t < 1.0 ? path.from[i] + (path.to[i] - path.from[i]) * t : path.to[i];
+        const double along =
+            path.geometric ? path.from[i] * std::pow(path.to[i] / path.from[i], t) : path.from[i] + (path.to[i] - path.from[i]) * t;
+        const double value = t < 1.0 ? along : path.to[i];
         const std::string number = path.whole ? fmt::format("{}", std::llround(value)) : fmt::format("{:.9g}", value);
         text += fmt::format("{}{}", i ? "," : "", number);
     }

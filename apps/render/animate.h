@@ -8,11 +8,12 @@
 
 namespace burnish {
 
-// An option whose numbers go from one value to another along a straight line.
+// An option whose numbers go from one value to another, along a straight line or by equal factors.
 struct OptionPath {
     std::string option; // "--roughness"
     std::vector<double> from, to;
-    bool whole = false; // whole numbers only: the nearest
+    bool whole = false;     // whole numbers only: the nearest
+    bool geometric = false; // by factors: no number is 0 or changes its sign
 };
 
 // `text`: NAME=FROM:TO, several by commas; a value of more numbers has commas of its own: "eye=0,0,3:1,0,3,fov=40:20". Each name is that of

@@ -29,6 +29,7 @@ double percentile_95(std::vector<double> values); // nearest rank
 
 std::string hash_text(std::uint64_t hash); // 16 hexadecimal digits
 std::uint64_t peak_memory_bytes();         // largest resident size of this process so far
+std::uint64_t program_hash();              // of this program's own bytes: what it made is not what another build makes
 
 Json stats_json(const RenderOptions& options, const RenderFigures& figures);
 

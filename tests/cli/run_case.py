@@ -5,6 +5,7 @@ import pathlib
 import sys
 
 import animation_cases
+import atlas_cases
 import bake_cases
 import brdf_cases
 import camera_cases

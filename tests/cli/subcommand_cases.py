@@ -25,6 +25,7 @@ RUNS = {
     "compare": [(("a.exr", "a.hdr", "--json", "-", "--error-map", "e.png", "--html", "c.html"), (0,)), (("a.png", "a.tif"), (0,)),
                 (("--sequence", "m%d.exr", "t%d.exr", "--json", "-"), (0,))],
     "chart": [((*CHART[1:], "--sweep", "roughness=0.2,0.5", "--sweep", "anisotropy=0,0.5", "-o", "report"), (0, 77))],
+    "atlas": [(("--list",), (0,)), (("albedo_by_a_fit", "--quick", "-o", "atlas", "--json", "atlas.json"), (0, 77))],
     "profile": [((*VIEW, "--frames", "2", "--json", "p.json", "--svg", "p.svg", "--trace", "pt.json"), (0,))],
     "parity": [(("builtin:plate", *VIEW, "--technique", "mc", "--device", "lavapipe", "--json", "y.json", "--html", "y.html",
                  "--junit", "y.xml"), (0, 77))],
@@ -70,7 +71,7 @@ def bad_input(bench):
     (bench.folder / "bad.exr").write_bytes(b"\x76\x2f\x31\x01, not")
     for words, codes in ((("render", "bad.glb"), (4,)), (("render", "--env", "bad.exr"), (4,)), (("compare", "bad.exr", "bad.exr"), (4,)),
                          (("chart", "bad.glb", "-o", "r"), (4, 77)), (("chart", "--env", "bad.exr", "-o", "r"), (4, 77)),
-                         (("profile", "bad.glb"), (4,)), (("train", "mip", "--evaluate", "bad.exr"), (4,)), (("list", "nothing"), (2,)), (("info", "nothing"), (2,))):
+                         (("atlas", "nothing"), (2,)), (("train", "mip", "--evaluate", "bad.exr"), (4,)), (("profile", "bad.glb"), (4,)), (("list", "nothing"), (2,)), (("info", "nothing"), (2,))):
         done = bench.run(*words)
         check(done.code in codes, done.describe())
         done.expect_one_line()

@@ -1,0 +1,242 @@
+// `burnish atlas`: where each method breaks, measured, shown, and held to what was blessed.
+#include <algorithm>
+#include <filesystem>
+#include <fmt/core.h>
+#include <memory>
+
+#include "apps/atlas/assets.h"
+#include "apps/atlas/options.h"
+#include "apps/atlas/page.h"
+#include "apps/cli/command.h"
+#include "apps/cli/outputs.h"
+#include "apps/cli/report.h"
+#include "apps/cli/stop_signal.h"
+#include "core/base/file.h"
+#include "core/image/io/image_io.h"
+
+namespace burnish {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uint64_t kMaxTableBytes = 16ull << 20;
+constexpr const char* kFooter =
+    R"(Each entry is a path of pictures from where a method holds to where it breaks, measured against the reference or another truth. DIR gets
+index.html with the pictures, atlas.json, and what is finished, from which a stopped atlas goes on.
+
+Exit codes: 0 all are held, 1 an entry is worse than its blessed figures or its cure fails, 2 wrong option, 7 output not written, 77 without
+Embree, whose reference is the truth.
+
+Examples:
+  burnish atlas --list
+  burnish atlas --quick -o atlas
+  burnish atlas bent_normal_bends_too_far -o bent
+  burnish atlas --quick --with "--axis-beta 1.15"
+  burnish atlas --quick --bless --table apps/atlas/blessed.md)";
+
+int list_entries(const AtlasOptions& options)
+{
+    std::string group;
+    for (const AtlasEntry& entry : options.entries()) {
+        if (group != entry.group)
+            fmt::print("{}{}:\n", group.empty() ? "" : "\n", entry.group);
+        group = entry.group;
+        fmt::print("  {}\n      {}\n      burnish render {}, {}\n", entry.id, entry.breaks, entry.words, path_text(entry));
+    }
+    return 0;
+}
+
+Result<BlessedTable> blessed_table(const AtlasOptions& options)
+{
+    if (options.table.empty())
+        return parse_table(std::string(kAtlasBlessed.bytes, kAtlasBlessed.size), "the program's own table");
+    if (options.bless && !fs::exists(options.table))
+        return BlessedTable();
+    const Result<std::vector<std::uint8_t>> bytes = read_file(options.table, kMaxTableBytes);
+    if (!bytes)
+        return bytes.error();
+    return parse_table(std::string(bytes->begin(), bytes->end()), options.table);
+}
+
+// What a walk of an entry left in DIR.
+struct KeptFiles {
+    std::string key, json, strip;
+};
+
+KeptFiles kept_files(const AtlasOptions& options, const AtlasEntry& entry)
+{
+    const std::string stem = fmt::format("{}/{}-{}", options.folder, entry.id, options.walk().name);
+    return {entry_key(entry, options.walk()), stem + ".json", stem + ".png"};
+}
+
+std::optional<MeasuredEntry> read_kept(const KeptFiles& files)
+{
+    if (!fs::exists(files.json) || !fs::exists(files.strip))
+        return std::nullopt;
+    const Result<std::vector<std::uint8_t>> bytes = read_file(files.json, kMaxTableBytes);
+    return bytes ? parse_kept_entry(std::string(bytes->begin(), bytes->end()), files.key) : std::nullopt;
+}
+
+class Atlas {
+  public:
+    Atlas(const AtlasOptions& options, BlessedTable blessed, Report& report)
+        : options_(options), entries_(options.entries()), blessed_(std::move(blessed)), compared_(blessed_.version == kTableVersion),
+          report_(report),
+          room_({std::make_shared<const Jobs>(options.threads), options.isa, {options.use_cache, options.folder}, &watch_stop_signals()},
+                report)
+    {
+    }
+    int run();
+
+  private:
+    Result<WalkedEntry> measure(const AtlasEntry& entry);
+    void judge_entry(const AtlasEntry& entry, MeasuredEntry measured);
+    void tell(const AtlasResult& result);
+    Status write();
+    Status bless();
+
+    const AtlasOptions& options_;
+    const std::vector<AtlasEntry> entries_;
+    BlessedTable blessed_;
+    bool compared_;
+    Report& report_;
+    Darkroom room_;
+    std::vector<AtlasResult> results_;
+};
+
+Result<WalkedEntry> Atlas::measure(const AtlasEntry& entry)
+{
+    if (options_.folder.empty())
+        return walk_entry(entry, options_.walk(), room_);
+    const KeptFiles files = kept_files(options_, entry);
+    if (std::optional<MeasuredEntry> kept = read_kept(files))
+        return WalkedEntry{std::move(*kept), {}, false};
+    Result<WalkedEntry> walked = walk_entry(entry, options_.walk(), room_);
+    if (!walked || walked->stopped)
+        return walked;
+    if (const Status written = write_image(files.strip, walked->strip); !written)
+        return written.error();
+    if (const Status written = write_file(files.json, kept_entry_json(walked->measured, files.key)); !written)
+        return written.error();
+    return walked;
+}
+
+void Atlas::judge_entry(const AtlasEntry& entry, MeasuredEntry measured)
+{
+    AtlasResult result{&entry, std::move(measured), {}, ""};
+    const auto& rows = blessed_.walks[options_.walk().name];
+    const auto row = rows.find(entry.id);
+    result.judged = judge(entry, result.measured, compared_ && row != rows.end() ? &row->second : nullptr);
+    if (!options_.folder.empty())
+        result.strip = fs::path(kept_files(options_, entry).strip).filename();
+    results_.push_back(std::move(result));
+}
+
+void Atlas::tell(const AtlasResult& r)
+{
+    const MeasuredEntry& m = r.measured;
+    report_.figures(fmt::format("{:<36} onset {:>5}  worst {:.4f}  flicker {:+.4f}  cure {:>6}  {:<13} {}\n", m.id,
+                                m.onset <= 1.0 ? fmt::format("{:.3f}", m.onset) : "none", m.worst, m.flicker,
+                                r.entry->cure[0] ? fmt::format("{:.4f}", m.cure_worst) : "-", m.kind, verdict_name(r.judged.verdict)));
+}
+
+Status Atlas::bless()
+{
+    if (!compared_)
+        blessed_ = BlessedTable();
+    for (const AtlasResult& r : results_)
+        blessed_.walks[options_.walk().name][r.entry->id] = row_of(r.measured);
+    if (const Status written = write_text(options_.table, table_text(blessed_)); !written)
+        return written;
+    report_.wrote(options_.table);
+    return {};
+}
+
+Status Atlas::write()
+{
+    const std::string json = atlas_json(results_, options_.walk()).dump(1) + "\n";
+    std::vector<std::pair<std::string, std::string>> files;
+    if (!options_.json.empty())
+        files.emplace_back(options_.json, json);
+    if (!options_.folder.empty()) {
+        files.emplace_back(options_.folder + "/atlas.json", json);
+        files.emplace_back(options_.folder + "/index.html", atlas_page(results_, options_.walk()));
+    }
+    for (const auto& [path, text] : files) {
+        if (const Status written = write_text(path, text); !written)
+            return written;
+        report_.wrote(path);
+    }
+    return {};
+}
+
+int Atlas::run()
+{
+    if (!compared_)
+        report_.warning(
+            fmt::format("the blessed figures are of version {}, not {}: nothing is compared with them", blessed_.version, kTableVersion));
+    report_.release();
+    for (const AtlasEntry& entry : entries_) {
+        Result<WalkedEntry> walked = measure(entry);
+        if (!walked)
+            return fail(walked.error());
+        if (walked->stopped) {
+            report_.event("stopped", options_.folder.empty() ? "nothing was kept" : "the same command goes on; no page was written");
+            return 128 + stop_signal();
+        }
+        judge_entry(entry, std::move(walked->measured));
+        tell(results_.back());
+    }
+    if (const Status written = write(); !written)
+        return fail(written.error());
+    if (options_.bless) {
+        const Status blessed = bless();
+        if (!blessed)
+            return fail(blessed.error());
+    }
+    const AtlasResult* red = nullptr;
+    for (const AtlasResult& r : results_) {
+        if (options_.bless && r.judged.verdict != Verdict::uncured)
+            continue;
+        if (r.judged.verdict == Verdict::better)
+            report_.warning(fmt::format("{} {}: it is better than its blessed figures, bless it", r.entry->id, r.judged.why));
+        if (!red && r.judged.verdict >= Verdict::worse)
+            red = &r;
+    }
+    if (!red)
+        return 0;
+    const auto count =
+        std::count_if(results_.begin(), results_.end(), [](const AtlasResult& r) { return r.judged.verdict >= Verdict::worse; });
+    const std::string others = count > 1 ? fmt::format(" (and {} more)", count - 1) : "";
+    return fail(Error{ExitCode::differ, red->entry->id, "", red->judged.why + others});
+}
+
+int run_atlas(AtlasOptions options, const OptionTable& given)
+{
+    if (const Status good = check_atlas_options(options, given); !good)
+        return fail(good.error());
+    if (options.list)
+        return list_entries(options);
+    Result<BlessedTable> blessed = blessed_table(options);
+    if (!blessed)
+        return fail(blessed.error());
+    if (!options.folder.empty())
+        if (const Status made = make_output_folder(options.folder); !made)
+            return fail(made.error());
+    if (!reference_available())
+        return fail(Error{ExitCode::unavailable, "", "", "this program was built without Embree 3, which the reference of an atlas needs"});
+    Report report(options.quiet, options.verbosity);
+    report.promise_stdout({options.json});
+    return Atlas(options, std::move(*blessed), report).run();
+}
+
+} // namespace
+
+Command atlas_command()
+{
+    auto options = std::make_shared<AtlasOptions>();
+    return {"atlas", "Show, measure and hold where each method breaks", atlas_option_table(*options), kFooter,
+            [options](OptionTable& given) { return run_atlas(*options, given); }};
+}
+
+} // namespace burnish

@@ -1,0 +1,114 @@
+#include "apps/atlas/darkroom.h"
+
+#include "apps/chart/noise.h"
+#include "apps/cli/open.h"
+#include "apps/cli/scene_view.h"
+#include "raster/reference/scene_key.h"
+
+namespace burnish {
+namespace {
+
+constexpr std::size_t kMostKept = 8; // scenes, environments or sessions: a path may have one a step
+
+template <class T> void make_room(std::map<std::string, T>& kept)
+{
+    if (kept.size() >= kMostKept)
+        kept.clear();
+}
+
+} // namespace
+
+Result<Session*> Darkroom::session_of(const AtlasSetting& setting)
+{
+    const RenderOptions& o = setting.options;
+    const std::string key = setting.scene_key + "\n" + setting.environment_key;
+    if (const auto found = sessions_.find(key); found != sessions_.end())
+        return &found->second;
+    if (!scenes_.count(setting.scene_key)) {
+        make_room(scenes_);
+        Result<std::shared_ptr<const SceneData>> scene = open_scene(o.scene, o.limits, o.dress, o.moment, o.lights);
+        if (!scene)
+            return scene.error();
+        scenes_[setting.scene_key] = std::move(*scene);
+    }
+    if (!environments_.count(setting.environment_key)) {
+        make_room(environments_);
+        Result<std::shared_ptr<const Environment>> environment = open_environment(o.env, o.environment, o.limits, *machine_.jobs);
+        if (!environment)
+            return environment.error();
+        environments_[setting.environment_key] = std::move(*environment);
+    }
+    SessionOptions options;
+    options.isa = machine_.isa;
+    Result<Session> session =
+        Session::make({scenes_[setting.scene_key], environments_[setting.environment_key], machine_.jobs, {}}, options);
+    if (!session)
+        return session.error();
+    make_room(sessions_);
+    return &sessions_.emplace(key, std::move(*session)).first->second;
+}
+
+Result<FrameDesc> Darkroom::desc_of(const AtlasSetting& setting, const Session& session)
+{
+    const Result<ChosenView> view = choose_view(setting.options, session.scene(), session.tables());
+    if (!view)
+        return view.error();
+    FrameDesc desc = setting.options.frame;
+    desc.view = view->view;
+    desc.triangle_ids = true;
+    return desc;
+}
+
+Result<Frame> Darkroom::draw(const AtlasSetting& setting)
+{
+    const Result<Session*> session = session_of(setting);
+    if (!session)
+        return session.error();
+    const Result<FrameDesc> desc = desc_of(setting, **session);
+    if (!desc)
+        return desc.error();
+    Result<Frame> frame = (*session)->render(*desc);
+    if (frame && count_not_finite(frame->color))
+        return Error{ExitCode::not_finite, setting.options.scene, setting.values, "the picture holds NaN or Inf"};
+    return frame;
+}
+
+Result<std::shared_ptr<const Truth>> Darkroom::truth(const AtlasSetting& setting)
+{
+    if (setting.options.backend != "reference") {
+        Result<Frame> frame = draw(setting);
+        if (!frame)
+            return frame.error();
+        return std::make_shared<const Truth>(Truth{std::move(frame->color), 0.0});
+    }
+    const Result<Session*> session = session_of(setting);
+    if (!session)
+        return session.error();
+    const Result<FrameDesc> seen = desc_of(setting, **session);
+    if (!seen)
+        return seen.error();
+    FrameDesc desc = *seen;
+    desc.triangle_ids = false;
+    ReferenceOptions options = setting.options.reference;
+    options.stop = machine_.stop;
+    const std::uint64_t key = reference_key((*session)->parts().input(), (*session)->drawn(desc), options);
+    if (const auto found = truths_.find(key); found != truths_.end())
+        return found->second;
+    Result<Frame> frame = kept_reference(**session, desc, options, machine_.isa, machine_.home, report_);
+    if (!frame)
+        return frame.error();
+    if (frame->stats.sampling.stopped)
+        return std::shared_ptr<const Truth>();
+    if (count_not_finite(frame->color))
+        return Error{ExitCode::not_finite, setting.options.scene, "reference", "the picture holds NaN or Inf"};
+    const double noise = noise_flip(frame->color, frame->variance, machine_.isa, *machine_.jobs);
+    return truths_[key] = std::make_shared<const Truth>(Truth{std::move(frame->color), noise});
+}
+
+void Darkroom::forget()
+{
+    sessions_.clear();
+    truths_.clear();
+}
+
+} // namespace burnish

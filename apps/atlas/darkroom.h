@@ -1,0 +1,50 @@
+// Draws the pictures of the atlas, and keeps what several of them are drawn of.
+#pragma once
+#include <atomic>
+#include <map>
+#include <memory>
+#include <string>
+
+#include "apps/atlas/entries.h"
+#include "apps/chart/reference.h"
+#include "raster/session/session.h"
+
+namespace burnish {
+
+struct Truth {
+    Image color;
+    double noise = 0.0; // mean HDR-FLIP that its own noise makes; 0 of the tile renderer's pictures
+};
+
+class Darkroom {
+  public:
+    struct Machine {
+        std::shared_ptr<const Jobs> jobs;
+        Isa isa;
+        ReferenceHome home;
+        const std::atomic<bool>* stop; // of references
+    };
+    Darkroom(Machine machine, Report& report) : machine_(std::move(machine)), report_(report) {}
+
+    // By the tile renderer, with triangle ids.
+    Result<Frame> draw(const AtlasSetting& setting);
+    // Of what the reference makes of it, or the tile renderer. Null where the machine's `stop` came first.
+    Result<std::shared_ptr<const Truth>> truth(const AtlasSetting& setting);
+    void forget(); // truths and sessions: no other entry has the same
+
+    const Jobs& jobs() const { return *machine_.jobs; }
+    Isa isa() const { return machine_.isa; }
+
+  private:
+    Result<Session*> session_of(const AtlasSetting& setting);
+    Result<FrameDesc> desc_of(const AtlasSetting& setting, const Session& session);
+
+    Machine machine_;
+    Report& report_;
+    std::map<std::string, std::shared_ptr<const SceneData>> scenes_;
+    std::map<std::string, std::shared_ptr<const Environment>> environments_;
+    std::map<std::string, Session> sessions_;
+    std::map<std::uint64_t, std::shared_ptr<const Truth>> truths_;
+};
+
+} // namespace burnish

@@ -1,0 +1,156 @@
+#include "apps/atlas/entries.h"
+
+#include <algorithm>
+#include <fmt/core.h>
+
+#include "apps/cli/command_line.h"
+#include "apps/cli/report.h"
+#include "shading/lang/records.h"
+
+namespace burnish {
+namespace {
+
+constexpr bool straight = false, geometric = true; // words of atlas.def
+
+// By blanks, of which values have none.
+std::vector<std::string> words_of(const std::string& text)
+{
+    std::vector<std::string> words = split(text, ' ');
+    std::erase(words, "");
+    return words;
+}
+
+Result<std::vector<OptionPath>> paths_of(const AtlasEntry& entry)
+{
+    RenderArguments scratch; // both ends are tried on
+    OptionTable table = render_option_table(scratch);
+    Result<std::vector<OptionPath>> paths = parse_option_paths("path", entry.path, table);
+    if (paths)
+        for (OptionPath& path : *paths)
+            path.geometric = entry.geometric;
+    return paths;
+}
+
+// What a role has besides the entry's words.
+std::vector<std::string> own_words(const AtlasEntry& entry, AtlasRole role, std::uint64_t samples)
+{
+    if (role != AtlasRole::truth)
+        return words_of(role == AtlasRole::cure ? fmt::format("{} {}", entry.with, entry.cure) : entry.with);
+    std::vector<std::string> words = words_of(entry.truth_words);
+    if (entry.truth != AtlasTruth::render)
+        for (const std::string& word : words_of(fmt::format("--backend reference --samples {} --reference-textures {}", samples,
+                                                            entry.truth == AtlasTruth::full ? "full" : "footprint")))
+            words.push_back(word);
+    return words;
+}
+
+// Of options that scenes are read by, and of those that environments are.
+void set_keys(const OptionTable& table, const std::vector<std::string>& words, AtlasSetting& out)
+{
+    for (const Option& option : table.options()) {
+        if (option.group == "Environment")
+            out.environment_key += option.value.get() + " ";
+        else if (option.positional() || changes_scene(option))
+            out.scene_key += option.value.get() + " ";
+    }
+    for (std::size_t i = 0; i + 1 < words.size(); ++i)
+        if (words[i] == "--light")
+            out.scene_key += words[i + 1] + " ";
+}
+
+const char* lobe_of_frame(const FrameDesc& frame)
+{
+    return lobe_model(lobe_of(frame, frame.tilt_rad != glm::vec2(0.0f))).name;
+}
+
+} // namespace
+
+const std::vector<AtlasEntry>& atlas_entries()
+{
+    static const std::vector<AtlasEntry> entries = {
+#define BN_ATLAS(id, group, breaks, words, kind, path, truth, truth_words, threshold, cure)                                                \
+    {#id, #group, breaks, words, kind, path, AtlasTruth::truth, truth_words, threshold, cure},
+#include "apps/atlas/atlas.def"
+    };
+    return entries;
+}
+
+const AtlasEntry* find_entry(const std::string& id)
+{
+    for (const AtlasEntry& entry : atlas_entries())
+        if (id == entry.id)
+            return &entry;
+    return nullptr;
+}
+
+std::vector<std::string> entry_ids()
+{
+    std::vector<std::string> ids;
+    for (const AtlasEntry& entry : atlas_entries())
+        ids.emplace_back(entry.id);
+    return ids;
+}
+
+Result<AtlasSetting> setting_of(const AtlasEntry& entry, AtlasRole role, double s, int side, std::uint64_t samples)
+{
+    const auto wrong = [&](Error error) {
+        error.place = fmt::format("{}: {}", entry.id, error.place);
+        return error;
+    };
+    const Result<std::vector<OptionPath>> paths = paths_of(entry);
+    if (!paths)
+        return wrong(paths.error());
+    AtlasSetting out;
+    RenderArguments arguments;
+    Command command{"render", "", render_option_table(arguments), "", {}};
+    const std::vector<std::string> own = own_words(entry, role, samples);
+    std::vector<std::string> words = words_of(fmt::format("{0} --size {1}x{1} --no-background -q", entry.words, side));
+    words.insert(words.end(), own.begin(), own.end());
+    if (const Status read = read_command_line(command, words); !read)
+        return wrong(read.error());
+    for (const OptionPath& path : *paths) {
+        const std::string value = value_at(path, s);
+        out.values += fmt::format("{}{} {}", out.values.empty() ? "" : ", ", path.option.substr(2), value);
+        if (std::find(own.begin(), own.end(), path.option) != own.end())
+            continue; // it stays as the role has it
+        if (const Status set = command.options.set(path.option, value); !set)
+            return wrong(set.error());
+    }
+    const Result<RenderOptions> options = check_render_options(arguments, command.options);
+    if (!options)
+        return wrong(options.error());
+    out.options = *options;
+    set_keys(command.options, words, out);
+    return out;
+}
+
+Result<std::vector<std::string>> covered_by(const AtlasEntry& entry)
+{
+    const Result<AtlasSetting> setting = setting_of(entry, AtlasRole::test, 1.0, 64, 0);
+    if (!setting)
+        return setting.error();
+    const RenderOptions& o = setting->options;
+    const std::string words = fmt::format(" {} ", entry.words);
+    std::vector<std::string> covered = {fmt::format("technique {}", o.frame.technique)};
+    if (std::string(entry.group) == "area_lights")
+        covered.push_back(fmt::format("area light {}", area_ways()[static_cast<std::size_t>(o.frame.area_way)].name));
+    if (words.find(" --mip-filter ") != std::string::npos)
+        covered.push_back(fmt::format("mip filter {}", o.dress.lean ? "lean" : "box"));
+    covered.push_back(fmt::format("model {}", lobe_of_frame(o.frame)));
+    return covered;
+}
+
+std::vector<std::string> to_be_covered()
+{
+    std::vector<std::string> all = {"mip filter box", "mip filter lean"};
+    for (const TechniqueInfo& technique : techniques())
+        all.push_back(fmt::format("technique {}", technique.name));
+    for (const AreaWayInfo& way : area_ways())
+        all.push_back(fmt::format("area light {}", way.name));
+    for (const ModelInfo& model : models())
+        if (model.lobe >= 0 && !(model.lobe_traits & kPunctualOnly)) // the others meet no light that a lobe is seen by
+            all.push_back(fmt::format("model {}", model.name));
+    return all;
+}
+
+} // namespace burnish

@@ -1,0 +1,44 @@
+// What the atlas shows: a way to draw, and a path along which it breaks.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "apps/render/animate.h"
+#include "apps/render/options.h"
+
+namespace burnish {
+
+enum class AtlasTruth { reference, full, render }; // as apps/atlas/atlas.def has them
+
+struct AtlasEntry {
+    const char *id, *group, *breaks;
+    const char* words; // of `burnish render`
+    bool geometric;
+    const char* path; // as --animate takes it
+    AtlasTruth truth;
+    const char* truth_words; // that the truth has besides
+    double threshold;
+    const char* cure;      // words that help; empty: none is known
+    std::string with = {}; // words that what breaks and its cure have besides: a change that is tried
+};
+const std::vector<AtlasEntry>& atlas_entries(); // in the order of atlas.def
+const AtlasEntry* find_entry(const std::string& id);
+std::vector<std::string> entry_ids();
+
+// One picture of an entry: options, and what tells scenes and environments apart.
+struct AtlasSetting {
+    RenderOptions options;
+    std::string values; // "anisotropy 0.5": what the path gives
+    std::string scene_key, environment_key;
+};
+
+enum class AtlasRole { test, cure, truth };
+// At s in [0,1], `side` pixels wide and high. Of the truth `samples` a pixel; 0: as the entry's truth needs.
+Result<AtlasSetting> setting_of(const AtlasEntry& entry, AtlasRole role, double s, int side, std::uint64_t samples);
+
+// What of models.def an entry is about, by what its options say: "technique bent_normal", "area light ltc", "model ward", "mip filter
+// lean".
+Result<std::vector<std::string>> covered_by(const AtlasEntry& entry);
+std::vector<std::string> to_be_covered(); // all that there is
+
+} // namespace burnish

@@ -1,0 +1,230 @@
+#include "apps/atlas/measure.h"
+
+#include <algorithm>
+#include <cstring>
+
+#include "core/image/colour.h"
+#include "core/image/magma.h"
+#include "core/image/metrics/flip.h"
+#include "core/image/metrics/metrics.h"
+#include "shading/lang/records.h"
+#include "shading/lang/tables.h"
+
+namespace burnish {
+namespace {
+
+constexpr int kMoreSamples = 64, kMostSamples = 65536; // of the verdict: so many times as many, of techniques and lights
+constexpr double kGone = 0.5;                          // an error is gone where less than this share of it is left
+
+struct Picture {
+    Image color;
+    std::vector<bool> covered; // pixels that show a part of the scene
+};
+
+Picture picture_of(Frame frame)
+{
+    const std::size_t pixels = static_cast<std::size_t>(frame.color.width) * static_cast<std::size_t>(frame.color.height);
+    const std::size_t msaa = frame.triangle_ids.size() / pixels;
+    Picture out{std::move(frame.color), std::vector<bool>(pixels)};
+    for (std::size_t i = 0; i < frame.triangle_ids.size(); ++i)
+        if (frame.triangle_ids.data()[i] != kNoTriangle)
+            out.covered[i / msaa] = true;
+    return out;
+}
+
+// The mean over what is covered.
+double mean_of(const Image& map, const std::vector<bool>& covered)
+{
+    double sum = 0.0, count = 0.0;
+    for (std::size_t i = 0; i < covered.size(); ++i)
+        if (covered[i])
+            sum += static_cast<double>(map.f32()[i]), count += 1.0;
+    return count > 0.0 ? sum / count : 0.0;
+}
+
+// Walks the path of one entry.
+class Walker {
+  public:
+    Walker(const AtlasEntry& entry, const AtlasWalk& walk, Darkroom& room) : entry_(entry), walk_(walk), room_(room)
+    {
+        out_.measured.id = entry.id;
+        out_.strip = make_image(walk.side * walk.steps, walk.side * kAtlasRows, 3, PixelType::u8);
+    }
+    Result<WalkedEntry> walk();
+
+  private:
+    Status step(int i);
+    Status find_kind();
+    // Mean HDR-FLIP over what is covered, and the map of it.
+    double difference(const Truth& exposed_by, const Image& a, const Image& b, const std::vector<bool>& covered, Image& map);
+    Result<double> error_of(const AtlasSetting& test, const AtlasEntry& truth_of, int step);
+    void show(AtlasRow row, int column, const Image& shown);
+    double place(int i) const { return static_cast<double>(i) / (walk_.steps - 1); }
+
+    const AtlasEntry& entry_;
+    const AtlasWalk& walk_;
+    Darkroom& room_;
+    WalkedEntry out_;
+    std::optional<Picture> before_; // of what breaks
+    std::shared_ptr<const Truth> truth_before_;
+};
+
+// At the exposures of a truth, so that all figures of a step are seen alike.
+double Walker::difference(const Truth& exposed_by, const Image& a, const Image& b, const std::vector<bool>& covered, Image& map)
+{
+    FlipOptions flip;
+    flip.isa = room_.isa();
+    const FlipExposures range = find_exposures(exposed_by.color, flip, room_.jobs());
+    flip.start_ev = range.start_ev, flip.stop_ev = range.stop_ev, flip.exposures = range.count;
+    map = flip_hdr(a, b, flip, room_.jobs()).error;
+    return mean_of(map, covered);
+}
+
+void Walker::show(AtlasRow row, int column, const Image& shown)
+{
+    const std::size_t bytes = static_cast<std::size_t>(shown.width) * 3;
+    for (int y = 0; y < shown.height; ++y)
+        std::memcpy(out_.strip.bytes.data() +
+                        (static_cast<std::size_t>(static_cast<int>(row) * walk_.side + y) * static_cast<std::size_t>(out_.strip.width) +
+                         static_cast<std::size_t>(column * walk_.side)) *
+                            3,
+                    shown.bytes.data() + static_cast<std::size_t>(y) * bytes, bytes);
+}
+
+Status Walker::step(int i)
+{
+    AtlasStep s;
+    s.s = place(i);
+    const Result<AtlasSetting> of_truth = setting_of(entry_, AtlasRole::truth, s.s, walk_.side, walk_.samples);
+    if (!of_truth)
+        return of_truth.error();
+    const Result<std::shared_ptr<const Truth>> truth = room_.truth(*of_truth);
+    if (!truth)
+        return truth.error();
+    out_.stopped = !*truth;
+    if (out_.stopped)
+        return {};
+    s.noise = (*truth)->noise;
+    const auto shown = [&](const Image& linear, const RenderOptions& o) { return tonemap_to_srgb8(linear, o.tonemap, o.exposure_ev); };
+    show(AtlasRow::truth, i, shown((*truth)->color, of_truth->options));
+    for (const AtlasRole role : {AtlasRole::test, AtlasRole::cure}) {
+        if (role == AtlasRole::cure && !entry_.cure[0])
+            continue;
+        const Result<AtlasSetting> setting = setting_of(entry_, role, s.s, walk_.side, 0);
+        if (!setting)
+            return setting.error();
+        Result<Frame> frame = room_.draw(*setting);
+        if (!frame)
+            return frame.error();
+        const bool test = role == AtlasRole::test;
+        Picture now = picture_of(std::move(*frame));
+        Image map, unused;
+        (test ? s.error : s.cure_error) = difference(**truth, (*truth)->color, now.color, now.covered, map);
+        show(test ? AtlasRow::test : AtlasRow::cure, i, shown(now.color, setting->options));
+        show(test ? AtlasRow::error : AtlasRow::cure_error, i, magma_map(map));
+        if (test && before_) // it changed by so much more than the truth did
+            s.change = difference(**truth, before_->color, now.color, now.covered, unused) -
+                       difference(**truth, truth_before_->color, (*truth)->color, now.covered, unused);
+        if (test)
+            s.values = setting->values, before_ = std::move(now);
+    }
+    truth_before_ = *truth;
+    out_.measured.steps.push_back(std::move(s));
+    return {};
+}
+
+// What a picture of the path is off by against the truth of another entry.
+Result<double> Walker::error_of(const AtlasSetting& test, const AtlasEntry& truth_of, int step)
+{
+    const Result<AtlasSetting> setting = setting_of(truth_of, AtlasRole::truth, place(step), walk_.side, walk_.samples);
+    if (!setting)
+        return setting.error();
+    const Result<std::shared_ptr<const Truth>> truth = room_.truth(*setting);
+    if (!truth)
+        return truth.error();
+    out_.stopped = !*truth;
+    if (out_.stopped)
+        return 0.0;
+    Result<Frame> frame = room_.draw(test);
+    if (!frame)
+        return frame.error();
+    const Picture now = picture_of(std::move(*frame));
+    Image map;
+    return difference(**truth, (*truth)->color, now.color, now.covered, map);
+}
+
+Status Walker::find_kind()
+{
+    MeasuredEntry& m = out_.measured;
+    m.kind = "none", m.remedy = m.worst;
+    if (m.onset > 1.0)
+        return {};
+    const auto worst =
+        std::max_element(m.steps.begin(), m.steps.end(), [](const AtlasStep& a, const AtlasStep& b) { return a.error < b.error; });
+    const int at = static_cast<int>(worst - m.steps.begin());
+    const Result<AtlasSetting> setting = setting_of(entry_, AtlasRole::test, place(at), walk_.side, 0);
+    if (!setting)
+        return setting.error();
+    AtlasSetting more = *setting;
+    FrameDesc& frame = more.options.frame;
+    const TechniqueInfo& technique = *find_technique(frame.technique);
+    frame.samples = samples_taken(technique, std::min({frame.samples * kMoreSamples, kMostSamples, technique.most_samples}));
+    frame.light_samples = std::min(frame.light_samples * kMoreSamples, static_cast<std::uint32_t>(kMostSamples));
+    frame.msaa = kMaxSamples;
+    const Result<double> sampled = error_of(more, entry_, at);
+    if (!sampled)
+        return sampled.error();
+    m.kind = "approximation", m.remedy = *sampled;
+    if (*sampled < kGone * m.worst) {
+        m.kind = "sampling";
+        return {};
+    }
+    if (entry_.truth != AtlasTruth::full)
+        return {};
+    AtlasEntry filtered = entry_;
+    filtered.truth = AtlasTruth::reference;
+    const Result<double> alike = error_of(*setting, filtered, at);
+    if (!alike)
+        return alike.error();
+    m.remedy = std::min(*sampled, *alike);
+    if (*alike < kGone * m.worst)
+        m.kind = "filtering";
+    return {};
+}
+
+Result<WalkedEntry> Walker::walk()
+{
+    for (int i = 0; i < walk_.steps && !out_.stopped; ++i)
+        if (const Status done = step(i); !done)
+            return done.error();
+    if (!out_.stopped) {
+        summarise(entry_, out_.measured);
+        if (const Status found = find_kind(); !found)
+            return found.error();
+    }
+    return std::move(out_);
+}
+
+} // namespace
+
+void summarise(const AtlasEntry& entry, MeasuredEntry& m)
+{
+    m.onset = 2.0, m.worst = m.flicker = m.cure_worst = m.noise = 0.0;
+    for (const AtlasStep& s : m.steps) {
+        if (m.onset > 1.0 && s.error > entry.threshold)
+            m.onset = s.s;
+        m.worst = std::max(m.worst, s.error);
+        m.cure_worst = std::max(m.cure_worst, s.cure_error);
+        m.noise = std::max(m.noise, s.noise);
+        m.flicker += s.change / static_cast<double>(std::max<std::size_t>(1, m.steps.size() - 1));
+    }
+}
+
+Result<WalkedEntry> walk_entry(const AtlasEntry& entry, const AtlasWalk& walk, Darkroom& room)
+{
+    Result<WalkedEntry> walked = Walker(entry, walk, room).walk();
+    room.forget();
+    return walked;
+}
+
+} // namespace burnish

@@ -1,0 +1,54 @@
+// How an entry of the atlas breaks: its path walked, its figures, and what kind of failure it is.
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/atlas/darkroom.h"
+#include "apps/report/json.h"
+
+namespace burnish {
+
+// How the atlas is walked. Figures of one walk say nothing of the other's.
+struct AtlasWalk {
+    const char* name;
+    int steps, side;       // of a path; pixels of a picture
+    std::uint64_t samples; // a pixel of the reference
+};
+inline constexpr AtlasWalk kQuickWalk{"quick", 7, 64, 512}, kFullWalk{"full", 33, 96, 1024};
+
+struct AtlasStep {
+    double s = 0.0; // [0,1]
+    std::string values;
+    double error = 0.0, cure_error = 0.0; // mean HDR-FLIP over what shows the scene, of what breaks and of the cure
+    double noise = 0.0;                   // of the truth, mean HDR-FLIP
+    double change = 0.0;                  // mean FLIP from the step before, less that of the truth; 0 of the first step
+};
+
+struct MeasuredEntry {
+    std::string id;
+    std::vector<AtlasStep> steps;
+    std::string kind;        // "sampling", "filtering", "approximation"; "none" where nothing exceeds the threshold
+    double onset = 2.0;      // the first s beyond the threshold; above 1: none
+    double worst = 0.0;      // the largest error
+    double flicker = 0.0;    // mean change
+    double cure_worst = 0.0; // the cure's largest error; 0 where none is known
+    double noise = 0.0;      // the largest
+    double remedy = 0.0;     // the error at the worst step with 64 times the samples, or against a truth that filters alike
+};
+
+// From steps to figures; but for kind and remedy.
+void summarise(const AtlasEntry& entry, MeasuredEntry& measured);
+
+// The entry's pictures: a column a step, rows as below. 8-bit sRGB.
+enum class AtlasRow { truth, test, error, cure, cure_error };
+inline constexpr int kAtlasRows = 5;
+
+struct WalkedEntry {
+    MeasuredEntry measured;
+    Image strip;
+    bool stopped = false; // by a signal, with nothing to be used
+};
+Result<WalkedEntry> walk_entry(const AtlasEntry& entry, const AtlasWalk& walk, Darkroom& room);
+
+} // namespace burnish

@@ -1,0 +1,85 @@
+#include "apps/atlas/options.h"
+
+#include <algorithm>
+#include <fmt/core.h>
+
+#include "apps/cli/outputs.h"
+#include "apps/cli/report.h"
+#include "apps/cli/shared_options.h"
+#include "apps/cli/suggest.h"
+#include "apps/cli/values.h"
+
+namespace burnish {
+namespace {
+
+Value entry_names(std::vector<std::string>& to)
+{
+    Value value;
+    value.kind = ValueKind::name, value.repeated = true, value.names = entry_ids();
+    value.set = [&to](const std::string&, const std::vector<std::string>& texts) -> Status {
+        for (const std::string& text : texts)
+            if (!find_entry(text))
+                return usage_error("ID", fmt::format("no entry '{}'{} (see burnish atlas --list)", text, did_you_mean(text, entry_ids())));
+        to = texts;
+        return {};
+    };
+    value.get = [] { return std::string(); };
+    return value;
+}
+
+} // namespace
+
+OptionTable atlas_option_table(AtlasOptions& to)
+{
+    OptionTable table;
+    table.add(
+        "", {{"ID", "", "Entries; may be several; all without one", entry_names(to.ids)},
+             {"--list", "", "Print the entries and what each breaks", flag(to.list)},
+             {"--quick", "", "7 steps of small pictures in place of 33 of larger ones, with blessed figures of their own", flag(to.quick)},
+             {"--with", "WORDS", "Words of burnish render that what breaks and its cure have besides, to see what a change breaks",
+              text(to.with), ""}});
+    table.add("Output",
+              {{"-o,--output", "DIR", "Folder of the page, index.html, and of atlas.json; made where it is not there", folder(to.folder)},
+               {"--json", "FILE", "The figures; - for standard output", file(to.json)},
+               {"--table", "FILE", "Blessed figures to hold to", file(to.table), "the program's own"},
+               {"--bless", "", "Write what was measured into --table; entries that were not measured stay as they are", flag(to.bless)},
+               quiet_option(to.quiet),
+               verbose_option(to.verbosity)});
+    table.add("Machine", {threads_option(to.threads),
+                          isa_option(to.isa, "{}; never changes the figures"),
+                          {"--no-cache", "", "No cache of environments and references", flag(to.use_cache, false)}});
+    return table;
+}
+
+Status check_atlas_options(AtlasOptions& options, const OptionTable& given)
+{
+    if (options.bless && options.table.empty())
+        return usage_error("--bless", "needs --table, the file that is written");
+    if (options.bless && !options.with.empty())
+        return usage_error("--with", "cannot be combined with --bless: a trial is not blessed");
+    for (const AtlasEntry& entry : options.entries())
+        if (const Result<AtlasSetting> setting = setting_of(entry, AtlasRole::test, 1.0, kQuickWalk.side, 0); !setting)
+            return Error{ExitCode::usage, "", "--with", setting.error().reason};
+    if (!options.json.empty())
+        if (const Status path = check_text_path("--json", options.json, {options.table}); !path)
+            return path;
+    if (options.bless)
+        if (const Status path = check_text_path("--table", options.table, {}); !path)
+            return path;
+    const Result<Isa> isa = choose_isa(given, options.isa);
+    if (!isa)
+        return isa.error();
+    options.isa = *isa;
+    return {};
+}
+
+std::vector<AtlasEntry> AtlasOptions::entries() const
+{
+    std::vector<AtlasEntry> out;
+    for (const AtlasEntry& entry : atlas_entries())
+        if (ids.empty() || std::find(ids.begin(), ids.end(), entry.id) != ids.end())
+            out.push_back(entry), out.back().with = with;
+    return out;
+}
+
+} // namespace burnish

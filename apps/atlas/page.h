@@ -1,0 +1,13 @@
+// The page of the atlas.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "apps/atlas/kept.h"
+
+namespace burnish {
+
+// Beside it lie the strips of pictures, and nothing else is needed.
+std::string atlas_page(const std::vector<AtlasResult>& results, const AtlasWalk& walk);
+
+} // namespace burnish

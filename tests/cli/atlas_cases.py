@@ -1,0 +1,148 @@
+"""burnish atlas: where methods break, and that it is held."""
+
+import json
+import re
+import signal
+import subprocess
+import time
+
+from browser import Browser
+from chart_cases import needs_embree
+from chart_page_cases import healthy
+from harness import case, check, scratch
+
+FAST = "albedo_by_a_fit" # of two pictures of the tile renderer a step: no reference
+
+
+@case("atlas.lists_what_breaks", tier="quick")
+def lists(bench):
+    out = bench.run("atlas", "--list").expect(0).out
+    check(FAST in out and "environment:" in out and "burnish render builtin:sphere" in out, out)
+    one = bench.run("atlas", FAST, "--list").expect(0).out
+    check(FAST in one and len(one.splitlines()) == 4, one)
+
+
+@case("atlas.refuses_what_is_no_entry", tier="quick")
+def mistakes(bench):
+    bench.run("atlas", "albedo_by_a_fti").expect(2).expect_one_line("no entry 'albedo_by_a_fti'", "did you mean 'albedo_by_a_fit'?")
+    bench.run("atlas", FAST, "--bless").expect(2).expect_one_line("--bless", "--table")
+    bench.run("atlas", FAST, "--with", "--axis-k x").expect(2).expect_one_line("--with")
+    bench.run("atlas", FAST, "--with", "--no-option 1").expect(2).expect_one_line("--with", "--no-option")
+    bench.run("atlas", FAST, "--with", "--axis-k 1", "--bless", "--table", "t.md").expect(2).expect_one_line("--with")
+    scratch(bench, "file", "")
+    bench.run("atlas", FAST, "-o", "file").expect(7).expect_one_line("file")
+    bench.run("atlas", FAST, "-o", "file/folder").expect(7).expect_one_line("file/folder")
+    bench.run("atlas", FAST, "--json", "nowhere/a.json").expect(7).expect_one_line("nowhere")
+    bench.run("atlas", FAST, "--table", "no.md").expect(4).expect_one_line("no.md")
+    scratch(bench, "t.md", "Version 1\n## quick\n| a | b | c | d | e | f |\n")
+    bench.run("atlas", FAST, "--table", "t.md").expect(4).expect_one_line("t.md", "is no row")
+    check(bench.left_behind() == ["file", "t.md"], f"{bench.left_behind()}")
+
+
+@case("atlas.holds_what_is_blessed", "input")
+def held(bench):
+    needs_embree(bench)
+    words = ("atlas", FAST, "--quick")
+    done = bench.run(*words, "--table", "t.md", "--bless", "-o", "dir", "--json", "-").expect(0)
+    entry = json.loads(done.out)["entries"][0]
+    check(entry["id"] == FAST and len(entry["steps"]) == 7 and 0 < entry["onset"] <= 1 and entry["worst"] > entry["threshold"], f"{entry}")
+    check(entry["steps"][0]["s"] == 0 and entry["steps"][-1]["s"] == 1 and entry["cure_worst"] == 0, f"{entry}")
+    check(entry["worst"] == max(s["error"] for s in entry["steps"]), f"{entry}")
+    check(json.loads((bench.folder / "dir/atlas.json").read_text())["entries"][0] == entry, "the same in both files")
+    page = (bench.folder / "dir/index.html").read_text()
+    check(FAST in page and f"url('{FAST}-quick.png')" in page and "not blessed" in page, "the page lacks the entry")
+    table = (bench.folder / "t.md").read_text()
+    bench.run(*words, "--table", "t.md").expect(0)
+    # what is worse is named, what is better asks for a bless
+    row = next(line for line in table.splitlines() if line.startswith(f"| {FAST} "))
+    cells = [cell.strip() for cell in row.split("|")]
+    for worst, code, says in ((0.5 * entry["worst"], 1, "is off by"), (2 * entry["worst"], 0, "bless it")):
+        changed = [*cells[:3], f"{worst:.4f}", *cells[4:]]
+        scratch(bench, "other.md", table.replace(row, " | ".join(changed).strip()))
+        done = bench.run(*words, "--table", "other.md").expect(code)
+        check(says in done.err and FAST in done.err, done.describe())
+    # a table of another version is said, not compared
+    scratch(bench, "other.md", table.replace("Version 1", "Version 9"))
+    done = bench.run(*words, "--table", "other.md").expect(0)
+    check("version 9" in done.err and "nothing is compared" in done.err, done.describe())
+    # a change that breaks it
+    done = bench.run(*words, "--table", "t.md", "--with", "--dfg table").expect(0)
+    check("worst 0.0000" in done.out and "bless it" in done.err, done.describe())
+
+
+@case("atlas.goes_on_where_it_was_stopped")
+def goes_on(bench):
+    """What is finished is kept in DIR, and a run that was stopped ends with the figures of one that was not."""
+    needs_embree(bench)
+    ids = (FAST, "axis_few_samples", "split_isotropic_is_round")
+    words = ("atlas", *ids, "--quick", "--no-cache")
+    child = subprocess.Popen([bench.program, *words, "-o", "a"], cwd=bench.folder, env=bench.environment({}), stdout=subprocess.PIPE,
+                             stderr=subprocess.PIPE)
+    begin = time.monotonic()
+    while not (bench.folder / f"a/{FAST}-quick.json").exists() and child.poll() is None and time.monotonic() - begin < 60:
+        time.sleep(0.01)
+    child.send_signal(signal.SIGINT)
+    _, err = child.communicate()
+    check(child.returncode == 130 and b"stopped" in err and not (bench.folder / "a/index.html").exists(), f"{child.returncode} {err}")
+    before = (bench.folder / f"a/{FAST}-quick.json").stat().st_mtime_ns
+    bench.run(*words, "-o", "a").expect(0)
+    check((bench.folder / f"a/{FAST}-quick.json").stat().st_mtime_ns == before, "what was finished was measured again")
+    bench.run(*words, "-o", "b", "-t", "1").expect(0)
+    a, b = ((bench.folder / f"{name}/atlas.json").read_bytes() for name in "ab")
+    check(a == b, "the figures differ from those of a run that was not stopped")
+
+
+@case("atlas.page_walks_paths_by_slider_and_keys")
+def page(bench):
+    needs_embree(bench)
+    with Browser(bench.folder / "browser") as browser:
+        bench.run("atlas", FAST, "axis_few_samples", "--quick", "-o", "dir")
+        browser.size(1200, 900)
+        browser.open(bench.folder / "dir/index.html")
+        says = "document.querySelectorAll('.says')[{}].textContent".format
+        check(browser.value("document.querySelectorAll('.entry').length") == 2, "a section an entry")
+        check(browser.value(says(0)).startswith("s = 1.000: roughness 1;"), browser.value(says(0)))
+        place = "getComputedStyle(document.querySelectorAll('.panes')[{}].querySelector('.pane')).backgroundPosition".format
+        before = browser.value(place(0))
+        browser.press("ArrowLeft", number=37)  # of the first entry, without a focus
+        check(browser.value(says(0)).startswith("s = 0.833:") and browser.value(place(0)) != before, "an arrow key does not go along the path")
+        browser.press("n", number=78, text="n")
+        check(browser.value("document.activeElement === document.querySelectorAll('.path')[1]"), "N does not go to the next entry")
+        browser.press("ArrowLeft", number=37)
+        check(browser.value(says(1)).startswith("s = 0.833:") and browser.value(says(0)).startswith("s = 0.833:"), "an arrow key moves another path")
+        browser.press("+", number=107, text="+")
+        check(browser.value("document.querySelectorAll('.panes')[1].style.getPropertyValue('--zoom')") == "2", "no zoom")
+        browser.press("f", number=70, text="f")
+        browser.until("document.querySelectorAll('.panes')[1].querySelector('[data-row=\"1\"]').classList.contains('flickers')")
+        browser.press("f", number=70, text="f")
+        for width in (400, 1200):
+            for scheme in ("light", "dark"):
+                browser.size(width, 900)
+                browser.scheme(scheme)
+                check(browser.value("document.documentElement.scrollWidth <= innerWidth"), f"{width} pixels are too few")
+                paper = browser.value("getComputedStyle(document.body).backgroundColor")
+                check((sum(map(int, re.findall(r"\d+", paper)[:3])) < 200) == (scheme == "dark"), f"{scheme}: {paper}")
+                browser.screenshot(bench.folder / f"{width}-{scheme}.png")
+        healthy(browser)
+
+
+@case("atlas.everything_is_held_in_quick_steps", tier="gate")
+def quick(bench):
+    needs_embree(bench)
+    begin = time.monotonic()
+    done = bench.run("atlas", "--quick", "-o", "dir", timeout=900).expect(0)
+    print(done.out, f"{time.monotonic() - begin:.0f} s")
+    check("not blessed" not in done.out, done.describe())
+    check(len(done.out.splitlines()) == len(re.findall(r"^  \w", bench.run("atlas", "--list").out, re.M)), done.describe())
+
+
+@case("atlas.a_seeded_defect_turns_the_right_entries_red", tier="slow")
+def defects(bench):
+    """The line of samples half as dense as it should be, the light's tables read as another, filters left out: each is seen by the entries
+    that it is about, and by no other."""
+    needs_embree(bench)
+    for words, prefixes in (("--axis-beta 0.8", ("axis_", "adaptive_")),):
+        report = json.loads(bench.run("atlas", "--quick", "--with", words, "--json", "-", timeout=900).out)
+        red = [e["id"] for e in report["entries"] if e["verdict"] in ("worse", "cure fails")]
+        print(words, red)
+        check(red and all(name.startswith(prefixes) for name in red), f"{words}: {red}")
