@@ -110,9 +110,9 @@ MipTexel texel_of(MipFilter filter, const State& s)
         t = tensor_of_covariance(scaled(covariance_seen_from(n, {v[3], v[4], v[5], v[6], v[7], v[8]}), 0.5f));
     } else if (filter == kMipFilter_ssgt) {
         const real3 mean = vec3_of(v[0], v[1], v[2]);
-        const space_covariance s = {v[3], v[4], v[5], v[6], v[7], v[8]};
-        n = unit_or_up(sggx_product(mean, s, n)); // towards its axis: after this the mean slope is of second order
-        t = tensor_of_covariance(scaled(sggx_lobe(n, mean, s).spread, 0.5f));
+        const space_covariance spread = {v[3], v[4], v[5], v[6], v[7], v[8]};
+        n = unit_or_up(sggx_product(mean, spread, n)); // towards its axis: after this the mean slope is of second order
+        t = tensor_of_covariance(scaled(sggx_lobe(n, mean, spread).spread, 0.5f));
     }
     t = projected_tensor(t);
     return {n.x, n.y, t.a, t.b, t.c};

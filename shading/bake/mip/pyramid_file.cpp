@@ -95,8 +95,10 @@ std::vector<std::uint8_t> mip_file_bytes(const std::vector<const MipLevels*>& ma
 {
     std::vector<std::uint8_t> bytes;
     const auto append = [&bytes](const void* from, std::size_t size) {
-        const auto* first = static_cast<const std::uint8_t*>(from);
-        bytes.insert(bytes.end(), first, first + size);
+        const std::size_t at = bytes.size();
+        bytes.resize(at + size);
+        if (size) // levels of nothing have no address
+            std::memcpy(bytes.data() + at, from, size);
     };
     MipFileHeader head = {};
     std::memcpy(head.magic, kMipMagic, sizeof kMipMagic);
