@@ -5,6 +5,7 @@
 
 #include "apps/cli/command_line.h"
 #include "apps/cli/report.h"
+#include "shading/bake/mip/levels.h"
 #include "shading/lang/records.h"
 
 namespace burnish {
@@ -135,14 +136,16 @@ Result<std::vector<std::string>> covered_by(const AtlasEntry& entry)
     if (std::string(entry.group) == "area_lights")
         covered.push_back(fmt::format("area light {}", area_ways()[static_cast<std::size_t>(o.frame.area_way)].name));
     if (words.find(" --mip-filter ") != std::string::npos)
-        covered.push_back(fmt::format("mip filter {}", o.dress.lean ? "lean" : "box"));
+        covered.push_back(fmt::format("mip filter {}", mip_filters()[static_cast<std::size_t>(o.dress.mip_filter)].name));
     covered.push_back(fmt::format("model {}", lobe_of_frame(o.frame)));
     return covered;
 }
 
 std::vector<std::string> to_be_covered()
 {
-    std::vector<std::string> all = {"mip filter box", "mip filter lean"};
+    std::vector<std::string> all;
+    for (const MipFilterInfo& filter : mip_filters())
+        all.push_back(fmt::format("mip filter {}", filter.name));
     for (const TechniqueInfo& technique : techniques())
         all.push_back(fmt::format("technique {}", technique.name));
     for (const AreaWayInfo& way : area_ways())
