@@ -122,7 +122,7 @@ BN_INLINE constexpr bool area_way_used(int)
 // reflectances, light that passes nor a lobe other than the usual one.
 struct PlainFrame : ShadingFrame {
     static constexpr int light_count = 0, area_light_count = 0, key_light_count = 0, energy_compensation = 0, dfg_fit = 0, fresnel = 0,
-                         diffuse_model = 0;
+                         diffuse_model = 0, specular_aa = 0;
     static constexpr int lobe = lobe_with(kLobeOfAll), lobe_traits = lobe_traits_of(lobe);
 };
 struct PlainMaterial : MaterialRecord {

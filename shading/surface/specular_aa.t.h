@@ -51,8 +51,9 @@ BN_STAGE slope_covariance covariance_of_pixel(any_frame f, material_ref m, BN_IN
 }
 
 // A round lobe grows to a round one.
-BN_STAGE lobe_shape grown_shape(any_frame f, material_ref m, BN_IN(material_inputs) at, BN_IN(visible_point) p, BN_IN(lobe_shape) shape)
+BN_STAGE lobe_shape grown_shape(any_frame f, material_ref m, BN_IN(material_inputs) at, BN_IN(visible_point) p)
 {
+    lobe_shape shape = lobe_shape_of(f, m, at);
     slope_covariance more = covariance_of_pixel(f, m, at, p);
     real u2 = shape.sigma_u * shape.sigma_u;
     real v2 = shape.sigma_v * shape.sigma_v;
@@ -82,10 +83,9 @@ BN_STAGE lobe_shape grown_shape(any_frame f, material_ref m, BN_IN(material_inpu
 // What the frame draws there.
 BN_FN lobe_shape lobe_shape_at(frame_ref f, material_ref m, BN_IN(material_inputs) at, BN_IN(visible_point) p)
 {
-    lobe_shape shape = lobe_shape_of(f, m, at);
     if (the_frame(f).specular_aa != 0)
-        return grown_shape(f, m, at, p, shape);
-    return shape;
+        return grown_shape(f, m, at, p);
+    return lobe_shape_of(f, m, at);
 }
 
 BN_KERNELS_END
