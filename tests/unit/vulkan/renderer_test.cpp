@@ -226,12 +226,14 @@ TEST_F(cache, is_used_by_the_second_run_and_ignored_where_it_is_broken)
     const auto first = draw();
     EXPECT_FALSE(first.first) << "there was none";
     ASSERT_FALSE(file().empty());
-    EXPECT_EQ(draw(), std::pair(true, first.second));
-    for (const std::string& text : {std::string("short"), std::string(4096, 'x')}) {
-        std::ofstream(file(), std::ios::binary | std::ios::trunc) << text;
-        EXPECT_EQ(draw(), std::pair(false, first.second)) << "a file of " << text.size() << " bytes";
-    }
+    const auto write = [&](const std::string& text) { std::ofstream(file(), std::ios::binary | std::ios::trunc) << text; };
+    write(std::string(4096, 'x'));
+    EXPECT_EQ(draw(), std::pair(false, first.second)) << "of no driver";
     EXPECT_EQ(draw(), std::pair(true, first.second)) << "written anew";
+    write("short");
+    VulkanOptions options = lavapipe();
+    options.use_cache = true;
+    EXPECT_FALSE(Context(options).cache_loaded());
 }
 
 } // namespace
