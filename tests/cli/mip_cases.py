@@ -189,7 +189,7 @@ def nets(bench):
         return good[:at] + value.to_bytes(4, "little") + good[at + 4:]
 
     for name, data, needle in (("version", altered(8, 7), "version 7"), ("lobe", altered(12, 9), "lobe 9"), ("width", altered(28, 33), "numbers"),
-                               ("units", altered(28, 0), "units"), ("crc", altered(2000, 1), "damaged"), ("short", good[:-1], "bytes"), ("none", b"", "weights")):
+                               ("units", altered(28, 0), "units"), ("crc", altered(2000, 1), "damaged"), ("short", good[:-1], "bytes"), ("none", b"", "empty")):
         scratch(bench, name, data)
         bench.run("render", *words, "--mip-net", name, "-o", "x.pfm").expect(4).expect_one_line(needle)
         bench.run("bake", "mip", "builtin:bumps", "--mip-filter", "mipnet", "--mip-net", name, "-o", "x.mip").expect(4).expect_one_line(needle)
