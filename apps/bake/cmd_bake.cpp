@@ -86,6 +86,8 @@ struct BakeArguments {
     int triangles = 1000000;
     MipFilter mip_filter = kMipFilter_kappa;
     std::optional<double> mip_kappa;
+    std::string mip_net;
+    MipFallback fallback{};
     int brdf = 0; // a lobe
     std::string preview;
     double nu = -1.0, nv = -1.0;
@@ -138,8 +140,12 @@ OptionTable bake_option_table(BakeArguments& to)
     table.add_needing(
         "WHAT", "mip",
         {{"--mip-filter", "NAME", "{}", choice(to.mip_filter, filters_of_lobes())},
-         {"--mip-kappa", "K", "Of filter kappa", number(to.mip_kappa, 0.0, 4.0), "0.7 of lobes with GGX's normals, 1.8 of others"},
-         {"--brdf", "NAME", "Model of the lobes, whose usual kappa is taken", lobe_value(to.brdf)},
+         {"--mip-kappa", "K", "Of filter kappa, and of taps under mipnet", number(to.mip_kappa, 0.0, 4.0),
+          "0.7 of lobes with GGX's normals, 1.8 of others"},
+         {"--mip-net", "FILE", "Of filter mipnet: weights of burnish train mip", file(to.mip_net), "the program's own for --brdf"},
+         {"--fallback", "NAME", "Of filter mipnet: {}; auto leaves materials to kappa or baseline where the net is worse than they are",
+          choice(to.fallback, {"auto", "off"})},
+         {"--brdf", "NAME", "Model of the lobes, whose usual kappa and net are taken", lobe_value(to.brdf)},
          {"--preview", "FOLDER", "Also every level as two pictures: normals, and lobes in false colour", folder(to.preview)}});
     table.add_needing("WHAT", "direction",
                       {{"--from", "NAME", "{}", choice(to.from, {"hue", "luminance"})},
@@ -456,6 +462,7 @@ int run_mip(const BakeArguments& a)
     Dress with;
     with.mip_filter = a.mip_filter;
     with.mip_kappa = a.mip_kappa ? static_cast<float>(*a.mip_kappa) : usual_kappa((lobe_model(a.brdf).lobe_traits & kNormals_ggx) != 0);
+    with.mip_net = a.mip_net, with.mip_fallback = a.fallback, with.mip_brdf = a.brdf;
     std::error_code none;
     const bool is_folder = fs::is_directory(a.picture, none);
     if (is_folder)

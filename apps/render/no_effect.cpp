@@ -35,8 +35,12 @@ void warn_of_no_effect(const OptionTable& given, RenderOptions& out)
             out.warnings.push_back("--animation has no effect without --time");
     if (out.scene.starts_with("builtin:"))
         warn("--time", out.scene);
-    if (out.dress.mip_filter != kMipFilter_kappa)
-        warn("--mip-kappa", std::string("--mip-filter ") + mip_filters()[static_cast<std::size_t>(out.dress.mip_filter)].name);
+    const std::string of_filter = std::string("--mip-filter ") + mip_filters()[static_cast<std::size_t>(out.dress.mip_filter)].name;
+    if (!takes_kappa(out.dress.mip_filter))
+        warn("--mip-kappa", of_filter);
+    if (out.dress.mip_filter != kMipFilter_mipnet)
+        for (const char* option : {"--mip-net", "--fallback"})
+            warn(option, of_filter);
     if (out.backend == "vulkan")
         warn("--tile-size", of_backend);
     const bool displayed =

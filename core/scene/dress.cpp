@@ -302,7 +302,7 @@ bool Dress::names(const std::string& path) const
 {
     return !path.empty() &&
            (path == direction || path == rotation || path == normal || path == quaternion || path == height || path == roughness ||
-            path == material || path == mip_pyramid || (!material.empty() && path.starts_with(material)));
+            path == material || path == mip_pyramid || path == mip_net || (!material.empty() && path.starts_with(material)));
 }
 
 Status dress(Scene& scene, const Dress& with, const Limits& limits)

@@ -12,6 +12,8 @@
 
 namespace burnish {
 
+enum class MipFallback { automatic, off }; // automatic: materials are left to closed forms where the net is worse than it may be
+
 struct Dress {              // empty: left as it is
     std::string material;   // folder of pictures, whose names end in what they are: see apps/README.md
     std::string direction;  // an anisotropy texture; materials without strength of anisotropy get 1, which its blue scales
@@ -24,7 +26,10 @@ struct Dress {              // empty: left as it is
     RotationEncoding rotation_encoding = RotationEncoding::vector;
     bool normal_y_down = false;     // all normal maps have green down
     MipFilter mip_filter{};         // of all materials; the first: as their file has it
-    std::optional<float> mip_kappa; // of filter kappa; none: 0.7
+    std::optional<float> mip_kappa; // of filters kappa and mipnet; none: 0.7
+    std::string mip_net;            // weights of `burnish train mip` for filter mipnet; empty: the program's
+    int mip_brdf = 0;               // model of lobes that the program's are for, a place of BN_LOBE
+    MipFallback mip_fallback{};     // of filter mipnet
     std::string mip_pyramid;        // levels of `burnish bake mip`
     std::optional<glm::vec3> f0;    // reflectance at normal incidence of all materials, which are dielectrics then
 

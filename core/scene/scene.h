@@ -59,6 +59,9 @@ struct TextureRef {
 };
 
 enum class MipFilter : std::int32_t {}; // a line of BN_MIP_FILTER in shading/models.def, by its place
+namespace mipnet {
+struct Weights; // shading/bake/mipnet/weights.h
+}
 
 struct FieldKinds { // of material.def, light.def and area_light.def
     using number = float;
@@ -75,10 +78,11 @@ struct Material { // material.def
 #define BN_CHOICE(type, name, words, path) type name = type{};
 #define BN_TEXTURE(name, path) TextureRef name;
 #include "core/scene/material.def"
-    bool emitter = false;   // of what shows an area light
-    bool heights = false;   // the alpha of normal_tex holds heights, [0,1]
-    MipFilter mip_filter{}; // of its normals and lobes
-    float mip_kappa = 0.0f; // of filter kappa
+    bool emitter = false;                           // of what shows an area light
+    bool heights = false;                           // the alpha of normal_tex holds heights, [0,1]
+    MipFilter mip_filter{};                         // of its normals and lobes
+    float mip_kappa = 0.0f;                         // of filter kappa, and of the taps of mipnet
+    std::shared_ptr<const mipnet::Weights> mip_net; // of filter mipnet; none: levels are brought along
 };
 
 enum class WrapMode : std::uint8_t { repeat, clamp, mirror };

@@ -3,11 +3,16 @@
 #include <algorithm>
 #include <cinttypes>
 #include <cstdio>
+#include <optional>
 
 #include "core/base/file.h"
 #include "raster/frame/pyramids.h"
+#include "shading/bake/mip/anisotropy.h"
+#include "shading/bake/mip/net_levels.h"
 #include "shading/bake/mip/pyramid_file.h"
 #include "shading/bake/mip/source.h"
+#include "shading/bake/mipnet/shipped.h"
+#include "shading/lang/records.h"
 
 namespace burnish {
 
@@ -20,7 +25,95 @@ std::string hexadecimal(std::uint64_t value)
     return text;
 }
 
+// Whose lobe is nearest to a model's.
+mipnet::Lobe lobe_of_model(int brdf)
+{
+    const ModelInfo& model = lobe_model(brdf);
+    if (model.lobe_traits & kNormals_ggx)
+        return mipnet::Lobe::ggx_aniso;
+    return std::string(model.name) == "ashikhmin_shirley" ? mipnet::Lobe::ashikhmin_shirley : mipnet::Lobe::beckmann;
+}
+
+Result<std::shared_ptr<const mipnet::Weights>> net_of(const Dress& with, const Limits& limits)
+{
+    using Net = std::shared_ptr<const mipnet::Weights>;
+    const mipnet::Lobe lobe = lobe_of_model(with.mip_brdf);
+    if (with.mip_net.empty())
+        return Net(Net(), mipnet::shipped_weights(lobe)); // which is never freed
+    const Result<std::vector<std::uint8_t>> bytes = read_file(with.mip_net, limits.file_bytes);
+    if (!bytes)
+        return bytes.error();
+    Result<mipnet::Weights> read = mipnet::parse_weights(bytes->data(), bytes->size(), with.mip_net);
+    if (!read)
+        return read.error();
+    if (read->shape.lobe != lobe)
+        return Error{ExitCode::bad_input, with.mip_net, "byte 12",
+                     std::string("is of lobes of ") + mipnet::lobe_name(read->shape.lobe) + ", and model " +
+                         lobe_model(with.mip_brdf).name + " needs those of " + mipnet::lobe_name(lobe)};
+    return std::make_shared<const mipnet::Weights>(std::move(*read));
+}
+
+bool is_metal(const Scene& scene, const Material& m)
+{
+    if (!m.metallic_roughness_tex.used())
+        return m.metallic >= 0.5f;
+    const Texture& texture = scene.textures[static_cast<std::size_t>(m.metallic_roughness_tex.texture)];
+    const Image& map = scene.images[static_cast<std::size_t>(texture.image)];
+    const std::size_t texels = static_cast<std::size_t>(map.width) * static_cast<std::size_t>(map.height);
+    double sum = 0.0;
+    for (std::size_t i = 0; i < texels; ++i)
+        sum += static_cast<double>(texel_channel(map, i, 2));
+    return static_cast<double>(m.metallic) * sum >= 0.5 * static_cast<double>(texels);
+}
+
+std::string comparison_text(const Material& m, const mipnet::Comparison& c)
+{
+    char text[160];
+    std::snprintf(text, sizeof text, "is filtered as by --mip-filter %s: the net's L1 is %.2f times baseline's, kappa's %.2f",
+                  c.prefers_kappa() ? "kappa" : "baseline", c.net / c.baseline, c.kappa / c.baseline);
+    return "material '" + m.name + "' " + text;
+}
+
 } // namespace
+
+Status settle_nets(Scene& scene, const Dress& with, const Limits& limits)
+{
+    if (with.mip_filter != kMipFilter_mipnet)
+        return {};
+    const Result<std::shared_ptr<const mipnet::Weights>> net = net_of(with, limits);
+    if (!net)
+        return net.error();
+    std::vector<std::optional<mipnet::Comparison>> found(scene.materials.size());
+    Jobs(0).parallel_for(found.size(), [&](std::size_t i, int) {
+        Material& m = scene.materials[i];
+        m.mip_net = *net;
+        if (with.mip_fallback == MipFallback::automatic && is_filtered(scene, m))
+            found[i] = compare_net(mip_source(scene, m), **net, m.mip_kappa, is_metal(scene, m), Jobs(1));
+    });
+    for (std::size_t i = 0; i < found.size(); ++i) {
+        if (!found[i] || found[i]->keeps_net())
+            continue;
+        Material& m = scene.materials[i];
+        m.mip_filter = found[i]->prefers_kappa() ? kMipFilter_kappa : kMipFilter_baseline, m.mip_net = nullptr;
+        scene.warnings.push_back(comparison_text(m, *found[i]));
+    }
+    return {};
+}
+
+void take_filters_of_mips(Scene& scene)
+{
+    const Jobs jobs(0);
+    for (Material& m : scene.materials) {
+        if (!is_filtered(scene, m))
+            continue;
+        const std::uint64_t hash = mip_source(scene, m).hash(jobs);
+        for (const MipLevels& levels : *scene.mips)
+            if (levels.source == hash) {
+                m.mip_filter = levels.filter, m.mip_kappa = levels.kappa;
+                break;
+            }
+    }
+}
 
 void warn_of_unfiltered(Scene& scene)
 {

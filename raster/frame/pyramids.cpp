@@ -8,6 +8,7 @@
 #include "shading/bake/mip/anisotropy.h"
 #include "shading/bake/mip/filter.h"
 #include "shading/bake/mip/slopes.h"
+#include "shading/bake/mipnet/weights.h"
 #include "shading/surface/tensor.k.h"
 
 namespace burnish {
@@ -111,7 +112,7 @@ std::int32_t owner_of(const Scene& scene, std::size_t material, bool overridden)
         return std::tuple(of.kind, of.slopes ? of.slopes->texture : kNone, of.slopes == &m.tilt_tex,
                           of.direction || of.filtered ? m.anisotropy_tex.texture : kNone, slope_scale(m), m.roughness,
                           m.anisotropy_strength, m.anisotropy_rotation, of.filtered, own ? m.mip_filter : MipFilter{},
-                          own ? m.mip_kappa : 0.0f, of.filtered ? m.normal_tex.texture : kNone,
+                          own ? m.mip_kappa : 0.0f, m.mip_net.get(), of.filtered ? m.normal_tex.texture : kNone,
                           of.filtered ? m.metallic_roughness_tex.texture : kNone);
     };
     const auto wanted = content(scene.materials[material]);
@@ -244,7 +245,8 @@ MipSource mip_source(const Scene& scene, const Material& m)
 
 bool fits(const MipLevels& levels, std::uint64_t source, const Material& m)
 {
-    return levels.source == source && levels.filter == m.mip_filter && (m.mip_filter != kMipFilter_kappa || levels.kappa == m.mip_kappa);
+    return levels.source == source && levels.filter == m.mip_filter && (!takes_kappa(m.mip_filter) || levels.kappa == m.mip_kappa) &&
+           (!m.mip_net || levels.net == mipnet::net_hash(*m.mip_net));
 }
 
 MaterialLevels filtered_levels(const Scene& scene, const Jobs& jobs)
@@ -267,7 +269,7 @@ MaterialLevels filtered_levels(const Scene& scene, const Jobs& jobs)
                     all[i] = std::shared_ptr<const MipLevels>(scene.mips, &levels);
         }
         if (!all[i])
-            all[i] = std::make_shared<const MipLevels>(make_mip_levels(source, m.mip_filter, m.mip_kappa, jobs));
+            all[i] = std::make_shared<const MipLevels>(make_mip_levels(source, m.mip_filter, m.mip_kappa, jobs, m.mip_net.get()));
     }
     return all;
 }

@@ -7,6 +7,7 @@
 #include "core/base/hash.h"
 #include "raster/frame/frame_record.h"
 #include "shading/bake/mip/levels.h"
+#include "shading/bake/mipnet/weights.h"
 
 namespace burnish {
 namespace {
@@ -56,6 +57,9 @@ void add_filters(Key& key, const Scene& scene)
     for (const Material& m : scene.materials)
         if (makes_lobes(m.mip_filter))
             key.add(m.mip_filter, m.mip_kappa);
+    for (const Material& m : scene.materials)
+        if (m.mip_net)
+            key.add(mipnet::net_hash(*m.mip_net));
     if (scene.mips)
         for (const MipLevels& levels : *scene.mips)
             for (const MipLevel& level : levels.levels)

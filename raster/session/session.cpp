@@ -1,6 +1,7 @@
 #include "raster/session/session.h"
 
 #include <exception>
+#include <functional>
 #include <new>
 #include <utility>
 
@@ -90,7 +91,11 @@ Result<std::shared_ptr<const PhongFiles>> load_phong_tables(const std::vector<st
     });
 }
 
-Result<std::shared_ptr<const SceneData>> make_scene_data(const std::string& name, Scene scene, const Limits& limits)
+namespace {
+
+// settle: what mip filters need to know of maps and heights that are all in their places
+Result<std::shared_ptr<const SceneData>> make_settled_data(const std::string& name, Scene scene, const Limits& limits,
+                                                           const std::function<Status(Scene&)>& settle)
 {
     using Made = Result<std::shared_ptr<const SceneData>>;
     return guarded(name, [&]() -> Made {
@@ -109,8 +114,17 @@ Result<std::shared_ptr<const SceneData>> make_scene_data(const std::string& name
             return size.error();
         data->tables = make_draw_tables(data->scene);
         warn_of_unfiltered(data->scene);
+        if (Status settled = settle(data->scene); !settled)
+            return settled.error();
         return std::shared_ptr<const SceneData>(std::move(data));
     });
+}
+
+} // namespace
+
+Result<std::shared_ptr<const SceneData>> make_scene_data(const std::string& name, Scene scene, const Limits& limits)
+{
+    return make_settled_data(name, std::move(scene), limits, [](Scene&) { return Status(); });
 }
 
 Result<std::shared_ptr<const SceneData>> load_scene_data(const std::string& spec, const Limits& limits, const Dress& with,
@@ -129,11 +143,13 @@ Result<std::shared_ptr<const SceneData>> load_scene_data(const std::string& spec
             return put.error();
         for (const AreaLight& light : lights)
             add_area_light(*scene, light);
-        Made made = make_scene_data(spec, std::move(*scene), limits);
-        if (made && (*made)->scene.mips)
-            if (const Status fit = check_mips((*made)->scene, with.mip_pyramid); !fit)
-                return fit.error();
-        return made;
+        return make_settled_data(spec, std::move(*scene), limits, [&](Scene& s) -> Status {
+            if (s.mips && with.mip_filter == MipFilter{})
+                take_filters_of_mips(s);
+            else if (Status settled = settle_nets(s, on, limits); !settled)
+                return settled;
+            return s.mips ? check_mips(s, with.mip_pyramid) : Status();
+        });
     });
 }
 

@@ -1,5 +1,6 @@
 """Mip filters of normals and lobes: --mip-filter, --mip-kappa, --mip-pyramid, `burnish bake mip`."""
 
+import json
 import math
 import pathlib
 import random
@@ -13,7 +14,7 @@ from parity_cases import check_equal, parity
 from reference_cases import needs_embree
 
 SMALL = ("--size", "64x48", "--msaa", "1", "--env-size", "64", "--env-samples", "32", "--samples", "4", "--technique", "mc")
-LOBES = ("baseline", "covariance", "leadr", "ssgt", "kappa")
+LOBES = ("baseline", "covariance", "leadr", "ssgt", "kappa", "mipnet")
 VIEW = ("--eye", "0.3,0.3,1.2", "--target", "0.3,0.3,0", "--fov", "40", "--size", "40x40", "--msaa", "1", "--env-size", "64", "--env-samples", "32")
 
 
@@ -142,6 +143,10 @@ def baked(bench):
     bench.run("bake", "mip", "builtin:bumps", "--mip-filter", "leadr", "-o", "bumps.mip", "--preview", "seen").expect(0)
     check(hash_of(bench, "builtin:bumps", *SMALL, "--mip-pyramid", "bumps.mip") == hash_of(bench, "builtin:bumps", *SMALL, "--mip-filter", "leadr"),
           "a scene of several materials")
+    bench.run("bake", "mip", "builtin:bumps", "--mip-filter", "mipnet", "-o", "mixed.mip").expect(0)
+    mixed = hash_of(bench, "builtin:bumps", *SMALL, "--mip-filter", "mipnet")
+    for more in ((), ("--mip-filter", "mipnet")):
+        check(hash_of(bench, "builtin:bumps", *SMALL, *more, "--mip-pyramid", "mixed.mip") == mixed, "a scene whose materials have filters of their own")
     seen = sorted(path.name for path in (bench.folder / "seen").iterdir())
     check("hammered_copper_normal_01.png" in seen and "vinyl_lobe_10.png" in seen, f"{seen}")
     # what does not fit
@@ -152,6 +157,7 @@ def baked(bench):
     for scene, file, needle in ((words, "no.mip", "no.mip"), (words, "short.mip", "damaged"), (words, "damaged.mip", "damaged"), (words, "gone.mip", "gone.mip"),
                                 (("builtin:sphere", *SMALL, "--material", "other"), "kappa.mip", "hash"),
                                 (("builtin:sphere", *SMALL), "kappa.mip", "no maps"),
+                                ((*words, "--mip-filter", "mipnet", "--brdf", "beckmann"), "mipnet.mip", "hash"),
                                 ((*words, "--mip-filter", "ssgt"), "kappa.mip", "hash"), ((*words, "--mip-kappa", "1", "--mip-filter", "kappa"), "kappa.mip", "hash")):
         bench.run("render", *scene, "--mip-pyramid", file, "-o", "x.pfm").expect(4).expect_one_line(needle)
     for arguments, code, needle in ((("set", "--mip-filter", "box"), 2, "--mip-filter"), ((), 2, "PICTURE"), (("builtin:sphere",), 4, "no maps"),
@@ -159,6 +165,52 @@ def baked(bench):
         bench.run("bake", "mip", *arguments, "-o", "x.mip").expect(code).expect_one_line(needle)
     bench.run("bake", "mip", "set", "-o", "no/x.mip").expect(7).expect_one_line("no/x.mip")
     check("x.mip" not in bench.left_behind() and "x.pfm" not in bench.left_behind(), "what failed has left something")
+
+
+@case("mip.nets_are_read_and_wrong_ones_are_refused", tier="check")
+def nets(bench):
+    words = ("builtin:bumps", *SMALL, "--mip-filter", "mipnet")
+    own = hash_of(bench, *words)
+    by = {brdf: hash_of(bench, *words, "--fallback", "off", "--brdf", brdf) for brdf in ("ggx_aniso", "beckmann", "ashikhmin_shirley", "ward")}
+    nets = {}
+    for brdf in ("ggx_aniso", "beckmann", "ashikhmin_shirley"):
+        bench.run("train", "mip", "--brdf", brdf, "--steps", "2", "-q", "-o", brdf + ".mipnet").expect(0)
+        nets[brdf] = (bench.folder / (brdf + ".mipnet")).read_bytes()
+    other = hash_of(bench, *words, "--mip-net", "ggx_aniso.mipnet")
+    check(other != own, "weights are not looked at")
+    check(hash_of(bench, *words, "--mip-net", "beckmann.mipnet", "--fallback", "off", "--brdf", "beckmann") != by["beckmann"], "of another model neither")
+    hash_of(bench, *words, "--mip-net", "beckmann.mipnet", "--brdf", "ward")
+    bench.run("bake", "mip", "builtin:bumps", "--mip-filter", "mipnet", "--mip-net", "ggx_aniso.mipnet", "-q", "-o", "a.mip").expect(0)
+    check(hash_of(bench, "builtin:bumps", *SMALL, "--mip-pyramid", "a.mip") == other, "bake mip makes others of them")
+    bench.run("render", *words, "--mip-pyramid", "a.mip", "-o", "x.pfm").expect(4).expect_one_line("hash")
+    good = nets["ggx_aniso"]
+
+    def altered(at, value):
+        return good[:at] + value.to_bytes(4, "little") + good[at + 4:]
+
+    for name, data, needle in (("version", altered(8, 7), "version 7"), ("lobe", altered(12, 9), "lobe 9"), ("width", altered(28, 33), "numbers"),
+                               ("units", altered(28, 0), "units"), ("crc", altered(2000, 1), "damaged"), ("short", good[:-1], "bytes"), ("none", b"", "empty")):
+        scratch(bench, name, data)
+        bench.run("render", *words, "--mip-net", name, "-o", "x.pfm").expect(4).expect_one_line(needle)
+        bench.run("bake", "mip", "builtin:bumps", "--mip-filter", "mipnet", "--mip-net", name, "-o", "x.mip").expect(4).expect_one_line(needle)
+    bench.run("render", *words, "--mip-net", "beckmann.mipnet", "-o", "x.pfm").expect(4).expect_one_line("beckmann")
+    bench.run("render", *words, "--mip-net", "gone", "-o", "x.pfm").expect(4).expect_one_line("gone")
+    check("x.mip" not in bench.left_behind() and "x.pfm" not in bench.left_behind(), "what failed has left something")
+    done = bench.run("render", "builtin:bumps", *SMALL, "--mip-filter", "kappa", "--mip-net", "beckmann.mipnet", "--fallback", "off", "-o", "a.pfm").expect(0)
+    check(all(f"{option} has no effect with --mip-filter kappa" in done.err for option in ("--mip-net", "--fallback")), done.describe())
+
+
+@case("mip.materials_that_a_net_is_bad_for_keep_closed_forms", tier="check")
+def fallbacks(bench):
+    words = ("builtin:bumps", *SMALL, "--mip-filter", "mipnet")
+    done = bench.run("render", *words, "--stats", "a.json", "-o", "auto.pfm").expect(0)
+    told = [line for line in done.err.splitlines() if "the net's L1 is" in line]
+    check(len(told) == 1 and "'turned steel'" in told[0] and "--mip-filter baseline" in told[0], done.describe())
+    warnings = json.loads((bench.folder / "a.json").read_text())["warnings"]
+    check(any("'turned steel'" in warning for warning in warnings), f"{warnings}")
+    quiet = bench.run("render", *words, "--fallback", "off", "-o", "off.pfm").expect(0)
+    check("the net's L1" not in quiet.err, quiet.describe())
+    check(off_by(bench, "auto.pfm", "off.pfm")["mse"] > 0, "what is kept draws the same picture")
 
 
 @case("mip.maps_that_lie_otherwise_are_left_to_box", tier="check")

@@ -5,8 +5,10 @@
 #include <cmath>
 
 #include "core/base/check.h"
+#include "shading/bake/mip/net_levels.h"
 #include "shading/bake/mip/slopes.h"
 #include "shading/bake/mip/texture.h"
+#include "shading/bake/mipnet/shipped.h"
 #include "shading/surface/tensor.k.h"
 
 namespace burnish {
@@ -25,6 +27,11 @@ bool makes_lobes(MipFilter filter)
     return filter != kMipFilter_box && filter != kMipFilter_lean;
 }
 
+bool takes_kappa(MipFilter filter)
+{
+    return filter == kMipFilter_kappa || filter == kMipFilter_mipnet;
+}
+
 float usual_kappa(bool ggx_normals)
 {
     return ggx_normals ? 0.7f : 1.8f;
@@ -32,7 +39,7 @@ float usual_kappa(bool ggx_normals)
 
 float gain_of_taps(MipFilter filter, float kappa)
 {
-    if (filter == kMipFilter_kappa)
+    if (takes_kappa(filter))
         return std::sqrt(0.5f * kappa);
     if (filter == kMipFilter_ssgt)
         return std::sqrt(0.5f);
@@ -265,13 +272,17 @@ class LevelMaker {
 
 } // namespace
 
-MipLevels make_mip_levels(const MipSource& source, MipFilter filter, float kappa, const Jobs& jobs)
+MipLevels make_mip_levels(const MipSource& source, MipFilter filter, float kappa, const Jobs& jobs, const mipnet::Weights* net)
 {
     BN_CHECK(makes_lobes(filter));
     MipLevels made;
-    made.filter = filter, made.kappa = filter == kMipFilter_kappa ? kappa : 0.0f;
+    made.filter = filter, made.kappa = takes_kappa(filter) ? kappa : 0.0f;
     made.width = source.width(), made.height = source.height();
     made.source = source.hash(jobs);
+    if (filter == kMipFilter_mipnet) {
+        put_net_levels(source, net ? *net : *mipnet::shipped_weights(mipnet::Lobe::ggx_aniso), jobs, made);
+        return made;
+    }
     const Shape shape = shape_of(filter, made.kappa);
     const int side = std::max(made.width, made.height);
     std::vector<StateLevel> states(1); // level 0 is the source

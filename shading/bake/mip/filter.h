@@ -9,7 +9,8 @@
 
 namespace burnish {
 
-// filter: one that makes_lobes(). The bytes do not depend on the number of threads.
-MipLevels make_mip_levels(const MipSource& source, MipFilter filter, float kappa, const Jobs& jobs);
+// filter: one that makes_lobes(). net: of filter mipnet, which is no mean; null: the program's for lobes of GGX. The bytes do not depend on
+// the number of threads.
+MipLevels make_mip_levels(const MipSource& source, MipFilter filter, float kappa, const Jobs& jobs, const mipnet::Weights* net = nullptr);
 
 } // namespace burnish

@@ -16,7 +16,7 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "levels are little-endian");
 static_assert(sizeof(MipTexel) == 5 * sizeof(float));
 constexpr char kMipMagic[8] = {'b', 'n', 'm', 'i', 'p', '0', '1', '\n'};
-constexpr std::uint32_t kMipVersion = 1;
+constexpr std::uint32_t kMipVersion = 2;
 constexpr int kMostSide = 1 << 16;
 
 struct MipFileHeader {
@@ -27,9 +27,9 @@ struct MipMaterialHeader {
     char filter[16];
     float kappa;
     std::uint32_t width, height, levels;
-    std::uint64_t source;
+    std::uint64_t source, net;
 };
-static_assert(sizeof(MipFileHeader) == 16 && sizeof(MipMaterialHeader) == 40);
+static_assert(sizeof(MipFileHeader) == 16 && sizeof(MipMaterialHeader) == 48);
 
 class Reader {
   public:
@@ -69,7 +69,7 @@ std::string read_material(Reader& from, MipLevels& to)
         return "is of a filter that makes no levels of lobes";
     if (h.width < 1 || h.height < 1 || h.width > kMostSide || h.height > kMostSide || !std::isfinite(h.kappa))
         return fmt::format("holds levels of {}x{} texels", h.width, h.height);
-    to.kappa = h.kappa, to.source = h.source;
+    to.kappa = h.kappa, to.source = h.source, to.net = h.net;
     to.width = static_cast<int>(h.width), to.height = static_cast<int>(h.height);
     int levels = 0;
     while (levels + 1 < kMaxTextureLevels && (std::max(to.width, to.height) >> (levels + 1)) > 0)
@@ -103,7 +103,7 @@ std::vector<std::uint8_t> mip_file_bytes(const std::vector<const MipLevels*>& ma
         MipMaterialHeader h = {};
         const std::string name = mip_filters()[static_cast<std::size_t>(m->filter)].name;
         std::copy_n(name.begin(), std::min(name.size(), sizeof h.filter), h.filter);
-        h.kappa = m->kappa, h.source = m->source;
+        h.kappa = m->kappa, h.source = m->source, h.net = m->net;
         h.width = static_cast<std::uint32_t>(m->width), h.height = static_cast<std::uint32_t>(m->height);
         h.levels = static_cast<std::uint32_t>(m->levels.size());
         append_bytes(bytes, &h, sizeof h);

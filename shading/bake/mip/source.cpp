@@ -83,7 +83,7 @@ slope_covariance MipSource::covariance_at(int x, int y) const
 void MipSource::row(int y, MipPoint* to) const
 {
     for (int x = 0; x < grid_.width; ++x)
-        to[x] = {normal_at(x, y), covariance_at(x, y)};
+        to[x] = at(x, y);
 }
 
 std::uint64_t MipSource::hash(const Jobs& jobs) const

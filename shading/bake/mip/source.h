@@ -34,7 +34,8 @@ class MipSource {
     int width() const { return grid_.width; }
     int height() const { return grid_.height; }
     const MipMaps& maps() const { return maps_; }
-    void row(int y, MipPoint* to) const;        // width() points
+    void row(int y, MipPoint* to) const; // width() points
+    MipPoint at(int x, int y) const { return {normal_at(x, y), covariance_at(x, y)}; }
     std::uint64_t hash(const Jobs& jobs) const; // of size and every point
 
   private:

@@ -1,19 +1,22 @@
 #include "shading/bake/mipnet/evaluate.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fmt/format.h>
 
 #include "core/base/check.h"
 #include "core/image/metrics/flip.h"
 #include "core/math/scalar_math.h"
+#include "shading/bake/mip/levels.h"
 #include "shading/bake/mipnet/classical.h"
+#include "shading/bake/mipnet/fallback.h"
 #include "shading/bake/mipnet/pyramid.h"
 
 namespace burnish::mipnet {
 namespace {
 
-constexpr int kPairs = 48, kSetups = 3, kLeastFlipSide = 16;
+constexpr int kPairs = 48, kTileTimes = 24, kSetups = 3, kLeastFlipSide = 16;
 constexpr float kIntensity = 5.0f;
 
 using Plane = std::vector<float>;
@@ -34,17 +37,25 @@ void put_direction(Plane& planes, std::size_t count, std::size_t at, double x, d
     planes[count + at] = static_cast<float>(y * inverse), planes[2 * count + at] = static_cast<float>(z * inverse);
 }
 
-// The p-th pair: a light from anywhere above, an eye weighted by its cosine; the same for all texels.
-Directions pair_of(int p, std::size_t count)
+// Pairs of a square of side x side: a light from anywhere above, an eye weighted by its cosine; the p-th of them for all texels, or where
+// there are several tiles along a side, the next ones for one tile after the other.
+Directions pair_of(int p, int side, int tiles)
 {
-    Random random(1000003u * static_cast<std::uint64_t>(p) + 17u);
+    const std::size_t count = static_cast<std::size_t>(side) * static_cast<std::size_t>(side);
     Directions d = {Plane(3 * count), Plane(3 * count), Plane(count, kIntensity)};
-    const double zi = random.between(0.1, 1.0), ti = random.between(0.0, 2.0 * kPi), zo = std::sqrt(random.between(0.01, 1.0)),
-                 to = random.between(0.0, 2.0 * kPi);
-    const double ri = std::sqrt(1.0 - zi * zi), ro = std::sqrt(std::max(1.0 - zo * zo, 0.0));
-    const double i[] = {ri * det_cos(ti), ri * det_sin(ti), zi}, o[] = {ro * det_cos(to), ro * det_sin(to), zo};
-    for (std::size_t at = 0; at < count; ++at)
-        put_direction(d.to_light, count, at, i[0], i[1], i[2]), put_direction(d.to_eye, count, at, o[0], o[1], o[2]);
+    const int tile_side = side / tiles;
+    for (int tile = 0; tile < tiles * tiles; ++tile) {
+        Random random(1000003u * static_cast<std::uint64_t>(p + tile) + 17u);
+        const double zi = random.between(0.1, 1.0), ti = random.between(0.0, 2.0 * kPi), zo = std::sqrt(random.between(0.01, 1.0)),
+                     to = random.between(0.0, 2.0 * kPi);
+        const double ri = std::sqrt(1.0 - zi * zi), ro = std::sqrt(std::max(1.0 - zo * zo, 0.0));
+        const double i[] = {ri * det_cos(ti), ri * det_sin(ti), zi}, o[] = {ro * det_cos(to), ro * det_sin(to), zo};
+        for (int y = 0; y < tile_side; ++y)
+            for (int x = 0; x < tile_side; ++x) {
+                const std::size_t at = static_cast<std::size_t>((tile / tiles * tile_side + y) * side + tile % tiles * tile_side + x);
+                put_direction(d.to_light, count, at, i[0], i[1], i[2]), put_direction(d.to_eye, count, at, o[0], o[1], o[2]);
+            }
+    }
     return d;
 }
 
@@ -117,12 +128,17 @@ Image picture(const Plane& radiance, int side)
     return image;
 }
 
+Surface surface_of(Lobe lobe, bool metal)
+{
+    return metal ? Surface{lobe, 0.85f, 0.0f} : Surface{lobe, 0.04f, 0.5f};
+}
+
 struct Filter {
     std::string name;
     std::vector<Texels> levels;
 };
 
-std::vector<Filter> filters_of(const Texels& level0, Lobe lobe, const std::vector<Weights>& cascades, const Jobs& jobs)
+std::vector<Filter> filters_of(const Texels& level0, Lobe lobe, bool metal, const std::vector<Weights>& cascades, const Jobs& jobs)
 {
     std::vector<Filter> filters = {{"baseline", classical_pyramid(level0, Method::baseline)},
                                    {"kappa .25", classical_pyramid(level0, Method::kappa, 0.25)},
@@ -132,29 +148,48 @@ std::vector<Filter> filters_of(const Texels& level0, Lobe lobe, const std::vecto
         filters.push_back({"ssgt", classical_pyramid(level0, Method::ssgt)});
     if (lobe == Lobe::beckmann)
         filters.push_back({"leadr", classical_pyramid(level0, Method::leadr)});
-    for (std::size_t k = 0; k < cascades.size(); ++k)
-        filters.push_back({cascades.size() == 1 ? "mipnet" : fmt::format("mipnet {}", k + 1), net_pyramid(level0, cascades[k], jobs)});
+    for (std::size_t k = 0; k < cascades.size(); ++k) {
+        const std::string name = cascades.size() == 1 ? "mipnet" : fmt::format("mipnet {}", k + 1);
+        filters.push_back({name, net_pyramid(level0, cascades[k], jobs)});
+        const std::size_t side = static_cast<std::size_t>(level0.width);
+        const Texels sample = sample_of(level0.width, level0.height, [&](int x, int y, float* to) {
+            for (std::size_t c = 0; c < kChannels; ++c)
+                to[c] = level0.channel[c][static_cast<std::size_t>(y) * side + static_cast<std::size_t>(x)];
+        });
+        const double kappa = static_cast<double>(usual_kappa(lobe == Lobe::ggx_aniso));
+        const Comparison on = compare_on(sample, cascades[k], kappa, metal, jobs);
+        const Method closed = on.prefers_kappa() ? Method::kappa : Method::baseline;
+        filters.push_back({name + " auto", on.keeps_net() ? filters.back().levels : classical_pyramid(level0, closed, kappa)});
+    }
     return filters;
 }
 
-void judge_pairs(const Surface& s, const std::vector<Filter>& filters, std::vector<Judged>& rows)
+struct Pairs { // of directions, `times` tiles^2 from the first on
+    int first, times, tiles;
+};
+
+// Of each filter's pyramid, means over pairs; FLIP is left 0, and so is what is meant over levels.
+using LevelFigures = std::array<Figures, kJudgedLevels + 1>;
+std::vector<LevelFigures> judge_pairs(const Surface& s, const std::vector<const std::vector<Texels>*>& filters, const Pairs& pairs)
 {
-    const Texels& level0 = filters[0].levels[0];
+    std::vector<LevelFigures> rows(filters.size());
+    const Texels& level0 = filters[0]->front();
     const Plane planes0 = planes_of(level0);
     std::vector<std::vector<Plane>> planes; // by filter and level
-    for (const Filter& f : filters) {
+    for (const std::vector<Texels>* levels : filters) {
         planes.emplace_back();
         for (std::size_t k = 0; k <= kJudgedLevels; ++k)
-            planes.back().push_back(k == 0 ? Plane() : planes_of(f.levels[k]));
+            planes.back().push_back(k == 0 ? Plane() : planes_of((*levels)[k]));
     }
-    for (int p = 0; p < kPairs; ++p) {
-        Plane truth = lit(s, planes0, level0.count(), pair_of(p, level0.count()));
+    for (int time = 0; time < pairs.times; ++time) {
+        const int p = pairs.first + time * pairs.tiles * pairs.tiles;
+        Plane truth = lit(s, planes0, level0.count(), pair_of(p, level0.width, pairs.tiles));
         for (int k = 1; k <= kJudgedLevels; ++k) {
             const int side = level0.width >> k;
             const std::size_t count = static_cast<std::size_t>(side) * static_cast<std::size_t>(side);
             truth = halved(truth, 2 * side);
             const Plane wanted = shown(truth);
-            const Directions d = pair_of(p, count);
+            const Directions d = pair_of(p, side, pairs.tiles);
             for (std::size_t f = 0; f < filters.size(); ++f) {
                 const Plane found = shown(lit(s, planes[f][static_cast<std::size_t>(k)], count, d));
                 double l1 = 0.0, mse = 0.0;
@@ -162,11 +197,13 @@ void judge_pairs(const Surface& s, const std::vector<Filter>& filters, std::vect
                     const double e = static_cast<double>(found[i]) - static_cast<double>(wanted[i]);
                     l1 += std::fabs(e), mse += e * e;
                 }
-                rows[f].level[k].l1 += l1 / static_cast<double>(count) / kPairs;
-                rows[f].level[k].mse += mse / static_cast<double>(count) / kPairs;
+                Figures& to = rows[f][static_cast<std::size_t>(k)];
+                to.l1 += l1 / static_cast<double>(count) / pairs.times;
+                to.mse += mse / static_cast<double>(count) / pairs.times;
             }
         }
     }
+    return rows;
 }
 
 void judge_pictures(const Surface& s, const std::vector<Filter>& filters, std::vector<Judged>& rows, const Jobs& jobs)
@@ -195,18 +232,38 @@ void judge_pictures(const Surface& s, const std::vector<Filter>& filters, std::v
 
 } // namespace
 
+std::vector<double> mean_l1(const std::vector<std::vector<Texels>>& pyramids, Lobe lobe, bool metal)
+{
+    std::vector<const std::vector<Texels>*> each;
+    for (const std::vector<Texels>& levels : pyramids)
+        each.push_back(&levels);
+    std::vector<double> means;
+    for (const LevelFigures& figures :
+         judge_pairs(surface_of(lobe, metal), each, {kPairs, kTileTimes, each.front()->front().width / kTileSide})) {
+        means.push_back(0.0);
+        for (std::size_t k = 1; k <= kJudgedLevels; ++k)
+            means.back() += figures[k].l1 / kJudgedLevels;
+    }
+    return means;
+}
+
 std::vector<Judged> judge(const std::vector<TestMaterial>& set, Lobe lobe, const std::vector<Weights>& cascades, const Jobs& jobs)
 {
     std::vector<Judged> all;
     for (const TestMaterial& m : set) {
         const int side = m.material.texels.width;
         BN_CHECK(side == m.material.texels.height && side % (1 << kJudgedLevels) == 0);
-        const Surface surface = m.material.metal ? Surface{lobe, 0.85f, 0.0f} : Surface{lobe, 0.04f, 0.5f};
-        const std::vector<Filter> filters = filters_of(m.material.texels, lobe, cascades, jobs);
+        const Surface surface = surface_of(lobe, m.material.metal);
+        const std::vector<Filter> filters = filters_of(m.material.texels, lobe, m.material.metal, cascades, jobs);
         std::vector<Judged> rows;
-        for (const Filter& f : filters)
+        std::vector<const std::vector<Texels>*> pyramids;
+        for (const Filter& f : filters) {
             rows.push_back({m.set, m.material.name, f.name, {}});
-        judge_pairs(surface, filters, rows);
+            pyramids.push_back(&f.levels);
+        }
+        const std::vector<LevelFigures> figures = judge_pairs(surface, pyramids, {0, kPairs, 1});
+        for (std::size_t f = 0; f < rows.size(); ++f)
+            std::copy(figures[f].begin(), figures[f].end(), rows[f].level);
         judge_pictures(surface, filters, rows, jobs);
         for (Judged& row : rows) {
             int pictures = 0;

@@ -16,12 +16,17 @@ struct Figures {
     double l1 = 0.0, mse = 0.0; // of what tone() of tensor.h shows, over 48 pairs of directions to light and eye
 };
 
+// Of pyramids of one level 0, which is square, its side a multiple of 32: mean L1 of levels 1 to 5 under 24 pairs a tile of 32 x 32, others
+// than judge() has, so that what is chosen by them can be judged. metal: see compare_on().
+std::vector<double> mean_l1(const std::vector<std::vector<Texels>>& pyramids, Lobe lobe, bool metal);
+
 struct Judged {
     std::string set, material, filter;
     Figures level[kJudgedLevels + 1]; // 0: the mean over levels
 };
 
-// Filters of one lobe: baseline, kappa .25, .5 and 1, ssgt or leadr, and the cascades given, "mipnet" and a number where there are several.
+// Filters of one lobe: baseline, kappa .25, .5 and 1, ssgt or leadr, and the cascades given, "mipnet" and a number where there are several;
+// beside each its "auto", which leaves materials to closed forms (fallback.h).
 std::vector<Judged> judge(const std::vector<TestMaterial>& set, Lobe lobe, const std::vector<Weights>& cascades, const Jobs& jobs);
 
 struct Summary {

@@ -4,11 +4,11 @@
 #include "shading/bake/mipnet/weights.h"
 
 namespace burnish {
-extern const EmbeddedFile kMipnetGgx;
+extern const EmbeddedFile kMipnetGgx, kMipnetBeckmann, kMipnetAshikhminShirley;
 }
 
 namespace burnish::mipnet {
 
-const Weights* shipped_weights(Lobe lobe); // null where there are none for that lobe
+const Weights* shipped_weights(Lobe lobe); // of every lobe, kept for good
 
 } // namespace burnish::mipnet

@@ -28,6 +28,17 @@ static_assert(sizeof(WeightsHeader) == 80);
 
 } // namespace
 
+std::uint64_t net_hash(const Weights& w)
+{
+    const std::int32_t shape[] = {static_cast<std::int32_t>(w.shape.lobe),
+                                  static_cast<std::int32_t>(w.shape.layout),
+                                  w.shape.a.layers,
+                                  w.shape.a.width,
+                                  w.shape.b.layers,
+                                  w.shape.b.width};
+    return hash_bytes(w.numbers.data(), w.numbers.size() * sizeof(float), hash_bytes(shape, sizeof shape));
+}
+
 std::vector<std::uint8_t> weights_bytes(const Weights& w)
 {
     const std::string text = w.families + "\n" + w.command;

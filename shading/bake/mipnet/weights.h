@@ -22,6 +22,8 @@ struct Weights {
     std::vector<float> numbers; // as plan_of(shape) has them, each a half
 };
 
+std::uint64_t net_hash(const Weights& weights); // of the shape and the numbers
+
 std::vector<std::uint8_t> weights_bytes(const Weights& weights);
 Result<Weights> parse_weights(const std::uint8_t* data, std::size_t bytes, const std::string& path);
 Result<Weights> read_weights(const std::string& path);
