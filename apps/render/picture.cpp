@@ -71,6 +71,8 @@ Status check_paths(const RenderOptions& options, const std::vector<std::string>&
     std::vector<std::string> pictures = options.outputs;
     if (!options.variance_file.empty())
         pictures.push_back(options.variance_file);
+    if (!options.risks.empty() && options.risks != "-")
+        pictures.push_back(options.risks);
     return check_outputs(pictures,
                          {{"--stats", options.stats_file}, {"--trace", options.trace_file}, {"--checkpoint", options.reference.checkpoint}},
                          inputs);
@@ -155,6 +157,7 @@ Result<Rendered> render_frames(const RenderOptions& options, FrameDesc desc, Ses
     desc.triangle_ids = desc.triangle_ids || draws_alpha(options);
     desc.parts = resolves_display(options);
     ask_for_layers(options.aov, desc);
+    desc.layers = desc.layers || !options.risks.empty();
     Progress progress("frames", static_cast<std::size_t>(options.frames), options.quiet || options.frames == 1);
     for (int i = 0; i < options.frames; ++i) {
         const TraceSpan span("frame");
@@ -170,6 +173,13 @@ Result<Rendered> render_frames(const RenderOptions& options, FrameDesc desc, Ses
         figures.frame_ms.push_back(frame->stats.ms);
         last = std::move(*frame);
         progress.step();
+    }
+    if (!options.risks.empty()) {
+        const TraceSpan span("risks");
+        Result<RiskMap> risks = mark_risks(session, desc, last);
+        if (!risks)
+            return risks.error();
+        out.risks = std::move(*risks);
     }
     out.color = std::move(last.color), out.variance = std::move(last.variance);
     figures.nan_pixels = count_not_finite(out.color);
