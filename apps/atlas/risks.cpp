@@ -42,9 +42,14 @@ constexpr Rule kRules[] = {
 };
 
 // Errors of entries are means over pictures; single pixels are far off before.
-constexpr float kEarly = 0.5f;                                   // of the onset's measure
-constexpr std::array<float, 4> kSeen = {0.2f, 0.2f, 0.3f, 0.0f}; // by Change: of the logarithm of what a pixel shows
-constexpr float kBlack = 0.1f;                                   // of the picture's median luminance: what is told apart from black
+constexpr float kEarly = 0.4f; // of the onset's measure
+constexpr std::size_t kChanges = 0
+#define BN_RISK_CHANGE(id, what) +1
+#include "apps/atlas/risks.def"
+    ;
+using Changes = std::array<float, kChanges>;
+constexpr Changes kSeen = {0.12f, 0.12f, 0.12f, 0.25f, 0.2f, 0.0f}; // by Change: of the logarithm of what a pixel shows
+constexpr float kBlack = 0.1f;                                      // of the picture's median luminance: what is told apart from black
 
 constexpr int kLookedAt = 60000, kMostStep = 8; // pixels of a picture, about; one of a square of 8 x 8 at least
 constexpr float kUsualNdotV = 0.7f;             // of an entry's, where it is not along the path
@@ -104,8 +109,10 @@ class Looker {
         : sky_(*session.parts().environment), desc_(desc), inputs_(inputs_of_frame(desc, *session.parts().environment)), frame_(frame),
           turn_(sky_from_world(session.parts().environment->rotation_deg))
     {
-        const bool turned = session.parts().environment->rotation_deg != 0.0f;
-        turned_ = turned;
+        turned_ = session.parts().environment->rotation_deg != 0.0f;
+        for (const KeyLight& light : session.parts().environment->key_lights)
+            lamps_.push_back({glm::vec3(light.direction[0], light.direction[1], light.direction[2]) * turn_, luminance_of(light.irradiance),
+                              0.5f * light.angular_radius});
         black_ = std::max(1e-20f, kBlack * median());
     }
     // Bits by place in `active`; the one that is furthest beyond.
@@ -116,9 +123,14 @@ class Looker {
     }
 
   private:
+    struct Lamp {
+        glm::vec3 direction; // world space
+        float irradiance, radius;
+    };
+    glm::vec2 key_lights(const glm::vec3& n, const glm::vec3& u, const glm::vec3& w, const RiskInputs& i, const glm::vec3& v) const;
     float median() const;
     glm::vec3 to_eye(int x, int y) const;
-    std::array<float, 4> changes(const PixelLayers& at, const RiskInputs& i, const glm::vec3& v) const;
+    Changes changes(const PixelLayers& at, const RiskInputs& i, const glm::vec3& v) const;
     float seen(const glm::vec3& h, const glm::vec3& v, float alpha_lin) const // mirrored about h, any length
     {
         const glm::vec3 d = h * (2.0f * glm::dot(h, v) / glm::dot(h, h)) - v;
@@ -130,6 +142,7 @@ class Looker {
     const RiskInputs inputs_;
     const Frame& frame_;
     const glm::mat3 turn_;
+    std::vector<Lamp> lamps_;
     bool turned_ = false;
     float black_ = 0.0f;
 };
@@ -158,8 +171,30 @@ glm::vec3 Looker::to_eye(int x, int y) const
     return -glm::normalize(view.forward + view.right * (sx * view.tan_half_x) + view.up * (sy * view.tan_half_y));
 }
 
+// Luminance of the key lights' highlights without masking, by GGX of two widths and of one.
+glm::vec2 Looker::key_lights(const glm::vec3& n, const glm::vec3& u, const glm::vec3& w, const RiskInputs& i, const glm::vec3& v) const
+{
+    glm::vec2 sum(0.0f);
+    const float round = std::max(i.alpha(), 1e-3f), along = std::max(i.along, 1e-3f), across = std::max(i.across, 1e-3f);
+    for (const Lamp& lamp : lamps_) {
+        const float n_dot_l = glm::dot(n, lamp.direction);
+        if (n_dot_l <= 0.0f)
+            continue;
+        const glm::vec3 h = v + lamp.direction;
+        const float hn = glm::dot(h, n), hu = glm::dot(h, u), hw = glm::dot(h, w);
+        const auto ggx = [&](float a, float b) { // of slopes, widened by the lamp's own size
+            const float s = std::max(a, lamp.radius), t = std::max(b, lamp.radius), x = hu / (hn * s), y = hw / (hn * t),
+                        k = 1.0f + x * x + y * y;
+            return 1.0f / (3.14159265f * s * t * k * k);
+        };
+        const float other = lamp.irradiance / (4.0f * std::max(i.n_dot_v, 0.05f));
+        sum += other * glm::vec2(ggx(along, across), ggx(round, round));
+    }
+    return sum;
+}
+
 // How far apart two pictures of the lobe are, as logarithms of what is seen of them.
-std::array<float, 4> Looker::changes(const PixelLayers& at, const RiskInputs& i, const glm::vec3& v) const
+Changes Looker::changes(const PixelLayers& at, const RiskInputs& i, const glm::vec3& v) const
 {
     const glm::vec3 n(at.normal[0], at.normal[1], at.normal[2]), u(at.tangent[0], at.tangent[1], at.tangent[2]), w = glm::cross(n, u);
     const float luminance = luminance_of(at.albedo), f0 = 0.04f + (luminance - 0.04f) * at.metalness[0];
@@ -183,8 +218,15 @@ std::array<float, 4> Looker::changes(const PixelLayers& at, const RiskInputs& i,
     }
     for (const float t : {-1.0f, 1.0f})
         tap(n + w * (t * std::max(i.across, 0.01f)));
-    const float one = fresnel * seen(n, v, round) + other;
-    return {std::abs(std::log(sum / one)), std::abs(std::log(sum / middle)), std::log(most / least), 1.0f};
+    const float f = fresnel, one = f * seen(n, v, round);
+    const float eta = i.eta(), stretch = std::min(eta * std::min(1.5f * std::sqrt(round), 1.0f), 0.999f);
+    const float bent = f * seen(n * (1.0f - stretch) + (v - w * glm::dot(v, w)) * stretch, v, round * std::clamp(1.2f - eta, 0.0f, 1.0f));
+    const glm::vec2 key = f * key_lights(n, u, w, i, v); // of the lobe as it is, and round
+    const auto apart = [](float a, float b) { return std::abs(std::log(a / b)); };
+    const float mean = sum + key.x, spread = std::log((most + key.x) / (least + key.x));
+    return {apart(mean, one + other + key.y), apart(mean, bent + other + key.x),
+            apart(mean, middle + key.x),      spread,
+            spread / std::sqrt(i.samples),    1.0f};
 }
 
 std::uint32_t Looker::look(int x, int y, const std::vector<Active>& active, std::uint8_t& furthest) const
@@ -196,7 +238,7 @@ std::uint32_t Looker::look(int x, int y, const std::vector<Active>& active, std:
     const float alpha = at.roughness[0] * at.roughness[0];
     i.along = alpha * (1.0f + at.anisotropy[0]), i.across = alpha * (1.0f - at.anisotropy[0]);
     i.n_dot_v = std::clamp(v.x * at.normal[0] + v.y * at.normal[1] + v.z * at.normal[2], 0.0f, 1.0f);
-    const std::array<float, 4> change = changes(at, i, v);
+    const Changes change = changes(at, i, v);
     std::uint32_t bits = 0;
     float far = 0.0f;
     for (std::size_t a = 0; a < active.size(); ++a) {

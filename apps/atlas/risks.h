@@ -19,6 +19,7 @@ struct RiskInputs {
     float texel = 0.0f;                    // angle of one of the environment, radians
     float separable = 0.0f, fit = 0.0f;    // 1 with --masking separable, --dfg fit
     float alpha() const { return 0.5f * (along + across); }
+    float eta() const { return along > 0.0f ? (along - across) / (along + across) : 0.0f; }
     float least_across() const { return across > 1e-3f ? across : 1e-3f; }
 };
 
