@@ -93,8 +93,10 @@ Status write_outputs(const RenderOptions& options, const Rendered& rendered, Rep
 int finish(const RenderOptions& options, const Rendered& rendered, Report& report)
 {
     const Status written = write_outputs(options, rendered, report);
-    if (rendered.risks)
+    if (rendered.risks) {
+        report.detail("risks", fmt::format("found in {:.2f} ms", rendered.risks->ms));
         report.figures(risk_lines(*rendered.risks));
+    }
     report.event("pixel hash:", hash_text(rendered.figures.hash));
     int code = 0;
     if (rendered.figures.nan_pixels)
