@@ -51,8 +51,32 @@ SHORT = (("lobe_line", "anisotropy through 0"), ("bent_normal", "anisotropy thro
          ("major_axis_adaptive", "roughness where counts change"), ("split_isotropic", "environment through a whole turn"),
          ("filtered_is_ggx", "tilt through 0"))
 
-# (technique, model or way; path): the largest step over what is allowed, as it was found.
-BREACHES = {}
+# (technique, model or way; path): the largest step over what is allowed, as it was found. Where eta changes its sign the lobe's axes swap, and with
+# them the pattern of samples: noise, which more samples lessen, and the ends of lines. split_isotropic leaves the usual lobe of lights and the
+# albedo of untilted ones in a step of a thousandth. An eta of 1 makes lobes thin faster than the reference's own noise follows.
+BREACHES = {
+    ("auto", "anisotropy to 1"): 1.50,
+    ("split_isotropic", "anisotropy through 0"): 5.07,
+    ("split_isotropic", "tilt through 0"): 3.75,
+    ("bent_normal", "anisotropy to 1"): 1.37,
+    ("bent_normal", "roughness to 0"): 1.36,
+    ("major_axis", "anisotropy through 0"): 1.29,
+    ("major_axis_adaptive", "anisotropy through 0"): 1.02,
+    ("lobe_line", "anisotropy through 0"): 2.46,
+    ("lobe_line", "anisotropy to 1"): 1.50,
+    ("filtered_is_ggx", "anisotropy through 0"): 13.62,
+    ("filtered_is_ggx", "anisotropy to 1"): 1.16,
+    ("mc", "anisotropy through 0"): 12.92,
+    ("as_mc", "anisotropy through 0"): 15.01,
+    ("ggx", "anisotropy through 0"): 289.32,
+    ("ggx_aniso", "anisotropy through 0"): 12.92,
+    ("ggx_aniso_separable", "anisotropy through 0"): 12.94,
+    ("beckmann", "anisotropy through 0"): 13.20,
+    ("ashikhmin_shirley", "anisotropy through 0"): 10.99,
+    ("ward", "anisotropy through 0"): 10.21,
+    ("ward_cheap", "anisotropy through 0"): 10.54,
+    ("ellipsoid_correlated", "anisotropy through 0"): 12.92,
+}
 
 
 def names_of(bench, what):
@@ -96,7 +120,7 @@ def held(bench, asked):
     for key, (path, words) in asked.items():
         found, known = excess(bench, path, words, key[1] in ENDS), BREACHES.get(key)
         if found > 1.0 or known:
-            print(f"    {key}: {found:.2f}, # times what is allowed" + ("; known" if known else ""))
+            print(f"{key}: {found:.2f} times what is allowed" + (", as is known" if known else ""))
         if (found > 1.0) != (known is not None) or known and found > 1.5 * known:
             broken.append(f"{key}: {found:.2f}" + (f", known as {known}" if known else ""))
     check(not broken, "; ".join(broken))
@@ -192,7 +216,8 @@ def mirrored(bench, techniques):
     (bench.folder / "even.exr").write_bytes(exr(64, 32, value))
     scratch(bench, "ball.gltf", ball(1.0))
     for name in techniques:
-        width, rows = picture(bench, "a", "ball.gltf", "--env", "even.exr", *LIGHT[2:], "--eye", "3,1,0", "--target", "0,0,0", "--technique", name)
+        width, rows = picture(bench, "a", "ball.gltf", "--env", "even.exr", *LIGHT[2:], "--eye", "3,1,0", "--target", "0,0,0", "--technique", name,
+                              *(("--samples", "4096") if name.endswith("mc") else ()))  # random numbers have no mirror image
         back = [array.array("f", (v for x in reversed(range(width)) for v in row[3 * x:3 * x + 3])) for row in rows]
         with open(bench.folder / "b.pfm", "wb") as file:
             file.write(b"PF\n%d %d\n-1.0\n" % (width, len(rows)) + b"".join(row.tobytes() for row in back))
