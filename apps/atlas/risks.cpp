@@ -51,8 +51,8 @@ using Changes = std::array<float, kChanges>;
 constexpr Changes kSeen = {0.12f, 0.12f, 0.12f, 0.25f, 0.2f, 0.0f}; // by Change: of the logarithm of what a pixel shows
 constexpr float kBlack = 0.1f;                                      // of the picture's median luminance: what is told apart from black
 
-constexpr int kLookedAt = 60000, kMostStep = 8; // pixels of a picture, about; one of a square of 8 x 8 at least
-constexpr float kUsualNdotV = 0.7f;             // of an entry's, where it is not along the path
+constexpr int kLookedAt = 60000, kMostStep = 16; // pixels of a picture, about; one of a square of 16 x 16 at least
+constexpr float kUsualNdotV = 0.7f;              // of an entry's, where it is not along the path
 constexpr std::uint8_t kUnmarkedGrey = 48;
 struct Active { // a rule that a picture may break
     std::size_t rule;
@@ -105,8 +105,8 @@ float luminance_of(const float* rgb)
 // Looks at pixels of one picture.
 class Looker {
   public:
-    Looker(const Session& session, const FrameDesc& desc, const Frame& frame)
-        : sky_(*session.parts().environment), desc_(desc), inputs_(inputs_of_frame(desc, *session.parts().environment)), frame_(frame),
+    Looker(const Session& session, const FrameDesc& desc, const RiskInputs& inputs, const Frame& frame)
+        : sky_(*session.parts().environment), desc_(desc), inputs_(inputs), frame_(frame),
           turn_(sky_from_world(session.parts().environment->rotation_deg))
     {
         turned_ = session.parts().environment->rotation_deg != 0.0f;
@@ -292,47 +292,41 @@ RiskInputs inputs_of_entry(const AtlasEntry& entry, double s)
     return i;
 }
 
-Result<RiskMap> mark_risks(const Session& session, const FrameDesc& desc, const Frame& frame)
+Result<RiskMap> mark_risks(Session& session, const FrameDesc& desc)
 {
     const auto begin = std::chrono::steady_clock::now();
     const Result<std::vector<Active>> active = active_rules(desc);
     if (!active)
         return active.error();
-    const Looker looker(session, desc, frame);
-    const int step = std::clamp(static_cast<int>(std::sqrt(static_cast<double>(frame.layers.size()) / kLookedAt) + 0.5), 1, kMostStep);
-    const int rows = (desc.height + step - 1) / step;
+    const double pixels = static_cast<double>(desc.width) * desc.height;
+    const int step = std::clamp(static_cast<int>(std::sqrt(pixels / kLookedAt) + 0.5), 1, kMostStep);
+    FrameDesc probe = desc;
+    probe.width = (desc.width + step - 1) / step, probe.height = (desc.height + step - 1) / step, probe.msaa = 1;
+    probe.samples = 1, probe.light_samples = 1, probe.background = false;
+    probe.triangle_ids = probe.parts = probe.stages = probe.profile = false, probe.layers = true;
+    const Result<Frame> frame = session.render(probe);
+    if (!frame)
+        return frame.error();
+    const Looker looker(session, probe, inputs_of_frame(desc, *session.parts().environment), *frame);
     RiskMap map;
-    map.marks.assign(frame.layers.size(), 0);
+    map.width = probe.width, map.height = probe.height;
+    map.marks.assign(frame->layers.size(), 0);
     struct Counts {
         std::array<std::uint64_t, 32> of{};
         std::uint64_t shaded = 0, any = 0;
     };
-    std::vector<Counts> counts(static_cast<std::size_t>(rows));
-    session.parts().jobs->parallel_for(static_cast<std::size_t>(rows), [&](std::size_t row, int) {
-        Counts& c = counts[row];
-        const int y0 = static_cast<int>(row) * step, y1 = std::min(y0 + step, desc.height);
-        for (int x0 = 0; x0 < desc.width; x0 += step) {
-            const int x1 = std::min(x0 + step, desc.width);
-            int looked_x = -1, looked_y = -1; // the first of the square that is shaded, from its middle on
-            std::uint64_t shaded = 0;
-            for (int y = y0; y < y1; ++y)
-                for (int x = x0; x < x1; ++x)
-                    if (looker.shaded(static_cast<std::size_t>(y) * static_cast<std::size_t>(desc.width) + static_cast<std::size_t>(x))) {
-                        if (!shaded++ || (x <= x0 + step / 2 && y <= y0 + step / 2))
-                            looked_x = x, looked_y = y;
-                    }
-            if (!shaded)
+    std::vector<Counts> counts(static_cast<std::size_t>(probe.height));
+    session.parts().jobs->parallel_for(counts.size(), [&](std::size_t y, int) {
+        Counts& c = counts[y];
+        for (std::size_t x = 0; x < static_cast<std::size_t>(probe.width); ++x) {
+            const std::size_t p = y * static_cast<std::size_t>(probe.width) + x;
+            if (!looker.shaded(p))
                 continue;
-            std::uint8_t mark = 1;
-            const std::uint32_t bits = looker.look(looked_x, looked_y, *active, mark);
-            c.shaded += shaded, c.any += bits ? shaded : 0;
+            map.marks[p] = 1;
+            const std::uint32_t bits = looker.look(static_cast<int>(x), static_cast<int>(y), *active, map.marks[p]);
+            ++c.shaded, c.any += bits != 0;
             for (std::size_t a = 0; a < active->size(); ++a)
-                c.of[a] += (bits >> a & 1u) * shaded;
-            for (int y = y0; y < y1; ++y)
-                for (int x = x0; x < x1; ++x) {
-                    const std::size_t p = static_cast<std::size_t>(y) * static_cast<std::size_t>(desc.width) + static_cast<std::size_t>(x);
-                    map.marks[p] = looker.shaded(p) ? mark : std::uint8_t{0};
-                }
+                c.of[a] += bits >> a & 1u;
         }
     });
     Counts all;
@@ -358,12 +352,15 @@ Result<RiskMap> mark_risks(const Session& session, const FrameDesc& desc, const 
 Image risk_picture(const RiskMap& map, int width, int height)
 {
     Image out = make_image(width, height, 3, PixelType::u8);
-    for (std::size_t p = 0; p < map.marks.size(); ++p) {
-        const std::uint8_t mark = map.marks[p];
-        const std::array<std::uint8_t, 3> rgb = mark >= 2 ? colour_of(mark - 2u) : std::array<std::uint8_t, 3>{};
-        for (std::size_t c = 0; c < 3; ++c)
-            out.bytes[3 * p + c] = static_cast<std::byte>(mark == 1 ? kUnmarkedGrey : rgb[c]);
-    }
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) {
+            const int from = y * map.height / height * map.width + x * map.width / width;
+            const std::uint8_t mark = map.marks[static_cast<std::size_t>(from)];
+            const std::array<std::uint8_t, 3> rgb = mark >= 2 ? colour_of(mark - 2u) : std::array<std::uint8_t, 3>{};
+            for (int c = 0; c < 3; ++c)
+                out.bytes[static_cast<std::size_t>(3 * (y * width + x) + c)] =
+                    static_cast<std::byte>(mark == 1 ? kUnmarkedGrey : rgb[static_cast<std::size_t>(c)]);
+        }
     return out;
 }
 

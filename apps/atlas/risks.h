@@ -36,13 +36,14 @@ struct RiskFinding {
 
 struct RiskMap {
     std::vector<RiskFinding> findings; // the most first; those of no pixel are left out
+    int width = 0, height = 0;         // of marks: a picture of at most 60000 pixels or so of the same view
     std::vector<std::uint8_t> marks;   // [pixel] 0: not shaded; 1: nothing known; 2 + place in risks.def of what it is furthest beyond
     double share = 0.0;                // of the shaded pixels that anything marks
     double ms = 0.0;
 };
 
-// frame: of `session` by desc, drawn with layers. One pixel of a square of them is looked at in large pictures.
-Result<RiskMap> mark_risks(const Session& session, const FrameDesc& desc, const Frame& frame);
+// Draws a small picture of what desc shows, with one sample and layers, and looks at that: what desc draws is not touched.
+Result<RiskMap> mark_risks(Session& session, const FrameDesc& desc);
 
 // 8-bit RGB: black where nothing is shaded, grey where nothing is known, a colour an entry.
 Image risk_picture(const RiskMap& map, int width, int height);

@@ -163,7 +163,6 @@ Result<Rendered> render_frames(const RenderOptions& options, FrameDesc desc, Ses
     desc.triangle_ids = desc.triangle_ids || draws_alpha(options);
     desc.parts = resolves_display(options);
     ask_for_layers(options.aov, desc);
-    desc.layers = desc.layers || !options.risks.empty();
     Progress progress("frames", static_cast<std::size_t>(options.frames), options.quiet || options.frames == 1);
     for (int i = 0; i < options.frames; ++i) {
         const TraceSpan span("frame");
@@ -182,7 +181,7 @@ Result<Rendered> render_frames(const RenderOptions& options, FrameDesc desc, Ses
     }
     if (!options.risks.empty()) {
         const TraceSpan span("risks");
-        Result<RiskMap> risks = mark_risks(session, desc, last);
+        Result<RiskMap> risks = mark_risks(session, desc);
         if (!risks)
             return risks.error();
         out.risks = std::move(*risks);

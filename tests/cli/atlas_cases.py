@@ -141,7 +141,7 @@ DEFECTS = {
     "half_the_overlap": ("--axis-beta 1.15", {"axis_few_samples"}, ("axis_", "adaptive_")),
     "half_the_deviations": ("--axis-k 0.5", {"axis_too_short_for_rough_lobes"}, ("axis_", "adaptive_")),
     "another_masking": ("--masking separable", {"prefiltered_tilt"}, ("",)),
-    "a_fit_for_the_table": ("--dfg fit", {"bent_normal_bends_too_far"}, ("",)),
+    "few_samples": ("--samples 3", {"adaptive_counts_step"}, ("",)),
 }
 
 
