@@ -81,6 +81,8 @@ Status write_outputs(const RenderOptions& options, const Rendered& rendered, Rep
     }
     if (!options.variance_file.empty())
         note(options.variance_file, write_image(options.variance_file, rendered.variance));
+    if (rendered.risks && options.risks != "-")
+        note(options.risks, write_image(options.risks, risk_picture(*rendered.risks, options.frame.width, options.frame.height)));
     if (!options.stats_file.empty())
         note(options.stats_file, write_text(options.stats_file, stats_json(options, rendered.figures).dump(2) + "\n"));
     if (!options.trace_file.empty())
@@ -91,6 +93,10 @@ Status write_outputs(const RenderOptions& options, const Rendered& rendered, Rep
 int finish(const RenderOptions& options, const Rendered& rendered, Report& report)
 {
     const Status written = write_outputs(options, rendered, report);
+    if (rendered.risks) {
+        report.detail("risks", fmt::format("found in {:.2f} ms", rendered.risks->ms));
+        report.figures(risk_lines(*rendered.risks));
+    }
     report.event("pixel hash:", hash_text(rendered.figures.hash));
     int code = 0;
     if (rendered.figures.nan_pixels)
@@ -116,6 +122,7 @@ int run_render(RenderArguments& arguments, OptionTable& given)
         Trace::start();
 
     Report report(options.quiet, options.verbosity);
+    report.promise_stdout({options.stats_file});
     for (const std::string& warning : options.warnings)
         report.warning(warning);
     RenderFigures figures;

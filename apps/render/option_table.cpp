@@ -43,6 +43,8 @@ std::vector<Option> output_rows(RenderArguments& to)
          "What pixels of 8-bit pictures are the mean of: samples as they are, tonemapped afterwards, or display: each as it is shown",
          choice(to.plain.resolve_display, {"linear", "display"})},
         {"--aov", "NAMES", "Layers of .exr outputs, by commas: {}", choices(to.plain.aov, layer_names()), ""},
+        {"--risks", "FILE", "Where the technique is beyond what burnish atlas found it to hold: 8-bit picture; - for the words only",
+         file(to.plain.risks)},
         {"--exposure", "EV", "Multiply by 2^EV before tonemapping", number(to.plain.exposure_ev, -kMaxExposure, kMaxExposure)},
         {"--stats", "FILE", "Figures as JSON; - for standard output", file(to.plain.stats_file)},
         {"--trace", "FILE", "Chrome trace events, for ui.perfetto.dev", file(to.plain.trace_file)},

@@ -50,6 +50,10 @@ Status check_layers(const RenderOptions& out)
         return usage_error("--aov", "needs -o FILE.exr: no other format has layers");
     if (!out.aov.empty() && out.backend == "reference")
         return usage_error("--aov", "the reference has no layers");
+    if (!out.risks.empty() && out.backend == "reference")
+        return usage_error("--risks", "the reference has none");
+    if (!out.risks.empty() && out.risks != "-" && stores_floats(out.risks))
+        return usage_error("--risks", fmt::format("'{}': marks are colours of 8 bits: .png, .tif or .jpg", out.risks));
     return {};
 }
 

@@ -29,6 +29,7 @@ struct RenderOptions {
     Dress dress;                        // what all materials take
     std::vector<std::string> outputs;
     std::vector<std::string> aov; // layers of .exr outputs
+    std::string risks;            // picture of what the atlas says of the technique; "-": its words only; empty: none
     bool resolve_display = false; // 8-bit outputs: samples are tonemapped before they are averaged
     std::string stats_file;       // empty: none; "-": standard output
     std::string trace_file;       // empty: none

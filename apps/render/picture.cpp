@@ -71,6 +71,8 @@ Status check_paths(const RenderOptions& options, const std::vector<std::string>&
     std::vector<std::string> pictures = options.outputs;
     if (!options.variance_file.empty())
         pictures.push_back(options.variance_file);
+    if (!options.risks.empty() && options.risks != "-")
+        pictures.push_back(options.risks);
     return check_outputs(pictures,
                          {{"--stats", options.stats_file}, {"--trace", options.trace_file}, {"--checkpoint", options.reference.checkpoint}},
                          inputs);
@@ -176,6 +178,13 @@ Result<Rendered> render_frames(const RenderOptions& options, FrameDesc desc, Ses
         figures.frame_ms.push_back(frame->stats.ms);
         last = std::move(*frame);
         progress.step();
+    }
+    if (!options.risks.empty()) {
+        const TraceSpan span("risks");
+        Result<RiskMap> risks = mark_risks(session, desc);
+        if (!risks)
+            return risks.error();
+        out.risks = std::move(*risks);
     }
     out.color = std::move(last.color), out.variance = std::move(last.variance);
     figures.nan_pixels = count_not_finite(out.color);

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/atlas/risks.h"
 #include "apps/cli/report.h"
 #include "apps/render/options.h"
 #include "apps/render/stats.h"
@@ -17,6 +18,7 @@ struct Rendered {
     Image variance;
     std::vector<PixelPart> parts; // with --resolve display
     NamedChannels layered;        // with --aov: `color` and its layers
+    std::optional<RiskMap> risks; // with --risks
     RenderFigures figures;
 };
 

@@ -37,7 +37,7 @@ class Row {
     {
         Row row(arguments, given);
         const std::string asked = arguments.plain.turntable ? "--turntable" : "--animate";
-        for (const char* other : {"--frames", "--checkpoint", "--variance", "--trace"})
+        for (const char* other : {"--frames", "--checkpoint", "--variance", "--trace", "--risks"})
             if (given.given(other))
                 return usage_error(other, "cannot be combined with " + asked);
         if (arguments.plain.turntable)

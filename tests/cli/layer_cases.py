@@ -7,7 +7,7 @@ import zlib
 from harness import Skipped, case, check
 
 DRAWN = ("--size", "96x64", "--env-size", "32", "--env-samples", "16", "-q")
-ALL = "depth,normal,albedo,roughness,tangent,object-id,material-id"
+ALL = "depth,normal,albedo,roughness,tangent,anisotropy,metalness,object-id,material-id"
 
 
 def exr_channels(path):
@@ -62,7 +62,7 @@ def names(bench):
     layered, plain = exr_channels(bench.folder / "a.exr"), exr_channels(bench.folder / "b.exr")
     check(sorted(plain) == ["B", "G", "R"], f"a plain picture has {sorted(plain)}")
     check(sorted(set(layered) - set(plain)) == sorted(["Z", "N.X", "N.Y", "N.Z", "albedo.R", "albedo.G", "albedo.B", "roughness", "tangent.X",
-                                                       "tangent.Y", "tangent.Z", "id", "materialId"]), f"{sorted(layered)}")
+                                                       "tangent.Y", "tangent.Z", "anisotropy", "metalness", "id", "materialId"]), f"{sorted(layered)}")
     check(all(layered[c] == plain[c] for c in plain), "layers change the colours")
     check((bench.folder / "a.png").read_bytes() == (bench.folder / "b.png").read_bytes(), "layers change the PNG")
     seen = 0

@@ -26,6 +26,7 @@ import input_cases
 import install_cases
 import kill_cases
 import key_light_cases
+import law_cases
 import layer_cases
 import light_cases
 import limit_cases
@@ -42,6 +43,7 @@ import plot_cases
 import profile_cases
 import reference_cases
 import relief_cases
+import risk_cases
 import subcommand_cases
 import tilt_cases
 import train_cases

@@ -17,6 +17,7 @@ RUNS = {
                (("builtin:plate", *VIEW, "--animate", "roughness=0.1:0.6", "--steps", "2", "-o", "m%d.exr"), (0,)),
                (("builtin:plate", *VIEW, "--turntable", "2", "-o", "t%d.exr", "-o", "t.apng"), (0,)),
                (("builtin:plate", *VIEW, "--direction-map", "a.png", "-o", "d.exr"), (0,)),
+               (("builtin:plate", *VIEW, "--technique", "bent_normal", "--risks", "risks.png"), (0,)),
                (("builtin:glass", *VIEW, "--technique", "mc", "-o", "g.exr"), (0,)),
                (("builtin:plate", *VIEW, "--normal-map", "a.png", "--mip-filter", "lean", "--frame-map", "quaternion", "-o", "n.exr"), (0,)),
                (("builtin:bumps", *VIEW, "--mip-filter", "kappa", "--mip-kappa", "0.9", "-o", "k.exr"), (0,)),

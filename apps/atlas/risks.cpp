@@ -1,0 +1,375 @@
+#include "apps/atlas/risks.h"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <fmt/core.h>
+
+#include "apps/atlas/assets.h"
+#include "apps/atlas/sky.h"
+#include "apps/atlas/table.h"
+#include "apps/cli/parse.h"
+#include "core/base/check.h"
+#include "shading/bake/environment/turn.h"
+#include "shading/lang/tables.h"
+
+namespace burnish {
+namespace {
+
+enum class Change {
+#define BN_RISK_CHANGE(id, what) id,
+#include "apps/atlas/risks.def"
+};
+
+struct Rule {
+    const char* entry;
+    float (*measure)(const RiskInputs& i);
+    Change change;
+    const char *readers, *says;
+};
+
+#define BN_RISK_MEASURE(id, value)                                                                                                         \
+    float measure_##id(const RiskInputs& i)                                                                                                \
+    {                                                                                                                                      \
+        return value;                                                                                                                      \
+    }
+#include "apps/atlas/risks.def"
+
+constexpr Rule kRules[] = {
+#define BN_RISK(entry, measure, change, readers, says) {#entry, measure_##measure, Change::change, readers, says},
+#include "apps/atlas/risks.def"
+};
+
+// Errors of entries are means over pictures; single pixels are far off before.
+constexpr float kEarly = 0.4f; // of the onset's measure
+constexpr std::size_t kChanges = 0
+#define BN_RISK_CHANGE(id, what) +1
+#include "apps/atlas/risks.def"
+    ;
+using Changes = std::array<float, kChanges>;
+constexpr Changes kSeen = {0.12f, 0.12f, 0.12f, 0.25f, 0.2f, 0.0f}; // by Change: of the logarithm of what a pixel shows
+constexpr float kBlack = 0.1f;                                      // of the picture's median luminance: what is told apart from black
+
+constexpr int kLookedAt = 60000, kMostStep = 16; // pixels of a picture, about; one of a square of 16 x 16 at least
+constexpr float kUsualNdotV = 0.7f;              // of an entry's, where it is not along the path
+constexpr std::uint8_t kUnmarkedGrey = 48;
+struct Active { // a rule that a picture may break
+    std::size_t rule;
+    float least; // of its measure
+    std::string beyond;
+    std::array<bool, 2> told; // of round lobes' technique, of brushed ones'
+};
+
+bool names(const char* beginnings, const std::string& technique)
+{
+    for (const std::string& word : split(beginnings, ' '))
+        if (technique.rfind(word, 0) == 0)
+            return true;
+    return false;
+}
+
+Result<std::vector<Active>> active_rules(const FrameDesc& desc)
+{
+    const Result<BlessedTable> table = parse_table(std::string(kAtlasBlessed.bytes, kAtlasBlessed.size), "the program's own table");
+    if (!table)
+        return table.error();
+    std::vector<Active> out;
+    for (std::size_t r = 0; r < std::size(kRules); ++r) {
+        const Rule& rule = kRules[r];
+        const std::array<bool, 2> told = {names(rule.readers, technique_of(desc, false).name),
+                                          names(rule.readers, technique_of(desc, true).name)};
+        if (!told[0] && !told[1])
+            continue;
+        for (const char* walk : {kFullWalk.name, kQuickWalk.name}) { // the finer first
+            const auto rows = table->walks.find(walk);
+            if (rows == table->walks.end() || !rows->second.count(rule.entry))
+                continue;
+            const double onset = rows->second.at(rule.entry).onset;
+            const AtlasEntry& entry = *find_entry(rule.entry);
+            const Result<AtlasSetting> setting = setting_of(entry, AtlasRole::test, onset, kQuickWalk.side, 0);
+            if (!setting)
+                return setting.error();
+            out.push_back({r, kEarly * rule.measure(inputs_of_entry(entry, onset)), setting->values, told});
+            break;
+        }
+    }
+    return out;
+}
+
+float luminance_of(const float* rgb)
+{
+    return 0.2126f * rgb[0] + 0.7152f * rgb[1] + 0.0722f * rgb[2];
+}
+
+// Looks at pixels of one picture.
+class Looker {
+  public:
+    Looker(const Session& session, const FrameDesc& desc, const RiskInputs& inputs, const Frame& frame)
+        : sky_(*session.parts().environment), desc_(desc), inputs_(inputs), frame_(frame),
+          turn_(sky_from_world(session.parts().environment->rotation_deg))
+    {
+        turned_ = session.parts().environment->rotation_deg != 0.0f;
+        for (const KeyLight& light : session.parts().environment->key_lights)
+            lamps_.push_back({glm::vec3(light.direction[0], light.direction[1], light.direction[2]) * turn_, luminance_of(light.irradiance),
+                              0.5f * light.angular_radius});
+        black_ = std::max(1e-20f, kBlack * median());
+    }
+    // Bits by place in `active`; the one that is furthest beyond.
+    std::uint32_t look(int x, int y, const std::vector<Active>& active, std::uint8_t& furthest) const;
+    bool shaded(std::size_t pixel) const
+    {
+        return frame_.layers[pixel].normal[0] != 0.0f || frame_.layers[pixel].normal[1] != 0.0f || frame_.layers[pixel].normal[2] != 0.0f;
+    }
+
+  private:
+    struct Lamp {
+        glm::vec3 direction; // world space
+        float irradiance, radius;
+    };
+    glm::vec2 key_lights(const glm::vec3& n, const glm::vec3& u, const glm::vec3& w, const RiskInputs& i, const glm::vec3& v) const;
+    float median() const;
+    glm::vec3 to_eye(int x, int y) const;
+    Changes changes(const PixelLayers& at, const RiskInputs& i, const glm::vec3& v) const;
+    float seen(const glm::vec3& h, const glm::vec3& v, float alpha_lin) const // mirrored about h, any length
+    {
+        const glm::vec3 d = h * (2.0f * glm::dot(h, v) / glm::dot(h, h)) - v;
+        return sky_.luminance(turned_ ? turn_ * d : d, alpha_lin);
+    }
+
+    const Sky sky_;
+    const FrameDesc& desc_;
+    const RiskInputs inputs_;
+    const Frame& frame_;
+    const glm::mat3 turn_;
+    std::vector<Lamp> lamps_;
+    bool turned_ = false;
+    float black_ = 0.0f;
+};
+
+float Looker::median() const
+{
+    std::vector<float> some;
+    const std::size_t pixels = frame_.layers.size(), step = 1 + pixels / 20000;
+    for (std::size_t p = 0; p < pixels; p += step)
+        if (shaded(p))
+            some.push_back(luminance_of(frame_.color.f32() + 3 * p));
+    if (some.empty())
+        return 0.0f;
+    const auto middle = some.begin() + static_cast<std::ptrdiff_t>(some.size() / 2);
+    std::nth_element(some.begin(), middle, some.end());
+    return *middle;
+}
+
+glm::vec3 Looker::to_eye(int x, int y) const
+{
+    const View& view = desc_.view;
+    if (view.orthographic)
+        return -view.forward;
+    const float sx = (static_cast<float>(x) + 0.5f) / static_cast<float>(desc_.width) * 2.0f - 1.0f,
+                sy = 1.0f - (static_cast<float>(y) + 0.5f) / static_cast<float>(desc_.height) * 2.0f;
+    return -glm::normalize(view.forward + view.right * (sx * view.tan_half_x) + view.up * (sy * view.tan_half_y));
+}
+
+// Luminance of the key lights' highlights without masking, by GGX of two widths and of one.
+glm::vec2 Looker::key_lights(const glm::vec3& n, const glm::vec3& u, const glm::vec3& w, const RiskInputs& i, const glm::vec3& v) const
+{
+    glm::vec2 sum(0.0f);
+    const float round = std::max(i.alpha(), 1e-3f), along = std::max(i.along, 1e-3f), across = std::max(i.across, 1e-3f);
+    for (const Lamp& lamp : lamps_) {
+        const float n_dot_l = glm::dot(n, lamp.direction);
+        if (n_dot_l <= 0.0f)
+            continue;
+        const glm::vec3 h = v + lamp.direction;
+        const float hn = glm::dot(h, n), hu = glm::dot(h, u), hw = glm::dot(h, w);
+        const auto ggx = [&](float a, float b) { // of slopes, widened by the lamp's own size
+            const float s = std::max(a, lamp.radius), t = std::max(b, lamp.radius), x = hu / (hn * s), y = hw / (hn * t),
+                        k = 1.0f + x * x + y * y;
+            return 1.0f / (3.14159265f * s * t * k * k);
+        };
+        const float other = lamp.irradiance / (4.0f * std::max(i.n_dot_v, 0.05f));
+        sum += other * glm::vec2(ggx(along, across), ggx(round, round));
+    }
+    return sum;
+}
+
+// How far apart two pictures of the lobe are, as logarithms of what is seen of them.
+Changes Looker::changes(const PixelLayers& at, const RiskInputs& i, const glm::vec3& v) const
+{
+    const glm::vec3 n(at.normal[0], at.normal[1], at.normal[2]), u(at.tangent[0], at.tangent[1], at.tangent[2]), w = glm::cross(n, u);
+    const float luminance = luminance_of(at.albedo), f0 = 0.04f + (luminance - 0.04f) * at.metalness[0];
+    const float away = 1.0f - i.n_dot_v, away2 = away * away, fresnel = f0 + (1.0f - f0) * away2 * away2 * away;
+    const float other = luminance * (1.0f - at.metalness[0]) * sky_.diffuse(turned_ ? turn_ * n : n) + black_;
+    // Of GGX's slopes along one axis, (1 + t^2)^-1.5, the middles of fifths.
+    constexpr float kPlaces[] = {-1.3333f, -0.4364f, 0.0f, 0.4364f, 1.3333f};
+    const float narrow = std::sqrt(std::max(i.across, 0.3f * i.along)), round = std::sqrt(i.alpha());
+    float sum = 0.0f, least = 1e30f, most = 0.0f;
+    const auto tap = [&](const glm::vec3& h) {
+        const float value = fresnel * seen(h, v, narrow) + other;
+        least = std::min(least, value), most = std::max(most, value);
+        return value;
+    };
+    float middle = 0.0f;
+    for (const float t : kPlaces) {
+        const float value = tap(n + u * (t * i.along));
+        sum += 0.2f * value;
+        if (t == 0.0f)
+            middle = value;
+    }
+    for (const float t : {-1.0f, 1.0f})
+        tap(n + w * (t * std::max(i.across, 0.01f)));
+    const float f = fresnel, one = f * seen(n, v, round);
+    const float eta = i.eta(), stretch = std::min(eta * std::min(1.5f * std::sqrt(round), 1.0f), 0.999f);
+    const float bent = f * seen(n * (1.0f - stretch) + (v - w * glm::dot(v, w)) * stretch, v, round * std::clamp(1.2f - eta, 0.0f, 1.0f));
+    const glm::vec2 key = f * key_lights(n, u, w, i, v); // of the lobe as it is, and round
+    const auto apart = [](float a, float b) { return std::abs(std::log(a / b)); };
+    const float mean = sum + key.x, spread = std::log((most + key.x) / (least + key.x));
+    return {apart(mean, one + other + key.y), apart(mean, bent + other + key.x),
+            apart(mean, middle + key.x),      spread,
+            spread / std::sqrt(i.samples),    1.0f};
+}
+
+std::uint32_t Looker::look(int x, int y, const std::vector<Active>& active, std::uint8_t& furthest) const
+{
+    const std::size_t pixel = static_cast<std::size_t>(y) * static_cast<std::size_t>(desc_.width) + static_cast<std::size_t>(x);
+    const PixelLayers& at = frame_.layers[pixel];
+    const glm::vec3 v = to_eye(x, y);
+    RiskInputs i = inputs_;
+    const float alpha = at.roughness[0] * at.roughness[0];
+    i.along = alpha * (1.0f + at.anisotropy[0]), i.across = alpha * (1.0f - at.anisotropy[0]);
+    i.n_dot_v = std::clamp(v.x * at.normal[0] + v.y * at.normal[1] + v.z * at.normal[2], 0.0f, 1.0f);
+    const Changes change = changes(at, i, v);
+    std::uint32_t bits = 0;
+    float far = 0.0f;
+    for (std::size_t a = 0; a < active.size(); ++a) {
+        const Rule& rule = kRules[active[a].rule];
+        const float beyond = rule.measure(i) / active[a].least, seen = change[static_cast<std::size_t>(rule.change)];
+        if (!active[a].told[at.anisotropy[0] > 0.0f] || !(beyond > 1.0f) || seen < kSeen[static_cast<std::size_t>(rule.change)])
+            continue;
+        bits |= 1u << a;
+        if (beyond * seen > far)
+            far = beyond * seen, furthest = static_cast<std::uint8_t>(2 + active[a].rule);
+    }
+    return bits;
+}
+
+// Hues apart, as often as there are rules.
+std::array<std::uint8_t, 3> colour_of(std::size_t rule)
+{
+    const float hue = std::fmod(0.61803f * static_cast<float>(rule), 1.0f) * 6.0f;
+    std::array<std::uint8_t, 3> rgb{};
+    for (std::size_t c = 0; c < 3; ++c) {
+        const float away = std::abs(std::fmod(hue + static_cast<float>(c) * 4.0f, 6.0f) - 3.0f) - 1.0f;
+        rgb[c] = static_cast<std::uint8_t>(70.0f + 185.0f * std::clamp(away, 0.0f, 1.0f));
+    }
+    return rgb;
+}
+
+} // namespace
+
+RiskInputs inputs_of_frame(const FrameDesc& desc, const Environment& environment)
+{
+    RiskInputs i;
+    i.samples = static_cast<float>(std::max(1, desc.samples));
+    i.axis_k = desc.major_axis_k, i.axis_beta = desc.major_axis_beta;
+    i.tilt = glm::length(desc.tilt_rad);
+    i.texel = 1.5708f / static_cast<float>(environment.specular.size);
+    i.separable = desc.masking != 0 ? 1.0f : 0.0f, i.fit = desc.dfg_fit != 0 ? 1.0f : 0.0f;
+    return i;
+}
+
+RiskInputs inputs_of_entry(const AtlasEntry& entry, double s)
+{
+    const Result<AtlasSetting> setting = setting_of(entry, AtlasRole::test, s, 64, 0);
+    BN_CHECK(setting);
+    const RenderOptions& o = setting->options;
+    Environment environment;
+    environment.specular.size = o.environment.cube_size;
+    RiskInputs i = inputs_of_frame(o.frame, environment);
+    const float roughness = std::max(o.frame.roughness, 0.0f), eta = std::abs(o.frame.anisotropy);
+    i.along = roughness * roughness * (1.0f + eta), i.across = roughness * roughness * (1.0f - eta);
+    i.n_dot_v = o.eye ? o.eye->z / glm::length(*o.eye) : kUsualNdotV; // builtin:plate faces +Z
+    return i;
+}
+
+Result<RiskMap> mark_risks(Session& session, const FrameDesc& desc)
+{
+    const auto begin = std::chrono::steady_clock::now();
+    const Result<std::vector<Active>> active = active_rules(desc);
+    if (!active)
+        return active.error();
+    const double pixels = static_cast<double>(desc.width) * desc.height;
+    const int step = std::clamp(static_cast<int>(std::sqrt(pixels / kLookedAt) + 0.5), 1, kMostStep);
+    FrameDesc probe = desc;
+    probe.width = (desc.width + step - 1) / step, probe.height = (desc.height + step - 1) / step, probe.msaa = 1;
+    probe.samples = 1, probe.light_samples = 1, probe.background = false;
+    probe.triangle_ids = probe.parts = probe.stages = probe.profile = false, probe.layers = true;
+    const Result<Frame> frame = session.render(probe);
+    if (!frame)
+        return frame.error();
+    const Looker looker(session, probe, inputs_of_frame(desc, *session.parts().environment), *frame);
+    RiskMap map;
+    map.width = probe.width, map.height = probe.height;
+    map.marks.assign(frame->layers.size(), 0);
+    struct Counts {
+        std::array<std::uint64_t, 32> of{};
+        std::uint64_t shaded = 0, any = 0;
+    };
+    std::vector<Counts> counts(static_cast<std::size_t>(probe.height));
+    session.parts().jobs->parallel_for(counts.size(), [&](std::size_t y, int) {
+        Counts& c = counts[y];
+        for (std::size_t x = 0; x < static_cast<std::size_t>(probe.width); ++x) {
+            const std::size_t p = y * static_cast<std::size_t>(probe.width) + x;
+            if (!looker.shaded(p))
+                continue;
+            map.marks[p] = 1;
+            const std::uint32_t bits = looker.look(static_cast<int>(x), static_cast<int>(y), *active, map.marks[p]);
+            ++c.shaded, c.any += bits != 0;
+            for (std::size_t a = 0; a < active->size(); ++a)
+                c.of[a] += bits >> a & 1u;
+        }
+    });
+    Counts all;
+    for (const Counts& c : counts) {
+        all.shaded += c.shaded, all.any += c.any;
+        for (std::size_t a = 0; a < all.of.size(); ++a)
+            all.of[a] += c.of[a];
+    }
+    const double shaded = static_cast<double>(std::max<std::uint64_t>(1, all.shaded));
+    map.share = static_cast<double>(all.any) / shaded;
+    for (std::size_t a = 0; a < active->size(); ++a) {
+        const Active& rule = (*active)[a];
+        if (all.of[a])
+            map.findings.push_back({technique_of(desc, rule.told[1]).name, kRules[rule.rule].entry, kRules[rule.rule].says, rule.beyond,
+                                    static_cast<double>(all.of[a]) / shaded});
+    }
+    std::stable_sort(map.findings.begin(), map.findings.end(),
+                     [](const RiskFinding& a, const RiskFinding& b) { return a.share > b.share; });
+    map.ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
+    return map;
+}
+
+Image risk_picture(const RiskMap& map, int width, int height)
+{
+    Image out = make_image(width, height, 3, PixelType::u8);
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) {
+            const int from = y * map.height / height * map.width + x * map.width / width;
+            const std::uint8_t mark = map.marks[static_cast<std::size_t>(from)];
+            const std::array<std::uint8_t, 3> rgb = mark >= 2 ? colour_of(mark - 2u) : std::array<std::uint8_t, 3>{};
+            for (int c = 0; c < 3; ++c)
+                out.bytes[static_cast<std::size_t>(3 * (y * width + x) + c)] =
+                    static_cast<std::byte>(mark == 1 ? kUnmarkedGrey : rgb[static_cast<std::size_t>(c)]);
+        }
+    return out;
+}
+
+std::string risk_lines(const RiskMap& map)
+{
+    std::string text;
+    for (const RiskFinding& f : map.findings)
+        text += fmt::format("{:.1f} % of shaded pixels: {} beyond {} ({}; {})\n", 100.0 * f.share, f.technique, f.beyond, f.says, f.entry);
+    return text + fmt::format("{:.1f} % of shaded pixels are beyond any of them\n", 100.0 * map.share);
+}
+
+} // namespace burnish

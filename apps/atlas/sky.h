@@ -1,0 +1,31 @@
+// How bright an environment is for lobes of any width, coarsely: what `--risks` asks of it.
+#pragma once
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "shading/bake/environment/environment.h"
+
+namespace burnish {
+
+class Sky {
+  public:
+    // Of the prefiltered levels, key lights left out, from one of at most 128 texels a side on.
+    explicit Sky(const Environment& environment);
+    // Luminance that a round lobe of this alpha_lin about `direction` (any length, not 0; of the environment, unturned) meets: the nearest
+    // texel of the nearest level.
+    float luminance(const glm::vec3& direction, float alpha_lin) const { return at(direction, static_cast<int>(alpha_lin * last_ + 0.5f)); }
+    float diffuse(const glm::vec3& direction) const { return at(direction, static_cast<int>(last_)); } // of the widest lobe
+
+  private:
+    struct Level {
+        int size = 0;
+        std::vector<float> luminance; // [face][row][column]
+    };
+    float at(const glm::vec3& direction, int level) const;
+
+    int first_ = 0; // level that levels_ begin with
+    float last_ = 0.0f;
+    std::vector<Level> levels_;
+};
+
+} // namespace burnish

@@ -1,0 +1,70 @@
+"""burnish render --risks: where a technique is beyond what the atlas found it to hold."""
+
+import json
+import re
+
+from environment_files import even, exr
+from harness import case, check, scratch
+
+VIEW = ("render", "builtin:sphere", "--size", "96x64", "--env-size", "64", "--env-samples", "64")
+BRUSHED = ("--technique", "bent_normal", "--roughness", "0.4", "--anisotropy", "0.7")
+
+
+def shares(out):
+    """{entry: percent}, and that of any under ""."""
+    found = {entry: float(share) for share, entry in re.findall(r"^([\d.]+) % of shaded pixels: .*; (\w+)\)$", out, re.M)}
+    found[""] = float(re.search(r"^([\d.]+) % of shaded pixels are beyond", out, re.M)[1])
+    return found
+
+
+@case("risks.are_told_and_change_no_picture", tier="check")
+def told(bench):
+    done = bench.run(*VIEW, *BRUSHED, "--risks", "r.png", "-o", "a.png", "-o", "a.exr", "--stats", "a.json").expect(0)
+    found = shares(done.out)
+    check(found["bent_normal_bends_too_far"] > 30 and found[""] >= found["bent_normal_bends_too_far"], done.out)
+    check("bent_normal beyond anisotropy 0." in done.out and "upside down" in done.out, done.out)
+    bench.run(*VIEW, *BRUSHED, "-o", "b.png", "-o", "b.exr", "--stats", "b.json").expect(0)
+    a, b = (json.loads((bench.folder / f"{name}.json").read_text()) for name in "ab")
+    check(a["pixel_hash"] == b["pixel_hash"], "the picture changed")
+    for kind in ("png", "exr"):
+        check((bench.folder / f"a.{kind}").read_bytes() == (bench.folder / f"b.{kind}").read_bytes(), f"the .{kind} changed")
+    # words alone; figures of a machine keep standard output for themselves
+    check(shares(bench.run(*VIEW, *BRUSHED, "--risks", "-").expect(0).out) == found, "words without a picture are others")
+    done = bench.run(*VIEW, *BRUSHED, "--risks", "-", "--stats", "-").expect(0)
+    check(json.loads(done.out)["pixel_hash"] == a["pixel_hash"] and shares(done.err) == found, done.describe())
+
+
+@case("risks.follow_inputs_and_surroundings", tier="check")
+def follow(bench):
+    name = "bent_normal_bends_too_far"
+    words = lambda *more: shares(bench.run(*VIEW, *more, "--risks", "-").expect(0).out)
+    check(name not in words(*BRUSHED, "--anisotropy", "0.02"), "a bend that is none is marked")
+    check(words(*BRUSHED, "--anisotropy", "0.3").get(name, 0) < words(*BRUSHED)[name], "more of a bend marks less")
+    check(words(*BRUSHED, "--technique", "mc", "--samples", "4096")[""] < 1, "what has samples enough is marked")
+    check(words(*BRUSHED, "--technique", "mc", "--samples", "1").get("mc_fireflies", 0) > 30, "one sample is not noise")
+    check("separable_masking" in words("--technique", "lobe_line", "--roughness", "1", "--masking", "separable"), "masking is not seen")
+    # under an even sky nothing shows where a technique looks
+    (bench.folder / "even.exr").write_bytes(exr(16, 8, even(1.0)))
+    check(words(*BRUSHED, "--env", "even.exr")[""] == 0, "one colour all around, and a place of it is wrong")
+    # an environment turned by half, and the eye with it: nearly the same is marked
+    still = words(*BRUSHED, "--eye", "0.3,0.2,0.5", "--target", "0,0.05,0")[name]
+    turned = words(*BRUSHED, "--eye", "-0.3,0.2,-0.5", "--target", "0,0.05,0", "--env-rotation", "180")[name]
+    check(abs(still - turned) < 3, f"{still} % and {turned} %")
+
+
+@case("risks.are_the_same_for_every_number_of_threads", tier="check")
+def threads(bench):
+    for n in ("1", "3"):
+        bench.run(*VIEW, "--env", "builtin:sky", "--technique", "split_isotropic", "--anisotropy", "0.6", "-t", n, "--risks", f"{n}.png").expect(0)
+    check((bench.folder / "1.png").read_bytes() == (bench.folder / "3.png").read_bytes(), "threads change marks")
+
+
+@case("risks.that_cannot_be_are_refused", tier="check")
+def refused(bench):
+    scratch(bench, "file", "")
+    for code, needle, *words in ((2, "the reference has none", "--risks", "a.png", "--backend", "reference"), (2, "8 bits", "--risks", "a.exr"),
+                                 (2, "--risks", "--risks", "-", "--animate", "roughness=0.1:0.2", "-o", "a%d.png"),
+                                 (2, "a.png", "--risks", "a.png", "-o", "a.png"), (7, "nowhere", "--risks", "nowhere/a.png"),
+                                 (2, "file", "--risks", "file")):
+        bench.run(*VIEW, *words).expect(code).expect_one_line(needle)
+    check(bench.left_behind() == ["file"], f"{bench.left_behind()}")
