@@ -428,26 +428,6 @@ int run_environment(const BakeArguments& a)
     return write_bytes(a, (fs::path(a.output) / kBakedEnvironment).string(), bytes.data(), bytes.size());
 }
 
-Status write_preview(const std::string& folder, const Scene& scene, const MaterialLevels& levels, Report& report)
-{
-    std::error_code failed;
-    fs::create_directories(folder, failed);
-    if (failed)
-        return Error{ExitCode::output_failed, folder, "", failed.message()};
-    for (std::size_t i = 0; i < levels.size(); ++i) {
-        if (!levels[i] || std::find(levels.begin(), levels.begin() + static_cast<std::ptrdiff_t>(i), levels[i]) !=
-                              levels.begin() + static_cast<std::ptrdiff_t>(i))
-            continue;
-        for (const MipPicture& picture : mip_pictures(scene.materials[i].name, *levels[i])) {
-            const std::string path = (fs::path(folder) / (picture.name + ".png")).string();
-            if (Status written = write_image(path, picture.image); !written)
-                return written;
-            report.wrote(path);
-        }
-    }
-    return {};
-}
-
 int run_mip(const BakeArguments& a)
 {
     if (a.picture.empty())
@@ -491,7 +471,7 @@ int run_mip(const BakeArguments& a)
     report.release();
     report.wrote(a.output);
     if (!a.preview.empty())
-        if (const Status written = write_preview(a.preview, (*data)->scene, levels, report); !written)
+        if (const Status written = write_mip_preview(a.preview, (*data)->scene, levels, report); !written)
             return fail(written.error());
     return 0;
 }

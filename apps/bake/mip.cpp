@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <filesystem>
 #include <fmt/core.h>
+
+#include "core/image/io/image_io.h"
 
 namespace burnish {
 
@@ -44,6 +47,26 @@ std::vector<MipPicture> mip_pictures(const std::string& material, const MipLevel
         pictures.push_back({fmt::format("{}_lobe_{:02}", plain_name(material), l + 1), std::move(lobes)});
     }
     return pictures;
+}
+
+Status write_mip_preview(const std::string& folder, const Scene& scene, const MaterialLevels& levels, Report& report)
+{
+    std::error_code failed;
+    std::filesystem::create_directories(folder, failed);
+    if (failed)
+        return Error{ExitCode::output_failed, folder, "", failed.message()};
+    for (std::size_t i = 0; i < levels.size(); ++i) {
+        if (!levels[i] || std::find(levels.begin(), levels.begin() + static_cast<std::ptrdiff_t>(i), levels[i]) !=
+                              levels.begin() + static_cast<std::ptrdiff_t>(i))
+            continue;
+        for (const MipPicture& picture : mip_pictures(scene.materials[i].name, *levels[i])) {
+            const std::string path = (std::filesystem::path(folder) / (picture.name + ".png")).string();
+            if (Status written = write_image(path, picture.image); !written)
+                return written;
+            report.wrote(path);
+        }
+    }
+    return {};
 }
 
 } // namespace burnish
