@@ -55,6 +55,7 @@ MaterialRecord material_record(const Material& m)
     r.tilt_mapped = m.tilt_tex.used();
     r.emitter = m.emitter;
     r.relief = m.heights;
+    r.coated = m.clearcoat > 0.0f && !m.unlit;
     r.conductor = m.conductor_eta != glm::vec3(0.0f) || m.conductor_k != glm::vec3(0.0f);
     return r;
 }

@@ -1,5 +1,5 @@
 // What assembly (*.t.h) may ask of the stage that it runs in: lanes in C++, an invocation in GLSL.
-//   frame_ref f, the_frame(f).width...   the frame's record (shading/lang/records.h); any_frame f: of a BN_STAGE, compiled once for all
+//   frame_ref f, the_frame(f).width...   the frame's record (shading/lang/records.h); any_frame f, any_material m: of a BN_STAGE, compiled once for all
 //   the_light(f, i).position...          light i of the_frame(f).light_count
 //   light_reach r = lights_reaching(f, position); next_light(f, r)   the lights, in turn, that may reach a place: those of lanes are the
 //                                        ones in whose range some lane's place is; light_count or more: there is none left
@@ -15,6 +15,7 @@
 //   whole_cube(f)                        the environment with its key lights, which the others leave out; level 0 alone
 //   lobe_used(at)                        whether the lobe at this place of shading/models.def may be met at all
 //   area_way_used(at)                    the same of a way of area lights, BN_AREA_LIGHTS
+//   coats_used()                         whether any material may have a clear coat
 //   grid_sample(f, i)                    slopes and density of sample i of the_frame(f).grid_count (GridSample)
 // Sums of weighted fetches from a cube, which lanes plan some addresses ahead and GLSL takes one after the other; same bits.
 //   cube_sum s; cube_sum_begin(s, cube); cube_sum_add(s, direction, cube_sum_levels_at(s, lod, weight)); cube_sum_value(s)

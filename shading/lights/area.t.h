@@ -168,7 +168,7 @@ BN_FN real3 area_light_by_cosines(frame_ref f, BN_IN(shaded_point) x, int model,
     real3 up = vec3_of(lit(0.0), lit(0.0), lit(1.0));
     if (x.turned)
         up = to_lobe(lobe, x.s.n, x.surface_axes.n);
-    bool leans = x.turned && stands_in(f) && lies_in_surface(f);
+    bool leans = x.turned && !x.coat && stands_in(f) && lies_in_surface(f);
     real3 specular = vec3_all(lit(0.0));
     real3 diffuse = vec3_all(lit(0.0));
     for (int i = 0; i < the_frame(f).area_light_count; ++i) {
@@ -192,7 +192,7 @@ BN_FN real3 area_light_by_cosines(frame_ref f, BN_IN(shaded_point) x, int model,
     real3 sum = specular * albedo_of(x.s, albedo) * x.gain;
     if (stands_in(f) && !leans)
         sum = sum * x.shown;
-    if ((the_frame(f).lobe_traits & kPunctualOnly) != 0)
+    if (lobe_at_has(f, x, kPunctualOnly))
         sum = vec3_all(lit(0.0));
     if (x.diffuse) {
         real passed = passed_to_diffuse(f, x);

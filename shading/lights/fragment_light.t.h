@@ -9,8 +9,11 @@
 #include "shading/lights/environment.t.h"
 #include "shading/lights/key.t.h"
 #include "shading/lights/punctual.t.h"
+#include "shading/surface/coat.t.h"
 #include "shading/surface/shaded_point.t.h"
+#include "shading/techniques/mc.t.h"
 #include "shading/techniques/shared_line.k.h"
+#include "shading/techniques/split_isotropic.t.h"
 
 BN_KERNELS_BEGIN
 
@@ -28,6 +31,33 @@ BN_STAGE real3 light_of_lamps(any_frame f, BN_IN(shaded_point) x, int lobe, BN_I
 BN_STAGE real3 light_of_area_lights(any_frame f, BN_IN(shaded_point) x, int lobe, BN_IN(real3) position)
 {
     return light_from_area(f, x, lobe, position);
+}
+
+// What a coat makes of the light of what lies below it. traits: of the technique; one that samples lobes samples the coat's, too, and the
+// others take the coat's part of the environment from one prefiltered fetch.
+BN_STAGE line_record under_coat(any_frame f, any_material m, BN_IN(material_inputs) at, BN_IN(visible_point) p, BN_IN(shaded_point) x,
+                                int traits, BN_IN(line_record) below)
+{
+    coat_layer coat = coat_of(f, m, at, x.surface_axes, x.s.v, seen_handedness(p));
+    shaded_point c;
+    make_coat_point(f, x, coat, texture_used(m, kCoatNormalTex) && the_frame(f).horizon != 0, c);
+    int lobe = lobe_that_has(kLobeOfRound);
+    real3 light = vec3_all(lit(0.0));
+    if ((traits & kSamplesLobe) != 0)
+        light = environment_light(f, c, kSamplesLobe + kTestsHorizon, mc_of_lobe(f, c, placed_coat(c)));
+    else
+        light = environment_light(f, c, kSamplesLobe, split_isotropic_specular(f, c));
+    if (the_frame(f).key_light_count > 0)
+        light = light + light_of_sky(f, c, lobe);
+    if (the_frame(f).light_count > 0)
+        light = light + light_of_lamps(f, c, lobe, p.position);
+    if (the_frame(f).area_light_count > 0)
+        light = light + light_of_area_lights(f, c, lobe, p.position);
+    real passed = lit(1.0) - coat.weight;
+    line_record r = below;
+    r.factor = below.factor * passed;
+    r.rest = below.rest * passed + light;
+    return r;
 }
 
 // shape: lobe_shape_at(f, m, at, p). px, py: pixel. shares: the technique shares samples, and fragments meet their neighbours; the colour
@@ -49,9 +79,14 @@ BN_FN line_record light_of_fragment(frame_ref f, material_ref m, technique_ref t
         light = light + light_of_lamps(f, x, the_material(m).lights_lobe, p.position);
     if (the_frame(f).area_light_count > 0)
         light = light + light_of_area_lights(f, x, the_material(m).lights_lobe, p.position);
+    line_record r;
     if (shares)
-        return shared_light(f, x, traits, technique_shared(f, t, x, quad_offset(px & int_lit(1), py & int_lit(1))), light);
-    return line_alone(light);
+        r = shared_light(f, x, traits, technique_shared(f, t, x, quad_offset(px & int_lit(1), py & int_lit(1))), light);
+    else
+        r = line_alone(light);
+    if (coats_used() && the_material(m).coated != 0)
+        r = under_coat(f, m, at, p, x, traits, r);
+    return r;
 }
 
 BN_KERNELS_END

@@ -12,7 +12,7 @@ BN_KERNELS_BEGIN
 // `mc` samples lobes whose normals are not GGX's, and interfaces, with the lights in their place.
 BN_FN bool keys_are_sampled(frame_ref f, BN_IN(shaded_point) x)
 {
-    return (the_frame(f).lobe_traits & kNormals_own) != 0 || x.refracts;
+    return lobe_at_has(f, x, kNormals_own) || x.refracts;
 }
 
 struct key_lobe { // the lobe that lights meet
@@ -33,9 +33,9 @@ BN_FN key_lobe key_lobe_of(frame_ref f, BN_IN(shaded_point) x, int model)
         r.lobe.sigma_u = x.s.roughness * x.s.roughness * lit(0.70710678118654752);
         r.lobe.sigma_v = r.lobe.sigma_u;
     }
-    r.placed = placed_lobe_of(the_frame(f).lobe, r.lobe, x.s.n, x.s.v, x.surface_axes);
+    r.placed = placed_lobe_of(lobe_at(f, x), r.lobe, x.s.n, x.s.v, x.surface_axes);
     r.eye = r.placed.o;
-    if (lies_in_surface(f))
+    if (lobe_at_has(f, x, kLies_surface))
         r.eye = to_lobe(r.lobe, x.s.n, x.s.v);
     // masking alone: normals of silhouettes may look away from the eye, and lobes flare up there
     r.placed.o.z = max(r.placed.o.z, lit(0.02));
@@ -57,7 +57,7 @@ BN_FN key_reflection key_reflection_of(frame_ref f, BN_IN(shaded_point) x, BN_IN
     real3 direction = splat3(the_frame(f).key_lights[light].direction);
     real3 l = to_lobe(lobe.lobe, x.s.n, direction);
     real3 in_place = l;
-    if (lies_in_surface(f))
+    if (lobe_at_has(f, x, kLies_surface))
         in_place = to_frame(lobe.placed.axes, direction);
     mask risen = in_place.z > lit(0.0);
     if (x.turned)
@@ -126,7 +126,7 @@ BN_FN real3 light_from_key_lights(frame_ref f, BN_IN(shaded_point) x, int model)
     if (keys_are_sampled(f, x)) {
         real width = lobe.lobe.sigma_u + lobe.lobe.sigma_v;
         mirror = select(width <= lit(1e-6), lit(1.0), lit(0.0));
-        if ((the_frame(f).lobe_traits & kPunctualOnly) != 0 || x.refracts)
+        if (lobe_at_has(f, x, kPunctualOnly) || x.refracts)
             mirror = lit(0.0);
     }
     if (any_lane(mirror > lit(0.0)))
