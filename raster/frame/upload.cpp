@@ -236,7 +236,7 @@ std::vector<MaterialRecord> in_frame(std::vector<MaterialRecord> materials, cons
         if (m.frame_map < 0 || desc.frame_map == kFrameOff)
             m.frame_map = desc.frame_map;
         if (desc.frame_map == kFrameOff) {
-            m.textures[kNormalTex].texture = -1;
+            m.textures[kNormalTex].texture = m.textures[kCoatNormalTex].texture = -1;
             if (m.moments != kNoMoments && !m.tilt_mapped)
                 m.moments = kMomentsUnseen;
         }
