@@ -93,7 +93,7 @@ BN_INLINE CoatUnderLamps coat_under_lamps(const ReferenceParams& f, const Reflec
     CoatUnderLamps c;
     if (!r.coated)
         return c;
-    make_coat_point(f, r.x, r.coat, false, c.point);
+    make_coat_point(f, r.coat, r.x.surface_axes, r.x.s.v, r.x.s.occlusion, false, c.point);
     c.lobe = placed_lobe_under_lights(lobe_that_has(kLobeOfRound), c.point.lobe, c.point.s, c.point.surface_axes);
     return c;
 }

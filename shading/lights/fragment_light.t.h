@@ -20,7 +20,7 @@ BN_KERNELS_BEGIN
 // lobe: that lights meet, its place in shading/models.def.
 BN_STAGE real3 light_of_sky(any_frame f, BN_IN(shaded_point) x, int lobe)
 {
-    return light_from_key_lights(f, x, lobe);
+    return light_from_key_lights(f, x, lobe, false);
 }
 
 BN_STAGE real3 light_of_lamps(any_frame f, BN_IN(shaded_point) x, int lobe, BN_IN(real3) position)
@@ -30,17 +30,25 @@ BN_STAGE real3 light_of_lamps(any_frame f, BN_IN(shaded_point) x, int lobe, BN_I
 
 BN_STAGE real3 light_of_area_lights(any_frame f, BN_IN(shaded_point) x, int lobe, BN_IN(real3) position)
 {
-    return light_from_area(f, x, lobe, position);
+    return light_from_area(f, x, lobe, position, false);
 }
 
-// What a coat makes of the light of what lies below it. traits: of the technique; one that samples lobes samples the coat's, too, and the
-// others take the coat's part of the environment from one prefiltered fetch.
-BN_STAGE line_record under_coat(any_frame f, any_material m, BN_IN(material_inputs) at, BN_IN(visible_point) p, BN_IN(shaded_point) x,
-                                int traits, BN_IN(line_record) below)
+struct coat_light {
+    real passed; // share of the light of what lies below the coat, its own with it
+    real3 gloss; // what the coat adds
+};
+
+// traits: of the technique; one that samples lobes samples the coat's, too, and the others take the coat's part of the environment from one
+// prefiltered fetch.
+BN_STAGE coat_light light_of_coat(any_frame f, any_material m, BN_IN(material_inputs) at, BN_IN(visible_point) p, integer pixel_id,
+                                  int traits)
 {
-    coat_layer coat = coat_of(f, m, at, x.surface_axes, x.s.v, seen_handedness(p));
+    surface_frame axes = seen_axes(p);
+    real3 v = k_normalize3(-p.ray);
+    coat_layer coat = coat_of(f, m, at, axes, v, seen_handedness(p));
     shaded_point c;
-    make_coat_point(f, x, coat, texture_used(m, kCoatNormalTex) && the_frame(f).horizon != 0, c);
+    c.pixel_id = pixel_id;
+    make_coat_point(f, coat, axes, v, at.occlusion, texture_used(m, kCoatNormalTex) && the_frame(f).horizon != 0, c);
     int lobe = lobe_that_has(kLobeOfRound);
     real3 light = vec3_all(lit(0.0));
     if ((traits & kSamplesLobe) != 0)
@@ -48,15 +56,14 @@ BN_STAGE line_record under_coat(any_frame f, any_material m, BN_IN(material_inpu
     else
         light = environment_light(f, c, kSamplesLobe, split_isotropic_specular(f, c));
     if (the_frame(f).key_light_count > 0)
-        light = light + light_of_sky(f, c, lobe);
+        light = light + light_from_key_lights(f, c, lobe, true);
     if (the_frame(f).light_count > 0)
-        light = light + light_of_lamps(f, c, lobe, p.position);
+        light = light + light_from_punctual(f, c, lobe, p.position);
     if (the_frame(f).area_light_count > 0)
-        light = light + light_of_area_lights(f, c, lobe, p.position);
-    real passed = lit(1.0) - coat.weight;
-    line_record r = below;
-    r.factor = below.factor * passed;
-    r.rest = below.rest * passed + light;
+        light = light + light_from_area(f, c, lobe, p.position, true);
+    coat_light r;
+    r.passed = lit(1.0) - coat.weight;
+    r.gloss = light;
     return r;
 }
 
@@ -84,8 +91,11 @@ BN_FN line_record light_of_fragment(frame_ref f, material_ref m, technique_ref t
         r = shared_light(f, x, traits, technique_shared(f, t, x, quad_offset(px & int_lit(1), py & int_lit(1))), light);
     else
         r = line_alone(light);
-    if (coats_used() && the_material(m).coated != 0)
-        r = under_coat(f, m, at, p, x, traits, r);
+    if (coats_used() && the_material(m).coated != 0) {
+        coat_light coat = light_of_coat(f, m, at, p, x.pixel_id, traits);
+        r.factor = r.factor * coat.passed;
+        r.rest = r.rest * coat.passed + coat.gloss;
+    }
     return r;
 }
 

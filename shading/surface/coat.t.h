@@ -38,25 +38,26 @@ BN_FN coat_layer coat_of(frame_ref f, material_ref m, BN_IN(material_inputs) at,
     return c;
 }
 
-// The coat as a point that lights and techniques shade. x: the surface below it. turned: the normal is not the geometry's, and the frame
-// asks for the horizon. Fills c, but for what only other lobes have.
-BN_FN void make_coat_point(frame_ref f, BN_IN(shaded_point) x, BN_IN(coat_layer) coat, bool turned, BN_INOUT(shaded_point) c)
+// The coat as a point that lights and techniques shade. axes: of the geometry; v: as in coat_of(); turned: the normal is not the
+// geometry's, and the frame asks for the horizon. Fills c, but for what only other lobes and random numbers ask for.
+BN_FN void make_coat_point(frame_ref f, BN_IN(coat_layer) coat, BN_IN(surface_frame) axes, real3 v, real occlusion, bool turned,
+                           BN_INOUT(shaded_point) c)
 {
     real3 whole = vec3_all(coat.weight);
     c.s.n = coat.axes.n;
-    c.s.v = x.s.v;
-    c.s.n_dot_v = min(max(k_dot3(coat.axes.n, x.s.v), lit(1e-4)), lit(1.0));
+    c.s.v = v;
+    c.s.n_dot_v = min(max(k_dot3(coat.axes.n, v), lit(1e-4)), lit(1.0));
     c.s.diffuse = vec3_all(lit(0.0));
     c.s.f0 = whole;
     c.s.f90 = whole;
     c.s.roughness = coat.roughness;
-    c.s.occlusion = x.s.occlusion;
+    c.s.occlusion = occlusion;
     c.s.exact = 0;
     c.lobe.u_axis = coat.axes.t;
     c.lobe.v_axis = coat.axes.b;
     c.lobe.sigma_u = coat.roughness * coat.roughness * lit(0.70710678118654752);
     c.lobe.sigma_v = c.lobe.sigma_u;
-    c.surface_axes = x.surface_axes;
+    c.surface_axes = axes;
     c.turned = turned;
     c.diffuse = false;
     c.brushed = lit(0.0);
@@ -71,8 +72,6 @@ BN_FN void make_coat_point(frame_ref f, BN_IN(shaded_point) x, BN_IN(coat_layer)
     c.gain = vec3_all(lit(1.0));
     c.dielectric_f0 = whole;
     c.dielectric_f90 = coat.weight;
-    c.pixel_id = x.pixel_id;
-    c.coat = true;
     c.refracts = false;
 }
 

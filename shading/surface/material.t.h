@@ -104,15 +104,19 @@ BN_FN material_inputs fetch_material(frame_ref f, material_ref m, BN_IN(visible_
     r.transmission = splat(the_material(m).transmission);
     if (texture_used(m, kTransmissionTex))
         r.transmission = r.transmission * texel_of(t, kTransmissionTex).x;
-    r.coat = splat(the_material(m).clearcoat);
-    if (texture_used(m, kCoatTex))
-        r.coat = r.coat * texel_of(t, kCoatTex).x;
-    r.coat_roughness = splat(the_material(m).clearcoat_roughness);
-    if (texture_used(m, kCoatRoughnessTex))
-        r.coat_roughness = r.coat_roughness * texel_of(t, kCoatRoughnessTex).y;
-    r.coat_normal_map = vec3_of(lit(0.0), lit(0.0), lit(1.0));
-    if (texture_used(m, kCoatNormalTex))
-        r.coat_normal_map = scaled_normal(texel_of(t, kCoatNormalTex), splat(the_material(m).clearcoat_normal_scale));
+    r.coat = lit(0.0);
+    r.coat_roughness = lit(0.0);
+    r.coat_normal_map = vec3_all(lit(0.0));
+    if (the_material(m).coated != 0) {
+        r.coat = splat(the_material(m).clearcoat);
+        if (texture_used(m, kCoatTex))
+            r.coat = r.coat * texel_of(t, kCoatTex).x;
+        r.coat_roughness = splat(the_material(m).clearcoat_roughness);
+        if (texture_used(m, kCoatRoughnessTex))
+            r.coat_roughness = r.coat_roughness * texel_of(t, kCoatRoughnessTex).y;
+        if (texture_used(m, kCoatNormalTex))
+            r.coat_normal_map = scaled_normal(texel_of(t, kCoatNormalTex), splat(the_material(m).clearcoat_normal_scale));
+    }
     return r;
 }
 

@@ -33,7 +33,6 @@ struct shaded_point {
     real3 dielectric_f0;
     real dielectric_f90;
     integer pixel_id;         // y * width + x, for random numbers
-    bool coat;                // it is a clear coat: a round GGX lobe, whatever lobes the frame has
     bool refracts;            // it lets light through, and its technique follows that
     interface_inputs through; // then
 };
@@ -48,14 +47,14 @@ BN_FN rough_interface rough_interface_at(BN_IN(shaded_point) x)
     return rough_interface_of(x.through, x.lobe, x.s.n, x.s.v, x.surface_axes);
 }
 
-// The lobe that a point has, and its traits.
-BN_FN int lobe_at(frame_ref f, BN_IN(shaded_point) x)
+// The frame's lobe, or a clear coat's, which is round whatever that is, and its traits.
+BN_FN int lobe_met(frame_ref f, bool coat)
 {
-    return x.coat ? lobe_that_has(kLobeOfRound) : the_frame(f).lobe;
+    return coat ? lobe_that_has(kLobeOfRound) : the_frame(f).lobe;
 }
-BN_FN bool lobe_at_has(frame_ref f, BN_IN(shaded_point) x, int trait)
+BN_FN bool lobe_met_has(frame_ref f, bool coat, int trait)
 {
-    if (x.coat)
+    if (coat)
         return lobe_has(lobe_that_has(kLobeOfRound), trait);
     return (the_frame(f).lobe_traits & trait) != 0;
 }
@@ -223,7 +222,6 @@ BN_FN void make_shaded_point(frame_ref f, material_ref m, BN_IN(material_inputs)
         if (compensated)
             x.gain = energy_compensation_of_albedo(x.s.f0, min(albedo, lit(1.0)));
     }
-    x.coat = false;
     x.refracts = the_material(m).refracts != 0;
     if (x.refracts)
         make_interface(f, m, at, p.front, x);

@@ -108,8 +108,8 @@ Scene make_lacquer()
     scene.name = "lacquer";
     Material plastic;
     plastic.name = "satin plastic";
-    plastic.base_color = glm::vec4(0.3f, 0.31f, 0.33f, 1.0f);
-    plastic.metallic = 0.0f, plastic.roughness = 0.5f;
+    plastic.base_color = glm::vec4(0.06f, 0.065f, 0.075f, 1.0f);
+    plastic.metallic = 0.0f, plastic.roughness = 0.4f;
     add_lacquered(scene, plastic, glm::vec3(0.0f), add_lacquer_floor);
     const auto ball = [](Scene& s) { add_sphere(s, 96, 48, kBall); };
     const auto high = static_cast<float>(kBall);
