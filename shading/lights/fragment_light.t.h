@@ -93,7 +93,8 @@ BN_FN line_record light_of_fragment(frame_ref f, material_ref m, technique_ref t
         r = line_alone(light);
     if (coats_used() && the_material(m).coated != 0) {
         coat_light coat = light_of_coat(f, m, at, p, x.pixel_id, traits);
-        r.factor = r.factor * coat.passed;
+        if (shares)
+            r.factor = r.factor * coat.passed;
         r.rest = r.rest * coat.passed + coat.gloss;
     }
     return r;

