@@ -33,9 +33,7 @@ Result<Session*> Darkroom::session_of(const AtlasSetting& setting)
     }
     if (!environments_.count(setting.environment_key)) {
         make_room(environments_);
-        EnvironmentOptions whole = o.environment; // references and frames share it
-        whole.picture_only = false;
-        Result<std::shared_ptr<const Environment>> environment = open_environment(o.env, whole, o.limits, *machine_.jobs);
+        Result<std::shared_ptr<const Environment>> environment = open_environment(o.env, o.environment, o.limits, *machine_.jobs);
         if (!environment)
             return environment.error();
         environments_[setting.environment_key] = std::move(*environment);

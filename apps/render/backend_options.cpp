@@ -31,7 +31,6 @@ Status check_reference_options(const RenderArguments& in, const OptionTable& giv
         return usage_error("--variance", fmt::format("needs --samples of at least {}", 2 * kPassSamples));
     if (out.frames != 1)
         return usage_error("--frames", "the reference renders one");
-    out.environment.picture_only = true;
     r.isa = out.isa;
     r.quiet = out.quiet;
     return {};

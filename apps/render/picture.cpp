@@ -89,6 +89,13 @@ SessionOptions session_options(const RenderOptions& options, std::optional<Error
     return session;
 }
 
+Result<std::shared_ptr<const Environment>> open_light(const RenderOptions& options, const Jobs& jobs)
+{
+    EnvironmentOptions environment = options.environment;
+    environment.picture_only = options.backend == "reference";
+    return open_environment(options.env, environment, options.limits, jobs);
+}
+
 Result<Session> prepare(const RenderOptions& options, RenderFigures& figures, std::optional<Error>& lost_checkpoint, Report& report)
 {
     SessionParts parts;
@@ -126,8 +133,7 @@ Result<Session> prepare(const RenderOptions& options, RenderFigures& figures, st
     const Stopwatch bake;
     {
         const TraceSpan span("environment");
-        const Result<std::shared_ptr<const Environment>> environment =
-            open_environment(options.env, options.environment, options.limits, *parts.jobs);
+        const Result<std::shared_ptr<const Environment>> environment = open_light(options, *parts.jobs);
         if (!environment)
             return environment.error();
         parts.environment = *environment;

@@ -30,6 +30,9 @@ Status check_paths(const RenderOptions& options, const std::vector<std::string>&
 SessionOptions session_options(const RenderOptions& options, std::optional<Error>& lost_checkpoint);
 
 // Loads and bakes, with a line of the report each, and makes the renderer.
+// What the options' environment is for the options' renderer: the reference does not need the levels.
+Result<std::shared_ptr<const Environment>> open_light(const RenderOptions& options, const Jobs& jobs);
+
 Result<Session> prepare(const RenderOptions& options, RenderFigures& figures, std::optional<Error>& lost_checkpoint, Report& report);
 
 // All frames show the same picture: a renderer that does not repeat itself is caught here.

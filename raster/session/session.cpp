@@ -162,6 +162,8 @@ Result<Session> Session::make(SessionParts parts, const SessionOptions& options)
 {
     if (!parts.scene || !parts.environment)
         return Error{ExitCode::usage, "", "", parts.scene ? "a session needs an environment" : "a session needs a scene"};
+    if (options.backend != Backend::reference && parts.environment->irradiance.texels.empty())
+        return Error{ExitCode::usage, parts.environment->name, "", "was opened as a picture only: the reference alone draws by it"};
     return guarded(parts.scene->name, [&]() -> Result<Session> {
         if (!parts.jobs)
             parts.jobs = std::make_shared<const Jobs>(0);

@@ -17,6 +17,21 @@ struct lobe_shape {        // a lobe before it is laid onto a surface
     real alpha_lin;        // perceptual roughness
 };
 
+BN_FN lobe_shape shape_of_axes(slope_axes axes)
+{
+    lobe_shape r;
+    r.sigma_u = axes.sigma_u;
+    r.sigma_v = axes.sigma_v;
+    r.u = axes.u;
+    aniso_lobe lobe;
+    lobe.u_axis = vec3_all(lit(0.0));
+    lobe.v_axis = vec3_all(lit(0.0));
+    lobe.sigma_u = r.sigma_u;
+    lobe.sigma_v = r.sigma_v;
+    r.alpha_lin = lobe_alpha_lin(lobe);
+    return r;
+}
+
 BN_FN lobe_shape lobe_shape_of(frame_ref f, material_ref m, BN_IN(material_inputs) at)
 {
     lobe_shape r;
@@ -41,17 +56,7 @@ BN_FN lobe_shape lobe_shape_of(frame_ref f, material_ref m, BN_IN(material_input
         slope_covariance more = covariance_of_moments(at.slope, at.slope_moments);
         covariance = sum_of_covariances(covariance, more);
     }
-    slope_axes axes = axes_of_covariance(covariance);
-    r.sigma_u = axes.sigma_u;
-    r.sigma_v = axes.sigma_v;
-    r.u = axes.u;
-    aniso_lobe lobe;
-    lobe.u_axis = vec3_all(lit(0.0));
-    lobe.v_axis = vec3_all(lit(0.0));
-    lobe.sigma_u = r.sigma_u;
-    lobe.sigma_v = r.sigma_v;
-    r.alpha_lin = lobe_alpha_lin(lobe);
-    return r;
+    return shape_of_axes(axes_of_covariance(covariance));
 }
 
 // Whether no texture changes the shape, and what it is then.

@@ -57,27 +57,18 @@ BN_STAGE lobe_shape grown_shape(any_frame f, material_ref m, BN_IN(material_inpu
     slope_covariance more = covariance_of_pixel(f, m, at, p);
     real u2 = shape.sigma_u * shape.sigma_u;
     real v2 = shape.sigma_v * shape.sigma_v;
-    lobe_shape r = shape;
     if (the_material(m).anisotropic == 0) {
-        r.sigma_u = sqrt(u2 + lit(0.5) * (more.xx + more.yy));
-        r.sigma_v = r.sigma_u;
-    } else {
-        slope_covariance own;
-        own.xx = u2 * shape.u.x * shape.u.x + v2 * shape.u.y * shape.u.y;
-        own.yy = u2 * shape.u.y * shape.u.y + v2 * shape.u.x * shape.u.x;
-        own.xy = (u2 - v2) * shape.u.x * shape.u.y;
-        slope_axes axes = axes_of_covariance(sum_of_covariances(own, more));
-        r.sigma_u = axes.sigma_u;
-        r.sigma_v = axes.sigma_v;
-        r.u = axes.u;
+        slope_axes round;
+        round.sigma_u = sqrt(u2 + lit(0.5) * (more.xx + more.yy));
+        round.sigma_v = round.sigma_u;
+        round.u = shape.u;
+        return shape_of_axes(round);
     }
-    aniso_lobe lobe;
-    lobe.u_axis = vec3_all(lit(0.0));
-    lobe.v_axis = vec3_all(lit(0.0));
-    lobe.sigma_u = r.sigma_u;
-    lobe.sigma_v = r.sigma_v;
-    r.alpha_lin = lobe_alpha_lin(lobe);
-    return r;
+    slope_covariance own;
+    own.xx = u2 * shape.u.x * shape.u.x + v2 * shape.u.y * shape.u.y;
+    own.yy = u2 * shape.u.y * shape.u.y + v2 * shape.u.x * shape.u.x;
+    own.xy = (u2 - v2) * shape.u.x * shape.u.y;
+    return shape_of_axes(axes_of_covariance(sum_of_covariances(own, more)));
 }
 
 // What the frame draws there.

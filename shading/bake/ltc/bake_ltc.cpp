@@ -4,6 +4,7 @@
 #include <cstring>
 #include <filesystem>
 
+#include "core/base/bytes.h"
 #include "core/base/file.h"
 #include "core/base/hash.h"
 #include "core/math/scalar_math.h"
@@ -50,22 +51,16 @@ Status keep(const BakeOptions& options, const Progressed& p)
     if (options.checkpoint.empty())
         return {};
     std::vector<std::uint8_t> bytes;
-    const auto append = [&bytes](const void* data, std::size_t size) {
-        const std::size_t at = bytes.size();
-        bytes.resize(at + size);
-        if (size) // a column of nothing has no address
-            std::memcpy(bytes.data() + at, data, size);
-    };
     const std::uint64_t words[] = {key_of(options), p.chains, p.steps, p.state.entries.empty() ? 0u : 1u};
     const double numbers[] = {p.state.cost, p.state.mu, p.cost_before};
-    append(kPartMagic, sizeof kPartMagic);
-    append(words, sizeof words);
-    append(numbers, sizeof numbers);
-    append(p.l1.data(), p.l1.size() * sizeof(double));
-    append(p.nodes.data(), p.nodes.size() * sizeof(Matrix));
-    append(p.state.entries.data(), p.state.entries.size() * sizeof(Matrix));
+    append_bytes(bytes, kPartMagic, sizeof kPartMagic);
+    append_bytes(bytes, words, sizeof words);
+    append_bytes(bytes, numbers, sizeof numbers);
+    append_bytes(bytes, p.l1.data(), p.l1.size() * sizeof(double));
+    append_bytes(bytes, p.nodes.data(), p.nodes.size() * sizeof(Matrix));
+    append_bytes(bytes, p.state.entries.data(), p.state.entries.size() * sizeof(Matrix));
     const std::uint64_t hash = hash_bytes(bytes.data(), bytes.size());
-    append(&hash, sizeof hash);
+    append_bytes(bytes, &hash, sizeof hash);
     return write_file_atomic(options.checkpoint, bytes.data(), bytes.size());
 }
 

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <fmt/format.h>
 
+#include "core/base/bytes.h"
 #include "core/base/hash.h"
 #include "shading/bake/mip/texture.h"
 
@@ -94,16 +95,10 @@ std::string read_material(Reader& from, MipLevels& to)
 std::vector<std::uint8_t> mip_file_bytes(const std::vector<const MipLevels*>& materials)
 {
     std::vector<std::uint8_t> bytes;
-    const auto append = [&bytes](const void* from, std::size_t size) {
-        const std::size_t at = bytes.size();
-        bytes.resize(at + size);
-        if (size) // levels of nothing have no address
-            std::memcpy(bytes.data() + at, from, size);
-    };
     MipFileHeader head = {};
     std::memcpy(head.magic, kMipMagic, sizeof kMipMagic);
     head.version = kMipVersion, head.count = static_cast<std::uint32_t>(materials.size());
-    append(&head, sizeof head);
+    append_bytes(bytes, &head, sizeof head);
     for (const MipLevels* m : materials) {
         MipMaterialHeader h = {};
         const std::string name = mip_filters()[static_cast<std::size_t>(m->filter)].name;
@@ -111,12 +106,12 @@ std::vector<std::uint8_t> mip_file_bytes(const std::vector<const MipLevels*>& ma
         h.kappa = m->kappa, h.source = m->source;
         h.width = static_cast<std::uint32_t>(m->width), h.height = static_cast<std::uint32_t>(m->height);
         h.levels = static_cast<std::uint32_t>(m->levels.size());
-        append(&h, sizeof h);
+        append_bytes(bytes, &h, sizeof h);
         for (const MipLevel& level : m->levels)
-            append(level.texels.data(), level.texels.size() * sizeof(MipTexel));
+            append_bytes(bytes, level.texels.data(), level.texels.size() * sizeof(MipTexel));
     }
     const std::uint64_t hash = hash_bytes(bytes.data(), bytes.size());
-    append(&hash, sizeof hash);
+    append_bytes(bytes, &hash, sizeof hash);
     return bytes;
 }
 

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fmt/format.h>
 
+#include "core/base/bytes.h"
 #include "core/base/clock.h"
 #include "core/base/file.h"
 #include "core/base/hash.h"
@@ -36,18 +37,13 @@ Status keep_training(const TrainOptions& options, std::uint64_t key, const Train
     if (options.checkpoint.empty())
         return {};
     std::vector<std::uint8_t> bytes;
-    const auto append = [&bytes](const void* data, std::size_t size) {
-        const std::size_t at = bytes.size();
-        bytes.resize(at + size);
-        std::memcpy(bytes.data() + at, data, size);
-    };
-    append(kTrainMagic, sizeof kTrainMagic);
-    append(&key, sizeof key);
-    append(&t.step, sizeof t.step);
+    append_bytes(bytes, kTrainMagic, sizeof kTrainMagic);
+    append_bytes(bytes, &key, sizeof key);
+    append_bytes(bytes, &t.step, sizeof t.step);
     for (const std::vector<float>* numbers : t.all)
-        append(numbers->data(), numbers->size() * sizeof(float));
+        append_bytes(bytes, numbers->data(), numbers->size() * sizeof(float));
     const std::uint64_t hash = hash_bytes(bytes.data(), bytes.size());
-    append(&hash, sizeof hash);
+    append_bytes(bytes, &hash, sizeof hash);
     return write_file_atomic(options.checkpoint, bytes.data(), bytes.size());
 }
 

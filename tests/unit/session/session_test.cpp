@@ -103,6 +103,12 @@ TEST(session, says_what_is_wrong)
         ASSERT_FALSE(partial);
         EXPECT_EQ(partial.error().code, ExitCode::usage);
     }
+    OpenOptions picture = small_open();
+    picture.environment.picture_only = true;
+    picture.environment.use_cache = false;
+    const Result<Session> without_levels = Session::open("builtin:teapot", "builtin:studio", picture);
+    ASSERT_FALSE(without_levels);
+    EXPECT_EQ(without_levels.error().code, ExitCode::usage);
     FrameDesc wrong = small_frame(*session, "no_such_technique");
     const Result<Frame> frame = session->render(wrong);
     ASSERT_FALSE(frame);
