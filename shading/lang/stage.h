@@ -1,10 +1,10 @@
 // What assembly (*.t.h) may ask of the stage that it runs in: lanes in C++, an invocation in GLSL.
-//   frame_ref f, the_frame(f).width...   the frame's record (shading/lang/records.h); any_frame f, any_material m: of a BN_STAGE, compiled once for all
+//   frame_ref f, the_frame(f).width...   the frame's record (shading/lang/records.h); any_frame f: of a BN_STAGE, compiled once for all
 //   the_light(f, i).position...          light i of the_frame(f).light_count
 //   light_reach r = lights_reaching(f, position); next_light(f, r)   the lights, in turn, that may reach a place: those of lanes are the
 //                                        ones in whose range some lane's place is; light_count or more: there is none left
 //   the_area_light(f, i).radiance...     area light i of the_frame(f).area_light_count
-//   material_ref m, the_material(m).metallic...   a material's record; texture_used(m, kNormalTex)
+//   material_ref m, any_material m, the_material(m).metallic...   a material's record; texture_used(m, kNormalTex)
 //   texture_fetches t = textures_at(f, m, p); texel_of(t, kNormalTex)   what its textures, where they are used, hold at a visible_point:
 //                                        to be asked for once each, as lanes fetch then and GLSL has fetched all
 //   texel_beside(f, m, slot, p)          a slot's texture, where it is used, at another point
