@@ -55,6 +55,7 @@ MaterialRecord material_record(const Material& m)
     r.tilt_mapped = m.tilt_tex.used();
     r.emitter = m.emitter;
     r.relief = m.heights;
+    r.coated = m.clearcoat > 0.0f && !m.unlit;
     r.conductor = m.conductor_eta != glm::vec3(0.0f) || m.conductor_k != glm::vec3(0.0f);
     return r;
 }
@@ -235,7 +236,7 @@ std::vector<MaterialRecord> in_frame(std::vector<MaterialRecord> materials, cons
         if (m.frame_map < 0 || desc.frame_map == kFrameOff)
             m.frame_map = desc.frame_map;
         if (desc.frame_map == kFrameOff) {
-            m.textures[kNormalTex].texture = -1;
+            m.textures[kNormalTex].texture = m.textures[kCoatNormalTex].texture = -1;
             if (m.moments != kNoMoments && !m.tilt_mapped)
                 m.moments = kMomentsUnseen;
         }

@@ -257,6 +257,14 @@ BN_INLINE Reflector select_reflector(mask m, const Reflector& a, const Reflector
         r.x.through.parts = select_parts(m, a.x.through.parts, b.x.through.parts);
         r.refracts = either(both(m, a.refracts), both(not_(m), b.refracts));
     }
+    if (a.coated || b.coated) {
+        const coat_layer &c = a.coat, &d = b.coat;
+        r.coated = true;
+        r.coat.axes.n = select(m, c.axes.n, d.axes.n), r.coat.axes.t = select(m, c.axes.t, d.axes.t);
+        r.coat.axes.b = select(m, c.axes.b, d.axes.b), r.coat.horizon = select(m, c.horizon, d.horizon);
+        r.coat.weight = select(m, c.weight, d.weight), r.coat.roughness = select(m, c.roughness, d.roughness);
+        r.choose_coat = select(m, a.choose_coat, b.choose_coat);
+    }
     r.choose_specular = select(m, a.choose_specular, b.choose_specular);
     r.mirror = select(m, a.mirror, b.mirror);
     return r;
@@ -275,8 +283,13 @@ BN_STAGE MaterialAtHits material_at_hits(const ReferenceParams& f, const Materia
     make_shaded_point(f, m, at, lobe_shape_of(f, m, at), g.fragment, int_lit(0), x);
     if (!x.refracts)
         x.through = interface_inputs(); // lanes of other materials may refract
-    r.r = make_reflector(f, x);
+    coat_layer coat = {x.surface_axes, x.surface_axes.n, lit(0.0), lit(1.0)};
+    if (m.coated)
+        coat = coat_of(f, m, at, x.surface_axes, x.s.v, seen_handedness(g.fragment));
+    r.r = make_reflector(f, x, m.coated != 0, coat);
     r.emission = own_light(m, at);
+    if (m.coated)
+        r.emission = r.emission * (lit(1.0) - coat.weight);
     return r;
 }
 

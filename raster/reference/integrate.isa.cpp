@@ -83,6 +83,27 @@ BN_INLINE LaneRays leaving_ray(const ReferenceParams& f, const LaneSurface& s, r
     return r;
 }
 
+struct CoatUnderLamps { // of a coated surface
+    shaded_point point;
+    placed_lobe lobe;
+};
+
+BN_INLINE CoatUnderLamps coat_under_lamps(const ReferenceParams& f, const Reflector& r)
+{
+    CoatUnderLamps c;
+    if (!r.coated)
+        return c;
+    make_coat_point(f, r.coat, r.x.surface_axes, r.x.s.v, r.x.s.occlusion, false, c.point);
+    c.lobe = placed_lobe_under_lights(lobe_that_has(kLobeOfRound), c.point.lobe, c.point.s, c.point.surface_axes);
+    return c;
+}
+
+BN_INLINE real3 coat_lit(const ReferenceParams& f, const Reflector& r, const CoatUnderLamps& coat, const light_sample& towards, int light)
+{
+    const punctual_light shone = light_from(f, coat.point, coat.lobe, towards, light);
+    return select(k_dot3(r.coat.horizon, shone.l) > lit(0.0), shone.radiance, vec3_all(lit(0.0)));
+}
+
 BN_STAGE real3 punctual_lights(const PixelFrame& p, const LaneSurface& s)
 {
     const ReferenceParams& f = p.f;
@@ -90,6 +111,7 @@ BN_STAGE real3 punctual_lights(const PixelFrame& p, const LaneSurface& s)
     rough_interface through;
     if (s.r.x.refracts)
         through = rough_interface_at(s.r.x);
+    const CoatUnderLamps coat = coat_under_lamps(f, s.r);
     real3 sum = vec3_all(lit(0.0));
     for (int i = 0; i < f.light_count; ++i) {
         const LightRecord& l = f.lights[i];
@@ -98,6 +120,11 @@ BN_STAGE real3 punctual_lights(const PixelFrame& p, const LaneSurface& s)
         if (s.r.x.refracts)
             light.radiance = select(s.r.refracts, light_from_interface(f, s.r.x, through, towards, i).radiance, light.radiance);
         mask lit_lanes = both(both(s.reflects, k_dot3(s.r.horizon, light.l) > lit(0.0)), any_light(light.radiance));
+        if (s.r.coated) {
+            light.radiance = select(lit_lanes, light.radiance * (lit(1.0) - s.r.coat.weight), vec3_all(lit(0.0)));
+            light.radiance = light.radiance + coat_lit(f, s.r, coat, towards, i);
+            lit_lanes = both(s.reflects, any_light(light.radiance));
+        }
         if (s.r.x.refracts && f.mode == ReferenceMode::path) {
             const mask behind = both(both(s.reflects, s.r.refracts), k_dot3(s.r.x.surface_axes.n, light.l) < lit(0.0));
             const real3 arriving = splat3(l.radiant) * towards.attenuation;

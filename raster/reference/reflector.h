@@ -1,9 +1,10 @@
 // A surface ready to reflect: the BRDF that the technique `mc` samples, one term for the lobe (placed_lobe.t.h, reflectance.t.h) or for a
-// rough interface, which light passes too (refraction.t.h), and one for the diffuse rest, as values, densities and samples. Directions are
-// world space, unit.
+// rough interface, which light passes too (refraction.t.h), one for the diffuse rest, and one for a clear coat over them (coat.t.h), as
+// values, densities and samples. Directions are world space, unit.
 #pragma once
 #include "raster/reference/samples.h"
 #include "shading/models/lambert.k.h"
+#include "shading/surface/coat.t.h"
 #include "shading/surface/shaded_point.t.h"
 
 namespace burnish {
@@ -19,6 +20,9 @@ struct Reflector {
     real choose_specular; // probability
     mask mirror;          // the lobe has no width: only samples meet it
     mask refracts;        // an interface is in the lobe's place; none of them where !x.refracts
+    bool coated;          // some lanes have a coat
+    coat_layer coat;      // then; of no weight where there is none
+    real choose_coat;     // probability
 };
 
 constexpr int kUsualLobe = lobe_with(kLobeOfAll);
@@ -28,7 +32,8 @@ BN_INLINE real luminance_of(real3 c)
     return c.x * lit(0.2126) + c.y * lit(0.7152) + c.z * lit(0.0722);
 }
 
-BN_INLINE Reflector make_reflector(const ShadingFrame& f, const shaded_point& x)
+// coated: with `coat`.
+BN_INLINE Reflector make_reflector(const ShadingFrame& f, const shaded_point& x, bool coated, const coat_layer& coat)
 {
     Reflector r;
     const surface& s = x.s;
@@ -48,7 +53,21 @@ BN_INLINE Reflector make_reflector(const ShadingFrame& f, const shaded_point& x)
     r.choose_specular = select(rest > lit(1e-6), select(specular > lit(1e-6), min(max(share, lit(0.1)), lit(0.9)), lit(0.0)), lit(1.0));
     if (lobe_has(f.lobe, kPunctualOnly))
         r.choose_specular = lit(0.0);
+    r.coated = coated, r.coat = coat;
+    r.choose_coat = lit(0.0);
+    if (coated) {
+        const real below = (lit(1.0) - coat.weight) * (specular + rest);
+        const real of_coat = min(max(coat.weight / max(coat.weight + below, lit(1e-20)), lit(0.1)), lit(0.9));
+        r.choose_coat = select(coat.weight > lit(0.0), of_coat, lit(0.0));
+    }
     return r;
+}
+
+BN_INLINE placed_lobe coat_lobe_of(const Reflector& r)
+{
+    const real sigma = r.coat.roughness * r.coat.roughness * lit(0.70710678118654752);
+    const aniso_lobe lobe = {r.coat.axes.t, r.coat.axes.b, sigma, sigma};
+    return placed_lobe_of(lobe_that_has(kLobeOfRound), lobe, r.coat.axes.n, r.x.s.v, r.coat.axes);
 }
 
 BN_INLINE placed_lobe lobe_of(const Reflector& r, int model)
@@ -115,8 +134,8 @@ BN_STAGE Reflection scatter(const Reflector& r, real3 wi)
     return to;
 }
 
-// A mirror's own reflection is not in it.
-BN_INLINE Reflection reflect(const Reflector& r, real3 wi)
+// Of what lies below a coat. A mirror's own reflection is not in it.
+BN_INLINE Reflection reflect_below(const Reflector& r, real3 wi)
 {
     const LobeValue l = lobe_value(r, wi);
     mask shines = both(not_(r.mirror), k_dot3(r.horizon, wi) > lit(0.0));
@@ -138,11 +157,30 @@ BN_INLINE Reflection reflect(const Reflector& r, real3 wi)
     return to;
 }
 
+// The coat over it: of the least width where it has none, so that it is no mirror.
+BN_STAGE Reflection reflect_coated(const Reflector& r, real3 wi, const Reflection& below)
+{
+    const LobeValue l = value_of(coat_lobe_of(r), wi);
+    const mask shines = k_dot3(r.coat.horizon, wi) > lit(0.0);
+    const real weight = r.coat.weight, passed = lit(1.0) - weight;
+    Reflection to;
+    to.value = below.value * passed + vec3_all(select(shines, l.value * weight, lit(0.0)));
+    to.pdf = r.choose_coat * l.pdf + (lit(1.0) - r.choose_coat) * below.pdf;
+    return to;
+}
+
+BN_INLINE Reflection reflect(const Reflector& r, real3 wi)
+{
+    const Reflection below = reflect_below(r, wi);
+    return r.coated ? reflect_coated(r, wi, below) : below;
+}
+
 struct ReflectorSample {
     real3 wi;
     real3 weight; // value / pdf, 0 where the sample is none
     real pdf;     // 1/sr; meaningless where it is exact
     mask exact;   // the direction of a mirror, which nothing else finds
+    mask alone;   // weight and pdf are of one term, which alone goes there: that mirror or an interface
 };
 
 struct InterfaceSample {
@@ -172,7 +210,7 @@ BN_STAGE InterfaceSample sample_interface(const Reflector& r, real2 xi, real cho
     return s;
 }
 
-BN_INLINE ReflectorSample sample_reflector(const Reflector& r, real2 xi, real choice)
+BN_INLINE ReflectorSample sample_below(const Reflector& r, real2 xi, real choice)
 {
     const mask specular = choice < r.choose_specular;
     const real3 mirrored = from_lobe(r.x.lobe, r.x.s.n, mirror_direction(r.o, vec3_of(lit(0.0), lit(0.0), lit(1.0))));
@@ -185,8 +223,8 @@ BN_INLINE ReflectorSample sample_reflector(const Reflector& r, real2 xi, real ch
         through = sample_interface(r, xi, choice / max(r.choose_specular, lit(1e-6)));
         s.wi = select(both(specular, r.refracts), k_normalize3(through.wi), s.wi);
     }
-    s.exact = both(specular, r.mirror);
-    const Reflection at = reflect(r, s.wi);
+    s.exact = s.alone = both(specular, r.mirror);
+    const Reflection at = reflect_below(r, s.wi);
     s.pdf = at.pdf;
     const real inv = select(at.pdf > lit(0.0), lit(1.0) / max(at.pdf, lit(1e-20)), lit(0.0));
     const real3 whole = reflectance_of(r.x.s, k_saturate(r.o.z)) * r.x.gain / max(r.choose_specular, lit(1e-6));
@@ -197,8 +235,28 @@ BN_INLINE ReflectorSample sample_reflector(const Reflector& r, real2 xi, real ch
         const mask alone = both(both(specular, r.refracts), through.alone);
         s.weight = select(alone, through.weight / max(r.choose_specular, lit(1e-6)), s.weight);
         s.pdf = select(alone, through.pdf * r.choose_specular, s.pdf);
+        s.alone = either(s.alone, alone);
     }
     return s;
+}
+
+BN_STAGE ReflectorSample sample_coated(const Reflector& r, real2 xi, real choice)
+{
+    const real rest = lit(1.0) - r.choose_coat;
+    const mask of_coat = choice < r.choose_coat;
+    ReflectorSample s = sample_below(r, xi, min(max((choice - r.choose_coat) / rest, lit(0.0)), lit(0.99999994)));
+    s.wi = select(of_coat, k_normalize3(placed_lobe_sample(coat_lobe_of(r), xi).wi), s.wi);
+    s.exact = both(s.exact, not_(of_coat)), s.alone = both(s.alone, not_(of_coat));
+    const Reflection at = reflect(r, s.wi);
+    const real inv = select(at.pdf > lit(0.0), lit(1.0) / max(at.pdf, lit(1e-20)), lit(0.0));
+    s.weight = select(s.alone, s.weight * ((lit(1.0) - r.coat.weight) / rest), at.value * inv);
+    s.pdf = select(s.alone, s.pdf * rest, at.pdf);
+    return s;
+}
+
+BN_INLINE ReflectorSample sample_reflector(const Reflector& r, real2 xi, real choice)
+{
+    return r.coated ? sample_coated(r, xi, choice) : sample_below(r, xi, choice);
 }
 
 } // namespace BN_ISA_NS

@@ -1,5 +1,8 @@
 // Shading of visible fragments, kLanes at a time, all of one material: interpolate, fetch textures, run the assembly of shading/.
 #pragma once
+#include <cstddef>
+#include <new>
+
 #include "raster/tile/fragment.h"
 #include "shading/lights/fragment_light.t.h"
 #include "shading/surface/specular_aa.t.h"
@@ -39,10 +42,8 @@ BN_INLINE line_record shade_fragments(frame_ref f, material_ref m, const materia
 template <Technique kTechnique>
 BN_INLINE line_record shade_planned(frame_ref f, material_ref m, const MaterialPlan& plan, const visible_point& p, integer x, integer y)
 {
-    material_inputs fetched;
-    if (!plan.uniform)
-        fetched = fetch_lanes(f, m, p);
-    const material_inputs& at = plan.uniform ? plan.at : fetched;
+    alignas(material_inputs) std::byte fetched[sizeof(material_inputs)]; // made where it stays: it is large
+    const material_inputs& at = plan.uniform ? plan.at : *::new (fetched) material_inputs(fetch_lanes(f, m, p));
     const lobe_shape shape = plan.one_shape ? plan.shape : lobe_shape_at(f, m, at, p);
     return shade_fragments<kTechnique>(f, m, at, shape, p, x, y);
 }

@@ -31,8 +31,8 @@ struct LeanMaterial { // std140: surface.glsl
     glm::vec4 base, dielectric, f0, diffuse, factors, emissive, lobe, grain;
     glm::vec4 place[2 * kTextureSlots];
 };
-static_assert(kTextureSlots == 12 && sizeof(LeanMaterial) == 512);
-constexpr std::size_t kMaterialStride = 512; // a multiple of every device's alignment of uniform buffers, 256 at most
+static_assert(kTextureSlots == 15 && sizeof(LeanMaterial) == 608);
+constexpr std::size_t kMaterialStride = 768; // a multiple of every device's alignment of uniform buffers, 256 at most
 
 int lean_technique(int technique)
 {
@@ -78,6 +78,8 @@ const char* not_of_material(const MaterialRecord& m)
         return techniques()[static_cast<std::size_t>(m.technique)].name;
     if (m.transmission > 0.0f)
         return "materials that let light through";
+    if (m.coated != 0)
+        return "clear coats";
     if (m.alpha_mode == kAlpha_blend)
         return "alpha as coverage";
     if (m.relief != 0 || m.moments == kMomentsOfTilt || m.moments == kMomentsOfAll || m.tilted != 0 || m.tilt_mapped != 0)

@@ -251,11 +251,14 @@ Specialization technique_constants(const std::vector<MaterialRecord>& materials,
     std::int32_t techniques = others.techniques, lobes = others.lobes | 1 << frame.lobe;
     if (frame.masking != 0) // which is compared with the usual one
         lobes |= 1 << lobe_with(kLobeOfAll) | 1 << lobe_with(kSeparableOfAll);
-    static_assert(kLobeCount <= kGpuFirstAreaWay && kGpuFirstAreaWay + kAreaWays <= 31);
+    static_assert(kLobeCount <= kGpuFirstAreaWay && kGpuFirstAreaWay + kAreaWays <= kGpuCoatBit);
     if (frame.area_light_count > 0)
         lobes |= 1 << (kGpuFirstAreaWay + frame.area_way);
-    for (const MaterialRecord& m : materials)
+    for (const MaterialRecord& m : materials) {
         techniques |= 1 << m.technique, lobes |= 1 << m.lights_lobe;
+        if (m.coated) // whose lobe is round
+            lobes |= 1 << kGpuCoatBit | 1 << lobe_with(kLobeOfRound);
+    }
     return {techniques, lobes};
 }
 

@@ -10,6 +10,7 @@
 #define frame_ref const auto&
 #define any_frame const ShadingFrame&
 #define material_ref const auto&
+#define any_material const MaterialRecord&
 
 namespace burnish {
 inline namespace BN_ISA_NS {
@@ -36,6 +37,7 @@ BN_FN const auto& the_material(material_ref m)
 #define frame_ref int // of the only one
 #define any_frame int
 #define material_ref int
+#define any_material int
 #define the_frame(f) frame
 #define the_material(m) materials[m]
 #define splat3(v) vec3((v)[0], (v)[1], (v)[2])

@@ -18,6 +18,7 @@ const int kGpuSpecularPage = 0, kGpuIrradiancePage = 1, kGpuBoxPage = 2, kGpuDfg
 const int kGpuMaxGrid = 65536; // kMostGridSamples
 const int kGpuNoTriangle = -1;
 const int kGpuFirstAreaWay = 16; // bit of a stage's constant 1; lobes have those below
+const int kGpuCoatBit = 24;      // of the same constant: some material has a clear coat
 // The rasterizer's viewport is twice as many pixels wide, around the centre pixel, or as wide as the device allows: a power of two, so
 // every snapped position survives the driver's arithmetic, and no whole triangle leaves a guard band of the same width on either side.
 const int kGpuViewportHalf = 8192;

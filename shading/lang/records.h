@@ -180,6 +180,7 @@ struct MaterialRecord { // Material in plain numbers, and what follows from them
     int roughness_fixed;             // by an override: the texture gives metalness only
     int technique, technique_traits; // its place in shading/models.def; of what is unlit no traits
     int refracts;                    // it lets light through, and its technique follows that
+    int coated;                      // it has a clear coat, here or there
     int lights_lobe;                 // what punctual lights meet: its place in shading/models.def
     float brushed;    // brushed_part() of its factors where the technique shares samples; else, or where slopes widen lobes, 1
     int albedo_slice; // of a lobe whose two widths are everywhere the same: its first texel; else -1

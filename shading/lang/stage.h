@@ -4,7 +4,7 @@
 //   light_reach r = lights_reaching(f, position); next_light(f, r)   the lights, in turn, that may reach a place: those of lanes are the
 //                                        ones in whose range some lane's place is; light_count or more: there is none left
 //   the_area_light(f, i).radiance...     area light i of the_frame(f).area_light_count
-//   material_ref m, the_material(m).metallic...   a material's record; texture_used(m, kNormalTex)
+//   material_ref m, any_material m, the_material(m).metallic...   a material's record; texture_used(m, kNormalTex)
 //   texture_fetches t = textures_at(f, m, p); texel_of(t, kNormalTex)   what its textures, where they are used, hold at a visible_point:
 //                                        to be asked for once each, as lanes fetch then and GLSL has fetched all
 //   texel_beside(f, m, slot, p)          a slot's texture, where it is used, at another point
@@ -15,6 +15,7 @@
 //   whole_cube(f)                        the environment with its key lights, which the others leave out; level 0 alone
 //   lobe_used(at)                        whether the lobe at this place of shading/models.def may be met at all
 //   area_way_used(at)                    the same of a way of area lights, BN_AREA_LIGHTS
+//   coats_used()                         whether any material may have a clear coat
 //   grid_sample(f, i)                    slopes and density of sample i of the_frame(f).grid_count (GridSample)
 // Sums of weighted fetches from a cube, which lanes plan some addresses ahead and GLSL takes one after the other; same bits.
 //   cube_sum s; cube_sum_begin(s, cube); cube_sum_add(s, direction, cube_sum_levels_at(s, lod, weight)); cube_sum_value(s)

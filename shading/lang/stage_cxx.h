@@ -118,15 +118,20 @@ BN_INLINE constexpr bool area_way_used(int)
     return true;
 }
 
+BN_INLINE constexpr bool coats_used()
+{
+    return true;
+}
+
 // A fragment of which nothing changes but the geometry: neither textures, vertex colours, lights of either kind, energy compensation, exact
-// reflectances, light that passes nor a lobe other than the usual one.
+// reflectances, light that passes, coats nor a lobe other than the usual one.
 struct PlainFrame : ShadingFrame {
     static constexpr int light_count = 0, area_light_count = 0, key_light_count = 0, energy_compensation = 0, dfg_fit = 0, fresnel = 0,
                          diffuse_model = 0, specular_aa = 0;
     static constexpr int lobe = lobe_with(kLobeOfAll), lobe_traits = lobe_traits_of(lobe);
 };
 struct PlainMaterial : MaterialRecord {
-    static constexpr int textured = 0, uses_color = 0, unlit = 0, refracts = 0, relief = 0;
+    static constexpr int textured = 0, uses_color = 0, unlit = 0, refracts = 0, coated = 0, relief = 0;
 };
 struct UntabledMaterial : PlainMaterial { // of techniques that sample no Ashikhmin-Shirley lobe
     static constexpr int phong_slice = -1, phong_set = -1;

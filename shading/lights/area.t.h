@@ -151,8 +151,8 @@ BN_FN ltc_lobe area_lobe(frame_ref f, real3 eye, real alpha_u, real alpha_v)
 
 // model: the lobe that lights meet; a round one is about the normal, as wide as the surface is rough. position: of x, world space. Lobes of
 // other models are taken for GGX's of the same widths; those that only lamps meet have none of this light. Where the surface is turned,
-// lights are cut at its own horizon.
-BN_FN real3 area_light_by_cosines(frame_ref f, BN_IN(shaded_point) x, int model, real3 position)
+// lights are cut at its own horizon. coat: x is one.
+BN_FN real3 area_light_by_cosines(frame_ref f, BN_IN(shaded_point) x, int model, real3 position, bool coat)
 {
     aniso_lobe lobe = x.lobe;
     if (lobe_has(model, kLies_round)) {
@@ -168,7 +168,7 @@ BN_FN real3 area_light_by_cosines(frame_ref f, BN_IN(shaded_point) x, int model,
     real3 up = vec3_of(lit(0.0), lit(0.0), lit(1.0));
     if (x.turned)
         up = to_lobe(lobe, x.s.n, x.surface_axes.n);
-    bool leans = x.turned && stands_in(f) && lies_in_surface(f);
+    bool leans = x.turned && !coat && stands_in(f) && lies_in_surface(f);
     real3 specular = vec3_all(lit(0.0));
     real3 diffuse = vec3_all(lit(0.0));
     for (int i = 0; i < the_frame(f).area_light_count; ++i) {
@@ -192,7 +192,7 @@ BN_FN real3 area_light_by_cosines(frame_ref f, BN_IN(shaded_point) x, int model,
     real3 sum = specular * albedo_of(x.s, albedo) * x.gain;
     if (stands_in(f) && !leans)
         sum = sum * x.shown;
-    if ((the_frame(f).lobe_traits & kPunctualOnly) != 0)
+    if (lobe_met_has(f, coat, kPunctualOnly))
         sum = vec3_all(lit(0.0));
     if (x.diffuse) {
         real passed = passed_to_diffuse(f, x);
@@ -255,12 +255,12 @@ BN_FN real3 area_light_by_samples(frame_ref f, BN_IN(shaded_point) x, int model,
     return sum;
 }
 
-BN_FN real3 light_from_area(frame_ref f, BN_IN(shaded_point) x, int model, real3 position)
+BN_FN real3 light_from_area(frame_ref f, BN_IN(shaded_point) x, int model, real3 position, bool coat)
 {
     if (area_way_used(kAreaWay_mc) && the_frame(f).area_way == kAreaWay_mc)
         return area_light_by_samples(f, x, model, position);
     if (area_way_used(kAreaWay_ltc) || area_way_used(kAreaWay_ltc_clipless) || area_way_used(kAreaWay_ltc_isotropic))
-        return area_light_by_cosines(f, x, model, position);
+        return area_light_by_cosines(f, x, model, position, coat);
     return vec3_all(lit(0.0));
 }
 

@@ -9,15 +9,18 @@
 #include "shading/lights/environment.t.h"
 #include "shading/lights/key.t.h"
 #include "shading/lights/punctual.t.h"
+#include "shading/surface/coat.t.h"
 #include "shading/surface/shaded_point.t.h"
+#include "shading/techniques/mc.t.h"
 #include "shading/techniques/shared_line.k.h"
+#include "shading/techniques/split_isotropic.t.h"
 
 BN_KERNELS_BEGIN
 
 // lobe: that lights meet, its place in shading/models.def.
 BN_STAGE real3 light_of_sky(any_frame f, BN_IN(shaded_point) x, int lobe)
 {
-    return light_from_key_lights(f, x, lobe);
+    return light_from_key_lights(f, x, lobe, false);
 }
 
 BN_STAGE real3 light_of_lamps(any_frame f, BN_IN(shaded_point) x, int lobe, BN_IN(real3) position)
@@ -27,7 +30,41 @@ BN_STAGE real3 light_of_lamps(any_frame f, BN_IN(shaded_point) x, int lobe, BN_I
 
 BN_STAGE real3 light_of_area_lights(any_frame f, BN_IN(shaded_point) x, int lobe, BN_IN(real3) position)
 {
-    return light_from_area(f, x, lobe, position);
+    return light_from_area(f, x, lobe, position, false);
+}
+
+struct coat_light {
+    real passed; // share of the light of what lies below the coat, its own with it
+    real3 gloss; // what the coat adds
+};
+
+// traits: of the technique; one that samples lobes samples the coat's, too, and the others take the coat's part of the environment from one
+// prefiltered fetch.
+BN_STAGE coat_light light_of_coat(any_frame f, any_material m, BN_IN(material_inputs) at, BN_IN(visible_point) p, integer pixel_id,
+                                  int traits)
+{
+    surface_frame axes = seen_axes(p);
+    real3 v = k_normalize3(-p.ray);
+    coat_layer coat = coat_of(f, m, at, axes, v, seen_handedness(p));
+    shaded_point c;
+    c.pixel_id = pixel_id;
+    make_coat_point(f, coat, axes, v, at.occlusion, texture_used(m, kCoatNormalTex) && the_frame(f).horizon != 0, c);
+    int lobe = lobe_that_has(kLobeOfRound);
+    real3 light = vec3_all(lit(0.0));
+    if ((traits & kSamplesLobe) != 0)
+        light = environment_light(f, c, kSamplesLobe + kTestsHorizon, mc_of_lobe(f, c, placed_coat(c)));
+    else
+        light = environment_light(f, c, kSamplesLobe, split_isotropic_specular(f, c));
+    if (the_frame(f).key_light_count > 0)
+        light = light + light_from_key_lights(f, c, lobe, true);
+    if (the_frame(f).light_count > 0)
+        light = light + light_from_punctual(f, c, lobe, p.position);
+    if (the_frame(f).area_light_count > 0)
+        light = light + light_from_area(f, c, lobe, p.position, true);
+    coat_light r;
+    r.passed = lit(1.0) - coat.weight;
+    r.gloss = light;
+    return r;
 }
 
 // shape: lobe_shape_at(f, m, at, p). px, py: pixel. shares: the technique shares samples, and fragments meet their neighbours; the colour
@@ -49,9 +86,18 @@ BN_FN line_record light_of_fragment(frame_ref f, material_ref m, technique_ref t
         light = light + light_of_lamps(f, x, the_material(m).lights_lobe, p.position);
     if (the_frame(f).area_light_count > 0)
         light = light + light_of_area_lights(f, x, the_material(m).lights_lobe, p.position);
+    line_record r;
     if (shares)
-        return shared_light(f, x, traits, technique_shared(f, t, x, quad_offset(px & int_lit(1), py & int_lit(1))), light);
-    return line_alone(light);
+        r = shared_light(f, x, traits, technique_shared(f, t, x, quad_offset(px & int_lit(1), py & int_lit(1))), light);
+    else
+        r = line_alone(light);
+    if (coats_used() && the_material(m).coated != 0) {
+        coat_light coat = light_of_coat(f, m, at, p, x.pixel_id, traits);
+        if (shares)
+            r.factor = r.factor * coat.passed;
+        r.rest = r.rest * coat.passed + coat.gloss;
+    }
+    return r;
 }
 
 BN_KERNELS_END

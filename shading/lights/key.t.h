@@ -10,9 +10,9 @@
 BN_KERNELS_BEGIN
 
 // `mc` samples lobes whose normals are not GGX's, and interfaces, with the lights in their place.
-BN_FN bool keys_are_sampled(frame_ref f, BN_IN(shaded_point) x)
+BN_FN bool keys_are_sampled(frame_ref f, BN_IN(shaded_point) x, bool coat)
 {
-    return (the_frame(f).lobe_traits & kNormals_own) != 0 || x.refracts;
+    return lobe_met_has(f, coat, kNormals_own) || x.refracts;
 }
 
 struct key_lobe { // the lobe that lights meet
@@ -23,7 +23,7 @@ struct key_lobe { // the lobe that lights meet
 };
 
 // model: what punctual lights meet; where it is round, the frame's lobe is taken for one of the same roughness, too.
-BN_FN key_lobe key_lobe_of(frame_ref f, BN_IN(shaded_point) x, int model)
+BN_FN key_lobe key_lobe_of(frame_ref f, BN_IN(shaded_point) x, int model, bool coat)
 {
     real root2 = lit(1.4142135623730951);
     real one = lit(1.0);
@@ -33,9 +33,9 @@ BN_FN key_lobe key_lobe_of(frame_ref f, BN_IN(shaded_point) x, int model)
         r.lobe.sigma_u = x.s.roughness * x.s.roughness * lit(0.70710678118654752);
         r.lobe.sigma_v = r.lobe.sigma_u;
     }
-    r.placed = placed_lobe_of(the_frame(f).lobe, r.lobe, x.s.n, x.s.v, x.surface_axes);
+    r.placed = placed_lobe_of(lobe_met(f, coat), r.lobe, x.s.n, x.s.v, x.surface_axes);
     r.eye = r.placed.o;
-    if (lies_in_surface(f))
+    if (lobe_met_has(f, coat, kLies_surface))
         r.eye = to_lobe(r.lobe, x.s.n, x.s.v);
     // masking alone: normals of silhouettes may look away from the eye, and lobes flare up there
     r.placed.o.z = max(r.placed.o.z, lit(0.02));
@@ -52,12 +52,12 @@ struct key_reflection {
 };
 
 // light: number of a key light.
-BN_FN key_reflection key_reflection_of(frame_ref f, BN_IN(shaded_point) x, BN_IN(key_lobe) lobe, int light)
+BN_FN key_reflection key_reflection_of(frame_ref f, BN_IN(shaded_point) x, BN_IN(key_lobe) lobe, int light, bool coat)
 {
     real3 direction = splat3(the_frame(f).key_lights[light].direction);
     real3 l = to_lobe(lobe.lobe, x.s.n, direction);
     real3 in_place = l;
-    if (lies_in_surface(f))
+    if (lobe_met_has(f, coat, kLies_surface))
         in_place = to_frame(lobe.placed.axes, direction);
     mask risen = in_place.z > lit(0.0);
     if (x.turned)
@@ -66,7 +66,7 @@ BN_FN key_reflection key_reflection_of(frame_ref f, BN_IN(shaded_point) x, BN_IN
     r.lobe = lit(0.0);
     r.cosine = max(l.z, lit(0.0));
     r.v_dot_h = lit(0.0);
-    if (no_lane(risen) || keys_are_sampled(f, x))
+    if (no_lane(risen) || keys_are_sampled(f, x, coat))
         return r;
     real3 u = to_lobe(lobe.lobe, x.s.n, splat3(the_frame(f).key_lights[light].axis_u));
     real3 v = to_lobe(lobe.lobe, x.s.n, splat3(the_frame(f).key_lights[light].axis_v));
@@ -107,13 +107,14 @@ BN_FN real3 key_lights_mirrored(frame_ref f, BN_IN(shaded_point) x, BN_IN(placed
 
 // Lobes narrower than any that is evaluated blend into a mirror, which shows the lights as the environment has them. Occlusion dims all of
 // it. Of lobes that are sampled with the lights in their place only mirrors meet them here, and the diffuse part. model: see key_lobe_of().
-BN_FN real3 light_from_key_lights(frame_ref f, BN_IN(shaded_point) x, int model)
+// coat: x is one.
+BN_FN real3 light_from_key_lights(frame_ref f, BN_IN(shaded_point) x, int model, bool coat)
 {
-    key_lobe lobe = key_lobe_of(f, x, model);
+    key_lobe lobe = key_lobe_of(f, x, model, coat);
     real3 specular = vec3_all(lit(0.0));
     real3 irradiance = vec3_all(lit(0.0));
     for (int i = 0; i < the_frame(f).key_light_count; ++i) {
-        key_reflection r = key_reflection_of(f, x, lobe, i);
+        key_reflection r = key_reflection_of(f, x, lobe, i, coat);
         real3 fresnel = reflectance_of(x.s, r.v_dot_h);
         specular = specular + splat3(the_frame(f).key_lights[i].radiance) * fresnel * r.lobe;
         real fallen = r.cosine;
@@ -123,10 +124,10 @@ BN_FN real3 light_from_key_lights(frame_ref f, BN_IN(shaded_point) x, int model)
     }
     real narrowness = lit(1.0) - lobe.lobe.sigma_u * lit(1414.2135623730951); // 0 from the least width on, alpha = 0.001
     real mirror = k_saturate(narrowness);
-    if (keys_are_sampled(f, x)) {
+    if (keys_are_sampled(f, x, coat)) {
         real width = lobe.lobe.sigma_u + lobe.lobe.sigma_v;
         mirror = select(width <= lit(1e-6), lit(1.0), lit(0.0));
-        if ((the_frame(f).lobe_traits & kPunctualOnly) != 0 || x.refracts)
+        if (lobe_met_has(f, coat, kPunctualOnly) || x.refracts)
             mirror = lit(0.0);
     }
     if (any_lane(mirror > lit(0.0)))

@@ -23,10 +23,12 @@ cube_desc irradiance_cube(frame_ref f) { return cube_desc(kGpuIrradiancePage, fr
 cube_desc box_cube(frame_ref f) { return cube_desc(kGpuBoxPage, frame.box.size, frame.box.levels); }
 real3 grid_sample(frame_ref f, int i) { return vec3(bn_reals[3 * i], bn_reals[3 * i + 1], bn_reals[3 * i + 2]); }
 
-// That materials and the frame have, a bit a place in models.def; above them the frame's way of area lights, where it has any.
+// That materials and the frame have, a bit a place in models.def; above them the frame's way of area lights, where it has any,
+// and whether there are coats.
 layout(constant_id = 1) const int kLobes = -1;
 bool lobe_used(int at) { return (kLobes >> at & 1) != 0; }
 bool area_way_used(int at) { return (kLobes >> (kGpuFirstAreaWay + at) & 1) != 0; }
+bool coats_used() { return (kLobes >> kGpuCoatBit & 1) != 0; }
 
 struct cube_sum {
     cube_desc cube;

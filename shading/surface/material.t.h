@@ -36,11 +36,14 @@ BN_FN real4 base_color_of(material_ref m, BN_IN(texture_fetches) t, BN_IN(visibl
 }
 
 // Tangent space, any length.
-BN_FN real3 normal_of_texel(material_ref m, real4 texel)
+BN_FN real3 scaled_normal(real4 texel, real scale)
 {
     real3 n = rgb_of(texel) * lit(2.0) - vec3_all(lit(1.0));
-    real scale = splat(the_material(m).normal_scale);
     return vec3_of(n.x * scale, n.y * scale, n.z);
+}
+BN_FN real3 normal_of_texel(material_ref m, real4 texel)
+{
+    return scaled_normal(texel, splat(the_material(m).normal_scale));
 }
 
 // As fetch_material() finds it.
@@ -101,6 +104,19 @@ BN_FN material_inputs fetch_material(frame_ref f, material_ref m, BN_IN(visible_
     r.transmission = splat(the_material(m).transmission);
     if (texture_used(m, kTransmissionTex))
         r.transmission = r.transmission * texel_of(t, kTransmissionTex).x;
+    r.coat = lit(0.0);
+    r.coat_roughness = lit(0.0);
+    r.coat_normal_map = vec3_all(lit(0.0));
+    if (the_material(m).coated != 0) {
+        r.coat = splat(the_material(m).clearcoat);
+        if (texture_used(m, kCoatTex))
+            r.coat = r.coat * texel_of(t, kCoatTex).x;
+        r.coat_roughness = splat(the_material(m).clearcoat_roughness);
+        if (texture_used(m, kCoatRoughnessTex))
+            r.coat_roughness = r.coat_roughness * texel_of(t, kCoatRoughnessTex).y;
+        if (texture_used(m, kCoatNormalTex))
+            r.coat_normal_map = scaled_normal(texel_of(t, kCoatNormalTex), splat(the_material(m).clearcoat_normal_scale));
+    }
     return r;
 }
 

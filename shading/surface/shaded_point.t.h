@@ -47,6 +47,18 @@ BN_FN rough_interface rough_interface_at(BN_IN(shaded_point) x)
     return rough_interface_of(x.through, x.lobe, x.s.n, x.s.v, x.surface_axes);
 }
 
+// The frame's lobe, or a clear coat's, which is round whatever that is, and its traits.
+BN_FN int lobe_met(frame_ref f, bool coat)
+{
+    return coat ? lobe_that_has(kLobeOfRound) : the_frame(f).lobe;
+}
+BN_FN bool lobe_met_has(frame_ref f, bool coat, int trait)
+{
+    if (coat)
+        return lobe_has(lobe_that_has(kLobeOfRound), trait);
+    return (the_frame(f).lobe_traits & trait) != 0;
+}
+
 // Whether lobes may be tilted against the surface, and know where it is.
 BN_FN bool lies_in_surface(frame_ref f)
 {

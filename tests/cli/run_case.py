@@ -11,6 +11,7 @@ import brdf_cases
 import camera_cases
 import chart_cases
 import chart_page_cases
+import coat_cases
 import compare_cases
 import confine_cases
 import detail_cases

@@ -14,42 +14,6 @@ constexpr double kTwoPi = 6.283185307179586;
 constexpr double kHalfSide = 0.45, kApart = 0.52; // metres: of all four, and from the middle of the scene
 constexpr double kBackwards = -0.35;              // radians about +X: backwards
 
-std::byte code(double unit)
-{
-    return static_cast<std::byte>(static_cast<int>(std::clamp(unit, 0.0, 1.0) * 255.0 + 0.5));
-}
-
-// Texels by their centre, u to the right and v down, [0,1].
-Image picture(int width, int height, const std::function<glm::dvec3(double u, double v)>& colour)
-{
-    Image image = make_image(width, height, 3, PixelType::u8);
-    std::size_t at = 0;
-    for (int y = 0; y < height; ++y)
-        for (int x = 0; x < width; ++x) {
-            const glm::dvec3 c = colour((x + 0.5) / width, (y + 0.5) / height);
-            for (int i = 0; i < 3; ++i)
-                image.bytes[at++] = code(c[i]);
-        }
-    return image;
-}
-
-// As a normal map has the slopes along tangent and bitangent.
-glm::dvec3 normal_colour(const glm::dvec2& slope)
-{
-    const double length = std::sqrt(slope.x * slope.x + slope.y * slope.y + 1.0);
-    return glm::dvec3(0.5) + 0.5 * glm::dvec3(-slope.x, -slope.y, 1.0) / length;
-}
-
-std::int32_t add_texture(Scene& scene, const char* name, Image image)
-{
-    Texture texture;
-    texture.name = name;
-    texture.image = static_cast<std::int32_t>(scene.images.size());
-    scene.images.push_back(std::move(image));
-    scene.textures.push_back(texture);
-    return static_cast<std::int32_t>(scene.textures.size()) - 1;
-}
-
 double noise(int x, int y, std::uint32_t salt) // [0,1)
 {
     std::uint32_t h = static_cast<std::uint32_t>(x) * 0x9e3779b1u ^ static_cast<std::uint32_t>(y) * 0x85ebca6bu ^ salt;
@@ -201,10 +165,10 @@ Scene make_bumps()
 {
     Scene scene;
     scene.name = "bumps";
-    const std::int32_t directions = add_texture(scene, "circles", picture(512, 512, circles));
+    const std::int32_t directions = add_texture(scene, "circles", map_of(512, 512, circles));
 
     Material copper = brushed_metal(0.32, 0.6, {0.95f, 0.64f, 0.54f});
-    copper.normal_tex.texture = add_texture(scene, "dents", picture(1024, 512, hammered));
+    copper.normal_tex.texture = add_texture(scene, "dents", map_of(1024, 512, hammered));
     std::uint32_t first = begin(scene, "hammered copper", copper);
     add_sphere(scene, 96, 48, kHalfSide);
     place(scene, "sphere", first, -kApart, kApart, 0.0);
@@ -220,17 +184,17 @@ Scene make_bumps()
     Material vinyl;
     vinyl.metallic = 0.0f, vinyl.roughness = 0.3f, vinyl.anisotropy_strength = 0.5f;
     vinyl.anisotropy_tex.texture = directions;
-    vinyl.base_color_tex.texture = add_texture(scene, "record", picture(256, 256, record_colour));
-    vinyl.normal_tex.texture = add_texture(scene, "grooves", picture(1024, 1024, grooves));
+    vinyl.base_color_tex.texture = add_texture(scene, "record", map_of(256, 256, record_colour));
+    vinyl.normal_tex.texture = add_texture(scene, "grooves", map_of(1024, 1024, grooves));
     first = begin(scene, "vinyl", vinyl);
     add_flat_disc(scene);
     place(scene, "record", first, -kApart, -kApart, kBackwards);
 
     Material glazed;
     glazed.metallic = 0.0f, glazed.roughness = 0.25f;
-    glazed.base_color_tex.texture = add_texture(scene, "glaze", picture(512, 512, tile_colour));
-    glazed.normal_tex.texture = add_texture(scene, "bevels", picture(512, 512, tiles));
-    glazed.height_tex.texture = add_texture(scene, "heights", picture(512, 512, tile_heights));
+    glazed.base_color_tex.texture = add_texture(scene, "glaze", map_of(512, 512, tile_colour));
+    glazed.normal_tex.texture = add_texture(scene, "bevels", map_of(512, 512, tiles));
+    glazed.height_tex.texture = add_texture(scene, "heights", map_of(512, 512, tile_heights));
     glazed.height_scale = static_cast<float>((kBevel - kMortar) / kTiles); // bevels of 45 degrees, as their normals are
     first = begin(scene, "tiles", glazed);
     add_wall(scene);

@@ -46,6 +46,11 @@ void push_triangle(Scene& scene, std::uint32_t a, std::uint32_t b, std::uint32_t
         scene.indices.push_back(i);
 }
 
+std::byte code(double unit)
+{
+    return static_cast<std::byte>(static_cast<int>(std::clamp(unit, 0.0, 1.0) * 255.0 + 0.5));
+}
+
 } // namespace
 
 std::uint32_t begin_primitive(Scene& scene, std::int32_t material)
@@ -99,6 +104,35 @@ void add_node(Scene& scene, const char* name, std::int32_t mesh, const glm::mat4
     node.mesh = mesh;
     node.local = local;
     scene.nodes.push_back(node);
+}
+
+Image map_of(int width, int height, const std::function<glm::dvec3(double u, double v)>& colour)
+{
+    Image image = make_image(width, height, 3, PixelType::u8);
+    std::size_t at = 0;
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) {
+            const glm::dvec3 c = colour((x + 0.5) / width, (y + 0.5) / height);
+            for (int i = 0; i < 3; ++i)
+                image.bytes[at++] = code(c[i]);
+        }
+    return image;
+}
+
+std::int32_t add_texture(Scene& scene, const char* name, Image image)
+{
+    Texture texture;
+    texture.name = name;
+    texture.image = static_cast<std::int32_t>(scene.images.size());
+    scene.images.push_back(std::move(image));
+    scene.textures.push_back(texture);
+    return static_cast<std::int32_t>(scene.textures.size()) - 1;
+}
+
+glm::dvec3 normal_colour(const glm::dvec2& slope)
+{
+    const double length = std::sqrt(slope.x * slope.x + slope.y * slope.y + 1.0);
+    return glm::dvec3(0.5) + 0.5 * glm::dvec3(-slope.x, -slope.y, 1.0) / length;
 }
 
 } // namespace burnish

@@ -36,6 +36,12 @@ Material brushed_metal(double alpha_lin, double eta, const glm::vec3& colour);
 std::int32_t add_mesh(Scene& scene, const char* name, std::uint32_t first_primitive);
 void add_node(Scene& scene, const char* name, std::int32_t mesh, const glm::mat4& local);
 
+// Texels by their centre, u to the right and v down, [0,1].
+Image map_of(int width, int height, const std::function<glm::dvec3(double u, double v)>& colour);
+std::int32_t add_texture(Scene& scene, const char* name, Image image); // its number; it repeats
+// As a normal map has the slopes along tangent and bitangent.
+glm::dvec3 normal_colour(const glm::dvec2& slope);
+
 // Cubic Bezier curve: p[0..3] at t in [0,1], and its derivative. Exact at both ends.
 template <class T> T bezier(const T* p, double t)
 {
@@ -63,6 +69,7 @@ Scene make_plate();
 Scene make_lights();
 Scene make_glass();
 Scene make_bumps();
+Scene make_lacquer();
 Image make_studio();
 Image make_sky();
 Image make_night();

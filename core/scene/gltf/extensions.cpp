@@ -24,7 +24,7 @@ const std::vector<GltfFeature>& gltf_features()
         {"KHR_draco_mesh_compression", in_part, "triangle meshes of bitstream 2.2, no metadata"},
         {"KHR_lights_punctual", supported, "directional, point and spot lights; no shadows but in the reference"},
         {"KHR_materials_anisotropy", supported, "strength, rotation, texture"},
-        {"KHR_materials_clearcoat", ignored, "drawn without their coat"},
+        {"KHR_materials_clearcoat", supported, "factors, textures, normal texture"},
         {"KHR_materials_dispersion", ignored, ""},
         {"KHR_materials_emissive_strength", supported, ""},
         {"KHR_materials_ior", supported, ""},

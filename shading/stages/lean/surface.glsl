@@ -26,7 +26,7 @@ layout(std140, set = 0, binding = 1) uniform LeanMaterial
     vec4 emissive;   // w: how much of two widths is shown
     vec4 lobe;       // deviations of slope along and across, roughness, eta of every place or strength
     vec4 grain;      // the axis along tangent and bitangent, or the turn of a texture's; stretch and level of the bent normal
-    vec4 place[24];  // by slot: linear part of the texture's coordinates; shift, most taps, set
+    vec4 place[30];  // by slot: linear part of the texture's coordinates; shift, most taps, set
 }
 material;
 
@@ -35,7 +35,7 @@ layout(set = 0, binding = 4) uniform sampler2D slice_albedo;  // of the material
 layout(set = 0, binding = 5) uniform sampler3D width_albedo;  // of any two: slabs of eta
 layout(set = 0, binding = 6) uniform sampler2D phong_albedo; // of the material's two widths, of Ashikhmin and Shirley's lobe
 layout(set = 1, binding = 0) uniform samplerCube cubes[4];    // specular, irradiance, box, the whole sky
-layout(set = 1, binding = 1) uniform sampler2D textures[12]; // by slot
+layout(set = 1, binding = 1) uniform sampler2D textures[15]; // by slot
 
 // Of pixels' middles, not of centroids: cheaper, and nearer to where the tile renderer shades
 layout(location = 0) in vec3 position;

@@ -61,6 +61,8 @@ TEST(material, defaults_are_those_of_gltf)
     EXPECT_EQ(m.ior, 1.5f);
     EXPECT_EQ(m.specular, 1.0f);
     EXPECT_EQ(m.transmission, 0.0f);
+    EXPECT_EQ(m.clearcoat, 0.0f);
+    EXPECT_EQ(m.clearcoat_roughness, 0.0f);
     EXPECT_EQ(m.alpha_mode, AlphaMode::opaque);
     EXPECT_EQ(m.alpha_cutoff, 0.5f);
     EXPECT_EQ(m.anisotropy_strength, 0.0f);
@@ -76,6 +78,7 @@ TEST(material, every_factor_and_extension_arrives)
         R"("emissiveFactor":[1,0.5,0],"alphaMode":"MASK","alphaCutoff":0.75,"doubleSided":true,"extensions":{)"
         R"("KHR_materials_unlit":{},"KHR_materials_emissive_strength":{"emissiveStrength":10},"KHR_materials_ior":{"ior":1.33},)"
         R"("KHR_materials_transmission":{"transmissionFactor":0.75},)"
+        R"("KHR_materials_clearcoat":{"clearcoatFactor":0.7,"clearcoatRoughnessFactor":0.2},)"
         R"("KHR_materials_specular":{"specularFactor":0.5,"specularColorFactor":[2,1,0]},)"
         R"("KHR_materials_anisotropy":{"anisotropyStrength":0.6,"anisotropyRotation":1.5}}})");
     ASSERT_TRUE(scene) << error_of(scene);
@@ -92,6 +95,8 @@ TEST(material, every_factor_and_extension_arrives)
     EXPECT_TRUE(m.unlit);
     EXPECT_EQ(m.ior, 1.33f);
     EXPECT_EQ(m.transmission, 0.75f);
+    EXPECT_EQ(m.clearcoat, 0.7f);
+    EXPECT_EQ(m.clearcoat_roughness, 0.2f);
     EXPECT_EQ(m.specular, 0.5f);
     EXPECT_EQ(m.specular_color, glm::vec3(2, 1, 0));
     EXPECT_EQ(m.anisotropy_strength, 0.6f);

@@ -23,7 +23,7 @@ const Model kModels[] = {
     {"AnisotropyBarnLampSmall.glb", 10203, 3, 3, 3, 4},
     {"AnisotropyStrengthTest.glb", 97240, 50, 51, 50, 1},
     {"AnisotropyStrengthTest_meshopt.glb", 97240, 50, 51, 50, 1},
-    {"ClearCoatTest.glb", 37116, 27, 33, 19, 5},
+    {"ClearCoatTest.glb", 37116, 27, 33, 19, 6},
     {"FlightHelmetParts/FlightHelmetParts.gltf", 8872, 2, 2, 2, 6},
     {"Lights.glb", 12, 1, 11, 1, 0},
     {"SimpleSparseAccessor/SimpleSparseAccessor.gltf", 12, 1, 1, 1, 0},

@@ -189,7 +189,7 @@ Reflector reflector_of(float f0, float diffuse, float sigma_u, float sigma_v, re
     x.turned = tilted, x.diffuse = true;
     x.dfg = {0.8f, 0.02f}, x.gain = vec3_all(1.0f);
     x.dielectric_f0 = vec3_all(f0), x.dielectric_f90 = 1.0f;
-    return make_reflector(f, x);
+    return make_reflector(f, x, false, coat_layer{});
 }
 
 TEST(reflector, samples_follow_their_density_and_weigh_value_over_it)
