@@ -111,7 +111,7 @@ std::vector<Option> dress_rows(Dress& to)
         {"--mip-filter", "NAME", "What distant maps of normals and roughness become: {} (see burnish list mip-filters)",
          choice(to.mip_filter, mip_filter_names())},
         {"--mip-kappa", "K", "Of --mip-filter kappa: how much of the covariance of normals lobes grow by", number(to.mip_kappa, 0.0, 4.0),
-         "0.7 of lobes with GGX's normals, 1.8 of others"},
+         fmt::format("{}", kUsualMipKappa).c_str()},
         {"--mip-pyramid", "FILE", "Levels of burnish bake mip, in place of those made here; it says the filter", file(to.mip_pyramid), ""},
         {"--f0", "R,G,B", "Reflectance at normal incidence of all materials, each 0 to 1", colour(to.f0)},
     };

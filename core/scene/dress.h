@@ -12,6 +12,8 @@
 
 namespace burnish {
 
+inline constexpr float kUsualMipKappa = 0.7f; // of every model of lobes: makes the least error of the numbers tried (bench/README.md)
+
 struct Dress {              // empty: left as it is
     std::string material;   // folder of pictures, whose names end in what they are: see apps/README.md
     std::string direction;  // an anisotropy texture; materials without strength of anisotropy get 1, which its blue scales
@@ -24,7 +26,7 @@ struct Dress {              // empty: left as it is
     RotationEncoding rotation_encoding = RotationEncoding::vector;
     bool normal_y_down = false;     // all normal maps have green down
     MipFilter mip_filter{};         // of all materials; the first: as their file has it
-    std::optional<float> mip_kappa; // of filter kappa; none: 0.7
+    std::optional<float> mip_kappa; // of filter kappa; none: kUsualMipKappa
     std::string mip_pyramid;        // levels of `burnish bake mip`
     std::optional<glm::vec3> f0;    // reflectance at normal incidence of all materials, which are dielectrics then
 

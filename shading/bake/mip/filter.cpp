@@ -25,11 +25,6 @@ bool makes_lobes(MipFilter filter)
     return filter != kMipFilter_box && filter != kMipFilter_lean;
 }
 
-float usual_kappa(bool ggx_normals)
-{
-    return ggx_normals ? 0.7f : 1.8f;
-}
-
 float gain_of_taps(MipFilter filter, float kappa)
 {
     if (filter == kMipFilter_kappa)
