@@ -196,18 +196,19 @@ def textures(bench):
     # level 0 is what the maps say, read back by the program itself
     seen = ("builtin:sphere", *SMALL, "--roughness", "0.4")
     bench.run("render", *seen, "--normal-map", "set/x_normal.png", "-q", "-o", "maps.pfm").expect(0)
+    bench.run("render", *seen, "-q", "-o", "level.pfm").expect(0)
+    without = off_by(bench, "maps.pfm", "level.pfm")["mse"]
     for name in (f"png-levels/{stem}_normal_00.png", f"exr-mip/{stem}_normal.exr"):
         bench.run("render", *seen, "--normal-map", name, "-q", "-o", "back.pfm").expect(0)
-        figures = off_by(bench, "maps.pfm", "back.pfm")
-        check(figures["mse"] < 1e-4, f"{name}: {figures}")
+        check(off_by(bench, "maps.pfm", "back.pfm")["mse"] < 0.02 * without, f"{name} is another map: {off_by(bench, 'maps.pfm', 'back.pfm')}, {without}")
     bench.run(*words, "--format", "png-levels", "--threads", "1", "-q", "-o", "again").expect(0)
     for path in (bench.folder / "again").iterdir():
         check(path.read_bytes() == (bench.folder / "png-levels" / path.name).read_bytes(), f"threads change {path.name}")
     # nothing, or what was there, where the disk is full half-way
-    full = bench.run(*words, "--format", "exr-mip", "-q", "-o", "full", file_size=3000).expect(7)
+    full = bench.run(*words, "--format", "exr-mip", "-q", "-o", "full", file_size=600).expect(7)
     check(full.err.startswith("burnish: ") and not (bench.folder / "full").exists(), full.describe())
     before = {path.name: path.read_bytes() for path in (bench.folder / "exr-mip").iterdir()}
-    bench.run(*words, "--mip-kappa", "2", "--format", "exr-mip", "-q", "-o", "exr-mip", file_size=3000).expect(7)
+    bench.run(*words, "--mip-kappa", "2", "--format", "exr-mip", "-q", "-o", "exr-mip", file_size=600).expect(7)
     check(before == {path.name: path.read_bytes() for path in (bench.folder / "exr-mip").iterdir()}, "files that were there are not as they were")
     (bench.folder / "file").write_bytes(b"x")
     bench.run(*words, "--format", "png-levels", "-q", "-o", "file").expect(7).expect_one_line("file")

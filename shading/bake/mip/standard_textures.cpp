@@ -104,7 +104,11 @@ StandardLevels standard_levels(const MipSource& source, const MipLevels& levels,
 {
     BN_CHECK(metallic.empty() || metallic.size() == levels.levels.size() + 1);
     StandardLevels made;
-    for (std::size_t l = 0; l <= levels.levels.size(); ++l) {
+    for (auto* maps : {&made.normal, &made.roughness, &made.anisotropy})
+        maps->resize(levels.levels.size() + 1);
+    std::vector<real2> coarse; // directions of the level before, as long as their lobes are anisotropic
+    int coarse_width = 0, coarse_height = 0;
+    for (std::size_t l = levels.levels.size() + 1; l-- > 0;) {
         const int width = l ? levels.levels[l - 1].width : levels.width, height = l ? levels.levels[l - 1].height : levels.height;
         const std::vector<MipTexel> texels = texels_of(source, levels, l);
         Image normal = make_image(width, height, 3, PixelType::f32), roughness = normal, anisotropy = normal;
@@ -116,23 +120,28 @@ StandardLevels standard_levels(const MipSource& source, const MipLevels& levels,
             const float across = axes.alpha_v, along = std::max(std::min(axes.alpha_u, 1.0f), across);
             const float strength = across < 1.0f ? std::sqrt((along - across) / (1.0f - across)) : 0.0f;
             real2 d = strength > 0.0f ? reframed(axes.u, p.turned_t, p.turned_b, p.projected_t, p.projected_b) : vec2_of(1.0f, 0.0f);
-            real2 before = vec2_of(0.0f, 0.0f); // left and above
             const std::size_t row = static_cast<std::size_t>(width);
+            real2 before = vec2_of(0.0f, 0.0f); // left, above, and, where these two do not say, the coarser level's
+            if (!coarse.empty()) {
+                const std::size_t u = std::min(i % row / 2, static_cast<std::size_t>(coarse_width - 1));
+                const std::size_t v = std::min(i / row / 2, static_cast<std::size_t>(coarse_height - 1));
+                before = coarse[v * static_cast<std::size_t>(coarse_width) + u] * 0.9f;
+            }
             if (i % row > 0)
                 before = before + directions[i - 1];
             if (i >= row)
                 before = before + directions[i - row];
             if (d.x * before.x + d.y * before.y < 0.0f)
                 d = vec2_of(-d.x, -d.y);
-            directions[i] = d;
+            directions[i] = d * strength;
             const float n[3] = {0.5f + 0.5f * t.nx, 0.5f + 0.5f * t.ny, 0.5f + 0.5f * p.n.z};
             const float metal = metallic.empty() ? metalness : metallic[l].f32()[i * static_cast<std::size_t>(metallic[l].channels)];
             const float r[3] = {1.0f, std::sqrt(across), metal}, a[3] = {0.5f + 0.5f * d.x, 0.5f + 0.5f * d.y, strength};
             std::copy_n(n, 3, normal.f32() + 3 * i), std::copy_n(r, 3, roughness.f32() + 3 * i);
             std::copy_n(a, 3, anisotropy.f32() + 3 * i);
         }
-        made.normal.push_back(std::move(normal)), made.roughness.push_back(std::move(roughness));
-        made.anisotropy.push_back(std::move(anisotropy));
+        made.normal[l] = std::move(normal), made.roughness[l] = std::move(roughness), made.anisotropy[l] = std::move(anisotropy);
+        coarse.swap(directions), coarse_width = width, coarse_height = height;
     }
     return made;
 }

@@ -19,7 +19,7 @@ struct StandardLevels {
 };
 
 // d lies along the tangent and bitangent that are projected into the normal's plane (--frame-map gram-schmidt), of its two signs the one
-// nearer to that of the texels before it. metallic: levels of metalness, channel 0, of the same sizes, or empty: the number.
+// nearer to those of the texels before it and of the coarser level. metallic: levels of metalness, channel 0, of the same sizes, or empty: the number.
 StandardLevels standard_levels(const MipSource& source, const MipLevels& levels, const std::vector<Image>& metallic, float metalness);
 
 // What a level's textures say, at their texels, or, `between`, where four meet: as interpolated there.
