@@ -1,5 +1,6 @@
 // `burnish chart`: what every technique costs and what it gets wrong, as figures, as charts, as a page.
 #include <fmt/core.h>
+#include <map>
 #include <memory>
 #include <set>
 
@@ -86,7 +87,8 @@ int run_mip_chart(const ChartArguments& arguments, const OptionTable& given)
 {
     const ChartOptions& o = arguments.plain;
     const RenderOptions& base = arguments.render.plain;
-    const std::set<std::string> known = {"--mip", "--maps", "--brdf", "--mip-kappa", "--output", "--quiet", "--verbose", "--threads"};
+    const std::set<std::string> known = {"--mip",    "--maps",  "--per-set", "--brdf",   "--mip-kappa",
+                                         "--output", "--quiet", "--verbose", "--threads"};
     for (const Option& option : given.options())
         if (option.given && !known.count(option.name))
             return fail(usage_error(option.name, "is of charts of frames; --mip draws none"));
@@ -104,6 +106,8 @@ int run_mip_chart(const ChartArguments& arguments, const OptionTable& given)
             return fail(real.error());
         set.insert(set.end(), real->begin(), real->end());
     }
+    std::map<std::string, int> seen;
+    std::erase_if(set, [&](const mipnet::TestMaterial& m) { return ++seen[m.set] > o.per_set; });
     const float kappa = base.dress.mip_kappa.value_or(kUsualMipKappa);
     const std::vector<MipRow> rows = mip_rows(set, *lobes, kappa, jobs);
     report.release();
@@ -124,8 +128,9 @@ int run_chart(const ChartArguments& arguments, const OptionTable& given)
 {
     if (arguments.plain.mip)
         return run_mip_chart(arguments, given);
-    if (given.given("--maps"))
-        return fail(usage_error("--maps", "is of --mip"));
+    for (const char* option : {"--maps", "--per-set"})
+        if (given.given(option))
+            return fail(usage_error(option, "is of --mip"));
     const Result<ChartOptions> checked = check_chart_options(arguments, given);
     if (!checked)
         return fail(checked.error());

@@ -260,6 +260,34 @@ def sweeps(bench):
               "--runs", "1", "--sweep", "mip-filter=box,kappa", "-o", "report").expect(0)
 
 
+@case("mip.charts_of_filters_have_rows_by_level", tier="check")
+def rows_by_level(bench):
+    (bench.folder / "maps").mkdir()
+    material(bench, "maps/set", (64, 64, bumps))
+    words = ("chart", "--mip", "--maps", "maps", "--per-set", "2", "--brdf", "ggx_aniso")
+    done = bench.run(*words, "-o", "one").expect(0)
+    rows = json.loads((bench.folder / "one/mip.json").read_text())
+    fields = {"set", "family", "material", "brdf", "mip_filter", "level", "hardest", "flip", "l1", "mse", "ms"}
+    check(all(set(row) == fields for row in rows), f"{rows[0]}")
+    sets = {row["set"]: {r["material"] for r in rows if r["set"] == row["set"]} for row in rows}
+    check({name: len(of) for name, of in sets.items()} == {"new seeds": 2, "held-out": 2, "real": 1}, f"{sets}")
+    names = named(bench)
+    check(len(rows) == 5 * len(names) * 5 and {row["mip_filter"] for row in rows} == set(names), f"{len(rows)} rows")
+    check(all((row["flip"] is None) == ((64 if row["set"] == "real" else 256) >> row["level"] < 16) for row in rows), "FLIP of other levels")
+    mean = {name: sum(row["mse"] for row in rows if row["mip_filter"] == name) for name in names}
+    check(mean["kappa"] < 0.8 * mean["baseline"] and abs(mean["box"] / mean["baseline"] - 1) < 0.1, f"{mean}")
+    check(sum(row["hardest"] for row in rows) == 3 * len(names) * 5, "the hardest quarter is none")
+    check(all(name in done.out for name in (*names, "held-out, hardest quarter")) and (bench.folder / "one/mip.txt").read_text() == done.out, done.describe())
+    csv = (bench.folder / "one/mip.csv").read_text().splitlines()
+    check(len(csv) == len(rows) + 1 and csv[0].split(",")[:3] == ["set", "family", "material"], csv[0])
+    bench.run(*words, "--threads", "1", "-q", "-o", "two").expect(0)
+    again = json.loads((bench.folder / "two/mip.json").read_text())
+    check([{**row, "ms": 0} for row in rows] == [{**row, "ms": 0} for row in again], "threads change figures")
+    for arguments, code, needle in (((*words, "--size", "9x9"), 2, "--size"), (("chart", "--maps", "maps"), 2, "--maps"),
+                                    (("chart", "--mip", "--brdf", "ward"), 2, "--brdf"), (("chart", "--mip", "--maps", "gone"), 4, "gone")):
+        bench.run(*arguments, "-o", "x").expect(code).expect_one_line(needle)
+
+
 def wide_floor(repeats):
     """A metal floor of 40 by 40 metres, its texture so many times each way."""
     gltf = bare(pbrMetallicRoughness={"metallicFactor": 1, "roughnessFactor": 0.1, "baseColorFactor": [0.9, 0.8, 0.7, 1]})

@@ -25,7 +25,7 @@ RUNS = {
     "compare": [(("a.exr", "a.hdr", "--json", "-", "--error-map", "e.png", "--html", "c.html"), (0,)), (("a.png", "a.tif"), (0,)),
                 (("--sequence", "m%d.exr", "t%d.exr", "--json", "-"), (0,))],
     "chart": [((*CHART[1:], "--sweep", "roughness=0.2,0.5", "--sweep", "anisotropy=0,0.5", "-o", "report"), (0, 77)),
-              (("--mip", "--brdf", "beckmann", "-o", "mips"), (0,))],
+              (("--mip", "--brdf", "beckmann", "--per-set", "1", "-o", "mips"), (0,))],
     "atlas": [(("--list",), (0,)), (("albedo_by_a_fit", "--quick", "-o", "atlas", "--json", "atlas.json"), (0, 77))],
     "profile": [((*VIEW, "--frames", "2", "--json", "p.json", "--svg", "p.svg", "--trace", "pt.json"), (0,))],
     "parity": [(("builtin:plate", *VIEW, "--technique", "mc", "--device", "lavapipe", "--json", "y.json", "--html", "y.html",

@@ -125,7 +125,7 @@ StandardLevels standard_levels(const MipSource& source, const MipLevels& levels,
             if (!coarse.empty()) {
                 const std::size_t u = std::min(i % row / 2, static_cast<std::size_t>(coarse_width - 1));
                 const std::size_t v = std::min(i / row / 2, static_cast<std::size_t>(coarse_height - 1));
-                before = coarse[v * static_cast<std::size_t>(coarse_width) + u] * 0.9f;
+                before = coarse[v * static_cast<std::size_t>(coarse_width) + u] * 0.3f;
             }
             if (i % row > 0)
                 before = before + directions[i - 1];
