@@ -1,6 +1,5 @@
 // `burnish bake`: tables and maps that shading reads.
 #include <algorithm>
-#include <chrono>
 #include <filesystem>
 #include <fmt/core.h>
 #include <memory>
@@ -25,19 +24,14 @@
 #include "core/base/file.h"
 #include "core/image/io/image_io.h"
 #include "core/jobs/cores.h"
-#include "raster/frame/pyramids.h"
 #include "shading/bake/environment/environment_cache.h"
 #include "shading/bake/ltc/bake_ltc.h"
-#include "shading/bake/mip/pyramid_file.h"
 #include "shading/bake/tables/phong.h"
-#include "shading/lang/records.h"
 
 namespace burnish {
 namespace {
 
 namespace fs = std::filesystem;
-
-using Clock = std::chrono::steady_clock;
 
 constexpr const char* kFooter =
     R"~(ltc: linearly transformed cosines for anisotropic GGX lobes under area lights, and their albedo, by the eye's angles, the greater width
@@ -52,7 +46,8 @@ brdf-lut: that lobe's directional albedo, f0 red + green, over the eye's azimuth
 --as-table; exponents count to five digits.
 environment: an environment as it is baked before it is drawn; render --env FOLDER reads it.
 mip: levels of normals and lobes of a scene's materials, or of a folder of pictures as render --material takes it; render --mip-pyramid
-reads them, where the maps are the same.
+reads them, where the maps are the same. --format exr-mip and png-levels: a folder of glTF textures with all levels, for other programs, half
+floats with mip levels or a picture a level; printed is how far what they show lies from their levels, at texels and where four meet.
 displaced: a mesh whose heights are triangles, as render --height-map shows them without any; materials are not kept.
 The parts of quaternion and tpr lie from -1 to 1: code 128 of 8 bits is 0, 255 is 1; .exr and .pfm hold the numbers themselves.
 
@@ -69,6 +64,7 @@ Examples:
   burnish bake brdf-lut --nu 70 --nv 400 -o albedo.exr
   burnish bake environment workshop.hdr -o workshop
   burnish bake mip copper_brushed --mip-filter kappa -o copper.mip --preview levels
+  burnish bake mip copper_brushed --mip-filter kappa --format png-levels -o textures
   burnish bake displaced wall.obj heights.png --height-scale 0.02 -o wall.glb)~";
 
 struct BakeArguments {
@@ -84,12 +80,7 @@ struct BakeArguments {
     RotationEncoding encoding = RotationEncoding::vector;
     double depth = 0.05;
     int triangles = 1000000;
-    MipFilter mip_filter = kMipFilter_kappa;
-    std::optional<double> mip_kappa;
-    std::string mip_net;
-    MipFallback fallback{};
-    int brdf = 0; // a lobe
-    std::string preview;
+    MipArguments mip;
     double nu = -1.0, nv = -1.0;
     Limits limits;
     int resolution = 8, steps = 12, samples = 8, threads = 0;
@@ -106,23 +97,6 @@ PictureSize size_of(const BakeArguments& a, PictureSize usual)
     return a.size.width > 0 ? a.size : usual;
 }
 
-std::vector<std::string> filters_of_lobes()
-{
-    std::vector<std::string> names;
-    for (const MipFilterInfo& filter : mip_filters())
-        names.emplace_back(filter.name);
-    return names;
-}
-
-Value lobe_value(int& to)
-{
-    std::vector<std::string> names;
-    for (int lobe = 0; lobe < kLobeCount; ++lobe)
-        names.emplace_back(lobe_model(lobe).name);
-    return value_detail::name(
-        names, [&to](std::size_t i) { to = static_cast<int>(i); }, [&to] { return static_cast<std::size_t>(to); });
-}
-
 OptionTable bake_option_table(BakeArguments& to)
 {
     OptionTable table, limits;
@@ -137,16 +111,7 @@ OptionTable bake_option_table(BakeArguments& to)
     table.add_needing("WHAT", "displaced",
                       {{"--height-scale", "S", "Depth of height 0, in lengths of texture coordinates", number(to.depth, 0.0, 1000.0)},
                        {"--triangles", "N", "At least so many", integer(to.triangles, 1, 1 << 26)}});
-    table.add_needing(
-        "WHAT", "mip",
-        {{"--mip-filter", "NAME", "{}", choice(to.mip_filter, filters_of_lobes())},
-         {"--mip-kappa", "K", "Of filter kappa, and of taps under mipnet", number(to.mip_kappa, 0.0, 4.0),
-          "0.7 of lobes with GGX's normals, 1.8 of others"},
-         {"--mip-net", "FILE", "Of filter mipnet: weights of burnish train mip", file(to.mip_net), "the program's own for --brdf"},
-         {"--fallback", "NAME", "Of filter mipnet: {}; auto leaves materials to kappa or baseline where the net is worse than they are",
-          choice(to.fallback, {"auto", "off"})},
-         {"--brdf", "NAME", "Model of the lobes, whose usual kappa and net are taken", lobe_value(to.brdf)},
-         {"--preview", "FOLDER", "Also every level as two pictures: normals, and lobes in false colour", folder(to.preview)}});
+    table.add_needing("WHAT", "mip", mip_options(to.mip));
     table.add_needing("WHAT", "direction",
                       {{"--from", "NAME", "{}", choice(to.from, {"hue", "luminance"})},
                        {"--strength", "S", "Of the anisotropy that the map gives, {}", number(to.strength, 0.0, 1.0)}});
@@ -428,54 +393,6 @@ int run_environment(const BakeArguments& a)
     return write_bytes(a, (fs::path(a.output) / kBakedEnvironment).string(), bytes.data(), bytes.size());
 }
 
-int run_mip(const BakeArguments& a)
-{
-    if (a.picture.empty())
-        return fail(usage_error("PICTURE", "is needed: a scene, or a folder of a material's pictures"));
-    if (!makes_lobes(a.mip_filter))
-        return fail(usage_error("--mip-filter",
-                                fmt::format("{} makes no levels of lobes", mip_filters()[static_cast<std::size_t>(a.mip_filter)].name)));
-    if (a.output.empty())
-        return fail(usage_error("-o", "is needed"));
-    if (const Status path = check_text_path("-o", a.output, {a.picture}); !path)
-        return fail(path.error());
-    Dress with;
-    with.mip_filter = a.mip_filter;
-    with.mip_kappa = a.mip_kappa ? static_cast<float>(*a.mip_kappa) : usual_kappa((lobe_model(a.brdf).lobe_traits & kNormals_ggx) != 0);
-    with.mip_net = a.mip_net, with.mip_fallback = a.fallback, with.mip_brdf = a.brdf;
-    std::error_code none;
-    const bool is_folder = fs::is_directory(a.picture, none);
-    if (is_folder)
-        with.material = a.picture;
-    const auto data = open_scene(is_folder ? "builtin:sphere" : a.picture, a.limits, with, {}, {});
-    if (!data)
-        return fail(data.error());
-    Report report(a.quiet, a.verbosity);
-    for (const std::string& warning : (*data)->scene.warnings)
-        report.warning(warning);
-    const Jobs jobs(a.threads);
-    const Clock::time_point begin = Clock::now();
-    const MaterialLevels levels = filtered_levels((*data)->scene, jobs);
-    std::vector<const MipLevels*> each;
-    for (const std::shared_ptr<const MipLevels>& of : levels)
-        if (of && std::find(each.begin(), each.end(), of.get()) == each.end())
-            each.push_back(of.get());
-    if (each.empty())
-        return fail({ExitCode::bad_input, a.picture, "", "has no maps of normals, roughness or anisotropy"});
-    report.event("levels", fmt::format("of {} material{} by {} in {:.0f} ms", each.size(), each.size() == 1 ? "" : "s",
-                                       mip_filters()[static_cast<std::size_t>(a.mip_filter)].name,
-                                       std::chrono::duration<double, std::milli>(Clock::now() - begin).count()));
-    const std::vector<std::uint8_t> bytes = mip_file_bytes(each);
-    if (const Status written = write_file_atomic(a.output, bytes.data(), bytes.size()); !written)
-        return fail(written.error());
-    report.release();
-    report.wrote(a.output);
-    if (!a.preview.empty())
-        if (const Status written = write_mip_preview(a.preview, (*data)->scene, levels, report); !written)
-            return fail(written.error());
-    return 0;
-}
-
 int run_displaced(const BakeArguments& a)
 {
     if (a.picture.empty() || a.heights.empty())
@@ -544,7 +461,8 @@ int run_bake(const BakeArguments& arguments, const OptionTable& given)
     if (arguments.what == "environment")
         return run_environment(arguments);
     if (arguments.what == "mip")
-        return run_mip(arguments);
+        return run_mip({arguments.mip, arguments.picture, arguments.output, arguments.limits, arguments.threads, arguments.verbosity,
+                        arguments.quiet});
     if (arguments.what == "direction")
         return run_direction(arguments);
     if (arguments.what == "quaternion")

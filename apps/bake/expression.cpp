@@ -13,7 +13,7 @@
 namespace burnish {
 namespace {
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
 
 bool is_angle(double x) // that det_sin() takes
 {
@@ -27,8 +27,8 @@ class Parsed : public Expression {
         parser_.DefineVar("u", &u_);
         parser_.DefineVar("v", &v_);
         parser_.DefineConst("pi", kPi);
-        parser_.DefineFun("sin", [](double x) { return is_angle(x) ? det_sin(x) : kNone; });
-        parser_.DefineFun("cos", [](double x) { return is_angle(x) ? det_cos(x) : kNone; });
+        parser_.DefineFun("sin", [](double x) { return is_angle(x) ? det_sin(x) : kNoValue; });
+        parser_.DefineFun("cos", [](double x) { return is_angle(x) ? det_cos(x) : kNoValue; });
         parser_.DefineFun("atan2", [](double y, double x) { return det_atan2(y, x); });
         parser_.SetExpr(text);
     }

@@ -6,7 +6,15 @@
 #include <filesystem>
 #include <fmt/core.h>
 
+#include "apps/bake/mip_textures.h"
+#include "apps/cli/open.h"
+#include "apps/cli/outputs.h"
+#include "apps/cli/report.h"
+#include "apps/cli/values.h"
+#include "core/base/clock.h"
+#include "core/base/file.h"
 #include "core/image/io/image_io.h"
+#include "shading/bake/mip/pyramid_file.h"
 
 namespace burnish {
 
@@ -17,17 +25,47 @@ std::byte mip_code(float unit)
     return static_cast<std::byte>(static_cast<int>(std::clamp(unit, 0.0f, 1.0f) * 255.0f + 0.5f));
 }
 
-// What may stand in a file's name.
-std::string plain_name(const std::string& name)
+Status write_preview(const std::string& folder, const Scene& scene, const MaterialLevels& levels, Report& report)
 {
-    std::string plain = name.empty() ? "material" : name;
-    for (char& c : plain)
-        if (!std::isalnum(static_cast<unsigned char>(c)))
-            c = '_';
-    return plain;
+    std::error_code failed;
+    std::filesystem::create_directories(folder, failed);
+    if (failed)
+        return Error{ExitCode::output_failed, folder, "", failed.message()};
+    std::vector<std::string> materials;
+    for (const Material& m : scene.materials)
+        materials.push_back(m.name);
+    const std::vector<std::string> names = plain_names(materials);
+    for (std::size_t i = 0; i < levels.size(); ++i) {
+        if (!levels[i] || std::find(levels.begin(), levels.begin() + static_cast<std::ptrdiff_t>(i), levels[i]) !=
+                              levels.begin() + static_cast<std::ptrdiff_t>(i))
+            continue;
+        for (const MipPicture& picture : mip_pictures(names[i], *levels[i])) {
+            const std::string path = (std::filesystem::path(folder) / (picture.name + ".png")).string();
+            if (Status written = write_image(path, picture.image); !written)
+                return written;
+            report.wrote(path);
+        }
+    }
+    return {};
 }
 
 } // namespace
+
+std::vector<std::string> plain_names(const std::vector<std::string>& materials)
+{
+    std::vector<std::string> names;
+    for (const std::string& material : materials) {
+        std::string plain = material.empty() ? "material" : material;
+        for (char& c : plain)
+            if (!std::isalnum(static_cast<unsigned char>(c)))
+                c = '_';
+        std::string name = plain;
+        for (int i = 2; std::find(names.begin(), names.end(), name) != names.end(); ++i)
+            name = fmt::format("{}_{}", plain, i);
+        names.push_back(name);
+    }
+    return names;
+}
 
 std::vector<MipPicture> mip_pictures(const std::string& material, const MipLevels& levels)
 {
@@ -43,30 +81,101 @@ std::vector<MipPicture> mip_pictures(const std::string& material, const MipLevel
             for (std::size_t c = 0; c < 3; ++c)
                 normals.bytes[3 * i + c] = mip_code(normal[c]), lobes.bytes[3 * i + c] = mip_code(lobe[c]);
         }
-        pictures.push_back({fmt::format("{}_normal_{:02}", plain_name(material), l + 1), std::move(normals)});
-        pictures.push_back({fmt::format("{}_lobe_{:02}", plain_name(material), l + 1), std::move(lobes)});
+        pictures.push_back({fmt::format("{}_normal_{:02}", material, l + 1), std::move(normals)});
+        pictures.push_back({fmt::format("{}_lobe_{:02}", material, l + 1), std::move(lobes)});
     }
     return pictures;
 }
 
-Status write_mip_preview(const std::string& folder, const Scene& scene, const MaterialLevels& levels, Report& report)
+MipArguments::MipArguments() : filter(kMipFilter_kappa) {}
+
+std::vector<Option> mip_options(MipArguments& to)
 {
-    std::error_code failed;
-    std::filesystem::create_directories(folder, failed);
-    if (failed)
-        return Error{ExitCode::output_failed, folder, "", failed.message()};
-    for (std::size_t i = 0; i < levels.size(); ++i) {
-        if (!levels[i] || std::find(levels.begin(), levels.begin() + static_cast<std::ptrdiff_t>(i), levels[i]) !=
-                              levels.begin() + static_cast<std::ptrdiff_t>(i))
-            continue;
-        for (const MipPicture& picture : mip_pictures(scene.materials[i].name, *levels[i])) {
-            const std::string path = (std::filesystem::path(folder) / (picture.name + ".png")).string();
-            if (Status written = write_image(path, picture.image); !written)
-                return written;
-            report.wrote(path);
-        }
+    std::vector<std::string> names;
+    for (const MipFilterInfo& filter : mip_filters())
+        names.emplace_back(filter.name);
+    return {
+        {"--mip-filter", "NAME", "{}", choice(to.filter, names)},
+        {"--mip-kappa", "K", "Of filter kappa, and of taps under mipnet", number(to.kappa, 0.0, 4.0),
+         fmt::format("{}", kUsualMipKappa).c_str()},
+        {"--mip-net", "FILE", "Of filter mipnet: weights of burnish train mip", file(to.net), "the program's own for --brdf"},
+        {"--fallback", "NAME", "Of filter mipnet: {}; auto leaves materials to kappa or baseline where the net is worse than they are",
+         choice(to.fallback, {"auto", "off"})},
+        {"--brdf", "NAME", "Model of the lobes, whose net is taken and which the error of --format is measured with", lobe_value(to.brdf)},
+        {"--format", "NAME", "{}: a file for render --mip-pyramid, or a folder of textures for other programs",
+         choice(to.format, {"pyramid", "exr-mip", "png-levels"})},
+        {"--couple", "NAME", "Of textures: {}; albedo: base colours and metalness weigh as their texels face light and eye",
+         choice(to.couple_albedo, {"none", "albedo"})},
+        {"--color-kernel", "NAME", "What base colours and metalness of textures are averaged by: {}",
+         choice(to.color_kernel, {"box", "kaiser"})},
+        {"--preview", "FOLDER", "Also every level as two pictures: normals, and lobes in false colour", folder(to.preview)}};
+}
+
+int run_mip(const MipBake& bake)
+{
+    const MipArguments& a = bake.options;
+    const auto name_of = [](MipFilter filter) { return mip_filters()[static_cast<std::size_t>(filter)].name; };
+    if (bake.material.empty())
+        return fail(usage_error("PICTURE", "is needed: a scene, or a folder of a material's pictures"));
+    if (!makes_lobes(a.filter))
+        return fail(usage_error("--mip-filter", fmt::format("{} makes no levels of lobes", name_of(a.filter))));
+    if (bake.output.empty())
+        return fail(usage_error("-o", "is needed"));
+    const bool pyramid = a.format == MipFormat::pyramid;
+    if (pyramid && (a.couple_albedo || a.color_kernel != ColourKernel::box))
+        return fail(usage_error(a.couple_albedo ? "--couple" : "--color-kernel", "is of textures: --format exr-mip or png-levels"));
+    if (pyramid)
+        if (const Status path = check_text_path("-o", bake.output, {bake.material}); !path)
+            return fail(path.error());
+    Dress with;
+    with.mip_filter = a.filter;
+    with.mip_net = a.net, with.mip_fallback = a.fallback, with.mip_brdf = a.brdf;
+    if (a.kappa)
+        with.mip_kappa = static_cast<float>(*a.kappa);
+    std::error_code none;
+    const bool is_folder = std::filesystem::is_directory(bake.material, none);
+    if (is_folder)
+        with.material = bake.material;
+    const auto data = open_scene(is_folder ? "builtin:sphere" : bake.material, bake.limits, with, {}, {});
+    if (!data)
+        return fail(data.error());
+    const Scene& scene = (*data)->scene;
+    Report report(bake.quiet, bake.verbosity);
+    for (const std::string& warning : scene.warnings)
+        report.warning(warning);
+    const Jobs jobs(bake.threads);
+    const double begin_ms = wall_ms();
+    const MaterialLevels levels = filtered_levels(scene, jobs);
+    std::vector<const MipLevels*> each;
+    for (const std::shared_ptr<const MipLevels>& of : levels)
+        if (of && std::find(each.begin(), each.end(), of.get()) == each.end())
+            each.push_back(of.get());
+    if (each.empty())
+        return fail({ExitCode::bad_input, bake.material, "", "has no maps of normals, roughness or anisotropy"});
+    report.event("levels",
+                 fmt::format("of {} by {} in {:.0f} ms", counted(each.size(), "material"), name_of(a.filter), wall_ms() - begin_ms));
+    if (pyramid) {
+        const std::vector<std::uint8_t> bytes = mip_file_bytes(each);
+        if (const Status written = write_file_atomic(bake.output, bytes.data(), bytes.size()); !written)
+            return fail(written.error());
+        report.release();
+        report.wrote(bake.output);
+    } else {
+        const Result<WrittenTextures> written = write_mip_textures(bake.output, scene, levels, a, jobs);
+        if (!written)
+            return fail(written.error());
+        report.release();
+        for (const std::string& warning : written->warnings)
+            report.warning(warning);
+        for (const std::string& file : written->files)
+            report.detail("wrote", file);
+        report.event("wrote", fmt::format("{}: {}", bake.output, counted(written->files.size(), "file")));
+        report.figures(written->figures);
     }
-    return {};
+    if (!a.preview.empty())
+        if (const Status written = write_preview(a.preview, scene, levels, report); !written)
+            return fail(written.error());
+    return 0;
 }
 
 } // namespace burnish

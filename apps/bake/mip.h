@@ -1,15 +1,43 @@
-// Levels of a scene's materials, to be kept and to be looked at.
+// `burnish bake mip`: levels of a scene's materials, to be kept, for other programs, and to be looked at.
 #pragma once
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "apps/cli/report.h"
+#include "apps/cli/option.h"
+#include "core/base/limits.h"
 #include "core/base/result.h"
 #include "core/image/image.h"
-#include "raster/frame/pyramids.h"
+#include "shading/bake/mip/colour_levels.h"
 #include "shading/bake/mip/levels.h"
+#include "shading/bake/mipnet/mipnet_fns.h"
 
 namespace burnish {
+
+enum class MipFormat { pyramid, exr_mip, png_levels };
+
+struct MipArguments {
+    MipFilter filter;
+    std::optional<double> kappa;
+    std::string net; // of filter mipnet; empty: the program's for brdf
+    MipFallback fallback{};
+    int brdf = 0; // a lobe
+    MipFormat format = MipFormat::pyramid;
+    bool couple_albedo = false; // of textures: base colour and metalness weighted by how texels face
+    ColourKernel color_kernel = ColourKernel::box;
+    std::string preview;
+    MipArguments();
+};
+std::vector<Option> mip_options(MipArguments& to);
+
+struct MipBake { // with what all of `burnish bake` has
+    const MipArguments& options;
+    std::string material, output;
+    Limits limits;
+    int threads, verbosity;
+    bool quiet;
+};
+int run_mip(const MipBake& bake); // the exit code
 
 struct MipPicture {
     std::string name; // of a file, without its extension
@@ -20,7 +48,8 @@ struct MipPicture {
 // (perceptual roughness, 0 to 1) along tangent and bitangent, blue how the axis lies between them (128: along one).
 std::vector<MipPicture> mip_pictures(const std::string& material, const MipLevels& levels);
 
-// Those of each material as PNG in a folder, which is made.
-Status write_mip_preview(const std::string& folder, const Scene& scene, const MaterialLevels& levels, Report& report);
+// Names of materials as they may stand in files' names, each once: what is no letter or digit is _, and a number follows where two are
+// alike.
+std::vector<std::string> plain_names(const std::vector<std::string>& materials);
 
 } // namespace burnish

@@ -1,15 +1,20 @@
 // `burnish chart`: what every technique costs and what it gets wrong, as figures, as charts, as a page.
 #include <fmt/core.h>
+#include <map>
 #include <memory>
 #include <set>
 
 #include "apps/chart/measure.h"
+#include "apps/chart/mip_rows.h"
 #include "apps/cli/command.h"
+#include "apps/cli/outputs.h"
 #include "apps/cli/report.h"
 #include "apps/cli/stop_signal.h"
 #include "apps/report/page.h"
 #include "apps/report/plots.h"
+#include "apps/train/real_maps.h"
 #include "core/image/io/image_io.h"
+#include "shading/bake/mipnet/net.h"
 
 namespace burnish {
 namespace {
@@ -19,8 +24,13 @@ constexpr const char* kFooter =
 been measured, from which a stopped chart goes on. References are kept beside the cache of environments. With the defaults a scene under one
 environment takes minutes on two cores.
 
+--mip measures filters of normals and lobes in place of frames: FLIP, L1 and MSE of what is shown beside level 0 lit at one to one, averaged, on
+families of materials made in code and the pictured ones of --maps; REPORT_DIR gets mip.json, mip.csv (a row a material, model, filter and
+level) and mip.txt, the means.
+
 Examples:
   burnish chart -o report
+  burnish chart --mip --maps textures -o report
   burnish chart lamp.glb --env workshop.hdr --env builtin:sky --size 1280x720 -o report
   burnish chart --techniques bent_normal,major_axis --sweep samples=2,4,8,16,32 -o report
   burnish chart --sweep samples=16 --sweep roughness=0.1,0.3,0.5,0.7 --sweep anisotropy=-0.9,-0.5,0,0.5,0.9 -o report)";
@@ -60,8 +70,67 @@ Status write_report(const ChartReport& chart, const Keeper& keeper, Report& repo
     return {};
 }
 
+// The models that mip filters are measured under: the one that is asked for, or all three.
+Result<std::vector<mipnet::Lobe>> measured_lobes(const RenderArguments& in, const OptionTable& given)
+{
+    std::vector<mipnet::Lobe> lobes = {mipnet::Lobe::ggx_aniso, mipnet::Lobe::beckmann, mipnet::Lobe::ashikhmin_shirley};
+    if (!given.given("--brdf"))
+        return lobes;
+    const std::string name = lobe_model(in.plain.frame.brdf).name;
+    for (const mipnet::Lobe lobe : lobes)
+        if (name == mipnet::lobe_name(lobe))
+            return std::vector{lobe};
+    return usage_error("--brdf", "is ggx_aniso, beckmann or ashikhmin_shirley where --mip measures filters");
+}
+
+int run_mip_chart(const ChartArguments& arguments, const OptionTable& given)
+{
+    const ChartOptions& o = arguments.plain;
+    const RenderOptions& base = arguments.render.plain;
+    const std::set<std::string> known = {"--mip",    "--maps",  "--per-set", "--brdf",   "--mip-kappa",
+                                         "--output", "--quiet", "--verbose", "--threads"};
+    for (const Option& option : given.options())
+        if (option.given && !known.count(option.name))
+            return fail(usage_error(option.name, "is of charts of frames; --mip draws none"));
+    const Result<std::vector<mipnet::Lobe>> lobes = measured_lobes(arguments.render, given);
+    if (!lobes)
+        return fail(lobes.error());
+    Report report(base.quiet, base.verbosity);
+    if (const Status made = make_output_folder(o.folder); !made)
+        return fail(made.error());
+    const Jobs jobs(base.threads);
+    std::vector<mipnet::TestMaterial> set = mipnet::make_test_set(jobs);
+    if (!o.maps.empty()) {
+        const Result<std::vector<mipnet::TestMaterial>> real = real_materials(o.maps, base.limits);
+        if (!real)
+            return fail(real.error());
+        set.insert(set.end(), real->begin(), real->end());
+    }
+    std::map<std::string, int> seen;
+    std::erase_if(set, [&](const mipnet::TestMaterial& m) { return ++seen[m.set] > o.per_set; });
+    const float kappa = base.dress.mip_kappa.value_or(kUsualMipKappa);
+    const std::vector<MipRow> rows = mip_rows(set, *lobes, kappa, jobs);
+    report.release();
+    const std::string summary = mip_summary(rows);
+    const std::pair<const char*, std::string> files[] = {
+        {"mip.json", mip_rows_json(rows).dump(1) + "\n"}, {"mip.csv", mip_rows_csv(rows)}, {"mip.txt", summary}};
+    for (const auto& [name, text] : files) {
+        const std::string path = o.folder + "/" + name;
+        if (const Status written = write_text(path, text); !written)
+            return fail(written.error());
+        report.wrote(path);
+    }
+    report.figures(summary);
+    return 0;
+}
+
 int run_chart(const ChartArguments& arguments, const OptionTable& given)
 {
+    if (arguments.plain.mip)
+        return run_mip_chart(arguments, given);
+    for (const char* option : {"--maps", "--per-set"})
+        if (given.given(option))
+            return fail(usage_error(option, "is of --mip"));
     const Result<ChartOptions> checked = check_chart_options(arguments, given);
     if (!checked)
         return fail(checked.error());

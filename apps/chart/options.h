@@ -21,6 +21,9 @@ struct ChartOptions {
     int runs = 9;                                            // timed, of every setting
     std::uint64_t reference_samples = 4096;                  // a pixel
     std::string folder;
+    bool mip = false;   // mip filters are measured, not frames
+    std::string maps;   // a folder of pictured materials for these
+    int per_set = 1000; // materials at most
 };
 
 struct ChartArguments {

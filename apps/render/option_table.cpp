@@ -113,7 +113,7 @@ std::vector<Option> dress_rows(Dress& to)
         {"--mip-filter", "NAME", "What distant maps of normals and roughness become: {} (see burnish list mip-filters)",
          choice(to.mip_filter, mip_filter_names())},
         {"--mip-kappa", "K", "Of --mip-filter kappa, and of taps under mipnet: how much of the covariance of normals lobes grow by",
-         number(to.mip_kappa, 0.0, 4.0), "0.7 of lobes with GGX's normals, 1.8 of others"},
+         number(to.mip_kappa, 0.0, 4.0), fmt::format("{}", kUsualMipKappa).c_str()},
         {"--mip-net", "FILE", "Of --mip-filter mipnet: weights of burnish train mip", file(to.mip_net), "the program's own for --brdf"},
         {"--fallback", "NAME",
          "Of --mip-filter mipnet: {}; auto leaves materials to kappa or baseline where the net is worse than they are",

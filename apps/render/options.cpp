@@ -101,8 +101,6 @@ Result<RenderOptions> check_render_options(const RenderArguments& arguments, con
     if (const Status technique = check_technique(arguments, out); !technique)
         return technique.error();
     out.dress.mip_brdf = out.frame.brdf;
-    if (!out.dress.mip_kappa)
-        out.dress.mip_kappa = usual_kappa((lobe_model(out.frame.brdf).lobe_traits & kNormals_ggx) != 0);
     const Result<Isa> isa = choose_isa(given, out.isa);
     if (!isa)
         return isa.error();

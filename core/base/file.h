@@ -22,6 +22,24 @@ Result<std::vector<std::uint8_t>> read_file(const std::string& path, std::uint64
 // What killed runs left of earlier writes of `path` is removed. On failure nothing is left and the Error has ExitCode::output_failed.
 Status write_file_atomic(const std::string& path, const void* data, std::size_t size, Links links = Links::follow);
 
+// Files that belong together: what is added lies under temporary names, beside where it is to be, until name_all() gives all of them their
+// names. On failure, or without that, nothing is left; files that had the names are as they were.
+class FileSet {
+  public:
+    FileSet() = default;
+    ~FileSet(); // removes what has no name yet
+    FileSet(const FileSet&) = delete;
+    FileSet& operator=(const FileSet&) = delete;
+    Status add(const std::string& path, const void* data, std::size_t size);
+    Status name_all();
+
+  private:
+    struct Added {
+        std::string temporary, path;
+    };
+    std::vector<Added> added_;
+};
+
 // The name that `name` is a temporary file of, or empty: ".NAME.HEX.bntmp" (and ".NAME.PID.N.tmp", as version 0.1.0 wrote them).
 std::string name_of_temporary(const std::string& name);
 

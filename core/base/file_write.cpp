@@ -207,6 +207,42 @@ int write_device(const fs::path& target, const void* data, std::size_t size)
 
 } // namespace
 
+FileSet::~FileSet()
+{
+    for (const Added& file : added_)
+        ::unlink(file.temporary.c_str());
+}
+
+Status FileSet::add(const std::string& path, const void* data, std::size_t size)
+{
+    std::error_code ignored;
+    if (fs::is_directory(path, ignored))
+        return unwritable(path, EISDIR);
+    sweep(path);
+    Temporary temporary;
+    int code = make_named(path, 0666, temporary);
+    if (code != 0)
+        return unwritable(path, code);
+    added_.push_back({temporary.name, path});
+    if (code = write_and_sync(temporary.file.get(), data, size); code == 0 && temporary.file.close() != 0)
+        code = errno;
+    return code ? Status(unwritable(path, code)) : Status();
+}
+
+Status FileSet::name_all()
+{
+    while (!added_.empty()) {
+        const Added file = added_.back();
+        if (::rename(file.temporary.c_str(), file.path.c_str()) != 0)
+            return unwritable(file.path, errno);
+        added_.pop_back();
+        const bool last = added_.empty() || folder_of(added_.back().path) != folder_of(file.path);
+        if (const int code = last ? sync_folder(folder_of(file.path)) : 0)
+            return unwritable(file.path, code);
+    }
+    return {};
+}
+
 std::string name_of_temporary(const std::string& name)
 {
     if (name.size() < 2 || name[0] != '.')

@@ -323,7 +323,7 @@ Status dress(Scene& scene, const Dress& with, const Limits& limits)
     }
     for (Material& m : scene.materials) {
         if (with.mip_filter != MipFilter{})
-            m.mip_filter = with.mip_filter, m.mip_kappa = with.mip_kappa.value_or(0.7f);
+            m.mip_filter = with.mip_filter, m.mip_kappa = with.mip_kappa.value_or(kUsualMipKappa);
         if (with.f0)
             put_f0(m, *with.f0);
     }

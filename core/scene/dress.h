@@ -13,6 +13,7 @@
 namespace burnish {
 
 enum class MipFallback { automatic, off }; // automatic: materials are left to closed forms where the net is worse than it may be
+inline constexpr float kUsualMipKappa = 0.7f; // of every model of lobes: makes the least error of the numbers tried (bench/README.md)
 
 struct Dress {              // empty: left as it is
     std::string material;   // folder of pictures, whose names end in what they are: see apps/README.md
@@ -26,7 +27,7 @@ struct Dress {              // empty: left as it is
     RotationEncoding rotation_encoding = RotationEncoding::vector;
     bool normal_y_down = false;     // all normal maps have green down
     MipFilter mip_filter{};         // of all materials; the first: as their file has it
-    std::optional<float> mip_kappa; // of filters kappa and mipnet; none: 0.7
+    std::optional<float> mip_kappa; // of filters kappa and mipnet; none: kUsualMipKappa
     std::string mip_net;            // weights of `burnish train mip` for filter mipnet; empty: the program's
     int mip_brdf = 0;               // model of lobes that the program's are for, a place of BN_LOBE
     MipFallback mip_fallback{};     // of filter mipnet

@@ -25,15 +25,6 @@ std::string hexadecimal(std::uint64_t value)
     return text;
 }
 
-// Whose lobe is nearest to a model's.
-mipnet::Lobe lobe_of_model(int brdf)
-{
-    const ModelInfo& model = lobe_model(brdf);
-    if (model.lobe_traits & kNormals_ggx)
-        return mipnet::Lobe::ggx_aniso;
-    return std::string(model.name) == "ashikhmin_shirley" ? mipnet::Lobe::ashikhmin_shirley : mipnet::Lobe::beckmann;
-}
-
 Result<std::shared_ptr<const mipnet::Weights>> net_of(const Dress& with, const Limits& limits)
 {
     using Net = std::shared_ptr<const mipnet::Weights>;
@@ -75,6 +66,14 @@ std::string comparison_text(const Material& m, const mipnet::Comparison& c)
 }
 
 } // namespace
+
+mipnet::Lobe lobe_of_model(int brdf)
+{
+    const ModelInfo& model = lobe_model(brdf);
+    if (model.lobe_traits & kNormals_ggx)
+        return mipnet::Lobe::ggx_aniso;
+    return std::string(model.name) == "ashikhmin_shirley" ? mipnet::Lobe::ashikhmin_shirley : mipnet::Lobe::beckmann;
+}
 
 Status settle_nets(Scene& scene, const Dress& with, const Limits& limits)
 {

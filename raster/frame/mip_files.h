@@ -6,8 +6,11 @@
 #include "core/base/result.h"
 #include "core/scene/dress.h"
 #include "core/scene/scene.h"
+#include "shading/bake/mipnet/mipnet_fns.h"
 
 namespace burnish {
+
+mipnet::Lobe lobe_of_model(int brdf); // of the nets there are, the nearest to a model's
 
 void warn_of_unfiltered(Scene& scene); // a line for each material that its filter makes nothing of, with the reason
 

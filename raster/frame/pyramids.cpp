@@ -26,12 +26,22 @@ constexpr TextureUse kTextureUses[kTextureSlots] = {
 #include "core/scene/material.def"
 };
 
+// Of two that are used: why a point of one is not the same point of the other, or empty.
+const char* what_differs(const Scene& scene, const TextureRef& a, const TextureRef& b)
+{
+    if (a.uv_set != b.uv_set)
+        return "another set of texture coordinates";
+    if (a.uv_transform != b.uv_transform)
+        return "another transform";
+    const Texture &s = scene.textures[static_cast<std::size_t>(a.texture)], &t = scene.textures[static_cast<std::size_t>(b.texture)];
+    if (s.wrap_s != t.wrap_s || s.wrap_t != t.wrap_t)
+        return "a sampler that goes on otherwise at the border";
+    return s.nearest != t.nearest ? "a sampler that interpolates otherwise" : "";
+}
+
 bool alike(const Scene& scene, const TextureRef& a, const TextureRef& b)
 {
-    if (!a.used() || !b.used() || a.uv_set != b.uv_set || a.uv_transform != b.uv_transform)
-        return false;
-    const Texture &s = scene.textures[static_cast<std::size_t>(a.texture)], &t = scene.textures[static_cast<std::size_t>(b.texture)];
-    return s.wrap_s == t.wrap_s && s.wrap_t == t.wrap_t && s.nearest == t.nearest;
+    return a.used() && b.used() && *what_differs(scene, a, b) == '\0';
 }
 
 const Image* image_of(const Scene& scene, const TextureRef& ref)
@@ -40,14 +50,24 @@ const Image* image_of(const Scene& scene, const TextureRef& ref)
 }
 
 // The maps that a mip filter looks at.
-constexpr TextureRef Material::*kFilteredMaps[] = {&Material::normal_tex, &Material::anisotropy_tex, &Material::metallic_roughness_tex};
+struct FilteredMap {
+    TextureRef Material::*ref;
+    const char* of;
+};
+constexpr FilteredMap kFilteredMaps[] = {
+    {&Material::normal_tex, "normals"}, {&Material::anisotropy_tex, "anisotropy"}, {&Material::metallic_roughness_tex, "roughness"}};
+
+const FilteredMap* first_map(const Material& m)
+{
+    const auto used = [&](const FilteredMap& map) { return (m.*map.ref).used(); };
+    const auto found = std::find_if(std::begin(kFilteredMaps), std::end(kFilteredMaps), used);
+    return found == std::end(kFilteredMaps) ? nullptr : found;
+}
 
 const TextureRef* first_filtered(const Material& m)
 {
-    for (const auto map : kFilteredMaps)
-        if ((m.*map).used())
-            return &(m.*map);
-    return nullptr;
+    const FilteredMap* first = first_map(m);
+    return first ? &(m.*first->ref) : nullptr;
 }
 
 MipMaps maps_of(const Scene& scene, const Material& m)
@@ -223,14 +243,15 @@ bool is_filtered(const Scene& scene, const Material& m)
 
 std::string why_unfiltered(const Scene& scene, const Material& m)
 {
-    const TextureRef* first = makes_lobes(m.mip_filter) && !m.unlit ? first_filtered(m) : nullptr;
+    const FilteredMap* first = makes_lobes(m.mip_filter) && !m.unlit ? first_map(m) : nullptr;
     if (!first)
         return "";
     if (m.tilt_tex.used())
         return "it has a map of tilts";
-    for (const auto map : kFilteredMaps)
-        if ((m.*map).used() && !alike(scene, *first, m.*map))
-            return "its maps of normals, roughness and anisotropy lie otherwise (coordinates, transform, sampler)";
+    for (const FilteredMap& map : kFilteredMaps)
+        if ((m.*map.ref).used())
+            if (const char* why = what_differs(scene, m.*first->ref, m.*map.ref); *why)
+                return std::string("its map of ") + map.of + " has " + why + " than its map of " + first->of;
     const Image* normals = image_of(scene, m.normal_tex);
     const Grid grid = grid_of(maps_of(scene, m));
     if (m.heights && (normals->width != grid.width || normals->height != grid.height))

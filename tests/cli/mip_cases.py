@@ -4,6 +4,8 @@ import json
 import math
 import pathlib
 import random
+import re
+import struct
 
 import gltf_files as files
 from compare_cases import png
@@ -138,8 +140,10 @@ def baked(bench):
         check(hash_of(bench, *words, "--mip-filter", name, "--mip-pyramid", name + ".mip") == made, f"{name}: other pixels")
         check(hash_of(bench, *words, "--mip-pyramid", name + ".mip") == made, f"{name}: a file does not say its filter")
     bench.run("bake", "mip", "set", "--brdf", "beckmann", "-q", "-o", "wide.mip").expect(0)
-    check(hash_of(bench, *words, "--mip-pyramid", "wide.mip") == hash_of(bench, *words, "--mip-filter", "kappa", "--mip-kappa", "1.8"),
-          "kappa does not go by the model")
+    check((bench.folder / "wide.mip").read_bytes() == (bench.folder / "kappa.mip").read_bytes(), "the usual kappa goes by the model of lobes")
+    beckmann = (*words, "--brdf", "beckmann", "--mip-filter", "kappa")
+    check(hash_of(bench, *beckmann) == hash_of(bench, *beckmann, "--mip-kappa", "0.7") == hash_of(bench, *beckmann, "--mip-pyramid", "wide.mip"),
+          "kappa 0.7 is not Beckmann's default")
     bench.run("bake", "mip", "builtin:bumps", "--mip-filter", "leadr", "-o", "bumps.mip", "--preview", "seen").expect(0)
     check(hash_of(bench, "builtin:bumps", *SMALL, "--mip-pyramid", "bumps.mip") == hash_of(bench, "builtin:bumps", *SMALL, "--mip-filter", "leadr"),
           "a scene of several materials")
@@ -213,6 +217,70 @@ def fallbacks(bench):
     check(off_by(bench, "auto.pfm", "off.pfm")["mse"] > 0, "what is kept draws the same picture")
 
 
+def tiles_of(exr):
+    """Of an OpenEXR file: side of its tiles, how its levels are made (1: mip levels, rounded down)."""
+    at = exr.index(b"tiles\0tiledesc\0") + len(b"tiles\0tiledesc\0") + 4
+    width, height, mode = struct.unpack("<IIB", exr[at:at + 9])
+    return width, height, mode
+
+
+@case("mip.levels_go_to_other_programs_as_textures", "input", tier="check")
+def textures(bench):
+    material(bench, "set", (33, 17, bumps))
+    (bench.folder / "set/x_basecolor.png").write_bytes(png(8, 8, lambda x, y: (250, 120 + 8 * x, 40)))
+    words = ("bake", "mip", "set", "--mip-filter", "kappa")
+    off = {}
+    for name in ("png-levels", "exr-mip"):
+        done = bench.run(*words, "--format", name, "-o", name).expect(0)
+        found = re.fullmatch(r"(\w+): L1 ([.0-9]+) at texels, ([.0-9]+) between them; most at level \d, \d+x\d+: [.0-9]+\n", done.out)
+        check(found, done.describe())
+        stem, off[name] = found[1], [float(found[i]) for i in (2, 3)]
+    check(off["exr-mip"][0] < 0.2 * off["png-levels"][0] < 0.02, f"halves are off as codes are: {off}")
+    check(off["exr-mip"][1] > 2 * off["exr-mip"][0], f"nothing is lost between texels: {off}")
+    parts = {"normal": 6, "metallic_roughness": 6, "base_color": 4, "anisotropy": 6}
+    there = sorted(path.name for path in (bench.folder / "png-levels").iterdir())
+    check(there == sorted(f"{stem}_{part}_{level:02}.png" for part, levels in parts.items() for level in range(levels)), f"{there}")
+    there = sorted(path.name for path in (bench.folder / "exr-mip").iterdir())
+    check(there == sorted(f"{stem}_{part}.exr" for part in parts), f"{there}")
+    for name in there:
+        check(tiles_of((bench.folder / "exr-mip" / name).read_bytes()) == (64, 64, 1), f"{name} has no mip levels")
+    # level 0 is what the maps say, read back by the program itself
+    seen = ("builtin:sphere", *SMALL, "--roughness", "0.4")
+    bench.run("render", *seen, "--normal-map", "set/x_normal.png", "-q", "-o", "maps.pfm").expect(0)
+    bench.run("render", *seen, "-q", "-o", "level.pfm").expect(0)
+    without = off_by(bench, "maps.pfm", "level.pfm")["mse"]
+    for name in (f"png-levels/{stem}_normal_00.png", f"exr-mip/{stem}_normal.exr"):
+        bench.run("render", *seen, "--normal-map", name, "-q", "-o", "back.pfm").expect(0)
+        check(off_by(bench, "maps.pfm", "back.pfm")["mse"] < 0.02 * without, f"{name} is another map: {off_by(bench, 'maps.pfm', 'back.pfm')}, {without}")
+    bench.run(*words, "--format", "png-levels", "--threads", "1", "-q", "-o", "again").expect(0)
+    for path in (bench.folder / "again").iterdir():
+        check(path.read_bytes() == (bench.folder / "png-levels" / path.name).read_bytes(), f"threads change {path.name}")
+    # nothing, or what was there, where the disk is full half-way
+    full = bench.run(*words, "--format", "exr-mip", "-q", "-o", "full", file_size=600).expect(7)
+    check(full.err.startswith("burnish: ") and not (bench.folder / "full").exists(), full.describe())
+    before = {path.name: path.read_bytes() for path in (bench.folder / "exr-mip").iterdir()}
+    bench.run(*words, "--mip-kappa", "2", "--format", "exr-mip", "-q", "-o", "exr-mip", file_size=600).expect(7)
+    check(before == {path.name: path.read_bytes() for path in (bench.folder / "exr-mip").iterdir()}, "files that were there are not as they were")
+    (bench.folder / "file").write_bytes(b"x")
+    bench.run(*words, "--format", "png-levels", "-q", "-o", "file").expect(7).expect_one_line("file")
+    bench.run(*words, "--format", "tga", "-o", "x").expect(2).expect_one_line("--format")
+
+
+@case("mip.a_folder_of_one_map_is_filtered", tier="check")
+def one_map(bench):
+    for name, texel, channels in (("x_normal", bumps, 3), ("x_roughness", lambda x, y: (40 + 12 * x,), 1), ("x_rotation", lambda x, y: (255, 128, 128), 3)):
+        folder = bench.folder / name
+        folder.mkdir()
+        (folder / (name + ".png")).write_bytes(png(16, 8, texel, channels=channels))
+        for filter_name in LOBES:
+            bench.run("bake", "mip", name, "--mip-filter", filter_name, "-q", "-o", "a.mip").expect(0)
+            words = ("builtin:sphere", *SMALL, "--material", name, "--mip-filter", filter_name)
+            check(hash_of(bench, *words) == hash_of(bench, *words, "--mip-pyramid", "a.mip"), f"{name} by {filter_name}")
+    (bench.folder / "colours").mkdir()
+    (bench.folder / "colours/x_basecolor.png").write_bytes(png(4, 4, bumps))
+    bench.run("bake", "mip", "colours", "-o", "b.mip").expect(4).expect_one_line("no maps")
+
+
 @case("mip.maps_that_lie_otherwise_are_left_to_box", tier="check")
 def otherwise(bench):
     gltf = bare(normalTexture={"index": 0}, extensions={"KHR_materials_anisotropy": {"anisotropyStrength": 0.5, "anisotropyTexture": {"index": 1}}})
@@ -223,8 +291,17 @@ def otherwise(bench):
     scratch(bench, "n.png", png(64, 64, bumps))
     scratch(bench, "d.png", png(8, 8, lambda x, y: (255, 128, 255)))
     done = bench.run("render", "odd.gltf", *VIEW, "--mip-filter", "kappa", "-o", "a.pfm").expect(0)
-    check(done.err.count("is filtered as by --mip-filter box") == 1 and "'odd'" in done.err and "sampler" in done.err, done.describe())
+    said = "material 'odd' is filtered as by --mip-filter box: its map of anisotropy has a sampler that goes on otherwise at the border than its map of normals"
+    check(done.err.count("filtered as by") == 1 and said in done.err, done.describe())
     check(hash_of(bench, "odd.gltf", *VIEW, "--mip-filter", "kappa") == hash_of(bench, "odd.gltf", *VIEW), "it is filtered all the same")
+    direction = gltf["materials"][0]["extensions"]["KHR_materials_anisotropy"]["anisotropyTexture"]
+    gltf["textures"][1].pop("sampler")
+    for words, said in (({"texCoord": 1}, "has another set of texture coordinates than its map of normals"),
+                        ({"extensions": {"KHR_texture_transform": {"scale": [2, 2]}}}, "has another transform than its map of normals"), ({}, "")):
+        gltf["materials"][0]["extensions"]["KHR_materials_anisotropy"]["anisotropyTexture"] = {**direction, **words}
+        scratch(bench, "odd.gltf", files.text(gltf))
+        done = bench.run("render", "odd.gltf", *VIEW, "--mip-filter", "kappa", "-o", "a.pfm").expect(0)
+        check((said and said in done.err) or (not said and "filtered as by" not in done.err), done.describe())
 
 
 @case("mip.charts_sweep_filters", tier="check")
@@ -232,3 +309,77 @@ def sweeps(bench):
     needs_embree(bench)
     bench.run("chart", "builtin:bumps", "--size", "32x24", "--env-size", "64", "--env-samples", "32", "--techniques", "mc", "--reference-samples", "8",
               "--runs", "1", "--sweep", "mip-filter=box,kappa", "-o", "report").expect(0)
+
+
+@case("mip.charts_of_filters_have_rows_by_level", tier="check")
+def rows_by_level(bench):
+    (bench.folder / "maps").mkdir()
+    material(bench, "maps/set", (64, 64, bumps))
+    words = ("chart", "--mip", "--maps", "maps", "--per-set", "2", "--brdf", "ggx_aniso")
+    done = bench.run(*words, "-o", "one").expect(0)
+    rows = json.loads((bench.folder / "one/mip.json").read_text())
+    fields = {"set", "family", "material", "brdf", "mip_filter", "level", "hardest", "flip", "l1", "mse", "ms"}
+    check(all(set(row) == fields for row in rows), f"{rows[0]}")
+    sets = {row["set"]: {r["material"] for r in rows if r["set"] == row["set"]} for row in rows}
+    check({name: len(of) for name, of in sets.items()} == {"new seeds": 2, "held-out": 2, "real": 1}, f"{sets}")
+    names = named(bench)
+    check(len(rows) == 5 * len(names) * 5 and {row["mip_filter"] for row in rows} == set(names), f"{len(rows)} rows")
+    check(all((row["flip"] is None) == ((64 if row["set"] == "real" else 256) >> row["level"] < 16) for row in rows), "FLIP of other levels")
+    mean = {name: sum(row["mse"] for row in rows if row["mip_filter"] == name) for name in names}
+    check(mean["kappa"] < 0.8 * mean["baseline"] and abs(mean["box"] / mean["baseline"] - 1) < 0.1, f"{mean}")
+    check(sum(row["hardest"] for row in rows) == 3 * len(names) * 5, "the hardest quarter is none")
+    check(all(name in done.out for name in (*names, "held-out, hardest quarter")) and (bench.folder / "one/mip.txt").read_text() == done.out, done.describe())
+    csv = (bench.folder / "one/mip.csv").read_text().splitlines()
+    check(len(csv) == len(rows) + 1 and csv[0].split(",")[:3] == ["set", "family", "material"], csv[0])
+    bench.run(*words, "--threads", "1", "-q", "-o", "two").expect(0)
+    again = json.loads((bench.folder / "two/mip.json").read_text())
+    check([{**row, "ms": 0} for row in rows] == [{**row, "ms": 0} for row in again], "threads change figures")
+    for arguments, code, needle in (((*words, "--size", "9x9"), 2, "--size"), (("chart", "--maps", "maps"), 2, "--maps"),
+                                    (("chart", "--mip", "--brdf", "ward"), 2, "--brdf"), (("chart", "--mip", "--maps", "gone"), 4, "gone")):
+        bench.run(*arguments, "-o", "x").expect(code).expect_one_line(needle)
+
+
+def wide_floor(repeats):
+    """A metal floor of 40 by 40 metres, its texture so many times each way."""
+    gltf = bare(pbrMetallicRoughness={"metallicFactor": 1, "roughnessFactor": 0.1, "baseColorFactor": [0.9, 0.8, 0.7, 1]})
+    corners = ((-20, 20), (20, 20), (20, -20), (-20, 20), (20, -20), (-20, -20))
+    columns = ([c for x, z in corners for c in (x, 0, z)], [0, 1, 0] * len(corners),
+               [c * repeats for x, z in corners for c in ((x + 20) / 40, (20 - z) / 40)])
+    binary = b"".join(struct.pack(f"<{len(c)}f", *c) for c in columns)
+    gltf["buffers"] = [{"uri": files.data_uri(binary), "byteLength": len(binary)}]
+    gltf["bufferViews"], gltf["accessors"], begin = [], [], 0
+    for column, kind in zip(columns, ("VEC3", "VEC3", "VEC2")):
+        gltf["bufferViews"].append({"buffer": 0, "byteOffset": begin, "byteLength": 4 * len(column)})
+        gltf["accessors"].append({"bufferView": len(gltf["accessors"]), "componentType": 5126, "count": len(corners), "type": kind})
+        begin += 4 * len(column)
+    gltf["accessors"][0] |= {"min": [-20, 0, -20], "max": [20, 0, 20]}
+    gltf["meshes"] = [{"primitives": [{"attributes": {"POSITION": 0, "NORMAL": 1, "TEXCOORD_0": 2}, "material": 0}]}]
+    return gltf
+
+
+def flickers(bench, steps, samples):
+    """How much pictures of a zoom out over grain change from one to the next, as a share of what the truth's do: kappa and leadr keep to it."""
+    needs_embree(bench)
+    scratch(bench, "floor.gltf", files.text(wide_floor(24)))
+    scratch(bench, "fine.png", grain(128, 0.15))
+    words = ("floor.gltf", "--normal-map", "fine.png", "--frame-map", "quaternion", "--eye", "0,3,4", "--target", "0,0,0", "--fov", "35", "--size", "48x36",
+             "--env-size", "64", "--env-samples", "64", "--no-background", "-q", "--animate", "zoom=4:0.6", "--steps", steps)
+    bench.run("render", *words, "--backend", "reference", "--reference-textures", "full", "--samples", 4 * samples, "-o", "truth%d.pfm",
+              timeout=1000.0).expect(0)
+    changes = {}
+    for name in ("box", "kappa", "leadr"):
+        bench.run("render", *words, "--mip-filter", name, "--technique", "mc", "--samples", samples, "--msaa", "8", "-o", name + "%d.pfm",
+                  timeout=1000.0).expect(0)
+        found = json.loads(bench.run("compare", "--sequence", "truth%d.pfm", name + "%d.pfm", "--json", "-", timeout=1000.0).expect(0).out)
+        changes[name] = found["change"] / found["reference_change"]
+    check(changes["kappa"] < 1.5 and changes["leadr"] < 1.5 and changes["box"] > 1.5, f"{changes}")
+
+
+@case("mip.a_zoom_out_flickers_as_the_truth_does")
+def zoom_out(bench):
+    flickers(bench, 8, 128)
+
+
+@case("mip.a_zoom_out_of_sixty_steps_flickers_as_the_truth_does", tier="slow")
+def long_zoom_out(bench):
+    flickers(bench, 60, 256)

@@ -30,6 +30,10 @@ Status write_image(const std::string& path, const Image& image);
 // OpenEXR of any channels, a name each, as write_image() writes it.
 Status write_channels(const std::string& path, const Image& image, const std::vector<std::string>& names);
 
+// The bytes of an OpenEXR file of half floats with mip levels, the first the largest, each half as wide and high as that before, rounded
+// down, at least 1, to 1x1: f32 images of one number of channels. `path` names it in errors.
+Result<std::vector<std::uint8_t>> encode_exr_levels(const std::string& path, const std::vector<Image>& levels);
+
 // An 8-bit picture as the bytes of a PNG file, for pages that carry their pictures.
 Result<std::string> encode_png(const Image& image);
 

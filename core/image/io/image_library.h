@@ -42,6 +42,8 @@ struct ImageLibrary {
     // ones. `path` names it in errors, which have ExitCode::output_failed. channels: names; empty: those of the image's number.
     Result<std::vector<std::uint8_t>> (*encode)(const std::string& path, const Image& image, const char* format,
                                                 const std::vector<std::string>& channels);
+    // Of OpenEXR, half floats in tiles of 64: each image a mip level, half as wide and high as that before, rounded down, at least 1.
+    Result<std::vector<std::uint8_t>> (*encode_levels)(const std::string& path, const std::vector<Image>& levels);
 };
 
 // The one symbol of the module: extern "C" const ImageLibrary* burnish_image_library().

@@ -154,6 +154,19 @@ Status write_channels(const std::string& path, const Image& image, const std::ve
     }
 }
 
+Result<std::vector<std::uint8_t>> encode_exr_levels(const std::string& path, const std::vector<Image>& levels)
+{
+    BN_CHECK(!levels.empty() && levels[0].type == PixelType::f32);
+    try {
+        const Result<const ImageLibrary*> library = image_library(path);
+        if (!library)
+            return library.error();
+        return (*library)->encode_levels(path, levels);
+    } catch (const std::exception& exception) {
+        return output_error(path, "the levels cannot be encoded: " + first_line(exception.what()));
+    }
+}
+
 Result<std::string> encode_png(const Image& image)
 {
     BN_CHECK(image.type == PixelType::u8 && !image.empty());

@@ -148,8 +148,9 @@ OIIO::ImageSpec spec_of(const Image& image, const char* format, const std::vecto
     return spec;
 }
 
-// Whether an OpenEXR file of scan lines, sixteen a chunk, has all its chunks. Short of memory the library leaves some out and says nothing.
-bool has_all_chunks(const Bytes& file, int height)
+// Whether an OpenEXR file has all its chunks, each of which begins with its place, a number or four, and its size. Short of memory the
+// library leaves some out and says nothing.
+bool has_all_chunks(const Bytes& file, std::size_t chunks, std::size_t place_bytes)
 {
     const auto number = [&](std::size_t at, std::size_t size) {
         std::uint64_t value = 0;
@@ -167,10 +168,10 @@ bool has_all_chunks(const Bytes& file, int height)
         at = after_word(after_word(at));
         at += 4 + static_cast<std::size_t>(number(at, 4));
     }
-    const std::size_t table = at + 1, chunks = (static_cast<std::size_t>(height) + 15) / 16;
+    const std::size_t table = at + 1, head = place_bytes + 4;
     for (std::size_t i = 0; i < chunks; ++i) {
         const std::uint64_t begin = number(table + 8 * i, 8);
-        if (begin < table + 8 * chunks || begin + 8 > file.size() || begin + 8 + number(begin + 4, 4) > file.size())
+        if (begin < table + 8 * chunks || begin + head > file.size() || begin + head + number(begin + place_bytes, 4) > file.size())
             return false;
     }
     return true;
@@ -192,8 +193,41 @@ Result<Bytes> encode(const std::string& path, const Image& image, const char* fo
     spec.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);
     if (!output->open(path, spec) || !output->write_image(spec.format, image.bytes.data()) || !output->close())
         return error("the image cannot be encoded", output->geterror());
-    if (std::strcmp(format, "openexr") == 0 && !has_all_chunks(bytes, image.height))
+    if (std::strcmp(format, "openexr") == 0 && !has_all_chunks(bytes, (static_cast<std::size_t>(image.height) + 15) / 16, 4))
         return error("the image cannot be encoded", "not all rows were written");
+    return bytes;
+}
+
+Result<Bytes> encode_levels(const std::string& path, const std::vector<Image>& levels)
+{
+    constexpr int kTile = 64;
+    const auto error = [&](const std::string& message) {
+        return Error{ExitCode::output_failed, path, "", "the levels cannot be encoded: " + first_line(message)};
+    };
+    configure_openimageio();
+    Bytes bytes;
+    OIIO::Filesystem::IOVecOutput writer(bytes);
+    OIIO::Filesystem::IOProxy* proxy = &writer;
+    std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create("openexr");
+    if (!output)
+        return error(OIIO::geterror());
+    std::size_t tiles = 0;
+    for (std::size_t l = 0; l < levels.size(); ++l) {
+        OIIO::ImageSpec spec = spec_of(levels[l], "openexr", {});
+        spec.set_format(OIIO::TypeDesc::HALF);
+        spec.tile_width = spec.tile_height = kTile, spec.tile_depth = 1;
+        spec.attribute("textureformat", "Plain Texture");
+        spec.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);
+        if (!output->open(path, spec, l == 0 ? OIIO::ImageOutput::Create : OIIO::ImageOutput::AppendMIPLevel) ||
+            !output->write_image(OIIO::TypeDesc::FLOAT, levels[l].bytes.data()))
+            return error(output->geterror());
+        tiles += static_cast<std::size_t>((spec.width + kTile - 1) / kTile) * static_cast<std::size_t>((spec.height + kTile - 1) / kTile);
+    }
+    if (!output->close())
+        return error(output->geterror());
+    output.reset(); // a file with levels is kept open until then, and has no table of its chunks
+    if (!has_all_chunks(bytes, tiles, 16))
+        return error("not all tiles were written");
     return bytes;
 }
 
@@ -203,6 +237,6 @@ Result<Bytes> encode(const std::string& path, const Image& image, const char* fo
 extern "C" __attribute__((visibility("default"))) const burnish::ImageLibrary* burnish_image_library();
 extern "C" const burnish::ImageLibrary* burnish_image_library()
 {
-    static const burnish::ImageLibrary library = {burnish::read, burnish::encode};
+    static const burnish::ImageLibrary library = {burnish::read, burnish::encode, burnish::encode_levels};
     return &library;
 }

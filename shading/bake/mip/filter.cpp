@@ -32,11 +32,6 @@ bool takes_kappa(MipFilter filter)
     return filter == kMipFilter_kappa || filter == kMipFilter_mipnet;
 }
 
-float usual_kappa(bool ggx_normals)
-{
-    return ggx_normals ? 0.7f : 1.8f;
-}
-
 float gain_of_taps(MipFilter filter, float kappa)
 {
     if (takes_kappa(filter))

@@ -22,7 +22,6 @@ const std::vector<MipFilterInfo>& mip_filters(); // from shading/models.def, by 
 
 bool makes_lobes(MipFilter filter); // levels of lobes, all but box and lean
 bool takes_kappa(MipFilter filter);
-float usual_kappa(bool ggx_normals); // of filter kappa: shares of the covariance of normals that make the least error (bench/README.md)
 
 // What the normals of a fetch's texels differ by, as part of the lobe's covariance: (gain n)(gain n)^T of x and y of unit normals.
 float gain_of_taps(MipFilter filter, float kappa);

@@ -8,6 +8,7 @@
 #include "core/base/check.h"
 #include "core/image/metrics/flip.h"
 #include "core/math/scalar_math.h"
+#include "core/scene/dress.h"
 #include "shading/bake/mip/levels.h"
 #include "shading/bake/mipnet/classical.h"
 #include "shading/bake/mipnet/fallback.h"
@@ -156,7 +157,7 @@ std::vector<Filter> filters_of(const Texels& level0, Lobe lobe, bool metal, cons
             for (std::size_t c = 0; c < kChannels; ++c)
                 to[c] = level0.channel[c][static_cast<std::size_t>(y) * side + static_cast<std::size_t>(x)];
         });
-        const double kappa = static_cast<double>(usual_kappa(lobe == Lobe::ggx_aniso));
+        const double kappa = static_cast<double>(kUsualMipKappa);
         const Comparison on = compare_on(sample, cascades[k], kappa, metal, jobs);
         const Method closed = on.prefers_kappa() ? Method::kappa : Method::baseline;
         filters.push_back({name + " auto", on.keeps_net() ? filters.back().levels : classical_pyramid(level0, closed, kappa)});

@@ -1,0 +1,221 @@
+#include "apps/bake/mip_textures.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fmt/core.h>
+
+#include "apps/cli/outputs.h"
+#include "core/base/file.h"
+#include "core/image/colour.h"
+#include "core/image/io/image_io.h"
+#include "core/image/io/png_write.h"
+#include "raster/frame/mip_files.h"
+#include "shading/bake/mip/anisotropy.h"
+#include "shading/bake/mip/grid.h"
+#include "shading/bake/mip/shown.h"
+#include "shading/bake/mip/source.h"
+#include "shading/bake/mip/standard_textures.h"
+
+namespace burnish {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// A map's channels as linear floats, times a factor each, at the points of a grid.
+Image linear_map(const Image& image, const Grid& grid, bool srgb, std::size_t first, int channels, const float* factor)
+{
+    Image to = make_image(grid.width, grid.height, channels, PixelType::f32);
+    float* out = to.f32();
+    for (int y = 0; y < grid.height; ++y)
+        for (int x = 0; x < grid.width; ++x)
+            for (std::size_t c = 0; c < static_cast<std::size_t>(channels); ++c)
+                *out++ = factor[c] * on_grid(image, grid, x, y, [&](std::size_t texel) {
+                             const float value = texel_channel(image, texel, first + c);
+                             const float finite = std::isfinite(value) ? value : 0.0f;
+                             return srgb && c < 3 && image.type != PixelType::f32 ? srgb_to_linear(finite) : finite;
+                         });
+    return to;
+}
+
+// (n.v)(n.l) of a texel that is seen and lit from above its surface.
+Image facing_of(const MipSource& source)
+{
+    Image to = make_image(source.width(), source.height(), 1, PixelType::f32);
+    std::vector<MipPoint> row(static_cast<std::size_t>(source.width()));
+    for (int y = 0; y < source.height(); ++y) {
+        source.row(y, row.data());
+        for (std::size_t x = 0; x < row.size(); ++x)
+            to.f32()[static_cast<std::size_t>(y) * row.size() + x] = std::max(row[x].n.z * row[x].n.z, 1e-4f);
+    }
+    return to;
+}
+
+std::vector<Image> metallic_levels(const Scene& scene, const Material& m, const MipSource& source, const MipArguments& a)
+{
+    if (!m.metallic_roughness_tex.used())
+        return {};
+    const Image& image =
+        scene.images[static_cast<std::size_t>(scene.textures[static_cast<std::size_t>(m.metallic_roughness_tex.texture)].image)];
+    const Grid grid = grid_of(source.maps());
+    const Image metallic = linear_map(image, grid, false, 2, 1, &m.metallic);
+    const Image facing = a.couple_albedo ? facing_of(source) : Image();
+    return colour_levels(metallic, {a.color_kernel, grid.wrap_s, grid.wrap_t, a.couple_albedo ? &facing : nullptr});
+}
+
+// Whether base colours lie as the normals do.
+bool colours_lie_alike(const Scene& scene, const Material& m)
+{
+    const TextureRef &a = m.base_color_tex, &b = m.normal_tex;
+    if (!b.used() || a.uv_set != b.uv_set || a.uv_transform != b.uv_transform)
+        return false;
+    const Texture &s = scene.textures[static_cast<std::size_t>(a.texture)], &t = scene.textures[static_cast<std::size_t>(b.texture)];
+    return s.wrap_s == t.wrap_s && s.wrap_t == t.wrap_t;
+}
+
+std::vector<Image> base_color_levels(const Scene& scene, const Material& m, const MipSource& source, const MipArguments& a,
+                                     std::vector<std::string>& warnings)
+{
+    const float factor[4] = {m.base_color.x, m.base_color.y, m.base_color.z, m.base_color.w};
+    if (!m.base_color_tex.used()) {
+        Image one = make_image(1, 1, 3, PixelType::f32);
+        std::copy_n(factor, 3, one.f32());
+        return {one};
+    }
+    const Texture& texture = scene.textures[static_cast<std::size_t>(m.base_color_tex.texture)];
+    const Image& image = scene.images[static_cast<std::size_t>(texture.image)];
+    const Grid grid = {image.width, image.height, texture.wrap_s, texture.wrap_t, texture.nearest};
+    const Image linear = linear_map(image, grid, true, 0, image.channels == 4 ? 4 : 3, factor);
+    const bool coupled = a.couple_albedo && colours_lie_alike(scene, m);
+    if (a.couple_albedo && !coupled)
+        warnings.push_back(fmt::format("material '{}' has base colours that lie otherwise than its normals: they are not coupled", m.name));
+    Image facing;
+    const float one = 1.0f;
+    if (coupled)
+        facing = linear_map(facing_of(source), grid, false, 0, 1, &one);
+    return colour_levels(linear, {a.color_kernel, texture.wrap_s, texture.wrap_t, coupled ? &facing : nullptr});
+}
+
+Image coded(const Image& unit, bool srgb)
+{
+    Image to = make_image(unit.width, unit.height, unit.channels, PixelType::u8);
+    for (std::size_t i = 0; i < to.bytes.size(); ++i) {
+        const bool alpha = unit.channels == 4 && i % 4 == 3;
+        const float x = std::clamp(unit.f32()[i], 0.0f, 1.0f);
+        to.bytes[i] = static_cast<std::byte>(static_cast<int>((srgb && !alpha ? linear_to_srgb(x) : x) * 255.0f + 0.5f));
+    }
+    return to;
+}
+
+Status add_levels(FileSet& files, const std::string& stem, const std::vector<Image>& levels, bool srgb, MipFormat format,
+                  std::vector<std::string>& names)
+{
+    if (format == MipFormat::exr_mip) {
+        names.push_back(stem + ".exr");
+        const Result<std::vector<std::uint8_t>> bytes = encode_exr_levels(names.back(), levels);
+        return bytes ? files.add(names.back(), bytes->data(), bytes->size()) : Status(bytes.error());
+    }
+    for (std::size_t l = 0; l < levels.size(); ++l) {
+        names.push_back(fmt::format("{}_{:02}.png", stem, l));
+        const Result<std::vector<std::uint8_t>> bytes = png_bytes(names.back(), coded(levels[l], srgb));
+        if (!bytes)
+            return bytes.error();
+        if (Status added = files.add(names.back(), bytes->data(), bytes->size()); !added)
+            return added;
+    }
+    return {};
+}
+
+struct Off {
+    double at = 0.0, between = 0.0; // texels
+};
+
+// Errors of shown levels of at most so many texels, each level counting alike, and the one that is worst between texels.
+constexpr std::size_t kMostShown = 1u << 14;
+
+std::string figures_of(const std::string& name, const StandardLevels& held, const MipSource& source, const MipLevels& levels,
+                       const ShownSurface& surface, const Jobs& jobs)
+{
+    const auto texels = [&](std::size_t l) { return held.normal[l].bytes.size() / (3 * sizeof(float)); };
+    std::size_t first = 0;
+    while (texels(first) > kMostShown)
+        ++first;
+    std::vector<Off> off(held.normal.size() - first);
+    jobs.parallel_for(off.size(), [&](std::size_t l, int) {
+        const auto by = [&](bool between) {
+            return shown_difference(standard_texels(held, first + l, between), filtered_texels(source, levels, first + l, between), surface)
+                .l1;
+        };
+        off[l] = {by(false), by(true)};
+    });
+    Off mean;
+    std::size_t worst = 0;
+    for (std::size_t l = 0; l < off.size(); ++l) {
+        mean.at += off[l].at / static_cast<double>(off.size()), mean.between += off[l].between / static_cast<double>(off.size());
+        worst = off[l].between > off[worst].between ? l : worst;
+    }
+    const Image& at = held.normal[first + worst];
+    return fmt::format("{}: L1 {:.5f} at texels, {:.5f} between them; most at level {}, {}x{}: {:.5f}\n", name, mean.at, mean.between,
+                       first + worst, at.width, at.height, off[worst].between);
+}
+
+} // namespace
+
+Result<WrittenTextures> write_mip_textures(const std::string& folder, const Scene& scene, const MaterialLevels& levels,
+                                           const MipArguments& a, const Jobs& jobs)
+{
+    std::error_code ignored;
+    const bool was_there = fs::exists(folder, ignored);
+    if (Status made = make_output_folder(folder); !made)
+        return made.error();
+    WrittenTextures written;
+    const auto write = [&]() -> Status {
+        FileSet files;
+        std::vector<std::string> materials;
+        for (const Material& m : scene.materials)
+            materials.push_back(m.name);
+        const std::vector<std::string> names = plain_names(materials);
+        for (std::size_t i = 0; i < levels.size(); ++i) {
+            if (!levels[i])
+                continue;
+            const Material& m = scene.materials[i];
+            const MipSource source = mip_source(scene, m);
+            StandardLevels made = standard_levels(source, *levels[i], metallic_levels(scene, m, source, a), m.metallic);
+            for (auto* maps : {&made.normal, &made.roughness, &made.anisotropy})
+                for (Image& map : *maps)
+                    map = a.format == MipFormat::png_levels ? rounded_to_codes(map) : rounded_to_halves(map);
+            const auto any = [](const Image& map) {
+                for (std::size_t t = 2; t < map.bytes.size() / sizeof(float); t += 3)
+                    if (map.f32()[t] > 0.0f)
+                        return true;
+                return false;
+            };
+            const std::string stem = (fs::path(folder) / names[i]).string();
+            struct Part {
+                const char* name;
+                std::vector<Image> levels;
+                bool srgb;
+            };
+            const std::vector<Image> colours = base_color_levels(scene, m, source, a, written.warnings);
+            std::vector<Part> parts = {
+                {"_normal", made.normal, false}, {"_metallic_roughness", made.roughness, false}, {"_base_color", colours, true}};
+            if (std::any_of(made.anisotropy.begin(), made.anisotropy.end(), any))
+                parts.push_back({"_anisotropy", made.anisotropy, false});
+            for (const Part& part : parts)
+                if (Status added = add_levels(files, stem + part.name, part.levels, part.srgb, a.format, written.files); !added)
+                    return added;
+            written.figures +=
+                figures_of(names[i], made, source, *levels[i], shown_surface(lobe_of_model(a.brdf), m.metallic > 0.5f), jobs);
+        }
+        return files.name_all();
+    };
+    if (const Status done = write(); !done) {
+        if (!was_there)
+            fs::remove(folder, ignored); // where it is empty
+        return done.error();
+    }
+    return written;
+}
+
+} // namespace burnish

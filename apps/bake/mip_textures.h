@@ -1,0 +1,22 @@
+// Levels of materials as folders of textures that other programs read.
+#pragma once
+#include <string>
+
+#include "apps/bake/mip.h"
+#include "core/jobs/jobs.h"
+#include "core/scene/scene.h"
+#include "raster/frame/pyramids.h"
+
+namespace burnish {
+
+struct WrittenTextures {
+    std::vector<std::string> files, warnings;
+    std::string figures; // lines: what the textures show wrong of their levels
+};
+
+// Into a folder, which is made: normals, metallic-roughness, anisotropy where a lobe has any, and base colours, as standard_textures.h has
+// them, by material. On failure nothing of them is left.
+Result<WrittenTextures> write_mip_textures(const std::string& folder, const Scene& scene, const MaterialLevels& levels,
+                                           const MipArguments& options, const Jobs& jobs);
+
+} // namespace burnish

@@ -1,0 +1,235 @@
+#include "apps/chart/mip_rows.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fmt/core.h>
+#include <map>
+
+#include "core/base/check.h"
+#include "core/base/clock.h"
+#include "shading/bake/mip/filter.h"
+#include "shading/bake/mipnet/net.h"
+#include "shading/bake/mipnet/shipped.h"
+#include "shading/surface/tensor.k.h"
+
+namespace burnish {
+
+namespace {
+
+using mipnet::Texels;
+
+struct TexelMaps { // of a material, as scenes have them
+    Image normal, roughness, direction;
+    MipMaps maps() const
+    {
+        MipMaps m;
+        m.normal = &normal, m.roughness = &roughness, m.direction = &direction, m.anisotropy_strength = 1.0f;
+        return m;
+    }
+};
+
+TexelMaps maps_of_texels(const Texels& t)
+{
+    TexelMaps maps;
+    for (Image* image : {&maps.normal, &maps.roughness, &maps.direction})
+        *image = make_image(t.width, t.height, 3, PixelType::f32);
+    for (std::size_t i = 0; i < t.count(); ++i) {
+        const float x = t.channel[0][i], y = t.channel[1][i], z = std::sqrt(std::max(1.0f - (x * x + y * y), 0.0f));
+        const tensor_axes axes = axes_of_tensor({t.channel[2][i], t.channel[3][i], t.channel[4][i]});
+        const float across = axes.alpha_v, along = std::min(std::max(axes.alpha_u, across), 1.0f);
+        const float strength = across < 1.0f ? std::sqrt((along - across) / (1.0f - across)) : 0.0f;
+        const float normal[3] = {0.5f + 0.5f * x, 0.5f + 0.5f * y, 0.5f + 0.5f * z}, rough[3] = {1.0f, std::sqrt(across), 1.0f};
+        const float direction[3] = {0.5f + 0.5f * axes.u.x, 0.5f + 0.5f * axes.u.y, strength};
+        std::copy_n(normal, 3, maps.normal.f32() + 3 * i), std::copy_n(rough, 3, maps.roughness.f32() + 3 * i);
+        std::copy_n(direction, 3, maps.direction.f32() + 3 * i);
+    }
+    return maps;
+}
+
+// What frames make of maps that are averaged each by itself: normal, roughness, s^2 d d^T, s^4 d d^T; and of slopes and their products.
+constexpr std::size_t kMeans = 15;
+using Means = std::array<float, kMeans>;
+
+Means means_of(const TexelMaps& maps, std::size_t i)
+{
+    const float* n = maps.normal.f32() + 3 * i;
+    const float* d = maps.direction.f32() + 3 * i;
+    const float x = 2.0f * d[0] - 1.0f, y = 2.0f * d[1] - 1.0f, s2 = d[2] * d[2];
+    const float nx = 2.0f * n[0] - 1.0f, ny = 2.0f * n[1] - 1.0f, nz = std::max(2.0f * n[2] - 1.0f, 1e-3f), sx = nx / nz, sy = ny / nz;
+    return {nx,
+            ny,
+            nz,
+            maps.roughness.f32()[3 * i + 1],
+            s2 * x * x,
+            s2 * y * y,
+            s2 * x * y,
+            s2 * s2 * x * x,
+            s2 * s2 * y * y,
+            s2 * s2 * x * y,
+            sx,
+            sy,
+            sx * sx,
+            sy * sy,
+            sx * sy};
+}
+
+std::vector<Texels> map_by_map(const TexelMaps& maps, bool lean)
+{
+    int side = maps.normal.width;
+    std::vector<Means> means(static_cast<std::size_t>(side) * static_cast<std::size_t>(side));
+    for (std::size_t i = 0; i < means.size(); ++i)
+        means[i] = means_of(maps, i);
+    std::vector<Texels> levels;
+    for (int l = 1; l <= kMipRowLevels; ++l) {
+        const std::size_t row = static_cast<std::size_t>(side), half = row / 2;
+        side /= 2;
+        Texels level = mipnet::make_texels(side, side);
+        std::vector<Means> coarse(half * half);
+        for (std::size_t y = 0; y < half; ++y)
+            for (std::size_t x = 0; x < half; ++x) {
+                Means& m = coarse[y * half + x];
+                for (std::size_t k = 0; k < kMeans; ++k)
+                    for (const std::size_t at :
+                         {2 * y * row + 2 * x, 2 * y * row + 2 * x + 1, (2 * y + 1) * row + 2 * x, (2 * y + 1) * row + 2 * x + 1})
+                        m[k] += 0.25f * means[at][k];
+                const float length = std::sqrt((m[0] * m[0] + m[1] * m[1]) + m[2] * m[2]);
+                slope_covariance s =
+                    covariance_from_tensors(m[3] * m[3], 1.0f, vec2_of(1.0f, 0.0f), vec3_of(m[4], m[5], m[6]), vec3_of(m[7], m[8], m[9]));
+                if (lean)
+                    s = sum_of_covariances(s, covariance_of_moments(vec2_of(m[10], m[11]), vec3_of(m[12], m[13], m[14])));
+                const lobe_tensor t = projected_tensor(tensor_of_covariance(s));
+                const float of[mipnet::kChannels] = {m[0] / length, m[1] / length, t.a, t.b, t.c};
+                for (std::size_t c = 0; c < mipnet::kChannels; ++c)
+                    level.channel[c][y * half + x] = of[c];
+            }
+        levels.push_back(std::move(level));
+        means.swap(coarse);
+    }
+    return levels;
+}
+
+std::vector<Texels> levels_by(MipFilter filter, const TexelMaps& maps, mipnet::Lobe lobe, float kappa, const Jobs& jobs)
+{
+    if (!makes_lobes(filter))
+        return map_by_map(maps, filter == kMipFilter_lean);
+    const MipLevels made = make_mip_levels(MipSource(maps.maps()), filter, kappa, jobs, mipnet::shipped_weights(lobe));
+    std::vector<Texels> levels;
+    for (std::size_t l = 0; l < kMipRowLevels; ++l)
+        levels.push_back(shown_texels(made.levels[l]));
+    return levels;
+}
+
+std::string family_of(const mipnet::TestMaterial& m)
+{
+    const std::size_t space = m.material.name.rfind(' ');
+    return m.set == "real" || space == std::string::npos ? m.material.name : m.material.name.substr(0, space);
+}
+
+// baseline's mean L1 by set, model and material says which are hard.
+void mark_hardest(std::vector<MipRow>& rows)
+{
+    std::map<std::pair<std::string, std::string>, std::map<std::string, double>> of;
+    for (const MipRow& row : rows)
+        if (row.filter == "baseline")
+            of[{row.set, row.brdf}][row.material] += row.error.l1;
+    for (auto& [place, materials] : of) {
+        std::vector<std::pair<double, std::string>> order;
+        for (const auto& [name, l1] : materials)
+            order.emplace_back(-l1, name);
+        std::sort(order.begin(), order.end());
+        order.resize((order.size() + 3) / 4);
+        for (MipRow& row : rows)
+            row.hardest =
+                row.hardest || (row.set == place.first && row.brdf == place.second &&
+                                std::any_of(order.begin(), order.end(), [&](const auto& hard) { return hard.second == row.material; }));
+    }
+}
+
+} // namespace
+
+std::vector<MipRow> mip_rows(const std::vector<mipnet::TestMaterial>& set, const std::vector<mipnet::Lobe>& lobes, float kappa,
+                             const Jobs& jobs)
+{
+    std::vector<MipRow> rows;
+    for (const mipnet::TestMaterial& m : set) {
+        const Texels& level0 = m.material.texels;
+        BN_CHECK(level0.width == level0.height && level0.width % (1 << kMipRowLevels) == 0);
+        const TexelMaps maps = maps_of_texels(level0);
+        for (const mipnet::Lobe lobe : lobes) {
+            std::vector<std::vector<Texels>> filters;
+            std::vector<double> ms;
+            for (std::size_t f = 0; f < mip_filters().size(); ++f) {
+                const double begin = wall_ms();
+                filters.push_back(levels_by(static_cast<MipFilter>(f), maps, lobe, kappa, jobs));
+                ms.push_back(wall_ms() - begin);
+            }
+            const auto errors = shown_errors(level0, filters, shown_surface(lobe, m.material.metal), jobs);
+            for (std::size_t f = 0; f < filters.size(); ++f)
+                for (std::size_t l = 0; l < kMipRowLevels; ++l)
+                    rows.push_back({m.set, family_of(m), m.material.name, mipnet::lobe_name(lobe), mip_filters()[f].name,
+                                    static_cast<int>(l) + 1, false, errors[f][l], ms[f]});
+        }
+    }
+    mark_hardest(rows);
+    return rows;
+}
+
+Json mip_rows_json(const std::vector<MipRow>& rows)
+{
+    Json all = Json::array();
+    for (const MipRow& r : rows) {
+        Json row = {{"set", r.set},     {"family", r.family},   {"material", r.material}, {"brdf", r.brdf},   {"mip_filter", r.filter},
+                    {"level", r.level}, {"hardest", r.hardest}, {"flip", r.error.flip},   {"l1", r.error.l1}, {"mse", r.error.mse},
+                    {"ms", r.ms}};
+        if (r.error.flip == 0.0) // too small a square
+            row["flip"] = nullptr;
+        all.push_back(std::move(row));
+    }
+    return all;
+}
+
+std::string mip_rows_csv(const std::vector<MipRow>& rows)
+{
+    std::string text = "set,family,material,brdf,mip_filter,level,hardest,flip,l1,mse,ms\n";
+    for (const MipRow& r : rows)
+        text +=
+            fmt::format("{},{},{},{},{},{},{},{},{:.6f},{:.6f},{:.2f}\n", r.set, r.family, r.material, r.brdf, r.filter, r.level,
+                        r.hardest ? 1 : 0, r.error.flip > 0.0 ? fmt::format("{:.6f}", r.error.flip) : "", r.error.l1, r.error.mse, r.ms);
+    return text;
+}
+
+std::string mip_summary(const std::vector<MipRow>& rows)
+{
+    struct Sum {
+        double flip = 0.0, l1 = 0.0, mse = 0.0;
+        int flips = 0, count = 0;
+    };
+    std::vector<std::pair<std::string, std::string>> order; // of what, filter
+    std::map<std::pair<std::string, std::string>, Sum> sums;
+    const auto add = [&](const std::string& what, const MipRow& r) {
+        const std::pair key(what, r.filter);
+        if (!sums.count(key))
+            order.push_back(key);
+        Sum& s = sums[key];
+        s.flip += r.error.flip, s.flips += r.error.flip > 0.0, s.l1 += r.error.l1, s.mse += r.error.mse, ++s.count;
+    };
+    for (const int pass : {0, 1, 2})
+        for (const MipRow& r : rows) {
+            if (pass == 0)
+                add(r.brdf + ", " + r.set, r);
+            else if (pass == 1 && r.hardest)
+                add(r.brdf + ", " + r.set + ", hardest quarter", r);
+            else if (pass == 2 && r.set != "real")
+                add(r.brdf + ", " + r.set + ", " + r.family, r);
+        }
+    std::string lines = fmt::format("{:48} {:12} {:>7} {:>7} {:>7} {:>8}\n", "model, set", "filter", "FLIP", "L1", "MSE", "L1 by");
+    for (const auto& key : order) {
+        const Sum &s = sums[key], &base = sums[{key.first, "baseline"}];
+        lines += fmt::format("{:48} {:12} {:7.1f} {:7.2f} {:7.2f} {:+7.1f}%\n", key.first, key.second, 1e3 * s.flip / std::max(s.flips, 1),
+                             1e3 * s.l1 / s.count, 1e3 * s.mse / s.count, 100.0 * (s.l1 / s.count / (base.l1 / base.count) - 1.0));
+    }
+    return lines;
+}
+
+} // namespace burnish

@@ -1,0 +1,32 @@
+// `burnish chart --mip`: what every mip filter gets wrong, level by level, of materials that are made in code and of pictured ones.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "apps/report/json.h"
+#include "core/jobs/jobs.h"
+#include "shading/bake/mip/shown.h"
+#include "shading/bake/mipnet/families.h"
+
+namespace burnish {
+
+struct MipRow {
+    std::string set, family, material, brdf, filter;
+    int level = 0;        // from 1 on
+    bool hardest = false; // of the quarter of its set and model that baseline gets the most of wrong (L1, mean over levels)
+    ShownError error;     // flip of squares of 16 texels a side or more; else 0
+    double ms = 0.0;      // all levels of the material, on the clock
+};
+
+inline constexpr int kMipRowLevels = 5;
+
+// Every filter of shading/models.def on every material, levels 1 to 5: by material, model, filter, level.
+std::vector<MipRow> mip_rows(const std::vector<mipnet::TestMaterial>& set, const std::vector<mipnet::Lobe>& lobes, float kappa,
+                             const Jobs& jobs);
+
+Json mip_rows_json(const std::vector<MipRow>& rows);
+std::string mip_rows_csv(const std::vector<MipRow>& rows);
+// Means by set, by family and of the hardest quarters, times 1000, a line each, with what baseline's L1 changes by.
+std::string mip_summary(const std::vector<MipRow>& rows);
+
+} // namespace burnish

@@ -1,0 +1,193 @@
+#include "shading/bake/mip/shown.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/check.h"
+#include "core/image/metrics/flip.h"
+#include "core/math/scalar_math.h"
+#include "shading/bake/mipnet/net.h"
+
+namespace burnish {
+namespace {
+
+using mipnet::Texels;
+using Numbers = std::vector<float>;
+
+constexpr int kShownPairs = 48, kShownLamps = 3, kLeastShownSide = 16;
+constexpr float kShownIntensity = 5.0f;
+
+struct ShownLight { // planes of a level
+    Numbers to_light, to_eye, intensity;
+};
+
+void put_unit(Numbers& planes, std::size_t count, std::size_t at, double x, double y, double z)
+{
+    const double inverse = 1.0 / std::sqrt(x * x + y * y + z * z);
+    planes[at] = static_cast<float>(x * inverse);
+    planes[count + at] = static_cast<float>(y * inverse), planes[2 * count + at] = static_cast<float>(z * inverse);
+}
+
+// The p-th pair: a light from anywhere above, an eye weighted by its cosine; the same for all texels.
+ShownLight shown_pair(int p, std::size_t count)
+{
+    mipnet::Random random(1000003u * static_cast<std::uint64_t>(p) + 17u);
+    ShownLight d = {Numbers(3 * count), Numbers(3 * count), Numbers(count, kShownIntensity)};
+    const double zi = random.between(0.1, 1.0), ti = random.between(0.0, 2.0 * kPi), zo = std::sqrt(random.between(0.01, 1.0)),
+                 to = random.between(0.0, 2.0 * kPi);
+    const double ri = std::sqrt(1.0 - zi * zi), ro = std::sqrt(std::max(1.0 - zo * zo, 0.0));
+    for (std::size_t at = 0; at < count; ++at) {
+        put_unit(d.to_light, count, at, ri * det_cos(ti), ri * det_sin(ti), zi);
+        put_unit(d.to_eye, count, at, ro * det_cos(to), ro * det_sin(to), zo);
+    }
+    return d;
+}
+
+// A lamp 1.5 away from the middle of the plane [-1, 1]^2, an eye far away near where the lamp is mirrored.
+ShownLight shown_lamp(int which, int side)
+{
+    constexpr double kLamps[kShownLamps][3] = {{0.0, 0.0, 1.5}, {0.75, 0.0, 1.3}, {0.3, 0.9, 1.16}};
+    constexpr double kEyes[kShownLamps][3] = {{0.0, 0.0, 1.0}, {-0.45, 0.1, 0.89}, {-0.3, -0.5, 0.81}};
+    const std::size_t row = static_cast<std::size_t>(side), count = row * row;
+    ShownLight d = {Numbers(3 * count), Numbers(3 * count), Numbers(count)};
+    const double *lamp = kLamps[which], *eye = kEyes[which];
+    for (std::size_t at = 0; at < count; ++at) {
+        const double dx = lamp[0] - ((static_cast<double>(at % row) + 0.5) / side * 2.0 - 1.0);
+        const double dy = lamp[1] - ((static_cast<double>(at / row) + 0.5) / side * 2.0 - 1.0), dz = lamp[2];
+        put_unit(d.to_light, count, at, dx, dy, dz);
+        put_unit(d.to_eye, count, at, eye[0], eye[1], eye[2]);
+        d.intensity[at] = static_cast<float>(static_cast<double>(kShownIntensity) / std::sqrt(std::sqrt(dx * dx + dy * dy + dz * dz)));
+    }
+    return d;
+}
+
+std::size_t whole_slots(std::size_t count)
+{
+    return (count + mipnet::kSlots - 1) / mipnet::kSlots * mipnet::kSlots;
+}
+
+Numbers radiance_of(const ShownSurface& s, const Texels& t, const ShownLight& d)
+{
+    Numbers planes, out(whole_slots(t.count()), 0.0f);
+    for (const std::vector<float>& channel : t.channel)
+        planes.insert(planes.end(), channel.begin(), channel.end());
+    pick<mipnet::Fns>().radiance(
+        {s.lobe, t.count(), planes.data(), d.to_light.data(), d.to_eye.data(), d.intensity.data(), s.f0, s.diffuse, out.data()});
+    return out;
+}
+
+Numbers displayed(const Numbers& radiance)
+{
+    Numbers to(radiance.size());
+    pick<mipnet::Fns>().toned(radiance.size(), radiance.data(), to.data());
+    return to;
+}
+
+Numbers averaged(const Numbers& from, int side) // of a square of side x side
+{
+    const std::size_t half = static_cast<std::size_t>(side / 2), row = static_cast<std::size_t>(side);
+    Numbers to(whole_slots(half * half), 0.0f);
+    for (std::size_t y = 0; y < half; ++y)
+        for (std::size_t x = 0; x < half; ++x) {
+            const std::size_t at = 2 * y * row + 2 * x;
+            to[y * half + x] = 0.25f * (from[at] + from[at + 1] + from[at + row] + from[at + row + 1]);
+        }
+    return to;
+}
+
+void add_difference(const Numbers& found, const Numbers& wanted, std::size_t count, ShownError& to)
+{
+    double l1 = 0.0, mse = 0.0;
+    for (std::size_t i = 0; i < count; ++i) {
+        const double e = static_cast<double>(found[i]) - static_cast<double>(wanted[i]);
+        l1 += std::fabs(e), mse += e * e;
+    }
+    to.l1 += l1 / static_cast<double>(count) / kShownPairs, to.mse += mse / static_cast<double>(count) / kShownPairs;
+}
+
+Image shown_square(const Numbers& radiance, int side)
+{
+    Image image = make_image(side, side, 3, PixelType::f32);
+    float* to = image.f32();
+    for (std::size_t i = 0; i < static_cast<std::size_t>(side) * static_cast<std::size_t>(side); ++i)
+        for (int c = 0; c < 3; ++c)
+            *to++ = radiance[i] / (1.0f + radiance[i]);
+    return image;
+}
+
+double mean_flip(const Image& wanted, const Image& found, const Jobs& jobs)
+{
+    const Image error = flip_ldr(wanted, found, {}, jobs).error;
+    const std::size_t count = static_cast<std::size_t>(error.width) * static_cast<std::size_t>(error.height);
+    double sum = 0.0;
+    for (std::size_t i = 0; i < count; ++i)
+        sum += static_cast<double>(error.f32()[i]);
+    return sum / static_cast<double>(count);
+}
+
+} // namespace
+
+ShownSurface shown_surface(mipnet::Lobe lobe, bool metal)
+{
+    return metal ? ShownSurface{lobe, 0.85f, 0.0f} : ShownSurface{lobe, 0.04f, 0.5f};
+}
+
+Texels shown_texels(const MipLevel& level)
+{
+    Texels to = mipnet::make_texels(level.width, level.height);
+    for (std::size_t i = 0; i < level.texels.size(); ++i) {
+        const MipTexel& t = level.texels[i];
+        const float of[mipnet::kChannels] = {t.nx, t.ny, t.a, t.b, t.c};
+        for (std::size_t c = 0; c < mipnet::kChannels; ++c)
+            to.channel[c][i] = of[c];
+    }
+    return to;
+}
+
+ShownError shown_difference(const Texels& a, const Texels& b, const ShownSurface& surface)
+{
+    BN_CHECK(a.width == b.width && a.height == b.height);
+    ShownError error;
+    for (int p = 0; p < kShownPairs; ++p) {
+        const ShownLight d = shown_pair(p, a.count());
+        add_difference(displayed(radiance_of(surface, a, d)), displayed(radiance_of(surface, b, d)), a.count(), error);
+    }
+    return error;
+}
+
+std::vector<std::vector<ShownError>> shown_errors(const Texels& level0, const std::vector<std::vector<Texels>>& filters,
+                                                  const ShownSurface& surface, const Jobs& jobs)
+{
+    const int levels = filters.empty() ? 0 : static_cast<int>(filters[0].size());
+    BN_CHECK(level0.width == level0.height && level0.width % (1 << levels) == 0);
+    std::vector<std::vector<ShownError>> errors(filters.size(), std::vector<ShownError>(static_cast<std::size_t>(levels)));
+    // Pairs and lamps are all added in one order, whatever the threads.
+    for (int p = 0; p < kShownPairs + kShownLamps; ++p) {
+        const bool pair = p < kShownPairs;
+        const auto light = [&](int side) {
+            return pair ? shown_pair(p, static_cast<std::size_t>(side) * static_cast<std::size_t>(side))
+                        : shown_lamp(p - kShownPairs, side);
+        };
+        Numbers truth = radiance_of(surface, level0, light(level0.width));
+        for (int l = 1; l <= levels; ++l) {
+            const int side = level0.width >> l;
+            truth = averaged(truth, 2 * side);
+            if (!pair && side < kLeastShownSide)
+                break;
+            const ShownLight d = light(side);
+            const Numbers wanted = pair ? displayed(truth) : Numbers();
+            jobs.parallel_for(filters.size(), [&](std::size_t f, int) {
+                const Texels& level = filters[f][static_cast<std::size_t>(l) - 1];
+                ShownError& to = errors[f][static_cast<std::size_t>(l) - 1];
+                const Numbers found = radiance_of(surface, level, d);
+                if (pair)
+                    add_difference(displayed(found), wanted, level.count(), to);
+                else
+                    to.flip += mean_flip(shown_square(truth, side), shown_square(found, side), Jobs(1)) / kShownLamps;
+            });
+        }
+    }
+    return errors;
+}
+
+} // namespace burnish

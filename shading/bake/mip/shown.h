@@ -1,0 +1,33 @@
+// How far levels of a material's normals and lobes are from what level 0 shows from afar, or from other levels: of what is reflected, as a
+// display has it.
+#pragma once
+#include <vector>
+
+#include "core/jobs/jobs.h"
+#include "shading/bake/mip/levels.h"
+#include "shading/bake/mipnet/texels.h"
+
+namespace burnish {
+
+struct ShownSurface {
+    mipnet::Lobe lobe = mipnet::Lobe::ggx_aniso;
+    float f0 = 0.85f, diffuse = 0.0f; // reflectances
+};
+ShownSurface shown_surface(mipnet::Lobe lobe, bool metal); // f0 .85, or .04 over a diffuse half
+
+struct ShownError {
+    double flip = 0.0;          // mean LDR-FLIP of x / (1 + x), over three lamps and eyes; of squares of 16 texels a side or more
+    double l1 = 0.0, mse = 0.0; // of x / (1 + x) encoded as sRGB, over 48 pairs of directions to light and eye
+};
+
+mipnet::Texels shown_texels(const MipLevel& level);
+
+// Of two levels of one size, texel by texel: l1 and mse.
+ShownError shown_difference(const mipnet::Texels& a, const mipnet::Texels& b, const ShownSurface& surface);
+
+// Each filter's levels beside level 0, lit at one to one, whose linear radiance is averaged: by filter, then level, the first of each being
+// level 1. level0: a square whose side is a multiple of 2^levels. filters: levels from 1 on, all filters as many.
+std::vector<std::vector<ShownError>> shown_errors(const mipnet::Texels& level0, const std::vector<std::vector<mipnet::Texels>>& filters,
+                                                  const ShownSurface& surface, const Jobs& jobs);
+
+} // namespace burnish

@@ -1,0 +1,214 @@
+// Levels as textures that other programs read, what halves keep of them, and how far levels are from the truth.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "core/simd/dispatch.h"
+#include "core/simd/half.h"
+#include "shading/bake/mip/colour_levels.h"
+#include "shading/bake/mip/filter.h"
+#include "shading/bake/mip/shown.h"
+#include "shading/bake/mip/standard_textures.h"
+#include "shading/bake/mip/texture.h"
+#include "shading/bake/mipnet/classical.h"
+#include "shading/bake/mipnet/evaluate.h"
+#include "shading/lang/records.h"
+#include "shading/surface/tensor.k.h"
+#include "tests/unit/bake/bake_test.h"
+
+namespace burnish {
+namespace {
+
+struct TexturedMaterial {
+    Image normal, roughness, direction;
+    MipMaps maps() const
+    {
+        MipMaps m;
+        m.normal = &normal, m.roughness = &roughness, m.direction = &direction, m.anisotropy_strength = 0.9f, m.anisotropy_rotation = 0.3f;
+        return m;
+    }
+};
+
+TexturedMaterial some_material(int width, int height, double lean)
+{
+    Random random(17);
+    TexturedMaterial m;
+    for (Image* image : {&m.normal, &m.roughness, &m.direction})
+        *image = make_image(width, height, 3, PixelType::f32);
+    for (std::size_t i = 0; i < static_cast<std::size_t>(width * height); ++i) {
+        const float x = random.in(-lean, lean), y = random.in(-lean, lean), turn = random.in(0.0, 6.2);
+        const float n[3] = {0.5f + 0.5f * x, 0.5f + 0.5f * y, 0.5f + 0.5f * std::sqrt(1.0f - x * x - y * y)};
+        const float d[3] = {0.5f + 0.5f * std::cos(turn), 0.5f + 0.5f * std::sin(turn), random.in(0.2, 0.8)};
+        std::copy_n(n, 3, m.normal.f32() + 3 * i), std::copy_n(d, 3, m.direction.f32() + 3 * i);
+        m.roughness.f32()[3 * i + 1] = random.in(0.2, 0.6);
+    }
+    return m;
+}
+
+double most_off(const mipnet::Texels& a, const mipnet::Texels& b)
+{
+    double most = 0.0;
+    for (std::size_t c = 0; c < mipnet::kChannels; ++c)
+        for (std::size_t i = 0; i < a.count(); ++i)
+            most = std::max(most, std::abs(static_cast<double>(a.channel[c][i]) - static_cast<double>(b.channel[c][i])));
+    return most;
+}
+
+TEST(mip_textures, hold_every_lobe_at_its_texel)
+{
+    const TexturedMaterial material = some_material(17, 8, 0.4);
+    const MipSource source(material.maps());
+    for (std::size_t f = 0; f < mip_filters().size(); ++f) {
+        if (!makes_lobes(static_cast<MipFilter>(f)))
+            continue;
+        const MipLevels levels = make_mip_levels(source, static_cast<MipFilter>(f), 0.7f, Jobs(1));
+        const StandardLevels held = standard_levels(source, levels, {}, 0.25f);
+        ASSERT_EQ(held.normal.size(), levels.levels.size() + 1);
+        EXPECT_EQ(held.roughness[2].f32()[2], 0.25f);
+        for (std::size_t l = 0; l < held.normal.size(); ++l) {
+            EXPECT_LT(most_off(standard_texels(held, l, false), filtered_texels(source, levels, l, false)), 2e-4)
+                << mip_filters()[f].name << l;
+            for (const Image* map : {&held.normal[l], &held.roughness[l], &held.anisotropy[l]})
+                for (std::size_t i = 0; i < map->bytes.size() / sizeof(float); ++i)
+                    ASSERT_TRUE(map->f32()[i] >= 0.0f && map->f32()[i] <= 1.0f);
+        }
+        const mipnet::Texels between = filtered_texels(source, levels, 0, true);
+        EXPECT_EQ(between.width, 16);
+        EXPECT_GT(most_off(standard_texels(held, 0, true), between), 1e-2); // directions and widths by chance do not average as numbers
+    }
+}
+
+// One lobe, tilted: textures of it lose nothing anywhere, as their numbers are the same at every texel.
+TEST(mip_textures, of_one_value_lose_nothing_between_texels)
+{
+    TexturedMaterial material = some_material(8, 8, 0.4);
+    for (Image* image : {&material.normal, &material.roughness, &material.direction})
+        for (std::size_t i = 1; i < 64; ++i)
+            std::copy_n(image->f32(), 3, image->f32() + 3 * i);
+    const MipSource source(material.maps());
+    const MipLevels levels = make_mip_levels(source, kMipFilter_kappa, 0.7f, Jobs(1));
+    const StandardLevels held = standard_levels(source, levels, {}, 0.0f);
+    for (std::size_t l = 0; l < held.normal.size(); ++l)
+        EXPECT_LT(most_off(standard_texels(held, l, true), filtered_texels(source, levels, l, true)), 2e-4);
+}
+
+// As frames hold them, a half and what it rounds away: alpha within 0.05 % down to the least, where normals are level.
+TEST(mip_textures, halves_keep_the_narrowest_lobes)
+{
+    const Texture sampler;
+    for (const float alpha : {0.002f, 0.0031f, 0.02f, 0.7f}) {
+        const float moment = kMomentScale * 0.5f * alpha * alpha;
+        float found = 0.0f;
+        for (const TextureEncoding encoding : {TextureEncoding::linear, TextureEncoding::residual}) {
+            const TexturePyramid p =
+                make_texture_pyramid(1, 1, sampler, encoding, [&](int, int, int, float* rgba) { std::fill_n(rgba, 4, moment); });
+            found += half_to_float(p.texels[4 * 4]); // the middle of 3 x 3 with its border
+        }
+        EXPECT_NEAR(std::sqrt(2.0f * found / kMomentScale), alpha, 5e-4f * alpha) << alpha;
+    }
+}
+
+// What the trainer's evaluation measures is what is measured here.
+TEST(mip_shown, errors_are_those_that_nets_are_judged_by)
+{
+    const Jobs jobs(1);
+    mipnet::TestMaterial m = {mipnet::make_material(mipnet::families().front(), 3, 64), "set"};
+    for (const mipnet::Lobe lobe : {mipnet::Lobe::ggx_aniso, mipnet::Lobe::beckmann, mipnet::Lobe::ashikhmin_shirley}) {
+        const std::vector<mipnet::Judged> judged = mipnet::judge({m}, lobe, {}, jobs);
+        std::vector<mipnet::Texels> levels = mipnet::classical_pyramid(m.material.texels, mipnet::Method::baseline);
+        levels.erase(levels.begin());
+        levels.resize(mipnet::kJudgedLevels);
+        const auto errors = shown_errors(m.material.texels, {levels}, shown_surface(lobe, m.material.metal), jobs);
+        ASSERT_EQ(judged.front().filter, "baseline");
+        for (std::size_t l = 1; l <= mipnet::kJudgedLevels; ++l) {
+            EXPECT_NEAR(errors[0][l - 1].l1, judged.front().level[l].l1, 1e-9);
+            EXPECT_NEAR(errors[0][l - 1].mse, judged.front().level[l].mse, 1e-9);
+            EXPECT_NEAR(errors[0][l - 1].flip, judged.front().level[l].flip, 1e-7);
+        }
+        EXPECT_EQ(shown_difference(levels[0], levels[0], shown_surface(lobe, true)).l1, 0.0);
+    }
+}
+
+Image gray_map(int width, int height, const std::function<double(int x, int y)>& value)
+{
+    Image image = make_image(width, height, 1, PixelType::f32);
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x)
+            image.f32()[y * width + x] = static_cast<float>(value(x, y));
+    return image;
+}
+
+TEST(colour_levels, are_exact_means_by_box_and_keep_one_colour_by_both)
+{
+    for (const auto& [width, height] : {std::pair(257, 129), {1, 64}, {1, 1}, {6, 5}}) {
+        Random random(3);
+        double sum = 0.0;
+        const Image map = gray_map(width, height, [&](int, int) { return random(); });
+        for (int i = 0; i < width * height; ++i)
+            sum += static_cast<double>(map.f32()[i]);
+        const std::vector<Image> levels = colour_levels(map, {});
+        EXPECT_EQ(levels.back().width * levels.back().height, 1);
+        EXPECT_NEAR(levels.back().f32()[0], sum / (width * height), 1e-6);
+        for (const WrapMode wrap : {WrapMode::repeat, WrapMode::clamp, WrapMode::mirror})
+            for (const Image& level :
+                 colour_levels(gray_map(width, height, [](int, int) { return 0.3; }), {ColourKernel::kaiser, wrap, wrap}))
+                for (int i = 0; i < level.width * level.height; ++i)
+                    ASSERT_NEAR(level.f32()[i], 0.3, 1e-6);
+    }
+}
+
+// Of waves, each at half its size: those that the level holds stay, those that it cannot hold go.
+TEST(colour_levels, by_kaiser_are_sharper_and_have_less_that_is_false)
+{
+    const auto left = [](double period, ColourKernel kernel) {
+        const Image map = gray_map(256, 1, [&](int x, int) { return 0.5 + 0.4 * std::cos(2.0 * 3.14159265358979 * (x + 0.5) / period); });
+        const Image level = colour_levels(map, {kernel})[1];
+        double square = 0.0;
+        for (int i = 0; i < level.width; ++i)
+            square += std::pow(static_cast<double>(level.f32()[i]) - 0.5, 2.0) / level.width;
+        return std::sqrt(2.0 * square) / 0.4;
+    };
+    EXPECT_GT(left(8.0, ColourKernel::kaiser), 0.97);
+    EXPECT_LT(left(8.0, ColourKernel::box), 0.93);
+    EXPECT_LT(left(2.56, ColourKernel::kaiser), 0.05);
+    EXPECT_GT(left(2.56, ColourKernel::box), 0.3);
+}
+
+// Ridges, level ones of one colour and steep ones of another, of a metal: how much of the mean radiance is of the steep ones' colour.
+TEST(colour_levels, that_are_coupled_have_less_than_half_the_error_of_colour)
+{
+    constexpr int kSide = 8;
+    mipnet::Texels t = mipnet::make_texels(kSide, kSide);
+    Image facing = gray_map(kSide, kSide, [](int, int) { return 1.0; }), steep = facing;
+    for (std::size_t i = 0; i < t.count(); ++i) {
+        const float nx = i % 2 == 0 ? 0.0f : i % 4 == 1 ? 0.8f : -0.8f;
+        t.channel[0][i] = nx, t.channel[2][i] = t.channel[3][i] = 0.3f;
+        facing.f32()[i] = 1.0f - nx * nx, steep.f32()[i] = nx == 0.0f ? 0.0f : 1.0f;
+    }
+    std::vector<float> planes;
+    for (const std::vector<float>& channel : t.channel)
+        planes.insert(planes.end(), channel.begin(), channel.end());
+    Random random(23);
+    double of_steep = 0.0, of_all = 0.0;
+    for (int pair = 0; pair < 4000; ++pair) { // eyes and lights weighted by their cosines
+        std::vector<float> to[2], intensity(t.count(), 1.0f), out(t.count());
+        for (std::vector<float>& d : to) {
+            const double r = std::sqrt(random()), turn = 6.283185307 * random();
+            for (const double part : {r * std::cos(turn), r * std::sin(turn), std::sqrt(1.0 - r * r)})
+                d.insert(d.end(), t.count(), static_cast<float>(part));
+        }
+        pick<mipnet::Fns>().radiance(
+            {mipnet::Lobe::ggx_aniso, t.count(), planes.data(), to[0].data(), to[1].data(), intensity.data(), 1.0f, 0.0f, out.data()});
+        for (std::size_t i = 0; i < t.count(); ++i)
+            of_all += static_cast<double>(out[i]), of_steep += static_cast<double>(out[i] * steep.f32()[i]);
+    }
+    const double truth = of_steep / of_all, box = static_cast<double>(colour_levels(steep, {}).back().f32()[0]);
+    const double coupled = static_cast<double>(colour_levels(steep, {.weight = &facing}).back().f32()[0]);
+    EXPECT_NEAR(box, 0.5, 1e-6);
+    EXPECT_LT(std::abs(coupled - truth), 0.5 * std::abs(box - truth)) << truth << " coupled " << coupled;
+}
+
+} // namespace
+} // namespace burnish
