@@ -15,6 +15,7 @@
 #include "core/base/file.h"
 #include "core/image/io/image_io.h"
 #include "shading/bake/mip/pyramid_file.h"
+#include "shading/lang/tables.h"
 
 namespace burnish {
 
@@ -47,6 +48,15 @@ Status write_preview(const std::string& folder, const Scene& scene, const Materi
         }
     }
     return {};
+}
+
+Value lobe_value(int& to)
+{
+    std::vector<std::string> names;
+    for (int lobe = 0; lobe < kLobeCount; ++lobe)
+        names.emplace_back(lobe_model(lobe).name);
+    return value_detail::name(
+        names, [&to](std::size_t i) { to = static_cast<int>(i); }, [&to] { return static_cast<std::size_t>(to); });
 }
 
 } // namespace

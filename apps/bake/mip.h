@@ -8,6 +8,7 @@
 #include "core/base/limits.h"
 #include "core/base/result.h"
 #include "core/image/image.h"
+#include "core/scene/dress.h"
 #include "shading/bake/mip/colour_levels.h"
 #include "shading/bake/mip/levels.h"
 #include "shading/bake/mipnet/mipnet_fns.h"
