@@ -12,7 +12,7 @@
 
 namespace burnish {
 
-enum class MipFallback { automatic, off }; // automatic: materials are left to closed forms where the net is worse than it may be
+enum class MipFallback { automatic, off };    // automatic: materials are left to closed forms where the net is worse than it may be
 inline constexpr float kUsualMipKappa = 0.7f; // of every model of lobes: makes the least error of the numbers tried (bench/README.md)
 
 struct Dress {              // empty: left as it is
