@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "core/scene/draw_tables.h"
+#include "raster/vulkan/prune.h"
 #include "raster/vulkan/shaders.h"
 
 namespace burnish {
@@ -129,19 +130,21 @@ void Pipelines::make_lean_layout()
     BN_VK(vkCreatePipelineLayout(context_.device(), &layout, nullptr, &lean_pipeline_layout_));
 }
 
-VkShaderModule Pipelines::module(const std::string& shader)
+VkShaderModule Pipelines::module(const std::string& shader, const Specialization& constants)
 {
-    const auto known = modules_.find(shader);
+    const std::string key = key_of(shader, constants);
+    const auto known = modules_.find(key);
     if (known != modules_.end())
         return known->second;
     const Result<std::vector<std::uint32_t>> words = shader_words(shader, folder_);
     if (!words)
         throw VulkanError{words.error()};
+    const std::vector<std::uint32_t> code = pruned(*words, constants);
     auto info = vk_struct<VkShaderModuleCreateInfo>(VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO);
-    info.codeSize = words->size() * sizeof(std::uint32_t), info.pCode = words->data();
+    info.codeSize = code.size() * sizeof(std::uint32_t), info.pCode = code.data();
     VkShaderModule made = VK_NULL_HANDLE;
     BN_VK(vkCreateShaderModule(context_.device(), &info, nullptr, &made));
-    return modules_[shader] = made;
+    return modules_[key] = made;
 }
 
 VkPipeline Pipelines::compute(const std::string& shader, const Specialization& constants)
@@ -152,7 +155,7 @@ VkPipeline Pipelines::compute(const std::string& shader, const Specialization& c
         return known->second;
     const SpecializationInfo specialization(constants);
     auto info = vk_struct<VkComputePipelineCreateInfo>(VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO);
-    info.stage = stage_info(VK_SHADER_STAGE_COMPUTE_BIT, module(shader), &specialization.info);
+    info.stage = stage_info(VK_SHADER_STAGE_COMPUTE_BIT, module(shader, constants), &specialization.info);
     info.layout = layout_;
     VkPipeline made = VK_NULL_HANDLE;
     BN_VK(vkCreateComputePipelines(context_.device(), context_.pipeline_cache(), 1, &info, nullptr, &made));
@@ -169,8 +172,8 @@ VkPipeline Pipelines::graphics(const GraphicsState& state, const Specialization&
         return known->second;
     const SpecializationInfo specialization(constants);
     const VkPipelineShaderStageCreateInfo stages[] = {
-        stage_info(VK_SHADER_STAGE_VERTEX_BIT, module(state.vertex), nullptr),
-        stage_info(VK_SHADER_STAGE_FRAGMENT_BIT, module(state.fragment), &specialization.info)};
+        stage_info(VK_SHADER_STAGE_VERTEX_BIT, module(state.vertex, {}), nullptr),
+        stage_info(VK_SHADER_STAGE_FRAGMENT_BIT, module(state.fragment, constants), &specialization.info)};
     auto input = vk_struct<VkPipelineVertexInputStateCreateInfo>(
         VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO); // stages fetch for themselves
     if (state.lean) {

@@ -67,7 +67,7 @@ class Pipelines {
 
   private:
     Pipelines(Context& context) : context_(context) {}
-    VkShaderModule module(const std::string& shader);
+    VkShaderModule module(const std::string& shader, const Specialization& constants);
     void make_lean_layout();
 
     Context& context_;
@@ -77,7 +77,7 @@ class Pipelines {
     VkDescriptorPool pool_ = VK_NULL_HANDLE;
     VkDescriptorSet set_ = VK_NULL_HANDLE;
     VkSampler sampler_ = VK_NULL_HANDLE;
-    std::map<std::string, VkShaderModule> modules_;
+    std::map<std::string, VkShaderModule> modules_; // pruned for their constants
     std::map<std::string, VkPipeline> pipelines_; // by everything that decides them
 };
 

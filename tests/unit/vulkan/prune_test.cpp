@@ -1,0 +1,92 @@
+// Stages under the values of their constants: valid SPIR-V with what these values leave, and no more.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <string_view>
+#include <unistd.h>
+
+#include "raster/frame/frame.h"
+#include "raster/vulkan/prune.h"
+#include "raster/vulkan/shaders.h"
+
+namespace burnish::test {
+namespace {
+
+using Words = std::vector<std::uint32_t>;
+
+Words stage(const char* name)
+{
+    return *shader_words(name, "");
+}
+
+// As a debugger finds it: "NAME(" begins glslc's name of a function.
+bool has_function(const Words& words, std::string name)
+{
+    name += '(';
+    return std::string_view(reinterpret_cast<const char*>(words.data()), words.size() * sizeof(words[0])).find(name) !=
+           std::string_view::npos;
+}
+
+std::int32_t bit_of_technique(std::string_view name)
+{
+    for (std::size_t at = 0; at < techniques().size(); ++at)
+        if (techniques()[at].name == name)
+            return 1 << at;
+    return 0;
+}
+
+TEST(prune, leaves_the_techniques_and_lobes_that_are_used)
+{
+    const Words all = stage("shade");
+    for (const char* kept : {"major_axis", "as_mc"}) {
+        const Words some = pruned(all, {bit_of_technique(kept), 1, 0, 0});
+        EXPECT_LT(some.size(), all.size() * 2 / 3) << kept;
+        for (const char* technique : {"major_axis", "as_mc", "filtered_is", "bent_normal"}) {
+            const std::string entry = std::string(technique) + "_specular";
+            EXPECT_TRUE(has_function(all, entry));
+            EXPECT_EQ(has_function(some, entry), std::string_view(kept) == technique) << entry << " where " << kept << " is used";
+        }
+        EXPECT_FALSE(has_function(some, "ward_eval")) << "asked in a function of its own, lobe_used()";
+        EXPECT_TRUE(has_function(all, "ward_eval"));
+    }
+}
+
+TEST(prune, leaves_everything_where_all_may_be_met)
+{
+    const Words all = stage("shade"), same = pruned(all, {-1, -1, 1, 1});
+    for (const char* name : {"major_axis_specular", "as_mc_specular", "ward_eval", "store_line"})
+        EXPECT_TRUE(has_function(same, name)) << name;
+}
+
+TEST(prune, gives_back_what_is_no_module)
+{
+    const Words all = stage("gather");
+    Words cut(all.begin(), all.end() - 1), other = all;
+    other[0] = 0;
+    for (const Words& words : {cut, other, Words{}, Words(all.begin(), all.begin() + 5)})
+        EXPECT_EQ(pruned(words, {}), words);
+}
+
+TEST(prune, makes_valid_modules)
+{
+    if (std::system("spirv-val --version > /dev/null 2>&1") != 0)
+        GTEST_SKIP() << "no spirv-val";
+    const std::string path = (std::filesystem::temp_directory_path() / ("burnish_prune_" + std::to_string(::getpid()) + ".spv")).string();
+    const struct {
+        const char* name;
+        std::vector<std::int32_t> constants;
+    } cases[] = {
+        {"shade", {0x2a, 0x15, 0, 1}}, {"share", {0x20, 1, 1, 1}}, {"forward_native", {1, 1, 0, 0, 0x155}}, {"lean", {1, 2, 3, 4, 5}}};
+    for (const auto& [name, constants] : cases) {
+        const Words words = pruned(stage(name), constants);
+        std::ofstream(path, std::ios::binary)
+            .write(reinterpret_cast<const char*>(words.data()), static_cast<std::streamsize>(words.size() * sizeof(words[0])));
+        EXPECT_EQ(std::system(("spirv-val --target-env vulkan1.3 '" + path + "'").c_str()), 0) << name;
+    }
+    std::filesystem::remove(path);
+}
+
+} // namespace
+} // namespace burnish::test
