@@ -23,7 +23,8 @@ Result<std::vector<std::uint8_t>> read_file(const std::string& path, std::uint64
 Status write_file_atomic(const std::string& path, const void* data, std::size_t size, Links links = Links::follow);
 
 // Files that belong together: what is added lies under temporary names, beside where it is to be, until name_all() gives all of them their
-// names. On failure, or without that, nothing is left; files that had the names are as they were.
+// names. Without that, or where one cannot be added, nothing is left and files that had the names are as they were; where name_all() fails
+// half-way, the first of them have their names.
 class FileSet {
   public:
     FileSet() = default;
