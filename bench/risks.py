@@ -62,9 +62,9 @@ JUDGED = (
 def floats(path):
     """A grey PFM's rows, top first."""
     data = path.read_bytes()
-    kind, width, height, scale = re.match(rb"(P[fF])\s+(\d+)\s+(\d+)\s+(\S+)\s", data).groups()
-    at = re.match(rb"(P[fF])\s+(\d+)\s+(\d+)\s+(\S+)\s", data).end()
-    values = array.array("f", data[at:])
+    head = re.match(rb"(P[fF])\s+(\d+)\s+(\d+)\s+(\S+)\s", data)
+    kind, width, height, scale = head.groups()
+    values = array.array("f", data[head.end():])
     assert kind == b"Pf" and float(scale) < 0
     w = int(width)
     return [list(values[w * y : w * (y + 1)]) for y in reversed(range(int(height)))]
@@ -107,9 +107,8 @@ def judge(program, folder, pair, samples):
             skip = max(0, skip - 1)
         run(*kept, "--backend", "reference", "--samples", str(samples), "-o", str(folder / "truth.pfm"))
         run(*common, "-o", str(folder / "test.pfm"), "-o", str(folder / "test.png"))
-        run(program, "compare", str(folder / "truth.pfm"), str(folder / "test.pfm"), "-q", "--error-map", str(folder / "flip.pfm"),
-            "--error-map", str(folder / "flip.pfm"))
-        run(program, "compare", str(folder / "truth.pfm"), str(folder / "test.pfm"), "-q", "--error-map", str(folder / "flip.png"))
+        for kind in ("pfm", "png"):
+            run(program, "compare", str(folder / "truth.pfm"), str(folder / "test.pfm"), "-q", "--error-map", str(folder / f"flip.{kind}"))
         (folder / "truth.exr").touch()
     words = run(*[w for w in common if w != "-q"], "--risks", str(folder / "risks.png"))
     flip, marks = floats(folder / "flip.pfm"), colours(folder / "risks.png")

@@ -94,6 +94,13 @@ std::vector<std::string> entry_ids()
 
 Result<AtlasSetting> setting_of(const AtlasEntry& entry, AtlasRole role, double s, int side, std::uint64_t samples)
 {
+    return SettingReader().read(entry, role, s, side, samples);
+}
+
+SettingReader::SettingReader() : command_{"render", "", render_option_table(arguments_), "", {}} {}
+
+Result<AtlasSetting> SettingReader::read(const AtlasEntry& entry, AtlasRole role, double s, int side, std::uint64_t samples)
+{
     const auto wrong = [&](Error error) {
         error.place = fmt::format("{}: {}", entry.id, error.place);
         return error;
@@ -102,26 +109,25 @@ Result<AtlasSetting> setting_of(const AtlasEntry& entry, AtlasRole role, double 
     if (!paths)
         return wrong(paths.error());
     AtlasSetting out;
-    RenderArguments arguments;
-    Command command{"render", "", render_option_table(arguments), "", {}};
+    arguments_ = {};
     const std::vector<std::string> own = own_words(entry, role, samples);
     std::vector<std::string> words = words_of(fmt::format("{0} --size {1}x{1} --no-background -q", entry.words, side));
     words.insert(words.end(), own.begin(), own.end());
-    if (const Status read = read_command_line(command, words); !read)
+    if (const Status read = read_command_line(command_, words); !read)
         return wrong(read.error());
     for (const OptionPath& path : *paths) {
         const std::string value = value_at(path, s);
         out.values += fmt::format("{}{} {}", out.values.empty() ? "" : ", ", path.option.substr(2), value);
         if (std::find(own.begin(), own.end(), path.option) != own.end())
             continue; // it stays as the role has it
-        if (const Status set = command.options.set(path.option, value); !set)
+        if (const Status set = command_.options.set(path.option, value); !set)
             return wrong(set.error());
     }
-    const Result<RenderOptions> options = check_render_options(arguments, command.options);
+    const Result<RenderOptions> options = check_render_options(arguments_, command_.options);
     if (!options)
         return wrong(options.error());
     out.options = *options;
-    set_keys(command.options, words, out);
+    set_keys(command_.options, words, out);
     return out;
 }
 

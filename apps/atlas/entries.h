@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/cli/command.h"
 #include "apps/render/animate.h"
 #include "apps/render/options.h"
 
@@ -35,6 +36,18 @@ struct AtlasSetting {
 enum class AtlasRole { test, cure, truth };
 // At s in [0,1], `side` pixels wide and high. Of the truth `samples` a pixel; 0: as the entry's truth needs.
 Result<AtlasSetting> setting_of(const AtlasEntry& entry, AtlasRole role, double s, int side, std::uint64_t samples);
+
+// The same, one after another: the table of options takes longer to make than to be read by.
+class SettingReader {
+  public:
+    SettingReader();
+    SettingReader(const SettingReader&) = delete;
+    Result<AtlasSetting> read(const AtlasEntry& entry, AtlasRole role, double s, int side, std::uint64_t samples);
+
+  private:
+    RenderArguments arguments_;
+    Command command_; // refers to them
+};
 
 // What of models.def an entry is about, by what its options say: "technique bent_normal", "area light ltc", "model ward", "mip filter
 // lean".

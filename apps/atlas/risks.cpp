@@ -4,6 +4,7 @@
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <cstring>
 #include <fmt/core.h>
 
 #include "apps/atlas/assets.h"
@@ -11,6 +12,7 @@
 #include "apps/atlas/table.h"
 #include "apps/cli/parse.h"
 #include "core/base/check.h"
+#include "shading/bake/environment/cube_map.h"
 #include "shading/bake/environment/turn.h"
 #include "shading/lang/tables.h"
 
@@ -41,6 +43,8 @@ constexpr Rule kRules[] = {
 #include "apps/atlas/risks.def"
 };
 
+static_assert(std::size(kRules) <= 32, "a pixel's rules are the bits of a word");
+
 // Errors of entries are means over pictures; single pixels are far off before.
 constexpr float kEarly = 0.4f; // of the onset's measure
 constexpr std::size_t kChanges = 0
@@ -51,7 +55,7 @@ using Changes = std::array<float, kChanges>;
 constexpr Changes kSeen = {0.12f, 0.12f, 0.12f, 0.25f, 0.2f, 0.0f}; // by Change: of the logarithm of what a pixel shows
 constexpr float kBlack = 0.1f;                                      // of the picture's median luminance: what is told apart from black
 
-constexpr int kLookedAt = 60000, kMostStep = 16; // pixels of a picture, about; one of a square of 16 x 16 at least
+constexpr int kLookedAt = 30000, kMostStep = 16; // pixels of a picture, about; one of a square of 16 x 16 at least
 constexpr float kUsualNdotV = 0.7f;              // of an entry's, where it is not along the path
 constexpr std::uint8_t kUnmarkedGrey = 48;
 struct Active { // a rule that a picture may break
@@ -75,6 +79,7 @@ Result<std::vector<Active>> active_rules(const FrameDesc& desc)
     if (!table)
         return table.error();
     std::vector<Active> out;
+    SettingReader reader;
     for (std::size_t r = 0; r < std::size(kRules); ++r) {
         const Rule& rule = kRules[r];
         const std::array<bool, 2> told = {names(rule.readers, technique_of(desc, false).name),
@@ -87,10 +92,10 @@ Result<std::vector<Active>> active_rules(const FrameDesc& desc)
                 continue;
             const double onset = rows->second.at(rule.entry).onset;
             const AtlasEntry& entry = *find_entry(rule.entry);
-            const Result<AtlasSetting> setting = setting_of(entry, AtlasRole::test, onset, kQuickWalk.side, 0);
+            const Result<AtlasSetting> setting = reader.read(entry, AtlasRole::test, onset, kQuickWalk.side, 0);
             if (!setting)
                 return setting.error();
-            out.push_back({r, kEarly * rule.measure(inputs_of_entry(entry, onset)), setting->values, told});
+            out.push_back({r, kEarly * rule.measure(inputs_of_setting(setting->options)), setting->values, told});
             break;
         }
     }
@@ -99,14 +104,52 @@ Result<std::vector<Active>> active_rules(const FrameDesc& desc)
 
 float luminance_of(const float* rgb)
 {
-    return 0.2126f * rgb[0] + 0.7152f * rgb[1] + 0.0722f * rgb[2];
+    return static_cast<float>(kLuminance[0]) * rgb[0] + static_cast<float>(kLuminance[1]) * rgb[1] +
+           static_cast<float>(kLuminance[2]) * rgb[2];
+}
+
+RiskInputs at_pixel(RiskInputs i, const PixelLayers& at)
+{
+    const float alpha = at.roughness[0] * at.roughness[0];
+    i.along = alpha * (1.0f + at.anisotropy[0]), i.across = alpha * (1.0f - at.anisotropy[0]);
+    return i;
+}
+
+bool shaded(const PixelLayers& at)
+{
+    return at.normal[0] != 0.0f || at.normal[1] != 0.0f || at.normal[2] != 0.0f;
+}
+
+// alpha_lin of lobes that a pixel's is made of: along the grain, in its place, bent.
+float narrow_of(const RiskInputs& i)
+{
+    return std::sqrt(std::max(i.across, 0.3f * i.along));
+}
+float round_of(const RiskInputs& i)
+{
+    return std::sqrt(i.alpha());
+}
+float bent_of(const RiskInputs& i)
+{
+    return round_of(i) * std::clamp(1.2f - i.eta(), 0.0f, 1.0f);
+}
+
+float least_width(const Frame& frame)
+{
+    float least = 1.0f;
+    for (const PixelLayers& at : frame.layers)
+        if (shaded(at)) {
+            const RiskInputs i = at_pixel({}, at);
+            least = std::min({least, narrow_of(i), bent_of(i)}); // no wider than round_of
+        }
+    return least;
 }
 
 // Looks at pixels of one picture.
 class Looker {
   public:
     Looker(const Session& session, const FrameDesc& desc, const RiskInputs& inputs, const Frame& frame)
-        : sky_(*session.parts().environment), desc_(desc), inputs_(inputs), frame_(frame),
+        : sky_(*session.parts().environment, least_width(frame)), desc_(desc), inputs_(inputs), frame_(frame),
           turn_(sky_from_world(session.parts().environment->rotation_deg))
     {
         turned_ = session.parts().environment->rotation_deg != 0.0f;
@@ -117,10 +160,6 @@ class Looker {
     }
     // Bits by place in `active`; the one that is furthest beyond.
     std::uint32_t look(int x, int y, const std::vector<Active>& active, std::uint8_t& furthest) const;
-    bool shaded(std::size_t pixel) const
-    {
-        return frame_.layers[pixel].normal[0] != 0.0f || frame_.layers[pixel].normal[1] != 0.0f || frame_.layers[pixel].normal[2] != 0.0f;
-    }
 
   private:
     struct Lamp {
@@ -130,7 +169,7 @@ class Looker {
     glm::vec2 key_lights(const glm::vec3& n, const glm::vec3& u, const glm::vec3& w, const RiskInputs& i, const glm::vec3& v) const;
     float median() const;
     glm::vec3 to_eye(int x, int y) const;
-    Changes changes(const PixelLayers& at, const RiskInputs& i, const glm::vec3& v) const;
+    Changes changes(const PixelLayers& at, const RiskInputs& i, const glm::vec3& v, std::uint32_t asked) const;
     float seen(const glm::vec3& h, const glm::vec3& v, float alpha_lin) const // mirrored about h, any length
     {
         const glm::vec3 d = h * (2.0f * glm::dot(h, v) / glm::dot(h, h)) - v;
@@ -152,7 +191,7 @@ float Looker::median() const
     std::vector<float> some;
     const std::size_t pixels = frame_.layers.size(), step = 1 + pixels / 20000;
     for (std::size_t p = 0; p < pixels; p += step)
-        if (shaded(p))
+        if (shaded(frame_.layers[p]))
             some.push_back(luminance_of(frame_.color.f32() + 3 * p));
     if (some.empty())
         return 0.0f;
@@ -193,16 +232,17 @@ glm::vec2 Looker::key_lights(const glm::vec3& n, const glm::vec3& u, const glm::
     return sum;
 }
 
-// How far apart two pictures of the lobe are, as logarithms of what is seen of them.
-Changes Looker::changes(const PixelLayers& at, const RiskInputs& i, const glm::vec3& v) const
+// How far apart two pictures of the lobe are, as logarithms of what is seen of them; of Changes whose bits are not asked for any number.
+Changes Looker::changes(const PixelLayers& at, const RiskInputs& i, const glm::vec3& v, std::uint32_t asked) const
 {
+    const auto wanted = [&](Change change) { return (asked >> static_cast<unsigned>(change) & 1u) != 0; };
     const glm::vec3 n(at.normal[0], at.normal[1], at.normal[2]), u(at.tangent[0], at.tangent[1], at.tangent[2]), w = glm::cross(n, u);
     const float luminance = luminance_of(at.albedo), f0 = 0.04f + (luminance - 0.04f) * at.metalness[0];
     const float away = 1.0f - i.n_dot_v, away2 = away * away, fresnel = f0 + (1.0f - f0) * away2 * away2 * away;
     const float other = luminance * (1.0f - at.metalness[0]) * sky_.diffuse(turned_ ? turn_ * n : n) + black_;
     // Of GGX's slopes along one axis, (1 + t^2)^-1.5, the middles of fifths.
     constexpr float kPlaces[] = {-1.3333f, -0.4364f, 0.0f, 0.4364f, 1.3333f};
-    const float narrow = std::sqrt(std::max(i.across, 0.3f * i.along)), round = std::sqrt(i.alpha());
+    const float narrow = narrow_of(i), round = round_of(i);
     float sum = 0.0f, least = 1e30f, most = 0.0f;
     const auto tap = [&](const glm::vec3& h) {
         const float value = fresnel * seen(h, v, narrow) + other;
@@ -216,11 +256,11 @@ Changes Looker::changes(const PixelLayers& at, const RiskInputs& i, const glm::v
         if (t == 0.0f)
             middle = value;
     }
-    for (const float t : {-1.0f, 1.0f})
-        tap(n + w * (t * std::max(i.across, 0.01f)));
-    const float f = fresnel, one = f * seen(n, v, round);
-    const float eta = i.eta(), stretch = std::min(eta * std::min(1.5f * std::sqrt(round), 1.0f), 0.999f);
-    const float bent = f * seen(n * (1.0f - stretch) + (v - w * glm::dot(v, w)) * stretch, v, round * std::clamp(1.2f - eta, 0.0f, 1.0f));
+    if (wanted(Change::around) || wanted(Change::noise))
+        for (const float t : {-1.0f, 1.0f})
+            tap(n + w * (t * std::max(i.across, 0.01f)));
+    const float f = fresnel, one = wanted(Change::round) ? f * seen(n, v, round) : 0.0f, stretch = std::min(measure_bend(i), 0.999f);
+    const float bent = wanted(Change::bent) ? f * seen(n * (1.0f - stretch) + (v - w * glm::dot(v, w)) * stretch, v, bent_of(i)) : 0.0f;
     const glm::vec2 key = f * key_lights(n, u, w, i, v); // of the lobe as it is, and round
     const auto apart = [](float a, float b) { return std::abs(std::log(a / b)); };
     const float mean = sum + key.x, spread = std::log((most + key.x) / (least + key.x));
@@ -234,21 +274,27 @@ std::uint32_t Looker::look(int x, int y, const std::vector<Active>& active, std:
     const std::size_t pixel = static_cast<std::size_t>(y) * static_cast<std::size_t>(desc_.width) + static_cast<std::size_t>(x);
     const PixelLayers& at = frame_.layers[pixel];
     const glm::vec3 v = to_eye(x, y);
-    RiskInputs i = inputs_;
-    const float alpha = at.roughness[0] * at.roughness[0];
-    i.along = alpha * (1.0f + at.anisotropy[0]), i.across = alpha * (1.0f - at.anisotropy[0]);
+    RiskInputs i = at_pixel(inputs_, at);
     i.n_dot_v = std::clamp(v.x * at.normal[0] + v.y * at.normal[1] + v.z * at.normal[2], 0.0f, 1.0f);
-    const Changes change = changes(at, i, v);
+    std::array<float, std::size(kRules)> beyond{};
+    std::uint32_t asked = 0;
+    for (std::size_t a = 0; a < active.size(); ++a) {
+        const Rule& rule = kRules[active[a].rule];
+        beyond[a] = active[a].told[at.anisotropy[0] > 0.0f] ? rule.measure(i) / active[a].least : 0.0f;
+        asked |= beyond[a] > 1.0f ? 1u << static_cast<unsigned>(rule.change) : 0u;
+    }
+    if (asked == 0)
+        return 0;
+    const Changes change = changes(at, i, v, asked);
     std::uint32_t bits = 0;
     float far = 0.0f;
     for (std::size_t a = 0; a < active.size(); ++a) {
-        const Rule& rule = kRules[active[a].rule];
-        const float beyond = rule.measure(i) / active[a].least, seen = change[static_cast<std::size_t>(rule.change)];
-        if (!active[a].told[at.anisotropy[0] > 0.0f] || !(beyond > 1.0f) || seen < kSeen[static_cast<std::size_t>(rule.change)])
+        const std::size_t kind = static_cast<std::size_t>(kRules[active[a].rule].change);
+        if (!(beyond[a] > 1.0f) || change[kind] < kSeen[kind])
             continue;
         bits |= 1u << a;
-        if (beyond * seen > far)
-            far = beyond * seen, furthest = static_cast<std::uint8_t>(2 + active[a].rule);
+        if (beyond[a] * change[kind] > far)
+            far = beyond[a] * change[kind], furthest = static_cast<std::uint8_t>(2 + active[a].rule);
     }
     return bits;
 }
@@ -282,7 +328,11 @@ RiskInputs inputs_of_entry(const AtlasEntry& entry, double s)
 {
     const Result<AtlasSetting> setting = setting_of(entry, AtlasRole::test, s, 64, 0);
     BN_CHECK(setting);
-    const RenderOptions& o = setting->options;
+    return inputs_of_setting(setting->options);
+}
+
+RiskInputs inputs_of_setting(const RenderOptions& o)
+{
     Environment environment;
     environment.specular.size = o.environment.cube_size;
     RiskInputs i = inputs_of_frame(o.frame, environment);
@@ -320,7 +370,7 @@ Result<RiskMap> mark_risks(Session& session, const FrameDesc& desc)
         Counts& c = counts[y];
         for (std::size_t x = 0; x < static_cast<std::size_t>(probe.width); ++x) {
             const std::size_t p = y * static_cast<std::size_t>(probe.width) + x;
-            if (!looker.shaded(p))
+            if (!shaded(frame->layers[p]))
                 continue;
             map.marks[p] = 1;
             const std::uint32_t bits = looker.look(static_cast<int>(x), static_cast<int>(y), *active, map.marks[p]);
@@ -352,14 +402,17 @@ Result<RiskMap> mark_risks(Session& session, const FrameDesc& desc)
 Image risk_picture(const RiskMap& map, int width, int height)
 {
     Image out = make_image(width, height, 3, PixelType::u8);
+    std::array<std::array<std::uint8_t, 3>, 2 + std::size(kRules)> colours{};
+    colours[1].fill(kUnmarkedGrey);
+    for (std::size_t rule = 0; rule < std::size(kRules); ++rule)
+        colours[2 + rule] = colour_of(rule);
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x) {
             const int from = y * map.height / height * map.width + x * map.width / width;
-            const std::uint8_t mark = map.marks[static_cast<std::size_t>(from)];
-            const std::array<std::uint8_t, 3> rgb = mark >= 2 ? colour_of(mark - 2u) : std::array<std::uint8_t, 3>{};
-            for (int c = 0; c < 3; ++c)
-                out.bytes[static_cast<std::size_t>(3 * (y * width + x) + c)] =
-                    static_cast<std::byte>(mark == 1 ? kUnmarkedGrey : rgb[static_cast<std::size_t>(c)]);
+            const std::array<std::uint8_t, 3>& rgb = colours[map.marks[static_cast<std::size_t>(from)]];
+            std::memcpy(out.bytes.data() +
+                            3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)),
+                        rgb.data(), 3);
         }
     return out;
 }

@@ -25,8 +25,9 @@ struct RiskInputs {
 
 // What is the same in all of a picture.
 RiskInputs inputs_of_frame(const FrameDesc& desc, const Environment& environment);
-// Of an entry's failing picture at s.
+// Of an entry's failing picture at s; of a picture of its options.
 RiskInputs inputs_of_entry(const AtlasEntry& entry, double s);
+RiskInputs inputs_of_setting(const RenderOptions& o);
 
 struct RiskFinding {
     std::string technique, entry, says; // of risks.def
@@ -36,7 +37,7 @@ struct RiskFinding {
 
 struct RiskMap {
     std::vector<RiskFinding> findings; // the most first; those of no pixel are left out
-    int width = 0, height = 0;         // of marks: a picture of at most 60000 pixels or so of the same view
+    int width = 0, height = 0;         // of marks: a picture of at most 30000 pixels or so of the same view
     std::vector<std::uint8_t> marks;   // [pixel] 0: not shaded; 1: nothing known; 2 + place in risks.def of what it is furthest beyond
     double share = 0.0;                // of the shaded pixels that anything marks
     double ms = 0.0;

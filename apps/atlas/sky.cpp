@@ -11,14 +11,23 @@ namespace {
 
 constexpr int kMostSide = 128; // texels: finer ones are not told apart
 
+// Which components of a direction are a face's coordinates, and their signs, as cube_map.h has them.
+struct Face {
+    std::size_t u, v;
+    float u_sign, v_sign;
+};
+constexpr Face kFaces[6] = {{2, 1, -1.0f, -1.0f}, {2, 1, 1.0f, -1.0f}, {0, 2, 1.0f, 1.0f},
+                            {0, 2, 1.0f, -1.0f},  {0, 1, 1.0f, -1.0f}, {0, 1, -1.0f, -1.0f}};
+
 } // namespace
 
-Sky::Sky(const Environment& environment)
+Sky::Sky(const Environment& environment, float least)
 {
     const CubeMap& cube = environment.specular;
     last_ = static_cast<float>(cube.levels - 1);
     while (first_ + 1 < cube.levels && (cube.size >> first_) > kMostSide)
         ++first_;
+    first_ = std::clamp(level_of(least), first_, cube.levels - 1);
     for (int l = first_; l < cube.levels; ++l) {
         Level& level = levels_.emplace_back();
         level.size = cube.size >> l;
@@ -40,18 +49,13 @@ Sky::Sky(const Environment& environment)
 float Sky::at(const glm::vec3& d, int wanted) const
 {
     const Level& level = levels_[static_cast<std::size_t>(std::clamp(wanted - first_, 0, static_cast<int>(levels_.size()) - 1))];
-    const float ax = std::abs(d.x), ay = std::abs(d.y), az = std::abs(d.z), major = std::max({ax, ay, az});
-    int face;
-    float u, v; // as cube_map.h has them
-    if (major == ax)
-        face = d.x > 0.0f ? 0 : 1, u = d.x > 0.0f ? -d.z : d.z, v = -d.y;
-    else if (major == ay)
-        face = d.y > 0.0f ? 2 : 3, u = d.x, v = d.y > 0.0f ? d.z : -d.z;
-    else
-        face = d.z > 0.0f ? 4 : 5, u = d.z > 0.0f ? d.x : -d.x, v = -d.y;
+    const float c[3] = {d.x, d.y, d.z}, ax = std::abs(d.x), ay = std::abs(d.y), az = std::abs(d.z), most = std::max(ax, ay);
+    const std::size_t axis = az > most ? 2 : ay > ax ? 1 : 0, face = 2 * axis + (c[axis] > 0.0f ? 0 : 1);
+    const Face& f = kFaces[face]; // a table: branches would be taken at random
+    const float u = f.u_sign * c[f.u], v = f.v_sign * c[f.v], major = std::max(ax, std::max(ay, az));
     const float half = 0.5f * static_cast<float>(level.size), over = half / std::max(major, 1e-20f);
-    const auto texel = [&](float c) { return std::clamp(static_cast<int>(c * over + half), 0, level.size - 1); };
-    return level.luminance[static_cast<std::size_t>((face * level.size + texel(v)) * level.size + texel(u))];
+    const auto texel = [&](float x) { return std::clamp(static_cast<int>(x * over + half), 0, level.size - 1); };
+    return level.luminance[static_cast<std::size_t>((static_cast<int>(face) * level.size + texel(v)) * level.size + texel(u))];
 }
 
 } // namespace burnish

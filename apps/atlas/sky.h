@@ -9,11 +9,12 @@ namespace burnish {
 
 class Sky {
   public:
-    // Of the prefiltered levels, key lights left out, from one of at most 128 texels a side on.
-    explicit Sky(const Environment& environment);
+    // Of the prefiltered levels, key lights left out, from one of at most 128 texels a side on, and from that on which narrower lobes than
+    // `least` (alpha_lin) are not asked for.
+    explicit Sky(const Environment& environment, float least = 0.0f);
     // Luminance that a round lobe of this alpha_lin about `direction` (any length, not 0; of the environment, unturned) meets: the nearest
     // texel of the nearest level.
-    float luminance(const glm::vec3& direction, float alpha_lin) const { return at(direction, static_cast<int>(alpha_lin * last_ + 0.5f)); }
+    float luminance(const glm::vec3& direction, float alpha_lin) const { return at(direction, level_of(alpha_lin)); }
     float diffuse(const glm::vec3& direction) const { return at(direction, static_cast<int>(last_)); } // of the widest lobe
 
   private:
@@ -21,6 +22,7 @@ class Sky {
         int size = 0;
         std::vector<float> luminance; // [face][row][column]
     };
+    int level_of(float alpha_lin) const { return static_cast<int>(alpha_lin * last_ + 0.5f); }
     float at(const glm::vec3& direction, int level) const;
 
     int first_ = 0; // level that levels_ begin with

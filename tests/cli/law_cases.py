@@ -9,7 +9,7 @@ import re
 import struct
 
 from chart_cases import needs_embree
-from environment_files import exr
+from environment_files import even, exr
 from gltf_files import data_uri, png, text
 from harness import case, check, scratch
 
@@ -51,6 +51,10 @@ SHORT = (("lobe_line", "anisotropy through 0"), ("bent_normal", "anisotropy thro
          ("major_axis_adaptive", "roughness where counts change"), ("split_isotropic", "environment through a whole turn"),
          ("filtered_is_ggx", "tilt through 0"))
 
+# A breach may be so many times as far, or as little, and what is none so far beyond what is allowed: pictures are the same bits everywhere, the
+# reference's noise of 128 samples is another on each machine.
+SPREAD = {False: 1.05, True: 1.5}
+
 # (technique, model or way; path): the largest step over what is allowed, as it was found. Where eta changes its sign the lobe's axes swap, and with
 # them the pattern of samples: noise, which more samples lessen, and the ends of lines. split_isotropic leaves the usual lobe of lights and the
 # albedo of untilted ones in a step of a thousandth. An eta of 1 makes lobes thin faster than the reference's own noise follows.
@@ -77,6 +81,12 @@ BREACHES = {
     ("ward_cheap", "anisotropy through 0"): 10.54,
     ("ellipsoid_correlated", "anisotropy through 0"): 12.92,
 }
+
+
+def in_two_tiers(claim, law, some):
+    """law(bench, techniques): of some techniques in the gate, of all in slow."""
+    case(f"laws.{claim}", tier="gate")(lambda bench: law(bench, some))
+    case(f"laws.{claim}_by_any_technique", tier="slow")(lambda bench: law(bench, names_of(bench, "techniques")))
 
 
 def names_of(bench, what):
@@ -118,11 +128,13 @@ def held(bench, asked):
         needs_embree(bench)
     broken = []
     for key, (path, words) in asked.items():
-        found, known = excess(bench, path, words, key[1] in ENDS), BREACHES.get(key)
+        noisy = key[1] in ENDS
+        found, known = excess(bench, path, words, noisy), BREACHES.get(key)
+        least, most = (known / SPREAD[noisy], known * SPREAD[noisy]) if known else (0.0, SPREAD[noisy])
         if found > 1.0 or known:
-            print(f"{key}: {found:.2f} times what is allowed" + (", as is known" if known else ""))
-        if (found > 1.0) != (known is not None) or known and found > 1.5 * known:
-            broken.append(f"{key}: {found:.2f}" + (f", known as {known}" if known else ""))
+            print(f"{key}: {found:.2f} times what is allowed" + (f", as is known ({least:.2f} to {most:.2f})" if known else ""))
+        if not least <= found <= most:
+            broken.append(f"{key}: {found:.2f}, not {least:.2f} to {most:.2f}")
     check(not broken, "; ".join(broken))
 
 
@@ -197,14 +209,7 @@ def turned_grain(bench, techniques):
         check(found < 1e-3, f"{name}: FLIP {found} between eta and -eta with the grain turned")
 
 
-@case("laws.grains_have_no_sign", tier="gate")
-def some_signs(bench):
-    turned_grain(bench, ("auto", "major_axis_weighted"))
-
-
-@case("laws.grains_have_no_sign_by_any_technique", tier="slow")
-def signs(bench):
-    turned_grain(bench, names_of(bench, "techniques"))
+in_two_tiers("grains_have_no_sign", turned_grain, ("auto", "major_axis_weighted"))
 
 
 def mirrored(bench, techniques):
@@ -227,14 +232,7 @@ def mirrored(bench, techniques):
         check(found < 0.01, f"{name}: FLIP {found} to its own mirror image")
 
 
-@case("laws.mirrors_of_scenes_are_mirrors_of_pictures", tier="gate")
-def some_mirrors(bench):
-    mirrored(bench, ("auto", "bent_normal"))
-
-
-@case("laws.mirrors_of_scenes_are_mirrors_of_pictures_by_any_technique", tier="slow")
-def mirrors(bench):
-    mirrored(bench, names_of(bench, "techniques"))
+in_two_tiers("mirrors_of_scenes_are_mirrors_of_pictures", mirrored, ("auto", "bent_normal"))
 
 
 @case("laws.radiance_has_no_scale", tier="gate")
@@ -254,22 +252,22 @@ def ball(scale):
         for i in range(25):
             e, a = math.pi * (j / 12 - 0.5), 2 * math.pi * i / 24
             n = (math.cos(e) * math.cos(a), math.sin(e), math.cos(e) * math.sin(a))
-            corners.append((*(scale * c for c in n), *n, -math.sin(a), 0.0, math.cos(a), 1.0))
+            corners.append((*(scale * c for c in n), *n, -math.sin(a), 0.0, math.cos(a), 1.0, i / 3, j / 3))
     for j in range(12):
         for i in range(24):
             k = 25 * j + i
             faces += [k, k + 25, k + 26, k, k + 26, k + 1] if i < 12 else [k, k + 25, k + 1, k + 1, k + 25, k + 26] # mirrored about z = 0
-    data = struct.pack(f"<{10 * len(corners)}f", *(v for c in corners for v in c))
+    data = struct.pack(f"<{12 * len(corners)}f", *(v for c in corners for v in c))
     index = struct.pack(f"<{len(faces)}H", *faces)
     of = lambda at, kind, **more: {"bufferView": 0, "byteOffset": at, "componentType": 5126, "count": len(corners), "type": kind, **more}
     return text({
         "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
-        "meshes": [{"primitives": [{"attributes": {"POSITION": 0, "NORMAL": 1, "TANGENT": 2}, "indices": 3, "material": 0}]}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0, "NORMAL": 1, "TANGENT": 2, "TEXCOORD_0": 3}, "indices": 4, "material": 0}]}],
         "materials": [{"pbrMetallicRoughness": {"roughnessFactor": 0.4}, "doubleSided": True,
                        "extensions": {"KHR_materials_anisotropy": {"anisotropyStrength": 0.6}}}], "extensionsUsed": ["KHR_materials_anisotropy"],
         "accessors": [of(0, "VEC3", min=[min(c[k] for c in corners) for k in range(3)], max=[max(c[k] for c in corners) for k in range(3)]),
-                      of(12, "VEC3"), of(24, "VEC4"), {"bufferView": 1, "componentType": 5123, "count": len(faces), "type": "SCALAR"}],
-        "bufferViews": [{"buffer": 0, "byteLength": len(data), "byteStride": 40, "target": 34962},
+                      of(12, "VEC3"), of(24, "VEC4"), of(40, "VEC2"), {"bufferView": 1, "componentType": 5123, "count": len(faces), "type": "SCALAR"}],
+        "bufferViews": [{"buffer": 0, "byteLength": len(data), "byteStride": 48, "target": 34962},
                         {"buffer": 1, "byteLength": len(index), "target": 34963}],
         "buffers": [{"byteLength": len(data), "uri": data_uri(data)}, {"byteLength": len(index), "uri": data_uri(index)}]})
 
@@ -277,10 +275,10 @@ def ball(scale):
 def scaled(bench, techniques):
     """By powers of two equal words; by others but for rounding."""
     for name in techniques:
-        def drawn(label, scale):
+        def drawn(label, scale, place=(0.5, 1.0, 2.5), *words):
             scratch(bench, "ball.gltf", ball(scale))
-            eye = ",".join(repr(scale * c) for c in (0.5, 1.0, 2.5))
-            return picture(bench, label, "ball.gltf", *LIGHT, "--eye", eye, "--target", "0,0,0", "--technique", name)
+            eye = ",".join(repr(scale * c) for c in place)
+            return picture(bench, label, "ball.gltf", *LIGHT, "--eye", eye, "--target", "0,0,0", "--technique", name, *words)
 
         usual = drawn("a", 1.0)
         check(len({v for row in usual[1] for v in row}) > 3000, "there is nothing to be seen")
@@ -290,13 +288,80 @@ def scaled(bench, techniques):
             drawn("b", scale)
             found = flip(bench, "a", "b")
             check(found < 0.002, f"{name}: FLIP {found} at {scale}")
+        # from as far as the narrowest view sees it well, a million away
+        for label, scale in (("a", 1.0), ("b", 1e6 / 1500)):
+            width, rows = drawn(label, scale, (300.0, 560.0, 1359.0), "--fov", "0.1")
+        check(len({v for row in rows for v in row}) > 3000, "there is nothing to be seen from afar")
+        found = flip(bench, "a", "b")
+        print(f"{name}: FLIP {found:.6f} from a million away")
+        check(found < 0.002, f"{name}: FLIP {found} from a million away")
 
 
-@case("laws.scenes_have_no_scale", tier="gate")
-def some_scales(bench):
-    scaled(bench, ("auto", "mc"))
+in_two_tiers("scenes_have_no_scale", scaled, ("auto", "mc"))
 
 
-@case("laws.scenes_have_no_scale_by_any_technique", tier="slow")
-def scales(bench):
-    scaled(bench, names_of(bench, "techniques"))
+# White metal under an even environment of radiance 1, with what microfacets lose given back, is not seen: the picture's mean is 1. Words, what
+# goes, steps, how far the mean may be below 1, and above. A tilted lobe has less of a horizon than its surface, and gives the difference back to
+# nobody.
+FURNACE_STEPS = 3
+FURNACE = {
+    "roughness": ("roughness=0.1:1 --anisotropy 0.6", 0.003, 0.003),
+    "roughness of round lobes": ("roughness=0.1:1 --anisotropy 0", 0.003, 0.003),
+    "grain": ("anisotropy=0:0.95 --roughness 0.5", 0.003, 0.003),
+    "separable masking": ("roughness=0.1:1 --anisotropy 0.6 --masking separable", 0.03, 0.006),
+    "fit": ("roughness=0.1:1 --anisotropy 0.6 --dfg fit", 0.003, 0.003),
+    "tilt": ("tilt=0,0:60,0 --roughness 0.5 --anisotropy 0.5", 0.5, 0.003),
+    "tilt the other way": ("tilt=0,0:20,-50 --roughness 0.3 --anisotropy 0.8", 0.5, 0.003),
+    "frames projected": ("roughness=0.2:0.8 --anisotropy 0.6 --normal-map wave.png --frame-map gram-schmidt", 0.003, 0.006),
+    "frames turned": ("roughness=0.2:0.8 --anisotropy 0.6 --normal-map wave.png --frame-map quaternion", 0.003, 0.006),
+    "frames left": ("roughness=0.2:0.8 --anisotropy 0.6 --normal-map wave.png --frame-map normal-only", 0.01, 0.006),
+}
+MODEL_ROWS = ("roughness", "grain", "tilt", "tilt the other way", "frames turned")  # ellipsoids alone can be tilted
+# By `mc` (noise of 1024 samples) and its models. What is given back is what correlated GGX loses by the table: not what separable masking does,
+# nor what the fit says of thin rough lobes. Ward's weights have no bound.
+OF_MC = {
+    "": (0.004, 0.006),
+    "fit": (0.2, 0.006),
+    "ellipsoid": (0.04, 0.006),
+    "ellipsoid_correlated": (0.025, 0.012),
+    "ggx_aniso_separable": (0.025, 0.012),
+    "beckmann": (0.006, 0.006),
+    "ward": (0.006, 0.03),
+    "ward_cheap": (0.006, 0.07),
+}
+
+
+def furnace(bench, asked):
+    """asked: {(technique, model, row of FURNACE)}; models by mc alone."""
+    (bench.folder / "even.exr").write_bytes(exr(16, 8, even(1.0)))
+    (bench.folder / "wave.png").write_bytes(png(16, 16, color=lambda x, y, *_: (128 + (30 if x & 4 else -30), 128 + (20 if y & 4 else -20), 250)))
+    scratch(bench, "ball.gltf", ball(1.0))
+    off = []
+    for technique, model, row in asked:
+        words, low, high = FURNACE[row]
+        along, *own = words.split()
+        if technique == "mc":
+            low, high = (max(of) for of in zip((low, high), OF_MC[""], OF_MC.get(model or row, OF_MC[""])))
+        many = ("--samples", "1024") if technique in ("mc", "as_mc") else ()
+        bench.run("render", "ball.gltf", "--env", "even.exr", "--env-size", "16", "--env-samples", "16", "--size", "32x32", "-q", "--eye", "0.5,1,2.5",
+                  "--target", "0,0,0", "--energy-compensation", "--technique", technique, *(("--brdf", model) if model else ()), *many, *own,
+                  "--animate", along, "--steps", str(FURNACE_STEPS), "-o", "f%02d.pfm").expect(0)
+        for step in range(FURNACE_STEPS):
+            values = [v for line in words_of(bench.folder / f"f{step:02d}.pfm")[1] for v in line]
+            mean = sum(values) / len(values)
+            if not 1 - low <= mean <= 1 + high:
+                off.append(f"{technique} {model or ''} {row}, step {step}: {mean:.4f}")
+    print(f"{len(asked)} rows of {FURNACE_STEPS} pictures")
+    check(not off, "; ".join(off))
+
+
+@case("laws.an_even_light_hides_white_metal_in_some_ways", tier="gate")
+def some_furnaces(bench):
+    furnace(bench, [("auto", None, row) for row in FURNACE] +
+            [(name, None, "roughness") for name in names_of(bench, "techniques") if name != "mc"] + [("mc", "ellipsoid", "tilt"), ("mc", "beckmann", "grain")])
+
+
+@case("laws.an_even_light_hides_white_metal", tier="slow")
+def furnaces(bench):
+    furnace(bench, [(name, None, row) for name in names_of(bench, "techniques") for row in FURNACE] +
+            [("mc", name, row) for name in lobes(bench) for row in MODEL_ROWS if not row.startswith("tilt") or name.startswith("ellipsoid")])

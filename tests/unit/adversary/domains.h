@@ -1,0 +1,25 @@
+// The domains of a program's kernels, and what they are made of.
+#pragma once
+#include <vector>
+
+#include "tests/unit/adversary/search.h"
+#include "tests/unit/models/harness.h"
+
+namespace burnish::test {
+
+const std::vector<Domain>& domains(); // each program has its own
+
+// Of u in [0,1).
+double straight(double u, double low, double high);
+double by_factors(double u, double low, double high); // low > 0
+// Unit, above the horizon: a third even over heights, a third down to 1e-4 above the horizon, a third near the normal.
+Vec eye_of(double u, double v);
+// Unit, with a slope of 1e-5 to 10.
+Vec facet_of(double u, double v);
+Vec any_direction(double u, double v);
+Vec mirrored(Vec o, Vec h);
+void append(std::vector<double>& to, const Vec& v);
+// {low, high} of Domain::of: by factors where low > 0, else straight.
+double in_range(double u, const std::vector<double>& range);
+
+} // namespace burnish::test
