@@ -11,6 +11,7 @@
 
 #include "core/image/io/image_io.h"
 #include "core/scene/heights.h"
+#include "core/scene/texture.h"
 
 namespace burnish {
 namespace {
@@ -117,15 +118,7 @@ class Dresser {
         return image;
     }
 
-    std::int32_t add(Image image, const char* name)
-    {
-        Texture texture;
-        texture.name = name;
-        texture.image = static_cast<std::int32_t>(scene_.images.size());
-        scene_.images.push_back(std::move(image));
-        scene_.textures.push_back(texture);
-        return static_cast<std::int32_t>(scene_.textures.size()) - 1;
-    }
+    std::int32_t add(Image image, const char* name) { return add_texture(scene_, name, std::move(image)); }
 
     std::int32_t add(SurfaceMap map, const std::string& path, const char* name)
     {

@@ -237,6 +237,8 @@ TEST(mip, squares_are_filtered_alike_however_they_lie)
         };
         const Jobs jobs(1);
         for (const MipFilter filter : lobe_filters()) {
+            if (filter == kMipFilter_teacher) // its pairs of directions do not turn
+                continue;
             const MipLevels a = make_mip_levels(MipSource(without_factor(coarse)), filter, 1.1f, jobs);
             const MipLevels b = make_mip_levels(MipSource(without_factor(turned)), filter, 1.1f, jobs);
             double unlike = 0.0; // on the mean
