@@ -5,6 +5,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fmt/core.h>
+#include <optional>
 
 #include "apps/bake/mip_textures.h"
 #include "apps/cli/open.h"
@@ -14,6 +15,7 @@
 #include "core/base/clock.h"
 #include "core/base/file.h"
 #include "core/image/io/image_io.h"
+#include "core/jobs/jobs.h"
 #include "shading/bake/mip/pyramid_file.h"
 #include "shading/lang/tables.h"
 
@@ -155,7 +157,17 @@ int run_mip(const MipBake& bake)
         report.warning(warning);
     const Jobs jobs(bake.threads);
     const double begin_ms = wall_ms();
-    const MaterialLevels levels = filtered_levels(scene, jobs);
+    std::optional<Progress> progress;
+    std::size_t told = 0;
+    const MaterialLevels levels = filtered_levels(scene, jobs, [&](std::size_t done, std::size_t all) {
+        if (done < told) // of the next material
+            progress.reset(), told = 0;
+        if (!progress)
+            progress.emplace("texels", all, bake.quiet);
+        progress->step(done - told);
+        told = done;
+    });
+    progress.reset();
     std::vector<const MipLevels*> each;
     for (const std::shared_ptr<const MipLevels>& of : levels)
         if (of && std::find(each.begin(), each.end(), of.get()) == each.end())

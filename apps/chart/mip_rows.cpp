@@ -109,11 +109,11 @@ std::vector<Texels> map_by_map(const TexelMaps& maps, bool lean)
     return levels;
 }
 
-std::vector<Texels> levels_by(MipFilter filter, const TexelMaps& maps, mipnet::Lobe lobe, float kappa, const Jobs& jobs)
+std::vector<Texels> levels_by(MipFilter filter, const TexelMaps& maps, mipnet::Lobe lobe, bool metal, float kappa, const Jobs& jobs)
 {
     if (!makes_lobes(filter))
         return map_by_map(maps, filter == kMipFilter_lean);
-    const MipLevels made = make_mip_levels(MipSource(maps.maps()), filter, kappa, jobs, mipnet::shipped_weights(lobe));
+    const MipLevels made = make_mip_levels(MipSource(maps.maps()), filter, kappa, jobs, {mipnet::shipped_weights(lobe), metal, {}});
     std::vector<Texels> levels;
     for (std::size_t l = 0; l < kMipRowLevels; ++l)
         levels.push_back(shown_texels(made.levels[l]));
@@ -124,6 +124,13 @@ std::string family_of(const mipnet::TestMaterial& m)
 {
     const std::size_t space = m.material.name.rfind(' ');
     return m.set == "real" || space == std::string::npos ? m.material.name : m.material.name.substr(0, space);
+}
+
+// Of what baseline gets wrong more than the teacher; where that is next to nothing, none of it.
+std::optional<double> gap_closed(double l1, double baseline, double teacher)
+{
+    constexpr double kLeastGap = 0.02; // of baseline's
+    return baseline - teacher > kLeastGap * baseline ? std::optional((baseline - l1) / (baseline - teacher)) : std::nullopt;
 }
 
 // baseline's mean L1 by set, model and material says which are hard.
@@ -161,14 +168,18 @@ std::vector<MipRow> mip_rows(const std::vector<mipnet::TestMaterial>& set, const
             std::vector<double> ms;
             for (std::size_t f = 0; f < mip_filters().size(); ++f) {
                 const double begin = wall_ms();
-                filters.push_back(levels_by(static_cast<MipFilter>(f), maps, lobe, kappa, jobs));
+                filters.push_back(levels_by(static_cast<MipFilter>(f), maps, lobe, m.material.metal, kappa, jobs));
                 ms.push_back(wall_ms() - begin);
             }
+            const auto l1 = [](const std::vector<std::vector<ShownError>>& of, MipFilter filter, std::size_t l) {
+                return of[static_cast<std::size_t>(filter)][l].l1;
+            };
             const auto errors = shown_errors(level0, filters, shown_surface(lobe, m.material.metal), jobs);
             for (std::size_t f = 0; f < filters.size(); ++f)
                 for (std::size_t l = 0; l < kMipRowLevels; ++l)
                     rows.push_back({m.set, family_of(m), m.material.name, mipnet::lobe_name(lobe), mip_filters()[f].name,
-                                    static_cast<int>(l) + 1, false, errors[f][l], ms[f]});
+                                    static_cast<int>(l) + 1, false, errors[f][l], ms[f],
+                                    gap_closed(errors[f][l].l1, l1(errors, kMipFilter_baseline, l), l1(errors, kMipFilter_teacher, l))});
         }
     }
     mark_hardest(rows);
@@ -184,6 +195,10 @@ Json mip_rows_json(const std::vector<MipRow>& rows)
                     {"ms", r.ms}};
         if (r.error.flip == 0.0) // too small a square
             row["flip"] = nullptr;
+        if (r.gap)
+            row["gap"] = *r.gap;
+        else
+            row["gap"] = nullptr;
         all.push_back(std::move(row));
     }
     return all;
@@ -191,11 +206,11 @@ Json mip_rows_json(const std::vector<MipRow>& rows)
 
 std::string mip_rows_csv(const std::vector<MipRow>& rows)
 {
-    std::string text = "set,family,material,brdf,mip_filter,level,hardest,flip,l1,mse,ms\n";
+    std::string text = "set,family,material,brdf,mip_filter,level,hardest,flip,l1,mse,ms,gap\n";
     for (const MipRow& r : rows)
-        text +=
-            fmt::format("{},{},{},{},{},{},{},{},{:.6f},{:.6f},{:.2f}\n", r.set, r.family, r.material, r.brdf, r.filter, r.level,
-                        r.hardest ? 1 : 0, r.error.flip > 0.0 ? fmt::format("{:.6f}", r.error.flip) : "", r.error.l1, r.error.mse, r.ms);
+        text += fmt::format("{},{},{},{},{},{},{},{},{:.6f},{:.6f},{:.2f},{}\n", r.set, r.family, r.material, r.brdf, r.filter, r.level,
+                            r.hardest ? 1 : 0, r.error.flip > 0.0 ? fmt::format("{:.6f}", r.error.flip) : "", r.error.l1, r.error.mse, r.ms,
+                            r.gap ? fmt::format("{:.4f}", *r.gap) : "");
     return text;
 }
 
@@ -223,11 +238,14 @@ std::string mip_summary(const std::vector<MipRow>& rows)
             else if (pass == 2 && r.set != "real")
                 add(r.brdf + ", " + r.set + ", " + r.family, r);
         }
-    std::string lines = fmt::format("{:48} {:12} {:>7} {:>7} {:>7} {:>8}\n", "model, set", "filter", "FLIP", "L1", "MSE", "L1 by");
+    std::string lines =
+        fmt::format("{:48} {:12} {:>7} {:>7} {:>7} {:>8} {:>6}\n", "model, set", "filter", "FLIP", "L1", "MSE", "L1 by", "gap");
     for (const auto& key : order) {
-        const Sum &s = sums[key], &base = sums[{key.first, "baseline"}];
-        lines += fmt::format("{:48} {:12} {:7.1f} {:7.2f} {:7.2f} {:+7.1f}%\n", key.first, key.second, 1e3 * s.flip / std::max(s.flips, 1),
-                             1e3 * s.l1 / s.count, 1e3 * s.mse / s.count, 100.0 * (s.l1 / s.count / (base.l1 / base.count) - 1.0));
+        const Sum &s = sums[key], &base = sums[{key.first, "baseline"}], &best = sums[{key.first, "teacher"}];
+        const std::optional<double> gap = gap_closed(s.l1 / s.count, base.l1 / base.count, best.l1 / best.count);
+        lines += fmt::format("{:48} {:12} {:7.1f} {:7.2f} {:7.2f} {:+7.1f}% {:>6}\n", key.first, key.second,
+                             1e3 * s.flip / std::max(s.flips, 1), 1e3 * s.l1 / s.count, 1e3 * s.mse / s.count,
+                             100.0 * (s.l1 / s.count / (base.l1 / base.count) - 1.0), gap ? fmt::format("{:.0f}%", 100.0 * *gap) : "");
     }
     return lines;
 }

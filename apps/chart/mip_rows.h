@@ -1,5 +1,6 @@
 // `burnish chart --mip`: what every mip filter gets wrong, level by level, of materials that are made in code and of pictured ones.
 #pragma once
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,8 @@ struct MipRow {
     bool hardest = false; // of the quarter of its set and model that baseline gets the most of wrong (L1, mean over levels)
     ShownError error;     // flip of squares of 16 texels a side or more; else 0
     double ms = 0.0;      // all levels of the material, on the clock
+    std::optional<double>
+        gap{}; // share of L1 from baseline to teacher that is closed: 0 of baseline, 1 of teacher; none where there is no gap
 };
 
 inline constexpr int kMipRowLevels = 5;
@@ -26,7 +29,7 @@ std::vector<MipRow> mip_rows(const std::vector<mipnet::TestMaterial>& set, const
 
 Json mip_rows_json(const std::vector<MipRow>& rows);
 std::string mip_rows_csv(const std::vector<MipRow>& rows);
-// Means by set, by family and of the hardest quarters, times 1000, a line each, with what baseline's L1 changes by.
+// Means by set, by family and of the hardest quarters, times 1000, a line each, with what baseline's L1 changes by and the gap closed.
 std::string mip_summary(const std::vector<MipRow>& rows);
 
 } // namespace burnish

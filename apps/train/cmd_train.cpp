@@ -147,7 +147,7 @@ int run_training(TrainArguments& a, Report& report)
     return 0;
 }
 
-Json figures_json(const mipnet::Figures& f)
+Json figures_json(const ShownError& f)
 {
     return {{"flip", f.flip}, {"l1", f.l1}, {"mse", f.mse}};
 }
@@ -161,7 +161,7 @@ std::string summary_lines(const std::vector<mipnet::Summary>& all)
         if (s.filter == "baseline")
             base = &s;
         const auto change = [](double is, double was) { return 100.0 * (is / was - 1.0); };
-        const mipnet::Figures &m = s.mean, &b = base->mean;
+        const ShownError &m = s.mean, &b = base->mean;
         lines += fmt::format(
             "{:10} {:10} {:4} {:7.1f} {:7.2f} {:7.2f}   {:+5.1f}% {:+5.1f}% {:+5.1f}%   {:5.2f} {:6.2f}  {:.0f}/{:.0f}/{:.0f} %\n", s.set,
             s.filter, s.materials, 1e3 * m.flip, 1e3 * m.l1, 1e3 * m.mse, change(m.flip, b.flip), change(m.l1, b.l1), change(m.mse, b.mse),

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/scene/heights.h"
+#include "core/scene/texture.h"
 
 namespace burnish {
 namespace {
@@ -84,14 +85,6 @@ const Image& image_of(const Scene& scene, const TextureRef& from)
     return from.used() ? scene.images[static_cast<std::size_t>(scene.textures[static_cast<std::size_t>(from.texture)].image)] : none;
 }
 
-std::int32_t add(Scene& scene, Texture like, Image image, const char* name)
-{
-    like.name = name, like.image = static_cast<std::int32_t>(scene.images.size());
-    scene.images.push_back(std::move(image));
-    scene.textures.push_back(std::move(like));
-    return static_cast<std::int32_t>(scene.textures.size()) - 1;
-}
-
 } // namespace
 
 SurfaceMap roughness_of(const Image& map, RoughnessEncoding encoding)
@@ -142,8 +135,8 @@ Status lay_directional_roughness(Scene& scene, const Limits& limits, const std::
                              fmt::format("the scene's textures need more than {} bytes (--limit-texture-bytes)", limits.texture_bytes)};
             LaidImages images = laid(rough, axes, metal);
             const Texture like = scene.textures[static_cast<std::size_t>(own.texture)];
-            add(scene, like, std::move(images.directions), "directions of roughness");
-            add(scene, like, std::move(images.metal_rough), "metalness and roughness");
+            add_texture(scene, "directions of roughness", std::move(images.directions), like);
+            add_texture(scene, "metalness and roughness", std::move(images.metal_rough), like);
         }
         m.anisotropy_tex = m.metallic_roughness_tex = own;
         m.anisotropy_tex.texture = it->second, m.metallic_roughness_tex.texture = it->second + 1;

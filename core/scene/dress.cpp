@@ -6,11 +6,13 @@
 #include <fmt/format.h>
 #include <iterator>
 #include <set>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "core/image/io/image_io.h"
 #include "core/scene/heights.h"
+#include "core/scene/texture.h"
 
 namespace burnish {
 namespace {
@@ -70,15 +72,23 @@ std::uint16_t red_at(const Image& image, int x, int y, int width, int height)
     return static_cast<std::uint16_t>((value > 0.0f ? std::min(value, 1.0f) : 0.0f) * 65535.0f + 0.5f);
 }
 
-// Green roughness, blue metalness, as wide and high as the larger of both.
+// Green roughness, blue metalness, as wide and high as the larger of both, in 8 bits where both have no more.
 Image metal_rough(const Image& metallic, const Image& roughness)
 {
     const int width = std::max(metallic.width, roughness.width), height = std::max(metallic.height, roughness.height);
-    Image out = make_image(width, height, 3, PixelType::u16);
-    auto* to = reinterpret_cast<std::uint16_t*>(out.bytes.data());
-    for (int y = 0; y < height; ++y)
-        for (int x = 0; x < width; ++x, to += 3)
-            to[0] = 65535, to[1] = red_at(roughness, x, y, width, height), to[2] = red_at(metallic, x, y, width, height);
+    const auto is_short = [](const Image& image) { return image.empty() || image.type == PixelType::u8; };
+    const auto put = [&](auto* to, int unit) { // codes of 16 bits an own one
+        for (int y = 0; y < height; ++y)
+            for (int x = 0; x < width; ++x, to += 3)
+                for (int c = 0; c < 3; ++c)
+                    to[c] = static_cast<std::remove_reference_t<decltype(*to)>>(
+                        c == 0 ? 65535 / unit : red_at(c == 1 ? roughness : metallic, x, y, width, height) / unit);
+    };
+    Image out = make_image(width, height, 3, is_short(metallic) && is_short(roughness) ? PixelType::u8 : PixelType::u16);
+    if (out.type == PixelType::u8)
+        put(reinterpret_cast<std::uint8_t*>(out.bytes.data()), 257);
+    else
+        put(reinterpret_cast<std::uint16_t*>(out.bytes.data()), 1);
     return out;
 }
 
@@ -117,15 +127,7 @@ class Dresser {
         return image;
     }
 
-    std::int32_t add(Image image, const char* name)
-    {
-        Texture texture;
-        texture.name = name;
-        texture.image = static_cast<std::int32_t>(scene_.images.size());
-        scene_.images.push_back(std::move(image));
-        scene_.textures.push_back(texture);
-        return static_cast<std::int32_t>(scene_.textures.size()) - 1;
-    }
+    std::int32_t add(Image image, const char* name) { return add_texture(scene_, name, std::move(image)); }
 
     std::int32_t add(SurfaceMap map, const std::string& path, const char* name)
     {

@@ -7,6 +7,8 @@
 #include <tuple>
 #include <utility>
 
+#include "core/scene/texture.h"
+
 namespace burnish {
 namespace {
 
@@ -26,15 +28,6 @@ double channel_at(const Image& image, int x, int y, int channel)
 std::uint16_t height_code(double unit)
 {
     return static_cast<std::uint16_t>(std::clamp(unit, 0.0, 1.0) * 65535.0 + 0.5);
-}
-
-int wrapped_at(std::int64_t at, int count, WrapMode mode)
-{
-    const std::int64_t n = count;
-    if (mode == WrapMode::clamp)
-        return static_cast<int>(std::clamp<std::int64_t>(at, 0, n - 1));
-    const std::int64_t period = mode == WrapMode::mirror ? 2 * n : n, in = (at % period + period) % period;
-    return static_cast<int>(in < n ? in : period - 1 - in);
 }
 
 // Between texel centres, or of the texel itself where the sampler takes the nearest; x, y: texels from the corner. `value` makes of a
@@ -130,10 +123,7 @@ Status lay_heights(Scene& scene, const Limits& limits, const std::string& file)
                 return Error{ExitCode::bad_input, file, "",
                              fmt::format("the scene's textures need more than {} bytes (--limit-texture-bytes)", limits.texture_bytes)};
             Image image = normals_with_heights(normals, from, texture);
-            texture.name = "heights";
-            texture.image = static_cast<std::int32_t>(scene.images.size());
-            scene.images.push_back(std::move(image));
-            scene.textures.push_back(texture);
+            add_texture(scene, "heights", std::move(image), std::move(texture));
         }
         m.normal_tex = heights;
         m.normal_tex.texture = it->second;

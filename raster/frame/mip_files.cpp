@@ -7,7 +7,6 @@
 
 #include "core/base/file.h"
 #include "raster/frame/pyramids.h"
-#include "shading/bake/mip/anisotropy.h"
 #include "shading/bake/mip/net_levels.h"
 #include "shading/bake/mip/pyramid_file.h"
 #include "shading/bake/mip/source.h"
@@ -44,19 +43,6 @@ Result<std::shared_ptr<const mipnet::Weights>> net_of(const Dress& with, const L
     return std::make_shared<const mipnet::Weights>(std::move(*read));
 }
 
-bool is_metal(const Scene& scene, const Material& m)
-{
-    if (!m.metallic_roughness_tex.used())
-        return m.metallic >= 0.5f;
-    const Texture& texture = scene.textures[static_cast<std::size_t>(m.metallic_roughness_tex.texture)];
-    const Image& map = scene.images[static_cast<std::size_t>(texture.image)];
-    const std::size_t texels = static_cast<std::size_t>(map.width) * static_cast<std::size_t>(map.height);
-    double sum = 0.0;
-    for (std::size_t i = 0; i < texels; ++i)
-        sum += static_cast<double>(texel_channel(map, i, 2));
-    return static_cast<double>(m.metallic) * sum >= 0.5 * static_cast<double>(texels);
-}
-
 std::string comparison_text(const Material& m, const mipnet::Comparison& c)
 {
     char text[160];
@@ -77,7 +63,7 @@ mipnet::Lobe lobe_of_model(int brdf)
 
 Status settle_nets(Scene& scene, const Dress& with, const Limits& limits)
 {
-    if (with.mip_filter != kMipFilter_mipnet)
+    if (!takes_net(with.mip_filter))
         return {};
     const Result<std::shared_ptr<const mipnet::Weights>> net = net_of(with, limits);
     if (!net)
@@ -86,7 +72,7 @@ Status settle_nets(Scene& scene, const Dress& with, const Limits& limits)
     Jobs(0).parallel_for(found.size(), [&](std::size_t i, int) {
         Material& m = scene.materials[i];
         m.mip_net = *net;
-        if (with.mip_fallback == MipFallback::automatic && is_filtered(scene, m))
+        if (m.mip_filter == kMipFilter_mipnet && with.mip_fallback == MipFallback::automatic && is_filtered(scene, m))
             found[i] = compare_net(mip_source(scene, m), **net, m.mip_kappa, is_metal(scene, m), Jobs(1));
     });
     for (std::size_t i = 0; i < found.size(); ++i) {

@@ -14,8 +14,9 @@ mipnet::Lobe lobe_of_model(int brdf); // of the nets there are, the nearest to a
 
 void warn_of_unfiltered(Scene& scene); // a line for each material that its filter makes nothing of, with the reason
 
-// Gives materials their nets, of with.mip_net or the program's. Unless with.mip_fallback is off, those for which the net is worse than it
-// may be (mipnet::Comparison) get filter kappa or baseline in place of it, whichever is nearer to the truth, and a warning says so.
+// Gives materials their nets, of with.mip_net or the program's. Of filter mipnet, unless with.mip_fallback is off, those for which it is
+// worse than it may be (mipnet::Comparison) get filter kappa or baseline in place of it, whichever is nearer to the truth, and a warning
+// says so.
 Status settle_nets(Scene& scene, const Dress& with, const Limits& limits);
 
 // Reads with.mip_pyramid to scene.mips. Where no filter was asked for, it is the file's.

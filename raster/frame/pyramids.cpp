@@ -132,8 +132,8 @@ std::int32_t owner_of(const Scene& scene, std::size_t material, bool overridden)
         return std::tuple(of.kind, of.slopes ? of.slopes->texture : kNone, of.slopes == &m.tilt_tex,
                           of.direction || of.filtered ? m.anisotropy_tex.texture : kNone, slope_scale(m), m.roughness,
                           m.anisotropy_strength, m.anisotropy_rotation, of.filtered, own ? m.mip_filter : MipFilter{},
-                          own ? m.mip_kappa : 0.0f, m.mip_net.get(), of.filtered ? m.normal_tex.texture : kNone,
-                          of.filtered ? m.metallic_roughness_tex.texture : kNone);
+                          own ? m.mip_kappa : 0.0f, m.mip_net.get(), m.mip_filter == kMipFilter_teacher ? m.metallic : 0.0f,
+                          of.filtered ? m.normal_tex.texture : kNone, of.filtered ? m.metallic_roughness_tex.texture : kNone);
     };
     const auto wanted = content(scene.materials[material]);
     const auto found =
@@ -259,6 +259,19 @@ std::string why_unfiltered(const Scene& scene, const Material& m)
     return "";
 }
 
+bool is_metal(const Scene& scene, const Material& m)
+{
+    if (!m.metallic_roughness_tex.used())
+        return m.metallic >= 0.5f;
+    const Texture& texture = scene.textures[static_cast<std::size_t>(m.metallic_roughness_tex.texture)];
+    const Image& map = scene.images[static_cast<std::size_t>(texture.image)];
+    const std::size_t texels = static_cast<std::size_t>(map.width) * static_cast<std::size_t>(map.height);
+    double sum = 0.0;
+    for (std::size_t i = 0; i < texels; ++i)
+        sum += static_cast<double>(texel_channel(map, i, 2));
+    return static_cast<double>(m.metallic) * sum >= 0.5 * static_cast<double>(texels);
+}
+
 MipSource mip_source(const Scene& scene, const Material& m)
 {
     return MipSource(maps_of(scene, m));
@@ -270,7 +283,7 @@ bool fits(const MipLevels& levels, std::uint64_t source, const Material& m)
            (!m.mip_net || levels.net == mipnet::net_hash(*m.mip_net));
 }
 
-MaterialLevels filtered_levels(const Scene& scene, const Jobs& jobs)
+MaterialLevels filtered_levels(const Scene& scene, const Jobs& jobs, const TaughtTexels& advance)
 {
     MaterialLevels all(scene.materials.size());
     for (std::size_t i = 0; i < all.size(); ++i) {
@@ -290,7 +303,8 @@ MaterialLevels filtered_levels(const Scene& scene, const Jobs& jobs)
                     all[i] = std::shared_ptr<const MipLevels>(scene.mips, &levels);
         }
         if (!all[i])
-            all[i] = std::make_shared<const MipLevels>(make_mip_levels(source, m.mip_filter, m.mip_kappa, jobs, m.mip_net.get()));
+            all[i] = std::make_shared<const MipLevels>(
+                make_mip_levels(source, m.mip_filter, m.mip_kappa, jobs, {m.mip_net.get(), is_metal(scene, m), advance}));
     }
     return all;
 }

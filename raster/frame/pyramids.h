@@ -16,6 +16,7 @@
 #include "core/jobs/jobs.h"
 #include "core/scene/scene.h"
 #include "shading/bake/mip/levels.h"
+#include "shading/bake/mip/teacher.h"
 #include "shading/bake/mip/texture.h"
 #include "shading/lang/tables.h"
 
@@ -40,7 +41,8 @@ void bind_textures(const Scene& scene, std::size_t material, bool overridden, co
 
 // Levels by material, null where no filter makes any: those that the scene has brought, or made here, each once.
 using MaterialLevels = std::vector<std::shared_ptr<const MipLevels>>;
-MaterialLevels filtered_levels(const Scene& scene, const Jobs& jobs);
+MaterialLevels filtered_levels(const Scene& scene, const Jobs& jobs, const TaughtTexels& advance = {});
+bool is_metal(const Scene& scene, const Material& material); // more than half of it
 
 // Where the filter of the material makes no levels of its maps, why: empty where it does, or has nothing to do.
 std::string why_unfiltered(const Scene& scene, const Material& material);

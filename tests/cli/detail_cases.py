@@ -225,6 +225,9 @@ def folders(bench):
     gltf["images"] = [{"uri": uri} for uri in ("b.png", "mr.png", "n.png", "ao.png")]
     scratch(bench, "own.gltf", files.text(gltf))
     check(hash_of(bench, "own.gltf", *VIEW) == by_folder, "a folder is not the file's own material")
+    (folder / "brass-roughness.png").write_bytes(grey(78, 4))  # all of 8 bits: so is what is made of them
+    scratch(bench, "mr.png", png(4, 4, lambda x, y: (65535, 257 * 78, 65535), bits=16))
+    check(hash_of(bench, "own.gltf", *VIEW) == hash_of(bench, scene, *VIEW, "--material", "set") != by_folder, "8 bits say something else")
     (folder / "brass_glow.png").write_bytes(grey(1, 1))
     done = bench.run("render", scene, *VIEW, "--material", "set", "-o", "a.pfm").expect(0)
     check(done.err.count("warning") == 1 and "brass_glow.png" in done.err, done.describe())

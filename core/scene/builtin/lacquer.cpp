@@ -4,6 +4,7 @@
 
 #include "core/math/scalar_math.h"
 #include "core/scene/builtin/surface.h"
+#include "core/scene/texture.h"
 
 namespace burnish {
 namespace {

@@ -4,6 +4,7 @@
 
 #include "core/math/scalar_math.h"
 #include "core/scene/builtin/surface.h"
+#include "core/scene/texture.h"
 
 namespace burnish {
 namespace {
@@ -101,12 +102,9 @@ Scene make_plate()
 {
     Scene scene;
     scene.name = "plate";
-    scene.images.push_back(make_direction_image());
-    Texture texture;
-    texture.name = "brushing";
-    texture.image = 0;
-    texture.wrap_s = texture.wrap_t = WrapMode::clamp;
-    scene.textures.push_back(texture);
+    Texture clamped;
+    clamped.wrap_s = clamped.wrap_t = WrapMode::clamp;
+    add_texture(scene, "brushing", make_direction_image(), clamped);
 
     Material brass;
     brass.name = "brushed brass";

@@ -119,16 +119,6 @@ Image map_of(int width, int height, const std::function<glm::dvec3(double u, dou
     return image;
 }
 
-std::int32_t add_texture(Scene& scene, const char* name, Image image)
-{
-    Texture texture;
-    texture.name = name;
-    texture.image = static_cast<std::int32_t>(scene.images.size());
-    scene.images.push_back(std::move(image));
-    scene.textures.push_back(texture);
-    return static_cast<std::int32_t>(scene.textures.size()) - 1;
-}
-
 glm::dvec3 normal_colour(const glm::dvec2& slope)
 {
     const double length = std::sqrt(slope.x * slope.x + slope.y * slope.y + 1.0);

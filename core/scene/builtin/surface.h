@@ -38,7 +38,6 @@ void add_node(Scene& scene, const char* name, std::int32_t mesh, const glm::mat4
 
 // Texels by their centre, u to the right and v down, [0,1].
 Image map_of(int width, int height, const std::function<glm::dvec3(double u, double v)>& colour);
-std::int32_t add_texture(Scene& scene, const char* name, Image image); // its number; it repeats
 // As a normal map has the slopes along tangent and bitangent.
 glm::dvec3 normal_colour(const glm::dvec2& slope);
 

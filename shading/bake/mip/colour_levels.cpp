@@ -5,6 +5,7 @@
 
 #include "core/base/check.h"
 #include "core/math/scalar_math.h"
+#include "core/scene/texture.h"
 #include "shading/bake/mip/texture.h"
 
 namespace burnish {
@@ -14,14 +15,6 @@ struct Tap {
     int at; // of the map
     double weight;
 };
-
-int wrapped_to(int i, int count, WrapMode wrap)
-{
-    if (wrap == WrapMode::clamp)
-        return std::clamp(i, 0, count - 1);
-    const int period = wrap == WrapMode::repeat ? count : 2 * count, within = ((i % period) + period) % period;
-    return within < count ? within : period - 1 - within;
-}
 
 // Modified Bessel function of the first kind, of order 0.
 double bessel_0(double x)
@@ -49,7 +42,7 @@ std::vector<Tap> taps_of(int i, int source, int target, ColourKernel kernel, Wra
         if (std::abs(share) >= 1.0)
             continue;
         const double sinc = std::abs(t) < 1e-9 ? 1.0 : det_sin(kPi * t) / (kPi * t);
-        taps.push_back({wrapped_to(k, source, wrap), sinc * bessel_0(kAlpha * std::sqrt(1.0 - share * share)) / bessel_0(kAlpha)});
+        taps.push_back({wrapped_at(k, source, wrap), sinc * bessel_0(kAlpha * std::sqrt(1.0 - share * share)) / bessel_0(kAlpha)});
         sum += taps.back().weight;
     }
     for (Tap& tap : taps)

@@ -27,9 +27,14 @@ bool makes_lobes(MipFilter filter)
     return filter != kMipFilter_box && filter != kMipFilter_lean;
 }
 
+bool takes_net(MipFilter filter)
+{
+    return filter == kMipFilter_mipnet || filter == kMipFilter_teacher;
+}
+
 bool takes_kappa(MipFilter filter)
 {
-    return filter == kMipFilter_kappa || filter == kMipFilter_mipnet;
+    return filter == kMipFilter_kappa || takes_net(filter);
 }
 
 float gain_of_taps(MipFilter filter, float kappa)
@@ -153,22 +158,6 @@ State merged(const Shape& shape, const State& a, const State& b, const State& c,
     return r;
 }
 
-struct Share { // of a texel or row of a finer level
-    int at;
-    double weight;
-};
-// Texel i of `target` covers these of `source`, exactly.
-std::vector<Share> shares_of(int i, int source, int target)
-{
-    std::vector<Share> shares;
-    const std::int64_t s = source, t = target; // units of 1 / target texels of the source
-    for (std::int64_t k = i * s / t; k < ((i + 1) * s + t - 1) / t; ++k) {
-        const std::int64_t overlap = std::min((k + 1) * t, (i + 1) * s) - std::max(k * t, i * s);
-        shares.push_back({static_cast<int>(k), static_cast<double>(overlap) / static_cast<double>(s)});
-    }
-    return shares;
-}
-
 // rows: those of `down`, one after the other, `width` texels each.
 State merged_of_many(const Shape& shape, const State* rows, int width, const std::vector<Share>& down, const std::vector<Share>& across)
 {
@@ -199,6 +188,8 @@ State merged_of_many(const Shape& shape, const State* rows, int width, const std
     return r;
 }
 
+constexpr int kMostBanded = 5;
+
 struct StateLevel {
     int width = 0, height = 0;
     std::vector<State> states;
@@ -207,9 +198,9 @@ struct StateLevel {
 // One level from a finer one, or from the source where `from` is null.
 class LevelMaker {
   public:
-    LevelMaker(const MipSource& source, const StateLevel* from, MipFilter filter, const Shape& shape)
-        : source_(source), from_(from), filter_(filter), shape_(shape), width_(from ? from->width : source.width()),
-          height_(from ? from->height : source.height())
+    LevelMaker(const MipRows& source, const StateLevel* from, MipFilter filter, const Shape& shape)
+        : source_(source), from_(from), filter_(filter), shape_(shape), width_(from ? from->width : source.width),
+          height_(from ? from->height : source.height)
     {
     }
 
@@ -258,42 +249,145 @@ class LevelMaker {
         return merged(shape_, top[0], top[wide], bottom[0], bottom[wide]);
     }
 
-    const MipSource& source_;
+    const MipRows& source_;
     const StateLevel* from_;
     MipFilter filter_;
     Shape shape_;
     int width_, height_;
 };
 
+int levels_of(int width, int height) // from 1 on
+{
+    int levels = 0;
+    while (levels + 1 < kMaxTextureLevels && (std::max(width, height) >> (levels + 1)) > 0)
+        ++levels;
+    return levels;
+}
+
+StateLevel level_of(const MipRows& level0, int l)
+{
+    StateLevel level;
+    level.width = std::max(1, level0.width >> l), level.height = std::max(1, level0.height >> l);
+    return level;
+}
+
+// The finer level that level l is made from, as make_texture_pyramid() has it: the smallest whose texels its footprints are unions of.
+int finer_level(const MipRows& level0, int l)
+{
+    const StateLevel to = level_of(level0, l);
+    int from = l - 1;
+    for (; from > 0; --from)
+        if (const StateLevel of = level_of(level0, from); of.width % to.width == 0 && of.height % to.height == 0)
+            break;
+    return from;
+}
+
+// Levels after `first`, whose states are `banded` (or after level 0), up to `last`; returns the states of the last one.
+StateLevel put_levels_from(const MipRows& level0, int first, StateLevel banded, int last, MipFilter filter, const Shape& shape,
+                           const Jobs& jobs, std::vector<MipLevel>& made)
+{
+    std::vector<StateLevel> states(1);
+    states[0] = std::move(banded);
+    for (int l = first + 1; l <= last; ++l) {
+        StateLevel next = level_of(level0, l);
+        next.states.resize(static_cast<std::size_t>(next.width) * static_cast<std::size_t>(next.height));
+        const int from = finer_level(level0, l);
+        MipLevel level = {next.width, next.height, std::vector<MipTexel>(next.states.size())};
+        LevelMaker(level0, from > 0 ? &states[static_cast<std::size_t>(from - first)] : nullptr, filter, shape).make(next, level, jobs);
+        made.push_back(std::move(level));
+        states.push_back(std::move(next));
+    }
+    return std::move(states.back());
+}
+
+// How many levels can be made of bands of rows, whose states nothing else needs: sides are halved without a rest.
+int banded_levels(int width, int height)
+{
+    const MipRows sides = {width, height, {}};
+    int levels = 0;
+    while (levels < kMostBanded && (width >> levels) % 2 == 0 && (height >> levels) % 2 == 0)
+        ++levels;
+    const auto stays = [&](int banded) {
+        for (int l = banded + 1; l <= levels_of(width, height); ++l)
+            if (finer_level(sides, l) < banded)
+                return false;
+        return true;
+    };
+    while (levels > 0 && !stays(levels))
+        --levels;
+    return levels;
+}
+
+// Levels 1 to `levels`, and the states of the last one.
+StateLevel make_banded_levels(const MipRows& level0, int levels, MipFilter filter, const Shape& shape, const Jobs& jobs,
+                              std::vector<MipLevel>& made)
+{
+    for (int l = 1; l <= levels; ++l) {
+        const StateLevel size = level_of(level0, l);
+        made.push_back(
+            {size.width, size.height, std::vector<MipTexel>(static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height))});
+    }
+    StateLevel last = level_of(level0, levels);
+    last.states.resize(made.back().texels.size());
+    jobs.parallel_for(static_cast<std::size_t>(level0.height >> levels), [&](std::size_t band, int) {
+        const int first = static_cast<int>(band) << levels;
+        const MipRows rows = {level0.width, 1 << levels, [&](int y, MipPoint* to) { level0.row(first + y, to); }};
+        std::vector<MipLevel> of_band;
+        const StateLevel state = put_levels_from(rows, 0, {}, levels, filter, shape, Jobs(1), of_band);
+        for (std::size_t l = 0; l < of_band.size(); ++l)
+            std::copy(of_band[l].texels.begin(), of_band[l].texels.end(),
+                      made[l].texels.begin() + static_cast<std::ptrdiff_t>(band * of_band[l].texels.size()));
+        std::copy(state.states.begin(), state.states.end(), last.states.begin() + static_cast<std::ptrdiff_t>(band * state.states.size()));
+    });
+    return last;
+}
+
 } // namespace
 
-MipLevels make_mip_levels(const MipSource& source, MipFilter filter, float kappa, const Jobs& jobs, const mipnet::Weights* net)
+MipRows rows_of(const MipSource& source)
+{
+    return {source.width(), source.height(), [&source](int y, MipPoint* to) { source.row(y, to); }};
+}
+
+MipRows rows_of_texels(const mipnet::Texels& texels)
+{
+    return {texels.width, texels.height, [&texels](int y, MipPoint* to) {
+                const std::size_t width = static_cast<std::size_t>(texels.width), first = static_cast<std::size_t>(y) * width;
+                for (std::size_t x = 0; x < width; ++x) {
+                    const auto at = [&](std::size_t c) { return texels.channel[c][first + x]; };
+                    const float nz = std::sqrt(std::max(1.0f - (at(0) * at(0) + at(1) * at(1)), 0.0f));
+                    to[x] = {vec3_of(at(0), at(1), nz), covariance_of_tensor({at(2), at(3), at(4)})};
+                }
+            }};
+}
+
+std::vector<MipLevel> make_mean_levels(const MipRows& level0, MipFilter filter, float kappa, const Jobs& jobs)
+{
+    BN_CHECK(makes_lobes(filter) && !takes_net(filter));
+    const Shape shape = shape_of(filter, kappa);
+    const int first = banded_levels(level0.width, level0.height);
+    std::vector<MipLevel> made;
+    StateLevel banded;
+    if (first > 0)
+        banded = make_banded_levels(level0, first, filter, shape, jobs, made);
+    put_levels_from(level0, first, std::move(banded), levels_of(level0.width, level0.height), filter, shape, jobs, made);
+    return made;
+}
+
+MipLevels make_mip_levels(const MipSource& source, MipFilter filter, float kappa, const Jobs& jobs, const MipHelp& help)
 {
     BN_CHECK(makes_lobes(filter));
     MipLevels made;
     made.filter = filter, made.kappa = takes_kappa(filter) ? kappa : 0.0f;
     made.width = source.width(), made.height = source.height();
     made.source = source.hash(jobs);
-    if (filter == kMipFilter_mipnet) {
-        put_net_levels(source, net ? *net : *mipnet::shipped_weights(mipnet::Lobe::ggx_aniso), jobs, made);
-        return made;
-    }
-    const Shape shape = shape_of(filter, made.kappa);
-    const int side = std::max(made.width, made.height);
-    std::vector<StateLevel> states(1); // level 0 is the source
-    for (int l = 1; l < kMaxTextureLevels && (side >> l) > 0; ++l) {
-        StateLevel next;
-        next.width = std::max(1, made.width >> l), next.height = std::max(1, made.height >> l);
-        next.states.resize(static_cast<std::size_t>(next.width) * static_cast<std::size_t>(next.height));
-        // from the smallest earlier level whose texels its footprints are unions of, as make_texture_pyramid() does
-        std::size_t from = states.size() - 1;
-        while (from > 0 && (states[from].width % next.width != 0 || states[from].height % next.height != 0))
-            --from;
-        MipLevel level = {next.width, next.height, std::vector<MipTexel>(next.states.size())};
-        LevelMaker(source, from > 0 ? &states[from] : nullptr, filter, shape).make(next, level, jobs);
-        made.levels.push_back(std::move(level));
-        states.push_back(std::move(next));
-    }
+    const mipnet::Weights& net = help.net ? *help.net : *mipnet::shipped_weights(mipnet::Lobe::ggx_aniso);
+    if (filter == kMipFilter_mipnet)
+        put_net_levels(source, net, jobs, made);
+    else if (filter == kMipFilter_teacher)
+        put_taught_levels(source, net, help, jobs, made);
+    else
+        made.levels = make_mean_levels(rows_of(source), filter, made.kappa, jobs);
     return made;
 }
 

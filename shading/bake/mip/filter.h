@@ -3,14 +3,34 @@
 // weights w_i have m = sum w_i m_i, C = sum w_i (C_i + k (m_i - m)(m_i - m)^T). No level adds an error of its own; sides that are no powers
 // of two have exact footprints.
 #pragma once
+#include <functional>
+#include <vector>
+
 #include "core/jobs/jobs.h"
 #include "shading/bake/mip/levels.h"
 #include "shading/bake/mip/source.h"
+#include "shading/bake/mip/teacher.h"
+#include "shading/bake/mipnet/texels.h"
 
 namespace burnish {
 
-// filter: one that makes_lobes(). net: of filter mipnet, which is no mean; null: the program's for lobes of GGX. The bytes do not depend on
-// the number of threads.
-MipLevels make_mip_levels(const MipSource& source, MipFilter filter, float kappa, const Jobs& jobs, const mipnet::Weights* net = nullptr);
+struct MipRows { // level 0
+    int width, height;
+    std::function<void(int y, MipPoint* to)> row; // from the top; `width` points
+};
+MipRows rows_of(const MipSource& source);             // which has to stay
+MipRows rows_of_texels(const mipnet::Texels& texels); // the same
+
+// From level 1 on. filter: one that averages, of those that makes_lobes().
+std::vector<MipLevel> make_mean_levels(const MipRows& level0, MipFilter filter, float kappa, const Jobs& jobs);
+
+struct MipHelp {                          // of filters that are no means
+    const mipnet::Weights* net = nullptr; // null: the program's for lobes of GGX
+    bool metal = false;                   // of teacher: whether the material reflects as one
+    TaughtTexels advance{};
+};
+
+// filter: one that makes_lobes(). The bytes do not depend on the number of threads.
+MipLevels make_mip_levels(const MipSource& source, MipFilter filter, float kappa, const Jobs& jobs, const MipHelp& help = {});
 
 } // namespace burnish

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <vector>
 
 #include "core/image/image.h"
 #include "core/scene/scene.h"
@@ -50,6 +52,22 @@ template <class Value> float on_grid(const Image& map, const Grid& grid, int x, 
     };
     const float low = row(v.low);
     return v.share == 0.0f ? low : low + v.share * (row(v.high) - low);
+}
+
+struct Share { // of a texel or row of a finer level
+    int at;
+    double weight;
+};
+// Texel i of `target` covers these of `source`, exactly.
+inline std::vector<Share> shares_of(int i, int source, int target)
+{
+    std::vector<Share> shares;
+    const std::int64_t s = source, t = target; // units of 1 / target texels of the source
+    for (std::int64_t k = i * s / t; k < ((i + 1) * s + t - 1) / t; ++k) {
+        const std::int64_t overlap = std::min((k + 1) * t, (i + 1) * s) - std::max(k * t, i * s);
+        shares.push_back({static_cast<int>(k), static_cast<double>(overlap) / static_cast<double>(s)});
+    }
+    return shares;
 }
 
 } // namespace burnish

@@ -21,6 +21,7 @@ struct MipFilterInfo {
 const std::vector<MipFilterInfo>& mip_filters(); // from shading/models.def, by place
 
 bool makes_lobes(MipFilter filter); // levels of lobes, all but box and lean
+bool takes_net(MipFilter filter);   // and its lobe
 bool takes_kappa(MipFilter filter);
 
 // What the normals of a fetch's texels differ by, as part of the lobe's covariance: (gain n)(gain n)^T of x and y of unit normals.
@@ -39,9 +40,9 @@ struct MipLevel {
 
 struct MipLevels {
     MipFilter filter = MipFilter{};
-    float kappa = 0.0f;           // of filter kappa, and of the taps of mipnet; else 0
+    float kappa = 0.0f;           // of filter kappa, and of the taps of mipnet and teacher; else 0
     std::uint64_t source = 0;     // hash of level 0
-    std::uint64_t net = 0;        // net_hash() of what filter mipnet made them by; else 0
+    std::uint64_t net = 0;        // net_hash() of what mipnet made them by, teacher began with; else 0
     int width = 0, height = 0;    // of level 0
     std::vector<MipLevel> levels; // from 1 on; none of a single texel
 };

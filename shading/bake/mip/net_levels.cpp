@@ -1,5 +1,6 @@
 #include "shading/bake/mip/net_levels.h"
 
+#include "shading/bake/mip/filter.h"
 #include "shading/bake/mip/texture.h"
 #include "shading/bake/mipnet/pyramid.h"
 #include "shading/surface/tensor.k.h"
@@ -13,31 +14,57 @@ void put_channels(const MipPoint& p, float* to)
     to[0] = p.n.x, to[1] = p.n.y, to[2] = t.a, to[3] = t.b, to[4] = t.c;
 }
 
-} // namespace
-
-void put_net_levels(const MipSource& source, const mipnet::Weights& net, const Jobs& jobs, MipLevels& to)
+mipnet::TexelRows bands_of(const MipRows& rows)
 {
-    mipnet::Texels level0 = mipnet::make_texels(source.width(), source.height());
-    jobs.parallel_for(static_cast<std::size_t>(source.height()), [&](std::size_t y, int) {
-        const std::size_t width = static_cast<std::size_t>(source.width());
-        std::vector<MipPoint> points(width);
-        source.row(static_cast<int>(y), points.data());
-        for (std::size_t x = 0; x < width; ++x) {
-            float channels[mipnet::kChannels];
-            put_channels(points[x], channels);
-            for (std::size_t c = 0; c < mipnet::kChannels; ++c)
-                level0.channel[c][y * width + x] = channels[c];
-        }
-    });
-    const std::vector<mipnet::Texels> made = mipnet::net_pyramid(level0, net, jobs);
-    to.net = mipnet::net_hash(net);
-    for (std::size_t l = 1; l < made.size() && l < kMaxTextureLevels; ++l) {
-        const mipnet::Texels& t = made[l];
+    return {rows.width, rows.height, [rows](int first, int count, mipnet::Texels& to) {
+                const std::size_t width = static_cast<std::size_t>(rows.width);
+                std::vector<MipPoint> points(width);
+                for (int y = 0; y < count; ++y) {
+                    rows.row(first + y, points.data());
+                    for (std::size_t x = 0; x < width; ++x) {
+                        float channels[mipnet::kChannels];
+                        put_channels(points[x], channels);
+                        for (std::size_t c = 0; c < mipnet::kChannels; ++c)
+                            to.channel[c][static_cast<std::size_t>(y) * width + x] = channels[c];
+                    }
+                }
+            }};
+}
+
+// Each level is let go of once it is written.
+void put_levels(std::vector<mipnet::Texels> levels, MipLevels& to)
+{
+    for (std::size_t l = 0; l < levels.size() && l + 1 < kMaxTextureLevels; ++l) {
+        const mipnet::Texels t = std::move(levels[l]);
         MipLevel level = {t.width, t.height, std::vector<MipTexel>(t.count())};
         for (std::size_t i = 0; i < t.count(); ++i)
             level.texels[i] = {t.channel[0][i], t.channel[1][i], t.channel[2][i], t.channel[3][i], t.channel[4][i]};
         to.levels.push_back(std::move(level));
     }
+}
+
+} // namespace
+
+void put_net_levels(const MipSource& source, const mipnet::Weights& net, const Jobs& jobs, MipLevels& to)
+{
+    to.net = mipnet::net_hash(net);
+    put_levels(mipnet::net_levels(bands_of(rows_of(source)), net, jobs), to);
+}
+
+void put_taught_levels(const MipSource& source, const mipnet::Weights& net, const MipHelp& help, const Jobs& jobs, MipLevels& to)
+{
+    const mipnet::TexelRows rows = bands_of(rows_of(source));
+    mipnet::Texels level0 = mipnet::make_texels(source.width(), source.height());
+    rows.rows(0, source.height(), level0);
+    mipnet::make_valid(level0);
+    std::vector<std::vector<mipnet::Texels>> starts = {mipnet::net_levels(rows, net, jobs)};
+    for (const MipFilter filter : {kMipFilter_baseline, kMipFilter_kappa, kMipFilter_leadr, kMipFilter_ssgt}) {
+        starts.emplace_back();
+        for (const MipLevel& level : make_mean_levels(rows_of(source), filter, to.kappa, jobs))
+            starts.back().push_back(shown_texels(level));
+    }
+    to.net = mipnet::net_hash(net);
+    put_levels(taught_levels(level0, starts, shown_surface(net.shape.lobe, help.metal), jobs, help.advance), to);
 }
 
 mipnet::Comparison compare_net(const MipSource& source, const mipnet::Weights& net, float kappa, bool metal, const Jobs& jobs)

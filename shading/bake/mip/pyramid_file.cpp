@@ -94,7 +94,14 @@ std::string read_material(Reader& from, MipLevels& to)
 
 std::vector<std::uint8_t> mip_file_bytes(const std::vector<const MipLevels*>& materials)
 {
+    std::size_t size = sizeof(MipFileHeader) + sizeof(std::uint64_t);
+    for (const MipLevels* m : materials) {
+        size += sizeof(MipMaterialHeader);
+        for (const MipLevel& level : m->levels)
+            size += level.texels.size() * sizeof(MipTexel);
+    }
     std::vector<std::uint8_t> bytes;
+    bytes.reserve(size); // of large maps it is the largest thing there is
     MipFileHeader head = {};
     std::memcpy(head.magic, kMipMagic, sizeof kMipMagic);
     head.version = kMipVersion, head.count = static_cast<std::uint32_t>(materials.size());

@@ -14,7 +14,7 @@ namespace {
 using mipnet::Texels;
 using Numbers = std::vector<float>;
 
-constexpr int kShownPairs = 48, kShownLamps = 3, kLeastShownSide = 16;
+constexpr int kDifferencePairs = 48, kShownLamps = 3;
 constexpr float kShownIntensity = 5.0f;
 
 struct ShownLight { // planes of a level
@@ -28,17 +28,22 @@ void put_unit(Numbers& planes, std::size_t count, std::size_t at, double x, doub
     planes[count + at] = static_cast<float>(y * inverse), planes[2 * count + at] = static_cast<float>(z * inverse);
 }
 
-// The p-th pair: a light from anywhere above, an eye weighted by its cosine; the same for all texels.
-ShownLight shown_pair(int p, std::size_t count)
+ShownLight shown_pair(int p, int width, int height, int tiles)
 {
-    mipnet::Random random(1000003u * static_cast<std::uint64_t>(p) + 17u);
+    const std::size_t count = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
     ShownLight d = {Numbers(3 * count), Numbers(3 * count), Numbers(count, kShownIntensity)};
-    const double zi = random.between(0.1, 1.0), ti = random.between(0.0, 2.0 * kPi), zo = std::sqrt(random.between(0.01, 1.0)),
-                 to = random.between(0.0, 2.0 * kPi);
-    const double ri = std::sqrt(1.0 - zi * zi), ro = std::sqrt(std::max(1.0 - zo * zo, 0.0));
-    for (std::size_t at = 0; at < count; ++at) {
-        put_unit(d.to_light, count, at, ri * det_cos(ti), ri * det_sin(ti), zi);
-        put_unit(d.to_eye, count, at, ro * det_cos(to), ro * det_sin(to), zo);
+    const int across = width / tiles, down = height / tiles;
+    for (int tile = 0; tile < tiles * tiles; ++tile) {
+        mipnet::Random random(1000003u * static_cast<std::uint64_t>(p + tile) + 17u);
+        const double zi = random.between(0.1, 1.0), ti = random.between(0.0, 2.0 * kPi), zo = std::sqrt(random.between(0.01, 1.0)),
+                     to = random.between(0.0, 2.0 * kPi);
+        const double ri = std::sqrt(1.0 - zi * zi), ro = std::sqrt(std::max(1.0 - zo * zo, 0.0));
+        const double i[] = {ri * det_cos(ti), ri * det_sin(ti), zi}, o[] = {ro * det_cos(to), ro * det_sin(to), zo};
+        for (int y = 0; y < down; ++y)
+            for (int x = 0; x < across; ++x) {
+                const std::size_t at = static_cast<std::size_t>((tile / tiles * down + y) * width + tile % tiles * across + x);
+                put_unit(d.to_light, count, at, i[0], i[1], i[2]), put_unit(d.to_eye, count, at, o[0], o[1], o[2]);
+            }
     }
     return d;
 }
@@ -66,13 +71,20 @@ std::size_t whole_slots(std::size_t count)
     return (count + mipnet::kSlots - 1) / mipnet::kSlots * mipnet::kSlots;
 }
 
-Numbers radiance_of(const ShownSurface& s, const Texels& t, const ShownLight& d)
+Numbers planes_of(const Texels& t)
 {
-    Numbers planes, out(whole_slots(t.count()), 0.0f);
+    Numbers planes;
     for (const std::vector<float>& channel : t.channel)
         planes.insert(planes.end(), channel.begin(), channel.end());
+    return planes;
+}
+
+Numbers radiance_of(const ShownSurface& s, const Numbers& planes, const ShownLight& d)
+{
+    const std::size_t count = planes.size() / mipnet::kChannels;
+    Numbers out(whole_slots(count), 0.0f);
     pick<mipnet::Fns>().radiance(
-        {s.lobe, t.count(), planes.data(), d.to_light.data(), d.to_eye.data(), d.intensity.data(), s.f0, s.diffuse, out.data()});
+        {s.lobe, count, planes.data(), d.to_light.data(), d.to_eye.data(), d.intensity.data(), s.f0, s.diffuse, out.data()});
     return out;
 }
 
@@ -95,14 +107,14 @@ Numbers averaged(const Numbers& from, int side) // of a square of side x side
     return to;
 }
 
-void add_difference(const Numbers& found, const Numbers& wanted, std::size_t count, ShownError& to)
+void add_difference(const Numbers& found, const Numbers& wanted, std::size_t count, int times, ShownError& to)
 {
     double l1 = 0.0, mse = 0.0;
     for (std::size_t i = 0; i < count; ++i) {
         const double e = static_cast<double>(found[i]) - static_cast<double>(wanted[i]);
         l1 += std::fabs(e), mse += e * e;
     }
-    to.l1 += l1 / static_cast<double>(count) / kShownPairs, to.mse += mse / static_cast<double>(count) / kShownPairs;
+    to.l1 += l1 / static_cast<double>(count) / times, to.mse += mse / static_cast<double>(count) / times;
 }
 
 Image shown_square(const Numbers& radiance, int side)
@@ -147,43 +159,49 @@ Texels shown_texels(const MipLevel& level)
 ShownError shown_difference(const Texels& a, const Texels& b, const ShownSurface& surface)
 {
     BN_CHECK(a.width == b.width && a.height == b.height);
+    const Numbers planes[2] = {planes_of(a), planes_of(b)};
     ShownError error;
-    for (int p = 0; p < kShownPairs; ++p) {
-        const ShownLight d = shown_pair(p, a.count());
-        add_difference(displayed(radiance_of(surface, a, d)), displayed(radiance_of(surface, b, d)), a.count(), error);
+    for (int p = 0; p < kDifferencePairs; ++p) {
+        const ShownLight d = shown_pair(p, a.width, a.height, 1);
+        add_difference(displayed(radiance_of(surface, planes[0], d)), displayed(radiance_of(surface, planes[1], d)), a.count(),
+                       kDifferencePairs, error);
     }
     return error;
 }
 
 std::vector<std::vector<ShownError>> shown_errors(const Texels& level0, const std::vector<std::vector<Texels>>& filters,
-                                                  const ShownSurface& surface, const Jobs& jobs)
+                                                  const ShownSurface& surface, const Jobs& jobs, const ShownPairs& pairs)
 {
     const int levels = filters.empty() ? 0 : static_cast<int>(filters[0].size());
-    BN_CHECK(level0.width == level0.height && level0.width % (1 << levels) == 0);
+    BN_CHECK(level0.width == level0.height && level0.width % (pairs.tiles << levels) == 0 && pairs.lamps <= kShownLamps);
     std::vector<std::vector<ShownError>> errors(filters.size(), std::vector<ShownError>(static_cast<std::size_t>(levels)));
+    const Numbers planes0 = planes_of(level0);
+    std::vector<std::vector<Numbers>> planes(filters.size());
+    for (std::size_t f = 0; f < filters.size(); ++f)
+        for (const Texels& level : filters[f])
+            planes[f].push_back(planes_of(level));
     // Pairs and lamps are all added in one order, whatever the threads.
-    for (int p = 0; p < kShownPairs + kShownLamps; ++p) {
-        const bool pair = p < kShownPairs;
+    for (int time = 0; time < pairs.times + pairs.lamps; ++time) {
+        const bool pair = time < pairs.times;
         const auto light = [&](int side) {
-            return pair ? shown_pair(p, static_cast<std::size_t>(side) * static_cast<std::size_t>(side))
-                        : shown_lamp(p - kShownPairs, side);
+            return pair ? shown_pair(pairs.first + time * pairs.tiles * pairs.tiles, side, side, pairs.tiles)
+                        : shown_lamp(time - pairs.times, side);
         };
-        Numbers truth = radiance_of(surface, level0, light(level0.width));
+        Numbers truth = radiance_of(surface, planes0, light(level0.width));
         for (int l = 1; l <= levels; ++l) {
             const int side = level0.width >> l;
             truth = averaged(truth, 2 * side);
-            if (!pair && side < kLeastShownSide)
+            if (!pair && side < kLeastFlipSide)
                 break;
             const ShownLight d = light(side);
             const Numbers wanted = pair ? displayed(truth) : Numbers();
             jobs.parallel_for(filters.size(), [&](std::size_t f, int) {
-                const Texels& level = filters[f][static_cast<std::size_t>(l) - 1];
                 ShownError& to = errors[f][static_cast<std::size_t>(l) - 1];
-                const Numbers found = radiance_of(surface, level, d);
+                const Numbers found = radiance_of(surface, planes[f][static_cast<std::size_t>(l) - 1], d);
                 if (pair)
-                    add_difference(displayed(found), wanted, level.count(), to);
+                    add_difference(displayed(found), wanted, filters[f][static_cast<std::size_t>(l) - 1].count(), pairs.times, to);
                 else
-                    to.flip += mean_flip(shown_square(truth, side), shown_square(found, side), Jobs(1)) / kShownLamps;
+                    to.flip += mean_flip(shown_square(truth, side), shown_square(found, side), Jobs(1)) / pairs.lamps;
             });
         }
     }

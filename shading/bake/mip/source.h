@@ -35,12 +35,11 @@ class MipSource {
     int height() const { return grid_.height; }
     const MipMaps& maps() const { return maps_; }
     void row(int y, MipPoint* to) const; // width() points
-    MipPoint at(int x, int y) const { return {normal_at(x, y), covariance_at(x, y)}; }
+    MipPoint at(int x, int y) const;
     std::uint64_t hash(const Jobs& jobs) const; // of size and every point
 
   private:
-    real3 normal_at(int x, int y) const;
-    slope_covariance covariance_at(int x, int y) const;
+    void put(int first, int y, int count, MipPoint* to) const; // of a row
 
     MipMaps maps_;
     Grid grid_;

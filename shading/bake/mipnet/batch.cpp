@@ -25,7 +25,9 @@ Direction3 cosine_weighted(Random& random) // but for what grazes
     return around_z(z, random.between(0.0, 2.0 * kPi));
 }
 
-void put_pair(Random& random, float* pair) // of a tile; directions kSlots numbers apart
+} // namespace
+
+void put_pair(Random& random, float* pair, std::size_t apart)
 {
     const double kind = random.unit();
     const Direction3 o = cosine_weighted(random);
@@ -43,10 +45,8 @@ void put_pair(Random& random, float* pair) // of a tile; directions kSlots numbe
         }
     const double values[] = {i.x, i.y, i.z, o.x, o.y, o.z};
     for (std::size_t k = 0; k < 6; ++k)
-        pair[k * kSlots] = static_cast<float>(values[k]);
+        pair[k * apart] = static_cast<float>(values[k]);
 }
-
-} // namespace
 
 std::size_t place_in_shard(int x, int y, int tile)
 {
@@ -89,7 +89,7 @@ Batch make_batch(const TrainingSet& set, std::uint64_t seed, int pairs)
         batch.tiles[kSlots + t] = static_cast<float>(m.metal ? 0.0 : base);
         batch.tiles[2 * kSlots + t] = static_cast<float>(random.between(1.0, 10.0));
         for (std::size_t p = 0; p < static_cast<std::size_t>(pairs); ++p)
-            put_pair(random, batch.pairs.data() + p * 6 * kSlots + t);
+            put_pair(random, batch.pairs.data() + p * 6 * kSlots + t, kSlots);
     }
     return batch;
 }

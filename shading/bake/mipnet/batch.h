@@ -7,6 +7,8 @@
 
 namespace burnish::mipnet {
 
+class Random;
+
 struct Batch { // a shard, as StepWork wants it
     std::vector<float> texels, tiles, pairs;
 };
@@ -14,8 +16,11 @@ struct Batch { // a shard, as StepWork wants it
 // Where texel (x, y) of tile `tile` lies in a plane of level 0.
 std::size_t place_in_shard(int x, int y, int tile);
 
-// Nothing but the numbers given decides what is in it. pairs: directions a tile; 4 of 10 light and eye from anywhere, the others mirror
-// directions of normals near +z, of lobes cos^10 and cos^80, where highlights are.
+// Unit directions to a light and to an eye, six numbers so far apart. 4 of 10 are from anywhere, the others mirror directions of normals
+// near +z, of lobes cos^10 and cos^80, where highlights are.
+void put_pair(Random& random, float* pair, std::size_t apart);
+
+// Nothing but the numbers given decides what is in it. pairs: directions a tile.
 Batch make_batch(const TrainingSet& set, std::uint64_t seed, int pairs);
 
 } // namespace burnish::mipnet

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/base/check.h"
-
 namespace burnish::mipnet {
 namespace {
 
@@ -102,67 +100,11 @@ State mean_of(const Texels& from, const std::vector<Part>& parts, Method method,
     return state_of(nx, ny, m2);
 }
 
-// Mean slope u and covariance C of slopes about it, as a texel: M^2 = scale K C K^T, where K takes slopes to the frame of the mean normal.
-State state_of_slopes(double ux, double uy, const Symmetric2& c, double scale)
-{
-    const double nz = 1.0 / std::sqrt(1.0 + ux * ux + uy * uy), nx = ux * nz, ny = uy * nz, s = 1.0 / (1.0 + nz);
-    const double k[4] = {nz * (1.0 - nx * nx * s), -nz * nx * ny * s, -nz * nx * ny * s, nz * (1.0 - ny * ny * s)};
-    Symmetric2 m2 = carried(k, c);
-    m2.xx *= scale, m2.xy *= scale, m2.yy *= scale;
-    return state_of(nx, ny, m2);
-}
-
-// Moments that average linearly: of ssgt the SGGX matrix xx, xy, yy, xn, yn, nn in the flat frame; of leadr mean slopes, second moments, 0.
-struct Moments {
-    double m[6] = {};
-};
-
-Moments moments_of(const State& s, Method method)
-{
-    const Axes f = axes_of(s.nx, s.ny);
-    const Symmetric2 m2 = squared(s);
-    if (method == Method::leadr) {
-        // Covariance in the flat frame: half of M^2, by the inverse of K.
-        const double nz = f.n[2], k = 1.0 / (nz * (1.0 + nz));
-        const double back[4] = {(1.0 + s.nx * s.nx * k) / nz, s.nx * s.ny * k / nz, s.nx * s.ny * k / nz, (1.0 + s.ny * s.ny * k) / nz};
-        const Symmetric2 c = carried(back, {0.5 * m2.xx, 0.5 * m2.xy, 0.5 * m2.yy});
-        const double ux = s.nx / nz, uy = s.ny / nz;
-        return {{ux, uy, c.xx + ux * ux, c.xy + ux * uy, c.yy + uy * uy, 0.0}};
-    }
-    const auto entry = [&](int i, int j) {
-        return m2.xx * f.t[i] * f.t[j] + m2.xy * (f.t[i] * f.b[j] + f.b[i] * f.t[j]) + m2.yy * f.b[i] * f.b[j] + f.n[i] * f.n[j];
-    };
-    return {{entry(0, 0), entry(0, 1), entry(1, 1), entry(0, 2), entry(1, 2), entry(2, 2)}};
-}
-
-State state_of_moments(const Moments& x, Method method)
-{
-    const double* m = x.m;
-    if (method == Method::leadr)
-        return state_of_slopes(m[0], m[1], {std::max(m[2] - m[0] * m[0], 0.0), m[3] - m[0] * m[1], std::max(m[4] - m[1] * m[1], 0.0)}, 2.0);
-    const double ux = m[3] / m[5], uy = m[4] / m[5];
-    return state_of_slopes(ux, uy, {m[0] / m[5] - ux * ux, m[1] / m[5] - ux * uy, m[2] / m[5] - uy * uy}, 1.0);
-}
-
 void put_state(Texels& to, std::size_t at, const State& s)
 {
     const double v[kChannels] = {s.nx, s.ny, s.a, s.b, s.c};
     for (std::size_t c = 0; c < kChannels; ++c)
         to.channel[c][at] = static_cast<float>(v[c]);
-}
-
-template <class Each> void each_texel(const Texels& from, Texels& to, const Each& each)
-{
-    for (int y = 0; y < to.height; ++y) {
-        const std::vector<Part> rows = parts_of(from.height, to.height, y);
-        for (int x = 0; x < to.width; ++x) {
-            std::vector<Part> parts;
-            for (const Part& column : parts_of(from.width, to.width, x))
-                for (const Part& row : rows)
-                    parts.push_back({row.at * static_cast<std::size_t>(from.width) + column.at, row.weight * column.weight});
-            each(static_cast<std::size_t>(y) * static_cast<std::size_t>(to.width) + static_cast<std::size_t>(x), parts);
-        }
-    }
 }
 
 } // namespace
@@ -174,9 +116,18 @@ int side_of_level(int side, int level)
 
 Texels shrunk(const Texels& from, int width, int height, Method method, double kappa)
 {
-    BN_CHECK(method == Method::baseline || method == Method::kappa);
     Texels to = make_texels(width, height);
-    each_texel(from, to, [&](std::size_t at, const std::vector<Part>& parts) { put_state(to, at, mean_of(from, parts, method, kappa)); });
+    for (int y = 0; y < height; ++y) {
+        const std::vector<Part> rows = parts_of(from.height, height, y);
+        for (int x = 0; x < width; ++x) {
+            std::vector<Part> parts;
+            for (const Part& column : parts_of(from.width, width, x))
+                for (const Part& row : rows)
+                    parts.push_back({row.at * static_cast<std::size_t>(from.width) + column.at, row.weight * column.weight});
+            put_state(to, static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x),
+                      mean_of(from, parts, method, kappa));
+        }
+    }
     make_valid(to);
     return to;
 }
@@ -184,28 +135,9 @@ Texels shrunk(const Texels& from, int width, int height, Method method, double k
 std::vector<Texels> classical_pyramid(const Texels& level0, Method method, double kappa)
 {
     std::vector<Texels> levels = {level0};
-    std::vector<Moments> moments, above;
-    if (method == Method::ssgt || method == Method::leadr)
-        for (std::size_t i = 0; i < level0.count(); ++i)
-            moments.push_back(moments_of(state_at(level0, i), method));
     while (levels.back().width > 1 || levels.back().height > 1) {
         const int level = static_cast<int>(levels.size());
-        const int width = side_of_level(level0.width, level), height = side_of_level(level0.height, level);
-        if (moments.empty()) {
-            levels.push_back(shrunk(levels.back(), width, height, method, kappa));
-            continue;
-        }
-        Texels to = make_texels(width, height);
-        above.assign(to.count(), {});
-        each_texel(levels.back(), to, [&](std::size_t at, const std::vector<Part>& parts) {
-            for (const Part& p : parts)
-                for (int k = 0; k < 6; ++k)
-                    above[at].m[k] += p.weight * moments[p.at].m[k];
-            put_state(to, at, state_of_moments(above[at], method));
-        });
-        make_valid(to);
-        moments.swap(above);
-        levels.push_back(std::move(to));
+        levels.push_back(shrunk(levels.back(), side_of_level(level0.width, level), side_of_level(level0.height, level), method, kappa));
     }
     return levels;
 }

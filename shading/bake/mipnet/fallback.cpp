@@ -36,7 +36,7 @@ Comparison compare_on(const Texels& sample, const Weights& weights, double kappa
 {
     const std::vector<double> l1 = mean_l1(
         {classical_pyramid(sample, Method::baseline), classical_pyramid(sample, Method::kappa, kappa), net_pyramid(sample, weights, jobs)},
-        weights.shape.lobe, metal);
+        weights.shape.lobe, metal, jobs);
     return {l1[2], l1[0], l1[1]};
 }
 

@@ -9,6 +9,9 @@
 namespace burnish {
 namespace {
 
+// What no entry is about, and why not: a search is what others are measured by.
+const std::set<std::string> kWithout = {"mip filter teacher"};
+
 TEST(atlas_entries, all_that_can_break_has_one)
 {
     std::set<std::string> covered;
@@ -18,7 +21,7 @@ TEST(atlas_entries, all_that_can_break_has_one)
         covered.insert(of_entry->begin(), of_entry->end());
     }
     for (const std::string& name : to_be_covered())
-        EXPECT_EQ(covered.count(name), 1u) << name << " has no entry in apps/atlas/atlas.def";
+        EXPECT_NE(covered.count(name), kWithout.count(name)) << name << " has no entry in apps/atlas/atlas.def, or need not be excepted";
     EXPECT_GE(to_be_covered().size(), 25u);
 }
 

@@ -5,15 +5,16 @@
 #include <cmath>
 #include <functional>
 
+#include "core/image/metrics/flip.h"
 #include "core/simd/dispatch.h"
 #include "core/simd/half.h"
 #include "shading/bake/mip/colour_levels.h"
 #include "shading/bake/mip/filter.h"
 #include "shading/bake/mip/shown.h"
 #include "shading/bake/mip/standard_textures.h"
+#include "shading/bake/mip/teacher.h"
 #include "shading/bake/mip/texture.h"
-#include "shading/bake/mipnet/classical.h"
-#include "shading/bake/mipnet/evaluate.h"
+#include "shading/bake/mipnet/families.h"
 #include "shading/lang/records.h"
 #include "shading/surface/tensor.k.h"
 #include "tests/unit/bake/bake_test.h"
@@ -110,25 +111,169 @@ TEST(mip_textures, halves_keep_the_narrowest_lobes)
     }
 }
 
-// What the trainer's evaluation measures is what is measured here.
-TEST(mip_shown, errors_are_those_that_nets_are_judged_by)
+// What frames hold of a number: a half, or two that hold what the first rounds away.
+float held(float value, bool residual)
 {
-    const Jobs jobs(1);
-    mipnet::TestMaterial m = {mipnet::make_material(mipnet::families().front(), 3, 64), "set"};
-    for (const mipnet::Lobe lobe : {mipnet::Lobe::ggx_aniso, mipnet::Lobe::beckmann, mipnet::Lobe::ashikhmin_shirley}) {
-        const std::vector<mipnet::Judged> judged = mipnet::judge({m}, lobe, {}, jobs);
-        std::vector<mipnet::Texels> levels = mipnet::classical_pyramid(m.material.texels, mipnet::Method::baseline);
-        levels.erase(levels.begin());
-        levels.resize(mipnet::kJudgedLevels);
-        const auto errors = shown_errors(m.material.texels, {levels}, shown_surface(lobe, m.material.metal), jobs);
-        ASSERT_EQ(judged.front().filter, "baseline");
-        for (std::size_t l = 1; l <= mipnet::kJudgedLevels; ++l) {
-            EXPECT_NEAR(errors[0][l - 1].l1, judged.front().level[l].l1, 1e-9);
-            EXPECT_NEAR(errors[0][l - 1].mse, judged.front().level[l].mse, 1e-9);
-            EXPECT_NEAR(errors[0][l - 1].flip, judged.front().level[l].flip, 1e-7);
-        }
-        EXPECT_EQ(shown_difference(levels[0], levels[0], shown_surface(lobe, true)).l1, 0.0);
+    const float first = half_to_float(float_to_half(value));
+    return residual ? first + half_to_float(float_to_half(value - first)) : first;
+}
+
+// Levels as frames hold them: normals as halves of a normal map, covariances as moments of two halves.
+mipnet::Texels in_halves(const mipnet::Texels& from, bool normals, bool residual)
+{
+    mipnet::Texels to = from;
+    for (std::size_t i = 0; i < from.count(); ++i) {
+        const slope_covariance s = covariance_of_tensor({from.channel[2][i], from.channel[3][i], from.channel[4][i]});
+        const auto moment = [&](float value) { return held(kMomentScale * value, residual) / kMomentScale; };
+        const lobe_tensor t = projected_tensor(tensor_of_covariance({moment(s.xx), moment(s.yy), moment(s.xy)}));
+        for (std::size_t c = 0; normals && c < 2; ++c)
+            to.channel[c][i] = 2.0f * held(0.5f + 0.5f * from.channel[c][i], false) - 1.0f;
+        to.channel[2][i] = t.a, to.channel[3][i] = t.b, to.channel[4][i] = t.c;
     }
+    return to;
+}
+
+double flip_between(const mipnet::Texels& a, const mipnet::Texels& b, mipnet::Lobe lobe)
+{
+    const auto picture = [&](const mipnet::Texels& t) {
+        std::vector<float> planes, to_light, to_eye, intensity(t.count(), 5.0f), out(t.count());
+        for (const std::vector<float>& channel : t.channel)
+            planes.insert(planes.end(), channel.begin(), channel.end());
+        for (const float part : {0.28f, 0.0f, 0.96f})
+            to_light.insert(to_light.end(), t.count(), part);
+        for (const float part : {-0.28f, 0.0f, 0.96f})
+            to_eye.insert(to_eye.end(), t.count(), part);
+        pick<mipnet::Fns>().radiance(
+            {lobe, t.count(), planes.data(), to_light.data(), to_eye.data(), intensity.data(), 0.85f, 0.0f, out.data()});
+        Image image = make_image(t.width, t.height, 3, PixelType::f32);
+        for (std::size_t i = 0; i < 3 * t.count(); ++i)
+            image.f32()[i] = out[i / 3] / (1.0f + out[i / 3]);
+        return image;
+    };
+    const Image error = flip_ldr(picture(a), picture(b), {}, Jobs(1)).error;
+    double sum = 0.0;
+    for (std::size_t i = 0; i < a.count(); ++i)
+        sum += static_cast<double>(error.f32()[i]);
+    return sum / static_cast<double>(a.count());
+}
+
+// Lobes are as in floats, however narrow. Normals of a half near 1/2 are 2.4e-4 off at most, which lobes narrower than alpha 0.3 begin to
+// show.
+TEST(mip_textures, in_halves_look_as_in_floats)
+{
+    double most_of_one_half = 0.0;
+    for (const float alpha : {0.002f, 0.01f, 0.05f, 0.3f}) {
+        mipnet::Texels relief = mipnet::make_material(mipnet::families().front(), 3, 64).texels;
+        for (std::size_t i = 0; i < relief.count(); ++i) {
+            relief.channel[0][i] *= 0.3f, relief.channel[1][i] *= 0.3f;
+            relief.channel[2][i] = alpha, relief.channel[3][i] = 2.0f * alpha, relief.channel[4][i] = 0.0f;
+        }
+        const mipnet::Texels level = shown_texels(make_mean_levels(rows_of_texels(relief), kMipFilter_covariance, 0.0f, Jobs(1))[0]);
+        for (const mipnet::Lobe lobe : {mipnet::Lobe::ggx_aniso, mipnet::Lobe::beckmann, mipnet::Lobe::ashikhmin_shirley}) {
+            EXPECT_LT(flip_between(level, in_halves(level, false, true), lobe), 1e-3) << alpha;
+            most_of_one_half = std::max(most_of_one_half, flip_between(level, in_halves(level, false, false), lobe));
+            if (alpha > 0.2f)
+                EXPECT_LT(flip_between(level, in_halves(level, true, true), lobe), 1e-3);
+        }
+    }
+    EXPECT_GT(most_of_one_half, 1e-3) << "a second half is not needed";
+}
+
+mipnet::Texels flat_texels(int side, float alpha)
+{
+    mipnet::Texels t = mipnet::make_texels(side, side);
+    t.channel[2].assign(t.count(), alpha), t.channel[3].assign(t.count(), alpha);
+    return t;
+}
+
+TEST(mip_shown, errors_are_those_of_what_differs)
+{
+    const ShownSurface surface = shown_surface(mipnet::Lobe::ggx_aniso, true);
+    const std::vector<mipnet::Texels> same = {flat_texels(32, 0.3f), flat_texels(16, 0.3f), flat_texels(8, 0.3f)};
+    std::vector<mipnet::Texels> wider = {flat_texels(32, 0.31f), flat_texels(16, 0.4f), flat_texels(8, 0.6f)};
+    const auto errors = shown_errors(flat_texels(64, 0.3f), {same, wider}, surface, Jobs(1));
+    for (std::size_t l = 0; l < 3; ++l) {
+        EXPECT_EQ(errors[0][l].l1 + errors[0][l].mse, 0.0);
+        EXPECT_LE(errors[0][l].flip, 0.1 * errors[1][l].flip) << "lamps are near, their light is not the same everywhere";
+        EXPECT_GT(errors[1][l].l1, l == 0 ? 1e-4 : 4.0 * errors[1][l - 1].l1 * (l == 1 ? 1.0 : 0.4));
+        EXPECT_GE(errors[1][l].mse, errors[1][l].l1 * errors[1][l].l1);
+        EXPECT_EQ(errors[1][l].flip > 0.0, l < 2) << "squares of 16 texels and more have one";
+        EXPECT_NEAR(shown_difference(same[l], wider[l], surface).l1, errors[1][l].l1, 1e-6) << "of a level that is the truth";
+    }
+    const auto other = shown_errors(flat_texels(64, 0.3f), {same, wider}, surface, Jobs(1), {.first = 48, .times = 24, .lamps = 0});
+    EXPECT_EQ(other[1][0].flip, 0.0);
+    EXPECT_NE(other[1][1].l1, errors[1][1].l1) << "other pairs";
+    EXPECT_NEAR(other[1][1].l1 / errors[1][1].l1, 1.0, 0.5);
+}
+
+TEST(mip_shown, tiles_have_pairs_of_their_own)
+{
+    // One texel of a level a tile: each is as the pair of its number has it, all are as the mean of those has it.
+    const ShownSurface surface = shown_surface(mipnet::Lobe::beckmann, false);
+    const std::vector<std::vector<mipnet::Texels>> wider = {{flat_texels(4, 0.4f)}};
+    const mipnet::Texels level0 = flat_texels(8, 0.3f);
+    const double tiled = shown_errors(level0, wider, surface, Jobs(1), {.first = 5, .times = 3, .tiles = 4, .lamps = 0})[0][0].l1;
+    const double whole = shown_errors(level0, wider, surface, Jobs(1), {.first = 5, .times = 48, .lamps = 0})[0][0].l1;
+    EXPECT_NEAR(tiled, whole, 1e-6);
+    EXPECT_NE(tiled, shown_errors(level0, wider, surface, Jobs(1), {.first = 6, .times = 3, .tiles = 4, .lamps = 0})[0][0].l1);
+}
+
+TEST(mip_shown, errors_do_not_depend_on_threads)
+{
+    const mipnet::Material m = mipnet::make_material(mipnet::families().front(), 3, 64);
+    std::vector<std::vector<mipnet::Texels>> filters;
+    for (const MipFilter filter : {kMipFilter_baseline, kMipFilter_leadr, kMipFilter_ssgt}) {
+        filters.emplace_back();
+        for (const MipLevel& level : make_mean_levels(rows_of_texels(m.texels), filter, 0.0f, Jobs(1)))
+            filters.back().push_back(shown_texels(level));
+        filters.back().resize(3);
+    }
+    const ShownSurface surface = shown_surface(mipnet::Lobe::ggx_aniso, m.metal);
+    const auto one = shown_errors(m.texels, filters, surface, Jobs(1)), three = shown_errors(m.texels, filters, surface, Jobs(3));
+    for (std::size_t f = 0; f < filters.size(); ++f)
+        for (std::size_t l = 0; l < 3; ++l) {
+            EXPECT_EQ(one[f][l].l1, three[f][l].l1);
+            EXPECT_EQ(one[f][l].mse, three[f][l].mse);
+            EXPECT_EQ(one[f][l].flip, three[f][l].flip);
+        }
+    EXPECT_NE(one[0][0].l1, one[1][0].l1);
+}
+
+// Two slopes by turns: the search finds their mean and a wider lobe from starts that are far off, and keeps what is right.
+TEST(mip_teacher, ends_nearer_to_the_truth_than_it_began)
+{
+    const Jobs jobs(2);
+    for (const mipnet::Lobe lobe : {mipnet::Lobe::ggx_aniso, mipnet::Lobe::beckmann, mipnet::Lobe::ashikhmin_shirley}) {
+        const ShownSurface surface = shown_surface(lobe, true);
+        mipnet::Texels relief = flat_texels(64, 0.15f);
+        for (std::size_t i = 0; i < relief.count(); ++i)
+            relief.channel[0][i] = (i & 1) != 0 ? 0.12f : -0.06f;
+        const std::vector<std::vector<mipnet::Texels>> starts = {{flat_texels(32, 0.15f), flat_texels(16, 0.15f)},
+                                                                 {flat_texels(32, 0.8f), flat_texels(16, 0.8f)}};
+        const std::vector<mipnet::Texels> taught = taught_levels(relief, starts, surface, jobs);
+        const auto errors = shown_errors(relief, {starts[0], taught}, surface, jobs, {.first = 1000, .times = 24, .lamps = 0});
+        for (std::size_t l = 0; l < 2; ++l) {
+            EXPECT_LT(errors[1][l].l1, 0.7 * errors[0][l].l1) << static_cast<int>(lobe);
+            EXPECT_NEAR(taught[l].channel[0][0], 0.03, 0.015);                   // the mean slope
+            EXPECT_GT(taught[l].channel[3][0], taught[l].channel[2][0] + 0.01f); // wider along x, as b is
+        }
+        const std::vector<mipnet::Texels> kept =
+            taught_levels(flat_texels(8, 0.3f), {{flat_texels(4, 0.9f)}, {flat_texels(4, 0.3f)}}, surface, jobs);
+        EXPECT_EQ(kept[0].channel[2], flat_texels(4, 0.3f).channel[2]);
+    }
+}
+
+// Odd sides: what is below a texel is shared out by area, and levels have the bits of one thread and of any instruction set.
+TEST(mip_teacher, takes_odd_sides_and_any_number_of_threads)
+{
+    const TexturedMaterial material = some_material(37, 21, 0.3);
+    const MipSource source(material.maps());
+    const MipLevels one = make_mip_levels(source, kMipFilter_teacher, 0.7f, Jobs(1)),
+                    three = make_mip_levels(source, kMipFilter_teacher, 0.7f, Jobs(3));
+    ASSERT_EQ(one.levels.size(), 5u);
+    for (std::size_t l = 0; l < one.levels.size(); ++l)
+        EXPECT_EQ(one.levels[l].texels, three.levels[l].texels);
+    EXPECT_NE(one.levels[0].texels, make_mip_levels(source, kMipFilter_mipnet, 0.7f, Jobs(1)).levels[0].texels);
 }
 
 Image gray_map(int width, int height, const std::function<double(int x, int y)>& value)

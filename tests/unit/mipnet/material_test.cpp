@@ -88,9 +88,7 @@ Texels constant(int width, int height, double nx, double ny, const Tensor& t)
 TEST(classical, what_is_the_same_everywhere_stays)
 {
     for (const auto& [nx, ny] : {std::pair{0.0, 0.0}, {0.4, -0.3}})
-        for (const Method method : {Method::baseline, Method::kappa, Method::ssgt, Method::leadr}) {
-            if (method == Method::ssgt && nx != 0.0)
-                continue; // as a lobe of slopes, a tilted SGGX matrix has its mean elsewhere
+        for (const Method method : {Method::baseline, Method::kappa}) {
             const Texels t = constant(17, 9, nx, ny, tensor_of(0.4, 0.05, 0.7));
             const std::vector<Texels> levels = classical_pyramid(t, method, 1.0);
             EXPECT_EQ(levels.size(), 5u);
@@ -107,9 +105,8 @@ TEST(classical, two_slopes_become_their_covariance)
     const double s = 0.1, nz = 1.0 / std::sqrt(1.0 + s * s), alpha = 0.2;
     Texels t = constant(2, 2, s * nz, 0.0, tensor_of(alpha, alpha, 0.0));
     t.channel[0][1] = t.channel[0][3] = -t.channel[0][0];
-    const Texels leadr = classical_pyramid(t, Method::leadr).back(), kappa = classical_pyramid(t, Method::kappa, 2.0).back();
-    EXPECT_NEAR(leadr.channel[0][0], 0.0, 1e-7);
-    EXPECT_NEAR(leadr.channel[3][0], std::sqrt(alpha * alpha / (nz * nz * nz * nz) + 2.0 * s * s), 1e-5); // b: the width along x
+    const Texels kappa = classical_pyramid(t, Method::kappa, 2.0).back();
+    EXPECT_NEAR(kappa.channel[0][0], 0.0, 1e-7);
     EXPECT_NEAR(kappa.channel[3][0], std::sqrt(alpha * alpha * nz * nz + 2.0 * s * s * nz * nz), 1e-5);
     EXPECT_NEAR(kappa.channel[2][0], alpha, 1e-5);
 }
