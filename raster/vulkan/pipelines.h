@@ -80,7 +80,7 @@ class Pipelines {
     VkDescriptorSet set_ = VK_NULL_HANDLE;
     VkSampler sampler_ = VK_NULL_HANDLE;
     std::map<std::string, VkShaderModule> modules_; // pruned for their constants
-    std::map<std::string, VkPipeline> pipelines_; // by everything that decides them
+    std::map<std::string, VkPipeline> pipelines_;   // by everything that decides them
 };
 
 } // namespace burnish
