@@ -60,8 +60,8 @@ void add(FrameProfile& to, const FrameProfile& more)
     }
 }
 
-// Frames with and without a profile, in turn: the one tells what the other costs, and both show the same picture.
-Result<Image> measure(Renderer& renderer, FrameDesc desc, const std::string& scene, ProfileFigures& figures)
+// Frames with and without a profile, in turn: the one tells what the other costs, and both show the same picture. The last one.
+Result<Frame> measure(Renderer& renderer, FrameDesc desc, const std::string& scene, ProfileFigures& figures)
 {
     std::vector<double> plain_ms, profiled_ms;
     Frame last;
@@ -85,7 +85,7 @@ Result<Image> measure(Renderer& renderer, FrameDesc desc, const std::string& sce
         last = std::move(*frame);
     }
     figures.plain_ms = median(plain_ms), figures.profiled_ms = median(profiled_ms);
-    return std::move(last.color);
+    return last;
 }
 
 Status write_files(const RenderOptions& options, const ProfileArguments& arguments, const ProfileFigures& figures)
@@ -111,6 +111,9 @@ int run_profile(const ProfileArguments& arguments, const OptionTable& given)
         return fail(usage_error("--backend", "only the tile renderer is profiled"));
     if (!options.stats_file.empty())
         return fail(usage_error("--stats", "belongs to burnish render; here figures go to --json"));
+    for (const char* option : {"--aov", "--risks", "--animate", "--turntable"})
+        if (given.given(option))
+            return fail(usage_error(option, "belongs to burnish render; here one picture is drawn, over and over"));
     if (Status files = check_files(options, arguments, {options.scene, options.env}); !files)
         return fail(files.error());
     Report report(options.quiet, options.verbosity);
@@ -139,6 +142,7 @@ int run_profile(const ProfileArguments& arguments, const OptionTable& given)
 
     FrameDesc desc = options.frame;
     desc.view = seen->view;
+    desc.parts = options.resolve_display;
     ProfileFigures figures;
     figures.device = session->device(), figures.threads = jobs->threads();
     figures.frames = given.given("--frames") ? options.frames : kFrames;
@@ -146,13 +150,13 @@ int run_profile(const ProfileArguments& arguments, const OptionTable& given)
         figures.materials.push_back(material.name.empty() ? fmt::format("material {}", figures.materials.size()) : material.name);
     if (!options.trace_file.empty())
         Trace::start();
-    const Result<Image> picture = measure(session->renderer(), session->drawn(desc), options.scene, figures);
-    if (!picture)
-        return fail(picture.error());
+    const Result<Frame> last = measure(session->renderer(), session->drawn(desc), options.scene, figures);
+    if (!last)
+        return fail(last.error());
     const std::uint64_t begin = Trace::now_ns();
     for (const std::string& path : options.outputs) {
         const TraceSpan span("write picture");
-        if (Status done = write_picture(path, *picture, options.tonemap, options.exposure_ev); !done)
+        if (Status done = write_picture(path, last->color, options.tonemap, options.exposure_ev, last->parts); !done)
             return fail(done.error());
         report.wrote(path);
     }

@@ -379,7 +379,8 @@ Status check_lobe(const FrameDesc& d, const TechniqueInfo& technique)
                          " can be chosen"};
     if (!(technique.traits & kSamplesLobe) && !(lobe_traits_of(d.brdf) & kLobeOfAll))
         return Error{ExitCode::usage, "--technique", "",
-                     std::string(technique.name) + " is made for " + lobe_model(lobe_with(kLobeOfAll)).name + ", not for --brdf " + name};
+                     std::string(technique.name) + " is made for " + lobe_model(lobe_with(kLobeOfAll)).name + ", not for --brdf " + name +
+                         " (--technique mc and --backend reference take it)"};
     return {};
 }
 

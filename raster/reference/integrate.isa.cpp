@@ -100,7 +100,7 @@ BN_INLINE CoatUnderLamps coat_under_lamps(const ReferenceParams& f, const Reflec
 
 BN_INLINE real3 coat_lit(const ReferenceParams& f, const Reflector& r, const CoatUnderLamps& coat, const light_sample& towards, int light)
 {
-    const punctual_light shone = light_from(f, coat.point, coat.lobe, towards, light);
+    const punctual_light shone = light_from(f, coat.point, coat.lobe, vec3_all(lit(0.0)), towards, light);
     return select(k_dot3(r.coat.horizon, shone.l) > lit(0.0), shone.radiance, vec3_all(lit(0.0)));
 }
 
@@ -116,9 +116,10 @@ BN_STAGE real3 punctual_lights(const PixelFrame& p, const LaneSurface& s)
     for (int i = 0; i < f.light_count; ++i) {
         const LightRecord& l = f.lights[i];
         const light_sample towards = light_towards(f, s.position, i);
-        punctual_light light = light_from(f, s.r.x, lobe, towards, i);
+        punctual_light light = light_from(f, s.r.x, lobe, s.r.diffuse, towards, i);
         if (s.r.x.refracts)
-            light.radiance = select(s.r.refracts, light_from_interface(f, s.r.x, through, towards, i).radiance, light.radiance);
+            light.radiance =
+                select(s.r.refracts, light_from_interface(f, s.r.x, through, s.r.diffuse, towards, i).radiance, light.radiance);
         mask lit_lanes = both(both(s.reflects, k_dot3(s.r.horizon, light.l) > lit(0.0)), any_light(light.radiance));
         if (s.r.coated) {
             light.radiance = select(lit_lanes, light.radiance * (lit(1.0) - s.r.coat.weight), vec3_all(lit(0.0)));

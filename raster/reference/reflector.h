@@ -42,7 +42,7 @@ BN_INLINE Reflector make_reflector(const ShadingFrame& f, const shaded_point& x,
     r.o = placed_lobe_of(kUsualLobe, x.lobe, s.n, s.v, x.surface_axes).o;
     const real passed = passed_to_diffuse(f, x);
     r.phong_diffuse = f.diffuse_model != 0;
-    r.diffuse = s.diffuse * (passed * lit(0.31830988618379067));
+    r.diffuse = diffuse_brdf(f, x);
     r.mirror = x.lobe.sigma_u + x.lobe.sigma_v <= lit(1e-6);
     r.refracts = mask_from_bits(x.refracts ? (1u << kLanes) - 1u : 0u);
     real specular = luminance_of((s.f0 * x.dfg.scale + s.f90 * x.dfg.bias) * x.gain);

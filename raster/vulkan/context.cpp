@@ -249,6 +249,9 @@ void Context::make_device()
     features_.max_image = p.limits.maxImageDimension2D, features_.max_framebuffer_width = p.limits.maxFramebufferWidth;
     features_.max_index = p.limits.maxDrawIndexedIndexValue;
     features_.max_buffer = p.limits.maxStorageBufferRange;
+    features_.max_samplers = p.limits.maxPerStageDescriptorSamplers,
+    features_.max_sampled_images = p.limits.maxPerStageDescriptorSampledImages;
+    features_.max_buffers = p.limits.maxPerStageDescriptorStorageBuffers;
     features_.target_samples = p.limits.framebufferColorSampleCounts & p.limits.framebufferDepthSampleCounts &
                                p.limits.sampledImageColorSampleCounts & p.limits.sampledImageDepthSampleCounts;
 

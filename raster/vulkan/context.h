@@ -40,6 +40,8 @@ struct Features {
     std::uint32_t max_image = 0, max_framebuffer_width = 0; // pixels
     std::uint32_t max_index = 0;                            // of a vertex
     VkDeviceSize max_buffer = 0;                            // bytes of a storage buffer
+    std::uint32_t max_samplers = 0, max_sampled_images = 0; // that a stage may bind
+    std::uint32_t max_buffers = 0;                          // storage buffers that it may
 };
 
 // Instance, device, one queue. Made once a renderer.

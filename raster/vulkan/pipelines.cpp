@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "core/scene/draw_tables.h"
+#include "raster/vulkan/bands.h"
 #include "raster/vulkan/prune.h"
 #include "raster/vulkan/shaders.h"
 
@@ -54,10 +55,12 @@ std::string key_of(const std::string& name, const Specialization& constants)
 
 } // namespace
 
-Pipelines::Pipelines(Context& context, std::string shader_folder) : Pipelines(context)
+Pipelines::Pipelines(Context& context, const VulkanOptions& options) : Pipelines(context)
 {
-    folder_ = std::move(shader_folder);
+    folder_ = options.shader_folder;
     const VkDevice device = context.device();
+    const bool lean = options.pipeline == VulkanPipeline::lean, native = lean || options.sampler == VulkanSampler::native;
+    require_limit(context, "--device", "maxPerStageDescriptorStorageBuffers", kBufferBindings, context.features().max_buffers);
     std::vector<VkDescriptorSetLayoutBinding> bindings;
     for (std::uint32_t i = 0; i < kBindings; ++i)
         bindings.push_back({i, i < kBufferBindings ? VK_DESCRIPTOR_TYPE_STORAGE_BUFFER : VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1,
@@ -66,18 +69,16 @@ Pipelines::Pipelines(Context& context, std::string shader_folder) : Pipelines(co
     auto set = vk_struct<VkDescriptorSetLayoutCreateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO);
     set.bindingCount = static_cast<std::uint32_t>(bindings.size()), set.pBindings = bindings.data();
     BN_VK(vkCreateDescriptorSetLayout(device, &set, nullptr, &set_layout_));
-    const VkDescriptorSetLayoutBinding native[] = {
-        {0, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, kGpuCubes, VK_SHADER_STAGE_FRAGMENT_BIT, nullptr},
-        {1, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, kTextureSlots, VK_SHADER_STAGE_FRAGMENT_BIT, nullptr}};
-    set.bindingCount = 2, set.pBindings = native;
-    BN_VK(vkCreateDescriptorSetLayout(device, &set, nullptr, &native_layout_));
+    if (native)
+        make_native_layout(lean);
     const VkDescriptorSetLayout set_layouts[] = {set_layout_, native_layout_};
     const VkPushConstantRange range = {kStages, 0, sizeof(GpuPass)};
     auto layout = vk_struct<VkPipelineLayoutCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO);
-    layout.setLayoutCount = 2, layout.pSetLayouts = set_layouts;
+    layout.setLayoutCount = native ? 2 : 1, layout.pSetLayouts = set_layouts;
     layout.pushConstantRangeCount = 1, layout.pPushConstantRanges = &range;
     BN_VK(vkCreatePipelineLayout(device, &layout, nullptr, &layout_));
-    make_lean_layout();
+    if (lean)
+        make_lean_layout();
     const VkDescriptorPoolSize sizes[] = {{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kBufferBindings},
                                           {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, kBindings - kBufferBindings}};
     auto pool = vk_struct<VkDescriptorPoolCreateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO);
@@ -105,6 +106,23 @@ Pipelines::~Pipelines()
     vkDestroyDescriptorSetLayout(device, lean_layout_, nullptr);
     vkDestroyDescriptorSetLayout(device, native_layout_, nullptr);
     vkDestroyDescriptorSetLayout(device, set_layout_, nullptr);
+}
+
+// Set 1: of a material, cubes of the environment and its textures, all bound by one stage, which every device lets bind 16.
+void Pipelines::make_native_layout(bool lean)
+{
+    const Features& f = context_.features();
+    const char* const option = lean ? "--pipeline" : "--sampler";
+    constexpr std::uint32_t kOfLean = 4; // make_lean_layout()
+    const std::uint32_t bound = kGpuCubes + kTextureSlots + (lean ? kOfLean : 0);
+    require_limit(context_, option, "maxPerStageDescriptorSamplers", bound, f.max_samplers);
+    require_limit(context_, option, "maxPerStageDescriptorSampledImages", bound, f.max_sampled_images);
+    const VkDescriptorSetLayoutBinding native[] = {
+        {0, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, kGpuCubes, VK_SHADER_STAGE_FRAGMENT_BIT, nullptr},
+        {1, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, kTextureSlots, VK_SHADER_STAGE_FRAGMENT_BIT, nullptr}};
+    auto set = vk_struct<VkDescriptorSetLayoutCreateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO);
+    set.bindingCount = 2, set.pBindings = native;
+    BN_VK(vkCreateDescriptorSetLayout(context_.device(), &set, nullptr, &native_layout_));
 }
 
 // Set 0: of a frame, of a material, a grid, tables of albedo. Set 1 is that of native samplers.

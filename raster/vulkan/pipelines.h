@@ -46,14 +46,15 @@ struct GraphicsState {
 
 class Pipelines {
   public:
-    Pipelines(Context& context, std::string shader_folder);
+    // Throws ExitCode::unavailable where a stage binds more than the device lets it.
+    Pipelines(Context& context, const VulkanOptions& options);
     ~Pipelines();
     Pipelines(const Pipelines&) = delete;
     Pipelines& operator=(const Pipelines&) = delete;
 
     VkPipelineLayout layout() const { return layout_; }
-    VkDescriptorSetLayout native_layout() const { return native_layout_; } // of set 1: three cubes, a material's textures
-    VkDescriptorSetLayout lean_layout() const { return lean_layout_; }     // of set 0 of the lean stages: see lean.cpp
+    VkDescriptorSetLayout native_layout() const { return native_layout_; } // of set 1, with native samplers: cubes, a material's textures
+    VkDescriptorSetLayout lean_layout() const { return lean_layout_; }     // of set 0 of the lean stages, with those: see lean.cpp
     VkPipelineLayout lean_pipeline_layout() const { return lean_pipeline_layout_; }
     // Made on first use, then kept.
     VkPipeline compute(const std::string& shader, const Specialization& constants = {});
@@ -68,6 +69,7 @@ class Pipelines {
   private:
     Pipelines(Context& context) : context_(context) {}
     VkShaderModule module(const std::string& shader, const Specialization& constants);
+    void make_native_layout(bool lean);
     void make_lean_layout();
 
     Context& context_;

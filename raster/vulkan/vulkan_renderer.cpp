@@ -48,7 +48,7 @@ struct Targets {
 
 class Device final : public VulkanDevice {
   public:
-    explicit Device(const VulkanOptions& wanted) : options(wanted), context(wanted), pipelines(context, wanted.shader_folder) {}
+    explicit Device(const VulkanOptions& wanted) : options(wanted), context(wanted), pipelines(context, wanted) {}
     const VulkanDeviceInfo& info() const override { return context.info(); }
 
     VulkanOptions options;

@@ -1,4 +1,4 @@
-// One punctual light on a surface: a specular lobe with its reflectance, plus Lambert.
+// One punctual light on a surface: a specular lobe with its reflectance, plus the diffuse part.
 // glTF 2.0, appendix B ("BRDF Implementation"), and its extension KHR_lights_punctual.
 #ifndef BN_PUNCTUAL_K_H
 #define BN_PUNCTUAL_K_H
@@ -16,24 +16,21 @@ BN_FN real punctual_v_dot_h(surface s, real3 l)
     return min(max(k_dot3(s.v, h), lit(0.0)), lit(1.0));
 }
 
-// l: unit, to the light. lobe: the specular lobe's BRDF there, without Fresnel's reflectance f. passed: to the diffuse part, 1 - f or less.
+// l: unit, to the light. lobe: the specular lobe's BRDF there, without Fresnel's reflectance f. diffuse: BRDF of the diffuse part, 1/sr.
 // gain: factor on the specular lobe.
 // intensity: irradiance on a surface facing the light, lux. Returns outgoing radiance.
-BN_FN real3 punctual_radiance(surface s, real3 l, real lobe, real3 f, real3 passed, real3 gain, real3 intensity)
+BN_FN real3 punctual_radiance(surface s, real3 l, real lobe, real3 f, real3 diffuse, real3 gain, real3 intensity)
 {
     real n_dot_l = k_dot3(s.n, l);
-    real3 f_diffuse = passed * s.diffuse * lit(0.31830988618379067);
-    real3 value = (f_diffuse + f * gain * lobe) * intensity * n_dot_l;
+    real3 value = (diffuse + f * gain * lobe) * intensity * n_dot_l;
     return select(n_dot_l > lit(0.0), value, vec3_all(lit(0.0)));
 }
 
 // Of a lobe whose value times the light's cosine is given: that of one that knows the surface is not the shading normal's.
-BN_FN real3 punctual_radiance_apart(surface s, real3 l, real lobe_cosine, real3 f, real3 passed, real3 gain, real3 intensity)
+BN_FN real3 punctual_radiance_apart(surface s, real3 l, real lobe_cosine, real3 f, real3 diffuse, real3 gain, real3 intensity)
 {
     real n_dot_l = max(k_dot3(s.n, l), lit(0.0));
-    real diffuse_cosine = n_dot_l * lit(0.31830988618379067);
-    real3 diffused = passed * s.diffuse * diffuse_cosine;
-    return (diffused + f * gain * lobe_cosine) * intensity;
+    return (diffuse * n_dot_l + f * gain * lobe_cosine) * intensity;
 }
 
 struct light_sample {

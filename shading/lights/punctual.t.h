@@ -21,36 +21,41 @@ BN_FN light_sample light_towards(frame_ref f, real3 position, int light)
                            splat(the_light(f, light).spot_offset), int_lit(the_light(f, light).directional) != int_lit(0));
 }
 
-// lobe: of x, under lights. at: light_towards().
-BN_FN punctual_light light_from(frame_ref f, BN_IN(shaded_point) x, BN_IN(placed_lobe) lobe, light_sample at, int light)
+// diffuse: diffuse_brdf() of x. Returns what its part has of light at that cosine, 1/sr.
+BN_FN real3 diffuse_under_light(frame_ref f, BN_IN(real3) diffuse, real n_dot_l)
+{
+    if (the_frame(f).diffuse_model == 0)
+        return diffuse;
+    return diffuse * diffuse_lit(f, max(n_dot_l, lit(0.0)));
+}
+
+// lobe: of x, under lights. diffuse: diffuse_brdf(). at: light_towards().
+BN_FN punctual_light light_from(frame_ref f, BN_IN(shaded_point) x, BN_IN(placed_lobe) lobe, BN_IN(real3) diffuse, light_sample at,
+                                int light)
 {
     real3 intensity = splat3(the_light(f, light).radiant) * at.attenuation;
     real3 reflectance = reflectance_of(x.s, punctual_v_dot_h(x.s, at.l));
-    real3 passed = vec3_all(lit(1.0)) - reflectance;
-    if (the_frame(f).diffuse_model != 0) {
-        real share = passed_to_diffuse(f, x) * diffuse_lit(f, max(k_dot3(x.s.n, at.l), lit(0.0)));
-        passed = vec3_all(share);
-    }
+    real3 dull = diffuse_under_light(f, diffuse, k_dot3(x.s.n, at.l));
     punctual_light r;
     r.l = at.l;
     if (lobe_has(lobe.model, kLies_surface + kLies_thread))
-        r.radiance = punctual_radiance_apart(x.s, at.l, placed_lobe_value(lobe, at.l), reflectance, passed, x.gain, intensity);
+        r.radiance = punctual_radiance_apart(x.s, at.l, placed_lobe_value(lobe, at.l), reflectance, dull, x.gain, intensity);
     else
-        r.radiance = punctual_radiance(x.s, at.l, placed_lobe_light(lobe, x.s, at.l), reflectance, passed, x.gain, intensity);
+        r.radiance = punctual_radiance(x.s, at.l, placed_lobe_light(lobe, x.s, at.l), reflectance, dull, x.gain, intensity);
     return r;
 }
 
 // The same of a surface that light passes: its interface is in the lobe's place.
-BN_STAGE punctual_light light_from_interface(any_frame f, BN_IN(shaded_point) x, BN_IN(rough_interface) g, light_sample at, int light)
+BN_STAGE punctual_light light_from_interface(any_frame f, BN_IN(shaded_point) x, BN_IN(rough_interface) g, BN_IN(real3) diffuse,
+                                             light_sample at, int light)
 {
     real3 intensity = splat3(the_light(f, light).radiant) * at.attenuation;
-    real3 rest = vec3_all(lit(1.0)) - reflectance_of(x.s, punctual_v_dot_h(x.s, at.l));
-    real diffuse_cosine = max(k_dot3(x.s.n, at.l), lit(0.0)) * lit(0.31830988618379067);
-    real3 diffused = rest * x.s.diffuse * diffuse_cosine;
+    real n_dot_l = max(k_dot3(x.s.n, at.l), lit(0.0));
+    real3 dull = diffuse_under_light(f, diffuse, n_dot_l) * n_dot_l;
     real3 shiny = interface_value(g, at.l) * x.gain;
     punctual_light r;
     r.l = at.l;
-    r.radiance = (diffused + shiny) * intensity;
+    r.radiance = (dull + shiny) * intensity;
     return r;
 }
 
@@ -59,6 +64,9 @@ BN_FN real3 light_from_punctual(frame_ref f, BN_IN(shaded_point) x, int model, r
 {
     real3 sum = vec3_all(lit(0.0));
     placed_lobe lobe = placed_lobe_under_lights(model, x.lobe, x.s, x.surface_axes);
+    real3 diffuse = vec3_all(lit(0.0));
+    if (x.diffuse)
+        diffuse = diffuse_brdf(f, x);
     rough_interface through;
     if (x.refracts)
         through = rough_interface_at(x);
@@ -69,9 +77,9 @@ BN_FN real3 light_from_punctual(frame_ref f, BN_IN(shaded_point) x, int model, r
             continue;
         punctual_light light;
         if (x.refracts)
-            light = light_from_interface(f, x, through, at, i);
+            light = light_from_interface(f, x, through, diffuse, at, i);
         else
-            light = light_from(f, x, lobe, at, i);
+            light = light_from(f, x, lobe, diffuse, at, i);
         if (x.turned)
             light.radiance = select(k_dot3(x.surface_axes.n, light.l) > lit(0.0), light.radiance, vec3_all(lit(0.0)));
         sum = sum + light.radiance;

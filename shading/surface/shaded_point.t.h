@@ -235,8 +235,8 @@ BN_FN real diffuse_lit(frame_ref f, real n_dot_l)
     return phong_diffuse_lit(n_dot_l);
 }
 
-// The share of light that the dielectric's specular part lets through to the diffuse one. Compensated, both diffuse parts have all that the
-// lobe does not give back.
+// The share of light that the dielectric's specular part lets through to the diffuse one, whatever the light: all that the lobe does not
+// give back of light from everywhere. (Ashikhmin and Shirley's own, uncompensated: by f0, with phong_diffuse_lit() of the light.)
 BN_FN real passed_to_diffuse(frame_ref f, BN_IN(shaded_point) x)
 {
     if (the_frame(f).diffuse_model != 0 && the_frame(f).energy_compensation == 0 && !x.refracts) {
@@ -249,6 +249,13 @@ BN_FN real passed_to_diffuse(frame_ref f, BN_IN(shaded_point) x)
     }
     real3 dielectric = dielectric_albedo_of(x.s, x.dielectric_f0, x.dielectric_f90, x.dfg) * energy_gain(f, x.dielectric_f0, x.dfg);
     return lit(1.0) - max(dielectric.x, max(dielectric.y, dielectric.z));
+}
+
+// BRDF of the diffuse part, 1/sr; times diffuse_lit().
+BN_FN real3 diffuse_brdf(frame_ref f, BN_IN(shaded_point) x)
+{
+    real share = passed_to_diffuse(f, x) * lit(0.31830988618379067);
+    return x.s.diffuse * share;
 }
 
 BN_KERNELS_END

@@ -1,6 +1,7 @@
-"""Typical mistakes: each is answered with one line that tells what helps. The case prints the table."""
+"""Typical mistakes: each is answered with one line that tells what helps, and nothing is written. The case leaves the table of them as
+mistakes.md in its folder below build/release/tests/cli."""
 
-from harness import case, check
+from harness import case, check, scratch
 
 # What is typed, the exit code, what the line must say.
 MISTAKES = (
@@ -34,28 +35,41 @@ MISTAKES = (
     ("render --msaa 3", 2, "1, 2, 4, 8, 16"),
     ("render --samples 0", 2, "--samples"),
     ("render --device lavapipe", 2, "needs --backend vulkan"),
+    ("render --backend gpu", 2, "tile, vulkan, reference"),
+    ("render --brdf ward", 2, "--technique mc"),
+    ("render --aov depht -o a.exr", 2, "did you mean 'depth'?"),
+    ("render --aov depth,normal,depth -o a.exr", 2, "is given twice"),
+    ("render --aov depth -o a.png", 2, "needs -o FILE.exr"),
+    ("render --height-scale 2", 2, "nothing in the scene has a height map"),
+    ("render --height-map heights.png builtin:spheres", 4, "heights.png: cannot be opened"),
+    ("render --light sphere:points=0,1,0", 2, "radiance=R,G,B"),
+    ("render -o a.png -o a.png", 2, "twice"),
     ("render -o picture.bmp", 2, "png"),
     ("render -o", 2, "--output: 1 required FILE missing"),
     ("render -o no/such/folder/a.png", 7, "no/such/folder"),
     ("compare a.png", 2, "TEST is required"),
     ("compare a.png b.png", 4, "a.png: cannot be opened"),
     ("chart", 2, "--output is required"),
+    ("chart --techniques major -o report", 2, "did you mean 'major_axis'?"),
+    ("profile --aov depth -o a.exr", 2, "belongs to burnish render"),
 )
 
 
 @case("usage.typical_mistakes_are_answered_with_what_helps")
 def mistakes(bench):
-    small = ("--size", "16x16", "--env-size", "16", "--env-samples", "1", "--no-cache")
+    small = ("--size", "16x16", "--env-size", "16", "--env-samples", "1", "--no-cache", "-q")
     wrong = []
+    rows = ["| typed | exit code | answer |", "| --- | --- | --- |"]
     for typed, code, needle in MISTAKES:
-        words = typed.split()
-        done = bench.run(*words, *(small if code == 7 else ()))
+        done = bench.run(*typed.split(), *(small if code == 7 or "--height-scale" in typed else ()))
         line = done.err.strip()
-        print(f"burnish {typed}\n    {done.code}  {line}")
-        if done.code != code or needle not in line or (code != 7 and "\n" in line):
-            wrong.append(f"burnish {typed}: wanted exit code {code} and {needle!r}, got {done.code} and {line!r}")
+        rows.append(f"| `burnish {typed}` | {done.code} | {line.replace('|', chr(92) + '|')} |")
+        if done.code != code or needle not in line or "\n" in line or done.out:
+            wrong.append(f"burnish {typed}: wanted exit code {code} and {needle!r}, got {done.code} and {line!r}, and {done.out!r}")
+        if bench.left_behind():
+            wrong.append(f"burnish {typed}: files were left: {bench.left_behind()}")
+    scratch(bench, "mistakes.md", "\n".join(rows) + "\n")
     check(not wrong, "\n".join(wrong))
-    check(bench.left_behind() == [], f"files were left: {bench.left_behind()}")
 
 
 @case("usage.what_is_far_from_every_name_gets_no_guess")

@@ -83,10 +83,22 @@ def files(bench):
     check(boxes["frame"] > 100 and abs(boxes["stages"] / boxes["frame"] - 1) < 0.01, f"widths: {boxes}")
 
 
+@case("profile.draws_the_picture_that_render_draws")
+def same_picture(bench):
+    for resolve in ("linear", "display"):
+        words = ("builtin:spheres", "--size", "96x64", "--msaa", "4", "--exposure", "3", "--env-size", "64", "--env-samples", "32", "--resolve", resolve)
+        bench.run("profile", *words, "--frames", "1", "-o", "p.png").expect(0)
+        bench.run("render", *words, "-o", f"{resolve}.png").expect(0)
+        check((bench.folder / "p.png").read_bytes() == (bench.folder / f"{resolve}.png").read_bytes(), f"--resolve {resolve}: another picture")
+    check((bench.folder / "linear.png").read_bytes() != (bench.folder / "display.png").read_bytes(), "both ways are one: nothing is tested")
+
+
 @case("profile.wrong_options_say_one_line_and_exit_2")
 def usage(bench):
     bench.run("profile", *SMALL, "--backend", "reference").expect(2).expect_one_line("--backend")
     bench.run("profile", *SMALL, "--stats", "-").expect(2).expect_one_line("--stats")
+    for words in (("--aov", "depth", "-o", "a.exr"), ("--risks", "-"), ("--animate", "roughness=0:1"), ("--turntable", "4")):
+        bench.run("profile", *SMALL, *words).expect(2).expect_one_line(words[0], "belongs to burnish render")
     bench.run("profile", *SMALL, "--json", "a", "--svg", "a").expect(2).expect_one_line("twice")
     bench.run("profile", *SMALL, "--json", "").expect(2).expect_one_line("--json")
     bench.run("profile", "absent.glb", "--json", "a.json").expect(4).expect_one_line("absent.glb")

@@ -2,9 +2,14 @@
 
 import json
 import os
+import pathlib
+import re
+import shlex
 
 import gltf_files
 from harness import SMALL, Skipped, case, check, scratch
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
 
 
 @case("usage.help_is_everywhere")
@@ -21,6 +26,40 @@ def version(bench):
     done = bench.run("--version").expect(0)
     name, number = done.out.split()
     check(name == "burnish" and len(number.split(".")) == 3, done.describe())
+
+
+WRITTEN = {"-o", "--json", "--svg", "--stats", "--trace", "--html", "--junit", "--csv", "--variance", "--error-map"}  # options that name a file
+MORE = {"render": ("-o", "file/a.png"), "atlas": ("-o", "file/a"), "parity": ("--json", "file/a"), "race": ("--json", "file/a"),
+        "profile": ("--json", "file/a")}
+
+
+def examples(bench):
+    """Command lines of the pages and of --help, without those that show what may be given."""
+    lines = []
+    for page in ("README.md", "apps/README.md"):
+        lines += [line.strip() for line in re.sub(r"\\\n +", "", (ROOT / page).read_text()).splitlines() if line.startswith("    burnish ")]
+    for name in set(line.split()[1] for line in lines if line.split()[1].isalpha()):
+        lines += [line.strip() for line in bench.run(name, "--help").out.split("Examples:")[-1].splitlines() if line.startswith("  burnish ")]
+    lines = [part.strip() for line in lines for part in re.split("  ", line)[0].split("&&")]
+    return sorted(set(line for line in lines if "|" not in line and ">" not in line and not re.search(r"\[|\.\.\.|\b[A-Z]{3,}", line)))
+
+
+@case("usage.examples_of_the_pages_are_taken_as_they_are_written")
+def every_example(bench):
+    """Up to where they would read what is not here, or write: below a file."""
+    lines = examples(bench)
+    check(len(lines) > 80, f"only {len(lines)} examples were found")
+    scratch(bench, "file", "")
+    wrong = []
+    for line in lines:
+        words = shlex.split(line)[1:]
+        stopped = [f"file/{w}" if before in WRITTEN and w != "-" else w for before, w in zip([""] + words, words)]
+        if stopped == words:
+            stopped += [word for word in MORE.get(words[0], ()) if "--list" not in words]
+        done = bench.run(*stopped)
+        if done.code not in ((0, 4) if stopped == words else (4, 7)):
+            wrong.append(f"{line}: exit code {done.code}, {done.err.strip()}")
+    check(not wrong, "\n".join(wrong))
 
 
 # Arguments, and what the one line must name.

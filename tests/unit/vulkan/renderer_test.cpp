@@ -16,8 +16,14 @@
 #include "tests/unit/raster/fixture.h"
 
 namespace {
-int allocations_left = -1; // of Vulkan's device memory before there is no more; below 0: no limit
+int allocations_left = -1;                          // of Vulkan's device memory before there is no more; below 0: no limit
+void (*lowered)(VkPhysicalDeviceLimits&) = nullptr; // what devices are said to take less of
+
+template <class F> F loaders(F, const char* name)
+{
+    return reinterpret_cast<F>(::dlsym(RTLD_NEXT, name));
 }
+} // namespace
 
 // Stands before the loader's.
 extern "C" VKAPI_ATTR VkResult VKAPI_CALL vkAllocateMemory(VkDevice device, const VkMemoryAllocateInfo* info,
@@ -26,8 +32,16 @@ extern "C" VKAPI_ATTR VkResult VKAPI_CALL vkAllocateMemory(VkDevice device, cons
     if (allocations_left == 0)
         return VK_ERROR_OUT_OF_DEVICE_MEMORY;
     allocations_left -= allocations_left > 0;
-    static const auto loaders = reinterpret_cast<PFN_vkAllocateMemory>(::dlsym(RTLD_NEXT, "vkAllocateMemory"));
-    return loaders(device, info, callbacks, memory);
+    static const auto allocate = loaders(vkAllocateMemory, "vkAllocateMemory");
+    return allocate(device, info, callbacks, memory);
+}
+
+extern "C" VKAPI_ATTR void VKAPI_CALL vkGetPhysicalDeviceProperties(VkPhysicalDevice device, VkPhysicalDeviceProperties* properties)
+{
+    static const auto ask = loaders(vkGetPhysicalDeviceProperties, "vkGetPhysicalDeviceProperties");
+    ask(device, properties);
+    if (lowered)
+        lowered(properties->limits);
 }
 
 namespace burnish::test {
@@ -137,6 +151,41 @@ TEST(vulkan, a_limit_that_is_exceeded_is_named_with_need_and_have)
             GTEST_SKIP() << failed.error.line();
         EXPECT_EQ(failed.error.code, ExitCode::unavailable);
         EXPECT_EQ(failed.error.line().rfind("--size: 9 is needed of maxImageDimension2D, llvmpipe", 0), 0u) << failed.error.line();
+    }
+}
+
+// What a stage binds is held against what the device takes when it is opened; pipelines without native samplers need none of them.
+TEST(vulkan, a_device_of_few_samplers_or_buffers_is_refused_by_what_binds_more)
+{
+    struct Low {
+        const char *place, *limit;
+        void (*lower)(VkPhysicalDeviceLimits&);
+        VulkanPipeline pipeline;
+        VulkanSampler sampler;
+    };
+    const auto samplers = [](VkPhysicalDeviceLimits& l) { l.maxPerStageDescriptorSamplers = 16; };
+    const auto images = [](VkPhysicalDeviceLimits& l) { l.maxPerStageDescriptorSampledImages = 16; };
+    const Low lows[] = {{"--sampler", "maxPerStageDescriptorSamplers", samplers, VulkanPipeline::forward, VulkanSampler::native},
+                        {"--sampler", "maxPerStageDescriptorSampledImages", images, VulkanPipeline::forward, VulkanSampler::native},
+                        {"--pipeline", "maxPerStageDescriptorSamplers", samplers, VulkanPipeline::lean, VulkanSampler::exact},
+                        {"--device", "maxPerStageDescriptorStorageBuffers",
+                         [](VkPhysicalDeviceLimits& l) { l.maxPerStageDescriptorStorageBuffers = 4; }, VulkanPipeline::ids,
+                         VulkanSampler::exact},
+                        {nullptr, nullptr, samplers, VulkanPipeline::ids, VulkanSampler::exact},
+                        {nullptr, nullptr, images, VulkanPipeline::forward, VulkanSampler::exact}};
+    if (const auto there = open_vulkan_device(lavapipe()); !there)
+        GTEST_SKIP() << there.error().line();
+    for (const Low& low : lows) {
+        lowered = low.lower;
+        const Result<std::shared_ptr<VulkanDevice>> opened = open_vulkan_device(lavapipe(low.pipeline, low.sampler));
+        lowered = nullptr;
+        ASSERT_EQ(static_cast<bool>(opened), low.limit == nullptr) << (opened ? "nothing was said" : opened.error().line());
+        if (opened)
+            continue;
+        EXPECT_EQ(opened.error().code, ExitCode::unavailable);
+        EXPECT_EQ(opened.error().place, low.place);
+        EXPECT_NE(opened.error().line().find(std::string(" is needed of ") + low.limit + ", llvmpipe"), std::string::npos)
+            << opened.error().line();
     }
 }
 
