@@ -7,6 +7,7 @@
 #include "raster/reference/reference_types.h"
 #include "raster/reference/reflector.h"
 #include "raster/reference/samples.h"
+#include "shading/lights/area_picture.t.h"
 #include "shading/lights/area_sample.t.h"
 #include "shading/lights/punctual.t.h"
 
@@ -151,12 +152,12 @@ BN_STAGE real3 area_lights(const PixelFrame& p, const LaneSurface& s, const Refl
     const real3 zero = vec3_all(lit(0.0));
     real3 sum = zero;
     for (int i = 0; i < f.area_light_count; ++i) {
-        const real3 radiance = splat3(f.area_lights[i].radiance);
+        const auto radiance = [&](const area_sample& l) { return area_radiance_at(f, i, s.position + l.wi * l.distance); };
         if (f.strategy != ReferenceStrategy::brdf) {
             const area_sample l = area_sample_at(f, i, s.position, area_light_point(*f.sobol, p.seed, position, shade, vertex, i));
             const Reflection at = reflect(s.r, l.wi);
             const real weight = f.strategy == ReferenceStrategy::mis ? power_weight(l.pdf, at.pdf) : lit(1.0);
-            const real3 value = at.value * radiance * (weight / max(l.pdf, lit(1e-20)));
+            const real3 value = at.value * radiance(l) * (weight / max(l.pdf, lit(1e-20)));
             mask seen = both(both(s.reflects, l.pdf > lit(0.0)), any_light(value));
             if (f.mode != ReferenceMode::direct && any(seen)) {
                 LaneRays r = leaving_ray(f, s, l.wi);
@@ -172,7 +173,7 @@ BN_STAGE real3 area_lights(const PixelFrame& p, const LaneSurface& s, const Refl
             f.strategy == ReferenceStrategy::mis ? power_weight(b.pdf, met.pdf) : lit(f.strategy == ReferenceStrategy::brdf ? 1.0 : 0.0);
         weight = select(b.exact, lit(1.0), weight);
         const mask seen = both(both(s.reflects, met.pdf > lit(0.0)), met.distance < open);
-        sum = sum + select(seen, b.weight * radiance * weight, zero);
+        sum = sum + select(seen, b.weight * radiance(met) * weight, zero);
     }
     return sum;
 }

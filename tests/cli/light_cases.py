@@ -4,7 +4,7 @@ import struct
 
 from bake_cases import SHIPPED
 from direction_cases import SMALL
-from gltf_files import text, triangle
+from gltf_files import png, text, triangle
 from harness import case, check, scratch
 from parity_cases import check_equal, parity
 
@@ -30,6 +30,56 @@ def same(bench):
     bare = bench.figures("bare.gltf", *DARK, *view)["pixel_hash"]
     off = bench.figures("lit.gltf", *DARK, *view, "--area-lights", "off")["pixel_hash"]
     check(lit == given and len({lit, bare, off}) == 3, f"{lit} {given} {bare} {off}")
+
+
+HALVES = png(16, 16, color=lambda x, y: (255, 30, 10) if x < 8 else (20, 60, 255))
+HUNG = "quad:points=1,-1,1.5/-1,-1,1.5/-1,1,1.5/1,1,1.5:radiance=3,3,3"
+
+
+@case("lights.textures_of_files_and_of_the_command_line_are_the_same", tier="check")
+def textures(bench):
+    scratch(bench, "halves.png", HALVES)
+    scratch(bench, "white.png", png(8, 4, color=lambda x, y: (255, 255, 255)))
+    quad = {"shape": "quad", "points": [1, -1, 1.5, -1, -1, 1.5, -1, 1, 1.5, 1, 1, 1.5], "radiance": [3, 3, 3], "texture": {"index": 0}}
+    gltf = triangle()
+    gltf["nodes"].append({"extras": {"burnish": {"areaLight": quad}}})
+    gltf["scenes"] = [{"nodes": [0, 1]}]
+    gltf["textures"], gltf["images"] = [{"source": 0}], [{"uri": "halves.png"}]
+    scratch(bench, "lit.gltf", text(gltf))
+    scratch(bench, "bare.gltf", text(triangle()))
+    for way in ("ltc", "ltc-clipless", "mc"):
+        view = ("--eye", "0.3,0.3,1.2", "--target", "0.3,0.3,0", "--area-lights", way)
+        lit = bench.figures("lit.gltf", *DARK, *view)["pixel_hash"]
+        given = bench.figures("bare.gltf", *DARK, *view, "--light", HUNG + ":texture=halves.png")["pixel_hash"]
+        plain = bench.figures("bare.gltf", *DARK, *view, "--light", HUNG)["pixel_hash"]
+        white = bench.figures("bare.gltf", *DARK, *view, "--light", HUNG + ":texture=white.png")["pixel_hash"]
+        check(lit == given and lit != plain and plain == white, f"{way}: {lit} {given} {plain} {white}")
+
+
+@case("lights.textures_that_are_none_say_one_line", "input", tier="check")
+def wrong_textures(bench):
+    scratch(bench, "halves.png", HALVES)
+    at = "/nodes/1/extras/burnish/areaLight"
+    quad = {"shape": "quad", "points": [0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0], "radiance": [1, 1, 1]}
+    ball = {"shape": "sphere", "points": [0, 0, 0], "radius": 1, "radiance": [1, 1, 1]}
+    for light, place, needle in (({**quad, "texture": 0}, at + "/texture", "object"), ({**quad, "texture": {}}, at + "/texture", "index"),
+                                 ({**quad, "texture": {"index": 7}}, at + "/texture/index", "textures"),
+                                 ({**quad, "texture": {"index": "0"}}, at + "/texture/index", ""),
+                                 ({**ball, "texture": {"index": 0}}, at, "sphere has no texture"),
+                                 ({**quad, "points": [0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 2, 0], "texture": {"index": 0}}, at, "parallelogram")):
+        gltf = triangle()
+        gltf["nodes"].append({"extras": {"burnish": {"areaLight": light}}})
+        gltf["scenes"] = [{"nodes": [0, 1]}]
+        gltf["textures"], gltf["images"] = [{"source": 0}], [{"uri": "halves.png"}]
+        scratch(bench, "bad.gltf", text(gltf))
+        bench.run("render", "bad.gltf", *SMALL, "-o", "a.png").expect(4).expect_one_line(place, needle)
+    bench.run("render", *SMALL, "--light", HUNG + ":texture=none.png", "-o", "a.png").expect(4).expect_one_line("none.png")
+    scratch(bench, "bad.png", b"no picture")
+    bench.run("render", *SMALL, "--light", HUNG + ":texture=bad.png", "-o", "a.png").expect(4).expect_one_line("bad.png")
+    bench.run("render", *SMALL, "--light", HUNG + ":texture=", "-o", "a.png").expect(2).expect_one_line("--light", "no file")
+    ball = "sphere:points=0,0,0:radius=1:radiance=1,1,1:texture=halves.png"
+    bench.run("render", *SMALL, "--light", ball, "-o", "a.png").expect(2).expect_one_line("--light", "sphere has no texture")
+    check("a.png" not in bench.left_behind(), "a picture was written")
 
 
 @case("lights.that_are_none_say_one_line", "input", tier="check")
@@ -135,8 +185,10 @@ def many(bench):
 
 
 def lights_agree(bench, *sets):
+    scratch(bench, "halves.png", HALVES)
     for options in sets:
-        check_equal(parity(bench, "builtin:lights", "--env", "builtin:night", "--size", "64x48", "--light", QUAD, *options))
+        lights = ("--light", QUAD, "--light", QUAD + ":two-sided:texture=halves.png")
+        check_equal(parity(bench, "builtin:lights", "--env", "builtin:night", "--size", "64x48", *lights, *options))
 
 
 # A driver compiles each set for a minute.
