@@ -188,7 +188,7 @@ BN_STAGE real3 traced_light(const PixelFrame& p, const LaneSurface& first, integ
     LaneSurface s = first;
     for (int depth = 0; any(s.reflects); ++depth) {
         const ShadeSample x = shade_sample(*f.sobol, p.seed, position, shade, depth);
-        if (f.strategy != ReferenceStrategy::brdf) {
+        if (f.strategy != ReferenceStrategy::brdf && !f.area_lights_only) {
             const EnvironmentEstimate e = by_environment(f, s.r, x.light);
             const real3 value = throughput * e.value;
             const mask wanted = both(s.reflects, any_light(value));
@@ -211,6 +211,8 @@ BN_STAGE real3 traced_light(const PixelFrame& p, const LaneSurface& first, integ
             sum = sum + throughput * area_lights(p, s, b, open, position, shade, depth);
         }
         const real3 carried = throughput * b.weight;
+        if (f.area_lights_only)
+            break;
         const real3 outside = carried * environment_radiance(f, b.wi) * lobe_weight(f, b);
         sum = sum + select(both(wanted, not_(h.found)), outside, zero);
         if (last || none(h.found))
@@ -231,7 +233,7 @@ BN_STAGE real3 direct_light(const PixelFrame& p, const LaneSurface& s, integer p
     const ReferenceParams& f = p.f;
     const ShadeSample x = shade_sample(*f.sobol, p.seed, position, shade, 0);
     const ReflectorSample b = sample_reflector(s.r, x.lobe, x.choice);
-    const real3 light = open_light(f, s.r, x, b) * s.r.x.s.occlusion;
+    const real3 light = f.area_lights_only ? vec3_all(lit(0.0)) : open_light(f, s.r, x, b) * s.r.x.s.occlusion;
     if (f.area_light_count == 0)
         return light;
     return light + area_lights(p, s, b, splat(__builtin_inff()), position, shade, 0);
@@ -255,7 +257,7 @@ BN_STAGE real3 radiance_at_positions(const PixelFrame& p, int x, int y, int firs
     find_surface(f, h, rays, footprint, s);
     const real3 zero = vec3_all(lit(0.0));
     real3 once = zero;
-    if (any(h.found))
+    if (any(h.found) && !f.area_lights_only)
         once = select(h.found, s.emission, zero);
     if (f.background && !all(h.found))
         once = select(h.found, once, environment_radiance(f, rays.direction));

@@ -1,12 +1,14 @@
 """Area lights: --light, extras.burnish.areaLight of nodes, --limit-lights, --area-lights; and what is wrong with some."""
 
+import math
 import struct
 
 from bake_cases import SHIPPED
 from direction_cases import SMALL
-from gltf_files import png, text, triangle
+from gltf_files import data_uri, png, text, triangle
 from harness import case, check, scratch
 from parity_cases import check_equal, parity
+from reference_cases import needs_embree
 
 QUAD = "quad:points=-1,1,-1/1,1,-1/1,1,1/-1,1,1:radiance=3,2,1"
 DARK = ("--env", "builtin:night", "--size", "48x32", "--msaa", "1", "--env-size", "16", "--env-samples", "4")
@@ -169,6 +171,65 @@ def own(bench):
     for way in ("ltc", "ltc-isotropic"):
         other = bench.figures("builtin:lights", *DARK, "--area-lights", way, "--ltc-table", "nodes.ltc")["pixel_hash"]
         check((other == hashes[way]) == (way == "ltc-isotropic"), f"{way} by a table of nodes fitted alone")
+
+
+def ball_over_plane(ball):
+    """A diffuse floor of 4 x 4 m, and a ball of radius 0.4 m that hovers over it."""
+    floor = [(-2, 0, -2), (-2, 0, 2), (2, 0, 2), (2, 0, -2)]
+    at = [(math.pi * j / 24, math.pi * i / 24) for j in range(25) for i in range(49)]
+    round_ = [(0.4 * math.sin(t) * math.cos(p), 0.6 + 0.4 * math.cos(t), -0.4 * math.sin(t) * math.sin(p)) for t, p in at]
+    corners = [49 * j + i for j in range(24) for i in range(48)]
+    faces = [k for a in corners for k in (a, a + 49, a + 50, a, a + 50, a + 1)]
+    points, indices = (floor + round_, [0, 1, 2, 0, 2, 3] + [4 + k for k in faces]) if ball else (floor, [0, 1, 2, 0, 2, 3])
+    positions = b"".join(struct.pack("<3f", *p) for p in points)
+    index_bytes = struct.pack(f"<{len(indices)}H", *indices)
+    gltf = triangle(positions, index_bytes)
+    gltf["buffers"] = [{"byteLength": len(positions + index_bytes), "uri": data_uri(positions + index_bytes)}]
+    low, high = ([f(p[k] for p in points) for k in range(3)] for f in (min, max))
+    gltf["accessors"][0].update(count=len(points), min=low, max=high)
+    gltf["accessors"][1]["count"] = len(indices)
+    gltf["bufferViews"][0]["byteLength"] = len(positions)
+    gltf["bufferViews"][1].update(byteOffset=len(positions), byteLength=2 * len(indices))
+    gltf["materials"] = [{"pbrMetallicRoughness": {"metallicFactor": 0, "roughnessFactor": 1}}]
+    gltf["meshes"][0]["primitives"][0]["material"] = 0
+    return text(gltf)
+
+
+FLOOR = ("--env", "builtin:night", "--env-size", "16", "--env-samples", "4", "--env-exposure", "-20", "--f0", "0,0,0", "--eye", "0,1.6,3.2",
+         "--target", "0,0.3,0", "--light", "quad:points=-1.6,2.2,-0.6/-0.6,2.2,-0.6/-0.6,2.2,0.6/-1.6,2.2,0.6:radiance=8,8,8")
+SHADOWS = ("--shadows", "ratio")
+
+
+@case("lights.shadows_by_a_ratio_are_the_reference_s", tier="check")
+def shadows(bench):
+    needs_embree(bench)
+    scratch(bench, "floor.gltf", ball_over_plane(False))
+    scratch(bench, "ball.gltf", ball_over_plane(True))
+    small = (*FLOOR, "--size", "60x45", "--msaa", "4")
+    open_, same = (bench.figures("floor.gltf", *small, *more)["pixel_hash"] for more in ((), SHADOWS))
+    check(open_ == same, "a floor with nothing over it has shadows")
+    one, three, none = (bench.figures("ball.gltf", *small, *more)["pixel_hash"]
+                        for more in ((*SHADOWS, "--threads", "1"), (*SHADOWS, "--threads", "3", "--tile-size", "32"), ()))
+    check(one == three and one != none, f"{one} {three} {none}")
+    size = (*FLOOR, "--size", "160x120")
+    bench.run("render", "ball.gltf", *size, "--backend", "reference", "--reference-mode", "shadowed", "--samples", "512", "-o", "truth.png",
+              timeout=300).expect(0)
+    bench.run("render", "ball.gltf", *size, *SHADOWS, "-o", "ratio.png").expect(0)
+    bench.run("render", "ball.gltf", *size, "-o", "open.png").expect(0)
+    bench.run("compare", "truth.png", "ratio.png", "--fail-flip", "0.01").expect(0)
+    bench.run("compare", "truth.png", "open.png", "--fail-flip", "0.03").expect(1)
+
+
+@case("lights.shadows_that_cannot_be_say_one_line", "input", tier="check")
+def no_shadows(bench):
+    needs_embree(bench)
+    bench.run("render", *SMALL, *SHADOWS, "--backend", "reference", "-o", "a.png").expect(2).expect_one_line("--shadows", "shadowed")
+    bench.run("render", *SMALL, *SHADOWS, "--resolve", "display", "-o", "a.png").expect(2).expect_one_line("--shadows", "--resolve")
+    bench.run("render", *SMALL, "--shadow-samples", "9", "-o", "a.png").expect(2).expect_one_line("--shadow-samples", "--shadows")
+    bench.run("parity", "builtin:plate", *SHADOWS).expect(2).expect_one_line("--shadows")
+    run = bench.run("render", *SMALL, *SHADOWS, "-o", "b.png").expect(0)
+    check("--shadows has no effect" in run.err, run.describe())
+    check("a.png" not in bench.left_behind(), "a picture was written")
 
 
 @case("lights.more_than_the_limit_are_refused", "input", tier="check")
