@@ -2,7 +2,6 @@
 #ifndef BN_AREA_PICTURE_T_H
 #define BN_AREA_PICTURE_T_H
 
-#include "shading/kernels/texture_filter.k.h"
 #include "shading/lang/lang.h"
 #include "shading/lang/stage.h"
 #include "shading/lights/area_point.t.h"
