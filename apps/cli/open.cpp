@@ -1,5 +1,7 @@
 #include "apps/cli/open.h"
 
+#include <algorithm>
+
 #include "apps/cli/suggest.h"
 
 namespace burnish {
@@ -8,8 +10,11 @@ Result<std::shared_ptr<const SceneData>> open_scene(const std::string& name, con
                                                     const std::vector<AreaLight>& lights)
 {
     Result<std::shared_ptr<const SceneData>> scene = load_scene_data(name, limits, with, moment, lights);
-    if (!scene)
-        return with.names(scene.error().file) ? scene.error() : with_scene_hint(scene.error(), name);
+    if (!scene) {
+        const std::string& file = scene.error().file;
+        const bool of_light = std::any_of(lights.begin(), lights.end(), [&](const AreaLight& l) { return l.texture_file == file; });
+        return of_light || with.names(file) ? scene.error() : with_scene_hint(scene.error(), name);
+    }
     return scene;
 }
 

@@ -30,6 +30,8 @@ void warn_of_no_effect(const OptionTable& given, RenderOptions& out)
     if (reference)
         for (const char* option : {"--technique", "--msaa", "--tile-size", "--resolve"})
             warn(option, of_backend);
+    if (out.frame.area_way == kAreaWay_off)
+        warn("--shadows", "--area-lights off");
     if (!out.moment.seconds)
         if (given.given("--animation"))
             out.warnings.push_back("--animation has no effect without --time");

@@ -57,6 +57,21 @@ Status check_layers(const RenderOptions& out)
     return {};
 }
 
+Status check_shadows(const OptionTable& given, const RenderOptions& out)
+{
+    if (!out.shadow_ratio)
+        return given.given("--shadow-samples") ? Status(usage_error("--shadow-samples", "needs --shadows ratio")) : Status();
+    if (out.backend == "reference")
+        return usage_error("--shadows", "the reference has its own: --reference-mode shadowed");
+    if (out.resolve_display)
+        return usage_error("--shadows", "needs --resolve linear");
+    if (out.backend == "vulkan" && out.vulkan.pipeline != VulkanPipeline::ids)
+        return usage_error("--shadows", "needs --pipeline ids");
+    if (!reference_available())
+        return Error{ExitCode::unavailable, "", "--shadows", "this program was built without Embree 3, which 'ratio' needs"};
+    return {};
+}
+
 Status check_technique(const RenderArguments& in, RenderOptions& out)
 {
     FrameDesc& frame = out.frame;
@@ -113,6 +128,8 @@ Result<RenderOptions> check_render_options(const RenderArguments& arguments, con
             return vulkan.error();
     if (const Status layers = check_layers(out); !layers)
         return layers.error();
+    if (const Status shadows = check_shadows(given, out); !shadows)
+        return shadows.error();
     if (const Status camera = check_camera(out); !camera)
         return camera.error();
     warn_of_no_effect(given, out);

@@ -30,6 +30,8 @@ struct RenderOptions {
     std::vector<std::string> outputs;
     std::vector<std::string> aov; // layers of .exr outputs
     std::string risks;            // picture of what the atlas says of the technique; "-": its words only; empty: none
+    bool shadow_ratio = false;    // area lights throw shadows, by samples
+    int shadow_samples = 64;      // a pixel
     bool resolve_display = false; // 8-bit outputs: samples are tonemapped before they are averaged
     std::string stats_file;       // empty: none; "-": standard output
     std::string trace_file;       // empty: none

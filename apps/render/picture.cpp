@@ -9,6 +9,7 @@
 #include "apps/cli/outputs.h"
 #include "apps/cli/seen_scene.h"
 #include "apps/cli/stop_signal.h"
+#include "apps/render/shadows.h"
 #include "core/image/image.h"
 #include "core/image/io/image_io.h"
 #include "shading/bake/tables/phong_files.h"
@@ -129,6 +130,8 @@ Result<Session> prepare(const RenderOptions& options, RenderFigures& figures, st
     }
     figures.load_ms = load.ms();
     report_scene(*parts.scene, report);
+    if (options.shadow_ratio && parts.scene->tables.area_lights.empty())
+        report.warning("--shadows has no effect: nothing in the scene is an area light");
     if (options.backend != "reference")
         warn_of_opaque_glass(parts.scene->scene, {options.frame.technique}, report);
 
@@ -163,6 +166,8 @@ Result<Rendered> render_frames(const RenderOptions& options, FrameDesc desc, Ses
     desc.triangle_ids = desc.triangle_ids || draws_alpha(options);
     desc.parts = resolves_display(options);
     ask_for_layers(options.aov, desc);
+    const bool shadows = options.shadow_ratio && desc.area_way != kAreaWay_off && !session.tables().area_lights.empty();
+    desc.layers = desc.layers || shadows;
     Progress progress("frames", static_cast<std::size_t>(options.frames), options.quiet || options.frames == 1);
     for (int i = 0; i < options.frames; ++i) {
         const TraceSpan span("frame");
@@ -178,6 +183,11 @@ Result<Rendered> render_frames(const RenderOptions& options, FrameDesc desc, Ses
         figures.frame_ms.push_back(frame->stats.ms);
         last = std::move(*frame);
         progress.step();
+    }
+    if (shadows) {
+        if (Status thrown = add_shadows(options, desc, session, last); !thrown)
+            return thrown.error();
+        figures.hash = pixel_hash(last.color);
     }
     if (!options.risks.empty()) {
         const TraceSpan span("risks");

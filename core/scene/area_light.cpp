@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "core/base/check.h"
+#include "core/image/io/image_io.h"
 #include "core/math/scalar_math.h"
 #include "core/scene/builtin/surface.h"
 #include "core/scene/tangents.h"
@@ -67,6 +68,15 @@ std::string polygon_fault(const Points& p)
     return "";
 }
 
+std::string texture_fault(AreaShape shape, const Points& p)
+{
+    if (shape != AreaShape::quad)
+        return fmt::format("a {} has no texture, only a quad has one", area_shape_info(shape).name);
+    if (glm::length(p[0] + p[2] - p[1] - p[3]) > 1e-3 * extent_of(p))
+        return "a quad with a texture is a parallelogram, and its points are not";
+    return "";
+}
+
 // Of half axes u and v, any two that are conjugate to each other, those at right angles that span the same ellipse the same way around: the
 // longest radius is u cos t + v sin t with tan 2t = 2 u.v / (u.u - v.v).
 void square_axes(glm::dvec3& u, glm::dvec3& v)
@@ -108,6 +118,9 @@ std::string area_light_fault(const AreaLight& light)
         return fmt::format("a {} needs a radius above 0", shape.name);
     if (light.shape == AreaShape::line && !(extent_of(p) > 0.0))
         return "its ends are one point";
+    if (light.texture != kNone || !light.texture_file.empty())
+        if (const std::string fault = texture_fault(light.shape, p); !fault.empty())
+            return fault;
     if (is_polygon(light.shape))
         return polygon_fault(p);
     if (light.shape == AreaShape::disk && !(glm::length(double_area(p)) > 1e-6 * extent_of(p) * extent_of(p)))
@@ -130,6 +143,7 @@ std::optional<PlacedAreaLight> place_area_light(const AreaLight& light, const gl
     PlacedAreaLight placed;
     placed.shape = light.shape, placed.point_count = static_cast<int>(p.size());
     placed.radiance = light.radiance, placed.two_sided = light.two_sided;
+    placed.texture = light.texture, placed.transposed = flat && mirrored;
     const double radius = longest * static_cast<double>(light.radius);
     placed.radius = static_cast<float>(radius);
     double area = 4.0 * kPi * radius * radius;
@@ -154,6 +168,34 @@ std::optional<PlacedAreaLight> place_area_light(const AreaLight& light, const gl
     for (const glm::vec3& point : placed.points)
         sound = sound && finite(glm::dvec3(point));
     return sound ? std::optional(placed) : std::nullopt;
+}
+
+Status read_area_texture(Scene& scene, AreaLight& light, const Limits& limits)
+{
+    if (light.texture_file.empty())
+        return {};
+    const auto known =
+        std::find_if(scene.textures.begin(), scene.textures.end(), [&](const Texture& t) { return t.name == light.texture_file; });
+    light.texture = static_cast<std::int32_t>(known - scene.textures.begin());
+    if (known != scene.textures.end())
+        return {};
+    Limits rest = limits;
+    for (const Image& image : scene.images)
+        rest.texture_bytes -= std::min<std::uint64_t>(rest.texture_bytes, image.bytes.size());
+    Result<Image> image = read_image(light.texture_file, rest);
+    if (!image)
+        return image.error();
+    if (image->bytes.size() > rest.texture_bytes)
+        return Error{ExitCode::bad_input, light.texture_file, "",
+                     fmt::format("the scene's textures need more than {} bytes (--limit-texture-bytes)", limits.texture_bytes)};
+    Texture texture;
+    texture.name = light.texture_file;
+    texture.image = static_cast<std::int32_t>(scene.images.size());
+    texture.wrap_s = texture.wrap_t = WrapMode::clamp;
+    scene.files.push_back(light.texture_file);
+    scene.images.push_back(std::move(*image));
+    scene.textures.push_back(texture);
+    return {};
 }
 
 void add_area_light(Scene& scene, const AreaLight& light)
@@ -183,11 +225,16 @@ glm::dvec2 around(int step)
     return {det_cos(angle), det_sin(angle)};
 }
 
+// With the texture coordinates of a quad.
 void add_polygon(Scene& scene, const PlacedAreaLight& light)
 {
     const glm::dvec3 normal(light.normal);
     add_grid(scene, light.point_count - 2, 1, [&](int column, int row) {
-        return point_at(glm::dvec3(light.points[row == 0 ? 0 : light.point_count - 1 - column]), normal);
+        const int corner = row == 0 ? 0 : light.point_count - 1 - column;
+        SurfacePoint p = point_at(glm::dvec3(light.points[corner]), normal);
+        const double along = corner == 1 || corner == 2 ? 1.0 : 0.0, up = corner >= 2 ? 1.0 : 0.0;
+        p.u = light.transposed ? up : along, p.v = 1.0 - (light.transposed ? along : up);
+        return p;
     });
 }
 
@@ -228,6 +275,7 @@ void add_emitter(Scene& scene, const PlacedAreaLight& light)
     material.name = "light";
     material.unlit = material.emitter = true;
     material.base_color = glm::vec4(light.radiance, 1.0f);
+    material.base_color_tex.texture = light.texture;
     material.double_sided = light.two_sided && light.normal != glm::vec3(0.0f);
     scene.materials.push_back(material);
     const std::uint32_t first = begin_primitive(scene, static_cast<std::int32_t>(scene.materials.size() - 1));

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "core/base/limits.h"
 #include "core/base/result.h"
 #include "core/scene/scene.h"
 
@@ -20,7 +21,8 @@ inline constexpr int kAreaShapes = 0
 #include "core/scene/area_light.def"
     ;
 
-// What keeps it from being a light, in words: points that lie on a line or in no plane, a concave polygon, no radius. Empty: nothing.
+// What keeps it from being a light, in words: points that lie on a line or in no plane, a concave polygon, no radius, a texture on what is
+// no parallelogram. Empty: nothing.
 std::string area_light_fault(const AreaLight& light);
 
 inline constexpr int kMostAreaPoints = 16;
@@ -29,6 +31,7 @@ inline constexpr int kMostAreaPoints = 16;
 struct PlacedAreaLight { // area_light.def
     AreaShape shape = AreaShape::quad;
     int point_count = 0;
+    std::int32_t texture = kNone; // of the scene
     glm::vec3 points[kMostAreaPoints] = {};
 #define BN_AREA_FIELD(kind, name, initial) FieldKinds::kind name = FieldKinds::kind(initial);
 #include "core/scene/area_light.def"
@@ -36,6 +39,9 @@ struct PlacedAreaLight { // area_light.def
 
 // Radii of spheres and lines grow by the longest axis of `world`. None where nothing is left of its surface, or where it is not finite.
 std::optional<PlacedAreaLight> place_area_light(const AreaLight& light, const glm::mat4& world);
+
+// Reads the file that the light names as its texture, once for all that name it. Errors: ExitCode::bad_input, of the file.
+Status read_area_texture(Scene& scene, AreaLight& light, const Limits& limits);
 
 // A node for a light that is given in world space.
 void add_area_light(Scene& scene, const AreaLight& light);

@@ -112,6 +112,9 @@ struct AreaLight { // area_light.def
     AreaShape shape = AreaShape::quad;
     std::vector<glm::vec3> points; // metres, in its node's space
     bool two_sided = false;
+    std::int32_t texture = kNone; // of quads: what radiance is multiplied by, its lower left corner at the first point and its lower
+                                  // right one at the second
+    std::string texture_file;     // the same where it is not read yet (read_area_texture())
 #define BN_AREA_FACTOR(kind, name, path, least, most) FieldKinds::kind name = FieldKinds::kind(0.0f);
 #include "core/scene/area_light.def"
 };

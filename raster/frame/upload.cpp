@@ -6,6 +6,7 @@
 #include "core/base/check.h"
 #include "core/math/scalar_math.h"
 #include "raster/frame/pyramids.h"
+#include "shading/bake/mip/light_picture.h"
 
 namespace burnish {
 
@@ -78,6 +79,8 @@ AreaLightRecord area_light_record(const PlacedAreaLight& l)
     for (int i = 0; i < l.point_count; ++i)
         for (int c = 0; c < 3; ++c)
             r.points[3 * i + c] = l.points[i][c];
+    r.picture = l.texture;
+    std::fill(std::begin(r.mean), std::end(r.mean), 1.0f);
     return r;
 }
 
@@ -178,6 +181,31 @@ std::vector<AreaLightRecord> area_light_records(const DrawTables& tables)
     return records;
 }
 
+namespace {
+
+// Makes the pictures that lights have as textures, once each, and numbers them after those of materials.
+void add_light_pictures(const Scene& scene, const Jobs& jobs, SceneTables& s)
+{
+    std::vector<int> used; // textures of the scene
+    for (const AreaLightRecord& l : s.area_lights)
+        if (l.picture >= 0 && std::find(used.begin(), used.end(), l.picture) == used.end())
+            used.push_back(l.picture);
+    std::vector<LightPicture> pictures(used.size());
+    jobs.parallel_for(used.size(), [&](std::size_t i, int) {
+        const Texture& texture = scene.textures[static_cast<std::size_t>(used[i])];
+        pictures[i] = make_light_picture(scene.images[static_cast<std::size_t>(texture.image)]);
+    });
+    for (AreaLightRecord& l : s.area_lights)
+        if (const auto at = std::find(used.begin(), used.end(), l.picture); at != used.end()) {
+            put(l.mean, pictures[static_cast<std::size_t>(at - used.begin())].mean);
+            l.picture = static_cast<int>(s.pyramids.size() + static_cast<std::size_t>(at - used.begin()));
+        }
+    for (LightPicture& picture : pictures)
+        s.pyramids.push_back(std::move(picture.differences));
+}
+
+} // namespace
+
 SceneTables upload_scene(const Scene& scene, const DrawTables& tables, const Jobs& jobs)
 {
     SceneTables s;
@@ -185,13 +213,14 @@ SceneTables upload_scene(const Scene& scene, const DrawTables& tables, const Job
     s.pyramids.resize(keys.size());
     const MaterialLevels levels = filtered_levels(scene, jobs);
     jobs.parallel_for(keys.size(), [&](std::size_t i, int) { s.pyramids[i] = make_pyramid(scene, keys[i], levels); });
+    s.area_lights = area_light_records(tables);
+    add_light_pictures(scene, jobs, s);
     for (const TexturePyramid& p : s.pyramids)
         s.textures.push_back(texture_params(p));
     s.materials = material_records(scene, false);
     s.overridden = material_records(scene, true);
     s.lights = light_records(tables);
     put_light_columns(s);
-    s.area_lights = area_light_records(tables);
     return s;
 }
 

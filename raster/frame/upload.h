@@ -24,9 +24,9 @@ struct SceneTables { // keeps alive what the records point at
 // Textures are numbered as in SceneTables::textures.
 std::vector<MaterialRecord> material_records(const Scene& scene, bool overridden);
 std::vector<LightRecord> light_records(const DrawTables& tables);
-std::vector<AreaLightRecord> area_light_records(const DrawTables& tables);
+std::vector<AreaLightRecord> area_light_records(const DrawTables& tables); // their pictures: textures of the scene
 
-// Builds every texture pyramid that a material uses (pyramids.h), in parallel.
+// Builds every texture pyramid that a material uses (pyramids.h) and the pictures of area lights, in parallel.
 SceneTables upload_scene(const Scene& scene, const DrawTables& tables, const Jobs& jobs);
 
 // Whether the lobes of any material are tilted against their surfaces in the frame.

@@ -7,6 +7,7 @@
 #include "raster/reference/reference_types.h"
 #include "raster/reference/reflector.h"
 #include "raster/reference/samples.h"
+#include "shading/lights/area_picture.t.h"
 #include "shading/lights/area_sample.t.h"
 #include "shading/lights/punctual.t.h"
 
@@ -152,12 +153,12 @@ BN_STAGE real3 area_lights(const PixelFrame& p, const LaneSurface& s, const Refl
     const real3 zero = vec3_all(lit(0.0));
     real3 sum = zero;
     for (int i = 0; i < f.area_light_count; ++i) {
-        const real3 radiance = splat3(f.area_lights[i].radiance);
+        const auto radiance = [&](const area_sample& l) { return area_radiance_at(f, i, s.position + l.wi * l.distance); };
         if (f.strategy != ReferenceStrategy::brdf) {
             const area_sample l = area_sample_at(f, i, s.position, area_light_point(*f.sobol, p.seed, position, shade, vertex, i));
             const Reflection at = reflect(s.r, l.wi);
             const real weight = f.strategy == ReferenceStrategy::mis ? power_weight(l.pdf, at.pdf) : lit(1.0);
-            const real3 value = at.value * radiance * (weight / max(l.pdf, lit(1e-20)));
+            const real3 value = at.value * radiance(l) * (weight / max(l.pdf, lit(1e-20)));
             mask seen = both(both(s.reflects, l.pdf > lit(0.0)), any_light(value));
             if (f.mode != ReferenceMode::direct && any(seen)) {
                 LaneRays r = leaving_ray(f, s, l.wi);
@@ -173,7 +174,7 @@ BN_STAGE real3 area_lights(const PixelFrame& p, const LaneSurface& s, const Refl
             f.strategy == ReferenceStrategy::mis ? power_weight(b.pdf, met.pdf) : lit(f.strategy == ReferenceStrategy::brdf ? 1.0 : 0.0);
         weight = select(b.exact, lit(1.0), weight);
         const mask seen = both(both(s.reflects, met.pdf > lit(0.0)), met.distance < open);
-        sum = sum + select(seen, b.weight * radiance * weight, zero);
+        sum = sum + select(seen, b.weight * radiance(met) * weight, zero);
     }
     return sum;
 }
@@ -188,7 +189,7 @@ BN_STAGE real3 traced_light(const PixelFrame& p, const LaneSurface& first, integ
     LaneSurface s = first;
     for (int depth = 0; any(s.reflects); ++depth) {
         const ShadeSample x = shade_sample(*f.sobol, p.seed, position, shade, depth);
-        if (f.strategy != ReferenceStrategy::brdf) {
+        if (f.strategy != ReferenceStrategy::brdf && !f.area_lights_only) {
             const EnvironmentEstimate e = by_environment(f, s.r, x.light);
             const real3 value = throughput * e.value;
             const mask wanted = both(s.reflects, any_light(value));
@@ -211,6 +212,8 @@ BN_STAGE real3 traced_light(const PixelFrame& p, const LaneSurface& first, integ
             sum = sum + throughput * area_lights(p, s, b, open, position, shade, depth);
         }
         const real3 carried = throughput * b.weight;
+        if (f.area_lights_only)
+            break;
         const real3 outside = carried * environment_radiance(f, b.wi) * lobe_weight(f, b);
         sum = sum + select(both(wanted, not_(h.found)), outside, zero);
         if (last || none(h.found))
@@ -231,7 +234,7 @@ BN_STAGE real3 direct_light(const PixelFrame& p, const LaneSurface& s, integer p
     const ReferenceParams& f = p.f;
     const ShadeSample x = shade_sample(*f.sobol, p.seed, position, shade, 0);
     const ReflectorSample b = sample_reflector(s.r, x.lobe, x.choice);
-    const real3 light = open_light(f, s.r, x, b) * s.r.x.s.occlusion;
+    const real3 light = f.area_lights_only ? vec3_all(lit(0.0)) : open_light(f, s.r, x, b) * s.r.x.s.occlusion;
     if (f.area_light_count == 0)
         return light;
     return light + area_lights(p, s, b, splat(__builtin_inff()), position, shade, 0);
@@ -255,7 +258,7 @@ BN_STAGE real3 radiance_at_positions(const PixelFrame& p, int x, int y, int firs
     find_surface(f, h, rays, footprint, s);
     const real3 zero = vec3_all(lit(0.0));
     real3 once = zero;
-    if (any(h.found))
+    if (any(h.found) && !f.area_lights_only)
         once = select(h.found, s.emission, zero);
     if (f.background && !all(h.found))
         once = select(h.found, once, environment_radiance(f, rays.direction));

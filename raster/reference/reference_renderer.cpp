@@ -87,7 +87,9 @@ ReferenceParams ReferenceRenderer::params(const FrameDesc& desc)
     f.ray_epsilon = 1e-6f * glm::length(input_.tables.bounds_max - input_.tables.bounds_min);
     f.sampler = sampler_.view;
     f.mode = options_.mode, f.strategy = options_.strategy, f.bounces = options_.bounces;
-    f.full_textures = options_.full_textures;
+    f.full_textures = options_.full_textures, f.area_lights_only = options_.area_lights_only;
+    if (options_.area_lights_only)
+        f.light_count = 0, f.background = 0;
     f.sobol = &sobol_table();
     f.rays = rays_.get();
     f.trace = trace_packet;

@@ -23,6 +23,7 @@ struct ReferenceOptions {
     ReferenceStrategy strategy = ReferenceStrategy::mis;
     int bounces = 8;                  // path: from surface to surface at most
     std::uint64_t samples = 1024;     // a pixel; rounded up to whole passes
+    bool area_lights_only = false;    // no light but theirs, and nothing behind the scene
     bool full_textures = false;       // read at full detail wherever a ray meets them, not filtered over a pixel's footprint
     double target_error = 0.0;        // above 0: stop early, once mean_relative_error() is not above it
     std::string checkpoint;           // file; empty: none

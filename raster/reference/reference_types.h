@@ -19,7 +19,7 @@ struct ReferenceParams : ShadingFrame {
     ReferenceMode mode;
     ReferenceStrategy strategy;
     std::int32_t bounces; // from surface to surface, path only
-    bool full_textures;
+    bool full_textures, area_lights_only;
     const SobolTable* sobol;
     const RayScene* rays;
     void (*trace)(const RayScene& scene, RayPacket& rays, RayKind kind);

@@ -110,8 +110,10 @@ std::uint64_t reference_key(const RenderInput& input, const FrameDesc& d, const 
     key.column(picture.texels.data(), 4 * picture.level_texels(0));
     key.column(input.dfg.texels.data(), input.dfg.texels.size());
     key.add(options.mode, options.strategy, options.mode == ReferenceMode::path ? options.bounces : 0);
-    if (options.full_textures) // without it the key is that of earlier checkpoints
+    if (options.full_textures) // without them the key is that of earlier checkpoints
         key.add(options.full_textures);
+    if (options.area_lights_only)
+        key.add('a');
     return key.value();
 }
 

@@ -141,8 +141,11 @@ Result<std::shared_ptr<const SceneData>> load_scene_data(const std::string& spec
                 return read.error();
         if (Status put = dress(*scene, on, limits); !put)
             return put.error();
-        for (const AreaLight& light : lights)
+        for (AreaLight light : lights) {
+            if (const Status read = read_area_texture(*scene, light, limits); !read)
+                return read.error();
             add_area_light(*scene, light);
+        }
         return make_settled_data(spec, std::move(*scene), limits, [&](Scene& s) -> Status {
             if (s.mips && with.mip_filter == MipFilter{})
                 take_filters_of_mips(s);

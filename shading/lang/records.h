@@ -71,6 +71,8 @@ const int kAreaWays = 0                                 // of finding the light 
 #define BN_AREA_SHAPE(name, at, least, most, what) const int kArea_##name = at;
 #include "core/scene/area_light.def"
 const int kMostAreaCorners = 16;
+const float kLightPictureSpread = 0.8f; // of a texel of a level of a light's picture: standard deviation, texels of that level
+const int kLightPictureTaps = 8;        // in a row, of a fetch from levels
 
 struct ViewRecord { // Renderer's View in plain numbers
     float eye[3], right[3], up[3], forward[3];
@@ -152,6 +154,8 @@ struct AreaLightRecord { // PlacedAreaLight in plain numbers
 #define BN_AREA_FIELD(kind, name, initial) BN_FIELD_##kind(name)
 #include "core/scene/area_light.def"
     int shape, corners; // kArea_quad...; how many points
+    int picture;        // of its texture, place among the frame's textures; -1: it has none
+    float mean[3];      // of the picture
     float points[3 * kMostAreaCorners];
 };
 

@@ -4,6 +4,7 @@
 //   light_reach r = lights_reaching(f, position); next_light(f, r)   the lights, in turn, that may reach a place: those of lanes are the
 //                                        ones in whose range some lane's place is; light_count or more: there is none left
 //   the_area_light(f, i).radiance...     area light i of the_frame(f).area_light_count
+//   picture_of(f, i)                     texture_desc of its picture, where it has one
 //   material_ref m, any_material m, the_material(m).metallic...   a material's record; texture_used(m, kNormalTex)
 //   texture_fetches t = textures_at(f, m, p); texel_of(t, kNormalTex)   what its textures, where they are used, hold at a visible_point:
 //                                        to be asked for once each, as lanes fetch then and GLSL has fetched all

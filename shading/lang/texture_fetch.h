@@ -89,6 +89,10 @@ BN_INLINE real4 texel_of(const texture_fetches& t, int slot)
     return load_planned(t, t.textures[b.texture].texels);
 }
 
+BN_INLINE texture_desc picture_of(const ShadingFrame& f, int light)
+{
+    return desc_of(f.textures[f.area_lights[light].picture]);
+}
 BN_INLINE texture_desc texture_desc_of(const ShadingFrame& f, const MaterialRecord& m, int slot)
 {
     return desc_of(f.textures[m.textures[slot].texture]);

@@ -6,6 +6,7 @@
 
 #include "shading/lang/lang.h"
 #include "shading/lang/stage.h"
+#include "shading/lights/area_picture.t.h"
 #include "shading/lights/area_point.t.h"
 #include "shading/lights/area_sample.t.h"
 #include "shading/lights/environment.t.h"
@@ -105,16 +106,16 @@ BN_FN ltc_light area_through(BN_IN(area_view) v, BN_IN(ltc_lobe) lobe, bool clip
     return ltc_polygon_light(lobe, v.at, v.corners);
 }
 
-// The part of a lobe that a light fills, [0,1]. clipless: polygons are not clipped at the horizon, but spheres like them.
-BN_STAGE real area_part(BN_IN(area_view) v, BN_IN(ltc_lobe) lobe, bool clipless)
+// The part of a lobe that a light fills, and from where. clipless: polygons are not clipped at the horizon, but spheres like them.
+BN_STAGE ltc_light area_part(BN_IN(area_view) v, BN_IN(ltc_lobe) lobe, bool clipless)
 {
-    return area_through(v, lobe, clipless).part;
+    return area_through(v, lobe, clipless);
 }
 
 // The same of a lobe that is tilted against its surface, whose masking is another one than that of the upright lobe which the cosine
 // stands for: as they are in the direction that the light comes from. lobe: x's.
-BN_STAGE real area_part_leaning(any_frame f, BN_IN(area_view) v, BN_IN(ltc_lobe) cosine, bool clipless, BN_IN(shaded_point) x,
-                                BN_IN(aniso_lobe) lobe)
+BN_STAGE ltc_light area_part_leaning(any_frame f, BN_IN(area_view) v, BN_IN(ltc_lobe) cosine, bool clipless, BN_IN(shaded_point) x,
+                                     BN_IN(aniso_lobe) lobe)
 {
     ltc_light light = area_through(v, cosine, clipless);
     real3 d = k_normalize3(cosine.m0 * light.flow.x + cosine.m1 * light.flow.y + cosine.m2 * light.flow.z + vec3_all(lit(1e-20)));
@@ -130,7 +131,8 @@ BN_STAGE real area_part_leaning(any_frame f, BN_IN(area_view) v, BN_IN(ltc_lobe)
     // An eye below the lobe's own horizon sees no upright lobe: its albedo's share, then.
     real above = k_saturate(k_dot3(x.s.n, x.s.v) * lit(10.0));
     real shown = x.shown + (min(share, lit(4.0)) - x.shown) * above;
-    return light.part * shown;
+    light.part = light.part * shown;
+    return light;
 }
 
 BN_FN ltc_lobe area_lobe(frame_ref f, real3 eye, real alpha_u, real alpha_v)
@@ -176,15 +178,31 @@ BN_FN real3 area_light_by_cosines(frame_ref f, BN_IN(shaded_point) x, int model,
         if (no_lane(faces))
             continue;
         area_view view = area_seen_by(f, i, lobe, x.s.n, position);
+        bool pictured = the_area_light(f, i).picture >= 0;
+        real3 corner = view.at.corner[0];
+        real3 side_u = corner;
+        real3 side_v = corner;
+        if (pictured) {
+            side_u = view.at.corner[1] - corner;
+            side_v = view.at.corner[3] - corner;
+        }
         if (x.turned)
             view = area_above(view, up);
-        real3 radiance = select(faces, splat3(the_area_light(f, i).radiance), vec3_all(lit(0.0)));
+        real3 radiance = splat3(the_area_light(f, i).radiance);
+        ltc_light seen;
         if (leans)
-            specular = specular + radiance * area_part_leaning(f, view, shiny, clipless, x, lobe);
+            seen = area_part_leaning(f, view, shiny, clipless, x, lobe);
         else
-            specular = specular + radiance * area_part(view, shiny, clipless);
-        if (x.diffuse)
-            diffuse = diffuse + radiance * area_part(view, dull, clipless);
+            seen = area_part(view, shiny, clipless);
+        if (pictured)
+            radiance = area_radiance_through(f, i, shiny, seen.flow, corner, side_u, side_v);
+        specular = specular + select(faces, radiance, vec3_all(lit(0.0))) * seen.part;
+        if (x.diffuse) {
+            seen = area_part(view, dull, clipless);
+            if (pictured)
+                radiance = area_radiance_through(f, i, dull, seen.flow, corner, side_u, side_v);
+            diffuse = diffuse + select(faces, radiance, vec3_all(lit(0.0))) * seen.part;
+        }
     }
     dfg_value albedo;
     albedo.scale = shiny.all - shiny.grazing;
@@ -216,6 +234,7 @@ BN_FN real3 area_light_by_samples(frame_ref f, BN_IN(shaded_point) x, int model,
     real3 irradiance = vec3_all(lit(0.0));
     for (int i = 0; i < the_frame(f).area_light_count; ++i) {
         real3 radiance = splat3(the_area_light(f, i).radiance) * splat(inv);
+        bool pictured = the_area_light(f, i).picture >= 0;
         seed = k_hash_u32(seed ^ int_lit(i));
         real shift_x = k_unit_from_bits(seed);
         real shift_y = k_unit_from_bits(k_hash_u32(seed));
@@ -225,6 +244,8 @@ BN_FN real3 area_light_by_samples(frame_ref f, BN_IN(shaded_point) x, int model,
             real v = k_radical_inverse2(int_lit(k)) + shift_y;
             real2 xi = vec2_of(u - floor(u), v - floor(v));
             area_sample s = area_sample_at(f, i, position, xi);
+            if (pictured)
+                radiance = area_radiance_at(f, i, position + s.wi * s.distance) * splat(inv);
             real cosine = max(k_dot3(x.s.n, s.wi), lit(0.0));
             mask seen = s.pdf > lit(0.0);
             if (x.turned)

@@ -194,39 +194,5 @@ BN_FN real ltc_sided(real part, real3 to_light, real3 normal, int two_sided)
     return shown;
 }
 
-struct ltc_texture_place {
-    real2 uv;   // (0,0) at the first corner, u towards the second, v towards the last; [0,1]
-    real level; // of a chain of mean values by halves, from 0
-};
-
-// What stands for the texture of a parallelogram: where its plane is met in the direction that its light comes from, and the level whose
-// texels have the area of the disc from which half of a cosine's light would come to that plane. corner: the first; side_u, side_v: from
-// there; texels: of the whole of level 0; last: the coarsest level, which is the answer where there is no flow. After Heitz, Dupuy, Hill,
-// Neubelt 2016, section 5.
-BN_FN ltc_texture_place ltc_texture_place_of(BN_IN(ltc_lobe) lobe, real3 flow, real3 corner, real3 side_u, real3 side_v, real texels,
-                                             real last)
-{
-    real3 normal = k_cross(side_u, side_v);
-    real3 d = lobe.m0 * flow.x + lobe.m1 * flow.y + lobe.m2 * flow.z;
-    real towards = k_dot3(d, normal);
-    real distance = k_dot3(corner, normal);
-    mask met = abs(towards) > lit(1e-30);
-    real along = select(met, distance, lit(0.0)) / select(met, towards, lit(1.0));
-    real3 at = d * along - corner;
-    real area2 = max(k_dot3(normal, normal), lit(1e-30));
-    real u = k_dot3(k_cross(at, side_v), normal) / area2;
-    real v = k_dot3(k_cross(side_u, at), normal) / area2;
-    ltc_texture_place place;
-    place.uv = vec2_of(select(met, k_saturate(u), lit(0.5)), select(met, k_saturate(v), lit(0.5)));
-    // In the cosine's space: the plane's distance over the root of the area, both by the product of the sides there.
-    real3 n = ltc_normal_to_cosine(lobe, normal);
-    real area = max(k_length3(n), lit(1e-30)) / abs(lobe.det);
-    real height = abs(distance / lobe.det) / (area * sqrt(area));
-    real wide = lit(3.1415926535897932) * height * height * texels;
-    real level = lit(0.5) * k_log2(max(wide, lit(1.0)));
-    place.level = select(met, min(level, last), last);
-    return place;
-}
-
 BN_KERNELS_END
 #endif

@@ -29,12 +29,12 @@ bool texture_used(material_ref material, int slot)
     return kUsedTextures >= 0 ? (kUsedTextures >> slot & 1) != 0 : materials[material].textures[slot].texture >= 0;
 }
 
-texture_desc texture_desc_of(int f, material_ref material, int slot)
+texture_desc desc_of_texture(int id)
 {
-    int id = materials[material].textures[slot].texture;
     return texture_desc(textures[id].page, textures[id].offset_base, textures[id].width_base, textures[id].height_base, textures[id].levels,
                         textures[id].wrap_s, textures[id].wrap_t, textures[id].nearest);
 }
+texture_desc texture_desc_of(int f, material_ref material, int slot) { return desc_of_texture(materials[material].textures[slot].texture); }
 
 real4 texel_at_level(texture_one_level t, int slot, real2 uv)
 {

@@ -12,6 +12,7 @@
 #define lights_reaching(f, position) 0
 #define next_light(f, reach) reach++
 #define the_area_light(f, i) area_lights[i]
+#define picture_of(f, i) desc_of_texture(area_lights[i].picture)
 #define dfg_texels(f) kGpuDfgPage
 #define lobe_albedo_texels(f) kGpuLobeAlbedoPage
 #define lobe_slice_texels(f) kGpuLobeSlicePage

@@ -1,12 +1,14 @@
 """Area lights: --light, extras.burnish.areaLight of nodes, --limit-lights, --area-lights; and what is wrong with some."""
 
+import math
 import struct
 
 from bake_cases import SHIPPED
 from direction_cases import SMALL
-from gltf_files import text, triangle
+from gltf_files import data_uri, png, text, triangle
 from harness import case, check, scratch
 from parity_cases import check_equal, parity
+from reference_cases import needs_embree
 
 QUAD = "quad:points=-1,1,-1/1,1,-1/1,1,1/-1,1,1:radiance=3,2,1"
 DARK = ("--env", "builtin:night", "--size", "48x32", "--msaa", "1", "--env-size", "16", "--env-samples", "4")
@@ -30,6 +32,56 @@ def same(bench):
     bare = bench.figures("bare.gltf", *DARK, *view)["pixel_hash"]
     off = bench.figures("lit.gltf", *DARK, *view, "--area-lights", "off")["pixel_hash"]
     check(lit == given and len({lit, bare, off}) == 3, f"{lit} {given} {bare} {off}")
+
+
+HALVES = png(16, 16, color=lambda x, y: (255, 30, 10) if x < 8 else (20, 60, 255))
+HUNG = "quad:points=1,-1,1.5/-1,-1,1.5/-1,1,1.5/1,1,1.5:radiance=3,3,3"
+
+
+@case("lights.textures_of_files_and_of_the_command_line_are_the_same", tier="check")
+def textures(bench):
+    scratch(bench, "halves.png", HALVES)
+    scratch(bench, "white.png", png(8, 4, color=lambda x, y: (255, 255, 255)))
+    quad = {"shape": "quad", "points": [1, -1, 1.5, -1, -1, 1.5, -1, 1, 1.5, 1, 1, 1.5], "radiance": [3, 3, 3], "texture": {"index": 0}}
+    gltf = triangle()
+    gltf["nodes"].append({"extras": {"burnish": {"areaLight": quad}}})
+    gltf["scenes"] = [{"nodes": [0, 1]}]
+    gltf["textures"], gltf["images"] = [{"source": 0}], [{"uri": "halves.png"}]
+    scratch(bench, "lit.gltf", text(gltf))
+    scratch(bench, "bare.gltf", text(triangle()))
+    for way in ("ltc", "ltc-clipless", "mc"):
+        view = ("--eye", "0.3,0.3,1.2", "--target", "0.3,0.3,0", "--area-lights", way)
+        lit = bench.figures("lit.gltf", *DARK, *view)["pixel_hash"]
+        given = bench.figures("bare.gltf", *DARK, *view, "--light", HUNG + ":texture=halves.png")["pixel_hash"]
+        plain = bench.figures("bare.gltf", *DARK, *view, "--light", HUNG)["pixel_hash"]
+        white = bench.figures("bare.gltf", *DARK, *view, "--light", HUNG + ":texture=white.png")["pixel_hash"]
+        check(lit == given and lit != plain and plain == white, f"{way}: {lit} {given} {plain} {white}")
+
+
+@case("lights.textures_that_are_none_say_one_line", "input", tier="check")
+def wrong_textures(bench):
+    scratch(bench, "halves.png", HALVES)
+    at = "/nodes/1/extras/burnish/areaLight"
+    quad = {"shape": "quad", "points": [0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0], "radiance": [1, 1, 1]}
+    ball = {"shape": "sphere", "points": [0, 0, 0], "radius": 1, "radiance": [1, 1, 1]}
+    for light, place, needle in (({**quad, "texture": 0}, at + "/texture", "object"), ({**quad, "texture": {}}, at + "/texture", "index"),
+                                 ({**quad, "texture": {"index": 7}}, at + "/texture/index", "textures"),
+                                 ({**quad, "texture": {"index": "0"}}, at + "/texture/index", ""),
+                                 ({**ball, "texture": {"index": 0}}, at, "sphere has no texture"),
+                                 ({**quad, "points": [0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 2, 0], "texture": {"index": 0}}, at, "parallelogram")):
+        gltf = triangle()
+        gltf["nodes"].append({"extras": {"burnish": {"areaLight": light}}})
+        gltf["scenes"] = [{"nodes": [0, 1]}]
+        gltf["textures"], gltf["images"] = [{"source": 0}], [{"uri": "halves.png"}]
+        scratch(bench, "bad.gltf", text(gltf))
+        bench.run("render", "bad.gltf", *SMALL, "-o", "a.png").expect(4).expect_one_line(place, needle)
+    bench.run("render", *SMALL, "--light", HUNG + ":texture=none.png", "-o", "a.png").expect(4).expect_one_line("none.png")
+    scratch(bench, "bad.png", b"no picture")
+    bench.run("render", *SMALL, "--light", HUNG + ":texture=bad.png", "-o", "a.png").expect(4).expect_one_line("bad.png")
+    bench.run("render", *SMALL, "--light", HUNG + ":texture=", "-o", "a.png").expect(2).expect_one_line("--light", "no file")
+    ball = "sphere:points=0,0,0:radius=1:radiance=1,1,1:texture=halves.png"
+    bench.run("render", *SMALL, "--light", ball, "-o", "a.png").expect(2).expect_one_line("--light", "sphere has no texture")
+    check("a.png" not in bench.left_behind(), "a picture was written")
 
 
 @case("lights.that_are_none_say_one_line", "input", tier="check")
@@ -121,6 +173,65 @@ def own(bench):
         check((other == hashes[way]) == (way == "ltc-isotropic"), f"{way} by a table of nodes fitted alone")
 
 
+def ball_over_plane(ball):
+    """A diffuse floor of 4 x 4 m, and a ball of radius 0.4 m that hovers over it."""
+    floor = [(-2, 0, -2), (-2, 0, 2), (2, 0, 2), (2, 0, -2)]
+    at = [(math.pi * j / 24, math.pi * i / 24) for j in range(25) for i in range(49)]
+    round_ = [(0.4 * math.sin(t) * math.cos(p), 0.6 + 0.4 * math.cos(t), -0.4 * math.sin(t) * math.sin(p)) for t, p in at]
+    corners = [49 * j + i for j in range(24) for i in range(48)]
+    faces = [k for a in corners for k in (a, a + 49, a + 50, a, a + 50, a + 1)]
+    points, indices = (floor + round_, [0, 1, 2, 0, 2, 3] + [4 + k for k in faces]) if ball else (floor, [0, 1, 2, 0, 2, 3])
+    positions = b"".join(struct.pack("<3f", *p) for p in points)
+    index_bytes = struct.pack(f"<{len(indices)}H", *indices)
+    gltf = triangle(positions, index_bytes)
+    gltf["buffers"] = [{"byteLength": len(positions + index_bytes), "uri": data_uri(positions + index_bytes)}]
+    low, high = ([f(p[k] for p in points) for k in range(3)] for f in (min, max))
+    gltf["accessors"][0].update(count=len(points), min=low, max=high)
+    gltf["accessors"][1]["count"] = len(indices)
+    gltf["bufferViews"][0]["byteLength"] = len(positions)
+    gltf["bufferViews"][1].update(byteOffset=len(positions), byteLength=2 * len(indices))
+    gltf["materials"] = [{"pbrMetallicRoughness": {"metallicFactor": 0, "roughnessFactor": 1}}]
+    gltf["meshes"][0]["primitives"][0]["material"] = 0
+    return text(gltf)
+
+
+FLOOR = ("--env", "builtin:night", "--env-size", "16", "--env-samples", "4", "--env-exposure", "-20", "--f0", "0,0,0", "--eye", "0,1.6,3.2",
+         "--target", "0,0.3,0", "--light", "quad:points=-1.6,2.2,-0.6/-0.6,2.2,-0.6/-0.6,2.2,0.6/-1.6,2.2,0.6:radiance=8,8,8")
+SHADOWS = ("--shadows", "ratio")
+
+
+@case("lights.shadows_by_a_ratio_are_the_reference_s", tier="check")
+def shadows(bench):
+    needs_embree(bench)
+    scratch(bench, "floor.gltf", ball_over_plane(False))
+    scratch(bench, "ball.gltf", ball_over_plane(True))
+    small = (*FLOOR, "--size", "60x45", "--msaa", "4")
+    open_, same = (bench.figures("floor.gltf", *small, *more)["pixel_hash"] for more in ((), SHADOWS))
+    check(open_ == same, "a floor with nothing over it has shadows")
+    one, three, none = (bench.figures("ball.gltf", *small, *more)["pixel_hash"]
+                        for more in ((*SHADOWS, "--threads", "1"), (*SHADOWS, "--threads", "3", "--tile-size", "32"), ()))
+    check(one == three and one != none, f"{one} {three} {none}")
+    size = (*FLOOR, "--size", "160x120")
+    bench.run("render", "ball.gltf", *size, "--backend", "reference", "--reference-mode", "shadowed", "--samples", "512", "-o", "truth.png",
+              timeout=300).expect(0)
+    bench.run("render", "ball.gltf", *size, *SHADOWS, "-o", "ratio.png").expect(0)
+    bench.run("render", "ball.gltf", *size, "-o", "open.png").expect(0)
+    bench.run("compare", "truth.png", "ratio.png", "--fail-flip", "0.01").expect(0)
+    bench.run("compare", "truth.png", "open.png", "--fail-flip", "0.03").expect(1)
+
+
+@case("lights.shadows_that_cannot_be_say_one_line", "input", tier="check")
+def no_shadows(bench):
+    needs_embree(bench)
+    bench.run("render", *SMALL, *SHADOWS, "--backend", "reference", "-o", "a.png").expect(2).expect_one_line("--shadows", "shadowed")
+    bench.run("render", *SMALL, *SHADOWS, "--resolve", "display", "-o", "a.png").expect(2).expect_one_line("--shadows", "--resolve")
+    bench.run("render", *SMALL, "--shadow-samples", "9", "-o", "a.png").expect(2).expect_one_line("--shadow-samples", "--shadows")
+    bench.run("parity", "builtin:plate", *SHADOWS).expect(2).expect_one_line("--shadows")
+    run = bench.run("render", *SMALL, *SHADOWS, "-o", "b.png").expect(0)
+    check("--shadows has no effect" in run.err, run.describe())
+    check("a.png" not in bench.left_behind(), "a picture was written")
+
+
 @case("lights.more_than_the_limit_are_refused", "input", tier="check")
 def many(bench):
     ball = {"shape": "sphere", "points": [0, 0, 3], "radius": 0.1, "radiance": [1, 1, 1]}
@@ -135,8 +246,10 @@ def many(bench):
 
 
 def lights_agree(bench, *sets):
+    scratch(bench, "halves.png", HALVES)
     for options in sets:
-        check_equal(parity(bench, "builtin:lights", "--env", "builtin:night", "--size", "64x48", "--light", QUAD, *options))
+        lights = ("--light", QUAD, "--light", QUAD + ":two-sided:texture=halves.png")
+        check_equal(parity(bench, "builtin:lights", "--env", "builtin:night", "--size", "64x48", *lights, *options))
 
 
 # A driver compiles each set for a minute.

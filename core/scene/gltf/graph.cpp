@@ -5,6 +5,7 @@
 
 #include "core/scene/area_light.h"
 #include "core/scene/gltf/factors.h"
+#include "core/scene/gltf/material.h"
 #include "core/scene/gltf/pose.h"
 
 namespace burnish::gltf {
@@ -145,6 +146,8 @@ int load_area_light(Document& doc, const Json& node, const std::string& node_pla
         fail(place + "/points", fmt::format("must be three numbers a point, are {}", numbers.size()));
     for (std::size_t k = 0; k < numbers.size(); k += 3)
         light.points.emplace_back(static_cast<float>(numbers[k]), static_cast<float>(numbers[k + 1]), static_cast<float>(numbers[k + 2]));
+    if (source.contains("texture"))
+        light.texture = clamped_texture(doc, get_index(source["texture"], "index"));
     if (const std::string fault = area_light_fault(light); !fault.empty())
         fail(place, fault);
     doc.scene.area_lights.push_back(std::move(light));

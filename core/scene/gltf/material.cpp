@@ -164,6 +164,17 @@ glm::mat3x2 texture_transform(const double offset[2], double rotation, const dou
     return {f(c * scale[0]), f(-s * scale[0]), f(s * scale[1]), f(c * scale[1]), f(offset[0]), f(offset[1])};
 }
 
+int clamped_texture(Document& doc, int index)
+{
+    const int id = scene_texture(doc, index, true);
+    if (id == kNone)
+        return kNone;
+    Texture texture = doc.scene.textures[static_cast<std::size_t>(id)];
+    texture.wrap_s = texture.wrap_t = WrapMode::clamp;
+    doc.scene.textures.push_back(std::move(texture));
+    return static_cast<int>(doc.scene.textures.size()) - 1;
+}
+
 void load_materials(Document& doc)
 {
     Imported known;

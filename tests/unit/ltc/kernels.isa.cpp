@@ -3,6 +3,7 @@
 #include "shading/lights/ltc_polygon.k.h"
 #include "shading/lights/ltc_round.k.h"
 #include "shading/lights/ltc_table.k.h"
+#include "shading/lights/ltc_texture.k.h"
 
 namespace burnish {
 inline namespace BN_ISA_NS {

@@ -4,8 +4,11 @@
 #include <cmath>
 #include <cstdio>
 #include <cstring>
+#include <functional>
+#include <glm/gtc/matrix_transform.hpp>
 
 #include "core/scene/area_light.h"
+#include "shading/bake/mip/light_picture.h"
 #include "tests/unit/raster/fixture.h"
 
 namespace burnish::test {
@@ -49,6 +52,15 @@ class LitPlate {
         stage_.tables.area_lights.clear();
         for (const AreaLight& light : lights)
             stage_.tables.area_lights.push_back(*place_area_light(light, world));
+    }
+    // The picture of lights whose texture is 0; returns it as shading has it.
+    LightPicture hang(Image image)
+    {
+        Texture texture;
+        texture.image = static_cast<std::int32_t>(stage_.scene.images.size());
+        stage_.scene.textures.assign(1, texture);
+        stage_.scene.images.push_back(std::move(image));
+        return make_light_picture(stage_.scene.images.back());
     }
     Image seen(const FrameDesc& d) const { return stage_.render(d, best_isa()).color; }
 
@@ -232,6 +244,106 @@ TEST(area_lights, are_cut_at_the_horizon_of_a_surface_whose_lobes_are_tilted)
                     for (const char* way : {"ltc", "ltc-clipless", "mc"})
                         EXPECT_LT(found(way), 1e-5) << i << " " << way;
                 }
+}
+
+Image picture_of(int width, int height, const std::function<glm::vec3(int x, int y)>& colour)
+{
+    Image image = make_image(width, height, 3, PixelType::f32);
+    auto* to = reinterpret_cast<glm::vec3*>(image.bytes.data());
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x)
+            *to++ = colour(x, y);
+    return image;
+}
+
+AreaLight hung_light()
+{
+    AreaLight light = area_light_of(AreaShape::quad, {{-1.2f, 0.9f, 0.3f}, {-1.2f, 0.9f, 1.1f}, {0.9f, 0.8f, 1.1f}, {0.9f, 0.8f, 0.3f}});
+    light.two_sided = true;
+    return light;
+}
+
+TEST(area_lights, a_picture_of_one_colour_is_none_word_for_word)
+{
+    for (const char* way : {"ltc", "ltc-clipless", "ltc-isotropic", "mc"})
+        for (const float metallic : {0.0f, 1.0f}) {
+            LitPlate room(metallic);
+            const LightPicture picture = room.hang(picture_of(12, 5, [](int, int) { return glm::vec3(0.3f, 1.7f, 0.9f); }));
+            FrameDesc d = desc_of_plate(kPlateEyes[1], 0.5f, 0.6f);
+            d.area_way = way_named(way);
+            AreaLight light = hung_light();
+            light.texture = 0;
+            room.light({light});
+            const Image textured = room.seen(d);
+            light.texture = kNone;
+            for (int c = 0; c < 3; ++c)
+                light.radiance[c] *= picture.mean[c];
+            room.light({light});
+            EXPECT_EQ(most_difference(textured, room.seen(d)), 0.0) << way << " metallic " << metallic;
+            EXPECT_GT(mean_radiance(textured), 1e-4);
+        }
+}
+
+// Mean absolute difference over the mean.
+double mean_error(const Image& found, const Image& truth)
+{
+    double error = 0.0, all = 0.0;
+    for (std::size_t k = 0; k < truth.bytes.size() / sizeof(float); ++k) {
+        error += std::abs(static_cast<double>(found.f32()[k]) - static_cast<double>(truth.f32()[k]));
+        all += static_cast<double>(truth.f32()[k]);
+    }
+    return error / all;
+}
+
+// Two colours, side by side and one above the other, on a wall that fills much of the lobe: the row of fetches has no cosine in it.
+TEST(area_lights, pictures_by_cosines_are_what_sampling_finds)
+{
+    for (const float metallic : {0.0f, 1.0f})
+        for (const float roughness : {0.35f, 0.6f})
+            for (const bool across : {false, true}) {
+                LitPlate room(metallic);
+                room.hang(picture_of(64, 64, [&](int x, int y) {
+                    return (across ? x : y) < 32 ? glm::vec3(1.0f, 0.1f, 0.0f) : glm::vec3(0.0f, 0.2f, 1.0f);
+                }));
+                AreaLight light = hung_light();
+                light.texture = 0;
+                room.light({light});
+                FrameDesc d = desc_of_plate(kPlateEyes[1], roughness, 0.7f);
+                const Image cosines = room.seen(d);
+                d.area_way = way_named("mc"), d.light_samples = 1024;
+                const Image sampled = room.seen(d);
+                light.texture = kNone;
+                room.light({light});
+                const Image even_sampled = room.seen(d);
+                d.area_way = way_named("ltc");
+                const double with = mean_error(cosines, sampled), without = mean_error(room.seen(d), even_sampled);
+                std::printf("metallic %.0f roughness %.2f %s: off by %.2f %%, without a picture %.2f %%\n", static_cast<double>(metallic),
+                            static_cast<double>(roughness), across ? "across" : "upright", 100.0 * with, 100.0 * without);
+                EXPECT_LT(with, without + 0.12);
+            }
+}
+
+TEST(area_lights, a_mirrored_node_mirrors_its_picture)
+{
+    LitPlate room(1.0f);
+    room.hang(picture_of(8, 8, [](int x, int y) { return glm::vec3(x < 4 ? 1.0f : 0.1f, y < 4 ? 1.0f : 0.2f, x == y ? 1.0f : 0.3f); }));
+    AreaLight light = hung_light();
+    light.texture = 0;
+    FrameDesc d = desc_of_plate({0.0f, -1.0f, 0.9f}, 0.3f, 0.5f);
+    for (const char* way : {"ltc", "mc"}) {
+        d.area_way = way_named(way), d.light_samples = 4096;
+        room.light({light});
+        const Image straight = room.seen(d);
+        room.light({light}, glm::scale(glm::mat4(1.0f), {-1.0f, 1.0f, 1.0f}));
+        const Image mirrored = room.seen(d);
+        double most = 0.0;
+        for (int y = 0; y < 16; ++y)
+            for (int x = 0; x < 16; ++x)
+                for (int c = 0; c < 3; ++c)
+                    most = std::max(most, std::abs(static_cast<double>(straight.f32()[3 * (16 * y + x) + c]) -
+                                                   static_cast<double>(mirrored.f32()[3 * (16 * y + 15 - x) + c])));
+        EXPECT_LT(most, way[0] == 'l' ? 1e-3 : 0.1) << way; // of samples by chance
+    }
 }
 
 TEST(area_lights, change_nothing_where_there_are_none_or_none_are_wanted)

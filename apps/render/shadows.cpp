@@ -1,0 +1,42 @@
+#include "apps/render/shadows.h"
+
+#include <utility>
+
+#include "raster/frame/shadow_ratio.h"
+#include "shading/lang/records.h"
+
+namespace burnish {
+
+Status add_shadows(const RenderOptions& options, const FrameDesc& desc, Session& session, Frame& lit)
+{
+    FrameDesc plain = desc; // what is needed of a frame is its colour
+    plain.layers = plain.parts = plain.triangle_ids = false;
+    Image light[2];
+    for (const bool open : {false, true}) {
+        const TraceSpan span(open ? "area lights without shadows" : "area lights with shadows");
+        SessionOptions reference;
+        reference.backend = Backend::reference, reference.isa = reference.reference.isa = options.isa;
+        reference.reference.mode = open ? ReferenceMode::direct : ReferenceMode::shadowed;
+        reference.reference.samples = static_cast<std::uint64_t>(options.shadow_samples);
+        reference.reference.area_lights_only = true;
+        reference.reference.quiet = options.quiet;
+        Result<Session> rays = Session::make(session.parts(), reference);
+        if (!rays)
+            return rays.error();
+        Result<Frame> frame = rays->render(plain);
+        if (!frame)
+            return frame.error();
+        light[open] = std::move(frame->color);
+    }
+    FrameDesc without = plain;
+    without.area_way = kAreaWay_off;
+    Result<Frame> unlit = session.render(without);
+    if (!unlit)
+        return unlit.error();
+    const TraceSpan span("shadows");
+    // layers are as the world stands, and so is this view
+    lit.color = with_shadows(lit.color, unlit->color, shadow_ratio(light[0], light[1], lit.layers, desc.view, *session.parts().jobs));
+    return {};
+}
+
+} // namespace burnish

@@ -1,0 +1,103 @@
+#include "raster/frame/shadow_ratio.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/check.h"
+#include "core/math/scalar_math.h"
+
+namespace burnish {
+namespace {
+
+constexpr int kReach = 2;           // pixels to each side
+constexpr double kShadowBlur = 0.8; // pixels, standard deviation
+constexpr double kOffPlane = 2.0;   // pixels, standard deviation: how far a neighbour may lie from the surface's plane
+constexpr int kAlikeNormals = 6;    // the cosine between normals counts to the power of 2^6
+
+struct Guide { // of a pixel
+    glm::dvec3 position, normal;
+    double pixel = 0.0; // its side there, metres
+    bool seen = false;
+};
+
+Guide guide_of(const PixelLayers& layers, const View& v, int x, int y, int width, int height)
+{
+    Guide g;
+    const double depth = static_cast<double>(layers.depth[0]);
+    g.normal = {layers.normal[0], layers.normal[1], layers.normal[2]};
+    g.seen = glm::dot(g.normal, g.normal) > 0.0 && std::isfinite(depth);
+    if (!g.seen)
+        return g;
+    const double scale = v.orthographic ? 1.0 : depth;
+    const double across = (2.0 * (x + 0.5) / width - 1.0) * static_cast<double>(v.tan_half_x) * scale;
+    const double up = (1.0 - 2.0 * (y + 0.5) / height) * static_cast<double>(v.tan_half_y) * scale;
+    g.position = glm::dvec3(v.eye) + glm::dvec3(v.forward) * depth + glm::dvec3(v.right) * across + glm::dvec3(v.up) * up;
+    g.pixel = 2.0 * static_cast<double>(v.tan_half_y) * scale / height;
+    return g;
+}
+
+double alike(const Guide& a, const Guide& b)
+{
+    double cosine = std::max(glm::dot(a.normal, b.normal), 0.0);
+    for (int i = 0; i < kAlikeNormals; ++i)
+        cosine *= cosine;
+    const double off = glm::dot(a.normal, b.position - a.position) / (kOffPlane * a.pixel);
+    return cosine * det_exp(-0.5 * std::min(off * off, 1000.0));
+}
+
+} // namespace
+
+Image shadow_ratio(const Image& shadowed, const Image& open, const Column<PixelLayers>& layers, const View& view, const Jobs& jobs)
+{
+    const int width = open.width, height = open.height;
+    const auto pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+    BN_CHECK(shadowed.width == width && shadowed.height == height && layers.size() == pixels);
+    std::vector<Guide> guides(pixels);
+    for (std::size_t i = 0; i < pixels; ++i)
+        guides[i] = guide_of(layers[i], view, static_cast<int>(i % static_cast<std::size_t>(width)),
+                             static_cast<int>(i / static_cast<std::size_t>(width)), width, height);
+    double falloff[kReach + 1];
+    for (int i = 0; i <= kReach; ++i)
+        falloff[i] = det_exp(-0.5 * i * i / (kShadowBlur * kShadowBlur));
+    Image ratio = make_image(width, height, 3, PixelType::f32);
+    auto* const out = reinterpret_cast<float*>(ratio.bytes.data());
+    const float *const some = shadowed.f32(), *const all = open.f32();
+    jobs.parallel_for(static_cast<std::size_t>(height), [&](std::size_t row, int) {
+        const int y = static_cast<int>(row);
+        for (int x = 0; x < width; ++x) {
+            const auto at = [&](int i, int j) {
+                return static_cast<std::size_t>(j) * static_cast<std::size_t>(width) + static_cast<std::size_t>(i);
+            };
+            const Guide& here = guides[at(x, y)];
+            glm::dvec3 arrives(0.0), without(0.0);
+            for (int j = std::max(y - kReach, 0); j <= std::min(y + kReach, height - 1); ++j)
+                for (int i = std::max(x - kReach, 0); i <= std::min(x + kReach, width - 1); ++i) {
+                    const Guide& there = guides[at(i, j)];
+                    const bool self = i == x && j == y;
+                    if (!self && !(here.seen && there.seen))
+                        continue;
+                    const double weight = self ? 1.0 : falloff[std::abs(i - x)] * falloff[std::abs(j - y)] * alike(here, there);
+                    for (int c = 0; c < 3; ++c) {
+                        arrives[c] += weight * static_cast<double>(some[3 * at(i, j) + static_cast<std::size_t>(c)]);
+                        without[c] += weight * static_cast<double>(all[3 * at(i, j) + static_cast<std::size_t>(c)]);
+                    }
+                }
+            for (int c = 0; c < 3; ++c)
+                out[3 * at(x, y) + static_cast<std::size_t>(c)] =
+                    without[c] > 0.0 ? static_cast<float>(std::max(arrives[c], 0.0) / without[c]) : 1.0f;
+        }
+    });
+    return ratio;
+}
+
+Image with_shadows(const Image& lit, const Image& unlit, const Image& ratio)
+{
+    Image result = lit;
+    auto* const to = reinterpret_cast<float*>(result.bytes.data());
+    for (std::size_t i = 0; i < lit.bytes.size() / sizeof(float); ++i)
+        if (const float r = ratio.f32()[i]; r != 1.0f)
+            to[i] = unlit.f32()[i] + (lit.f32()[i] - unlit.f32()[i]) * r;
+    return result;
+}
+
+} // namespace burnish
