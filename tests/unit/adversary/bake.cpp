@@ -67,14 +67,6 @@ std::vector<double> fetches(const Domain& d, const double* u)
     return a;
 }
 
-std::vector<double> ranges(const Domain& d, const double* u)
-{
-    std::vector<double> a;
-    for (const std::vector<double>& range : d.of)
-        a.push_back(in_range(*u++, range));
-    return a;
-}
-
 // Derivatives of coordinates by pixel, of 1e-4 to 10 texels and any direction.
 std::vector<double> footprints(const Domain&, const double* u)
 {

@@ -52,4 +52,12 @@ double in_range(double u, const std::vector<double>& range)
     return range[0] > 0.0 ? by_factors(u, range[0], range[1]) : straight(u, range[0], range[1]);
 }
 
+std::vector<double> ranges(const Domain& d, const double* u)
+{
+    std::vector<double> a;
+    for (const std::vector<double>& range : d.of)
+        a.push_back(in_range(*u++, range));
+    return a;
+}
+
 } // namespace burnish::test

@@ -21,5 +21,6 @@ Vec mirrored(Vec o, Vec h);
 void append(std::vector<double>& to, const Vec& v);
 // {low, high} of Domain::of: by factors where low > 0, else straight.
 double in_range(double u, const std::vector<double>& range);
+std::vector<double> ranges(const Domain& d, const double* u); // a number of each range
 
 } // namespace burnish::test

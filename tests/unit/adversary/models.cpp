@@ -70,14 +70,6 @@ std::vector<double> drawn(const Domain& d, const double* u)
     return a;
 }
 
-std::vector<double> ranges(const Domain& d, const double* u)
-{
-    std::vector<double> a;
-    for (const std::vector<double>& range : d.of)
-        a.push_back(in_range(*u++, range));
-    return a;
-}
-
 std::vector<Domain> all()
 {
     const std::vector<Judged> value = {{"value", 0, 1, Unit::last_place}};

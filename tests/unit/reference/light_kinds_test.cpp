@@ -76,25 +76,29 @@ double mean_of(const Frame& f)
     return sum / static_cast<double>(n);
 }
 
-void use_fine_tables(Stage& stage)
-{
-    stage.dfg = bake_dfg(64, 1024, stage.jobs);
-}
+// The same plane under 1 from everywhere: of the environment, of lamps, of area lights.
+struct Lit {
+    Stage around, lamps, box;
+    explicit Lit(const Material& material)
+        : around(plane_scene(material), 1.0f), lamps(plane_scene(material), 0.0f), box(plane_scene(material), 0.0f)
+    {
+        light_by_lamps(lamps, 4096);
+        light_by_box(box);
+        for (Stage* stage : {&around, &lamps, &box})
+            stage->dfg = bake_dfg(64, 1024, stage->jobs);
+    }
+};
 
 TEST(light_kinds, share_light_between_diffuse_and_specular_by_one_rule)
 {
     for (const Surface& s : each_surface()) {
-        Stage around(plane_scene(s.material), 1.0f), lamps(plane_scene(s.material), 0.0f), box(plane_scene(s.material), 0.0f);
-        light_by_lamps(lamps, 4096);
-        light_by_box(box);
-        for (Stage* stage : {&around, &lamps, &box})
-            use_fine_tables(*stage);
+        Lit lit(s.material);
         for (const glm::vec3& eye : kEyes) {
             FrameDesc d = desc_of(2, 2, view_from(eye, 0.01f));
-            const double sky = mean_of(around.render(d, best_isa())), punctual = mean_of(lamps.render(d, best_isa()));
-            const double cosines = mean_of(box.render(d, best_isa()));
+            const double sky = mean_of(lit.around.render(d, best_isa())), punctual = mean_of(lit.lamps.render(d, best_isa()));
+            const double cosines = mean_of(lit.box.render(d, best_isa()));
             d.area_way = kAreaWay_mc, d.light_samples = 16384;
-            const double samples = mean_of(box.render(d, best_isa()));
+            const double samples = mean_of(lit.box.render(d, best_isa()));
             std::printf("%-14s n.v %.2f: environment %.5f, lamps %+.2f %%, area lights %+.2f %% by cosines, %+.2f %% by samples\n", s.name,
                         static_cast<double>(glm::normalize(eye).z), sky, 100.0 * (punctual / sky - 1.0), 100.0 * (cosines / sky - 1.0),
                         100.0 * (samples / sky - 1.0));
@@ -111,17 +115,13 @@ TEST(light_kinds, share_light_by_the_same_rule_in_the_reference)
     ReferenceOptions o;
     o.samples = 4096;
     for (const Surface& s : each_surface()) {
-        Stage around(plane_scene(s.material), 1.0f), lamps(plane_scene(s.material), 0.0f), box(plane_scene(s.material), 0.0f);
-        light_by_lamps(lamps, 4096);
-        light_by_box(box);
-        for (Stage* stage : {&around, &lamps, &box})
-            use_fine_tables(*stage);
+        Lit lit(s.material);
         for (const glm::vec3& eye : kEyes) {
             const FrameDesc d = desc_of(2, 2, view_from(eye, 0.01f));
             ReferenceOptions few = o;
             few.samples = 64; // lamps have no noise
-            const double tile = mean_of(around.render(d, best_isa())), punctual = mean_of(render_reference(lamps, d, few));
-            const Estimate sky = estimate(render_reference(around, d, o)), area = estimate(render_reference(box, d, o));
+            const double tile = mean_of(lit.around.render(d, best_isa())), punctual = mean_of(render_reference(lit.lamps, d, few));
+            const Estimate sky = estimate(render_reference(lit.around, d, o)), area = estimate(render_reference(lit.box, d, o));
             std::printf("%-14s n.v %.2f: environment %.5f, of the reference %+.2f %%, its lamps %+.2f %%, its area lights %+.2f %%\n",
                         s.name, static_cast<double>(glm::normalize(eye).z), tile, 100.0 * (sky.mean / tile - 1.0),
                         100.0 * (punctual / tile - 1.0), 100.0 * (area.mean / tile - 1.0));
