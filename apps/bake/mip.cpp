@@ -108,9 +108,9 @@ std::vector<Option> mip_options(MipArguments& to)
         names.emplace_back(filter.name);
     return {
         {"--mip-filter", "NAME", "{}", choice(to.filter, names)},
-        {"--mip-kappa", "K", "Of filter kappa, and of taps under mipnet", number(to.kappa, 0.0, 4.0),
+        {"--mip-kappa", "K", "Of filter kappa, and of taps under mipnet and teacher", number(to.kappa, 0.0, 4.0),
          fmt::format("{}", kUsualMipKappa).c_str()},
-        {"--mip-net", "FILE", "Of filter mipnet: weights of burnish train mip", file(to.net), "the program's own for --brdf"},
+        {"--mip-net", "FILE", "Of filters mipnet and teacher: weights of burnish train mip", file(to.net), "the program's own for --brdf"},
         {"--fallback", "NAME", "Of filter mipnet: {}; auto leaves materials to kappa or baseline where the net is worse than they are",
          choice(to.fallback, {"auto", "off"})},
         {"--brdf", "NAME", "Model of the lobes, whose net is taken and which the error of --format is measured with", lobe_value(to.brdf)},

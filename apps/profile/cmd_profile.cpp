@@ -11,6 +11,7 @@
 #include "apps/cli/seen_scene.h"
 #include "apps/cli/values.h"
 #include "apps/profile/report.h"
+#include "apps/render/picture.h"
 #include "apps/render/stats.h"
 #include "core/base/text.h"
 
@@ -111,7 +112,7 @@ int run_profile(const ProfileArguments& arguments, const OptionTable& given)
         return fail(usage_error("--backend", "only the tile renderer is profiled"));
     if (!options.stats_file.empty())
         return fail(usage_error("--stats", "belongs to burnish render; here figures go to --json"));
-    for (const char* option : {"--aov", "--risks", "--animate", "--turntable"})
+    for (const char* option : {"--aov", "--risks", "--animate", "--turntable", "--shadows"})
         if (given.given(option))
             return fail(usage_error(option, "belongs to burnish render; here one picture is drawn, over and over"));
     if (Status files = check_files(options, arguments, {options.scene, options.env}); !files)
@@ -135,14 +136,17 @@ int run_profile(const ProfileArguments& arguments, const OptionTable& given)
         report.warning(warning);
     SessionOptions tile;
     tile.isa = options.isa;
-    Result<Session> session = Session::make({seen->data, *environment, jobs, {}}, tile);
+    SessionParts parts = {seen->data, *environment, jobs, {}};
+    if (Status read = read_tables(options, parts, report); !read)
+        return fail(read.error());
+    Result<Session> session = Session::make(std::move(parts), tile);
     if (!session)
         return fail(session.error());
     report.release();
 
     FrameDesc desc = options.frame;
     desc.view = seen->view;
-    desc.parts = options.resolve_display;
+    desc.parts = options.resolve_display, desc.triangle_ids = !desc.background;
     ProfileFigures figures;
     figures.device = session->device(), figures.threads = jobs->threads();
     figures.frames = given.given("--frames") ? options.frames : kFrames;
@@ -154,9 +158,10 @@ int run_profile(const ProfileArguments& arguments, const OptionTable& given)
     if (!last)
         return fail(last.error());
     const std::uint64_t begin = Trace::now_ns();
+    const Image color = desc.background ? last->color : with_coverage(last->color, last->triangle_ids);
     for (const std::string& path : options.outputs) {
         const TraceSpan span("write picture");
-        if (Status done = write_picture(path, last->color, options.tonemap, options.exposure_ev, last->parts); !done)
+        if (Status done = write_picture(path, color, options.tonemap, options.exposure_ev, last->parts); !done)
             return fail(done.error());
         report.wrote(path);
     }

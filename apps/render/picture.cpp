@@ -99,11 +99,8 @@ Result<std::shared_ptr<const Environment>> open_light(const RenderOptions& optio
     return open_environment(options.env, environment, options.limits, jobs);
 }
 
-Result<Session> prepare(const RenderOptions& options, RenderFigures& figures, std::optional<Error>& lost_checkpoint, Report& report)
+Status read_tables(const RenderOptions& options, SessionParts& parts, Report& report)
 {
-    SessionParts parts;
-    parts.jobs = std::make_shared<const Jobs>(options.threads);
-    figures.threads = parts.jobs->threads();
     if (!options.ltc_table.empty()) {
         Result<std::shared_ptr<const ltc::ShadingTables>> table = load_ltc_table(options.ltc_table);
         if (!table)
@@ -119,6 +116,16 @@ Result<Session> prepare(const RenderOptions& options, RenderFigures& figures, st
                 report.warning(warning);
         parts.phong = std::move(*tables);
     }
+    return {};
+}
+
+Result<Session> prepare(const RenderOptions& options, RenderFigures& figures, std::optional<Error>& lost_checkpoint, Report& report)
+{
+    SessionParts parts;
+    parts.jobs = std::make_shared<const Jobs>(options.threads);
+    figures.threads = parts.jobs->threads();
+    if (Status read = read_tables(options, parts, report); !read)
+        return read.error();
     const Stopwatch load;
     {
         const TraceSpan span("load scene");

@@ -35,6 +35,9 @@ SessionOptions session_options(const RenderOptions& options, std::optional<Error
 // What the options' environment is for the options' renderer: the reference does not need the levels.
 Result<std::shared_ptr<const Environment>> open_light(const RenderOptions& options, const Jobs& jobs);
 
+// --ltc-table and --as-table.
+Status read_tables(const RenderOptions& options, SessionParts& parts, Report& report);
+
 Result<Session> prepare(const RenderOptions& options, RenderFigures& figures, std::optional<Error>& lost_checkpoint, Report& report);
 
 // All frames show the same picture: a renderer that does not repeat itself is caught here.

@@ -174,11 +174,12 @@ Status read_area_texture(Scene& scene, AreaLight& light, const Limits& limits)
 {
     if (light.texture_file.empty())
         return {};
-    const auto known =
-        std::find_if(scene.textures.begin(), scene.textures.end(), [&](const Texture& t) { return t.name == light.texture_file; });
-    light.texture = static_cast<std::int32_t>(known - scene.textures.begin());
-    if (known != scene.textures.end())
-        return {};
+    for (const AreaLight& other : scene.area_lights)
+        if (other.texture_file == light.texture_file) {
+            light.texture = other.texture;
+            return {};
+        }
+    light.texture = static_cast<std::int32_t>(scene.textures.size());
     Limits rest = limits;
     for (const Image& image : scene.images)
         rest.texture_bytes -= std::min<std::uint64_t>(rest.texture_bytes, image.bytes.size());

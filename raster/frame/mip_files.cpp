@@ -116,7 +116,7 @@ Status check_mips(const Scene& scene, const std::string& path)
             continue;
         any = true;
         const std::uint64_t hash = mip_source(scene, m).hash(jobs);
-        if (std::none_of(scene.mips->begin(), scene.mips->end(), [&](const MipLevels& levels) { return fits(levels, hash, m); }))
+        if (std::none_of(scene.mips->begin(), scene.mips->end(), [&](const MipLevels& levels) { return fits(levels, hash, scene, m); }))
             return Error{ExitCode::bad_input, path, "",
                          "holds no levels of material '" + m.name + "' by this filter, whose maps hash to " + hexadecimal(hash)};
     }

@@ -277,10 +277,12 @@ MipSource mip_source(const Scene& scene, const Material& m)
     return MipSource(maps_of(scene, m));
 }
 
-bool fits(const MipLevels& levels, std::uint64_t source, const Material& m)
+bool fits(const MipLevels& levels, std::uint64_t source, const Scene& scene, const Material& m)
 {
+    const bool taught = m.mip_filter == kMipFilter_teacher, metal = taught && is_metal(scene, m);
     return levels.source == source && levels.filter == m.mip_filter && (!takes_kappa(m.mip_filter) || levels.kappa == m.mip_kappa) &&
-           (!m.mip_net || levels.net == mipnet::net_hash(*m.mip_net));
+           (!m.mip_net || levels.net == levels_hash(*m.mip_net, m.mip_filter, metal)) &&
+           (!taught || (levels.net & 1u) == (metal ? 1u : 0u));
 }
 
 MaterialLevels filtered_levels(const Scene& scene, const Jobs& jobs, const TaughtTexels& advance)
@@ -299,7 +301,7 @@ MaterialLevels filtered_levels(const Scene& scene, const Jobs& jobs, const Taugh
         if (scene.mips) {
             const std::uint64_t hash = source.hash(jobs);
             for (const MipLevels& levels : *scene.mips)
-                if (fits(levels, hash, m))
+                if (fits(levels, hash, scene, m))
                     all[i] = std::shared_ptr<const MipLevels>(scene.mips, &levels);
         }
         if (!all[i])

@@ -50,7 +50,7 @@ std::string why_unfiltered(const Scene& scene, const Material& material);
 bool is_filtered(const Scene& scene, const Material& material);
 MipSource mip_source(const Scene& scene, const Material& material);
 // Whether levels that were baked beforehand are of these maps and filters.
-bool fits(const MipLevels& levels, std::uint64_t source, const Material& material);
+bool fits(const MipLevels& levels, std::uint64_t source, const Scene& scene, const Material& material);
 
 TexturePyramid make_pyramid(const Scene& scene, const PyramidKey& key, const MaterialLevels& levels);
 

@@ -8,7 +8,7 @@ namespace burnish {
 
 // shadowed, open: f32 RGB, estimates of the area lights' light in a picture by the same samples, with and without what is in its way;
 // layers: of the same picture, seen by `view`. Both are filtered over 5x5 pixels of the same surface before one is divided by the other;
-// the ratio is 1 where no light arrives at all, and exactly 1 where nothing is in the way. f32 RGB, not negative.
+// the ratio is 0 in full shadow, and exactly 1 where nothing is in the way or no light would arrive anyway. f32 RGB, not negative.
 Image shadow_ratio(const Image& shadowed, const Image& open, const Column<PixelLayers>& layers, const View& view, const Jobs& jobs);
 
 // What a ratio leaves of a picture, of which `unlit` is the part without area lights; where it is 1, the bits of `lit`.

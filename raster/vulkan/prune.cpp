@@ -90,6 +90,12 @@ constexpr Op kWithoutResult[] = {kNop,
                                  kNoLine,
                                  kBranchConditional,
                                  kTerminateInvocation};
+constexpr struct {
+    Op op;
+    std::uint32_t words;
+} kLeast[] = {{kName, 2},  {kEntryPoint, 3},  {kDecorate, 2},  {kFunction, 3},         {kFunctionCall, 4}, {kFunctionParameter, 3},
+              {kLabel, 2}, {kStore, 3},       {kLoad, 4},      {kBranch, 2},           {kSwitch, 3},       {kSelectionMerge, 2},
+              {kPhi, 3},   {kReturnValue, 2}, {kLoopMerge, 3}, {kBranchConditional, 4}};
 constexpr std::uint32_t kMagic = 0x07230203, kSpecIdDecoration = 1, kFunctionStorage = 7;
 constexpr std::size_t kHeader = 5; // words
 
@@ -203,6 +209,9 @@ std::optional<std::int32_t> returned(const std::vector<Instruction>& body, const
             parameters.insert(i.words[2]);
         } else if (i.op() == kReturnValue)
             return value_in(known.values, i.words[1]);
+        else if (i.op() == kFunctionCall)
+            for (std::uint32_t w = 4; w < i.count(); ++w)
+                known.stored.erase(i.words[w]); // it may be written there
         else
             known.evaluate(i, parameters);
     }
@@ -430,6 +439,9 @@ bool read(const std::vector<std::uint32_t>& words, Module& m)
         const Instruction i = {words.data() + at};
         if (i.count() == 0 || at + i.count() > words.size())
             return false;
+        for (const auto& least : kLeast)
+            if (i.op() == least.op && i.count() < least.words)
+                return false;
         if (i.op() == kFunction) {
             m.order.push_back(i.words[2]);
             body = &m.functions[i.words[2]];

@@ -91,13 +91,17 @@ def same_picture(bench):
         bench.run("render", *words, "-o", f"{resolve}.png").expect(0)
         check((bench.folder / "p.png").read_bytes() == (bench.folder / f"{resolve}.png").read_bytes(), f"--resolve {resolve}: another picture")
     check((bench.folder / "linear.png").read_bytes() != (bench.folder / "display.png").read_bytes(), "both ways are one: nothing is tested")
+    words = ("builtin:sphere", "--size", "48x32", "--env-size", "64", "--env-samples", "32", "--no-background")
+    bench.run("profile", *words, "--frames", "1", "-o", "p.exr").expect(0)
+    bench.run("render", *words, "-o", "r.exr").expect(0)
+    check((bench.folder / "p.exr").read_bytes() == (bench.folder / "r.exr").read_bytes(), "--no-background: another picture")
 
 
 @case("profile.wrong_options_say_one_line_and_exit_2")
 def usage(bench):
     bench.run("profile", *SMALL, "--backend", "reference").expect(2).expect_one_line("--backend")
     bench.run("profile", *SMALL, "--stats", "-").expect(2).expect_one_line("--stats")
-    for words in (("--aov", "depth", "-o", "a.exr"), ("--risks", "-"), ("--animate", "roughness=0:1"), ("--turntable", "4")):
+    for words in (("--aov", "depth", "-o", "a.exr"), ("--risks", "-"), ("--animate", "roughness=0:1"), ("--turntable", "4"), ("--shadows", "ratio")):
         bench.run("profile", *SMALL, *words).expect(2).expect_one_line(words[0], "belongs to burnish render")
     bench.run("profile", *SMALL, "--json", "a", "--svg", "a").expect(2).expect_one_line("twice")
     bench.run("profile", *SMALL, "--json", "").expect(2).expect_one_line("--json")

@@ -170,7 +170,11 @@ int clamped_texture(Document& doc, int index)
     if (id == kNone)
         return kNone;
     Texture texture = doc.scene.textures[static_cast<std::size_t>(id)];
-    texture.wrap_s = texture.wrap_t = WrapMode::clamp;
+    texture.wrap_s = texture.wrap_t = WrapMode::clamp, texture.nearest = false;
+    for (std::size_t i = 0; i < doc.scene.textures.size(); ++i)
+        if (const Texture& t = doc.scene.textures[i];
+            t.image == texture.image && t.wrap_s == texture.wrap_s && t.wrap_t == texture.wrap_t && !t.nearest)
+            return static_cast<int>(i);
     doc.scene.textures.push_back(std::move(texture));
     return static_cast<int>(doc.scene.textures.size()) - 1;
 }

@@ -30,6 +30,9 @@ struct MipHelp {                          // of filters that are no means
     TaughtTexels advance{};
 };
 
+// MipLevels::net of a filter that takes_net(). Of teacher its last bit says whether the material reflects as a metal.
+std::uint64_t levels_hash(const mipnet::Weights& net, MipFilter filter, bool metal);
+
 // filter: one that makes_lobes(). The bytes do not depend on the number of threads.
 MipLevels make_mip_levels(const MipSource& source, MipFilter filter, float kappa, const Jobs& jobs, const MipHelp& help = {});
 

@@ -42,7 +42,7 @@ struct MipLevels {
     MipFilter filter = MipFilter{};
     float kappa = 0.0f;           // of filter kappa, and of the taps of mipnet and teacher; else 0
     std::uint64_t source = 0;     // hash of level 0
-    std::uint64_t net = 0;        // net_hash() of what mipnet made them by, teacher began with; else 0
+    std::uint64_t net = 0;        // levels_hash() of what mipnet made them by, teacher began with; else 0
     int width = 0, height = 0;    // of level 0
     std::vector<MipLevel> levels; // from 1 on; none of a single texel
 };

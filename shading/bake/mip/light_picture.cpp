@@ -44,8 +44,8 @@ AxisBlur axis_blur(int source, int target, bool even)
 
 struct Grid3 { // three values a texel
     int width, height;
-    std::vector<double> values;
-    double* at(int x, int y)
+    std::vector<float> values;
+    float* at(int x, int y)
     {
         return values.data() + 3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x));
     }
@@ -53,7 +53,7 @@ struct Grid3 { // three values a texel
 
 Grid3 grid3(int width, int height)
 {
-    return {width, height, std::vector<double>(3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height))};
+    return {width, height, std::vector<float>(3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height))};
 }
 
 // As wide and high as the level with its border.
@@ -63,19 +63,25 @@ Grid3 blurred(Grid3& from, int width, int height, bool even)
     Grid3 rows = grid3(width + 2, from.height), out = grid3(width + 2, height + 2);
     for (int y = 0; y < from.height; ++y)
         for (int x = 0; x < rows.width; ++x) {
-            const double* texel = from.at(along.first[static_cast<std::size_t>(x)], y);
+            const float* texel = from.at(along.first[static_cast<std::size_t>(x)], y);
+            glm::dvec3 sum(0.0);
             for (const double w : along.weight[static_cast<std::size_t>(x)])
                 for (int c = 0; c < 3; ++c)
-                    rows.at(x, y)[c] += w * *texel++;
+                    sum[c] += w * static_cast<double>(*texel++);
+            for (int c = 0; c < 3; ++c)
+                rows.at(x, y)[c] = static_cast<float>(sum[c]);
         }
-    for (int y = 0; y < out.height; ++y)
+    std::vector<double> sums(3 * static_cast<std::size_t>(out.width));
+    for (int y = 0; y < out.height; ++y) {
+        std::fill(sums.begin(), sums.end(), 0.0);
         for (std::size_t k = 0; k < down.weight[static_cast<std::size_t>(y)].size(); ++k) {
             const double w = down.weight[static_cast<std::size_t>(y)][k];
-            const double* texel = rows.at(0, down.first[static_cast<std::size_t>(y)] + static_cast<int>(k));
-            double* to = out.at(0, y);
-            for (int i = 0; i < 3 * out.width; ++i)
-                to[i] += w * texel[i];
+            const float* texel = rows.at(0, down.first[static_cast<std::size_t>(y)] + static_cast<int>(k));
+            for (std::size_t i = 0; i < sums.size(); ++i)
+                sums[i] += w * static_cast<double>(texel[i]);
         }
+        std::transform(sums.begin(), sums.end(), out.at(0, y), [](double sum) { return static_cast<float>(sum); });
+    }
     return out;
 }
 
@@ -97,11 +103,13 @@ LightPicture make_light_picture(const Image& image)
     for (int y = 0; y < p.height; ++y)
         for (int x = 0; x < p.width; ++x)
             for (int c = 0; c < 3; ++c)
-                sum[c] += whole.at(x, y)[c] = static_cast<double>(half_to_float(texel(0, x, y)[c]));
+                sum[c] += static_cast<double>(whole.at(x, y)[c] = half_to_float(texel(0, x, y)[c]));
     picture.mean = glm::vec3(sum / (static_cast<double>(p.width) * p.height));
-    const auto put = [&](int level, int x, int y, const double* value) {
+    for (std::size_t i = 0; i < whole.values.size(); ++i)
+        whole.values[i] -= picture.mean[static_cast<int>(i % 3)];
+    const auto put = [&](int level, int x, int y, const float* difference) {
         for (int c = 0; c < 3; ++c)
-            texel(level, x, y)[c] = float_to_half(static_cast<float>(value[c] - static_cast<double>(picture.mean[c])));
+            texel(level, x, y)[c] = float_to_half(difference[c]);
     };
     for (int y = -1; y <= p.height; ++y)
         for (int x = -1; x <= p.width; ++x)

@@ -1,5 +1,7 @@
 #include "shading/bake/mip/net_levels.h"
 
+#include <algorithm>
+
 #include "shading/bake/mip/filter.h"
 #include "shading/bake/mip/texture.h"
 #include "shading/bake/mipnet/pyramid.h"
@@ -45,9 +47,15 @@ void put_levels(std::vector<mipnet::Texels> levels, MipLevels& to)
 
 } // namespace
 
+std::uint64_t levels_hash(const mipnet::Weights& net, MipFilter filter, bool metal)
+{
+    const std::uint64_t hash = mipnet::net_hash(net);
+    return filter == kMipFilter_teacher ? (hash & ~std::uint64_t{1}) | (metal ? 1u : 0u) : hash;
+}
+
 void put_net_levels(const MipSource& source, const mipnet::Weights& net, const Jobs& jobs, MipLevels& to)
 {
-    to.net = mipnet::net_hash(net);
+    to.net = levels_hash(net, kMipFilter_mipnet, false);
     put_levels(mipnet::net_levels(bands_of(rows_of(source)), net, jobs), to);
 }
 
@@ -58,12 +66,13 @@ void put_taught_levels(const MipSource& source, const mipnet::Weights& net, cons
     rows.rows(0, source.height(), level0);
     mipnet::make_valid(level0);
     std::vector<std::vector<mipnet::Texels>> starts = {mipnet::net_levels(rows, net, jobs)};
+    starts[0].resize(std::min(starts[0].size(), static_cast<std::size_t>(kMaxTextureLevels - 1)));
     for (const MipFilter filter : {kMipFilter_baseline, kMipFilter_kappa, kMipFilter_leadr, kMipFilter_ssgt}) {
         starts.emplace_back();
         for (const MipLevel& level : make_mean_levels(rows_of(source), filter, to.kappa, jobs))
             starts.back().push_back(shown_texels(level));
     }
-    to.net = mipnet::net_hash(net);
+    to.net = levels_hash(net, kMipFilter_teacher, help.metal);
     put_levels(taught_levels(level0, starts, shown_surface(net.shape.lobe, help.metal), jobs, help.advance), to);
 }
 

@@ -8,7 +8,7 @@
 //   4         kappa, float; 0 where the filter has none, of mipnet that of its taps
 //   4, 4, 4   width and height of level 0; number of levels that follow, from level 1 on: sides are halved and rounded down, at least 1
 //   8         hash of level 0 (MipSource::hash), which is not in the file: it is what the material's maps say
-//   8         net_hash() of the weights of filter mipnet; else 0
+//   8         levels_hash() of the weights of filters mipnet and teacher; else 0
 //   20 each   texels, rows from the top, level by level: x and y of the normal in tangent space, a, b, c of the lobe in that normal's frame
 //             (lobe_tensor, shading/surface/tensor.k.h), floats
 //   8         hash_bytes() of all before it

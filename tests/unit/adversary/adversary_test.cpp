@@ -79,7 +79,8 @@ void hold(const Domain& d, double count)
         const std::string key = key_of(d, d.judged[r]);
         Worst worst = found[r];
         const auto row = table.find(key);
-        if (row != table.end() && !row->second.in.empty()) { // what was worst once is looked at again
+        if (row != table.end() && !found[r].in.empty() &&
+            row->second.in.size() == found[r].in.size()) { // what was worst once is looked at again
             const Worst again = errors_at(d, d.judged[r], row->second.in)[0];
             if (again.score > worst.score)
                 worst = again;

@@ -172,8 +172,9 @@ TEST(mip_textures, in_halves_look_as_in_floats)
         for (const mipnet::Lobe lobe : {mipnet::Lobe::ggx_aniso, mipnet::Lobe::beckmann, mipnet::Lobe::ashikhmin_shirley}) {
             EXPECT_LT(flip_between(level, in_halves(level, false, true), lobe), 1e-3) << alpha;
             most_of_one_half = std::max(most_of_one_half, flip_between(level, in_halves(level, false, false), lobe));
-            if (alpha > 0.2f)
+            if (alpha > 0.2f) {
                 EXPECT_LT(flip_between(level, in_halves(level, true, true), lobe), 1e-3);
+            }
         }
     }
     EXPECT_GT(most_of_one_half, 1e-3) << "a second half is not needed";

@@ -11,13 +11,16 @@ namespace {
 
 constexpr int kRatioSide = 24;
 
-// A plane, the right half of which lies nearer where `stepped`.
-Column<PixelLayers> layers_of_plane(bool stepped)
+enum class Edge { none, step, ridge };
+
+// A plane, the right half of which lies nearer, or faces elsewhere.
+Column<PixelLayers> layers_of_plane(Edge edge)
 {
     Column<PixelLayers> layers(kRatioSide * kRatioSide);
     for (std::size_t i = 0; i < kRatioSide * kRatioSide; ++i) {
-        layers.data()[i].depth[0] = stepped && i % kRatioSide >= kRatioSide / 2 ? 1.0f : 2.0f;
-        layers.data()[i].normal[2] = 1.0f;
+        const bool right = i % kRatioSide >= kRatioSide / 2;
+        layers.data()[i].depth[0] = right && edge == Edge::step ? 1.0f : 2.0f;
+        layers.data()[i].normal[right && edge == Edge::ridge ? 1 : 2] = 1.0f;
     }
     return layers;
 }
@@ -36,16 +39,16 @@ float noise_at(int x, int y)
     return random.unit();
 }
 
-Image ratio_of(const Image& shadowed, const Image& open, bool stepped)
+Image ratio_of(const Image& shadowed, const Image& open, Edge edge)
 {
     const View view = make_view(glm::vec3(0.0f), glm::vec3(0.0f, 0.0f, -1.0f), 0.6f, kRatioSide, kRatioSide);
-    return shadow_ratio(shadowed, open, layers_of_plane(stepped), view, Jobs(2));
+    return shadow_ratio(shadowed, open, layers_of_plane(edge), view, Jobs(2));
 }
 
 TEST(shadow_ratio, is_one_where_nothing_is_in_the_way_and_where_there_is_no_light)
 {
     for (float (*light)(int, int) : {+[](int x, int y) { return 1e-3f + noise_at(x, y); }, +[](int, int) { return 0.0f; }}) {
-        const Image open = filled_by(light), ratio = ratio_of(open, open, false);
+        const Image open = filled_by(light), ratio = ratio_of(open, open, Edge::none);
         for (int i = 0; i < kRatioSide * kRatioSide * 3; ++i)
             ASSERT_EQ(ratio.f32()[i], 1.0f) << i;
         const Image lit = filled_by([](int x, int y) { return 0.1f * static_cast<float>(x) + 0.3f * static_cast<float>(y); });
@@ -58,7 +61,7 @@ TEST(shadow_ratio, is_one_where_nothing_is_in_the_way_and_where_there_is_no_ligh
 TEST(shadow_ratio, of_noise_is_its_mean_and_light_without_area_lights_stays)
 {
     const Image open = filled_by([](int, int) { return 2.0f; });
-    const Image ratio = ratio_of(filled_by(noise_at), open, false);
+    const Image ratio = ratio_of(filled_by(noise_at), open, Edge::none);
     const Image lit = filled_by([](int, int) { return 5.0f; }), unlit = filled_by([](int, int) { return 1.0f; });
     const Image shaded = with_shadows(lit, unlit, ratio);
     for (int y = 4; y < kRatioSide - 4; ++y)
@@ -73,10 +76,13 @@ TEST(shadow_ratio, does_not_look_past_an_edge)
 {
     const Image open = filled_by([](int, int) { return 1.0f; });
     const Image half = filled_by([](int x, int) { return x < kRatioSide / 2 ? 0.0f : 1.0f; });
-    const Image stepped = ratio_of(half, open, true), flat = ratio_of(half, open, false);
-    for (int x = 0; x < kRatioSide; ++x) {
-        const int i = 3 * (kRatioSide * (kRatioSide / 2) + x);
-        EXPECT_NEAR(stepped.f32()[i], half.f32()[i], 1e-6f) << x;
+    const Image flat = ratio_of(half, open, Edge::none);
+    for (const Edge edge : {Edge::step, Edge::ridge}) {
+        const Image apart = ratio_of(half, open, edge);
+        for (int x = 0; x < kRatioSide; ++x) {
+            const int i = 3 * (kRatioSide * (kRatioSide / 2) + x);
+            EXPECT_NEAR(apart.f32()[i], half.f32()[i], 1e-6f) << x;
+        }
     }
     for (const int x : {kRatioSide / 2 - 1, kRatioSide / 2}) { // on one surface it does
         const int i = 3 * (kRatioSide * (kRatioSide / 2) + x);

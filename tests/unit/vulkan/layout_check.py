@@ -1,5 +1,5 @@
 """The structures of shading/lang/records.h and gpu_records.h lie alike in C++ and in the stages' SPIR-V: offsets of members, strides of arrays.
-usage: layout_check.py ROOT COMPILER"""
+usage: layout_check.py ROOT FOLDER-OF-SPV COMPILER"""
 import re
 import subprocess
 import sys
@@ -62,11 +62,11 @@ def spirv_layout(assembly):
 def main():
     if glslc_check.tools_missing():
         return 77
-    root, compiler = sys.argv[1:3]
+    root, folder, compiler = sys.argv[1:4]
     structures = members(root, compiler)
     expected, seen, bad = cpp_layout(root, compiler, structures), set(), 0
-    for name, file, defines in stages.lines(root):
-        for key, offset in spirv_layout(stages.assembly(root, file, defines)).items():
+    for name, _ in stages.lines(root):
+        for key, offset in spirv_layout(stages.assembly(folder, name)).items():
             if key[0].startswith("Bn") and offset != 0 and key[1]:  # a block of one structure, or of an array of them
                 print(f"{name}: {'.'.join(key)} begins at {offset}")
                 bad += 1

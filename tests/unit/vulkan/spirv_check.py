@@ -1,4 +1,4 @@
-"""Every stage: each operation on reals carries NoContraction, and GLSL's own functions are only the exact ones. usage: spirv_check.py ROOT"""
+"""Every stage: each operation on reals carries NoContraction, and GLSL's own functions are only the exact ones. usage: spirv_check.py ROOT FOLDER-OF-SPV"""
 import sys
 
 import stages
@@ -11,12 +11,13 @@ DEVICE_FUNCTIONS = {"InterpolateAtOffset"}  # the rasterizer's, as what it inter
 def main():
     if glslc_check.tools_missing():
         return 77
-    root, bad, operations = sys.argv[1], 0, 0
+    (root, folder), bad, operations = sys.argv[1:3], 0, 0
     glslc_check.EXACT_FUNCTIONS |= INTEGER_FUNCTIONS | DEVICE_FUNCTIONS
-    for name, file, defines in stages.lines(root):
+    for name, file in stages.lines(root):
+        stages.validate(folder, name)
         if file.startswith("lean/"):  # not the kernels' text, nor its bits
             continue
-        faults, looked_at = glslc_check.faults_in(stages.assembly(root, file, defines))
+        faults, looked_at = glslc_check.faults_in(stages.assembly(folder, name))
         operations += looked_at
         for fault in faults:
             print(f"{name}: {fault}")
