@@ -42,7 +42,7 @@ def compile_shader(root, text, folder):
     run = subprocess.run(command, capture_output=True, text=True)
     if run.returncode:
         return None, run.stderr
-    return subprocess.run(["spirv-dis", str(binary)], capture_output=True, text=True, check=True).stdout, ""
+    return subprocess.run(["spirv-dis", "--raw-id", str(binary)], capture_output=True, text=True, check=True).stdout, ""
 
 
 def faults_in(assembly):
