@@ -67,15 +67,6 @@ void light_by_box(Stage& stage)
     }
 }
 
-double mean_of(const Frame& f)
-{
-    double sum = 0.0;
-    const std::size_t n = f.color.bytes.size() / sizeof(float);
-    for (std::size_t i = 0; i < n; ++i)
-        sum += static_cast<double>(f.color.f32()[i]);
-    return sum / static_cast<double>(n);
-}
-
 // The same plane under 1 from everywhere: of the environment, of lamps, of area lights.
 struct Lit {
     Stage around, lamps, box;

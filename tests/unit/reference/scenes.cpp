@@ -194,4 +194,13 @@ Estimate estimate(const Frame& frame)
     return e;
 }
 
+double mean_of(const Frame& frame)
+{
+    double sum = 0.0;
+    const std::size_t n = frame.color.bytes.size() / sizeof(float);
+    for (std::size_t i = 0; i < n; ++i)
+        sum += static_cast<double>(frame.color.f32()[i]);
+    return sum / static_cast<double>(n);
+}
+
 } // namespace burnish::test

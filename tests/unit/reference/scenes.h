@@ -32,5 +32,6 @@ struct Estimate {                       // of the mean over a picture's pixels a
     double mean = 0.0, deviation = 0.0; // deviation: of `mean`
 };
 Estimate estimate(const Frame& frame);
+double mean_of(const Frame& frame); // of all channels of all pixels
 
 } // namespace burnish::test

@@ -102,15 +102,6 @@ TEST(strategies, agree_on_the_textured_plate)
     expect_agreement(stage, d, ReferenceMode::direct, 32768, "plate"); // brdf finds the lamp rarely
 }
 
-double mean_of(const Frame& frame)
-{
-    double mean = 0.0;
-    const std::size_t n = frame.color.bytes.size() / sizeof(float);
-    for (std::size_t i = 0; i < n; ++i)
-        mean += static_cast<double>(frame.color.f32()[i]) / static_cast<double>(n);
-    return mean;
-}
-
 // Under no occlusion the technique `mc` of the tile renderer estimates the same integral, one shading point a pixel.
 TEST(strategies, agree_with_the_tile_renderer_s_mc)
 {

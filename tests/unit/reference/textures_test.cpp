@@ -91,15 +91,6 @@ std::function<glm::vec3(const glm::vec3&)> ring(double angle_deg)
     return [cosine](const glm::vec3& d) { return glm::vec3(std::abs(static_cast<double>(d.z) - cosine) < 0.03 ? 10.0f : 0.1f); };
 }
 
-double level_of(const Frame& frame)
-{
-    double sum = 0.0;
-    const std::size_t words = frame.color.bytes.size() / sizeof(float);
-    for (std::size_t i = 0; i < words; ++i)
-        sum += static_cast<double>(frame.color.f32()[i]);
-    return sum / static_cast<double>(words);
-}
-
 struct Means { // of the picture, under a ring
     double full, footprint, drawn;
 };
@@ -113,7 +104,7 @@ Means means_of(const Scene& scene, double angle_deg)
     o.samples = 1024;
     const double footprint = estimate(render_reference(stage, d, o)).mean;
     o.full_textures = true;
-    return {estimate(render_reference(stage, d, o)).mean, footprint, level_of(stage.render(d, best_isa()))};
+    return {estimate(render_reference(stage, d, o)).mean, footprint, mean_of(stage.render(d, best_isa()))};
 }
 
 struct Errors { // rms over rings, relative to the mean of the truth
