@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <fmt/format.h>
+#include <span>
 
 #include "core/image/colour.h"
 #include "core/math/scalar_math.h"
@@ -63,46 +64,46 @@ struct AxisFilter {
     double box_ = 0.0; // width of each of the three boxes, pixels
 };
 
-struct Sampler {
-    const Equirect& source;
-    AxisFilter across{}, down{};
+// Where a sample lies, and how far it reaches: the mean over the footprint of direction d, whose sides are du and dv (any parallelogram on
+// the face). Each axis looks at a box of the same variance as the footprint's projection.
+struct Footprint {
+    const Direction &d, &du, &dv;
+    double rho2 = std::max(d.x * d.x + d.z * d.z, 1e-18), rho = std::sqrt(rho2);
 
-    // Mean over the footprint of direction d, whose sides are du and dv (any parallelogram on the face).
-    std::array<double, 3> operator()(const Direction& d, const Direction& du, const Direction& dv)
-    {
-        const double rho2 = std::max(d.x * d.x + d.z * d.z, 1e-18), rho = std::sqrt(rho2), r2 = rho2 + d.y * d.y;
-        const auto longitude_by = [&](const Direction& e) { return (d.x * e.z - d.z * e.x) / rho2; };
-        const auto colatitude_by = [&](const Direction& e) { return (d.y * (d.x * e.x + d.z * e.z) / rho - rho * e.y) / r2; };
-        // a box of the same variance as the footprint's projection on the axis
-        const auto extent = [](double a, double b) { return std::sqrt(a * a + b * b); };
-        const double w = source.width, h = source.height;
-        const double u = 0.5 + det_atan2(d.z, d.x) / (2.0 * kPi), v = det_atan2(rho, d.y) / kPi;
-        across.set(u * w, std::min(extent(longitude_by(du), longitude_by(dv)) / (2.0 * kPi), 1.0) * w);
-        down.set(v * h, extent(colatitude_by(du), colatitude_by(dv)) / kPi * h);
-        return gather();
-    }
+    double longitude() const { return 0.5 + det_atan2(d.z, d.x) / (2.0 * kPi); } // of [0,1]
+    double colatitude() const { return det_atan2(rho, d.y) / kPi; }
+    double wide() const { return std::min(extent(longitude_by(du), longitude_by(dv)) / (2.0 * kPi), 1.0); }
+    double high() const { return extent(colatitude_by(du), colatitude_by(dv)) / kPi; }
 
   private:
-    std::array<double, 3> gather() const
+    static double extent(double a, double b) { return std::sqrt(a * a + b * b); }
+    double longitude_by(const Direction& e) const { return (d.x * e.z - d.z * e.x) / rho2; }
+    double colatitude_by(const Direction& e) const
     {
-        std::array<double, 3> sum{};
-        const int start = (across.first % source.width + source.width) % source.width;
-        for (std::size_t j = 0; j < down.weight.size(); ++j) {
-            const int y = std::clamp(down.first + static_cast<int>(j), 0, source.height - 1);
-            const float* row = source.rgb.data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(source.width) * 3;
-            int x = start;
-            std::array<double, 3> line{};
-            for (const double weight : across.weight) {
-                for (std::size_t c = 0; c < 3; ++c)
-                    line[c] += weight * static_cast<double>(row[static_cast<std::size_t>(x) * 3 + c]);
-                x = x + 1 == source.width ? 0 : x + 1;
-            }
-            for (std::size_t c = 0; c < 3; ++c)
-                sum[c] += down.weight[j] * line[c];
-        }
-        return sum;
+        const double r2 = rho2 + d.y * d.y;
+        return (d.y * (d.x * e.x + d.z * e.z) / rho - rho * e.y) / r2;
     }
 };
+
+std::array<double, 3> gathered(const Equirect& source, const AxisFilter& across, const AxisFilter& down)
+{
+    std::array<double, 3> sum{};
+    const int start = (across.first % source.width + source.width) % source.width;
+    for (std::size_t j = 0; j < down.weight.size(); ++j) {
+        const int y = std::clamp(down.first + static_cast<int>(j), 0, source.height - 1);
+        const float* row = source.rgb.data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(source.width) * 3;
+        int x = start;
+        std::array<double, 3> line{};
+        for (const double weight : across.weight) {
+            for (std::size_t c = 0; c < 3; ++c)
+                line[c] += weight * static_cast<double>(row[static_cast<std::size_t>(x) * 3 + c]);
+            x = x + 1 == source.width ? 0 : x + 1;
+        }
+        for (std::size_t c = 0; c < 3; ++c)
+            sum[c] += down.weight[j] * line[c];
+    }
+    return sum;
+}
 
 // Texels along an edge: bounds time and memory for large sources. Two samples an axis and texel keep a single
 // bright pixel to 0.3 % (but for the pole's own row, 10 %), one sample to 1 %: enough where a sun has many
@@ -119,37 +120,88 @@ int sampled_size(const Equirect& source, int size)
     return sampled;
 }
 
+// The samples of a face: `count` along an edge, and what lies between them.
+struct SampledFace {
+    int face, count;
+    double step = 2.0 / count;
+    Direction du = side(step, 0.0), dv = side(0.0, step);
+
+    double at(int i) const { return (i + 0.5) * step - 1.0; }
+
+  private:
+    Direction side(double u, double v) const
+    {
+        const Direction d = cube_direction(face, u, v), origin = cube_direction(face, 0.0, 0.0);
+        return {d.x - origin.x, d.y - origin.y, d.z - origin.z};
+    }
+};
+
+// Faces whose samples lie at the same colatitudes, so that they share the filter down.
+constexpr int kSides[] = {0, 1, 4, 5}, kTop[] = {2}, kBottom[] = {3};
+constexpr std::span<const int> kAlike[] = {kSides, kTop, kBottom};
+
+// On the faces at the sides the longitude is the same along a column, so the filter across is: by column of samples.
+std::vector<AxisFilter> columns_of(const SampledFace& samples, const Equirect& source)
+{
+    std::vector<AxisFilter> columns(static_cast<std::size_t>(samples.count));
+    for (int x = 0; x < samples.count; ++x) {
+        const Direction d = cube_direction(samples.face, samples.at(x), 0.0);
+        const Footprint p = {d, samples.du, samples.dv};
+        columns[static_cast<std::size_t>(x)].set(p.longitude() * source.width, p.wide() * source.width);
+    }
+    return columns;
+}
+
 // Of the texels whose centre, a direction that is not unit, is wanted.
 template <class Wanted> void sample_texels(CubeLevel& cube, const Equirect& source, const Jobs& jobs, const Wanted& wanted)
 {
     const int size = cube.size, n = size < kLargestSampled ? 2 : 1;
-    const double step = 2.0 / size / n;
-    const std::size_t rows = 6 * static_cast<std::size_t>(size);
-    jobs.parallel_for(rows, [&](std::size_t row, int) {
-        const int face = static_cast<int>(row) / size, y = static_cast<int>(row) % size;
-        Sampler sampler{source};
-        const Direction origin = cube_direction(face, 0.0, 0.0);
-        const auto side = [&](double u, double v) {
-            const Direction d = cube_direction(face, u, v);
-            return Direction{d.x - origin.x, d.y - origin.y, d.z - origin.z};
-        };
-        const Direction du = side(step, 0.0), dv = side(0.0, step);
+    std::vector<AxisFilter> columns[6];
+    for (const int face : kSides)
+        columns[face] = columns_of({face, n * size}, source);
+    jobs.parallel_for(std::size(kAlike) * static_cast<std::size_t>(size), [&](std::size_t row, int) {
+        const std::span<const int> faces = kAlike[row / static_cast<std::size_t>(size)];
+        const int y = static_cast<int>(row % static_cast<std::size_t>(size));
+        const SampledFace samples = {faces[0], n * size};
+        AxisFilter across, down;
         for (int x = 0; x < size; ++x) {
-            if (!wanted(cube_direction(face, (2 * x + 1.0) / size - 1.0, (2 * y + 1.0) / size - 1.0)))
+            bool asked[6] = {}, any = false;
+            for (const int face : faces) {
+                asked[face] = wanted(cube_direction(face, (2 * x + 1.0) / size - 1.0, (2 * y + 1.0) / size - 1.0));
+                any = any || asked[face];
+            }
+            if (!any)
                 continue;
-            std::array<double, 3> sum{};
+            std::array<double, 3> sums[6] = {};
             double weights = 0.0;
             for (int k = 0; k < n * n; ++k) {
-                const double u = (x * n + k % n + 0.5) * step - 1.0, v = (y * n + k / n + 0.5) * step - 1.0;
+                const int column = x * n + k % n;
+                const double u = samples.at(column), v = samples.at(y * n + k / n);
                 const double r2 = 1.0 + u * u + v * v, weight = 1.0 / (r2 * std::sqrt(r2)); // solid angle
-                const std::array<double, 3> value = sampler(cube_direction(face, u, v), du, dv);
+                const Direction d = cube_direction(samples.face, u, v);
+                const Footprint p = {d, samples.du, samples.dv};
+                down.set(p.colatitude() * source.height, p.high() * source.height);
+                if (faces.size() == 1)
+                    across.set(p.longitude() * source.width, p.wide() * source.width);
                 weights += weight;
-                for (std::size_t c = 0; c < 3; ++c)
-                    sum[c] += weight * value[c];
+                for (const int face : faces) {
+                    if (!asked[face])
+                        continue;
+                    const AxisFilter& side = faces.size() == 1 ? across : columns[face][static_cast<std::size_t>(column)];
+                    const std::array<double, 3> value = gathered(source, side, down);
+                    for (std::size_t c = 0; c < 3; ++c)
+                        sums[face][c] += weight * value[c];
+                }
             }
-            float* out = cube.rgb.data() + (row * static_cast<std::size_t>(size) + static_cast<std::size_t>(x)) * 3;
-            for (std::size_t c = 0; c < 3; ++c)
-                out[c] = static_cast<float>(sum[c] / weights);
+            for (const int face : faces) {
+                if (!asked[face])
+                    continue;
+                const std::size_t texel = (static_cast<std::size_t>(face) * static_cast<std::size_t>(size) + static_cast<std::size_t>(y)) *
+                                              static_cast<std::size_t>(size) +
+                                          static_cast<std::size_t>(x);
+                for (std::size_t c = 0; c < 3; ++c)
+                    cube.rgb[texel * 3 + c] = static_cast<float>(sums[face][c] / weights);
+            }
         }
     });
 }

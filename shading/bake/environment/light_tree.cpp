@@ -98,29 +98,52 @@ void gather_terms(const LightTree& tree, const PrefilterBlock& block, double alp
     const double width2 = 4.0 * alpha * alpha; // about the mirrored direction a lobe is twice as wide as in half vectors
     const double opening2 = opening * opening, farthest = kWidest / alpha;
     constexpr double kHorizon = 1.41421356237309505; // chord of a quarter turn
-    std::vector<TreeNode> open;
+    struct Seen {
+        TreeNode node;
+        Direction place;
+        std::size_t at; // texel of its face
+        double angle, distance;
+        bool opens;
+    };
+    std::vector<Seen> waiting; // the next one last
     for (int face = 0; face < 6; ++face) {
-        open.assign(1, {static_cast<int>(tree.boxes.size()) - 1, 0, 0});
-        while (!open.empty()) {
-            const TreeNode node = open.back();
-            open.pop_back();
+        const auto seen = [&](const TreeNode& node) {
             const CubeLevel& box = tree.boxes[static_cast<std::size_t>(node.level)];
-            const std::size_t at = static_cast<std::size_t>(node.y) * static_cast<std::size_t>(box.size) + static_cast<std::size_t>(node.x);
-            const double angle = box.solid_angle[at];
-            const Direction d = place_of(tree, face, node);
-            const double dx = d.x - centre.x, dy = d.y - centre.y, dz = d.z - centre.z;
-            const double distance = std::max(std::sqrt(dx * dx + dy * dy + dz * dz) - radius, 0.0);
-            if (node.level > 0 && angle > opening2 * std::min(distance * distance + width2, farthest * farthest)) {
-                for (int k = 3; k >= 0; --k)
-                    open.push_back({node.level - 1, 2 * node.x + k % 2, 2 * node.y + k / 2});
+            Seen s;
+            s.node = node;
+            s.at = static_cast<std::size_t>(node.y) * static_cast<std::size_t>(box.size) + static_cast<std::size_t>(node.x);
+            s.angle = box.solid_angle[s.at];
+            s.place = place_of(tree, face, node);
+            const double dx = s.place.x - centre.x, dy = s.place.y - centre.y, dz = s.place.z - centre.z;
+            s.distance = std::max(std::sqrt(dx * dx + dy * dy + dz * dz) - radius, 0.0);
+            s.opens = node.level > 0 && s.angle > opening2 * std::min(s.distance * s.distance + width2, farthest * farthest);
+            return s;
+        };
+        const auto take = [&](const Seen& s) {
+            if (s.distance >= kHorizon)
+                return;
+            const CubeLevel& box = tree.boxes[static_cast<std::size_t>(s.node.level)];
+            const float* rgb = box.rgb.data() + (static_cast<std::size_t>(face) * box.solid_angle.size() + s.at) * 3;
+            const float w = static_cast<float>(s.angle);
+            terms.push_back({static_cast<float>(s.place.x), static_cast<float>(s.place.y), static_cast<float>(s.place.z), w, rgb[0] * w,
+                             rgb[1] * w, rgb[2] * w});
+        };
+        waiting.assign(1, seen({static_cast<int>(tree.boxes.size()) - 1, 0, 0}));
+        while (!waiting.empty()) {
+            const Seen s = waiting.back();
+            waiting.pop_back();
+            if (!s.opens) {
+                take(s);
                 continue;
             }
-            if (distance >= kHorizon)
-                continue;
-            const float* rgb = box.rgb.data() + (static_cast<std::size_t>(face) * box.solid_angle.size() + at) * 3;
-            const float w = static_cast<float>(angle);
-            terms.push_back(
-                {static_cast<float>(d.x), static_cast<float>(d.y), static_cast<float>(d.z), w, rgb[0] * w, rgb[1] * w, rgb[2] * w});
+            Seen parts[4]; // looked at together, as their roots take their time
+            for (int k = 0; k < 4; ++k)
+                parts[k] = seen({s.node.level - 1, 2 * s.node.x + k % 2, 2 * s.node.y + k / 2});
+            int first = 0;
+            for (; first < 4 && !parts[first].opens; ++first)
+                take(parts[first]);
+            for (int k = 3; k >= first; --k)
+                waiting.push_back(parts[k]);
         }
     }
 }
