@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fmt/core.h>
+#include <iterator>
 #include <memory>
 
 #include "apps/bake/direction.h"
@@ -56,6 +57,7 @@ Examples:
   burnish bake ltc -o ggx.ltc --report quality
   burnish bake ltc --table ggx.ltc --report quality
   burnish bake ltc --fit sw --interpolate matrix -o document.ltc
+  burnish bake ltc --brdf beckmann -o beckmann.ltc
   burnish bake direction wave.jpg --from hue -o directions.png
   burnish bake quaternion normal.png -o quaternion.png
   burnish bake tpr --expr "cos(pi*v)" "sin(pi*v)" -o turned.exr
@@ -85,6 +87,7 @@ struct BakeArguments {
     Limits limits;
     int resolution = 8, steps = 12, samples = 8, threads = 0;
     ltc::Norm norm = ltc::Norm::l1;
+    int cosines = 1;
     std::string interpolate = "mirror";
     bool unaligned = false, unsymmetric = false;
     bool half = false, isotropic = false, quiet = false;
@@ -131,6 +134,8 @@ OptionTable bake_option_table(BakeArguments& to)
                        {"--interpolate", "NAME", "What is held of matrices: {}", choice(to.interpolate, {"mirror", "matrix", "inverse"})},
                        {"--no-align", "", "Leave matrices turned as they are, whatever their neighbours are", flag(to.unaligned)},
                        {"--no-symmetry", "", "Fit every node by itself, whatever symmetry says of it", flag(to.unsymmetric)},
+                       {"--lobes", "N", "Of --report: also the nearest sum of two cosines where one is .3 off or more",
+                        choice(to.cosines, std::vector<int>{1, 2})},
                        {"--half", "", "Entries as halves, not floats", flag(to.half)},
                        {"--table", "FILE", "Measure this table instead of making one", file(to.table)},
                        {"--report", "FOLDER", "Also measure the table: quality.json, quality.svg, quality.png", folder(to.report)}});
@@ -140,7 +145,11 @@ OptionTable bake_option_table(BakeArguments& to)
           "256x256; of half-vectors 64x64, of brdf-lut 10x20, which is what pictures are made with"},
          {"--nu", "N", "Of half-vectors and brdf-lut: exponent along the tangent, 1 / alpha^2", number(to.nu, 0.0, kMostPhongExponent), ""},
          {"--nv", "N", "And along the bitangent", number(to.nv, 0.0, kMostPhongExponent), ""},
-         {"--azimuth", "NAME", "How columns of brdf-lut go through the eye's azimuth: {}", choice(to.azimuth, {"root", "linear"})}});
+         {"--azimuth", "NAME", "How columns of brdf-lut go through the eye's azimuth: {}", choice(to.azimuth, {"root", "linear"})},
+         {"--brdf", "NAME",
+          "Of ltc and mip: whose lobes; ltc fits ggx_aniso, beckmann, ashikhmin_shirley and ward, mip takes their net and measures "
+          "with them",
+          lobe_value(to.mip.brdf)}});
     table.add_needing("WHAT", "environment",
                       {{"--env-size", "N", "Texels along a cube edge, a power of two",
                         choice(to.environment.cube_size, {16, 32, 64, 128, 256, 512, 1024, 2048})},
@@ -175,6 +184,16 @@ bool others_path(const BakeArguments& a)
     return a.norm != ltc::Norm::l1 || a.interpolate != "mirror" || a.unaligned || a.unsymmetric;
 }
 
+// Whose lobes a table is of; none where --brdf names others than can be fitted.
+std::optional<ltc::Model> model_of(const BakeArguments& a)
+{
+    const auto* const found =
+        std::find(std::begin(ltc::kModelNames), std::end(ltc::kModelNames), std::string_view(lobe_model(a.mip.brdf).name));
+    if (found == std::end(ltc::kModelNames))
+        return std::nullopt;
+    return static_cast<ltc::Model>(found - std::begin(ltc::kModelNames));
+}
+
 Status check_arguments(const BakeArguments& a, const OptionTable& given)
 {
     if (!a.picture.empty())
@@ -183,9 +202,14 @@ Status check_arguments(const BakeArguments& a, const OptionTable& given)
         return usage_error("-o", "is needed, or --table, and not both");
     if (!a.table.empty())
         for (const char* option :
-             {"--steps", "--samples", "--half", "--isotropic", "--fit", "--interpolate", "--no-align", "--no-symmetry"})
+             {"--steps", "--samples", "--half", "--isotropic", "--fit", "--interpolate", "--no-align", "--no-symmetry", "--brdf"})
             if (given.given(option))
                 return usage_error(option, "says how a table is made, and --table FILE is made already");
+    if (!model_of(a))
+        return usage_error(
+            "--brdf", fmt::format("'{}': only ggx_aniso, beckmann, ashikhmin_shirley and ward can be fitted", lobe_model(a.mip.brdf).name));
+    if (given.given("--lobes") && a.report.empty())
+        return usage_error("--lobes", "says what --report FOLDER measures, which is not asked for");
     if (others_path(a) && given.given("--steps") && a.steps > 0)
         return usage_error(
             "--steps", "is of the fit between nodes, which needs --fit l1, --interpolate mirror, and aligned entries with their symmetry");
@@ -239,7 +263,7 @@ Result<std::optional<ltc::Table>> table_of(const BakeArguments& a, const OptionT
     if (given.given("--resolution"))
         options.grid.size = a.resolution;
     options.steps = a.isotropic || others_path(a) ? 0 : a.steps, options.samples_a_cell = a.samples;
-    options.norm = a.norm, options.align = !a.unaligned, options.symmetry = !a.unsymmetric;
+    options.model = *model_of(a), options.norm = a.norm, options.align = !a.unaligned, options.symmetry = !a.unsymmetric;
     if (a.interpolate != "mirror") {
         options.grid.beyond = 0, options.grid.root_alpha = options.grid.over_alpha = false;
         options.grid.basis = ltc::Basis::tangent, options.grid.inverse = a.interpolate == "inverse";
@@ -448,6 +472,8 @@ int run_bake(const BakeArguments& arguments, const OptionTable& given)
         for (const char* option : {"--nu", "--nv"})
             if (given.given(option))
                 return fail(usage_error(option, "is of half-vectors and brdf-lut"));
+    if (given.given("--brdf") && arguments.what != "ltc" && arguments.what != "mip")
+        return fail(usage_error("--brdf", "is of ltc and mip"));
     if (given.given("--azimuth") && arguments.what != "brdf-lut")
         return fail(usage_error("--azimuth", "is of brdf-lut"));
     if (given.given("--size") && arguments.what != "tpr" && arguments.what != "half-vectors" && arguments.what != "brdf-lut")
@@ -483,7 +509,7 @@ int run_bake(const BakeArguments& arguments, const OptionTable& given)
     }
     if (arguments.report.empty())
         return 0;
-    const LtcQuality quality = measure_ltc(**table, jobs);
+    const LtcQuality quality = measure_ltc(**table, arguments.cosines, jobs);
     if (Status written = write_report_files(arguments, quality, **table, report); !written)
         return fail(written.error());
     report.figures(ltc_lines(quality));

@@ -52,6 +52,8 @@ Status write_preview(const std::string& folder, const Scene& scene, const Materi
     return {};
 }
 
+} // namespace
+
 Value lobe_value(int& to)
 {
     std::vector<std::string> names;
@@ -60,8 +62,6 @@ Value lobe_value(int& to)
     return value_detail::name(
         names, [&to](std::size_t i) { to = static_cast<int>(i); }, [&to] { return static_cast<std::size_t>(to); });
 }
-
-} // namespace
 
 std::vector<std::string> plain_names(const std::vector<std::string>& materials)
 {
@@ -113,7 +113,6 @@ std::vector<Option> mip_options(MipArguments& to)
         {"--mip-net", "FILE", "Of filters mipnet and teacher: weights of burnish train mip", file(to.net), "the program's own for --brdf"},
         {"--fallback", "NAME", "Of filter mipnet: {}; auto leaves materials to kappa or baseline where the net is worse than they are",
          choice(to.fallback, {"auto", "off"})},
-        {"--brdf", "NAME", "Model of the lobes, whose net is taken and which the error of --format is measured with", lobe_value(to.brdf)},
         {"--format", "NAME", "{}: a file for render --mip-pyramid, or a folder of textures for other programs",
          choice(to.format, {"pyramid", "exr-mip", "png-levels"})},
         {"--couple", "NAME", "Of textures: {}; albedo: base colours and metalness weigh as their texels face light and eye",

@@ -22,7 +22,7 @@ struct MipArguments {
     std::optional<double> kappa;
     std::string net; // of filter mipnet; empty: the program's for brdf
     MipFallback fallback{};
-    int brdf = 0; // a lobe
+    int brdf = 0; // a lobe; of ltc, too
     MipFormat format = MipFormat::pyramid;
     bool couple_albedo = false; // of textures: base colour and metalness weighted by how texels face
     ColourKernel color_kernel = ColourKernel::box;
@@ -30,6 +30,7 @@ struct MipArguments {
     MipArguments();
 };
 std::vector<Option> mip_options(MipArguments& to);
+Value lobe_value(int& to); // of --brdf: a lobe's place by its name
 
 struct MipBake { // with what all of `burnish bake` has
     const MipArguments& options;

@@ -18,11 +18,12 @@ using Choice = std::function<bool(const ltc::Place&)>;
 
 LtcFigures figures_of(const char* name, const std::vector<ltc::Judged>& judged, const Choice& chosen)
 {
-    std::vector<double> l1, best, relative, absolute, all, grazing;
+    std::vector<double> l1, best, pairs, relative, absolute, all, grazing;
     for (const ltc::Judged& j : judged) {
         if (!chosen(j.place))
             continue;
-        l1.push_back(j.l1), best.push_back(j.best_l1), all.push_back(j.all_relative), grazing.push_back(j.grazing_absolute);
+        l1.push_back(j.l1), best.push_back(j.best_l1), pairs.push_back(j.pair_l1), all.push_back(j.all_relative),
+            grazing.push_back(j.grazing_absolute);
         relative.insert(relative.end(), j.light_relative, j.light_relative + ltc::kLights);
         absolute.insert(absolute.end(), j.light_absolute, j.light_absolute + ltc::kLights);
     }
@@ -30,6 +31,7 @@ LtcFigures figures_of(const char* name, const std::vector<ltc::Judged>& judged, 
             l1.size(),
             ltc::spread_of(l1),
             ltc::spread_of(best),
+            ltc::spread_of(pairs),
             ltc::spread_of(relative),
             ltc::spread_of(absolute),
             ltc::spread_of(all),
@@ -109,12 +111,13 @@ void draw_map(Drawing& out, const LtcQuality& quality, int across, int up, doubl
 
 } // namespace
 
-LtcQuality measure_ltc(const ltc::Table& table, const Jobs& jobs)
+LtcQuality measure_ltc(const ltc::Table& table, int cosines, const Jobs& jobs)
 {
     const auto all = [](const ltc::Place&) { return true; };
-    const std::vector<ltc::Judged> first = ltc::judge(table, ltc::judged_places(200, 24, 0), true, jobs);
-    const std::vector<ltc::Judged> others = ltc::judge(table, ltc::judged_places(600, 0, 1000), true, jobs);
+    const std::vector<ltc::Judged> first = ltc::judge(table, ltc::judged_places(200, 24, 0), cosines, jobs);
+    const std::vector<ltc::Judged> others = ltc::judge(table, ltc::judged_places(600, 0, 1000), cosines, jobs);
     LtcQuality q;
+    q.cosines = cosines;
     q.parts.push_back(figures_of("all", first, all));
     q.parts.push_back(figures_of("theta > 70", first, [](const ltc::Place& p) { return p.theta > 70.0 / 180.0 * kPi; }));
     q.parts.push_back(figures_of("alpha < 1/7", first, [](const ltc::Place& p) { return p.alpha < 1.0 / 7.0; }));
@@ -133,6 +136,10 @@ std::string ltc_lines(const LtcQuality& quality)
         text += fmt::format("{:<12} {:>5}  {:7.4f} {:7.4f} {:7.4f} {:7.4f}  {:7.4f} {:7.4f} {:7.4f}  {:7.4f} {:7.4f}\n", f.name, f.lobes,
                             f.l1.mean, f.l1.p95, f.l1.most, f.best_l1.mean, f.light_relative.mean, f.light_relative.p95,
                             f.light_absolute.mean, f.all_relative.mean, f.grazing_absolute.mean);
+    if (quality.cosines == 2)
+        for (const LtcFigures& f : quality.parts)
+            text += fmt::format("{:<12} {:>5}  {:7.4f} {:7.4f} {:7.4f}  with the nearest sum of two where one is {:g} off\n", f.name,
+                                f.lobes, f.with_pairs.mean, f.with_pairs.p95, f.with_pairs.most, ltc::kFarOff);
     return text + fmt::format("{:<12} {} of {}\n", "det <= 0", quality.broken, quality.probes);
 }
 
@@ -141,20 +148,25 @@ Json ltc_json(const LtcQuality& quality, const ltc::Table& table)
     constexpr const char* kNorms[] = {"l1", "l3", "sw"};
     constexpr const char* kBases[] = {"tangent", "mirror", "natural"};
     Json parts = Json::array();
-    for (const LtcFigures& f : quality.parts)
-        parts.push_back({{"lobes", f.name},
-                         {"count", f.lobes},
-                         {"l1", json_of(f.l1)},
-                         {"best_l1", json_of(f.best_l1)},
-                         {"light_relative", json_of(f.light_relative)},
-                         {"light_absolute", json_of(f.light_absolute)},
-                         {"nd_relative", json_of(f.all_relative)},
-                         {"fd_absolute", json_of(f.grazing_absolute)}});
+    for (const LtcFigures& f : quality.parts) {
+        Json part = {{"lobes", f.name},
+                     {"count", f.lobes},
+                     {"l1", json_of(f.l1)},
+                     {"best_l1", json_of(f.best_l1)},
+                     {"light_relative", json_of(f.light_relative)},
+                     {"light_absolute", json_of(f.light_absolute)},
+                     {"nd_relative", json_of(f.all_relative)},
+                     {"fd_absolute", json_of(f.grazing_absolute)}};
+        if (quality.cosines == 2)
+            part["with_pairs_l1"] = json_of(f.with_pairs);
+        parts.push_back(std::move(part));
+    }
     return {{"table",
              {{"size", table.grid.size},
               {"alpha_nodes", table.grid.root_alpha ? "squares" : "even"},
               {"most_alpha", table.grid.most_alpha()},
               {"round", table.grid.round},
+              {"brdf", ltc::kModelNames[static_cast<int>(table.model())]},
               {"fit", kNorms[(table.made & ltc::kNormMask) >> ltc::kNormShift]},
               {"aligned", (table.made & ltc::kUnaligned) == 0},
               {"symmetric", (table.made & ltc::kUnsymmetric) == 0},

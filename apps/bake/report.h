@@ -15,7 +15,7 @@ namespace burnish {
 struct LtcFigures {
     const char* name; // "all", "grazing", ...
     std::size_t lobes = 0;
-    ltc::Spread l1, best_l1, light_relative, light_absolute, all_relative, grazing_absolute;
+    ltc::Spread l1, best_l1, with_pairs, light_relative, light_absolute, all_relative, grazing_absolute;
 };
 
 struct LtcQuality {
@@ -23,9 +23,11 @@ struct LtcQuality {
     std::size_t probes = 0, broken = 0; // lookups, and those without a positive determinant
     std::vector<double> l1_of_cells;    // see ltc::l1_of_cells
     ltc::Grid grid;                     // whose cells they are
+    int cosines = 1;
 };
 
-LtcQuality measure_ltc(const ltc::Table& table, const Jobs& jobs);
+// cosines: 2: also the nearest sums of two, see ltc::judge().
+LtcQuality measure_ltc(const ltc::Table& table, int cosines, const Jobs& jobs);
 
 std::string ltc_lines(const LtcQuality& quality); // a line a part
 Json ltc_json(const LtcQuality& quality, const ltc::Table& table);

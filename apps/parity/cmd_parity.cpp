@@ -103,7 +103,7 @@ Status compare_place(const Bench& bench, const ParityPlace& place, const ParityS
     of_device.backend = Backend::vulkan, of_device.device = bench.device;
     SessionParts parts{scene->data, bench.environment, bench.jobs, {}};
     if (!base.ltc_table.empty()) {
-        Result<std::shared_ptr<const ltc::ShadingTables>> table = load_ltc_table(base.ltc_table);
+        Result<std::shared_ptr<const ltc::ShadingTables>> table = load_ltc_table(base.ltc_table, base.frame.brdf);
         if (!table)
             return table.error();
         parts.ltc = std::move(*table);

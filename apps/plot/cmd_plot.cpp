@@ -26,7 +26,8 @@ deviations, the points closest to the mirror direction and farthest from it, cla
 its samples. lobe: any model's lobe, tilted ones too: the half vectors that the eye sees, the reflected directions and polar cuts, of BRDF
 times cosine without Fresnel. side: a sphere from which bent_normal and major_axis look up or down,
 and where that is not the way of the lobe's mean, by anisotropy. half-vectors: what a lobe of Ashikhmin and Shirley samples, and its albedo, as
-tables. energy: what such a surface loses with its own diffuse part, by exponents. ellipsoid: a page of what the ellipsoid distribution of normals promises,
+tables. energy: what such a surface loses with its own diffuse part, by exponents. ltc: transformed cosines beside a GGX lobe, how fits come to
+them, and what lies between two. ellipsoid: a page of what the ellipsoid distribution of normals promises,
 measured: mean normals, visible areas, samplers, a skewed lobe against a normal map.
 
 Examples:
@@ -37,6 +38,7 @@ Examples:
   burnish plot side --roughness 0.4 --anisotropy 0.8 -o side.svg
   burnish plot half-vectors --roughness 0.3 --anisotropy 0.6 -o half_vectors.png
   burnish plot energy -o energy.png
+  burnish plot ltc --roughness 0.6 --anisotropy 0.8 --eye 70,40 -o cosines.png
   burnish plot ellipsoid -o ellipsoid.html)";
 
 struct PlotArguments {
@@ -52,7 +54,7 @@ OptionTable plot_option_table(PlotArguments& to)
 {
     LobePlot& l = to.lobe;
     OptionTable table;
-    table.add("", {{"WHAT", "", "{}", choice(to.what, {"axis", "lobe", "side", "ellipsoid", "half-vectors", "energy"})}});
+    table.add("", {{"WHAT", "", "{}", choice(to.what, {"axis", "lobe", "side", "ellipsoid", "half-vectors", "energy", "ltc"})}});
     table.add("The lobe", {{"--roughness", "R", "alpha_lin, {}", number(l.roughness, 0.03, 1.0)},
                            {"--anisotropy", "A", "eta, {}: alpha_lin^2 (1 +- eta) along and across", number(l.anisotropy, -1.0, 1.0)},
                            {"--eye", "DEG,DEG", "Where it is seen from: off the normal, and about it from the grain",
@@ -116,6 +118,7 @@ int run_plot(const PlotArguments& arguments, const OptionTable& given)
                             : arguments.what == "lobe"   ? plot_lobe(lobe)
                             : arguments.what == "side"   ? plot_side(lobe)
                             : arguments.what == "energy" ? plot_energy()
+                            : arguments.what == "ltc"    ? plot_ltc(lobe)
                                                          : plot_half_vectors(lobe);
     std::string bytes;
     if (extension == ".svg") {

@@ -69,7 +69,7 @@ void draw_density(Drawing& out, const Panel& panel, Edge edge, const Density& de
                 ++end;
             const double left = std::max(panel.left + side * begin, least), right = std::min(panel.left + side * end + 0.3, greatest);
             if (left < right)
-                out.rectangle(left, kTop + side * row, right - left, side + (row + 1 < kCells ? 0.3 : 0.0), "",
+                out.rectangle(left, panel.top + side * row, right - left, side + (row + 1 < kCells ? 0.3 : 0.0), "",
                               Paint{255.0 - 215.0 * shade, 255.0 - 175.0 * shade, 255.0 - 105.0 * shade});
         }
     }
@@ -132,8 +132,8 @@ void draw_dot(Drawing& out, const Panel& panel, const Place& p, double radius, c
 
 void draw_frame(Drawing& out, const Panel& panel, Edge edge)
 {
-    out.text(panel.left + kSide / 2.0, kTop - 14.0, "title middle", panel.title);
-    const double l = panel.left, t = kTop, below = kTop + kSide + 16.0;
+    out.text(panel.left + kSide / 2.0, panel.top - 14.0, "title middle", panel.title);
+    const double l = panel.left, t = panel.top, below = panel.top + kSide + 16.0;
     if (edge == Edge::slopes || edge == Edge::units) {
         out.line({{l, t}, {l + kSide, t}, {l + kSide, t + kSide}, {l, t + kSide}, {l, t}}, "grid");
         out.text(l + kSide, below, "tick end", fmt::format("{} to {:.3g}", edge == Edge::slopes ? "slopes" : "values", panel.reach));

@@ -24,9 +24,10 @@ struct Place {
 struct Panel {
     const char* title;
     double left, reach; // px; how far from the middle to the edge, in units of the space
+    double top = kTop;  // px
     std::pair<double, double> at(const Place& p) const
     {
-        return {left + kSide * (0.5 + 0.5 * p.x / reach), kTop + kSide * (0.5 - 0.5 * p.y / reach)};
+        return {left + kSide * (0.5 + 0.5 * p.x / reach), top + kSide * (0.5 - 0.5 * p.y / reach)};
     }
     bool holds(const Place& p) const; // NaN: not in the space
 };

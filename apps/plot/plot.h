@@ -33,4 +33,9 @@ Drawing plot_energy();
 // points by anisotropy; the same, figure 20.
 Drawing plot_side(const LobePlot& lobe);
 
+// A GGX lobe and the transformed cosines that stand for it: of the program's table, the nearest one, the nearest sum of two; fits of one
+// from three starts by three norms; and what lies between two matrices of one lobe and of two, turned apart and aligned. KT, Heitz, Dupuy,
+// Narasimhan 2022, figures 4, 7 and 13.
+Drawing plot_ltc(const LobePlot& lobe);
+
 } // namespace burnish

@@ -102,7 +102,7 @@ Result<std::shared_ptr<const Environment>> open_light(const RenderOptions& optio
 Status read_tables(const RenderOptions& options, SessionParts& parts, Report& report)
 {
     if (!options.ltc_table.empty()) {
-        Result<std::shared_ptr<const ltc::ShadingTables>> table = load_ltc_table(options.ltc_table);
+        Result<std::shared_ptr<const ltc::ShadingTables>> table = load_ltc_table(options.ltc_table, options.frame.brdf);
         if (!table)
             return table.error();
         parts.ltc = std::move(*table);

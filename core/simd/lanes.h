@@ -30,7 +30,7 @@
 //   load_records16 store_records16 load_quads store_quads    array-of-struct access: see lanes_scalar.h
 //   blend_records blend_records_low blend_quad
 //   texel_zero texel_add plan_texels texel_values            bilinear accumulation of RGBA half texels: see
-//                                                            lanes_scalar.h
+//   load_texel_pair                                          lanes_scalar.h
 //   wide: + - * /, wide_lit to_wide, to_real                 a double by lane
 // Indices of gathers are signed; those of texels are unsigned 32-bit, those of records of 64 bytes below 2^29,
 // of 16 bytes below 2^31.

@@ -537,6 +537,11 @@ BN_CALL void texel_pairs(texel_buffer texels, const integer& row, real out[8])
     for (int c = 0; c < 8; ++c)
         out[c] = real_of(r[c]);
 }
+BN_OP void load_texel_pair(texel_buffer texels, std::uint32_t at, float out[8])
+{
+    for (std::size_t c = 0; c < 8; ++c)
+        out[c] = half_to_float(texels[std::size_t{4} * at + c]);
+}
 BN_CALL texel_acc texel_add(const texel_acc& acc, texel_buffer texels, const integer& row0, const integer& row1, const real& w00,
                             const real& w10, const real& w01, const real& w11)
 {

@@ -411,6 +411,12 @@ BN_INLINE texel_acc texel_zero()
 {
     return texel_acc{};
 }
+// The channels of a pair that all lanes share: left, then right.
+BN_INLINE void load_texel_pair(texel_buffer texels, std::uint32_t at, float out[8])
+{
+    for (std::size_t c = 0; c < 8; ++c)
+        out[c] = half_to_float(texels[std::size_t{4} * at + c]);
+}
 // left += w00 t[row0] + w01 t[row1]; right += w10 t[row0 + 1] + w11 t[row1 + 1], a channel at a time, rounded
 // in that order.
 BN_INLINE texel_acc texel_add(texel_acc acc, texel_buffer texels, integer row0, integer row1, real w00, real w10, real w01, real w11)

@@ -163,6 +163,10 @@ BN_INLINE __m256 texel_pair(texel_buffer texels, const lane_indices& i, int lane
 {
     return _mm256_cvtph_ps(_mm_loadu_si128(reinterpret_cast<const __m128i*>(texels + std::size_t{4} * i.at[lane])));
 }
+BN_INLINE void load_texel_pair(texel_buffer texels, std::uint32_t at, float out[8])
+{
+    _mm256_storeu_ps(out, _mm256_cvtph_ps(_mm_loadu_si128(reinterpret_cast<const __m128i*>(texels + std::size_t{4} * at))));
+}
 struct texel_plan {
     lane_indices row0, row1;
     real w00, w10, w01, w11;

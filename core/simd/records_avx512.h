@@ -189,6 +189,10 @@ BN_INLINE real texel_weights(real left, real right, int first)
     const __m512i high = _mm512_setr_epi64(4, 5, 12, 13, 6, 7, 14, 15);
     return {_mm512_castpd_ps(_mm512_permutex2var_pd(_mm512_castps_pd(left.v), first ? high : low, _mm512_castps_pd(right.v)))};
 }
+BN_INLINE void load_texel_pair(texel_buffer texels, std::uint32_t at, float out[8])
+{
+    _mm256_storeu_ps(out, _mm256_cvtph_ps(_mm_loadu_si128(reinterpret_cast<const __m128i*>(texels + std::size_t{4} * at))));
+}
 struct texel_plan {
     lane_indices row0, row1;
     real w00, w10, w01, w11;

@@ -1,6 +1,7 @@
 #include "raster/session/session.h"
 
 #include <exception>
+#include <fmt/format.h>
 #include <functional>
 #include <new>
 #include <utility>
@@ -66,7 +67,7 @@ void turn_layers(const glm::dmat3& world_from_drawn, Frame& frame)
 
 } // namespace
 
-Result<std::shared_ptr<const ltc::ShadingTables>> load_ltc_table(const std::string& path)
+Result<std::shared_ptr<const ltc::ShadingTables>> load_ltc_table(const std::string& path, int lobe)
 {
     using Made = Result<std::shared_ptr<const ltc::ShadingTables>>;
     return guarded(path, [&]() -> Made {
@@ -76,6 +77,10 @@ Result<std::shared_ptr<const ltc::ShadingTables>> load_ltc_table(const std::stri
         Result<ltc::ShadingTables> tables = ltc::with_table(*table, path);
         if (!tables)
             return tables.error();
+        const char* const model = ltc::kModelNames[static_cast<int>(tables->model)];
+        if (tables->model != ltc::Model::ggx && lobe_model(lobe).name != std::string_view(model))
+            return Error{ExitCode::bad_input, path, "byte 16",
+                         fmt::format("is of {} lobes, which frames with --brdf {} have not", model, lobe_model(lobe).name)};
         return std::make_shared<const ltc::ShadingTables>(std::move(*tables));
     });
 }

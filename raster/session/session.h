@@ -49,8 +49,9 @@ Result<std::shared_ptr<const Environment>> load_shared_environment(const std::st
 // The table of directional albedo that pictures are made with: the same bits everywhere, made once a process.
 Result<std::shared_ptr<const DfgTable>> standard_dfg(const Jobs& jobs);
 
-// A table of `burnish bake ltc`, in place of the program's own one of its kind.
-Result<std::shared_ptr<const ltc::ShadingTables>> load_ltc_table(const std::string& path);
+// A table of `burnish bake ltc`, in place of the program's own one of its kind. lobe: of frames (shading/models.def); a table of another
+// model's lobes is refused, but one of GGX's, which stands for those of all models.
+Result<std::shared_ptr<const ltc::ShadingTables>> load_ltc_table(const std::string& path, int lobe);
 
 // Tables of `burnish bake half-vectors` and `brdf-lut`, or folders of them, in place of those that frames make for as_mc.
 Result<std::shared_ptr<const PhongFiles>> load_phong_tables(const std::vector<std::string>& paths, const Limits& limits);

@@ -222,4 +222,74 @@ BN_FN real4 texel_value(texel_acc acc)
     return {c[0], c[1], c[2], c[3]};
 }
 
+struct texel_cell {
+    integer first;
+    int pair[4], row, plane;
+    real w00[4], w10[4], w01[4], w11[4];
+};
+struct texel_planes {
+    real4 plane[3];
+};
+
+// All lanes as if `first` were theirs: texels are numbers that lanes share, so that nothing is loaded or put in order by lane.
+BN_STAGE void texel_cell_shared(texel_buffer texels, const texel_cell& cell, std::int32_t first, real out[12])
+{
+    float texel[3][4][2][8];
+    for (int plane = 0; plane < 3; ++plane)
+        for (int k = 0; k < 4; ++k)
+            for (int row = 0; row < 2; ++row)
+                load_texel_pair(texels, static_cast<std::uint32_t>(first + plane * cell.plane + cell.pair[k] + row * cell.row),
+                                texel[plane][k][row]);
+    for (int i = 0; i < 12; ++i) {
+        const int c = i & 3;
+        real left = lit(0.0), right = lit(0.0);
+        for (int k = 0; k < 4; ++k) {
+            const float* const t0 = texel[i >> 2][k][0] + c;
+            const float* const t1 = texel[i >> 2][k][1] + c;
+            left = left + (cell.w00[k] * splat(t0[0]) + cell.w01[k] * splat(t1[0]));
+            right = right + (cell.w10[k] * splat(t0[4]) + cell.w11[k] * splat(t1[4]));
+        }
+        out[i] = left + right;
+    }
+}
+
+BN_STAGE void texel_cell_by_lane(texel_buffer texels, const texel_cell& cell, real out[12])
+{
+    for (int plane = 0; plane < 3; ++plane) {
+        texel_acc acc = texel_zero();
+        for (int k = 0; k < 4; ++k) {
+            const integer row0 = cell.first + int_lit(plane * cell.plane + cell.pair[k]);
+            acc = texel_add(acc, texels, row0, row0 + int_lit(cell.row), cell.w00[k], cell.w10[k], cell.w01[k], cell.w11[k]);
+        }
+        texel_values(acc, out + 4 * plane);
+    }
+}
+
+// Neighbouring fragments mostly lie in one cell or two.
+BN_FN texel_planes texel_cell_value(texel_buffer texels, const texel_cell& cell)
+{
+    constexpr int kMostShared = kLanes == 1 ? 0 : 2; // cells; more take longer than lanes by themselves
+    constexpr std::uint32_t kAll = (1u << kLanes) - 1u;
+    std::int32_t first[kLanes];
+    store_int(first, cell.first);
+    real c[12] = {};
+    std::uint32_t open = kAll;
+    for (int n = 0; n < kMostShared && open != 0; ++n)
+        open &= ~to_bits(cell.first == int_lit(first[__builtin_ctz(open)]));
+    if (open != 0) {
+        texel_cell_by_lane(texels, cell, c);
+    } else {
+        for (open = kAll; open != 0;) {
+            const std::int32_t at = first[__builtin_ctz(open)];
+            const mask here = cell.first == int_lit(at);
+            open &= ~to_bits(here);
+            real of_cell[12];
+            texel_cell_shared(texels, cell, at, of_cell);
+            for (int i = 0; i < 12; ++i)
+                c[i] = select(here, of_cell[i], c[i]);
+        }
+    }
+    return {{{c[0], c[1], c[2], c[3]}, {c[4], c[5], c[6], c[7]}, {c[8], c[9], c[10], c[11]}}};
+}
+
 BN_KERNELS_END

@@ -209,4 +209,31 @@ real4 texel_value(texel_acc acc)
     return acc.left + acc.right;
 }
 
+struct texel_cell {
+    integer first;
+    int pair[4];
+    int row;
+    int plane;
+    real w00[4];
+    real w10[4];
+    real w01[4];
+    real w11[4];
+};
+struct texel_planes {
+    real4 plane[3];
+};
+texel_planes texel_cell_value(texel_buffer texels, texel_cell cell)
+{
+    texel_planes r;
+    for (int plane = 0; plane < 3; ++plane) {
+        texel_acc acc = texel_zero();
+        for (int k = 0; k < 4; ++k) {
+            int row0 = cell.first + plane * cell.plane + cell.pair[k];
+            acc = texel_add(acc, texels, row0, row0 + cell.row, cell.w00[k], cell.w10[k], cell.w01[k], cell.w11[k]);
+        }
+        r.plane[plane] = texel_value(acc);
+    }
+    return r;
+}
+
 #endif

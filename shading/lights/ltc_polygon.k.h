@@ -52,6 +52,27 @@ BN_FN ltc_polygon ltc_polygon_to_cosine(BN_IN(ltc_lobe) lobe, BN_IN(ltc_polygon)
     return u;
 }
 
+// sum: of the arcs around what is seen.
+BN_FN ltc_light ltc_light_of(real3 sum)
+{
+    ltc_light light;
+    real3 flow = sum * select(sum.z < lit(0.0), lit(-0.15915494309189534), lit(0.15915494309189534));
+    light.part = k_saturate(flow.z);
+    light.flow = flow;
+    return light;
+}
+
+// Of a polygon in the cosine's space that lies above its horizon or below.
+BN_FN ltc_light ltc_uncut_light(BN_IN(ltc_polygon) u, int corners)
+{
+    real3 sum = vec3_all(lit(0.0));
+    for (int i = 0; i < corners; ++i) {
+        sum = sum + ltc_arc(u.corner[i], u.corner[i + 1 < corners ? i + 1 : 0]);
+    }
+    sum.z = sum.z + lit(0.0); // of no arc along the horizon: the bits are those of a polygon that is clipped
+    return ltc_light_of(select(u.corner[0].z > lit(0.0), sum, vec3_all(lit(0.0))));
+}
+
 // Clipped at the horizon of the cosine's space, exactly: what lies on it counts as below. A convex polygon goes down at most once, but a
 // flat one on the horizon may do so at every second edge by rounding; each of its pieces is closed along the horizon then.
 BN_FN ltc_light ltc_polygon_light(BN_IN(ltc_lobe) lobe, BN_IN(ltc_polygon) polygon, int corners)
@@ -59,6 +80,15 @@ BN_FN ltc_light ltc_polygon_light(BN_IN(ltc_lobe) lobe, BN_IN(ltc_polygon) polyg
     ltc_polygon u = ltc_polygon_to_cosine(lobe, polygon, corners);
     real2 rise = vec2_all(lit(0.0)); // where the boundary came up
     real2 cut[17];
+    mask crosses = lit(1.0) < lit(0.0);
+    for (int i = 0; i < corners; ++i) {
+        mask a_up = u.corner[i].z > lit(0.0);
+        mask b_up = u.corner[i + 1 < corners ? i + 1 : 0].z > lit(0.0);
+        crosses = either(crosses, either(both(a_up, not_(b_up)), both(b_up, not_(a_up))));
+    }
+    if (no_lane(crosses)) {
+        return ltc_uncut_light(u, corners);
+    }
     for (int i = 0; i < corners; ++i) {
         real3 a = u.corner[i];
         real3 b = u.corner[i + 1 < corners ? i + 1 : 0];
@@ -92,11 +122,7 @@ BN_FN ltc_light ltc_polygon_light(BN_IN(ltc_lobe) lobe, BN_IN(ltc_polygon) polyg
             risen = fall;
         }
     }
-    ltc_light light;
-    real3 flow = sum * select(sum.z < lit(0.0), lit(-0.15915494309189534), lit(0.15915494309189534));
-    light.part = k_saturate(flow.z);
-    light.flow = flow;
-    return light;
+    return ltc_light_of(sum);
 }
 
 // What of a convex polygon lies above a plane through the shading point: a corner more than it has. Corners below go to where the boundary

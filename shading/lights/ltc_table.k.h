@@ -98,20 +98,6 @@ BN_FN ltc_lobe ltc_natural(ltc_lobe lobe, ltc_place p)
     return r;
 }
 
-BN_FN texel_acc ltc_corner(texel_acc acc, ltc_table table, integer node, real weight, real along_alpha, real along_lambda)
-{
-    texel_rows r;
-    real lower = weight * along_alpha;
-    real upper = weight - lower;
-    r.row0 = node;
-    r.row1 = node + int_lit(8);
-    r.w10 = upper * along_lambda;
-    r.w11 = lower * along_lambda;
-    r.w00 = upper - r.w10;
-    r.w01 = lower - r.w11;
-    return texel_rows_add(acc, table.texels, r);
-}
-
 struct ltc_cell {  // of 16 nodes
     integer first; // the one of the smallest theta, phi, alpha, lambda: ((theta 8 + phi) alphas + alpha) 8 + lambda
     real u_theta, u_phi, u_alpha, u_lambda;
@@ -140,20 +126,33 @@ BN_FN ltc_cell ltc_cell_of(ltc_table table, ltc_place p)
     return c;
 }
 
-// Four channels of the table in a cell. plane: 0, 1, 2.
-BN_FN real4 ltc_channels(ltc_table table, ltc_cell c, int plane)
+// The channels of the table in a cell, four by four.
+BN_FN texel_planes ltc_channels(ltc_table table, ltc_cell c)
 {
     int azimuth = 8 * table.alphas; // between nodes of two
-    integer node = c.first + int_lit(plane * 64 * azimuth);
     real up = c.u_theta * c.u_phi;
-    real w10 = c.u_theta - up;
-    real w01 = c.u_phi - up;
-    real w00 = lit(1.0) - c.u_theta - w01;
-    texel_acc acc = ltc_corner(texel_zero(), table, node, w00, c.u_alpha, c.u_lambda);
-    acc = ltc_corner(acc, table, node + int_lit(azimuth), w01, c.u_alpha, c.u_lambda);
-    acc = ltc_corner(acc, table, node + int_lit(8 * azimuth), w10, c.u_alpha, c.u_lambda);
-    acc = ltc_corner(acc, table, node + int_lit(9 * azimuth), up, c.u_alpha, c.u_lambda);
-    return texel_value(acc);
+    real weight[4]; // by theta and phi
+    weight[2] = c.u_theta - up;
+    weight[1] = c.u_phi - up;
+    weight[0] = lit(1.0) - c.u_theta - weight[1];
+    weight[3] = up;
+    texel_cell at;
+    at.first = c.first;
+    at.row = 8; // a node of alpha further; columns are nodes of lambda
+    at.plane = 64 * azimuth;
+    at.pair[0] = 0;
+    at.pair[1] = azimuth;
+    at.pair[2] = 8 * azimuth;
+    at.pair[3] = 9 * azimuth;
+    for (int k = 0; k < 4; ++k) {
+        real lower = weight[k] * c.u_alpha;
+        real upper = weight[k] - lower;
+        at.w10[k] = upper * c.u_lambda;
+        at.w11[k] = lower * c.u_lambda;
+        at.w00[k] = upper - at.w10[k];
+        at.w01[k] = lower - at.w11[k];
+    }
+    return texel_cell_value(table.texels, at);
 }
 
 // A column of the table's matrix in the ellipse frame of its place.
@@ -202,13 +201,18 @@ BN_FN ltc_lobe ltc_lookup(ltc_table table, real3 eye, real alpha_x, real alpha_y
 {
     ltc_place p = ltc_place_of(eye, alpha_x, alpha_y);
     ltc_cell cell = ltc_cell_of(table, p);
-    real4 a = ltc_channels(table, cell, 0);
-    real4 b = ltc_channels(table, cell, 1);
-    real4 c = ltc_channels(table, cell, 2);
+    texel_planes channels = ltc_channels(table, cell);
+    real4 a = channels.plane[0];
+    real4 b = channels.plane[1];
+    real4 c = channels.plane[2];
     ltc_lobe lobe;
     lobe.all = k_saturate(c.y);
     lobe.grazing = k_saturate(c.z);
-    ltc_lobe natural = ltc_natural(lobe, p);
+    ltc_lobe natural = lobe;
+    natural.m2 = vec3_of(-p.eye.x, -p.eye.y, p.eye.z);
+    if (table.basis == 2) {
+        natural = ltc_natural(lobe, p);
+    }
     real3 m0 = vec3_of(a.x, a.w, b.z);
     real3 m1 = vec3_of(a.y, b.x, b.w);
     real3 m2 = vec3_of(a.z, b.y, c.x);
@@ -231,9 +235,15 @@ BN_FN ltc_lobe ltc_lookup(ltc_table table, real3 eye, real alpha_x, real alpha_y
     lobe.m2 = ltc_shown(table, natural, p, m2);
     real det = k_dot3(lobe.m0, k_cross(lobe.m1, lobe.m2));
     mask usable = det > lit(1e-9);
-    lobe.m0 = ltc_unfolded(p, select(usable, lobe.m0, natural.m0));
-    lobe.m1 = ltc_unfolded(p, select(usable, lobe.m1, natural.m1));
-    lobe.m2 = ltc_unfolded(p, select(usable, lobe.m2, natural.m2));
+    if (any_lane(not_(usable))) {
+        natural = ltc_natural(lobe, p);
+        lobe.m0 = select(usable, lobe.m0, natural.m0);
+        lobe.m1 = select(usable, lobe.m1, natural.m1);
+        lobe.m2 = select(usable, lobe.m2, natural.m2);
+    }
+    lobe.m0 = ltc_unfolded(p, lobe.m0);
+    lobe.m1 = ltc_unfolded(p, lobe.m1);
+    lobe.m2 = ltc_unfolded(p, lobe.m2);
     return ltc_inverted(lobe);
 }
 

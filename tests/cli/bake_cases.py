@@ -64,7 +64,8 @@ def others(bench):
                                  ("sw", ("--fit", "sw", "--no-align"), {"fit": "sw", "aligned": False}),
                                  ("inverse", ("--interpolate", "inverse"), {"held": "inverse", "alpha_nodes": "even", "most_alpha": 1.0}),
                                  ("matrix", ("--interpolate", "matrix"), {"held": "matrix", "basis": "tangent"}),
-                                 ("own", (), {"fit": "l1", "aligned": True, "symmetric": True, "basis": "mirror", "held": "over alpha"})):
+                                 ("beckmann", ("--brdf", "beckmann", "--steps", "1"), {"brdf": "beckmann", "fit": "l1"}),
+                                 ("own", (), {"brdf": "ggx_aniso", "fit": "l1", "aligned": True, "symmetric": True, "basis": "mirror", "held": "over alpha"})):
         bench.run(*small, *options, "-o", f"{name}.ltc", timeout=600).expect(0)
         bench.run("bake", "ltc", "--table", f"{name}.ltc", "--report", name, "-q", timeout=600).expect(0)
         table = json.loads((bench.folder / name / "quality.json").read_text())["table"]
@@ -94,7 +95,8 @@ def wrong(bench):
             (("-o", "u.ltc", "--table", SHIPPED), 2, "-o"), (("--table", SHIPPED, "--steps", "3"), 2, "--steps"),
             (("-o", "u.ltc", "--resolution", "17"), 2, "--isotropic"), (("-o", "u.ltc", "--isotropic", "--steps", "3"), 2, "--steps"),
             (("--table", SHIPPED, "--isotropic"), 2, "--isotropic"), (("-o", "u.ltc", "--fit", "l3", "--steps", "2"), 2, "--steps"),
-            (("-o", "u.ltc", "--fit", "l2"), 2, "--fit"), (("-o", "u.ltc", "--isotropic", "--no-align"), 2, "--no-align"),
+            (("-o", "u.ltc", "--fit", "l2"), 2, "--fit"), (("-o", "u.ltc", "--brdf", "phong"), 2, "phong"),
+            (("-o", "u.ltc", "--brdf", "ellipsoid"), 2, "can be fitted"), (("--table", SHIPPED, "--brdf", "ward"), 2, "is made already"), (("-o", "u.ltc", "--lobes", "2"), 2, "--lobes"), (("-o", "u.ltc", "--lobes", "3"), 2, "--lobes"), (("-o", "u.ltc", "--isotropic", "--no-align"), 2, "--no-align"),
             (("--table", SHIPPED, "--interpolate", "inverse"), 2, "--interpolate"), (("-o", "no/t.ltc"), 7, "no/t.ltc"), (("-o", "-"), 2, "-o"), (("-o", "u.ltc", "--resolution", "2"), 2, "--resolution")):
         bench.run("bake", "ltc", *words).expect(code).expect_one_line(needle)
     bench.run("bake", "lct", "-o", "u.ltc").expect(2).expect_one_line("lct")

@@ -152,6 +152,12 @@ def tables(bench):
     for name, (text_of, needle) in files.items():
         (bench.folder / f"{name}.ltc").write_bytes(text_of)
         bench.run("render", "builtin:lights", *SMALL, "--ltc-table", f"{name}.ltc", "-o", "a.png").expect(4).expect_one_line(f"{name}.ltc", needle)
+    flags, = struct.unpack_from("<I", data, 16)
+    (bench.folder / "ward.ltc").write_bytes(sealed(data[:16] + struct.pack("<I", flags | 3 << 12) + data[20:]))
+    of_ward = ("builtin:lights", *DARK, "--ltc-table", "ward.ltc", "--technique", "mc")
+    for brdf in ((), ("--brdf", "beckmann")):
+        bench.run("render", *of_ward, *brdf, "-o", "a.png").expect(4).expect_one_line("ward.ltc", "of ward lobes")
+    bench.run("render", *of_ward, "--brdf", "ward", "-o", "ward.png").expect(0)
     bench.run("render", *SMALL, "--ltc-table", "four.ltc", "-o", "a.png").expect(4).expect_one_line("four.ltc", "has 4 nodes", "tables of 8")
     bench.run("render", *SMALL, "--ltc-table", "none.ltc", "-o", "a.png").expect(4).expect_one_line("none.ltc")
     check("a.png" not in bench.left_behind(), "a picture was written")

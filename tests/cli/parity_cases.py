@@ -445,6 +445,13 @@ DEFECTS = {
 }
 
 
+# The same of area lights, by the stage that lights.
+LTC_TABLE = "lights/ltc_table.k.h"
+AREA_DEFECTS = {"an_exchange_that_is_not_undone": (LTC_TABLE, "real x = select(p.swapped, v.y, v.x);", "real x = v.x;"),
+                "a_quadrant_that_is_not_mirrored": (LTC_TABLE, "p.sign_y = select(eye.y < lit(0.0), lit(-1.0), lit(1.0));", "p.sign_y = lit(1.0);"),
+                "equal_widths_exchanged": (LTC_TABLE, "p.swapped = wide_y > wide_x;", "p.swapped = wide_y >= wide_x;")}
+
+
 def compile_stages(source, folder, only=None):
     """Every shader of stages.txt, or one of them, from the shading text below `source`."""
     for line in (ROOT / "raster/vulkan/stages.txt").read_text().splitlines():
@@ -457,7 +464,7 @@ def compile_stages(source, folder, only=None):
                        check=True)
 
 
-def compare_changed(bench, replacements, msaa, code, only=None, size="128x96"):
+def compare_changed(bench, replacements, msaa, code, only=None, size="128x96", drawn=("builtin:teapot", "builtin:plate", "--technique", "major_axis")):
     if not shutil.which("glslc"):
         raise Skipped("no glslc here")
     source, shaders = bench.folder / "source", bench.folder / "shaders"
@@ -473,8 +480,7 @@ def compare_changed(bench, replacements, msaa, code, only=None, size="128x96"):
         path.write_text(text.replace(old, new))
     compile_stages(ROOT, shaders)
     compile_stages(source, shaders, only)
-    return parity(bench, "builtin:teapot", "builtin:plate", "--size", size, "--technique", "major_axis", "--msaa", msaa, "--shaders", shaders,
-                  code=code)
+    return parity(bench, *drawn, "--size", size, "--msaa", msaa, "--shaders", shaders, code=code)
 
 
 @case("parity.sees_nothing_where_nothing_is")
@@ -494,3 +500,15 @@ def add_defect(name, replacements, msaa, stages, only=None):
 
 for defect, what in DEFECTS.items():
     add_defect(defect, *what)
+
+
+def add_area_defect(name, replacement):
+    @case(f"parity.sees_a_defect_of_area_lights.{name}", tier="slow")
+    def sees(bench):
+        report = compare_changed(bench, [replacement], "1", 1, "shade", "64x48",
+                                 ("builtin:lights", "--env", "builtin:night", "--technique", "bent_normal"))
+        check({row["first_difference"] for row in report["rows"]} == {"shaded colour"}, f"{report['rows']}")
+
+
+for defect, what in AREA_DEFECTS.items():
+    add_area_defect(defect, what)

@@ -150,6 +150,25 @@ def same(bench):
             check((bench.folder / f"a.{kind}").read_bytes() == (bench.folder / f"b.{kind}").read_bytes(), f"two runs make different {kind} files")
 
 
+def distances(bench, *words):
+    """{title: L1} of the panels of `plot ltc`."""
+    bench.run("plot", "ltc", *words, "-o", "c.svg", "-q", timeout=300).expect(0)
+    return re.findall(r">([^<>]*), L1 ([0-9.]+)(: a lune)?<", (bench.folder / "c.svg").read_text())
+
+
+@case("plot.cosines_are_as_near_as_they_can_be")
+def cosines(bench):
+    for words, lune in ((("--roughness", "0.7", "--anisotropy", "0.75", "--eye", "65,40"), True), (("--roughness", "0.5", "--anisotropy", "0.3", "--eye", "30,10"), False)):
+        found = distances(bench, *words)
+        by = {name: float(l1) for name, l1, _ in reversed(found)}
+        table, one, two = (by[name] for name in ("the program&apos;s table" if "the program&apos;s table" in by else "the program's table", "the nearest cosine", "the nearest two"))
+        check(two <= one <= table < one + 0.1, f"{table}, {one}, {two}")
+        check(bool(found[1][2]) == lune and (two < 0.7 * one or not lune), f"{found}")
+        check(by["the same, aligned"] < 0.8 * by["a lobe with itself, turned"] + 0.02, f"{by}")
+        fits = [float(l1) for name, l1, _ in found if name == "burnish"]
+        check(len(fits) == 3 and max(fits) == one, f"fits from three starts: {fits}")
+
+
 @case("plot.wrong_options_say_one_line", tier="check")
 def wrong(bench):
     for words, code, needle in (

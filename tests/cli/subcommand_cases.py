@@ -34,7 +34,7 @@ RUNS = {
                  "--junit", "y.xml"), (0, 77))],
     "race": [(("builtin:plate", *VIEW, "--techniques", "split_isotropic", "--runs", "1", "--devices", "lavapipe", "--json", "z.json"), (0, 77))],
     "plot": [(("axis", "-o", "axis.svg"), (0,)), (("axis", "-o", "axis.png"), (0,)), (("lobe", "--tilt", "9,4", "-o", "lobe.png"), (0,)),
-             (("side", "-o", "side.svg"), (0,)), (("half-vectors", "-o", "half.svg"), (0,)), (("ellipsoid", "-o", "e.html"), (0,)),
+             (("side", "-o", "side.svg"), (0,)), (("half-vectors", "-o", "half.svg"), (0,)), (("ltc", "-o", "ltc.svg"), (0,)), (("ellipsoid", "-o", "e.html"), (0,)),
              (("energy", "-o", "energy.png"), (0,))],
     "bake": [(("ltc", "--resolution", "3", "--steps", "1", "--samples", "1", "-o", "t.ltc"), (0,)), (("ltc", "--table", "t.ltc"), (0,)),
              (("direction", "a.png", "--from", "luminance", "-o", "d.png"), (0,)), (("quaternion", "a.png", "-o", "q.png"), (0,)),

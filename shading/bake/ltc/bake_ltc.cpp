@@ -8,6 +8,7 @@
 #include "core/base/file.h"
 #include "core/base/hash.h"
 #include "core/math/scalar_math.h"
+#include "shading/bake/ltc/albedo_fit.h"
 #include "shading/bake/ltc/interpolant_fit.h"
 
 namespace burnish::ltc {
@@ -41,6 +42,7 @@ std::uint64_t key_of(const BakeOptions& o)
                                 o.samples_a_cell,
                                 o.steps,
                                 static_cast<std::int32_t>(o.norm),
+                                static_cast<std::int32_t>(o.model),
                                 o.align,
                                 o.symmetry};
     return hash_bytes(key, sizeof key);
@@ -132,23 +134,6 @@ void make_equal(const Grid& grid, std::vector<Matrix>& entries)
         }
 }
 
-std::vector<Albedo> albedos_of(const Grid& grid, const Jobs& jobs)
-{
-    const Rule rule(22);
-    std::vector<Albedo> albedos(grid.nodes());
-    jobs.parallel_for(grid.nodes(), [&](std::size_t node, int) {
-        const std::array<int, 4> i = grid.indices(node);
-        if (i[1] == 0 || (i[0] != 0 && i[3] != grid.size - 1)) // else all azimuths see one lobe
-            albedos[node] = albedo(Lobe(grid.place(node)), rule);
-    });
-    for (std::size_t node = 0; node < grid.nodes(); ++node) {
-        const std::array<int, 4> i = grid.indices(node);
-        if (i[0] == 0 || i[3] == grid.size - 1)
-            albedos[node] = albedos[grid.node(i[0], 0, i[2], i[3])];
-    }
-    return albedos;
-}
-
 Matrix in_own_gauge(const Matrix& m)
 {
     // The turn that makes the first two columns orthogonal, the longer one first: tan 2t = 2 a.b / (a.a - b.b).
@@ -169,7 +154,7 @@ Chain fit_chain(const BakeOptions& options, int phi, int alpha, int lambda)
         const std::size_t node = grid.node(theta, theta == 0 && options.symmetry ? 0 : phi, alpha, lambda);
         const Place place = grid.place(node);
         const Mask zero = options.symmetry ? grid.zero(node) : 0; // of what was turned by itself, other elements
-        const LobePoints points(normalised_lobe(place, albedo_rule), rule);
+        const LobePoints points(normalised_lobe(place, albedo_rule, options.model), rule);
         Matrix plain = natural_matrix(place);
         if (options.norm != Norm::l1) {
             Grid about; // whose frame is the mirror direction's
@@ -241,7 +226,7 @@ Result<std::optional<Baked>> bake_table(const BakeOptions& options, const Jobs& 
         baked.node_l1 += l1 / static_cast<double>(p.l1.size());
     std::vector<Matrix> entries = p.nodes;
     if (options.steps > 0) {
-        InterpolantFit fit(grid, options.samples_a_cell, jobs);
+        InterpolantFit fit(grid, options.model, options.samples_a_cell, jobs);
         if (p.state.entries.empty()) {
             p.state = fit.begin(p.nodes);
             p.cost_before = p.state.cost;
@@ -266,9 +251,12 @@ Result<std::optional<Baked>> bake_table(const BakeOptions& options, const Jobs& 
         baked.weak_lookups = fit.guard(entries, natural, 0.005, baked.probes);
         baked.fit_l1_before = p.cost_before, baked.fit_l1 = p.state.cost;
     }
-    const std::uint32_t made =
-        static_cast<std::uint32_t>(options.norm) << kNormShift | (options.align ? 0u : kUnaligned) | (options.symmetry ? 0u : kUnsymmetric);
-    baked.table = make_table(grid, entries, albedos_of(grid, jobs), made);
+    const std::uint32_t made = static_cast<std::uint32_t>(options.norm) << kNormShift | (options.align ? 0u : kUnaligned) |
+                               (options.symmetry ? 0u : kUnsymmetric) | static_cast<std::uint32_t>(options.model) << kLobeShift;
+    std::vector<Albedo> albedos = albedos_of_nodes(grid, options.model, jobs);
+    if (options.steps > 0)
+        albedos = albedos_between_nodes(grid, options.model, std::move(albedos), options.samples_a_cell, jobs);
+    baked.table = make_table(grid, entries, albedos, made);
     return std::optional(std::move(baked));
 }
 

@@ -12,6 +12,7 @@ namespace burnish::ltc {
 
 struct BakeOptions {
     Grid grid;
+    Model model = Model::ggx;
     int samples_a_cell = 8;                     // of the fit of the interpolant
     int steps = 12;                             // of it, taken or not; 0: the nodes as they are fitted
     Norm norm = Norm::l1;                       // of the nodes' fits; others begin as the document's do, see fit_chain()

@@ -41,8 +41,8 @@ std::array<double, 4> spread_point(std::size_t k)
     return u;
 }
 
-InterpolantFit::InterpolantFit(const Grid& grid, int a_cell, const Jobs& jobs)
-    : grid_(grid), jobs_(&jobs), rule_(14), albedo_rule_(17), variable_(grid.nodes() * 9, -1), touched_(grid.nodes())
+InterpolantFit::InterpolantFit(const Grid& grid, Model model, int a_cell, const Jobs& jobs)
+    : grid_(grid), model_(model), jobs_(&jobs), rule_(14), albedo_rule_(17), variable_(grid.nodes() * 9, -1), touched_(grid.nodes())
 {
     std::size_t k = 0;
     for (const std::array<int, 4>& cell : grid.cells())
@@ -59,7 +59,7 @@ InterpolantFit::InterpolantFit(const Grid& grid, int a_cell, const Jobs& jobs)
         samples_.push_back({grid.place(node), kNodeWeight, corners});
     }
     albedo_.resize(samples_.size());
-    in_chunks(jobs, samples_.size(), [&](std::size_t i) { albedo_[i] = albedo(Lobe(samples_[i].place), albedo_rule_).all; });
+    in_chunks(jobs, samples_.size(), [&](std::size_t i) { albedo_[i] = albedo(Lobe(samples_[i].place, 1.0, model_), albedo_rule_).all; });
     equations_.resize(samples_.size());
     for (std::size_t i = 0; i < samples_.size(); ++i)
         for (const Corner& corner : samples_[i].corners)
@@ -90,7 +90,7 @@ void InterpolantFit::measure(const std::vector<Matrix>& entries)
             out = {{}, {}, kWorstL1};
             return;
         }
-        Sums sums = sums_of(LobePoints(Lobe(sample.place, albedo_[index]), rule_), m);
+        Sums sums = sums_of(LobePoints(Lobe(sample.place, albedo_[index], model_), rule_), m);
         // of E = -D^-1 N dT D, where D holds the widths
         const double width[3] = {grid_.width(sample.place), grid_.width(sample.place), 1.0};
         for (std::size_t i = 0, at = 0; i < 9; ++i) {

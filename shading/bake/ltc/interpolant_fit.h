@@ -20,7 +20,7 @@ class InterpolantFit {
     };
 
     // `a_cell`: samples in every cell; nodes are samples too, of less weight, which keeps them valid.
-    InterpolantFit(const Grid& grid, int a_cell, const Jobs& jobs);
+    InterpolantFit(const Grid& grid, Model model, int a_cell, const Jobs& jobs);
 
     // From entries with the grid's symmetries.
     State begin(std::vector<Matrix> entries);
@@ -46,6 +46,7 @@ class InterpolantFit {
     std::vector<Matrix> moved(const std::vector<Matrix>& entries, const std::vector<double>& by) const;
 
     Grid grid_;
+    Model model_;
     const Jobs* jobs_;
     Rule rule_, albedo_rule_;
     std::vector<Sample> samples_;

@@ -19,11 +19,50 @@ double shadow(double alpha_x, double alpha_y, const Vec& w)
     return 0.5 * (std::sqrt(1.0 + (x * x + y * y) / (w.z * w.z)) - 1.0);
 }
 
+// Lambda of Beckmann's normals by the rational fit of Walter et al. 2007.
+double beckmann_shadow(double alpha_x, double alpha_y, const Vec& w)
+{
+    const double x = alpha_x * w.x, y = alpha_y * w.y, s = std::sqrt(x * x + y * y);
+    if (!(w.z < 1.6 * s))
+        return 0.0;
+    const double c = w.z / s;
+    return (1.0 - 1.259 * c + 0.396 * c * c) / (3.535 * c + 2.181 * c * c);
+}
+
+// Of models other than GGX: BRDF without Fresnel times the cosine; l above the horizon, h = v + l.
+double reflected_by(const Lobe& lobe, const Vec& l, const Vec& h)
+{
+    constexpr double kLeastCosine = 1e-4; // in denominators
+    const double x = h.x / lobe.alpha_x, y = h.y / lobe.alpha_y, z2 = h.z * h.z, length2 = dot(h, h), across2 = h.x * h.x + h.y * h.y;
+    const double unit_z2 = z2 / length2;
+    switch (lobe.model) {
+    case Model::beckmann: {
+        const double smooth = det_exp(-(x * x + y * y) / z2) / (unit_z2 * unit_z2);
+        return smooth * lobe.scale / (1.0 + lobe.shadow_model_v + beckmann_shadow(lobe.alpha_x, lobe.alpha_y, l));
+    }
+    case Model::ashikhmin_shirley: {
+        const double nu = 1.0 / (lobe.alpha_x * lobe.alpha_x), nv = 1.0 / (lobe.alpha_y * lobe.alpha_y);
+        const double exponent = across2 > 0.0 ? (nu * h.x * h.x + nv * h.y * h.y) / across2 : 0.0;
+        const double of_half = std::sqrt((nu + 1.0) * (nv + 1.0)) / (2.0 * kPi) * det_exp(0.5 * exponent * det_log(unit_z2));
+        return of_half * l.z / (2.0 * std::sqrt(length2) * std::max(std::max(lobe.v.z, l.z), kLeastCosine));
+    }
+    case Model::ward: {
+        const double roots = std::sqrt(std::max(lobe.v.z, kLeastCosine)) * std::sqrt(std::max(l.z, kLeastCosine));
+        return det_exp(-(x * x + y * y) / z2) * lobe.scale * lobe.v.z / roots * l.z;
+    }
+    case Model::ggx: // see density()
+        break;
+    }
+    return 0.0;
+}
+
 } // namespace
 
-Lobe::Lobe(const Place& place, double white) : v(eye_of(place)), alpha_x(place.alpha), alpha_y(place.alpha * place.lambda), albedo(white)
+Lobe::Lobe(const Place& place, double white, Model of)
+    : v(eye_of(place)), alpha_x(place.alpha), alpha_y(place.alpha * place.lambda), albedo(white), model(of)
 {
     shadow_v = shadow(alpha_x, alpha_y, v);
+    shadow_model_v = beckmann_shadow(alpha_x, alpha_y, v);
     scale = 1.0 / (4.0 * kPi * alpha_x * alpha_y * v.z);
 }
 
@@ -36,7 +75,8 @@ Reflected density(const Lobe& lobe, const Vec& l)
     const double ratio = length2 / s, d = ratio * ratio * lobe.scale;
     Reflected r = {d / (1.0 + lobe.shadow_v), 0.0};
     if (l.z > 0.0)
-        r.reflected = d / ((1.0 + lobe.shadow_v + shadow(lobe.alpha_x, lobe.alpha_y, l)) * lobe.albedo);
+        r.reflected = lobe.model == Model::ggx ? d / ((1.0 + lobe.shadow_v + shadow(lobe.alpha_x, lobe.alpha_y, l)) * lobe.albedo)
+                                               : reflected_by(lobe, l, h) / lobe.albedo;
     return r;
 }
 
@@ -72,7 +112,12 @@ Albedo albedo(const Lobe& lobe, const Rule& rule)
         const Vec l = mirrored_normal(lobe, point);
         if (!(l.z > 0.0))
             continue;
-        const double g = (1.0 + lobe.shadow_v) / (1.0 + lobe.shadow_v + shadow(lobe.alpha_x, lobe.alpha_y, l));
+        double g = 0.0;
+        if (lobe.model == Model::ggx) {
+            g = (1.0 + lobe.shadow_v) / (1.0 + lobe.shadow_v + shadow(lobe.alpha_x, lobe.alpha_y, l));
+        } else if (const Reflected f = density(lobe, l); f.visible > 0.0) {
+            g = f.reflected * lobe.albedo / f.visible;
+        }
         const double m = std::max(0.0, 1.0 - std::sqrt(std::max(0.0, 0.5 * (1.0 + dot(lobe.v, l))))), m2 = m * m;
         sum.all += g;
         sum.grazing += g * m2 * m2 * m;
@@ -81,9 +126,9 @@ Albedo albedo(const Lobe& lobe, const Rule& rule)
     return {sum.all / count, sum.grazing / count};
 }
 
-Lobe normalised_lobe(const Place& place, const Rule& rule)
+Lobe normalised_lobe(const Place& place, const Rule& rule, Model model)
 {
-    return Lobe(place, albedo(Lobe(place), rule).all);
+    return Lobe(place, albedo(Lobe(place, 1.0, model), rule).all, model);
 }
 
 double transformed_cosine(const Matrix& n, const Vec& l)

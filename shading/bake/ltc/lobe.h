@@ -1,5 +1,5 @@
-// What is fitted: the light that an anisotropic GGX surface reflects to one eye, as a density of directions, and the linearly transformed
-// cosine that stands for it. Tangent frame: x and y the axes of the two widths, z the normal.
+// What is fitted: the light that an anisotropic surface, of GGX or another model, reflects to one eye, as a density of directions, and the
+// linearly transformed cosine that stands for it. Tangent frame: x and y the axes of the two widths, z the normal.
 // Heitz, Dupuy, Hill, Neubelt 2016 (transformed cosines); Heitz 2014 (height-correlated Smith); Dupuy, Benyoub 2023 (visible normals).
 #pragma once
 #include <vector>
@@ -14,18 +14,24 @@ struct Place {
     double theta, phi, alpha, lambda;
 };
 
+// What lobes there are, as shading/models has them; files hold their order.
+enum class Model { ggx, beckmann, ashikhmin_shirley, ward };
+inline constexpr const char* kModelNames[] = {"ggx_aniso", "beckmann", "ashikhmin_shirley", "ward"};
+
 // A lobe; widths are greater than 0 and the eye above the horizon.
 struct Lobe {
-    explicit Lobe(const Place& place, double albedo = 1.0);
+    explicit Lobe(const Place& place, double albedo = 1.0, Model model = Model::ggx);
     Vec v; // to the eye
     double alpha_x, alpha_y;
-    double shadow_v; // Smith's Lambda of the eye
-    double scale;    // 1 / (4 pi alpha_x alpha_y v.z)
-    double albedo;   // what `reflected` integrates to, once it is known
+    double shadow_v;       // Smith's Lambda of the eye on GGX
+    double shadow_model_v; // on Beckmann
+    double scale;          // 1 / (4 pi alpha_x alpha_y v.z)
+    double albedo;         // what `reflected` integrates to, once it is known
+    Model model;
 };
 
 struct Reflected {
-    double visible;   // density of the mirrored visible normals, which integrates to 1
+    double visible;   // density of the mirrored visible normals of GGX, whose tails are the longest, which integrates to 1
     double reflected; // BRDF without Fresnel times the cosine, over the lobe's albedo
 };
 Reflected density(const Lobe& lobe, const Vec& l); // l: unit
@@ -46,7 +52,7 @@ struct Albedo {
     double all, grazing; // what returns of white light where Fresnel is 1, and where it is (1 - v.h)^5
 };
 Albedo albedo(const Lobe& lobe, const Rule& rule);
-Lobe normalised_lobe(const Place& place, const Rule& rule); // its albedo known
+Lobe normalised_lobe(const Place& place, const Rule& rule, Model model = Model::ggx); // its albedo known
 
 // Density at l of the transformed cosine whose matrix has the inverse n.
 double transformed_cosine(const Matrix& n, const Vec& l);

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/math/scalar_math.h"
+#include "shading/bake/ltc/damped.h"
 
 namespace burnish::ltc {
 namespace {
@@ -104,52 +105,6 @@ Sums sums_of(const LobePoints& lobe, const Matrix& m, Norm norm)
     return norm == Norm::l3 ? evaluate<true, Norm::l3>(lobe, m) : evaluate<true>(lobe, m);
 }
 
-bool solve_damped(const Sums& sums, double mu, Mask zero, std::array<double, 9>& x)
-{
-    double a[9][9], trace = 0.0;
-    const double* h = sums.hessian.data();
-    for (int i = 0; i < 9; ++i)
-        for (int j = i; j < 9; ++j)
-            a[j][i] = a[i][j] = *h++;
-    for (int i = 0; i < 9; ++i)
-        trace += a[i][i];
-    for (int i = 0; i < 9; ++i) {
-        a[i][i] += mu * (a[i][i] + 0.01 * trace);
-        x[static_cast<std::size_t>(i)] = sums.gradient[static_cast<std::size_t>(i)];
-    }
-    for (int i = 0; i < 9; ++i)
-        if (zero >> i & 1u) {
-            for (int j = 0; j < 9; ++j)
-                a[i][j] = a[j][i] = 0.0;
-            a[i][i] = 1.0;
-            x[static_cast<std::size_t>(i)] = 0.0;
-        }
-    for (int i = 0; i < 9; ++i) { // Cholesky, the lower triangle in place
-        for (int j = 0; j <= i; ++j) {
-            double s = a[i][j];
-            for (int k = 0; k < j; ++k)
-                s -= a[i][k] * a[j][k];
-            if (i != j)
-                a[i][j] = s / a[j][j];
-            else if (s > 0.0)
-                a[i][i] = std::sqrt(s);
-            else
-                return false;
-        }
-    }
-    for (std::size_t i = 0; i < 9; ++i) {
-        for (std::size_t k = 0; k < i; ++k)
-            x[i] -= a[i][k] * x[k];
-        x[i] /= a[i][i];
-    }
-    for (std::size_t i = 9; i-- > 0;) {
-        for (std::size_t k = i + 1; k < 9; ++k)
-            x[i] -= a[k][i] * x[k];
-        x[i] /= a[i][i];
-    }
-    return true;
-}
-
 NodeFit fit_lobe(const LobePoints& lobe, const Matrix& start, Mask zero, Norm norm)
 {
     NodeFit best = {with_unit_axis(start), 0.0, 1};
@@ -159,7 +114,7 @@ NodeFit fit_lobe(const LobePoints& lobe, const Matrix& start, Mask zero, Norm no
     int settled = 0;
     while (best.evaluations < kEvaluations && mu < 1e4 && settled < 2) {
         std::array<double, 9> e;
-        if (!solve_damped(sums, mu, zero, e)) {
+        if (!solve_damped(sums.hessian, sums.gradient, mu, zero, e)) {
             mu *= 5.0;
             continue;
         }

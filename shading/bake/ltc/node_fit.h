@@ -52,7 +52,4 @@ NodeFit fit_lobe(const LobePoints& lobe, const Matrix& start, Mask zero, Norm no
 // By the sliced distance: steps along its gradient, as many for every lobe. l1 of the result is that of `fit_lobe`.
 NodeFit fit_sliced(const LobePoints& lobe, const Matrix& start, Mask zero);
 
-// (H + mu (diag H + .01 trace H)) x = b by Cholesky, without the elements of `zero`, which stay 0. False where H is no use.
-bool solve_damped(const Sums& sums, double mu, Mask zero, std::array<double, 9>& x);
-
 } // namespace burnish::ltc

@@ -4,6 +4,7 @@
 
 #include "core/math/scalar_math.h"
 #include "shading/bake/ltc/interpolant_fit.h"
+#include "shading/bake/ltc/pair_fit.h"
 #include "shading/bake/ltc/polygon.h"
 
 namespace burnish::ltc {
@@ -86,12 +87,12 @@ Differences differences(const Lobe& lobe, const Matrix& m, const std::vector<Con
     return sum;
 }
 
-Judged judged(const Table& table, const Place& place, bool with_best, const Rule& rule)
+Judged judged(const Table& table, const Place& place, int cosines, const Rule& rule)
 {
     static const Rule fit_rule(15);
     Judged j;
     j.place = place;
-    Lobe lobe(place);
+    Lobe lobe(place, 1.0, table.model());
     const Albedo white = albedo(lobe, rule);
     lobe.albedo = white.all;
     const Looked looked = lookup(table, place);
@@ -106,13 +107,15 @@ Judged judged(const Table& table, const Place& place, bool with_best, const Rule
     }
     j.all_relative = std::abs(looked.all - white.all) / white.all;
     j.grazing_absolute = std::abs(looked.grazing - white.grazing);
-    if (with_best) {
+    if (cosines > 0) {
         const LobePoints points(lobe, fit_rule);
         NodeFit best = fit_lobe(points, natural_matrix(place), 0);
         if (determinant(looked.m) > 0.0)
             if (const NodeFit other = fit_lobe(points, looked.m, 0); other.l1 < best.l1)
                 best = other;
-        j.best_l1 = differences(lobe, best.m, {}, rule).l1;
+        j.pair_l1 = j.best_l1 = differences(lobe, best.m, {}, rule).l1;
+        if (cosines == 2 && j.best_l1 > kFarOff)
+            j.pair_l1 = std::min(j.best_l1, l1_of_pair(LobePoints(lobe, rule), fit_pair(points, best.m)));
     }
     return j;
 }
@@ -136,11 +139,11 @@ std::vector<Place> judged_places(std::size_t count, std::size_t on_nodes, std::s
     return places;
 }
 
-std::vector<Judged> judge(const Table& table, const std::vector<Place>& places, bool with_best, const Jobs& jobs)
+std::vector<Judged> judge(const Table& table, const std::vector<Place>& places, int cosines, const Jobs& jobs)
 {
     const Rule rule(22);
     std::vector<Judged> all(places.size());
-    jobs.parallel_for(places.size(), [&](std::size_t i, int) { all[i] = judged(table, places[i], with_best, rule); });
+    jobs.parallel_for(places.size(), [&](std::size_t i, int) { all[i] = judged(table, places[i], cosines, rule); });
     return all;
 }
 
@@ -167,7 +170,7 @@ std::vector<double> l1_of_cells(const Table& table, const Jobs& jobs)
         const std::array<int, 4>& i = cells[index];
         const Place place = grid.between(i[0], i[1], i[2], i[3], {0.5, 0.5, 0.5, 0.5});
         const Matrix m = lookup(table, place).m;
-        l1[index] = determinant(m) > 0.0 ? l1_distance(LobePoints(normalised_lobe(place, albedo_rule), rule), m) : 2.0;
+        l1[index] = determinant(m) > 0.0 ? l1_distance(LobePoints(normalised_lobe(place, albedo_rule, table.model()), rule), m) : 2.0;
     });
     return l1;
 }

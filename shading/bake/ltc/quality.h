@@ -14,6 +14,7 @@ inline constexpr int kLights = 6; // under which a lobe is judged: ceiling, wall
 struct Judged {
     Place place;
     double l1 = 0.0, best_l1 = 0.0;      // of the table; of the transformed cosine fitted to this very lobe
+    double pair_l1 = 0.0;                // of the sum of two fitted to it where best_l1 is above kFarOff; else best_l1
     double light_relative[kLights] = {}; // |difference| over the greater of the light and 0.02
     double light_absolute[kLights] = {}; // of the lobe's parts that six quads light, each in [0,1]
     double all_relative = 0.0;           // of nD
@@ -24,8 +25,10 @@ struct Judged {
 // first `on_nodes` of them on nodes of a grid of 8. `from`: the first point of the sequence.
 std::vector<Place> judged_places(std::size_t count, std::size_t on_nodes, std::size_t from);
 
-// `with_best`: also fits each lobe alone, what no table can surpass.
-std::vector<Judged> judge(const Table& table, const std::vector<Place>& places, bool with_best, const Jobs& jobs);
+inline constexpr double kFarOff = 0.3; // L1
+
+// cosines: 0: of the table alone; 1: each lobe is fitted alone, too, what no table can surpass; 2: also by the sum of two.
+std::vector<Judged> judge(const Table& table, const std::vector<Place>& places, int cosines, const Jobs& jobs);
 
 struct Spread {
     double mean = 0.0, median = 0.0, p95 = 0.0, most = 0.0;

@@ -34,6 +34,11 @@ ShadingTables joined(const Table& all, const Table& round)
 
 } // namespace
 
+const Table& shipped_table()
+{
+    return shipped(false);
+}
+
 const ShadingTables& shipped_tables()
 {
     static const ShadingTables tables = joined(shipped(false), shipped(true));
@@ -49,7 +54,9 @@ Result<ShadingTables> with_table(const Table& own, const std::string& path)
                                  kShadingRoundSize)};
     if (own.grid.round && (own.grid.basis != Basis::tangent || own.grid.over_alpha || own.grid.inverse || !own.grid.root_alpha))
         return Error{ExitCode::bad_input, path, "byte 16", "is a round table whose matrices are held in another way than shading reads"};
-    return own.grid.round ? joined(shipped(false), own) : joined(own, shipped(true));
+    ShadingTables tables = own.grid.round ? joined(shipped(false), own) : joined(own, shipped(true));
+    tables.model = own.model();
+    return tables;
 }
 
 } // namespace burnish::ltc

@@ -18,7 +18,7 @@ namespace burnish::ltc {
 
 inline constexpr std::uint32_t kTableVersion = 2, kRootAlpha = 1, kHalf = 2, kBasisShift = 2, kBasisMask = 3u << kBasisShift,
                                kOverAlpha = 16, kRound = 32, kInverse = 64;
-// What a table was made with: BakeOptions::norm, and what was left out.
+// What a table was made with: BakeOptions::norm, what was left out, and the lobes' Model.
 inline constexpr std::uint32_t kNormShift = 8, kNormMask = 3u << kNormShift, kUnaligned = 1u << 10, kUnsymmetric = 1u << 11,
                                kLobeShift = 12, kLobeMask = 3u << kLobeShift;
 inline constexpr std::size_t kChannels = 11;
@@ -28,6 +28,7 @@ struct Table {
     Grid grid;
     std::uint32_t made = 0;     // flags of what it was made with
     std::vector<float> entries; // [theta][phi][alpha][lambda][kChannels]
+    Model model() const { return static_cast<Model>((made & kLobeMask) >> kLobeShift); }
 };
 
 // Rounded to what the file holds, so that what is measured is what is shipped.

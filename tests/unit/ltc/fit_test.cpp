@@ -193,7 +193,7 @@ TEST(fit, a_coarse_table_is_nearer_between_its_nodes_than_its_nodes_alone_make_i
     const std::vector<Place> places = judged_places(200, 0, 5000);
     const auto mean = [&](const Table& table) {
         std::vector<double> l1;
-        for (const Judged& j : judge(table, places, false, jobs))
+        for (const Judged& j : judge(table, places, 0, jobs))
             l1.push_back(j.l1);
         return spread_of(l1).mean;
     };

@@ -4,6 +4,9 @@
 #include "shading/lights/ltc_round.k.h"
 #include "shading/lights/ltc_table.k.h"
 #include "shading/lights/ltc_texture.k.h"
+#include "shading/models/ashikhmin_shirley.k.h"
+#include "shading/models/beckmann.k.h"
+#include "shading/models/ward.k.h"
 
 namespace burnish {
 inline namespace BN_ISA_NS {

@@ -384,12 +384,21 @@ TEST(light, every_instruction_set_has_the_same_bits)
         return rows;
     };
     const std::vector<Row> eighteen = of(18), sixteen = of(16), thirteen = of(13), twelve = of(12);
+    // Neighbours that lie in one cell of the table, in two and in more, as those of a picture do: their texels are read in other ways.
+    std::vector<Row> shared;
+    for (int i = 0; i < 3000; ++i) {
+        const double theta = i % (1 + i / 750) == 0 ? 0.7 : 1.2, phi = i / 64 % 2 ? 0.5 : 2.1;
+        const double t = theta + chance.from(0.0, 0.15), p = phi + chance.from(-0.02, 0.02);
+        shared.push_back(
+            {std::sin(t) * std::cos(p), std::sin(t) * std::sin(p), std::cos(t), chance.from(0.35, 0.5), chance.from(0.1, 0.12)});
+    }
     std::vector<Row> textures;
     for (const Row& quad : quads)
         textures.push_back(joined({quad, {64.0, 32.0, 6.0}}));
     const IsaFns& scalar = float_fns()[0];
     ASSERT_GT(float_fns().size(), 1u);
     for (const auto& [name, rows] : {std::pair<const char*, const std::vector<Row>*>{"ltc_lookup", &looked},
+                                     {"ltc_lookup", &shared},
                                      {"ltc_quad_seen", &seen},
                                      {"ltc_density", &twelve},
                                      {"ltc_triangle", &eighteen},

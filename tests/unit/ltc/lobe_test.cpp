@@ -4,6 +4,7 @@
 #include "core/math/scalar_math.h"
 #include "shading/bake/ltc/interpolant_fit.h"
 #include "shading/bake/ltc/node_fit.h"
+#include "shading/bake/ltc/pair_fit.h"
 
 namespace burnish::ltc {
 namespace {
@@ -97,6 +98,41 @@ TEST(lobe, unaligned_neighbours_interpolate_to_another_lobe)
     EXPECT_NEAR(l1_distance(points, turned), alone, 0.01); // points are others
     EXPECT_GT(l1_distance(points, middle(m, turned)), alone + 0.1);
     EXPECT_NEAR(l1_distance(points, middle(in_natural_gauge(m, place), in_natural_gauge(turned, place))), alone, 0.01);
+}
+
+TEST(lobe, of_other_models_integrate_to_one_and_are_near_what_is_fitted_to_them)
+{
+    const Rule rule(15), white(20), fine(22);
+    for (const Model model : {Model::beckmann, Model::ashikhmin_shirley, Model::ward})
+        for (const Place& place : {Place{0.0, 0.0, 0.3, 1.0}, Place{0.7, 0.4, 0.3, 0.4}, Place{1.2, 1.1, 0.2, 0.5}}) {
+            const Lobe lobe = normalised_lobe(place, white, model);
+            double whole = 0.0; // over all directions: no density of points in it
+            for (std::size_t k = 0; k < 400000; ++k)
+                whole += density(lobe, direction(k)).reflected * 4.0 * kPi / 400000.0;
+            EXPECT_NEAR(whole, 1.0, 0.01) << static_cast<int>(model) << " " << place.theta;
+            const LobePoints points(lobe, rule);
+            const NodeFit fit = fit_lobe(points, natural_matrix(place), 0);
+            EXPECT_LT(fit.l1, l1_distance(points, with_unit_axis(natural_matrix(place)))) << static_cast<int>(model);
+            EXPECT_LT(fit.l1, 0.45) << static_cast<int>(model) << " " << place.theta;
+        }
+}
+
+TEST(lobe, a_sum_of_two_is_nearer_where_one_is_far_off)
+{
+    const Rule rule(15), white(18), others(17);
+    for (const Place& place : {Place{0.94, 0.49, 0.5, 0.14}, Place{1.13, 1.34, 0.35, 0.14}}) {
+        const Lobe lobe = normalised_lobe(place, white);
+        const LobePoints points(lobe, rule);
+        const NodeFit one = fit_lobe(points, natural_matrix(place), 0);
+        const PairFit two = fit_pair(points, one.m);
+        EXPECT_GT(one.l1, 0.3);
+        EXPECT_LT(two.l1, 0.7 * one.l1);
+        EXPECT_NEAR(l1_of_pair(LobePoints(lobe, others), two), two.l1, 0.01); // by points that it was not fitted to
+        EXPECT_GT(determinant(two.m[0]), 0.0);
+        EXPECT_GT(determinant(two.m[1]), 0.0);
+        const PairFit same = {{one.m, one.m}, 0.3, 0.0, 0}; // two that are one
+        EXPECT_NEAR(l1_of_pair(points, same), one.l1, 1e-9);
+    }
 }
 
 TEST(lobe, small_widths_need_no_fit)

@@ -39,7 +39,7 @@ TEST(lookup, in_the_tables_quadrant_is_the_tables_own)
         const Row m = columns(expected.m);
         for (std::size_t e = 0; e < 9; ++e)
             ASSERT_NEAR(got[e], m[e], 4e-6) << i << " " << e;
-        ASSERT_NEAR(got[10], expected.all, 1e-6);
+        ASSERT_NEAR(got[10], std::min(expected.all, 1.0), 1e-6);
         ASSERT_NEAR(got[11], expected.grazing, 1e-6);
     }
 }

@@ -107,7 +107,7 @@ TEST(table, lobes_are_as_near_as_was_measured)
 {
     const Jobs jobs(1);
     std::vector<double> l1, relative, absolute, all;
-    for (const Judged& j : judge(shipped(), judged_places(40, 0, 0), false, jobs)) {
+    for (const Judged& j : judge(shipped(), judged_places(40, 0, 0), 0, jobs)) {
         l1.push_back(j.l1), all.push_back(j.all_relative);
         relative.insert(relative.end(), j.light_relative, j.light_relative + kLights);
         absolute.insert(absolute.end(), j.light_absolute, j.light_absolute + kLights);
@@ -126,7 +126,7 @@ TEST(table, halves_change_next_to_nothing)
     EXPECT_EQ(bytes.size(), 32u + 64u * 11u * 8u * 11u * 2u + 8u);
     const Jobs jobs(1);
     const std::vector<Place> places = judged_places(20, 0, 0);
-    const std::vector<Judged> a = judge(shipped(), places, false, jobs), b = judge(*halves, places, false, jobs);
+    const std::vector<Judged> a = judge(shipped(), places, 0, jobs), b = judge(*halves, places, 0, jobs);
     for (std::size_t i = 0; i < places.size(); ++i)
         EXPECT_NEAR(a[i].l1, b[i].l1, 0.002);
 }

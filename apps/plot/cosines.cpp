@@ -1,0 +1,184 @@
+// The page of figures of transformed cosines: `burnish plot ltc`.
+#include <algorithm>
+#include <cmath>
+#include <fmt/core.h>
+#include <optional>
+
+#include "apps/plot/panel.h"
+#include "apps/plot/plot.h"
+#include "shading/bake/ltc/pair_fit.h"
+#include "shading/bake/ltc/quality.h"
+#include "shading/bake/ltc/shipped.h"
+
+namespace burnish {
+namespace {
+
+using ltc::determinant;
+using ltc::inverse;
+using ltc::Matrix;
+using ltc::with_unit_axis;
+using ltc::operator*;
+
+constexpr int kColumns = 5;
+constexpr double kRow = kSide + 66.0; // px, from a row of panels to the next
+constexpr std::size_t kCounted = 16;  // lobes of which broken fits are counted
+constexpr double kBroken = 0.1;       // L1 above the nearest fit that a fit counts as broken from
+
+double of_direction(const Place& p, const std::function<double(const ltc::Vec&)>& value)
+{
+    const double z2 = 1.0 - p.x * p.x - p.y * p.y;
+    return z2 > 0.0 ? value({p.x, p.y, std::sqrt(z2)}) : 0.0;
+}
+
+class Sheet {
+  public:
+    explicit Sheet(int rows, const std::string& title)
+        : drawing(kColumns * (kSide + kGap) + kGap, kTop + rows * kRow + 40.0, "chart", title)
+    {
+    }
+
+    void density(int row, int column, const std::string& title, const std::function<double(const ltc::Vec&)>& value)
+    {
+        const Panel panel{title.c_str(), kGap + column * (kSide + kGap), 1.0, kTop + row * kRow};
+        draw_density(drawing, panel, Edge::horizon, [&](const Place& p) { return of_direction(p, value); });
+        draw_frame(drawing, panel, Edge::horizon);
+    }
+
+    void cosine(int row, int column, const std::string& title, const Matrix& m)
+    {
+        const Matrix n = inverse(m);
+        density(row, column, title, [&](const ltc::Vec& l) { return ltc::transformed_cosine(n, l); });
+    }
+
+    Drawing drawing;
+};
+
+std::string titled(const char* name, double l1)
+{
+    return fmt::format("{}, L1 {:.3f}", name, l1);
+}
+
+std::string marked(const char* name, double l1) // where one cosine cannot follow
+{
+    return titled(name, l1) + (l1 > ltc::kFarOff ? ": a lune" : "");
+}
+
+Matrix turned_about_z(double angle)
+{
+    const double c = std::cos(angle), s = std::sin(angle);
+    return {c, -s, 0.0, s, c, 0.0, 0.0, 0.0, 1.0};
+}
+
+Matrix middle_of(const Matrix& a, const Matrix& b)
+{
+    Matrix m;
+    for (std::size_t e = 0; e < 9; ++e)
+        m[e] = 0.5 * (a[e] + b[e]);
+    return with_unit_axis(m);
+}
+
+// Where fits begin: an ellipse about the mirror direction, a narrow lobe that does not overlap with the one that is fitted, the plain
+// cosine.
+struct Start {
+    const char* name;
+    Matrix m;
+};
+std::array<Start, 3> starts_of(const ltc::Place& place)
+{
+    const ltc::Grid about; // whose frame is the mirror direction's
+    const auto ellipse = [&](const ltc::Place& p) {
+        return with_unit_axis(about.frame(p) * Matrix{p.alpha, 0.0, 0.0, 0.0, p.alpha * p.lambda, 0.0, 0.0, 0.0, 1.0});
+    };
+    const ltc::Place apart = {place.theta > 0.6 ? 0.0 : 1.3, place.phi, 0.03, 1.0};
+    return {
+        {{"an ellipse", ellipse(place)}, {"apart", ellipse(apart)}, {"the plain cosine", {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0}}}};
+}
+
+// By the third power and the sliced distance from the start; ours from its own, whatever the start.
+std::array<ltc::NodeFit, 3> fits_from(const ltc::LobePoints& points, const ltc::Place& place, const Matrix& start)
+{
+    ltc::NodeFit cubed = fit_lobe(points, start, 0, ltc::Norm::l3);
+    cubed.l1 = l1_distance(points, cubed.m);
+    return {cubed, fit_sliced(points, start, 0), fit_lobe(points, natural_matrix(place), 0)};
+}
+
+constexpr const char* kFits[] = {"third power", "sliced distance", "burnish"};
+
+std::string count_broken()
+{
+    const ltc::Rule rule(13), white(17);
+    int broken[3][3] = {};
+    for (const ltc::Place& place : ltc::judged_places(kCounted, 0, 0)) {
+        const ltc::LobePoints points(normalised_lobe(place, white), rule);
+        const std::array<Start, 3> starts = starts_of(place);
+        for (std::size_t s = 0; s < 3; ++s) {
+            const std::array<ltc::NodeFit, 3> fits = fits_from(points, place, starts[s].m);
+            for (std::size_t f = 0; f < 3; ++f)
+                broken[f][s] += fits[f].l1 > fits[2].l1 + kBroken ? 1 : 0;
+        }
+    }
+    std::string text = fmt::format(
+        "of {} lobes, fits that end {:g} or more above the nearest, from an ellipse, apart and the plain cosine: ", kCounted, kBroken);
+    for (std::size_t f = 0; f < 3; ++f)
+        text += fmt::format("{}{} {}, {}, {}", f ? "; " : "", kFits[f], broken[f][0], broken[f][1], broken[f][2]);
+    return text;
+}
+
+} // namespace
+
+Drawing plot_ltc(const LobePlot& plot)
+{
+    const double a = plot.roughness * plot.roughness, eta = std::abs(plot.anisotropy);
+    const auto folded = [](double degrees) { return std::abs(std::remainder(degrees, 180.0)) * kDegree; };
+    // The quadrant and the order of widths that tables have: lobes are mirrored into it.
+    const ltc::Place place = {plot.theta_deg * kDegree, folded(plot.anisotropy < 0.0 ? 90.0 - plot.phi_deg : plot.phi_deg), a * (1.0 + eta),
+                              std::max((1.0 - eta) / (1.0 + eta), 0.02)};
+    const ltc::Rule rule(15), white(18);
+    const ltc::LobePoints points(normalised_lobe(place, white), rule);
+    const Matrix table = lookup(ltc::shipped_table(), place).m;
+    const ltc::NodeFit best = fit_lobe(points, natural_matrix(place), 0);
+    const ltc::PairFit pair = fit_pair(points, best.m);
+
+    Sheet sheet(5, fmt::format("Transformed cosines of a GGX lobe of alpha {:g} and {:g}", place.alpha, place.alpha * place.lambda));
+    const auto lobe = [&](const ltc::Vec& l) { return density(points.lobe, l).reflected; };
+    const Matrix n[2] = {inverse(pair.m[0]), inverse(pair.m[1])};
+    sheet.density(0, 0, "GGX", lobe);
+    sheet.cosine(0, 1, marked("the program's table", l1_distance(points, table)), table);
+    sheet.cosine(0, 2, marked("the nearest cosine", best.l1), best.m);
+    sheet.density(0, 3, marked("the nearest two", pair.l1), [&](const ltc::Vec& l) {
+        return pair.share * transformed_cosine(n[0], l) + (1.0 - pair.share) * transformed_cosine(n[1], l);
+    });
+    const Matrix of_table = inverse(table);
+    sheet.density(0, 4, "table and GGX apart", [&](const ltc::Vec& l) { return std::abs(lobe(l) - transformed_cosine(of_table, l)); });
+
+    const std::array<Start, 3> starts = starts_of(place);
+    for (int s = 0; s < 3; ++s) {
+        const Start& start = starts[static_cast<std::size_t>(s)];
+        sheet.cosine(1 + s, 0, titled(start.name, l1_distance(points, start.m)), start.m);
+        const std::array<ltc::NodeFit, 3> fits = fits_from(points, place, start.m);
+        for (std::size_t f = 0; f < 3; ++f)
+            sheet.cosine(1 + s, 1 + static_cast<int>(f), titled(kFits[f], fits[f].l1), fits[f].m);
+    }
+
+    const Matrix turned = best.m * turned_about_z(2.0);
+    ltc::Place beside = place;
+    beside.theta = place.theta > 0.25 ? place.theta - 0.22 : place.theta + 0.22; // a node further
+    const Matrix other = fit_lobe(ltc::LobePoints(normalised_lobe(beside, white), rule), natural_matrix(beside), 0).m;
+    ltc::Place between = place;
+    between.theta = 0.5 * (place.theta + beside.theta);
+    const ltc::LobePoints there(normalised_lobe(between, white), rule);
+    const auto mixed = [&](int column, const char* name, const ltc::LobePoints& target, const Matrix& m) {
+        sheet.cosine(4, column, titled(name, determinant(m) > 0.0 ? l1_distance(target, m) : 2.0), m);
+    };
+    mixed(0, "a lobe with itself, turned", points, middle_of(best.m, turned));
+    mixed(1, "the same, aligned", points, middle_of(in_natural_gauge(best.m, place), in_natural_gauge(turned, place)));
+    mixed(2, "with a neighbour, turned", there, middle_of(other, turned));
+    mixed(3, "the same, aligned", there, middle_of(in_natural_gauge(other, beside), in_natural_gauge(turned, place)));
+    sheet.density(4, 4, "GGX between the two", [&](const ltc::Vec& l) { return density(there.lobe, l).reflected; });
+    sheet.drawing.text(kGap, kTop + 5.0 * kRow + 8.0, "note",
+                       fmt::format("seen from {:g} degrees off the normal, {:g} about it from the wide axis; {}", place.theta / kDegree,
+                                   place.phi / kDegree, count_broken()));
+    return sheet.drawing;
+}
+
+} // namespace burnish
