@@ -32,7 +32,7 @@ ROWS = (
     ("paper", ("--layout", "paper"), "the published layout at the same size"),
     ("single level", ("--size", "2x64"), "H_A alone, 2x2 texels, at every level"),
     ("1 occurrence", ("--levels", "2"), "the loss sees H_B once"),
-    ("paper, 1 occurrence", ("--layout", "paper", "--levels", "2"), ""),
+    ("paper 1 occurrence", ("--layout", "paper", "--levels", "2"), ""),
     ("loss l2", ("--loss", "l2"), ""),
     ("loss charbonnier", ("--loss", "charbonnier"), ""),
     ("tone log", ("--tone", "log"), "log(1 + x) in place of a display's curve"),
@@ -67,7 +67,7 @@ class Bench:
         spent = [self.run(*words, "--steps", steps, "-o", "trial.mipnet")[1] for steps in (10, 40)]
         each = (spent[1] - spent[0]) / 30
         steps = max(20, int((self.options.seconds - (spent[0] - 10 * each)) / each / 10) * 10)
-        file = name.replace(" ", "_").replace(",", "") + ".mipnet"
+        file = name.replace(" ", "_") + ".mipnet"
         _, took = self.run(*words, "--steps", steps, "-o", file)
         return file, steps, took
 
