@@ -140,6 +140,7 @@ int run_mip(const MipBake& bake)
             return fail(path.error());
     Dress with;
     with.mip_filter = a.filter;
+    with.couple_albedo = a.couple_albedo;
     with.mip_net = a.net, with.mip_fallback = a.fallback, with.mip_brdf = a.brdf;
     if (a.kappa)
         with.mip_kappa = static_cast<float>(*a.kappa);
@@ -186,8 +187,6 @@ int run_mip(const MipBake& bake)
         if (!written)
             return fail(written.error());
         report.release();
-        for (const std::string& warning : written->warnings)
-            report.warning(warning);
         for (const std::string& file : written->files)
             report.detail("wrote", file);
         report.event("wrote", fmt::format("{}: {}", bake.output, counted(written->files.size(), "file")));

@@ -10,6 +10,7 @@
 #include "core/image/colour.h"
 #include "core/image/io/image_io.h"
 #include "core/image/io/png_write.h"
+#include "raster/frame/colours.h"
 #include "raster/frame/mip_files.h"
 #include "shading/bake/mip/anisotropy.h"
 #include "shading/bake/mip/grid.h"
@@ -23,35 +24,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A map's channels as linear floats, times a factor each, at the points of a grid.
-Image linear_map(const Image& image, const Grid& grid, bool srgb, std::size_t first, int channels, const float* factor)
-{
-    Image to = make_image(grid.width, grid.height, channels, PixelType::f32);
-    float* out = to.f32();
-    for (int y = 0; y < grid.height; ++y)
-        for (int x = 0; x < grid.width; ++x)
-            for (std::size_t c = 0; c < static_cast<std::size_t>(channels); ++c)
-                *out++ = factor[c] * on_grid(image, grid, x, y, [&](std::size_t texel) {
-                             const float value = texel_channel(image, texel, first + c);
-                             const float finite = std::isfinite(value) ? value : 0.0f;
-                             return srgb && c < 3 && image.type != PixelType::f32 ? srgb_to_linear(finite) : finite;
-                         });
-    return to;
-}
-
-// (n.v)(n.l) of a texel that is seen and lit from above its surface.
-Image facing_of(const MipSource& source)
-{
-    Image to = make_image(source.width(), source.height(), 1, PixelType::f32);
-    std::vector<MipPoint> row(static_cast<std::size_t>(source.width()));
-    for (int y = 0; y < source.height(); ++y) {
-        source.row(y, row.data());
-        for (std::size_t x = 0; x < row.size(); ++x)
-            to.f32()[static_cast<std::size_t>(y) * row.size() + x] = std::max(row[x].n.z * row[x].n.z, 1e-4f);
-    }
-    return to;
-}
-
 std::vector<Image> metallic_levels(const Scene& scene, const Material& m, const MipSource& source, const MipArguments& a)
 {
     if (!m.metallic_roughness_tex.used())
@@ -64,18 +36,7 @@ std::vector<Image> metallic_levels(const Scene& scene, const Material& m, const 
     return colour_levels(metallic, {a.color_kernel, grid.wrap_s, grid.wrap_t, a.couple_albedo ? &facing : nullptr});
 }
 
-// Whether base colours lie as the normals do.
-bool colours_lie_alike(const Scene& scene, const Material& m)
-{
-    const TextureRef &a = m.base_color_tex, &b = m.normal_tex;
-    if (!b.used() || a.uv_set != b.uv_set || a.uv_transform != b.uv_transform)
-        return false;
-    const Texture &s = scene.textures[static_cast<std::size_t>(a.texture)], &t = scene.textures[static_cast<std::size_t>(b.texture)];
-    return s.wrap_s == t.wrap_s && s.wrap_t == t.wrap_t;
-}
-
-std::vector<Image> base_color_levels(const Scene& scene, const Material& m, const MipSource& source, const MipArguments& a,
-                                     std::vector<std::string>& warnings)
+std::vector<Image> base_color_levels(const Scene& scene, const Material& m, const MipSource& source, const MipArguments& a)
 {
     const float factor[4] = {m.base_color.x, m.base_color.y, m.base_color.z, m.base_color.w};
     if (!m.base_color_tex.used()) {
@@ -87,9 +48,7 @@ std::vector<Image> base_color_levels(const Scene& scene, const Material& m, cons
     const Image& image = scene.images[static_cast<std::size_t>(texture.image)];
     const Grid grid = {image.width, image.height, texture.wrap_s, texture.wrap_t, texture.nearest};
     const Image linear = linear_map(image, grid, true, 0, image.channels == 4 ? 4 : 3, factor);
-    const bool coupled = a.couple_albedo && colours_lie_alike(scene, m);
-    if (a.couple_albedo && !coupled)
-        warnings.push_back(fmt::format("material '{}' has base colours that lie otherwise than its normals: they are not coupled", m.name));
+    const bool coupled = is_coupled(scene, m, m.base_color_tex);
     Image facing;
     const float one = 1.0f;
     if (coupled)
@@ -197,7 +156,7 @@ Result<WrittenTextures> write_mip_textures(const std::string& folder, const Scen
                 std::vector<Image> levels;
                 bool srgb;
             };
-            const std::vector<Image> colours = base_color_levels(scene, m, source, a, written.warnings);
+            const std::vector<Image> colours = base_color_levels(scene, m, source, a);
             std::vector<Part> parts = {
                 {"_normal", made.normal, false}, {"_metallic_roughness", made.roughness, false}, {"_base_color", colours, true}};
             if (std::any_of(made.anisotropy.begin(), made.anisotropy.end(), any))

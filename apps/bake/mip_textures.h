@@ -10,7 +10,7 @@
 namespace burnish {
 
 struct WrittenTextures {
-    std::vector<std::string> files, warnings;
+    std::vector<std::string> files;
     std::string figures; // lines: what the textures show wrong of their levels
 };
 

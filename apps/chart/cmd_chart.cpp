@@ -100,6 +100,8 @@ int run_mip_chart(const ChartArguments& arguments, const OptionTable& given)
         return fail(made.error());
     const Jobs jobs(base.threads);
     std::vector<mipnet::TestMaterial> set = mipnet::make_test_set(jobs);
+    for (mipnet::TestMaterial& m : mipnet::make_trained_set(jobs))
+        set.push_back(std::move(m));
     if (!o.maps.empty()) {
         const Result<std::vector<mipnet::TestMaterial>> real = real_materials(o.maps, base.limits);
         if (!real)

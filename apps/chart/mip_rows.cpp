@@ -190,9 +190,9 @@ Json mip_rows_json(const std::vector<MipRow>& rows)
 {
     Json all = Json::array();
     for (const MipRow& r : rows) {
-        Json row = {{"set", r.set},     {"family", r.family},   {"material", r.material}, {"brdf", r.brdf},   {"mip_filter", r.filter},
-                    {"level", r.level}, {"hardest", r.hardest}, {"flip", r.error.flip},   {"l1", r.error.l1}, {"mse", r.error.mse},
-                    {"ms", r.ms}};
+        Json row = {{"set", r.set},           {"family", r.family}, {"material", r.material}, {"brdf", r.brdf},
+                    {"mip_filter", r.filter}, {"level", r.level},   {"hardest", r.hardest},   {"flip", r.error.flip},
+                    {"l1", r.error.l1},       {"mse", r.error.mse}, {"light", r.error.light}, {"ms", r.ms}};
         if (r.error.flip == 0.0) // too small a square
             row["flip"] = nullptr;
         if (r.gap)
@@ -206,18 +206,18 @@ Json mip_rows_json(const std::vector<MipRow>& rows)
 
 std::string mip_rows_csv(const std::vector<MipRow>& rows)
 {
-    std::string text = "set,family,material,brdf,mip_filter,level,hardest,flip,l1,mse,ms,gap\n";
+    std::string text = "set,family,material,brdf,mip_filter,level,hardest,flip,l1,mse,light,ms,gap\n";
     for (const MipRow& r : rows)
-        text += fmt::format("{},{},{},{},{},{},{},{},{:.6f},{:.6f},{:.2f},{}\n", r.set, r.family, r.material, r.brdf, r.filter, r.level,
-                            r.hardest ? 1 : 0, r.error.flip > 0.0 ? fmt::format("{:.6f}", r.error.flip) : "", r.error.l1, r.error.mse, r.ms,
-                            r.gap ? fmt::format("{:.4f}", *r.gap) : "");
+        text += fmt::format("{},{},{},{},{},{},{},{},{:.6f},{:.6f},{:.4f},{:.2f},{}\n", r.set, r.family, r.material, r.brdf, r.filter,
+                            r.level, r.hardest ? 1 : 0, r.error.flip > 0.0 ? fmt::format("{:.6f}", r.error.flip) : "", r.error.l1,
+                            r.error.mse, r.error.light, r.ms, r.gap ? fmt::format("{:.4f}", *r.gap) : "");
     return text;
 }
 
 std::string mip_summary(const std::vector<MipRow>& rows)
 {
     struct Sum {
-        double flip = 0.0, l1 = 0.0, mse = 0.0;
+        double flip = 0.0, l1 = 0.0, mse = 0.0, light = 0.0, farthest = 0.0;
         int flips = 0, count = 0;
     };
     std::vector<std::pair<std::string, std::string>> order; // of what, filter
@@ -228,6 +228,7 @@ std::string mip_summary(const std::vector<MipRow>& rows)
             order.push_back(key);
         Sum& s = sums[key];
         s.flip += r.error.flip, s.flips += r.error.flip > 0.0, s.l1 += r.error.l1, s.mse += r.error.mse, ++s.count;
+        s.light += r.error.light, s.farthest = std::max(s.farthest, std::abs(r.error.light - 1.0));
     };
     for (const int pass : {0, 1, 2})
         for (const MipRow& r : rows) {
@@ -238,14 +239,15 @@ std::string mip_summary(const std::vector<MipRow>& rows)
             else if (pass == 2 && r.set != "real")
                 add(r.brdf + ", " + r.set + ", " + r.family, r);
         }
-    std::string lines =
-        fmt::format("{:48} {:12} {:>7} {:>7} {:>7} {:>8} {:>6}\n", "model, set", "filter", "FLIP", "L1", "MSE", "L1 by", "gap");
+    std::string lines = fmt::format("{:48} {:12} {:>7} {:>7} {:>7} {:>8} {:>6} {:>7} {:>6}\n", "model, set", "filter", "FLIP", "L1", "MSE",
+                                    "L1 by", "gap", "light", "worst");
     for (const auto& key : order) {
         const Sum &s = sums[key], &base = sums[{key.first, "baseline"}], &best = sums[{key.first, "teacher"}];
         const std::optional<double> gap = gap_closed(s.l1 / s.count, base.l1 / base.count, best.l1 / best.count);
-        lines += fmt::format("{:48} {:12} {:7.1f} {:7.2f} {:7.2f} {:+7.1f}% {:>6}\n", key.first, key.second,
+        lines += fmt::format("{:48} {:12} {:7.1f} {:7.2f} {:7.2f} {:+7.1f}% {:>6} {:+6.1f}% {:5.0f}%\n", key.first, key.second,
                              1e3 * s.flip / std::max(s.flips, 1), 1e3 * s.l1 / s.count, 1e3 * s.mse / s.count,
-                             100.0 * (s.l1 / s.count / (base.l1 / base.count) - 1.0), gap ? fmt::format("{:.0f}%", 100.0 * *gap) : "");
+                             100.0 * (s.l1 / s.count / (base.l1 / base.count) - 1.0), gap ? fmt::format("{:.0f}%", 100.0 * *gap) : "",
+                             100.0 * (s.light / s.count - 1.0), 100.0 * s.farthest);
     }
     return lines;
 }

@@ -48,6 +48,11 @@ void warn_of_no_effect(const OptionTable& given, RenderOptions& out)
         warn("--tile-size", of_backend);
     const bool displayed =
         std::any_of(out.outputs.begin(), out.outputs.end(), [](const std::string& path) { return !stores_floats(path); });
+    if (out.frame.frame_map == kFrameOff)
+        warn("--couple", "--frame-map off");
+    if (out.show != Shown::light)
+        for (const char* option : {"--exposure", "--tonemap", "--resolve"})
+            warn(option, "--show");
     if (!out.outputs.empty() && !displayed)
         for (const char* option : {"--exposure", "--tonemap", "--resolve"})
             warn(option, "-o " + out.outputs.front());

@@ -22,7 +22,7 @@ std::vector<Option> environment_rows(RenderArguments& to)
         {"--env-size", "N", "Texels along a cube edge, a power of two", choice(e.cube_size, {16, 32, 64, 128, 256, 512, 1024, 2048})},
         {"--key-lights", "N", "Small strong lights that leave it and meet lobes themselves: {}", key_lights(e.key_lights)},
         {"--env-samples", "N", "Samples a texel of the prefiltered levels", integer(e.samples, 1, kMaxBakeSamples)},
-        {"--no-cache", "", "Neither read nor write the cache of baked environments", flag(e.use_cache, false)},
+        {"--no-cache", "", "Neither read nor write the cache: environments, levels of mipnet and teacher", flag(e.use_cache, false)},
     };
 }
 
@@ -46,6 +46,9 @@ std::vector<Option> output_rows(RenderArguments& to)
          choice(to.plain.shadow_ratio, {"off", "ratio"})},
         {"--shadow-samples", "N", "Of --shadows, a pixel", integer(to.plain.shadow_samples, 1, 1 << 20)},
         {"--aov", "NAMES", "Layers of .exr outputs, by commas: {}", choices(to.plain.aov, layer_names()), ""},
+        {"--show", "NAME",
+         "What 8-bit outputs hold: {}; in false colour the level that textures are read at, how lobes lie in the picture, or normals",
+         choice(to.plain.show, {"light", "lod", "tensor", "normal"})},
         {"--risks", "FILE", "Where the technique is beyond what burnish atlas found it to hold: 8-bit picture; - for the words only",
          file(to.plain.risks)},
         {"--exposure", "EV", "Multiply by 2^EV before tonemapping", number(to.plain.exposure_ev, -kMaxExposure, kMaxExposure)},
@@ -123,6 +126,10 @@ std::vector<Option> dress_rows(Dress& to)
         {"--fallback", "NAME",
          "Of --mip-filter mipnet: {}; auto leaves materials to kappa or baseline where the net is worse than they are",
          choice(to.mip_fallback, {"auto", "off"})},
+        {"--couple", "NAME", "{}; albedo: base colours and metalness of levels weigh as their texels face light and eye",
+         choice(to.couple_albedo, {"none", "albedo"})},
+        {"--color-kernel", "NAME", "What base colours and metalness of levels are averaged by: {}",
+         choice(to.kaiser_colours, {"box", "kaiser"})},
         {"--mip-pyramid", "FILE", "Levels of burnish bake mip, in place of those made here; it says the filter", file(to.mip_pyramid), ""},
         {"--f0", "R,G,B", "Reflectance at normal incidence of all materials, each 0 to 1", colour(to.f0)},
     };

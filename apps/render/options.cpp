@@ -50,6 +50,11 @@ Status check_layers(const RenderOptions& out)
         return usage_error("--aov", "needs -o FILE.exr: no other format has layers");
     if (!out.aov.empty() && out.backend == "reference")
         return usage_error("--aov", "the reference has no layers");
+    if (out.show != Shown::light && out.backend == "reference")
+        return usage_error("--show", "the reference has no layers");
+    for (const std::string& path : out.outputs)
+        if (out.show != Shown::light && (stores_floats(path) || path.ends_with(".apng")))
+            return usage_error("--show", fmt::format("'{}': false colours are of 8 bits: .png, .tif or .jpg; floats are --aov's", path));
     if (!out.risks.empty() && out.backend == "reference")
         return usage_error("--risks", "the reference has none");
     if (!out.risks.empty() && out.risks != "-" && stores_floats(out.risks))
@@ -115,7 +120,7 @@ Result<RenderOptions> check_render_options(const RenderArguments& arguments, con
                            fmt::format("{} are given, more than {} (--limit-lights)", out.lights.size(), out.limits.area_lights));
     if (const Status technique = check_technique(arguments, out); !technique)
         return technique.error();
-    out.dress.mip_brdf = out.frame.brdf;
+    out.dress.mip_brdf = out.frame.brdf, out.dress.keep_mips = out.environment.use_cache;
     const Result<Isa> isa = choose_isa(given, out.isa);
     if (!isa)
         return isa.error();

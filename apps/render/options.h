@@ -8,6 +8,7 @@
 
 #include "apps/cli/option.h"
 #include "apps/cli/parse.h"
+#include "apps/render/show.h"
 #include "core/base/limits.h"
 #include "core/base/result.h"
 #include "core/image/colour.h"
@@ -29,6 +30,7 @@ struct RenderOptions {
     Dress dress;                        // what all materials take
     std::vector<std::string> outputs;
     std::vector<std::string> aov; // layers of .exr outputs
+    Shown show = Shown::light;    // in 8-bit outputs
     std::string risks;            // picture of what the atlas says of the technique; "-": its words only; empty: none
     bool shadow_ratio = false;    // area lights throw shadows, by samples
     int shadow_samples = 64;      // a pixel

@@ -64,6 +64,8 @@ Status write_rendered(const std::string& path, const Rendered& rendered, const R
 {
     if (!options.aov.empty() && stores_channels(path))
         return write_channels(path, rendered.layered.image, rendered.layered.names);
+    if (!rendered.shown.empty())
+        return write_image(path, rendered.shown);
     return write_picture(path, rendered.color, options.tonemap, options.exposure_ev, rendered.parts);
 }
 
@@ -173,8 +175,10 @@ Result<Rendered> render_frames(const RenderOptions& options, FrameDesc desc, Ses
     desc.triangle_ids = desc.triangle_ids || draws_alpha(options);
     desc.parts = resolves_display(options);
     ask_for_layers(options.aov, desc);
+    if (options.show == Shown::lod && session.parts().scene->scene.textures.empty())
+        return usage_error("--show", fmt::format("lod: nothing in {} has a texture", options.scene));
     const bool shadows = options.shadow_ratio && desc.area_way != kAreaWay_off && !session.tables().area_lights.empty();
-    desc.layers = desc.layers || shadows;
+    desc.layers = desc.layers || shadows || options.show != Shown::light;
     Progress progress("frames", static_cast<std::size_t>(options.frames), options.quiet || options.frames == 1);
     for (int i = 0; i < options.frames; ++i) {
         const TraceSpan span("frame");
@@ -196,6 +200,8 @@ Result<Rendered> render_frames(const RenderOptions& options, FrameDesc desc, Ses
             return thrown.error();
         figures.hash = pixel_hash(last.color);
     }
+    if (options.show != Shown::light)
+        out.shown = false_colour(options.show, last, desc.view);
     if (!options.risks.empty()) {
         const TraceSpan span("risks");
         Result<RiskMap> risks = mark_risks(session, desc);

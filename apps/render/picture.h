@@ -18,6 +18,7 @@ struct Rendered {
     Image variance;
     std::vector<PixelPart> parts; // with --resolve display
     NamedChannels layered;        // with --aov: `color` and its layers
+    Image shown;                  // with --show: its false colours
     std::optional<RiskMap> risks; // with --risks
     RenderFigures figures;
 };

@@ -38,7 +38,7 @@ Examples:
   burnish train mip --evaluate ggx_aniso.mipnet --maps textures --json figures.json)";
 
 struct TrainArguments {
-    std::string what = "mip", output, evaluate, maps, json, checkpoint;
+    std::string what = "mip", output, evaluate, maps, only_maps, from, json, checkpoint;
     std::string size = "2x32/2x64";
     mipnet::TrainOptions train;
     bool validation = false, quiet = false;
@@ -46,32 +46,33 @@ struct TrainArguments {
     Limits limits;
 };
 
-struct NamedSize {
-    const char* name;
-    mipnet::Hidden a, b;
-};
-constexpr NamedSize kNamedSizes[] = {
-    {"2x32/2x64", {2, 32}, {2, 64}}, {"2x64/2x128", {2, 64}, {2, 128}}, {"2x512/3x1024", {2, 512}, {3, 1024}}};
-
 OptionTable train_option_table(TrainArguments& to)
 {
     OptionTable table, limits;
     limits.add("", limit_options(to.limits));
     mipnet::TrainOptions& t = to.train;
-    std::vector<std::string> sizes;
-    for (const NamedSize& size : kNamedSizes)
-        sizes.emplace_back(size.name);
     table.add("", {{"WHAT", "", "{}", choice(to.what, {"mip"})}});
-    table.add("The nets", {{"--brdf", "NAME", "The lobe that shows the mipmaps: {}",
-                            choice(t.shape.lobe, {"ggx_aniso", "beckmann", "ashikhmin_shirley"})},
-                           {"--layout", "NAME", "{}", choice(t.shape.layout, {"paper", "cov"})},
-                           {"--size", "NAME", "Hidden layers x units of both nets: {}", choice(to.size, sizes)}});
-    table.add("Training", {{"--steps", "N", "Of 32 tiles each", integer(t.steps, 1, 100000000)},
-                           {"--seed", "N", "Of everything random", integer(t.seed, 0, 1 << 30)},
-                           {"--checkpoint", "FILE", "Where to keep what is done", file(to.checkpoint), "WEIGHTS.part"}});
+    table.add(
+        "The nets",
+        {{"--brdf", "NAME", "The lobe that shows the mipmaps: {}", choice(t.shape.lobe, {"ggx_aniso", "beckmann", "ashikhmin_shirley"})},
+         {"--layout", "NAME", "{}", choice(t.shape.layout, {"paper", "cov"})},
+         {"--size", "SIZE", "Hidden layers x units of both nets, {}; 2x512/3x1024 is as published, 2x32 has no second net",
+          text(to.size)}});
+    table.add(
+        "Training",
+        {{"--steps", "N", "Of 32 tiles each", integer(t.steps, 1, 100000000)},
+         {"--seed", "N", "Of everything random", integer(t.seed, 0, 1 << 30)},
+         {"--loss", "NAME", "Of differences of what is shown: {}", choice(t.loss, {"l1", "l2", "charbonnier"})},
+         {"--tone", "NAME", "What is shown of radiance: {}, as a display does, or log(1 + x)", choice(t.tone, {"display", "log"})},
+         {"--levels", "N", "That the loss looks at: 2 see the second net once, 5 four times", integer(t.levels, 1, mipnet::kTrainedLevels)},
+         {"--only-maps", "FOLDER", "Materials to train on in place of those made in code; --maps: beside them", folder(to.only_maps)},
+         {"--from", "WEIGHTS", "Go on from these, of the same lobe, layout and size", file(to.from)},
+         {"--checkpoint", "FILE", "Where to keep what is done", file(to.checkpoint), "WEIGHTS.part"}});
     table.add("Measuring",
               {{"--evaluate", "WEIGHTS", "Measure these instead of training", file(to.evaluate)},
-               {"--maps", "FOLDER", "Also on these materials, a folder each: normal, roughness, metallic maps", folder(to.maps)},
+               {"--maps", "FOLDER",
+                "Also on these materials, a folder each: normal, roughness, metallic maps; without --evaluate: train on them, too",
+                folder(to.maps)},
                {"--validation", "", "On materials to choose by, none of those to report", flag(to.validation)},
                {"--json", "FILE", "Figures of every material and level", file(to.json)}});
     table.add("Output", {{"-o,--output", "FILE", "The weights", file(to.output)},
@@ -83,18 +84,24 @@ OptionTable train_option_table(TrainArguments& to)
     return table;
 }
 
-Status check_arguments(const TrainArguments& a, const OptionTable& given)
+Status check_arguments(TrainArguments& a, const OptionTable& given)
 {
     if (a.evaluate.empty() == a.output.empty())
         return usage_error("-o", "is needed, or --evaluate, and not both");
     if (a.evaluate.empty())
-        for (const char* option : {"--maps", "--validation", "--json"})
+        for (const char* option : {"--validation", "--json"})
             if (given.given(option))
                 return usage_error(option, "needs --evaluate WEIGHTS");
     if (!a.evaluate.empty())
-        for (const char* option : {"--brdf", "--layout", "--size", "--steps", "--seed", "--checkpoint"})
+        for (const char* option :
+             {"--brdf", "--layout", "--size", "--steps", "--seed", "--loss", "--tone", "--levels", "--only-maps", "--from", "--checkpoint"})
             if (given.given(option))
                 return usage_error(option, "says how nets are trained, and those of --evaluate are trained already");
+    if (!mipnet::read_size(a.size, a.train.shape))
+        return usage_error("--size", fmt::format("'{}' is not of the kind 2x32/2x64: 1 to {} layers of 1 to {} units", a.size,
+                                                 mipnet::kMostHidden, mipnet::kMostWidth));
+    if (!a.maps.empty() && !a.only_maps.empty())
+        return usage_error("--only-maps", "and --maps: one of them");
     if (a.validation && !a.maps.empty())
         return usage_error("--maps", "are for reports, --validation is for what is chosen");
     if (a.output == "-")
@@ -109,8 +116,36 @@ Status check_arguments(const TrainArguments& a, const OptionTable& given)
     return check_text_path("--checkpoint", a.train.checkpoint, {});
 }
 
+// What training is given by files.
+Status read_given(TrainArguments& a)
+{
+    mipnet::TrainOptions& t = a.train;
+    if (t.only_maps = !a.only_maps.empty(); t.only_maps || !a.maps.empty()) {
+        t.maps_name = t.only_maps ? a.only_maps : a.maps;
+        Result<std::vector<mipnet::TestMaterial>> maps = real_materials(t.maps_name, a.limits);
+        if (!maps)
+            return maps.error();
+        for (mipnet::TestMaterial& m : *maps)
+            t.maps.push_back(std::move(m.material));
+    }
+    if (a.from.empty())
+        return {};
+    Result<mipnet::Weights> read = mipnet::read_weights(a.from);
+    if (!read)
+        return read.error();
+    if (!(read->shape == t.shape))
+        return Error{ExitCode::bad_input, a.from, "",
+                     fmt::format("is of lobes of {}, layout {} and size {}, other than what is to be trained",
+                                 mipnet::lobe_name(read->shape.lobe), mipnet::layout_name(read->shape.layout),
+                                 mipnet::size_name(read->shape))};
+    t.from_name = a.from, t.from = std::make_shared<const mipnet::Weights>(std::move(*read));
+    return {};
+}
+
 int run_training(TrainArguments& a, Report& report)
 {
+    if (const Status given = read_given(a); !given)
+        return fail(given.error());
     const Jobs jobs(a.threads);
     a.train.stop = &watch_stop_signals();
     report.release();
@@ -212,9 +247,6 @@ int run_train(TrainArguments& a, const OptionTable& given)
         a.train.checkpoint = a.output + ".part";
     if (const Status checked = check_arguments(a, given); !checked)
         return fail(checked.error());
-    for (const NamedSize& size : kNamedSizes)
-        if (a.size == size.name)
-            a.train.shape.a = size.a, a.train.shape.b = size.b;
     Report report(a.quiet, a.verbosity);
     return a.evaluate.empty() ? run_training(a, report) : run_evaluation(a, report);
 }

@@ -24,7 +24,7 @@ std::string folder_variable(const char* name)
 struct Kind { // files are PREFIX, 16 hexadecimal digits, SUFFIX
     const char *prefix, *suffix;
 };
-constexpr Kind kKinds[] = {{"environment-", ".bnenv"}, {"pipelines-", ".bin"}, {"reference-", ".part"}};
+constexpr Kind kKinds[] = {{"environment-", ".bnenv"}, {"pipelines-", ".bin"}, {"reference-", ".part"}, {"levels-", ".mip"}};
 
 bool is_kept(const std::string& name)
 {

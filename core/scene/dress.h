@@ -31,6 +31,9 @@ struct Dress {              // empty: left as it is
     std::string mip_net;            // weights of `burnish train mip` for filter mipnet; empty: the program's
     int mip_brdf = 0;               // model of lobes that the program's are for, a place of BN_LOBE
     MipFallback mip_fallback{};     // of filter mipnet
+    bool couple_albedo = false;     // base colours and metalness of levels weigh as their texels face light and eye
+    bool kaiser_colours = false;    // and are averaged by ColourKernel::kaiser
+    bool keep_mips = false;         // levels that take long are looked for in the cache, and kept there
     std::string mip_pyramid;        // levels of `burnish bake mip`
     std::optional<glm::vec3> f0;    // reflectance at normal incidence of all materials, which are dielectrics then
 

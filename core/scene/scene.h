@@ -82,6 +82,8 @@ struct Material { // material.def
     bool heights = false;                           // the alpha of normal_tex holds heights, [0,1]
     MipFilter mip_filter{};                         // of its normals and lobes
     float mip_kappa = 0.0f;                         // of filter kappa, and of the taps of mipnet
+    bool mip_coupled = false;                       // base colours and metalness weigh as their texels face light and eye
+    bool mip_kaiser = false;                        // they are averaged by ColourKernel::kaiser
     std::shared_ptr<const mipnet::Weights> mip_net; // of filter mipnet; none: levels are brought along
 };
 
@@ -142,9 +144,10 @@ struct Scene {
     std::vector<Light> lights;
     std::vector<AreaLight> area_lights;
     std::vector<Camera> cameras;
-    std::shared_ptr<const std::vector<MipLevels>> mips; // baked beforehand; none: made of the maps
-    std::vector<std::string> files;                     // paths of every file that was read for it
-    std::vector<std::string> warnings;                  // one line each, in the order found
+    std::shared_ptr<const std::vector<MipLevels>> mips;      // baked beforehand; none: made of the maps
+    std::shared_ptr<const std::vector<MipLevels>> kept_mips; // the same as are made of the maps, found in the cache or kept there
+    std::vector<std::string> files;                          // paths of every file that was read for it
+    std::vector<std::string> warnings;                       // one line each, in the order found
 };
 
 // Which moment of which of its animations a scene is read at; without seconds, as it rests.

@@ -6,6 +6,9 @@
 #include <optional>
 
 #include "core/base/file.h"
+#include "raster/frame/colours.h"
+#include "raster/frame/frame.h"
+#include "raster/frame/kept_mips.h"
 #include "raster/frame/pyramids.h"
 #include "shading/bake/mip/net_levels.h"
 #include "shading/bake/mip/pyramid_file.h"
@@ -82,6 +85,8 @@ Status settle_nets(Scene& scene, const Dress& with, const Limits& limits)
         m.mip_filter = found[i]->prefers_kappa() ? kMipFilter_kappa : kMipFilter_baseline, m.mip_net = nullptr;
         scene.warnings.push_back(comparison_text(m, *found[i]));
     }
+    if (with.keep_mips && !scene.mips)
+        keep_mips(scene);
     return {};
 }
 
@@ -105,6 +110,9 @@ void warn_of_unfiltered(Scene& scene)
     for (const Material& m : scene.materials)
         if (const std::string why = why_unfiltered(scene, m); !why.empty())
             scene.warnings.push_back("material '" + m.name + "' is filtered as by --mip-filter box: " + why);
+    for (const Material& m : scene.materials)
+        if (const std::string why = why_uncoupled(scene, m); !why.empty())
+            scene.warnings.push_back("material '" + m.name + "' " + why);
 }
 
 Status check_mips(const Scene& scene, const std::string& path)

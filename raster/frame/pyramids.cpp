@@ -4,7 +4,9 @@
 #include <cmath>
 #include <tuple>
 
+#include "core/scene/heights.h"
 #include "core/simd/half.h"
+#include "raster/frame/colours.h"
 #include "shading/bake/mip/anisotropy.h"
 #include "shading/bake/mip/filter.h"
 #include "shading/bake/mip/slopes.h"
@@ -41,7 +43,7 @@ const char* what_differs(const Scene& scene, const TextureRef& a, const TextureR
 
 bool alike(const Scene& scene, const TextureRef& a, const TextureRef& b)
 {
-    return a.used() && b.used() && *what_differs(scene, a, b) == '\0';
+    return a.used() && b.used() && lie_alike(scene, a, b);
 }
 
 const Image* image_of(const Scene& scene, const TextureRef& ref)
@@ -141,6 +143,15 @@ std::int32_t owner_of(const Scene& scene, std::size_t material, bool overridden)
     return static_cast<std::int32_t>(found - scene.materials.begin());
 }
 
+// The first material with the same normals.
+std::int32_t first_with_normals(const Scene& scene, const Material& m)
+{
+    const auto found = std::find_if(scene.materials.begin(), scene.materials.end(), [&](const Material& other) {
+        return other.normal_tex.texture == m.normal_tex.texture && other.normal_scale == m.normal_scale;
+    });
+    return static_cast<std::int32_t>(found - scene.materials.begin());
+}
+
 // What a slot of a material holds, and where it lies.
 struct Held {
     PyramidKey key;
@@ -156,7 +167,15 @@ std::optional<Held> held_by(const Scene& scene, std::size_t material, const Text
             {moments.place->texture, use.encoding, use.tensor_power, moments.kind, owner_of(scene, material, overridden), moments.filtered},
             moments.place};
     const TextureRef& ref = m.*use.ref;
-    return ref.used() ? std::optional(Held{{ref.texture, use.encoding, use.tensor_power}, &ref}) : std::nullopt;
+    if (!ref.used())
+        return std::nullopt;
+    Held held = {{ref.texture, use.encoding, use.tensor_power}, &ref};
+    if (use.slot == kBaseColorTex || use.slot == kMetalRoughTex) {
+        held.key.kaiser = m.mip_kaiser;
+        if (held.key.coupled = is_coupled(scene, m, ref); held.key.coupled)
+            held.key.material = first_with_normals(scene, m);
+    }
+    return held;
 }
 
 Image moments_image(const Scene& scene, const Texture& sampler, const PyramidKey& key)
@@ -181,9 +200,9 @@ void put_moments(int part, float gain, real3 n, slope_covariance s, float* rgba)
 {
     const float x = gain * n.x, y = gain * n.y;
     if (part == 2)
-        rgba[0] = 1.0f, rgba[1] = rgba[2] = 0.0f, rgba[3] = kMomentScale * (s.xx + x * x);
+        rgba[0] = 1.0f, rgba[1] = n.z, rgba[2] = 0.0f, rgba[3] = kMomentScale * (s.xx + x * x);
     else
-        rgba[0] = kSlopeScale * x, rgba[1] = kSlopeScale * y, rgba[2] = kMomentScale * (s.yy + y * y),
+        rgba[0] = kSlopeScale * n.x, rgba[1] = kSlopeScale * n.y, rgba[2] = kMomentScale * (s.yy + y * y),
         rgba[3] = kMomentScale * (s.xy + x * y);
 }
 
@@ -205,7 +224,6 @@ TexturePyramid filtered_pyramid(const Scene& scene, const Texture& sampler, cons
     if (normals)
         own = make_texture_pyramid(*image_of(scene, m.normal_tex), sampler, key.encoding);
     const bool same = normals && own.width == source.width() && own.height == source.height();
-    const bool codes = same && image_of(scene, m.normal_tex)->type != PixelType::f32; // in floats what is not finite was repaired
     std::vector<MipPoint> points(static_cast<std::size_t>(source.width()));
     return make_texture_pyramid(source.width(), source.height(), sampler, key.encoding, [&](int level, int width, int y, float* rgba) {
         if (level == 0)
@@ -225,11 +243,7 @@ TexturePyramid filtered_pyramid(const Scene& scene, const Texture& sampler, cons
                                 static_cast<std::size_t>(y + 1) * static_cast<std::size_t>(width + 2) + static_cast<std::size_t>(x + 1))
                      : nullptr;
             rgba[3] = texel ? half_to_float(texel[3]) : 1.0f;
-            if (level == 0 && codes) // as box has it, bit for bit
-                for (int c = 0; c < 3; ++c)
-                    rgba[c] = half_to_float(texel[c]);
-            else
-                rgba[0] = 0.5f + unscale * p.n.x, rgba[1] = 0.5f + unscale * p.n.y, rgba[2] = 0.5f + 0.5f * p.n.z;
+            rgba[0] = 0.5f + unscale * p.n.x, rgba[1] = 0.5f + unscale * p.n.y, rgba[2] = 0.5f + 0.5f * p.n.z;
         }
     });
 }
@@ -298,12 +312,11 @@ MaterialLevels filtered_levels(const Scene& scene, const Jobs& jobs, const Taugh
             continue;
         }
         const MipSource source = mip_source(scene, m);
-        if (scene.mips) {
-            const std::uint64_t hash = source.hash(jobs);
-            for (const MipLevels& levels : *scene.mips)
-                if (fits(levels, hash, scene, m))
-                    all[i] = std::shared_ptr<const MipLevels>(scene.mips, &levels);
-        }
+        const std::uint64_t hash = scene.mips || scene.kept_mips ? source.hash(jobs) : 0;
+        for (const auto& there : {scene.kept_mips, scene.mips})
+            for (std::size_t k = 0; there && k < there->size(); ++k)
+                if (fits((*there)[k], hash, scene, m))
+                    all[i] = std::shared_ptr<const MipLevels>(there, &(*there)[k]);
         if (!all[i])
             all[i] = std::make_shared<const MipLevels>(
                 make_mip_levels(source, m.mip_filter, m.mip_kappa, jobs, {m.mip_net.get(), is_metal(scene, m), advance}));
@@ -338,8 +351,11 @@ void bind_textures(const Scene& scene, std::size_t material, bool overridden, co
             b.transform[2 * c] = held->place->uv_transform[c][0], b.transform[2 * c + 1] = held->place->uv_transform[c][1];
         to.textured = 1;
     }
-    to.moments = moments_of(scene, scene.materials[material], overridden).kind;
-    to.frame_map = is_filtered(scene, scene.materials[material]) ? kFrameQuaternion : -1;
+    const Material& m = scene.materials[material];
+    const Moments moments = moments_of(scene, m, overridden);
+    to.moments = moments.kind;
+    to.level_gain = moments.filtered ? gain_of_taps(m.mip_filter, m.mip_kappa) : -1.0f;
+    to.frame_map = is_filtered(scene, m) ? kFrameQuaternion : -1;
     to.anisotropic |= to.moments != kNoMoments;
 }
 
@@ -348,6 +364,9 @@ TexturePyramid make_pyramid(const Scene& scene, const PyramidKey& key, const Mat
     const Texture& texture = scene.textures[static_cast<std::size_t>(key.texture)];
     if (key.filtered)
         return filtered_pyramid(scene, texture, key, *levels[static_cast<std::size_t>(key.material)]);
+    if (key.coupled || key.kaiser)
+        return colour_pyramid(scene, scene.materials[static_cast<std::size_t>(std::max(key.material, 0))], texture, key.encoding,
+                              key.coupled, key.kaiser);
     const Image& image = scene.images[static_cast<std::size_t>(texture.image)];
     if (key.moments != kNoMoments)
         return make_texture_pyramid(moments_image(scene, texture, key), texture, key.encoding);

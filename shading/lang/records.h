@@ -177,6 +177,7 @@ struct MaterialRecord { // Material in plain numbers, and what follows from them
     float tilt_cos[2], tilt_sin[2];  // of their sum
     float tilt_slope[2];             // its mean slopes, along tangent and bitangent
     int tilt_mapped, moments;        // a texture has slopes; kNoMoments...
+    float level_gain;                // of a mip filter's levels: what normals of taps differ by, times this, widens lobes; else -1
     int relief;                      // the alpha of its normal map holds heights, which the frame wants to see
     float relief_depth;              // of height 0, lengths of texture coordinates
     int emitter;                     // it shows an area light

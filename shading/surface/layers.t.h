@@ -6,6 +6,7 @@
 #include "shading/lang/stage.h"
 #include "shading/surface/recorded.t.h"
 #include "shading/surface/specular_aa.t.h"
+#include "shading/surface/texture_place.k.h"
 
 BN_KERNELS_BEGIN
 
@@ -13,6 +14,24 @@ struct layer_values {
 #define BN_LAYER(type, words, name, channels) type name;
 #include "shading/layers.def"
 };
+
+// Between which two levels the normal map is read, else the first texture; -1 where the material has none.
+BN_STAGE real lod_at(any_frame f, material_ref m, BN_IN(visible_point) p)
+{
+    int slot = -1;
+    for (int i = 0; i < kTextureSlots; ++i) {
+        if (slot < 0 && texture_used(m, i))
+            slot = i;
+    }
+    if (texture_used(m, kNormalTex))
+        slot = kNormalTex;
+    real level = lit(-1.0);
+    if (slot >= 0) {
+        texture_place place = texture_place_of(the_material(m).textures[slot], p);
+        level = texture_footprint_of(texture_desc_of(f, m, slot), place.dx, place.dy, the_frame(f).texture_taps).lod;
+    }
+    return level;
+}
 
 // p: its position is asked for, too.
 BN_STAGE layer_values layers_of(any_frame f, material_ref m, BN_IN(material_inputs) at, BN_IN(visible_point) p)
@@ -30,6 +49,7 @@ BN_STAGE layer_values layers_of(any_frame f, material_ref m, BN_IN(material_inpu
     r.tangent = lobe.u_axis;
     r.anisotropy = lobe_eta(lobe);
     r.metalness = k_saturate(at.metallic);
+    r.lod = lod_at(f, m, p);
     return r;
 }
 

@@ -98,7 +98,13 @@ BN_FN material_inputs fetch_material(frame_ref f, material_ref m, BN_IN(visible_
         if (the_material(m).moments != kNoMoments) { // see shading/bake/mip/slopes.h
             r.slope = vec2_of(four.x, four.y) * splat(1.0f / kSlopeScale);
             r.slope_moments = vec3_of(two.w, four.z, four.w) * splat(1.0f / kMomentScale);
-            r.tensor4 = r.tensor2 * (two.x + two.y); // as where the map's strength is the same everywhere
+            r.tensor4 = r.tensor2 * (two.x + two.y);  // as where the map's strength is the same everywhere
+            if (the_material(m).level_gain >= 0.0f) { // normals in two halves: one turns lobes of alpha .05 visibly
+                r.normal_map = vec3_of(r.slope.x, r.slope.y, two.y);
+                r.slope = r.slope * splat(the_material(m).level_gain);
+                r.tensor2 = vec3_of(lit(1.0), lit(0.0), lit(0.0));
+                r.tensor4 = r.tensor2;
+            }
         }
     }
     r.transmission = splat(the_material(m).transmission);

@@ -4,10 +4,14 @@ import json
 import struct
 import zlib
 
+import gltf_files as files
+from compare_cases import png
+from detail_cases import bare, bumps
 from harness import Skipped, case, check
+from input_cases import scratch
 
 DRAWN = ("--size", "96x64", "--env-size", "32", "--env-samples", "16", "-q")
-ALL = "depth,normal,albedo,roughness,tangent,anisotropy,metalness,object-id,material-id"
+ALL = "depth,normal,albedo,roughness,tangent,anisotropy,metalness,lod,object-id,material-id"
 
 
 def exr_channels(path):
@@ -62,7 +66,7 @@ def names(bench):
     layered, plain = exr_channels(bench.folder / "a.exr"), exr_channels(bench.folder / "b.exr")
     check(sorted(plain) == ["B", "G", "R"], f"a plain picture has {sorted(plain)}")
     check(sorted(set(layered) - set(plain)) == sorted(["Z", "N.X", "N.Y", "N.Z", "albedo.R", "albedo.G", "albedo.B", "roughness", "tangent.X",
-                                                       "tangent.Y", "tangent.Z", "anisotropy", "metalness", "id", "materialId"]), f"{sorted(layered)}")
+                                                       "tangent.Y", "tangent.Z", "anisotropy", "metalness", "lod", "id", "materialId"]), f"{sorted(layered)}")
     check(all(layered[c] == plain[c] for c in plain), "layers change the colours")
     check((bench.folder / "a.png").read_bytes() == (bench.folder / "b.png").read_bytes(), "layers change the PNG")
     seen = 0
@@ -87,7 +91,9 @@ def twins(bench):
     for scene, more in (("builtin:bumps", ()), ("builtin:spheres", ("--env-rotation", "40", "--no-background"))):
         for backend in ("tile", "vulkan"):
             drawn_by(bench, ("--aov", ALL, "--resolve", "display", "-o", f"{backend}.exr", "-o", f"{backend}.png"), backend, scene, *more)
-        for kind in ("exr", "png"):
+            for name in ("tensor", "normal"):
+                drawn_by(bench, ("--show", name, "-o", f"{backend}.{name}.png"), backend, scene, *more)
+        for kind in ("exr", "png", "tensor.png", "normal.png"):
             check((bench.folder / f"tile.{kind}").read_bytes() == (bench.folder / f"vulkan.{kind}").read_bytes(), f"{scene}: .{kind} differs")
 
 
@@ -110,6 +116,89 @@ def resolve(bench):
     bench.run(*drawn, "--msaa", "1", "-o", "l.tif").expect(0)
     bench.run(*drawn, "--msaa", "1", "--resolve", "display", "-o", "d.tif").expect(0)
     check((bench.folder / "l.tif").read_bytes() == (bench.folder / "d.tif").read_bytes(), "one sample a pixel has nothing to resolve")
+
+
+def lone_plane(repeats=1.0, **material):
+    """A square of 2 by 2 metres that fills the picture of an orthographic camera right above it, its maps `repeats` times each way."""
+    gltf = bare(**material)
+    corners = ((-1, -1), (1, -1), (1, 1), (-1, -1), (1, 1), (-1, 1))
+    columns = ([c for x, y in corners for c in (x, y, 0)], [0, 0, 1] * 6, [c * repeats for x, y in corners for c in ((x + 1) / 2, (1 - y) / 2)])
+    gltf["buffers"] = [{"uri": files.data_uri(b"".join(struct.pack(f"<{len(c)}f", *c) for c in columns)), "byteLength": 4 * sum(map(len, columns))}]
+    gltf["bufferViews"], gltf["accessors"], begin = [], [], 0
+    for column, kind in zip(columns, ("VEC3", "VEC3", "VEC2")):
+        gltf["bufferViews"].append({"buffer": 0, "byteOffset": begin, "byteLength": 4 * len(column)})
+        gltf["accessors"].append({"bufferView": len(gltf["accessors"]), "componentType": 5126, "count": 6, "type": kind})
+        begin += 4 * len(column)
+    gltf["accessors"][0] |= {"min": [-1, -1, 0], "max": [1, 1, 0]}
+    gltf["meshes"] = [{"primitives": [{"attributes": {"POSITION": 0, "NORMAL": 1, "TEXCOORD_0": 2}, "material": 0}]}]
+    gltf["cameras"] = [{"type": "orthographic", "orthographic": {"xmag": 1.0, "ymag": 1.0, "znear": 0.1, "zfar": 10.0}}]
+    gltf["nodes"] = [{"mesh": 0}, {"camera": 0, "translation": [0, 0, 2]}]
+    gltf["scenes"] = [{"nodes": [0, 1]}]
+    return gltf
+
+
+def texels_of(path):
+    """Rows of (red, green, blue), [0,255], of a PNG of 8 bits without interlacing."""
+    data, at, packed = path.read_bytes(), 8, b""
+    while at < len(data):
+        size, kind = struct.unpack_from(">I4s", data, at)
+        if kind == b"IHDR":
+            width, height, bits, colour = struct.unpack_from(">IIBB", data, at + 8)
+            check((bits, colour) == (8, 2), f"{path} is no RGB of 8 bits")
+        packed, at = packed + (data[at + 8 : at + 8 + size] if kind == b"IDAT" else b""), at + 12 + size
+    raw, rows, before = zlib.decompress(packed), [], bytearray(3 * width)
+    for y in range(height):
+        kind, row = raw[y * (3 * width + 1)], bytearray(raw[y * (3 * width + 1) + 1 : (y + 1) * (3 * width + 1)])
+        for i in range(3 * width):
+            a, b, c = (row[i - 3] if i >= 3 else 0), before[i], (before[i - 3] if i >= 3 else 0)
+            p = a + b - c
+            paeth = a if abs(p - a) <= abs(p - b) and abs(p - a) <= abs(p - c) else b if abs(p - b) <= abs(p - c) else c
+            row[i] = (row[i] + (0, a, b, (a + b) // 2, paeth)[kind]) & 255
+        rows.append([tuple(row[3 * x : 3 * x + 3]) for x in range(width)])
+        before = row
+    return rows
+
+
+@case("layers.are_shown_in_false_colour", tier="check")
+def shown(bench):
+    scratch(bench, "n.png", png(64, 64, bumps))
+    drawn = ("--size", "64x64", "--env-size", "32", "--env-samples", "16", "--msaa", "1", "-q")
+    looks = {}
+    for repeats in (1, 2, 4, 8):  # levels 0, 1, 2, 3, at the centres of texels
+        scratch(bench, "p.gltf", files.text(lone_plane(repeats)))
+        bench.run("render", "p.gltf", "--normal-map", "n.png", *drawn, "--show", "lod", "--aov", "lod", "-o", "p.png", "-o", "p.tif").expect(2).expect_one_line("--aov")
+        bench.run("render", "p.gltf", "--normal-map", "n.png", *drawn, "--show", "lod", "-o", "p.png").expect(0)
+        bench.run("render", "p.gltf", "--normal-map", "n.png", *drawn, "--aov", "lod", "-o", "p.exr").expect(0)
+        levels = {round(level, 3) for row in exr_channels(bench.folder / "p.exr")["lod"] for level in row}
+        check(levels == {{1: 0, 2: 1, 4: 2, 8: 3}[repeats]}, f"{repeats} times: levels {levels}")
+        looks[repeats] = {texel for row in texels_of(bench.folder / "p.png") for texel in row}
+        check(len(looks[repeats]) == 1, f"one level has {len(looks[repeats])} colours")
+    check(len(set.union(*looks.values())) == 4, f"levels have the same colours: {looks}")
+    # normals are those of the map; the lobe of a grain along x is wide to the right, turned by 90 degrees upwards, by 45 both ways
+    scratch(bench, "flat.png", png(4, 4, lambda x, y: (128 + 76, 128, 128 + 101)))
+    bench.run("render", "p.gltf", "--normal-map", "flat.png", *drawn, "--show", "normal", "-o", "n.out.png").expect(0)
+    found = texels_of(bench.folder / "n.out.png")[32][32]
+    check(all(abs(a - b) <= 2 for a, b in zip(found, (204, 128, 229))), f"a normal is shown as {found}")
+    axes = {}
+    for name, turn in (("right", 0.0), ("up", 1.5707963), ("between", 0.78539816)):
+        scratch(bench, "g.gltf", files.text(lone_plane(pbrMetallicRoughness={"roughnessFactor": 0.3}, extensions={
+            "KHR_materials_anisotropy": {"anisotropyStrength": 0.8, "anisotropyRotation": turn}})))
+        bench.run("render", "g.gltf", *drawn, "--show", "tensor", "-o", "g.png").expect(0)
+        axes[name] = texels_of(bench.folder / "g.png")[32][32]
+    check(axes["right"][0] > 1.5 * axes["right"][1] and axes["up"][1] > 1.5 * axes["up"][0], f"{axes}")
+    check(axes["right"][:2] == axes["up"][1::-1] and abs(axes["right"][2] - 128) <= 1 and axes["between"][2] > 200, f"{axes}")
+    check(abs(axes["between"][0] - axes["between"][1]) <= 1, f"{axes}")
+    # the picture's hash is of its light
+    light, false = (bench.figures("g.gltf", *drawn, *words)["pixel_hash"] for words in ((), ("--show", "tensor", "-o", "h.png")))
+    check(light == false, "--show changes the hash")
+    done = bench.run("render", "g.gltf", *drawn[:-1], "--show", "normal", "--exposure", "1", "-o", "w.png").expect(0)
+    check("--exposure has no effect with --show" in done.err, done.describe())
+    for code, needle, words in ((2, "nothing in g.gltf has a texture", ("--show", "lod", "-o", "x.png")), (2, "8 bits", ("--show", "normal", "-o", "x.exr")),
+                                (2, "8 bits", ("--show", "normal", "-o", "x.apng", "--turntable", "2")), (2, "--show", ("--show", "level", "-o", "x.png")),
+                                (2, "the reference has no layers", ("--show", "normal", "--backend", "reference", "-o", "x.png")),
+                                (2, "needs --pipeline ids", ("--show", "normal", "--backend", "vulkan", "--pipeline", "forward", "-o", "x.png"))):
+        bench.run("render", "g.gltf", *drawn, *words).expect(code).expect_one_line(needle)
+    check(not [name for name in bench.left_behind() if name.startswith("x.")], f"{bench.left_behind()}")
 
 
 @case("layers.that_cannot_be_are_refused", tier="check")

@@ -7,6 +7,8 @@ import signal
 import subprocess
 import time
 
+from compare_cases import png
+from detail_cases import bumps
 from harness import case, check
 
 SMALL = ("train", "mip", "--steps", "20")
@@ -46,12 +48,35 @@ def wrong(bench):
     for words, code, needle in (
             ((), 2, "-o"), (("-o", "w.mipnet", "--evaluate", "w.mipnet"), 2, "-o"), (("--evaluate", "no.mipnet"), 4, "no.mipnet"),
             (("--evaluate", "bad.mipnet"), 4, "bad.mipnet"), (("--evaluate", "bad.mipnet", "--steps", "5"), 2, "--steps"),
-            (("-o", "w.mipnet", "--maps", "."), 2, "--maps"), (("-o", "w.mipnet", "--brdf", "ward"), 2, "--brdf"),
-            (("-o", "w.mipnet", "--size", "3x3"), 2, "--size"), (("-o", "-"), 2, "-o"), (("-o", "no/w.mipnet"), 7, "no/w.mipnet"),
+            (("-o", "w.mipnet", "--maps", "."), 4, "no folder"), (("-o", "w.mipnet", "--maps", ".", "--only-maps", "."), 2, "--only-maps"), (("-o", "w.mipnet", "--brdf", "ward"), 2, "--brdf"),
+            *((("-o", "w.mipnet", "--size", size), 2, "--size") for size in ("0x3", "3", "2x32/", "2x32/2x64/2x8", "9x3", "2x32/2", "2x5000", "-1x4", "2x32 ")),
+            (("-o", "w.mipnet", "--loss", "l3"), 2, "--loss"), (("-o", "w.mipnet", "--levels", "6"), 2, "--levels"),
+            (("-o", "w.mipnet", "--from", "bad.mipnet"), 4, "bad.mipnet"), (("-o", "w.mipnet", "--from", "none"), 4, "none"),
+            (("-o", "w.mipnet", "--from", SHIPPED / "beckmann.mipnet"), 4, "beckmann"), (("-o", "w.mipnet", "--from", SHIPPED / "ggx_aniso.mipnet", "--size", "2x8"), 4, "2x32/2x64"), (("-o", "-"), 2, "-o"), (("-o", "no/w.mipnet"), 7, "no/w.mipnet"),
             (("-o", "t.mipnet"), 4, "t.mipnet.part"), (("-o", "w.mipnet", "--steps", "0"), 2, "--steps")):
         bench.run("train", "mip", *words).expect(code).expect_one_line(needle)
     bench.run("train", "map", "-o", "w.mipnet").expect(2).expect_one_line("map")
     check(bench.left_behind() == ["bad.mipnet", "t.mipnet.part"], f"left {bench.left_behind()}")
+
+
+@case("train.each_choice_makes_other_weights_and_says_how", tier="check")
+def choices(bench):
+    folder = bench.folder / "maps/waves"
+    folder.mkdir(parents=True)
+    (folder / "a_normal.png").write_bytes(png(64, 64, bumps))
+    made = {}
+    for words in ((), ("--loss", "l2"), ("--loss", "charbonnier"), ("--tone", "log"), ("--levels", "2"), ("--size", "2x16"), ("--maps", "maps"),
+                  ("--only-maps", "maps"), ("--from", SHIPPED / "ggx_aniso.mipnet")):
+        bench.run("train", "mip", "--steps", "4", *words, "-o", "w.mipnet", "-q").expect(0)
+        made[words] = (bench.folder / "w.mipnet").read_bytes()
+        said = json.loads(bench.run("info", "--json", "--weights", "w.mipnet").expect(0).out)["command"].split()
+        check(all(str(word) in said for word in words), f"{words}: {said}")
+        bench.run(*said[1:], "-o", "again.mipnet", "-q").expect(0)
+        check((bench.folder / "again.mipnet").read_bytes() == made[words], f"{words}: the command makes others")
+    check(len(set(made.values())) == len(made), "an option changes nothing")
+    # a net of four texels alone makes pyramids, too
+    (bench.folder / "w.mipnet").write_bytes(made["--size", "2x16"])
+    bench.run("bake", "mip", "maps/waves", "--mip-filter", "mipnet", "--mip-net", "w.mipnet", "-q", "-o", "a.mip").expect(0)
 
 
 @case("train.shipped_weights_say_what_they_are", tier="check")

@@ -19,6 +19,7 @@ constexpr Maker<Scene> kScenes[] = {
     {{"glass", "balls and a ring of glass on a turned steel disc, for --technique mc and the reference"}, make_glass},
     {{"bumps", "a hammered sphere, a turned disc, a record and tiles: surfaces whose look is in their maps"}, make_bumps},
     {{"lacquer", "a carbon weave, car paint and brushed steel under clear coats, on satin plastic"}, make_lacquer},
+    {{"shaderballs", "twelve balls whose look is in their maps, near, far and grazing: for --mip-filter and --camera"}, make_shaderballs},
 };
 constexpr Maker<Image> kEnvironments[] = {
     {{"studio", "a dim studio with soft boxes and strips"}, make_studio},

@@ -12,7 +12,7 @@ struct BuiltinInfo {
     const char* name; // without "builtin:"
     const char* summary;
 };
-const std::vector<BuiltinInfo>& builtin_scenes();       // teapot, spheres, sphere, plate, lights, glass, bumps, lacquer
+const std::vector<BuiltinInfo>& builtin_scenes();       // teapot, spheres, sphere, plate, lights, glass, bumps, lacquer, shaderballs
 const std::vector<BuiltinInfo>& builtin_environments(); // studio, sky, night
 
 Result<Scene> make_builtin_scene(const std::string& name);

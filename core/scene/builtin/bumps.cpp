@@ -15,14 +15,6 @@ constexpr double kTwoPi = 6.283185307179586;
 constexpr double kHalfSide = 0.45, kApart = 0.52; // metres: of all four, and from the middle of the scene
 constexpr double kBackwards = -0.35;              // radians about +X: backwards
 
-double noise(int x, int y, std::uint32_t salt) // [0,1)
-{
-    std::uint32_t h = static_cast<std::uint32_t>(x) * 0x9e3779b1u ^ static_cast<std::uint32_t>(y) * 0x85ebca6bu ^ salt;
-    h = (h ^ h >> 15) * 0x2c1b3c6du;
-    h = (h ^ h >> 12) * 0x297a2d39u;
-    return (h ^ h >> 15) / 4294967296.0;
-}
-
 // Dents like bowls about jittered points of a grid, which meet in ridges.
 glm::dvec3 hammered(double u, double v)
 {

@@ -90,17 +90,6 @@ void add_lacquered(Scene& scene, const Material& material, const glm::vec3& at, 
     add_node(scene, material.name.c_str(), add_mesh(scene, material.name.c_str(), first), local);
 }
 
-// What shines along -Z, or looks there, from `eye` at `target`.
-Node looking(const char* name, const glm::vec3& eye, const glm::vec3& target)
-{
-    const glm::vec3 back = glm::normalize(eye - target), right = glm::normalize(glm::cross(glm::vec3(0.0f, 1.0f, 0.0f), back));
-    Node node;
-    node.name = name;
-    node.local = node.world =
-        glm::mat4(glm::vec4(right, 0.0f), glm::vec4(glm::cross(back, right), 0.0f), glm::vec4(back, 0.0f), glm::vec4(eye, 1.0f));
-    return node;
-}
-
 } // namespace
 
 Scene make_lacquer()

@@ -125,4 +125,22 @@ glm::dvec3 normal_colour(const glm::dvec2& slope)
     return glm::dvec3(0.5) + 0.5 * glm::dvec3(-slope.x, -slope.y, 1.0) / length;
 }
 
+Node looking(const char* name, const glm::vec3& eye, const glm::vec3& target)
+{
+    const glm::vec3 back = glm::normalize(eye - target), right = glm::normalize(glm::cross(glm::vec3(0.0f, 1.0f, 0.0f), back));
+    Node node;
+    node.name = name;
+    node.local = node.world =
+        glm::mat4(glm::vec4(right, 0.0f), glm::vec4(glm::cross(back, right), 0.0f), glm::vec4(back, 0.0f), glm::vec4(eye, 1.0f));
+    return node;
+}
+
+double noise(int x, int y, std::uint32_t salt)
+{
+    std::uint32_t h = static_cast<std::uint32_t>(x) * 0x9e3779b1u ^ static_cast<std::uint32_t>(y) * 0x85ebca6bu ^ salt;
+    h = (h ^ h >> 15) * 0x2c1b3c6du;
+    h = (h ^ h >> 12) * 0x297a2d39u;
+    return (h ^ h >> 15) / 4294967296.0;
+}
+
 } // namespace burnish

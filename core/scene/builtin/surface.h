@@ -36,6 +36,11 @@ Material brushed_metal(double alpha_lin, double eta, const glm::vec3& colour);
 std::int32_t add_mesh(Scene& scene, const char* name, std::uint32_t first_primitive);
 void add_node(Scene& scene, const char* name, std::int32_t mesh, const glm::mat4& local);
 
+// What shines along -Z, or looks there, from `eye` at `target`, not along +Y.
+Node looking(const char* name, const glm::vec3& eye, const glm::vec3& target);
+
+double noise(int x, int y, std::uint32_t salt); // [0,1): without a pattern, the same everywhere
+
 // Texels by their centre, u to the right and v down, [0,1].
 Image map_of(int width, int height, const std::function<glm::dvec3(double u, double v)>& colour);
 // As a normal map has the slopes along tangent and bitangent.
@@ -69,6 +74,7 @@ Scene make_lights();
 Scene make_glass();
 Scene make_bumps();
 Scene make_lacquer();
+Scene make_shaderballs();
 Image make_studio();
 Image make_sky();
 Image make_night();

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 
 #include "core/base/check.h"
@@ -374,20 +375,58 @@ std::vector<MipLevel> make_mean_levels(const MipRows& level0, MipFilter filter, 
     return made;
 }
 
+namespace {
+
+// Rows of level 0, hashed where they are first read: what levels are made of is not decoded again for its hash.
+class HashedRows {
+  public:
+    explicit HashedRows(const MipSource& source) : source_(source), hashes_(static_cast<std::size_t>(source.height())) {}
+
+    MipRows rows()
+    {
+        return {source_.width(), source_.height(), [this](int y, MipPoint* to) {
+                    source_.row(y, to);
+                    std::atomic<std::uint64_t>& hash = hashes_[static_cast<std::size_t>(y)];
+                    if (hash.load(std::memory_order_relaxed) == 0)
+                        hash.store(MipSource::hash_of_row(to, source_.width()), std::memory_order_relaxed);
+                }};
+    }
+
+    std::uint64_t hash()
+    {
+        std::vector<MipPoint> points(static_cast<std::size_t>(source_.width()));
+        std::vector<std::uint64_t> all;
+        for (int y = 0; y < source_.height(); ++y) {
+            const std::atomic<std::uint64_t>& hash = hashes_[static_cast<std::size_t>(y)];
+            if (hash.load(std::memory_order_relaxed) == 0) // no level was made of it
+                rows().row(y, points.data());
+            all.push_back(hash.load(std::memory_order_relaxed));
+        }
+        return source_.hash_of_rows(all);
+    }
+
+  private:
+    const MipSource& source_;
+    std::vector<std::atomic<std::uint64_t>> hashes_;
+};
+
+} // namespace
+
 MipLevels make_mip_levels(const MipSource& source, MipFilter filter, float kappa, const Jobs& jobs, const MipHelp& help)
 {
     BN_CHECK(makes_lobes(filter));
     MipLevels made;
     made.filter = filter, made.kappa = takes_kappa(filter) ? kappa : 0.0f;
     made.width = source.width(), made.height = source.height();
-    made.source = source.hash(jobs);
+    HashedRows level0(source);
     const mipnet::Weights& net = help.net ? *help.net : *mipnet::shipped_weights(mipnet::Lobe::ggx_aniso);
     if (filter == kMipFilter_mipnet)
-        put_net_levels(source, net, jobs, made);
+        put_net_levels(level0.rows(), net, jobs, made);
     else if (filter == kMipFilter_teacher)
-        put_taught_levels(source, net, help, jobs, made);
+        put_taught_levels(level0.rows(), net, help, jobs, made);
     else
-        made.levels = make_mean_levels(rows_of(source), filter, made.kappa, jobs);
+        made.levels = make_mean_levels(level0.rows(), filter, made.kappa, jobs);
+    made.source = level0.hash();
     return made;
 }
 

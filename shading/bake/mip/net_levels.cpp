@@ -53,23 +53,23 @@ std::uint64_t levels_hash(const mipnet::Weights& net, MipFilter filter, bool met
     return filter == kMipFilter_teacher ? (hash & ~std::uint64_t{1}) | (metal ? 1u : 0u) : hash;
 }
 
-void put_net_levels(const MipSource& source, const mipnet::Weights& net, const Jobs& jobs, MipLevels& to)
+void put_net_levels(const MipRows& level0, const mipnet::Weights& net, const Jobs& jobs, MipLevels& to)
 {
     to.net = levels_hash(net, kMipFilter_mipnet, false);
-    put_levels(mipnet::net_levels(bands_of(rows_of(source)), net, jobs), to);
+    put_levels(mipnet::net_levels(bands_of(level0), net, jobs), to);
 }
 
-void put_taught_levels(const MipSource& source, const mipnet::Weights& net, const MipHelp& help, const Jobs& jobs, MipLevels& to)
+void put_taught_levels(const MipRows& level0_rows, const mipnet::Weights& net, const MipHelp& help, const Jobs& jobs, MipLevels& to)
 {
-    const mipnet::TexelRows rows = bands_of(rows_of(source));
-    mipnet::Texels level0 = mipnet::make_texels(source.width(), source.height());
-    rows.rows(0, source.height(), level0);
+    const mipnet::TexelRows rows = bands_of(level0_rows);
+    mipnet::Texels level0 = mipnet::make_texels(level0_rows.width, level0_rows.height);
+    rows.rows(0, level0_rows.height, level0);
     mipnet::make_valid(level0);
     std::vector<std::vector<mipnet::Texels>> starts = {mipnet::net_levels(rows, net, jobs)};
     starts[0].resize(std::min(starts[0].size(), static_cast<std::size_t>(kMaxTextureLevels - 1)));
     for (const MipFilter filter : {kMipFilter_baseline, kMipFilter_kappa, kMipFilter_leadr, kMipFilter_ssgt}) {
         starts.emplace_back();
-        for (const MipLevel& level : make_mean_levels(rows_of(source), filter, to.kappa, jobs))
+        for (const MipLevel& level : make_mean_levels(level0_rows, filter, to.kappa, jobs))
             starts.back().push_back(shown_texels(level));
     }
     to.net = levels_hash(net, kMipFilter_teacher, help.metal);

@@ -117,6 +117,14 @@ void add_difference(const Numbers& found, const Numbers& wanted, std::size_t cou
     to.l1 += l1 / static_cast<double>(count) / times, to.mse += mse / static_cast<double>(count) / times;
 }
 
+double sum_of(const Numbers& radiance, std::size_t count)
+{
+    double sum = 0.0;
+    for (std::size_t i = 0; i < count; ++i)
+        sum += static_cast<double>(radiance[i]);
+    return sum;
+}
+
 Image shown_square(const Numbers& radiance, int side)
 {
     Image image = make_image(side, side, 3, PixelType::f32);
@@ -176,6 +184,7 @@ std::vector<std::vector<ShownError>> shown_errors(const Texels& level0, const st
     BN_CHECK(level0.width == level0.height && level0.width % (pairs.tiles << levels) == 0 && pairs.lamps <= kShownLamps);
     std::vector<std::vector<ShownError>> errors(filters.size(), std::vector<ShownError>(static_cast<std::size_t>(levels)));
     const Numbers planes0 = planes_of(level0);
+    std::vector<double> light_of_truth(static_cast<std::size_t>(levels), 0.0);
     std::vector<std::vector<Numbers>> planes(filters.size());
     for (std::size_t f = 0; f < filters.size(); ++f)
         for (const Texels& level : filters[f])
@@ -195,16 +204,22 @@ std::vector<std::vector<ShownError>> shown_errors(const Texels& level0, const st
                 break;
             const ShownLight d = light(side);
             const Numbers wanted = pair ? displayed(truth) : Numbers();
+            const std::size_t texels = static_cast<std::size_t>(side) * static_cast<std::size_t>(side);
+            if (pair)
+                light_of_truth[static_cast<std::size_t>(l) - 1] += sum_of(truth, texels);
             jobs.parallel_for(filters.size(), [&](std::size_t f, int) {
                 ShownError& to = errors[f][static_cast<std::size_t>(l) - 1];
                 const Numbers found = radiance_of(surface, planes[f][static_cast<std::size_t>(l) - 1], d);
                 if (pair)
-                    add_difference(displayed(found), wanted, filters[f][static_cast<std::size_t>(l) - 1].count(), pairs.times, to);
+                    add_difference(displayed(found), wanted, texels, pairs.times, to), to.light += sum_of(found, texels);
                 else
                     to.flip += mean_flip(shown_square(truth, side), shown_square(found, side), Jobs(1)) / pairs.lamps;
             });
         }
     }
+    for (std::vector<ShownError>& of : errors)
+        for (std::size_t l = 0; l < of.size(); ++l)
+            of[l].light /= light_of_truth[l];
     return errors;
 }
 

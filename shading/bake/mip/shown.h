@@ -20,6 +20,7 @@ ShownSurface shown_surface(mipnet::Lobe lobe, bool metal); // f0 .85, or .04 ove
 struct ShownError {
     double flip = 0.0;          // mean LDR-FLIP of x / (1 + x), over lamps with their eyes; 0 of smaller squares
     double l1 = 0.0, mse = 0.0; // of x / (1 + x) encoded as sRGB, over pairs of directions to light and eye
+    double light = 0.0;         // mean radiance over these pairs, as a multiple of the truth's
 };
 
 // What levels are looked at under. Pairs are numbered, each a light from anywhere above and an eye weighted by its cosine; the n-th is the

@@ -136,13 +136,23 @@ void MipSource::put(int first, int y, int count, MipPoint* to) const
 
 std::uint64_t MipSource::hash(const Jobs& jobs) const
 {
-    static_assert(sizeof(MipPoint) == 6 * sizeof(float));
     std::vector<std::uint64_t> rows(static_cast<std::size_t>(grid_.height));
     jobs.parallel_for(rows.size(), [&](std::size_t y, int) {
         std::vector<MipPoint> points(static_cast<std::size_t>(grid_.width));
         row(static_cast<int>(y), points.data());
-        rows[y] = hash_bytes(points.data(), points.size() * sizeof(MipPoint));
+        rows[y] = hash_of_row(points.data(), grid_.width);
     });
+    return hash_of_rows(rows);
+}
+
+std::uint64_t MipSource::hash_of_row(const MipPoint* points, int count)
+{
+    static_assert(sizeof(MipPoint) == 6 * sizeof(float));
+    return hash_bytes(points, static_cast<std::size_t>(count) * sizeof(MipPoint));
+}
+
+std::uint64_t MipSource::hash_of_rows(const std::vector<std::uint64_t>& rows) const
+{
     const std::int32_t size[2] = {grid_.width, grid_.height};
     return hash_bytes(rows.data(), rows.size() * sizeof rows[0], hash_bytes(size, sizeof size));
 }

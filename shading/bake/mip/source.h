@@ -1,6 +1,7 @@
 // What a material's maps say of its normals and lobes, texel by texel, on one grid: level 0 of what mip filters make levels of.
 #pragma once
 #include <cstdint>
+#include <vector>
 
 #include "core/image/image.h"
 #include "core/jobs/jobs.h"
@@ -37,6 +38,9 @@ class MipSource {
     void row(int y, MipPoint* to) const; // width() points
     MipPoint at(int x, int y) const;
     std::uint64_t hash(const Jobs& jobs) const; // of size and every point
+    // The same of the rows' hashes, of a row as row() writes it.
+    std::uint64_t hash_of_rows(const std::vector<std::uint64_t>& rows) const;
+    static std::uint64_t hash_of_row(const MipPoint* points, int count);
 
   private:
     void put(int first, int y, int count, MipPoint* to) const; // of a row

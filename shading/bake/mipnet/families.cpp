@@ -369,16 +369,29 @@ Material make_material(const Family& family, std::uint64_t seed, int side)
 TrainingSet make_training_set(int seeds, int side, const Jobs& jobs)
 {
     TrainingSet set;
-    set.materials = made(wanted(0, 0, seeds), side, jobs);
-    for (const Material& m : set.materials)
-        for (const std::vector<float>& channel : m.texels.channel)
-            set.hash = hash_bytes(channel.data(), channel.size() * sizeof(float), set.hash);
+    for (const Material& m : made(wanted(0, 0, seeds), side, jobs))
+        add_material(set, m);
     return set;
+}
+
+void add_material(TrainingSet& set, const Material& m)
+{
+    for (const std::vector<float>& channel : m.texels.channel)
+        set.hash = hash_bytes(channel.data(), channel.size() * sizeof(float), set.hash);
+    set.materials.push_back(m);
 }
 
 std::vector<TestMaterial> make_test_set(const Jobs& jobs)
 {
     return judged(wanted(kTestSeeds, 5, 2), jobs);
+}
+
+std::vector<TestMaterial> make_trained_set(const Jobs& jobs)
+{
+    std::vector<TestMaterial> set;
+    for (Material& m : made(wanted(0, 0, 2), kTrainedSide, jobs))
+        set.push_back({std::move(m), "trained"});
+    return set;
 }
 
 std::vector<TestMaterial> make_validation_set(const Jobs& jobs)

@@ -29,13 +29,16 @@ struct TrainingSet {
     std::vector<Material> materials;
     std::uint64_t hash = 0; // of all of it
 };
+inline constexpr int kTrainedSide = 128; // texels, of materials that shipped nets are trained on
 TrainingSet make_training_set(int seeds, int side, const Jobs& jobs);
+void add_material(TrainingSet& set, const Material& material);
 
 struct TestMaterial {
     Material material;
-    std::string set; // "held-out", "new seeds"
+    std::string set; // "held-out", "new seeds", "trained"
 };
 std::vector<TestMaterial> make_test_set(const Jobs& jobs);
+std::vector<TestMaterial> make_trained_set(const Jobs& jobs); // two of every trained family that nets are trained on
 std::vector<TestMaterial>
 make_validation_set(const Jobs& jobs); // what may be looked at while anything is chosen: trained families, other seeds
 

@@ -141,7 +141,7 @@ void forward(const net::ForwardWork& work)
     const ForwardMemory m = forward_memory(pool, plan, work.texels);
     const auto* weights = static_cast<const number*>(work.weights);
     auto* out = static_cast<number*>(work.out);
-    const bool all = work.grandchildren != nullptr;
+    const bool all = work.grandchildren != nullptr && plan.b.count > 0;
     Sources s = {static_cast<const number*>(work.children), static_cast<const number*>(work.grandchildren), nullptr, work.texels};
     for (std::size_t block = 0; block < blocks_of(s.n); ++block) {
         s.first = nullptr;
@@ -178,7 +178,7 @@ StepMemory step_memory(Pool& pool, const Plan& plan, int pair_count)
             continue;
         level.x = pool.take<number>(kPlanes * n), level.adjoint = pool.take<number>(kPlanes * n);
         level.a = net_memory(pool, plan.a, blocks_of(n));
-        if (k >= 2) {
+        if (k >= 2 && plan.b.count > 0) {
             level.first = pool.take<number>(kPlanes * n), level.first_adjoint = pool.take<number>(kPlanes * n);
             level.b = net_memory(pool, plan.b, blocks_of(n));
         }
@@ -233,7 +233,25 @@ template <int lobe> __attribute__((noinline)) void make_truth(const net::StepWor
     }
 }
 
-// Mean absolute difference of what is shown, and how it changes with the level's texels.
+struct penalty {
+    real value, slope;
+};
+BN_FN penalty penalty_of(net::Loss kind, real e)
+{
+    if (kind == net::Loss::l2)
+        return {e * e, e + e};
+    if (kind == net::Loss::charbonnier) {
+        const real root = sqrt(e * e + lit(1e-4));
+        return {root, e / root};
+    }
+    return {max(e, -e), select(e > lit(0.0), lit(1.0), select(e < lit(0.0), lit(-1.0), lit(0.0)))};
+}
+BN_FN tone_pair shown_as(net::Tone kind, real x)
+{
+    return kind == net::Tone::log ? tone_pair{log1p_of(x), lit(1.0) / (x + lit(1.0))} : tone(x);
+}
+
+// Mean penalty of what is shown, and how it changes with the level's texels.
 template <int lobe> __attribute__((noinline)) void make_loss(const net::StepWork& work, StepMemory& m, int k)
 {
     Level& level = m.level[k];
@@ -252,10 +270,10 @@ template <int lobe> __attribute__((noinline)) void make_loss(const net::StepWork
         real sum = zero, adjoint[kPlanes] = {zero, zero, zero, zero, zero};
         for (std::size_t p = 0; p < pairs; ++p) {
             const dual r = radiance<lobe>(place, m.lights[p * kVectorsOfSlots + slot]);
-            const tone_pair shown = tone(r.v);
-            const real e = shown.shown - tone(get(m.truth[k] + p * n + i)).shown;
-            sum += max(e, -e);
-            const real by = select(e > zero, shown.slope, select(e < zero, -shown.slope, zero));
+            const tone_pair shown = shown_as(work.tone, r.v);
+            const penalty off = penalty_of(work.kind, shown.shown - shown_as(work.tone, get(m.truth[k] + p * n + i)).shown);
+            sum += off.value;
+            const real by = off.slope * shown.slope;
             adjoint[0] += by * r.d0, adjoint[1] += by * r.d1, adjoint[2] += by * r.d2, adjoint[3] += by * r.d3, adjoint[4] += by * r.d4;
         }
         for (std::size_t c = 0; c < kPlanes; ++c)
@@ -384,11 +402,12 @@ template <int lobe> void step_of(const net::StepWork& work)
         const auto planes = [&](int level) { return level == 0 ? texels : m.level[level].x; };
         return Sources{planes(k - 1), all ? planes(k - 2) : nullptr, all ? m.level[k].first : nullptr, m.level[k].n};
     };
+    const auto has_b = [&](int k) { return k >= 2 && plan.b.count > 0; };
     for (int k = 1; k <= net::kTrainedLevels; ++k) {
         const Level& level = m.level[k];
         for (std::size_t b = 0; b < blocks_of(level.n); ++b)
-            forward_block(plan, weights, plan.a, sources(k, false), b, b, level.a, k >= 2 ? level.first : level.x);
-        for (std::size_t b = 0; k >= 2 && b < blocks_of(level.n); ++b)
+            forward_block(plan, weights, plan.a, sources(k, false), b, b, level.a, has_b(k) ? level.first : level.x);
+        for (std::size_t b = 0; has_b(k) && b < blocks_of(level.n); ++b)
             forward_block(plan, weights, plan.b, sources(k, true), b, b, level.b, level.x);
     }
     for (std::size_t i = 0; i < net::kTrainedLevels * kSlotCount; ++i)
@@ -397,9 +416,9 @@ template <int lobe> void step_of(const net::StepWork& work)
         make_loss<lobe>(work, m, k);
     for (int k = net::kTrainedLevels; k >= 1; --k) {
         const Level& level = m.level[k];
-        number *const children = m.level[k - 1].adjoint, *const grandchildren = k >= 2 ? m.level[k - 2].adjoint : nullptr;
+        number *const children = m.level[k - 1].adjoint, *const grandchildren = has_b(k) ? m.level[k - 2].adjoint : nullptr;
         const number* adjoint = level.adjoint;
-        if (k >= 2) {
+        if (has_b(k)) {
             for (std::size_t i = 0; i < kPlanes * level.n; ++i)
                 level.first_adjoint[i] = 0;
             backward_outputs(work, m, plan.b, level.b, sources(k, true), adjoint);

@@ -14,6 +14,8 @@ namespace burnish::mipnet {
 
 enum class Lobe : std::uint32_t { ggx_aniso, beckmann, ashikhmin_shirley };
 enum class Layout : std::uint32_t { paper, cov };
+enum class Loss : std::uint32_t { l1, l2, charbonnier }; // of differences e of what is shown: |e|, e^2, sqrt(e^2 + .01^2)
+enum class Tone : std::uint32_t { display, log };        // what is shown of radiance x: x / (1 + x) encoded as sRGB, or log(1 + x)
 
 inline constexpr int kChannels = 5, kMostLayers = 8, kSlots = 16;
 inline constexpr int kTrainedLevels = 5, kTileSide = 32, kTiles = kSlots; // of a shard: 16 tiles of 32 x 32, the lane says which
@@ -28,7 +30,7 @@ struct Dense { // layers of a net; width[0] inputs, width[count] outputs
 struct Plan { // which numbers are what
     Lobe lobe = Lobe::ggx_aniso;
     Layout layout = Layout::cov;
-    Dense a, b; // of four texels; of sixteen, those four, and what `a` makes of them
+    Dense a, b; // of four texels; of sixteen, those four, and what `a` makes of them. b.count 0: `a` speaks alone
     std::size_t kappa = 0, count = 0;
 };
 
@@ -54,6 +56,8 @@ struct StepWork { // one shard of a step of training: loss and its gradient
     void* gradient;             // [plan->count][kSlots], added to
     void* loss;                 // [kTrainedLevels][kSlots], written
     void* memory;               // step_bytes(), at a cache line
+    Loss kind = Loss::l1;
+    Tone tone = Tone::display;
 };
 
 struct RadianceWork { // reflected radiance of texels

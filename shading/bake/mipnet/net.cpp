@@ -1,6 +1,8 @@
 #include "shading/bake/mipnet/net.h"
 
+#include <charconv>
 #include <cmath>
+#include <fmt/format.h>
 
 #include "core/base/check.h"
 
@@ -34,7 +36,8 @@ Plan plan_of(const Shape& shape)
     Plan plan;
     plan.lobe = shape.lobe, plan.layout = shape.layout;
     plan.a = layers_of(inputs[0], shape.a, plan.count);
-    plan.b = layers_of(inputs[1], shape.b, plan.count);
+    if (shape.b.layers > 0)
+        plan.b = layers_of(inputs[1], shape.b, plan.count);
     plan.kappa = plan.count;
     plan.count += 2;
     return plan;
@@ -48,6 +51,35 @@ const char* lobe_name(Lobe lobe)
 const char* layout_name(Layout layout)
 {
     return layout == Layout::cov ? "cov" : "paper";
+}
+
+std::string size_name(const Shape& s)
+{
+    const std::string a = fmt::format("{}x{}", s.a.layers, s.a.width);
+    return s.b.layers == 0 ? a : a + fmt::format("/{}x{}", s.b.layers, s.b.width);
+}
+
+bool read_size(const std::string& name, Shape& to)
+{
+    Hidden read[2] = {{}, {0, 0}};
+    const char *at = name.data(), *const end = at + name.size();
+    for (int net = 0; net < 2; ++net) {
+        int* const numbers[] = {&read[net].layers, &read[net].width};
+        for (int i = 0; i < 2; ++i) {
+            const std::from_chars_result found = std::from_chars(at, end, *numbers[i]);
+            if (found.ec != std::errc() || *numbers[i] < 1 || *numbers[i] > (i == 0 ? kMostHidden : kMostWidth))
+                return false;
+            at = found.ptr;
+            if (i == 0 && (at == end || *at++ != 'x'))
+                return false;
+        }
+        if (at == end)
+            break;
+        if (net == 1 || *at++ != '/')
+            return false;
+    }
+    to.a = read[0], to.b = read[1];
+    return true;
 }
 
 std::vector<float> start_weights(const Plan& plan, std::uint64_t seed)

@@ -1,6 +1,7 @@
 // The two nets of a cascade as one list of numbers. H_A makes a texel of four, H_B of sixteen, four and what H_A made of the four.
 #pragma once
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "shading/bake/mipnet/mipnet_fns.h"
@@ -11,7 +12,7 @@ struct Hidden { // layers of hidden units, all of one width
     int layers = 2, width = 32;
     bool operator==(const Hidden&) const = default;
 };
-struct Shape {
+struct Shape { // b.layers 0: there is no H_B, and H_A makes every level
     Lobe lobe = Lobe::ggx_aniso;
     Layout layout = Layout::cov;
     Hidden a = {2, 32}, b = {2, 64};
@@ -23,6 +24,8 @@ Plan plan_of(const Shape& shape);
 
 const char* lobe_name(Lobe lobe); // as the registry of models has it
 const char* layout_name(Layout layout);
+std::string size_name(const Shape& shape); // "2x32/2x64", hidden layers x units of H_A and H_B; "2x32" without H_B
+bool read_size(const std::string& name, Shape& to);
 
 // Hidden layers evenly within 1 / sqrt(inputs) of 0, output layers 0, so that a net begins at what its outputs are added to.
 std::vector<float> start_weights(const Plan& plan, std::uint64_t seed);

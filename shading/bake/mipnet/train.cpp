@@ -1,11 +1,13 @@
 #include "shading/bake/mipnet/train.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <filesystem>
 #include <fmt/format.h>
 
 #include "core/base/bytes.h"
+#include "core/base/check.h"
 #include "core/base/clock.h"
 #include "core/base/file.h"
 #include "core/base/hash.h"
@@ -28,7 +30,9 @@ struct Trained { // everything that the work has so far
 
 std::uint64_t training_key(const TrainOptions& o, const TrainingSet& set)
 {
-    const std::string words = fmt::format("{} {} {} {} {} {:x}", train_command(o), o.shards, o.pairs, o.seeds, o.side, set.hash);
+    std::string words = fmt::format("{} {} {} {} {} {:x}", train_command(o), o.shards, o.pairs, o.seeds, o.side, set.hash);
+    if (o.from)
+        words += fmt::format(" {:x}", net_hash(*o.from));
     return hash_bytes(words.data(), words.size());
 }
 
@@ -120,23 +124,44 @@ void adam(const TrainOptions& o, const std::vector<double>& gradient, Trained& t
     }
 }
 
+TrainingSet training_set(const TrainOptions& o, const Jobs& jobs)
+{
+    TrainingSet set;
+    if (!o.only_maps)
+        set = make_training_set(o.seeds, o.side, jobs);
+    for (const Material& m : o.maps)
+        add_material(set, m);
+    return set;
+}
+
 } // namespace
 
 std::string train_command(const TrainOptions& o)
 {
-    const Hidden &a = o.shape.a, &b = o.shape.b;
-    return fmt::format("burnish train mip --brdf {} --layout {} --size {}x{}/{}x{} --steps {} --seed {}", lobe_name(o.shape.lobe),
-                       layout_name(o.shape.layout), a.layers, a.width, b.layers, b.width, o.steps, o.seed);
+    std::string words = fmt::format("burnish train mip --brdf {} --layout {} --size {} --steps {} --seed {}", lobe_name(o.shape.lobe),
+                                    layout_name(o.shape.layout), size_name(o.shape), o.steps, o.seed);
+    if (o.loss != Loss::l1)
+        words += o.loss == Loss::l2 ? " --loss l2" : " --loss charbonnier";
+    if (o.tone != Tone::display)
+        words += " --tone log";
+    if (o.levels != kTrainedLevels)
+        words += fmt::format(" --levels {}", o.levels);
+    if (!o.maps.empty())
+        words += fmt::format(" {} {}", o.only_maps ? "--only-maps" : "--maps", o.maps_name);
+    if (o.from)
+        words += fmt::format(" --from {}", o.from_name);
+    return words;
 }
 
 Result<std::optional<Weights>> train(const TrainOptions& options, const Jobs& jobs)
 {
     const Fns& fns = pick<Fns>(options.isa);
     const Plan plan = plan_of(options.shape);
-    const TrainingSet set = make_training_set(options.seeds, options.side, jobs);
+    const TrainingSet set = training_set(options, jobs);
     const std::uint64_t key = training_key(options, set);
     Trained t;
-    t.numbers = start_weights(plan, options.seed);
+    t.numbers = options.from ? options.from->numbers : start_weights(plan, options.seed);
+    BN_CHECK(t.numbers.size() == plan.count && options.levels >= 1 && options.levels <= kTrainedLevels);
     t.mean = t.numbers;
     t.first.assign(plan.count, 0.0f), t.second.assign(plan.count, 0.0f);
     if (const Status resumed = go_on_training(options, key, t); !resumed)
@@ -146,9 +171,8 @@ Result<std::optional<Weights>> train(const TrainOptions& options, const Jobs& jo
         shard.loss.resize(kTrainedLevels * kSlots);
         shard.memory.resize(fns.step_bytes(plan, options.pairs));
     }
-    double level_weight[kTrainedLevels];
-    for (double& weight : level_weight)
-        weight = 1.0 / kTrainedLevels;
+    double level_weight[kTrainedLevels] = {};
+    std::fill_n(level_weight, options.levels, 1.0 / options.levels);
     std::vector<double> gradient(plan.count);
     double kept_ms = wall_ms();
     while (t.step < static_cast<std::uint64_t>(options.steps)) {
@@ -159,7 +183,7 @@ Result<std::optional<Weights>> train(const TrainOptions& options, const Jobs& jo
             const Batch batch = make_batch(set, hash_bytes(words, sizeof words), options.pairs);
             shard.gradient.assign(plan.count * kSlots, 0.0f);
             fns.step({&plan, t.numbers.data(), turned.data(), batch.texels.data(), batch.tiles.data(), batch.pairs.data(), options.pairs,
-                      level_weight, shard.gradient.data(), shard.loss.data(), shard.memory.data()});
+                      level_weight, shard.gradient.data(), shard.loss.data(), shard.memory.data(), options.loss, options.tone});
         });
         double loss = 0.0;
         for (std::size_t i = 0; i < plan.count; ++i) {
@@ -185,7 +209,7 @@ Result<std::optional<Weights>> train(const TrainOptions& options, const Jobs& jo
     }
     Weights w;
     w.shape = options.shape, w.seed = options.seed, w.steps = t.step, w.data = set.hash;
-    w.families = trained_families(), w.command = train_command(options);
+    w.families = options.only_maps ? std::string() : trained_families(), w.command = train_command(options);
     w.numbers = t.mean;
     for (float& number : w.numbers)
         number = half_to_float(float_to_half(number));

@@ -3,6 +3,7 @@
 #pragma once
 #include <atomic>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -17,10 +18,18 @@ struct TrainOptions {
     Shape shape;
     std::uint64_t seed = 1;
     int steps = 3000;
-    int shards = 2;             // of a step, 16 tiles each; what threads share
-    int pairs = 32;             // of directions, a tile and step
-    int seeds = 24, side = 128; // of the training set: materials a family, texels
+    int shards = 2;                      // of a step, 16 tiles each; what threads share
+    int pairs = 32;                      // of directions, a tile and step
+    int seeds = 24, side = kTrainedSide; // of the training set: materials a family, texels
     double rate = 2e-3;
+    Loss loss = Loss::l1;
+    Tone tone = Tone::display;
+    int levels = kTrainedLevels;                          // the loss looks at the first ones: 2 see H_B once, 5 four times
+    std::vector<Material> maps;                           // trained on, too; squares
+    bool only_maps = false;                               // and on nothing else
+    std::string maps_name;                                // of their folder, for the command
+    std::shared_ptr<const Weights> from;                  // what training begins at, of the same shape; null: anything
+    std::string from_name;                                // of its file
     std::string checkpoint;                               // a file to go on from and to keep up to date; empty: none
     double checkpoint_seconds = 15;                       // between two of them
     const std::atomic<bool>* stop = nullptr;              // set by another thread or a signal: end soon, with everything in the checkpoint

@@ -81,10 +81,11 @@ Result<Weights> parse_weights(const std::uint8_t* data, std::size_t bytes, const
         return refuse(16, fmt::format("has layout {}, which is neither 0 nor 1", h.layout));
     if (h.channels != kChannels)
         return refuse(20, fmt::format("has {} channels, which must be {}", h.channels, kChannels));
-    for (const std::uint32_t layers : {h.layers_a, h.layers_b})
+    const bool alone = h.layers_b == 0 && h.width_b == 0; // H_A
+    for (const std::uint32_t layers : {h.layers_a, alone ? 1 : h.layers_b})
         if (layers < 1 || layers > kMostHidden)
             return refuse(24, fmt::format("has {} hidden layers, which must be 1 to {}", layers, kMostHidden));
-    for (const std::uint32_t width : {h.width_a, h.width_b})
+    for (const std::uint32_t width : {h.width_a, alone ? 1 : h.width_b})
         if (width < 1 || width > kMostWidth)
             return refuse(28, fmt::format("has hidden layers of {} units, which must be 1 to {}", width, kMostWidth));
     if (!(h.leak == kLeak) || h.zero != 0)

@@ -95,6 +95,8 @@ struct Work {
     std::vector<std::byte, LineAllocator<std::byte>> memory;
     int pair_count;
     double level_weight[kTrainedLevels] = {0.2, 0.2, 0.2, 0.2, 0.2};
+    Loss kind = Loss::l1;
+    Tone tone = Tone::display;
 
     double run()
     {
@@ -103,7 +105,7 @@ struct Work {
         memory.resize(fns.step_bytes(plan, pair_count));
         const std::vector<double> turned = turned_weights(plan, weights);
         fns.step({&plan, weights.data(), turned.data(), texels.data(), tiles.data(), pairs.data(), pair_count, level_weight,
-                  gradient.data(), loss.data(), memory.data()});
+                  gradient.data(), loss.data(), memory.data(), kind, tone});
         double sum = 0.0;
         for (const double l : loss)
             sum += l;
@@ -118,16 +120,18 @@ struct Work {
     }
 };
 
-void check_cascade(Lobe lobe, Layout layout)
+void check_cascade(const Shape& shape, Loss kind = Loss::l1, Tone tone = Tone::display)
 {
+    const Lobe lobe = shape.lobe;
+    const Layout layout = shape.layout;
     const TrainingSet set = make_training_set(1, 64, Jobs(1));
     Work w;
-    w.plan = plan_of({lobe, layout, {2, 6}, {2, 7}});
+    w.plan = plan_of(shape), w.kind = kind, w.tone = tone;
     Random random(21);
     for (const float v : start_weights(w.plan, 3))
         w.weights.push_back(static_cast<double>(v));
     for (const Dense* d : {&w.plan.a, &w.plan.b}) // outputs too, so that they are on their way
-        for (std::size_t i = d->weights[d->count - 1]; i < d->bias[d->count - 1] + kChannels; ++i)
+        for (std::size_t i = d->count ? d->weights[d->count - 1] : 0; d->count && i < d->bias[d->count - 1] + kChannels; ++i)
             w.weights[i] = random.between(-0.3, 0.3) * (layout == Layout::paper ? 0.1 : 1.0);
     w.weights[w.plan.kappa + 1] = 0.1;
     w.pair_count = 1;
@@ -169,12 +173,24 @@ void check_cascade(Lobe lobe, Layout layout)
 TEST(gradient, of_the_whole_cascade_as_a_closed_form_and_what_is_left)
 {
     for (const Lobe lobe : {Lobe::ggx_aniso, Lobe::beckmann, Lobe::ashikhmin_shirley})
-        check_cascade(lobe, Layout::cov);
+        check_cascade({lobe, Layout::cov, {2, 6}, {2, 7}});
 }
 
 TEST(gradient, of_the_whole_cascade_as_published)
 {
-    check_cascade(Lobe::ggx_aniso, Layout::paper);
+    check_cascade({Lobe::ggx_aniso, Layout::paper, {2, 6}, {2, 7}});
+}
+
+TEST(gradient, of_the_whole_cascade_without_its_second_net)
+{
+    check_cascade({Lobe::ggx_aniso, Layout::cov, {2, 6}, {0, 0}});
+}
+
+TEST(gradient, of_the_whole_cascade_by_other_losses_and_tones)
+{
+    for (const Loss kind : {Loss::l2, Loss::charbonnier})
+        check_cascade({Lobe::ggx_aniso, Layout::cov, {2, 6}, {2, 7}}, kind);
+    check_cascade({Lobe::ggx_aniso, Layout::cov, {2, 6}, {2, 7}}, Loss::l1, Tone::log);
 }
 
 } // namespace

@@ -46,6 +46,41 @@ TEST(weights, come_back_from_their_bytes)
     EXPECT_EQ(read->command, w.command);
 }
 
+TEST(weights, of_one_net_come_back_and_make_pyramids)
+{
+    Weights w = trained_like(true);
+    w.shape.b = {0, 0};
+    w.numbers = start_weights(plan_of(w.shape), 2);
+    for (float& number : w.numbers)
+        number = half_to_float(float_to_half(number));
+    const std::vector<std::uint8_t> bytes = weights_bytes(w);
+    const Result<Weights> read = parse_weights(bytes.data(), bytes.size(), "w");
+    ASSERT_TRUE(read) << read.error().line();
+    EXPECT_TRUE(read->shape == w.shape);
+    // Outputs that are 0 leave the closed form on every level, as those of both nets do.
+    const Texels level0 = make_material(families().front(), 3, 64).texels;
+    Weights both = trained_like(true);
+    both.numbers = start_weights(plan_of(both.shape), 2);
+    const auto one = net_pyramid(level0, *read, Jobs(1)), two = net_pyramid(level0, both, Jobs(1));
+    ASSERT_EQ(one.size(), two.size());
+    for (std::size_t l = 0; l < one.size(); ++l)
+        for (std::size_t c = 0; c < kChannels; ++c)
+            for (std::size_t i = 0; i < one[l].count(); ++i)
+                ASSERT_NEAR(one[l].channel[c][i], two[l].channel[c][i], 1e-3f) << l;
+}
+
+TEST(weights, sizes_are_read_as_they_are_named)
+{
+    for (const char* name : {"2x32/2x64", "1x1", "7x4096/1x3"}) {
+        Shape shape;
+        ASSERT_TRUE(read_size(name, shape)) << name;
+        EXPECT_EQ(size_name(shape), name);
+    }
+    Shape shape;
+    for (const char* name : {"", "2", "2x", "x3", "2x3/", "2x3/4", "2x3/4x", "2x3x4", "2x3/4x5/", "8x3", "2x0", "2x4097", "2x3 ", "-2x3"})
+        EXPECT_FALSE(read_size(name, shape)) << name;
+}
+
 TEST(weights, that_are_damaged_or_of_something_else_are_refused)
 {
     const std::vector<std::uint8_t> good = weights_bytes(trained_like(true));

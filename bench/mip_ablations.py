@@ -1,0 +1,172 @@
+#!/usr/bin/env python3
+"""What each choice in training nets of mipmaps is worth, at equal CPU time.
+
+Usage: mip_ablations.py --program build/release/burnish [--seconds N] [--brdf NAME] [--only NAMES] [--material FOLDER] [--work FOLDER]
+                        [--json FILE]
+
+Each row is a net that `burnish train mip` makes in --seconds of CPU time (60): the time a step takes is measured first, and the steps that
+fit are trained, on one thread. A row's command makes the same bytes again. Nets are judged by `--evaluate --validation`: new materials of
+trained families, none of those that reports are made of. Columns: FLIP, L1 and MSE times 1000, their change against plain means, and how
+anisotropic level 3 of round ridges is, the mean of its lobes' greater width over the lesser, as a share of what the search `teacher` finds.
+--material adds three rows that are judged on one material alone: of the first net, of one that is trained on nothing else, and of the first
+net trained on from there.
+
+Exit code: 0; 2 something could not be run.
+"""
+
+import argparse
+import json
+import math
+import pathlib
+import resource
+import struct
+import subprocess
+import sys
+import tempfile
+
+from mips import code_of_slope, write_png
+
+# name, options of training, what a reader wants to know
+ROWS = (
+    ("cov", (), "the layout that ships, 2x32/2x64"),
+    ("paper", ("--layout", "paper"), "the published layout at the same size"),
+    ("single level", ("--size", "2x64"), "H_A alone, 2x2 texels, at every level"),
+    ("1 occurrence", ("--levels", "2"), "the loss sees H_B once"),
+    ("paper 1 occurrence", ("--layout", "paper", "--levels", "2"), ""),
+    ("loss l2", ("--loss", "l2"), ""),
+    ("loss charbonnier", ("--loss", "charbonnier"), ""),
+    ("tone log", ("--tone", "log"), "log(1 + x) in place of a display's curve"),
+    ("narrower", ("--size", "2x16/2x32"), ""),
+    ("wider", ("--size", "2x64/2x128"), ""),
+    ("shallower", ("--size", "1x32/1x64"), ""),
+    ("deeper", ("--size", "3x32/3x64"), ""),
+)
+
+
+def seconds_of_children():
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
+
+
+class Bench:
+    def __init__(self, options, work):
+        self.options, self.work, self.program = options, work, str(pathlib.Path(options.program).resolve())
+
+    def run(self, *words):
+        """Standard output, and the CPU seconds that it took."""
+        begin = seconds_of_children()
+        done = subprocess.run([self.program, *map(str, words)], cwd=self.work, capture_output=True, text=True)
+        if done.returncode != 0:
+            print(done.stderr, file=sys.stderr)
+            sys.exit(2)
+        return done.stdout, seconds_of_children() - begin
+
+    def train(self, name, words):
+        """The name of its file, and the steps that it took."""
+        words = ("train", "mip", "--brdf", self.options.brdf, *words, "--threads", "1", "-q")
+        spent = [self.run(*words, "--steps", steps, "-o", "trial.mipnet")[1] for steps in (10, 40)]
+        each = (spent[1] - spent[0]) / 30
+        steps = max(20, int((self.options.seconds - (spent[0] - 10 * each)) / each / 10) * 10)
+        file = name.replace(" ", "_") + ".mipnet"
+        _, took = self.run(*words, "--steps", steps, "-o", file)
+        return file, steps, took
+
+    def judged(self, file, *words):
+        """Rows of every material."""
+        self.run("train", "mip", "--evaluate", file, *words, "--json", "judged.json", "-q")
+        return json.loads((self.work / "judged.json").read_text())["rows"]
+
+
+def mean_of(rows, name):
+    rows = [row["mean"] for row in rows if row["filter"] == name]
+    return {metric: sum(row[metric] for row in rows) / len(rows) for metric in ("flip", "l1", "mse")}
+
+
+def anisotropy(path, level):
+    """Mean over a level's texels of the greater width over the lesser, of a file of `burnish bake mip` with one material."""
+    data = path.read_bytes()
+    width, height, levels = struct.unpack_from("<3I", data, 16 + 20)
+    at = 16 + 48
+    for l in range(1, level):
+        at += 20 * max(1, width >> l) * max(1, height >> l)
+    count = max(1, width >> level) * max(1, height >> level)
+    total = 0.0
+    for _, _, a, b, c in struct.iter_unpack("<5f", data[at:at + 20 * count]):
+        mean, spread = (a + b) / 2, math.hypot((a - b) / 2, c)
+        total += (mean + spread) ** 2 / (a * b - c * c)
+    return total / count
+
+
+def make_ridges(work):
+    """Waves across u under a round lobe: anisotropy that is in no map, and that one level does not show, since a wave is eight texels long."""
+    folder = work / "ridges"
+    folder.mkdir(exist_ok=True)
+    write_png(folder / "normal.png", lambda x, y: code_of_slope(0.5 * math.sin(2 * math.pi * (x + 0.5) / 8), 0), 128, 128)
+    write_png(folder / "roughness.png", lambda x, y: (90,) * 3, 1, 1)
+    write_png(folder / "metallic.png", lambda x, y: (255,) * 3, 1, 1)
+
+
+def main():
+    arguments = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    arguments.add_argument("--program", required=True)
+    arguments.add_argument("--seconds", type=float, default=60)
+    arguments.add_argument("--brdf", default="ggx_aniso")
+    arguments.add_argument("--only", default="")
+    arguments.add_argument("--material")
+    arguments.add_argument("--work")
+    arguments.add_argument("--json")
+    options = arguments.parse_args()
+    with tempfile.TemporaryDirectory() as scratch:
+        work = pathlib.Path(options.work or scratch).resolve()
+        work.mkdir(parents=True, exist_ok=True)
+        return measure(options, work)
+
+
+def line_of(name, steps, took, mean, base, ratio, note):
+    change = " ".join(f"{100 * (mean[m] / base[m] - 1):+.1f}" for m in ("flip", "l1", "mse"))
+    figures = f"{1e3 * mean['flip']:.1f} | {1e3 * mean['l1']:.2f} | {1e3 * mean['mse']:.2f} | {change} %"
+    print(f"| {name} | {steps} | {took:.0f} s | {figures} | {ratio} | {note} |", flush=True)
+
+
+def measure(options, work):
+    bench, kept = Bench(options, work), []
+    make_ridges(work)
+    ridges = ("bake", "mip", "ridges", "--brdf", options.brdf, "-q", "-o", "ridges.mip", "--mip-filter")
+    bench.run(*ridges, "teacher")
+    truth = anisotropy(work / "ridges.mip", 3)
+    print("| net | steps | CPU | FLIP | L1 | MSE | to plain means | anisotropy | |")
+    print("| --- | --- | --- | --- | --- | --- | --- | --- | --- |")
+    wanted = [name for name in options.only.split(",") if name]
+    for name, words, note in ROWS:
+        if wanted and name not in wanted:
+            continue
+        file, steps, took = bench.train(name, words)
+        bench.run(*ridges, "mipnet", "--fallback", "off", "--mip-net", file)
+        ratio = anisotropy(work / "ridges.mip", 3) / truth
+        rows = bench.judged(file, "--validation")
+        mean, base = mean_of(rows, "mipnet"), mean_of(rows, "baseline")
+        line_of(name, steps, took, mean, base, f"{ratio:.2f}", note)
+        kept.append({"net": name, "steps": steps, "cpu_s": took, "options": words, "mean": mean, "baseline": base, "anisotropy": ratio})
+    if options.material:
+        one = pathlib.Path(options.material).resolve()
+        only = work / "only"
+        only.mkdir(exist_ok=True)
+        if not (only / one.name).exists():
+            (only / one.name).symlink_to(one)
+        first = work / "cov.mipnet"
+        if not first.exists():
+            bench.train("cov", ())
+        for name, words, note in ((f"cov on {one.name}", None, "never trained on it"), (f"overfitted to {one.name}", ("--only-maps", "only"), ""),
+                                  (f"pretrained, then {one.name}", ("--only-maps", "only", "--from", "cov.mipnet"), "fine-tuned")):
+            file, steps, took = bench.train(name, words) if words else ("cov.mipnet", 0, 0)
+            rows = [row for row in bench.judged(file, "--maps", "only") if row["set"] == "real"]
+            mean, base = mean_of(rows, "mipnet"), mean_of(rows, "baseline")
+            line_of(name, steps or "", took, mean, base, "", note)
+            kept.append({"net": name, "steps": steps, "cpu_s": took, "options": words, "mean": mean, "baseline": base})
+    if options.json:
+        pathlib.Path(options.json).write_text(json.dumps(kept, indent=1) + "\n")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
