@@ -142,6 +142,7 @@ struct Scene {
     std::vector<Light> lights;
     std::vector<AreaLight> area_lights;
     std::vector<Camera> cameras;
+    bool image_light = false;                           // its file has a light of images for it (image_light.h)
     std::shared_ptr<const std::vector<MipLevels>> mips; // baked beforehand; none: made of the maps
     std::vector<std::string> files;                     // paths of every file that was read for it
     std::vector<std::string> warnings;                  // one line each, in the order found
