@@ -50,8 +50,10 @@ int refuse_subcommand(const std::string& word, const std::vector<Command>& comma
     std::vector<std::string> names = {"help"};
     for (const Command& command : commands)
         names.push_back(command.name);
-    return fail(usage_error(
-        "", fmt::format("no subcommand '{}': there are {}{} (see burnish --help)", word, join(names), did_you_mean(word, names))));
+    std::string meant = did_you_mean(word, names);
+    if (const std::string scene = builtin_scene_hint(word); meant.empty() && !scene.empty())
+        meant = "; " + scene;
+    return fail(usage_error("", fmt::format("no subcommand '{}': there are {}{} (see burnish --help)", word, join(names), meant)));
 }
 
 int run(const std::vector<std::string>& words)

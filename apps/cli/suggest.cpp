@@ -96,6 +96,11 @@ bool looks_like_scene(const std::string& word)
     return is_scene(word) || word.rfind("builtin:", 0) == 0;
 }
 
+std::string builtin_scene_hint(const std::string& word)
+{
+    return builtin_hint(word, builtin_scenes(), "scene");
+}
+
 Error with_scene_hint(Error error, const std::string& scene)
 {
     if (is_url(scene))
@@ -105,7 +110,7 @@ Error with_scene_hint(Error error, const std::string& scene)
                          fmt::format("it is named as a picture: to write one, -o {0}; to be lit by one, --env {0}", scene));
     if (has_ending(scene, {".fbx", ".ply", ".stl", ".dae", ".usd", ".usda", ".usdz", ".blend", ".3ds"}))
         return with_hint(std::move(error), "scenes are .gltf, .glb or .obj files: Blender, for instance, exports them");
-    return with_hint(std::move(error), builtin_hint(scene, builtin_scenes(), "scene"));
+    return with_hint(std::move(error), builtin_scene_hint(scene));
 }
 
 Error with_environment_hint(Error error, const std::string& environment)

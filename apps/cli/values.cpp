@@ -178,6 +178,21 @@ Value name(Texts names, std::function<void(std::size_t)> put, std::function<std:
 
 } // namespace value_detail
 
+Value hinted(Value value, Hints hints)
+{
+    value.set = [set = std::move(value.set), hints = std::move(hints)](const std::string& option, const Texts& texts) {
+        Status done = set(option, texts);
+        for (const auto& [word, hint] : hints)
+            if (!done && texts.back() == word) {
+                Error error = done.error();
+                error.reason += "; " + hint;
+                return Status(std::move(error));
+            }
+        return done;
+    };
+    return value;
+}
+
 Value flag(bool& to, bool becomes)
 {
     return make(

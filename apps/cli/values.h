@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "apps/cli/option.h"
@@ -101,5 +102,9 @@ template <class T> Value choice(T& to, std::vector<std::string> names)
     }
 }
 Value choice(int& to, const std::vector<int>& numbers); // one of a few numbers
+
+// The same, and where one of these words is refused, what was meant by it.
+using Hints = std::vector<std::pair<std::string, std::string>>;
+Value hinted(Value value, Hints hints);
 
 } // namespace burnish

@@ -85,8 +85,8 @@ std::string race_table(const RaceReport& report)
                             kMaxWholeFlip);
     for (const char* shader : kRaceShaders)
         if (const double mean = geomean_ratio(report, shader); mean > 0.0)
-            text += fmt::format(
-                "\nratio of CPU times, device with its {} shader over tile, geometric mean over the same pictures: {:.2f}\n", shader, mean);
+            text +=
+                fmt::format("\nCPU time, device with its {} shader over tile, geometric mean of the same pictures: {:.2f}\n", shader, mean);
     for (const std::string& note : report.notes)
         text += note + "\n";
     return text;

@@ -14,6 +14,7 @@
 #include "apps/render/picture.h"
 #include "apps/render/stats.h"
 #include "core/base/text.h"
+#include "raster/frame/upload.h"
 
 namespace burnish {
 namespace {
@@ -128,10 +129,15 @@ int run_profile(const ProfileArguments& arguments, const OptionTable& given)
     const Scene& scene = seen->data->scene;
     if (Status files = check_files(options, arguments, scene.files); !files)
         return fail(files.error());
+    if (const Status frame = check_frame(scene, options.frame); !frame)
+        return fail(frame.error());
+    options.env = light_name(options, *seen->data);
     const Result<std::shared_ptr<const Environment>> environment =
         open_environment(options.env, options.environment, options.limits, *jobs);
     if (!environment)
         return fail(environment.error());
+    if (Status files = check_files(options, arguments, (*environment)->files); !files)
+        return fail(files.error());
     for (const std::string& warning : (*environment)->warnings)
         report.warning(warning);
     SessionOptions tile;

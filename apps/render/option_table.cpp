@@ -16,7 +16,8 @@ std::vector<Option> environment_rows(RenderArguments& to)
 {
     EnvironmentOptions& e = to.plain.environment;
     return {
-        {"--env", "FILE", "Equirectangular picture or builtin:NAME", environment(to.plain.env)},
+        {"--env", "FILE", "Equirectangular picture, a .gltf or .glb file with a light of images, or builtin:NAME",
+         environment(to.plain.env), "the scene's own light of images, else builtin:studio"},
         {"--env-rotation", "DEG", "Turn it about +Y, counter-clockwise from above", number(e.rotation_deg, -36000.0, 36000.0)},
         {"--env-exposure", "EV", "Multiply its radiance by 2^EV", number(e.exposure_ev, -kMaxExposure, kMaxExposure)},
         {"--env-size", "N", "Texels along a cube edge, a power of two", choice(e.cube_size, {16, 32, 64, 128, 256, 512, 1024, 2048})},
@@ -152,7 +153,12 @@ std::vector<Option> machine_rows(RenderArguments& to)
     return {
         {"--backend", "NAME",
          "Renderer: tile, vulkan (the same on a GPU or its driver's CPU twin), or reference, which integrates by Monte Carlo",
-         choice(to.plain.backend, {"tile", "vulkan", "reference"})},
+         hinted(choice(to.plain.backend, {"tile", "vulkan", "reference"}),
+                {{"gpu", "a GPU is --backend vulkan --device gpu"},
+                 {"lavapipe", "that is --backend vulkan --device lavapipe"},
+                 {"swiftshader", "that is --backend vulkan --device swiftshader"},
+                 {"cpu", "tile is the renderer on the CPU"},
+                 {"embree", "reference is the one by Embree's rays"}})},
         threads_option(to.plain.threads),
         isa_option(to.plain.isa, "{}; never changes the picture"),
         {"--tile-size", "N", "{} pixels; never changes the picture", choice(to.plain.frame.tile_size, {32, 64})},

@@ -139,6 +139,7 @@ Result<RenderOptions> check_render_options(const RenderArguments& arguments, con
         return camera.error();
     warn_of_no_effect(given, out);
     out.environment.quiet = out.quiet;
+    out.env_given = given.given("--env");
     return out;
 }
 

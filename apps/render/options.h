@@ -39,6 +39,7 @@ struct RenderOptions {
     std::string trace_file;       // empty: none
 
     std::string env = "builtin:studio";
+    bool env_given = false; // else the scene's own light is taken where it has one
     EnvironmentOptions environment;
 
     std::string camera;           // index or name, empty: the scene's first camera, else framed automatically

@@ -7,11 +7,13 @@
 #include "apps/cli/environment_text.h"
 #include "apps/cli/open.h"
 #include "apps/cli/outputs.h"
+#include "apps/cli/scene_view.h"
 #include "apps/cli/seen_scene.h"
 #include "apps/cli/stop_signal.h"
 #include "apps/render/shadows.h"
 #include "core/image/image.h"
 #include "core/image/io/image_io.h"
+#include "raster/frame/upload.h"
 #include "shading/bake/tables/phong_files.h"
 #include "shading/lang/records.h"
 
@@ -38,9 +40,9 @@ void report_scene(const SceneData& data, Report& report)
         report.warning(warning);
 }
 
-void report_environment(const RenderOptions& options, const Environment& environment, double ms, Report& report)
+void report_environment(const Environment& environment, double ms, Report& report)
 {
-    report.event("environment", fmt::format("{}: {}; {}", options.env, light_text(environment),
+    report.event("environment", fmt::format("{}: {}; {}", environment.name, light_text(environment),
                                             environment.from_cache ? fmt::format("from the cache in {:.0f} ms", ms)
                                                                    : fmt::format("baked in {:.0f} ms", ms)));
     report_key_lights(environment, report);
@@ -94,11 +96,16 @@ SessionOptions session_options(const RenderOptions& options, std::optional<Error
     return session;
 }
 
-Result<std::shared_ptr<const Environment>> open_light(const RenderOptions& options, const Jobs& jobs)
+std::string light_name(const RenderOptions& options, const SceneData& scene)
+{
+    return options.env_given ? options.env : usual_environment(scene);
+}
+
+Result<std::shared_ptr<const Environment>> open_light(const RenderOptions& options, const SceneData& scene, const Jobs& jobs)
 {
     EnvironmentOptions environment = options.environment;
     environment.picture_only = options.backend == "reference";
-    return open_environment(options.env, environment, options.limits, jobs);
+    return open_environment(light_name(options, scene), environment, options.limits, jobs);
 }
 
 Status read_tables(const RenderOptions& options, SessionParts& parts, Report& report)
@@ -139,6 +146,11 @@ Result<Session> prepare(const RenderOptions& options, RenderFigures& figures, st
     }
     figures.load_ms = load.ms();
     report_scene(*parts.scene, report);
+    if (options.backend != "reference") // which bakes nothing before it looks
+        if (const Status frame = check_frame(parts.scene->scene, options.frame); !frame)
+            return frame.error();
+    if (const Result<ChosenView> view = choose_view(options, parts.scene->scene, parts.scene->tables); !view)
+        return view.error();
     if (options.shadow_ratio && parts.scene->tables.area_lights.empty())
         report.warning("--shadows has no effect: nothing in the scene is an area light");
     if (options.backend != "reference")
@@ -147,15 +159,18 @@ Result<Session> prepare(const RenderOptions& options, RenderFigures& figures, st
     const Stopwatch bake;
     {
         const TraceSpan span("environment");
-        const Result<std::shared_ptr<const Environment>> environment = open_light(options, *parts.jobs);
+        const Result<std::shared_ptr<const Environment>> environment = open_light(options, *parts.scene, *parts.jobs);
         if (!environment)
             return environment.error();
         parts.environment = *environment;
     }
     figures.bake_ms = bake.ms();
+    if (const Status paths = check_paths(options, parts.environment->files); !paths)
+        return paths.error();
+    figures.env = parts.environment->name;
     figures.environment_from_cache = parts.environment->from_cache;
     figures.key_lights = key_lights_json(*parts.environment);
-    report_environment(options, *parts.environment, figures.bake_ms, report);
+    report_environment(*parts.environment, figures.bake_ms, report);
     for (const std::string& warning : parts.environment->warnings)
         report.warning(warning);
 

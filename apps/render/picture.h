@@ -32,13 +32,14 @@ Status check_paths(const RenderOptions& options, const std::vector<std::string>&
 // `lost_checkpoint`: why the last one could not be written.
 SessionOptions session_options(const RenderOptions& options, std::optional<Error>& lost_checkpoint);
 
-// Loads and bakes, with a line of the report each, and makes the renderer.
-// What the options' environment is for the options' renderer: the reference does not need the levels.
-Result<std::shared_ptr<const Environment>> open_light(const RenderOptions& options, const Jobs& jobs);
+// What the options' environment is for a scene, and baked for the options' renderer: the reference does not need the levels.
+std::string light_name(const RenderOptions& options, const SceneData& scene);
+Result<std::shared_ptr<const Environment>> open_light(const RenderOptions& options, const SceneData& scene, const Jobs& jobs);
 
 // --ltc-table and --as-table.
 Status read_tables(const RenderOptions& options, SessionParts& parts, Report& report);
 
+// Loads and bakes, with a line of the report each, and makes the renderer.
 Result<Session> prepare(const RenderOptions& options, RenderFigures& figures, std::optional<Error>& lost_checkpoint, Report& report);
 
 // All frames show the same picture: a renderer that does not repeat itself is caught here.

@@ -143,7 +143,7 @@ Result<View> view_of_step(const Step& step, int i, const Session& session, const
 Result<SessionParts> parts_of_step(const RenderOptions& options, SessionParts parts, bool lights, bool scene)
 {
     if (lights) {
-        const auto environment = open_light(options, *parts.jobs);
+        const auto environment = open_light(options, *parts.scene, *parts.jobs);
         if (!environment)
             return environment.error();
         parts.environment = *environment;

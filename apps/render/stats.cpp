@@ -57,7 +57,7 @@ Json stats_json(const RenderOptions& options, const RenderFigures& figures)
     Json json;
     json["version"] = version();
     json["scene"] = options.scene;
-    json["env"] = options.env;
+    json["env"] = figures.env;
     json["technique"] = frame.technique;
     json["samples"] = frame.samples;
     json["roughness"] = frame.roughness >= 0.0f ? Json(frame.roughness) : Json();

@@ -19,6 +19,7 @@ struct RenderFigures {
     double load_ms = 0.0;         // scene file to draw tables
     double bake_ms = 0.0;         // environment: baked, or read from the cache
     double prepare_ms = 0.0;      // renderer made from the tables: texture pyramids and the like
+    std::string env;              // its name
     bool environment_from_cache = false;
     Json key_lights;                   // see key_lights_json()
     std::vector<std::string> warnings; // as they were said, or would have been without --quiet

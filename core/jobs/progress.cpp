@@ -18,6 +18,7 @@ namespace {
 constexpr std::uint64_t kRedrawNs = 100'000'000; // at most ten times a second
 constexpr double kLineSeconds = 10.0;            // between lines where there is no terminal
 constexpr double kTellSeconds = 1.0;             // before the time left is guessed
+constexpr double kSmallPart = 0.02;              // of the work: what comes before a first step as small is none of it
 constexpr std::size_t kBarCells = 30;
 
 // Nanoseconds between lines; BURNISH_PROGRESS_SECONDS says otherwise.
@@ -54,13 +55,18 @@ struct Progress::Impl {
     std::size_t total = 0;
     bool terminal = false;
     std::uint64_t begin_ns = 0, period_ns = kRedrawNs;
+    std::atomic<std::uint64_t> first_ns{0}; // when work of many steps began, 0: not yet
     std::atomic<std::size_t> done{0};
     std::atomic<std::uint64_t> next_draw_ns{0};
     std::mutex drawing;
     std::size_t drawn = 0; // characters now on the line, guarded by `drawing`
 
     double part() const { return total ? std::min(1.0, static_cast<double>(done.load()) / static_cast<double>(total)) : 1.0; }
-    std::string left() const { return time_left(part(), static_cast<double>(Trace::now_ns() - begin_ns) * 1e-9); }
+    std::string left() const
+    {
+        const std::uint64_t first = first_ns.load(std::memory_order_relaxed);
+        return time_left(part(), static_cast<double>(Trace::now_ns() - (first ? first : begin_ns)) * 1e-9);
+    }
 
     void draw()
     {
@@ -110,6 +116,9 @@ void Progress::step(std::size_t n)
         return;
     impl_->done.fetch_add(n, std::memory_order_relaxed);
     const std::uint64_t now = Trace::now_ns();
+    std::uint64_t none = 0;
+    if (impl_->first_ns.load(std::memory_order_relaxed) == 0 && impl_->part() <= kSmallPart)
+        impl_->first_ns.compare_exchange_strong(none, now, std::memory_order_relaxed);
     std::uint64_t due = impl_->next_draw_ns.load(std::memory_order_relaxed);
     if (now < due || !impl_->next_draw_ns.compare_exchange_strong(due, now + impl_->period_ns))
         return; // not yet, or another thread draws

@@ -144,6 +144,7 @@ struct Scene {
     std::vector<Light> lights;
     std::vector<AreaLight> area_lights;
     std::vector<Camera> cameras;
+    bool image_light = false;                                // its file has a light of images for it (image_light.h)
     std::shared_ptr<const std::vector<MipLevels>> mips;      // baked beforehand; none: made of the maps
     std::shared_ptr<const std::vector<MipLevels>> kept_mips; // the same as are made of the maps, found in the cache or kept there
     std::vector<std::string> files;                          // paths of every file that was read for it

@@ -173,6 +173,11 @@ Result<std::shared_ptr<const Environment>> load_shared_environment(const std::st
     });
 }
 
+std::string usual_environment(const SceneData& scene)
+{
+    return scene.scene.image_light ? scene.name : "builtin:studio";
+}
+
 Result<std::shared_ptr<const DfgTable>> standard_dfg(const Jobs& jobs)
 {
     using Made = Result<std::shared_ptr<const DfgTable>>;
@@ -218,8 +223,8 @@ Result<Session> Session::open(const std::string& scene, const std::string& envir
         const Result<std::shared_ptr<const SceneData>> data = load_scene_data(scene, open.limits);
         if (!data)
             return data.error();
-        const Result<std::shared_ptr<const Environment>> light =
-            load_shared_environment(environment, open.environment, open.limits, *parts.jobs);
+        const Result<std::shared_ptr<const Environment>> light = load_shared_environment(
+            environment.empty() ? usual_environment(**data) : environment, open.environment, open.limits, *parts.jobs);
         if (!light)
             return light.error();
         parts.scene = *data;

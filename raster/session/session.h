@@ -43,9 +43,11 @@ Result<std::shared_ptr<const SceneData>> load_scene_data(const std::string& spec
                                                          const Moment& moment = {}, const std::vector<AreaLight>& lights = {});
 // From a scene made in memory. The limits on area lights and on what instances expand to hold here too.
 Result<std::shared_ptr<const SceneData>> make_scene_data(const std::string& name, Scene scene, const Limits& limits);
-// "builtin:NAME" or a path of an equirectangular picture.
+// "builtin:NAME", a path of an equirectangular picture, or of a .gltf or .glb file with an image-based light.
 Result<std::shared_ptr<const Environment>> load_shared_environment(const std::string& spec, const EnvironmentOptions& options,
                                                                    const Limits& limits, const Jobs& jobs);
+// What a scene is drawn under where nothing else is asked for: its own file where that has an image-based light, else builtin:studio.
+std::string usual_environment(const SceneData& scene);
 // The table of directional albedo that pictures are made with: the same bits everywhere, made once a process.
 Result<std::shared_ptr<const DfgTable>> standard_dfg(const Jobs& jobs);
 
@@ -92,7 +94,8 @@ struct OpenOptions {
 
 class Session {
   public:
-    // Loads, bakes or finds in the cache, and makes the renderer. Errors: ExitCode::bad_input, usage, unavailable.
+    // Loads, bakes or finds in the cache, and makes the renderer. Without an environment (""): usual_environment(). Errors:
+    // ExitCode::bad_input, usage, unavailable.
     static Result<Session> open(const std::string& scene, const std::string& environment, const OpenOptions& open = {},
                                 const SessionOptions& options = {});
     // Errors: ExitCode::usage where scene or environment is missing, unavailable, bad_input where memory is short.

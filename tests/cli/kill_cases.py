@@ -148,7 +148,7 @@ def killed_reports(bench, words, kills):
     env = {"XDG_CACHE_HOME": str(bench.folder / "cache")} if own else {}
     words = (*words, "--json", "found.json")
     begin = time.monotonic()
-    done = bench.run(*words, env=env)
+    done = bench.run(*words, env=env, timeout=500.0)
     if done.code == 77:
         raise Skipped(done.err.strip())
     done.expect(0)
@@ -163,7 +163,7 @@ def killed_reports(bench, words, kills):
             kept.unlink()
 
     kill_at_random(bench, words, kills, 11, longest, env, whole)
-    bench.run(*words, env=env).expect(0)
+    bench.run(*words, env=env, timeout=500.0).expect(0)
     whole()
     left = temporary(path.name for path in bench.folder.rglob("*"))
     check(not left, f"left: {left}")

@@ -6,6 +6,7 @@ from harness import case, check, scratch
 # What is typed, the exit code, what the line must say.
 MISTAKES = (
     ("rendr", 2, "did you mean 'render'?"),
+    ("teapot", 2, "the built-in scene is called builtin:teapot"),
     ("lamp.glb", 4, "lamp.glb: cannot be opened"),
     ("help rendre", 2, "did you mean 'render'?"),
     ("list technique", 2, "did you mean 'techniques'?"),
@@ -35,7 +36,9 @@ MISTAKES = (
     ("render --msaa 3", 2, "1, 2, 4, 8, 16"),
     ("render --samples 0", 2, "--samples"),
     ("render --device lavapipe", 2, "needs --backend vulkan"),
-    ("render --backend gpu", 2, "tile, vulkan, reference"),
+    ("render --backend gpu", 2, "--backend vulkan --device gpu"),
+    ("render --backend cpu", 2, "tile is the renderer on the CPU"),
+    ("render --backend metal", 2, "tile, vulkan, reference"),
     ("render --brdf ward", 2, "--technique mc"),
     ("render --aov depht -o a.exr", 2, "did you mean 'depth'?"),
     ("render --aov depth,normal,depth -o a.exr", 2, "is given twice"),
@@ -70,6 +73,14 @@ def mistakes(bench):
             wrong.append(f"burnish {typed}: files were left: {bench.left_behind()}")
     scratch(bench, "mistakes.md", "\n".join(rows) + "\n")
     check(not wrong, "\n".join(wrong))
+
+
+@case("usage.what_a_scene_cannot_do_is_refused_before_its_environment_is_baked")
+def before_the_bake(bench):
+    for words, needle in ((("--height-scale", "2"), "height map"), (("--camera", "nothing"), "--camera"),
+                          (("--animate", "height-scale=2:3", "--steps", "2", "-o", "%d.png"), "height map")):
+        done = bench.run("render", "builtin:plate", "--size", "16x16", "--env-size", "16", "--env-samples", "1", "--no-cache", *words).expect(2)
+        check(needle in done.err and "environment" not in done.err, f"refused after the bake\n{done.describe()}")
 
 
 @case("usage.what_is_far_from_every_name_gets_no_guess")

@@ -23,6 +23,7 @@ import fresnel_cases
 import glass_cases
 import harness
 import hostile_cases
+import image_light_cases
 import input_cases
 import install_cases
 import kill_cases

@@ -6,6 +6,7 @@
 #include "core/base/check.h"
 #include "core/image/io/image_library.h"
 #include "core/scene/gltf/gltf.h"
+#include "core/scene/image_light.h"
 
 // Loads the image library's hundreds of files before the clock of a run begins.
 extern "C" int LLVMFuzzerInitialize(int*, char***)
@@ -30,5 +31,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
             BN_CHECK(scene->indices[p.first_index + i] - p.first_vertex < p.vertex_count);
     for (std::size_t i = 0; i < scene->vertices.size(); ++i)
         BN_CHECK(std::isfinite(scene->vertices.px[i] + scene->vertices.nx[i] + scene->vertices.tx[i]));
+    if (scene->image_light)
+        if (const burnish::Result<burnish::ImageLight> light = burnish::load_image_light_bytes(data, size, "fuzz", limits))
+            for (const burnish::Image& face : light->faces)
+                BN_CHECK(face.width == light->size && face.height == light->size);
     return 0;
 }

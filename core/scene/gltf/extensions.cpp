@@ -16,7 +16,8 @@ const std::vector<GltfFeature>& gltf_features()
 {
     using enum GltfSupport;
     static const std::vector<GltfFeature> table = {
-        {"EXT_lights_image_based", ignored, "environments come by --env"},
+        {"EXT_lights_image_based", in_part,
+         "where no --env is given: rotation, intensity and the first level's images, of which all else is made"},
         {"EXT_mesh_gpu_instancing", supported, "translation, rotation, scale"},
         {"EXT_meshopt_compression", supported, "all modes and filters"},
         {"EXT_texture_webp", supported, ""},

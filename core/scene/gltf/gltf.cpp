@@ -1,8 +1,11 @@
 #include "core/scene/gltf/gltf.h"
 
 #include <exception>
+#include <filesystem>
 #include <fmt/format.h>
+#include <fstream>
 #include <new>
+#include <string_view>
 
 #include "core/scene/builtin/builtin.h"
 #include "core/scene/gltf/accessors.h"
@@ -10,6 +13,7 @@
 #include "core/scene/gltf/checks.h"
 #include "core/scene/gltf/container.h"
 #include "core/scene/gltf/graph.h"
+#include "core/scene/gltf/image_light.h"
 #include "core/scene/gltf/material.h"
 #include "core/scene/gltf/mesh.h"
 #include "core/scene/gltf/pose.h"
@@ -22,13 +26,32 @@ namespace {
 
 using gltf::Document;
 
-void read_document(Document& doc, const Moment& moment)
+Document document_of(const std::string& path, const Limits& limits, std::span<const std::uint8_t> bytes)
+{
+    const std::size_t slash = path.find_last_of('/');
+    Document doc;
+    doc.file = path;
+    doc.limits = limits;
+    doc.folder = slash == std::string::npos ? "" : slash == 0 ? "/." : path.substr(0, slash);
+    doc.has_folder = true;
+    doc.bytes = bytes;
+    doc.scene.files.push_back(path);
+    return doc;
+}
+
+void read_structure(Document& doc)
 {
     doc.input_bytes = doc.bytes.size();
     gltf::parse_container(doc);
     gltf::check_version_and_extensions(doc);
     gltf::check_schema(doc.json);
     gltf::check_structure(doc);
+    gltf::check_image_lights(doc);
+}
+
+void read_document(Document& doc, const Moment& moment)
+{
+    read_structure(doc);
     gltf::check_accessor_rules(doc);
     gltf::check_moving(doc);
     gltf::load_cameras_and_lights(doc);
@@ -42,8 +65,15 @@ void read_document(Document& doc, const Moment& moment)
     gltf::load_meshes(doc);
 }
 
+ImageLight image_light_of(Document& doc)
+{
+    read_structure(doc);
+    gltf::load_buffers(doc);
+    return gltf::read_image_light(doc);
+}
+
 // The one place where the reader's exceptions, its own and those of the libraries, end.
-template <class F> Result<Scene> guarded(const std::string& file, F&& read)
+template <class F> auto guarded(const std::string& file, F&& read) -> decltype(read())
 {
     const auto error = [&](std::string place, std::string reason) {
         return Error{ExitCode::bad_input, file, std::move(place), std::move(reason)};
@@ -65,17 +95,43 @@ Result<Scene> load_gltf(const std::string& path, const Limits& limits, const Mom
 {
     return guarded(path, [&]() -> Result<Scene> {
         const std::vector<std::uint8_t> bytes = gltf::read_file_bytes(path, limits.file_bytes, "");
-        const std::size_t slash = path.find_last_of('/');
-        Document doc;
-        doc.file = path;
-        doc.limits = limits;
-        doc.folder = slash == std::string::npos ? "" : slash == 0 ? "/." : path.substr(0, slash);
-        doc.has_folder = true;
-        doc.bytes = bytes;
-        doc.scene.files.push_back(path);
+        Document doc = document_of(path, limits, bytes);
         read_document(doc, moment);
         return std::move(doc.scene);
     });
+}
+
+Result<ImageLight> load_image_light(const std::string& path, const Limits& limits)
+{
+    return guarded(path, [&]() -> Result<ImageLight> {
+        const std::vector<std::uint8_t> bytes = gltf::read_file_bytes(path, limits.file_bytes, "");
+        Document doc = document_of(path, limits, bytes);
+        return image_light_of(doc);
+    });
+}
+
+Result<ImageLight> load_image_light_bytes(const std::uint8_t* data, std::size_t size, const std::string& label, const Limits& limits)
+{
+    return guarded(label, [&]() -> Result<ImageLight> {
+        Document doc;
+        doc.file = label;
+        doc.limits = limits;
+        doc.bytes = {data, size};
+        return image_light_of(doc);
+    });
+}
+
+bool is_gltf(const std::string& path)
+{
+    std::error_code ignored;
+    if (!std::filesystem::is_regular_file(path, ignored))
+        return false;
+    char first[4] = {};
+    std::ifstream file(path, std::ios::binary);
+    if (!(file >> std::ws)) // of JSON
+        return false;
+    file.read(first, sizeof first);
+    return first[0] == '{' || std::string_view(first, sizeof first) == "glTF" || path.ends_with(".gltf") || path.ends_with(".glb");
 }
 
 Result<Scene> load_gltf_bytes(const std::uint8_t* data, std::size_t size, const std::string& label, const Limits& limits,

@@ -55,6 +55,18 @@ const Rule kRules[] = {
     {"extensions/KHR_lights_punctual/lights/*/name", Kind::text},
     {"extensions/KHR_lights_punctual/lights/*/type", Kind::word, 0, 0, "directional point spot", kRequired},
 
+    {"scenes/*/extensions", Kind::object},
+    {"scenes/*/extensions/EXT_lights_image_based", Kind::object},
+    {"scenes/*/extensions/EXT_lights_image_based/light", Kind::index, 0, 0, "extensions/EXT_lights_image_based/lights", kRequired},
+    {"extensions/EXT_lights_image_based", Kind::object},
+    {"extensions/EXT_lights_image_based/lights", Kind::objects},
+    {"extensions/EXT_lights_image_based/lights/*/name", Kind::text},
+    {"extensions/EXT_lights_image_based/lights/*/intensity", Kind::number, 0},
+    {"extensions/EXT_lights_image_based/lights/*/rotation", Kind::numbers, -kAny, kAny, "", false, 4},
+    {"extensions/EXT_lights_image_based/lights/*/irradianceCoefficients/*", Kind::numbers, -kAny, kAny, "", false, 3},
+    {"extensions/EXT_lights_image_based/lights/*/specularImageSize", Kind::integer, 1, 1 << 20, "", kRequired},
+    {"extensions/EXT_lights_image_based/lights/*/specularImages/*", Kind::indices, 0, 0, "images", false, 6},
+
     {"cameras", Kind::objects},
     {"cameras/*/name", Kind::text},
     {"cameras/*/type", Kind::word, 0, 0, "perspective orthographic", kRequired},

@@ -13,6 +13,7 @@
 #include "shading/bake/environment/cube_map.h"
 #include "shading/bake/environment/environment_cache.h"
 #include "shading/bake/environment/equirect.h"
+#include "shading/bake/environment/image_light.h"
 #include "shading/bake/environment/key_lights.h"
 #include "shading/bake/environment/light_tree.h"
 #include "shading/bake/environment/prefilter.h"
@@ -240,6 +241,15 @@ Result<Environment> load_environment(const std::string& spec, const EnvironmentO
             return baked;
         baked->name = spec, baked->bake_ms = ms_since(start);
         turn_and_expose(*baked, options);
+        return baked;
+    }
+    if (!spec.starts_with(builtin) && is_gltf(spec)) {
+        const Result<ImageLight> light = load_image_light(spec, limits);
+        if (!light)
+            return light.error();
+        Result<Environment> baked = bake_environment(sky_of(*light, jobs), spec, options, jobs);
+        if (baked)
+            baked->files = light->files;
         return baked;
     }
     Limits of_environment = limits; // a bake takes time and memory by the pixel

@@ -55,6 +55,7 @@ struct Environment {
     bool from_cache = false;
     std::uint64_t content_hash = 0;    // of source pixels and all options
     std::vector<std::string> warnings; // one line each: repaired pixels, an unwritable cache
+    std::vector<std::string> files;    // paths of every file that was read for it
 };
 
 struct EnvironmentOptions {
@@ -74,7 +75,8 @@ struct EnvironmentOptions {
 
 // Bakes from an equirectangular image (f32, any size), or finds the result in the cache.
 Result<Environment> bake_environment(const Image& equirect, const std::string& name, const EnvironmentOptions& options, const Jobs& jobs);
-// `spec`: "builtin:NAME", a path of an equirectangular image, or what `burnish bake environment` wrote, whose own options of the bake hold.
+// `spec`: "builtin:NAME", a path of an equirectangular image, a .gltf or .glb file whose scene has an image-based light, or what `burnish
+// bake environment` wrote, whose own options of the bake hold.
 Result<Environment> load_environment(const std::string& spec, const EnvironmentOptions& options, const Limits& limits, const Jobs& jobs);
 
 // The same level 0 with a box-filtered chain under it, for techniques that choose a level by the solid angle of a sample.

@@ -101,6 +101,21 @@ TEST(progress, tells_the_time_that_is_left)
     EXPECT_NE(text.find("bake ["), std::string::npos) << text; // the bar is the shorter for it
 }
 
+TEST(progress, what_comes_before_the_first_of_many_steps_is_not_counted)
+{
+    const std::string text = printed_on_terminal([] {
+        Progress progress("bake", 100, false);
+        std::this_thread::sleep_for(std::chrono::milliseconds(1500));
+        for (int i = 0; i < 60; ++i) {
+            progress.step();
+            std::this_thread::sleep_for(std::chrono::milliseconds(20));
+        }
+    });
+    EXPECT_EQ(text.find("min left"), std::string::npos) << text;
+    EXPECT_EQ(text.find("  1%, "), std::string::npos) << text;
+    EXPECT_NE(text.find(" s left"), std::string::npos) << text;
+}
+
 TEST(progress, nothing_when_quiet)
 {
     EXPECT_EQ(printed_on_terminal([] { work(true); }), "");

@@ -3,6 +3,7 @@
 #include <thread>
 
 #include "raster/session/session.h"
+#include "tests/unit/data.h"
 
 namespace burnish {
 namespace {
@@ -78,6 +79,18 @@ TEST(session, shares_its_parts)
     *first = std::move(*Session::make(second->parts())); // what the renderer refers to outlives the session it was made in
     EXPECT_EQ(drawn(*first), hash);
     EXPECT_EQ(drawn(*second), hash);
+}
+
+TEST(session, without_an_environment_takes_the_scene_s_own_light)
+{
+    const std::string six = test::data_file("models/ibl_six_colours.glb");
+    const Result<Session> own = Session::open(six, "", small_open()), usual = Session::open("builtin:plate", "", small_open());
+    const Result<Session> other = Session::open("builtin:plate", six, small_open());
+    ASSERT_TRUE(own && usual && other);
+    EXPECT_EQ(own->parts().environment->name, six);
+    EXPECT_NEAR(own->parts().environment->energy_source, 0.5, 1e-3); // each channel shines on three of six faces
+    EXPECT_EQ(usual->parts().environment->name, "builtin:studio");
+    EXPECT_EQ(other->parts().environment->content_hash, own->parts().environment->content_hash);
 }
 
 TEST(session, says_what_is_wrong)
