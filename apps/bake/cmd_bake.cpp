@@ -142,7 +142,7 @@ OptionTable bake_option_table(BakeArguments& to)
     table.add(
         "Maps and tables of texels",
         {{"--size", "WxH", "Texels of tpr, half-vectors and brdf-lut", picture_size(to.size),
-          "256x256; of half-vectors 64x64, of brdf-lut 10x20, which is what pictures are made with"},
+          "256x256; of brdf-lut 10x20, which is what pictures are made with"},
          {"--nu", "N", "Of half-vectors and brdf-lut: exponent along the tangent, 1 / alpha^2", number(to.nu, 0.0, kMostPhongExponent), ""},
          {"--nv", "N", "And along the bitangent", number(to.nv, 0.0, kMostPhongExponent), ""},
          {"--azimuth", "NAME", "How columns of brdf-lut go through the eye's azimuth: {}", choice(to.azimuth, {"root", "linear"})},
@@ -459,7 +459,7 @@ int run_phong(const BakeArguments& a, const OptionTable& given)
     const bool density = fs::path(a.output).extension() == ".exr";
     if (*type == PixelType::f32 && !density)
         return fail(usage_error("-o", fmt::format("'{}' must end in .exr, which holds the density too, or in .png or .tif", a.output)));
-    const Image table = half_vector_table(nu, nv, size_of(a, {64, 64}), *type);
+    const Image table = half_vector_table(nu, nv, size_of(a, {256, 256}), *type);
     std::string warning;
     if (*type == PixelType::u8)
         warning = fmt::format("8 bits leave {} values along the tangent, and no densities", codes_of(table));

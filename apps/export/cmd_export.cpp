@@ -72,6 +72,7 @@ std::string text_of(const TechniqueInfo& technique, int samples)
     wish.heading = fmt::format(kHeading, technique.name, technique.summary, version(), samples);
     wish.trimmed = {{"settings", "f", "usual_settings"}, {"shaded_point", "x", "point_of"}};
     wish.grid = grid_samples(samples, technique.sampling, technique.traits);
+    wish.grid_count = grid_count(wish.grid, technique.traits);
     return glsl_of(kFlatTechniques.bytes, wish);
 }
 

@@ -317,7 +317,7 @@ std::string glsl_of(const std::string& flat, const GlslWish& wish)
 {
     FlatText text = Reader().read(flat);
     std::vector<Piece>& pieces = text.pieces;
-    pieces.insert(pieces.begin(), {"", fmt::format("const int kGridCount = {};\n", wish.grid.size()), "", {"kGridCount"}, false});
+    pieces.insert(pieces.begin(), {"", fmt::format("const int kGridCount = {};\n", wish.grid_count), "", {"kGridCount"}, false});
     if (!wish.grid.empty())
         pieces.insert(std::find_if(pieces.begin(), pieces.end(), [](const Piece& p) { return p.fetches; }),
                       {"// Slopes of the samples, and the density of normals there.\n", grid_text(wish.grid), "", {"kGrid"}, true});

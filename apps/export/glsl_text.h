@@ -15,6 +15,7 @@ struct GlslWish {
     std::vector<std::string> roots; // functions that are to be there, with all that they call
     std::string heading;            // a comment
     std::vector<GridSample> grid;   // of techniques that sample by a grid; may be empty
+    int grid_count = 0;             // of them, what a point takes
     std::vector<TrimmedStruct> trimmed;
 };
 

@@ -78,7 +78,7 @@ void run(benchmark::State& state, std::size_t technique, float eta, Isa isa)
     f.box = cube_record(box), f.box_texels = box.texels.data();
     f.samples = info.default_samples;
     const std::vector<GridSample> grid = grid_samples(info.default_samples, info.sampling, info.traits);
-    f.grid = grid.data(), f.grid_count = static_cast<std::int32_t>(grid.size());
+    f.grid = grid.data(), f.grid_count = grid_count(grid, info.traits);
     put_parameters(FrameDesc{}, false, f);
     const KernelSurfaces in = surfaces().of(eta);
     std::vector<float> rgb(3 * kCount);

@@ -188,7 +188,7 @@ Status put_maps(Dresser& on, const Dress& with)
         Result<Image> image = on.read(with.normal, 3);
         if (!image)
             return image.error();
-        on.put(on.add(std::move(*image), "normal map"), &Material::normal_tex);
+        on.put(on.add(whole_normals(std::move(*image)), with.normal, "normals"), &Material::normal_tex);
     }
     if (!with.quaternion.empty()) {
         const Result<Image> image = on.read(with.quaternion, 3);

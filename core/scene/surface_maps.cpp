@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace burnish {
 namespace {
@@ -116,6 +117,24 @@ SurfaceMap directions_of_rotations(const Image& rotations, RotationEncoding enco
         if (code16(0.5 + 0.5 * y) == code16(0.5))
             x = std::abs(x);
         to[0] = code16(0.5 + 0.5 * x), to[1] = code16(0.5 + 0.5 * y), to[2] = code16(strength);
+    }
+    return map;
+}
+
+SurfaceMap whole_normals(Image normals)
+{
+    SurfaceMap map = {std::move(normals)};
+    if (map.image.type != PixelType::f32)
+        return map;
+    for (std::size_t i = 0; i < texels_of(map.image); ++i) {
+        double n[3];
+        for (std::size_t c = 0; c < 3; ++c)
+            n[c] = 2.0 * unit_value(map.image, i, c) - 1.0;
+        if (normalize(n[0], n[1], n[2]))
+            continue;
+        for (std::size_t c = 0; c < 3; ++c)
+            map.image.f32()[place_of(map.image, i, c)] = c == 2 ? 1.0f : 0.5f;
+        ++map.repaired;
     }
     return map;
 }

@@ -31,6 +31,9 @@ SurfaceMap quaternions_of_normals(const Image& normals, PixelType type);
 // where the encoding has none. Repaired: along the tangent.
 SurfaceMap directions_of_rotations(const Image& rotations, RotationEncoding encoding);
 
+// A normal map (glTF) without normals that have no length or are no numbers, as pictures of floats may have them. Repaired: level.
+SurfaceMap whole_normals(Image normals);
+
 // A normal map whose green points down, as DirectX has it, to one of glTF, exactly.
 void flip_green(Image& normals);
 

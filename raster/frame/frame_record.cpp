@@ -106,6 +106,7 @@ void FrameMaker::bake(const FrameDesc& desc)
     if ((technique.traits & kReadsBox) && box_cube_.levels == 0)
         box_cube_ = box_filtered_chain(input_.environment.specular, input_.jobs);
     grid_ = grid_samples(desc.samples, technique.sampling, technique.traits);
+    grid_count_ = grid_count(grid_, technique.traits);
 }
 
 namespace {
@@ -171,10 +172,10 @@ int FrameMaker::slice_of(float sigma_u, float sigma_v, bool phong)
 int FrameMaker::set_of(float sigma_u, float sigma_v, int samples)
 {
     const auto known = std::find(sets_.begin(), sets_.end(), std::pair(sigma_u, sigma_v));
-    const int first = samples + static_cast<int>(known - sets_.begin()) * 2 * samples;
+    const int all = kPhongSets * samples, first = all + static_cast<int>(known - sets_.begin()) * 2 * all;
     if (known != sets_.end())
         return first;
-    if (first + 2 * samples > kMostGridSamples)
+    if (first + 2 * all > kMostGridSamples)
         return -1;
     const double root2 = 1.4142135623730951, nu = phong_exponent(root2 * static_cast<double>(sigma_u)),
                  nv = phong_exponent(root2 * static_cast<double>(sigma_v));
@@ -245,7 +246,7 @@ ShadingFrame FrameMaker::make(const FrameDesc& desc)
     f.dfg_texels = input_.dfg.texels.data();
     f.lobe_albedo_texels = lobe_albedo_texels(), f.lobe_slice_texels = lobe_slices_.data();
     f.box = cube_record(box_cube_), f.box_texels = box_cube_.texels.data();
-    f.grid = grid_.data(), f.grid_count = static_cast<int>(grid_.size() - 2 * sets_.size() * static_cast<std::size_t>(desc.samples));
+    f.grid = grid_.data(), f.grid_count = grid_count_;
     return f;
 }
 

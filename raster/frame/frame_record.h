@@ -49,7 +49,8 @@ class FrameMaker {
     using SlicedLobe = std::tuple<float, float, bool>; // deviations of slope; whether it is an Ashikhmin-Shirley lobe
     std::vector<SlicedLobe> sliced_;                   // that have a slice, in their order
     Column<std::uint16_t> lobe_slices_;
-    std::vector<GridSample> grid_;
+    std::vector<GridSample> grid_;              // and lobes' sets of half vectors
+    int grid_count_ = 0;                        // samples of a fragment
     std::vector<std::pair<float, float>> sets_; // deviations of slope of the lobes whose half vectors follow in the grid
 };
 

@@ -36,8 +36,8 @@ std::vector<GridSample> ggx_grid(int n)
 std::vector<GridSample> phong_set(int samples)
 {
     std::vector<GridSample> set;
-    for (int i = 0; i < samples; ++i) {
-        const PhongPoint xi = phong_point(i, samples);
+    for (int i = 0; i < kPhongSets * samples; ++i) {
+        const PhongPoint xi = phong_point(i % samples, samples, i / samples);
         const double azimuth = 2.0 * kPi * xi.x;
         set.push_back(
             {static_cast<float>(det_cos(azimuth)), static_cast<float>(det_sin(azimuth)), static_cast<float>(det_log(1.0 - xi.y))});
@@ -54,6 +54,11 @@ void add_half_vectors(const std::vector<PhongHalfVector>& half_vectors, std::vec
         const double bits = det_log(std::max(h.density, 1e-30)) / det_log(2.0);
         to.push_back({static_cast<float>(0.5 * bits), 0.0f, 0.0f});
     }
+}
+
+int grid_count(const std::vector<GridSample>& grid, int traits)
+{
+    return static_cast<int>(grid.size()) / ((traits & kPhongGrid) ? kPhongSets : 1);
 }
 
 std::vector<GridSample> grid_samples(int samples, Sampling sampling, int traits)

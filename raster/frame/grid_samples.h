@@ -8,9 +8,12 @@
 
 namespace burnish {
 
-// traits: of the technique. n = floor(sqrt(samples)): Gaussian slopes (Beckmann) or GGX; of kPhongGrid all samples, the first of which is
-// the normal. None where a technique brings none.
+// traits: of the technique. n = floor(sqrt(samples)): Gaussian slopes (Beckmann) or GGX; of kPhongGrid four sets of all samples, one after
+// the other, the first of which is the normal. None where a technique brings none.
 std::vector<GridSample> grid_samples(int samples, Sampling sampling, int traits);
+
+// How many of them a fragment takes.
+int grid_count(const std::vector<GridSample>& grid, int traits);
 
 // Two a half vector, as as_mc.t.h has them: the vector, and half the logarithm to base 2 of its density.
 void add_half_vectors(const std::vector<PhongHalfVector>& half_vectors, std::vector<GridSample>& to);

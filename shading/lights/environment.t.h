@@ -41,12 +41,13 @@ BN_FN real3 environment_light(frame_ref f, BN_IN(shaded_point) x, int traits, re
     return sum;
 }
 
-// Of a fragment whose technique shares samples. r: what it found; more: light that is not the environment's.
+// Of a fragment whose technique shares samples. r: what it found, `rest` being what a technique returns that shares none; more: light that
+// is not the environment's.
 BN_FN line_record shared_light(frame_ref f, BN_IN(shaded_point) x, int traits, line_record r, real3 more)
 {
     real3 whole = x.albedo * x.gain * splat(the_frame(f).specular.scale);
-    r.factor = seen_of_lobe(f, x, traits, whole) * x.s.occlusion;
-    r.rest = environment_light(f, x, traits, vec3_all(lit(0.0))) + more;
+    r.factor = select(r.width < lit(0.0), vec3_all(lit(0.0)), seen_of_lobe(f, x, traits, whole) * x.s.occlusion);
+    r.rest = environment_light(f, x, traits, r.rest) + more;
     return r;
 }
 

@@ -67,6 +67,8 @@ BN_FN void make_coat_point(frame_ref f, BN_IN(coat_layer) coat, BN_IN(surface_fr
         c.dfg = dfg_lookup(dfg_texels(f), the_frame(f).dfg_size, c.s.n_dot_v, coat.roughness);
     c.albedo = albedo_of(c.s, c.dfg);
     c.phong_albedo = lit(-1.0);
+    c.own_dfg.scale = lit(1.0);
+    c.own_dfg.bias = lit(0.0);
     c.phong_set = -1;
     c.shown = lit(1.0);
     c.gain = vec3_all(lit(1.0));

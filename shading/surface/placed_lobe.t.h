@@ -167,6 +167,21 @@ BN_FN real placed_lobe_albedo(BN_IN(placed_lobe) a)
     return placed_lobe_mean(a, 21, 13);
 }
 
+// Of it, by the same samples, what Schlick's factor takes whatever f0 is: the part of f90 alone.
+BN_STAGE real placed_lobe_grazing(BN_IN(placed_lobe) a)
+{
+    real sum = lit(0.0);
+    for (int i = 0; i < 21; ++i) {
+        real x = (to_real(int_lit(i)) + lit(0.5)) / lit(21.0);
+        real y = (to_real(int_lit(i * 13 % 21)) + lit(0.5)) / lit(21.0);
+        bsdf_sample s = placed_lobe_sample(a, vec2_of(x, y));
+        real m = lit(1.0) - min(s.o_dot_h, lit(1.0));
+        real m2 = m * m;
+        sum = sum + s.weight * (m2 * m2 * m);
+    }
+    return sum / lit(21.0);
+}
+
 // BRDF times cosine over the density of normals that D would be if it were GGX's about the lobe's own normal, of a model whose normals are
 // GGX's; i: unit, in the lobe's axes.
 BN_FN real placed_lobe_masking(placed_lobe a, real3 i)

@@ -29,6 +29,7 @@ struct shaded_point {
     real phong_albedo; // directional, of an Ashikhmin-Shirley lobe of the same widths, where there is a table of it; else -1
     int phong_set;     // MaterialRecord's
     real shown;        // directional albedo of a lobe that takes the usual one's place, over that of the usual one, upright; 1 otherwise
+    dfg_value own_dfg; // of a lobe that is compensated by its own albedo (has_own_gain); dfg otherwise
     real3 gain;        // energy compensation, which multiplies the specular lobe; 1 without
     real3 dielectric_f0;
     real dielectric_f90;
@@ -208,6 +209,7 @@ BN_FN void make_shaded_point(frame_ref f, material_ref m, BN_IN(material_inputs)
     }
     x.gain = energy_gain(f, x.s.f0, x.dfg);
     x.shown = lit(1.0);
+    x.own_dfg = x.dfg;
     if ((the_frame(f).lobe_traits & kPunctualOnly) != 0)
         x.gain = vec3_all(lit(1.0));
     else if ((the_frame(f).lobe_traits & kLobeOfAll) == 0) {
@@ -217,8 +219,14 @@ BN_FN void make_shaded_point(frame_ref f, material_ref m, BN_IN(material_inputs)
             if (compensated || (the_material(m).technique_traits & kSamplesLobe) == 0 || the_frame(f).area_light_count > 0)
                 x.shown = share_of_usual(f, m, x);
             albedo = (x.dfg.scale + x.dfg.bias) * x.shown;
-        } else if (compensated)
-            albedo = placed_lobe_albedo(placed_lobe_at(f, x));
+        } else if (compensated) {
+            placed_lobe own = placed_lobe_at(f, x);
+            albedo = placed_lobe_albedo(own);
+            if (x.diffuse) {
+                x.own_dfg.bias = placed_lobe_grazing(own);
+                x.own_dfg.scale = albedo - x.own_dfg.bias;
+            }
+        }
         if (compensated)
             x.gain = energy_compensation_of_albedo(x.s.f0, min(albedo, lit(1.0)));
     }
@@ -235,6 +243,12 @@ BN_FN real diffuse_lit(frame_ref f, real n_dot_l)
     return phong_diffuse_lit(n_dot_l);
 }
 
+// Whether lobes are compensated by an albedo of their own, as no table has it.
+BN_FN bool has_own_gain(frame_ref f)
+{
+    return the_frame(f).energy_compensation != 0 && (the_frame(f).lobe_traits & (kLobeOfAll + kPunctualOnly)) == 0 && !stands_in(f);
+}
+
 // The share of light that the dielectric's specular part lets through to the diffuse one, whatever the light: all that the lobe does not
 // give back of light from everywhere. (Ashikhmin and Shirley's own, uncompensated: by f0, with phong_diffuse_lit() of the light.)
 BN_FN real passed_to_diffuse(frame_ref f, BN_IN(shaded_point) x)
@@ -247,7 +261,10 @@ BN_FN real passed_to_diffuse(frame_ref f, BN_IN(shaded_point) x)
         real3 r = dielectric_reflectance(x.dielectric_f0, x.dielectric_f90, x.through.parts.ior, x.s.n_dot_v);
         return max(lit(1.0) - max(r.x, max(r.y, r.z)), lit(0.0));
     }
-    real3 dielectric = dielectric_albedo_of(x.s, x.dielectric_f0, x.dielectric_f90, x.dfg) * energy_gain(f, x.dielectric_f0, x.dfg);
+    dfg_value dfg = x.dfg;
+    if (has_own_gain(f))
+        dfg = x.own_dfg;
+    real3 dielectric = dielectric_albedo_of(x.s, x.dielectric_f0, x.dielectric_f90, dfg) * energy_gain(f, x.dielectric_f0, dfg);
     return lit(1.0) - max(dielectric.x, max(dielectric.y, dielectric.z));
 }
 

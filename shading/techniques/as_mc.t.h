@@ -3,7 +3,9 @@
 // lobes have and the logarithm of 1 - xi; what is left is the same for each width, so that roughness may vary by fragment. Where the lobe's
 // widths are the same everywhere, frames bring its own half vectors (MaterialRecord::phong_set): two of the grid a sample, the vector and
 // half the logarithm to base 2 of its density. Then its albedo is known, too (phong_slice), and samples are weighted to it: what a few of
-// them get wrong is mostly how many of them lie below the horizon. One sample is a mirror.
+// them get wrong is mostly how many of them lie below the horizon. One sample is a mirror. There are four sets, which together are one of
+// four times as many samples: each pixel of a 2x2 quad has its own, and what alike lobes find is averaged (shared_line.k.h). Levels are
+// what FLIP is least with: of shared sets as fine as all their samples ask for, of one alone half a level finer than its own do.
 #ifndef BN_AS_MC_T_H
 #define BN_AS_MC_T_H
 
@@ -11,6 +13,7 @@
 #include "shading/lang/stage.h"
 #include "shading/models/ashikhmin_shirley.k.h"
 #include "shading/surface/energy.k.h"
+#include "shading/techniques/shared_line.k.h"
 #include "shading/techniques/technique.t.h"
 
 BN_KERNELS_BEGIN
@@ -61,15 +64,29 @@ BN_FN k_sin_cos_pair turn_of_pixel(frame_ref f, BN_IN(shaded_point) x)
     return k_sin_cos(angle);
 }
 
-BN_FN real3 as_mc_specular(frame_ref f, BN_IN(shaded_point) x)
+// Sample `first` of the grid, or of the set that a pixel has of four, `count` samples each.
+BN_FN real3 sample_of_set(frame_ref f, int first, int count, integer set, bool shared_sets)
 {
-    if (the_frame(f).grid_count == 1)
-        return mirrored(f, x, lit(1.0));
+    real3 r = grid_sample(f, first);
+    if (!shared_sets)
+        return r;
+    mask odd = (set & int_lit(1)) != int_lit(0);
+    mask upper = set > int_lit(1);
+    real3 low = select(odd, grid_sample(f, first + count), r);
+    real3 high = select(odd, grid_sample(f, first + 3 * count), grid_sample(f, first + 2 * count));
+    return select(upper, high, low);
+}
+
+// What the lobe reflects, unless it is a mirror. set: the pixel's, 0 to 3, where they are shared.
+BN_FN real3 as_mc_of_set(frame_ref f, BN_IN(shaded_point) x, integer set, bool shared_sets)
+{
     cube_desc cube = box_cube(f);
     real3 o = eye_in_lobe(x);
     real size = to_real(int_lit(cube.size));
-    real count = to_real(int_lit(the_frame(f).grid_count));
-    real texels = size * size * lit(0.47746482927568601) * lit(4.0) / count; // 6 / (4 pi), of 4 o.h times the density
+    int samples = the_frame(f).grid_count;
+    real count = to_real(int_lit(samples));
+    real finer = lit(shared_sets ? 1.0 : 2.0);
+    real texels = size * size * lit(0.47746482927568601) * finer / count; // 6 / (4 pi), of 4 o.h times the density
     real texel_term = lit(0.5) * k_log2(texels);
     bool by_table = x.phong_set >= 0;
     as_lobe lobe;
@@ -80,13 +97,13 @@ BN_FN real3 as_mc_specular(frame_ref f, BN_IN(shaded_point) x)
     real weights = lit(0.0);
     real kept = lit(0.0);
     k_sin_cos_pair turn = turn_of_pixel(f, x);
-    for (int i = 0; i < the_frame(f).grid_count; ++i) {
+    for (int i = 0; i < samples; ++i) {
         as_half_vector s;
         if (by_table) {
-            s.h = grid_sample(f, x.phong_set + 2 * i);
-            s.half_density = grid_sample(f, x.phong_set + 2 * i + 1).x;
+            s.h = sample_of_set(f, x.phong_set + 2 * i, 2 * samples, set, shared_sets);
+            s.half_density = sample_of_set(f, x.phong_set + 2 * i + 1, 2 * samples, set, shared_sets).x;
         } else {
-            real3 g = grid_sample(f, i);
+            real3 g = sample_of_set(f, i, samples, set, shared_sets);
             if (the_frame(f).seed != 0)
                 g = vec3_of(g.x * turn.cosine - g.y * turn.sine, g.x * turn.sine + g.y * turn.cosine, g.z);
             s = as_half_vector_of(lobe, g);
@@ -119,8 +136,37 @@ BN_FN real3 as_mc_specular(frame_ref f, BN_IN(shaded_point) x)
         total = total * energy_compensation_of_albedo(x.s.f0, albedo) / x.gain;
     }
     uniform_real scale = the_frame(f).box.scale / the_frame(f).specular.scale;
-    real3 mean = total / count * splat(scale);
-    return mirrors_apart(f, x, mean, lit(1.0));
+    return total / count * splat(scale);
+}
+
+// Alone, as where fragments do not know their neighbours.
+BN_FN real3 as_mc_specular(frame_ref f, BN_IN(shaded_point) x)
+{
+    if (the_frame(f).grid_count == 1)
+        return mirrored(f, x, lit(1.0));
+    return mirrors_apart(f, x, as_mc_of_set(f, x, int_lit(0), false), lit(1.0));
+}
+
+// What is shared: light over the usual lobe's albedo, so that f0 is each fragment's own. Of a mirror all is in `rest`. The more samples
+// there are, the finer is what they resolve, and the more alike lobes have to be.
+BN_FN line_record as_mc_shared(frame_ref f, BN_IN(shaded_point) x, real offset)
+{
+    if (the_frame(f).grid_count == 1)
+        return line_alone(mirrored(f, x, lit(1.0)));
+    real3 nothing = vec3_all(lit(0.0));
+    real3 found = as_mc_of_set(f, x, to_int(offset * lit(4.0)), true);
+    mask mirror = x.lobe.sigma_u + x.lobe.sigma_v <= lit(1e-6);
+    line_record r;
+    r.light = select(mirror, nothing, found / max(x.albedo, vec3_all(lit(1e-6))));
+    r.rest = select(mirror, mirrors_apart(f, x, nothing, lit(1.0)), nothing);
+    real along2 = max((x.lobe.sigma_u - x.lobe.sigma_v) * (x.lobe.sigma_u + x.lobe.sigma_v), lit(0.0));
+    real root2 = lit(1.4142135623730951);
+    real nearer = root2 * min(lit(4.0) / sqrt(to_real(int_lit(the_frame(f).grid_count))), lit(1.0));
+    r.width = select(mirror, lit(-1.0), x.lobe.sigma_v * nearer);
+    r.mirror = x.s.n * (lit(2.0) * k_dot3(x.s.n, x.s.v)) - x.s.v;
+    r.along = x.lobe.u_axis * (sqrt(along2) * nearer);
+    r.factor = nothing;
+    return r;
 }
 
 BN_KERNELS_END

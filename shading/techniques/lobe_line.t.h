@@ -57,11 +57,11 @@ BN_FN real3 lobe_line_radiance(frame_ref f, BN_IN(shaded_point) x, BN_IN(lobe_li
     return cube_sum_value(sum.light) / max(sum.weights, lit(1e-20));
 }
 
-// What is shared, but for `factor` and `rest`.
+// What is shared, but for `factor`.
 BN_FN line_record lobe_line_shared(frame_ref f, BN_IN(shaded_point) x, real offset)
 {
     lobe_line line = lobe_line_for(f, x);
-    line_record r;
+    line_record r = line_alone(vec3_all(lit(0.0)));
     r.light = lobe_line_radiance(f, x, line, offset);
     r.width = line.width * line.part; // round lobes share nothing
     r.mirror = x.s.n * (lit(2.0) * k_dot3(x.s.n, x.s.v)) - x.s.v;

@@ -99,6 +99,10 @@ def quaternions(bench):
     done = bench.run("render", scene, *VIEW, *METAL, "--quaternion-map", "nan.pfm", "-o", "r.pfm").expect(0)
     check("8 texels" in done.err, done.describe())
     check(off_by(bench, "plain.pfm", "r.pfm")["max_abs"] < 0.02, "repaired texels are not level")
+    scratch(bench, "nan.pfm", pfm(4, 4, lambda x, y: (float("nan"), 0.5, 1) if x == 1 else (0.5, 0.5, 0.5) if x == 2 else (0.5, 0.5, 1)))
+    done = bench.run("render", scene, *VIEW, *METAL, "--normal-map", "nan.pfm", "-o", "r.pfm").expect(0)
+    check("8 texels of normals" in done.err, done.describe())
+    check(off_by(bench, "plain.pfm", "r.pfm")["max_abs"] < 1e-6, "repaired normals are not level")
 
 
 @case("detail.rotations_are_one_whatever_says_them", tier="check")
@@ -156,6 +160,58 @@ def straightened(bench):
     bench.run("render", "30.obj", *VIEW, *METAL, "--f0", "1,1,1", "--rotation-map", "0.exr", "-q", "-o", "other.pfm").expect(0)
     check(off_by(bench, "other.pfm", drawn["with", 30])["mse"] > 1e-3, "the square's own map is not what turns it")
     check(off_by(bench, drawn["without", 0], drawn["without", 30])["mse"] > 1e-3, "the grain does not lie with the texture")
+
+
+EYE = (1.2, 0.9, 3.0)
+
+
+def patched_sphere(islands):
+    """An OBJ file: a sphere of six patches, less what lies farthest from the eye. Its texture is of six islands, each turned otherwise, or of one piece,
+    seen from the eye with areas kept (Lambert's azimuthal projection)."""
+    n, lines, faces, kept = 24, [], [], []
+    length = math.hypot(*EYE)
+    e = [c / length for c in EYE]
+    flat = math.hypot(e[0], e[2])
+    right, up = (e[2] / flat, 0, -e[0] / flat), (-e[0] * e[1] / flat, flat, -e[2] * e[1] / flat)
+    for patch, (c, s) in enumerate(((1, 0), (0, 1), (-1, 0), (0, -1), (0.8, 0.6), (-0.6, 0.8))):
+        sign = 1 - 2 * (patch % 2)
+        for row in range(n + 1):
+            for column in range(n + 1):
+                a, b = (math.tan(math.pi / 2 * (k / n - 0.5)) for k in (column, row))
+                at = {0: (sign, a, sign * b), 1: (sign * b, sign, a), 2: (a, sign * b, sign)}[patch // 2]
+                at = [k / math.hypot(*at) for k in at]
+                seen, x, y = (sum(p * q for p, q in zip(at, axis)) for axis in (e, right, up))
+                kept.append(seen > -0.9)
+                u, v = (0.35 * (2 * k / n - 1) for k in (column, row))
+                far = 0.5 / math.sqrt(2 * max(1 + seen, 1e-3))
+                uv = ((patch % 3 + 0.5 + c * u - s * v) / 3, (patch // 3 + 0.5 + s * u + c * v) / 2) if islands else (0.5 + far * x, 0.5 - far * y)
+                place = " ".join(f"{k:.7f}" for k in at)
+                lines += [f"v {place}", f"vt {uv[0]:.7f} {uv[1]:.7f}", f"vn {place}"]
+        first = patch * (n + 1) ** 2
+        for k in (first + row * (n + 1) + column for row in range(n) for column in range(n)):
+            corners = (k, k + 1, k + n + 2, k + n + 1)
+            if all(kept[corner] for corner in corners):
+                faces.append("f " + " ".join(f"{corner + 1}/{corner + 1}/{corner + 1}" for corner in corners))
+    return "\n".join(lines + faces) + "\n"
+
+
+# A technique whose samples lie alike on both ends of the grain, which has no sign: islands turn by any angle.
+@case("detail.a_sphere_of_six_islands_looks_as_one_of_one_piece")
+def islands(bench):
+    words = ("--eye", ",".join(map(str, EYE)), "--target", "0,0,0", "--fov", "40", "--size", "160x160", "--msaa", "4", "--roughness", "0.4", "--anisotropy", "0.8",
+             "--f0", "1,1,1", "--technique", "major_axis_weighted", "--texture-anisotropy", "16", "-q")
+    for name, cut in (("whole", False), ("cut", True)):
+        scratch(bench, name + ".obj", patched_sphere(cut))
+        bench.run("bake", "tpr", "--straighten", name + ".obj", "--direction", "0.3,1,0.2", "--size", "256x256", "-q", "-o", name + ".exr").expect(0)
+        bench.run("render", name + ".obj", *words, "--rotation-map", name + ".exr", "-o", name + ".pfm").expect(0)
+        bench.run("render", name + ".obj", *words, "-o", name + "_as_it_lies.pfm").expect(0)
+
+    def flip(a, b):
+        return json.loads(bench.run("compare", a, b, "--metric", "flip", "--json", "-").expect(0).out)["flip_mean"]
+
+    straight = flip("whole.pfm", "cut.pfm")
+    check(straight < 0.003, f"cut and straightened: {straight}")
+    check(flip("whole_as_it_lies.pfm", "cut_as_it_lies.pfm") > 0.1, "islands do not turn the grain")
 
 
 # Rotation first, then bump: the frame turned by a normal map carries the rotated grain.
@@ -307,7 +363,7 @@ def phong(bench):
     words = ("builtin:spheres", "--size", "48x36", "--msaa", "1", "--env-size", "64", "--env-samples", "64", "--key-lights", "off", "--no-background",
              "-q", "--technique")
     bench.run("render", *words, "mc", "--brdf", "ashikhmin_shirley", "--samples", "4096", "-o", "truth.pfm").expect(0)
-    for samples, most in (("2048", 1e-4), ("64", 3e-3), ("16", 2e-2)):
+    for samples, most in (("2048", 1e-4), ("64", 1e-2), ("16", 3e-2)):  # neighbours share, who see little alike in so small a picture
         bench.run("render", *words, "as_mc", "--samples", samples, "-o", "t.pfm").expect(0)
         found = off_by(bench, "truth.pfm", "t.pfm")
         check(found["mse"] < most, f"{samples} samples: {found}")
@@ -344,13 +400,13 @@ def phong_reference(bench):
         for name, given in (("mc", ("--technique", "mc", "--brdf", "ashikhmin_shirley", "--samples", "512")),
                             ("1024", ("--technique", "as_mc", "--samples", "1024")), ("16", ("--technique", "as_mc", "--samples", "16")),
                             ("turned", ("--technique", "as_mc", "--samples", "16", "--seed", "5")),
-                            ("16 alone", ("--technique", "as_mc", "--samples", "16", "--as-tables", "off"))):
+                            ("no table", ("--technique", "as_mc", "--samples", "16", "--as-tables", "off"))):
             found = mean(*words, *given)
             off.setdefault(name, []).append(max(abs(x / t - 1) for x, t in zip(found, truth)))
     check(max(off["mc"]) < 0.002, f"mc: {off}")
     check(max(off["1024"]) < 0.005, f"as_mc: {off}")
-    check(max(off["16"]) < 0.045 and max(off["16 alone"]) > 0.05, f"as_mc of 16 samples: {off}")
-    check(max(off["turned"]) < 0.03 and off["turned"] != off["16"], f"as_mc, turned: {off}")
+    check(max(off["16"]) < 0.01 and max(off["no table"]) > 2 * max(off["16"]), f"as_mc of 16 samples: {off}")
+    check(max(off["turned"]) < 0.01 and off["turned"] != off["16"], f"as_mc, turned: {off}")
 
 
 # One sample is what a mirror shows, dimmed by the lobe's albedo, which compensation gives back.

@@ -509,21 +509,23 @@ def wide_floor(repeats):
 
 
 def flickers(bench, steps, samples):
-    """How much pictures of a zoom out over grain change from one to the next, as a share of what the truth's do: all but box keep to it."""
+    """How much pictures of a zoom out over rough grain change from one to the next, as a share of what the truth's do: filters of lobes keep to
+    one and a half times that, lean to twice, box to neither."""
     needs_embree(bench)
     scratch(bench, "floor.gltf", files.text(wide_floor(24)))
-    scratch(bench, "fine.png", grain(128, 0.15))
+    scratch(bench, "fine.png", grain(128, 0.3))
     words = ("floor.gltf", "--normal-map", "fine.png", "--frame-map", "quaternion", "--eye", "0,3,4", "--target", "0,0,0", "--fov", "35", "--size", "48x36",
              "--env-size", "64", "--env-samples", "64", "--no-background", "-q", "--animate", "zoom=4:0.6", "--steps", steps)
     bench.run("render", *words, "--backend", "reference", "--reference-textures", "full", "--samples", 4 * samples, "-o", "truth%d.pfm",
               timeout=1000.0).expect(0)
     changes = {}
-    for name in ("box", "kappa", "leadr", "mipnet"):
+    for name in ("box", "lean", "kappa", "leadr", "mipnet"):
         bench.run("render", *words, "--mip-filter", name, "--technique", "mc", "--samples", samples, "--msaa", "8", "-o", name + "%d.pfm",
                   timeout=1000.0).expect(0)
         found = json.loads(bench.run("compare", "--sequence", "truth%d.pfm", name + "%d.pfm", "--json", "-", timeout=1000.0).expect(0).out)
         changes[name] = found["change"] / found["reference_change"]
-    check(all(change < 1.5 for name, change in changes.items() if name != "box") and changes["box"] > 1.5, f"{changes}")
+    print("changes to the truth's:", {name: round(share, 2) for name, share in changes.items()})
+    check(max(changes["kappa"], changes["leadr"], changes["mipnet"]) < 1.5 and changes["lean"] < 2 < changes["box"], f"{changes}")
 
 
 @case("mip.a_zoom_out_flickers_as_the_truth_does")

@@ -23,7 +23,7 @@ def tables(bench):
     bench.run("bake", "half-vectors", *EXPONENTS, "-q", "-o", "both/h.exr").expect(7)
     (bench.folder / "both").mkdir()
     for what, more, name in (("half-vectors", (), "both/h.exr"), ("brdf-lut", (), "both/a.exr"), ("brdf-lut", (), "a.pfm"),
-                             ("half-vectors", ("--size", "256x64"), "large.exr"), ("half-vectors", (), "h.png"), ("brdf-lut", ("--azimuth", "linear", "--size", "90x60"), "even.exr")):
+                             ("half-vectors", ("--size", "512x256"), "large.exr"), ("half-vectors", (), "h.png"), ("brdf-lut", ("--azimuth", "linear", "--size", "90x60"), "even.exr")):
         bench.run("bake", what, *EXPONENTS, *more, "-q", "-o", name).expect(0)
     bench.run("bake", "half-vectors", "--nu", "100", "--nv", "6.25", "-q", "-o", "across.exr").expect(0)
     for samples in ("16", "64"):
@@ -42,7 +42,7 @@ def tables(bench):
         found = off_by(bench, "own.pfm", "t.pfm")
         check(0 < found["mse"] < most, f"{name}: {found}")
     done = bench.run("render", *LOBE, "--anisotropy", "0.6", "--samples", "60", "--as-table", "both/h.exr", "-o", "t.pfm").expect(0)
-    check("64x64 texels do not hold 60 samples" in done.err, done.describe())
+    check("256x256 texels do not hold 60 samples" in done.err, done.describe())
     # of another lobe, or of none
     for anisotropy in ("0.5", "0"):
         for name in ("both/h.exr", "a.pfm", "h.png"):
@@ -116,7 +116,7 @@ def ball(columns, rows):
 
 
 # Under light of 1 from everywhere a white surface shows what both parts give back: never more than they get, at grazing angles less than
-# Lambert's. Compensated it is what Lambert's is: within .08 of all, as what is let through to the diffuse part is the usual lobe's rest.
+# Lambert's. Compensated it is all of it, but for what 21 samples of the lobe's albedo are off by.
 @case("phong.diffuse_part_and_lobe_give_back_no_more_than_they_get", tier="check")
 def furnace(bench):
     scratch(bench, "even.pfm", pfm(8, 4, lambda x, y: (1, 1, 1)))
@@ -132,7 +132,8 @@ def furnace(bench):
         plain, whole = (shown[f0, "ashikhmin-shirley", more] for more in ((), ("--energy-compensation",)))
         check(len(plain) > 500 and max(plain) <= 1.002, f"f0 {f0}: {max(plain)}")
         check(min(plain) < 0.9, f"f0 {f0}: nothing is lost: {min(plain)}")
-        check(0.91 <= min(whole) and max(whole) <= 1.02 and min(whole) > min(plain) + 0.02, f"f0 {f0}: compensated {min(whole)} to {max(whole)}")
+        print(f"f0 {f0}: {min(plain)} to {max(plain)}, compensated {min(whole)} to {max(whole)}")
+        check(0.95 <= min(whole) and max(whole) <= 1.045 and min(whole) > min(plain) + 0.02, f"f0 {f0}: compensated {min(whole)} to {max(whole)}")
     check(min(shown["0.04,0.04,0.04", "lambert", ()]) > min(shown["0.04,0.04,0.04", "ashikhmin-shirley", ()]) + 0.05, "both diffuse parts are one")
 
 

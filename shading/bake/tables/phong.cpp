@@ -39,20 +39,24 @@ PhongHalfVector phong_half_vector(double nu, double nv, double xi_x, double xi_y
     return {c * q, s * q, z, std::sqrt((nu + 1.0) * (nv + 1.0)) / (2.0 * kPi) * det_exp(e * lg)};
 }
 
-PhongPoint phong_point(int i, int n)
+PhongPoint phong_point(int i, int n, int set)
 {
-    std::uint32_t bits = static_cast<std::uint32_t>(i), mirrored = 0;
+    int quarter = set;
+    for (int digits = i; digits > 0; digits /= kPhongSets)
+        quarter += digits % kPhongSets;
+    const int point = kPhongSets * i + quarter % kPhongSets;
+    std::uint32_t bits = static_cast<std::uint32_t>(point), mirrored = 0;
     for (int b = 0; b < 32; ++b, bits >>= 1)
         mirrored = mirrored << 1 | (bits & 1u);
-    return {static_cast<double>(i) / n, mirrored / 4294967296.0};
+    return {static_cast<double>(point) / (kPhongSets * n), mirrored / 4294967296.0};
 }
 
 std::vector<PhongHalfVector> phong_half_vectors(double nu, double nv, int samples)
 {
     const auto held = [](double value) { return static_cast<double>(static_cast<float>(value)); };
     std::vector<PhongHalfVector> all;
-    for (int i = 0; i < samples; ++i) {
-        const PhongPoint xi = phong_point(i, samples);
+    for (int i = 0; i < kPhongSets * samples; ++i) {
+        const PhongPoint xi = phong_point(i % samples, samples, i / samples);
         const PhongHalfVector h = phong_half_vector(nu, nv, xi.x, xi.y);
         all.push_back({held(h.x), held(h.y), held(h.z), held(h.density)});
     }

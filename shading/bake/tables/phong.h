@@ -19,12 +19,14 @@ struct PhongHalfVector {
 // that difference is exact.
 PhongHalfVector phong_half_vector(double nu, double nv, double xi_x, double xi_y);
 
-// Point i of a Hammersley set of n; point 0 is (0, 0).
+// Point i of n of one of four sets, which together are a Hammersley set of 4 n: of each four neighbours there every set has one, in another
+// quarter of y from four to four. Point 0 of set 0 is (0, 0).
+inline constexpr int kPhongSets = 4;
 struct PhongPoint {
     double x, y;
 };
-PhongPoint phong_point(int i, int n);
-// Half vectors at all points of such a set, in floats, as tables hold them.
+PhongPoint phong_point(int i, int n, int set);
+// Half vectors at all points of these sets, one set after the other, in floats, as tables hold them.
 std::vector<PhongHalfVector> phong_half_vectors(double nu, double nv, int samples);
 
 struct PhongAlbedo {

@@ -128,14 +128,15 @@ std::vector<std::string> PhongFiles::warnings(int samples) const
 {
     std::vector<std::string> lines;
     if (has_half_vectors()) {
+        const int columns = kPhongSets * samples;
         int rows = 1;
-        while (rows < samples)
+        while (rows < columns)
             rows *= 2;
         if (half_codes_ > 0)
             lines.push_back(fmt::format("{}: 8 bits leave {} values along the first axis, and no densities", half_path_, half_codes_));
-        if (half_.width % samples != 0 || half_.height % rows != 0)
+        if (half_.width % columns != 0 || half_.height % rows != 0)
             lines.push_back(fmt::format("{}: {}x{} texels do not hold {} samples, which take the nearest ones below; {}x{} would",
-                                        half_path_, half_.width, half_.height, samples, samples, rows));
+                                        half_path_, half_.width, half_.height, samples, columns, rows));
     }
     if (albedo_8_)
         lines.push_back(fmt::format("{}: 8 bits leave albedos that are off by up to 0.002", albedo_path_));
@@ -146,8 +147,8 @@ std::vector<PhongHalfVector> PhongFiles::half_vectors(double nu, double nv, int 
 {
     const bool across = half_off_by(nv, nu) < half_off_by(nu, nv);
     std::vector<PhongHalfVector> found;
-    for (int i = 0; i < samples; ++i) {
-        const PhongPoint xi = phong_point(i, samples);
+    for (int i = 0; i < kPhongSets * samples; ++i) {
+        const PhongPoint xi = phong_point(i % samples, samples, i / samples);
         const double turned = 1.25 - xi.x, at = !across ? xi.x : turned < 1.0 ? turned : turned - 1.0;
         const float* held = texel(half_, texel_below(at, half_.width), texel_below(xi.y, half_.height));
         PhongHalfVector h = {static_cast<double>(held[0]), static_cast<double>(held[1]), static_cast<double>(held[2]),

@@ -236,7 +236,7 @@ vec3 as_mc(Surface s)
         return specular_at(reflect(-s.v, s.n), 0.0) * s.albedo;
     vec3 o = s.o;
     vec2 alpha = max(s.sigma * kRoot2, 1e-3), n = 1.0 / (alpha * alpha), wide = sqrt(n.yx + 1.0);
-    float term = frame.axis.z + 0.5 * log2(25.1327412 / (wide.x * wide.y));
+    float term = frame.axis.z + 0.5 * log2(12.5663706 / (wide.x * wide.y));
     vec3 sum = vec3(0.0);
     float weights = 0.0;
     for (int i = 0; i < kSamples; ++i) {
