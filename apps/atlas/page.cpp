@@ -142,14 +142,13 @@ std::string atlas_page(const std::vector<AtlasResult>& results, const AtlasWalk&
         "<link rel=\"icon\" href=\"data:,\">\n<style>\n{}{}{}:root {{ --steps: {}; --rows: {}; }}\n</style>\n</head>\n<body>\n<main>\n"
         "<h1>Where methods break</h1>\n",
         kChartPageStyle.bytes, chart_style(), kAtlasPageStyle.bytes, walk.steps, kAtlasRows);
-    page +=
-        fmt::format("<p>{}, each a path of {} steps from where a method holds to where it breaks, in pictures of {} x {} pixels against "
-                    "references of {} samples a pixel; burnish {}. {}</p>\n",
-                    results.size() == 1 ? "1 entry" : fmt::format("{} entries", results.size()), walk.steps, walk.side, walk.side,
-                    walk.samples, escaped(version()),
-                    red       ? fmt::format("<strong class=\"red\">{} not held.</strong>", red)
-                    : unknown ? fmt::format("{} not blessed.", unknown)
-                              : std::string("All are held."));
+    page += fmt::format("<p>{} a path of {} steps from where a method holds to where it breaks, in pictures of {} x {} pixels against "
+                        "references of {} samples a pixel; burnish {}. {}</p>\n",
+                        results.size() == 1 ? "1 entry," : fmt::format("{} entries, each", results.size()), walk.steps, walk.side,
+                        walk.side, walk.samples, escaped(version()),
+                        red       ? fmt::format("<strong class=\"red\">{} not held.</strong>", red)
+                        : unknown ? fmt::format("{} not blessed.", unknown)
+                                  : std::string(results.size() == 1 ? "It is held." : "All are held."));
     page += "<p>Keys: <kbd>N</kbd> <kbd>P</kbd> next and previous entry, <kbd>&larr;</kbd> <kbd>&rarr;</kbd> along its path, <kbd>+</kbd> "
             "<kbd>-</kbd> zoom, <kbd>F</kbd> flickers what breaks with the truth.</p>\n<noscript><p>The paths need JavaScript; curves and "
             "figures do "
