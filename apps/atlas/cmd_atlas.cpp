@@ -135,8 +135,9 @@ void Atlas::judge_entry(const AtlasEntry& entry, MeasuredEntry measured)
 void Atlas::tell(const AtlasResult& r)
 {
     const MeasuredEntry& m = r.measured;
-    report_.figures(fmt::format("{:<36} onset {:>5}  worst {:.4f}  flicker {:+.4f}  cure {:>6}  {:<13} {}\n", m.id,
+    report_.figures(fmt::format("{:<36} onset {:>5}  worst {:.4f}  flicker {:+.4f}  double {:>6}  cure {:>6}  {:<13} {}\n", m.id,
                                 m.onset <= 1.0 ? fmt::format("{:.3f}", m.onset) : "none", m.worst, m.flicker,
+                                m.in_double ? fmt::format("{:.4f}", *m.in_double) : "-",
                                 r.entry->cure[0] ? fmt::format("{:.4f}", m.cure_worst) : "-", m.kind, verdict_name(r.judged.verdict)));
 }
 

@@ -4,11 +4,26 @@
 #include "apps/cli/open.h"
 #include "apps/cli/scene_view.h"
 #include "raster/reference/scene_key.h"
+#include "raster/tile/double_renderer.h"
 
 namespace burnish {
 namespace {
 
 constexpr std::size_t kMostKept = 8; // scenes, environments or sessions: a path may have one a step
+
+Result<Frame> finite(const AtlasSetting& setting, Result<Frame> frame)
+{
+    if (frame && count_not_finite(frame->color))
+        return Error{ExitCode::not_finite, setting.options.scene, setting.values, "the picture holds NaN or Inf"};
+    return frame;
+}
+
+Result<std::optional<Frame>> some(Result<Frame> frame)
+{
+    if (!frame)
+        return frame.error();
+    return std::optional<Frame>(std::move(*frame));
+}
 
 template <class T> void make_room(std::map<std::string, T>& kept)
 {
@@ -67,19 +82,32 @@ Result<Frame> Darkroom::draw(const AtlasSetting& setting)
     const Result<FrameDesc> desc = desc_of(setting, **session);
     if (!desc)
         return desc.error();
-    Result<Frame> frame = (*session)->render(*desc);
-    if (frame && count_not_finite(frame->color))
-        return Error{ExitCode::not_finite, setting.options.scene, setting.values, "the picture holds NaN or Inf"};
-    return frame;
+    return finite(setting, (*session)->render(*desc));
+}
+
+Result<std::optional<Frame>> Darkroom::draw_in_double(const AtlasSetting& setting)
+{
+    const Result<Session*> session = session_of(setting);
+    if (!session)
+        return session.error();
+    const Result<FrameDesc> desc = desc_of(setting, **session);
+    if (!desc)
+        return desc.error();
+    const std::unique_ptr<Renderer> renderer = make_double_tile_renderer((*session)->parts().input());
+    if (!renderer)
+        return std::optional<Frame>();
+    return some(finite(setting, renderer->render((*session)->drawn(*desc), {})));
 }
 
 Result<std::shared_ptr<const Truth>> Darkroom::truth(const AtlasSetting& setting)
 {
     if (setting.options.backend != "reference") {
-        Result<Frame> frame = draw(setting);
+        Result<std::optional<Frame>> frame = setting.in_double ? draw_in_double(setting) : some(draw(setting));
         if (!frame)
             return frame.error();
-        return std::make_shared<const Truth>(Truth{std::move(frame->color), 0.0});
+        if (!*frame)
+            return Error{ExitCode::unavailable, setting.options.scene, "", "this program draws no frames in double"};
+        return std::make_shared<const Truth>(Truth{std::move((*frame)->color), 0.0});
     }
     const Result<Session*> session = session_of(setting);
     if (!session)

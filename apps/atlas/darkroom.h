@@ -3,6 +3,7 @@
 #include <atomic>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "apps/atlas/entries.h"
@@ -28,6 +29,8 @@ class Darkroom {
 
     // By the tile renderer, with triangle ids.
     Result<Frame> draw(const AtlasSetting& setting);
+    // The same in double: raster/tile/double_renderer.h. Nothing where the program has no such lanes.
+    Result<std::optional<Frame>> draw_in_double(const AtlasSetting& setting);
     // Of what the reference makes of it, or the tile renderer. Null where the machine's `stop` came first.
     Result<std::shared_ptr<const Truth>> truth(const AtlasSetting& setting);
     void forget(); // truths and sessions: no other entry has the same

@@ -21,10 +21,8 @@ std::vector<std::string> words_of(const std::string& text)
     return words;
 }
 
-Result<std::vector<OptionPath>> paths_of(const AtlasEntry& entry)
+Result<std::vector<OptionPath>> paths_of(const AtlasEntry& entry, OptionTable& table) // both ends are tried on it
 {
-    RenderArguments scratch; // both ends are tried on
-    OptionTable table = render_option_table(scratch);
     Result<std::vector<OptionPath>> paths = parse_option_paths("path", entry.path, table);
     if (paths)
         for (OptionPath& path : *paths)
@@ -38,7 +36,7 @@ std::vector<std::string> own_words(const AtlasEntry& entry, AtlasRole role, std:
     if (role != AtlasRole::truth)
         return words_of(role == AtlasRole::cure ? fmt::format("{} {}", entry.with, entry.cure) : entry.with);
     std::vector<std::string> words = words_of(entry.truth_words);
-    if (entry.truth != AtlasTruth::render)
+    if (entry.truth == AtlasTruth::reference || entry.truth == AtlasTruth::full)
         for (const std::string& word : words_of(fmt::format("--backend reference --samples {} --reference-textures {}", samples,
                                                             entry.truth == AtlasTruth::full ? "full" : "footprint")))
             words.push_back(word);
@@ -105,7 +103,7 @@ Result<AtlasSetting> SettingReader::read(const AtlasEntry& entry, AtlasRole role
         error.place = fmt::format("{}: {}", entry.id, error.place);
         return error;
     };
-    const Result<std::vector<OptionPath>> paths = paths_of(entry);
+    const Result<std::vector<OptionPath>> paths = paths_of(entry, command_.options);
     if (!paths)
         return wrong(paths.error());
     AtlasSetting out;
@@ -127,6 +125,7 @@ Result<AtlasSetting> SettingReader::read(const AtlasEntry& entry, AtlasRole role
     if (!options)
         return wrong(options.error());
     out.options = *options;
+    out.in_double = role == AtlasRole::truth && entry.truth == AtlasTruth::doubles;
     set_keys(command_.options, words, out);
     return out;
 }

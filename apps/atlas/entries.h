@@ -9,7 +9,7 @@
 
 namespace burnish {
 
-enum class AtlasTruth { reference, full, render }; // as apps/atlas/atlas.def has them
+enum class AtlasTruth { reference, full, render, doubles }; // as apps/atlas/atlas.def has them
 
 struct AtlasEntry {
     const char *id, *group, *breaks;
@@ -31,6 +31,7 @@ struct AtlasSetting {
     RenderOptions options;
     std::string values; // "anisotropy 0.5": what the path gives
     std::string scene_key, environment_key;
+    bool in_double = false; // by the tile renderer: raster/tile/double_renderer.h
 };
 
 enum class AtlasRole { test, cure, truth };

@@ -21,6 +21,7 @@ Json measured_json(const MeasuredEntry& m, bool cured)
     Json json = {{"onset", m.onset <= 1.0 ? Json(m.onset) : Json()},
                  {"worst", m.worst},
                  {"flicker", m.flicker},
+                 {"double", m.in_double ? Json(*m.in_double) : Json()},
                  {"cure_worst", cured ? Json(m.cure_worst) : Json()},
                  {"kind", m.kind},
                  {"remedy", m.remedy},
@@ -66,6 +67,8 @@ std::optional<MeasuredEntry> parse_kept_entry(const std::string& text, const std
                                number_or_zero(s.at("cure_error")), number_or_zero(s.at("noise")), s.at("change").get<double>()});
         m.kind = json.at("kind").get<std::string>();
         m.remedy = json.at("remedy").get<double>();
+        if (!json.at("double").is_null())
+            m.in_double = json.at("double").get<double>();
         const AtlasEntry* entry = find_entry(m.id);
         if (!entry || m.steps.empty())
             return std::nullopt;
@@ -89,6 +92,8 @@ std::string truth_text(const AtlasEntry& entry)
         return "the reference" + with;
     case AtlasTruth::full:
         return "the reference with textures in full detail" + with;
+    case AtlasTruth::doubles:
+        return "the same in double" + with;
     case AtlasTruth::render:
         break;
     }

@@ -14,6 +14,7 @@ namespace burnish {
 namespace {
 
 constexpr int kMoreSamples = 64, kMostSamples = 65536; // of the verdict: so many times as many, of techniques and lights
+constexpr int kVerdictSide = 32;                       // pixels of its pictures, where textures are not what it is about
 constexpr double kGone = 0.5;                          // an error is gone where less than this share of it is left
 
 struct Picture {
@@ -58,6 +59,7 @@ class Walker {
     // Mean HDR-FLIP over what is covered, and the map of it.
     double difference(const Truth& exposed_by, const Image& a, const Image& b, const std::vector<bool>& covered, Image& map);
     Result<double> error_of(const AtlasSetting& test, const AtlasEntry& truth_of, int step);
+    Result<double> error_of(Frame frame, const AtlasEntry& truth_of, int step);
     void show(AtlasRow row, int column, const Image& shown);
     double place(int i) const { return static_cast<double>(i) / (walk_.steps - 1); }
 
@@ -136,7 +138,15 @@ Status Walker::step(int i)
 // What a picture of the path is off by against the truth of another entry.
 Result<double> Walker::error_of(const AtlasSetting& test, const AtlasEntry& truth_of, int step)
 {
-    const Result<AtlasSetting> setting = setting_of(truth_of, AtlasRole::truth, place(step), walk_.side, walk_.samples);
+    Result<Frame> frame = room_.draw(test);
+    if (!frame)
+        return frame.error();
+    return error_of(std::move(*frame), truth_of, step);
+}
+
+Result<double> Walker::error_of(Frame frame, const AtlasEntry& truth_of, int step)
+{
+    const Result<AtlasSetting> setting = setting_of(truth_of, AtlasRole::truth, place(step), frame.color.width, walk_.samples);
     if (!setting)
         return setting.error();
     const Result<std::shared_ptr<const Truth>> truth = room_.truth(*setting);
@@ -145,10 +155,7 @@ Result<double> Walker::error_of(const AtlasSetting& test, const AtlasEntry& trut
     out_.stopped = !*truth;
     if (out_.stopped)
         return 0.0;
-    Result<Frame> frame = room_.draw(test);
-    if (!frame)
-        return frame.error();
-    const Picture now = picture_of(std::move(*frame));
+    const Picture now = picture_of(std::move(frame));
     Image map;
     return difference(**truth, (*truth)->color, now.color, now.covered, map);
 }
@@ -156,16 +163,36 @@ Result<double> Walker::error_of(const AtlasSetting& test, const AtlasEntry& trut
 Status Walker::find_kind()
 {
     MeasuredEntry& m = out_.measured;
-    m.kind = "none", m.remedy = m.worst;
-    if (m.onset > 1.0)
-        return {};
+    m.kind = "none", m.remedy = 1.0;
     const auto worst =
         std::max_element(m.steps.begin(), m.steps.end(), [](const AtlasStep& a, const AtlasStep& b) { return a.error < b.error; });
     const int at = static_cast<int>(worst - m.steps.begin());
     const Result<AtlasSetting> setting = setting_of(entry_, AtlasRole::test, place(at), walk_.side, 0);
     if (!setting)
         return setting.error();
-    AtlasSetting more = *setting;
+    Result<std::optional<Frame>> in_double = room_.draw_in_double(*setting);
+    if (!in_double)
+        return in_double.error();
+    if (*in_double) {
+        const Result<double> error = error_of(std::move(**in_double), entry_, at);
+        if (!error)
+            return error.error();
+        m.in_double = *error, m.remedy = *error / std::max(m.worst, 1e-9);
+    }
+    if (m.onset > 1.0 || out_.stopped)
+        return {};
+    if (m.in_double && m.remedy < kGone) {
+        m.kind = "precision";
+        return {};
+    }
+    const int side = entry_.truth == AtlasTruth::full ? walk_.side : std::min(walk_.side, kVerdictSide);
+    const Result<AtlasSetting> few = setting_of(entry_, AtlasRole::test, place(at), side, 0);
+    if (!few)
+        return few.error();
+    const Result<double> usual = error_of(*few, entry_, at);
+    if (!usual)
+        return usual.error();
+    AtlasSetting more = *few;
     FrameDesc& frame = more.options.frame;
     const TechniqueInfo& technique = *find_technique(frame.technique);
     frame.samples = samples_taken(technique, std::min({frame.samples * kMoreSamples, kMostSamples, technique.most_samples}));
@@ -174,19 +201,19 @@ Status Walker::find_kind()
     const Result<double> sampled = error_of(more, entry_, at);
     if (!sampled)
         return sampled.error();
-    m.kind = "approximation", m.remedy = *sampled;
-    if (*sampled < kGone * m.worst) {
+    m.kind = "approximation", m.remedy = *sampled / std::max(*usual, 1e-9);
+    if (m.remedy < kGone) {
         m.kind = "sampling";
         return {};
     }
     if (entry_.truth != AtlasTruth::full)
         return {};
     AtlasEntry filtered = entry_;
-    filtered.truth = AtlasTruth::reference;
+    filtered.truth = AtlasTruth::reference, filtered.truth_words = "";
     const Result<double> alike = error_of(*setting, filtered, at);
     if (!alike)
         return alike.error();
-    m.remedy = std::min(*sampled, *alike);
+    m.remedy = std::min(m.remedy, *alike / m.worst);
     if (*alike < kGone * m.worst)
         m.kind = "filtering";
     return {};

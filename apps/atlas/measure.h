@@ -28,13 +28,15 @@ struct AtlasStep {
 struct MeasuredEntry {
     std::string id;
     std::vector<AtlasStep> steps;
-    std::string kind;        // "sampling", "filtering", "approximation"; "none" where nothing exceeds the threshold
-    double onset = 2.0;      // the first s beyond the threshold; above 1: none
-    double worst = 0.0;      // the largest error
-    double flicker = 0.0;    // mean change
-    double cure_worst = 0.0; // the cure's largest error; 0 where none is known
-    double noise = 0.0;      // the largest
-    double remedy = 0.0;     // the error at the worst step with 64 times the samples, or against a truth that filters alike
+    std::string kind;                // "precision", "sampling", "filtering", "approximation"; "none" where nothing exceeds the threshold
+    double onset = 2.0;              // the first s beyond the threshold; above 1: none
+    double worst = 0.0;              // the largest error
+    double flicker = 0.0;            // mean change
+    double cure_worst = 0.0;         // the cure's largest error; 0 where none is known
+    double noise = 0.0;              // the largest
+    std::optional<double> in_double; // the error at the worst step, drawn in double; nothing where the program has no such lanes
+    double remedy = 0.0; // the share of the worst step's error that is left in double, with 64 times the samples, or beside a truth
+                         // that filters alike
 };
 
 // From steps to figures; but for kind and remedy.

@@ -23,6 +23,11 @@ std::string onset_text(const MeasuredEntry& m)
     return m.onset <= 1.0 ? fmt::format("{:.3f}", m.onset) : "none";
 }
 
+std::string double_text(const MeasuredEntry& m)
+{
+    return m.in_double ? fmt::format("{:.4f}", *m.in_double) : "not drawn";
+}
+
 // Error over the path: of what breaks, of the cure, and the threshold.
 Drawing plot_path(const AtlasResult& r)
 {
@@ -46,6 +51,8 @@ Drawing plot_path(const AtlasResult& r)
         if (cure && !cured)
             continue;
         const std::string colour = cure ? kCured : kBroken;
+        const double legend = cure ? kRight - 44.0 : kLeft;
+        out.text(legend + 12.0, kBottom + 36.0, "tick", cure ? "cure" : "breaks");
         Points line;
         for (const AtlasStep& s : r.measured.steps)
             line.emplace_back(x.at(s.s), y.at(cure ? s.cure_error : s.error));
@@ -53,6 +60,7 @@ Drawing plot_path(const AtlasResult& r)
         out.open("point best " + colour);
         for (const auto& [px, py] : line)
             out.mark(cure ? 1 : 0, px, py, 3.0, "mark");
+        out.mark(cure ? 1 : 0, legend + 4.0, kBottom + 32.0, 3.0, "mark");
         out.close();
     }
     return out;
@@ -63,14 +71,16 @@ std::string overview(const std::vector<AtlasResult>& results)
     std::string out =
         "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"All entries\"><table>\n"
         "<tr><th scope=\"col\">entry</th><th scope=\"col\">onset</th><th scope=\"col\">worst</th><th scope=\"col\">threshold</th>"
-        "<th scope=\"col\">flicker</th><th scope=\"col\">cure</th><th scope=\"col\">kind</th><th scope=\"col\">held</th></tr>\n";
+        "<th scope=\"col\">flicker</th><th scope=\"col\">in double</th><th scope=\"col\">cure</th><th scope=\"col\">kind</th><th "
+        "scope=\"col\">held</th></tr>\n";
     for (const AtlasResult& r : results) {
         const MeasuredEntry& m = r.measured;
-        out += fmt::format("<tr><td><a href=\"#{0}\">{0}</a></td><td>{1}</td><td>{2:.4f}</td><td>{3:g}</td><td>{4:.4f}</td><td>{5}</td>"
-                           "<td>{6}</td><td class=\"{8}\">{7}</td></tr>\n",
-                           r.entry->id, onset_text(m), m.worst, r.entry->threshold, m.flicker,
-                           r.entry->cure[0] ? fmt::format("{:.4f}", m.cure_worst) : "none known", m.kind, verdict_name(r.judged.verdict),
-                           r.judged.verdict >= Verdict::worse ? "red" : "");
+        out += fmt::format(
+            "<tr><td><a href=\"#{0}\">{0}</a></td><td>{1}</td><td>{2:.4f}</td><td>{3:g}</td><td>{4:.4f}</td><td>{9}</td><td>{5}</td>"
+            "<td>{6}</td><td class=\"{8}\">{7}</td></tr>\n",
+            r.entry->id, onset_text(m), m.worst, r.entry->threshold, m.flicker,
+            r.entry->cure[0] ? fmt::format("{:.4f}", m.cure_worst) : "none known", m.kind, verdict_name(r.judged.verdict),
+            r.judged.verdict >= Verdict::worse ? "red" : "", double_text(m));
     }
     return out + "</table></div>\n";
 }
@@ -101,8 +111,8 @@ std::string section(const AtlasResult& r)
         fmt::format("<section class=\"entry\" id=\"{0}\" tabindex=\"-1\">\n<h2>{0}</h2>\n<p>{1}.</p>\n", e.id, escaped(e.breaks));
     if (r.judged.verdict >= Verdict::worse)
         out += fmt::format("<p class=\"red\"><strong>{}</strong>: {}</p>\n", verdict_name(r.judged.verdict), escaped(r.judged.why));
-    out += fmt::format("<p>Onset {}, worst {:.4f}, flicker {:.4f}: {}. Measured is the {}; its noise alone makes {}.</p>\n", onset_text(m),
-                       m.worst, m.flicker, m.kind, escaped(measure_text(e)), number(m.noise));
+    out += fmt::format("<p>Onset {}, worst {:.4f} ({} in double), flicker {:.4f}: {}. Measured is the {}; its noise alone makes {}.</p>\n",
+                       onset_text(m), m.worst, double_text(m), m.flicker, m.kind, escaped(measure_text(e)), number(m.noise));
     out += fmt::format("<p><code>burnish render {}</code>, {}; cure: {}</p>\n", escaped(e.words), escaped(path_text(e)),
                        e.cure[0] ? "<code>" + escaped(e.cure) + "</code>" : "none known");
     out += "<div class=\"walk\">" + svg_of(plot_path(r)) + "<div>\n";
@@ -132,13 +142,13 @@ std::string atlas_page(const std::vector<AtlasResult>& results, const AtlasWalk&
         "<link rel=\"icon\" href=\"data:,\">\n<style>\n{}{}{}:root {{ --steps: {}; --rows: {}; }}\n</style>\n</head>\n<body>\n<main>\n"
         "<h1>Where methods break</h1>\n",
         kChartPageStyle.bytes, chart_style(), kAtlasPageStyle.bytes, walk.steps, kAtlasRows);
-    page += fmt::format(
-        "<p>{} entries, each a path of {} steps from where a method holds to where it breaks, in pictures of {} x {} pixels against "
-        "references of {} samples a pixel; burnish {}. {}</p>\n",
-        results.size(), walk.steps, walk.side, walk.side, walk.samples, escaped(version()),
-        red       ? fmt::format("<strong class=\"red\">{} not held.</strong>", red)
-        : unknown ? fmt::format("{} not blessed.", unknown)
-                  : std::string("All are held."));
+    page += fmt::format("<p>{} a path of {} steps from where a method holds to where it breaks, in pictures of {} x {} pixels against "
+                        "references of {} samples a pixel; burnish {}. {}</p>\n",
+                        results.size() == 1 ? "1 entry," : fmt::format("{} entries, each", results.size()), walk.steps, walk.side,
+                        walk.side, walk.samples, escaped(version()),
+                        red       ? fmt::format("<strong class=\"red\">{} not held.</strong>", red)
+                        : unknown ? fmt::format("{} not blessed.", unknown)
+                                  : std::string(results.size() == 1 ? "It is held." : "All are held."));
     page += "<p>Keys: <kbd>N</kbd> <kbd>P</kbd> next and previous entry, <kbd>&larr;</kbd> <kbd>&rarr;</kbd> along its path, <kbd>+</kbd> "
             "<kbd>-</kbd> zoom, <kbd>F</kbd> flickers what breaks with the truth.</p>\n<noscript><p>The paths need JavaScript; curves and "
             "figures do "

@@ -55,8 +55,8 @@ using Changes = std::array<float, kChanges>;
 constexpr Changes kSeen = {0.12f, 0.12f, 0.12f, 0.25f, 0.2f, 0.0f}; // by Change: of the logarithm of what a pixel shows
 constexpr float kBlack = 0.1f;                                      // of the picture's median luminance: what is told apart from black
 
-constexpr int kLookedAt = 30000, kMostStep = 16; // pixels of a picture, about; one of a square of 16 x 16 at least
-constexpr float kUsualNdotV = 0.7f;              // of an entry's, where it is not along the path
+constexpr int kLookedAt = 3600, kMostStep = 16; // pixels of a picture, about; one of a square of 16 x 16 at least
+constexpr float kUsualNdotV = 0.7f;             // of an entry's, where it is not along the path
 constexpr std::uint8_t kUnmarkedGrey = 48;
 struct Active { // a rule that a picture may break
     std::size_t rule;

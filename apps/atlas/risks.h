@@ -37,7 +37,7 @@ struct RiskFinding {
 
 struct RiskMap {
     std::vector<RiskFinding> findings; // the most first; those of no pixel are left out
-    int width = 0, height = 0;         // of marks: a picture of at most 30000 pixels or so of the same view
+    int width = 0, height = 0;         // of marks: a picture of at most 3600 pixels or so of the same view
     std::vector<std::uint8_t> marks;   // [pixel] 0: not shaded; 1: nothing known; 2 + place in risks.def of what it is furthest beyond
     double share = 0.0;                // of the shaded pixels that anything marks
     double ms = 0.0;

@@ -14,14 +14,16 @@ namespace {
 constexpr double kNear = 0.05; // of worst: nearer than this share it is held
 constexpr const char* kVersionMark = "Version ";
 constexpr const char* kNothing = "-";
+constexpr double kNone = -1.0; // no error is
 
 constexpr const char* kHead = R"(# Where methods break
 
 What each entry of the atlas (apps/atlas/atlas.def) measured when it was blessed: the first place on its path, from 0 to 1, at which the error is
-above the entry's threshold; the largest error; how much more it changes from step to step than the truth does; the largest error of the cure,
-where one is known; and what kind of failure it is. `burnish atlas --bless --table apps/atlas/blessed.md` writes this page, `burnish atlas` holds
-what it measures to it: the onset within a step, the largest error within 5 %. The kind is found, not written: sampling, where 64 times the
-samples leave less than half of the error; filtering, where a truth that filters textures alike does; else approximation.
+above the entry's threshold; the largest error; how much more it changes from step to step than the truth does; the error where it is largest,
+shaded in double; the largest error of the cure, where one is known; and what kind of failure it is. `burnish atlas --bless --table
+apps/atlas/blessed.md` writes this page, `burnish atlas` holds what it measures to it: the onset within a step, the largest error within 5 %.
+The kind is found, not written: precision, where doubles leave less than half of the error; sampling, where 64 times the samples do; filtering,
+where a truth that filters textures alike does; else approximation.
 
 )";
 
@@ -45,20 +47,22 @@ std::string cell_of(double value, bool there)
     return there ? fmt::format("{:.4f}", value) : kNothing;
 }
 
-// "| id | onset | worst | flicker | cure | kind |"; nothing where it is no such row.
+// "| id | onset | worst | flicker | double | cure | kind |"; nothing where it is no such row.
 std::optional<std::pair<std::string, BlessedRow>> row_in(const std::string& line)
 {
     std::vector<std::string> cells = split(line, '|');
-    if (cells.size() != 8)
+    if (cells.size() != 9)
         return std::nullopt;
     for (std::string& cell : cells)
         cell = trimmed(cell);
     BlessedRow row;
     const std::optional<double> onset = figure_of(cells[2], 2.0), worst = figure_of(cells[3], 0.0), flicker = figure_of(cells[4], 0.0),
-                                cure = figure_of(cells[5], 0.0);
-    if (!onset || !worst || !flicker || !cure)
+                                in_double = figure_of(cells[5], kNone), cure = figure_of(cells[6], 0.0);
+    if (!onset || !worst || !flicker || !in_double || !cure)
         return std::nullopt;
-    row.onset = *onset, row.worst = *worst, row.flicker = *flicker, row.cure_worst = *cure, row.kind = cells[6];
+    row.onset = *onset, row.worst = *worst, row.flicker = *flicker, row.cure_worst = *cure, row.kind = cells[7];
+    if (*in_double != kNone)
+        row.in_double = *in_double;
     return std::pair{cells[1], row};
 }
 
@@ -77,6 +81,8 @@ Result<BlessedTable> parse_table(const std::string& text, const std::string& fil
             walk = line.substr(3);
         } else if (line.rfind("| ", 0) == 0 && line.rfind("| entry ", 0) != 0 && line.rfind("| ---", 0) != 0) {
             const auto row = row_in(line);
+            if (table.version != 0 && table.version != kTableVersion)
+                continue; // whose figures mean something else
             if (!row || walk.empty())
                 return Error{ExitCode::bad_input, file, "", fmt::format("'{}' is no row of blessed figures", line)};
             table.walks[walk][row->first] = row->second;
@@ -94,13 +100,15 @@ std::string table_text(const BlessedTable& table)
         const auto rows = table.walks.find(walk.name);
         if (rows == table.walks.end() || rows->second.empty())
             continue;
-        text +=
-            fmt::format("\n## {}\n\n| entry | onset | worst | flicker | cure | kind |\n| --- | --- | --- | --- | --- | --- |\n", walk.name);
+        text += fmt::format(
+            "\n## {}\n\n| entry | onset | worst | flicker | double | cure | kind |\n| --- | --- | --- | --- | --- | --- | --- |\n",
+            walk.name);
         for (const AtlasEntry& entry : atlas_entries())
             if (const auto found = rows->second.find(entry.id); found != rows->second.end()) {
                 const BlessedRow& row = found->second;
-                text += fmt::format("| {} | {} | {:.4f} | {:.4f} | {} | {} |\n", entry.id, cell_of(row.onset, row.onset <= 1.0), row.worst,
-                                    row.flicker, cell_of(row.cure_worst, entry.cure[0] != 0), row.kind);
+                text += fmt::format("| {} | {} | {:.4f} | {:.4f} | {} | {} | {} |\n", entry.id, cell_of(row.onset, row.onset <= 1.0),
+                                    row.worst, row.flicker, cell_of(row.in_double.value_or(0.0), row.in_double.has_value()),
+                                    cell_of(row.cure_worst, entry.cure[0] != 0), row.kind);
             }
     }
     return text;
@@ -108,7 +116,7 @@ std::string table_text(const BlessedTable& table)
 
 BlessedRow row_of(const MeasuredEntry& m)
 {
-    return {m.onset, m.worst, m.flicker, m.cure_worst, m.kind};
+    return {m.onset, m.worst, m.flicker, m.cure_worst, m.in_double, m.kind};
 }
 
 Judged judge(const AtlasEntry& entry, const MeasuredEntry& m, const BlessedRow* row)

@@ -11,6 +11,7 @@
 #include "raster/frame/frame_record.h"
 #include "raster/tile/bins.h"
 #include "raster/tile/cull.h"
+#include "raster/tile/double_renderer.h"
 #include "raster/tile/profiler.h"
 #include "raster/tile/tile_types.h"
 
@@ -97,19 +98,20 @@ struct WorkerScratch {
 
 class TileRenderer final : public Renderer {
   public:
-    TileRenderer(const RenderInput& input, Isa isa) : input_(input), isa_(isa), fns_(pick<TileFns>(isa)), maker_(input)
+    TileRenderer(const RenderInput& input, const TileFns& fns, std::string lanes)
+        : input_(input), lanes_(std::move(lanes)), fns_(fns), maker_(input)
     {
         vertices_.resize(input.tables.px.size());
     }
     Result<Frame> render(const FrameDesc& desc, Frame recycled) override;
-    std::string device() const override { return cpu_name() + " (" + isa_name(isa_) + ")"; }
+    std::string device() const override { return cpu_name() + " (" + lanes_ + ")"; }
 
   private:
     FrameParams frame_params(const FrameDesc& desc);
     void draw_tiles(const FrameParams& f, bool parts_wanted, Frame& frame, Profiler* profiler);
 
     RenderInput input_;
-    Isa isa_;
+    std::string lanes_;
     const TileFns& fns_;
     FrameMaker maker_;
     Column<SnappedVertex> vertices_;
@@ -278,7 +280,13 @@ Result<Frame> TileRenderer::render(const FrameDesc& desc, Frame recycled)
 
 std::unique_ptr<Renderer> make_tile_renderer(const RenderInput& input, Isa isa)
 {
-    return std::make_unique<TileRenderer>(input, isa);
+    return std::make_unique<TileRenderer>(input, pick<TileFns>(isa), isa_name(isa));
+}
+
+std::unique_ptr<Renderer> make_double_tile_renderer(const RenderInput& input)
+{
+    const auto fns = FnsByIsa<TileFns>::oracle;
+    return fns ? std::make_unique<TileRenderer>(input, fns(nullptr), "double") : nullptr;
 }
 
 } // namespace burnish

@@ -34,7 +34,7 @@ def mistakes(bench):
     bench.run("atlas", FAST, "-o", "file/folder").expect(7).expect_one_line("file/folder")
     bench.run("atlas", FAST, "--json", "nowhere/a.json").expect(7).expect_one_line("nowhere")
     bench.run("atlas", FAST, "--table", "no.md").expect(4).expect_one_line("no.md")
-    scratch(bench, "t.md", "Version 1\n## quick\n| a | b | c | d | e | f |\n")
+    scratch(bench, "t.md", "Version 2\n## quick\n| a | b | c | d | e | f |\n")
     bench.run("atlas", FAST, "--table", "t.md").expect(4).expect_one_line("t.md", "is no row")
     check(bench.left_behind() == ["file", "t.md"], f"{bench.left_behind()}")
 
@@ -62,7 +62,7 @@ def held(bench):
         done = bench.run(*words, "--table", "other.md").expect(code)
         check(says in done.err and FAST in done.err, done.describe())
     # a table of another version is said, not compared
-    scratch(bench, "other.md", table.replace("Version 1", "Version 9"))
+    scratch(bench, "other.md", table.replace("Version 2", "Version 9"))
     done = bench.run(*words, "--table", "other.md").expect(0)
     check("version 9" in done.err and "nothing is compared" in done.err, done.describe())
     # a change that breaks it
@@ -76,20 +76,46 @@ def goes_on(bench):
     needs_embree(bench)
     ids = (FAST, "rough_metal_loses_light", "separable_tilt") # in their order
     words = ("atlas", *ids, "--quick", "--no-cache")
-    child = subprocess.Popen([bench.program, *words, "-o", "a"], cwd=bench.folder, env=bench.environment({}), stdout=subprocess.PIPE,
-                             stderr=subprocess.PIPE)
-    begin = time.monotonic()
-    while not (bench.folder / f"a/{FAST}-quick.json").exists() and child.poll() is None and time.monotonic() - begin < 60:
-        time.sleep(0.01)
-    child.send_signal(signal.SIGINT)
-    _, err = child.communicate()
-    check(child.returncode == 130 and b"stopped" in err and not (bench.folder / "a/index.html").exists(), f"{child.returncode} {err}")
+    code, err = stopped(bench, words, "a", signal.SIGINT)
+    check(code == 130 and b"stopped" in err and not (bench.folder / "a/index.html").exists(), f"{code} {err}")
     before = (bench.folder / f"a/{FAST}-quick.json").stat().st_mtime_ns
     bench.run(*words, "-o", "a").expect(0)
     check((bench.folder / f"a/{FAST}-quick.json").stat().st_mtime_ns == before, "what was finished was measured again")
     bench.run(*words, "-o", "b", "-t", "1").expect(0)
+    same_figures(bench)
+
+
+def stopped(bench, words, folder, by):
+    """Exit code and standard error of an atlas that got a signal once its first entry was finished."""
+    child = subprocess.Popen([bench.program, *words, "-o", folder], cwd=bench.folder, env=bench.environment({}), stdout=subprocess.PIPE,
+                             stderr=subprocess.PIPE)
+    begin = time.monotonic()
+    while not list((bench.folder / folder).glob(f"{FAST}-*.json")) and child.poll() is None and time.monotonic() - begin < 60:
+        time.sleep(0.01)
+    child.send_signal(by)
+    _, err = child.communicate()
+    return child.returncode, err
+
+
+def same_figures(bench):
     a, b = ((bench.folder / f"{name}/atlas.json").read_bytes() for name in "ab")
     check(a == b, "the figures differ from those of a run that was not stopped")
+
+
+@case("atlas.full_walk_goes_on_after_kill_9")
+def goes_on_in_full(bench):
+    """33 steps an entry."""
+    needs_embree(bench)
+    words = ("atlas", FAST, "tangents_left")
+    check(stopped(bench, words, "a", signal.SIGKILL)[0] == -signal.SIGKILL, "it was over before")
+    kept = {p.name for p in (bench.folder / "a").iterdir()}
+    check(f"{FAST}-full.json" in kept and "tangents_left-full.json" not in kept and "index.html" not in kept, f"{kept}")
+    before = (bench.folder / f"a/{FAST}-full.json").stat().st_mtime_ns
+    done = bench.run(*words, "-o", "a").expect(0)
+    check((bench.folder / f"a/{FAST}-full.json").stat().st_mtime_ns == before, "what was finished was measured again")
+    bench.run(*words, "-o", "b").expect(0)
+    same_figures(bench)
+    check(all(len(e["steps"]) == 33 for e in json.loads((bench.folder / "a/atlas.json").read_text())["entries"]), done.describe())
 
 
 @case("atlas.page_walks_paths_by_slider_and_keys")

@@ -9,7 +9,7 @@ import re
 import struct
 
 from chart_cases import needs_embree
-from environment_files import even, exr
+from environment_files import exr
 from gltf_files import data_uri, png, text
 from harness import case, check, scratch
 
@@ -298,70 +298,3 @@ def scaled(bench, techniques):
 
 
 in_two_tiers("scenes_have_no_scale", scaled, ("auto", "mc"))
-
-
-# White metal under an even environment of radiance 1, with what microfacets lose given back, is not seen: the picture's mean is 1. Words, what
-# goes, steps, how far the mean may be below 1, and above. A tilted lobe has less of a horizon than its surface, and gives the difference back to
-# nobody.
-FURNACE_STEPS = 3
-FURNACE = {
-    "roughness": ("roughness=0.1:1 --anisotropy 0.6", 0.003, 0.003),
-    "roughness of round lobes": ("roughness=0.1:1 --anisotropy 0", 0.003, 0.003),
-    "grain": ("anisotropy=0:0.95 --roughness 0.5", 0.003, 0.003),
-    "separable masking": ("roughness=0.1:1 --anisotropy 0.6 --masking separable", 0.03, 0.006),
-    "fit": ("roughness=0.1:1 --anisotropy 0.6 --dfg fit", 0.003, 0.003),
-    "tilt": ("tilt=0,0:60,0 --roughness 0.5 --anisotropy 0.5", 0.5, 0.003),
-    "tilt the other way": ("tilt=0,0:20,-50 --roughness 0.3 --anisotropy 0.8", 0.5, 0.003),
-    "frames projected": ("roughness=0.2:0.8 --anisotropy 0.6 --normal-map wave.png --frame-map gram-schmidt", 0.003, 0.006),
-    "frames turned": ("roughness=0.2:0.8 --anisotropy 0.6 --normal-map wave.png --frame-map quaternion", 0.003, 0.006),
-    "frames left": ("roughness=0.2:0.8 --anisotropy 0.6 --normal-map wave.png --frame-map normal-only", 0.01, 0.006),
-}
-MODEL_ROWS = ("roughness", "grain", "tilt", "tilt the other way", "frames turned")  # ellipsoids alone can be tilted
-# By `mc` (noise of 1024 samples) and its models. What is given back is what correlated GGX loses by the table: not what separable masking does,
-# nor what the fit says of thin rough lobes. Ward's weights have no bound.
-OF_MC = {
-    "": (0.004, 0.006),
-    "fit": (0.2, 0.006),
-    "ellipsoid": (0.04, 0.006),
-    "ellipsoid_correlated": (0.025, 0.012),
-    "ggx_aniso_separable": (0.025, 0.012),
-    "beckmann": (0.006, 0.006),
-    "ward": (0.006, 0.03),
-    "ward_cheap": (0.006, 0.07),
-}
-
-
-def furnace(bench, asked):
-    """asked: {(technique, model, row of FURNACE)}; models by mc alone."""
-    (bench.folder / "even.exr").write_bytes(exr(16, 8, even(1.0)))
-    (bench.folder / "wave.png").write_bytes(png(16, 16, color=lambda x, y, *_: (128 + (30 if x & 4 else -30), 128 + (20 if y & 4 else -20), 250)))
-    scratch(bench, "ball.gltf", ball(1.0))
-    off = []
-    for technique, model, row in asked:
-        words, low, high = FURNACE[row]
-        along, *own = words.split()
-        if technique == "mc":
-            low, high = (max(of) for of in zip((low, high), OF_MC[""], OF_MC.get(model or row, OF_MC[""])))
-        many = ("--samples", "1024") if technique in ("mc", "as_mc") else ()
-        bench.run("render", "ball.gltf", "--env", "even.exr", "--env-size", "16", "--env-samples", "16", "--size", "32x32", "-q", "--eye", "0.5,1,2.5",
-                  "--target", "0,0,0", "--energy-compensation", "--technique", technique, *(("--brdf", model) if model else ()), *many, *own,
-                  "--animate", along, "--steps", str(FURNACE_STEPS), "-o", "f%02d.pfm").expect(0)
-        for step in range(FURNACE_STEPS):
-            values = [v for line in words_of(bench.folder / f"f{step:02d}.pfm")[1] for v in line]
-            mean = sum(values) / len(values)
-            if not 1 - low <= mean <= 1 + high:
-                off.append(f"{technique} {model or ''} {row}, step {step}: {mean:.4f}")
-    print(f"{len(asked)} rows of {FURNACE_STEPS} pictures")
-    check(not off, "; ".join(off))
-
-
-@case("laws.an_even_light_hides_white_metal_in_some_ways", tier="gate")
-def some_furnaces(bench):
-    furnace(bench, [("auto", None, row) for row in FURNACE] +
-            [(name, None, "roughness") for name in names_of(bench, "techniques") if name != "mc"] + [("mc", "ellipsoid", "tilt"), ("mc", "beckmann", "grain")])
-
-
-@case("laws.an_even_light_hides_white_metal", tier="slow")
-def furnaces(bench):
-    furnace(bench, [(name, None, row) for name in names_of(bench, "techniques") for row in FURNACE] +
-            [("mc", name, row) for name in lobes(bench) for row in MODEL_ROWS if not row.startswith("tilt") or name.startswith("ellipsoid")])

@@ -16,6 +16,7 @@ import compare_cases
 import confine_cases
 import detail_cases
 import direction_cases
+import energy_cases
 import export_cases
 import fault_cases
 import file_cases

@@ -14,7 +14,7 @@ const AtlasEntry kEntry = {
 MeasuredEntry measured(double from, double to, double cure = 0.05)
 {
     MeasuredEntry m;
-    m.id = kEntry.id, m.kind = "approximation";
+    m.id = kEntry.id, m.kind = "approximation", m.in_double = 0.15;
     for (int i = 0; i <= 10; ++i)
         m.steps.push_back({i / 10.0, "anisotropy 0", from + (to - from) * i / 10.0, cure, 0.001, 0.002});
     m.steps[0].change = 0.0;
@@ -36,7 +36,7 @@ TEST(atlas_table, what_is_written_is_read)
 {
     BlessedTable table;
     table.walks["quick"][kEntry.id] = row_of(measured(0.0, 0.2));
-    table.walks["full"]["mc_fireflies"] = {2.0, 0.09, -0.01, 0.0, "none"};
+    table.walks["full"]["mc_fireflies"] = {2.0, 0.09, -0.01, 0.0, std::nullopt, "none"};
     const auto back = parse_table(table_text(table), "blessed.md");
     ASSERT_TRUE(back) << back.error().line();
     EXPECT_EQ(back->version, kTableVersion);
@@ -44,6 +44,8 @@ TEST(atlas_table, what_is_written_is_read)
     EXPECT_DOUBLE_EQ(row.onset, 0.6);
     EXPECT_DOUBLE_EQ(row.worst, 0.2);
     EXPECT_EQ(row.kind, "approximation");
+    EXPECT_DOUBLE_EQ(row.in_double.value(), 0.15);
+    EXPECT_FALSE(back->walks.at("full").at("mc_fireflies").in_double);
     EXPECT_GT(back->walks.at("full").at("mc_fireflies").onset, 1.0);
     EXPECT_DOUBLE_EQ(back->walks.at("full").at("mc_fireflies").flicker, -0.01);
     EXPECT_EQ(table_text(*back), table_text(table));
@@ -52,17 +54,17 @@ TEST(atlas_table, what_is_written_is_read)
 TEST(atlas_table, what_is_no_table_is_refused)
 {
     for (const char* text :
-         {"", "# Where methods break\n", "Version 1\n\n## quick\n\n| a | b |\n", "Version 1\n| a | 0.5 | 0.1 | 0 | 0 | none |\n",
-          "Version 1\n## quick\n| a | x | 0.1 | 0 | 0 | none |\n", "Version x\n"})
+         {"", "# Where methods break\n", "Version 2\n\n## quick\n\n| a | b |\n", "Version 2\n| a | 0.5 | 0.1 | 0 | - | 0 | none |\n",
+          "Version 2\n## quick\n| a | x | 0.1 | 0 | - | 0 | none |\n", "Version x\n"})
         EXPECT_FALSE(parse_table(text, "t.md")) << text;
-    EXPECT_EQ(parse_table("Version 7\n", "t.md")->version, 7);
+    EXPECT_EQ(parse_table("Version 7\n## quick\n| a | b |\n", "t.md")->version, 7); // whose rows mean something else
 }
 
 TEST(atlas_table, the_onset_is_held_within_a_step_and_the_worst_within_a_twentieth)
 {
     const MeasuredEntry m = measured(0.0, 0.205);
     const auto verdict = [&](double onset, double worst) {
-        const BlessedRow row = {onset, worst, 0.0, 0.05, "approximation"};
+        const BlessedRow row = {onset, worst, 0.0, 0.05, 0.2, "approximation"};
         return judge(kEntry, m, &row).verdict;
     };
     EXPECT_EQ(verdict(0.5, 0.205), Verdict::held);
@@ -99,6 +101,7 @@ TEST(atlas_table, kept_entries_come_back_as_they_were)
     EXPECT_EQ(back->worst, m.worst);
     EXPECT_EQ(back->flicker, m.flicker);
     EXPECT_EQ(back->kind, m.kind);
+    EXPECT_EQ(back->in_double, m.in_double);
     EXPECT_FALSE(parse_kept_entry(kept_entry_json(m, "key"), "other"));
     for (const char* text : {"", "[]", "{}", "{\"key\": \"key\"}", "{\"key\": \"key\", \"id\": \"nothing\", \"steps\": []}"})
         EXPECT_FALSE(parse_kept_entry(text, "key")) << text;
