@@ -26,6 +26,9 @@ std::vector<Workload> all_workloads()
         {"adaptive_eta08", "samples", S::sphere, 0, W, H, 1, "major_axis_adaptive", 16, 0.8f},
         {"weighted_16_eta05", "samples", S::sphere, 0, W, H, 1, "major_axis_weighted", 16, 0.5f},
         {"weighted_16_eta08", "samples", S::sphere, 0, W, H, 1, "major_axis_weighted", 16, 0.8f},
+        // Exponents 20 and 400.
+        {"as_mc_60", "phong", S::sphere, 0, W, H, 1, "as_mc", 60, 0.634f, 0, Engine::tile, 0, false, 0.37f},
+        {"as_mc_200", "phong", S::sphere, 0, W, H, 1, "as_mc", 200, 0.634f, 0, Engine::tile, 0, true, 0.37f},
         {"textures_0", "textures", S::textured, 0, W, H, 1},
         {"textures_1", "textures", S::textured, 1, W, H, 1},
         {"textures_5", "textures", S::textured, 5, W, H, 1},
@@ -98,6 +101,9 @@ const std::vector<Aim>& aims()
         {"samples", "major_axis_adaptive to bent_normal, eta 0.8", M::cpu_ratio, "adaptive_eta08", "bent_normal_eta08", 2.0},
         {"samples", "major_axis_weighted 16 to bent_normal, eta 0.5", M::cpu_ratio, "weighted_16_eta05", "bent_normal_eta05", 0.0},
         {"samples", "major_axis_weighted 16 to bent_normal, eta 0.8", M::cpu_ratio, "weighted_16_eta08", "bent_normal_eta08", 0.0},
+        // A fifth of the CPU time that lavapipe (Mesa 22.3) took for plain kernels of that lobe: 1655 and 5362 ms.
+        {"phong", "as_mc, 60 samples", M::cpu_ms, "as_mc_60", "", 1655.0 / 5.0},
+        {"phong", "as_mc, 200 samples", M::cpu_ms, "as_mc_200", "", 5362.0 / 5.0},
         {"textures", "one texture, to none", M::cpu_ratio, "textures_1", "textures_0", 0.0},
         {"textures", "five textures, to none", M::cpu_ratio, "textures_5", "textures_0", 0.0},
         {"textures", "grazing floor, three textures", M::cpu_ms, "floor_3", "", 0.0},
