@@ -82,6 +82,8 @@ SAME = {"lamp": 1e-5, "key": 0.005}  # of the larger one: rounding; a key light 
 MAPPED = 2e-3  # of normals of maps: their texels are of half floats
 # What light lobes lose between microfacets is given back by the eye's place alone.
 ONE_WAY = {"compensated": (0.0, 0.25)}
+# Where tangents are left, axes are not square: by so much these are one-way, too, and no other.
+SQUARE = {("lamp", "left", "model ashikhmin_shirley"): (0.2, 0.4), ("key", "left"): (0.2, 0.4)}
 
 # What lobes and frames are made by; two of them that are ways of one option are no pair.
 OPTIONS = {
@@ -122,8 +124,9 @@ BENT = (150, 110, 245)  # a texel of a normal map
 
 
 def normal_of(words):
-    """Of the plate, whose bitangent is -z."""
-    x, y, z = (2 * c / 255 - 1 for c in BENT) if "--normal-map" in words else (0.0, 0.0, 1.0)
+    """That light's cosine is taken at: of the map, whose bitangent is -z; of the plate itself for lobes that are tilted against it."""
+    mapped = "--normal-map" in words and "--tilt" not in words and not any(word.startswith("ellipsoid") for word in words)
+    x, y, z = (2 * c / 255 - 1 for c in BENT) if mapped else (0.0, 0.0, 1.0)
     length = math.hypot(x, y, z)
     return x / length, z / length, -y / length
 
@@ -225,7 +228,7 @@ def change_places(bench, asked, lamps="lamp"):
     for names in asked:
         found = swapped(bench, words_for(options, names), lamps)
         rounding = max(SAME[lamps], MAPPED if "frame-map" in {options[name][0] for name in names} else 0.0)
-        least, most = next((ONE_WAY[name] for name in names if name in ONE_WAY), (0.0, rounding))
+        least, most = SQUARE.get((lamps, *names)) or next((ONE_WAY[name] for name in names if name in ONE_WAY), (0.0, rounding))
         refused += found is None
         if found is not None and not least <= found <= most:
             off.append(f"{names}: {found:.2g}")
