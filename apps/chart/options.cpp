@@ -12,7 +12,7 @@
 namespace burnish {
 namespace {
 
-constexpr std::size_t kMaxCells = 10000;
+constexpr double kMaxCells = 10000.0;
 constexpr int kUsualErrorWidth = 480; // pixels: a reference of thousands of samples a pixel in a minute or two on two cores
 
 Value sweeps(Sweeps& to)
@@ -41,9 +41,9 @@ Status check_lobes(const FrameDesc& frame, const std::vector<std::string>& techn
 // The options of every cell, checked as `burnish render` does.
 Status check_cells(const ChartArguments& in, const OptionTable& given, ChartOptions& out)
 {
+    if (const double count = cell_count(out.sweeps); count > kMaxCells) // before they take memory
+        return usage_error("--sweep", fmt::format("{:.0f} places under each environment, more than {:.0f}", count, kMaxCells));
     out.cells = cells_of(out.sweeps);
-    if (out.cells.size() > kMaxCells)
-        return usage_error("--sweep", fmt::format("{} places under each environment, more than {}", out.cells.size(), kMaxCells));
     for (const Cell& cell : out.cells) {
         RenderArguments arguments = in.render;
         arguments.plain.frame.technique = out.techniques.front();

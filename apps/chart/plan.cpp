@@ -129,6 +129,15 @@ std::vector<Cell> cells_of(const Sweeps& sweeps)
     return cells;
 }
 
+double cell_count(const Sweeps& sweeps)
+{
+    const auto values = [](const auto& list) { return static_cast<double>(std::max<std::size_t>(1, list.size())); };
+    double count = values(sweeps.roughness) * values(sweeps.anisotropy);
+    for (const Sweeps::Named& named : sweeps.others)
+        count *= values(named.values);
+    return count;
+}
+
 std::string describe(const Cell& cell)
 {
     std::vector<std::string> parts;

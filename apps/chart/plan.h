@@ -38,7 +38,8 @@ struct Cell {                                                     // what a plac
     bool operator==(const Cell&) const = default;
 };
 std::vector<Cell> cells_of(const Sweeps& sweeps);
-std::string describe(const Cell& cell); // "roughness 0.2, anisotropy 0.9, axis-k 2", or "the scene's own surfaces"
+double cell_count(const Sweeps& sweeps); // how many that would be
+std::string describe(const Cell& cell);  // "roughness 0.2, anisotropy 0.9, axis-k 2", or "the scene's own surfaces"
 
 // The setting that stands for a technique where only one can be shown: of `samples` the one nearest to the technique's own number.
 int representative_samples(const std::string& technique, const std::vector<int>& samples);

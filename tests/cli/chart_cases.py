@@ -169,6 +169,7 @@ def wrong(bench):
         (("--sweep", "axis-k=1", "--axis-k", "2"), "--axis-k"),
         (("--sweep", "roughness=2"), "--sweep"),
         (("--sweep", "samples=1", "--sweep", "samples=2"), "twice"),
+        (tuple(word for name in "abcdef" for word in ("--sweep", name + "=" + ",".join(map(str, range(64))))), "68719476736 places"),
         (("--runs", "0"), "--runs"),
         (("--reference-samples", "0"), "--reference-samples"),
         (("--size", "0x4"), "--size"),
