@@ -31,7 +31,8 @@ HALF_SIDES = (512, 256, 128, 64, 32)
 def run(*words):
     done = subprocess.run([str(word) for word in words], capture_output=True, text=True)
     if done.returncode not in (0, 1):
-        raise SystemExit(f"{' '.join(map(str, words))}: {done.stderr.strip()}")
+        print(f"{' '.join(map(str, words))}: {done.stderr.strip()}", file=sys.stderr)
+        sys.exit(2)
     return done.stdout
 
 

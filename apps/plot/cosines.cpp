@@ -1,8 +1,9 @@
 // The page of figures of transformed cosines: `burnish plot ltc`.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fmt/core.h>
-#include <optional>
+#include <functional>
 
 #include "apps/plot/panel.h"
 #include "apps/plot/plot.h"
@@ -111,14 +112,20 @@ std::string count_broken()
     for (const ltc::Place& place : ltc::judged_places(kCounted, 0, 0)) {
         const ltc::LobePoints points(normalised_lobe(place, white), rule);
         const std::array<Start, 3> starts = starts_of(place);
+        std::array<std::array<ltc::NodeFit, 3>, 3> fits = {};
+        double least = 2.0;
         for (std::size_t s = 0; s < 3; ++s) {
-            const std::array<ltc::NodeFit, 3> fits = fits_from(points, place, starts[s].m);
-            for (std::size_t f = 0; f < 3; ++f)
-                broken[f][s] += fits[f].l1 > fits[2].l1 + kBroken ? 1 : 0;
+            fits[s] = fits_from(points, place, starts[s].m);
+            for (const ltc::NodeFit& fit : fits[s])
+                least = std::min(least, fit.l1);
         }
+        for (std::size_t s = 0; s < 3; ++s)
+            for (std::size_t f = 0; f < 3; ++f)
+                broken[f][s] += fits[s][f].l1 > least + kBroken ? 1 : 0;
     }
-    std::string text = fmt::format(
-        "of {} lobes, fits that end {:g} or more above the nearest, from an ellipse, apart and the plain cosine: ", kCounted, kBroken);
+    std::string text = fmt::format("of {} lobes, fits that end {:g} or more above the nearest of all, from an ellipse, apart and the plain "
+                                   "cosine (burnish has a start of its own): ",
+                                   kCounted, kBroken);
     for (std::size_t f = 0; f < 3; ++f)
         text += fmt::format("{}{} {}, {}, {}", f ? "; " : "", kFits[f], broken[f][0], broken[f][1], broken[f][2]);
     return text;

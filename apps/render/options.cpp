@@ -121,6 +121,7 @@ Result<RenderOptions> check_render_options(const RenderArguments& arguments, con
     if (const Status technique = check_technique(arguments, out); !technique)
         return technique.error();
     out.dress.mip_brdf = out.frame.brdf, out.dress.keep_mips = out.environment.use_cache;
+    out.dress.threads = out.threads;
     const Result<Isa> isa = choose_isa(given, out.isa);
     if (!isa)
         return isa.error();

@@ -175,8 +175,9 @@ int run_row(RenderArguments& arguments, OptionTable& given)
     Result<Session> session = prepare(first, figures, lost_checkpoint, report);
     if (!session)
         return fail(session.error());
-    if (Status paths = check_row_paths(*row, session->scene().files); !paths)
-        return fail(paths.error());
+    for (const std::vector<std::string>& read : {session->scene().files, session->parts().environment->files})
+        if (Status paths = check_row_paths(*row, read); !paths)
+            return fail(paths.error());
     std::vector<View> turntable;
     if (first.turntable)
         turntable = turntable_views(session->tables(), first.frame, first.orbit_deg.value_or(kUsualOrbitDeg),

@@ -37,6 +37,14 @@ Examples:
   burnish train mip --brdf beckmann --layout paper --size 2x64/2x128 --steps 4000 -o paper.mipnet
   burnish train mip --evaluate ggx_aniso.mipnet --maps textures --json figures.json)";
 
+// What weights tell of a path, as a word of the command that made them: its last name, and nothing of the machine.
+std::string told_name(const std::string& path)
+{
+    const std::filesystem::path given(path);
+    const std::string name = (given.has_filename() ? given : given.parent_path()).filename().string();
+    return name.find(' ') == std::string::npos ? name : "'" + name + "'";
+}
+
 struct TrainArguments {
     std::string what = "mip", output, evaluate, maps, only_maps, from, json, checkpoint;
     std::string size = "2x32/2x64";
@@ -121,8 +129,9 @@ Status read_given(TrainArguments& a)
 {
     mipnet::TrainOptions& t = a.train;
     if (t.only_maps = !a.only_maps.empty(); t.only_maps || !a.maps.empty()) {
-        t.maps_name = t.only_maps ? a.only_maps : a.maps;
-        Result<std::vector<mipnet::TestMaterial>> maps = real_materials(t.maps_name, a.limits);
+        const std::string& folder = t.only_maps ? a.only_maps : a.maps;
+        t.maps_name = told_name(folder);
+        Result<std::vector<mipnet::TestMaterial>> maps = real_materials(folder, a.limits);
         if (!maps)
             return maps.error();
         for (mipnet::TestMaterial& m : *maps)
@@ -138,7 +147,7 @@ Status read_given(TrainArguments& a)
                      fmt::format("is of lobes of {}, layout {} and size {}, other than what is to be trained",
                                  mipnet::lobe_name(read->shape.lobe), mipnet::layout_name(read->shape.layout),
                                  mipnet::size_name(read->shape))};
-    t.from_name = a.from, t.from = std::make_shared<const mipnet::Weights>(std::move(*read));
+    t.from_name = told_name(a.from), t.from = std::make_shared<const mipnet::Weights>(std::move(*read));
     return {};
 }
 

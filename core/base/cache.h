@@ -1,6 +1,6 @@
 // What burnish keeps on disk to save time: baked environments, pipelines of Vulkan devices, references of charts, levels of maps by nets
-// and by searches. Any of it may go at any
-// time and is made again. Its folder has a limit; what was not used for the longest time goes first.
+// and by searches. Any of it may go at any time and is made again. Its folder has a limit; what was not used for the longest time goes
+// first.
 #pragma once
 #include <cstdint>
 #include <string>

@@ -55,17 +55,24 @@ struct Progress::Impl {
     std::size_t total = 0;
     bool terminal = false;
     std::uint64_t begin_ns = 0, period_ns = kRedrawNs;
-    std::atomic<std::uint64_t> first_ns{0}; // when work of many steps began, 0: not yet
+    std::atomic<std::uint64_t> first_ns{0}; // when the first of many steps was done, 0: not yet
+    std::atomic<std::size_t> first_done{0}; // what it was, which says nothing of the others' time
     std::atomic<std::size_t> done{0};
     std::atomic<std::uint64_t> next_draw_ns{0};
     std::mutex drawing;
     std::size_t drawn = 0; // characters now on the line, guarded by `drawing`
 
-    double part() const { return total ? std::min(1.0, static_cast<double>(done.load()) / static_cast<double>(total)) : 1.0; }
+    double part() const { return part_after(0); }
+    double part_after(std::size_t first) const
+    {
+        const double steps = static_cast<double>(done.load() - first), all = static_cast<double>(total) - static_cast<double>(first);
+        return all > 0.0 ? std::min(1.0, steps / all) : 1.0;
+    }
     std::string left() const
     {
         const std::uint64_t first = first_ns.load(std::memory_order_relaxed);
-        return time_left(part(), static_cast<double>(Trace::now_ns() - (first ? first : begin_ns)) * 1e-9);
+        return time_left(part_after(first ? first_done.load() : 0),
+                         static_cast<double>(Trace::now_ns() - (first ? first : begin_ns)) * 1e-9);
     }
 
     void draw()
@@ -118,7 +125,7 @@ void Progress::step(std::size_t n)
     const std::uint64_t now = Trace::now_ns();
     std::uint64_t none = 0;
     if (impl_->first_ns.load(std::memory_order_relaxed) == 0 && impl_->part() <= kSmallPart)
-        impl_->first_ns.compare_exchange_strong(none, now, std::memory_order_relaxed);
+        impl_->first_done.store(n), impl_->first_ns.compare_exchange_strong(none, now);
     std::uint64_t due = impl_->next_draw_ns.load(std::memory_order_relaxed);
     if (now < due || !impl_->next_draw_ns.compare_exchange_strong(due, now + impl_->period_ns))
         return; // not yet, or another thread draws

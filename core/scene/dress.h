@@ -33,6 +33,7 @@ struct Dress {              // empty: left as it is
     MipFallback mip_fallback{};     // of filter mipnet
     bool couple_albedo = false;     // base colours and metalness of levels weigh as their texels face light and eye
     bool kaiser_colours = false;    // and are averaged by ColourKernel::kaiser
+    int threads = 0;                // that make levels; 0: all cores
     bool keep_mips = false;         // levels that take long are looked for in the cache, and kept there
     std::string mip_pyramid;        // levels of `burnish bake mip`
     std::optional<glm::vec3> f0;    // reflectance at normal incidence of all materials, which are dielectrics then

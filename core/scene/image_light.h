@@ -13,7 +13,6 @@
 namespace burnish {
 
 struct ImageLight {
-    std::string name;
     int size = 0; // texels a side of every face
     // +x -x +y -y +z -z, each as it is seen from within the cube. Three channels: sRGB. Two or four: the last is a divisor of the others'
     // linear values (RGBD).

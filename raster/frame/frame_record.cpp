@@ -192,7 +192,7 @@ void FrameMaker::slice_albedo(const FrameDesc& desc)
     f.override_anisotropy = desc.override_anisotropy, f.anisotropy = desc.anisotropy;
     for (MaterialRecord& m : materials_) {
         m.albedo_slice = m.phong_slice = m.phong_set = -1, m.brushed = 1.0f;
-        if (m.anisotropic && (m.technique_traits & kSharesSamples) && m.moments == kNoMoments)
+        if (m.anisotropic && (m.technique_traits & kSharesSamples) && !(m.technique_traits & kPhongGrid) && m.moments == kNoMoments)
             m.brushed = brushed_by_factors(f, m);
         if (!one_lobe_shape(m) || desc.specular_aa)
             continue;

@@ -60,12 +60,11 @@ Status write_kept(const std::string& path, const MipLevels& levels)
 
 } // namespace
 
-void keep_mips(Scene& scene)
+void keep_mips(Scene& scene, const Jobs& jobs)
 {
     const std::string folder = cache_folder();
     if (folder.empty())
         return;
-    const Jobs jobs(0);
     std::vector<MipLevels> kept;
     for (const Material& m : scene.materials) {
         if (!takes_net(m.mip_filter) || !m.mip_net || !is_filtered(scene, m))

@@ -72,7 +72,8 @@ Status settle_nets(Scene& scene, const Dress& with, const Limits& limits)
     if (!net)
         return net.error();
     std::vector<std::optional<mipnet::Comparison>> found(scene.materials.size());
-    Jobs(0).parallel_for(found.size(), [&](std::size_t i, int) {
+    const Jobs jobs(with.threads);
+    jobs.parallel_for(found.size(), [&](std::size_t i, int) {
         Material& m = scene.materials[i];
         m.mip_net = *net;
         if (m.mip_filter == kMipFilter_mipnet && with.mip_fallback == MipFallback::automatic && is_filtered(scene, m))
@@ -86,7 +87,7 @@ Status settle_nets(Scene& scene, const Dress& with, const Limits& limits)
         scene.warnings.push_back(comparison_text(m, *found[i]));
     }
     if (with.keep_mips && !scene.mips)
-        keep_mips(scene);
+        keep_mips(scene, jobs);
     return {};
 }
 

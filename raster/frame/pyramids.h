@@ -3,11 +3,10 @@
 //   of all, where a map of tilts lies over one of anisotropy and roughness is the same everywhere: the texels' lobes are in them
 //   of tilts, where there is a map of them else: beside the lobe of the material, and in frames that override roughness or anisotropy;
 //     or of normals, in a material that is `lean`
-//   of all, of levels that a mip filter has made of normals and lobes (shading/bake/mip/filter.h): their means are x and y of normals, and
-//   what
-//     these differ by between taps, times gain_of_taps(), is in the moments; in the normal map's place lie the levels' normals, in one
-//     half, for those who read nothing else. Frames that override roughness or anisotropy, or want no normal maps, have moments of the
-//     normals alone there, as `lean` has them
+//   of all, of levels that a mip filter has made of normals and lobes (shading/bake/mip/filter.h): their means are x and y of normals,
+//     and what these differ by between taps, times gain_of_taps(), is in the moments; in the normal map's place lie the levels' normals,
+//     in one half, for those who read nothing else. Frames that override roughness or anisotropy, or want no normal maps, have moments of
+//     the normals alone there, as `lean` has them
 #pragma once
 #include <cstdint>
 #include <memory>

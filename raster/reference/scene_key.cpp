@@ -57,9 +57,9 @@ void add_filters(Key& key, const Scene& scene)
     for (const Material& m : scene.materials)
         if (makes_lobes(m.mip_filter))
             key.add(m.mip_filter, m.mip_kappa);
-    for (const Material& m : scene.materials)
-        if (m.mip_coupled || m.mip_kaiser)
-            key.add('c', m.mip_coupled, m.mip_kaiser);
+    for (std::size_t i = 0; i < scene.materials.size(); ++i)
+        if (const Material& m = scene.materials[i]; m.mip_coupled || m.mip_kaiser)
+            key.add('c', i, m.mip_coupled, m.mip_kaiser);
     for (const Material& m : scene.materials)
         if (m.mip_net)
             key.add(mipnet::net_hash(*m.mip_net));

@@ -15,7 +15,7 @@ const int kGpuCubes = 4, kGpuGroup = 64; // cubes, invocations a workgroup
 // Pages of texels; textures follow. In the reals the grid of filtered importance sampling comes first, 3 a sample.
 const int kGpuSpecularPage = 0, kGpuIrradiancePage = 1, kGpuBoxPage = 2, kGpuDfgPage = 3, kGpuLobeAlbedoPage = 4, kGpuLobeSlicePage = 5,
           kGpuWholePage = 6, kGpuLtcPage = 7, kGpuFirstTexturePage = 8;
-const int kGpuMaxGrid = 65536; // kMostGridSamples
+const int kGpuMaxGrid = 262144; // kMostGridSamples
 const int kGpuNoTriangle = -1;
 const int kGpuFirstAreaWay = 16; // bit of a stage's constant 1; lobes have those below
 const int kGpuCoatBit = 24;      // of the same constant: some material has a clear coat

@@ -44,7 +44,7 @@ struct GridSample { // or, with kPhongGrid, what as_mc.t.h says
     float slope_x, slope_y, density;
 };
 
-inline constexpr int kMostGridSamples = 65536; // of a frame: of --samples, and of the half vectors of lobes
+inline constexpr int kMostGridSamples = 1 << 18; // of a frame: of --samples, and of the half vectors of lobes
 
 // What the record of a frame does not hold. Pointers are null where nothing asks for them.
 struct FrameTables {

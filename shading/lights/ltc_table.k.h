@@ -208,8 +208,14 @@ BN_FN ltc_lobe ltc_lookup(ltc_table table, real3 eye, real alpha_x, real alpha_y
     ltc_lobe lobe;
     lobe.all = k_saturate(c.y);
     lobe.grazing = k_saturate(c.z);
+    lobe.m0 = vec3_all(lit(0.0)); // copied below
+    lobe.m1 = lobe.m0;
+    lobe.m2 = vec3_of(-p.eye.x, -p.eye.y, p.eye.z);
+    lobe.n0 = lobe.m0;
+    lobe.n1 = lobe.m0;
+    lobe.n2 = lobe.m0;
+    lobe.det = lit(0.0);
     ltc_lobe natural = lobe;
-    natural.m2 = vec3_of(-p.eye.x, -p.eye.y, p.eye.z);
     if (table.basis == 2) {
         natural = ltc_natural(lobe, p);
     }

@@ -81,6 +81,10 @@ def taken(bench):
     check(near(found, (5, 5, 0)), f"RGBD of .2 is {found}")
     done = bench.run("render", "builtin:plate", "--env", "divided.gltf", "-o", "bright.png").expect(2)
     check("bright.png" in done.err and (bench.folder / "bright.png").read_bytes() == rgba, f"a face was written over\n{done.describe()}")
+    scratch(bench, "row2.png", rgba)
+    scratch(bench, "row.gltf", files.text(lit(faces=["row2.png"] * 6)))
+    done = bench.run("render", "builtin:plate", "--env", "row.gltf", "--size", "16x12", *TINY_BAKE, "--turntable", "3", "-o", "row%d.png").expect(2)
+    check("row2.png" in done.err and (bench.folder / "row2.png").read_bytes() == rgba, f"a row wrote over a face\n{done.describe()}")
 
 
 def broken():

@@ -479,7 +479,7 @@ def rows_by_level(bench):
     check(sum(row["hardest"] for row in rows) == 4 * len(names) * 5, "the hardest quarter is none")
     check(all(name in done.out for name in (*names, "held-out, hardest quarter")) and (bench.folder / "one/mip.txt").read_text() == done.out, done.describe())
     light = {name: [abs(row["light"] - 1) for row in rows if row["mip_filter"] == name] for name in names}
-    check(sum(light["mipnet"]) / len(rows) * len(names) < 0.05 and 0 < max(light["teacher"]) < 0.3, f"{light}")
+    check(sum(light["mipnet"]) < 0.75 * sum(light["box"]) and 0 < max(light["teacher"]) < 0.3, f"{light}")
     csv = (bench.folder / "one/mip.csv").read_text().splitlines()
     check(len(csv) == len(rows) + 1 and csv[0].split(",")[:3] == ["set", "family", "material"], csv[0])
     bench.run(*words, "--threads", "1", "-q", "-o", "two").expect(0)

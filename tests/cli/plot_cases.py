@@ -166,7 +166,7 @@ def cosines(bench):
         check(bool(found[1][2]) == lune and (two < 0.7 * one or not lune), f"{found}")
         check(by["the same, aligned"] < 0.8 * by["a lobe with itself, turned"] + 0.02, f"{by}")
         fits = [float(l1) for name, l1, _ in found if name == "burnish"]
-        check(len(fits) == 3 and max(fits) == one, f"fits from three starts: {fits}")
+        check(len(fits) == 3 and min(fits) >= one, f"fits from three starts: {fits}")
 
 
 @case("plot.wrong_options_say_one_line", tier="check")

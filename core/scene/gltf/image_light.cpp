@@ -72,7 +72,6 @@ ImageLight read_image_light(Document& doc)
     const std::string place = place_of(index);
     const Json& source = (*get_extension(doc.json, kName))["lights"][static_cast<std::size_t>(index)];
     ImageLight light;
-    light.name = get_string(source, "name");
     light.size = get_index(source, "specularImageSize");
     light.intensity = get_number(source, "intensity", 1.0);
     light.world_from_cube = glm::dmat3(trs_matrix({{"rotation", source.value("rotation", Json({0.0, 0.0, 0.0, 1.0}))}}, place));

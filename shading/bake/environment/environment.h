@@ -55,7 +55,7 @@ struct Environment {
     bool from_cache = false;
     std::uint64_t content_hash = 0;    // of source pixels and all options
     std::vector<std::string> warnings; // one line each: repaired pixels, an unwritable cache
-    std::vector<std::string> files;    // paths of every file that was read for it
+    std::vector<std::string> files;    // paths of every file that a glTF file's light was read from; else none
 };
 
 struct EnvironmentOptions {

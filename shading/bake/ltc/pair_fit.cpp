@@ -43,9 +43,9 @@ PairSums pair_sums(const LobePoints& lobe, const PairFit& pair, bool with_sums)
                 log_slopes(unit(n[k] * l), share[k] * q[k], g + 9 * k);
         }
         const double both = share[0] * q[0] + share[1] * q[1], r = f.reflected - both, apart = std::abs(r);
-        const double weight = part / (f.visible + both);
         if (!(f.visible + both > 0.0))
             return;
+        const double weight = part / (f.visible + both);
         sums.l1 += weight * apart;
         if (!with_sums || !(both > 0.0))
             return;

@@ -219,7 +219,7 @@ std::vector<std::vector<ShownError>> shown_errors(const Texels& level0, const st
     }
     for (std::vector<ShownError>& of : errors)
         for (std::size_t l = 0; l < of.size(); ++l)
-            of[l].light /= light_of_truth[l];
+            of[l].light = light_of_truth[l] > 0.0 ? of[l].light / light_of_truth[l] : 1.0;
     return errors;
 }
 
