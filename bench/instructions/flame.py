@@ -6,7 +6,7 @@ Usage: flame.py --program build/flame/bench_instructions [--before PROGRAM] [--u
 WORKLOAD and --unit are mix.py's. Needs a program with tables of lines, which change no instruction:
     cmake --preset release -B build/flame -DCMAKE_CXX_FLAGS=-g1 && cmake --build build/flame --target bench_instructions
 Below the frame stand the functions that are called, below each what is inlined into it, as wide as its instructions; operations of lanes
-(core/simd) count for who asks for them. A colour is a folder. Two programs are drawn to one scale. --table prints what takes most by itself.
+(core/simd, intrinsics) count for who asks for them. A colour is a folder. Two programs are drawn to one scale. --table prints what takes most by itself.
 Exit code: 0; 2 where a program tells no lines; 77 without valgrind or addr2line.
 """
 
@@ -49,7 +49,7 @@ def stacks_of(program, addresses):
     def keep(block):
         frames = [(mix.short(block[i]), folder_of(block[i + 1].rpartition(":")[0])) for i in range(1, len(block) - 1, 2)]
         frames.reverse()
-        found[int(block[0], 16)] = tuple(f for i, f in enumerate(frames) if i == 0 or not f[1].startswith(LANES))
+        found[int(block[0], 16)] = tuple(f for i, f in enumerate(frames) if i == 0 or (f[1] and not f[1].startswith(LANES)))
 
     for line in out.splitlines():
         if re.fullmatch(r"0x[0-9a-f]+", line) and lines:
@@ -122,7 +122,7 @@ def table_of(tree, unit, rows):
     def visit(node, above):
         for name, part in node.parts.items():
             own[name] += part.own
-            if name not in above: # of what calls itself once
+            if name not in above:  # of what calls itself once
                 whole[name] += part.count
             visit(part, above | {name})
 
