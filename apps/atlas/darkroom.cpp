@@ -63,40 +63,37 @@ Result<Session*> Darkroom::session_of(const AtlasSetting& setting)
     return &sessions_.emplace(key, std::move(*session)).first->second;
 }
 
-Result<FrameDesc> Darkroom::desc_of(const AtlasSetting& setting, const Session& session)
+Result<Darkroom::Shot> Darkroom::shot_of(const AtlasSetting& setting)
 {
-    const Result<ChosenView> view = choose_view(setting.options, session.scene(), session.tables());
+    const Result<Session*> session = session_of(setting);
+    if (!session)
+        return session.error();
+    const Result<ChosenView> view = choose_view(setting.options, (*session)->scene(), (*session)->tables());
     if (!view)
         return view.error();
     FrameDesc desc = setting.options.frame;
     desc.view = view->view;
     desc.triangle_ids = true;
-    return desc;
+    return Shot{*session, desc};
 }
 
 Result<Frame> Darkroom::draw(const AtlasSetting& setting)
 {
-    const Result<Session*> session = session_of(setting);
-    if (!session)
-        return session.error();
-    const Result<FrameDesc> desc = desc_of(setting, **session);
-    if (!desc)
-        return desc.error();
-    return finite(setting, (*session)->render(*desc));
+    const Result<Shot> shot = shot_of(setting);
+    if (!shot)
+        return shot.error();
+    return finite(setting, shot->session->render(shot->desc));
 }
 
 Result<std::optional<Frame>> Darkroom::draw_in_double(const AtlasSetting& setting)
 {
-    const Result<Session*> session = session_of(setting);
-    if (!session)
-        return session.error();
-    const Result<FrameDesc> desc = desc_of(setting, **session);
-    if (!desc)
-        return desc.error();
-    const std::unique_ptr<Renderer> renderer = make_double_tile_renderer((*session)->parts().input());
+    const Result<Shot> shot = shot_of(setting);
+    if (!shot)
+        return shot.error();
+    const std::unique_ptr<Renderer> renderer = make_double_tile_renderer(shot->session->parts().input());
     if (!renderer)
         return std::optional<Frame>();
-    return some(finite(setting, renderer->render((*session)->drawn(*desc), {})));
+    return some(finite(setting, renderer->render(shot->session->drawn(shot->desc), {})));
 }
 
 Result<std::shared_ptr<const Truth>> Darkroom::truth(const AtlasSetting& setting)
@@ -109,20 +106,17 @@ Result<std::shared_ptr<const Truth>> Darkroom::truth(const AtlasSetting& setting
             return Error{ExitCode::unavailable, setting.options.scene, "", "this program draws no frames in double"};
         return std::make_shared<const Truth>(Truth{std::move((*frame)->color), 0.0});
     }
-    const Result<Session*> session = session_of(setting);
-    if (!session)
-        return session.error();
-    const Result<FrameDesc> seen = desc_of(setting, **session);
-    if (!seen)
-        return seen.error();
-    FrameDesc desc = *seen;
+    const Result<Shot> shot = shot_of(setting);
+    if (!shot)
+        return shot.error();
+    FrameDesc desc = shot->desc;
     desc.triangle_ids = false;
     ReferenceOptions options = setting.options.reference;
     options.stop = machine_.stop;
-    const std::uint64_t key = reference_key((*session)->parts().input(), (*session)->drawn(desc), options);
+    const std::uint64_t key = reference_key(shot->session->parts().input(), shot->session->drawn(desc), options);
     if (const auto found = truths_.find(key); found != truths_.end())
         return found->second;
-    Result<Frame> frame = kept_reference(**session, desc, options, machine_.isa, machine_.home, report_);
+    Result<Frame> frame = kept_reference(*shot->session, desc, options, machine_.isa, machine_.home, report_);
     if (!frame)
         return frame.error();
     if (frame->stats.sampling.stopped)

@@ -40,7 +40,11 @@ class Darkroom {
 
   private:
     Result<Session*> session_of(const AtlasSetting& setting);
-    Result<FrameDesc> desc_of(const AtlasSetting& setting, const Session& session);
+    struct Shot { // a session and what it draws
+        Session* session;
+        FrameDesc desc;
+    };
+    Result<Shot> shot_of(const AtlasSetting& setting);
 
     Machine machine_;
     Report& report_;
