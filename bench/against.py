@@ -3,8 +3,8 @@
 
 Usage: against.py COMMIT|FOLDER --program build/release/bench_frame [--isa avx2,avx512] [--turns 5] [--threads 2] [--only NAME] [--json FILE]
 
-Builds bench_frame of the commit in a folder of its own below the build folder, with the scenes and workloads of this one where its own are
-fewer, or takes the build folder that is given. Then each workload is drawn by the one and by the other, turn by turn: the ratio of a turn is
+Builds bench_frame of the commit in a folder of its own below the build folder, with the newest scenes and workloads since then that it builds
+with, or takes the build folder that is given. Then each workload is drawn by the one and by the other, turn by turn: the ratio of a turn is
 that of the medians of its rounds, and the figure of the table the median over all turns, with the least and the most beside it. CPU times of
 all threads. A ratio of a busy machine still holds, within its spread; milliseconds do not. Where the pictures differ it says so.
 
@@ -49,6 +49,8 @@ TABLE = (
 )
 OVERLAID = ("bench/scenes/CMakeLists.txt", "bench/scenes/scenes.cpp", "bench/scenes/scenes.h", "bench/scenes/stress.cpp", "bench/scenes/stress.h",
             "bench/frame/workloads.cpp", "bench/frame/workloads.h")
+OBJECTS = ("bench/scenes/CMakeFiles/burnish_bench.dir/stress.cpp.o", "bench/scenes/CMakeFiles/burnish_bench.dir/scenes.cpp.o",
+           "bench/frame/CMakeFiles/bench_frame.dir/workloads.cpp.o")
 
 
 def run(*command, **options):
@@ -59,17 +61,36 @@ def git(*arguments):
     return run("git", "-C", str(ROOT), *arguments, capture_output=True).stdout.strip()
 
 
-def overlay(tree):
-    """The workloads of this commit in an older tree, which may know headers by other names."""
+def overlay(tree, commit):
+    """The workloads of a commit, or of this folder, in an older tree, which may know headers by other names. False where it has none."""
     for name in OVERLAID:
         (tree / name).parent.mkdir(parents=True, exist_ok=True)
-        shutil.copyfile(ROOT / name, tree / name)
+        if commit is None:
+            shutil.copyfile(ROOT / name, tree / name)
+            continue
+        shown = subprocess.run(("git", "-C", str(ROOT), "show", f"{commit}:{name}"), text=True, capture_output=True, check=False)
+        if shown.returncode != 0:
+            return False
+        (tree / name).write_text(shown.stdout)
     frame = tree / "bench/frame/CMakeLists.txt"
     frame.write_text("".join(line for line in frame.read_text().splitlines(True) if not line.startswith("add_dependencies(bench_frame burnish)")))
     if not (tree / "core/scene/builtin/surface.h").exists():
         for name in ("scenes.cpp", "stress.cpp"):
             path = tree / "bench/scenes" / name
             path.write_text(path.read_text().replace("core/scene/builtin/surface.h", "core/scene/builtin_surface.h"))
+    return True
+
+
+def sources_of_workloads(commit):
+    """Where workloads for a commit may come from, in order: this folder, the commits since then that changed them, the commit itself."""
+    yield None, "this folder's scenes and workloads"
+    for since in git("log", "--format=%h", f"{commit}..HEAD", "--", *OVERLAID).split():
+        yield since, f"the scenes and workloads of {since}"
+    yield commit, "its own scenes and workloads"
+
+
+def made(folder, target):
+    return subprocess.run(("cmake", "--build", str(folder), "--target", target), stdout=sys.stderr, check=False).returncode == 0
 
 
 def build(commit, folder):
@@ -80,16 +101,16 @@ def build(commit, folder):
     if program.exists():
         return program
     configure = ("cmake", "-S", str(tree), "-B", str(tree / "build"), "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release")
-    for overlaid in (True, False):
+    for source, what in sources_of_workloads(known):
         tree.mkdir(parents=True, exist_ok=True)
         archive = subprocess.Popen(("git", "-C", str(ROOT), "archive", known), stdout=subprocess.PIPE)
         run("tar", "-x", "-C", str(tree), stdin=archive.stdout)
-        if overlaid:
-            overlay(tree)
-        else:
-            print(f"{known}: takes its own workloads only", file=sys.stderr)
+        if source != known and not overlay(tree, source):
+            continue
         run(*configure, stdout=subprocess.DEVNULL)
-        if subprocess.run(("cmake", "--build", str(tree / "build"), "--target", "bench_frame"), stdout=sys.stderr).returncode == 0:
+        first = OBJECTS if source != known else ()  # what fails where it does fail, before all else is built
+        if all(made(tree / "build", target) for target in (*first, "bench_frame")):
+            print(f"{known}: takes {what}", file=sys.stderr)
             return program
     sys.exit(f"{known} does not build: {tree}")
 
