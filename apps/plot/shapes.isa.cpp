@@ -103,7 +103,7 @@ PlotVec bent_direction(const LobeInPlace& l, const PlotVec& to_eye)
 {
     const double root = 0.70710678118654752;
     const aniso_lobe lobe = {vec3_of(1.0, 0.0, 0.0), vec3_of(0.0, 1.0, 0.0), l.alpha_x * root, l.alpha_y * root};
-    return to(bent_normal_ray(vec3_of(0.0, 0.0, 1.0), of(to_eye), lobe).direction);
+    return to(k_normalize3(bent_normal_ray(vec3_of(0.0, 0.0, 1.0), of(to_eye), lobe).direction));
 }
 
 PlotVec peak_normal(const LobeInPlace& l)

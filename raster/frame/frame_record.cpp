@@ -151,20 +151,22 @@ float brushed_by_factors(const ShadingFrame& f, const MaterialRecord& material)
 // The first texel of the table of a lobe's albedo, which is made where there is none yet.
 int FrameMaker::slice_of(float sigma_u, float sigma_v, bool phong)
 {
-    constexpr std::size_t kTexels = std::size_t{kLobeAlbedoSize} * kLobeAlbedoSize / 2;
     const SlicedLobe wanted = {sigma_u, sigma_v, phong};
-    const auto known = std::find(sliced_.begin(), sliced_.end(), wanted);
-    const int first = static_cast<int>(static_cast<std::size_t>(known - sliced_.begin()) * kTexels);
-    if (known != sliced_.end())
-        return first;
-    sliced_.push_back(wanted);
-    lobe_slices_.resize(4 * kTexels * sliced_.size());
+    if (const auto known = sliced_.find(wanted); known != sliced_.end())
+        return known->second;
+    const std::size_t size = phong ? kLobeAlbedoSize : kLobeSliceSize, held = lobe_slices_.size();
+    const int first = static_cast<int>(held / 4);
+    sliced_.emplace(wanted, first);
+    lobe_slices_.resize(held + 4 * size * size / 2);
     const double root2 = 1.4142135623730951;
     const double alpha_u = root2 * static_cast<double>(sigma_u), alpha_v = root2 * static_cast<double>(sigma_v);
-    if (phong && input_.phong && input_.phong->has_albedo())
-        input_.phong->slice(phong_exponent(alpha_u), phong_exponent(alpha_v), kLobeAlbedoSize, lobe_slices_.data() + 4 * first);
+    std::uint16_t* const texels = lobe_slices_.data() + held;
+    if (!phong)
+        bake_lobe_slice(alpha_u, alpha_v, texels);
+    else if (input_.phong && input_.phong->has_albedo())
+        input_.phong->slice(phong_exponent(alpha_u), phong_exponent(alpha_v), kLobeAlbedoSize, texels);
     else
-        (phong ? bake_phong_slice : bake_lobe_slice)(kLobeAlbedoSize, alpha_u, alpha_v, lobe_slices_.data() + 4 * first);
+        bake_phong_slice(kLobeAlbedoSize, alpha_u, alpha_v, texels);
     return first;
 }
 

@@ -1,5 +1,6 @@
 // The one place where a FrameDesc becomes what shading reads of it: the record, its tables, and what is baked when a frame first asks.
 #pragma once
+#include <map>
 #include <tuple>
 #include <vector>
 
@@ -47,7 +48,7 @@ class FrameMaker {
     std::vector<MaterialRecord> materials_;
     CubeMap box_cube_;                                 // made when a technique first asks for it
     using SlicedLobe = std::tuple<float, float, bool>; // deviations of slope; whether it is an Ashikhmin-Shirley lobe
-    std::vector<SlicedLobe> sliced_;                   // that have a slice, in their order
+    std::map<SlicedLobe, int> sliced_;                 // the first texel of each in lobe_slices_
     Column<std::uint16_t> lobe_slices_;
     std::vector<GridSample> grid_;              // and lobes' sets of half vectors
     int grid_count_ = 0;                        // samples of a fragment

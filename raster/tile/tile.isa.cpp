@@ -194,7 +194,8 @@ void shade_slot(const Tile& t, const view_params& view, const MaterialRecord& m,
     }
     const int more = t.f.light_count | t.f.area_light_count | t.f.key_light_count | t.f.energy_compensation | t.f.dfg_fit | t.f.fresnel |
                      t.f.diffuse_model | t.f.specular_aa;
-    if (plan.uniform && !more && !m.refracts && !m.coated && t.f.lobe == PlainFrame::lobe) {
+    constexpr std::uint32_t kWorthACopy = 8 * kLanes; // fewer are drawn before what is copied and found once has paid
+    if (plan.uniform && end - begin >= kWorthACopy && !more && !m.refracts && !m.coated && t.f.lobe == PlainFrame::lobe) {
         constexpr int kTraits = kTechniqueTraits[static_cast<int>(kTechnique)];
         constexpr bool kAlsoRound = (kTraits & kAutoRound) != 0;
         using Material = std::conditional_t<(kTraits & kPhongGrid) != 0, PlainMaterial, UntabledMaterial>;

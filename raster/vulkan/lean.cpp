@@ -150,13 +150,13 @@ DeviceImage LeanScene::upload_table(const std::uint16_t* texels, int width, int 
     return image;
 }
 
-const DeviceImage& LeanScene::slice(int first)
+const DeviceImage& LeanScene::slice(int first, int size)
 {
     const auto known = slices_.find(first);
     if (known != slices_.end())
         return known->second;
     const std::uint16_t* const texels = scene_.lobe_slices().data() + 4 * static_cast<std::size_t>(first);
-    return slices_[first] = upload_table(texels, kLobeAlbedoSize, kLobeAlbedoSize / 2, 1);
+    return slices_[first] = upload_table(texels, size, size / 2, 1);
 }
 
 namespace {
@@ -298,12 +298,12 @@ void LeanScene::make_sets()
     BN_VK(vkAllocateDescriptorSets(context_.device(), &allocate, sets_.data()));
     for (std::uint32_t m = 0; m < count; ++m) {
         const bool material = m < all.size();
-        const DeviceImage& own = material && all[m].albedo_slice >= 0 ? slice(all[m].albedo_slice) : round_albedo_; // or never fetched
+        const DeviceImage& own = material && all[m].albedo_slice >= 0 ? slice(all[m].albedo_slice, kLobeSliceSize) : round_albedo_; // or never fetched
         const VkDescriptorBufferInfo buffers[] = {{frame_.handle(), 0, VK_WHOLE_SIZE},
                                                   {material ? materials_.handle() : frame_.handle(), material ? m * kMaterialStride : 0,
                                                    material ? VkDeviceSize{kMaterialStride} : VK_WHOLE_SIZE},
                                                   {grid_.handle(), 0, VK_WHOLE_SIZE}};
-        const DeviceImage& phong = material && all[m].phong_slice >= 0 ? slice(all[m].phong_slice) : round_albedo_;
+        const DeviceImage& phong = material && all[m].phong_slice >= 0 ? slice(all[m].phong_slice, kLobeAlbedoSize) : round_albedo_;
         VkDescriptorImageInfo images[4];
         const DeviceImage* const tables[] = {&round_albedo_, &own, &width_albedo_, &phong};
         for (int i = 0; i < 4; ++i)

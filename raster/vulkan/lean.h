@@ -27,7 +27,7 @@ class LeanScene {
 
   private:
     DeviceImage upload_table(const std::uint16_t* texels, int width, int height, int depth);
-    const DeviceImage& slice(int first);
+    const DeviceImage& slice(int first, int size); // size: texels along n.v
     void fill_materials(const FrameDesc& desc);
     void make_sets();
 

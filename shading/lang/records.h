@@ -9,6 +9,7 @@ namespace burnish {
 
 const int kMaxSamples = 16; // a pixel
 const int kMaxKeyLights = 8;
+const int kLobeSliceSize = 24; // texels along n.v of a table of one lobe's albedo; half as many along the azimuth
 const int kTextureSlots = 0 // a material
 #define BN_SLOT(slot, at, texture, encoding, power) +1
 #include "core/scene/material.def"

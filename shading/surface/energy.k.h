@@ -5,6 +5,7 @@
 #define BN_ENERGY_K_H
 #include "shading/kernels/math.k.h"
 #include "shading/lang/lang.h"
+#include "shading/lang/records.h"
 #include "shading/surface/dfg.k.h"
 #include "shading/surface/lobe.k.h"
 
@@ -54,31 +55,52 @@ BN_FN dfg_value lobe_albedo_lookup(texel_buffer table, int size, aniso_lobe lobe
     return r;
 }
 
-// The same of a lobe whose widths are those that its slice was made for: size x size/2 texels, from texel `first` on, over sqrt(n.v) and
-// the square root of the cosine between its wide axis and the view's azimuth.
-BN_FN dfg_value lobe_slice_lookup(texel_buffer table, int first, int size, aniso_lobe lobe, real3 n, real3 v)
+// Bilinear, from a slice of a lobe's table: `across` x `across` / 2 texels as dfg_lookup's, from texel `first` on. x, z: places along its
+// axes in texels, not below 0.
+BN_FN dfg_value slice_value(texel_buffer table, int first, int across, real x, real z)
 {
-    real one = lit(1.0);
-    real3 o = to_lobe(lobe, n, v);
-    real x = sqrt(k_saturate(o.z)) * to_real(int_lit(size - 1));
-    real flat2 = o.x * o.x + o.y * o.y;
-    real cosine = min(abs(o.x) / sqrt(max(flat2, lit(1e-12))), one);
-    real z = sqrt(cosine) * to_real(int_lit(size / 2 - 1));
-    integer ix = min(to_int(x), int_lit(size - 2));
-    integer iz = min(to_int(z), int_lit(size / 2 - 2));
+    integer ix = min(to_int(x), int_lit(across - 2));
+    integer iz = min(to_int(z), int_lit(across / 2 - 2));
     real fx = x - to_real(ix);
     real fz = z - to_real(iz);
-    integer row = int_lit(first) + iz * int_lit(size) + ix;
+    integer row = int_lit(first) + iz * int_lit(across) + ix;
     real w11 = fx * fz;
     real w10 = fx - w11;
     real w01 = fz - w11;
-    real w00 = one - fx - w01;
+    real w00 = lit(1.0) - fx - w01;
     texel_acc acc = texel_zero();
-    real4 t = texel_value(texel_add(acc, table, row, row + int_lit(size), w00, w10, w01, w11));
+    real4 t = texel_value(texel_add(acc, table, row, row + int_lit(across), w00, w10, w01, w11));
     dfg_value r;
     r.scale = t.x + t.z;
     r.bias = t.y + t.w;
     return r;
+}
+
+// lobe_albedo_lookup() of a lobe whose widths are those that its slice of kLobeSliceSize was made for. Its axes are graded by one division
+// and no root: 1.2 z / (z + .2) of z = n.v, and 3 |x| / (3 |x| + |y|) of the view's components along the lobe's wide axis and its other one.
+BN_FN dfg_value lobe_slice_lookup(texel_buffer table, int first, aniso_lobe lobe, real3 n, real3 v)
+{
+    real3 o = to_lobe(lobe, n, v);
+    real up = k_saturate(o.z);
+    real wide = abs(o.x) * lit(3.0);
+    real from_edge = up + lit(0.2);
+    real around = max(wide + abs(o.y), lit(1e-6));
+    real inv = lit(1.0) / (from_edge * around);
+    real x = up * around * inv * (lit(1.2) * to_real(int_lit(kLobeSliceSize - 1)));
+    real z = min(wide * from_edge * inv, lit(1.0)) * to_real(int_lit(kLobeSliceSize / 2 - 1));
+    return slice_value(table, first, kLobeSliceSize, x, z);
+}
+
+// The same of an Ashikhmin-Shirley lobe, along axes that its files may have too: sqrt(n.v) and the square root of the cosine between the
+// wide axis and the view's azimuth.
+BN_FN dfg_value phong_slice_lookup(texel_buffer table, int first, int size, aniso_lobe lobe, real3 n, real3 v)
+{
+    real3 o = to_lobe(lobe, n, v);
+    real x = sqrt(k_saturate(o.z)) * to_real(int_lit(size - 1));
+    real flat2 = o.x * o.x + o.y * o.y;
+    real cosine = min(abs(o.x) / sqrt(max(flat2, lit(1e-12))), lit(1.0));
+    real z = sqrt(cosine) * to_real(int_lit(size / 2 - 1));
+    return slice_value(table, first, size, x, z);
 }
 
 // Factor on the specular lobe. f0: reflectance at normal incidence, [0,1]; albedo: directional, of a lobe that absorbs nothing, (0,1], or

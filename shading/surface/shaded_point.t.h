@@ -113,7 +113,7 @@ BN_FN dfg_value directional_albedo(frame_ref f, material_ref m, BN_IN(surface) s
     if (the_material(m).albedo_slice < 0)
         own = lobe_albedo_lookup(lobe_albedo_texels(f), the_frame(f).lobe_albedo_size, lobe, s.n, s.v);
     else
-        own = lobe_slice_lookup(lobe_slice_texels(f), the_material(m).albedo_slice, the_frame(f).lobe_albedo_size, lobe, s.n, s.v);
+        own = lobe_slice_lookup(lobe_slice_texels(f), the_material(m).albedo_slice, lobe, s.n, s.v);
     if (the_material(m).brushed == 1.0f)
         return own;
     real part = splat(the_material(m).brushed);
@@ -204,7 +204,7 @@ BN_FN void make_shaded_point(frame_ref f, material_ref m, BN_IN(material_inputs)
     x.phong_set = the_material(m).phong_set;
     if (the_material(m).phong_slice >= 0) {
         dfg_value own =
-            lobe_slice_lookup(lobe_slice_texels(f), the_material(m).phong_slice, the_frame(f).lobe_albedo_size, x.lobe, x.s.n, x.s.v);
+            phong_slice_lookup(lobe_slice_texels(f), the_material(m).phong_slice, the_frame(f).lobe_albedo_size, x.lobe, x.s.n, x.s.v);
         x.phong_albedo = own.scale + own.bias;
     }
     x.gain = energy_gain(f, x.s.f0, x.dfg);

@@ -10,7 +10,7 @@
 BN_KERNELS_BEGIN
 
 struct bent_ray {
-    real3 direction; // unit
+    real3 direction; // of any length
     real lod;        // [0,1], times the last level
 };
 
@@ -23,9 +23,9 @@ BN_FN bent_ray bent_normal_ray(real3 n, real3 v, aniso_lobe lobe)
     stretch = min(stretch, lit(0.999)); // a view along the grain has nothing left of it
     real3 grain = lobe.v_axis;
     real3 across = v - grain * k_dot3(v, grain);
-    real3 bent = k_normalize3(n * (lit(1.0) - stretch) + across * stretch);
+    real3 bent = n * (lit(1.0) - stretch) + across * stretch; // not unit, nor is its mirror
     bent_ray r;
-    r.direction = bent * (lit(2.0) * k_dot3(bent, v)) - v;
+    r.direction = bent * (lit(2.0) * k_dot3(bent, v)) - v * k_dot3(bent, bent);
     r.lod = al * min(max(lit(1.2) - eta, lit(0.0)), lit(1.0));
     return r;
 }

@@ -101,8 +101,8 @@ Column<std::uint16_t> bake_lobe_albedo(int size, const Jobs& jobs);
 // That of kLobeAlbedoSize, made when the program was built.
 const std::uint16_t* lobe_albedo_texels();
 std::size_t lobe_albedo_bytes();
-// The same for one lobe, of widths alpha_x >= alpha_y: size^2 / 2 texels for lobe_slice_lookup().
-void bake_lobe_slice(int size, double alpha_x, double alpha_y, std::uint16_t* texels);
+// The same for one lobe, of widths alpha_x >= alpha_y: kLobeSliceSize^2 / 2 texels for lobe_slice_lookup().
+void bake_lobe_slice(double alpha_x, double alpha_y, std::uint16_t* texels);
 // And for an Ashikhmin-Shirley lobe of exponents 1 / alpha^2.
 void bake_phong_slice(int size, double alpha_x, double alpha_y, std::uint16_t* texels);
 

@@ -8,6 +8,7 @@
 #include "core/math/scalar_math.h"
 #include "core/simd/half.h"
 #include "shading/bake/environment/environment.h"
+#include "shading/lang/records.h"
 
 namespace burnish {
 namespace {
@@ -105,13 +106,14 @@ Column<std::uint16_t> bake_lobe_albedo(int size, const Jobs& jobs)
     return texels;
 }
 
-void bake_lobe_slice(int size, double alpha_x, double alpha_y, std::uint16_t* texels)
+void bake_lobe_slice(double alpha_x, double alpha_y, std::uint16_t* texels)
 {
-    BN_CHECK(size >= 4 && size % 2 == 0);
-    const std::size_t n = static_cast<std::size_t>(size), half = n / 2;
+    const std::size_t n = kLobeSliceSize, half = n / 2;
     const std::array<Point, kPoints> points = lattice();
-    for (std::size_t i = 0; i < n * half; ++i)
-        put(texels + 4 * i, entry(step(i % n, n), step(i / n, half), alpha_x, alpha_y, points));
+    for (std::size_t i = 0; i < n * half; ++i) { // where lobe_slice_lookup() finds it
+        const double x = step(i % n, n), z = step(i / n, half), along = z / std::sqrt(z * z + 9.0 * (1.0 - z) * (1.0 - z));
+        put(texels + 4 * i, entry(std::sqrt(std::min(0.2 * x / (1.2 - x), 1.0)), std::sqrt(along), alpha_x, alpha_y, points));
+    }
 }
 
 } // namespace burnish

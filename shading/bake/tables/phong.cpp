@@ -82,7 +82,7 @@ void fill_phong_slice(int size, const std::function<PhongAlbedo(double, double)>
 {
     BN_CHECK(size >= 4 && size % 2 == 0);
     for (int j = 0; j < size / 2; ++j)
-        for (int i = 0; i < size; ++i, texels += 4) { // axes as of lobe_slice_lookup()
+        for (int i = 0; i < size; ++i, texels += 4) { // axes as of phong_slice_lookup()
             const PhongAlbedo a = at(static_cast<double>(i) / (size - 1), static_cast<double>(j) / (size / 2 - 1));
             const float value[2] = {static_cast<float>(a.s), static_cast<float>(a.b)};
             for (int c = 0; c < 2; ++c) {

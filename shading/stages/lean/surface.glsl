@@ -109,13 +109,19 @@ void shape_by_texture(float roughness, out vec2 sigma, out vec2 u)
 
 // Of tables over both: roots of n.v and of the cosine between the wide axis and the view's azimuth.
 vec2 albedo_place(vec3 o) { return sqrt(vec2(clamp(o.z, 0.0, 1.0), min(abs(o.x) * inversesqrt(max(o.x * o.x + o.y * o.y, 1e-12)), 1.0))); }
+// Of a lobe's own table, see lobe_slice_lookup (energy.k.h).
+vec2 slice_place(vec3 o)
+{
+    float up = clamp(o.z, 0.0, 1.0), wide = 3.0 * abs(o.x);
+    return vec2(1.2 * up / (up + 0.2), wide / max(wide + abs(o.y), 1e-6));
+}
 vec2 slice_of(sampler2D table, vec2 at) { return textureLod(table, at * vec2(frame.tables.z, 0.9) + vec2(frame.tables.w, 0.05), 0.0).xy; }
 
 vec2 lobe_albedo(vec3 o, vec2 sigma, float roughness)
 {
-    vec2 at = albedo_place(o);
     if (has(kOneShape))
-        return slice_of(slice_albedo, at);
+        return textureLod(slice_albedo, slice_place(o) * vec2(23.0 / 24.0, 11.0 / 12.0) + vec2(0.5 / 24.0, 0.5 / 12.0), 0.0).xy;
+    vec2 at = albedo_place(o);
     float eta = (sigma.x - sigma.y) / max(sigma.x + sigma.y, 1e-20);
     float w = (1.0 - sqrt(max(1.0 - eta, 0.0))) * 9.0;
     float slab = min(floor(w), 8.0);

@@ -169,11 +169,11 @@ TEST(lobe_albedo, slices_are_near_the_integral_of_their_lobe)
     for (int i = 0; i < kLobes; ++i) {
         const double roughness = in(0.1, 1.0), eta = in(0.0, 0.95);
         Column<std::uint16_t> slice;
-        slice.resize(4 * kLobeAlbedoSize * kLobeAlbedoSize / 2);
+        slice.resize(4 * kLobeSliceSize * kLobeSliceSize / 2);
         std::vector<Lobe> lobes;
         for (int k = 0; k < kViews; ++k)
             lobes.push_back(lobe_of(roughness, eta, in(0.05, 1.0), in(-kPi, kPi)));
-        bake_lobe_slice(kLobeAlbedoSize, lobes[0].alpha_x, lobes[0].alpha_y, slice.data());
+        bake_lobe_slice(lobes[0].alpha_x, lobes[0].alpha_y, slice.data());
         const std::vector<Albedo> first = lookup_slice(float_fns().front(), slice.data(), lobes);
         for (const IsaFns& isa : float_fns()) {
             const std::vector<Albedo> got = lookup_slice(isa, slice.data(), lobes);
