@@ -58,7 +58,7 @@ std::shared_ptr<const Environment> with_key_lights(const Environment& environmen
 // In rows of at most eight behind the eye of bench_view(sphere), where no pixel shows them.
 void add_quads(Scene& scene, int count)
 {
-    const int across = std::min(count, 8), rows = (count + across - 1) / across;
+    const int across = std::clamp(count, 1, 8), rows = (count + across - 1) / across;
     for (int i = 0; i < count; ++i) {
         const float y = 0.2f + 0.12f * (static_cast<float>(i / across) - 0.5f * static_cast<float>(rows - 1)),
                     z = 0.12f * (static_cast<float>(i % across) - 0.5f * static_cast<float>(across - 1)), h = 0.04f;
