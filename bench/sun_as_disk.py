@@ -5,7 +5,7 @@ Usage: sun_as_disk.py --program build/release/burnish [--size WxH] [--samples N]
 
 Skies that are dim but for an even disc, high or low, small or large, are drawn in three ways on builtin:spheres: by the reference; with the
 disc as the key light that baking finds in it; and without the disc, under a disk-shaped area light of that key light's direction, axes and
-radiance, ten kilometres away, by transformed cosines. Printed is a line a place, and means by roughness and by sky. Files in --work are not
+radiance, 200 metres away from balls of 0.7 metres across, by transformed cosines. Printed is a line a place, and means by roughness and by sky. Files in --work are not
 made again.
 
 Exit code: 0 key lights are nearer in the mean; 1 area lights are; 2 something could not be run.
@@ -24,7 +24,7 @@ from key_lights import mean, towards, write_sky
 
 RADII_DEG, ELEVATIONS_DEG = (1.0, 1.6), (5.0, 30.0, 65.0)
 ROUGHNESS, ANISOTROPY = (0.3, 0.5, 0.7, 0.9), (0.5, 0.9)
-AZIMUTH_DEG, IRRADIANCE, FAR = 60.0, 6.0, 1e4
+AZIMUTH_DEG, IRRADIANCE, FAR = 60.0, 6.0, 200.0
 
 
 def run(*words):
@@ -82,7 +82,7 @@ def main():
                 write_sky(path, sky_of(radius, elevation, with_sun), 512)
         disk = disk_light(a.program, paths[True])
         for roughness, eta in itertools.product(ROUGHNESS, ANISOTROPY):
-            words = ("builtin:spheres", "--size", a.size, "--eye", "0,1.2,6", "--target", "0,0,0", "--no-background", "--roughness", roughness,
+            words = ("builtin:spheres", "--size", a.size, "--eye", "0,0.1,0.7", "--target", "0,0,0", "--no-background", "--roughness", roughness,
                      "--anisotropy", eta, "-q")
             name = work / f"{sky}_{roughness:g}_{eta:g}"
             ways = {"truth": ("--env", paths[True], "--backend", "reference", "--samples", a.samples),
