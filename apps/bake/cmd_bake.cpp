@@ -11,6 +11,7 @@
 #include "apps/bake/mip.h"
 #include "apps/bake/phong_tables.h"
 #include "apps/bake/report.h"
+#include "apps/bake/resolutions.h"
 #include "apps/bake/straighten.h"
 #include "apps/cli/command.h"
 #include "apps/cli/open.h"
@@ -19,6 +20,7 @@
 #include "apps/cli/shared_options.h"
 #include "apps/cli/stop_signal.h"
 #include "apps/cli/values.h"
+#include "apps/plot/plot.h"
 #include "apps/report/looks.h"
 #include "apps/report/png.h"
 #include "apps/report/svg.h"
@@ -138,7 +140,8 @@ OptionTable bake_option_table(BakeArguments& to)
                         choice(to.cosines, std::vector<int>{1, 2})},
                        {"--half", "", "Entries as halves, not floats", flag(to.half)},
                        {"--table", "FILE", "Measure this table instead of making one", file(to.table)},
-                       {"--report", "FOLDER", "Also measure the table: quality.json, quality.svg, quality.png", folder(to.report)}});
+                       {"--report", "FOLDER", "Also measure the table: quality.json; quality, lobes and resolutions as .svg and .png",
+                        folder(to.report)}});
     table.add(
         "Maps and tables of texels",
         {{"--size", "WxH", "Texels of tpr, half-vectors and brdf-lut", picture_size(to.size),
@@ -228,18 +231,21 @@ Status check_arguments(const BakeArguments& a, const OptionTable& given)
     return check_text_path("-o", a.output + ".part", {});
 }
 
-Status write_report_files(const BakeArguments& a, const LtcQuality& quality, const ltc::Table& table, Report& report)
+Status write_report_files(const BakeArguments& a, const Json& figures, const std::vector<std::pair<std::string, Drawing>>& drawings,
+                          Report& report)
 {
     std::error_code failed;
     fs::create_directories(a.report, failed);
     if (failed)
         return Error{ExitCode::output_failed, a.report, "", failed.message()};
-    const Drawing drawing = plot_ltc_quality(quality);
-    const Result<std::string> png = png_of(drawing);
-    if (!png)
-        return png.error();
-    const std::pair<const char*, std::string> files[] = {
-        {"quality.json", ltc_json(quality, table).dump(2) + "\n"}, {"quality.svg", svg_of(drawing, chart_style())}, {"quality.png", *png}};
+    std::vector<std::pair<std::string, std::string>> files = {{"quality.json", figures.dump(2) + "\n"}};
+    for (const auto& [name, drawing] : drawings) {
+        Result<std::string> png = png_of(drawing);
+        if (!png)
+            return png.error();
+        files.emplace_back(name + ".svg", svg_of(drawing, chart_style()));
+        files.emplace_back(name + ".png", std::move(*png));
+    }
     for (const auto& [name, bytes] : files) {
         const std::string path = (fs::path(a.report) / name).string();
         if (Status written = write_file_atomic(path, bytes.data(), bytes.size()); !written)
@@ -510,9 +516,19 @@ int run_bake(const BakeArguments& arguments, const OptionTable& given)
     if (arguments.report.empty())
         return 0;
     const LtcQuality quality = measure_ltc(**table, arguments.cosines, jobs);
-    if (Status written = write_report_files(arguments, quality, **table, report); !written)
+    Json figures = ltc_json(quality, **table);
+    std::vector<std::pair<std::string, Drawing>> drawings = {{"quality", plot_ltc_quality(quality)}};
+    std::string lines = ltc_lines(quality);
+    if ((*table)->model() == ltc::Model::ggx && !(*table)->grid.round) { // the document's figures are of its lobes
+        drawings.emplace_back("lobes", plot_ltc(LobePlot(), **table));
+        const LtcResolutions resolutions = measure_resolutions(**table, jobs);
+        figures["resolutions"] = resolution_json(resolutions);
+        drawings.emplace_back("resolutions", plot_resolutions(resolutions));
+        lines += resolution_lines(resolutions);
+    }
+    if (Status written = write_report_files(arguments, figures, drawings, report); !written)
         return fail(written.error());
-    report.figures(ltc_lines(quality));
+    report.figures(lines);
     return 0;
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <fmt/core.h>
 #include <functional>
+#include <limits>
 
 #include "core/image/magma.h"
 #include "core/math/scalar_math.h"
@@ -36,6 +37,28 @@ LtcFigures figures_of(const char* name, const std::vector<ltc::Judged>& judged, 
             ltc::spread_of(absolute),
             ltc::spread_of(all),
             ltc::spread_of(grazing)};
+}
+
+LtcSampling sampling_of(const char* name, const std::vector<ltc::Sampled>& all, const Choice& chosen)
+{
+    std::vector<double> unseen, furnace[2], deviation[ltc::kSamplers];
+    for (const ltc::Sampled& s : all) {
+        if (!chosen(s.place))
+            continue;
+        unseen.push_back(s.unseen);
+        for (int i = 0; i < 2; ++i)
+            furnace[i].push_back(s.furnace[i]);
+        for (int i = 0; i < ltc::kLights; ++i)
+            for (int by = 0; by < ltc::kSamplers; ++by)
+                if (s.lights[by][i] >= 0.0)
+                    deviation[by].push_back(s.lights[by][i]);
+    }
+    LtcSampling r = {name, deviation[0].size(), ltc::spread_of(unseen), {}, {}};
+    for (int i = 0; i < 2; ++i)
+        r.furnace[i] = ltc::spread_of(furnace[i]);
+    for (int by = 0; by < ltc::kSamplers; ++by)
+        r.deviation[by] = ltc::spread_of(deviation[by]);
+    return r;
 }
 
 Json json_of(const ltc::Spread& s)
@@ -109,6 +132,48 @@ void draw_map(Drawing& out, const LtcQuality& quality, int across, int up, doubl
     out.text(x - 48.0, y + kSide / 2.0, "title middle", kAxes[up], -90.0);
 }
 
+// What was measured of the authors' own table (KT et al. 2022), on lists of as many lobes spread in the same way, not on these: best is
+// the floor of its list. NaN: not known.
+struct PublishedFigures {
+    const char* part;
+    double l1, p95, most, best, light, light_p95, absolute, all_relative;
+};
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+constexpr PublishedFigures kPublished[] = {
+    {"all", 0.1466, 0.442, 0.784, 0.1255, 0.0723, 0.289, 0.0078, 0.006},
+    {"theta > 70", 0.3189, 0.685, 0.784, 0.246, 0.2007, 0.481, 0.0235, kUnknown},
+    {"alpha < 1/7", 0.1330, 0.467, 0.784, 0.069, 0.0589, 0.290, 0.0130, kUnknown},
+    {"lambda < .3", 0.2500, 0.537, 0.761, kUnknown, 0.0992, 0.372, kUnknown, kUnknown},
+    {"others", 0.1673, 0.507, 1.29, kUnknown, kUnknown, kUnknown, kUnknown, kUnknown},
+};
+
+const PublishedFigures* published_of(const std::string& part)
+{
+    for (const PublishedFigures& p : kPublished)
+        if (p.part == part)
+            return &p;
+    return nullptr;
+}
+
+std::string column(double value)
+{
+    return std::isnan(value) ? fmt::format("{:>7}", "") : fmt::format("{:7.4f}", value);
+}
+
+Json known(double value)
+{
+    return std::isnan(value) ? Json() : Json(value);
+}
+
+Json json_of(const PublishedFigures& p)
+{
+    return {{"l1", {{"mean", known(p.l1)}, {"p95", known(p.p95)}, {"max", known(p.most)}}},
+            {"best_l1", {{"mean", known(p.best)}}},
+            {"light_relative", {{"mean", known(p.light)}, {"p95", known(p.light_p95)}}},
+            {"light_absolute", {{"mean", known(p.absolute)}}},
+            {"nd_relative", {{"mean", known(p.all_relative)}}}};
+}
+
 } // namespace
 
 LtcQuality measure_ltc(const ltc::Table& table, int cosines, const Jobs& jobs)
@@ -117,12 +182,16 @@ LtcQuality measure_ltc(const ltc::Table& table, int cosines, const Jobs& jobs)
     const std::vector<ltc::Judged> first = ltc::judge(table, ltc::judged_places(200, 24, 0), cosines, jobs);
     const std::vector<ltc::Judged> others = ltc::judge(table, ltc::judged_places(600, 0, 1000), cosines, jobs);
     LtcQuality q;
-    q.cosines = cosines;
+    q.cosines = cosines, q.model = table.model();
     q.parts.push_back(figures_of("all", first, all));
     q.parts.push_back(figures_of("theta > 70", first, [](const ltc::Place& p) { return p.theta > 70.0 / 180.0 * kPi; }));
     q.parts.push_back(figures_of("alpha < 1/7", first, [](const ltc::Place& p) { return p.alpha < 1.0 / 7.0; }));
     q.parts.push_back(figures_of("lambda < .3", first, [](const ltc::Place& p) { return p.lambda < 0.3; }));
     q.parts.push_back(figures_of("others", others, all));
+    const std::vector<ltc::Sampled> samples = ltc::judge_sampling(table, ltc::judged_places(200, 24, 0), jobs);
+    q.sampling.push_back(sampling_of("all", samples, all));
+    q.sampling.push_back(sampling_of("theta > 70", samples, [](const ltc::Place& p) { return p.theta > 70.0 / 180.0 * kPi; }));
+    q.sampling.push_back(sampling_of("lambda < .3", samples, [](const ltc::Place& p) { return p.lambda < 0.3; }));
     q.probes = kProbes, q.broken = ltc::broken_lookups(table, kProbes, jobs);
     q.grid = table.grid.round ? ltc::Grid() : table.grid, q.l1_of_cells = ltc::l1_of_cells(table, jobs);
     return q;
@@ -132,15 +201,28 @@ std::string ltc_lines(const LtcQuality& quality)
 {
     std::string text = fmt::format("{:<12} {:>5}  {:>7} {:>7} {:>7} {:>7}  {:>7} {:>7} {:>7}  {:>7} {:>7}\n", "lobes", "", "L1", "p95",
                                    "max", "best", "light", "p95", "abs", "nD", "fD");
-    for (const LtcFigures& f : quality.parts)
+    for (const LtcFigures& f : quality.parts) {
         text += fmt::format("{:<12} {:>5}  {:7.4f} {:7.4f} {:7.4f} {:7.4f}  {:7.4f} {:7.4f} {:7.4f}  {:7.4f} {:7.4f}\n", f.name, f.lobes,
                             f.l1.mean, f.l1.p95, f.l1.most, f.best_l1.mean, f.light_relative.mean, f.light_relative.p95,
                             f.light_absolute.mean, f.all_relative.mean, f.grazing_absolute.mean);
+        if (const PublishedFigures* p = quality.model == ltc::Model::ggx ? published_of(f.name) : nullptr)
+            text += fmt::format("{:<18}  {} {} {} {}  {} {} {}  {}\n", "  published", column(p->l1), column(p->p95), column(p->most),
+                                column(p->best), column(p->light), column(p->light_p95), column(p->absolute), column(p->all_relative));
+    }
     if (quality.cosines == 2)
         for (const LtcFigures& f : quality.parts)
             text += fmt::format("{:<12} {:>5}  {:7.4f} {:7.4f} {:7.4f}  with the nearest sum of two where one is {:g} off\n", f.name,
                                 f.lobes, f.with_pairs.mean, f.with_pairs.p95, f.with_pairs.most, ltc::kFarOff);
-    return text + fmt::format("{:<12} {} of {}\n", "det <= 0", quality.broken, quality.probes);
+    text += fmt::format("{:<12} {} of {}\n", "det <= 0", quality.broken, quality.probes);
+    text += fmt::format("{:<12} {:>5}  {:>23}  {:>23}  {:>23}\n{:<12} {:>5}  {:>7} {:>7} {:>7}  {:>7} {:>7} {:>7}  {:>7} {:>7}\n",
+                        "deviation of a", "", "quads by", "p95 by", "even light by", "sample", "quads", "cosine", "normals", "area",
+                        "cosine", "normals", "area", "cosine", "normals");
+    for (const LtcSampling& s : quality.sampling)
+        text +=
+            fmt::format("{:<12} {:>5}  {:7.3f} {:7.3f} {:7.3f}  {:7.3f} {:7.3f} {:7.3f}  {:7.3f} {:7.3f}   {:.2f} % unseen by cosines\n",
+                        s.name, s.lights, s.deviation[0].mean, s.deviation[1].mean, s.deviation[2].mean, s.deviation[0].p95,
+                        s.deviation[1].p95, s.deviation[2].p95, s.furnace[0].mean, s.furnace[1].mean, 100.0 * s.unseen.mean);
+    return text;
 }
 
 Json ltc_json(const LtcQuality& quality, const ltc::Table& table)
@@ -159,8 +241,20 @@ Json ltc_json(const LtcQuality& quality, const ltc::Table& table)
                      {"fd_absolute", json_of(f.grazing_absolute)}};
         if (quality.cosines == 2)
             part["with_pairs_l1"] = json_of(f.with_pairs);
+        if (const PublishedFigures* p = quality.model == ltc::Model::ggx ? published_of(f.name) : nullptr)
+            part["published"] = json_of(*p);
         parts.push_back(std::move(part));
     }
+    Json sampling = Json::array();
+    for (const LtcSampling& s : quality.sampling)
+        sampling.push_back({{"lobes", s.name},
+                            {"quads", s.lights},
+                            {"unseen", json_of(s.unseen)},
+                            {"even_light", {{"cosine", json_of(s.furnace[0])}, {"visible_normals", json_of(s.furnace[1])}}},
+                            {"deviation",
+                             {{"cosine", json_of(s.deviation[ltc::kByCosine])},
+                              {"visible_normals", json_of(s.deviation[ltc::kByVisibleNormals])},
+                              {"area", json_of(s.deviation[ltc::kByArea])}}}});
     return {{"table",
              {{"size", table.grid.size},
               {"alpha_nodes", table.grid.root_alpha ? "squares" : "even"},
@@ -175,6 +269,7 @@ Json ltc_json(const LtcQuality& quality, const ltc::Table& table)
                                                : "matrix"},
               {"basis", kBases[static_cast<int>(table.grid.basis)]}}},
             {"parts", parts},
+            {"sampling", sampling},
             {"lookups", {{"probed", quality.probes}, {"broken", quality.broken}}},
             {"l1_of_cells", Json(quality.l1_of_cells)}};
 }

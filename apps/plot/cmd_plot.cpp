@@ -16,6 +16,7 @@
 #include "apps/report/svg.h"
 #include "core/image/io/image_io.h"
 #include "raster/frame/frame.h"
+#include "shading/bake/ltc/shipped.h"
 
 namespace burnish {
 namespace {
@@ -118,7 +119,7 @@ int run_plot(const PlotArguments& arguments, const OptionTable& given)
                             : arguments.what == "lobe"   ? plot_lobe(lobe)
                             : arguments.what == "side"   ? plot_side(lobe)
                             : arguments.what == "energy" ? plot_energy()
-                            : arguments.what == "ltc"    ? plot_ltc(lobe)
+                            : arguments.what == "ltc"    ? plot_ltc(lobe, ltc::shipped_table())
                                                          : plot_half_vectors(lobe);
     std::string bytes;
     if (extension == ".svg") {

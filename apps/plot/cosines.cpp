@@ -9,7 +9,7 @@
 #include "apps/plot/plot.h"
 #include "shading/bake/ltc/pair_fit.h"
 #include "shading/bake/ltc/quality.h"
-#include "shading/bake/ltc/shipped.h"
+#include "shading/bake/ltc/table.h"
 
 namespace burnish {
 namespace {
@@ -29,6 +29,18 @@ double of_direction(const Place& p, const std::function<double(const ltc::Vec&)>
 {
     const double z2 = 1.0 - p.x * p.x - p.y * p.y;
     return z2 > 0.0 ? value({p.x, p.y, std::sqrt(z2)}) : 0.0;
+}
+
+// Of a cosine's points from where the matrix takes them: what alignment makes small, equation 12.
+double squared_way(const Matrix& m)
+{
+    static const ltc::Rule rule(16);
+    double sum = 0.0;
+    for (const ltc::Rule::Point& point : rule.points) {
+        const ltc::Vec to = ltc::unit(m * point.clamped), way = {to.x - point.clamped.x, to.y - point.clamped.y, to.z - point.clamped.z};
+        sum += dot(way, way) / static_cast<double>(rule.points.size());
+    }
+    return sum;
 }
 
 class Sheet {
@@ -51,6 +63,26 @@ class Sheet {
         density(row, column, title, [&](const ltc::Vec& l) { return ltc::transformed_cosine(n, l); });
     }
 
+    // Points of the plain cosine, and lines to where the matrix takes them; of the last row.
+    void carried(int column, const char* how, const Matrix& m)
+    {
+        const ltc::Rule shown(11);
+        const std::string title = fmt::format("{}, mean squared way {:.3f}", how, squared_way(m));
+        const Panel panel{title.c_str(), kGap + column * (kSide + kGap), 1.0, kTop + 5 * kRow};
+        draw_frame(drawing, panel, Edge::horizon);
+        const auto on_panel = [](const ltc::Vec& v) { return Place{v.x, v.y}; };
+        for (const ltc::Rule::Point& point : shown.points) {
+            const ltc::Vec to = ltc::unit(m * point.clamped);
+            drawing.open("c0");
+            drawing.line({panel.at(on_panel(point.clamped)), panel.at(on_panel(to))}, "curve");
+            drawing.close();
+            draw_dot(drawing, panel, on_panel(point.clamped), 2.5, "c5");
+            draw_dot(drawing, panel, on_panel(to), 2.5, "c3");
+        }
+        if (column == 0)
+            drawing.text(kGap, panel.top + kSide + 34.0, "note", "points of the cosine (ochre) and where the matrix takes them (green)");
+    }
+
     Drawing drawing;
 };
 
@@ -68,6 +100,21 @@ Matrix turned_about_z(double angle)
 {
     const double c = std::cos(angle), s = std::sin(angle);
     return {c, -s, 0.0, s, c, 0.0, 0.0, 0.0, 1.0};
+}
+
+// As the document does it: the best of many turns, each with and without a flip; two flips are a turn.
+Matrix aligned_by_searching(const Matrix& m)
+{
+    constexpr int kTurns = 360;
+    Matrix best = m;
+    double least = squared_way(m);
+    for (int turn = 0; turn < 2 * kTurns; ++turn) {
+        const double flip = turn < kTurns ? 1.0 : -1.0;
+        const Matrix other = m * turned_about_z(2.0 * kPi * turn / kTurns) * Matrix{flip, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0};
+        if (const double way = squared_way(other); way < least)
+            best = other, least = way;
+    }
+    return best;
 }
 
 Matrix middle_of(const Matrix& a, const Matrix& b)
@@ -133,7 +180,7 @@ std::string count_broken()
 
 } // namespace
 
-Drawing plot_ltc(const LobePlot& plot)
+Drawing plot_ltc(const LobePlot& plot, const ltc::Table& of)
 {
     const double a = plot.roughness * plot.roughness, eta = std::abs(plot.anisotropy);
     const auto folded = [](double degrees) { return std::abs(std::remainder(degrees, 180.0)) * kDegree; };
@@ -142,15 +189,15 @@ Drawing plot_ltc(const LobePlot& plot)
                               std::max((1.0 - eta) / (1.0 + eta), 0.02)};
     const ltc::Rule rule(15), white(18);
     const ltc::LobePoints points(normalised_lobe(place, white), rule);
-    const Matrix table = lookup(ltc::shipped_table(), place).m;
+    const Matrix table = lookup(of, place).m;
     const ltc::NodeFit best = fit_lobe(points, natural_matrix(place), 0);
     const ltc::PairFit pair = fit_pair(points, best.m);
 
-    Sheet sheet(5, fmt::format("Transformed cosines of a GGX lobe of alpha {:g} and {:g}", place.alpha, place.alpha * place.lambda));
+    Sheet sheet(6, fmt::format("Transformed cosines of a GGX lobe of alpha {:g} and {:g}", place.alpha, place.alpha * place.lambda));
     const auto lobe = [&](const ltc::Vec& l) { return density(points.lobe, l).reflected; };
     const Matrix n[2] = {inverse(pair.m[0]), inverse(pair.m[1])};
     sheet.density(0, 0, "GGX", lobe);
-    sheet.cosine(0, 1, marked("the program's table", l1_distance(points, table)), table);
+    sheet.cosine(0, 1, marked("the table", l1_distance(points, table)), table);
     sheet.cosine(0, 2, marked("the nearest cosine", best.l1), best.m);
     sheet.density(0, 3, marked("the nearest two", pair.l1), [&](const ltc::Vec& l) {
         return pair.share * transformed_cosine(n[0], l) + (1.0 - pair.share) * transformed_cosine(n[1], l);
@@ -182,9 +229,14 @@ Drawing plot_ltc(const LobePlot& plot)
     mixed(2, "with a neighbour, turned", there, middle_of(other, turned));
     mixed(3, "the same, aligned", there, middle_of(in_natural_gauge(other, beside), in_natural_gauge(turned, place)));
     sheet.density(4, 4, "GGX between the two", [&](const ltc::Vec& l) { return density(there.lobe, l).reflected; });
-    sheet.drawing.text(kGap, kTop + 5.0 * kRow + 8.0, "note",
-                       fmt::format("seen from {:g} degrees off the normal, {:g} about it from the wide axis; {}", place.theta / kDegree,
-                                   place.phi / kDegree, count_broken()));
+    sheet.carried(0, "turned", turned);
+    sheet.carried(1, "aligned in closed form", in_natural_gauge(turned, place));
+    sheet.carried(2, "aligned by searching", aligned_by_searching(turned));
+    const double below = kTop + 6.0 * kRow - 8.0;
+    sheet.drawing.text(
+        kGap, below, "note",
+        fmt::format("seen from {:g} degrees off the normal, {:g} about it from the wide axis", place.theta / kDegree, place.phi / kDegree));
+    sheet.drawing.text(kGap, below + 22.0, "note", count_broken());
     return sheet.drawing;
 }
 

@@ -3,6 +3,9 @@
 #include "apps/report/drawing.h"
 
 namespace burnish {
+namespace ltc {
+struct Table;
+}
 
 struct LobePlot {
     double roughness = 0.5, anisotropy = 0.8; // alpha_lin and eta: widths alpha_lin^2 (1 +- eta)
@@ -33,9 +36,9 @@ Drawing plot_energy();
 // points by anisotropy; the same, figure 20.
 Drawing plot_side(const LobePlot& lobe);
 
-// A GGX lobe and the transformed cosines that stand for it: of the program's table, the nearest one, the nearest sum of two; fits of one
-// from three starts by three norms; and what lies between two matrices of one lobe and of two, turned apart and aligned. KT, Heitz, Dupuy,
-// Narasimhan 2022, figures 4, 7 and 13.
-Drawing plot_ltc(const LobePlot& lobe);
+// A GGX lobe and the transformed cosines that stand for it: of the table, the nearest one, the nearest sum of two; fits of one from three
+// starts by three norms; what lies between two matrices of one lobe and of two, turned apart and aligned; and where a matrix takes the
+// points of a cosine. KT, Heitz, Dupuy, Narasimhan 2022, figures 4, 7, 8 and 13.
+Drawing plot_ltc(const LobePlot& lobe, const ltc::Table& table);
 
 } // namespace burnish

@@ -1,9 +1,12 @@
 #include "bench/frame/subject.h"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <string_view>
 #include <utility>
 
+#include "core/scene/area_light.h"
 #include "raster/session/session.h"
 
 namespace burnish {
@@ -52,6 +55,28 @@ std::shared_ptr<const Environment> with_key_lights(const Environment& environmen
     return lit;
 }
 
+// In rows of at most eight behind the eye of bench_view(sphere), where no pixel shows them.
+void add_quads(Scene& scene, int count)
+{
+    const int across = std::clamp(count, 1, 8), rows = (count + across - 1) / across;
+    for (int i = 0; i < count; ++i) {
+        const float y = 0.2f + 0.12f * (static_cast<float>(i / across) - 0.5f * static_cast<float>(rows - 1)),
+                    z = 0.12f * (static_cast<float>(i % across) - 0.5f * static_cast<float>(across - 1)), h = 0.04f;
+        AreaLight light;
+        light.points = {{-0.5f, y - h, z - h}, {-0.5f, y - h, z + h}, {-0.5f, y + h, z + h}, {-0.5f, y + h, z - h}};
+        light.radiance = glm::vec3(3.0f, 2.0f, 1.0f), light.two_sided = true;
+        add_area_light(scene, light);
+    }
+}
+
+int way_named(std::string_view name)
+{
+    for (std::size_t i = 0; i < area_ways().size(); ++i)
+        if (name == area_ways()[i].name)
+            return static_cast<int>(i);
+    return 0;
+}
+
 class TileSubject final : public Subject {
   public:
     TileSubject(const Workload& w, Session session) : session_(std::move(session)), by_triangle_(w.scene == BenchScene::waves)
@@ -60,7 +85,7 @@ class TileSubject final : public Subject {
         desc_.view = bench_view(w.scene, session_.tables(), w.width, w.height);
         desc_.technique = w.technique;
         desc_.samples = w.samples ? w.samples : find_technique(w.technique)->default_samples;
-        desc_.frame_map = w.frame_map;
+        desc_.frame_map = w.frame_map, desc_.area_way = way_named(w.area_way);
         if (w.eta != 0.0f)
             desc_.roughness = w.alpha_lin, desc_.override_anisotropy = true, desc_.anisotropy = w.eta;
     }
@@ -101,8 +126,9 @@ Result<std::unique_ptr<Subject>> make_subject(const Workload& workload, const Su
     if (!environment)
         return environment.error();
     const Workload& w = workload;
-    const Result<std::shared_ptr<const SceneData>> scene =
-        make_scene_data(w.name, make_bench_scene(w.scene, w.size, w.width, w.height), Limits{});
+    Scene made = make_bench_scene(w.scene, w.size, w.width, w.height);
+    add_quads(made, w.quads);
+    const Result<std::shared_ptr<const SceneData>> scene = make_scene_data(w.name, std::move(made), Limits{});
     if (!scene)
         return scene.error();
     SessionOptions tile;

@@ -1,5 +1,7 @@
 #include "bench/frame/workloads.h"
 
+#include <tuple>
+
 namespace burnish {
 namespace {
 
@@ -72,6 +74,16 @@ std::vector<Workload> all_workloads()
         {"visibility_rays_8", "rays", S::waves, 1036800, W, H, 1, "", 0, 0.0f, 0, Engine::rays, 8},
         {"visibility_rays_16", "rays", S::waves, 1036800, W, H, 1, "", 0, 0.0f, 0, Engine::rays, 16},
     };
+    for (const auto& [name, quads, way] : {std::tuple{"quads_0", 0, "ltc"},
+                                           {"quads_1", 1, "ltc"},
+                                           {"quads_4", 4, "ltc"},
+                                           {"quads_16", 16, "ltc"},
+                                           {"quads_64", 64, "ltc"},
+                                           {"quads_1_isotropic", 1, "ltc-isotropic"}}) {
+        Workload w{name, "area_lights", S::sphere, 0, W, H, 1, "bent_normal", 0, 0.5f};
+        w.quads = quads, w.area_way = way;
+        table.push_back(w);
+    }
     append_growth(table);
     return table;
 }
@@ -104,6 +116,11 @@ const std::vector<Aim>& aims()
         // A fifth of the CPU time that lavapipe (Mesa 22.3) took for plain kernels of that lobe: 1655 and 5362 ms.
         {"phong", "as_mc, 60 samples", M::cpu_ms, "as_mc_60", "", 1655.0 / 5.0},
         {"phong", "as_mc, 200 samples", M::cpu_ms, "as_mc_200", "", 5362.0 / 5.0},
+        // An eighth of the CPU time that lavapipe (Mesa 22.3) took for plain kernels of transformed cosines: 173 and 287 ms.
+        {"area_lights", "one quad by transformed cosines", M::cpu_ms, "quads_1", "", 173.0 / 8.0},
+        {"area_lights", "four quads", M::cpu_ms, "quads_4", "", 287.0 / 8.0},
+        {"area_lights", "a quad by the round table, to none", M::cpu_ratio, "quads_1_isotropic", "quads_0", 0.0},
+        {"area_lights", "a quad by the whole table, to none", M::cpu_ratio, "quads_1", "quads_0", 0.0},
         {"textures", "one texture, to none", M::cpu_ratio, "textures_1", "textures_0", 0.0},
         {"textures", "five textures, to none", M::cpu_ratio, "textures_5", "textures_0", 0.0},
         {"textures", "grazing floor, three textures", M::cpu_ms, "floor_3", "", 0.0},

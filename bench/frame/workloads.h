@@ -26,6 +26,8 @@ struct Workload {
     bool slow = false; // not with --quick
     float alpha_lin = 0.3f;
     int key_lights = 0; // made ones, above the scene
+    int quads = 0;      // area lights behind the eye, each lighting every pixel
+    const char* area_way = "ltc";
     int frame_map = kFrameGramSchmidt;
     double along = 0.0;      // of a row of workloads that differ in one number: that number
     bool only_named = false; // drawn only where --only names it or its group

@@ -8,6 +8,7 @@
 #include <gnu/libc-version.h>
 #include <optional>
 #include <string_view>
+#include <tuple>
 
 #include "bench/frame/subject.h"
 #include "bench/scenes/figures.h"
@@ -46,11 +47,31 @@ std::vector<Workload> small_workloads()
     return list;
 }
 
+// Drawn where they are named, without a budget: quads that light every pixel.
+std::vector<Workload> named_workloads()
+{
+    std::vector<Workload> list;
+    for (const auto& [name, quads, way] : {std::tuple{"quads_0", 0, "ltc"},
+                                           {"quads_1", 1, "ltc"},
+                                           {"quads_4", 4, "ltc"},
+                                           {"quads_16", 16, "ltc"},
+                                           {"quads_64", 64, "ltc"},
+                                           {"isotropic_1", 1, "ltc-isotropic"},
+                                           {"isotropic_4", 4, "ltc-isotropic"}}) {
+        list.push_back({name, "instructions", BenchScene::sphere, 0, 160, 90, 1, "bent_normal", 0, 0.8f});
+        list.back().quads = quads, list.back().area_way = way;
+    }
+    return list;
+}
+
 // NAME or NAME@WIDTHxHEIGHT; nothing where it is none.
 std::optional<Workload> known(const char* text)
 {
     const std::string_view all = text;
-    for (Workload w : small_workloads()) {
+    std::vector<Workload> all_known = small_workloads();
+    for (const Workload& w : named_workloads())
+        all_known.push_back(w);
+    for (Workload w : all_known) {
         const std::string_view name = w.name;
         char end = 0;
         const bool sized = all.size() > name.size() && all[name.size()] == '@';

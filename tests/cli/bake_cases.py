@@ -53,8 +53,21 @@ def report(bench):
         check(parts[name]["best_l1"]["mean"] <= parts[name]["l1"]["mean"], "a table beats what fits each lobe alone")
     check(parts["all"]["light_relative"]["mean"] <= 0.069 and parts["all"]["light_absolute"]["mean"] <= 0.0067, f"{parts['all']}")
     check(len(found["l1_of_cells"]) == 7 * 7 * 10 * 7, "a cell is missing")
-    xml.dom.minidom.parse(str(bench.folder / "quality/quality.svg"))
-    check((bench.folder / "quality/quality.png").read_bytes()[:4] == b"\x89PNG", "no PNG")
+    for name in ("quality", "lobes", "resolutions"):
+        xml.dom.minidom.parse(str(bench.folder / f"quality/{name}.svg"))
+        check((bench.folder / f"quality/{name}.png").read_bytes()[:4] == b"\x89PNG", f"no PNG of {name}")
+    published = {part["lobes"]: part["published"] for part in found["parts"] if "published" in part}
+    check(len(published) == 5 and "published" in said.out, f"published figures of {sorted(published)}")
+    for name, part in published.items():
+        check(parts[name]["l1"]["mean"] < part["l1"]["mean"], f"{name}: the published table is nearer")
+    l1 = {row["table"]: row["l1"]["mean"] for row in found["resolutions"]["rows"]}
+    check(list(l1) == ["this table", "8 nodes", "12 nodes", "16 nodes", "64 nodes", "exact"], f"{list(l1)}")
+    check(l1["16 nodes"] < l1["12 nodes"] < l1["8 nodes"] < 1.1 * l1["exact"] and abs(l1["64 nodes"] - l1["exact"]) < 1e-3, f"{l1}")
+    check(l1["exact"] < l1["this table"] < l1["8 nodes"], f"{l1}")
+    by = {row["lobes"]: row for row in found["sampling"]}
+    grazing, area = by["theta > 70"]["even_light"], by["all"]["deviation"]
+    check(grazing["cosine"]["mean"] > 1.5 * grazing["visible_normals"]["mean"], f"{grazing}")
+    check(area["area"]["mean"] > area["visible_normals"]["mean"] > 0.5, f"{area}")
 
 
 @case("bake.tables_as_others_make_them_say_so", tier="gate")

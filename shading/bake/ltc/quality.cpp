@@ -87,15 +87,15 @@ Differences differences(const Lobe& lobe, const Matrix& m, const std::vector<Con
     return sum;
 }
 
-Judged judged(const Table& table, const Place& place, int cosines, const Rule& rule)
+// looked: what stands for the lobe.
+Judged judged(const Place& place, const Looked& looked, Model model, int cosines, const Rule& rule)
 {
     static const Rule fit_rule(15);
     Judged j;
     j.place = place;
-    Lobe lobe(place, 1.0, table.model());
+    Lobe lobe(place, 1.0, model);
     const Albedo white = albedo(lobe, rule);
     lobe.albedo = white.all;
-    const Looked looked = lookup(table, place);
     const std::vector<Quad> quads = lights_of(lobe.v);
     std::vector<Cone> cones(quads.begin(), quads.end());
     const Differences d = differences(lobe, looked.m, cones, rule);
@@ -118,6 +118,55 @@ Judged judged(const Table& table, const Place& place, int cosines, const Rule& r
             j.pair_l1 = std::min(j.best_l1, l1_of_pair(LobePoints(lobe, rule), fit_pair(points, best.m)));
     }
     return j;
+}
+
+struct Moments {
+    double sum = 0.0, squares = 0.0;
+    void add(double v) { sum += v, squares += v * v; }
+    double deviation(double count) const // of one over the mean
+    {
+        const double mean = sum / count;
+        return mean > 0.0 ? std::sqrt(std::max(squares / count - mean * mean, 0.0)) / mean : 0.0;
+    }
+};
+
+Sampled sampled(const Table& table, const Place& place, const Rule& rule)
+{
+    Sampled r;
+    r.place = place;
+    const Lobe lobe = normalised_lobe(place, rule, table.model());
+    const Matrix m = lookup(table, place).m, n = inverse(m);
+    const std::vector<Quad> quads = lights_of(lobe.v);
+    const std::vector<Cone> cones(quads.begin(), quads.end());
+    const double count = static_cast<double>(rule.points.size());
+    Moments even[2], lit[kSamplers][kLights];
+    const auto add = [&](Sampler sampler, const Vec& l, double value) {
+        even[sampler].add(value);
+        for (std::size_t i = 0; i < kLights; ++i)
+            lit[sampler][i].add(cones[i].holds(l) ? value : 0.0);
+    };
+    for (const Rule::Point& point : rule.points) {
+        const Vec l = unit(m * point.clamped), h = mirrored_normal(lobe, point);
+        add(kByCosine, l, density(lobe, l).reflected / transformed_cosine(n, l));
+        const Reflected f = density(lobe, h);
+        add(kByVisibleNormals, h, f.visible > 0.0 ? f.reflected / f.visible : 0.0);
+        r.unseen += f.visible > 0.0 && !(transformed_cosine(n, h) > 0.0) ? f.reflected / f.visible / count : 0.0;
+        const double v = det_atan2(point.sine, point.cosine) / (2.0 * kPi) + 0.5;
+        for (std::size_t i = 0; i < kLights; ++i) {
+            const Quad& q = quads[i];
+            const Vec a = {q[1].x - q[0].x, q[1].y - q[0].y, q[1].z - q[0].z}, b = {q[3].x - q[0].x, q[3].y - q[0].y, q[3].z - q[0].z};
+            const Vec at = {q[0].x + point.depth * a.x + v * b.x, q[0].y + point.depth * a.y + v * b.y,
+                            q[0].z + point.depth * a.z + v * b.z},
+                      to = unit(at);
+            const double over = std::abs(dot(cross(a, b), to)) / dot(at, at); // solid angle a sample stands for
+            lit[kByArea][i].add(density(lobe, to).reflected * over);
+        }
+    }
+    r.furnace[kByCosine] = even[kByCosine].deviation(count), r.furnace[kByVisibleNormals] = even[kByVisibleNormals].deviation(count);
+    for (std::size_t i = 0; i < kLights; ++i)
+        for (int s = 0; s < kSamplers; ++s)
+            r.lights[s][i] = lit[kByVisibleNormals][i].sum < kLeastSampled * count ? -1.0 : lit[s][i].deviation(count);
+    return r;
 }
 
 } // namespace
@@ -143,8 +192,30 @@ std::vector<Judged> judge(const Table& table, const std::vector<Place>& places, 
 {
     const Rule rule(22);
     std::vector<Judged> all(places.size());
-    jobs.parallel_for(places.size(), [&](std::size_t i, int) { all[i] = judged(table, places[i], cosines, rule); });
+    jobs.parallel_for(places.size(),
+                      [&](std::size_t i, int) { all[i] = judged(places[i], lookup(table, places[i]), table.model(), cosines, rule); });
     return all;
+}
+
+std::vector<Judged> judge_matrices(const std::vector<Place>& places, const std::vector<Matrix>& matrices, const Jobs& jobs)
+{
+    const Rule rule(22);
+    std::vector<Judged> all(places.size());
+    jobs.parallel_for(places.size(), [&](std::size_t i, int) { all[i] = judged(places[i], {matrices[i], 0.0, 0.0}, Model::ggx, 0, rule); });
+    return all;
+}
+
+std::vector<Sampled> judge_sampling(const Table& table, const std::vector<Place>& places, const Jobs& jobs)
+{
+    const Rule rule(19);
+    std::vector<Sampled> all(places.size());
+    jobs.parallel_for(places.size(), [&](std::size_t i, int) { all[i] = sampled(table, places[i], rule); });
+    return all;
+}
+
+double light_of_quad(const Lobe& lobe, const Matrix& near, const std::vector<Vec>& quad, const Rule& rule)
+{
+    return polygon_part(inverse(near), quad) + differences(lobe, near, {Cone(quad)}, rule).lights[0];
 }
 
 Spread spread_of(std::vector<double> values)

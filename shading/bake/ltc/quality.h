@@ -30,6 +30,26 @@ inline constexpr double kFarOff = 0.3; // L1
 // cosines: 0: of the table alone; 1: each lobe is fitted alone, too, what no table can surpass; 2: also by the sum of two.
 std::vector<Judged> judge(const Table& table, const std::vector<Place>& places, int cosines, const Jobs& jobs);
 
+// The same of any matrices for them, of GGX lobes and without their albedos.
+std::vector<Judged> judge_matrices(const std::vector<Place>& places, const std::vector<Matrix>& matrices, const Jobs& jobs);
+
+// The part of a lobe that a convex quad fills, corners from the shading point: by a transformed cosine `near` it, and samples of what both
+// differ by.
+double light_of_quad(const Lobe& lobe, const Matrix& near, const std::vector<Vec>& quad, const Rule& rule);
+
+// How far samples of the light of a lobe's quads scatter: the deviation of one over their mean, by density. What of the lobe lies where its
+// transformed cosine is 0 samples of that never find.
+enum Sampler { kByCosine, kByVisibleNormals, kByArea };
+inline constexpr int kSamplers = 3;
+struct Sampled {
+    Place place;
+    double unseen = 0.0;                    // part of the lobe
+    double furnace[kSamplers] = {};         // deviation under even light; of kByArea 0
+    double lights[kSamplers][kLights] = {}; // of a quad with less than kLeastSampled of the lobe: -1
+};
+inline constexpr double kLeastSampled = 0.02;
+std::vector<Sampled> judge_sampling(const Table& table, const std::vector<Place>& places, const Jobs& jobs);
+
 struct Spread {
     double mean = 0.0, median = 0.0, p95 = 0.0, most = 0.0;
 };

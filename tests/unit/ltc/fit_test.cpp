@@ -101,6 +101,89 @@ TEST(fit, as_others_do_it_is_worse_and_the_file_says_how)
     EXPECT_NEAR(apart, own, 0.02);
 }
 
+// L1 of two transformed cosines, by points of one of them.
+double between(const Matrix& a, const Matrix& b)
+{
+    static const Rule rule(16);
+    const Matrix na = inverse(a), nb = inverse(b);
+    double sum = 0.0;
+    for (const Rule::Point& point : rule.points)
+        for (const Matrix& by : {a, b}) {
+            const Vec l = unit(by * point.clamped);
+            const double p = transformed_cosine(na, l), q = transformed_cosine(nb, l);
+            sum += std::abs(p - q) / (p + q) / static_cast<double>(rule.points.size());
+        }
+    return sum;
+}
+
+// As lookups mirror what the table has.
+Matrix unfolded(Matrix m, bool swap, double sign_x, double sign_y)
+{
+    if (swap)
+        m = {m[3], m[4], m[5], m[0], m[1], m[2], m[6], m[7], m[8]};
+    m = Matrix{sign_x, 0.0, 0.0, 0.0, sign_y, 0.0, 0.0, 0.0, 1.0} * m;
+    if (determinant(m) < 0.0)
+        m[1] = -m[1], m[4] = -m[4], m[7] = -m[7];
+    return m;
+}
+
+// What symmetry spares a table, fitted all the same: lobes of the other quadrants, those that are wider along y, and both.
+TEST(fit, lobes_that_tables_leave_out_are_mirror_images_of_those_that_they_have)
+{
+    const Rule rule(16), white(18);
+    const auto points_of = [&](const Place& p) { return LobePoints(normalised_lobe(p, white), rule); };
+    for (const Place& place : {Place{0.5, 1.2, 0.7, 0.2}, Place{0.9, 0.6, 0.4, 0.3}, Place{1.1, 0.3, 0.2, 0.5}}) {
+        const Matrix first = fit_lobe(points_of(place), natural_matrix(place), 0).m;
+        for (const bool swap : {false, true})
+            for (const auto& [sx, sy] : {std::pair{1.0, 1.0}, {-1.0, 1.0}, {-1.0, -1.0}, {1.0, -1.0}}) {
+                const double azimuth = swap ? 0.5 * kPi - place.phi : place.phi;
+                Place other = place;
+                other.phi = std::atan2(sy * std::sin(azimuth), sx * std::cos(azimuth));
+                if (swap)
+                    other.alpha = place.alpha * place.lambda, other.lambda = 1.0 / place.lambda;
+                const LobePoints points = points_of(other);
+                const NodeFit own = fit_lobe(points, natural_matrix(other), 0);
+                const Matrix folded = unfolded(first, swap, sx, sy);
+                EXPECT_LT(between(own.m, folded), 0.04) << swap << sx << sy;
+                EXPECT_NEAR(l1_distance(points, folded), own.l1, 2e-3) << swap << sx << sy;
+                EXPECT_GT(between(own.m, unfolded(first, swap, -sx, sy)), 0.1) << swap << sx << sy; // they are not all alike
+            }
+    }
+}
+
+TEST(fit, a_table_without_symmetry_has_it_all_the_same)
+{
+    BakeOptions options = small();
+    options.grid = grid_of(4), options.steps = 0;
+    const Jobs jobs(1);
+    const Result<std::optional<Baked>> with = bake_table(options, jobs);
+    options.symmetry = false;
+    const Result<std::optional<Baked>> without = bake_table(options, jobs);
+    ASSERT_TRUE(with && *with && without && *without);
+    const Grid& grid = options.grid;
+    const auto entry = [&](const Baked& baked, std::size_t node) {
+        Matrix m;
+        for (std::size_t e = 0; e < 9; ++e)
+            m[e] = static_cast<double>(baked.table.entries[kChannels * node + e]);
+        return grid.shown(m, grid.place(node));
+    };
+    double mean = 0.0, mirrored = 0.0;
+    std::size_t images = 0;
+    for (std::size_t node = 0; node < grid.nodes(); ++node) {
+        mean += between(entry(**with, node), entry(**without, node)) / static_cast<double>(grid.nodes());
+        const std::array<int, 4> i = grid.indices(node);
+        if (i[3] != grid.size - 1)
+            continue;
+        const std::size_t image = grid.node(i[0], grid.size - 1 - i[1], i[2], i[3]); // of one width: seen from beyond the diagonal
+        mirrored += between(entry(**without, node), with_axes_exchanged(entry(**without, image)));
+        ++images;
+    }
+    printf("with and without %.4f, mirrored %.4f\n", mean, mirrored / static_cast<double>(images));
+    EXPECT_LT(mean, 0.02);
+    EXPECT_LT(mirrored / static_cast<double>(images), 0.02);
+    EXPECT_GT(mean, 0.0); // else nothing was left out
+}
+
 TEST(fit, equations_are_the_derivative)
 {
     // Along every element of E the sums' gradient is that of sum W (p - q)^2 / 2, with the weights of the start.

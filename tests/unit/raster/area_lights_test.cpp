@@ -8,6 +8,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "core/scene/area_light.h"
+#include "shading/bake/ltc/shipped.h"
 #include "shading/bake/mip/light_picture.h"
 #include "tests/unit/raster/fixture.h"
 
@@ -62,7 +63,19 @@ class LitPlate {
         stage_.scene.images.push_back(std::move(image));
         return make_light_picture(stage_.scene.images.back());
     }
-    Image seen(const FrameDesc& d) const { return stage_.render(d, best_isa()).color; }
+    Image seen(const FrameDesc& d) const
+    {
+        if (!ltc)
+            return stage_.render(d, best_isa()).color;
+        SessionParts parts = stage_.parts();
+        parts.ltc = ltc;
+        SessionOptions options;
+        options.isa = best_isa();
+        Result<Session> session = Session::make(parts, options);
+        EXPECT_TRUE(session);
+        return session->render(d)->color;
+    }
+    std::shared_ptr<const ltc::ShadingTables> ltc; // none: the program's own
 
   private:
     Stage stage_;
@@ -244,6 +257,68 @@ TEST(area_lights, are_cut_at_the_horizon_of_a_surface_whose_lobes_are_tilted)
                     for (const char* way : {"ltc", "ltc-clipless", "mc"})
                         EXPECT_LT(found(way), 1e-5) << i << " " << way;
                 }
+}
+
+// The greatest step between neighbours of a sweep over the greatest next to it; where light bends, steps change slowly.
+double worst_step(const std::vector<double>& light)
+{
+    double most = 0.0, worst = 0.0;
+    for (std::size_t i = 1; i < light.size(); ++i)
+        most = std::max(most, std::abs(light[i] - light[i - 1]));
+    const auto step = [&](std::size_t i) { return std::abs(light[i + 1] - light[i]); };
+    for (std::size_t i = 1; i + 2 < light.size(); ++i)
+        worst = std::max(worst, step(i) / (std::max(step(i - 1), step(i + 1)) + 0.05 * most));
+    return worst;
+}
+
+// Once around a quarter and a bit on both sides, and from one grain through none to the other: tables are mirrored at both ends and in the
+// middle. All pixels see one direction.
+double sweep_of_eyes(const LitPlate& room, FrameDesc d, double theta)
+{
+    std::vector<double> light;
+    for (int i = -10; i <= 190; ++i) {
+        const double phi = 0.5 * (i + 0.5) / 180.0 * 3.14159265358979;
+        const glm::vec3 eye(std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta));
+        d.view = make_view(2.0f * eye, {0, 0, 0}, 0.002f, d.width, d.height);
+        light.push_back(mean_radiance(room.seen(d)));
+    }
+    return worst_step(light);
+}
+
+double sweep_of_widths(const LitPlate& room, FrameDesc d)
+{
+    std::vector<double> light;
+    d.view = make_view({0.7f, 0.5f, 1.3f}, {0, 0, 0}, 0.002f, d.width, d.height);
+    for (int i = -20; i <= 20; ++i) {
+        d.anisotropy = static_cast<float>(0.004 * (i + 0.5));
+        light.push_back(mean_radiance(room.seen(d)));
+    }
+    return worst_step(light);
+}
+
+TEST(area_lights, sweeps_have_no_step_where_tables_are_mirrored)
+{
+    LitPlate room(1.0f);
+    room.light({each_area_light()[0], each_area_light()[2]});
+    FrameDesc d = desc_of_plate(kPlateEyes[0], 0.55f, 0.7f);
+    d.width = d.height = 4;
+    for (const char* way : {"ltc", "ltc-clipless"}) {
+        d.area_way = way_named(way);
+        for (const double theta : {0.4, 1.0, 1.3})
+            EXPECT_LT(sweep_of_eyes(room, d, theta), 2.5) << way << " " << theta;
+        EXPECT_LT(sweep_of_widths(room, d), 2.5) << way;
+    }
+    // A table that breaks its symmetry, at eyes along the grain and where both widths are one, has them.
+    d.area_way = way_named("ltc");
+    ltc::Table broken = ltc::shipped_table();
+    for (std::size_t node = 0; node < broken.grid.nodes(); ++node)
+        if (const std::array<int, 4> i = broken.grid.indices(node); i[1] == 0 || i[3] == broken.grid.size - 1)
+            broken.entries[ltc::kChannels * node + 5] += 0.1f; // the lobe leans sideways
+    const Result<ltc::ShadingTables> tables = ltc::with_table(broken, "broken");
+    ASSERT_TRUE(tables);
+    room.ltc = std::make_shared<const ltc::ShadingTables>(*tables);
+    EXPECT_GT(sweep_of_eyes(room, d, 1.0), 5.0);
+    EXPECT_GT(sweep_of_widths(room, d), 5.0);
 }
 
 Image picture_of(int width, int height, const std::function<glm::vec3(int x, int y)>& colour)

@@ -1,0 +1,112 @@
+#!/usr/bin/env python3
+"""Whether a sun is nearer to the reference as a key light or as an area light: mean HDR-FLIP of both, by place.
+
+Usage: sun_as_disk.py --program build/release/burnish [--size WxH] [--samples N] [--technique NAME] [--work FOLDER] [--json FILE]
+
+Skies that are dim but for an even disc, high or low, small or large, are drawn in three ways on builtin:spheres: by the reference; with the
+disc as the key light that baking finds in it; and without the disc, under a disk-shaped area light of that key light's direction, axes and
+radiance, 200 metres away from balls of 0.7 metres across, by transformed cosines. Printed is a line a place, and means by roughness and by sky. Files in --work are not
+made again.
+
+Exit code: 0 key lights are nearer in the mean; 1 area lights are; 2 something could not be run.
+"""
+
+import argparse
+import itertools
+import json
+import math
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+from key_lights import mean, towards, write_sky
+
+RADII_DEG, ELEVATIONS_DEG = (1.0, 1.6), (5.0, 30.0, 65.0)
+ROUGHNESS, ANISOTROPY = (0.3, 0.5, 0.7, 0.9), (0.5, 0.9)
+AZIMUTH_DEG, IRRADIANCE, FAR = 60.0, 6.0, 200.0
+
+
+def run(*words):
+    done = subprocess.run([str(w) for w in words], capture_output=True, text=True, check=False)
+    if done.returncode:
+        print(f"{' '.join(map(str, words))}\n{done.stderr}", file=sys.stderr)
+        sys.exit(2)
+    return done.stdout
+
+
+def sky_of(radius_deg, elevation_deg, with_sun):
+    place, cosine = towards(AZIMUTH_DEG, elevation_deg), math.cos(math.radians(radius_deg))
+    radiance = IRRADIANCE / (2.0 * math.pi * (1.0 - cosine))
+
+    def light(d):
+        if with_sun and d[0] * place[0] + d[1] * place[1] + d[2] * place[2] > cosine:
+            return (radiance, 0.9 * radiance, 0.75 * radiance)
+        return (0.03, 0.04, 0.06) if d[1] > 0.0 else (0.03, 0.025, 0.02)
+    return light
+
+
+def disk_light(program, sky):
+    """--light's words for the only key light of a sky."""
+    keys = json.loads(run(program, "info", "--env", sky, "--json"))["environment"]["key_lights"]
+    if len(keys) != 1:
+        print(f"{sky} has {len(keys)} key lights", file=sys.stderr)
+        sys.exit(2)
+    key = keys[0]
+    u, v = key["axis_u"], key["axis_v"]
+    across = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]]
+    solid = math.pi * math.sqrt(sum(c * c for c in across))
+    middle = [FAR * c for c in key["direction"]]
+    points = [middle, [m + FAR * c for m, c in zip(middle, u)], [m + FAR * c for m, c in zip(middle, v)]]
+    words = "/".join(",".join(f"{c:.9g}" for c in p) for p in points)
+    return f"disk:points={words}:radiance={','.join(f'{c / solid:.6g}' for c in key['irradiance'])}:two-sided"
+
+
+def main():
+    parser = argparse.ArgumentParser(description="FLIP of suns as key lights and as area lights")
+    parser.add_argument("--program", required=True, type=pathlib.Path)
+    parser.add_argument("--size", default="96x54")
+    parser.add_argument("--samples", default="256", help="of the reference")
+    parser.add_argument("--technique", default="lobe_line")
+    parser.add_argument("--work", type=pathlib.Path)
+    parser.add_argument("--json", type=pathlib.Path)
+    a = parser.parse_args()
+    work = a.work or pathlib.Path(tempfile.mkdtemp(prefix="burnish_sun"))
+    work.mkdir(parents=True, exist_ok=True)
+    rows = []
+    for radius, elevation in itertools.product(RADII_DEG, ELEVATIONS_DEG):
+        sky = f"{radius:g}_{elevation:g}"
+        paths = {True: work / f"sun_{sky}.hdr", False: work / f"dim_{sky}.hdr"}
+        for with_sun, path in paths.items():
+            if not path.exists():
+                write_sky(path, sky_of(radius, elevation, with_sun), 512)
+        disk = disk_light(a.program, paths[True])
+        for roughness, eta in itertools.product(ROUGHNESS, ANISOTROPY):
+            words = ("builtin:spheres", "--size", a.size, "--eye", "0,0.1,0.7", "--target", "0,0,0", "--no-background", "--roughness", roughness,
+                     "--anisotropy", eta, "-q")
+            name = work / f"{sky}_{roughness:g}_{eta:g}"
+            ways = {"truth": ("--env", paths[True], "--backend", "reference", "--samples", a.samples),
+                    "key": ("--env", paths[True], "--technique", a.technique, "--msaa", "8"),
+                    "area": ("--env", paths[False], "--technique", a.technique, "--msaa", "8", "--light", disk)}
+            for way, more in ways.items():
+                if not pathlib.Path(f"{name}_{way}.pfm").exists():
+                    run(a.program, "render", *words, *more, "-o", f"{name}_{way}.pfm")
+            flip = {way: json.loads(run(a.program, "compare", f"{name}_truth.pfm", f"{name}_{way}.pfm", "--metric", "flip-hdr", "--json", "-",
+                                        "-q"))["flip_mean"] for way in ("key", "area")}
+            rows.append({"radius_deg": radius, "elevation_deg": elevation, "roughness": roughness, "anisotropy": eta, **flip})
+            print(f"disc of {radius:g} degrees at {elevation:g}, roughness {roughness:g}, anisotropy {eta:g}: key light {flip['key']:.4f}, area "
+                  f"light {flip['area']:.4f}", flush=True)
+    for what, values in (("roughness", ROUGHNESS), ("anisotropy", ANISOTROPY), ("radius_deg", RADII_DEG), ("elevation_deg", ELEVATIONS_DEG)):
+        for value in values:
+            part = [r for r in rows if r[what] == value]
+            print(f"{what:14} {value:<5g} key light {mean([r['key'] for r in part]):.4f}, area light {mean([r['area'] for r in part]):.4f}, nearer at "
+                  f"{sum(r['area'] < r['key'] for r in part)} of {len(part)}")
+    key, area = mean([r["key"] for r in rows]), mean([r["area"] for r in rows])
+    print(f"all            key light {key:.4f}, area light {area:.4f}, nearer at {sum(r['area'] < r['key'] for r in rows)} of {len(rows)}")
+    if a.json:
+        a.json.write_text(json.dumps(rows, indent=1) + "\n")
+    return 0 if key <= area else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())
