@@ -91,11 +91,11 @@ def anisotropy(path, level):
     return total / count
 
 
-def make_ridges(work):
+def make_ridges(work, side=128):
     """Waves across u under a round lobe: anisotropy that is in no map, and that one level does not show, since a wave is eight texels long."""
     folder = work / "ridges"
     folder.mkdir(exist_ok=True)
-    write_png(folder / "normal.png", lambda x, y: code_of_slope(0.5 * math.sin(2 * math.pi * (x + 0.5) / 8), 0), 128, 128)
+    write_png(folder / "normal.png", lambda x, y: code_of_slope(0.5 * math.sin(2 * math.pi * (x + 0.5) / 8), 0), side, side)
     write_png(folder / "roughness.png", lambda x, y: (90,) * 3, 1, 1)
     write_png(folder / "metallic.png", lambda x, y: (255,) * 3, 1, 1)
 

@@ -8,6 +8,7 @@ Usage: mip_figures.py --program build/release/burnish -o FOLDER [--figure N,N,..
 normals; 8: ridges that become anisotropy, maps of level 2 beside what they draw; 9: the second net seen once and four times in training
 (--seconds of CPU time each, 20). FOLDER/figure_N.png is a row a material with a row of FLIP's maps below it, columns as printed; a line a
 picture: mean FLIP, the tone curve's picture at 67 pixels a degree. The truth is the reference that reads all texels, of 2 N samples.
+Pictures are drawn small, so that balls show middle levels, and shown three times as large.
 
 Exit code: 0; 2 something could not be run.
 """
@@ -20,18 +21,18 @@ from mip_ablations import Bench, make_ridges
 from relief import read_png, write_png
 from workbench import arguments, in_folder
 
+TIMES = 3
 # brdf, filters between which and the truth the figure stands, how many materials
 BY_MODEL = {4: ("ashikhmin_shirley", ("baseline", "mipnet"), 4), 5: ("ggx_aniso", ("baseline", "ssgt", "mipnet"), 6),
             6: ("beckmann", ("baseline", "leadr", "mipnet"), 6)}
 
 
-def picture(path, side=None):
-    """Rows of three channels; of a small square every texel as often as fits in `side` pixels."""
+def picture(path, times=1):
+    """Rows of three channels, each pixel so many times each way."""
     rows, channels = read_png(path)
     if channels == 4:
         rows = [b"".join(bytes(row[i:i + 3]) for i in range(0, len(row), 4)) for row in rows]
-    if side:
-        times = max(1, side // len(rows))
+    if times > 1:
         rows = [b"".join(bytes(row[i:i + 3]) * times for i in range(0, len(row), 3)) for row in rows for _ in range(times)]
     return [bytes(row) for row in rows]
 
@@ -59,16 +60,16 @@ class Figures(Bench):
         o = self.options
         common = ("render", *words, "--frame-map", "quaternion", "--fov", 22, "--size", o.size, "--env-size", 128, "-q")
         self.run(*common, "--backend", "reference", "--reference-textures", "full", "--samples", 2 * o.samples, "-o", "truth.png")
-        truth, pictures, maps = picture(self.work / "truth.png"), [], []
+        truth, pictures, maps = picture(self.work / "truth.png", TIMES), [], []
         for look, more in looks:
             self.run(*common, *more, "--technique", "mc", "--samples", o.samples, "--msaa", 8, "-o", "look.png")
             found = json.loads(self.run("compare", "truth.png", "look.png", "--metric", "flip", "--error-map", "map.png", "--json", "-"))
-            pictures.append(picture(self.work / "look.png"))
-            maps.append(picture(self.work / "map.png"))
+            pictures.append(picture(self.work / "look.png", TIMES))
+            maps.append(picture(self.work / "map.png", TIMES))
             self.figures.append({"figure": figure, "scene": name, "look": look, "flip": found["flip_mean"]})
         self.run(*common, *looks[-1][1], "--show", "lod", "-o", "lod.png")
         print(f"figure {figure}, {name}: " + ", ".join(f"{row['look']} {row['flip']:.4f}" for row in self.figures[-len(looks):]), flush=True)
-        return [beside([*pictures, truth]), beside([*maps, picture(self.work / "lod.png")])]
+        return [beside([*pictures, truth]), beside([*maps, picture(self.work / "lod.png", TIMES)])]
 
     def write(self, figure, rows, columns):
         path = self.folder / f"figure_{figure}.png"
@@ -91,16 +92,16 @@ class Figures(Bench):
         self.write(figure, rows, ", ".join(names) + ", the truth")
 
     def transfer(self):
-        make_ridges(self.work)
+        make_ridges(self.work, 512)
         self.run("bake", "mip", "ridges", "--mip-filter", "mipnet", "--fallback", "off", "-q", "-o", "ridges.mip", "--preview", "maps")
-        level = lambda part: picture(next((self.work / "maps").glob(f"*_{part}_02.png")), 128)
-        maps = beside([picture(self.work / "ridges/normal.png"), level("normal"), level("lobe")])
+        level = lambda part: picture(next((self.work / "maps").glob(f"*_{part}_02.png")), 2)
+        maps = beside([[row[:768] for row in picture(self.work / "ridges/normal.png")[:256]], level("normal"), level("lobe")])
         looks = [("baseline", ("--mip-filter", "baseline")), ("mipnet", ("--mip-filter", "mipnet", "--fallback", "off"))]
         self.write(8, [maps, *self.drawn(8, "ridges", ("builtin:shaderballs", "--camera", "near", "--material", "ridges"), looks)],
                    "above: normals of level 0, normals and lobes of level 2; baseline, mipnet, the truth")
 
     def occurrences(self):
-        make_ridges(self.work)
+        make_ridges(self.work, 512)
         looks = []
         for name, levels in (("one", 2), ("four", 5)):
             file, steps, _ = self.train(name, ("--layout", "paper", "--levels", levels))
@@ -128,8 +129,8 @@ def main():
     parser.add_argument("-o", "--output", required=True)
     parser.add_argument("--figure", default="1,4,5,6,8,9")
     parser.add_argument("--textures")
-    parser.add_argument("--size", default="300x200")
-    parser.add_argument("--samples", type=int, default=128)
+    parser.add_argument("--size", default="108x72")
+    parser.add_argument("--samples", type=int, default=256)
     parser.add_argument("--seconds", type=float, default=20)
     parser.add_argument("--brdf", default="ggx_aniso")
     return in_folder(parser.parse_args(), measure)
