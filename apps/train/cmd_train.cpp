@@ -72,6 +72,7 @@ OptionTable train_option_table(TrainArguments& to)
          {"--seed", "N", "Of everything random", integer(t.seed, 0, 1 << 30)},
          {"--loss", "NAME", "Of differences of what is shown: {}", choice(t.loss, {"l1", "l2", "charbonnier"})},
          {"--tone", "NAME", "What is shown of radiance: {}, as a display does, or log(1 + x)", choice(t.tone, {"display", "log"})},
+         {"--mirrored", "SHARE", "Of directions near where highlights are, the others from anywhere", number(t.mirrored, 0.0, 1.0)},
          {"--light", "W", "Weight of what mean radiance of a level is off by, beside the loss", number(t.light, 0.0, 10.0)},
          {"--levels", "N", "That the loss looks at: 2 see the second net once, 5 four times", integer(t.levels, 1, mipnet::kTrainedLevels)},
          {"--only-maps", "FOLDER", "Materials to train on in place of those made in code; --maps: beside them", folder(to.only_maps)},
@@ -103,8 +104,8 @@ Status check_arguments(TrainArguments& a, const OptionTable& given)
             if (given.given(option))
                 return usage_error(option, "needs --evaluate WEIGHTS");
     if (!a.evaluate.empty())
-        for (const char* option : {"--brdf", "--layout", "--size", "--footprint", "--steps", "--seed", "--loss", "--tone", "--light",
-                                   "--levels", "--only-maps", "--from", "--taught-by", "--checkpoint"})
+        for (const char* option : {"--brdf", "--layout", "--size", "--footprint", "--steps", "--seed", "--loss", "--tone", "--mirrored",
+                                   "--light", "--levels", "--only-maps", "--from", "--taught-by", "--checkpoint"})
             if (given.given(option))
                 return usage_error(option, "says how nets are trained, and those of --evaluate are trained already");
     if (!mipnet::read_size(a.size, a.train.shape))

@@ -161,6 +161,8 @@ std::string train_command(const TrainOptions& o)
         words += o.loss == Loss::l2 ? " --loss l2" : " --loss charbonnier";
     if (o.tone != Tone::display)
         words += " --tone log";
+    if (o.mirrored != kUsualMirrored)
+        words += fmt::format(" --mirrored {}", o.mirrored);
     if (o.light != 0.0)
         words += fmt::format(" --light {}", o.light);
     if (o.shape.far)
@@ -204,7 +206,7 @@ Result<std::optional<Weights>> train(const TrainOptions& options, const Jobs& jo
         jobs.parallel_for(shards.size(), [&](std::size_t s, int) {
             Shard& shard = shards[s];
             const std::uint64_t words[] = {options.seed, t.step, s};
-            const Batch batch = make_batch(set, hash_bytes(words, sizeof words), options.pairs);
+            const Batch batch = make_batch(set, hash_bytes(words, sizeof words), options.pairs, options.mirrored);
             shard.gradient.assign(plan.count * kSlots, 0.0f);
             const void* taught[kTrainedLevels] = {};
             if (options.taught_by)
