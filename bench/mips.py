@@ -13,17 +13,16 @@ the materials whose maps of normals and roughness lie in a folder each below tha
 Exit code: 0; 2 something could not be run.
 """
 
-import argparse
 import array
 import json
 import math
 import pathlib
 import random
 import struct
-import subprocess
 import sys
-import tempfile
 import zlib
+
+from workbench import Program, arguments, in_folder
 
 SIDE = 512  # texels of generated maps
 
@@ -94,35 +93,8 @@ def difference(truth, test):
     return sum(off) / len(off), sum(d * d for d in off) / len(off)
 
 
-def main():
-    arguments = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    arguments.add_argument("--program", required=True)
-    arguments.add_argument("--work")
-    arguments.add_argument("--brdf", default="ggx_aniso")
-    arguments.add_argument("--filters", default="box,lean,baseline,covariance,leadr,ssgt,kappa")
-    arguments.add_argument("--kappa", default="")
-    arguments.add_argument("--taps", default="16")
-    arguments.add_argument("--samples", type=int, default=256)
-    arguments.add_argument("--textures")
-    arguments.add_argument("--quick", action="store_true")
-    arguments.add_argument("--json")
-    options = arguments.parse_args()
-    with tempfile.TemporaryDirectory() as scratch:
-        work = pathlib.Path(options.work or scratch).resolve()
-        work.mkdir(parents=True, exist_ok=True)
-        return measure(options, work)
-
-
 def measure(options, work):
-    program = str(pathlib.Path(options.program).resolve())
-
-    def run(*words):
-        done = subprocess.run([program, *map(str, words)], cwd=work, capture_output=True, text=True)
-        if done.returncode != 0:
-            print(done.stderr, file=sys.stderr)
-            sys.exit(2)
-        return done.stdout
-
+    run = Program(options, work).run
     make_maps(work)
     ways = {name: ("--mip-filter", name) for name in options.filters.split(",")}
     for kappa in filter(None, options.kappa.split(",")):
@@ -155,6 +127,18 @@ def measure(options, work):
     if options.json:
         pathlib.Path(options.json).write_text(json.dumps(rows, indent=1) + "\n")
     return 0
+
+
+def main():
+    parser = arguments(__doc__)
+    parser.add_argument("--brdf", default="ggx_aniso")
+    parser.add_argument("--filters", default="box,lean,baseline,covariance,leadr,ssgt,kappa")
+    parser.add_argument("--kappa", default="")
+    parser.add_argument("--taps", default="16")
+    parser.add_argument("--samples", type=int, default=256)
+    parser.add_argument("--textures")
+    parser.add_argument("--quick", action="store_true")
+    return in_folder(parser.parse_args(), measure)
 
 
 if __name__ == "__main__":

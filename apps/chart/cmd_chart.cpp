@@ -87,8 +87,8 @@ int run_mip_chart(const ChartArguments& arguments, const OptionTable& given)
 {
     const ChartOptions& o = arguments.plain;
     const RenderOptions& base = arguments.render.plain;
-    const std::set<std::string> known = {"--mip",    "--maps",  "--per-set", "--brdf",   "--mip-kappa",
-                                         "--output", "--quiet", "--verbose", "--threads"};
+    const std::set<std::string> known = {"--mip",       "--maps",   "--per-set", "--two-lobes", "--brdf",
+                                         "--mip-kappa", "--output", "--quiet",   "--verbose",   "--threads"};
     for (const Option& option : given.options())
         if (option.given && !known.count(option.name))
             return fail(usage_error(option.name, "is of charts of frames; --mip draws none"));
@@ -99,8 +99,8 @@ int run_mip_chart(const ChartArguments& arguments, const OptionTable& given)
     if (const Status made = make_output_folder(o.folder); !made)
         return fail(made.error());
     const Jobs jobs(base.threads);
-    std::vector<mipnet::TestMaterial> set = mipnet::make_test_set(jobs);
-    for (mipnet::TestMaterial& m : mipnet::make_trained_set(jobs))
+    std::vector<mipnet::TestMaterial> set = o.two_lobes ? mipnet::make_crossed_set() : mipnet::make_test_set(jobs);
+    for (mipnet::TestMaterial& m : o.two_lobes ? std::vector<mipnet::TestMaterial>() : mipnet::make_trained_set(jobs))
         set.push_back(std::move(m));
     if (!o.maps.empty()) {
         const Result<std::vector<mipnet::TestMaterial>> real = real_materials(o.maps, base.limits);
@@ -130,7 +130,7 @@ int run_chart(const ChartArguments& arguments, const OptionTable& given)
 {
     if (arguments.plain.mip)
         return run_mip_chart(arguments, given);
-    for (const char* option : {"--maps", "--per-set"})
+    for (const char* option : {"--maps", "--per-set", "--two-lobes"})
         if (given.given(option))
             return fail(usage_error(option, "is of --mip"));
     const Result<ChartOptions> checked = check_chart_options(arguments, given);

@@ -9,6 +9,7 @@
 #include "core/base/check.h"
 #include "core/base/clock.h"
 #include "shading/bake/mip/filter.h"
+#include "shading/bake/mip/two_lobes.h"
 #include "shading/bake/mipnet/net.h"
 #include "shading/bake/mipnet/shipped.h"
 #include "shading/surface/tensor.k.h"
@@ -123,7 +124,7 @@ std::vector<Texels> levels_by(MipFilter filter, const TexelMaps& maps, mipnet::L
 std::string family_of(const mipnet::TestMaterial& m)
 {
     const std::size_t space = m.material.name.rfind(' ');
-    return m.set == "real" || space == std::string::npos ? m.material.name : m.material.name.substr(0, space);
+    return m.set == "real" || m.set == "crossed" || space == std::string::npos ? m.material.name : m.material.name.substr(0, space);
 }
 
 // Of what baseline gets wrong more than the teacher; where that is next to nothing, none of it.
@@ -174,11 +175,22 @@ std::vector<MipRow> mip_rows(const std::vector<mipnet::TestMaterial>& set, const
             const auto l1 = [](const std::vector<std::vector<ShownError>>& of, MipFilter filter, std::size_t l) {
                 return of[static_cast<std::size_t>(filter)][l].l1;
             };
-            const auto errors = shown_errors(level0, filters, shown_surface(lobe, m.material.metal), jobs);
+            std::vector<std::vector<Texels>> second(filters.size());
+            std::vector<std::string> names;
+            for (const MipFilterInfo& filter : mip_filters())
+                names.emplace_back(filter.name);
+            const ShownSurface surface = shown_surface(lobe, m.material.metal);
+            if (m.set == "crossed") {
+                const double begin = wall_ms();
+                LobePairs pairs = taught_pairs(level0, filters[static_cast<std::size_t>(kMipFilter_teacher)], surface, jobs);
+                filters.push_back(std::move(pairs.first)), second.push_back(std::move(pairs.second));
+                ms.push_back(wall_ms() - begin), names.emplace_back("two lobes");
+            }
+            const auto errors = shown_errors(level0, filters, surface, jobs, {}, second);
             for (std::size_t f = 0; f < filters.size(); ++f)
                 for (std::size_t l = 0; l < kMipRowLevels; ++l)
-                    rows.push_back({m.set, family_of(m), m.material.name, mipnet::lobe_name(lobe), mip_filters()[f].name,
-                                    static_cast<int>(l) + 1, false, errors[f][l], ms[f],
+                    rows.push_back({m.set, family_of(m), m.material.name, mipnet::lobe_name(lobe), names[f], static_cast<int>(l) + 1, false,
+                                    errors[f][l], ms[f],
                                     gap_closed(errors[f][l].l1, l1(errors, kMipFilter_baseline, l), l1(errors, kMipFilter_teacher, l))});
         }
     }

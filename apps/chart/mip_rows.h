@@ -23,7 +23,8 @@ struct MipRow {
 
 inline constexpr int kMipRowLevels = 5;
 
-// Every filter of shading/models.def on every material, levels 1 to 5: by material, model, filter, level.
+// Every filter of shading/models.def on every material, levels 1 to 5: by material, model, filter, level. Of set "crossed" also filter "two
+// lobes", of two lobes a texel by search.
 std::vector<MipRow> mip_rows(const std::vector<mipnet::TestMaterial>& set, const std::vector<mipnet::Lobe>& lobes, float kappa,
                              const Jobs& jobs);
 

@@ -154,10 +154,14 @@ OptionTable chart_option_table(ChartArguments& to)
          {"--runs", "N", "Timed frames of every setting, interleaved", integer(o.runs, 1, 10000)},
          {"--reference-samples", "N", "Samples a pixel of the references",
           integer(o.reference_samples, 1, static_cast<std::int64_t>(kMaxReferenceSamples))}});
-    table.add("Mip filters",
-              {{"--mip", "", "Measure every mip filter, level by level, on materials made in code, in place of frames", flag(o.mip)},
-               {"--maps", "FOLDER", "With --mip: also on these, a folder each with normal, roughness, metallic maps", folder(o.maps), ""},
-               {"--per-set", "N", "With --mip: at most so many materials of each set", integer(o.per_set, 1, 1000), "all"}});
+    table.add(
+        "Mip filters",
+        {{"--mip", "", "Measure every mip filter, level by level, on materials made in code, in place of frames", flag(o.mip)},
+         {"--maps", "FOLDER", "With --mip: also on these, a folder each with normal, roughness, metallic maps", folder(o.maps), ""},
+         {"--per-set", "N", "With --mip: at most so many materials of each set", integer(o.per_set, 1, 1000), "all"},
+         {"--two-lobes", "",
+          "With --mip: on metals of crossed grain in place of the other sets made in code, and on them also two lobes a texel by search",
+          flag(o.two_lobes)}});
     table.add("Output",
               {Option("-o,--output", "REPORT_DIR", "Folder of the report; made where it is not there", folder(o.folder)).must_be_given(),
                quiet_option(to.render.plain.quiet), verbose_option(to.render.plain.verbosity)});

@@ -21,9 +21,10 @@ struct ChartOptions {
     int runs = 9;                                            // timed, of every setting
     std::uint64_t reference_samples = 4096;                  // a pixel
     std::string folder;
-    bool mip = false;   // mip filters are measured, not frames
-    std::string maps;   // a folder of pictured materials for these
-    int per_set = 1000; // materials at most
+    bool mip = false;       // mip filters are measured, not frames
+    std::string maps;       // a folder of pictured materials for these
+    int per_set = 1000;     // materials at most
+    bool two_lobes = false; // of crossed grain, by two lobes a texel beside the filters
 };
 
 struct ChartArguments {

@@ -46,7 +46,7 @@ std::string told_name(const std::string& path)
 }
 
 struct TrainArguments {
-    std::string what = "mip", output, evaluate, maps, only_maps, from, json, checkpoint;
+    std::string what = "mip", output, evaluate, maps, only_maps, from, taught_by, json, checkpoint;
     std::string size = "2x32/2x64";
     mipnet::TrainOptions train;
     bool validation = false, quiet = false;
@@ -64,17 +64,20 @@ OptionTable train_option_table(TrainArguments& to)
         "The nets",
         {{"--brdf", "NAME", "The lobe that shows the mipmaps: {}", choice(t.shape.lobe, {"ggx_aniso", "beckmann", "ashikhmin_shirley"})},
          {"--layout", "NAME", "{}", choice(t.shape.layout, {"paper", "cov"})},
-         {"--size", "SIZE", "Hidden layers x units of both nets, {}; 2x512/3x1024 is as published, 2x32 has no second net",
-          text(to.size)}});
+         {"--size", "SIZE", "Hidden layers x units of both nets, {}; 2x512/3x1024 is as published, 2x32 has no second net", text(to.size)},
+         {"--footprint", "TEXELS", "Along a side, of the finest level that the second net sees: {}", choice(t.shape.far, {"4", "8"})}});
     table.add(
         "Training",
         {{"--steps", "N", "Of 32 tiles each", integer(t.steps, 1, 100000000)},
          {"--seed", "N", "Of everything random", integer(t.seed, 0, 1 << 30)},
          {"--loss", "NAME", "Of differences of what is shown: {}", choice(t.loss, {"l1", "l2", "charbonnier"})},
          {"--tone", "NAME", "What is shown of radiance: {}, as a display does, or log(1 + x)", choice(t.tone, {"display", "log"})},
+         {"--mirrored", "SHARE", "Of directions near where highlights are, the others from anywhere", number(t.mirrored, 0.0, 1.0)},
+         {"--light", "W", "Weight of what mean radiance of a level is off by, beside the loss", number(t.light, 0.0, 10.0)},
          {"--levels", "N", "That the loss looks at: 2 see the second net once, 5 four times", integer(t.levels, 1, mipnet::kTrainedLevels)},
          {"--only-maps", "FOLDER", "Materials to train on in place of those made in code; --maps: beside them", folder(to.only_maps)},
          {"--from", "WEIGHTS", "Go on from these, of the same lobe, layout and size", file(to.from)},
+         {"--taught-by", "WEIGHTS", "Take the levels of these, of the same lobe, as the truth", file(to.taught_by)},
          {"--checkpoint", "FILE", "Where to keep what is done", file(to.checkpoint), "WEIGHTS.part"}});
     table.add("Measuring",
               {{"--evaluate", "WEIGHTS", "Measure these instead of training", file(to.evaluate)},
@@ -101,13 +104,15 @@ Status check_arguments(TrainArguments& a, const OptionTable& given)
             if (given.given(option))
                 return usage_error(option, "needs --evaluate WEIGHTS");
     if (!a.evaluate.empty())
-        for (const char* option :
-             {"--brdf", "--layout", "--size", "--steps", "--seed", "--loss", "--tone", "--levels", "--only-maps", "--from", "--checkpoint"})
+        for (const char* option : {"--brdf", "--layout", "--size", "--footprint", "--steps", "--seed", "--loss", "--tone", "--mirrored",
+                                   "--light", "--levels", "--only-maps", "--from", "--taught-by", "--checkpoint"})
             if (given.given(option))
                 return usage_error(option, "says how nets are trained, and those of --evaluate are trained already");
     if (!mipnet::read_size(a.size, a.train.shape))
         return usage_error("--size", fmt::format("'{}' is not of the kind 2x32/2x64: 1 to {} layers of 1 to {} units", a.size,
                                                  mipnet::kMostHidden, mipnet::kMostWidth));
+    if (a.train.shape.far && a.train.shape.b.layers == 0)
+        return usage_error("--footprint", "is the second net's, and --size " + a.size + " has none");
     if (!a.maps.empty() && !a.only_maps.empty())
         return usage_error("--only-maps", "and --maps: one of them");
     if (a.validation && !a.maps.empty())
@@ -136,6 +141,15 @@ Status read_given(TrainArguments& a)
             return maps.error();
         for (mipnet::TestMaterial& m : *maps)
             t.maps.push_back(std::move(m.material));
+    }
+    if (!a.taught_by.empty()) {
+        Result<mipnet::Weights> read = mipnet::read_weights(a.taught_by);
+        if (!read)
+            return read.error();
+        if (read->shape.lobe != t.shape.lobe)
+            return Error{ExitCode::bad_input, a.taught_by, "",
+                         fmt::format("is of lobes of {}, not of {}", mipnet::lobe_name(read->shape.lobe), mipnet::lobe_name(t.shape.lobe))};
+        t.taught_by_name = told_name(a.taught_by), t.taught_by = std::make_shared<const mipnet::Weights>(std::move(*read));
     }
     if (a.from.empty())
         return {};
@@ -193,7 +207,7 @@ int run_training(TrainArguments& a, Report& report)
 
 Json figures_json(const ShownError& f)
 {
-    return {{"flip", f.flip}, {"l1", f.l1}, {"mse", f.mse}};
+    return {{"flip", f.flip}, {"l1", f.l1}, {"mse", f.mse}, {"light", f.light}};
 }
 
 std::string summary_lines(const std::vector<mipnet::Summary>& all)

@@ -5,7 +5,10 @@ import math
 import pathlib
 import random
 import re
+import signal
 import struct
+import subprocess
+import time
 
 import gltf_files as files
 from compare_cases import png
@@ -488,6 +491,37 @@ def rows_by_level(bench):
     for arguments, code, needle in (((*words, "--size", "9x9"), 2, "--size"), (("chart", "--maps", "maps"), 2, "--maps"),
                                     (("chart", "--mip", "--brdf", "ward"), 2, "--brdf"), (("chart", "--mip", "--maps", "gone"), 4, "gone")):
         bench.run(*arguments, "-o", "x").expect(code).expect_one_line(needle)
+
+
+@case("mip.charts_of_crossed_grain_know_two_lobes", tier="check")
+def crossed(bench):
+    words = ("chart", "--mip", "--two-lobes", "--brdf", "ggx_aniso", "-q")
+    bench.run(*words, "-o", "one").expect(0)
+    rows = json.loads((bench.folder / "one/mip.json").read_text())
+    check({row["set"] for row in rows} == {"crossed"} and len({row["material"] for row in rows}) == 4, f"{rows[0]}")
+    l1 = {name: sum(row["l1"] for row in rows if row["mip_filter"] == name) for name in ("teacher", "two lobes")}
+    check(l1["two lobes"] < 0.75 * l1["teacher"], f"{l1}")
+    bench.run("chart", "--two-lobes", "-o", "x").expect(2).expect_one_line("--two-lobes")
+
+
+@case("mip.killed_bakes_leave_nothing_and_are_made_again", tier="check")
+def killed(bench):
+    material(bench, "set", (256, 128, bumps))
+    words = ("bake", "mip", "set", "--mip-filter", "teacher", "-q", "-o")
+    bench.run(*words, "straight.mip").expect(0)
+    cut = 0
+    for after in (0.05, 0.15, 0.3):
+        child = subprocess.Popen([bench.program, *words, "again.mip"], cwd=bench.folder, env=bench.environment({}))
+        time.sleep(after)
+        child.kill()
+        if child.wait() != -signal.SIGKILL:
+            break
+        cut += 1
+        left = [name for name in bench.left_behind() if name.startswith("again.mip")]
+        check(not left, f"killed after {after} s it left {left}")
+    check(cut > 0, "it was never killed in time")
+    bench.run(*words, "again.mip").expect(0)
+    check((bench.folder / "again.mip").read_bytes() == (bench.folder / "straight.mip").read_bytes(), "what was killed makes other bytes")
 
 
 def wide_floor(repeats):

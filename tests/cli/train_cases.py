@@ -52,6 +52,9 @@ def wrong(bench):
             *((("-o", "w.mipnet", "--size", size), 2, "--size") for size in ("0x3", "3", "2x32/", "2x32/2x64/2x8", "9x3", "2x32/2", "2x5000", "-1x4", "2x32 ")),
             (("-o", "w.mipnet", "--loss", "l3"), 2, "--loss"), (("-o", "w.mipnet", "--levels", "6"), 2, "--levels"),
             (("-o", "w.mipnet", "--from", "bad.mipnet"), 4, "bad.mipnet"), (("-o", "w.mipnet", "--from", "none"), 4, "none"),
+            (("-o", "w.mipnet", "--taught-by", "bad.mipnet"), 4, "bad.mipnet"), (("-o", "w.mipnet", "--taught-by", SHIPPED / "beckmann.mipnet"), 4, "beckmann"),
+            (("-o", "w.mipnet", "--footprint", "8", "--size", "2x8"), 2, "--footprint"), (("-o", "w.mipnet", "--footprint", "6"), 2, "--footprint"),
+            (("-o", "w.mipnet", "--light", "-1"), 2, "--light"),
             (("-o", "w.mipnet", "--from", SHIPPED / "beckmann.mipnet"), 4, "beckmann"), (("-o", "w.mipnet", "--from", SHIPPED / "ggx_aniso.mipnet", "--size", "2x8"), 4, "2x32/2x64"), (("-o", "-"), 2, "-o"), (("-o", "no/w.mipnet"), 7, "no/w.mipnet"),
             (("-o", "t.mipnet"), 4, "t.mipnet.part"), (("-o", "w.mipnet", "--steps", "0"), 2, "--steps")):
         bench.run("train", "mip", *words).expect(code).expect_one_line(needle)
@@ -67,7 +70,8 @@ def choices(bench):
     (bench.folder / "from.mipnet").write_bytes((SHIPPED / "ggx_aniso.mipnet").read_bytes())
     made = {}
     for words in ((), ("--loss", "l2"), ("--loss", "charbonnier"), ("--tone", "log"), ("--levels", "2"), ("--size", "2x16"), ("--maps", "maps"),
-                  ("--only-maps", bench.folder / "maps/"), ("--from", bench.folder / "from.mipnet")):
+                  ("--only-maps", bench.folder / "maps/"), ("--from", bench.folder / "from.mipnet"), ("--taught-by", bench.folder / "from.mipnet"),
+                  ("--light", "0.5"), ("--mirrored", "1"), ("--footprint", "8")):
         bench.run("train", "mip", "--steps", "4", *words, "-o", "w.mipnet", "-q").expect(0)
         made[words] = (bench.folder / "w.mipnet").read_bytes()
         said = json.loads(bench.run("info", "--json", "--weights", "w.mipnet").expect(0).out)["command"].split()
@@ -77,9 +81,10 @@ def choices(bench):
         bench.run(*said[1:], "-o", "again.mipnet", "-q").expect(0)
         check((bench.folder / "again.mipnet").read_bytes() == made[words], f"{words}: the command makes others")
     check(len(set(made.values())) == len(made), "an option changes nothing")
-    # a net of four texels alone makes pyramids, too
-    (bench.folder / "w.mipnet").write_bytes(made["--size", "2x16"])
-    bench.run("bake", "mip", "maps/waves", "--mip-filter", "mipnet", "--mip-net", "w.mipnet", "-q", "-o", "a.mip").expect(0)
+    # a net of four texels alone makes pyramids, too, and one that sees sixty-four
+    for words in (("--size", "2x16"), ("--footprint", "8")):
+        (bench.folder / "w.mipnet").write_bytes(made[words])
+        bench.run("bake", "mip", "maps/waves", "--mip-filter", "mipnet", "--mip-net", "w.mipnet", "-q", "-o", "a.mip").expect(0)
 
 
 @case("train.shipped_weights_say_what_they_are", tier="check")

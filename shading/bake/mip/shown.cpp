@@ -178,14 +178,18 @@ ShownError shown_difference(const Texels& a, const Texels& b, const ShownSurface
 }
 
 std::vector<std::vector<ShownError>> shown_errors(const Texels& level0, const std::vector<std::vector<Texels>>& filters,
-                                                  const ShownSurface& surface, const Jobs& jobs, const ShownPairs& pairs)
+                                                  const ShownSurface& surface, const Jobs& jobs, const ShownPairs& pairs,
+                                                  const std::vector<std::vector<Texels>>& second)
 {
     const int levels = filters.empty() ? 0 : static_cast<int>(filters[0].size());
     BN_CHECK(level0.width == level0.height && level0.width % (pairs.tiles << levels) == 0 && pairs.lamps <= kShownLamps);
     std::vector<std::vector<ShownError>> errors(filters.size(), std::vector<ShownError>(static_cast<std::size_t>(levels)));
     const Numbers planes0 = planes_of(level0);
     std::vector<double> light_of_truth(static_cast<std::size_t>(levels), 0.0);
-    std::vector<std::vector<Numbers>> planes(filters.size());
+    std::vector<std::vector<Numbers>> planes(filters.size()), others(filters.size());
+    for (std::size_t f = 0; f < second.size(); ++f)
+        for (const Texels& level : second[f])
+            others[f].push_back(planes_of(level));
     for (std::size_t f = 0; f < filters.size(); ++f)
         for (const Texels& level : filters[f])
             planes[f].push_back(planes_of(level));
@@ -209,7 +213,12 @@ std::vector<std::vector<ShownError>> shown_errors(const Texels& level0, const st
                 light_of_truth[static_cast<std::size_t>(l) - 1] += sum_of(truth, texels);
             jobs.parallel_for(filters.size(), [&](std::size_t f, int) {
                 ShownError& to = errors[f][static_cast<std::size_t>(l) - 1];
-                const Numbers found = radiance_of(surface, planes[f][static_cast<std::size_t>(l) - 1], d);
+                Numbers found = radiance_of(surface, planes[f][static_cast<std::size_t>(l) - 1], d);
+                if (!others[f].empty()) {
+                    const Numbers other = radiance_of(surface, others[f][static_cast<std::size_t>(l) - 1], d);
+                    for (std::size_t i = 0; i < found.size(); ++i)
+                        found[i] = 0.5f * (found[i] + other[i]);
+                }
                 if (pair)
                     add_difference(displayed(found), wanted, texels, pairs.times, to), to.light += sum_of(found, texels);
                 else

@@ -38,7 +38,9 @@ ShownError shown_difference(const mipnet::Texels& a, const mipnet::Texels& b, co
 
 // Each filter's levels beside level 0, lit at one to one, whose linear radiance is averaged: by filter, then level, the first of each being
 // level 1. level0: a square whose side is a multiple of 2^levels, and of 2^levels tiles. filters: levels from 1 on, all filters as many.
+// second: by filter, the other lobes of levels whose texels have two of half the light; empty of those that have one.
 std::vector<std::vector<ShownError>> shown_errors(const mipnet::Texels& level0, const std::vector<std::vector<mipnet::Texels>>& filters,
-                                                  const ShownSurface& surface, const Jobs& jobs, const ShownPairs& pairs = {});
+                                                  const ShownSurface& surface, const Jobs& jobs, const ShownPairs& pairs = {},
+                                                  const std::vector<std::vector<mipnet::Texels>>& second = {});
 
 } // namespace burnish

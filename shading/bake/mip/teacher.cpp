@@ -6,46 +6,15 @@
 
 #include "core/base/check.h"
 #include "core/simd/dispatch.h"
-#include "shading/bake/mip/grid.h"
-#include "shading/bake/mipnet/batch.h"
-#include "shading/bake/mipnet/net.h"
-#include "shading/bake/mipnet/teacher_fns.h"
+#include "shading/bake/mip/taught_light.h"
 
 namespace burnish {
 namespace {
 
 using mipnet::kChannels, mipnet::kSlots, mipnet::Texels;
 
-constexpr int kTaughtPairs = 256, kTaughtBatch = 32, kTaughtSteps = 120;
+constexpr int kTaughtSteps = 120;
 constexpr std::size_t kKeptTexels = 1u << 14; // of a level whose radiance the next one is averaged from
-
-struct Lights {
-    std::vector<float> directions, intensity, rows;
-};
-
-Lights lights_of(const ShownSurface& surface)
-{
-    const std::size_t pairs = kTaughtPairs;
-    Lights l = {std::vector<float>(6 * pairs), std::vector<float>(pairs), std::vector<float>(mipnet::kLightRows * pairs)};
-    mipnet::Random random(31);
-    for (std::size_t p = 0; p < pairs; ++p) {
-        mipnet::put_pair(random, l.directions.data() + p, pairs);
-        l.intensity[p] = static_cast<float>(random.between(1.0, 10.0));
-    }
-    pick<mipnet::TeacherFns>().light(
-        {surface.lobe, kTaughtPairs, surface.f0, surface.diffuse, l.directions.data(), l.intensity.data(), l.rows.data()});
-    return l;
-}
-
-struct Axis { // a footprint along one
-    std::vector<int> at;
-    std::vector<float> weight;
-    Axis(int i, int source, int target)
-    {
-        for (const Share& share : shares_of(i, source, target))
-            at.push_back(share.at), weight.push_back(static_cast<float>(share.weight));
-    }
-};
 
 // Radiance of a level's texels, by texel, then pair; of none where it is too large to be kept.
 struct Radiance {
@@ -53,25 +22,11 @@ struct Radiance {
     std::vector<float> values;
 };
 
-void gather_radiance(const Texels& level0, const Radiance& finer, const ShownSurface& surface, const Lights& lights, const Axis& across,
-                     const Axis& down, float* to)
+void gather_radiance(const Texels& level0, const Radiance& finer, const ShownSurface& surface, const TaughtLight& light,
+                     const TaughtAxis& across, const TaughtAxis& down, float* to)
 {
     if (finer.values.empty()) {
-        mipnet::GatherWork work = {surface.lobe,
-                                   kTaughtPairs,
-                                   lights.rows.data(),
-                                   {},
-                                   static_cast<std::size_t>(level0.width),
-                                   across.at.data(),
-                                   down.at.data(),
-                                   across.weight.data(),
-                                   down.weight.data(),
-                                   static_cast<int>(across.at.size()),
-                                   static_cast<int>(down.at.size()),
-                                   to};
-        for (std::size_t c = 0; c < kChannels; ++c)
-            work.planes[c] = level0.channel[c].data();
-        pick<mipnet::TeacherFns>().gather(work);
+        gather_light(level0, surface, light, across, down, to);
         return;
     }
     std::fill_n(to, kTaughtPairs, 0.0f);
@@ -91,7 +46,7 @@ std::vector<Texels> taught_levels(const Texels& level0, const std::vector<std::v
                                   const Jobs& jobs, const TaughtTexels& advance)
 {
     BN_CHECK(!starts.empty());
-    const Lights lights = lights_of(surface);
+    const TaughtLight light = taught_light(surface);
     std::size_t all = 0, done = 0;
     for (const Texels& level : starts[0])
         all += level.count();
@@ -111,8 +66,8 @@ std::vector<Texels> taught_levels(const Texels& level0, const std::vector<std::v
             for (std::size_t slot = 0; slot < kSlots; ++slot) { // the last texel again where there are fewer
                 const std::size_t at = std::min(group * kSlots + slot, count - 1), row = static_cast<std::size_t>(to.width);
                 if (group * kSlots + slot < count)
-                    gather_radiance(level0, finer, surface, lights, Axis(static_cast<int>(at % row), width, to.width),
-                                    Axis(static_cast<int>(at / row), height, to.height), one.data());
+                    gather_radiance(level0, finer, surface, light, TaughtAxis(static_cast<int>(at % row), width, to.width),
+                                    TaughtAxis(static_cast<int>(at / row), height, to.height), one.data());
                 for (std::size_t p = 0; p < kTaughtPairs; ++p)
                     radiance[p * kSlots + slot] = one[p];
                 if (!kept.values.empty())
@@ -121,7 +76,7 @@ std::vector<Texels> taught_levels(const Texels& level0, const std::vector<std::v
                     for (std::size_t c = 0; c < kChannels; ++c)
                         from[(s * kChannels + c) * kSlots + slot] = starts[s][l].channel[c][at];
             }
-            pick<mipnet::TeacherFns>().fit({surface.lobe, kTaughtPairs, lights.rows.data(), radiance.data(), from.data(),
+            pick<mipnet::TeacherFns>().fit({surface.lobe, kTaughtPairs, light.rows.data(), radiance.data(), from.data(),
                                             static_cast<int>(starts.size()), kTaughtSteps, kTaughtBatch, shown.data(), out.data()});
             const std::size_t first = group * kSlots, texels = std::min<std::size_t>(kSlots, count - first);
             for (std::size_t c = 0; c < kChannels; ++c)

@@ -97,7 +97,7 @@ struct tape_node {
     real d0, d1;
     int from0, from1;
 };
-inline constexpr int kTapeLength = 4096; // numbers of one texel's gradient; about 1500 are used
+inline constexpr int kTapeLength = 6144; // numbers of one texel's gradient; about 1500 are used, of sixty-four texels more 3500
 struct tape {
     tape_node* nodes;
     real *values, *adjoints;

@@ -27,15 +27,15 @@ Direction3 cosine_weighted(Random& random) // but for what grazes
 
 } // namespace
 
-void put_pair(Random& random, float* pair, std::size_t apart)
+void put_pair(Random& random, float* pair, std::size_t apart, double mirrored_share)
 {
     const double kind = random.unit();
     const Direction3 o = cosine_weighted(random);
     Direction3 i = around_z(random.between(0.1, 1.0), random.between(0.0, 2.0 * kPi));
-    if (kind >= 0.4)
+    if (kind >= 1.0 - mirrored_share)
         for (int tries = 0; tries < 8; ++tries) {
             const double u = random.unit(), turn = random.between(0.0, 2.0 * kPi);
-            const Direction3 h = around_z(det_pow(u, kind < 0.7 ? 1.0 / 11.0 : 1.0 / 81.0), turn);
+            const Direction3 h = around_z(det_pow(u, kind < 1.0 - 0.5 * mirrored_share ? 1.0 / 11.0 : 1.0 / 81.0), turn);
             const double oh = o.x * h.x + o.y * h.y + o.z * h.z;
             const Direction3 mirrored = {2.0 * oh * h.x - o.x, 2.0 * oh * h.y - o.y, 2.0 * oh * h.z - o.z};
             if (mirrored.z < 0.05)
@@ -58,7 +58,7 @@ std::size_t place_in_shard(int x, int y, int tile)
     return at + static_cast<std::size_t>(tile);
 }
 
-Batch make_batch(const TrainingSet& set, std::uint64_t seed, int pairs)
+Batch make_batch(const TrainingSet& set, std::uint64_t seed, int pairs, double mirrored_share)
 {
     constexpr std::size_t kTexelsOfShard = static_cast<std::size_t>(kSlots) * kTileSide * kTileSide;
     Random random(seed);
@@ -89,7 +89,7 @@ Batch make_batch(const TrainingSet& set, std::uint64_t seed, int pairs)
         batch.tiles[kSlots + t] = static_cast<float>(m.metal ? 0.0 : base);
         batch.tiles[2 * kSlots + t] = static_cast<float>(random.between(1.0, 10.0));
         for (std::size_t p = 0; p < static_cast<std::size_t>(pairs); ++p)
-            put_pair(random, batch.pairs.data() + p * 6 * kSlots + t, kSlots);
+            put_pair(random, batch.pairs.data() + p * 6 * kSlots + t, kSlots, mirrored_share);
     }
     return batch;
 }

@@ -16,11 +16,13 @@ struct Batch { // a shard, as StepWork wants it
 // Where texel (x, y) of tile `tile` lies in a plane of level 0.
 std::size_t place_in_shard(int x, int y, int tile);
 
-// Unit directions to a light and to an eye, six numbers so far apart. 4 of 10 are from anywhere, the others mirror directions of normals
-// near +z, of lobes cos^10 and cos^80, where highlights are.
-void put_pair(Random& random, float* pair, std::size_t apart);
+inline constexpr double kUsualMirrored = 0.6;
+
+// Unit directions to a light and to an eye, six numbers so far apart. The share `mirrored` of them mirror directions of normals near +z, of
+// lobes cos^10 and cos^80, half each, where highlights are; the others are from anywhere.
+void put_pair(Random& random, float* pair, std::size_t apart, double mirrored = kUsualMirrored);
 
 // Nothing but the numbers given decides what is in it. pairs: directions a tile.
-Batch make_batch(const TrainingSet& set, std::uint64_t seed, int pairs);
+Batch make_batch(const TrainingSet& set, std::uint64_t seed, int pairs, double mirrored = kUsualMirrored);
 
 } // namespace burnish::mipnet

@@ -14,11 +14,12 @@ namespace mipnet_lanes {
 
 inline constexpr int kFeaturesOfFour = 26, kFeaturesOfAll = kFeaturesOfFour + 16 * 5 + 5; // of layout cov
 inline constexpr int kRawOfFour = 20, kRawOfAll = kRawOfFour + 16 * 5 + 5;                // of layout paper
-inline constexpr int kMostFeatures = kFeaturesOfAll;
+inline constexpr int kMostFeatures = kFeaturesOfAll + 64 * 5; // of nets that see sixty-four texels, after the others
 
 template <class V> struct seen_texels {
     texel<V> four[4], sixteen[16], first; // `first`: what net `a` makes of the four
-    bool all;                             // sixteen and first are there
+    texel<V> sixtyfour[64];
+    bool all, far; // sixteen and first are there; sixty-four, too
     V kappa0, kappa1;
 };
 
@@ -121,6 +122,8 @@ template <class V> BN_FN closed_form<V> look_cov(const seen_texels<V>& x, V* to)
         for (int j = 0; j < 16; ++j)
             against(c, x.sixteen[j], to + kFeaturesOfFour + 5 * j);
         against(c, x.first, to + kFeaturesOfFour + 80);
+        for (int j = 0; x.far && j < 64; ++j)
+            against(c, x.sixtyfour[j], to + kFeaturesOfAll + 5 * j);
         of = to + kFeaturesOfFour, count = 80;
     }
     V sum = of[0] * of[0];
@@ -144,6 +147,8 @@ template <class V> BN_FN closed_form<V> look_paper(const seen_texels<V>& x, V* t
         for (int j = 0; j < 16; ++j)
             channels_of(x.sixteen[j], to + kRawOfFour + 5 * j);
         channels_of(x.first, to + kRawOfFour + 80);
+        for (int j = 0; x.far && j < 64; ++j)
+            channels_of(x.sixtyfour[j], to + kRawOfAll + 5 * j);
     }
     return c;
 }

@@ -98,6 +98,7 @@ std::vector<Judged> judge(const std::vector<TestMaterial>& set, Lobe lobe, const
             int pictures = 0;
             for (int k = 1; k <= kJudgedLevels; ++k) {
                 row.level[0].l1 += row.level[k].l1 / kJudgedLevels, row.level[0].mse += row.level[k].mse / kJudgedLevels;
+                row.level[0].light += row.level[k].light / kJudgedLevels;
                 if (side >> k >= kLeastFlipSide)
                     row.level[0].flip += row.level[k].flip, ++pictures;
             }

@@ -394,6 +394,35 @@ std::vector<TestMaterial> make_trained_set(const Jobs& jobs)
     return set;
 }
 
+std::vector<TestMaterial> make_crossed_set()
+{
+    constexpr int kSide = 128;
+    struct Crossed {
+        const char* name;
+        double narrow, wide, lean; // widths across and along grain; sines of normals that lean across it
+        int cell;                  // texels of one direction, along a side; 1: by chance
+    };
+    std::vector<TestMaterial> set;
+    for (const Crossed& c : {Crossed{"crossed grain", 0.06, 0.5, 0.0, 1}, Crossed{"crossed weave", 0.06, 0.4, 0.0, 2},
+                             Crossed{"crossed scratches", 0.08, 0.08, 0.3, 1}, Crossed{"crossed ridges", 0.12, 0.12, 0.4, 2}}) {
+        const std::string name = c.name;
+        Random random(hash_bytes(name.data(), name.size(), 1));
+        TestMaterial m = {{name, make_texels(kSide, kSide), true}, "crossed"};
+        for (int y = 0; y < kSide; ++y)
+            for (int x = 0; x < kSide; ++x) {
+                const bool along_y = c.cell == 1 ? random.below(2) == 1 : (x / c.cell + y / c.cell) % 2 == 1;
+                const double lean = c.lean * random.between(-1.0, 1.0);
+                const Tensor t = tensor_of(c.wide, c.narrow, along_y ? 0.5 * kPi : 0.0);
+                const double of[kChannels] = {along_y ? 0.0 : lean, along_y ? lean : 0.0, t.a, t.b, t.c};
+                for (std::size_t k = 0; k < kChannels; ++k)
+                    m.material.texels.channel[k][static_cast<std::size_t>(y * kSide + x)] = static_cast<float>(of[k]);
+            }
+        make_valid(m.material.texels);
+        set.push_back(std::move(m));
+    }
+    return set;
+}
+
 std::vector<TestMaterial> make_validation_set(const Jobs& jobs)
 {
     return judged(wanted(kValidationSeeds, 0, 2), jobs);

@@ -38,6 +38,8 @@ struct TestMaterial {
     std::string set; // "held-out", "new seeds", "trained"
 };
 std::vector<TestMaterial> make_test_set(const Jobs& jobs);
+// Metals whose grain crosses below a texel, which one lobe cannot show: set "crossed".
+std::vector<TestMaterial> make_crossed_set();
 std::vector<TestMaterial> make_trained_set(const Jobs& jobs); // two of every trained family that nets are trained on
 std::vector<TestMaterial>
 make_validation_set(const Jobs& jobs); // what may be looked at while anything is chosen: trained families, other seeds

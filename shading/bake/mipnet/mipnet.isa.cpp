@@ -43,8 +43,9 @@ std::size_t block_size(const Dense& d, int layer)
 
 // What texels of a level are made of: planes of the levels below, and of what net `a` says; null where net `a` is meant itself.
 struct Sources {
-    const number *children, *grandchildren, *first;
+    const number *children, *grandchildren, *great, *first;
     std::size_t n;
+    bool far; // there are sixty-four, of the sixteen where `great` is null
     bool all() const { return first != nullptr; }
 };
 
@@ -56,12 +57,14 @@ template <class V, class Make> BN_FN seen_texels<V> gathered(const Sources& s, s
         return texel<V>{nx, ny, a, b, c};
     };
     seen_texels<V> seen = {};
-    seen.all = s.all(), seen.kappa0 = kappa0, seen.kappa1 = kappa1;
+    seen.all = s.all(), seen.far = seen.all && s.far, seen.kappa0 = kappa0, seen.kappa1 = kappa1;
     for (std::size_t j = 0; j < 4; ++j)
         seen.four[j] = read(s.children, 4 * s.n, j * s.n + i);
     if (seen.all) {
         for (std::size_t j = 0; j < 16; ++j)
             seen.sixteen[j] = read(s.grandchildren, 16 * s.n, j * s.n + i);
+        for (std::size_t j = 0; seen.far && j < 64; ++j)
+            seen.sixtyfour[j] = s.great ? read(s.great, 64 * s.n, j * s.n + i) : seen.sixteen[j % 16];
         seen.first = read(s.first, s.n, i);
     }
     return seen;
@@ -142,7 +145,12 @@ void forward(const net::ForwardWork& work)
     const auto* weights = static_cast<const number*>(work.weights);
     auto* out = static_cast<number*>(work.out);
     const bool all = work.grandchildren != nullptr && plan.b.count > 0;
-    Sources s = {static_cast<const number*>(work.children), static_cast<const number*>(work.grandchildren), nullptr, work.texels};
+    Sources s = {static_cast<const number*>(work.children),
+                 static_cast<const number*>(work.grandchildren),
+                 static_cast<const number*>(work.great),
+                 nullptr,
+                 work.texels,
+                 plan.far};
     for (std::size_t block = 0; block < blocks_of(s.n); ++block) {
         s.first = nullptr;
         forward_block(plan, weights, plan.a, s, block, 0, m.a, all ? m.first : out);
@@ -215,13 +223,19 @@ template <int lobe> void make_lights(const net::StepWork& work, StepMemory& m)
 // The light that level 0 reflects, averaged over texels of each level: linear, as a camera far away gathers it.
 template <int lobe> __attribute__((noinline)) void make_truth(const net::StepWork& work, StepMemory& m)
 {
-    const auto* x = static_cast<const number*>(work.texels);
-    const std::size_t n0 = m.level[0].n;
     for (std::size_t p = 0; p < static_cast<std::size_t>(work.pair_count); ++p) {
-        for (std::size_t i = 0; i < n0; i += kLane) {
-            const texel<real> t = {get(x + i), get(x + n0 + i), get(x + 2 * n0 + i), get(x + 3 * n0 + i), get(x + 4 * n0 + i)};
-            put(m.truth[0] + i, radiance<lobe>(lobe_place_of(t), m.lights[p * kVectorsOfSlots + i / kLane % kVectorsOfSlots]));
-        }
+        const auto lit_level = [&](const void* planes, std::size_t n, number* to) {
+            const auto* x = static_cast<const number*>(planes);
+            for (std::size_t i = 0; i < n; i += kLane) {
+                const texel<real> t = {get(x + i), get(x + n + i), get(x + 2 * n + i), get(x + 3 * n + i), get(x + 4 * n + i)};
+                put(to + i, radiance<lobe>(lobe_place_of(t), m.lights[p * kVectorsOfSlots + i / kLane % kVectorsOfSlots]));
+            }
+        };
+        for (int k = 1; work.taught && k <= net::kTrainedLevels; ++k)
+            lit_level(work.taught[k - 1], m.level[k].n, m.truth[k] + p * m.level[k].n);
+        if (work.taught)
+            continue;
+        lit_level(work.texels, m.level[0].n, m.truth[0]);
         const number* below = m.truth[0];
         for (int k = 1; k <= net::kTrainedLevels; ++k) {
             const std::size_t n = m.level[k].n;
@@ -259,6 +273,9 @@ template <int lobe> __attribute__((noinline)) void make_loss(const net::StepWork
     const real share = lit(work.level_weight[k - 1] / (static_cast<double>(n) * static_cast<double>(pairs)));
     const real zero = lit(0.0), one = lit(1.0);
     number* const loss = static_cast<number*>(work.loss) + static_cast<std::size_t>(k - 1) * kSlotCount;
+    real found[kVectorsOfSlots], wanted[kVectorsOfSlots];
+    for (std::size_t slot = 0; slot < kVectorsOfSlots; ++slot)
+        found[slot] = wanted[slot] = zero;
     for (std::size_t i = 0; i < n; i += kLane) {
         const std::size_t slot = i / kLane % kVectorsOfSlots;
         const texel<dual> t = {{get(level.x + i), one, zero, zero, zero, zero},
@@ -267,18 +284,40 @@ template <int lobe> __attribute__((noinline)) void make_loss(const net::StepWork
                                {get(level.x + 3 * n + i), zero, zero, zero, one, zero},
                                {get(level.x + 4 * n + i), zero, zero, zero, zero, one}};
         const lobe_place<dual> place = lobe_place_of(t);
-        real sum = zero, adjoint[kPlanes] = {zero, zero, zero, zero, zero};
+        real sum = zero, adjoint[kPlanes] = {zero, zero, zero, zero, zero}, lighter[kPlanes] = {zero, zero, zero, zero, zero};
         for (std::size_t p = 0; p < pairs; ++p) {
             const dual r = radiance<lobe>(place, m.lights[p * kVectorsOfSlots + slot]);
+            const real truth = get(m.truth[k] + p * n + i);
             const tone_pair shown = shown_as(work.tone, r.v);
-            const penalty off = penalty_of(work.kind, shown.shown - shown_as(work.tone, get(m.truth[k] + p * n + i)).shown);
+            const penalty off = penalty_of(work.kind, shown.shown - shown_as(work.tone, truth).shown);
             sum += off.value;
             const real by = off.slope * shown.slope;
             adjoint[0] += by * r.d0, adjoint[1] += by * r.d1, adjoint[2] += by * r.d2, adjoint[3] += by * r.d3, adjoint[4] += by * r.d4;
+            if (work.light == 0.0f)
+                continue;
+            found[slot] += r.v, wanted[slot] += truth;
+            lighter[0] += r.d0, lighter[1] += r.d1, lighter[2] += r.d2, lighter[3] += r.d3, lighter[4] += r.d4;
         }
-        for (std::size_t c = 0; c < kPlanes; ++c)
+        for (std::size_t c = 0; c < kPlanes; ++c) {
             put(level.adjoint + c * n + i, adjoint[c] * share);
+            if (work.light != 0.0f)
+                put(m.pong + c * n + i, lighter[c]);
+        }
         put(loss + slot * kLane, get(loss + slot * kLane) + sum * share);
+    }
+    if (work.light == 0.0f)
+        return;
+    // Of each tile, which is a lane: |found / wanted - 1| of the light that the level reflects in all.
+    const real weight = lit(work.level_weight[k - 1] * static_cast<double>(work.light) / static_cast<double>(kSlotCount));
+    for (std::size_t slot = 0; slot < kVectorsOfSlots; ++slot) {
+        const real over = weight / max(wanted[slot], lit(1e-6)), off = found[slot] - wanted[slot];
+        put(loss + slot * kLane, get(loss + slot * kLane) + max(off, -off) * over);
+        const real by = select(off > zero, over, select(off < zero, -over, zero));
+        for (std::size_t c = 0; c < kPlanes; ++c)
+            for (std::size_t i = slot * kLane; i < n; i += kSlotCount) {
+                number* const to = level.adjoint + c * n + i;
+                put(to, get(to) + get(m.pong + c * n + i) * by);
+            }
     }
 }
 
@@ -339,10 +378,13 @@ __attribute__((noinline)) void backward_outputs(const net::StepWork& work, StepM
         }
 }
 
-// To the texels that a net looked at, of whose planes any may be null, and to kappa: from adjoints of its features and of what it made.
+struct Adjoints { // planes of the texels that a net looked at; null: nobody asks
+    number *children, *grandchildren = nullptr, *great = nullptr, *first = nullptr;
+};
+
+// To the texels that a net looked at, and to kappa: from adjoints of its features and of what it made.
 __attribute__((noinline)) void backward_sources(const net::StepWork& work, StepMemory& m, const Dense& d, const NetMemory& kept,
-                                                const Sources& s, const number* adjoint, const number* features, number* children,
-                                                number* grandchildren, number* first)
+                                                const Sources& s, const number* adjoint, const number* features, const Adjoints& below)
 {
     const auto* weights = static_cast<const number*>(work.weights);
     auto* const kappa = static_cast<number*>(work.gradient) + work.plan->kappa * kSlotCount;
@@ -377,11 +419,13 @@ __attribute__((noinline)) void backward_sources(const net::StepWork& work, StepM
                 seed(f[k], get(features + b * block_size(d, 0) + static_cast<std::size_t>(k) * kRow + i));
             tape_reverse(on);
             for (std::size_t j = 0; j < 4; ++j)
-                spread(seen.four[j], children, 4 * s.n, j * s.n + at);
+                spread(seen.four[j], below.children, 4 * s.n, j * s.n + at);
             if (s.all()) {
                 for (std::size_t j = 0; j < 16; ++j)
-                    spread(seen.sixteen[j], grandchildren, 16 * s.n, j * s.n + at);
-                spread(seen.first, first, s.n, at);
+                    spread(seen.sixteen[j], below.grandchildren, 16 * s.n, j * s.n + at);
+                for (std::size_t j = 0; s.far && s.great && j < 64; ++j)
+                    spread(seen.sixtyfour[j], below.great, 64 * s.n, j * s.n + at);
+                spread(seen.first, below.first, s.n, at);
             }
             const std::size_t slot = at % kSlotCount;
             put(kappa + slot, get(kappa + slot) + adjoint_of(k0));
@@ -400,7 +444,12 @@ template <int lobe> void step_of(const net::StepWork& work)
     const auto sources = [&](int k, bool all) {
         const auto* const texels = static_cast<const number*>(work.texels);
         const auto planes = [&](int level) { return level == 0 ? texels : m.level[level].x; };
-        return Sources{planes(k - 1), all ? planes(k - 2) : nullptr, all ? m.level[k].first : nullptr, m.level[k].n};
+        return Sources{planes(k - 1),
+                       all ? planes(k - 2) : nullptr,
+                       all && plan.far && k >= 3 ? planes(k - 3) : nullptr,
+                       all ? m.level[k].first : nullptr,
+                       m.level[k].n,
+                       plan.far};
     };
     const auto has_b = [&](int k) { return k >= 2 && plan.b.count > 0; };
     for (int k = 1; k <= net::kTrainedLevels; ++k) {
@@ -416,19 +465,21 @@ template <int lobe> void step_of(const net::StepWork& work)
         make_loss<lobe>(work, m, k);
     for (int k = net::kTrainedLevels; k >= 1; --k) {
         const Level& level = m.level[k];
-        number *const children = m.level[k - 1].adjoint, *const grandchildren = has_b(k) ? m.level[k - 2].adjoint : nullptr;
+        number* const children = m.level[k - 1].adjoint;
         const number* adjoint = level.adjoint;
         if (has_b(k)) {
             for (std::size_t i = 0; i < kPlanes * level.n; ++i)
                 level.first_adjoint[i] = 0;
             backward_outputs(work, m, plan.b, level.b, sources(k, true), adjoint);
             const number* const features = backward_layers(work, m, plan.b, level.b, level.n);
-            backward_sources(work, m, plan.b, level.b, sources(k, true), adjoint, features, children, grandchildren, level.first_adjoint);
+            backward_sources(
+                work, m, plan.b, level.b, sources(k, true), adjoint, features,
+                {children, m.level[k - 2].adjoint, plan.far && k >= 3 ? m.level[k - 3].adjoint : nullptr, level.first_adjoint});
             adjoint = level.first_adjoint;
         }
         backward_outputs(work, m, plan.a, level.a, sources(k, false), adjoint);
         const number* const features = backward_layers(work, m, plan.a, level.a, level.n);
-        backward_sources(work, m, plan.a, level.a, sources(k, false), adjoint, features, children, nullptr, nullptr);
+        backward_sources(work, m, plan.a, level.a, sources(k, false), adjoint, features, {children});
     }
 }
 

@@ -32,6 +32,7 @@ struct Plan { // which numbers are what
     Layout layout = Layout::cov;
     Dense a, b; // of four texels; of sixteen, those four, and what `a` makes of them. b.count 0: `a` speaks alone
     std::size_t kappa = 0, count = 0;
+    bool far = false; // `b` sees the sixty-four texels below those sixteen, too
 };
 
 struct ForwardWork { // one level
@@ -40,6 +41,7 @@ struct ForwardWork { // one level
     std::size_t texels;        // of the level, n
     const void* children;      // kChannels planes of 4 n
     const void* grandchildren; // of 16 n; null: there are none, and net `a` alone speaks
+    const void* great;         // of 64 n, of nets that are `far`; null: each of the sixteen stands for its four
     void* out;                 // of n
     void* memory;              // forward_bytes(), at a cache line
 };
@@ -58,6 +60,9 @@ struct StepWork { // one shard of a step of training: loss and its gradient
     void* memory;               // step_bytes(), at a cache line
     Loss kind = Loss::l1;
     Tone tone = Tone::display;
+    // Planes of levels 1 to kTrainedLevels whose light is what is wanted, in place of level 0's; null: level 0's
+    const void* const* taught = nullptr;
+    float light = 0.0f; // weight of |mean radiance of a tile's level over the truth's - 1|
 };
 
 struct RadianceWork { // reflected radiance of texels

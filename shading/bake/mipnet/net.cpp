@@ -37,7 +37,7 @@ Plan plan_of(const Shape& shape)
     plan.lobe = shape.lobe, plan.layout = shape.layout;
     plan.a = layers_of(inputs[0], shape.a, plan.count);
     if (shape.b.layers > 0)
-        plan.b = layers_of(inputs[1], shape.b, plan.count);
+        plan.b = layers_of(inputs[1] + (shape.far ? 64 * kChannels : 0), shape.b, plan.count), plan.far = shape.far;
     plan.kappa = plan.count;
     plan.count += 2;
     return plan;

@@ -16,6 +16,7 @@ struct Shape { // b.layers 0: there is no H_B, and H_A makes every level
     Lobe lobe = Lobe::ggx_aniso;
     Layout layout = Layout::cov;
     Hidden a = {2, 32}, b = {2, 64};
+    bool far = false; // H_B sees the sixty-four texels below, too: a footprint of 8 x 8 at once
     bool operator==(const Shape&) const = default;
 };
 inline constexpr int kMostWidth = 4096, kMostHidden = kMostLayers - 1;

@@ -44,14 +44,16 @@ void put_strided(const LevelRows& from, std::size_t channel, std::size_t x, std:
         to[i] = at[step * i];
 }
 
-struct NetLevel {                     // a level being made
-    LevelRows below;                  // of the level twice as large
-    std::optional<LevelRows> further; // four times
+struct NetLevel {                      // a level being made
+    LevelRows below;                   // of the level twice as large
+    std::optional<LevelRows> further;  // four times
+    std::optional<LevelRows> farthest; // eight times, of nets that see so far
     Texels* to;
 };
 
 // Texels first... of a level, `count` of them, the last one again up to `padded`.
-void gather(const NetLevel& l, std::size_t first, std::size_t count, std::size_t padded, float* children, float* grandchildren)
+void gather(const NetLevel& l, std::size_t first, std::size_t count, std::size_t padded, float* children, float* grandchildren,
+            float* great)
 {
     const std::size_t width = static_cast<std::size_t>(l.to->width);
     for (std::size_t i = 0; i < count;) { // row by row
@@ -64,6 +66,10 @@ void gather(const NetLevel& l, std::size_t first, std::size_t count, std::size_t
                 for (std::size_t c = 0; c < kChannels; ++c)
                     put_strided(*l.further, c, 4 * x + 2 * cx + (g & 1), 2 * cy + (g >> 1), 4, here,
                                 grandchildren + (c * 16 + 4 * g + j) * padded + i);
+            for (std::size_t h = 0; l.farthest && h < 16; ++h) // the h >> 2-th texel of its h & 3-th
+                for (std::size_t c = 0; c < kChannels; ++c)
+                    put_strided(*l.farthest, c, 8 * x + 4 * cx + 2 * (h & 1) + (h >> 2 & 1), 4 * cy + 2 * (h >> 1 & 1) + (h >> 3), 8, here,
+                                great + (c * 64 + 16 * (h >> 2) + 4 * (h & 3) + j) * padded + i);
         }
         i += here;
     }
@@ -74,6 +80,8 @@ void gather(const NetLevel& l, std::size_t first, std::size_t count, std::size_t
     pad(children, 4 * kChannels);
     if (l.further)
         pad(grandchildren, 16 * kChannels);
+    if (l.farthest)
+        pad(great, 64 * kChannels);
 }
 
 // What makes texels of a level, with memory of its own.
@@ -83,16 +91,17 @@ class NetMaker {
 
     void make(const NetLevel& l, std::size_t first, std::size_t count)
     {
-        constexpr std::size_t kMostFloats = kTexelsAtOnce * kChannels * (4 + 16 + 1);
+        const std::size_t most_floats = kTexelsAtOnce * kChannels * (4 + 16 + 1 + (plan_.far ? 64 : 0));
         if (memory_.empty())
-            memory_.resize(kMostFloats * sizeof(float) + fns_.forward_bytes(plan_, kTexelsAtOnce));
+            memory_.resize(most_floats * sizeof(float) + fns_.forward_bytes(plan_, kTexelsAtOnce));
         float* const children = reinterpret_cast<float*>(memory_.data());
         float *const grandchildren = children + kTexelsAtOnce * kChannels * 4, *const made = grandchildren + kTexelsAtOnce * kChannels * 16;
+        float* const great = made + kTexelsAtOnce * kChannels;
         for (const std::size_t end = first + count; first < end; first += kTexelsAtOnce) {
             const std::size_t some = std::min(kTexelsAtOnce, end - first), padded = (some + kSlots - 1) / kSlots * kSlots;
-            gather(l, first, some, padded, children, grandchildren);
-            fns_.forward({&plan_, weights_.numbers.data(), padded, children, l.further ? grandchildren : nullptr, made,
-                          memory_.data() + kMostFloats * sizeof(float)});
+            gather(l, first, some, padded, children, grandchildren, great);
+            fns_.forward({&plan_, weights_.numbers.data(), padded, children, l.further ? grandchildren : nullptr,
+                          l.farthest ? great : nullptr, made, memory_.data() + most_floats * sizeof(float)});
             for (std::size_t c = 0; c < kChannels; ++c)
                 std::memcpy(&l.to->channel[c][first], made + c * padded, some * sizeof(float));
         }
@@ -124,15 +133,15 @@ std::vector<Texels> net_levels(const TexelRows& level0, const Weights& weights, 
         const int l = static_cast<int>(level);
         return make_texels(side_of_level(level0.width, l), side_of_level(level0.height, l));
     };
-    std::vector<Texels> levels(1); // level 0 only where its sides are not whole fours
-    if (level0.width % 4 == 0 && level0.height % 4 == 0) {
+    std::vector<Texels> levels(1); // level 0 only where its sides are not whole fours, or levels after the second look at it
+    if (level0.width % 4 == 0 && level0.height % 4 == 0 && !plan.far) {
         levels.push_back(next(1)), levels.push_back(next(2));
         const int bands = (level0.height + kBandRows - 1) / kBandRows;
         jobs.parallel_for(static_cast<std::size_t>(bands), [&](std::size_t band, int worker) {
             const int first = static_cast<int>(band) * kBandRows, rows = std::min(kBandRows, level0.height - first);
             const Texels texels = valid_band(level0, first, rows);
             const LevelRows of0 = rows_of_level(texels, first), of1 = rows_of_level(levels[1]);
-            const NetLevel made[] = {{of0, std::nullopt, &levels[1]}, {of1, of0, &levels[2]}};
+            const NetLevel made[] = {{of0, std::nullopt, std::nullopt, &levels[1]}, {of1, of0, std::nullopt, &levels[2]}};
             for (const NetLevel& l : made) {
                 const std::size_t row = static_cast<std::size_t>(l.to->width), scale = static_cast<std::size_t>(level0.width) / row;
                 makers[static_cast<std::size_t>(worker)].make(l, static_cast<std::size_t>(first) / scale * row,
@@ -143,14 +152,16 @@ std::vector<Texels> net_levels(const TexelRows& level0, const Weights& weights, 
         levels[0] = valid_band(level0, 0, level0.height);
     }
     for (std::size_t level = levels.size(); next(level - 1).count() > 1; ++level) {
-        Texels to = next(level), storage[2];
+        Texels to = next(level), storage[3];
         const auto below = [&](std::size_t up) {
             const int scale = 1 << up;
             return rows_of_level(brought_to(levels[level - up], scale * to.width, scale * to.height, storage[up - 1]));
         };
-        NetLevel l = {below(1), std::nullopt, &to};
+        NetLevel l = {below(1), std::nullopt, std::nullopt, &to};
         if (level >= 2)
             l.further = below(2);
+        if (level >= 3 && plan.far)
+            l.farthest = below(3);
         const std::size_t texels = to.count(), pieces = (texels + kTexelsAtOnce - 1) / kTexelsAtOnce;
         jobs.parallel_for(pieces, [&](std::size_t piece, int worker) {
             const std::size_t first = piece * kTexelsAtOnce;

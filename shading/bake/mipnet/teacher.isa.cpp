@@ -70,14 +70,20 @@ BN_FN light light_of_pair(const net::FitWork& w, int p)
     return light_at([&](std::size_t k) { return all_lanes(w.rows[k * static_cast<std::size_t>(w.pairs) + static_cast<std::size_t>(p)]); });
 }
 
+// What a lobe of radiance x makes of a pair, with what lies beside it.
+template <class V> BN_FN V beside(const net::FitWork& w, const V& x, int p, std::size_t slot)
+{
+    return w.rest ? x * all_lanes(w.share) + get(w.rest + static_cast<std::size_t>(p) * kSlotCount + slot) : x;
+}
+
 // Of all pairs, at the texels from `slot` on.
 template <int lobe> __attribute__((noinline)) real fit_loss(const net::FitWork& w, std::size_t slot, const texel<real>& t)
 {
     const lobe_place<real> place = lobe_place_of(t);
     real sum = lit(0.0);
     for (int p = 0; p < w.pairs; ++p) {
-        const real e =
-            tone(radiance<lobe>(place, light_of_pair(w, p))).shown - get(w.shown + static_cast<std::size_t>(p) * kSlotCount + slot);
+        const real e = tone(beside(w, radiance<lobe>(place, light_of_pair(w, p)), p, slot)).shown -
+                       get(w.shown + static_cast<std::size_t>(p) * kSlotCount + slot);
         sum += max(e, -e);
     }
     return sum;
@@ -103,7 +109,7 @@ __attribute__((noinline)) void fit_slope(const net::FitWork& w, std::size_t slot
     for (std::size_t c = 0; c < kPlanes; ++c)
         slope[c] = zero;
     for (int p = first; p < first + w.batch; ++p) {
-        const dual r = radiance<lobe>(place, light_of_pair(w, p));
+        const dual r = beside(w, radiance<lobe>(place, light_of_pair(w, p)), p, slot);
         const tone_pair found = tone(r.v);
         const real e = found.shown - get(w.shown + static_cast<std::size_t>(p) * kSlotCount + slot);
         const real by = select(e > zero, found.slope, select(e < zero, -found.slope, zero));
@@ -160,7 +166,11 @@ template <int lobe> void fit_of(const net::FitWork& w)
             least = s == 0 ? loss : select(better, loss, least);
         }
         const texel<real> found = moved<lobe>(w, slot, best);
-        best = chosen(fit_loss<lobe>(w, slot, found) < least * lit(0.99), found, best); // else it is noise
+        const real loss = fit_loss<lobe>(w, slot, found);
+        const mask better = loss < least * lit(0.99); // else it is noise
+        best = chosen(better, found, best);
+        if (w.loss)
+            put(w.loss + slot, select(better, loss, least) / all_lanes(static_cast<float>(w.pairs)));
         const real channel[kPlanes] = {best.nx, best.ny, best.a, best.b, best.c};
         for (std::size_t c = 0; c < kPlanes; ++c)
             put(w.out + c * kSlotCount + slot, channel[c]);

@@ -37,9 +37,12 @@ struct FitWork { // kSlots texels of a level
     const float* radiance; // [pairs][kSlots]: wanted
     const float* starts;   // [start_count][kChannels][kSlots]
     int start_count, steps;
-    int batch;    // pairs a step, a divisor of `pairs`
-    float* shown; // [pairs][kSlots], memory
-    float* out;   // [kChannels][kSlots]: never worse than the best start, by the same pairs
+    int batch;                   // pairs a step, a divisor of `pairs`
+    float* shown;                // [pairs][kSlots], memory
+    float* out;                  // [kChannels][kSlots]: never worse than the best start, by the same pairs
+    const float* rest = nullptr; // [pairs][kSlots]: radiance of what lies beside the lobe; null: nothing
+    float share = 1.0f;          // of the lobe's own
+    float* loss = nullptr;       // [kSlots]: mean difference of what is shown, by these pairs; null: nobody asks
 };
 
 struct TeacherFns {

@@ -33,6 +33,8 @@ std::uint64_t training_key(const TrainOptions& o, const TrainingSet& set)
     std::string words = fmt::format("{} {} {} {} {} {:x}", train_command(o), o.shards, o.pairs, o.seeds, o.side, set.hash);
     if (o.from)
         words += fmt::format(" {:x}", net_hash(*o.from));
+    if (o.taught_by)
+        words += fmt::format(" {:x}", net_hash(*o.taught_by));
     return hash_bytes(words.data(), words.size());
 }
 
@@ -96,9 +98,24 @@ double slots_sum(const float* slots)
 }
 
 struct Shard {
-    std::vector<float> gradient, loss;
-    Memory memory;
+    std::vector<float> gradient, loss, taught[kTrainedLevels];
+    Memory memory, teaching;
 };
+
+// What another cascade makes of a shard's tiles: planes by level.
+void teach(const Fns& fns, const Weights& by, const Plan& plan, const Batch& batch, Shard& shard, const void** levels)
+{
+    const auto planes = [&](int level) { return level == 0 ? batch.texels.data() : shard.taught[level - 1].data(); };
+    std::size_t n = static_cast<std::size_t>(kSlots) * kTileSide * kTileSide / 4;
+    shard.teaching.resize(fns.forward_bytes(plan, n));
+    for (int k = 1; k <= kTrainedLevels; ++k, n /= 4) {
+        std::vector<float>& to = shard.taught[k - 1];
+        to.resize(kChannels * n);
+        fns.forward({&plan, by.numbers.data(), n, planes(k - 1), k >= 2 ? planes(k - 2) : nullptr, k >= 3 ? planes(k - 3) : nullptr,
+                     to.data(), shard.teaching.data()});
+        levels[k - 1] = to.data();
+    }
+}
 
 void adam(const TrainOptions& o, const std::vector<double>& gradient, Trained& t)
 {
@@ -144,12 +161,20 @@ std::string train_command(const TrainOptions& o)
         words += o.loss == Loss::l2 ? " --loss l2" : " --loss charbonnier";
     if (o.tone != Tone::display)
         words += " --tone log";
+    if (o.mirrored != kUsualMirrored)
+        words += fmt::format(" --mirrored {}", o.mirrored);
+    if (o.light != 0.0)
+        words += fmt::format(" --light {}", o.light);
+    if (o.shape.far)
+        words += " --footprint 8";
     if (o.levels != kTrainedLevels)
         words += fmt::format(" --levels {}", o.levels);
     if (!o.maps.empty())
         words += fmt::format(" {} {}", o.only_maps ? "--only-maps" : "--maps", o.maps_name);
     if (o.from)
         words += fmt::format(" --from {}", o.from_name);
+    if (o.taught_by)
+        words += fmt::format(" --taught-by {}", o.taught_by_name);
     return words;
 }
 
@@ -161,6 +186,7 @@ Result<std::optional<Weights>> train(const TrainOptions& options, const Jobs& jo
     const std::uint64_t key = training_key(options, set);
     Trained t;
     t.numbers = options.from ? options.from->numbers : start_weights(plan, options.seed);
+    const Plan teacher = options.taught_by ? plan_of(options.taught_by->shape) : Plan{};
     BN_CHECK(t.numbers.size() == plan.count && options.levels >= 1 && options.levels <= kTrainedLevels);
     t.mean = t.numbers;
     t.first.assign(plan.count, 0.0f), t.second.assign(plan.count, 0.0f);
@@ -180,10 +206,14 @@ Result<std::optional<Weights>> train(const TrainOptions& options, const Jobs& jo
         jobs.parallel_for(shards.size(), [&](std::size_t s, int) {
             Shard& shard = shards[s];
             const std::uint64_t words[] = {options.seed, t.step, s};
-            const Batch batch = make_batch(set, hash_bytes(words, sizeof words), options.pairs);
+            const Batch batch = make_batch(set, hash_bytes(words, sizeof words), options.pairs, options.mirrored);
             shard.gradient.assign(plan.count * kSlots, 0.0f);
+            const void* taught[kTrainedLevels] = {};
+            if (options.taught_by)
+                teach(fns, *options.taught_by, teacher, batch, shard, taught);
             fns.step({&plan, t.numbers.data(), turned.data(), batch.texels.data(), batch.tiles.data(), batch.pairs.data(), options.pairs,
-                      level_weight, shard.gradient.data(), shard.loss.data(), shard.memory.data(), options.loss, options.tone});
+                      level_weight, shard.gradient.data(), shard.loss.data(), shard.memory.data(), options.loss, options.tone,
+                      options.taught_by ? taught : nullptr, static_cast<float>(options.light)});
         });
         double loss = 0.0;
         for (std::size_t i = 0; i < plan.count; ++i) {

@@ -15,7 +15,7 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "weights are little-endian");
 constexpr char kWeightsMagic[8] = {'b', 'n', 'm', 'i', 'p', '0', '1', '\n'};
-constexpr std::uint32_t kMostText = 4096;
+constexpr std::uint32_t kMostText = 4096, kFar = 2; // of the layout
 
 struct WeightsHeader {
     char magic[8];
@@ -36,6 +36,8 @@ std::uint64_t net_hash(const Weights& w)
                                   w.shape.a.width,
                                   w.shape.b.layers,
                                   w.shape.b.width};
+    if (w.shape.far)
+        return hash_bytes(w.numbers.data(), w.numbers.size() * sizeof(float), hash_bytes(shape, sizeof shape) + 1);
     return hash_bytes(w.numbers.data(), w.numbers.size() * sizeof(float), hash_bytes(shape, sizeof shape));
 }
 
@@ -44,8 +46,8 @@ std::vector<std::uint8_t> weights_bytes(const Weights& w)
     const std::string text = w.families + "\n" + w.command;
     WeightsHeader h = {};
     std::memcpy(h.magic, kWeightsMagic, sizeof kWeightsMagic);
-    h.version = kWeightsVersion, h.lobe = static_cast<std::uint32_t>(w.shape.lobe), h.layout = static_cast<std::uint32_t>(w.shape.layout);
-    h.channels = kChannels;
+    h.version = kWeightsVersion, h.lobe = static_cast<std::uint32_t>(w.shape.lobe);
+    h.layout = static_cast<std::uint32_t>(w.shape.layout) | (w.shape.far ? kFar : 0u), h.channels = kChannels;
     h.layers_a = static_cast<std::uint32_t>(w.shape.a.layers), h.width_a = static_cast<std::uint32_t>(w.shape.a.width);
     h.layers_b = static_cast<std::uint32_t>(w.shape.b.layers), h.width_b = static_cast<std::uint32_t>(w.shape.b.width);
     h.numbers = static_cast<std::uint32_t>(w.numbers.size()), h.text = static_cast<std::uint32_t>(text.size());
@@ -77,8 +79,8 @@ Result<Weights> parse_weights(const std::uint8_t* data, std::size_t bytes, const
         return refuse(8, fmt::format("has version {}, this program reads version {}", h.version, kWeightsVersion));
     if (h.lobe > 2)
         return refuse(12, fmt::format("is of lobe {}, which is none of 0, 1 and 2", h.lobe));
-    if (h.layout > 1)
-        return refuse(16, fmt::format("has layout {}, which is neither 0 nor 1", h.layout));
+    if (h.layout > (h.layers_b == 0 ? 1u : 1u | kFar))
+        return refuse(16, fmt::format("has layout {}, which its nets cannot have", h.layout));
     if (h.channels != kChannels)
         return refuse(20, fmt::format("has {} channels, which must be {}", h.channels, kChannels));
     const bool alone = h.layers_b == 0 && h.width_b == 0; // H_A
@@ -91,7 +93,7 @@ Result<Weights> parse_weights(const std::uint8_t* data, std::size_t bytes, const
     if (!(h.leak == kLeak) || h.zero != 0)
         return refuse(72, "has another slope of hidden units than this program's");
     Weights w;
-    w.shape.lobe = static_cast<Lobe>(h.lobe), w.shape.layout = static_cast<Layout>(h.layout);
+    w.shape.lobe = static_cast<Lobe>(h.lobe), w.shape.layout = static_cast<Layout>(h.layout & ~kFar), w.shape.far = (h.layout & kFar) != 0;
     w.shape.a = {static_cast<int>(h.layers_a), static_cast<int>(h.width_a)};
     w.shape.b = {static_cast<int>(h.layers_b), static_cast<int>(h.width_b)};
     const std::size_t count = plan_of(w.shape).count, whole = sizeof h + h.text + 2 * count + 8;

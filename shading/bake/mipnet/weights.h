@@ -1,9 +1,9 @@
 // A cascade as a file and in memory.
 //
-// The file, little-endian: 8 bytes "bnmip01\n"; uint32 version (1), lobe, layout, channels (5), hidden layers and their width of H_A, of
-// H_B (0, 0: none), numbers, bytes of text; uint64 seed, steps, hash of the training set; float32 leak; uint32 0; the text (families, a
-// line break, the command that makes the file); the numbers as IEEE halves (to nearest even), layer by layer of H_A, then H_B, weights by
-// [output][input], then biases, at last k0 and k1 of kappa; uint64 xxHash64 of all before.
+// The file, little-endian: 8 bytes "bnmip01\n"; uint32 version (1), lobe, layout (+ 2: H_B sees 8 x 8 texels), channels (5), hidden layers
+// and their width of H_A, of H_B (0, 0: none), numbers, bytes of text; uint64 seed, steps, hash of the training set; float32 leak; uint32
+// 0; the text (families, a line break, the command that makes the file); the numbers as IEEE halves (to nearest even), layer by layer of
+// H_A, then H_B, weights by [output][input], then biases, at last k0 and k1 of kappa; uint64 xxHash64 of all before.
 #pragma once
 #include <string>
 #include <vector>

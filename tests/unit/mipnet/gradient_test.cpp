@@ -97,6 +97,7 @@ struct Work {
     double level_weight[kTrainedLevels] = {0.2, 0.2, 0.2, 0.2, 0.2};
     Loss kind = Loss::l1;
     Tone tone = Tone::display;
+    float light = 0.0f;
 
     double run()
     {
@@ -105,7 +106,7 @@ struct Work {
         memory.resize(fns.step_bytes(plan, pair_count));
         const std::vector<double> turned = turned_weights(plan, weights);
         fns.step({&plan, weights.data(), turned.data(), texels.data(), tiles.data(), pairs.data(), pair_count, level_weight,
-                  gradient.data(), loss.data(), memory.data(), kind, tone});
+                  gradient.data(), loss.data(), memory.data(), kind, tone, nullptr, light});
         double sum = 0.0;
         for (const double l : loss)
             sum += l;
@@ -120,13 +121,13 @@ struct Work {
     }
 };
 
-void check_cascade(const Shape& shape, Loss kind = Loss::l1, Tone tone = Tone::display)
+void check_cascade(const Shape& shape, Loss kind = Loss::l1, Tone tone = Tone::display, float light = 0.0f)
 {
     const Lobe lobe = shape.lobe;
     const Layout layout = shape.layout;
     const TrainingSet set = make_training_set(1, 64, Jobs(1));
     Work w;
-    w.plan = plan_of(shape), w.kind = kind, w.tone = tone;
+    w.plan = plan_of(shape), w.kind = kind, w.tone = tone, w.light = light;
     Random random(21);
     for (const float v : start_weights(w.plan, 3))
         w.weights.push_back(static_cast<double>(v));
@@ -191,6 +192,17 @@ TEST(gradient, of_the_whole_cascade_by_other_losses_and_tones)
     for (const Loss kind : {Loss::l2, Loss::charbonnier})
         check_cascade({Lobe::ggx_aniso, Layout::cov, {2, 6}, {2, 7}}, kind);
     check_cascade({Lobe::ggx_aniso, Layout::cov, {2, 6}, {2, 7}}, Loss::l1, Tone::log);
+}
+
+TEST(gradient, of_the_whole_cascade_by_mean_radiance)
+{
+    check_cascade({Lobe::ggx_aniso, Layout::cov, {2, 6}, {2, 7}}, Loss::l1, Tone::display, 4.0f);
+}
+
+TEST(gradient, of_the_whole_cascade_that_sees_sixty_four_texels)
+{
+    for (const Layout layout : {Layout::cov, Layout::paper})
+        check_cascade({Lobe::ggx_aniso, layout, {2, 6}, {2, 7}, true});
 }
 
 } // namespace

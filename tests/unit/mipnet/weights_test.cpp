@@ -99,7 +99,7 @@ TEST(weights, that_are_damaged_or_of_something_else_are_refused)
     refused(0, 0, true, "not weights");
     refused(8, 2, true, "version 2");
     refused(12, 9, true, "lobe 9");
-    refused(16, 2, true, "layout 2");
+    refused(16, 4, true, "layout 4");
     refused(20, 6, true, "6 channels");
     refused(28, 9, true, "numbers"); // a width that the numbers are not of
     refused(24, 50, true, "50 hidden layers");
