@@ -238,19 +238,21 @@ def names(bench):
     scratch(bench, "scene.gltf", files.text(gltf))
     path = bench.folder / "sc\udcff\x1bene.gltf"  # no UTF-8
     path.write_text(files.text(gltf))
+    scratch(bench, "evil\x9b\u202e\x1b.gltf", files.text(gltf))
     pages = ["p.svg"] + (["r/report.html"] if "reference" in bench.run("info").expect(0).out else [])
-    runs = (("profile", str(path), *SMALL, "--frames", "1", "--svg", "p.svg"), ("render", str(path), *SMALL, "-v"),
+    runs = (("profile", str(path), *SMALL, "--frames", "1", "--svg", "p.svg", "--json", "-"), ("render", str(path), *SMALL, "-v"),
+            ("render", "evil\x9b\u202e\x1b.gltf", *SMALL, "--stats", "-"),
             ("render", str(path), *SMALL, "--camera", "none\x1b"), ("render", "no\x1bsuch\udcfe.gltf", *SMALL),
             ("chart", str(path), *SMALL, "--techniques", "split_isotropic", "--runs", "1", "--reference-samples", "64",
              "--error-size", "32x24", "-o", "r"),
-            ("parity", str(path), *TILE, "--technique", "mc", "--msaa", "1", "--device", "lavapipe", "--junit", "p.xml", "--html", "p.html"))
+            ("parity", str(path), *TILE, "--technique", "mc", "--msaa", "1", "--device", "lavapipe", "--junit", "p.xml", "--html", "p.html", "--csv", "-"))
     for words in runs:
         done = bench.run(*words)
         check(done.code in (0, 2, 4) or (words[0] in ("parity", "chart") and done.code == 77), done.describe())
         if words[0] == "parity" and done.code == 0:
             pages += ["p.xml", "p.html"]
         for text in (done.out, done.err):
-            check(all(c >= " " or c == "\n" for c in text) and "\x9b" not in text and "\u202e" not in text and "\ufffd" not in text,
+            check(all(c >= " " or c == "\n" for c in text) and "\x7f" not in text and "\x9b" not in text and "\u202e" not in text and "\ufffd" not in text,
                   f"a control character comes through\n{done.describe()!r}")
     for name in pages:
         text = (bench.folder / name).read_text(encoding="utf-8")  # fails where it is no UTF-8
@@ -258,6 +260,23 @@ def names(bench):
         if name.endswith((".svg", ".xml")):
             xml.dom.minidom.parse(str(bench.folder / name))
     print("looked at", pages)
+
+
+@case("hostile.names_of_materials_make_names_of_files", "input")
+def file_names(bench):
+    """Of `bake mip --preview`: below the folder, each once, and none longer than a file's name may be."""
+    scratch(bench, "wood.png", files.png(4, 4, color=lambda x, y: (120 + 4 * x, 120 + 4 * y, 240)))
+    names = ("../../up", "/tmp/down", "a/b", "a_b", "A\0b", "..", "", "x" * 300, "x" * 300, "\u00e9" * 300, EVIL)
+    gltf = files.textured("wood.png")
+    gltf["materials"] = [{"name": name, "normalTexture": {"index": 0}, "pbrMetallicRoughness": {"roughnessFactor": 0.3 + 0.05 * i}}
+                         for i, name in enumerate(names)]
+    primitive = gltf["meshes"][0]["primitives"][0]
+    gltf["meshes"][0]["primitives"] = [{**primitive, "material": i} for i in range(len(names))]
+    scratch(bench, "scene.gltf", files.text(gltf))
+    bench.run("bake", "mip", "scene.gltf", "--mip-filter", "ssgt", "-o", "b.mip", "--preview", "levels", "-q").expect(0)
+    found = [path.name for path in (bench.folder / "levels").iterdir()]
+    check(len(found) == 2 * 2 * len(names), f"{len(found)} pictures: {sorted(found)}")  # normals and lobes of two levels
+    check({path.name for path in bench.folder.iterdir() if path.name[0] != "."} == {"b.mip", "levels", "scene.gltf", "wood.png"}, "written elsewhere")
 
 
 @case("hostile.a_damaged_module_is_not_opened", "program")
