@@ -105,6 +105,32 @@ def repaired_environment(bench):
         check("1 NaN" in done.err, f"{command[0]} does not say it\n{done.describe()}")
 
 
+@case("hostile.what_maps_and_bakes_needed_is_said")
+def repaired_maps(bench):
+    """Of pictures of floats that hold none, and of scenes, whatever reads them."""
+    pixels = [0.5] * (8 * 8 * 3)
+    pixels[5], pixels[30], pixels[31] = float("nan"), float("inf"), float("nan")
+    scratch(bench, "bad.pfm", b"PF\n8 8\n-1.0\n" + struct.pack(f"<{len(pixels)}f", *pixels))
+    gltf = files.textured("wood.png")
+    gltf["nodes"][0]["rotation"] = [0, 0, 0, 2]
+    scratch(bench, "bad.gltf", files.text(gltf))
+    scratch(bench, "wood.png", files.png(4, 4))
+    (bench.folder / "worn").mkdir()
+    for name in ("wood_albedo.pfm", "wood_roughness.pfm"):
+        shutil.copy(bench.folder / "bad.pfm", bench.folder / "worn" / name)
+    bad = "bad.pfm: 2 "
+    for words, said in ((("render", "builtin:plate", *TILE, "--height-map", "bad.pfm"), (bad,)), (("render", "builtin:plate", *TILE, "--direction-map", "bad.pfm"), (bad,)),
+                        (("render", "builtin:plate", *TILE, "--material", "worn"), ("wood_albedo.pfm: 2 ", "wood_roughness.pfm: 2 ")),
+                        (("bake", "direction", "bad.pfm", "--from", "hue", "-o", "d.png"), (bad,)),
+                        (("bake", "environment", "bad.pfm", "--env-size", "16", "-o", "baked"), ("2 NaN", "1 infinite")),
+                        (("bake", "displaced", "bad.gltf", "bad.pfm", "--triangles", "1", "-o", "s.glb"), (bad, "/nodes/0/rotation")),
+                        (("bake", "tpr", "--straighten", "bad.gltf", "--direction", "1,0,0", "-o", "t.exr"), ("/nodes/0/rotation",))):
+        done = bench.run(*words).expect(0)
+        warnings = [line for line in done.err.splitlines() if line.startswith("burnish: warning: ")]
+        for text in said:
+            check(len([line for line in warnings if text in line]) == 1, f"'{text}' is not said once\n{done.describe()}")
+
+
 def many_buffers(names, length):
     gltf = files.triangle()
     gltf["buffers"] += [{"byteLength": length, "uri": name} for name in names]
