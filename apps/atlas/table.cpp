@@ -14,7 +14,6 @@ namespace {
 constexpr double kNear = 0.05; // of worst: nearer than this share it is held
 constexpr const char* kVersionMark = "Version ";
 constexpr const char* kNothing = "-";
-constexpr double kNone = -1.0; // no error is
 
 constexpr const char* kHead = R"(# Where methods break
 
@@ -57,11 +56,11 @@ std::optional<std::pair<std::string, BlessedRow>> row_in(const std::string& line
         cell = trimmed(cell);
     BlessedRow row;
     const std::optional<double> onset = figure_of(cells[2], 2.0), worst = figure_of(cells[3], 0.0), flicker = figure_of(cells[4], 0.0),
-                                in_double = figure_of(cells[5], kNone), cure = figure_of(cells[6], 0.0);
+                                in_double = figure_of(cells[5], 0.0), cure = figure_of(cells[6], 0.0);
     if (!onset || !worst || !flicker || !in_double || !cure)
         return std::nullopt;
     row.onset = *onset, row.worst = *worst, row.flicker = *flicker, row.cure_worst = *cure, row.kind = cells[7];
-    if (*in_double != kNone)
+    if (cells[5] != kNothing)
         row.in_double = *in_double;
     return std::pair{cells[1], row};
 }

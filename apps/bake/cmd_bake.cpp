@@ -27,6 +27,7 @@
 #include "core/base/file.h"
 #include "core/image/io/image_io.h"
 #include "core/jobs/cores.h"
+#include "raster/frame/frame.h"
 #include "shading/bake/environment/environment_cache.h"
 #include "shading/bake/ltc/bake_ltc.h"
 #include "shading/bake/tables/phong.h"
@@ -295,6 +296,27 @@ Result<std::optional<ltc::Table>> table_of(const BakeArguments& a, const OptionT
     return std::optional(std::move((*baked)->table));
 }
 
+using Warnings = std::vector<std::string>;
+
+// The one of a picture of floats that holds what are none.
+Warnings repaired(const Image& picture, const std::string& path)
+{
+    const std::uint64_t bad = picture.type == PixelType::f32 ? count_not_finite(picture) : 0;
+    return bad == 0 ? Warnings() : Warnings{fmt::format("{}: {} pixels are no numbers and are repaired", path, bad)};
+}
+
+int write_map(const BakeArguments& arguments, const Image& map, const Warnings& warnings = {})
+{
+    if (const Status written = write_image(arguments.output, map); !written)
+        return fail(written.error());
+    Report report(arguments.quiet, arguments.verbosity);
+    report.release();
+    for (const std::string& warning : warnings)
+        report.warning(warning);
+    report.wrote(arguments.output);
+    return 0;
+}
+
 int run_direction(const BakeArguments& arguments)
 {
     if (Status checked = check_direction(arguments); !checked)
@@ -302,12 +324,7 @@ int run_direction(const BakeArguments& arguments)
     const Result<Image> picture = read_image(arguments.picture, arguments.limits);
     if (!picture)
         return fail(picture.error());
-    if (Status written = write_image(arguments.output, direction_map(*picture, arguments.from, arguments.strength)); !written)
-        return fail(written.error());
-    Report report(arguments.quiet, arguments.verbosity);
-    report.release();
-    report.wrote(arguments.output);
-    return 0;
+    return write_map(arguments, direction_map(*picture, arguments.from, arguments.strength), repaired(*picture, arguments.picture));
 }
 
 // Of quaternions and rotations, which keep floats where the file does. inputs: that it must not overwrite.
@@ -324,18 +341,6 @@ Result<PixelType> map_type(const BakeArguments& a, const std::vector<std::string
     return floats ? PixelType::f32 : PixelType::u8;
 }
 
-int write_map(const BakeArguments& arguments, const Image& map, const std::string& warning)
-{
-    if (const Status written = write_image(arguments.output, map); !written)
-        return fail(written.error());
-    Report report(arguments.quiet, arguments.verbosity);
-    report.release();
-    if (!warning.empty())
-        report.warning(warning);
-    report.wrote(arguments.output);
-    return 0;
-}
-
 int run_quaternion(const BakeArguments& a)
 {
     if (a.picture.empty())
@@ -349,8 +354,10 @@ int run_quaternion(const BakeArguments& a)
     if (normals->channels < 3)
         return fail({ExitCode::bad_input, a.picture, "", "a normal map has red, green and blue"});
     const SurfaceMap map = quaternions_of_normals(*normals, *type);
-    return write_map(a, map.image,
-                     map.repaired ? fmt::format("{}: {} normals have no length and turn nothing", a.picture, map.repaired) : "");
+    Warnings warnings;
+    if (map.repaired)
+        warnings.push_back(fmt::format("{}: {} normals have no length and turn nothing", a.picture, map.repaired));
+    return write_map(a, map.image, warnings);
 }
 
 int run_straighten(const BakeArguments& a)
@@ -370,11 +377,11 @@ int run_straighten(const BakeArguments& a)
     const Straightened made = straighten((*data)->tables, *a.along, size_of(a, {256, 256}));
     if (made.covered == 0)
         return fail({ExitCode::bad_input, a.mesh, "", "has no texture coordinates that cover a texel"});
-    std::string warning;
+    Warnings warnings = (*data)->scene.warnings;
     if (made.without > 0 || made.twice > made.covered / 100) // edges are of two triangles
-        warning = fmt::format("{}: of {} texels {} have the direction along their normal; {} lie in another triangle too", a.mesh,
-                              made.covered, made.without, made.twice);
-    return write_map(a, encoded_rotations(made.directions, a.encoding, *type), warning);
+        warnings.push_back(fmt::format("{}: of {} texels {} have the direction along their normal; {} lie in another triangle too", a.mesh,
+                                       made.covered, made.without, made.twice));
+    return write_map(a, encoded_rotations(made.directions, a.encoding, *type), warnings);
 }
 
 int run_tpr(const BakeArguments& a)
@@ -392,15 +399,17 @@ int run_tpr(const BakeArguments& a)
     const Result<Image> directions = rotations_of(expressions, size_of(a, {256, 256}));
     if (!directions)
         return fail(directions.error());
-    return write_map(a, encoded_rotations(*directions, a.encoding, *type), "");
+    return write_map(a, encoded_rotations(*directions, a.encoding, *type));
 }
 
-int write_bytes(const BakeArguments& a, const std::string& path, const void* bytes, std::size_t count)
+int write_bytes(const BakeArguments& a, const std::string& path, const void* bytes, std::size_t count, const Warnings& warnings)
 {
     if (const Status written = write_file_atomic(path, bytes, count); !written)
         return fail(written.error());
     Report report(a.quiet, a.verbosity);
     report.release();
+    for (const std::string& warning : warnings)
+        report.warning(warning);
     report.wrote(path);
     return 0;
 }
@@ -420,7 +429,7 @@ int run_environment(const BakeArguments& a)
     if (failed)
         return fail({ExitCode::output_failed, a.output, "", failed.message()});
     const std::vector<std::uint8_t> bytes = environment_cache_bytes(**baked);
-    return write_bytes(a, (fs::path(a.output) / kBakedEnvironment).string(), bytes.data(), bytes.size());
+    return write_bytes(a, (fs::path(a.output) / kBakedEnvironment).string(), bytes.data(), bytes.size(), (*baked)->warnings);
 }
 
 int run_displaced(const BakeArguments& a)
@@ -440,10 +449,13 @@ int run_displaced(const BakeArguments& a)
     const Result<Image> heights = read_image(a.heights, a.limits);
     if (!heights)
         return fail(heights.error());
+    Warnings warnings = (*data)->scene.warnings;
+    for (const std::string& warning : repaired(*heights, a.heights))
+        warnings.push_back(warning);
     const Result<Displaced> made = displaced((*data)->tables, *heights, a.depth, static_cast<std::size_t>(a.triangles), a.picture);
     if (!made)
         return fail(made.error());
-    return write_bytes(a, a.output, made->glb.data(), made->glb.size());
+    return write_bytes(a, a.output, made->glb.data(), made->glb.size(), warnings);
 }
 
 int run_phong(const BakeArguments& a, const OptionTable& given)
@@ -460,16 +472,16 @@ int run_phong(const BakeArguments& a, const OptionTable& given)
     if (a.what == "brdf-lut") {
         if (*type != PixelType::f32)
             return fail(usage_error("-o", fmt::format("'{}' must end in .exr or .pfm, which hold floats", a.output)));
-        return write_map(a, albedo_table(nu, nv, size_of(a, {kLobeAlbedoSize / 2, kLobeAlbedoSize}), a.azimuth), "");
+        return write_map(a, albedo_table(nu, nv, size_of(a, {kLobeAlbedoSize / 2, kLobeAlbedoSize}), a.azimuth));
     }
     const bool density = fs::path(a.output).extension() == ".exr";
     if (*type == PixelType::f32 && !density)
         return fail(usage_error("-o", fmt::format("'{}' must end in .exr, which holds the density too, or in .png or .tif", a.output)));
     const Image table = half_vector_table(nu, nv, size_of(a, {256, 256}), *type);
-    std::string warning;
+    Warnings warnings;
     if (*type == PixelType::u8)
-        warning = fmt::format("8 bits leave {} values along the tangent, and no densities", codes_of(table));
-    return write_map(a, table, warning);
+        warnings.push_back(fmt::format("8 bits leave {} values along the tangent, and no densities", codes_of(table)));
+    return write_map(a, table, warnings);
 }
 
 int run_bake(const BakeArguments& arguments, const OptionTable& given)

@@ -5,7 +5,9 @@
 #include <cmath>
 #include <filesystem>
 #include <fmt/core.h>
+#include <map>
 #include <optional>
+#include <set>
 
 #include "apps/bake/mip_textures.h"
 #include "apps/cli/open.h"
@@ -65,15 +67,18 @@ Value lobe_value(int& to)
 
 std::vector<std::string> plain_names(const std::vector<std::string>& materials)
 {
+    constexpr std::size_t kMostLetters = 100; // a file's name has 255 bytes
     std::vector<std::string> names;
+    std::set<std::string> taken;
+    std::map<std::string, int> last;
     for (const std::string& material : materials) {
-        std::string plain = material.empty() ? "material" : material;
+        std::string plain = material.empty() ? "material" : material.substr(0, kMostLetters);
         for (char& c : plain)
             if (!std::isalnum(static_cast<unsigned char>(c)))
                 c = '_';
         std::string name = plain;
-        for (int i = 2; std::find(names.begin(), names.end(), name) != names.end(); ++i)
-            name = fmt::format("{}_{}", plain, i);
+        for (int& i = last[plain]; !taken.insert(name).second;)
+            name = fmt::format("{}_{}", plain, (i = std::max(i, 1) + 1));
         names.push_back(name);
     }
     return names;

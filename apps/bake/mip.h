@@ -50,8 +50,8 @@ struct MipPicture {
 // (perceptual roughness, 0 to 1) along tangent and bitangent, blue how the axis lies between them (128: along one).
 std::vector<MipPicture> mip_pictures(const std::string& material, const MipLevels& levels);
 
-// Names of materials as they may stand in files' names, each once: what is no letter or digit is _, and a number follows where two are
-// alike.
+// Names of materials as they may stand in files' names, each once: what is no letter or digit is _, only the first hundred letters count,
+// and a number follows where two are alike.
 std::vector<std::string> plain_names(const std::vector<std::string>& materials);
 
 } // namespace burnish

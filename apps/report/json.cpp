@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/check.h"
+#include "core/base/text.h"
 
 namespace burnish {
 
@@ -99,7 +100,7 @@ struct CsvWriter {
         lines.back().resize(std::max(lines.back().size(), at + 1));
         const std::string* text = std::get_if<std::string>(&value.value_);
         const bool nothing = std::holds_alternative<std::monostate>(value.value_);
-        const std::string dumped = nothing ? "" : text ? *text : value.dump(-1);
+        const std::string dumped = nothing ? "" : text ? printable(*text) : value.dump(-1);
         lines.back()[at] = cell(dumped == "null" ? "" : dumped); // NaN and infinities
     }
 };
@@ -125,7 +126,8 @@ std::string Json::csv() const
 
 std::string Json::dump(int indent) const
 {
-    return std::visit(JsonWriter(), value_).dump(indent, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+    // Escaped beyond ASCII: names come from files, and the text may go to a terminal.
+    return std::visit(JsonWriter(), value_).dump(indent, ' ', true, nlohmann::ordered_json::error_handler_t::replace);
 }
 
 } // namespace burnish

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <filesystem>
 #include <fmt/format.h>
 #include <iterator>
@@ -129,6 +130,21 @@ class Dresser {
 
     std::int32_t add(Image image, const char* name) { return add_texture(scene_, name, std::move(image)); }
 
+    // A picture that becomes a texture as it is; what is no number in it is repaired where levels are made.
+    Result<Image> read_as_is(const std::string& path, int channels, const char* name)
+    {
+        Result<Image> image = read(path, channels);
+        if (!image || image->type != PixelType::f32)
+            return image;
+        std::size_t bad = 0;
+        const std::size_t each = static_cast<std::size_t>(image->channels), count = image->bytes.size() / sizeof(float);
+        for (std::size_t i = 0; i < count; i += each)
+            bad += !std::all_of(image->f32() + i, image->f32() + i + each, [](float x) { return std::isfinite(x); });
+        if (bad > 0)
+            scene_.warnings.push_back(fmt::format("{}: {} texels of {} are no numbers and are repaired", path, bad, name));
+        return image;
+    }
+
     std::int32_t add(SurfaceMap map, const std::string& path, const char* name)
     {
         if (map.repaired > 0)
@@ -166,7 +182,7 @@ class Dresser {
 Status put_maps(Dresser& on, const Dress& with)
 {
     if (!with.direction.empty()) {
-        Result<Image> image = on.read(with.direction, 3);
+        Result<Image> image = on.read_as_is(with.direction, 3, "directions");
         if (!image)
             return image.error();
         on.put_directions(on.add(std::move(*image), "direction map"));
@@ -197,7 +213,7 @@ Status put_maps(Dresser& on, const Dress& with)
         on.put(on.add(normals_of_quaternions(*image), with.quaternion, "quaternions"), &Material::normal_tex);
     }
     if (!with.height.empty()) {
-        Result<Image> image = on.read(with.height, 1);
+        Result<Image> image = on.read_as_is(with.height, 1, "heights");
         if (!image)
             return image.error();
         on.put(on.add(std::move(*image), "height map"), &Material::height_tex);
@@ -252,13 +268,13 @@ Status put_material(Dresser& on, Scene& scene, const Dress& with)
         m.name = name;
     });
     if (!found[kAlbedo].empty()) {
-        Result<Image> image = on.read(found[kAlbedo], 1);
+        Result<Image> image = on.read_as_is(found[kAlbedo], 1, "albedo");
         if (!image)
             return image.error();
         on.put(on.add(std::move(*image), "albedo"), &Material::base_color_tex);
     }
     if (!found[kOcclusion].empty()) {
-        Result<Image> image = on.read(found[kOcclusion], 1);
+        Result<Image> image = on.read_as_is(found[kOcclusion], 1, "occlusion");
         if (!image)
             return image.error();
         on.put(on.add(std::move(*image), "occlusion"), &Material::occlusion_tex);
@@ -266,7 +282,7 @@ Status put_material(Dresser& on, Scene& scene, const Dress& with)
     Image parts[2];
     for (const int i : {0, 1})
         if (const std::string& path = found[i ? kRoughness : kMetallic]; !path.empty()) {
-            Result<Image> image = on.read(path, 1);
+            Result<Image> image = on.read_as_is(path, 1, i ? "roughness" : "metalness");
             if (!image)
                 return image.error();
             parts[i] = std::move(*image);

@@ -1,16 +1,16 @@
 // The instruction sets that lane code is compiled for, from narrow to wide. A new one is one line here and core/simd/lanes_<name>.h.
 // C++ reads the list through BN_EACH_ISA; isa.cmake and lint.odr read its lines:
 //   BN_ON_<machine>(X(name, use, runs, flags, of))
-// machine: any, x86_64, aarch64, what the program is compiled for. use: "program", compiled from every file of bn_isa_objects; "tests",
-// compiled only where tests ask for it and unknown to options. runs: whether this processor and its system can run it (core/simd/cpu.h).
-// flags: of the compiler, after those that the rest of the program is compiled with; -O1 or -O2 where more only takes longer to compile.
+// machine: any, x86_64, aarch64, what the program is compiled for; x86_64_wide: not with BN_SCALAR_LANES. use: "program", compiled from
+// every file of bn_isa_objects; "tests", only where tests ask for it, unknown to options. runs: whether this processor and its system can
+// run it (core/simd/cpu.h). flags: after those of the rest of the program; -O1 or -O2 where more only takes longer to compile.
 #pragma once
 
 // clang-format off
 #define BN_EACH_ISA(X, of)                                                                                   \
     BN_ON_any(X(scalar, program, true, "-O1", of))                                                           \
-    BN_ON_x86_64(X(avx2, program, cpu_has_avx2(), "-march=x86-64-v3", of))                                   \
-    BN_ON_x86_64(X(avx512, program, cpu_has_avx512(), "-march=x86-64-v4 -mprefer-vector-width=512", of)) \
+    BN_ON_x86_64_wide(X(avx2, program, cpu_has_avx2(), "-march=x86-64-v3", of))                              \
+    BN_ON_x86_64_wide(X(avx512, program, cpu_has_avx512(), "-march=x86-64-v4 -mprefer-vector-width=512", of)) \
     BN_ON_x86_64(X(portable8, tests, true, "-O1", of))                                      \
     BN_ON_aarch64(X(portable8, program, true, "-O1 -DBN_PORTABLE_CALLS", of))                                \
     BN_ON_any(X(portable16, tests, true, "-O1", of))
@@ -25,6 +25,11 @@
 #define BN_ON_x86_64(row) row
 #else
 #define BN_ON_x86_64(row)
+#endif
+#if defined(__x86_64__) && !defined(BN_SCALAR_LANES)
+#define BN_ON_x86_64_wide(row) row
+#else
+#define BN_ON_x86_64_wide(row)
 #endif
 #ifdef __aarch64__
 #define BN_ON_aarch64(row) row

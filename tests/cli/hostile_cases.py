@@ -105,6 +105,32 @@ def repaired_environment(bench):
         check("1 NaN" in done.err, f"{command[0]} does not say it\n{done.describe()}")
 
 
+@case("hostile.what_maps_and_bakes_needed_is_said")
+def repaired_maps(bench):
+    """Of pictures of floats that hold none, and of scenes, whatever reads them."""
+    pixels = [0.5] * (8 * 8 * 3)
+    pixels[5], pixels[30], pixels[31] = float("nan"), float("inf"), float("nan")
+    scratch(bench, "bad.pfm", b"PF\n8 8\n-1.0\n" + struct.pack(f"<{len(pixels)}f", *pixels))
+    gltf = files.textured("wood.png")
+    gltf["nodes"][0]["rotation"] = [0, 0, 0, 2]
+    scratch(bench, "bad.gltf", files.text(gltf))
+    scratch(bench, "wood.png", files.png(4, 4))
+    (bench.folder / "worn").mkdir()
+    for name in ("wood_albedo.pfm", "wood_roughness.pfm"):
+        shutil.copy(bench.folder / "bad.pfm", bench.folder / "worn" / name)
+    bad = "bad.pfm: 2 "
+    for words, said in ((("render", "builtin:plate", *TILE, "--height-map", "bad.pfm"), (bad,)), (("render", "builtin:plate", *TILE, "--direction-map", "bad.pfm"), (bad,)),
+                        (("render", "builtin:plate", *TILE, "--material", "worn"), ("wood_albedo.pfm: 2 ", "wood_roughness.pfm: 2 ")),
+                        (("bake", "direction", "bad.pfm", "--from", "hue", "-o", "d.png"), (bad,)),
+                        (("bake", "environment", "bad.pfm", "--env-size", "16", "-o", "baked"), ("2 NaN", "1 infinite")),
+                        (("bake", "displaced", "bad.gltf", "bad.pfm", "--triangles", "1", "-o", "s.glb"), (bad, "/nodes/0/rotation")),
+                        (("bake", "tpr", "--straighten", "bad.gltf", "--direction", "1,0,0", "-o", "t.exr"), ("/nodes/0/rotation",))):
+        done = bench.run(*words).expect(0)
+        warnings = [line for line in done.err.splitlines() if line.startswith("burnish: warning: ")]
+        for text in said:
+            check(len([line for line in warnings if text in line]) == 1, f"'{text}' is not said once\n{done.describe()}")
+
+
 def many_buffers(names, length):
     gltf = files.triangle()
     gltf["buffers"] += [{"byteLength": length, "uri": name} for name in names]
@@ -238,19 +264,21 @@ def names(bench):
     scratch(bench, "scene.gltf", files.text(gltf))
     path = bench.folder / "sc\udcff\x1bene.gltf"  # no UTF-8
     path.write_text(files.text(gltf))
+    scratch(bench, "evil\x9b\u202e\x1b.gltf", files.text(gltf))
     pages = ["p.svg"] + (["r/report.html"] if "reference" in bench.run("info").expect(0).out else [])
-    runs = (("profile", str(path), *SMALL, "--frames", "1", "--svg", "p.svg"), ("render", str(path), *SMALL, "-v"),
+    runs = (("profile", str(path), *SMALL, "--frames", "1", "--svg", "p.svg", "--json", "-"), ("render", str(path), *SMALL, "-v"),
+            ("render", "evil\x9b\u202e\x1b.gltf", *SMALL, "--stats", "-"),
             ("render", str(path), *SMALL, "--camera", "none\x1b"), ("render", "no\x1bsuch\udcfe.gltf", *SMALL),
             ("chart", str(path), *SMALL, "--techniques", "split_isotropic", "--runs", "1", "--reference-samples", "64",
              "--error-size", "32x24", "-o", "r"),
-            ("parity", str(path), *TILE, "--technique", "mc", "--msaa", "1", "--device", "lavapipe", "--junit", "p.xml", "--html", "p.html"))
+            ("parity", str(path), *TILE, "--technique", "mc", "--msaa", "1", "--device", "lavapipe", "--junit", "p.xml", "--html", "p.html", "--csv", "-"))
     for words in runs:
         done = bench.run(*words)
         check(done.code in (0, 2, 4) or (words[0] in ("parity", "chart") and done.code == 77), done.describe())
         if words[0] == "parity" and done.code == 0:
             pages += ["p.xml", "p.html"]
         for text in (done.out, done.err):
-            check(all(c >= " " or c == "\n" for c in text) and "\x9b" not in text and "\u202e" not in text and "\ufffd" not in text,
+            check(all(c >= " " or c == "\n" for c in text) and "\x7f" not in text and "\x9b" not in text and "\u202e" not in text and "\ufffd" not in text,
                   f"a control character comes through\n{done.describe()!r}")
     for name in pages:
         text = (bench.folder / name).read_text(encoding="utf-8")  # fails where it is no UTF-8
@@ -258,6 +286,23 @@ def names(bench):
         if name.endswith((".svg", ".xml")):
             xml.dom.minidom.parse(str(bench.folder / name))
     print("looked at", pages)
+
+
+@case("hostile.names_of_materials_make_names_of_files", "input")
+def file_names(bench):
+    """Of `bake mip --preview`: below the folder, each once, and none longer than a file's name may be."""
+    scratch(bench, "wood.png", files.png(4, 4, color=lambda x, y: (120 + 4 * x, 120 + 4 * y, 240)))
+    names = ("../../up", "/tmp/down", "a/b", "a_b", "A\0b", "..", "", "x" * 300, "x" * 300, "\u00e9" * 300, EVIL)
+    gltf = files.textured("wood.png")
+    gltf["materials"] = [{"name": name, "normalTexture": {"index": 0}, "pbrMetallicRoughness": {"roughnessFactor": 0.3 + 0.05 * i}}
+                         for i, name in enumerate(names)]
+    primitive = gltf["meshes"][0]["primitives"][0]
+    gltf["meshes"][0]["primitives"] = [{**primitive, "material": i} for i in range(len(names))]
+    scratch(bench, "scene.gltf", files.text(gltf))
+    bench.run("bake", "mip", "scene.gltf", "--mip-filter", "ssgt", "-o", "b.mip", "--preview", "levels", "-q").expect(0)
+    found = [path.name for path in (bench.folder / "levels").iterdir()]
+    check(len(found) == 2 * 2 * len(names), f"{len(found)} pictures: {sorted(found)}")  # normals and lobes of two levels
+    check({path.name for path in bench.folder.iterdir() if path.name[0] != "."} == {"b.mip", "levels", "scene.gltf", "wood.png"}, "written elsewhere")
 
 
 @case("hostile.a_damaged_module_is_not_opened", "program")

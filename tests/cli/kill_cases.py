@@ -209,3 +209,50 @@ def renders(bench):
 @case("kill.renders_leave_whole_files_long", tier="slow")
 def renders_long(bench):
     killed_renders(bench, 60)
+
+
+# Jobs by name: the words, and what they write (a file or a folder), which is the same in every run. {} is a name before its ending.
+JOBS = {
+    "tables": (("bake", "ltc", "--resolution", "4", "--steps", "6", "--samples", "4", "-q", "-o", "{}.ltc"), ("{}.ltc",)),
+    "trainings": (("train", "mip", "--steps", "12", "--size", "1x4", "-q", "-o", "{}.mipnet"), ("{}.mipnet",)),
+    "levels": (("bake", "mip", "builtin:bumps", "--mip-filter", "mipnet", "-q", "-o", "{}.mip", "--preview", "{}"), ("{}.mip", "{}")),
+    "environments": (("bake", "environment", "builtin:sky", "--env-size", "64", "--env-samples", "64", "-q", "-o", "{}"), ("{}",)),
+    "atlases": (("atlas", "albedo_by_a_fit", "--quick", "--threads", "2", "-q", "-o", "{}"), ("{}/atlas.json",)),
+}
+
+
+def killed_job(bench, name, kills):
+    """What stands under a name after a kill is whole; the command, given again, makes the same bytes as one that was never killed, and
+    leaves nothing else."""
+    if name == "atlases":
+        needs_embree(bench)
+    words, made = JOBS[name]
+    of = lambda word: [text.replace("{}", word) for text in words]
+    env = {"XDG_CACHE_HOME": str(bench.folder / "cache")}
+
+    def files(word):
+        found = {}
+        for root in (bench.folder / text.replace("{}", word) for text in made):
+            for path in [root] if root.is_file() else root.rglob("*"):
+                if path.is_file():
+                    found[str(path.relative_to(bench.folder)).replace(word, "", 1)] = path.read_bytes()
+        return found
+
+    longest = seconds_of(bench, of("straight"), env)
+    straight = files("straight")
+    check(straight, "nothing was made")
+
+    def whole():
+        for path, data in files("killed").items():
+            check(temporary([path]) or straight.get(path) == data, f"{path} is not whole after a kill")
+
+    kill_at_random(bench, of("killed"), kills, 13, 0.9 * longest, env, whole)
+    bench.run(*of("killed"), env=env, timeout=300.0).expect(0)
+    check(files("killed") == straight, f"{sorted(files('killed'))} after kills, {sorted(straight)} without")
+    left = temporary(path.name for path in bench.folder.rglob("*"))
+    check(not left, f"left: {left}")
+
+
+for job in JOBS:
+    case(f"kill.{job}_are_made_whole")(lambda bench, job=job: killed_job(bench, job, 2))
+    case(f"kill.{job}_are_made_whole_long", tier="slow")(lambda bench, job=job: killed_job(bench, job, 25))

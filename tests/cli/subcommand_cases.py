@@ -1,6 +1,7 @@
 """Every subcommand once, small, in a build with sanitizers too."""
 
 import json
+import re
 
 from fault_cases import CHART, REFERENCE, TINY
 from harness import case, check
@@ -61,6 +62,10 @@ def each(bench):
     named = [line.split()[0] for line in said.split("Subcommands:\n")[1].split("\n\n")[0].splitlines()]
     check(set(named) == set(RUNS), f"{sorted(set(named) ^ set(RUNS))}: in the help or among these runs, not in both")
     for name in named:
+        whats = re.search(r"^  WHAT(?: REQUIRED)? +(.*)$", bench.run(name, "--help").expect(0).out, re.MULTILINE)
+        whats = re.findall(r"[a-z-]+", re.sub(r"\(.*| or ", " ", whats.group(1))) if whats else []
+        without = set(whats) - {words[0] for words, _ in RUNS[name] if words}
+        check(not without, f"{name} {sorted(without)}: in the help, and without a run")
         for words, codes in RUNS[name]:
             if bench.sanitized and "--mip" in words:  # minutes of searches there; a small one is among the rows of render
                 continue

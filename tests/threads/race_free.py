@@ -25,6 +25,12 @@ RUNS = {
                "lavapipe"),
     "chart": ("chart", "builtin:plate", "--size", "48x32", "--env-size", "16", "--techniques", "bent_normal", "--sweep", "samples=1", "--reference-samples", "4", "-o",
               "report"),
+    "animation": ("render", "builtin:plate", *SMALL, "--animate", "roughness=0.1:0.6", "--steps", "3", "-o", "step%d.png"),
+    "maps and mip filters": ("render", "builtin:bumps", *SMALL, "--mip-filter", "mipnet", "-o", "bumps.png"),
+    "bake of levels": ("bake", "mip", "builtin:bumps", "--mip-filter", "kappa", "-o", "bumps.mip"),
+    "bake of a table": ("bake", "ltc", "--resolution", "3", "--steps", "1", "--samples", "1", "--threads", "4", "-o", "table.ltc"),
+    "training": ("train", "mip", "--steps", "2", "--size", "1x4", "--threads", "4", "-o", "net.mipnet"),
+    "atlas": ("atlas", "albedo_by_a_fit", "--quick", "--threads", "4", "-o", "atlas"),
 }
 MAY_BE_ABSENT = {"parity": 77}  # no device
 DRIVER = "libvulkan_lvp.so"  # stays loaded: the sanitizer gives up where a library that it leaves alone is unloaded

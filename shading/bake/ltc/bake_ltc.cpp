@@ -1,15 +1,13 @@
 #include "shading/bake/ltc/bake_ltc.h"
 
 #include <algorithm>
-#include <cstring>
 #include <filesystem>
 
-#include "core/base/bytes.h"
 #include "core/base/file.h"
 #include "core/base/hash.h"
 #include "core/math/scalar_math.h"
 #include "shading/bake/ltc/albedo_fit.h"
-#include "shading/bake/ltc/interpolant_fit.h"
+#include "shading/bake/ltc/part.h"
 
 namespace burnish::ltc {
 namespace {
@@ -17,17 +15,6 @@ namespace {
 constexpr std::size_t kStepUnits = 64;   // a step of the interpolant, in chains of nodes
 constexpr std::size_t kChainsKept = 64;  // chains between two checkpoints
 constexpr std::size_t kProbesANode = 93; // lookups that the guard looks at
-constexpr char kPartMagic[8] = {'b', 'n', 'l', 't', 'c', 'p', '1', '\n'};
-
-// Everything that the work has so far.
-struct Progressed {
-    std::uint64_t chains = 0, steps = 0;
-    std::vector<double> l1;        // of the nodes
-    std::vector<Matrix> nodes;     // fitted alone
-    InterpolantFit::State state{}; // of the fit of all
-    double cost_before = 0.0;
-};
-
 std::uint64_t key_of(const BakeOptions& o)
 {
     const Grid& g = o.grid;
@@ -52,17 +39,7 @@ Status keep(const BakeOptions& options, const Progressed& p)
 {
     if (options.checkpoint.empty())
         return {};
-    std::vector<std::uint8_t> bytes;
-    const std::uint64_t words[] = {key_of(options), p.chains, p.steps, p.state.entries.empty() ? 0u : 1u};
-    const double numbers[] = {p.state.cost, p.state.mu, p.cost_before};
-    append_bytes(bytes, kPartMagic, sizeof kPartMagic);
-    append_bytes(bytes, words, sizeof words);
-    append_bytes(bytes, numbers, sizeof numbers);
-    append_bytes(bytes, p.l1.data(), p.l1.size() * sizeof(double));
-    append_bytes(bytes, p.nodes.data(), p.nodes.size() * sizeof(Matrix));
-    append_bytes(bytes, p.state.entries.data(), p.state.entries.size() * sizeof(Matrix));
-    const std::uint64_t hash = hash_bytes(bytes.data(), bytes.size());
-    append_bytes(bytes, &hash, sizeof hash);
+    const std::vector<std::uint8_t> bytes = part_bytes(key_of(options), p);
     return write_file_atomic(options.checkpoint, bytes.data(), bytes.size());
 }
 
@@ -71,42 +48,8 @@ Status go_on(const BakeOptions& options, Progressed& p)
     std::error_code ignored;
     if (options.checkpoint.empty() || !std::filesystem::exists(std::filesystem::symlink_status(options.checkpoint, ignored)))
         return {};
-    const auto refuse = [&](const char* reason) { return Error{ExitCode::bad_input, options.checkpoint, "", reason}; };
     const Result<std::vector<std::uint8_t>> read = read_file(options.checkpoint, std::uint64_t{1} << 32);
-    if (!read)
-        return read.error();
-    const std::vector<std::uint8_t>& bytes = *read;
-    std::uint64_t words[4], hash = 0;
-    double numbers[3];
-    const std::size_t head = sizeof kPartMagic + sizeof words + sizeof numbers, nodes = options.grid.nodes();
-    const std::size_t fitted = nodes * (sizeof(double) + sizeof(Matrix));
-    if (bytes.size() < head + sizeof hash || std::memcmp(bytes.data(), kPartMagic, sizeof kPartMagic) != 0)
-        return refuse("is not what is kept of a table");
-    std::memcpy(words, bytes.data() + sizeof kPartMagic, sizeof words);
-    std::memcpy(numbers, bytes.data() + sizeof kPartMagic + sizeof words, sizeof numbers);
-    std::memcpy(&hash, bytes.data() + bytes.size() - sizeof hash, sizeof hash);
-    if (hash != hash_bytes(bytes.data(), bytes.size() - sizeof hash))
-        return refuse("is damaged: its hash is another one");
-    if (words[0] != key_of(options))
-        return refuse("is what is kept of a table of other options");
-    const bool begun = words[3] == 1;
-    if (bytes.size() != head + fitted + (begun ? nodes * sizeof(Matrix) : 0) + sizeof hash)
-        return refuse("is damaged: its size is another one");
-    p.chains = words[1], p.steps = words[2];
-    p.state.cost = numbers[0], p.state.mu = numbers[1], p.cost_before = numbers[2];
-    const std::uint8_t* at = bytes.data() + head;
-    std::memcpy(p.l1.data(), at, nodes * sizeof(double));
-    std::memcpy(p.nodes.data(), at + nodes * sizeof(double), nodes * sizeof(Matrix));
-    if (begun) {
-        p.state.entries.resize(nodes);
-        std::memcpy(p.state.entries.data(), at + fitted, nodes * sizeof(Matrix));
-    }
-    return {};
-}
-
-std::size_t chains_of(const Grid& grid)
-{
-    return grid.nodes() / static_cast<std::size_t>(grid.size);
+    return read ? parse_part(*read, options.checkpoint, key_of(options), static_cast<std::uint64_t>(options.steps), p) : read.error();
 }
 
 // Puts a chain and what is equal to it by symmetry where they belong.
@@ -194,9 +137,7 @@ Result<std::optional<Baked>> bake_table(const BakeOptions& options, const Jobs& 
             options.advance(units);
     };
     const auto stopped = [&] { return options.stop && options.stop->load(); };
-    Progressed p;
-    p.l1.resize(grid.nodes());
-    p.nodes.resize(grid.nodes());
+    Progressed p(grid);
     if (Status resumed = go_on(options, p); !resumed)
         return resumed.error();
     advance(p.chains + p.steps * kStepUnits);

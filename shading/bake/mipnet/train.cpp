@@ -6,7 +6,6 @@
 #include <filesystem>
 #include <fmt/format.h>
 
-#include "core/base/bytes.h"
 #include "core/base/check.h"
 #include "core/base/clock.h"
 #include "core/base/file.h"
@@ -14,19 +13,13 @@
 #include "core/image/image.h"
 #include "core/math/scalar_math.h"
 #include "core/simd/half.h"
+#include "shading/bake/mipnet/training_part.h"
 
 namespace burnish::mipnet {
 namespace {
 
-constexpr char kTrainMagic[8] = {'b', 'n', 'm', 'i', 'p', 'p', '1', '\n'};
 constexpr double kFirstDecay = 0.9, kSecondDecay = 0.999, kMeanDecay = 0.999, kMostGradient = 1.0;
 constexpr int kWarmSteps = 100; // of a rate that grows
-
-struct Trained { // everything that the work has so far
-    std::uint64_t step = 0;
-    std::vector<float> numbers, first, second, mean; // moments of the gradient; the moving average of the numbers
-    std::vector<float>* all[4] = {&numbers, &first, &second, &mean};
-};
 
 std::uint64_t training_key(const TrainOptions& o, const TrainingSet& set)
 {
@@ -42,14 +35,7 @@ Status keep_training(const TrainOptions& options, std::uint64_t key, const Train
 {
     if (options.checkpoint.empty())
         return {};
-    std::vector<std::uint8_t> bytes;
-    append_bytes(bytes, kTrainMagic, sizeof kTrainMagic);
-    append_bytes(bytes, &key, sizeof key);
-    append_bytes(bytes, &t.step, sizeof t.step);
-    for (const std::vector<float>* numbers : t.all)
-        append_bytes(bytes, numbers->data(), numbers->size() * sizeof(float));
-    const std::uint64_t hash = hash_bytes(bytes.data(), bytes.size());
-    append_bytes(bytes, &hash, sizeof hash);
+    const std::vector<std::uint8_t> bytes = training_part_bytes(key, t);
     return write_file_atomic(options.checkpoint, bytes.data(), bytes.size());
 }
 
@@ -58,30 +44,8 @@ Status go_on_training(const TrainOptions& options, std::uint64_t key, Trained& t
     std::error_code ignored;
     if (options.checkpoint.empty() || !std::filesystem::exists(std::filesystem::symlink_status(options.checkpoint, ignored)))
         return {};
-    const auto refuse = [&](const char* reason) { return Error{ExitCode::bad_input, options.checkpoint, "", reason}; };
     const Result<std::vector<std::uint8_t>> read = read_file(options.checkpoint, std::uint64_t{1} << 30);
-    if (!read)
-        return read.error();
-    const std::vector<std::uint8_t>& bytes = *read;
-    const std::size_t each = t.numbers.size() * sizeof(float), head = sizeof kTrainMagic + 16;
-    if (bytes.size() < head + 8 || std::memcmp(bytes.data(), kTrainMagic, sizeof kTrainMagic) != 0)
-        return refuse("is not what is kept of a training");
-    std::uint64_t hash = 0, kept = 0;
-    std::memcpy(&hash, bytes.data() + bytes.size() - 8, 8);
-    if (hash != hash_bytes(bytes.data(), bytes.size() - 8))
-        return refuse("is damaged: its hash is another one");
-    std::memcpy(&kept, bytes.data() + sizeof kTrainMagic, 8);
-    if (kept != key)
-        return refuse("is what is kept of a training with other options");
-    if (bytes.size() != head + 4 * each + 8)
-        return refuse("is damaged: its size is another one");
-    std::memcpy(&t.step, bytes.data() + sizeof kTrainMagic + 8, 8);
-    const std::uint8_t* at = bytes.data() + head;
-    for (std::vector<float>* numbers : t.all) {
-        std::memcpy(numbers->data(), at, each);
-        at += each;
-    }
-    return {};
+    return read ? parse_training_part(*read, options.checkpoint, key, static_cast<std::uint64_t>(options.steps), t) : read.error();
 }
 
 using Memory = std::vector<std::byte, LineAllocator<std::byte>>;

@@ -1,0 +1,29 @@
+// libFuzzer entry: any text as the blessed table of the atlas and, from its second line on, as what is kept of an entry, whose key is the
+// first.
+#include <string>
+
+#include "apps/atlas/kept.h"
+#include "apps/atlas/table.h"
+#include "core/base/check.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
+{
+    using namespace burnish;
+    const std::string text(data, data + size);
+    if (const Result<BlessedTable> table = parse_table(text, "fuzz")) {
+        const std::string written = table_text(*table);
+        const Result<BlessedTable> again = parse_table(written, "fuzz");
+        BN_CHECK(again && (table->version != kTableVersion || table_text(*again) == written));
+    } else {
+        BN_CHECK(!table.error().reason.empty());
+    }
+    const std::size_t line = text.find('\n');
+    if (line == std::string::npos)
+        return 0;
+    const std::string key = text.substr(0, line);
+    if (const std::optional<MeasuredEntry> kept = parse_kept_entry(text.substr(line + 1), key)) {
+        const std::optional<MeasuredEntry> again = parse_kept_entry(kept_entry_json(*kept, key), key);
+        BN_CHECK(again && again->id == kept->id && again->steps.size() == kept->steps.size());
+    }
+    return 0;
+}

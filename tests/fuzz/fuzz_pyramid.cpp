@@ -1,0 +1,30 @@
+// libFuzzer entry: any bytes as levels of materials, as `burnish bake mip` writes them and the cache keeps them. An odd first byte asks for
+// the right checksum.
+#include "core/base/check.h"
+#include "shading/bake/mip/pyramid_file.h"
+#include "tests/fuzz/sealed.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
+{
+    using namespace burnish;
+    constexpr std::size_t kHash = 8;
+    if (size == 0)
+        return 0;
+    std::vector<std::uint8_t> bytes(data + 1, data + size);
+    if (data[0] & 1 && bytes.size() >= kHash)
+        seal(bytes, 0, bytes.size() - kHash, bytes.size() - kHash);
+    const Result<std::vector<MipLevels>> read = parse_mip_file(bytes, "fuzz");
+    if (!read) {
+        BN_CHECK(!read.error().reason.empty());
+        return 0;
+    }
+    std::vector<const MipLevels*> written;
+    for (const MipLevels& levels : *read) {
+        written.push_back(&levels);
+        BN_CHECK(!levels.levels.empty() || (levels.width == 1 && levels.height == 1));
+        for (const MipLevel& level : levels.levels)
+            BN_CHECK(level.texels.size() == static_cast<std::size_t>(level.width) * static_cast<std::size_t>(level.height));
+    }
+    BN_CHECK(mip_file_bytes(written).size() == bytes.size());
+    return 0;
+}
