@@ -79,6 +79,19 @@ TEST(atlas_table, the_onset_is_held_within_a_step_and_the_worst_within_a_twentie
     EXPECT_EQ(judge(kEntry, m, nullptr).verdict, Verdict::unknown);
 }
 
+TEST(atlas_table, the_kind_is_held_where_it_is_sure)
+{
+    MeasuredEntry m = measured(0.0, 0.2);
+    const BlessedRow row = {m.onset, m.worst, 0.0, 0.05, 0.2, "sampling"};
+    m.remedy = 0.9;
+    EXPECT_EQ(judge(kEntry, m, &row).verdict, Verdict::worse);
+    EXPECT_EQ(judge(kEntry, m, &row).why, "is a failure of approximation, blessed is sampling");
+    m.remedy = 0.52; // of noisy references
+    EXPECT_EQ(judge(kEntry, m, &row).verdict, Verdict::held);
+    m.kind = "sampling", m.remedy = 0.1;
+    EXPECT_EQ(judge(kEntry, m, &row).verdict, Verdict::held);
+}
+
 TEST(atlas_table, a_cure_above_the_threshold_is_no_cure)
 {
     const MeasuredEntry m = measured(0.0, 0.2, 0.11);
