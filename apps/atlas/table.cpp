@@ -94,6 +94,17 @@ Result<BlessedTable> parse_table(const std::string& text, const std::string& fil
     return table;
 }
 
+std::optional<BlessedRow> find_row(const std::string& text, const char* walk, const std::string& id)
+{
+    const std::size_t begin = text.find(fmt::format("\n## {}\n", walk)),
+                      end = text.find("\n## ", begin == std::string::npos ? begin : begin + 1);
+    const std::size_t at = begin == std::string::npos ? begin : text.find(fmt::format("\n| {} |", id), begin);
+    if (at == std::string::npos || at > end)
+        return std::nullopt;
+    const auto row = row_in(text.substr(at + 1, text.find('\n', at + 1) - at - 1));
+    return row ? std::optional(row->second) : std::nullopt;
+}
+
 std::string table_text(const BlessedTable& table)
 {
     std::string text = fmt::format("{}{}{}\n", kHead, kVersionMark, table.version);
