@@ -1,10 +1,15 @@
 #include "apps/atlas/darkroom.h"
 
+#include <fmt/ranges.h>
+
+#include "apps/atlas/trial_tables.h"
 #include "apps/chart/noise.h"
 #include "apps/cli/open.h"
 #include "apps/cli/scene_view.h"
+#include "apps/render/picture.h"
 #include "raster/reference/scene_key.h"
 #include "raster/tile/double_renderer.h"
+#include "shading/lang/tables.h"
 
 namespace burnish {
 namespace {
@@ -33,10 +38,25 @@ template <class T> void make_room(std::map<std::string, T>& kept)
 
 } // namespace
 
+Picture picture_of(const AtlasSetting& setting, Frame frame)
+{
+    const std::size_t pixels = static_cast<std::size_t>(frame.color.width) * static_cast<std::size_t>(frame.color.height);
+    const std::size_t msaa = frame.triangle_ids.size() / pixels;
+    const RenderOptions& o = setting.options;
+    Picture out{{}, std::vector<bool>(pixels)};
+    for (std::size_t i = 0; i < frame.triangle_ids.size(); ++i)
+        if (frame.triangle_ids.data()[i] != kNoTriangle)
+            out.covered[i / msaa] = true;
+    out.color =
+        setting.displayed ? tonemap_to_srgb8(frame.color, o.tonemap, o.exposure_ev, frame.parts, o.resolve) : std::move(frame.color);
+    return out;
+}
+
 Result<Session*> Darkroom::session_of(const AtlasSetting& setting)
 {
     const RenderOptions& o = setting.options;
-    const std::string key = setting.scene_key + "\n" + setting.environment_key;
+    const std::string key =
+        fmt::format("{}\n{}\n{} {}", setting.scene_key, setting.environment_key, o.ltc_table, fmt::join(o.as_tables, " "));
     if (const auto found = sessions_.find(key); found != sessions_.end())
         return &found->second;
     if (!scenes_.count(setting.scene_key)) {
@@ -55,8 +75,17 @@ Result<Session*> Darkroom::session_of(const AtlasSetting& setting)
     }
     SessionOptions options;
     options.isa = machine_.isa;
-    Result<Session> session =
-        Session::make({scenes_[setting.scene_key], environments_[setting.environment_key], machine_.jobs, {}}, options);
+    SessionParts parts{scenes_[setting.scene_key], environments_[setting.environment_key], machine_.jobs, {}};
+    RenderOptions files = o;
+    if (is_trial_table(o.ltc_table)) {
+        Result<std::shared_ptr<const ltc::ShadingTables>> table = trial_table(o.ltc_table, *machine_.jobs);
+        if (!table)
+            return table.error();
+        parts.ltc = std::move(*table), files.ltc_table.clear();
+    }
+    if (const Status read = read_tables(files, parts, report_); !read)
+        return read.error();
+    Result<Session> session = Session::make(std::move(parts), options);
     if (!session)
         return session.error();
     make_room(sessions_);
@@ -74,6 +103,7 @@ Result<Darkroom::Shot> Darkroom::shot_of(const AtlasSetting& setting)
     FrameDesc desc = setting.options.frame;
     desc.view = view->view;
     desc.triangle_ids = true;
+    desc.parts = setting.displayed;
     return Shot{*session, desc};
 }
 
@@ -104,7 +134,7 @@ Result<std::shared_ptr<const Truth>> Darkroom::truth(const AtlasSetting& setting
             return frame.error();
         if (!*frame)
             return Error{ExitCode::unavailable, setting.options.scene, "", "this program draws no frames in double"};
-        return std::make_shared<const Truth>(Truth{std::move((*frame)->color), 0.0});
+        return std::make_shared<const Truth>(Truth{picture_of(setting, std::move(**frame)), 0.0});
     }
     const Result<Shot> shot = shot_of(setting);
     if (!shot)
@@ -124,7 +154,7 @@ Result<std::shared_ptr<const Truth>> Darkroom::truth(const AtlasSetting& setting
     if (count_not_finite(frame->color))
         return Error{ExitCode::not_finite, setting.options.scene, "reference", "the picture holds NaN or Inf"};
     const double noise = noise_flip(frame->color, frame->variance, machine_.isa, *machine_.jobs);
-    return truths_[key] = std::make_shared<const Truth>(Truth{std::move(frame->color), noise});
+    return truths_[key] = std::make_shared<const Truth>(Truth{Picture{std::move(frame->color), {}}, noise});
 }
 
 void Darkroom::forget()

@@ -12,8 +12,15 @@
 
 namespace burnish {
 
+struct Picture {
+    Image color;               // linear, or as it is displayed: 8 bits
+    std::vector<bool> covered; // pixels that show a part of the scene; empty of references
+};
+// As the setting says; the frame has triangle ids, of tile renderers.
+Picture picture_of(const AtlasSetting& setting, Frame frame);
+
 struct Truth {
-    Image color;
+    Picture picture;
     double noise = 0.0; // mean HDR-FLIP that its own noise makes; 0 of the tile renderer's pictures
 };
 
@@ -27,7 +34,7 @@ class Darkroom {
     };
     Darkroom(Machine machine, Report& report) : machine_(std::move(machine)), report_(report) {}
 
-    // By the tile renderer, with triangle ids.
+    // By the tile renderer, with triangle ids, and parts where pictures are compared as displayed.
     Result<Frame> draw(const AtlasSetting& setting);
     // The same in double: raster/tile/double_renderer.h. Nothing where the program has no such lanes.
     Result<std::optional<Frame>> draw_in_double(const AtlasSetting& setting);

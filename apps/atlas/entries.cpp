@@ -1,6 +1,7 @@
 #include "apps/atlas/entries.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <fmt/core.h>
 
 #include "apps/cli/command_line.h"
@@ -21,9 +22,29 @@ std::vector<std::string> words_of(const std::string& text)
     return words;
 }
 
+constexpr const char* kAmount = "amount="; // of a path, and of a role's words: what follows a trial's name (core/scene/builtin/trials.cpp)
+
+bool is_amount(const std::string& word)
+{
+    return word.rfind(kAmount, 0) == 0;
+}
+
+// An entry's path but for the amount's, which is no option.
+std::string path_of_options(const AtlasEntry& entry)
+{
+    std::string text;
+    for (const std::string& part : split(entry.path, ','))
+        if (!is_amount(part))
+            text += (text.empty() ? "" : ",") + part;
+    return text;
+}
+
 Result<std::vector<OptionPath>> paths_of(const AtlasEntry& entry, OptionTable& table) // both ends are tried on it
 {
-    Result<std::vector<OptionPath>> paths = parse_option_paths("path", entry.path, table);
+    const std::string text = path_of_options(entry);
+    if (text.empty())
+        return std::vector<OptionPath>();
+    Result<std::vector<OptionPath>> paths = parse_option_paths("path", text, table);
     if (paths)
         for (OptionPath& path : *paths)
             path.geometric = entry.geometric;
@@ -55,6 +76,37 @@ void set_keys(const OptionTable& table, const std::vector<std::string>& words, A
     for (std::size_t i = 0; i + 1 < words.size(); ++i)
         if (words[i] == "--light")
             out.scene_key += words[i + 1] + " ";
+}
+
+// "0.01"; nothing where neither path nor words have any.
+std::string amount_at(const AtlasEntry& entry, const std::vector<std::string>& own, double s)
+{
+    for (const std::string& word : own)
+        if (is_amount(word))
+            return word.substr(std::string(kAmount).size());
+    for (const std::string& part : split(entry.path, ','))
+        if (is_amount(part)) {
+            const std::string ends = part.substr(std::string(kAmount).size());
+            OptionPath path{"amount", {std::atof(ends.c_str())}, {std::atof(ends.c_str() + ends.find(':') + 1)}, false, entry.geometric};
+            return value_at(path, s);
+        }
+    return "";
+}
+
+// Of all words the scene: the last one that begins with "builtin:", with its amount; none of the others, nor amounts.
+void settle_scene(std::vector<std::string>& words, const std::string& amount)
+{
+    const auto is_scene = [&](std::size_t i) { return words[i].rfind("builtin:", 0) == 0 && (i == 0 || words[i - 1].rfind("--", 0) != 0); };
+    std::string scene;
+    std::vector<std::string> rest;
+    for (std::size_t i = 0; i < words.size(); ++i)
+        if (is_scene(i))
+            scene = words[i];
+        else if (!is_amount(words[i]))
+            rest.push_back(words[i]);
+    if (!scene.empty())
+        rest.insert(rest.begin(), amount.empty() ? scene : scene + "=" + amount);
+    words = std::move(rest);
 }
 
 const char* lobe_of_frame(const FrameDesc& frame)
@@ -111,6 +163,10 @@ Result<AtlasSetting> SettingReader::read(const AtlasEntry& entry, AtlasRole role
     const std::vector<std::string> own = own_words(entry, role, samples);
     std::vector<std::string> words = words_of(fmt::format("{0} --size {1}x{1} --no-background -q", entry.words, side));
     words.insert(words.end(), own.begin(), own.end());
+    const std::string amount = amount_at(entry, own, s);
+    settle_scene(words, amount);
+    if (!amount.empty())
+        out.values = "amount " + amount;
     if (const Status read = read_command_line(command_, words); !read)
         return wrong(read.error());
     for (const OptionPath& path : *paths) {
@@ -126,6 +182,7 @@ Result<AtlasSetting> SettingReader::read(const AtlasEntry& entry, AtlasRole role
         return wrong(options.error());
     out.options = *options;
     out.in_double = role == AtlasRole::truth && entry.truth == AtlasTruth::doubles;
+    out.displayed = entry.truth == AtlasTruth::shown;
     set_keys(command_.options, words, out);
     return out;
 }

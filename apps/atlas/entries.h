@@ -9,13 +9,13 @@
 
 namespace burnish {
 
-enum class AtlasTruth { reference, full, render, doubles }; // as apps/atlas/atlas.def has them
+enum class AtlasTruth { reference, full, render, doubles, shown }; // as apps/atlas/atlas.def has them
 
 struct AtlasEntry {
     const char *id, *group, *breaks;
     const char* words; // of `burnish render`
     bool geometric;
-    const char* path; // as --animate takes it
+    const char* path; // as --animate takes it; "amount" is what follows a trial's name: builtin:NAME=AMOUNT
     AtlasTruth truth;
     const char* truth_words; // that the truth has besides
     double threshold;
@@ -31,6 +31,7 @@ struct AtlasSetting {
     RenderOptions options;
     std::string values; // "anisotropy 0.5": what the path gives
     std::string scene_key, environment_key;
+    bool displayed = false; // compared as 8-bit pictures are shown
     bool in_double = false; // by the tile renderer: raster/tile/double_renderer.h
 };
 

@@ -95,6 +95,7 @@ std::string truth_text(const AtlasEntry& entry)
     case AtlasTruth::doubles:
         return "the same in double" + with;
     case AtlasTruth::render:
+    case AtlasTruth::shown:
         break;
     }
     return "the same" + with;
@@ -102,7 +103,7 @@ std::string truth_text(const AtlasEntry& entry)
 
 std::string measure_text(const AtlasEntry& entry)
 {
-    return fmt::format("mean HDR-FLIP against {}", truth_text(entry));
+    return fmt::format("mean {} against {}", entry.truth == AtlasTruth::shown ? "LDR-FLIP, as displayed," : "HDR-FLIP", truth_text(entry));
 }
 
 Json atlas_json(const std::vector<AtlasResult>& results, const AtlasWalk& walk)

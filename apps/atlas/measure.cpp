@@ -15,22 +15,14 @@ namespace {
 
 constexpr int kMoreSamples = 64, kMostSamples = 65536; // of the verdict: so many times as many, of techniques and lights
 constexpr int kVerdictSide = 32;                       // pixels of its pictures, where textures are not what it is about
-constexpr double kGone = 0.5;                          // an error is gone where less than this share of it is left
 
-struct Picture {
-    Image color;
-    std::vector<bool> covered; // pixels that show a part of the scene
-};
-
-Picture picture_of(Frame frame)
+// What either shows of the scene; of references nothing is known.
+std::vector<bool> either_covers(const Picture& truth, const Picture& now)
 {
-    const std::size_t pixels = static_cast<std::size_t>(frame.color.width) * static_cast<std::size_t>(frame.color.height);
-    const std::size_t msaa = frame.triangle_ids.size() / pixels;
-    Picture out{std::move(frame.color), std::vector<bool>(pixels)};
-    for (std::size_t i = 0; i < frame.triangle_ids.size(); ++i)
-        if (frame.triangle_ids.data()[i] != kNoTriangle)
-            out.covered[i / msaa] = true;
-    return out;
+    std::vector<bool> covered = now.covered;
+    for (std::size_t i = 0; i < truth.covered.size(); ++i)
+        covered[i] = covered[i] || truth.covered[i];
+    return covered;
 }
 
 // The mean over what is covered.
@@ -41,6 +33,14 @@ double mean_of(const Image& map, const std::vector<bool>& covered)
         if (covered[i])
             sum += static_cast<double>(map.f32()[i]), count += 1.0;
     return count > 0.0 ? sum / count : 0.0;
+}
+
+void take_more(FrameDesc& frame)
+{
+    const TechniqueInfo& technique = *find_technique(frame.technique);
+    frame.samples = samples_taken(technique, std::min({frame.samples * kMoreSamples, kMostSamples, technique.most_samples}));
+    frame.light_samples = std::min(frame.light_samples * kMoreSamples, static_cast<std::uint32_t>(kMostSamples));
+    frame.msaa = kMaxSamples;
 }
 
 // Walks the path of one entry.
@@ -56,10 +56,11 @@ class Walker {
   private:
     Status step(int i);
     Status find_kind();
-    // Mean HDR-FLIP over what is covered, and the map of it.
-    double difference(const Truth& exposed_by, const Image& a, const Image& b, const std::vector<bool>& covered, Image& map);
-    Result<double> error_of(const AtlasSetting& test, const AtlasEntry& truth_of, int step);
-    Result<double> error_of(Frame frame, const AtlasEntry& truth_of, int step);
+    // Mean HDR-FLIP over what is covered, of displayed pictures LDR-FLIP, and the map of it.
+    double difference(const Truth& exposed_by, const Picture& a, const Picture& b, const std::vector<bool>& covered, Image& map);
+    // more: the truth has more samples, too, where it is the tile renderer's.
+    Result<double> error_of(const AtlasSetting& test, const AtlasEntry& truth_of, int step, bool more = false);
+    Result<double> error_of(const Picture& now, const AtlasEntry& truth_of, int step, bool more = false);
     void show(AtlasRow row, int column, const Image& shown);
     double place(int i) const { return static_cast<double>(i) / (walk_.steps - 1); }
 
@@ -72,13 +73,17 @@ class Walker {
 };
 
 // At the exposures of a truth, so that all figures of a step are seen alike.
-double Walker::difference(const Truth& exposed_by, const Image& a, const Image& b, const std::vector<bool>& covered, Image& map)
+double Walker::difference(const Truth& exposed_by, const Picture& a, const Picture& b, const std::vector<bool>& covered, Image& map)
 {
     FlipOptions flip;
     flip.isa = room_.isa();
-    const FlipExposures range = find_exposures(exposed_by.color, flip, room_.jobs());
-    flip.start_ev = range.start_ev, flip.stop_ev = range.stop_ev, flip.exposures = range.count;
-    map = flip_hdr(a, b, flip, room_.jobs()).error;
+    if (b.color.type == PixelType::u8) {
+        map = flip_ldr(a.color, b.color, flip, room_.jobs()).error;
+    } else {
+        const FlipExposures range = find_exposures(exposed_by.picture.color, flip, room_.jobs());
+        flip.start_ev = range.start_ev, flip.stop_ev = range.stop_ev, flip.exposures = range.count;
+        map = flip_hdr(a.color, b.color, flip, room_.jobs()).error;
+    }
     return mean_of(map, covered);
 }
 
@@ -107,8 +112,10 @@ Status Walker::step(int i)
     if (out_.stopped)
         return {};
     s.noise = (*truth)->noise;
-    const auto shown = [&](const Image& linear, const RenderOptions& o) { return tonemap_to_srgb8(linear, o.tonemap, o.exposure_ev); };
-    show(AtlasRow::truth, i, shown((*truth)->color, of_truth->options));
+    const auto shown = [&](const Picture& p, const RenderOptions& o) {
+        return p.color.type == PixelType::u8 ? p.color : tonemap_to_srgb8(p.color, o.tonemap, o.exposure_ev);
+    };
+    show(AtlasRow::truth, i, shown((*truth)->picture, of_truth->options));
     for (const AtlasRole role : {AtlasRole::test, AtlasRole::cure}) {
         if (role == AtlasRole::cure && !entry_.cure[0])
             continue;
@@ -119,14 +126,15 @@ Status Walker::step(int i)
         if (!frame)
             return frame.error();
         const bool test = role == AtlasRole::test;
-        Picture now = picture_of(std::move(*frame));
+        Picture now = picture_of(*setting, std::move(*frame));
+        const std::vector<bool> covered = either_covers((*truth)->picture, now);
         Image map, unused;
-        (test ? s.error : s.cure_error) = difference(**truth, (*truth)->color, now.color, now.covered, map);
-        show(test ? AtlasRow::test : AtlasRow::cure, i, shown(now.color, setting->options));
+        (test ? s.error : s.cure_error) = difference(**truth, (*truth)->picture, now, covered, map);
+        show(test ? AtlasRow::test : AtlasRow::cure, i, shown(now, setting->options));
         show(test ? AtlasRow::error : AtlasRow::cure_error, i, magma_map(map));
         if (test && before_) // it changed by so much more than the truth did
-            s.change = difference(**truth, before_->color, now.color, now.covered, unused) -
-                       difference(**truth, truth_before_->color, (*truth)->color, now.covered, unused);
+            s.change = difference(**truth, *before_, now, covered, unused) -
+                       difference(**truth, truth_before_->picture, (*truth)->picture, covered, unused);
         if (test)
             s.values = setting->values, before_ = std::move(now);
     }
@@ -136,28 +144,29 @@ Status Walker::step(int i)
 }
 
 // What a picture of the path is off by against the truth of another entry.
-Result<double> Walker::error_of(const AtlasSetting& test, const AtlasEntry& truth_of, int step)
+Result<double> Walker::error_of(const AtlasSetting& test, const AtlasEntry& truth_of, int step, bool more)
 {
     Result<Frame> frame = room_.draw(test);
     if (!frame)
         return frame.error();
-    return error_of(std::move(*frame), truth_of, step);
+    return error_of(picture_of(test, std::move(*frame)), truth_of, step, more);
 }
 
-Result<double> Walker::error_of(Frame frame, const AtlasEntry& truth_of, int step)
+Result<double> Walker::error_of(const Picture& now, const AtlasEntry& truth_of, int step, bool more)
 {
-    const Result<AtlasSetting> setting = setting_of(truth_of, AtlasRole::truth, place(step), frame.color.width, walk_.samples);
+    Result<AtlasSetting> setting = setting_of(truth_of, AtlasRole::truth, place(step), now.color.width, walk_.samples);
     if (!setting)
         return setting.error();
+    if (more && setting->options.backend != "reference")
+        take_more(setting->options.frame);
     const Result<std::shared_ptr<const Truth>> truth = room_.truth(*setting);
     if (!truth)
         return truth.error();
     out_.stopped = !*truth;
     if (out_.stopped)
         return 0.0;
-    const Picture now = picture_of(std::move(frame));
     Image map;
-    return difference(**truth, (*truth)->color, now.color, now.covered, map);
+    return difference(**truth, (*truth)->picture, now, either_covers((*truth)->picture, now), map);
 }
 
 Status Walker::find_kind()
@@ -174,7 +183,7 @@ Status Walker::find_kind()
     if (!in_double)
         return in_double.error();
     if (*in_double) {
-        const Result<double> error = error_of(std::move(**in_double), entry_, at);
+        const Result<double> error = error_of(picture_of(*setting, std::move(**in_double)), entry_, at);
         if (!error)
             return error.error();
         m.in_double = *error, m.remedy = *error / std::max(m.worst, 1e-9);
@@ -193,12 +202,8 @@ Status Walker::find_kind()
     if (!usual)
         return usual.error();
     AtlasSetting more = *few;
-    FrameDesc& frame = more.options.frame;
-    const TechniqueInfo& technique = *find_technique(frame.technique);
-    frame.samples = samples_taken(technique, std::min({frame.samples * kMoreSamples, kMostSamples, technique.most_samples}));
-    frame.light_samples = std::min(frame.light_samples * kMoreSamples, static_cast<std::uint32_t>(kMostSamples));
-    frame.msaa = kMaxSamples;
-    const Result<double> sampled = error_of(more, entry_, at);
+    take_more(more.options.frame);
+    const Result<double> sampled = error_of(more, entry_, at, true);
     if (!sampled)
         return sampled.error();
     m.kind = "approximation", m.remedy = *sampled / std::max(*usual, 1e-9);

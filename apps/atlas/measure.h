@@ -17,6 +17,8 @@ struct AtlasWalk {
 };
 inline constexpr AtlasWalk kQuickWalk{"quick", 7, 64, 512}, kFullWalk{"full", 33, 96, 1024};
 
+inline constexpr double kGone = 0.5; // an error is gone where less than this share of it is left
+
 struct AtlasStep {
     double s = 0.0; // [0,1]
     std::string values;

@@ -75,9 +75,7 @@ bool names(const char* beginnings, const std::string& technique)
 
 Result<std::vector<Active>> active_rules(const FrameDesc& desc)
 {
-    const Result<BlessedTable> table = parse_table(std::string(kAtlasBlessed.bytes, kAtlasBlessed.size), "the program's own table");
-    if (!table)
-        return table.error();
+    const std::string table(kAtlasBlessed.bytes, kAtlasBlessed.size);
     std::vector<Active> out;
     SettingReader reader;
     for (std::size_t r = 0; r < std::size(kRules); ++r) {
@@ -87,12 +85,11 @@ Result<std::vector<Active>> active_rules(const FrameDesc& desc)
         if (!told[0] && !told[1])
             continue;
         for (const char* walk : {kFullWalk.name, kQuickWalk.name}) { // the finer first
-            const auto rows = table->walks.find(walk);
-            if (rows == table->walks.end() || !rows->second.count(rule.entry))
+            const std::optional<BlessedRow> row = find_row(table, walk, rule.entry);
+            if (!row)
                 continue;
-            const double onset = rows->second.at(rule.entry).onset;
             const AtlasEntry& entry = *find_entry(rule.entry);
-            const Result<AtlasSetting> setting = reader.read(entry, AtlasRole::test, onset, kQuickWalk.side, 0);
+            const Result<AtlasSetting> setting = reader.read(entry, AtlasRole::test, row->onset, kQuickWalk.side, 0);
             if (!setting)
                 return setting.error();
             out.push_back({r, kEarly * rule.measure(inputs_of_setting(setting->options)), setting->values, told});
@@ -134,22 +131,11 @@ float bent_of(const RiskInputs& i)
     return round_of(i) * std::clamp(1.2f - i.eta(), 0.0f, 1.0f);
 }
 
-float least_width(const Frame& frame)
-{
-    float least = 1.0f;
-    for (const PixelLayers& at : frame.layers)
-        if (shaded(at)) {
-            const RiskInputs i = at_pixel({}, at);
-            least = std::min({least, narrow_of(i), bent_of(i)}); // no wider than round_of
-        }
-    return least;
-}
-
 // Looks at pixels of one picture.
 class Looker {
   public:
     Looker(const Session& session, const FrameDesc& desc, const RiskInputs& inputs, const Frame& frame)
-        : sky_(*session.parts().environment, least_width(frame)), desc_(desc), inputs_(inputs), frame_(frame),
+        : sky_(*session.parts().environment), desc_(desc), inputs_(inputs), frame_(frame),
           turn_(sky_from_world(session.parts().environment->rotation_deg))
     {
         turned_ = session.parts().environment->rotation_deg != 0.0f;

@@ -21,41 +21,28 @@ constexpr Face kFaces[6] = {{2, 1, -1.0f, -1.0f}, {2, 1, 1.0f, -1.0f}, {0, 2, 1.
 
 } // namespace
 
-Sky::Sky(const Environment& environment, float least)
+Sky::Sky(const Environment& environment) : cube_(environment.specular)
 {
-    const CubeMap& cube = environment.specular;
-    last_ = static_cast<float>(cube.levels - 1);
-    while (first_ + 1 < cube.levels && (cube.size >> first_) > kMostSide)
+    last_ = static_cast<float>(cube_.levels - 1);
+    while (first_ + 1 < cube_.levels && (cube_.size >> first_) > kMostSide)
         ++first_;
-    first_ = std::clamp(level_of(least), first_, cube.levels - 1);
-    for (int l = first_; l < cube.levels; ++l) {
-        Level& level = levels_.emplace_back();
-        level.size = cube.size >> l;
-        const std::size_t side = static_cast<std::size_t>(level.size);
-        level.luminance.resize(6 * side * side);
-        std::size_t to = 0;
-        for (std::size_t face = 0; face < 6; ++face)
-            for (std::size_t y = 0; y < side; ++y) {
-                const std::uint16_t* texel =
-                    cube.texels.data() + 4 * (cube.offset[static_cast<std::size_t>(l)] + (face * (side + 2) + y + 1) * (side + 2) + 1);
-                for (std::size_t x = 0; x < side; ++x, texel += 4)
-                    level.luminance[to++] = cube.scale * (static_cast<float>(kLuminance[0]) * half_to_float(texel[0]) +
-                                                          static_cast<float>(kLuminance[1]) * half_to_float(texel[1]) +
-                                                          static_cast<float>(kLuminance[2]) * half_to_float(texel[2]));
-            }
-    }
 }
 
 float Sky::at(const glm::vec3& d, int wanted) const
 {
-    const Level& level = levels_[static_cast<std::size_t>(std::clamp(wanted - first_, 0, static_cast<int>(levels_.size()) - 1))];
+    const int level = std::clamp(wanted, first_, cube_.levels - 1), side = cube_.size >> level;
     const float c[3] = {d.x, d.y, d.z}, ax = std::abs(d.x), ay = std::abs(d.y), az = std::abs(d.z), most = std::max(ax, ay);
     const std::size_t axis = az > most ? 2 : ay > ax ? 1 : 0, face = 2 * axis + (c[axis] > 0.0f ? 0 : 1);
     const Face& f = kFaces[face]; // a table: branches would be taken at random
     const float u = f.u_sign * c[f.u], v = f.v_sign * c[f.v], major = std::max(ax, std::max(ay, az));
-    const float half = 0.5f * static_cast<float>(level.size), over = half / std::max(major, 1e-20f);
-    const auto texel = [&](float x) { return std::clamp(static_cast<int>(x * over + half), 0, level.size - 1); };
-    return level.luminance[static_cast<std::size_t>((static_cast<int>(face) * level.size + texel(v)) * level.size + texel(u))];
+    const float half = 0.5f * static_cast<float>(side), over = half / std::max(major, 1e-20f);
+    const auto texel = [&](float x) { return static_cast<std::size_t>(std::clamp(static_cast<int>(x * over + half), 0, side - 1)); };
+    const std::size_t row = static_cast<std::size_t>(side) + 2; // with the border
+    const std::uint16_t* rgb =
+        cube_.texels.data() + 4 * (cube_.offset[static_cast<std::size_t>(level)] + (face * row + texel(v) + 1) * row + texel(u) + 1);
+    return cube_.scale *
+           (static_cast<float>(kLuminance[0]) * half_to_float(rgb[0]) + static_cast<float>(kLuminance[1]) * half_to_float(rgb[1]) +
+            static_cast<float>(kLuminance[2]) * half_to_float(rgb[2]));
 }
 
 } // namespace burnish

@@ -1,7 +1,6 @@
 // How bright an environment is for lobes of any width, coarsely: what `--risks` asks of it.
 #pragma once
 #include <glm/glm.hpp>
-#include <vector>
 
 #include "shading/bake/environment/environment.h"
 
@@ -9,25 +8,21 @@ namespace burnish {
 
 class Sky {
   public:
-    // Of the prefiltered levels, key lights left out, from one of at most 128 texels a side on, and from that on which narrower lobes than
-    // `least` (alpha_lin) are not asked for.
-    explicit Sky(const Environment& environment, float least = 0.0f);
+    // Of the prefiltered levels, key lights left out, from one of at most 128 texels a side on. The environment is read whenever asked: a
+    // picture asks for fewer texels than there are.
+    explicit Sky(const Environment& environment);
     // Luminance that a round lobe of this alpha_lin about `direction` (any length, not 0; of the environment, unturned) meets: the nearest
     // texel of the nearest level.
     float luminance(const glm::vec3& direction, float alpha_lin) const { return at(direction, level_of(alpha_lin)); }
     float diffuse(const glm::vec3& direction) const { return at(direction, static_cast<int>(last_)); } // of the widest lobe
 
   private:
-    struct Level {
-        int size = 0;
-        std::vector<float> luminance; // [face][row][column]
-    };
     int level_of(float alpha_lin) const { return static_cast<int>(alpha_lin * last_ + 0.5f); }
     float at(const glm::vec3& direction, int level) const;
 
-    int first_ = 0; // level that levels_ begin with
+    const CubeMap& cube_;
+    int first_ = 0; // level: finer ones are not told apart
     float last_ = 0.0f;
-    std::vector<Level> levels_;
 };
 
 } // namespace burnish

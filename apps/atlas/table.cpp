@@ -11,7 +11,8 @@
 namespace burnish {
 namespace {
 
-constexpr double kNear = 0.05; // of worst: nearer than this share it is held
+constexpr double kNear = 0.05;   // of worst: nearer than this share it is held
+constexpr double kUnsure = 0.05; // so near to kGone what is left says nothing of the kind, for references are noisy
 constexpr const char* kVersionMark = "Version ";
 constexpr const char* kNothing = "-";
 
@@ -20,8 +21,8 @@ constexpr const char* kHead = R"(# Where methods break
 What each entry of the atlas (apps/atlas/atlas.def) measured when it was blessed: the first place on its path, from 0 to 1, at which the error is
 above the entry's threshold; the largest error; how much more it changes from step to step than the truth does; the error where it is largest,
 shaded in double; the largest error of the cure, where one is known; and what kind of failure it is. `burnish atlas --bless --table
-apps/atlas/blessed.md` writes this page, `burnish atlas` holds what it measures to it: the onset within a step, the largest error within 5 %.
-The kind is found, not written: precision, where doubles leave less than half of the error; sampling, where 64 times the samples do; filtering,
+apps/atlas/blessed.md` writes this page, `burnish atlas` holds what it measures to it: the onset within a step, the largest error within 5 %, and
+the kind. The kind is found, not written: precision, where doubles leave less than half of the error; sampling, where 64 times the samples do; filtering,
 where a truth that filters textures alike does; else approximation.
 
 )";
@@ -92,6 +93,17 @@ Result<BlessedTable> parse_table(const std::string& text, const std::string& fil
     return table;
 }
 
+std::optional<BlessedRow> find_row(const std::string& text, const char* walk, const std::string& id)
+{
+    const std::size_t begin = text.find(fmt::format("\n## {}\n", walk)),
+                      end = text.find("\n## ", begin == std::string::npos ? begin : begin + 1);
+    const std::size_t at = begin == std::string::npos ? begin : text.find(fmt::format("\n| {} |", id), begin);
+    if (at == std::string::npos || at > end)
+        return std::nullopt;
+    const auto row = row_in(text.substr(at + 1, text.find('\n', at + 1) - at - 1));
+    return row ? std::optional(row->second) : std::nullopt;
+}
+
 std::string table_text(const BlessedTable& table)
 {
     std::string text = fmt::format("{}{}{}\n", kHead, kVersionMark, table.version);
@@ -135,6 +147,8 @@ Judged judge(const AtlasEntry& entry, const MeasuredEntry& m, const BlessedRow* 
         return {Verdict::better, fmt::format("breaks at {:.4f}, blessed is {:.4f}", onset, blessed)};
     if (m.worst < row->worst - room)
         return {Verdict::better, fmt::format("is off by {:.4f}, blessed is {:.4f}", m.worst, row->worst)};
+    if (m.kind != row->kind && std::abs(m.remedy - kGone) > kUnsure)
+        return {Verdict::worse, fmt::format("is a failure of {}, blessed is {}", m.kind, row->kind)};
     return {};
 }
 

@@ -21,6 +21,8 @@ struct BlessedTable {
 };
 
 Result<BlessedTable> parse_table(const std::string& text, const std::string& file);
+// One row of a table that is known to be good; nothing where it is not there.
+std::optional<BlessedRow> find_row(const std::string& text, const char* walk, const std::string& id);
 std::string table_text(const BlessedTable& table); // rows in the order of the entries; those of none are left out
 
 enum class Verdict { unknown, held, better, worse, uncured }; // unknown: not in the table

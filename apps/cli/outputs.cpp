@@ -162,16 +162,17 @@ Status make_output_folder(const std::string& folder)
     return {};
 }
 
-Image shown_picture(const Image& linear, Tonemap tonemap, float exposure_ev, const std::vector<PixelPart>& parts)
+Image shown_picture(const Image& linear, Tonemap tonemap, float exposure_ev, const std::vector<PixelPart>& parts, Resolve resolve)
 {
-    return tonemap_to_srgb8(linear.channels == 4 ? unassociated(linear) : linear, tonemap, exposure_ev, parts);
+    return tonemap_to_srgb8(linear.channels == 4 ? unassociated(linear) : linear, tonemap, exposure_ev, parts, resolve);
 }
 
-Status write_picture(const std::string& path, const Image& linear, Tonemap tonemap, float exposure_ev, const std::vector<PixelPart>& parts)
+Status write_picture(const std::string& path, const Image& linear, Tonemap tonemap, float exposure_ev, const std::vector<PixelPart>& parts,
+                     Resolve resolve)
 {
     if (stores_floats(path))
         return write_image(path, linear);
-    return write_image(path, shown_picture(linear, tonemap, exposure_ev, parts));
+    return write_image(path, shown_picture(linear, tonemap, exposure_ev, parts, resolve));
 }
 
 Status write_text(const std::string& path, const std::string& text)

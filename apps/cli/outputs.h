@@ -29,12 +29,13 @@ Status make_output_folder(const std::string& folder);
 bool same_file(const std::string& a, const std::string& b);
 
 // What a display shows of linear pixels, exposed and tonemapped: 8 bits, with alpha that colours are not multiplied by.
-// parts: of pixels that are tonemapped before they are averaged.
-Image shown_picture(const Image& linear, Tonemap tonemap, float exposure_ev, const std::vector<PixelPart>& parts = {});
+// parts: of pixels that are not made of the mean of their samples.
+Image shown_picture(const Image& linear, Tonemap tonemap, float exposure_ev, const std::vector<PixelPart>& parts = {},
+                    Resolve resolve = Resolve::linear);
 
 // Linear pixels to a float format, or exposed and tonemapped to an 8-bit one, by extension.
 Status write_picture(const std::string& path, const Image& linear, Tonemap tonemap, float exposure_ev,
-                     const std::vector<PixelPart>& parts = {});
+                     const std::vector<PixelPart>& parts = {}, Resolve resolve = Resolve::linear);
 
 // To a file (atomically), to standard output ("-"), or into a device or pipe that exists already.
 Status write_text(const std::string& path, const std::string& text);

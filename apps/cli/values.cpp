@@ -80,6 +80,12 @@ Texts names_of(const std::vector<BuiltinInfo>& infos)
     return names;
 }
 
+// builtin:NAME=AMOUNT, of a scene that something breaks on
+bool is_trial(const std::string& text)
+{
+    return contains(names_of(builtin_trials()), text.substr(0, text.find('=')));
+}
+
 Value path_value(std::string& to, ValueKind kind)
 {
     return make(
@@ -87,13 +93,13 @@ Value path_value(std::string& to, ValueKind kind)
 }
 
 // Each a path, or one of the names if it begins as they do.
-Value paths_value(Texts& to, const Texts& names)
+Value paths_value(Texts& to, const Texts& names, bool trials = false)
 {
     Value value;
     value.kind = ValueKind::file, value.repeated = true, value.names = names;
-    value.set = [&to, names](const std::string& option, const Texts& texts) -> Status {
+    value.set = [&to, names, trials](const std::string& option, const Texts& texts) -> Status {
         for (const std::string& text : texts)
-            if (!names.empty() && text.rfind(kBuiltin, 0) == 0 && !contains(names, text))
+            if (!names.empty() && text.rfind(kBuiltin, 0) == 0 && !contains(names, text) && !(trials && is_trial(text)))
                 return not_one_of(option, text, names);
         to = texts;
         return {};
@@ -102,12 +108,12 @@ Value paths_value(Texts& to, const Texts& names)
     return value;
 }
 
-Value builtin_or_path(std::string& to, const Texts& names)
+Value builtin_or_path(std::string& to, const Texts& names, bool trials)
 {
     Value value = path_value(to, ValueKind::file);
     value.names = names;
-    value.set = [&to, names](const std::string& option, const Texts& texts) -> Status {
-        if (texts.back().rfind(kBuiltin, 0) == 0 && !contains(names, texts.back()))
+    value.set = [&to, names, trials](const std::string& option, const Texts& texts) -> Status {
+        if (texts.back().rfind(kBuiltin, 0) == 0 && !contains(names, texts.back()) && !(trials && is_trial(texts.back())))
             return not_one_of(option, texts.back(), names);
         to = texts.back();
         return {};
@@ -312,17 +318,17 @@ Value files(Texts& to)
 
 Value scene(std::string& to)
 {
-    return builtin_or_path(to, names_of(builtin_scenes()));
+    return builtin_or_path(to, names_of(builtin_scenes()), true);
 }
 
 Value scenes(Texts& to)
 {
-    return paths_value(to, names_of(builtin_scenes()));
+    return paths_value(to, names_of(builtin_scenes()), true);
 }
 
 Value environment(std::string& to)
 {
-    return builtin_or_path(to, names_of(builtin_environments()));
+    return builtin_or_path(to, names_of(builtin_environments()), false);
 }
 
 Value environments(Texts& to)

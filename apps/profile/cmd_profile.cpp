@@ -152,7 +152,7 @@ int run_profile(const ProfileArguments& arguments, const OptionTable& given)
 
     FrameDesc desc = options.frame;
     desc.view = seen->view;
-    desc.parts = options.resolve_display, desc.triangle_ids = !desc.background;
+    desc.parts = options.resolve != Resolve::linear, desc.triangle_ids = !desc.background;
     ProfileFigures figures;
     figures.device = session->device(), figures.threads = jobs->threads();
     figures.frames = given.given("--frames") ? options.frames : kFrames;
@@ -167,7 +167,7 @@ int run_profile(const ProfileArguments& arguments, const OptionTable& given)
     const Image color = desc.background ? last->color : with_coverage(last->color, last->triangle_ids);
     for (const std::string& path : options.outputs) {
         const TraceSpan span("write picture");
-        if (Status done = write_picture(path, color, options.tonemap, options.exposure_ev, last->parts); !done)
+        if (Status done = write_picture(path, color, options.tonemap, options.exposure_ev, last->parts, options.resolve); !done)
             return fail(done.error());
         report.wrote(path);
     }

@@ -43,8 +43,8 @@ Status check_vulkan_options(RenderOptions& out)
     out.vulkan.use_cache = out.environment.use_cache;
     if (out.vulkan.sampler == VulkanSampler::native && out.vulkan.pipeline == VulkanPipeline::ids)
         return usage_error("--sampler", "native needs --pipeline forward");
-    if (out.vulkan.pipeline != VulkanPipeline::ids && (!out.aov.empty() || out.resolve_display || out.show != Shown::light))
-        return usage_error(!out.aov.empty() ? "--aov" : out.resolve_display ? "--resolve" : "--show", "needs --pipeline ids");
+    if (out.vulkan.pipeline != VulkanPipeline::ids && (!out.aov.empty() || out.resolve != Resolve::linear || out.show != Shown::light))
+        return usage_error(!out.aov.empty() ? "--aov" : out.resolve != Resolve::linear ? "--resolve" : "--show", "needs --pipeline ids");
     return {};
 }
 

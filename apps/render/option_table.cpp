@@ -41,8 +41,9 @@ std::vector<Option> output_rows(RenderArguments& to)
         {"-o,--output", "FILE", "Picture to write; may be given several times", files(to.plain.outputs)},
         {"--tonemap", "NAME", "{}, for 8-bit pictures", choice(to.plain.tonemap, {"none", "pbr-neutral", "aces"})},
         {"--resolve", "NAME",
-         "What pixels of 8-bit pictures are the mean of: samples as they are, tonemapped afterwards, or display: each as it is shown",
-         choice(to.plain.resolve_display, {"linear", "display"})},
+         "What pixels of 8-bit pictures are the mean of: samples as they are, tonemapped afterwards, display: each as it is shown, or "
+         "weighted: bright ones less, 1 / (1 + luminance)",
+         choice(to.plain.resolve, {"linear", "display", "weighted"})},
         {"--shadows", "NAME", "Of area lights: {}, by samples of the reference that multiply what --area-lights finds",
          choice(to.plain.shadow_ratio, {"off", "ratio"})},
         {"--shadow-samples", "N", "Of --shadows, a pixel", integer(to.plain.shadow_samples, 1, 1 << 20)},

@@ -68,7 +68,7 @@ Status check_shadows(const OptionTable& given, const RenderOptions& out)
         return given.given("--shadow-samples") ? Status(usage_error("--shadow-samples", "needs --shadows ratio")) : Status();
     if (out.backend == "reference")
         return usage_error("--shadows", "the reference has its own: --reference-mode shadowed");
-    if (out.resolve_display)
+    if (out.resolve != Resolve::linear)
         return usage_error("--shadows", "needs --resolve linear");
     if (out.backend == "vulkan" && out.vulkan.pipeline != VulkanPipeline::ids)
         return usage_error("--shadows", "needs --pipeline ids");

@@ -34,7 +34,7 @@ struct RenderOptions {
     std::string risks;            // picture of what the atlas says of the technique; "-": its words only; empty: none
     bool shadow_ratio = false;    // area lights throw shadows, by samples
     int shadow_samples = 64;      // a pixel
-    bool resolve_display = false; // 8-bit outputs: samples are tonemapped before they are averaged
+    Resolve resolve = Resolve::linear; // of 8-bit outputs
     std::string stats_file;       // empty: none; "-": standard output
     std::string trace_file;       // empty: none
 

@@ -55,9 +55,9 @@ bool draws_alpha(const RenderOptions& options)
 }
 
 // The reference has no samples of its own to resolve.
-bool resolves_display(const RenderOptions& options)
+bool resolves_parts(const RenderOptions& options)
 {
-    return options.resolve_display && options.backend != "reference";
+    return options.resolve != Resolve::linear && options.backend != "reference";
 }
 
 } // namespace
@@ -68,7 +68,7 @@ Status write_rendered(const std::string& path, const Rendered& rendered, const R
         return write_channels(path, rendered.layered.image, rendered.layered.names);
     if (!rendered.shown.empty())
         return write_image(path, rendered.shown);
-    return write_picture(path, rendered.color, options.tonemap, options.exposure_ev, rendered.parts);
+    return write_picture(path, rendered.color, options.tonemap, options.exposure_ev, rendered.parts, options.resolve);
 }
 
 Status check_paths(const RenderOptions& options, const std::vector<std::string>& inputs)
@@ -188,7 +188,7 @@ Result<Rendered> render_frames(const RenderOptions& options, FrameDesc desc, Ses
     Rendered out;
     Frame last;
     desc.triangle_ids = desc.triangle_ids || draws_alpha(options);
-    desc.parts = resolves_display(options);
+    desc.parts = resolves_parts(options);
     ask_for_layers(options.aov, desc);
     if (options.show == Shown::lod && session.parts().scene->scene.textures.empty())
         return usage_error("--show", fmt::format("lod: nothing in {} has a texture", options.scene));

@@ -16,7 +16,7 @@ namespace burnish {
 struct Rendered {
     Image color; // RGBA of pictures without a background
     Image variance;
-    std::vector<PixelPart> parts; // with --resolve display
+    std::vector<PixelPart> parts; // with another --resolve than linear
     NamedChannels layered;        // with --aov: `color` and its layers
     Image shown;                  // with --show: its false colours
     std::optional<RiskMap> risks; // with --risks

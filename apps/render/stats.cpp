@@ -71,7 +71,8 @@ Json stats_json(const RenderOptions& options, const RenderFigures& figures)
     json["height"] = frame.height;
     json["msaa"] = frame.msaa;
     json["tile_size"] = frame.tile_size;
-    json["resolve"] = options.resolve_display ? "display" : "linear";
+    constexpr const char* kResolves[] = {"linear", "display", "weighted"};
+    json["resolve"] = kResolves[static_cast<std::size_t>(options.resolve)];
     json["aov"] = options.aov;
     json["frames"] = options.frames;
     if (options.backend == "reference") {

@@ -223,27 +223,49 @@ Image tonemap_to_srgb8(const Image& linear, Tonemap tonemap, float exposure_ev)
     return out;
 }
 
-Image tonemap_to_srgb8(const Image& linear, Tonemap tonemap, float exposure_ev, const std::vector<PixelPart>& parts)
+namespace {
+
+Rgb clipped(const Rgb& c)
+{
+    return {clamp01(c.r), clamp01(c.g), clamp01(c.b)};
+}
+
+float luminance_of(const Rgb& c)
+{
+    return 0.2126f * c.r + 0.7152f * c.g + 0.0722f * c.b;
+}
+
+} // namespace
+
+Image tonemap_to_srgb8(const Image& linear, Tonemap tonemap, float exposure_ev, const std::vector<PixelPart>& parts, Resolve resolve)
 {
     Image out = tonemap_to_srgb8(linear, tonemap, exposure_ev);
+    if (resolve == Resolve::linear)
+        return out;
     const float scale = exposure_scale(exposure_ev);
     const std::size_t channels = static_cast<std::size_t>(linear.channels);
     BN_CHECK(parts.empty() || channels >= 3);
     for (auto part = parts.begin(); part != parts.end();) {
         const std::uint32_t pixel = part->pixel;
-        float sum[3] = {}, samples = 0.0f;
+        float sum[3] = {}, weights = 0.0f;
         for (; part != parts.end() && part->pixel == pixel; ++part) {
             if (part->background && channels == 4)
                 continue;
             const std::array<float, 3>& c = part->color;
-            const Rgb mapped = apply(tonemap, {expose(c[0], scale), expose(c[1], scale), expose(c[2], scale)});
-            const float weight = static_cast<float>(part->samples);
-            sum[0] += clamp01(mapped.r) * weight, sum[1] += clamp01(mapped.g) * weight, sum[2] += clamp01(mapped.b) * weight;
-            samples += weight;
+            const Rgb exposed = {expose(c[0], scale), expose(c[1], scale), expose(c[2], scale)};
+            const bool weighted = resolve == Resolve::weighted;
+            const float weight = static_cast<float>(part->samples) / (weighted ? 1.0f + luminance_of(exposed) : 1.0f);
+            const Rgb kept = weighted ? exposed : clipped(apply(tonemap, exposed));
+            sum[0] += kept.r * weight, sum[1] += kept.g * weight, sum[2] += kept.b * weight;
+            weights += weight;
+        }
+        if (weights > 0.0f && resolve == Resolve::weighted) {
+            const Rgb mapped = clipped(apply(tonemap, {sum[0] / weights, sum[1] / weights, sum[2] / weights}));
+            sum[0] = mapped.r, sum[1] = mapped.g, sum[2] = mapped.b, weights = 1.0f;
         }
         std::uint8_t* const to = reinterpret_cast<std::uint8_t*>(out.bytes.data()) + channels * pixel;
-        for (std::size_t c = 0; samples > 0.0f && c < 3; ++c)
-            to[c] = srgb_table().encode(sum[c] / samples);
+        for (std::size_t c = 0; weights > 0.0f && c < 3; ++c)
+            to[c] = srgb_table().encode(sum[c] / weights);
     }
     return out;
 }

@@ -37,9 +37,13 @@ inline PixelPart pixel_part(std::uint32_t pixel, std::uint32_t samples, bool bac
             color};
 }
 
-// As above, but each part of a pixel is tonemapped by itself, and their mean is encoded. parts: by pixel; of a picture with alpha those of
-// the background do not count.
-Image tonemap_to_srgb8(const Image& linear, Tonemap tonemap, float exposure_ev, const std::vector<PixelPart>& parts);
+// What pixels are the mean of. linear: radiance of samples. display: each sample tonemapped and clipped. weighted: radiance, samples of
+// exposed luminance L weighing 1 / (1 + L), tonemapped afterwards (Karis, "Tone mapping", 2013).
+enum class Resolve { linear, display, weighted };
+
+// As above, but pixels that have parts are made of these. parts: by pixel; of a picture with alpha those of the background do not count.
+// Without parts, or with Resolve::linear, as above.
+Image tonemap_to_srgb8(const Image& linear, Tonemap tonemap, float exposure_ev, const std::vector<PixelPart>& parts, Resolve resolve);
 
 // Float RGBA whose colours are not multiplied by alpha, as 8-bit formats have it; black where alpha is 0. image: colours multiplied by it.
 Image unassociated(const Image& image);

@@ -185,6 +185,51 @@ for defect, what in DEFECTS.items():
     add_defect(defect, *what)
 
 
+# What each entry is there to see: words that set that wrong in what breaks and in its cure, and not in the truth.
+SEEDED = {
+    "--samples 3": "axis_too_long axis_overlaps_too_much axis_at_grazing_angles adaptive_counts_step half_vectors_in_bands threads_for_a_lobe",
+    "--samples 8": "mc_fireflies ward_cheap_by_few_samples beckmann_by_few_samples phong_by_few_samples round_by_few_samples "
+                   "masking_by_the_smaller rough_metal_loses_light axes_swap_without_grain",
+    "--samples 4": "glass_from_within grid_without_tails tables_of_few_widths",
+    "--axis-beta 1.15": "axis_few_samples axis_more_samples_are_worse",
+    "--axis-k 0.5": "axis_too_short_for_rough_lobes",
+    "--masking separable": "prefiltered_tilt albedo_by_a_fit",
+    "--dfg fit": "separable_masking separable_tilt",
+    "--env-rotation 20": "bent_normal_bends_too_far split_isotropic_is_round prefilter_knows_no_angle sun_in_prefiltered_levels coarse_cube "
+                         "masking_bends_the_lobe glass_by_few_samples grains_that_cross few_texture_taps",
+    "--roughness 0.85": "line_of_lobes_limited grid_of_few phong_grid_of_few triangles_between_samples tiles_of_one_picture needles_between_samples "
+                        "plates_at_one_depth near_plane texels_far_from_zero texels_of_wide_pictures texels_that_are_no_numbers",
+    "--roughness 0.1": "area_lights_left_out few_points_of_lights round_cosines_on_brushed_metal colours_that_face_the_eye",
+    "--area-lights ltc-isotropic": "cosines_of_thin_lobes cosines_of_sharp_lobes cosines_at_grazing_angles sphere_for_a_polygon cosines_for_ward "
+                                   "lamps_below_the_horizon cosines_across_the_grain cosines_unaligned cosines_unsymmetric cosines_inverse",
+    "--frame-map off": "tangents_left tilt_under_normal_maps slopes_in_a_frame_left frames_turned_around",
+    "--normal-y down": "mip_box_of_sharp_lobes mip_lean_of_sharp_lobes mip_baseline_of_sharp_lobes mip_covariance_of_sharp_lobes "
+                       "mip_leadr_of_sharp_lobes mip_ssgt_of_sharp_lobes mip_kappa_of_sharp_lobes mip_net_at_first_levels",
+    "--height-scale 0": "steps_of_relief relief_at_80_degrees depths_by_stretched_coordinates",
+    "--msaa 2": "edges_of_bright_things",
+    "--zoom 1.3": "darkness_measured",
+    "--fov 0.2": "eye_far_away",
+}
+
+
+@case("atlas.every_entry_has_a_seeded_defect", tier="quick")
+def seeds(bench):
+    seeded = sorted(" ".join(SEEDED.values()).split())
+    check(seeded == sorted(re.findall(r"^  (\w+)", bench.run("atlas", "--list").out, re.M)), f"{seeded}")
+
+
+@case("atlas.every_entry_sees_its_own_defect", tier="slow")
+def own_defects(bench):
+    needs_embree(bench)
+    blind = []
+    for words, ids in SEEDED.items():
+        done = bench.run("atlas", *ids.split(), "--quick", "--with", words, "--json", "r.json", timeout=1100)
+        blind += [f"{e['id']} {words}" for e in json.loads((bench.folder / "r.json").read_text())["entries"]
+                  if e["verdict"] not in ("worse", "cure fails")]
+        check(done.code == 1 or blind, done.describe())
+    check(not blind, f"{blind} do not see it")
+
+
 @case("atlas.every_entry_can_fail", tier="slow")
 def can_fail(bench):
     """Where all that is drawn is twice as bright as the truth, no entry is held."""

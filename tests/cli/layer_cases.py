@@ -113,6 +113,11 @@ def resolve(bench):
     linear, display = (bench.folder / "l.tif").read_bytes(), (bench.folder / "d.tif").read_bytes()
     differ = sum(a != b for a, b in zip(linear, display))
     check(50 < differ < len(linear) // 5, f"{differ} of {len(linear)} bytes differ")
+    bench.run(*drawn, "--resolve", "weighted", "-o", "w.tif", "-o", "w.exr").expect(0)
+    check((bench.folder / "l.exr").read_bytes() == (bench.folder / "w.exr").read_bytes(), "the EXR changed")
+    weighted = (bench.folder / "w.tif").read_bytes()
+    less = [sum(a > b for a, b in zip(linear, weighted)), sum(a < b for a, b in zip(linear, weighted))]
+    check(less[0] > 20 and less[0] > 5 * less[1] and weighted != display, f"{less}: weights do not darken bright edges")
     bench.run(*drawn, "--msaa", "1", "-o", "l.tif").expect(0)
     bench.run(*drawn, "--msaa", "1", "--resolve", "display", "-o", "d.tif").expect(0)
     check((bench.folder / "l.tif").read_bytes() == (bench.folder / "d.tif").read_bytes(), "one sample a pixel has nothing to resolve")

@@ -1,5 +1,9 @@
 #include "core/scene/builtin/builtin.h"
 
+#include <charconv>
+#include <fmt/core.h>
+#include <optional>
+
 #include "core/scene/builtin/surface.h"
 
 namespace burnish {
@@ -46,7 +50,40 @@ template <class T, std::size_t N> Result<T> make_named(const Maker<T> (&makers)[
     return Error{ExitCode::bad_input, "builtin:" + name, "", "no built-in " + std::string(what) + " has this name; there are " + known};
 }
 
+// Nothing where `name` is no trial's.
+std::optional<Result<Scene>> make_trial(const std::string& name)
+{
+    const std::size_t at = name.find('=');
+    for (const TrialMaker& trial : trial_makers()) {
+        if (name.substr(0, at) != trial.info.name)
+            continue;
+        double amount = trial.usual;
+        if (at != std::string::npos) {
+            const char *from = name.data() + at + 1, *to = name.data() + name.size();
+            const std::from_chars_result read = std::from_chars(from, to, amount);
+            if (read.ec != std::errc() || read.ptr != to || !(amount >= trial.least && amount <= trial.most))
+                return Error{ExitCode::bad_input, "builtin:" + name, "",
+                             fmt::format("what follows = is no number from {:g} to {:g}", trial.least, trial.most)};
+        }
+        Scene scene = trial.make(amount);
+        scene.name = trial.info.name;
+        return Result<Scene>(std::move(scene));
+    }
+    return std::nullopt;
+}
+
 } // namespace
+
+const std::vector<BuiltinInfo>& builtin_trials()
+{
+    static const std::vector<BuiltinInfo> list = [] {
+        std::vector<BuiltinInfo> infos;
+        for (const TrialMaker& trial : trial_makers())
+            infos.push_back(trial.info);
+        return infos;
+    }();
+    return list;
+}
 
 const std::vector<BuiltinInfo>& builtin_scenes()
 {
@@ -62,7 +99,8 @@ const std::vector<BuiltinInfo>& builtin_environments()
 
 Result<Scene> make_builtin_scene(const std::string& name)
 {
-    Result<Scene> scene = make_named(kScenes, name, "scene");
+    std::optional<Result<Scene>> trial = make_trial(name);
+    Result<Scene> scene = trial ? std::move(*trial) : make_named(kScenes, name, "scene");
     if (scene)
         update_world(*scene);
     return scene;

@@ -15,7 +15,10 @@ struct BuiltinInfo {
 const std::vector<BuiltinInfo>& builtin_scenes();       // teapot, spheres, sphere, plate, lights, glass, bumps, lacquer, shaderballs
 const std::vector<BuiltinInfo>& builtin_environments(); // studio, sky, night
 
-Result<Scene> make_builtin_scene(const std::string& name);
+// Scenes that something breaks on, by one number: their names with =AMOUNT behind, or without for a usual one.
+const std::vector<BuiltinInfo>& builtin_trials();
+
+Result<Scene> make_builtin_scene(const std::string& name); // of either
 
 // Equirectangular f32 RGB radiance, orientation as in shading/bake/environment/environment.h.
 Result<Image> make_builtin_environment(const std::string& name);

@@ -5,6 +5,7 @@
 #include <functional>
 #include <glm/glm.hpp>
 
+#include "core/scene/builtin/builtin.h"
 #include "core/scene/scene.h"
 
 namespace burnish {
@@ -75,6 +76,12 @@ Scene make_glass();
 Scene make_bumps();
 Scene make_lacquer();
 Scene make_shaderballs();
+struct TrialMaker {
+    BuiltinInfo info;
+    double usual, least, most; // amounts
+    Scene (*make)(double amount);
+};
+const std::vector<TrialMaker>& trial_makers();
 Image make_studio();
 Image make_sky();
 Image make_night();

@@ -51,6 +51,27 @@ TEST(atlas_table, what_is_written_is_read)
     EXPECT_EQ(table_text(*back), table_text(table));
 }
 
+TEST(atlas_table, one_row_is_found_as_all_are_read)
+{
+    const std::string text(kAtlasBlessed.bytes, kAtlasBlessed.size);
+    const auto table = parse_table(text, "blessed.md");
+    ASSERT_TRUE(table);
+    for (const auto& [walk, rows] : table->walks)
+        for (const auto& [id, row] : rows) {
+            const auto found = find_row(text, walk.c_str(), id);
+            ASSERT_TRUE(found) << id;
+            EXPECT_EQ(found->onset, row.onset) << id;
+            EXPECT_EQ(found->worst, row.worst) << id;
+            EXPECT_EQ(found->kind, row.kind) << id;
+        }
+    const std::string two =
+        "Version 2\n\n## quick\n\n| a | 0.5 | 1 | 0 | - | - | none |\n\n## full\n\n| b | 0.5 | 1 | 0 | - | - | none |\n";
+    EXPECT_TRUE(find_row(two, "full", "b"));
+    EXPECT_FALSE(find_row(two, "quick", "b"));
+    EXPECT_FALSE(find_row(two, "full", "a"));
+    EXPECT_FALSE(find_row(two, "other", "a"));
+}
+
 TEST(atlas_table, what_is_no_table_is_refused)
 {
     for (const char* text :
@@ -77,6 +98,19 @@ TEST(atlas_table, the_onset_is_held_within_a_step_and_the_worst_within_a_twentie
     EXPECT_EQ(verdict(0.5, 0.19), Verdict::worse);
     EXPECT_EQ(verdict(0.5, 0.22), Verdict::better);
     EXPECT_EQ(judge(kEntry, m, nullptr).verdict, Verdict::unknown);
+}
+
+TEST(atlas_table, the_kind_is_held_where_it_is_sure)
+{
+    MeasuredEntry m = measured(0.0, 0.2);
+    const BlessedRow row = {m.onset, m.worst, 0.0, 0.05, 0.2, "sampling"};
+    m.remedy = 0.9;
+    EXPECT_EQ(judge(kEntry, m, &row).verdict, Verdict::worse);
+    EXPECT_EQ(judge(kEntry, m, &row).why, "is a failure of approximation, blessed is sampling");
+    m.remedy = 0.52; // of noisy references
+    EXPECT_EQ(judge(kEntry, m, &row).verdict, Verdict::held);
+    m.kind = "sampling", m.remedy = 0.1;
+    EXPECT_EQ(judge(kEntry, m, &row).verdict, Verdict::held);
 }
 
 TEST(atlas_table, a_cure_above_the_threshold_is_no_cure)

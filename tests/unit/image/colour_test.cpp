@@ -151,7 +151,7 @@ TEST(colour, parts_of_a_pixel_are_tonemapped_before_they_are_averaged)
     const auto shown = [&](std::initializer_list<float> pixel, bool background) {
         const std::vector<PixelPart> parts = {pixel_part(0, 0b0011, false, {kBright, kBright, kBright}),
                                               pixel_part(0, 0b1100, background, {0.0f, 0.0f, 0.0f})};
-        return tonemap_to_srgb8(one_pixel(pixel), Tonemap::none, 0.0f, parts);
+        return tonemap_to_srgb8(one_pixel(pixel), Tonemap::none, 0.0f, parts, Resolve::display);
     };
     EXPECT_EQ(mapped({kBright / 2, kBright / 2, kBright / 2}), (std::vector<int>{255, 255, 255}));
     EXPECT_EQ(static_cast<int>(shown({kBright / 2, kBright / 2, kBright / 2}, true).bytes[0]), mapped({0.5f})[0]);
@@ -159,6 +159,21 @@ TEST(colour, parts_of_a_pixel_are_tonemapped_before_they_are_averaged)
     EXPECT_EQ(static_cast<int>(covered.bytes[0]), 255);
     EXPECT_EQ(static_cast<int>(covered.bytes[3]), 128);
     EXPECT_EQ(static_cast<int>(shown({kBright, kBright, kBright, 1.0f}, false).bytes[0]), mapped({0.5f})[0]);
+}
+
+// Half of 100, half of 0: their weights are 1 / 101 and 1, and the mean 100 / 102. Exposed by two stops less, 25 weighs 1 / 26.
+TEST(colour, bright_parts_of_a_pixel_weigh_less)
+{
+    const std::vector<PixelPart> parts = {pixel_part(0, 0b0011, false, {100.0f, 100.0f, 100.0f}),
+                                          pixel_part(0, 0b1100, false, {0.0f, 0.0f, 0.0f})};
+    const Image pixel = one_pixel({50.0f, 50.0f, 50.0f});
+    const auto code = [&](float exposure_ev, Resolve resolve) {
+        return static_cast<int>(tonemap_to_srgb8(pixel, Tonemap::none, exposure_ev, parts, resolve).bytes[0]);
+    };
+    EXPECT_EQ(code(0.0f, Resolve::linear), 255);
+    EXPECT_EQ(code(0.0f, Resolve::weighted), mapped({100.0f / 102.0f})[0]);
+    EXPECT_EQ(code(-2.0f, Resolve::weighted), mapped({25.0f / 27.0f})[0]);
+    EXPECT_EQ(code(-8.0f, Resolve::weighted), mapped({0.390625f / 2.390625f})[0]);
 }
 
 } // namespace

@@ -1,0 +1,52 @@
+#include "apps/atlas/trial_tables.h"
+
+#include <map>
+
+#include "shading/bake/ltc/bake_ltc.h"
+
+namespace burnish {
+namespace {
+
+constexpr const char* kTrial = "trial:";
+
+Result<ltc::BakeOptions> options_of(const std::string& path)
+{
+    ltc::BakeOptions options;
+    options.steps = 0;
+    options.grid.beyond = 0, options.grid.root_alpha = options.grid.over_alpha = false;
+    options.grid.basis = ltc::Basis::tangent;
+    const std::string name = path.substr(std::string(kTrial).size());
+    if (name == "inverse")
+        options.grid.inverse = true;
+    else if (name == "unaligned" || name == "unsymmetric")
+        options.align = false, options.symmetry = name == "unaligned";
+    else
+        return Error{ExitCode::bad_input, path, "", "no table of this name is tried; there are unaligned, unsymmetric, inverse"};
+    return options;
+}
+
+} // namespace
+
+bool is_trial_table(const std::string& path)
+{
+    return path.rfind(kTrial, 0) == 0;
+}
+
+Result<std::shared_ptr<const ltc::ShadingTables>> trial_table(const std::string& path, const Jobs& jobs)
+{
+    static std::map<std::string, std::shared_ptr<const ltc::ShadingTables>> made; // by the thread that walks
+    if (const auto found = made.find(path); found != made.end())
+        return found->second;
+    const Result<ltc::BakeOptions> options = options_of(path);
+    if (!options)
+        return options.error();
+    const Result<std::optional<ltc::Baked>> baked = ltc::bake_table(*options, jobs);
+    if (!baked)
+        return baked.error();
+    Result<ltc::ShadingTables> tables = ltc::with_table((*baked)->table, path); // without `stop` it is not stopped
+    if (!tables)
+        return tables.error();
+    return made[path] = std::make_shared<const ltc::ShadingTables>(std::move(*tables));
+}
+
+} // namespace burnish
