@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "core/scene/heights.h"
-#include "core/simd/half.h"
 #include "raster/frame/frame_record.h"
 #include "shading/surface/relief.t.h"
 #include "tests/unit/raster/fixture.h"
@@ -64,6 +63,24 @@ Moved moved(const Stage& stage, const Plane& plane, const glm::vec3& v, const gl
     return {{p.uv0.x, p.uv0.y}, p};
 }
 
+// What shading reads there as depth, 0 at the surface and 1 at the deepest; that it is not the height is what
+// relief.of_height_one_is_the_surface says, and nothing else here.
+double depth_read(const Stage& stage, float u)
+{
+    FrameDesc desc;
+    desc.width = desc.height = 8;
+    desc.view = make_view({0, 0, 2}, {0, 0, 0}, 0.4f, 8, 8);
+    FrameMaker maker(stage.input());
+    const ShadingFrame f = maker.make(desc);
+    const texture_desc map = texture_desc_of(f, f.materials[0], kNormalTex);
+    const texture_one_level level = texture_one_level_of(map, texture_footprint_of(map, {0.01f, 0.0f}, {0.0f, 0.02f}, f.texture_taps));
+    return static_cast<double>(depth_in_map(level, {u, 0.5f}));
+}
+int code_of_surface()
+{
+    return depth_read(Stage(plane_of({255, 255})), 0.5f) < 0.5 ? 255 : 0;
+}
+
 // Where a ray that goes down to depth d (in lengths of texture coordinates) below `from` leaves it, in double precision.
 glm::dvec2 expected(const Plane& plane, const glm::dvec3& v, const glm::dvec2& from, double d)
 {
@@ -78,12 +95,20 @@ glm::dvec2 expected(const Plane& plane, const glm::dvec3& v, const glm::dvec2& f
 const Plane kEven = {{1, 0, 0}, {0, -1, 0}}, kStretched = {{1, 0, 0}, {0, -3, 0}}, kSkewed = {{0.7f, 0.1f, 0.2f}, {0.3f, -1.1f, 0.4f}};
 const glm::vec3 kViews[] = {{0.3f, 0.4f, 0.8660254f}, {-0.7f, 0.2f, 0.5f}, {0.0f, -0.8f, 0.3f}, {0.0f, 0.0f, 1.0f}};
 
+TEST(relief, of_height_one_is_the_surface)
+{
+    const Stage stage(plane_of({255, 51, 0, 0}));
+    EXPECT_EQ(depth_read(stage, 0.125f), 0.0);
+    EXPECT_NEAR(depth_read(stage, 0.375f), 0.8, 1e-3);
+    EXPECT_EQ(depth_read(stage, 0.875f), 1.0);
+    EXPECT_EQ(moved(stage, kEven, {0.5f, 0.2f, 1.0f}, {0.1f, 0.5f}, kReliefOnSurface).uv, glm::vec2(0.1f, 0.5f));
+}
+
 TEST(relief, of_one_depth_moves_by_it_however_a_plane_is_stretched)
 {
     for (const int height : {0, 51, 204}) { // of 255
         const Stage stage(plane_of({height, height}));
-        const double depth =
-            (1.0 - static_cast<double>(half_to_float(float_to_half(static_cast<float>(height) / 255.0f)))) * static_cast<double>(kDepth);
+        const double depth = depth_read(stage, 0.4f) * static_cast<double>(kDepth);
         for (const Plane& plane : {kEven, kStretched})
             for (const glm::vec3& v : kViews) {
                 const glm::vec2 from(0.4f, 0.6f);
@@ -104,11 +129,12 @@ TEST(relief, of_one_depth_moves_by_it_however_a_plane_is_stretched)
 
 TEST(relief, knows_skewed_coordinates)
 {
-    const Stage stage(plane_of({0, 0}));
+    const int deepest = 255 - code_of_surface();
+    const Stage stage(plane_of({deepest, deepest}));
     const glm::vec3 n = glm::normalize(glm::cross(kSkewed.along_v, kSkewed.along_u));
     for (const glm::vec3& lean : {glm::vec3(0.3f, 0.1f, 0.0f), glm::vec3(-0.5f, 0.4f, 0.2f), glm::vec3(0.1f, -0.6f, -0.3f)}) {
         const glm::vec3 v = n + lean;
-        const glm::dvec2 right = expected(kSkewed, v, {0.2, 0.3}, static_cast<double>(kDepth));
+        const glm::dvec2 right = expected(kSkewed, v, {0.2, 0.3}, depth_read(stage, 0.2f) * static_cast<double>(kDepth));
         EXPECT_LT(glm::length(glm::dvec2(moved(stage, kSkewed, v, {0.2f, 0.3f}, kReliefOnSurface).uv) - right), 1e-5);
     }
 }
@@ -116,7 +142,8 @@ TEST(relief, knows_skewed_coordinates)
 // Between two texels heights are a ramp, which a ray meets where two lines cross.
 TEST(relief, of_a_ramp_is_met_where_lines_cross)
 {
-    const Stage stage(plane_of({255, 0})); // depth goes from 0 at u = 1/4 to 1 at u = 3/4
+    const int surface = code_of_surface();
+    const Stage stage(plane_of({surface, 255 - surface})); // depth goes from 0 at u = 1/4 to 1 at u = 3/4
     for (const float slope : {0.2f, -0.6f, 1.5f}) {
         const glm::vec3 v(slope, 0.0f, 1.0f);
         const double way = -static_cast<double>(slope) * static_cast<double>(kDepth); // change of u down to the deepest place
@@ -126,16 +153,16 @@ TEST(relief, of_a_ramp_is_met_where_lines_cross)
         EXPECT_NEAR(static_cast<double>(at.uv.x), from + way * met, 2e-4) << slope; // heights are halves
         EXPECT_NEAR(static_cast<double>(at.uv.y), 0.5, 1e-6);
     }
-    EXPECT_EQ(moved(stage, kEven, {0.5f, 0.2f, 1.0f}, {0.2f, 0.5f}, kReliefOnSurface).uv, glm::vec2(0.2f, 0.5f)); // height 1 is the surface
     EXPECT_EQ(moved(stage, kEven, {0.5f, 0.2f, 1.0f}, {0.6f, 0.5f}, kReliefOnSurface, 0.0f).uv, glm::vec2(0.6f, 0.5f)); // no depth
 }
 
 // A wall in the way: what lies behind it is not seen, at any angle that steps are taken at.
 TEST(relief, hides_what_lies_behind)
 {
-    std::vector<int> heights(64, 0);
+    const int surface = code_of_surface();
+    std::vector<int> heights(64, 255 - surface);
     for (int i = 24; i < 32; ++i)
-        heights[static_cast<std::size_t>(i)] = 255;
+        heights[static_cast<std::size_t>(i)] = surface;
     const Stage stage(plane_of(heights)); // a ridge from u = .375 to .5, as high as the surface
     for (const float slope : {1.0f, 2.0f, 3.0f}) {
         const glm::vec2 at = moved(stage, kEven, {slope, 0.0f, 1.0f}, {0.55f, 0.5f}, kReliefOnSurface).uv;
