@@ -67,7 +67,7 @@ class Figures(Bench):
             pictures.append(picture(self.work / "look.png", TIMES))
             maps.append(picture(self.work / "map.png", TIMES))
             self.figures.append({"figure": figure, "scene": name, "look": look, "flip": found["flip_mean"]})
-        self.run(*common, *looks[-1][1], "--show", "lod", "-o", "lod.png")
+        self.run(*common, *looks[-1][1], "--technique", "mc", "--samples", 1, "--show", "lod", "-o", "lod.png")
         print(f"figure {figure}, {name}: " + ", ".join(f"{row['look']} {row['flip']:.4f}" for row in self.figures[-len(looks):]), flush=True)
         return [beside([*pictures, truth]), beside([*maps, picture(self.work / "lod.png", TIMES)])]
 
