@@ -1,6 +1,7 @@
 """Files made to harm: they cost a line and an exit code, never the machine's memory, another file or the terminal."""
 
 import pathlib
+import re
 import shutil
 import struct
 import xml.dom.minidom
@@ -229,6 +230,18 @@ def header_bombs(bench):
             check("cannot hold" in done.err or "too large" in done.err, f"another reason\n{done.describe()}")
             if not bench.sanitized:
                 check(done.peak_bytes < 200 << 20, f"{name} took {done.peak_bytes >> 20} MiB\n{done.describe()}")
+
+
+@case("hostile.offsets_that_lead_out_of_the_file", "input")
+def offsets(bench):
+    """An OpenEXR picture whose lines lie before its first byte, or far behind the last: its library added up what made 3 of -1 and 4."""
+    whole = (pathlib.Path(__file__).parent.parent / "fuzz/corpus/exr/lines_before_the_file.exr").read_bytes()
+    at = whole.index(b"\xff" * 8 + b"\xff" * 8)
+    for offset in (-1, -4, -8, -4096, -(1 << 40), -(1 << 63), (1 << 63) - 1, len(whole) + 1):
+        scratch(bench, "bad.exr", whole[:at] + struct.pack("<q", offset) + whole[at + 8:])
+        done = refuse(bench, "builtin:plate", env="bad.exr")
+        place = re.search(r"byte (\d+)", done.err)
+        check(place and int(place.group(1)) <= len(whole), f"no place in the file\n{done.describe()}")
 
 
 @case("hostile.headers_that_scale_by_nothing", "input")
