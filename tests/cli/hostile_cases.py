@@ -1,6 +1,7 @@
 """Files made to harm: they cost a line and an exit code, never the machine's memory, another file or the terminal."""
 
 import pathlib
+import re
 import shutil
 import struct
 import xml.dom.minidom
@@ -229,6 +230,35 @@ def header_bombs(bench):
             check("cannot hold" in done.err or "too large" in done.err, f"another reason\n{done.describe()}")
             if not bench.sanitized:
                 check(done.peak_bytes < 200 << 20, f"{name} took {done.peak_bytes >> 20} MiB\n{done.describe()}")
+
+
+@case("hostile.offsets_that_lead_out_of_the_file", "input")
+def offsets(bench):
+    """An OpenEXR picture whose lines lie before its first byte, or far behind the last: its library added up what made 3 of -1 and 4."""
+    whole = (pathlib.Path(__file__).parent.parent / "fuzz/corpus/exr/lines_before_the_file.exr").read_bytes()
+    at = whole.index(b"\xff" * 8 + b"\xff" * 8)
+    for offset in (-1, -4, -8, -4096, -(1 << 40), -(1 << 63), (1 << 63) - 1, len(whole) + 1):
+        scratch(bench, "bad.exr", whole[:at] + struct.pack("<q", offset) + whole[at + 8:])
+        done = refuse(bench, "builtin:plate", env="bad.exr")
+        place = re.search(r"byte (\d+)", done.err)
+        check(place and int(place.group(1)) <= len(whole), f"no place in the file\n{done.describe()}")
+
+
+@case("hostile.headers_that_scale_by_nothing", "input")
+def scales(bench):
+    """Pictures whose samples are divided by 0, or multiplied by 0 or by what is no number."""
+    pixels = struct.pack("<48f", *[0.5] * 48)
+    for scale in (b"0", b"-0.0", b"nan", b"-inf", b"1e400", b"1e-400", b"x", b"1x", b"1" * 100):
+        scratch(bench, "bad.pfm", b"PF\n4 4\n" + scale + b"\n" + pixels)
+        refuse(bench, "builtin:plate", env="bad.pfm", needles=["byte 7", "scale"])
+    for kind, most in ((b"P5", b"0"), (b"P6", b"65536"), (b"P2", b"-1"), (b"P3", b"")):
+        scratch(bench, "bad.ppm", kind + b"\n4 4\n" + most + b"\n")
+        with open(bench.folder / "bad.ppm", "ab") as file:
+            file.write(bytes(48))
+        refuse(bench, "builtin:plate", env="bad.ppm", needles=["largest value"])
+    for scale in (b"2.5", b"-1e-3", b"#\n\t-1"):
+        accept(bench, "builtin:plate", "--env", scratch(bench, "good.pfm", b"PF\n4 4\n" + scale + b"\n" + pixels))
+    accept(bench, "builtin:plate", "--env", scratch(bench, "good.pgm", b"P5 #\n4 4 # sides\n1\n" + bytes(16)))
 
 
 @case("hostile.an_environment_has_a_limit_of_pixels", "input")

@@ -1,5 +1,5 @@
 // libFuzzer entry: any floats as a picture that stands for a table of Ashikhmin-Shirley lobes: of half vectors where the first byte is odd,
-// else of albedo. Its next two bytes are the sides.
+// else of albedo, all of which is looked at where it is 0. Its next two bytes are the sides.
 #include <sys/mman.h>
 #include <unistd.h>
 
@@ -35,14 +35,16 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         return 0;
     }
     BN_CHECK(tables->has_half_vectors() != tables->has_albedo());
-    const Status fits = tables->check(10.0, 90.0);
-    BN_CHECK(fits || !fits.error().reason.empty());
     static_cast<void>(tables->warnings(16));
     if (tables->has_half_vectors()) {
+        const Status fits = tables->check(10.0, 90.0);
+        BN_CHECK(fits || !fits.error().reason.empty());
         for (const PhongHalfVector& h : tables->half_vectors(10.0, 90.0, 16))
             BN_CHECK(std::isfinite(h.x + h.y + h.z + h.density) && h.density >= 0.0);
         return 0;
     }
+    if (data[0] & 30) // what it is compared with takes long, whatever the picture is: once in 16
+        return 0;
     std::vector<std::uint16_t> texels(64 * 64 * 4); // more than a slice of 8 has
     tables->slice(10.0, 90.0, 8, texels.data());
     return 0;

@@ -1,6 +1,8 @@
 #include "core/image/io/guard.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdlib>
 #include <cstring>
 #include <optional>
 #include <string_view>
@@ -177,22 +179,52 @@ Result<ImageProbe> probe_hdr(const ImageBytes& file, const Limits& limits)
     return ImageProbe{"hdr", 0, transpose, negative[x], !negative[1 - x], {}};
 }
 
-// Netpbm and PFM: magic, then width and height as text among white space and # comments.
+// Over white space and # comments.
+void skip_blanks(const ImageBytes& file, std::size_t& at)
+{
+    bool comment = false;
+    for (; at < file.size; ++at) {
+        const char c = static_cast<char>(file.data[at]);
+        if (c == '#')
+            comment = true;
+        if (!comment && (c == '\0' || std::strchr(" \t\r\n", c) == nullptr))
+            return;
+        if (c == '\n')
+            comment = false;
+    }
+}
+
+// What samples are divided by (Netpbm, but for bits) or multiplied by (PFM, whose sign is the order of bytes).
+Status check_pnm_scale(const ImageBytes& file, std::size_t at)
+{
+    const char kind = static_cast<char>(file.data[1]);
+    if (kind == '1' || kind == '4')
+        return {};
+    skip_blanks(file, at);
+    const std::size_t begin = at;
+    if (kind == 'F' || kind == 'f') {
+        while (at < file.size && at - begin < 64 && file.data[at] > ' ')
+            ++at;
+        const std::string text(reinterpret_cast<const char*>(file.data) + begin, at - begin);
+        char* end = nullptr;
+        const float scale = std::strtof(text.c_str(), &end);
+        if (text.empty() || *end != '\0' || !std::isfinite(scale) || scale == 0.0f)
+            return file.error(fmt::format("byte {}", begin), "a scale that is a number and not 0 should stand here");
+        return {};
+    }
+    const std::optional<std::int64_t> most = read_decimal(file, at);
+    if (!most || *most < 1 || *most > 65535)
+        return file.error(fmt::format("byte {}", begin), "a largest value of 1 to 65535 should stand here");
+    return {};
+}
+
+// Netpbm and PFM: magic, then width, height and scale as text among white space and # comments.
 Result<ImageProbe> probe_pnm(const ImageBytes& file, const Limits& limits)
 {
     std::size_t at = 2;
     std::int64_t sides[2] = {0, 0};
     for (std::int64_t& side : sides) {
-        bool comment = false;
-        for (; at < file.size; ++at) {
-            const char c = static_cast<char>(file.data[at]);
-            if (c == '#')
-                comment = true;
-            if (!comment && std::strchr(" \t\r\n", c) == nullptr)
-                break;
-            if (c == '\n')
-                comment = false;
-        }
+        skip_blanks(file, at);
         const std::optional<std::int64_t> read = read_decimal(file, at);
         if (!read)
             return file.error(fmt::format("byte {}", at), "a width or height should stand here");
@@ -204,6 +236,8 @@ Result<ImageProbe> probe_pnm(const ImageBytes& file, const Limits& limits)
     if (pixels / 8 > file.size) // one bit a pixel at least
         return file.error(fmt::format("header: {} x {} pixels", sides[0], sides[1]),
                           fmt::format("{} bytes cannot hold that many pixels", file.size));
+    if (const Status scale = check_pnm_scale(file, at); !scale)
+        return scale.error();
     return ImageProbe{"pnm", 0, false, false, false, {}};
 }
 

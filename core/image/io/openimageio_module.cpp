@@ -65,8 +65,12 @@ class TrackingReader : public OIIO::Filesystem::IOMemReader {
         reached_ = std::max(reached_, static_cast<std::size_t>(tell()));
         return n;
     }
+    // Offsets come from the file; IOMemReader adds sizes to them without a look, and reads what lies before the bytes.
+    bool seek(int64_t offset) override { return is_inside(offset) && IOMemReader::seek(offset); }
     size_t pread(void* to, size_t size, int64_t offset) override
     {
+        if (!is_inside(offset))
+            return 0;
         const size_t n = IOMemReader::pread(to, size, offset);
         reached_ = std::max(reached_, static_cast<std::size_t>(offset) + n);
         return n;
@@ -75,6 +79,8 @@ class TrackingReader : public OIIO::Filesystem::IOMemReader {
 
   private:
     TrackingReader(const std::uint8_t* data, std::size_t size) : IOMemReader(const_cast<std::uint8_t*>(data), size) {}
+
+    bool is_inside(int64_t offset) const { return offset >= 0 && static_cast<std::size_t>(offset) <= size(); }
 
     bool own_bytes_ = true;
     std::size_t reached_ = 0;
