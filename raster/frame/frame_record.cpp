@@ -192,6 +192,7 @@ void FrameMaker::slice_albedo(const FrameDesc& desc)
 {
     ShadingFrame f = {};
     f.override_anisotropy = desc.override_anisotropy, f.anisotropy = desc.anisotropy;
+    const bool compensated = desc.energy_compensation && (lobe_traits_of(lobe_of(desc, tilts(input_.scene, desc))) & kLobeOfPhong);
     for (MaterialRecord& m : materials_) {
         m.albedo_slice = m.phong_slice = m.phong_set = -1, m.brushed = 1.0f;
         if (m.anisotropic && (m.technique_traits & kSharesSamples) && !(m.technique_traits & kPhongGrid) && m.moments == kNoMoments)
@@ -201,7 +202,8 @@ void FrameMaker::slice_albedo(const FrameDesc& desc)
         const lobe_shape shape = only_lobe_shape(f, m);
         if (m.anisotropic)
             m.albedo_slice = slice_of(shape.sigma_u, shape.sigma_v, false);
-        if ((m.technique_traits & kPhongGrid) && desc.as_tables == 0)
+        const bool sampled = (m.technique_traits & kPhongGrid) && desc.as_tables == 0;
+        if (sampled || (compensated && !m.unlit))
             m.phong_slice = slice_of(shape.sigma_u, shape.sigma_v, true);
         if ((m.technique_traits & kPhongGrid) && desc.as_tables == 0 && desc.seed == 0)
             m.phong_set = set_of(shape.sigma_u, shape.sigma_v, desc.samples);

@@ -53,6 +53,7 @@ const int kLobeOfTilted = 4; // in its place, where lobes are tilted
 const int kPunctualOnly = 8; // has no albedo: nothing but punctual lights meets it
 const int kLies_round = 16, kLies_level = 32, kLies_surface = 64, kLies_thread = 128;
 const int kSeparableOfAll = 1024, kSeparableOfTilted = 2048; // in the usual one's place and the tilted one's, where masking is separable
+const int kLobeOfPhong = 4096; // Ashikhmin and Shirley's, which MaterialRecord::phong_slice is of
 const int kNormals_ggx = 256, kNormals_own = 512;
 const int kLobeCount = 0
 #define BN_LOBE(id, at, type, lies, normals, traits, made_of) +1
@@ -190,7 +191,7 @@ struct MaterialRecord { // Material in plain numbers, and what follows from them
     int lights_lobe;                 // what punctual lights meet: its place in shading/models.def
     float brushed;    // brushed_part() of its factors where the technique shares samples; else, or where slopes widen lobes, 1
     int albedo_slice; // of a lobe whose two widths are everywhere the same: its first texel; else -1
-    int phong_slice;  // of the Ashikhmin-Shirley lobe of these widths, where the technique samples it and wants a table; else -1
+    int phong_slice;  // of the Ashikhmin-Shirley lobe of these widths, where the technique samples it or it is compensated; else -1
     int frame_map;    // the frame's, or where its textures hold a mip filter's lobes kFrameQuaternion, which they are made for
     int phong_set;    // of the same lobe's half vectors: the first sample of its own grid; -1: made by fragment
     TextureBinding textures[kTextureSlots];

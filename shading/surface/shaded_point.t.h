@@ -202,10 +202,10 @@ BN_FN void make_shaded_point(frame_ref f, material_ref m, BN_IN(material_inputs)
     x.albedo = albedo_of(x.s, x.dfg);
     x.phong_albedo = lit(-1.0);
     x.phong_set = the_material(m).phong_set;
+    dfg_value phong = x.dfg;
     if (the_material(m).phong_slice >= 0) {
-        dfg_value own =
-            phong_slice_lookup(lobe_slice_texels(f), the_material(m).phong_slice, the_frame(f).lobe_albedo_size, x.lobe, x.s.n, x.s.v);
-        x.phong_albedo = own.scale + own.bias;
+        phong = phong_slice_lookup(lobe_slice_texels(f), the_material(m).phong_slice, the_frame(f).lobe_albedo_size, x.lobe, x.s.n, x.s.v);
+        x.phong_albedo = phong.scale + phong.bias;
     }
     x.gain = energy_gain(f, x.s.f0, x.dfg);
     x.shown = lit(1.0);
@@ -220,12 +220,14 @@ BN_FN void make_shaded_point(frame_ref f, material_ref m, BN_IN(material_inputs)
                 x.shown = share_of_usual(f, m, x);
             albedo = (x.dfg.scale + x.dfg.bias) * x.shown;
         } else if (compensated) {
-            placed_lobe own = placed_lobe_at(f, x);
-            albedo = placed_lobe_albedo(own);
-            if (x.diffuse) {
-                x.own_dfg.bias = placed_lobe_grazing(own);
-                x.own_dfg.scale = albedo - x.own_dfg.bias;
+            albedo = x.phong_albedo;
+            if (the_material(m).phong_slice < 0 || !lobe_has(the_frame(f).lobe, kLobeOfPhong)) {
+                lobe_energy own = placed_lobe_own_energy(placed_lobe_at(f, x));
+                albedo = own.albedo;
+                phong.bias = own.grazing;
             }
+            x.own_dfg.bias = phong.bias;
+            x.own_dfg.scale = albedo - phong.bias;
         }
         if (compensated)
             x.gain = energy_compensation_of_albedo(x.s.f0, min(albedo, lit(1.0)));
