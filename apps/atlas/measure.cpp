@@ -173,6 +173,13 @@ Status Walker::find_kind()
 {
     MeasuredEntry& m = out_.measured;
     m.kind = "none", m.remedy = 1.0;
+    const auto gone = [&](double left, double whole) {
+        const double share = left / std::max(whole, 1e-9);
+        if (std::abs(share - kGone) < std::abs(m.remedy - kGone))
+            m.remedy = share;
+        return share < kGone;
+    };
+    bool precision = false;
     const auto worst =
         std::max_element(m.steps.begin(), m.steps.end(), [](const AtlasStep& a, const AtlasStep& b) { return a.error < b.error; });
     const int at = static_cast<int>(worst - m.steps.begin());
@@ -186,11 +193,11 @@ Status Walker::find_kind()
         const Result<double> error = error_of(picture_of(*setting, std::move(**in_double)), entry_, at);
         if (!error)
             return error.error();
-        m.in_double = *error, m.remedy = *error / std::max(m.worst, 1e-9);
+        m.in_double = *error, precision = gone(*error, m.worst);
     }
     if (m.onset > 1.0 || out_.stopped)
         return {};
-    if (m.in_double && m.remedy < kGone) {
+    if (precision) {
         m.kind = "precision";
         return {};
     }
@@ -206,20 +213,15 @@ Status Walker::find_kind()
     const Result<double> sampled = error_of(more, entry_, at, true);
     if (!sampled)
         return sampled.error();
-    m.kind = "approximation", m.remedy = *sampled / std::max(*usual, 1e-9);
-    if (m.remedy < kGone) {
-        m.kind = "sampling";
-        return {};
-    }
-    if (entry_.truth != AtlasTruth::full)
+    m.kind = gone(*sampled, *usual) ? "sampling" : "approximation";
+    if (m.kind == "sampling" || entry_.truth != AtlasTruth::full)
         return {};
     AtlasEntry filtered = entry_;
     filtered.truth = AtlasTruth::reference, filtered.truth_words = "";
     const Result<double> alike = error_of(*setting, filtered, at);
     if (!alike)
         return alike.error();
-    m.remedy = std::min(m.remedy, *alike / m.worst);
-    if (*alike < kGone * m.worst)
+    if (gone(*alike, m.worst))
         m.kind = "filtering";
     return {};
 }

@@ -38,7 +38,7 @@ struct MeasuredEntry {
     double noise = 0.0;              // the largest
     std::optional<double> in_double; // the error at the worst step, drawn in double; nothing where the program has no such lanes
     double remedy = 0.0; // the share of the worst step's error that is left in double, with 64 times the samples, or beside a truth
-                         // that filters alike
+                         // that filters alike: of those that were asked for, what is nearest to kGone
 };
 
 // From steps to figures; but for kind and remedy.

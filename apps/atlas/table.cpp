@@ -147,6 +147,8 @@ Judged judge(const AtlasEntry& entry, const MeasuredEntry& m, const BlessedRow* 
         return {Verdict::better, fmt::format("breaks at {:.4f}, blessed is {:.4f}", onset, blessed)};
     if (m.worst < row->worst - room)
         return {Verdict::better, fmt::format("is off by {:.4f}, blessed is {:.4f}", m.worst, row->worst)};
+    if (m.kind == "none" && row->kind != "none")
+        return {Verdict::better, fmt::format("breaks no more, blessed is a failure of {}", row->kind)};
     if (m.kind != row->kind && std::abs(m.remedy - kGone) > kUnsure)
         return {Verdict::worse, fmt::format("is a failure of {}, blessed is {}", m.kind, row->kind)};
     return {};

@@ -105,7 +105,7 @@ LtcResolution row_of(const std::string& name, const std::vector<ltc::Place>& pla
     return row;
 }
 
-// Cells of one shade in a row are one rectangle. white, black: values that are those.
+// Cells of one shade in a row are one rectangle. white: the value that is drawn white.
 void draw_pixels(Drawing& out, const std::vector<double>& values, double x, double y, double side, double white)
 {
     const double cell = side / kBallPixels;

@@ -126,6 +126,7 @@ int print_weights(const std::string& path, bool json)
     const Json said = {{"brdf", mipnet::lobe_name(w.shape.lobe)},
                        {"layout", mipnet::layout_name(w.shape.layout)},
                        {"size", hidden(w.shape.a) + "/" + hidden(w.shape.b)},
+                       {"footprint", w.shape.far ? 8 : 4},
                        {"numbers", w.numbers.size()},
                        {"seed", w.seed},
                        {"steps", w.steps},
@@ -136,8 +137,8 @@ int print_weights(const std::string& path, bool json)
         fmt::print("{}\n", said.dump(2));
         return 0;
     }
-    fmt::print("weights      {}, {} {}, {} steps from seed {}\n", mipnet::lobe_name(w.shape.lobe), mipnet::layout_name(w.shape.layout),
-               hidden(w.shape.a) + "/" + hidden(w.shape.b), w.steps, w.seed);
+    fmt::print("weights      {}, {} {}{}, {} steps from seed {}\n", mipnet::lobe_name(w.shape.lobe), mipnet::layout_name(w.shape.layout),
+               hidden(w.shape.a) + "/" + hidden(w.shape.b), w.shape.far ? ", 8x8 texels at once" : "", w.steps, w.seed);
     fmt::print("trained on   {}\n", printable(w.families));
     fmt::print("made by      {}\n", printable(w.command));
     return 0;

@@ -215,8 +215,9 @@ int run_row(RenderArguments& arguments, OptionTable& given)
             if (const Status written = write_rendered(path, *rendered, step.options); !written)
                 return fail(written.error());
         if (!row->movies().empty())
-            if (const Status added = movie.add(
-                    row->movies()[0], shown_picture(rendered->color, step.options.tonemap, step.options.exposure_ev, rendered->parts));
+            if (const Status added =
+                    movie.add(row->movies()[0], shown_picture(rendered->color, step.options.tonemap, step.options.exposure_ev,
+                                                              rendered->parts, step.options.resolve));
                 !added)
                 return fail(added.error());
         report.event(fmt::format("{} of {}", i + 1, row->count()),

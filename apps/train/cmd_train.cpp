@@ -158,9 +158,9 @@ Status read_given(TrainArguments& a)
         return read.error();
     if (!(read->shape == t.shape))
         return Error{ExitCode::bad_input, a.from, "",
-                     fmt::format("is of lobes of {}, layout {} and size {}, other than what is to be trained",
+                     fmt::format("is of lobes of {}, layout {}, size {} and footprint {}, other than what is to be trained",
                                  mipnet::lobe_name(read->shape.lobe), mipnet::layout_name(read->shape.layout),
-                                 mipnet::size_name(read->shape))};
+                                 mipnet::size_name(read->shape), read->shape.far ? 8 : 4)};
     t.from_name = told_name(a.from), t.from = std::make_shared<const mipnet::Weights>(std::move(*read));
     return {};
 }

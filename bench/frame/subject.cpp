@@ -6,6 +6,7 @@
 #include <string_view>
 #include <utility>
 
+#include "core/base/check.h"
 #include "core/scene/area_light.h"
 #include "raster/session/session.h"
 
@@ -74,6 +75,7 @@ int way_named(std::string_view name)
     for (std::size_t i = 0; i < area_ways().size(); ++i)
         if (name == area_ways()[i].name)
             return static_cast<int>(i);
+    BN_CHECK(!"a way of area lights by this name");
     return 0;
 }
 

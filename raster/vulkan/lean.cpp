@@ -298,7 +298,8 @@ void LeanScene::make_sets()
     BN_VK(vkAllocateDescriptorSets(context_.device(), &allocate, sets_.data()));
     for (std::uint32_t m = 0; m < count; ++m) {
         const bool material = m < all.size();
-        const DeviceImage& own = material && all[m].albedo_slice >= 0 ? slice(all[m].albedo_slice, kLobeSliceSize) : round_albedo_; // or never fetched
+        const DeviceImage& own =
+            material && all[m].albedo_slice >= 0 ? slice(all[m].albedo_slice, kLobeSliceSize) : round_albedo_; // or never fetched
         const VkDescriptorBufferInfo buffers[] = {{frame_.handle(), 0, VK_WHOLE_SIZE},
                                                   {material ? materials_.handle() : frame_.handle(), material ? m * kMaterialStride : 0,
                                                    material ? VkDeviceSize{kMaterialStride} : VK_WHOLE_SIZE},

@@ -77,7 +77,8 @@ BN_FN dfg_value slice_value(texel_buffer table, int first, int across, real x, r
 }
 
 // lobe_albedo_lookup() of a lobe whose widths are those that its slice of kLobeSliceSize was made for. Its axes are graded by one division
-// and no root: 1.2 z / (z + .2) of z = n.v, and 3 |x| / (3 |x| + |y|) of the view's components along the lobe's wide axis and its other one.
+// and no root: 1.2 z / (z + .2) of z = n.v, and 3 |x| / (3 |x| + |y|) of the view's components along the lobe's wide axis and its other
+// one.
 BN_FN dfg_value lobe_slice_lookup(texel_buffer table, int first, aniso_lobe lobe, real3 n, real3 v)
 {
     real3 o = to_lobe(lobe, n, v);

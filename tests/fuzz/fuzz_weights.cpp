@@ -21,6 +21,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         std::memcpy(bytes.data() + kShape, shape, sizeof shape);
         mipnet::Shape planned;
         planned.lobe = static_cast<mipnet::Lobe>(bytes[12] % 3), planned.layout = static_cast<mipnet::Layout>(bytes[16] % 2);
+        planned.far = bytes[16] & 2;
         planned.a = {static_cast<int>(shape[0]), static_cast<int>(shape[1])};
         planned.b = {static_cast<int>(shape[2]), static_cast<int>(shape[3])};
         const bool planable = shape[0] && shape[1] && !shape[2] == !shape[3];

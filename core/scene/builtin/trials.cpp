@@ -1,5 +1,5 @@
-// Scenes that something breaks on, each by one number: builtin:NAME=AMOUNT. `burnish atlas` walks them; they are small, lie in the plane
-// z = 0 about the origin and face +Z.
+// Scenes that something breaks on, each by one number: builtin:NAME=AMOUNT. `burnish atlas` walks them; they are small, about
+// the origin, and are seen from +Z.
 #include <cmath>
 #include <limits>
 
@@ -203,7 +203,7 @@ Scene make_wide_texels(double width)
     return scene;
 }
 
-// A rough glass sheet of this index; of inside, what is seen is its other side, from within.
+// A ball of rough glass of this index; `inside`: a sheet of it in its place, seen from within the glass.
 Scene glass_of(double index, bool inside)
 {
     Material glass;
@@ -235,7 +235,7 @@ Scene make_inside_glass(double index)
     return glass_of(index, true);
 }
 
-// Faces that each show one tile of a picture, to its very edge; so many to a side, red and blue by turns.
+// Faces that each show one tile of a picture, to its very edge; so many to a side, the lower half red, the upper blue.
 Scene make_tiles(double count)
 {
     const int side = static_cast<int>(std::lround(count));
@@ -271,7 +271,7 @@ Scene make_no_numbers(double share)
     return scene;
 }
 
-// A small white square on a plate that shines with this radiance, squares of half of it on it.
+// A small white square before a plate that shines with this radiance.
 Scene make_gloom(double radiance)
 {
     Scene scene;

@@ -72,7 +72,8 @@ Status parse_part(const std::vector<std::uint8_t>& bytes, const std::string& pat
     }
     if (p.chains > p.all_chains || p.steps > steps || (begun && p.chains < p.all_chains) || (!begun && p.steps > 0))
         return refuse("is damaged: it is further than the whole work");
-    if (!all_finite(p.nodes) || !all_finite(p.state.entries) ||
+    const bool rated = std::all_of(std::begin(numbers), std::end(numbers), [](double x) { return std::isfinite(x); });
+    if (!rated || !all_finite(p.nodes) || !all_finite(p.state.entries) ||
         !std::all_of(p.l1.begin(), p.l1.end(), [](double x) { return std::isfinite(x); }))
         return refuse("is damaged: it holds what are no numbers");
     to = std::move(p);

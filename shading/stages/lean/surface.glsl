@@ -109,7 +109,7 @@ void shape_by_texture(float roughness, out vec2 sigma, out vec2 u)
 
 // Of tables over both: roots of n.v and of the cosine between the wide axis and the view's azimuth.
 vec2 albedo_place(vec3 o) { return sqrt(vec2(clamp(o.z, 0.0, 1.0), min(abs(o.x) * inversesqrt(max(o.x * o.x + o.y * o.y, 1e-12)), 1.0))); }
-// Of a lobe's own table, see lobe_slice_lookup (energy.k.h).
+// Of a lobe's own table of 24 x 12 texels, see lobe_slice_lookup (energy.k.h).
 vec2 slice_place(vec3 o)
 {
     float up = clamp(o.z, 0.0, 1.0), wide = 3.0 * abs(o.x);
