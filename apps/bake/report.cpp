@@ -188,6 +188,7 @@ LtcQuality measure_ltc(const ltc::Table& table, int cosines, const Jobs& jobs)
     q.parts.push_back(figures_of("alpha < 1/7", first, [](const ltc::Place& p) { return p.alpha < 1.0 / 7.0; }));
     q.parts.push_back(figures_of("lambda < .3", first, [](const ltc::Place& p) { return p.lambda < 0.3; }));
     q.parts.push_back(figures_of("others", others, all));
+    q.parts.push_back(figures_of("theta 75-89", ltc::judge(table, ltc::grazing_places(200), cosines, jobs), all));
     const std::vector<ltc::Sampled> samples = ltc::judge_sampling(table, ltc::judged_places(200, 24, 0), jobs);
     q.sampling.push_back(sampling_of("all", samples, all));
     q.sampling.push_back(sampling_of("theta > 70", samples, [](const ltc::Place& p) { return p.theta > 70.0 / 180.0 * kPi; }));

@@ -259,35 +259,41 @@ std::size_t InterpolantFit::guard(std::vector<Matrix>& entries, const std::vecto
     const std::size_t chunk = 4096, chunks = (probes + chunk - 1) / chunk;
     std::size_t left = 0;
     for (int round = 0; round < kRounds; ++round) {
-        std::vector<std::vector<std::size_t>> found(chunks); // nodes around probes that are too flat
+        std::vector<std::vector<Corner>> found(chunks); // nodes around probes that are too flat, and how much of each they are
         jobs_->parallel_for(chunks, [&](std::size_t c, int) {
             for (std::size_t i = c * chunk; i < std::min(probes, (c + 1) * chunk); ++i) {
                 const Place place = usable_place(spread_point(i), grid_.most_alpha());
                 if (determinant(grid_.lookup(entries, place)) >= part * determinant(grid_.lookup(safe, place)))
                     continue;
-                for (const Corner& corner : grid_.corners(place))
+                const Corners corners = grid_.corners(place);
+                double most = 0.0;
+                for (const Corner& corner : corners)
+                    most = std::max(most, corner.weight);
+                for (const Corner& corner : corners)
                     if (corner.weight > 0.0)
-                        found[c].push_back(corner.node);
+                        found[c].push_back({corner.node, corner.weight / most});
             }
         });
-        std::vector<char> blend(entries.size(), 0);
+        std::vector<double> blend(entries.size(), 0.0);
         left = 0;
         for (std::size_t node = 0; node < entries.size(); ++node)
             if (determinant(entries[node]) < part * determinant(safe[node]))
-                found[0].insert(found[0].end(), 16, node);
-        for (const std::vector<std::size_t>& some : found)
-            for (std::size_t node : some) {
-                blend[grid_.first_equal(node, 0).first] = 1;
+                found[0].insert(found[0].end(), 16, {node, 1.0});
+        for (const std::vector<Corner>& some : found)
+            for (const Corner& corner : some) {
+                double& by = blend[grid_.first_equal(corner.node, 0).first];
+                by = std::max(by, corner.weight);
                 ++left;
             }
         left /= 16;
         if (left == 0)
             break;
         for (std::size_t node = 0; node < entries.size(); ++node) {
-            if (!blend[grid_.first_equal(node, 0).first])
+            const double by = blend[grid_.first_equal(node, 0).first];
+            if (!(by > 0.0))
                 continue;
             for (std::size_t e = 0; e < 9; ++e)
-                entries[node][e] += kBlend * (safe[node][e] - entries[node][e]);
+                entries[node][e] += kBlend * by * by * (safe[node][e] - entries[node][e]);
             entries[node] = with_unit_axis(entries[node]);
         }
     }

@@ -27,7 +27,8 @@ class InterpolantFit {
     // One step, taken where it lowers the cost. True if it was taken. A function of the state alone.
     bool step(State& state);
     // Looks at `probes` interpolated matrices in the usable range, and blends the entries around one whose determinant is below `part` of
-    // what `safe` gives there towards `safe`, until there is none or it does not help. Returns how many probes are left.
+    // what `safe` gives there towards `safe`, each by its weight there squared, until there is none or it does not help. Returns how many
+    // probes are left.
     std::size_t guard(std::vector<Matrix>& entries, const std::vector<Matrix>& safe, double part, std::size_t probes) const;
 
   private:

@@ -188,6 +188,14 @@ std::vector<Place> judged_places(std::size_t count, std::size_t on_nodes, std::s
     return places;
 }
 
+std::vector<Place> grazing_places(std::size_t count)
+{
+    std::vector<Place> places = judged_places(count, 0, 3000);
+    for (Place& place : places)
+        place.theta = (75.0 + 14.0 / 85.0 * (place.theta * 180.0 / kPi)) / 180.0 * kPi;
+    return places;
+}
+
 std::vector<Judged> judge(const Table& table, const std::vector<Place>& places, int cosines, const Jobs& jobs)
 {
     const Rule rule(22);

@@ -25,6 +25,9 @@ struct Judged {
 // first `on_nodes` of them on nodes of a grid of 8. `from`: the first point of the sequence.
 std::vector<Place> judged_places(std::size_t count, std::size_t on_nodes, std::size_t from);
 
+// The same with theta from 75 to 89 degrees.
+std::vector<Place> grazing_places(std::size_t count);
+
 inline constexpr double kFarOff = 0.3; // L1
 
 // cosines: 0: of the table alone; 1: each lobe is fitted alone, too, what no table can surpass; 2: also by the sum of two.
