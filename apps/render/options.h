@@ -29,14 +29,14 @@ struct RenderOptions {
     std::string ltc_table;              // of area lights; empty: the program's own
     Dress dress;                        // what all materials take
     std::vector<std::string> outputs;
-    std::vector<std::string> aov; // layers of .exr outputs
-    Shown show = Shown::light;    // in 8-bit outputs
-    std::string risks;            // picture of what the atlas says of the technique; "-": its words only; empty: none
-    bool shadow_ratio = false;    // area lights throw shadows, by samples
-    int shadow_samples = 64;      // a pixel
+    std::vector<std::string> aov;      // layers of .exr outputs
+    Shown show = Shown::light;         // in 8-bit outputs
+    std::string risks;                 // picture of what the atlas says of the technique; "-": its words only; empty: none
+    bool shadow_ratio = false;         // area lights throw shadows, by samples
+    int shadow_samples = 64;           // a pixel
     Resolve resolve = Resolve::linear; // of 8-bit outputs
-    std::string stats_file;       // empty: none; "-": standard output
-    std::string trace_file;       // empty: none
+    std::string stats_file;            // empty: none; "-": standard output
+    std::string trace_file;            // empty: none
 
     std::string env = "builtin:studio";
     bool env_given = false; // else the scene's own light is taken where it has one
