@@ -84,17 +84,13 @@ Result<std::vector<Active>> active_rules(const FrameDesc& desc)
                                           names(rule.readers, technique_of(desc, true).name)};
         if (!told[0] && !told[1])
             continue;
-        for (const char* walk : {kFullWalk.name, kQuickWalk.name}) { // the finer first
-            const std::optional<BlessedRow> row = find_row(table, walk, rule.entry);
-            if (!row)
-                continue;
-            const AtlasEntry& entry = *find_entry(rule.entry);
-            const Result<AtlasSetting> setting = reader.read(entry, AtlasRole::test, row->onset, kQuickWalk.side, 0);
-            if (!setting)
-                return setting.error();
-            out.push_back({r, kEarly * rule.measure(inputs_of_setting(setting->options)), setting->values, told});
-            break;
-        }
+        const std::optional<BlessedRow> row = find_row(table, kQuickWalk.name, rule.entry); // kEarly is of its onsets
+        if (!row)
+            continue;
+        const Result<AtlasSetting> setting = reader.read(*find_entry(rule.entry), AtlasRole::test, row->onset, kQuickWalk.side, 0);
+        if (!setting)
+            return setting.error();
+        out.push_back({r, kEarly * rule.measure(inputs_of_setting(setting->options)), setting->values, told});
     }
     return out;
 }

@@ -194,9 +194,9 @@ SEEDED = {
     "--axis-beta 1.15": "axis_few_samples axis_more_samples_are_worse",
     "--axis-k 0.5": "axis_too_short_for_rough_lobes",
     "--masking separable": "prefiltered_tilt albedo_by_a_fit",
-    "--dfg fit": "separable_masking separable_tilt",
+    "--dfg fit": "separable_masking",
     "--env-rotation 20": "bent_normal_bends_too_far split_isotropic_is_round prefilter_knows_no_angle sun_in_prefiltered_levels coarse_cube "
-                         "masking_bends_the_lobe glass_by_few_samples grains_that_cross few_texture_taps",
+                         "masking_bends_the_lobe glass_by_few_samples grains_that_cross few_texture_taps separable_tilt",
     "--roughness 0.85": "line_of_lobes_limited grid_of_few phong_grid_of_few triangles_between_samples tiles_of_one_picture needles_between_samples "
                         "plates_at_one_depth near_plane texels_far_from_zero texels_of_wide_pictures texels_that_are_no_numbers",
     "--roughness 0.1": "area_lights_left_out few_points_of_lights round_cosines_on_brushed_metal colours_that_face_the_eye",
