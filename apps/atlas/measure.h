@@ -22,7 +22,7 @@ inline constexpr double kGone = 0.5; // an error is gone where less than this sh
 struct AtlasStep {
     double s = 0.0; // [0,1]
     std::string values;
-    double error = 0.0, cure_error = 0.0; // mean HDR-FLIP over what shows the scene, of what breaks and of the cure
+    double error = 0.0, cure_error = 0.0; // mean FLIP (HDR; LDR of what a display shows) over what shows the scene
     double noise = 0.0;                   // of the truth, mean HDR-FLIP
     double change = 0.0;                  // mean FLIP from the step before, less that of the truth; 0 of the first step
 };

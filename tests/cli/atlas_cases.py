@@ -185,7 +185,8 @@ for defect, what in DEFECTS.items():
     add_defect(defect, *what)
 
 
-# What each entry is there to see: words that set that wrong in what breaks and in its cure, and not in the truth.
+# Words that each entry has to turn red by, said of what breaks and of its cure and not of the truth. Where no option sets wrong the very thing
+# that an entry looks at, they are another picture (turned light, another roughness, another view): that an entry compares what it draws, no more.
 SEEDED = {
     "--samples 3": "axis_too_long axis_overlaps_too_much axis_at_grazing_angles adaptive_counts_step half_vectors_in_bands threads_for_a_lobe",
     "--samples 8": "mc_fireflies ward_cheap_by_few_samples beckmann_by_few_samples phong_by_few_samples round_by_few_samples "
