@@ -118,6 +118,19 @@ TEST(table, lobes_are_as_near_as_was_measured)
     EXPECT_LT(spread_of(all).mean, 0.01);
 }
 
+// Where guarding determinants could spoil whole cells for lookups at their corners.
+TEST(table, near_the_horizon_lobes_are_as_near_as_was_measured)
+{
+    std::vector<double> l1, best;
+    for (const Judged& j : judge(shipped(), grazing_places(120), 1, Jobs()))
+        l1.push_back(j.l1), best.push_back(j.best_l1);
+    const Spread off = spread_of(l1), least = spread_of(best);
+    printf("mean %.4f, p95 %.4f, most %.4f; of own fits %.4f, %.4f, %.4f\n", off.mean, off.p95, off.most, least.mean, least.p95,
+           least.most);
+    EXPECT_LT(off.mean, 1.06 * least.mean);
+    EXPECT_LT(off.most, least.most + 0.15);
+}
+
 TEST(table, halves_change_next_to_nothing)
 {
     const std::vector<std::uint8_t> bytes = table_bytes(shipped(), true);
