@@ -52,7 +52,7 @@ const int kLobeOfTilted = 4; // in its place, where lobes are tilted
 const int kPunctualOnly = 8; // has no albedo: nothing but punctual lights meets it
 const int kLies_round = 16, kLies_level = 32, kLies_surface = 64, kLies_thread = 128;
 const int kSeparableOfAll = 1024, kSeparableOfTilted = 2048; // in the usual one's place and the tilted one's, where masking is separable
-const int kLobeOfPhong = 4096; // Ashikhmin and Shirley's, which MaterialRecord::phong_slice is of
+const int kLobeOfPhong = 4096;                               // Ashikhmin and Shirley's, which MaterialRecord::phong_slice is of
 const int kNormals_ggx = 256, kNormals_own = 512;
 const int kLobeCount = 0
 #define BN_LOBE(id, at, type, lies, normals, traits, made_of) +1
