@@ -1,4 +1,4 @@
-// The samples that a technique's frame brings: n x n of filtered importance sampling, or a Hammersley set for as_mc.
+// The samples that a technique's frame brings: n x n of filtered importance sampling, or a lattice for as_mc.
 #pragma once
 #include <vector>
 
@@ -9,7 +9,7 @@
 namespace burnish {
 
 // traits: of the technique. n = floor(sqrt(samples)): Gaussian slopes (Beckmann) or GGX; of kPhongGrid four sets of all samples, one after
-// the other, the first of which is the normal. None where a technique brings none.
+// the other; one sample is the normal. None where a technique brings none.
 std::vector<GridSample> grid_samples(int samples, Sampling sampling, int traits);
 
 // How many of them a fragment takes.

@@ -1,11 +1,12 @@
 // Samples of an Ashikhmin-Shirley lobe (shading/models/ashikhmin_shirley.k.h), each fetched from the box-filtered environment at the level
-// whose texels are as large as its share of the sphere. Frames bring a Hammersley set, as cosine and sine of the azimuth that isotropic
-// lobes have and the logarithm of 1 - xi; what is left is the same for each width, so that roughness may vary by fragment. Where the lobe's
-// widths are the same everywhere, frames bring its own half vectors (MaterialRecord::phong_set): two of the grid a sample, the vector and
-// half the logarithm to base 2 of its density. Then its albedo is known, too (phong_slice), and samples are weighted to it: what a few of
-// them get wrong is mostly how many of them lie below the horizon. One sample is a mirror. There are four sets, which together are one of
-// four times as many samples: each pixel of a 2x2 quad has its own, and what alike lobes find is averaged (shared_line.k.h). Levels are
-// what FLIP is least with: of shared sets as fine as all their samples ask for, of one alone half a level finer than its own do.
+// whose texels are as large as its share of the sphere. Frames bring a lattice (phong_point), as cosine and sine of the azimuth that
+// isotropic lobes have and the logarithm of 1 - xi; what is left is the same for each width, so that roughness may vary by fragment. Where
+// the lobe's widths are the same everywhere, frames bring its own half vectors (MaterialRecord::phong_set): two of the grid a sample, the
+// vector and half the logarithm to base 2 of its density. Then its albedo is known, too (phong_slice), and samples are weighted to it: what
+// a few of them get wrong is mostly how many of them lie below the horizon. One sample is a mirror. There are four sets, which together are
+// one of four times as many samples: each pixel of a 2x2 quad has its own, and what alike lobes find is averaged (shared_line.k.h). Levels
+// are what FLIP is least with: of shared sets a quarter finer than all their samples ask for, of one alone half a level finer than its own
+// do.
 #ifndef BN_AS_MC_T_H
 #define BN_AS_MC_T_H
 
@@ -85,7 +86,7 @@ BN_FN real3 as_mc_of_set(frame_ref f, BN_IN(shaded_point) x, integer set, bool s
     real size = to_real(int_lit(cube.size));
     int samples = the_frame(f).grid_count;
     real count = to_real(int_lit(samples));
-    real finer = lit(shared_sets ? 1.0 : 2.0);
+    real finer = lit(shared_sets ? 0.7 : 2.0);
     real texels = size * size * lit(0.47746482927568601) * finer / count; // 6 / (4 pi), of 4 o.h times the density
     real texel_term = lit(0.5) * k_log2(texels);
     bool by_table = x.phong_set >= 0;
@@ -148,7 +149,8 @@ BN_FN real3 as_mc_specular(frame_ref f, BN_IN(shaded_point) x)
 }
 
 // What is shared: light over the usual lobe's albedo, so that f0 is each fragment's own. Of a mirror all is in `rest`. The more samples
-// there are, the finer is what they resolve, and the more alike lobes have to be.
+// there are, the finer is what they resolve, and the more alike lobes have to be; a few are shared even by lobes that are 3.5 widths apart,
+// as where surfaces turn fast the samples of one pixel alone show as dots.
 BN_FN line_record as_mc_shared(frame_ref f, BN_IN(shaded_point) x, real offset)
 {
     if (the_frame(f).grid_count == 1)
@@ -160,8 +162,7 @@ BN_FN line_record as_mc_shared(frame_ref f, BN_IN(shaded_point) x, real offset)
     r.light = select(mirror, nothing, found / max(x.albedo, vec3_all(lit(1e-6))));
     r.rest = select(mirror, mirrors_apart(f, x, nothing, lit(1.0)), nothing);
     real along2 = max((x.lobe.sigma_u - x.lobe.sigma_v) * (x.lobe.sigma_u + x.lobe.sigma_v), lit(0.0));
-    real root2 = lit(1.4142135623730951);
-    real nearer = root2 * min(lit(4.0) / sqrt(to_real(int_lit(the_frame(f).grid_count))), lit(1.0));
+    real nearer = min(lit(56.0) / to_real(int_lit(the_frame(f).grid_count)), lit(3.5));
     r.width = select(mirror, lit(-1.0), x.lobe.sigma_v * nearer);
     r.mirror = x.s.n * (lit(2.0) * k_dot3(x.s.n, x.s.v)) - x.s.v;
     r.along = x.lobe.u_axis * (sqrt(along2) * nearer);

@@ -39,16 +39,31 @@ PhongHalfVector phong_half_vector(double nu, double nv, double xi_x, double xi_y
     return {c * q, s * q, z, std::sqrt((nu + 1.0) * (nv + 1.0)) / (2.0 * kPi) * det_exp(e * lg)};
 }
 
+int phong_grid(int n)
+{
+    int grid = 256;
+    while (grid < kPhongSets * n)
+        grid *= 2;
+    return grid;
+}
+
 PhongPoint phong_point(int i, int n, int set)
 {
-    int quarter = set;
-    for (int digits = i; digits > 0; digits /= kPhongSets)
-        quarter += digits % kPhongSets;
-    const int point = kPhongSets * i + quarter % kPhongSets;
-    std::uint32_t bits = static_cast<std::uint32_t>(point), mirrored = 0;
-    for (int b = 0; b < 32; ++b, bits >>= 1)
-        mirrored = mirrored << 1 | (bits & 1u);
-    return {static_cast<double>(point) / (kPhongSets * n), mirrored / 4294967296.0};
+    if (n == 1)
+        return {0.0, 0.0};
+    constexpr double kTurn = 0.3819660112501051; // 2 - golden ratio
+    const int at = kPhongSets * i + set;
+    const double area = kPi * (at + 0.5) / (kPhongSets * n), row = 0.5 + at * kTurn;
+    double low = 0.0, high = kPi; // half the angle of the disc's part that lies before the row
+    for (int step = 0; step < 24; ++step) {
+        const double angle = 0.5 * (low + high);
+        (angle - 0.5 * det_sin(2.0 * angle) < area ? low : high) = angle;
+    }
+    const double x = -det_cos(low), y = (2.0 * (row - std::floor(row)) - 1.0) * det_sin(low);
+    const double turn = det_atan2(y, x) / (2.0 * kPi), grid = phong_grid(n);
+    const auto held = [&](double xi) { return std::floor(xi * grid + 0.5); };
+    const double column = held(turn < 0.0 ? turn + 1.0 : turn);
+    return {column < grid ? column / grid : 0.0, std::min(held(x * x + y * y), grid - 1.0) / grid};
 }
 
 std::vector<PhongHalfVector> phong_half_vectors(double nu, double nv, int samples)

@@ -19,13 +19,15 @@ struct PhongHalfVector {
 // that difference is exact.
 PhongHalfVector phong_half_vector(double nu, double nv, double xi_x, double xi_y);
 
-// Point i of n of one of four sets, which together are a Hammersley set of 4 n: of each four neighbours there every set has one, in another
-// quarter of y from four to four. Point 0 of set 0 is (0, 0).
+// Point i of n of one of four sets, which together are a lattice of 4 n points on the disc that azimuth and root of y span: rows of equal
+// areas across the lobe's wide axis, a point each, which the golden ratio moves along its row. So lobes that are long have a sample at
+// every 4 n-th of their length. Each fourth row is a set's. Both numbers are multiples of 1 / phong_grid(n). One point alone is (0, 0).
 inline constexpr int kPhongSets = 4;
 struct PhongPoint {
     double x, y;
 };
 PhongPoint phong_point(int i, int n, int set);
+int phong_grid(int n); // texels a side of a table of half vectors that holds these points
 // Half vectors at all points of these sets, one set after the other, in floats, as tables hold them.
 std::vector<PhongHalfVector> phong_half_vectors(double nu, double nv, int samples);
 

@@ -128,15 +128,12 @@ std::vector<std::string> PhongFiles::warnings(int samples) const
 {
     std::vector<std::string> lines;
     if (has_half_vectors()) {
-        const int columns = kPhongSets * samples;
-        int rows = 1;
-        while (rows < columns)
-            rows *= 2;
+        const int side = phong_grid(samples);
         if (half_codes_ > 0)
             lines.push_back(fmt::format("{}: 8 bits leave {} values along the first axis, and no densities", half_path_, half_codes_));
-        if (half_.width % columns != 0 || half_.height % rows != 0)
+        if (half_.width % side != 0 || half_.height % side != 0)
             lines.push_back(fmt::format("{}: {}x{} texels do not hold {} samples, which take the nearest ones below; {}x{} would",
-                                        half_path_, half_.width, half_.height, samples, columns, rows));
+                                        half_path_, half_.width, half_.height, samples, side, side));
     }
     if (albedo_8_)
         lines.push_back(fmt::format("{}: 8 bits leave albedos that are off by up to 0.002", albedo_path_));

@@ -229,7 +229,7 @@ vec3 filtered_is(Surface s, bool ggx)
     return sum * (frame.scale.z / (frame.scale.x * float(kSamples)));
 }
 
-// Ashikhmin and Shirley's lobe by a Hammersley set: see as_mc.t.h.
+// Ashikhmin and Shirley's lobe by a lattice: see as_mc.t.h.
 vec3 as_mc(Surface s)
 {
     if (has(kMirror) || kSamples == 1)
