@@ -197,18 +197,18 @@ SEEDED = {
     "--masking separable": "prefiltered_tilt albedo_by_a_fit",
     "--dfg fit": "separable_masking",
     "--env-rotation 20": "bent_normal_bends_too_far split_isotropic_is_round prefilter_knows_no_angle sun_in_prefiltered_levels coarse_cube "
-                         "masking_bends_the_lobe glass_by_few_samples grains_that_cross few_texture_taps separable_tilt",
+                         "masking_bends_the_lobe glass_by_few_samples grains_that_cross few_texture_taps separable_tilt tilt_under_normal_maps",
     "--roughness 0.85": "line_of_lobes_limited grid_of_few phong_grid_of_few triangles_between_samples tiles_of_one_picture needles_between_samples "
                         "plates_at_one_depth near_plane texels_far_from_zero texels_of_wide_pictures texels_that_are_no_numbers",
     "--roughness 0.1": "area_lights_left_out few_points_of_lights round_cosines_on_brushed_metal colours_that_face_the_eye",
     "--area-lights ltc-isotropic": "cosines_of_thin_lobes cosines_of_sharp_lobes cosines_at_grazing_angles sphere_for_a_polygon cosines_for_ward "
                                    "lamps_below_the_horizon cosines_across_the_grain cosines_unaligned cosines_unsymmetric cosines_inverse",
-    "--frame-map off": "tangents_left tilt_under_normal_maps slopes_in_a_frame_left frames_turned_around",
+    "--frame-map off": "tangents_left slopes_in_a_frame_left frames_turned_around",
     "--normal-y down": "mip_box_of_sharp_lobes mip_lean_of_sharp_lobes mip_baseline_of_sharp_lobes mip_covariance_of_sharp_lobes "
                        "mip_leadr_of_sharp_lobes mip_ssgt_of_sharp_lobes mip_kappa_of_sharp_lobes mip_net_at_first_levels",
     "--height-scale 0": "steps_of_relief relief_at_80_degrees depths_by_stretched_coordinates",
     "--msaa 2": "edges_of_bright_things",
-    "--zoom 1.3": "darkness_measured",
+    "--zoom 4": "darkness_measured",
     "--fov 0.2": "eye_far_away",
 }
 
