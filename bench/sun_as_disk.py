@@ -11,28 +11,18 @@ made again.
 Exit code: 0 key lights are nearer in the mean; 1 area lights are; 2 something could not be run.
 """
 
-import argparse
 import itertools
 import json
 import math
 import pathlib
-import subprocess
 import sys
-import tempfile
 
 from key_lights import mean, towards, write_sky
+from workbench import Program, arguments, in_folder
 
 RADII_DEG, ELEVATIONS_DEG = (1.0, 1.6), (5.0, 30.0, 65.0)
 ROUGHNESS, ANISOTROPY = (0.3, 0.5, 0.7, 0.9), (0.5, 0.9)
 AZIMUTH_DEG, IRRADIANCE, FAR = 60.0, 6.0, 200.0
-
-
-def run(*words):
-    done = subprocess.run([str(w) for w in words], capture_output=True, text=True, check=False)
-    if done.returncode:
-        print(f"{' '.join(map(str, words))}\n{done.stderr}", file=sys.stderr)
-        sys.exit(2)
-    return done.stdout
 
 
 def sky_of(radius_deg, elevation_deg, with_sun):
@@ -46,9 +36,9 @@ def sky_of(radius_deg, elevation_deg, with_sun):
     return light
 
 
-def disk_light(program, sky):
+def disk_light(run, sky):
     """--light's words for the only key light of a sky."""
-    keys = json.loads(run(program, "info", "--env", sky, "--json"))["environment"]["key_lights"]
+    keys = json.loads(run("info", "--env", sky, "--json"))["environment"]["key_lights"]
     if len(keys) != 1:
         print(f"{sky} has {len(keys)} key lights", file=sys.stderr)
         sys.exit(2)
@@ -63,24 +53,22 @@ def disk_light(program, sky):
 
 
 def main():
-    parser = argparse.ArgumentParser(description="FLIP of suns as key lights and as area lights")
-    parser.add_argument("--program", required=True, type=pathlib.Path)
+    parser = arguments(__doc__)
     parser.add_argument("--size", default="96x54")
     parser.add_argument("--samples", default="256", help="of the reference")
     parser.add_argument("--technique", default="lobe_line")
-    parser.add_argument("--work", type=pathlib.Path)
-    parser.add_argument("--json", type=pathlib.Path)
-    a = parser.parse_args()
-    work = a.work or pathlib.Path(tempfile.mkdtemp(prefix="burnish_sun"))
-    work.mkdir(parents=True, exist_ok=True)
-    rows = []
+    return in_folder(parser.parse_args(), measure)
+
+
+def measure(a, work):
+    rows, run = [], Program(a, work).run
     for radius, elevation in itertools.product(RADII_DEG, ELEVATIONS_DEG):
         sky = f"{radius:g}_{elevation:g}"
         paths = {True: work / f"sun_{sky}.hdr", False: work / f"dim_{sky}.hdr"}
         for with_sun, path in paths.items():
             if not path.exists():
                 write_sky(path, sky_of(radius, elevation, with_sun), 512)
-        disk = disk_light(a.program, paths[True])
+        disk = disk_light(run, paths[True])
         for roughness, eta in itertools.product(ROUGHNESS, ANISOTROPY):
             words = ("builtin:spheres", "--size", a.size, "--eye", "0,0.1,0.7", "--target", "0,0,0", "--no-background", "--roughness", roughness,
                      "--anisotropy", eta, "-q")
@@ -90,8 +78,8 @@ def main():
                     "area": ("--env", paths[False], "--technique", a.technique, "--msaa", "8", "--light", disk)}
             for way, more in ways.items():
                 if not pathlib.Path(f"{name}_{way}.pfm").exists():
-                    run(a.program, "render", *words, *more, "-o", f"{name}_{way}.pfm")
-            flip = {way: json.loads(run(a.program, "compare", f"{name}_truth.pfm", f"{name}_{way}.pfm", "--metric", "flip-hdr", "--json", "-",
+                    run("render", *words, *more, "-o", f"{name}_{way}.pfm")
+            flip = {way: json.loads(run("compare", f"{name}_truth.pfm", f"{name}_{way}.pfm", "--metric", "flip-hdr", "--json", "-",
                                         "-q"))["flip_mean"] for way in ("key", "area")}
             rows.append({"radius_deg": radius, "elevation_deg": elevation, "roughness": roughness, "anisotropy": eta, **flip})
             print(f"disc of {radius:g} degrees at {elevation:g}, roughness {roughness:g}, anisotropy {eta:g}: key light {flip['key']:.4f}, area "
@@ -104,7 +92,7 @@ def main():
     key, area = mean([r["key"] for r in rows]), mean([r["area"] for r in rows])
     print(f"all            key light {key:.4f}, area light {area:.4f}, nearer at {sum(r['area'] < r['key'] for r in rows)} of {len(rows)}")
     if a.json:
-        a.json.write_text(json.dumps(rows, indent=1) + "\n")
+        pathlib.Path(a.json).write_text(json.dumps(rows, indent=1) + "\n")
     return 0 if key <= area else 1
 
 
