@@ -12,6 +12,11 @@ double number_of(const nlohmann::json& json)
     return json.is_null() ? std::numeric_limits<double>::quiet_NaN() : json.get<double>();
 }
 
+std::uint64_t count_of(const nlohmann::json& json)
+{
+    return json.get_ref<const nlohmann::json::number_unsigned_t&>(); // throws where it is no whole number, or too large for one
+}
+
 } // namespace
 
 Result<Kept> parse_kept(const std::string& text, const std::string& file)
@@ -24,7 +29,7 @@ Result<Kept> parse_kept(const std::string& text, const std::string& file)
         if (json.contains("other_load") && !json["other_load"].is_null())
             kept.others = json["other_load"].get<double>();
         for (const auto& [key, noise] : json.at("references").items())
-            kept.references[key] = {noise.at("samples").get<std::uint64_t>(), number_of(noise.at("relative_error")),
+            kept.references[key] = {count_of(noise.at("samples")), number_of(noise.at("relative_error")),
                                     number_of(noise.at("flip_noise"))};
         for (const auto& [key, row] : json.at("rows").items()) {
             Measured& m = kept.rows[key];
@@ -35,7 +40,7 @@ Result<Kept> parse_kept(const std::string& text, const std::string& file)
             m.has_errors = row.contains("flip_mean");
             if (m.has_errors)
                 m.errors = {number_of(row.at("flip_mean")), number_of(row.at("flip_p99")), number_of(row.at("rel_mse")),
-                            number_of(row.at("max_abs")), row.at("nan_pixels").get<std::uint64_t>()};
+                            number_of(row.at("max_abs")), count_of(row.at("nan_pixels"))};
         }
         return kept;
     } catch (const nlohmann::json::exception&) {

@@ -146,6 +146,7 @@ def killed_reports(bench, words, kills):
     """`race` and `parity` write once, at the end: whole or nothing, and what they keep of pipelines does no harm to the next run."""
     own = kills > 10  # a cache of its own, so that pipelines are compiled and written again and again
     env = {"XDG_CACHE_HOME": str(bench.folder / "cache")} if own else {}
+    env["GALLIVM_PERF"] = "nopt"  # pipelines are not optimised longer than pictures repay
     words = (*words, "--json", "found.json")
     begin = time.monotonic()
     done = bench.run(*words, env=env, timeout=500.0)

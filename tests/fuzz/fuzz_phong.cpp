@@ -43,7 +43,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
             BN_CHECK(std::isfinite(h.x + h.y + h.z + h.density) && h.density >= 0.0);
         return 0;
     }
-    if (data[0] & 30) // what it is compared with takes long, whatever the picture is: once in 16
+    if (data[0] != 0) // what it is compared with takes long, whatever the picture is
         return 0;
     std::vector<std::uint16_t> texels(64 * 64 * 4); // more than a slice of 8 has
     tables->slice(10.0, 90.0, 8, texels.data());
