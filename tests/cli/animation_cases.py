@@ -117,7 +117,8 @@ def chunks(data):
 
 @case("animation.a_moving_picture_holds_the_pictures_of_its_row")
 def a_moving_picture_holds_the_pictures_of_its_row(bench):
-    bench.run("render", *ROW, "--animate", "roughness=0.2:0.6", "--steps", "3", "--fps", "12", "-o", "a.apng", "-o", "s%d.png").expect(0)
+    bench.run("render", *ROW, "--animate", "roughness=0.2:0.6", "--steps", "3", "--fps", "12", "--msaa", "4", "--resolve", "display",
+              "--exposure", "3", "-o", "a.apng", "-o", "s%d.png").expect(0)
     found = chunks((bench.folder / "a.apng").read_bytes())
     kinds = [kind for kind, _ in found]
     check(kinds[0] == b"IHDR" and kinds[-1] == b"IEND" and kinds.index(b"acTL") < kinds.index(b"IDAT"), f"{kinds}")

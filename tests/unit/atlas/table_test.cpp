@@ -111,6 +111,8 @@ TEST(atlas_table, the_kind_is_held_where_it_is_sure)
     EXPECT_EQ(judge(kEntry, m, &row).verdict, Verdict::held);
     m.kind = "sampling", m.remedy = 0.1;
     EXPECT_EQ(judge(kEntry, m, &row).verdict, Verdict::held);
+    m.kind = "none", m.remedy = 1.0; // breaks no more
+    EXPECT_EQ(judge(kEntry, m, &row).verdict, Verdict::better);
 }
 
 TEST(atlas_table, a_cure_above_the_threshold_is_no_cure)
