@@ -23,8 +23,8 @@ using ltc::Vec;
 using Quad = std::vector<Vec>;
 
 // Strips beside a ball about 0, seen from along z.
-const Quad kStrips[] = {{{-1.6, 1.2, 2.2}, {-1.2, 1.2, 2.2}, {-1.2, -1.2, 2.2}, {-1.6, -1.2, 2.2}},
-                        {{0.3, 2.0, -1.0}, {0.7, 2.0, -1.0}, {0.7, 2.0, 1.5}, {0.3, 2.0, 1.5}}};
+constexpr Vec kStrips[2][4] = {{{-1.6, 1.2, 2.2}, {-1.2, 1.2, 2.2}, {-1.2, -1.2, 2.2}, {-1.6, -1.2, 2.2}},
+                               {{0.3, 2.0, -1.0}, {0.7, 2.0, -1.0}, {0.7, 2.0, 1.5}, {0.3, 2.0, 1.5}}};
 
 struct Pixel { // of the ball: its lobe, and the strips from there in the lobe's frame
     ltc::Place place;
