@@ -82,9 +82,9 @@ SAME = {"lamp": 1e-5, "key": 0.005}  # of the larger one: rounding; a key light 
 MAPPED = 2e-3  # of normals of maps: their texels are of half floats
 # What light lobes lose between microfacets is given back by the eye's place alone, as a factor 1 + f0 (1 - E) / E of the lobe's albedo E there: the
 # places differ by what E does, as measured, alone ("") and beside another option. The fit has one E for both.
-COMPENSATED = {"": 0.0138, "rough": 0.0499, "sharp": 0.0028, "round": 0.0129, "across": 0.0003, "separable": 0.0146, "fit": 0.0000, "tilted": 0.0468,
-               "projected": 0.0348, "turned": 0.0349, "left": 0.0358, "widened": 0.0123, "model ggx": 0.0320, "model ggx_aniso_separable": 0.0026,
-               "model beckmann": 0.0252, "model ashikhmin_shirley": 0.0548, "model ward": 0.1112, "model ward_cheap": 0.0791,
+COMPENSATED = {"": 0.0126, "rough": 0.0481, "sharp": 0.0028, "round": 0.0129, "across": 0.0008, "separable": 0.0135, "fit": 0.0000, "tilted": 0.0460,
+               "projected": 0.0364, "turned": 0.0364, "left": 0.0368, "widened": 0.0123, "model ggx": 0.0320, "model ggx_aniso_separable": 0.0026,
+               "model beckmann": 0.0252, "model ashikhmin_shirley": 0.0435, "model ward": 0.1112, "model ward_cheap": 0.0791,
                "model ellipsoid": 0.0049, "model ellipsoid_correlated": 0.0016}
 AS_MEASURED = 0.05 # of it
 # Where tangents are left, axes are not square: by so much these are one-way, too, and no other.
