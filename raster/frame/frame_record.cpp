@@ -187,12 +187,22 @@ int FrameMaker::set_of(float sigma_u, float sigma_v, int samples)
     return first;
 }
 
+namespace {
+
+// Whether the frame's lobes are Ashikhmin and Shirley's, and scaled by their own albedo, whatever the technique.
+bool compensates_phong(const FrameDesc& desc, const Scene& scene)
+{
+    return desc.energy_compensation && (lobe_traits_of(lobe_of(desc, tilts(scene, desc))) & kLobeOfPhong);
+}
+
+} // namespace
+
 // Of every material whose lobe has the same two widths everywhere.
 void FrameMaker::slice_albedo(const FrameDesc& desc)
 {
     ShadingFrame f = {};
     f.override_anisotropy = desc.override_anisotropy, f.anisotropy = desc.anisotropy;
-    const bool compensated = desc.energy_compensation && (lobe_traits_of(lobe_of(desc, tilts(input_.scene, desc))) & kLobeOfPhong);
+    const bool compensated = compensates_phong(desc, input_.scene);
     for (MaterialRecord& m : materials_) {
         m.albedo_slice = m.phong_slice = m.phong_set = -1, m.brushed = 1.0f;
         if (m.anisotropic && (m.technique_traits & kSharesSamples) && !(m.technique_traits & kPhongGrid) && m.moments == kNoMoments)
@@ -212,12 +222,14 @@ void FrameMaker::slice_albedo(const FrameDesc& desc)
 
 Status FrameMaker::check(const FrameDesc& desc) const
 {
-    if (const Status ok = check_frame(input_.scene, desc); !ok || !input_.phong || desc.as_tables != 0)
+    if (const Status ok = check_frame(input_.scene, desc); !ok || !input_.phong)
         return ok;
+    const bool compensated = compensates_phong(desc, input_.scene);
     ShadingFrame f = {};
     f.override_anisotropy = desc.override_anisotropy, f.anisotropy = desc.anisotropy;
     for (const MaterialRecord& m : in_frame(overrides(input_.scene, desc) ? scene_.overridden : scene_.materials, desc)) {
-        if (!(technique_of(desc, m.anisotropic != 0).traits & kPhongGrid) || m.unlit || !one_lobe_shape(m) || desc.specular_aa)
+        const bool sampled = (technique_of(desc, m.anisotropic != 0).traits & kPhongGrid) && desc.as_tables == 0;
+        if ((!sampled && !compensated) || m.unlit || !one_lobe_shape(m) || desc.specular_aa)
             continue;
         const double root2 = 1.4142135623730951;
         const lobe_shape shape = only_lobe_shape(f, m);

@@ -47,6 +47,12 @@ def tables(bench):
     for anisotropy in ("0.5", "0"):
         for name in ("both/h.exr", "a.pfm", "h.png"):
             bench.run("render", *LOBE, "--anisotropy", anisotropy, "--as-table", name, "-q", "-o", "no.pfm").expect(4).expect_one_line(name, "nu")
+    # by other techniques where the lobe is compensated by its own albedo
+    words = (*LOBE, "--technique", "mc", "--samples", "8", "--brdf", "ashikhmin_shirley", "--energy-compensation")
+    words = tuple(word for i, word in enumerate(words) if word != "as_mc" and not (word == "--technique" and words[i + 1] == "as_mc"))
+    check(hash_of(bench, *words, "--anisotropy", "0.6", "--as-table", "a.pfm") == hash_of(bench, *words, "--anisotropy", "0.6"),
+          "the lobe's own table draws another picture")
+    bench.run("render", *words, "--anisotropy", "0.5", "--as-table", "a.pfm", "-q", "-o", "no.pfm").expect(4).expect_one_line("a.pfm", "nu")
     scratch(bench, "grey.png", png(8, 8, lambda x, y: (128, 128, 200)))
     scratch(bench, "holes.pfm", pfm(8, 8, lambda x, y: (0, 0, 1) if y == 0 else (float("nan"), 0, 0)))
     for name in ("grey.png", "holes.pfm", "none.exr"):
