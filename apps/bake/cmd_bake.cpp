@@ -2,34 +2,27 @@
 #include <algorithm>
 #include <filesystem>
 #include <fmt/core.h>
-#include <iterator>
 #include <memory>
 
 #include "apps/bake/direction.h"
 #include "apps/bake/displaced.h"
+#include "apps/bake/ltc.h"
 #include "apps/bake/maps.h"
 #include "apps/bake/mip.h"
 #include "apps/bake/phong_tables.h"
-#include "apps/bake/report.h"
-#include "apps/bake/resolutions.h"
+#include "apps/bake/preview.h"
 #include "apps/bake/straighten.h"
 #include "apps/cli/command.h"
 #include "apps/cli/open.h"
 #include "apps/cli/outputs.h"
 #include "apps/cli/report.h"
 #include "apps/cli/shared_options.h"
-#include "apps/cli/stop_signal.h"
 #include "apps/cli/values.h"
-#include "apps/plot/plot.h"
-#include "apps/report/looks.h"
-#include "apps/report/png.h"
-#include "apps/report/svg.h"
 #include "core/base/file.h"
 #include "core/image/io/image_io.h"
 #include "core/jobs/cores.h"
 #include "raster/frame/frame.h"
 #include "shading/bake/environment/environment_cache.h"
-#include "shading/bake/ltc/bake_ltc.h"
 #include "shading/bake/tables/phong.h"
 
 namespace burnish {
@@ -64,7 +57,7 @@ Examples:
   burnish bake direction wave.jpg --from hue -o directions.png
   burnish bake quaternion normal.png -o quaternion.png
   burnish bake tpr --expr "cos(pi*v)" "sin(pi*v)" -o turned.exr
-  burnish bake tpr --straighten spot.obj --direction 0,1,0 --size 512x512 -o straight.exr
+  burnish bake tpr --straighten spot.obj --direction 0,1,0 --size 512x512 -o straight.exr --preview seen
   burnish bake half-vectors --nu 70 --nv 400 --size 64x64 -o half_vectors.exr
   burnish bake brdf-lut --nu 70 --nv 400 -o albedo.exr
   burnish bake environment workshop.hdr -o workshop
@@ -73,7 +66,7 @@ Examples:
   burnish bake displaced wall.obj heights.png --height-scale 0.02 -o wall.glb)~";
 
 struct BakeArguments {
-    std::string what = "ltc", picture, heights, output, table, report;
+    std::string what = "ltc", picture, heights, output, preview;
     DirectionFrom from = DirectionFrom::hue;
     double strength = 1.0;
     std::vector<std::string> expressions;
@@ -88,13 +81,9 @@ struct BakeArguments {
     MipArguments mip;
     double nu = -1.0, nv = -1.0;
     Limits limits;
-    int resolution = 8, steps = 12, samples = 8, threads = 0;
-    ltc::Norm norm = ltc::Norm::l1;
-    int cosines = 1;
-    std::string interpolate = "mirror";
-    bool unaligned = false, unsymmetric = false;
-    bool half = false, isotropic = false, quiet = false;
-    int verbosity = 0;
+    LtcArguments ltc;
+    int threads = 0, verbosity = 0;
+    bool quiet = false;
 };
 
 // The size that was asked for, or the usual one of what is made.
@@ -128,21 +117,7 @@ OptionTable bake_option_table(BakeArguments& to)
                         scene(to.mesh)},
                        {"--direction", "X,Y,Z", "Of the grain in space", point(to.along), ""},
                        {"--encoding", "NAME", "{}", choice(to.encoding, {"vector", "double-angle", "direction"})}});
-    table.add_needing("WHAT", "ltc",
-                      {{"--resolution", "N", "Nodes along each axis, {}", integer(to.resolution, 3, 128), "8, isotropic 64"},
-                       {"--isotropic", "", "Round lobes alone: nodes along theta and alpha, as engines have them", flag(to.isotropic)},
-                       {"--steps", "N", "Of the fit of all entries at once, {}; 0: each node alone", integer(to.steps, 0, 100)},
-                       {"--samples", "N", "Lobes in each cell that this fit looks at, {}", integer(to.samples, 1, 64)},
-                       {"--fit", "NAME", "What makes a node's matrix the nearest: {}", choice(to.norm, {"l1", "l3", "sw"})},
-                       {"--interpolate", "NAME", "What is held of matrices: {}", choice(to.interpolate, {"mirror", "matrix", "inverse"})},
-                       {"--no-align", "", "Leave matrices turned as they are, whatever their neighbours are", flag(to.unaligned)},
-                       {"--no-symmetry", "", "Fit every node by itself, whatever symmetry says of it", flag(to.unsymmetric)},
-                       {"--lobes", "N", "Of --report: also the nearest sum of two cosines where one is .3 off or more",
-                        choice(to.cosines, std::vector<int>{1, 2})},
-                       {"--half", "", "Entries as halves, not floats", flag(to.half)},
-                       {"--table", "FILE", "Measure this table instead of making one", file(to.table)},
-                       {"--report", "FOLDER", "Also measure the table: quality.json; quality, lobes and resolutions as .svg and .png",
-                        folder(to.report)}});
+    table.add_needing("WHAT", "ltc", ltc_options(to.ltc));
     table.add(
         "Maps and tables of texels",
         {{"--size", "WxH", "Texels of tpr, half-vectors and brdf-lut", picture_size(to.size),
@@ -162,6 +137,7 @@ OptionTable bake_option_table(BakeArguments& to)
     table.add("Output",
               {{"-o,--output", "FILE",
                 "The table, or the map: .png or .tif; of quaternion, tpr and half-vectors .exr, too; of displaced .glb", file(to.output)},
+               {"--preview", "FOLDER", "Also pictures to look at: .png in a folder, none of which anything reads back", folder(to.preview)},
                quiet_option(to.quiet),
                verbose_option(to.verbosity),
                threads_option(to.threads)});
@@ -182,120 +158,6 @@ Status check_direction(const BakeArguments& a)
     return check_picture_path(a.output, {a.picture});
 }
 
-// Whether a table is made as others make theirs: each node by itself.
-bool others_path(const BakeArguments& a)
-{
-    return a.norm != ltc::Norm::l1 || a.interpolate != "mirror" || a.unaligned || a.unsymmetric;
-}
-
-// Whose lobes a table is of; none where --brdf names others than can be fitted.
-std::optional<ltc::Model> model_of(const BakeArguments& a)
-{
-    const auto* const found =
-        std::find(std::begin(ltc::kModelNames), std::end(ltc::kModelNames), std::string_view(lobe_model(a.mip.brdf).name));
-    if (found == std::end(ltc::kModelNames))
-        return std::nullopt;
-    return static_cast<ltc::Model>(found - std::begin(ltc::kModelNames));
-}
-
-Status check_arguments(const BakeArguments& a, const OptionTable& given)
-{
-    if (!a.picture.empty())
-        return usage_error("PICTURE", fmt::format("'{}': a table is made of nothing", a.picture));
-    if (a.table.empty() == a.output.empty())
-        return usage_error("-o", "is needed, or --table, and not both");
-    if (!a.table.empty())
-        for (const char* option :
-             {"--steps", "--samples", "--half", "--isotropic", "--fit", "--interpolate", "--no-align", "--no-symmetry", "--brdf"})
-            if (given.given(option))
-                return usage_error(option, "says how a table is made, and --table FILE is made already");
-    if (!model_of(a))
-        return usage_error(
-            "--brdf", fmt::format("'{}': only ggx_aniso, beckmann, ashikhmin_shirley and ward can be fitted", lobe_model(a.mip.brdf).name));
-    if (given.given("--lobes") && a.report.empty())
-        return usage_error("--lobes", "says what --report FOLDER measures, which is not asked for");
-    if (others_path(a) && given.given("--steps") && a.steps > 0)
-        return usage_error(
-            "--steps", "is of the fit between nodes, which needs --fit l1, --interpolate mirror, and aligned entries with their symmetry");
-    if (a.isotropic)
-        for (const char* option : {"--steps", "--samples", "--interpolate", "--no-align", "--no-symmetry"})
-            if (given.given(option))
-                return usage_error(option, "is of tables of all lobes, and this one is of --isotropic");
-    if (!a.isotropic && a.table.empty() && a.resolution > 16)
-        return usage_error("--resolution", fmt::format("{} is more than 16, which only a table of --isotropic may have", a.resolution));
-    if (a.output == "-")
-        return usage_error("-o", "the table is no text for standard output");
-    if (a.output.empty())
-        return {};
-    if (Status path = check_text_path("-o", a.output, {}); !path)
-        return path;
-    return check_text_path("-o", a.output + ".part", {});
-}
-
-Status write_report_files(const BakeArguments& a, const Json& figures, const std::vector<std::pair<std::string, Drawing>>& drawings,
-                          Report& report)
-{
-    std::error_code failed;
-    fs::create_directories(a.report, failed);
-    if (failed)
-        return Error{ExitCode::output_failed, a.report, "", failed.message()};
-    std::vector<std::pair<std::string, std::string>> files = {{"quality.json", figures.dump(2) + "\n"}};
-    for (const auto& [name, drawing] : drawings) {
-        Result<std::string> png = png_of(drawing);
-        if (!png)
-            return png.error();
-        files.emplace_back(name + ".svg", svg_of(drawing, chart_style()));
-        files.emplace_back(name + ".png", std::move(*png));
-    }
-    for (const auto& [name, bytes] : files) {
-        const std::string path = (fs::path(a.report) / name).string();
-        if (Status written = write_file_atomic(path, bytes.data(), bytes.size()); !written)
-            return written;
-        report.wrote(path);
-    }
-    return {};
-}
-
-// The table that was asked for; nothing where it was stopped.
-Result<std::optional<ltc::Table>> table_of(const BakeArguments& a, const OptionTable& given, const Jobs& jobs, Report& report)
-{
-    if (!a.table.empty()) {
-        Result<ltc::Table> read = ltc::read_table(a.table, given.given("--resolution") ? a.resolution : 0);
-        if (!read)
-            return read.error();
-        return std::optional(std::move(*read));
-    }
-    ltc::BakeOptions options;
-    options.grid = a.isotropic ? ltc::round_grid() : ltc::grid_of(a.resolution);
-    if (given.given("--resolution"))
-        options.grid.size = a.resolution;
-    options.steps = a.isotropic || others_path(a) ? 0 : a.steps, options.samples_a_cell = a.samples;
-    options.model = *model_of(a), options.norm = a.norm, options.align = !a.unaligned, options.symmetry = !a.unsymmetric;
-    if (a.interpolate != "mirror") {
-        options.grid.beyond = 0, options.grid.root_alpha = options.grid.over_alpha = false;
-        options.grid.basis = ltc::Basis::tangent, options.grid.inverse = a.interpolate == "inverse";
-    }
-    options.checkpoint = a.output + ".part";
-    options.stop = &watch_stop_signals();
-    std::optional<Progress> progress;
-    progress.emplace("transformed cosines", ltc::bake_units(options), a.quiet);
-    options.advance = [&progress](std::size_t units) { progress->step(units); };
-    Result<std::optional<ltc::Baked>> baked = ltc::bake_table(options, jobs);
-    progress.reset();
-    if (!baked)
-        return baked.error();
-    if (!*baked)
-        return std::optional<ltc::Table>();
-    report.event("fit", fmt::format("mean L1 {:.4f} of nodes alone; {:.4f} between them, {:.4f} before", (*baked)->node_l1,
-                                    (*baked)->fit_l1, (*baked)->fit_l1_before));
-    if (Status written = ltc::write_table(a.output, (*baked)->table, a.half); !written)
-        return written.error();
-    report.wrote(a.output);
-    std::error_code ignored;
-    fs::remove(options.checkpoint, ignored);
-    return std::optional(std::move((*baked)->table));
-}
-
 using Warnings = std::vector<std::string>;
 
 // The one of a picture of floats that holds what are none.
@@ -305,16 +167,36 @@ Warnings repaired(const Image& picture, const std::string& path)
     return bad == 0 ? Warnings() : Warnings{fmt::format("{}: {} pixels are no numbers and are repaired", path, bad)};
 }
 
-int write_map(const BakeArguments& arguments, const Image& map, const Warnings& warnings = {})
+// What is made, as a file that `write` writes, and what --preview shows of it.
+template <class Write, class Show>
+int write_made(const BakeArguments& a, const std::string& path, const Warnings& warnings, Write write, Show show)
 {
-    if (const Status written = write_image(arguments.output, map); !written)
+    const Preview preview = a.preview.empty() ? Preview() : show();
+    if (const Status fits = check_preview(a.preview, preview, {path, a.picture, a.heights, a.mesh}); !fits)
+        return fail(fits.error());
+    if (const Status written = write(); !written)
         return fail(written.error());
-    Report report(arguments.quiet, arguments.verbosity);
+    Report report(a.quiet, a.verbosity);
     report.release();
     for (const std::string& warning : warnings)
         report.warning(warning);
-    report.wrote(arguments.output);
+    report.wrote(path);
+    if (const Status written = write_preview(a.preview, preview, report); !written)
+        return fail(written.error());
     return 0;
+}
+
+template <class Show> int write_map(const BakeArguments& a, const Image& map, const Warnings& warnings, Show show)
+{
+    return write_made(
+        a, a.output, warnings, [&] { return write_image(a.output, map); }, [&] { return show(map); });
+}
+
+template <class Show>
+int write_bytes(const BakeArguments& a, const std::string& path, const void* bytes, std::size_t count, const Warnings& warnings, Show show)
+{
+    return write_made(
+        a, path, warnings, [&] { return write_file_atomic(path, bytes, count); }, show);
 }
 
 int run_direction(const BakeArguments& arguments)
@@ -324,7 +206,8 @@ int run_direction(const BakeArguments& arguments)
     const Result<Image> picture = read_image(arguments.picture, arguments.limits);
     if (!picture)
         return fail(picture.error());
-    return write_map(arguments, direction_map(*picture, arguments.from, arguments.strength), repaired(*picture, arguments.picture));
+    return write_map(arguments, direction_map(*picture, arguments.from, arguments.strength), repaired(*picture, arguments.picture),
+                     [](const Image& map) { return preview_of_rotations(map, RotationEncoding::direction); });
 }
 
 // Of quaternions and rotations, which keep floats where the file does. inputs: that it must not overwrite.
@@ -357,7 +240,13 @@ int run_quaternion(const BakeArguments& a)
     Warnings warnings;
     if (map.repaired)
         warnings.push_back(fmt::format("{}: {} normals have no length and turn nothing", a.picture, map.repaired));
-    return write_map(a, map.image, warnings);
+    return write_map(a, map.image, warnings, preview_of_quaternions);
+}
+
+int write_rotations(const BakeArguments& a, const Image& directions, PixelType type, const Warnings& warnings)
+{
+    return write_map(a, encoded_rotations(directions, a.encoding, type), warnings,
+                     [&](const Image& map) { return preview_of_rotations(map, a.encoding); });
 }
 
 int run_straighten(const BakeArguments& a)
@@ -381,7 +270,7 @@ int run_straighten(const BakeArguments& a)
     if (made.without > 0 || made.twice > made.covered / 100) // edges are of two triangles
         warnings.push_back(fmt::format("{}: of {} texels {} have the direction along their normal; {} lie in another triangle too", a.mesh,
                                        made.covered, made.without, made.twice));
-    return write_map(a, encoded_rotations(made.directions, a.encoding, *type), warnings);
+    return write_rotations(a, made.directions, *type, warnings);
 }
 
 int run_tpr(const BakeArguments& a)
@@ -399,19 +288,7 @@ int run_tpr(const BakeArguments& a)
     const Result<Image> directions = rotations_of(expressions, size_of(a, {256, 256}));
     if (!directions)
         return fail(directions.error());
-    return write_map(a, encoded_rotations(*directions, a.encoding, *type));
-}
-
-int write_bytes(const BakeArguments& a, const std::string& path, const void* bytes, std::size_t count, const Warnings& warnings)
-{
-    if (const Status written = write_file_atomic(path, bytes, count); !written)
-        return fail(written.error());
-    Report report(a.quiet, a.verbosity);
-    report.release();
-    for (const std::string& warning : warnings)
-        report.warning(warning);
-    report.wrote(path);
-    return 0;
+    return write_rotations(a, *directions, *type, {});
 }
 
 int run_environment(const BakeArguments& a)
@@ -429,7 +306,8 @@ int run_environment(const BakeArguments& a)
     if (failed)
         return fail({ExitCode::output_failed, a.output, "", failed.message()});
     const std::vector<std::uint8_t> bytes = environment_cache_bytes(**baked);
-    return write_bytes(a, (fs::path(a.output) / kBakedEnvironment).string(), bytes.data(), bytes.size(), (*baked)->warnings);
+    return write_bytes(a, (fs::path(a.output) / kBakedEnvironment).string(), bytes.data(), bytes.size(), (*baked)->warnings,
+                       [&] { return preview_of_environment(**baked); });
 }
 
 int run_displaced(const BakeArguments& a)
@@ -455,7 +333,7 @@ int run_displaced(const BakeArguments& a)
     const Result<Displaced> made = displaced((*data)->tables, *heights, a.depth, static_cast<std::size_t>(a.triangles), a.picture);
     if (!made)
         return fail(made.error());
-    return write_bytes(a, a.output, made->glb.data(), made->glb.size(), warnings);
+    return write_bytes(a, a.output, made->glb.data(), made->glb.size(), warnings, [&] { return preview_of_heights(*heights, a.depth); });
 }
 
 int run_phong(const BakeArguments& a, const OptionTable& given)
@@ -472,7 +350,7 @@ int run_phong(const BakeArguments& a, const OptionTable& given)
     if (a.what == "brdf-lut") {
         if (*type != PixelType::f32)
             return fail(usage_error("-o", fmt::format("'{}' must end in .exr or .pfm, which hold floats", a.output)));
-        return write_map(a, albedo_table(nu, nv, size_of(a, {kLobeAlbedoSize / 2, kLobeAlbedoSize}), a.azimuth));
+        return write_map(a, albedo_table(nu, nv, size_of(a, {kLobeAlbedoSize / 2, kLobeAlbedoSize}), a.azimuth), {}, preview_of_albedo);
     }
     const bool density = fs::path(a.output).extension() == ".exr";
     if (*type == PixelType::f32 && !density)
@@ -481,7 +359,7 @@ int run_phong(const BakeArguments& a, const OptionTable& given)
     Warnings warnings;
     if (*type == PixelType::u8)
         warnings.push_back(fmt::format("8 bits leave {} values along the tangent, and no densities", codes_of(table)));
-    return write_map(a, table, warnings);
+    return write_map(a, table, warnings, preview_of_half_vectors);
 }
 
 int run_bake(const BakeArguments& arguments, const OptionTable& given)
@@ -505,43 +383,17 @@ int run_bake(const BakeArguments& arguments, const OptionTable& given)
     if (arguments.what == "environment")
         return run_environment(arguments);
     if (arguments.what == "mip")
-        return run_mip({arguments.mip, arguments.picture, arguments.output, arguments.limits, arguments.threads, arguments.verbosity,
-                        arguments.quiet});
+        return run_mip({arguments.mip, arguments.picture, arguments.output, arguments.preview, arguments.limits, arguments.threads,
+                        arguments.verbosity, arguments.quiet});
     if (arguments.what == "direction")
         return run_direction(arguments);
     if (arguments.what == "quaternion")
         return run_quaternion(arguments);
     if (arguments.what == "tpr")
         return run_tpr(arguments);
-    if (Status checked = check_arguments(arguments, given); !checked)
-        return fail(checked.error());
-    Report report(arguments.quiet, arguments.verbosity);
-    const Jobs jobs(arguments.threads);
-    const Result<std::optional<ltc::Table>> table = table_of(arguments, given, jobs, report);
-    if (!table)
-        return fail(table.error());
-    report.release();
-    if (!*table) {
-        report.event("stopped", fmt::format("the same command goes on from {}.part; no table was written", arguments.output));
-        return 128 + stop_signal(); // as a shell reports a process that a signal ended
-    }
-    if (arguments.report.empty())
-        return 0;
-    const LtcQuality quality = measure_ltc(**table, arguments.cosines, jobs);
-    Json figures = ltc_json(quality, **table);
-    std::vector<std::pair<std::string, Drawing>> drawings = {{"quality", plot_ltc_quality(quality)}};
-    std::string lines = ltc_lines(quality);
-    if ((*table)->model() == ltc::Model::ggx && !(*table)->grid.round) { // the document's figures are of its lobes
-        drawings.emplace_back("lobes", plot_ltc(LobePlot(), **table));
-        const LtcResolutions resolutions = measure_resolutions(**table, jobs);
-        figures["resolutions"] = resolution_json(resolutions);
-        drawings.emplace_back("resolutions", plot_resolutions(resolutions));
-        lines += resolution_lines(resolutions);
-    }
-    if (Status written = write_report_files(arguments, figures, drawings, report); !written)
-        return fail(written.error());
-    report.figures(lines);
-    return 0;
+    return run_ltc({arguments.ltc, arguments.mip.brdf, arguments.picture, arguments.output, arguments.preview, arguments.threads,
+                    arguments.verbosity, arguments.quiet},
+                   given);
 }
 
 } // namespace

@@ -16,7 +16,6 @@
 #include "apps/cli/values.h"
 #include "core/base/clock.h"
 #include "core/base/file.h"
-#include "core/image/io/image_io.h"
 #include "core/jobs/jobs.h"
 #include "shading/bake/mip/pyramid_file.h"
 #include "shading/lang/tables.h"
@@ -30,28 +29,21 @@ std::byte mip_code(float unit)
     return static_cast<std::byte>(static_cast<int>(std::clamp(unit, 0.0f, 1.0f) * 255.0f + 0.5f));
 }
 
-Status write_preview(const std::string& folder, const Scene& scene, const MaterialLevels& levels, Report& report)
+Preview preview_of(const Scene& scene, const MaterialLevels& levels)
 {
-    std::error_code failed;
-    std::filesystem::create_directories(folder, failed);
-    if (failed)
-        return Error{ExitCode::output_failed, folder, "", failed.message()};
     std::vector<std::string> materials;
     for (const Material& m : scene.materials)
         materials.push_back(m.name);
     const std::vector<std::string> names = plain_names(materials);
+    Preview all;
     for (std::size_t i = 0; i < levels.size(); ++i) {
-        if (!levels[i] || std::find(levels.begin(), levels.begin() + static_cast<std::ptrdiff_t>(i), levels[i]) !=
-                              levels.begin() + static_cast<std::ptrdiff_t>(i))
+        const auto here = levels.begin() + static_cast<std::ptrdiff_t>(i);
+        if (!levels[i] || std::find(levels.begin(), here, levels[i]) != here)
             continue;
-        for (const MipPicture& picture : mip_pictures(names[i], *levels[i])) {
-            const std::string path = (std::filesystem::path(folder) / (picture.name + ".png")).string();
-            if (Status written = write_image(path, picture.image); !written)
-                return written;
-            report.wrote(path);
-        }
+        for (PreviewPicture& picture : mip_pictures(names[i], *levels[i]))
+            all.push_back(std::move(picture));
     }
-    return {};
+    return all;
 }
 
 } // namespace
@@ -84,9 +76,9 @@ std::vector<std::string> plain_names(const std::vector<std::string>& materials)
     return names;
 }
 
-std::vector<MipPicture> mip_pictures(const std::string& material, const MipLevels& levels)
+Preview mip_pictures(const std::string& material, const MipLevels& levels)
 {
-    std::vector<MipPicture> pictures;
+    Preview pictures;
     for (std::size_t l = 0; l < levels.levels.size(); ++l) {
         const MipLevel& level = levels.levels[l];
         Image normals = make_image(level.width, level.height, 3, PixelType::u8), lobes = normals;
@@ -123,8 +115,7 @@ std::vector<Option> mip_options(MipArguments& to)
         {"--couple", "NAME", "Of textures: {}; albedo: base colours and metalness weigh as their texels face light and eye",
          choice(to.couple_albedo, {"none", "albedo"})},
         {"--color-kernel", "NAME", "What base colours and metalness of textures are averaged by: {}",
-         choice(to.color_kernel, {"box", "kaiser"})},
-        {"--preview", "FOLDER", "Also every level as two pictures: normals, and lobes in false colour", folder(to.preview)}};
+         choice(to.color_kernel, {"box", "kaiser"})}};
 }
 
 int run_mip(const MipBake& bake)
@@ -181,6 +172,11 @@ int run_mip(const MipBake& bake)
         return fail({ExitCode::bad_input, bake.material, "", "has no maps of normals, roughness or anisotropy"});
     report.event("levels",
                  fmt::format("of {} by {} in {:.0f} ms", counted(each.size(), "material"), name_of(a.filter), wall_ms() - begin_ms));
+    Preview preview;
+    if (!bake.preview.empty())
+        preview = preview_of(scene, levels);
+    if (const Status fits = check_preview(bake.preview, preview, {bake.material, bake.output}); !fits)
+        return fail(fits.error());
     if (pyramid) {
         const std::vector<std::uint8_t> bytes = mip_file_bytes(each);
         if (const Status written = write_file_atomic(bake.output, bytes.data(), bytes.size()); !written)
@@ -197,9 +193,8 @@ int run_mip(const MipBake& bake)
         report.event("wrote", fmt::format("{}: {}", bake.output, counted(written->files.size(), "file")));
         report.figures(written->figures);
     }
-    if (!a.preview.empty())
-        if (const Status written = write_preview(a.preview, scene, levels, report); !written)
-            return fail(written.error());
+    if (const Status written = write_preview(bake.preview, preview, report); !written)
+        return fail(written.error());
     return 0;
 }
 

@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
+#include "apps/bake/preview.h"
 #include "apps/cli/option.h"
 #include "core/base/limits.h"
 #include "core/base/result.h"
-#include "core/image/image.h"
 #include "core/scene/dress.h"
 #include "shading/bake/mip/colour_levels.h"
 #include "shading/bake/mip/levels.h"
@@ -26,7 +26,6 @@ struct MipArguments {
     MipFormat format = MipFormat::pyramid;
     bool couple_albedo = false; // of textures: base colour and metalness weighted by how texels face
     ColourKernel color_kernel = ColourKernel::box;
-    std::string preview;
     MipArguments();
 };
 std::vector<Option> mip_options(MipArguments& to);
@@ -34,21 +33,16 @@ Value lobe_value(int& to); // of --brdf: a lobe's place by its name
 
 struct MipBake { // with what all of `burnish bake` has
     const MipArguments& options;
-    std::string material, output;
+    std::string material, output, preview;
     Limits limits;
     int threads, verbosity;
     bool quiet;
 };
 int run_mip(const MipBake& bake); // the exit code
 
-struct MipPicture {
-    std::string name; // of a file, without its extension
-    Image image;
-};
-
 // Of every level from 1 on two pictures: normals as a normal map has them, and lobes in false colour: red and green the widths' roots
 // (perceptual roughness, 0 to 1) along tangent and bitangent, blue how the axis lies between them (128: along one).
-std::vector<MipPicture> mip_pictures(const std::string& material, const MipLevels& levels);
+Preview mip_pictures(const std::string& material, const MipLevels& levels);
 
 // Names of materials as they may stand in files' names, each once: what is no letter or digit is _, only the first hundred letters count,
 // and a number follows where two are alike.

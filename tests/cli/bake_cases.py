@@ -4,11 +4,14 @@ import hashlib
 import json
 import pathlib
 import signal
+import struct
 import subprocess
 import time
 import xml.dom.minidom
+import zlib
 
-from harness import case, check
+from compare_cases import png
+from harness import case, check, scratch
 
 SMALL = ("bake", "ltc", "--resolution", "3", "--steps", "2", "--samples", "2")
 SHIPPED = pathlib.Path(__file__).resolve().parents[2] / "shading/bake/ltc/ggx.ltc"
@@ -114,3 +117,78 @@ def wrong(bench):
         bench.run("bake", "ltc", *words).expect(code).expect_one_line(needle)
     bench.run("bake", "lct", "-o", "u.ltc").expect(2).expect_one_line("lct")
     check(bench.left_behind() == sorted([*files, "t.ltc.part"]), f"left {bench.left_behind()}")
+
+
+def shown(bench, name):
+    """Width, height and rows of (r, g, b), 8 bits, of a PNG that the program wrote."""
+    data = (bench.folder / name).read_bytes()
+    at, parts, header = 8, b"", None
+    while at < len(data):
+        length, kind = struct.unpack(">I4s", data[at:at + 8])
+        body = data[at + 8:at + 8 + length]
+        header = body if kind == b"IHDR" else header
+        parts += body if kind == b"IDAT" else b""
+        at += 12 + length
+    width, height, depth, colour = struct.unpack(">IIBB", header[:10])
+    channels = {0: 1, 2: 3, 6: 4}[colour]
+    check(depth == 8, f"{name}: {depth} bits")
+    raw, stride, rows, above = zlib.decompress(parts), width * channels, [], bytes(width * channels)
+    for y in range(height):
+        way, line = raw[y * (stride + 1)], bytearray(raw[y * (stride + 1) + 1:(y + 1) * (stride + 1)])
+        for x in range(stride):
+            left, corner = (line[x - channels], above[x - channels]) if x >= channels else (0, 0)
+            guess = left + above[x] - corner
+            nearest = min((left, above[x], corner), key=lambda v: abs(guess - v))
+            line[x] = (line[x] + (0, left, above[x], (left + above[x]) // 2, nearest)[way]) & 255
+        rows.append([tuple(line[x:x + channels]) for x in range(0, stride, channels)])
+        above = bytes(line)
+    return width, height, rows
+
+
+# One set of rules: pictures of 8 bits in a folder, the same bytes every time, named in the report, and never over what the command reads
+# or writes; the map itself is what it is without.
+@case("bake.previews_of_every_baker_show_what_was_made", "input", tier="check")
+def previews(bench):
+    scratch(bench, "normal.png", png(8, 8, lambda x, y: (128 + 12 * x, 128 - 9 * y, 220)))
+    scratch(bench, "heights.png", png(8, 8, lambda x, y: (30 * x, 30 * x, 30 * x)))
+    exponents = ("--nu", "9", "--nv", "70")
+    bakers = {"quaternion": (("normal.png", "-o", "q.png"), {"normals"}), "direction": (("normal.png", "-o", "d.png"), {"grain"}),
+              "tpr": (("--expr", "cos(pi*v)", "sin(pi*v)", "--size", "8x8", "-o", "t.exr"), {"grain"}),
+              "half-vectors": ((*exponents, "--size", "16x16", "-o", "h.exr"), {"half_vectors", "density"}),
+              "brdf-lut": ((*exponents, "--size", "4x4", "-o", "a.exr"), {"albedo"}),
+              "environment": (("builtin:sky", "--env-size", "16", "--env-samples", "4", "-o", "e"), {"radiance_00", "radiance_03", "irradiance", "whole"}),
+              "displaced": (("builtin:sphere", "heights.png", "--triangles", "1", "-o", "s.glb"), {"heights", "normals"}),
+              "ltc": (("--resolution", "3", "--steps", "0", "-o", "t.ltc"), {"m00", "m22", "nD", "fD"}),
+              "mip": (("builtin:bumps", "--mip-filter", "leadr", "-o", "b.mip"), {"vinyl_lobe_01"})}
+    for what, (words, names) in bakers.items():
+        output = bench.folder / words[-1]
+        made = output / "environment.bnenv" if what == "environment" else output
+        bench.run("bake", what, *words, "-q").expect(0)
+        alone = made.read_bytes()
+        said = bench.run("bake", what, *words, "--preview", f"seen/{what}").expect(0)
+        first = {path.name: path.read_bytes() for path in (bench.folder / "seen" / what).iterdir()}
+        check({f"{name}.png" for name in names} <= set(first), f"{what}: {sorted(first)}")
+        check(all(f"seen/{what}/{name}" in said.err for name in first), said.describe())
+        check(made.read_bytes() == alone, f"{what}: another file with a preview")
+        bench.run("bake", what, *words, "-q", "--preview", f"seen/{what}").expect(0)
+        check({path.name: path.read_bytes() for path in (bench.folder / "seen" / what).iterdir()} == first, f"{what}: other pictures the second time")
+        scratch(bench, "file", b"")
+        bench.run("bake", what, *words, "-q", "--preview", "file").expect(7).expect_one_line("file")
+    # what they show: a rotation by angle pi v is a hue that goes once around; normals are those of the map; heights that rise to the right
+    width, height, rows = shown(bench, "seen/tpr/grain.png")
+    check((width, height) == (256, 256) and all(max(pixel) == 255 and min(pixel) == 0 for row in rows for pixel in row), "hues are not pure")
+    reddest = [row[0][0] - max(row[0][1:]) for row in rows]
+    check(reddest[0] > 50 and reddest[-1] > 50 and max(reddest[64:192]) < 0, "the hue does not go around")
+    check(rows[80][0][1] == 255 and rows[176][0][2] == 255, "hues go the other way around")
+    _, _, rows = shown(bench, "seen/quaternion/normals.png")
+    check(rows[0][0][0] < rows[0][255][0] and rows[0][0][1] > rows[255][0][1], "normals of the map, turned")
+    _, _, rows = shown(bench, "seen/displaced/normals.png")
+    check(rows[128][128] == (122, 128, 255), f"{rows[128][128]}: no slope of 30 / 255 a texel of 8, .05 deep, to the right")
+    _, _, rows = shown(bench, "seen/environment/irradiance.png")
+    check(sum(rows[20][256]) > sum(rows[235][256]) + 30, "the sky is not above")
+    # never over what is read or written
+    scratch(bench, "seen/in/normals.png", png(8, 8, lambda x, y: (128, 128, 255)))
+    before = (bench.folder / "seen/in/normals.png").read_bytes()
+    bench.run("bake", "quaternion", "seen/in/normals.png", "-o", "no.png", "--preview", "seen/in").expect(2).expect_one_line("--preview")
+    bench.run("bake", "quaternion", "normal.png", "-o", "seen/in/normals.png", "--preview", "seen/../seen/in").expect(2).expect_one_line("--preview")
+    check((bench.folder / "seen/in/normals.png").read_bytes() == before and not (bench.folder / "no.png").exists(), "written in spite of it")

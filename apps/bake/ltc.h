@@ -1,0 +1,29 @@
+// `burnish bake ltc`: a table of transformed cosines, made or measured.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "apps/cli/option.h"
+#include "shading/bake/ltc/node_fit.h"
+
+namespace burnish {
+
+struct LtcArguments {
+    std::string table, report;
+    int resolution = 8, steps = 12, samples = 8, cosines = 1;
+    ltc::Norm norm = ltc::Norm::l1;
+    std::string interpolate = "mirror";
+    bool unaligned = false, unsymmetric = false, half = false, isotropic = false;
+};
+std::vector<Option> ltc_options(LtcArguments& to);
+
+struct LtcBake { // with what all of `burnish bake` has
+    const LtcArguments& options;
+    int brdf; // a lobe (shading/models.def)
+    std::string picture, output, preview;
+    int threads, verbosity;
+    bool quiet;
+};
+int run_ltc(const LtcBake& bake, const OptionTable& given); // the exit code; given: what was
+
+} // namespace burnish
