@@ -81,6 +81,15 @@ Spread ratio(const std::vector<double>& a, const std::vector<double>& b)
     return spread_of(ratios);
 }
 
+// The same as a difference, ns a unit.
+Spread more(const Measured& a, const Measured& b)
+{
+    std::vector<double> ns;
+    for (std::size_t i = 0; i < a.cpu_ms.size(); ++i)
+        ns.push_back((a.cpu_ms[i] - b.cpu_ms[i]) * 1e6 / a.units);
+    return spread_of(ns);
+}
+
 // Of the workloads, whose units differ: the dearest unit to the cheapest.
 Spread unit_spread(const std::vector<const Measured*>& series)
 {
@@ -135,6 +144,9 @@ std::optional<Row> row_of(const Aim& aim, const std::vector<Measured>& all)
     } else if (aim.measure == Measure::times_faster) {
         row.value = ratio(base->cpu_ms, m->cpu_ms);
         row.note = fmt::format("{:.1f} ms against {:.1f} ms of {}, {} rays at once", ms, base_ms, base->what, base->workload->packet);
+    } else if (aim.measure == Measure::cpu_more) {
+        row.unit = "ns", row.value = more(*m, *base);
+        row.note = fmt::format("{:.2f} ms to {:.2f} ms", ms, base_ms);
     } else {
         row.value = ratio(m->cpu_ms, base->cpu_ms);
         row.note = fmt::format("{:.2f} ms to {:.2f} ms", ms, base_ms);

@@ -1,5 +1,6 @@
 #include "bench/frame/workloads.h"
 
+#include <string_view>
 #include <tuple>
 
 namespace burnish {
@@ -31,6 +32,10 @@ std::vector<Workload> all_workloads()
         // Exponents 20 and 400.
         {"as_mc_60", "phong", S::sphere, 0, W, H, 1, "as_mc", 60, 0.634f, 0, Engine::tile, 0, false, 0.37f},
         {"as_mc_200", "phong", S::sphere, 0, W, H, 1, "as_mc", 200, 0.634f, 0, Engine::tile, 0, true, 0.37f},
+        {"as_mc_60_eighth", "phong", S::eighth, 0, W, H, 1, "as_mc", 60, 0.634f, 0, Engine::tile, 0, false, 0.37f},
+        {"detail_plain", "detail", S::textured, 5, W, H, 1},
+        {"detail_quaternion", "detail", S::textured, 5, W, H, 1},
+        {"detail_parallax", "detail", S::textured, 6, W, H, 1}, // 16 steps a fragment, in the mean
         {"textures_0", "textures", S::textured, 0, W, H, 1},
         {"textures_1", "textures", S::textured, 1, W, H, 1},
         {"textures_5", "textures", S::textured, 5, W, H, 1},
@@ -84,6 +89,12 @@ std::vector<Workload> all_workloads()
         w.quads = quads, w.area_way = way;
         table.push_back(w);
     }
+    for (Workload& w : table) {
+        if (w.scene == S::eighth)
+            w.background = false;
+        if (w.name == std::string_view("detail_quaternion"))
+            w.frame_map = kFrameQuaternion;
+    }
     append_growth(table);
     return table;
 }
@@ -116,6 +127,9 @@ const std::vector<Aim>& aims()
         // A fifth of the CPU time that lavapipe (Mesa 22.3) took for plain kernels of that lobe: 1655 and 5362 ms.
         {"phong", "as_mc, 60 samples", M::cpu_ms, "as_mc_60", "", 1655.0 / 5.0},
         {"phong", "as_mc, 200 samples", M::cpu_ms, "as_mc_200", "", 5362.0 / 5.0},
+        {"phong", "as_mc, 60 samples, an eighth of the picture, to all of it", M::cpu_ratio, "as_mc_60_eighth", "as_mc_60", 1.15 / 8.0},
+        {"detail", "quaternion frame, beyond Gram-Schmidt's", M::cpu_more, "detail_quaternion", "detail_plain", 1.0},
+        {"detail", "parallax, 16 steps, beyond none", M::cpu_more, "detail_parallax", "detail_plain", 25.0},
         // An eighth of the CPU time that lavapipe (Mesa 22.3) took for plain kernels of transformed cosines: 173 and 287 ms.
         {"area_lights", "one quad by transformed cosines", M::cpu_ms, "quads_1", "", 173.0 / 8.0},
         {"area_lights", "four quads", M::cpu_ms, "quads_4", "", 287.0 / 8.0},

@@ -29,6 +29,7 @@ struct Workload {
     int quads = 0;      // area lights behind the eye, each lighting every pixel
     const char* area_way = "ltc";
     int frame_map = kFrameGramSchmidt;
+    bool background = true;  // drawn where nothing is
     double along = 0.0;      // of a row of workloads that differ in one number: that number
     bool only_named = false; // drawn only where --only names it or its group
 };
@@ -36,6 +37,7 @@ struct Workload {
 enum class Measure {
     cpu_ms,       // CPU time of a frame
     cpu_ratio,    // of `workload` to `base`
+    cpu_more,     // of `workload` beyond `base`, ns a pixel
     speedup,      // wall time of `base` to that of `workload`
     times_faster, // CPU time of the fastest of `base...` to that of `workload`
     unit_spread,  // largest to smallest CPU time per unit over the workloads that begin with `workload`

@@ -39,7 +39,7 @@ std::vector<Workload> small_workloads()
         list.push_back({t.name, "instructions", S::sphere, 0, 160, 90, 1, t.name, 0, 0.8f});
     list.push_back({"quaternion", "instructions", S::textured, 5, 160, 90, 1});
     list.back().frame_map = kFrameQuaternion;
-    list.push_back({"parallax", "instructions", S::textured, 6, 160, 90, 1}); // 11 steps a fragment, in the mean
+    list.push_back({"parallax", "instructions", S::textured, 6, 160, 90, 1}); // 16 steps a fragment, in the mean
     for (int lights : {1, 4}) {                                               // the difference is that of three
         list.push_back({lights == 1 ? "key_lights_1" : "key_lights_4", "instructions", S::sphere, 0, 160, 90, 1, "bent_normal", 0, 0.8f});
         list.back().key_lights = lights;

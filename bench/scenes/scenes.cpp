@@ -74,6 +74,38 @@ Scene make_layers(std::int64_t count, double aspect)
     return scene;
 }
 
+View sphere_view(int width, int height)
+{
+    return make_view({0.1f, 0.2f, 0.0f}, {1.0f, 0.1f, 0.3f}, 1.0f, width, height);
+}
+
+// Seen by sphere_view() in the middle of the picture: the root of an eighth of its width and of its height.
+Scene make_eighth(double aspect)
+{
+    constexpr int kColumns = 64, kRows = 36;
+    Scene scene;
+    Material metal = brushed_metal();
+    metal.double_sided = true;
+    scene.materials.push_back(metal);
+    begin_primitive(scene, 0);
+    const View view = sphere_view(16, 9);
+    const double high = std::tan(0.5) * std::sqrt(0.125);
+    add_grid(scene, kColumns, kRows, [&](int column, int row) {
+        const glm::dvec3 eye = view.eye;
+        const double x = (2.0 * column / kColumns - 1.0) * high * aspect, y = (1.0 - 2.0 * row / kRows) * high;
+        const glm::dvec3 ray = glm::normalize(glm::dvec3(view.forward) + x * glm::dvec3(view.right) + y * glm::dvec3(view.up));
+        const double along = glm::dot(eye, ray);
+        const glm::dvec3 at = eye + (std::sqrt(along * along + 1.0 - glm::dot(eye, eye)) - along) * ray;
+        const double phi = std::atan2(at.z, at.x);
+        SurfacePoint p;
+        p.position = p.normal = {at.x, at.y, at.z};
+        p.tangent = {-std::sin(phi), 0.0, std::cos(phi)};
+        return p;
+    });
+    place(scene, "eighth");
+    return scene;
+}
+
 Scene make_sphere()
 {
     constexpr int kRings = 96, kSegments = 192;
@@ -104,6 +136,8 @@ Scene make_scene(BenchScene kind, std::int64_t size, double aspect)
         return make_layers(size, aspect);
     case BenchScene::sphere:
         return make_sphere();
+    case BenchScene::eighth:
+        return make_eighth(aspect);
     case BenchScene::teapot:
         return make_teapot();
     case BenchScene::textured:
@@ -139,8 +173,8 @@ View bench_view(BenchScene kind, const DrawTables& tables, int width, int height
 {
     if (kind == BenchScene::teapot)
         return auto_frame(tables, width, height);
-    if (kind == BenchScene::sphere)
-        return make_view({0.1f, 0.2f, 0.0f}, {1.0f, 0.1f, 0.3f}, 1.0f, width, height);
+    if (kind == BenchScene::sphere || kind == BenchScene::eighth)
+        return sphere_view(width, height);
     return make_view({0.0f, 0.0f, 1.0f}, {0.0f, 0.0f, 0.0f}, kRightAngle, width, height);
 }
 

@@ -12,6 +12,7 @@ enum class BenchScene {
     waves,    // an unlit, slightly wavy sheet over the whole picture, of about `size` triangles
     layers,   // `size` sheets of brushed metal, each over the whole picture, drawn from the farthest to the nearest
     sphere,   // the inside of a sphere of brushed metal around the eye: every pixel covered, every direction reflected
+    eighth,   // what of it lies in the middle of the picture, an eighth of all pixels
     teapot,   // builtin:teapot, framed as `burnish render` does
     textured, // a sheet of brushed metal with `size` textures, of 6: colour, normal, roughness, occlusion, direction, heights without depth
     floor,    // a floor with three textures from below the eye to the horizon
