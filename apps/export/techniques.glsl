@@ -129,6 +129,11 @@ void cube_terms_add(inout cube_terms s, real3 direction, real lod, real3 colour,
     real3 value = fetched(s.cube, direction, s.trilinear ? lod : 0.0);
     s.value = s.value + value * colour * weight;
 }
+void cube_terms_add_level(inout cube_terms s, cube_desc cube, real3 direction, integer level, real3 colour, real weight)
+{
+    real3 value = fetched(cube, direction, float(level));
+    s.value = s.value + value * colour * weight;
+}
 real3 cube_terms_value(cube_terms s)
 {
     return s.value;
@@ -137,6 +142,15 @@ real3 cube_terms_value(cube_terms s)
 real3 grid_sample(settings f, int i)
 {
     return kGrid[i];
+}
+real grid_value(int at)
+{
+    return kGrid[at / 3][at % 3];
+}
+real4 grid_of_four(settings f, int first, integer set)
+{
+    int at = 3 * first + set;
+    return vec4(grid_value(at), grid_value(at + 4), grid_value(at + 8), grid_value(at + 12));
 }
 // fetches]
 

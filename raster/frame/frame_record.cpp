@@ -174,10 +174,10 @@ int FrameMaker::slice_of(float sigma_u, float sigma_v, bool phong)
 int FrameMaker::set_of(float sigma_u, float sigma_v, int samples)
 {
     const auto known = std::find(sets_.begin(), sets_.end(), std::pair(sigma_u, sigma_v));
-    const int all = kPhongSets * samples, first = all + static_cast<int>(known - sets_.begin()) * 2 * all;
+    const int all = kPhongBlock * samples, first = all * (1 + static_cast<int>(known - sets_.begin()));
     if (known != sets_.end())
         return first;
-    if (first + 2 * all > kMostGridSamples)
+    if (first + all > kMostGridSamples)
         return -1;
     const double root2 = 1.4142135623730951, nu = phong_exponent(root2 * static_cast<double>(sigma_u)),
                  nv = phong_exponent(root2 * static_cast<double>(sigma_v));

@@ -1,6 +1,7 @@
 #include "raster/frame/grid_samples.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/math/scalar_math.h"
@@ -33,15 +34,30 @@ std::vector<GridSample> ggx_grid(int n)
     return grid;
 }
 
+// kPhongBlock samples: 16 floats, of value c of set k at 4 c + k.
+template <class Values> void add_block(Values of_set, std::vector<GridSample>& to)
+{
+    float values[3 * kPhongBlock] = {};
+    for (int k = 0; k < kPhongSets; ++k) {
+        const std::array<double, 4> v = of_set(k);
+        for (std::size_t c = 0; c < 4; ++c)
+            values[4 * c + static_cast<std::size_t>(k)] = static_cast<float>(v[c]);
+    }
+    for (int i = 0; i < kPhongBlock; ++i)
+        to.push_back({values[3 * i], values[3 * i + 1], values[3 * i + 2]});
+}
+
 std::vector<GridSample> phong_set(int samples)
 {
     std::vector<GridSample> set;
-    for (int i = 0; i < kPhongSets * samples; ++i) {
-        const PhongPoint xi = phong_point(i % samples, samples, i / samples);
-        const double azimuth = 2.0 * kPi * xi.x;
-        set.push_back(
-            {static_cast<float>(det_cos(azimuth)), static_cast<float>(det_sin(azimuth)), static_cast<float>(det_log(1.0 - xi.y))});
-    }
+    for (int i = 0; i < samples; ++i)
+        add_block(
+            [&](int k) {
+                const PhongPoint xi = phong_point(i, samples, k);
+                const double azimuth = 2.0 * kPi * xi.x;
+                return std::array<double, 4>{det_cos(azimuth), det_sin(azimuth), det_log(1.0 - xi.y), 0.0};
+            },
+            set);
     return set;
 }
 
@@ -49,16 +65,20 @@ std::vector<GridSample> phong_set(int samples)
 
 void add_half_vectors(const std::vector<PhongHalfVector>& half_vectors, std::vector<GridSample>& to)
 {
-    for (const PhongHalfVector& h : half_vectors) {
-        to.push_back({static_cast<float>(h.x), static_cast<float>(h.y), static_cast<float>(h.z)});
-        const double bits = det_log(std::max(h.density, 1e-30)) / det_log(2.0);
-        to.push_back({static_cast<float>(0.5 * bits), 0.0f, 0.0f});
-    }
+    const int samples = static_cast<int>(half_vectors.size()) / kPhongSets;
+    for (int i = 0; i < samples; ++i)
+        add_block(
+            [&](int k) {
+                const PhongHalfVector& h = half_vectors[static_cast<std::size_t>(k * samples + i)];
+                const double bits = det_log(std::max(h.density, 1e-30)) / det_log(2.0);
+                return std::array<double, 4>{h.x, h.y, h.z, 0.5 * bits};
+            },
+            to);
 }
 
 int grid_count(const std::vector<GridSample>& grid, int traits)
 {
-    return static_cast<int>(grid.size()) / ((traits & kPhongGrid) ? kPhongSets : 1);
+    return static_cast<int>(grid.size()) / ((traits & kPhongGrid) ? kPhongBlock : 1);
 }
 
 std::vector<GridSample> grid_samples(int samples, Sampling sampling, int traits)

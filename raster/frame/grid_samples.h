@@ -8,14 +8,14 @@
 
 namespace burnish {
 
-// traits: of the technique. n = floor(sqrt(samples)): Gaussian slopes (Beckmann) or GGX; of kPhongGrid four sets of all samples, one after
-// the other; one sample is the normal. None where a technique brings none.
+// traits: of the technique. n = floor(sqrt(samples)): Gaussian slopes (Beckmann) or GGX; of kPhongGrid a block of kPhongBlock a
+// sample, which holds it of four sets; one sample is the normal. None where a technique brings none.
 std::vector<GridSample> grid_samples(int samples, Sampling sampling, int traits);
 
 // How many of them a fragment takes.
 int grid_count(const std::vector<GridSample>& grid, int traits);
 
-// Two a half vector, as as_mc.t.h has them: the vector, and half the logarithm to base 2 of its density.
+// A block a sample, as as_mc.t.h has them: half vectors of four sets, and half the logarithm to base 2 of their density.
 void add_half_vectors(const std::vector<PhongHalfVector>& half_vectors, std::vector<GridSample>& to);
 
 } // namespace burnish

@@ -96,6 +96,14 @@ BN_FN texel_rows cube_level_rows(cube_desc cube, cube_place place, int level, re
     return cube_bilinear_rows(place, cube_base(cube) + int_lit(24 * level), t + int_lit(2), to_real(t), weight);
 }
 
+// The same at a level that each direction has of its own.
+BN_FN texel_rows cube_own_level_rows(cube_desc cube, cube_place place, integer level, real weight)
+{
+    real size = to_real(int_lit(cube.size));
+    real t = real_from_bits(bits_of(size) - shl(level, 23)); // its exponent lowered by the level
+    return cube_bilinear_rows(place, cube_base(cube) + level * int_lit(24), to_int(t) + int_lit(2), t, weight);
+}
+
 BN_FN texel_acc cube_level_add(texel_acc acc, cube_desc cube, cube_place place, int level, real weight)
 {
     return texel_rows_add(acc, cube.texels, cube_level_rows(cube, place, level, weight));
@@ -164,6 +172,13 @@ BN_FN real3 cube_sample_level(cube_desc cube, real3 d, int level)
 {
     texel_acc acc = texel_zero();
     real4 value = texel_value(cube_level_add(acc, cube, cube_face_uv(d), level, lit(1.0)));
+    return vec3_of(value.x, value.y, value.z);
+}
+
+BN_FN real3 cube_sample_own_level(cube_desc cube, real3 d, integer level)
+{
+    texel_acc acc = texel_zero();
+    real4 value = texel_value(texel_rows_add(acc, cube.texels, cube_own_level_rows(cube, cube_face_uv(d), level, lit(1.0))));
     return vec3_of(value.x, value.y, value.z);
 }
 

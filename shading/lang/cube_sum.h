@@ -135,6 +135,18 @@ BN_INLINE void cube_terms_add(cube_terms& s, real3 direction, real lod, real3 co
         load_planned(s);
 }
 
+// Of a sum that is not trilinear; level: in [0, levels - 1]. cube: the sum's own, by value, so that a loop looks at it once.
+BN_INLINE void cube_terms_add_level(cube_terms& s, cube_desc cube, real3 direction, integer level, real3 colour, real weight)
+{
+    const int at = s.count;
+    plan(s.plans[at][0], cube_own_level_rows(cube, cube_face_uv(direction), level, lit(1.0)));
+    s.factors[at].colour = colour;
+    s.factors[at].weight = weight;
+    s.count = at + 1;
+    if (s.count == cube_terms::kTerms)
+        load_planned(s);
+}
+
 BN_INLINE real3 cube_terms_value(cube_terms& s)
 {
     load_planned(s);

@@ -43,6 +43,7 @@ const int kPhongGrid = 512; // its grid is of points of an Ashikhmin-Shirley lob
 
 const int kFrameGramSchmidt = 0, kFrameQuaternion = 1, kFrameNormalOnly = 2, kFrameOff = 3; // FrameDesc::frame_map
 const int kReliefInTexture = 0, kReliefOnSurface = 1;                                       // FrameDesc::pom_metric
+const int kPhongBlock = 6;                              // of GridSample: 16 floats, four values of four sets each
 const int kLeastReliefSteps = 8, kMostReliefSteps = 32; // down to the deepest place: straight from above, and at grazing angles
 const int kFresnelSchlick = 0, kFresnelConductor = 1, kFresnelDielectric = 2; // FrameDesc::fresnel
 

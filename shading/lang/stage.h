@@ -18,9 +18,11 @@
 //   area_way_used(at)                    the same of a way of area lights, BN_AREA_LIGHTS
 //   coats_used()                         whether any material may have a clear coat
 //   grid_sample(f, i)                    slopes and density of sample i of the_frame(f).grid_count (GridSample)
+//   grid_of_four(f, first, set)          of four sets of samples, of which each lane has one: what kPhongBlock samples from `first` on hold
 // Sums of weighted fetches from a cube, which lanes plan some addresses ahead and GLSL takes one after the other; same bits.
 //   cube_sum s; cube_sum_begin(s, cube); cube_sum_add(s, direction, cube_sum_levels_at(s, lod, weight)); cube_sum_value(s)
 //   cube_terms s; cube_terms_begin(s, cube, trilinear); cube_terms_add(s, direction, lod, colour, weight); cube_terms_value(s)
+//   cube_terms_add_level(s, cube, direction, level, colour, weight)   a bilinear fetch of an integer level, of a sum without `trilinear`
 // Levels and weight of a cube_sum may be found once for many directions. Terms are each multiplied by their colour, then by their weight;
 // without `trilinear` they are of level 0. Directions are of any length. A sum needs its cube to the end: a variable, not a value.
 #ifndef BN_STAGE_H

@@ -108,6 +108,13 @@ BN_INLINE real3 grid_sample(frame_ref f, int i)
     return vec3_of(splat(g.slope_x), splat(g.slope_y), splat(g.density));
 }
 
+BN_INLINE real4 grid_of_four(frame_ref f, int first, integer set)
+{
+    const float* const four = &f.grid[first].slope_x;
+    return vec4_of(table_value(four, set), table_value(four, set + int_lit(4)), table_value(four, set + int_lit(8)),
+                   table_value(four, set + int_lit(12)));
+}
+
 BN_INLINE constexpr bool lobe_used(int)
 {
     return true;

@@ -22,6 +22,11 @@ cube_desc specular_cube(frame_ref f) { return cube_desc(kGpuSpecularPage, frame.
 cube_desc whole_cube(frame_ref f) { return cube_desc(kGpuWholePage, frame.whole.size, frame.whole.levels); }
 cube_desc irradiance_cube(frame_ref f) { return cube_desc(kGpuIrradiancePage, frame.irradiance.size, frame.irradiance.levels); }
 cube_desc box_cube(frame_ref f) { return cube_desc(kGpuBoxPage, frame.box.size, frame.box.levels); }
+real4 grid_of_four(frame_ref f, int first, integer set)
+{
+    int at = 3 * first + set;
+    return vec4(bn_reals[at], bn_reals[at + 4], bn_reals[at + 8], bn_reals[at + 12]);
+}
 real3 grid_sample(frame_ref f, int i) { return vec3(bn_reals[3 * i], bn_reals[3 * i + 1], bn_reals[3 * i + 2]); }
 
 // That materials and the frame have, a bit a place in models.def; above them the frame's way of area lights, where it has any,
@@ -60,6 +65,8 @@ real3 native_sample_level(cube_desc cube, real3 d, int level) { return native_fe
 // What follows, kernels included, fetches natively.
 #define cube_sample native_sample
 #define cube_sample_level native_sample_level
+real3 native_sample_own_level(cube_desc cube, real3 d, integer level) { return native_fetch(cube, d, float(level)).xyz; }
+#define cube_sample_own_level native_sample_own_level
 
 struct cube_sum_levels {
     real lod, weight;
@@ -117,6 +124,10 @@ void cube_terms_add(inout cube_terms s, real3 direction, real lod, real3 colour,
     else
         value = cube_sample_level(s.cube, direction, 0);
     s.sum = s.sum + value * colour * weight;
+}
+void cube_terms_add_level(inout cube_terms s, cube_desc cube, real3 direction, integer level, real3 colour, real weight)
+{
+    s.sum = s.sum + cube_sample_own_level(cube, direction, level) * colour * weight;
 }
 real3 cube_terms_value(cube_terms s) { return s.sum; }
 

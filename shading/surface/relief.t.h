@@ -27,21 +27,23 @@ BN_FN real relief_met(BN_IN(texture_one_level) map, real2 from, real2 way, real 
     real fewer = to_real(int_lit(kMostReliefSteps - kLeastReliefSteps));
     real step = lit(1.0) / (most - fewer * n_dot_v);
     real met = lit(0.0);
+    real reach = lit(0.0);              // of rays that have not met them; what is fetched next waits for no fetch before
     real gap = depth_in_map(map, from); // of the ray above the heights
     mask open = gap > lit(0.0);
     for (int i = 0; i <= kMostReliefSteps; ++i) {
         if (no_lane(open))
             break;
-        real further = met + step;
+        real further = reach + step;
         real next = min(further, lit(1.0));
         real2 at = from + way * next;
         real below = depth_in_map(map, at) - next;
         mask hit = both(open, below <= lit(0.0));
         real closed = gap - below;
-        real there = met + (next - met) * (gap / max(closed, lit(1e-12)));
+        real there = reach + (next - reach) * (gap / max(closed, lit(1e-12)));
         met = select(open, select(hit, there, next), met);
         gap = select(open, below, gap);
         open = both(open, not_(hit));
+        reach = next;
     }
     return met;
 }

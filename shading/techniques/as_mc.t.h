@@ -1,12 +1,12 @@
 // Samples of an Ashikhmin-Shirley lobe (shading/models/ashikhmin_shirley.k.h), each fetched from the box-filtered environment at the level
-// whose texels are as large as its share of the sphere. Frames bring a lattice (phong_point), as cosine and sine of the azimuth that
-// isotropic lobes have and the logarithm of 1 - xi; what is left is the same for each width, so that roughness may vary by fragment. Where
-// the lobe's widths are the same everywhere, frames bring its own half vectors (MaterialRecord::phong_set): two of the grid a sample, the
-// vector and half the logarithm to base 2 of its density. Then its albedo is known, too (phong_slice), and samples are weighted to it: what
-// a few of them get wrong is mostly how many of them lie below the horizon. One sample is a mirror. There are four sets, which together are
-// one of four times as many samples: each pixel of a 2x2 quad has its own, and what alike lobes find is averaged (shared_line.k.h). Levels
-// are what FLIP is least with: of shared sets a quarter finer than all their samples ask for, of one alone half a level finer than its own
-// do.
+// whose texels are nearest to its share of the sphere in size; between two levels is nothing that more samples would not show for less.
+// Frames bring a lattice (phong_point) in blocks of kPhongBlock, as cosine and sine of the azimuth that isotropic lobes have and the
+// logarithm of 1 - xi; what is left is the same for each width, so that roughness may vary by fragment. Where the lobe's widths are the
+// same everywhere, frames bring its own half vectors (MaterialRecord::phong_set): the vector, and half the logarithm to base 2 of its
+// density. Then its albedo is known, too (phong_slice), and samples are weighted to it: what a few of them get wrong is mostly how many of
+// them lie below the horizon. One sample is a mirror. There are four sets, which together are one of four times as many samples: each pixel
+// of a 2x2 quad has its own, and what alike lobes find is averaged (shared_line.k.h). Levels are what FLIP is least with: of shared sets a
+// quarter finer than all their samples ask for, of one alone half a level finer than its own do.
 #ifndef BN_AS_MC_T_H
 #define BN_AS_MC_T_H
 
@@ -43,7 +43,8 @@ BN_FN as_lobe as_lobe_of(BN_IN(shaded_point) x)
     return r;
 }
 
-BN_FN as_half_vector as_half_vector_of(as_lobe lobe, real3 g)
+// g: of grid_of_four().
+BN_FN as_half_vector as_half_vector_of(as_lobe lobe, real4 g)
 {
     real2 d = k_normalize2(vec2_of(lobe.wide.x * g.x, lobe.wide.y * g.y));
     real e = lobe.p.nu * d.x * d.x + lobe.p.nv * d.y * d.y;
@@ -65,19 +66,6 @@ BN_FN k_sin_cos_pair turn_of_pixel(frame_ref f, BN_IN(shaded_point) x)
     return k_sin_cos(angle);
 }
 
-// Sample `first` of the grid, or of the set that a pixel has of four, `count` samples each.
-BN_FN real3 sample_of_set(frame_ref f, int first, int count, integer set, bool shared_sets)
-{
-    real3 r = grid_sample(f, first);
-    if (!shared_sets)
-        return r;
-    mask odd = (set & int_lit(1)) != int_lit(0);
-    mask upper = set > int_lit(1);
-    real3 low = select(odd, grid_sample(f, first + count), r);
-    real3 high = select(odd, grid_sample(f, first + 3 * count), grid_sample(f, first + 2 * count));
-    return select(upper, high, low);
-}
-
 // What the lobe reflects, unless it is a mirror. set: the pixel's, 0 to 3, where they are shared.
 BN_FN real3 as_mc_of_set(frame_ref f, BN_IN(shaded_point) x, integer set, bool shared_sets)
 {
@@ -88,36 +76,43 @@ BN_FN real3 as_mc_of_set(frame_ref f, BN_IN(shaded_point) x, integer set, bool s
     real count = to_real(int_lit(samples));
     real finer = lit(shared_sets ? 0.7 : 2.0);
     real texels = size * size * lit(0.47746482927568601) * finer / count; // 6 / (4 pi), of 4 o.h times the density
-    real texel_term = lit(0.5) * k_log2(texels);
+    real texel_term = lit(0.5) * k_log2(texels) - lit(63.0);              // half of the exponent's 127, and half a level: the nearest
     bool by_table = x.phong_set >= 0;
     as_lobe lobe;
     if (!by_table)
         lobe = as_lobe_of(x);
+    int first = by_table ? x.phong_set : 0;
+    cube_desc same = cube;
+    real last = to_real(int_lit(cube.levels - 1));
+    real per_cosine = lit(1.0) / max(o.z, lit(1e-4));
     cube_terms sum;
-    cube_terms_begin(sum, cube, true);
+    cube_terms_begin(sum, cube, false);
     real weights = lit(0.0);
     real kept = lit(0.0);
     k_sin_cos_pair turn = turn_of_pixel(f, x);
     for (int i = 0; i < samples; ++i) {
+        real4 g = grid_of_four(f, first + kPhongBlock * i, set);
         as_half_vector s;
         if (by_table) {
-            s.h = sample_of_set(f, x.phong_set + 2 * i, 2 * samples, set, shared_sets);
-            s.half_density = sample_of_set(f, x.phong_set + 2 * i + 1, 2 * samples, set, shared_sets).x;
+            s.h = vec3_of(g.x, g.y, g.z);
+            s.half_density = g.w;
         } else {
-            real3 g = sample_of_set(f, i, samples, set, shared_sets);
             if (the_frame(f).seed != 0)
-                g = vec3_of(g.x * turn.cosine - g.y * turn.sine, g.x * turn.sine + g.y * turn.cosine, g.z);
+                g = vec4_of(g.x * turn.cosine - g.y * turn.sine, g.x * turn.sine + g.y * turn.cosine, g.z, g.w);
             s = as_half_vector_of(lobe, g);
         }
         real o_dot_h = k_dot3(o, s.h);
         real3 i_lobe = mirror_direction(o, s.h);
-        mask valid = both(o_dot_h > lit(0.0), i_lobe.z > lit(0.0));
-        real own = select(valid, i_lobe.z / max(max(o.z, i_lobe.z), lit(1e-4)), lit(0.0));
-        real lod = texel_term + lit(0.5) * k_log2(max(o_dot_h, lit(1e-4))) - s.half_density;
+        // of i.z / max(o.z, i.z), which is 0 below the horizon: where o.h is not above 0, nor is i.z
+        real own = max(min(i_lobe.z * per_cosine, lit(1.0)), lit(0.0));
+        // a float's bits are its logarithm times 2^23, .086 of an octave off at most: half of it. Below 0: level 0
+        real half_log = to_real(bits_of(o_dot_h)) * lit(5.9604644775390625e-8);
+        real lod = half_log + (texel_term - s.half_density);
+        integer level = to_int(min(max(lod, lit(0.0)), last));
         real3 wi = from_lobe(x.lobe, x.s.n, i_lobe);
         real3 fresnel = reflectance_of(x.s, k_saturate(o_dot_h));
         real weight = above_horizon(x, wi, own);
-        cube_terms_add(sum, wi, max(lod, lit(0.0)), fresnel, weight);
+        cube_terms_add_level(sum, same, wi, level, fresnel, weight);
         weights = weights + own;
         kept = kept + weight;
     }
