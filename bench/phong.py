@@ -8,7 +8,7 @@ Usage: phong.py --program build/release/burnish [--env FILE] [--size WxH] [--wor
     between texels, and the FLIP by which a picture with 64 samples moves where it takes the table.
   - Tables of half vectors (`burnish bake half-vectors`): the largest angle, in degrees, between a sample of 64 and its texel, and FLIP.
 
-Exit code: 0 shinier lobes need fewer samples; 1 they do not; 2 something could not be run.
+Exit code: 0 of 64 samples shinier lobes are nearer to the truth; 1 they are not; 2 something could not be run.
 """
 
 import argparse
@@ -81,12 +81,19 @@ def between(table, x, y):
 
 
 def point(i, n, part):
-    """Point i of n of one of four sets, as the program takes them."""
-    at, digits = part, i
-    while digits:
-        at, digits = at + digits % 4, digits // 4
-    at = 4 * i + at % 4
-    return at / (4 * n), int(f"{at:032b}"[::-1], 2) / 2.0**32
+    """Point i of n of one of four sets, as the program takes them: a row of equal area across the disc, the golden ratio along it, held
+    by a table of 256 texels a side or the next power of two that holds all of them."""
+    side = 256
+    while side < 4 * n:
+        side *= 2
+    at = 4 * i + part
+    area, low, high = math.pi * (at + 0.5) / (4 * n), 0.0, math.pi
+    for _ in range(24):
+        angle = 0.5 * (low + high)
+        low, high = (angle, high) if angle - 0.5 * math.sin(2 * angle) < area else (low, angle)
+    x, y = -math.cos(low), (2 * ((0.5 + at * 0.3819660112501051) % 1) - 1) * math.sin(low)
+    column = math.floor(math.atan2(y, x) / (2 * math.pi) % 1 * side + 0.5)
+    return column % side / side, min(math.floor((x * x + y * y) * side + 0.5), side - 1) / side
 
 
 class Pictures:
@@ -168,7 +175,7 @@ def main():
             tables = by_tables(pictures)
     if given.json:
         given.json.write_text(json.dumps({"samples": samples, "tables": [[*key, *value] for key, value in tables.items()]}, indent=1))
-    at = SAMPLES.index(16)
+    at = SAMPLES.index(64)
     falls = all(samples[shiny][at] < samples[dull][at] for dull, shiny in zip(EXPONENTS, EXPONENTS[1:]))
     return 0 if falls else 1
 
