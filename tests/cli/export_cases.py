@@ -12,7 +12,7 @@ MODELS = (ROOT / "shading/models.def").read_text()
 TECHNIQUES = re.findall(r"^BN_TECHNIQUE\((\w+), (\w+)", MODELS, re.MULTILINE)
 OF_GRIDS = re.findall(r"^BN_TECHNIQUE\((\w+),(?: grid,|[^\n]*kPhongGrid)", MODELS, re.MULTILINE)
 FETCHES = ("cube_desc", "cube_sum", "cube_sum_levels", "cube_terms", "cube_sum_begin", "cube_sum_levels_at", "cube_sum_add", "cube_sum_value",
-           "cube_terms_begin", "cube_terms_add", "cube_terms_value")
+           "cube_terms_begin", "cube_terms_add", "cube_terms_add_level", "cube_terms_value")
 
 
 def exported(bench, name, *words):
@@ -106,7 +106,7 @@ def in_place(text, name):
     """GLSL that puts the file's functions where the program's own are called."""
     hooks = ["#define BURNISH_OWN_FETCHES"] + [f"#define burnish_{fetch} {fetch}" for fetch in FETCHES]
     hooks += [f"#define burnish_{cube}(f) {cube}(0)" for cube in ("specular_cube", "box_cube", "whole_cube")]
-    hooks += ["#define burnish_grid_sample(f, i) grid_sample(0, i)", "#define burnish_fetched cube_sample",
+    hooks += ["#define burnish_grid_sample(f, i) grid_sample(0, i)", "#define burnish_grid_of_four(f, i, set) grid_of_four(0, i, set)", "#define burnish_fetched cube_sample",
               "#define burnish_fetched_level cube_sample_level"]
     code = hooks + [text]
     for function, result, struct, parameter, source in (("own_settings", "settings", "settings", "", "frame"),
