@@ -28,7 +28,8 @@ BN_FN view_params view_params_of(BN_IN(ViewRecord) v)
 // view: the frame's. (x, y): pixels from the image's top left corner. For ray_to().
 BN_FN real2 place_on_screen(frame_ref f, BN_IN(view_params) view, real x, real y)
 {
-    return vec2_of(screen_x(x, splat(the_frame(f).half_width), view.inv_tan_x), screen_y(y, splat(the_frame(f).half_height), view.inv_tan_y));
+    return vec2_of(screen_x(x, splat(the_frame(f).half_width), view.inv_tan_x),
+                   screen_y(y, splat(the_frame(f).half_height), view.inv_tan_y));
 }
 BN_FN real3 ray_through(frame_ref f, BN_IN(view_params) view, real x, real y)
 {

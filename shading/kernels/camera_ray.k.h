@@ -7,8 +7,8 @@
 
 BN_KERNELS_BEGIN
 
-// Where the ray through a point of the image meets the plane at distance 1, along the view's right and up. (px, py): pixels from the image's
-// top left corner. half_width, half_height: half the image, pixels.
+// Where the ray through a point of the image meets the plane at distance 1, along the view's right and up. (px, py): pixels from the
+// image's top left corner. half_width, half_height: half the image, pixels.
 BN_FN real screen_x(real px, real half_width, real inv_tan_x)
 {
     real x = (px - half_width) / half_width / inv_tan_x;

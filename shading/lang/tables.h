@@ -50,7 +50,7 @@ inline constexpr int kMostGridSamples = 1 << 18; // of a frame: of --samples, an
 struct FrameTables {
     const float *screen_x, *screen_y; // place_on_screen() of pixels' centres, by column and by row; 16 may be read at any
     const float *px, *py, *pz;        // by vertex; world space, metres
-    const float* shading_vertices; // DrawTables::shading as floats, 16 a vertex
+    const float* shading_vertices;    // DrawTables::shading as floats, 16 a vertex
     const std::uint32_t* indices;
     const std::uint32_t* triangle_material;
     const MaterialRecord* materials;
