@@ -7,6 +7,7 @@
 #include "raster/frame/grid_samples.h"
 #include "shading/bake/ltc/shipped.h"
 #include "shading/bake/tables/phong_files.h"
+#include "shading/kernels/camera.t.h"
 #include "shading/surface/lobe_shape.t.h"
 
 namespace burnish {
@@ -250,6 +251,13 @@ ShadingFrame FrameMaker::make(const FrameDesc& desc)
     slice_albedo(desc);
     ShadingFrame f = {};
     static_cast<FrameRecord&>(f) = frame_record(input_, desc);
+    const view_params view = view_params_of(f.view);
+    screen_x_.resize(static_cast<std::size_t>(desc.width)), screen_y_.resize(static_cast<std::size_t>(desc.height));
+    for (int x = 0; x < desc.width; ++x)
+        screen_x_[static_cast<std::size_t>(x)] = screen_x(static_cast<float>(x) + 0.5f, f.half_width, view.inv_tan_x);
+    for (int y = 0; y < desc.height; ++y)
+        screen_y_[static_cast<std::size_t>(y)] = screen_y(static_cast<float>(y) + 0.5f, f.half_height, view.inv_tan_y);
+    f.screen_x = screen_x_.data(), f.screen_y = screen_y_.data();
     const DrawTables& t = input_.tables;
     f.px = t.px.data(), f.py = t.py.data(), f.pz = t.pz.data();
     f.shading_vertices = reinterpret_cast<const float*>(t.shading.data());

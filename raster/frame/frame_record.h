@@ -50,6 +50,7 @@ class FrameMaker {
     using SlicedLobe = std::tuple<float, float, bool>; // deviations of slope; whether it is an Ashikhmin-Shirley lobe
     std::map<SlicedLobe, int> sliced_;                 // the first texel of each in lobe_slices_
     Column<std::uint16_t> lobe_slices_;
+    Column<float> screen_x_, screen_y_;
     std::vector<GridSample> grid_;              // and lobes' sets of half vectors
     int grid_count_ = 0;                        // samples of a fragment
     std::vector<std::pair<float, float>> sets_; // deviations of slope of the lobes whose half vectors follow in the grid

@@ -100,17 +100,22 @@ BN_INLINE real3 vertex_place(any_frame f, const LaneSetup& t, int k)
     return vec3_of(gather(f.px, t.vertex[k]), gather(f.py, t.vertex[k]), gather(f.pz, t.vertex[k]));
 }
 
-// common: the triangle of all fragments, or kManyTriangles. samples: covered sample mask. pixel_x, pixel_y: in the image. lights: there are
-// some, which ask for the position.
-BN_INLINE visible_point make_fragment_inline(frame_ref f, material_ref m, const view_params& view, const TileScratch& scratch,
-                                             integer triangle, std::int32_t common, integer pixel_x, integer pixel_y, integer samples,
-                                             bool lights)
+// samples: covered sample mask. pixel_x, pixel_y: in the image. lights: there are some, which ask for the position.
+BN_INLINE visible_point fragment_of(frame_ref f, material_ref m, const view_params& view, const LaneSetup& t, integer pixel_x,
+                                    integer pixel_y, integer samples, bool lights)
 {
-    const LaneSetup t = load_setup(scratch, triangle, common);
     visible_point p = point_of(f, view, t, pixel_x, pixel_y, samples, m.uses_color != 0, m.textured != 0, lights);
     if (m.relief != 0)
         see_relief(f, m, relief_plane_of(f, t), p);
     return p;
+}
+
+// common: the triangle of all fragments, or kManyTriangles.
+BN_INLINE visible_point make_fragment_inline(frame_ref f, material_ref m, const view_params& view, const TileScratch& scratch,
+                                             integer triangle, std::int32_t common, integer pixel_x, integer pixel_y, integer samples,
+                                             bool lights)
+{
+    return fragment_of(f, m, view, load_setup(scratch, triangle, common), pixel_x, pixel_y, samples, lights);
 }
 
 // Compiled once in a file.

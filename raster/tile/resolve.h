@@ -16,7 +16,9 @@ BN_INLINE void resolve(const FrameParams& f, int x0, int y0, int width, int heig
     const std::size_t row = 3 * static_cast<std::size_t>(f.width);
     std::uint32_t at = 0;
     for (int by = 0; by * kBlock < height; ++by)
-        for (int bx = 0; bx * kBlock < width; ++bx)
+        for (int bx = 0; bx * kBlock < width; ++bx) {
+            float* const corner =
+                s.output + row * static_cast<std::size_t>(y0 + by * kBlock) + 3 * static_cast<std::size_t>(x0 + bx * kBlock);
             for (int v = 0; v < kVectors; ++v, ++register_passes) {
                 real r = zero, g = zero, b = zero;
                 std::uint32_t drawn = 0;
@@ -37,8 +39,7 @@ BN_INLINE void resolve(const FrameParams& f, int x0, int y0, int width, int heig
                     at += static_cast<std::uint32_t>(__builtin_popcount(bits));
                     drawn |= bits;
                 }
-                const int px = bx * kBlock + (v * kLanes & 7), py = by * kBlock + (v * kLanes >> 3);
-                float* to = s.output + row * static_cast<std::size_t>(y0 + py) + 3 * static_cast<std::size_t>(x0 + px);
+                float* const to = corner + row * static_cast<std::size_t>(v * kLanes >> 3) + 3 * (v * kLanes & 7);
                 if (drawn == kAllLanes) {
                     store_triples(to, to + row, r, g, b);
                     continue;
@@ -51,6 +52,7 @@ BN_INLINE void resolve(const FrameParams& f, int x0, int y0, int width, int heig
                         to[row * static_cast<std::size_t>(y) + static_cast<std::size_t>(3 * x + c)] = part[y][3 * x + c];
                 }
             }
+        }
 }
 
 } // namespace BN_ISA_NS

@@ -25,12 +25,15 @@ BN_INLINE Batch load_batch(const Tile& t, std::uint32_t at, std::uint32_t end)
     b.n = static_cast<int>(end - at < kLanes ? end - at : kLanes);
     const std::int32_t* order = t.s.order + at;
     std::int32_t in_list[kLanes];
-    if (t.s.in_list_order) {
-        store_int(in_list, iota() + int_lit(static_cast<std::int32_t>(at)));
+    std::int32_t first = static_cast<std::int32_t>(at);
+    b.run = b.n == kLanes;
+    if (!t.s.in_list_order) {
+        first = order[0];
+        b.run = b.run && order[kLanes - 1] - first == kLanes - 1; // the order is ascending
+    } else if (!b.run) {
+        store_int(in_list, iota() + int_lit(first));
         order = in_list;
     }
-    const std::int32_t first = order[0];
-    b.run = b.n == kLanes && order[kLanes - 1] - first == kLanes - 1; // the order is ascending
     integer pixel;
     if (b.run) {
         b.fragment[0] = first;
@@ -172,9 +175,14 @@ void shade_plain_slot(const Tile& t, const view_params& view, const MaterialReco
     const view_params eye = view;
     const material_inputs at = found.at;
     const lobe_shape shape = found.shape;
+    LaneSetup setup;
+    std::int32_t setup_of = kManyTriangles;
     for (std::uint32_t i = begin; i < end; i += kLanes) {
         const Batch b = load_batch(t, i, end);
-        const visible_point p = make_fragment_inline(frame, material, eye, t.s, b.triangle, b.common, b.x, b.y, b.samples, false);
+        if (b.common == kManyTriangles || b.common != setup_of)
+            setup = load_setup(t.s, b.triangle, b.common);
+        setup_of = b.common;
+        const visible_point p = fragment_of(frame, material, eye, setup, b.x, b.y, b.samples, false);
         const line_record light = shade_fragments<kTechnique>(frame, material, at, shape, p, b.x, b.y);
         if constexpr ((technique_tag<kTechnique>::kTraits & kSharesSamples) != 0)
             store_lines(t, b, light);

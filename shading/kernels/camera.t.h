@@ -25,10 +25,15 @@ BN_FN view_params view_params_of(BN_IN(ViewRecord) v)
     return r;
 }
 
-// view: the frame's. (x, y): pixels from the image's top left corner. See pixel_ray().
+// view: the frame's. (x, y): pixels from the image's top left corner. For ray_to().
+BN_FN real2 place_on_screen(frame_ref f, BN_IN(view_params) view, real x, real y)
+{
+    return vec2_of(screen_x(x, splat(the_frame(f).half_width), view.inv_tan_x),
+                   screen_y(y, splat(the_frame(f).half_height), view.inv_tan_y));
+}
 BN_FN real3 ray_through(frame_ref f, BN_IN(view_params) view, real x, real y)
 {
-    return pixel_ray(x, y, splat(the_frame(f).half_width), splat(the_frame(f).half_height), view);
+    return ray_to(place_on_screen(f, view, x, y), view);
 }
 
 // guard: 1/256 pixel. See snap_vertex().

@@ -7,13 +7,23 @@
 
 BN_KERNELS_BEGIN
 
-// (px, py): pixels from the image's top left corner. half_width, half_height: half the image, pixels. Returns a direction in world
-// space, not unit; all rays of an orthographic view are parallel.
-BN_FN real3 pixel_ray(real px, real py, real half_width, real half_height, view_params view)
+// Where the ray through a point of the image meets the plane at distance 1, along the view's right and up. (px, py): pixels from the
+// image's top left corner. half_width, half_height: half the image, pixels.
+BN_FN real screen_x(real px, real half_width, real inv_tan_x)
 {
-    real x = (px - half_width) / half_width / view.inv_tan_x;
-    real y = (half_height - py) / half_height / view.inv_tan_y;
-    real3 through = view.forward + view.right * x + view.up * y;
+    real x = (px - half_width) / half_width / inv_tan_x;
+    return x;
+}
+BN_FN real screen_y(real py, real half_height, real inv_tan_y)
+{
+    real y = (half_height - py) / half_height / inv_tan_y;
+    return y;
+}
+
+// place: screen_x(), screen_y(). A direction in world space, not unit; all rays of an orthographic view are parallel.
+BN_FN real3 ray_to(real2 place, view_params view)
+{
+    real3 through = view.forward + view.right * place.x + view.up * place.y;
     return select(view.orthographic, view.forward, through);
 }
 

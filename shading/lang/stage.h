@@ -1,5 +1,6 @@
 // What assembly (*.t.h) may ask of the stage that it runs in: lanes in C++, an invocation in GLSL.
 //   frame_ref f, the_frame(f).width...   the frame's record (shading/lang/records.h); any_frame f: of a BN_STAGE, compiled once for all
+//   place_of_center(f, view, px, py)     place_on_screen() of a pixel's centre; view is the frame's
 //   the_light(f, i).position...          light i of the_frame(f).light_count
 //   light_reach r = lights_reaching(f, position); next_light(f, r)   the lights, in turn, that may reach a place: those of lanes are the
 //                                        ones in whose range some lane's place is; light_count or more: there is none left

@@ -48,8 +48,9 @@ inline constexpr int kMostGridSamples = 1 << 18; // of a frame: of --samples, an
 
 // What the record of a frame does not hold. Pointers are null where nothing asks for them.
 struct FrameTables {
-    const float *px, *py, *pz;     // by vertex; world space, metres
-    const float* shading_vertices; // DrawTables::shading as floats, 16 a vertex
+    const float *screen_x, *screen_y; // place_on_screen() of pixels' centres, by column and by row; 16 may be read at any
+    const float *px, *py, *pz;        // by vertex; world space, metres
+    const float* shading_vertices;    // DrawTables::shading as floats, 16 a vertex
     const std::uint32_t* indices;
     const std::uint32_t* triangle_material;
     const MaterialRecord* materials;

@@ -23,9 +23,7 @@ BN_FN real3 environment_radiance(frame_ref f, real3 direction)
 // view: the frame's. x, y: pixel.
 BN_FN real3 background_ray(frame_ref f, BN_IN(view_params) view, integer x, integer y)
 {
-    real center_x = to_real(x) + lit(0.5);
-    real center_y = to_real(y) + lit(0.5);
-    return ray_through(f, view, center_x, center_y);
+    return ray_to(place_of_center(f, view, x, y), view);
 }
 
 BN_FN real3 background_color(frame_ref f, BN_IN(view_params) view, integer x, integer y)

@@ -5,8 +5,13 @@
 
 #include "shading/lang/frame.h"
 #include "shading/stages/material.glsl"
+#include "shading/kernels/camera.t.h"
 #include "shading/kernels/cube_filter.k.h"
 
+real2 place_of_center(frame_ref f, view_params view, integer px, integer py)
+{
+    return place_on_screen(f, view, to_real(px) + lit(0.5), to_real(py) + lit(0.5));
+}
 #define the_light(f, i) lights[i]
 #define light_reach int // the next one
 #define lights_reaching(f, position) 0

@@ -32,22 +32,22 @@ BN_FN visible_point point_of(frame_ref f, BN_IN(view_params) view, triangle_ref 
     integer middle_y = corner_y + int_lit(kSubpixel / 2);
     bary_weights center = weights_at(t, middle_x, middle_y);
     bary_weights w = center;
-    integer x = middle_x;
-    integer y = middle_y;
+    real2 place = place_of_center(f, view, px, py);
     if (any_lane(not_(center.inside))) {
         sample_mean mean = mean_of_samples(f, samples);
-        x = select(center.inside, x, corner_x + mean.x);
-        y = select(center.inside, y, corner_y + mean.y);
+        integer x = select(center.inside, middle_x, corner_x + mean.x);
+        integer y = select(center.inside, middle_y, corner_y + mean.y);
         w = weights_at(t, x, y);
+        real across = to_real(x + int_lit(the_frame(f).center_x)) * lit(0.00390625);
+        real down = to_real(y + int_lit(the_frame(f).center_y)) * lit(0.00390625);
+        place = place_on_screen(f, view, across, down);
     }
     visible_point p;
     vertex_words a;
     blend_vertices(f, t, w.b, uses_color || textured, a);
     set_interpolants(a, uses_color, textured, p);
     p.front = (t.info & int_lit(kFrontFacing)) != int_lit(0);
-    real across = to_real(x + int_lit(the_frame(f).center_x)) * lit(0.00390625);
-    real down = to_real(y + int_lit(the_frame(f).center_y)) * lit(0.00390625);
-    p.ray = ray_through(f, view, across, down);
+    p.ray = ray_to(place, view);
     if (lights) {
         real3 v0 = vertex_place(f, t, 0);
         real3 v1 = vertex_place(f, t, 1);
