@@ -36,10 +36,9 @@ BN_INLINE void unclip_setup(const TileScratch& scratch, mask clipped, LaneSetup&
     }
 }
 
-// common: the triangle of all fragments, or kManyTriangles.
-BN_INLINE LaneSetup load_setup(const TileScratch& scratch, integer triangle, std::int32_t common)
+// Fills r. common: the triangle of all fragments, or kManyTriangles.
+BN_INLINE void load_setup(const TileScratch& scratch, integer triangle, std::int32_t common, LaneSetup& r)
 {
-    LaneSetup r;
     r.common_vertex[0] = kManyTriangles;
     if (common != kManyTriangles) {
         const TriangleSetup& t = scratch.triangles[common];
@@ -61,7 +60,6 @@ BN_INLINE LaneSetup load_setup(const TileScratch& scratch, integer triangle, std
     r.clipped = any(clipped);
     if (r.clipped)
         unclip_setup(scratch, clipped, r);
-    return r;
 }
 
 // What assembly asks of triangles: shading/lang/triangle.h.
@@ -115,7 +113,9 @@ BN_INLINE visible_point make_fragment_inline(frame_ref f, material_ref m, const 
                                              integer triangle, std::int32_t common, integer pixel_x, integer pixel_y, integer samples,
                                              bool lights)
 {
-    return fragment_of(f, m, view, load_setup(scratch, triangle, common), pixel_x, pixel_y, samples, lights);
+    LaneSetup t;
+    load_setup(scratch, triangle, common, t);
+    return fragment_of(f, m, view, t, pixel_x, pixel_y, samples, lights);
 }
 
 // Compiled once in a file.

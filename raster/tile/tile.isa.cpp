@@ -175,12 +175,12 @@ void shade_plain_slot(const Tile& t, const view_params& view, const MaterialReco
     const view_params eye = view;
     const material_inputs at = found.at;
     const lobe_shape shape = found.shape;
-    LaneSetup setup;
+    LaneSetup setup = {};
     std::int32_t setup_of = kManyTriangles;
     for (std::uint32_t i = begin; i < end; i += kLanes) {
         const Batch b = load_batch(t, i, end);
         if (b.common == kManyTriangles || b.common != setup_of)
-            setup = load_setup(t.s, b.triangle, b.common);
+            load_setup(t.s, b.triangle, b.common, setup);
         setup_of = b.common;
         const visible_point p = fragment_of(frame, material, eye, setup, b.x, b.y, b.samples, false);
         const line_record light = shade_fragments<kTechnique>(frame, material, at, shape, p, b.x, b.y);

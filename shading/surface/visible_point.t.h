@@ -6,6 +6,7 @@
 #include "shading/kernels/camera.t.h"
 #include "shading/kernels/interpolate.k.h"
 #include "shading/lang/lang.h"
+#include "shading/lang/stage.h"
 #include "shading/lang/triangle.h"
 #include "shading/surface/coverage.t.h"
 #include "shading/surface/relief.k.h"
