@@ -256,9 +256,7 @@ void summarise(const AtlasEntry& entry, MeasuredEntry& m)
 
 Result<WalkedEntry> walk_entry(const AtlasEntry& entry, const AtlasWalk& walk, Darkroom& room)
 {
-    Result<WalkedEntry> walked = Walker(entry, walk, room).walk();
-    room.forget();
-    return walked;
+    return Walker(entry, walk, room).walk();
 }
 
 } // namespace burnish
