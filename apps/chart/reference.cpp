@@ -51,8 +51,8 @@ Result<Frame> kept_reference(Session& reference, const FrameDesc& desc, const Re
     return frame;
 }
 
-Result<Frame> kept_reference(const Session& session, const FrameDesc& desc, const ReferenceOptions& options, Isa isa, const ReferenceHome& home,
-                             Report& report)
+Result<Frame> kept_reference(const Session& session, const FrameDesc& desc, const ReferenceOptions& options, Isa isa,
+                             const ReferenceHome& home, Report& report)
 {
     SessionOptions of_reference;
     of_reference.backend = Backend::reference, of_reference.isa = isa;

@@ -126,7 +126,8 @@ constexpr std::size_t kBlocksInSlice = kRoundSamples / (kPassSamples * kBlockSid
 // The same, of a picture whose key is known.
 std::string file_of(const ReferenceOptions& options, std::uint64_t key)
 {
-    return options.checkpoint_folder.empty() ? options.checkpoint : fmt::format("{}/reference-{:016x}.part", options.checkpoint_folder, key);
+    return options.checkpoint_folder.empty() ? options.checkpoint
+                                             : fmt::format("{}/reference-{:016x}.part", options.checkpoint_folder, key);
 }
 
 bool keeps(const ReferenceOptions& options)
@@ -156,9 +157,7 @@ Result<Accumulator> ReferenceRenderer::integrate(const FrameDesc& desc, const Re
     Clock::time_point written = Clock::now();
     // Also after the last pass: a finished checkpoint may be gone on with for more samples. A disk that is full for a while costs a
     // checkpoint on the way, not the picture.
-    const auto write = [&] {
-        return kept_up ? write_checkpoint(file, key, a, links_of(options_)) : Status{};
-    };
+    const auto write = [&] { return kept_up ? write_checkpoint(file, key, a, links_of(options_)) : Status{}; };
     // After whole rounds only: what a stop left in between must not decide where the run ends.
     const auto good_enough = [&] {
         return options_.target_error > 0.0 && done >= kFewestPasses && done % round == 0 && most_passes(a) == done &&
