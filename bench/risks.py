@@ -1,9 +1,12 @@
 #!/usr/bin/env python3
-"""What `burnish render --risks` marks beside what is wrong: bench/risks.py PROGRAM [--set] [--keep DIR]
+"""What `burnish render --risks` marks beside what is wrong, and what it takes: bench/risks.py PROGRAM [--set] [--keep DIR] [--time N]
 
 Pairs of scenes and environments that the constants of apps/atlas/risks.cpp were not chosen by; with --set those that they were. Of every pair:
 the share of shaded pixels that is marked, the share of pixels with FLIP above .15 that is among them (recall), the share of marked ones with
 FLIP above .05 (precision). The truth is the reference of the same lobe, 1024 samples a pixel.
+
+--time N: in place of that CPU time, user and system, of N runs with --risks and N without, by turns, one thread, and of the frame itself: the
+difference of runs of one frame and of five, a fourth.
 """
 
 import argparse
@@ -11,6 +14,8 @@ import array
 import json
 import pathlib
 import re
+import resource
+import statistics
 import subprocess
 import sys
 import tempfile
@@ -124,13 +129,38 @@ def judge(program, folder, pair, samples):
     return n, words
 
 
+TIMED = "builtin:spheres --size 1280x720 --msaa 8 --threads 1 -q"
+
+
+def cpu_ms(command):
+    before = resource.getrusage(resource.RUSAGE_CHILDREN)
+    subprocess.run(command, check=True, capture_output=True)
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return 1e3 * (after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime)
+
+
+def take_times(program, count):
+    """Medians of differences between neighbours, and the middle half of them."""
+    ways = {"plain": (), "risks": ("--risks", "-"), "five": ("--frames", "5")}
+    common = [program, "render", *TIMED.split()]
+    subprocess.run([*common, *ways["risks"]], check=True, capture_output=True) # bakes
+    rounds = [{name: cpu_ms([*common, *words]) for name, words in ways.items()} for _ in range(count)]
+    cost, frame = ([(r[a] - r["plain"]) / n for r in rounds] for a, n in (("risks", 1), ("five", 4)))
+    low, high = statistics.quantiles(cost, n=4)[::2]
+    print(f"{TIMED}: frame {statistics.median(frame):.1f} ms, --risks {statistics.median(cost):.1f} ({low:.1f} to {high:.1f}), "
+          f"{100 * statistics.median(cost) / statistics.median(frame):.1f} % of it; {count} rounds")
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("program")
     parser.add_argument("--set", action="store_true", help="the pairs that constants were chosen by")
     parser.add_argument("--keep", help="folder of the pictures; truths are found there again")
     parser.add_argument("--samples", type=int, default=1024)
+    parser.add_argument("--time", type=int, metavar="N", help="rounds, four at least")
     args = parser.parse_args()
+    if args.time:
+        return take_times(args.program, args.time)
     share = lambda a, b: f"{100 * a / b:3.0f} %" if b else "  -  "
     total = {}
     with tempfile.TemporaryDirectory() as scratch:

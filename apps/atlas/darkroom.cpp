@@ -14,7 +14,8 @@
 namespace burnish {
 namespace {
 
-constexpr std::size_t kMostKept = 8; // scenes, environments or sessions: a path may have one a step
+constexpr std::size_t kMostKept = 8;     // scenes, environments or sessions: a path may have one a step
+constexpr std::size_t kMostTruths = 256; // pictures
 
 Result<Frame> finite(const AtlasSetting& setting, Result<Frame> frame)
 {
@@ -30,10 +31,25 @@ Result<std::optional<Frame>> some(Result<Frame> frame)
     return std::optional<Frame>(std::move(*frame));
 }
 
-template <class T> void make_room(std::map<std::string, T>& kept)
+template <class Kept> void make_room(Kept& kept, std::size_t most = kMostKept)
 {
-    if (kept.size() >= kMostKept)
+    if (kept.size() >= most)
         kept.clear();
+}
+
+// Of --as-table; empty: none.
+std::string as_table_of(const RenderOptions& options)
+{
+    return options.as_tables.empty() ? "" : options.as_tables.back();
+}
+
+// What tells apart what sessions are made of.
+std::string parts_key(const AtlasSetting& setting)
+{
+    const RenderOptions& o = setting.options;
+    const bool of_lobe = is_trial_table(as_table_of(o));
+    return fmt::format("{}\n{}\n{} {} {}", setting.scene_key, setting.environment_key, o.ltc_table, fmt::join(o.as_tables, " "),
+                       of_lobe ? fmt::format("{} {}", o.frame.roughness, o.frame.anisotropy) : "");
 }
 
 } // namespace
@@ -52,12 +68,11 @@ Picture picture_of(const AtlasSetting& setting, Frame frame)
     return out;
 }
 
-Result<Session*> Darkroom::session_of(const AtlasSetting& setting)
+Result<const SessionParts*> Darkroom::parts_of(const AtlasSetting& setting)
 {
     const RenderOptions& o = setting.options;
-    const std::string key =
-        fmt::format("{}\n{}\n{} {}", setting.scene_key, setting.environment_key, o.ltc_table, fmt::join(o.as_tables, " "));
-    if (const auto found = sessions_.find(key); found != sessions_.end())
+    const std::string key = parts_key(setting), as_table = as_table_of(o);
+    if (const auto found = parts_.find(key); found != parts_.end())
         return &found->second;
     if (!scenes_.count(setting.scene_key)) {
         make_room(scenes_);
@@ -73,8 +88,6 @@ Result<Session*> Darkroom::session_of(const AtlasSetting& setting)
             return environment.error();
         environments_[setting.environment_key] = std::move(*environment);
     }
-    SessionOptions options;
-    options.isa = machine_.isa;
     SessionParts parts{scenes_[setting.scene_key], environments_[setting.environment_key], machine_.jobs, {}};
     RenderOptions files = o;
     if (is_trial_table(o.ltc_table)) {
@@ -83,47 +96,89 @@ Result<Session*> Darkroom::session_of(const AtlasSetting& setting)
             return table.error();
         parts.ltc = std::move(*table), files.ltc_table.clear();
     }
+    if (is_trial_table(as_table)) {
+        Result<std::shared_ptr<const PhongFiles>> table =
+            trial_half_vectors(as_table, static_cast<double>(o.frame.roughness), static_cast<double>(o.frame.anisotropy));
+        if (!table)
+            return table.error();
+        parts.phong = std::move(*table), files.as_tables.clear();
+    }
     if (const Status read = read_tables(files, parts, report_); !read)
         return read.error();
-    Result<Session> session = Session::make(std::move(parts), options);
+    make_room(parts_);
+    return &(parts_[key] = std::move(parts));
+}
+
+Result<Session*> Darkroom::session_of(const AtlasSetting& setting)
+{
+    const std::string key = parts_key(setting);
+    if (const auto found = sessions_.find(key); found != sessions_.end())
+        return &found->second;
+    const Result<const SessionParts*> parts = parts_of(setting);
+    if (!parts)
+        return parts.error();
+    SessionOptions options;
+    options.isa = machine_.isa;
+    Result<Session> session = Session::make(**parts, options);
     if (!session)
         return session.error();
     make_room(sessions_);
     return &sessions_.emplace(key, std::move(*session)).first->second;
 }
 
-Result<Darkroom::Shot> Darkroom::shot_of(const AtlasSetting& setting)
+Result<Session*> Darkroom::reference_of(const AtlasSetting& setting, const ReferenceOptions& options)
 {
-    const Result<Session*> session = session_of(setting);
+    const std::string key = fmt::format("{}\n{} {}", parts_key(setting), options.samples, options.full_textures);
+    if (const auto found = references_.find(key); found != references_.end())
+        return &found->second;
+    const Result<const SessionParts*> parts = parts_of(setting);
+    if (!parts)
+        return parts.error();
+    SessionOptions of_reference;
+    of_reference.backend = Backend::reference, of_reference.isa = machine_.isa, of_reference.reference = options;
+    Result<Session> session = Session::make(**parts, of_reference);
     if (!session)
         return session.error();
-    const Result<ChosenView> view = choose_view(setting.options, (*session)->scene(), (*session)->tables());
+    make_room(references_);
+    return &references_.emplace(key, std::move(*session)).first->second;
+}
+
+Result<FrameDesc> Darkroom::desc_of(const AtlasSetting& setting)
+{
+    const Result<const SessionParts*> parts = parts_of(setting);
+    if (!parts)
+        return parts.error();
+    const Result<ChosenView> view = choose_view(setting.options, (*parts)->scene->scene, (*parts)->scene->tables);
     if (!view)
         return view.error();
     FrameDesc desc = setting.options.frame;
     desc.view = view->view;
     desc.triangle_ids = true;
     desc.parts = setting.displayed;
-    return Shot{*session, desc};
+    return desc;
 }
 
 Result<Frame> Darkroom::draw(const AtlasSetting& setting)
 {
-    const Result<Shot> shot = shot_of(setting);
-    if (!shot)
-        return shot.error();
-    return finite(setting, shot->session->render(shot->desc));
+    const Result<FrameDesc> desc = desc_of(setting);
+    if (!desc)
+        return desc.error();
+    const Result<Session*> session = session_of(setting);
+    return session ? finite(setting, (*session)->render(*desc)) : session.error();
 }
 
 Result<std::optional<Frame>> Darkroom::draw_in_double(const AtlasSetting& setting)
 {
-    const Result<Shot> shot = shot_of(setting);
-    if (!shot)
-        return shot.error();
-    const std::unique_ptr<Renderer> renderer = make_double_tile_renderer(shot->session->parts().input());
+    const Result<FrameDesc> desc = desc_of(setting);
+    if (!desc)
+        return desc.error();
+    const Result<Session*> session = session_of(setting);
+    if (!session)
+        return session.error();
+    const std::unique_ptr<Renderer> renderer = make_double_tile_renderer((*session)->parts().input());
     if (!renderer)
         return std::optional<Frame>();
-    return some(finite(setting, renderer->render(shot->session->drawn(shot->desc), {})));
+    return some(finite(setting, renderer->render((*session)->drawn(*desc), {})));
 }
 
 Result<std::shared_ptr<const Truth>> Darkroom::truth(const AtlasSetting& setting)
@@ -136,17 +191,20 @@ Result<std::shared_ptr<const Truth>> Darkroom::truth(const AtlasSetting& setting
             return Error{ExitCode::unavailable, setting.options.scene, "", "this program draws no frames in double"};
         return std::make_shared<const Truth>(Truth{picture_of(setting, std::move(**frame)), 0.0});
     }
-    const Result<Shot> shot = shot_of(setting);
-    if (!shot)
-        return shot.error();
-    FrameDesc desc = shot->desc;
-    desc.triangle_ids = false;
+    Result<FrameDesc> desc = desc_of(setting);
+    if (!desc)
+        return desc.error();
+    desc->triangle_ids = false;
     ReferenceOptions options = setting.options.reference;
     options.stop = machine_.stop;
-    const std::uint64_t key = reference_key(shot->session->parts().input(), shot->session->drawn(desc), options);
+    options = kept_options(options, machine_.home, report_);
+    const Result<Session*> reference = reference_of(setting, options);
+    if (!reference)
+        return reference.error();
+    const std::uint64_t key = reference_key((*reference)->parts().input(), (*reference)->drawn(*desc), options) ^ options.samples;
     if (const auto found = truths_.find(key); found != truths_.end())
         return found->second;
-    Result<Frame> frame = kept_reference(*shot->session, desc, options, machine_.isa, machine_.home, report_);
+    Result<Frame> frame = kept_reference(**reference, *desc, options, report_);
     if (!frame)
         return frame.error();
     if (frame->stats.sampling.stopped)
@@ -154,13 +212,8 @@ Result<std::shared_ptr<const Truth>> Darkroom::truth(const AtlasSetting& setting
     if (count_not_finite(frame->color))
         return Error{ExitCode::not_finite, setting.options.scene, "reference", "the picture holds NaN or Inf"};
     const double noise = noise_flip(frame->color, frame->variance, machine_.isa, *machine_.jobs);
+    make_room(truths_, kMostTruths);
     return truths_[key] = std::make_shared<const Truth>(Truth{Picture{std::move(frame->color), {}}, noise});
-}
-
-void Darkroom::forget()
-{
-    sessions_.clear();
-    truths_.clear();
 }
 
 } // namespace burnish

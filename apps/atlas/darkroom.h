@@ -40,24 +40,23 @@ class Darkroom {
     Result<std::optional<Frame>> draw_in_double(const AtlasSetting& setting);
     // Of what the reference makes of it, or the tile renderer. Null where the machine's `stop` came first.
     Result<std::shared_ptr<const Truth>> truth(const AtlasSetting& setting);
-    void forget(); // truths and sessions: no other entry has the same
 
     const Jobs& jobs() const { return *machine_.jobs; }
     Isa isa() const { return machine_.isa; }
 
   private:
+    Result<const SessionParts*> parts_of(const AtlasSetting& setting);
     Result<Session*> session_of(const AtlasSetting& setting);
-    struct Shot { // a session and what it draws
-        Session* session;
-        FrameDesc desc;
-    };
-    Result<Shot> shot_of(const AtlasSetting& setting);
+    Result<Session*> reference_of(const AtlasSetting& setting, const ReferenceOptions& options);
+    Result<FrameDesc> desc_of(const AtlasSetting& setting);
 
     Machine machine_;
     Report& report_;
+    // By what makes them; the last few.
     std::map<std::string, std::shared_ptr<const SceneData>> scenes_;
     std::map<std::string, std::shared_ptr<const Environment>> environments_;
-    std::map<std::string, Session> sessions_;
+    std::map<std::string, SessionParts> parts_;
+    std::map<std::string, Session> sessions_, references_;
     std::map<std::uint64_t, std::shared_ptr<const Truth>> truths_;
 };
 

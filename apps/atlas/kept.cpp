@@ -10,9 +10,9 @@
 namespace burnish {
 namespace {
 
-Json step_json(const AtlasStep& s, bool cured)
+Json step_json(const AtlasStep& s)
 {
-    return {{"s", s.s},         {"values", s.values}, {"error", s.error}, {"cure_error", cured ? Json(s.cure_error) : Json()},
+    return {{"s", s.s},         {"values", s.values}, {"error", s.error}, {"cure_error", s.cure_error ? Json(*s.cure_error) : Json()},
             {"noise", s.noise}, {"change", s.change}};
 }
 
@@ -28,8 +28,13 @@ Json measured_json(const MeasuredEntry& m, bool cured)
                  {"noise", m.noise},
                  {"steps", Json::array()}};
     for (const AtlasStep& s : m.steps)
-        json["steps"].push_back(step_json(s, cured));
+        json["steps"].push_back(step_json(s));
     return json;
+}
+
+std::optional<double> number_or_none(const nlohmann::json& json)
+{
+    return json.is_null() ? std::nullopt : std::optional(json.get<double>());
 }
 
 double number_or_zero(const nlohmann::json& json)
@@ -42,8 +47,8 @@ double number_or_zero(const nlohmann::json& json)
 std::string entry_key(const AtlasEntry& e, const AtlasWalk& walk)
 {
     const std::string text =
-        fmt::format("{} {} {} {} {} {} {} {} {} {} {} {} {}", program_hash(), e.id, e.words, e.with, e.geometric, e.path,
-                    static_cast<int>(e.truth), e.truth_words, e.threshold, e.cure, walk.steps, walk.side, walk.samples);
+        fmt::format("{} {} {} {} {} {} {} {} {} {} {} {} {} {}", program_hash(), e.id, e.words, e.with, e.geometric, e.path,
+                    static_cast<int>(e.truth), e.truth_words, e.threshold, e.cure, walk.steps, walk.side, walk.samples, walk.cure_every);
     return hash_text(hash_bytes(text.data(), text.size()));
 }
 
@@ -64,7 +69,7 @@ std::optional<MeasuredEntry> parse_kept_entry(const std::string& text, const std
         m.id = json.at("id").get<std::string>();
         for (const nlohmann::json& s : json.at("steps"))
             m.steps.push_back({s.at("s").get<double>(), s.at("values").get<std::string>(), s.at("error").get<double>(),
-                               number_or_zero(s.at("cure_error")), number_or_zero(s.at("noise")), s.at("change").get<double>()});
+                               number_or_none(s.at("cure_error")), number_or_zero(s.at("noise")), s.at("change").get<double>()});
         m.kind = json.at("kind").get<std::string>();
         m.remedy = json.at("remedy").get<double>();
         if (!json.at("double").is_null())

@@ -117,7 +117,7 @@ Status Walker::step(int i)
     };
     show(AtlasRow::truth, i, shown((*truth)->picture, of_truth->options));
     for (const AtlasRole role : {AtlasRole::test, AtlasRole::cure}) {
-        if (role == AtlasRole::cure && !entry_.cure[0])
+        if (role == AtlasRole::cure && (!entry_.cure[0] || (walk_.steps - 1 - i) % walk_.cure_every != 0))
             continue;
         const Result<AtlasSetting> setting = setting_of(entry_, role, s.s, walk_.side, 0);
         if (!setting)
@@ -129,7 +129,11 @@ Status Walker::step(int i)
         Picture now = picture_of(*setting, std::move(*frame));
         const std::vector<bool> covered = either_covers((*truth)->picture, now);
         Image map, unused;
-        (test ? s.error : s.cure_error) = difference(**truth, (*truth)->picture, now, covered, map);
+        const double error = difference(**truth, (*truth)->picture, now, covered, map);
+        if (test)
+            s.error = error;
+        else
+            s.cure_error = error;
         show(test ? AtlasRow::test : AtlasRow::cure, i, shown(now, setting->options));
         show(test ? AtlasRow::error : AtlasRow::cure_error, i, magma_map(map));
         if (test && before_) // it changed by so much more than the truth did
@@ -248,7 +252,7 @@ void summarise(const AtlasEntry& entry, MeasuredEntry& m)
         if (m.onset > 1.0 && s.error > entry.threshold)
             m.onset = s.s;
         m.worst = std::max(m.worst, s.error);
-        m.cure_worst = std::max(m.cure_worst, s.cure_error);
+        m.cure_worst = std::max(m.cure_worst, s.cure_error.value_or(0.0));
         m.noise = std::max(m.noise, s.noise);
         m.flicker += s.change / static_cast<double>(std::max<std::size_t>(1, m.steps.size() - 1));
     }
@@ -256,9 +260,7 @@ void summarise(const AtlasEntry& entry, MeasuredEntry& m)
 
 Result<WalkedEntry> walk_entry(const AtlasEntry& entry, const AtlasWalk& walk, Darkroom& room)
 {
-    Result<WalkedEntry> walked = Walker(entry, walk, room).walk();
-    room.forget();
-    return walked;
+    return Walker(entry, walk, room).walk();
 }
 
 } // namespace burnish

@@ -14,17 +14,19 @@ struct AtlasWalk {
     const char* name;
     int steps, side;       // of a path; pixels of a picture
     std::uint64_t samples; // a pixel of the reference
+    int cure_every = 1;    // steps from one look at the cure to the next; the last is looked at
 };
-inline constexpr AtlasWalk kQuickWalk{"quick", 7, 64, 512}, kFullWalk{"full", 33, 96, 1024};
+inline constexpr AtlasWalk kQuickWalk{"quick", 7, 64, 256, 2}, kFullWalk{"full", 33, 96, 1024, 1};
 
 inline constexpr double kGone = 0.5; // an error is gone where less than this share of it is left
 
 struct AtlasStep {
     double s = 0.0; // [0,1]
     std::string values;
-    double error = 0.0, cure_error = 0.0; // mean FLIP (HDR; LDR of what a display shows) over what shows the scene
-    double noise = 0.0;                   // of the truth, mean HDR-FLIP
-    double change = 0.0;                  // mean FLIP from the step before, less that of the truth; 0 of the first step
+    double error = 0.0;               // mean FLIP (HDR; LDR of what a display shows) over what shows the scene
+    std::optional<double> cure_error; // the same of the cure; nothing where none is known or was looked at
+    double noise = 0.0;               // of the truth, mean HDR-FLIP
+    double change = 0.0;              // mean FLIP from the step before, less that of the truth; 0 of the first step
 };
 
 struct MeasuredEntry {

@@ -55,7 +55,8 @@ Drawing plot_path(const AtlasResult& r)
         out.text(legend + 12.0, kBottom + 36.0, "tick", cure ? "cure" : "breaks");
         Points line;
         for (const AtlasStep& s : r.measured.steps)
-            line.emplace_back(x.at(s.s), y.at(cure ? s.cure_error : s.error));
+            if (!cure || s.cure_error)
+                line.emplace_back(x.at(s.s), y.at(cure ? *s.cure_error : s.error));
         out.line(line, "curve " + colour);
         out.open("point best " + colour);
         for (const auto& [px, py] : line)
@@ -98,7 +99,9 @@ Json steps_of(const AtlasResult& r)
     Json steps = Json::array();
     for (const AtlasStep& s : r.measured.steps)
         steps.push_back(fmt::format("s = {:.3f}: {}; off by {:.4f}{}", s.s, s.values, s.error,
-                                    r.entry->cure[0] ? fmt::format(", the cure by {:.4f}", s.cure_error) : ""));
+                                    s.cure_error       ? fmt::format(", the cure by {:.4f}", *s.cure_error)
+                                    : r.entry->cure[0] ? ", the cure was not looked at here"
+                                                       : ""));
     return steps;
 }
 

@@ -2,17 +2,19 @@
 
 #include <map>
 
+#include "apps/bake/phong_tables.h"
 #include "shading/bake/ltc/bake_ltc.h"
 
 namespace burnish {
 namespace {
 
 constexpr const char* kTrial = "trial:";
+constexpr int kRule = 12; // of a quarter of the usual directions, for time
 
 Result<ltc::BakeOptions> options_of(const std::string& path)
 {
     ltc::BakeOptions options;
-    options.steps = 0;
+    options.steps = 0, options.rule = kRule;
     options.grid.beyond = 0, options.grid.root_alpha = options.grid.over_alpha = false;
     options.grid.basis = ltc::Basis::tangent;
     const std::string name = path.substr(std::string(kTrial).size());
@@ -47,6 +49,19 @@ Result<std::shared_ptr<const ltc::ShadingTables>> trial_table(const std::string&
     if (!tables)
         return tables.error();
     return made[path] = std::make_shared<const ltc::ShadingTables>(std::move(*tables));
+}
+
+Result<std::shared_ptr<const PhongFiles>> trial_half_vectors(const std::string& path, double alpha_lin, double eta)
+{
+    const std::string name = path.substr(std::string(kTrial).size());
+    if (name != "floats" && name != "eight-bits")
+        return Error{ExitCode::bad_input, path, "", "no table of this name is tried; there are floats, eight-bits"};
+    const double alpha = alpha_lin * alpha_lin, nu = phong_exponent(alpha * (1.0 + eta)), nv = phong_exponent(alpha * (1.0 - eta));
+    Result<PhongFiles> table =
+        PhongFiles::of(half_vector_table(nu, nv, {256, 256}, name == "floats" ? PixelType::f32 : PixelType::u8), path);
+    if (!table)
+        return table.error();
+    return std::make_shared<const PhongFiles>(std::move(*table));
 }
 
 } // namespace burnish

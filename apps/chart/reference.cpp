@@ -4,9 +4,7 @@
 #include <fmt/core.h>
 #include <unistd.h>
 
-#include "apps/render/stats.h"
 #include "core/base/cache.h"
-#include "raster/reference/scene_key.h"
 
 namespace burnish {
 namespace {
@@ -26,34 +24,41 @@ std::string reference_folder(const ReferenceHome& home)
 
 } // namespace
 
-Result<Frame> kept_reference(const Session& session, const FrameDesc& desc, ReferenceOptions options, Isa isa, const ReferenceHome& home,
-                             Report& report)
+ReferenceOptions kept_options(ReferenceOptions options, const ReferenceHome& home, Report& report)
 {
-    const RenderInput input = session.parts().input();
-    const FrameDesc drawn = session.drawn(desc);
-    if (const std::string folder = reference_folder(home); !folder.empty()) {
-        options.checkpoint = fmt::format("{}/reference-{}.part", folder, hash_text(reference_key(input, drawn, options)));
-        options.checkpoint_seconds = home.save_every;
-        options.own_checkpoint = true;
-        options.lost_checkpoint = [&report](const Error& error) { report.warning("the reference is not kept: " + error.line()); };
-        if (const Status good = check_reference_checkpoint(input, drawn, options); !good) {
-            report.warning(fmt::format("{}: {}: it is made anew", options.checkpoint, good.error().reason));
-            std::error_code failed;
-            fs::remove(options.checkpoint, failed);
-            if (failed)
-                return Error{ExitCode::output_failed, options.checkpoint, "", failed.message()};
-        }
+    options.checkpoint_folder = reference_folder(home);
+    options.checkpoint_seconds = home.save_every;
+    options.own_checkpoint = true;
+    options.lost_checkpoint = [&report](const Error& error) { report.warning("the reference is not kept: " + error.line()); };
+    return options;
+}
+
+Result<Frame> kept_reference(Session& reference, const FrameDesc& desc, const ReferenceOptions& options, Report& report)
+{
+    const RenderInput input = reference.parts().input();
+    const FrameDesc drawn = reference.drawn(desc);
+    const std::string file = checkpoint_of(input, drawn, options);
+    if (const Status good = check_reference_checkpoint(input, drawn, options); !good) {
+        report.warning(fmt::format("{}: {}: it is made anew", file, good.error().reason));
+        std::error_code failed;
+        fs::remove(file, failed);
+        if (failed)
+            return Error{ExitCode::output_failed, file, "", failed.message()};
     }
+    Result<Frame> frame = reference.render(desc);
+    if (frame && !file.empty() && fs::path(file).parent_path() == cache_folder())
+        prune_cache(cache_folder(), cache_limit(), file);
+    return frame;
+}
+
+Result<Frame> kept_reference(const Session& session, const FrameDesc& desc, const ReferenceOptions& options, Isa isa,
+                             const ReferenceHome& home, Report& report)
+{
     SessionOptions of_reference;
     of_reference.backend = Backend::reference, of_reference.isa = isa;
-    of_reference.reference = options;
-    Result<Session> renderer = Session::make(session.parts(), of_reference);
-    if (!renderer)
-        return renderer.error();
-    Result<Frame> frame = renderer->render(desc);
-    if (frame && !options.checkpoint.empty() && fs::path(options.checkpoint).parent_path() == cache_folder())
-        prune_cache(cache_folder(), cache_limit(), options.checkpoint);
-    return frame;
+    of_reference.reference = kept_options(options, home, report);
+    Result<Session> reference = Session::make(session.parts(), of_reference);
+    return reference ? kept_reference(*reference, desc, of_reference.reference, report) : reference.error();
 }
 
 } // namespace burnish

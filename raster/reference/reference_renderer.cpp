@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <fmt/format.h>
 #include <vector>
 
 #include "core/base/check.h"
@@ -122,15 +123,29 @@ std::uint32_t passes_in_round(const FrameDesc& desc)
 // Work between two looks at the clock, whether the checkpoint is due: one pass of a large picture may take minutes.
 constexpr std::size_t kBlocksInSlice = kRoundSamples / (kPassSamples * kBlockSide * kBlockSide);
 
+// The same, of a picture whose key is known.
+std::string file_of(const ReferenceOptions& options, std::uint64_t key)
+{
+    return options.checkpoint_folder.empty() ? options.checkpoint
+                                             : fmt::format("{}/reference-{:016x}.part", options.checkpoint_folder, key);
+}
+
+bool keeps(const ReferenceOptions& options)
+{
+    return !options.checkpoint.empty() || !options.checkpoint_folder.empty();
+}
+
 Result<Accumulator> ReferenceRenderer::integrate(const FrameDesc& desc, const ReferenceParams& f, SamplingStats& stats)
 {
     constexpr std::uint32_t kFewestPasses = 8; // before an error is believed
     const auto passes = static_cast<std::uint32_t>((options_.samples + kPassSamples - 1) / kPassSamples);
     const std::uint32_t round = passes_in_round(desc);
     Accumulator a(desc.width, desc.height);
-    const std::uint64_t key = options_.checkpoint.empty() ? 0 : reference_key(input_, desc, options_);
-    if (!options_.checkpoint.empty()) {
-        const Result<bool> resumed = read_checkpoint(options_.checkpoint, key, a, links_of(options_));
+    const bool kept_up = keeps(options_);
+    const std::uint64_t key = kept_up ? reference_key(input_, desc, options_) : 0;
+    const std::string file = kept_up ? file_of(options_, key) : "";
+    if (kept_up) {
+        const Result<bool> resumed = read_checkpoint(file, key, a, links_of(options_));
         if (!resumed)
             return resumed.error();
         stats.resumed = *resumed;
@@ -142,9 +157,7 @@ Result<Accumulator> ReferenceRenderer::integrate(const FrameDesc& desc, const Re
     Clock::time_point written = Clock::now();
     // Also after the last pass: a finished checkpoint may be gone on with for more samples. A disk that is full for a while costs a
     // checkpoint on the way, not the picture.
-    const auto write = [&] {
-        return options_.checkpoint.empty() ? Status{} : write_checkpoint(options_.checkpoint, key, a, links_of(options_));
-    };
+    const auto write = [&] { return kept_up ? write_checkpoint(file, key, a, links_of(options_)) : Status{}; };
     // After whole rounds only: what a stop left in between must not decide where the run ends.
     const auto good_enough = [&] {
         return options_.target_error > 0.0 && done >= kFewestPasses && done % round == 0 && most_passes(a) == done &&
@@ -155,7 +168,7 @@ Result<Accumulator> ReferenceRenderer::integrate(const FrameDesc& desc, const Re
         const TraceSpan round_span("passes");
         for (std::size_t begin = 0; begin < a.passes.size() && !stopped(); begin += kBlocksInSlice) {
             advance(f, a, until, {begin, std::min(begin + kBlocksInSlice, a.passes.size())});
-            if (!options_.checkpoint.empty() && seconds_since(written) > options_.checkpoint_seconds) {
+            if (kept_up && seconds_since(written) > options_.checkpoint_seconds) {
                 static_cast<void>(static_cast<bool>(write())); // the last one decides
                 written = Clock::now();
             }
@@ -222,12 +235,18 @@ bool reference_available()
     return ray_scene_available();
 }
 
+std::string checkpoint_of(const RenderInput& input, const FrameDesc& desc, const ReferenceOptions& options)
+{
+    return keeps(options) ? file_of(options, options.checkpoint_folder.empty() ? 0 : reference_key(input, desc, options)) : "";
+}
+
 Status check_reference_checkpoint(const RenderInput& input, const FrameDesc& desc, const ReferenceOptions& options)
 {
-    if (options.checkpoint.empty())
+    if (!keeps(options))
         return {};
+    const std::uint64_t key = reference_key(input, desc, options);
     Accumulator a(desc.width, desc.height);
-    const Result<bool> found = read_checkpoint(options.checkpoint, reference_key(input, desc, options), a, links_of(options));
+    const Result<bool> found = read_checkpoint(file_of(options, key), key, a, links_of(options));
     return found ? Status{} : Status{found.error()};
 }
 

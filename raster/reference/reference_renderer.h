@@ -27,6 +27,7 @@ struct ReferenceOptions {
     bool full_textures = false;       // read at full detail wherever a ray meets them, not filtered over a pixel's footprint
     double target_error = 0.0;        // above 0: stop early, once mean_relative_error() is not above it
     std::string checkpoint;           // file; empty: none
+    std::string checkpoint_folder;    // in its place: each picture has a file of its own there, checkpoint_of()
     double checkpoint_seconds = 60.0; // between two writes of it
     bool own_checkpoint = false;      // in a folder of ours, where no link is followed
     // Called where the picture is finished and its checkpoint cannot be written; without it that is an error of the picture too.
@@ -44,7 +45,10 @@ bool reference_available(); // whether this program was built with Embree
 // technique, samples and tile size are not looked at; msaa only for triangle ids.
 Result<std::unique_ptr<Renderer>> make_reference_renderer(const RenderInput& input, const ReferenceOptions& options);
 
-// Whether the options' checkpoint can be gone on with for this picture, or is not there yet: known before any work is done.
+// The file of this picture's checkpoint; empty: none.
+std::string checkpoint_of(const RenderInput& input, const FrameDesc& desc, const ReferenceOptions& options);
+
+// Whether it can be gone on with, or is not there yet: known before any work is done.
 Status check_reference_checkpoint(const RenderInput& input, const FrameDesc& desc, const ReferenceOptions& options);
 
 } // namespace burnish

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "core/math/scalar_math.h"
+#include "core/scene/area_light.h"
 #include "core/scene/builtin/surface.h"
 #include "core/scene/texture.h"
 
@@ -288,6 +289,60 @@ Scene make_gloom(double radiance)
     return scene;
 }
 
+Material mirror()
+{
+    return brushed_metal(0.05, 0.0, kSilver);
+}
+
+// A mirror that bulges by a map of normals, this slope at its sides. Texels are larger than pixels, and lie from edge to edge.
+Scene make_bulge(double slope)
+{
+    constexpr int kSide = 32;
+    Image normals = make_image(kSide, kSide, 3, PixelType::f32);
+    for (int i = 0; i < kSide * kSide; ++i) {
+        const double last = kSide - 1, x = slope * (2.0 * (i % kSide) / last - 1.0), y = slope * (1.0 - 2.0 * (i / kSide) / last);
+        const glm::dvec3 n = glm::normalize(glm::dvec3(x, y, 1.0));
+        for (int c = 0; c < 3; ++c)
+            normals.f32()[3 * i + c] = static_cast<float>(0.5 + 0.5 * n[c]);
+    }
+    Scene scene;
+    const std::uint32_t first = begin(scene, mirror());
+    add_sheet(scene, 16, level, [](double u, double v) { return (0.5 + (kSide - 1.0) * glm::dvec2(u, v)) / double(kSide); });
+    end(scene, first);
+    scene.materials[0].normal_tex.texture = add_texture(scene, "bulge", std::move(normals));
+    return scene;
+}
+
+// The same by normals of vertices.
+Scene make_dome(double slope)
+{
+    Scene scene;
+    const std::uint32_t first = begin(scene, mirror());
+    add_grid(scene, 16, 16, [&](int column, int row) {
+        const double x = column / 8.0 - 1.0, y = row / 8.0 - 1.0;
+        SurfacePoint p;
+        p.position = {kHalf * x, kHalf * y, 0.0};
+        p.normal = {slope * x, slope * y, 1.0};
+        p.tangent = {1.0, 0.0, 0.0};
+        return p;
+    });
+    end(scene, first);
+    return scene;
+}
+
+// A plate and a lamp that stands across it, whose middle is so high above it, metres; below, where it is negative.
+Scene make_sinking_lamp(double height)
+{
+    constexpr float kWide = 0.12f, kTall = 0.1f; // halves of its sides
+    Scene scene = plate_of(brushed_metal(0.5, 0.6, kSilver));
+    const float y = static_cast<float>(1.1 * kHalf), h = static_cast<float>(height);
+    AreaLight lamp;
+    lamp.shape = AreaShape::quad, lamp.radiance = glm::vec3(8.0f, 7.5f, 6.5f);
+    lamp.points = {{-kWide, y, h - kTall}, {kWide, y, h - kTall}, {kWide, y, h + kTall}, {-kWide, y, h + kTall}};
+    add_area_light(scene, lamp);
+    return scene;
+}
+
 } // namespace
 
 const std::vector<TrialMaker>& trial_makers()
@@ -306,6 +361,9 @@ const std::vector<TrialMaker>& trial_makers()
         {{"inside-glass", "the face of such glass, from within"}, 1.5, 1.0, 10.0, make_inside_glass},
         {{"tiles", "so many faces to a side, each of half a picture"}, 8.0, 1.0, 256.0, make_tiles},
         {{"no-numbers", "a picture of floats of whose texels this share are none"}, 0.01, 0.0, 1.0, make_no_numbers},
+        {{"bulge", "a mirror that bulges by a map of normals, of this slope at its sides"}, 0.05, 0.0, 1.0, make_bulge},
+        {{"dome", "the same by normals of vertices"}, 0.05, 0.0, 1.0, make_dome},
+        {{"sinking-lamp", "a plate under a lamp so high above it, metres"}, 0.1, -0.2, 1.0, make_sinking_lamp},
         {{"gloom", "a white square on a plate of this radiance"}, 0.1, 0.0, 1.0, make_gloom},
     };
     return makers;

@@ -31,7 +31,8 @@ std::uint64_t key_of(const BakeOptions& o)
                                 static_cast<std::int32_t>(o.norm),
                                 static_cast<std::int32_t>(o.model),
                                 o.align,
-                                o.symmetry};
+                                o.symmetry,
+                                o.rule};
     return hash_bytes(key, sizeof key);
 }
 
@@ -89,7 +90,8 @@ Matrix in_own_gauge(const Matrix& m)
 
 Chain fit_chain(const BakeOptions& options, int phi, int alpha, int lambda)
 {
-    static const Rule rule(15), albedo_rule(18);
+    static const Rule albedo_rule(18);
+    const Rule rule(options.rule);
     const Grid& grid = options.grid;
     Chain chain;
     Matrix before{}, plain_before{};

@@ -18,6 +18,7 @@ struct BakeOptions {
     Norm norm = Norm::l1;                       // of the nodes' fits; others begin as the document's do, see fit_chain()
     bool align = true;                          // else each matrix is turned as its own singular vectors have it
     bool symmetry = true;                       // what has to be zero or equal is made so; else every node is fitted by itself
+    int rule = 15;                              // of directions that nodes are fitted by: see Rule
     std::string checkpoint;                     // a file to go on from and to keep up to date; empty: none
     const std::atomic<bool>* stop = nullptr;    // set by another thread or a signal: end soon, with everything in the checkpoint
     std::function<void(std::size_t)> advance{}; // so much of bake_units() is done

@@ -81,16 +81,27 @@ Result<PhongFiles> PhongFiles::read(const std::vector<std::string>& paths, const
     return tables;
 }
 
+Result<PhongFiles> PhongFiles::of(const Image& picture, const std::string& name)
+{
+    PhongFiles tables;
+    if (const Status added = tables.add(picture, name); !added)
+        return added.error();
+    return tables;
+}
+
 Status PhongFiles::add(const std::string& path, const Limits& limits)
 {
     const Result<Image> picture = read_image(path, limits);
-    if (!picture)
-        return picture.error();
-    if (picture->channels < 3)
+    return picture ? add(*picture, path) : picture.error();
+}
+
+Status PhongFiles::add(const Image& picture, const std::string& path)
+{
+    if (picture.channels < 3)
         return no_table(path, "a table of half vectors or of albedo has red, green and blue");
-    const bool eight = picture->type == PixelType::u8;
+    const bool eight = picture.type == PixelType::u8;
     // The first half vector is the normal; blue of albedo is 0.
-    const Image vectors = as_floats(*picture, 4, true);
+    const Image vectors = as_floats(picture, 4, true);
     const float* first = texel(vectors, 0, 0);
     if (std::fabs(first[0]) < 0.01f && std::fabs(first[1]) < 0.01f && std::fabs(first[2] - 1.0f) < 0.01f) {
         half_path_ = path, half_ = vectors, half_codes_ = 0;
@@ -98,7 +109,7 @@ Status PhongFiles::add(const std::string& path, const Limits& limits)
         std::bitset<256> codes;
         for (std::size_t i = 0; i < texels; ++i) {
             float* h = half_.f32() + 4 * i;
-            if (picture->type != PixelType::f32 || picture->channels < 4)
+            if (picture.type != PixelType::f32 || picture.channels < 4)
                 h[3] = 0.0f;
             const double x = static_cast<double>(h[0]), y = static_cast<double>(h[1]), z = static_cast<double>(h[2]);
             const double length = std::sqrt(x * x + y * y + z * z);
@@ -106,7 +117,7 @@ Status PhongFiles::add(const std::string& path, const Limits& limits)
                 return no_table(path, fmt::format("texel {},{} holds no half vector", i % static_cast<std::size_t>(half_.width),
                                                   i / static_cast<std::size_t>(half_.width)));
             if (eight) {
-                codes.set(static_cast<std::size_t>(std::to_integer<int>(picture->bytes[i * static_cast<std::size_t>(picture->channels)])));
+                codes.set(static_cast<std::size_t>(std::to_integer<int>(picture.bytes[i * static_cast<std::size_t>(picture.channels)])));
                 for (int c = 0; c < 3; ++c)
                     h[c] = static_cast<float>(static_cast<double>(h[c]) / length);
             }
@@ -114,7 +125,7 @@ Status PhongFiles::add(const std::string& path, const Limits& limits)
         half_codes_ = eight ? static_cast<int>(codes.count()) : 0;
         return {};
     }
-    albedo_path_ = path, albedo_ = as_floats(*picture, 3, false), albedo_8_ = eight;
+    albedo_path_ = path, albedo_ = as_floats(picture, 3, false), albedo_8_ = eight;
     if (albedo_.width < 2 || albedo_.height < 2)
         return no_table(path, "a table of albedo has two texels along each axis at least");
     const std::size_t values = albedo_.bytes.size() / sizeof(float);

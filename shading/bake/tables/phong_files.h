@@ -15,6 +15,8 @@ class PhongFiles {
   public:
     // A table, or a folder's pictures that are one; a second one of a kind takes the first one's place.
     static Result<PhongFiles> read(const std::vector<std::string>& paths, const Limits& limits);
+    // The same of a picture that is at hand; errors and warnings call it `name`.
+    static Result<PhongFiles> of(const Image& picture, const std::string& name);
 
     bool has_half_vectors() const { return half_.width > 0; }
     bool has_albedo() const { return albedo_.width > 0; }
@@ -33,6 +35,7 @@ class PhongFiles {
     enum class Columns { root, linear, linear_exchanged };
 
     Status add(const std::string& path, const Limits& limits);
+    Status add(const Image& picture, const std::string& path);
     double half_off_by(double nu, double nv) const; // of the vectors, at most
     double albedo_off_by(double nu, double nv, Columns columns) const;
     Columns nearest_columns(double nu, double nv) const;
