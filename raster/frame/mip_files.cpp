@@ -66,6 +66,8 @@ mipnet::Lobe lobe_of_model(int brdf)
 
 Status settle_nets(Scene& scene, const Dress& with, const Limits& limits)
 {
+    for (Material& m : scene.materials)
+        m.mip_lobe = static_cast<std::uint32_t>(lobe_of_model(with.mip_brdf));
     if (!takes_net(with.mip_filter))
         return {};
     const Result<std::shared_ptr<const mipnet::Weights>> net = net_of(with, limits);
