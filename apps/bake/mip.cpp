@@ -119,8 +119,9 @@ std::vector<Option> mip_options(MipArguments& to)
         {"--fallback", "NAME", "Of filter mipnet: {}; auto leaves materials to kappa or baseline where the net is worse than they are",
          choice(to.fallback, {"auto", "off"})},
         {"--mip-gain", "NAME",
-         "Of ssgt, kappa, mipnet and teacher: {}; a gain a level of colours, so that it reflects as much as the finest",
-         choice(to.gains_off, {"on", "off"})},
+         "Of ssgt, kappa, mipnet and teacher: {}; on: a gain a level of colours, so that it reflects as much as the finest does under "
+         "lamps",
+         choice(to.gains, {"off", "on"})},
         {"--format", "NAME", "{}: a file for render --mip-pyramid, or a folder of textures for other programs",
          choice(to.format, {"pyramid", "exr-mip", "png-levels"})},
         {"--couple", "NAME", "Of textures: {}; albedo: base colours and metalness weigh as their texels face light and eye",
@@ -149,7 +150,7 @@ int run_mip(const MipBake& bake)
     Dress with;
     with.mip_filter = a.filter;
     with.couple_albedo = a.couple_albedo;
-    with.mip_net = a.net, with.mip_fallback = a.fallback, with.mip_brdf = a.brdf, with.gains_off = a.gains_off;
+    with.mip_net = a.net, with.mip_fallback = a.fallback, with.mip_brdf = a.brdf, with.gains = a.gains;
     if (a.kappa)
         with.mip_kappa = static_cast<float>(*a.kappa);
     std::error_code none;

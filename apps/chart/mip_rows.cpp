@@ -120,8 +120,9 @@ FilteredLevels levels_by(MipFilter filter, const TexelMaps& maps, mipnet::Lobe l
 {
     if (!makes_lobes(filter))
         return {map_by_map(maps, filter == kMipFilter_lean), {}};
-    const MipLevels made = make_mip_levels(MipSource(maps.maps()), filter, options.kappa, jobs,
-                                           {mipnet::shipped_weights(lobe), metal, {}, lobe, options.gains});
+    const MipLevels made =
+        make_mip_levels(MipSource(maps.maps()), filter, options.kappa, jobs,
+                        {mipnet::shipped_weights(lobe), metal, {}, lobe, options.gains ? Gains::as_judged : Gains::none});
     FilteredLevels levels;
     for (std::size_t l = 0; l < kMipRowLevels; ++l)
         levels.texels.push_back(shown_texels(made.levels[l])), levels.gains.push_back(made.levels[l].gain);

@@ -25,7 +25,7 @@ inline constexpr int kMipRowLevels = 5;
 
 struct MipRowOptions {
     float kappa;
-    bool gains = true; // of levels' reflectances
+    bool gains = false; // of levels' reflectances
 };
 
 // Every filter of shading/models.def on every material, levels 1 to 5: by material, model, filter, level. Of set "crossed" also filter "two

@@ -129,9 +129,9 @@ std::vector<Option> dress_rows(Dress& to)
          "Of --mip-filter mipnet: {}; auto leaves materials to kappa or baseline where the net is worse than they are",
          choice(to.mip_fallback, {"auto", "off"})},
         {"--mip-gain", "NAME",
-         "Of --mip-filter ssgt, kappa, mipnet and teacher: {}; colours are multiplied by a gain a level, so that it reflects as much as "
-         "the finest",
-         choice(to.gains_off, {"on", "off"})},
+         "Of --mip-filter ssgt, kappa, mipnet and teacher: {}; on: colours times a gain a level, to reflect as much as the finest under "
+         "lamps",
+         choice(to.gains, {"off", "on"})},
         {"--couple", "NAME", "{}; albedo: base colours and metalness of levels weigh as their texels face light and eye",
          choice(to.couple_albedo, {"none", "albedo"})},
         {"--color-kernel", "NAME", "What base colours and metalness of levels are averaged by: {}",

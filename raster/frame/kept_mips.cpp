@@ -17,7 +17,7 @@
 namespace burnish {
 namespace {
 
-constexpr std::uint32_t kKeptVersion = 2; // of what makes levels: raised where the same maps give others
+constexpr std::uint32_t kKeptVersion = 3; // of what makes levels: raised where the same maps give others
 constexpr std::uint64_t kMostKeptBytes = 4ull << 30;
 
 std::string kept_path(const std::string& folder, std::uint64_t source, const Scene& scene, const Material& m)

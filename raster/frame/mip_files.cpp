@@ -102,7 +102,7 @@ void take_filters_of_mips(Scene& scene)
         const std::uint64_t hash = mip_source(scene, m).hash(jobs);
         for (const MipLevels& levels : *scene.mips)
             if (levels.source == hash) {
-                m.mip_filter = levels.filter, m.mip_kappa = levels.kappa;
+                m.mip_filter = levels.filter, m.mip_kappa = levels.kappa, m.mip_gains = levels.gained != 0;
                 break;
             }
     }

@@ -297,7 +297,8 @@ bool is_metal(const Scene& scene, const Material& m)
 
 MipHelp mip_help(const Scene& scene, const Material& m, const TaughtTexels& advance)
 {
-    return {m.mip_net.get(), is_metal(scene, m), advance, static_cast<mipnet::Lobe>(m.mip_lobe), m.mip_gains};
+    return {m.mip_net.get(), is_metal(scene, m), advance, static_cast<mipnet::Lobe>(m.mip_lobe),
+            m.mip_gains ? Gains::of_frames : Gains::none};
 }
 
 MipSource mip_source(const Scene& scene, const Material& m)

@@ -355,7 +355,7 @@ class HashedRows {
 
 namespace {
 
-void put_gains(const MipSource& source, mipnet::Lobe lobe, bool metal, MipLevels& to)
+void put_gains(const MipSource& source, mipnet::Lobe lobe, bool metal, Gains rule, MipLevels& to)
 {
     std::vector<LevelSize> sizes = {{to.width, to.height}};
     for (const MipLevel& level : to.levels)
@@ -374,7 +374,7 @@ void put_gains(const MipSource& source, mipnet::Lobe lobe, bool metal, MipLevels
             planes[0] = t.nx, planes[count] = t.ny, planes[2 * count] = t.a, planes[3 * count] = t.b, planes[4 * count] = t.c;
         }
     };
-    const std::vector<float> gains = level_gains(sizes, texels, shown_surface(lobe, metal));
+    const std::vector<float> gains = level_gains(sizes, texels, shown_surface(lobe, metal), rule);
     for (std::size_t l = 0; l < gains.size(); ++l)
         to.levels[l].gain = gains[l];
     to.gained = gained_of(lobe, metal);
@@ -397,8 +397,8 @@ MipLevels make_mip_levels(const MipSource& source, MipFilter filter, float kappa
     else
         made.levels = make_mean_levels(level0.rows(), filter, made.kappa, jobs);
     made.source = level0.hash();
-    if (help.gains && takes_gains(filter))
-        put_gains(source, takes_net(filter) ? net.shape.lobe : help.lobe, help.metal, made);
+    if (help.gains != Gains::none && takes_gains(filter))
+        put_gains(source, takes_net(filter) ? net.shape.lobe : help.lobe, help.metal, help.gains, made);
     return made;
 }
 

@@ -29,7 +29,7 @@ struct MipHelp {                          // of filters that are no means
     bool metal = false;                   // of teacher: whether the material reflects as one
     TaughtTexels advance{};
     mipnet::Lobe lobe = mipnet::Lobe::ggx_aniso; // of gains, where there is no net that says it
-    bool gains = true;
+    Gains gains = Gains::none;
 };
 
 // MipLevels::net of a filter that takes_net(). Of teacher its last bit says whether the material reflects as a metal.

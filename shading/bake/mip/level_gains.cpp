@@ -65,15 +65,15 @@ struct Given {
 };
 
 Given given_back(const Points& p, std::size_t count, int level, const LevelSize& size, const LevelTexels& texels,
-                 const ShownSurface& surface)
+                 const ShownSurface& surface, Gains rule)
 {
     std::vector<float> planes(kChannels * count), scaled(count), rest(count);
     std::vector<int> x(count), y(count);
     for (std::size_t i = 0; i < count; ++i)
         x[i] = static_cast<int>(p.u[i] * size.width), y[i] = static_cast<int>(p.v[i] * size.height);
     texels(level, count, x.data(), y.data(), planes.data());
-    pick<mipnet::AlbedoFns>().albedo(
-        {surface.lobe, count, surface.f0, surface.diffuse, planes.data(), p.drawn.data(), kMostPoints, scaled.data(), rest.data()});
+    pick<mipnet::AlbedoFns>().albedo({surface.lobe, count, surface.f0, surface.diffuse, rule == Gains::of_frames, planes.data(),
+                                      p.drawn.data(), kMostPoints, scaled.data(), rest.data()});
     Given sum = {0.0, 0.0};
     for (std::size_t i = 0; i < count; ++i)
         sum.scaled += static_cast<double>(scaled[i]), sum.rest += static_cast<double>(rest[i]);
@@ -82,15 +82,15 @@ Given given_back(const Points& p, std::size_t count, int level, const LevelSize&
 
 } // namespace
 
-std::vector<float> level_gains(const std::vector<LevelSize>& sizes, const LevelTexels& texels, const ShownSurface& surface)
+std::vector<float> level_gains(const std::vector<LevelSize>& sizes, const LevelTexels& texels, const ShownSurface& surface, Gains rule)
 {
     static const Points points = make_points();
     const std::size_t area = static_cast<std::size_t>(sizes[0].width) * static_cast<std::size_t>(sizes[0].height);
     const std::size_t count = std::clamp(area / kTexelsAPoint / kPointsAtOnce * kPointsAtOnce, kPointsAtOnce, kMostPoints);
-    const Given wanted = given_back(points, count, 0, sizes[0], texels, surface);
+    const Given wanted = given_back(points, count, 0, sizes[0], texels, surface, rule);
     std::vector<float> gains;
     for (std::size_t l = 1; l < sizes.size(); ++l) {
-        const Given given = given_back(points, count, static_cast<int>(l), sizes[l], texels, surface);
+        const Given given = given_back(points, count, static_cast<int>(l), sizes[l], texels, surface, rule);
         const double left = wanted.scaled + wanted.rest - given.rest, gain = given.scaled > 1e-12 ? left / given.scaled : 1.0;
         gains.push_back(std::clamp(static_cast<float>(gain), kLeastGain, kMostGain));
     }
@@ -109,7 +109,7 @@ std::vector<float> level_gains(const std::vector<mipnet::Texels>& levels, const 
                 *planes++ =
                     of.channel[c][static_cast<std::size_t>(y[i]) * static_cast<std::size_t>(of.width) + static_cast<std::size_t>(x[i])];
     };
-    return level_gains(sizes, texels, surface);
+    return level_gains(sizes, texels, surface, Gains::as_judged);
 }
 
 ShownSurface gained(const ShownSurface& surface, float gain)

@@ -21,9 +21,10 @@ struct LevelSize {
 // one radiance from 84 degrees around +z, seen from all sides, by 2048 or 4096 points of the map that are always the same: gain times what
 // a level's reflectances f0 and diffuse give, with what grazing light gives whatever they are, is what level 0 gives. The bits depend
 // neither on threads nor on the instruction set.
-std::vector<float> level_gains(const std::vector<LevelSize>& sizes, const LevelTexels& texels, const ShownSurface& surface);
+// rule: by which they will be lit.
+std::vector<float> level_gains(const std::vector<LevelSize>& sizes, const LevelTexels& texels, const ShownSurface& surface, Gains rule);
 
-// The same of a level 0 and the levels after it.
+// The same of a level 0 and the levels after it, as they are judged.
 std::vector<float> level_gains(const std::vector<mipnet::Texels>& levels, const ShownSurface& surface);
 
 // The same surface with reflectances times a gain. None of them passes 1 by it.

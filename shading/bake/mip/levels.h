@@ -21,13 +21,17 @@ struct MipFilterInfo {
 };
 const std::vector<MipFilterInfo>& mip_filters(); // from shading/models.def, by place
 
+// Whether levels have gains, and for what: frames, where texels that turn away from the eye are as at grazing angles, or the light that
+// levels are judged by (shown.h), where they are dark.
+enum class Gains { none, of_frames, as_judged };
+
 std::uint32_t gained_of(mipnet::Lobe lobe, bool metal);
 bool gained_metal(std::uint32_t gained); // whether they are those of a metal
 
 bool makes_lobes(MipFilter filter); // levels of lobes, all but box and lean
 bool takes_net(MipFilter filter);   // and its lobe
 bool takes_kappa(MipFilter filter);
-bool takes_gains(MipFilter filter); // of reflectances: those that err less with them, see bench/README.md
+bool takes_gains(MipFilter filter); // of reflectances: those that err less with them under lamps, see bench/README.md
 
 // What the normals of a fetch's texels differ by, as part of the lobe's covariance: (gain n)(gain n)^T of x and y of unit normals.
 float gain_of_taps(MipFilter filter, float kappa);

@@ -11,7 +11,7 @@ namespace net = burnish::mipnet;
 
 // Half vectors are drawn as GGX's normals of the texel's own widths lie, whatever the lobe: no other's tail is longer, so that no weight
 // is large.
-template <int lobe> void albedo_of(const net::AlbedoWork& w)
+template <int lobe, bool seen_anyhow> void albedo_of(const net::AlbedoWork& w)
 {
     const real everywhere = lit(6.283185307179586 * (1.0 - net::kLeastLightZ)); // solid angle of lights
     for (std::size_t at = 0; at < w.texels; at += static_cast<std::size_t>(kLanes)) {
@@ -31,12 +31,12 @@ template <int lobe> void albedo_of(const net::AlbedoWork& w)
         const real g = lit(1.0) - min(max(om, lit(1e-4)), lit(1.0)), g2 = g * g, grazing = g2 * g2 * g;
         const light mirrored = {i, o, m, max(om, lit(1e-4)), lit(1.0), lit(0.0), lit(1.0)};
         const real density = ggx_normals(x, h) * h.n / (max(om, lit(1e-4)) * lit(4.0)); // of i, 1/sr
-        const real specular = select(meets, radiance<lobe>(x, mirrored) / density, lit(0.0));
+        const real specular = select(meets, radiance<lobe, seen_anyhow>(x, mirrored) / density, lit(0.0));
         real scaled = specular * (splat(w.f0) * (lit(1.0) - grazing));
         if (w.diffuse > 0.0f) {
             light any = light_of<lobe>(vec3_of(drawn(5), drawn(6), drawn(7)), o, splat(w.f0), splat(w.diffuse), lit(1.0));
             any.fresnel = lit(0.0);
-            scaled += radiance<lobe>(x, any) * everywhere;
+            scaled += radiance<lobe, seen_anyhow>(x, any) * everywhere;
         }
         store(w.scaled + at, scaled), store(w.rest + at, specular * grazing);
     }
@@ -46,11 +46,11 @@ void albedo(const net::AlbedoWork& work)
 {
     switch (work.lobe) {
     case net::Lobe::ggx_aniso:
-        return albedo_of<0>(work);
+        return work.seen_anyhow ? albedo_of<0, true>(work) : albedo_of<0, false>(work);
     case net::Lobe::beckmann:
-        return albedo_of<1>(work);
+        return work.seen_anyhow ? albedo_of<1, true>(work) : albedo_of<1, false>(work);
     case net::Lobe::ashikhmin_shirley:
-        return albedo_of<2>(work);
+        return work.seen_anyhow ? albedo_of<2, true>(work) : albedo_of<2, false>(work);
     }
 }
 

@@ -12,6 +12,7 @@ struct AlbedoWork {
     Lobe lobe;
     std::size_t texels;  // a multiple of kSlots
     float f0, diffuse;   // reflectances
+    bool seen_anyhow;    // what turns away from the eye is as at grazing angles; else dark: see radiance() of tensor.h
     const float* planes; // kChannels planes
     // kDrawnNumbers planes: unit directions, and points that lie as GGX's slopes of width 1 do: density 1 / (pi (1 + r^2)^2)
     const float* drawn;

@@ -5,7 +5,6 @@
 
 #include "core/scene/dress.h"
 #include "shading/bake/mip/filter.h"
-#include "shading/bake/mip/level_gains.h"
 #include "shading/bake/mipnet/classical.h"
 #include "shading/bake/mipnet/fallback.h"
 #include "shading/bake/mipnet/pyramid.h"
@@ -18,7 +17,6 @@ constexpr int kJudgedPairs = 48, kTileTimes = 24;
 struct Filter {
     std::string name;
     std::vector<Texels> levels;
-    bool gains = true; // of reflectances, as takes_gains() has it
 };
 
 // As frames and files have it: level 0, then the filter's.
@@ -32,14 +30,14 @@ std::vector<Texels> filtered_pyramid(const Texels& level0, MipFilter filter, con
 
 std::vector<Filter> filters_of(const Texels& level0, Lobe lobe, bool metal, const std::vector<Weights>& cascades, const Jobs& jobs)
 {
-    std::vector<Filter> filters = {{"baseline", classical_pyramid(level0, Method::baseline), false},
+    std::vector<Filter> filters = {{"baseline", classical_pyramid(level0, Method::baseline)},
                                    {"kappa .25", classical_pyramid(level0, Method::kappa, 0.25)},
                                    {"kappa .5", classical_pyramid(level0, Method::kappa, 0.5)},
                                    {"kappa 1", classical_pyramid(level0, Method::kappa, 1.0)}};
     if (lobe == Lobe::ggx_aniso)
         filters.push_back({"ssgt", filtered_pyramid(level0, kMipFilter_ssgt, jobs)});
     if (lobe == Lobe::beckmann)
-        filters.push_back({"leadr", filtered_pyramid(level0, kMipFilter_leadr, jobs), false});
+        filters.push_back({"leadr", filtered_pyramid(level0, kMipFilter_leadr, jobs)});
     for (std::size_t k = 0; k < cascades.size(); ++k) {
         const std::string name = cascades.size() == 1 ? "mipnet" : fmt::format("mipnet {}", k + 1);
         filters.push_back({name, net_pyramid(level0, cascades[k], jobs)});
@@ -51,8 +49,7 @@ std::vector<Filter> filters_of(const Texels& level0, Lobe lobe, bool metal, cons
         const double kappa = static_cast<double>(kUsualMipKappa);
         const Comparison on = compare_on(sample, cascades[k], kappa, metal, jobs);
         const Method closed = on.prefers_kappa() ? Method::kappa : Method::baseline;
-        filters.push_back({name + " auto", on.keeps_net() ? filters.back().levels : classical_pyramid(level0, closed, kappa),
-                           on.keeps_net() || closed == Method::kappa});
+        filters.push_back({name + " auto", on.keeps_net() ? filters.back().levels : classical_pyramid(level0, closed, kappa)});
     }
     return filters;
 }
@@ -94,11 +91,7 @@ std::vector<Judged> judge(const std::vector<TestMaterial>& set, Lobe lobe, const
             pyramids.push_back(f.levels);
         }
         const ShownSurface surface = shown_surface(lobe, m.material.metal);
-        std::vector<std::vector<float>> gains;
-        for (const Filter& f : filters)
-            gains.push_back(f.gains ? level_gains({f.levels.begin(), f.levels.begin() + 1 + kJudgedLevels}, surface)
-                                    : std::vector<float>());
-        const auto errors = judged_errors(pyramids[0][0], judged_levels(pyramids), surface, jobs, {.times = kJudgedPairs}, {}, gains);
+        const auto errors = judged_errors(pyramids[0][0], judged_levels(pyramids), surface, jobs, {.times = kJudgedPairs});
         for (std::size_t f = 0; f < rows.size(); ++f)
             std::copy(errors[f].begin(), errors[f].end(), rows[f].level + 1);
         for (Judged& row : rows) {

@@ -96,6 +96,32 @@ TEST(mip_gain, is_of_light_from_everywhere)
     }
 }
 
+// A matt surface, of the same light from all sides of the eye: its gain in frames is that of light alone, of judged levels darker.
+TEST(mip_gain, of_frames_does_not_know_the_eye)
+{
+    const float slope = 0.6f, z = 0.8f;
+    const std::vector<Texels> levels = pyramid_of(ridges(64, slope, 0.5f), kMipFilter_kappa, 2);
+    const std::vector<LevelSize> sizes = {{64, 64}, {32, 32}, {16, 16}};
+    const auto texels = [&](int l, std::size_t count, const int* x, const int* y, float* planes) {
+        for (std::size_t c = 0; c < mipnet::kChannels; ++c)
+            for (std::size_t i = 0; i < count; ++i)
+                *planes++ = levels[static_cast<std::size_t>(l)]
+                                .channel[c][static_cast<std::size_t>(y[i] * sizes[static_cast<std::size_t>(l)].width + x[i])];
+    };
+    const ShownSurface matt = {mipnet::Lobe::ggx_aniso, 0.0f, 0.5f};
+    double lit = 0.0, level = 0.0; // mean cosines over lights
+    for (int i = 0; i < 2000; ++i)
+        for (int j = 0; j < 200; ++j) {
+            const double lz = 0.1 + 0.9 * (i + 0.5) / 2000.0,
+                         lx = std::sqrt(1.0 - lz * lz) * std::cos(2.0 * 3.14159265358979 * (j + 0.5) / 200.0);
+            lit += std::max(static_cast<double>(slope) * lx + static_cast<double>(z) * lz, 0.0), level += lz;
+        }
+    for (const float gain : level_gains(sizes, texels, matt, Gains::of_frames))
+        EXPECT_NEAR(gain, lit / level, 0.02);
+    for (const float gain : level_gains(sizes, texels, matt, Gains::as_judged))
+        EXPECT_LT(gain, 0.97 * lit / level);
+}
+
 std::vector<float> numbers(std::size_t count, double least, double most, std::uint64_t seed)
 {
     Random random(seed);
@@ -116,7 +142,7 @@ TEST(mip_gain, has_the_same_bits_for_every_instruction_set)
         for (const Isa isa : isas_with<mipnet::AlbedoFns>()) {
             std::vector<float> out(2 * t.count());
             find_fns<mipnet::AlbedoFns>(isa)->albedo(
-                {lobe, t.count(), 0.04f, 0.5f, planes.data(), drawn.data(), t.count(), out.data(), out.data() + t.count()});
+                {lobe, t.count(), 0.04f, 0.5f, false, planes.data(), drawn.data(), t.count(), out.data(), out.data() + t.count()});
             found.push_back(out);
             EXPECT_EQ(std::memcmp(out.data(), found[0].data(), out.size() * sizeof(float)), 0) << isa_name(isa);
         }
