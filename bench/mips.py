@@ -7,7 +7,8 @@ Usage: mips.py --program build/release/burnish [--work FOLDER] [--brdf NAMES] [-
 Scenes with maps of normals, roughness and directions are drawn so small that many texels lie in a pixel, by `--technique mc`, and compared
 with the reference that reads the maps at full detail (--reference-textures full) under the same frames (--frame-map quaternion). A line a
 scene, size and model: mean HDR-FLIP, mean absolute difference (L1) and mean squared difference (MSE) by filter, the last two over all
-pixels; at the end the geometric means over all lines as shares of box's. --kappa adds filter kappa at these numbers; --textures adds
+pixels; at the end the geometric means over all lines as shares of the first filter's. A filter whose name ends in -gain is drawn with
+gains of levels. --kappa adds filter kappa at these numbers; --textures adds
 the materials whose maps of normals and roughness lie in a folder each below that one.
 
 Exit code: 0; 2 something could not be run.
@@ -96,7 +97,8 @@ def difference(truth, test):
 def measure(options, work):
     run = Program(options, work).run
     make_maps(work)
-    ways = {name: ("--mip-filter", name) for name in options.filters.split(",")}
+    ways = {name: ("--mip-filter", name.removesuffix("-gain"), *(("--mip-gain", "on") if name.endswith("-gain") else ()))
+            for name in options.filters.split(",")}
     for kappa in filter(None, options.kappa.split(",")):
         ways["kappa " + kappa] = ("--mip-filter", "kappa", "--mip-kappa", kappa)
     rows = []

@@ -110,6 +110,10 @@ std::vector<Option> mip_options(MipArguments& to)
         {"--mip-net", "FILE", "Of filters mipnet and teacher: weights of burnish train mip", file(to.net), "the program's own for --brdf"},
         {"--fallback", "NAME", "Of filter mipnet: {}; auto leaves materials to kappa or baseline where the net is worse than they are",
          choice(to.fallback, {"auto", "off"})},
+        {"--mip-gain", "NAME",
+         "Of ssgt, kappa, mipnet and teacher: {}; on: a gain a level of colours, so that it reflects as much as the finest does under "
+         "lamps",
+         choice(to.gains, {"off", "on"})},
         {"--format", "NAME", "{}: a file for render --mip-pyramid, or a folder of textures for other programs",
          choice(to.format, {"pyramid", "exr-mip", "png-levels"})},
         {"--couple", "NAME", "Of textures: {}; albedo: base colours and metalness weigh as their texels face light and eye",
@@ -137,7 +141,7 @@ int run_mip(const MipBake& bake)
     Dress with;
     with.mip_filter = a.filter;
     with.couple_albedo = a.couple_albedo;
-    with.mip_net = a.net, with.mip_fallback = a.fallback, with.mip_brdf = a.brdf;
+    with.mip_net = a.net, with.mip_fallback = a.fallback, with.mip_brdf = a.brdf, with.gains = a.gains;
     if (a.kappa)
         with.mip_kappa = static_cast<float>(*a.kappa);
     std::error_code none;

@@ -22,7 +22,8 @@ struct MipArguments {
     std::optional<double> kappa;
     std::string net; // of filter mipnet; empty: the program's for brdf
     MipFallback fallback{};
-    int brdf = 0; // a lobe; of ltc, too
+    bool gains = false; // of levels' reflectances
+    int brdf = 0;       // a lobe; of ltc, too
     MipFormat format = MipFormat::pyramid;
     bool couple_albedo = false; // of textures: base colour and metalness weighted by how texels face
     ColourKernel color_kernel = ColourKernel::box;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <fmt/core.h>
 
@@ -54,6 +55,40 @@ std::vector<Image> base_color_levels(const Scene& scene, const Material& m, cons
     if (coupled)
         facing = linear_map(facing_of(source), grid, false, 0, 1, &one);
     return colour_levels(linear, {a.color_kernel, texture.wrap_s, texture.wrap_t, coupled ? &facing : nullptr});
+}
+
+Image one_colour(int width, int height, const Image& of)
+{
+    Image to = make_image(width, height, of.channels, PixelType::f32);
+    for (std::size_t i = 0; i < to.bytes.size() / sizeof(float); ++i)
+        to.f32()[i] = of.f32()[i % static_cast<std::size_t>(of.channels)];
+    return to;
+}
+
+// Levels of base colours times the gains of levels as large, or nearest to that, none of them beyond 1. What has one colour everywhere gets
+// levels of the maps' sizes.
+std::vector<Image> with_gains(std::vector<Image> colours, const MipLevels& levels)
+{
+    if (levels.gained == 0)
+        return colours;
+    if (colours.size() == 1) {
+        const Image of = std::move(colours[0]);
+        colours[0] = one_colour(levels.width, levels.height, of);
+        for (const MipLevel& level : levels.levels)
+            colours.push_back(one_colour(level.width, level.height, of));
+    }
+    for (Image& colour : colours) {
+        const auto off = [&](int width, int height) { return std::abs(std::max(colour.width, colour.height) - std::max(width, height)); };
+        float gain = 1.0f; // of level 0
+        int least = off(levels.width, levels.height);
+        for (const MipLevel& level : levels.levels)
+            if (off(level.width, level.height) < least)
+                least = off(level.width, level.height), gain = level.gain;
+        for (std::size_t i = 0; i < colour.bytes.size() / sizeof(float); ++i)
+            if (float& c = colour.f32()[i]; colour.channels != 4 || i % 4 != 3)
+                c = std::min(c * gain, std::max(c, 1.0f));
+    }
+    return colours;
 }
 
 Image coded(const Image& unit, bool srgb)
@@ -156,7 +191,7 @@ Result<WrittenTextures> write_mip_textures(const std::string& folder, const Scen
                 std::vector<Image> levels;
                 bool srgb;
             };
-            const std::vector<Image> colours = base_color_levels(scene, m, source, a);
+            const std::vector<Image> colours = with_gains(base_color_levels(scene, m, source, a), *levels[i]);
             std::vector<Part> parts = {
                 {"_normal", made.normal, false}, {"_metallic_roughness", made.roughness, false}, {"_base_color", colours, true}};
             if (std::any_of(made.anisotropy.begin(), made.anisotropy.end(), any))

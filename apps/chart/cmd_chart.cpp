@@ -87,8 +87,8 @@ int run_mip_chart(const ChartArguments& arguments, const OptionTable& given)
 {
     const ChartOptions& o = arguments.plain;
     const RenderOptions& base = arguments.render.plain;
-    const std::set<std::string> known = {"--mip",       "--maps",   "--per-set", "--two-lobes", "--brdf",
-                                         "--mip-kappa", "--output", "--quiet",   "--verbose",   "--threads"};
+    const std::set<std::string> known = {"--mip",      "--maps",   "--per-set", "--two-lobes", "--brdf",   "--mip-kappa",
+                                         "--mip-gain", "--output", "--quiet",   "--verbose",   "--threads"};
     for (const Option& option : given.options())
         if (option.given && !known.count(option.name))
             return fail(usage_error(option.name, "is of charts of frames; --mip draws none"));
@@ -111,7 +111,7 @@ int run_mip_chart(const ChartArguments& arguments, const OptionTable& given)
     std::map<std::string, int> seen;
     std::erase_if(set, [&](const mipnet::TestMaterial& m) { return ++seen[m.set] > o.per_set; });
     const float kappa = base.dress.mip_kappa.value_or(kUsualMipKappa);
-    const std::vector<MipRow> rows = mip_rows(set, *lobes, kappa, jobs);
+    const std::vector<MipRow> rows = mip_rows(set, *lobes, {kappa, base.dress.gains}, jobs);
     report.release();
     const std::string summary = mip_summary(rows);
     const std::pair<const char*, std::string> files[] = {

@@ -110,14 +110,22 @@ std::vector<Texels> map_by_map(const TexelMaps& maps, bool lean)
     return levels;
 }
 
-std::vector<Texels> levels_by(MipFilter filter, const TexelMaps& maps, mipnet::Lobe lobe, bool metal, float kappa, const Jobs& jobs)
+struct FilteredLevels {
+    std::vector<Texels> texels;
+    std::vector<float> gains; // empty: none
+};
+
+FilteredLevels levels_by(MipFilter filter, const TexelMaps& maps, mipnet::Lobe lobe, bool metal, const MipRowOptions& options,
+                         const Jobs& jobs)
 {
     if (!makes_lobes(filter))
-        return map_by_map(maps, filter == kMipFilter_lean);
-    const MipLevels made = make_mip_levels(MipSource(maps.maps()), filter, kappa, jobs, {mipnet::shipped_weights(lobe), metal, {}});
-    std::vector<Texels> levels;
+        return {map_by_map(maps, filter == kMipFilter_lean), {}};
+    const MipLevels made =
+        make_mip_levels(MipSource(maps.maps()), filter, options.kappa, jobs,
+                        {mipnet::shipped_weights(lobe), metal, {}, lobe, options.gains ? Gains::as_judged : Gains::none});
+    FilteredLevels levels;
     for (std::size_t l = 0; l < kMipRowLevels; ++l)
-        levels.push_back(shown_texels(made.levels[l]));
+        levels.texels.push_back(shown_texels(made.levels[l])), levels.gains.push_back(made.levels[l].gain);
     return levels;
 }
 
@@ -156,8 +164,8 @@ void mark_hardest(std::vector<MipRow>& rows)
 
 } // namespace
 
-std::vector<MipRow> mip_rows(const std::vector<mipnet::TestMaterial>& set, const std::vector<mipnet::Lobe>& lobes, float kappa,
-                             const Jobs& jobs)
+std::vector<MipRow> mip_rows(const std::vector<mipnet::TestMaterial>& set, const std::vector<mipnet::Lobe>& lobes,
+                             const MipRowOptions& options, const Jobs& jobs)
 {
     std::vector<MipRow> rows;
     for (const mipnet::TestMaterial& m : set) {
@@ -166,10 +174,12 @@ std::vector<MipRow> mip_rows(const std::vector<mipnet::TestMaterial>& set, const
         const TexelMaps maps = maps_of_texels(level0);
         for (const mipnet::Lobe lobe : lobes) {
             std::vector<std::vector<Texels>> filters;
+            std::vector<std::vector<float>> gains;
             std::vector<double> ms;
             for (std::size_t f = 0; f < mip_filters().size(); ++f) {
                 const double begin = wall_ms();
-                filters.push_back(levels_by(static_cast<MipFilter>(f), maps, lobe, m.material.metal, kappa, jobs));
+                FilteredLevels levels = levels_by(static_cast<MipFilter>(f), maps, lobe, m.material.metal, options, jobs);
+                filters.push_back(std::move(levels.texels)), gains.push_back(std::move(levels.gains));
                 ms.push_back(wall_ms() - begin);
             }
             const auto l1 = [](const std::vector<std::vector<ShownError>>& of, MipFilter filter, std::size_t l) {
@@ -186,7 +196,7 @@ std::vector<MipRow> mip_rows(const std::vector<mipnet::TestMaterial>& set, const
                 filters.push_back(std::move(pairs.first)), second.push_back(std::move(pairs.second));
                 ms.push_back(wall_ms() - begin), names.emplace_back("two lobes");
             }
-            const auto errors = shown_errors(level0, filters, surface, jobs, {}, second);
+            const auto errors = judged_errors(level0, filters, surface, jobs, {}, second, gains);
             for (std::size_t f = 0; f < filters.size(); ++f)
                 for (std::size_t l = 0; l < kMipRowLevels; ++l)
                     rows.push_back({m.set, family_of(m), m.material.name, mipnet::lobe_name(lobe), names[f], static_cast<int>(l) + 1, false,

@@ -23,10 +23,15 @@ struct MipRow {
 
 inline constexpr int kMipRowLevels = 5;
 
+struct MipRowOptions {
+    float kappa;
+    bool gains = false; // of levels' reflectances
+};
+
 // Every filter of shading/models.def on every material, levels 1 to 5: by material, model, filter, level. Of set "crossed" also filter "two
 // lobes", of two lobes a texel by search.
-std::vector<MipRow> mip_rows(const std::vector<mipnet::TestMaterial>& set, const std::vector<mipnet::Lobe>& lobes, float kappa,
-                             const Jobs& jobs);
+std::vector<MipRow> mip_rows(const std::vector<mipnet::TestMaterial>& set, const std::vector<mipnet::Lobe>& lobes,
+                             const MipRowOptions& options, const Jobs& jobs);
 
 Json mip_rows_json(const std::vector<MipRow>& rows);
 std::string mip_rows_csv(const std::vector<MipRow>& rows);

@@ -40,6 +40,8 @@ void warn_of_no_effect(const OptionTable& given, RenderOptions& out)
     const std::string of_filter = std::string("--mip-filter ") + mip_filters()[static_cast<std::size_t>(out.dress.mip_filter)].name;
     if (!takes_kappa(out.dress.mip_filter))
         warn("--mip-kappa", of_filter);
+    if (!takes_gains(out.dress.mip_filter) && out.dress.mip_pyramid.empty())
+        warn("--mip-gain", of_filter);
     if (!takes_net(out.dress.mip_filter))
         warn("--mip-net", of_filter);
     if (out.dress.mip_filter != kMipFilter_mipnet)

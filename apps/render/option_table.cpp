@@ -128,6 +128,10 @@ std::vector<Option> dress_rows(Dress& to)
         {"--fallback", "NAME",
          "Of --mip-filter mipnet: {}; auto leaves materials to kappa or baseline where the net is worse than they are",
          choice(to.mip_fallback, {"auto", "off"})},
+        {"--mip-gain", "NAME",
+         "Of --mip-filter ssgt, kappa, mipnet and teacher: {}; on: colours times a gain a level, to reflect as much as the finest under "
+         "lamps",
+         choice(to.gains, {"off", "on"})},
         {"--couple", "NAME", "{}; albedo: base colours and metalness of levels weigh as their texels face light and eye",
          choice(to.couple_albedo, {"none", "albedo"})},
         {"--color-kernel", "NAME", "What base colours and metalness of levels are averaged by: {}",

@@ -342,7 +342,7 @@ Status dress(Scene& scene, const Dress& with, const Limits& limits)
     for (Material& m : scene.materials) {
         if (with.mip_filter != MipFilter{})
             m.mip_filter = with.mip_filter, m.mip_kappa = with.mip_kappa.value_or(kUsualMipKappa);
-        m.mip_coupled = with.couple_albedo, m.mip_kaiser = with.kaiser_colours;
+        m.mip_gains = with.gains, m.mip_coupled = with.couple_albedo, m.mip_kaiser = with.kaiser_colours;
         if (with.f0)
             put_f0(m, *with.f0);
     }

@@ -29,8 +29,9 @@ struct Dress {              // empty: left as it is
     MipFilter mip_filter{};         // of all materials; the first: as their file has it
     std::optional<float> mip_kappa; // of filters kappa and mipnet; none: kUsualMipKappa
     std::string mip_net;            // weights of `burnish train mip` for filter mipnet; empty: the program's
-    int mip_brdf = 0;               // model of lobes that the program's are for, a place of BN_LOBE
+    int mip_brdf = 0;               // model of lobes that the program's and gains are for, a place of BN_LOBE
     MipFallback mip_fallback{};     // of filter mipnet
+    bool gains = false;             // reflectances of levels are multiplied by their gains
     bool couple_albedo = false;     // base colours and metalness of levels weigh as their texels face light and eye
     bool kaiser_colours = false;    // and are averaged by ColourKernel::kaiser
     int threads = 0;                // that make levels; 0: all cores

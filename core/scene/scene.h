@@ -84,6 +84,8 @@ struct Material { // material.def
     float mip_kappa = 0.0f;                         // of filter kappa, and of the taps of mipnet
     bool mip_coupled = false;                       // base colours and metalness weigh as their texels face light and eye
     bool mip_kaiser = false;                        // they are averaged by ColourKernel::kaiser
+    bool mip_gains = false;                         // reflectances of levels are multiplied by their gains
+    std::uint32_t mip_lobe = 0;                     // of gains: mipnet::Lobe
     std::shared_ptr<const mipnet::Weights> mip_net; // of filter mipnet; none: levels are brought along
 };
 

@@ -12,11 +12,12 @@
 #include "shading/bake/mip/filter.h"
 #include "shading/bake/mip/pyramid_file.h"
 #include "shading/bake/mip/source.h"
+#include "shading/bake/mipnet/weights.h"
 
 namespace burnish {
 namespace {
 
-constexpr std::uint32_t kKeptVersion = 1; // of what makes levels: raised where the same maps give others
+constexpr std::uint32_t kKeptVersion = 3; // of what makes levels: raised where the same maps give others
 constexpr std::uint64_t kMostKeptBytes = 4ull << 30;
 
 std::string kept_path(const std::string& folder, std::uint64_t source, const Scene& scene, const Material& m)
@@ -25,10 +26,10 @@ std::string kept_path(const std::string& folder, std::uint64_t source, const Sce
         std::uint64_t source, net;
         std::uint32_t version, filter;
         float kappa;
-        std::uint32_t zero;
+        std::uint32_t gained;
     } of = {source,       levels_hash(*m.mip_net, m.mip_filter, is_metal(scene, m)),
             kKeptVersion, static_cast<std::uint32_t>(m.mip_filter),
-            m.mip_kappa,  0};
+            m.mip_kappa,  m.mip_gains ? gained_of(m.mip_net->shape.lobe, is_metal(scene, m)) : 0u};
     char name[64];
     std::snprintf(name, sizeof name, "/levels-%016" PRIx64 ".mip", hash_bytes(&of, sizeof of));
     return folder + name;
@@ -76,7 +77,7 @@ void keep_mips(Scene& scene, const Jobs& jobs)
         const std::string path = kept_path(folder, hash, scene, m);
         if (read_kept(path, hash, scene, m, kept))
             continue;
-        kept.push_back(make_mip_levels(source, m.mip_filter, m.mip_kappa, jobs, {m.mip_net.get(), is_metal(scene, m), {}}));
+        kept.push_back(make_mip_levels(source, m.mip_filter, m.mip_kappa, jobs, mip_help(scene, m)));
         if (const Status written = write_kept(path, kept.back()); !written)
             scene.warnings.push_back("levels of material '" + m.name + "' are not cached: " + written.error().line());
     }

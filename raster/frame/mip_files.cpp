@@ -66,6 +66,8 @@ mipnet::Lobe lobe_of_model(int brdf)
 
 Status settle_nets(Scene& scene, const Dress& with, const Limits& limits)
 {
+    for (Material& m : scene.materials)
+        m.mip_lobe = static_cast<std::uint32_t>(lobe_of_model(with.mip_brdf));
     if (!takes_net(with.mip_filter))
         return {};
     const Result<std::shared_ptr<const mipnet::Weights>> net = net_of(with, limits);
@@ -100,7 +102,7 @@ void take_filters_of_mips(Scene& scene)
         const std::uint64_t hash = mip_source(scene, m).hash(jobs);
         for (const MipLevels& levels : *scene.mips)
             if (levels.source == hash) {
-                m.mip_filter = levels.filter, m.mip_kappa = levels.kappa;
+                m.mip_filter = levels.filter, m.mip_kappa = levels.kappa, m.mip_gains = levels.gained != 0;
                 break;
             }
     }

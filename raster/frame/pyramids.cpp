@@ -134,7 +134,7 @@ std::int32_t owner_of(const Scene& scene, std::size_t material, bool overridden)
         return std::tuple(of.kind, of.slopes ? of.slopes->texture : kNone, of.slopes == &m.tilt_tex,
                           of.direction || of.filtered ? m.anisotropy_tex.texture : kNone, slope_scale(m), m.roughness,
                           m.anisotropy_strength, m.anisotropy_rotation, of.filtered, own ? m.mip_filter : MipFilter{},
-                          own ? m.mip_kappa : 0.0f, m.mip_net.get(), m.mip_filter == kMipFilter_teacher ? m.metallic : 0.0f,
+                          own ? m.mip_kappa : 0.0f, m.mip_net.get(), own ? m.metallic : 0.0f, own && m.mip_gains && m.transmission == 0.0f,
                           of.filtered ? m.normal_tex.texture : kNone, of.filtered ? m.metallic_roughness_tex.texture : kNone);
     };
     const auto wanted = content(scene.materials[material]);
@@ -196,11 +196,12 @@ Image moments_image(const Scene& scene, const Texture& sampler, const PyramidKey
 }
 
 // Texels of a row of levels as moments: see moments of all in shading/surface/lobe_shape.t.h. part: 2 or 4.
-void put_moments(int part, float gain, real3 n, slope_covariance s, float* rgba)
+// reflected: of reflectances.
+void put_moments(int part, float gain, float reflected, real3 n, slope_covariance s, float* rgba)
 {
     const float x = gain * n.x, y = gain * n.y;
     if (part == 2)
-        rgba[0] = 1.0f, rgba[1] = n.z, rgba[2] = 0.0f, rgba[3] = kMomentScale * (s.xx + x * x);
+        rgba[0] = reflected, rgba[1] = n.z, rgba[2] = 0.0f, rgba[3] = kMomentScale * (s.xx + x * x);
     else
         rgba[0] = kSlopeScale * n.x, rgba[1] = kSlopeScale * n.y, rgba[2] = kMomentScale * (s.yy + y * y),
         rgba[3] = kMomentScale * (s.xy + x * y);
@@ -217,6 +218,7 @@ TexturePyramid filtered_pyramid(const Scene& scene, const Texture& sampler, cons
     const Material& m = scene.materials[static_cast<std::size_t>(key.material)];
     const MipSource source = mip_source(scene, m);
     const float gain = gain_of_taps(m.mip_filter, m.mip_kappa);
+    const bool gains = m.mip_gains && m.transmission == 0.0f; // what is let through is no less
     // Normals as their map has them: what shading multiplies by the scale; alpha is the map's own.
     const bool normals = key.tensor_power == 0;
     const float unscale = std::abs(m.normal_scale) > 1e-3f ? 0.5f / m.normal_scale : 0.0f;
@@ -234,7 +236,7 @@ TexturePyramid filtered_pyramid(const Scene& scene, const Texture& sampler, cons
                 made ? point_of(made->texels[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)])
                      : points[static_cast<std::size_t>(x)];
             if (!normals) {
-                put_moments(key.tensor_power, gain, p.n, p.s, rgba);
+                put_moments(key.tensor_power, gain, made && gains ? made->gain : 1.0f, p.n, p.s, rgba);
                 continue;
             }
             const std::uint16_t* texel =
@@ -281,9 +283,22 @@ bool is_metal(const Scene& scene, const Material& m)
     const Image& map = scene.images[static_cast<std::size_t>(texture.image)];
     const std::size_t texels = static_cast<std::size_t>(map.width) * static_cast<std::size_t>(map.height);
     double sum = 0.0;
-    for (std::size_t i = 0; i < texels; ++i)
-        sum += static_cast<double>(texel_channel(map, i, 2));
+    if (map.type == PixelType::u8 && map.channels >= 3) {
+        std::uint64_t codes = 0;
+        for (std::size_t i = 0; i < texels; ++i)
+            codes += std::to_integer<std::uint64_t>(map.bytes[i * static_cast<std::size_t>(map.channels) + 2]);
+        sum = static_cast<double>(codes) / 255.0;
+    } else {
+        for (std::size_t i = 0; i < texels; ++i)
+            sum += static_cast<double>(texel_channel(map, i, 2));
+    }
     return static_cast<double>(m.metallic) * sum >= 0.5 * static_cast<double>(texels);
+}
+
+MipHelp mip_help(const Scene& scene, const Material& m, const TaughtTexels& advance)
+{
+    return {m.mip_net.get(), is_metal(scene, m), advance, static_cast<mipnet::Lobe>(m.mip_lobe),
+            m.mip_gains ? Gains::of_frames : Gains::none};
 }
 
 MipSource mip_source(const Scene& scene, const Material& m)
@@ -296,7 +311,7 @@ bool fits(const MipLevels& levels, std::uint64_t source, const Scene& scene, con
     const bool taught = m.mip_filter == kMipFilter_teacher, metal = taught && is_metal(scene, m);
     return levels.source == source && levels.filter == m.mip_filter && (!takes_kappa(m.mip_filter) || levels.kappa == m.mip_kappa) &&
            (!m.mip_net || levels.net == levels_hash(*m.mip_net, m.mip_filter, metal)) &&
-           (!taught || (levels.net & 1u) == (metal ? 1u : 0u));
+           (!taught || (levels.net & 1u) == (metal ? 1u : 0u)) && (levels.gained == 0 || gained_metal(levels.gained) == is_metal(scene, m));
 }
 
 MaterialLevels filtered_levels(const Scene& scene, const Jobs& jobs, const TaughtTexels& advance)
@@ -318,8 +333,8 @@ MaterialLevels filtered_levels(const Scene& scene, const Jobs& jobs, const Taugh
                 if (fits((*there)[k], hash, scene, m))
                     all[i] = std::shared_ptr<const MipLevels>(there, &(*there)[k]);
         if (!all[i])
-            all[i] = std::make_shared<const MipLevels>(
-                make_mip_levels(source, m.mip_filter, m.mip_kappa, jobs, {m.mip_net.get(), is_metal(scene, m), advance}));
+            all[i] =
+                std::make_shared<const MipLevels>(make_mip_levels(source, m.mip_filter, m.mip_kappa, jobs, mip_help(scene, m, advance)));
     }
     return all;
 }

@@ -24,6 +24,7 @@
 namespace burnish {
 
 class MipSource;
+struct MipHelp;
 
 struct PyramidKey {
     std::int32_t texture; // its sampler, and without moments its image
@@ -51,6 +52,7 @@ bool is_metal(const Scene& scene, const Material& material); // more than half o
 std::string why_unfiltered(const Scene& scene, const Material& material);
 // What a filter makes levels of, of a material that it makes any of.
 bool is_filtered(const Scene& scene, const Material& material);
+MipHelp mip_help(const Scene& scene, const Material& material, const TaughtTexels& advance = {}); // of that material
 MipSource mip_source(const Scene& scene, const Material& material);
 // Whether levels that were baked beforehand are of these maps and filters.
 bool fits(const MipLevels& levels, std::uint64_t source, const Scene& scene, const Material& material);

@@ -56,7 +56,7 @@ void add_filters(Key& key, const Scene& scene)
 {
     for (const Material& m : scene.materials)
         if (makes_lobes(m.mip_filter))
-            key.add(m.mip_filter, m.mip_kappa);
+            key.add(m.mip_filter, m.mip_kappa, m.mip_gains, m.mip_lobe);
     for (std::size_t i = 0; i < scene.materials.size(); ++i)
         if (const Material& m = scene.materials[i]; m.mip_coupled || m.mip_kaiser)
             key.add('c', i, m.mip_coupled, m.mip_kaiser);
@@ -66,7 +66,7 @@ void add_filters(Key& key, const Scene& scene)
     if (scene.mips)
         for (const MipLevels& levels : *scene.mips)
             for (const MipLevel& level : levels.levels)
-                key.column(level.texels.data(), level.texels.size());
+                key.add(level.gain), key.column(level.texels.data(), level.texels.size());
 }
 
 void add_tables(Key& key, const DrawTables& t)

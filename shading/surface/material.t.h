@@ -46,6 +46,12 @@ BN_FN real3 normal_of_texel(material_ref m, real4 texel)
     return scaled_normal(texel, splat(the_material(m).normal_scale));
 }
 
+// Times the gain of a mip filter's level, which takes none beyond 1.
+BN_FN real3 gained_reflectance(real3 reflectance, real gain)
+{
+    return min(reflectance * gain, max(reflectance, vec3_all(lit(1.0))));
+}
+
 // As fetch_material() finds it.
 BN_FN real fetch_alpha(frame_ref f, material_ref m, BN_IN(visible_point) p)
 {
@@ -102,6 +108,8 @@ BN_FN material_inputs fetch_material(frame_ref f, material_ref m, BN_IN(visible_
             if (the_material(m).level_gain >= 0.0f) { // normals in two halves: one turns lobes of alpha .05 visibly
                 r.normal_map = vec3_of(r.slope.x, r.slope.y, two.y);
                 r.slope = r.slope * splat(the_material(m).level_gain);
+                r.base = gained_reflectance(r.base, two.x);
+                r.dielectric_f0 = gained_reflectance(r.dielectric_f0, two.x);
                 r.tensor2 = vec3_of(lit(1.0), lit(0.0), lit(0.0));
                 r.tensor4 = r.tensor2;
             }

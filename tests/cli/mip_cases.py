@@ -148,6 +148,15 @@ def baked(bench):
         check(hash_of(bench, *words, "--mip-pyramid", name + ".mip") == made, f"{name}: a file does not say its filter")
     bench.run("bake", "mip", "set", "--brdf", "beckmann", "-q", "-o", "wide.mip").expect(0)
     check((bench.folder / "wide.mip").read_bytes() == (bench.folder / "kappa.mip").read_bytes(), "the usual kappa goes by the model of lobes")
+    for name, more in (("lit.mip", ()), ("other_lit.mip", ("--brdf", "beckmann")), ("lit3.mip", ("--threads", "3"))):
+        bench.run("bake", "mip", "set", "--mip-gain", "on", *more, "-q", "-o", name).expect(0)
+    check((bench.folder / "lit.mip").read_bytes() == (bench.folder / "lit3.mip").read_bytes() != (bench.folder / "other_lit.mip").read_bytes(),
+          "gains do not go by the model of lobes, or by threads")
+    gained = hash_of(bench, *words, "--mip-filter", "kappa", "--mip-gain", "on")
+    check(gained == hash_of(bench, *words, "--mip-pyramid", "lit.mip") == hash_of(bench, *words, "--mip-filter", "kappa", "--mip-gain", "on", "--isa", "scalar"),
+          "a file does not keep its gains")
+    check(hash_of(bench, *words, "--mip-filter", "kappa", "--mip-pyramid", "lit.mip") == hash_of(bench, *words, "--mip-filter", "kappa") != gained,
+          "gains are not off by themselves")
     beckmann = (*words, "--brdf", "beckmann", "--mip-filter", "kappa")
     check(hash_of(bench, *beckmann) == hash_of(bench, *beckmann, "--mip-kappa", "0.7") == hash_of(bench, *beckmann, "--mip-pyramid", "wide.mip"),
           "kappa 0.7 is not Beckmann's default")
@@ -163,7 +172,7 @@ def baked(bench):
     # what does not fit
     good = (bench.folder / "kappa.mip").read_bytes()
     scratch(bench, "short.mip", good[:-9])
-    scratch(bench, "damaged.mip", good[:100] + b"\1" + good[101:])
+    scratch(bench, "damaged.mip", good[:100] + bytes([good[100] ^ 1]) + good[101:])
     scratch(bench, "no.mip", b"bnmip01")
     for scene, file, needle in ((words, "no.mip", "no.mip"), (words, "short.mip", "damaged"), (words, "damaged.mip", "damaged"), (words, "gone.mip", "gone.mip"),
                                 (("builtin:sphere", *SMALL, "--material", "other"), "kappa.mip", "hash"),
@@ -355,7 +364,7 @@ def fine_normals(bench):
     for name in ("baseline", "kappa"):
         bench.run("bake", "mip", "set", "--mip-filter", name, "-q", "-o", "a.mip").expect(0)
         bench.run("render", *words, "--mip-filter", name, "--aov", "normal", "-o", "a.exr").expect(0)
-        held, seen = (bench.folder / "a.mip").read_bytes()[64:], exr_channels(bench.folder / "a.exr")
+        held, seen = (bench.folder / "a.mip").read_bytes()[16 + 56 + 4 * 7:], exr_channels(bench.folder / "a.exr")
         off = 0.0
         for i, (nx, ny, *_) in enumerate(struct.iter_unpack("<5f", held[:20 * 64 * 64])):
             off = max(off, abs(seen["N.X"][i // 64][i % 64] - nx), abs(seen["N.Y"][i // 64][i % 64] - ny))
@@ -365,12 +374,13 @@ def fine_normals(bench):
 DARK = ("--env-exposure", "-32", "--env-size", "32", "--env-samples", "16", "--no-background", "-q")
 
 
-def suns(gltf, count):
-    """Directional lights from above, the more the nearer to straight above, as cosines weigh them."""
+def suns(gltf, count, anywhere=False):
+    """Directional lights from above, the more the nearer to straight above, as cosines weigh them, or evenly down to 84 degrees."""
     gltf["extensionsUsed"] = ["KHR_lights_punctual"]
     gltf["extensions"] = {"KHR_lights_punctual": {"lights": [{"type": "directional", "intensity": 3.0}]}}
     for i in range(count):
-        lean, turn = math.asin(math.sqrt((i + 0.5) / count * 0.9)), 2.399963 * i + 0.7
+        share, turn = (i + 0.5) / count * 0.9, 2.399963 * i + 0.7
+        lean = math.acos(1 - share) if anywhere else math.asin(math.sqrt(share))
         half = 0.5 * lean
         gltf["nodes"].append({"rotation": [math.sin(half) * math.cos(turn), math.sin(half) * math.sin(turn), 0.0, math.cos(half)],
                               "extensions": {"KHR_lights_punctual": {"light": 0}}})
@@ -400,6 +410,39 @@ def protocols(bench):
             at = 3 * (16 * y + x)
             beyond += abs(mean - truth[at]) > 3 * math.sqrt(variance[at])
     check(min(truth) > 0.001 and beyond <= 3, f"{beyond} of 256 pixels are beyond 3 sigma")  # .7 are expected
+
+
+@case("mip.levels_reflect_as_much_as_their_texels", tier="check")
+def gains(bench):
+    """Matt bumps of many texels from above under lamps from everywhere above: the mean of a picture, with gains of levels and without, beside the
+    truth's."""
+    needs_embree(bench)
+    chance = random.Random(5)
+    lean = [[(chance.gauss(0, 0.5), chance.gauss(0, 0.5)) for _ in range(16)] for _ in range(16)]
+
+    def bump(x, y):
+        sx, sy = lean[y // 8][x // 8]
+        length = math.sqrt(1 + sx * sx + sy * sy)
+        return tuple(int(127.5 + 127.5 * n / length + 0.5) for n in (-sx, -sy, 1))
+
+    scratch(bench, "n.png", png(128, 128, bump))
+    gltf = lone_plane(8, normalTexture={"index": 0}, pbrMetallicRoughness={"roughnessFactor": 0.6, "metallicFactor": 0, "baseColorFactor": [0.9, 0.6, 0.4, 1]})
+    suns(gltf, 60, anywhere=True)
+    gltf["textures"], gltf["images"] = [{"source": 0}], [{"uri": "n.png"}]
+    scratch(bench, "p.gltf", files.text(gltf))
+    words = ("p.gltf", *DARK, "--size", "8x8", "--frame-map", "quaternion")
+
+    def mean(*more):
+        bench.run("render", *words, *more, "-o", "m.pfm").expect(0)
+        return sum(read_pfm(bench.folder / "m.pfm")[2])
+
+    truth = mean("--backend", "reference", "--reference-textures", "full", "--samples", "4096")
+    off = {(name, gain): mean("--mip-filter", name, "--mip-gain", gain) / truth - 1 for name in ("kappa", "ssgt", "mipnet") for gain in ("on", "off")}
+    print({" ".join(of): round(by, 3) for of, by in off.items()})
+    for name in ("kappa", "ssgt", "mipnet"):
+        check(abs(off[name, "on"]) < 0.03 < 0.06 < abs(off[name, "off"]), f"{off}")
+    done = bench.run("render", "p.gltf", *DARK[:-1], "--size", "16x16", "--mip-gain", "on", "-o", "m.pfm").expect(0)
+    check("--mip-gain has no effect with --mip-filter box" in done.err, done.describe())
 
 
 @case("mip.coupled_colours_halve_the_error_of_colour", tier="check")

@@ -6,8 +6,10 @@
 #include <cmath>
 
 #include "core/base/check.h"
+#include "core/simd/dispatch.h"
+#include "shading/bake/mip/level_gains.h"
+#include "shading/bake/mip/mean_fns.h"
 #include "shading/bake/mip/net_levels.h"
-#include "shading/bake/mip/slopes.h"
 #include "shading/bake/mip/texture.h"
 #include "shading/bake/mipnet/shipped.h"
 #include "shading/surface/tensor.k.h"
@@ -21,6 +23,16 @@ const std::vector<MipFilterInfo>& mip_filters()
 #include "shading/models.def"
     };
     return table;
+}
+
+std::uint32_t gained_of(mipnet::Lobe lobe, bool metal)
+{
+    return 1u + 2u * static_cast<std::uint32_t>(lobe) + (metal ? 1u : 0u);
+}
+
+bool gained_metal(std::uint32_t gained)
+{
+    return gained != 0 && (gained - 1u) % 2u == 1u;
 }
 
 bool makes_lobes(MipFilter filter)
@@ -38,6 +50,11 @@ bool takes_kappa(MipFilter filter)
     return filter == kMipFilter_kappa || takes_net(filter);
 }
 
+bool takes_gains(MipFilter filter)
+{
+    return filter == kMipFilter_ssgt || takes_kappa(filter);
+}
+
 float gain_of_taps(MipFilter filter, float kappa)
 {
     if (takes_kappa(filter))
@@ -49,81 +66,20 @@ float gain_of_taps(MipFilter filter, float kappa)
 
 namespace {
 
-// What is averaged. Of baseline: normal, a, b, c. Of covariance: normal, covariance. Of leadr: mean slope, covariance of slopes. Of ssgt
-// and kappa: normal, squared widths in space.
-struct State {
-    std::array<float, 9> v;
-};
-struct Shape {
-    std::size_t means, count; // of them the first are means that spread; the rest follow
+struct Shape { // of states, see mip::Mean
+    mip::Mean mean;
+    std::size_t means, count; // of a state's numbers the first are means that spread; the rest follow
     float spread;             // how much of what means differ by joins the rest, xx yy (zz) xy (xz yz)
 };
 Shape shape_of(MipFilter filter, float kappa)
 {
     if (filter == kMipFilter_leadr)
-        return {2, 5, 1.0f};
+        return {mip::Mean::leadr, 2, 5, 1.0f};
     if (filter == kMipFilter_ssgt)
-        return {3, 9, 1.0f};
+        return {mip::Mean::ssgt, 3, 9, 1.0f};
     if (filter == kMipFilter_kappa)
-        return {3, 9, kappa};
-    return {3, 6, 0.0f};
-}
-
-real3 unit_or_up(real3 n)
-{
-    const float length = std::sqrt((n.x * n.x + n.y * n.y) + n.z * n.z);
-    return length > 1e-6f ? vec3_of(n.x / length, n.y / length, n.z / length) : vec3_of(0.0f, 0.0f, 1.0f);
-}
-
-real3 normal_of_slope(real2 slope)
-{
-    const float length = std::sqrt(1.0f + (slope.x * slope.x + slope.y * slope.y));
-    return vec3_of(slope.x / length, slope.y / length, 1.0f / length);
-}
-
-slope_covariance scaled(slope_covariance s, float by)
-{
-    return {s.xx * by, s.yy * by, s.xy * by};
-}
-
-State state_of(MipFilter filter, const MipPoint& p)
-{
-    if (filter == kMipFilter_baseline) {
-        const lobe_tensor t = projected_tensor(tensor_of_covariance(p.s));
-        return {{p.n.x, p.n.y, p.n.z, t.a, t.b, t.c}};
-    }
-    if (filter == kMipFilter_covariance)
-        return {{p.n.x, p.n.y, p.n.z, p.s.xx, p.s.yy, p.s.xy}};
-    if (filter == kMipFilter_leadr) {
-        const float steep = std::sqrt(p.n.x * p.n.x + p.n.y * p.n.y) / (kMostSlope * p.n.z), keep = steep > 1.0f ? 1.0f / steep : 1.0f;
-        const real2 slope = vec2_of(keep * p.n.x / p.n.z, keep * p.n.y / p.n.z);
-        const slope_covariance s = covariance_from_frame(normal_of_slope(slope), p.s);
-        return {{slope.x, slope.y, s.xx, s.yy, s.xy}};
-    }
-    const space_covariance s = covariance_in_space(p.n, scaled(p.s, 2.0f));
-    return {{p.n.x, p.n.y, p.n.z, s.xx, s.yy, s.zz, s.xy, s.xz, s.yz}};
-}
-
-MipTexel texel_of(MipFilter filter, const State& s)
-{
-    const auto& v = s.v;
-    real3 n = unit_or_up(vec3_of(v[0], v[1], v[2]));
-    lobe_tensor t = {v[3], v[4], v[5]};
-    if (filter == kMipFilter_covariance)
-        t = tensor_of_covariance({v[3], v[4], v[5]});
-    else if (filter == kMipFilter_leadr) {
-        n = normal_of_slope(vec2_of(v[0], v[1]));
-        t = tensor_of_covariance(covariance_to_frame(n, {v[2], v[3], v[4]}));
-    } else if (filter == kMipFilter_kappa) {
-        t = tensor_of_covariance(scaled(covariance_seen_from(n, {v[3], v[4], v[5], v[6], v[7], v[8]}), 0.5f));
-    } else if (filter == kMipFilter_ssgt) {
-        const real3 mean = vec3_of(v[0], v[1], v[2]);
-        const space_covariance spread = {v[3], v[4], v[5], v[6], v[7], v[8]};
-        n = unit_or_up(sggx_product(mean, spread, n)); // towards its axis: after this the mean slope is of second order
-        t = tensor_of_covariance(scaled(sggx_lobe(n, mean, spread).spread, 0.5f));
-    }
-    t = projected_tensor(t);
-    return {n.x, n.y, t.a, t.b, t.c};
+        return {mip::Mean::kappa, 3, 9, kappa};
+    return {filter == kMipFilter_covariance ? mip::Mean::covariance : mip::Mean::baseline, 3, 6, 0.0f};
 }
 
 // Pairs of means whose product a place of the rest is of.
@@ -133,75 +89,58 @@ struct Pair {
 constexpr Pair kFlatPairs[] = {{0, 0}, {1, 1}, {0, 1}};
 constexpr Pair kSpacePairs[] = {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {0, 2}, {1, 2}};
 
-// Means are of unit normals again where a filter goes on from level to level.
-void settle(MipFilter filter, State& s)
-{
-    if (filter != kMipFilter_baseline)
-        return;
-    const real3 n = unit_or_up(vec3_of(s.v[0], s.v[1], s.v[2]));
-    s.v[0] = n.x, s.v[1] = n.y, s.v[2] = n.z;
-}
+// Planes of a row of states.
+struct StateRow {
+    const float* first;
+    std::size_t stride;
+    float at(std::size_t k, int x) const { return first[k * stride + static_cast<std::size_t>(x)]; }
+};
 
-// Of four texels alike, in a square: the sum of both diagonals has the same bits however the square is mirrored or turned.
-State merged(const Shape& shape, const State& a, const State& b, const State& c, const State& d)
+// rows: those of `down`. to: texel x of a row of states.
+void merge_many(const Shape& shape, const std::vector<StateRow>& rows, const std::vector<Share>& down, const std::vector<Share>& across,
+                float* to, std::size_t stride)
 {
-    State r = {};
-    for (std::size_t k = 0; k < shape.count; ++k)
-        r.v[k] = 0.25f * ((a.v[k] + d.v[k]) + (b.v[k] + c.v[k]));
-    if (shape.spread == 0.0f)
-        return r;
-    const Pair* pairs = shape.means == 3 ? kSpacePairs : kFlatPairs;
-    for (std::size_t k = shape.means; k < shape.count; ++k) {
-        const auto [i, j] = pairs[k - shape.means];
-        const auto product = [&, i = i, j = j](const State& s) { return (s.v[i] - r.v[i]) * (s.v[j] - r.v[j]); };
-        r.v[k] += shape.spread * (0.25f * ((product(a) + product(d)) + (product(b) + product(c))));
-    }
-    return r;
-}
-
-// rows: those of `down`, one after the other, `width` texels each.
-State merged_of_many(const Shape& shape, const State* rows, int width, const std::vector<Share>& down, const std::vector<Share>& across)
-{
-    std::array<double, 9> sum = {};
+    std::array<double, mip::kMostStates> sum = {};
     const auto each = [&](auto&& use) {
         for (std::size_t y = 0; y < down.size(); ++y)
             for (const Share& x : across)
-                use(rows[y * static_cast<std::size_t>(width) + static_cast<std::size_t>(x.at)], down[y].weight * x.weight);
+                use([&](std::size_t k) { return static_cast<double>(rows[y].at(k, x.at)); }, down[y].weight * x.weight);
     };
-    each([&](const State& s, double weight) {
+    each([&](const auto& s, double weight) {
         for (std::size_t k = 0; k < shape.count; ++k)
-            sum[k] += weight * static_cast<double>(s.v[k]);
+            sum[k] += weight * s(k);
     });
-    const std::array<double, 9> mean = sum;
+    const auto mean = sum;
     if (shape.spread > 0.0f) {
         const Pair* pairs = shape.means == 3 ? kSpacePairs : kFlatPairs;
-        each([&](const State& s, double weight) {
+        each([&](const auto& s, double weight) {
             for (std::size_t k = shape.means; k < shape.count; ++k) {
                 const auto [i, j] = pairs[k - shape.means];
-                sum[k] += static_cast<double>(shape.spread) * weight * (static_cast<double>(s.v[i]) - mean[i]) *
-                          (static_cast<double>(s.v[j]) - mean[j]);
+                sum[k] += static_cast<double>(shape.spread) * weight * (s(i) - mean[i]) * (s(j) - mean[j]);
             }
         });
     }
-    State r = {};
     for (std::size_t k = 0; k < shape.count; ++k)
-        r.v[k] = static_cast<float>(sum[k]);
-    return r;
+        to[k * stride] = static_cast<float>(sum[k]);
 }
 
 constexpr int kMostBanded = 5;
 
 struct StateLevel {
     int width = 0, height = 0;
-    std::vector<State> states;
+    std::vector<float> states; // by row, then number: planes of mip::row_stride(width)
+
+    std::size_t stride() const { return mip::row_stride(static_cast<std::size_t>(width)); }
+    void make_room(const Shape& shape) { states.resize(static_cast<std::size_t>(height) * shape.count * stride()); }
+    std::size_t place(const Shape& shape, int y) const { return static_cast<std::size_t>(y) * shape.count * stride(); }
 };
 
 // One level from a finer one, or from the source where `from` is null.
 class LevelMaker {
   public:
-    LevelMaker(const MipRows& source, const StateLevel* from, MipFilter filter, const Shape& shape)
-        : source_(source), from_(from), filter_(filter), shape_(shape), width_(from ? from->width : source.width),
-          height_(from ? from->height : source.height)
+    LevelMaker(const MipRows& source, const StateLevel* from, const Shape& shape)
+        : source_(source), from_(from), shape_(shape), width_(from ? from->width : source.width),
+          height_(from ? from->height : source.height), stride_(mip::row_stride(static_cast<std::size_t>(width_)))
     {
     }
 
@@ -209,52 +148,48 @@ class LevelMaker {
     {
         const auto halves = [](int source, int target) { return source == 2 * target || source == target; };
         const bool square = halves(width_, to.width) && halves(height_, to.height);
-        jobs.parallel_for(static_cast<std::size_t>(to.height), [&](std::size_t y, int) {
+        std::vector<std::vector<float>> memory(static_cast<std::size_t>(jobs.threads()));
+        jobs.parallel_for(static_cast<std::size_t>(to.height), [&](std::size_t y, int worker) {
             const std::vector<Share> down = shares_of(static_cast<int>(y), height_, to.height);
-            const std::vector<State> rows = rows_of(down);
-            const std::size_t first = y * static_cast<std::size_t>(to.width);
-            for (int x = 0; x < to.width; ++x) {
-                State& out = to.states[first + static_cast<std::size_t>(x)];
-                out = square ? of_square(rows, x, to.width)
-                             : merged_of_many(shape_, rows.data(), width_, down, shares_of(x, width_, to.width));
-                settle(filter_, out);
-                level.texels[first + static_cast<std::size_t>(x)] = texel_of(filter_, out);
-            }
+            const std::vector<StateRow> rows = rows_of(down, memory[static_cast<std::size_t>(worker)]);
+            const std::size_t width = static_cast<std::size_t>(to.width), stride = to.stride();
+            float* const states = to.states.data() + to.place(shape_, static_cast<int>(y));
+            if (square)
+                fns_.merge({shape_.mean, shape_.spread, width, stride, rows.front().first, rows.back().first, stride_,
+                            width_ == 2 * to.width ? 2 : 1, states});
+            else
+                for (int x = 0; x < to.width; ++x)
+                    merge_many(shape_, rows, down, shares_of(x, width_, to.width), states + x, stride);
+            fns_.texels({shape_.mean, width, stride, states, &level.texels[y * width].nx});
         });
     }
 
   private:
-    std::vector<State> rows_of(const std::vector<Share>& down) const
+    std::vector<StateRow> rows_of(const std::vector<Share>& down, std::vector<float>& memory) const
     {
-        const auto width = static_cast<std::size_t>(width_);
-        std::vector<State> rows(down.size() * width);
-        std::vector<MipPoint> points(from_ ? 0 : width);
+        std::vector<StateRow> rows;
+        const std::size_t points = mip::kPointPlanes * stride_, states = shape_.count * stride_;
+        if (!from_ && memory.size() < points + down.size() * states)
+            memory.resize(points + down.size() * states);
         for (std::size_t i = 0; i < down.size(); ++i) {
-            State* to = rows.data() + i * width;
             if (from_) {
-                std::copy_n(from_->states.data() + static_cast<std::size_t>(down[i].at) * width, width, to);
+                rows.push_back({from_->states.data() + from_->place(shape_, down[i].at), stride_});
                 continue;
             }
-            source_.row(down[i].at, points.data());
-            for (std::size_t x = 0; x < width; ++x)
-                to[x] = state_of(filter_, points[x]);
+            float* const to = memory.data() + points + i * states;
+            source_.planes(down[i].at, memory.data());
+            fns_.states({shape_.mean, static_cast<std::size_t>(width_), stride_, memory.data(), to});
+            rows.push_back({to, stride_});
         }
         return rows;
     }
 
-    State of_square(const std::vector<State>& rows, int x, int width) const
-    {
-        const bool wide = width_ == 2 * width;
-        const State* top = rows.data() + static_cast<std::size_t>(wide ? 2 * x : x);
-        const State* bottom = rows.size() > static_cast<std::size_t>(width_) ? top + width_ : top;
-        return merged(shape_, top[0], top[wide], bottom[0], bottom[wide]);
-    }
-
     const MipRows& source_;
     const StateLevel* from_;
-    MipFilter filter_;
+    const mip::Fns& fns_ = pick<mip::Fns>();
     Shape shape_;
     int width_, height_;
+    std::size_t stride_;
 };
 
 int levels_of(int width, int height) // from 1 on
@@ -283,18 +218,23 @@ int finer_level(const MipRows& level0, int l)
     return from;
 }
 
+MipLevel empty_level(const StateLevel& of)
+{
+    return {of.width, of.height, std::vector<MipTexel>(static_cast<std::size_t>(of.width) * static_cast<std::size_t>(of.height))};
+}
+
 // Levels after `first`, whose states are `banded` (or after level 0), up to `last`; returns the states of the last one.
-StateLevel put_levels_from(const MipRows& level0, int first, StateLevel banded, int last, MipFilter filter, const Shape& shape,
-                           const Jobs& jobs, std::vector<MipLevel>& made)
+StateLevel put_levels_from(const MipRows& level0, int first, StateLevel banded, int last, const Shape& shape, const Jobs& jobs,
+                           std::vector<MipLevel>& made)
 {
     std::vector<StateLevel> states(1);
     states[0] = std::move(banded);
     for (int l = first + 1; l <= last; ++l) {
         StateLevel next = level_of(level0, l);
-        next.states.resize(static_cast<std::size_t>(next.width) * static_cast<std::size_t>(next.height));
+        next.make_room(shape);
         const int from = finer_level(level0, l);
-        MipLevel level = {next.width, next.height, std::vector<MipTexel>(next.states.size())};
-        LevelMaker(level0, from > 0 ? &states[static_cast<std::size_t>(from - first)] : nullptr, filter, shape).make(next, level, jobs);
+        MipLevel level = empty_level(next);
+        LevelMaker(level0, from > 0 ? &states[static_cast<std::size_t>(from - first)] : nullptr, shape).make(next, level, jobs);
         made.push_back(std::move(level));
         states.push_back(std::move(next));
     }
@@ -320,21 +260,17 @@ int banded_levels(int width, int height)
 }
 
 // Levels 1 to `levels`, and the states of the last one.
-StateLevel make_banded_levels(const MipRows& level0, int levels, MipFilter filter, const Shape& shape, const Jobs& jobs,
-                              std::vector<MipLevel>& made)
+StateLevel make_banded_levels(const MipRows& level0, int levels, const Shape& shape, const Jobs& jobs, std::vector<MipLevel>& made)
 {
-    for (int l = 1; l <= levels; ++l) {
-        const StateLevel size = level_of(level0, l);
-        made.push_back(
-            {size.width, size.height, std::vector<MipTexel>(static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height))});
-    }
+    for (int l = 1; l <= levels; ++l)
+        made.push_back(empty_level(level_of(level0, l)));
     StateLevel last = level_of(level0, levels);
-    last.states.resize(made.back().texels.size());
+    last.make_room(shape);
     jobs.parallel_for(static_cast<std::size_t>(level0.height >> levels), [&](std::size_t band, int) {
         const int first = static_cast<int>(band) << levels;
-        const MipRows rows = {level0.width, 1 << levels, [&](int y, MipPoint* to) { level0.row(first + y, to); }};
+        const MipRows rows = {level0.width, 1 << levels, [&](int y, float* to) { level0.planes(first + y, to); }};
         std::vector<MipLevel> of_band;
-        const StateLevel state = put_levels_from(rows, 0, {}, levels, filter, shape, Jobs(1), of_band);
+        const StateLevel state = put_levels_from(rows, 0, {}, levels, shape, Jobs(1), of_band);
         for (std::size_t l = 0; l < of_band.size(); ++l)
             std::copy(of_band[l].texels.begin(), of_band[l].texels.end(),
                       made[l].texels.begin() + static_cast<std::ptrdiff_t>(band * of_band[l].texels.size()));
@@ -347,17 +283,22 @@ StateLevel make_banded_levels(const MipRows& level0, int levels, MipFilter filte
 
 MipRows rows_of(const MipSource& source)
 {
-    return {source.width(), source.height(), [&source](int y, MipPoint* to) { source.row(y, to); }};
+    return {source.width(), source.height(), [&source](int y, float* to) { source.planes(y, to); }};
 }
 
 MipRows rows_of_texels(const mipnet::Texels& texels)
 {
-    return {texels.width, texels.height, [&texels](int y, MipPoint* to) {
+    return {texels.width, texels.height, [&texels](int y, float* to) {
                 const std::size_t width = static_cast<std::size_t>(texels.width), first = static_cast<std::size_t>(y) * width;
+                const std::size_t stride = mip::row_stride(width);
+                std::fill_n(to, mip::kPointPlanes * stride, 0.0f);
                 for (std::size_t x = 0; x < width; ++x) {
                     const auto at = [&](std::size_t c) { return texels.channel[c][first + x]; };
                     const float nz = std::sqrt(std::max(1.0f - (at(0) * at(0) + at(1) * at(1)), 0.0f));
-                    to[x] = {vec3_of(at(0), at(1), nz), covariance_of_tensor({at(2), at(3), at(4)})};
+                    const slope_covariance s = covariance_of_tensor({at(2), at(3), at(4)});
+                    const float point[mip::kPointPlanes] = {at(0), at(1), nz, s.xx, s.yy, s.xy};
+                    for (std::size_t k = 0; k < mip::kPointPlanes; ++k)
+                        to[k * stride + x] = point[k];
                 }
             }};
 }
@@ -370,8 +311,8 @@ std::vector<MipLevel> make_mean_levels(const MipRows& level0, MipFilter filter, 
     std::vector<MipLevel> made;
     StateLevel banded;
     if (first > 0)
-        banded = make_banded_levels(level0, first, filter, shape, jobs, made);
-    put_levels_from(level0, first, std::move(banded), levels_of(level0.width, level0.height), filter, shape, jobs, made);
+        banded = make_banded_levels(level0, first, shape, jobs, made);
+    put_levels_from(level0, first, std::move(banded), levels_of(level0.width, level0.height), shape, jobs, made);
     return made;
 }
 
@@ -384,22 +325,22 @@ class HashedRows {
 
     MipRows rows()
     {
-        return {source_.width(), source_.height(), [this](int y, MipPoint* to) {
-                    source_.row(y, to);
+        return {source_.width(), source_.height(), [this](int y, float* to) {
+                    source_.planes(y, to);
                     std::atomic<std::uint64_t>& hash = hashes_[static_cast<std::size_t>(y)];
                     if (hash.load(std::memory_order_relaxed) == 0)
-                        hash.store(MipSource::hash_of_row(to, source_.width()), std::memory_order_relaxed);
+                        hash.store(source_.hash_of_planes(to), std::memory_order_relaxed);
                 }};
     }
 
     std::uint64_t hash()
     {
-        std::vector<MipPoint> points(static_cast<std::size_t>(source_.width()));
+        std::vector<float> points(mip::kPointPlanes * mip::row_stride(static_cast<std::size_t>(source_.width())));
         std::vector<std::uint64_t> all;
         for (int y = 0; y < source_.height(); ++y) {
             const std::atomic<std::uint64_t>& hash = hashes_[static_cast<std::size_t>(y)];
             if (hash.load(std::memory_order_relaxed) == 0) // no level was made of it
-                rows().row(y, points.data());
+                rows().planes(y, points.data());
             all.push_back(hash.load(std::memory_order_relaxed));
         }
         return source_.hash_of_rows(all);
@@ -409,6 +350,35 @@ class HashedRows {
     const MipSource& source_;
     std::vector<std::atomic<std::uint64_t>> hashes_;
 };
+
+} // namespace
+
+namespace {
+
+void put_gains(const MipSource& source, mipnet::Lobe lobe, bool metal, Gains rule, MipLevels& to)
+{
+    std::vector<LevelSize> sizes = {{to.width, to.height}};
+    for (const MipLevel& level : to.levels)
+        sizes.push_back({level.width, level.height});
+    const auto texels = [&](int level, std::size_t count, const int* x, const int* y, float* planes) {
+        if (level == 0) {
+            std::vector<float> points(mip::kPointPlanes * count);
+            source.points(count, x, y, points.data());
+            pick<mip::Fns>().tensors({count, count, points.data(), planes});
+            return;
+        }
+        const MipLevel& of = to.levels[static_cast<std::size_t>(level) - 1];
+        for (std::size_t i = 0; i < count; ++i, ++planes) {
+            const MipTexel& t =
+                of.texels[static_cast<std::size_t>(y[i]) * static_cast<std::size_t>(of.width) + static_cast<std::size_t>(x[i])];
+            planes[0] = t.nx, planes[count] = t.ny, planes[2 * count] = t.a, planes[3 * count] = t.b, planes[4 * count] = t.c;
+        }
+    };
+    const std::vector<float> gains = level_gains(sizes, texels, shown_surface(lobe, metal), rule);
+    for (std::size_t l = 0; l < gains.size(); ++l)
+        to.levels[l].gain = gains[l];
+    to.gained = gained_of(lobe, metal);
+}
 
 } // namespace
 
@@ -427,6 +397,8 @@ MipLevels make_mip_levels(const MipSource& source, MipFilter filter, float kappa
     else
         made.levels = make_mean_levels(level0.rows(), filter, made.kappa, jobs);
     made.source = level0.hash();
+    if (help.gains != Gains::none && takes_gains(filter))
+        put_gains(source, takes_net(filter) ? net.shape.lobe : help.lobe, help.metal, help.gains, made);
     return made;
 }
 

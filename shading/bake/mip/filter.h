@@ -16,7 +16,7 @@ namespace burnish {
 
 struct MipRows { // level 0
     int width, height;
-    std::function<void(int y, MipPoint* to)> row; // from the top; `width` points
+    std::function<void(int y, float* to)> planes; // of a row, from the top, as MipSource::planes() has them
 };
 MipRows rows_of(const MipSource& source);             // which has to stay
 MipRows rows_of_texels(const mipnet::Texels& texels); // the same
@@ -28,6 +28,8 @@ struct MipHelp {                          // of filters that are no means
     const mipnet::Weights* net = nullptr; // null: the program's for lobes of GGX
     bool metal = false;                   // of teacher: whether the material reflects as one
     TaughtTexels advance{};
+    mipnet::Lobe lobe = mipnet::Lobe::ggx_aniso; // of gains, where there is no net that says it
+    Gains gains = Gains::none;
 };
 
 // MipLevels::net of a filter that takes_net(). Of teacher its last bit says whether the material reflects as a metal.

@@ -9,7 +9,8 @@ namespace burnish {
 
 namespace mipnet {
 struct Weights;
-}
+enum class Lobe : std::uint32_t;
+} // namespace mipnet
 
 #define BN_MIP_FILTER(id, at, name, summary) inline constexpr MipFilter kMipFilter_##id = static_cast<MipFilter>(at);
 #include "shading/models.def"
@@ -20,9 +21,17 @@ struct MipFilterInfo {
 };
 const std::vector<MipFilterInfo>& mip_filters(); // from shading/models.def, by place
 
+// Whether levels have gains, and for what: frames, where texels that turn away from the eye are as at grazing angles, or the light that
+// levels are judged by (shown.h), where they are dark.
+enum class Gains { none, of_frames, as_judged };
+
+std::uint32_t gained_of(mipnet::Lobe lobe, bool metal);
+bool gained_metal(std::uint32_t gained); // whether they are those of a metal
+
 bool makes_lobes(MipFilter filter); // levels of lobes, all but box and lean
 bool takes_net(MipFilter filter);   // and its lobe
 bool takes_kappa(MipFilter filter);
+bool takes_gains(MipFilter filter); // of reflectances: those that err less with them under lamps, see bench/README.md
 
 // What the normals of a fetch's texels differ by, as part of the lobe's covariance: (gain n)(gain n)^T of x and y of unit normals.
 float gain_of_taps(MipFilter filter, float kappa);
@@ -36,6 +45,7 @@ struct MipTexel {
 struct MipLevel {
     int width, height;
     std::vector<MipTexel> texels; // rows from the top
+    float gain = 1.0f;            // of reflectances, see level_gains.h
 };
 
 struct MipLevels {
@@ -43,6 +53,7 @@ struct MipLevels {
     float kappa = 0.0f;           // of filter kappa, and of the taps of mipnet and teacher; else 0
     std::uint64_t source = 0;     // hash of level 0
     std::uint64_t net = 0;        // levels_hash() of what mipnet made them by, teacher began with; else 0
+    std::uint32_t gained = 0;     // what gains are of: 0: they are 1; else gained_of()
     int width = 0, height = 0;    // of level 0
     std::vector<MipLevel> levels; // from 1 on; none of a single texel
 };

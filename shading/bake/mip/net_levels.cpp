@@ -2,12 +2,15 @@
 
 #include <algorithm>
 
+#include "core/simd/dispatch.h"
 #include "shading/bake/mip/filter.h"
+#include "shading/bake/mip/mean_fns.h"
 #include "shading/bake/mip/texture.h"
 #include "shading/bake/mipnet/pyramid.h"
 #include "shading/surface/tensor.k.h"
 
 namespace burnish {
+
 namespace {
 
 void put_channels(const MipPoint& p, float* to)
@@ -19,16 +22,14 @@ void put_channels(const MipPoint& p, float* to)
 mipnet::TexelRows bands_of(const MipRows& rows)
 {
     return {rows.width, rows.height, [rows](int first, int count, mipnet::Texels& to) {
-                const std::size_t width = static_cast<std::size_t>(rows.width);
-                std::vector<MipPoint> points(width);
+                const std::size_t width = static_cast<std::size_t>(rows.width), stride = mip::row_stride(width);
+                std::vector<float> points(mip::kPointPlanes * stride), tensors(mipnet::kChannels * stride);
                 for (int y = 0; y < count; ++y) {
-                    rows.row(first + y, points.data());
-                    for (std::size_t x = 0; x < width; ++x) {
-                        float channels[mipnet::kChannels];
-                        put_channels(points[x], channels);
-                        for (std::size_t c = 0; c < mipnet::kChannels; ++c)
-                            to.channel[c][static_cast<std::size_t>(y) * width + x] = channels[c];
-                    }
+                    rows.planes(first + y, points.data());
+                    pick<mip::Fns>().tensors({width, stride, points.data(), tensors.data()});
+                    for (std::size_t c = 0; c < mipnet::kChannels; ++c)
+                        std::copy_n(tensors.begin() + static_cast<std::ptrdiff_t>(c * stride), width,
+                                    to.channel[c].begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(y) * width));
                 }
             }};
 }

@@ -8,6 +8,7 @@
 
 #include "core/base/bytes.h"
 #include "core/base/hash.h"
+#include "shading/bake/mip/level_gains.h"
 #include "shading/bake/mip/texture.h"
 
 namespace burnish {
@@ -16,7 +17,7 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "levels are little-endian");
 static_assert(sizeof(MipTexel) == 5 * sizeof(float));
 constexpr char kMipMagic[8] = {'b', 'n', 'm', 'i', 'p', '0', '1', '\n'};
-constexpr std::uint32_t kMipVersion = 2;
+constexpr std::uint32_t kMipVersion = 3;
 constexpr int kMostSide = 1 << 16;
 
 struct MipFileHeader {
@@ -28,8 +29,9 @@ struct MipMaterialHeader {
     float kappa;
     std::uint32_t width, height, levels;
     std::uint64_t source, net;
+    std::uint32_t gained, zero;
 };
-static_assert(sizeof(MipFileHeader) == 16 && sizeof(MipMaterialHeader) == 48);
+static_assert(sizeof(MipFileHeader) == 16 && sizeof(MipMaterialHeader) == 56);
 
 class Reader {
   public:
@@ -55,6 +57,11 @@ bool is_lobe(const MipTexel& t)
     return t.nx * t.nx + t.ny * t.ny <= 1.0f && t.a >= 0.0f && t.b >= 0.0f && t.a <= 1.0f && t.b <= 1.0f && t.c * t.c <= t.a * t.b;
 }
 
+bool is_gain(float gain, bool any)
+{
+    return any ? gain >= kLeastGain && gain <= kMostGain : gain == 1.0f;
+}
+
 // Empty where all is well.
 std::string read_material(Reader& from, MipLevels& to)
 {
@@ -69,15 +76,20 @@ std::string read_material(Reader& from, MipLevels& to)
         return "is of a filter that makes no levels of lobes";
     if (h.width < 1 || h.height < 1 || h.width > kMostSide || h.height > kMostSide || !std::isfinite(h.kappa))
         return fmt::format("holds levels of {}x{} texels", h.width, h.height);
-    to.kappa = h.kappa, to.source = h.source, to.net = h.net;
+    to.kappa = h.kappa, to.source = h.source, to.net = h.net, to.gained = h.gained;
     to.width = static_cast<int>(h.width), to.height = static_cast<int>(h.height);
     int levels = 0;
     while (levels + 1 < kMaxTextureLevels && (std::max(to.width, to.height) >> (levels + 1)) > 0)
         ++levels;
     if (static_cast<int>(h.levels) != levels)
         return fmt::format("holds {} levels of {}x{} texels, not {}", h.levels, h.width, h.height, levels);
+    std::vector<float> gains(h.levels);
+    if (!from.read(gains.data(), gains.size()))
+        return "is cut off";
+    if (h.gained > 6 || !std::all_of(gains.begin(), gains.end(), [&](float g) { return is_gain(g, h.gained != 0); }))
+        return "holds no gain of a level";
     for (int l = 1; l <= levels; ++l) {
-        MipLevel level = {std::max(1, to.width >> l), std::max(1, to.height >> l), {}};
+        MipLevel level = {std::max(1, to.width >> l), std::max(1, to.height >> l), {}, gains[static_cast<std::size_t>(l) - 1]};
         const std::size_t texels = static_cast<std::size_t>(level.width) * static_cast<std::size_t>(level.height);
         if (texels > from.left() / sizeof(MipTexel))
             return "is cut off";
@@ -98,7 +110,7 @@ std::vector<std::uint8_t> mip_file_bytes(const std::vector<const MipLevels*>& ma
     for (const MipLevels* m : materials) {
         size += sizeof(MipMaterialHeader);
         for (const MipLevel& level : m->levels)
-            size += level.texels.size() * sizeof(MipTexel);
+            size += sizeof level.gain + level.texels.size() * sizeof(MipTexel);
     }
     std::vector<std::uint8_t> bytes;
     bytes.reserve(size); // of large maps it is the largest thing there is
@@ -110,10 +122,12 @@ std::vector<std::uint8_t> mip_file_bytes(const std::vector<const MipLevels*>& ma
         MipMaterialHeader h = {};
         const std::string name = mip_filters()[static_cast<std::size_t>(m->filter)].name;
         std::copy_n(name.begin(), std::min(name.size(), sizeof h.filter), h.filter);
-        h.kappa = m->kappa, h.source = m->source, h.net = m->net;
+        h.kappa = m->kappa, h.source = m->source, h.net = m->net, h.gained = m->gained;
         h.width = static_cast<std::uint32_t>(m->width), h.height = static_cast<std::uint32_t>(m->height);
         h.levels = static_cast<std::uint32_t>(m->levels.size());
         append_bytes(bytes, &h, sizeof h);
+        for (const MipLevel& level : m->levels)
+            append_bytes(bytes, &level.gain, sizeof level.gain);
         for (const MipLevel& level : m->levels)
             append_bytes(bytes, level.texels.data(), level.texels.size() * sizeof(MipTexel));
     }

@@ -6,6 +6,7 @@
 #include "core/base/check.h"
 #include "core/image/metrics/flip.h"
 #include "core/math/scalar_math.h"
+#include "shading/bake/mip/level_gains.h"
 #include "shading/bake/mipnet/net.h"
 
 namespace burnish {
@@ -179,7 +180,8 @@ ShownError shown_difference(const Texels& a, const Texels& b, const ShownSurface
 
 std::vector<std::vector<ShownError>> shown_errors(const Texels& level0, const std::vector<std::vector<Texels>>& filters,
                                                   const ShownSurface& surface, const Jobs& jobs, const ShownPairs& pairs,
-                                                  const std::vector<std::vector<Texels>>& second)
+                                                  const std::vector<std::vector<Texels>>& second,
+                                                  const std::vector<std::vector<float>>& gains)
 {
     const int levels = filters.empty() ? 0 : static_cast<int>(filters[0].size());
     BN_CHECK(level0.width == level0.height && level0.width % (pairs.tiles << levels) == 0 && pairs.lamps <= kShownLamps);
@@ -213,7 +215,9 @@ std::vector<std::vector<ShownError>> shown_errors(const Texels& level0, const st
                 light_of_truth[static_cast<std::size_t>(l) - 1] += sum_of(truth, texels);
             jobs.parallel_for(filters.size(), [&](std::size_t f, int) {
                 ShownError& to = errors[f][static_cast<std::size_t>(l) - 1];
-                Numbers found = radiance_of(surface, planes[f][static_cast<std::size_t>(l) - 1], d);
+                const bool plain = f >= gains.size() || gains[f].empty();
+                const ShownSurface lit = plain ? surface : gained(surface, gains[f][static_cast<std::size_t>(l) - 1]);
+                Numbers found = radiance_of(lit, planes[f][static_cast<std::size_t>(l) - 1], d);
                 if (!others[f].empty()) {
                     const Numbers other = radiance_of(surface, others[f][static_cast<std::size_t>(l) - 1], d);
                     for (std::size_t i = 0; i < found.size(); ++i)
@@ -229,6 +233,22 @@ std::vector<std::vector<ShownError>> shown_errors(const Texels& level0, const st
     for (std::vector<ShownError>& of : errors)
         for (std::size_t l = 0; l < of.size(); ++l)
             of[l].light = light_of_truth[l] > 0.0 ? of[l].light / light_of_truth[l] : 1.0;
+    return errors;
+}
+
+std::vector<std::vector<ShownError>> judged_errors(const Texels& level0, const std::vector<std::vector<Texels>>& filters,
+                                                   const ShownSurface& surface, const Jobs& jobs, const ShownPairs& pairs,
+                                                   const std::vector<std::vector<Texels>>& second,
+                                                   const std::vector<std::vector<float>>& gains)
+{
+    constexpr int kFirstOfLight = 100000, kTimesOfLight = 24;
+    std::vector<std::vector<ShownError>> errors = shown_errors(level0, filters, surface, jobs, pairs, second, gains);
+    const int tiles = filters.empty() ? 1 : level0.width >> filters[0].size();
+    const auto light = shown_errors(level0, filters, surface, jobs,
+                                    {.first = kFirstOfLight, .times = kTimesOfLight, .tiles = tiles, .lamps = 0}, second, gains);
+    for (std::size_t f = 0; f < errors.size(); ++f)
+        for (std::size_t l = 0; l < errors[f].size(); ++l)
+            errors[f][l].light = light[f][l].light;
     return errors;
 }
 

@@ -1,35 +1,22 @@
 #include "shading/bake/mip/source.h"
 
-#include <cmath>
-#include <limits>
+#include <algorithm>
 #include <vector>
 
 #include "core/base/check.h"
 #include "core/base/hash.h"
 #include "core/math/scalar_math.h"
+#include "core/simd/dispatch.h"
 #include "shading/bake/mip/anisotropy.h"
+#include "shading/bake/mip/mean_fns.h"
 
 namespace burnish {
 
 namespace {
 
-constexpr float kWidestDisc = 0.999f; // of x and y of a unit normal
-
 float finite_or(float value, float other)
 {
     return value - value == 0.0f ? value : other;
-}
-
-// Of a normal map's numbers, whatever their length. Selects, no branches: rows of it go through lanes.
-real3 unit_normal(float scale, float red, float green, float blue)
-{
-    const float nx = scale * (2.0f * red - 1.0f), ny = scale * (2.0f * green - 1.0f), nz = std::max(2.0f * blue - 1.0f, 0.0f);
-    const float across = std::sqrt(nx * nx + ny * ny), length = std::sqrt((nx * nx + ny * ny) + nz * nz);
-    const bool any = length > 1e-6f && length <= std::numeric_limits<float>::max(), wide = across > kWidestDisc * length;
-    const float to_edge = kWidestDisc / (wide ? across : 1.0f), whole = any ? length : 1.0f; // onto the disc's edge
-    const float level_z = std::sqrt(1.0f - kWidestDisc * kWidestDisc);
-    const float x = wide ? nx * to_edge : nx / whole, y = wide ? ny * to_edge : ny / whole, z = wide ? level_z : nz / whole;
-    return vec3_of(any ? x : 0.0f, any ? y : 0.0f, any ? z : 1.0f);
 }
 
 template <class Code> void put_codes(const Image& map, std::size_t first, std::size_t channel, float most, std::size_t count, float* to)
@@ -40,25 +27,27 @@ template <class Code> void put_codes(const Image& map, std::size_t first, std::s
         to[x] = static_cast<float>(from[x * apart]) / most;
 }
 
-struct Span { // of a row of the grid
-    int x, y, count;
-};
-
-// A channel on the grid, `other` in place of what is not finite.
-void put_span(const Image& map, const Grid& grid, const Span& span, std::size_t channel, float other, float* to)
+// Of a row of the grid, channels from `first` on, `count` of them; others[k] in place of what is not finite of the k-th.
+void put_row(const Image& map, const Grid& grid, int y, int first, int count, const float* others, std::size_t stride, float* to)
 {
-    const std::size_t first = static_cast<std::size_t>(span.y) * static_cast<std::size_t>(grid.width) + static_cast<std::size_t>(span.x);
-    const std::size_t count = static_cast<std::size_t>(span.count);
+    const std::size_t texels = static_cast<std::size_t>(grid.width), at = static_cast<std::size_t>(y) * texels;
     const bool same = map.width == grid.width && map.height == grid.height;
-    const std::size_t of = map.channels >= 3 ? channel : 0;
-    if (same && map.type == PixelType::u8)
-        put_codes<std::uint8_t>(map, first, of, 255.0f, count, to);
-    else if (same && map.type == PixelType::u16)
-        put_codes<std::uint16_t>(map, first, of, 65535.0f, count, to);
-    else
-        for (int x = 0; x < span.count; ++x)
-            to[x] = on_grid(map, grid, span.x + x, span.y,
-                            [&](std::size_t texel) { return finite_or(texel_channel(map, texel, channel), other); });
+    if (same && map.type == PixelType::u8 && map.channels >= 3) {
+        const auto* codes = reinterpret_cast<const std::uint8_t*>(map.bytes.data()) + at * static_cast<std::size_t>(map.channels);
+        pick<mip::Fns>().codes({codes, map.channels, first, count, texels, stride, to});
+        return;
+    }
+    for (int k = 0; k < count; ++k, to += stride) {
+        const std::size_t channel = static_cast<std::size_t>(first + k), of = map.channels >= 3 ? channel : 0;
+        if (same && map.type == PixelType::u8)
+            put_codes<std::uint8_t>(map, at, of, 255.0f, texels, to);
+        else if (same && map.type == PixelType::u16)
+            put_codes<std::uint16_t>(map, at, of, 65535.0f, texels, to);
+        else
+            for (int x = 0; x < grid.width; ++x)
+                to[x] =
+                    on_grid(map, grid, x, y, [&](std::size_t texel) { return finite_or(texel_channel(map, texel, channel), others[k]); });
+    }
 }
 
 } // namespace
@@ -82,73 +71,99 @@ MipSource::MipSource(const MipMaps& maps) : maps_(maps), grid_(grid_of(maps))
     only_ = covariance_from_tensors(roughness * roughness, maps.anisotropy_strength, rotation_, along, along);
 }
 
+namespace {
+
+MipPoint point_at(const float* planes, std::size_t stride, std::size_t x)
+{
+    const auto at = [&](std::size_t k) { return planes[k * stride + x]; };
+    return {vec3_of(at(0), at(1), at(2)), {at(3), at(4), at(5)}};
+}
+
+} // namespace
+
+template <class Read> void MipSource::put(std::size_t count, const Read& read, float* to) const
+{
+    const mip::Fns& fns = pick<mip::Fns>();
+    const std::size_t stride = mip::row_stride(count);
+    const auto plane = [&](std::size_t k) { return to + k * stride; };
+    constexpr float kLevel[3] = {0.5f, 0.5f, 1.0f}, kZero[3] = {0.0f, 0.0f, 0.0f}, kWhole = 1.0f;
+    if (maps_.normal) {
+        read(*maps_.normal, 0, 3, kLevel, stride, to);
+        fns.normals({count, stride, maps_.normal_scale, to});
+    } else {
+        std::fill_n(plane(0), 2 * stride, 0.0f), std::fill_n(plane(2), stride, 1.0f);
+    }
+    if (maps_.roughness || maps_.direction) {
+        std::vector<float> own(7 * stride);
+        if (maps_.roughness)
+            read(*maps_.roughness, 1, 1, &kWhole, stride, own.data());
+        for (std::size_t k = 0; maps_.direction && k < 2; ++k)
+            read(tensors_[k], 0, 3, kZero, stride, own.data() + (1 + 3 * k) * stride);
+        fns.covariances({count, stride, maps_.roughness ? own.data() : nullptr, maps_.direction ? own.data() + stride : nullptr,
+                         maps_.roughness_factor, maps_.anisotropy_strength, rotation_.x, rotation_.y, plane(3)});
+    } else {
+        std::fill_n(plane(3), stride, only_.xx), std::fill_n(plane(4), stride, only_.yy), std::fill_n(plane(5), stride, only_.xy);
+    }
+    for (std::size_t k = 0; k < mip::kPointPlanes; ++k)
+        std::fill(plane(k) + count, plane(k) + stride, 0.0f);
+}
+
 MipPoint MipSource::at(int x, int y) const
 {
-    MipPoint point;
-    put(x, y, 1, &point);
-    return point;
+    float planes[mip::kPointPlanes * mip::kRowSlots] = {};
+    points(1, &x, &y, planes);
+    return point_at(planes, mip::kRowSlots, 0);
+}
+
+void MipSource::points(std::size_t count, const int* x, const int* y, float* to) const
+{
+    put(
+        count,
+        [&](const Image& map, int first, int channels, const float* others, std::size_t stride, float* out) {
+            for (int k = 0; k < channels; ++k, out += stride)
+                for (std::size_t i = 0; i < count; ++i)
+                    out[i] = on_grid(map, grid_, x[i], y[i], [&](std::size_t texel) {
+                        return finite_or(texel_channel(map, texel, static_cast<std::size_t>(first + k)), others[k]);
+                    });
+        },
+        to);
 }
 
 void MipSource::row(int y, MipPoint* to) const
 {
-    put(0, y, grid_.width, to);
+    const std::size_t width = static_cast<std::size_t>(grid_.width), stride = mip::row_stride(width);
+    std::vector<float> made(mip::kPointPlanes * stride);
+    planes(y, made.data());
+    for (std::size_t x = 0; x < width; ++x)
+        to[x] = point_at(made.data(), stride, x);
 }
 
-void MipSource::put(int first, int y, int count, MipPoint* to) const
+void MipSource::planes(int y, float* to) const
 {
-    const Span span = {first, y, count};
-    const std::size_t width = static_cast<std::size_t>(count);
-    std::vector<float> planes(16 * width);
-    const auto plane = [&](std::size_t k) { return planes.data() + k * width; };
-    float *const red = plane(0), *const green = plane(1), *const blue = plane(2), *const rough = plane(3), *const made = plane(10);
-    if (maps_.normal) {
-        put_span(*maps_.normal, grid_, span, 0, 0.5f, red), put_span(*maps_.normal, grid_, span, 1, 0.5f, green);
-        put_span(*maps_.normal, grid_, span, 2, 1.0f, blue);
-        const float scale = maps_.normal_scale;
-        for (std::size_t x = 0; x < width; ++x) {
-            const real3 n = unit_normal(scale, red[x], green[x], blue[x]);
-            made[x] = n.x, made[width + x] = n.y, made[2 * width + x] = n.z;
-        }
-    }
-    const bool varies = maps_.roughness || maps_.direction;
-    if (varies) {
-        if (maps_.roughness)
-            put_span(*maps_.roughness, grid_, span, 1, 1.0f, rough);
-        for (std::size_t k = 0; maps_.direction && k < 6; ++k)
-            put_span(tensors_[k / 3], grid_, span, k % 3, 0.0f, plane(4 + k));
-        for (std::size_t x = 0; x < width; ++x) {
-            const float own = maps_.roughness ? maps_.roughness_factor * rough[x] : maps_.roughness_factor;
-            const float roughness = std::min(std::max(own, 0.0f), 1.0f);
-            const auto power = [&](std::size_t k) {
-                return maps_.direction ? vec3_of(plane(k)[x], plane(k + 1)[x], plane(k + 2)[x]) : vec3_of(1.0f, 0.0f, 0.0f);
-            };
-            const slope_covariance s =
-                covariance_from_tensors(roughness * roughness, maps_.anisotropy_strength, rotation_, power(4), power(7));
-            made[3 * width + x] = s.xx, made[4 * width + x] = s.yy, made[5 * width + x] = s.xy;
-        }
-    }
-    for (std::size_t x = 0; x < width; ++x) {
-        const auto at = [&](std::size_t k) { return made[k * width + x]; };
-        to[x] = {maps_.normal ? vec3_of(at(0), at(1), at(2)) : vec3_of(0.0f, 0.0f, 1.0f),
-                 varies ? slope_covariance{at(3), at(4), at(5)} : only_};
-    }
+    put(
+        static_cast<std::size_t>(grid_.width),
+        [&](const Image& map, int first, int channels, const float* others, std::size_t stride, float* out) {
+            put_row(map, grid_, y, first, channels, others, stride, out);
+        },
+        to);
 }
 
 std::uint64_t MipSource::hash(const Jobs& jobs) const
 {
     std::vector<std::uint64_t> rows(static_cast<std::size_t>(grid_.height));
     jobs.parallel_for(rows.size(), [&](std::size_t y, int) {
-        std::vector<MipPoint> points(static_cast<std::size_t>(grid_.width));
-        row(static_cast<int>(y), points.data());
-        rows[y] = hash_of_row(points.data(), grid_.width);
+        std::vector<float> made(mip::kPointPlanes * mip::row_stride(static_cast<std::size_t>(grid_.width)));
+        planes(static_cast<int>(y), made.data());
+        rows[y] = hash_of_planes(made.data());
     });
     return hash_of_rows(rows);
 }
 
-std::uint64_t MipSource::hash_of_row(const MipPoint* points, int count)
+std::uint64_t MipSource::hash_of_planes(const float* planes) const
 {
-    static_assert(sizeof(MipPoint) == 6 * sizeof(float));
-    return hash_bytes(points, static_cast<std::size_t>(count) * sizeof(MipPoint));
+    std::uint32_t mixed[mip::kPointPlanes * mip::kRowSlots];
+    pick<mip::Fns>().hash({mip::row_stride(static_cast<std::size_t>(grid_.width)), planes, mixed});
+    return hash_bytes(mixed, sizeof mixed);
 }
 
 std::uint64_t MipSource::hash_of_rows(const std::vector<std::uint64_t>& rows) const

@@ -36,14 +36,19 @@ class MipSource {
     int height() const { return grid_.height; }
     const MipMaps& maps() const { return maps_; }
     void row(int y, MipPoint* to) const; // width() points
+    // The same as kPointPlanes planes, mip::row_stride(width()) apart, 0 where they are longer: x, y, z of normals, xx, yy, xy.
+    void planes(int y, float* to) const;
     MipPoint at(int x, int y) const;
+    // The same of any points, planes mip::row_stride(count) apart.
+    void points(std::size_t count, const int* x, const int* y, float* to) const;
     std::uint64_t hash(const Jobs& jobs) const; // of size and every point
-    // The same of the rows' hashes, of a row as row() writes it.
+    // The same of the rows' hashes, of a row as planes() writes it.
     std::uint64_t hash_of_rows(const std::vector<std::uint64_t>& rows) const;
-    static std::uint64_t hash_of_row(const MipPoint* points, int count);
+    std::uint64_t hash_of_planes(const float* planes) const;
 
   private:
-    void put(int first, int y, int count, MipPoint* to) const; // of a row
+    // read: (map, its channels from the first on, how many, what stands for what is not finite, stride, to)
+    template <class Read> void put(std::size_t count, const Read& read, float* to) const;
 
     MipMaps maps_;
     Grid grid_;

@@ -90,8 +90,8 @@ std::vector<Judged> judge(const std::vector<TestMaterial>& set, Lobe lobe, const
             rows.push_back({m.set, m.material.name, f.name, {}});
             pyramids.push_back(f.levels);
         }
-        const auto errors =
-            shown_errors(pyramids[0][0], judged_levels(pyramids), shown_surface(lobe, m.material.metal), jobs, {.times = kJudgedPairs});
+        const ShownSurface surface = shown_surface(lobe, m.material.metal);
+        const auto errors = judged_errors(pyramids[0][0], judged_levels(pyramids), surface, jobs, {.times = kJudgedPairs});
         for (std::size_t f = 0; f < rows.size(); ++f)
             std::copy(errors[f].begin(), errors[f].end(), rows[f].level + 1);
         for (Judged& row : rows) {

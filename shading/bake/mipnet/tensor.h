@@ -113,11 +113,12 @@ template <class V> BN_FN V phong_normals(const lobe_place<V>& x, const local<V>&
     return norm * power * lit(0.039788735772973836);
 }
 
-// Reflected radiance. Lobes by number: Lobe of mipnet_fns.h.
-template <int lobe, class V> BN_FN V radiance(const lobe_place<V>& x, const light& l)
+// Reflected radiance. Lobes by number: Lobe of mipnet_fns.h. What turns away from the light is dark, and from the eye, but where
+// `seen_anyhow`: there it is as at grazing angles, as frames have it.
+template <int lobe, bool seen_anyhow = false, class V> BN_FN V radiance(const lobe_place<V>& x, const light& l)
 {
     local<V> h = local_of(x.f, l.h), i = local_of(x.f, l.i), o = local_of(x.f, l.o);
-    const mask front = both(value(i.n) > lit(1e-4), value(o.n) > lit(1e-4));
+    const mask lit_side = value(i.n) > lit(1e-4), front = seen_anyhow ? lit_side : both(lit_side, value(o.n) > lit(1e-4));
     h.n = max(h.n, lit(1e-3)), i.n = max(i.n, lit(1e-4)), o.n = max(o.n, lit(1e-4));
     const real shown = select(front, l.intensity, lit(0.0));
     if constexpr (lobe == 0) {
