@@ -79,10 +79,6 @@ void Bins::Chunk::sort_by_tile(const FrameParams& f)
     tile_begin.resize(tiles + 1);
     const auto each_tile = [&](std::uint32_t i, const auto& visit) {
         const std::uint32_t first = first_tile[i], last = last_tile[i];
-        if (first == last) { // most of many
-            visit((first >> 16) * static_cast<std::uint32_t>(f.tiles_x) + (first & 0xffff));
-            return;
-        }
         const std::uint32_t x0 = first & 0xffff, x1 = last & 0xffff, y0 = first >> 16, y1 = last >> 16;
         const std::uint32_t kFew = 6; // tiles that are not looked at closely
         if ((x1 - x0 + 1) * (y1 - y0 + 1) < kFew || x0 == x1 || y0 == y1) {
@@ -99,8 +95,19 @@ void Bins::Chunk::sort_by_tile(const FrameParams& f)
                 visit(y * static_cast<std::uint32_t>(f.tiles_x) + static_cast<std::uint32_t>(x));
         }
     };
-    for (std::uint32_t i = 0; i < output.count; ++i)
-        each_tile(i, [&](std::uint32_t tile) { ++tile_begin[tile]; });
+    // One after the other, those that follow each other in one tile together, as most of many do: visit(tile, first entry, entries).
+    const auto each_run = [&](const auto& visit) {
+        for (std::uint32_t i = 0; i < output.count;) {
+            const std::uint32_t begin = i, corner = first_tile[i];
+            while (i < output.count && first_tile[i] == corner && last_tile[i] == corner)
+                ++i;
+            if (i > begin)
+                visit((corner >> 16) * static_cast<std::uint32_t>(f.tiles_x) + (corner & 0xffff), begin, i - begin);
+            else
+                each_tile(i++, [&](std::uint32_t tile) { visit(tile, begin, 1u); });
+        }
+    };
+    each_run([&](std::uint32_t tile, std::uint32_t, std::uint32_t n) { tile_begin[tile] += n; });
     std::uint64_t sum = 0;
     for (std::size_t t = 0; t <= tiles; ++t) {
         const std::uint32_t count = tile_begin[t];
@@ -109,8 +116,10 @@ void Bins::Chunk::sort_by_tile(const FrameParams& f)
         BN_CHECK_OP(sum, <=, 0xffffffffu);
     }
     list.resize(sum);
-    for (std::uint32_t i = 0; i < output.count; ++i)
-        each_tile(i, [&](std::uint32_t tile) { list[tile_begin[tile]++] = entries[i]; });
+    each_run([&](std::uint32_t tile, std::uint32_t from, std::uint32_t n) {
+        std::copy_n(entries.data() + from, n, list.data() + tile_begin[tile]);
+        tile_begin[tile] += n;
+    });
     for (std::size_t t = tiles; t > 0; --t) // every begin has moved to its end, the next one's begin
         tile_begin[t] = tile_begin[t - 1];
     tile_begin[0] = 0;
@@ -215,8 +224,14 @@ std::size_t Bins::triangles_in(const TilePart& part) const
 std::size_t Bins::gather(const TilePart& part, std::uint32_t* entries, TriangleSetup* triangles, Column<ClipRecord>& clips) const
 {
     std::size_t to = 0, pieces = 0;
-    for (std::size_t i = 0; i < used_; ++i)
-        for (const std::uint32_t entry : chunks_[i]->entries_of(part)) {
+    for (std::size_t i = 0; i < used_; ++i) {
+        const std::span<const std::uint32_t> of_chunk = chunks_[i]->entries_of(part);
+        if (chunks_[i]->output.piece_count == 0) {
+            std::copy(of_chunk.begin(), of_chunk.end(), entries + to);
+            to += of_chunk.size();
+            continue;
+        }
+        for (const std::uint32_t entry : of_chunk) {
             const std::size_t at = to++;
             entries[at] = entry;
             if (!(entry & kClippedEntry))
@@ -228,6 +243,7 @@ std::size_t Bins::gather(const TilePart& part, std::uint32_t* entries, TriangleS
             triangles[at].vertex[0] = static_cast<std::int32_t>(pieces);
             clips[pieces++] = piece.record;
         }
+    }
     return pieces;
 }
 
