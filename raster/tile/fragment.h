@@ -63,34 +63,39 @@ BN_INLINE void load_setup(const TileScratch& scratch, integer triangle, std::int
 }
 
 // What assembly asks of triangles: shading/lang/triangle.h.
+
+// Words c to c + 3 where all fragments are of one whole triangle.
+BN_INLINE void blend_common(any_frame f, const LaneSetup& t, real3 b, int c, real to[4])
+{
+    const auto words = [&](int k) { return f.shading_vertices + std::size_t{16} * static_cast<std::uint32_t>(t.common_vertex[k]) + c; };
+    const float *const v0 = words(0), *const v1 = words(1), *const v2 = words(2);
+    to[0] = b.x * splat(v0[0]) + b.y * splat(v1[0]) + b.z * splat(v2[0]);
+    to[1] = b.x * splat(v0[1]) + b.y * splat(v1[1]) + b.z * splat(v2[1]);
+    to[2] = b.x * splat(v0[2]) + b.y * splat(v1[2]) + b.z * splat(v2[2]);
+    to[3] = b.x * splat(v0[3]) + b.y * splat(v1[3]) + b.z * splat(v2[3]);
+}
+
 BN_INLINE real4 blend_coordinates(any_frame f, const LaneSetup& t, real3 b)
 {
     real r[4];
-    blend_quad(f.shading_vertices + 8, t.vertex[0], t.vertex[1], t.vertex[2], b.x, b.y, b.z, r);
+    if (t.common_vertex[0] == kManyTriangles)
+        blend_quad(f.shading_vertices + 8, t.vertex[0], t.vertex[1], t.vertex[2], b.x, b.y, b.z, r);
+    else
+        blend_common(f, t, b, 8, r);
     return vec4_of(r[0], r[1], r[2], r[3]);
 }
 
 BN_INLINE void blend_vertices(any_frame f, const LaneSetup& t, real3 b, bool all_words, vertex_words& a)
 {
-    if (t.common_vertex[0] == kManyTriangles) {
+    if (t.common_vertex[0] != kManyTriangles) {
+        blend_common(f, t, b, 0, a.at), blend_common(f, t, b, 4, a.at + 4);
         if (all_words)
-            blend_records(f.shading_vertices, t.vertex[0], t.vertex[1], t.vertex[2], b.x, b.y, b.z, a.at);
-        else
-            blend_records_low(f.shading_vertices, t.vertex[0], t.vertex[1], t.vertex[2], b.x, b.y, b.z, a.at);
-        return;
+            blend_common(f, t, b, 8, a.at + 8), blend_common(f, t, b, 12, a.at + 12);
+    } else if (all_words) {
+        blend_records(f.shading_vertices, t.vertex[0], t.vertex[1], t.vertex[2], b.x, b.y, b.z, a.at);
+    } else {
+        blend_records_low(f.shading_vertices, t.vertex[0], t.vertex[1], t.vertex[2], b.x, b.y, b.z, a.at);
     }
-    const float* v0 = f.shading_vertices + std::size_t{16} * static_cast<std::uint32_t>(t.common_vertex[0]);
-    const float* v1 = f.shading_vertices + std::size_t{16} * static_cast<std::uint32_t>(t.common_vertex[1]);
-    const float* v2 = f.shading_vertices + std::size_t{16} * static_cast<std::uint32_t>(t.common_vertex[2]);
-    const auto four = [&](int c) {
-        a.at[c] = b.x * splat(v0[c]) + b.y * splat(v1[c]) + b.z * splat(v2[c]);
-        a.at[c + 1] = b.x * splat(v0[c + 1]) + b.y * splat(v1[c + 1]) + b.z * splat(v2[c + 1]);
-        a.at[c + 2] = b.x * splat(v0[c + 2]) + b.y * splat(v1[c + 2]) + b.z * splat(v2[c + 2]);
-        a.at[c + 3] = b.x * splat(v0[c + 3]) + b.y * splat(v1[c + 3]) + b.z * splat(v2[c + 3]);
-    };
-    four(0), four(4);
-    if (all_words)
-        four(8), four(12);
 }
 
 BN_INLINE real3 vertex_place(any_frame f, const LaneSetup& t, int k)
