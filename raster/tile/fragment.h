@@ -75,14 +75,15 @@ BN_INLINE void blend_common(any_frame f, const LaneSetup& t, real3 b, int c, rea
     to[3] = b.x * splat(v0[3]) + b.y * splat(v1[3]) + b.z * splat(v2[3]);
 }
 
-BN_INLINE real4 blend_coordinates(any_frame f, const LaneSetup& t, real3 b)
+BN_INLINE real4 vertex_coordinates(any_frame f, const LaneSetup& t, int k)
 {
-    real r[4];
-    if (t.common_vertex[0] == kManyTriangles)
-        blend_quad(f.shading_vertices + 8, t.vertex[0], t.vertex[1], t.vertex[2], b.x, b.y, b.z, r);
-    else
-        blend_common(f, t, b, 8, r);
-    return vec4_of(r[0], r[1], r[2], r[3]);
+    if (t.common_vertex[0] != kManyTriangles) {
+        const float* const v = f.shading_vertices + std::size_t{16} * static_cast<std::uint32_t>(t.common_vertex[k]) + 8;
+        return vec4_of(splat(v[0]), splat(v[1]), splat(v[2]), splat(v[3]));
+    }
+    integer words[4];
+    load_quads(f.shading_vertices + 8, shl(t.vertex[k], 2), words);
+    return vec4_of(real_from_bits(words[0]), real_from_bits(words[1]), real_from_bits(words[2]), real_from_bits(words[3]));
 }
 
 BN_INLINE void blend_vertices(any_frame f, const LaneSetup& t, real3 b, bool all_words, vertex_words& a)

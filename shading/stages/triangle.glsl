@@ -33,9 +33,10 @@ void blend_vertices(int f, triangle_setup t, real3 b, bool all_words, inout vert
     for (int word = 0; word < (all_words ? 16 : 8); ++word)
         a.at[word] = blend_word(t, b, word);
 }
-real4 blend_coordinates(int f, triangle_setup t, real3 b)
+real4 vertex_coordinates(int f, triangle_setup t, int k)
 {
-    return vec4(blend_word(t, b, 8), blend_word(t, b, 9), blend_word(t, b, 10), blend_word(t, b, 11));
+    int vertex = t.vertex[k];
+    return vec4(vertex_word(vertex, 8), vertex_word(vertex, 9), vertex_word(vertex, 10), vertex_word(vertex, 11));
 }
 real3 vertex_place(int f, triangle_setup t, int k) { return vertex_position(t.vertex[k]); }
 

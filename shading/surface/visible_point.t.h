@@ -21,6 +21,23 @@ BN_FN real3 blend_normal(frame_ref f, triangle_ref t, real3 b)
     return real3_of_words(a, 0);
 }
 
+struct corner_coordinates { // both sets of texture coordinates at a triangle's vertices
+    real4 of0, of1, of2;
+};
+BN_FN corner_coordinates coordinates_of(frame_ref f, triangle_ref t)
+{
+    corner_coordinates c;
+    c.of0 = vertex_coordinates(f, t, 0);
+    c.of1 = vertex_coordinates(f, t, 1);
+    c.of2 = vertex_coordinates(f, t, 2);
+    return c;
+}
+BN_FN real4 blend_corners(BN_IN(corner_coordinates) c, real3 b)
+{
+    real4 blend = b.x * c.of0 + b.y * c.of1 + b.z * c.of2;
+    return blend;
+}
+
 // view: the frame's. px, py: pixel in the image. samples: mask of those that the triangle covers there. uses_color, textured, lights: what
 // is asked for (shading/visible_point.def). It lies at the pixel's centre where the triangle covers that; else at the mean of the covered
 // samples, which lies in the triangle.
@@ -70,9 +87,10 @@ BN_FN visible_point point_of(frame_ref f, BN_IN(view_params) view, triangle_ref 
     }
     if (!textured)
         return p;
-    real4 here = blend_coordinates(f, t, center.b);
-    real4 dx = (blend_coordinates(f, t, wx.b) - here) * to_real(int_lit(1) - shl(odd_x, 1));
-    real4 dy = (blend_coordinates(f, t, wy.b) - here) * to_real(int_lit(1) - shl(odd_y, 1));
+    corner_coordinates corners = coordinates_of(f, t);
+    real4 here = blend_corners(corners, center.b);
+    real4 dx = (blend_corners(corners, wx.b) - here) * to_real(int_lit(1) - shl(odd_x, 1));
+    real4 dy = (blend_corners(corners, wy.b) - here) * to_real(int_lit(1) - shl(odd_y, 1));
     p.uv0_dx = vec2_of(dx.x, dx.y);
     p.uv0_dy = vec2_of(dy.x, dy.y);
     p.uv1_dx = vec2_of(dx.z, dx.w);
@@ -83,12 +101,13 @@ BN_FN visible_point point_of(frame_ref f, BN_IN(view_params) view, triangle_ref 
 BN_FN relief_plane relief_plane_of(frame_ref f, triangle_ref t)
 {
     real3 corner = vertex_place(f, t, 0);
-    real4 coordinates = blend_coordinates(f, t, vec3_of(lit(1.0), lit(0.0), lit(0.0)));
+    corner_coordinates corners = coordinates_of(f, t);
+    real4 coordinates = blend_corners(corners, vec3_of(lit(1.0), lit(0.0), lit(0.0)));
     relief_plane p;
     p.along = vertex_place(f, t, 1) - corner;
     p.across = vertex_place(f, t, 2) - corner;
-    p.coordinates_along = blend_coordinates(f, t, vec3_of(lit(0.0), lit(1.0), lit(0.0))) - coordinates;
-    p.coordinates_across = blend_coordinates(f, t, vec3_of(lit(0.0), lit(0.0), lit(1.0))) - coordinates;
+    p.coordinates_along = blend_corners(corners, vec3_of(lit(0.0), lit(1.0), lit(0.0))) - coordinates;
+    p.coordinates_across = blend_corners(corners, vec3_of(lit(0.0), lit(0.0), lit(1.0))) - coordinates;
     return p;
 }
 

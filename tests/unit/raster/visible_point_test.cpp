@@ -30,11 +30,10 @@ void blend_vertices(const ShadingFrame&, const WholeTriangle& t, real3 b, bool a
         a.at[i] =
             b.x * static_cast<float>(t.words[0][i]) + b.y * static_cast<float>(t.words[1][i]) + b.z * static_cast<float>(t.words[2][i]);
 }
-real4 blend_coordinates(const ShadingFrame& f, const WholeTriangle& t, real3 b)
+real4 vertex_coordinates(const ShadingFrame&, const WholeTriangle& t, int k)
 {
-    vertex_words a;
-    blend_vertices(f, t, b, true, a);
-    return real4_of_words(a, 8);
+    const double* const w = t.words[k] + 8;
+    return {static_cast<float>(w[0]), static_cast<float>(w[1]), static_cast<float>(w[2]), static_cast<float>(w[3])};
 }
 real3 vertex_place(const ShadingFrame&, const WholeTriangle& t, int k)
 {
