@@ -128,7 +128,9 @@ Result<Session*> Darkroom::session_of(const AtlasSetting& setting)
 
 Result<Session*> Darkroom::reference_of(const AtlasSetting& setting, const ReferenceOptions& options)
 {
-    const std::string key = fmt::format("{}\n{} {}", parts_key(setting), options.samples, options.full_textures);
+    const std::string key =
+        fmt::format("{}\n{} {} {} {} {} {} {}", parts_key(setting), options.samples, options.full_textures, static_cast<int>(options.mode),
+                    static_cast<int>(options.strategy), options.bounces, options.area_lights_only, options.target_error);
     if (const auto found = references_.find(key); found != references_.end())
         return &found->second;
     const Result<const SessionParts*> parts = parts_of(setting);

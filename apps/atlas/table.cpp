@@ -25,8 +25,6 @@ apps/atlas/blessed.md` writes this page, `burnish atlas` holds what it measures 
 the kind. The kind is found, not written: precision, where doubles leave less than half of the error; sampling, where 64 times the samples do; filtering,
 where a truth that filters textures alike does; else approximation.
 
-All 81 entries took 1707 s of CPU time in full and 122 in quick steps, from an empty cache (2-core AMD EPYC with AVX-512, one thread, 2026-11-24).
-
 )";
 
 std::string trimmed(const std::string& text)

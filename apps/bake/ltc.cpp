@@ -166,6 +166,8 @@ int run_ltc(const LtcBake& b, const OptionTable& given)
     const LtcArguments& a = b.options;
     if (Status checked = check_arguments(b, given); !checked)
         return fail(checked.error());
+    if (Status fits = check_preview(b.preview, names_of_ltc(), {b.output, a.table}); !fits)
+        return fail(fits.error());
     Report report(b.quiet, b.verbosity);
     const Jobs jobs(b.threads);
     const Result<std::optional<ltc::Table>> table = table_of(b, given, jobs, report);
@@ -176,13 +178,9 @@ int run_ltc(const LtcBake& b, const OptionTable& given)
         report.event("stopped", fmt::format("the same command goes on from {}.part; no table was written", b.output));
         return 128 + stop_signal(); // as a shell reports a process that a signal ended
     }
-    if (!b.preview.empty()) {
-        const Preview pictures = preview_of_ltc(**table);
-        if (Status fits = check_preview(b.preview, pictures, {b.output, a.table}); !fits)
-            return fail(fits.error());
-        if (Status written = write_preview(b.preview, pictures, report); !written)
+    if (!b.preview.empty())
+        if (Status written = write_preview(b.preview, preview_of_ltc(**table), report); !written)
             return fail(written.error());
-    }
     if (a.report.empty())
         return 0;
     const LtcQuality quality = measure_ltc(**table, a.cosines, jobs);

@@ -135,6 +135,8 @@ int run_mip(const MipBake& bake)
     const bool pyramid = a.format == MipFormat::pyramid;
     if (pyramid && (a.couple_albedo || a.color_kernel != ColourKernel::box))
         return fail(usage_error(a.couple_albedo ? "--couple" : "--color-kernel", "is of textures: --format exr-mip or png-levels"));
+    if (!pyramid && !bake.preview.empty() && same_file(bake.preview, bake.output))
+        return fail(usage_error("--preview", "is the folder of -o, whose textures it could write over"));
     if (pyramid)
         if (const Status path = check_text_path("-o", bake.output, {bake.material}); !path)
             return fail(path.error());
@@ -155,6 +157,8 @@ int run_mip(const MipBake& bake)
     Report report(bake.quiet, bake.verbosity);
     for (const std::string& warning : scene.warnings)
         report.warning(warning);
+    if (a.gains && !takes_gains(a.filter))
+        report.warning(fmt::format("--mip-gain has no effect with --mip-filter {}", name_of(a.filter)));
     const Jobs jobs(bake.threads);
     const double begin_ms = wall_ms();
     std::optional<Progress> progress;

@@ -243,11 +243,19 @@ Preview preview_of_heights(const Image& heights, double depth)
     return {{"heights", enlarged(grey)}, {"normals", enlarged(colours_of_vectors(heights.width, heights.height, normals.data(), 3))}};
 }
 
+Preview names_of_ltc()
+{
+    Preview pictures;
+    for (std::size_t channel = 0; channel < ltc::kChannels; ++channel)
+        pictures.push_back({channel < 9 ? fmt::format("m{}{}", channel / 3, channel % 3) : channel == 9 ? "nD" : "fD", {}});
+    return pictures;
+}
+
 Preview preview_of_ltc(const ltc::Table& table)
 {
     const auto [thetas, phis, alphas, lambdas] = table.grid.sizes();
     const int width = alphas * lambdas;
-    Preview pictures;
+    Preview pictures = names_of_ltc();
     for (std::size_t channel = 0; channel < ltc::kChannels; ++channel) {
         Image values = make_image(width, thetas * phis, 1, PixelType::f32);
         const std::size_t count = pixels_of(values);
@@ -259,8 +267,7 @@ Preview preview_of_ltc(const ltc::Table& table)
         }
         for (std::size_t i = 0; i < count; ++i)
             values.f32()[i] = most > least ? (values.f32()[i] - least) / (most - least) : 0.0f;
-        const std::string name = channel < 9 ? fmt::format("m{}{}", channel / 3, channel % 3) : channel == 9 ? "nD" : "fD";
-        pictures.push_back({name, enlarged(magma_map(values))});
+        pictures[channel].image = enlarged(magma_map(values));
     }
     return pictures;
 }

@@ -40,5 +40,6 @@ Preview preview_of_heights(const Image& heights, double depth);
 // "m00" to "m22", "nD", "fD": entries, each between its least and its most; theta and within it phi go down, alpha and within it lambda
 // to the right.
 Preview preview_of_ltc(const ltc::Table& table);
+Preview names_of_ltc(); // the same without pictures, before there is a table
 
 } // namespace burnish

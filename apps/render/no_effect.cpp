@@ -40,7 +40,9 @@ void warn_of_no_effect(const OptionTable& given, RenderOptions& out)
     const std::string of_filter = std::string("--mip-filter ") + mip_filters()[static_cast<std::size_t>(out.dress.mip_filter)].name;
     if (!takes_kappa(out.dress.mip_filter))
         warn("--mip-kappa", of_filter);
-    if (!takes_gains(out.dress.mip_filter) && out.dress.mip_pyramid.empty())
+    if (!out.dress.mip_pyramid.empty() && !given.given("--mip-filter"))
+        warn("--mip-gain", "--mip-pyramid, whose file says its filter");
+    else if (!takes_gains(out.dress.mip_filter))
         warn("--mip-gain", of_filter);
     if (!takes_net(out.dress.mip_filter))
         warn("--mip-net", of_filter);

@@ -129,7 +129,8 @@ Status check_mips(const Scene& scene, const std::string& path)
         const std::uint64_t hash = mip_source(scene, m).hash(jobs);
         if (std::none_of(scene.mips->begin(), scene.mips->end(), [&](const MipLevels& levels) { return fits(levels, hash, scene, m); }))
             return Error{ExitCode::bad_input, path, "",
-                         "holds no levels of material '" + m.name + "' by this filter, whose maps hash to " + hexadecimal(hash)};
+                         "holds no levels of material '" + m.name + "' by this filter, gain and model, whose maps hash to " +
+                             hexadecimal(hash)};
     }
     return any ? Status() : Error{ExitCode::bad_input, path, "", "the scene has no maps that its filter makes levels of"};
 }

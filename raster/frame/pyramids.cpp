@@ -125,16 +125,24 @@ float slope_scale(const Material& m)
     return m.tilt_tex.used() ? m.tilt_scale : m.normal_scale;
 }
 
+// Whether its levels have gains; what lets light through would pass no less by them.
+bool has_gains(const Material& m)
+{
+    return m.mip_gains && takes_gains(m.mip_filter) && m.transmission == 0.0f;
+}
+
 // The first material with the same moments.
 std::int32_t owner_of(const Scene& scene, std::size_t material, bool overridden)
 {
     const auto content = [&](const Material& m) {
         const Moments of = moments_of(scene, m, overridden);
         const bool own = makes_lobes(m.mip_filter);
+        const bool gains = has_gains(m);
+        const bool of_metal = gains || m.mip_filter == kMipFilter_teacher; // whose levels are made for a metal or for a dielectric
         return std::tuple(of.kind, of.slopes ? of.slopes->texture : kNone, of.slopes == &m.tilt_tex,
                           of.direction || of.filtered ? m.anisotropy_tex.texture : kNone, slope_scale(m), m.roughness,
                           m.anisotropy_strength, m.anisotropy_rotation, of.filtered, own ? m.mip_filter : MipFilter{},
-                          own ? m.mip_kappa : 0.0f, m.mip_net.get(), own ? m.metallic : 0.0f, own && m.mip_gains && m.transmission == 0.0f,
+                          own ? m.mip_kappa : 0.0f, m.mip_net.get(), of_metal ? m.metallic : 0.0f, gains,
                           of.filtered ? m.normal_tex.texture : kNone, of.filtered ? m.metallic_roughness_tex.texture : kNone);
     };
     const auto wanted = content(scene.materials[material]);
@@ -218,7 +226,7 @@ TexturePyramid filtered_pyramid(const Scene& scene, const Texture& sampler, cons
     const Material& m = scene.materials[static_cast<std::size_t>(key.material)];
     const MipSource source = mip_source(scene, m);
     const float gain = gain_of_taps(m.mip_filter, m.mip_kappa);
-    const bool gains = m.mip_gains && m.transmission == 0.0f; // what is let through is no less
+    const bool gains = has_gains(m);
     // Normals as their map has them: what shading multiplies by the scale; alpha is the map's own.
     const bool normals = key.tensor_power == 0;
     const float unscale = std::abs(m.normal_scale) > 1e-3f ? 0.5f / m.normal_scale : 0.0f;
@@ -311,7 +319,8 @@ bool fits(const MipLevels& levels, std::uint64_t source, const Scene& scene, con
     const bool taught = m.mip_filter == kMipFilter_teacher, metal = taught && is_metal(scene, m);
     return levels.source == source && levels.filter == m.mip_filter && (!takes_kappa(m.mip_filter) || levels.kappa == m.mip_kappa) &&
            (!m.mip_net || levels.net == levels_hash(*m.mip_net, m.mip_filter, metal)) &&
-           (!taught || (levels.net & 1u) == (metal ? 1u : 0u)) && (levels.gained == 0 || gained_metal(levels.gained) == is_metal(scene, m));
+           (!taught || (levels.net & 1u) == (metal ? 1u : 0u)) &&
+           (!has_gains(m) || levels.gained == gained_of(static_cast<mipnet::Lobe>(m.mip_lobe), is_metal(scene, m)));
 }
 
 MaterialLevels filtered_levels(const Scene& scene, const Jobs& jobs, const TaughtTexels& advance)

@@ -35,7 +35,7 @@ def mistakes(bench):
     bench.run("atlas", FAST, "-o", "file/folder").expect(7).expect_one_line("file/folder")
     bench.run("atlas", FAST, "--json", "nowhere/a.json").expect(7).expect_one_line("nowhere")
     bench.run("atlas", FAST, "--table", "no.md").expect(4).expect_one_line("no.md")
-    scratch(bench, "t.md", "Version 2\n## quick\n| a | b | c | d | e | f |\n")
+    scratch(bench, "t.md", "Version 3\n## quick\n| a | b | c | d | e | f |\n")
     bench.run("atlas", FAST, "--table", "t.md").expect(4).expect_one_line("t.md", "is no row")
     check(bench.left_behind() == ["file", "t.md"], f"{bench.left_behind()}")
 
@@ -63,7 +63,7 @@ def held(bench):
         done = bench.run(*words, "--table", "other.md").expect(code)
         check(says in done.err and FAST in done.err, done.describe())
     # a table of another version is said, not compared
-    scratch(bench, "other.md", table.replace("Version 2", "Version 9"))
+    scratch(bench, "other.md", table.replace("Version 3", "Version 9"))
     done = bench.run(*words, "--table", "other.md").expect(0)
     check("version 9" in done.err and "nothing is compared" in done.err, done.describe())
     # a change that breaks it

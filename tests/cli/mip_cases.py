@@ -157,6 +157,13 @@ def baked(bench):
           "a file does not keep its gains")
     check(hash_of(bench, *words, "--mip-filter", "kappa", "--mip-pyramid", "lit.mip") == hash_of(bench, *words, "--mip-filter", "kappa") != gained,
           "gains are not off by themselves")
+    for file, more in (("kappa.mip", ()), ("lit.mip", ("--brdf", "beckmann"))): # without gains, and with those of other lobes
+        bench.run("render", *words, "--mip-filter", "kappa", "--mip-gain", "on", "--mip-pyramid", file, *more, "-o", "m.pfm").expect(4)
+    done = bench.run("render", *words, "--mip-pyramid", "kappa.mip", "--mip-gain", "on", "-o", "m.pfm").expect(0)
+    check("--mip-gain has no effect with --mip-pyramid" in done.err, done.describe())
+    done = bench.run("bake", "mip", "set", "--mip-filter", "baseline", "--mip-gain", "on", "-o", "b.mip").expect(0)
+    check("--mip-gain has no effect with --mip-filter baseline" in done.err, done.describe())
+    bench.run("bake", "mip", "set", "--format", "png-levels", "-o", "both", "--preview", "both").expect(2)
     beckmann = (*words, "--brdf", "beckmann", "--mip-filter", "kappa")
     check(hash_of(bench, *beckmann) == hash_of(bench, *beckmann, "--mip-kappa", "0.7") == hash_of(bench, *beckmann, "--mip-pyramid", "wide.mip"),
           "kappa 0.7 is not Beckmann's default")

@@ -65,7 +65,7 @@ TEST(atlas_table, one_row_is_found_as_all_are_read)
             EXPECT_EQ(found->kind, row.kind) << id;
         }
     const std::string two =
-        "Version 2\n\n## quick\n\n| a | 0.5 | 1 | 0 | - | - | none |\n\n## full\n\n| b | 0.5 | 1 | 0 | - | - | none |\n";
+        "Version 3\n\n## quick\n\n| a | 0.5 | 1 | 0 | - | - | none |\n\n## full\n\n| b | 0.5 | 1 | 0 | - | - | none |\n";
     EXPECT_TRUE(find_row(two, "full", "b"));
     EXPECT_FALSE(find_row(two, "quick", "b"));
     EXPECT_FALSE(find_row(two, "full", "a"));
@@ -75,8 +75,8 @@ TEST(atlas_table, one_row_is_found_as_all_are_read)
 TEST(atlas_table, what_is_no_table_is_refused)
 {
     for (const char* text :
-         {"", "# Where methods break\n", "Version 2\n\n## quick\n\n| a | b |\n", "Version 2\n| a | 0.5 | 0.1 | 0 | - | 0 | none |\n",
-          "Version 2\n## quick\n| a | x | 0.1 | 0 | - | 0 | none |\n", "Version x\n"})
+         {"", "# Where methods break\n", "Version 3\n\n## quick\n\n| a | b |\n", "Version 3\n| a | 0.5 | 0.1 | 0 | - | 0 | none |\n",
+          "Version 3\n## quick\n| a | x | 0.1 | 0 | - | 0 | none |\n", "Version x\n"})
         EXPECT_FALSE(parse_table(text, "t.md")) << text;
     EXPECT_EQ(parse_table("Version 7\n## quick\n| a | b |\n", "t.md")->version, 7); // whose rows mean something else
 }
