@@ -190,7 +190,7 @@ Json resolution_json(const LtcResolutions& all)
 
 Drawing plot_resolutions(const LtcResolutions& all)
 {
-    constexpr double kBall = 190.0, kGap = 16.0, kTop = 64.0, kTimes = 5.0;
+    constexpr double kBall = 190.0, kGap = 16.0, kFirstBall = 64.0, kTimes = 5.0;
     std::vector<const LtcResolution*> drawn;
     for (const LtcResolution& row : all.rows)
         if (!row.pixels.empty())
@@ -198,19 +198,19 @@ Drawing plot_resolutions(const LtcResolutions& all)
     double most = 1e-9;
     for (const double v : all.reference)
         most = std::max(most, std::isnan(v) ? 0.0 : v);
-    Drawing out(kGap + (kBall + kGap) * (1.0 + static_cast<double>(drawn.size())), kTop + 2.0 * (kBall + 44.0) + 40.0, "chart",
+    Drawing out(kGap + (kBall + kGap) * (1.0 + static_cast<double>(drawn.size())), kFirstBall + 2.0 * (kBall + 44.0) + 40.0, "chart",
                 "Transformed cosines by finer tables");
     out.text(kGap, 24.0, "name",
              fmt::format("A brushed ball of alpha {:g} and {:g} under two strips; below, how far from GGX, {:g} times", kAlpha,
                          kAlpha * kLambda, kTimes));
     const auto place = [&](std::size_t column) { return kGap + (kBall + kGap) * static_cast<double>(column); };
-    draw_pixels(out, all.reference, place(0), kTop, kBall, most);
-    out.text(place(0) + kBall / 2.0, kTop - 8.0, "title middle", "GGX");
+    draw_pixels(out, all.reference, place(0), kFirstBall, kBall, most);
+    out.text(place(0) + kBall / 2.0, kFirstBall - 8.0, "title middle", "GGX");
     for (std::size_t i = 0; i < drawn.size(); ++i) {
         const LtcResolution& row = *drawn[i];
-        const double x = place(i + 1), below = kTop + kBall + 44.0;
-        draw_pixels(out, row.pixels, x, kTop, kBall, most);
-        out.text(x + kBall / 2.0, kTop - 8.0, "title middle", row.name);
+        const double x = place(i + 1), below = kFirstBall + kBall + 44.0;
+        draw_pixels(out, row.pixels, x, kFirstBall, kBall, most);
+        out.text(x + kBall / 2.0, kFirstBall - 8.0, "title middle", row.name);
         draw_pixels(out, row.apart, x, below, kBall, most / kTimes);
         out.text(x + kBall / 2.0, below - 8.0, "tick middle", fmt::format("mean {:.5f}", row.mean_apart));
     }
