@@ -15,8 +15,8 @@ bool is_trial_table(const std::string& path);
 // well, trial:inverse with --interpolate inverse, but fitted by fewer directions. Made once. Errors: no such name.
 Result<std::shared_ptr<const ltc::ShadingTables>> trial_table(const std::string& path, const Jobs& jobs);
 
-// As `burnish bake half-vectors --size 256x256` makes them, for the lobe of alpha_lin and eta, each in [0,1]: trial:floats in .exr,
-// trial:eight-bits in .png. Errors: no such name.
+// As `burnish bake half-vectors --size 256x256` makes them, but by exponents that are not rounded, for the lobe of alpha_lin and eta, each
+// in [0,1]: trial:floats in .exr, trial:eight-bits in .png. Errors: no such name.
 Result<std::shared_ptr<const PhongFiles>> trial_half_vectors(const std::string& path, double alpha_lin, double eta);
 
 } // namespace burnish
