@@ -1,7 +1,7 @@
 // Draws small frames for valgrind to count their instructions, one thread and AVX2. Each workload is drawn once before it counts, so
 // memory has grown and pages are there; then one frame is counted and its figures go to a file of its own. See count.py. Given the names
 // of some it counts these, NAME@WIDTHxHEIGHT in another size (mix.py); given TECHNIQUE:SAMPLES:ALPHA_LIN:ETA, that on the inside of a
-// brushed sphere (lobe_line.py).
+// brushed sphere (lobe_line.py). --steps counts without valgrind, AVX-512 and smaller frames.
 #include <cmath>
 #include <cstdio>
 #include <fmt/format.h>
@@ -11,6 +11,7 @@
 #include <tuple>
 
 #include "bench/frame/subject.h"
+#include "bench/instructions/step_counter.h"
 #include "bench/scenes/figures.h"
 #include "raster/tile/tile_renderer.h"
 
@@ -64,6 +65,16 @@ std::vector<Workload> named_workloads()
     return list;
 }
 
+// Those that are counted step by step: a tile each, as a step takes thousands of cycles.
+std::vector<Workload> stepped_workloads()
+{
+    constexpr int W = 48, H = 27;
+    return {{"triangles_1x", "instructions", BenchScene::waves, 300, W, H, 1},
+            {"textures_1", "instructions", BenchScene::textured, 1, W, H, 1},
+            {"bent_normal", "instructions", BenchScene::sphere, 0, W, H, 1, "bent_normal", 0, 0.8f},
+            {"major_axis_weighted", "instructions", BenchScene::sphere, 0, W, H, 1, "major_axis_weighted", 0, 0.8f}};
+}
+
 // NAME or NAME@WIDTHxHEIGHT; nothing where it is none.
 std::optional<Workload> known(const char* text)
 {
@@ -101,6 +112,34 @@ std::optional<Workload> place(const char* text)
         return std::nullopt;
     w.technique = technique->name;
     return w;
+}
+
+// {"NAME": instructions of one frame, ...}, by AVX-512 on this thread.
+int run_steps(const std::vector<Workload>& list)
+{
+    if (!isa_available(Isa::avx512)) {
+        fmt::print(stderr, "bench_instructions: no AVX-512 here\n");
+        return static_cast<int>(ExitCode::unavailable);
+    }
+    SubjectOptions options;
+    options.isa = Isa::avx512, options.threads = 1, options.coarse_environment = true;
+    nlohmann::ordered_json counts;
+    for (const Workload& w : list) {
+        Result<std::unique_ptr<Subject>> subject = make_subject(w, options);
+        if (!subject) {
+            fmt::print(stderr, "bench_instructions: {}\n", subject.error().line());
+            return static_cast<int>(subject.error().code);
+        }
+        (*subject)->frame();
+        const uint64_t steps = count_steps([&] { (*subject)->frame(); });
+        if (steps == 0) {
+            fmt::print(stderr, "bench_instructions: this system does not trap after each instruction\n");
+            return static_cast<int>(ExitCode::unavailable);
+        }
+        counts[w.name] = steps;
+    }
+    fmt::print("{}\n", counts.dump());
+    return 0;
 }
 
 #ifdef BN_HAVE_CALLGRIND
@@ -147,20 +186,25 @@ int main(int argc, char** argv)
     using namespace burnish;
     if (argc == 1)
         return run(small_workloads());
+    const bool steps = std::string_view(argv[1]) == "--steps";
+    if (steps && argc == 2)
+        return run_steps(stepped_workloads());
     if (argc > 2 || std::string_view(argv[1]) != "--made-with") {
         std::vector<Workload> list;
-        for (int i = 1; i < argc; ++i) {
+        for (int i = steps ? 2 : 1; i < argc; ++i) {
             std::optional<Workload> w = known(argv[i]);
             if (!w)
                 w = place(argv[i]);
             if (!w) {
-                fmt::print(stderr, "usage: bench_instructions [--made-with | NAME[@WIDTHxHEIGHT]... | TECHNIQUE:SAMPLES:ALPHA_LIN:ETA...] "
-                                   "(ETA is not 0)\n");
+                fmt::print(
+                    stderr,
+                    "usage: bench_instructions [--made-with | [--steps] NAME[@WIDTHxHEIGHT]... | TECHNIQUE:SAMPLES:ALPHA_LIN:ETA...] "
+                    "(ETA is not 0)\n");
                 return static_cast<int>(ExitCode::usage);
             }
             list.push_back(*w);
         }
-        return run(list);
+        return steps ? run_steps(list) : run(list);
     }
     nlohmann::ordered_json made = machine_json(); // what the number of instructions depends on
     made = {{"compiler", made["compiler"]}, {"build_type", made["build_type"]}, {"libc", gnu_get_libc_version()}};
