@@ -3,7 +3,6 @@
 #ifdef __x86_64__
 #include <csignal>
 #include <ucontext.h>
-#include <x86intrin.h>
 #endif
 
 namespace burnish {
@@ -31,9 +30,9 @@ uint64_t count_steps(const std::function<void()>& work)
     ours.sa_flags = SA_SIGINFO;
     sigaction(SIGTRAP, &ours, &before);
     steps = 0, last_place = 0;
-    __writeeflags(__readeflags() | kTrapFlag);
+    __builtin_ia32_writeeflags_u64(__builtin_ia32_readeflags_u64() | kTrapFlag);
     work();
-    __writeeflags(__readeflags() & ~kTrapFlag);
+    __builtin_ia32_writeeflags_u64(__builtin_ia32_readeflags_u64() & ~kTrapFlag);
     sigaction(SIGTRAP, &before, nullptr);
     return steps;
 }
