@@ -29,7 +29,8 @@ uint64_t count_steps(const std::function<void()>& work)
     ours.sa_sigaction = on_step;
     ours.sa_flags = SA_SIGINFO;
     sigaction(SIGTRAP, &ours, &before);
-    steps = 0, last_place = 0;
+    steps = 0;
+    last_place = 0;
     __builtin_ia32_writeeflags_u64(__builtin_ia32_readeflags_u64() | kTrapFlag);
     work();
     __builtin_ia32_writeeflags_u64(__builtin_ia32_readeflags_u64() & ~kTrapFlag);
