@@ -28,7 +28,7 @@
 //   reduce_min reduce_max reduce_add                         lane k with lane k + n/2, then n/4...: depends on
 //                                                            the width
 //   load_records16 store_records16 load_quads store_quads    array-of-struct access: see lanes_scalar.h
-//   blend_records blend_records_low blend_quad
+//   blend_records blend_records_low blend_quad load_pairs
 //   texel_zero texel_add plan_texels texel_values            bilinear accumulation of RGBA half texels: see
 //   load_texel_pair                                          lanes_scalar.h
 //   wide: + - * /, wide_lit to_wide, to_real                 a double by lane

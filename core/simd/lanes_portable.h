@@ -516,6 +516,16 @@ BN_OP void blend_quad(const float* base, const integer& i0, const integer& i1, c
     blend_fields(base, i0, i1, i2, b0, b1, b2, out, 4);
 }
 
+using pair_table = const float*;
+BN_CALL void load_pairs(pair_table table, const integer& index, real out[4])
+{
+    for (int c = 0; c < 4; ++c) {
+        float_lanes r;
+        BN_EACH_LANE __builtin_memcpy(&r.at[k], record_at(table + c, index, k, 8), 4);
+        out[c] = real_of(r);
+    }
+}
+
 using texel_buffer = const std::uint16_t*;
 struct texel_acc {
     real left[4], right[4];

@@ -396,6 +396,15 @@ BN_INLINE void blend_quad(const float* base, integer i0, integer i1, integer i2,
     blend_fields(base, i0, i1, i2, b0, b1, b2, out, 4);
 }
 
+// Two pairs of floats that follow each other in a table, from pair `index` on: one unaligned 16-byte load.
+using pair_table = const float*;
+BN_INLINE void load_pairs(pair_table table, integer index, real out[4])
+{
+    BN_COUNT(0, 16);
+    for (std::size_t k = 0; k < 4; ++k)
+        out[k] = static_cast<real>(table[std::size_t{2} * static_cast<std::uint32_t>(index) + k]);
+}
+
 // RGBA half texels, 8 bytes each. row0 and row1 are the indices of the left texels of two horizontal pairs
 // (upper and lower row of a bilinear footprint); the weights are w<column><row>. A pair is one unaligned
 // 16-byte load.

@@ -97,6 +97,13 @@ BN_INLINE void load_quads(const void* base, integer index, integer out[4])
     for (int k = 0; k < 4; ++k)
         out[k].v = _mm256_castps_si256(f[k].v);
 }
+using pair_table = const float*;
+BN_INLINE void load_pairs(pair_table table, integer index, real out[4])
+{
+    const lane_indices i = spill(index);
+    const __m256 r[4] = {quads_at(table, i, 0), quads_at(table, i, 1), quads_at(table, i, 2), quads_at(table, i, 3)};
+    transpose_quads(r, out);
+}
 BN_INLINE void store_quads(void* base, const integer r[4], int n)
 {
     __m256 in[4];

@@ -149,25 +149,25 @@ float brushed_by_factors(const ShadingFrame& f, const MaterialRecord& material)
 
 } // namespace
 
-// The first texel of the table of a lobe's albedo, which is made where there is none yet.
+// The first pair of the table of a lobe's albedo, which is made where there is none yet.
 int FrameMaker::slice_of(float sigma_u, float sigma_v, bool phong)
 {
     const SlicedLobe wanted = {sigma_u, sigma_v, phong};
     if (const auto known = sliced_.find(wanted); known != sliced_.end())
         return known->second;
     const std::size_t size = phong ? kLobeAlbedoSize : kLobeSliceSize, held = lobe_slices_.size();
-    const int first = static_cast<int>(held / 4);
+    const int first = static_cast<int>(held / 2);
     sliced_.emplace(wanted, first);
-    lobe_slices_.resize(held + 4 * size * size / 2);
+    lobe_slices_.resize(held + 2 * size * size / 2);
     const double root2 = 1.4142135623730951;
     const double alpha_u = root2 * static_cast<double>(sigma_u), alpha_v = root2 * static_cast<double>(sigma_v);
-    std::uint16_t* const texels = lobe_slices_.data() + held;
+    float* const pairs = lobe_slices_.data() + held;
     if (!phong)
-        bake_lobe_slice(alpha_u, alpha_v, texels);
+        bake_lobe_slice(alpha_u, alpha_v, pairs);
     else if (input_.phong && input_.phong->has_albedo())
-        input_.phong->slice(phong_exponent(alpha_u), phong_exponent(alpha_v), kLobeAlbedoSize, texels);
+        input_.phong->slice(phong_exponent(alpha_u), phong_exponent(alpha_v), kLobeAlbedoSize, pairs);
     else
-        bake_phong_slice(kLobeAlbedoSize, alpha_u, alpha_v, texels);
+        bake_phong_slice(kLobeAlbedoSize, alpha_u, alpha_v, pairs);
     return first;
 }
 
@@ -267,8 +267,8 @@ ShadingFrame FrameMaker::make(const FrameDesc& desc)
     f.area_lights = scene_.area_lights.data(), f.ltc_texels = ltc_texels().data();
     f.specular_texels = input_.environment.specular.texels.data(), f.irradiance_texels = input_.environment.irradiance.texels.data();
     f.whole_texels = input_.environment.picture().texels.data();
-    f.dfg_texels = input_.dfg.texels.data();
-    f.lobe_albedo_texels = lobe_albedo_texels(), f.lobe_slice_texels = lobe_slices_.data();
+    f.dfg_pairs = input_.dfg.pairs.data();
+    f.lobe_albedo_pairs = lobe_albedo_pairs(), f.lobe_slice_pairs = lobe_slices_.data();
     f.box = cube_record(box_cube_), f.box_texels = box_cube_.texels.data();
     f.grid = grid_.data(), f.grid_count = grid_count_;
     return f;

@@ -33,8 +33,8 @@ class FrameMaker {
     const std::vector<MaterialRecord>& materials() const { return materials_; } // of the frame made last
     const std::vector<GridSample>& grid() const { return grid_; }
     const CubeMap& box_cube() const { return box_cube_; }
-    const std::vector<std::uint16_t>& ltc_texels() const;                     // empty where the scene has no area lights
-    const Column<std::uint16_t>& lobe_slices() const { return lobe_slices_; } // of all frames so far
+    const std::vector<std::uint16_t>& ltc_texels() const;             // empty where the scene has no area lights
+    const Column<float>& lobe_slices() const { return lobe_slices_; } // of all frames so far
 
   private:
     void bake(const FrameDesc& desc);
@@ -48,8 +48,8 @@ class FrameMaker {
     std::vector<MaterialRecord> materials_;
     CubeMap box_cube_;                                 // made when a technique first asks for it
     using SlicedLobe = std::tuple<float, float, bool>; // deviations of slope; whether it is an Ashikhmin-Shirley lobe
-    std::map<SlicedLobe, int> sliced_;                 // the first texel of each in lobe_slices_
-    Column<std::uint16_t> lobe_slices_;
+    std::map<SlicedLobe, int> sliced_;                 // the first pair of each in lobe_slices_
+    Column<float> lobe_slices_;
     Column<float> screen_x_, screen_y_;
     std::vector<GridSample> grid_;              // and lobes' sets of half vectors
     int grid_count_ = 0;                        // samples of a fragment

@@ -111,7 +111,7 @@ std::uint64_t reference_key(const RenderInput& input, const FrameDesc& d, const 
     add_tables(key, input.tables);
     const CubeMap& picture = input.environment.picture();
     key.column(picture.texels.data(), 4 * picture.level_texels(0));
-    key.column(input.dfg.texels.data(), input.dfg.texels.size());
+    key.column(input.dfg.pairs.data(), input.dfg.pairs.size());
     key.add(options.mode, options.strategy, options.mode == ReferenceMode::path ? options.bounces : 0);
     if (options.full_textures) // without them the key is that of earlier checkpoints
         key.add(options.full_textures);

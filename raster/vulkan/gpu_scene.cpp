@@ -18,9 +18,10 @@ template <class T> Buffer filled(Context& context, const std::vector<T>& table, 
     return make_filled_buffer(context, table.data(), bytes, more);
 }
 
-Buffer texel_page(Context& context, const Column<std::uint16_t>& texels)
+// texels: of halves, or pairs of floats.
+template <class T> Buffer texel_page(Context& context, const Column<T>& texels)
 {
-    return make_filled_buffer(context, texels.data(), texels.size() * sizeof(std::uint16_t), VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT);
+    return make_filled_buffer(context, texels.data(), texels.size() * sizeof(T), VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT);
 }
 
 } // namespace
@@ -39,8 +40,8 @@ GpuScene::GpuScene(Context& context, const RenderInput& input)
     texels_.push_back(texel_page(context, input.environment.specular.texels));
     texels_.push_back(texel_page(context, input.environment.irradiance.texels));
     texels_.emplace_back(context, 0, Buffer::Place::device, VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT); // the box chain, some day
-    texels_.push_back(texel_page(context, input.dfg.texels));
-    texels_.push_back(make_filled_buffer(context, lobe_albedo_texels(), lobe_albedo_bytes(), VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT));
+    texels_.push_back(texel_page(context, input.dfg.pairs));
+    texels_.push_back(make_filled_buffer(context, lobe_albedo_pairs(), lobe_albedo_bytes(), VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT));
     texels_.emplace_back(context, 0, Buffer::Place::device, VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT); // slices of it
     if (input.environment.key_lights.empty())                                                           // then it is the specular cube
         texels_.emplace_back(context, 0, Buffer::Place::device, VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT);
@@ -105,9 +106,9 @@ void GpuScene::prepare(Context& context, const FrameDesc& desc, std::uint32_t se
     record_.frame = maker_.make(desc);
     record_.places.setup_capacity = static_cast<int>(setup_capacity);
     record_.places.clip_unit = 1.0f / static_cast<float>(kSubpixel * viewport_half(context.features()));
-    const auto grown = [&](int page, const Column<std::uint16_t>& texels) {
+    const auto grown = [&](int page, const auto& texels) {
         Buffer& held = texels_[static_cast<std::size_t>(page)];
-        if (held.bytes() >= texels.size() * sizeof(std::uint16_t))
+        if (held.bytes() >= texels.size() * sizeof texels[0])
             return;
         held = texel_page(context, texels);
         upload_pages(context);

@@ -34,7 +34,7 @@ class GpuScene {
     const std::vector<MaterialRecord>& materials_of_frame() const { return maker_.materials(); }
     const CubeMap& box_cube() const { return maker_.box_cube(); }
     const std::vector<GridSample>& grid() const { return maker_.grid(); }
-    const Column<std::uint16_t>& lobe_slices() const { return maker_.lobe_slices(); }
+    const Column<float>& lobe_slices() const { return maker_.lobe_slices(); }
 
   private:
     void upload_pages(Context& context);

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <glm/glm.hpp>
 
+#include "core/simd/half.h"
 #include "shading/surface/lobe_shape.t.h"
 
 namespace burnish {
@@ -111,8 +112,8 @@ LeanScene::LeanScene(Context& context, Pipelines& pipelines, GpuScene& scene, co
     positions_ = make_filled_buffer(context, positions.data(), positions.size() * sizeof(float), VK_BUFFER_USAGE_VERTEX_BUFFER_BIT);
     shading_ = make_filled_buffer(context, t.shading.data(), t.shading.size() * sizeof(ShadingVertex), VK_BUFFER_USAGE_VERTEX_BUFFER_BIT);
     frame_ = Buffer(context, sizeof(LeanFrame), Buffer::Place::host, VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT);
-    round_albedo_ = upload_table(input.dfg.texels.data(), input.dfg.size, input.dfg.size, 1);
-    width_albedo_ = upload_table(lobe_albedo_texels(), kLobeAlbedoSize, kLobeAlbedoSize, kLobeAlbedoSize * kLobeAlbedoSize / 4);
+    round_albedo_ = upload_table(input.dfg.pairs.data(), input.dfg.size, input.dfg.size, 1);
+    width_albedo_ = upload_table(lobe_albedo_pairs(), kLobeAlbedoSize, kLobeAlbedoSize, kLobeAlbedoSize * kLobeAlbedoSize / 4);
     auto sampler = vk_struct<VkSamplerCreateInfo>(VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO);
     sampler.magFilter = sampler.minFilter = VK_FILTER_LINEAR;
     sampler.addressModeU = sampler.addressModeV = sampler.addressModeW = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
@@ -125,13 +126,13 @@ LeanScene::~LeanScene()
     vkDestroyDescriptorPool(context_.device(), pool_, nullptr);
 }
 
-// texels: RGBA halves, of which the first two hold a table to its half's digits.
-DeviceImage LeanScene::upload_table(const std::uint16_t* texels, int width, int height, int depth)
+// pairs: of which halves keep three digits.
+DeviceImage LeanScene::upload_table(const float* pairs, int width, int height, int depth)
 {
     const std::size_t count = static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * static_cast<std::size_t>(depth);
     std::vector<std::uint16_t> two(2 * count);
-    for (std::size_t i = 0; i < count; ++i)
-        two[2 * i] = texels[4 * i], two[2 * i + 1] = texels[4 * i + 1];
+    for (std::size_t i = 0; i < two.size(); ++i)
+        two[i] = float_to_half(pairs[i]);
     ImageShape shape;
     shape.format = VK_FORMAT_R16G16_SFLOAT;
     shape.width = width, shape.height = height, shape.depth = depth;
@@ -155,8 +156,8 @@ const DeviceImage& LeanScene::slice(int first, int size)
     const auto known = slices_.find(first);
     if (known != slices_.end())
         return known->second;
-    const std::uint16_t* const texels = scene_.lobe_slices().data() + 4 * static_cast<std::size_t>(first);
-    return slices_[first] = upload_table(texels, size, size / 2, 1);
+    const float* const pairs = scene_.lobe_slices().data() + 2 * static_cast<std::size_t>(first);
+    return slices_[first] = upload_table(pairs, size, size / 2, 1);
 }
 
 namespace {

@@ -26,7 +26,7 @@ class LeanScene {
     void draw(VkCommandBuffer c, const NativeImages& native, VkSampleCountFlagBits samples, VkFormat color, const Band& band);
 
   private:
-    DeviceImage upload_table(const std::uint16_t* texels, int width, int height, int depth);
+    DeviceImage upload_table(const float* pairs, int width, int height, int depth);
     const DeviceImage& slice(int first, int size); // size: texels along n.v
     void fill_materials(const FrameDesc& desc);
     void make_sets();

@@ -215,6 +215,12 @@ BN_FN uniform_real most_of_lanes(real x)
     return most[0];
 }
 
+BN_FN real4 pairs_at(pair_table table, integer index)
+{
+    real p[4];
+    load_pairs(table, index, p);
+    return vec4_of(p[0], p[1], p[2], p[3]);
+}
 BN_FN real4 texel_value(texel_acc acc)
 {
     real c[4];

@@ -173,6 +173,7 @@ layout(std430, set = BN_LANG_SET, binding = BN_LANG_BINDING + 2) readonly buffer
     int bn_ints[];
 };
 #define texel_buffer int
+#define pair_table int // where texels are pairs of floats
 #define real_table int
 #define int_table int
 
@@ -183,6 +184,11 @@ real table_value(real_table table, integer index)
 integer table_int(int_table table, integer index)
 {
     return bn_ints[table + index];
+}
+
+real4 pairs_at(pair_table table, integer index)
+{
+    return vec4(uintBitsToFloat(bn_texel_words(table, index)), uintBitsToFloat(bn_texel_words(table, index + 1)));
 }
 
 struct texel_acc {

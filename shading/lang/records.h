@@ -191,7 +191,7 @@ struct MaterialRecord { // Material in plain numbers, and what follows from them
     int coated;                      // it has a clear coat, here or there
     int lights_lobe;                 // what punctual lights meet: its place in shading/models.def
     float brushed;    // brushed_part() of its factors where the technique shares samples; else, or where slopes widen lobes, 1
-    int albedo_slice; // of a lobe whose two widths are everywhere the same: its first texel; else -1
+    int albedo_slice; // of a lobe whose two widths are everywhere the same: its first pair; else -1
     int phong_slice;  // of the Ashikhmin-Shirley lobe of these widths, where the technique samples it or it is compensated; else -1
     int frame_map;    // the frame's, or where its textures hold a mip filter's lobes kFrameQuaternion, which they are made for
     int phong_set;    // of the same lobe's half vectors: the first sample of its own grid; -1: made by fragment

@@ -11,7 +11,7 @@
 //                                        to be asked for once each, as lanes fetch then and GLSL has fetched all
 //   texel_beside(f, m, slot, p)          a slot's texture, where it is used, at another point
 //   texture_desc_of(f, m, slot); texel_at_level(one_level, slot, uv)   a slot's texture, where it is used, and a texel of it, anywhere
-//   dfg_texels(f) lobe_albedo_texels(f) lobe_slice_texels(f)   tables for dfg_lookup(), lobe_albedo_lookup(), lobe_slice_lookup()
+//   dfg_pairs(f) lobe_albedo_pairs(f) lobe_slice_pairs(f)   tables for dfg_lookup(), lobe_albedo_lookup(), lobe_slice_lookup()
 //   ltc_texels(f)                        of the table of transformed cosines, for ltc_lookup()
 //   specular_cube(f) irradiance_cube(f) box_cube(f)   cubes, for cube_sample() and the sums below
 //   whole_cube(f)                        the environment with its key lights, which the others leave out; level 0 alone

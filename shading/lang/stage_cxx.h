@@ -100,17 +100,17 @@ BN_INLINE cube_desc box_cube(frame_ref f)
     return {f.box_texels, f.box.size, f.box.levels};
 }
 
-BN_INLINE texel_buffer dfg_texels(frame_ref f)
+BN_INLINE pair_table dfg_pairs(frame_ref f)
 {
-    return f.dfg_texels;
+    return f.dfg_pairs;
 }
-BN_INLINE texel_buffer lobe_albedo_texels(frame_ref f)
+BN_INLINE pair_table lobe_albedo_pairs(frame_ref f)
 {
-    return f.lobe_albedo_texels;
+    return f.lobe_albedo_pairs;
 }
-BN_INLINE texel_buffer lobe_slice_texels(frame_ref f)
+BN_INLINE pair_table lobe_slice_pairs(frame_ref f)
 {
-    return f.lobe_slice_texels;
+    return f.lobe_slice_pairs;
 }
 
 BN_INLINE texel_buffer ltc_texels(frame_ref f)

@@ -60,8 +60,8 @@ struct FrameTables {
     int light_stride;
     const AreaLightRecord* area_lights;
     const std::uint16_t *specular_texels, *irradiance_texels, *whole_texels, *box_texels; // CubeMap::texels
-    const std::uint16_t *dfg_texels, *lobe_albedo_texels, *lobe_slice_texels; // DfgTable::texels, bake_lobe_albedo(), bake_lobe_slice()
-    const std::uint16_t* ltc_texels;                                          // ltc::table_texels()
+    const float *dfg_pairs, *lobe_albedo_pairs, *lobe_slice_pairs; // DfgTable::pairs, bake_lobe_albedo(), bake_lobe_slice()
+    const std::uint16_t* ltc_texels;                               // ltc::table_texels()
     const GridSample* grid;
 };
 

@@ -18,9 +18,9 @@ real2 place_of_center(frame_ref f, view_params view, integer px, integer py)
 #define next_light(f, reach) reach++
 #define the_area_light(f, i) area_lights[i]
 #define picture_of(f, i) desc_of_texture(area_lights[i].picture)
-#define dfg_texels(f) kGpuDfgPage
-#define lobe_albedo_texels(f) kGpuLobeAlbedoPage
-#define lobe_slice_texels(f) kGpuLobeSlicePage
+#define dfg_pairs(f) kGpuDfgPage
+#define lobe_albedo_pairs(f) kGpuLobeAlbedoPage
+#define lobe_slice_pairs(f) kGpuLobeSlicePage
 #define ltc_texels(f) kGpuLtcPage
 
 cube_desc specular_cube(frame_ref f) { return cube_desc(kGpuSpecularPage, frame.specular.size, frame.specular.levels); }

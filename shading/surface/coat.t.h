@@ -64,7 +64,7 @@ BN_FN void make_coat_point(frame_ref f, BN_IN(coat_layer) coat, BN_IN(surface_fr
     if (the_frame(f).dfg_fit != 0)
         c.dfg = dfg_fit(c.s.n_dot_v, coat.roughness);
     else
-        c.dfg = dfg_lookup(dfg_texels(f), the_frame(f).dfg_size, c.s.n_dot_v, coat.roughness);
+        c.dfg = dfg_lookup(dfg_pairs(f), the_frame(f).dfg_size, c.s.n_dot_v, coat.roughness);
     c.albedo = albedo_of(c.s, c.dfg);
     c.phong_albedo = lit(-1.0);
     c.own_dfg.scale = lit(1.0);

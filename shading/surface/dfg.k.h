@@ -12,10 +12,24 @@ struct dfg_value {
     real bias;
 };
 
-// Bilinear fetch from the table as texels: size x size RGBA halves, row = perceptual roughness y / (size -
-// 1), column = n.v x / (size - 1); scale = R + B and bias = G + A, where B and A hold what rounding took from
-// R and G. Inputs are clamped to [0,1]; NaN counts as 0.
-BN_FN dfg_value dfg_lookup(texel_buffer table, int size, real n_dot_v, real roughness)
+// Bilinear, of pairs (scale, bias) in two rows: row0, row1 are the left ones, fx, fy the place between columns and rows, [0,1].
+BN_FN dfg_value dfg_between(pair_table table, integer row0, integer row1, real fx, real fy)
+{
+    real w11 = fx * fy;
+    real w10 = fx - w11;
+    real w01 = fy - w11;
+    real w00 = lit(1.0) - fx - w01;
+    real4 upper = pairs_at(table, row0);
+    real4 lower = pairs_at(table, row1);
+    dfg_value r;
+    r.scale = w00 * upper.x + w10 * upper.z + (w01 * lower.x + w11 * lower.z);
+    r.bias = w00 * upper.y + w10 * upper.w + (w01 * lower.y + w11 * lower.w);
+    return r;
+}
+
+// Bilinear fetch from the table: size x size pairs (scale, bias), row = perceptual roughness y / (size - 1), column = n.v x / (size - 1).
+// Inputs are clamped to [0,1]; NaN counts as 0.
+BN_FN dfg_value dfg_lookup(pair_table table, int size, real n_dot_v, real roughness)
 {
     real last = to_real(int_lit(size - 1));
     real x = min(max(n_dot_v, lit(0.0)), lit(1.0)) * last;
@@ -25,16 +39,7 @@ BN_FN dfg_value dfg_lookup(texel_buffer table, int size, real n_dot_v, real roug
     real fx = x - to_real(ix);
     real fy = y - to_real(iy);
     integer row0 = iy * int_lit(size) + ix;
-    real w11 = fx * fy;
-    real w10 = fx - w11;
-    real w01 = fy - w11;
-    real w00 = lit(1.0) - fx - w01;
-    texel_acc acc = texel_zero();
-    real4 t = texel_value(texel_add(acc, table, row0, row0 + int_lit(size), w00, w10, w01, w11));
-    dfg_value r;
-    r.scale = t.x + t.z;
-    r.bias = t.y + t.w;
-    return r;
+    return dfg_between(table, row0, row0 + int_lit(size), fx, fy);
 }
 
 // Pesce and Iwanicki 2015, "Approximate models for physically based rendering": coarse (0.07 rms, up to 0.17

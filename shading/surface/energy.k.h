@@ -11,11 +11,11 @@
 
 BN_KERNELS_BEGIN
 
-// Directional albedo of a lobe of two widths, from its table: of size x size x size/2 x size/2 texels as dfg_lookup's, over (from the
+// Directional albedo of a lobe of two widths, from its table: of size x size x size/2 x size/2 pairs as dfg_lookup's, over (from the
 // fastest) n.v, roughness, the azimuth of the view and anisotropy, along axes that are graded to where the albedo bends:
 // sqrt(n.v), the lobe's alpha_lin, the square root of the cosine between its wide axis and the view's azimuth, 1 - sqrt(1 - eta).
 // n: the lobe's normal, v: to the eye, both unit, world space. Within 0.02 of the integral for alpha_lin from 0.1 on.
-BN_FN dfg_value lobe_albedo_lookup(texel_buffer table, int size, aniso_lobe lobe, real3 n, real3 v)
+BN_FN dfg_value lobe_albedo_lookup(pair_table table, int size, aniso_lobe lobe, real3 n, real3 v)
 {
     real one = lit(1.0);
     integer across = int_lit(size);
@@ -37,49 +37,37 @@ BN_FN dfg_value lobe_albedo_lookup(texel_buffer table, int size, aniso_lobe lobe
     real fy = y - to_real(iy);
     real fz = z - to_real(iz);
     real fw = w - to_real(iw);
-    texel_acc acc = texel_zero();
+    dfg_value r;
+    r.scale = lit(0.0);
+    r.bias = lit(0.0);
     for (int corner = 0; corner < 4; ++corner) {
         integer up_z = int_lit(corner % 2);
         integer up_w = int_lit(corner / 2);
         real part = select(up_z == int_lit(1), fz, one - fz) * select(up_w == int_lit(1), fw, one - fw);
         integer row = (((iw + up_w) * half_size + iz + up_z) * across + iy) * across + ix;
-        real right = fx * part;
-        real w11 = right * fy;
-        real w01 = (part - right) * fy;
-        acc = texel_add(acc, table, row, row + across, part - right - w01, right - w11, w01, w11);
+        dfg_value at_corner = dfg_between(table, row, row + across, fx, fy);
+        r.scale = r.scale + at_corner.scale * part;
+        r.bias = r.bias + at_corner.bias * part;
     }
-    real4 t = texel_value(acc);
-    dfg_value r;
-    r.scale = t.x + t.z;
-    r.bias = t.y + t.w;
     return r;
 }
 
-// Bilinear, from a slice of a lobe's table: `across` x `across` / 2 texels as dfg_lookup's, from texel `first` on. x, z: places along its
-// axes in texels, not below 0.
-BN_FN dfg_value slice_value(texel_buffer table, int first, int across, real x, real z)
+// Bilinear, from a slice of a lobe's table: `across` x `across` / 2 pairs as dfg_lookup's, from pair `first` on. x, z: places along its
+// axes in pairs, not below 0.
+BN_FN dfg_value slice_value(pair_table table, int first, int across, real x, real z)
 {
     integer ix = min(to_int(x), int_lit(across - 2));
     integer iz = min(to_int(z), int_lit(across / 2 - 2));
     real fx = x - to_real(ix);
     real fz = z - to_real(iz);
     integer row = int_lit(first) + iz * int_lit(across) + ix;
-    real w11 = fx * fz;
-    real w10 = fx - w11;
-    real w01 = fz - w11;
-    real w00 = lit(1.0) - fx - w01;
-    texel_acc acc = texel_zero();
-    real4 t = texel_value(texel_add(acc, table, row, row + int_lit(across), w00, w10, w01, w11));
-    dfg_value r;
-    r.scale = t.x + t.z;
-    r.bias = t.y + t.w;
-    return r;
+    return dfg_between(table, row, row + int_lit(across), fx, fz);
 }
 
 // lobe_albedo_lookup() of a lobe whose widths are those that its slice of kLobeSliceSize was made for. Its axes are graded by one division
 // and no root: 1.2 z / (z + .2) of z = n.v, and 3 |x| / (3 |x| + |y|) of the view's components along the lobe's wide axis and its other
 // one.
-BN_FN dfg_value lobe_slice_lookup(texel_buffer table, int first, aniso_lobe lobe, real3 n, real3 v)
+BN_FN dfg_value lobe_slice_lookup(pair_table table, int first, aniso_lobe lobe, real3 n, real3 v)
 {
     real3 o = to_lobe(lobe, n, v);
     real up = k_saturate(o.z);
@@ -94,7 +82,7 @@ BN_FN dfg_value lobe_slice_lookup(texel_buffer table, int first, aniso_lobe lobe
 
 // The same of an Ashikhmin-Shirley lobe, along axes that its files may have too: sqrt(n.v) and the square root of the cosine between the
 // wide axis and the view's azimuth.
-BN_FN dfg_value phong_slice_lookup(texel_buffer table, int first, int size, aniso_lobe lobe, real3 n, real3 v)
+BN_FN dfg_value phong_slice_lookup(pair_table table, int first, int size, aniso_lobe lobe, real3 n, real3 v)
 {
     real3 o = to_lobe(lobe, n, v);
     real x = sqrt(k_saturate(o.z)) * to_real(int_lit(size - 1));

@@ -108,17 +108,17 @@ BN_FN dfg_value directional_albedo(frame_ref f, material_ref m, BN_IN(surface) s
     if (the_frame(f).dfg_fit != 0)
         return dfg_fit(s.n_dot_v, s.roughness);
     if (the_material(m).anisotropic == 0)
-        return dfg_lookup(dfg_texels(f), the_frame(f).dfg_size, s.n_dot_v, s.roughness);
+        return dfg_lookup(dfg_pairs(f), the_frame(f).dfg_size, s.n_dot_v, s.roughness);
     dfg_value own;
     if (the_material(m).albedo_slice < 0)
-        own = lobe_albedo_lookup(lobe_albedo_texels(f), the_frame(f).lobe_albedo_size, lobe, s.n, s.v);
+        own = lobe_albedo_lookup(lobe_albedo_pairs(f), the_frame(f).lobe_albedo_size, lobe, s.n, s.v);
     else
-        own = lobe_slice_lookup(lobe_slice_texels(f), the_material(m).albedo_slice, lobe, s.n, s.v);
+        own = lobe_slice_lookup(lobe_slice_pairs(f), the_material(m).albedo_slice, lobe, s.n, s.v);
     if (the_material(m).brushed == 1.0f)
         return own;
     real part = splat(the_material(m).brushed);
     real still = lit(1.0) - part;
-    dfg_value round = dfg_lookup(dfg_texels(f), the_frame(f).dfg_size, s.n_dot_v, s.roughness);
+    dfg_value round = dfg_lookup(dfg_pairs(f), the_frame(f).dfg_size, s.n_dot_v, s.roughness);
     own.scale = round.scale * still + own.scale * part;
     own.bias = round.bias * still + own.bias * part;
     return own;
@@ -204,7 +204,7 @@ BN_FN void make_shaded_point(frame_ref f, material_ref m, BN_IN(material_inputs)
     x.phong_set = the_material(m).phong_set;
     dfg_value phong = x.dfg;
     if (the_material(m).phong_slice >= 0) {
-        phong = phong_slice_lookup(lobe_slice_texels(f), the_material(m).phong_slice, the_frame(f).lobe_albedo_size, x.lobe, x.s.n, x.s.v);
+        phong = phong_slice_lookup(lobe_slice_pairs(f), the_material(m).phong_slice, the_frame(f).lobe_albedo_size, x.lobe, x.s.n, x.s.v);
         x.phong_albedo = phong.scale + phong.bias;
     }
     x.gain = energy_gain(f, x.s.f0, x.dfg);

@@ -68,7 +68,7 @@ int run(const std::string& isa_word)
     setenv("BN_FORCE_ISA", isa_word.c_str(), 1); // of the bake
     const auto jobs = std::make_shared<const Jobs>(2);
     const auto dfg = std::make_shared<const DfgTable>(bake_dfg(16, 64, *jobs));
-    print("dfg", hash_bytes(dfg->texels.data(), dfg->texels.size() * sizeof dfg->texels[0], 0));
+    print("dfg", hash_bytes(dfg->pairs.data(), dfg->pairs.size() * sizeof dfg->pairs[0], 0));
     EnvironmentOptions options;
     options.cube_size = 16, options.samples = 16, options.use_cache = false;
     const char* const environments[] = {"builtin:studio", "builtin:sky", "builtin:studio"};

@@ -86,24 +86,22 @@ CubeMap box_filtered_chain(const CubeMap& environment, const Jobs& jobs);
 // (Schlick). Row: alpha_lin (perceptual roughness) = y / (size - 1); column: n.v = x / (size - 1).
 struct DfgTable {
     int size = 0;
-    Column<float> scale, bias;    // size * size
-    Column<std::uint16_t> texels; // the same as size * size RGBA halves, for shading/surface/dfg.k.h: scale =
-                                  // R + B, bias = G + A
+    Column<float> pairs; // size * size of (scale, bias), for shading/surface/dfg.k.h
 };
 // samples: directions an entry is integrated over; their number is rounded down to a square.
 DfgTable bake_dfg(int size, int samples, const Jobs& jobs);
 
-// The same for lobes of two widths: size^4 / 4 RGBA halves as DfgTable's, whose order and axes are those of lobe_albedo_lookup() in
+// The same for lobes of two widths: size^4 / 4 pairs as DfgTable's, whose order and axes are those of lobe_albedo_lookup() in
 // shading/surface/energy.k.h. size, along n.v and roughness, half of it along anisotropy and azimuth: even, at least 4.
 inline constexpr int kLobeAlbedoSize = 20;
 // A constant of mathematics: the same bits everywhere.
-Column<std::uint16_t> bake_lobe_albedo(int size, const Jobs& jobs);
+Column<float> bake_lobe_albedo(int size, const Jobs& jobs);
 // That of kLobeAlbedoSize, made when the program was built.
-const std::uint16_t* lobe_albedo_texels();
+const float* lobe_albedo_pairs();
 std::size_t lobe_albedo_bytes();
-// The same for one lobe, of widths alpha_x >= alpha_y: kLobeSliceSize^2 / 2 texels for lobe_slice_lookup().
-void bake_lobe_slice(double alpha_x, double alpha_y, std::uint16_t* texels);
+// The same for one lobe, of widths alpha_x >= alpha_y: kLobeSliceSize^2 / 2 pairs for lobe_slice_lookup().
+void bake_lobe_slice(double alpha_x, double alpha_y, float* pairs);
 // And for an Ashikhmin-Shirley lobe of exponents 1 / alpha^2.
-void bake_phong_slice(int size, double alpha_x, double alpha_y, std::uint16_t* texels);
+void bake_phong_slice(int size, double alpha_x, double alpha_y, float* pairs);
 
 } // namespace burnish

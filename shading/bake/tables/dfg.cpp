@@ -8,7 +8,6 @@
 
 #include "core/base/check.h"
 #include "core/math/scalar_math.h"
-#include "core/simd/half.h"
 #include "shading/bake/environment/environment.h"
 
 namespace burnish {
@@ -74,9 +73,7 @@ DfgTable bake_dfg(int size, int samples, const Jobs& jobs)
     DfgTable table;
     table.size = size;
     const std::size_t n = static_cast<std::size_t>(size);
-    table.scale.resize(n * n);
-    table.bias.resize(n * n);
-    table.texels.resize(n * n * 4);
+    table.pairs.resize(2 * n * n);
     std::vector<double> cosines(static_cast<std::size_t>(std::sqrt(static_cast<double>(samples))));
     for (std::size_t i = 0; i < cosines.size(); ++i)
         cosines[i] = det_cos(kPi * (static_cast<double>(i) + 0.5) / static_cast<double>(cosines.size()));
@@ -86,14 +83,8 @@ DfgTable bake_dfg(int size, int samples, const Jobs& jobs)
             const double n_dot_v = static_cast<double>(x) / (size - 1);
             // the first row is a mirror, the first column the limit of a grazing view
             const ScaleBias r = y == 0 ? mirror(n_dot_v) : integrate(std::max(n_dot_v, 1e-4), roughness * roughness, cosines);
-            const std::size_t i = y * n + x;
-            const float value[2] = {static_cast<float>(r.scale), static_cast<float>(r.bias)};
-            table.scale[i] = value[0], table.bias[i] = value[1];
-            for (std::size_t c = 0; c < 2; ++c) {
-                const std::uint16_t high = float_to_half(value[c]);
-                table.texels[4 * i + c] = high;
-                table.texels[4 * i + 2 + c] = float_to_half(value[c] - half_to_float(high));
-            }
+            float* const pair = table.pairs.data() + 2 * (y * n + x);
+            pair[0] = static_cast<float>(r.scale), pair[1] = static_cast<float>(r.bias);
         }
     });
     return table;

@@ -6,7 +6,6 @@
 
 #include "core/base/check.h"
 #include "core/math/scalar_math.h"
-#include "core/simd/half.h"
 #include "shading/bake/environment/environment.h"
 #include "shading/lang/records.h"
 
@@ -61,7 +60,7 @@ ScaleBias integrate(const Vec& v, double alpha_x, double alpha_y, const std::arr
     return sum;
 }
 
-// Of the view that one texel stands for: eye and azimuth in [0,1], the steps of their axes.
+// Of the view that one pair stands for: eye and azimuth in [0,1], the steps of their axes.
 ScaleBias entry(double eye, double azimuth, double alpha_x, double alpha_y, const std::array<Point, kPoints>& points)
 {
     const double n_dot_v = std::max(eye * eye, 1e-4), sine = std::sqrt(1.0 - n_dot_v * n_dot_v);
@@ -73,14 +72,9 @@ ScaleBias entry(double eye, double azimuth, double alpha_x, double alpha_y, cons
     return integrate({sine * along, sine * across, n_dot_v}, std::max(alpha_x, 1e-3), std::max(alpha_y, 1e-3), points);
 }
 
-// As the texels of dfg_lookup(): what rounding takes is in two halves of its own.
-void put(std::uint16_t* texel, const ScaleBias& r)
+void put(float* pair, const ScaleBias& r)
 {
-    const float value[2] = {static_cast<float>(r.scale), static_cast<float>(r.bias)};
-    for (std::size_t c = 0; c < 2; ++c) {
-        texel[c] = float_to_half(value[c]);
-        texel[2 + c] = float_to_half(value[c] - half_to_float(texel[c]));
-    }
+    pair[0] = static_cast<float>(r.scale), pair[1] = static_cast<float>(r.bias);
 }
 
 double step(std::size_t i, std::size_t count)
@@ -90,29 +84,29 @@ double step(std::size_t i, std::size_t count)
 
 } // namespace
 
-Column<std::uint16_t> bake_lobe_albedo(int size, const Jobs& jobs)
+Column<float> bake_lobe_albedo(int size, const Jobs& jobs)
 {
     BN_CHECK(size >= 4 && size % 2 == 0);
     const std::size_t n = static_cast<std::size_t>(size), half = n / 2;
-    Column<std::uint16_t> texels;
-    texels.resize(4 * n * n * half * half);
+    Column<float> pairs;
+    pairs.resize(2 * n * n * half * half);
     const std::array<Point, kPoints> points = lattice();
     jobs.parallel_for(n * half * half, [&](std::size_t row, int) {
         const double roughness = step(row % n, n), azimuth = step(row / n % half, half), narrow = 1.0 - step(row / n / half, half);
         const double alpha = roughness * roughness, eta = 1.0 - narrow * narrow;
         for (std::size_t x = 0; x < n; ++x)
-            put(texels.data() + 4 * (row * n + x), entry(step(x, n), azimuth, alpha * (1.0 + eta), alpha * (1.0 - eta), points));
+            put(pairs.data() + 2 * (row * n + x), entry(step(x, n), azimuth, alpha * (1.0 + eta), alpha * (1.0 - eta), points));
     });
-    return texels;
+    return pairs;
 }
 
-void bake_lobe_slice(double alpha_x, double alpha_y, std::uint16_t* texels)
+void bake_lobe_slice(double alpha_x, double alpha_y, float* pairs)
 {
     const std::size_t n = kLobeSliceSize, half = n / 2;
     const std::array<Point, kPoints> points = lattice();
     for (std::size_t i = 0; i < n * half; ++i) { // where lobe_slice_lookup() finds it
         const double x = step(i % n, n), z = step(i / n, half), along = z / std::sqrt(z * z + 9.0 * (1.0 - z) * (1.0 - z));
-        put(texels + 4 * i, entry(std::sqrt(std::min(0.2 * x / (1.2 - x), 1.0)), std::sqrt(along), alpha_x, alpha_y, points));
+        put(pairs + 2 * i, entry(std::sqrt(std::min(0.2 * x / (1.2 - x), 1.0)), std::sqrt(along), alpha_x, alpha_y, points));
     }
 }
 

@@ -10,14 +10,14 @@ int main(int count, char** arguments)
     std::FILE* file = count == 2 ? std::fopen(arguments[1], "w") : nullptr;
     if (!file)
         return 1;
-    const Column<std::uint16_t> texels = bake_lobe_albedo(kLobeAlbedoSize, Jobs());
+    const Column<float> pairs = bake_lobe_albedo(kLobeAlbedoSize, Jobs());
     std::fprintf(file,
                  "#include \"shading/bake/environment/environment.h\"\n\nnamespace burnish {\n\nnamespace {\n"
-                 "// a texel is read with the one behind it\nalignas(64) constexpr std::uint16_t kTexels[%zu] = {\n",
-                 texels.size() + 64);
-    for (std::size_t i = 0; i < texels.size(); ++i)
-        std::fprintf(file, i % 16 == 15 ? "%u,\n" : "%u,", static_cast<unsigned>(texels[i]));
-    std::fprintf(file, "};\n} // namespace\n\nconst std::uint16_t* lobe_albedo_texels()\n{\n    return kTexels;\n}\n\nstd::size_t "
-                       "lobe_albedo_bytes()\n{\n    return sizeof kTexels;\n}\n\n} // namespace burnish\n");
+                 "alignas(64) constexpr float kPairs[%zu] = {\n",
+                 pairs.size());
+    for (std::size_t i = 0; i < pairs.size(); ++i)
+        std::fprintf(file, i % 8 == 7 ? "%af,\n" : "%af,", static_cast<double>(pairs[i]));
+    std::fprintf(file, "};\n} // namespace\n\nconst float* lobe_albedo_pairs()\n{\n    return kPairs;\n}\n\nstd::size_t "
+                       "lobe_albedo_bytes()\n{\n    return sizeof kPairs;\n}\n\n} // namespace burnish\n");
     return std::fclose(file) == 0 ? 0 : 1;
 }

@@ -5,7 +5,6 @@
 
 #include "core/base/check.h"
 #include "core/math/scalar_math.h"
-#include "core/simd/half.h"
 #include "shading/bake/environment/environment.h"
 
 namespace burnish {
@@ -93,17 +92,13 @@ PhongAlbedo phong_albedo(const double (&v)[3], double nu, double nv, int points,
     return {sum.s / points, sum.b / points};
 }
 
-void fill_phong_slice(int size, const std::function<PhongAlbedo(double, double)>& at, std::uint16_t* texels)
+void fill_phong_slice(int size, const std::function<PhongAlbedo(double, double)>& at, float* pairs)
 {
     BN_CHECK(size >= 4 && size % 2 == 0);
     for (int j = 0; j < size / 2; ++j)
-        for (int i = 0; i < size; ++i, texels += 4) { // axes as of phong_slice_lookup()
+        for (int i = 0; i < size; ++i, pairs += 2) { // axes as of phong_slice_lookup()
             const PhongAlbedo a = at(static_cast<double>(i) / (size - 1), static_cast<double>(j) / (size / 2 - 1));
-            const float value[2] = {static_cast<float>(a.s), static_cast<float>(a.b)};
-            for (int c = 0; c < 2; ++c) {
-                texels[c] = float_to_half(value[c]);
-                texels[2 + c] = float_to_half(value[c] - half_to_float(texels[c]));
-            }
+            pairs[0] = static_cast<float>(a.s), pairs[1] = static_cast<float>(a.b);
         }
 }
 
@@ -114,11 +109,11 @@ PhongAlbedo phong_albedo_at(double nu, double nv, double root_n_dot_v, double ro
     return phong_albedo({sine * along, sine * std::sqrt(1.0 - along * along), n_dot_v}, std::min(nu, nv), std::max(nu, nv));
 }
 
-void bake_phong_slice(int size, double alpha_x, double alpha_y, std::uint16_t* texels)
+void bake_phong_slice(int size, double alpha_x, double alpha_y, float* pairs)
 {
     const double nu = phong_exponent(alpha_x), nv = phong_exponent(alpha_y);
     fill_phong_slice(
-        size, [&](double eye, double root) { return phong_albedo_at(nu, nv, eye, root); }, texels);
+        size, [&](double eye, double root) { return phong_albedo_at(nu, nv, eye, root); }, pairs);
 }
 
 } // namespace burnish

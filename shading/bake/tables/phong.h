@@ -43,8 +43,8 @@ PhongAlbedo phong_albedo(const double (&v)[3], double nu, double nv, int points 
 // exponent, is root_along^2.
 PhongAlbedo phong_albedo_at(double nu, double nv, double root_n_dot_v, double root_along);
 
-// The slice of a table that phong_slice_lookup() reads, of size x size / 2 texels, with what `at` gives for both roots.
-void fill_phong_slice(int size, const std::function<PhongAlbedo(double, double)>& at, std::uint16_t* texels);
+// The slice of a table that phong_slice_lookup() reads, of size x size / 2 pairs, with what `at` gives for both roots.
+void fill_phong_slice(int size, const std::function<PhongAlbedo(double, double)>& at, float* pairs);
 
 // How tables on files go through that azimuth: by root_along, as shading has it; or evenly, from the axis that nu is along to the other.
 enum class AzimuthAxis { root, linear };

@@ -222,11 +222,11 @@ PhongFiles::Columns PhongFiles::nearest_columns(double nu, double nv) const
     return nearest;
 }
 
-void PhongFiles::slice(double nu, double nv, int size, std::uint16_t* texels) const
+void PhongFiles::slice(double nu, double nv, int size, float* pairs) const
 {
     const Columns columns = nearest_columns(nu, nv);
     fill_phong_slice(
-        size, [&](double eye, double root) { return albedo(columns, eye, root); }, texels);
+        size, [&](double eye, double root) { return albedo(columns, eye, root); }, pairs);
 }
 
 double PhongFiles::half_off_by(double nu, double nv) const

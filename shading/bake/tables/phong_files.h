@@ -28,7 +28,7 @@ class PhongFiles {
     // Those of phong_half_vectors(), of the nearest texels below. Only with half vectors, for a lobe that passes check().
     std::vector<PhongHalfVector> half_vectors(double nu, double nv, int samples) const;
     // As bake_phong_slice() fills them. Only with an albedo table.
-    void slice(double nu, double nv, int size, std::uint16_t* texels) const;
+    void slice(double nu, double nv, int size, float* pairs) const;
 
   private:
     // How columns of an albedo table go through the eye's azimuth: AzimuthAxis of phong.h, and evenly from the axis of the larger exponent.

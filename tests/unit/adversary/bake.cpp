@@ -50,7 +50,7 @@ TexelView texture()
 TexelView albedos()
 {
     static const DfgTable made = bake_dfg(kSide, 64, Jobs(1));
-    return {.texels = made.texels.data(), .size = made.size};
+    return {.pairs = made.pairs.data(), .size = made.size};
 }
 
 std::vector<double> directions(const Domain&, const double* u)

@@ -56,7 +56,7 @@ Albedo integral(const Lobe& l, int n)
     return {sum.scale / count, sum.bias / count};
 }
 
-std::vector<Albedo> lookup(const IsaFns& isa, const char* name, const std::uint16_t* texels, const std::vector<Lobe>& lobes)
+std::vector<Albedo> lookup(const IsaFns& isa, const char* name, const float* pairs, const std::vector<Lobe>& lobes)
 {
     const std::size_t n = lobes.size();
     std::vector<double> in(5 * n);
@@ -66,7 +66,7 @@ std::vector<Albedo> lookup(const IsaFns& isa, const char* name, const std::uint1
         for (std::size_t k = 0; k < 5; ++k)
             in[k * n + i] = values[k];
     }
-    const std::vector<double> out = test::call(isa, name, in, {.texels = texels, .size = kLobeAlbedoSize});
+    const std::vector<double> out = test::call(isa, name, in, {.pairs = pairs, .size = kLobeAlbedoSize});
     std::vector<Albedo> r;
     for (std::size_t i = 0; i < n; ++i)
         r.push_back({out[i], out[n + i]});
@@ -75,10 +75,10 @@ std::vector<Albedo> lookup(const IsaFns& isa, const char* name, const std::uint1
 
 std::vector<Albedo> lookup(const IsaFns& isa, const std::vector<Lobe>& lobes)
 {
-    return lookup(isa, "lobe_albedo", lobe_albedo_texels(), lobes);
+    return lookup(isa, "lobe_albedo", lobe_albedo_pairs(), lobes);
 }
 
-std::vector<Albedo> lookup_slice(const IsaFns& isa, const std::uint16_t* slice, const std::vector<Lobe>& lobes)
+std::vector<Albedo> lookup_slice(const IsaFns& isa, const float* slice, const std::vector<Lobe>& lobes)
 {
     return lookup(isa, "lobe_slice", slice, lobes);
 }
@@ -125,7 +125,7 @@ TEST(lobe_albedo, of_a_round_lobe_is_the_other_tables)
             }
     std::vector<float> in = cosines;
     in.insert(in.end(), roughnesses.begin(), roughnesses.end());
-    const std::vector<float> expected = results(float_fns()[0], "dfg_lookup", in, {.texels = round.texels.data(), .size = round.size});
+    const std::vector<float> expected = results(float_fns()[0], "dfg_lookup", in, {.pairs = round.pairs.data(), .size = round.size});
     const std::vector<Albedo> got = lookup(float_fns()[0], lobes);
     for (std::size_t i = 0; i < lobes.size(); ++i) {
         EXPECT_NEAR(got[i].scale, static_cast<double>(expected[2 * i]), 0.008) << cosines[i] << " " << roughnesses[i];
@@ -135,8 +135,8 @@ TEST(lobe_albedo, of_a_round_lobe_is_the_other_tables)
 
 TEST(lobe_albedo, threads_and_instruction_sets_give_the_same_bits)
 {
-    const Column<std::uint16_t> a = bake_lobe_albedo(8, Jobs(1)), b = bake_lobe_albedo(8, Jobs(3));
-    ASSERT_EQ(a.size(), std::size_t{4 * 8 * 8 * 4 * 4});
+    const Column<float> a = bake_lobe_albedo(8, Jobs(1)), b = bake_lobe_albedo(8, Jobs(3));
+    ASSERT_EQ(a.size(), std::size_t{2 * 8 * 8 * 4 * 4});
     EXPECT_TRUE(std::equal(a.begin(), a.end(), b.begin()));
     std::vector<Lobe> lobes;
     Random random(3);
@@ -154,9 +154,9 @@ TEST(lobe_albedo, threads_and_instruction_sets_give_the_same_bits)
 
 TEST(lobe_albedo, of_the_program_is_the_one_that_is_baked_here)
 {
-    const Column<std::uint16_t> baked = bake_lobe_albedo(kLobeAlbedoSize, Jobs(2));
+    const Column<float> baked = bake_lobe_albedo(kLobeAlbedoSize, Jobs(2));
     ASSERT_GE(lobe_albedo_bytes(), baked.size() * sizeof baked[0]);
-    EXPECT_TRUE(std::equal(baked.begin(), baked.end(), lobe_albedo_texels()));
+    EXPECT_TRUE(std::equal(baked.begin(), baked.end(), lobe_albedo_pairs()));
 }
 
 // A slice knows its lobe's widths exactly, so only its two axes are interpolated.
@@ -168,8 +168,8 @@ TEST(lobe_albedo, slices_are_near_the_integral_of_their_lobe)
     constexpr int kLobes = 24, kViews = 32;
     for (int i = 0; i < kLobes; ++i) {
         const double roughness = in(0.1, 1.0), eta = in(0.0, 0.95);
-        Column<std::uint16_t> slice;
-        slice.resize(4 * kLobeSliceSize * kLobeSliceSize / 2);
+        Column<float> slice;
+        slice.resize(2 * kLobeSliceSize * kLobeSliceSize / 2);
         std::vector<Lobe> lobes;
         for (int k = 0; k < kViews; ++k)
             lobes.push_back(lobe_of(roughness, eta, in(0.05, 1.0), in(-kPi, kPi)));

@@ -11,7 +11,8 @@ namespace burnish::test {
 // What a kernel looks at that fetches texels: a cube, a table or a texture of halves. Kernels leave alone what they do not ask for.
 struct TexelView {
     const std::uint16_t* texels = nullptr;
-    int size = 0, levels = 1; // a cube's or a table's; level: the one to look at
+    const float* pairs = nullptr; // a table's, of pairs of floats
+    int size = 0, levels = 1;     // a cube's or a table's; level: the one to look at
     int level = 0;
     const std::int32_t* offset = nullptr; // a texture's, by level
     const float *level_width = nullptr, *level_height = nullptr;

@@ -64,7 +64,7 @@ TEST(furnace, metal_gives_back_its_directional_albedo)
                           r1 = std::min<std::size_t>(r0 + 1, static_cast<std::size_t>(n) - 1);
         const auto albedo = [&](std::size_t r) {
             const std::size_t at = r * static_cast<std::size_t>(n) + static_cast<std::size_t>(n) - 1;
-            return stage.dfg.scale[at] + stage.dfg.bias[at];
+            return stage.dfg.pairs[2 * at] + stage.dfg.pairs[2 * at + 1];
         };
         const float expected = albedo(r0) + (row - std::floor(row)) * (albedo(r1) - albedo(r0));
         EXPECT_NEAR(pixel(f, 16, 16)[0], expected, 3e-3f) << roughness;

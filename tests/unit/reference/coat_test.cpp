@@ -88,7 +88,7 @@ TEST(coat, of_constant_light_both_renderers_give_back_the_same_known_share)
                     Stage bare(plane_scene(below), 1.0f, 2), stage(plane_scene(coated(below, roughness, coat)), 1.0f, 2);
                     bare.dfg = stage.dfg = bake_dfg(64, 4096, stage.jobs);
                     const FrameDesc d = coat_view(cosine, "split_isotropic", 1);
-                    const dfg_value a = dfg_lookup(stage.dfg.texels.data(), stage.dfg.size, cosine, roughness);
+                    const dfg_value a = dfg_lookup(stage.dfg.pairs.data(), stage.dfg.size, cosine, roughness);
                     const double w = weight_at(static_cast<double>(cosine), static_cast<double>(coat));
                     const double under = mean_words(bare.render(d, best_isa()));
                     const double expected = (1.0 - w) * under + w * static_cast<double>(a.scale + a.bias);

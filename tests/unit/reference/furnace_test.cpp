@@ -42,7 +42,7 @@ TEST(furnace, a_white_metal_reflects_its_directional_albedo)
                 ReferenceOptions o = to_samples(ReferenceMode::direct, 1024);
                 o.strategy = strategy;
                 const Estimate e = seen_from(stage, at_cosine(cosine), o);
-                const dfg_value albedo = dfg_lookup(stage.dfg.texels.data(), stage.dfg.size, cosine, roughness);
+                const dfg_value albedo = dfg_lookup(stage.dfg.pairs.data(), stage.dfg.size, cosine, roughness);
                 EXPECT_NEAR(e.mean, static_cast<double>(albedo.scale + albedo.bias), kSigmas * e.deviation + 1.5e-3)
                     << "roughness " << roughness << " cosine " << cosine << " strategy " << static_cast<int>(strategy);
                 EXPECT_GT(e.mean, 0.3);
@@ -58,7 +58,7 @@ TEST(furnace, a_dielectric_loses_nothing_but_what_its_base_absorbs)
     for (float cosine : {0.9f, 0.3f}) {
         Stage stage(plane_scene(m));
         stage.dfg = bake_dfg(64, 4096, stage.jobs);
-        const dfg_value a = dfg_lookup(stage.dfg.texels.data(), stage.dfg.size, cosine, 0.4f);
+        const dfg_value a = dfg_lookup(stage.dfg.pairs.data(), stage.dfg.size, cosine, 0.4f);
         const double specular = 0.04 * static_cast<double>(a.scale) + static_cast<double>(a.bias);
         const Estimate e = seen_from(stage, at_cosine(cosine), to_samples(ReferenceMode::shadowed, 4096));
         EXPECT_NEAR(e.mean, specular + 0.5 * (1.0 - specular), kSigmas * e.deviation + 1e-3) << cosine;
