@@ -257,7 +257,7 @@ def broken_ends(bench):
 
 def broken_hash(bench, words, *how, program=None):
     coarse = ("--env-samples", "16") if "--env-size" in words else ("--env-samples", "16", "--env-size", "16")
-    done = bench.run("render", *words, *coarse, "--size", "40x40", "--no-background", "-q", "--stats", "-", *how, program=program)
+    done = bench.run("render", *words, *coarse, "--size", "40x40", "--no-background", "-q", "--stats", "-", *how, program=program, timeout=600)
     if done.code == 77:
         raise Skipped(done.err.strip())
     return json.loads(done.expect(0).out)["pixel_hash"]
