@@ -27,7 +27,7 @@ PATHS = {
     "eye across a plane of symmetry": ("eye=-0.005,0.25,0.6:0.005,0.25,0.6", "builtin:sphere --target 0,0,0 --roughness 0.4 --anisotropy 0.8", 11),
     "distance": ("zoom=0.995:1.005", "builtin:sphere --roughness 0.4 --anisotropy 0.5", 11),
 }
-# What ends where lobes change ever faster: no step of it is usual, and only the reference's are beside it.
+# What ends where lobes change ever faster: no step of it is usual, and those of the reference are beside it in its own row, too.
 ENDS = {"anisotropy to 1", "roughness to 0", "roughness to 0 by lamps"}
 # Of some techniques alone, which the reference knows nothing of: only their own row is beside them.
 OWN_PATHS = {
@@ -97,8 +97,9 @@ def excess(bench, key, path, words, reference):
     """The largest step over what is allowed beside the reference's at its place, and beside its own row's median: above 1 is a breach."""
     steps = steps_of(bench, path, words)
     usual = sorted(steps)[len(steps) // 2]
+    beside = reference if key[1] in ENDS else [0.0] * len(steps)
     return (max(s / (MORE * r + NOISE) for s, r in zip(steps, reference, strict=True)) if reference else 0.0,
-            0.0 if key[1] in ENDS else max(steps) / (MORE * usual + NOISE))
+            max(s / (MORE * max(usual, r) + NOISE) for s, r in zip(steps, beside, strict=True)))
 
 
 def held(bench, asked):
