@@ -98,11 +98,11 @@ Scene make_cores(double texels)
 {
     const int side = static_cast<int>(std::lround(texels));
     Scene scene = plate_of(brushed_metal(0.3, 0.9, kSilver));
-    scene.materials[0].anisotropy_tex.texture =
-        add_texture(scene, "flow", map_of(side, side, [](double u, double v) {
-                        const double a = 0.5 * det_atan2(det_sin(2.0 * kPi * v), det_sin(2.0 * kPi * u));
-                        return glm::dvec3(0.5 + 0.5 * det_cos(a), 0.5 + 0.5 * det_sin(a), 1.0);
-                    }));
+    scene.materials[0].anisotropy_tex.texture = add_texture(scene, "flow", map_of(side, side, [](double u, double v) {
+                                                                const double a =
+                                                                    0.5 * det_atan2(det_sin(2.0 * kPi * v), det_sin(2.0 * kPi * u));
+                                                                return glm::dvec3(0.5 + 0.5 * det_cos(a), 0.5 + 0.5 * det_sin(a), 1.0);
+                                                            }));
     return scene;
 }
 

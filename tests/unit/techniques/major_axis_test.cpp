@@ -246,8 +246,8 @@ double turn_between(double a, double b)
     return std::min(apart, M_PI - apart);
 }
 
-// Next to a symmetry plane of the lobe the printed quotient is of what is left of two nearly equal numbers: a line of speckles in a picture, unless
-// the root of a square is the number itself, as it is here and need not be on devices. The kernel's form cancels nowhere.
+// Next to a symmetry plane of the lobe the printed quotient is of what is left of two nearly equal numbers: a line of speckles in a
+// picture, unless the root of a square is the number itself, as it is here and need not be on devices. The kernel's form cancels nowhere.
 TEST(major_axis, extrema_as_printed_speckle_in_floats_beside_symmetry_planes_and_the_kernel_does_not)
 {
     Random random{41};
@@ -261,17 +261,24 @@ TEST(major_axis, extrema_as_printed_speckle_in_floats_beside_symmetry_planes_and
         const float oz = std::sqrt(1.0f - ox * ox);
         const double al = 0.1 + 0.9 * unit(), eta = 0.2 + 0.7 * unit(), s = al * al / std::sqrt(2.0);
         const float rx = static_cast<float>(s * (1 + eta)), ry = static_cast<float>(s * (1 - eta));
-        const std::vector<double> in = {static_cast<double>(ox), static_cast<double>(oy), static_cast<double>(oz),
-                                        static_cast<double>(rx), static_cast<double>(ry), 1.0, 2.3, 16.0};
+        const std::vector<double> in = {static_cast<double>(ox),
+                                        static_cast<double>(oy),
+                                        static_cast<double>(oz),
+                                        static_cast<double>(rx),
+                                        static_cast<double>(ry),
+                                        1.0,
+                                        2.3,
+                                        16.0};
         const double truth = call(oracle_fns(), "major_axis", in)[1];
         const double off = turn_between(static_cast<double>(printed_t1(ox, oy, rx, ry, device_root)), truth);
         by_exact_root = std::max(by_exact_root, turn_between(static_cast<double>(printed_t1(ox, oy, rx, ry, exact_root)), truth));
         printed_off += off > kSeen, printed_far += off > M_PI / 6.0;
         worst = std::max(worst, turn_between(call(float_fns()[0], "major_axis", in)[1], truth));
     }
-    std::printf("as printed %.1f %% are off by more than %.2f radians, %.1f %% by more than 30 degrees (by an exact root %.1e at most), the "
-                "kernel by %.1e at most\n",
-                100.0 * printed_off / kViews, kSeen, 100.0 * printed_far / kViews, by_exact_root, worst);
+    std::printf(
+        "as printed %.1f %% are off by more than %.2f radians, %.1f %% by more than 30 degrees (by an exact root %.1e at most), the "
+        "kernel by %.1e at most\n",
+        100.0 * printed_off / kViews, kSeen, 100.0 * printed_far / kViews, by_exact_root, worst);
     EXPECT_GT(printed_off, kViews / 10);
     EXPECT_LT(by_exact_root, 1e-3);
     EXPECT_LT(worst, 1e-5);
