@@ -166,15 +166,16 @@ def reference_steps(bench, path, lobe):
     return steps_of(bench, path, (*(("--brdf", lobe) if lobe else ()), "--backend", "reference", "--samples", str(SAMPLES)))
 
 
+def without_swaps(s):
+    """Where eta changes its sign the axes of the reference's samples swap, and one step is their noise, which more samples lessen (.0157 by 256 a pixel,
+    .0063 by 4096, .0040 by 16384, beside .0017): of three neighbours the median counts."""
+    return [s[0], *(sorted(s[i - 1:i + 2])[1] for i in range(1, len(s) - 1)), s[-1]]
+
+
 def kept_steps():
-    """{(path, lobe): the reference's steps}. Where eta changes its sign the axes of its samples swap, and one step is their noise, which more samples
-    lessen (.0157 by 256 a pixel, .0063 by 4096, .0040 by 16384, beside .0017): of three neighbours the median counts."""
-    kept = {}
-    for line in KEPT.read_text().splitlines():
-        path, lobe, steps = (part.strip() for part in line.split("|"))
-        s = list(map(float, steps.split()))
-        kept[path, lobe] = [s[0], *(sorted(s[i - 1:i + 2])[1] for i in range(1, len(s) - 1)), s[-1]]
-    return kept
+    """{(path, lobe): the reference's steps}."""
+    rows = [[part.strip() for part in line.split("|")] for line in KEPT.read_text().splitlines()]
+    return {(path, lobe): without_swaps(list(map(float, steps.split()))) for path, lobe, steps in rows}
 
 
 def excess(bench, key, path, words, reference):
@@ -265,7 +266,7 @@ def reference_is_kept(bench):
     kept, other = kept_steps(), []
     check(sorted(kept) == sorted(rows), "rows are missing, or too many")
     for (path, lobe), what in rows.items():
-        found = reference_steps(bench, what, lobe)
+        found = without_swaps(reference_steps(bench, what, lobe))
         usual = sorted(found)[len(found) // 2], sorted(kept[path, lobe])[len(found) // 2]
         print(f"{path}, {lobe or 'as is usual'}: {usual[0]:.6f}, kept {usual[1]:.6f}", flush=True)
         if abs(usual[0] - usual[1]) > 0.02 * usual[1] + 2e-5:
