@@ -146,9 +146,16 @@ def take_times(program, count):
     subprocess.run([*common, *ways["risks"]], check=True, capture_output=True) # bakes
     rounds = [{name: cpu_ms([*common, *words]) for name, words in ways.items()} for _ in range(count)]
     cost, frame = ([(r[a] - r["plain"]) / n for r in rounds] for a, n in (("risks", 1), ("five", 4)))
-    low, high = statistics.quantiles(cost, n=4)[::2]
+    low, high = statistics.quantiles(cost, n=4)[::2] if count > 1 else 2 * cost
     print(f"{TIMED}: frame {statistics.median(frame):.1f} ms, --risks {statistics.median(cost):.1f} ({low:.1f} to {high:.1f}), "
           f"{100 * statistics.median(cost) / statistics.median(frame):.1f} % of it; {count} rounds")
+
+
+def rounds_of(text):
+    count = int(text)
+    if count < 1:
+        raise argparse.ArgumentTypeError("one round at least")
+    return count
 
 
 def main():
@@ -157,7 +164,7 @@ def main():
     parser.add_argument("--set", action="store_true", help="the pairs that constants were chosen by")
     parser.add_argument("--keep", help="folder of the pictures; truths are found there again")
     parser.add_argument("--samples", type=int, default=1024)
-    parser.add_argument("--time", type=int, metavar="N", help="rounds, four at least")
+    parser.add_argument("--time", type=rounds_of, metavar="N", help="rounds; quartiles want four")
     args = parser.parse_args()
     if args.time:
         return take_times(args.program, args.time)

@@ -28,6 +28,7 @@ import image_light_cases
 import input_cases
 import install_cases
 import kill_cases
+import jump_cases
 import key_light_cases
 import law_cases
 import layer_cases

@@ -92,6 +92,20 @@ Scene make_needles(double width)
     return scene;
 }
 
+// Brushed metal whose grain turns by half a turn about four places, in a map of so many texels to a side. Along a line that joins them its
+// directions turn over: d beside -d.
+Scene make_cores(double texels)
+{
+    const int side = static_cast<int>(std::lround(texels));
+    Scene scene = plate_of(brushed_metal(0.3, 0.9, kSilver));
+    scene.materials[0].anisotropy_tex.texture = add_texture(scene, "flow", map_of(side, side, [](double u, double v) {
+                                                                const double a =
+                                                                    0.5 * det_atan2(det_sin(2.0 * kPi * v), det_sin(2.0 * kPi * u));
+                                                                return glm::dvec3(0.5 + 0.5 * det_cos(a), 0.5 + 0.5 * det_sin(a), 1.0);
+                                                            }));
+    return scene;
+}
+
 // Normals of a map that lean from the plate's by so many degrees.
 Scene make_leaning(double degrees)
 {
@@ -351,6 +365,7 @@ const std::vector<TrialMaker>& trial_makers()
         {{"plates", "one so far in front of another, metres"}, 0.01, 0.0, 1.0, make_plates},
         {{"needles", "triangles so wide at their feet, metres"}, 0.02, 1e-6, 0.06, make_needles},
         {{"leaning", "normals of a map that lean so many degrees"}, 30.0, 0.0, 180.0, make_leaning},
+        {{"cores", "grain that turns about four places, in so many texels to a side"}, 256.0, 4.0, 1024.0, make_cores},
         {{"roofs", "red and blue sides of strips, of this slope"}, 0.5, 0.0, 10.0, make_roofs},
         {{"relief", "waves so deep by a map of heights, lengths of texture coordinates"}, 0.1, 0.0, 1.0, make_relief},
         {{"waves", "the same as triangles"}, 0.1, 0.0, 1.0, make_waves},
