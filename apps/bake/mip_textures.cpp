@@ -25,7 +25,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::vector<Image> metallic_levels(const Scene& scene, const Material& m, const MipSource& source, const MipArguments& a)
+std::vector<Image> metallic_levels(const Scene& scene, const Material& m, const MipSource& source, const MipArguments& a, const Jobs& jobs)
 {
     if (!m.metallic_roughness_tex.used())
         return {};
@@ -33,11 +33,12 @@ std::vector<Image> metallic_levels(const Scene& scene, const Material& m, const 
         scene.images[static_cast<std::size_t>(scene.textures[static_cast<std::size_t>(m.metallic_roughness_tex.texture)].image)];
     const Grid grid = grid_of(source.maps());
     const Image metallic = linear_map(image, grid, false, 2, 1, &m.metallic);
-    const Image facing = a.couple_albedo ? facing_of(source) : Image();
+    const Image facing = a.couple_albedo ? facing_of(source, jobs) : Image();
     return colour_levels(metallic, {a.color_kernel, grid.wrap_s, grid.wrap_t, a.couple_albedo ? &facing : nullptr});
 }
 
-std::vector<Image> base_color_levels(const Scene& scene, const Material& m, const MipSource& source, const MipArguments& a)
+std::vector<Image> base_color_levels(const Scene& scene, const Material& m, const MipSource& source, const MipArguments& a,
+                                     const Jobs& jobs)
 {
     const float factor[4] = {m.base_color.x, m.base_color.y, m.base_color.z, m.base_color.w};
     if (!m.base_color_tex.used()) {
@@ -53,7 +54,7 @@ std::vector<Image> base_color_levels(const Scene& scene, const Material& m, cons
     Image facing;
     const float one = 1.0f;
     if (coupled)
-        facing = linear_map(facing_of(source), grid, false, 0, 1, &one);
+        facing = linear_map(facing_of(source, jobs), grid, false, 0, 1, &one);
     return colour_levels(linear, {a.color_kernel, texture.wrap_s, texture.wrap_t, coupled ? &facing : nullptr});
 }
 
@@ -175,7 +176,7 @@ Result<WrittenTextures> write_mip_textures(const std::string& folder, const Scen
                 continue;
             const Material& m = scene.materials[i];
             const MipSource source = mip_source(scene, m);
-            StandardLevels made = standard_levels(source, *levels[i], metallic_levels(scene, m, source, a), m.metallic);
+            StandardLevels made = standard_levels(source, *levels[i], metallic_levels(scene, m, source, a, jobs), m.metallic);
             for (auto* maps : {&made.normal, &made.roughness, &made.anisotropy})
                 for (Image& map : *maps)
                     map = a.format == MipFormat::png_levels ? rounded_to_codes(map) : rounded_to_halves(map);
@@ -191,7 +192,7 @@ Result<WrittenTextures> write_mip_textures(const std::string& folder, const Scen
                 std::vector<Image> levels;
                 bool srgb;
             };
-            const std::vector<Image> colours = with_gains(base_color_levels(scene, m, source, a), *levels[i]);
+            const std::vector<Image> colours = with_gains(base_color_levels(scene, m, source, a, jobs), *levels[i]);
             std::vector<Part> parts = {
                 {"_normal", made.normal, false}, {"_metallic_roughness", made.roughness, false}, {"_base_color", colours, true}};
             if (std::any_of(made.anisotropy.begin(), made.anisotropy.end(), any))
