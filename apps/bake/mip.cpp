@@ -170,6 +170,11 @@ int run_mip(const MipBake& bake)
     if (!data)
         return fail(data.error());
     const Scene& scene = (*data)->scene;
+    std::vector<std::string> inputs = scene.files;
+    inputs.push_back(bake.material);
+    if (pyramid)
+        if (const Status path = check_text_path("-o", bake.output, inputs); !path)
+            return fail(path.error());
     Report report(bake.quiet, bake.verbosity);
     for (const std::string& warning : scene.warnings)
         report.warning(warning);
@@ -199,8 +204,7 @@ int run_mip(const MipBake& bake)
     Preview preview;
     if (!bake.preview.empty())
         preview = preview_of(scene, levels);
-    std::vector<std::string> inputs = scene.files;
-    inputs.insert(inputs.end(), {bake.material, bake.output});
+    inputs.push_back(bake.output);
     if (const Status fits = check_preview(bake.preview, preview, inputs); !fits)
         return fail(fits.error());
     if (pyramid) {

@@ -103,20 +103,29 @@ Image coded(const Image& unit, bool srgb)
     return to;
 }
 
-Status add_levels(FileSet& files, const std::string& stem, const std::vector<Image>& levels, bool srgb, MipFormat format,
-                  std::vector<std::string>& names)
+// inputs: that are not written over
+Status add_file(FileSet& files, const std::string& name, const std::vector<std::uint8_t>& bytes, const std::vector<std::string>& inputs)
+{
+    for (const std::string& input : inputs)
+        if (same_file(name, input))
+            return Error{ExitCode::usage, "-o", "", fmt::format("'{}' would be written over", input)};
+    return files.add(name, bytes.data(), bytes.size());
+}
+
+Status add_levels(FileSet& files, const std::vector<std::string>& inputs, const std::string& stem, const std::vector<Image>& levels,
+                  bool srgb, MipFormat format, std::vector<std::string>& names)
 {
     if (format == MipFormat::exr_mip) {
         names.push_back(stem + ".exr");
         const Result<std::vector<std::uint8_t>> bytes = encode_exr_levels(names.back(), levels);
-        return bytes ? files.add(names.back(), bytes->data(), bytes->size()) : Status(bytes.error());
+        return bytes ? add_file(files, names.back(), *bytes, inputs) : Status(bytes.error());
     }
     for (std::size_t l = 0; l < levels.size(); ++l) {
         names.push_back(fmt::format("{}_{:02}.png", stem, l));
         const Result<std::vector<std::uint8_t>> bytes = png_bytes(names.back(), coded(levels[l], srgb));
         if (!bytes)
             return bytes.error();
-        if (Status added = files.add(names.back(), bytes->data(), bytes->size()); !added)
+        if (Status added = add_file(files, names.back(), *bytes, inputs); !added)
             return added;
     }
     return {};
@@ -198,7 +207,8 @@ Result<WrittenTextures> write_mip_textures(const std::string& folder, const Scen
             if (std::any_of(made.anisotropy.begin(), made.anisotropy.end(), any))
                 parts.push_back({"_anisotropy", made.anisotropy, false});
             for (const Part& part : parts)
-                if (Status added = add_levels(files, stem + part.name, part.levels, part.srgb, a.format, written.files); !added)
+                if (Status added = add_levels(files, scene.files, stem + part.name, part.levels, part.srgb, a.format, written.files);
+                    !added)
                     return added;
             written.figures +=
                 figures_of(names[i], made, source, *levels[i], shown_surface(lobe_of_model(a.brdf), m.metallic > 0.5f), jobs);

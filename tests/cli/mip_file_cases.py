@@ -2,8 +2,9 @@
 
 import struct
 
+import gltf_files as files
 from compare_cases import png
-from detail_cases import bumps, hash_of
+from detail_cases import bare, bumps, hash_of
 from harness import case, check
 from input_cases import scratch
 from mip_cases import SMALL
@@ -178,3 +179,20 @@ def kept(bench):
     name.write_bytes(data[1]), swapped.write_bytes(data[0])
     for folder, found in (("set", first), ("other", other)):
         check(drawn(folder, *look)[0] == found, "levels of other maps are taken")
+
+
+@case("mip.bakes_write_over_nothing_that_they_read", "input", tier="check")
+def inputs(bench):
+    whole(bench, "set")
+    gltf = bare(normalTexture={"index": 0})
+    gltf["materials"][0]["name"] = "odd"
+    gltf["textures"], gltf["images"] = [{"source": 0}], [{"uri": "odd_normal_01.png"}]
+    scratch(bench, "odd.gltf", files.text(gltf))
+    scratch(bench, "odd_normal_01.png", png(16, 16, bumps))
+    before = {path: path.read_bytes() for path in bench.folder.rglob("*") if path.is_file()}
+    for words in (("odd.gltf", "-o", "a.mip", "--preview", "."), ("odd.gltf", "-o", "odd_normal_01.png"), ("odd.gltf", "-o", "odd.gltf"),
+                  ("odd.gltf", "--format", "png-levels", "-o", "."), ("set", "-o", "set/x_normal.png"), ("set", "-o", "set/x_height.png")):
+        bench.run("bake", "mip", *words, "-q").expect(2).expect_one_line("odd_normal_01.png" if words[-1] == "." else words[-1])
+    check({path: path.read_bytes() for path in bench.folder.rglob("*") if path.is_file()} == before, f"{bench.left_behind()}")
+    bench.run("bake", "mip", "odd.gltf", "-q", "-o", "a.mip", "--preview", "seen").expect(0)
+    check((bench.folder / "seen/odd_normal_01.png").exists(), "no preview")
