@@ -8,6 +8,7 @@ from detail_cases import bare, bumps, hash_of
 from harness import case, check
 from input_cases import scratch
 from mip_cases import SMALL
+from parity_cases import check_equal, parity
 
 PARTS = ("base colours", "metalness", "heights")
 MASK = 2**64 - 1
@@ -196,3 +197,21 @@ def inputs(bench):
     check({path: path.read_bytes() for path in bench.folder.rglob("*") if path.is_file()} == before, f"{bench.left_behind()}")
     bench.run("bake", "mip", "odd.gltf", "-q", "-o", "a.mip", "--preview", "seen").expect(0)
     check((bench.folder / "seen/odd_normal_01.png").exists(), "no preview")
+
+
+@case("mip.maps_of_one_texel_have_no_levels", tier="check")
+def one_texel(bench):
+    (bench.folder / "set").mkdir()
+    for part, texel, channels in (("normal", (140, 120, 250), 3), ("roughness", (90,), 1), ("basecolor", (200, 100, 50), 3), ("height", (9,), 1)):
+        (bench.folder / f"set/x_{part}.png").write_bytes(png(1, 1, lambda x, y: texel, channels=channels))
+    for name in ("kappa", "mipnet", "teacher"):
+        bench.run("bake", "mip", "set", "--mip-filter", name, "--couple", "albedo", "-q", "-o", "a.mip").expect(0)
+        check(all(begin == end for *_, begin, end in maps_of((bench.folder / "a.mip").read_bytes()).values()), "there are levels")
+        seen = ("builtin:sphere", *SMALL, "--material", "set")
+        check(hash_of(bench, *seen, "--mip-filter", name, "--couple", "albedo") == hash_of(bench, *seen, "--mip-pyramid", "a.mip"), name)
+
+
+@case("mip.files_give_the_same_words_on_devices")
+def devices(bench):
+    bench.run("bake", "mip", "builtin:shaderballs", "--couple", "albedo", "--color-kernel", "kaiser", "--mip-gain", "on", "-q", "-o", "balls.mip").expect(0)
+    check_equal(parity(bench, "builtin:shaderballs", "--size", "48x36", "--msaa", "1", "--technique", "auto", "--mip-pyramid", "balls.mip"))
