@@ -82,13 +82,6 @@ Shape shape_of(MipFilter filter, float kappa)
     return {filter == kMipFilter_covariance ? mip::Mean::covariance : mip::Mean::baseline, 3, 6, 0.0f};
 }
 
-// Pairs of means whose product a place of the rest is of.
-struct Pair {
-    std::size_t i, j;
-};
-constexpr Pair kFlatPairs[] = {{0, 0}, {1, 1}, {0, 1}};
-constexpr Pair kSpacePairs[] = {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {0, 2}, {1, 2}};
-
 // Planes of a row of states.
 struct StateRow {
     const float* first;
@@ -112,7 +105,7 @@ void merge_many(const Shape& shape, const std::vector<StateRow>& rows, const std
     });
     const auto mean = sum;
     if (shape.spread > 0.0f) {
-        const Pair* pairs = shape.means == 3 ? kSpacePairs : kFlatPairs;
+        const mip::MeanPair* pairs = shape.means == 3 ? mip::kSpacePairs : mip::kFlatPairs;
         each([&](const auto& s, double weight) {
             for (std::size_t k = shape.means; k < shape.count; ++k) {
                 const auto [i, j] = pairs[k - shape.means];
