@@ -113,7 +113,7 @@ template <Mean mean> BN_FN state state_of(real3 n, slope_covariance s)
     } else if constexpr (mean == Mean::covariance) {
         return {{n.x, n.y, n.z, s.xx, s.yy, s.xy}};
     } else if constexpr (mean == Mean::leadr) {
-        const real steep = sqrt(n.x * n.x + n.y * n.y) / (lit(work::kMostSlope) * n.z);
+        const real steep = sqrt(n.x * n.x + n.y * n.y) / (lit(static_cast<double>(work::kMostSlope)) * n.z);
         const real keep = lit(1.0) / max(steep, lit(1.0));
         const real2 slope = vec2_of(keep * n.x / n.z, keep * n.y / n.z);
         const slope_covariance c = covariance_from_frame(normal_of_slope(slope), s);
