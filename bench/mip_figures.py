@@ -4,7 +4,7 @@
 Usage: mip_figures.py --program build/release/burnish -o FOLDER [--figure N,N,...] [--textures FOLDER] [--size WxH] [--samples N]
                       [--seconds N] [--work FOLDER] [--json FILE]
 
-1: the balls of builtin:shaderballs; 4, 5, 6: materials (--textures, a folder each) under Ashikhmin and Shirley's, GGX's and Beckmann's
+1: the balls of builtin:shaderballs; 4, 5, 6: materials (--textures, a folder each; a normal map alone is a metal) under Ashikhmin and Shirley's, GGX's and Beckmann's
 normals; 8: ridges that become anisotropy, maps of level 2 beside what they draw; 9: the second net seen once and four times in training
 (--seconds of CPU time each, 20). FOLDER/figure_N.png is a row a material with a row of FLIP's maps below it, columns as printed; a line a
 picture: mean FLIP, the tone curve's picture at 67 pixels a degree. The truth is the reference that reads all texels, of 2 N samples.
@@ -23,7 +23,7 @@ from workbench import arguments, in_folder
 
 TIMES = 3
 # brdf, filters between which and the truth the figure stands, how many materials
-BY_MODEL = {4: ("ashikhmin_shirley", ("baseline", "mipnet"), 4), 5: ("ggx_aniso", ("baseline", "ssgt", "mipnet"), 6),
+BY_MODEL = {4: ("ashikhmin_shirley", ("baseline", "mipnet"), 5), 5: ("ggx_aniso", ("baseline", "ssgt", "mipnet"), 6),
             6: ("beckmann", ("baseline", "leadr", "mipnet"), 6)}
 
 
@@ -81,13 +81,24 @@ class Figures(Bench):
         rows = [row for camera in ("near", "mid") for row in self.drawn(1, camera, ("builtin:shaderballs", "--camera", camera), looks)]
         self.write(1, rows, "baseline, mipnet, the truth")
 
+    def material(self, folder):
+        """The folder, or, where the names in it are none that the program knows, its normal map as a metal of roughness .35."""
+        if list(folder.glob("*_normal.*")):
+            return folder
+        normal, metal = next(folder.glob("*nor*")), self.work / folder.name
+        metal.mkdir(exist_ok=True)
+        (metal / ("x_normal" + normal.suffix)).write_bytes(normal.read_bytes())
+        for name, code in (("metallic", 255), ("roughness", 89)):
+            write_png(metal / f"x_{name}.png", [bytes((code,) * 3)], 3)
+        return metal
+
     def materials(self, figure):
         brdf, names, count = BY_MODEL[figure]
         looks = [(name, ("--mip-filter", name, "--fallback", "off")[:4 if name == "mipnet" else 2]) for name in names]
-        folders = [f for f in sorted(pathlib.Path(self.options.textures).resolve().iterdir()) if f.is_dir() and list(f.glob("*normal*"))]
+        folders = [f for f in sorted(pathlib.Path(self.options.textures).resolve().iterdir()) if f.is_dir() and list(f.glob("*nor*"))]
         rows = []
-        for folder in folders[::max(1, len(folders) // count)][:count]:
-            words = ("builtin:shaderballs", "--camera", "near", "--material", folder, "--brdf", brdf)
+        for folder in [folders[i * len(folders) // count] for i in range(min(count, len(folders)))]:
+            words = ("builtin:shaderballs", "--camera", "near", "--material", self.material(folder), "--brdf", brdf)
             rows += self.drawn(figure, folder.name, words, looks)
         self.write(figure, rows, ", ".join(names) + ", the truth")
 

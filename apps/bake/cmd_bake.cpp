@@ -42,8 +42,8 @@ half-vectors: those that a lobe of Ashikhmin and Shirley samples, over both rand
 brdf-lut: that lobe's directional albedo, f0 red + green, over the eye's azimuth and the root of its cosine. Both are read back by render
 --as-table; exponents count to five digits.
 environment: an environment as it is baked before it is drawn; render --env FOLDER reads it.
-mip: levels of normals and lobes of a scene's materials, or of a folder of pictures as render --material takes it; render --mip-pyramid
-reads them, where the maps are the same. --format exr-mip and png-levels: a folder of glTF textures with all levels, for other programs, half
+mip: levels of normals, lobes, base colours, metalness and heights of a scene's materials, or of a folder of pictures as render --material
+takes it; render --mip-pyramid reads them, where the maps are the same. --format exr-mip and png-levels: a folder of glTF textures with all levels, for other programs, half
 floats with mip levels or a picture a level; printed is how far what they show lies from their levels, at texels and where four meet.
 displaced: a mesh whose heights are triangles, as render --height-map shows them without any; materials are not kept.
 The parts of quaternion and tpr lie from -1 to 1: code 128 of 8 bits is 0, 255 is 1; .exr and .pfm hold the numbers themselves.

@@ -17,6 +17,7 @@
 #include "core/base/clock.h"
 #include "core/base/file.h"
 #include "core/jobs/jobs.h"
+#include "raster/frame/colours.h"
 #include "shading/bake/mip/pyramid_file.h"
 #include "shading/lang/tables.h"
 
@@ -27,6 +28,24 @@ namespace {
 std::byte mip_code(float unit)
 {
     return static_cast<std::byte>(static_cast<int>(std::clamp(unit, 0.0f, 1.0f) * 255.0f + 0.5f));
+}
+
+// Base colours, metalness and heights of all materials, each once.
+struct MaterialMap {
+    const Material* material;
+    UsedMap map;
+    MapId id;
+};
+std::vector<MaterialMap> all_maps(const Scene& scene, const Jobs& jobs)
+{
+    std::vector<MaterialMap> maps;
+    for (const Material& m : scene.materials)
+        for (const UsedMap& map : used_maps(scene, m)) {
+            const MapId id = map_id(scene, m, map, jobs);
+            if (std::none_of(maps.begin(), maps.end(), [&](const MaterialMap& there) { return there.id == id; }))
+                maps.push_back({&m, map, id});
+        }
+    return maps;
 }
 
 Preview preview_of(const Scene& scene, const MaterialLevels& levels)
@@ -116,10 +135,9 @@ std::vector<Option> mip_options(MipArguments& to)
          choice(to.gains, {"off", "on"})},
         {"--format", "NAME", "{}: a file for render --mip-pyramid, or a folder of textures for other programs",
          choice(to.format, {"pyramid", "exr-mip", "png-levels"})},
-        {"--couple", "NAME", "Of textures: {}; albedo: base colours and metalness weigh as their texels face light and eye",
+        {"--couple", "NAME", "{}; albedo: base colours and metalness weigh as their texels face light and eye",
          choice(to.couple_albedo, {"none", "albedo"})},
-        {"--color-kernel", "NAME", "What base colours and metalness of textures are averaged by: {}",
-         choice(to.color_kernel, {"box", "kaiser"})}};
+        {"--color-kernel", "NAME", "What base colours and metalness are averaged by: {}", choice(to.color_kernel, {"box", "kaiser"})}};
 }
 
 int run_mip(const MipBake& bake)
@@ -133,8 +151,6 @@ int run_mip(const MipBake& bake)
     if (bake.output.empty())
         return fail(usage_error("-o", "is needed"));
     const bool pyramid = a.format == MipFormat::pyramid;
-    if (pyramid && (a.couple_albedo || a.color_kernel != ColourKernel::box))
-        return fail(usage_error(a.couple_albedo ? "--couple" : "--color-kernel", "is of textures: --format exr-mip or png-levels"));
     if (!pyramid && !bake.preview.empty() && same_file(bake.preview, bake.output))
         return fail(usage_error("--preview", "is the folder of -o, whose textures it could write over"));
     if (pyramid)
@@ -142,7 +158,7 @@ int run_mip(const MipBake& bake)
             return fail(path.error());
     Dress with;
     with.mip_filter = a.filter;
-    with.couple_albedo = a.couple_albedo;
+    with.couple_albedo = a.couple_albedo, with.kaiser_colours = a.color_kernel == ColourKernel::kaiser;
     with.mip_net = a.net, with.mip_fallback = a.fallback, with.mip_brdf = a.brdf, with.gains = a.gains;
     if (a.kappa)
         with.mip_kappa = static_cast<float>(*a.kappa);
@@ -154,6 +170,11 @@ int run_mip(const MipBake& bake)
     if (!data)
         return fail(data.error());
     const Scene& scene = (*data)->scene;
+    std::vector<std::string> inputs = scene.files;
+    inputs.push_back(bake.material);
+    if (pyramid)
+        if (const Status path = check_text_path("-o", bake.output, inputs); !path)
+            return fail(path.error());
     Report report(bake.quiet, bake.verbosity);
     for (const std::string& warning : scene.warnings)
         report.warning(warning);
@@ -183,11 +204,13 @@ int run_mip(const MipBake& bake)
     Preview preview;
     if (!bake.preview.empty())
         preview = preview_of(scene, levels);
-    if (const Status fits = check_preview(bake.preview, preview, {bake.material, bake.output}); !fits)
+    inputs.push_back(bake.output);
+    if (const Status fits = check_preview(bake.preview, preview, inputs); !fits)
         return fail(fits.error());
     if (pyramid) {
-        const std::vector<std::uint8_t> bytes = mip_file_bytes(each);
-        if (const Status written = write_file_atomic(bake.output, bytes.data(), bytes.size()); !written)
+        const std::vector<MaterialMap> maps = all_maps(scene, jobs);
+        const auto levels_of = [&](std::size_t i) { return map_levels(scene, *maps[i].material, maps[i].map, jobs); };
+        if (const Status written = write_mip_file(bake.output, {each, maps.size(), levels_of}); !written)
             return fail(written.error());
         report.release();
         report.wrote(bake.output);

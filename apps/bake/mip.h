@@ -25,7 +25,7 @@ struct MipArguments {
     bool gains = false; // of levels' reflectances
     int brdf = 0;       // a lobe; of ltc, too
     MipFormat format = MipFormat::pyramid;
-    bool couple_albedo = false; // of textures: base colour and metalness weighted by how texels face
+    bool couple_albedo = false; // base colour and metalness weighted by how texels face
     ColourKernel color_kernel = ColourKernel::box;
     MipArguments();
 };

@@ -25,7 +25,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::vector<Image> metallic_levels(const Scene& scene, const Material& m, const MipSource& source, const MipArguments& a)
+std::vector<Image> metallic_levels(const Scene& scene, const Material& m, const MipSource& source, const MipArguments& a, const Jobs& jobs)
 {
     if (!m.metallic_roughness_tex.used())
         return {};
@@ -33,11 +33,12 @@ std::vector<Image> metallic_levels(const Scene& scene, const Material& m, const 
         scene.images[static_cast<std::size_t>(scene.textures[static_cast<std::size_t>(m.metallic_roughness_tex.texture)].image)];
     const Grid grid = grid_of(source.maps());
     const Image metallic = linear_map(image, grid, false, 2, 1, &m.metallic);
-    const Image facing = a.couple_albedo ? facing_of(source) : Image();
+    const Image facing = a.couple_albedo ? facing_of(source, jobs) : Image();
     return colour_levels(metallic, {a.color_kernel, grid.wrap_s, grid.wrap_t, a.couple_albedo ? &facing : nullptr});
 }
 
-std::vector<Image> base_color_levels(const Scene& scene, const Material& m, const MipSource& source, const MipArguments& a)
+std::vector<Image> base_color_levels(const Scene& scene, const Material& m, const MipSource& source, const MipArguments& a,
+                                     const Jobs& jobs)
 {
     const float factor[4] = {m.base_color.x, m.base_color.y, m.base_color.z, m.base_color.w};
     if (!m.base_color_tex.used()) {
@@ -53,7 +54,7 @@ std::vector<Image> base_color_levels(const Scene& scene, const Material& m, cons
     Image facing;
     const float one = 1.0f;
     if (coupled)
-        facing = linear_map(facing_of(source), grid, false, 0, 1, &one);
+        facing = linear_map(facing_of(source, jobs), grid, false, 0, 1, &one);
     return colour_levels(linear, {a.color_kernel, texture.wrap_s, texture.wrap_t, coupled ? &facing : nullptr});
 }
 
@@ -102,20 +103,29 @@ Image coded(const Image& unit, bool srgb)
     return to;
 }
 
-Status add_levels(FileSet& files, const std::string& stem, const std::vector<Image>& levels, bool srgb, MipFormat format,
-                  std::vector<std::string>& names)
+// inputs: that are not written over
+Status add_file(FileSet& files, const std::string& name, const std::vector<std::uint8_t>& bytes, const std::vector<std::string>& inputs)
+{
+    for (const std::string& input : inputs)
+        if (same_file(name, input))
+            return Error{ExitCode::usage, "-o", "", fmt::format("'{}' would be written over", input)};
+    return files.add(name, bytes.data(), bytes.size());
+}
+
+Status add_levels(FileSet& files, const std::vector<std::string>& inputs, const std::string& stem, const std::vector<Image>& levels,
+                  bool srgb, MipFormat format, std::vector<std::string>& names)
 {
     if (format == MipFormat::exr_mip) {
         names.push_back(stem + ".exr");
         const Result<std::vector<std::uint8_t>> bytes = encode_exr_levels(names.back(), levels);
-        return bytes ? files.add(names.back(), bytes->data(), bytes->size()) : Status(bytes.error());
+        return bytes ? add_file(files, names.back(), *bytes, inputs) : Status(bytes.error());
     }
     for (std::size_t l = 0; l < levels.size(); ++l) {
         names.push_back(fmt::format("{}_{:02}.png", stem, l));
         const Result<std::vector<std::uint8_t>> bytes = png_bytes(names.back(), coded(levels[l], srgb));
         if (!bytes)
             return bytes.error();
-        if (Status added = files.add(names.back(), bytes->data(), bytes->size()); !added)
+        if (Status added = add_file(files, names.back(), *bytes, inputs); !added)
             return added;
     }
     return {};
@@ -175,7 +185,7 @@ Result<WrittenTextures> write_mip_textures(const std::string& folder, const Scen
                 continue;
             const Material& m = scene.materials[i];
             const MipSource source = mip_source(scene, m);
-            StandardLevels made = standard_levels(source, *levels[i], metallic_levels(scene, m, source, a), m.metallic);
+            StandardLevels made = standard_levels(source, *levels[i], metallic_levels(scene, m, source, a, jobs), m.metallic);
             for (auto* maps : {&made.normal, &made.roughness, &made.anisotropy})
                 for (Image& map : *maps)
                     map = a.format == MipFormat::png_levels ? rounded_to_codes(map) : rounded_to_halves(map);
@@ -191,13 +201,14 @@ Result<WrittenTextures> write_mip_textures(const std::string& folder, const Scen
                 std::vector<Image> levels;
                 bool srgb;
             };
-            const std::vector<Image> colours = with_gains(base_color_levels(scene, m, source, a), *levels[i]);
+            const std::vector<Image> colours = with_gains(base_color_levels(scene, m, source, a, jobs), *levels[i]);
             std::vector<Part> parts = {
                 {"_normal", made.normal, false}, {"_metallic_roughness", made.roughness, false}, {"_base_color", colours, true}};
             if (std::any_of(made.anisotropy.begin(), made.anisotropy.end(), any))
                 parts.push_back({"_anisotropy", made.anisotropy, false});
             for (const Part& part : parts)
-                if (Status added = add_levels(files, stem + part.name, part.levels, part.srgb, a.format, written.files); !added)
+                if (Status added = add_levels(files, scene.files, stem + part.name, part.levels, part.srgb, a.format, written.files);
+                    !added)
                     return added;
             written.figures +=
                 figures_of(names[i], made, source, *levels[i], shown_surface(lobe_of_model(a.brdf), m.metallic > 0.5f), jobs);

@@ -41,7 +41,8 @@ void warn_of_no_effect(const OptionTable& given, RenderOptions& out)
     if (!takes_kappa(out.dress.mip_filter))
         warn("--mip-kappa", of_filter);
     if (!out.dress.mip_pyramid.empty() && !given.given("--mip-filter"))
-        warn("--mip-gain", "--mip-pyramid, whose file says its filter");
+        for (const char* option : {"--mip-gain", "--couple", "--color-kernel"})
+            warn(option, "--mip-pyramid, whose file says its filter");
     else if (!takes_gains(out.dress.mip_filter))
         warn("--mip-gain", of_filter);
     if (!takes_net(out.dress.mip_filter))

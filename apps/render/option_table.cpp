@@ -23,7 +23,8 @@ std::vector<Option> environment_rows(RenderArguments& to)
         {"--env-size", "N", "Texels along a cube edge, a power of two", choice(e.cube_size, {16, 32, 64, 128, 256, 512, 1024, 2048})},
         {"--key-lights", "N", "Small strong lights that leave it and meet lobes themselves: {}", key_lights(e.key_lights)},
         {"--env-samples", "N", "Samples a texel of the prefiltered levels", integer(e.samples, 1, kMaxBakeSamples)},
-        {"--no-cache", "", "Neither read nor write the cache: environments, levels of mipnet and teacher", flag(e.use_cache, false)},
+        {"--no-cache", "", "Neither read nor write the cache: environments, levels of mipnet and teacher and of coupled or kaiser colours",
+         flag(e.use_cache, false)},
     };
 }
 
@@ -136,7 +137,9 @@ std::vector<Option> dress_rows(Dress& to)
          choice(to.couple_albedo, {"none", "albedo"})},
         {"--color-kernel", "NAME", "What base colours and metalness of levels are averaged by: {}",
          choice(to.kaiser_colours, {"box", "kaiser"})},
-        {"--mip-pyramid", "FILE", "Levels of burnish bake mip, in place of those made here; it says the filter", file(to.mip_pyramid), ""},
+        {"--mip-pyramid", "FILE",
+         "Levels of burnish bake mip, in place of those made here; it says the filter, and how colours are averaged", file(to.mip_pyramid),
+         ""},
         {"--f0", "R,G,B", "Reflectance at normal incidence of all materials, each 0 to 1", colour(to.f0)},
     };
 }

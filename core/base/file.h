@@ -2,6 +2,7 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,10 @@ Result<std::vector<std::uint8_t>> read_file(const std::string& path, std::uint64
 // A symbolic link keeps pointing to its target, and a device or pipe is written directly; with Links::refuse all of them are replaced.
 // What killed runs left of earlier writes of `path` is removed. On failure nothing is left and the Error has ExitCode::output_failed.
 Status write_file_atomic(const std::string& path, const void* data, std::size_t size, Links links = Links::follow);
+// The same of what `write` puts there, one part behind another, so that not all of it need be in memory at once. It is called again
+// where the file system has no files without a name.
+using PutBytes = std::function<void(const void* data, std::size_t size)>;
+Status write_file_atomic(const std::string& path, const std::function<void(const PutBytes& put)>& write, Links links = Links::follow);
 
 // Files that belong together: what is added lies under temporary names, beside where it is to be, until name_all() gives all of them their
 // names. Without that, or where one cannot be added, nothing is left and files that had the names are as they were; where name_all() fails

@@ -51,10 +51,14 @@ bool cannot_sync(int code) // pipes, devices, and file systems that have nothing
     return code == EINVAL || code == EROFS || code == ENOTSUP;
 }
 
+using Write = std::function<void(const PutBytes& put)>;
+
 // Writes and flushes to the disk: a full disk may show itself only then.
-int write_and_sync(int fd, const void* data, std::size_t size)
+int write_and_sync(int fd, const Write& write)
 {
-    if (const int code = write_all(fd, data, size))
+    int code = 0;
+    write([&](const void* data, std::size_t size) { code = code ? code : write_all(fd, data, size); });
+    if (code)
         return code;
     return ::fsync(fd) == 0 || cannot_sync(errno) ? 0 : errno;
 }
@@ -155,7 +159,7 @@ int name_it(Temporary& temporary, const fs::path& target)
 using Maker = int (*)(const fs::path& target, mode_t mode, Temporary& made);
 
 // `before`: the file that is there, whose owner and permissions are kept, or null.
-int write_by(Maker make, const fs::path& target, const struct stat* before, const void* data, std::size_t size)
+int write_by(Maker make, const fs::path& target, const struct stat* before, const Write& write)
 {
     Temporary temporary;
     const mode_t mode = before ? before->st_mode & 0777 : 0666;
@@ -169,7 +173,7 @@ int write_by(Maker make, const fs::path& target, const struct stat* before, cons
         else
             static_cast<void>(::fchmod(fd, mode));
     }
-    int code = write_and_sync(fd, data, size);
+    int code = write_and_sync(fd, write);
     if (code == 0 && temporary.name.empty())
         code = name_it(temporary, target);
     if (code == 0 && ::rename(temporary.name.c_str(), target.c_str()) != 0)
@@ -195,12 +199,12 @@ void sweep(const fs::path& target)
             remove_leftover(at->path().string());
 }
 
-int write_device(const fs::path& target, const void* data, std::size_t size)
+int write_device(const fs::path& target, const Write& write)
 {
     Descriptor device(::open(target.c_str(), O_WRONLY | O_CLOEXEC));
     if (!device)
         return errno;
-    if (const int code = write_and_sync(device.get(), data, size))
+    if (const int code = write_and_sync(device.get(), write))
         return code;
     return device.close() == 0 ? 0 : errno;
 }
@@ -224,7 +228,8 @@ Status FileSet::add(const std::string& path, const void* data, std::size_t size)
     if (code != 0)
         return unwritable(path, code);
     added_.push_back({temporary.name, path});
-    if (code = write_and_sync(temporary.file.get(), data, size); code == 0 && temporary.file.close() != 0)
+    if (code = write_and_sync(temporary.file.get(), [&](const PutBytes& put) { put(data, size); });
+        code == 0 && temporary.file.close() != 0)
         code = errno;
     return code ? Status(unwritable(path, code)) : Status();
 }
@@ -274,6 +279,12 @@ bool remove_leftover(const std::string& path)
 
 Status write_file_atomic(const std::string& path, const void* data, std::size_t size, Links links)
 {
+    return write_file_atomic(
+        path, [&](const PutBytes& put) { put(data, size); }, links);
+}
+
+Status write_file_atomic(const std::string& path, const Write& write, Links links)
+{
     std::error_code ignored;
     fs::path target(path);
     if (links == Links::follow && fs::is_symlink(target, ignored) && fs::exists(target, ignored))
@@ -286,15 +297,15 @@ Status write_file_atomic(const std::string& path, const void* data, std::size_t 
         return unwritable(path, EISDIR);
     const bool regular = exists && S_ISREG(before.st_mode);
     if (links == Links::follow && exists && !regular) {
-        const int code = write_device(target, data, size);
+        const int code = write_device(target, write);
         return code ? Status(unwritable(path, code)) : Status();
     }
     sweep(target);
     // Without a name first; file systems and containers without that (no O_TMPFILE, no /proc) say so before or after the bytes are
     // written, a disk that is full or broken will say it again.
-    int code = write_by(make_unnamed, target, regular ? &before : nullptr, data, size);
+    int code = write_by(make_unnamed, target, regular ? &before : nullptr, write);
     if (code != 0 && code != ENOSPC && code != EDQUOT && code != EFBIG && code != EIO)
-        code = write_by(make_named, target, regular ? &before : nullptr, data, size);
+        code = write_by(make_named, target, regular ? &before : nullptr, write);
     return code ? Status(unwritable(path, code)) : Status();
 }
 

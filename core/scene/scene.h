@@ -131,7 +131,7 @@ struct Camera { // looks along -Z of its node, +Y up
     float xmag = 1.0f, ymag = 1.0f;  // half extents, orthographic
 };
 
-struct MipLevels; // shading/bake/mip/levels.h
+struct MipFile; // shading/bake/mip/levels.h
 
 struct Scene {
     std::string name;
@@ -146,11 +146,11 @@ struct Scene {
     std::vector<Light> lights;
     std::vector<AreaLight> area_lights;
     std::vector<Camera> cameras;
-    bool image_light = false;                                // its file has a light of images for it (image_light.h)
-    std::shared_ptr<const std::vector<MipLevels>> mips;      // baked beforehand; none: made of the maps
-    std::shared_ptr<const std::vector<MipLevels>> kept_mips; // the same as are made of the maps, found in the cache or kept there
-    std::vector<std::string> files;                          // paths of every file that was read for it
-    std::vector<std::string> warnings;                       // one line each, in the order found
+    bool image_light = false;                 // its file has a light of images for it (image_light.h)
+    std::shared_ptr<const MipFile> mips;      // levels that were baked beforehand; none: made of the maps
+    std::shared_ptr<const MipFile> kept_mips; // the same as are made of the maps, found in the cache or kept there
+    std::vector<std::string> files;           // paths of every file that was read for it
+    std::vector<std::string> warnings;        // one line each, in the order found
 };
 
 // Which moment of which of its animations a scene is read at; without seconds, as it rests.

@@ -7,6 +7,7 @@
 #include "core/scene/heights.h"
 #include "raster/frame/pyramids.h"
 #include "shading/bake/mip/anisotropy.h"
+#include "shading/bake/mip/map_levels.h"
 
 namespace burnish {
 
@@ -15,6 +16,11 @@ namespace {
 const Texture& texture_of(const Scene& scene, const TextureRef& ref)
 {
     return scene.textures[static_cast<std::size_t>(ref.texture)];
+}
+
+const Image& image_of(const Scene& scene, const TextureRef& ref)
+{
+    return scene.images[static_cast<std::size_t>(texture_of(scene, ref).image)];
 }
 
 // Of the normal map alone, whatever the material's other maps.
@@ -45,15 +51,16 @@ Image linear_map(const Image& image, const Grid& grid, bool srgb, std::size_t fi
     return to;
 }
 
-Image facing_of(const MipSource& source)
+Image facing_of(const MipSource& source, const Jobs& jobs)
 {
     Image to = make_image(source.width(), source.height(), 1, PixelType::f32);
-    std::vector<MipPoint> row(static_cast<std::size_t>(source.width()));
-    for (int y = 0; y < source.height(); ++y) {
-        source.row(y, row.data());
-        for (std::size_t x = 0; x < row.size(); ++x)
-            to.f32()[static_cast<std::size_t>(y) * row.size() + x] = std::max(row[x].n.z * row[x].n.z, 1e-4f);
-    }
+    const std::size_t width = static_cast<std::size_t>(source.width());
+    jobs.parallel_for(static_cast<std::size_t>(source.height()), [&](std::size_t y, int) {
+        std::vector<MipPoint> row(width);
+        source.row(static_cast<int>(y), row.data());
+        for (std::size_t x = 0; x < width; ++x)
+            to.f32()[y * width + x] = std::max(row[x].n.z * row[x].n.z, 1e-4f);
+    });
     return to;
 }
 
@@ -69,28 +76,62 @@ std::string why_uncoupled(const Scene& scene, const Material& m)
     return "has base colours that lie otherwise than its normals: they are not coupled";
 }
 
-TexturePyramid colour_pyramid(const Scene& scene, const Material& m, const Texture& texture, TextureEncoding encoding, bool coupled,
-                              bool kaiser)
+std::vector<UsedMap> used_maps(const Scene& scene, const Material& m)
 {
-    const Image& image = scene.images[static_cast<std::size_t>(texture.image)];
-    const Grid grid = {image.width, image.height, texture.wrap_s, texture.wrap_t, texture.nearest};
-    constexpr float kOnes[4] = {1.0f, 1.0f, 1.0f, 1.0f};
-    const int channels = image.channels == 4 ? 4 : 3;
-    const Image linear = linear_map(image, grid, encoding == TextureEncoding::srgb, 0, channels, kOnes);
-    Image facing;
-    if (coupled)
-        facing = linear_map(facing_of(normals_of(scene, m)), grid, false, 0, 1, kOnes);
-    const std::vector<Image> levels = colour_levels(
-        linear, {kaiser ? ColourKernel::kaiser : ColourKernel::box, texture.wrap_s, texture.wrap_t, coupled ? &facing : nullptr});
-    return make_texture_pyramid(image.width, image.height, texture, encoding, [&](int level, int width, int y, float* rgba) {
-        const std::size_t held = static_cast<std::size_t>(channels);
-        const float* from =
-            levels[static_cast<std::size_t>(level)].f32() + static_cast<std::size_t>(y) * static_cast<std::size_t>(width) * held;
-        for (int x = 0; x < width; ++x, from += held, rgba += 4) {
-            rgba[3] = 1.0f;
-            std::copy_n(from, held, rgba);
-        }
-    });
+    std::vector<UsedMap> maps;
+    const ColourKernel kernel = m.mip_kaiser ? ColourKernel::kaiser : ColourKernel::box;
+    for (const auto& [part, ref] :
+         {std::pair(MapPart::base_color, &m.base_color_tex), {MapPart::metallic_roughness, &m.metallic_roughness_tex}})
+        if (ref->used())
+            maps.push_back({part, ref, kernel, is_coupled(scene, m, *ref)});
+    if (m.heights && m.normal_tex.used())
+        maps.push_back({MapPart::height, &m.normal_tex, ColourKernel::box, false});
+    return maps;
+}
+
+const char* name_of(MapPart part)
+{
+    return part == MapPart::base_color ? "base colours" : part == MapPart::height ? "heights" : "metalness";
+}
+
+MapId map_id(const Scene& scene, const Material& m, const UsedMap& map, const Jobs& jobs)
+{
+    return {map.part, map.kernel, map_hash(image_of(scene, *map.ref), texture_of(scene, *map.ref), map.part),
+            map.coupled ? normals_of(scene, m).hash(jobs) : 0};
+}
+
+MapLevels map_levels(const Scene& scene, const Material& m, const UsedMap& map, const Jobs& jobs)
+{
+    const Image& image = image_of(scene, *map.ref);
+    const Texture& texture = texture_of(scene, *map.ref);
+    const MapId id = map_id(scene, m, map, jobs);
+    if (!map.coupled)
+        return make_map_levels(image, texture, id, nullptr, jobs);
+    constexpr float kOne = 1.0f;
+    Image facing = facing_of(normals_of(scene, m), jobs);
+    if (facing.width != image.width || facing.height != image.height)
+        facing = linear_map(facing, {image.width, image.height, texture.wrap_s, texture.wrap_t, texture.nearest}, false, 0, 1, &kOne);
+    return make_map_levels(image, texture, id, &facing, jobs);
+}
+
+const MapLevels* find_map(const std::vector<MapLevels>& maps, const MapId& id)
+{
+    const auto found = std::find_if(maps.begin(), maps.end(), [&](const MapLevels& levels) { return levels.id == id; });
+    return found == maps.end() ? nullptr : &*found;
+}
+
+const MapLevels* given_map(const Scene& scene, const Material& m, const UsedMap& map)
+{
+    const Image& image = image_of(scene, *map.ref);
+    const auto may_be = [&](const MapLevels& of) {
+        return of.id.part == map.part && of.id.kernel == map.kernel && (of.id.normals != 0) == map.coupled && of.width == image.width &&
+               of.height == image.height;
+    };
+    for (const auto& there : {scene.mips, scene.kept_mips})
+        if (there && std::any_of(there->maps.begin(), there->maps.end(), may_be))
+            if (const MapLevels* found = find_map(there->maps, map_id(scene, m, map, Jobs(1))))
+                return found;
+    return nullptr;
 }
 
 } // namespace burnish

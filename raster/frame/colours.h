@@ -3,11 +3,12 @@
 #include <string>
 #include <vector>
 
+#include "core/jobs/jobs.h"
 #include "core/scene/scene.h"
 #include "shading/bake/mip/colour_levels.h"
 #include "shading/bake/mip/grid.h"
+#include "shading/bake/mip/levels.h"
 #include "shading/bake/mip/source.h"
-#include "shading/bake/mip/texture.h"
 
 namespace burnish {
 
@@ -15,15 +16,27 @@ namespace burnish {
 Image linear_map(const Image& image, const Grid& grid, bool srgb, std::size_t first, int channels, const float* factor);
 
 // (n.v)(n.l) of a texel that is seen and lit from above its surface, one channel.
-Image facing_of(const MipSource& source);
+Image facing_of(const MipSource& source, const Jobs& jobs);
 
 // Whether colours of a texture of the material are weighted by its normals: it wants that, and they lie alike.
 bool is_coupled(const Scene& scene, const Material& material, const TextureRef& colours);
 // Where base colours are not, though the material wants it, why; else empty.
 std::string why_uncoupled(const Scene& scene, const Material& material);
 
-// kaiser: as ColourKernel has it. coupled: the material's normals weigh.
-TexturePyramid colour_pyramid(const Scene& scene, const Material& material, const Texture& texture, TextureEncoding encoding, bool coupled,
-                              bool kaiser);
+// Maps of a material whose levels are means, and by what they are made.
+struct UsedMap {
+    MapPart part;
+    const TextureRef* ref;
+    ColourKernel kernel;
+    bool coupled;
+};
+std::vector<UsedMap> used_maps(const Scene& scene, const Material& material);
+const char* name_of(MapPart part); // to be read
+
+MapId map_id(const Scene& scene, const Material& material, const UsedMap& map, const Jobs& jobs);
+MapLevels map_levels(const Scene& scene, const Material& material, const UsedMap& map, const Jobs& jobs);
+const MapLevels* find_map(const std::vector<MapLevels>& maps, const MapId& id); // null where there is none
+// Those that were baked beforehand or found in the cache: null where there are none, so that they are made here.
+const MapLevels* given_map(const Scene& scene, const Material& material, const UsedMap& map);
 
 } // namespace burnish

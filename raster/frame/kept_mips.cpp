@@ -8,6 +8,7 @@
 #include "core/base/cache.h"
 #include "core/base/file.h"
 #include "core/base/hash.h"
+#include "raster/frame/colours.h"
 #include "raster/frame/pyramids.h"
 #include "shading/bake/mip/filter.h"
 #include "shading/bake/mip/pyramid_file.h"
@@ -17,8 +18,15 @@
 namespace burnish {
 namespace {
 
-constexpr std::uint32_t kKeptVersion = 3; // of what makes levels: raised where the same maps give others
+constexpr std::uint32_t kKeptVersion = 4; // of what makes levels: raised where the same maps give others
 constexpr std::uint64_t kMostKeptBytes = 4ull << 30;
+
+std::string kept_path(const std::string& folder, const void* of, std::size_t size)
+{
+    char name[64];
+    std::snprintf(name, sizeof name, "/levels-%016" PRIx64 ".mip", hash_bytes(of, size));
+    return folder + name;
+}
 
 std::string kept_path(const std::string& folder, std::uint64_t source, const Scene& scene, const Material& m)
 {
@@ -30,33 +38,71 @@ std::string kept_path(const std::string& folder, std::uint64_t source, const Sce
     } of = {source,       levels_hash(*m.mip_net, m.mip_filter, is_metal(scene, m)),
             kKeptVersion, static_cast<std::uint32_t>(m.mip_filter),
             m.mip_kappa,  m.mip_gains ? gained_of(m.mip_net->shape.lobe, is_metal(scene, m)) : 0u};
-    char name[64];
-    std::snprintf(name, sizeof name, "/levels-%016" PRIx64 ".mip", hash_bytes(&of, sizeof of));
-    return folder + name;
+    return kept_path(folder, &of, sizeof of);
 }
 
-bool read_kept(const std::string& path, std::uint64_t source, const Scene& scene, const Material& m, std::vector<MipLevels>& to)
+std::string kept_path(const std::string& folder, const MapId& id)
+{
+    const struct {
+        MapId id;
+        std::uint64_t version;
+    } of = {id, kKeptVersion};
+    return kept_path(folder, &of, sizeof of);
+}
+
+MipFile read_kept(const std::string& path)
 {
     const Result<std::vector<std::uint8_t>> bytes = read_file(path, kMostKeptBytes, Links::refuse);
     if (!bytes)
-        return false;
-    Result<std::vector<MipLevels>> read = parse_mip_file(*bytes, path);
-    if (!read || read->size() != 1 || !fits(read->front(), source, scene, m))
-        return false;
-    note_cache_use(path);
-    to.push_back(std::move(read->front()));
-    return true;
+        return {};
+    Result<MipFile> read = parse_mip_file(*bytes, path);
+    return read ? std::move(*read) : MipFile();
 }
 
-Status write_kept(const std::string& path, const MipLevels& levels)
+Status write_kept(const std::string& path, const MipParts& levels)
 {
     const std::string folder = std::filesystem::path(path).parent_path().string();
     std::error_code failed;
     std::filesystem::create_directories(folder, failed); // writing says what is wrong
-    const std::vector<std::uint8_t> bytes = mip_file_bytes({&levels});
-    const Status written = write_file_atomic(path, bytes.data(), bytes.size(), Links::refuse);
+    const Status written = write_mip_file(path, levels, Links::refuse);
     prune_cache(folder, cache_limit(), path);
     return written;
+}
+
+void keep_lobes(Scene& scene, const Material& m, const std::string& folder, const Jobs& jobs, std::vector<MipLevels>& kept)
+{
+    const MipSource source = mip_source(scene, m);
+    const std::uint64_t hash = source.hash(jobs);
+    const auto fit = [&](const MipLevels& levels) { return fits(levels, hash, scene, m); };
+    if (std::any_of(kept.begin(), kept.end(), fit))
+        return;
+    const std::string path = kept_path(folder, hash, scene, m);
+    if (MipFile file = read_kept(path); file.materials.size() == 1 && file.maps.empty() && fit(file.materials[0])) {
+        note_cache_use(path);
+        kept.push_back(std::move(file.materials[0]));
+        return;
+    }
+    kept.push_back(make_mip_levels(source, m.mip_filter, m.mip_kappa, jobs, mip_help(scene, m)));
+    if (const Status written = write_kept(path, {{&kept.back()}, 0, {}}); !written)
+        scene.warnings.push_back("levels of material '" + m.name + "' are not cached: " + written.error().line());
+}
+
+void keep_map(Scene& scene, const Material& m, const UsedMap& map, const std::string& folder, const Jobs& jobs,
+              std::vector<MapLevels>& kept)
+{
+    const MapId id = map_id(scene, m, map, jobs);
+    if (find_map(kept, id))
+        return;
+    const std::string path = kept_path(folder, id);
+    if (MipFile file = read_kept(path); file.materials.empty() && file.maps.size() == 1 && file.maps[0].id == id) {
+        note_cache_use(path);
+        kept.push_back(std::move(file.maps[0]));
+        return;
+    }
+    kept.push_back(map_levels(scene, m, map, jobs));
+    if (const Status written = write_kept(path, {{}, 1, [&](std::size_t) { return kept.back(); }}); !written)
+        scene.warnings.push_back(std::string("levels of the ") + name_of(map.part) + " of material '" + m.name +
+                                 "' are not cached: " + written.error().line());
 }
 
 } // namespace
@@ -66,22 +112,15 @@ void keep_mips(Scene& scene, const Jobs& jobs)
     const std::string folder = cache_folder();
     if (folder.empty())
         return;
-    std::vector<MipLevels> kept;
+    MipFile kept;
     for (const Material& m : scene.materials) {
-        if (!takes_net(m.mip_filter) || !m.mip_net || !is_filtered(scene, m))
-            continue;
-        const MipSource source = mip_source(scene, m);
-        const std::uint64_t hash = source.hash(jobs);
-        if (std::any_of(kept.begin(), kept.end(), [&](const MipLevels& levels) { return fits(levels, hash, scene, m); }))
-            continue;
-        const std::string path = kept_path(folder, hash, scene, m);
-        if (read_kept(path, hash, scene, m, kept))
-            continue;
-        kept.push_back(make_mip_levels(source, m.mip_filter, m.mip_kappa, jobs, mip_help(scene, m)));
-        if (const Status written = write_kept(path, kept.back()); !written)
-            scene.warnings.push_back("levels of material '" + m.name + "' are not cached: " + written.error().line());
+        if (takes_net(m.mip_filter) && m.mip_net && is_filtered(scene, m))
+            keep_lobes(scene, m, folder, jobs, kept.materials);
+        for (const UsedMap& map : used_maps(scene, m))
+            if (map.coupled || map.kernel != ColourKernel::box)
+                keep_map(scene, m, map, folder, jobs, kept.maps);
     }
-    scene.kept_mips = std::make_shared<const std::vector<MipLevels>>(std::move(kept));
+    scene.kept_mips = std::make_shared<const MipFile>(std::move(kept));
 }
 
 } // namespace burnish

@@ -68,13 +68,16 @@ Status settle_nets(Scene& scene, const Dress& with, const Limits& limits)
 {
     for (Material& m : scene.materials)
         m.mip_lobe = static_cast<std::uint32_t>(lobe_of_model(with.mip_brdf));
-    if (!takes_net(with.mip_filter))
+    const Jobs jobs(with.threads);
+    if (!takes_net(with.mip_filter)) {
+        if (with.keep_mips && !scene.mips)
+            keep_mips(scene, jobs);
         return {};
+    }
     const Result<std::shared_ptr<const mipnet::Weights>> net = net_of(with, limits);
     if (!net)
         return net.error();
     std::vector<std::optional<mipnet::Comparison>> found(scene.materials.size());
-    const Jobs jobs(with.threads);
     jobs.parallel_for(found.size(), [&](std::size_t i, int) {
         Material& m = scene.materials[i];
         m.mip_net = *net;
@@ -97,10 +100,19 @@ void take_filters_of_mips(Scene& scene)
 {
     const Jobs jobs(0);
     for (Material& m : scene.materials) {
+        m.mip_coupled = m.mip_kaiser = false;
+        for (const UsedMap& map : used_maps(scene, m)) {
+            const MapId id = map_id(scene, m, map, jobs);
+            for (const MapLevels& levels : scene.mips->maps)
+                if (levels.id.part == id.part && levels.id.source == id.source) {
+                    m.mip_coupled |= levels.id.normals != 0;
+                    m.mip_kaiser |= levels.id.kernel == ColourKernel::kaiser;
+                }
+        }
         if (!is_filtered(scene, m))
             continue;
         const std::uint64_t hash = mip_source(scene, m).hash(jobs);
-        for (const MipLevels& levels : *scene.mips)
+        for (const MipLevels& levels : scene.mips->materials)
             if (levels.source == hash) {
                 m.mip_filter = levels.filter, m.mip_kappa = levels.kappa, m.mip_gains = levels.gained != 0;
                 break;
@@ -127,10 +139,17 @@ Status check_mips(const Scene& scene, const std::string& path)
             continue;
         any = true;
         const std::uint64_t hash = mip_source(scene, m).hash(jobs);
-        if (std::none_of(scene.mips->begin(), scene.mips->end(), [&](const MipLevels& levels) { return fits(levels, hash, scene, m); }))
+        const auto& held = scene.mips->materials;
+        if (std::none_of(held.begin(), held.end(), [&](const MipLevels& levels) { return fits(levels, hash, scene, m); }))
             return Error{ExitCode::bad_input, path, "",
                          "holds no levels of material '" + m.name + "' by this filter, gain and model, whose maps hash to " +
                              hexadecimal(hash)};
+        for (const UsedMap& map : used_maps(scene, m))
+            if (const MapId id = map_id(scene, m, map, jobs); !find_map(scene.mips->maps, id))
+                return Error{ExitCode::bad_input, path, "",
+                             std::string("holds no levels of the ") + name_of(map.part) + " of material '" + m.name + "' by color kernel " +
+                                 (map.kernel == ColourKernel::kaiser ? "kaiser" : "box") + (map.coupled ? ", coupled" : ", not coupled") +
+                                 ", whose map hashes to " + hexadecimal(id.source)};
     }
     return any ? Status() : Error{ExitCode::bad_input, path, "", "the scene has no maps that its filter makes levels of"};
 }
@@ -140,14 +159,14 @@ Status read_mips(Scene& scene, Dress& with, const Limits& limits)
     const Result<std::vector<std::uint8_t>> bytes = read_file(with.mip_pyramid, limits.file_bytes);
     if (!bytes)
         return bytes.error();
-    Result<std::vector<MipLevels>> mips = parse_mip_file(*bytes, with.mip_pyramid);
+    Result<MipFile> mips = parse_mip_file(*bytes, with.mip_pyramid);
     if (!mips)
         return mips.error();
-    if (mips->empty())
-        return Error{ExitCode::bad_input, with.mip_pyramid, "", "holds no levels"};
+    if (mips->materials.empty())
+        return Error{ExitCode::bad_input, with.mip_pyramid, "", "holds no levels of normals and lobes"};
     if (with.mip_filter == MipFilter{})
-        with.mip_filter = mips->front().filter, with.mip_kappa = mips->front().kappa;
-    scene.mips = std::make_shared<const std::vector<MipLevels>>(std::move(*mips));
+        with.mip_filter = mips->materials.front().filter, with.mip_kappa = mips->materials.front().kappa;
+    scene.mips = std::make_shared<const MipFile>(std::move(*mips));
     return {};
 }
 

@@ -21,9 +21,10 @@ Status settle_nets(Scene& scene, const Dress& with, const Limits& limits);
 
 // Reads with.mip_pyramid to scene.mips. Where no filter was asked for, it is the file's.
 Status read_mips(Scene& scene, Dress& with, const Limits& limits);
-// Materials take the filters that the levels of their maps are by.
+// Materials take the filters that the levels of their maps are by, and colours what they are averaged and weighted by.
 void take_filters_of_mips(Scene& scene);
-// Whether the file has levels of everything that filters of the scene would make levels of.
+// Whether the file has levels of everything that filters of the scene would make levels of, and of these materials' base colours, metalness
+// and heights.
 Status check_mips(const Scene& scene, const std::string& path);
 
 } // namespace burnish

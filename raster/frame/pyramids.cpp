@@ -9,6 +9,7 @@
 #include "raster/frame/colours.h"
 #include "shading/bake/mip/anisotropy.h"
 #include "shading/bake/mip/filter.h"
+#include "shading/bake/mip/map_levels.h"
 #include "shading/bake/mip/slopes.h"
 #include "shading/bake/mipnet/weights.h"
 #include "shading/surface/tensor.k.h"
@@ -231,8 +232,11 @@ TexturePyramid filtered_pyramid(const Scene& scene, const Texture& sampler, cons
     const bool normals = key.tensor_power == 0;
     const float unscale = std::abs(m.normal_scale) > 1e-3f ? 0.5f / m.normal_scale : 0.0f;
     TexturePyramid own; // of the map, whose alpha may hold heights
-    if (normals)
-        own = make_texture_pyramid(*image_of(scene, m.normal_tex), sampler, key.encoding);
+    if (normals) {
+        const Image& map = *image_of(scene, m.normal_tex);
+        const MapLevels* heights = m.heights ? given_map(scene, m, {MapPart::height, &m.normal_tex, ColourKernel::box, false}) : nullptr;
+        own = heights ? pyramid_of_map(map, sampler, *heights) : make_texture_pyramid(map, sampler, key.encoding);
+    }
     const bool same = normals && own.width == source.width() && own.height == source.height();
     std::vector<MipPoint> points(static_cast<std::size_t>(source.width()));
     return make_texture_pyramid(source.width(), source.height(), sampler, key.encoding, [&](int level, int width, int y, float* rgba) {
@@ -338,9 +342,9 @@ MaterialLevels filtered_levels(const Scene& scene, const Jobs& jobs, const Taugh
         const MipSource source = mip_source(scene, m);
         const std::uint64_t hash = scene.mips || scene.kept_mips ? source.hash(jobs) : 0;
         for (const auto& there : {scene.kept_mips, scene.mips})
-            for (std::size_t k = 0; there && k < there->size(); ++k)
-                if (fits((*there)[k], hash, scene, m))
-                    all[i] = std::shared_ptr<const MipLevels>(there, &(*there)[k]);
+            for (std::size_t k = 0; there && k < there->materials.size(); ++k)
+                if (fits(there->materials[k], hash, scene, m))
+                    all[i] = std::shared_ptr<const MipLevels>(there, &there->materials[k]);
         if (!all[i])
             all[i] =
                 std::make_shared<const MipLevels>(make_mip_levels(source, m.mip_filter, m.mip_kappa, jobs, mip_help(scene, m, advance)));
@@ -388,10 +392,18 @@ TexturePyramid make_pyramid(const Scene& scene, const PyramidKey& key, const Mat
     const Texture& texture = scene.textures[static_cast<std::size_t>(key.texture)];
     if (key.filtered)
         return filtered_pyramid(scene, texture, key, *levels[static_cast<std::size_t>(key.material)]);
-    if (key.coupled || key.kaiser)
-        return colour_pyramid(scene, scene.materials[static_cast<std::size_t>(std::max(key.material, 0))], texture, key.encoding,
-                              key.coupled, key.kaiser);
     const Image& image = scene.images[static_cast<std::size_t>(texture.image)];
+    if (key.moments == kNoMoments && key.tensor_power == 0) {
+        TextureRef ref;
+        ref.texture = key.texture;
+        const UsedMap map = {key.encoding == TextureEncoding::srgb ? MapPart::base_color : MapPart::metallic_roughness, &ref,
+                             key.kaiser ? ColourKernel::kaiser : ColourKernel::box, key.coupled};
+        const Material& m = scene.materials[static_cast<std::size_t>(std::max(key.material, 0))];
+        if (const MapLevels* given = given_map(scene, m, map))
+            return pyramid_of_map(image, texture, *given);
+        if (key.coupled || key.kaiser)
+            return pyramid_of_map(image, texture, map_levels(scene, m, map, Jobs(1)));
+    }
     if (key.moments != kNoMoments)
         return make_texture_pyramid(moments_image(scene, texture, key), texture, key.encoding);
     if (key.tensor_power != 0)

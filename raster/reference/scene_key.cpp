@@ -64,9 +64,13 @@ void add_filters(Key& key, const Scene& scene)
         if (m.mip_net)
             key.add(mipnet::net_hash(*m.mip_net));
     if (scene.mips)
-        for (const MipLevels& levels : *scene.mips)
+        for (const MipLevels& levels : scene.mips->materials)
             for (const MipLevel& level : levels.levels)
                 key.add(level.gain), key.column(level.texels.data(), level.texels.size());
+    if (scene.mips)
+        for (const MapLevels& levels : scene.mips->maps)
+            for (const std::vector<std::uint16_t>& level : levels.levels)
+                key.column(level.data(), level.size());
 }
 
 void add_tables(Key& key, const DrawTables& t)

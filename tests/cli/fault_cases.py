@@ -35,6 +35,7 @@ class Job:
 RENDER = Job(("render", *TINY, "-o", "o.png"), same=("o.png",))
 PICTURES = Job(("render", *TINY, "-o", "o.exr", "-o", "o.png"), same=("o.exr", "o.png"))
 BAKE = Job(("render", *TINY, "-o", "o.png"), same=("o.png",), made=("own",))
+LEVELS = Job(("bake", "mip", "builtin:shaderballs", "--couple", "albedo", "--threads", "2", "-q", "-o", "o.mip"), same=("o.mip",))
 KEPT = Job((*REFERENCE, "--checkpoint", "c.part", "-o", "r.png"), same=("r.png",), made=("c.part",))
 REPORT = Job((*CHART, "-o", "report"), made=("report", "own/burnish/reference-*"))
 
@@ -114,6 +115,7 @@ def file_calls(bench):
 @case("fault.calls_of_a_bake")
 def bake_calls(bench):
     fail_in_turn(bench, BAKE, WRITES, ALL, every=3)
+    fail_in_turn(bench, LEVELS, WRITES, (1, 2, 3, 5, 8, 13, 21, 34, 55, 89, 144), every=8)
 
 
 @case("fault.calls_of_a_reference")

@@ -216,7 +216,7 @@ def renders_long(bench):
 JOBS = {
     "tables": (("bake", "ltc", "--resolution", "4", "--steps", "6", "--samples", "4", "-q", "-o", "{}.ltc"), ("{}.ltc",)),
     "trainings": (("train", "mip", "--steps", "12", "--size", "1x4", "-q", "-o", "{}.mipnet"), ("{}.mipnet",)),
-    "levels": (("bake", "mip", "builtin:bumps", "--mip-filter", "mipnet", "-q", "-o", "{}.mip", "--preview", "{}"), ("{}.mip", "{}")),
+    "levels": (("bake", "mip", "builtin:shaderballs", "--mip-filter", "mipnet", "--couple", "albedo", "-q", "-o", "{}.mip", "--preview", "{}"), ("{}.mip", "{}")),
     "environments": (("bake", "environment", "builtin:sky", "--env-size", "64", "--env-samples", "64", "-q", "-o", "{}"), ("{}",)),
     "atlases": (("atlas", "albedo_by_a_fit", "--quick", "--threads", "2", "-q", "-o", "{}"), ("{}/atlas.json",)),
 }

@@ -371,7 +371,7 @@ def fine_normals(bench):
     for name in ("baseline", "kappa"):
         bench.run("bake", "mip", "set", "--mip-filter", name, "-q", "-o", "a.mip").expect(0)
         bench.run("render", *words, "--mip-filter", name, "--aov", "normal", "-o", "a.exr").expect(0)
-        held, seen = (bench.folder / "a.mip").read_bytes()[16 + 56 + 4 * 7:], exr_channels(bench.folder / "a.exr")
+        held, seen = (bench.folder / "a.mip").read_bytes()[24 + 56 + 4 * 7:], exr_channels(bench.folder / "a.exr")
         off = 0.0
         for i, (nx, ny, *_) in enumerate(struct.iter_unpack("<5f", held[:20 * 64 * 64])):
             off = max(off, abs(seen["N.X"][i // 64][i % 64] - nx), abs(seen["N.Y"][i // 64][i % 64] - ny))

@@ -36,6 +36,7 @@ import light_cases
 import limit_cases
 import manual_cases
 import mip_cases
+import mip_file_cases
 import mip_zoom_cases
 import mistake_cases
 import model_cases

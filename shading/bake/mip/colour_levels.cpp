@@ -6,7 +6,7 @@
 #include "core/base/check.h"
 #include "core/math/scalar_math.h"
 #include "core/scene/texture.h"
-#include "shading/bake/mip/texture.h"
+#include "shading/bake/mip/grid.h"
 
 namespace burnish {
 namespace {
@@ -58,61 +58,91 @@ std::vector<std::vector<Tap>> all_taps(int source, int target, ColourKernel kern
     return all;
 }
 
-// sums: channels a texel, of the map.
-std::vector<double> resampled(const std::vector<double>& sums, std::size_t channels, int width, const std::vector<std::vector<Tap>>& across,
-                              const std::vector<std::vector<Tap>>& down)
+struct Span {
+    float least, most;
+};
+
+// What each channel lies between.
+std::vector<Span> spans_of(const ColourRows& map, const Jobs& jobs)
 {
-    std::vector<double> to(across.size() * down.size() * channels), row(static_cast<std::size_t>(width) * channels);
-    for (std::size_t y = 0; y < down.size(); ++y) {
-        std::fill(row.begin(), row.end(), 0.0);
-        for (const Tap& tap : down[y])
-            for (std::size_t i = 0; i < row.size(); ++i)
-                row[i] += tap.weight * sums[static_cast<std::size_t>(tap.at) * row.size() + i];
-        for (std::size_t x = 0; x < across.size(); ++x)
-            for (const Tap& tap : across[x])
-                for (std::size_t c = 0; c < channels; ++c)
-                    to[(y * across.size() + x) * channels + c] += tap.weight * row[static_cast<std::size_t>(tap.at) * channels + c];
+    const std::size_t channels = static_cast<std::size_t>(map.channels), texels = static_cast<std::size_t>(map.width) * channels;
+    std::vector<Span> rows(static_cast<std::size_t>(map.height) * channels);
+    jobs.parallel_for(static_cast<std::size_t>(map.height), [&](std::size_t y, int) {
+        std::vector<float> row(texels);
+        map.row(static_cast<int>(y), row.data());
+        Span* const to = rows.data() + y * channels;
+        for (std::size_t c = 0; c < channels; ++c)
+            to[c] = {row[c], row[c]};
+        for (std::size_t i = 0; i < texels; ++i)
+            to[i % channels] = {std::min(to[i % channels].least, row[i]), std::max(to[i % channels].most, row[i])};
+    });
+    std::vector<Span> all(rows.begin(), rows.begin() + static_cast<std::ptrdiff_t>(channels));
+    for (std::size_t i = 0; i < rows.size(); ++i)
+        all[i % channels] = {std::min(all[i % channels].least, rows[i].least), std::max(all[i % channels].most, rows[i].most)};
+    return all;
+}
+
+// Colours times weights, then the weights themselves: held numbers a texel, summed over rows.
+void add_row(const ColourRows& map, int y, double share, const Image* weight, float* colours, double* sums)
+{
+    const std::size_t channels = static_cast<std::size_t>(map.channels), width = static_cast<std::size_t>(map.width);
+    map.row(y, colours);
+    for (std::size_t x = 0; x < width; ++x, sums += channels + 1) {
+        const double w =
+            weight
+                ? static_cast<double>(weight->f32()[(static_cast<std::size_t>(y) * width + x) * static_cast<std::size_t>(weight->channels)])
+                : 1.0;
+        for (std::size_t c = 0; c < channels; ++c)
+            sums[c] += share * (w * static_cast<double>(colours[x * channels + c]));
+        sums[channels] += share * w;
     }
-    return to;
 }
 
 } // namespace
 
+void each_colour_row(const ColourRows& map, const ColourOptions& options, const Jobs& jobs, const LevelRow& use)
+{
+    const Image* weight = options.weight;
+    BN_CHECK(!weight || (weight->type == PixelType::f32 && weight->width == map.width && weight->height == map.height));
+    const std::size_t channels = static_cast<std::size_t>(map.channels), held = channels + 1, width = static_cast<std::size_t>(map.width);
+    const std::vector<Span> spans = spans_of(map, jobs);
+    for (int l = 1; l <= levels_below(map.width, map.height); ++l) {
+        const int columns = std::max(1, map.width >> l);
+        const auto across = all_taps(map.width, columns, options.kernel, options.wrap_s);
+        const auto down = all_taps(map.height, std::max(1, map.height >> l), options.kernel, options.wrap_t);
+        jobs.parallel_for(down.size(), [&](std::size_t y, int) {
+            std::vector<double> row(width * held), texel(held);
+            std::vector<float> colours(width * channels), made(across.size() * channels);
+            for (const Tap& tap : down[y])
+                add_row(map, tap.at, tap.weight, weight, colours.data(), row.data());
+            float* to = made.data();
+            for (const std::vector<Tap>& taps : across) {
+                std::fill(texel.begin(), texel.end(), 0.0);
+                for (const Tap& tap : taps)
+                    for (std::size_t c = 0; c < held; ++c)
+                        texel[c] += tap.weight * row[static_cast<std::size_t>(tap.at) * held + c];
+                const double w = std::max(texel[channels], 1e-9);
+                for (std::size_t c = 0; c < channels; ++c)
+                    *to++ = std::clamp(static_cast<float>(texel[c] / w), spans[c].least, spans[c].most);
+            }
+            use(l, columns, static_cast<int>(y), made.data());
+        });
+    }
+}
+
 std::vector<Image> colour_levels(const Image& linear, const ColourOptions& options)
 {
     BN_CHECK(linear.type == PixelType::f32 && !linear.empty());
-    const Image* weight = options.weight;
-    BN_CHECK(!weight || (weight->type == PixelType::f32 && weight->width == linear.width && weight->height == linear.height));
-    // Colours times weights, then the weights themselves.
-    const std::size_t channels = static_cast<std::size_t>(linear.channels), held = channels + 1;
-    const std::size_t count = static_cast<std::size_t>(linear.width) * static_cast<std::size_t>(linear.height);
-    std::vector<double> sums(count * held);
-    std::vector<float> least(channels), most(channels);
-    for (std::size_t c = 0; c < channels; ++c)
-        least[c] = most[c] = linear.f32()[c];
-    for (std::size_t i = 0; i < count; ++i) {
-        const double w = weight ? static_cast<double>(weight->f32()[i * static_cast<std::size_t>(weight->channels)]) : 1.0;
-        for (std::size_t c = 0; c < channels; ++c) {
-            const float value = linear.f32()[i * channels + c];
-            least[c] = std::min(least[c], value), most[c] = std::max(most[c], value);
-            sums[i * held + c] = w * static_cast<double>(value);
-        }
-        sums[i * held + channels] = w;
-    }
+    const std::size_t row = static_cast<std::size_t>(linear.width) * static_cast<std::size_t>(linear.channels);
     std::vector<Image> levels = {linear};
-    const int side = std::max(linear.width, linear.height);
-    for (int l = 1; l < kMaxTextureLevels && (side >> l) > 0; ++l) {
-        Image level = make_image(std::max(1, linear.width >> l), std::max(1, linear.height >> l), linear.channels, PixelType::f32);
-        const std::vector<double> to =
-            resampled(sums, held, linear.width, all_taps(linear.width, level.width, options.kernel, options.wrap_s),
-                      all_taps(linear.height, level.height, options.kernel, options.wrap_t));
-        for (std::size_t i = 0; i < to.size() / held; ++i)
-            for (std::size_t c = 0; c < channels; ++c) {
-                const double w = std::max(to[i * held + channels], 1e-9);
-                level.f32()[i * channels + c] = std::clamp(static_cast<float>(to[i * held + c] / w), least[c], most[c]);
-            }
-        levels.push_back(std::move(level));
-    }
+    for (int l = 1; l <= levels_below(linear.width, linear.height); ++l)
+        levels.push_back(make_image(std::max(1, linear.width >> l), std::max(1, linear.height >> l), linear.channels, PixelType::f32));
+    each_colour_row({linear.width, linear.height, linear.channels,
+                     [&](int y, float* to) { std::copy_n(linear.f32() + static_cast<std::size_t>(y) * row, row, to); }},
+                    options, Jobs(1), [&](int l, int width, int y, const float* texels) {
+                        const std::size_t count = static_cast<std::size_t>(width) * static_cast<std::size_t>(linear.channels);
+                        std::copy_n(texels, count, levels[static_cast<std::size_t>(l)].f32() + static_cast<std::size_t>(y) * count);
+                    });
     return levels;
 }
 

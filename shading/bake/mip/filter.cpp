@@ -82,13 +82,6 @@ Shape shape_of(MipFilter filter, float kappa)
     return {filter == kMipFilter_covariance ? mip::Mean::covariance : mip::Mean::baseline, 3, 6, 0.0f};
 }
 
-// Pairs of means whose product a place of the rest is of.
-struct Pair {
-    std::size_t i, j;
-};
-constexpr Pair kFlatPairs[] = {{0, 0}, {1, 1}, {0, 1}};
-constexpr Pair kSpacePairs[] = {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {0, 2}, {1, 2}};
-
 // Planes of a row of states.
 struct StateRow {
     const float* first;
@@ -112,7 +105,7 @@ void merge_many(const Shape& shape, const std::vector<StateRow>& rows, const std
     });
     const auto mean = sum;
     if (shape.spread > 0.0f) {
-        const Pair* pairs = shape.means == 3 ? kSpacePairs : kFlatPairs;
+        const mip::MeanPair* pairs = shape.means == 3 ? mip::kSpacePairs : mip::kFlatPairs;
         each([&](const auto& s, double weight) {
             for (std::size_t k = shape.means; k < shape.count; ++k) {
                 const auto [i, j] = pairs[k - shape.means];
@@ -123,8 +116,6 @@ void merge_many(const Shape& shape, const std::vector<StateRow>& rows, const std
     for (std::size_t k = 0; k < shape.count; ++k)
         to[k * stride] = static_cast<float>(sum[k]);
 }
-
-constexpr int kMostBanded = 5;
 
 struct StateLevel {
     int width = 0, height = 0;
@@ -192,30 +183,11 @@ class LevelMaker {
     std::size_t stride_;
 };
 
-int levels_of(int width, int height) // from 1 on
-{
-    int levels = 0;
-    while (levels + 1 < kMaxTextureLevels && (std::max(width, height) >> (levels + 1)) > 0)
-        ++levels;
-    return levels;
-}
-
 StateLevel level_of(const MipRows& level0, int l)
 {
     StateLevel level;
     level.width = std::max(1, level0.width >> l), level.height = std::max(1, level0.height >> l);
     return level;
-}
-
-// The finer level that level l is made from, as make_texture_pyramid() has it: the smallest whose texels its footprints are unions of.
-int finer_level(const MipRows& level0, int l)
-{
-    const StateLevel to = level_of(level0, l);
-    int from = l - 1;
-    for (; from > 0; --from)
-        if (const StateLevel of = level_of(level0, from); of.width % to.width == 0 && of.height % to.height == 0)
-            break;
-    return from;
 }
 
 MipLevel empty_level(const StateLevel& of)
@@ -232,31 +204,13 @@ StateLevel put_levels_from(const MipRows& level0, int first, StateLevel banded, 
     for (int l = first + 1; l <= last; ++l) {
         StateLevel next = level_of(level0, l);
         next.make_room(shape);
-        const int from = finer_level(level0, l);
+        const int from = finer_level(level0.width, level0.height, l);
         MipLevel level = empty_level(next);
         LevelMaker(level0, from > 0 ? &states[static_cast<std::size_t>(from - first)] : nullptr, shape).make(next, level, jobs);
         made.push_back(std::move(level));
         states.push_back(std::move(next));
     }
     return std::move(states.back());
-}
-
-// How many levels can be made of bands of rows, whose states nothing else needs: sides are halved without a rest.
-int banded_levels(int width, int height)
-{
-    const MipRows sides = {width, height, {}};
-    int levels = 0;
-    while (levels < kMostBanded && (width >> levels) % 2 == 0 && (height >> levels) % 2 == 0)
-        ++levels;
-    const auto stays = [&](int banded) {
-        for (int l = banded + 1; l <= levels_of(width, height); ++l)
-            if (finer_level(sides, l) < banded)
-                return false;
-        return true;
-    };
-    while (levels > 0 && !stays(levels))
-        --levels;
-    return levels;
 }
 
 // Levels 1 to `levels`, and the states of the last one.
@@ -312,7 +266,7 @@ std::vector<MipLevel> make_mean_levels(const MipRows& level0, MipFilter filter, 
     StateLevel banded;
     if (first > 0)
         banded = make_banded_levels(level0, first, shape, jobs, made);
-    put_levels_from(level0, first, std::move(banded), levels_of(level0.width, level0.height), shape, jobs, made);
+    put_levels_from(level0, first, std::move(banded), levels_below(level0.width, level0.height), shape, jobs, made);
     return made;
 }
 

@@ -8,6 +8,7 @@
 
 #include "core/image/image.h"
 #include "core/scene/scene.h"
+#include "shading/bake/mip/texture.h"
 
 namespace burnish {
 
@@ -68,6 +69,43 @@ inline std::vector<Share> shares_of(int i, int source, int target)
         shares.push_back({static_cast<int>(k), static_cast<double>(overlap) / static_cast<double>(s)});
     }
     return shares;
+}
+
+// How many levels there are from 1 on: sides are halved and rounded down, at least 1.
+inline int levels_below(int width, int height)
+{
+    int levels = 0;
+    while (levels + 1 < kMaxTextureLevels && (std::max(width, height) >> (levels + 1)) > 0)
+        ++levels;
+    return levels;
+}
+
+// The finer level that level l is made from: the smallest whose texels its footprints are unions of, or level 0.
+inline int finer_level(int width, int height, int l)
+{
+    const auto side = [](int of, int level) { return std::max(1, of >> level); };
+    int from = l - 1;
+    while (from > 0 && (side(width, from) % side(width, l) != 0 || side(height, from) % side(height, l) != 0))
+        --from;
+    return from;
+}
+
+// How many levels can be made of bands of rows of level 0, of which nothing else is needed than the last: sides are halved without a rest.
+inline int banded_levels(int width, int height)
+{
+    constexpr int kMostBanded = 5;
+    int levels = 0;
+    while (levels < kMostBanded && (width >> levels) % 2 == 0 && (height >> levels) % 2 == 0)
+        ++levels;
+    const auto stays = [&](int banded) {
+        for (int l = banded + 1; l <= levels_below(width, height); ++l)
+            if (finer_level(width, height, l) < banded)
+                return false;
+        return true;
+    };
+    while (levels > 0 && !stays(levels))
+        --levels;
+    return levels;
 }
 
 } // namespace burnish

@@ -58,4 +58,31 @@ struct MipLevels {
     std::vector<MipLevel> levels; // from 1 on; none of a single texel
 };
 
+// Maps whose levels are means: linear base colours, with alpha where there is any; metallic-roughness as its map has it; heights, which
+// are the alpha of normal maps.
+enum class MapPart : std::uint32_t { base_color, metallic_roughness, height };
+
+// box: the mean over a texel's exact footprint. kaiser: a sinc over three texels of the level either way under Kaiser's window (alpha 4):
+// sharper, and clamped to what the map holds.
+enum class ColourKernel : std::uint32_t { box, kaiser };
+
+struct MapId { // what levels of a map are made of
+    MapPart part = MapPart::base_color;
+    ColourKernel kernel = ColourKernel::box;
+    std::uint64_t source = 0;  // map_hash()
+    std::uint64_t normals = 0; // hash of the normals that weigh (MipSource::hash); 0: none do
+    bool operator==(const MapId&) const = default;
+};
+
+struct MapLevels {
+    MapId id;
+    int width = 0, height = 0, channels = 0;        // of level 0; channels 1 (gray, heights), 3 or 4
+    std::vector<std::vector<std::uint16_t>> levels; // from 1 on: halves, rows from the top, channels of a texel side by side
+};
+
+struct MipFile { // pyramid_file.h
+    std::vector<MipLevels> materials;
+    std::vector<MapLevels> maps;
+};
+
 } // namespace burnish

@@ -113,7 +113,7 @@ template <Mean mean> BN_FN state state_of(real3 n, slope_covariance s)
     } else if constexpr (mean == Mean::covariance) {
         return {{n.x, n.y, n.z, s.xx, s.yy, s.xy}};
     } else if constexpr (mean == Mean::leadr) {
-        const real steep = sqrt(n.x * n.x + n.y * n.y) / (lit(5.6712818) * n.z); // of 80 degrees: kMostSlope of slopes.h
+        const real steep = sqrt(n.x * n.x + n.y * n.y) / (lit(static_cast<double>(work::kMostSlope)) * n.z);
         const real keep = lit(1.0) / max(steep, lit(1.0));
         const real2 slope = vec2_of(keep * n.x / n.z, keep * n.y / n.z);
         const slope_covariance c = covariance_from_frame(normal_of_slope(slope), s);
@@ -136,13 +136,6 @@ template <Mean mean> struct States {
     }
 };
 
-// Pairs of means whose product a place of the rest is of.
-struct pair_of_means {
-    std::size_t i, j;
-};
-constexpr pair_of_means kFlatPairs[] = {{0, 0}, {1, 1}, {0, 1}};
-constexpr pair_of_means kSpacePairs[] = {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {0, 2}, {1, 2}};
-
 // Of four texels alike, in a square: the sum of both diagonals has the same bits however the square is mirrored or turned.
 template <Mean mean> BN_FN state merged(const state& a, const state& b, const state& c, const state& d, real spread)
 {
@@ -153,7 +146,7 @@ template <Mean mean> BN_FN state merged(const state& a, const state& b, const st
     if constexpr (mean == Mean::baseline || mean == Mean::covariance)
         return r;
     for (std::size_t k = means; k < states_of(mean); ++k) {
-        const pair_of_means p = mean == Mean::leadr ? kFlatPairs[k - means] : kSpacePairs[k - means];
+        const work::MeanPair p = mean == Mean::leadr ? work::kFlatPairs[k - means] : work::kSpacePairs[k - means];
         const auto product = [&](const state& s) { return (s.v[p.i] - r.v[p.i]) * (s.v[p.j] - r.v[p.j]); };
         r.v[k] += spread * (lit(0.25) * ((product(a) + product(d)) + (product(b) + product(c))));
     }

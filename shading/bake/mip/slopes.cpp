@@ -8,6 +8,7 @@
 #include "core/math/scalar_math.h"
 #include "shading/bake/mip/anisotropy.h"
 #include "shading/bake/mip/grid.h"
+#include "shading/bake/mip/mean_fns.h"
 #include "shading/lang/records.h"
 #include "shading/surface/covariance.k.h"
 
@@ -29,7 +30,7 @@ float slope(const Image& map, float scale, std::size_t texel, int axis)
     if (map.type != PixelType::f32)
         s = std::max(s, -1.0f);
     s *= scale;
-    return std::isnan(s) ? 0.0f : std::clamp(s, -kMostSlope, kMostSlope);
+    return std::isnan(s) ? 0.0f : std::clamp(s, -mip::kMostSlope, mip::kMostSlope);
 }
 
 // Of a normal map's texel, as shading decodes it; one below the surface lies as far over as slopes may.
@@ -37,7 +38,7 @@ float slope_of_normal(const Image& map, float scale, std::size_t texel, int axis
 {
     const float s = scale * (1.0f - 2.0f * texel_channel(map, texel, static_cast<std::size_t>(axis)));
     const float z = std::max(2.0f * texel_channel(map, texel, 2) - 1.0f, 1e-3f);
-    return std::isfinite(s) && std::isfinite(z) ? std::clamp(s / z, -kMostSlope, kMostSlope) : 0.0f;
+    return std::isfinite(s) && std::isfinite(z) ? std::clamp(s / z, -mip::kMostSlope, mip::kMostSlope) : 0.0f;
 }
 
 // Of its unit normal, along the surface.

@@ -5,8 +5,6 @@
 
 namespace burnish {
 
-inline constexpr float kMostSlope = 5.6712818f; // of 80 degrees
-
 struct SlopeMaps { // null where there is none; all of one place: the same coordinates see the same point in each
     // Red and green: mean slopes d height / d tangent and d height / d bitangent, -1 to 1. Code 128 of 8 bits and 32768 of 16 is 0, the
     // largest 1; floats are slopes themselves.

@@ -4,10 +4,12 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <memory>
 
 #include "core/base/check.h"
 #include "core/image/colour.h"
 #include "core/simd/half.h"
+#include "shading/bake/mip/grid.h"
 
 namespace burnish {
 namespace {
@@ -183,46 +185,97 @@ void lay_out(TexturePyramid& p)
 
 } // namespace
 
-TexturePyramid make_texture_pyramid(const Image& image, const Texture& sampler, TextureEncoding encoding)
+ImageRow linear_rows(const Image& image, TextureEncoding encoding)
 {
     BN_CHECK(image.width > 0 && image.height > 0 && image.channels >= 1 && image.channels <= 4);
+    return [decoder = std::make_shared<const Decoder>(image, encoding)](int y, float* rgba) { decoder->row(y, rgba); };
+}
+
+namespace {
+
+Size level_size(const Image& image, int l)
+{
+    return {std::max(1, image.width >> l), std::max(1, image.height >> l)};
+}
+
+using FloatRow = std::function<const float*(int y)>;
+
+// Rows that a band of level 0 becomes on levels 1 to `levels`; returns those of the last.
+std::vector<float> filter_band(const Image& image, const ImageRow& decode, int levels, int band, const LevelRow& use)
+{
+    const int first = band << levels;
+    std::vector<float> row(static_cast<std::size_t>(image.width) * 4), finer;
+    for (int l = 1; l <= levels; ++l) {
+        const Size from = {image.width >> (l - 1), 1 << (levels - l + 1)}, to = {image.width >> l, 1 << (levels - l)};
+        const FloatRow rows = [&](int y) -> const float* {
+            if (l > 1)
+                return finer.data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(from.w) * 4;
+            decode(first + y, row.data());
+            return row.data();
+        };
+        std::vector<float> made = box_filter(from, to, rows);
+        for (int y = 0; y < to.h; ++y)
+            use(l, to.w, band * to.h + y, made.data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(to.w) * 4);
+        finer = std::move(made);
+    }
+    return finer;
+}
+
+} // namespace
+
+// A level comes from the smallest earlier level whose texels its footprints are unions of, else from level 0: both are exact.
+void each_box_row(const Image& image, TextureEncoding encoding, const Jobs& jobs, const LevelRow& use)
+{
+    const ImageRow decode = linear_rows(image, encoding);
+    const int banded = banded_levels(image.width, image.height);
+    std::array<std::vector<float>, kMaxTextureLevels> levels;
+    if (banded > 0) {
+        const Size last = level_size(image, banded);
+        const std::size_t texels = static_cast<std::size_t>(last.w) * 4;
+        std::vector<float>& whole = levels[static_cast<std::size_t>(banded)];
+        whole.resize(static_cast<std::size_t>(last.h) * texels);
+        jobs.parallel_for(static_cast<std::size_t>(last.h), [&](std::size_t band, int) {
+            const std::vector<float> row = filter_band(image, decode, banded, static_cast<int>(band), use);
+            std::copy(row.begin(), row.end(), whole.begin() + static_cast<std::ptrdiff_t>(band * texels));
+        });
+    }
+    std::vector<float> row(static_cast<std::size_t>(image.width) * 4);
+    for (int l = banded + 1; l <= levels_below(image.width, image.height); ++l) {
+        const Size size = level_size(image, l);
+        const int finer = finer_level(image.width, image.height, l);
+        const std::size_t stride = static_cast<std::size_t>(level_size(image, finer).w) * 4, texels = static_cast<std::size_t>(size.w) * 4;
+        const FloatRow rows = [&](int y) -> const float* {
+            if (finer > 0)
+                return levels[static_cast<std::size_t>(finer)].data() + static_cast<std::size_t>(y) * stride;
+            decode(y, row.data());
+            return row.data();
+        };
+        std::vector<float>& to = levels[static_cast<std::size_t>(l)];
+        to = box_filter(level_size(image, finer), size, rows);
+        for (int y = 0; y < size.h; ++y)
+            use(l, size.w, y, to.data() + static_cast<std::size_t>(y) * texels);
+    }
+}
+
+TexturePyramid make_texture_pyramid(const Image& image, const Texture& sampler, TextureEncoding encoding)
+{
+    const ImageRow decode = linear_rows(image, encoding);
     TexturePyramid p;
     p.width = image.width, p.height = image.height;
     p.wrap_s = sampler.wrap_s, p.wrap_t = sampler.wrap_t, p.nearest = sampler.nearest;
     lay_out(p);
-
-    const Decoder decoder(image, encoding);
     const Size full = {p.width, p.height};
     std::vector<float> row(static_cast<std::size_t>(p.width) * 4);
     for (int y = 0; y < p.height; ++y) {
-        decoder.row(y, row.data());
+        decode(y, row.data());
         store_row(p, encoding, 0, full, y, row.data());
     }
     fill_border(p, 0, full);
-
-    // A level comes from the smallest earlier level whose texels its footprints are unions of, else from
-    // level 0: both are exact.
-    std::array<std::vector<float>, kMaxTextureLevels> levels;
-    std::array<Size, kMaxTextureLevels> sizes;
-    sizes[0] = full;
-    for (int l = 1; l < p.levels; ++l) {
-        const std::size_t i = static_cast<std::size_t>(l);
-        const Size size = {std::max(1, p.width >> l), std::max(1, p.height >> l)};
-        std::size_t from = i - 1;
-        while (from > 0 && (sizes[from].w % size.w != 0 || sizes[from].h % size.h != 0))
-            --from;
-        sizes[i] = size;
-        const auto source_row = [&](int y) -> const float* {
-            if (from > 0)
-                return levels[from].data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(sizes[from].w) * 4;
-            decoder.row(y, row.data());
-            return row.data();
-        };
-        levels[i] = box_filter(sizes[from], size, source_row);
-        for (int y = 0; y < size.h; ++y)
-            store_row(p, encoding, l, size, y, levels[i].data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(size.w) * 4);
-        fill_border(p, l, size);
-    }
+    each_box_row(image, encoding, Jobs(1), [&](int l, int width, int y, const float* rgba) {
+        store_row(p, encoding, l, {width, std::max(1, p.height >> l)}, y, rgba);
+    });
+    for (int l = 1; l < p.levels; ++l)
+        fill_border(p, l, level_size(image, l));
     return p;
 }
 

@@ -6,6 +6,7 @@
 
 #include "core/base/column.h"
 #include "core/image/image.h"
+#include "core/jobs/jobs.h"
 #include "core/scene/scene.h"
 
 namespace burnish {
@@ -36,5 +37,13 @@ TexturePyramid make_texture_pyramid(const Image& image, const Texture& sampler, 
 // The same of levels that are made elsewhere. row: writes the texels of a row of a level, 4 floats each, as they are stored.
 using TexelRow = std::function<void(int level, int width, int y, float* rgba)>;
 TexturePyramid make_texture_pyramid(int width, int height, const Texture& sampler, TextureEncoding encoding, const TexelRow& row);
+
+// Rows of an image as textures hold them: 4 linear floats a texel, finite. The image must stay.
+using ImageRow = std::function<void(int y, float* rgba)>;
+ImageRow linear_rows(const Image& image, TextureEncoding encoding);
+
+// The box filter's levels from 1 on, row by row, 4 floats a texel, in no order: several rows at once.
+using LevelRow = std::function<void(int level, int width, int y, const float* texels)>;
+void each_box_row(const Image& image, TextureEncoding encoding, const Jobs& jobs, const LevelRow& use);
 
 } // namespace burnish

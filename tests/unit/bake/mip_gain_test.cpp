@@ -158,21 +158,21 @@ TEST(mip_gain, is_kept_in_files_and_refused_where_it_is_none)
     made.levels = make_mean_levels(rows_of_texels(t), kMipFilter_kappa, 0.7f, Jobs(1));
     for (std::size_t l = 0; l < made.levels.size(); ++l)
         made.levels[l].gain = 0.9f - 0.1f * static_cast<float>(l);
-    const Result<std::vector<MipLevels>> read = parse_mip_file(mip_file_bytes({&made}), "x.mip");
+    const Result<MipFile> read = parse_mip_file(mip_file_bytes({{&made}, 0, {}}), "x.mip");
     ASSERT_TRUE(read);
-    EXPECT_EQ((*read)[0].gained, made.gained);
-    EXPECT_TRUE(gained_metal((*read)[0].gained));
+    EXPECT_EQ(read->materials[0].gained, made.gained);
+    EXPECT_TRUE(gained_metal(read->materials[0].gained));
     EXPECT_FALSE(gained_metal(gained_of(mipnet::Lobe::beckmann, false)));
     for (std::size_t l = 0; l < made.levels.size(); ++l)
-        EXPECT_EQ((*read)[0].levels[l].gain, made.levels[l].gain);
+        EXPECT_EQ(read->materials[0].levels[l].gain, made.levels[l].gain);
     for (const float wrong : {0.0f, 2.5f, std::nanf("")}) {
         MipLevels bad = made;
         bad.levels[1].gain = wrong;
-        EXPECT_FALSE(parse_mip_file(mip_file_bytes({&bad}), "x.mip")) << wrong;
+        EXPECT_FALSE(parse_mip_file(mip_file_bytes({{&bad}, 0, {}}), "x.mip")) << wrong;
     }
     MipLevels bad = made;
     bad.gained = 0;
-    EXPECT_FALSE(parse_mip_file(mip_file_bytes({&bad}), "x.mip")) << "gains of nothing";
+    EXPECT_FALSE(parse_mip_file(mip_file_bytes({{&bad}, 0, {}}), "x.mip")) << "gains of nothing";
 }
 
 // Of a row of any length, of maps of three and four channels: states, squares, texels, tensors and hashes.

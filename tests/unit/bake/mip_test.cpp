@@ -5,10 +5,12 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <filesystem>
 #include <limits>
 #include <set>
 
 #include "shading/bake/mip/filter.h"
+#include "shading/bake/mip/map_levels.h"
 #include "shading/bake/mip/net_levels.h"
 #include "shading/bake/mip/pyramid_file.h"
 #include "shading/bake/mipnet/shipped.h"
@@ -284,7 +286,7 @@ TEST(mip, texels_that_are_not_numbers_are_level_and_do_not_spread)
     }
     for (const MipFilter filter : lobe_filters()) {
         const MipLevels made = levels_of(maps, filter), whole = levels_of(repaired, filter);
-        EXPECT_EQ(mip_file_bytes({&made}), mip_file_bytes({&whole}));
+        EXPECT_EQ(mip_file_bytes({{&made}, 0, {}}), mip_file_bytes({{&whole}, 0, {}}));
     }
     std::vector<MipPoint> row(16);
     MipSource(maps.of()).row(0, row.data());
@@ -381,7 +383,7 @@ TEST(mip, bytes_do_not_depend_on_threads)
     const Maps maps = rough_maps(61, 47, 11);
     for (const MipFilter filter : lobe_filters()) {
         const MipLevels one = levels_of(maps, filter), three = levels_of(maps, filter, 1.1f, 3);
-        EXPECT_EQ(mip_file_bytes({&one}), mip_file_bytes({&three}));
+        EXPECT_EQ(mip_file_bytes({{&one}, 0, {}}), mip_file_bytes({{&three}, 0, {}}));
     }
 }
 
@@ -389,17 +391,33 @@ TEST(mip, files_give_back_what_was_written_and_refuse_the_rest)
 {
     const Maps maps = rough_maps(13, 8, 2);
     const MipLevels a = levels_of(maps, kMipFilter_kappa, 0.7f), b = levels_of(rough_maps(1, 1, 4), kMipFilter_ssgt);
-    const std::vector<std::uint8_t> bytes = mip_file_bytes({&a, &b});
-    const Result<std::vector<MipLevels>> read = parse_mip_file(bytes, "x.mip");
+    const MapLevels colours =
+        make_map_levels(maps.normal, {}, {MapPart::base_color, ColourKernel::kaiser, 3, 4}, nullptr, Jobs(1)); // any picture
+    const MapLevels heights = make_map_levels(maps.normal, {}, {MapPart::height, ColourKernel::box, 5, 0}, nullptr, Jobs(1));
+    const MipParts parts = {{&a, &b}, 2, [&](std::size_t i) { return i == 0 ? colours : heights; }};
+    const std::vector<std::uint8_t> bytes = mip_file_bytes(parts);
+    const Result<MipFile> read = parse_mip_file(bytes, "x.mip");
     ASSERT_TRUE(read);
-    ASSERT_EQ(read->size(), 2u);
-    EXPECT_EQ((*read)[0].source, a.source);
-    EXPECT_EQ((*read)[0].kappa, 0.7f);
-    EXPECT_EQ((*read)[0].filter, kMipFilter_kappa);
-    ASSERT_EQ((*read)[0].levels.size(), a.levels.size());
+    ASSERT_EQ(read->materials.size(), 2u);
+    EXPECT_EQ(read->materials[0].source, a.source);
+    EXPECT_EQ(read->materials[0].kappa, 0.7f);
+    EXPECT_EQ(read->materials[0].filter, kMipFilter_kappa);
+    ASSERT_EQ(read->materials[0].levels.size(), a.levels.size());
     for (std::size_t l = 0; l < a.levels.size(); ++l)
-        EXPECT_EQ((*read)[0].levels[l].texels, a.levels[l].texels);
-    EXPECT_TRUE((*read)[1].levels.empty());
+        EXPECT_EQ(read->materials[0].levels[l].texels, a.levels[l].texels);
+    EXPECT_TRUE(read->materials[1].levels.empty());
+    ASSERT_EQ(read->maps.size(), 2u);
+    for (const auto& [was, is] : {std::pair(&colours, &read->maps[0]), {&heights, &read->maps[1]}}) {
+        EXPECT_EQ(is->id, was->id);
+        EXPECT_EQ(is->channels, was->channels);
+        EXPECT_EQ(is->levels, was->levels);
+        EXPECT_EQ(is->levels.size(), 3u);
+    }
+    EXPECT_NE(colours.channels, heights.channels);
+    const std::string path = ::testing::TempDir() + "/whole.mip";
+    ASSERT_TRUE(write_mip_file(path, parts));
+    EXPECT_EQ(*read_file(path, 1u << 20), bytes);
+    std::filesystem::remove(path);
     for (std::size_t at = 0; at < bytes.size(); at += 7) {
         std::vector<std::uint8_t> bad = bytes;
         bad[at] ^= 0x10;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/image/colour.h"
+#include "shading/bake/mip/map_levels.h"
 #include "shading/bake/mip/texture.h"
 #include "tests/unit/bake/bake_test.h"
 
@@ -157,6 +158,47 @@ TEST(texture_pyramid, nan_and_infinity_of_float_images_do_not_spread)
     EXPECT_EQ(texel(p, 2, 0, 0, 0), 0.9375f);
     for (std::size_t i = 0; i < p.texels.size(); ++i)
         ASSERT_TRUE(std::isfinite(half_to_float(p.texels[i])));
+}
+
+TEST(texture_pyramid, of_levels_that_were_kept_is_the_same)
+{
+    for (const PixelType type : {PixelType::u8, PixelType::u16, PixelType::f32})
+        for (int channels = 1; channels <= 4; ++channels)
+            for (const auto& [width, height] : {std::pair(13, 6), {1, 9}, {1, 1}, {8, 8}})
+                for (const MapPart part : {MapPart::base_color, MapPart::metallic_roughness, MapPart::height}) {
+                    const Image image = random_image(width, height, channels, type);
+                    const Texture sampler = {"", 0, WrapMode::mirror, WrapMode::clamp};
+                    const TexturePyramid own = make_texture_pyramid(image, sampler, encoding_of(part));
+                    const MapLevels levels = make_map_levels(image, sampler, {part, ColourKernel::box, 0, 0}, nullptr, Jobs(1));
+                    const TexturePyramid kept = pyramid_of_map(image, sampler, levels);
+                    const std::size_t first = part == MapPart::height ? 3 : 0; // nothing else is asked for of heights
+                    ASSERT_EQ(own.texels.size(), kept.texels.size());
+                    for (std::size_t i = 0; i < own.texels.size(); ++i)
+                        if (i % 4 >= first) {
+                            ASSERT_EQ(own.texels[i], kept.texels[i]) << width << "x" << height << " of " << channels << " at " << i;
+                        }
+                    EXPECT_EQ(own.wrap_s, kept.wrap_s);
+                }
+}
+
+// Weighted by ones, or by what is the same everywhere, the means are the same, nearly, whatever the threads.
+TEST(texture_pyramid, of_weighted_levels_does_not_depend_on_threads)
+{
+    const Image image = random_image(29, 17, 3, PixelType::u8);
+    Image facing = make_image(29, 17, 1, PixelType::f32);
+    std::fill_n(facing.f32(), 29 * 17, 0.25f);
+    const MapId id = {MapPart::base_color, ColourKernel::box, 0, 1};
+    const MapLevels even = make_map_levels(image, {}, id, &facing, Jobs(1)), plain = make_map_levels(image, {}, id, nullptr, Jobs(1));
+    for (std::size_t l = 0; l < plain.levels.size(); ++l)
+        for (std::size_t i = 0; i < plain.levels[l].size(); ++i)
+            ASSERT_NEAR(half_to_float(even.levels[l][i]), half_to_float(plain.levels[l][i]), 5e-4f);
+    Random random(5);
+    for (int i = 0; i < 29 * 17; ++i)
+        facing.f32()[i] = static_cast<float>(0.01 + random());
+    for (const ColourKernel kernel : {ColourKernel::box, ColourKernel::kaiser}) {
+        const MapId of = {MapPart::base_color, kernel, 0, 1};
+        EXPECT_EQ(make_map_levels(image, {}, of, &facing, Jobs(1)).levels, make_map_levels(image, {}, of, &facing, Jobs(3)).levels);
+    }
 }
 
 } // namespace

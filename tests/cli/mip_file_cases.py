@@ -1,0 +1,217 @@
+"""Files of `burnish bake mip`: whole pyramids, base colours, metalness and heights too."""
+
+import struct
+
+import gltf_files as files
+from compare_cases import png
+from detail_cases import bare, bumps, hash_of
+from harness import case, check
+from input_cases import scratch
+from mip_cases import SMALL
+from parity_cases import check_equal, parity
+
+PARTS = ("base colours", "metalness", "heights")
+MASK = 2**64 - 1
+
+
+def xxh64(data, seed):
+    """xxHash64 as its specification has it."""
+    p1, p2, p3, p4, p5 = 0x9E3779B185EBCA87, 0xC2B2AE3D27D4EB4F, 0x165667B19E3779F9, 0x85EBCA77C2B2AE63, 0x27D4EB2F165667C5
+
+    def turned(x, by):
+        return (x << by | x >> (64 - by)) & MASK
+
+    def mixed(sum_, lane):
+        return turned((sum_ + lane * p2) & MASK, 31) * p1 & MASK
+
+    at = 0
+    if len(data) >= 32:
+        sums = [(seed + p1 + p2) & MASK, (seed + p2) & MASK, seed, (seed - p1) & MASK]
+        while at + 32 <= len(data):
+            sums = [mixed(*pair) for pair in zip(sums, struct.unpack_from("<4Q", data, at))]
+            at += 32
+        found = sum(turned(s, by) for s, by in zip(sums, (1, 7, 12, 18))) & MASK
+        for s in sums:
+            found = ((found ^ mixed(0, s)) * p1 + p4) & MASK
+    else:
+        found = (seed + p5) & MASK
+    found = (found + len(data)) & MASK
+    while at + 8 <= len(data):
+        found = (turned(found ^ mixed(0, struct.unpack_from("<Q", data, at)[0]), 27) * p1 + p4) & MASK
+        at += 8
+    if at + 4 <= len(data):
+        found = (turned(found ^ struct.unpack_from("<I", data, at)[0] * p1 & MASK, 23) * p2 + p3) & MASK
+        at += 4
+    for byte in data[at:]:
+        found = turned(found ^ byte * p5 & MASK, 11) * p1 & MASK
+    found = (found ^ found >> 33) * p2 & MASK
+    found = (found ^ found >> 29) * p3 & MASK
+    return found ^ found >> 32
+
+
+def sealed(body):
+    found = 0
+    for at in range(0, len(body), 1 << 20):
+        found = xxh64(body[at:at + (1 << 20)], found)
+    return body + struct.pack("<Q", found)
+
+
+def maps_of(file):
+    """{part: (kernel, hash of normals, where its halves begin, where they end)}, as pyramid_file.h has it."""
+    version, materials, count, zero = struct.unpack_from("<4I", file, 8)
+    check((file[:8], version, zero) == (b"bnmip01\n", 4, 0), f"{file[:24]}")
+    at, found = 24, {}
+
+    def texels(width, height, levels):
+        return sum(max(1, width >> level) * max(1, height >> level) for level in range(1, levels + 1))
+
+    for _ in range(materials):
+        width, height, levels = struct.unpack_from("<3I", file, at + 20)
+        at += 56 + 4 * levels + 20 * texels(width, height, levels)
+    for _ in range(count):
+        part, kernel, _, normals, width, height, channels, levels = struct.unpack_from("<2I2Q4I", file, at)
+        end = at + 40 + 2 * channels * texels(width, height, levels)
+        found[PARTS[part]] = (kernel, normals, at + 40, end)
+        at = end
+    check(at + 8 == len(file), f"{at} of {len(file)} bytes")
+    return found
+
+
+def whole(bench, name, **other):
+    """A folder of all maps, of which the given ones are others."""
+    folder = bench.folder / name
+    folder.mkdir()
+
+    def put(part, width, height, texel, channels=1):
+        (folder / f"x_{part}.png").write_bytes(png(width, height, other.get(part, texel), channels=channels))
+
+    put("normal", 33, 17, bumps, 3)
+    put("roughness", 16, 16, lambda x, y: (40 + 12 * x,))
+    put("basecolor", 32, 32, lambda x, y: (250, 120, 40) if x % 8 < 4 else (40, 120 + 4 * y, 250), 3)
+    put("metallic", 16, 16, lambda x, y: (255 * ((x ^ y) & 1),))
+    put("height", 16, 16, lambda x, y: (10 * x + 5 * y,))
+    return name
+
+
+LOOKS = ((), ("--couple", "albedo"), ("--color-kernel", "kaiser"), ("--couple", "albedo", "--color-kernel", "kaiser"))
+
+
+@case("mip.files_hold_whole_pyramids", "input", tier="check")
+def files_hold(bench):
+    whole(bench, "set")
+    seen = ("builtin:sphere", *SMALL, "--material", "set")
+    hashes = []
+    for i, look in enumerate(LOOKS):
+        name = f"{i}.mip"
+        bench.run("bake", "mip", "set", *look, "-q", "-o", name).expect(0)
+        bench.run("bake", "mip", "set", *look, "--threads", "3", "-q", "-o", "3.threads", env={"BN_FORCE_ISA": "scalar"}).expect(0)
+        good = (bench.folder / name).read_bytes()
+        check((bench.folder / "3.threads").read_bytes() == good == sealed(good[:-8]), "threads or lanes change the bytes")
+        maps = maps_of(good)
+        check(set(maps) == set(PARTS), f"{maps}")
+        check([maps[part][0] for part in PARTS] == [int("kaiser" in look)] * 2 + [0], f"{look}: {maps}")
+        check([maps[part][1] != 0 for part in PARTS] == ["albedo" in look] * 2 + [False], f"{look}: {maps}")
+        for more in ((), ("--anisotropy", "0.5")):
+            made = hash_of(bench, *seen, "--mip-filter", "kappa", *look, *more)
+            check(hash_of(bench, *seen, "--mip-filter", "kappa", *look, *more, "--mip-pyramid", name) == made, f"{look} {more}: other pixels")
+            check(hash_of(bench, *seen, *more, "--mip-pyramid", name) == made, f"{look} {more}: a file does not say how colours are averaged")
+        hashes.append(hash_of(bench, *seen, "--mip-pyramid", name))
+        for part, (*_, begin, end) in maps.items():  # what is in the file is what is drawn
+            scratch(bench, "spoilt.mip", sealed(good[:begin] + struct.pack("<H", 0x3400) * ((end - begin) // 2) + good[end:-8]))
+            check(hash_of(bench, *seen, "--mip-pyramid", "spoilt.mip") != hashes[-1], f"{look}: {part} are not looked at")
+    check(len(set(hashes)) == len(LOOKS), f"{hashes}")
+    for look, name in ((LOOKS[1], "0.mip"), (LOOKS[0], "1.mip"), (LOOKS[2], "0.mip"), (LOOKS[2], "3.mip")):
+        bench.run("render", *seen, "--mip-filter", "kappa", *look, "--mip-pyramid", name, "-o", "x.pfm").expect(4).expect_one_line("base colours")
+    done = bench.run("render", *seen, "--couple", "albedo", "--color-kernel", "kaiser", "--mip-pyramid", "0.mip", "-o", "a.pfm").expect(0)
+    check(all(f"{option} has no effect with --mip-pyramid" in done.err for option in ("--couple", "--color-kernel")), done.describe())
+    # other maps, an older file, and numbers that are none
+    for name, part, texel in (("basecolor", "base colours", lambda x, y: (250, 120, 41)), ("metallic", "metalness", lambda x, y: (3,)),
+                              ("height", "heights", lambda x, y: (3 * x,)), ("normal", "hash", lambda x, y: bumps(x + 1, y))):
+        whole(bench, name, **{name: texel})
+        bench.run("render", "builtin:sphere", *SMALL, "--material", name, "--mip-pyramid", "3.mip", "-o", "x.pfm").expect(4).expect_one_line(part)
+    good = (bench.folder / "0.mip").read_bytes()
+    begin = maps_of(good)["metalness"][2]
+    for needle, at, data in (("version 3, not 4", 8, b"\3"), ("number that is none", begin, b"\0\x7c"), ("map that is none", begin - 40, b"\3"),
+                             ("channels", begin - 8, b"\2"), ("levels of", begin - 16, b"\0"), ("is cut off", 16, b"\4"), ("bytes too many", 16, b"\2")):
+        scratch(bench, "bad.mip", sealed(good[:at] + data + good[at + len(data):-8]))
+        bench.run("render", *seen, "--mip-pyramid", "bad.mip", "-o", "x.pfm").expect(4).expect_one_line(needle)
+    check("x.pfm" not in bench.left_behind(), "what failed has left something")
+
+
+@case("mip.files_of_a_full_disk_have_no_name", "input", tier="check")
+def full_disk(bench):
+    whole(bench, "set")
+    words = ("bake", "mip", "set", "-q", "-o")
+    bench.run(*words, "whole.mip").expect(0)
+    size = (bench.folder / "whole.mip").stat().st_size
+    for most in (0, 100, size // 2, size - 1):
+        full = bench.run(*words, "full.mip", file_size=most).expect(7).expect_one_line("full.mip")
+        check(not [name for name in bench.left_behind() if "full" in name], full.describe())
+        bench.run("bake", "mip", "set", "--mip-kappa", "2", "-q", "-o", "whole.mip", file_size=most).expect(7)
+    bench.run(*words, "again.mip", file_size=size).expect(0)
+    check((bench.folder / "whole.mip").read_bytes() == (bench.folder / "again.mip").read_bytes(), "what was there is not as it was")
+
+
+@case("mip.colours_that_take_long_are_kept_by_content", tier="check")
+def kept(bench):
+    whole(bench, "set"), whole(bench, "other", basecolor=lambda x, y: (250, 4 * x, 40))
+    cache = bench.folder / "cache"
+
+    def drawn(folder, *words):
+        found = bench.figures("builtin:sphere", *SMALL, "--material", folder, *words, env={"XDG_CACHE_HOME": str(cache)})
+        return found["pixel_hash"], {path: path.read_bytes() for path in (cache / "burnish").glob("levels-*.mip")}
+
+    check(not drawn("set")[1], "plain means are kept")
+    for look in LOOKS[1:]:
+        plain, before = drawn("set", *look, "--no-cache")
+        first, there = drawn("set", *look)
+        check(first == plain == drawn("set", *look)[0] and len(there) == len(before) + 2, f"{look}: {sorted(there)}")
+        for name in set(there) - set(before):
+            part, = maps_of(there[name])
+            *_, begin, end = maps_of(there[name])[part]
+            name.write_bytes(sealed(there[name][:begin] + struct.pack("<H", 0x3400) * ((end - begin) // 2) + there[name][end:-8]))
+            check(drawn("set", *look)[0] != first, f"{look}: {part} of the cache are not looked at")
+            name.write_bytes(there[name][:-9])  # damaged: made anew
+            check(drawn("set", *look) == (first, there), f"{look}: a damaged file stays")
+    other, more = drawn("other", *look)
+    check(other != first and len(more) == len(there) + 1, "another map of base colours")
+    name, swapped = sorted(more)[:2]  # a file of something else under this name
+    data = more[name], more[swapped]
+    name.write_bytes(data[1]), swapped.write_bytes(data[0])
+    for folder, found in (("set", first), ("other", other)):
+        check(drawn(folder, *look)[0] == found, "levels of other maps are taken")
+
+
+@case("mip.bakes_write_over_nothing_that_they_read", "input", tier="check")
+def inputs(bench):
+    whole(bench, "set")
+    gltf = bare(normalTexture={"index": 0})
+    gltf["materials"][0]["name"] = "odd"
+    gltf["textures"], gltf["images"] = [{"source": 0}], [{"uri": "odd_normal_01.png"}]
+    scratch(bench, "odd.gltf", files.text(gltf))
+    scratch(bench, "odd_normal_01.png", png(16, 16, bumps))
+    before = {path: path.read_bytes() for path in bench.folder.rglob("*") if path.is_file()}
+    for words in (("odd.gltf", "-o", "a.mip", "--preview", "."), ("odd.gltf", "-o", "odd_normal_01.png"), ("odd.gltf", "-o", "odd.gltf"),
+                  ("odd.gltf", "--format", "png-levels", "-o", "."), ("set", "-o", "set/x_normal.png"), ("set", "-o", "set/x_height.png")):
+        bench.run("bake", "mip", *words, "-q").expect(2).expect_one_line("odd_normal_01.png" if words[-1] == "." else words[-1])
+    check({path: path.read_bytes() for path in bench.folder.rglob("*") if path.is_file()} == before, f"{bench.left_behind()}")
+    bench.run("bake", "mip", "odd.gltf", "-q", "-o", "a.mip", "--preview", "seen").expect(0)
+    check((bench.folder / "seen/odd_normal_01.png").exists(), "no preview")
+
+
+@case("mip.maps_of_one_texel_have_no_levels", tier="check")
+def one_texel(bench):
+    (bench.folder / "set").mkdir()
+    for part, texel, channels in (("normal", (140, 120, 250), 3), ("roughness", (90,), 1), ("basecolor", (200, 100, 50), 3), ("height", (9,), 1)):
+        (bench.folder / f"set/x_{part}.png").write_bytes(png(1, 1, lambda x, y: texel, channels=channels))
+    for name in ("kappa", "mipnet", "teacher"):
+        bench.run("bake", "mip", "set", "--mip-filter", name, "--couple", "albedo", "-q", "-o", "a.mip").expect(0)
+        check(all(begin == end for *_, begin, end in maps_of((bench.folder / "a.mip").read_bytes()).values()), "there are levels")
+        seen = ("builtin:sphere", *SMALL, "--material", "set")
+        check(hash_of(bench, *seen, "--mip-filter", name, "--couple", "albedo") == hash_of(bench, *seen, "--mip-pyramid", "a.mip"), name)
+
+
+@case("mip.files_give_the_same_words_on_devices")
+def devices(bench):
+    bench.run("bake", "mip", "builtin:shaderballs", "--couple", "albedo", "--color-kernel", "kaiser", "--mip-gain", "on", "-q", "-o", "balls.mip").expect(0)
+    check_equal(parity(bench, "builtin:shaderballs", "--size", "48x36", "--msaa", "1", "--technique", "auto", "--mip-pyramid", "balls.mip"))
