@@ -18,11 +18,6 @@ const Texture& texture_of(const Scene& scene, const TextureRef& ref)
     return scene.textures[static_cast<std::size_t>(ref.texture)];
 }
 
-const Image& image_of(const Scene& scene, const TextureRef& ref)
-{
-    return scene.images[static_cast<std::size_t>(texture_of(scene, ref).image)];
-}
-
 // Of the normal map alone, whatever the material's other maps.
 MipSource normals_of(const Scene& scene, const Material& m)
 {
@@ -35,6 +30,11 @@ MipSource normals_of(const Scene& scene, const Material& m)
 }
 
 } // namespace
+
+const Image& map_image(const Scene& scene, const TextureRef& ref)
+{
+    return scene.images[static_cast<std::size_t>(texture_of(scene, ref).image)];
+}
 
 Image linear_map(const Image& image, const Grid& grid, bool srgb, std::size_t first, int channels, const float* factor)
 {
@@ -96,13 +96,13 @@ const char* name_of(MapPart part)
 
 MapId map_id(const Scene& scene, const Material& m, const UsedMap& map, const Jobs& jobs)
 {
-    return {map.part, map.kernel, map_hash(image_of(scene, *map.ref), texture_of(scene, *map.ref), map.part),
+    return {map.part, map.kernel, map_hash(map_image(scene, *map.ref), texture_of(scene, *map.ref), map.part),
             map.coupled ? normals_of(scene, m).hash(jobs) : 0};
 }
 
 MapLevels map_levels(const Scene& scene, const Material& m, const UsedMap& map, const Jobs& jobs)
 {
-    const Image& image = image_of(scene, *map.ref);
+    const Image& image = map_image(scene, *map.ref);
     const Texture& texture = texture_of(scene, *map.ref);
     const MapId id = map_id(scene, m, map, jobs);
     if (!map.coupled)
@@ -114,22 +114,22 @@ MapLevels map_levels(const Scene& scene, const Material& m, const UsedMap& map, 
     return make_map_levels(image, texture, id, &facing, jobs);
 }
 
-const MapLevels* find_map(const std::vector<MapLevels>& maps, const MapId& id)
+const MapLevels* find_map(const std::vector<MapLevels>& maps, const MapId& id, const Image& image)
 {
-    const auto found = std::find_if(maps.begin(), maps.end(), [&](const MapLevels& levels) { return levels.id == id; });
+    const auto found =
+        std::find_if(maps.begin(), maps.end(), [&](const MapLevels& levels) { return levels.id == id && are_of(levels, image); });
     return found == maps.end() ? nullptr : &*found;
 }
 
 const MapLevels* given_map(const Scene& scene, const Material& m, const UsedMap& map)
 {
-    const Image& image = image_of(scene, *map.ref);
+    const Image& image = map_image(scene, *map.ref);
     const auto may_be = [&](const MapLevels& of) {
-        return of.id.part == map.part && of.id.kernel == map.kernel && (of.id.normals != 0) == map.coupled && of.width == image.width &&
-               of.height == image.height;
+        return of.id.part == map.part && of.id.kernel == map.kernel && (of.id.normals != 0) == map.coupled && are_of(of, image);
     };
     for (const auto& there : {scene.mips, scene.kept_mips})
         if (there && std::any_of(there->maps.begin(), there->maps.end(), may_be))
-            if (const MapLevels* found = find_map(there->maps, map_id(scene, m, map, Jobs(1))))
+            if (const MapLevels* found = find_map(there->maps, map_id(scene, m, map, Jobs(1)), image))
                 return found;
     return nullptr;
 }

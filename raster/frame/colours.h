@@ -35,7 +35,9 @@ const char* name_of(MapPart part); // to be read
 
 MapId map_id(const Scene& scene, const Material& material, const UsedMap& map, const Jobs& jobs);
 MapLevels map_levels(const Scene& scene, const Material& material, const UsedMap& map, const Jobs& jobs);
-const MapLevels* find_map(const std::vector<MapLevels>& maps, const MapId& id); // null where there is none
+const Image& map_image(const Scene& scene, const TextureRef& used);
+// Those of the image that are so made, and have its sides; null where there are none.
+const MapLevels* find_map(const std::vector<MapLevels>& maps, const MapId& id, const Image& image);
 // Those that were baked beforehand or found in the cache: null where there are none, so that they are made here.
 const MapLevels* given_map(const Scene& scene, const Material& material, const UsedMap& map);
 

@@ -73,7 +73,7 @@ void keep_lobes(Scene& scene, const Material& m, const std::string& folder, cons
 {
     const MipSource source = mip_source(scene, m);
     const std::uint64_t hash = source.hash(jobs);
-    const auto fit = [&](const MipLevels& levels) { return fits(levels, hash, scene, m); };
+    const auto fit = [&](const MipLevels& levels) { return fits(levels, source, hash, scene, m); };
     if (std::any_of(kept.begin(), kept.end(), fit))
         return;
     const std::string path = kept_path(folder, hash, scene, m);
@@ -91,10 +91,11 @@ void keep_map(Scene& scene, const Material& m, const UsedMap& map, const std::st
               std::vector<MapLevels>& kept)
 {
     const MapId id = map_id(scene, m, map, jobs);
-    if (find_map(kept, id))
+    const Image& image = map_image(scene, *map.ref);
+    if (find_map(kept, id, image))
         return;
     const std::string path = kept_path(folder, id);
-    if (MipFile file = read_kept(path); file.materials.empty() && file.maps.size() == 1 && file.maps[0].id == id) {
+    if (MipFile file = read_kept(path); file.materials.empty() && file.maps.size() == 1 && find_map(file.maps, id, image)) {
         note_cache_use(path);
         kept.push_back(std::move(file.maps[0]));
         return;
@@ -120,7 +121,8 @@ void keep_mips(Scene& scene, const Jobs& jobs)
             if (map.coupled || map.kernel != ColourKernel::box)
                 keep_map(scene, m, map, folder, jobs, kept.maps);
     }
-    scene.kept_mips = std::make_shared<const MipFile>(std::move(kept));
+    if (!kept.materials.empty() || !kept.maps.empty())
+        scene.kept_mips = std::make_shared<const MipFile>(std::move(kept));
 }
 
 } // namespace burnish

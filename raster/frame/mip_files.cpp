@@ -138,14 +138,15 @@ Status check_mips(const Scene& scene, const std::string& path)
         if (!is_filtered(scene, m))
             continue;
         any = true;
-        const std::uint64_t hash = mip_source(scene, m).hash(jobs);
+        const MipSource source = mip_source(scene, m);
+        const std::uint64_t hash = source.hash(jobs);
         const auto& held = scene.mips->materials;
-        if (std::none_of(held.begin(), held.end(), [&](const MipLevels& levels) { return fits(levels, hash, scene, m); }))
+        if (std::none_of(held.begin(), held.end(), [&](const MipLevels& levels) { return fits(levels, source, hash, scene, m); }))
             return Error{ExitCode::bad_input, path, "",
                          "holds no levels of material '" + m.name + "' by this filter, gain and model, whose maps hash to " +
                              hexadecimal(hash)};
         for (const UsedMap& map : used_maps(scene, m))
-            if (const MapId id = map_id(scene, m, map, jobs); !find_map(scene.mips->maps, id))
+            if (const MapId id = map_id(scene, m, map, jobs); !find_map(scene.mips->maps, id, map_image(scene, *map.ref)))
                 return Error{ExitCode::bad_input, path, "",
                              std::string("holds no levels of the ") + name_of(map.part) + " of material '" + m.name + "' by color kernel " +
                                  (map.kernel == ColourKernel::kaiser ? "kaiser" : "box") + (map.coupled ? ", coupled" : ", not coupled") +

@@ -318,10 +318,11 @@ MipSource mip_source(const Scene& scene, const Material& m)
     return MipSource(maps_of(scene, m));
 }
 
-bool fits(const MipLevels& levels, std::uint64_t source, const Scene& scene, const Material& m)
+bool fits(const MipLevels& levels, const MipSource& source, std::uint64_t hash, const Scene& scene, const Material& m)
 {
     const bool taught = m.mip_filter == kMipFilter_teacher, metal = taught && is_metal(scene, m);
-    return levels.source == source && levels.filter == m.mip_filter && (!takes_kappa(m.mip_filter) || levels.kappa == m.mip_kappa) &&
+    return levels.source == hash && levels.width == source.width() && levels.height == source.height() && levels.filter == m.mip_filter &&
+           (!takes_kappa(m.mip_filter) || levels.kappa == m.mip_kappa) &&
            (!m.mip_net || levels.net == levels_hash(*m.mip_net, m.mip_filter, metal)) &&
            (!taught || (levels.net & 1u) == (metal ? 1u : 0u)) &&
            (!has_gains(m) || levels.gained == gained_of(static_cast<mipnet::Lobe>(m.mip_lobe), is_metal(scene, m)));
@@ -340,10 +341,11 @@ MaterialLevels filtered_levels(const Scene& scene, const Jobs& jobs, const Taugh
             continue;
         }
         const MipSource source = mip_source(scene, m);
-        const std::uint64_t hash = scene.mips || scene.kept_mips ? source.hash(jobs) : 0;
+        const auto held = [](const auto& there) { return there && !there->materials.empty(); };
+        const std::uint64_t hash = held(scene.mips) || held(scene.kept_mips) ? source.hash(jobs) : 0; // which decodes all of it
         for (const auto& there : {scene.kept_mips, scene.mips})
             for (std::size_t k = 0; there && k < there->materials.size(); ++k)
-                if (fits(there->materials[k], hash, scene, m))
+                if (fits(there->materials[k], source, hash, scene, m))
                     all[i] = std::shared_ptr<const MipLevels>(there, &there->materials[k]);
         if (!all[i])
             all[i] =

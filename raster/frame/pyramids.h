@@ -55,7 +55,7 @@ bool is_filtered(const Scene& scene, const Material& material);
 MipHelp mip_help(const Scene& scene, const Material& material, const TaughtTexels& advance = {}); // of that material
 MipSource mip_source(const Scene& scene, const Material& material);
 // Whether levels that were baked beforehand are of these maps and filters.
-bool fits(const MipLevels& levels, std::uint64_t source, const Scene& scene, const Material& material);
+bool fits(const MipLevels& levels, const MipSource& source, std::uint64_t hash, const Scene& scene, const Material& material);
 
 TexturePyramid make_pyramid(const Scene& scene, const PyramidKey& key, const MaterialLevels& levels);
 

@@ -135,6 +135,17 @@ def files_hold(bench):
                              ("channels", begin - 8, b"\2"), ("levels of", begin - 16, b"\0"), ("is cut off", 16, b"\4"), ("bytes too many", 16, b"\2")):
         scratch(bench, "bad.mip", sealed(good[:at] + data + good[at + len(data):-8]))
         bench.run("render", *seen, "--mip-pyramid", "bad.mip", "-o", "x.pfm").expect(4).expect_one_line(needle)
+    # what is made of these maps by its hash, and has other sides or channels
+    at, material = 24, struct.pack("<3I", 1, 1, 0)
+    width, height, levels = struct.unpack_from("<3I", good, at + 20)
+    end = at + 56 + 4 * levels + 20 * sum(max(1, width >> k) * max(1, height >> k) for k in range(1, levels + 1))
+    scratch(bench, "bad.mip", sealed(good[:at + 20] + material + good[at + 32:at + 56] + good[end:-8]))
+    bench.run("render", *seen, "--mip-pyramid", "bad.mip", "-o", "x.pfm").expect(4).expect_one_line("no levels of material")
+    maps = maps_of(good)
+    for part, (_, _, begin, end) in maps.items():
+        small = good[:begin - 16] + struct.pack("<4I", 1, 1, struct.unpack_from("<I", good, begin - 8)[0], 0) + good[end:-8]
+        scratch(bench, "bad.mip", sealed(small))
+        bench.run("render", *seen, "--mip-pyramid", "bad.mip", "-o", "x.pfm").expect(4).expect_one_line(f"no levels of the {part}")
     check("x.pfm" not in bench.left_behind(), "what failed has left something")
 
 

@@ -76,11 +76,17 @@ MapLevels make_map_levels(const Image& image, const Texture& sampler, const MapI
     return made;
 }
 
+bool are_of(const MapLevels& levels, const Image& image)
+{
+    return levels.width == image.width && levels.height == image.height &&
+           levels.channels == static_cast<int>(held_channels(image, levels.id.part).count);
+}
+
 TexturePyramid pyramid_of_map(const Image& image, const Texture& sampler, const MapLevels& levels)
 {
     const TextureEncoding encoding = encoding_of(levels.id.part);
     const HeldChannels held = held_channels(image, levels.id.part);
-    BN_CHECK(image.width == levels.width && image.height == levels.height && levels.channels == static_cast<int>(held.count));
+    BN_CHECK(are_of(levels, image));
     const ImageRow decode = linear_rows(image, encoding);
     return make_texture_pyramid(image.width, image.height, sampler, encoding, [&](int level, int width, int y, float* rgba) {
         if (level == 0) {

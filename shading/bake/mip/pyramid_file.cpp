@@ -234,7 +234,9 @@ Result<MipFile> parse_mip_file(const std::vector<std::uint8_t>& bytes, const std
     if (hash != found.hash())
         return refused("is damaged: its last 8 bytes are not the hash of what is before them");
     Reader from(bytes.data() + sizeof head, bytes.size() - sizeof head - sizeof hash);
-    if (head.materials > from.left() / sizeof(MipMaterialHeader) || head.maps > from.left() / sizeof(MipMapHeader))
+    const std::uint64_t headers =
+        std::uint64_t{head.materials} * sizeof(MipMaterialHeader) + std::uint64_t{head.maps} * sizeof(MipMapHeader);
+    if (headers > from.left())
         return refused("is cut off");
     MipFile file = {std::vector<MipLevels>(head.materials), std::vector<MapLevels>(head.maps)};
     for (MipLevels& m : file.materials)
