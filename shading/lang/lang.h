@@ -15,7 +15,9 @@
 // to_real to_int round_to_int (defined for |x| < 2^31) bits_of real_from_bits; table_value table_int on a real_table or
 // int_table of at most 16 entries; pairs_at(table, index), two pairs of floats that follow each other in a pair_table; texel_zero texel_add
 // texel_value on a texel_buffer; texel_cell_value on one that holds three planes, for a cell: four pairs of rows, whose left texels lie at
-// first + pair[k] and `row` further in each plane, with weights w<column><row>. Everything else is in kernels/math.k.h. Rules:
+// first + pair[k] and `row` further in each plane, with weights w<column><row>. Everything else is in kernels/math.k.h.
+//
+// Rules:
 //  - no if, ?:, && or || on a varying value: select(). Both sides are computed: clamp denominators, keep sqrt arguments >= 0.
 //  - `for` with uniform bounds only; `if` on uniform values only.
 //  - no fma, no pow/exp/sin/dot/normalize/mix of GLSL: math.k.h has them (k_dot3, k_exp2...). No global constants: lit() in place.

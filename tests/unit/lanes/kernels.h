@@ -8,7 +8,7 @@
 
 namespace burnish::test {
 
-// What a kernel looks at that fetches texels: a cube, a table or a texture of halves. Kernels leave alone what they do not ask for.
+// What a kernel looks at that fetches texels: a cube, a texture of halves or a table. Kernels leave alone what they do not ask for.
 struct TexelView {
     const std::uint16_t* texels = nullptr;
     const float* pairs = nullptr; // a table's, of pairs of floats
