@@ -169,7 +169,6 @@ def quick(bench):
 DEFECTS = {
     "half_the_overlap": ("--axis-beta 1.15", {"axis_few_samples", "axis_more_samples_are_worse"}, ()),
     "half_the_deviations": ("--axis-k 0.5", {"axis_too_short_for_rough_lobes"}, ("axis_", "adaptive_")),
-    "another_masking": ("--masking separable", {"prefiltered_tilt"}, ("",)),
     "few_samples": ("--samples 3", {"adaptive_counts_step"}, ("",)),
 }
 
