@@ -48,11 +48,12 @@ bool sphere_outside(const std::vector<Plane>& planes, const View& v, const glm::
     return std::any_of(planes.begin(), planes.end(), [&](const Plane& p) { return glm::dot(p.n, center) + p.d < -margin; });
 }
 
-// Where floats hold a place to no more than a part of a triangle, its corners may turn: which side is seen follows from where they are put.
-// A triangle is taken to be a sixteenth of its cluster's radius high. Metres, as slack().
-float turning(const Cluster& c, const View& v, float distance)
+// Corners are floats and the eye is taken from them first (clip_position, shading/kernels/vertex.k.h): each is put as much askew as floats
+// hold its distance, wherever the two are, and where that is a part of a triangle the triangle may turn. One is taken to be a sixteenth of
+// its cluster's radius high. Metres, as slack().
+float turning(const Cluster& c, float distance)
 {
-    return 1e-5f * glm::length(v.eye) / c.radius * distance;
+    return 1e-5f * distance / c.radius * distance;
 }
 
 bool faces_away(const Cluster& c, const View& v)
@@ -61,7 +62,8 @@ bool faces_away(const Cluster& c, const View& v)
         return false;
     const glm::vec3 d = c.center - v.eye;
     const float distance = glm::length(d);
-    return glm::dot(d, c.cone_axis) >= c.cone_cutoff * distance + c.radius + slack(c.center, v, c.radius) + turning(c, v, distance);
+    // Unlike planes, which are at the eye's distance from the origin, cones know only what lies between.
+    return glm::dot(d, c.cone_axis) >= c.cone_cutoff * distance + c.radius + 1e-4f * (distance + c.radius) + turning(c, distance);
 }
 
 } // namespace

@@ -169,7 +169,6 @@ def quick(bench):
 DEFECTS = {
     "half_the_overlap": ("--axis-beta 1.15", {"axis_few_samples", "axis_more_samples_are_worse"}, ()),
     "half_the_deviations": ("--axis-k 0.5", {"axis_too_short_for_rough_lobes"}, ("axis_", "adaptive_")),
-    "another_masking": ("--masking separable", {"prefiltered_tilt"}, ("",)),
     "few_samples": ("--samples 3", {"adaptive_counts_step"}, ("",)),
 }
 
@@ -189,7 +188,8 @@ for defect, what in DEFECTS.items():
 
 
 # Words that each entry has to turn red by, said of what breaks and of its cure and not of the truth. Where no option sets wrong the very thing
-# that an entry looks at, they are another picture (turned light, another roughness, another view): that an entry compares what it draws, no more.
+# that an entry looks at, they are another picture: that an entry compares what it draws, no more. These are the words of --env-rotation, --roughness,
+# --frame-map, --normal-y, --height-scale, --anisotropy, --zoom and --fov.
 SEEDED = {
     "--samples 3": "axis_loses_to_the_bent_normal axis_too_long axis_overlaps_too_much axis_at_grazing_angles adaptive_counts_step half_vectors_in_bands threads_for_a_lobe",
     "--samples 8": "mc_fireflies ward_cheap_by_few_samples beckmann_by_few_samples phong_by_few_samples round_by_few_samples "
