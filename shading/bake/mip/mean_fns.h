@@ -11,14 +11,14 @@ namespace burnish::mip {
 
 inline constexpr int kRowSlots = 16, kPointPlanes = 6, kMostStates = 9, kLobeChannels = 5;
 
-inline constexpr float kMostSlope = 5.6712818f; // of 80 degrees, of mean slopes
+constexpr float kMostSlope = 5.6712818f; // of 80 degrees, of mean slopes
 
 // Pairs of means whose product a place of the numbers after them is of, where these are covariances: of slopes, of normals in space.
 struct MeanPair {
     std::size_t i, j;
 };
-inline constexpr MeanPair kFlatPairs[] = {{0, 0}, {1, 1}, {0, 1}};
-inline constexpr MeanPair kSpacePairs[] = {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {0, 2}, {1, 2}};
+constexpr MeanPair kFlatPairs[] = {{0, 0}, {1, 1}, {0, 1}};
+constexpr MeanPair kSpacePairs[] = {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {0, 2}, {1, 2}};
 
 inline std::size_t row_stride(std::size_t texels)
 {
