@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <fmt/format.h>
+#include <functional>
 #include <gnu/libc-version.h>
 #include <optional>
 #include <string_view>
@@ -114,16 +115,16 @@ std::optional<Workload> place(const char* text)
     return w;
 }
 
-// {"NAME": instructions of one frame, ...}, by AVX-512 on this thread.
-int run_steps(const std::vector<Workload>& list)
+// Calls `counted` with each workload and its frame, drawn once before: memory has grown, pages are there. An exit code, 0 where all went
+// well.
+int each_frame(const std::vector<Workload>& list, Isa isa, const std::function<int(const Workload&, const std::function<void()>&)>& counted)
 {
-    if (!isa_available(Isa::avx512)) {
-        fmt::print(stderr, "bench_instructions: no AVX-512 here\n");
+    if (!isa_available(isa)) {
+        fmt::print(stderr, "bench_instructions: no {} here\n", isa_name(isa));
         return static_cast<int>(ExitCode::unavailable);
     }
     SubjectOptions options;
-    options.isa = Isa::avx512, options.threads = 1, options.coarse_environment = true;
-    nlohmann::ordered_json counts;
+    options.isa = isa, options.threads = 1, options.coarse_environment = true;
     for (const Workload& w : list) {
         Result<std::unique_ptr<Subject>> subject = make_subject(w, options);
         if (!subject) {
@@ -131,15 +132,28 @@ int run_steps(const std::vector<Workload>& list)
             return static_cast<int>(subject.error().code);
         }
         (*subject)->frame();
-        const uint64_t steps = count_steps([&] { (*subject)->frame(); });
+        if (const int code = counted(w, [&] { (*subject)->frame(); }); code != 0)
+            return code;
+    }
+    return 0;
+}
+
+// {"NAME": instructions of one frame, ...}, by AVX-512 on this thread.
+int run_steps(const std::vector<Workload>& list)
+{
+    nlohmann::ordered_json counts;
+    const int code = each_frame(list, Isa::avx512, [&](const Workload& w, const std::function<void()>& frame) {
+        const uint64_t steps = count_steps(frame);
         if (steps == 0) {
             fmt::print(stderr, "bench_instructions: this system does not trap after each instruction\n");
             return static_cast<int>(ExitCode::unavailable);
         }
         counts[w.name] = steps;
-    }
-    fmt::print("{}\n", counts.dump());
-    return 0;
+        return 0;
+    });
+    if (code == 0)
+        fmt::print("{}\n", counts.dump());
+    return code;
 }
 
 #ifdef BN_HAVE_CALLGRIND
@@ -149,26 +163,14 @@ int run(const std::vector<Workload>& list)
         fmt::print(stderr, "bench_instructions: counts nothing without valgrind; see bench/instructions/count.py\n");
         return static_cast<int>(ExitCode::usage);
     }
-    if (!isa_available(Isa::avx2)) {
-        fmt::print(stderr, "bench_instructions: no AVX2 here\n");
-        return static_cast<int>(ExitCode::unavailable);
-    }
-    SubjectOptions options;
-    options.isa = Isa::avx2, options.threads = 1, options.coarse_environment = true;
-    for (const Workload& w : list) {
-        Result<std::unique_ptr<Subject>> subject = make_subject(w, options);
-        if (!subject) {
-            fmt::print(stderr, "bench_instructions: {}\n", subject.error().line());
-            return static_cast<int>(subject.error().code);
-        }
-        (*subject)->frame();
+    return each_frame(list, Isa::avx2, [](const Workload& w, const std::function<void()>& frame) {
         CALLGRIND_START_INSTRUMENTATION;
         CALLGRIND_ZERO_STATS;
-        (*subject)->frame();
+        frame();
         CALLGRIND_DUMP_STATS_AT(w.name);
         CALLGRIND_STOP_INSTRUMENTATION;
-    }
-    return 0;
+        return 0;
+    });
 }
 #else
 int run(const std::vector<Workload>&)
