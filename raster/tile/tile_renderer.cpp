@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <chrono>
 #include <cstring>
 #include <optional>
@@ -130,19 +131,39 @@ FrameParams TileRenderer::frame_params(const FrameDesc& desc)
     return f;
 }
 
-// The tiles, ascending, that would keep one thread busy for long while the others have nothing left to do.
-std::vector<std::uint32_t> tiles_to_cut(const std::vector<std::uint32_t>& triangles_by_tile, int threads)
+// The tiles of many triangles, those of most first: the first `cut` of them are cut into parts, as whole ones would keep one thread busy
+// while the others have nothing left to do.
+struct LongTiles {
+    std::vector<std::uint32_t> tiles;
+    std::size_t cut = 0;
+};
+
+LongTiles long_tiles(const std::vector<std::uint32_t>& triangles_by_tile, int threads)
 {
     constexpr std::uint64_t kWorthCutting = 8192; // triangles
+    LongTiles found;
+    if (threads == 1)
+        return found;
+    const std::uint64_t workers = static_cast<std::uint64_t>(threads);
     std::uint64_t all = 0;
     for (std::uint32_t count : triangles_by_tile)
         all += count;
-    const std::uint64_t share = std::max(all / (8 * static_cast<std::uint64_t>(threads)), kWorthCutting);
-    std::vector<std::uint32_t> cut;
-    for (std::size_t i = 0; threads > 1 && i < triangles_by_tile.size(); ++i)
+    const std::uint64_t share = std::max(all / (8 * workers), kWorthCutting);
+    for (std::size_t i = 0; i < triangles_by_tile.size(); ++i)
         if (triangles_by_tile[i] > share)
-            cut.push_back(static_cast<std::uint32_t>(i));
-    return cut;
+            found.tiles.push_back(static_cast<std::uint32_t>(i));
+    std::stable_sort(found.tiles.begin(), found.tiles.end(),
+                     [&](std::uint32_t l, std::uint32_t r) { return triangles_by_tile[l] > triangles_by_tile[r]; });
+    // Whole ones go to who has least, as they will when they are drawn; what is cut fills what they leave.
+    const std::uint64_t most = (all + all / 16) / workers;
+    for (; found.cut < found.tiles.size(); ++found.cut) {
+        std::vector<std::uint64_t> load(workers);
+        for (std::size_t k = found.cut; k < found.tiles.size(); ++k)
+            *std::min_element(load.begin(), load.end()) += triangles_by_tile[found.tiles[k]];
+        if (*std::max_element(load.begin(), load.end()) <= most)
+            break;
+    }
+    return found;
 }
 
 // The tile's fragments that leave some of their pixel to others. x0, y0: its corner, pixels.
@@ -173,7 +194,10 @@ void TileRenderer::draw_tiles(const FrameParams& f, bool parts_wanted, Frame& fr
             w.prepare(f.tile_size, f.msaa, materials.size(), shares);
         work.lap(FrameStage::prepare);
     }
-    const std::vector<std::uint32_t> cut = tiles_to_cut(bins_.triangles_by_tile(tiles), input_.jobs.threads());
+    const LongTiles hot = long_tiles(bins_.triangles_by_tile(tiles), input_.jobs.threads());
+    const auto whole_from = hot.tiles.begin() + static_cast<std::ptrdiff_t>(hot.cut);
+    std::vector<std::uint32_t> cut(hot.tiles.begin(), whole_from), known = hot.tiles;
+    std::sort(cut.begin(), cut.end()), std::sort(known.begin(), known.end());
     FrameParams parts = f; // the frame as if its tiles were the parts
     parts.tile_size = f.tile_size / TilePart::kSide;
     parts.tiles_x = f.tiles_x * TilePart::kSide, parts.tiles_y = f.tiles_y * TilePart::kSide;
@@ -202,13 +226,28 @@ void TileRenderer::draw_tiles(const FrameParams& f, bool parts_wanted, Frame& fr
         if (profiler)
             profiler->end_tile(worker, part.tile);
     };
-    constexpr std::size_t kParts = TilePart::kSide * TilePart::kSide; // the long ones first, one at a time
-    input_.jobs.parallel_for(cut.size() * kParts, [&](std::size_t i, int worker) {
-        draw({cut[i / kParts], static_cast<std::int32_t>(i / kParts), static_cast<std::int32_t>(i % kParts)}, worker);
-    });
-    input_.jobs.parallel_for(tiles, [&](std::size_t i, int worker) {
-        if (!std::binary_search(cut.begin(), cut.end(), static_cast<std::uint32_t>(i)))
-            draw({static_cast<std::uint32_t>(i)}, worker);
+    // The long ones first, then parts, by the thread that is free next, then all others, a few that lie side by side at a time.
+    std::vector<TilePart> order;
+    order.reserve(tiles + cut.size() * TilePart::kSide * TilePart::kSide);
+    for (auto tile = whole_from; tile != hot.tiles.end(); ++tile)
+        order.push_back({*tile});
+    for (std::size_t k = 0; k < cut.size(); ++k)
+        for (std::int32_t part = 0; part < TilePart::kSide * TilePart::kSide; ++part)
+            order.push_back({cut[k], static_cast<std::int32_t>(k), part});
+    const std::size_t alone = order.size();
+    for (std::uint32_t i = 0; i < tiles; ++i)
+        if (!std::binary_search(known.begin(), known.end(), i))
+            order.push_back({i});
+    const std::size_t others = order.size() - alone, threads = static_cast<std::size_t>(input_.jobs.threads());
+    const std::size_t few = std::clamp<std::size_t>(others / (16 * threads), 1, 16), pieces = alone + (others + few - 1) / few;
+    std::atomic<std::size_t> next = 0;
+    input_.jobs.parallel_for(threads, [&](std::size_t, int worker) {
+        for (std::size_t piece = next++; piece < pieces; piece = next++) {
+            const std::size_t begin = piece < alone ? piece : alone + (piece - alone) * few;
+            const std::size_t end = piece < alone ? begin + 1 : std::min(begin + few, order.size());
+            for (std::size_t i = begin; i < end; ++i)
+                draw(order[i], worker);
+        }
     });
     for (const WorkerScratch& w : workers_) {
         frame.stats.visible_fragments += w.stats.visible_fragments;
