@@ -209,7 +209,7 @@ int run_mip(const MipBake& bake)
         return fail(fits.error());
     if (pyramid) {
         const std::vector<MaterialMap> maps = all_maps(scene, jobs);
-        const auto levels_of = [&](std::size_t i) { return map_levels(scene, *maps[i].material, maps[i].map, jobs); };
+        const auto levels_of = [&](std::size_t i) { return map_levels(scene, *maps[i].material, maps[i].map, maps[i].id, jobs); };
         if (const Status written = write_mip_file(bake.output, {each, maps.size(), levels_of}); !written)
             return fail(written.error());
         report.release();

@@ -23,8 +23,8 @@ Result<std::vector<std::uint8_t>> read_file(const std::string& path, std::uint64
 // What killed runs left of earlier writes of `path` is removed. On failure nothing is left and the Error has ExitCode::output_failed.
 Status write_file_atomic(const std::string& path, const void* data, std::size_t size, Links links = Links::follow);
 // The same of what `write` puts there, one part behind another, so that not all of it need be in memory at once. It is called again
-// where the file system has no files without a name.
-using PutBytes = std::function<void(const void* data, std::size_t size)>;
+// where the file system has no files without a name. Putting says whether all went well: what is put after it did not goes nowhere.
+using PutBytes = std::function<bool(const void* data, std::size_t size)>;
 Status write_file_atomic(const std::string& path, const std::function<void(const PutBytes& put)>& write, Links links = Links::follow);
 
 // Files that belong together: what is added lies under temporary names, beside where it is to be, until name_all() gives all of them their

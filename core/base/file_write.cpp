@@ -57,7 +57,10 @@ using Write = std::function<void(const PutBytes& put)>;
 int write_and_sync(int fd, const Write& write)
 {
     int code = 0;
-    write([&](const void* data, std::size_t size) { code = code ? code : write_all(fd, data, size); });
+    write([&](const void* data, std::size_t size) {
+        code = code ? code : write_all(fd, data, size);
+        return code == 0;
+    });
     if (code)
         return code;
     return ::fsync(fd) == 0 || cannot_sync(errno) ? 0 : errno;

@@ -100,11 +100,10 @@ MapId map_id(const Scene& scene, const Material& m, const UsedMap& map, const Jo
             map.coupled ? normals_of(scene, m).hash(jobs) : 0};
 }
 
-MapLevels map_levels(const Scene& scene, const Material& m, const UsedMap& map, const Jobs& jobs)
+MapLevels map_levels(const Scene& scene, const Material& m, const UsedMap& map, const MapId& id, const Jobs& jobs)
 {
     const Image& image = map_image(scene, *map.ref);
     const Texture& texture = texture_of(scene, *map.ref);
-    const MapId id = map_id(scene, m, map, jobs);
     if (!map.coupled)
         return make_map_levels(image, texture, id, nullptr, jobs);
     constexpr float kOne = 1.0f;

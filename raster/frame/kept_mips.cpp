@@ -100,7 +100,7 @@ void keep_map(Scene& scene, const Material& m, const UsedMap& map, const std::st
         kept.push_back(std::move(file.maps[0]));
         return;
     }
-    kept.push_back(map_levels(scene, m, map, jobs));
+    kept.push_back(map_levels(scene, m, map, id, jobs));
     if (const Status written = write_kept(path, {{}, 1, [&](std::size_t) { return kept.back(); }}); !written)
         scene.warnings.push_back(std::string("levels of the ") + name_of(map.part) + " of material '" + m.name +
                                  "' are not cached: " + written.error().line());

@@ -404,7 +404,7 @@ TexturePyramid make_pyramid(const Scene& scene, const PyramidKey& key, const Mat
         if (const MapLevels* given = given_map(scene, m, map))
             return pyramid_of_map(image, texture, *given);
         if (key.coupled || key.kaiser)
-            return pyramid_of_map(image, texture, map_levels(scene, m, map, Jobs(1)));
+            return pyramid_of_map(image, texture, map_levels(scene, m, map, {map.part, map.kernel}, Jobs(1)));
     }
     if (key.moments != kNoMoments)
         return make_texture_pyramid(moments_image(scene, texture, key), texture, key.encoding);

@@ -13,6 +13,7 @@
 #include "raster/tile/bins.h"
 #include "raster/tile/cull.h"
 #include "raster/tile/double_renderer.h"
+#include "raster/tile/long_tiles.h"
 #include "raster/tile/profiler.h"
 #include "raster/tile/tile_types.h"
 
@@ -129,41 +130,6 @@ FrameParams TileRenderer::frame_params(const FrameDesc& desc)
     f.tiles_y = (desc.height + desc.tile_size - 1) / desc.tile_size;
     f.vertices = vertices_.data();
     return f;
-}
-
-// The tiles of many triangles, those of most first: the first `cut` of them are cut into parts, as whole ones would keep one thread busy
-// while the others have nothing left to do.
-struct LongTiles {
-    std::vector<std::uint32_t> tiles;
-    std::size_t cut = 0;
-};
-
-LongTiles long_tiles(const std::vector<std::uint32_t>& triangles_by_tile, int threads)
-{
-    constexpr std::uint64_t kWorthCutting = 8192; // triangles
-    LongTiles found;
-    if (threads == 1)
-        return found;
-    const std::uint64_t workers = static_cast<std::uint64_t>(threads);
-    std::uint64_t all = 0;
-    for (std::uint32_t count : triangles_by_tile)
-        all += count;
-    const std::uint64_t share = std::max(all / (8 * workers), kWorthCutting);
-    for (std::size_t i = 0; i < triangles_by_tile.size(); ++i)
-        if (triangles_by_tile[i] > share)
-            found.tiles.push_back(static_cast<std::uint32_t>(i));
-    std::stable_sort(found.tiles.begin(), found.tiles.end(),
-                     [&](std::uint32_t l, std::uint32_t r) { return triangles_by_tile[l] > triangles_by_tile[r]; });
-    // Whole ones go to who has least, as they will when they are drawn; what is cut fills what they leave.
-    const std::uint64_t most = (all + all / 16) / workers;
-    for (; found.cut < found.tiles.size(); ++found.cut) {
-        std::vector<std::uint64_t> load(workers);
-        for (std::size_t k = found.cut; k < found.tiles.size(); ++k)
-            *std::min_element(load.begin(), load.end()) += triangles_by_tile[found.tiles[k]];
-        if (*std::max_element(load.begin(), load.end()) <= most)
-            break;
-    }
-    return found;
 }
 
 // The tile's fragments that leave some of their pixel to others. x0, y0: its corner, pixels.

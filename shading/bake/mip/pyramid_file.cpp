@@ -172,7 +172,8 @@ class BlockHash {
 void put_file(const MipParts& parts, const PutBytes& put)
 {
     BlockHash hash;
-    const auto add = [&](const void* data, std::size_t size) { put(data, size), hash.add(data, size); };
+    bool well = true;
+    const auto add = [&](const void* data, std::size_t size) { well = put(data, size), hash.add(data, size); };
     MipFileHeader head = {};
     std::memcpy(head.magic, kMipMagic, sizeof kMipMagic);
     head.version = kMipVersion, head.materials = static_cast<std::uint32_t>(parts.materials.size());
@@ -191,7 +192,7 @@ void put_file(const MipParts& parts, const PutBytes& put)
         for (const MipLevel& level : m->levels)
             add(level.texels.data(), level.texels.size() * sizeof(MipTexel));
     }
-    for (std::size_t i = 0; i < parts.map_count; ++i) {
+    for (std::size_t i = 0; well && i < parts.map_count; ++i) { // they take long
         const MapLevels m = parts.map(i);
         const MipMapHeader h = {m.id, static_cast<std::uint32_t>(m.width), static_cast<std::uint32_t>(m.height),
                                 static_cast<std::uint32_t>(m.channels), static_cast<std::uint32_t>(m.levels.size())};
@@ -208,7 +209,10 @@ void put_file(const MipParts& parts, const PutBytes& put)
 std::vector<std::uint8_t> mip_file_bytes(const MipParts& parts)
 {
     std::vector<std::uint8_t> bytes;
-    put_file(parts, [&](const void* data, std::size_t size) { append_bytes(bytes, data, size); });
+    put_file(parts, [&](const void* data, std::size_t size) {
+        append_bytes(bytes, data, size);
+        return true;
+    });
     return bytes;
 }
 

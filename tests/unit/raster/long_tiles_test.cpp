@@ -1,0 +1,43 @@
+// Which tiles are cut into parts.
+#include <gtest/gtest.h>
+
+#include "raster/tile/long_tiles.h"
+
+namespace burnish {
+namespace {
+
+using Counts = std::vector<std::uint32_t>;
+
+// So many small tiles beside some others.
+Counts beside(const Counts& others, std::size_t small, std::uint32_t each)
+{
+    Counts counts(small, each);
+    counts.insert(counts.begin() + static_cast<std::ptrdiff_t>(small / 2), others.begin(), others.end());
+    return counts;
+}
+
+TEST(long_tiles, are_left_whole_where_they_fill_all_threads)
+{
+    const LongTiles found = long_tiles(beside({240000, 250000, 245000, 245000}, 500, 1), 2);
+    EXPECT_EQ(found.cut, 0u);
+    EXPECT_EQ(found.tiles, (Counts{251, 252, 253, 250}));          // those of most first, equal ones in order
+    EXPECT_EQ(long_tiles(beside({300000}, 1000, 700), 3).cut, 0u); // as long as what is left for the others
+}
+
+TEST(long_tiles, are_cut_where_whole_ones_would_leave_a_thread_idle)
+{
+    EXPECT_EQ(long_tiles(beside({900000}, 500, 10), 2).cut, 1u);
+    EXPECT_EQ(long_tiles(beside({250000, 250000, 250000}, 500, 10), 2).cut, 1u); // two whole, the third for both
+    EXPECT_EQ(long_tiles(beside({250000, 250000, 250000}, 500, 10), 8).cut, 3u);
+}
+
+TEST(long_tiles, are_none_of_few_triangles_or_of_one_thread)
+{
+    EXPECT_TRUE(long_tiles(beside({8000, 8000}, 0, 0), 2).tiles.empty());
+    EXPECT_TRUE(long_tiles(beside({900000}, 500, 10), 1).tiles.empty());
+    EXPECT_TRUE(long_tiles(Counts(510, 20000), 2).tiles.empty());
+    EXPECT_TRUE(long_tiles({}, 4).tiles.empty());
+}
+
+} // namespace
+} // namespace burnish
