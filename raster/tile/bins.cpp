@@ -42,7 +42,7 @@ class TileRows {
 };
 
 // Chunks are large enough that their lists' ends by tile stay few beside their triangles, and many enough to share evenly.
-constexpr std::size_t kMinClusters = 16, kMaxChunks = 256;
+constexpr std::size_t kMinClusters = 16, kMaxChunks = 64;
 } // namespace
 
 void Bins::Chunk::make_room()
@@ -50,12 +50,11 @@ void Bins::Chunk::make_room()
     const auto grow = [](auto& column, std::uint32_t count) { column.resize(std::max<std::size_t>(2 * column.size(), count + kGrowRoom)); };
     if (output.count + kGrowRoom > entries.size()) {
         grow(entries, output.count);
-        first_tile.resize(entries.size()), last_tile.resize(entries.size());
+        runs.resize(entries.size());
     }
     if (output.piece_count + kGrowRoom > pieces.size())
         grow(pieces, output.piece_count);
-    output.entries = entries.data(), output.first_tile = first_tile.data(), output.last_tile = last_tile.data();
-    output.pieces = pieces.data();
+    output.entries = entries.data(), output.runs = runs.data(), output.pieces = pieces.data();
     output.capacity = static_cast<std::uint32_t>(entries.size());
     output.piece_capacity = static_cast<std::uint32_t>(pieces.size());
 }
@@ -77,37 +76,34 @@ void Bins::Chunk::sort_by_tile(const FrameParams& f)
     const std::size_t tiles = static_cast<std::size_t>(f.tiles_x) * static_cast<std::size_t>(f.tiles_y);
     tile_begin.clear();
     tile_begin.resize(tiles + 1);
-    const auto each_tile = [&](std::uint32_t i, const auto& visit) {
-        const std::uint32_t first = first_tile[i], last = last_tile[i];
-        const std::uint32_t x0 = first & 0xffff, x1 = last & 0xffff, y0 = first >> 16, y1 = last >> 16;
-        const std::uint32_t kFew = 6; // tiles that are not looked at closely
-        if ((x1 - x0 + 1) * (y1 - y0 + 1) < kFew || x0 == x1 || y0 == y1) {
-            for (std::uint32_t y = y0; y <= y1; ++y)
-                for (std::uint32_t x = x0; x <= x1; ++x)
-                    visit(y * static_cast<std::uint32_t>(f.tiles_x) + x);
-            return;
-        }
-        const TileRows rows = rows_of(entries[i]);
-        for (std::uint32_t y = y0; y <= y1; ++y) {
-            std::int64_t from = x0, to = x1;
-            rows.narrow(y, from, to);
-            for (std::int64_t x = from; x <= to; ++x)
-                visit(y * static_cast<std::uint32_t>(f.tiles_x) + static_cast<std::uint32_t>(x));
-        }
-    };
-    // One after the other, those that follow each other in one tile together, as most of many do: visit(tile, first entry, entries).
-    const auto each_run = [&](const auto& visit) {
-        for (std::uint32_t i = 0; i < output.count;) {
-            const std::uint32_t begin = i, corner = first_tile[i];
-            while (i < output.count && first_tile[i] == corner && last_tile[i] == corner)
-                ++i;
-            if (i > begin)
-                visit((corner >> 16) * static_cast<std::uint32_t>(f.tiles_x) + (corner & 0xffff), begin, i - begin);
-            else
-                each_tile(i++, [&](std::uint32_t tile) { visit(tile, begin, 1u); });
+    const std::uint32_t row = static_cast<std::uint32_t>(f.tiles_x);
+    // visit(tile, first entry, entries): in a tile, entries come one after the other.
+    const auto each_tile = [&](const auto& visit) {
+        std::uint32_t end = 0;
+        for (std::uint32_t k = 0; k < output.run_count; ++k) {
+            const TileRun& run = runs[k];
+            const std::uint32_t begin = end, x0 = run.first_tile & 0xffff, x1 = run.last_tile & 0xffff;
+            const std::uint32_t y0 = run.first_tile >> 16, y1 = run.last_tile >> 16;
+            end += run.count;
+            const std::uint32_t kFew = 6; // tiles that are not looked at closely
+            if ((x1 - x0 + 1) * (y1 - y0 + 1) < kFew || x0 == x1 || y0 == y1) {
+                for (std::uint32_t y = y0; y <= y1; ++y)
+                    for (std::uint32_t x = x0; x <= x1; ++x)
+                        visit(y * row + x, begin, run.count);
+                continue;
+            }
+            for (std::uint32_t i = begin; i < end; ++i) {
+                const TileRows rows = rows_of(entries[i]);
+                for (std::uint32_t y = y0; y <= y1; ++y) {
+                    std::int64_t from = x0, to = x1;
+                    rows.narrow(y, from, to);
+                    for (std::int64_t x = from; x <= to; ++x)
+                        visit(y * row + static_cast<std::uint32_t>(x), i, 1);
+                }
+            }
         }
     };
-    each_run([&](std::uint32_t tile, std::uint32_t, std::uint32_t n) { tile_begin[tile] += n; });
+    each_tile([&](std::uint32_t tile, std::uint32_t, std::uint32_t n) { tile_begin[tile] += n; });
     std::uint64_t sum = 0;
     for (std::size_t t = 0; t <= tiles; ++t) {
         const std::uint32_t count = tile_begin[t];
@@ -116,7 +112,7 @@ void Bins::Chunk::sort_by_tile(const FrameParams& f)
         BN_CHECK_OP(sum, <=, 0xffffffffu);
     }
     list.resize(sum);
-    each_run([&](std::uint32_t tile, std::uint32_t from, std::uint32_t n) {
+    each_tile([&](std::uint32_t tile, std::uint32_t from, std::uint32_t n) {
         std::copy_n(entries.data() + from, n, list.data() + tile_begin[tile]);
         tile_begin[tile] += n;
     });
@@ -163,13 +159,13 @@ void Bins::Chunk::sort_by_part(const FrameParams& parts, const std::vector<std::
         const std::uint32_t* const of_tile = list.data() + tile_begin[tile];
         const std::uint32_t count = tile_begin[tile + 1] - tile_begin[tile];
         const std::uint32_t x0 = tile % tiles_x * kSide, y0 = tile / tiles_x * kSide;
-        if (first_tile.size() < count + kColumnPad) // no longer needed for what they held
-            first_tile.resize(count + kColumnPad), last_tile.resize(count + kColumnPad);
-        fns.touch_tiles(parts, of_tile, count, first_tile.data(), last_tile.data());
+        if (first_part.size() < count + kColumnPad)
+            first_part.resize(count + kColumnPad), last_part.resize(count + kColumnPad);
+        fns.touch_tiles(parts, of_tile, count, first_part.data(), last_part.data());
         const auto each_part = [&](const auto& visit) {
             const auto within = [](std::uint32_t at, std::uint32_t begin) { return at < begin ? 0 : std::min(at - begin, kSide - 1); };
             for (std::uint32_t i = 0; i < count; ++i) {
-                const std::uint32_t first = first_tile[i], last = last_tile[i];
+                const std::uint32_t first = first_part[i], last = last_part[i];
                 for (std::uint32_t y = within(first >> 16, y0); y <= within(last >> 16, y0); ++y)
                     for (std::uint32_t x = within(first & 0xffff, x0); x <= within(last & 0xffff, x0); ++x)
                         visit(i, y * kSide + x);

@@ -36,11 +36,13 @@ class Bins {
 
   private:
     struct Chunk {
-        Column<std::uint32_t> entries, first_tile, last_tile; // see ChunkOutput
+        Column<std::uint32_t> entries; // see ChunkOutput
+        Column<TileRun> runs;
         Column<ClippedPiece> pieces;
         Column<std::uint32_t> tile_begin;            // by tile, into `list`; one more at the end
         Column<std::uint32_t> list;                  // entries by tile, in draw order
         Column<std::uint32_t> part_begin, part_list; // the same by part of the tiles that are cut
+        Column<std::uint32_t> first_part, last_part; // of the entries of a tile that is being cut: see TileRun
         ChunkOutput output = {};
         void make_room();
         void sort_by_tile(const FrameParams& frame);

@@ -7,7 +7,7 @@ namespace burnish {
 
 namespace {
 
-// Corners of the rectangle of tiles that the bounding box can touch, as in ChunkOutput; false where it touches no sample.
+// Corners of the rectangle of tiles that the bounding box can touch, as in TileRun; false where it touches no sample.
 bool tile_rect(const FrameParams& f, const TriangleSetup& t, std::uint32_t corners[2])
 {
     std::int32_t lo[2] = {t.x[0], t.y[0]}, hi[2] = {t.x[0], t.y[0]};
@@ -57,7 +57,7 @@ void emit_piece(const FrameParams& f, std::uint32_t triangle, const clip_corner*
     std::uint32_t corners[2];
     if (!tile_rect(f, t, corners))
         return;
-    out.first_tile[out.count] = corners[0], out.last_tile[out.count] = corners[1];
+    add_run(out, corners[0], corners[1], 1);
     out.entries[out.count++] = kClippedEntry | out.piece_count;
     out.pieces[out.piece_count++] = {t, record};
 }

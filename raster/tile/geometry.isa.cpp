@@ -67,24 +67,34 @@ void bin_lanes(const FrameParams& f, std::uint32_t first, int n, ChunkOutput& ou
     const std::uint32_t culled = culled_backs(f, first, to_bits(both(keep, sign.positive)));
     keep = both(keep, not_(mask_from_bits(culled)));
     const integer first_tile = tx0 | shl(ty0, 16), last_tile = tx1 | shl(ty1, 16);
-    if (none(clip)) {
-        std::int32_t* const to = reinterpret_cast<std::int32_t*>(out.entries + out.count);
-        compress_store_int(reinterpret_cast<std::int32_t*>(out.first_tile + out.count), first_tile, keep);
-        compress_store_int(reinterpret_cast<std::int32_t*>(out.last_tile + out.count), last_tile, keep);
-        out.count += static_cast<std::uint32_t>(compress_store_int(to, id, keep));
-        return;
-    }
     std::uint32_t corners[2][kLanes];
     store_int(corners[0], first_tile), store_int(corners[1], last_tile);
-    const std::uint32_t clip_bits = to_bits(clip);
-    for (std::uint32_t rest = to_bits(keep) | clip_bits; rest; rest &= rest - 1) {
+    const std::uint32_t clip_bits = to_bits(clip), keep_bits = to_bits(keep);
+    const auto add_lane_run = [&](int lane) { add_run(out, corners[0][lane], corners[1][lane], 1); };
+    if (clip_bits == 0) {
+        if (keep_bits == 0)
+            return;
+        const std::uint32_t a = corners[0][__builtin_ctz(keep_bits)], b = corners[1][__builtin_ctz(keep_bits)];
+        const mask alike = both(first_tile == int_lit(static_cast<std::int32_t>(a)), last_tile == int_lit(static_cast<std::int32_t>(b)));
+        const std::uint32_t n =
+            static_cast<std::uint32_t>(compress_store_int(reinterpret_cast<std::int32_t*>(out.entries + out.count), id, keep));
+        out.count += n;
+        if ((keep_bits & ~to_bits(alike)) == 0) {
+            add_run(out, a, b, n);
+            return;
+        }
+        for (std::uint32_t rest = keep_bits; rest; rest &= rest - 1)
+            add_lane_run(__builtin_ctz(rest));
+        return;
+    }
+    for (std::uint32_t rest = keep_bits | clip_bits; rest; rest &= rest - 1) {
         const int lane = __builtin_ctz(rest);
         const std::uint32_t triangle = first + static_cast<std::uint32_t>(lane);
         if (clip_bits >> lane & 1u) {
             clip_triangle(f, triangle, out);
             continue;
         }
-        out.first_tile[out.count] = corners[0][lane], out.last_tile[out.count] = corners[1][lane];
+        add_lane_run(lane);
         out.entries[out.count++] = triangle;
     }
 }

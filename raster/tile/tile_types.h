@@ -48,16 +48,32 @@ struct ClippedPiece {
 // the index of a piece.
 inline constexpr std::uint32_t kClippedEntry = 1u << 31;
 
+// Entries that follow each other and may touch the same tiles.
+struct TileRun {
+    std::uint32_t first_tile, last_tile; // x | y << 16: the corners of their rectangle
+    std::uint32_t count;
+};
+
 struct ChunkOutput { // what one chunk of clusters produced, in draw order
     std::uint32_t* entries;
-    std::uint32_t *first_tile, *last_tile; // of each entry, x | y << 16: the corners of the rectangle of tiles that it may touch
-    std::uint32_t count, capacity;
+    TileRun* runs; // of all entries
+    std::uint32_t count, run_count, capacity;
     ClippedPiece* pieces;
     std::uint32_t piece_count, piece_capacity;
     void (*grow)(ChunkOutput* self); // makes room for at least kGrowRoom more of each
     void* owner;
 };
 inline constexpr std::uint32_t kGrowRoom = 256;
+
+// Says what tiles the next n entries may touch.
+inline void add_run(ChunkOutput& out, std::uint32_t first_tile, std::uint32_t last_tile, std::uint32_t n)
+{
+    TileRun* const run = out.runs + out.run_count;
+    if (out.run_count > 0 && run[-1].first_tile == first_tile && run[-1].last_tile == last_tile)
+        run[-1].count += n;
+    else
+        *run = {first_tile, last_tile, n}, ++out.run_count;
+}
 
 // Everything a tile needs to know of its frame; constant while the frame is drawn.
 struct FrameParams : ShadingFrame {
@@ -126,7 +142,7 @@ struct TileScratch {
 struct TileFns { // one table an instruction set
     void (*transform_vertices)(const FrameParams&, std::uint32_t first, std::uint32_t count);
     void (*bin_triangles)(const FrameParams&, std::uint32_t first, std::uint32_t count, ChunkOutput&);
-    // The corners of the rectangles of tiles that entries may touch, as in ChunkOutput; those of pieces: all tiles. kLanes may be read and
+    // The corners of the rectangles of tiles that entries may touch, as in TileRun; those of pieces: all tiles. kLanes may be read and
     // written at any of them.
     void (*touch_tiles)(const FrameParams&, const std::uint32_t* entries, std::uint32_t count, std::uint32_t* first_tile,
                         std::uint32_t* last_tile);
