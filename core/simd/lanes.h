@@ -12,6 +12,7 @@
 // Besides operators (real: + - * / and comparisons; integer: + - * & | ^ ~ and comparisons; mask: & |):
 //   splat(float) lit(double) int_lit(int) iota()             the same in every lane; 0, 1, 2...
 //   shl(i,n) shr(i,n) shr_logical(i,n)                       n in [0,31], one count for all lanes
+//   count_bits4(i)                                           of integers in [0,15]: how many bits are set
 //   both either not_ any all none to_bits mask_from_bits     masks; lane 0 is bit 0
 //   select(m,a,b) min max clamp abs sqrt floor ceil          both sides of a select are computed
 //   to_real to_int round_to_int bits_of real_from_bits       to_int truncates; NaN and out of range become

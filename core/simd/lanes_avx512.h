@@ -157,6 +157,11 @@ BN_INLINE integer shr_logical(integer i, int n)
 {
     return {_mm512_srli_epi32(i.v, static_cast<unsigned>(n))};
 }
+BN_INLINE integer count_bits4(integer i)
+{
+    const __m128i bits = _mm_setr_epi8(0, 1, 1, 2, 1, 2, 2, 3, 1, 2, 2, 3, 2, 3, 3, 4); // the lanes' upper bytes are 0
+    return {_mm512_shuffle_epi8(_mm512_broadcast_i32x4(bits), i.v)};
+}
 
 BN_INLINE mask both(mask a, mask b)
 {

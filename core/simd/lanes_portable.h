@@ -163,6 +163,12 @@ BN_OP integer shr_logical(const integer& i, int n)
     BN_EACH_PART r.p[p] = (part_i)((part_u)i.p[p] >> n);
     return r;
 }
+BN_OP integer count_bits4(const integer& i)
+{
+    integer r;
+    BN_EACH_PART r.p[p] = (i.p[p] & 1) + (i.p[p] >> 1 & 1) + (i.p[p] >> 2 & 1) + (i.p[p] >> 3);
+    return r;
+}
 
 BN_OP mask both(const mask& a, const mask& b)
 {

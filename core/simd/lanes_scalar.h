@@ -63,6 +63,10 @@ BN_INLINE integer shr_logical(integer i, int n)
 {
     return static_cast<integer>(static_cast<std::uint32_t>(i) >> n);
 }
+BN_INLINE integer count_bits4(integer i)
+{
+    return __builtin_popcount(static_cast<std::uint32_t>(i));
+}
 
 BN_INLINE mask both(mask a, mask b)
 {

@@ -6,6 +6,16 @@
 namespace burnish {
 inline namespace BN_ISA_NS {
 
+// covered_share(), of no more samples than there are.
+BN_INLINE real share_of(integer samples, real each, int msaa)
+{
+    if (msaa <= 4)
+        return to_real(count_bits4(samples)) * each;
+    if (msaa <= 8)
+        return to_real(count_bits4(samples & int_lit(15)) + count_bits4(shr_logical(samples, 4))) * each;
+    return covered_share(samples, each);
+}
+
 // Box resolve: the mean over samples, fragments of a pixel in the order of their passes, so the sum never depends on how they were
 // batched. Writes RGB to the frame.
 BN_INLINE void resolve(const FrameParams& f, int x0, int y0, int width, int height, const TileScratch& s)
@@ -32,7 +42,7 @@ BN_INLINE void resolve(const FrameParams& f, int x0, int y0, int width, int heig
                 for (int k = 0; k < passes; ++k) {
                     const std::uint32_t bits = *lanes++;
                     const mask m = mask_from_bits(bits);
-                    const real weight = covered_share(expand_load_int(s.fragment_mask + at, m), each);
+                    const real weight = share_of(expand_load_int(s.fragment_mask + at, m), each, f.msaa);
                     r = r + expand_load(s.red + at, m) * weight;
                     g = g + expand_load(s.green + at, m) * weight;
                     b = b + expand_load(s.blue + at, m) * weight;

@@ -118,6 +118,8 @@ TEST(scalar_ops, mean_what_they_say)
     check("shl_7", [&](std::size_t k) { return static_cast<std::uint32_t>(in.i[k]) << 7; });
     check("shr_1", [&](std::size_t k) { return static_cast<std::int32_t>(std::floor(0.5 * in.i[k])); });
     check("shr_logical_1", [&](std::size_t k) { return static_cast<std::uint32_t>(in.i[k]) / 2; });
+    check("count_bits4",
+          [&](std::size_t k) { return static_cast<std::uint32_t>(__builtin_popcount(static_cast<unsigned>(in.i[k]) & 15u)); });
     check("select_mask", [&](std::size_t k) { return in.i[k] & 1 ? (in.j[k] & 2) != 0 : in.a[k] < in.b[k]; });
     check("lit", [&](std::size_t) { return bits(0.1f); });
     check("multiply_add", [&](std::size_t k) { // rounds twice
