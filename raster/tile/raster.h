@@ -13,9 +13,8 @@ struct TileTriangle {
     std::int32_t step_x[3], step_y[3];     // by 1/16 pixel
     std::int64_t span_min[3], span_max[3]; // least and greatest change inside a block; not of small triangles
     std::int32_t sample_step[3][kMaxSamples];
-    std::int32_t sample_least[3], sample_greatest[3]; // bounds of sample_step
-    double z, z_x, z_y;                               // depth at the first vertex, and its change by sub-pixel unit
-    std::int32_t from_x, from_y;                      // the tile's corner, seen from the first vertex, sub-pixel units
+    double z, z_x, z_y;          // depth at the first vertex, and its change by sub-pixel unit
+    std::int32_t from_x, from_y; // the tile's corner, seen from the first vertex, sub-pixel units
     float z_min, z_max, dz_x, dz_y;
     float sample_z[kMaxSamples];
     int refresh_writes;     // triangles written to a block before its farthest depth is looked up again
@@ -59,9 +58,6 @@ BN_INLINE bool begin_triangle(const FrameParams& f, const TriangleSetup& t, int 
             r.span_max[i] = ((a > 0 ? a : 0) + (b > 0 ? b : 0)) * block_span;
         }
         r.step_x[i] = static_cast<std::int32_t>(a), r.step_y[i] = static_cast<std::int32_t>(b);
-        const int low_x = f.pattern.min_x / 16, high_x = f.pattern.max_x / 16, low_y = f.pattern.min_y / 16, high_y = f.pattern.max_y / 16;
-        r.sample_least[i] = r.step_x[i] * (a > 0 ? low_x : high_x) + r.step_y[i] * (b > 0 ? low_y : high_y);
-        r.sample_greatest[i] = r.step_x[i] * (a > 0 ? high_x : low_x) + r.step_y[i] * (b > 0 ? high_y : low_y);
         for (int s = 0; s < f.msaa; s += kLanes)
             store_int(r.sample_step[i] + s, int_lit(static_cast<std::int32_t>(a)) * load_int(f.pattern.x16 + s) +
                                                 int_lit(static_cast<std::int32_t>(b)) * load_int(f.pattern.y16 + s));
@@ -83,7 +79,6 @@ struct BlockEdges {     // the edges that cross the block
     std::int32_t at[3]; // value at the block's corner
     std::int32_t step_x[3], step_y[3];
     const std::int32_t* sample_step[3];
-    std::int32_t sample_least[3], sample_greatest[3];
     integer lane[3]; // change over the lanes of a register
     int count;
 };
@@ -117,7 +112,7 @@ BN_INLINE bool cover_register(const FrameParams& f, const TileTriangle& t, const
                               integer lane_id, float* depth, std::int32_t* ids, const std::uint32_t* alive)
 {
     const real z_min = splat(t.z_min), z_max = splat(t.z_max);
-    bool wrote = false;
+    mask written = mask_from_bits(0);
     for (int s = 0; s < f.msaa; ++s) {
         float* d = depth + s * kBlockPixels;
         std::int32_t* to = ids + s * kBlockPixels;
@@ -134,13 +129,11 @@ BN_INLINE bool cover_register(const FrameParams& f, const TileTriangle& t, const
         }
         if (alive)
             pass = both(pass, mask_from_bits(alive[s]));
-        if (!any(pass))
-            continue;
         store(d, select(pass, zs, old));
         store_int(to, select(pass, lane_id, load_int(to)));
-        wrote = true;
+        written = either(written, pass);
     }
-    return wrote;
+    return any(written);
 }
 
 // The pixels of register v of a block: the triangle's depth at their corners, and the values of the edges that cross the block.
@@ -180,19 +173,9 @@ BN_INLINE bool cover_block(const FrameParams& f, const TileTriangle& t, const Bl
     bool wrote = false;
     for (int v = range.first; v <= range.last; ++v) {
         const BlockRegister r = block_register<kEdges>(e, lanes, splat(z_corner), dz_x, dz_y, v);
-        integer greatest = zero, least = zero; // signs of the samples inside and outside by most
-        for (int i = 0; i < kEdges; ++i) {
-            greatest = greatest | (r.at[i] + int_lit(e.sample_greatest[i]));
-            least = least | (r.at[i] + int_lit(e.sample_least[i]));
-        }
-        if (kEdges > 0 && f.msaa > 1 && all(greatest < zero))
-            continue;
         float* const to_depth = depth + v * kLanes;
         std::int32_t* const to_ids = reinterpret_cast<std::int32_t*>(ids) + v * kLanes;
-        if (kEdges > 0 && f.msaa > 1 && all(least >= zero))
-            wrote = cover_register<0, kAnyOrder>(f, t, e, r.at, r.z, lane_id, to_depth, to_ids, nullptr) || wrote;
-        else
-            wrote = cover_register<kEdges, kAnyOrder>(f, t, e, r.at, r.z, lane_id, to_depth, to_ids, nullptr) || wrote;
+        wrote = cover_register<kEdges, kAnyOrder>(f, t, e, r.at, r.z, lane_id, to_depth, to_ids, nullptr) || wrote;
     }
     return wrote;
 }
@@ -220,8 +203,7 @@ BN_INLINE bool cover_block(const FrameParams& f, const TileTriangle& t, const Bl
             const real zs = depth_at_sample(r.z, splat(t.sample_z[s]), z_min, z_max);
             shown[v] |= to_bits(both(side >= zero, zs >= load(depth + s * kBlockPixels + v * kLanes)));
         }
-        if (shown[v])
-            count += compress_store_int(pixels + count, iota() + int_lit(v * kLanes), mask_from_bits(shown[v]));
+        count += compress_store_int(pixels + count, iota() + int_lit(v * kLanes), mask_from_bits(shown[v]));
     }
     if (count == 0)
         return false;
@@ -264,7 +246,6 @@ BN_INLINE void raster_small_triangle(const FrameParams& f, const TileTriangle& t
     for (int i = 0; i < 3; ++i) {
         e.step_x[i] = t.step_x[i], e.step_y[i] = t.step_y[i];
         e.sample_step[i] = t.sample_step[i];
-        e.sample_least[i] = t.sample_least[i], e.sample_greatest[i] = t.sample_greatest[i];
         e.lane[i] = lanes.x16 * int_lit(t.step_x[i]) + lanes.y16 * int_lit(t.step_y[i]);
     }
     for (int by = t.py0 / kBlock; by <= t.py1 / kBlock; ++by) {
@@ -363,7 +344,6 @@ BN_INLINE void raster_triangle(const FrameParams& f, const TileTriangle& t, std:
                                                       static_cast<std::int64_t>(t.step_y[i]) * (by * kBlock * 16));
             e.step_x[e.count] = t.step_x[i], e.step_y[e.count] = t.step_y[i];
             e.sample_step[e.count] = t.sample_step[i];
-            e.sample_least[e.count] = t.sample_least[i], e.sample_greatest[e.count] = t.sample_greatest[i];
             e.lane[e.count] = lane_step[i];
             ++e.count;
         }

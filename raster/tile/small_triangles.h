@@ -14,7 +14,7 @@ struct SampleQueue {
     std::int32_t depth[kRoom]; // bits of a float
     std::int32_t where[kRoom]; // index into the tile's samples | lane << kLaneShift
 };
-static_assert(kMaxTileSize * kMaxTileSize * kMaxSamples <= 1 << SampleQueue::kLaneShift && SampleQueue::kRoom >= 2 * kLanes);
+static_assert(kMaxTileSize * kMaxTileSize * kMaxSamples <= 1 << SampleQueue::kLaneShift && SampleQueue::kRoom >= 2 * kMaxSamples * kLanes);
 
 // The nearest wins, of equal ones the first in the list. first: the triangle of lane 0.
 BN_INLINE void draw_queue(SampleQueue& q, std::uint32_t first, TileScratch& s)
@@ -113,14 +113,12 @@ BN_STAGE void raster_small_triangles(const FrameParams& f, const LaneTriangles& 
             for (int k = 0; k < f.msaa; ++k) {
                 const integer outside = (at_x[0] + sample_step[0][k]) | (at_x[1] + sample_step[1][k]) | (at_x[2] + sample_step[2][k]);
                 const mask covered = both(pixels, outside >= zero);
-                if (none(covered))
-                    continue;
                 const real depth = depth_at_sample(z, sample_z[k], plane.z_min, plane.z_max);
                 compress_store_int(queue.depth + queue.count, bits_of(depth), covered);
                 queue.count += compress_store_int(queue.where + queue.count, (at + int_lit(k * kBlockPixels)) | lane_tag, covered);
-                if (queue.count > SampleQueue::kRoom - kLanes)
-                    draw_queue(queue, first, s);
             }
+            if (queue.count > SampleQueue::kRoom - kMaxSamples * kLanes)
+                draw_queue(queue, first, s);
             for (int i = 0; i < 3; ++i)
                 at_x[i] = at_x[i] + step_x[i];
         }
