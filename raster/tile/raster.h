@@ -75,13 +75,32 @@ BN_INLINE bool begin_triangle(const FrameParams& f, const TriangleSetup& t, int 
     return true;
 }
 
-struct BlockEdges {     // the edges that cross the block
-    std::int32_t at[3]; // value at the block's corner
-    std::int32_t step_x[3], step_y[3];
-    const std::int32_t* sample_step[3];
-    integer lane[3]; // change over the lanes of a register
-    int count;
+// A triangle's edges in lanes.
+struct EdgeLanes {
+    integer change[3]; // over the lanes of a register
+    integer step[3];   // from register to register of a block, where each holds whole rows
 };
+BN_INLINE EdgeLanes edge_lanes(const TileTriangle& t, const BlockLanes& lanes)
+{
+    EdgeLanes r;
+    for (int i = 0; i < 3; ++i) {
+        r.change[i] = lanes.x16 * int_lit(t.step_x[i]) + lanes.y16 * int_lit(t.step_y[i]);
+        r.step[i] = int_lit(16 * t.step_y[i] * (kLanes / kBlock));
+    }
+    return r;
+}
+
+struct BlockEdges { // the edges that cross the block
+    int count;
+    int edge[3];        // which they are
+    std::int32_t at[3]; // their values at the block's corner
+};
+BN_INLINE void add_edge(const TileTriangle& t, int edge, int bx, int by, BlockEdges& e)
+{
+    e.edge[e.count] = edge;
+    e.at[e.count++] = static_cast<std::int32_t>(t.edge[edge] + static_cast<std::int64_t>(t.step_x[edge]) * (bx * kBlock * 16) +
+                                                static_cast<std::int64_t>(t.step_y[edge]) * (by * kBlock * 16));
+}
 
 // Greatest depth that the triangle can reach in the block, against the farthest sample already there. The bound is refreshed
 // only now and then: it may be too low, never too high, so it cannot change the picture.
@@ -122,9 +141,9 @@ BN_INLINE bool cover_register(const FrameParams& f, const TileTriangle& t, const
         if constexpr (kAnyOrder)
             pass = either(pass, both(zs == old, lane_id < load_int(to)));
         if constexpr (kEdges > 0) {
-            integer side = at[0] + int_lit(e.sample_step[0][s]);
+            integer side = at[0] + int_lit(t.sample_step[e.edge[0]][s]);
             for (int i = 1; i < kEdges; ++i)
-                side = side | (at[i] + int_lit(e.sample_step[i][s]));
+                side = side | (at[i] + int_lit(t.sample_step[e.edge[i]][s]));
             pass = both(pass, side >= int_lit(0));
         }
         if (alive)
@@ -136,21 +155,39 @@ BN_INLINE bool cover_register(const FrameParams& f, const TileTriangle& t, const
     return any(written);
 }
 
-// The pixels of register v of a block: the triangle's depth at their corners, and the values of the edges that cross the block.
-struct BlockRegister {
-    real z;
-    integer at[3];
+// Values of the edges that cross a block at the corners of the pixels of one of its registers.
+template <int kEdges> struct RegisterEdges {
+    integer at[kEdges > 0 ? kEdges : 1];
+    integer step[kEdges > 0 ? kEdges : 1];
 };
 template <int kEdges>
-BN_INLINE BlockRegister block_register(const BlockEdges& e, const BlockLanes& lanes, real z_corner, real dz_x, real dz_y, int v)
+BN_INLINE RegisterEdges<kEdges> edges_of_register(const TileTriangle& t, const EdgeLanes& edges, const BlockEdges& e, int v)
 {
     const int vx = v * kLanes & 7, vy = v * kLanes >> 3;
-    BlockRegister r;
-    for (int i = 0; i < kEdges; ++i)
-        r.at[i] = int_lit(e.at[i] + 16 * (e.step_x[i] * vx + e.step_y[i] * vy)) + e.lane[i];
-    const real x = lanes.x + splat(static_cast<float>(vx)), y = lanes.y + splat(static_cast<float>(vy));
-    r.z = z_corner + depth_change(dz_x, dz_y, x, y);
+    RegisterEdges<kEdges> r;
+    for (int i = 0; i < kEdges; ++i) {
+        const int k = e.edge[i];
+        r.at[i] = int_lit(e.at[i] + 16 * (t.step_x[k] * vx + t.step_y[k] * vy)) + edges.change[k];
+        r.step[i] = edges.step[k];
+    }
     return r;
+}
+// v: the register at hand.
+template <int kEdges>
+BN_INLINE void next_register(const TileTriangle& t, const EdgeLanes& edges, const BlockEdges& e, int v, RegisterEdges<kEdges>& r)
+{
+    if constexpr (kLanes < kBlock)
+        r = edges_of_register<kEdges>(t, edges, e, v + 1);
+    for (int i = 0; i < kEdges && kLanes >= kBlock; ++i)
+        r.at[i] = r.at[i] + r.step[i];
+}
+
+// The triangle's depth at the corners of the pixels of register v of a block.
+BN_INLINE real depths_of_register(const BlockLanes& lanes, real z_corner, real dz_x, real dz_y, int v)
+{
+    const int vx = v * kLanes & 7, vy = v * kLanes >> 3;
+    const real x = lanes.x + splat(static_cast<float>(vx)), y = lanes.y + splat(static_cast<float>(vy));
+    return z_corner + depth_change(dz_x, dz_y, x, y);
 }
 
 // Registers of a block's rows.
@@ -164,18 +201,20 @@ BN_INLINE RegisterRange registers_of_rows(int row0, int row1)
 
 // Depth test and write of one block of an opaque triangle.
 template <int kEdges, bool kAnyOrder>
-BN_INLINE bool cover_block(const FrameParams& f, const TileTriangle& t, const BlockEdges& e, const BlockLanes& lanes, float z_corner,
-                           int row0, int row1, std::uint32_t id, float* depth, std::uint32_t* ids, const NoAlpha&)
+BN_INLINE bool cover_block(const FrameParams& f, const TileTriangle& t, const EdgeLanes& of_triangle, const BlockEdges& e,
+                           const BlockLanes& lanes, float z_corner, int row0, int row1, std::uint32_t id, float* depth, std::uint32_t* ids,
+                           const NoAlpha&)
 {
     const real dz_x = splat(t.dz_x), dz_y = splat(t.dz_y);
-    const integer lane_id = int_lit(static_cast<std::int32_t>(id)), zero = int_lit(0);
+    const integer lane_id = int_lit(static_cast<std::int32_t>(id));
     const RegisterRange range = registers_of_rows(row0, row1);
     bool wrote = false;
-    for (int v = range.first; v <= range.last; ++v) {
-        const BlockRegister r = block_register<kEdges>(e, lanes, splat(z_corner), dz_x, dz_y, v);
+    RegisterEdges<kEdges> edges = edges_of_register<kEdges>(t, of_triangle, e, range.first);
+    for (int v = range.first; v <= range.last; ++v, next_register<kEdges>(t, of_triangle, e, v - 1, edges)) {
+        const real z = depths_of_register(lanes, splat(z_corner), dz_x, dz_y, v);
         float* const to_depth = depth + v * kLanes;
         std::int32_t* const to_ids = reinterpret_cast<std::int32_t*>(ids) + v * kLanes;
-        wrote = cover_register<kEdges, kAnyOrder>(f, t, e, r.at, r.z, lane_id, to_depth, to_ids, nullptr) || wrote;
+        wrote = cover_register<kEdges, kAnyOrder>(f, t, e, edges.at, z, lane_id, to_depth, to_ids, nullptr) || wrote;
     }
     return wrote;
 }
@@ -183,8 +222,9 @@ BN_INLINE bool cover_block(const FrameParams& f, const TileTriangle& t, const Bl
 // The same of a triangle whose alpha is tested: first the pixels that may show it are put together, so that `alpha.find(pixels, n, to)`
 // finds the alpha of full registers of them; alpha.staying() gives those whose sample stays.
 template <int kEdges, bool kAnyOrder, class Alpha>
-BN_INLINE bool cover_block(const FrameParams& f, const TileTriangle& t, const BlockEdges& e, const BlockLanes& lanes, float z_corner,
-                           int row0, int row1, std::uint32_t id, float* depth, std::uint32_t* ids, const Alpha& alpha)
+BN_INLINE bool cover_block(const FrameParams& f, const TileTriangle& t, const EdgeLanes& of_triangle, const BlockEdges& e,
+                           const BlockLanes& lanes, float z_corner, int row0, int row1, std::uint32_t id, float* depth, std::uint32_t* ids,
+                           const Alpha& alpha)
 {
     const real z_min = splat(t.z_min), z_max = splat(t.z_max), dz_x = splat(t.dz_x), dz_y = splat(t.dz_y);
     const integer lane_id = int_lit(static_cast<std::int32_t>(id)), zero = int_lit(0);
@@ -193,14 +233,16 @@ BN_INLINE bool cover_block(const FrameParams& f, const TileTriangle& t, const Bl
     float found[kBlockPixels + kLanes];
     std::uint32_t shown[kVectors]; // by register: pixels that may show it at some sample
     int count = 0;
-    for (int v = range.first; v <= range.last; ++v) {
-        const BlockRegister r = block_register<kEdges>(e, lanes, splat(z_corner), dz_x, dz_y, v);
+    const RegisterEdges<kEdges> first = edges_of_register<kEdges>(t, of_triangle, e, range.first);
+    RegisterEdges<kEdges> edges = first;
+    for (int v = range.first; v <= range.last; ++v, next_register<kEdges>(t, of_triangle, e, v - 1, edges)) {
+        const real z = depths_of_register(lanes, splat(z_corner), dz_x, dz_y, v);
         shown[v] = 0;
         for (int s = 0; s < f.msaa; ++s) {
             integer side = zero;
             for (int i = 0; i < kEdges; ++i)
-                side = side | (r.at[i] + int_lit(e.sample_step[i][s]));
-            const real zs = depth_at_sample(r.z, splat(t.sample_z[s]), z_min, z_max);
+                side = side | (edges.at[i] + int_lit(t.sample_step[e.edge[i]][s]));
+            const real zs = depth_at_sample(z, splat(t.sample_z[s]), z_min, z_max);
             shown[v] |= to_bits(both(side >= zero, zs >= load(depth + s * kBlockPixels + v * kLanes)));
         }
         count += compress_store_int(pixels + count, iota() + int_lit(v * kLanes), mask_from_bits(shown[v]));
@@ -210,7 +252,8 @@ BN_INLINE bool cover_block(const FrameParams& f, const TileTriangle& t, const Bl
     alpha.find(pixels, count, found);
     const float* of_register = found;
     bool wrote = false;
-    for (int v = range.first; v <= range.last; ++v) {
+    edges = first;
+    for (int v = range.first; v <= range.last; ++v, next_register<kEdges>(t, of_triangle, e, v - 1, edges)) {
         if (!shown[v])
             continue;
         const real value = expand_load(of_register, mask_from_bits(shown[v]));
@@ -218,8 +261,8 @@ BN_INLINE bool cover_block(const FrameParams& f, const TileTriangle& t, const Bl
         std::uint32_t alive[kMaxSamples];
         for (int s = 0; s < f.msaa; ++s)
             alive[s] = shown[v] & alpha.staying(value, s);
-        const BlockRegister r = block_register<kEdges>(e, lanes, splat(z_corner), dz_x, dz_y, v);
-        wrote = cover_register<kEdges, kAnyOrder>(f, t, e, r.at, r.z, lane_id, depth + v * kLanes,
+        const real z = depths_of_register(lanes, splat(z_corner), dz_x, dz_y, v);
+        wrote = cover_register<kEdges, kAnyOrder>(f, t, e, edges.at, z, lane_id, depth + v * kLanes,
                                                   reinterpret_cast<std::int32_t*>(ids) + v * kLanes, alive) ||
                 wrote;
     }
@@ -241,25 +284,20 @@ BN_INLINE void raster_small_triangle(const FrameParams& f, const TileTriangle& t
 {
     const int blocks_x = f.tile_size / kBlock;
     const BlockLanes lanes = block_lanes();
-    BlockEdges e;
-    e.count = 3;
-    for (int i = 0; i < 3; ++i) {
-        e.step_x[i] = t.step_x[i], e.step_y[i] = t.step_y[i];
-        e.sample_step[i] = t.sample_step[i];
-        e.lane[i] = lanes.x16 * int_lit(t.step_x[i]) + lanes.y16 * int_lit(t.step_y[i]);
-    }
+    const EdgeLanes edges = edge_lanes(t, lanes);
     for (int by = t.py0 / kBlock; by <= t.py1 / kBlock; ++by) {
         const int row0 = t.py0 > by * kBlock ? t.py0 - by * kBlock : 0;
         const int row1 = t.py1 < by * kBlock + kBlock - 1 ? t.py1 - by * kBlock : kBlock - 1;
         for (int bx = t.px0 / kBlock; bx <= t.px1 / kBlock; ++bx) {
+            BlockEdges e;
+            e.count = 0;
             for (int i = 0; i < 3; ++i)
-                e.at[i] = static_cast<std::int32_t>(t.edge[i] + static_cast<std::int64_t>(t.step_x[i]) * (bx * kBlock * 16) +
-                                                    static_cast<std::int64_t>(t.step_y[i]) * (by * kBlock * 16));
+                add_edge(t, i, bx, by, e);
             const int block = by * blocks_x + bx, at = block * f.msaa * kBlockPixels;
             if (scratch.block_state[block] != BlockState::drawn)
                 write_block(f, block, scratch);
-            if (cover_block<3, kAnyOrder>(f, t, e, lanes, corner_depth(t, bx, by), row0, row1, id, scratch.depth + at, scratch.ids + at,
-                                          make_alpha(bx, by)) &&
+            if (cover_block<3, kAnyOrder>(f, t, edges, e, lanes, corner_depth(t, bx, by), row0, row1, id, scratch.depth + at,
+                                          scratch.ids + at, make_alpha(bx, by)) &&
                 scratch.block_dirty[block] < 255)
                 ++scratch.block_dirty[block];
         }
@@ -327,9 +365,7 @@ BN_INLINE void raster_triangle(const FrameParams& f, const TileTriangle& t, std:
     }
     const int blocks_x = f.tile_size / kBlock;
     const BlockLanes lanes = block_lanes();
-    integer lane_step[3];
-    for (int i = 0; i < 3; ++i)
-        lane_step[i] = lanes.x16 * int_lit(t.step_x[i]) + lanes.y16 * int_lit(t.step_y[i]);
+    const EdgeLanes edges = edge_lanes(t, lanes);
     const TouchedBlocks touched = touched_blocks(t, blocks_x);
     for (std::uint64_t blocks = touched.all; blocks; blocks &= blocks - 1) {
         const int block = __builtin_ctzll(blocks), bx = block % blocks_x, by = block / blocks_x;
@@ -337,16 +373,9 @@ BN_INLINE void raster_triangle(const FrameParams& f, const TileTriangle& t, std:
         const int row1 = t.py1 < by * kBlock + kBlock - 1 ? t.py1 - by * kBlock : kBlock - 1;
         BlockEdges e;
         e.count = 0;
-        for (int i = 0; i < 3; ++i) {
-            if (!(touched.crossed[i] >> block & 1u))
-                continue; // the whole block lies inside this edge
-            e.at[e.count] = static_cast<std::int32_t>(t.edge[i] + static_cast<std::int64_t>(t.step_x[i]) * (bx * kBlock * 16) +
-                                                      static_cast<std::int64_t>(t.step_y[i]) * (by * kBlock * 16));
-            e.step_x[e.count] = t.step_x[i], e.step_y[e.count] = t.step_y[i];
-            e.sample_step[e.count] = t.sample_step[i];
-            e.lane[e.count] = lane_step[i];
-            ++e.count;
-        }
+        for (int i = 0; i < 3; ++i)
+            if (touched.crossed[i] >> block & 1u) // else the whole block lies inside this edge
+                add_edge(t, i, bx, by, e);
         const float z_corner = corner_depth(t, bx, by);
         const BlockPlane plane = {z_corner, t.dz_x, t.dz_y, t.z_min, t.z_max, id};
         const DepthBounds bounds = depth_bounds(plane);
@@ -365,16 +394,16 @@ BN_INLINE void raster_triangle(const FrameParams& f, const TileTriangle& t, std:
         bool wrote = false;
         switch (e.count) {
         case 0:
-            wrote = cover_block<0, kAnyOrder>(f, t, e, lanes, z_corner, row0, row1, id, depth, ids, alpha);
+            wrote = cover_block<0, kAnyOrder>(f, t, edges, e, lanes, z_corner, row0, row1, id, depth, ids, alpha);
             break;
         case 1:
-            wrote = cover_block<1, kAnyOrder>(f, t, e, lanes, z_corner, row0, row1, id, depth, ids, alpha);
+            wrote = cover_block<1, kAnyOrder>(f, t, edges, e, lanes, z_corner, row0, row1, id, depth, ids, alpha);
             break;
         case 2:
-            wrote = cover_block<2, kAnyOrder>(f, t, e, lanes, z_corner, row0, row1, id, depth, ids, alpha);
+            wrote = cover_block<2, kAnyOrder>(f, t, edges, e, lanes, z_corner, row0, row1, id, depth, ids, alpha);
             break;
         default:
-            wrote = cover_block<3, kAnyOrder>(f, t, e, lanes, z_corner, row0, row1, id, depth, ids, alpha);
+            wrote = cover_block<3, kAnyOrder>(f, t, edges, e, lanes, z_corner, row0, row1, id, depth, ids, alpha);
             break;
         }
         if (wrote && scratch.block_dirty[block] < 255)
