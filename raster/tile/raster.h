@@ -112,11 +112,15 @@ BN_INLINE bool block_hidden(const FrameParams& f, const TileTriangle& t, float n
         return true;
     if (scratch.block_dirty[block] < t.refresh_writes)
         return false;
-    real far = load(depth);
-    for (int i = kLanes; i < f.msaa * kBlockPixels; i += kLanes)
-        far = min(far, load(depth + i));
+    constexpr int kChains = 4; // that do not wait for each other
+    real far[kChains];
+    for (int k = 0; k < kChains; ++k)
+        far[k] = load(depth + k * kLanes);
+    for (int i = kChains * kLanes; i < f.msaa * kBlockPixels; i += kChains * kLanes)
+        for (int k = 0; k < kChains; ++k)
+            far[k] = min(far[k], load(depth + i + k * kLanes));
     float farthest[kLanes];
-    store(farthest, reduce_min(far));
+    store(farthest, reduce_min(min(min(far[0], far[1]), min(far[2], far[3]))));
     scratch.block_far[block] = farthest[0];
     scratch.block_dirty[block] = 0;
     return hidden(farthest[0]);
