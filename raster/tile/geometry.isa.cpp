@@ -76,11 +76,11 @@ void bin_lanes(const FrameParams& f, std::uint32_t first, int n, ChunkOutput& ou
             return;
         const std::uint32_t a = corners[0][__builtin_ctz(keep_bits)], b = corners[1][__builtin_ctz(keep_bits)];
         const mask alike = both(first_tile == int_lit(static_cast<std::int32_t>(a)), last_tile == int_lit(static_cast<std::int32_t>(b)));
-        const std::uint32_t n =
+        const std::uint32_t kept =
             static_cast<std::uint32_t>(compress_store_int(reinterpret_cast<std::int32_t*>(out.entries + out.count), id, keep));
-        out.count += n;
+        out.count += kept;
         if ((keep_bits & ~to_bits(alike)) == 0) {
-            add_run(out, a, b, n);
+            add_run(out, a, b, kept);
             return;
         }
         for (std::uint32_t rest = keep_bits; rest; rest &= rest - 1)
