@@ -25,6 +25,8 @@
 //                                                            All kLanes places may be written
 //   expand_load expand_load_int(from, m)                     the reverse
 //   store_triples(to, more, r, g, b)                         RGB of lanes 0-7 to `to`, of lanes 8-15 to `more`
+//   stream_lines(to, from, n) stream_fence                   n floats, a multiple of 16, each at a multiple of 64 bytes,
+//                                                            past the caches; others may read them after the fence
 //   load_triples_int                                         consecutive triples, the k-th of each to out[k]
 //   reduce_min reduce_max reduce_add                         lane k with lane k + n/2, then n/4...: depends on
 //                                                            the width

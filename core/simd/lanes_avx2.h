@@ -368,6 +368,16 @@ BN_INLINE void store_triples(float* first, float*, real r, real g, real b)
     _mm256_storeu_ps(first + 16, _mm256_blend_ps(_mm256_blend_ps(rs, gs, 0x49), bs, 0x92));
 }
 
+BN_INLINE void stream_lines(float* to, const float* from, int n)
+{
+    for (int i = 0; i < n; i += 8)
+        _mm256_stream_ps(to + i, _mm256_load_ps(from + i));
+}
+BN_INLINE void stream_fence()
+{
+    _mm_sfence();
+}
+
 BN_INLINE void load_triples_int(const std::int32_t* from, integer out[3])
 {
     const __m256i* words = reinterpret_cast<const __m256i*>(from);

@@ -355,6 +355,16 @@ BN_INLINE void store_triples(float* first, float* second, real r, real g, real b
     _mm512_storeu_ps(second + 8, high);
 }
 
+BN_INLINE void stream_lines(float* to, const float* from, int n)
+{
+    for (int i = 0; i < n; i += 16)
+        _mm512_stream_ps(to + i, _mm512_load_ps(from + i));
+}
+BN_INLINE void stream_fence()
+{
+    _mm_sfence();
+}
+
 BN_INLINE void load_triples_int(const std::int32_t* from, integer out[3])
 {
     const __m512i a = _mm512_loadu_si512(from), b = _mm512_loadu_si512(from + 16), c = _mm512_loadu_si512(from + 32);

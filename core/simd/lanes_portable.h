@@ -424,6 +424,12 @@ BN_CALL void store_triples(float* first, float* second, const real& r, const rea
         to[0] = lanes_of(r).at[k], to[1] = lanes_of(g).at[k], to[2] = lanes_of(b).at[k];
     }
 }
+BN_INLINE void stream_lines(float* to, const float* from, int n)
+{
+    __builtin_memcpy(to, from, static_cast<std::size_t>(n) * sizeof(float));
+}
+BN_INLINE void stream_fence() {}
+
 BN_CALL void load_triples_int(const std::int32_t* from, integer out[3])
 {
     for (int c = 0; c < 3; ++c) {

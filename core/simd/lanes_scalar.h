@@ -331,6 +331,12 @@ BN_INLINE void store_triples(float* first, float*, real r, real g, real b)
     first[0] = static_cast<float>(r), first[1] = static_cast<float>(g), first[2] = static_cast<float>(b);
 }
 
+BN_INLINE void stream_lines(float* to, const float* from, int n)
+{
+    __builtin_memcpy(to, from, static_cast<std::size_t>(n) * sizeof(float));
+}
+BN_INLINE void stream_fence() {}
+
 // kLanes triples in turn: out[k] holds the k-th of each.
 BN_INLINE void load_triples_int(const std::int32_t* from, integer out[3])
 {

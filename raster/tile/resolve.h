@@ -16,6 +16,28 @@ BN_INLINE real share_of(integer samples, real each, int msaa)
     return covered_share(samples, each);
 }
 
+// Two blocks that lie side by side, by row: whole cache lines where the image's rows begin with one.
+struct PixelRows {
+    static constexpr int kPixels = 2 * kBlock, kFloats = 3 * kPixels;
+    alignas(64) float rgb[kBlock][kFloats];
+};
+static_assert(PixelRows::kFloats * sizeof(float) % 64 == 0);
+
+// lines: `to` is a line's begin, and so is that of each row after it; then they pass the caches, and what is overwritten is not read first.
+BN_INLINE void write_rows(const PixelRows& rows, int columns, int count, bool lines, float* to, std::size_t stride)
+{
+    const bool whole = columns == PixelRows::kPixels;
+    for (int y = 0; y < count; ++y, to += stride) {
+        const float* const from = rows.rgb[y];
+        if (whole && lines)
+            stream_lines(to, from, PixelRows::kFloats);
+        else if (whole)
+            __builtin_memcpy(to, from, sizeof rows.rgb[y]);
+        else
+            __builtin_memcpy(to, from, 3 * static_cast<std::size_t>(columns) * sizeof(float));
+    }
+}
+
 // Box resolve: the mean over samples, fragments of a pixel in the order of their passes, so the sum never depends on how they were
 // batched. Writes RGB to the frame.
 BN_INLINE void resolve(const FrameParams& f, int x0, int y0, int width, int height, const TileScratch& s)
@@ -23,20 +45,21 @@ BN_INLINE void resolve(const FrameParams& f, int x0, int y0, int width, int heig
     const real each = splat(1.0f / static_cast<float>(f.msaa)), zero = lit(0.0);
     const std::uint32_t* lanes = s.pass_lanes;
     const std::uint8_t* register_passes = s.register_passes;
-    const std::size_t row = 3 * static_cast<std::size_t>(f.width);
+    const std::size_t stride = 3 * static_cast<std::size_t>(f.width);
+    float* const corner = s.output + stride * static_cast<std::size_t>(y0) + 3 * static_cast<std::size_t>(x0);
+    const bool lines = f.width % PixelRows::kPixels == 0 && reinterpret_cast<std::uintptr_t>(corner) % 64 == 0;
+    PixelRows rows;
     std::uint32_t at = 0;
     for (int by = 0; by * kBlock < height; ++by)
         for (int bx = 0; bx * kBlock < width; ++bx) {
-            float* const corner =
-                s.output + row * static_cast<std::size_t>(y0 + by * kBlock) + 3 * static_cast<std::size_t>(x0 + bx * kBlock);
+            float* const block = rows.rgb[0] + 3 * kBlock * (bx & 1);
             for (int v = 0; v < kVectors; ++v, ++register_passes) {
                 real r = zero, g = zero, b = zero;
-                std::uint32_t drawn = 0;
                 int passes = *register_passes;
                 if (passes == 1 && *lanes == kAllLanes) { // every pixel is one fragment, of weight 1
                     r = r + load(s.red + at), g = g + load(s.green + at), b = b + load(s.blue + at);
                     at += kLanes;
-                    drawn = *lanes++;
+                    ++lanes;
                     passes = 0;
                 }
                 for (int k = 0; k < passes; ++k) {
@@ -47,22 +70,16 @@ BN_INLINE void resolve(const FrameParams& f, int x0, int y0, int width, int heig
                     g = g + expand_load(s.green + at, m) * weight;
                     b = b + expand_load(s.blue + at, m) * weight;
                     at += static_cast<std::uint32_t>(__builtin_popcount(bits));
-                    drawn |= bits;
                 }
-                float* const to = corner + row * static_cast<std::size_t>(v * kLanes >> 3) + 3 * (v * kLanes & 7);
-                if (drawn == kAllLanes) {
-                    store_triples(to, to + row, r, g, b);
-                    continue;
-                }
-                float part[2][3 * kBlock];
-                store_triples(part[0], part[1], r, g, b);
-                for (std::uint32_t bits = drawn; bits; bits &= bits - 1) { // at the image's border
-                    const int i = __builtin_ctz(bits), y = i / kBlock, x = i % kBlock;
-                    for (int c = 0; c < 3; ++c)
-                        to[row * static_cast<std::size_t>(y) + static_cast<std::size_t>(3 * x + c)] = part[y][3 * x + c];
-                }
+                float* const to = block + PixelRows::kFloats * (v * kLanes >> 3) + 3 * (v * kLanes & 7);
+                store_triples(to, to + PixelRows::kFloats, r, g, b);
             }
+            const int left = (bx & ~1) * kBlock, columns = width - left, count = height - by * kBlock;
+            if ((bx & 1) || columns <= kBlock)
+                write_rows(rows, columns < PixelRows::kPixels ? columns : PixelRows::kPixels, count < kBlock ? count : kBlock, lines,
+                           corner + stride * static_cast<std::size_t>(by * kBlock) + 3 * left, stride);
         }
+    stream_fence();
 }
 
 } // namespace BN_ISA_NS

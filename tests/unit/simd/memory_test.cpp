@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstring>
+#include <numeric>
 #include <random>
 #include <vector>
 
@@ -107,6 +108,15 @@ TEST_P(lane_memory, expand_is_the_reverse_of_compress)
             next += on;
         }
     }
+}
+
+TEST_P(lane_memory, lines_are_copied_past_the_caches)
+{
+    alignas(64) float from[64], to[64] = {};
+    std::iota(from, from + 64, 1.0f);
+    fns().stream(to + 16, from, 32);
+    for (int i = 0; i < 64; ++i)
+        EXPECT_EQ(to[i], i < 16 || i >= 48 ? 0.0f : from[i - 16]) << i;
 }
 
 TEST_P(lane_memory, triples_go_to_two_rows_of_eight)

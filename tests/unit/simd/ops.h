@@ -46,6 +46,7 @@ struct LaneFns {
     void (*store_first_int)(std::int32_t* to, const std::int32_t* x, int n);
     int (*compress)(std::int32_t* to, const std::int32_t* x, std::uint32_t bits);
     void (*expand)(const float* from, const std::int32_t* ints, std::uint32_t bits, float* x, std::int32_t* i);
+    void (*stream)(float* to, const float* from, int n);
     void (*triples)(float* first, float* second, const float* r, const float* g, const float* b);
     std::uint32_t (*mask_facts)(std::uint32_t bits); // to_bits, with any, all, none in bits 16, 17, 18
     void (*iota)(std::int32_t* out);

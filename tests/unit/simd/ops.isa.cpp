@@ -68,6 +68,11 @@ void expand_fn(const float* from, const std::int32_t* ints, std::uint32_t bits, 
     store(x, expand_load(from, m));
     store_int(i, expand_load_int(ints, m));
 }
+void stream_fn(float* to, const float* from, int n)
+{
+    stream_lines(to, from, n);
+    stream_fence();
+}
 void triples_fn(float* first, float* second, const float* r, const float* g, const float* b)
 {
     store_triples(first, second, load(r), load(g), load(b));
@@ -166,33 +171,20 @@ void texel_fn(const Texels& in, float* out)
     store(out + 3 * kLanes, value.w);
 }
 
-const LaneFns kFns = {BN_ISA_NAME,
-                      kLanes,
-                      kOps,
-                      static_cast<int>(sizeof(kOps) / sizeof(kOps[0])),
-                      load_first_fn,
-                      load_first_int_fn,
-                      store_first_fn,
-                      store_first_int_fn,
-                      compress_fn,
-                      expand_fn,
-                      triples_fn,
-                      mask_facts_fn,
-                      iota_fn,
-                      gather_fn,
-                      gather_int_fn,
-                      table_fn,
-                      reduce_fn,
-                      records_fn,
-                      store_records_fn,
-                      quads_fn,
-                      store_quads_fn,
-                      triples_int_fn,
-                      wide_fn,
-                      blend16_fn,
-                      blend8_fn,
-                      blend4_fn,
-                      texel_fn};
+const LaneFns kFns = {BN_ISA_NAME,    kLanes,
+                      kOps,           static_cast<int>(sizeof(kOps) / sizeof(kOps[0])),
+                      load_first_fn,  load_first_int_fn,
+                      store_first_fn, store_first_int_fn,
+                      compress_fn,    expand_fn,
+                      stream_fn,      triples_fn,
+                      mask_facts_fn,  iota_fn,
+                      gather_fn,      gather_int_fn,
+                      table_fn,       reduce_fn,
+                      records_fn,     store_records_fn,
+                      quads_fn,       store_quads_fn,
+                      triples_int_fn, wide_fn,
+                      blend16_fn,     blend8_fn,
+                      blend4_fn,      texel_fn};
 
 } // namespace
 
