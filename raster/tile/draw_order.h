@@ -8,20 +8,37 @@ inline namespace BN_ISA_NS {
 
 inline constexpr std::uint32_t kSortedTriangles = 256; // more of them are drawn as they come, unless their alpha is tested
 
-BN_INLINE bool larger_than_a_block(const TriangleSetup& t)
+struct SubPixelBox { // of a triangle
+    std::int32_t x0, y0, x1, y1;
+};
+BN_INLINE SubPixelBox box_of(const TriangleSetup& t)
 {
-    const auto span = [](const std::int32_t* v) {
-        const std::int32_t lo = v[0] < v[1] ? v[0] : v[1], hi = v[0] > v[1] ? v[0] : v[1];
-        return (hi > v[2] ? hi : v[2]) - (lo < v[2] ? lo : v[2]);
-    };
-    return span(t.x) > kBlock * kSubpixel || span(t.y) > kBlock * kSubpixel;
+    const auto least = [](const std::int32_t* v) { return v[0] < v[1] ? (v[0] < v[2] ? v[0] : v[2]) : (v[1] < v[2] ? v[1] : v[2]); };
+    const auto greatest = [](const std::int32_t* v) { return v[0] > v[1] ? (v[0] > v[2] ? v[0] : v[2]) : (v[1] > v[2] ? v[1] : v[2]); };
+    return {least(t.x), least(t.y), greatest(t.x), greatest(t.y)};
+}
+BN_INLINE bool larger_than_a_block(const SubPixelBox& b)
+{
+    return b.x1 - b.x0 > kBlock * kSubpixel || b.y1 - b.y0 > kBlock * kSubpixel;
+}
+
+// About how many pixels of a tile it covers: its box's part in the tile, as much of that as the triangle is of its box.
+BN_INLINE float covered_pixels(const TriangleSetup& t, const SubPixelBox& b, const SubPixelBox& tile)
+{
+    const float width = static_cast<float>((b.x1 < tile.x1 ? b.x1 : tile.x1) - (b.x0 > tile.x0 ? b.x0 : tile.x0));
+    const float height = static_cast<float>((b.y1 < tile.y1 ? b.y1 : tile.y1) - (b.y0 > tile.y0 ? b.y0 : tile.y0));
+    const float area = static_cast<float>(t.x[1] - t.x[0]) * static_cast<float>(t.y[2] - t.y[0]) -
+                       static_cast<float>(t.x[2] - t.x[0]) * static_cast<float>(t.y[1] - t.y[0]);
+    const float box = static_cast<float>(b.x1 - b.x0) * static_cast<float>(b.y1 - b.y0);
+    return width > 0.0f && height > 0.0f ? width * height * (0.5f / (kSubpixel * kSubpixel)) * (area / box) : 0.0f;
 }
 
 // Sorts the first n triangles that are drawn singly, the nearest first, so that what lies behind is hidden by the block, and where alpha is
 // tested by the sample, before a texel is fetched; equal ones stay in turn (merge sort, runs doubling). False where that is not worth while
-// and they stay in the list's order: many triangles, mostly small ones, or in order already.
-BN_INLINE bool front_to_back(const FrameParams& f, const TileScratch& s, std::uint32_t n)
+// and they stay in the list's order: many triangles, mostly small ones, ones that hide little of each other, or in order already.
+BN_INLINE bool front_to_back(const FrameParams& f, const TileScratch& s, std::uint32_t n, int tile_x, int tile_y)
 {
+    constexpr float kLayers = 1.5f; // of fewer, few samples are hidden
     // what is a fragment's later serves here
     const std::uint32_t room = static_cast<std::uint32_t>(f.tile_size * f.tile_size);
     if (n < 2 || n > room)
@@ -29,6 +46,9 @@ BN_INLINE bool front_to_back(const FrameParams& f, const TileScratch& s, std::ui
     float* const nearest = s.red; // by place in the list
     std::uint32_t *from = reinterpret_cast<std::uint32_t*>(s.order), *to = reinterpret_cast<std::uint32_t*>(s.fragment_pixel);
     std::uint32_t large = 0, tested = 0;
+    float covered = 0.0f;
+    const std::int32_t side = f.tile_size * kSubpixel, left = tile_x * side - f.center_x, top = tile_y * side - f.center_y;
+    const SubPixelBox tile = {left, top, left + side, top + side};
     bool in_order = true;
     for (std::uint32_t i = 0; i < n; ++i) {
         const TriangleSetup& t = s.triangles[s.drawn_singly[i]];
@@ -36,10 +56,12 @@ BN_INLINE bool front_to_back(const FrameParams& f, const TileScratch& s, std::ui
         nearest[i] = t.z[2] > key ? t.z[2] : key;
         from[i] = i;
         in_order = in_order && (i == 0 || nearest[i - 1] >= nearest[i]);
-        large += larger_than_a_block(t);
+        const SubPixelBox box = box_of(t);
+        large += larger_than_a_block(box);
+        covered += covered_pixels(t, box, tile);
         tested += f.materials[t.info >> 2].alpha_mode != kAlpha_opaque;
     }
-    if (in_order || (2 * tested < n && (n > kSortedTriangles || 2 * large < n)))
+    if (in_order || (2 * tested < n && (n > kSortedTriangles || 2 * large < n || covered < kLayers * static_cast<float>(room))))
         return false;
     for (std::uint32_t run = 1; run < n; run *= 2) {
         for (std::uint32_t begin = 0; begin < n; begin += 2 * run) {

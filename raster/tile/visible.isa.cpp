@@ -117,7 +117,7 @@ void raster_tile(const Tile& t, const view_params& view)
         raster_register(t, i, singly, some_small);
     if (some_small) // the blocks' bounds are out of date
         __builtin_memset(s.block_dirty, 255, static_cast<std::size_t>((t.f.tile_size / kBlock) * (t.f.tile_size / kBlock)));
-    const bool sorted = front_to_back(t.f, s, singly); // where it pays to know at once what hides the rest
+    const bool sorted = front_to_back(t.f, s, singly, t.index_x, t.index_y); // where it pays to know at once what hides the rest
     if (sorted || some_small)
         raster_singly<true>(t, view, singly, sorted ? 1 : 4);
     else
