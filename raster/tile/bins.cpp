@@ -42,7 +42,7 @@ class TileRows {
 };
 
 // Chunks are large enough that their lists' ends by tile stay few beside their triangles, and many enough to share evenly.
-constexpr std::size_t kMinClusters = 16, kMaxChunks = 64;
+constexpr std::size_t kMinClusters = 16, kChunks = 64, kChunksAThread = 4;
 } // namespace
 
 void Bins::Chunk::make_room()
@@ -126,7 +126,8 @@ void Bins::build(const FrameParams& f, const DrawTables& tables, const Visible& 
 {
     const TraceSpan span("setup and bin");
     const std::size_t clusters = visible.clusters.size();
-    const std::size_t per_chunk = std::max(kMinClusters, (clusters + kMaxChunks - 1) / kMaxChunks);
+    const std::size_t most = std::max(kChunks, kChunksAThread * static_cast<std::size_t>(jobs.threads()));
+    const std::size_t per_chunk = std::max(kMinClusters, (clusters + most - 1) / most);
     used_ = (clusters + per_chunk - 1) / per_chunk;
     while (chunks_.size() < used_)
         chunks_.push_back(std::make_unique<Chunk>());
