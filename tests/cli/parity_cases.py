@@ -202,7 +202,10 @@ def forward_without_neighbours(bench):
     report = parity(bench, "builtin:plate", "--size", "96x64", "--technique", "lobe_line,as_mc", "--msaa", "1", "--pipeline", "forward", code=1)
     for row in report["rows"]:
         flip = {cause["stage"]: cause["flip"] for cause in row["causes"]}
-        check(max(flip, key=flip.get) == "shaded colour" and row["flip_mean"] > 0.002, f"{row['technique']}: {flip}")
+        check(max(flip, key=flip.get) == "shaded colour" and 0.002 < row["flip_mean"] < 0.1, f"{row['technique']}: {flip}")
+    # It is noise, which many samples take away, where there may be many.
+    parity(bench, "builtin:plate", "--size", "48x32", "--technique", "as_mc", "--samples", "16384", "--msaa", "1", "--pipeline", "forward",
+           "--sampler", "native")
 
 
 @case("parity.goes_on_after_a_row_that_fails")
