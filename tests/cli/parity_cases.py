@@ -194,7 +194,7 @@ ALONE = "split_isotropic,bent_normal,major_axis,major_axis_adaptive,major_axis_w
 @case("parity.forward_of_every_technique_looks_the_same", tier="slow")
 def forward_of_every_technique(bench):
     for more in (("--sampler", "native", "--technique", ALONE), ("--sampler", "exact", "--technique", "split_isotropic")):
-        check_looks_the_same(parity(bench, "--suite", "default", "--msaa", "1,4", "--pipeline", "forward", *more, timeout=290.0))
+        check_looks_the_same(parity(bench, "--suite", "default", "--msaa", "1,4", "--pipeline", "forward", *more, timeout=590.0))
 
 
 @case("parity.forward_says_where_samples_that_are_shared_are_missed", tier="slow")
