@@ -163,12 +163,6 @@ BN_OP integer shr_logical(const integer& i, int n)
     BN_EACH_PART r.p[p] = (part_i)((part_u)i.p[p] >> n);
     return r;
 }
-BN_OP integer count_bits4(const integer& i)
-{
-    integer r;
-    BN_EACH_PART r.p[p] = (i.p[p] & 1) + (i.p[p] >> 1 & 1) + (i.p[p] >> 2 & 1) + (i.p[p] >> 3);
-    return r;
-}
 
 BN_OP mask both(const mask& a, const mask& b)
 {
@@ -424,12 +418,6 @@ BN_CALL void store_triples(float* first, float* second, const real& r, const rea
         to[0] = lanes_of(r).at[k], to[1] = lanes_of(g).at[k], to[2] = lanes_of(b).at[k];
     }
 }
-BN_INLINE void stream_lines(float* to, const float* from, int n)
-{
-    __builtin_memcpy(to, from, static_cast<std::size_t>(n) * sizeof(float));
-}
-BN_INLINE void stream_fence() {}
-
 BN_CALL void load_triples_int(const std::int32_t* from, integer out[3])
 {
     for (int c = 0; c < 3; ++c) {
@@ -605,3 +593,4 @@ BN_OP void texel_values(const texel_acc& acc, real out[4])
 } // namespace burnish
 
 #include "core/simd/lanes_derived.h"
+#include "core/simd/lanes_plain.h"

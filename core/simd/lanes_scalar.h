@@ -63,10 +63,6 @@ BN_INLINE integer shr_logical(integer i, int n)
 {
     return static_cast<integer>(static_cast<std::uint32_t>(i) >> n);
 }
-BN_INLINE integer count_bits4(integer i)
-{
-    return __builtin_popcount(static_cast<std::uint32_t>(i));
-}
 
 BN_INLINE mask both(mask a, mask b)
 {
@@ -331,12 +327,6 @@ BN_INLINE void store_triples(float* first, float*, real r, real g, real b)
     first[0] = static_cast<float>(r), first[1] = static_cast<float>(g), first[2] = static_cast<float>(b);
 }
 
-BN_INLINE void stream_lines(float* to, const float* from, int n)
-{
-    __builtin_memcpy(to, from, static_cast<std::size_t>(n) * sizeof(float));
-}
-BN_INLINE void stream_fence() {}
-
 // kLanes triples in turn: out[k] holds the k-th of each.
 BN_INLINE void load_triples_int(const std::int32_t* from, integer out[3])
 {
@@ -471,3 +461,5 @@ BN_INLINE void texel_values(texel_acc acc, real out[4])
 
 } // namespace BN_ISA_NS
 } // namespace burnish
+
+#include "core/simd/lanes_plain.h"
