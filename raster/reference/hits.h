@@ -196,7 +196,7 @@ BN_INLINE LaneHits find_hits(const PixelFrame& p, LaneRays r, mask wanted, RayKi
 {
     if (!p.f.any_alpha)
         return trace_lanes(p, r, wanted, kind);
-    constexpr int kMostLayers = 64;
+    constexpr int kMostLayers = 1 << 16;
     const RayKind search = kind == RayKind::occlusion ? RayKind::bounce : kind;
     LaneHits result = trace_lanes(p, r, wanted, search);
     mask open = wanted;
