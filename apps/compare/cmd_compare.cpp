@@ -99,11 +99,20 @@ Result<Pictures> read_pictures(const CompareOptions& options, const Jobs& jobs)
 {
     const std::vector<std::string> names = inputs_of(options);
     std::vector<Result<Image>> images(names.size(), Result<Image>(Image{}));
-    jobs.parallel_for(names.size(), [&](std::size_t i, int) { images[i] = read_image(names[i], options.limits); });
+    std::vector<PictureNotes> notes(names.size());
+    jobs.parallel_for(names.size(), [&](std::size_t i, int) {
+        images[i] = i < 2 ? read_colours(names[i], options.limits, notes[i]) : read_image(names[i], options.limits, &notes[i]);
+    });
     for (const Result<Image>& image : images)
         if (!image)
             return image.error();
+    if (images.size() > 2 && (notes[0].converted || notes[1].converted))
+        return usage_error("--variance", fmt::format("{} has other primaries than Rec.709, and variances cannot be converted",
+                                                     names[notes[0].converted ? 0 : 1]));
     Pictures pictures;
+    for (std::size_t i = 0; i < names.size(); ++i)
+        for (const std::string& warning : notes[i].warnings)
+            pictures.warnings.push_back(names[i] + ": " + warning);
     pictures.reference = std::move(*images[0]);
     pictures.test = std::move(*images[1]);
     if (Status match = check_match(options.test, pictures.test, options.reference, pictures.reference); !match)
@@ -178,6 +187,8 @@ int run_compare(const CompareArguments& arguments, const OptionTable& given)
     Report report(options.quiet, options.verbosity);
     report.promise_stdout({options.json, options.csv, options.html});
     report.release();
+    for (const std::string& warning : pictures->warnings)
+        report.warning(warning);
     report.detail("pictures", describe(pictures->reference));
 
     const CompareFigures figures = compare_pictures(options, *pictures, jobs);

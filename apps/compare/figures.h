@@ -16,6 +16,7 @@ namespace burnish {
 struct Pictures {
     Image reference, test;
     std::vector<Image> variances;
+    std::vector<std::string> warnings; // what their readers had to guess
 };
 
 struct CompareFigures {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <fmt/core.h>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "apps/cli/numbered.h"
@@ -64,15 +65,19 @@ Result<std::vector<int>> numbers_of(const CompareOptions& options)
     return *reference;
 }
 
-Result<Frames> read_frames(const CompareOptions& options, int number, const Image* first)
+Result<Frames> read_frames(const CompareOptions& options, int number, const Image* first, std::set<std::string>& said, Report& report)
 {
     Frames frames;
     frames.number = number;
     for (const auto& [pattern, to] : {std::pair{&options.reference, &frames.reference}, {&options.test, &frames.test}}) {
         const std::string name = numbered(*pattern, number);
-        Result<Image> image = read_image(name, options.limits);
+        PictureNotes notes;
+        Result<Image> image = read_colours(name, options.limits, notes);
         if (!image)
             return image.error();
+        for (const std::string& warning : notes.warnings)
+            if (said.insert(warning).second) // once, for the first picture of the row
+                report.warning(name + ": " + warning);
         *to = std::move(*image);
         const Image& like = first ? *first : frames.reference;
         if (const Status good = check_like(name, *to, options.reference, like); !good)
@@ -96,9 +101,10 @@ int compare_sequences(const CompareOptions& options)
     double errors = 0.0, worst = 0.0, test_changes = 0.0, reference_changes = 0.0;
     int worst_number = numbers->front();
     std::optional<Frames> before;
+    std::set<std::string> said;
     bool floats = false;
     for (const int number : *numbers) {
-        Result<Frames> frames = read_frames(options, number, before ? &before->reference : nullptr);
+        Result<Frames> frames = read_frames(options, number, before ? &before->reference : nullptr, said, report);
         if (!frames)
             return fail(frames.error());
         floats = frames->reference.type == PixelType::f32;

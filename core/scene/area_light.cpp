@@ -6,6 +6,7 @@
 
 #include "core/base/check.h"
 #include "core/image/io/image_io.h"
+#include "core/image/io/stored_colour.h"
 #include "core/math/scalar_math.h"
 #include "core/scene/builtin/surface.h"
 #include "core/scene/tangents.h"
@@ -183,9 +184,14 @@ Status read_area_texture(Scene& scene, AreaLight& light, const Limits& limits)
     Limits rest = limits;
     for (const Image& image : scene.images)
         rest.texture_bytes -= std::min<std::uint64_t>(rest.texture_bytes, image.bytes.size());
-    Result<Image> image = read_image(light.texture_file, rest);
+    PictureNotes notes;
+    Result<Image> image = read_colours(light.texture_file, rest, notes);
     if (!image)
         return image.error();
+    for (const std::string& warning : notes.warnings)
+        scene.warnings.push_back(light.texture_file + ": " + warning);
+    if (const std::size_t clipped = clip_negative_colours(*image))
+        scene.warnings.push_back(fmt::format("{}: {} texels of negative light are set to 0", light.texture_file, clipped));
     if (image->bytes.size() > rest.texture_bytes)
         return Error{ExitCode::bad_input, light.texture_file, "",
                      fmt::format("the scene's textures need more than {} bytes (--limit-texture-bytes)", limits.texture_bytes)};

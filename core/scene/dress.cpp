@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "core/image/io/image_io.h"
+#include "core/image/io/stored_colour.h"
 #include "core/scene/heights.h"
 #include "core/scene/texture.h"
 
@@ -109,16 +110,22 @@ class Dresser {
         return {};
     }
 
-    Result<Image> read(const std::string& path, int channels)
+    // colours: of the material; other maps hold data, whatever primaries their files name.
+    Result<Image> read(const std::string& path, int channels, bool colours = false)
     {
         if (const Status worn = check_coordinates(path); !worn)
             return worn.error();
         Limits rest = limits_;
         for (const Image& image : scene_.images)
             rest.texture_bytes -= std::min<std::uint64_t>(rest.texture_bytes, image.bytes.size());
-        Result<Image> image = read_image(path, rest);
+        PictureNotes notes;
+        Result<Image> image = colours ? read_colours(path, rest, notes) : read_image(path, rest, &notes);
         if (!image)
             return image.error();
+        for (const std::string& warning : notes.warnings)
+            scene_.warnings.push_back(path + ": " + warning);
+        if (const std::size_t clipped = colours ? clip_negative_colours(*image) : 0)
+            scene_.warnings.push_back(fmt::format("{}: {} texels of negative colour are set to 0", path, clipped));
         if (image->channels < channels)
             return Error{ExitCode::bad_input, path, "", "a map of directions or normals has red, green and blue"};
         if (image->bytes.size() > rest.texture_bytes)
@@ -131,9 +138,9 @@ class Dresser {
     std::int32_t add(Image image, const char* name) { return add_texture(scene_, name, std::move(image)); }
 
     // A picture that becomes a texture as it is; what is no number in it is repaired where levels are made.
-    Result<Image> read_as_is(const std::string& path, int channels, const char* name)
+    Result<Image> read_as_is(const std::string& path, int channels, const char* name, bool colours = false)
     {
-        Result<Image> image = read(path, channels);
+        Result<Image> image = read(path, channels, colours);
         if (!image || image->type != PixelType::f32)
             return image;
         std::size_t bad = 0;
@@ -268,7 +275,7 @@ Status put_material(Dresser& on, Scene& scene, const Dress& with)
         m.name = name;
     });
     if (!found[kAlbedo].empty()) {
-        Result<Image> image = on.read_as_is(found[kAlbedo], 1, "albedo");
+        Result<Image> image = on.read_as_is(found[kAlbedo], 1, "albedo", true);
         if (!image)
             return image.error();
         on.put(on.add(std::move(*image), "albedo"), &Material::base_color_tex);

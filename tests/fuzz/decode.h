@@ -8,7 +8,8 @@ inline void decode_and_check(const std::uint8_t* data, std::size_t size)
     burnish::Limits limits;
     limits.image_side = 256;
     limits.texture_bytes = 4u << 20;
-    const burnish::Result<burnish::Image> image = burnish::decode_image(data, size, "fuzz", limits);
+    burnish::PictureNotes notes;
+    const burnish::Result<burnish::Image> image = burnish::decode_colours(data, size, "fuzz", limits, notes);
     if (!image) {
         BN_CHECK(!image.error().reason.empty());
         return;

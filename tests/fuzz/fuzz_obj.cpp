@@ -23,7 +23,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     }
     const VertexTable& v = scene->vertices;
     for (std::size_t i = 0; i < v.size(); ++i)
-        for (const float number : {v.px[i], v.py[i], v.pz[i], v.nx[i], v.ny[i], v.nz[i], v.tx[i], v.ty[i], v.tz[i], v.u0[i], v.v0[i]})
+        for (const float number :
+             {v.px[i], v.py[i], v.pz[i], v.nx[i], v.ny[i], v.nz[i], v.tx[i], v.ty[i], v.tz[i], v.u0[i], v.v0[i], v.cr[i], v.cg[i], v.cb[i]})
             BN_CHECK(std::isfinite(number));
     return 0;
 }

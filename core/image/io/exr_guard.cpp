@@ -2,7 +2,12 @@
 // and what the library would allocate from it (offset tables, tiles, scanline blocks) is bounded, before the
 // library runs.
 #include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
 #include <cstring>
+#include <iterator>
+#include <optional>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -35,6 +40,10 @@ struct Part {
     unsigned compression = 0;
     std::uint64_t tile_width = 0, tile_height = 0;
     bool tiled = false;
+    std::optional<Primaries> chromaticities;
+    std::optional<std::array<double, 2>> neutral; // xy, adoptedNeutral
+    std::string colour_space;                     // a name that some writers give
+    bool cube_faces = false, bad_chromaticities = false, bad_envmap = false;
 };
 
 class Reader {
@@ -58,6 +67,7 @@ class Reader {
                static_cast<std::uint32_t>(p[3]) << 24;
     }
     std::int32_t i32() { return static_cast<std::int32_t>(u32()); }
+    double f32() { return static_cast<double>(std::bit_cast<float>(u32())); }
     std::uint8_t u8() { return file_.data[at_++]; }
     // A string up to its null, which is consumed. False where it is longer than a name may be or the file
     // ends.
@@ -97,7 +107,7 @@ Status read_channels(Reader reader, std::size_t size, Part& part)
         if (type > 2)
             return reader.error(fmt::format("a channel of the unknown type {}", type));
         if (x_sampling != 1 || y_sampling != 1)
-            return reader.error("subsampled channels are not supported");
+            return reader.error(fmt::format("the channel {} is subsampled, which is not supported", name));
         if (++part.channels > kMaxChannels)
             return reader.error(fmt::format("more than {} channels", kMaxChannels));
         part.pixel_bytes += type == 1 ? 2 : 4; // 0 uint, 1 half, 2 float
@@ -116,6 +126,69 @@ Window read_window(Reader reader)
     w.x1 = reader.i32();
     w.y1 = reader.i32();
     return w;
+}
+
+// What the file says of its colours and its shape as an environment. Of the standard's attributes whiteLuminance is left out: it is the
+// unit of radiance, and burnish's has none.
+void read_colour_attribute(Reader reader, std::string_view name, std::string_view type, std::size_t size, Part& part)
+{
+    if (name == "chromaticities") {
+        part.bad_chromaticities = type != "chromaticities" || size != 32;
+        if (part.bad_chromaticities)
+            return;
+        Primaries primaries;
+        for (double& value : primaries)
+            value = reader.f32();
+        part.chromaticities = primaries;
+    } else if (name == "adoptedNeutral" && type == "v2f" && size == 8) {
+        const double x = reader.f32(), y = reader.f32();
+        part.neutral = {x, y};
+    } else if ((name == "colorInteropID" || name == "oiio:ColorSpace") && type == "string") {
+        part.colour_space = reader.view(std::min(size, kMaxNameBytes));
+    } else if (name == "envmap") {
+        const unsigned shape = type == "envmap" && size == 1 ? reader.u8() : 2u; // 0: latitude and longitude, 1: cube
+        part.cube_faces = shape == 1, part.bad_envmap = shape > 1;
+    }
+}
+
+// Names of linear Rec.709 as writers give them.
+bool is_linear_rec709(std::string_view name)
+{
+    constexpr std::string_view kNames[] = {"",
+                                           "linear",
+                                           "lin_rec709",
+                                           "lin_rec709_scene",
+                                           "lin_srgb",
+                                           "lin_rec709_display",
+                                           "Rec709 (linear)",
+                                           "Linear Rec.709",
+                                           "scene_linear",
+                                           "Linear Rec.709 (sRGB)"};
+    return std::any_of(std::begin(kNames), std::end(kNames), [&](std::string_view known) {
+        return known.size() == name.size() &&
+               std::equal(known.begin(), known.end(), name.begin(), [](char a, char b) { return (a | 32) == (b | 32); });
+    });
+}
+
+StoredColour colour_of(const Part& part)
+{
+    StoredColour colour;
+    if (part.bad_chromaticities)
+        colour.warnings.push_back("the attribute chromaticities has the wrong type or size; its colours are taken as Rec.709");
+    if (part.chromaticities && !is_rec709(*part.chromaticities))
+        colour.primaries = part.chromaticities;
+    if (!part.chromaticities && !is_linear_rec709(part.colour_space))
+        colour.warnings.push_back(fmt::format(
+            "its colour space is named '{}' and no chromaticities are given; its colours are taken as Rec.709", part.colour_space));
+    const Primaries primaries = part.chromaticities.value_or(kRec709Primaries);
+    constexpr double kRounded = 5e-4;
+    if (part.neutral &&
+        !(std::fabs((*part.neutral)[0] - primaries[6]) < kRounded && std::fabs((*part.neutral)[1] - primaries[7]) < kRounded))
+        colour.warnings.push_back(fmt::format("its adoptedNeutral ({:g}, {:g}) is not the white of its chromaticities; it is not used",
+                                              (*part.neutral)[0], (*part.neutral)[1]));
+    if (part.bad_envmap)
+        colour.warnings.push_back("the attribute envmap names no known shape; it is taken as latlong");
+    return colour;
 }
 
 Status read_attribute(Reader reader, std::string_view name, std::string_view type, std::size_t size, Part& part)
@@ -146,6 +219,8 @@ Status read_attribute(Reader reader, std::string_view name, std::string_view typ
     } else if (name == "dataWindow" || name == "displayWindow" || name == "compression" || name == "tiles" || name == "channels" ||
                name == "type") {
         return reader.error(fmt::format("the attribute {} has the wrong type or size", name));
+    } else {
+        read_colour_attribute(reader, name, type, size, part);
     }
     return {};
 }
@@ -223,7 +298,7 @@ Result<ImageProbe> probe_exr(const ImageBytes& file, const Limits& limits)
     const bool many = (version & kMultiPart) != 0;
     if (!many && (version & kDeep))
         return file.error("byte 4", "deep images are not supported");
-    int first_flat = -1;
+    ImageProbe probe{"openexr", -1};
     std::uint64_t offsets = 0;
     for (int index = 0; many || index == 0; ++index) {
         if (index == kMaxParts)
@@ -238,12 +313,15 @@ Result<ImageProbe> probe_exr(const ImageBytes& file, const Limits& limits)
             part.tiled = true;
         if (const Status status = check_part(file, part, limits, offsets); !status)
             return status.error();
-        if (!part.deep && first_flat < 0)
-            first_flat = index;
+        if (part.deep || probe.subimage >= 0)
+            continue;
+        probe.subimage = index;
+        probe.colour = colour_of(part);
+        probe.cube_faces = part.cube_faces;
     }
-    if (first_flat < 0)
+    if (probe.subimage < 0)
         return file.error("header: type", "the file has no flat part; deep images are not supported");
-    return ImageProbe{"openexr", first_flat, false, false, false, {}};
+    return probe;
 }
 
 } // namespace burnish

@@ -1,8 +1,8 @@
 #include "core/image/io/guard.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
-#include <cstdlib>
 #include <cstring>
 #include <optional>
 #include <string_view>
@@ -69,7 +69,7 @@ Result<ImageProbe> probe_jpeg(const ImageBytes& file, const Limits& limits)
         if (!marker)
             return file.error(fmt::format("byte {}", file.size), "the file ends before its end-of-image marker");
         if (*marker == 0xD9 && framed && scans > 0)
-            return ImageProbe{"jpeg", 0, false, false, false, {}};
+            return ImageProbe{"jpeg"};
         if (*marker == 0xD8 || *marker == 0xD9 || *marker == 0x01)
             continue;
         if (at + 2 > file.size)
@@ -120,7 +120,7 @@ Result<ImageProbe> probe_webp(const ImageBytes& file, const Limits& limits)
         return sides.error();
     if (const Status fits = check_proportion(file, width, height, 4); !fits)
         return fits.error();
-    return ImageProbe{"webp", 0, false, false, false, {}};
+    return ImageProbe{"webp"};
 }
 
 // An unsigned decimal at `at`, which is moved past it; nothing where there is none or it is absurd.
@@ -134,49 +134,6 @@ std::optional<std::int64_t> read_decimal(const ImageBytes& file, std::size_t& at
             return std::nullopt;
     }
     return at == begin ? std::nullopt : std::optional(value);
-}
-
-// Radiance (Ward, "Real Pixels", 1991; the reference manual's "picture format"): text lines, an empty line,
-// then the resolution line, for instance "-Y 512 +X 1024": the first axis is that of the scanlines.
-Result<ImageProbe> probe_hdr(const ImageBytes& file, const Limits& limits)
-{
-    const std::string_view text(reinterpret_cast<const char*>(file.data), file.size);
-    const std::size_t gap = text.find("\n\n");
-    if (gap == std::string_view::npos)
-        return file.error(fmt::format("byte {}", file.size), "the Radiance header does not end");
-    if (text.substr(0, gap).find("FORMAT=32-bit_rle_xyze") != std::string_view::npos)
-        return file.error("header: FORMAT", "XYZE pixels are not supported, only RGBE");
-    std::size_t at = gap + 2;
-    std::int64_t sides[2] = {0, 0};
-    char axes[2] = {0, 0};
-    bool negative[2] = {false, false};
-    for (int i = 0; i < 2; ++i) {
-        const std::string place = fmt::format("byte {}", at);
-        if (at + 3 > file.size || (text[at] != '-' && text[at] != '+') || (text[at + 1] != 'X' && text[at + 1] != 'Y') ||
-            text[at + 2] != ' ')
-            return file.error(place, "a resolution line such as \"-Y 512 +X 1024\" should stand here");
-        negative[i] = text[at] == '-';
-        axes[i] = text[at + 1];
-        at += 3;
-        const std::optional<std::int64_t> side = read_decimal(file, at);
-        if (!side || at >= file.size || text[at] != (i == 0 ? ' ' : '\n'))
-            return file.error(place, "a resolution line such as \"-Y 512 +X 1024\" should stand here");
-        sides[i] = *side;
-        ++at;
-    }
-    if (axes[0] == axes[1])
-        return file.error("header: resolution", "the same axis twice");
-    const bool transpose = axes[0] == 'X';
-    const Status fits = check_sides(file, sides[transpose ? 0 : 1], sides[transpose ? 1 : 0], limits);
-    if (!fits)
-        return fits.error();
-    // A run-length packet of 2 bytes holds at most 127 values, and a plain pixel takes 4 bytes.
-    if (static_cast<std::uint64_t>(sides[0]) * static_cast<std::uint64_t>(sides[1]) * 8 / 127 > file.size)
-        return file.error(fmt::format("header: {} x {} pixels", sides[1], sides[0]),
-                          fmt::format("{} bytes cannot hold that many pixels", file.size));
-    // Y points up and X to the right: "-Y" scanlines go down from the top.
-    const int x = transpose ? 0 : 1;
-    return ImageProbe{"hdr", 0, transpose, negative[x], !negative[1 - x], {}};
 }
 
 // Over white space and # comments.
@@ -205,10 +162,10 @@ Status check_pnm_scale(const ImageBytes& file, std::size_t at)
     if (kind == 'F' || kind == 'f') {
         while (at < file.size && at - begin < 64 && file.data[at] > ' ')
             ++at;
-        const std::string text(reinterpret_cast<const char*>(file.data) + begin, at - begin);
-        char* end = nullptr;
-        const float scale = std::strtof(text.c_str(), &end);
-        if (text.empty() || *end != '\0' || !std::isfinite(scale) || scale == 0.0f)
+        const char *first = reinterpret_cast<const char*>(file.data) + begin, *last = first + (at - begin);
+        float scale = 0.0f;
+        const std::from_chars_result read = std::from_chars(first + (first != last && *first == '+'), last, scale);
+        if (read.ec != std::errc() || read.ptr != last || !std::isfinite(scale) || scale == 0.0f)
             return file.error(fmt::format("byte {}", begin), "a scale that is a number and not 0 should stand here");
         return {};
     }
@@ -238,7 +195,7 @@ Result<ImageProbe> probe_pnm(const ImageBytes& file, const Limits& limits)
                           fmt::format("{} bytes cannot hold that many pixels", file.size));
     if (const Status scale = check_pnm_scale(file, at); !scale)
         return scale.error();
-    return ImageProbe{"pnm", 0, false, false, false, {}};
+    return ImageProbe{"pnm"};
 }
 
 Result<ImageProbe> probe_bmp(const ImageBytes& file, const Limits& limits)
@@ -263,7 +220,7 @@ Result<ImageProbe> probe_bmp(const ImageBytes& file, const Limits& limits)
                           fmt::format("{} bytes cannot hold that many pixels", file.size));
     if (const Status fits = check_proportion(file, static_cast<std::uint64_t>(width), static_cast<std::uint64_t>(height), 4); !fits)
         return fits.error();
-    return ImageProbe{"bmp", 0, false, false, false, {}};
+    return ImageProbe{"bmp"};
 }
 
 bool is_pnm(const ImageBytes& file)
@@ -310,7 +267,7 @@ Result<ImageProbe> probe_image(const ImageBytes& file, const Limits& limits)
     if (starts_with(file, "\x76\x2f\x31\x01"))
         return probe_exr(file, limits);
     if (starts_with(file, "#?RADIANCE\n") || starts_with(file, "#?RGBE\n"))
-        return probe_hdr(file, limits);
+        return probe_radiance(file, limits);
     if (starts_with(file, std::string_view("II*\0", 4)) || starts_with(file, std::string_view("MM\0*", 4)))
         return probe_tiff(file, limits);
     if (is_pnm(file))

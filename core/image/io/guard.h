@@ -7,6 +7,7 @@
 
 #include "core/base/limits.h"
 #include "core/base/result.h"
+#include "core/image/io/stored_colour.h"
 
 namespace burnish {
 
@@ -21,15 +22,23 @@ struct ImageBytes {
 
 constexpr int kMaxChannels = 1024; // of a file
 
-// How to hand a guarded file to OpenImageIO.
+// Where the pixels of a Radiance file lie. Its scanlines run in any of eight ways; three flags put them top row first.
+struct RadianceLayout {
+    std::size_t pixels_at = 0;
+    int scanlines = 0, scanline_pixels = 0;
+    bool transpose = false; // scanlines are columns
+    bool flip_x = false, flip_y = false;
+};
+
+// How to decode a guarded file.
 struct ImageProbe {
     const char* format = ""; // OpenImageIO's name of the format
     int subimage = 0;        // the first flat part of an OpenEXR file
-    // Scanlines of Radiance files may run in any of eight ways; these put them top row first.
-    bool transpose = false; // scanlines are columns
-    bool flip_x = false, flip_y = false;
+    RadianceLayout radiance = {};
+    StoredColour colour = {};
+    bool cube_faces = false; // OpenEXR's envmap = cube
     // What the library reads instead of the file's own bytes, where that is not empty.
-    std::vector<std::uint8_t> replacement;
+    std::vector<std::uint8_t> replacement = {};
 };
 
 // Finds the format by the first bytes, never by the extension, and refuses what cannot be a sound image:
@@ -38,6 +47,9 @@ Result<ImageProbe> probe_image(const ImageBytes& file, const Limits& limits);
 
 // The part of it for PNG, which leaves out the chunks that do not decide the samples.
 Result<ImageProbe> probe_png(const ImageBytes& file, const Limits& limits);
+
+// The part of it for Radiance files.
+Result<ImageProbe> probe_radiance(const ImageBytes& file, const Limits& limits);
 
 // The part of it for OpenEXR, whose library allocates what the header asks for.
 Result<ImageProbe> probe_exr(const ImageBytes& file, const Limits& limits);

@@ -11,6 +11,7 @@
 #include "core/base/file.h"
 #include "core/image/io/guard.h"
 #include "core/image/io/image_library.h"
+#include "core/image/io/radiance.h"
 
 namespace burnish {
 namespace {
@@ -19,6 +20,7 @@ namespace {
 struct Selection {
     int count = 0;
     int channels[4] = {0, 0, 0, 0};
+    bool chroma = false; // Y, RY, BY
     int first() const { return *std::min_element(channels, channels + count); }
     int end() const { return *std::max_element(channels, channels + count) + 1; }
 };
@@ -38,18 +40,36 @@ Selection take(std::initializer_list<int> channels)
     return s;
 }
 
-Selection select_channels(const StoredHeader& header)
+// What channels of other names are taken for.
+std::string guess_words(const StoredHeader& header, int count)
+{
+    std::string names;
+    for (int c = 0; c < count; ++c)
+        names += (c ? ", " : "") + header.channel_names[static_cast<std::size_t>(c)];
+    const char* const kTaken[] = {"grey", "grey and alpha", "red, green and blue", "red, green, blue and alpha"};
+    return fmt::format("has no channels R, G, B or Y; taken as {}: {}", kTaken[count - 1], names);
+}
+
+Result<Selection> select_channels(const ImageBytes& file, const StoredHeader& header, PictureNotes& notes)
 {
     const int r = find_channel(header, "R"), g = find_channel(header, "G"), b = find_channel(header, "B");
     const int y = find_channel(header, "Y"), a = find_channel(header, "A");
+    const int ry = find_channel(header, "RY"), by = find_channel(header, "BY");
     if (r >= 0 && g >= 0 && b >= 0)
         return take({r, g, b, a});
-    if (y >= 0)
-        return take({y, a});
+    if (y >= 0 && (ry >= 0) != (by >= 0))
+        return file.error("header: channels", fmt::format("{} without {}", ry >= 0 ? "RY" : "BY", ry >= 0 ? "BY" : "RY"));
+    if (y >= 0) {
+        Selection s = ry >= 0 ? take({y, ry, by, a}) : take({y, a});
+        s.chroma = ry >= 0;
+        return s;
+    }
     Selection s;
     s.count = header.channels <= 4 ? header.channels : 3;
     for (int c = 0; c < s.count; ++c)
         s.channels[c] = c;
+    if (header.channel_names.size() >= static_cast<std::size_t>(s.count) && s.count > 0)
+        notes.warnings.push_back(guess_words(header, s.count));
     return s;
 }
 
@@ -93,7 +113,7 @@ Image place_in_display(Image&& data, const StoredHeader& header)
 }
 
 // Puts the scanlines of a Radiance file in order. `stored` has the file's first axis as rows.
-Image orient(Image&& stored, const ImageProbe& probe)
+Image orient(Image&& stored, const RadianceLayout& probe)
 {
     if (!probe.transpose && !probe.flip_x && !probe.flip_y)
         return std::move(stored);
@@ -125,11 +145,18 @@ Status check_header(const ImageBytes& file, const StoredHeader& header, const Li
     return check_sides(file, header.width, header.height, limits);
 }
 
-Result<Image> decode(const ImageBytes& file, const ImageProbe& probe, const Limits& limits)
+// The library that reads a format; Radiance files need none.
+Status read_pixels(const ImageBytes& file, const ImageProbe& probe, const PlacePixels& place)
 {
+    if (std::strcmp(probe.format, "hdr") == 0)
+        return read_radiance(file, probe, place);
     const Result<const ImageLibrary*> library = image_library(file.label);
-    if (!library)
-        return library.error();
+    return library ? (*library)->read(file, probe, place) : Status(library.error());
+}
+
+Result<Image> decode(const ImageBytes& file, const ImageProbe& probe, const Limits& limits, PictureNotes& notes)
+{
+    const bool exr = std::strcmp(probe.format, "openexr") == 0;
     StoredHeader header;
     Selection selection;
     Image image;
@@ -137,7 +164,11 @@ Result<Image> decode(const ImageBytes& file, const ImageProbe& probe, const Limi
         if (const Status status = check_header(file, found, limits); !status)
             return status.error();
         header = found;
-        selection = select_channels(header);
+        PictureNotes unsaid; // channels of other formats have no names of their own
+        const Result<Selection> selected = select_channels(file, header, exr ? notes : unsaid);
+        if (!selected)
+            return selected.error();
+        selection = *selected;
         const int first = selection.first();
         const int end = selection.end();
         const std::uint64_t bytes = static_cast<std::uint64_t>(header.width) * static_cast<std::uint64_t>(header.height) *
@@ -148,29 +179,32 @@ Result<Image> decode(const ImageBytes& file, const ImageProbe& probe, const Limi
         image = make_image(header.width, header.height, end - first, header.type);
         return PixelRequest{first, end, image.bytes.data()};
     };
-    if (const Status status = (*library)->read(file, probe, place); !status)
+    if (const Status status = read_pixels(file, probe, place); !status)
         return status.error();
     image = pick_channels(std::move(image), selection, selection.first());
+    if (selection.chroma)
+        decode_luminance_chroma(image, luminance_weights(probe.colour.primaries.value_or(kRec709Primaries)));
+    apply_gain(image, probe.colour.gain);
+    notes.cube_faces = probe.cube_faces;
     // Only OpenEXR's windows mean what ours do: other formats' offsets are page layout.
-    if (std::strcmp(probe.format, "openexr") == 0)
+    if (exr)
         image = place_in_display(std::move(image), header);
-    return orient(std::move(image), probe);
+    return orient(std::move(image), probe.radiance);
 }
 
-} // namespace
-
-Result<Image> decode_image(const std::uint8_t* data, std::size_t size, const std::string& label, const Limits& limits)
+Result<ImageProbe> probe_bytes(const ImageBytes& file, const Limits& limits)
 {
-    const ImageBytes file{data, size, label};
-    if (size == 0)
+    if (file.size == 0)
         return file.error("", "the image is empty");
-    if (size > limits.file_bytes)
-        return file.error("", fmt::format("{} bytes, more than the limit of {}", size, limits.file_bytes));
-    const Result<ImageProbe> probe = probe_image(file, limits);
-    if (!probe)
-        return probe.error();
+    if (file.size > limits.file_bytes)
+        return file.error("", fmt::format("{} bytes, more than the limit of {}", file.size, limits.file_bytes));
+    return probe_image(file, limits);
+}
+
+Result<Image> decode_probed(const ImageBytes& file, const ImageProbe& probe, const Limits& limits, PictureNotes& notes)
+{
     try {
-        return decode(file, *probe, limits);
+        return decode(file, probe, limits, notes);
     } catch (const std::bad_alloc&) {
         return file.error("", "not enough memory for the pixels");
     } catch (const std::exception& exception) {
@@ -179,12 +213,55 @@ Result<Image> decode_image(const std::uint8_t* data, std::size_t size, const std
     }
 }
 
-Result<Image> read_image(const std::string& path, const Limits& limits)
+} // namespace
+
+Result<Image> decode_image(const std::uint8_t* data, std::size_t size, const std::string& label, const Limits& limits, PictureNotes* notes)
+{
+    const ImageBytes file{data, size, label};
+    const Result<ImageProbe> probe = probe_bytes(file, limits);
+    if (!probe)
+        return probe.error();
+    PictureNotes unread;
+    return decode_probed(file, *probe, limits, notes ? *notes : unread);
+}
+
+Result<Image> decode_colours(const std::uint8_t* data, std::size_t size, const std::string& label, const Limits& limits,
+                             PictureNotes& notes)
+{
+    const ImageBytes file{data, size, label};
+    const Result<ImageProbe> probe = probe_bytes(file, limits);
+    if (!probe)
+        return probe.error();
+    Result<Image> image = decode_probed(file, *probe, limits, notes);
+    if (!image)
+        return image;
+    const StoredColour& colour = probe->colour;
+    notes.warnings.insert(notes.warnings.end(), colour.warnings.begin(), colour.warnings.end());
+    if (!colour.primaries || image->type != PixelType::f32 || image->channels < 3)
+        return image;
+    if (const auto to_rec709 = matrix_to_rec709(*colour.primaries)) {
+        apply_matrix(*image, *to_rec709);
+        notes.converted = true;
+    } else {
+        notes.warnings.push_back("its primaries span no colours; its colours are taken as Rec.709");
+    }
+    return image;
+}
+
+Result<Image> read_image(const std::string& path, const Limits& limits, PictureNotes* notes)
 {
     const Result<std::vector<std::uint8_t>> bytes = read_file(path, limits.file_bytes);
     if (!bytes)
         return bytes.error();
-    return decode_image(bytes->data(), bytes->size(), path, limits);
+    return decode_image(bytes->data(), bytes->size(), path, limits, notes);
+}
+
+Result<Image> read_colours(const std::string& path, const Limits& limits, PictureNotes& notes)
+{
+    const Result<std::vector<std::uint8_t>> bytes = read_file(path, limits.file_bytes);
+    if (!bytes)
+        return bytes.error();
+    return decode_colours(bytes->data(), bytes->size(), path, limits, notes);
 }
 
 } // namespace burnish

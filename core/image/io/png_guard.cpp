@@ -119,7 +119,7 @@ Status check_colours(const ImageBytes& file, std::size_t at, std::string_view ty
 Result<ImageProbe> probe_png(const ImageBytes& file, const Limits& limits)
 {
     static const Crc crc;
-    ImageProbe probe{"png", 0, false, false, false, {}};
+    ImageProbe probe{"png"};
     probe.replacement.assign(file.data, file.data + std::min<std::size_t>(8, file.size));
     Header header;
     std::size_t palette_entries = 0;

@@ -11,7 +11,8 @@ namespace {
 
 constexpr unsigned kWidth = 256, kHeight = 257, kBits = 258, kCompression = 259, kPhotometric = 262, kSamples = 277;
 constexpr unsigned kTileWidth = 322, kTileHeight = 323;
-constexpr std::uint64_t kNoCompression = 1, kPalette = 3;
+constexpr unsigned kPrimaries = 319, kSampleFormat = 339, kProfile = 34675;
+constexpr std::uint64_t kNoCompression = 1, kPalette = 3, kLogL = 32844, kLogLuv = 32845, kFloat = 3;
 
 class Directory {
   public:
@@ -34,6 +35,14 @@ class Directory {
             return from + bytes <= file_.size ? std::optional(number(from, bytes)) : std::nullopt;
         }
         return std::nullopt;
+    }
+
+    bool has(unsigned tag) const
+    {
+        for (std::uint64_t i = 0, n = number(at_, 2); i < n; ++i)
+            if (number(at_ + 2 + 12 * i, 2) == tag)
+                return true;
+        return false;
     }
 
     std::uint64_t number(std::uint64_t at, unsigned bytes) const
@@ -80,7 +89,13 @@ Result<ImageProbe> probe_tiff(const ImageBytes& file, const Limits& limits)
         return file.error("header: tiles", fmt::format("tiles of {} x {} pixels are too large", tile_width, tile_height));
     if (const Status fits = check_proportion(file, tile_width, tile_height, pixel); !fits)
         return fits.error();
-    return ImageProbe{"tiff", 0, false, false, false, {}};
+    const std::uint64_t photometric = directory.value(kPhotometric).value_or(0);
+    if (photometric == kLogL || photometric == kLogLuv)
+        return file.error("header: photometric interpretation", "CIE LogL and LogLuv pixels are not supported");
+    ImageProbe probe{"tiff"};
+    if (directory.value(kSampleFormat).value_or(1) == kFloat && (directory.has(kPrimaries) || directory.has(kProfile)))
+        probe.colour.warnings.push_back("its primaries or colour profile are not read; its colours are taken as linear Rec.709");
+    return probe;
 }
 
 } // namespace burnish

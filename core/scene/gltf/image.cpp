@@ -60,9 +60,12 @@ Image decode(Document& doc, int image, Bytes bytes, bool floats)
         doc.fault(place + "/mimeType", "says " + printable(type) + ", and it is " + actual);
     Limits limits = doc.limits;
     limits.texture_bytes -= std::min(limits.texture_bytes, doc.texture_bytes);
-    Result<Image> decoded = decode_image(bytes.data(), bytes.size(), place, limits);
+    PictureNotes notes;
+    Result<Image> decoded = decode_image(bytes.data(), bytes.size(), place, limits, &notes);
     if (!decoded)
         fail(place, printable(decoded.error().reason));
+    for (const std::string& warning : notes.warnings)
+        doc.warn(fmt::format("image {} {}", image, printable(warning)));
     if (decoded->bytes.size() > limits.texture_bytes)
         fail(place, fmt::format("the scene's textures need more than {} bytes (--limit-texture-bytes)", doc.limits.texture_bytes));
     return std::move(*decoded);

@@ -2,14 +2,17 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
+#include <cctype>
 #include <cmath>
 #include <cstring>
 #include <fmt/format.h>
 #include <map>
+#include <string_view>
 #include <utility>
 
 #include "core/base/file.h"
+#include "core/base/text.h"
+#include "core/image/colour.h"
 #include "core/scene/obj/parse.h"
 #include "core/scene/tangents.h"
 
@@ -71,18 +74,29 @@ std::vector<std::size_t> triangles_of(const std::vector<glm::dvec3>& corners)
     return out;
 }
 
-// Sums of the areas about each position.
-std::vector<glm::dvec3> smooth_normals(const obj::Parsed& from, const std::vector<std::vector<obj::Corner>>& groups)
+// Sums of the areas about each position, of each smoothing group apart where a file names any.
+struct SmoothNormals {
+    std::vector<glm::dvec3> sums;                                           // by position, of corners without a group
+    std::map<std::pair<std::int64_t, std::uint32_t>, glm::dvec3> of_groups; // by position and group
+
+    glm::dvec3& at(const obj::Corner& c)
+    {
+        return c.smoothing == obj::kUnsaid ? sums[static_cast<std::size_t>(c.position)] : of_groups[{c.position, c.smoothing}];
+    }
+};
+
+SmoothNormals smooth_normals(const obj::Parsed& from, const std::vector<std::vector<obj::Corner>>& groups)
 {
-    std::vector<glm::dvec3> sums(from.positions.size() / 3, glm::dvec3(0.0));
+    SmoothNormals normals;
+    normals.sums.assign(from.positions.size() / 3, glm::dvec3(0.0));
     for (const std::vector<obj::Corner>& corners : groups)
         for (std::size_t i = 0; i < corners.size(); i += 3) {
             const glm::dvec3 a = position_of(from, corners[i]);
             const glm::dvec3 area = cross(position_of(from, corners[i + 1]) - a, position_of(from, corners[i + 2]) - a);
             for (std::size_t k = 0; k < 3; ++k)
-                sums[static_cast<std::size_t>(corners[i + k].position)] += area;
+                normals.at(corners[i + k]) += area;
         }
-    return sums;
+    return normals;
 }
 
 glm::vec3 unit(const glm::dvec3& v)
@@ -93,26 +107,28 @@ glm::vec3 unit(const glm::dvec3& v)
 
 // Equal corners once, in the order of their first use.
 void append(Scene& scene, const std::vector<glm::vec3>& positions, const std::vector<glm::vec3>& normals,
-            const std::vector<glm::vec4>& tangents, const std::vector<glm::vec2>& uvs, bool has_uvs)
+            const std::vector<glm::vec4>& tangents, const std::vector<glm::vec2>& uvs, const std::vector<glm::vec3>& colours, bool has_uvs)
 {
     Primitive primitive;
     primitive.material = 0;
-    primitive.has_uv0 = has_uvs;
+    primitive.has_uv0 = has_uvs, primitive.has_color = !colours.empty();
     primitive.first_index = static_cast<std::uint32_t>(scene.indices.size());
     primitive.first_vertex = static_cast<std::uint32_t>(scene.vertices.size());
     VertexTable& v = scene.vertices;
     const std::array<Column<float>*, 18> columns = {&v.px, &v.py, &v.pz, &v.nx, &v.ny, &v.nz, &v.tx, &v.ty, &v.tz,
                                                     &v.tw, &v.u0, &v.v0, &v.u1, &v.v1, &v.cr, &v.cg, &v.cb, &v.ca};
-    std::map<std::array<std::uint32_t, 12>, std::uint32_t> known;
+    std::map<std::array<std::uint32_t, 15>, std::uint32_t> known;
     for (std::size_t i = 0; i < positions.size(); ++i) {
         const glm::vec3 &p = positions[i], &n = normals[i];
         const glm::vec4& t = tangents[i];
-        const float values[18] = {p.x, p.y, p.z, n.x, n.y, n.z, t.x, t.y, t.z, t.w, uvs[i].x, uvs[i].y, 0, 0, 1, 1, 1, 1};
-        std::array<std::uint32_t, 12> bits;
-        std::memcpy(bits.data(), values, sizeof bits);
+        const glm::vec3 c = colours.empty() ? glm::vec3(1.0f) : colours[i];
+        const float values[18] = {p.x, p.y, p.z, n.x, n.y, n.z, t.x, t.y, t.z, t.w, uvs[i].x, uvs[i].y, 0, 0, c.x, c.y, c.z, 1};
+        std::array<std::uint32_t, 15> bits; // of all but what is the same for all
+        std::memcpy(bits.data(), values, 12 * sizeof(float));
+        std::memcpy(bits.data() + 12, values + 14, 3 * sizeof(float));
         const auto [it, is_new] = known.try_emplace(bits, static_cast<std::uint32_t>(v.size()));
-        for (std::size_t c = 0; is_new && c < columns.size(); ++c)
-            columns[c]->push_back(values[c]);
+        for (std::size_t k = 0; is_new && k < columns.size(); ++k)
+            columns[k]->push_back(values[k]);
         scene.indices.push_back(it->second);
     }
     primitive.index_count = static_cast<std::uint32_t>(positions.size());
@@ -120,9 +136,16 @@ void append(Scene& scene, const std::vector<glm::vec3>& positions, const std::ve
     scene.primitives.push_back(primitive);
 }
 
-void add_group(Scene& scene, const obj::Parsed& from, const std::vector<obj::Corner>& corners, const std::vector<glm::dvec3>& smooth)
+// Colours of vertices are display colours, encoded as sRGB, as Blender, ZBrush and MeshLab write them.
+glm::vec3 linear_colour(const obj::Parsed& from, const obj::Corner& c)
 {
-    std::vector<glm::vec3> positions, normals;
+    const float* rgb = from.colours.data() + 3 * c.position;
+    return {srgb_to_linear(rgb[0]), srgb_to_linear(rgb[1]), srgb_to_linear(rgb[2])};
+}
+
+void add_group(Scene& scene, const obj::Parsed& from, const std::vector<obj::Corner>& corners, SmoothNormals& smooth)
+{
+    std::vector<glm::vec3> positions, normals, colours;
     std::vector<glm::vec2> uvs, upwards; // v down as glTF has it; up as in the file and for MikkTSpace
     const bool has_uvs = std::all_of(corners.begin(), corners.end(), [](const obj::Corner& c) { return c.uv >= 0; });
     for (const obj::Corner& c : corners) {
@@ -130,7 +153,9 @@ void add_group(Scene& scene, const obj::Parsed& from, const std::vector<obj::Cor
         const float* n = c.normal >= 0 ? from.normals.data() + 3 * c.normal : nullptr;
         const glm::dvec3 own =
             n ? glm::dvec3(static_cast<double>(n[0]), static_cast<double>(n[1]), static_cast<double>(n[2])) : glm::dvec3(0.0);
-        normals.push_back(unit(dot(own, own) > 1e-30 ? own : smooth[static_cast<std::size_t>(c.position)]));
+        normals.push_back(unit(dot(own, own) > 1e-30 ? own : smooth.at(c)));
+        if (!from.colours.empty())
+            colours.push_back(linear_colour(from, c));
         upwards.push_back(has_uvs
                               ? glm::vec2(from.uvs[static_cast<std::size_t>(2 * c.uv)], from.uvs[static_cast<std::size_t>(2 * c.uv + 1)])
                               : glm::vec2(0.0f));
@@ -142,14 +167,17 @@ void add_group(Scene& scene, const obj::Parsed& from, const std::vector<obj::Cor
     else
         for (const glm::vec3& n : normals)
             tangents.push_back(glm::vec4(any_tangent(n), 1.0f));
-    append(scene, positions, normals, tangents, uvs, has_uvs);
+    append(scene, positions, normals, tangents, uvs, colours, has_uvs);
 }
 
 } // namespace
 
 bool is_obj(const std::string& path)
 {
-    return path.ends_with(".obj") || path.ends_with(".OBJ");
+    constexpr std::string_view kEnding = ".obj";
+    return path.size() >= kEnding.size() && std::equal(kEnding.begin(), kEnding.end(), path.end() - kEnding.size(), [](char a, char b) {
+               return a == static_cast<char>(std::tolower(static_cast<unsigned char>(b)));
+           });
 }
 
 Result<Scene> load_obj(const std::string& path, const Limits& limits)
@@ -160,16 +188,32 @@ Result<Scene> load_obj(const std::string& path, const Limits& limits)
     return load_obj_text(std::string(bytes->begin(), bytes->end()), path, limits);
 }
 
-Result<Scene> load_obj_text(const std::string& text, const std::string& path, const Limits& limits)
+namespace {
+
+// Gives the corners of a faceted polygon its normal where they have none of their own.
+void facet(obj::Parsed& parsed, obj::Corner* corners, const std::vector<glm::dvec3>& points)
 {
-    const obj::Parsed parsed = obj::parse(path, text);
-    if (parsed.wrong)
-        return *parsed.wrong;
-    if (parsed.groups.empty())
-        return Error{ExitCode::bad_input, path, "", "holds no faces"};
+    if (corners[0].smoothing != obj::kFaceted)
+        return;
+    glm::dvec3 area(0.0);
+    for (std::size_t i = 0; i + 1 < points.size(); ++i)
+        area += cross(points[i] - points[0], points[i + 1] - points[0]);
+    const glm::vec3 normal = unit(area);
+    const std::int64_t at = static_cast<std::int64_t>(parsed.normals.size() / 3);
+    bool used = false;
+    for (std::size_t i = 0; i < points.size(); ++i)
+        if (corners[i].normal < 0)
+            corners[i].normal = at, used = true;
+    if (used)
+        parsed.normals.insert(parsed.normals.end(), {normal.x, normal.y, normal.z});
+}
+
+// Cuts polygons into the corners of triangles, by group.
+Result<std::vector<std::vector<obj::Corner>>> cut_polygons(obj::Parsed& parsed, const std::string& path, const Limits& limits)
+{
     std::uint64_t corners = 0;
-    std::vector<std::vector<obj::Corner>> triangles; // by group
-    for (const obj::Group& group : parsed.groups) {
+    std::vector<std::vector<obj::Corner>> triangles;
+    for (obj::Group& group : parsed.groups) {
         std::vector<obj::Corner>& to = triangles.emplace_back();
         std::size_t first = 0;
         for (const std::uint32_t count : group.counts) {
@@ -182,31 +226,61 @@ Result<Scene> load_obj_text(const std::string& text, const std::string& path, co
             std::vector<glm::dvec3> points;
             for (std::size_t i = first; i < first + count; ++i)
                 points.push_back(position_of(parsed, group.corners[i]));
+            facet(parsed, group.corners.data() + first, points);
             for (const std::size_t at : triangles_of(points))
                 to.push_back(group.corners[first + at]);
             first += count;
         }
     }
+    return triangles;
+}
+
+// Texture coordinates are those of a whole group.
+void warn_of_missing_uvs(Scene& scene, const obj::Parsed& parsed)
+{
+    for (const obj::Group& group : parsed.groups) {
+        const std::size_t bare = static_cast<std::size_t>(
+            std::count_if(group.corners.begin(), group.corners.end(), [](const obj::Corner& c) { return c.uv < 0; }));
+        if (bare == 0 || bare == group.corners.size())
+            continue;
+        scene.warnings.push_back(fmt::format("{} of {} corners of its group '{}' have no texture coordinates, so the group has none", bare,
+                                             group.corners.size(), printable(group.name, 40)));
+        return;
+    }
+}
+
+} // namespace
+
+Result<Scene> load_obj_text(const std::string& text, const std::string& path, const Limits& limits)
+{
+    obj::Parsed parsed = obj::parse(path, text);
+    if (parsed.wrong)
+        return *parsed.wrong;
+    if (parsed.groups.empty())
+        return Error{ExitCode::bad_input, path, "", "holds no faces"};
+    const Result<std::vector<std::vector<obj::Corner>>> triangles = cut_polygons(parsed, path, limits);
+    if (!triangles)
+        return triangles.error();
     Scene scene;
     scene.files.push_back(path);
     Material white;
     white.name = "white";
     white.metallic = 0.0f, white.roughness = 0.4f;
     scene.materials.push_back(white);
-    const std::vector<glm::dvec3> smooth = smooth_normals(parsed, triangles);
-    for (std::size_t g = 0; g < triangles.size(); ++g) {
+    SmoothNormals smooth = smooth_normals(parsed, *triangles);
+    for (std::size_t g = 0; g < triangles->size(); ++g) {
         Mesh mesh;
         mesh.name = parsed.groups[g].name;
         mesh.first_primitive = static_cast<std::uint32_t>(scene.primitives.size());
         mesh.primitive_count = 1;
-        add_group(scene, parsed, triangles[g], smooth);
+        add_group(scene, parsed, (*triangles)[g], smooth);
         Node node;
         node.name = mesh.name, node.mesh = static_cast<std::int32_t>(g);
         scene.meshes.push_back(std::move(mesh));
         scene.nodes.push_back(std::move(node));
     }
-    if (parsed.names_materials)
-        scene.warnings.push_back("its materials (MTL) are not read; all of it is white (--material FOLDER)");
+    scene.warnings = parsed.warnings;
+    warn_of_missing_uvs(scene, parsed);
     update_world(scene);
     return scene;
 }

@@ -9,8 +9,12 @@
 
 namespace burnish::obj {
 
+// Smoothing groups: 0 is none, faceted; kUnsaid where the file has not named one yet.
+inline constexpr std::uint32_t kFaceted = 0, kUnsaid = 0xFFFFFFFF;
+
 struct Corner {
     std::int64_t position, uv, normal; // from 0; -1: none
+    std::uint32_t smoothing;
 };
 
 struct Group {
@@ -21,9 +25,10 @@ struct Group {
 
 struct Parsed {
     std::vector<float> positions, uvs, normals; // 3, 2 and 3 a piece
+    std::vector<float> colours;                 // 3 a position, as written, [0,1], white where it has none; empty: none has
     std::vector<Group> groups;                  // none is empty
-    bool names_materials = false;
-    std::optional<Error> wrong; // the first index or number that is
+    std::vector<std::string> warnings;          // what is left out, each kind once
+    std::optional<Error> wrong;                 // the first of what cannot be read
 };
 
 // text: the whole file.

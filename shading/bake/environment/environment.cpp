@@ -11,6 +11,7 @@
 #include "core/scene/builtin/builtin.h"
 #include "core/simd/dispatch.h"
 #include "shading/bake/environment/cube_map.h"
+#include "shading/bake/environment/cube_picture.h"
 #include "shading/bake/environment/environment_cache.h"
 #include "shading/bake/environment/equirect.h"
 #include "shading/bake/environment/image_light.h"
@@ -231,6 +232,43 @@ Result<Environment> bake_environment(const Image& equirect, const std::string& n
     return e;
 }
 
+namespace {
+
+Result<Environment> load_gltf_light(const std::string& file, const EnvironmentOptions& options, const Limits& limits, const Jobs& jobs)
+{
+    const Result<ImageLight> light = load_image_light(file, limits);
+    if (!light)
+        return light.error();
+    Result<Environment> baked = bake_environment(sky_of(*light, jobs), file, options, jobs);
+    if (baked)
+        baked->files = light->files;
+    return baked;
+}
+
+// A picture of the whole sky, or OpenEXR's of a cube.
+Result<Environment> load_picture(const std::string& file, const EnvironmentOptions& options, const Limits& limits, const Jobs& jobs)
+{
+    Limits of_environment = limits; // a bake takes time and memory by the pixel
+    of_environment.image_pixels = limits.env_pixels;
+    PictureNotes notes;
+    Result<Image> image = read_colours(file, of_environment, notes);
+    if (!image)
+        return image.error();
+    if (notes.cube_faces) {
+        if (const std::string fault = cube_picture_fault(*image, limits.env_pixels); !fault.empty())
+            return Error{ExitCode::bad_input, file, "header: envmap", fault};
+        image = sky_of_cube_picture(*image, jobs);
+    } else if (const std::string shape = equirect_shape_warning(*image); !shape.empty()) {
+        notes.warnings.push_back(shape);
+    }
+    Result<Environment> baked = bake_environment(*image, file, options, jobs);
+    if (baked)
+        baked->warnings.insert(baked->warnings.begin(), notes.warnings.begin(), notes.warnings.end());
+    return baked;
+}
+
+} // namespace
+
 Result<Environment> load_environment(const std::string& spec, const EnvironmentOptions& options, const Limits& limits, const Jobs& jobs)
 {
     const std::string builtin = "builtin:";
@@ -243,22 +281,10 @@ Result<Environment> load_environment(const std::string& spec, const EnvironmentO
         turn_and_expose(*baked, options);
         return baked;
     }
-    if (!spec.starts_with(builtin) && is_gltf(spec)) {
-        const Result<ImageLight> light = load_image_light(spec, limits);
-        if (!light)
-            return light.error();
-        Result<Environment> baked = bake_environment(sky_of(*light, jobs), spec, options, jobs);
-        if (baked)
-            baked->files = light->files;
-        return baked;
-    }
-    Limits of_environment = limits; // a bake takes time and memory by the pixel
-    of_environment.image_pixels = limits.env_pixels;
-    const Result<Image> image =
-        spec.starts_with(builtin) ? make_builtin_environment(spec.substr(builtin.size())) : read_image(spec, of_environment);
-    if (!image)
-        return image.error();
-    return bake_environment(*image, spec, options, jobs);
+    if (!spec.starts_with(builtin))
+        return is_gltf(spec) ? load_gltf_light(spec, options, limits, jobs) : load_picture(spec, options, limits, jobs);
+    const Result<Image> image = make_builtin_environment(spec.substr(builtin.size()));
+    return image ? bake_environment(*image, spec, options, jobs) : Result<Environment>(image.error());
 }
 
 } // namespace burnish

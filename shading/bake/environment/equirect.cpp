@@ -316,6 +316,28 @@ std::vector<std::string> equirect_warnings(const Image& image)
     return warnings;
 }
 
+std::string equirect_shape_warning(const Image& image)
+{
+    const double shape = static_cast<double>(image.width) / image.height;
+    const auto is = [shape](double wanted) { return std::fabs(shape / wanted - 1.0) < 0.01; };
+    const std::size_t pixel = pixel_type_bytes(image.type) * static_cast<std::size_t>(image.channels);
+    if (is(2.0) || std::equal(image.bytes.begin() + static_cast<std::ptrdiff_t>(pixel), image.bytes.end(), image.bytes.begin()))
+        return "";
+    struct Layout {
+        double shape;
+        const char* words;
+    };
+    constexpr Layout kCubes[] = {{4.0 / 3.0, "a cross of a cube's faces"},  {3.0 / 4.0, "a cross of a cube's faces"},
+                                 {6.0, "a row of a cube's faces"},          {1.0 / 6.0, "a column of a cube's faces"},
+                                 {3.0 / 2.0, "a cube's faces in two rows"}, {1.0, "one face of a cube, or a ball or an angular map"}};
+    std::string looks;
+    for (const Layout& layout : kCubes)
+        if (is(layout.shape))
+            looks = fmt::format("; it looks like {}, which is not read", layout.words);
+    return fmt::format("{} x {} pixels are not twice as wide as high: they are stretched over the whole sphere{}", image.width,
+                       image.height, looks);
+}
+
 double mean_luminance(const Equirect& source)
 {
     double sum = 0.0;

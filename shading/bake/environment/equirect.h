@@ -25,6 +25,10 @@ Equirect make_equirect(const Image& image);
 // One line for each kind of what make_equirect() repairs or has to guess in this image.
 std::vector<std::string> equirect_warnings(const Image& image);
 
+// Says that a picture, not twice as wide as high, is stretched over the whole sphere, and which layout of a cube it looks like. Empty where
+// it is, and where all pixels are equal.
+std::string equirect_shape_warning(const Image& image);
+
 double mean_luminance(const Equirect& source); // over the sphere: pixels weighted by their solid angles
 float peak_value(const Equirect& source);      // largest channel value
 

@@ -90,8 +90,8 @@ std::string exr_header(const ExrPart& part, bool many, int index)
         channels += c.name + '\0';
         little(channels, static_cast<std::uint64_t>(c.type), 4);
         little(channels, 0, 4);
-        little(channels, 1, 4);
-        little(channels, 1, 4);
+        little(channels, static_cast<std::uint64_t>(c.sampling), 4);
+        little(channels, static_cast<std::uint64_t>(c.sampling), 4);
     }
     channels += '\0';
     attribute(out, "channels", "chlist", channels);
@@ -104,6 +104,8 @@ std::string exr_header(const ExrPart& part, bool many, int index)
     attribute(out, "pixelAspectRatio", "float", one);
     attribute(out, "screenWindowCenter", "v2f", std::string(8, '\0'));
     attribute(out, "screenWindowWidth", "float", one);
+    for (const ExrAttribute& a : part.attributes)
+        attribute(out, a.name, a.type, a.value);
     if (!part.type.empty())
         attribute(out, "type", "string", part.type);
     if (many) {
@@ -191,9 +193,17 @@ Bytes make_exr(const std::vector<ExrPart>& parts)
     return to_bytes(out + offsets + chunks);
 }
 
-Bytes make_hdr(const std::string& resolution, const Bytes& rgbe)
+std::string floats(const std::vector<float>& values)
 {
-    Bytes out = to_bytes("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n" + resolution + "\n");
+    std::string out;
+    for (const float v : values)
+        little(out, std::bit_cast<std::uint32_t>(v), 4);
+    return out;
+}
+
+Bytes make_hdr(const std::string& resolution, const Bytes& rgbe, const std::string& lines)
+{
+    Bytes out = to_bytes("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n" + lines + "\n" + resolution + "\n");
     out.insert(out.end(), rgbe.begin(), rgbe.end());
     return out;
 }

@@ -32,6 +32,11 @@ struct ExrChannel {
     std::string name; // in alphabetical order, as the format wants them
     int type = 2;     // 0 uint, 1 half, 2 float
     float value = 0;  // plus 1 a pixel to the right, plus 100 a row down (data window coordinates)
+    int sampling = 1; // in the header only
+};
+
+struct ExrAttribute {
+    std::string name, type, value;
 };
 
 struct ExrPart {
@@ -39,13 +44,16 @@ struct ExrPart {
     int data[4] = {0, 0, 0, 0};    // data window x0 y0 x1 y1, inclusive
     int display[4] = {0, 0, 0, 0}; // display window
     std::string type;              // "scanlineimage", "deepscanline"; needed for files of many parts
+    std::vector<ExrAttribute> attributes = {};
 };
+
+std::string floats(const std::vector<float>& values); // as files store them
 
 // Uncompressed scanlines; several parts make a multi-part file. A deep part gets a header but no pixels.
 Bytes make_exr(const std::vector<ExrPart>& parts);
 
-// A Radiance file of plain RGBE pixels with this resolution line ("-Y 2 +X 3").
-Bytes make_hdr(const std::string& resolution, const Bytes& rgbe);
+// A Radiance file of RGBE pixels, or runs of them, with this resolution line ("-Y 2 +X 3"); lines: further ones of the header.
+Bytes make_hdr(const std::string& resolution, const Bytes& rgbe, const std::string& lines = "");
 
 std::string temporary_folder(); // empty, new for every call, removed when the program ends
 Bytes bytes_of(const std::string& path);
