@@ -16,6 +16,7 @@ namespace burnish {
 struct Pictures {
     Image reference, test;
     std::vector<Image> variances;
+    std::string note; // on alpha, where only one of the two has it
 };
 
 struct CompareFigures {

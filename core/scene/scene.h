@@ -159,6 +159,7 @@ struct Moment {
     int animation = 0;
 };
 
-void update_world(Scene& scene); // fills Node::world from Node::local
+// Fills Node::world from Node::local. A parent that does not come before its child counts as none; check_scene() refuses it.
+void update_world(Scene& scene);
 
 } // namespace burnish
