@@ -238,6 +238,8 @@ Result<Session> Session::make(SessionParts parts, const SessionOptions& options)
 Result<Session> Session::open(const std::string& scene, const std::string& environment, const OpenOptions& open,
                               const SessionOptions& options)
 {
+    if (open.threads < 0)
+        return Error{ExitCode::usage, "", "threads", std::to_string(open.threads) + " threads, 0 stands for all"};
     return guarded(scene, [&]() -> Result<Session> {
         SessionParts parts;
         parts.jobs = std::make_shared<const Jobs>(open.threads);

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <limits>
 
+#include "core/image/io/image_io.h"
 #include "core/scene/check_scene.h"
 #include "raster/session/session.h"
 
@@ -405,6 +406,25 @@ TEST(bad_scenes, environments_from_memory_are_checked)
         wrong.cube_size = size;
         EXPECT_FALSE(bake_environment(make_image(16, 8, 3, PixelType::f32), "mine", wrong, Jobs(1)));
     }
+}
+
+TEST(bad_scenes, threads_and_pictures_to_write_are_checked)
+{
+    OpenOptions open;
+    open.threads = -1;
+    const Result<Session> session = Session::open("builtin:plate", "builtin:studio", open);
+    ASSERT_FALSE(session);
+    EXPECT_EQ(session.error().place, "threads");
+    EXPECT_GE(Jobs(-1).threads(), 1);
+    const std::string path = testing::TempDir() + "never_written.png";
+    for (const Image& image :
+         {Image{}, Image{4, 4, 3, PixelType::u8, {}}, Image{-4, 4, 3, PixelType::u8, {}}, make_image(4, 4, 5, PixelType::u8)}) {
+        const Status written = write_image(path, image);
+        ASSERT_FALSE(written);
+        EXPECT_EQ(written.error().code, ExitCode::output_failed);
+        EXPECT_FALSE(encode_png(image));
+    }
+    EXPECT_FALSE(write_channels(testing::TempDir() + "never_written.exr", make_image(4, 4, 2, PixelType::f32), {"one"}));
 }
 
 } // namespace
