@@ -2,6 +2,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>
+#include <vector>
 
 #include "core/scene/check_columns.h"
 #include "core/scene/check_scene.h"
@@ -104,16 +105,41 @@ Status check_lights(const DrawTables& t, const Scene& scene)
     return {};
 }
 
+// Whether a node's mesh is left out for its positions, and not for having no triangles or being pressed to nothing.
+bool leaves_floats(const Scene& scene, const Node& node, std::uint32_t drawn)
+{
+    const Mesh& mesh = scene.meshes[static_cast<std::size_t>(node.mesh)];
+    std::uint32_t wanted = 0;
+    for (std::uint32_t k = 0; k < mesh.primitive_count; ++k)
+        wanted += scene.primitives[mesh.first_primitive + k].index_count > 0;
+    if (drawn >= wanted)
+        return false;
+    const glm::dmat4 world(node.world);
+    const VertexTable& v = scene.vertices;
+    for (std::uint32_t k = 0; k < mesh.primitive_count; ++k) {
+        const Primitive& p = scene.primitives[mesh.first_primitive + k];
+        for (std::size_t i = p.first_vertex; i < std::size_t{p.first_vertex} + p.vertex_count; ++i)
+            if (!finite(glm::vec3(world * glm::dvec4(v.px[i], v.py[i], v.pz[i], 1.0))))
+                return true;
+    }
+    return false;
+}
+
 } // namespace
 
-Status check_draw_range(const DrawTables& tables, const std::string& file)
+Status check_draw_range(const Scene& scene, const DrawTables& tables, const std::string& file)
 {
-    if (tables.left_out != kNone)
-        return Error{ExitCode::bad_input, file, fmt::format("/nodes/{}", tables.left_out), "its mesh leaves the range of floats"};
-    for (const Draw& draw : tables.draws)
+    std::vector<std::uint32_t> drawn(scene.nodes.size(), 0); // primitives of each node
+    for (const Draw& draw : tables.draws) {
         if (!within(draw.bounds_min, kFarthest) || !within(draw.bounds_max, kFarthest))
             return Error{ExitCode::bad_input, file, fmt::format("/nodes/{}", draw.node),
                          fmt::format("its mesh lies farther than {:g} m from the origin", kFarthest)};
+        if (draw.node >= 0)
+            ++drawn[static_cast<std::size_t>(draw.node)];
+    }
+    for (std::size_t i = 0; i < scene.nodes.size(); ++i)
+        if (scene.nodes[i].mesh != kNone && leaves_floats(scene, scene.nodes[i], drawn[i]))
+            return Error{ExitCode::bad_input, file, fmt::format("/nodes/{}", i), "its mesh leaves the range of floats"};
     return {};
 }
 
@@ -124,7 +150,7 @@ Status check_draw_tables(const DrawTables& tables, const Scene& scene, const std
                              check_numbers(tables), check_draws(tables, scene), check_lights(tables, scene)})
         if (!ok)
             return fault_of_file(ok, file);
-    return check_draw_range(tables, file);
+    return check_draw_range(scene, tables, file);
 }
 
 } // namespace burnish

@@ -20,8 +20,9 @@ Status check_scene(const Scene& scene, const Limits& limits, const std::string& 
 // Of check_scene() all but vertices and indices: what costs nothing where a file's reader has checked these.
 Status check_scene_tables(const Scene& scene, const Limits& limits, const std::string& file);
 
-// Finds a mesh that lies too far away for renderers, at the node that puts it there.
-Status check_draw_range(const DrawTables& tables, const std::string& file);
+// Finds a mesh that lies too far away for renderers, or was left out as it leaves the range of floats, at the node that puts it there.
+// tables: make_draw_tables(scene).
+Status check_draw_range(const Scene& scene, const DrawTables& tables, const std::string& file);
 
 // Finds the first fault of tables that were not made of this scene by make_draw_tables().
 Status check_draw_tables(const DrawTables& tables, const Scene& scene, const std::string& file);

@@ -159,10 +159,8 @@ void append_draw(const Scene& scene, const Primitive& primitive, std::int32_t no
     draw.triangle_count = primitive.index_count / 3;
     draw.material = primitive.material;
     draw.node = node;
-    if (!append_vertices(scene.vertices, primitive, place, out)) {
-        out.left_out = out.left_out == kNone ? node : out.left_out;
+    if (!append_vertices(scene.vertices, primitive, place, out))
         return;
-    }
     append_triangles(scene, primitive, place.mirrored, draw, out);
     const auto id = static_cast<std::uint32_t>(out.draws.size());
     out.draws.push_back(draw);

@@ -57,14 +57,13 @@ struct DrawTables {
     std::vector<PunctualLight> lights;
     std::vector<PlacedAreaLight> area_lights;
     glm::vec3 bounds_min{0.0f}, bounds_max{0.0f};
-    std::int32_t left_out = kNone; // the first node of which a primitive is left out, as a position leaves the range of floats
     std::size_t triangle_count() const { return indices.size() / 3; }
 };
 
 // Whether the tables of a scene stay within the limits: a small file can ask for any number of instances. `file` names it in errors.
 Status check_draw_size(const Scene& scene, const Limits& limits, const std::string& file);
 
-// Of a scene that check_scene() lets pass. motion: rigid, of all of the world.
+// motion: rigid, of all of the world.
 DrawTables make_draw_tables(const Scene& scene, const glm::dmat4* motion = nullptr);
 
 } // namespace burnish

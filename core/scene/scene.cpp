@@ -2,6 +2,7 @@
 
 namespace burnish {
 
+// A parent that does not come before its child counts as none: check_scene() refuses it.
 void update_world(Scene& scene)
 {
     // Products are formed in double and rounded once a node, so that long chains lose no digits.

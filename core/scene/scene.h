@@ -159,7 +159,6 @@ struct Moment {
     int animation = 0;
 };
 
-// Fills Node::world from Node::local. A parent that does not come before its child counts as none; check_scene() refuses it.
-void update_world(Scene& scene);
+void update_world(Scene& scene); // fills Node::world from Node::local
 
 } // namespace burnish

@@ -122,7 +122,7 @@ Result<std::shared_ptr<const SceneData>> make_settled_data(const std::string& na
         if (const Status size = check_draw_size(data->scene, limits, name); !size)
             return size.error();
         data->tables = make_draw_tables(data->scene);
-        if (const Status range = check_draw_range(data->tables, name); !range)
+        if (const Status range = check_draw_range(data->scene, data->tables, name); !range)
             return range.error();
         warn_of_unfiltered(data->scene);
         if (Status settled = settle(data->scene); !settled)
