@@ -94,7 +94,8 @@ Result<ParityRow> compare(const Bench& bench, ParityRow row, const RenderOptions
 // Where a row stands among all, of which the others are drawn before or after it.
 std::string row_text(const ParityReport& out, const ParityRow& row)
 {
-    return fmt::format("row {} ({} {}, {} samples)", out.rows.size() + 1, row.scene, row.technique, row.msaa);
+    return fmt::format("row {} ({} {}, {})", out.rows.size() + 1, row.scene, row.technique,
+                       counted(static_cast<std::uint64_t>(row.msaa), "sample"));
 }
 
 Status compare_place(const Bench& bench, const ParityPlace& place, const ParitySet& set, ParityReport& out)

@@ -39,4 +39,4 @@ def parity(bench):
         raise Skipped("no device")
     done.expect(0)
     told = lines_of(done)
-    check(any(re.match(r"parity, row 1 \(builtin:plate split_isotropic, 1 samples\), drawing 24x16, compiling \w+", line) for line in told), done.describe())
+    check(any(re.match(r"parity, row 1 \(builtin:plate split_isotropic, 1 sample\), drawing 24x16, compiling \w+", line) for line in told), done.describe())

@@ -3,6 +3,7 @@
 #include <functional>
 #include <gtest/gtest.h>
 #include <limits>
+#include <span>
 
 #include "core/image/io/image_io.h"
 #include "core/scene/check_scene.h"
@@ -25,7 +26,7 @@ Scene good_scene()
         v.u0.push_back(0.5f + 0.5f * p[0]), v.v0.push_back(0.5f - 0.5f * p[1]);
     }
     fill_missing_columns(s);
-    for (const std::uint32_t i : {0, 1, 2, 0, 2, 3})
+    for (const std::uint32_t i : {0u, 1u, 2u, 0u, 2u, 3u})
         s.indices.push_back(i);
     Primitive p;
     p.index_count = 6, p.vertex_count = 4, p.has_uv0 = true;
