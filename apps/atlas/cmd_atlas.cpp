@@ -13,6 +13,7 @@
 #include "apps/cli/stop_signal.h"
 #include "core/base/file.h"
 #include "core/image/io/image_io.h"
+#include "core/jobs/activity.h"
 
 namespace burnish {
 namespace {
@@ -178,6 +179,7 @@ int Atlas::run()
             fmt::format("the blessed figures are of version {}, not {}: nothing is compared with them", blessed_.version, kTableVersion));
     report_.release();
     for (const AtlasEntry& entry : entries_) {
+        const Activity activity(fmt::format("entry {} of {}: {}", results_.size() + 1, entries_.size(), entry.id));
         Result<WalkedEntry> walked = measure(entry);
         if (!walked)
             return fail(walked.error());

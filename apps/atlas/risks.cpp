@@ -73,6 +73,14 @@ bool names(const char* beginnings, const std::string& technique)
     return false;
 }
 
+// Says where an entry's path breaks, in words that hold for any scene: a trial's own eye is an angle.
+std::string onset_words(const AtlasSetting& setting, const RiskInputs& at)
+{
+    if (setting.options.eye && setting.values.starts_with("eye "))
+        return fmt::format("an eye {:.0f} degrees above the surface", glm::degrees(std::asin(std::clamp(at.n_dot_v, 0.0f, 1.0f))));
+    return setting.values;
+}
+
 Result<std::vector<Active>> active_rules(const FrameDesc& desc)
 {
     const std::string table(kAtlasBlessed.bytes, kAtlasBlessed.size);
@@ -90,7 +98,8 @@ Result<std::vector<Active>> active_rules(const FrameDesc& desc)
         const Result<AtlasSetting> setting = reader.read(*find_entry(rule.entry), AtlasRole::test, row->onset, kQuickWalk.side, 0);
         if (!setting)
             return setting.error();
-        out.push_back({r, kEarly * rule.measure(inputs_of_setting(setting->options)), setting->values, told});
+        const RiskInputs at = inputs_of_setting(setting->options);
+        out.push_back({r, kEarly * rule.measure(at), onset_words(*setting, at), told});
     }
     return out;
 }

@@ -31,7 +31,7 @@ RiskInputs inputs_of_setting(const RenderOptions& o);
 
 struct RiskFinding {
     std::string technique, entry, says; // of risks.def
-    std::string beyond;                 // "anisotropy 0.158": the path's values at the onset
+    std::string beyond;                 // "anisotropy 0.158", "an eye 11 degrees above the surface": where the path breaks
     double share = 0.0;                 // of the shaded pixels, [0,1]; a pixel may be marked by several
 };
 

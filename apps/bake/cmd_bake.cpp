@@ -20,6 +20,7 @@
 #include "apps/cli/values.h"
 #include "core/base/file.h"
 #include "core/image/io/image_io.h"
+#include "core/jobs/activity.h"
 #include "core/jobs/cores.h"
 #include "raster/frame/frame.h"
 #include "shading/bake/environment/environment_cache.h"
@@ -374,6 +375,7 @@ int run_bake(const BakeArguments& arguments, const OptionTable& given)
         return fail(usage_error("--azimuth", "is of brdf-lut"));
     if (given.given("--size") && arguments.what != "tpr" && arguments.what != "half-vectors" && arguments.what != "brdf-lut")
         return fail(usage_error("--size", "is of tpr, half-vectors and brdf-lut"));
+    const Activity activity(arguments.what);
     if (arguments.what == "half-vectors" || arguments.what == "brdf-lut")
         return run_phong(arguments, given);
     if (arguments.what == "displaced")

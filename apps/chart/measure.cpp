@@ -24,6 +24,7 @@
 #include "core/image/magma.h"
 #include "core/image/metrics/flip.h"
 #include "core/image/metrics/metrics.h"
+#include "core/jobs/activity.h"
 #include "core/simd/cpu.h"
 #include "raster/reference/scene_key.h"
 
@@ -188,6 +189,7 @@ Status Chart::measure_pair(const SeenScene& scene, const std::shared_ptr<const E
 
 Status Chart::measure_place(const Place& place)
 {
+    const Activity activity(fmt::format("{}, {}", place.scene.data->name, describe(place.cell)));
     std::vector<ChartRow> rows;
     bool complete = true; // nothing is left to be compared with the reference
     for (const Setting& setting : settings_) {

@@ -15,6 +15,7 @@
 #include "apps/cli/suggest.h"
 #include "core/base/cgroup.h"
 #include "core/base/version.h"
+#include "core/jobs/activity.h"
 #include "core/jobs/cores.h"
 
 namespace burnish {
@@ -29,14 +30,21 @@ constexpr const char* kFooter = R"(Examples:
   burnish list techniques
   burnish info --json
 
-Exit codes: 0 done, 1 results differ, 2 wrong option, 3 sizes do not match, 4 bad input, 6 NaN or Inf in a picture,
-7 output not written, 70 a fault of the program, 77 not available on this machine, 130 or 143 stopped, with everything
+Exit codes: 0 done, 1 results differ, 2 wrong option, 3 sizes do not match, 4 bad input, 5 a reference is missing,
+6 NaN or Inf in a picture, 7 output not written, 70 a fault of the program, 77 not available on this machine, 130 or 143 stopped, with everything
 kept in a checkpoint.)";
 
 int print_help(const Command* command, const std::vector<Command>& commands)
 {
     std::fputs((command ? help_of(*command) : help_of(commands, kFooter)).c_str(), stdout);
     return 0;
+}
+
+// A call without words is a mistake, as a script makes it, and its answer is the list of subcommands.
+int print_help_as_error(const std::vector<Command>& commands)
+{
+    std::fputs(help_of(commands, kFooter).c_str(), stderr);
+    return fail(usage_error("", "a subcommand is required"));
 }
 
 int print_version()
@@ -68,7 +76,7 @@ int run(const std::vector<std::string>& words)
     if (first == "--version")
         return print_version();
     if (first.empty())
-        return fail(usage_error("", "A subcommand is required (see burnish --help)"));
+        return print_help_as_error(commands);
     if (first[0] == '-')
         return fail(usage_error("", "The following argument was not expected: " + first + " (see burnish --help)"));
     if (first == "help") {
@@ -93,6 +101,8 @@ int run(const std::vector<std::string>& words)
     }
     if (const Status read = read_command_line(*command, rest); !read)
         return fail(read.error());
+    Activity::tell(!command->options.given("--quiet"));
+    const Activity activity(command->name);
     return command->run(command->options);
 }
 

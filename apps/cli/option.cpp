@@ -44,7 +44,7 @@ std::string Option::help_text() const
     std::string text = help;
     if (const std::size_t at = text.find("{}"); at != std::string::npos)
         text.replace(at, 2, values_text(value));
-    const std::string shown = initial ? *initial : takes_value() ? value.get() : "";
+    const std::string shown = required ? "" : initial ? *initial : takes_value() ? value.get() : ""; // what must be given has no default
     return shown.empty() ? text : fmt::format("{} ({})", text, shown);
 }
 

@@ -68,7 +68,12 @@ void Report::wrote(const std::string& path)
 void Report::figures(const std::string& lines)
 {
     if (!quiet_)
-        std::fputs(printable_lines(lines).c_str(), stdout_promised_ ? stderr : stdout);
+        asked_for(lines);
+}
+
+void Report::asked_for(const std::string& lines)
+{
+    std::fputs(printable_lines(lines).c_str(), stdout_promised_ ? stderr : stdout);
 }
 
 void Report::figure(const std::string& label, const std::string& text)

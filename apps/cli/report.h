@@ -32,6 +32,7 @@ class Report {
     void wrote(const std::string& path);                            // an event, but of standard output
     // Results, on stdout; on stderr where stdout has been promised to machine output. Not with --quiet.
     void figures(const std::string& lines);
+    void asked_for(const std::string& lines);                       // the same, but also with --quiet: a "-" asked for them
     void figure(const std::string& label, const std::string& text); // one line, labelled as events are
     void promise_stdout(const std::vector<std::string>& files);     // where one of them is "-"
     void release();

@@ -7,6 +7,7 @@
 #include "apps/cli/command.h"
 #include "apps/cli/outputs.h"
 #include "apps/cli/report.h"
+#include "apps/compare/alpha.h"
 #include "apps/compare/figures.h"
 #include "apps/compare/options.h"
 #include "core/image/io/image_io.h"
@@ -115,6 +116,7 @@ Result<Pictures> read_pictures(const CompareOptions& options, const Jobs& jobs)
             pictures.warnings.push_back(names[i] + ": " + warning);
     pictures.reference = std::move(*images[0]);
     pictures.test = std::move(*images[1]);
+    pictures.note = drop_lone_alpha(pictures.reference, options.reference, pictures.test, options.test);
     if (Status match = check_match(options.test, pictures.test, options.reference, pictures.reference); !match)
         return match.error();
     for (std::size_t i = 2; i < images.size(); ++i) {
@@ -189,6 +191,8 @@ int run_compare(const CompareArguments& arguments, const OptionTable& given)
     report.release();
     for (const std::string& warning : pictures->warnings)
         report.warning(warning);
+    if (!pictures->note.empty())
+        report.event("note", pictures->note);
     report.detail("pictures", describe(pictures->reference));
 
     const CompareFigures figures = compare_pictures(options, *pictures, jobs);

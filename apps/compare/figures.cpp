@@ -79,8 +79,8 @@ Json compare_json(const CompareOptions& options, const CompareFigures& figures)
     put("flip_weighted_median", flip, errors, e.weighted_median);
     put("flip_max", flip, errors, e.max);
     const FlipExposures& range = figures.flip.exposures;
-    put("start_exposure", asked.flip_hdr, errors, static_cast<double>(range.start_ev));
-    put("stop_exposure", asked.flip_hdr, errors, static_cast<double>(range.stop_ev));
+    put("start_exposure", asked.flip_hdr, errors, shortest_decimal(range.start_ev));
+    put("stop_exposure", asked.flip_hdr, errors, shortest_decimal(range.stop_ev));
     if (asked.flip_hdr)
         json["exposures"] = errors ? Json(range.count) : Json();
     const PixelFigures p = figures.pixels.value_or(PixelFigures{});

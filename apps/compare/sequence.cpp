@@ -9,6 +9,7 @@
 #include "apps/cli/numbered.h"
 #include "apps/cli/outputs.h"
 #include "apps/cli/report.h"
+#include "apps/compare/alpha.h"
 #include "apps/compare/options.h"
 #include "apps/report/json.h"
 #include "core/image/io/image_io.h"
@@ -20,6 +21,7 @@ namespace {
 struct Frames {
     int number = 0;
     Image reference, test;
+    std::string note; // on alpha, where only one of the two has it
 };
 
 double mean_of(const Image& errors)
@@ -79,10 +81,12 @@ Result<Frames> read_frames(const CompareOptions& options, int number, const Imag
             if (said.insert(warning).second) // once, for the first picture of the row
                 report.warning(name + ": " + warning);
         *to = std::move(*image);
-        const Image& like = first ? *first : frames.reference;
-        if (const Status good = check_like(name, *to, options.reference, like); !good)
-            return good.error();
     }
+    frames.note = drop_lone_alpha(frames.reference, options.reference, frames.test, options.test);
+    const Image& like = first ? *first : frames.reference;
+    for (const auto& [pattern, image] : {std::pair{&options.reference, &frames.reference}, {&options.test, &frames.test}})
+        if (const Status good = check_like(numbered(*pattern, number), *image, options.reference, like); !good)
+            return good.error();
     return frames;
 }
 
@@ -107,6 +111,8 @@ int compare_sequences(const CompareOptions& options)
         Result<Frames> frames = read_frames(options, number, before ? &before->reference : nullptr, said, report);
         if (!frames)
             return fail(frames.error());
+        if (!frames->note.empty() && !before)
+            report.event("note", frames->note);
         floats = frames->reference.type == PixelType::f32;
         if (options.metrics && options.metrics->flip_hdr && !floats)
             return fail(usage_error("--metric", "flip-hdr needs float pictures"));

@@ -14,6 +14,7 @@
 #include "core/base/version.h"
 #include "core/image/metrics/flip.h"
 #include "core/image/metrics/metrics.h"
+#include "core/jobs/activity.h"
 #include "core/simd/cpu.h"
 #include "raster/tile/tile_renderer.h"
 
@@ -90,6 +91,13 @@ Result<ParityRow> compare(const Bench& bench, ParityRow row, const RenderOptions
     return row;
 }
 
+// Where a row stands among all, of which the others are drawn before or after it.
+std::string row_text(const ParityReport& out, const ParityRow& row)
+{
+    return fmt::format("row {} ({} {}, {})", out.rows.size() + 1, row.scene, row.technique,
+                       counted(static_cast<std::uint64_t>(row.msaa), "sample"));
+}
+
 Status compare_place(const Bench& bench, const ParityPlace& place, const ParitySet& set, ParityReport& out)
 {
     RenderOptions base = set.frames.front();
@@ -119,6 +127,7 @@ Status compare_place(const Bench& bench, const ParityPlace& place, const ParityS
         if (!*made)
             return made->error();
     for (const RenderOptions& options : set.frames) {
+        const Activity activity(row_text(out, named_row(place, set, options)));
         Result<ParityRow> compared = compare(bench, named_row(place, set, options), options, scene->view, *tile, *vulkan);
         const ParityRow row = compared ? std::move(*compared) : failed_row(place, set, options, compared.error());
         if (row.failed())

@@ -14,6 +14,7 @@
 #include "core/base/clock.h"
 #include "core/base/text.h"
 #include "core/base/version.h"
+#include "core/jobs/activity.h"
 #include "core/simd/cpu.h"
 #include "raster/tile/tile_renderer.h"
 
@@ -215,6 +216,8 @@ void race_scene(Race& bench, std::size_t first, std::size_t last)
     for (std::size_t i = first; i < last; ++i)
         for (std::size_t d = 0; d < bench.devices.size(); ++d) {
             FrameDesc desc = frames[i].frame;
+            const Activity activity(fmt::format("row {} of {}: {} {}", i * bench.devices.size() + d + 1,
+                                                frames.size() * bench.devices.size(), frames[i].scene, desc.technique));
             desc.view = scene->view;
             add_row(bench, frames[i], d,
                     renderers[d] ? race(*tile, *renderers[d], desc, bench.plan.runs, *bench.jobs) : Result<RaceRow>(renderers[d].error()));

@@ -15,6 +15,7 @@
 #include "apps/report/png.h"
 #include "apps/report/svg.h"
 #include "core/image/io/image_io.h"
+#include "core/jobs/activity.h"
 #include "raster/frame/frame.h"
 #include "shading/bake/ltc/shipped.h"
 
@@ -113,6 +114,7 @@ int run_plot(const PlotArguments& arguments, const OptionTable& given)
     lobe.model = lobe_of(arguments.frame, arguments.frame.tilt_rad != glm::vec2(0.0f));
     lobe.tilt_x_deg = static_cast<double>(glm::degrees(arguments.frame.tilt_rad.x));
     lobe.tilt_y_deg = static_cast<double>(glm::degrees(arguments.frame.tilt_rad.y));
+    const Activity activity("drawing " + arguments.what);
     if (page)
         return write(arguments, ellipsoid_page());
     const Drawing drawing = arguments.what == "axis"     ? plot_axis(lobe)

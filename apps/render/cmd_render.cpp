@@ -95,7 +95,10 @@ int finish(const RenderOptions& options, const Rendered& rendered, Report& repor
     const Status written = write_outputs(options, rendered, report);
     if (rendered.risks) {
         report.detail("risks", fmt::format("found in {:.2f} ms", rendered.risks->ms));
-        report.figures(risk_lines(*rendered.risks));
+        if (options.risks == "-")
+            report.asked_for(risk_lines(*rendered.risks));
+        else
+            report.figures(risk_lines(*rendered.risks));
     }
     report.event("pixel hash:", hash_text(rendered.figures.hash));
     int code = 0;

@@ -1,6 +1,7 @@
 // Options without effect under the others.
 #include <algorithm>
 #include <fmt/core.h>
+#include <string_view>
 
 #include "apps/render/options.h"
 #include "core/image/io/image_io.h"
@@ -29,7 +30,8 @@ void warn_of_no_effect(const OptionTable& given, RenderOptions& out)
         warn("--anisotropy", of_technique);
     if (reference)
         for (const char* option : {"--technique", "--msaa", "--tile-size", "--resolve"})
-            warn(option, of_backend);
+            if (out.frame.background || option != std::string_view("--msaa")) // of which alpha is the share
+                warn(option, of_backend);
     if (out.frame.area_way == kAreaWay_off)
         warn("--shadows", "--area-lights off");
     if (!out.moment.seconds)

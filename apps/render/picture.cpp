@@ -48,10 +48,10 @@ void report_environment(const Environment& environment, double ms, Report& repor
     report_key_lights(environment, report);
 }
 
-// Behind what is drawn without a background there is nothing. The reference has no samples that a triangle covers.
+// Behind what is drawn without a background there is nothing.
 bool draws_alpha(const RenderOptions& options)
 {
-    return !options.frame.background && options.backend != "reference";
+    return !options.frame.background;
 }
 
 // The reference has no samples of its own to resolve.

@@ -9,6 +9,8 @@
 #include <variant>
 #include <vector>
 
+#include "core/base/text.h"
+
 namespace burnish {
 
 class Json {
@@ -20,7 +22,7 @@ class Json {
     template <std::signed_integral T> Json(T value) : value_(static_cast<std::int64_t>(value)) {}
     template <std::unsigned_integral T> Json(T value) : value_(static_cast<std::uint64_t>(value)) {}
     Json(double value) : value_(value) {} // NaN and infinities become null
-    Json(float value) : value_(static_cast<double>(value)) {}
+    Json(float value) : value_(shortest_decimal(value)) {}
     Json(std::nullptr_t) {}
     Json(const char* text) : value_(std::string(text)) {}
     Json(std::string text) : value_(std::move(text)) {}

@@ -1,5 +1,7 @@
 #include "core/base/text.h"
 
+#include <charconv>
+#include <cmath>
 #include <cstdint>
 #include <cstdio>
 
@@ -74,6 +76,17 @@ std::string printable(const std::string& text, std::size_t most_bytes)
     while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80)
         --end;
     return shown(text.substr(0, end), false) + "...";
+}
+
+double shortest_decimal(float value)
+{
+    if (!std::isfinite(value))
+        return static_cast<double>(value);
+    char text[32];
+    const auto written = std::to_chars(text, text + sizeof text, value);
+    double number = 0.0;
+    std::from_chars(text, written.ptr, number);
+    return number;
 }
 
 std::string printable_lines(const std::string& text)

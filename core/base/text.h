@@ -12,4 +12,7 @@ std::string printable(const std::string& text, std::size_t most_bytes = std::str
 // The same for a text of several lines, whose line feeds stay.
 std::string printable_lines(const std::string& text);
 
+// Returns the number whose shortest decimal is the float's: 0.4 of 0.4f, where a conversion gives 0.4000000059604645.
+double shortest_decimal(float value);
+
 } // namespace burnish

@@ -12,7 +12,6 @@
 #include <algorithm>
 #include <mutex>
 
-#include "core/base/check.h"
 #include "core/jobs/cores.h"
 
 namespace burnish {
@@ -46,8 +45,7 @@ struct Jobs::Impl {
 
 Jobs::Jobs(int threads) : impl_(std::make_unique<Impl>())
 {
-    BN_CHECK_OP(threads, >=, 0);
-    impl_->threads = std::min(threads == 0 ? usable_cores() : threads, kMostThreads);
+    impl_->threads = std::min(threads <= 0 ? usable_cores() : threads, kMostThreads);
     if (impl_->threads == 1)
         return;
     allow_threads(impl_->threads);

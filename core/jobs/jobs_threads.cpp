@@ -6,7 +6,6 @@
 #include <exception>
 #include <thread>
 
-#include "core/base/check.h"
 #include "core/jobs/cores.h"
 #include "core/jobs/jobs.h"
 
@@ -26,8 +25,7 @@ struct Jobs::Impl {
 
 Jobs::Jobs(int threads) : impl_(std::make_unique<Impl>())
 {
-    BN_CHECK_OP(threads, >=, 0);
-    impl_->threads = std::min(threads == 0 ? usable_cores() : threads, kMostThreads);
+    impl_->threads = std::min(threads <= 0 ? usable_cores() : threads, kMostThreads);
 }
 
 Jobs::~Jobs() = default;

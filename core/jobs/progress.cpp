@@ -6,28 +6,21 @@
 #include <cstdio>
 #include <cstdlib>
 #include <mutex>
+#include <optional>
 
 #include <fmt/format.h>
 
 #include "core/base/text.h"
+#include "core/jobs/activity.h"
 #include "core/jobs/jobs.h"
 
 namespace burnish {
 namespace {
 
 constexpr std::uint64_t kRedrawNs = 100'000'000; // at most ten times a second
-constexpr double kLineSeconds = 10.0;            // between lines where there is no terminal
 constexpr double kTellSeconds = 1.0;             // before the time left is guessed
 constexpr double kSmallPart = 0.02;              // of the work: what comes before a first step as small is none of it
 constexpr std::size_t kBarCells = 30;
-
-// Nanoseconds between lines; BURNISH_PROGRESS_SECONDS says otherwise.
-std::uint64_t line_ns()
-{
-    const char* text = std::getenv("BURNISH_PROGRESS_SECONDS");
-    const double seconds = text ? std::strtod(text, nullptr) : kLineSeconds;
-    return static_cast<std::uint64_t>((seconds > 0.0 && seconds < 1e6 ? seconds : kLineSeconds) * 1e9);
-}
 
 // ", 1:05 min left"; nothing where it is too early to tell.
 std::string time_left(double part, double elapsed_s)
@@ -60,7 +53,8 @@ struct Progress::Impl {
     std::atomic<std::size_t> done{0};
     std::atomic<std::uint64_t> next_draw_ns{0};
     std::mutex drawing;
-    std::size_t drawn = 0; // characters now on the line, guarded by `drawing`
+    std::size_t drawn = 0;            // characters now on the line, guarded by `drawing`
+    std::optional<Activity> activity; // steps that take long are told, too
 
     double part() const { return part_after(0); }
     double part_after(std::size_t first) const
@@ -77,6 +71,7 @@ struct Progress::Impl {
 
     void draw()
     {
+        Activity::said_already();
         if (!terminal) {
             std::fprintf(stderr, "%s: %.0f %%%s\n", label.c_str(), part() * 100.0, left().c_str());
             return;
@@ -104,14 +99,22 @@ Progress::Progress(std::string label, std::size_t total, bool quiet)
     impl_->label = printable(label);
     impl_->total = total;
     impl_->terminal = isatty(STDERR_FILENO) != 0;
-    impl_->period_ns = impl_->terminal ? kRedrawNs : line_ns();
+    impl_->period_ns = impl_->terminal ? kRedrawNs : Activity::interval_ns();
     impl_->begin_ns = Trace::now_ns();
     impl_->next_draw_ns = impl_->begin_ns + (impl_->terminal ? 0 : impl_->period_ns); // short work says nothing
+    impl_->activity.emplace(impl_->label, [impl = impl_.get()] {
+        const std::lock_guard lock(impl->drawing);
+        impl->next_draw_ns = Trace::now_ns() + impl->period_ns;
+        impl->draw();
+    });
 }
 
 Progress::~Progress()
 {
-    if (!impl_ || impl_->drawn == 0)
+    if (!impl_)
+        return;
+    impl_->activity.reset();
+    if (impl_->drawn == 0)
         return;
     std::fprintf(stderr, "\r%*s\r", static_cast<int>(impl_->drawn), "");
     std::fflush(stderr);

@@ -96,11 +96,14 @@ void square_axes(glm::dvec3& u, glm::dvec3& v)
 
 const AreaShapeInfo& area_shape_info(AreaShape shape)
 {
-    return kShapes[static_cast<std::size_t>(shape)];
+    static constexpr AreaShapeInfo kNoShape = {"light of no shape", 0, 0, "none"};
+    return static_cast<int>(shape) < kAreaShapes ? kShapes[static_cast<std::size_t>(shape)] : kNoShape;
 }
 
 std::string area_light_fault(const AreaLight& light)
 {
+    if (static_cast<int>(light.shape) >= kAreaShapes)
+        return "its shape does not exist";
     const AreaShapeInfo& shape = area_shape_info(light.shape);
     const int count = static_cast<int>(light.points.size());
     if (count < shape.least || count > shape.most)
@@ -306,7 +309,9 @@ Status add_emitters(Scene& scene, int most_lights, const std::string& file)
         const Node& node = scene.nodes[i];
         if (node.area_light == kNone)
             continue;
-        BN_CHECK_OP(static_cast<std::size_t>(node.area_light), <, scene.area_lights.size());
+        if (node.area_light < 0 || static_cast<std::size_t>(node.area_light) >= scene.area_lights.size())
+            return Error{ExitCode::bad_input, file, fmt::format("/nodes/{}/area_light", i),
+                         fmt::format("area light {} does not exist", node.area_light)};
         const AreaLight& light = scene.area_lights[static_cast<std::size_t>(node.area_light)];
         if (const std::string fault = area_light_fault(light); !fault.empty())
             return Error{ExitCode::bad_input, file, fmt::format("area light {}", node.area_light), fault};

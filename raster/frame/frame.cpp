@@ -166,6 +166,36 @@ glm::mat4 clip_from_world(const View& v)
     return m;
 }
 
+namespace {
+
+// Whether a camera is one: axes of unit length at right angles, finite numbers, planes in order.
+Status check_view(const View& v)
+{
+    const auto usage = [](const char* field, const char* reason) {
+        return Error{ExitCode::usage, "", std::string("/view/") + field, reason};
+    };
+    const auto finite = [](const glm::vec3& a) { return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z); };
+    if (!finite(v.eye))
+        return usage("eye", "the camera's place is not finite");
+    constexpr float kOff = 1e-3f; // of rounding, and more
+    for (const auto& [axis, name] : {std::pair(v.right, "right"), std::pair(v.up, "up"), std::pair(v.forward, "forward")})
+        if (!(std::fabs(glm::dot(axis, axis) - 1.0f) <= kOff))
+            return usage(name, "an axis of the camera has no unit length");
+    if (!(std::fabs(glm::dot(v.right, v.up)) <= kOff && std::fabs(glm::dot(v.up, v.forward)) <= kOff &&
+          std::fabs(glm::dot(v.forward, v.right)) <= kOff))
+        return usage("forward", "the camera's axes are not at right angles");
+    for (const auto& [half, name] : {std::pair(v.tan_half_x, "tan_half_x"), std::pair(v.tan_half_y, "tan_half_y")})
+        if (!std::isfinite(half) || half == 0.0f)
+            return usage(name, "the camera sees an angle that is 0 or not finite");
+    if (!std::isfinite(v.znear) || (!v.orthographic && !(v.znear > 0.0f)))
+        return usage("znear", "the near plane must lie in front of the camera");
+    if (v.orthographic && (!std::isfinite(v.zfar) || !(v.zfar > v.znear)))
+        return usage("zfar", "the far plane must lie behind the near one");
+    return {};
+}
+
+} // namespace
+
 Status check_desc(const FrameDesc& d)
 {
     const auto usage = [](std::string reason) { return Error{ExitCode::usage, "", "", std::move(reason)}; };
@@ -188,6 +218,12 @@ Status check_desc(const FrameDesc& d)
         if (!(std::min(value.x, value.y) >= p.least - 1e-4 && std::max(value.x, value.y) <= p.most + 1e-4))
             return usage(std::string(p.option) + " is out of its range");
     }
+    if (!(d.roughness <= 1.0f))
+        return usage("the roughness must lie in 0..1, or below 0 for that of the materials");
+    if (!(std::fabs(d.anisotropy) <= 1.0f))
+        return usage("the anisotropy must lie in -1..1");
+    if (const Status seen = check_view(d.view); !seen)
+        return seen;
     return check_lobe(d, *find_technique(d.technique));
 }
 

@@ -8,6 +8,7 @@
 #include "core/base/cache.h"
 #include "core/base/file.h"
 #include "core/base/hash.h"
+#include "core/jobs/activity.h"
 #include "raster/frame/colours.h"
 #include "raster/frame/pyramids.h"
 #include "shading/bake/mip/filter.h"
@@ -82,6 +83,7 @@ void keep_lobes(Scene& scene, const Material& m, const std::string& folder, cons
         kept.push_back(std::move(file.materials[0]));
         return;
     }
+    const Activity activity("levels of " + levels_name(m));
     kept.push_back(make_mip_levels(source, m.mip_filter, m.mip_kappa, jobs, mip_help(scene, m)));
     if (const Status written = write_kept(path, {{&kept.back()}, 0, {}}); !written)
         scene.warnings.push_back("levels of material '" + m.name + "' are not cached: " + written.error().line());
@@ -100,6 +102,7 @@ void keep_map(Scene& scene, const Material& m, const UsedMap& map, const std::st
         kept.push_back(std::move(file.maps[0]));
         return;
     }
+    const Activity activity(std::string("levels of the ") + name_of(map.part) + " of material '" + m.name + "'");
     kept.push_back(map_levels(scene, m, map, id, jobs));
     if (const Status written = write_kept(path, {{}, 1, [&](std::size_t) { return kept.back(); }}); !written)
         scene.warnings.push_back(std::string("levels of the ") + name_of(map.part) + " of material '" + m.name +

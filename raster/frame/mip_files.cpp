@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "core/base/file.h"
+#include "core/jobs/activity.h"
 #include "raster/frame/colours.h"
 #include "raster/frame/frame.h"
 #include "raster/frame/kept_mips.h"
@@ -81,6 +82,7 @@ Status settle_nets(Scene& scene, const Dress& with, const Limits& limits)
     jobs.parallel_for(found.size(), [&](std::size_t i, int) {
         Material& m = scene.materials[i];
         m.mip_net = *net;
+        const Activity activity("comparing levels of " + levels_name(m));
         if (m.mip_filter == kMipFilter_mipnet && with.mip_fallback == MipFallback::automatic && is_filtered(scene, m))
             found[i] = compare_net(mip_source(scene, m), **net, m.mip_kappa, is_metal(scene, m), Jobs(1));
     });

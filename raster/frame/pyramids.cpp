@@ -4,6 +4,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "core/jobs/activity.h"
 #include "core/scene/heights.h"
 #include "core/simd/half.h"
 #include "raster/frame/colours.h"
@@ -347,11 +348,17 @@ MaterialLevels filtered_levels(const Scene& scene, const Jobs& jobs, const Taugh
             for (std::size_t k = 0; there && k < there->materials.size(); ++k)
                 if (fits(there->materials[k], source, hash, scene, m))
                     all[i] = std::shared_ptr<const MipLevels>(there, &there->materials[k]);
+        const Activity activity("levels of " + levels_name(m));
         if (!all[i])
             all[i] =
                 std::make_shared<const MipLevels>(make_mip_levels(source, m.mip_filter, m.mip_kappa, jobs, mip_help(scene, m, advance)));
     }
     return all;
+}
+
+std::string levels_name(const Material& m)
+{
+    return "material '" + m.name + "' by " + mip_filters()[static_cast<std::size_t>(m.mip_filter)].name;
 }
 
 std::vector<PyramidKey> used_pyramids(const Scene& scene)

@@ -23,6 +23,8 @@
 
 namespace burnish {
 
+std::string levels_name(const Material& m); // "material 'steel' by kappa"
+
 class MipSource;
 struct MipHelp;
 

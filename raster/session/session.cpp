@@ -4,12 +4,16 @@
 #include <fmt/format.h>
 #include <functional>
 #include <new>
+#include <optional>
 #include <utility>
 
+#include "core/jobs/activity.h"
+#include "core/scene/check_scene.h"
 #include "core/scene/directional_roughness.h"
 #include "core/scene/gltf/gltf.h"
 #include "core/scene/heights.h"
 #include "raster/frame/mip_files.h"
+#include "raster/session/check_parts.h"
 #include "shading/bake/environment/turn.h"
 #include "shading/bake/ltc/shipped.h"
 #include "shading/bake/tables/phong_files.h"
@@ -118,6 +122,8 @@ Result<std::shared_ptr<const SceneData>> make_settled_data(const std::string& na
         if (const Status size = check_draw_size(data->scene, limits, name); !size)
             return size.error();
         data->tables = make_draw_tables(data->scene);
+        if (const Status range = check_draw_range(data->scene, data->tables, name); !range)
+            return range.error();
         warn_of_unfiltered(data->scene);
         if (Status settled = settle(data->scene); !settled)
             return settled.error();
@@ -129,7 +135,15 @@ Result<std::shared_ptr<const SceneData>> make_settled_data(const std::string& na
 
 Result<std::shared_ptr<const SceneData>> make_scene_data(const std::string& name, Scene scene, const Limits& limits)
 {
-    return make_settled_data(name, std::move(scene), limits, [](Scene&) { return Status(); });
+    return guarded(name, [&]() -> Result<std::shared_ptr<const SceneData>> {
+        fill_missing_columns(scene);
+        update_world(scene);
+        if (const Status sound = check_scene(scene, limits, name); !sound)
+            return sound.error();
+        if (const Status sound = check_mip_filters(scene, name); !sound)
+            return sound.error();
+        return make_settled_data(name, std::move(scene), limits, [](Scene&) { return Status(); });
+    });
 }
 
 Result<std::shared_ptr<const SceneData>> load_scene_data(const std::string& spec, const Limits& limits, const Dress& with,
@@ -137,6 +151,7 @@ Result<std::shared_ptr<const SceneData>> load_scene_data(const std::string& spec
 {
     using Made = Result<std::shared_ptr<const SceneData>>;
     return guarded(spec, [&]() -> Made {
+        std::optional<Activity> activity("reading " + spec);
         Result<Scene> scene = load_scene(spec, limits, moment);
         if (!scene)
             return scene.error();
@@ -151,6 +166,7 @@ Result<std::shared_ptr<const SceneData>> load_scene_data(const std::string& spec
                 return read.error();
             add_area_light(*scene, light);
         }
+        activity.emplace("placing triangles and choosing mip filters");
         return make_settled_data(spec, std::move(*scene), limits, [&](Scene& s) -> Status {
             if (s.mips && with.mip_filter == MipFilter{})
                 take_filters_of_mips(s);
@@ -166,6 +182,7 @@ Result<std::shared_ptr<const Environment>> load_shared_environment(const std::st
 {
     using Made = Result<std::shared_ptr<const Environment>>;
     return guarded(spec, [&]() -> Made {
+        const Activity activity("environment " + spec);
         Result<Environment> environment = load_environment(spec, options, limits, jobs);
         if (!environment)
             return environment.error();
@@ -182,6 +199,7 @@ Result<std::shared_ptr<const DfgTable>> standard_dfg(const Jobs& jobs)
 {
     using Made = Result<std::shared_ptr<const DfgTable>>;
     return guarded("", [&]() -> Made {
+        const Activity activity("directional albedo");
         static const std::shared_ptr<const DfgTable> table = std::make_shared<const DfgTable>(bake_dfg(kDfgSize, kDfgSamples, jobs));
         return table;
     });
@@ -194,6 +212,7 @@ Result<Session> Session::make(SessionParts parts, const SessionOptions& options)
     if (options.backend != Backend::reference && parts.environment->irradiance.texels.empty())
         return Error{ExitCode::usage, parts.environment->name, "", "was opened as a picture only: the reference alone draws by it"};
     return guarded(parts.scene->name, [&]() -> Result<Session> {
+        const Activity activity("preparing the renderer");
         if (!parts.jobs)
             parts.jobs = std::make_shared<const Jobs>(0);
         if (!parts.dfg) {
@@ -202,6 +221,8 @@ Result<Session> Session::make(SessionParts parts, const SessionOptions& options)
                 return table.error();
             parts.dfg = *table;
         }
+        if (const Status sound = check_parts(parts); !sound)
+            return sound.error();
         parts.turned.reset();
         if (parts.environment->rotation_deg != 0.0f) {
             const glm::dmat4 motion(sky_from_world(parts.environment->rotation_deg));
@@ -217,6 +238,8 @@ Result<Session> Session::make(SessionParts parts, const SessionOptions& options)
 Result<Session> Session::open(const std::string& scene, const std::string& environment, const OpenOptions& open,
                               const SessionOptions& options)
 {
+    if (open.threads < 0)
+        return Error{ExitCode::usage, "", "threads", std::to_string(open.threads) + " threads, 0 stands for all"};
     return guarded(scene, [&]() -> Result<Session> {
         SessionParts parts;
         parts.jobs = std::make_shared<const Jobs>(open.threads);
@@ -247,6 +270,7 @@ FrameDesc Session::drawn(const FrameDesc& desc) const
 Result<Frame> Session::render(const FrameDesc& desc, Frame recycled)
 {
     return guarded(parts_.scene->name, [&]() {
+        const Activity activity(fmt::format("drawing {}x{}", desc.width, desc.height));
         Result<Frame> frame = renderer_->render(drawn(desc), std::move(recycled));
         if (frame && parts_.turned)
             turn_layers(glm::transpose(sky_from_world(parts_.environment->rotation_deg)), *frame);

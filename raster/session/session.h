@@ -41,7 +41,9 @@ struct SceneData { // a scene and what is drawn of it
 // are added to those of the scene, in world space.
 Result<std::shared_ptr<const SceneData>> load_scene_data(const std::string& spec, const Limits& limits, const Dress& with = {},
                                                          const Moment& moment = {}, const std::vector<AreaLight>& lights = {});
-// From a scene made in memory. The limits on area lights and on what instances expand to hold here too.
+// From a scene made in memory. The limits on pictures, area lights and what instances expand to hold here too. Columns of vertices that are
+// left out are filled (core/scene/check_scene.h). Errors: ExitCode::bad_input with the place of the first fault:
+// "/primitives/0/indices/17".
 Result<std::shared_ptr<const SceneData>> make_scene_data(const std::string& name, Scene scene, const Limits& limits);
 // "builtin:NAME", a path of an equirectangular picture, or of a .gltf or .glb file with an image-based light.
 Result<std::shared_ptr<const Environment>> load_shared_environment(const std::string& spec, const EnvironmentOptions& options,
@@ -98,7 +100,7 @@ class Session {
     // ExitCode::bad_input, usage, unavailable.
     static Result<Session> open(const std::string& scene, const std::string& environment, const OpenOptions& open = {},
                                 const SessionOptions& options = {});
-    // Errors: ExitCode::usage where scene or environment is missing, unavailable, bad_input where memory is short.
+    // Errors: ExitCode::usage where scene or environment is missing, unavailable, bad_input where a part is faulty or memory is short.
     static Result<Session> make(SessionParts parts, const SessionOptions& options = {});
 
     Session(Session&&) = default;

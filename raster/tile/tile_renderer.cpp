@@ -330,8 +330,9 @@ Frame frame_for(const FrameDesc& desc, bool blends, Frame recycled)
 {
     Frame frame;
     frame.color = std::move(recycled.color);
+    const std::size_t bytes = static_cast<std::size_t>(desc.width) * static_cast<std::size_t>(desc.height) * 3 * sizeof(float);
     if (frame.color.width != desc.width || frame.color.height != desc.height || frame.color.channels != 3 ||
-        frame.color.type != PixelType::f32 || frame.color.empty())
+        frame.color.type != PixelType::f32 || frame.color.bytes.size() != bytes)
         frame.color = make_image(desc.width, desc.height, 3, PixelType::f32);
     const std::size_t samples =
         static_cast<std::size_t>(desc.width) * static_cast<std::size_t>(desc.height) * static_cast<std::size_t>(desc.msaa);

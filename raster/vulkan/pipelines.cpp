@@ -4,6 +4,7 @@
 #include <array>
 #include <fmt/format.h>
 
+#include "core/jobs/activity.h"
 #include "core/scene/draw_tables.h"
 #include "raster/vulkan/bands.h"
 #include "raster/vulkan/prune.h"
@@ -176,6 +177,7 @@ VkPipeline Pipelines::compute(const std::string& shader, const Specialization& c
     info.stage = stage_info(VK_SHADER_STAGE_COMPUTE_BIT, module(shader, constants), &specialization.info);
     info.layout = layout_;
     VkPipeline made = VK_NULL_HANDLE;
+    const Activity activity("compiling " + shader);
     BN_VK(vkCreateComputePipelines(context_.device(), context_.pipeline_cache(), 1, &info, nullptr, &made));
     return pipelines_[key] = made;
 }
@@ -227,6 +229,7 @@ VkPipeline Pipelines::graphics(const GraphicsState& state, const Specialization&
     info.pColorBlendState = &blend, info.pDynamicState = &dynamic;
     info.layout = state.lean ? lean_pipeline_layout_ : layout_;
     VkPipeline made = VK_NULL_HANDLE;
+    const Activity activity("compiling " + state.fragment);
     BN_VK(vkCreateGraphicsPipelines(context_.device(), context_.pipeline_cache(), 1, &info, nullptr, &made));
     return pipelines_[key] = made;
 }

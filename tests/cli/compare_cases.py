@@ -143,12 +143,30 @@ def mismatch(bench):
     pictures(bench)
     scratch(bench, "narrow.png", png(23, 16, ramp))
     scratch(bench, "low.png", png(24, 15, ramp))
-    scratch(bench, "alpha.png", png(24, 16, lambda x, y: (*ramp(x, y), 255), channels=4))
     scratch(bench, "gray.png", png(24, 16, lambda x, y: (x,), channels=1))
-    for name in ("narrow.png", "low.png", "alpha.png", "gray.png", "a.pfm"):
+    for name in ("narrow.png", "low.png", "gray.png", "a.pfm"):
         for pair in (("a.png", name), (name, "a.png")):
             bench.run("compare", *pair, "--json", "j.json").expect(3).expect_one_line(*pair)
     check(not (bench.folder / "j.json").exists(), "figures of pictures that cannot be compared")
+
+
+@case("compare.alpha_of_one_alone_is_left_out")
+def lone_alpha(bench):
+    pictures(bench)
+    for alpha in (255, 40):
+        scratch(bench, "alpha.png", png(24, 16, lambda x, y: (*ramp(x, y), alpha), channels=4))
+        for pair in (("a.png", "alpha.png"), ("alpha.png", "a.png")):
+            done = bench.run("compare", *pair, "--json", "-").expect(0)
+            found = json.loads(done.out)
+            check(found["max_abs"] == 0 and found["flip_mean"] == 0, f"{found}")
+            check(done.err.startswith("note        alpha.png alone has alpha: colours are compared\n"), done.describe())
+    scratch(bench, "narrow.png", png(23, 16, lambda x, y: (*ramp(x, y), 255), channels=4))  # it differs in more than that
+    bench.run("compare", "a.png", "narrow.png").expect(3).expect_one_line("23x16, 4 channels")
+    for name in ("r", "t"):  # rows too
+        for number in (1, 2):
+            scratch(bench, f"{name}{number}.png", png(24, 16, lambda x, y: (*ramp(x, y), 9)[: 4 if name == "t" else 3], channels=4 if name == "t" else 3))
+    done = bench.run("compare", "--sequence", "r%d.png", "t%d.png").expect(0)
+    check(done.err.count("alone has alpha") == 1 and "FLIP mean   0.000000" in done.out, done.describe())
 
 
 @case("compare.unreadable_pictures_are_refused", "input")

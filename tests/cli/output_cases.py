@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 import shutil
 import struct
 import subprocess
@@ -87,6 +88,36 @@ def alpha(bench):
     if done.code != 77:  # a machine without a device
         done.expect(0)
         check(tiff_pixels(bench.folder / "v.tif") == pixels, "Vulkan's alpha is another")
+
+
+@case("output.the_reference_has_the_alpha_of_the_tile_renderer", tier="check")
+def reference_alpha(bench):
+    drawn = ("render", "builtin:sphere", "--size", "48x48", "--msaa", "4", "--env-size", "32", "--roughness", "0.9", "--no-background", "-q")
+    done = bench.run(*drawn, "--backend", "reference", "--samples", "64", "-o", "r.tif", "-o", "r.exr", "-o", "r.png")
+    if done.code == 77:
+        raise Skipped("built without the reference")
+    check(done.expect(0).err == "", done.describe())
+    bench.run(*drawn, "-o", "t.tif", "-o", "t.exr").expect(0)
+    reference, tile = (tiff_pixels(bench.folder / f"{name}.tif") for name in "rt")
+    off = sum(a[3] != b[3] for a, b in zip(reference, tile))
+    check(off <= 2, f"alpha of {off} pixels is another")  # rays meet edges in floats, not on a grid of 1/256 pixel
+    check(len({a[3] for a in reference}) == 5, "a pixel has four samples")
+    found = json.loads(bench.run("compare", "r.exr", "t.exr", "--json", "-").expect(0).out)
+    check(found["flip_mean"] < 0.1, f"{found}")
+    # with a background the option of samples still does nothing, and is told
+    done = bench.run("render", "builtin:sphere", "--size", "16x16", "--env-size", "32", "--backend", "reference", "--samples", "4", "--msaa", "4").expect(0)
+    check("--msaa has no effect" in done.err, done.describe())
+
+
+@case("output.numbers_are_written_as_they_were_given")
+def shortest(bench):
+    """A float of 0.4 is 0.4, not 0.4000000059604645."""
+    text = bench.run("render", *SMALL, "--roughness", "0.4", "--anisotropy", "0.3", "--exposure", "0.1", "--stats", "-", "-q").expect(0).out
+    for line in ('"roughness": 0.4,', '"anisotropy": 0.3,', '"axis_beta": 2.3,'):
+        check(line in text, f"{line} is not in {text}")
+    text += bench.run("info", "--env", "builtin:sky", "--env-size", "32", "--json").expect(0).out
+    direction = re.search(r'"direction": \[(.*?)\]', text, re.S)[1]
+    check(all(len(number.strip().lstrip("-")) <= 12 for number in direction.split(",")), direction)
 
 
 @case("output.words_go_to_stderr")

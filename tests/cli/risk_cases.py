@@ -32,6 +32,18 @@ def told(bench):
     check(shares(bench.run(*VIEW, *BRUSHED, "--risks", "-").expect(0).out) == found, "words without a picture are others")
     done = bench.run(*VIEW, *BRUSHED, "--risks", "-", "--stats", "-").expect(0)
     check(json.loads(done.out)["pixel_hash"] == a["pixel_hash"] and shares(done.err) == found, done.describe())
+    # what "-" asks for is printed with -q too, and nothing else
+    quiet = bench.run(*VIEW, *BRUSHED, "--risks", "-", "-q").expect(0)
+    check(shares(quiet.out) == found and quiet.err == "", quiet.describe())
+
+
+@case("risks.say_the_eye_as_an_angle", tier="check")
+def angle(bench):
+    """A trial's place of the eye says nothing in another scene."""
+    done = bench.run("render", "builtin:plate", "--size", "48x32", "--env-size", "64", "--env-samples", "64", "--technique", "bent_normal",
+                     "--risks", "-").expect(0)
+    check(re.search(r"bent_normal beyond an eye \d\d degrees above the surface \(", done.out), done.out)
+    check(not re.search(r"beyond [^(]*\d,", done.out), done.out)
 
 
 @case("risks.follow_inputs_and_surroundings", tier="check")

@@ -47,6 +47,7 @@ import pixel_cases
 import processor_cases
 import plot_cases
 import profile_cases
+import progress_cases
 import reference_cases
 import relief_cases
 import risk_cases

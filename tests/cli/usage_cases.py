@@ -21,6 +21,25 @@ def help_is_everywhere(bench):
         check("\x1b" not in done.out, "help is coloured")
 
 
+@case("usage.no_words_print_the_subcommands")
+def no_words(bench):
+    """A mistake, for a script that lost its words; and its answer is the help, not a pointer to it."""
+    done = bench.run().expect(2)
+    listed = bench.run("--help").expect(0).out
+    check(done.out == "" and done.err == listed + "burnish: a subcommand is required\n", done.describe())
+
+
+@case("usage.options_that_must_be_given_show_no_default")
+def required(bench):
+    seen = 0
+    for name in re.findall(r"^  (\w+) ", bench.run("--help").expect(0).out.split("Subcommands:")[1].split("\n\n")[0], re.M):
+        text = bench.run(name, "--help").expect(0).out
+        for line in re.findall(r"^ .* REQUIRED.*(?:\n {30,}.*)?", text, re.M):
+            seen += 1
+            check(not line.rstrip().endswith(")"), f"{name}: {line}")
+    check(seen >= 3, f"only {seen} options were seen")
+
+
 @case("usage.version_is_name_and_number")
 def version(bench):
     done = bench.run("--version").expect(0)

@@ -74,6 +74,15 @@ Image fit_channels(const Image& image, const Format& format)
     return out;
 }
 
+bool holds_its_pixels(const Image& image)
+{
+    if (image.width <= 0 || image.height <= 0 || image.channels < 1 || image.type > PixelType::f32)
+        return false;
+    const std::size_t texel = static_cast<std::size_t>(image.channels) * pixel_type_bytes(image.type);
+    return image.bytes.size() % texel == 0 &&
+           image.bytes.size() / texel == static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
+}
+
 // RGBE holds neither negative values nor NaN nor Inf.
 void clamp_to_rgbe(Image& image)
 {
@@ -116,10 +125,8 @@ bool stores_channels(const std::string& path)
 
 Status write_image(const std::string& path, const Image& image)
 {
-    BN_CHECK(image.width > 0 && image.height > 0 && image.channels >= 1 && image.channels <= 4);
-    BN_CHECK_OP(image.bytes.size(), ==,
-                static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height) * static_cast<std::size_t>(image.channels) *
-                    pixel_type_bytes(image.type));
+    if (image.channels > 4 || !holds_its_pixels(image))
+        return output_error(path, "the picture's bytes are not those of its size and channels");
     const Format format = format_of(path);
     if (!format.name)
         return output_error(path, "the extension names no format that can be written (exr, hdr, pfm, png, jpg, tif)");
@@ -137,8 +144,8 @@ Status write_image(const std::string& path, const Image& image)
 
 Status write_channels(const std::string& path, const Image& image, const std::vector<std::string>& names)
 {
-    BN_CHECK(image.width > 0 && image.height > 0 && image.type == PixelType::f32);
-    BN_CHECK_OP(names.size(), ==, static_cast<std::size_t>(image.channels));
+    if (image.type != PixelType::f32 || !holds_its_pixels(image) || names.size() != static_cast<std::size_t>(image.channels))
+        return output_error(path, "the picture's bytes are not floats of its size and of the named channels");
     if (!stores_channels(path))
         return output_error(path, "this format has no channels of any name (exr)");
     try {
@@ -169,7 +176,8 @@ Result<std::vector<std::uint8_t>> encode_exr_levels(const std::string& path, con
 
 Result<std::string> encode_png(const Image& image)
 {
-    BN_CHECK(image.type == PixelType::u8 && !image.empty());
+    if (image.type != PixelType::u8 || image.channels > 4 || !holds_its_pixels(image))
+        return output_error("picture.png", "the picture's bytes are not those of its size and channels");
     try {
         const Result<Bytes> bytes = encode_image("picture.png", image, format_of("picture.png"));
         if (!bytes)

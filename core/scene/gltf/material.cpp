@@ -62,8 +62,8 @@ int scene_texture(Document& doc, int index, bool extras)
     return id;
 }
 
-// What a textureInfo refers to.
-TextureRef texture_ref(Document& doc, const Json& info, bool extras)
+// What a textureInfo refers to; `of` is its material, as warnings name it.
+TextureRef texture_ref(Document& doc, const Json& info, bool extras, const std::string& of)
 {
     TextureRef ref;
     ref.texture = scene_texture(doc, get_index(info, "index"), extras);
@@ -80,22 +80,23 @@ TextureRef texture_ref(Document& doc, const Json& info, bool extras)
         tex_coord = get_uint(*transform, "texCoord", tex_coord);
     }
     if (tex_coord > 1)
-        doc.warn(fmt::format("texture coordinates TEXCOORD_{} are not supported, TEXCOORD_0 is used", tex_coord));
+        doc.warn(fmt::format("{}: texture coordinates TEXCOORD_{} are not supported, TEXCOORD_0 is used", of, tex_coord));
     ref.uv_set = tex_coord == 1 ? 1 : 0;
     return ref;
 }
 
-Material load_material(Document& doc, const Json& source)
+Material load_material(Document& doc, const Json& source, std::size_t index)
 {
     Material material;
     material.name = get_string(source, "name");
+    const std::string of = quoted(material.name, "material", index);
 #define BN_FACTOR(kind, name, fallback, path, least, most) read_factor(source, path, material.name);
 #define BN_FLAG(kind, name, path) read_flag(source, path, material.name);
 #define BN_CHOICE(type, name, words, path) read_choice(source, path, words, material.name);
 #include "core/scene/material.def"
     for (const MaterialTexture& texture : kMaterialTextures)
         if (const Json::json_pointer at(texture.path); source.contains(at))
-            material.*texture.to = texture_ref(doc, source[at], std::string_view(texture.path).starts_with("/extras/"));
+            material.*texture.to = texture_ref(doc, source[at], std::string_view(texture.path).starts_with("/extras/"), of);
     return material;
 }
 
@@ -183,7 +184,7 @@ void load_materials(Document& doc)
 {
     Imported known;
     for (std::size_t i = 0; i < table_size(doc.json, "materials"); ++i) {
-        Material material = load_material(doc, doc.json["materials"][i]);
+        Material material = load_material(doc, doc.json["materials"][i], i);
         for (int k = 0; k < 3; ++k)
             if (!std::isfinite(material.emissive[k] * material.emissive_strength))
                 fail(fmt::format("/materials/{}/extensions/KHR_materials_emissive_strength", i), "the emission overflows");

@@ -1,4 +1,5 @@
 // Materials, textures, images.
+#include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
 
@@ -33,6 +34,18 @@ Result<Scene> load_materials(const std::string& materials, const std::string& te
     Asset asset = triangle();
     asset.more = ",\"materials\":[" + materials + "]" + textures;
     return load(asset);
+}
+
+std::string one_image_textures();
+
+TEST(material, warnings_name_the_material)
+{
+    const std::string third = R"("pbrMetallicRoughness":{"baseColorTexture":{"index":0,"texCoord":2}})";
+    const Result<Scene> scene = load_materials(R"({"name":"brass",)" + third + "},{" + third + "}", one_image_textures());
+    ASSERT_TRUE(scene);
+    for (const std::string line : {"material \"brass\": texture coordinates TEXCOORD_2 are not supported, TEXCOORD_0 is used",
+                                   "material 1: texture coordinates TEXCOORD_2 are not supported, TEXCOORD_0 is used"})
+        EXPECT_EQ(std::count(scene->warnings.begin(), scene->warnings.end(), line), 1) << line;
 }
 
 std::string one_image_textures()

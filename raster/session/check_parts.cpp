@@ -1,0 +1,122 @@
+#include "raster/session/check_parts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <limits>
+
+#include "core/scene/check_scene.h"
+#include "shading/bake/mip/levels.h"
+#include "shading/bake/mipnet/mipnet_fns.h"
+#include "shading/lang/records.h"
+
+namespace burnish {
+namespace {
+
+Error fault(const Environment& environment, const std::string& place, std::string reason)
+{
+    return {ExitCode::bad_input, environment.name, place, std::move(reason)};
+}
+
+Status check_cube(const Environment& e, const CubeMap& cube, const std::string& place)
+{
+    if (cube.size < 1 || cube.size > 8192 || (cube.size & (cube.size - 1)) != 0)
+        return fault(e, place + "/size", fmt::format("{} is no power of two from 1 to 8192", cube.size));
+    if (cube.levels < 1 || cube.levels > 14 || (cube.size >> (cube.levels - 1)) == 0)
+        return fault(e, place + "/levels", fmt::format("{} levels of a cube of {} texels", cube.levels, cube.size));
+    if (cube.offset.size() != static_cast<std::size_t>(cube.levels))
+        return fault(e, place + "/offset", fmt::format("holds {} offsets of {} levels", cube.offset.size(), cube.levels));
+    std::size_t texels = 0;
+    for (int level = 0; level < cube.levels; ++level) {
+        if (cube.offset[static_cast<std::size_t>(level)] != texels)
+            return fault(e, fmt::format("{}/offset/{}", place, level), fmt::format("is not {}", texels));
+        texels += cube.level_texels(level);
+    }
+    if (cube.texels.size() != 4 * texels)
+        return fault(e, place + "/texels", fmt::format("holds {} halves, not {}", cube.texels.size(), 4 * texels));
+    if (!std::isfinite(cube.scale) || !(cube.scale > 0.0f))
+        return fault(e, place + "/scale", fmt::format("{:g} is not above 0", cube.scale));
+    return {};
+}
+
+Status check_key_light(const Environment& e, std::size_t i)
+{
+    const KeyLight& k = e.key_lights[i];
+    for (const auto& [numbers, name] : {std::pair(k.direction, "direction"), std::pair(k.axis_u, "axis_u"), std::pair(k.axis_v, "axis_v"),
+                                        std::pair(k.irradiance, "irradiance")})
+        for (int c = 0; c < 3; ++c)
+            if (!std::isfinite(numbers[c]))
+                return fault(e, fmt::format("/key_lights/{}/{}/{}", i, name, c), "is not finite");
+    return {};
+}
+
+Status check_environment(const Environment& e)
+{
+    if (!std::isfinite(e.rotation_deg))
+        return fault(e, "/rotation_deg", "is not finite");
+    const bool picture_only = e.irradiance.texels.empty() && e.specular.texels.empty();
+    if (!picture_only)
+        if (Status ok = check_cube(e, e.specular, "/specular"); !ok)
+            return ok;
+    if (!e.irradiance.texels.empty())
+        if (Status ok = check_cube(e, e.irradiance, "/irradiance"); !ok)
+            return ok;
+    if (!e.key_lights.empty() || picture_only)
+        if (Status ok = check_cube(e, e.whole, "/whole"); !ok)
+            return ok;
+    if (e.key_lights.size() > static_cast<std::size_t>(kMaxKeyLights))
+        return fault(e, "/key_lights", fmt::format("{} lights, more than {}", e.key_lights.size(), kMaxKeyLights));
+    for (std::size_t i = 0; i < e.key_lights.size(); ++i)
+        if (Status ok = check_key_light(e, i); !ok)
+            return ok;
+    return {};
+}
+
+Status check_dfg(const DfgTable& dfg)
+{
+    const auto size = static_cast<std::size_t>(std::max(dfg.size, 0));
+    if (size < 2 || size > 4096)
+        return Error{ExitCode::bad_input, "", "/dfg/size", fmt::format("{} lies outside 2 to 4096", dfg.size)};
+    if (dfg.pairs.size() != 2 * size * size)
+        return Error{ExitCode::bad_input, "", "/dfg/pairs", fmt::format("holds {} numbers, not {}", dfg.pairs.size(), 2 * size * size)};
+    return {};
+}
+
+} // namespace
+
+Status check_mip_filters(const Scene& scene, const std::string& file)
+{
+    constexpr float kMostKappa = 4.0f; // as --mip-kappa has it
+    constexpr auto kLastLobe = static_cast<std::uint32_t>(mipnet::Lobe::ashikhmin_shirley);
+    for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+        const Material& m = scene.materials[i];
+        const auto wrong = [&](const char* field, std::string reason) {
+            return Error{ExitCode::bad_input, file, fmt::format("/materials/{}/{}", i, field), std::move(reason)};
+        };
+        if (static_cast<std::size_t>(m.mip_filter) >= mip_filters().size())
+            return wrong("mip_filter", fmt::format("filter {} does not exist", static_cast<int>(m.mip_filter)));
+        if (!(m.mip_kappa >= 0.0f && m.mip_kappa <= kMostKappa))
+            return wrong("mip_kappa", fmt::format("{:g} lies outside 0 to {:g}", m.mip_kappa, kMostKappa));
+        if (m.mip_lobe > kLastLobe)
+            return wrong("mip_lobe", fmt::format("lobe {} does not exist", m.mip_lobe));
+    }
+    return {};
+}
+
+Status check_parts(const SessionParts& parts)
+{
+    Limits any; // the reader of a file has looked at its limits
+    any.image_side = std::numeric_limits<int>::max(), any.texture_bytes = std::numeric_limits<std::uint64_t>::max();
+    const SceneData& data = *parts.scene;
+    if (Status ok = check_scene(data.scene, any, data.name); !ok)
+        return ok;
+    if (Status ok = check_mip_filters(data.scene, data.name); !ok)
+        return ok;
+    if (Status ok = check_draw_tables(data.tables, data.scene, data.name); !ok)
+        return ok;
+    if (Status ok = check_environment(*parts.environment); !ok)
+        return ok;
+    return check_dfg(*parts.dfg);
+}
+
+} // namespace burnish

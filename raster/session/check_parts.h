@@ -1,0 +1,14 @@
+// What a session relies on of parts that somebody else made.
+#pragma once
+#include "core/base/result.h"
+#include "raster/session/session.h"
+
+namespace burnish {
+
+// Finds the first material whose mip filter, kappa or lobe of gains does not exist. Part of check_parts().
+Status check_mip_filters(const Scene& scene, const std::string& file);
+
+// Finds the first fault of scene, tables, environment and albedo table, which are all there; the error's place names the field.
+Status check_parts(const SessionParts& parts);
+
+} // namespace burnish

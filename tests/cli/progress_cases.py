@@ -1,0 +1,42 @@
+"""Work that takes longer than the progress interval says what it does: BURNISH_PROGRESS_SECONDS makes it short here."""
+
+import re
+
+from harness import Skipped, case, check
+
+OFTEN = {"BURNISH_PROGRESS_SECONDS": "0.02"}
+TINY = ("--size", "24x16", "--env-size", "16", "--env-samples", "16")
+
+
+TOLD = (
+    (r"^plot, drawing ltc: ", "plot", "ltc", "-o", "a.svg"),
+    (r"^render, .*levels of material '.*' by kappa: ", "render", "builtin:shaderballs", "--mip-filter", "kappa", *TINY),
+    (r"^bake, mip(, .*)?: |^texels: ", "bake", "mip", "builtin:roofs=1", "--mip-filter", "kappa", "-o", "a.mip"),
+    (r"^render, environment builtin:sky(, .*)?: |^baking builtin:sky: ", "render", "builtin:plate", "--env", "builtin:sky", "--env-size", "128", "--no-cache",
+     "--size", "24x16"),
+    (r"^render, drawing 64x48: ", "render", "builtin:plate", "--technique", "mc", "--samples", "4096", "--env-size", "16", "--size", "64x48"),
+)
+
+
+def lines_of(done):
+    """Lines of progress: "bake, mip, levels of ...: 3 s", "chart: 12 %, 4 s left"."""
+    return [line for line in done.err.splitlines() if re.search(r": (\d+ s|\d+ %.*)$", line)]
+
+
+@case("progress.of_everything_that_takes_long_is_told", tier="check")
+def everything(bench):
+    for said, *words in TOLD:
+        done = bench.run(*words, env=OFTEN).expect(0)
+        check(any(re.search(said, line) for line in lines_of(done)), f"{said}\n{done.describe()}")
+        check(bench.run(*words, "-q", env=OFTEN).expect(0).err == "", f"{words} says something with -q")
+
+
+@case("progress.of_parity_names_the_row_and_the_stage", tier="gate")
+def parity(bench):
+    done = bench.run("parity", "builtin:plate", "--technique", "split_isotropic", "--msaa", "1", *TINY, "--device", "lavapipe", timeout=600,
+                     env={**OFTEN, "MESA_SHADER_CACHE_DISABLE": "true"})
+    if done.code == 77:
+        raise Skipped("no device")
+    done.expect(0)
+    told = lines_of(done)
+    check(any(re.match(r"parity, row 1 \(builtin:plate split_isotropic, 1 sample\), drawing 24x16, compiling \w+", line) for line in told), done.describe())

@@ -1,0 +1,432 @@
+// Scenes, environments and frames with one wrong field: each is an Error that names the field; none ends the process or draws.
+#include <cmath>
+#include <functional>
+#include <gtest/gtest.h>
+#include <limits>
+#include <span>
+
+#include "core/image/io/image_io.h"
+#include "core/scene/check_scene.h"
+#include "raster/session/session.h"
+
+namespace burnish {
+namespace {
+
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN(), kInf = std::numeric_limits<float>::infinity();
+
+// A quad with a texture, a camera, a lamp and an area light.
+Scene good_scene()
+{
+    Scene s;
+    const float corners[4][2] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
+    VertexTable& v = s.vertices;
+    for (const auto& p : corners) {
+        v.px.push_back(p[0]), v.py.push_back(p[1]), v.pz.push_back(0);
+        v.nx.push_back(0), v.ny.push_back(0), v.nz.push_back(1);
+        v.u0.push_back(0.5f + 0.5f * p[0]), v.v0.push_back(0.5f - 0.5f * p[1]);
+    }
+    fill_missing_columns(s);
+    for (const std::uint32_t i : {0u, 1u, 2u, 0u, 2u, 3u})
+        s.indices.push_back(i);
+    Primitive p;
+    p.index_count = 6, p.vertex_count = 4, p.has_uv0 = true;
+    s.primitives.push_back(p);
+    s.meshes.push_back({"quad", 0, 1});
+    s.images.push_back(make_image(4, 4, 3, PixelType::u8));
+    s.textures.push_back({"grey", 0, WrapMode::repeat, WrapMode::repeat, false});
+    s.materials.emplace_back();
+    s.materials[0].base_color_tex.texture = 0;
+    s.lights.emplace_back();
+    s.cameras.emplace_back();
+    AreaLight light;
+    light.points = {{-1, -1, 2}, {-1, 1, 2}, {1, 1, 2}, {1, -1, 2}};
+    light.radiance = glm::vec3(1.0f);
+    s.area_lights.push_back(light);
+    s.nodes.resize(4);
+    s.nodes[0].mesh = s.nodes[1].light = s.nodes[2].camera = s.nodes[3].area_light = 0;
+    s.nodes[1].parent = 0;
+    return s;
+}
+
+std::shared_ptr<const Environment> small_environment()
+{
+    static const std::shared_ptr<const Environment> made = [] {
+        EnvironmentOptions options;
+        options.cube_size = 16, options.samples = 4, options.use_cache = false;
+        return *load_shared_environment("builtin:studio", options, {}, Jobs(1));
+    }();
+    return made;
+}
+
+SessionParts good_parts()
+{
+    static const std::shared_ptr<const SceneData> data = *make_scene_data("good", good_scene(), {});
+    return {data, small_environment(), std::make_shared<const Jobs>(1), *standard_dfg(Jobs(1))};
+}
+
+FrameDesc good_desc()
+{
+    FrameDesc d;
+    d.width = 40, d.height = 30, d.msaa = 1;
+    d.view = make_view(glm::vec3(0.5f, 0.4f, 3), glm::vec3(0), 0.8f, d.width, d.height);
+    return d;
+}
+
+struct BadScene {
+    const char* place; // that the error names
+    void (*change)(Scene& s);
+};
+
+const BadScene kColumnsAndRanges[] = {
+    {"/vertices/nx", [](Scene& s) { s.vertices.nx = {}; }},
+    {"/vertices/ny", [](Scene& s) { s.vertices.ny.resize(3); }},
+    {"/vertices/nx", [](Scene& s) { s.vertices.nx = {}, s.vertices.ny = {}, s.vertices.nz = {}; }},
+    {"/vertices/py", [](Scene& s) { s.vertices.py = {}; }},
+    {"/vertices/py", [](Scene& s) { s.vertices.px.resize(5); }},
+    {"/vertices/tw", [](Scene& s) { s.vertices.tw.resize(9); }},
+    {"/vertices/u0", [](Scene& s) { s.vertices.u0.resize(2); }},
+    {"/vertices/v1", [](Scene& s) { s.vertices.v1.resize(1); }},
+    {"/vertices/ca", [](Scene& s) { s.vertices.ca.resize(3); }},
+    {"/vertices/px/2", [](Scene& s) { s.vertices.px[2] = kNan; }},
+    {"/vertices/pz/3", [](Scene& s) { s.vertices.pz[3] = -kInf; }},
+    {"/vertices/ny/1", [](Scene& s) { s.vertices.ny[1] = kNan; }},
+    {"/vertices/nx/0", [](Scene& s) { s.vertices.nz[0] = -0.0f; }},
+    {"/vertices/tx/1", [](Scene& s) { s.vertices.tx[1] = kInf; }},
+    {"/vertices/tw/2", [](Scene& s) { s.vertices.tw[2] = 0.0f; }},
+    {"/vertices/u0/3", [](Scene& s) { s.vertices.u0[3] = kNan; }},
+    {"/vertices/v1/0", [](Scene& s) { s.vertices.v1[0] = kInf; }},
+    {"/vertices/cg/0", [](Scene& s) { s.vertices.cg[0] = kNan; }},
+    {"/vertices/ca/2", [](Scene& s) { s.vertices.ca[2] = kInf; }},
+    {"/primitives/0/indices/1", [](Scene& s) { s.indices[1] = 4; }},
+    {"/primitives/0/indices/5", [](Scene& s) { s.indices[5] = 0xffffffffu; }},
+    {"/primitives/0/indices/0", [](Scene& s) { s.primitives[0].first_vertex = 1, s.primitives[0].vertex_count = 3; }},
+    {"/primitives/0/indices/5", [](Scene& s) { s.primitives[0].vertex_count = 3; }},
+    {"/primitives/0/index_count", [](Scene& s) { s.primitives[0].index_count = 9; }},
+    {"/primitives/0/index_count", [](Scene& s) { s.primitives[0].index_count = 5; }},
+    {"/primitives/0/first_index", [](Scene& s) { s.primitives[0].first_index = 0xfffffffdu; }},
+    {"/primitives/0/first_vertex", [](Scene& s) { s.primitives[0].first_vertex = 0xfffffffeu; }},
+    {"/primitives/0/vertex_count", [](Scene& s) { s.primitives[0].vertex_count = 5; }},
+    {"/primitives/0/material", [](Scene& s) { s.primitives[0].material = 3; }},
+    {"/primitives/0/material", [](Scene& s) { s.primitives[0].material = kNone; }},
+    {"/primitives/0/material", [](Scene& s) { s.materials.clear(); }},
+    {"/meshes/0/primitive_count", [](Scene& s) { s.meshes[0].primitive_count = 2; }},
+    {"/meshes/0/primitive_count", [](Scene& s) { s.meshes[0].primitive_count = 0xffffffffu; }},
+    {"/meshes/0/first_primitive", [](Scene& s) { s.meshes[0].first_primitive = 7; }},
+};
+
+const BadScene kNodes[] = {
+    {"/nodes/0/mesh", [](Scene& s) { s.nodes[0].mesh = -2; }},
+    {"/nodes/0/mesh", [](Scene& s) { s.nodes[0].mesh = 1; }},
+    {"/nodes/0/parent", [](Scene& s) { s.nodes[0].parent = 9; }},
+    {"/nodes/0/parent", [](Scene& s) { s.nodes[0].parent = 0; }}, // its own parent
+    {"/nodes/0/parent", [](Scene& s) { s.nodes[0].parent = 1; }}, // a cycle
+    {"/nodes/1/parent", [](Scene& s) { s.nodes[1].parent = -2; }},
+    {"/nodes/0/light", [](Scene& s) { s.nodes[0].light = 1; }},
+    {"/nodes/1/light", [](Scene& s) { s.nodes[1].light = -5; }},
+    {"/nodes/2/camera", [](Scene& s) { s.nodes[2].camera = 1; }},
+    {"/nodes/3/area_light", [](Scene& s) { s.nodes[3].area_light = 3; }},
+    {"/nodes/0/local", [](Scene& s) { s.nodes[0].local[3][0] = kNan; }},
+    {"/nodes/2/local", [](Scene& s) { s.nodes[2].local[1][1] = kInf; }},
+    {"/nodes/1/world", [](Scene& s) { s.nodes[0].local *= 1e30f, s.nodes[1].local *= 1e30f; }},
+    {"/nodes/0", [](Scene& s) { s.nodes[0].local[3][0] = 1e25f; }},
+    {"/nodes/0", [](Scene& s) { s.vertices.px[0] = 3e38f, s.nodes[0].local[0][0] = 3e38f; }},
+    {"/cameras/0/yfov", [](Scene& s) { s.cameras[0].yfov = 0.0f; }},
+    {"/cameras/0/yfov", [](Scene& s) { s.cameras[0].yfov = kNan; }},
+    {"/cameras/0/yfov", [](Scene& s) { s.cameras[0].yfov = 4.0f; }},
+    {"/cameras/0/znear", [](Scene& s) { s.cameras[0].znear = -1.0f; }},
+    {"/cameras/0/zfar", [](Scene& s) { s.cameras[0].zfar = 0.05f; }},
+    {"/cameras/0/zfar", [](Scene& s) { s.cameras[0].orthographic = true; }},
+    {"/cameras/0/ymag", [](Scene& s) { s.cameras[0].orthographic = true, s.cameras[0].zfar = 9.0f, s.cameras[0].ymag = 0.0f; }},
+    {"/cameras/0/xmag", [](Scene& s) { s.cameras[0].orthographic = true, s.cameras[0].zfar = 9.0f, s.cameras[0].xmag = kInf; }},
+    {"/lights/0/type", [](Scene& s) { s.lights[0].type = static_cast<LightType>(7); }},
+    {"/lights/0/color/1", [](Scene& s) { s.lights[0].color.y = -1.0f; }},
+    {"/lights/0/intensity", [](Scene& s) { s.lights[0].intensity = kNan; }},
+    {"/lights/0/intensity", [](Scene& s) { s.lights[0].intensity = kInf; }},
+    {"/lights/0/range", [](Scene& s) { s.lights[0].range = -2.0f; }},
+    {"/lights/0/outer_cone", [](Scene& s) { s.lights[0].outer_cone = 2.0f; }},
+    {"/lights/0/inner_cone", [](Scene& s) { s.lights[0].type = LightType::spot, s.lights[0].inner_cone = 1.0f; }},
+    {"/area_lights/0/shape", [](Scene& s) { s.area_lights[0].shape = static_cast<AreaShape>(40); }},
+    {"/area_lights/0", [](Scene& s) { s.area_lights[0].points.pop_back(); }},
+    {"/area_lights/0", [](Scene& s) { s.area_lights[0].points[2].y = kNan; }},
+    {"/area_lights/0", [](Scene& s) { s.area_lights[0].points[2].z = 9.0f; }}, // in no plane
+    {"/area_lights/0/radiance/2", [](Scene& s) { s.area_lights[0].radiance.z = -1.0f; }},
+    {"/area_lights/0/radiance/0", [](Scene& s) { s.area_lights[0].radiance.x = kInf; }},
+    {"/area_lights/0/radius", [](Scene& s) { s.area_lights[0].radius = kNan; }},
+    {"/area_lights/0/texture", [](Scene& s) { s.area_lights[0].texture = 9; }},
+    {"/area_lights/0/texture_file", [](Scene& s) { s.area_lights[0].texture_file = "a.png"; }},
+};
+
+const BadScene kSurfaces[] = {
+    {"/materials/0/base_color/0", [](Scene& s) { s.materials[0].base_color.x = kNan; }},
+    {"/materials/0/base_color/3", [](Scene& s) { s.materials[0].base_color.w = 1.5f; }},
+    {"/materials/0/metallic", [](Scene& s) { s.materials[0].metallic = -0.5f; }},
+    {"/materials/0/roughness", [](Scene& s) { s.materials[0].roughness = 2.0f; }},
+    {"/materials/0/roughness", [](Scene& s) { s.materials[0].roughness = kNan; }},
+    {"/materials/0/normal_scale", [](Scene& s) { s.materials[0].normal_scale = kInf; }},
+    {"/materials/0/emissive/1", [](Scene& s) { s.materials[0].emissive.y = -1.0f; }},
+    {"/materials/0/emissive_strength", [](Scene& s) { s.materials[0].emissive_strength = kNan; }},
+    {"/materials/0/ior", [](Scene& s) { s.materials[0].ior = -1.5f; }},
+    {"/materials/0/specular", [](Scene& s) { s.materials[0].specular = 7.0f; }},
+    {"/materials/0/specular_color/2", [](Scene& s) { s.materials[0].specular_color.z = kInf; }},
+    {"/materials/0/anisotropy_strength", [](Scene& s) { s.materials[0].anisotropy_strength = -1.0f; }},
+    {"/materials/0/anisotropy_rotation", [](Scene& s) { s.materials[0].anisotropy_rotation = kNan; }},
+    {"/materials/0/transmission", [](Scene& s) { s.materials[0].transmission = 1.1f; }},
+    {"/materials/0/clearcoat", [](Scene& s) { s.materials[0].clearcoat = kNan; }},
+    {"/materials/0/clearcoat_roughness", [](Scene& s) { s.materials[0].clearcoat_roughness = -1.0f; }},
+    {"/materials/0/conductor_k/0", [](Scene& s) { s.materials[0].conductor_k.x = 1e9f; }},
+    {"/materials/0/tilt/1", [](Scene& s) { s.materials[0].tilt.y = 90.0f; }},
+    {"/materials/0/height_scale", [](Scene& s) { s.materials[0].height_scale = -1.0f; }},
+    {"/materials/0/alpha_cutoff", [](Scene& s) { s.materials[0].alpha_cutoff = kNan; }},
+    {"/materials/0/alpha_mode", [](Scene& s) { s.materials[0].alpha_mode = static_cast<AlphaMode>(9); }},
+    {"/materials/0/base_color_tex/texture", [](Scene& s) { s.materials[0].base_color_tex.texture = 5; }},
+    {"/materials/0/normal_tex/texture", [](Scene& s) { s.materials[0].normal_tex.texture = -2; }},
+    {"/materials/0/height_tex/texture", [](Scene& s) { s.materials[0].height_tex.texture = 1; }},
+    {"/materials/0/directional_roughness_tex/texture", [](Scene& s) { s.materials[0].directional_roughness_tex.texture = 1; }},
+    {"/materials/0/base_color_tex/uv_set", [](Scene& s) { s.materials[0].base_color_tex.uv_set = 2; }},
+    {"/materials/0/base_color_tex/uv_transform", [](Scene& s) { s.materials[0].base_color_tex.uv_transform[2][0] = kNan; }},
+    {"/materials/0/mip_filter", [](Scene& s) { s.materials[0].mip_filter = static_cast<MipFilter>(99); }},
+    {"/materials/0/mip_kappa", [](Scene& s) { s.materials[0].mip_kappa = -1.0f; }},
+    {"/materials/0/mip_lobe", [](Scene& s) { s.materials[0].mip_lobe = 99; }},
+    {"/textures/0/image", [](Scene& s) { s.textures[0].image = kNone; }},
+    {"/textures/0/image", [](Scene& s) { s.textures[0].image = 1; }},
+    {"/textures/0/image", [](Scene& s) { s.images.clear(); }},
+    {"/textures/0/wrap_t", [](Scene& s) { s.textures[0].wrap_t = static_cast<WrapMode>(3); }},
+    {"/images/0/bytes", [](Scene& s) { s.images[0].bytes.clear(); }},
+    {"/images/0/bytes", [](Scene& s) { s.images[0].bytes.pop_back(); }},
+    {"/images/0/bytes", [](Scene& s) { s.images[0].type = PixelType::f32; }},
+    {"/images/0/bytes", [](Scene& s) { s.images[0].channels = std::numeric_limits<int>::max(); }},
+    {"/images/0/width", [](Scene& s) { s.images[0].width = -4; }},
+    {"/images/0/height", [](Scene& s) { s.images[0].height = 0; }},
+    {"/images/0/width", [](Scene& s) { s.images[0].width = s.images[0].height = std::numeric_limits<int>::max(); }},
+    {"/images/0/channels", [](Scene& s) { s.images[0].channels = 0; }},
+    {"/images/0/type", [](Scene& s) { s.images[0].type = static_cast<PixelType>(8); }},
+};
+
+void expect_refused(std::span<const BadScene> cases)
+{
+    for (std::size_t i = 0; i < cases.size(); ++i) {
+        SCOPED_TRACE(std::string("case ") + std::to_string(i) + " " + cases[i].place);
+        Scene scene = good_scene();
+        cases[i].change(scene);
+        update_world(scene); // as who makes a scene does
+        const Result<std::shared_ptr<const SceneData>> data = make_scene_data("mine", std::move(scene), {});
+        ASSERT_FALSE(data);
+        EXPECT_EQ(data.error().code, ExitCode::bad_input);
+        EXPECT_EQ(data.error().file, "mine");
+        EXPECT_EQ(data.error().place, cases[i].place) << data.error().line();
+    }
+}
+
+TEST(bad_scenes, a_good_one_is_drawn)
+{
+    Result<Session> session = Session::make(good_parts());
+    ASSERT_TRUE(session) << session.error().line();
+    const Result<Frame> frame = session->render(good_desc());
+    ASSERT_TRUE(frame) << frame.error().line();
+    EXPECT_EQ(count_not_finite(frame->color), 0u);
+    EXPECT_GT(frame->stats.visible_fragments, 100u);
+}
+
+TEST(bad_scenes, columns_and_ranges_are_checked)
+{
+    expect_refused(kColumnsAndRanges);
+}
+
+TEST(bad_scenes, nodes_cameras_and_lights_are_checked)
+{
+    expect_refused(kNodes);
+}
+
+TEST(bad_scenes, materials_and_pictures_are_checked)
+{
+    expect_refused(kSurfaces);
+}
+
+TEST(bad_scenes, limits_hold_in_memory)
+{
+    Limits limits;
+    limits.image_side = 3;
+    EXPECT_EQ(make_scene_data("", good_scene(), limits).error().place, "/images/0/width");
+    limits = {}, limits.texture_bytes = 47;
+    EXPECT_EQ(make_scene_data("", good_scene(), limits).error().place, "/images/0");
+}
+
+// Tangents, texture coordinates and colours may be left out: the picture is as if they held their fallbacks.
+TEST(bad_scenes, optional_columns_are_filled)
+{
+    Scene bare = good_scene();
+    for (Column<float> VertexTable::*c : {&VertexTable::tx, &VertexTable::ty, &VertexTable::tz, &VertexTable::tw, &VertexTable::u1,
+                                          &VertexTable::v1, &VertexTable::cr, &VertexTable::cg, &VertexTable::cb, &VertexTable::ca})
+        bare.vertices.*c = {};
+    SessionParts parts = good_parts();
+    std::uint64_t hash[2];
+    for (std::uint64_t& h : hash) {
+        Result<Session> session = Session::make(parts);
+        ASSERT_TRUE(session);
+        h = pixel_hash(session->render(good_desc())->color);
+        const Result<std::shared_ptr<const SceneData>> data = make_scene_data("bare", bare, {});
+        ASSERT_TRUE(data) << data.error().line();
+        parts.scene = *data;
+    }
+    EXPECT_EQ(hash[0], hash[1]);
+}
+
+struct BadParts {
+    const char* place;
+    void (*change)(SceneData& data, Environment& environment, DfgTable& dfg);
+};
+const BadParts kParts[] = {
+    {"/vertices/nx", [](SceneData& d, Environment&, DfgTable&) { d.scene.vertices.nx = {}; }},
+    {"/materials/0/roughness", [](SceneData& d, Environment&, DfgTable&) { d.scene.materials[0].roughness = kNan; }},
+    {"/images/0/bytes", [](SceneData& d, Environment&, DfgTable&) { d.scene.images[0].bytes.clear(); }},
+    {"/nodes/0/world", [](SceneData& d, Environment&, DfgTable&) { d.scene.nodes[0].world[0][0] = kNan; }},
+    {"/tables/py", [](SceneData& d, Environment&, DfgTable&) { d.tables.py = {}; }},
+    {"/tables/shading", [](SceneData& d, Environment&, DfgTable&) { d.tables.shading.resize(1); }},
+    {"/tables/px/1", [](SceneData& d, Environment&, DfgTable&) { d.tables.px[1] = kNan; }},
+    {"/tables/shading/2", [](SceneData& d, Environment&, DfgTable&) { d.tables.shading[2].normal[0] = kInf; }},
+    {"/tables/indices", [](SceneData& d, Environment&, DfgTable&) { d.tables.indices.resize(5); }},
+    {"/tables/indices/4", [](SceneData& d, Environment&, DfgTable&) { d.tables.indices[4] = 77777; }},
+    {"/tables/triangle_material", [](SceneData& d, Environment&, DfgTable&) { d.tables.triangle_material = {}; }},
+    {"/tables/triangle_material/0", [](SceneData& d, Environment&, DfgTable&) { d.tables.triangle_material[0] = 99; }},
+    {"/tables/draws/0/material", [](SceneData& d, Environment&, DfgTable&) { d.tables.draws[0].material = 99; }},
+    {"/tables/draws/0/triangle_count", [](SceneData& d, Environment&, DfgTable&) { d.tables.draws[0].triangle_count = 99; }},
+    {"/tables/draws/0/node", [](SceneData& d, Environment&, DfgTable&) { d.tables.draws[0].node = 99; }},
+    {"/tables/clusters/0/draw", [](SceneData& d, Environment&, DfgTable&) { d.tables.clusters[0].draw = 99; }},
+    {"/tables/clusters/0/triangle_count", [](SceneData& d, Environment&, DfgTable&) { d.tables.clusters[0].triangle_count = 99; }},
+    {"/tables/lights/0", [](SceneData& d, Environment&, DfgTable&) { d.tables.lights[0].radiant.x = kNan; }},
+    {"/tables/area_lights/0/point_count", [](SceneData& d, Environment&, DfgTable&) { d.tables.area_lights[0].point_count = 99; }},
+    {"/tables/area_lights/0/texture", [](SceneData& d, Environment&, DfgTable&) { d.tables.area_lights[0].texture = 99; }},
+    {"/specular/texels", [](SceneData&, Environment& e, DfgTable&) { e.specular.texels = {}; }},
+    {"/specular/levels", [](SceneData&, Environment& e, DfgTable&) { e.specular.levels = 40; }},
+    {"/specular/offset", [](SceneData&, Environment& e, DfgTable&) { e.specular.offset.clear(); }},
+    {"/specular/offset/1", [](SceneData&, Environment& e, DfgTable&) { e.specular.offset[1] += 1; }},
+    {"/specular/scale", [](SceneData&, Environment& e, DfgTable&) { e.specular.scale = kNan; }},
+    {"/irradiance/size", [](SceneData&, Environment& e, DfgTable&) { e.irradiance.size = 31; }},
+    {"/rotation_deg", [](SceneData&, Environment& e, DfgTable&) { e.rotation_deg = kNan; }},
+    {"/key_lights", [](SceneData&, Environment& e, DfgTable&) { e.whole = e.specular, e.key_lights.resize(99); }},
+    {"/dfg/size", [](SceneData&, Environment&, DfgTable& t) { t.size = -1; }},
+    {"/dfg/pairs", [](SceneData&, Environment&, DfgTable& t) { t.pairs.resize(2); }},
+};
+
+TEST(bad_scenes, parts_are_checked)
+{
+    for (const BadParts& bad : kParts) {
+        SCOPED_TRACE(bad.place);
+        SessionParts parts = good_parts();
+        auto data = std::make_shared<SceneData>(*parts.scene);
+        auto environment = std::make_shared<Environment>(*parts.environment);
+        auto dfg = std::make_shared<DfgTable>(*parts.dfg);
+        bad.change(*data, *environment, *dfg);
+        parts.scene = data, parts.environment = environment, parts.dfg = dfg;
+        const Result<Session> session = Session::make(parts);
+        ASSERT_FALSE(session);
+        EXPECT_EQ(session.error().code, ExitCode::bad_input);
+        EXPECT_EQ(session.error().place, bad.place) << session.error().line();
+    }
+}
+
+struct BadFrame {
+    const char* word; // that the error has
+    void (*change)(FrameDesc& d);
+};
+const BadFrame kFrames[] = {
+    {"sides", [](FrameDesc& d) { d.width = d.height = 0; }},
+    {"sides", [](FrameDesc& d) { d.width = 65536, d.height = 1; }},
+    {"sides", [](FrameDesc& d) { d.height = -30; }},
+    {"2^28", [](FrameDesc& d) { d.width = d.height = 16384, d.msaa = 2; }},
+    {"msaa", [](FrameDesc& d) { d.msaa = -1; }},
+    {"msaa", [](FrameDesc& d) { d.msaa = 3; }},
+    {"msaa", [](FrameDesc& d) { d.msaa = 32; }},
+    {"tile size", [](FrameDesc& d) { d.tile_size = 0; }},
+    {"texture anisotropy", [](FrameDesc& d) { d.texture_anisotropy = 99; }},
+    {"technique", [](FrameDesc& d) { d.technique = ""; }},
+    {"samples", [](FrameDesc& d) { d.samples = 0; }},
+    {"roughness", [](FrameDesc& d) { d.roughness = kNan; }},
+    {"roughness", [](FrameDesc& d) { d.roughness = 2.0f; }},
+    {"anisotropy", [](FrameDesc& d) { d.override_anisotropy = true, d.anisotropy = kNan; }},
+    {"brdf", [](FrameDesc& d) { d.brdf = 99; }},
+    {"brdf", [](FrameDesc& d) { d.brdf = -1; }},
+    {"area-lights", [](FrameDesc& d) { d.area_way = 99; }},
+    {"tilt", [](FrameDesc& d) { d.tilt_rad.x = kNan; }},
+    {"/view/eye", [](FrameDesc& d) { d.view.eye.x = kNan; }},
+    {"/view/eye", [](FrameDesc& d) { d.view.eye.z = kInf; }},
+    {"/view/right", [](FrameDesc& d) { d.view.right = glm::vec3(0.0f); }},
+    {"/view/up", [](FrameDesc& d) { d.view.up *= 3.0f; }},
+    {"/view/forward", [](FrameDesc& d) { d.view.forward.y = kNan; }},
+    {"/view/forward", [](FrameDesc& d) { d.view.up = d.view.forward; }},
+    {"/view/tan_half_x", [](FrameDesc& d) { d.view.tan_half_x = 0.0f; }},
+    {"/view/tan_half_y", [](FrameDesc& d) { d.view.tan_half_y = kInf; }},
+    {"/view/znear", [](FrameDesc& d) { d.view.znear = -1.0f; }},
+    {"/view/znear", [](FrameDesc& d) { d.view.znear = kNan; }},
+    {"/view/zfar", [](FrameDesc& d) { d.view.orthographic = true; }},
+    {"/view/eye", [](FrameDesc& d) { d.view = make_view(glm::vec3(kNan), glm::vec3(0), 0.8f, 4, 3); }},
+    {"/view/tan_half", [](FrameDesc& d) { d.view = make_view(glm::vec3(1), glm::vec3(0), 0.8f, 0, 0); }},
+};
+
+void expect_refused_frames(Session& session)
+{
+    for (std::size_t i = 0; i < std::size(kFrames); ++i) {
+        SCOPED_TRACE(std::string("frame ") + std::to_string(i) + " " + kFrames[i].word);
+        FrameDesc desc = good_desc();
+        kFrames[i].change(desc);
+        const Result<Frame> frame = session.render(desc);
+        ASSERT_FALSE(frame);
+        EXPECT_EQ(frame.error().code, ExitCode::usage);
+        EXPECT_NE(frame.error().line().find(kFrames[i].word), std::string::npos) << frame.error().line();
+    }
+}
+
+TEST(bad_scenes, frames_are_checked)
+{
+    Result<Session> session = Session::make(good_parts());
+    ASSERT_TRUE(session);
+    expect_refused_frames(*session);
+    EXPECT_TRUE(session->render(good_desc())); // and the session goes on
+    Frame odd;
+    odd.color = Image{40, 30, 3, PixelType::f32, {}};
+    odd.color.bytes.resize(7);
+    const Result<Frame> frame = session->render(good_desc(), std::move(odd));
+    ASSERT_TRUE(frame);
+    EXPECT_EQ(frame->color.bytes.size(), 40u * 30u * 3u * sizeof(float));
+}
+
+TEST(bad_scenes, environments_from_memory_are_checked)
+{
+    EnvironmentOptions options;
+    options.cube_size = 16, options.samples = 4, options.use_cache = false;
+    Image image = make_image(16, 8, 3, PixelType::f32);
+    ASSERT_TRUE(bake_environment(image, "mine", options, Jobs(1)));
+    image.bytes.clear();
+    const Result<Environment> empty = bake_environment(image, "mine", options, Jobs(1));
+    ASSERT_FALSE(empty);
+    EXPECT_EQ(empty.error().place, "/bytes");
+    EXPECT_FALSE(bake_environment(make_image(16, 8, 3, PixelType::u8), "mine", options, Jobs(1)));
+    EXPECT_FALSE(bake_environment(Image{-16, 8, 3, PixelType::f32, {}}, "mine", options, Jobs(1)));
+    for (const int size : {0, -4, 3, 1 << 20}) {
+        EnvironmentOptions wrong = options;
+        wrong.cube_size = size;
+        EXPECT_FALSE(bake_environment(make_image(16, 8, 3, PixelType::f32), "mine", wrong, Jobs(1)));
+    }
+}
+
+TEST(bad_scenes, threads_and_pictures_to_write_are_checked)
+{
+    OpenOptions open;
+    open.threads = -1;
+    const Result<Session> session = Session::open("builtin:plate", "builtin:studio", open);
+    ASSERT_FALSE(session);
+    EXPECT_EQ(session.error().place, "threads");
+    EXPECT_GE(Jobs(-1).threads(), 1);
+    const std::string path = testing::TempDir() + "never_written.png";
+    for (const Image& image :
+         {Image{}, Image{4, 4, 3, PixelType::u8, {}}, Image{-4, 4, 3, PixelType::u8, {}}, make_image(4, 4, 5, PixelType::u8)}) {
+        const Status written = write_image(path, image);
+        ASSERT_FALSE(written);
+        EXPECT_EQ(written.error().code, ExitCode::output_failed);
+        EXPECT_FALSE(encode_png(image));
+    }
+    EXPECT_FALSE(write_channels(testing::TempDir() + "never_written.exr", make_image(4, 4, 2, PixelType::f32), {"one"}));
+}
+
+} // namespace
+} // namespace burnish
