@@ -156,6 +156,12 @@ int run_mip(const MipBake& bake)
     if (pyramid)
         if (const Status path = check_text_path("-o", bake.output, {bake.material}); !path)
             return fail(path.error());
+    if (!pyramid)
+        if (const Status path = check_folder_path(bake.output); !path)
+            return fail(path.error());
+    if (!bake.preview.empty())
+        if (const Status path = check_folder_path(bake.preview); !path)
+            return fail(path.error());
     Dress with;
     with.mip_filter = a.filter;
     with.couple_albedo = a.couple_albedo, with.kaiser_colours = a.color_kernel == ColourKernel::kaiser;
