@@ -57,7 +57,7 @@ Status check_writable(const std::string& path, const fs::path& folder)
 Status check_folder(const std::string& path)
 {
     struct stat info {};
-    if (::stat(path.c_str(), &info) != 0 && errno != ENOENT) // a name too long, a circle of links
+    if (::stat(path.c_str(), &info) != 0 && errno != ENOENT && errno != ENOTDIR) // a name too long, a circle of links
         return output_error(path, std::strerror(errno));
     const fs::path folder = fs::path(written_place(path)).parent_path();
     return check_writable(path, folder.empty() ? "." : folder);

@@ -297,9 +297,8 @@ FileSet::FileSet(const std::string& folder) : folder_(folder)
         folder_.pop_back();
     std::error_code failed;
     is_new_ = !fs::exists(folder_, failed);
-    if (!is_new_)
-        return;
-    fs::create_directories(folder_of(folder_), failed); // adding says what is wrong
+    if (is_new_)
+        fs::create_directories(folder_of(folder_), failed); // adding says what is wrong
     sweep(folder_);
 }
 

@@ -13,12 +13,14 @@
 #include "core/jobs/cores.h"
 #include "core/jobs/threads.h"
 
-// Embree's trees and OpenImageIO's table of names have locks that ThreadSanitizer does not see. Only it asks.
+#ifdef __SANITIZE_THREAD__
+// Embree's trees and OpenImageIO's table of names have locks that ThreadSanitizer does not see.
 extern "C" const char* __tsan_default_suppressions();
 extern "C" const char* __tsan_default_suppressions()
 {
     return "race:libembree3.so\nrace:libOpenImageIO\n";
 }
+#endif
 
 namespace burnish {
 namespace {

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fmt/format.h>
+#include <limits>
 
 #include "core/base/cache.h"
 #include "core/base/file.h"
@@ -51,20 +52,18 @@ std::size_t bytes_of(const CubeMap& cube)
 bool holds_light(const CubeMap& cube)
 {
     constexpr std::uint16_t kInfinite = 0x7c00, kMinusZero = 0x8000;
-    return std::all_of(cube.texels.begin(), cube.texels.end(),
-                       [](std::uint16_t half) { return half < kInfinite || half == kMinusZero; });
+    return std::all_of(cube.texels.begin(), cube.texels.end(), [](std::uint16_t half) { return half < kInfinite || half == kMinusZero; });
 }
 
 // Whether all numbers of a key light can be drawn by.
 bool is_key_light(const KeyLight& k)
 {
-    constexpr float kMostLight = 1e30f;
     const auto within = [](const float* v, float least, float most) {
         return std::all_of(v, v + 3, [&](float x) { return x >= least && x <= most; });
     };
     return within(k.direction, -1.01f, 1.01f) && within(k.axis_u, -10.0f, 10.0f) && within(k.axis_v, -10.0f, 10.0f) &&
-           within(k.irradiance, 0.0f, kMostLight) && k.angular_radius >= 0.0f && k.angular_radius <= 4.0f && k.share >= 0.0f &&
-           k.share <= 1.01f;
+           within(k.irradiance, 0.0f, std::numeric_limits<float>::max()) && k.angular_radius >= 0.0f && k.angular_radius <= 4.0f &&
+           k.share >= 0.0f && k.share <= 1.01f;
 }
 
 } // namespace
@@ -105,13 +104,13 @@ std::optional<Environment> parse_environment_cache(const std::uint8_t* data, std
         h.key_light_count > kMaxKeyLights || (h.key_light_count > 0) != (bytes == most) ||
         h.payload_hash != hash_bytes(payload, bytes - sizeof(h)))
         return std::nullopt;
-    // Half floats up to 65504, times this, are still far from what floats overflow at.
-    constexpr float kMostScale = 1e30f;
+    // Half floats up to 65504, times this, are still floats.
+    constexpr float kMostScale = 0x1p111f;
     for (const double figure : {static_cast<double>(h.specular_scale), static_cast<double>(h.irradiance_scale),
                                 static_cast<double>(h.whole_scale), static_cast<double>(h.peak_source), h.energy_source, h.energy_cube})
         if (!std::isfinite(figure) || figure < 0.0)
             return std::nullopt;
-    if (!(std::max({h.specular_scale, h.irradiance_scale, h.whole_scale, h.peak_source}) <= kMostScale) ||
+    if (!(std::max({h.specular_scale, h.irradiance_scale, h.whole_scale}) <= kMostScale) ||
         !std::all_of(h.key_lights, h.key_lights + h.key_light_count, is_key_light))
         return std::nullopt;
     std::memcpy(e.specular.texels.data(), payload, specular);
