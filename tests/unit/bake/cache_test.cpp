@@ -171,9 +171,9 @@ TEST_F(environment_cache, refuses_numbers_out_of_range)
     };
     EXPECT_TRUE(is_read(good));
     for (CubeMap Environment::*cube : {&Environment::specular, &Environment::irradiance, &Environment::whole}) {
-        for (const std::uint16_t half : {0x7c00, 0x7e00, 0xbc00, 0xfc00}) { // infinite, NaN, -1, -infinite
+        for (const int half : {0x7c00, 0x7e00, 0xbc00, 0xfc00}) { // infinite, NaN, -1, -infinite
             Environment bad = good;
-            (bad.*cube).texels[5] = half;
+            (bad.*cube).texels[5] = static_cast<std::uint16_t>(half);
             EXPECT_FALSE(is_read(bad)) << half;
         }
         for (const float scale : {-1.0f, 1e35f, std::numeric_limits<float>::quiet_NaN()}) {
