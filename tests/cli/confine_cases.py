@@ -114,7 +114,7 @@ FEW_THREADS = {
     "levels": (("bake", "mip", "builtin:roofs=1", "--format", "png-levels", "--threads", "4", "-q"), (0,)),
     "tiles": (("bake", "mip", "builtin:roofs=1", "--format", "exr-mip", "--threads", "2", "-q"), (0, 77)),
     "w.mipnet": (("train", "mip", "--steps", "2", "--threads", "3", "-q"), (0,)),
-    "report": (("chart", "builtin:plate", *CHART[1:], "-q"), (0, 77)),
+    "report": (("chart", "builtin:plate", *CHART[1:]), (0, 77)),
 }
 
 
