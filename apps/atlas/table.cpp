@@ -60,6 +60,8 @@ std::optional<std::pair<std::string, BlessedRow>> row_in(const std::string& line
                                 in_double = figure_of(cells[5], 0.0), cure = figure_of(cells[6], 0.0);
     if (!onset || !worst || !flicker || !in_double || !cure)
         return std::nullopt;
+    if (*onset < 0.0 || *onset > 2.0 || *worst < 0.0 || *in_double < 0.0 || *cure < 0.0)
+        return std::nullopt;
     row.onset = *onset, row.worst = *worst, row.flicker = *flicker, row.cure_worst = *cure, row.kind = cells[7];
     if (cells[5] != kNothing)
         row.in_double = *in_double;

@@ -296,16 +296,16 @@ int run_environment(const BakeArguments& a)
 {
     if (a.picture.empty() || a.output.empty())
         return fail(usage_error(a.picture.empty() ? "PICTURE" : "-o", "is needed: an environment, and the folder that it is baked to"));
+    if (const Status path = check_folder_path(a.output); !path)
+        return fail(path.error());
     const Jobs jobs(a.threads);
     EnvironmentOptions options = a.environment;
     options.quiet = a.quiet, options.use_cache = false;
     const auto baked = open_environment(a.picture, options, a.limits, jobs);
     if (!baked)
         return fail(baked.error());
-    std::error_code failed;
-    fs::create_directories(a.output, failed);
-    if (failed)
-        return fail({ExitCode::output_failed, a.output, "", failed.message()});
+    if (const Status made = make_output_folder(a.output); !made)
+        return fail(made.error());
     const std::vector<std::uint8_t> bytes = environment_cache_bytes(**baked);
     return write_bytes(a, (fs::path(a.output) / kBakedEnvironment).string(), bytes.data(), bytes.size(), (*baked)->warnings,
                        [&] { return preview_of_environment(**baked); });

@@ -79,10 +79,8 @@ Status check_arguments(const LtcBake& b, const OptionTable& given)
 Status write_report_files(const std::string& folder, const Json& figures, const std::vector<std::pair<std::string, Drawing>>& drawings,
                           Report& report)
 {
-    std::error_code failed;
-    fs::create_directories(folder, failed);
-    if (failed)
-        return Error{ExitCode::output_failed, folder, "", failed.message()};
+    if (const Status made = make_output_folder(folder); !made)
+        return made.error();
     std::vector<std::pair<std::string, std::string>> files = {{"quality.json", figures.dump(2) + "\n"}};
     for (const auto& [name, drawing] : drawings) {
         Result<std::string> png = png_of(drawing);

@@ -124,7 +124,7 @@ std::vector<Option> mip_options(MipArguments& to)
         names.emplace_back(filter.name);
     return {
         {"--mip-filter", "NAME", "{}", choice(to.filter, names)},
-        {"--mip-kappa", "K", "Of filter kappa, and of taps under mipnet and teacher", number(to.kappa, 0.0, 4.0),
+        {"--mip-kappa", "K", "Of filter kappa, and of taps under mipnet and teacher", number(to.kappa, 0.0, kMostKappa),
          fmt::format("{}", kUsualMipKappa).c_str()},
         {"--mip-net", "FILE", "Of filters mipnet and teacher: weights of burnish train mip", file(to.net), "the program's own for --brdf"},
         {"--fallback", "NAME", "Of filter mipnet: {}; auto leaves materials to kappa or baseline where the net is worse than they are",
@@ -155,6 +155,12 @@ int run_mip(const MipBake& bake)
         return fail(usage_error("--preview", "is the folder of -o, whose textures it could write over"));
     if (pyramid)
         if (const Status path = check_text_path("-o", bake.output, {bake.material}); !path)
+            return fail(path.error());
+    if (!pyramid)
+        if (const Status path = check_folder_path(bake.output); !path)
+            return fail(path.error());
+    if (!bake.preview.empty())
+        if (const Status path = check_folder_path(bake.preview); !path)
             return fail(path.error());
     Dress with;
     with.mip_filter = a.filter;

@@ -109,7 +109,7 @@ Status add_file(FileSet& files, const std::string& name, const std::vector<std::
     for (const std::string& input : inputs)
         if (same_file(name, input))
             return Error{ExitCode::usage, "-o", "", fmt::format("'{}' would be written over", input)};
-    return files.add(name, bytes.data(), bytes.size());
+    return files.add(fs::path(name).filename().string(), bytes.data(), bytes.size());
 }
 
 Status add_levels(FileSet& files, const std::vector<std::string>& inputs, const std::string& stem, const std::vector<Image>& levels,
@@ -169,13 +169,9 @@ std::string figures_of(const std::string& name, const StandardLevels& held, cons
 Result<WrittenTextures> write_mip_textures(const std::string& folder, const Scene& scene, const MaterialLevels& levels,
                                            const MipArguments& a, const Jobs& jobs)
 {
-    std::error_code ignored;
-    const bool was_there = fs::exists(folder, ignored);
-    if (Status made = make_output_folder(folder); !made)
-        return made.error();
     WrittenTextures written;
     const auto write = [&]() -> Status {
-        FileSet files;
+        FileSet files(folder);
         std::vector<std::string> materials;
         for (const Material& m : scene.materials)
             materials.push_back(m.name);
@@ -215,11 +211,8 @@ Result<WrittenTextures> write_mip_textures(const std::string& folder, const Scen
         }
         return files.name_all();
     };
-    if (const Status done = write(); !done) {
-        if (!was_there)
-            fs::remove(folder, ignored); // where it is empty
+    if (const Status done = write(); !done)
         return done.error();
-    }
     return written;
 }
 

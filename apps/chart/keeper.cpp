@@ -46,7 +46,8 @@ Result<Keeper> Keeper::open(const std::string& folder, Report& report)
         if (const Status made = make_output_folder(needed); !made)
             return made.error();
     const std::string path = keeper.file("rows.json");
-    if (!fs::exists(path))
+    std::error_code ignored; // reading says what is wrong
+    if (fs::status(path, ignored).type() == fs::file_type::not_found)
         return keeper;
     const Result<std::vector<std::uint8_t>> bytes = read_file(path, kMaxKeptBytes);
     if (!bytes)
@@ -75,10 +76,11 @@ void Keeper::remove_stale(const std::set<std::string>& used) const
     for (const auto& [folder, ours] : {std::pair{folder_, &is_chart}, std::pair{folder_ + "/pictures", &is_picture}}) {
         std::vector<fs::path> stale;
         std::error_code ignored;
-        for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored)) {
-            const std::string name = entry.path().filename().string();
-            if (entry.is_regular_file(ignored) && ours(name) && !used.count(folder + "/" + name))
-                stale.push_back(entry.path());
+        std::error_code failed;
+        for (fs::directory_iterator at(folder, failed), end; !failed && at != end; at.increment(failed)) {
+            const std::string name = at->path().filename().string();
+            if (at->is_regular_file(ignored) && ours(name) && !used.count(folder + "/" + name))
+                stale.push_back(at->path());
         }
         for (const fs::path& path : stale)
             fs::remove(path, ignored); // what cannot be removed does no harm

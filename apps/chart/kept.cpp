@@ -1,4 +1,5 @@
 // What is read back of an earlier run.
+#include <algorithm>
 #include <limits>
 #include <nlohmann/json.hpp>
 
@@ -10,6 +11,17 @@ namespace {
 double number_of(const nlohmann::json& json)
 {
     return json.is_null() ? std::numeric_limits<double>::quiet_NaN() : json.get<double>();
+}
+
+// Times of a row, or nothing where one of them is none.
+bool are_times(const std::vector<double>& ms)
+{
+    return std::all_of(ms.begin(), ms.end(), [](double x) { return x >= 0.0 && x < 1e12; });
+}
+
+bool is_error_or_unknown(double x) // NaN where there is none
+{
+    return !(x < 0.0);
 }
 
 std::uint64_t count_of(const nlohmann::json& json)
@@ -35,12 +47,15 @@ Result<Kept> parse_kept(const std::string& text, const std::string& file)
             Measured& m = kept.rows[key];
             m.ms = row.at("ms").get<std::vector<double>>();
             m.cpu_ms = row.at("cpu_ms").get<std::vector<double>>();
-            if (m.cpu_ms.size() != m.ms.size())
+            if (m.cpu_ms.size() != m.ms.size() || !are_times(m.ms) || !are_times(m.cpu_ms))
                 return Error{ExitCode::bad_input, file, "", "does not hold the rows of a chart"};
             m.has_errors = row.contains("flip_mean");
             if (m.has_errors)
                 m.errors = {number_of(row.at("flip_mean")), number_of(row.at("flip_p99")), number_of(row.at("rel_mse")),
                             number_of(row.at("max_abs")), count_of(row.at("nan_pixels"))};
+            for (const double error : {m.errors.flip_mean, m.errors.flip_p99, m.errors.rel_mse, m.errors.max_abs})
+                if (!is_error_or_unknown(error))
+                    return Error{ExitCode::bad_input, file, "", "holds an error below 0"};
         }
         return kept;
     } catch (const nlohmann::json::exception&) {

@@ -200,7 +200,7 @@ Status Chart::measure_place(const Place& place)
     complete = complete && keeper_.references().count(kept_reference);
     const std::string picture = keeper_.picture(
         fmt::format("reference-{}-{}-{:g}", kept_reference, picture_width_, static_cast<double>(options_.base.exposure_ev)));
-    if (!complete || !fs::exists(picture)) {
+    if (std::error_code ignored; !complete || !fs::exists(picture, ignored)) {
         ReferenceNoise noise;
         const Result<Image> truth = reference(place, noise);
         if (!truth)
@@ -287,7 +287,8 @@ ChartRow Chart::new_row(const Place& place, const Setting& setting) const
     const std::string name = fmt::format("{}-{}-{:g}", row.key, picture_width_, static_cast<double>(options_.base.exposure_ev));
     row.picture = keeper_.picture(name);
     row.error_map = keeper_.picture(name + "-flip");
-    row.measured.has_errors = row.measured.has_errors && fs::exists(row.picture) && fs::exists(row.error_map);
+    std::error_code ignored;
+    row.measured.has_errors = row.measured.has_errors && fs::exists(row.picture, ignored) && fs::exists(row.error_map, ignored);
     return row;
 }
 

@@ -8,6 +8,7 @@
 #include <fmt/core.h>
 #include <new>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include "apps/cli/command_line.h"
@@ -17,6 +18,7 @@
 #include "core/base/version.h"
 #include "core/jobs/activity.h"
 #include "core/jobs/cores.h"
+#include "core/jobs/threads.h"
 
 namespace burnish {
 namespace {
@@ -114,6 +116,26 @@ int flush_stdout(int code)
     return fail(Error{ExitCode::output_failed, "standard output", "", "cannot be written"});
 }
 
+// Says that the work was done by fewer threads than were wanted. An error remains one line.
+void warn_of_missing_threads(int code, const std::vector<std::string>& words)
+{
+    const std::string missing = missing_threads();
+    const bool quiet = std::any_of(words.begin(), words.end(), [](const std::string& word) { return word == "--quiet" || word == "-q"; });
+    if (code != 0 || missing.empty() || quiet)
+        return;
+    Report report(false, 0);
+    report.warning(missing);
+    report.release();
+}
+
+// A thread that the system refuses is no fault of the program: pools of burnish go on without, libraries may not.
+int fail_by(const std::system_error& error)
+{
+    const bool refused = error.code() == std::errc::resource_unavailable_try_again;
+    const std::string reason = refused ? "the system gives no further thread: " : "internal error: ";
+    return fail(Error{refused ? ExitCode::unavailable : ExitCode::internal, "", "", reason + error.what()});
+}
+
 // Where an exception cannot be caught: in what a library does as it is loaded, for one.
 [[noreturn]] void terminate()
 {
@@ -122,6 +144,8 @@ int flush_stdout(int code)
             std::rethrow_exception(thrown);
     } catch (const std::bad_alloc&) {
         std::_Exit(fail(Error{ExitCode::bad_input, "", "", "out of memory"}));
+    } catch (const std::system_error& error) {
+        std::_Exit(fail_by(error));
     } catch (...) {
     }
     std::abort();
@@ -138,9 +162,14 @@ int main(int argc, char** argv)
     std::set_terminate(burnish::terminate);
     try {
         burnish::bound_memory_by_cgroup(burnish::usable_cores());
-        return burnish::flush_stdout(burnish::run(std::vector<std::string>(argv + std::min(argc, 1), argv + argc)));
+        const std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
+        const int code = burnish::flush_stdout(burnish::run(words));
+        burnish::warn_of_missing_threads(code, words);
+        return code;
     } catch (const std::bad_alloc&) {
         return burnish::fail(burnish::Error{burnish::ExitCode::bad_input, "", "", "out of memory"});
+    } catch (const std::system_error& error) {
+        return burnish::fail_by(error);
     } catch (const std::exception& error) {
         return burnish::fail(burnish::Error{burnish::ExitCode::internal, "", "", std::string("internal error: ") + error.what()});
     }

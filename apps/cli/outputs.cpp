@@ -13,6 +13,7 @@
 #include <unistd.h>
 
 #include "apps/cli/report.h"
+#include "core/base/file.h"
 #include "core/image/io/image_io.h"
 
 namespace burnish {
@@ -37,22 +38,29 @@ Error output_error(const std::string& path, const std::string& reason)
     return Error{ExitCode::output_failed, path, "", reason};
 }
 
-Status check_folder(const std::string& path)
+// A folder that there is, and that can be written to. path: what is to be written there.
+Status check_writable(const std::string& path, const fs::path& folder)
 {
-    fs::path folder = fs::path(path).parent_path();
-    if (folder.empty())
-        folder = ".";
-    std::error_code ignored;
-    if (!fs::exists(folder, ignored))
+    std::error_code failed;
+    const fs::file_status status = fs::status(folder, failed);
+    if (status.type() == fs::file_type::not_found)
         return output_error(path, fmt::format("the folder '{}' does not exist", folder.string()));
-    if (!fs::is_directory(folder, ignored))
+    if (failed)
+        return output_error(path, failed.message());
+    if (!fs::is_directory(status))
         return output_error(path, fmt::format("'{}' is not a folder", folder.string()));
     if (::access(folder.c_str(), W_OK | X_OK) != 0)
         return output_error(path, fmt::format("the folder '{}': {}", folder.string(), std::strerror(errno)));
-    struct stat info {};
-    if (::stat(path.c_str(), &info) != 0 && errno != ENOENT) // a name too long, a circle of links
-        return output_error(path, std::strerror(errno));
     return {};
+}
+
+Status check_folder(const std::string& path)
+{
+    struct stat info {};
+    if (::stat(path.c_str(), &info) != 0 && errno != ENOENT && errno != ENOTDIR) // a name too long, a circle of links
+        return output_error(path, std::strerror(errno));
+    const fs::path folder = fs::path(written_place(path)).parent_path();
+    return check_writable(path, folder.empty() ? "." : folder);
 }
 
 // Writing over what is being read would lose the user's file.
@@ -93,7 +101,7 @@ bool same_file(const std::string& a, const std::string& b)
         return false;
     std::error_code failed, other_failed;
     const auto place = [](const std::string& path, std::error_code& error) {
-        const fs::path whole = fs::absolute(path, error);
+        const fs::path whole = fs::absolute(written_place(path), error);
         return error ? fs::path() : fs::weakly_canonical(whole, error);
     };
     const fs::path one = place(a, failed), other = place(b, other_failed);
@@ -151,11 +159,31 @@ Status check_text_path(const std::string& option, const std::string& path, const
     return check_folder(path);
 }
 
+Status check_folder_path(const std::string& folder)
+{
+    if (folder.empty())
+        return output_error("", "the name of a folder is empty");
+    for (fs::path at(folder);; at = at.parent_path()) {
+        std::error_code failed;
+        const fs::file_status status = fs::status(at.empty() ? "." : at, failed);
+        const bool missing = status.type() == fs::file_type::not_found;
+        if (failed && !missing)
+            return output_error(folder, failed.message());
+        if (missing && !fs::is_symlink(fs::symlink_status(at, failed)) && at.has_relative_path())
+            continue;
+        if (missing)
+            return output_error(folder, std::strerror(ENOENT));
+        if (!fs::is_directory(status))
+            return output_error(folder, at == folder ? "is not a folder" : fmt::format("'{}' is not a folder", at.string()));
+        return ::access(at.empty() ? "." : at.c_str(), W_OK | X_OK) == 0 ? Status() : output_error(folder, std::strerror(errno));
+    }
+}
+
 Status make_output_folder(const std::string& folder)
 {
-    std::error_code failed;
+    std::error_code failed, ignored;
     fs::create_directories(folder, failed);
-    if (!fs::is_directory(folder))
+    if (!fs::is_directory(folder, ignored))
         return output_error(folder, failed ? failed.message() : "is not a folder");
     if (::access(folder.c_str(), W_OK | X_OK) != 0)
         return output_error(folder, std::strerror(errno));

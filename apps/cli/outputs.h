@@ -22,6 +22,9 @@ Status check_text_path(const std::string& option, const std::string& path, const
 Status check_outputs(const std::vector<std::string>& pictures, const std::vector<std::pair<std::string, std::string>>& texts,
                      const std::vector<std::string>& inputs);
 
+// The folder is there and can be written to, or can be made.
+Status check_folder_path(const std::string& folder);
+
 // Made where it is not there; it can be written to.
 Status make_output_folder(const std::string& folder);
 

@@ -123,7 +123,7 @@ std::vector<Option> dress_rows(Dress& to)
          choice(to.mip_filter, mip_filter_names())},
         {"--mip-kappa", "K",
          "Of --mip-filter kappa, and of taps under mipnet and teacher: how much of the covariance of normals lobes grow by",
-         number(to.mip_kappa, 0.0, 4.0), fmt::format("{}", kUsualMipKappa).c_str()},
+         number(to.mip_kappa, 0.0, kMostKappa), fmt::format("{}", kUsualMipKappa).c_str()},
         {"--mip-net", "FILE", "Of --mip-filter mipnet and teacher: weights of burnish train mip", file(to.mip_net),
          "the program's own for --brdf"},
         {"--fallback", "NAME",

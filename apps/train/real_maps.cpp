@@ -23,9 +23,9 @@ Found look_into(const fs::path& folder)
 {
     Found found;
     std::vector<fs::path> files;
-    std::error_code ignored;
-    for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored))
-        files.push_back(entry.path());
+    std::error_code failed;
+    for (fs::directory_iterator at(folder, failed), end; !failed && at != end; at.increment(failed))
+        files.push_back(at->path());
     std::sort(files.begin(), files.end());
     for (const fs::path& file : files) {
         std::string name = file.stem().string();
@@ -48,10 +48,10 @@ Found look_into(const fs::path& folder)
 Result<std::vector<mipnet::TestMaterial>> real_materials(const std::string& folder, const Limits& limits)
 {
     std::vector<fs::path> folders;
-    std::error_code failed;
-    for (const fs::directory_entry& entry : fs::directory_iterator(folder, failed))
-        if (entry.is_directory())
-            folders.push_back(entry.path());
+    std::error_code failed, ignored;
+    for (fs::directory_iterator at(folder, failed), end; !failed && at != end; at.increment(failed))
+        if (at->is_directory(ignored))
+            folders.push_back(at->path());
     if (failed)
         return Error{ExitCode::bad_input, folder, "", failed.message()};
     std::sort(folders.begin(), folders.end());

@@ -119,8 +119,9 @@ Result<std::vector<Row>> memory_rows(const RunOptions& options)
 
 Result<std::vector<Row>> first_pixel_rows(const RunOptions& options)
 {
-    const fs::path folder = fs::temp_directory_path() / fmt::format("burnish-first-pixel-{}", getpid());
-    fs::create_directories(folder);
+    std::error_code unmade;
+    const fs::path folder = fs::temp_directory_path(unmade) / fmt::format("burnish-first-pixel-{}", getpid());
+    fs::create_directories(folder, unmade); // the program says that it cannot write there
     const std::vector<std::string> command = {
         options.program, "render", "builtin:teapot", "--size", "1920x1080", "--quiet", "-o", (folder / "first.png").string()};
     std::vector<double> seconds;

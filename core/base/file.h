@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/base/descriptor.h"
 #include "core/base/result.h"
 
 namespace burnish {
@@ -27,29 +28,39 @@ Status write_file_atomic(const std::string& path, const void* data, std::size_t 
 using PutBytes = std::function<bool(const void* data, std::size_t size)>;
 Status write_file_atomic(const std::string& path, const std::function<void(const PutBytes& put)>& write, Links links = Links::follow);
 
-// Files that belong together: what is added lies under temporary names, beside where it is to be, until name_all() gives all of them their
-// names. Without that, or where one cannot be added, nothing is left and files that had the names are as they were; where name_all() fails
-// half-way, the first of them have their names.
+// Where a file that is written to `path` comes to lie: the end of its links, whether or not that is there. `path` itself where they lead
+// round in a circle, and for devices and pipes.
+std::string written_place(const std::string& path);
+
+// Files that belong together, in one folder: what is added lies there without a name, or under temporary ones, until name_all() gives all
+// of them their names. A folder that was not there appears with all of them in it. In one that was, file after file is replaced; links in
+// it keep pointing, and permissions are kept. Without name_all(), or where it fails for a new folder, nothing is left.
 class FileSet {
   public:
-    FileSet() = default;
-    ~FileSet(); // removes what has no name yet
+    explicit FileSet(const std::string& folder);
+    ~FileSet();
     FileSet(const FileSet&) = delete;
     FileSet& operator=(const FileSet&) = delete;
-    Status add(const std::string& path, const void* data, std::size_t size);
+    Status add(const std::string& name, const void* data, std::size_t size);
     Status name_all();
 
   private:
     struct Added {
-        std::string temporary, path;
+        Descriptor file;                     // open, so that its lock tells others that it is no leftover
+        std::string temporary, name, target; // temporary: empty where it has no name yet; target: empty in a new folder
     };
+    int name_in_new_folder();
+    int give_name(Added& file, const std::string& place);
+
+    std::string folder_;
+    bool is_new_ = false;
     std::vector<Added> added_;
 };
 
 // The name that `name` is a temporary file of, or empty: ".NAME.HEX.bntmp" (and ".NAME.PID.N.tmp", as version 0.1.0 wrote them).
 std::string name_of_temporary(const std::string& name);
 
-// Removes a temporary file unless a living process writes it. True if it is gone.
+// Removes a temporary file, or a temporary folder with its files, unless a living process writes it. True if it is gone.
 bool remove_leftover(const std::string& path);
 
 } // namespace burnish

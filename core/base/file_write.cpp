@@ -1,6 +1,7 @@
 #include <fcntl.h>
 #include <sys/file.h>
 #include <sys/random.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -159,6 +160,42 @@ int name_it(Temporary& temporary, const fs::path& target)
     return EEXIST;
 }
 
+// Gives the file the owner and the permissions of the one whose place it takes.
+void keep_owner(int fd, const struct stat& before)
+{
+    const mode_t mode = before.st_mode & 0777;
+    const bool owned = ::fchown(fd, before.st_uid, before.st_gid) == 0;
+    if (!owned && before.st_gid != ::getegid()) // its group's permissions are not for another group
+        static_cast<void>(::fchmod(fd, mode & 0707));
+    else
+        static_cast<void>(::fchmod(fd, mode));
+}
+
+// Follows links to what they name, whether or not that is there. Returns 0, or the errno of what is in the way.
+int follow_links(fs::path& target)
+{
+    struct stat info {};
+    std::error_code failed;
+    if (::stat(target.c_str(), &info) == 0) {
+        if (fs::is_symlink(target, failed) && S_ISREG(info.st_mode)) // pipes behind /proc/self/fd have no path
+            if (fs::path whole = fs::canonical(target, failed); !failed)
+                target = std::move(whole);
+        return 0;
+    }
+    if (errno != ENOENT) // a name too long, a circle of links, a folder that is a file
+        return errno;
+    constexpr int kMostLinks = 40; // as Linux has it
+    for (int i = 0; i < kMostLinks; ++i) {
+        if (::lstat(target.c_str(), &info) != 0)
+            return errno == ENOENT ? 0 : errno;
+        const fs::path next = S_ISLNK(info.st_mode) ? fs::read_symlink(target, failed) : fs::path();
+        if (next.empty())
+            return 0;
+        target = next.is_absolute() ? next : folder_of(target) / next;
+    }
+    return ELOOP;
+}
+
 using Maker = int (*)(const fs::path& target, mode_t mode, Temporary& made);
 
 // `before`: the file that is there, whose owner and permissions are kept, or null.
@@ -169,13 +206,8 @@ int write_by(Maker make, const fs::path& target, const struct stat* before, cons
     if (const int code = make(target, mode, temporary))
         return code;
     const int fd = temporary.file.get();
-    if (before) {
-        const bool owned = ::fchown(fd, before->st_uid, before->st_gid) == 0;
-        if (!owned && before->st_gid != ::getegid()) // its group's permissions are not for another group
-            static_cast<void>(::fchmod(fd, mode & 0707));
-        else
-            static_cast<void>(::fchmod(fd, mode));
-    }
+    if (before)
+        keep_owner(fd, *before);
     int code = write_and_sync(fd, write);
     if (code == 0 && temporary.name.empty())
         code = name_it(temporary, target);
@@ -202,6 +234,45 @@ void sweep(const fs::path& target)
             remove_leftover(at->path().string());
 }
 
+// Lets the process open as many files as it may at most. False where it already may.
+bool allow_more_files()
+{
+    struct rlimit files {};
+    if (::getrlimit(RLIMIT_NOFILE, &files) != 0 || files.rlim_cur >= files.rlim_max)
+        return false;
+    files.rlim_cur = files.rlim_max;
+    return ::setrlimit(RLIMIT_NOFILE, &files) == 0;
+}
+
+// Makes a folder with a temporary name beside `target`, and locks it, so that nobody takes it for a leftover.
+int make_locked_folder(const fs::path& target, std::string& name, Descriptor& held)
+{
+    for (int i = 0; i < kNameTries; ++i) {
+        name = temporary_beside(target);
+        if (::mkdir(name.c_str(), 0777) != 0 && errno != EEXIST)
+            return errno;
+        held.reset(::open(name.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+        struct stat info {};
+        // Another process may have taken it for a leftover before it was locked.
+        if (held && (lock(held.get()) || errno != EWOULDBLOCK) && ::fstat(held.get(), &info) == 0 && info.st_nlink > 0)
+            return 0;
+    }
+    return EEXIST;
+}
+
+// Renames a folder unless something has the name already (EEXIST).
+int rename_to_new(const std::string& from, const std::string& to)
+{
+    if (::renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), RENAME_NOREPLACE) == 0)
+        return 0;
+    if (errno != EINVAL && errno != ENOSYS)
+        return -1;
+    const int code = ::rename(from.c_str(), to.c_str()); // replaces an empty folder only
+    if (code != 0 && errno == ENOTEMPTY)
+        errno = EEXIST;
+    return code;
+}
+
 int write_device(const fs::path& target, const Write& write)
 {
     Descriptor device(::open(target.c_str(), O_WRONLY | O_CLOEXEC));
@@ -214,39 +285,123 @@ int write_device(const fs::path& target, const Write& write)
 
 } // namespace
 
+std::string written_place(const std::string& path)
+{
+    fs::path target(path);
+    return follow_links(target) == 0 ? target.string() : path;
+}
+
+FileSet::FileSet(const std::string& folder) : folder_(folder)
+{
+    while (folder_.size() > 1 && folder_.back() == '/')
+        folder_.pop_back();
+    std::error_code failed;
+    is_new_ = !fs::exists(folder_, failed);
+    if (is_new_)
+        fs::create_directories(folder_of(folder_), failed); // adding says what is wrong
+    sweep(folder_);
+}
+
 FileSet::~FileSet()
 {
     for (const Added& file : added_)
-        ::unlink(file.temporary.c_str());
+        if (!file.temporary.empty())
+            ::unlink(file.temporary.c_str());
 }
 
-Status FileSet::add(const std::string& path, const void* data, std::size_t size)
+Status FileSet::add(const std::string& name, const void* data, std::size_t size)
 {
-    std::error_code ignored;
-    if (fs::is_directory(path, ignored))
-        return unwritable(path, EISDIR);
-    sweep(path);
-    Temporary temporary;
-    int code = make_named(path, 0666, temporary);
+    const std::string path = (fs::path(folder_) / name).string();
+    fs::path target = is_new_ ? folder_ : path; // of a new folder: files lie beside it
+    struct stat before {};
+    if (const int code = is_new_ ? 0 : follow_links(target))
+        return unwritable(path, code);
+    const bool exists = !is_new_ && ::lstat(target.c_str(), &before) == 0;
+    if (exists && !S_ISREG(before.st_mode))
+        return unwritable(path, S_ISDIR(before.st_mode) ? EISDIR : EEXIST);
+    if (!is_new_)
+        sweep(target);
+    Temporary made;
+    const bool has_names = ::access("/proc/self/fd", X_OK) == 0; // through which a file without one gets its name
+    int code = has_names ? make_unnamed(target, 0666, made) : EOPNOTSUPP;
+    if (code == EMFILE && allow_more_files())
+        code = make_unnamed(target, 0666, made);
+    if (code != 0 && code != EMFILE && code != ENOENT && code != EACCES)
+        code = make_named(target, 0666, made);
     if (code != 0)
         return unwritable(path, code);
-    added_.push_back({temporary.name, path});
-    if (code = write_and_sync(temporary.file.get(), [&](const PutBytes& put) { put(data, size); });
-        code == 0 && temporary.file.close() != 0)
-        code = errno;
+    if (exists)
+        keep_owner(made.file.get(), before);
+    added_.push_back({std::move(made.file), made.name, name, is_new_ ? "" : target.string()});
+    code = write_and_sync(added_.back().file.get(), [&](const PutBytes& put) { put(data, size); });
     return code ? Status(unwritable(path, code)) : Status();
+}
+
+// Gives a file without a name, or with a temporary one, the name `place`, where nothing is.
+int FileSet::give_name(Added& file, const std::string& place)
+{
+    const std::string self = "/proc/self/fd/" + std::to_string(file.file.get());
+    const bool named = file.temporary.empty() ? ::linkat(AT_FDCWD, self.c_str(), AT_FDCWD, place.c_str(), AT_SYMLINK_FOLLOW) == 0
+                                              : ::rename(file.temporary.c_str(), place.c_str()) == 0;
+    if (!named)
+        return errno;
+    file.temporary = place;
+    return 0;
+}
+
+// The folder is filled under a temporary name, which then becomes its own: it is there with all files, or not at all. Where another
+// process was faster with a folder of the name, the files go into that.
+int FileSet::name_in_new_folder()
+{
+    std::string staged;
+    Descriptor held;
+    if (const int code = make_locked_folder(folder_, staged, held))
+        return code;
+    int code = 0;
+    for (std::size_t i = 0; i < added_.size() && code == 0; ++i)
+        code = give_name(added_[i], (fs::path(staged) / added_[i].name).string());
+    if (code == 0)
+        code = sync_folder(staged);
+    if (code == 0 && rename_to_new(staged, folder_) == 0) {
+        added_.clear();
+        return sync_folder(folder_of(folder_));
+    }
+    code = code ? code : errno;
+    for (std::size_t i = 0; i < added_.size() && code == EEXIST; ++i) {
+        const std::string place = (fs::path(folder_) / added_[i].name).string();
+        if (::rename(added_[i].temporary.c_str(), place.c_str()) != 0)
+            code = errno;
+        else
+            added_[i].temporary.clear();
+    }
+    for (Added& file : added_)
+        if (!file.temporary.empty())
+            ::unlink(file.temporary.c_str()), file.temporary.clear();
+    ::rmdir(staged.c_str());
+    added_.clear();
+    return code == EEXIST ? sync_folder(folder_) : code;
 }
 
 Status FileSet::name_all()
 {
+    if (is_new_) {
+        const int code = name_in_new_folder();
+        return code ? Status(unwritable(folder_, code)) : Status();
+    }
+    std::string last;
     while (!added_.empty()) {
-        const Added file = added_.back();
-        if (::rename(file.temporary.c_str(), file.path.c_str()) != 0)
-            return unwritable(file.path, errno);
+        Added& file = added_.back();
+        last = file.target;
+        int code = file.temporary.empty() ? give_name(file, temporary_beside(file.target)) : 0;
+        if (code == 0 && ::rename(file.temporary.c_str(), file.target.c_str()) != 0)
+            code = errno;
+        if (code != 0)
+            return unwritable((fs::path(folder_) / file.name).string(), code);
+        file.temporary.clear();
         added_.pop_back();
-        const bool last = added_.empty() || folder_of(added_.back().path) != folder_of(file.path);
-        if (const int code = last ? sync_folder(folder_of(file.path)) : 0)
-            return unwritable(file.path, code);
+        const bool other = added_.empty() || folder_of(added_.back().target) != folder_of(last);
+        if (const int synced = other ? sync_folder(folder_of(last)) : 0)
+            return unwritable(last, synced);
     }
     return {};
 }
@@ -277,7 +432,14 @@ bool remove_leftover(const std::string& path)
 {
     const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK));
     struct stat info {};
-    return file && ::fstat(file.get(), &info) == 0 && S_ISREG(info.st_mode) && lock(file.get()) && ::unlink(path.c_str()) == 0;
+    if (!file || ::fstat(file.get(), &info) != 0 || !(S_ISREG(info.st_mode) || S_ISDIR(info.st_mode)) || !lock(file.get()))
+        return false;
+    if (S_ISREG(info.st_mode))
+        return ::unlink(path.c_str()) == 0;
+    std::error_code failed;
+    for (fs::directory_iterator at(path, failed), end; !failed && at != end; at.increment(failed))
+        ::unlink(at->path().c_str());
+    return ::rmdir(path.c_str()) == 0;
 }
 
 Status write_file_atomic(const std::string& path, const void* data, std::size_t size, Links links)
@@ -288,10 +450,9 @@ Status write_file_atomic(const std::string& path, const void* data, std::size_t 
 
 Status write_file_atomic(const std::string& path, const Write& write, Links links)
 {
-    std::error_code ignored;
     fs::path target(path);
-    if (links == Links::follow && fs::is_symlink(target, ignored) && fs::exists(target, ignored))
-        target = fs::canonical(target, ignored);
+    if (const int code = links == Links::follow ? follow_links(target) : 0)
+        return unwritable(path, code);
     struct stat before {};
     const bool exists = (links == Links::follow ? ::stat(target.c_str(), &before) : ::lstat(target.c_str(), &before)) == 0;
     if (!exists && errno != ENOENT) // a name too long, a circle of links, a folder that is a file

@@ -1,6 +1,7 @@
 #include "raster/reference/ray_scene.h"
 
 #include <embree3/rtcore.h>
+#include <oneapi/tbb/global_control.h>
 
 #include <cmath>
 #include <cstddef>
@@ -23,7 +24,7 @@ static_assert(kNoHit == RTC_INVALID_GEOMETRY_ID);
 
 class EmbreeScene final : public RayScene {
   public:
-    static Result<std::unique_ptr<RayScene>> make(const Scene& scene, const DrawTables& tables);
+    static Result<std::unique_ptr<RayScene>> make(const Scene& scene, const DrawTables& tables, const Jobs& jobs);
     ~EmbreeScene() override
     {
         rtcReleaseScene(scene_);
@@ -42,6 +43,14 @@ class EmbreeScene final : public RayScene {
     bool any_single_sided_ = false;
 };
 
+// Keeps oneTBB, which Embree builds its trees with, from starting threads: where one is refused, it ends the process. Ours join it instead.
+void keep_tbb_idle()
+{
+    static const tbb::global_control* const only_callers =
+        new tbb::global_control(tbb::global_control::max_allowed_parallelism, 1); // for the whole process, so never deleted
+    static_cast<void>(only_callers);
+}
+
 // What Embree says of a call that failed. what: as in "Embree cannot ...".
 Error error_of(RTCError code, const std::string& what)
 {
@@ -52,10 +61,11 @@ Error error_of(RTCError code, const std::string& what)
     return {ExitCode::internal, "", "", "Embree cannot " + what};
 }
 
-Result<std::unique_ptr<RayScene>> EmbreeScene::make(const Scene& scene, const DrawTables& tables)
+Result<std::unique_ptr<RayScene>> EmbreeScene::make(const Scene& scene, const DrawTables& tables, const Jobs& jobs)
 {
     std::unique_ptr<EmbreeScene> self(new EmbreeScene);
-    self->device_ = rtcNewDevice(nullptr); // a number of threads here would limit oneTBB in the whole process
+    keep_tbb_idle();
+    self->device_ = rtcNewDevice(nullptr);
     if (!self->device_)
         return error_of(rtcGetDeviceError(nullptr), "be started");
     self->scene_ = rtcNewScene(self->device_);
@@ -88,7 +98,7 @@ Result<std::unique_ptr<RayScene>> EmbreeScene::make(const Scene& scene, const Dr
         rtcAttachGeometry(self->scene_, geometry);
         rtcReleaseGeometry(geometry);
     }
-    rtcCommitScene(self->scene_);
+    jobs.parallel_for(static_cast<std::size_t>(jobs.threads()), [&](std::size_t, int) { rtcJoinCommitScene(self->scene_); });
     if (const RTCError code = rtcGetDeviceError(self->device_); code != RTC_ERROR_NONE)
         return error_of(code, "build its tree over the scene");
     return std::unique_ptr<RayScene>(std::move(self));
@@ -157,9 +167,9 @@ bool ray_scene_available()
     return true;
 }
 
-Result<std::unique_ptr<RayScene>> make_ray_scene(const Scene& scene, const DrawTables& tables)
+Result<std::unique_ptr<RayScene>> make_ray_scene(const Scene& scene, const DrawTables& tables, const Jobs& jobs)
 {
-    return EmbreeScene::make(scene, tables);
+    return EmbreeScene::make(scene, tables, jobs);
 }
 
 } // namespace burnish

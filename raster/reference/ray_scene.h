@@ -5,6 +5,7 @@
 #include <string>
 
 #include "core/base/result.h"
+#include "core/jobs/jobs.h"
 #include "core/scene/draw_tables.h"
 #include "core/scene/scene.h"
 
@@ -41,6 +42,7 @@ class RayScene {
 
 bool ray_scene_available();
 // An Error with ExitCode::unavailable where Embree was not there when the program was built.
-Result<std::unique_ptr<RayScene>> make_ray_scene(const Scene& scene, const DrawTables& tables);
+// The threads of `jobs` build its tree.
+Result<std::unique_ptr<RayScene>> make_ray_scene(const Scene& scene, const DrawTables& tables, const Jobs& jobs);
 
 } // namespace burnish

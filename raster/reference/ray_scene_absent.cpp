@@ -8,7 +8,7 @@ bool ray_scene_available()
     return false;
 }
 
-Result<std::unique_ptr<RayScene>> make_ray_scene(const Scene&, const DrawTables&)
+Result<std::unique_ptr<RayScene>> make_ray_scene(const Scene&, const DrawTables&, const Jobs&)
 {
     return Error{ExitCode::unavailable, "", "--backend reference", "this program was built without Embree 3"};
 }

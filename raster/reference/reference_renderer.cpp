@@ -254,7 +254,7 @@ Result<std::unique_ptr<Renderer>> make_reference_renderer(const RenderInput& inp
 {
     if (const Status near = check_ray_range(input.tables); !near)
         return near.error();
-    Result<std::unique_ptr<RayScene>> rays = make_ray_scene(input.scene, input.tables);
+    Result<std::unique_ptr<RayScene>> rays = make_ray_scene(input.scene, input.tables, input.jobs);
     if (!rays)
         return rays.error();
     return std::unique_ptr<Renderer>(std::make_unique<ReferenceRenderer>(input, options, std::move(*rays)));

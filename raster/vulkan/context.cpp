@@ -4,10 +4,12 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fmt/format.h>
+#include <thread>
 
 #include "core/base/cache.h"
 #include "core/base/file.h"
 #include "core/base/hash.h"
+#include "core/jobs/threads.h"
 
 namespace burnish {
 
@@ -25,6 +27,14 @@ void add_chromium_driver()
     std::error_code ignored;
     if (std::filesystem::exists(kChromiumDriver, ignored))
         ::setenv("VK_ADD_DRIVER_FILES", kChromiumDriver, 0);
+}
+
+// Returns how many threads a driver starts with a device. lavapipe has one to take work, one for each of its two queues, and one a core for
+// triangles and for compute; where one of them is refused, it waits for it for ever.
+int device_threads(const VulkanDeviceInfo& info)
+{
+    constexpr int kQueues = 4, kMostCores = 32;
+    return kQueues + (info.cpu ? 2 * std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, kMostCores) : 0);
 }
 
 VKAPI_ATTR VkBool32 VKAPI_CALL note_message(VkDebugUtilsMessageSeverityFlagBitsEXT, VkDebugUtilsMessageTypeFlagsEXT,
@@ -278,6 +288,8 @@ void Context::make_device()
     wanted.features.shaderFloat64 = f.shaderFloat64;
     auto info = vk_struct<VkDeviceCreateInfo>(VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO, &wanted);
     info.queueCreateInfoCount = 1, info.pQueueCreateInfos = &queue;
+    if (const Status threads = expect_threads(device_threads(info_), info_.name); !threads)
+        throw VulkanError{threads.error()};
     BN_VK(vkCreateDevice(physical_, &info, nullptr, &device_));
     vkGetDeviceQueue(device_, family_, 0, &queue_);
 

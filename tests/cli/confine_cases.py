@@ -1,4 +1,4 @@
-"""Where the program may have little: memory (ulimit -v, control groups), no rights, a root that is read-only."""
+"""Where the program may have little: memory (ulimit -v, control groups), threads, no rights, a root that is read-only."""
 
 import json
 import os
@@ -7,7 +7,7 @@ import resource
 import shutil
 import subprocess
 
-from fault_cases import TINY
+from fault_cases import CHART, TINY
 from harness import Skipped, case, check
 
 BIG = ("render", *TINY, "--size", "2048x2048", "--msaa", "4", "-o", "o.png")
@@ -58,9 +58,13 @@ def exr_memory(bench):
         check("damaged" not in text and "corrupt" not in text and "memory" in text, text)
 
 
-def in_memory_group(bench, limit, words):
-    """Runs the command in a control group of so many bytes."""
-    for group, name in ((pathlib.Path("/sys/fs/cgroup/memory"), "memory.limit_in_bytes"), (pathlib.Path("/sys/fs/cgroup"), "memory.max")):
+MEMORY, THREADS = ("memory", ("memory.limit_in_bytes", "memory.max")), ("pids", ("pids.max",))
+
+
+def in_group(bench, kind, limit, words):
+    """Runs the command in a control group with so many bytes of memory, or so many threads."""
+    controller, names = kind
+    for group in (pathlib.Path("/sys/fs/cgroup") / controller, pathlib.Path("/sys/fs/cgroup")):
         own = group / f"burnish_test_{os.getpid()}"
         if not (group / "cgroup.procs").exists():
             continue
@@ -69,7 +73,10 @@ def in_memory_group(bench, limit, words):
         except OSError as error:
             raise Skipped(f"no control group can be made here: {error}") from error
         try:
-            (own / name).write_text(str(limit))
+            files = [own / name for name in names if (own / name).exists()]
+            if not files:
+                continue
+            files[0].write_text(str(limit))
             join = lambda: (own / "cgroup.procs").write_text(str(os.getpid()))
             return subprocess.run([bench.program, *words], cwd=bench.folder, env=bench.environment({}), capture_output=True, text=True,
                                   preexec_fn=join, timeout=300, check=False)
@@ -77,7 +84,7 @@ def in_memory_group(bench, limit, words):
             raise Skipped(f"the control group cannot be used here: {error}") from error
         finally:
             own.rmdir()
-    raise Skipped("no control groups of memory here")
+    raise Skipped(f"no control groups of {controller} here")
 
 
 @case("confine.little_memory_of_a_control_group")
@@ -86,13 +93,118 @@ def memory_group(bench):
     if bench.sanitized:
         raise Skipped("sanitizers need memory of their own")
     words = ("--threads", "2", "-o", "o.png")
-    done = in_memory_group(bench, 256 * MIB, ("render", *TINY, *words))
+    done = in_group(bench, MEMORY, 256 * MIB, ("render", *TINY, *words))
     check(done.returncode == 0 and (bench.folder / "o.png").exists(), f"exit code {done.returncode}: {done.stderr}")
     (bench.folder / "o.png").unlink()
-    done = in_memory_group(bench, 256 * MIB, ("render", *TINY, "--size", "8192x8192", "--msaa", "4", *words))
+    done = in_group(bench, MEMORY, 256 * MIB, ("render", *TINY, "--size", "8192x8192", "--msaa", "4", *words))
     check(done.returncode == 4, f"exit code {done.returncode}: {done.stderr}")
     check("memory" in done.stderr and len(done.stderr.splitlines()) == 1, done.stderr)
     check(not bench.left_behind(), f"left: {bench.left_behind()}")
+
+
+# What makes the output, and the exit codes that are right with few threads: burnish's own loops go on, libraries may not start without theirs.
+PLATE = ("render", "builtin:plate", *TINY[:-3], "-q")
+FEW_THREADS = {
+    "o.png": ((*PLATE, "--threads", "4"), (0,)),
+    "o.pfm": ((*PLATE, "--mip-filter", "mipnet", "--threads", "3"), (0,)),
+    "r.pfm": ((*PLATE, "--backend", "reference", "--samples", "4", "--threads", "4"), (0,)),
+    "v.pfm": ((*PLATE, "--backend", "vulkan", "--threads", "2"), (0, 77)),
+    "o.exr": ((*PLATE, "--threads", "2"), (0, 77)),
+    "o.mip": (("bake", "mip", "builtin:roofs=1", "-q"), (0,)),
+    "levels": (("bake", "mip", "builtin:roofs=1", "--format", "png-levels", "--threads", "4", "-q"), (0,)),
+    "tiles": (("bake", "mip", "builtin:roofs=1", "--format", "exr-mip", "--threads", "2", "-q"), (0, 77)),
+    "w.mipnet": (("train", "mip", "--steps", "2", "--threads", "3", "-q"), (0,)),
+    "report": (("chart", "builtin:plate", *CHART[1:]), (0, 77)),
+}
+
+
+def bytes_of(path):
+    return {file.name: file.read_bytes() for file in ([path] if path.is_file() else sorted(path.glob("*"))) if file.is_file()}
+
+
+def with_few_threads(bench, names, counts, user):
+    """The same files by `counts` processes of a user of its own, or one line, a code, and nothing."""
+    if os.geteuid() or bench.sanitized:
+        raise Skipped("needs root, to become a user with a limit, and no threads of sanitizers")
+    bench.folder.chmod(0o777)
+    env = {"XDG_CACHE_HOME": str(bench.folder / "own")}
+    try:
+        bench.run("--version", user=user).expect(0)
+    except Exception as error:
+        raise Skipped(f"another user cannot run the program here: {error}") from error
+    for name in names:
+        words, codes = FEW_THREADS[name]
+        path = bench.folder / name
+        done = bench.run(*words, "-o", name, user=user, env=env)
+        if done.code == 77:
+            continue  # the library or the device is not here at all
+        done.expect(0)
+        whole = bytes_of(path)
+        for count in counts:
+            shutil.rmtree(path) if path.is_dir() else path.unlink(missing_ok=True)
+            done = bench.run(*words, "-o", name, user=user, processes=count, env=env, timeout=60.0)
+            check(done.code in codes, f"{name} by {count}: {done.describe()}")
+            if done.code == 0:
+                check(name == "report" or bytes_of(path) == whole, f"{name} by {count}: other bytes")
+            else:
+                done.expect_one_line("threads")
+                check(name == "report" or not path.exists(), f"{name} by {count}: something is left")
+            if not path.exists():
+                continue
+        shutil.rmtree(path) if path.is_dir() else path.unlink(missing_ok=True)
+
+
+@case("confine.few_threads_draw_the_same")
+def few_threads(bench):
+    with_few_threads(bench, ("o.png", "o.pfm", "r.pfm", "levels"), (1, 2, 3), 50000 + os.getpid() % 5000)
+
+
+@case("confine.few_threads_of_libraries_are_said")
+def few_threads_of_libraries(bench):
+    with_few_threads(bench, ("o.exr", "v.pfm"), (1, 2, 4, 6), 55000 + os.getpid() % 5000)
+
+
+@case("confine.few_threads_all", tier="slow")
+def few_threads_all(bench):
+    with_few_threads(bench, FEW_THREADS, range(1, 13), 60000 + os.getpid() % 5000)
+
+
+@case("confine.fewer_threads_are_a_warning")
+def fewer_are_said(bench):
+    if os.geteuid() or bench.sanitized:
+        raise Skipped("needs root, to become a user with a limit, and no threads of sanitizers")
+    bench.folder.chmod(0o777)
+    words = (*PLATE[:-1], "--threads", "4", "-o", "o.png")
+    done = bench.run(*words, user=50000 + os.getpid() % 5000, processes=2, env={"XDG_CACHE_HOME": str(bench.folder / "own")}).expect(0)
+    check("burnish: warning: the system gives 2 of 4 threads" in done.err, done.describe())
+    check("warning" not in bench.run(*words).expect(0).err, "all threads, and a warning")
+
+
+@case("confine.threads_of_a_control_group")
+def threads_group(bench):
+    words = FEW_THREADS["o.png"][0]
+    bench.run(*words, "-o", "whole.png").expect(0)
+    for limit in (1, 2, 3):
+        done = in_group(bench, THREADS, limit, (*words, "-o", "o.png"))
+        check(done.returncode == 0, f"{limit}: exit code {done.returncode}: {done.stderr}")
+        check((bench.folder / "o.png").read_bytes() == (bench.folder / "whole.png").read_bytes(), f"{limit}: another picture")
+
+
+@case("confine.little_address_space_of_a_bake")
+def little_memory_of_a_bake(bench):
+    words = ("bake", "mip", "builtin:roofs=1", "--format", "png-levels", "-q", "-o", "levels")
+    if bench.sanitized:
+        raise Skipped("shadow memory reserves terabytes of addresses")
+    for limit in (60, 80, 100, 128, 192, 2048):
+        done = subprocess.run([bench.program, *words], cwd=bench.folder, env=bench.environment({}), capture_output=True, text=True,
+                              preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (limit * MIB, limit * MIB)), timeout=120, check=False)
+        if done.returncode == 127 and "shared librar" in done.stderr:
+            continue  # the loader itself had no room
+        check(done.returncode in (0, 4, 7, 77), f"{limit} MiB: exit code {done.returncode}: {done.stderr}")
+        check((bench.folder / "levels").exists() == (done.returncode == 0), f"{limit} MiB: output and exit code do not agree")
+        check(done.returncode == 0 or len(done.stderr.splitlines()) == 1, f"{limit} MiB: {done.stderr}")
+        shutil.rmtree(bench.folder / "levels", ignore_errors=True)
+    check(done.returncode == 0, f"2 GiB are not enough: {done.stderr}")
 
 
 @case("confine.read_only_root_and_no_rights")

@@ -118,6 +118,75 @@ def impossible_names(bench):
     check(bench.left_behind() == ["a.png", "b.png", "file"], f"left: {bench.left_behind()}")
 
 
+# What leads elsewhere, what it leads to, and where a file that is written there lies; None: exit code 7.
+LINKS = (("l.png", "missing.png", "missing.png"), ("l.png", "sub/missing.png", "sub/missing.png"), ("sub/l.png", "../missing.png", "missing.png"),
+         ("l.png", "{}/sub/whole.png", "sub/whole.png"), ("l.png", "m.png", "sub/end.png"), ("l.png", "gone/missing.png", None),
+         ("l.png", "l.png", None), ("l.png", "sub", None), ("l.png", "there.png", "there.png"))
+
+
+@case("file.links_that_lead_nowhere_yet_keep_pointing")
+def dangling_links(bench):
+    bench.run("render", *SMALL, "-q", "-o", "o.png").expect(0)
+    whole = (bench.folder / "o.png").read_bytes()
+    (bench.folder / "sub").mkdir()
+    (bench.folder / "m.png").symlink_to("sub/end.png")
+    for name, to, place in LINKS:
+        scratch(bench, "there.png", b"before")
+        link = bench.folder / name
+        link.symlink_to(to.format(bench.folder))
+        done = bench.run("render", *SMALL, "-q", "-o", name).expect(7 if place is None else 0)
+        check(link.is_symlink() and os.readlink(link) == to.format(bench.folder), f"{to}: the link is another one")
+        if place is None:
+            done.expect_one_line(name)
+        else:
+            check((bench.folder / place).read_bytes() == whole and not (bench.folder / place).is_symlink(), f"{to}: not written")
+            (bench.folder / place).unlink()
+        link.unlink()
+    (bench.folder / "l.png").symlink_to("missing.png")
+    bench.run("render", *SMALL, "-q", "-o", "l.png", "-o", "missing.png").expect(2).expect_one_line("missing.png", "given twice")
+
+
+@case("file.links_in_a_folder_of_textures_keep_pointing")
+def links_of_sets(bench):
+    words = ("bake", "mip", "builtin:roofs=1", "--format", "png-levels", "-q", "-o")
+    bench.run(*words, "whole").expect(0)
+    names = sorted(path.name for path in (bench.folder / "whole").iterdir())
+    (bench.folder / "linked").mkdir()
+    (bench.folder / "linked" / names[0]).symlink_to("../elsewhere.png")
+    scratch(bench, f"linked/{names[1]}", b"before").chmod(0o640)
+    bench.run(*words, "linked").expect(0)
+    check(os.readlink(bench.folder / "linked" / names[0]) == "../elsewhere.png", "the link is another one")
+    check((bench.folder / "elsewhere.png").exists(), "nothing is where it points")
+    check((bench.folder / "linked" / names[1]).stat().st_mode & 0o777 == 0o640, "permissions have changed")
+    for name in names:
+        check((bench.folder / "linked" / name).read_bytes() == (bench.folder / "whole" / name).read_bytes(), f"{name} is another one")
+    (bench.folder / "linked" / names[2]).unlink()
+    (bench.folder / "linked" / names[2]).mkdir()
+    bench.run(*words, "linked").expect(7).expect_one_line(names[2])
+
+
+@case("file.folders_that_cannot_be")
+def impossible_folders(bench):
+    """Each command that makes a folder says what is wrong with its name."""
+    (bench.folder / "circle").symlink_to("circle")
+    (bench.folder / "nowhere").symlink_to("missing")
+    scratch(bench, "file", b"")
+    scratch(bench, "maps/x_normal.png", b"no picture")
+    mip = ("bake", "mip", "builtin:roofs=1")
+    chart = ("chart", "builtin:plate", *SMALL, "--techniques", "split_isotropic", "--runs", "1", "--reference-samples", "1")
+    commands = ((*mip, "--format", "png-levels", "-o"), (*mip, "-o", "p.mip", "--preview"), (*chart, "-o"), ("chart", "--mip", "--maps", "maps", "-o"),
+                ("atlas", "-o"), ("bake", "environment", "builtin:studio", "-o"))
+    locked = bench.folder / "locked"
+    locked.mkdir(mode=0o700)
+    bench.folder.chmod(0o777)
+    user = 50000 + os.getpid() % 5000 if not os.geteuid() and not bench.sanitized else None
+    for words in commands:
+        for name in ("n" * 300, "circle", "circle/in", "file", "file/in", "nowhere") + (("locked/in",) if user else ()):
+            done = bench.run(*words, name, user=user).expect(7)
+            check(name[:100] in done.err and len(done.err.splitlines()) == 1, done.describe())
+    check(bench.left_behind() == ["circle", "file", "locked", "maps", "nowhere", "x_normal.png"], f"left: {bench.left_behind()}")
+
+
 @case("file.a_lost_checkpoint_does_not_lose_the_picture", "program", "input")
 def lost_checkpoint(bench):
     """No file may be as large as the checkpoint; the picture is smaller."""

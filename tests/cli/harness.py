@@ -110,8 +110,9 @@ class Bench:
         env.update(extra)
         return env
 
-    def run(self, *arguments, program=None, env=None, file_size=None, user=None, timeout=120.0):
-        """Runs the program in the case's folder. `file_size`: no file may grow beyond these bytes."""
+    def run(self, *arguments, program=None, env=None, file_size=None, user=None, processes=None, timeout=120.0):
+        """Runs the program in the case's folder. `file_size`: no file may grow beyond these bytes. `processes`: the user has so many at most,
+        and threads count."""
         command = [program or self.program, *map(str, arguments)]
 
         def limit():
@@ -120,6 +121,8 @@ class Bench:
                 resource.setrlimit(resource.RLIMIT_AS, (16 * GIB, 16 * GIB))
             if file_size is not None:
                 resource.setrlimit(resource.RLIMIT_FSIZE, (file_size, file_size))
+            if processes is not None:
+                resource.setrlimit(resource.RLIMIT_NPROC, (processes, processes))
 
         with open(self.folder / ".stdout", "w+b") as out, open(self.folder / ".stderr", "w+b") as err:
             # A limit on file sizes holds for these two as well, so the program gets pipes then.

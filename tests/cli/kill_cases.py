@@ -2,6 +2,7 @@
 
 import json
 import random
+import shutil
 import signal
 import subprocess
 import time
@@ -257,3 +258,60 @@ def killed_job(bench, name, kills):
 for job in JOBS:
     case(f"kill.{job}_are_made_whole")(lambda bench, job=job: killed_job(bench, job, 2))
     case(f"kill.{job}_are_made_whole_long", tier="slow")(lambda bench, job=job: killed_job(bench, job, 25))
+
+
+def sets_of_textures(bench, rounds, formats):
+    """Three commands at once make one new folder; a fourth is killed meanwhile, at some moment. At each moment the folder is not there or
+    holds all files; in the end it does, all three have succeeded, and nothing else is left."""
+    chance = random.Random(29)
+    for form in formats:
+        words = ("bake", "mip", "builtin:roofs=1", "--threads", "1", "--format", form, "-q", "-o")
+        longest = seconds_of(bench, (*words, f"whole_{form}"))
+        whole = {path.name: path.read_bytes() for path in (bench.folder / f"whole_{form}").iterdir()}
+        for i in range(rounds):
+            folder = bench.folder / f"{form}_{i}"
+            children = [start(bench, (*words, folder.name)) for _ in range(4)]
+            time.sleep(chance.uniform(0.5, 2.0) * longest)
+            children[0].kill()
+            children[0].wait()
+            if folder.exists():
+                check({path.name for path in folder.iterdir() if path not in temporary_paths(folder)} == set(whole), f"{form}: not all files")
+            codes = [child.wait(timeout=120) for child in children[1:]]
+            check(codes == [0, 0, 0], f"{form}, round {i}: exit codes {codes}")
+            bench.run(*words, folder.name).expect(0)  # sweeps what the killed one has left
+            check({path.name: path.read_bytes() for path in folder.iterdir()} == whole, f"{form}, round {i}: other files")
+    left = temporary(bench.left_behind())
+    check(not left, f"left: {left}")
+
+
+def temporary_paths(folder):
+    return [path for path in folder.iterdir() if temporary([path.name])]
+
+
+def killed_sets(bench, kills):
+    """One alone that is killed leaves all files or no folder."""
+    words = ("bake", "mip", "builtin:roofs=1", "--threads", "1", "--format", "png-levels", "-q", "-o")
+    longest = seconds_of(bench, (*words, "whole"))
+    names = {path.name for path in (bench.folder / "whole").iterdir()}
+    folder = bench.folder / "killed"
+
+    def together():
+        if folder.exists():
+            check({path.name for path in folder.iterdir()} == names, f"a part of the files: {sorted(path.name for path in folder.iterdir())}")
+            shutil.rmtree(folder)
+
+    kill_at_random(bench, (*words, "killed"), kills, 31, 1.1 * longest, after=together)
+    bench.run(*words, "killed").expect(0)
+    check(not temporary(bench.left_behind()), f"left: {bench.left_behind()}")
+
+
+@case("kill.sets_of_textures_appear_together")
+def sets(bench):
+    sets_of_textures(bench, 3, ("png-levels",))
+    killed_sets(bench, 4)
+
+
+@case("kill.sets_of_textures_appear_together_long", tier="slow")
+def sets_long(bench):
+    sets_of_textures(bench, 24, ("png-levels", "exr-mip"))
+    killed_sets(bench, 40)

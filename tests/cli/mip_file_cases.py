@@ -1,5 +1,7 @@
 """Files of `burnish bake mip`: whole pyramids, base colours, metalness and heights too."""
 
+import random
+import re
 import struct
 
 import gltf_files as files
@@ -149,6 +151,29 @@ def files_hold(bench):
     check("x.pfm" not in bench.left_behind(), "what failed has left something")
 
 
+@case("mip.numbers_of_files_lie_in_their_ranges", "input", tier="check")
+def ranges(bench):
+    """Under a hash that is right: kappa, gains, lobes and texels of maps that no bake writes."""
+    whole(bench, "set")
+    seen = ("builtin:sphere", *SMALL, "--material", "set")
+    for name, filter_ in (("kappa.mip", "kappa"), ("leadr.mip", "leadr")):
+        bench.run("bake", "mip", "set", "--mip-filter", filter_, "-q", "-o", name).expect(0)
+    good, other = ((bench.folder / name).read_bytes() for name in ("kappa.mip", "leadr.mip"))
+    nan, texel = float("nan"), 24 + 56 + 4 * struct.unpack_from("<3I", good, 24 + 20)[2]
+    base, metal = (maps_of(good)[part][2] for part in ("base colours", "metalness"))
+    floats = lambda *x: struct.pack(f"<{len(x)}f", *x)
+    wrong = [("kappa", good, 24 + 16, floats(k)) for k in (-1.0, -1e-30, 4.001, 1e38, float("inf"), nan)]
+    wrong += [("kappa", other, 24 + 16, floats(1.0)), ("gain", good, 24 + 56, floats(1.5)), ("gain", good, 24 + 48, b"\7")]
+    wrong += [("no lobe", good, texel, floats(*lobe)) for lobe in ((2, 0, .1, .1, 0), (0, 0, -.1, .1, 0), (0, 0, .1, 1e9, 0), (0, 0, .1, .1, .2), (nan, 0, .1, .1, 0))]
+    wrong += [("base colours", good, base, struct.pack("<H", half)) for half in (0x3c01, 0xb800, 0x7bff)] + [("metalness", good, metal, b"\1\x3c")]
+    for needle, file, at, data in wrong:
+        scratch(bench, "bad.mip", sealed(file[:at] + data + file[at + len(data):-8]))
+        bench.run("render", *seen, "--mip-pyramid", "bad.mip", "-o", "x.pfm").expect(4).expect_one_line(needle)
+    for kappa in (0.0, 4.0):
+        scratch(bench, "good.mip", sealed(good[:24 + 16] + floats(kappa) + good[24 + 20:-8]))
+        bench.run("render", *seen, "--mip-pyramid", "good.mip", "-o", "x.pfm").expect(0)
+
+
 @case("mip.files_of_a_full_disk_have_no_name", "input", tier="check")
 def full_disk(bench):
     whole(bench, "set")
@@ -220,6 +245,53 @@ def one_texel(bench):
         check(all(begin == end for *_, begin, end in maps_of((bench.folder / "a.mip").read_bytes()).values()), "there are levels")
         seen = ("builtin:sphere", *SMALL, "--material", "set")
         check(hash_of(bench, *seen, "--mip-filter", name, "--couple", "albedo") == hash_of(bench, *seen, "--mip-pyramid", "a.mip"), name)
+
+
+def flipped(bench, name, words, flips, codes):
+    """One bit after another of the file is another one: a picture, or one line and a code."""
+    chance, good = random.Random(17), (bench.folder / name).read_bytes()
+    for _ in range(flips):
+        at, bit = chance.randrange(len(good)), chance.randrange(8)
+        scratch(bench, "flip" + name, good[:at] + bytes([good[at] ^ 1 << bit]) + good[at + 1:])
+        done = bench.run(*words, timeout=60.0)
+        check(done.code in codes, f"byte {at}, bit {bit}: {done.describe()}")
+        if done.code not in (0, 6):
+            done.expect_one_line()
+
+
+@case("mip.flipped_bits_are_refused_or_read", tier="slow")
+def flips(bench):
+    """200 of a pyramid file, 50 of a picture of each format; those of files without a hash may go unseen."""
+    bench.run("bake", "mip", "builtin:roofs=1", "-q", "-o", "p.mip").expect(0)
+    render = ("render", "builtin:roofs=1", *SMALL, "-q", "-o", "x.pfm")
+    flipped(bench, "p.mip", (*render, "--mip-pyramid", "flipp.mip"), 200, (4,))
+    for form, name in (("png-levels", "n.png"), ("exr-mip", "n.exr")):
+        bench.run("bake", "mip", "builtin:roofs=1", "--format", form, "-q", "-o", form).expect(0)
+        source = sorted((bench.folder / form).glob("*_normal*"))[0]
+        (bench.folder / name).write_bytes(source.read_bytes())
+        flipped(bench, name, ("compare", name, "flip" + name, "--metric", "mse", "-q"), 200, (0, 1, 3, 4, 6))
+
+
+@case("mip.names_of_files_may_be_any", tier="gate")
+def hostile_names(bench):
+    """Names of folders and of materials, by the formats that make files of them; by another locale, too."""
+    gltf = bare(normalTexture={"index": 0})
+    gltf["textures"], gltf["images"] = [{"source": 0}], [{"uri": "n.png"}]
+    scratch(bench, "n.png", png(16, 16, bumps))
+    for i, name in enumerate(("../../up", "a/b", "", ".", "..", "\n\x1b[31m", "-o", "\u00e9\u4e16", "con", "x" * 400, "%s%n", ".hidden")):
+        gltf["materials"][0]["name"] = name
+        scratch(bench, "odd.gltf", files.text(gltf))
+        bench.run("bake", "mip", "odd.gltf", "--format", "png-levels", "-q", "-o", f"made{i}").expect(0)
+        made = sorted(path.name for path in (bench.folder / f"made{i}").iterdir())
+        check(made and all(re.search(r"_(normal|roughness|color|anisotropy)_\d\d\.png$", n) for n in made), f"{name!r}: {made}")
+    check(not list(bench.folder.parent.glob("up*")) and not (bench.folder / "a").exists(), "files outside the folder")
+    first = {path.name: path.read_bytes() for path in (bench.folder / "made1").iterdir()}
+    gltf["materials"][0]["name"] = "a/b"
+    scratch(bench, "odd.gltf", files.text(gltf))
+    for name in ("-dash", "sp ace", "new\nline", "\u00e9", "\udcff", "made;ls", "d,e"):
+        env = {"LC_ALL": "de_DE.UTF-8", "LANG": "de_DE.UTF-8"}
+        bench.run("bake", "mip", "odd.gltf", "--format", "png-levels", "-q", "-o", f"./{name}", env=env).expect(0)
+        check({path.name: path.read_bytes() for path in (bench.folder / name).iterdir()} == first, f"{name!r}: other files")
 
 
 @case("mip.files_give_the_same_words_on_devices")

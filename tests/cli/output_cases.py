@@ -6,6 +6,7 @@ import re
 import shutil
 import struct
 import subprocess
+import sys
 import time
 
 import gltf_files as files
@@ -290,3 +291,29 @@ def cache(bench):
     nowhere = bench.figures(*SMALL, env={"XDG_CACHE_HOME": str(bench.folder / "file")})
     hashes = {found["pixel_hash"] for found in (first, again, without, damaged, nowhere)}
     check(len(hashes) == 1, f"the cache changes the picture: {hashes}")
+
+
+@case("output.locales_change_no_byte")
+def locales(bench):
+    """Numbers are read and written with a point where the user's are written with a comma."""
+    folder = bench.folder / "locales"
+    folder.mkdir()
+    try:
+        subprocess.run(["localedef", "-i", "de_DE", "-f", "UTF-8", str(folder / "de_DE.UTF-8")], capture_output=True, timeout=60, check=False)
+    except FileNotFoundError:
+        raise Skipped("no localedef") from None
+    german = {"LOCPATH": str(folder), "LC_ALL": "de_DE.UTF-8", "LANG": "de_DE.UTF-8"}
+    probe = [sys.executable, "-c", "import locale; locale.setlocale(locale.LC_ALL, ''); print(locale.localeconv()['decimal_point'])"]
+    if subprocess.run(probe, env={**os.environ, **german}, capture_output=True, text=True, timeout=60, check=False).stdout.strip() != ",":
+        raise Skipped("no locale with a decimal comma can be made here")
+    found = []
+    for env in ({}, german):
+        outs = [bench.run("render", "builtin:plate", *SMALL, "--roughness", "0.25", "--exposure", "-0.5", "-q", "-o", "a.png", "-o", "a.pfm", env=env).expect(0).out]
+        outs += [bench.run("compare", "a.png", "a.png", "--json", "-", env=env).expect(0).out]
+        outs += [bench.run("bake", "mip", "builtin:roofs=1", "--mip-kappa", "0.5", "--format", "png-levels", "-o", "levels", "-q", env=env).expect(0).out]
+        outs += [bench.run("bake", "ltc", "--resolution", "3", "--steps", "1", "--samples", "2", "-q", "-o", "t.ltc", env=env).expect(0).out]
+        outs += [bench.run("list", "extensions", env=env).expect(0).out]
+        made = {path: path.read_bytes() for path in sorted(bench.folder.rglob("*")) if path.is_file() and folder not in path.parents}
+        found.append((outs, made))
+        check(len(made) > 5, f"{sorted(made)}")
+    check(found[0] == found[1], "another locale, other bytes")

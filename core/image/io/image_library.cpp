@@ -14,6 +14,7 @@
 
 #include "core/base/file.h"
 #include "core/image/io/module_hash.h"
+#include "core/jobs/threads.h"
 #include <burnish_module_hash_value.h>
 
 namespace burnish {
@@ -26,6 +27,8 @@ constexpr std::uint64_t kMostModuleBytes = 256u << 20;
 
 // The libraries behind the module map some 500 MiB and start threads; one that gets no memory while it is loaded ends the process.
 constexpr std::size_t kRoomBytes = 640u << 20;
+// One of them starts a pool as it is loaded, and ends the process where it does not get it.
+constexpr int kLoadThreads = 4;
 
 bool has_room()
 {
@@ -81,6 +84,8 @@ Result<const ImageLibrary*> open_library()
         if (!has_room())
             return Error{ExitCode::unavailable, "", "",
                          fmt::format("the image library needs {} MiB of address space, and there is no memory for it", kRoomBytes >> 20)};
+        if (const Status threads = expect_threads(kLoadThreads, "the image library"); !threads)
+            return threads.error();
         // Never closed: some of the libraries behind it leave threads and exit handlers.
         void* const module = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
         void* const symbol = module ? dlsym(module, kImageLibrarySymbol) : nullptr;

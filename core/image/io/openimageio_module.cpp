@@ -19,13 +19,14 @@ using Bytes = std::vector<std::uint8_t>;
 constexpr float kRec709[8] = {0.640f, 0.330f, 0.300f, 0.600f, 0.150f, 0.060f, 0.3127f, 0.3290f};
 constexpr int kJpegQuality = 95;
 
+// One thread an image: burnish reads several images at once instead, and time and memory stay predictable.
+constexpr int kThreads = 1;
+
 // Sets the library's process-wide attributes once.
 void configure_openimageio()
 {
     static const bool done = [] {
-        // One thread an image: burnish reads several images at once instead, and time and memory stay
-        // predictable.
-        OIIO::attribute("threads", 1);
+        // The attribute "threads" would start the library's pool, as many threads as cores: each image is told instead.
         OIIO::attribute("exr_threads", -1);
         // The C++ reader stops at the first error; the core reader carries on with parts of damaged headers.
         OIIO::attribute("openexr:core", 0);
@@ -114,6 +115,7 @@ Status read(const ImageBytes& file, const ImageProbe& probe, const PlacePixels& 
     const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::create(probe.format);
     if (!input)
         return library_error(file, "", "the image library cannot read this format", OIIO::geterror());
+    input->threads(kThreads);
     if (!input->open("input", spec, config))
         return library_error(file, reader.place(), "the header is damaged", input->geterror());
     if (!input->seek_subimage(probe.subimage, 0))
@@ -195,6 +197,7 @@ Result<Bytes> encode(const std::string& path, const Image& image, const char* fo
     const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(format);
     if (!output)
         return error("the image library cannot write this format", OIIO::geterror());
+    output->threads(kThreads);
     OIIO::ImageSpec spec = spec_of(image, format, channels);
     spec.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);
     if (!output->open(path, spec) || !output->write_image(spec.format, image.bytes.data()) || !output->close())
@@ -217,6 +220,7 @@ Result<Bytes> encode_levels(const std::string& path, const std::vector<Image>& l
     std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create("openexr");
     if (!output)
         return error(OIIO::geterror());
+    output->threads(kThreads);
     std::size_t tiles = 0;
     for (std::size_t l = 0; l < levels.size(); ++l) {
         OIIO::ImageSpec spec = spec_of(levels[l], "openexr", {});

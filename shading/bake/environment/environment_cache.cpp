@@ -6,6 +6,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fmt/format.h>
+#include <limits>
 
 #include "core/base/cache.h"
 #include "core/base/file.h"
@@ -47,6 +48,24 @@ std::size_t bytes_of(const CubeMap& cube)
     return cube.texels.size() * sizeof(std::uint16_t);
 }
 
+// Whether a cube's texels are radiance: finite, not negative.
+bool holds_light(const CubeMap& cube)
+{
+    constexpr std::uint16_t kInfinite = 0x7c00, kMinusZero = 0x8000;
+    return std::all_of(cube.texels.begin(), cube.texels.end(), [](std::uint16_t half) { return half < kInfinite || half == kMinusZero; });
+}
+
+// Whether all numbers of a key light can be drawn by.
+bool is_key_light(const KeyLight& k)
+{
+    const auto within = [](const float* v, float least, float most) {
+        return std::all_of(v, v + 3, [&](float x) { return x >= least && x <= most; });
+    };
+    return within(k.direction, -1.01f, 1.01f) && within(k.axis_u, -10.0f, 10.0f) && within(k.axis_v, -10.0f, 10.0f) &&
+           within(k.irradiance, 0.0f, std::numeric_limits<float>::max()) && k.angular_radius >= 0.0f && k.angular_radius <= 4.0f &&
+           k.share >= 0.0f && k.share <= 1.01f;
+}
+
 } // namespace
 
 std::uint64_t environment_hash(const Image& equirect, const EnvironmentOptions& options, int levels)
@@ -85,14 +104,15 @@ std::optional<Environment> parse_environment_cache(const std::uint8_t* data, std
         h.key_light_count > kMaxKeyLights || (h.key_light_count > 0) != (bytes == most) ||
         h.payload_hash != hash_bytes(payload, bytes - sizeof(h)))
         return std::nullopt;
+    // Half floats up to 65504, times this, are still floats.
+    constexpr float kMostScale = 0x1p111f;
     for (const double figure : {static_cast<double>(h.specular_scale), static_cast<double>(h.irradiance_scale),
                                 static_cast<double>(h.whole_scale), static_cast<double>(h.peak_source), h.energy_source, h.energy_cube})
         if (!std::isfinite(figure) || figure < 0.0)
             return std::nullopt;
-    for (const KeyLight& k : h.key_lights)
-        for (const float* v : {k.direction, k.axis_u, k.axis_v, k.irradiance})
-            if (!std::isfinite(v[0]) || !std::isfinite(v[1]) || !std::isfinite(v[2]))
-                return std::nullopt;
+    if (!(std::max({h.specular_scale, h.irradiance_scale, h.whole_scale}) <= kMostScale) ||
+        !std::all_of(h.key_lights, h.key_lights + h.key_light_count, is_key_light))
+        return std::nullopt;
     std::memcpy(e.specular.texels.data(), payload, specular);
     std::memcpy(e.irradiance.texels.data(), payload + specular, irradiance);
     if (h.key_light_count > 0) {
@@ -101,6 +121,8 @@ std::optional<Environment> parse_environment_cache(const std::uint8_t* data, std
         e.whole = std::move(whole);
         e.key_lights.assign(h.key_lights, h.key_lights + h.key_light_count);
     }
+    if (!holds_light(e.specular) || !holds_light(e.irradiance) || !holds_light(e.whole))
+        return std::nullopt;
     e.specular.scale = h.specular_scale, e.irradiance.scale = h.irradiance_scale;
     e.energy_source = h.energy_source, e.energy_cube = h.energy_cube, e.peak_source = h.peak_source;
     e.content_hash = content_hash;

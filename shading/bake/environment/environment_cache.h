@@ -20,7 +20,7 @@ std::uint64_t environment_hash(const Image& equirect, const EnvironmentOptions& 
 std::string environment_cache_path(const EnvironmentOptions& options, std::uint64_t content_hash);
 
 // What a cache file of that content, of a cube of `size` texels and `levels` levels, holds. Nothing unless every byte is as it was written
-// and its figures are finite and not negative.
+// and its figures, texels and key lights lie in their ranges.
 std::optional<Environment> parse_environment_cache(const std::uint8_t* data, std::size_t bytes, std::uint64_t content_hash, int size,
                                                    int levels);
 std::optional<Environment> read_environment_cache(const std::string& path, std::uint64_t content_hash, int size, int levels);

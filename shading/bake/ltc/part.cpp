@@ -72,9 +72,9 @@ Status parse_part(const std::vector<std::uint8_t>& bytes, const std::string& pat
     }
     if (p.chains > p.all_chains || p.steps > steps || (begun && p.chains < p.all_chains) || (!begun && p.steps > 0))
         return refuse("is damaged: it is further than the whole work");
-    const bool rated = std::all_of(std::begin(numbers), std::end(numbers), [](double x) { return std::isfinite(x); });
-    if (!rated || !all_finite(p.nodes) || !all_finite(p.state.entries) ||
-        !std::all_of(p.l1.begin(), p.l1.end(), [](double x) { return std::isfinite(x); }))
+    const auto is_error = [](double x) { return std::isfinite(x) && x >= 0.0; };
+    const bool rated = std::all_of(std::begin(numbers), std::end(numbers), is_error);
+    if (!rated || !all_finite(p.nodes) || !all_finite(p.state.entries) || !std::all_of(p.l1.begin(), p.l1.end(), is_error))
         return refuse("is damaged: it holds what are no numbers");
     to = std::move(p);
     return {};

@@ -78,8 +78,13 @@ MapLevels make_map_levels(const Image& image, const Texture& sampler, const MapI
 
 bool are_of(const MapLevels& levels, const Image& image)
 {
+    constexpr std::uint16_t kOne = 0x3c00;
+    const auto in_unit = [](const std::vector<std::uint16_t>& level) {
+        return std::all_of(level.begin(), level.end(), [](std::uint16_t half) { return half <= kOne || half == 0x8000; });
+    };
     return levels.width == image.width && levels.height == image.height &&
-           levels.channels == static_cast<int>(held_channels(image, levels.id.part).count);
+           levels.channels == static_cast<int>(held_channels(image, levels.id.part).count) &&
+           (image.type == PixelType::f32 || std::all_of(levels.levels.begin(), levels.levels.end(), in_unit));
 }
 
 TexturePyramid pyramid_of_map(const Image& image, const Texture& sampler, const MapLevels& levels)

@@ -19,7 +19,7 @@ std::uint64_t map_hash(const Image& image, const Texture& sampler, MapPart part)
 // facing: weights by texel, one channel, or null.
 MapLevels make_map_levels(const Image& image, const Texture& sampler, const MapId& id, const Image* facing, const Jobs& jobs);
 
-// Whether they have the sides and channels of what make_map_levels() makes of the image.
+// Whether they have the sides, channels and range of what make_map_levels() makes of the image: 0 to 1 unless it holds floats.
 bool are_of(const MapLevels& levels, const Image& image);
 
 // Level 0 of the image, of which the levels are, the others of `levels`. Heights are in alpha.

@@ -91,8 +91,8 @@ std::string read_material(Reader& from, MipLevels& to)
         return "is of a filter that makes no levels of lobes";
     if (const std::string wrong = wrong_sides(h.width, h.height, h.levels); !wrong.empty())
         return wrong;
-    if (!std::isfinite(h.kappa))
-        return "holds a kappa that is no number";
+    if (const float most = takes_kappa(to.filter) ? static_cast<float>(kMostKappa) : 0.0f; !(h.kappa >= 0.0f && h.kappa <= most))
+        return fmt::format("holds a kappa of {}, which must be 0 to {} of this filter", h.kappa, most);
     to.kappa = h.kappa, to.source = h.source, to.net = h.net, to.gained = h.gained;
     to.width = static_cast<int>(h.width), to.height = static_cast<int>(h.height);
     std::vector<float> gains(h.levels);

@@ -54,6 +54,8 @@ Status parse_training_part(const std::vector<std::uint8_t>& bytes, const std::st
         if (!std::all_of(numbers->begin(), numbers->end(), [](float x) { return std::isfinite(x); }))
             return refuse("is damaged: it holds what are no numbers");
     }
+    if (!std::all_of(t.second.begin(), t.second.end(), [](float x) { return x >= 0.0f; }))
+        return refuse("is damaged: it holds a mean square below 0");
     to = std::move(t);
     return {};
 }

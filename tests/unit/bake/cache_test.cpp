@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <limits>
 #include <unistd.h>
 
 #include "tests/unit/bake/bake_test.h"
@@ -154,6 +155,44 @@ TEST_F(environment_cache, damaged_files_are_baked_anew)
         EXPECT_EQ(read_all(file), good) << "damage " << i;
     }
     EXPECT_TRUE(bake().from_cache);
+}
+
+// Under hashes that are right.
+TEST_F(environment_cache, refuses_numbers_out_of_range)
+{
+    image_ = smooth_equirect(256);
+    float* sun = image_.f32() + 3 * (256 * 40 + 80);
+    sun[0] = sun[1] = 5000.0f, sun[2] = 4000.0f;
+    const Environment good = bake();
+    ASSERT_EQ(good.key_lights.size(), 1u);
+    const auto is_read = [&](const Environment& e) {
+        const std::vector<std::uint8_t> bytes = environment_cache_bytes(e);
+        return parse_environment_cache(bytes.data(), bytes.size(), e.content_hash, e.specular.size, e.specular.levels).has_value();
+    };
+    EXPECT_TRUE(is_read(good));
+    for (CubeMap Environment::*cube : {&Environment::specular, &Environment::irradiance, &Environment::whole}) {
+        for (const int half : {0x7c00, 0x7e00, 0xbc00, 0xfc00}) { // infinite, NaN, -1, -infinite
+            Environment bad = good;
+            (bad.*cube).texels[5] = static_cast<std::uint16_t>(half);
+            EXPECT_FALSE(is_read(bad)) << half;
+        }
+        for (const float scale : {-1.0f, 1e35f, std::numeric_limits<float>::quiet_NaN()}) {
+            Environment bad = good;
+            (bad.*cube).scale = scale;
+            EXPECT_FALSE(is_read(bad)) << scale;
+        }
+    }
+    for (float KeyLight::*number : {&KeyLight::angular_radius, &KeyLight::share})
+        for (const float value : {-0.1f, 5.0f, std::numeric_limits<float>::quiet_NaN()}) {
+            Environment bad = good;
+            bad.key_lights[0].*number = value;
+            EXPECT_FALSE(is_read(bad)) << value;
+        }
+    for (float(KeyLight::*numbers)[3] : {&KeyLight::direction, &KeyLight::axis_u, &KeyLight::axis_v, &KeyLight::irradiance}) {
+        Environment bad = good;
+        (bad.key_lights[0].*numbers)[1] = numbers == &KeyLight::irradiance ? -1.0f : 1e20f;
+        EXPECT_FALSE(is_read(bad));
+    }
 }
 
 // Above the limit the environment that was used longest ago goes, not the one that was baked first.

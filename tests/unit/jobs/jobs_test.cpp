@@ -3,16 +3,19 @@
 #include <gtest/gtest.h>
 
 #include <sched.h>
+#include <sys/resource.h>
 
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <cstdlib>
 #include <mutex>
 #include <set>
 #include <stdexcept>
 #include <thread>
 
 #include "core/jobs/cores.h"
+#include "core/jobs/threads.h"
 
 namespace burnish {
 namespace {
@@ -146,6 +149,60 @@ TEST(jobs, objects_of_different_size_live_side_by_side)
         });
         EXPECT_EQ(highest, jobs->threads() - 1);
     }
+}
+
+// Callers from several threads share the numbers of one object, and those of another inside.
+TEST(jobs, callers_from_other_threads_share_an_object)
+{
+    const Jobs two(2), three(3);
+    std::vector<std::atomic<int>> busy(2);
+    std::atomic<int> clashes{0}, runs{0};
+    std::vector<std::thread> callers;
+    for (int c = 0; c < 4; ++c)
+        callers.emplace_back([&] {
+            for (int repeat = 0; repeat < 50; ++repeat)
+                two.parallel_for(20, [&](std::size_t, int worker) {
+                    clashes += busy[static_cast<std::size_t>(worker)].fetch_add(1) != 0;
+                    three.parallel_for(3, [&](std::size_t, int other) {
+                        EXPECT_LT(other, 3);
+                        ++runs;
+                    });
+                    --busy[static_cast<std::size_t>(worker)];
+                });
+        });
+    for (std::thread& caller : callers)
+        caller.join();
+    EXPECT_EQ(clashes, 0);
+    EXPECT_EQ(runs, 4 * 50 * 20 * 3);
+}
+
+TEST(threads, that_are_there_are_expected)
+{
+    EXPECT_TRUE(expect_threads(0, "nobody"));
+    EXPECT_TRUE(expect_threads(3, "a library"));
+    EXPECT_EQ(missing_threads(), "");
+}
+
+// A refusal by little address space: each thread reserves a stack.
+TEST(threads, that_are_not_there_are_an_error)
+{
+    const auto lack = [] {
+        const rlimit little = {256u << 20, 256u << 20};
+        if (setrlimit(RLIMIT_AS, &little) != 0)
+            std::_Exit(2);
+        const Status had = expect_threads(1000, "a library");
+        const Jobs many(1000);
+        std::atomic<int> runs{0};
+        many.parallel_for(5000, [&](std::size_t, int) { ++runs; });
+        const bool said =
+            !had && had.error().code == ExitCode::unavailable && had.error().reason.starts_with("a library starts 1000 threads");
+        std::_Exit(said && many.threads() < 1000 && runs == 5000 && missing_threads().find(" of 1000 threads") != std::string::npos ? 0
+                                                                                                                                    : 1);
+    };
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+    GTEST_SKIP() << "shadow memory reserves terabytes of addresses";
+#endif
+    EXPECT_EXIT(lack(), testing::ExitedWithCode(0), "");
 }
 
 TEST(jobs, zero_threads_means_the_usable_cores)
