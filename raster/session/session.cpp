@@ -9,6 +9,7 @@
 #include "core/scene/directional_roughness.h"
 #include "core/scene/gltf/gltf.h"
 #include "core/scene/heights.h"
+#include "core/scene/origin.h"
 #include "raster/frame/mip_files.h"
 #include "shading/bake/environment/turn.h"
 #include "shading/bake/ltc/shipped.h"
@@ -111,13 +112,14 @@ Result<std::shared_ptr<const SceneData>> make_settled_data(const std::string& na
             return laid.error();
         if (Status laid = lay_heights(data->scene, limits, name); !laid)
             return laid.error();
-        update_world(data->scene);
+        settle_origin(data->scene);
         if (const Status lit = add_emitters(data->scene, limits.area_lights, name); !lit)
             return lit.error();
         update_world(data->scene);
         if (const Status size = check_draw_size(data->scene, limits, name); !size)
             return size.error();
         data->tables = make_draw_tables(data->scene);
+        warn_of_steps(data->scene);
         warn_of_unfiltered(data->scene);
         if (Status settled = settle(data->scene); !settled)
             return settled.error();

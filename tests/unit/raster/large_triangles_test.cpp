@@ -94,7 +94,7 @@ class OneTriangle {
 };
 
 // Whether a piece covers a place, 1/256 pixel from the centre pixel; its edges belong to it.
-bool covers(const TriangleSetup& t, int x, int y)
+bool piece_covers(const TriangleSetup& t, int x, int y)
 {
     for (int i = 0; i < 3; ++i) {
         const int p = (i + 1) % 3, q = (i + 2) % 3;
@@ -104,20 +104,20 @@ bool covers(const TriangleSetup& t, int x, int y)
     return true;
 }
 
-struct Worst { // over all places that were looked at
+struct WorstOfLarge { // over all places that were looked at
     std::size_t triangles = 0, cut = 0, places = 0, covered = 0, differing = 0;
     double edge_px = 0.0;                       // of those that differ: to the nearest edge
     double w_px = 0.0, depth_px = 0.0, b_px = 0.0, whole_px = 0.0; // as how far away a place has the value that was found here
 };
 
 // Pixels that explain an error of a value that changes by `slope`, rounding aside.
-double moved(Long error, Long rounding, Long slope)
+double pixels_away(Long error, Long rounding, Long slope)
 {
     const Long left = std::fabs(error) - rounding;
     return left <= 0 ? 0.0 : static_cast<double>(left / slope);
 }
 
-void look_at_values(const FrameParams& f, const ClippedPiece& piece, const ProjectedTriangle& exact, int x, int y, Worst& worst)
+void look_at_values(const FrameParams& f, const ClippedPiece& piece, const ProjectedTriangle& exact, int x, int y, WorstOfLarge& worst)
 {
     const Long px = Long(x + f.center_x) / kSubpixel, py = Long(y + f.center_y) / kSubpixel;
     triangle_setup t = {};
@@ -131,14 +131,14 @@ void look_at_values(const FrameParams& f, const ClippedPiece& piece, const Proje
     const bary_weights w = weights_at(t, x, y);
     const Long inv_w = exact.inv_w.value(px, py), slope = exact.inv_w.slope();
     if (t.clipped)
-        worst.w_px = std::max(worst.w_px, moved(1 / Long(w.w) - inv_w, kRounding * inv_w, slope));
+        worst.w_px = std::max(worst.w_px, pixels_away(1 / Long(w.w) - inv_w, kRounding * inv_w, slope));
     double right = 0.0, down = 0.0;
     depth_slopes(double(s.x[1] - s.x[0]), double(s.y[1] - s.y[0]), double(s.x[2] - s.x[0]), double(s.y[2] - s.y[0]),
                  double(s.z[1]) - double(s.z[0]), double(s.z[2]) - double(s.z[0]), right, down);
     const double z = std::fmin(std::fmax(depth_at(double(s.z[0]), right, down, double(x - s.x[0]), double(y - s.y[0])),
                                          double(std::min(s.z[0], std::min(s.z[1], s.z[2])))),
                                double(std::max(s.z[0], std::max(s.z[1], s.z[2]))));
-    worst.depth_px = std::max(worst.depth_px, moved(z / exact.znear - inv_w, kRounding * inv_w, slope));
+    worst.depth_px = std::max(worst.depth_px, pixels_away(z / exact.znear - inv_w, kRounding * inv_w, slope));
     // Weights are the shares over inv_w: their change by a pixel is looked at over twice as far as they may move.
     if (inv_w < 4 * kPlaceOfWhole * slope)
         return; // at the horizon
@@ -156,12 +156,12 @@ void look_at_values(const FrameParams& f, const ClippedPiece& piece, const Proje
         const Long expected = share.value(px, py) / inv_w;
         const Long by_x = (share.by_x - expected * exact.inv_w.by_x) / inv_w, by_y = (share.by_y - expected * exact.inv_w.by_y) / inv_w;
         double& b_px = t.clipped ? worst.b_px : worst.whole_px;
-        b_px = std::max(b_px, moved(of_whole[k] - expected, kRounding, 2 * std::hypot(by_x, by_y)));
+        b_px = std::max(b_px, pixels_away(of_whole[k] - expected, kRounding, 2 * std::hypot(by_x, by_y)));
     }
 }
 
 void look_at(OneTriangle& renderer, const View& view, int width, int height, const glm::vec3 corners[3], int places, Random& random,
-             Worst& worst)
+             WorstOfLarge& worst)
 {
     const std::vector<ClippedPiece>& pieces = renderer.draw(view, width, height, corners);
     const ProjectedTriangle exact = project(renderer.frame.view, width, height, corners);
@@ -174,7 +174,7 @@ void look_at(OneTriangle& renderer, const View& view, int width, int height, con
         const int x = sub_x - renderer.frame.center_x, y = sub_y - renderer.frame.center_y;
         const ClippedPiece* found = nullptr;
         for (const ClippedPiece& piece : pieces)
-            if (!found && covers(piece.setup, x, y))
+            if (!found && piece_covers(piece.setup, x, y))
                 found = &piece;
         const Long inside = exact.inside(Long(sub_x) / kSubpixel, Long(sub_y) / kSubpixel);
         ++worst.places;
@@ -188,7 +188,7 @@ void look_at(OneTriangle& renderer, const View& view, int width, int height, con
     }
 }
 
-void expect_right(const Worst& w)
+void expect_right(const WorstOfLarge& w)
 {
     std::printf("%zu triangles, %zu of them cut; of %zu places %zu are covered, %zu differ, at most %.2g pixel from an edge; values are those "
                 "of places %.2g (w), %.2g (depth), %.2g (weights) pixel away, of whole triangles %.2g\n",
@@ -205,7 +205,7 @@ double exponential(Random& random, double least, double most)
 {
     return least * std::pow(most / least, static_cast<double>(random.unit()));
 }
-glm::dvec3 direction(Random& random)
+glm::dvec3 any_direction(Random& random)
 {
     for (;;) {
         const glm::dvec3 d(2.0 * static_cast<double>(random.unit()) - 1.0, 2.0 * static_cast<double>(random.unit()) - 1.0,
@@ -216,12 +216,12 @@ glm::dvec3 direction(Random& random)
     }
 }
 
-enum Kind { floor_below, wall, through_space, around_the_eye, sliver, kKinds };
+enum Kind { floor_below, upright, through_space, around_the_eye, sliver, kKinds };
 
 // Corners at up to `extent` metres, seen from an eye that is `height` metres from their plane, or anywhere.
 void random_corners(Random& random, int kind, double extent, double height, const glm::dvec3& eye, glm::vec3 corners[3])
 {
-    glm::dvec3 n = kind == floor_below ? glm::dvec3(0, 1, 0) : direction(random);
+    glm::dvec3 n = kind == floor_below ? glm::dvec3(0, 1, 0) : any_direction(random);
     const glm::dvec3 side = std::fabs(n.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0);
     const glm::dvec3 u = glm::normalize(glm::cross(side, n)), v = glm::cross(n, u);
     const double turned = 6.283185307 * static_cast<double>(random.unit());
@@ -230,28 +230,28 @@ void random_corners(Random& random, int kind, double extent, double height, cons
         double far = kind == around_the_eye ? extent : exponential(random, 0.01 * extent, extent);
         glm::dvec3 p = eye - height * n + far * (std::cos(angle) * u + std::sin(angle) * v);
         if (kind == through_space)
-            p = eye + extent * static_cast<double>(random.unit()) * direction(random);
+            p = eye + extent * static_cast<double>(random.unit()) * any_direction(random);
         corners[k] = glm::vec3(p);
     }
     if (kind == sliver) // as wide as a hundredth to a millionth of its length
-        corners[2] = corners[1] + glm::vec3(exponential(random, 1e-6, 1e-2) * extent * direction(random));
+        corners[2] = corners[1] + glm::vec3(exponential(random, 1e-6, 1e-2) * extent * any_direction(random));
 }
 
 void random_triangles(Isa isa, std::uint64_t seed, int count, int places)
 {
     Random random{seed};
     OneTriangle renderer(isa);
-    Worst worst;
+    WorstOfLarge worst;
     constexpr int kSizes[][2] = {{640, 360}, {512, 512}, {96, 96}, {333, 77}, {1920, 1080}};
     for (int n = 0; n < count; ++n) {
         const auto& size = kSizes[random.below(5)];
         const double extent = exponential(random, 1e2, 1e7), height = exponential(random, 1e-2, 0.1 * extent);
-        const glm::vec3 eye(direction(random) * exponential(random, 1e-3, 1e2));
+        const glm::vec3 eye(any_direction(random) * exponential(random, 1e-3, 1e2));
         glm::vec3 corners[3];
         random_corners(random, random.below(kKinds), extent, height, glm::dvec3(eye), corners);
         const float fov = 0.3f + 1.6f * random.unit();
         // Looks anywhere, or at a place of the triangle.
-        glm::dvec3 towards = direction(random);
+        glm::dvec3 towards = any_direction(random);
         const double a = static_cast<double>(random.unit()), b = (1.0 - a) * static_cast<double>(random.unit());
         const glm::dvec3 place = glm::dvec3(corners[0]) * a + glm::dvec3(corners[1]) * b + glm::dvec3(corners[2]) * (1.0 - a - b);
         if (random.below(4) && glm::length(place - glm::dvec3(eye)) > 1e-3)
