@@ -93,8 +93,8 @@ BN_FN void set_corner(frame_ref f, BN_INOUT(clip_polygon) p, int k, uniform_real
     uniform_wide dx = wide_of(x) - wide_of(the_frame(f).view.eye[0]);
     uniform_wide dy = wide_of(y) - wide_of(the_frame(f).view.eye[1]);
     uniform_wide dz = wide_of(z) - wide_of(the_frame(f).view.eye[2]);
-    uniform_wide across = wide_of(the_frame(f).view.right[0]) * dx + wide_of(the_frame(f).view.right[1]) * dy +
-                          wide_of(the_frame(f).view.right[2]) * dz;
+    uniform_wide across =
+        wide_of(the_frame(f).view.right[0]) * dx + wide_of(the_frame(f).view.right[1]) * dy + wide_of(the_frame(f).view.right[2]) * dz;
     uniform_wide height =
         wide_of(the_frame(f).view.up[0]) * dx + wide_of(the_frame(f).view.up[1]) * dy + wide_of(the_frame(f).view.up[2]) * dz;
     uniform_wide depth = wide_of(the_frame(f).view.forward[0]) * dx + wide_of(the_frame(f).view.forward[1]) * dy +

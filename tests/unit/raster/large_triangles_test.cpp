@@ -2,6 +2,7 @@
 // an oracle that neither clips nor snaps.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -30,7 +31,8 @@ constexpr double kRounding = 0x1p-20;        // of a value, and of the largest w
 // One triangle through the front end of an instruction set.
 class OneTriangle {
   public:
-    explicit OneTriangle(Isa isa) : fns_(*find_fns<TileFns>(isa)), indices_(3), materials_of_(1), entries_(kRoom), runs_(kRoom), pieces_(kRoom)
+    explicit OneTriangle(Isa isa)
+        : fns_(*find_fns<TileFns>(isa)), indices_(3), materials_of_(1), entries_(kRoom), runs_(kRoom), pieces_(kRoom)
     {
         for (std::uint32_t k = 0; k < 3; ++k)
             indices_.data()[k] = k;
@@ -73,8 +75,7 @@ class OneTriangle {
     {
         ClippedPiece p = {};
         const SnappedVertex* const v = vertices_.data();
-        const std::int64_t area =
-            std::int64_t{v[1].x - v[0].x} * (v[2].y - v[0].y) - std::int64_t{v[2].x - v[0].x} * (v[1].y - v[0].y);
+        const std::int64_t area = std::int64_t{v[1].x - v[0].x} * (v[2].y - v[0].y) - std::int64_t{v[2].x - v[0].x} * (v[1].y - v[0].y);
         for (int j = 0; j < 3; ++j) {
             const int from = area < 0 && j > 0 ? 3 - j : j;
             p.setup.x[j] = v[from].x, p.setup.y[j] = v[from].y, p.setup.inv_w[j] = v[from].inv_w, p.setup.z[j] = v[from].z;
@@ -106,7 +107,7 @@ bool piece_covers(const TriangleSetup& t, int x, int y)
 
 struct WorstOfLarge { // over all places that were looked at
     std::size_t triangles = 0, cut = 0, places = 0, covered = 0, differing = 0;
-    double edge_px = 0.0;                       // of those that differ: to the nearest edge
+    double edge_px = 0.0;                                          // of those that differ: to the nearest edge
     double w_px = 0.0, depth_px = 0.0, b_px = 0.0, whole_px = 0.0; // as how far away a place has the value that was found here
 };
 
@@ -190,9 +191,10 @@ void look_at(OneTriangle& renderer, const View& view, int width, int height, con
 
 void expect_right(const WorstOfLarge& w)
 {
-    std::printf("%zu triangles, %zu of them cut; of %zu places %zu are covered, %zu differ, at most %.2g pixel from an edge; values are those "
-                "of places %.2g (w), %.2g (depth), %.2g (weights) pixel away, of whole triangles %.2g\n",
-                w.triangles, w.cut, w.places, w.covered, w.differing, w.edge_px, w.w_px, w.depth_px, w.b_px, w.whole_px);
+    std::printf(
+        "%zu triangles, %zu of them cut; of %zu places %zu are covered, %zu differ, at most %.2g pixel from an edge; values are those "
+        "of places %.2g (w), %.2g (depth), %.2g (weights) pixel away, of whole triangles %.2g\n",
+        w.triangles, w.cut, w.places, w.covered, w.differing, w.edge_px, w.w_px, w.depth_px, w.b_px, w.whole_px);
     EXPECT_LE(w.edge_px, kEdge);
     EXPECT_LE(w.w_px, kPlace);
     EXPECT_LE(w.depth_px, kPlace);
@@ -325,6 +327,30 @@ TEST(large_triangles, that_are_floors_cover_all_below_the_horizon)
                 const auto& size = kSizes[n++ % 4];
                 look_at_floor(extent, znear < 0.5f ? 1.7f : 10.0f, pitch, n % 3 ? 0.0f : 0.4f, znear, size[0], size[1], n % 2 ? 4 : 1);
             }
+}
+
+// From within a closed box every sample sees a wall, however large the box is.
+TEST(large_triangles, that_close_a_box_leave_no_crack)
+{
+    Random random{3};
+    for (const float half : {1e4f, 1e6f}) {
+        const Stage stage(scene_of(tessellated_box(half, 3), true));
+        for (int k = 0; k < 12; ++k) {
+            glm::vec3 eye(random.unit(), random.unit(), random.unit());
+            eye = (2.0f * eye - 1.0f) * half * 0.999f;
+            eye[k % 3] = (k % 2 ? half : -half) * (1.0f - 1e-6f); // a pace from a wall, or a few
+            const glm::vec3 target = (2.0f * glm::vec3(random.unit(), random.unit(), random.unit()) - 1.0f) * half;
+            FrameDesc desc;
+            desc.width = 97, desc.height = 61, desc.msaa = 4, desc.triangle_ids = true, desc.technique = "split_isotropic";
+            desc.view = make_view(eye, target, k % 3 == 0 ? 2.6f : 1.0f, desc.width, desc.height);
+            desc.view.znear = 0.001f;
+            for (const Isa isa : {Isa::scalar, best_isa()}) {
+                const Frame f = stage.render(desc, isa);
+                EXPECT_EQ(std::count(f.triangle_ids.begin(), f.triangle_ids.end(), kNoTriangle), 0)
+                    << isa_name(isa) << ", half a side of " << half << " m, view " << k;
+            }
+        }
+    }
 }
 
 } // namespace
