@@ -73,7 +73,8 @@ BN_FN visible_point point_of(frame_ref f, BN_IN(view_params) view, triangle_ref 
         p.position = w.b.x * v0 + w.b.y * v1 + w.b.z * v2;
         if (t.clipped && the_frame(f).view.orthographic == 0) {
             // Corners that are cut off may lie so far away that their blend is off by more than the eye's distance: the ray knows better.
-            p.position = select(t.piece, view.eye + p.ray * w.w, p.position);
+            real3 along_ray = view.eye + p.ray * w.w;
+            p.position = select(t.piece, along_ray, p.position);
         }
     }
     bool bends = the_frame(f).specular_aa != 0;
