@@ -33,6 +33,22 @@ def quad(corners, eye, pitch=0.0, yfov=0.7, znear=0.01, place=(0, 0, 0)):
     return json.dumps(gltf)
 
 
+def skinned(text):
+    """The same quad as a skin, bent by a joint where its node was."""
+    gltf = json.loads(text)
+    data = struct.pack("<16B", *(0, 0, 0, 0) * 4) + struct.pack("<16f", *(1, 0, 0, 0) * 4)
+    gltf["buffers"].append({"byteLength": len(data), "uri": gltf_files.data_uri(data)})
+    gltf["bufferViews"] += [{"buffer": 1, "byteLength": 16}, {"buffer": 1, "byteOffset": 16, "byteLength": 64}]
+    gltf["accessors"] += [{"bufferView": 2, "componentType": 5121, "count": 4, "type": "VEC4"},
+                          {"bufferView": 3, "componentType": 5126, "count": 4, "type": "VEC4"}]
+    gltf["meshes"][0]["primitives"][0]["attributes"].update({"JOINTS_0": 2, "WEIGHTS_0": 3})
+    gltf["nodes"].append({"translation": gltf["nodes"][0].pop("translation")})
+    gltf["nodes"][0]["skin"] = 0
+    gltf["skins"] = [{"joints": [2]}]
+    gltf["scenes"][0]["nodes"].append(2)
+    return json.dumps(gltf)
+
+
 def floor(half, eye=1.7, pitch=0.15, **more):
     return quad([(-half, 0, half), (half, 0, half), (half, 0, -half), (-half, 0, -half)], (0, eye, 0), pitch, **more)
 
@@ -116,6 +132,18 @@ def far(bench):
         for way in ("camera", "eye") if pictures else ():
             check(pictures["near", way] == pictures["far", way], f"{backend[1]}: another picture by {way}")
             check(pictures["near", way].count(struct.pack("<f", GREEN[1])) > 500, f"{backend[1]}: no plate by {way}")
+
+
+@case("geometry.skins_far_from_the_origin_are_as_near_it", tier="check")
+def far_skin(bench):
+    pictures = []
+    for offset in ((0, 0, 0), AWAY):
+        scratch(bench, "plate.gltf", skinned(quad(PLATE, places(offset), place=offset)))
+        done = bench.run("render", "plate.gltf", "--size", "96x64", *NIGHT).expect(0)
+        check("steps of" not in done.err, done.describe())
+        pictures.append((bench.folder / "a.pfm").read_bytes())
+    check(pictures[0] == pictures[1], "another picture far away")
+    check(pictures[0].count(struct.pack("<f", GREEN[1])) > 500, "no plate")
 
 
 @case("geometry.digits_that_a_file_has_lost_are_warned_of", tier="check")
