@@ -9,6 +9,7 @@
 #include "shading/kernels/camera.t.h"
 #include "shading/lang/frame.h"
 #include "shading/lang/lang.h"
+#include "shading/lang/wide.h"
 
 BN_KERNELS_BEGIN
 

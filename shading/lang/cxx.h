@@ -200,24 +200,6 @@ BN_FN double wide_like(double, double x)
     return x;
 }
 
-using uniform_wide = double;
-BN_FN double wide_of(float x)
-{
-    return static_cast<double>(x);
-}
-BN_FN double wide_of(int x)
-{
-    return static_cast<double>(x);
-}
-BN_FN double wide_min(double a, double b)
-{
-    return a < b ? a : b;
-}
-BN_FN double wide_max(double a, double b)
-{
-    return a > b ? a : b;
-}
-
 BN_FN bool any_lane(mask m)
 {
     return any(m);

@@ -26,14 +26,6 @@
 #define integer precise int
 #define mask precise bool
 #define any_wide precise double
-// A stage that defines BN_WIDE requires doubles; without it what is wide is a float, for devices that have none.
-#ifdef BN_WIDE
-#define uniform_wide precise double
-#define wide_of(x) double(x)
-#else
-#define uniform_wide precise float
-#define wide_of(x) float(x)
-#endif
 
 #define lit(x) (x)
 #define int_lit(x) (x)
@@ -127,14 +119,6 @@ real3 bn_max(real3 a, real3 b)
 real4 bn_max(real4 a, real4 b)
 {
     return vec4(bn_max(a.x, b.x), bn_max(a.y, b.y), bn_max(a.z, b.z), bn_max(a.w, b.w));
-}
-uniform_wide wide_min(uniform_wide a, uniform_wide b)
-{
-    return a < b ? a : b;
-}
-uniform_wide wide_max(uniform_wide a, uniform_wide b)
-{
-    return a > b ? a : b;
 }
 #define min bn_min
 #define max bn_max

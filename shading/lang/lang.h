@@ -35,8 +35,6 @@
 //    uniform;
 //  - any_wide, in double precision: a wide of each lane or, in C++ where all share it, a double; wide_like(w, 1.0) is a number of the same
 //    kind; few GPUs are fast at it and some have none, so it is for what a pass can do without;
-//  - uniform_wide, a double that all lanes share: wide_of(x) of a float or an int, wide_min, wide_max, float(w), int(w). Where a device has
-//    no doubles a stage is compiled with floats in their place;
 //  - any_lane(m) no_lane(m), to leave out what no lane needs, and most_of_lanes(x), a bound for loops whose count varies: what a lane
 //    does not need must then leave its result as it is.
 #ifndef BN_LANG_H
