@@ -329,7 +329,7 @@ RiskInputs inputs_of_setting(const RenderOptions& o)
     RiskInputs i = inputs_of_frame(o.frame, environment);
     const float roughness = std::max(o.frame.roughness, 0.0f), eta = std::abs(o.frame.anisotropy);
     i.along = roughness * roughness * (1.0f + eta), i.across = roughness * roughness * (1.0f - eta);
-    i.n_dot_v = o.eye ? o.eye->z / glm::length(*o.eye) : kUsualNdotV; // builtin:plate faces +Z
+    i.n_dot_v = o.eye ? static_cast<float>(o.eye->z / glm::length(*o.eye)) : kUsualNdotV; // builtin:plate faces +Z
     return i;
 }
 

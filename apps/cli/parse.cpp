@@ -36,9 +36,10 @@ Result<PictureSize> parse_picture_size(const std::string& option, const std::str
     return size;
 }
 
-Result<glm::vec3> parse_vec3(const std::string& option, const std::string& text)
+// Vector: glm::vec3 or glm::dvec3.
+template <class Vector> static Result<Vector> parse_three(const std::string& option, const std::string& text)
 {
-    glm::vec3 value{0.0f};
+    Vector value{};
     const char* at = text.data();
     const char* end = at + text.size();
     bool good = true;
@@ -52,6 +53,17 @@ Result<glm::vec3> parse_vec3(const std::string& option, const std::string& text)
     if (!good)
         return usage_error(option, fmt::format("expected three numbers such as 1,0.5,2, got '{}'", text));
     return value;
+}
+
+Result<glm::vec3> parse_vec3(const std::string& option, const std::string& text)
+{
+    return parse_three<glm::vec3>(option, text);
+}
+
+Result<glm::dvec3> parse_dvec3(const std::string& option, const std::string& text)
+{
+    const Result<glm::vec3> fits = parse_three<glm::vec3>(option, text); // finite as floats
+    return fits ? parse_three<glm::dvec3>(option, text) : Result<glm::dvec3>(fits.error());
 }
 
 Result<double> parse_number(const std::string& option, const std::string& text, double low, double high)

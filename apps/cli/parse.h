@@ -17,6 +17,7 @@ struct PictureSize {
 
 Result<PictureSize> parse_picture_size(const std::string& option, const std::string& text); // "1280x720"
 Result<glm::vec3> parse_vec3(const std::string& option, const std::string& text);           // "x,y,z", finite
+Result<glm::dvec3> parse_dvec3(const std::string& option, const std::string& text);         // the same with all digits
 Result<double> parse_number(const std::string& option, const std::string& text, double low, double high);
 Result<std::int64_t> parse_integer(const std::string& option, const std::string& text, std::int64_t low, std::int64_t high);
 Result<std::uint64_t> parse_bytes(const std::string& option,

@@ -3,6 +3,7 @@
 #include <charconv>
 #include <cmath>
 #include <fmt/core.h>
+#include <glm/gtc/matrix_transform.hpp>
 
 #include "apps/cli/report.h"
 
@@ -47,8 +48,14 @@ Result<int> find_camera(const Scene& scene, const std::string& wanted)
     return found;
 }
 
+// Places are drawn from the scene's origin.
+glm::vec3 drawn_place(const glm::dvec3& place, const Scene& scene)
+{
+    return glm::vec3(place - scene.origin);
+}
+
 // --fov and --target change what a camera of the scene says.
-Result<View> changed(View view, const RenderOptions& options, const std::string& camera)
+Result<View> changed(View view, const RenderOptions& options, const Scene& scene, const std::string& camera)
 {
     const int width = options.frame.width, height = options.frame.height;
     if (options.fov_y_deg) {
@@ -59,9 +66,10 @@ Result<View> changed(View view, const RenderOptions& options, const std::string&
         view.tan_half_x *= tan_half / view.tan_half_y, view.tan_half_y = tan_half;
     }
     if (options.target) {
-        if (*options.target == view.eye)
+        const glm::vec3 target = drawn_place(*options.target, scene);
+        if (target == view.eye)
             return usage_error("--target", "is where " + camera + " stands");
-        const View turned = make_view(view.eye, *options.target, 1.0f, width, height);
+        const View turned = make_view(view.eye, target, 1.0f, width, height);
         view.right = turned.right, view.up = turned.up, view.forward = turned.forward;
     }
     return view;
@@ -80,10 +88,11 @@ Result<ChosenView> wanted_view(const RenderOptions& options, const Scene& scene,
     const int width = options.frame.width, height = options.frame.height;
     const float fov_y_rad = options.fov_y_deg.value_or(kUsualFovDeg) * kRadiansPerDegree;
     if (options.eye) {
-        const glm::vec3 target = options.target ? *options.target : (tables.bounds_min + tables.bounds_max) * 0.5f;
-        if (target == *options.eye)
+        const glm::vec3 eye = drawn_place(*options.eye, scene);
+        const glm::vec3 target = options.target ? drawn_place(*options.target, scene) : (tables.bounds_min + tables.bounds_max) * 0.5f;
+        if (target == eye)
             return usage_error("--eye", "is the centre of the scene: give a --target");
-        return ChosenView{make_view(*options.eye, target, fov_y_rad, width, height), "from --eye"};
+        return ChosenView{make_view(eye, target, fov_y_rad, width, height), "from --eye"};
     }
     int camera = options.orbit_deg ? kNone : first_placed_camera(scene);
     if (!options.camera.empty()) {
@@ -94,13 +103,15 @@ Result<ChosenView> wanted_view(const RenderOptions& options, const Scene& scene,
     }
     if (camera != kNone) {
         const std::string label = "camera " + camera_label(scene, camera);
-        const Result<View> view = changed(make_view(scene, camera, width, height), options, label);
+        const Result<View> view = changed(make_view(scene, camera, width, height), options, scene, label);
         if (!view)
             return view.error();
         return ChosenView{*view, label};
     }
     Framing framing;
-    framing.fov_y_rad = fov_y_rad, framing.target = options.target;
+    framing.fov_y_rad = fov_y_rad;
+    if (options.target)
+        framing.target = drawn_place(*options.target, scene);
     const glm::vec2 orbit_deg = options.orbit_deg.value_or(kUsualOrbitDeg);
     framing.azimuth_rad = orbit_deg.x * kRadiansPerDegree, framing.elevation_rad = orbit_deg.y * kRadiansPerDegree;
     return ChosenView{auto_frame(tables, width, height, framing), options.orbit_deg ? "from --orbit" : "framed automatically", true};
@@ -124,20 +135,27 @@ Result<ChosenView> choose_view(const RenderOptions& options, const Scene& scene,
     return chosen;
 }
 
-std::string camera_options(const View& view, const DrawTables& tables)
+std::string world_place(const glm::vec3& place, const Scene& scene, int digits)
+{
+    const glm::dvec3 p = glm::dvec3(place) + scene.origin;
+    const int all = scene.origin == glm::dvec3(0.0) ? digits : 15;
+    return fmt::format("{:.{}g},{:.{}g},{:.{}g}", p.x, all, p.y, all, p.z, all);
+}
+
+std::string camera_options(const View& view, const Scene& scene, const DrawTables& tables)
 {
     if (view.orthographic)
         return "orthographic, which no options give";
     const glm::vec3 to_center = (tables.bounds_min + tables.bounds_max) * 0.5f - view.eye;
     const glm::vec3 target = view.eye + view.forward * std::max(glm::dot(to_center, view.forward), 10.0f * view.znear);
-    const auto text = [](const glm::vec3& p) { return fmt::format("{:.7g},{:.7g},{:.7g}", p.x, p.y, p.z); };
+    const auto text = [&](const glm::vec3& p) { return world_place(p, scene, 7); };
     return fmt::format("--eye {} --target {} --fov {:.7g}", text(view.eye), text(target),
                        2.0f * std::atan(view.tan_half_y) / kRadiansPerDegree);
 }
 
-std::string describe_matrix(const View& view)
+std::string describe_matrix(const View& view, const Scene& scene)
 {
-    const glm::mat4 m = clip_from_world(view);
+    const glm::dmat4 m = glm::translate(glm::dmat4(clip_from_world(view)), -scene.origin);
     std::string text;
     for (int row = 0; row < 4; ++row)
         text += fmt::format("{}[{:.7g} {:.7g} {:.7g} {:.7g}]", row ? " " : "", m[0][row], m[1][row], m[2][row], m[3][row]);

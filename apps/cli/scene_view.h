@@ -23,9 +23,12 @@ struct ChosenView {
 Result<ChosenView> choose_view(const RenderOptions& options, const Scene& scene, const DrawTables& tables);
 
 // "--eye X,Y,Z --target X,Y,Z --fov DEG", which gives the same view but for rounding, and for a camera's roll.
-std::string camera_options(const View& view, const DrawTables& tables);
+std::string camera_options(const View& view, const Scene& scene, const DrawTables& tables);
+
+// "X,Y,Z" in world space of a place that is drawn, metres.
+std::string world_place(const glm::vec3& place, const Scene& scene, int digits);
 
 // The world-to-clip matrix in one line, rows in brackets.
-std::string describe_matrix(const View& view);
+std::string describe_matrix(const View& view, const Scene& scene);
 
 } // namespace burnish

@@ -272,6 +272,12 @@ Value point(std::optional<glm::vec3>& to)
                 [&to] { return to ? fmt::format("{:g},{:g},{:g}", to->x, to->y, to->z) : std::string(); });
 }
 
+Value place(std::optional<glm::dvec3>& to)
+{
+    return make(ValueKind::vector, reading<glm::dvec3>(parse_dvec3, [&to](const glm::dvec3& value) { to = value; }),
+                [&to] { return to ? fmt::format("{:.12g},{:.12g},{:.12g}", to->x, to->y, to->z) : std::string(); });
+}
+
 Value colour(std::optional<glm::vec3>& to)
 {
     const auto parse = [](const std::string& option, const std::string& written) -> Result<glm::vec3> {

@@ -48,6 +48,7 @@ Value angles(glm::vec2& to, double low, double high);     // degrees
 Value angles_rad(glm::vec2& to, double low, double high); // written in degrees, as is the range
 Value direction(std::optional<glm::vec2>& to);            // azimuth and elevation, degrees
 Value point(std::optional<glm::vec3>& to);
+Value place(std::optional<glm::dvec3>& to); // world space, with all digits
 Value colour(std::optional<glm::vec3>& to); // red, green and blue, [0,1]
 Value text(std::string& to);
 Value texts(std::vector<std::string>& to); // one each time it is given

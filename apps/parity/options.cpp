@@ -57,7 +57,7 @@ Status choose_places(const ParityArguments& in, std::vector<ParityPlace>& places
         for (const SuiteEntry& e : kDefaultSuite) {
             ParityPlace place = {e.scene, e.view, {}, {}};
             if (*e.view)
-                place.eye = glm::vec3(e.eye[0], e.eye[1], e.eye[2]), place.target = glm::vec3(e.target[0], e.target[1], e.target[2]);
+                place.eye = glm::dvec3(e.eye[0], e.eye[1], e.eye[2]), place.target = glm::dvec3(e.target[0], e.target[1], e.target[2]);
             places.push_back(place);
         }
     }

@@ -23,7 +23,7 @@ struct ParityArguments {
 
 struct ParityPlace {         // a scene, seen from somewhere
     std::string scene, view; // view: a name; empty: the scene's own
-    std::optional<glm::vec3> eye, target;
+    std::optional<glm::dvec3> eye, target;
 };
 
 struct ParitySet {                     // one look of all places

@@ -139,10 +139,10 @@ int run_render(RenderArguments& arguments, OptionTable& given)
     if (!view)
         return fail(view.error());
     const DrawTables& tables = session->tables();
-    report.detail("bounds", fmt::format("{:.5g},{:.5g},{:.5g} to {:.5g},{:.5g},{:.5g} m", tables.bounds_min.x, tables.bounds_min.y,
-                                        tables.bounds_min.z, tables.bounds_max.x, tables.bounds_max.y, tables.bounds_max.z));
-    report.detail("camera", fmt::format("{}: {}", view->description, camera_options(view->view, tables)));
-    report.detail("", fmt::format("world to clip {}", describe_matrix(view->view)));
+    const Scene& scene = session->scene();
+    report.detail("bounds", fmt::format("{} to {} m", world_place(tables.bounds_min, scene, 5), world_place(tables.bounds_max, scene, 5)));
+    report.detail("camera", fmt::format("{}: {}", view->description, camera_options(view->view, scene, tables)));
+    report.detail("", fmt::format("world to clip {}", describe_matrix(view->view, scene)));
     report.detail("device", fmt::format("{}, {} threads", figures.device, figures.threads));
     FrameDesc desc = options.frame;
     desc.view = view->view;

@@ -42,9 +42,9 @@ struct RenderOptions {
     bool env_given = false; // else the scene's own light is taken where it has one
     EnvironmentOptions environment;
 
-    std::string camera;           // index or name, empty: the scene's first camera, else framed automatically
-    std::optional<glm::vec3> eye; // world space, metres
-    std::optional<glm::vec3> target;
+    std::string camera;            // index or name, empty: the scene's first camera, else framed automatically
+    std::optional<glm::dvec3> eye; // world space, metres
+    std::optional<glm::dvec3> target;
     std::optional<float> fov_y_deg;     // none: the camera's, else 45
     std::optional<glm::vec2> orbit_deg; // azimuth, elevation: the whole scene from there
     float zoom = 1.0f;                  // things are so many times larger

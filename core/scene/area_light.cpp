@@ -297,7 +297,9 @@ void add_emitter(Scene& scene, const PlacedAreaLight& light)
         add_tube(scene, light);
     else
         add_polygon(scene, light);
-    add_node(scene, "light", add_mesh(scene, "light", first), glm::mat4(1.0f));
+    glm::mat4 place(1.0f);
+    place[3] = glm::vec4(glm::vec3(scene.origin), 1.0f); // its corners are where they are drawn already
+    add_node(scene, "light", add_mesh(scene, "light", first), place);
 }
 
 } // namespace

@@ -2,18 +2,39 @@
 
 namespace burnish {
 
-// A parent that does not come before its child counts as none: check_scene() refuses it.
-void update_world(Scene& scene)
+namespace {
+
+// Products are formed in double, so that long chains lose no digits. A parent that does not come before its child counts as none:
+// check_scene() refuses it. `exact`: with what floats leave of translations.
+std::vector<glm::dmat4> compose(const Scene& scene, bool exact, const glm::dvec3& origin)
 {
-    // Products are formed in double and rounded once a node, so that long chains lose no digits.
     std::vector<glm::dmat4> world(scene.nodes.size());
     for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
-        Node& node = scene.nodes[i];
+        const Node& node = scene.nodes[i];
         world[i] = glm::dmat4(node.local);
+        if (exact)
+            world[i][3] += glm::dvec4(node.local_beyond, 0.0);
         if (node.parent >= 0 && static_cast<std::size_t>(node.parent) < i)
             world[i] = world[static_cast<std::size_t>(node.parent)] * world[i];
-        node.world = glm::mat4(world[i]);
+        else if (exact)
+            world[i][3] -= glm::dvec4(origin, 0.0);
     }
+    return world;
+}
+
+} // namespace
+
+std::vector<glm::dmat4> exact_world(const Scene& scene)
+{
+    return compose(scene, true, glm::dvec3(0.0));
+}
+
+void update_world(Scene& scene)
+{
+    // Scenes around 0 have the bits of their floats.
+    const std::vector<glm::dmat4> world = compose(scene, scene.origin != glm::dvec3(0.0), scene.origin);
+    for (std::size_t i = 0; i < scene.nodes.size(); ++i)
+        scene.nodes[i].world = glm::mat4(world[i]);
 }
 
 } // namespace burnish

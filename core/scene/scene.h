@@ -42,8 +42,9 @@ struct Mesh {
 struct Node {
     std::string name;
     std::int32_t parent = kNone, mesh = kNone, camera = kNone, light = kNone, area_light = kNone;
-    glm::mat4 local{1.0f}; // to the parent's space
-    glm::mat4 world{1.0f}; // to world space; update_world() fills it
+    glm::mat4 local{1.0f};        // to the parent's space
+    glm::dvec3 local_beyond{0.0}; // what floats leave of its translation
+    glm::mat4 world{1.0f};        // to world space, from the scene's origin; update_world() fills it
 };
 
 enum class AlphaMode : std::uint8_t {
@@ -146,6 +147,7 @@ struct Scene {
     std::vector<Light> lights;
     std::vector<AreaLight> area_lights;
     std::vector<Camera> cameras;
+    glm::dvec3 origin{0.0};                   // of places in world space; 0 but for scenes far away (core/scene/origin.h)
     bool image_light = false;                 // its file has a light of images for it (image_light.h)
     std::shared_ptr<const MipFile> mips;      // levels that were baked beforehand; none: made of the maps
     std::shared_ptr<const MipFile> kept_mips; // the same as are made of the maps, found in the cache or kept there
@@ -159,6 +161,8 @@ struct Moment {
     int animation = 0;
 };
 
-void update_world(Scene& scene); // fills Node::world from Node::local
+void update_world(Scene& scene); // fills Node::world from Node::local and the origin
+// Transforms of all nodes to world space, from 0, with all digits of the file.
+std::vector<glm::dmat4> exact_world(const Scene& scene);
 
 } // namespace burnish

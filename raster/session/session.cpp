@@ -12,6 +12,7 @@
 #include "core/scene/directional_roughness.h"
 #include "core/scene/gltf/gltf.h"
 #include "core/scene/heights.h"
+#include "core/scene/origin.h"
 #include "raster/frame/mip_files.h"
 #include "raster/session/check_parts.h"
 #include "shading/bake/environment/turn.h"
@@ -115,7 +116,7 @@ Result<std::shared_ptr<const SceneData>> make_settled_data(const std::string& na
             return laid.error();
         if (Status laid = lay_heights(data->scene, limits, name); !laid)
             return laid.error();
-        update_world(data->scene);
+        settle_origin(data->scene);
         if (const Status lit = add_emitters(data->scene, limits.area_lights, name); !lit)
             return lit.error();
         update_world(data->scene);
@@ -124,6 +125,7 @@ Result<std::shared_ptr<const SceneData>> make_settled_data(const std::string& na
         data->tables = make_draw_tables(data->scene);
         if (const Status range = check_draw_range(data->scene, data->tables, name); !range)
             return range.error();
+        warn_of_steps(data->scene);
         warn_of_unfiltered(data->scene);
         if (Status settled = settle(data->scene); !settled)
             return settled.error();

@@ -31,6 +31,7 @@ namespace burnish {
 inline constexpr int kDfgSize = 64;     // texels a side of the table of directional albedo
 inline constexpr int kDfgSamples = 256; // a texel
 
+// Places of views, tables and lights are metres from scene.origin, which is 0 but for scenes far away (core/scene/origin.h).
 struct SceneData { // a scene and what is drawn of it
     std::string name;
     Scene scene; // its world matrices are up to date

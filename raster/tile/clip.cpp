@@ -24,27 +24,22 @@ bool tile_rect(const FrameParams& f, const TriangleSetup& t, std::uint32_t corne
     return true;
 }
 
-void emit_piece(const FrameParams& f, std::uint32_t triangle, const clip_corner* const corner[3], ChunkOutput& out)
+// front: the polygon shows its front (seen_side()).
+void emit_piece(const FrameParams& f, std::uint32_t triangle, bool front, const clip_corner* const corner[3], ChunkOutput& out)
 {
-    const view_params view = view_params_of(f.view);
     TriangleSetup t = {};
-    for (int i = 0; i < 3; ++i) {
-        const snapped_vertex s = snap_corner(f, view, *corner[i]);
-        if (!s.valid)
-            return; // numerically degenerate: nothing left of it
-        t.x[i] = s.x, t.y[i] = s.y, t.inv_w[i] = s.inv_w, t.z[i] = s.z;
-    }
+    for (int i = 0; i < 3; ++i)
+        t.x[i] = corner[i]->x, t.y[i] = corner[i]->y, t.inv_w[i] = corner[i]->inv_w, t.z[i] = corner[i]->z;
     const std::int64_t area =
         static_cast<std::int64_t>(t.x[1] - t.x[0]) * (t.y[2] - t.y[0]) - static_cast<std::int64_t>(t.x[2] - t.x[0]) * (t.y[1] - t.y[0]);
-    const std::uint32_t material = f.triangle_material[triangle];
-    const bool front = area < 0; // counter-clockwise with y up
-    if (area == 0 || (!front && !f.materials[material].double_sided))
+    if (front ? area >= 0 : area <= 0)
         return;
+    const std::uint32_t material = f.triangle_material[triangle];
     ClipRecord record = {};
     for (int j = 0; j < 3; ++j) {
         const int from = turned_corner(front, j);
         for (int k = 0; k < 3; ++k)
-            record.bary[3 * j + k] = corner[from]->bary[k];
+            record.bary[3 * j + k] = static_cast<float>(corner[from]->bary[k]);
         record.vertex[j] = static_cast<std::int32_t>(f.indices[3 * triangle + static_cast<std::uint32_t>(j)]);
     }
     const TriangleSetup u = t;
@@ -69,13 +64,18 @@ void clip_triangle(const FrameParams& f, std::uint32_t triangle, ChunkOutput& ou
     clip_polygon polygon;
     for (int i = 0; i < 3; ++i) {
         const std::uint32_t v = f.indices[3 * triangle + static_cast<std::uint32_t>(i)];
-        const real4 c = clip_position(vec3_of(f.px[v], f.py[v], f.pz[v]), view_params_of(f.view));
-        set_corner(polygon, i, c.x, c.y, c.z, c.w);
+        set_corner(f, polygon, i, f.px[v], f.py[v], f.pz[v]);
+        const SnappedVertex& s = f.vertices[v];
+        if (s.x != kNeedsClip)
+            place_corner(polygon, i, s.x, s.y, s.inv_w, s.z);
     }
     clip_triangle_to_frame(f, polygon);
+    const int side = seen_side(polygon);
+    if (side == 0 || (side < 0 && !f.materials[f.triangle_material[triangle]].double_sided))
+        return;
     for (int i = 1; i + 1 < polygon.count; ++i) {
         const clip_corner* const corner[3] = {&polygon.corner[0], &polygon.corner[i], &polygon.corner[i + 1]};
-        emit_piece(f, triangle, corner, out);
+        emit_piece(f, triangle, side > 0, corner, out);
     }
 }
 

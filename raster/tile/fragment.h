@@ -56,10 +56,10 @@ BN_INLINE void load_setup(const TileScratch& scratch, integer triangle, std::int
         r.inv_w = vec3_of(real_from_bits(field[6]), real_from_bits(field[7]), real_from_bits(field[8]));
         r.info = field[15];
     }
-    const mask clipped = (r.info & int_lit(kClipped)) != int_lit(0);
-    r.clipped = any(clipped);
+    r.piece = (r.info & int_lit(kClipped)) != int_lit(0);
+    r.clipped = any(r.piece);
     if (r.clipped)
-        unclip_setup(scratch, clipped, r);
+        unclip_setup(scratch, r.piece, r);
 }
 
 // What assembly asks of triangles: shading/lang/triangle.h.

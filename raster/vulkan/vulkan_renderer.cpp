@@ -182,9 +182,10 @@ void VulkanRenderer::geometry(VkCommandBuffer c)
 {
     const std::size_t triangles = static_cast<std::size_t>(scene_.places().triangle_count);
     dispatch(c, pipelines_.compute("transform"), static_cast<std::size_t>(scene_.places().vertex_count));
-    dispatch(c, pipelines_.compute("setup", {0}), triangles);
+    const char* const setup = context_.features().float64 ? "setup_exact" : "setup";
+    dispatch(c, pipelines_.compute(setup, {0}), triangles);
     dispatch(c, pipelines_.compute("scan"), 1);
-    dispatch(c, pipelines_.compute("setup", {1}), triangles);
+    dispatch(c, pipelines_.compute(setup, {1}), triangles);
 }
 
 // One pass of the rasterizer, and its ids and depths to buffers.

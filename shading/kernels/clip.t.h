@@ -1,18 +1,24 @@
 // Clipping of the rare triangle that crosses the near plane or leaves the guard band: Sutherland and Hodgman 1974, "Reentrant Polygon
-// Clipping", in homogeneous coordinates. Every cut is computed from the inside to the outside corner, so two triangles that share an edge
-// get the same cut whatever their order, and no crack opens. One triangle at a time: all values are uniform.
+// Clipping", in homogeneous coordinates and double precision. Corners may lie millions of times as far as the near plane, so floats would
+// lose a cut's w. A cut lies exactly on its plane, so every corner that is left has a place on the grid and no piece is lost to rounding.
+// Every cut is computed from the inside to the outside corner, so two triangles that share an edge get the same cut whatever their order,
+// and no crack opens. One triangle at a time: all values are uniform.
 #ifndef BN_CLIP_T_H
 #define BN_CLIP_T_H
 
 #include "shading/kernels/camera.t.h"
 #include "shading/lang/frame.h"
 #include "shading/lang/lang.h"
+#include "shading/lang/wide.h"
 
 BN_KERNELS_BEGIN
 
 struct clip_corner {
-    uniform_real c[4];    // clip space x, y, w, z
-    uniform_real bary[3]; // of the whole triangle
+    uniform_wide c[4];    // clip space x, y, w, z
+    uniform_wide bary[3]; // of the whole triangle
+    bool placed;          // x to z are set
+    int x, y;             // 1/256 pixel, as snapped_vertex
+    uniform_real inv_w, z;
 };
 
 struct clip_polygon {
@@ -20,50 +26,104 @@ struct clip_polygon {
     clip_corner corner[kMostCorners];
 };
 
-// Signed distance to a plane; inside is >= 0. 0: near; 1..4: guard band, where the snapped position would leave its range.
-BN_FN uniform_real plane_distance(frame_ref f, BN_IN(clip_corner) v, int plane)
+// Returns |x| / w of the guard band's sides, and |y| / w.
+BN_FN uniform_wide band_x(frame_ref f)
 {
-    uniform_real gx = float(kCutBand / kSubpixel) / the_frame(f).half_width;
-    uniform_real gy = float(kCutBand / kSubpixel) / the_frame(f).half_height;
-    uniform_real d = gy * v.c[2] + v.c[1];
+    return wide_of(kCutBand / kSubpixel) / wide_of(the_frame(f).half_width);
+}
+BN_FN uniform_wide band_y(frame_ref f)
+{
+    return wide_of(kCutBand / kSubpixel) / wide_of(the_frame(f).half_height);
+}
+
+// Returns the signed distance to a plane; inside is >= 0. 0: near; 1..4: guard band.
+BN_FN uniform_wide plane_distance(frame_ref f, BN_IN(clip_corner) v, int plane)
+{
+    uniform_wide d = band_y(f) * v.c[2] + v.c[1];
     if (plane == 0) {
-        uniform_real before_depth = 1.0f - v.c[3];
-        uniform_real before_plane = v.c[2] - the_frame(f).view.znear;
-        d = the_frame(f).view.orthographic != 0 ? before_depth : before_plane;
+        uniform_wide before_depth = wide_of(1) - v.c[3];
+        uniform_wide before_plane = v.c[2] - wide_of(the_frame(f).view.znear);
+        d = before_plane;
+        if (the_frame(f).view.orthographic != 0)
+            d = before_depth;
     }
     if (plane == 1)
-        d = gx * v.c[2] - v.c[0];
+        d = band_x(f) * v.c[2] - v.c[0];
     if (plane == 2)
-        d = gx * v.c[2] + v.c[0];
+        d = band_x(f) * v.c[2] + v.c[0];
     if (plane == 3)
-        d = gy * v.c[2] - v.c[1];
+        d = band_y(f) * v.c[2] - v.c[1];
     return d;
 }
 
-// d_in, d_out: distances of the two to the plane.
-BN_FN clip_corner cut_edge(BN_IN(clip_corner) inside, BN_IN(clip_corner) outside, uniform_real d_in, uniform_real d_out)
+// Sets the coordinate that a plane fixes.
+BN_FN void put_on_plane(frame_ref f, int plane, BN_INOUT(clip_corner) v)
 {
-    uniform_real t = d_in / (d_in - d_out);
-    clip_corner v;
+    if (plane == 0 && the_frame(f).view.orthographic == 0)
+        v.c[2] = wide_of(the_frame(f).view.znear);
+    if (plane == 0 && the_frame(f).view.orthographic != 0)
+        v.c[3] = wide_of(1);
+    if (plane == 1)
+        v.c[0] = band_x(f) * v.c[2];
+    if (plane == 2)
+        v.c[0] = -band_x(f) * v.c[2];
+    if (plane == 3)
+        v.c[1] = band_y(f) * v.c[2];
+    if (plane == 4)
+        v.c[1] = -band_y(f) * v.c[2];
+}
+
+// Returns where an edge meets a plane. d_in, d_out: distances of its ends to the plane.
+BN_FN clip_corner cut_edge(frame_ref f, int plane, BN_IN(clip_corner) inside, BN_IN(clip_corner) outside, uniform_wide d_in,
+                           uniform_wide d_out)
+{
+    uniform_wide t = d_in / (d_in - d_out);
+    clip_corner v = inside;
     for (int i = 0; i < 4; ++i)
         v.c[i] = inside.c[i] + t * (outside.c[i] - inside.c[i]);
     for (int i = 0; i < 3; ++i)
         v.bary[i] = inside.bary[i] + t * (outside.bary[i] - inside.bary[i]);
+    v.placed = false;
+    put_on_plane(f, plane, v);
     return v;
 }
 
-// Corner k of a triangle.
-BN_FN void set_corner(BN_INOUT(clip_polygon) p, int k, uniform_real x, uniform_real y, uniform_real w, uniform_real z)
+// Sets corner k of a triangle from its place in the world: clip_position() in double precision.
+BN_FN void set_corner(frame_ref f, BN_INOUT(clip_polygon) p, int k, uniform_real x, uniform_real y, uniform_real z)
 {
-    p.corner[k].c[0] = x;
-    p.corner[k].c[1] = y;
-    p.corner[k].c[2] = w;
-    p.corner[k].c[3] = z;
+    uniform_wide dx = wide_of(x) - wide_of(the_frame(f).view.eye[0]);
+    uniform_wide dy = wide_of(y) - wide_of(the_frame(f).view.eye[1]);
+    uniform_wide dz = wide_of(z) - wide_of(the_frame(f).view.eye[2]);
+    uniform_wide across =
+        wide_of(the_frame(f).view.right[0]) * dx + wide_of(the_frame(f).view.right[1]) * dy + wide_of(the_frame(f).view.right[2]) * dz;
+    uniform_wide height =
+        wide_of(the_frame(f).view.up[0]) * dx + wide_of(the_frame(f).view.up[1]) * dy + wide_of(the_frame(f).view.up[2]) * dz;
+    uniform_wide depth = wide_of(the_frame(f).view.forward[0]) * dx + wide_of(the_frame(f).view.forward[1]) * dy +
+                         wide_of(the_frame(f).view.forward[2]) * dz;
+    p.corner[k].c[0] = across * wide_of(the_frame(f).view.inv_tan_x);
+    p.corner[k].c[1] = height * wide_of(the_frame(f).view.inv_tan_y);
+    p.corner[k].c[2] = depth;
+    p.corner[k].c[3] = wide_of(the_frame(f).view.znear);
+    if (the_frame(f).view.orthographic != 0) {
+        p.corner[k].c[2] = wide_of(1);
+        p.corner[k].c[3] = (wide_of(the_frame(f).view.zfar) - depth) * wide_of(the_frame(f).view.inv_depth);
+    }
     for (int i = 0; i < 3; ++i)
-        p.corner[k].bary[i] = i == k ? 1.0f : 0.0f;
+        p.corner[k].bary[i] = wide_of(i == k ? 1 : 0);
+    p.corner[k].placed = false;
 }
 
-// What lies inside of a plane.
+// Sets where corner k of a triangle was snapped to, which its neighbours know as well.
+BN_FN void place_corner(BN_INOUT(clip_polygon) p, int k, int x, int y, uniform_real inv_w, uniform_real z)
+{
+    p.corner[k].placed = true;
+    p.corner[k].x = x;
+    p.corner[k].y = y;
+    p.corner[k].inv_w = inv_w;
+    p.corner[k].z = z;
+}
+
+// Leaves what lies inside of a plane.
 BN_FN void clip_by_plane(frame_ref f, int plane, BN_INOUT(clip_polygon) p)
 {
     clip_polygon left;
@@ -71,18 +131,23 @@ BN_FN void clip_by_plane(frame_ref f, int plane, BN_INOUT(clip_polygon) p)
     for (int i = 0; i < p.count; ++i) {
         clip_corner a = p.corner[i];
         clip_corner b = p.corner[(i + 1) % p.count];
-        uniform_real da = plane_distance(f, a, plane);
-        uniform_real db = plane_distance(f, b, plane);
-        if (da >= 0.0f) {
+        // A corner with a place lies inside, though it may lie a rounding error of floats behind the near plane.
+        uniform_wide da = plane_distance(f, a, plane);
+        uniform_wide db = plane_distance(f, b, plane);
+        if (a.placed)
+            da = wide_max(da, wide_of(0));
+        if (b.placed)
+            db = wide_max(db, wide_of(0));
+        if (da >= wide_of(0)) {
             left.corner[left.count] = a;
             left.count = left.count + 1;
         }
-        if (da >= 0.0f && db < 0.0f) {
-            left.corner[left.count] = cut_edge(a, b, da, db);
+        if (da >= wide_of(0) && db < wide_of(0)) {
+            left.corner[left.count] = cut_edge(f, plane, a, b, da, db);
             left.count = left.count + 1;
         }
-        if (da < 0.0f && db >= 0.0f) {
-            left.corner[left.count] = cut_edge(b, a, db, da);
+        if (da < wide_of(0) && db >= wide_of(0)) {
+            left.corner[left.count] = cut_edge(f, plane, b, a, db, da);
             left.count = left.count + 1;
         }
     }
@@ -91,24 +156,57 @@ BN_FN void clip_by_plane(frame_ref f, int plane, BN_INOUT(clip_polygon) p)
     p.count = left.count;
 }
 
-// p: a triangle of three corners, of which what is seen is left: a convex polygon, or nothing.
+// Returns a place on the grid. place: -1 to 1 over the image; half_size: pixels; center: as snap_vertex().
+BN_FN int place_on_grid(uniform_wide place, uniform_real half_size, int center)
+{
+    uniform_wide at = (place * wide_of(half_size) + wide_of(half_size)) * wide_of(kSubpixel) - wide_of(center);
+    uniform_wide most = wide_of(kGuardBand - 1);
+    uniform_wide least = wide_of(1 - kGuardBand);
+    at = wide_min(wide_max(at, least), most);
+    return int(at + (wide_of(kGuardBand) + wide_of(0.5f))) - kGuardBand; // the nearest: what is converted is positive
+}
+
+// Finds the place of a corner that has none.
+BN_FN void snap_corner(frame_ref f, BN_INOUT(clip_corner) v)
+{
+    uniform_wide w = v.c[2];
+    uniform_wide z = v.c[3];
+    if (the_frame(f).view.orthographic == 0)
+        w = wide_max(w, wide_of(the_frame(f).view.znear));
+    z = wide_min(z, w); // depth 1
+    v.x = place_on_grid(v.c[0] / w, the_frame(f).half_width, the_frame(f).center_x);
+    v.y = place_on_grid(-v.c[1] / w, the_frame(f).half_height, the_frame(f).center_y);
+    v.inv_w = float(wide_of(1) / w);
+    v.z = float(z / w);
+    v.placed = true;
+}
+
+// p: a triangle, of which what is seen is left: a convex polygon on the grid, or nothing.
 BN_FN void clip_triangle_to_frame(frame_ref f, BN_INOUT(clip_polygon) p)
 {
     p.count = 3;
     for (int plane = 0; plane < kClipPlanes; ++plane)
         clip_by_plane(f, plane, p);
+    for (int i = 0; i < p.count; ++i) {
+        if (!p.corner[i].placed)
+            snap_corner(f, p.corner[i]);
+    }
 }
 
-// On the sub-pixel grid; a cut may come out a rounding error behind the near plane. view: the frame's.
-BN_FN snapped_vertex snap_corner(frame_ref f, BN_IN(view_params) view, BN_IN(clip_corner) v)
+// Returns which side of a polygon is seen: 1 its front, -1 its back, 0 where it covers no area. Its pieces, a fan around corner 0, may
+// turn over on the grid: one that shows the other side lies on its neighbours, and is left out.
+BN_FN int seen_side(BN_IN(clip_polygon) p)
 {
-    uniform_real w = v.c[2];
-    uniform_real z = v.c[3];
-    if (the_frame(f).view.orthographic == 0 && !(w > the_frame(f).view.znear))
-        w = the_frame(f).view.znear;
-    if (the_frame(f).view.orthographic != 0 && z > 1.0f)
-        z = 1.0f;
-    return snap_to_frame(f, vec4_of(splat(v.c[0]), splat(v.c[1]), splat(w), splat(z)), view, kGuardBand);
+    uniform_wide area = wide_of(0);
+    for (int i = 1; i + 1 < p.count; ++i) {
+        uniform_wide x1 = wide_of(p.corner[i].x - p.corner[0].x);
+        uniform_wide y1 = wide_of(p.corner[i].y - p.corner[0].y);
+        uniform_wide x2 = wide_of(p.corner[i + 1].x - p.corner[0].x);
+        uniform_wide y2 = wide_of(p.corner[i + 1].y - p.corner[0].y);
+        area = area + (x1 * y2 - x2 * y1);
+    }
+    // counter-clockwise with y up is front
+    return area < wide_of(0) ? 1 : (area > wide_of(0) ? -1 : 0);
 }
 
 // A front face's second and third corner change places, so that its area becomes positive with y down: which corner comes as the j-th.

@@ -9,24 +9,57 @@ BN_KERNELS_BEGIN
 struct bary_weights {
     real3 b;     // weights of the three vertices, sum 1 up to rounding
     mask inside; // the point lies in the triangle or on its edge
+    real w;      // clip w at the point; only of pieces that clipping left, else 0
 };
 
-// (x, y)_i: vertex i minus the point, 1/256 pixel, exact integers below 2^24; orientation: positive area. inv_w: 1 / clip w.
-BN_FN bary_weights perspective_weights(real3 x, real3 y, real3 inv_w)
+// Returns twice the areas opposite of each vertex. (x, y)_i: vertex i minus the point, 1/256 pixel, exact integers below 2^24.
+BN_FN real3 edge_areas(real3 x, real3 y)
 {
-    real e0 = x.y * y.z - x.z * y.y; // twice the area opposite of each vertex
+    real e0 = x.y * y.z - x.z * y.y;
     real e1 = x.z * y.x - x.x * y.z;
     real e2 = x.x * y.y - x.y * y.x;
-    real p0 = e0 * inv_w.x;
-    real p1 = e1 * inv_w.y;
-    real p2 = e2 * inv_w.z;
+    return vec3_of(e0, e1, e2);
+}
+
+// Returns ax * by - bx * ay to 2^-23 of itself, where floats lose 2^-24 of the products. Integers below 2^24, in halves of 12 bits.
+BN_FN real exact_area(integer ax, integer ay, integer bx, integer by)
+{
+    integer low_bits = int_lit(4095);
+    integer axh = shr(ax, 12);
+    integer axl = ax & low_bits;
+    integer ayh = shr(ay, 12);
+    integer ayl = ay & low_bits;
+    integer bxh = shr(bx, 12);
+    integer bxl = bx & low_bits;
+    integer byh = shr(by, 12);
+    integer byl = by & low_bits;
+    integer low = axl * byl - bxl * ayl;
+    integer middle = axh * byl + axl * byh - bxh * ayl - bxl * ayh + shr(low, 12);
+    integer high = axh * byh - bxh * ayh + shr(middle, 12);
+    integer rest = shl(middle & low_bits, 12) + (low & low_bits);
+    return to_real(high) * lit(16777216.0) + to_real(rest);
+}
+
+// e: edge_areas(); orientation: positive area. inv_w: 1 / clip w.
+BN_FN bary_weights weights_of_areas(real3 e, real3 inv_w)
+{
+    real p0 = e.x * inv_w.x;
+    real p1 = e.y * inv_w.y;
+    real p2 = e.z * inv_w.z;
     real sum = p0 + p1 + p2;
     mask degenerate = both(sum<lit(1e-30), sum> lit(-1e-30));
     real inv = lit(1.0) / select(degenerate, lit(1.0), sum);
     bary_weights r;
     r.b = select(degenerate, vec3_all(lit(1.0 / 3.0)), vec3_of(p0 * inv, p1 * inv, p2 * inv));
-    r.inside = both(both(e0 >= lit(0.0), e1 >= lit(0.0)), e2 >= lit(0.0));
+    r.inside = both(both(e.x >= lit(0.0), e.y >= lit(0.0)), e.z >= lit(0.0));
+    r.w = lit(0.0);
     return r;
+}
+
+// x, y: as edge_areas() has them.
+BN_FN bary_weights perspective_weights(real3 x, real3 y, real3 inv_w)
+{
+    return weights_of_areas(edge_areas(x, y), inv_w);
 }
 
 // A triangle, or the piece of one that clipping left, as interpolation wants it.
@@ -36,7 +69,8 @@ struct triangle_setup {
     integer vertex[3];  // of the whole triangle
     integer info;       // material << 2 | kFrontFacing | kClipped
     real3 unclip[3];    // corners of a piece in barycentrics of the whole triangle
-    bool clipped;       // it is a piece; of lanes: some are
+    mask piece;         // it is a piece
+    bool clipped;       // some lane's is
 };
 
 // Weights of a piece that clipping cut off, in terms of the whole triangle: corner j of the piece is m_j in its barycentrics.
@@ -45,13 +79,25 @@ BN_FN real3 unclip_weights(real3 b, real3 m0, real3 m1, real3 m2)
     return m0 * b.x + m1 * b.y + m2 * b.z;
 }
 
-// Weights of the whole triangle's vertices at a point, 1/256 pixel.
+// Weights of the whole triangle's vertices at a point, 1/256 pixel. A piece may reach far over the picture's edges, and its corners' w may
+// differ by millions: its areas must be right to their own last place.
 BN_FN bary_weights weights_at(BN_IN(triangle_setup) t, integer x, integer y)
 {
-    bary_weights w = perspective_weights(vec3_of(to_real(t.x[0] - x), to_real(t.x[1] - x), to_real(t.x[2] - x)),
-                                         vec3_of(to_real(t.y[0] - y), to_real(t.y[1] - y), to_real(t.y[2] - y)), t.inv_w);
-    if (t.clipped)
+    integer x0 = t.x[0] - x;
+    integer x1 = t.x[1] - x;
+    integer x2 = t.x[2] - x;
+    integer y0 = t.y[0] - y;
+    integer y1 = t.y[1] - y;
+    integer y2 = t.y[2] - y;
+    real3 e = edge_areas(vec3_of(to_real(x0), to_real(x1), to_real(x2)), vec3_of(to_real(y0), to_real(y1), to_real(y2)));
+    if (t.clipped) {
+        e = select(t.piece, vec3_of(exact_area(x1, y1, x2, y2), exact_area(x2, y2, x0, y0), exact_area(x0, y0, x1, y1)), e);
+    }
+    bary_weights w = weights_of_areas(e, t.inv_w);
+    if (t.clipped) {
+        w.w = w.b.x / t.inv_w.x + w.b.y / t.inv_w.y + w.b.z / t.inv_w.z;
         w.b = unclip_weights(w.b, t.unclip[0], t.unclip[1], t.unclip[2]);
+    }
     return w;
 }
 

@@ -58,36 +58,39 @@ int emit(int triangle, ivec3 x, ivec3 y, vec3 inv_w, vec3 z, mat3 bary, int clip
     return 1;
 }
 
-int emit_piece(int triangle, clip_polygon polygon, int i1, int i2, int at)
+// side: of the polygon, see seen_side().
+int emit_piece(int triangle, clip_polygon polygon, int side, int i1, int i2, int at)
 {
     int corner[3] = int[3](0, i1, i2);
-    view_params view = view_params_of(frame.view);
     ivec3 x, y;
     vec3 inv_w, z;
     mat3 bary;
     for (int i = 0; i < 3; ++i) {
         clip_corner c = polygon.corner[corner[i]];
-        snapped_vertex s = snap_corner(0, view, c);
-        if (!s.valid)
-            return 0; // numerically degenerate: nothing left of it
-        x[i] = s.x;
-        y[i] = s.y;
-        inv_w[i] = s.inv_w;
-        z[i] = s.z;
-        bary[i] = vec3(c.bary[0], c.bary[1], c.bary[2]);
+        x[i] = c.x;
+        y[i] = c.y;
+        inv_w[i] = c.inv_w;
+        z[i] = c.z;
+        bary[i] = vec3(float(c.bary[0]), float(c.bary[1]), float(c.bary[2]));
     }
+    if (area_sign(x, y) != -side)
+        return 0;
     return emit(triangle, x, y, inv_w, z, bary, kClipped, at);
 }
 
 int clip_triangle(int triangle, ivec3 v, int at)
 {
     clip_polygon polygon;
-    for (int i = 0; i < 3; ++i)
-        set_corner(polygon, i, vertices[v[i]].clip[0], vertices[v[i]].clip[1], vertices[v[i]].clip[2], vertices[v[i]].clip[3]);
+    for (int i = 0; i < 3; ++i) {
+        vec3 place = vertex_position(v[i]);
+        set_corner(0, polygon, i, place.x, place.y, place.z);
+        if (vertices[v[i]].x != kNeedsClip)
+            place_corner(polygon, i, vertices[v[i]].x, vertices[v[i]].y, vertices[v[i]].inv_w, vertices[v[i]].z);
+    }
     clip_triangle_to_frame(0, polygon);
-    int count = 0;
-    for (int i = 1; i + 1 < polygon.count; ++i)
-        count += emit_piece(triangle, polygon, i, i + 1, at + count);
+    int side = seen_side(polygon), count = 0;
+    for (int i = 1; i + 1 < polygon.count && side != 0; ++i)
+        count += emit_piece(triangle, polygon, side, i, i + 1, at + count);
     return count;
 }
 

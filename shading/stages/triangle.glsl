@@ -17,7 +17,8 @@ triangle_setup load_setup(int slot)
     }
     t.inv_w = vec3(setups[slot].inv_w[0], setups[slot].inv_w[1], setups[slot].inv_w[2]);
     t.info = setups[slot].info;
-    t.clipped = (t.info & kClipped) != 0;
+    t.piece = (t.info & kClipped) != 0;
+    t.clipped = t.piece;
     return t;
 }
 

@@ -71,6 +71,11 @@ BN_FN visible_point point_of(frame_ref f, BN_IN(view_params) view, triangle_ref 
         real3 v1 = vertex_place(f, t, 1);
         real3 v2 = vertex_place(f, t, 2);
         p.position = w.b.x * v0 + w.b.y * v1 + w.b.z * v2;
+        if (t.clipped && the_frame(f).view.orthographic == 0) {
+            // Corners that are cut off may lie so far away that their blend is off by more than the eye's distance: the ray knows better.
+            real3 along_ray = view.eye + p.ray * w.w;
+            p.position = select(t.piece, along_ray, p.position);
+        }
     }
     bool bends = the_frame(f).specular_aa != 0;
     if (!textured && !bends)

@@ -18,6 +18,7 @@ import detail_cases
 import direction_cases
 import energy_cases
 import export_cases
+import far_cases
 import fault_cases
 import file_cases
 import fresnel_cases

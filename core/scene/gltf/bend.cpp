@@ -18,7 +18,8 @@ int scene_node_of(const Document& doc, int node)
     return kNone;
 }
 
-std::vector<glm::dmat4> joints_of(Document& doc, const Json& skin)
+// world_of(node): its transform to world space.
+template <class WorldOf> std::vector<glm::dmat4> joints_of(Document& doc, const Json& skin, const WorldOf& world_of)
 {
     AccessorView inverse;
     if (const int accessor = get_index(skin, "inverseBindMatrices"); accessor >= 0) {
@@ -33,9 +34,26 @@ std::vector<glm::dmat4> joints_of(Document& doc, const Json& skin)
             for (int c = 0; c < 4; ++c)
                 for (int r = 0; r < 3; ++r) // the last row is 0 0 0 1
                     bind[c][r] = static_cast<double>(inverse.number(j, 4 * c + r));
-        joints.push_back(node == kNone ? bind : glm::dmat4(doc.scene.nodes[static_cast<std::size_t>(node)].world) * bind);
+        joints.push_back(node == kNone ? bind : world_of(static_cast<std::size_t>(node)) * bind);
     }
     return joints;
+}
+
+// Vertices of a skin 32 km away would lie on steps of 4 mm: beyond, they are bent about a place near the first joint, with all digits.
+void settle_joints(Document& doc, const Json& skin, Bend& bend)
+{
+    constexpr double kFar = 32768.0; // metres
+    bend.joints = joints_of(doc, skin, [&](std::size_t node) { return glm::dmat4(doc.scene.nodes[node].world); });
+    if (bend.joints.empty())
+        return;
+    const glm::dvec3 first(bend.joints[0][3]);
+    if (!(std::fmax(std::fabs(first.x), std::fmax(std::fabs(first.y), std::fabs(first.z))) > kFar))
+        return;
+    const std::vector<glm::dmat4> world = exact_world(doc.scene);
+    bend.joints = joints_of(doc, skin, [&](std::size_t node) { return world[node]; });
+    bend.away = glm::dvec3(glm::vec3(glm::round(first)));
+    for (glm::dmat4& joint : bend.joints)
+        joint[3] -= glm::dvec4(bend.away, 0.0);
 }
 
 std::vector<float> floats_of(const AccessorView& view)
@@ -147,7 +165,7 @@ Bend bend_of(Document& doc, std::size_t scene_node)
     if (std::all_of(bend.weights.begin(), bend.weights.end(), [](double w) { return w == 0.0; }))
         bend.weights.clear();
     if (const int skin = get_index(node, "skin"); skin >= 0)
-        bend.joints = joints_of(doc, doc.json["skins"][static_cast<std::size_t>(skin)]);
+        settle_joints(doc, doc.json["skins"][static_cast<std::size_t>(skin)], bend);
     return bend;
 }
 

@@ -1,5 +1,6 @@
 #include "core/scene/gltf/graph.h"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 
@@ -156,6 +157,21 @@ int load_area_light(Document& doc, const Json& node, const std::string& node_pla
     return static_cast<int>(doc.scene.area_lights.size()) - 1;
 }
 
+// What floats leave of a node's translation.
+glm::dvec3 translation_beyond(const Json& source)
+{
+    double t[3] = {0.0, 0.0, 0.0}, m[16] = {};
+    read_numbers(source, "translation", t);
+    if (source.contains("matrix")) {
+        read_numbers(source, "matrix", m);
+        std::copy(m + 12, m + 15, t);
+    }
+    glm::dvec3 beyond;
+    for (int k = 0; k < 3; ++k)
+        beyond[k] = std::isfinite(static_cast<float>(t[k])) ? t[k] - static_cast<double>(static_cast<float>(t[k])) : 0.0;
+    return beyond;
+}
+
 Node load_node(Document& doc, std::size_t index, int parent)
 {
     const Json& source = node_json(doc, index);
@@ -168,6 +184,7 @@ Node load_node(Document& doc, std::size_t index, int parent)
         node.light = get_index(*light, "light");
     node.area_light = load_area_light(doc, source, place_of(index));
     node.local = local_matrix(doc, index);
+    node.local_beyond = translation_beyond(source);
     return node;
 }
 

@@ -233,6 +233,7 @@ void load_bent_meshes(Document& doc, const std::vector<Bend>& bends)
             continue;
         Node node;
         node.name = doc.scene.nodes[i].name, node.mesh = mesh;
+        node.local[3] = glm::vec4(glm::vec3(bends[i].away), 1.0f);
         doc.scene.nodes.push_back(std::move(node));
     }
 }

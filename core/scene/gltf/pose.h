@@ -16,7 +16,8 @@ void set_moment(Document& doc, const Moment& moment);
 // How a mesh is bent where a node places it.
 struct Bend {
     std::vector<double> weights;    // of morph targets
-    std::vector<glm::dmat4> joints; // from the mesh's space to world space; empty: no skin
+    std::vector<glm::dmat4> joints; // from the mesh's space to world space, from `away` on; empty: no skin
+    glm::dvec3 away{0.0};           // of a skin far from the origin; floats hold it
     bool any() const { return !weights.empty() || !joints.empty(); }
 };
 // Of the scene's node; its joints' places in world space are known. Nothing where all weights are 0 and there is no skin.

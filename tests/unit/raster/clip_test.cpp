@@ -23,8 +23,7 @@ double least_distance(const ShadingFrame& f, const double c[4])
 // Twice the area of (a, b, p), each in barycentrics of the triangle.
 double side(const clip_corner& a, const clip_corner& b, const double p[3])
 {
-    const double ax = static_cast<double>(a.bary[1]), ay = static_cast<double>(a.bary[2]);
-    const double bx = static_cast<double>(b.bary[1]), by = static_cast<double>(b.bary[2]);
+    const double ax = a.bary[1], ay = a.bary[2], bx = b.bary[1], by = b.bary[2];
     return (bx - ax) * (p[2] - ay) - (by - ay) * (p[1] - ax);
 }
 
@@ -34,6 +33,8 @@ TEST(clip, leaves_what_lies_inside_of_all_planes)
         ShadingFrame f = {};
         f.half_width = kHalfWidth, f.half_height = kHalfHeight;
         f.view.znear = 0.125f, f.view.orthographic = orthographic;
+        f.view.right[0] = f.view.up[1] = f.view.forward[2] = f.view.inv_tan_x = f.view.inv_tan_y = 1.0f;
+        f.view.zfar = 2.0f, f.view.inv_depth = 1.0f; // so places are positions in clip space, or their depth is 2 - z
         Random random{17};
         int kept = 0, cut = 0, wrong = 0;
         double worst = 0.0;
@@ -44,7 +45,7 @@ TEST(clip, leaves_what_lies_inside_of_all_planes)
                 const float size = std::ldexp(1.0f, random.below(12));
                 v[i][0] = (2.0f * random.unit() - 1.0f) * size, v[i][1] = (2.0f * random.unit() - 1.0f) * size;
                 v[i][2] = orthographic ? 1.0f : 4.0f * random.unit() - 1.0f, v[i][3] = orthographic ? 2.0f * random.unit() : 0.125f;
-                set_corner(polygon, i, v[i][0], v[i][1], v[i][2], v[i][3]);
+                set_corner(f, polygon, i, v[i][0], v[i][1], orthographic ? 2.0f - v[i][3] : v[i][2]);
             }
             clip_triangle_to_frame(f, polygon);
             ASSERT_LE(polygon.count, 3 + kClipPlanes);
@@ -57,8 +58,8 @@ TEST(clip, leaves_what_lies_inside_of_all_planes)
                 for (int axis = 0; axis < 4; ++axis) {
                     double blend = 0.0;
                     for (int j = 0; j < 3; ++j)
-                        blend += static_cast<double>(c.bary[j]) * static_cast<double>(v[j][axis]);
-                    worst = std::fmax(worst, std::fabs(blend - static_cast<double>(c.c[axis])) / scale);
+                        blend += c.bary[j] * static_cast<double>(v[j][axis]);
+                    worst = std::fmax(worst, std::fabs(blend - c.c[axis]) / scale);
                 }
             }
             for (int n = 0; n < 30; ++n) {
@@ -72,11 +73,11 @@ TEST(clip, leaves_what_lies_inside_of_all_planes)
                         c[axis] += b[j] * static_cast<double>(v[j][axis]);
                 }
                 const double distance = least_distance(f, c);
-                if (std::fabs(distance) < 1e-3 * scale)
+                if (std::fabs(distance) < 1e-9 * scale)
                     continue; // too near a cut
                 bool inside = polygon.count >= 3;
                 for (int i = 0; i < polygon.count; ++i)
-                    inside = inside && side(polygon.corner[i], polygon.corner[(i + 1) % polygon.count], b) > -1e-5;
+                    inside = inside && side(polygon.corner[i], polygon.corner[(i + 1) % polygon.count], b) > -1e-9;
                 wrong += inside != (distance > 0.0);
                 ++(distance > 0.0 ? kept : cut);
             }
@@ -85,7 +86,7 @@ TEST(clip, leaves_what_lies_inside_of_all_planes)
         EXPECT_GT(kept, 5000);
         EXPECT_GT(cut, 5000);
         EXPECT_EQ(wrong, 0);
-        EXPECT_LT(worst, 2e-6);
+        EXPECT_LT(worst, 1e-13);
     }
 }
 

@@ -300,26 +300,6 @@ TEST(coverage, small_triangles_by_lanes_equal_those_by_blocks_bit_for_bit)
     }
 }
 
-std::vector<Triangle> tessellated_box(float half, int cells)
-{
-    std::vector<Triangle> out;
-    for (int axis = 0; axis < 3; ++axis)
-        for (int side = -1; side <= 1; side += 2)
-            for (int j = 0; j < cells; ++j)
-                for (int i = 0; i < cells; ++i) {
-                    const auto corner = [&](int a, int b) {
-                        glm::vec3 p;
-                        p[axis] = half * static_cast<float>(side);
-                        p[(axis + 1) % 3] = half * (2.0f * static_cast<float>(a) / static_cast<float>(cells) - 1.0f);
-                        p[(axis + 2) % 3] = half * (2.0f * static_cast<float>(b) / static_cast<float>(cells) - 1.0f);
-                        return p;
-                    };
-                    out.push_back({corner(i, j), corner(i + 1, j), corner(i + 1, j + 1)});
-                    out.push_back({corner(i, j), corner(i + 1, j + 1), corner(i, j + 1)});
-                }
-    return out;
-}
-
 // From inside a closed box every sample sees a wall, however the walls cross the near plane and the guard band.
 TEST(coverage, clipping_at_the_near_plane_and_guard_band_leaves_no_crack)
 {

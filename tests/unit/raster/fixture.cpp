@@ -54,6 +54,26 @@ Scene scene_of(const std::vector<Triangle>& triangles, bool double_sided)
     return s;
 }
 
+std::vector<Triangle> tessellated_box(float half, int cells)
+{
+    std::vector<Triangle> out;
+    for (int axis = 0; axis < 3; ++axis)
+        for (int side = -1; side <= 1; side += 2)
+            for (int j = 0; j < cells; ++j)
+                for (int i = 0; i < cells; ++i) {
+                    const auto corner = [&](int a, int b) {
+                        glm::vec3 p;
+                        p[axis] = half * static_cast<float>(side);
+                        p[(axis + 1) % 3] = half * (2.0f * static_cast<float>(a) / static_cast<float>(cells) - 1.0f);
+                        p[(axis + 2) % 3] = half * (2.0f * static_cast<float>(b) / static_cast<float>(cells) - 1.0f);
+                        return p;
+                    };
+                    out.push_back({corner(i, j), corner(i + 1, j), corner(i + 1, j + 1)});
+                    out.push_back({corner(i, j), corner(i + 1, j + 1), corner(i, j + 1)});
+                }
+    return out;
+}
+
 Scene plate(float metallic)
 {
     Scene scene = scene_of(

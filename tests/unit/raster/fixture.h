@@ -26,6 +26,8 @@ using Triangle = std::array<glm::vec3, 3>;
 
 // One mesh with one material; normals are the triangles' own.
 Scene scene_of(const std::vector<Triangle>& triangles, bool double_sided);
+// The walls of a cube about the origin, cells x cells squares each, seen from within and without.
+std::vector<Triangle> tessellated_box(float half, int cells);
 Scene plate(float metallic); // coloured, of x and y in [-1, 1] at z = 0, seen from above
 // A point light; intensity in candela, range in metres, 0 is unlimited.
 void add_lamp(Scene& to, const glm::vec3& at, float intensity, float range = 0.0f);

@@ -153,5 +153,34 @@ TEST_P(visibility, differs_elsewhere_only_by_the_grid_of_the_rasterizer)
 INSTANTIATE_TEST_SUITE_P(of, visibility, testing::Values("teapot", "spheres", "plate"),
                          [](const auto& name) { return std::string(name.param); });
 
+// Rays know nothing of clipping: a floor of 10 to 400 km, which the near plane and the guard band cut, ends where theirs does.
+TEST(visibility_of_large_floors, by_rays_and_by_rasterization_is_the_same)
+{
+    BN_NEEDS_EMBREE();
+    for (const float half : {5e3f, 5e4f, 1e5f, 2e5f})
+        for (const float pitch : {0.15f, 0.9f}) {
+            Stage stage(scene_of({{glm::vec3(-half, 0, half), glm::vec3(half, 0, half), glm::vec3(half, 0, -half)},
+                                  {glm::vec3(-half, 0, half), glm::vec3(half, 0, -half), glm::vec3(-half, 0, -half)}},
+                                 true));
+            FrameDesc d = desc_of(160, 90, make_view(glm::vec3(0, 1.7f, 0), glm::vec3(0, 1.7f - std::tan(pitch), -1), 0.7f, 160, 90));
+            d.view.znear = 0.01f, d.msaa = 4, d.triangle_ids = true;
+            const Frame raster = stage.render(d, best_isa());
+            ReferenceOptions options;
+            options.samples = 1;
+            const Frame rays = render_reference(stage, d, options);
+            const double horizon_px = 45.0 - std::tan(static_cast<double>(pitch)) / std::tan(0.35) * 45.0; // from the top
+            const SamplePattern pattern = standard_samples(d.msaa);
+            std::size_t covered = 0, far = 0;
+            for (std::size_t i = 0; i < raster.triangle_ids.size(); ++i) {
+                const bool by_raster = raster.triangle_ids[i] != kNoTriangle, by_rays = rays.triangle_ids[i] != kNoTriangle;
+                covered += by_rays;
+                const double y = static_cast<double>(i / 4 / 160) + pattern.y[i % 4] / 256.0;
+                far += by_raster != by_rays && std::fabs(y - horizon_px) > 1.0 / 16.0; // 1.7 m at 5 km: .04 pixel
+            }
+            EXPECT_EQ(far, 0u) << "half a side of " << half << " m, pitch " << pitch;
+            EXPECT_GT(covered, raster.triangle_ids.size() / 2);
+        }
+}
+
 } // namespace
 } // namespace burnish::test

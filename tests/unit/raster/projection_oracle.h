@@ -1,0 +1,79 @@
+// What a pinhole camera sees of one triangle, by its plane and edges in homogeneous coordinates: Olano and Greer 1997, "Triangle Scan
+// Conversion using 2D Homogeneous Coordinates". Nothing is clipped or snapped, and arithmetic has 64 bits or more.
+#pragma once
+#include <algorithm>
+#include <cmath>
+#include <glm/glm.hpp>
+#include <limits>
+
+#include "shading/lang/records.h"
+
+namespace burnish::test {
+
+using Long = long double;
+struct Long3 {
+    Long x, y, z;
+};
+inline Long3 cross(const Long3& a, const Long3& b)
+{
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+inline Long dot(const Long3& a, const Long3& b)
+{
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+inline Long3 long3(const float v[3])
+{
+    return {v[0], v[1], v[2]};
+}
+
+// Value that is linear over the screen: at + by_x x + by_y y, pixels from the top left corner.
+struct Linear {
+    Long at, by_x, by_y;
+    Long value(Long x, Long y) const { return at + by_x * x + by_y * y; }
+    Long slope() const { return std::hypot(by_x, by_y); } // by pixel
+    // Pixels to where the value is 0, negative beyond.
+    Long distance(Long x, Long y) const
+    {
+        const Long v = value(x, y), s = slope();
+        return s > 0 ? v / s : v >= 0 ? std::numeric_limits<Long>::infinity() : -std::numeric_limits<Long>::infinity();
+    }
+};
+
+struct ProjectedTriangle {
+    Linear share[3]; // barycentrics over w
+    Linear inv_w;    // their sum
+    Long znear;
+    bool seen_at_all; // not edge-on
+
+    // Pixels to the nearest edge or the near plane where the point shows the triangle; else as many below 0 as it is beyond the farthest.
+    Long inside(Long x, Long y) const
+    {
+        Long least = Linear{1 - znear * inv_w.at, -znear * inv_w.by_x, -znear * inv_w.by_y}.distance(x, y);
+        for (const Linear& s : share)
+            least = std::min(least, s.distance(x, y));
+        return least;
+    }
+};
+
+// corners: world space, as the renderer has them. width, height: pixels. Perspective views only.
+inline ProjectedTriangle project(const ViewRecord& v, int width, int height, const glm::vec3 corners[3])
+{
+    Long3 p[3]; // clip space x, y, w
+    for (int k = 0; k < 3; ++k) {
+        const Long3 d = {Long(corners[k].x) - v.eye[0], Long(corners[k].y) - v.eye[1], Long(corners[k].z) - v.eye[2]};
+        p[k] = {dot(long3(v.right), d) * v.inv_tan_x, dot(long3(v.up), d) * v.inv_tan_y, dot(long3(v.forward), d)};
+    }
+    ProjectedTriangle t = {};
+    const Long volume = dot(p[0], cross(p[1], p[2]));
+    t.znear = v.znear, t.seen_at_all = volume != 0;
+    for (int k = 0; k < 3; ++k) {
+        const Long3 edge = cross(p[(k + 1) % 3], p[(k + 2) % 3]);
+        // of (2 x / width - 1, 1 - 2 y / height, 1)
+        t.share[k] = {(edge.z - edge.x + edge.y) / volume, 2 * edge.x / width / volume, -2 * edge.y / height / volume};
+        t.inv_w.at += t.share[k].at, t.inv_w.by_x += t.share[k].by_x, t.inv_w.by_y += t.share[k].by_y;
+    }
+    return t;
+}
+
+} // namespace burnish::test
