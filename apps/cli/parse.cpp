@@ -122,19 +122,21 @@ Result<AreaLight> parse_area_light(const std::string& option, const std::string&
         return refuse(fmt::format("begins with none of {}{}", join(shapes), did_you_mean(parts[0], shapes)));
     AreaLight light;
     light.shape = static_cast<AreaShape>(shape - shapes.begin());
-    const std::vector<std::string> keys = {"points", "radius", "radiance", "two-sided", "texture"};
+    const std::vector<std::string> keys = {"points", "radius", "radiance", "two-sided", "solid", "texture"};
     std::vector<std::string> seen;
     for (std::size_t i = 1; i < parts.size(); ++i) {
         const std::size_t equal = std::min(parts[i].find('='), parts[i].size());
         const std::string key = parts[i].substr(0, equal), value = parts[i].substr(std::min(equal + 1, parts[i].size()));
-        if (std::find(keys.begin(), keys.end(), key) == keys.end() || (equal == parts[i].size()) != (key == "two-sided"))
-            return refuse(fmt::format("'{}' is none of points=X,Y,Z/X,Y,Z..., radius=R, radiance=R,G,B, two-sided, texture=FILE{}",
+        if (std::find(keys.begin(), keys.end(), key) == keys.end() || (equal == parts[i].size()) != (key == "two-sided" || key == "solid"))
+            return refuse(fmt::format("'{}' is none of points=X,Y,Z/X,Y,Z..., radius=R, radiance=R,G,B, two-sided, solid, texture=FILE{}",
                                       parts[i], did_you_mean(key, keys)));
         if (std::find(seen.begin(), seen.end(), key) != seen.end())
             return refuse(fmt::format("{} is given twice", key));
         seen.push_back(key);
         if (key == "two-sided")
             light.two_sided = true;
+        if (key == "solid")
+            light.solid = true;
         if (key == "texture") {
             if (value.empty())
                 return refuse("texture names no file");

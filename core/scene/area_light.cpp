@@ -279,11 +279,11 @@ void add_tube(Scene& scene, const PlacedAreaLight& light)
     });
 }
 
-void add_emitter(Scene& scene, const PlacedAreaLight& light)
+void add_emitter(Scene& scene, const PlacedAreaLight& light, int emitter)
 {
     Material material;
     material.name = "light";
-    material.unlit = material.emitter = true;
+    material.unlit = true, material.emitter = emitter;
     material.base_color = glm::vec4(light.radiance, 1.0f);
     material.base_color_tex.texture = light.texture;
     material.double_sided = light.two_sided && light.normal != glm::vec3(0.0f);
@@ -307,6 +307,7 @@ void add_emitter(Scene& scene, const PlacedAreaLight& light)
 Status add_emitters(Scene& scene, int most_lights, const std::string& file)
 {
     std::vector<PlacedAreaLight> lights;
+    std::vector<int> emitters; // of their materials
     for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
         const Node& node = scene.nodes[i];
         if (node.area_light == kNone)
@@ -317,14 +318,16 @@ Status add_emitters(Scene& scene, int most_lights, const std::string& file)
         const AreaLight& light = scene.area_lights[static_cast<std::size_t>(node.area_light)];
         if (const std::string fault = area_light_fault(light); !fault.empty())
             return Error{ExitCode::bad_input, file, fmt::format("area light {}", node.area_light), fault};
-        if (const std::optional<PlacedAreaLight> placed = place_area_light(light, node.world))
+        if (const std::optional<PlacedAreaLight> placed = place_area_light(light, node.world)) {
+            emitters.push_back(light.solid ? kSolidEmitter + static_cast<int>(lights.size()) : kOpenEmitter);
             lights.push_back(*placed);
+        }
     }
     if (lights.size() > static_cast<std::size_t>(most_lights))
         return Error{ExitCode::bad_input, file, "",
                      fmt::format("the scene has {} area lights, more than {} (--limit-lights)", lights.size(), most_lights)};
-    for (const PlacedAreaLight& light : lights)
-        add_emitter(scene, light);
+    for (std::size_t i = 0; i < lights.size(); ++i)
+        add_emitter(scene, lights[i], emitters[i]);
     return {};
 }
 

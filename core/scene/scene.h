@@ -72,6 +72,11 @@ struct FieldKinds { // of material.def, light.def and area_light.def
     using flag = bool;
 };
 
+// Material::emitter, besides kSolidEmitter + the place of an area light among those of the draw tables.
+inline constexpr int kNoEmitter = 0;    // it shows no area light
+inline constexpr int kOpenEmitter = 1;  // rays of light pass through it; cameras see it
+inline constexpr int kSolidEmitter = 2; // it stands in the way of light
+
 struct Material { // material.def
     std::string name;
 #define BN_FACTOR(kind, name, fallback, path, least, most) FieldKinds::kind name = FieldKinds::kind(fallback);
@@ -79,7 +84,7 @@ struct Material { // material.def
 #define BN_CHOICE(type, name, words, path) type name = type{};
 #define BN_TEXTURE(name, path) TextureRef name;
 #include "core/scene/material.def"
-    bool emitter = false;                           // of what shows an area light
+    int emitter = kNoEmitter;                       // whether it shows an area light, see below
     bool heights = false;                           // the alpha of normal_tex holds heights, [0,1]
     MipFilter mip_filter{};                         // of its normals and lobes
     float mip_kappa = 0.0f;                         // of filter kappa, and of the taps of mipnet
@@ -117,6 +122,7 @@ struct AreaLight { // area_light.def
     AreaShape shape = AreaShape::quad;
     std::vector<glm::vec3> points; // metres, in its node's space
     bool two_sided = false;
+    bool solid = false;           // it stands in the way of other light, as a surface does
     std::int32_t texture = kNone; // of quads: what radiance is multiplied by, its lower left corner at the first point and its lower
                                   // right one at the second
     std::string texture_file;     // the same where it is not read yet (read_area_texture())

@@ -219,7 +219,7 @@ struct LaneSurface { // what was hit, or nothing
     real3 emission;         // towards the ray's origin, the environment's where nothing was hit
     real3 position, normal; // normal: the triangle's
     mask reflects;
-    mask emitter; // it shows an area light
+    mask emitter; // it shows an area light, a solid one where light meets it
 };
 
 BN_INLINE fresnel_parts select_parts(mask m, const fresnel_parts& a, const fresnel_parts& b)
@@ -311,6 +311,18 @@ BN_STAGE void find_surface(const ReferenceParams& f, const LaneHits& h, const La
             out.reflects = either(out.reflects, lanes);
         first = false;
     });
+}
+
+// Returns the lanes that hit the surface of solid area light `light`.
+BN_STAGE mask hits_light(const ReferenceParams& f, const LaneHits& h, int light)
+{
+    mask hit = mask_from_bits(0);
+    if (f.solid_lights)
+        for_each_material(f, h.triangle, h.found, [&](const MaterialRecord& m, mask lanes) {
+            if (m.emitter == kSolidEmitter + light)
+                hit = either(hit, lanes);
+        });
+    return hit;
 }
 
 } // namespace BN_ISA_NS

@@ -144,10 +144,40 @@ BN_STAGE real3 punctual_lights(const PixelFrame& p, const LaneSurface& s)
     return sum;
 }
 
-// Light of area lights: of each by a point of its own, and by the lobe's sample where that meets it. open: how far nothing is in that
-// sample's way.
-BN_STAGE real3 area_lights(const PixelFrame& p, const LaneSurface& s, const ReflectorSample& b, real open, integer position, int shade,
-                           int vertex)
+struct LobeRay { // of a lobe's sample, and what it hit
+    const LaneRays& ray;
+    const LaneHits& hits;
+};
+
+// What is nearer than this part of the distance to a light hides it. The rest is for what the light is fixed to.
+constexpr double kWayToLight = 0.9999;
+
+// Returns the lanes that see the sampled point of an area light. The ray leads to that very point: it begins off the surface, so a
+// parallel one would meet a light that it grazes elsewhere.
+BN_STAGE mask sees_light(const PixelFrame& p, const LaneSurface& s, const area_sample& l, int light, mask wanted)
+{
+    LaneRays r = leaving_ray(p.f, s, l.wi);
+    const real3 way = s.position + l.wi * l.distance - r.origin;
+    const real distance = k_length3(way);
+    r.direction = way / max(distance, lit(1e-20));
+    r.tfar = distance * lit(kWayToLight);
+    const mask traced = both(wanted, not_(sees_through(p.f, s.r, l.wi)));
+    const LaneHits h = find_hits(p, r, traced, p.f.solid_lights ? RayKind::bounce : RayKind::occlusion);
+    return both(wanted, either(not_(h.found), hits_light(p.f, h, light)));
+}
+
+// Returns the lanes whose ray hits something before the light that their direction met. That distance, too, counts from the ray's origin.
+BN_STAGE mask hides_light(const ReferenceParams& f, const LobeRay& b, const area_sample& met, int light)
+{
+    const area_sample there = area_along(f, light, b.ray.origin, b.ray.direction);
+    const real distance = select(there.pdf > lit(0.0), there.distance, met.distance);
+    return both(both(b.hits.found, b.hits.t < distance * lit(kWayToLight)), not_(hits_light(f, b.hits, light)));
+}
+
+// Light of area lights: of each by a point of its own, and by the lobe's sample where that meets it. traced: that sample's ray, or null
+// where nothing is in the way.
+BN_STAGE real3 area_lights(const PixelFrame& p, const LaneSurface& s, const ReflectorSample& b, const LobeRay* traced, integer position,
+                           int shade, int vertex)
 {
     const ReferenceParams& f = p.f;
     const real3 zero = vec3_all(lit(0.0));
@@ -160,11 +190,8 @@ BN_STAGE real3 area_lights(const PixelFrame& p, const LaneSurface& s, const Refl
             const real weight = f.strategy == ReferenceStrategy::mis ? power_weight(l.pdf, at.pdf) : lit(1.0);
             const real3 value = at.value * radiance(l) * (weight / max(l.pdf, lit(1e-20)));
             mask seen = both(both(s.reflects, l.pdf > lit(0.0)), any_light(value));
-            if (f.mode != ReferenceMode::direct && any(seen)) {
-                LaneRays r = leaving_ray(f, s, l.wi);
-                r.tfar = l.distance * lit(0.9999);
-                seen = both(seen, not_(find_hits(p, r, seen, RayKind::occlusion).found));
-            }
+            if (traced && any(seen))
+                seen = sees_light(p, s, l, i, seen);
             sum = sum + select(seen, value, zero);
         }
         if (f.strategy == ReferenceStrategy::light && none(b.exact))
@@ -173,7 +200,9 @@ BN_STAGE real3 area_lights(const PixelFrame& p, const LaneSurface& s, const Refl
         real weight =
             f.strategy == ReferenceStrategy::mis ? power_weight(b.pdf, met.pdf) : lit(f.strategy == ReferenceStrategy::brdf ? 1.0 : 0.0);
         weight = select(b.exact, lit(1.0), weight);
-        const mask seen = both(both(s.reflects, met.pdf > lit(0.0)), met.distance < open);
+        mask seen = both(s.reflects, met.pdf > lit(0.0));
+        if (traced && any(both(seen, traced->hits.found)))
+            seen = both(seen, not_(hides_light(f, *traced, met, i)));
         sum = sum + select(seen, b.weight * radiance(met) * weight, zero);
     }
     return sum;
@@ -207,9 +236,9 @@ BN_STAGE real3 traced_light(const PixelFrame& p, const LaneSurface& first, integ
         const LaneRays r = leaving_ray(f, s, b.wi);
         const mask traced = both(wanted, not_(sees_through(f, s.r, b.wi)));
         const LaneHits h = find_hits(p, r, traced, last && f.area_light_count == 0 ? RayKind::occlusion : RayKind::bounce);
-        if (f.area_light_count > 0) { // what shows a light lies where that is
-            const real open = select(h.found, h.t * lit(1.0005) + splat(f.ray_epsilon), splat(__builtin_inff()));
-            sum = sum + throughput * area_lights(p, s, b, open, position, shade, depth);
+        if (f.area_light_count > 0) { // all along the ray, which passes through those that are not solid
+            const LobeRay along = {r, h};
+            sum = sum + throughput * area_lights(p, s, b, &along, position, shade, depth);
         }
         const real3 carried = throughput * b.weight;
         if (f.area_lights_only)
@@ -220,7 +249,7 @@ BN_STAGE real3 traced_light(const PixelFrame& p, const LaneSurface& first, integ
             break;
         throughput = select(h.found, carried, zero);
         find_surface(f, h, r, nullptr, s);
-        real3 at_surface = select(s.emitter, zero, s.emission); // whose light came by area_lights()
+        real3 at_surface = select(s.emitter, zero, s.emission); // a solid light's came by area_lights()
         if (f.light_count > 0 && any(s.reflects))
             at_surface = at_surface + punctual_lights(p, s);
         sum = sum + select(h.found, throughput * at_surface, zero);
@@ -237,7 +266,7 @@ BN_STAGE real3 direct_light(const PixelFrame& p, const LaneSurface& s, integer p
     const real3 light = f.area_lights_only ? vec3_all(lit(0.0)) : open_light(f, s.r, x, b) * s.r.x.s.occlusion;
     if (f.area_light_count == 0)
         return light;
-    return light + area_lights(p, s, b, splat(__builtin_inff()), position, shade, 0);
+    return light + area_lights(p, s, b, nullptr, position, shade, 0);
 }
 
 // Sum over the shades of lanes `first`, first + 1... of a pixel's camera positions.

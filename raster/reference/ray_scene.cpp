@@ -27,21 +27,32 @@ class EmbreeScene final : public RayScene {
     static Result<std::unique_ptr<RayScene>> make(const Scene& scene, const DrawTables& tables, const Jobs& jobs);
     ~EmbreeScene() override
     {
-        rtcReleaseScene(scene_);
+        rtcReleaseScene(seen_);
+        rtcReleaseScene(in_the_way_);
         rtcReleaseDevice(device_);
     }
     void trace(RayPacket& rays, RayKind kind) const override;
     std::string description() const override;
 
   private:
+    struct Part {                                   // some of the scene's triangles
+        std::vector<std::uint32_t> ids;             // global, by Embree's primitive
+        const std::uint8_t* single_sided = nullptr; // by global id
+    };
+
     EmbreeScene() = default;
+    Status add_part(const DrawTables& tables, unsigned part);
     static void cull(const RTCFilterFunctionNArguments* args);
 
     RTCDevice device_ = nullptr;
-    RTCScene scene_ = nullptr;
+    RTCScene seen_ = nullptr;                // by cameras: both parts
+    RTCScene in_the_way_ = nullptr;          // of light: the surfaces; the scene that cameras see where nothing is open
+    Part parts_[2];                          // kSurfaces, kOpenLights
     std::vector<std::uint8_t> single_sided_; // by triangle
     bool any_single_sided_ = false;
 };
+
+constexpr unsigned kSurfaces = 0, kOpenLights = 1; // Embree's ids of the parts' geometries
 
 // Keeps oneTBB, which Embree builds its trees with, from starting threads: where one is refused, it ends the process. Ours join it instead.
 void keep_tbb_idle()
@@ -61,6 +72,39 @@ Error error_of(RTCError code, const std::string& what)
     return {ExitCode::internal, "", "", "Embree cannot " + what};
 }
 
+// Copies the triangles of a part into a geometry of the scenes that meet it.
+Status EmbreeScene::add_part(const DrawTables& tables, unsigned part)
+{
+    const std::vector<std::uint32_t>& ids = parts_[part].ids;
+    if (ids.empty())
+        return {};
+    const std::size_t vertices = tables.px.size();
+    RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
+    auto* position =
+        static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), vertices));
+    auto* index = static_cast<std::uint32_t*>(
+        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(std::uint32_t), ids.size()));
+    if (!position || !index) {
+        rtcReleaseGeometry(geometry);
+        return Error{ExitCode::bad_input, "", "", "out of memory for the rays' copy of the scene"};
+    }
+    for (std::size_t i = 0; i < vertices; ++i) {
+        position[3 * i] = tables.px[i];
+        position[3 * i + 1] = tables.py[i];
+        position[3 * i + 2] = tables.pz[i];
+    }
+    for (std::size_t i = 0; i < ids.size(); ++i)
+        std::memcpy(index + 3 * i, tables.indices.data() + std::size_t{3} * ids[i], 3 * sizeof(std::uint32_t));
+    parts_[part].single_sided = single_sided_.data();
+    rtcSetGeometryUserData(geometry, &parts_[part]);
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometryByID(seen_, geometry, part);
+    if (part == kSurfaces && in_the_way_ != seen_)
+        rtcAttachGeometryByID(in_the_way_, geometry, part);
+    rtcReleaseGeometry(geometry);
+    return {};
+}
+
 Result<std::unique_ptr<RayScene>> EmbreeScene::make(const Scene& scene, const DrawTables& tables, const Jobs& jobs)
 {
     std::unique_ptr<EmbreeScene> self(new EmbreeScene);
@@ -68,37 +112,29 @@ Result<std::unique_ptr<RayScene>> EmbreeScene::make(const Scene& scene, const Dr
     self->device_ = rtcNewDevice(nullptr);
     if (!self->device_)
         return error_of(rtcGetDeviceError(nullptr), "be started");
-    self->scene_ = rtcNewScene(self->device_);
-    rtcSetSceneFlags(self->scene_, static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION));
-
-    const std::size_t triangles = tables.triangle_count(), vertices = tables.px.size();
+    const std::size_t triangles = tables.triangle_count();
     self->single_sided_.resize(triangles);
     for (std::size_t i = 0; i < triangles; ++i) {
-        self->single_sided_[i] = !scene.materials[tables.triangle_material[i]].double_sided;
+        const Material& material = scene.materials[tables.triangle_material[i]];
+        self->single_sided_[i] = !material.double_sided;
         self->any_single_sided_ = self->any_single_sided_ || self->single_sided_[i];
+        self->parts_[material.emitter == kOpenEmitter ? kOpenLights : kSurfaces].ids.push_back(static_cast<std::uint32_t>(i));
     }
-    if (triangles > 0) {
-        RTCGeometry geometry = rtcNewGeometry(self->device_, RTC_GEOMETRY_TYPE_TRIANGLE);
-        auto* position = static_cast<float*>(
-            rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), vertices));
-        auto* index = static_cast<std::uint32_t*>(
-            rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(std::uint32_t), triangles));
-        if (!position || !index) {
-            rtcReleaseGeometry(geometry);
-            return Error{ExitCode::bad_input, "", "", "out of memory for the rays' copy of the scene"};
-        }
-        for (std::size_t i = 0; i < vertices; ++i) {
-            position[3 * i] = tables.px[i];
-            position[3 * i + 1] = tables.py[i];
-            position[3 * i + 2] = tables.pz[i];
-        }
-        std::memcpy(index, tables.indices.data(), 3 * triangles * sizeof(std::uint32_t));
-        rtcSetGeometryUserData(geometry, self.get());
-        rtcCommitGeometry(geometry);
-        rtcAttachGeometry(self->scene_, geometry);
-        rtcReleaseGeometry(geometry);
-    }
-    jobs.parallel_for(static_cast<std::size_t>(jobs.threads()), [&](std::size_t, int) { rtcJoinCommitScene(self->scene_); });
+    const auto new_scene = [&] {
+        RTCScene made = rtcNewScene(self->device_);
+        rtcSetSceneFlags(made, static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION));
+        return made;
+    };
+    self->seen_ = self->in_the_way_ = new_scene();
+    if (self->parts_[kOpenLights].ids.empty())
+        rtcRetainScene(self->seen_);
+    else
+        self->in_the_way_ = new_scene();
+    for (const unsigned part : {kSurfaces, kOpenLights})
+        if (const Status added = self->add_part(tables, part); !added)
+            return added.error();
+    for (const RTCScene made : {self->seen_, self->in_the_way_})
+        jobs.parallel_for(static_cast<std::size_t>(jobs.threads()), [&](std::size_t, int) { rtcJoinCommitScene(made); });
     if (const RTCError code = rtcGetDeviceError(self->device_); code != RTC_ERROR_NONE)
         return error_of(code, "build its tree over the scene");
     return std::unique_ptr<RayScene>(std::move(self));
@@ -107,10 +143,10 @@ Result<std::unique_ptr<RayScene>> EmbreeScene::make(const Scene& scene, const Dr
 // Backs of single-sided triangles are not there for the camera. Fronts are counter-clockwise, so their normal faces the ray.
 void EmbreeScene::cull(const RTCFilterFunctionNArguments* args)
 {
-    const auto* self = static_cast<const EmbreeScene*>(args->geometryUserPtr);
+    const auto* part = static_cast<const Part*>(args->geometryUserPtr);
     const unsigned n = args->N;
     for (unsigned i = 0; i < n; ++i) {
-        if (args->valid[i] != -1 || !self->single_sided_[RTCHitN_primID(args->hit, n, i)])
+        if (args->valid[i] != -1 || !part->single_sided[part->ids[RTCHitN_primID(args->hit, n, i)]])
             continue;
         const float facing = RTCHitN_Ng_x(args->hit, n, i) * RTCRayN_dir_x(args->ray, n, i) +
                              RTCHitN_Ng_y(args->hit, n, i) * RTCRayN_dir_y(args->ray, n, i) +
@@ -147,10 +183,17 @@ void EmbreeScene::trace(RayPacket& rays, RayKind kind) const
         rays.mask[i] = 0xffffffffu, rays.flags[i] = 0, rays.id[i] = 0;
         rays.geometry[i] = rays.instance[i] = kNoHit;
     }
-    if (kind == RayKind::occlusion)
-        rtcOccluded16(rays.valid, scene_, &context, reinterpret_cast<RTCRay16*>(&rays));
-    else
-        rtcIntersect16(rays.valid, scene_, &context, reinterpret_cast<RTCRayHit16*>(&rays));
+    const RTCScene met = kind == RayKind::camera ? seen_ : in_the_way_;
+    if (kind == RayKind::occlusion) {
+        rtcOccluded16(rays.valid, met, &context, reinterpret_cast<RTCRay16*>(&rays));
+        return;
+    }
+    rtcIntersect16(rays.valid, met, &context, reinterpret_cast<RTCRayHit16*>(&rays));
+    if (in_the_way_ == seen_)
+        return; // one part, whose ids are Embree's
+    for (int i = 0; i < kRays; ++i)
+        if (rays.valid[i] && rays.geometry[i] != kNoHit)
+            rays.triangle[i] = parts_[rays.geometry[i]].ids[rays.triangle[i]];
 }
 
 std::string EmbreeScene::description() const

@@ -1,4 +1,4 @@
-// The scene as rays meet it: every triangle of the draw tables under its global id. The only door to Embree.
+// The scene as rays meet it: triangles of the draw tables under their global ids. The only door to Embree.
 #pragma once
 #include <cstdint>
 #include <memory>
@@ -27,10 +27,11 @@ struct alignas(64) RayPacket {
     std::int32_t valid[kRays]; // -1 trace, 0 leave alone
 };
 
+// Rays of light pass through what shows an area light, unless that is solid.
 enum class RayKind : std::int32_t {
-    camera,   // passes through the backs of single-sided materials, as the rasterizer culls them
-    bounce,   // meets everything
-    occlusion // meets everything; only whether there is anything
+    camera,   // meets all area lights; passes through the backs of single-sided materials, as the rasterizer culls them
+    bounce,   // meets every surface
+    occlusion // meets every surface; only whether there is one
 };
 
 class RayScene {

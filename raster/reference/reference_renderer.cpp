@@ -83,8 +83,10 @@ ReferenceParams ReferenceRenderer::params(const FrameDesc& desc)
 {
     ReferenceParams f = {};
     static_cast<ShadingFrame&>(f) = maker_.make(reference_desc(desc));
-    for (const MaterialRecord& m : maker_.materials())
+    for (const MaterialRecord& m : maker_.materials()) {
         f.any_alpha = f.any_alpha || m.alpha_mode != kAlpha_opaque;
+        f.solid_lights = f.solid_lights || m.emitter >= kSolidEmitter;
+    }
     f.ray_epsilon = 1e-6f * glm::length(input_.tables.bounds_max - input_.tables.bounds_min);
     f.sampler = sampler_.view;
     f.mode = options_.mode, f.strategy = options_.strategy, f.bounces = options_.bounces;

@@ -14,6 +14,7 @@ namespace burnish {
 // Everything that a sample depends on; constant while a picture is made.
 struct ReferenceParams : ShadingFrame {
     std::int32_t any_alpha; // some material lets light through
+    bool solid_lights;      // some area light is solid
     float ray_epsilon;      // metres; added to what the size of a coordinate asks for
     EnvironmentSamplerView sampler;
     ReferenceMode mode;

@@ -121,6 +121,8 @@ std::uint64_t reference_key(const RenderInput& input, const FrameDesc& d, const 
         key.add(options.full_textures);
     if (options.area_lights_only)
         key.add('a');
+    if (options.mode != ReferenceMode::direct && !input.tables.area_lights.empty()) // they once stood in each other's way
+        key.add('w');
     return key.value();
 }
 

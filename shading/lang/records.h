@@ -183,7 +183,7 @@ struct MaterialRecord { // Material in plain numbers, and what follows from them
     float level_gain;                // of a mip filter's levels: what normals of taps differ by, times this, widens lobes; else -1
     int relief;                      // the alpha of its normal map holds heights, which the frame wants to see
     float relief_depth;              // of height 0, lengths of texture coordinates
-    int emitter;                     // it shows an area light
+    int emitter;                     // of core/scene's Material: whether it shows an area light
     int conductor;                   // it has an index of its own: conductor_eta, conductor_k
     int roughness_fixed;             // by an override: the texture gives metalness only
     int technique, technique_traits; // its place in shading/models.def; of what is unlit no traits

@@ -23,12 +23,12 @@ def scene(light, count=1):
 
 @case("lights.of_files_and_of_the_command_line_are_the_same", tier="check")
 def same(bench):
-    quad = {"shape": "quad", "points": [-1, 1, -1, 1, 1, -1, 1, 1, 1, -1, 1, 1], "radiance": [3, 2, 1], "twoSided": True}
+    quad = {"shape": "quad", "points": [-1, 1, -1, 1, 1, -1, 1, 1, 1, -1, 1, 1], "radiance": [3, 2, 1], "twoSided": True, "solid": True}
     scratch(bench, "lit.gltf", scene(quad))
     scratch(bench, "bare.gltf", text(triangle()))
     view = ("--eye", "0.5,0.5,2", "--target", "0.3,0.3,0")
     lit = bench.figures("lit.gltf", *DARK, *view)["pixel_hash"]
-    given = bench.figures("bare.gltf", *DARK, *view, "--light", QUAD + ":two-sided")["pixel_hash"]
+    given = bench.figures("bare.gltf", *DARK, *view, "--light", QUAD + ":two-sided:solid")["pixel_hash"]
     bare = bench.figures("bare.gltf", *DARK, *view)["pixel_hash"]
     off = bench.figures("lit.gltf", *DARK, *view, "--area-lights", "off")["pixel_hash"]
     check(lit == given and len({lit, bare, off}) == 3, f"{lit} {given} {bare} {off}")
@@ -99,6 +99,7 @@ def wrong(bench):
             ({"shape": "ball", "points": [0, 0, 0], "radius": 1}, "/nodes/1/extras/burnish/areaLight/shape", "sphere"),
             ({"points": [0, 0, 0], "radius": 1}, "/nodes/1/extras/burnish/areaLight", "shape"),
             ({"shape": "sphere", "points": [0, 0, 0], "radius": 1, "twoSided": 1}, "/nodes/1/extras/burnish/areaLight/twoSided", "true or false"),
+            ({"shape": "sphere", "points": [0, 0, 0], "radius": 1, "solid": "yes"}, "/nodes/1/extras/burnish/areaLight/solid", "true or false"),
             (7, "/nodes/1/extras/burnish/areaLight", "object")):
         scratch(bench, "bad.gltf", scene(light))
         bench.run("render", "bad.gltf", *SMALL, "-o", "a.png").expect(4).expect_one_line(place, needle)
@@ -214,6 +215,11 @@ def shadows(bench):
     small = (*FLOOR, "--size", "60x45", "--msaa", "4")
     open_, same = (bench.figures("floor.gltf", *small, *more)["pixel_hash"] for more in ((), SHADOWS))
     check(open_ == same, "a floor with nothing over it has shadows")
+    before = ("--light", "quad:points=-1.2,1.2,-0.6/-0.2,1.2,-0.6/-0.2,1.2,0.6/-1.2,1.2,0.6:radiance=1,2,3")
+    open_, same = (bench.figures("floor.gltf", *small, *before, *more)["pixel_hash"] for more in ((), SHADOWS))
+    check(open_ == same, "a light shades another")
+    solid = bench.figures("floor.gltf", *small, before[0], before[1] + ":solid", *SHADOWS)["pixel_hash"]
+    check(solid != same, "a solid light shades nothing")
     one, three, none = (bench.figures("ball.gltf", *small, *more)["pixel_hash"]
                         for more in ((*SHADOWS, "--threads", "1"), (*SHADOWS, "--threads", "3", "--tile-size", "32"), ()))
     check(one == three and one != none, f"{one} {three} {none}")

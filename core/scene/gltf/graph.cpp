@@ -140,6 +140,7 @@ int load_area_light(Document& doc, const Json& node, const std::string& node_pla
     AreaLight light;
     read_choice(source, "/shape", "quad polygon disk sphere line", light.shape);
     read_flag(source, "/twoSided", light.two_sided);
+    read_flag(source, "/solid", light.solid);
 #define BN_AREA_FACTOR(kind, name, path, least, most) read_factor(source, path, light.name);
 #include "core/scene/area_light.def"
     const std::vector<double> numbers = source["points"].get<std::vector<double>>();

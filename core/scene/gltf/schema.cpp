@@ -209,6 +209,7 @@ const Rule kAreaLightRules[] = {
     {"/extras/burnish/areaLight/shape", Kind::word, 0, 0, "quad polygon disk sphere line", kRequired},
     {"/extras/burnish/areaLight/points", Kind::numbers, -kAny, kAny, "", kRequired},
     {"/extras/burnish/areaLight/twoSided", Kind::boolean},
+    {"/extras/burnish/areaLight/solid", Kind::boolean},
     {"/extras/burnish/areaLight/texture", Kind::object},
     {"/extras/burnish/areaLight/texture/index", Kind::index, 0, 0, "textures", kRequired},
 #define BN_AREA_FACTOR(kind, name, path, least, most) factor_rule<FieldKinds::kind>("/extras/burnish/areaLight" path, least, most),

@@ -162,6 +162,7 @@ TEST(lists, every_form_of_area_lights_is_read){
         EXPECT_EQ(static_cast<int>(scene->area_lights[0].shape), at);                                                                      \
         EXPECT_EQ(scene->area_lights[0].points.size(), std::size_t{least});                                                                \
         EXPECT_FALSE(scene->area_lights[0].two_sided);                                                                                     \
+        EXPECT_FALSE(scene->area_lights[0].solid);                                                                                         \
     }
 #include "core/scene/area_light.def"
 }

@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "core/scene/area_light.h"
+
 namespace burnish::test {
 
 Environment environment_of(const std::function<glm::vec3(const glm::vec3&)>& radiance, int size, const Jobs& jobs)
@@ -127,6 +129,18 @@ void add_scene(Scene& to, const Scene& from, const glm::vec3& offset, float scal
     to.primitives.push_back(p);
     to.nodes.push_back(node);
     update_world(to);
+}
+
+Scene lit_by(Scene scene, const std::vector<AreaLight>& lights, bool shown)
+{
+    for (const AreaLight& light : lights)
+        add_area_light(scene, light);
+    update_world(scene);
+    if (shown) {
+        EXPECT_TRUE(add_emitters(scene, 256, ""));
+        update_world(scene);
+    }
+    return scene;
 }
 
 Material lambert(float albedo)
