@@ -133,7 +133,7 @@ def obj_texts(bench):
 @case("reading.files_of_reports_are_read_right", tier="slow")
 def reports(bench):
     """What beside the checkout was read wrongly once."""
-    folder = bench.data_file("reports")
+    folder = bench.data_file("reports/env_acescg.exr").parent
 
     def hash_of(name):
         return bench.figures("builtin:plate", *SMALL, "--env", folder / name)["pixel_hash"]
