@@ -1,25 +1,26 @@
-// Parallel loops over the process's own threads. A Jobs object starts the threads that it lacks when it is made; a loop starts none, so
-// it cannot fail for want of one. Where the system refuses threads, loops go on with those that there are.
+// Parallel loops over oneTBB: one task arena a Jobs object, so that two objects with different thread counts can live side by side. oneTBB
+// ends the process where the system refuses it a thread, so the system is asked first; where it gives fewer, loops run in our own pool.
 #include "core/jobs/jobs.h"
 
 #include <algorithm>
 #include <atomic>
-#include <condition_variable>
-#include <exception>
+#include <chrono>
 #include <mutex>
+#include <memory>
 #include <thread>
 
-#include "core/jobs/cores.h"
-#include "core/jobs/threads.h"
-
-#ifdef __SANITIZE_THREAD__
-// Embree's trees and OpenImageIO's table of names have locks that ThreadSanitizer does not see.
-extern "C" const char* __tsan_default_suppressions();
-extern "C" const char* __tsan_default_suppressions()
-{
-    return "race:libembree3.so\nrace:libOpenImageIO\n";
-}
+#ifdef BN_ONETBB
+#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/info.h>
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/partitioner.h>
+#include <oneapi/tbb/task_arena.h>
 #endif
+
+#include "core/jobs/cores.h"
+#include "core/jobs/pool.h"
+#include "core/jobs/threads.h"
 
 namespace burnish {
 namespace {
@@ -27,184 +28,84 @@ namespace {
 // Pieces of work a thread: small enough to balance uneven tiles, large enough that handing out costs nothing.
 constexpr std::size_t kPiecesPerThread = 64;
 
-// How often an idle thread looks for work before it sleeps: loops of one frame follow each other closely.
-constexpr int kLooks = 200;
-
-// Worker numbers of one Jobs object that no thread has, guarded by the pool's mutex. A thread keeps its number through inner loops.
-using Seats = std::vector<int>;
-
-// The number that the running thread has of one object, in a list from the innermost loop outwards.
-struct Seated {
-    const Seats* seats;
-    int worker;
-    const Seated* outer;
-};
-
-thread_local const Seated* innermost = nullptr;
-
-const Seated* seat_of(const Seats& seats)
+#ifdef BN_ONETBB
+// oneTBB starts no more workers than cores unless it is told that it may. The least of all live controls
+// counts, so there is one for the process, and it only grows. Leaked on purpose: workers may outlive static
+// objects.
+void allow_threads(int threads)
 {
-    const Seated* seated = innermost;
-    while (seated && seated->seats != &seats)
-        seated = seated->outer;
-    return seated;
+    static tbb::global_control* control = nullptr;
+    static int allowed = tbb::info::default_concurrency();
+    if (threads <= allowed)
+        return;
+    delete control;
+    allowed = threads;
+    control = new tbb::global_control(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(allowed));
 }
 
-struct Loop {
-    const std::function<void(std::size_t, int)>& body;
-    std::size_t count, grain;
-    Seats& seats;
-    std::atomic<std::size_t> next{0};
-    std::atomic<int> helpers{0}; // changed under the pool's mutex
-    std::exception_ptr thrown{}; // the first one, guarded by the pool's mutex
-};
-
-// The threads of the process that help with loops.
-struct Pool {
-    std::mutex mutex;
-    std::condition_variable work, seat, left; // a loop was opened, a number was given back, a loop's last helper left
-    std::vector<Loop*> open;
-    std::atomic<std::uint64_t> opened{0}; // loops so far
-    int asleep = 0;
-    std::mutex starting;
-    int threads = 0; // guarded by `starting`
-};
-
-// Leaked on purpose: its threads run until the process ends.
-Pool& pool()
+// Runs a loop whose bodies wait for each other, so that oneTBB starts its workers while the threads that were asked for are surely there.
+void start_workers(tbb::task_arena& arena, int threads)
 {
-    static Pool* const p = new Pool;
-    return *p;
+    constexpr std::chrono::milliseconds kPatience(20); // a busy machine starts them later
+    std::atomic<int> here = 0;
+    const auto begin = std::chrono::steady_clock::now();
+    arena.execute([&] {
+        tbb::parallel_for(
+            tbb::blocked_range<int>(0, threads, 1),
+            [&](const tbb::blocked_range<int>&) {
+                for (++here; here < threads && std::chrono::steady_clock::now() - begin < kPatience;)
+                    std::this_thread::yield();
+            },
+            tbb::simple_partitioner());
+    });
 }
 
-// Runs indices of the loop until none is left.
-void run_pieces(Loop& loop, int worker)
+// An arena of so many threads; none where the system refuses oneTBB some of them, now or before.
+std::unique_ptr<tbb::task_arena> open_arena(int threads)
 {
-    const Seated here = {&loop.seats, worker, innermost};
-    innermost = &here;
-    try {
-        // relaxed: handing out indices orders nothing
-        for (std::size_t i; (i = loop.next.fetch_add(loop.grain, std::memory_order_relaxed)) < loop.count;)
-            for (const std::size_t end = std::min(i + loop.grain, loop.count); i < end; ++i)
-                loop.body(i, worker);
-    } catch (...) {
-        loop.next.store(loop.count, std::memory_order_relaxed);
-        const std::lock_guard lock(pool().mutex);
-        if (!loop.thrown)
-            loop.thrown = std::current_exception();
+    static std::mutex mutex;
+    static int given = 1;
+    static bool refused = false;
+    const std::lock_guard lock(mutex);
+    if (refused)
+        return nullptr;
+    const bool grows = threads > given;
+    if (grows && given_threads(threads - given).count < threads - given) {
+        refused = true;
+        return nullptr;
     }
-    innermost = here.outer;
+    given = std::max(given, threads);
+    allow_threads(threads);
+    auto arena = std::make_unique<tbb::task_arena>(threads);
+    if (grows)
+        start_workers(*arena, threads);
+    return arena;
 }
-
-// The innermost open loop with work and a number for one more thread.
-Loop* open_loop(const Pool& p)
-{
-    for (auto loop = p.open.rbegin(); loop != p.open.rend(); ++loop)
-        if ((*loop)->next.load(std::memory_order_relaxed) < (*loop)->count && !(*loop)->seats.empty())
-            return *loop;
-    return nullptr;
-}
-
-void wait_for_work(Pool& p, std::unique_lock<std::mutex>& lock)
-{
-    const std::uint64_t seen = p.opened.load();
-    lock.unlock();
-    for (int i = 0; i < kLooks && p.opened.load(std::memory_order_relaxed) == seen; ++i)
-        std::this_thread::yield();
-    lock.lock();
-    ++p.asleep;
-    p.work.wait(lock, [&] { return p.opened.load() != seen; });
-    --p.asleep;
-}
-
-void help(Pool& p, std::unique_lock<std::mutex>& lock, Loop& loop)
-{
-    const int worker = loop.seats.back();
-    loop.seats.pop_back();
-    ++loop.helpers;
-    lock.unlock();
-    run_pieces(loop, worker);
-    lock.lock();
-    loop.seats.push_back(worker); // there is room: it came from there
-    p.seat.notify_one();
-    if (--loop.helpers == 0)
-        p.left.notify_all();
-}
-
-// What a thread of the pool does.
-void serve(void*)
-{
-    Pool& p = pool();
-    std::unique_lock lock(p.mutex);
-    for (;;)
-        if (Loop* const loop = open_loop(p))
-            help(p, lock, *loop);
-        else
-            wait_for_work(p, lock);
-}
-
-// Starts threads until there are so many, or the system refuses one. Returns how many there are.
-int start_threads(int wanted)
-{
-    Pool& p = pool();
-    const std::lock_guard lock(p.starting);
-    while (p.threads < wanted) {
-        if (const int code = start_thread(serve, nullptr)) {
-            note_missing_threads(p.threads + 1, wanted + 1, code);
-            break;
-        }
-        ++p.threads;
-    }
-    return std::min(p.threads, wanted);
-}
-
-// Takes a number of the object for the calling thread, and waits where others have all of them.
-int take_seat(Pool& p, std::unique_lock<std::mutex>& lock, Seats& seats)
-{
-    p.seat.wait(lock, [&] { return !seats.empty(); });
-    const int worker = seats.back();
-    seats.pop_back();
-    return worker;
-}
-
-void run_with_helpers(Loop& loop, int threads)
-{
-    Pool& p = pool();
-    std::unique_lock lock(p.mutex);
-    const Seated* const had = seat_of(loop.seats);
-    const int worker = had ? had->worker : take_seat(p, lock, loop.seats);
-    p.open.push_back(&loop);
-    p.opened.fetch_add(1);
-    const std::size_t wanted = std::min(static_cast<std::size_t>(threads), (loop.count + loop.grain - 1) / loop.grain) - 1;
-    for (std::size_t i = std::min(wanted, static_cast<std::size_t>(p.asleep)); i > 0; --i)
-        p.work.notify_one();
-    lock.unlock();
-    run_pieces(loop, worker);
-    lock.lock();
-    p.open.erase(std::find(p.open.begin(), p.open.end(), &loop));
-    if (loop.helpers.load() > 0) {
-        lock.unlock();
-        for (int i = 0; i < kLooks && loop.helpers.load() > 0; ++i)
-            std::this_thread::yield();
-        lock.lock();
-        p.left.wait(lock, [&] { return loop.helpers.load() == 0; });
-    }
-    if (!had) {
-        loop.seats.push_back(worker);
-        p.seat.notify_one();
-    }
-}
+#endif
 
 } // namespace
 
 struct Jobs::Impl {
     int threads = 1;
-    mutable Seats seats;
+    mutable Seats seats; // of the pool
+#ifdef BN_ONETBB
+    std::unique_ptr<tbb::task_arena> arena;
+#endif
 };
 
 Jobs::Jobs(int threads) : impl_(std::make_unique<Impl>())
 {
-    impl_->threads = 1 + start_threads(std::min(threads <= 0 ? usable_cores() : threads, kMostThreads) - 1);
+    const int wanted = std::min(threads <= 0 ? usable_cores() : threads, kMostThreads);
+    if (wanted == 1)
+        return;
+#ifdef BN_ONETBB
+    impl_->arena = open_arena(wanted);
+    if (impl_->arena) {
+        impl_->threads = wanted;
+        return;
+    }
+#endif
+    impl_->threads = 1 + start_pool(wanted - 1);
     for (int worker = impl_->threads; worker-- > 0;)
         impl_->seats.push_back(worker);
 }
@@ -214,6 +115,15 @@ Jobs::~Jobs() = default;
 int Jobs::threads() const
 {
     return impl_->threads;
+}
+
+bool Jobs::by_onetbb() const
+{
+#ifdef BN_ONETBB
+    return impl_->arena != nullptr;
+#else
+    return false;
+#endif
 }
 
 void Jobs::parallel_for(std::size_t count, const std::function<void(std::size_t, int)>& body) const
@@ -226,10 +136,27 @@ void Jobs::parallel_for(std::size_t count, const std::function<void(std::size_t,
     if (count == 0)
         return;
     const std::size_t pieces = static_cast<std::size_t>(impl_->threads) * kPiecesPerThread;
-    Loop loop{body, count, std::max<std::size_t>(1, count / pieces), impl_->seats};
-    run_with_helpers(loop, impl_->threads);
-    if (loop.thrown)
-        std::rethrow_exception(loop.thrown);
+    const std::size_t grain = std::max<std::size_t>(1, count / pieces);
+#ifdef BN_ONETBB
+    if (impl_->arena) {
+        impl_->arena->execute([&] {
+            // Isolation: a thread that waits for an inner loop must not begin another index of the outer one, or
+            // two bodies would share the scratch memory of one worker.
+            tbb::this_task_arena::isolate([&] {
+                tbb::parallel_for(
+                    tbb::blocked_range<std::size_t>(0, count, grain),
+                    [&](const tbb::blocked_range<std::size_t>& range) {
+                        const int worker = tbb::this_task_arena::current_thread_index();
+                        for (std::size_t i = range.begin(); i != range.end(); ++i)
+                            body(i, worker);
+                    },
+                    tbb::simple_partitioner());
+            });
+        });
+        return;
+    }
+#endif
+    run_in_pool(impl_->seats, impl_->threads, count, grain, body);
 }
 
 } // namespace burnish

@@ -15,6 +15,7 @@ class Jobs {
     explicit Jobs(int threads = 0);
     ~Jobs();
     int threads() const;
+    bool by_onetbb() const; // else by the process's own pool, or by the caller alone
     // Calls body(index, worker) for index in [0, count); worker in [0, threads()) is for scratch memory only.
     void parallel_for(std::size_t count, const std::function<void(std::size_t index, int worker)>& body) const;
 

@@ -72,7 +72,7 @@ int start_thread(void (*run)(void*), void* argument)
     return code;
 }
 
-Status expect_threads(int count, const std::string& who)
+GivenThreads given_threads(int count)
 {
     Gate gate;
     std::vector<pthread_t> threads(static_cast<std::size_t>(count));
@@ -88,6 +88,12 @@ Status expect_threads(int count, const std::string& who)
     gate.opened.notify_all();
     for (int i = 0; i < given; ++i)
         ::pthread_join(threads[static_cast<std::size_t>(i)], nullptr);
+    return {given, code};
+}
+
+Status expect_threads(int count, const std::string& who)
+{
+    const auto [given, code] = given_threads(count);
     if (code == 0)
         return {};
     return Error{ExitCode::unavailable, "", "",

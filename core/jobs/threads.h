@@ -9,6 +9,12 @@ namespace burnish {
 // Starts a thread that runs until the process ends. Returns 0, or the errno of the refusal: then there is none.
 int start_thread(void (*run)(void*), void* argument);
 
+struct GivenThreads {
+    int count, code; // threads that the system gave at once besides those that run; errno of its refusal, or 0
+};
+// Asks for up to `count` threads, which have ended when it returns.
+GivenThreads given_threads(int count);
+
 // Returns an Error with ExitCode::unavailable unless the system gives so many threads at once besides those that run; they have ended when
 // it returns. Libraries that hang or end the process where a thread is refused are called only after this. who: begins the sentence.
 Status expect_threads(int count, const std::string& who);

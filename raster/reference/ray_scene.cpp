@@ -108,7 +108,8 @@ Status EmbreeScene::add_part(const DrawTables& tables, unsigned part)
 Result<std::unique_ptr<RayScene>> EmbreeScene::make(const Scene& scene, const DrawTables& tables, const Jobs& jobs)
 {
     std::unique_ptr<EmbreeScene> self(new EmbreeScene);
-    keep_tbb_idle();
+    if (!jobs.by_onetbb())
+        keep_tbb_idle();
     self->device_ = rtcNewDevice(nullptr);
     if (!self->device_)
         return error_of(rtcGetDeviceError(nullptr), "be started");
@@ -134,7 +135,10 @@ Result<std::unique_ptr<RayScene>> EmbreeScene::make(const Scene& scene, const Dr
         if (const Status added = self->add_part(tables, part); !added)
             return added.error();
     for (const RTCScene made : {self->seen_, self->in_the_way_})
-        jobs.parallel_for(static_cast<std::size_t>(jobs.threads()), [&](std::size_t, int) { rtcJoinCommitScene(made); });
+        if (jobs.by_onetbb())
+            rtcCommitScene(made);
+        else
+            jobs.parallel_for(static_cast<std::size_t>(jobs.threads()), [&](std::size_t, int) { rtcJoinCommitScene(made); });
     if (const RTCError code = rtcGetDeviceError(self->device_); code != RTC_ERROR_NONE)
         return error_of(code, "build its tree over the scene");
     return std::unique_ptr<RayScene>(std::move(self));
