@@ -186,8 +186,8 @@ Result<Image> decode(const ImageBytes& file, const ImageProbe& probe, const Limi
         decode_luminance_chroma(image, luminance_weights(probe.colour.primaries.value_or(kRec709Primaries)));
     apply_gain(image, probe.colour.gain);
     notes.cube_faces = probe.cube_faces;
-    // Only OpenEXR's windows mean what ours do: other formats' offsets are page layout.
-    if (exr)
+    // Only OpenEXR's windows mean what ours do: other formats' offsets are page layout. A cube's faces fill the data window.
+    if (exr && !probe.cube_faces)
         image = place_in_display(std::move(image), header);
     return orient(std::move(image), probe.radiance);
 }

@@ -5,11 +5,12 @@
 
 #include <array>
 #include <cmath>
+#include <glm/glm.hpp>
 
 #include "shading/bake/environment/equirect.h"
 #include "tests/unit/bake/bake_test.h"
 
-namespace burnish {
+namespace burnish::cube_pictures {
 namespace {
 
 struct CubeTexel {
@@ -120,4 +121,4 @@ TEST(equirect_shape, a_picture_of_one_colour_has_no_shape)
 }
 
 } // namespace
-} // namespace burnish
+} // namespace burnish::cube_pictures

@@ -74,9 +74,9 @@ TEST(radiance, primaries_of_the_header_are_converted)
     const std::vector<float> red = values(
         hdr("-Y 1 +X 1", std::string("\x80\x00\x00\x81", 4), "PRIMARIES= 0.713 0.293 0.165 0.83 0.128 0.044 0.32168 0.33767\n"), &notes);
     ASSERT_EQ(red.size(), 3u);
-    EXPECT_NEAR(red[0], 1.70505f, 2e-5f);
-    EXPECT_NEAR(red[1], -0.13026f, 2e-5f);
-    EXPECT_NEAR(red[2], -0.02400f, 2e-5f);
+    const double wanted[] = {1.70505, -0.13026, -0.02400};
+    for (std::size_t c = 0; c < 3; ++c)
+        EXPECT_NEAR(static_cast<double>(red[c]), wanted[c], 2e-5);
     EXPECT_TRUE(notes.converted && notes.warnings.empty());
     EXPECT_EQ(values(hdr("-Y 1 +X 1", "\x80\x40\x20\x81", "PRIMARIES=.64 .33 .3 .6 .15 .06 .3127 .329\n")),
               (std::vector<float>{1, 0.5f, 0.25f}));

@@ -186,7 +186,7 @@ TEST(obj, colours_of_vertices_are_srgb)
         EXPECT_EQ(v.cb[i], wanted[i][2]);
         EXPECT_EQ(v.ca[i], 1.0f);
     }
-    EXPECT_NEAR(v.cr[2], 0.21404f, 1e-5f);
+    EXPECT_NEAR(static_cast<double>(v.cr[2]), 0.21404, 1e-5);
     EXPECT_FALSE(scene_of(kHead + kFace).primitives[0].has_color);
     expect_warned("v 0 0 0 255 0 0\nv 1 0 0 0 0 0\nv 0 1 0\nf 1 2 3\n", "line 1: colours of vertices lie outside 0 to 1");
     EXPECT_FALSE(scene_of("v 0 0 0 255 0 0\nv 1 0 0 0 0 0\nv 0 1 0\nf 1 2 3\n").primitives[0].has_color);
@@ -200,15 +200,15 @@ TEST(obj, smoothing_groups_decide_where_normals_are_shared)
         float most = 0.0f;
         for (std::size_t i = 0; i < scene.vertices.size(); ++i)
             most = std::max(most, scene.vertices.px[i] == 0.0f ? std::fabs(scene.vertices.nx[i]) : 0.0f);
-        return most;
+        return static_cast<double>(most);
     };
-    const float slope = std::sqrt(0.5f);
-    EXPECT_NEAR(ridge(scene_of(roof + left + right)), 0.0f, 1e-6f);
-    EXPECT_NEAR(ridge(scene_of(roof + "s 1\n" + left + right)), 0.0f, 1e-6f);
-    EXPECT_NEAR(ridge(scene_of(roof + "s 1\n" + left + "s 2\n" + right)), slope, 1e-6f);
-    EXPECT_NEAR(ridge(scene_of(roof + "s off\n" + left + right)), slope, 1e-6f);
-    EXPECT_NEAR(ridge(scene_of(roof + "s 0\n" + left + "s 0\n" + right)), slope, 1e-6f);
-    EXPECT_NEAR(ridge(scene_of(roof + "vn 0 1 0\ns off\n" + "f 1//1 3//1 4//1 2//1\nf 3//1 5//1 6//1 4//1\n")), 0.0f, 1e-6f);
+    const double slope = std::sqrt(0.5);
+    EXPECT_NEAR(ridge(scene_of(roof + left + right)), 0.0, 1e-6);
+    EXPECT_NEAR(ridge(scene_of(roof + "s 1\n" + left + right)), 0.0, 1e-6);
+    EXPECT_NEAR(ridge(scene_of(roof + "s 1\n" + left + "s 2\n" + right)), slope, 1e-6);
+    EXPECT_NEAR(ridge(scene_of(roof + "s off\n" + left + right)), slope, 1e-6);
+    EXPECT_NEAR(ridge(scene_of(roof + "s 0\n" + left + "s 0\n" + right)), slope, 1e-6);
+    EXPECT_NEAR(ridge(scene_of(roof + "vn 0 1 0\ns off\n" + "f 1//1 3//1 4//1 2//1\nf 3//1 5//1 6//1 4//1\n")), 0.0, 1e-6);
 }
 
 TEST(obj, is_told_by_its_ending)
