@@ -1,0 +1,200 @@
+// Threads of the process's own, where there is no oneTBB or the system refuses it threads. They start once and stay; a loop starts none, so
+// it cannot fail for want of one.
+#include "core/jobs/pool.h"
+
+#include <algorithm>
+#include <atomic>
+#include <condition_variable>
+#include <exception>
+#include <mutex>
+#include <thread>
+
+#include "core/jobs/threads.h"
+
+#ifdef __SANITIZE_THREAD__
+// Embree's trees and OpenImageIO's table of names have locks that ThreadSanitizer does not see.
+extern "C" const char* __tsan_default_suppressions();
+extern "C" const char* __tsan_default_suppressions()
+{
+    return "race:libembree3.so\nrace:libOpenImageIO\n";
+}
+#endif
+
+namespace burnish {
+namespace {
+
+// How often an idle thread looks for work before it sleeps: loops of one frame follow each other closely.
+constexpr int kLooks = 200;
+
+// The number that the running thread has of one object, in a list from the innermost loop outwards.
+struct Seated {
+    const Seats* seats;
+    int worker;
+    const Seated* outer;
+};
+
+thread_local const Seated* innermost = nullptr;
+
+const Seated* seat_of(const Seats& seats)
+{
+    const Seated* seated = innermost;
+    while (seated && seated->seats != &seats)
+        seated = seated->outer;
+    return seated;
+}
+
+struct Loop {
+    const std::function<void(std::size_t, int)>& body;
+    std::size_t count, grain;
+    Seats& seats;
+    std::atomic<std::size_t> next{0};
+    std::atomic<int> helpers{0}; // changed under the pool's mutex
+    std::exception_ptr thrown{}; // the first one, guarded by the pool's mutex
+};
+
+// The threads of the process that help with loops.
+struct Pool {
+    std::mutex mutex;
+    std::condition_variable work, seat, left; // a loop was opened, a number was given back, a loop's last helper left
+    std::vector<Loop*> open;
+    std::atomic<std::uint64_t> opened{0}; // loops so far
+    int asleep = 0;
+    std::mutex starting;
+    int threads = 0; // guarded by `starting`
+};
+
+// Leaked on purpose: its threads run until the process ends.
+Pool& pool()
+{
+    static Pool* const p = new Pool;
+    return *p;
+}
+
+// Runs indices of the loop until none is left.
+void run_pieces(Loop& loop, int worker)
+{
+    const Seated here = {&loop.seats, worker, innermost};
+    innermost = &here;
+    try {
+        // relaxed: handing out indices orders nothing
+        for (std::size_t i; (i = loop.next.fetch_add(loop.grain, std::memory_order_relaxed)) < loop.count;)
+            for (const std::size_t end = std::min(i + loop.grain, loop.count); i < end; ++i)
+                loop.body(i, worker);
+    } catch (...) {
+        loop.next.store(loop.count, std::memory_order_relaxed);
+        const std::lock_guard lock(pool().mutex);
+        if (!loop.thrown)
+            loop.thrown = std::current_exception();
+    }
+    innermost = here.outer;
+}
+
+// The innermost open loop with work and a number for one more thread.
+Loop* open_loop(const Pool& p)
+{
+    for (auto loop = p.open.rbegin(); loop != p.open.rend(); ++loop)
+        if ((*loop)->next.load(std::memory_order_relaxed) < (*loop)->count && !(*loop)->seats.empty())
+            return *loop;
+    return nullptr;
+}
+
+void wait_for_work(Pool& p, std::unique_lock<std::mutex>& lock)
+{
+    const std::uint64_t seen = p.opened.load();
+    lock.unlock();
+    for (int i = 0; i < kLooks && p.opened.load(std::memory_order_relaxed) == seen; ++i)
+        std::this_thread::yield();
+    lock.lock();
+    ++p.asleep;
+    p.work.wait(lock, [&] { return p.opened.load() != seen; });
+    --p.asleep;
+}
+
+void help(Pool& p, std::unique_lock<std::mutex>& lock, Loop& loop)
+{
+    const int worker = loop.seats.back();
+    loop.seats.pop_back();
+    ++loop.helpers;
+    lock.unlock();
+    run_pieces(loop, worker);
+    lock.lock();
+    loop.seats.push_back(worker); // there is room: it came from there
+    p.seat.notify_one();
+    if (--loop.helpers == 0)
+        p.left.notify_all();
+}
+
+// What a thread of the pool does.
+void serve(void*)
+{
+    Pool& p = pool();
+    std::unique_lock lock(p.mutex);
+    for (;;)
+        if (Loop* const loop = open_loop(p))
+            help(p, lock, *loop);
+        else
+            wait_for_work(p, lock);
+}
+
+// Takes a number of the object for the calling thread, and waits where others have all of them.
+int take_seat(Pool& p, std::unique_lock<std::mutex>& lock, Seats& seats)
+{
+    p.seat.wait(lock, [&] { return !seats.empty(); });
+    const int worker = seats.back();
+    seats.pop_back();
+    return worker;
+}
+
+void run_with_helpers(Loop& loop, int threads)
+{
+    Pool& p = pool();
+    std::unique_lock lock(p.mutex);
+    const Seated* const had = seat_of(loop.seats);
+    const int worker = had ? had->worker : take_seat(p, lock, loop.seats);
+    p.open.push_back(&loop);
+    p.opened.fetch_add(1);
+    const std::size_t wanted = std::min(static_cast<std::size_t>(threads), (loop.count + loop.grain - 1) / loop.grain) - 1;
+    for (std::size_t i = std::min(wanted, static_cast<std::size_t>(p.asleep)); i > 0; --i)
+        p.work.notify_one();
+    lock.unlock();
+    run_pieces(loop, worker);
+    lock.lock();
+    p.open.erase(std::find(p.open.begin(), p.open.end(), &loop));
+    if (loop.helpers.load() > 0) {
+        lock.unlock();
+        for (int i = 0; i < kLooks && loop.helpers.load() > 0; ++i)
+            std::this_thread::yield();
+        lock.lock();
+        p.left.wait(lock, [&] { return loop.helpers.load() == 0; });
+    }
+    if (!had) {
+        loop.seats.push_back(worker);
+        p.seat.notify_one();
+    }
+}
+
+} // namespace
+
+int start_pool(int wanted)
+{
+    Pool& p = pool();
+    const std::lock_guard lock(p.starting);
+    while (p.threads < wanted) {
+        if (const int code = start_thread(serve, nullptr)) {
+            note_missing_threads(p.threads + 1, wanted + 1, code);
+            break;
+        }
+        ++p.threads;
+    }
+    return std::min(p.threads, wanted);
+}
+
+void run_in_pool(Seats& seats, int threads, std::size_t count, std::size_t grain, const std::function<void(std::size_t, int)>& body)
+{
+    Loop loop{body, count, grain, seats};
+    run_with_helpers(loop, threads);
+    if (loop.thrown)
+        std::rethrow_exception(loop.thrown);
+}
+
+} // namespace burnish
