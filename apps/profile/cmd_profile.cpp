@@ -164,7 +164,7 @@ int run_profile(const ProfileArguments& arguments, const OptionTable& given)
     if (!last)
         return fail(last.error());
     const std::uint64_t begin = Trace::now_ns();
-    const Image color = desc.background ? last->color : with_coverage(last->color, last->triangle_ids);
+    const Image color = desc.background ? last->color : with_coverage(last->color, last->triangle_ids, last->through);
     for (const std::string& path : options.outputs) {
         const TraceSpan span("write picture");
         if (Status done = write_picture(path, color, options.tonemap, options.exposure_ev, last->parts, options.resolve); !done)

@@ -227,7 +227,7 @@ Result<Rendered> render_frames(const RenderOptions& options, FrameDesc desc, Ses
     out.color = std::move(last.color), out.variance = std::move(last.variance);
     figures.nan_pixels = count_not_finite(out.color);
     if (draws_alpha(options))
-        out.color = with_coverage(out.color, last.triangle_ids);
+        out.color = with_coverage(out.color, last.triangle_ids, last.through);
     if (!options.aov.empty())
         out.layered = with_layers(out.color, last, session.tables(), options.aov);
     out.parts = std::move(last.parts);

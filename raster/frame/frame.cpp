@@ -427,17 +427,18 @@ std::uint64_t pixel_hash(const Image& image)
     return hash_bytes(image.bytes.data(), image.bytes.size(), hash_bytes(header, sizeof header));
 }
 
-Image with_coverage(const Image& color, const Column<std::uint32_t>& triangle_ids)
+Image with_coverage(const Image& color, const Column<std::uint32_t>& triangle_ids, const Column<float>& through)
 {
     const std::size_t pixels = static_cast<std::size_t>(color.width) * static_cast<std::size_t>(color.height);
     BN_CHECK(color.type == PixelType::f32 && color.channels == 3 && !triangle_ids.empty() && triangle_ids.size() % pixels == 0);
     const std::size_t msaa = triangle_ids.size() / pixels;
     Image out = make_image(color.width, color.height, 4, PixelType::f32);
     for (std::size_t p = 0; p < pixels; ++p) {
-        const std::uint32_t* ids = triangle_ids.data() + p * msaa;
+        float covered = 0.0f;
+        for (std::size_t i = p * msaa; i < (p + 1) * msaa; ++i)
+            covered += triangle_ids.data()[i] != kNoTriangle ? 1.0f : through.empty() ? 0.0f : 1.0f - through.data()[i];
         std::copy_n(color.f32() + 3 * p, 3, out.f32() + 4 * p);
-        out.f32()[4 * p + 3] = static_cast<float>(std::count_if(ids, ids + msaa, [](std::uint32_t id) { return id != kNoTriangle; })) /
-                               static_cast<float>(msaa);
+        out.f32()[4 * p + 3] = covered / static_cast<float>(msaa);
     }
     return out;
 }

@@ -113,7 +113,7 @@ struct StageRecords {
 inline constexpr int kVertexWords = 8;
 
 // Of what a pixel shows at its central sample, the nearest to its centre (central_sample()); all 0 where that shows no triangle. Values are
-// those of the (pixel, triangle) pair, where it is shaded.
+// those of the (pixel, triangle) pair, where it is shaded. A blended surface counts where its alpha is above a half.
 struct PixelLayers {
 #define BN_LAYER(type, words, name, channels) float name[words];
 #include "shading/layers.def"
@@ -123,10 +123,11 @@ static_assert(sizeof(PixelLayers) == kLayerWords * sizeof(float));
 struct Frame {
     Image color;                        // f32 RGB, linear Rec.709 scene radiance
     Image variance;                     // of `color` as an estimate, by channel; empty where it is none
-    Column<std::uint32_t> triangle_ids; // [pixel][sample] global triangle id, kNoTriangle where nothing was hit
-    FrameProfile profile;               // empty unless asked for
-    StageRecords stages;                // with FrameDesc::stages
-    Column<PixelLayers> layers;         // [pixel], with FrameDesc::layers
+    Column<std::uint32_t> triangle_ids; // [pixel][sample] global id of the solid triangle seen, kNoTriangle where there is none
+    Column<float> through; // [pixel][sample] light that blended surfaces let through, [0,1]; with triangle_ids, empty if nothing blends
+    FrameProfile profile;  // empty unless asked for
+    StageRecords stages;   // with FrameDesc::stages
+    Column<PixelLayers> layers;   // [pixel], with FrameDesc::layers
     std::vector<PixelPart> parts; // with FrameDesc::parts: of all pixels that show more than one thing, by pixel, then by first sample
     FrameStats stats;
 };
@@ -212,8 +213,8 @@ Status check_lobe(const FrameDesc& desc, const TechniqueInfo& technique); // whe
 // 64-bit hash of size and the bits of every colour word, the same on every machine for the same picture.
 std::uint64_t pixel_hash(const Image& image);
 std::uint64_t count_not_finite(const Image& image); // pixels with a NaN or Inf channel
-// RGBA of a frame drawn with triangle_ids and without background: alpha is the share of a pixel's samples that a triangle covers, and
-// colours are associated (multiplied by it), as they are in `color`.
-Image with_coverage(const Image& color, const Column<std::uint32_t>& triangle_ids);
+// RGBA of a frame drawn with triangle_ids and without background: alpha is the mean coverage of a pixel's samples (1 of a solid triangle,
+// 1 - through elsewhere), and colours are associated (multiplied by it), as they are in `color`. through: Frame::through, may be empty.
+Image with_coverage(const Image& color, const Column<std::uint32_t>& triangle_ids, const Column<float>& through);
 
 } // namespace burnish

@@ -6,6 +6,7 @@
 #include "core/base/check.h"
 #include "core/math/scalar_math.h"
 #include "raster/frame/pyramids.h"
+#include "shading/bake/mip/anisotropy.h"
 #include "shading/bake/mip/light_picture.h"
 
 namespace burnish {
@@ -84,6 +85,20 @@ AreaLightRecord area_light_record(const PlacedAreaLight& l)
     return r;
 }
 
+// Whether no texel of the map, as its samplers see it, has an alpha below 1.
+bool texels_are_opaque(const Scene& scene, const TextureRef& map)
+{
+    const Image& image = scene.images[static_cast<std::size_t>(scene.textures[static_cast<std::size_t>(map.texture)].image)];
+    const std::size_t channels = static_cast<std::size_t>(image.channels);
+    if (channels != 2 && channels != 4)
+        return true;
+    const std::size_t texels = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
+    for (std::size_t i = 0; i < texels; ++i)
+        if (!(texel_channel(image, i, channels - 1) >= 1.0f))
+            return false;
+    return true;
+}
+
 // Vulkan 1.3, "Standard sample locations", in 1/16 pixel.
 struct Position {
     std::int8_t x, y;
@@ -150,7 +165,18 @@ std::vector<MaterialRecord> material_records(const Scene& scene, bool overridden
     for (const Primitive& p : scene.primitives)
         if (p.has_color)
             records[static_cast<std::size_t>(p.material)].uses_color = 1;
+    for (std::size_t i = 0; i < records.size(); ++i) {
+        MaterialRecord& r = records[i];
+        const TextureRef& map = scene.materials[i].base_color_tex;
+        if (r.alpha_mode == kAlpha_blend && r.base_color[3] >= 1.0f && !r.uses_color && (!map.used() || texels_are_opaque(scene, map)))
+            r.alpha_mode = kAlpha_opaque;
+    }
     return records;
+}
+
+bool any_blends(const std::vector<MaterialRecord>& materials)
+{
+    return std::any_of(materials.begin(), materials.end(), [](const MaterialRecord& m) { return m.alpha_mode == kAlpha_blend; });
 }
 
 std::vector<LightRecord> light_records(const DrawTables& tables)

@@ -21,8 +21,9 @@ struct SceneTables { // keeps alive what the records point at
     std::vector<AreaLightRecord> area_lights;
 };
 
-// Textures are numbered as in SceneTables::textures.
+// Textures are numbered as in SceneTables::textures. A material that blends, whose alpha is 1 everywhere, is opaque.
 std::vector<MaterialRecord> material_records(const Scene& scene, bool overridden);
+bool any_blends(const std::vector<MaterialRecord>& materials); // whether a material's alpha mode is kAlpha_blend
 std::vector<LightRecord> light_records(const DrawTables& tables);
 std::vector<AreaLightRecord> area_light_records(const DrawTables& tables); // their pictures: textures of the scene
 

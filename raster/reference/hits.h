@@ -196,7 +196,7 @@ BN_INLINE LaneHits find_hits(const PixelFrame& p, LaneRays r, mask wanted, RayKi
 {
     if (!p.f.any_alpha)
         return trace_lanes(p, r, wanted, kind);
-    constexpr int kMostLayers = 64;
+    constexpr int kMostLayers = 1 << 16;
     const RayKind search = kind == RayKind::occlusion ? RayKind::bounce : kind;
     LaneHits result = trace_lanes(p, r, wanted, search);
     mask open = wanted;
@@ -212,6 +212,41 @@ BN_INLINE LaneHits find_hits(const PixelFrame& p, LaneRays r, mask wanted, RayKi
         result.found = select(open, next.found, result.found);
     }
     return result;
+}
+
+// What blended surfaces let through at the hits: 0 of a solid surface, 1 where a mask cuts it away.
+BN_STAGE real passed_share(const PixelFrame& p, const LaneHits& h, const LaneRays& r)
+{
+    real passed = lit(0.0);
+    const LaneGeometry g = locate_hits(p.f, h, r, nullptr);
+    for_each_material(p.f, h.triangle, h.found, [&](const MaterialRecord& m, mask lanes) {
+        if (m.alpha_mode == kAlpha_opaque)
+            return;
+        const real alpha = min(max(fetch_at_hits(p.f, m, h, g.fragment).alpha, lit(0.0)), lit(1.0));
+        const real cut = select(alpha_stays(m, alpha, lit(0.0)), lit(0.0), lit(1.0));
+        passed = select(lanes, m.alpha_mode == kAlpha_blend ? lit(1.0) - alpha : cut, passed);
+    });
+    return passed;
+}
+
+// Finds the solid surfaces of camera rays. through: light that blended surfaces before them let through, [0,1].
+BN_INLINE LaneHits find_solid_hits(const PixelFrame& p, LaneRays r, mask wanted, real& through)
+{
+    through = lit(1.0);
+    for (LaneHits h = trace_lanes(p, r, wanted, RayKind::camera);;) {
+        if (!p.f.any_alpha)
+            return h;
+        const real passed = passed_share(p, h, r);
+        const mask open = both(h.found, passed > lit(0.0));
+        if (none(open))
+            return h;
+        through = select(open, through * passed, through);
+        r.tnear = select(open, h.t + abs(h.t) * lit(2e-6) + splat(p.f.ray_epsilon), r.tnear);
+        const LaneHits next = trace_lanes(p, r, open, RayKind::camera);
+        h.triangle = select(open, next.triangle, h.triangle);
+        h.u = select(open, next.u, h.u), h.v = select(open, next.v, h.v), h.t = select(open, next.t, h.t);
+        h.found = select(open, next.found, h.found);
+    }
 }
 
 struct LaneSurface { // what was hit, or nothing

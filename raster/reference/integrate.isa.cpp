@@ -305,7 +305,7 @@ void add_passes(const ReferenceParams& f, const PixelBlock& b, ReferenceScratch&
     scratch.count.all_ticks += ticks() - begin;
 }
 
-void trace_row(const ReferenceParams& f, int y, const SamplePattern& pattern, ReferenceScratch& scratch, std::uint32_t* ids)
+void trace_row(const ReferenceParams& f, int y, const SamplePattern& pattern, ReferenceScratch& scratch, std::uint32_t* ids, float* through)
 {
     const int count = f.width * pattern.count;
     for (int first = 0; first < count; first += kLanes) {
@@ -318,11 +318,17 @@ void trace_row(const ReferenceParams& f, int y, const SamplePattern& pattern, Re
         const PixelFrame p = {f, scratch, hash_seed(static_cast<std::uint32_t>(f.seed), static_cast<std::uint32_t>(y)), 0};
         const LaneRays rays = camera_rays(f, load(px), load(py));
         const mask everything = mask_from_bits((1u << kLanes) - 1u);
-        const LaneHits h = find_hits(p, rays, everything, RayKind::camera);
+        real passed;
+        const LaneHits h = find_solid_hits(p, rays, everything, passed);
         std::int32_t id[kLanes];
+        float share[kLanes];
         store_int(id, select(h.found, h.triangle, int_lit(-1)));
-        for (int i = 0; i < kLanes && first + i < count; ++i)
+        store(share, passed);
+        for (int i = 0; i < kLanes && first + i < count; ++i) {
             ids[first + i] = static_cast<std::uint32_t>(id[i]);
+            if (through)
+                through[first + i] = share[i];
+        }
     }
 }
 

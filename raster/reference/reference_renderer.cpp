@@ -217,10 +217,11 @@ Result<Frame> ReferenceRenderer::render(const FrameDesc& desc, Frame)
     if (desc.triangle_ids) {
         const std::size_t row = static_cast<std::size_t>(desc.width) * static_cast<std::size_t>(desc.msaa);
         frame.triangle_ids.resize(row * static_cast<std::size_t>(desc.height));
+        frame.through.resize(f.any_alpha ? frame.triangle_ids.size() : 0);
         const SamplePattern pattern = standard_samples(desc.msaa);
         input_.jobs.parallel_for(static_cast<std::size_t>(desc.height), [&](std::size_t y, int worker) {
-            fns_.trace_row(f, static_cast<int>(y), pattern, workers_[static_cast<std::size_t>(worker)],
-                           frame.triangle_ids.data() + y * row);
+            fns_.trace_row(f, static_cast<int>(y), pattern, workers_[static_cast<std::size_t>(worker)], frame.triangle_ids.data() + y * row,
+                           f.any_alpha ? frame.through.data() + y * row : nullptr);
         });
     }
     frame.stats.triangles = frame.stats.triangles_drawn = input_.tables.triangle_count();

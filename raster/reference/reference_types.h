@@ -46,8 +46,9 @@ struct PixelBlock {
 struct ReferenceFns { // one table an instruction set
     // Adds passes to the pixels of a block; `state` is the whole picture's.
     void (*add_passes)(const ReferenceParams&, const PixelBlock&, ReferenceScratch&, PixelState* state);
-    // Global ids of the triangles behind sample positions of one row of pixels: ids[pixel][sample].
-    void (*trace_row)(const ReferenceParams&, int y, const SamplePattern&, ReferenceScratch&, std::uint32_t* ids);
+    // Global ids of the solid triangles behind sample positions of one row of pixels, ids[pixel][sample], and what blended ones before them
+    // let through, [0,1]; through may be null.
+    void (*trace_row)(const ReferenceParams&, int y, const SamplePattern&, ReferenceScratch&, std::uint32_t* ids, float* through);
 };
 BN_DECLARE_FNS(ReferenceFns);
 

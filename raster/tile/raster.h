@@ -129,7 +129,7 @@ BN_INLINE bool block_hidden(const FrameParams& f, const TileTriangle& t, float n
 struct NoAlpha {}; // opaque: every covered sample counts
 
 // Depth test and write of the samples of a register of pixels, `at` the values of kEdges edges at their corners, z the depth there. alive:
-// by sample, the pixels that survive an alpha test; or null.
+// the pixels that survive an alpha test; or null.
 template <int kEdges, bool kAnyOrder>
 BN_INLINE bool cover_register(const FrameParams& f, const TileTriangle& t, const BlockEdges& e, const integer at[3], real z,
                               integer lane_id, float* depth, std::int32_t* ids, const std::uint32_t* alive)
@@ -151,7 +151,7 @@ BN_INLINE bool cover_register(const FrameParams& f, const TileTriangle& t, const
             pass = both(pass, side >= int_lit(0));
         }
         if (alive)
-            pass = both(pass, mask_from_bits(alive[s]));
+            pass = both(pass, mask_from_bits(*alive));
         store(d, select(pass, zs, old));
         store_int(to, select(pass, lane_id, load_int(to)));
         written = either(written, pass);
@@ -262,12 +262,10 @@ BN_INLINE bool cover_block(const FrameParams& f, const TileTriangle& t, const Ed
             continue;
         const real value = expand_load(of_register, mask_from_bits(shown[v]));
         of_register += __builtin_popcount(shown[v]);
-        std::uint32_t alive[kMaxSamples];
-        for (int s = 0; s < f.msaa; ++s)
-            alive[s] = shown[v] & alpha.staying(value, s);
+        const std::uint32_t alive = shown[v] & alpha.staying(value);
         const real z = depths_of_register(lanes, splat(z_corner), dz_x, dz_y, v);
         wrote = cover_register<kEdges, kAnyOrder>(f, t, e, edges.at, z, lane_id, depth + v * kLanes,
-                                                  reinterpret_cast<std::int32_t*>(ids) + v * kLanes, alive) ||
+                                                  reinterpret_cast<std::int32_t*>(ids) + v * kLanes, &alive) ||
                 wrote;
     }
     return wrote;

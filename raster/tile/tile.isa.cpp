@@ -1,4 +1,5 @@
 // One tile from triangles to pixels: visibility, shading in dense batches by material, resolve. Compiled once for every instruction set.
+#include "raster/tile/compose.h"
 #include "raster/tile/geometry.h"
 #include "raster/tile/record.h"
 #include "raster/tile/resolve.h"
@@ -254,18 +255,13 @@ constexpr ShadeSlot kShadeSlots[] = {
 #include "shading/models.def"
 };
 
-void render_tile(const FrameParams& f, int tile_x, int tile_y, TileScratch& s)
+// Shades the slots behind the background's. Returns with the colours of all fragments known.
+void shade_slots(const Tile& t, const view_params& view, int slots)
 {
-    Tile t{f, s, tile_x, tile_y, tile_x * f.tile_size, tile_y * f.tile_size, 0, 0};
-    t.width = f.width - t.x0 < f.tile_size ? f.width - t.x0 : f.tile_size;
-    t.height = f.height - t.y0 < f.tile_size ? f.height - t.y0 : f.tile_size;
-    const view_params view = view_params_of(f.view);
-    const int slots = find_visible(t, view);
-    shade_background_slot(t, view, s.slot_begin[0], s.slot_begin[1]);
-    lap(s, FrameStage::background, -1, s.slot_begin[1] - s.slot_begin[0]);
+    const TileScratch& s = t.s;
     bool shared = false;
     for (int k = 1; k < slots; ++k) {
-        const MaterialRecord& m = f.materials[s.slot_material[k]];
+        const MaterialRecord& m = t.f.materials[s.slot_material[k]];
         kShadeSlots[m.technique](t, view, m, s.slot_begin[k], s.slot_begin[k + 1]);
         shared = shared || (m.technique_traits & kSharesSamples);
         lap(s, FrameStage::shade, s.slot_material[k], s.slot_begin[k + 1] - s.slot_begin[k]);
@@ -273,16 +269,68 @@ void render_tile(const FrameParams& f, int tile_x, int tile_y, TileScratch& s)
     if (shared)
         list_sharing(t);
     for (int k = 1; shared && k < slots; ++k)
-        if (f.materials[s.slot_material[k]].technique_traits & kSharesSamples)
+        if (t.f.materials[s.slot_material[k]].technique_traits & kSharesSamples)
             share_slot(t, s.slot_begin[k], s.slot_begin[k + 1]);
-    for (int k = 1; s.output_layers && k < slots; ++k)
-        draw_layers(t, view, f.materials[s.slot_material[k]], s.slot_begin[k], s.slot_begin[k + 1]);
+}
+
+// Finds the alpha of a layer's fragments of one material.
+void find_alphas(const Tile& t, const view_params& view, const MaterialRecord& m, std::uint32_t begin, std::uint32_t end, float* alpha)
+{
+    for (std::uint32_t i = begin; i < end; i += kLanes) {
+        const Batch b = load_batch(t, i, end);
+        float found[kLanes];
+        store(found, fetch_lanes(t.f, m, make_fragment(t.f, m, view, t.s, b.triangle, b.common, b.x, b.y, b.samples)).alpha);
+        for (int k = 0; k < b.n; ++k)
+            alpha[b.run ? b.fragment[0] + k : b.fragment[k]] = found[k];
+    }
+}
+
+// Draws blended surfaces layer by layer, the nearest first, over what resolve() wrote.
+void draw_blended(const Tile& t, const view_params& view)
+{
+    PeelScratch& peel = *t.s.peel;
+    const Tile layer{t.f, *peel.layer, t.index_x, t.index_y, t.x0, t.y0, t.width, t.height};
+    begin_layers(t);
+    for (int slots = find_layer(t); slots > 1; slots = find_layer(t)) {
+        shade_slots(layer, view, slots);
+        for (int k = 1; k < slots; ++k) {
+            const TileScratch& s = layer.s;
+            find_alphas(layer, view, t.f.materials[s.slot_material[k]], s.slot_begin[k], s.slot_begin[k + 1], peel.alpha);
+        }
+        compose_layer(t.f, t.width, t.height, peel);
+        lap(layer.s, FrameStage::resolve);
+    }
+    resolve_blended(t.f, t.x0, t.y0, t.width, t.height, t.s);
+}
+
+void draw_all_layers(const Tile& t, const view_params& view, int slots)
+{
+    for (int k = 1; k < slots; ++k)
+        draw_layers(t, view, t.f.materials[t.s.slot_material[k]], t.s.slot_begin[k], t.s.slot_begin[k + 1]);
+}
+
+void render_tile(const FrameParams& f, int tile_x, int tile_y, TileScratch& s)
+{
+    Tile t{f, s, tile_x, tile_y, tile_x * f.tile_size, tile_y * f.tile_size, 0, 0};
+    t.width = f.width - t.x0 < f.tile_size ? f.width - t.x0 : f.tile_size;
+    t.height = f.height - t.y0 < f.tile_size ? f.height - t.y0 : f.tile_size;
+    const view_params view = view_params_of(f.view);
+    if (s.output_layers && f.blends)
+        draw_all_layers(t, view, find_visible(t, view, Surfaces::all));
+    const int slots = find_visible(t, view, Surfaces::solid);
+    shade_background_slot(t, view, s.slot_begin[0], s.slot_begin[1]);
+    lap(s, FrameStage::background, -1, s.slot_begin[1] - s.slot_begin[0]);
+    shade_slots(t, view, slots);
+    if (s.output_layers && !f.blends)
+        draw_all_layers(t, view, slots);
     if (s.output_pairs) {
         record_depths(f, t.x0, t.y0, t.width, t.height, s);
         record_fragments(f, view, t.x0, t.y0, s);
     }
     resolve(f, t.x0, t.y0, t.width, t.height, s);
     lap(s, FrameStage::resolve);
+    if (s.peel && s.peel->triangle_count > 0)
+        draw_blended(t, view);
 }
 
 constexpr TileFns kFns = {transform_vertices, bin_triangles, touch_tiles, render_tile, record_vertices, kLanes};

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <bit>
 #include <chrono>
 #include <cstring>
 #include <optional>
@@ -20,6 +21,34 @@
 namespace burnish {
 
 namespace {
+
+// Memory of PeelScratch.
+struct WorkerPeel {
+    Column<float> alpha, depth, red, green, blue, through;
+    Column<std::int32_t> id;
+    Column<std::uint64_t> pixels;
+    Column<bool> done;
+    Column<std::uint32_t> triangles;
+
+    void prepare(std::size_t samples, std::size_t blocks)
+    {
+        for (Column<float>* c : {&alpha, &depth, &red, &green, &blue, &through})
+            c->resize(samples);
+        id.resize(samples), pixels.resize(blocks), done.resize(blocks);
+    }
+    PeelScratch view(TileScratch& layer, float* output_through)
+    {
+        if (triangles.size() < layer.triangle_count)
+            triangles.resize(layer.triangle_count);
+        PeelScratch p = {};
+        p.layer = &layer;
+        p.alpha = alpha.data(), p.depth = depth.data(), p.id = id.data();
+        p.red = red.data(), p.green = green.data(), p.blue = blue.data(), p.through = through.data();
+        p.pixels = pixels.data(), p.done = done.data(), p.triangles = triangles.data();
+        p.output_through = output_through;
+        return p;
+    }
+};
 
 // Scratch of one worker: everything a tile needs, sized once for the worst case.
 struct WorkerScratch {
@@ -94,6 +123,7 @@ struct WorkerScratch {
                 frame.stages.depths.empty() ? nullptr : frame.stages.depths.data(),
                 frame.stages.pairs.empty() ? nullptr : frame.stages.pairs.data(),
                 frame.layers.empty() ? nullptr : frame.layers.data()->depth,
+                nullptr,
                 nullptr};
     }
 };
@@ -110,7 +140,10 @@ class TileRenderer final : public Renderer {
 
   private:
     FrameParams frame_params(const FrameDesc& desc);
+    void prepare_workers(const FrameParams& f);
     void draw_tiles(const FrameParams& f, bool parts_wanted, Frame& frame, Profiler* profiler);
+    void draw_tile(const FrameParams& p, int x, int y, const TilePart& part, int worker, Frame& frame, bool parts_wanted,
+                   Profiler* profiler);
 
     RenderInput input_;
     std::string lanes_;
@@ -119,6 +152,8 @@ class TileRenderer final : public Renderer {
     Column<SnappedVertex> vertices_;
     Bins bins_;
     std::vector<WorkerScratch> workers_;
+    std::vector<WorkerScratch> layers_; // by worker, where a material blends
+    std::vector<WorkerPeel> peels_;
 };
 
 FrameParams TileRenderer::frame_params(const FrameDesc& desc)
@@ -129,7 +164,32 @@ FrameParams TileRenderer::frame_params(const FrameDesc& desc)
     f.tiles_x = (desc.width + desc.tile_size - 1) / desc.tile_size;
     f.tiles_y = (desc.height + desc.tile_size - 1) / desc.tile_size;
     f.vertices = vertices_.data();
+    f.blends = any_blends(maker_.materials());
     return f;
+}
+
+// Parts of a fragment that lies behind blended surfaces: each of its samples is one. x, y: pixel of the tile.
+void collect_blended_parts(const FrameParams& f, int x, int y, std::uint32_t i, const TileScratch& s, PixelPart part,
+                           std::vector<PixelPart>& to)
+{
+    const int block = y / kBlock * (f.tile_size / kBlock) + x / kBlock, in_block = y % kBlock * kBlock + x % kBlock;
+    const std::array<float, 3> behind = part.color;
+    const PeelScratch& p = *s.peel;
+    for (std::uint32_t rest = static_cast<std::uint32_t>(s.fragment_mask[i]); rest; rest &= rest - 1) {
+        const std::uint32_t sample = rest & -rest;
+        const int at = (block * f.msaa + std::countr_zero(sample)) * kBlockPixels + in_block;
+        const float through = p.through[at];
+        part = pixel_part(part.pixel, sample, s.fragment_triangle[i] < 0 && through == 1.0f,
+                          {p.red[at] + behind[0] * through, p.green[at] + behind[1] * through, p.blue[at] + behind[2] * through});
+        to.push_back(part);
+    }
+}
+
+bool shows_blended(const FrameParams& f, int x, int y, const TileScratch& s)
+{
+    if (!s.peel || s.peel->triangle_count == 0)
+        return false;
+    return s.peel->pixels[y / kBlock * (f.tile_size / kBlock) + x / kBlock] >> (y % kBlock * kBlock + x % kBlock) & 1u;
 }
 
 // The tile's fragments that leave some of their pixel to others. x0, y0: its corner, pixels.
@@ -138,26 +198,74 @@ void collect_parts(const FrameParams& f, int x0, int y0, const TileScratch& s, s
     const std::uint32_t whole = (1u << f.msaa) - 1;
     for (std::uint32_t i = 0; i < s.fragment_count; ++i) {
         const std::uint32_t samples = static_cast<std::uint32_t>(s.fragment_mask[i]);
-        if (samples == whole)
+        const int x = s.fragment_pixel[i] & 255, y = s.fragment_pixel[i] >> 8;
+        const bool blended = shows_blended(f, x, y, s);
+        if (samples == whole && (!blended || f.msaa == 1))
             continue;
-        const int x = x0 + (s.fragment_pixel[i] & 255), y = y0 + (s.fragment_pixel[i] >> 8);
-        to.push_back(pixel_part(static_cast<std::uint32_t>(y * f.width + x), samples, s.fragment_triangle[i] < 0,
-                                {s.red[i], s.green[i], s.blue[i]}));
+        const PixelPart part = pixel_part(static_cast<std::uint32_t>((y0 + y) * f.width + x0 + x), samples, s.fragment_triangle[i] < 0,
+                                          {s.red[i], s.green[i], s.blue[i]});
+        if (blended)
+            collect_blended_parts(f, x, y, i, s, part, to);
+        else
+            to.push_back(part);
     }
+}
+
+void TileRenderer::prepare_workers(const FrameParams& f)
+{
+    const std::vector<MaterialRecord>& materials = maker_.materials();
+    const bool shares =
+        std::any_of(materials.begin(), materials.end(), [](const MaterialRecord& m) { return (m.technique_traits & kSharesSamples) != 0; });
+    const std::size_t threads = static_cast<std::size_t>(input_.jobs.threads());
+    workers_.resize(threads);
+    for (WorkerScratch& w : workers_)
+        w.prepare(f.tile_size, f.msaa, materials.size(), shares);
+    if (!f.blends)
+        return;
+    layers_.resize(threads), peels_.resize(threads);
+    for (WorkerScratch& w : layers_)
+        w.prepare(f.tile_size, f.msaa, materials.size(), shares);
+    const std::size_t pixels = static_cast<std::size_t>(f.tile_size) * static_cast<std::size_t>(f.tile_size);
+    for (WorkerPeel& p : peels_)
+        p.prepare(pixels * static_cast<std::size_t>(f.msaa), pixels / kBlockPixels);
+}
+
+// Draws one tile, or a part of one, of the frame `p`. x, y: its place among the tiles of p.
+void TileRenderer::draw_tile(const FrameParams& p, int x, int y, const TilePart& part, int worker, Frame& frame, bool parts_wanted,
+                             Profiler* profiler)
+{
+    ProfiledWork work(profiler, worker);
+    const std::size_t me = static_cast<std::size_t>(worker);
+    WorkerScratch& w = workers_[me];
+    TileScratch scratch = w.view(frame, bins_.triangles_in(part)), layer = {};
+    scratch.clock = profiler ? profiler->clock(worker) : nullptr;
+    bins_.gather(part, w.entries.data(), w.triangles.data(), w.clips);
+    scratch.clips = w.clips.data();
+    PeelScratch peel = {};
+    if (p.blends) {
+        layer = layers_[me].view(frame, 0);
+        layer.triangle_count = scratch.triangle_count, layer.entries = scratch.entries, layer.triangles = scratch.triangles;
+        layer.clips = scratch.clips, layer.clock = scratch.clock;
+        peel = peels_[me].view(layer, frame.through.empty() ? nullptr : frame.through.data());
+        scratch.peel = &peel;
+    }
+    work.lap(FrameStage::gather);
+    fns_.render_tile(p, x, y, scratch);
+    if (parts_wanted)
+        collect_parts(p, x * p.tile_size, y * p.tile_size, scratch, w.parts);
+    w.stats.visible_fragments += scratch.fragment_count - scratch.background_pixels + peel.fragment_count;
+    w.stats.background_pixels += scratch.background_pixels;
+    if (profiler)
+        profiler->end_tile(worker, part.tile);
 }
 
 void TileRenderer::draw_tiles(const FrameParams& f, bool parts_wanted, Frame& frame, Profiler* profiler)
 {
     const TraceSpan span("tiles");
-    workers_.resize(static_cast<std::size_t>(input_.jobs.threads()));
     const std::size_t tiles = static_cast<std::size_t>(f.tiles_x) * static_cast<std::size_t>(f.tiles_y);
     {
         ProfiledWork work(profiler, 0);
-        const std::vector<MaterialRecord>& materials = maker_.materials();
-        const bool shares = std::any_of(materials.begin(), materials.end(),
-                                        [](const MaterialRecord& m) { return (m.technique_traits & kSharesSamples) != 0; });
-        for (WorkerScratch& w : workers_)
-            w.prepare(f.tile_size, f.msaa, materials.size(), shares);
+        prepare_workers(f);
         work.lap(FrameStage::prepare);
     }
     const LongTiles hot = long_tiles(bins_.triangles_by_tile(tiles), input_.jobs.threads());
@@ -177,20 +285,7 @@ void TileRenderer::draw_tiles(const FrameParams& f, bool parts_wanted, Frame& fr
         if (x * p.tile_size >= f.width || y * p.tile_size >= f.height)
             return; // a part beyond the image
         const TraceSpan tile_span("tile");
-        ProfiledWork work(profiler, worker);
-        WorkerScratch& w = workers_[static_cast<std::size_t>(worker)];
-        TileScratch scratch = w.view(frame, bins_.triangles_in(part));
-        scratch.clock = profiler ? profiler->clock(worker) : nullptr;
-        bins_.gather(part, w.entries.data(), w.triangles.data(), w.clips);
-        scratch.clips = w.clips.data();
-        work.lap(FrameStage::gather);
-        fns_.render_tile(p, x, y, scratch);
-        if (parts_wanted)
-            collect_parts(p, x * p.tile_size, y * p.tile_size, scratch, w.parts);
-        w.stats.visible_fragments += scratch.fragment_count - scratch.background_pixels;
-        w.stats.background_pixels += scratch.background_pixels;
-        if (profiler)
-            profiler->end_tile(worker, part.tile);
+        draw_tile(p, x, y, part, worker, frame, parts_wanted, profiler);
     };
     // The long ones first, then parts, by the thread that is free next, then all others, a few that lie side by side at a time.
     std::vector<TilePart> order;
@@ -231,7 +326,7 @@ std::size_t tiles_of(const FrameDesc& d)
 }
 
 // Memory for a frame. Every pixel will be written, so what a frame of the same size leaves in it may stay.
-Frame frame_for(const FrameDesc& desc, Frame recycled)
+Frame frame_for(const FrameDesc& desc, bool blends, Frame recycled)
 {
     Frame frame;
     frame.color = std::move(recycled.color);
@@ -243,6 +338,10 @@ Frame frame_for(const FrameDesc& desc, Frame recycled)
         static_cast<std::size_t>(desc.width) * static_cast<std::size_t>(desc.height) * static_cast<std::size_t>(desc.msaa);
     if (desc.triangle_ids || desc.stages)
         frame.triangle_ids.resize(samples);
+    if (desc.triangle_ids && blends) {
+        frame.through.resize(samples);
+        std::fill(frame.through.begin(), frame.through.end(), 1.0f);
+    }
     if (desc.stages)
         frame.stages.depths.resize(samples), frame.stages.pairs.resize(samples * kPairWords);
     if (desc.layers)
@@ -261,10 +360,10 @@ Result<Frame> TileRenderer::render(const FrameDesc& desc, Frame recycled)
         measured.emplace(input_.jobs.threads(), tiles_of(desc), maker_.scene().materials.size(), fns_.lanes);
     Profiler* const profiler = measured ? &*measured : nullptr;
     ProfiledWork before(profiler, 0);
-    Frame frame = frame_for(desc, std::move(recycled));
+    const FrameParams f = frame_params(desc);
+    Frame frame = frame_for(desc, f.blends, std::move(recycled));
     if (desc.stages)
         frame.stages.vertices.resize(input_.tables.px.size() * kVertexWords);
-    const FrameParams f = frame_params(desc);
     before.lap(FrameStage::prepare);
     const Visible visible = cull(input_.tables, desc.view);
     before.lap(FrameStage::cull);

@@ -79,6 +79,7 @@ inline void add_run(ChunkOutput& out, std::uint32_t first_tile, std::uint32_t la
 struct FrameParams : ShadingFrame {
     std::int32_t tile_size, tiles_x, tiles_y;
     SnappedVertex* vertices; // by global vertex id
+    bool blends;             // some material blends
 };
 
 inline constexpr std::int32_t kNoMaterial = -1, kManyMaterials = -2; // instead of one
@@ -101,6 +102,25 @@ struct BlockPlane {
     float z, dz_x, dz_y; // at the block's corner, and their change by pixel
     float z_min, z_max;  // of the triangle's vertices: samples are clamped to them
     std::uint32_t id;    // index into `triangles`
+};
+
+struct TileScratch;
+
+// Blended surfaces of a tile, one depth layer after another from the nearest on (depth peeling, Everitt 2001): memory is that of one layer,
+// whatever their number.
+struct PeelScratch {
+    TileScratch* layer;        // fragments of the layer at hand; its triangles are the tile's
+    float* alpha;              // of the layer, by fragment
+    float* depth;              // [block][sample][64] of the last layer; -1 where no further one is seen
+    std::int32_t* id;          // [block][sample][64] its triangle
+    float *red, *green, *blue; // [block][sample][64] blended_light::over
+    float* through;            // [block][sample][64] blended_light::through
+    std::uint64_t* pixels;     // [block] pixels that show a blended surface
+    bool* done;                // [block] no further layer
+    std::uint32_t* triangles;  // blended ones of the tile's list
+    std::uint32_t triangle_count;
+    std::uint32_t fragment_count; // of all layers
+    float* output_through;        // the frame's [pixel][sample], or null
 };
 
 // Scratch memory of one worker; sized for the worst case of a tile, so tile loops never allocate.
@@ -137,6 +157,7 @@ struct TileScratch {
     std::uint32_t *output_depths, *output_pairs; // its stage records, or null
     float* output_layers;                        // [pixel][kLayerWords] its layers, or null
     TileClock* clock;                            // null unless the frame is profiled
+    PeelScratch* peel;                           // null where no material blends
 };
 
 struct TileFns { // one table an instruction set

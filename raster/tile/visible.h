@@ -14,9 +14,19 @@ struct Tile {
     int x0, y0, width, height; // pixels
 };
 
+enum class Surfaces {
+    solid, // opaque and masked ones; triangles of others are listed in PeelScratch::triangles
+    all    // blended ones too, where alpha is above a half
+};
+
 // Draws the tile's triangles and lists its fragments by material, slot by slot: TileScratch::slot_begin and so on. Returns the number of
 // slots; slot 0 is the background.
-int find_visible(const Tile& tile, const view_params& view);
+int find_visible(const Tile& tile, const view_params& view, Surfaces surfaces);
+
+// Begins the tile's blended layers, after its solid surfaces were found.
+void begin_layers(const Tile& tile);
+// Lists the next layer's fragments in PeelScratch::layer, as find_visible() does. Returns the number of slots: 1 where there is none.
+int find_layer(const Tile& tile);
 
 // A stage ends: one test where nobody profiles.
 BN_INLINE void lap(const TileScratch& s, FrameStage stage, std::int32_t material = -1, std::uint32_t used = 0)

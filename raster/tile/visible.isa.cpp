@@ -3,6 +3,7 @@
 #include "raster/tile/visible.h"
 
 #include "raster/tile/draw_order.h"
+#include "raster/tile/peel.h"
 #include "raster/tile/raster.h"
 #include "raster/tile/shade.h"
 #include "raster/tile/small_triangles.h"
@@ -41,7 +42,7 @@ struct BlockAlpha {
             store(to + i, alpha_at(t, m, view, id, (pixel & int_lit(7)) + x0, shr(pixel, 3) + y0));
         }
     }
-    std::uint32_t staying(real alpha, int sample) const { return to_bits(alpha_stays(m, alpha, splat(blend_threshold(sample, t.f.msaa)))); }
+    std::uint32_t staying(real alpha) const { return to_bits(alpha_stays(m, alpha, lit(0.5))); }
 };
 
 struct AlphaBlocks {
@@ -58,14 +59,35 @@ BN_INLINE void note_material(TileScratch& s, std::int32_t material)
     s.only_material = s.only_material == kNoMaterial || s.only_material == material ? material : kManyMaterials;
 }
 
+// Lists the triangles `some` of the register from `first` on.
+BN_INLINE std::uint32_t list_triangles(std::uint32_t some, std::uint32_t first, std::uint32_t* to)
+{
+    std::uint32_t n = 0;
+    for (std::uint32_t bits = some; bits; bits &= bits - 1)
+        to[n++] = first + static_cast<std::uint32_t>(__builtin_ctz(bits));
+    return n;
+}
+
+// Those of the triangles `used` from `first` on whose material blends.
+std::uint32_t blended_triangles(const Tile& t, std::uint32_t first, std::uint32_t used)
+{
+    std::uint32_t blended = 0;
+    for (std::uint32_t bits = used; bits; bits &= bits - 1) {
+        const std::uint32_t lane = static_cast<std::uint32_t>(__builtin_ctz(bits));
+        if (t.f.materials[t.s.triangles[first + lane].info >> 2].alpha_mode == kAlpha_blend)
+            blended |= 1u << lane;
+    }
+    return blended;
+}
+
 // Draws the small ones of a register of triangles, and notes where there are some; the others join the list of those drawn singly.
-void raster_register(const Tile& t, std::uint32_t first, std::uint32_t& singly, bool& some_small)
+void raster_register(const Tile& t, std::uint32_t first, Surfaces surfaces, std::uint32_t& singly, bool& some_small)
 {
     TileScratch& s = t.s;
     mask whole;
     integer material;
     const LaneTriangles triangles = load_triangles(t.f, s, first, whole, material);
-    const std::uint32_t used = s.triangle_count - first < kLanes ? (1u << (s.triangle_count - first)) - 1 : (1u << kLanes) - 1;
+    std::uint32_t used = s.triangle_count - first < kLanes ? (1u << (s.triangle_count - first)) - 1 : (1u << kLanes) - 1;
     std::uint32_t small = to_bits(both(whole, small_triangles(triangles)));
     std::uint32_t rest = small; // whose material was not looked at
     while (rest) {
@@ -77,8 +99,12 @@ void raster_register(const Tile& t, std::uint32_t first, std::uint32_t& singly, 
             small &= ~same;
         rest &= ~same;
     }
-    for (std::uint32_t bits = used & ~small; bits; bits &= bits - 1)
-        s.drawn_singly[singly++] = first + static_cast<std::uint32_t>(__builtin_ctz(bits));
+    if (t.f.blends && surfaces == Surfaces::solid) {
+        const std::uint32_t blended = blended_triangles(t, first, used & ~small);
+        s.peel->triangle_count += list_triangles(blended, first, s.peel->triangles + s.peel->triangle_count);
+        used &= ~blended;
+    }
+    singly += list_triangles(used & ~small, first, s.drawn_singly + singly);
     if (small) {
         if (!some_small) // where there is one there are many
             write_all_blocks(t.f, s);
@@ -107,14 +133,16 @@ template <bool kAnyOrder> void raster_singly(const Tile& t, const view_params& v
     }
 }
 
-void raster_tile(const Tile& t, const view_params& view)
+void raster_tile(const Tile& t, const view_params& view, Surfaces surfaces)
 {
     TileScratch& s = t.s;
     s.only_material = kNoMaterial;
+    if (s.peel)
+        s.peel->triangle_count = 0;
     std::uint32_t singly = 0;
     bool some_small = false;
     for (std::uint32_t i = 0; i < s.triangle_count; i += kLanes)
-        raster_register(t, i, singly, some_small);
+        raster_register(t, i, surfaces, singly, some_small);
     if (some_small) // the blocks' bounds are out of date
         __builtin_memset(s.block_dirty, 255, static_cast<std::size_t>((t.f.tile_size / kBlock) * (t.f.tile_size / kBlock)));
     const bool sorted = front_to_back(t.f, s, singly, t.index_x, t.index_y); // where it pays to know at once what hides the rest
@@ -254,21 +282,60 @@ int sort_fragments(TileScratch& s)
 
 } // namespace
 
-int find_visible(const Tile& t, const view_params& view)
+int find_visible(const Tile& t, const view_params& view, Surfaces surfaces)
 {
     TileScratch& s = t.s;
     empty_blocks((t.f.tile_size / kBlock) * (t.f.tile_size / kBlock), s);
     lap(s, FrameStage::clear);
-    raster_tile(t, view);
+    raster_tile(t, view, surfaces);
     lap(s, FrameStage::coverage);
-    if (s.output_ids || s.output_pairs)
-        write_all_blocks(t.f, s);
-    if (s.output_ids)
-        write_ids(t);
+    if (surfaces == Surfaces::solid) {
+        if (s.output_ids || s.output_pairs)
+            write_all_blocks(t.f, s);
+        if (s.output_ids)
+            write_ids(t);
+    }
     list_fragments(t.f, t.width, t.height, s);
     const int slots = sort_fragments(s);
     lap(s, FrameStage::visibility);
     return slots;
+}
+
+void begin_layers(const Tile& t)
+{
+    write_all_blocks(t.f, t.s);
+    PeelScratch& peel = *t.s.peel;
+    const int blocks = (t.f.tile_size / kBlock) * (t.f.tile_size / kBlock), samples = t.f.msaa * kBlockPixels;
+    for (int i = 0; i < blocks * samples; i += kLanes) {
+        store(peel.depth + i, lit(2.0)); // nearer than any surface
+        store_int(peel.id + i, int_lit(-1));
+        store(peel.red + i, lit(0.0)), store(peel.green + i, lit(0.0)), store(peel.blue + i, lit(0.0));
+        store(peel.through + i, lit(1.0));
+    }
+    for (int block = 0; block < blocks; ++block)
+        peel.pixels[block] = 0, peel.done[block] = false;
+    peel.fragment_count = 0;
+}
+
+int find_layer(const Tile& t)
+{
+    PeelScratch& peel = *t.s.peel;
+    TileScratch& layer = *peel.layer;
+    begin_layer(t.f, t.s, layer);
+    for (std::uint32_t k = 0; k < peel.triangle_count; ++k) {
+        const std::uint32_t i = peel.triangles[k];
+        TileTriangle triangle;
+        if (!begin_triangle(t.f, layer.triangles[i], t.index_x, t.index_y, triangle))
+            continue;
+        triangle.refresh_writes = 4;
+        note_material(layer, layer.triangles[i].info >> 2);
+        raster_triangle<true>(t.f, triangle, i, layer, PeelBlocks{t.f, peel});
+    }
+    lap(layer, FrameStage::coverage);
+    list_fragments(t.f, t.width, t.height, layer);
+    const int slots = sort_fragments(layer);
+    lap(layer, FrameStage::visibility);
+    return layer.background_pixels == layer.fragment_count ? 1 : slots;
 }
 
 } // namespace BN_ISA_NS

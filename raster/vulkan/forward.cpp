@@ -162,7 +162,7 @@ void ForwardPass::begin(VkCommandBuffer c, const Band& band, bool resolves)
 
 void ForwardPass::draw(VkCommandBuffer c, const Specialization& technique, const Band& band)
 {
-    const GpuPass pass = {0, 0, -1, 0, 0, band.first_row, band.rows, 0};
+    const GpuPass pass = {0, 0, -1, 0, 0, band.first_row, band.rows, 0, 0};
     begin(c, band, targets_.msaa > 1);
     if (lean_)
         lean_->draw(c, *native_, static_cast<VkSampleCountFlagBits>(targets_.msaa), kColorFormat, band);
@@ -198,7 +198,7 @@ void ForwardPass::gather(VkCommandBuffer c, const char* shader, const Band& band
     change_layout(c, targets_.depth, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
     vkCmdBindPipeline(c, VK_PIPELINE_BIND_POINT_COMPUTE, pipelines_.compute(name));
     pipelines_.bind_set(c, VK_PIPELINE_BIND_POINT_COMPUTE);
-    pipelines_.push(c, {0, 0, 0, 0, 0, band.first_row, band.rows, group});
+    pipelines_.push(c, {0, 0, 0, 0, 0, band.first_row, band.rows, group, 0});
     pipelines_.dispatch(c, static_cast<std::size_t>(targets_.width) * static_cast<std::size_t>(band.rows));
 }
 
@@ -208,7 +208,7 @@ void ForwardPass::record(const FrameDesc& desc, const Band& band, Frame& frame)
     gather(c, "gather_words", band, kGpuColorGroup); // of what draw has left
     for (int group = 0; group < kGpuColorGroup; ++group) {
         begin(c, band, false);
-        draw_scene(c, {}, {0, 0, -1, 0, 0, band.first_row, band.rows, group}, true);
+        draw_scene(c, {}, {0, 0, -1, 0, 0, band.first_row, band.rows, group, 0}, true);
         vkCmdEndRendering(c);
         gather(c, group == 0 ? "gather" : "gather_words", band, group);
     }

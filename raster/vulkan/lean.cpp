@@ -82,7 +82,7 @@ const char* not_of_material(const MaterialRecord& m)
     if (m.coated != 0)
         return "clear coats";
     if (m.alpha_mode == kAlpha_blend)
-        return "alpha as coverage";
+        return "blended alpha";
     if (m.relief != 0 || m.moments == kMomentsOfTilt || m.moments == kMomentsOfAll || m.tilted != 0 || m.tilt_mapped != 0)
         return "heights, tilts and moments of slopes in textures";
     if (used(m, kSpecularTex) || used(m, kSpecularColorTex))

@@ -28,6 +28,7 @@ enum Binding : std::uint32_t {
     kRecordsBinding,
     kLinesBinding,
     kAreaLightsBinding,
+    kPeelBinding,
     kBufferBindings,
     kIdImageBinding = kBufferBindings,
     kDepthImageBinding,

@@ -25,16 +25,17 @@ constexpr VkFormat kIdFormat = VK_FORMAT_R32G32_SFLOAT; // lower and upper 16 bi
 constexpr VkFormat kDepthFormat = VK_FORMAT_D32_SFLOAT;
 constexpr std::uint32_t kMinSetups = 1024;
 
-std::int32_t recorded_of(const FrameDesc& desc)
+std::int32_t recorded_of(const FrameDesc& desc, bool blends)
 {
-    return (desc.stages ? kGpuRecordStages : 0) | (desc.layers ? kGpuRecordLayers : 0) | (desc.parts ? kGpuRecordColors : 0);
+    return (desc.stages ? kGpuRecordStages : 0) | (desc.layers ? kGpuRecordLayers : 0) | (desc.parts || blends ? kGpuRecordColors : 0);
 }
 
-// Words that are recorded of so many pixels.
-std::size_t recorded_words(const FrameDesc& desc, std::size_t pixels)
+// Words that are recorded of so many pixels. recorded: kGpuRecordStages...
+std::size_t recorded_words(std::int32_t recorded, int msaa, std::size_t pixels)
 {
-    const std::size_t samples = pixels * static_cast<std::size_t>(desc.msaa);
-    return (desc.stages ? samples * kPairWords : 0) + (desc.layers ? pixels * kLayerWords : 0) + (desc.parts ? 3 * samples : 0);
+    const std::size_t samples = pixels * static_cast<std::size_t>(msaa);
+    return (recorded & kGpuRecordStages ? samples * kPairWords : 0) + (recorded & kGpuRecordLayers ? pixels * kLayerWords : 0) +
+           (recorded & kGpuRecordColors ? 3 * samples : 0);
 }
 
 // Images and buffers of one band.
@@ -43,7 +44,7 @@ struct Targets {
     std::int32_t recorded = 0;         // kGpuRecordStages...
     bool native = false, shares = false;
     DeviceImage id, depth;
-    Buffer ids, depths, color, records, lines;
+    Buffer ids, depths, color, records, lines, peel;
 };
 
 class Device final : public VulkanDevice {
@@ -78,13 +79,19 @@ class VulkanRenderer final : public Renderer {
     void bind_all();
     void dispatch(VkCommandBuffer c, VkPipeline pipeline, std::size_t invocations);
     void geometry(VkCommandBuffer c);
+    bool blends() const { return any_blends(scene_.tables().materials); }
     void visibility(VkCommandBuffer c, const GpuPass& pass);
-    void all_visibility(VkCommandBuffer c, const Band& band);
+    void all_visibility(VkCommandBuffer c, const Band& band, int surfaces);
+    Specialization shade_constants(const FrameDesc& desc) const;
     void shade(VkCommandBuffer c, const FrameDesc& desc, const Band& band);
+    void compose(VkCommandBuffer c, const FrameDesc& desc, const Band& band, int phase);
     void submit(VkCommandBuffer c); // and time it
     void begin_frame(const FrameDesc& desc);
-    void draw_band(const FrameDesc& desc, const Band& band);
+    void draw_band(const FrameDesc& desc, const Band& band, int surfaces);
+    void draw_blended(const FrameDesc& desc, const Band& band, Frame& frame);
     void read_band(const FrameDesc& desc, const Band& band, Frame& frame);
+    void read_layers(const FrameDesc& desc, const Band& band, Frame& frame);
+    void read_blended(const FrameDesc& desc, const Band& band, Frame& frame);
     std::size_t band_bytes() const { return device_->options.band_bytes ? device_->options.band_bytes : kBandBytes; }
     Frame render_ids(const FrameDesc& desc);
     Frame render_forward(const FrameDesc& desc);
@@ -116,11 +123,13 @@ void VulkanRenderer::make_targets(const FrameDesc& desc)
                                                       : std::any_of(materials.begin(), materials.end(),
                                                                     [](const MaterialRecord& m) { return m.anisotropic != 0; });
     const bool shares = (technique_of(desc, anisotropic).traits & kSharesSamples) != 0;
+    const std::int32_t recorded = recorded_of(desc, blends());
     const std::size_t words =
-        std::max({std::size_t{3}, msaa * static_cast<std::size_t>(shares ? kGpuLineWords : 1), recorded_words(desc, 1)}); // a pixel
+        std::max({std::size_t{3}, msaa * static_cast<std::size_t>(shares ? kGpuLineWords : 1),
+                  msaa * static_cast<std::size_t>(blends() ? kGpuPeelWords : 1), recorded_words(recorded, desc.msaa, 1)}); // a pixel
     const int rows = band_rows(desc.width, desc.height, words * sizeof(float), band_bytes());
     Targets t;
-    t.width = desc.width, t.rows = rows, t.msaa = desc.msaa, t.recorded = recorded_of(desc), t.shares = shares;
+    t.width = desc.width, t.rows = rows, t.msaa = desc.msaa, t.recorded = recorded, t.shares = shares;
     t.native = desc.msaa == 1 ||
                ((context_.features().target_samples & static_cast<VkSampleCountFlags>(desc.msaa)) && context_.features().standard_samples);
     if (t.width == targets_.width && t.rows == targets_.rows && t.msaa == targets_.msaa && t.recorded == targets_.recorded &&
@@ -138,8 +147,9 @@ void VulkanRenderer::make_targets(const FrameDesc& desc)
     t.ids = Buffer(context_, samples * sizeof(std::int32_t), Buffer::Place::host);
     t.depths = Buffer(context_, samples * sizeof(float), Buffer::Place::host);
     t.color = Buffer(context_, 3 * pixels * sizeof(float), Buffer::Place::host);
-    t.records = Buffer(context_, recorded_words(desc, pixels) * sizeof(std::uint32_t), Buffer::Place::host);
+    t.records = Buffer(context_, recorded_words(recorded, desc.msaa, pixels) * sizeof(std::uint32_t), Buffer::Place::host);
     t.lines = Buffer(context_, shares ? samples * kGpuLineWords * sizeof(float) : 0, Buffer::Place::device);
+    t.peel = Buffer(context_, blends() ? samples * kGpuPeelWords * sizeof(float) : 0, Buffer::Place::host);
     targets_ = std::move(t); // only what was made whole
 }
 
@@ -157,6 +167,7 @@ void VulkanRenderer::bind_all()
     bind(kVerticesBinding, vertices_), bind(kSetupsBinding, setups_), bind(kCountsBinding, counts_), bind(kDrawBinding, draw_);
     bind(kIdsBinding, targets_.ids), bind(kDepthsBinding, targets_.depths);
     bind(kColorBinding, targets_.color), bind(kRecordsBinding, targets_.records), bind(kLinesBinding, targets_.lines);
+    bind(kPeelBinding, targets_.peel);
     pipelines_.bind_image(kIdImageBinding, targets_.id), pipelines_.bind_image(kDepthImageBinding, targets_.depth);
 }
 
@@ -213,15 +224,16 @@ void VulkanRenderer::visibility(VkCommandBuffer c, const GpuPass& pass)
              static_cast<std::size_t>(targets_.width) * static_cast<std::size_t>(pass.rows));
 }
 
-void VulkanRenderer::all_visibility(VkCommandBuffer c, const Band& band)
+// surfaces: kGpuSolid...
+void VulkanRenderer::all_visibility(VkCommandBuffer c, const Band& band, int surfaces)
 {
     if (targets_.native) {
-        visibility(c, {0, 0, targets_.msaa == 1 ? 0 : -1, 0, 0, band.first_row, band.rows, 0});
+        visibility(c, {0, 0, targets_.msaa == 1 ? 0 : -1, 0, 0, band.first_row, band.rows, 0, surfaces});
         return;
     }
     const SamplePattern& pattern = scene_.record().pattern;
     for (int s = 0; s < targets_.msaa; ++s)
-        visibility(c, {kSubpixel / 2 - pattern.x[s], kSubpixel / 2 - pattern.y[s], s, 0, 0, band.first_row, band.rows, 0});
+        visibility(c, {kSubpixel / 2 - pattern.x[s], kSubpixel / 2 - pattern.y[s], s, 0, 0, band.first_row, band.rows, 0, surfaces});
 }
 
 // constant_id 0 and 1 of shading/stages: bits of techniques, by their places in models.def, and of lobes.
@@ -268,20 +280,35 @@ bool any_shares_samples(const std::vector<MaterialRecord>& materials)
                        [](const MaterialRecord& m) { return (m.technique_traits & kSharesSamples) != 0; });
 }
 
-void VulkanRenderer::shade(VkCommandBuffer c, const FrameDesc& desc, const Band& band)
+Specialization VulkanRenderer::shade_constants(const FrameDesc& desc) const
 {
     const bool shares = any_shares_samples(scene_.materials_of_frame());
     const Used others = used_by(device_->options.frames, shares);
     Specialization constants = technique_constants(scene_.materials_of_frame(), scene_.record(), others);
-    constants.insert(constants.end(), {recorded_of(desc), shares});
+    constants.insert(constants.end(), {recorded_of(desc, blends()), shares});
+    return constants;
+}
+
+void VulkanRenderer::shade(VkCommandBuffer c, const FrameDesc& desc, const Band& band)
+{
+    const Specialization constants = shade_constants(desc);
     if (desc.stages)
         vkCmdFillBuffer(c, targets_.records.handle(), 0, VK_WHOLE_SIZE, 0);
     full_barrier(c);
-    pipelines_.push(c, {0, 0, 0, 0, 0, band.first_row, band.rows, 0});
+    pipelines_.push(c, {0, 0, 0, 0, 0, band.first_row, band.rows, 0, 0});
     const std::size_t pixels = static_cast<std::size_t>(targets_.width) * static_cast<std::size_t>(band.rows);
     dispatch(c, pipelines_.compute("shade", constants), pixels);
-    if (shares)
+    if (constants.back())
         dispatch(c, pipelines_.compute("share", constants), pixels);
+}
+
+// phase: of compose.comp.
+void VulkanRenderer::compose(VkCommandBuffer c, const FrameDesc& desc, const Band& band, int phase)
+{
+    Specialization constants = shade_constants(desc);
+    constants.insert(constants.end(), {-1, phase});
+    pipelines_.push(c, {0, 0, 0, 0, 0, band.first_row, band.rows, 0, 0});
+    dispatch(c, pipelines_.compute("compose", constants), static_cast<std::size_t>(targets_.width) * static_cast<std::size_t>(band.rows));
 }
 
 void VulkanRenderer::begin_frame(const FrameDesc& desc)
@@ -291,15 +318,37 @@ void VulkanRenderer::begin_frame(const FrameDesc& desc)
     bind_all();
 }
 
-// The first band makes the setups of all.
-void VulkanRenderer::draw_band(const FrameDesc& desc, const Band& band)
+// The first band makes the setups of all. surfaces: kGpuSolid or kGpuAll.
+void VulkanRenderer::draw_band(const FrameDesc& desc, const Band& band, int surfaces)
 {
     VkCommandBuffer c = context_.begin();
     pipelines_.bind_set(c, VK_PIPELINE_BIND_POINT_COMPUTE);
     if (band.first_row == 0)
         geometry(c);
-    all_visibility(c, band);
+    all_visibility(c, band, surfaces);
     shade(c, desc, band);
+    if (blends() && surfaces == kGpuSolid)
+        compose(c, desc, band, 0);
+    submit(c);
+}
+
+// Draws blended surfaces layer by layer, the nearest first, until one is empty.
+void VulkanRenderer::draw_blended(const FrameDesc& desc, const Band& band, Frame& frame)
+{
+    std::int32_t& peeled = static_cast<GpuDraw*>(draw_.data())->peeled;
+    for (int pairs = 1; pairs > 0; pairs = peeled) {
+        peeled = 0;
+        VkCommandBuffer c = context_.begin();
+        pipelines_.bind_set(c, VK_PIPELINE_BIND_POINT_COMPUTE);
+        all_visibility(c, band, kGpuLayer);
+        shade(c, desc, band);
+        compose(c, desc, band, 1);
+        submit(c);
+        frame.stats.visible_fragments += static_cast<std::uint64_t>(peeled);
+    }
+    VkCommandBuffer c = context_.begin();
+    pipelines_.bind_set(c, VK_PIPELINE_BIND_POINT_COMPUTE);
+    compose(c, desc, band, 2);
     submit(c);
 }
 
@@ -354,12 +403,56 @@ void VulkanRenderer::read_band(const FrameDesc& desc, const Band& band, Frame& f
         std::copy_n(records, pixels * msaa * kPairWords, frame.stages.pairs.data() + first * msaa * kPairWords);
         records += pixels * msaa * kPairWords;
     }
-    if (desc.layers) {
-        std::memcpy(static_cast<void*>(frame.layers.data() + first), records, pixels * sizeof(PixelLayers));
+    if (desc.layers)
         records += pixels * kLayerWords;
-    }
     if (desc.parts)
         add_parts(desc.msaa, first, pixels, ids, reinterpret_cast<const float*>(records), frame.parts);
+}
+
+void VulkanRenderer::read_layers(const FrameDesc& desc, const Band& band, Frame& frame)
+{
+    const std::size_t width = static_cast<std::size_t>(desc.width), pixels = width * static_cast<std::size_t>(band.rows);
+    const std::uint32_t* records = targets_.records.as<std::uint32_t>();
+    if (desc.stages)
+        records += pixels * static_cast<std::size_t>(desc.msaa) * kPairWords;
+    std::memcpy(static_cast<void*>(frame.layers.data() + width * static_cast<std::size_t>(band.first_row)), records,
+                pixels * sizeof(PixelLayers));
+}
+
+// Words of a sample in the peel buffer, as shading/stages/peel.glsl names them.
+struct PeeledSample {
+    float solid_depth;
+    std::int32_t solid_id;
+    float depth;
+    std::int32_t id;
+    float through, over[3], behind[3], shown;
+};
+static_assert(sizeof(PeeledSample) == kGpuPeelWords * sizeof(float));
+
+// Takes the place of what read_band() took of the pixels that show blended surfaces.
+void VulkanRenderer::read_blended(const FrameDesc& desc, const Band& band, Frame& frame)
+{
+    const std::size_t width = static_cast<std::size_t>(desc.width), msaa = static_cast<std::size_t>(desc.msaa);
+    const std::size_t first = width * static_cast<std::size_t>(band.first_row), pixels = width * static_cast<std::size_t>(band.rows);
+    const PeeledSample* const samples = targets_.peel.as<PeeledSample>();
+    const auto shown = [&](std::size_t pixel) { return samples[pixel * msaa].shown != 0.0f; };
+    std::erase_if(frame.parts, [&](const PixelPart& part) { return part.pixel >= first && shown(part.pixel - first); });
+    for (std::size_t p = 0; p < pixels; ++p) {
+        if (!shown(p))
+            continue;
+        std::copy_n(targets_.color.as<float>() + 3 * p, 3, frame.color.f32() + 3 * (first + p));
+        for (std::size_t s = 0; s < msaa; ++s) {
+            const PeeledSample& at = samples[p * msaa + s];
+            if (!frame.through.empty())
+                frame.through[(first + p) * msaa + s] = at.through;
+            const auto color = [&](int c) { return at.over[c] + at.behind[c] * at.through; };
+            if (desc.parts && msaa > 1)
+                frame.parts.push_back(pixel_part(static_cast<std::uint32_t>(first + p), 1u << s,
+                                                 at.solid_id == kGpuNoTriangle && at.through == 1.0f, {color(0), color(1), color(2)}));
+        }
+    }
+    std::sort(frame.parts.begin(), frame.parts.end(),
+              [](const PixelPart& a, const PixelPart& b) { return a.pixel != b.pixel ? a.pixel < b.pixel : a.first < b.first; });
 }
 
 // A frame with room for what is asked for.
@@ -382,16 +475,30 @@ Frame VulkanRenderer::render_ids(const FrameDesc& desc)
 {
     make_targets(desc);
     Frame frame = empty_frame(desc);
+    if (desc.triangle_ids && blends()) {
+        frame.through.resize(frame.triangle_ids.size());
+        std::fill(frame.through.begin(), frame.through.end(), 1.0f);
+    }
     begin_frame(desc);
     for (const Band& band : bands_of(desc.height, targets_.rows)) {
-        draw_band(desc, band);
+        draw_band(desc, band, kGpuSolid);
         const auto setups = static_cast<std::uint32_t>(draw_.as<GpuDraw>()->setups);
         if (setups > setup_capacity_) { // of the first band: clipping left more pieces than there was room for
             make_setups(setups + setups / 4);
             begin_frame(desc);
-            draw_band(desc, band);
+            draw_band(desc, band, kGpuSolid);
         }
         read_band(desc, band, frame);
+        if (desc.layers && !blends())
+            read_layers(desc, band, frame);
+        if (!blends())
+            continue;
+        draw_blended(desc, band, frame);
+        read_blended(desc, band, frame);
+        if (desc.layers) {
+            draw_band(desc, band, kGpuAll);
+            read_layers(desc, band, frame);
+        }
     }
     frame.stats.triangles = static_cast<std::uint64_t>(scene_.places().triangle_count);
     frame.stats.triangles_drawn = static_cast<std::uint64_t>(draw_.as<GpuDraw>()->setups);
@@ -434,6 +541,8 @@ Result<Frame> VulkanRenderer::render(const FrameDesc& desc, Frame)
         return Error{ExitCode::usage, "", "--pipeline", "lean has neither stages nor triangle ids"};
     if (forward && (desc.layers || desc.parts))
         return Error{ExitCode::usage, "", "--pipeline", "only ids has layers and parts of pixels"};
+    if (device_->options.pipeline == VulkanPipeline::forward && blends())
+        return Error{ExitCode::usage, "", "--pipeline", "forward does not sort blended surfaces, which the scene has; ids does"};
     if (forward && desc.triangle_ids && !desc.stages)
         return Error{ExitCode::usage, "", "--pipeline", "forward has triangle ids only among its stages"};
     try {

@@ -24,7 +24,12 @@ const int kGpuCoatBit = 24;      // of the same constant: some material has a cl
 const int kGpuViewportHalf = 8192;
 
 const int kGpuRecordStages = 1, kGpuRecordLayers = 2, kGpuRecordColors = 4; // bits of what a band records: stages/records.glsl
-const int kGpuLineWords = 16;                                               // line_record (shading/techniques/shared_line.k.h)
+// Surfaces of a pass: opaque and masked ones; the next layer of blended ones; all, the blended ones where alpha is above a half.
+const int kGpuSolid = 0, kGpuLayer = 1, kGpuAll = 2;
+// Words of a sample in BnPeel (stages/peel.glsl): depth and id of the solid surface, depth and id of the last layer, light through the
+// layers so far, their light, colour behind them, and whether the pixel shows one (of its first sample).
+const int kGpuPeelWords = 12;
+const int kGpuLineWords = 16; // line_record (shading/techniques/shared_line.k.h)
 // The forward pipeline records a sample's words four at a time, as colours: 0 triangle ids, then interpolants and material inputs, then
 // colour.
 const int kGpuForwardGroups = 1 + (kInterpolantWords + kMaterialWords + 3) / 4, kGpuColorGroup = kGpuForwardGroups;
@@ -63,8 +68,8 @@ struct GpuSetup {
     float bary[9]; // of a piece: corner j = sum_k bary[3j+k] * vertex k
 };
 
-struct GpuDraw { // VkDrawIndirectCommand, and how many setups there are
-    int vertex_count, instance_count, first_vertex, first_instance, setups;
+struct GpuDraw { // VkDrawIndirectCommand, how many setups there are, and (pixel, triangle) pairs of the last blended layer
+    int vertex_count, instance_count, first_vertex, first_instance, setups, peeled;
 };
 
 // Push constants. Large pictures are drawn in bands of rows; images and buffers of the size of a picture hold one band.
@@ -74,6 +79,7 @@ struct GpuPass {
     int material, first_triangle; // of a draw of the forward pipeline
     int first_row, rows;          // the band
     int group;                    // of recorded words, see kGpuForwardGroups
+    int surfaces;                 // that a pass of visibility draws: kGpuSolid...
 };
 
 #ifdef __cplusplus

@@ -38,13 +38,8 @@ layout(location = 5) flat in int triangle;
 // Bit s: sample s.
 int alive_samples(int m, real alpha)
 {
-    int all = (1 << frame.msaa) - 1;
-    if (materials[m].alpha_mode == kAlpha_opaque)
-        return all;
-    int alive = 0;
-    for (int s = 0; s < frame.msaa; ++s)
-        alive |= alpha_stays(m, alpha, blend_threshold(s, frame.msaa)) ? 1 << s : 0;
-    return alive;
+    bool stays = materials[m].alpha_mode == kAlpha_opaque || alpha_stays(m, alpha, lit(0.5));
+    return stays ? (1 << frame.msaa) - 1 : 0;
 }
 
 // Whether the triangle covers the pixel's centre, by its edges in homogeneous clip space: to within the device's own snapping.

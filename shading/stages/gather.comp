@@ -9,11 +9,11 @@ layout(local_size_x = 64) in;
 layout(std430, set = 0, binding = 11) writeonly buffer BnIds { int ids[]; };
 layout(std430, set = 0, binding = 12) writeonly buffer BnDepths { float depths[]; };
 #ifdef BN_MULTISAMPLED
-layout(set = 0, binding = 17) uniform sampler2DMS id_image;
-layout(set = 0, binding = 18) uniform sampler2DMS depth_image;
+layout(set = 0, binding = 18) uniform sampler2DMS id_image;
+layout(set = 0, binding = 19) uniform sampler2DMS depth_image;
 #else
-layout(set = 0, binding = 17) uniform sampler2D id_image;
-layout(set = 0, binding = 18) uniform sampler2D depth_image;
+layout(set = 0, binding = 18) uniform sampler2D id_image;
+layout(set = 0, binding = 19) uniform sampler2D depth_image;
 #endif
 
 void copy_sample(int pixel, ivec2 at, int from, int to)

@@ -8,9 +8,9 @@ layout(local_size_x = 64) in;
 
 layout(std430, set = 0, binding = 14) writeonly buffer BnWords { vec4 words[]; }; // [pixel of the band][sample][group - 1]
 #ifdef BN_MULTISAMPLED
-layout(set = 0, binding = 17) uniform sampler2DMS image;
+layout(set = 0, binding = 18) uniform sampler2DMS image;
 #else
-layout(set = 0, binding = 17) uniform sampler2D image;
+layout(set = 0, binding = 18) uniform sampler2D image;
 #endif
 
 void main()

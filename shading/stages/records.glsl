@@ -1,5 +1,5 @@
-// What is recorded of a band, for comparisons and for pictures with more than colours: stages [pixel][first sample][kPairWords], then layers
-// [pixel][kLayerWords], then colours of pairs [pixel][first sample][3]; only what kRecords says.
+// What is recorded of a band, for comparisons and for pictures with more than colours: stages [pixel][first sample][kPairWords], then
+// layers [pixel][kLayerWords], then colours of pairs [pixel][first sample][3]; only what kRecords says.
 #ifndef BN_RECORDS_GLSL
 #define BN_RECORDS_GLSL
 
@@ -8,7 +8,14 @@
 
 layout(constant_id = 2) const int kRecords = 0; // a sum of kGpuRecordStages and so on
 
-layout(std430, set = 0, binding = 14) writeonly buffer BnRecords { int records[]; };
+#ifndef BN_RECORDS_ACCESS
+#define BN_RECORDS_ACCESS writeonly
+#define BN_RECORDS_WRITTEN
+#endif
+layout(std430, set = 0, binding = 14) BN_RECORDS_ACCESS buffer BnRecords
+{
+    int records[];
+};
 
 #define BN_TAKE_WORD(at, x) records[at] = floatBitsToInt(x);
 
@@ -32,6 +39,7 @@ int color_at(int pair)
     return layers_at(recorded(kGpuRecordLayers) ? frame.width * pass.rows : 0) + 3 * pair;
 }
 
+#ifdef BN_RECORDS_WRITTEN
 // Of a pair, once it is known.
 void record_color(int pair, vec3 color)
 {
@@ -42,5 +50,6 @@ void record_color(int pair, vec3 color)
             records[color_at(pair) + c] = floatBitsToInt(color[c]);
     }
 }
+#endif
 
 #endif

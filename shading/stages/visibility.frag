@@ -10,6 +10,7 @@
 #include "shading/surface/relief.t.h"
 #include "shading/surface/visible_point.t.h"
 #include "shading/stages/pass.glsl"
+#include "shading/stages/peel.glsl"
 
 layout(location = 0) flat in int slot;
 layout(location = 0) out vec2 id; // lower and upper 16 bits: integer targets have fewer samples than float ones
@@ -39,9 +40,8 @@ real depth_at(int px, int py, int s)
 }
 #endif
 
-bool survives_alpha(int px, int py, int s)
+bool survives_alpha(int m, int px, int py)
 {
-    int m = setups[slot].info >> 2;
     if (materials[m].alpha_mode == kAlpha_opaque)
         return true;
     triangle_setup t = load_setup(slot);
@@ -50,17 +50,35 @@ bool survives_alpha(int px, int py, int s)
     if (materials[m].relief != 0)
         see_relief(0, m, relief_plane_of(0, t), p);
     real alpha = fetch_alpha(0, m, p);
-    return alpha_stays(m, alpha, blend_threshold(s, frame.msaa));
+    return alpha_stays(m, alpha, lit(0.5));
+}
+
+// Whether a blended surface of depth z lies behind the last layer and before what is solid; of equal depths the one that is drawn first lies
+// in front.
+bool in_next_layer(int px, int py, int s, real z)
+{
+    int at = (((py - pass.first_row) * frame.width + px) * frame.msaa + s) * kGpuPeelWords;
+    real last = peel[at + kPeelDepth];
+    return z >= peel[at + kPeelSolidDepth] && (z < last || (z == last && slot > floatBitsToInt(peel[at + kPeelId])));
 }
 
 void main()
 {
     int px = int(gl_FragCoord.x), py = int(gl_FragCoord.y) + pass.first_row;
     int s = pass.sample_number >= 0 ? pass.sample_number : gl_SampleID;
-    if (!survives_alpha(px, py, s))
+    int m = setups[slot].info >> 2;
+    bool blended = materials[m].alpha_mode == kAlpha_blend;
+    if (pass.surfaces != kGpuAll && blended != (pass.surfaces == kGpuLayer))
+        discard;
+    if (pass.surfaces != kGpuLayer && !survives_alpha(m, px, py))
         discard;
 #ifdef BN_EXACT_DEPTH
-    gl_FragDepth = depth_at(px, py, s);
+    real z = depth_at(px, py, s);
+    gl_FragDepth = z;
+#else
+    real z = gl_FragCoord.z;
 #endif
+    if (pass.surfaces == kGpuLayer && !in_next_layer(px, py, s, z))
+        discard;
     id = vec2(float(slot & 0xffff), float(slot >> 16));
 }

@@ -1,4 +1,4 @@
-// The samples of a pixel that a fragment covers: how much of it they are, where their mean lies, which of them the material's alpha leaves.
+// The samples of a pixel that a fragment covers: their share, their mean place, those that alpha leaves; and blended surfaces before them.
 #ifndef BN_COVERAGE_T_H
 #define BN_COVERAGE_T_H
 
@@ -41,20 +41,43 @@ BN_FN sample_mean mean_of_samples(frame_ref f, integer samples)
     return r;
 }
 
-// What a blended alpha must exceed at sample s of n.
-BN_FN uniform_real blend_threshold(int s, int n)
-{
-    return (float(s) + 0.5f) / float(n);
-}
-
-// Whether a sample stays, of a material that is not opaque. A mask discards the whole fragment; a blend becomes coverage, so the resolved
-// pixel shows about `alpha` of the surface, without sorting. threshold: of a blend, blend_threshold() or a random number in [0,1).
+// Whether a sample stays, of a material that is not opaque. A mask discards the whole fragment. threshold: of a blend, for renderers that
+// draw it by chance (a random number in [0,1)) or by its larger part (a half).
 BN_FN mask alpha_stays(material_ref m, real alpha, real threshold)
 {
     if (the_material(m).alpha_mode == kAlpha_blend)
         return alpha > threshold;
     real cutoff = splat(the_material(m).alpha_cutoff);
     return alpha >= cutoff;
+}
+
+// Blended surfaces in front of a sample, composed from the nearest to the farthest (the "over" operator, Porter and Duff 1984).
+struct blended_light {
+    real3 over;   // their light, each weighted by its alpha and by all before it
+    real through; // share of the light behind them that passes, [0,1]
+};
+BN_FN blended_light blended_none()
+{
+    blended_light b;
+    b.over = vec3_all(lit(0.0));
+    b.through = lit(1.0);
+    return b;
+}
+// Adds the next surface behind. alpha: clamped to [0,1]. Below 1e-30 nothing passes.
+BN_FN blended_light blend_behind(BN_IN(blended_light) b, real3 colour, real alpha)
+{
+    real covers = min(max(alpha, lit(0.0)), lit(1.0));
+    real share = b.through * covers;
+    real left = b.through * (lit(1.0) - covers);
+    blended_light r;
+    r.over = b.over + colour * share;
+    r.through = select(left > lit(1e-30), left, lit(0.0));
+    return r;
+}
+// Light of a sample whose opaque surface or background has `colour`.
+BN_FN real3 blend_over(BN_IN(blended_light) b, real3 colour)
+{
+    return b.over + colour * b.through;
 }
 
 BN_KERNELS_END

@@ -7,6 +7,7 @@ import sys
 import animation_cases
 import atlas_cases
 import bake_cases
+import blend_cases
 import brdf_cases
 import camera_cases
 import chart_cases

@@ -396,7 +396,7 @@ TEST(texture, a_magnified_texel_keeps_its_colour_and_place)
     EXPECT_NEAR(pixel(f, 48, 48)[0], 0.0f, 0.05f);
 }
 
-TEST(alpha, a_mask_cuts_and_a_blend_covers_its_share_of_samples)
+TEST(alpha, a_mask_cuts_and_a_blend_lets_its_share_through)
 {
     Scene scene = quad_scene(1.0f);
     scene.materials[0].unlit = true;
