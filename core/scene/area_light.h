@@ -46,8 +46,8 @@ Status read_area_texture(Scene& scene, AreaLight& light, const Limits& limits);
 // A node for a light that is given in world space.
 void add_area_light(Scene& scene, const AreaLight& light);
 
-// Gives every light of the scene's nodes surfaces that look like it, in the lights' order; its world matrices are up to date. Disks, spheres and lines have many
-// corners, all of them on their outline. `file` names the scene in errors.
+// Gives every light of the scene's nodes surfaces that look like it, in the lights' order; its world matrices are up to date. Disks,
+// spheres and lines have many corners, all of them on their outline. `file` names the scene in errors.
 Status add_emitters(Scene& scene, int most_lights, const std::string& file);
 
 } // namespace burnish

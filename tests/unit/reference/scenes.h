@@ -19,7 +19,7 @@ Environment environment_of(const std::function<glm::vec3(const glm::vec3&)>& rad
 Scene plane_scene(const Material& material);
 // A ball of radius 1 at the origin, normals outwards or, for rooms, inwards.
 Scene ball_scene(const Material& material, bool inside);
-Scene room_scene(const Material& material);                                         // a cube from -1 to 1, seen from within
+Scene room_scene(const Material& material); // a cube from -1 to 1, seen from within
 // With area lights in world space. shown: as surfaces, too.
 Scene lit_by(Scene scene, const std::vector<AreaLight>& lights, bool shown);
 void add_scene(Scene& to, const Scene& from, const glm::vec3& offset, float scale); // its first mesh and material
