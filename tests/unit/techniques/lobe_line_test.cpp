@@ -107,67 +107,73 @@ TEST(lobe_line, samples_weigh_what_they_stand_for)
         }
 }
 
-struct Seen { // a round lobe of a line, by quadrature
-    double direction[3], weight;
+struct Sum {
+    double x = 0.0, y = 0.0, z = 0.0, weights = 0.0;
+
+    void add(const double d[3], double length, double weight)
+    {
+        const double scaled = weight * length / std::hypot(d[0], d[1], d[2]);
+        x += d[0] * scaled, y += d[1] * scaled, z += d[2] * scaled, weights += weight;
+    }
 };
 
-// What the eye sees of the round lobe at z: slopes about the line's, whose profile is (1 + r^2)^(-5/2), with their visible area and
-// masking. along: the line at z = 1 over the widths.
-Seen seen_of_round_lobe(const double o[3], double ax, double ay, const double along[2], double z)
+// Mean direction of the light that a lobe shows, by quadrature over its slopes with their visible area and masking.
+Sum mean_direction_of_lobe(const double o[3], double ax, double ay)
 {
-    constexpr int kRings = 40, kSpokes = 40;
-    const double ratio = 1.0 - along[0] * along[0] - along[1] * along[1], length = std::hypot(along[0], along[1]);
-    const double e[2] = {along[0] / length, along[1] / length}, widened = std::sqrt(1.0 + z * z);
+    constexpr int kRings = 100;
     const auto smith = [&](const double d[3]) { return std::hypot(ax * d[0], ay * d[1], d[2]); };
-    Seen r = {};
+    Sum r;
     for (int i = 0; i < kRings; ++i)
-        for (int k = 0; k < kSpokes; ++k) {
-            const double radius = widened * std::sqrt(std::pow(1.0 - (i + 0.5) / kRings, -2.0 / 3.0) - 1.0);
-            const double turn = 2.0 * std::numbers::pi * (k + 0.5) / kSpokes;
-            const double a = length * z + std::sqrt(ratio) * radius * std::cos(turn), b = radius * std::sin(turn);
-            const double w[3] = {-ax * (e[0] * a - e[1] * b), -ay * (e[1] * a + e[0] * b), 1.0};
+        for (int k = 0; k < kRings; ++k) {
+            const double share = (i + 0.5) / kRings, radius = std::sqrt(share / (1.0 - share));
+            const double turn = 2.0 * std::numbers::pi * (k + 0.5) / kRings;
+            const double w[3] = {-ax * radius * std::cos(turn), -ay * radius * std::sin(turn), 1.0};
             const double w2 = w[0] * w[0] + w[1] * w[1] + 1.0, cosine = w[0] * o[0] + w[1] * o[1] + o[2];
             double d[3];
             for (int j = 0; j < 3; ++j)
                 d[j] = 2.0 * cosine / w2 * w[j] - o[j];
-            if (cosine <= 0.0 || d[2] <= 0.0)
-                continue;
-            const double weight = cosine * d[2] / (d[2] * smith(o) + o[2] * smith(d));
-            for (int j = 0; j < 3; ++j)
-                r.direction[j] += weight * d[j];
-            r.weight += weight / (kRings * kSpokes);
+            if (cosine > 0.0 && d[2] > 0.0)
+                r.add(d, 1.0, cosine * d[2] / (d[2] * smith(o) + o[2] * smith(d)));
         }
     return r;
 }
 
-double angle_between(const double a[3], const double b[3])
+// Mean cosine to its middle of a level of width alpha: GGX about its own normal, times the cosine.
+double mean_cosine_of_level(double alpha)
 {
-    const double dot = a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-    return std::acos(std::clamp(dot / (std::hypot(a[0], a[1], a[2]) * std::hypot(b[0], b[1], b[2])), -1.0, 1.0));
+    constexpr int kCount = 200;
+    double sum = 0.0, weights = 0.0;
+    const double a = std::clamp(alpha, 1e-3, 1.0);
+    for (int i = 0; i < kCount; ++i) {
+        const double share = (i + 0.5) / kCount, cosine = 2.0 * (1.0 - share) / (1.0 + (a * a - 1.0) * share) - 1.0;
+        if (cosine > 0.0)
+            sum += cosine * cosine, weights += cosine;
+    }
+    return sum / weights;
 }
 
-// The mirror about the middle of a wide round lobe is not where the lobe is seen: the line's samples lie nearer by half and more.
-TEST(lobe_line, samples_of_wide_lobes_lie_where_their_round_lobes_are_seen)
+// Under light that grows evenly along any direction only the mean direction counts, with how far the lobe is spread about it. Wide lobes
+// rise from the horizon; samples that stay at the mirror about each round lobe's middle are off by 0.055 here, those of narrow ones less.
+TEST(lobe_line, wide_lobes_see_light_from_their_mean_direction)
 {
-    for (const View& v : {view(0.95, 0.4), view(0.6, 1.3), view(0.6, 0.2), view(0.3, 0.8)}) {
-        double moved = 0.0, still = 0.0, weights = 0.0;
-        for (const auto& [ax, ay] : {std::pair{0.52, 0.25}, std::pair{0.7, 0.49}, std::pair{0.86, 0.25}})
-            for (double t : {-0.6, -0.3, 0.0, 0.3, 0.6}) {
-                const Line l = line_of(oracle_fns(), v.o, ax, ay, 15.0, t);
-                const double along[2] = {l.x / ax, l.y / ay}, ratio = 1.0 - along[0] * along[0] - along[1] * along[1];
-                const double extent = std::sqrt(1.0 / ratio - 1.0), even = extent / (extent + 6.0); // as in lobe_line_at()
-                const double c = (1.0 + even) * t / (1.0 + even * t * t), z = c / std::sqrt(1.0 - c * c);
-                const Seen lobe = seen_of_round_lobe(v.o, ax, ay, along, z);
-                const double w[3] = {-l.x * z, -l.y * z, 1.0}, w2 = w[0] * w[0] + w[1] * w[1] + 1.0;
-                double mirror[3];
-                for (int k = 0; k < 3; ++k)
-                    mirror[k] = 2.0 * (w[0] * v.o[0] + w[1] * v.o[1] + v.o[2]) / w2 * w[k] - v.o[k];
-                moved += lobe.weight * angle_between(l.direction, lobe.direction);
-                still += lobe.weight * angle_between(mirror, lobe.direction), weights += lobe.weight;
+    double off = 0.0;
+    int count = 0;
+    for (double cosine : {0.95, 0.6, 0.3})
+        for (double azimuth : {0.2, 0.8, 1.4})
+            for (const auto& [ax, ay] : {std::pair{0.52, 0.25}, std::pair{0.7, 0.49}, std::pair{0.86, 0.25}, std::pair{0.3, 0.1}}) {
+                const View v = view(cosine, azimuth);
+                const Sum lobe = mean_direction_of_lobe(v.o, ax, ay);
+                Sum line;
+                for (int i = 0; i < 100; ++i) {
+                    const Line l = line_of(oracle_fns(), v.o, ax, ay, 15.0, (i + 0.5) / 50.0 - 1.0);
+                    line.add(l.direction, mean_cosine_of_level(l.radius), l.weight);
+                }
+                off += std::hypot(line.x / line.weights - lobe.x / lobe.weights, line.y / line.weights - lobe.y / lobe.weights,
+                                  line.z / line.weights - lobe.z / lobe.weights);
+                ++count;
             }
-        std::printf("eye at %.2f: samples lie %.4f from where lobes are seen, mirrors %.4f\n", v.o[2], moved / weights, still / weights);
-        EXPECT_LT(moved, 0.5 * still) << v.o[2];
-    }
+    std::printf("mean directions are off by %.4f\n", off / count);
+    EXPECT_LT(off / count, 0.04);
 }
 
 TEST(lobe_line, takes_as_many_samples_as_its_cells_hold_and_never_more_than_the_limit)
