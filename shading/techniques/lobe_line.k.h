@@ -2,7 +2,13 @@
 // lobe is narrow. Over slopes in units of the widths, GGX's density 1 / (pi (1 + u^2 + v^2)^2) is its marginal (1 + u^2)^(-3/2) / 2 times,
 // at each u, a density of width sqrt(1 + u^2) in v; so a lobe of two widths is a line of round ones that follows the marginal of scale
 // sqrt(l1 - l2), l1 >= l2 being its squared widths as the eye sees them, and whose width is sqrt(l2) sqrt(1 + z^2) at z of these scales.
-// Nothing is spread across the grain but what the lobe itself spreads. All in the ellipse frame: x along the greater slope deviation, y
+// Nothing is spread across the grain but what the lobe itself spreads.
+//
+// A narrow round lobe is seen where its middle is. A wide one is not: masking and the horizon hide its lower part, slopes crowd towards
+// the horizon, and its mean direction rises. So each sample is moved to where the mean is, and its level is as wide as the whole is spread
+// about it. To first order the amounts go with the squared width; their factors were fitted to pictures of spheres by the whole lobe.
+//
+// All in the ellipse frame: x along the greater slope deviation, y
 // along the smaller, z the normal; as in major_axis.k.h, a microfacet normal of slope (x, y) is normalize(-x, -y, 1).
 #ifndef BN_LOBE_LINE_K_H
 #define BN_LOBE_LINE_K_H
@@ -18,6 +24,10 @@ struct lobe_line {
     real2 along;  // slopes at z = 1
     real width;   // sqrt(l2) / o.z, of the round lobe at z = 0
     real level;   // alpha of the prefiltered level at z = 0, seen from above: see lobe_line_at()
+    real widen;   // how much wider the level of a wide round lobe is: see lobe_line_at()
+    real lift;    // how far a sample rises, by how wide its round lobe is
+    real upright; // added to the height of microfacet normals: slopes of wide lobes count less
+    real3 axis;   // o, less what every sample rises
     real blunt;   // 1 - part^2: levels widen along the line as the line is long
     real extent;  // sqrt(l1 / l2 - 1): how many widths the line is long
     real even;    // [0,1): from samples of equal shares of the lobe, 0, to samples at equal distances in widths, see lobe_line_at()
@@ -54,9 +64,18 @@ BN_FN lobe_line lobe_line_of(real3 o, real sigma_x, real sigma_y, real part)
     real rest = sqrt(one - ratio) * inv * part;
     r.along = vec2_of(r.alpha_x * e.x * rest, r.alpha_y * e.y * rest);
     r.width = sqrt(l1 * ratio) / r.o.z;
-    real narrow = lit(0.67) + lit(0.25) * ratio;
     real own = lit(0.5) * (r.alpha_x + r.alpha_y) / r.o.z;
-    r.level = own * (one - part) + narrow * r.width * part;
+    real taken = r.width * part;
+    real grazing = (lit(0.8) + lit(0.2) * r.o.z) * taken;
+    r.level = own * (one - part) + (lit(0.6) - lit(0.08) * ratio) * grazing;
+    r.widen = lit(1.4) * r.width * grazing;
+    real square = r.width * taken;
+    real narrow2 = square * r.o.z * r.o.z;
+    real3 axis = r.o * (one + lit(0.45) * narrow2);
+    axis.z = axis.z - lit(1.55) * square * r.o.z;
+    r.axis = axis;
+    r.upright = lit(0.44) * narrow2;
+    r.lift = lit(1.3) * square;
     r.blunt = one - part * part;
     r.extent = sqrt((one - ratio) / max(ratio, lit(1e-12))) * part;
     r.even = r.extent / (r.extent + lit(6.0));
@@ -73,31 +92,33 @@ struct lobe_line_sample {
 
 // t: [-1,1]; its z is c / sqrt(1 - c^2) with c = (1 + e) t / (1 + e t^2), e being line.even. The marginal is uniform in c: with e = 0
 // samples take equal shares of the lobe, which leaves so long gaps in the tails of a long line that each sample shows there by itself; with
-// e = 1 they are as far apart, in widths, as sqrt(1 + z^2). Their weight holds dc / dt. The vector w is 1 + e t^2 times as long as by c.
-// A GGX of 0.77 times the round lobe's width has its median, as (1 + r^2)^(-5/2) falls faster; pictures say 0.7 for long lobes, and more
-// for round ones.
+// e = 1 they are as far apart, in widths, as sqrt(1 + z^2). Their weight holds dc / dt. The vector w is 1 + e t^2 times as long as by c,
+// but for what wide lobes add to it. A GGX of 0.77 times the round lobe's width has its median, as (1 + r^2)^(-5/2) falls faster; pictures
+// say 0.6 for narrow lobes, and more for wide ones.
 BN_FN lobe_line_sample lobe_line_at(lobe_line line, real t)
 {
     real one = lit(1.0);
     real t2 = t * t;
     real bend = line.even * t2;
     real scale = one + bend;
-    real root = sqrt(max((one - t2) * (one - line.even * bend), lit(1e-3)));
+    real root = sqrt(max((one - t2) * (one - line.even * bend), lit(1e-3))) + line.upright;
     real c = t + line.even * t;
     real3 w = vec3_of(-line.along.x * c, -line.along.y * c, root);
     real w2 = k_dot3(w, w);
     real w_dot_o = k_dot3(w, line.o);
+    real seen = max(w_dot_o, lit(0.0));
+    real scale2 = scale * scale;
     lobe_line_sample r;
-    r.direction = w * (lit(2.0) * w_dot_o) - line.o * w2;
+    r.direction = w * (lit(2.0) * w_dot_o) - line.axis * w2;
+    real size = seen / w2 * sqrt(scale2 - line.blunt * c * c);
+    r.direction.z = r.direction.z + line.lift * size * seen;
+    r.radius = (line.level + line.widen * size) * size;
     real ix = line.alpha_x * r.direction.x;
     real iy = line.alpha_y * r.direction.y;
     real iz = r.direction.z;
     real stretch = sqrt(ix * ix + iy * iy + iz * iz);
     real up = max(iz, lit(0.0));
-    real seen = max(w_dot_o, lit(0.0));
-    real scale2 = scale * scale;
     r.weight = seen * up * (one - bend) / (root * scale2 * max(up * line.stretch + line.o.z * stretch, lit(1e-20)));
-    r.radius = line.level * seen / w2 * sqrt(scale2 - line.blunt * c * c);
     return r;
 }
 

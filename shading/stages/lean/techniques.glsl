@@ -154,21 +154,22 @@ vec3 major_axis_adaptive(Surface s)
 }
 
 struct Line {
-    vec3 o;
+    vec3 o, axis;
     vec2 along, alpha;
-    float level, blunt, even, stretch;
+    float level, widen, upright, lift, blunt, even, stretch;
 };
 
 vec4 line_sample(Surface s, Line line, float t, float weight)
 {
     float t2 = t * t, bend = line.even * t2, scale = 1.0 + bend;
-    float root = sqrt(max((1.0 - t2) * (1.0 - line.even * bend), 1e-3)), c = t + line.even * t;
+    float root = sqrt(max((1.0 - t2) * (1.0 - line.even * bend), 1e-3)) + line.upright, c = t + line.even * t;
     vec3 w = vec3(-line.along * c, root);
     float w2 = dot(w, w), w_dot_o = dot(w, line.o), seen = max(w_dot_o, 0.0);
-    vec3 i = w * (2.0 * w_dot_o) - line.o * w2;
+    float size = seen / w2 * sqrt(max(scale * scale - line.blunt * c * c, 0.0));
+    vec3 i = w * (2.0 * w_dot_o) - line.axis * w2 + vec3(0.0, 0.0, line.lift * size * seen);
     float up = max(i.z, 0.0), smith = up * line.stretch + line.o.z * length(vec3(line.alpha * i.xy, i.z));
     float visible = weight * seen * up * (1.0 - bend) / (root * scale * scale * max(smith, 1e-20));
-    float radius = line.level * seen / w2 * sqrt(max(scale * scale - line.blunt * c * c, 0.0));
+    float radius = (line.level + line.widen * size) * size;
     return vec4(specular_at(to_world(s, i), level_of(radius)), 1.0) * visible;
 }
 
@@ -185,7 +186,12 @@ vec3 lobe_line(Surface s)
     vec2 e = h >= 0.0 ? vec2(d + h, shear) : vec2(abs(shear), shear < 0.0 ? h - d : d - h);
     line.along = line.alpha * e * (sqrt(1.0 - ratio) * inversesqrt(max(dot(e, e), 1e-30)) * part);
     float width = sqrt(l1 * ratio) / line.o.z, own = 0.5 * (line.alpha.x + line.alpha.y) / line.o.z;
-    line.level = mix(own, (0.67 + 0.25 * ratio) * width, part);
+    float square = width * width * part, grazing = (0.8 + 0.2 * line.o.z) * part;
+    line.level = own * (1.0 - part) + (0.6 - 0.08 * ratio) * width * grazing;
+    line.widen = 1.4 * width * width * grazing;
+    line.axis = line.o * (1.0 + 0.45 * square * line.o.z * line.o.z) - vec3(0.0, 0.0, 1.55 * square * line.o.z);
+    line.upright = 0.44 * square * line.o.z * line.o.z;
+    line.lift = 1.3 * square;
     line.blunt = 1.0 - part * part;
     float extent = sqrt((1.0 - ratio) / max(ratio, 1e-12)) * part;
     line.even = extent / (extent + 6.0);
