@@ -151,7 +151,7 @@ def files_hold(bench):
     check("x.pfm" not in bench.left_behind(), "what failed has left something")
 
 
-@case("mip.numbers_of_files_lie_in_their_ranges", "input", tier="check")
+@case("mip.numbers_of_files_lie_in_their_ranges", "input", tier="gate")
 def ranges(bench):
     """Under a hash that is right: kappa, gains, lobes and texels of maps that no bake writes."""
     whole(bench, "set")
