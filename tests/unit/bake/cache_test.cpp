@@ -10,6 +10,7 @@
 #include <limits>
 #include <unistd.h>
 
+#include "shading/bake/environment/environment_cache.h"
 #include "tests/unit/bake/bake_test.h"
 
 namespace burnish {
