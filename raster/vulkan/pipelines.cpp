@@ -65,7 +65,9 @@ Pipelines::Pipelines(Context& context, const VulkanOptions& options) : Pipelines
     std::vector<VkDescriptorSetLayoutBinding> bindings;
     for (std::uint32_t i = 0; i < kBindings; ++i)
         bindings.push_back({i, i < kBufferBindings ? VK_DESCRIPTOR_TYPE_STORAGE_BUFFER : VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1,
-                            i <= kSetupsBinding || i == kAreaLightsBinding || i == kPeelBinding ? kStages : VkShaderStageFlags{VK_SHADER_STAGE_COMPUTE_BIT},
+                            i <= kSetupsBinding || i == kAreaLightsBinding || i == kPeelBinding
+                                ? kStages
+                                : VkShaderStageFlags{VK_SHADER_STAGE_COMPUTE_BIT},
                             nullptr});
     auto set = vk_struct<VkDescriptorSetLayoutCreateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO);
     set.bindingCount = static_cast<std::uint32_t>(bindings.size()), set.pBindings = bindings.data();

@@ -19,15 +19,15 @@ struct Sheet {
     float slope = 0.0f; // of z along x
 };
 
-constexpr int kSide = 24;
+constexpr int kWidth = 24;
 
 // Unlit sheets over the whole picture but for `margin` pixels on each side, in the order of the list.
 Scene sheets_of(const std::vector<Sheet>& sheets, float margin)
 {
     std::vector<Triangle> triangles;
     for (const Sheet& sheet : sheets) {
-        const auto corner = [&](float x, float y) { return glm::vec3(x, -y, sheet.z + sheet.slope * (x - 0.5f * kSide)); };
-        const float low = margin, high = kSide - margin;
+        const auto corner = [&](float x, float y) { return glm::vec3(x, -y, sheet.z + sheet.slope * (x - 0.5f * kWidth)); };
+        const float low = margin, high = kWidth - margin;
         triangles.push_back({corner(low, low), corner(low, high), corner(high, high)});
         triangles.push_back({corner(low, low), corner(high, high), corner(high, low)});
     }
@@ -52,8 +52,8 @@ Scene sheets_of(const std::vector<Sheet>& sheets, float margin)
 FrameDesc desc_with(int msaa)
 {
     FrameDesc d;
-    d.width = d.height = kSide, d.msaa = msaa;
-    d.view = pixel_view(kSide, kSide);
+    d.width = d.height = kWidth, d.msaa = msaa;
+    d.view = pixel_view(kWidth, kWidth);
     d.background = false;
     return d;
 }
@@ -65,7 +65,7 @@ Frame draw(const std::vector<Sheet>& sheets, int msaa, float margin = -4.0f)
 
 glm::dvec3 middle(const Frame& f)
 {
-    const float* c = f.color.f32() + 3 * (kSide / 2 * kSide + kSide / 2);
+    const float* c = f.color.f32() + 3 * (kWidth / 2 * kWidth + kWidth / 2);
     return {double{c[0]}, double{c[1]}, double{c[2]}};
 }
 
@@ -133,8 +133,8 @@ TEST(blend, sheets_that_cross_are_sorted_by_sample)
 {
     const std::vector<Sheet> crossing = {{0.5f, kRed, AlphaMode::blend, 0.01f}, {0.5f, kGreen, AlphaMode::blend, -0.01f}};
     const Frame f = draw(crossing, 4);
-    const float* left = f.color.f32() + 3 * (12 * kSide + 4);
-    const float* right = f.color.f32() + 3 * (12 * kSide + 20);
+    const float* left = f.color.f32() + 3 * (12 * kWidth + 4);
+    const float* right = f.color.f32() + 3 * (12 * kWidth + 20);
     EXPECT_NEAR(left[1], 0.5f, 1e-6f);
     EXPECT_NEAR(left[0], 0.25f, 1e-6f);
     EXPECT_NEAR(right[0], 0.5f, 1e-6f);
@@ -144,7 +144,7 @@ TEST(blend, sheets_that_cross_are_sorted_by_sample)
 TEST(blend, edges_cover_their_share_of_samples)
 {
     const Frame f = draw({{0.3f, {1, 1, 1, 0.25f}}}, 16, 4.5f); // edges through the middle of pixels
-    const float* row = f.color.f32() + 3 * (12 * kSide);
+    const float* row = f.color.f32() + 3 * (12 * kWidth);
     EXPECT_EQ(row[3 * 3], 0.0f);
     EXPECT_NEAR(row[3 * 4], 0.125f, 1e-6f);
     EXPECT_NEAR(row[3 * 5], 0.25f, 1e-6f);
@@ -174,10 +174,10 @@ TEST(blend, alpha_and_parts_of_pixels_hold_what_shows_through)
     d.triangle_ids = d.parts = true;
     const Frame f = Stage(sheets_of({{0.2f, {1, 1, 1, 0.2f}}, {0.4f, {1, 1, 1, 0.5f}}}, 4.4f), 0.0f).render(d, best_isa());
     const Image rgba = with_coverage(f.color, f.triangle_ids, f.through);
-    for (int i = 0; i < kSide * kSide; ++i) // white before black: light is coverage
+    for (int i = 0; i < kWidth * kWidth; ++i) // white before black: light is coverage
         EXPECT_NEAR(rgba.f32()[4 * i + 3], rgba.f32()[4 * i], 1e-6f);
-    EXPECT_NEAR(rgba.f32()[4 * (12 * kSide + 12) + 3], 0.6f, 1e-6f);
-    std::vector<float> sums(std::size_t{kSide} * kSide, -1.0f);
+    EXPECT_NEAR(rgba.f32()[4 * (12 * kWidth + 12) + 3], 0.6f, 1e-6f);
+    std::vector<float> sums(std::size_t{kWidth} * kWidth, -1.0f);
     for (const PixelPart& part : f.parts)
         sums[part.pixel] = std::max(sums[part.pixel], 0.0f) + part.color[0] * static_cast<float>(part.samples) / 4.0f;
     for (std::size_t i = 0; i < sums.size(); ++i)
@@ -193,7 +193,7 @@ TEST(blend, layers_show_a_surface_whose_alpha_is_above_a_half)
     d.layers = true;
     const auto depth = [&](float alpha) {
         const Frame f = Stage(sheets_of({{0.2f, kBlue, AlphaMode::opaque}, {0.6f, {1, 1, 1, alpha}}}, 1.0f), 0.0f).render(d, best_isa());
-        return f.layers.data()[12 * kSide + 12].depth[0];
+        return f.layers.data()[12 * kWidth + 12].depth[0];
     };
     EXPECT_NEAR(depth(0.4f), 0.8f, 1e-5f);
     EXPECT_NEAR(depth(0.6f), 0.4f, 1e-5f);
@@ -240,7 +240,7 @@ TEST(blend, pixels_beside_a_sheet_keep_their_bits)
         scene.vertices.px[i] *= 0.4f;
     const Frame with = Stage(scene, 0.0f).render(desc_with(8), best_isa()), without = draw(solid, 8, 1.3f);
     std::size_t same = 0, other = 0;
-    for (std::size_t i = 0; i < std::size_t{kSide} * kSide; ++i)
+    for (std::size_t i = 0; i < std::size_t{kWidth} * kWidth; ++i)
         ++(std::memcmp(with.color.f32() + 3 * i, without.color.f32() + 3 * i, 12) == 0 ? same : other);
     EXPECT_GT(same, 280u);
     EXPECT_GT(other, 150u);
