@@ -12,7 +12,7 @@
 namespace burnish::test {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
+constexpr double kOneDegree = std::numbers::pi / 180.0;
 
 struct Disc {
     glm::dvec3 centre, u, v; // unit; half axes as tangents, orthogonal to the centre
@@ -115,7 +115,7 @@ TEST(key_lights, that_are_small_are_directional_lights)
                     FrameDesc d;
                     d.technique = t.name, d.samples = std::min(t.default_samples, 16);
                     d.roughness = 0.5f, d.anisotropy = eta, d.override_anisotropy = true, d.energy_compensation = compensated;
-                    d.tilt_rad = glm::vec2(static_cast<float>(tilt * kDegree), static_cast<float>(-0.5 * tilt * kDegree));
+                    d.tilt_rad = glm::vec2(static_cast<float>(tilt * kOneDegree), static_cast<float>(-0.5 * tilt * kOneDegree));
                     const Worst w = worst_of(sun, d, eye_at(0.6, 0.7), 2e-4, 1.0, 1);
                     EXPECT_LT(w.ratio, 2e-3) << t.name << ", eta " << eta << ", tilt " << tilt << ", compensated " << compensated;
                     worst = std::max(worst, w.ratio);
@@ -133,7 +133,7 @@ TEST(key_lights, are_the_sum_of_the_light_in_them)
                 for (const double cosine : {0.95, 0.5}) {
                     FrameDesc d;
                     d.technique = "bent_normal", d.roughness = roughness, d.anisotropy = eta, d.override_anisotropy = true;
-                    const Worst w = worst_of(sun, d, eye_at(cosine, 1.9), radius_deg * kDegree, eta == 0.5f ? 0.5 : 1.0, 1500);
+                    const Worst w = worst_of(sun, d, eye_at(cosine, 1.9), radius_deg * kOneDegree, eta == 0.5f ? 0.5 : 1.0, 1500);
                     const bool wide = roughness >= 0.4f, narrow = roughness < 0.2f; // narrow: edges of the light show
                     EXPECT_LT(w.of_peak, wide     ? 0.005
                                          : narrow ? 0.2
@@ -160,9 +160,9 @@ TEST(key_lights, that_graze_the_surface_are_no_brighter_than_the_light_in_them)
                     for (const double azimuth : {0.0, 70.0, 150.0, 180.0}) {
                         FrameDesc d;
                         d.technique = "bent_normal", d.roughness = roughness, d.anisotropy = eta, d.override_anisotropy = true;
-                        const double e = elevation * kDegree, a = azimuth * kDegree + 0.7;
+                        const double e = elevation * kOneDegree, a = azimuth * kOneDegree + 0.7;
                         sun.place(
-                            disc_near({std::cos(e) * std::cos(a), std::cos(e) * std::sin(a), std::sin(e)}, 0.0, 0.0, kDegree, 1.0, 0.0),
+                            disc_near({std::cos(e) * std::cos(a), std::cos(e) * std::sin(a), std::sin(e)}, 0.0, 0.0, kOneDegree, 1.0, 0.0),
                             400);
                         const Sun::Seen s = sun.seen(d, eye_at(cosine, 0.7));
                         EXPECT_LT(s.key, 5.0 * s.points + 0.3) << "roughness " << roughness << ", eta " << eta << ", cosine " << cosine
@@ -181,7 +181,7 @@ TEST(key_lights, light_what_is_diffuse_by_their_cosine)
     const glm::dvec3 eye = eye_at(0.9, 0.3);
     double before = 0.0;
     for (const double elevation : {5.0, 20.0, 60.0, 85.0}) {
-        const double e = elevation * kDegree;
+        const double e = elevation * kOneDegree;
         sun.place(disc_near({std::cos(e), 0.0, std::sin(e)}, 0.0, 0.0, 0.01, 1.0, 0.0), 64);
         const double key = sun.seen(d, eye).key, lambert = 3.0 * 0.8 * std::sin(e) / std::numbers::pi;
         EXPECT_NEAR(key / lambert, 0.97, 0.06) << elevation; // what the interface lets through, and its own gleam
@@ -202,7 +202,7 @@ TEST(key_lights, grow_from_a_mirror_s_picture_to_a_wide_gleam_without_a_jump)
         for (int x = 0; x < 1024; ++x) {
             const double theta = (y + 0.5) / 512 * std::numbers::pi, phi = ((x + 0.5) / 1024 - 0.5) * 2.0 * std::numbers::pi;
             const glm::dvec3 w(std::sin(theta) * std::cos(phi), std::cos(theta), std::sin(theta) * std::sin(phi));
-            const double angle = std::acos(std::min(glm::dot(w, mirrored), 1.0)) / kDegree;
+            const double angle = std::acos(std::min(glm::dot(w, mirrored), 1.0)) / kOneDegree;
             std::fill_n(sky.f32() + 3 * (y * 1024 + x), 3, 0.2f + 2000.0f * static_cast<float>(std::clamp((2.2 - angle) / 0.4, 0.0, 1.0)));
         }
     Stage stage(plate(1.0f));
@@ -220,7 +220,7 @@ TEST(key_lights, grow_from_a_mirror_s_picture_to_a_wide_gleam_without_a_jump)
         for (const float eta : {0.0f, 0.9f})
             for (const double off_deg : {0.0, 1.0, 6.0}) {
                 d.technique = technique, d.anisotropy = eta;
-                const double a = off_deg * kDegree; // off the sun's centre
+                const double a = off_deg * kOneDegree; // off the sun's centre
                 const glm::dvec3 from = glm::normalize(eye + glm::dvec3(0.0, std::tan(a), 0.0));
                 d.roughness = 0.0f;
                 const double mirror = red(from);

@@ -12,7 +12,7 @@
 namespace burnish::test {
 namespace {
 
-constexpr int kSide = 64;
+constexpr int kLayersSide = 64;
 
 Scene brushed_plate()
 {
@@ -25,14 +25,14 @@ Scene brushed_plate()
 FrameDesc plate_desc(int msaa)
 {
     FrameDesc d;
-    d.width = d.height = kSide, d.msaa = msaa, d.layers = d.triangle_ids = true;
-    d.view = make_view({0, 2, 2}, {0, 0, 0}, 0.9f, kSide, kSide);
+    d.width = d.height = kLayersSide, d.msaa = msaa, d.layers = d.triangle_ids = true;
+    d.view = make_view({0, 2, 2}, {0, 0, 0}, 0.9f, kLayersSide, kLayersSide);
     return d;
 }
 
 const PixelLayers& middle_of(const Frame& f)
 {
-    return f.layers[kSide / 2 * kSide + kSide / 2];
+    return f.layers[kLayersSide / 2 * kLayersSide + kLayersSide / 2];
 }
 
 TEST(layers, are_those_of_a_plate)
@@ -42,11 +42,11 @@ TEST(layers, are_those_of_a_plate)
         const FrameDesc d = plate_desc(msaa);
         const Frame f = stage.render(d, best_isa());
         int seen = 0;
-        for (int y = 0; y < kSide; ++y)
-            for (int x = 0; x < kSide; ++x) {
-                const PixelLayers& p = f.layers[static_cast<std::size_t>(y * kSide + x)];
+        for (int y = 0; y < kLayersSide; ++y)
+            for (int x = 0; x < kLayersSide; ++x) {
+                const PixelLayers& p = f.layers[static_cast<std::size_t>(y * kLayersSide + x)];
                 const auto central = static_cast<std::size_t>(central_sample(standard_samples(msaa)));
-                const std::uint32_t id = f.triangle_ids[static_cast<std::size_t>((y * kSide + x) * msaa) + central];
+                const std::uint32_t id = f.triangle_ids[static_cast<std::size_t>((y * kLayersSide + x) * msaa) + central];
                 if (id == kNoTriangle) {
                     EXPECT_EQ(p.depth[0], 0.0f);
                     EXPECT_EQ(p.normal[2], 0.0f);
@@ -58,12 +58,12 @@ TEST(layers, are_those_of_a_plate)
                 EXPECT_NEAR(p.tangent[1], std::sin(0.5f), 1e-5f);
                 EXPECT_FLOAT_EQ(p.albedo[1], 0.5f);
                 EXPECT_NEAR(p.roughness[0], 0.7f, 1e-5f); // widths mix(.25, 1, .64) and .25
-                const auto whole = [&](int s) { return f.triangle_ids[static_cast<std::size_t>((y * kSide + x) * msaa + s)] == id; };
+                const auto whole = [&](int s) { return f.triangle_ids[static_cast<std::size_t>((y * kLayersSide + x) * msaa + s)] == id; };
                 bool centred = true; // shaded there
                 for (int s = 0; s < msaa; ++s)
                     centred = centred && whole(s);
-                const float across = (static_cast<float>(x) + 0.5f) / (kSide / 2) - 1.0f,
-                            up = 1.0f - (static_cast<float>(y) + 0.5f) / (kSide / 2);
+                const float across = (static_cast<float>(x) + 0.5f) / (kLayersSide / 2) - 1.0f,
+                            up = 1.0f - (static_cast<float>(y) + 0.5f) / (kLayersSide / 2);
                 const glm::vec3 ray = d.view.forward + d.view.right * (across * d.view.tan_half_x) + d.view.up * (up * d.view.tan_half_y);
                 if (centred) {
                     EXPECT_NEAR(p.depth[0], -2.0f / ray.z, 1e-4f) << x << " " << y; // whose length along the view is 1
@@ -125,14 +125,14 @@ TEST(layers, are_channels_with_numbers_that_count_from_one)
     const Frame f = stage.render(d, best_isa());
     const NamedChannels c = with_layers(f.color, f, stage.tables, {"material-id", "depth", "object-id"});
     EXPECT_EQ(c.names, (std::vector<std::string>{"R", "G", "B", "materialId", "Z", "id"}));
-    const float *corner = c.image.f32(), *middle = c.image.f32() + 6 * (kSide / 2 * kSide + kSide / 2);
+    const float *corner = c.image.f32(), *middle = c.image.f32() + 6 * (kLayersSide / 2 * kLayersSide + kLayersSide / 2);
     EXPECT_EQ(corner[3], 0.0f);
     EXPECT_TRUE(std::isinf(corner[4]));
     EXPECT_EQ(corner[5], 0.0f);
     EXPECT_EQ(middle[3], 1.0f);
     EXPECT_EQ(middle[4], middle_of(f).depth[0]);
     EXPECT_EQ(middle[5], 1.0f);
-    EXPECT_EQ(std::memcmp(middle, f.color.f32() + 3 * (kSide / 2 * kSide + kSide / 2), 3 * sizeof(float)), 0);
+    EXPECT_EQ(std::memcmp(middle, f.color.f32() + 3 * (kLayersSide / 2 * kLayersSide + kLayersSide / 2), 3 * sizeof(float)), 0);
 }
 
 TEST(parts, of_a_pixel_make_the_pixel)

@@ -213,7 +213,7 @@ TEST(light, a_point_light_follows_the_inverse_square_and_lambert)
 // lie near to the end of a range.
 TEST(light, of_many_each_shines_as_far_as_its_range)
 {
-    constexpr int kSide = 33;
+    constexpr int kPlate = 33;
     constexpr double kHalf = 0.6, kHeight = 0.1, kRange = 0.3;
     Scene scene = quad_scene(1.0f);
     scene.materials[0].metallic = 0.0f;
@@ -224,13 +224,13 @@ TEST(light, of_many_each_shines_as_far_as_its_range)
         add_lamp(scene, glm::vec3(0.17 * (i % 8) - 0.6, 0.25 * (i / 8) - 0.5, kHeight), 0.01f * static_cast<float>(1 + i % 7),
                  static_cast<float>(kRange));
     const Stage stage(scene, 0.0f);
-    FrameDesc d = quad_desc(kSide, 1);
-    d.view = make_view({0, 0, 400}, {0, 0, 0}, 2.0f * static_cast<float>(std::atan(kHalf / 400.0)), kSide, kSide);
+    FrameDesc d = quad_desc(kPlate, 1);
+    d.view = make_view({0, 0, 400}, {0, 0, 0}, 2.0f * static_cast<float>(std::atan(kHalf / 400.0)), kPlate, kPlate);
     for (const Isa isa : available_isas()) {
         const Frame f = stage.render(d, isa);
-        for (int y = 0; y < kSide; ++y)
-            for (int x = 0; x < kSide; ++x) {
-                const double px = kHalf * (2 * x + 1 - kSide) / kSide, py = kHalf * (kSide - 1 - 2 * y) / kSide;
+        for (int y = 0; y < kPlate; ++y)
+            for (int x = 0; x < kPlate; ++x) {
+                const double px = kHalf * (2 * x + 1 - kPlate) / kPlate, py = kHalf * (kPlate - 1 - 2 * y) / kPlate;
                 double expected = 0.0;
                 for (std::size_t i = 0; i < scene.lights.size(); ++i) {
                     const double dx = scene.nodes[scene.nodes.size() - 40 + i].local[3].x - static_cast<float>(px);

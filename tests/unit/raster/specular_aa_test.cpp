@@ -9,7 +9,7 @@
 namespace burnish::test {
 namespace {
 
-constexpr int kSide = 64;
+constexpr int kAaSide = 64;
 constexpr double kFilter = 1.0 / 12.0; // variance of a pixel, square pixels
 
 // A plate whose normals lean by `slope` a metre along x.
@@ -26,20 +26,20 @@ Scene bent_plate(float slope)
 FrameDesc seen_from_above()
 {
     FrameDesc d;
-    d.width = d.height = kSide, d.msaa = 4, d.layers = true, d.specular_aa = true;
-    d.view = make_view({0, 0, 4}, {0, 0, 0}, 0.6f, kSide, kSide);
+    d.width = d.height = kAaSide, d.msaa = 4, d.layers = true, d.specular_aa = true;
+    d.view = make_view({0, 0, 4}, {0, 0, 0}, 0.6f, kAaSide, kAaSide);
     return d;
 }
 
 float roughness_in_the_middle(const Frame& f)
 {
-    return f.layers[kSide / 2 * kSide + kSide / 2].roughness[0];
+    return f.layers[kAaSide / 2 * kAaSide + kAaSide / 2].roughness[0];
 }
 
 TEST(specular_aa, lobes_grow_by_the_covariance_of_a_pixel)
 {
     const FrameDesc d = seen_from_above();
-    const double pixel_m = 4.0 * 2.0 * double{d.view.tan_half_x} / kSide;
+    const double pixel_m = 4.0 * 2.0 * double{d.view.tan_half_x} / kAaSide;
     for (float slope : {0.2f, 0.5f})
         for (float roughness : {0.0f, 0.2f}) {
             const double along2 = kFilter * std::pow(double{slope} * pixel_m, 2.0), sigma2 = std::pow(double{roughness}, 4.0) / 2.0;
@@ -66,7 +66,7 @@ TEST(specular_aa, changes_nothing_where_nothing_bends)
     const Frame with = stage.render(d, best_isa());
     d.specular_aa = false;
     const Frame without = stage.render(d, best_isa());
-    for (int i = 0; i < 3 * kSide * kSide; ++i)
+    for (int i = 0; i < 3 * kAaSide * kAaSide; ++i)
         ASSERT_NEAR(with.color.f32()[i], without.color.f32()[i], 2e-6f);
 }
 
