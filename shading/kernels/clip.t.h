@@ -163,7 +163,8 @@ BN_FN int place_on_grid(uniform_wide place, uniform_real half_size, int center)
     uniform_wide most = wide_of(kGuardBand - 1);
     uniform_wide least = wide_of(1 - kGuardBand);
     at = wide_min(wide_max(at, least), most);
-    return int(at + (wide_of(kGuardBand) + wide_of(0.5f))) - kGuardBand; // the nearest: what is converted is positive
+    uniform_wide positive = at + (wide_of(kGuardBand) + wide_of(0.5f));
+    return int(positive) - kGuardBand; // the nearest
 }
 
 // Finds the place of a corner that has none.
@@ -174,10 +175,14 @@ BN_FN void snap_corner(frame_ref f, BN_INOUT(clip_corner) v)
     if (the_frame(f).view.orthographic == 0)
         w = wide_max(w, wide_of(the_frame(f).view.znear));
     z = wide_min(z, w); // depth 1
-    v.x = place_on_grid(v.c[0] / w, the_frame(f).half_width, the_frame(f).center_x);
-    v.y = place_on_grid(-v.c[1] / w, the_frame(f).half_height, the_frame(f).center_y);
-    v.inv_w = float(wide_of(1) / w);
-    v.z = float(z / w);
+    uniform_wide x = v.c[0] / w;
+    uniform_wide y = -v.c[1] / w;
+    v.x = place_on_grid(x, the_frame(f).half_width, the_frame(f).center_x);
+    v.y = place_on_grid(y, the_frame(f).half_height, the_frame(f).center_y);
+    uniform_wide inv_w = wide_of(1) / w;
+    uniform_wide depth = z / w;
+    v.inv_w = float(inv_w);
+    v.z = float(depth);
     v.placed = true;
 }
 

@@ -125,9 +125,9 @@ Status check(const Image& image, const std::string& name, const EnvironmentOptio
 {
     if (image.width <= 0 || image.height <= 0 || image.channels < 1 || image.channels > 4)
         return Error{ExitCode::bad_input, name, "", "the environment has no pixels"};
-    if (image.type != PixelType::f32 || image.bytes.size() / sizeof(float) / static_cast<std::size_t>(image.channels) !=
-                                            static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height))
-        return Error{ExitCode::bad_input, name, "/bytes", "the environment's pixels are not the floats that its size has"};
+    if (image.bytes.size() / pixel_type_bytes(image.type) / static_cast<std::size_t>(image.channels) !=
+        static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height))
+        return Error{ExitCode::bad_input, name, "/bytes", "the environment has not as many pixels as its size says"};
     if (o.cube_size < 4 || o.cube_size > 4096 || (o.cube_size & (o.cube_size - 1)) != 0)
         return bad_option("the cube size of the environment must be a power of two from 4 to 4096");
     if (o.levels < 0 || o.levels > 13 || (o.levels > 0 && (o.cube_size >> (o.levels - 1)) == 0))
