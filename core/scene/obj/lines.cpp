@@ -50,11 +50,12 @@ Number read_number(std::string_view word, float& value)
     const std::from_chars_result read = std::from_chars(word.data(), end, wide);
     if (read.ptr != end || read.ec == std::errc::invalid_argument)
         return Number::none;
-    if (read.ec != std::errc() || wide > static_cast<double>(std::numeric_limits<float>::max()))
-        return Number::too_large;
     float narrow = 0.0f;
-    if (std::from_chars(word.data(), end, narrow).ec != std::errc())
+    if (std::from_chars(word.data(), end, narrow).ec != std::errc()) {
+        if (read.ec != std::errc() || wide > 1.0)
+            return Number::too_large;
         narrow = static_cast<float>(wide);
+    }
     value = minus ? -narrow : narrow;
     return Number::read;
 }
