@@ -58,6 +58,7 @@ import subcommand_cases
 import tilt_cases
 import train_cases
 import usage_cases
+import wide_lobe_cases
 
 parser = argparse.ArgumentParser()
 parser.add_argument("--program", default="")
