@@ -26,18 +26,6 @@ BN_FN real3 seen_of_lobe(frame_ref f, BN_IN(shaded_point) x, int traits, real3 s
     return left;
 }
 
-// What the diffuse part is lit by: the mean radiance over the cosine-weighted directions about the normal. Of those, a share of
-// (1 - n.N) / 2 lies below the horizon of a surface whose own normal is N, where the light is taken to be what its back would have.
-BN_FN real3 irradiance_at(frame_ref f, BN_IN(shaded_point) x)
-{
-    real3 whole = cube_sample(irradiance_cube(f), x.s.n, lit(0.0)) * splat(the_frame(f).irradiance.scale);
-    if (!x.mapped)
-        return whole;
-    real below = k_saturate(lit(0.5) - lit(0.5) * k_dot3(x.s.n, x.surface_axes.n));
-    real3 back = cube_sample(irradiance_cube(f), -x.surface_axes.n, lit(0.0)) * splat(the_frame(f).irradiance.scale);
-    return max(whole - back * below, vec3_all(lit(0.0)));
-}
-
 // specular: of the technique. Occlusion dims all of it.
 BN_FN real3 environment_light(frame_ref f, BN_IN(shaded_point) x, int traits, real3 specular)
 {
@@ -48,7 +36,7 @@ BN_FN real3 environment_light(frame_ref f, BN_IN(shaded_point) x, int traits, re
         return alone;
     }
     real passed = passed_to_diffuse(f, x);
-    real3 irradiance = irradiance_at(f, x);
+    real3 irradiance = cube_sample(irradiance_cube(f), x.s.n, lit(0.0)) * splat(the_frame(f).irradiance.scale);
     real3 sum = (seen + x.s.diffuse * irradiance * passed) * x.s.occlusion;
     return sum;
 }
