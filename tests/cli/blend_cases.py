@@ -73,6 +73,6 @@ def shared(bench):
 @case("blend.the_forward_pipeline_refuses_blended_scenes", tier="check")
 def forward(bench):
     done = bench.run("render", sheets(bench, "thin"), "--size", "24x24", *NIGHT, "--backend", "vulkan", "--device", "lavapipe", "--pipeline", "forward",
-                     "-o", "a.pfm")
+                     "-q", "-o", "a.pfm")
     if done.code != 77:
         done.expect(2).expect_one_line("forward does not sort blended surfaces")
