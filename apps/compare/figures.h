@@ -17,7 +17,7 @@ struct Pictures {
     Image reference, test;
     std::vector<Image> variances;
     std::vector<std::string> warnings; // what their readers had to guess
-    std::string note; // on alpha, where only one of the two has it
+    std::string note;                  // on alpha, where only one of the two has it
 };
 
 struct CompareFigures {

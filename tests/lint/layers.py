@@ -19,7 +19,7 @@ THIRD_PARTY = (
     (r"(png|zlib)\.h$", ("core/image/io",)),
     (r"draco/", ("core/scene/gltf",)),
     (r"meshoptimizer", ("core/scene", "raster/tile", "tests")),
-    (r"tbb/|oneapi/", ("raster/reference",)), # Embree's threads; all others are those of core/jobs
+    (r"tbb/|oneapi/", ("core/jobs", "raster/reference")), # the latter: what Embree builds its trees with
     (r".*intrin\.h$|cpuid\.h$", ("core/simd",)),
     (r"vulkan/", ("raster/vulkan", "tests/unit/vulkan")),
     (r"embree", ("raster/reference", "bench")), # bench races rays against the tile renderer

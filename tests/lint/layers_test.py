@@ -37,7 +37,7 @@ BAD = {
     "core/image/pixels.cpp": "#include <OpenImageIO/imageio.h>\n",
     "core/scene/png.cpp": "#include <png.h>\n",
     "core/image/scene.cpp": "#include <draco/mesh.h>\n",
-    "core/jobs/tasks.cpp": "#include <tbb/parallel_for.h>\n",
+    "core/image/tasks.cpp": "#include <tbb/parallel_for.h>\n",
     "core/jobs/json.cpp": "#include <ranges>\n",
     "shading/kernels/unguarded.k.h": '#include "shading/lang/l.h"\n',
     "shading/kernels/greedy.k.h": '#pragma once\n#include "core/base/a.h"\n',
