@@ -50,9 +50,9 @@ def little_memory_all(bench):
 @case("confine.a_picture_that_does_not_fit_is_not_called_damaged")
 def exr_memory(bench):
     """What OpenEXR says where it gets no memory is not taken for what it says of a damaged file."""
-    bench.run("render", "builtin:plate", *TINY, "--size", "2000x2000", "-o", "big.exr").expect(0)
+    bench.run("render", "builtin:plate", *TINY, "--size", "4000x4000", "-o", "big.exr").expect(0)
     words = ("compare", "big.exr", "big.exr", "--metric", "mse", "--json", "found.json")
-    said = with_little_memory(bench, words, "found.json", [m * MIB for m in (300, 820, 850, 880, 920, 1600)])
+    said = with_little_memory(bench, words, "found.json", [m * MIB for m in (300, 900, 960, 1020, 1080, 3000)])
     check(any("for the pixels" in text for text in said), f"the library was never short of memory: {said}")
     for text in said:
         check("damaged" not in text and "corrupt" not in text and "memory" in text, text)
