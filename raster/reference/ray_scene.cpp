@@ -54,7 +54,7 @@ class EmbreeScene final : public RayScene {
 
 constexpr unsigned kSurfaces = 0, kOpenLights = 1; // Embree's ids of the parts' geometries
 
-// Keeps oneTBB, which Embree builds its trees with, from starting threads: where one is refused, it ends the process. Ours join it instead.
+// Keeps oneTBB, which Embree builds its trees with, from starting threads: where one is refused, it ends the process.
 void keep_tbb_idle()
 {
     static const tbb::global_control* const only_callers =
@@ -134,11 +134,8 @@ Result<std::unique_ptr<RayScene>> EmbreeScene::make(const Scene& scene, const Dr
     for (const unsigned part : {kSurfaces, kOpenLights})
         if (const Status added = self->add_part(tables, part); !added)
             return added.error();
-    for (const RTCScene made : {self->seen_, self->in_the_way_})
-        if (jobs.by_onetbb())
-            rtcCommitScene(made);
-        else
-            jobs.parallel_for(static_cast<std::size_t>(jobs.threads()), [&](std::size_t, int) { rtcJoinCommitScene(made); });
+    rtcCommitScene(self->seen_);
+    rtcCommitScene(self->in_the_way_);
     if (const RTCError code = rtcGetDeviceError(self->device_); code != RTC_ERROR_NONE)
         return error_of(code, "build its tree over the scene");
     return std::unique_ptr<RayScene>(std::move(self));

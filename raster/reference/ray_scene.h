@@ -43,7 +43,7 @@ class RayScene {
 
 bool ray_scene_available();
 // An Error with ExitCode::unavailable where Embree was not there when the program was built.
-// The threads of `jobs` build its tree.
+// Builds its tree on the threads of oneTBB, where `jobs` has them, else on the calling one.
 Result<std::unique_ptr<RayScene>> make_ray_scene(const Scene& scene, const DrawTables& tables, const Jobs& jobs);
 
 } // namespace burnish
