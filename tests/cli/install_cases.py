@@ -61,18 +61,19 @@ def library(bench):
 @case("install.without_the_module_png_still_works", "input")
 def without_module(bench):
     """A program alone still renders what is built in to PNG, and says in one line what it cannot."""
-    bench.run("render", *SMALL, "-o", "a.hdr").expect(0)
+    bench.run("render", *SMALL, "-o", "a.exr", "-o", "a.hdr").expect(0)
     with tempfile.TemporaryDirectory(prefix="burnish-alone-") as folder:
         program = pathlib.Path(shutil.copy(bench.program, folder))
         bench.run("render", *SMALL, "-o", "a.png", "-o", "a.tif", "-o", "a.pfm", program=program).expect(0)
         written = bench.run("render", *SMALL, "--quiet", "-o", "b.exr", program=program).expect(77)
         written.expect_one_line("b.exr", MODULE, folder)
-        read = bench.run("render", *SMALL, "--quiet", "--env", "a.hdr", "-o", "c.png", program=program).expect(77)
-        read.expect_one_line("a.hdr", MODULE, folder)
+        read = bench.run("render", *SMALL, "--quiet", "--env", "a.exr", "-o", "c.png", program=program).expect(77)
+        read.expect_one_line("a.exr", MODULE, folder)
+        bench.run("render", *SMALL, "--quiet", "--env", "a.hdr", "-o", "a.png", program=program).expect(0)
         damaged = pathlib.Path(folder, MODULE)
         damaged.write_bytes(b"no module")
         bench.run("render", *SMALL, "--quiet", "-o", "b.exr", program=program).expect(77).expect_one_line("b.exr", damaged)
-    check(bench.left_behind() == ["a.hdr", "a.pfm", "a.png", "a.tif"], f"left: {bench.left_behind()}")
+    check(bench.left_behind() == ["a.exr", "a.hdr", "a.pfm", "a.png", "a.tif"], f"left: {bench.left_behind()}")
 
 
 def loaded(bench, *arguments):
