@@ -94,7 +94,7 @@ Status check_mip_filters(const Scene& scene, const std::string& file)
         };
         if (static_cast<std::size_t>(m.mip_filter) >= mip_filters().size())
             return wrong("mip_filter", fmt::format("filter {} does not exist", static_cast<int>(m.mip_filter)));
-        if (!(m.mip_kappa >= 0.0f && double{m.mip_kappa} <= kMostKappa))
+        if (!(m.mip_kappa >= 0.0f && static_cast<double>(m.mip_kappa) <= kMostKappa))
             return wrong("mip_kappa", fmt::format("{:g} lies outside 0 to {:g}", m.mip_kappa, kMostKappa));
         if (m.mip_lobe > kLastLobe)
             return wrong("mip_lobe", fmt::format("lobe {} does not exist", m.mip_lobe));

@@ -66,7 +66,7 @@ Frame draw(const std::vector<Sheet>& sheets, int msaa, float margin = -4.0f)
 glm::dvec3 middle(const Frame& f)
 {
     const float* c = f.color.f32() + 3 * (kWidth / 2 * kWidth + kWidth / 2);
-    return {double{c[0]}, double{c[1]}, double{c[2]}};
+    return glm::dvec3(c[0], c[1], c[2]);
 }
 
 // "Over" from the farthest sheet to the nearest, in double.
@@ -75,7 +75,7 @@ glm::dvec3 over(std::vector<Sheet> sheets)
     std::sort(sheets.begin(), sheets.end(), [](const Sheet& a, const Sheet& b) { return a.z < b.z; });
     glm::dvec3 light(0.0);
     for (const Sheet& s : sheets) {
-        const double alpha = s.mode == AlphaMode::blend ? double{s.color.a} : 1.0;
+        const double alpha = s.mode == AlphaMode::blend ? static_cast<double>(s.color.a) : 1.0;
         light = glm::dvec3(s.color) * alpha + light * (1.0 - alpha);
     }
     return light;
