@@ -125,12 +125,9 @@ void warn_of_unfiltered(Scene& scene)
     for (const Material& m : scene.materials)
         if (const std::string why = why_unfiltered(scene, m); !why.empty())
             scene.warnings.push_back("material '" + m.name + "' is filtered as by --mip-filter box: " + why);
-    constexpr float kMostLost = 0.25f;
     for (const Material& m : scene.materials)
-        if (lost_below_horizon(scene, m) > kMostLost)
-            scene.warnings.push_back("material '" + m.name + "' has normals that lie too far apart for one lobe a texel, by --mip-filter " +
-                                     mip_filters()[static_cast<std::size_t>(m.mip_filter)].name +
-                                     ": from afar, its light from few directions may be off by more than a tenth");
+        if (const std::string why = why_dim(scene, m); !why.empty())
+            scene.warnings.push_back("material '" + m.name + "' keeps no light of its normals: " + why);
     for (const Material& m : scene.materials)
         if (const std::string why = why_uncoupled(scene, m); !why.empty())
             scene.warnings.push_back("material '" + m.name + "' " + why);

@@ -8,6 +8,7 @@
 #include "core/simd/half.h"
 #include "raster/frame/colours.h"
 #include "shading/bake/mip/anisotropy.h"
+#include "shading/bake/mip/facets.h"
 #include "shading/bake/mip/filter.h"
 #include "shading/bake/mip/kept_light.h"
 #include "shading/bake/mip/map_levels.h"
@@ -146,6 +147,8 @@ float mean_roughness(const Scene& scene, const Material& m)
         sum += static_cast<double>(texel_channel(*map, i * all / count, map->channels >= 3 ? 1 : 0));
     return m.roughness * static_cast<float>(sum / static_cast<double>(count));
 }
+
+constexpr float kLeastLoss = 0.2f; // of light: where less is lost, one lobe a texel says well enough where it goes
 
 // Normals alone, on the grid of their own map.
 MipSource normals_of(const Scene& scene, const Material& m)
@@ -381,9 +384,13 @@ std::string why_unfiltered(const Scene& scene, const Material& m)
     return "";
 }
 
-float lost_below_horizon(const Scene& scene, const Material& m)
+std::string why_dim(const Scene& scene, const Material& m)
 {
-    return kept_weights_of(scene, m).loss;
+    if (!m.normal_tex.used() || m.unlit || !m.heights)
+        return "";
+    if (kept_weights(normals_of(scene, m), kept_shares(mean_roughness(scene, m))).loss < kLeastLoss)
+        return "";
+    return "its normal map holds heights, and no share of the light that steep normals keep: from afar it is too bright or too dark";
 }
 
 bool is_metal(const Scene& scene, const Material& m)
@@ -465,6 +472,22 @@ std::vector<PyramidKey> used_pyramids(const Scene& scene)
     return keys;
 }
 
+namespace {
+
+void put_facets(const Scene& scene, const Material& m, const KeptWeights& kept, MaterialRecord& to)
+{
+    to.facets = 0, to.facets_from = 1.0f;
+    if (kept.loss < kLeastLoss || m.transmission > 0.0f || m.tilt_tex.used())
+        return;
+    to.facets_from = kept.loss;
+    for (const Facet& facet : facets_of(normals_of(scene, m))) {
+        const float words[] = {facet.x, facet.y, facet.weight, facet.spread};
+        std::copy(std::begin(words), std::end(words), to.facet + 4 * to.facets++);
+    }
+}
+
+} // namespace
+
 void bind_textures(const Scene& scene, std::size_t material, bool overridden, const std::vector<PyramidKey>& keys, MaterialRecord& to)
 {
     for (const TextureUse& use : kTextureUses) {
@@ -489,6 +512,7 @@ void bind_textures(const Scene& scene, std::size_t material, bool overridden, co
     const KeptWeights kept = kept_weights_of(scene, m);
     to.keeps = kept.any ? 1 : 0;
     std::copy(std::begin(kept.of), std::end(kept.of), to.kept);
+    put_facets(scene, m, kept, to);
 }
 
 TexturePyramid make_pyramid(const Scene& scene, const PyramidKey& key, const MaterialLevels& levels)

@@ -67,6 +67,70 @@ BN_STAGE coat_light light_of_coat(any_frame f, any_material m, BN_IN(material_in
     return r;
 }
 
+// How far a pixel sees all facets of its material, [0,1]: where a texel of a level loses as much light as the whole map, and lies level.
+BN_FN real facets_seen(material_ref m, BN_IN(material_inputs) at, BN_IN(shaded_point) x)
+{
+    real lost = (lit(1.0) - at.kept) / splat(the_material(m).facets_from);
+    real share = k_saturate((lost - lit(0.7)) * lit(4.0));
+    real level = k_saturate((k_dot3(x.s.n, x.surface_axes.n) - lit(0.92)) * lit(20.0));
+    return share * share * (lit(3.0) - lit(2.0) * share) * level;
+}
+
+// Light of the environment that a round facet reflects, by one prefiltered fetch. Half of it stays where the mirrored eye lies in the
+// surface's horizon, and so on by the lobe's slopes.
+BN_FN real3 facet_specular(frame_ref f, BN_IN(shaded_point) x, real alpha)
+{
+    real3 whole = split_isotropic_specular(f, x);
+    if (!x.turned)
+        return whole;
+    real3 mirrored = x.s.n * (lit(2.0) * k_dot3(x.s.n, x.s.v)) - x.s.v;
+    real high = k_dot3(x.surface_axes.n, mirrored) * lit(0.5);
+    real half_share = high * lit(0.5) / sqrt(max(high * high + alpha * alpha, lit(1e-12)));
+    real share = lit(0.5) + half_share;
+    return whole * share;
+}
+
+// Light of a surface whose facets are all below a pixel: each is shaded by itself, by a round lobe. Techniques that sample lobes sample
+// these, the others take facet_specular().
+BN_STAGE real3 light_of_facets(any_frame f, any_material m, BN_IN(material_inputs) at, BN_IN(visible_point) p, integer pixel_id, int traits)
+{
+    material_inputs facet = at;
+    facet.kept = lit(1.0);
+    if (the_material(m).level_gain < 0.0f)
+        facet.own_roughness = k_saturate(at.roughness);
+    real own2 = facet.own_roughness * facet.own_roughness;
+    real3 sum = vec3_all(lit(0.0));
+    for (int k = 0; k < the_material(m).facets; ++k) {
+        real nx = splat(the_material(m).facet[4 * k]);
+        real ny = splat(the_material(m).facet[4 * k + 1]);
+        real nz2 = lit(1.0) - (nx * nx + ny * ny);
+        facet.normal_map = vec3_of(nx, ny, sqrt(max(nz2, lit(0.0))));
+        real alpha2 = own2 * own2 + splat(the_material(m).facet[4 * k + 3]);
+        real alpha = min(sqrt(alpha2), lit(1.0));
+        lobe_shape shape;
+        shape.sigma_u = alpha * lit(0.70710678118654752);
+        shape.sigma_v = shape.sigma_u;
+        shape.u = vec2_of(lit(1.0), lit(0.0));
+        shape.alpha_lin = sqrt(alpha);
+        shaded_point x;
+        make_shaded_point(f, m, facet, shape, p, pixel_id, x);
+        real3 specular = vec3_all(lit(0.0));
+        if ((traits & kSamplesLobe) != 0)
+            specular = mc_of_lobe(f, x, placed_lobe_at(f, x));
+        else
+            specular = facet_specular(f, x, alpha);
+        real3 light = environment_light(f, x, kSamplesLobe + kTestsHorizon, specular);
+        if (the_frame(f).key_light_count > 0)
+            light = light + light_of_sky(f, x, the_material(m).lights_lobe);
+        if (the_frame(f).light_count > 0)
+            light = light + light_of_lamps(f, x, the_material(m).lights_lobe, p.position);
+        if (the_frame(f).area_light_count > 0)
+            light = light + light_of_area_lights(f, x, the_material(m).lights_lobe, p.position);
+        sum = sum + light * splat(the_material(m).facet[4 * k + 2]);
+    }
+    return sum;
+}
+
 // shape: lobe_shape_at(f, m, at, p). px, py: pixel. shares: the technique shares samples, and fragments meet their neighbours; the colour
 // is then made of what they all found (line_mean).
 BN_FN line_record light_of_fragment(frame_ref f, material_ref m, technique_ref t, BN_IN(material_inputs) at, BN_IN(lobe_shape) shape,
@@ -91,6 +155,15 @@ BN_FN line_record light_of_fragment(frame_ref f, material_ref m, technique_ref t
         r = shared_light(f, x, traits, technique_shared(f, t, x, quad_offset(px & int_lit(1), py & int_lit(1))), light);
     else
         r = line_alone(light);
+    if (the_material(m).facets > 0) {
+        real far = facets_seen(m, at, x);
+        if (any_lane(far > lit(0.0))) {
+            real3 facets = own_light(m, at) + light_of_facets(f, m, at, p, x.pixel_id, traits);
+            if (shares)
+                r.factor = r.factor * (lit(1.0) - far);
+            r.rest = r.rest + (facets - r.rest) * far;
+        }
+    }
     if (coats_used() && the_material(m).coated != 0) {
         coat_light coat = light_of_coat(f, m, at, p, x.pixel_id, traits);
         if (shares)

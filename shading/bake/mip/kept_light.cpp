@@ -82,19 +82,25 @@ const KeptShares& kept_shares(float roughness)
     return *shares;
 }
 
-KeptWeights kept_weights(const MipSource& source, const KeptShares& shares)
+std::vector<float> spread_points(const MipSource& source)
 {
-    constexpr std::size_t kPoints = 4096;
-    std::vector<int> x(kPoints), y(kPoints);
-    double u = 0.5, v = 0.5; // the sequence of the plastic number, even over the map
-    for (std::size_t i = 0; i < kPoints; ++i) {
+    std::vector<int> x(kSpreadPoints), y(kSpreadPoints);
+    double u = 0.5, v = 0.5; // the sequence of the plastic number
+    for (std::size_t i = 0; i < kSpreadPoints; ++i) {
         x[i] = static_cast<int>(u * source.width()), y[i] = static_cast<int>(v * source.height());
         u += 0.7548776662466927, v += 0.5698402909980532;
         u -= std::floor(u), v -= std::floor(v);
     }
+    std::vector<float> points(mip::kPointPlanes * mip::row_stride(kSpreadPoints));
+    source.points(kSpreadPoints, x.data(), y.data(), points.data());
+    return points;
+}
+
+KeptWeights kept_weights(const MipSource& source, const KeptShares& shares)
+{
+    constexpr std::size_t kPoints = kSpreadPoints;
     const std::size_t stride = mip::row_stride(kPoints);
-    std::vector<float> points(mip::kPointPlanes * stride);
-    source.points(kPoints, x.data(), y.data(), points.data());
+    const std::vector<float> points = spread_points(source);
     double mean[3] = {}, kept[kKeptKnots] = {};
     for (std::size_t i = 0; i < kPoints; ++i) {
         for (std::size_t k = 0; k < 3; ++k)

@@ -26,6 +26,10 @@ class KeptShares {
 // Returns the shares of a width; tables are made once for each roughness in steps of 1/32.
 const KeptShares& kept_shares(float roughness);
 
+// Points of level 0, even over the map, as MipSource::points() has them.
+inline constexpr std::size_t kSpreadPoints = 4096;
+std::vector<float> spread_points(const MipSource& source);
+
 inline constexpr int kKeptKnot = 1; // the one that levels hold: eyes at cosine .4
 
 struct KeptWeights {
