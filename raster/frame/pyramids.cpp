@@ -148,7 +148,7 @@ float mean_roughness(const Scene& scene, const Material& m)
     return m.roughness * static_cast<float>(sum / static_cast<double>(count));
 }
 
-constexpr float kLeastLoss = 0.2f; // of light: where less is lost, one lobe a texel says well enough where it goes
+constexpr float kLeastLoss = 0.05f; // of light: where less is lost, one lobe a texel says well enough where it goes
 
 // Normals alone, on the grid of their own map.
 MipSource normals_of(const Scene& scene, const Material& m)
@@ -388,7 +388,8 @@ std::string why_dim(const Scene& scene, const Material& m)
 {
     if (!m.normal_tex.used() || m.unlit || !m.heights)
         return "";
-    if (kept_weights(normals_of(scene, m), kept_shares(mean_roughness(scene, m))).loss < kLeastLoss)
+    constexpr float kMuch = 0.2f;
+    if (kept_weights(normals_of(scene, m), kept_shares(mean_roughness(scene, m))).loss < kMuch)
         return "";
     return "its normal map holds heights, and no share of the light that steep normals keep: from afar it is too bright or too dark";
 }

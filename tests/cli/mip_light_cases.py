@@ -151,3 +151,43 @@ def far_woven(bench):
 @case("mip.far_scratched_metal_keeps_its_light", tier="check")
 def far_scratched(bench):
     light_is_kept(bench, "scratched")
+
+
+def light_is_that_of_texels(bench, kind):
+    """The whole table of a kind: both sizes, all filters, under constant light and two environments with small lights. A row is a size, an eye
+    and a light; eyes count alike in the mean."""
+    needs_embree(bench)
+    white, worst = furnace(bench), 0.0
+    for size in KINDS[kind][1]:
+        name = far_plate(bench, kind, size)
+        for light in (white, ("--env", "builtin:studio"), ("--env", "builtin:sky")):
+            off = {mip: [] for mip in FILTERS}
+            for elevation in VIEWS:
+                look = (*light, *eye_at(elevation), "--size", "12x12", *HORIZON)
+                truth = truth_of(bench, name, 1024, *look)
+                for mip in FILTERS:
+                    off[mip].append(mean_light(bench, name, *look, "--mip-filter", mip) / truth - 1)
+            for mip, by in off.items():
+                print(name, light[1], mip, *(f"{b:+.3f}" for b in by))
+                worst = max(worst, *map(abs, by))
+    check(worst < 0.1, f"{kind}: off by {worst:.3f}")
+
+
+@case("mip.mean_light_of_hammered_metal_is_that_of_its_texels", tier="slow")
+def table_hammered(bench):
+    light_is_that_of_texels(bench, "hammered")
+
+
+@case("mip.mean_light_of_knurled_metal_is_that_of_its_texels", tier="slow")
+def table_knurled(bench):
+    light_is_that_of_texels(bench, "knurled")
+
+
+@case("mip.mean_light_of_woven_metal_is_that_of_its_texels", tier="slow")
+def table_woven(bench):
+    light_is_that_of_texels(bench, "woven")
+
+
+@case("mip.mean_light_of_scratched_metal_is_that_of_its_texels", tier="slow")
+def table_scratched(bench):
+    light_is_that_of_texels(bench, "scratched")
