@@ -481,7 +481,18 @@ void put_facets(const Scene& scene, const Material& m, const KeptWeights& kept, 
     if (kept.loss < kLeastLoss || m.transmission > 0.0f || m.tilt_tex.used())
         return;
     to.facets_from = kept.loss;
-    for (const Facet& facet : facets_of(normals_of(scene, m))) {
+    const float roughness = mean_roughness(scene, m), own2 = roughness * roughness;
+    std::copy(std::begin(kept.mean), std::end(kept.mean), to.facets_kept);
+    const std::vector<Facet> facets = facets_of(normals_of(scene, m));
+    for (int knot = 0; knot < kKeptKnots; ++knot) {
+        float of_groups = 0.0f;
+        for (const Facet& facet : facets) {
+            const float nz = std::sqrt(std::max(1.0f - (facet.x * facet.x + facet.y * facet.y), 0.0f));
+            of_groups += facet.weight * kept_shares(std::sqrt(std::sqrt(own2 * own2 + facet.spread))).at(knot, nz);
+        }
+        to.facets_kept[knot] /= std::max(of_groups, 0.05f);
+    }
+    for (const Facet& facet : facets) {
         const float words[] = {facet.x, facet.y, facet.weight, facet.spread};
         std::copy(std::begin(words), std::end(words), to.facet + 4 * to.facets++);
     }

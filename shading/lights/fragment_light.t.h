@@ -90,6 +90,16 @@ BN_FN real3 facet_specular(frame_ref f, BN_IN(shaded_point) x, real alpha)
     return whole * share;
 }
 
+// What facets keep of their light above the surface's horizon, over what their groups would.
+BN_FN real facets_kept(material_ref m, real cosine)
+{
+    real place = kept_place(cosine);
+    real kept = lit(0.0);
+    for (int k = 0; k < kKeptKnots; ++k)
+        kept = kept + splat(the_material(m).facets_kept[k]) * knot_weight(place, k);
+    return kept;
+}
+
 // Light of a surface whose facets are all below a pixel: each is shaded by itself, by a round lobe. Techniques that sample lobes sample
 // these, the others take facet_specular().
 BN_STAGE real3 light_of_facets(any_frame f, any_material m, BN_IN(material_inputs) at, BN_IN(visible_point) p, integer pixel_id, int traits)
@@ -114,6 +124,10 @@ BN_STAGE real3 light_of_facets(any_frame f, any_material m, BN_IN(material_input
         shape.alpha_lin = sqrt(alpha);
         shaded_point x;
         make_shaded_point(f, m, facet, shape, p, pixel_id, x);
+        if (!widens_lobes(m))
+            undo_widening(f, facet.own_roughness, x);
+        if (x.turned)
+            x.gain = x.gain * facets_kept(m, k_dot3(x.surface_axes.n, x.s.v));
         real3 specular = vec3_all(lit(0.0));
         if ((traits & kSamplesLobe) != 0)
             specular = mc_of_lobe(f, x, placed_lobe_at(f, x));

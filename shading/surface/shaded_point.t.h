@@ -216,31 +216,48 @@ BN_FN real3 quotient_of(real3 a, real3 b)
     return vec3_of(a.x / max(b.x, least), a.y / max(b.y, least), a.z / max(b.z, least));
 }
 
+// Place between the knots of what materials hold by the eye's cosine to the surface: MaterialRecord::kept.
+BN_FN real kept_place(real cosine)
+{
+    real place = (cosine - lit(0.1)) * lit(3.3333333333333333);
+    return min(max(place, lit(0.0)), lit(3.0));
+}
+
+// Weight of a knot there.
+BN_FN real knot_weight(real place, int knot)
+{
+    return max(lit(1.0) - abs(place - to_real(int_lit(knot))), lit(0.0));
+}
+
 // Share of light that facets keep above the surface's horizon: see shading/bake/mip/kept_light.h. cosine: of the eye to the surface.
 BN_FN real kept_light(material_ref m, real kept, real cosine)
 {
-    real one = lit(1.0);
-    real place = min(max((cosine - lit(0.1)) * lit(1.0 / 0.3), lit(0.0)), lit(3.0));
+    real place = kept_place(cosine);
     real loss = lit(0.0);
     for (int k = 0; k < kKeptKnots; ++k)
-        loss = loss + splat(the_material(m).kept[k]) * max(one - abs(place - to_real(int_lit(k))), lit(0.0));
-    return k_saturate(one - (one - kept) * loss);
+        loss = loss + splat(the_material(m).kept[k]) * knot_weight(place, k);
+    return k_saturate(lit(1.0) - (lit(1.0) - kept) * loss);
 }
 
-// What lobes that normals widen lose beside all lobes of the texels below: fills x.whole and what x.gain has of it.
+// Gives back to x.gain what the lobe loses by being wider than the material's own, of that roughness.
+BN_FN void undo_widening(frame_ref f, real own_roughness, BN_INOUT(shaded_point) x)
+{
+    dfg_value met = x.whole;
+    x.whole = albedo_before_widening(f, x.s, met, own_roughness);
+    real3 grown = quotient_of(albedo_of(x.s, x.whole), albedo_of(x.s, met));
+    if (the_frame(f).energy_compensation != 0)
+        grown = grown * quotient_of(energy_compensation(x.s.f0, x.whole), energy_compensation(x.s.f0, met));
+    x.gain = x.gain * grown;
+}
+
+// Makes a lobe that stands for many facets reflect what they all reflect. Fills x.whole and multiplies x.gain.
 BN_FN void keep_light(frame_ref f, material_ref m, BN_IN(material_inputs) at, BN_INOUT(shaded_point) x)
 {
-    dfg_value met = x.dfg;
+    x.whole = x.dfg;
     if (has_own_gain(f))
-        met = x.own_dfg;
-    x.whole = met;
-    if (widens_lobes(m)) {
-        x.whole = albedo_before_widening(f, x.s, met, own_alpha_lin(f, m, at));
-        real3 grown = quotient_of(albedo_of(x.s, x.whole), albedo_of(x.s, met));
-        if (the_frame(f).energy_compensation != 0)
-            grown = grown * quotient_of(energy_compensation(x.s.f0, x.whole), energy_compensation(x.s.f0, met));
-        x.gain = x.gain * grown;
-    }
+        x.whole = x.own_dfg;
+    if (widens_lobes(m))
+        undo_widening(f, own_alpha_lin(f, m, at), x);
     if (x.turned && the_material(m).keeps != 0)
         x.gain = x.gain * kept_light(m, at.kept, k_dot3(x.surface_axes.n, x.s.v));
 }

@@ -111,6 +111,8 @@ KeptWeights kept_weights(const MipSource& source, const KeptShares& shares)
     const double length = std::sqrt(mean[0] * mean[0] + mean[1] * mean[1] + mean[2] * mean[2]);
     const float nz = length > 1e-9 ? static_cast<float>(mean[2] / length) : 1.0f;
     KeptWeights weights;
+    for (int knot = 0; knot < kKeptKnots; ++knot)
+        weights.mean[knot] = static_cast<float>(kept[knot]);
     const auto loss = [&](int knot) { return 1.0f - static_cast<float>(kept[knot]) / std::max(shares.at(knot, nz), 0.05f); };
     const float held = loss(kKeptKnot);
     weights.any = held > kLeastLoss, weights.loss = std::max(held, 0.0f);

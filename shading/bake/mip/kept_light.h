@@ -33,9 +33,10 @@ std::vector<float> spread_points(const MipSource& source);
 inline constexpr int kKeptKnot = 1; // the one that levels hold: eyes at cosine .4
 
 struct KeptWeights {
-    bool any = false;          // facets lose light below the horizon
-    float loss = 0.0f;         // at kKeptKnot, of the whole map
-    float of[kKeptKnots] = {}; // loss at a knot over the loss at kKeptKnot
+    bool any = false;            // facets lose light below the horizon
+    float loss = 0.0f;           // at kKeptKnot, of the whole map
+    float of[kKeptKnots] = {};   // loss at a knot over the loss at kKeptKnot
+    float mean[kKeptKnots] = {}; // share that facets keep at a knot
 };
 // Of level 0 of a map, from 4096 of its texels.
 KeptWeights kept_weights(const MipSource& source, const KeptShares& shares);
