@@ -10,6 +10,7 @@
 #include "shading/lights/key.t.h"
 #include "shading/lights/punctual.t.h"
 #include "shading/surface/coat.t.h"
+#include "shading/surface/facets.t.h"
 #include "shading/surface/shaded_point.t.h"
 #include "shading/techniques/mc.t.h"
 #include "shading/techniques/shared_line.k.h"
@@ -67,15 +68,6 @@ BN_STAGE coat_light light_of_coat(any_frame f, any_material m, BN_IN(material_in
     return r;
 }
 
-// How far a pixel sees all facets of its material, [0,1]: where a texel of a level loses as much light as the whole map, and lies level.
-BN_FN real facets_seen(material_ref m, BN_IN(material_inputs) at, BN_IN(shaded_point) x)
-{
-    real lost = (lit(1.0) - at.kept) / splat(the_material(m).facets_from);
-    real share = k_saturate((lost - lit(0.7)) * lit(4.0));
-    real level = k_saturate((k_dot3(x.s.n, x.surface_axes.n) - lit(0.92)) * lit(20.0));
-    return share * share * (lit(3.0) - lit(2.0) * share) * level;
-}
-
 // Light of the environment that a round facet reflects, by one prefiltered fetch. Half of it stays where the mirrored eye lies in the
 // surface's horizon, and so on by the lobe's slopes.
 BN_FN real3 facet_specular(frame_ref f, BN_IN(shaded_point) x, real alpha)
@@ -90,49 +82,23 @@ BN_FN real3 facet_specular(frame_ref f, BN_IN(shaded_point) x, real alpha)
     return whole * share;
 }
 
-// What facets keep of their light above the surface's horizon, over what their groups would.
-BN_FN real facets_kept(material_ref m, real cosine)
-{
-    real place = kept_place(cosine);
-    real kept = lit(0.0);
-    for (int k = 0; k < kKeptKnots; ++k)
-        kept = kept + splat(the_material(m).facets_kept[k]) * knot_weight(place, k);
-    return kept;
-}
-
 // Light of a surface whose facets are all below a pixel: each is shaded by itself, by a round lobe. Techniques that sample lobes sample
 // these, the others take facet_specular().
 BN_STAGE real3 light_of_facets(any_frame f, any_material m, BN_IN(material_inputs) at, BN_IN(visible_point) p, integer pixel_id, int traits)
 {
-    material_inputs facet = at;
-    facet.kept = lit(1.0);
-    if (the_material(m).level_gain < 0.0f)
-        facet.own_roughness = k_saturate(at.roughness);
-    real own2 = facet.own_roughness * facet.own_roughness;
     real3 sum = vec3_all(lit(0.0));
     for (int k = 0; k < the_material(m).facets; ++k) {
-        real nx = splat(the_material(m).facet[4 * k]);
-        real ny = splat(the_material(m).facet[4 * k + 1]);
-        real nz2 = lit(1.0) - (nx * nx + ny * ny);
-        facet.normal_map = vec3_of(nx, ny, sqrt(max(nz2, lit(0.0))));
-        real alpha2 = own2 * own2 + splat(the_material(m).facet[4 * k + 3]);
-        real alpha = min(sqrt(alpha2), lit(1.0));
-        lobe_shape shape;
-        shape.sigma_u = alpha * lit(0.70710678118654752);
-        shape.sigma_v = shape.sigma_u;
-        shape.u = vec2_of(lit(1.0), lit(0.0));
-        shape.alpha_lin = sqrt(alpha);
+        facet_words words = facet_words_of(m, k);
+        material_inputs facet = facet_inputs(m, at, words);
+        lobe_shape shape = facet_shape(facet, words);
         shaded_point x;
         make_shaded_point(f, m, facet, shape, p, pixel_id, x);
-        if (!widens_lobes(m))
-            undo_widening(f, facet.own_roughness, x);
-        if (x.turned)
-            x.gain = x.gain * facets_kept(m, k_dot3(x.surface_axes.n, x.s.v));
+        keep_light_of_facets(f, m, facet, lit(1.0), x);
         real3 specular = vec3_all(lit(0.0));
         if ((traits & kSamplesLobe) != 0)
             specular = mc_of_lobe(f, x, placed_lobe_at(f, x));
         else
-            specular = facet_specular(f, x, alpha);
+            specular = facet_specular(f, x, shape.alpha_lin * shape.alpha_lin);
         real3 light = environment_light(f, x, kSamplesLobe + kTestsHorizon, specular);
         if (the_frame(f).key_light_count > 0)
             light = light + light_of_sky(f, x, the_material(m).lights_lobe);
@@ -140,7 +106,7 @@ BN_STAGE real3 light_of_facets(any_frame f, any_material m, BN_IN(material_input
             light = light + light_of_lamps(f, x, the_material(m).lights_lobe, p.position);
         if (the_frame(f).area_light_count > 0)
             light = light + light_of_area_lights(f, x, the_material(m).lights_lobe, p.position);
-        sum = sum + light * splat(the_material(m).facet[4 * k + 2]);
+        sum = sum + light * words.weight;
     }
     return sum;
 }
