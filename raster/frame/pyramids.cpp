@@ -150,16 +150,6 @@ float mean_roughness(const Scene& scene, const Material& m)
 
 constexpr float kLeastLoss = 0.05f; // of light: where less is lost, one lobe a texel says well enough where it goes
 
-// Normals alone, on the grid of their own map.
-MipSource normals_of(const Scene& scene, const Material& m)
-{
-    const Texture& sampler = scene.textures[static_cast<std::size_t>(m.normal_tex.texture)];
-    MipMaps maps;
-    maps.normal = image_of(scene, m.normal_tex), maps.normal_scale = m.normal_scale;
-    maps.wrap_s = sampler.wrap_s, maps.wrap_t = sampler.wrap_t, maps.nearest = sampler.nearest;
-    return MipSource(maps);
-}
-
 // What the facets of a normal map keep of their light. None where heights lie in its alpha, and where gains have been measured in its
 // place.
 KeptWeights kept_weights_of(const Scene& scene, const Material& m)

@@ -40,7 +40,7 @@ float facet_light(float alpha, float sine, float cosine, int knot)
 }
 
 // Root of 1 - cosine of the tilt, [0,1].
-float place_of(float nz)
+float tilt_place(float nz)
 {
     return std::sqrt(std::clamp(1.0f - nz, 0.0f, 1.0f));
 }
@@ -61,7 +61,7 @@ KeptShares::KeptShares(float alpha)
 
 float KeptShares::at(int knot, float nz) const
 {
-    const float place = place_of(nz) * (kTilts - 1);
+    const float place = tilt_place(nz) * (kTilts - 1);
     const int low = std::min(static_cast<int>(place), kTilts - 2);
     const std::vector<float>& row = rows_[knot];
     const float from = row[static_cast<std::size_t>(low)], to = row[static_cast<std::size_t>(low) + 1];
