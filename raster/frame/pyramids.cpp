@@ -480,6 +480,7 @@ void put_facets(const Scene& scene, const Material& m, const KeptWeights& kept, 
             const float nz = std::sqrt(std::max(1.0f - (facet.x * facet.x + facet.y * facet.y), 0.0f));
             of_groups += facet.weight * kept_shares(std::sqrt(std::sqrt(own2 * own2 + facet.spread))).at(knot, nz);
         }
+        to.groups_kept[knot] = of_groups;
         to.facets_kept[knot] /= std::max(of_groups, 0.05f);
     }
     for (const Facet& facet : facets) {

@@ -204,6 +204,7 @@ struct MaterialRecord { // Material in plain numbers, and what follows from them
     float facets_from;      // share of light that facets lose there
     float facet[4 * kMostFacets];  // x, y, weight, spread of each
     float facets_kept[kKeptKnots]; // share of light that the map keeps, over what its groups keep; by the eye's cosine as `kept`
+    float groups_kept[kKeptKnots]; // share that its groups keep
     TextureBinding textures[kTextureSlots];
 };
 

@@ -68,25 +68,29 @@ BN_STAGE coat_light light_of_coat(any_frame f, any_material m, BN_IN(material_in
     return r;
 }
 
-// Light of the environment that a round facet reflects, by one prefiltered fetch. Half of it stays where the mirrored eye lies in the
-// surface's horizon, and so on by the lobe's slopes.
-BN_FN real3 facet_specular(frame_ref f, BN_IN(shaded_point) x, real alpha)
+// Share of a round facet's light that comes from above the surface's horizon, about: half of it where what the eye sees mirrored lies in
+// the horizon, and so on by the lobe's slopes. Facets that are seen at grazing angles reflect above that.
+BN_FN real facet_share(BN_IN(shaded_point) x)
 {
-    real3 whole = split_isotropic_specular(f, x);
     if (!x.turned)
-        return whole;
+        return lit(1.0);
+    real alpha = x.s.roughness * x.s.roughness;
+    real rest = lit(1.0) - x.s.n_dot_v;
     real3 mirrored = x.s.n * (lit(2.0) * k_dot3(x.s.n, x.s.v)) - x.s.v;
-    real high = k_dot3(x.surface_axes.n, mirrored) * lit(0.5);
+    real high = k_dot3(x.surface_axes.n, mirrored) * lit(0.5) + alpha * (lit(2.0) * rest * rest);
     real half_share = high * lit(0.5) / sqrt(max(high * high + alpha * alpha, lit(1e-12)));
-    real share = lit(0.5) + half_share;
-    return whole * share;
+    return lit(0.5) + half_share;
 }
 
 // Light of a surface whose facets are all below a pixel: each is shaded by itself, by a round lobe. Techniques that sample lobes sample
-// these, the others take facet_specular().
+// these. The others take a prefiltered fetch of the environment each, weighted by facet_share(), whose mean is what groups keep.
 BN_STAGE real3 light_of_facets(any_frame f, any_material m, BN_IN(material_inputs) at, BN_IN(visible_point) p, integer pixel_id, int traits)
 {
+    bool samples = (traits & kSamplesLobe) != 0;
     real3 sum = vec3_all(lit(0.0));
+    real3 fetched = vec3_all(lit(0.0));
+    real shares = lit(0.0);
+    real groups = lit(1.0);
     for (int k = 0; k < the_material(m).facets; ++k) {
         facet_words words = facet_words_of(m, k);
         material_inputs facet = facet_inputs(m, at, words);
@@ -95,10 +99,15 @@ BN_STAGE real3 light_of_facets(any_frame f, any_material m, BN_IN(material_input
         make_shaded_point(f, m, facet, shape, p, pixel_id, x);
         keep_light_of_facets(f, m, facet, lit(1.0), x);
         real3 specular = vec3_all(lit(0.0));
-        if ((traits & kSamplesLobe) != 0)
+        if (samples)
             specular = mc_of_lobe(f, x, placed_lobe_at(f, x));
-        else
-            specular = facet_specular(f, x, shape.alpha_lin * shape.alpha_lin);
+        else {
+            real share = words.weight * facet_share(x);
+            shares = shares + share;
+            fetched = fetched + split_isotropic_specular(f, x) * x.gain * (share * x.s.occlusion);
+            if (x.turned)
+                groups = facet_light_of(m, k_dot3(x.surface_axes.n, x.s.v)).groups;
+        }
         real3 light = environment_light(f, x, kSamplesLobe + kTestsHorizon, specular);
         if (the_frame(f).key_light_count > 0)
             light = light + light_of_sky(f, x, the_material(m).lights_lobe);
@@ -108,7 +117,8 @@ BN_STAGE real3 light_of_facets(any_frame f, any_material m, BN_IN(material_input
             light = light + light_of_area_lights(f, x, the_material(m).lights_lobe, p.position);
         sum = sum + light * words.weight;
     }
-    return sum;
+    real scale = groups / max(shares, lit(1e-3));
+    return sum + fetched * (scale * splat(the_frame(f).specular.scale));
 }
 
 // shape: lobe_shape_at(f, m, at, p). px, py: pixel. shares: the technique shares samples, and fragments meet their neighbours; the colour

@@ -60,14 +60,24 @@ BN_FN lobe_shape facet_shape(BN_IN(material_inputs) at, BN_IN(facet_words) words
     return r;
 }
 
-// What facets keep of their light above the surface's horizon, over what their groups would.
-BN_FN real facets_kept(material_ref m, real cosine)
+struct facet_light {
+    real map_over_groups; // what facets keep of their light above the surface's horizon, over what their groups keep
+    real groups;          // what these keep
+};
+
+// cosine: of the eye to the surface.
+BN_FN facet_light facet_light_of(material_ref m, real cosine)
 {
     real place = kept_place(cosine);
-    real kept = lit(0.0);
-    for (int k = 0; k < kKeptKnots; ++k)
-        kept = kept + splat(the_material(m).facets_kept[k]) * knot_weight(place, k);
-    return kept;
+    facet_light r;
+    r.map_over_groups = lit(0.0);
+    r.groups = lit(0.0);
+    for (int k = 0; k < kKeptKnots; ++k) {
+        real weight = knot_weight(place, k);
+        r.map_over_groups = r.map_over_groups + splat(the_material(m).facets_kept[k]) * weight;
+        r.groups = r.groups + splat(the_material(m).groups_kept[k]) * weight;
+    }
+    return r;
 }
 
 // Makes facets reflect what all normals of the map reflect. at: facet_inputs(); chosen: 1, or 0 in lanes that are no facets. Multiplies
@@ -78,8 +88,8 @@ BN_FN void keep_light_of_facets(frame_ref f, material_ref m, BN_IN(material_inpu
         undo_widening(f, at.own_roughness, x);
     if (!x.turned)
         return;
-    real kept = facets_kept(m, k_dot3(x.surface_axes.n, x.s.v));
-    x.gain = x.gain * (lit(1.0) + (kept - lit(1.0)) * chosen);
+    facet_light light = facet_light_of(m, k_dot3(x.surface_axes.n, x.s.v));
+    x.gain = x.gain * (lit(1.0) + (light.map_over_groups - lit(1.0)) * chosen);
 }
 
 BN_KERNELS_END

@@ -84,16 +84,39 @@ const KeptShares& kept_shares(float roughness)
 
 std::vector<float> spread_points(const MipSource& source)
 {
-    std::vector<int> x(kSpreadPoints), y(kSpreadPoints);
+    constexpr std::size_t kCorners = 4;
+    const int width = source.width(), height = source.height();
+    std::vector<int> x(kCorners * kSpreadPoints), y(x.size());
+    std::vector<float> weight(x.size());
+    const bool nearest = source.maps().nearest;
+    const auto inside = [](int i, int size, WrapMode wrap) {
+        return wrap == WrapMode::repeat ? (i + size) % size : std::clamp(i, 0, size - 1);
+    };
     double u = 0.5, v = 0.5; // the sequence of the plastic number
     for (std::size_t i = 0; i < kSpreadPoints; ++i) {
-        x[i] = static_cast<int>(u * source.width()), y[i] = static_cast<int>(v * source.height());
+        const double px = u * width - (nearest ? 0.0 : 0.5), py = v * height - (nearest ? 0.0 : 0.5);
+        const double left = std::floor(px), top = std::floor(py), fx = nearest ? 0.0 : px - left, fy = nearest ? 0.0 : py - top;
+        for (std::size_t c = 0; c < kCorners; ++c) {
+            x[kCorners * i + c] = inside(static_cast<int>(left) + static_cast<int>(c % 2), width, source.maps().wrap_s);
+            y[kCorners * i + c] = inside(static_cast<int>(top) + static_cast<int>(c / 2), height, source.maps().wrap_t);
+            weight[kCorners * i + c] = static_cast<float>((c % 2 ? fx : 1.0 - fx) * (c / 2 ? fy : 1.0 - fy));
+        }
         u += 0.7548776662466927, v += 0.5698402909980532;
         u -= std::floor(u), v -= std::floor(v);
     }
-    std::vector<float> points(mip::kPointPlanes * mip::row_stride(kSpreadPoints));
-    source.points(kSpreadPoints, x.data(), y.data(), points.data());
-    return points;
+    const std::size_t from_stride = mip::row_stride(x.size()), stride = mip::row_stride(kSpreadPoints);
+    std::vector<float> corners(mip::kPointPlanes * from_stride), normals(3 * stride);
+    source.points(x.size(), x.data(), y.data(), corners.data());
+    for (std::size_t i = 0; i < kSpreadPoints; ++i) {
+        float n[3] = {};
+        for (std::size_t k = 0; k < 3; ++k)
+            for (std::size_t c = 0; c < kCorners; ++c)
+                n[k] += weight[kCorners * i + c] * corners[k * from_stride + kCorners * i + c];
+        const float length = std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+        for (std::size_t k = 0; k < 3; ++k)
+            normals[k * stride + i] = n[k] / std::max(length, 1e-6f);
+    }
+    return normals;
 }
 
 KeptWeights kept_weights(const MipSource& source, const KeptShares& shares)

@@ -26,7 +26,8 @@ class KeptShares {
 // Returns the shares of a width; tables are made once for each roughness in steps of 1/32.
 const KeptShares& kept_shares(float roughness);
 
-// Points of level 0, even over the map, as MipSource::points() has them.
+// Unit normals of level 0 at places that are even over the map, between texels as shading has them: planes x, y, z,
+// mip::row_stride(kSpreadPoints) apart.
 inline constexpr std::size_t kSpreadPoints = 4096;
 std::vector<float> spread_points(const MipSource& source);
 
