@@ -61,7 +61,7 @@ const int kLobeCount = 0
 #include "shading/models.def"
     ;
 
-const int kMostFacets = 12; // of a material, see MaterialRecord::facet
+const int kMostFacets = 16; // of a material, see MaterialRecord::facet
 const int kKeptKnots = 4;   // cosines of the eye, see MaterialRecord::kept
 
 // What a material's textures hold of slopes: nothing; moments of those that a map of tilts or normals has; of those and of the lobe; what
