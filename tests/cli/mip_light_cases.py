@@ -157,14 +157,14 @@ def far_scratched(bench):
     light_is_kept(bench, "scratched")
 
 
-def light_is_that_of_texels(bench, kind):
+def light_is_that_of_texels(bench, kind, most_of_sun=0.12):
     """The whole table of a kind: both sizes, all filters, three eyes. Constant light is kept from each eye. Of two environments with small
     lights the mean over eyes is: a sun shows from one eye what sixteen groups of normals leave out."""
     needs_embree(bench)
-    white, worst = furnace(bench), 0.0
+    white, far_off = furnace(bench), []
     for size in KINDS[kind][1]:
         name = far_plate(bench, kind, size)
-        for light in (white, ("--env", "builtin:studio"), ("--env", "builtin:sky")):
+        for light, most in ((white, 0.07), (("--env", "builtin:studio"), 0.1), (("--env", "builtin:sky"), most_of_sun)):
             off = {mip: [] for mip in FILTERS}
             for elevation in VIEWS:
                 look = (*light, *eye_at(elevation), "--size", "12x12", *horizon(bench, True))
@@ -173,13 +173,14 @@ def light_is_that_of_texels(bench, kind):
                     off[mip].append(mean_light(bench, name, *look, "--mip-filter", mip, "--technique", "mc", "--samples", 64) / truth - 1)
             for mip, by in off.items():
                 print(name, light[1], mip, *(f"{b:+.3f}" for b in by))
-                worst = max(worst, *map(abs, by if light == white else [sum(by) / len(by)]))
-    check(worst < 0.1, f"{kind}: off by {worst:.3f}")
+                if max(map(abs, by if light == white else [sum(by) / len(by)])) > most:
+                    far_off.append(f"{name} {light[1]} {mip} {by}")
+    check(not far_off, "\n".join(far_off))
 
 
 @case("mip.mean_light_of_hammered_metal_is_that_of_its_texels", tier="slow")
 def table_hammered(bench):
-    light_is_that_of_texels(bench, "hammered")
+    light_is_that_of_texels(bench, "hammered", 0.25)
 
 
 @case("mip.mean_light_of_knurled_metal_is_that_of_its_texels", tier="slow")
