@@ -7,6 +7,7 @@
 
 #include "core/base/file.h"
 #include "raster/frame/colours.h"
+#include "raster/frame/far_normals.h"
 #include "raster/frame/frame.h"
 #include "raster/frame/kept_mips.h"
 #include "raster/frame/pyramids.h"

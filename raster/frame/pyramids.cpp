@@ -7,8 +7,8 @@
 #include "core/scene/heights.h"
 #include "core/simd/half.h"
 #include "raster/frame/colours.h"
+#include "raster/frame/far_normals.h"
 #include "shading/bake/mip/anisotropy.h"
-#include "shading/bake/mip/facets.h"
 #include "shading/bake/mip/filter.h"
 #include "shading/bake/mip/kept_light.h"
 #include "shading/bake/mip/map_levels.h"
@@ -128,37 +128,6 @@ float slope_scale(const Material& m)
     return m.tilt_tex.used() ? m.tilt_scale : m.normal_scale;
 }
 
-// Whether its levels have gains; what lets light through would pass no less by them.
-bool has_gains(const Material& m)
-{
-    return m.mip_gains && takes_gains(m.mip_filter) && m.transmission == 0.0f;
-}
-
-// Mean roughness of a material, from some texels of its map.
-float mean_roughness(const Scene& scene, const Material& m)
-{
-    const Image* map = image_of(scene, m.metallic_roughness_tex);
-    if (!map)
-        return m.roughness;
-    constexpr std::size_t kTexels = 1024;
-    const std::size_t all = static_cast<std::size_t>(map->width) * static_cast<std::size_t>(map->height), count = std::min(all, kTexels);
-    double sum = 0.0;
-    for (std::size_t i = 0; i < count; ++i)
-        sum += static_cast<double>(texel_channel(*map, i * all / count, map->channels >= 3 ? 1 : 0));
-    return m.roughness * static_cast<float>(sum / static_cast<double>(count));
-}
-
-constexpr float kLeastLoss = 0.05f; // of light: where less is lost, one lobe a texel says well enough where it goes
-
-// What the facets of a normal map keep of their light. None where heights lie in its alpha, and where gains have been measured in its
-// place.
-KeptWeights kept_weights_of(const Scene& scene, const Material& m)
-{
-    if (!m.normal_tex.used() || m.heights || m.unlit || has_gains(m))
-        return {};
-    return kept_weights(normals_of(scene, m), kept_shares(mean_roughness(scene, m)));
-}
-
 // The first material with the same moments.
 std::int32_t owner_of(const Scene& scene, std::size_t material, bool overridden)
 {
@@ -276,29 +245,6 @@ std::vector<std::vector<float>> own_roughness_levels(const MipSource& source)
     return levels;
 }
 
-TexturePyramid kept_pyramid(const Scene& scene, const Texture& sampler, const PyramidKey& key)
-{
-    const Material& m = scene.materials[static_cast<std::size_t>(key.material)];
-    const KeptShares& shares = kept_shares(mean_roughness(scene, m));
-    const auto means = mean_levels(normals_of(scene, m), [&](const MipPoint& p) { return shares.at(kKeptKnot, p.n.z); });
-    const TexturePyramid own = make_texture_pyramid(*image_of(scene, m.normal_tex), sampler, key.encoding);
-    return make_texture_pyramid(own.width, own.height, sampler, key.encoding, [&](int level, int width, int y, float* rgba) {
-        const std::uint16_t* from = own.texels.data() + 4 * (static_cast<std::size_t>(own.offset[level]) +
-                                                             static_cast<std::size_t>(y + 1) * static_cast<std::size_t>(width + 2) + 1);
-        for (int x = 0; x < width; ++x, rgba += 4, from += 4) {
-            for (int c = 0; c < 3; ++c)
-                rgba[c] = half_to_float(from[c]);
-            rgba[3] = 1.0f;
-            if (level == 0)
-                continue;
-            const float nx = m.normal_scale * (2.0f * rgba[0] - 1.0f), ny = m.normal_scale * (2.0f * rgba[1] - 1.0f);
-            const float nz = std::max(2.0f * rgba[2] - 1.0f, 0.0f), length = std::sqrt(nx * nx + ny * ny + nz * nz);
-            const std::size_t texel = static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
-            rgba[3] = kept_share(shares, means[static_cast<std::size_t>(level) - 1][texel], length > 1e-6f ? nz / length : 1.0f);
-        }
-    });
-}
-
 TexturePyramid filtered_pyramid(const Scene& scene, const Texture& sampler, const PyramidKey& key, const MipLevels& levels)
 {
     const Material& m = scene.materials[static_cast<std::size_t>(key.material)];
@@ -374,14 +320,9 @@ std::string why_unfiltered(const Scene& scene, const Material& m)
     return "";
 }
 
-std::string why_dim(const Scene& scene, const Material& m)
+bool has_gains(const Material& m)
 {
-    if (!m.normal_tex.used() || m.unlit || !m.heights)
-        return "";
-    constexpr float kMuch = 0.2f;
-    if (kept_weights(normals_of(scene, m), kept_shares(mean_roughness(scene, m))).loss < kMuch)
-        return "";
-    return "its normal map holds heights, and no share of the light that steep normals keep: from afar it is too bright or too dark";
+    return m.mip_gains && takes_gains(m.mip_filter) && m.transmission == 0.0f;
 }
 
 bool is_metal(const Scene& scene, const Material& m)
@@ -463,34 +404,6 @@ std::vector<PyramidKey> used_pyramids(const Scene& scene)
     return keys;
 }
 
-namespace {
-
-void put_facets(const Scene& scene, const Material& m, const KeptWeights& kept, MaterialRecord& to)
-{
-    to.facets = 0, to.facets_from = 1.0f;
-    if (kept.loss < kLeastLoss || m.transmission > 0.0f || m.tilt_tex.used())
-        return;
-    to.facets_from = kept.loss;
-    const float roughness = mean_roughness(scene, m), own2 = roughness * roughness;
-    std::copy(std::begin(kept.mean), std::end(kept.mean), to.facets_kept);
-    const std::vector<Facet> facets = facets_of(normals_of(scene, m));
-    for (int knot = 0; knot < kKeptKnots; ++knot) {
-        float of_groups = 0.0f;
-        for (const Facet& facet : facets) {
-            const float nz = std::sqrt(std::max(1.0f - (facet.x * facet.x + facet.y * facet.y), 0.0f));
-            of_groups += facet.weight * kept_shares(std::sqrt(std::sqrt(own2 * own2 + facet.spread))).at(knot, nz);
-        }
-        to.groups_kept[knot] = of_groups;
-        to.facets_kept[knot] /= std::max(of_groups, 0.05f);
-    }
-    for (const Facet& facet : facets) {
-        const float words[] = {facet.x, facet.y, facet.weight, facet.spread};
-        std::copy(std::begin(words), std::end(words), to.facet + 4 * to.facets++);
-    }
-}
-
-} // namespace
-
 void bind_textures(const Scene& scene, std::size_t material, bool overridden, const std::vector<PyramidKey>& keys, MaterialRecord& to)
 {
     for (const TextureUse& use : kTextureUses) {
@@ -512,10 +425,7 @@ void bind_textures(const Scene& scene, std::size_t material, bool overridden, co
     to.level_gain = moments.filtered ? gain_of_taps(m.mip_filter, m.mip_kappa) : -1.0f;
     to.frame_map = is_filtered(scene, m) ? kFrameQuaternion : -1;
     to.anisotropic |= to.moments != kNoMoments;
-    const KeptWeights kept = kept_weights_of(scene, m);
-    to.keeps = kept.any ? 1 : 0;
-    std::copy(std::begin(kept.of), std::end(kept.of), to.kept);
-    put_facets(scene, m, kept, to);
+    put_far_normals(scene, m, to);
 }
 
 TexturePyramid make_pyramid(const Scene& scene, const PyramidKey& key, const MaterialLevels& levels)
@@ -536,7 +446,7 @@ TexturePyramid make_pyramid(const Scene& scene, const PyramidKey& key, const Mat
             return pyramid_of_map(image, texture, map_levels(scene, m, map, {map.part, map.kernel}, Jobs(1)));
     }
     if (key.keeps)
-        return kept_pyramid(scene, texture, key);
+        return kept_pyramid(scene, scene.materials[static_cast<std::size_t>(key.material)], texture, key.encoding);
     if (key.moments != kNoMoments)
         return make_texture_pyramid(moments_image(scene, texture, key), texture, key.encoding);
     if (key.tensor_power != 0)

@@ -53,8 +53,8 @@ bool is_metal(const Scene& scene, const Material& material); // more than half o
 
 // Where the filter of the material makes no levels of its maps, why: empty where it does, or has nothing to do.
 std::string why_unfiltered(const Scene& scene, const Material& material);
-// Why levels of its normal map cannot keep the light of its facets, which lose much of it: empty where they keep it.
-std::string why_dim(const Scene& scene, const Material& material);
+// Whether its levels have gains; what lets light through would pass no less by them.
+bool has_gains(const Material& material);
 // What a filter makes levels of, of a material that it makes any of.
 bool is_filtered(const Scene& scene, const Material& material);
 MipHelp mip_help(const Scene& scene, const Material& material, const TaughtTexels& advance = {}); // of that material
