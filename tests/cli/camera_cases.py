@@ -151,7 +151,7 @@ def turned_environment(bench):
     small = ("--env", "builtin:sky", "--size", "64x64", "--env-size", "64", "--env-samples", "16", "-q")
     runs = {"turned": ("rests.gltf", "--orbit", "30,20", "--env-rotation", "40"), "walked": ("walks.gltf", "--orbit", "-10,20"),
             "plain": ("rests.gltf", "--orbit", "30,20")}
-    device = bench.run("render", *small, "--backend", "vulkan", "--device", "lavapipe", *runs["turned"], "-o", "device.pfm")
+    device = bench.run("render", *small, "--backend", "vulkan", "--device", "lavapipe", *runs["turned"], "-o", "device.pfm", timeout=300.0)
     drawn = 0
     for backend in (("tile",), ("reference", "--samples", "256")):
         codes = {bench.run("render", *small, "--backend", *backend, *words, "-o", name + ".pfm").code for name, words in runs.items()}
