@@ -83,7 +83,6 @@ def every_example(bench):
 
 # Arguments, and what the one line must name.
 WRONG = (
-    ((), "subcommand"),
     (("frobnicate",), "frobnicate"),
     (("render", "--bogus"), "--bogus"),
     (("render", "one.glb", "two.glb"), "two.glb"),
