@@ -26,8 +26,8 @@ const int kGpuViewportHalf = 8192;
 const int kGpuRecordStages = 1, kGpuRecordLayers = 2, kGpuRecordColors = 4; // bits of what a band records: stages/records.glsl
 // Surfaces of a pass: opaque and masked ones; the next layer of blended ones; all, the blended ones where alpha is above a half.
 const int kGpuSolid = 0, kGpuLayer = 1, kGpuAll = 2;
-// Words of a sample in BnPeel (stages/peel.glsl): depth and id of the solid surface, depth and id of the last layer, light through the
-// layers so far, their light, colour behind them, and whether the pixel shows one (of its first sample).
+// Words of a sample in BnPeel; stages/peel.glsl names their places. The last one says, of a pixel's first sample, whether the pixel shows a
+// layer.
 const int kGpuPeelWords = 12;
 const int kGpuLineWords = 16; // line_record (shading/techniques/shared_line.k.h)
 // The forward pipeline records a sample's words four at a time, as colours: 0 triangle ids, then interpolants and material inputs, then
