@@ -1,43 +1,77 @@
-"""What the tests of a build cost: CPU seconds of each, run one after the other, and the sum of each tier. Other work on the machine hardly
-changes CPU time, so this is what tiers are judged by.
+"""Prints the CPU seconds of each test of a build, and the sum of each tier. Other work on the machine hardly changes CPU time.
 
-Usage: costs.py BUILD_FOLDER [CTEST-ARGUMENT...]    for instance: costs.py build/release -L '^quick$'"""
+Usage: costs.py BUILD_FOLDER [--jobs N] [CTEST-ARGUMENT...]    for instance: costs.py build/release --jobs 2 -L '^quick$'
+--jobs N: tests at a time (1). Exits with 1 where a test of the tiers quick and check costs more than its budget: BUDGETS, or its label
+budget_SECONDS."""
 
 import collections
+import concurrent.futures
 import json
 import os
 import subprocess
 import sys
+import tempfile
 import time
 
-TIERS = ("quick", "check", "gate", "slow")
+TIERS = ("quick", "check", "nightly")
+BUDGETS = {"quick": 2.0, "check": 2.0}  # CPU seconds
+SKIPPED = 77
 
 
-def cost_of(test):
-    """(CPU seconds, wall seconds, exit code)"""
+def labels_of(test):
+    return [value for entry in test.get("properties", []) if entry["name"] == "LABELS" for value in entry["value"]]
+
+
+def budget_of(tier, labels):
+    own = [float(label.partition("_")[2]) for label in labels if label.startswith("budget_")]
+    return max(own, default=BUDGETS.get(tier, float("inf")))
+
+
+def run(test):
+    """Runs a test. Returns its CPU seconds, wall seconds, exit code and output."""
     properties = {entry["name"]: entry["value"] for entry in test.get("properties", [])}
     environment = {**os.environ, **dict(entry.split("=", 1) for entry in properties.get("ENVIRONMENT", []))}
     begin = time.monotonic()
-    child = subprocess.Popen(test["command"], cwd=properties.get("WORKING_DIRECTORY"), env=environment, stdin=subprocess.DEVNULL,
-                             stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-    _, status, usage = os.wait4(child.pid, 0)
-    child.returncode = os.waitstatus_to_exitcode(status)
-    return usage.ru_utime + usage.ru_stime, time.monotonic() - begin, child.returncode
+    with tempfile.TemporaryFile("w+", errors="replace") as output:
+        child = subprocess.Popen(test["command"], cwd=properties.get("WORKING_DIRECTORY"), env=environment, stdin=subprocess.DEVNULL,
+                                 stdout=output, stderr=subprocess.STDOUT)
+        _, status, usage = os.wait4(child.pid, 0)
+        child.returncode = os.waitstatus_to_exitcode(status)
+        output.seek(0)
+        return usage.ru_utime + usage.ru_stime, time.monotonic() - begin, child.returncode, output.read()
 
 
 def main():
-    listed = subprocess.run(["ctest", "--test-dir", *sys.argv[1:], "--show-only=json-v1"], capture_output=True, check=True, text=True).stdout
+    words = sys.argv[1:]
+    jobs = 1
+    if "--jobs" in words:
+        at = words.index("--jobs")
+        jobs = int(words[at + 1])
+        del words[at : at + 2]
+    listed = subprocess.run(["ctest", "--test-dir", *words, "--show-only=json-v1"], capture_output=True, check=True, text=True).stdout
+    tests = json.loads(listed)["tests"]
     sums = collections.defaultdict(lambda: [0, 0.0])
-    for test in json.loads(listed)["tests"]:
-        labels = [value for entry in test.get("properties", []) if entry["name"] == "LABELS" for value in entry["value"]]
-        tier = next((tier for tier in TIERS if tier in labels), "none")
-        cpu, wall, code = cost_of(test)
-        sums[tier][0] += 1
-        sums[tier][1] += cpu
-        print(f"{cpu:8.2f} {wall:8.2f} {tier:6} {code:3} {test['name']}", flush=True)
+    failed, over = [], []
+    with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
+        for test, (cpu, wall, code, output) in zip(tests, pool.map(run, tests)):
+            labels = labels_of(test)
+            tier = next((tier for tier in TIERS if tier in labels), "none")
+            sums[tier][0] += 1
+            sums[tier][1] += cpu
+            print(f"{cpu:8.2f} {wall:8.2f} {tier:7} {code:3} {test['name']}", flush=True)
+            if code not in (0, SKIPPED):
+                failed.append(test["name"])
+                print("    " + "\n    ".join(output[-3000:].splitlines()), flush=True)
+            if cpu > budget_of(tier, labels):
+                over.append(f"{test['name']}: {cpu:.1f} s, budget {budget_of(tier, labels):.1f}")
     for tier in TIERS:
         if tier in sums:
             print(f"{tier}: {sums[tier][0]} tests, {sums[tier][1]:.1f} CPU seconds")
+    for name in failed:
+        print("failed:", name)
+    for line in over:
+        print("over budget:", line)
+    sys.exit(bool(failed or over))
 
 
 if __name__ == "__main__":

@@ -296,6 +296,8 @@ BN_INLINE void raster_small_triangle(const FrameParams& f, const TileTriangle& t
             for (int i = 0; i < 3; ++i)
                 add_edge(t, i, bx, by, e);
             const int block = by * blocks_x + bx, at = block * f.msaa * kBlockPixels;
+            if (t.z_max < scratch.block_far[block]) // or the block has no further blended layer
+                continue;
             if (scratch.block_state[block] != BlockState::drawn)
                 write_block(f, block, scratch);
             if (cover_block<3, kAnyOrder>(f, t, edges, e, lanes, corner_depth(t, bx, by), row0, row1, id, scratch.depth + at,

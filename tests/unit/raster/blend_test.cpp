@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <iterator>
 
 #include "core/scene/builtin/builtin.h"
 #include "raster/frame/frame.h"
@@ -17,6 +18,7 @@ struct Sheet {
     glm::vec4 color;
     AlphaMode mode = AlphaMode::blend;
     float slope = 0.0f; // of z along x
+    glm::vec4 place{};  // left, top, right, bottom, pixels; or empty, for all of the picture
 };
 
 constexpr int kWidth = 24;
@@ -27,9 +29,11 @@ Scene sheets_of(const std::vector<Sheet>& sheets, float margin)
     std::vector<Triangle> triangles;
     for (const Sheet& sheet : sheets) {
         const auto corner = [&](float x, float y) { return glm::vec3(x, -y, sheet.z + sheet.slope * (x - 0.5f * kWidth)); };
-        const float low = margin, high = kWidth - margin;
-        triangles.push_back({corner(low, low), corner(low, high), corner(high, high)});
-        triangles.push_back({corner(low, low), corner(high, high), corner(high, low)});
+        glm::vec4 at = sheet.place;
+        if (at.z <= at.x)
+            at = {margin, margin, kWidth - margin, kWidth - margin};
+        triangles.push_back({corner(at.x, at.y), corner(at.x, at.w), corner(at.z, at.w)});
+        triangles.push_back({corner(at.x, at.y), corner(at.z, at.w), corner(at.z, at.y)});
     }
     Scene s = scene_of(triangles, true);
     s.materials.clear(), s.primitives.clear();
@@ -225,6 +229,35 @@ TEST(blend, words_are_the_same_for_every_isa_thread_count_and_tile_size)
                                           << " samples";
                 }
         }
+    }
+}
+
+// Small and large sheets, blended and solid, before and behind each other, against the sum over all sheets of each pixel's centre.
+TEST(blend, sheets_of_all_sizes_hide_and_show_each_other)
+{
+    Random random{11};
+    for (int picture = 0; picture < 60; ++picture) {
+        std::vector<Sheet> sheets;
+        for (int i = 0; i < 40; ++i) {
+            const auto place = [&](float low, float high) { return std::floor(low + (high - low) * random.unit()) + 0.25f; };
+            const float x = place(-2.0f, 20.0f), y = place(-2.0f, 20.0f), largest = i % 3 ? 7.0f : 22.0f;
+            sheets.push_back({0.05f + 0.02f * static_cast<float>(i * 23 % 40), {random.unit(), random.unit(), random.unit(), random.unit()},
+                              i % 4 ? AlphaMode::blend : AlphaMode::opaque, 0.0f,
+                              {x, y, x + place(1.0f, largest), y + place(1.0f, largest)}});
+        }
+        const Frame f = draw(sheets, 1);
+        for (int y = 0; y < kWidth; ++y)
+            for (int x = 0; x < kWidth; ++x) {
+                std::vector<Sheet> here;
+                const float cx = static_cast<float>(x) + 0.5f, cy = static_cast<float>(y) + 0.5f;
+                std::copy_if(sheets.begin(), sheets.end(), std::back_inserter(here), [&](const Sheet& s) {
+                    return cx > s.place.x && cx < s.place.z && cy > s.place.y && cy < s.place.w;
+                });
+                const glm::dvec3 right = over(here);
+                for (int c = 0; c < 3; ++c)
+                    ASSERT_NEAR(f.color.f32()[3 * (y * kWidth + x) + c], right[c], 1e-5)
+                        << "picture " << picture << ", pixel " << x << "," << y << ", channel " << c;
+            }
     }
 }
 
