@@ -73,7 +73,7 @@ bool changes_look(const Option& option)
            std::find(std::begin(kLooks), std::end(kLooks), option.name) != std::end(kLooks);
 }
 
-// "--tilt 20,-10 --horizon", as if written on the command line.
+// "--tilt 20,-10 --horizon off", as if written on the command line.
 Status set_words(const std::string& words, OptionTable& table)
 {
     std::vector<std::string> parts = split(words, ' ');
@@ -134,7 +134,7 @@ OptionTable parity_option_table(ParityArguments& to)
          {"--technique", "NAMES", "all, or names by commas; see burnish list techniques", techniques_value(to.techniques)},
          {"--msaa", "N,N", "Samples a pixel, by commas, of 1, 2, 4, 8 and 16", choices(to.msaa, {1, 2, 4, 8, 16})},
          {"--also", "OPTIONS",
-          "All of it once more with options of materials and techniques, such as '--tilt 20,-10 --horizon'; may be given several times",
+          "All of it once more with options of materials and techniques, such as '--tilt 20,-10 --horizon off'; may be given several times",
           texts(to.also)}});
     table.take(of_render, "Machine",
                {{"--device", nullptr, "the first CPU device"}, {"--sampler", "exact, or native with --pipeline forward"}, "--validate"});

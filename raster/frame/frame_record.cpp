@@ -59,6 +59,13 @@ void put_parameters(const FrameDesc& d, bool tilted, FrameRecord& f)
     f.lobe = lobe_of(d, tilted), f.lobe_traits = lobe_traits_of(f.lobe);
 }
 
+// Whether normals of maps may lie otherwise than the surface's own.
+static bool has_mapped_normals(const Scene& scene, const FrameDesc& d)
+{
+    return d.frame_map != kFrameOff && std::any_of(scene.materials.begin(), scene.materials.end(),
+                                                   [](const Material& m) { return m.normal_tex.used() || m.clearcoat_normal_tex.used(); });
+}
+
 static const ltc::ShadingTables& ltc_tables(const RenderInput& input)
 {
     return input.ltc ? *input.ltc : ltc::shipped_tables();
@@ -88,6 +95,8 @@ FrameRecord frame_record(const RenderInput& input, const FrameDesc& d)
     f.samples = d.samples, f.texture_taps = d.texture_anisotropy;
     f.joins_round = &technique_of(d, true) != &technique_of(d, false);
     put_parameters(d, tilts(input.scene, d), f);
+    if (!has_mapped_normals(input.scene, d)) // then nothing asks for it
+        f.horizon = 0;
     f.override_anisotropy = d.override_anisotropy, f.anisotropy = d.anisotropy;
     return f;
 }

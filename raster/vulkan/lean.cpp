@@ -63,9 +63,9 @@ const char* not_of_frame(const FrameDesc& desc, const FrameRecord& f)
         return "area lights (--area-lights off)";
     if (f.lobe != lobe_with(kLobeOfAll))
         return "lobes other than the usual one (--brdf, --tilt, --masking)";
-    if (desc.dfg_fit != 0 || desc.fresnel != kFresnelSchlick || desc.energy_compensation || desc.horizon || desc.specular_aa ||
+    if (desc.dfg_fit != 0 || desc.fresnel != kFresnelSchlick || desc.energy_compensation || f.horizon != 0 || desc.specular_aa ||
         desc.frame_map != 0)
-        return "--dfg fit, --fresnel, --energy-compensation, --horizon, --specular-aa and --frame-map";
+        return "--dfg fit, --fresnel, --energy-compensation, --horizon on under normal maps, --specular-aa and --frame-map";
     if (desc.seed != 0)
         return "--seed";
     if (desc.technique == "major_axis_adaptive" && desc.major_axis_k != 1.0f)

@@ -18,12 +18,21 @@ BN_FN real3 seen_of_lobe(frame_ref f, BN_IN(shaded_point) x, int traits, real3 s
         if (lies_in_surface(f)) // the horizon's part is in it
             return left;
     }
-    if (x.turned && (traits & kTestsHorizon) == 0) {
-        real3 mirrored = x.s.n * (lit(2.0) * k_dot3(x.s.n, x.s.v)) - x.s.v;
-        real alpha = x.s.roughness * x.s.roughness;
-        return left * horizon_fade(x.surface_axes.n, mirrored, alpha);
-    }
+    if (x.turned && (traits & kTestsHorizon) == 0)
+        return left * horizon_fade(x.lobe, x.s.n, x.s.v, x.surface_axes.n);
     return left;
+}
+
+// What the diffuse part is lit by: the mean radiance over the cosine-weighted directions about the normal. Of those, a share of
+// (1 - n.N) / 2 lies below the horizon of a surface whose own normal is N, where the light is taken to be what its back would have.
+BN_FN real3 irradiance_at(frame_ref f, BN_IN(shaded_point) x)
+{
+    real3 whole = cube_sample(irradiance_cube(f), x.s.n, lit(0.0)) * splat(the_frame(f).irradiance.scale);
+    if (!x.mapped)
+        return whole;
+    real below = k_saturate(lit(0.5) - lit(0.5) * k_dot3(x.s.n, x.surface_axes.n));
+    real3 back = cube_sample(irradiance_cube(f), -x.surface_axes.n, lit(0.0)) * splat(the_frame(f).irradiance.scale);
+    return max(whole - back * below, vec3_all(lit(0.0)));
 }
 
 // specular: of the technique. Occlusion dims all of it.
@@ -36,7 +45,7 @@ BN_FN real3 environment_light(frame_ref f, BN_IN(shaded_point) x, int traits, re
         return alone;
     }
     real passed = passed_to_diffuse(f, x);
-    real3 irradiance = cube_sample(irradiance_cube(f), x.s.n, lit(0.0)) * splat(the_frame(f).irradiance.scale);
+    real3 irradiance = irradiance_at(f, x);
     real3 sum = (seen + x.s.diffuse * irradiance * passed) * x.s.occlusion;
     return sum;
 }

@@ -21,7 +21,8 @@ struct shaded_point {
     surface s;
     aniso_lobe lobe;
     surface_frame surface_axes; // the geometry's
-    bool turned;                // s.n is not surface_axes.n: light from below its horizon does not arrive
+    bool mapped;                // a normal map turns s.n from surface_axes.n: nothing arrives from below the surface's horizon
+    bool turned;                // that, or the lobe is tilted: nothing from there arrives for the lobe
     bool diffuse;               // s.diffuse may be above 0
     real brushed;               // the material's
     dfg_value dfg;
@@ -186,7 +187,8 @@ BN_FN void make_shaded_point(frame_ref f, material_ref m, BN_IN(material_inputs)
     real3 v = k_normalize3(-p.ray);
     x.surface_axes = seen_axes(p);
     surface_frame axes = lobe_axes(f, m, at, x.surface_axes, seen_handedness(p));
-    x.turned = (texture_used(m, kNormalTex) && the_frame(f).horizon != 0) || leans(f, m);
+    x.mapped = texture_used(m, kNormalTex) && the_frame(f).horizon != 0;
+    x.turned = x.mapped || leans(f, m);
     x.lobe = lobe_in_frame(m, shape, axes);
     x.diffuse = the_material(m).metallic < 1.0f || texture_used(m, kMetalRoughTex);
     x.dielectric_f0 = at.dielectric_f0;

@@ -4,6 +4,7 @@
 
 #include "shading/kernels/math.k.h"
 #include "shading/lang/lang.h"
+#include "shading/surface/lobe.k.h"
 
 BN_KERNELS_BEGIN
 
@@ -136,12 +137,24 @@ BN_FN surface_frame sloped_frame(surface_frame f, real2 slope)
     return tilted_frame(f, cosine, sine);
 }
 
-// What a lobe about a turned normal loses where it reaches below the surface's own horizon. surface_n: unit; r: unit, the mirror
-// direction about the turned normal; alpha: the lobe's width. 1 for all that the surface itself could mirror, 0 from a width below on.
-BN_FN real horizon_fade(real3 surface_n, real3 r, real alpha)
+// Share of a lobe above a horizon, [0,1]. cosine: of its middle to the horizon's normal; width: greater than 0.
+BN_FN real share_above(real cosine, real width)
 {
-    real depth = k_dot3(surface_n, r) / max(alpha, lit(0.02));
-    return k_saturate(lit(1.0) + depth);
+    real t = cosine / width;
+    return lit(0.5) + lit(0.5) * t / sqrt(lit(1.0) + t * t);
+}
+
+// Share of a lobe about a turned normal n that the surface's own horizon leaves, [0,1]. surface_n, v: unit; v: to the eye.
+BN_FN real horizon_fade(aniso_lobe lobe, real3 n, real3 v, real3 surface_n)
+{
+    real n_dot_v = k_dot3(n, v);
+    real3 mirrored = n * (lit(2.0) * n_dot_v) - v;
+    real along_u = k_dot3(surface_n, lobe.u_axis) * lobe.sigma_u;
+    real along_v = k_dot3(surface_n, lobe.v_axis) * lobe.sigma_v;
+    real upright = k_dot3(n, surface_n);
+    real across2 = max(lit(1.0) - upright * upright, lit(1e-6));
+    real width = max(lit(4.2426407) * sqrt((along_u * along_u + along_v * along_v) / across2), lit(0.02)); // 3 alpha towards surface_n
+    return min(share_above(k_dot3(surface_n, mirrored), width) / share_above(n_dot_v, width), lit(1.0)); // its own horizon has had its part
 }
 
 // glTF metallic-roughness to reflectances. base: linear [0,1]; metallic [0,1]; dielectric_f0, dielectric_f90: from index of

@@ -103,7 +103,7 @@ OPTIONS = {
     "projected": ("frame-map", "--normal-map bent.png --frame-map gram-schmidt"),
     "turned": ("frame-map", "--normal-map bent.png --frame-map quaternion"),
     "left": ("frame-map", "--normal-map bent.png --frame-map normal-only"),
-    "horizon": ("horizon", "--horizon"),
+    "horizon": ("horizon", "--horizon off"),
     "widened": ("specular-aa", "--specular-aa"),
     "compensated": ("energy-compensation", "--energy-compensation"),
 }
