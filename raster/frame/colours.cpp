@@ -18,7 +18,8 @@ const Texture& texture_of(const Scene& scene, const TextureRef& ref)
     return scene.textures[static_cast<std::size_t>(ref.texture)];
 }
 
-// Of the normal map alone, whatever the material's other maps.
+} // namespace
+
 MipSource normals_of(const Scene& scene, const Material& m)
 {
     const Texture& texture = texture_of(scene, m.normal_tex);
@@ -28,8 +29,6 @@ MipSource normals_of(const Scene& scene, const Material& m)
     maps.normal_scale = m.normal_scale;
     return MipSource(maps);
 }
-
-} // namespace
 
 const Image& map_image(const Scene& scene, const TextureRef& ref)
 {

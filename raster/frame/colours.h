@@ -35,6 +35,7 @@ const char* name_of(MapPart part); // to be read
 
 MapId map_id(const Scene& scene, const Material& material, const UsedMap& map, const Jobs& jobs);
 MapLevels map_levels(const Scene& scene, const Material& material, const UsedMap& map, const MapId& id, const Jobs& jobs); // id: map_id()
+MipSource normals_of(const Scene& scene, const Material& material); // of its normal map alone, on the grid of that
 const Image& map_image(const Scene& scene, const TextureRef& used);
 // Those of the image that are so made, and have its sides; null where there are none.
 const MapLevels* find_map(const std::vector<MapLevels>& maps, const MapId& id, const Image& image);

@@ -8,6 +8,7 @@
 #include "core/base/file.h"
 #include "core/jobs/activity.h"
 #include "raster/frame/colours.h"
+#include "raster/frame/far_normals.h"
 #include "raster/frame/frame.h"
 #include "raster/frame/kept_mips.h"
 #include "raster/frame/pyramids.h"
@@ -127,6 +128,9 @@ void warn_of_unfiltered(Scene& scene)
     for (const Material& m : scene.materials)
         if (const std::string why = why_unfiltered(scene, m); !why.empty())
             scene.warnings.push_back("material '" + m.name + "' is filtered as by --mip-filter box: " + why);
+    for (const Material& m : scene.materials)
+        if (const std::string why = why_dim(scene, m); !why.empty())
+            scene.warnings.push_back("material '" + m.name + "' keeps no light of its normals: " + why);
     for (const Material& m : scene.materials)
         if (const std::string why = why_uncoupled(scene, m); !why.empty())
             scene.warnings.push_back("material '" + m.name + "' " + why);

@@ -8,8 +8,10 @@
 #include "core/scene/heights.h"
 #include "core/simd/half.h"
 #include "raster/frame/colours.h"
+#include "raster/frame/far_normals.h"
 #include "shading/bake/mip/anisotropy.h"
 #include "shading/bake/mip/filter.h"
+#include "shading/bake/mip/kept_light.h"
 #include "shading/bake/mip/map_levels.h"
 #include "shading/bake/mip/slopes.h"
 #include "shading/bake/mipnet/weights.h"
@@ -127,12 +129,6 @@ float slope_scale(const Material& m)
     return m.tilt_tex.used() ? m.tilt_scale : m.normal_scale;
 }
 
-// Whether its levels have gains; what lets light through would pass no less by them.
-bool has_gains(const Material& m)
-{
-    return m.mip_gains && takes_gains(m.mip_filter) && m.transmission == 0.0f;
-}
-
 // The first material with the same moments.
 std::int32_t owner_of(const Scene& scene, std::size_t material, bool overridden)
 {
@@ -144,7 +140,7 @@ std::int32_t owner_of(const Scene& scene, std::size_t material, bool overridden)
         return std::tuple(of.kind, of.slopes ? of.slopes->texture : kNone, of.slopes == &m.tilt_tex,
                           of.direction || of.filtered ? m.anisotropy_tex.texture : kNone, slope_scale(m), m.roughness,
                           m.anisotropy_strength, m.anisotropy_rotation, of.filtered, own ? m.mip_filter : MipFilter{},
-                          own ? m.mip_kappa : 0.0f, m.mip_net.get(), of_metal ? m.metallic : 0.0f, gains,
+                          own ? m.mip_kappa : 0.0f, m.mip_net.get(), of_metal ? m.metallic : 0.0f, gains, of.filtered && m.heights,
                           of.filtered ? m.normal_tex.texture : kNone, of.filtered ? m.metallic_roughness_tex.texture : kNone);
     };
     const auto wanted = content(scene.materials[material]);
@@ -159,6 +155,18 @@ std::int32_t first_with_normals(const Scene& scene, const Material& m)
     const auto found = std::find_if(scene.materials.begin(), scene.materials.end(), [&](const Material& other) {
         return other.normal_tex.texture == m.normal_tex.texture && other.normal_scale == m.normal_scale;
     });
+    return static_cast<std::int32_t>(found - scene.materials.begin());
+}
+
+// The first material whose normals keep the same light.
+std::int32_t first_that_keeps(const Scene& scene, const Material& m)
+{
+    const auto content = [&](const Material& of) {
+        return std::tuple(of.normal_tex.texture, of.normal_scale, of.roughness, of.metallic_roughness_tex.texture, of.heights, of.unlit,
+                          has_gains(of));
+    };
+    const auto found =
+        std::find_if(scene.materials.begin(), scene.materials.end(), [&](const Material& of) { return content(of) == content(m); });
     return static_cast<std::int32_t>(found - scene.materials.begin());
 }
 
@@ -180,6 +188,8 @@ std::optional<Held> held_by(const Scene& scene, std::size_t material, const Text
     if (!ref.used())
         return std::nullopt;
     Held held = {{ref.texture, use.encoding, use.tensor_power}, &ref};
+    if (use.slot == kNormalTex && kept_weights_of(scene, m).any)
+        held.key.keeps = true, held.key.material = first_that_keeps(scene, m);
     if (use.slot == kBaseColorTex || use.slot == kMetalRoughTex) {
         held.key.kaiser = m.mip_kaiser;
         if (held.key.coupled = is_coupled(scene, m, ref); held.key.coupled)
@@ -206,12 +216,12 @@ Image moments_image(const Scene& scene, const Texture& sampler, const PyramidKey
 }
 
 // Texels of a row of levels as moments: see moments of all in shading/surface/lobe_shape.t.h. part: 2 or 4.
-// reflected: of reflectances.
-void put_moments(int part, float gain, float reflected, real3 n, slope_covariance s, float* rgba)
+// reflected: of reflectances. own: perceptual roughness of the lobe before normals widened it.
+void put_moments(int part, float gain, float reflected, float own, real3 n, slope_covariance s, float* rgba)
 {
     const float x = gain * n.x, y = gain * n.y;
     if (part == 2)
-        rgba[0] = reflected, rgba[1] = n.z, rgba[2] = 0.0f, rgba[3] = kMomentScale * (s.xx + x * x);
+        rgba[0] = reflected, rgba[1] = n.z, rgba[2] = own, rgba[3] = kMomentScale * (s.xx + x * x);
     else
         rgba[0] = kSlopeScale * n.x, rgba[1] = kSlopeScale * n.y, rgba[2] = kMomentScale * (s.yy + y * y),
         rgba[3] = kMomentScale * (s.xy + x * y);
@@ -221,6 +231,19 @@ MipPoint point_of(const MipTexel& t)
 {
     const float z2 = 1.0f - (t.nx * t.nx + t.ny * t.ny);
     return {vec3_of(t.nx, t.ny, std::sqrt(std::max(z2, 0.0f))), covariance_of_tensor({t.a, t.b, t.c})};
+}
+
+// By level from 1 on, then texel: the root of the mean square of the widths of lobes below, as perceptual roughness.
+std::vector<std::vector<float>> own_roughness_levels(const MipSource& source)
+{
+    std::vector<std::vector<float>> levels = mean_levels(source, [](const MipPoint& p) {
+        const float alpha = mean_alpha(p.s);
+        return alpha * alpha;
+    });
+    for (std::vector<float>& level : levels)
+        for (float& own : level)
+            own = std::sqrt(std::sqrt(std::max(own, 0.0f)));
+    return levels;
 }
 
 TexturePyramid filtered_pyramid(const Scene& scene, const Texture& sampler, const PyramidKey& key, const MipLevels& levels)
@@ -239,6 +262,13 @@ TexturePyramid filtered_pyramid(const Scene& scene, const Texture& sampler, cons
         own = heights ? pyramid_of_map(map, sampler, *heights) : make_texture_pyramid(map, sampler, key.encoding);
     }
     const bool same = normals && own.width == source.width() && own.height == source.height();
+    const KeptShares& shares = kept_shares(mean_roughness(scene, m));
+    const bool keeps = normals && kept_weights_of(scene, m).any;
+    std::vector<std::vector<float>> means; // by level from 1 on, then texel
+    if (keeps)
+        means = mean_levels(source, [&](const MipPoint& p) { return shares.at(kKeptKnot, p.n.z); });
+    else if (key.tensor_power == 2)
+        means = own_roughness_levels(source);
     std::vector<MipPoint> points(static_cast<std::size_t>(source.width()));
     return make_texture_pyramid(source.width(), source.height(), sampler, key.encoding, [&](int level, int width, int y, float* rgba) {
         if (level == 0)
@@ -248,8 +278,11 @@ TexturePyramid filtered_pyramid(const Scene& scene, const Texture& sampler, cons
             const MipPoint p =
                 made ? point_of(made->texels[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)])
                      : points[static_cast<std::size_t>(x)];
+            const std::size_t place = static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
+            const float mean = made && !means.empty() ? means[static_cast<std::size_t>(level) - 1][place] : 1.0f;
             if (!normals) {
-                put_moments(key.tensor_power, gain, made && gains ? made->gain : 1.0f, p.n, p.s, rgba);
+                const float own_roughness = gains ? 1.0f : made ? mean : std::sqrt(mean_alpha(p.s)); // gains have its part
+                put_moments(key.tensor_power, gain, made && gains ? made->gain : 1.0f, own_roughness, p.n, p.s, rgba);
                 continue;
             }
             const std::uint16_t* texel =
@@ -257,7 +290,7 @@ TexturePyramid filtered_pyramid(const Scene& scene, const Texture& sampler, cons
                            4 * (static_cast<std::size_t>(own.offset[level]) +
                                 static_cast<std::size_t>(y + 1) * static_cast<std::size_t>(width + 2) + static_cast<std::size_t>(x + 1))
                      : nullptr;
-            rgba[3] = texel ? half_to_float(texel[3]) : 1.0f;
+            rgba[3] = keeps ? made ? kept_share(shares, mean, p.n.z) : 1.0f : texel ? half_to_float(texel[3]) : 1.0f;
             rgba[0] = 0.5f + unscale * p.n.x, rgba[1] = 0.5f + unscale * p.n.y, rgba[2] = 0.5f + 0.5f * p.n.z;
         }
     });
@@ -286,6 +319,11 @@ std::string why_unfiltered(const Scene& scene, const Material& m)
     if (m.heights && (normals->width != grid.width || normals->height != grid.height))
         return "its normal map, which holds heights, is smaller than its other maps";
     return "";
+}
+
+bool has_gains(const Material& m)
+{
+    return m.mip_gains && takes_gains(m.mip_filter) && m.transmission == 0.0f;
 }
 
 bool is_metal(const Scene& scene, const Material& m)
@@ -394,6 +432,7 @@ void bind_textures(const Scene& scene, std::size_t material, bool overridden, co
     to.level_gain = moments.filtered ? gain_of_taps(m.mip_filter, m.mip_kappa) : -1.0f;
     to.frame_map = is_filtered(scene, m) ? kFrameQuaternion : -1;
     to.anisotropic |= to.moments != kNoMoments;
+    put_far_normals(scene, m, to);
 }
 
 TexturePyramid make_pyramid(const Scene& scene, const PyramidKey& key, const MaterialLevels& levels)
@@ -402,7 +441,7 @@ TexturePyramid make_pyramid(const Scene& scene, const PyramidKey& key, const Mat
     if (key.filtered)
         return filtered_pyramid(scene, texture, key, *levels[static_cast<std::size_t>(key.material)]);
     const Image& image = scene.images[static_cast<std::size_t>(texture.image)];
-    if (key.moments == kNoMoments && key.tensor_power == 0) {
+    if (key.moments == kNoMoments && key.tensor_power == 0 && !key.keeps) {
         TextureRef ref;
         ref.texture = key.texture;
         const UsedMap map = {key.encoding == TextureEncoding::srgb ? MapPart::base_color : MapPart::metallic_roughness, &ref,
@@ -413,6 +452,8 @@ TexturePyramid make_pyramid(const Scene& scene, const PyramidKey& key, const Mat
         if (key.coupled || key.kaiser)
             return pyramid_of_map(image, texture, map_levels(scene, m, map, {map.part, map.kernel}, Jobs(1)));
     }
+    if (key.keeps)
+        return kept_pyramid(scene, scene.materials[static_cast<std::size_t>(key.material)], texture, key.encoding);
     if (key.moments != kNoMoments)
         return make_texture_pyramid(moments_image(scene, texture, key), texture, key.encoding);
     if (key.tensor_power != 0)

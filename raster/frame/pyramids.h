@@ -7,6 +7,8 @@
 //     and what these differ by between taps, times gain_of_taps(), is in the moments; in the normal map's place lie the levels' normals,
 //     in one half, for those who read nothing else. Frames that override roughness or anisotropy, or want no normal maps, have moments of
 //     the normals alone there, as `lean` has them
+// A normal map without heights holds in the alpha of its levels the share of light that facets keep above the surface's horizon
+// (shading/bake/mip/kept_light.h), where they lose any.
 #pragma once
 #include <cstdint>
 #include <memory>
@@ -37,6 +39,7 @@ struct PyramidKey {
     bool filtered = false;         // made of a mip filter's levels of that material
     bool coupled = false;          // of colours: weighted by that material's normals
     bool kaiser = false;           // of colours: by ColourKernel::kaiser
+    bool keeps = false;            // of normals: alpha of levels is the share of light that facets keep, by that material
     bool operator==(const PyramidKey&) const = default;
 };
 
@@ -52,6 +55,8 @@ bool is_metal(const Scene& scene, const Material& material); // more than half o
 
 // Where the filter of the material makes no levels of its maps, why: empty where it does, or has nothing to do.
 std::string why_unfiltered(const Scene& scene, const Material& material);
+// Whether its levels have gains; what lets light through would pass no less by them.
+bool has_gains(const Material& material);
 // What a filter makes levels of, of a material that it makes any of.
 bool is_filtered(const Scene& scene, const Material& material);
 MipHelp mip_help(const Scene& scene, const Material& material, const TaughtTexels& advance = {}); // of that material

@@ -8,6 +8,7 @@
 #include "shading/kernels/camera.t.h"
 #include "shading/lights/background.t.h"
 #include "shading/surface/coverage.t.h"
+#include "shading/surface/facets.t.h"
 #include "shading/surface/relief.t.h"
 
 namespace burnish {
@@ -311,12 +312,44 @@ struct MaterialAtHits {
     real3 emission;
 };
 
+// Where pixels see all facets of a material, one of these takes the place of x, by chance: each as often as it weighs. The place of the
+// hit, which is another for every ray, is the chance.
+BN_STAGE void choose_facets(const ReferenceParams& f, const MaterialRecord& m, const material_inputs& at, const LaneGeometry& g,
+                            shaded_point& x)
+{
+    const real far = facets_seen(m, at, x);
+    const real u = k_unit_from_bits(k_hash_u32(k_hash_u32(bits_of(g.fragment.uv0.x)) ^ bits_of(g.fragment.uv0.y)));
+    const mask chosen = u < far;
+    if (none(chosen))
+        return;
+    const real of_facets = u / max(far, lit(1e-6));
+    facet_words words = facet_words_of(m, 0);
+    real below = words.weight;
+    for (int k = 1; k < m.facets; ++k) {
+        const facet_words next = facet_words_of(m, k);
+        const mask beyond = of_facets >= below;
+        words.x = select(beyond, next.x, words.x), words.y = select(beyond, next.y, words.y);
+        words.spread = select(beyond, next.spread, words.spread);
+        below = below + next.weight;
+    }
+    material_inputs facet = facet_inputs(m, at, words);
+    const lobe_shape own = lobe_shape_of(f, m, at), wide = facet_shape(facet, words);
+    const lobe_shape shape = {select(chosen, wide.sigma_u, own.sigma_u), select(chosen, wide.sigma_v, own.sigma_v),
+                              select(chosen, wide.u, own.u), select(chosen, wide.alpha_lin, own.alpha_lin)};
+    facet.normal_map = select(chosen, facet.normal_map, at.normal_map);
+    facet.kept = select(chosen, facet.kept, at.kept);
+    make_shaded_point(f, m, facet, shape, g.fragment, int_lit(0), x);
+    keep_light_of_facets(f, m, facet, select(chosen, lit(1.0), lit(0.0)), x);
+}
+
 BN_STAGE MaterialAtHits material_at_hits(const ReferenceParams& f, const MaterialRecord& m, const LaneHits& h, const LaneGeometry& g)
 {
     const material_inputs at = fetch_at_hits(f, m, h, g.fragment);
     MaterialAtHits r;
     shaded_point x;
     make_shaded_point(f, m, at, lobe_shape_of(f, m, at), g.fragment, int_lit(0), x);
+    if (m.facets > 0)
+        choose_facets(f, m, at, g, x);
     if (!x.refracts)
         x.through = interface_inputs(); // lanes of other materials may refract
     coat_layer coat = {x.surface_axes, x.surface_axes.n, lit(0.0), lit(1.0)};

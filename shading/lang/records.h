@@ -61,6 +61,9 @@ const int kLobeCount = 0
 #include "shading/models.def"
     ;
 
+const int kMostFacets = 16; // of a material, see MaterialRecord::facet
+const int kKeptKnots = 4;   // cosines of the eye, see MaterialRecord::kept
+
 // What a material's textures hold of slopes: nothing; moments of those that a map of tilts or normals has; of those and of the lobe; what
 // the frame does not want to see.
 const int kNoMoments = 0, kMomentsOfTilt = 1, kMomentsOfAll = 2, kMomentsUnseen = 3;
@@ -190,11 +193,18 @@ struct MaterialRecord { // Material in plain numbers, and what follows from them
     int refracts;                    // it lets light through, and its technique follows that
     int coated;                      // it has a clear coat, here or there
     int lights_lobe;                 // what punctual lights meet: its place in shading/models.def
-    float brushed;    // brushed_part() of its factors where the technique shares samples; else, or where slopes widen lobes, 1
-    int albedo_slice; // of a lobe whose two widths are everywhere the same: its first pair; else -1
-    int phong_slice;  // of the Ashikhmin-Shirley lobe of these widths, where the technique samples it or it is compensated; else -1
-    int frame_map;    // the frame's, or where its textures hold a mip filter's lobes kFrameQuaternion, which they are made for
-    int phong_set;    // of the same lobe's half vectors: the first sample of its own grid; -1: made by fragment
+    float brushed;          // brushed_part() of its factors where the technique shares samples; else, or where slopes widen lobes, 1
+    int albedo_slice;       // of a lobe whose two widths are everywhere the same: its first pair; else -1
+    int phong_slice;        // of the Ashikhmin-Shirley lobe of these widths, where the technique samples it or it is compensated; else -1
+    int frame_map;          // the frame's, or where its textures hold a mip filter's lobes kFrameQuaternion, which they are made for
+    int phong_set;          // of the same lobe's half vectors: the first sample of its own grid; -1: made by fragment
+    int keeps;              // alpha of its normal map's levels is the share of light that facets keep, see bake/mip/kept_light.h
+    float kept[kKeptKnots]; // loss of light by the eye's cosine .1, .4, .7, 1 as multiples of what levels hold
+    int facets;             // groups of normals that its surface is made of from afar, see bake/mip/facets.h
+    float facets_from;      // share of light that facets lose there
+    float facet[4 * kMostFacets];  // x, y, weight, spread of each
+    float facets_kept[kKeptKnots]; // share of light that the map keeps, over what its groups keep; by the eye's cosine as `kept`
+    float groups_kept[kKeptKnots]; // share that its groups keep
     TextureBinding textures[kTextureSlots];
 };
 

@@ -10,6 +10,7 @@
 #include "shading/lights/key.t.h"
 #include "shading/lights/punctual.t.h"
 #include "shading/surface/coat.t.h"
+#include "shading/surface/facets.t.h"
 #include "shading/surface/shaded_point.t.h"
 #include "shading/techniques/mc.t.h"
 #include "shading/techniques/shared_line.k.h"
@@ -67,6 +68,59 @@ BN_STAGE coat_light light_of_coat(any_frame f, any_material m, BN_IN(material_in
     return r;
 }
 
+// Share of a round facet's light that comes from above the surface's horizon, about: half of it where what the eye sees mirrored lies in
+// the horizon, and so on by the lobe's slopes. Facets that are seen at grazing angles reflect above that.
+BN_FN real facet_share(BN_IN(shaded_point) x)
+{
+    if (!x.turned)
+        return lit(1.0);
+    real alpha = x.s.roughness * x.s.roughness;
+    real rest = lit(1.0) - x.s.n_dot_v;
+    real3 mirrored = x.s.n * (lit(2.0) * k_dot3(x.s.n, x.s.v)) - x.s.v;
+    real high = k_dot3(x.surface_axes.n, mirrored) * lit(0.5) + alpha * (lit(2.0) * rest * rest);
+    real half_share = high * lit(0.5) / sqrt(max(high * high + alpha * alpha, lit(1e-12)));
+    return lit(0.5) + half_share;
+}
+
+// Light of a surface whose facets are all below a pixel: each is shaded by itself, by a round lobe. Techniques that sample lobes sample
+// these. The others take a prefiltered fetch of the environment each, weighted by facet_share(), whose mean is what groups keep.
+BN_STAGE real3 light_of_facets(any_frame f, any_material m, BN_IN(material_inputs) at, BN_IN(visible_point) p, integer pixel_id, int traits)
+{
+    bool samples = (traits & kSamplesLobe) != 0;
+    real3 sum = vec3_all(lit(0.0));
+    real3 fetched = vec3_all(lit(0.0));
+    real shares = lit(0.0);
+    real groups = lit(1.0);
+    for (int k = 0; k < the_material(m).facets; ++k) {
+        facet_words words = facet_words_of(m, k);
+        material_inputs facet = facet_inputs(m, at, words);
+        lobe_shape shape = facet_shape(facet, words);
+        shaded_point x;
+        make_shaded_point(f, m, facet, shape, p, pixel_id, x);
+        keep_light_of_facets(f, m, facet, lit(1.0), x);
+        real3 specular = vec3_all(lit(0.0));
+        if (samples)
+            specular = mc_of_lobe(f, x, placed_lobe_at(f, x));
+        else {
+            real share = words.weight * facet_share(x);
+            shares = shares + share;
+            fetched = fetched + split_isotropic_specular(f, x) * x.gain * (share * x.s.occlusion);
+            if (x.turned)
+                groups = facet_light_of(m, k_dot3(x.surface_axes.n, x.s.v)).groups;
+        }
+        real3 light = environment_light(f, x, kSamplesLobe + kTestsHorizon, specular);
+        if (the_frame(f).key_light_count > 0)
+            light = light + light_of_sky(f, x, the_material(m).lights_lobe);
+        if (the_frame(f).light_count > 0)
+            light = light + light_of_lamps(f, x, the_material(m).lights_lobe, p.position);
+        if (the_frame(f).area_light_count > 0)
+            light = light + light_of_area_lights(f, x, the_material(m).lights_lobe, p.position);
+        sum = sum + light * words.weight;
+    }
+    real scale = groups / max(shares, lit(1e-3));
+    return sum + fetched * (scale * splat(the_frame(f).specular.scale));
+}
+
 // shape: lobe_shape_at(f, m, at, p). px, py: pixel. shares: the technique shares samples, and fragments meet their neighbours; the colour
 // is then made of what they all found (line_mean).
 BN_FN line_record light_of_fragment(frame_ref f, material_ref m, technique_ref t, BN_IN(material_inputs) at, BN_IN(lobe_shape) shape,
@@ -91,6 +145,15 @@ BN_FN line_record light_of_fragment(frame_ref f, material_ref m, technique_ref t
         r = shared_light(f, x, traits, technique_shared(f, t, x, quad_offset(px & int_lit(1), py & int_lit(1))), light);
     else
         r = line_alone(light);
+    if (the_material(m).facets > 0) {
+        real far = facets_seen(m, at, x);
+        if (any_lane(far > lit(0.0))) {
+            real3 facets = own_light(m, at) + light_of_facets(f, m, at, p, x.pixel_id, traits);
+            if (shares)
+                r.factor = r.factor * (lit(1.0) - far);
+            r.rest = r.rest + (facets - r.rest) * far;
+        }
+    }
     if (coats_used() && the_material(m).coated != 0) {
         coat_light coat = light_of_coat(f, m, at, p, x.pixel_id, traits);
         if (shares)

@@ -72,7 +72,9 @@ BN_FN void make_coat_point(frame_ref f, BN_IN(coat_layer) coat, BN_IN(surface_fr
     c.own_dfg.bias = lit(0.0);
     c.phong_set = -1;
     c.shown = lit(1.0);
-    c.gain = vec3_all(lit(1.0));
+    c.whole = c.own_dfg;
+    c.compensation = vec3_all(lit(1.0));
+    c.gain = c.compensation;
     c.dielectric_f0 = whole;
     c.dielectric_f90 = coat.weight;
     c.refracts = false;

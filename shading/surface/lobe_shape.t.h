@@ -32,6 +32,32 @@ BN_FN lobe_shape shape_of_axes(slope_axes axes)
     return r;
 }
 
+// Covariance of the material's own lobe, before differences of normals or slopes widen it.
+BN_FN slope_covariance own_covariance(frame_ref f, material_ref m, BN_IN(material_inputs) at)
+{
+    real roughness = min(max(at.roughness, lit(0.0)), lit(1.0));
+    real alpha = roughness * roughness;
+    real2 rotation = vec2_of(splat(the_material(m).grain[0]), splat(the_material(m).grain[1]));
+    if (the_frame(f).override_anisotropy != 0)
+        return covariance_from_eta_tensor(roughness, splat(the_frame(f).anisotropy), rotation, at.tensor2);
+    return covariance_from_tensors(alpha, splat(the_material(m).anisotropy_strength), rotation, at.tensor2, at.tensor4);
+}
+
+// Whether normals or slopes below a pixel widen lobes.
+BN_FN bool widens_lobes(material_ref m)
+{
+    return the_material(m).moments == kMomentsOfTilt || the_material(m).moments == kMomentsOfAll;
+}
+
+// Perceptual roughness of own_covariance().
+BN_FN real own_alpha_lin(frame_ref f, material_ref m, BN_IN(material_inputs) at)
+{
+    if (the_material(m).level_gain >= 0.0f)
+        return at.own_roughness;
+    lobe_shape own = shape_of_axes(axes_of_covariance(own_covariance(f, m, at)));
+    return own.alpha_lin;
+}
+
 BN_FN lobe_shape lobe_shape_of(frame_ref f, material_ref m, BN_IN(material_inputs) at)
 {
     lobe_shape r;
@@ -44,14 +70,11 @@ BN_FN lobe_shape lobe_shape_of(frame_ref f, material_ref m, BN_IN(material_input
     r.alpha_lin = at.roughness;
     if (the_material(m).anisotropic == 0)
         return r;
-    real2 rotation = vec2_of(splat(the_material(m).grain[0]), splat(the_material(m).grain[1]));
     slope_covariance covariance;
     if (the_material(m).moments == kMomentsOfAll)
         covariance = covariance_of_moments(at.slope, at.slope_moments);
-    else if (the_frame(f).override_anisotropy != 0)
-        covariance = covariance_from_eta_tensor(roughness, splat(the_frame(f).anisotropy), rotation, at.tensor2);
     else
-        covariance = covariance_from_tensors(alpha, splat(the_material(m).anisotropy_strength), rotation, at.tensor2, at.tensor4);
+        covariance = own_covariance(f, m, at);
     if (the_material(m).moments == kMomentsOfTilt) {
         slope_covariance more = covariance_of_moments(at.slope, at.slope_moments);
         covariance = sum_of_covariances(covariance, more);

@@ -75,8 +75,13 @@ BN_FN material_inputs fetch_material(frame_ref f, material_ref m, BN_IN(visible_
         r.metallic = r.metallic * factors.z;
     }
     r.normal_map = vec3_of(lit(0.0), lit(0.0), lit(1.0));
-    if (texture_used(m, kNormalTex))
-        r.normal_map = normal_of_texel(m, texel_of(t, kNormalTex));
+    r.kept = lit(1.0);
+    if (texture_used(m, kNormalTex)) {
+        real4 normal = texel_of(t, kNormalTex);
+        r.normal_map = normal_of_texel(m, normal);
+        if (the_material(m).keeps != 0)
+            r.kept = normal.w;
+    }
     r.occlusion = lit(1.0);
     if (texture_used(m, kOcclusionTex))
         r.occlusion = lit(1.0) + splat(the_material(m).occlusion_strength) * (texel_of(t, kOcclusionTex).x - lit(1.0));
@@ -96,6 +101,7 @@ BN_FN material_inputs fetch_material(frame_ref f, material_ref m, BN_IN(visible_
     r.tensor4 = r.tensor2;
     r.slope = vec2_all(lit(0.0));
     r.slope_moments = vec3_all(lit(0.0));
+    r.own_roughness = lit(1.0);
     if (texture_used(m, kTensor2Tex)) { // halves alone bend thin lobes: at eta 0.95 by a fifth
         real4 two = texel_of(t, kTensor2Tex) + texel_of(t, kTensor2RestTex);
         real4 four = texel_of(t, kTensor4Tex) + texel_of(t, kTensor4RestTex);
@@ -108,6 +114,7 @@ BN_FN material_inputs fetch_material(frame_ref f, material_ref m, BN_IN(visible_
             if (the_material(m).level_gain >= 0.0f) { // normals in two halves: one turns lobes of alpha .05 visibly
                 r.normal_map = vec3_of(r.slope.x, r.slope.y, two.y);
                 r.slope = r.slope * splat(the_material(m).level_gain);
+                r.own_roughness = two.z;
                 r.base = gained_reflectance(r.base, two.x);
                 r.dielectric_f0 = gained_reflectance(r.dielectric_f0, two.x);
                 r.tensor2 = vec3_of(lit(1.0), lit(0.0), lit(0.0));

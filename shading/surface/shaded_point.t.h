@@ -26,12 +26,14 @@ struct shaded_point {
     bool diffuse;               // s.diffuse may be above 0
     real brushed;               // the material's
     dfg_value dfg;
-    real3 albedo;      // directional, of the lobe: for techniques of a split integral
-    real phong_albedo; // directional, of an Ashikhmin-Shirley lobe of the same widths, where there is a table of it; else -1
-    int phong_set;     // MaterialRecord's
-    real shown;        // directional albedo of a lobe that takes the usual one's place, over that of the usual one, upright; 1 otherwise
-    dfg_value own_dfg; // of a lobe that is compensated by its own albedo (has_own_gain); dfg otherwise
-    real3 gain;        // energy compensation, which multiplies the specular lobe; 1 without
+    real3 albedo;       // directional, of the lobe: for techniques of a split integral
+    real phong_albedo;  // directional, of an Ashikhmin-Shirley lobe of the same widths, where there is a table of it; else -1
+    int phong_set;      // MaterialRecord's
+    real shown;         // directional albedo of a lobe that takes the usual one's place, over that of the usual one, upright; 1 otherwise
+    dfg_value own_dfg;  // of a lobe that is compensated by its own albedo (has_own_gain); dfg otherwise
+    dfg_value whole;    // own_dfg of the lobe that the material has before normals widen it: what a pixel reflects of all its facets
+    real3 compensation; // energy compensation of the lobe; 1 without
+    real3 gain;         // multiplies the specular lobe: energy compensation, what widening took from the lobe, what facets keep of it
     real3 dielectric_f0;
     real dielectric_f90;
     integer pixel_id;         // y * width + x, for random numbers
@@ -179,6 +181,88 @@ BN_FN surface_frame lobe_axes(frame_ref f, material_ref m, BN_IN(material_inputs
     return axes;
 }
 
+// Whether lobes are compensated by an albedo of their own, as no table has it.
+BN_FN bool has_own_gain(frame_ref f)
+{
+    return the_frame(f).energy_compensation != 0 && (the_frame(f).lobe_traits & (kLobeOfAll + kPunctualOnly)) == 0 && !stands_in(f);
+}
+
+// Round albedo of a roughness.
+BN_FN dfg_value round_albedo(frame_ref f, real n_dot_v, real roughness)
+{
+    if (the_frame(f).dfg_fit != 0)
+        return dfg_fit(n_dot_v, roughness);
+    return dfg_lookup(dfg_pairs(f), the_frame(f).dfg_size, n_dot_v, roughness);
+}
+
+// Directional albedo of the material's own lobe, where normals have widened it: a pixel reflects what its facets reflect, and each of them
+// has that lobe. A wider one masks and shadows itself and loses light. dfg: of the wide lobe, whose roughness s has.
+BN_FN dfg_value albedo_before_widening(frame_ref f, BN_IN(surface) s, dfg_value dfg, real own_roughness)
+{
+    dfg_value wide = round_albedo(f, s.n_dot_v, s.roughness);
+    dfg_value own = round_albedo(f, s.n_dot_v, own_roughness);
+    mask wider = s.roughness > own_roughness;
+    real scale = dfg.scale * (own.scale / max(wide.scale, lit(1e-3)));
+    real bias = dfg.bias * (own.bias / max(wide.bias, lit(1e-3)));
+    real room = max(lit(1.0) / max(scale + bias, lit(1e-3)), lit(0.0));
+    dfg_value r;
+    r.scale = select(wider, scale * min(room, lit(1.0)), dfg.scale);
+    r.bias = select(wider, bias * min(room, lit(1.0)), dfg.bias);
+    return r;
+}
+
+BN_FN real3 quotient_of(real3 a, real3 b)
+{
+    real least = lit(1e-4);
+    return vec3_of(a.x / max(b.x, least), a.y / max(b.y, least), a.z / max(b.z, least));
+}
+
+// Place between the knots of what materials hold by the eye's cosine to the surface: MaterialRecord::kept.
+BN_FN real kept_place(real cosine)
+{
+    real place = (cosine - lit(0.1)) * lit(3.3333333333333333);
+    return min(max(place, lit(0.0)), lit(3.0));
+}
+
+// Weight of a knot there.
+BN_FN real knot_weight(real place, int knot)
+{
+    return max(lit(1.0) - abs(place - to_real(int_lit(knot))), lit(0.0));
+}
+
+// Share of light that facets keep above the surface's horizon: see shading/bake/mip/kept_light.h. cosine: of the eye to the surface.
+BN_FN real kept_light(material_ref m, real kept, real cosine)
+{
+    real place = kept_place(cosine);
+    real loss = lit(0.0);
+    for (int k = 0; k < kKeptKnots; ++k)
+        loss = loss + splat(the_material(m).kept[k]) * knot_weight(place, k);
+    return k_saturate(lit(1.0) - (lit(1.0) - kept) * loss);
+}
+
+// Gives back to x.gain what the lobe loses by being wider than the material's own, of that roughness.
+BN_FN void undo_widening(frame_ref f, real own_roughness, BN_INOUT(shaded_point) x)
+{
+    dfg_value met = x.whole;
+    x.whole = albedo_before_widening(f, x.s, met, own_roughness);
+    real3 grown = quotient_of(albedo_of(x.s, x.whole), albedo_of(x.s, met));
+    if (the_frame(f).energy_compensation != 0)
+        grown = grown * quotient_of(energy_compensation(x.s.f0, x.whole), energy_compensation(x.s.f0, met));
+    x.gain = x.gain * grown;
+}
+
+// Makes a lobe that stands for many facets reflect what they all reflect. Fills x.whole and multiplies x.gain.
+BN_FN void keep_light(frame_ref f, material_ref m, BN_IN(material_inputs) at, BN_INOUT(shaded_point) x)
+{
+    x.whole = x.dfg;
+    if (has_own_gain(f))
+        x.whole = x.own_dfg;
+    if (widens_lobes(m))
+        undo_widening(f, own_alpha_lin(f, m, at), x);
+    if (x.turned && the_material(m).keeps != 0)
+        x.gain = x.gain * kept_light(m, at.kept, k_dot3(x.surface_axes.n, x.s.v));
+}
+
 // Fills x.
 BN_FN void make_shaded_point(frame_ref f, material_ref m, BN_IN(material_inputs) at, BN_IN(lobe_shape) shape, BN_IN(visible_point) p,
                              integer pixel_id, BN_INOUT(shaded_point) x)
@@ -234,6 +318,8 @@ BN_FN void make_shaded_point(frame_ref f, material_ref m, BN_IN(material_inputs)
         if (compensated)
             x.gain = energy_compensation_of_albedo(x.s.f0, min(albedo, lit(1.0)));
     }
+    x.compensation = x.gain;
+    keep_light(f, m, at, x);
     x.refracts = the_material(m).refracts != 0;
     if (x.refracts)
         make_interface(f, m, at, p.front, x);
@@ -245,12 +331,6 @@ BN_FN real diffuse_lit(frame_ref f, real n_dot_l)
     if (the_frame(f).diffuse_model == 0)
         return lit(1.0);
     return phong_diffuse_lit(n_dot_l);
-}
-
-// Whether lobes are compensated by an albedo of their own, as no table has it.
-BN_FN bool has_own_gain(frame_ref f)
-{
-    return the_frame(f).energy_compensation != 0 && (the_frame(f).lobe_traits & (kLobeOfAll + kPunctualOnly)) == 0 && !stands_in(f);
 }
 
 // The share of light that the dielectric's specular part lets through to the diffuse one, whatever the light: all that the lobe does not
@@ -265,10 +345,7 @@ BN_FN real passed_to_diffuse(frame_ref f, BN_IN(shaded_point) x)
         real3 r = dielectric_reflectance(x.dielectric_f0, x.dielectric_f90, x.through.parts.ior, x.s.n_dot_v);
         return max(lit(1.0) - max(r.x, max(r.y, r.z)), lit(0.0));
     }
-    dfg_value dfg = x.dfg;
-    if (has_own_gain(f))
-        dfg = x.own_dfg;
-    real3 dielectric = dielectric_albedo_of(x.s, x.dielectric_f0, x.dielectric_f90, dfg) * energy_gain(f, x.dielectric_f0, dfg);
+    real3 dielectric = dielectric_albedo_of(x.s, x.dielectric_f0, x.dielectric_f90, x.whole) * energy_gain(f, x.dielectric_f0, x.whole);
     return lit(1.0) - max(dielectric.x, max(dielectric.y, dielectric.z));
 }
 

@@ -129,7 +129,7 @@ BN_FN real3 as_mc_of_set(frame_ref f, BN_IN(shaded_point) x, integer set, bool s
     if (the_frame(f).energy_compensation != 0) { // of this lobe, not of the usual one
         if (stands_in(f))
             albedo = albedo * x.shown;
-        total = total * energy_compensation_of_albedo(x.s.f0, albedo) / x.gain;
+        total = total * energy_compensation_of_albedo(x.s.f0, albedo) / x.compensation;
     }
     uniform_real scale = the_frame(f).box.scale / the_frame(f).specular.scale;
     return total / count * splat(scale);

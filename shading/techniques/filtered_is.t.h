@@ -50,7 +50,7 @@ BN_FN real3 filtered_is_sum(frame_ref f, BN_IN(shaded_point) x, bool ggx)
     if (the_frame(f).energy_compensation != 0) { // these few samples, and a Beckmann lobe, have an albedo of their own
         if (stands_in(f))
             own = own * x.shown;
-        total = total * energy_compensation_of_albedo(x.s.f0, own) / x.gain;
+        total = total * energy_compensation_of_albedo(x.s.f0, own) / x.compensation;
     }
     uniform_real scale = the_frame(f).box.scale / the_frame(f).specular.scale;
     real3 mean = total / count * splat(scale);

@@ -39,6 +39,7 @@ import limit_cases
 import manual_cases
 import mip_cases
 import mip_file_cases
+import mip_light_cases
 import mip_zoom_cases
 import mistake_cases
 import model_cases

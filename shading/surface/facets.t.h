@@ -1,0 +1,97 @@
+// Surfaces whose normal map lies below a pixel as a whole: a few groups of its normals stand for it (shading/bake/mip/facets.h), each a
+// surface of its own with a round lobe.
+#ifndef BN_FACETS_T_H
+#define BN_FACETS_T_H
+
+#include "shading/lang/lang.h"
+#include "shading/lang/stage.h"
+#include "shading/surface/lobe_shape.t.h"
+#include "shading/surface/material.t.h"
+#include "shading/surface/shaded_point.t.h"
+
+BN_KERNELS_BEGIN
+
+// How far a pixel sees all facets of its material, [0,1]: where a texel of a level loses as much light as the whole map, and lies level.
+BN_FN real facets_seen(material_ref m, BN_IN(material_inputs) at, BN_IN(shaded_point) x)
+{
+    real lost = (lit(1.0) - at.kept) / splat(the_material(m).facets_from);
+    real share = k_saturate((lost - lit(0.7)) * lit(4.0));
+    real level = k_saturate((k_dot3(x.s.n, x.surface_axes.n) - lit(0.92)) * lit(20.0));
+    return share * share * (lit(3.0) - lit(2.0) * share) * level;
+}
+
+struct facet_words { // MaterialRecord::facet
+    real x, y, weight, spread;
+};
+
+BN_FN facet_words facet_words_of(material_ref m, int facet)
+{
+    facet_words r;
+    r.x = splat(the_material(m).facet[4 * facet]);
+    r.y = splat(the_material(m).facet[4 * facet + 1]);
+    r.weight = splat(the_material(m).facet[4 * facet + 2]);
+    r.spread = splat(the_material(m).facet[4 * facet + 3]);
+    return r;
+}
+
+// The material at a facet: its normal, and the roughness that it has below all levels.
+BN_FN material_inputs facet_inputs(material_ref m, BN_IN(material_inputs) at, BN_IN(facet_words) words)
+{
+    material_inputs r = at;
+    real nz2 = lit(1.0) - (words.x * words.x + words.y * words.y);
+    r.normal_map = vec3_of(words.x, words.y, sqrt(max(nz2, lit(0.0))));
+    r.kept = lit(1.0);
+    if (the_material(m).level_gain < 0.0f)
+        r.own_roughness = k_saturate(at.roughness);
+    return r;
+}
+
+// A facet's lobe: wider than the material's own by what the normals of its group differ by. at: facet_inputs().
+BN_FN lobe_shape facet_shape(BN_IN(material_inputs) at, BN_IN(facet_words) words)
+{
+    real own2 = at.own_roughness * at.own_roughness;
+    real alpha2 = own2 * own2 + words.spread;
+    real alpha = min(sqrt(alpha2), lit(1.0));
+    lobe_shape r;
+    r.sigma_u = alpha * lit(0.70710678118654752);
+    r.sigma_v = r.sigma_u;
+    r.u = vec2_of(lit(1.0), lit(0.0));
+    r.alpha_lin = sqrt(alpha);
+    return r;
+}
+
+struct facet_light {
+    real map_over_groups; // what facets keep of their light above the surface's horizon, over what their groups keep
+    real groups;          // what these keep
+};
+
+// cosine: of the eye to the surface.
+BN_FN facet_light facet_light_of(material_ref m, real cosine)
+{
+    real place = kept_place(cosine);
+    facet_light r;
+    r.map_over_groups = lit(0.0);
+    r.groups = lit(0.0);
+    for (int k = 0; k < kKeptKnots; ++k) {
+        real weight = knot_weight(place, k);
+        r.map_over_groups = r.map_over_groups + splat(the_material(m).facets_kept[k]) * weight;
+        r.groups = r.groups + splat(the_material(m).groups_kept[k]) * weight;
+    }
+    return r;
+}
+
+// Makes facets reflect what all normals of the map reflect. at: facet_inputs(); chosen: 1, or 0 in lanes that are no facets. Multiplies
+// x.gain.
+BN_FN void keep_light_of_facets(frame_ref f, material_ref m, BN_IN(material_inputs) at, real chosen, BN_INOUT(shaded_point) x)
+{
+    if (!widens_lobes(m))
+        undo_widening(f, at.own_roughness, x);
+    if (!x.turned)
+        return;
+    facet_light light = facet_light_of(m, k_dot3(x.surface_axes.n, x.s.v));
+    x.gain = x.gain * (lit(1.0) + (light.map_over_groups - lit(1.0)) * chosen);
+}
+
+BN_KERNELS_END
+
+#endif
