@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """What `burnish render --risks` marks beside what is wrong, and what it takes: bench/risks.py PROGRAM [--set] [--keep DIR] [--time N]
 
-Pairs of scenes and environments that the constants of apps/atlas/risks.cpp were not chosen by; with --set those that they were. Of every pair:
+Pairs of scenes and environments that the constants of apps/risks/risks.cpp were not chosen by; with --set those that they were. Of every pair:
 the share of shaded pixels that is marked, the share of pixels with FLIP above .15 that is among them (recall), the share of marked ones with
 FLIP above .05 (precision). The truth is the reference of the same lobe, 1024 samples a pixel.
 

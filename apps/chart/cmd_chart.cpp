@@ -12,7 +12,7 @@
 #include "apps/cli/stop_signal.h"
 #include "apps/report/page.h"
 #include "apps/report/plots.h"
-#include "apps/train/real_maps.h"
+#include "apps/chart/real_maps.h"
 #include "core/image/io/image_io.h"
 #include "shading/bake/mipnet/net.h"
 

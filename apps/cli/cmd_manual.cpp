@@ -8,12 +8,26 @@
 
 namespace burnish {
 
+namespace {
+std::vector<Command> (*lab_commands)() = nullptr;
+}
+
+void add_lab_commands(std::vector<Command> (*commands)())
+{
+    lab_commands = commands;
+}
+
 std::vector<Command> all_commands()
 {
     std::vector<Command> commands;
 #define BN_COMMAND(name) commands.push_back(name##_command());
+#define BN_LAB_COMMAND(name, summary) commands.push_back({#name, summary, {}, {}, {}});
 #include "apps/cli/commands.def"
-#undef BN_COMMAND
+    if (lab_commands)
+        for (Command& own : lab_commands())
+            for (Command& command : commands)
+                if (command.name == own.name)
+                    command = std::move(own);
     return commands;
 }
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/atlas/risks.h"
+#include "apps/risks/risks.h"
 #include "apps/cli/report.h"
 #include "apps/render/options.h"
 #include "apps/render/stats.h"

@@ -1,7 +1,7 @@
 // The instruction sets that lane code is compiled for, from narrow to wide. A new one is one line here and core/simd/lanes_<name>.h.
 // C++ reads the list through BN_EACH_ISA; isa.cmake and lint.odr read its lines:
 //   BN_ON_<machine>(X(name, use, runs, flags, of))
-// machine: any, x86_64, aarch64, what the program is compiled for; x86_64_wide: not with BN_SCALAR_LANES. use: "program", compiled from
+// machine: any, x86_64, aarch64, what the program is compiled for; x86_64_avx2, x86_64_avx512: unless BN_ISA_SET leaves them out. use: "program", compiled from
 // every file of bn_isa_objects; "tests", only where tests ask for it, unknown to options. runs: whether this processor and its system can
 // run it (core/simd/cpu.h). flags: after those of the rest of the program; -O1 or -O2 where more only takes longer to compile.
 #pragma once
@@ -9,8 +9,8 @@
 // clang-format off
 #define BN_EACH_ISA(X, of)                                                                                   \
     BN_ON_any(X(scalar, program, true, "-O1", of))                                                           \
-    BN_ON_x86_64_wide(X(avx2, program, cpu_has_avx2(), "-march=x86-64-v3", of))                              \
-    BN_ON_x86_64_wide(X(avx512, program, cpu_has_avx512(), "-march=x86-64-v4 -mprefer-vector-width=512", of)) \
+    BN_ON_x86_64_avx2(X(avx2, program, cpu_has_avx2(), "-march=x86-64-v3", of))                              \
+    BN_ON_x86_64_avx512(X(avx512, program, cpu_has_avx512(), "-march=x86-64-v4 -mprefer-vector-width=512", of)) \
     BN_ON_x86_64(X(portable8, tests, true, "-O1", of))                                      \
     BN_ON_aarch64(X(portable8, program, true, "-O1 -DBN_PORTABLE_CALLS", of))                                \
     BN_ON_any(X(portable16, tests, true, "-O1", of))
@@ -26,10 +26,15 @@
 #else
 #define BN_ON_x86_64(row)
 #endif
-#if defined(__x86_64__) && !defined(BN_SCALAR_LANES)
-#define BN_ON_x86_64_wide(row) row
+#if defined(__x86_64__) && !defined(BN_WITHOUT_avx2)
+#define BN_ON_x86_64_avx2(row) row
 #else
-#define BN_ON_x86_64_wide(row)
+#define BN_ON_x86_64_avx2(row)
+#endif
+#if defined(__x86_64__) && !defined(BN_WITHOUT_avx512)
+#define BN_ON_x86_64_avx512(row) row
+#else
+#define BN_ON_x86_64_avx512(row)
 #endif
 #ifdef __aarch64__
 #define BN_ON_aarch64(row) row

@@ -155,7 +155,7 @@ def page(bench):
         healthy(browser)
 
 
-@case("atlas.everything_is_held_in_quick_steps", tier="gate")
+@case("atlas.everything_is_held_in_quick_steps", tier="GATE")
 def quick(bench):
     needs_embree(bench)
     begin = time.monotonic()
@@ -174,7 +174,7 @@ DEFECTS = {
 
 
 def add_defect(name, words, must, may):
-    @case(f"atlas.entries_see.{name}", tier="slow")
+    @case(f"atlas.entries_see.{name}", tier="nightly")
     def defect(bench):
         needs_embree(bench)
         report = json.loads(bench.run("atlas", "--quick", "--with", words, "--json", "-", timeout=1100).expect(1).out)
@@ -225,7 +225,7 @@ def seeds(bench):
     check(seeded == sorted(re.findall(r"^  (\w+)", bench.run("atlas", "--list").out, re.M)), f"{seeded}")
 
 
-@case("atlas.every_entry_sees_its_own_defect", tier="slow")
+@case("atlas.every_entry_sees_its_own_defect", tier="nightly")
 def own_defects(bench):
     needs_embree(bench)
     blind = []
@@ -237,7 +237,7 @@ def own_defects(bench):
     check(not blind, f"{blind} do not see it")
 
 
-@case("atlas.every_entry_can_fail", tier="slow")
+@case("atlas.every_entry_can_fail", tier="nightly")
 def can_fail(bench):
     """Where all that is drawn is twice as bright as the truth, no entry is held."""
     needs_embree(bench)
@@ -246,7 +246,7 @@ def can_fail(bench):
     check(not blind, f"{blind} do not see it")
 
 
-@case("atlas.glass_does_not_break_as_its_index_comes_near_one", tier="gate")
+@case("atlas.glass_does_not_break_as_its_index_comes_near_one", tier="GATE")
 def near_index_one(bench):
     """Neither by many samples nor by few: there is ever less to reflect, and light goes ever straighter."""
     needs_embree(bench)
@@ -283,7 +283,7 @@ def broken_hash(bench, words, *how, program=None):
     return json.loads(done.expect(0).out)["pixel_hash"]
 
 
-@case("atlas.broken_pictures_are_the_same_words_by_another_compiler", "compilers", tier="slow")
+@case("atlas.broken_pictures_are_the_same_words_by_another_compiler", "compilers", tier="nightly")
 def by_compilers(bench):
     if not os.path.exists(bench.compare_program):
         raise Skipped(f"no program at {bench.compare_program}")
@@ -295,7 +295,7 @@ def by_compilers(bench):
     check(len(ends) > 70, f"only {len(ends)} entries")
 
 
-@case("atlas.broken_pictures_are_the_same_words_on_a_device", tier="slow")
+@case("atlas.broken_pictures_are_the_same_words_on_a_device", tier="nightly")
 def by_device(bench):
     ends, hashes = broken_ends(bench), {}
     for entry, words in ends.items():

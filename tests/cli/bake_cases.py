@@ -26,7 +26,7 @@ def threads(bench):
     check(bench.left_behind() == ["t1.ltc", "t2.ltc", "t3.ltc"], f"left {bench.left_behind()}")
 
 
-@case("bake.killed_goes_on_to_the_same_bytes", tier="gate")
+@case("bake.killed_goes_on_to_the_same_bytes", tier="GATE")
 def killed(bench):
     words = ("bake", "ltc", "--resolution", "4", "--steps", "6", "--samples", "4")
     bench.run(*words, "-o", "straight.ltc", "-q").expect(0)
@@ -44,7 +44,7 @@ def killed(bench):
     check(bench.left_behind() == ["straight.ltc", "t.ltc"], f"left {bench.left_behind()}")
 
 
-@case("bake.a_report_holds_figures_and_a_drawing", tier="gate")
+@case("bake.a_report_holds_figures_and_a_drawing", tier="GATE")
 def report(bench):
     said = bench.run("bake", "ltc", "--table", SHIPPED, "--report", "quality", timeout=600).expect(0)
     check("det <= 0" in said.out and "theta > 70" in said.out, said.describe())
@@ -98,12 +98,12 @@ def one_other(bench):
     check_others(bench, OTHERS[:1])
 
 
-@case("bake.tables_as_others_make_them_say_so", tier="slow")
+@case("bake.tables_as_others_make_them_say_so", tier="nightly")
 def others(bench):
     check_others(bench, OTHERS[1:])
 
 
-@case("bake.the_shipped_table_is_what_the_command_makes", tier="slow")
+@case("bake.the_shipped_table_is_what_the_command_makes", tier="nightly")
 def shipped(bench):
     for table, options in (("ggx.ltc", ()), ("ggx_round.ltc", ("--isotropic", "--half"))):
         bench.run("bake", "ltc", *options, "-o", table, "-q", timeout=3600).expect(0)

@@ -53,12 +53,12 @@ def alpha(bench):
     check(json.loads(compared.out), "no figures")
 
 
-@case("blend.sheets_on_lavapipe_equal_the_tiles", tier="gate")
+@case("blend.sheets_on_lavapipe_equal_the_tiles", tier="GATE")
 def device(bench):
     check_equal(parity(bench, sheets(bench, "twelve_sheets"), "--technique", "bent_normal", "--msaa", "1,4", "--size", "40x40"))
 
 
-@case("blend.shared_samples_and_layers_on_lavapipe_equal_the_tiles", tier="slow")
+@case("blend.shared_samples_and_layers_on_lavapipe_equal_the_tiles", tier="nightly")
 def shared(bench):
     gltf = json.loads(sheets(bench, "two_sheets").read_text())
     for material in gltf["materials"]:  # lit, so that samples of neighbours are shared within a layer

@@ -117,7 +117,7 @@ def devices(bench):
     devices_agree(bench, ("ashikhmin_shirley",), ("ellipsoid",), ("beckmann", "--energy-compensation"))
 
 
-@case("brdf.devices_give_the_same_words_by_all", tier="slow")
+@case("brdf.devices_give_the_same_words_by_all", tier="nightly")
 def devices_by_all(bench):
     devices_agree(bench, *((name,) for name in lobes(bench)))
 

@@ -394,7 +394,7 @@ def grid_of(bench, scene, techniques, samples, roughness, anisotropy, *words):
     return cells
 
 
-@case("chart.major_axis_is_nearer_than_bent_normal", tier="slow")
+@case("chart.major_axis_is_nearer_than_bent_normal", tier="nightly")
 def claims(bench):
     """Cocco, Zanni, Chermain 2024: what 16 samples along the axis are worth, over widths and anisotropies. On average they are better than
     the bent normal; for roughness to 0.5 and anisotropy from 0.5 in every cell, but for the cells above: one that holds again must leave
@@ -424,7 +424,7 @@ def claims(bench):
     check(not faults, "\n".join(faults))
 
 
-@case("chart.equal_samples_are_bounded_by_their_line", tier="slow")
+@case("chart.equal_samples_are_bounded_by_their_line", tier="nightly")
 def bounds(bench):
     """Why the first claim fails in some cells: the line is one deviation long, of a lobe without tails, and GGX has tails. The same lobe without
     tails is no better where it is integrated with 1024 samples, and a longer line is better than the bent normal there too."""
@@ -445,7 +445,7 @@ def bounds(bench):
         check(longer < bent < equal and bent < no_tails and tails < 0.5 * no_tails, told)
 
 
-@case("chart.grazing_views_need_samples_by_density", tier="slow")
+@case("chart.grazing_views_need_samples_by_density", tier="nightly")
 def grazing(bench):
     """Seen at 8 degrees above a plate, equal samples along the axis are worse than the bent normal from roughness 0.3 on; samples by density
     are better than both."""
@@ -488,13 +488,13 @@ def check_samples(bench, names, *words):
     check(not faults, "\n".join(faults))
 
 
-@case("chart.error_falls_with_samples", tier="slow")
+@case("chart.error_falls_with_samples", tier="nightly")
 def samples(bench):
     needs_embree(bench)
     check_samples(bench, ("major_axis", "major_axis_weighted"), "--env", STUDIO, "--env", "builtin:sky", "--env", bench.data_file("env/" + WORKSHOP))
 
 
-@case("chart.error_of_long_lobes_falls_with_weighted_samples", tier="slow")
+@case("chart.error_of_long_lobes_falls_with_weighted_samples", tier="nightly")
 def samples_of_long_lobes(bench):
     """Where lobes are long, equal samples on a line of one deviation stop converging to the truth: from 8 on, more of them come closer to a
     line that is too short. Samples by density keep the tails and keep falling."""

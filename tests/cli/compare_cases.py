@@ -226,7 +226,7 @@ def page(bench):
     check(done.out.startswith("<!DOCTYPE html>") and done.out.endswith("</html>\n"), "no page on standard output")
 
 
-@case("compare.page_slides_flickers_zooms_and_shows_the_histogram", tier="gate")
+@case("compare.page_slides_flickers_zooms_and_shows_the_histogram", tier="GATE")
 def page_in_browser(bench):
     pictures(bench)
     with Browser(bench.folder / "browser") as browser:

@@ -41,7 +41,7 @@ def little_memory(bench):
     with_little_memory(bench, BIG, "o.png", [m * MIB for m in (96, 160, 256, 1024)])
 
 
-@case("confine.little_address_space_all", tier="slow")
+@case("confine.little_address_space_all", tier="nightly")
 def little_memory_all(bench):
     bench.run("render", *TINY).expect(0)
     with_little_memory(bench, BIG, "o.png", [m * MIB for m in range(32, 1100, 16)])
@@ -164,7 +164,7 @@ def few_threads_of_libraries(bench):
     with_few_threads(bench, ("o.exr", "v.pfm"), (1, 2, 4, 6), 55000 + os.getpid() % 5000)
 
 
-@case("confine.few_threads_all", tier="slow")
+@case("confine.few_threads_all", tier="nightly")
 def few_threads_all(bench):
     with_few_threads(bench, FEW_THREADS, range(1, 13), 60000 + os.getpid() % 5000)
 

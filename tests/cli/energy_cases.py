@@ -64,13 +64,13 @@ def furnace(bench, asked):
     check(not off, "; ".join(off))
 
 
-@case("energy.an_even_light_hides_white_metal_in_some_ways", tier="gate")
+@case("energy.an_even_light_hides_white_metal_in_some_ways", tier="GATE")
 def some_furnaces(bench):
     furnace(bench, [("auto", None, row) for row in FURNACE] +
             [(name, None, "roughness") for name in names_of(bench, "techniques") if name != "mc"] + [("mc", "ellipsoid", "tilt"), ("mc", "beckmann", "grain")])
 
 
-@case("energy.an_even_light_hides_white_metal", tier="slow")
+@case("energy.an_even_light_hides_white_metal", tier="nightly")
 def furnaces(bench):
     furnace(bench, [(name, None, row) for name in names_of(bench, "techniques") for row in FURNACE] +
             [("mc", name, row) for name in lobes(bench) for row in MODEL_ROWS if not row.startswith("tilt") or name.startswith("ellipsoid")])
@@ -250,13 +250,13 @@ def change_places(bench, asked, lamps="lamp"):
     check(refused < len(asked) / 3, "most are refused")
 
 
-@case("energy.eye_and_lamp_change_places", tier="gate")
+@case("energy.eye_and_lamp_change_places", tier="GATE")
 def some_places(bench):
     change_places(bench, [(name,) for name in all_options(bench)])
     change_places(bench, [("rough",), ("technique split_isotropic",), ("technique lobe_line",)], "key")
 
 
-@case("energy.eye_and_lamp_change_places_under_every_pair_of_options", tier="slow")
+@case("energy.eye_and_lamp_change_places_under_every_pair_of_options", tier="nightly")
 def all_places(bench):
     options = all_options(bench)
     change_places(bench, pairs(options))
@@ -276,7 +276,7 @@ OFF_TOGETHER = {
 OFF_BY = 0.004 # as measured, and of rounding
 
 
-@case("energy.an_even_light_hides_white_metal_under_every_pair_of_options", tier="slow")
+@case("energy.an_even_light_hides_white_metal_under_every_pair_of_options", tier="nightly")
 def furnace_pairs(bench):
     """Models are those of mc; 256 samples of it are enough for a mean over pixels."""
     (bench.folder / "even.exr").write_bytes(exr(16, 8, even(1.0)))

@@ -154,13 +154,13 @@ def small_memory_calls(bench):
 def every_call(name, job, embree, mmap):
     calls = (*FILE_CALLS, "read", "mmap") if mmap else (*FILE_CALLS, "read")
 
-    @case(f"fault.every_call.of_a_{name}", tier="slow")
+    @case(f"fault.every_call.of_a_{name}", tier="nightly")
     def run(bench):
         if embree:
             needs_embree(bench)
         fail_in_turn(bench, job, calls, ALL, every=5)
 
-    @case(f"fault.every_allocation.of_a_{name}", tier="slow")
+    @case(f"fault.every_allocation.of_a_{name}", tier="nightly")
     def run_memory(bench):
         if embree:
             needs_embree(bench)

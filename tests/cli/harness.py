@@ -21,15 +21,12 @@ class Failed(Exception):
     pass
 
 
-CHECKED = {"compare", "file", "input", "limit", "malformed", "models", "output", "pixels", "profile", "usage"}  # areas of the tier check
-
-
-def case(name, *labels, tier=None):
-    """Registers a test area.claim_in_words of a tier: quick, check, gate or slow; without one, of that of its area, which is the gate unless
-    it is in CHECKED. The label `input` marks those that the sanitizer build runs too, `compilers` those that need the program of another build."""
+def case(name, *labels, tier="check", budget=None):
+    """Registers a test area.claim_in_words of a tier: quick, check or nightly. budget: CPU seconds that it may take, if not those of its tier
+    (tests/costs.py). The label `input` marks tests that the sanitizer build runs too, `compilers` tests that need another build's program."""
 
     def register(function):
-        CASES[name] = (function, (tier or ("check" if name.split(".")[0] in CHECKED else "gate"), *labels))
+        CASES[name] = (function, (tier, *labels, *([f"budget_{budget}"] if budget else [])))
         return function
 
     return register
@@ -93,7 +90,7 @@ class Bench:
         self.folder.mkdir(parents=True)
 
     def data_file(self, path):
-        """A file or folder of the test data. What only lies beside the checkout is absent elsewhere: only slow cases may ask for it."""
+        """A file or folder of the test data. What only lies beside the checkout is absent elsewhere: only nightly cases may ask for it."""
         for root in self.data:
             if (root / path).exists():
                 return root / path

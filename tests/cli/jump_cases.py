@@ -225,32 +225,32 @@ def by_way(bench, paths):
             for name in names_of(bench, "area-lights") if name != "off" for path in paths}
 
 
-@case("laws.no_technique_jumps_in_some_places", tier="gate")
+@case("laws.no_technique_jumps_in_some_places", tier="GATE")
 def some_jumps(bench):
     held(bench, by_technique(bench, SHORT))
 
 
-@case("laws.no_technique_jumps_anywhere", tier="slow")
+@case("laws.no_technique_jumps_anywhere", tier="nightly")
 def technique_jumps(bench):
     held(bench, by_technique(bench))
 
 
-@case("laws.no_model_jumps_anywhere", tier="slow")
+@case("laws.no_model_jumps_anywhere", tier="nightly")
 def model_jumps(bench):
     held(bench, by_model(bench))
 
 
-@case("laws.no_way_of_area_lights_jumps_anywhere", tier="slow")
+@case("laws.no_way_of_area_lights_jumps_anywhere", tier="nightly")
 def area_jumps(bench):
     held(bench, by_way(bench, AREA_PATHS))
 
 
-@case("laws.lamps_go_through_the_horizon_without_a_jump", tier="gate")
+@case("laws.lamps_go_through_the_horizon_without_a_jump", tier="GATE")
 def sinking_lamps(bench):
     held(bench, by_way(bench, [path for path in AREA_PATHS if "lamp that" in path]))
 
 
-@case("laws.steps_of_the_reference_are_those_that_are_kept", tier="slow")
+@case("laws.steps_of_the_reference_are_those_that_are_kept", tier="nightly")
 def reference_is_kept(bench):
     """BN_BLESS=1 keeps what is found."""
     needs_embree(bench)

@@ -129,7 +129,7 @@ def same_on_every_road(bench):
         check(len(hashes) == 1, f"{words}: {hashes}")
 
 
-@case("key_lights.lower_the_error_under_suns", tier="slow")
+@case("key_lights.lower_the_error_under_suns", tier="nightly")
 def lower_the_error(bench):
     """The small table of bench/key_lights.py. Half was aimed at; .62, .79 and .66 were measured with lobe_line on 2026-11-22."""
     if "reference" not in bench.run("info").expect(0).out:
@@ -173,7 +173,7 @@ def table_of_aims(_):
           f"{reached}")
 
 
-@case("key_lights.aims_are_measured_by_one_command", tier="slow")
+@case("key_lights.aims_are_measured_by_one_command", tier="nightly")
 def aims_are_measured(bench):
     """Its short form, four places, where lobe_line is to be the best."""
     if "reference" not in bench.run("info").expect(0).out:

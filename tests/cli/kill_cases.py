@@ -70,7 +70,7 @@ def references(bench):
     killed_reference(bench, 3)
 
 
-@case("kill.references_go_on_long", tier="slow")
+@case("kill.references_go_on_long", tier="nightly")
 def references_long(bench):
     killed_reference(bench, 40)
 
@@ -109,7 +109,7 @@ def charts(bench):
     killed_charts(bench, 3)
 
 
-@case("kill.charts_go_on_long", tier="slow")
+@case("kill.charts_go_on_long", tier="nightly")
 def charts_long(bench):
     killed_charts(bench, 40)
 
@@ -138,7 +138,7 @@ def bakes(bench):
     killed_bakes(bench, 4)
 
 
-@case("kill.bakes_are_whole_or_not_there_long", tier="slow")
+@case("kill.bakes_are_whole_or_not_there_long", tier="nightly")
 def bakes_long(bench):
     killed_bakes(bench, 40)
 
@@ -182,7 +182,7 @@ def races(bench):
     killed_reports(bench, RACE, 2)
 
 
-@case("kill.races_report_all_or_nothing_long", tier="slow")
+@case("kill.races_report_all_or_nothing_long", tier="nightly")
 def races_long(bench):
     killed_reports(bench, RACE, 15)
     killed_reports(bench, PARITY, 15)
@@ -208,7 +208,7 @@ def renders(bench):
     killed_renders(bench, 5)
 
 
-@case("kill.renders_leave_whole_files_long", tier="slow")
+@case("kill.renders_leave_whole_files_long", tier="nightly")
 def renders_long(bench):
     killed_renders(bench, 60)
 
@@ -257,7 +257,7 @@ def killed_job(bench, name, kills):
 
 for job in JOBS:
     case(f"kill.{job}_are_made_whole")(lambda bench, job=job: killed_job(bench, job, 2))
-    case(f"kill.{job}_are_made_whole_long", tier="slow")(lambda bench, job=job: killed_job(bench, job, 25))
+    case(f"kill.{job}_are_made_whole_long", tier="nightly")(lambda bench, job=job: killed_job(bench, job, 25))
 
 
 def sets_of_textures(bench, rounds, formats):
@@ -311,7 +311,7 @@ def sets(bench):
     killed_sets(bench, 4)
 
 
-@case("kill.sets_of_textures_appear_together_long", tier="slow")
+@case("kill.sets_of_textures_appear_together_long", tier="nightly")
 def sets_long(bench):
     sets_of_textures(bench, 24, ("png-levels", "exr-mip"))
     killed_sets(bench, 40)

@@ -85,7 +85,7 @@ def names(bench):
     check(1000 < seen < 96 * 64, f"{seen} pixels show something")
 
 
-@case("layers.are_the_same_bytes_by_vulkan", tier="gate")
+@case("layers.are_the_same_bytes_by_vulkan", tier="GATE")
 def twins(bench):
     """So are the pictures of samples tonemapped each by itself, and those of samples shared between pixels (auto)."""
     for scene, more in (("builtin:bumps", ()), ("builtin:spheres", ("--env-rotation", "40", "--no-background"))):
@@ -221,7 +221,7 @@ def refused(bench):
     no(2, "needs --pipeline ids", "--aov", "depth", "--backend", "vulkan", "--pipeline", "forward", "-o", "a.exr")
 
 
-@case("layers.specular_antialiasing_brings_normal_maps_nearer_to_the_truth", tier="gate")
+@case("layers.specular_antialiasing_brings_normal_maps_nearer_to_the_truth", tier="GATE")
 def specular_aa(bench):
     """Still, against the reference; by Vulkan it is the same picture."""
     view = ("builtin:bumps", "--size", "120x68", "--env-size", "128", "--env-samples", "64", "-q")

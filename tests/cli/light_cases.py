@@ -271,7 +271,7 @@ def equal(bench):
                  ("--technique", "bent_normal", "--msaa", "1", "--area-lights", "mc", "--light-samples", "5"))
 
 
-@case("parity.area_lights_are_equal_in_more_sets", tier="slow")
+@case("parity.area_lights_are_equal_in_more_sets", tier="nightly")
 def equal_in_more_sets(bench):
     lights_agree(bench, ("--technique", "auto,mc", "--msaa", "1,4"), ("--technique", "auto", "--msaa", "1", "--area-lights", "ltc-clipless"),
                  ("--technique", "auto", "--msaa", "1", "--area-lights", "ltc-isotropic", "--tilt", "25,10"),

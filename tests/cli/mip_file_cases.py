@@ -151,7 +151,7 @@ def files_hold(bench):
     check("x.pfm" not in bench.left_behind(), "what failed has left something")
 
 
-@case("mip.numbers_of_files_lie_in_their_ranges", "input", tier="gate")
+@case("mip.numbers_of_files_lie_in_their_ranges", "input", tier="GATE")
 def ranges(bench):
     """Under a hash that is right: kappa, gains, lobes and texels of maps that no bake writes."""
     whole(bench, "set")
@@ -259,7 +259,7 @@ def flipped(bench, name, words, flips, codes):
             done.expect_one_line()
 
 
-@case("mip.flipped_bits_are_refused_or_read", tier="slow")
+@case("mip.flipped_bits_are_refused_or_read", tier="nightly")
 def flips(bench):
     """200 of a pyramid file, 50 of a picture of each format; those of files without a hash may go unseen."""
     bench.run("bake", "mip", "builtin:roofs=1", "-q", "-o", "p.mip").expect(0)
@@ -272,7 +272,7 @@ def flips(bench):
         flipped(bench, name, ("compare", name, "flip" + name, "--metric", "mse", "-q"), 200, (0, 1, 3, 4, 6))
 
 
-@case("mip.names_of_files_may_be_any", tier="gate")
+@case("mip.names_of_files_may_be_any", tier="GATE")
 def hostile_names(bench):
     """Names of folders and of materials, by the formats that make files of them; by another locale, too."""
     gltf = bare(normalTexture={"index": 0})

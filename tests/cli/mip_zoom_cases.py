@@ -54,6 +54,6 @@ def zoom_out(bench):
     flickers(bench, 8, 128)
 
 
-@case("mip.a_zoom_out_of_sixty_steps_flickers_as_the_truth_does", tier="slow")
+@case("mip.a_zoom_out_of_sixty_steps_flickers_as_the_truth_does", tier="nightly")
 def long_zoom_out(bench):
     flickers(bench, 60, 256)

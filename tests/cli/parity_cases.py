@@ -141,7 +141,7 @@ def options_of_shading(bench):
                   ("--energy-compensation", "--tilt", "20,-10", "--anisotropy", "0.5", "--roughness", "0.8", "--horizon", "off", "--texture-anisotropy", "4"))
 
 
-@case("parity.options_of_shading_are_equal_in_more_sets", tier="slow")
+@case("parity.options_of_shading_are_equal_in_more_sets", tier="nightly")
 def more_options_of_shading(bench):
     options_agree(bench, ("--tilt", "20,-10"), ("--masking", "separable", "--energy-compensation"),
                   ("--horizon", "off", "--energy-compensation", "--texture-anisotropy", "4"),
@@ -149,7 +149,7 @@ def more_options_of_shading(bench):
                   ("--energy-compensation", "--tilt", "20,-10", "--anisotropy", "0.5", "--roughness", "0.8"))
 
 
-@case("parity.everything_is_equal", tier="slow")
+@case("parity.everything_is_equal", tier="nightly")
 def everything(bench):
     check_equal(parity(bench, "--suite", "default", timeout=590.0))
     for folder in bench.data:
@@ -191,13 +191,13 @@ def forward_looks_the_same(bench):
 ALONE = "split_isotropic,bent_normal,major_axis,major_axis_adaptive,major_axis_weighted,filtered_is,filtered_is_ggx,mc"
 
 
-@case("parity.forward_of_every_technique_looks_the_same", tier="slow")
+@case("parity.forward_of_every_technique_looks_the_same", tier="nightly")
 def forward_of_every_technique(bench):
     for more in (("--sampler", "native", "--technique", ALONE), ("--sampler", "exact", "--technique", "split_isotropic")):
         check_looks_the_same(parity(bench, "--suite", "default", "--msaa", "1,4", "--pipeline", "forward", *more, timeout=590.0))
 
 
-@case("parity.forward_says_where_samples_that_are_shared_are_missed", tier="slow")
+@case("parity.forward_says_where_samples_that_are_shared_are_missed", tier="nightly")
 def forward_without_neighbours(bench):
     report = parity(bench, "builtin:plate", "--size", "96x64", "--technique", "lobe_line,as_mc", "--msaa", "1", "--pipeline", "forward", code=1)
     for row in report["rows"]:
@@ -234,7 +234,7 @@ def writes_over_no_model(bench):
     check((bench.folder / "models/a.gltf").read_text() == "{}", "the model was written over")
 
 
-@case("parity.wide_pictures_are_equal", tier="slow")
+@case("parity.wide_pictures_are_equal", tier="nightly")
 def wide_pictures(bench):
     """What no single buffer of the device could hold is drawn in bands; 16384 pixels are the widest that it takes."""
     def pixel_hash(*options):
@@ -272,7 +272,7 @@ def validation_layer_is_silent(bench):
 
 
 # A driver compiles each anew.
-@case("parity.validation_layer_is_silent_by_every_technique", tier="slow")
+@case("parity.validation_layer_is_silent_by_every_technique", tier="nightly")
 def validation_by_every_technique(bench):
     report = parity(bench, *VALIDATED, "--msaa", "1")
     for i, technique in enumerate(sorted({row["technique"] for row in report["rows"]})):
@@ -371,7 +371,7 @@ def lean_draws(bench):
     check_lean(lean_rows(bench, "builtin:teapot", "--size", "480x270", "--techniques", "split_isotropic,major_axis_adaptive", "--msaa", "4"), 2)
 
 
-@case("race.lean_draws_the_same_everywhere", tier="slow")
+@case("race.lean_draws_the_same_everywhere", tier="nightly")
 def lean_draws_all(bench):
     """But for lobe_line and as_mc, whose samples the tile renderer shares between pixels and a fragment does not."""
     alone = ",".join(("split_isotropic", "bent_normal", "major_axis", "major_axis_adaptive", "major_axis_weighted", "filtered_is", "filtered_is_ggx", "mc"))
@@ -416,7 +416,7 @@ def sees_lean_defect(bench):
     sees_lean_defects(bench, LEAN_DEFECTS[:1])
 
 
-@case("race.sees_defects_of_lean", tier="slow")
+@case("race.sees_defects_of_lean", tier="nightly")
 def sees_all_lean_defects(bench):
     check_lean(lean_rows(bench, "builtin:spheres", "--size", "160x90", "--techniques", "bent_normal", "--msaa", "1", "--shader-folder",
                          lean_with(bench, [], "whole")), 1)
@@ -507,7 +507,7 @@ GATED = {"one_ulp_in_a_kernel_constant", "swapped_sample_positions", "no_contrac
 
 
 def add_defect(name, replacements, msaa, stages, only=None):
-    @case(f"parity.sees_a_defect.{name}", tier="gate" if name in GATED else "slow")
+    @case(f"parity.sees_a_defect.{name}", tier="check" if name in GATED else "nightly")
     def sees(bench):
         # few samples lie on an edge: small pictures may have none
         report = compare_changed(bench, replacements, msaa, 1, only, "320x240" if name == "top_left_rule" else "128x96")
@@ -521,7 +521,7 @@ for defect, what in DEFECTS.items():
 
 
 def add_area_defect(name, replacement):
-    @case(f"parity.sees_a_defect_of_area_lights.{name}", tier="slow")
+    @case(f"parity.sees_a_defect_of_area_lights.{name}", tier="nightly")
     def sees(bench):
         report = compare_changed(bench, [replacement], "1", 1, "shade", "64x48",
                                  ("builtin:lights", "--env", "builtin:night", "--technique", "bent_normal"))

@@ -31,7 +31,7 @@ def everything(bench):
         check(bench.run(*words, "-q", env=OFTEN).expect(0).err == "", f"{words} says something with -q")
 
 
-@case("progress.of_parity_names_the_row_and_the_stage", tier="gate")
+@case("progress.of_parity_names_the_row_and_the_stage", tier="GATE")
 def parity(bench):
     done = bench.run("parity", "builtin:plate", "--technique", "split_isotropic", "--msaa", "1", *TINY, "--device", "lavapipe", timeout=600,
                      env={**OFTEN, "MESA_SHADER_CACHE_DISABLE": "true"})

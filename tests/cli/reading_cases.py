@@ -130,7 +130,7 @@ def obj_texts(bench):
         check(done.err.count("warning") == 1 and words in done.err, done.describe())
 
 
-@case("reading.files_of_reports_are_read_right", tier="slow")
+@case("reading.files_of_reports_are_read_right", tier="nightly")
 def reports(bench):
     """What beside the checkout was read wrongly once."""
     folder = bench.data_file("reports/env_acescg.exr").parent

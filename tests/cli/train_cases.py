@@ -15,7 +15,7 @@ SMALL = ("train", "mip", "--steps", "20")
 SHIPPED = pathlib.Path(__file__).resolve().parents[2] / "shading/bake/mipnet"
 
 
-@case("train.threads_and_instruction_sets_make_no_difference", tier="gate")
+@case("train.threads_and_instruction_sets_make_no_difference", tier="GATE")
 def threads(bench):
     hashes = set()
     for name, options, env in (("1", ("--threads", "1"), {}), ("2", ("--threads", "2"), {}), ("3", ("--threads", "3"), {}), ("s", (), {"BN_FORCE_ISA": "avx2"})):
@@ -25,7 +25,7 @@ def threads(bench):
     check(bench.left_behind() == ["w1.mipnet", "w2.mipnet", "w3.mipnet", "ws.mipnet"], f"left {bench.left_behind()}")
 
 
-@case("train.killed_goes_on_to_the_same_bytes", tier="gate")
+@case("train.killed_goes_on_to_the_same_bytes", tier="GATE")
 def killed(bench):
     bench.run(*SMALL, "-o", "straight.mipnet", "-q").expect(0)
     part = bench.folder / "kept.part"
@@ -98,7 +98,7 @@ def shipped(bench):
         check("hammered" in said["families"] and "twill" not in said["families"], f"{said}")
 
 
-@case("train.the_shipped_weights_are_what_the_commands_make", tier="slow")
+@case("train.the_shipped_weights_are_what_the_commands_make", tier="nightly")
 def remade(bench):
     for file in sorted(SHIPPED.glob("*.mipnet")):
         words = json.loads(bench.run("info", "--json", "--weights", file).expect(0).out)["command"].split()[1:]

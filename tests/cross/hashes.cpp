@@ -6,6 +6,7 @@
 #include <string>
 
 #include "core/base/hash.h"
+#include "core/scene/builtin/builtin.h"
 #include "raster/session/session.h"
 
 namespace burnish {
@@ -58,6 +59,26 @@ void draw_all(Session& session, const std::string& scene)
     draw(session, scene + " fitted", fitted);
 }
 
+// Every built-in scene once; of the spheres every second blends.
+bool draw_each(SessionParts parts, const SessionOptions& options)
+{
+    for (const BuiltinInfo& info : builtin_scenes()) {
+        const std::string name = info.name;
+        Scene scene = *make_builtin_scene(name);
+        for (std::size_t i = 0; i < scene.materials.size() && name == "spheres"; i += 2)
+            scene.materials[i].alpha_mode = AlphaMode::blend, scene.materials[i].base_color.a = 0.4f, scene.materials[i].double_sided = true;
+        Result<std::shared_ptr<const SceneData>> data = make_scene_data(name, std::move(scene), {});
+        if (!data)
+            return false;
+        parts.scene = *data;
+        Result<Session> session = Session::make(parts, options);
+        if (!session)
+            return false;
+        draw(*session, name + " 4x", small_desc("auto", 4));
+    }
+    return true;
+}
+
 int run(const std::string& isa_word)
 {
     const Result<Isa> isa = parse_isa(isa_word);
@@ -82,10 +103,13 @@ int run(const std::string& isa_word)
         print(environments[i], hash_bytes(cube.texels.data(), cube.texels.size() * sizeof cube.texels[0], 0));
         SessionOptions of_session;
         of_session.isa = *isa;
-        Result<Session> session = Session::make({*scene, *environment, jobs, dfg}, of_session);
+        const SessionParts parts = {*scene, *environment, jobs, dfg};
+        Result<Session> session = Session::make(parts, of_session);
         if (!session)
             return 1;
         draw_all(*session, scenes[i]);
+        if (i == 0 && !draw_each(parts, of_session))
+            return 1;
     }
     return 0;
 }

@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
-"""cross.aarch64: what is built by a cross compiler and run by qemu bakes and draws the same bits as here.
+"""Compares bakes and pictures of two builds of burnish_hashes, by every instruction set of the second: all bits must be equal.
 
-Usage: pixels.py SOURCE-FOLDER BUILD-FOLDER HASHES    HASHES: burnish_hashes of this machine
-Exit code 77 where there is no cross compiler or no qemu.
+Usage: pixels.py HASHES OTHER-HASHES                             another compiler's
+       pixels.py HASHES --aarch64 SOURCE-FOLDER BUILD-FOLDER     built here for aarch64, run by qemu
+Exits with 77 where there is no cross compiler or no qemu.
 """
 
 import pathlib
@@ -42,14 +43,17 @@ def hashes(command, isa):
 
 
 def main():
-    source, folder, program = map(pathlib.Path, sys.argv[1:])
-    for tool in (COMPILER, EMULATOR[0]):
-        if not shutil.which(tool):
-            skip(f"no {tool} on this machine")
-    other = [*EMULATOR, build(source, folder)]
+    program, *words = sys.argv[1:]
+    if words[0] == "--aarch64":
+        for tool in (COMPILER, EMULATOR[0]):
+            if not shutil.which(tool):
+                skip(f"no {tool} on this machine")
+        other = [*EMULATOR, build(*map(pathlib.Path, words[1:]))]
+    else:
+        other = words
     isas = run(other).split()
     if "scalar" not in isas or len(isas) < 2:
-        sys.exit(f"instruction sets of aarch64: {isas}")
+        sys.exit(f"instruction sets of {other[-1]}: {isas}")
     here = hashes([program], run([program]).split()[-1])
     if len(set(here.values())) < FEWEST:
         sys.exit(f"only {len(set(here.values()))} different hashes")
@@ -59,8 +63,8 @@ def main():
         for what in sorted(here.keys() | there.keys()):
             if there.get(what) != here.get(what):
                 differ += 1
-                print(f"{what}: {there.get(what)} by {isa} of aarch64, {here.get(what)} here")
-    print(f"{len(here)} hashes by {', '.join(isas)} of aarch64: {differ} differ from those of this machine")
+                print(f"{what}: {there.get(what)} by {isa} of {other[-1]}, {here.get(what)} by {program}")
+    print(f"{len(here)} hashes by {', '.join(isas)}: {differ} differ")
     sys.exit(differ != 0)
 
 

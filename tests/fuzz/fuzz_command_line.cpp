@@ -19,7 +19,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     Command (*const makers[])() = {
 #define BN_COMMAND(name) &name##_command,
 #include "apps/cli/commands.def"
-#undef BN_COMMAND
     };
     const std::string first = words[0];
     words.erase(words.begin());

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
-#include "apps/atlas/measure.h"
+#include "apps/lab/atlas/measure.h"
 
 namespace burnish {
 namespace {

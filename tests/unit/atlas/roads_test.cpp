@@ -1,7 +1,7 @@
 // Where methods break, pixels are no less the same bits on every road: threads, instruction sets, sizes of tiles.
 #include <gtest/gtest.h>
 
-#include "apps/atlas/darkroom.h"
+#include "apps/lab/atlas/darkroom.h"
 
 namespace burnish {
 namespace {

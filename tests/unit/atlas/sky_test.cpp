@@ -1,8 +1,8 @@
 // What --risks asks of an environment, and of the atlas.
 #include <gtest/gtest.h>
 
-#include "apps/atlas/risks.h"
-#include "apps/atlas/sky.h"
+#include "apps/risks/risks.h"
+#include "apps/risks/sky.h"
 #include "core/simd/half.h"
 #include "shading/bake/environment/cube_map.h"
 

@@ -1,8 +1,8 @@
 // Blessed figures: written, read, held.
 #include <gtest/gtest.h>
 
-#include "apps/atlas/assets.h"
-#include "apps/atlas/kept.h"
+#include "apps/risks/assets.h"
+#include "apps/lab/atlas/kept.h"
 
 namespace burnish {
 namespace {

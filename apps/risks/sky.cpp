@@ -1,4 +1,4 @@
-#include "apps/atlas/sky.h"
+#include "apps/risks/sky.h"
 
 #include <algorithm>
 #include <cmath>

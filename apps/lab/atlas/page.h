@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/atlas/kept.h"
+#include "apps/lab/atlas/kept.h"
 
 namespace burnish {
 

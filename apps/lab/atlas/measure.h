@@ -4,19 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "apps/atlas/darkroom.h"
+#include "apps/lab/atlas/darkroom.h"
 #include "apps/report/json.h"
 
 namespace burnish {
-
-// How the atlas is walked. Figures of one walk say nothing of the other's.
-struct AtlasWalk {
-    const char* name;
-    int steps, side;       // of a path; pixels of a picture
-    std::uint64_t samples; // a pixel of the reference
-    int cure_every = 1;    // steps from one look at the cure to the next; the last is looked at
-};
-inline constexpr AtlasWalk kQuickWalk{"quick", 7, 64, 256, 2}, kFullWalk{"full", 33, 96, 1024, 1};
 
 inline constexpr double kGone = 0.5; // an error is gone where less than this share of it is left
 

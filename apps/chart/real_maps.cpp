@@ -1,4 +1,4 @@
-#include "apps/train/real_maps.h"
+#include "apps/chart/real_maps.h"
 
 #include <algorithm>
 #include <cctype>

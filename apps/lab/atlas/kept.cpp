@@ -1,4 +1,4 @@
-#include "apps/atlas/kept.h"
+#include "apps/lab/atlas/kept.h"
 
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>

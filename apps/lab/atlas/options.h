@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/atlas/measure.h"
+#include "apps/lab/atlas/measure.h"
 #include "apps/cli/option.h"
 #include "core/simd/dispatch.h"
 

@@ -1,4 +1,4 @@
-#include "apps/atlas/measure.h"
+#include "apps/lab/atlas/measure.h"
 
 #include <algorithm>
 #include <cstring>

@@ -1,5 +1,6 @@
 // What the atlas shows: a way to draw, and a path along which it breaks.
 #pragma once
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -9,7 +10,7 @@
 
 namespace burnish {
 
-enum class AtlasTruth { reference, full, render, doubles, shown }; // as apps/atlas/atlas.def has them
+enum class AtlasTruth { reference, full, render, doubles, shown }; // as apps/risks/atlas.def has them
 
 struct AtlasEntry {
     const char *id, *group, *breaks;
@@ -25,6 +26,15 @@ struct AtlasEntry {
 const std::vector<AtlasEntry>& atlas_entries(); // in the order of atlas.def
 const AtlasEntry* find_entry(const std::string& id);
 std::vector<std::string> entry_ids();
+
+// How the atlas is walked. Figures of one walk say nothing of the other's.
+struct AtlasWalk {
+    const char* name;
+    int steps, side;       // of a path; pixels of a picture
+    std::uint64_t samples; // a pixel of the reference
+    int cure_every = 1;    // steps from one look at the cure to the next; the last is looked at
+};
+inline constexpr AtlasWalk kQuickWalk{"quick", 7, 64, 256, 2}, kFullWalk{"full", 33, 96, 1024, 1};
 
 // One picture of an entry: options, and what tells scenes and environments apart.
 struct AtlasSetting {

@@ -1,4 +1,4 @@
-#include "apps/atlas/risks.h"
+#include "apps/risks/risks.h"
 
 #include <algorithm>
 #include <array>
@@ -7,9 +7,9 @@
 #include <cstring>
 #include <fmt/core.h>
 
-#include "apps/atlas/assets.h"
-#include "apps/atlas/sky.h"
-#include "apps/atlas/table.h"
+#include "apps/risks/assets.h"
+#include "apps/risks/sky.h"
+#include "apps/risks/blessed.h"
 #include "apps/cli/parse.h"
 #include "core/base/check.h"
 #include "shading/bake/environment/cube_map.h"
@@ -21,7 +21,7 @@ namespace {
 
 enum class Change {
 #define BN_RISK_CHANGE(id, what) id,
-#include "apps/atlas/risks.def"
+#include "apps/risks/risks.def"
 };
 
 struct Rule {
@@ -36,11 +36,11 @@ struct Rule {
     {                                                                                                                                      \
         return value;                                                                                                                      \
     }
-#include "apps/atlas/risks.def"
+#include "apps/risks/risks.def"
 
 constexpr Rule kRules[] = {
 #define BN_RISK(entry, measure, change, readers, says) {#entry, measure_##measure, Change::change, readers, says},
-#include "apps/atlas/risks.def"
+#include "apps/risks/risks.def"
 };
 
 static_assert(std::size(kRules) <= 32, "a pixel's rules are the bits of a word");
@@ -49,7 +49,7 @@ static_assert(std::size(kRules) <= 32, "a pixel's rules are the bits of a word")
 constexpr float kEarly = 0.4f; // of the onset's measure
 constexpr std::size_t kChanges = 0
 #define BN_RISK_CHANGE(id, what) +1
-#include "apps/atlas/risks.def"
+#include "apps/risks/risks.def"
     ;
 using Changes = std::array<float, kChanges>;
 constexpr Changes kSeen = {0.12f, 0.12f, 0.12f, 0.25f, 0.2f, 0.0f}; // by Change: of the logarithm of what a pixel shows

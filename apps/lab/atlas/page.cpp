@@ -1,9 +1,9 @@
-#include "apps/atlas/page.h"
+#include "apps/lab/atlas/page.h"
 
 #include <algorithm>
 #include <fmt/core.h>
 
-#include "apps/atlas/assets.h"
+#include "apps/lab/atlas/assets.h"
 #include "apps/report/assets.h"
 #include "apps/report/axes.h"
 #include "apps/report/drawing.h"

@@ -1,8 +1,8 @@
-#include "apps/atlas/darkroom.h"
+#include "apps/lab/atlas/darkroom.h"
 
 #include <fmt/ranges.h>
 
-#include "apps/atlas/trial_tables.h"
+#include "apps/lab/atlas/trial_tables.h"
 #include "apps/chart/noise.h"
 #include "apps/cli/open.h"
 #include "apps/cli/scene_view.h"

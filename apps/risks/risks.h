@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/atlas/entries.h"
+#include "apps/risks/entries.h"
 #include "core/image/image.h"
 #include "raster/session/session.h"
 

@@ -12,7 +12,7 @@
 #include "apps/cli/stop_signal.h"
 #include "apps/cli/values.h"
 #include "apps/report/json.h"
-#include "apps/train/real_maps.h"
+#include "apps/chart/real_maps.h"
 #include "core/base/clock.h"
 #include "shading/bake/mipnet/evaluate.h"
 #include "shading/bake/mipnet/train.h"

@@ -2,7 +2,7 @@
 #pragma once
 #include <string>
 
-#include "apps/atlas/table.h"
+#include "apps/lab/atlas/judge.h"
 #include "apps/report/json.h"
 
 namespace burnish {

@@ -1,4 +1,4 @@
-#include "apps/atlas/options.h"
+#include "apps/lab/atlas/options.h"
 
 #include <algorithm>
 #include <fmt/core.h>

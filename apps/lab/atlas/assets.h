@@ -6,6 +6,5 @@ namespace burnish {
 
 extern const EmbeddedFile kAtlasPageStyle;  // page.css
 extern const EmbeddedFile kAtlasPageScript; // page.js
-extern const EmbeddedFile kAtlasBlessed;    // blessed.md
 
 } // namespace burnish

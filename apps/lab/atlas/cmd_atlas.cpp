@@ -4,9 +4,9 @@
 #include <fmt/core.h>
 #include <memory>
 
-#include "apps/atlas/assets.h"
-#include "apps/atlas/options.h"
-#include "apps/atlas/page.h"
+#include "apps/risks/assets.h"
+#include "apps/lab/atlas/options.h"
+#include "apps/lab/atlas/page.h"
 #include "apps/cli/command.h"
 #include "apps/cli/outputs.h"
 #include "apps/cli/report.h"
@@ -33,7 +33,7 @@ Examples:
   burnish atlas --quick -o atlas
   burnish atlas bent_normal_bends_too_far -o bent
   burnish atlas --quick --with "--axis-beta 1.15"
-  burnish atlas --quick --bless --table apps/atlas/blessed.md)";
+  burnish atlas --quick --bless --table apps/risks/blessed.md)";
 
 int list_entries(const AtlasOptions& options)
 {

@@ -1,4 +1,4 @@
-#include "apps/atlas/entries.h"
+#include "apps/risks/entries.h"
 
 #include <algorithm>
 #include <cstdlib>
@@ -121,7 +121,7 @@ const std::vector<AtlasEntry>& atlas_entries()
     static const std::vector<AtlasEntry> entries = {
 #define BN_ATLAS(id, group, breaks, words, kind, path, truth, truth_words, threshold, cure)                                                \
     {#id, #group, breaks, words, kind, path, AtlasTruth::truth, truth_words, threshold, cure},
-#include "apps/atlas/atlas.def"
+#include "apps/risks/atlas.def"
     };
     return entries;
 }

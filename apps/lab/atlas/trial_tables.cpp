@@ -1,4 +1,4 @@
-#include "apps/atlas/trial_tables.h"
+#include "apps/lab/atlas/trial_tables.h"
 
 #include <map>
 

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "apps/atlas/entries.h"
+#include "apps/risks/entries.h"
 #include "apps/chart/reference.h"
 #include "raster/session/session.h"
 

@@ -1,0 +1,181 @@
+#include "apps/cli/program.h"
+
+#include <algorithm>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <fmt/core.h>
+#include <new>
+#include <string>
+#include <system_error>
+#include <vector>
+
+#include "apps/cli/command_line.h"
+#include "apps/cli/lab.h"
+#include "apps/cli/report.h"
+#include "apps/cli/suggest.h"
+#include "core/base/cgroup.h"
+#include "core/base/version.h"
+#include "core/jobs/activity.h"
+#include "core/jobs/cores.h"
+#include "core/jobs/threads.h"
+
+namespace burnish {
+namespace {
+
+constexpr const char* kFooter = R"(Examples:
+  burnish render                                     the built-in teapot, figures only
+  burnish render lamp.glb --env workshop.hdr -o lamp.png -o lamp.exr
+  burnish compare reference.png test.png --html report.html
+  burnish chart lamp.glb --env workshop.hdr -o report
+  burnish profile lamp.glb --technique major_axis --svg lamp.svg
+  burnish list techniques
+  burnish info --json
+
+Exit codes: 0 done, 1 results differ, 2 wrong option, 3 sizes do not match, 4 bad input, 5 a reference is missing,
+6 NaN or Inf in a picture, 7 output not written, 70 a fault of the program, 77 not available on this machine, 130 or 143 stopped, with everything
+kept in a checkpoint.)";
+
+int print_help(const Command* command, const std::vector<Command>& commands)
+{
+    std::fputs((command ? help_of(*command) : help_of(commands, kFooter)).c_str(), stdout);
+    return 0;
+}
+
+// A call without words is a mistake, as a script makes it, and its answer is the list of subcommands.
+int print_help_as_error(const std::vector<Command>& commands)
+{
+    std::fputs(help_of(commands, kFooter).c_str(), stderr);
+    return fail(usage_error("", "a subcommand is required"));
+}
+
+int print_version()
+{
+    std::printf("burnish %s\n", version());
+    return 0;
+}
+
+int refuse_subcommand(const std::string& word, const std::vector<Command>& commands)
+{
+    std::vector<std::string> names = {"help"};
+    for (const Command& command : commands)
+        names.push_back(command.name);
+    std::string meant = did_you_mean(word, names);
+    if (const std::string scene = builtin_scene_hint(word); meant.empty() && !scene.empty())
+        meant = "; " + scene;
+    return fail(usage_error("", fmt::format("no subcommand '{}': there are {}{} (see burnish --help)", word, join(names), meant)));
+}
+
+int run(const std::vector<std::string>& words)
+{
+    std::vector<Command> commands = all_commands();
+    const auto find = [&](const std::string& name) {
+        return std::find_if(commands.begin(), commands.end(), [&](const Command& command) { return command.name == name; });
+    };
+    const std::string first = words.empty() ? "" : words[0];
+    if (first == "-h" || first == "--help")
+        return print_help(nullptr, commands);
+    if (first == "--version")
+        return print_version();
+    if (first.empty())
+        return print_help_as_error(commands);
+    if (first[0] == '-')
+        return fail(usage_error("", "The following argument was not expected: " + first + " (see burnish --help)"));
+    if (first == "help") {
+        const auto command = words.size() < 2 ? commands.end() : find(words[1]);
+        if (words.size() > 1 && command == commands.end())
+            return refuse_subcommand(words[1], commands);
+        if (command != commands.end() && !command->run)
+            return start_lab({words[1], "--help"});
+        return print_help(command == commands.end() ? nullptr : &*command, commands);
+    }
+    const auto named = find(first);
+    const bool drawn = named == commands.end() && looks_like_scene(first);
+    const auto command = drawn ? find("render") : named;
+    if (command == commands.end())
+        return refuse_subcommand(first, commands);
+    if (!command->run)
+        return start_lab(words);
+    const std::vector<std::string> rest(words.begin() + !drawn, words.end());
+    switch (asked_by(*command, rest)) {
+    case Asked::help:
+        return print_help(&*command, commands);
+    case Asked::version:
+        return print_version();
+    case Asked::nothing:
+        break;
+    }
+    if (const Status read = read_command_line(*command, rest); !read)
+        return fail(read.error());
+    Activity::tell(!command->options.given("--quiet"));
+    const Activity activity(command->name);
+    return command->run(command->options);
+}
+
+int flush_stdout(int code)
+{
+    const bool lost = std::fflush(stdout) != 0 || std::ferror(stdout) != 0;
+    if (!lost || code != 0)
+        return code;
+    return fail(Error{ExitCode::output_failed, "standard output", "", "cannot be written"});
+}
+
+// Says that the work was done by fewer threads than were wanted. An error remains one line.
+void warn_of_missing_threads(int code, const std::vector<std::string>& words)
+{
+    const std::string missing = missing_threads();
+    const bool quiet = std::any_of(words.begin(), words.end(), [](const std::string& word) { return word == "--quiet" || word == "-q"; });
+    if (code != 0 || missing.empty() || quiet)
+        return;
+    Report report(false, 0);
+    report.warning(missing);
+    report.release();
+}
+
+// A thread that the system refuses is no fault of the program: pools of burnish go on without, libraries may not.
+int fail_by(const std::system_error& error)
+{
+    const bool refused = error.code() == std::errc::resource_unavailable_try_again;
+    const std::string reason = refused ? "the system gives no further thread: " : "internal error: ";
+    return fail(Error{refused ? ExitCode::unavailable : ExitCode::internal, "", "", reason + error.what()});
+}
+
+// Where an exception cannot be caught: in what a library does as it is loaded, for one.
+[[noreturn]] void terminate()
+{
+    try {
+        if (const std::exception_ptr thrown = std::current_exception())
+            std::rethrow_exception(thrown);
+    } catch (const std::bad_alloc&) {
+        std::_Exit(fail(Error{ExitCode::bad_input, "", "", "out of memory"}));
+    } catch (const std::system_error& error) {
+        std::_Exit(fail_by(error));
+    } catch (...) {
+    }
+    std::abort();
+}
+
+} // namespace
+
+int run_program(int argc, char** argv)
+{
+    // A file-size limit shall be a failed write with a message, not the death of the process.
+    std::signal(SIGXFSZ, SIG_IGN);
+    std::set_terminate(terminate);
+    try {
+        bound_memory_by_cgroup(usable_cores());
+        const std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
+        const int code = flush_stdout(run(words));
+        warn_of_missing_threads(code, words);
+        return code;
+    } catch (const std::bad_alloc&) {
+        return fail(Error{ExitCode::bad_input, "", "", "out of memory"});
+    } catch (const std::system_error& error) {
+        return fail_by(error);
+    } catch (const std::exception& error) {
+        return fail(Error{ExitCode::internal, "", "", std::string("internal error: ") + error.what()});
+    }
+}
+
+} // namespace burnish

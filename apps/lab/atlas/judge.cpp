@@ -1,0 +1,88 @@
+#include "apps/lab/atlas/judge.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/core.h>
+
+namespace burnish {
+namespace {
+
+constexpr double kNear = 0.05;   // of worst: nearer than this share it is held
+constexpr double kUnsure = 0.05; // so near to kGone what is left says nothing of the kind, for references are noisy
+constexpr const char* kNothing = "-";
+
+constexpr const char* kHead = R"(# Where methods break
+
+What each entry of the atlas (apps/risks/atlas.def) measured when it was blessed: the first place on its path, from 0 to 1, at which the error is
+above the entry's threshold; the largest error; how much more it changes from step to step than the truth does; the error where it is largest,
+shaded in double; the largest error of the cure, where one is known; and what kind of failure it is. `burnish atlas --bless --table
+apps/risks/blessed.md` writes this page, `burnish atlas` holds what it measures to it: the onset within a step, the largest error within 5 %, and
+the kind. The kind is found, not written: precision, where doubles leave less than half of the error; sampling, where 64 times the samples do; filtering,
+where a truth that filters textures alike does; else approximation.
+
+)";
+
+std::string cell_of(double value, bool there)
+{
+    return there ? fmt::format("{:.4f}", value) : kNothing;
+}
+
+} // namespace
+
+std::string table_text(const BlessedTable& table)
+{
+    std::string text = fmt::format("{}Version {}\n", kHead, table.version);
+    for (const AtlasWalk& walk : {kQuickWalk, kFullWalk}) {
+        const auto rows = table.walks.find(walk.name);
+        if (rows == table.walks.end() || rows->second.empty())
+            continue;
+        text += fmt::format(
+            "\n## {}\n\n| entry | onset | worst | flicker | double | cure | kind |\n| --- | --- | --- | --- | --- | --- | --- |\n",
+            walk.name);
+        for (const AtlasEntry& entry : atlas_entries())
+            if (const auto found = rows->second.find(entry.id); found != rows->second.end()) {
+                const BlessedRow& row = found->second;
+                text += fmt::format("| {} | {} | {:.4f} | {:.4f} | {} | {} | {} |\n", entry.id, cell_of(row.onset, row.onset <= 1.0),
+                                    row.worst, row.flicker, cell_of(row.in_double.value_or(0.0), row.in_double.has_value()),
+                                    cell_of(row.cure_worst, entry.cure[0] != 0), row.kind);
+            }
+    }
+    return text;
+}
+
+BlessedRow row_of(const MeasuredEntry& m)
+{
+    return {m.onset, m.worst, m.flicker, m.cure_worst, m.in_double, m.kind};
+}
+
+Judged judge(const AtlasEntry& entry, const MeasuredEntry& m, const BlessedRow* row)
+{
+    if (entry.cure[0] && m.cure_worst > entry.threshold)
+        return {Verdict::uncured, fmt::format("the cure's error is {:.4f}, above {:g}", m.cure_worst, entry.threshold)};
+    if (!row)
+        return {Verdict::unknown, "no figures of it are blessed"};
+    const double step = m.steps.size() > 1 ? 1.0 / static_cast<double>(m.steps.size() - 1) : 1.0, onset = std::min(m.onset, 1.0 + step),
+                 blessed = std::min(row->onset, 1.0 + step), slack = 1.01 * step; // blessed figures are rounded
+    const double room = kNear * row->worst + 5e-5;
+    if (onset < blessed - slack)
+        return {Verdict::worse, fmt::format("breaks at {:.4f}, blessed is {:.4f}", onset, blessed)};
+    if (m.worst > row->worst + room)
+        return {Verdict::worse, fmt::format("is off by {:.4f}, blessed is {:.4f}", m.worst, row->worst)};
+    if (onset > blessed + slack)
+        return {Verdict::better, fmt::format("breaks at {:.4f}, blessed is {:.4f}", onset, blessed)};
+    if (m.worst < row->worst - room)
+        return {Verdict::better, fmt::format("is off by {:.4f}, blessed is {:.4f}", m.worst, row->worst)};
+    if (m.kind == "none" && row->kind != "none")
+        return {Verdict::better, fmt::format("breaks no more, blessed is a failure of {}", row->kind)};
+    if (m.kind != row->kind && std::abs(m.remedy - kGone) > kUnsure)
+        return {Verdict::worse, fmt::format("is a failure of {}, blessed is {}", m.kind, row->kind)};
+    return {};
+}
+
+const char* verdict_name(Verdict verdict)
+{
+    constexpr const char* kNames[] = {"not blessed", "held", "better", "worse", "cure fails"};
+    return kNames[static_cast<std::size_t>(verdict)];
+}
+
+} // namespace burnish

@@ -1,0 +1,26 @@
+// The `burnish-lab` program: all of `burnish`, and the subcommands of research: what `burnish atlas` and `burnish train` start.
+#include "apps/cli/command.h"
+#include "apps/cli/program.h"
+
+namespace burnish {
+#define BN_LAB_COMMAND(name, summary) Command name##_command();
+#include "apps/cli/commands.def"
+
+namespace {
+
+std::vector<Command> lab_commands()
+{
+    return {
+#define BN_LAB_COMMAND(name, summary) name##_command(),
+#include "apps/cli/commands.def"
+    };
+}
+
+} // namespace
+} // namespace burnish
+
+int main(int argc, char** argv)
+{
+    burnish::add_lab_commands(burnish::lab_commands);
+    return burnish::run_program(argc, argv);
+}

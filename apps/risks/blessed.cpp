@@ -1,0 +1,90 @@
+#include "apps/risks/blessed.h"
+
+#include <charconv>
+#include <cmath>
+#include <fmt/core.h>
+#include <iterator>
+
+#include "apps/cli/parse.h"
+
+namespace burnish {
+namespace {
+
+constexpr const char* kVersionMark = "Version ";
+constexpr const char* kNothing = "-";
+
+std::string trimmed(const std::string& text)
+{
+    const std::size_t first = text.find_first_not_of(' '), last = text.find_last_not_of(' ');
+    return first == std::string::npos ? "" : text.substr(first, last - first + 1);
+}
+
+std::optional<double> figure_of(const std::string& cell, double none)
+{
+    if (cell == kNothing)
+        return none;
+    double value = 0.0;
+    const std::from_chars_result read = std::from_chars(cell.data(), cell.data() + cell.size(), value);
+    return read.ec == std::errc() && read.ptr == cell.data() + cell.size() && std::isfinite(value) ? std::optional(value) : std::nullopt;
+}
+
+// "| id | onset | worst | flicker | double | cure | kind |"; nothing where it is no such row.
+std::optional<std::pair<std::string, BlessedRow>> row_in(const std::string& line)
+{
+    std::vector<std::string> cells = split(line, '|');
+    if (cells.size() != 9)
+        return std::nullopt;
+    for (std::string& cell : cells)
+        cell = trimmed(cell);
+    BlessedRow row;
+    const std::optional<double> onset = figure_of(cells[2], 2.0), worst = figure_of(cells[3], 0.0), flicker = figure_of(cells[4], 0.0),
+                                in_double = figure_of(cells[5], 0.0), cure = figure_of(cells[6], 0.0);
+    if (!onset || !worst || !flicker || !in_double || !cure)
+        return std::nullopt;
+    if (*onset < 0.0 || *onset > 2.0 || *worst < 0.0 || *in_double < 0.0 || *cure < 0.0)
+        return std::nullopt;
+    row.onset = *onset, row.worst = *worst, row.flicker = *flicker, row.cure_worst = *cure, row.kind = cells[7];
+    if (cells[5] != kNothing)
+        row.in_double = *in_double;
+    return std::pair{cells[1], row};
+}
+
+} // namespace
+
+Result<BlessedTable> parse_table(const std::string& text, const std::string& file)
+{
+    BlessedTable table;
+    table.version = 0;
+    std::string walk;
+    for (const std::string& line : split(text, '\n')) {
+        if (line.rfind(kVersionMark, 0) == 0) {
+            const std::string number = line.substr(std::string(kVersionMark).size());
+            std::from_chars(number.data(), number.data() + number.size(), table.version);
+        } else if (line.rfind("## ", 0) == 0) {
+            walk = line.substr(3);
+        } else if (line.rfind("| ", 0) == 0 && line.rfind("| entry ", 0) != 0 && line.rfind("| ---", 0) != 0) {
+            const auto row = row_in(line);
+            if (table.version != 0 && table.version != kTableVersion)
+                continue; // whose figures mean something else
+            if (!row || walk.empty())
+                return Error{ExitCode::bad_input, file, "", fmt::format("'{}' is no row of blessed figures", line)};
+            table.walks[walk][row->first] = row->second;
+        }
+    }
+    if (table.version == 0)
+        return Error{ExitCode::bad_input, file, "", "does not hold blessed figures of the atlas"};
+    return table;
+}
+
+std::optional<BlessedRow> find_row(const std::string& text, const char* walk, const std::string& id)
+{
+    const std::size_t begin = text.find(fmt::format("\n## {}\n", walk)),
+                      end = text.find("\n## ", begin == std::string::npos ? begin : begin + 1);
+    const std::size_t at = begin == std::string::npos ? begin : text.find(fmt::format("\n| {} |", id), begin);
+    if (at == std::string::npos || at > end)
+        return std::nullopt;
+    const auto row = row_in(text.substr(at + 1, text.find('\n', at + 1) - at - 1));
+    return row ? std::optional(row->second) : std::nullopt;
+}
+
+} // namespace burnish
