@@ -87,6 +87,8 @@ def check_include(path, quoted, name, files):
     other = target.parts[0]
     if top in LAYERS and LAYERS.get(other, 99) > LAYERS[top]:
         yield f'{top} includes "{name}", which lies above it'
+    if top in LAYERS and "lab" in target.parts and "lab" not in path.parts:
+        yield f'includes "{name}" of a laboratory, which no file of the product knows'
     if is_kernel(path) and not (lies_in(target, ("shading/lang",)) or is_kernel(target) or target.match("shading/*.def")):
         yield f'a kernel includes "{name}"'
     if top == other == "raster" and len(path.parts) > 2 and len(target.parts) > 2:
