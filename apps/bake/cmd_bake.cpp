@@ -220,8 +220,7 @@ Result<PixelType> map_type(const BakeArguments& a, const std::vector<std::string
     const bool floats = extension == ".exr" || extension == ".pfm";
     if (!floats && extension != ".png" && extension != ".tif")
         return usage_error("-o", fmt::format("'{}' must end in .png, .tif, .exr or .pfm, which lose nothing", a.output));
-    if (const Status path = check_picture_path(a.output, inputs); !path)
-        return path.error();
+    BN_TRY(check_picture_path(a.output, inputs));
     return floats ? PixelType::f32 : PixelType::u8;
 }
 

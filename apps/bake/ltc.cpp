@@ -79,13 +79,11 @@ Status check_arguments(const LtcBake& b, const OptionTable& given)
 Status write_report_files(const std::string& folder, const Json& figures, const std::vector<std::pair<std::string, Drawing>>& drawings,
                           Report& report)
 {
-    if (const Status made = make_output_folder(folder); !made)
-        return made.error();
+    BN_TRY(make_output_folder(folder));
     std::vector<std::pair<std::string, std::string>> files = {{"quality.json", figures.dump(2) + "\n"}};
     for (const auto& [name, drawing] : drawings) {
         Result<std::string> png = png_of(drawing);
-        if (!png)
-            return png.error();
+        BN_TRY(png);
         files.emplace_back(name + ".svg", svg_of(drawing, chart_style()));
         files.emplace_back(name + ".png", std::move(*png));
     }
@@ -104,8 +102,7 @@ Result<std::optional<ltc::Table>> table_of(const LtcBake& b, const OptionTable& 
     const LtcArguments& a = b.options;
     if (!a.table.empty()) {
         Result<ltc::Table> read = ltc::read_table(a.table, given.given("--resolution") ? a.resolution : 0);
-        if (!read)
-            return read.error();
+        BN_TRY(read);
         return std::optional(std::move(*read));
     }
     ltc::BakeOptions options;
@@ -125,14 +122,12 @@ Result<std::optional<ltc::Table>> table_of(const LtcBake& b, const OptionTable& 
     options.advance = [&progress](std::size_t units) { progress->step(units); };
     Result<std::optional<ltc::Baked>> baked = ltc::bake_table(options, jobs);
     progress.reset();
-    if (!baked)
-        return baked.error();
+    BN_TRY(baked);
     if (!*baked)
         return std::optional<ltc::Table>();
     report.event("fit", fmt::format("mean L1 {:.4f} of nodes alone; {:.4f} between them, {:.4f} before", (*baked)->node_l1,
                                     (*baked)->fit_l1, (*baked)->fit_l1_before));
-    if (Status written = ltc::write_table(b.output, (*baked)->table, a.half); !written)
-        return written.error();
+    BN_TRY(ltc::write_table(b.output, (*baked)->table, a.half));
     report.wrote(b.output);
     std::error_code ignored;
     fs::remove(options.checkpoint, ignored);

@@ -38,8 +38,7 @@ Result<Image> rotations_of(const std::vector<std::string>& expressions, const Pi
             double d[2];
             for (std::size_t i = 0; i < 2; ++i) {
                 const Result<double> value = parsed[i]->at(u, v);
-                if (!value)
-                    return value.error();
+                BN_TRY(value);
                 if (!(std::abs(*value) < 1e30))
                     return usage_error("--expr",
                                        fmt::format("'{}' is no finite number at texel {},{} (u {:g}, v {:g})", expressions[i], x, y, u, v));

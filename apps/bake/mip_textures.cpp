@@ -123,8 +123,7 @@ Status add_levels(FileSet& files, const std::vector<std::string>& inputs, const 
     for (std::size_t l = 0; l < levels.size(); ++l) {
         names.push_back(fmt::format("{}_{:02}.png", stem, l));
         const Result<std::vector<std::uint8_t>> bytes = png_bytes(names.back(), coded(levels[l], srgb));
-        if (!bytes)
-            return bytes.error();
+        BN_TRY(bytes);
         if (Status added = add_file(files, names.back(), *bytes, inputs); !added)
             return added;
     }
@@ -211,8 +210,7 @@ Result<WrittenTextures> write_mip_textures(const std::string& folder, const Scen
         }
         return files.name_all();
     };
-    if (const Status done = write(); !done)
-        return done.error();
+    BN_TRY(write());
     return written;
 }
 

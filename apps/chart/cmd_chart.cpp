@@ -6,13 +6,13 @@
 
 #include "apps/chart/measure.h"
 #include "apps/chart/mip_rows.h"
+#include "apps/chart/real_maps.h"
 #include "apps/cli/command.h"
 #include "apps/cli/outputs.h"
 #include "apps/cli/report.h"
 #include "apps/cli/stop_signal.h"
 #include "apps/report/page.h"
 #include "apps/report/plots.h"
-#include "apps/chart/real_maps.h"
 #include "core/image/io/image_io.h"
 #include "shading/bake/mipnet/net.h"
 
@@ -46,13 +46,11 @@ std::uint64_t pictures_with_nan(const ChartReport& chart)
 Status write_report(const ChartReport& chart, const Keeper& keeper, Report& report)
 {
     Result<std::vector<ReportFile>> files = chart_files(chart);
-    if (!files)
-        return files.error();
+    BN_TRY(files);
     files->push_back({"report.json", report_json(chart)});
     files->push_back({"report.csv", report_csv(chart)});
     Result<std::string> page = chart_page(chart);
-    if (!page)
-        return page.error();
+    BN_TRY(page);
     files->push_back({"report.html", std::move(*page)});
     std::set<std::string> used;
     for (const ReportFile& file : *files) {

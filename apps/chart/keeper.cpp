@@ -43,15 +43,13 @@ Result<Keeper> Keeper::open(const std::string& folder, Report& report)
     Keeper keeper;
     keeper.folder_ = folder;
     for (const std::string& needed : {folder, folder + "/pictures"})
-        if (const Status made = make_output_folder(needed); !made)
-            return made.error();
+        BN_TRY(make_output_folder(needed));
     const std::string path = keeper.file("rows.json");
     std::error_code ignored; // reading says what is wrong
     if (fs::status(path, ignored).type() == fs::file_type::not_found)
         return keeper;
     const Result<std::vector<std::uint8_t>> bytes = read_file(path, kMaxKeptBytes);
-    if (!bytes)
-        return bytes.error();
+    BN_TRY(bytes);
     Result<Kept> kept = parse_kept(std::string(bytes->begin(), bytes->end()), path);
     if (kept)
         keeper.kept_ = std::move(*kept);

@@ -96,16 +96,14 @@ Status Chart::load_all()
 {
     for (const std::string& name : options_.scenes) {
         Result<SeenScene> scene = load_seen_scene(name, options_.base, report_);
-        if (!scene)
-            return scene.error();
+        BN_TRY(scene);
         warn_of_opaque_glass(scene->data->scene, options_.techniques, report_);
         scenes_.push_back(std::move(*scene));
     }
     for (const std::string& env : options_.envs) {
         Result<std::shared_ptr<const Environment>> environment =
             open_environment(env, options_.base.environment, options_.base.limits, *jobs_);
-        if (!environment)
-            return environment.error();
+        BN_TRY(environment);
         for (const std::string& warning : (*environment)->warnings)
             report_.warning(warning);
         environments_.push_back(std::move(*environment));
@@ -146,8 +144,7 @@ Status Chart::measure_pair(const SeenScene& scene, const std::shared_ptr<const E
     SessionOptions of_tile;
     of_tile.isa = options_.base.isa;
     Result<Session> tile = Session::make({scene.data, environment, jobs_, {}}, of_tile);
-    if (!tile)
-        return tile.error();
+    BN_TRY(tile);
     for (std::size_t i = 0; i < options_.cells.size(); ++i) {
         RenderOptions options = options_.cell_options[i];
         options.scene = scene.data->name;
@@ -155,24 +152,20 @@ Status Chart::measure_pair(const SeenScene& scene, const std::shared_ptr<const E
             SessionParts parts = tile->parts();
             if (options_.sweeps_environments) {
                 const auto own = open_environment(env, options.environment, options.limits, *jobs_);
-                if (!own)
-                    return own.error();
+                BN_TRY(own);
                 parts.environment = *own;
             }
             if (options_.sweeps_scenes) {
                 const auto own = open_scene(options.scene, options.limits, options.dress, options.moment, options.lights);
-                if (!own)
-                    return own.error();
+                BN_TRY(own);
                 parts.scene = *own;
             }
             Result<Session> next = Session::make(std::move(parts), of_tile);
-            if (!next)
-                return next.error();
+            BN_TRY(next);
             *tile = std::move(*next);
         }
         const Result<ChosenView> view = choose_view(options, tile->scene(), tile->tables());
-        if (!view)
-            return view.error();
+        BN_TRY(view);
         Place place{scene, *tile, options.frame, env, options_.cells[i]};
         place.desc.width = options_.error_width, place.desc.height = options_.error_height;
         place.desc.view = view->view;
@@ -203,8 +196,7 @@ Status Chart::measure_place(const Place& place)
     if (std::error_code ignored; !complete || !fs::exists(picture, ignored)) {
         ReferenceNoise noise;
         const Result<Image> truth = reference(place, noise);
-        if (!truth)
-            return truth.error();
+        BN_TRY(truth);
         if (stopped())
             return {};
         keeper_.references()[kept_reference] = noise;
@@ -239,8 +231,7 @@ Result<Image> Chart::reference(const Place& place, ReferenceNoise& noise)
     options.quiet = options_.base.quiet;
     const ReferenceHome home = {options_.base.environment.use_cache, options_.folder};
     Result<Frame> frame = kept_reference(place.tile, place.desc, options, options_.base.isa, home, report_);
-    if (!frame)
-        return frame.error();
+    BN_TRY(frame);
     const SamplingStats& s = frame->stats.sampling;
     if (!s.stopped)
         report_.event("reference", fmt::format("{} under {}, {}: {}{}{}, {:.1f} s", base_name(place.scene.data->name), base_name(place.env),
@@ -301,8 +292,7 @@ Status Chart::write_small(const std::string& file, const Image& image, bool erro
 Status Chart::find_errors(const Place& place, const Image& reference, ChartRow& row)
 {
     Result<Frame> frame = place.tile.render(desc_of(place, row.setting));
-    if (!frame)
-        return frame.error();
+    BN_TRY(frame);
     RowErrors& e = row.measured.errors;
     e.nan_pixels = count_not_finite(frame->color);
     Image map = make_image(reference.width, reference.height, 1, PixelType::f32);
@@ -344,8 +334,7 @@ Status Chart::time_rows(const Place& place, std::vector<ChartRow>& rows)
         if (stopped())
             return {};
         Result<Frame> frame = place.tile.render(timed_desc_of(place, rows[i].setting), std::move(last));
-        if (!frame)
-            return frame.error();
+        BN_TRY(frame);
         last = std::move(*frame);
     }
     for (std::size_t run = 0; run < runs; ++run) {
@@ -355,8 +344,7 @@ Status Chart::time_rows(const Place& place, std::vector<ChartRow>& rows)
                 continue;
             const double before = process_cpu_ms();
             Result<Frame> frame = place.tile.render(timed_desc_of(place, rows[i].setting), std::move(last));
-            if (!frame)
-                return frame.error();
+            BN_TRY(frame);
             kept.ms.push_back(frame->stats.ms);
             kept.cpu_ms.push_back(process_cpu_ms() - before);
             last = std::move(*frame);
@@ -391,14 +379,11 @@ ChartReport Chart::take()
 Result<MeasuredChart> measure_chart(const ChartOptions& options, const std::shared_ptr<const Jobs>& jobs, Keeper& keeper, Report& report)
 {
     Chart chart(options, jobs, keeper, report);
-    if (const Status loaded = chart.load_all(); !loaded)
-        return loaded.error();
+    BN_TRY(chart.load_all());
     report.release();
-    if (const Status measured = chart.measure(); !measured)
-        return measured.error();
+    BN_TRY(chart.measure());
     MeasuredChart measured_chart{chart.take(), chart.stopped()};
-    if (const Status saved = keeper.save(); !saved)
-        return saved.error();
+    BN_TRY(keeper.save());
     return measured_chart;
 }
 

@@ -76,12 +76,10 @@ Status check_cells(const ChartArguments& in, const OptionTable& given, ChartOpti
             if (const Status done = set(name, value); !done)
                 return done;
         const Result<RenderOptions> options = check_render_options(arguments, table);
-        if (!options)
-            return options.error();
+        BN_TRY(options);
         if (options->frame.width != out.base.frame.width || options->frame.height != out.base.frame.height)
             return usage_error("--sweep", "size is one for all");
-        if (const Status lobes = check_lobes(options->frame, out.techniques); !lobes)
-            return lobes.error();
+        BN_TRY(check_lobes(options->frame, out.techniques));
         out.cell_options.push_back(*options);
     }
     return {};
@@ -97,8 +95,7 @@ Status check_pairs(const ChartArguments& in, const OptionTable& given, ChartOpti
             arguments.plain.env = env;
             arguments.plain.frame.technique = out.techniques.front();
             const Result<RenderOptions> checked = check_render_options(arguments, given);
-            if (!checked)
-                return checked.error();
+            BN_TRY(checked);
             out.base = *checked;
         }
     return check_lobes(out.base.frame, out.techniques);
@@ -199,12 +196,9 @@ Result<ChartOptions> check_chart_options(const ChartArguments& in, const OptionT
     ChartOptions out = in.plain;
     remove_repeated(out.scenes);
     remove_repeated(out.envs);
-    if (const Status pairs = check_pairs(in, given, out); !pairs)
-        return pairs.error();
-    if (const Status cells = check_cells(in, given, out); !cells)
-        return cells.error();
-    if (const Status size = check_error_size(in.error_size, given.given("--error-size"), out); !size)
-        return size.error();
+    BN_TRY(check_pairs(in, given, out));
+    BN_TRY(check_cells(in, given, out));
+    BN_TRY(check_error_size(in.error_size, given.given("--error-size"), out));
     if (!reference_available())
         return Error{ExitCode::unavailable, "", "", "this program was built without Embree 3, which the reference of a chart needs"};
     return out;

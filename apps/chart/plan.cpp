@@ -30,8 +30,7 @@ Status read_numbers(const std::vector<std::string>& texts, double low, double hi
 {
     for (const std::string& text : texts) {
         const Result<double> value = parse_number("--sweep", text, low, high);
-        if (!value)
-            return value.error();
+        BN_TRY(value);
         add_once(into, static_cast<float>(*value) + 0.0f); // -0 is 0
     }
     return {};
@@ -41,8 +40,7 @@ Status read_samples(const std::vector<std::string>& texts, std::vector<int>& int
 {
     for (const std::string& text : texts) {
         const Result<std::int64_t> value = parse_integer("--sweep", text, 1, kMaxSamples);
-        if (!value)
-            return value.error();
+        BN_TRY(value);
         add_once(into, static_cast<int>(*value));
     }
     return {};

@@ -61,15 +61,13 @@ Result<std::vector<mipnet::TestMaterial>> real_materials(const std::string& fold
         if (found.normal.empty())
             continue;
         const Result<Image> normal = read_image(found.normal, limits);
-        if (!normal)
-            return normal.error();
+        BN_TRY(normal);
         std::optional<Image> roughness, metallic;
         for (auto [file, image] : {std::pair{&found.roughness, &roughness}, {&found.metallic, &metallic}}) {
             if (file->empty())
                 continue;
             Result<Image> read = read_image(*file, limits);
-            if (!read)
-                return read.error();
+            BN_TRY(read);
             if (read->width == normal->width && read->height == normal->height)
                 *image = std::move(*read);
         }

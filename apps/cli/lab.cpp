@@ -24,7 +24,8 @@ int start_lab(const std::vector<std::string>& words)
     arguments.push_back(nullptr);
     execv(program.c_str(), arguments.data());
     const char* const help = errno == ENOENT ? "; cmake --build builds it, as its target burnish-lab" : "";
-    return fail(Error{ExitCode::unavailable, program, "", fmt::format("runs '{}', and cannot be started: {}{}", words.empty() ? "" : words[0], std::strerror(errno), help)});
+    return fail(Error{ExitCode::unavailable, program, "",
+                      fmt::format("runs '{}', and cannot be started: {}{}", words.empty() ? "" : words[0], std::strerror(errno), help)});
 }
 
 } // namespace burnish

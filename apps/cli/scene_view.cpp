@@ -97,15 +97,13 @@ Result<ChosenView> wanted_view(const RenderOptions& options, const Scene& scene,
     int camera = options.orbit_deg ? kNone : first_placed_camera(scene);
     if (!options.camera.empty()) {
         const Result<int> found = find_camera(scene, options.camera);
-        if (!found)
-            return found.error();
+        BN_TRY(found);
         camera = *found;
     }
     if (camera != kNone) {
         const std::string label = "camera " + camera_label(scene, camera);
         const Result<View> view = changed(make_view(scene, camera, width, height), options, scene, label);
-        if (!view)
-            return view.error();
+        BN_TRY(view);
         return ChosenView{*view, label};
     }
     Framing framing;

@@ -12,15 +12,13 @@ namespace burnish {
 Result<SeenScene> load_seen_scene(const std::string& name, const RenderOptions& base, Report& report)
 {
     const Result<std::shared_ptr<const SceneData>> data = open_scene(name, base.limits, base.dress, base.moment, base.lights);
-    if (!data)
-        return data.error();
+    BN_TRY(data);
     for (const std::string& warning : (*data)->scene.warnings)
         report.warning(warning);
     RenderOptions options = base;
     options.scene = name;
     const Result<ChosenView> view = choose_view(options, (*data)->scene, (*data)->tables);
-    if (!view)
-        return view.error();
+    BN_TRY(view);
     return SeenScene{*data, view->view};
 }
 

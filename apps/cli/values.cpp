@@ -30,8 +30,7 @@ template <class T, class Parse, class Use> Put reading(Parse parse, Use use)
 {
     return [parse, use](const std::string& option, const std::string& text) -> Status {
         const Result<T> value = parse(option, text);
-        if (!value)
-            return value.error();
+        BN_TRY(value);
         use(*value);
         return {};
     };
@@ -44,11 +43,9 @@ Result<glm::vec2> parse_angles(const std::string& option, const std::string& wri
     if (comma == std::string::npos || comma == 0 || comma + 1 == written.size())
         return usage_error(option, fmt::format("expected two angles such as 20,0, got '{}'", written));
     const Result<double> x = parse_number(option, written.substr(0, comma), low.x, high.x);
-    if (!x)
-        return x.error();
+    BN_TRY(x);
     const Result<double> y = parse_number(option, written.substr(comma + 1), low.y, high.y);
-    if (!y)
-        return y.error();
+    BN_TRY(y);
     return glm::vec2(static_cast<float>(*x), static_cast<float>(*y));
 }
 
@@ -350,8 +347,7 @@ Value area_lights(std::vector<AreaLight>& to)
         std::vector<AreaLight> lights;
         for (const std::string& text : texts) {
             const Result<AreaLight> light = parse_area_light(option, text);
-            if (!light)
-                return light.error();
+            BN_TRY(light);
             lights.push_back(*light);
         }
         to = std::move(lights);

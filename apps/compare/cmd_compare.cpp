@@ -105,8 +105,7 @@ Result<Pictures> read_pictures(const CompareOptions& options, const Jobs& jobs)
         images[i] = i < 2 ? read_colours(names[i], options.limits, notes[i]) : read_image(names[i], options.limits, &notes[i]);
     });
     for (const Result<Image>& image : images)
-        if (!image)
-            return image.error();
+        BN_TRY(image);
     if (images.size() > 2 && (notes[0].converted || notes[1].converted))
         return usage_error("--variance", fmt::format("{} has other primaries than Rec.709, and variances cannot be converted",
                                                      names[notes[0].converted ? 0 : 1]));
@@ -117,11 +116,9 @@ Result<Pictures> read_pictures(const CompareOptions& options, const Jobs& jobs)
     pictures.reference = std::move(*images[0]);
     pictures.test = std::move(*images[1]);
     pictures.note = drop_lone_alpha(pictures.reference, options.reference, pictures.test, options.test);
-    if (Status match = check_match(options.test, pictures.test, options.reference, pictures.reference); !match)
-        return match.error();
+    BN_TRY(check_match(options.test, pictures.test, options.reference, pictures.reference));
     for (std::size_t i = 2; i < images.size(); ++i) {
-        if (Status good = check_variance(names[i], *images[i], options, pictures.reference); !good)
-            return good.error();
+        BN_TRY(check_variance(names[i], *images[i], options, pictures.reference));
         pictures.variances.push_back(std::move(*images[i]));
     }
     if (options.metrics && options.metrics->flip_hdr && pictures.reference.type != PixelType::f32)

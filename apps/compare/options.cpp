@@ -104,8 +104,7 @@ OptionTable compare_option_table(CompareArguments& to)
 Result<CompareOptions> check_compare_options(const CompareArguments& in, const OptionTable& given)
 {
     CompareOptions out = in.plain;
-    if (const Status metrics = check_metrics(in.metrics, out); !metrics)
-        return metrics.error();
+    BN_TRY(check_metrics(in.metrics, out));
     if (out.flip.start_ev && out.flip.stop_ev && *out.flip.start_ev > *out.flip.stop_ev)
         return usage_error("--stop-exposure", "is below --start-exposure");
     if (out.variances.size() > 2)
@@ -126,8 +125,7 @@ Result<CompareOptions> check_compare_options(const CompareArguments& in, const O
         return usage_error("--fail-flicker", "needs --sequence");
     }
     const Result<Isa> isa = choose_isa(given, in.isa);
-    if (!isa)
-        return isa.error();
+    BN_TRY(isa);
     out.flip.isa = *isa;
     return out;
 }

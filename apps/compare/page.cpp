@@ -43,8 +43,7 @@ Image displayed(const Image& image, float exposure_ev)
 Result<std::string> figure(const std::string& id, const std::string& title, const std::string& caption, const Image& image)
 {
     const Result<std::string> png = encode_png(image);
-    if (!png)
-        return png.error();
+    BN_TRY(png);
     return fmt::format("<figure><img id=\"{}\"{} src=\"data:image/png;base64,{}\" width=\"{}\" height=\"{}\" alt=\"{}\">\n"
                        "<figcaption><strong>{}</strong> {}</figcaption></figure>\n",
                        id, image.width < 512 ? " class=\"small\"" : "", base64(*png), image.width, image.height, title, title,
@@ -106,8 +105,7 @@ Result<std::string> compare_page(const CompareOptions& options, const CompareFig
                     escaped(options.reference), escaped(options.test), kChartPageStyle.bytes, chart_style(), kStyle);
     page += wall_html() + "<div class=\"pictures\">\n";
     for (const Result<std::string>& part : parts) {
-        if (!part)
-            return part.error();
+        BN_TRY(part);
         page += *part;
     }
     page += "</div>\n" + scale_of_magma() + "<table>\n";

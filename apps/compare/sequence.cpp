@@ -49,10 +49,8 @@ Status check_like(const std::string& name, const Image& image, const std::string
 Result<std::vector<int>> numbers_of(const CompareOptions& options)
 {
     const Result<std::vector<int>> reference = existing_numbers(options.reference), test = existing_numbers(options.test);
-    if (!reference)
-        return reference.error();
-    if (!test)
-        return test.error();
+    BN_TRY(reference);
+    BN_TRY(test);
     for (const auto& [mine, others, pattern] :
          {std::tuple{&*reference, &*test, &options.test}, std::tuple{&*test, &*reference, &options.reference}})
         for (const int number : *mine)
@@ -75,8 +73,7 @@ Result<Frames> read_frames(const CompareOptions& options, int number, const Imag
         const std::string name = numbered(*pattern, number);
         PictureNotes notes;
         Result<Image> image = read_colours(name, options.limits, notes);
-        if (!image)
-            return image.error();
+        BN_TRY(image);
         for (const std::string& warning : notes.warnings)
             if (said.insert(warning).second) // once, for the first picture of the row
                 report.warning(name + ": " + warning);
@@ -85,8 +82,7 @@ Result<Frames> read_frames(const CompareOptions& options, int number, const Imag
     frames.note = drop_lone_alpha(frames.reference, options.reference, frames.test, options.test);
     const Image& like = first ? *first : frames.reference;
     for (const auto& [pattern, image] : {std::pair{&options.reference, &frames.reference}, {&options.test, &frames.test}})
-        if (const Status good = check_like(numbered(*pattern, number), *image, options.reference, like); !good)
-            return good.error();
+        BN_TRY(check_like(numbered(*pattern, number), *image, options.reference, like));
     return frames;
 }
 

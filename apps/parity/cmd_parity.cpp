@@ -77,11 +77,9 @@ Result<ParityRow> compare(const Bench& bench, ParityRow row, const RenderOptions
     desc.stages = true;
     desc.layers = options.vulkan.pipeline == VulkanPipeline::ids;
     const Result<Frame> a = tile.render(desc);
-    if (!a)
-        return a.error();
+    BN_TRY(a);
     const Result<Frame> b = vulkan.render(desc);
-    if (!b)
-        return b.error();
+    BN_TRY(b);
     row.pixel_hash = pixel_hash(a->color);
     row.samples_emulated = b->stats.samples_emulated;
     row.counts = compare_stages(*a, *b, desc.msaa);
@@ -104,22 +102,19 @@ Status compare_place(const Bench& bench, const ParityPlace& place, const ParityS
     if (place.eye)
         base.eye = place.eye, base.target = place.target;
     const Result<SeenScene> scene = load_seen_scene(place.scene, base, bench.report);
-    if (!scene)
-        return scene.error();
+    BN_TRY(scene);
     SessionOptions of_tile, of_device;
     of_tile.isa = base.isa;
     of_device.backend = Backend::vulkan, of_device.device = bench.device;
     SessionParts parts{scene->data, bench.environment, bench.jobs, {}};
     if (!base.ltc_table.empty()) {
         Result<std::shared_ptr<const ltc::ShadingTables>> table = load_ltc_table(base.ltc_table, base.frame.brdf);
-        if (!table)
-            return table.error();
+        BN_TRY(table);
         parts.ltc = std::move(*table);
     }
     if (!base.as_tables.empty()) {
         Result<std::shared_ptr<const PhongFiles>> tables = load_phong_tables(base.as_tables, base.limits);
-        if (!tables)
-            return tables.error();
+        BN_TRY(tables);
         parts.phong = std::move(*tables);
     }
     Result<Session> tile = Session::make(parts, of_tile), vulkan = Session::make(parts, of_device);

@@ -58,8 +58,7 @@ Status draw_tile(Session& tile, const FrameDesc& desc, Frame& frame, Timed& into
     Result<Frame> drawn = tile.render(desc, std::move(frame));
     into.cpu_ms.push_back(process_cpu_ms() - cpu);
     into.wall_ms.push_back(wall_ms() - wall);
-    if (!drawn)
-        return drawn.error();
+    BN_TRY(drawn);
     frame = std::move(*drawn);
     return {};
 }
@@ -67,8 +66,7 @@ Status draw_tile(Session& tile, const FrameDesc& desc, Frame& frame, Timed& into
 Status draw_device(Session& device, const FrameDesc& desc, Frame& frame, Timed& into)
 {
     Result<Frame> drawn = device.render(desc, std::move(frame));
-    if (!drawn)
-        return drawn.error();
+    BN_TRY(drawn);
     into.cpu_ms.push_back(drawn->stats.device_cpu_ms), into.wall_ms.push_back(drawn->stats.device_ms);
     frame = std::move(*drawn);
     return {};
@@ -80,10 +78,8 @@ Result<RaceRow> race(Session& tile, Session& device, const FrameDesc& desc, int 
     Timed a, b;
     Frame of_tile, of_device;
     for (int i = 0; i <= runs; ++i) {
-        if (const Status drawn = draw_tile(tile, desc, of_tile, a); !drawn)
-            return drawn.error();
-        if (const Status drawn = draw_device(device, desc, of_device, b); !drawn)
-            return drawn.error();
+        BN_TRY(draw_tile(tile, desc, of_tile, a));
+        BN_TRY(draw_device(device, desc, of_device, b));
         if (i == 0)
             a = Timed(), b = Timed();
     }
@@ -96,8 +92,7 @@ Result<RaceRow> race(Session& tile, Session& device, const FrameDesc& desc, int 
         FrameDesc seen = desc;
         seen.triangle_ids = true;
         Result<Frame> ids = tile.render(seen, std::move(of_tile));
-        if (!ids)
-            return ids.error();
+        BN_TRY(ids);
         of_tile = std::move(*ids);
         silhouettes = silhouettes_of(of_tile, desc.msaa, tile.tables());
     }
@@ -128,15 +123,13 @@ Result<RacePlan> check(const RaceArguments& in, const OptionTable& given)
             for (const int msaa : in.msaa) {
                 arguments.plain.scene = scene, arguments.plain.frame.technique = technique, arguments.plain.frame.msaa = msaa;
                 const Result<RenderOptions> checked = check_render_options(arguments, given);
-                if (!checked)
-                    return checked.error();
+                BN_TRY(checked);
                 plan.frames.push_back(*checked);
             }
     plan.devices = in.devices, plan.shaders = in.shaders, plan.runs = in.runs;
     std::vector<std::string> inputs = in.scenes;
     inputs.push_back(in.render.plain.env);
-    if (const Status writable = check_outputs({}, {{"--json", in.json}, {"--csv", in.csv}}, inputs); !writable)
-        return writable.error();
+    BN_TRY(check_outputs({}, {{"--json", in.json}, {"--csv", in.csv}}, inputs));
     return plan;
 }
 

@@ -100,8 +100,7 @@ Result<std::vector<RenderOptions>> frames_of(const ParityArguments& in, const Op
         for (const int msaa : in.msaa) {
             arguments.plain.frame.technique = technique, arguments.plain.frame.msaa = msaa;
             const Result<RenderOptions> checked = check_render_options(arguments, given);
-            if (!checked)
-                return checked.error();
+            BN_TRY(checked);
             frames.push_back(*checked);
         }
     return frames;
@@ -114,8 +113,7 @@ Result<std::vector<RenderOptions>> frames_of_look(const std::string& also, const
     OptionTable table = parity_option_table(arguments);
     for (std::size_t i = 0; i < table.options().size(); ++i)
         table.options()[i].given = given.options()[i].given;
-    if (const Status set = set_words(also, table); !set)
-        return set.error();
+    BN_TRY(set_words(also, table));
     return frames_of(arguments, table);
 }
 
@@ -176,13 +174,11 @@ Result<ParityOptions> check_parity_options(const ParityArguments& in, const Opti
 {
     ParityOptions out;
     out.json = in.json, out.csv = in.csv, out.junit = in.junit, out.html = in.html;
-    if (const Status chosen = choose_places(in, out.places); !chosen)
-        return chosen.error();
+    BN_TRY(choose_places(in, out.places));
     for (std::size_t i = 0; i <= in.also.size(); ++i) {
         const std::string also = i ? in.also[i - 1] : "";
         Result<std::vector<RenderOptions>> frames = i ? frames_of_look(also, in, given) : frames_of(in, given);
-        if (!frames)
-            return frames.error();
+        BN_TRY(frames);
         out.sets.push_back({also, std::move(*frames)});
     }
     std::vector<std::string> inputs = {in.render.plain.env};

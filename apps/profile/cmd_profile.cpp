@@ -70,8 +70,7 @@ Result<Frame> measure(Renderer& renderer, FrameDesc desc, const std::string& sce
     for (int i = -2; i < 2 * figures.frames; ++i) { // the first two warm up
         desc.profile = i % 2 != 0;
         Result<Frame> frame = renderer.render(desc, std::move(last));
-        if (!frame)
-            return frame.error();
+        BN_TRY(frame);
         const std::uint64_t hash = pixel_hash(frame->color);
         if (i == -2)
             figures.hash = hash;

@@ -27,8 +27,7 @@ Result<std::vector<double>> numbers_of(const std::string& option, const std::str
     std::vector<double> numbers;
     for (const std::string& part : split(text, ',')) {
         const Result<double> number = parse_number(option, part, -1e30, 1e30);
-        if (!number)
-            return number.error();
+        BN_TRY(number);
         numbers.push_back(*number);
     }
     return numbers;
@@ -61,11 +60,9 @@ Result<OptionPath> parse_path(const std::string& option, const std::string& entr
     for (const auto& [text, to] :
          {std::pair{entry.substr(equals + 1, colon - equals - 1), &path.from}, {entry.substr(colon + 1), &path.to}}) {
         const Result<std::vector<double>> numbers = numbers_of(option, text);
-        if (!numbers)
-            return numbers.error();
+        BN_TRY(numbers);
         *to = *numbers;
-        if (const Status good = table.set(path.option, text); !good)
-            return good.error();
+        BN_TRY(table.set(path.option, text));
     }
     if (path.from.size() != path.to.size())
         return usage_error(
@@ -80,8 +77,7 @@ Result<std::vector<OptionPath>> parse_option_paths(const std::string& option, co
     std::vector<OptionPath> paths;
     for (const std::string& entry : entries_of(text)) {
         Result<OptionPath> path = parse_path(option, entry, table);
-        if (!path)
-            return path.error();
+        BN_TRY(path);
         for (const OptionPath& other : paths)
             if (other.option == path->option)
                 return usage_error(option, fmt::format("names {} twice", path->option.substr(2)));

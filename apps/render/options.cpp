@@ -86,8 +86,7 @@ Status check_technique(const RenderArguments& in, RenderOptions& out)
         samples = *in.samples;
     if (samples > technique.most_samples)
         return usage_error("--samples", fmt::format("{} takes 1 to {}, got {}", frame.technique, technique.most_samples, samples));
-    if (const Status lobe = check_lobe(frame, *find_technique(out.backend == "reference" ? "mc" : frame.technique)); !lobe)
-        return lobe.error();
+    BN_TRY(check_lobe(frame, *find_technique(out.backend == "reference" ? "mc" : frame.technique)));
     frame.samples = samples_taken(technique, static_cast<int>(samples));
     if (frame.samples != samples)
         out.warnings.push_back(fmt::format("--samples {}: {} takes {}", samples, frame.technique, frame.samples));
@@ -113,31 +112,23 @@ bool changes_scene(const Option& option)
 Result<RenderOptions> check_render_options(const RenderArguments& arguments, const OptionTable& given)
 {
     RenderOptions out = arguments.plain;
-    if (const Status picture = check_picture(arguments, given, out); !picture)
-        return picture.error();
+    BN_TRY(check_picture(arguments, given, out));
     if (out.lights.size() > static_cast<std::size_t>(out.limits.area_lights))
         return usage_error("--light",
                            fmt::format("{} are given, more than {} (--limit-lights)", out.lights.size(), out.limits.area_lights));
-    if (const Status technique = check_technique(arguments, out); !technique)
-        return technique.error();
+    BN_TRY(check_technique(arguments, out));
     out.dress.mip_brdf = out.frame.brdf, out.dress.keep_mips = out.environment.use_cache;
     out.dress.threads = out.threads;
     const Result<Isa> isa = choose_isa(given, out.isa);
-    if (!isa)
-        return isa.error();
+    BN_TRY(isa);
     out.isa = *isa;
     if (out.backend == "reference")
-        if (const Status reference = check_reference_options(arguments, given, out); !reference)
-            return reference.error();
+        BN_TRY(check_reference_options(arguments, given, out));
     if (out.backend == "vulkan")
-        if (const Status vulkan = check_vulkan_options(out); !vulkan)
-            return vulkan.error();
-    if (const Status layers = check_layers(out); !layers)
-        return layers.error();
-    if (const Status shadows = check_shadows(given, out); !shadows)
-        return shadows.error();
-    if (const Status camera = check_camera(out); !camera)
-        return camera.error();
+        BN_TRY(check_vulkan_options(out));
+    BN_TRY(check_layers(out));
+    BN_TRY(check_shadows(given, out));
+    BN_TRY(check_camera(out));
     warn_of_no_effect(given, out);
     out.environment.quiet = out.quiet;
     out.env_given = given.given("--env");

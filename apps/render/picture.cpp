@@ -112,14 +112,12 @@ Status read_tables(const RenderOptions& options, SessionParts& parts, Report& re
 {
     if (!options.ltc_table.empty()) {
         Result<std::shared_ptr<const ltc::ShadingTables>> table = load_ltc_table(options.ltc_table, options.frame.brdf);
-        if (!table)
-            return table.error();
+        BN_TRY(table);
         parts.ltc = std::move(*table);
     }
     if (!options.as_tables.empty()) {
         Result<std::shared_ptr<const PhongFiles>> tables = load_phong_tables(options.as_tables, options.limits);
-        if (!tables)
-            return tables.error();
+        BN_TRY(tables);
         if (find_technique(options.frame.technique)->traits & kPhongGrid)
             for (const std::string& warning : (*tables)->warnings(options.frame.samples))
                 report.warning(warning);
@@ -133,22 +131,19 @@ Result<Session> prepare(const RenderOptions& options, RenderFigures& figures, st
     SessionParts parts;
     parts.jobs = std::make_shared<const Jobs>(options.threads);
     figures.threads = parts.jobs->threads();
-    if (Status read = read_tables(options, parts, report); !read)
-        return read.error();
+    BN_TRY(read_tables(options, parts, report));
     const Stopwatch load;
     {
         const TraceSpan span("load scene");
         const Result<std::shared_ptr<const SceneData>> data =
             open_scene(options.scene, options.limits, options.dress, options.moment, options.lights);
-        if (!data)
-            return data.error();
+        BN_TRY(data);
         parts.scene = *data;
     }
     figures.load_ms = load.ms();
     report_scene(*parts.scene, report);
     if (options.backend != "reference") // which bakes nothing before it looks
-        if (const Status frame = check_frame(parts.scene->scene, options.frame); !frame)
-            return frame.error();
+        BN_TRY(check_frame(parts.scene->scene, options.frame));
     if (const Result<ChosenView> view = choose_view(options, parts.scene->scene, parts.scene->tables); !view)
         return view.error();
     if (options.shadow_ratio && parts.scene->tables.area_lights.empty())
@@ -160,13 +155,11 @@ Result<Session> prepare(const RenderOptions& options, RenderFigures& figures, st
     {
         const TraceSpan span("environment");
         const Result<std::shared_ptr<const Environment>> environment = open_light(options, *parts.scene, *parts.jobs);
-        if (!environment)
-            return environment.error();
+        BN_TRY(environment);
         parts.environment = *environment;
     }
     figures.bake_ms = bake.ms();
-    if (const Status paths = check_paths(options, parts.environment->files); !paths)
-        return paths.error();
+    BN_TRY(check_paths(options, parts.environment->files));
     figures.env = parts.environment->name;
     figures.environment_from_cache = parts.environment->from_cache;
     figures.key_lights = key_lights_json(*parts.environment);
@@ -198,8 +191,7 @@ Result<Rendered> render_frames(const RenderOptions& options, FrameDesc desc, Ses
     for (int i = 0; i < options.frames; ++i) {
         const TraceSpan span("frame");
         Result<Frame> frame = session.render(desc, std::move(last));
-        if (!frame)
-            return frame.error();
+        BN_TRY(frame);
         const std::uint64_t hash = pixel_hash(frame->color);
         if (i > 0 && hash != figures.hash)
             return Error{ExitCode::differ, options.scene, fmt::format("frame {}", i),
@@ -211,8 +203,7 @@ Result<Rendered> render_frames(const RenderOptions& options, FrameDesc desc, Ses
         progress.step();
     }
     if (shadows) {
-        if (Status thrown = add_shadows(options, desc, session, last); !thrown)
-            return thrown.error();
+        BN_TRY(add_shadows(options, desc, session, last));
         figures.hash = pixel_hash(last.color);
     }
     if (options.show != Shown::light)
@@ -220,8 +211,7 @@ Result<Rendered> render_frames(const RenderOptions& options, FrameDesc desc, Ses
     if (!options.risks.empty()) {
         const TraceSpan span("risks");
         Result<RiskMap> risks = mark_risks(session, desc);
-        if (!risks)
-            return risks.error();
+        BN_TRY(risks);
         out.risks = std::move(*risks);
     }
     out.color = std::move(last.color), out.variance = std::move(last.variance);

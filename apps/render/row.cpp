@@ -57,8 +57,7 @@ class Row {
         row.count_ = arguments.plain.turntable ? arguments.plain.turntable : arguments.steps;
         if (!arguments.animate.empty()) {
             Result<std::vector<OptionPath>> paths = parse_option_paths("--animate", arguments.animate, given);
-            if (!paths)
-                return paths.error();
+            BN_TRY(paths);
             row.paths_ = std::move(*paths);
         }
         for (const OptionPath& path : row.paths_) {
@@ -83,14 +82,12 @@ class Row {
         out.json["step"] = i;
         for (const OptionPath& path : paths_) {
             const std::string value = value_at(path, static_cast<double>(i) / (count_ - 1));
-            if (const Status set = given_.set(path.option, value); !set)
-                return set.error();
+            BN_TRY(given_.set(path.option, value));
             out.values += fmt::format("{}{} {}", out.values.empty() ? "" : ", ", path.option.substr(2), value);
             out.json[path.option.substr(2)] = value;
         }
         Result<RenderOptions> options = check_render_options(arguments_, given_);
-        if (!options)
-            return options.error();
+        BN_TRY(options);
         out.options = std::move(*options);
         std::vector<std::string> pictures;
         for (const std::string& output : out.options.outputs)
@@ -134,8 +131,7 @@ Result<View> view_of_step(const Step& step, int i, const Session& session, const
         return view;
     }
     const Result<ChosenView> view = choose_view(step.options, session.scene(), session.tables());
-    if (!view)
-        return view.error();
+    BN_TRY(view);
     return view->view;
 }
 
@@ -144,14 +140,12 @@ Result<SessionParts> parts_of_step(const RenderOptions& options, SessionParts pa
 {
     if (lights) {
         const auto environment = open_light(options, *parts.scene, *parts.jobs);
-        if (!environment)
-            return environment.error();
+        BN_TRY(environment);
         parts.environment = *environment;
     }
     if (scene) {
         const auto data = open_scene(options.scene, options.limits, options.dress, options.moment, options.lights);
-        if (!data)
-            return data.error();
+        BN_TRY(data);
         parts.scene = *data;
     }
     return parts;

@@ -21,18 +21,15 @@ Status add_shadows(const RenderOptions& options, const FrameDesc& desc, Session&
         reference.reference.area_lights_only = true;
         reference.reference.quiet = options.quiet;
         Result<Session> rays = Session::make(session.parts(), reference);
-        if (!rays)
-            return rays.error();
+        BN_TRY(rays);
         Result<Frame> frame = rays->render(plain);
-        if (!frame)
-            return frame.error();
+        BN_TRY(frame);
         light[open] = std::move(frame->color);
     }
     FrameDesc without = plain;
     without.area_way = kAreaWay_off;
     Result<Frame> unlit = session.render(without);
-    if (!unlit)
-        return unlit.error();
+    BN_TRY(unlit);
     const TraceSpan span("shadows");
     // layers are as the world stands, and so is this view
     lit.color = with_shadows(lit.color, unlit->color, shadow_ratio(light[0], light[1], lit.layers, desc.view, *session.parts().jobs));

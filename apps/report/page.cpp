@@ -195,8 +195,7 @@ Result<std::string> data_json(const ChartReport& report, const std::vector<PairR
     for (const PairRows& pair : pairs)
         for (const PlaceRows& place : pair.places) {
             const Result<std::string> reference = data_uri(place.reference->picture);
-            if (!reference)
-                return reference.error();
+            BN_TRY(reference);
             Json keys = Json::array(), shown = Json::array();
             for (const std::string& technique : techniques_of(place.rows)) {
                 std::vector<int> samples;
@@ -209,8 +208,7 @@ Result<std::string> data_json(const ChartReport& report, const std::vector<PairR
             }
             for (const ChartRow* row : place.rows) {
                 keys.push_back(row->key);
-                if (const Status added = add_row(*row, json["rows"]); !added)
-                    return added.error();
+                BN_TRY(add_row(*row, json["rows"]));
             }
             json["places"].push_back({{"reference", *reference}, {"rows", keys}, {"shown", shown}});
         }
@@ -263,8 +261,7 @@ Result<std::vector<ReportFile>> chart_files(const ChartReport& report)
     std::vector<ReportFile> files;
     for (const auto& [name, chart] : charts) {
         Result<std::string> png = png_of(chart);
-        if (!png)
-            return png.error();
+        BN_TRY(png);
         files.push_back({name + ".svg", svg_of(chart, chart_style())});
         files.push_back({name + ".png", std::move(*png)});
     }
@@ -275,8 +272,7 @@ Result<std::string> chart_page(const ChartReport& report)
 {
     const std::vector<PairRows> pairs = group(report);
     const Result<std::string> data = data_json(report, pairs);
-    if (!data)
-        return data.error();
+    BN_TRY(data);
     std::string page = fmt::format("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
                                    "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
                                    "<title>Speed against accuracy</title>\n<link rel=\"icon\" href=\"data:,\">\n"

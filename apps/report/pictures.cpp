@@ -59,8 +59,7 @@ int picture_width(std::size_t rows)
 Result<std::string> data_uri(const std::string& jpeg_file)
 {
     const Result<std::vector<std::uint8_t>> bytes = read_file(jpeg_file, kMaxPictureBytes);
-    if (!bytes)
-        return bytes.error();
+    BN_TRY(bytes);
     return "data:image/jpeg;base64," + base64(std::string(bytes->begin(), bytes->end()));
 }
 

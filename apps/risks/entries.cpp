@@ -190,8 +190,7 @@ Result<AtlasSetting> SettingReader::read(const AtlasEntry& entry, AtlasRole role
 Result<std::vector<std::string>> covered_by(const AtlasEntry& entry)
 {
     const Result<AtlasSetting> setting = setting_of(entry, AtlasRole::test, 1.0, 64, 0);
-    if (!setting)
-        return setting.error();
+    BN_TRY(setting);
     const RenderOptions& o = setting->options;
     const std::string words = fmt::format(" {} ", entry.words);
     std::vector<std::string> covered = {fmt::format("technique {}", o.frame.technique)};

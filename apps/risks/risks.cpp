@@ -7,10 +7,10 @@
 #include <cstring>
 #include <fmt/core.h>
 
-#include "apps/risks/assets.h"
-#include "apps/risks/sky.h"
-#include "apps/risks/blessed.h"
 #include "apps/cli/parse.h"
+#include "apps/risks/assets.h"
+#include "apps/risks/blessed.h"
+#include "apps/risks/sky.h"
 #include "core/base/check.h"
 #include "shading/bake/environment/cube_map.h"
 #include "shading/bake/environment/turn.h"
@@ -96,8 +96,7 @@ Result<std::vector<Active>> active_rules(const FrameDesc& desc)
         if (!row)
             continue;
         const Result<AtlasSetting> setting = reader.read(*find_entry(rule.entry), AtlasRole::test, row->onset, kQuickWalk.side, 0);
-        if (!setting)
-            return setting.error();
+        BN_TRY(setting);
         const RiskInputs at = inputs_of_setting(setting->options);
         out.push_back({r, kEarly * rule.measure(at), onset_words(*setting, at), told});
     }
@@ -337,8 +336,7 @@ Result<RiskMap> mark_risks(Session& session, const FrameDesc& desc)
 {
     const auto begin = std::chrono::steady_clock::now();
     const Result<std::vector<Active>> active = active_rules(desc);
-    if (!active)
-        return active.error();
+    BN_TRY(active);
     const double pixels = static_cast<double>(desc.width) * desc.height;
     const int step = std::clamp(static_cast<int>(std::sqrt(pixels / kLookedAt) + 0.5), 1, kMostStep);
     FrameDesc probe = desc;
@@ -346,8 +344,7 @@ Result<RiskMap> mark_risks(Session& session, const FrameDesc& desc)
     probe.samples = 1, probe.light_samples = 1, probe.background = false;
     probe.triangle_ids = probe.parts = probe.stages = probe.profile = false, probe.layers = true;
     const Result<Frame> frame = session.render(probe);
-    if (!frame)
-        return frame.error();
+    BN_TRY(frame);
     const Looker looker(session, probe, inputs_of_frame(desc, *session.parts().environment), *frame);
     RiskMap map;
     map.width = probe.width, map.height = probe.height;

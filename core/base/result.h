@@ -68,3 +68,10 @@ class [[nodiscard]] Status {
 };
 
 } // namespace burnish
+
+// Returns the error of a Result or Status from the function that it stands in; goes on where there is none.
+#define BN_TRY(...)                                                                                                                        \
+    do {                                                                                                                                   \
+        if (const auto& tried = (__VA_ARGS__); !tried)                                                                                     \
+            return tried.error();                                                                                                          \
+    } while (false)

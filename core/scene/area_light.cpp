@@ -189,8 +189,7 @@ Status read_area_texture(Scene& scene, AreaLight& light, const Limits& limits)
         rest.texture_bytes -= std::min<std::uint64_t>(rest.texture_bytes, image.bytes.size());
     PictureNotes notes;
     Result<Image> image = read_colours(light.texture_file, rest, notes);
-    if (!image)
-        return image.error();
+    BN_TRY(image);
     for (const std::string& warning : notes.warnings)
         scene.warnings.push_back(light.texture_file + ": " + warning);
     if (const std::size_t clipped = clip_negative_colours(*image))

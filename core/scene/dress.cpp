@@ -113,15 +113,13 @@ class Dresser {
     // colours: of the material; other maps hold data, whatever primaries their files name.
     Result<Image> read(const std::string& path, int channels, bool colours = false)
     {
-        if (const Status worn = check_coordinates(path); !worn)
-            return worn.error();
+        BN_TRY(check_coordinates(path));
         Limits rest = limits_;
         for (const Image& image : scene_.images)
             rest.texture_bytes -= std::min<std::uint64_t>(rest.texture_bytes, image.bytes.size());
         PictureNotes notes;
         Result<Image> image = colours ? read_colours(path, rest, notes) : read_image(path, rest, &notes);
-        if (!image)
-            return image.error();
+        BN_TRY(image);
         for (const std::string& warning : notes.warnings)
             scene_.warnings.push_back(path + ": " + warning);
         if (const std::size_t clipped = colours ? clip_negative_colours(*image) : 0)
@@ -190,39 +188,33 @@ Status put_maps(Dresser& on, const Dress& with)
 {
     if (!with.direction.empty()) {
         Result<Image> image = on.read_as_is(with.direction, 3, "directions");
-        if (!image)
-            return image.error();
+        BN_TRY(image);
         on.put_directions(on.add(std::move(*image), "direction map"));
     }
     if (!with.rotation.empty()) {
         const Result<Image> image = on.read(with.rotation, 3);
-        if (!image)
-            return image.error();
+        BN_TRY(image);
         on.put_directions(on.add(directions_of_rotations(*image, with.rotation_encoding), with.rotation, "rotations"));
     }
     if (!with.roughness.empty()) {
         const Result<Image> image = on.read(with.roughness, 3);
-        if (!image)
-            return image.error();
+        BN_TRY(image);
         on.put(on.add(roughness_of(*image, with.roughness_encoding), with.roughness, "roughness by direction"),
                &Material::directional_roughness_tex);
     }
     if (!with.normal.empty()) {
         Result<Image> image = on.read(with.normal, 3);
-        if (!image)
-            return image.error();
+        BN_TRY(image);
         on.put(on.add(whole_normals(std::move(*image)), with.normal, "normals"), &Material::normal_tex);
     }
     if (!with.quaternion.empty()) {
         const Result<Image> image = on.read(with.quaternion, 3);
-        if (!image)
-            return image.error();
+        BN_TRY(image);
         on.put(on.add(normals_of_quaternions(*image), with.quaternion, "quaternions"), &Material::normal_tex);
     }
     if (!with.height.empty()) {
         Result<Image> image = on.read_as_is(with.height, 1, "heights");
-        if (!image)
-            return image.error();
+        BN_TRY(image);
         on.put(on.add(std::move(*image), "height map"), &Material::height_tex);
     }
     return {};
@@ -276,22 +268,19 @@ Status put_material(Dresser& on, Scene& scene, const Dress& with)
     });
     if (!found[kAlbedo].empty()) {
         Result<Image> image = on.read_as_is(found[kAlbedo], 1, "albedo", true);
-        if (!image)
-            return image.error();
+        BN_TRY(image);
         on.put(on.add(std::move(*image), "albedo"), &Material::base_color_tex);
     }
     if (!found[kOcclusion].empty()) {
         Result<Image> image = on.read_as_is(found[kOcclusion], 1, "occlusion");
-        if (!image)
-            return image.error();
+        BN_TRY(image);
         on.put(on.add(std::move(*image), "occlusion"), &Material::occlusion_tex);
     }
     Image parts[2];
     for (const int i : {0, 1})
         if (const std::string& path = found[i ? kRoughness : kMetallic]; !path.empty()) {
             Result<Image> image = on.read_as_is(path, 1, i ? "roughness" : "metalness");
-            if (!image)
-                return image.error();
+            BN_TRY(image);
             parts[i] = std::move(*image);
         }
     if (parts[0].empty())
@@ -300,8 +289,7 @@ Status put_material(Dresser& on, Scene& scene, const Dress& with)
         on.put(on.add(metal_rough(parts[0], parts[1]), "metalness and roughness"), &Material::metallic_roughness_tex);
     if (!found[kDepth].empty()) {
         const Result<Image> image = on.read(found[kDepth], 1);
-        if (!image)
-            return image.error();
+        BN_TRY(image);
         on.put(on.add(heights_of_depths(*image), found[kDepth], "depths"), &Material::height_tex);
     }
     Dress maps;

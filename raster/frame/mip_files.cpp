@@ -36,11 +36,9 @@ Result<std::shared_ptr<const mipnet::Weights>> net_of(const Dress& with, const L
     if (with.mip_net.empty())
         return Net(Net(), mipnet::shipped_weights(lobe)); // which is never freed
     const Result<std::vector<std::uint8_t>> bytes = read_file(with.mip_net, limits.file_bytes);
-    if (!bytes)
-        return bytes.error();
+    BN_TRY(bytes);
     Result<mipnet::Weights> read = mipnet::parse_weights(bytes->data(), bytes->size(), with.mip_net);
-    if (!read)
-        return read.error();
+    BN_TRY(read);
     if (read->shape.lobe != lobe)
         return Error{ExitCode::bad_input, with.mip_net, "byte 12",
                      std::string("is of lobes of ") + mipnet::lobe_name(read->shape.lobe) + ", and model " +
@@ -77,8 +75,7 @@ Status settle_nets(Scene& scene, const Dress& with, const Limits& limits)
         return {};
     }
     const Result<std::shared_ptr<const mipnet::Weights>> net = net_of(with, limits);
-    if (!net)
-        return net.error();
+    BN_TRY(net);
     std::vector<std::optional<mipnet::Comparison>> found(scene.materials.size());
     jobs.parallel_for(found.size(), [&](std::size_t i, int) {
         Material& m = scene.materials[i];
@@ -164,11 +161,9 @@ Status check_mips(const Scene& scene, const std::string& path)
 Status read_mips(Scene& scene, Dress& with, const Limits& limits)
 {
     const Result<std::vector<std::uint8_t>> bytes = read_file(with.mip_pyramid, limits.file_bytes);
-    if (!bytes)
-        return bytes.error();
+    BN_TRY(bytes);
     Result<MipFile> mips = parse_mip_file(*bytes, with.mip_pyramid);
-    if (!mips)
-        return mips.error();
+    BN_TRY(mips);
     if (mips->materials.empty())
         return Error{ExitCode::bad_input, with.mip_pyramid, "", "holds no levels of normals and lobes"};
     if (with.mip_filter == MipFilter{})

@@ -64,10 +64,8 @@ Result<bool> read_checkpoint(const std::string& path, std::uint64_t key, Accumul
     if (!std::filesystem::exists(std::filesystem::symlink_status(path, ignored)))
         return false;
     const Result<std::vector<std::uint8_t>> bytes = read_file(path, std::uint64_t{1} << 40, links);
-    if (!bytes)
-        return bytes.error();
-    if (const Status read = parse_checkpoint(bytes->data(), bytes->size(), path, key, into); !read)
-        return read.error();
+    BN_TRY(bytes);
+    BN_TRY(parse_checkpoint(bytes->data(), bytes->size(), path, key, into));
     return true;
 }
 

@@ -132,8 +132,7 @@ Result<std::unique_ptr<RayScene>> EmbreeScene::make(const Scene& scene, const Dr
     else
         self->in_the_way_ = new_scene();
     for (const unsigned part : {kSurfaces, kOpenLights})
-        if (const Status added = self->add_part(tables, part); !added)
-            return added.error();
+        BN_TRY(self->add_part(tables, part));
     rtcCommitScene(self->seen_);
     rtcCommitScene(self->in_the_way_);
     if (const RTCError code = rtcGetDeviceError(self->device_); code != RTC_ERROR_NONE)

@@ -148,8 +148,7 @@ Result<Accumulator> ReferenceRenderer::integrate(const FrameDesc& desc, const Re
     const std::string file = kept_up ? file_of(options_, key) : "";
     if (kept_up) {
         const Result<bool> resumed = read_checkpoint(file, key, a, links_of(options_));
-        if (!resumed)
-            return resumed.error();
+        BN_TRY(resumed);
         stats.resumed = *resumed;
     }
     workers_.assign(static_cast<std::size_t>(input_.jobs.threads()), {});
@@ -191,16 +190,14 @@ Result<Frame> ReferenceRenderer::render(const FrameDesc& desc, Frame)
 {
     for (const Status& ok :
          {check_frame(input_.scene, with_msaa(reference_desc(desc), desc.msaa)), check_options(options_), check_ray_range(desc.view)})
-        if (!ok)
-            return ok.error();
+        BN_TRY(ok);
     const TraceSpan span("reference");
     const Clock::time_point begin = Clock::now();
     Frame frame;
     const ReferenceParams f = params(desc);
     SamplingStats& s = frame.stats.sampling;
     const Result<Accumulator> a = integrate(desc, f, s);
-    if (!a)
-        return a.error();
+    BN_TRY(a);
     const double seconds = seconds_since(begin);
     frame.color = mean_image(*a);
     frame.variance = variance_image(*a);
@@ -255,11 +252,9 @@ Status check_reference_checkpoint(const RenderInput& input, const FrameDesc& des
 
 Result<std::unique_ptr<Renderer>> make_reference_renderer(const RenderInput& input, const ReferenceOptions& options)
 {
-    if (const Status near = check_ray_range(input.tables); !near)
-        return near.error();
+    BN_TRY(check_ray_range(input.tables));
     Result<std::unique_ptr<RayScene>> rays = make_ray_scene(input.scene, input.tables, input.jobs);
-    if (!rays)
-        return rays.error();
+    BN_TRY(rays);
     return std::unique_ptr<Renderer>(std::make_unique<ReferenceRenderer>(input, options, std::move(*rays)));
 }
 

@@ -46,8 +46,7 @@ Result<std::unique_ptr<Renderer>> make_renderer(const RenderInput& input, const 
         std::shared_ptr<VulkanDevice> device = options.device;
         if (!device) {
             Result<std::shared_ptr<VulkanDevice>> opened = open_vulkan_device(options.vulkan);
-            if (!opened)
-                return opened.error();
+            BN_TRY(opened);
             device = std::move(*opened);
         }
         return make_vulkan_renderer(input, device);
@@ -77,11 +76,9 @@ Result<std::shared_ptr<const ltc::ShadingTables>> load_ltc_table(const std::stri
     using Made = Result<std::shared_ptr<const ltc::ShadingTables>>;
     return guarded(path, [&]() -> Made {
         const Result<ltc::Table> table = ltc::read_table(path, 0);
-        if (!table)
-            return table.error();
+        BN_TRY(table);
         Result<ltc::ShadingTables> tables = ltc::with_table(*table, path);
-        if (!tables)
-            return tables.error();
+        BN_TRY(tables);
         const char* const model = ltc::kModelNames[static_cast<int>(tables->model)];
         if (tables->model != ltc::Model::ggx && lobe_model(lobe).name != std::string_view(model))
             return Error{ExitCode::bad_input, path, "byte 16",
@@ -95,8 +92,7 @@ Result<std::shared_ptr<const PhongFiles>> load_phong_tables(const std::vector<st
     using Made = Result<std::shared_ptr<const PhongFiles>>;
     return guarded(paths.empty() ? "" : paths.front(), [&]() -> Made {
         Result<PhongFiles> tables = PhongFiles::read(paths, limits);
-        if (!tables)
-            return tables.error();
+        BN_TRY(tables);
         return std::make_shared<const PhongFiles>(std::move(*tables));
     });
 }
@@ -112,23 +108,17 @@ Result<std::shared_ptr<const SceneData>> make_settled_data(const std::string& na
         auto data = std::make_shared<SceneData>();
         data->name = name;
         data->scene = std::move(scene);
-        if (Status laid = lay_directional_roughness(data->scene, limits, name); !laid)
-            return laid.error();
-        if (Status laid = lay_heights(data->scene, limits, name); !laid)
-            return laid.error();
+        BN_TRY(lay_directional_roughness(data->scene, limits, name));
+        BN_TRY(lay_heights(data->scene, limits, name));
         settle_origin(data->scene);
-        if (const Status lit = add_emitters(data->scene, limits.area_lights, name); !lit)
-            return lit.error();
+        BN_TRY(add_emitters(data->scene, limits.area_lights, name));
         update_world(data->scene);
-        if (const Status size = check_draw_size(data->scene, limits, name); !size)
-            return size.error();
+        BN_TRY(check_draw_size(data->scene, limits, name));
         data->tables = make_draw_tables(data->scene);
-        if (const Status range = check_draw_range(data->scene, data->tables, name); !range)
-            return range.error();
+        BN_TRY(check_draw_range(data->scene, data->tables, name));
         warn_of_steps(data->scene);
         warn_of_unfiltered(data->scene);
-        if (Status settled = settle(data->scene); !settled)
-            return settled.error();
+        BN_TRY(settle(data->scene));
         return std::shared_ptr<const SceneData>(std::move(data));
     });
 }
@@ -140,10 +130,8 @@ Result<std::shared_ptr<const SceneData>> make_scene_data(const std::string& name
     return guarded(name, [&]() -> Result<std::shared_ptr<const SceneData>> {
         fill_missing_columns(scene);
         update_world(scene);
-        if (const Status sound = check_scene(scene, limits, name); !sound)
-            return sound.error();
-        if (const Status sound = check_mip_filters(scene, name); !sound)
-            return sound.error();
+        BN_TRY(check_scene(scene, limits, name));
+        BN_TRY(check_mip_filters(scene, name));
         return make_settled_data(name, std::move(scene), limits, [](Scene&) { return Status(); });
     });
 }
@@ -155,17 +143,13 @@ Result<std::shared_ptr<const SceneData>> load_scene_data(const std::string& spec
     return guarded(spec, [&]() -> Made {
         std::optional<Activity> activity("reading " + spec);
         Result<Scene> scene = load_scene(spec, limits, moment);
-        if (!scene)
-            return scene.error();
+        BN_TRY(scene);
         Dress on = with;
         if (!with.mip_pyramid.empty())
-            if (const Status read = read_mips(*scene, on, limits); !read)
-                return read.error();
-        if (Status put = dress(*scene, on, limits); !put)
-            return put.error();
+            BN_TRY(read_mips(*scene, on, limits));
+        BN_TRY(dress(*scene, on, limits));
         for (AreaLight light : lights) {
-            if (const Status read = read_area_texture(*scene, light, limits); !read)
-                return read.error();
+            BN_TRY(read_area_texture(*scene, light, limits));
             add_area_light(*scene, light);
         }
         activity.emplace("placing triangles and choosing mip filters");
@@ -186,8 +170,7 @@ Result<std::shared_ptr<const Environment>> load_shared_environment(const std::st
     return guarded(spec, [&]() -> Made {
         const Activity activity("environment " + spec);
         Result<Environment> environment = load_environment(spec, options, limits, jobs);
-        if (!environment)
-            return environment.error();
+        BN_TRY(environment);
         return std::make_shared<const Environment>(std::move(*environment));
     });
 }
@@ -219,20 +202,17 @@ Result<Session> Session::make(SessionParts parts, const SessionOptions& options)
             parts.jobs = std::make_shared<const Jobs>(0);
         if (!parts.dfg) {
             const Result<std::shared_ptr<const DfgTable>> table = standard_dfg(*parts.jobs);
-            if (!table)
-                return table.error();
+            BN_TRY(table);
             parts.dfg = *table;
         }
-        if (const Status sound = check_parts(parts); !sound)
-            return sound.error();
+        BN_TRY(check_parts(parts));
         parts.turned.reset();
         if (parts.environment->rotation_deg != 0.0f) {
             const glm::dmat4 motion(sky_from_world(parts.environment->rotation_deg));
             parts.turned = std::make_shared<const DrawTables>(make_draw_tables(parts.scene->scene, &motion));
         }
         Result<std::unique_ptr<Renderer>> renderer = make_renderer(parts.input(), options);
-        if (!renderer)
-            return renderer.error();
+        BN_TRY(renderer);
         return Session(std::move(parts), std::move(*renderer));
     });
 }
@@ -246,12 +226,10 @@ Result<Session> Session::open(const std::string& scene, const std::string& envir
         SessionParts parts;
         parts.jobs = std::make_shared<const Jobs>(open.threads);
         const Result<std::shared_ptr<const SceneData>> data = load_scene_data(scene, open.limits);
-        if (!data)
-            return data.error();
+        BN_TRY(data);
         const Result<std::shared_ptr<const Environment>> light = load_shared_environment(
             environment.empty() ? usual_environment(**data) : environment, open.environment, open.limits, *parts.jobs);
-        if (!light)
-            return light.error();
+        BN_TRY(light);
         parts.scene = *data;
         parts.environment = *light;
         return make(std::move(parts), options);

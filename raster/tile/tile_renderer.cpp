@@ -351,8 +351,7 @@ Frame frame_for(const FrameDesc& desc, bool blends, Frame recycled)
 
 Result<Frame> TileRenderer::render(const FrameDesc& desc, Frame recycled)
 {
-    if (const Status ok = maker_.check(desc); !ok)
-        return ok.error();
+    BN_TRY(maker_.check(desc));
     const TraceSpan span("frame");
     const auto begin = std::chrono::steady_clock::now();
     std::optional<Profiler> measured;

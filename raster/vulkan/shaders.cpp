@@ -40,8 +40,7 @@ Result<std::vector<std::uint32_t>> shader_words(const std::string& name, const s
     }
     const std::string path = folder + "/" + name + ".spv";
     const Result<std::vector<std::uint8_t>> bytes = read_file(path, 16u << 20);
-    if (!bytes)
-        return bytes.error();
+    BN_TRY(bytes);
     constexpr std::uint32_t kSpirvMagic = 0x07230203;
     std::vector<std::uint32_t> words = words_of(bytes->data(), bytes->size());
     if (words.size() < 5 || words[0] != kSpirvMagic || bytes->size() % sizeof(std::uint32_t))

@@ -535,8 +535,7 @@ Frame VulkanRenderer::render_forward(const FrameDesc& desc)
 
 Result<Frame> VulkanRenderer::render(const FrameDesc& desc, Frame)
 {
-    if (const Status ok = scene_.check(desc); !ok)
-        return ok.error();
+    BN_TRY(scene_.check(desc));
     const bool forward = device_->options.pipeline != VulkanPipeline::ids;
     if (device_->options.pipeline == VulkanPipeline::lean && (desc.stages || desc.triangle_ids))
         return Error{ExitCode::usage, "", "--pipeline", "lean has neither stages nor triangle ids"};

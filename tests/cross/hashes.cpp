@@ -66,7 +66,8 @@ bool draw_each(SessionParts parts, const SessionOptions& options)
         const std::string name = info.name;
         Scene scene = *make_builtin_scene(name);
         for (std::size_t i = 0; i < scene.materials.size() && name == "spheres"; i += 2)
-            scene.materials[i].alpha_mode = AlphaMode::blend, scene.materials[i].base_color.a = 0.4f, scene.materials[i].double_sided = true;
+            scene.materials[i].alpha_mode = AlphaMode::blend, scene.materials[i].base_color.a = 0.4f,
+            scene.materials[i].double_sided = true;
         Result<std::shared_ptr<const SceneData>> data = make_scene_data(name, std::move(scene), {});
         if (!data)
             return false;

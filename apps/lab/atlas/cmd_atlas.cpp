@@ -4,13 +4,13 @@
 #include <fmt/core.h>
 #include <memory>
 
-#include "apps/risks/assets.h"
-#include "apps/lab/atlas/options.h"
-#include "apps/lab/atlas/page.h"
 #include "apps/cli/command.h"
 #include "apps/cli/outputs.h"
 #include "apps/cli/report.h"
 #include "apps/cli/stop_signal.h"
+#include "apps/lab/atlas/options.h"
+#include "apps/lab/atlas/page.h"
+#include "apps/risks/assets.h"
 #include "core/base/file.h"
 #include "core/image/io/image_io.h"
 #include "core/jobs/activity.h"
@@ -55,8 +55,7 @@ Result<BlessedTable> blessed_table(const AtlasOptions& options)
     if (options.bless && fs::status(options.table, ignored).type() == fs::file_type::not_found)
         return BlessedTable();
     const Result<std::vector<std::uint8_t>> bytes = read_file(options.table, kMaxTableBytes);
-    if (!bytes)
-        return bytes.error();
+    BN_TRY(bytes);
     return parse_table(std::string(bytes->begin(), bytes->end()), options.table);
 }
 
@@ -117,10 +116,8 @@ Result<WalkedEntry> Atlas::measure(const AtlasEntry& entry)
     Result<WalkedEntry> walked = walk_entry(entry, options_.walk(), room_);
     if (!walked || walked->stopped)
         return walked;
-    if (const Status written = write_image(files.strip, walked->strip); !written)
-        return written.error();
-    if (const Status written = write_file(files.json, kept_entry_json(walked->measured, files.key)); !written)
-        return written.error();
+    BN_TRY(write_image(files.strip, walked->strip));
+    BN_TRY(write_file(files.json, kept_entry_json(walked->measured, files.key)));
     return walked;
 }
 

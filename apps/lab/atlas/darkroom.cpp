@@ -2,10 +2,10 @@
 
 #include <fmt/ranges.h>
 
-#include "apps/lab/atlas/trial_tables.h"
 #include "apps/chart/noise.h"
 #include "apps/cli/open.h"
 #include "apps/cli/scene_view.h"
+#include "apps/lab/atlas/trial_tables.h"
 #include "apps/render/picture.h"
 #include "raster/reference/scene_key.h"
 #include "raster/tile/double_renderer.h"
@@ -26,8 +26,7 @@ Result<Frame> finite(const AtlasSetting& setting, Result<Frame> frame)
 
 Result<std::optional<Frame>> some(Result<Frame> frame)
 {
-    if (!frame)
-        return frame.error();
+    BN_TRY(frame);
     return std::optional<Frame>(std::move(*frame));
 }
 
@@ -77,34 +76,29 @@ Result<const SessionParts*> Darkroom::parts_of(const AtlasSetting& setting)
     if (!scenes_.count(setting.scene_key)) {
         make_room(scenes_);
         Result<std::shared_ptr<const SceneData>> scene = open_scene(o.scene, o.limits, o.dress, o.moment, o.lights);
-        if (!scene)
-            return scene.error();
+        BN_TRY(scene);
         scenes_[setting.scene_key] = std::move(*scene);
     }
     if (!environments_.count(setting.environment_key)) {
         make_room(environments_);
         Result<std::shared_ptr<const Environment>> environment = open_environment(o.env, o.environment, o.limits, *machine_.jobs);
-        if (!environment)
-            return environment.error();
+        BN_TRY(environment);
         environments_[setting.environment_key] = std::move(*environment);
     }
     SessionParts parts{scenes_[setting.scene_key], environments_[setting.environment_key], machine_.jobs, {}};
     RenderOptions files = o;
     if (is_trial_table(o.ltc_table)) {
         Result<std::shared_ptr<const ltc::ShadingTables>> table = trial_table(o.ltc_table, *machine_.jobs);
-        if (!table)
-            return table.error();
+        BN_TRY(table);
         parts.ltc = std::move(*table), files.ltc_table.clear();
     }
     if (is_trial_table(as_table)) {
         Result<std::shared_ptr<const PhongFiles>> table =
             trial_half_vectors(as_table, static_cast<double>(o.frame.roughness), static_cast<double>(o.frame.anisotropy));
-        if (!table)
-            return table.error();
+        BN_TRY(table);
         parts.phong = std::move(*table), files.as_tables.clear();
     }
-    if (const Status read = read_tables(files, parts, report_); !read)
-        return read.error();
+    BN_TRY(read_tables(files, parts, report_));
     make_room(parts_);
     return &(parts_[key] = std::move(parts));
 }
@@ -115,13 +109,11 @@ Result<Session*> Darkroom::session_of(const AtlasSetting& setting)
     if (const auto found = sessions_.find(key); found != sessions_.end())
         return &found->second;
     const Result<const SessionParts*> parts = parts_of(setting);
-    if (!parts)
-        return parts.error();
+    BN_TRY(parts);
     SessionOptions options;
     options.isa = machine_.isa;
     Result<Session> session = Session::make(**parts, options);
-    if (!session)
-        return session.error();
+    BN_TRY(session);
     make_room(sessions_);
     return &sessions_.emplace(key, std::move(*session)).first->second;
 }
@@ -134,13 +126,11 @@ Result<Session*> Darkroom::reference_of(const AtlasSetting& setting, const Refer
     if (const auto found = references_.find(key); found != references_.end())
         return &found->second;
     const Result<const SessionParts*> parts = parts_of(setting);
-    if (!parts)
-        return parts.error();
+    BN_TRY(parts);
     SessionOptions of_reference;
     of_reference.backend = Backend::reference, of_reference.isa = machine_.isa, of_reference.reference = options;
     Result<Session> session = Session::make(**parts, of_reference);
-    if (!session)
-        return session.error();
+    BN_TRY(session);
     make_room(references_);
     return &references_.emplace(key, std::move(*session)).first->second;
 }
@@ -148,11 +138,9 @@ Result<Session*> Darkroom::reference_of(const AtlasSetting& setting, const Refer
 Result<FrameDesc> Darkroom::desc_of(const AtlasSetting& setting)
 {
     const Result<const SessionParts*> parts = parts_of(setting);
-    if (!parts)
-        return parts.error();
+    BN_TRY(parts);
     const Result<ChosenView> view = choose_view(setting.options, (*parts)->scene->scene, (*parts)->scene->tables);
-    if (!view)
-        return view.error();
+    BN_TRY(view);
     FrameDesc desc = setting.options.frame;
     desc.view = view->view;
     desc.triangle_ids = true;
@@ -163,8 +151,7 @@ Result<FrameDesc> Darkroom::desc_of(const AtlasSetting& setting)
 Result<Frame> Darkroom::draw(const AtlasSetting& setting)
 {
     const Result<FrameDesc> desc = desc_of(setting);
-    if (!desc)
-        return desc.error();
+    BN_TRY(desc);
     const Result<Session*> session = session_of(setting);
     return session ? finite(setting, (*session)->render(*desc)) : session.error();
 }
@@ -172,11 +159,9 @@ Result<Frame> Darkroom::draw(const AtlasSetting& setting)
 Result<std::optional<Frame>> Darkroom::draw_in_double(const AtlasSetting& setting)
 {
     const Result<FrameDesc> desc = desc_of(setting);
-    if (!desc)
-        return desc.error();
+    BN_TRY(desc);
     const Result<Session*> session = session_of(setting);
-    if (!session)
-        return session.error();
+    BN_TRY(session);
     const std::unique_ptr<Renderer> renderer = make_double_tile_renderer((*session)->parts().input());
     if (!renderer)
         return std::optional<Frame>();
@@ -187,28 +172,24 @@ Result<std::shared_ptr<const Truth>> Darkroom::truth(const AtlasSetting& setting
 {
     if (setting.options.backend != "reference") {
         Result<std::optional<Frame>> frame = setting.in_double ? draw_in_double(setting) : some(draw(setting));
-        if (!frame)
-            return frame.error();
+        BN_TRY(frame);
         if (!*frame)
             return Error{ExitCode::unavailable, setting.options.scene, "", "this program draws no frames in double"};
         return std::make_shared<const Truth>(Truth{picture_of(setting, std::move(**frame)), 0.0});
     }
     Result<FrameDesc> desc = desc_of(setting);
-    if (!desc)
-        return desc.error();
+    BN_TRY(desc);
     desc->triangle_ids = false;
     ReferenceOptions options = setting.options.reference;
     options.stop = machine_.stop;
     options = kept_options(options, machine_.home, report_);
     const Result<Session*> reference = reference_of(setting, options);
-    if (!reference)
-        return reference.error();
+    BN_TRY(reference);
     const std::uint64_t key = reference_key((*reference)->parts().input(), (*reference)->drawn(*desc), options) ^ options.samples;
     if (const auto found = truths_.find(key); found != truths_.end())
         return found->second;
     Result<Frame> frame = kept_reference(**reference, *desc, options, report_);
-    if (!frame)
-        return frame.error();
+    BN_TRY(frame);
     if (frame->stats.sampling.stopped)
         return std::shared_ptr<const Truth>();
     if (count_not_finite(frame->color))

@@ -6,8 +6,8 @@
 #include <optional>
 #include <string>
 
-#include "apps/risks/entries.h"
 #include "apps/chart/reference.h"
+#include "apps/risks/entries.h"
 #include "raster/session/session.h"
 
 namespace burnish {

@@ -103,11 +103,9 @@ Status Walker::step(int i)
     AtlasStep s;
     s.s = place(i);
     const Result<AtlasSetting> of_truth = setting_of(entry_, AtlasRole::truth, s.s, walk_.side, walk_.samples);
-    if (!of_truth)
-        return of_truth.error();
+    BN_TRY(of_truth);
     const Result<std::shared_ptr<const Truth>> truth = room_.truth(*of_truth);
-    if (!truth)
-        return truth.error();
+    BN_TRY(truth);
     out_.stopped = !*truth;
     if (out_.stopped)
         return {};
@@ -120,11 +118,9 @@ Status Walker::step(int i)
         if (role == AtlasRole::cure && (!entry_.cure[0] || (walk_.steps - 1 - i) % walk_.cure_every != 0))
             continue;
         const Result<AtlasSetting> setting = setting_of(entry_, role, s.s, walk_.side, 0);
-        if (!setting)
-            return setting.error();
+        BN_TRY(setting);
         Result<Frame> frame = room_.draw(*setting);
-        if (!frame)
-            return frame.error();
+        BN_TRY(frame);
         const bool test = role == AtlasRole::test;
         Picture now = picture_of(*setting, std::move(*frame));
         const std::vector<bool> covered = either_covers((*truth)->picture, now);
@@ -151,21 +147,18 @@ Status Walker::step(int i)
 Result<double> Walker::error_of(const AtlasSetting& test, const AtlasEntry& truth_of, int step, bool more)
 {
     Result<Frame> frame = room_.draw(test);
-    if (!frame)
-        return frame.error();
+    BN_TRY(frame);
     return error_of(picture_of(test, std::move(*frame)), truth_of, step, more);
 }
 
 Result<double> Walker::error_of(const Picture& now, const AtlasEntry& truth_of, int step, bool more)
 {
     Result<AtlasSetting> setting = setting_of(truth_of, AtlasRole::truth, place(step), now.color.width, walk_.samples);
-    if (!setting)
-        return setting.error();
+    BN_TRY(setting);
     if (more && setting->options.backend != "reference")
         take_more(setting->options.frame);
     const Result<std::shared_ptr<const Truth>> truth = room_.truth(*setting);
-    if (!truth)
-        return truth.error();
+    BN_TRY(truth);
     out_.stopped = !*truth;
     if (out_.stopped)
         return 0.0;
@@ -188,15 +181,12 @@ Status Walker::find_kind()
         std::max_element(m.steps.begin(), m.steps.end(), [](const AtlasStep& a, const AtlasStep& b) { return a.error < b.error; });
     const int at = static_cast<int>(worst - m.steps.begin());
     const Result<AtlasSetting> setting = setting_of(entry_, AtlasRole::test, place(at), walk_.side, 0);
-    if (!setting)
-        return setting.error();
+    BN_TRY(setting);
     Result<std::optional<Frame>> in_double = room_.draw_in_double(*setting);
-    if (!in_double)
-        return in_double.error();
+    BN_TRY(in_double);
     if (*in_double) {
         const Result<double> error = error_of(picture_of(*setting, std::move(**in_double)), entry_, at);
-        if (!error)
-            return error.error();
+        BN_TRY(error);
         m.in_double = *error, precision = gone(*error, m.worst);
     }
     if (m.onset > 1.0 || out_.stopped)
@@ -207,24 +197,20 @@ Status Walker::find_kind()
     }
     const int side = entry_.truth == AtlasTruth::full ? walk_.side : std::min(walk_.side, kVerdictSide);
     const Result<AtlasSetting> few = setting_of(entry_, AtlasRole::test, place(at), side, 0);
-    if (!few)
-        return few.error();
+    BN_TRY(few);
     const Result<double> usual = error_of(*few, entry_, at);
-    if (!usual)
-        return usual.error();
+    BN_TRY(usual);
     AtlasSetting more = *few;
     take_more(more.options.frame);
     const Result<double> sampled = error_of(more, entry_, at, true);
-    if (!sampled)
-        return sampled.error();
+    BN_TRY(sampled);
     m.kind = gone(*sampled, *usual) ? "sampling" : "approximation";
     if (m.kind == "sampling" || entry_.truth != AtlasTruth::full)
         return {};
     AtlasEntry filtered = entry_;
     filtered.truth = AtlasTruth::reference, filtered.truth_words = "";
     const Result<double> alike = error_of(*setting, filtered, at);
-    if (!alike)
-        return alike.error();
+    BN_TRY(alike);
     if (gone(*alike, m.worst))
         m.kind = "filtering";
     return {};
@@ -233,12 +219,10 @@ Status Walker::find_kind()
 Result<WalkedEntry> Walker::walk()
 {
     for (int i = 0; i < walk_.steps && !out_.stopped; ++i)
-        if (const Status done = step(i); !done)
-            return done.error();
+        BN_TRY(step(i));
     if (!out_.stopped) {
         summarise(entry_, out_.measured);
-        if (const Status found = find_kind(); !found)
-            return found.error();
+        BN_TRY(find_kind());
     }
     return std::move(out_);
 }

@@ -67,8 +67,7 @@ Status check_atlas_options(AtlasOptions& options, const OptionTable& given)
         if (const Status path = check_text_path("--table", options.table, {}); !path)
             return path;
     const Result<Isa> isa = choose_isa(given, options.isa);
-    if (!isa)
-        return isa.error();
+    BN_TRY(isa);
     options.isa = *isa;
     return {};
 }

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "apps/lab/atlas/measure.h"
 #include "apps/cli/option.h"
+#include "apps/lab/atlas/measure.h"
 #include "core/simd/dispatch.h"
 
 namespace burnish {

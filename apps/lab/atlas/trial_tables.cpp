@@ -40,14 +40,11 @@ Result<std::shared_ptr<const ltc::ShadingTables>> trial_table(const std::string&
     if (const auto found = made.find(path); found != made.end())
         return found->second;
     const Result<ltc::BakeOptions> options = options_of(path);
-    if (!options)
-        return options.error();
+    BN_TRY(options);
     const Result<std::optional<ltc::Baked>> baked = ltc::bake_table(*options, jobs);
-    if (!baked)
-        return baked.error();
+    BN_TRY(baked);
     Result<ltc::ShadingTables> tables = ltc::with_table((*baked)->table, path); // without `stop` it is not stopped
-    if (!tables)
-        return tables.error();
+    BN_TRY(tables);
     return made[path] = std::make_shared<const ltc::ShadingTables>(std::move(*tables));
 }
 
@@ -59,8 +56,7 @@ Result<std::shared_ptr<const PhongFiles>> trial_half_vectors(const std::string& 
     const double alpha = alpha_lin * alpha_lin, nu = phong_exponent(alpha * (1.0 + eta)), nv = phong_exponent(alpha * (1.0 - eta));
     Result<PhongFiles> table =
         PhongFiles::of(half_vector_table(nu, nv, {256, 256}, name == "floats" ? PixelType::f32 : PixelType::u8), path);
-    if (!table)
-        return table.error();
+    BN_TRY(table);
     return std::make_shared<const PhongFiles>(std::move(*table));
 }
 

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 
+#include "apps/chart/real_maps.h"
 #include "apps/cli/command.h"
 #include "apps/cli/outputs.h"
 #include "apps/cli/report.h"
@@ -12,7 +13,6 @@
 #include "apps/cli/stop_signal.h"
 #include "apps/cli/values.h"
 #include "apps/report/json.h"
-#include "apps/chart/real_maps.h"
 #include "core/base/clock.h"
 #include "shading/bake/mipnet/evaluate.h"
 #include "shading/bake/mipnet/train.h"
@@ -137,15 +137,13 @@ Status read_given(TrainArguments& a)
         const std::string& folder = t.only_maps ? a.only_maps : a.maps;
         t.maps_name = told_name(folder);
         Result<std::vector<mipnet::TestMaterial>> maps = real_materials(folder, a.limits);
-        if (!maps)
-            return maps.error();
+        BN_TRY(maps);
         for (mipnet::TestMaterial& m : *maps)
             t.maps.push_back(std::move(m.material));
     }
     if (!a.taught_by.empty()) {
         Result<mipnet::Weights> read = mipnet::read_weights(a.taught_by);
-        if (!read)
-            return read.error();
+        BN_TRY(read);
         if (read->shape.lobe != t.shape.lobe)
             return Error{ExitCode::bad_input, a.taught_by, "",
                          fmt::format("is of lobes of {}, not of {}", mipnet::lobe_name(read->shape.lobe), mipnet::lobe_name(t.shape.lobe))};
@@ -154,8 +152,7 @@ Status read_given(TrainArguments& a)
     if (a.from.empty())
         return {};
     Result<mipnet::Weights> read = mipnet::read_weights(a.from);
-    if (!read)
-        return read.error();
+    BN_TRY(read);
     if (!(read->shape == t.shape))
         return Error{ExitCode::bad_input, a.from, "",
                      fmt::format("is of lobes of {}, layout {}, size {} and footprint {}, other than what is to be trained",

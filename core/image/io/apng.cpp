@@ -60,8 +60,7 @@ Status MovingPicture::add(const std::string& path, const Image& picture)
 {
     BN_CHECK(pictures_ == 0 || (picture.width == width_ && picture.height == height_ && picture.channels == channels_));
     const Result<Bytes> png = png_bytes(path, picture);
-    if (!png)
-        return png.error();
+    BN_TRY(png);
     width_ = picture.width, height_ = picture.height, channels_ = picture.channels;
     Bytes control; // fcTL
     put(control, sequence_++), put(control, static_cast<std::uint32_t>(width_)), put(control, static_cast<std::uint32_t>(height_));

@@ -305,14 +305,12 @@ Result<ImageProbe> probe_exr(const ImageBytes& file, const Limits& limits)
             return reader.error(fmt::format("more than {} parts", kMaxParts));
         Part part;
         bool any = false;
-        if (const Status status = read_part(reader, part, any); !status)
-            return status.error();
+        BN_TRY(read_part(reader, part, any));
         if (many && !any)
             break;
         if (!many && (version & kTiled))
             part.tiled = true;
-        if (const Status status = check_part(file, part, limits, offsets); !status)
-            return status.error();
+        BN_TRY(check_part(file, part, limits, offsets));
         if (part.deep || probe.subimage >= 0)
             continue;
         probe.subimage = index;

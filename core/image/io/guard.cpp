@@ -83,10 +83,8 @@ Result<ImageProbe> probe_jpeg(const ImageBytes& file, const Limits& limits)
         if (frame) {
             const std::int64_t height = static_cast<std::int64_t>(big_endian(file.data + at + 3, 2));
             const std::int64_t width = static_cast<std::int64_t>(big_endian(file.data + at + 5, 2));
-            if (const Status sides = check_sides(file, width, height, limits); !sides)
-                return sides.error();
-            if (const Status fits = check_proportion(file, static_cast<std::uint64_t>(width), static_cast<std::uint64_t>(height), 3); !fits)
-                return fits.error();
+            BN_TRY(check_sides(file, width, height, limits));
+            BN_TRY(check_proportion(file, static_cast<std::uint64_t>(width), static_cast<std::uint64_t>(height), 3));
             framed = true;
         }
         if (*marker == 0xDA && ++scans > kMaxJpegScans)
@@ -116,10 +114,8 @@ Result<ImageProbe> probe_webp(const ImageBytes& file, const Limits& limits)
     } else {
         return file.error("byte 12", "a WebP file without an image chunk");
     }
-    if (const Status sides = check_sides(file, static_cast<std::int64_t>(width), static_cast<std::int64_t>(height), limits); !sides)
-        return sides.error();
-    if (const Status fits = check_proportion(file, width, height, 4); !fits)
-        return fits.error();
+    BN_TRY(check_sides(file, static_cast<std::int64_t>(width), static_cast<std::int64_t>(height), limits));
+    BN_TRY(check_proportion(file, width, height, 4));
     return ImageProbe{"webp"};
 }
 
@@ -187,14 +183,12 @@ Result<ImageProbe> probe_pnm(const ImageBytes& file, const Limits& limits)
             return file.error(fmt::format("byte {}", at), "a width or height should stand here");
         side = *read;
     }
-    if (const Status fits = check_sides(file, sides[0], sides[1], limits); !fits)
-        return fits.error();
+    BN_TRY(check_sides(file, sides[0], sides[1], limits));
     const std::uint64_t pixels = static_cast<std::uint64_t>(sides[0]) * static_cast<std::uint64_t>(sides[1]);
     if (pixels / 8 > file.size) // one bit a pixel at least
         return file.error(fmt::format("header: {} x {} pixels", sides[0], sides[1]),
                           fmt::format("{} bytes cannot hold that many pixels", file.size));
-    if (const Status scale = check_pnm_scale(file, at); !scale)
-        return scale.error();
+    BN_TRY(check_pnm_scale(file, at));
     return ImageProbe{"pnm"};
 }
 
@@ -209,8 +203,7 @@ Result<ImageProbe> probe_bmp(const ImageBytes& file, const Limits& limits)
         return core || value < 0x80000000ll ? value : 0x100000000ll - value; // negative height: top row first
     };
     const std::int64_t width = side(18), height = side(core ? 20 : 22);
-    if (const Status fits = check_sides(file, width, height, limits); !fits)
-        return fits.error();
+    BN_TRY(check_sides(file, width, height, limits));
     const std::uint64_t pixels = static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
     const std::uint64_t bits = little_endian(file.data + (core ? 24 : 28), 2);
     const std::uint64_t method = core || file.size < 34 ? 0 : little_endian(file.data + 30, 4);
@@ -218,8 +211,7 @@ Result<ImageProbe> probe_bmp(const ImageBytes& file, const Limits& limits)
     if (!runs && pixels / 8 * bits > file.size)
         return file.error(fmt::format("header: {} x {} pixels", width, height),
                           fmt::format("{} bytes cannot hold that many pixels", file.size));
-    if (const Status fits = check_proportion(file, static_cast<std::uint64_t>(width), static_cast<std::uint64_t>(height), 4); !fits)
-        return fits.error();
+    BN_TRY(check_proportion(file, static_cast<std::uint64_t>(width), static_cast<std::uint64_t>(height), 4));
     return ImageProbe{"bmp"};
 }
 

@@ -161,13 +161,11 @@ Result<Image> decode(const ImageBytes& file, const ImageProbe& probe, const Limi
     Selection selection;
     Image image;
     const auto place = [&](const StoredHeader& found) -> Result<PixelRequest> {
-        if (const Status status = check_header(file, found, limits); !status)
-            return status.error();
+        BN_TRY(check_header(file, found, limits));
         header = found;
         PictureNotes unsaid; // channels of other formats have no names of their own
         const Result<Selection> selected = select_channels(file, header, exr ? notes : unsaid);
-        if (!selected)
-            return selected.error();
+        BN_TRY(selected);
         selection = *selected;
         const int first = selection.first();
         const int end = selection.end();
@@ -179,8 +177,7 @@ Result<Image> decode(const ImageBytes& file, const ImageProbe& probe, const Limi
         image = make_image(header.width, header.height, end - first, header.type);
         return PixelRequest{first, end, image.bytes.data()};
     };
-    if (const Status status = read_pixels(file, probe, place); !status)
-        return status.error();
+    BN_TRY(read_pixels(file, probe, place));
     image = pick_channels(std::move(image), selection, selection.first());
     if (selection.chroma)
         decode_luminance_chroma(image, luminance_weights(probe.colour.primaries.value_or(kRec709Primaries)));
@@ -219,8 +216,7 @@ Result<Image> decode_image(const std::uint8_t* data, std::size_t size, const std
 {
     const ImageBytes file{data, size, label};
     const Result<ImageProbe> probe = probe_bytes(file, limits);
-    if (!probe)
-        return probe.error();
+    BN_TRY(probe);
     PictureNotes unread;
     return decode_probed(file, *probe, limits, notes ? *notes : unread);
 }
@@ -230,8 +226,7 @@ Result<Image> decode_colours(const std::uint8_t* data, std::size_t size, const s
 {
     const ImageBytes file{data, size, label};
     const Result<ImageProbe> probe = probe_bytes(file, limits);
-    if (!probe)
-        return probe.error();
+    BN_TRY(probe);
     Result<Image> image = decode_probed(file, *probe, limits, notes);
     if (!image)
         return image;
@@ -251,16 +246,14 @@ Result<Image> decode_colours(const std::uint8_t* data, std::size_t size, const s
 Result<Image> read_image(const std::string& path, const Limits& limits, PictureNotes* notes)
 {
     const Result<std::vector<std::uint8_t>> bytes = read_file(path, limits.file_bytes);
-    if (!bytes)
-        return bytes.error();
+    BN_TRY(bytes);
     return decode_image(bytes->data(), bytes->size(), path, limits, notes);
 }
 
 Result<Image> read_colours(const std::string& path, const Limits& limits, PictureNotes& notes)
 {
     const Result<std::vector<std::uint8_t>> bytes = read_file(path, limits.file_bytes);
-    if (!bytes)
-        return bytes.error();
+    BN_TRY(bytes);
     return decode_colours(bytes->data(), bytes->size(), path, limits, notes);
 }
 

@@ -84,8 +84,7 @@ Result<const ImageLibrary*> open_library()
         if (!has_room())
             return Error{ExitCode::unavailable, "", "",
                          fmt::format("the image library needs {} MiB of address space, and there is no memory for it", kRoomBytes >> 20)};
-        if (const Status threads = expect_threads(kLoadThreads, "the image library"); !threads)
-            return threads.error();
+        BN_TRY(expect_threads(kLoadThreads, "the image library"));
         // Never closed: some of the libraries behind it leave threads and exit handlers.
         void* const module = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
         void* const symbol = module ? dlsym(module, kImageLibrarySymbol) : nullptr;

@@ -104,8 +104,7 @@ Result<Bytes> encode_image(const std::string& path, const Image& image, const Fo
     if (std::strcmp(format.name, "hdr") == 0)
         clamp_to_rgbe(fitted);
     const Result<const ImageLibrary*> library = image_library(path);
-    if (!library)
-        return library.error();
+    BN_TRY(library);
     return (*library)->encode(path, fitted, format.name, {});
 }
 
@@ -134,8 +133,7 @@ Status write_image(const std::string& path, const Image& image)
         return output_error(path, format.floats ? "this format needs float pixels" : "this format needs 8-bit pixels");
     try {
         const Result<Bytes> bytes = encode_image(path, image, format);
-        if (!bytes)
-            return bytes.error();
+        BN_TRY(bytes);
         return write_file_atomic(path, bytes->data(), bytes->size());
     } catch (const std::exception& exception) {
         return output_error(path, "the image cannot be encoded: " + first_line(exception.what()));
@@ -150,11 +148,9 @@ Status write_channels(const std::string& path, const Image& image, const std::ve
         return output_error(path, "this format has no channels of any name (exr)");
     try {
         const Result<const ImageLibrary*> library = image_library(path);
-        if (!library)
-            return library.error();
+        BN_TRY(library);
         const Result<Bytes> bytes = (*library)->encode(path, image, format_of(path).name, names);
-        if (!bytes)
-            return bytes.error();
+        BN_TRY(bytes);
         return write_file_atomic(path, bytes->data(), bytes->size());
     } catch (const std::exception& exception) {
         return output_error(path, "the image cannot be encoded: " + first_line(exception.what()));
@@ -166,8 +162,7 @@ Result<std::vector<std::uint8_t>> encode_exr_levels(const std::string& path, con
     BN_CHECK(!levels.empty() && levels[0].type == PixelType::f32);
     try {
         const Result<const ImageLibrary*> library = image_library(path);
-        if (!library)
-            return library.error();
+        BN_TRY(library);
         return (*library)->encode_levels(path, levels);
     } catch (const std::exception& exception) {
         return output_error(path, "the levels cannot be encoded: " + first_line(exception.what()));
@@ -180,8 +175,7 @@ Result<std::string> encode_png(const Image& image)
         return output_error("picture.png", "the picture's bytes are not those of its size and channels");
     try {
         const Result<Bytes> bytes = encode_image("picture.png", image, format_of("picture.png"));
-        if (!bytes)
-            return bytes.error();
+        BN_TRY(bytes);
         return std::string(bytes->begin(), bytes->end());
     } catch (const std::exception& exception) {
         return output_error("picture.png", "the image cannot be encoded: " + first_line(exception.what()));

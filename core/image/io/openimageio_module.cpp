@@ -122,8 +122,7 @@ Status read(const ImageBytes& file, const ImageProbe& probe, const PlacePixels& 
         return library_error(file, reader.place(), "the image is missing", input->geterror());
     const StoredHeader header = header_of(input->spec());
     const Result<PixelRequest> wanted = place(header);
-    if (!wanted)
-        return wanted.error();
+    BN_TRY(wanted);
     if (!input->read_image(probe.subimage, 0, wanted->first, wanted->end, type_desc_of(header.type), wanted->to))
         return library_error(file, reader.place(), "the pixels are damaged or cut off", input->geterror());
     input->close();

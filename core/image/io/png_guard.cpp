@@ -134,8 +134,7 @@ Result<ImageProbe> probe_png(const ImageBytes& file, const Limits& limits)
         if (at == 8 && (type != "IHDR" || length != 13 || at + 25 > file.size))
             return file.error(place, "a PNG file must begin with a whole IHDR chunk");
         if (at == 8)
-            if (const Status status = check_header(file, file.data + 16, limits, header); !status)
-                return status.error();
+            BN_TRY(check_header(file, file.data + 16, limits, header));
         if (length > file.size - at - 12)
             return file.error(place, fmt::format("a chunk of {} bytes does not fit into the file", length));
         if (crc.of(file.data + at + 4, length + 4) != read32(file.data + at + 8 + length))
@@ -145,8 +144,7 @@ Result<ImageProbe> probe_png(const ImageBytes& file, const Limits& limits)
         if ((critical && !known) || (at != 8 && type == "IHDR") || (type == "IDAT" && pixels_over) ||
             (pixels && (type == "PLTE" || type == "tRNS")))
             return file.error(place, "a chunk of an unknown type or at a wrong place");
-        if (const Status status = check_colours(file, at, type, length, header, palette_entries); !status)
-            return status.error();
+        BN_TRY(check_colours(file, at, type, length, header, palette_entries));
         pixels_over = pixels && type != "IDAT";
         pixels = pixels || type == "IDAT";
         if (known || type == "tRNS")

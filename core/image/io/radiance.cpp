@@ -234,8 +234,7 @@ Result<ImageProbe> probe_radiance(const ImageBytes& file, const Limits& limits)
     if (gap == std::string_view::npos)
         return file.error(fmt::format("byte {}", file.size), "the Radiance header does not end");
     ImageProbe probe{"hdr"};
-    if (const Status read = read_header(file, text.substr(0, gap), probe.colour); !read)
-        return read.error();
+    BN_TRY(read_header(file, text.substr(0, gap), probe.colour));
     RadianceLayout& layout = probe.radiance;
     layout.pixels_at = gap + 2;
     const std::optional<Resolution> resolution = read_resolution(text, layout.pixels_at);
@@ -245,14 +244,12 @@ Result<ImageProbe> probe_radiance(const ImageBytes& file, const Limits& limits)
         return file.error("header: resolution", "the same axis twice");
     layout.transpose = resolution->axes[0] == 'X';
     const int x = layout.transpose ? 0 : 1;
-    if (const Status fits = check_sides(file, resolution->sides[x], resolution->sides[1 - x], limits); !fits)
-        return fits.error();
+    BN_TRY(check_sides(file, resolution->sides[x], resolution->sides[1 - x], limits));
     layout.scanlines = static_cast<int>(resolution->sides[0]);
     layout.scanline_pixels = static_cast<int>(resolution->sides[1]);
     // Y points up and X to the right: "-Y" scanlines go down from the top.
     layout.flip_x = resolution->negative[x], layout.flip_y = !resolution->negative[1 - x];
-    if (const Status fits = check_bytes(file, layout); !fits)
-        return fits.error();
+    BN_TRY(check_bytes(file, layout));
     return probe;
 }
 
@@ -265,8 +262,7 @@ Status read_radiance(const ImageBytes& file, const ImageProbe& probe, const Plac
     header.depth = 1, header.channels = 3;
     header.channel_names = {"R", "G", "B"};
     const Result<PixelRequest> wanted = place(header);
-    if (!wanted)
-        return wanted.error();
+    BN_TRY(wanted);
     BN_CHECK(wanted->first == 0 && wanted->end == 3);
     const std::size_t pixels = static_cast<std::size_t>(layout.scanline_pixels);
     std::vector<std::uint8_t> rgbe(4 * pixels);

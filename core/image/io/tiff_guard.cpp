@@ -71,8 +71,7 @@ Result<ImageProbe> probe_tiff(const ImageBytes& file, const Limits& limits)
     const std::optional<std::uint64_t> width = directory.value(kWidth), height = directory.value(kHeight);
     if (!width || !height)
         return file.error("header", "the width or the height is missing");
-    if (const Status sides = check_sides(file, static_cast<std::int64_t>(*width), static_cast<std::int64_t>(*height), limits); !sides)
-        return sides.error();
+    BN_TRY(check_sides(file, static_cast<std::int64_t>(*width), static_cast<std::int64_t>(*height), limits));
     const std::uint64_t bits = directory.value(kBits).value_or(1), samples = directory.value(kSamples).value_or(1);
     if (bits < 1 || bits > 64 || samples < 1 || samples > 1024)
         return file.error("header", fmt::format("{} samples a pixel of {} bits", samples, bits));
@@ -80,15 +79,13 @@ Result<ImageProbe> probe_tiff(const ImageBytes& file, const Limits& limits)
         return file.error(fmt::format("header: {} x {} pixels", *width, *height),
                           fmt::format("{} bytes cannot hold that many pixels", file.size));
     const std::uint64_t pixel = samples * (bits > 8 ? bits / 8 : 1) * (directory.value(kPhotometric).value_or(0) == kPalette ? 3 : 1);
-    if (const Status fits = check_proportion(file, *width, *height, pixel); !fits)
-        return fits.error();
+    BN_TRY(check_proportion(file, *width, *height, pixel));
     // A tile is decoded whole, however small the picture.
     const std::uint64_t tile_width = directory.value(kTileWidth).value_or(0), tile_height = directory.value(kTileHeight).value_or(0);
     const std::uint64_t side = static_cast<std::uint64_t>(limits.image_side);
     if (tile_width > side || tile_height > side)
         return file.error("header: tiles", fmt::format("tiles of {} x {} pixels are too large", tile_width, tile_height));
-    if (const Status fits = check_proportion(file, tile_width, tile_height, pixel); !fits)
-        return fits.error();
+    BN_TRY(check_proportion(file, tile_width, tile_height, pixel));
     const std::uint64_t photometric = directory.value(kPhotometric).value_or(0);
     if (photometric == kLogL || photometric == kLogLuv)
         return file.error("header: photometric interpretation", "CIE LogL and LogLuv pixels are not supported");

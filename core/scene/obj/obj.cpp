@@ -183,8 +183,7 @@ bool is_obj(const std::string& path)
 Result<Scene> load_obj(const std::string& path, const Limits& limits)
 {
     const Result<std::vector<std::uint8_t>> bytes = read_file(path, limits.file_bytes);
-    if (!bytes)
-        return bytes.error();
+    BN_TRY(bytes);
     return load_obj_text(std::string(bytes->begin(), bytes->end()), path, limits);
 }
 
@@ -259,8 +258,7 @@ Result<Scene> load_obj_text(const std::string& text, const std::string& path, co
     if (parsed.groups.empty())
         return Error{ExitCode::bad_input, path, "", "holds no faces"};
     const Result<std::vector<std::vector<obj::Corner>>> triangles = cut_polygons(parsed, path, limits);
-    if (!triangles)
-        return triangles.error();
+    BN_TRY(triangles);
     Scene scene;
     scene.files.push_back(path);
     Material white;

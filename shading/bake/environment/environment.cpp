@@ -207,8 +207,7 @@ double ms_since(std::chrono::steady_clock::time_point start)
 Result<Environment> bake_environment(const Image& equirect, const std::string& name, const EnvironmentOptions& options, const Jobs& jobs)
 {
     const auto start = std::chrono::steady_clock::now();
-    if (const Status status = check(equirect, name, options); !status)
-        return status.error();
+    BN_TRY(check(equirect, name, options));
     int levels = options.levels;
     if (levels == 0)
         while ((options.cube_size >> levels) > 1)
@@ -240,8 +239,7 @@ namespace {
 Result<Environment> load_gltf_light(const std::string& file, const EnvironmentOptions& options, const Limits& limits, const Jobs& jobs)
 {
     const Result<ImageLight> light = load_image_light(file, limits);
-    if (!light)
-        return light.error();
+    BN_TRY(light);
     Result<Environment> baked = bake_environment(sky_of(*light, jobs), file, options, jobs);
     if (baked)
         baked->files = light->files;
@@ -255,8 +253,7 @@ Result<Environment> load_picture(const std::string& file, const EnvironmentOptio
     of_environment.image_pixels = limits.env_pixels;
     PictureNotes notes;
     Result<Image> image = read_colours(file, of_environment, notes);
-    if (!image)
-        return image.error();
+    BN_TRY(image);
     if (notes.cube_faces) {
         if (const std::string fault = cube_picture_fault(*image, limits.env_pixels); !fault.empty())
             return Error{ExitCode::bad_input, file, "header: envmap", fault};

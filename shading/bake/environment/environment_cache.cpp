@@ -175,8 +175,7 @@ Result<Environment> read_baked_environment(const std::string& path)
     const std::string name =
         std::filesystem::is_directory(path, ignored) ? (std::filesystem::path(path) / kBakedEnvironment).string() : path;
     const Result<std::vector<std::uint8_t>> file = read_file(name, kMostBytes);
-    if (!file)
-        return file.error();
+    BN_TRY(file);
     const auto refused = [&](const char* why) { return Error{ExitCode::bad_input, name, "", why}; };
     Header h;
     if (file->size() < sizeof(h))

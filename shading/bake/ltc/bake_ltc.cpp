@@ -140,8 +140,7 @@ Result<std::optional<Baked>> bake_table(const BakeOptions& options, const Jobs& 
     };
     const auto stopped = [&] { return options.stop && options.stop->load(); };
     Progressed p(grid);
-    if (Status resumed = go_on(options, p); !resumed)
-        return resumed.error();
+    BN_TRY(go_on(options, p));
     advance(p.chains + p.steps * kStepUnits);
     const std::size_t chains = chains_of(grid), alphas = static_cast<std::size_t>(grid.sizes()[2]),
                       lambdas = static_cast<std::size_t>(grid.sizes()[3]);
@@ -156,8 +155,7 @@ Result<std::optional<Baked>> bake_table(const BakeOptions& options, const Jobs& 
             advance(1);
         });
         p.chains = to;
-        if (Status kept = keep(options, p); !kept)
-            return kept.error();
+        BN_TRY(keep(options, p));
         if (stopped())
             return std::optional<Baked>();
     }
@@ -179,8 +177,7 @@ Result<std::optional<Baked>> bake_table(const BakeOptions& options, const Jobs& 
                 return std::optional<Baked>();
             fit.step(p.state);
             ++p.steps;
-            if (Status kept = keep(options, p); !kept)
-                return kept.error();
+            BN_TRY(keep(options, p));
             advance(kStepUnits);
         }
         entries = p.state.entries;

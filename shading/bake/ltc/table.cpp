@@ -174,8 +174,7 @@ Result<Table> read_table(const std::string& path, int size)
 {
     constexpr std::uint64_t kMostBytes = 64u << 20; // 32 nodes along an axis
     const Result<std::vector<std::uint8_t>> bytes = read_file(path, kMostBytes);
-    if (!bytes)
-        return bytes.error();
+    BN_TRY(bytes);
     return parse_table(bytes->data(), bytes->size(), path, size);
 }
 

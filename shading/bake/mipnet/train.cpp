@@ -154,8 +154,7 @@ Result<std::optional<Weights>> train(const TrainOptions& options, const Jobs& jo
     BN_CHECK(t.numbers.size() == plan.count && options.levels >= 1 && options.levels <= kTrainedLevels);
     t.mean = t.numbers;
     t.first.assign(plan.count, 0.0f), t.second.assign(plan.count, 0.0f);
-    if (const Status resumed = go_on_training(options, key, t); !resumed)
-        return resumed.error();
+    BN_TRY(go_on_training(options, key, t));
     std::vector<Shard> shards(static_cast<std::size_t>(options.shards));
     for (Shard& shard : shards) {
         shard.loss.resize(kTrainedLevels * kSlots);
@@ -194,8 +193,7 @@ Result<std::optional<Weights>> train(const TrainOptions& options, const Jobs& jo
             options.advance(static_cast<int>(t.step), loss);
         const bool stopped = options.stop && options.stop->load();
         if (stopped || wall_ms() - kept_ms > 1000.0 * options.checkpoint_seconds) {
-            if (const Status kept = keep_training(options, key, t); !kept)
-                return kept.error();
+            BN_TRY(keep_training(options, key, t));
             kept_ms = wall_ms();
         }
         if (stopped)

@@ -124,8 +124,7 @@ Result<Weights> parse_weights(const std::uint8_t* data, std::size_t bytes, const
 Result<Weights> read_weights(const std::string& path)
 {
     const Result<std::vector<std::uint8_t>> bytes = read_file(path, std::uint64_t{256} << 20);
-    if (!bytes)
-        return bytes.error();
+    BN_TRY(bytes);
     return parse_weights(bytes->data(), bytes->size(), path);
 }
 

@@ -61,8 +61,7 @@ Result<PhongFiles> PhongFiles::read(const std::vector<std::string>& paths, const
     for (const std::string& path : paths) {
         std::error_code failed;
         if (!fs::is_directory(path, failed)) {
-            if (const Status added = tables.add(path, limits); !added)
-                return added.error();
+            BN_TRY(tables.add(path, limits));
             continue;
         }
         std::vector<std::string> files;
@@ -75,8 +74,7 @@ Result<PhongFiles> PhongFiles::read(const std::vector<std::string>& paths, const
         if (files.empty())
             return no_table(path, "the folder holds no table");
         for (const std::string& file : files)
-            if (const Status added = tables.add(file, limits); !added)
-                return added.error();
+            BN_TRY(tables.add(file, limits));
     }
     return tables;
 }
@@ -84,8 +82,7 @@ Result<PhongFiles> PhongFiles::read(const std::vector<std::string>& paths, const
 Result<PhongFiles> PhongFiles::of(const Image& picture, const std::string& name)
 {
     PhongFiles tables;
-    if (const Status added = tables.add(picture, name); !added)
-        return added.error();
+    BN_TRY(tables.add(picture, name));
     return tables;
 }
 
