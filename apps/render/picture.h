@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "apps/risks/risks.h"
 #include "apps/cli/report.h"
 #include "apps/render/options.h"
 #include "apps/render/stats.h"
+#include "apps/risks/risks.h"
 #include "raster/frame/layers.h"
 #include "raster/session/session.h"
 

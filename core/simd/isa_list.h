@@ -1,9 +1,10 @@
 // The instruction sets that lane code is compiled for, from narrow to wide. A new one is one line here and core/simd/lanes_<name>.h.
 // C++ reads the list through BN_EACH_ISA; isa.cmake and lint.odr read its lines:
 //   BN_ON_<machine>(X(name, use, runs, flags, of))
-// machine: any, x86_64, aarch64, what the program is compiled for; x86_64_avx2, x86_64_avx512: unless BN_ISA_SET leaves them out. use: "program", compiled from
-// every file of bn_isa_objects; "tests", only where tests ask for it, unknown to options. runs: whether this processor and its system can
-// run it (core/simd/cpu.h). flags: after those of the rest of the program; -O1 or -O2 where more only takes longer to compile.
+// machine: any, x86_64, aarch64, what the program is compiled for; x86_64_avx2, x86_64_avx512: unless BN_ISA_SET leaves them out. use:
+// "program", compiled from every file of bn_isa_objects; "tests", only where tests ask for it, unknown to options. runs: whether this
+// processor and its system can run it (core/simd/cpu.h). flags: after those of the rest of the program; -O1 or -O2 where more only takes
+// longer to compile.
 #pragma once
 
 // clang-format off

@@ -2,8 +2,8 @@
 // first.
 #include <string>
 
-#include "apps/lab/atlas/kept.h"
 #include "apps/lab/atlas/judge.h"
+#include "apps/lab/atlas/kept.h"
 #include "core/base/check.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)

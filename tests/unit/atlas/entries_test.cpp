@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 #include <set>
 
-#include "apps/risks/entries.h"
 #include "apps/lab/atlas/measure.h"
+#include "apps/risks/entries.h"
 
 namespace burnish {
 namespace {

@@ -1,8 +1,8 @@
 // Blessed figures: written, read, held.
 #include <gtest/gtest.h>
 
-#include "apps/risks/assets.h"
 #include "apps/lab/atlas/kept.h"
+#include "apps/risks/assets.h"
 
 namespace burnish {
 namespace {

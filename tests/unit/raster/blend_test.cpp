@@ -241,8 +241,10 @@ TEST(blend, sheets_of_all_sizes_hide_and_show_each_other)
         for (int i = 0; i < 40; ++i) {
             const auto place = [&](float low, float high) { return std::floor(low + (high - low) * random.unit()) + 0.25f; };
             const float x = place(-2.0f, 20.0f), y = place(-2.0f, 20.0f), largest = i % 3 ? 7.0f : 22.0f;
-            sheets.push_back({0.05f + 0.02f * static_cast<float>(i * 23 % 40), {random.unit(), random.unit(), random.unit(), random.unit()},
-                              i % 4 ? AlphaMode::blend : AlphaMode::opaque, 0.0f,
+            sheets.push_back({0.05f + 0.02f * static_cast<float>(i * 23 % 40),
+                              {random.unit(), random.unit(), random.unit(), random.unit()},
+                              i % 4 ? AlphaMode::blend : AlphaMode::opaque,
+                              0.0f,
                               {x, y, x + place(1.0f, largest), y + place(1.0f, largest)}});
         }
         const Frame f = draw(sheets, 1);
@@ -250,9 +252,8 @@ TEST(blend, sheets_of_all_sizes_hide_and_show_each_other)
             for (int x = 0; x < kWidth; ++x) {
                 std::vector<Sheet> here;
                 const float cx = static_cast<float>(x) + 0.5f, cy = static_cast<float>(y) + 0.5f;
-                std::copy_if(sheets.begin(), sheets.end(), std::back_inserter(here), [&](const Sheet& s) {
-                    return cx > s.place.x && cx < s.place.z && cy > s.place.y && cy < s.place.w;
-                });
+                std::copy_if(sheets.begin(), sheets.end(), std::back_inserter(here),
+                             [&](const Sheet& s) { return cx > s.place.x && cx < s.place.z && cy > s.place.y && cy < s.place.w; });
                 const glm::dvec3 right = over(here);
                 for (int c = 0; c < 3; ++c)
                     ASSERT_NEAR(f.color.f32()[3 * (y * kWidth + x) + c], right[c], 1e-5)
