@@ -16,7 +16,7 @@ def same(step, figures):
     check(step["pixel_hash"] == figures["pixel_hash"], f"step {step} differs from the picture of its values, {figures['pixel_hash']}")
 
 
-@case("animation.each_step_is_the_picture_of_its_values")
+@case("animation.each_step_is_the_picture_of_its_values", tier="nightly")
 def each_step_is_the_picture_of_its_values(bench):
     row = bench.figures(*ROW, "--animate", "roughness=0.2:0.6,eye=0,0,3:0.5,1,3,fov=40:30", "--steps", "3", "-o", "a_%02d.exr")
     steps = row["steps"]
@@ -194,7 +194,7 @@ def rows(bench, test, count=3):
         scratch(bench, f"t{i:02}.pfm", pfm(24, 16, test(i)))
 
 
-@case("animation.flicker_is_what_neighbours_differ_by")
+@case("animation.flicker_is_what_neighbours_differ_by", tier="nightly")
 def flicker_is_what_neighbours_differ_by(bench):
     darker = lambda x, y: (0.1 * x, 0.2 * y, 0.7)
     rows(bench, lambda i: darker) # wrong, but still

@@ -42,7 +42,7 @@ def mistakes(bench):
     check(bench.left_behind() == ["file", "t.md"], f"{bench.left_behind()}")
 
 
-@case("atlas.holds_what_is_blessed", "input")
+@case("atlas.holds_what_is_blessed", "input", tier="nightly")
 def held(bench):
     needs_embree(bench)
     words = ("atlas", FAST, "--quick")
@@ -73,7 +73,7 @@ def held(bench):
     check("worst 0.0000" in done.out and "bless it" in done.err, done.describe())
 
 
-@case("atlas.goes_on_where_it_was_stopped")
+@case("atlas.goes_on_where_it_was_stopped", tier="nightly")
 def goes_on(bench):
     """What is finished is kept in DIR, and a run that was stopped ends with the figures of one that was not."""
     needs_embree(bench)
@@ -105,7 +105,7 @@ def same_figures(bench):
     check(a == b, "the figures differ from those of a run that was not stopped")
 
 
-@case("atlas.full_walk_goes_on_after_kill_9")
+@case("atlas.full_walk_goes_on_after_kill_9", tier="nightly")
 def goes_on_in_full(bench):
     """33 steps an entry."""
     needs_embree(bench)
@@ -121,7 +121,7 @@ def goes_on_in_full(bench):
     check(all(len(e["steps"]) == 33 for e in json.loads((bench.folder / "a/atlas.json").read_text())["entries"]), done.describe())
 
 
-@case("atlas.page_walks_paths_by_slider_and_keys")
+@case("atlas.page_walks_paths_by_slider_and_keys", tier="nightly")
 def page(bench):
     needs_embree(bench)
     with Browser(bench.folder / "browser") as browser:
@@ -155,7 +155,7 @@ def page(bench):
         healthy(browser)
 
 
-@case("atlas.everything_is_held_in_quick_steps", tier="GATE")
+@case("atlas.everything_is_held_in_quick_steps", tier="nightly")
 def quick(bench):
     needs_embree(bench)
     begin = time.monotonic()
@@ -246,7 +246,7 @@ def can_fail(bench):
     check(not blind, f"{blind} do not see it")
 
 
-@case("atlas.glass_does_not_break_as_its_index_comes_near_one", tier="GATE")
+@case("atlas.glass_does_not_break_as_its_index_comes_near_one", tier="nightly")
 def near_index_one(bench):
     """Neither by many samples nor by few: there is ever less to reflect, and light goes ever straighter."""
     needs_embree(bench)

@@ -17,7 +17,7 @@ SMALL = ("bake", "ltc", "--resolution", "3", "--steps", "2", "--samples", "2")
 SHIPPED = pathlib.Path(__file__).resolve().parents[2] / "shading/bake/ltc/ggx.ltc"
 
 
-@case("bake.threads_make_no_difference", tier="check")
+@case("bake.threads_make_no_difference", tier="nightly")
 def threads(bench):
     for n in ("1", "2", "3"):
         bench.run(*SMALL, "--threads", n, "-o", f"t{n}.ltc", "-q").expect(0)
@@ -26,7 +26,7 @@ def threads(bench):
     check(bench.left_behind() == ["t1.ltc", "t2.ltc", "t3.ltc"], f"left {bench.left_behind()}")
 
 
-@case("bake.killed_goes_on_to_the_same_bytes", tier="GATE")
+@case("bake.killed_goes_on_to_the_same_bytes", tier="nightly")
 def killed(bench):
     words = ("bake", "ltc", "--resolution", "4", "--steps", "6", "--samples", "4")
     bench.run(*words, "-o", "straight.ltc", "-q").expect(0)
@@ -44,7 +44,7 @@ def killed(bench):
     check(bench.left_behind() == ["straight.ltc", "t.ltc"], f"left {bench.left_behind()}")
 
 
-@case("bake.a_report_holds_figures_and_a_drawing", tier="GATE")
+@case("bake.a_report_holds_figures_and_a_drawing", tier="nightly")
 def report(bench):
     said = bench.run("bake", "ltc", "--table", SHIPPED, "--report", "quality", timeout=600).expect(0)
     check("det <= 0" in said.out and "theta > 70" in said.out, said.describe())
@@ -93,7 +93,7 @@ def check_others(bench, tables):
             check(size == 32 + 81 * 44 + 8, f"{name}: {size} bytes")
 
 
-@case("bake.a_table_as_others_make_it_says_so")
+@case("bake.a_table_as_others_make_it_says_so", tier="nightly")
 def one_other(bench):
     check_others(bench, OTHERS[:1])
 
@@ -110,7 +110,7 @@ def shipped(bench):
         check((bench.folder / table).read_bytes() == (SHIPPED.parent / table).read_bytes(), f"the shipped {table} is another one")
 
 
-@case("bake.what_is_wrong_says_one_line", "input", tier="check")
+@case("bake.what_is_wrong_says_one_line", "input")
 def wrong(bench):
     data = SHIPPED.read_bytes()
     files = {"magic.ltc": b"x" + data[1:], "short.ltc": data[:-100], "damaged.ltc": data[:5000] + b"\1\2\3\4" + data[5004:], "empty.ltc": b""}
@@ -160,7 +160,7 @@ def shown(bench, name):
 
 # One set of rules: pictures of 8 bits in a folder, the same bytes every time, named in the report, and never over what the command reads
 # or writes; the map itself is what it is without.
-@case("bake.previews_of_every_baker_show_what_was_made", "input", tier="check")
+@case("bake.previews_of_every_baker_show_what_was_made", "input", tier="nightly")
 def previews(bench):
     scratch(bench, "normal.png", png(8, 8, lambda x, y: (128 + 12 * x, 128 - 9 * y, 220)))
     scratch(bench, "heights.png", png(8, 8, lambda x, y: (30 * x, 30 * x, 30 * x)))

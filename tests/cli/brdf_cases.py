@@ -25,7 +25,7 @@ def lobes(bench):
     return found
 
 
-@case("brdf.list_models_names_what_it_takes", tier="check")
+@case("brdf.list_models_names_what_it_takes")
 def names(bench):
     found = lobes(bench)
     check(len(found) == 10 and [name for name, lamps in found.items() if lamps] == ["heidrich_seidel"], f"{found}")
@@ -39,7 +39,7 @@ def names(bench):
     bench.run("render", "--brdf", "lambert").expect(2).expect_one_line("--brdf", "lambert", "ashikhmin_shirley")
 
 
-@case("brdf.a_technique_made_for_one_lobe_refuses_others", tier="check")
+@case("brdf.a_technique_made_for_one_lobe_refuses_others")
 def refusals(bench):
     for technique in ONE_LOBE:
         done = bench.run("render", *CLOSE, "--technique", technique, "--brdf", "ward", "-o", "a.exr").expect(2)
@@ -55,7 +55,7 @@ def refusals(bench):
 
 
 # The models that lie level and those that can be tilted are one where nothing is tilted.
-@case("brdf.masking_chooses_among_the_models", tier="check")
+@case("brdf.masking_chooses_among_the_models")
 def masking(bench):
     mc = (*CLOSE, "--technique", "mc", "--samples", "4")
     hashes = {}

@@ -120,7 +120,7 @@ EFFECT = (("--technique", "mc", "--samples", "1", "--seed", "3"), ("--technique"
           ("--anisotropy", "0.5"), ("--exposure", "1", "-o", "a.png"), ("--backend", "reference", "--samples", "64", "--seed", "3"))
 
 
-@case("usage.an_option_without_effect_is_one_warning_that_names_both")
+@case("usage.an_option_without_effect_is_one_warning_that_names_both", tier="nightly")
 def no_effect(bench):
     small = ("builtin:plate", "--size", "16x16", "--env-size", "16", "--env-samples", "1", "-o", "a.pfm")
     for words, warning in NO_EFFECT:
@@ -132,7 +132,7 @@ def no_effect(bench):
         check("no effect" not in done.err, done.describe())
 
 
-@case("camera.an_environment_that_is_turned_is_a_world_that_is_turned_the_other_way")
+@case("camera.an_environment_that_is_turned_is_a_world_that_is_turned_the_other_way", tier="nightly")
 def turned_environment(bench):
     """By each renderer: under an environment at 40 degrees a camera at azimuth 30 sees what one at -10 sees of the turned scene without."""
     gltf = gltf_files.triangle()

@@ -33,7 +33,7 @@ def errors_of(rows):
     return [(row["technique"], row["settings"]["samples"], row["flip_mean"], row["rel_mse"]) for row in rows]
 
 
-@case("chart.a_busy_machine_is_said")
+@case("chart.a_busy_machine_is_said", tier="nightly")
 def busy(bench):
     needs_embree(bench)
     words = ("chart", "builtin:plate", *TINY, "--size", "640x360", "--error-size", "64x36", "--runs", "20", "--techniques", "mc", "--sweep", "samples=16",
@@ -51,7 +51,7 @@ def busy(bench):
     check("Other programs took" in (bench.folder / "r/report.html").read_text(), "the page does not say that the machine was busy")
 
 
-@case("chart.rows_and_files_hold_every_setting", "input")
+@case("chart.rows_and_files_hold_every_setting", "input", tier="nightly")
 def rows(bench):
     needs_embree(bench)
     done = bench.run("chart", "builtin:spheres", "--env", "builtin:studio", "--env", "builtin:sky", *FEW, "--sweep", "roughness=0.2,0.4", "-o", "r").expect(0)
@@ -93,7 +93,7 @@ def rows(bench):
         check(abs(mine[name] - other[name]) < 1e-6 * max(1, abs(other[name])), f"{name}: {mine[name]} and by compare {other[name]}")
 
 
-@case("chart.flip_of_shown_pictures_is_what_compare_says_of_them")
+@case("chart.flip_of_shown_pictures_is_what_compare_says_of_them", tier="nightly")
 def display_flip(bench):
     needs_embree(bench)
     shown = ("--exposure", "-1")
@@ -107,7 +107,7 @@ def display_flip(bench):
     check(abs(report["rows"][0]["flip_mean"] - other) < 1e-6, f"{report['rows'][0]['flip_mean']} and by compare {other}")
 
 
-@case("chart.sweeps_any_option_of_pictures")
+@case("chart.sweeps_any_option_of_pictures", tier="nightly")
 def sweeps_any_option(bench):
     needs_embree(bench)
     words = ("chart", "builtin:plate", "--env", "builtin:studio", *FEW, "--sweep", "axis-k=1,2.5", "--sweep", "env-rotation=0,90", "--sweep", "tilt=0,0:15,0")
@@ -134,7 +134,7 @@ def sweeps_any_option(bench):
     check(abs(mine - other) < 1e-6, f"{mine} and by compare {other}")
 
 
-@case("chart.sweeps_what_a_scene_is_read_by")
+@case("chart.sweeps_what_a_scene_is_read_by", tier="nightly")
 def sweeps_scenes(bench):
     """Time and materials: each row is the picture of its own scene, and has its own reference."""
     needs_embree(bench)
@@ -185,7 +185,7 @@ def wrong(bench):
     check(bench.left_behind() == [], f"left behind: {bench.left_behind()}")
 
 
-@case("chart.errors_are_of_the_error_size")
+@case("chart.errors_are_of_the_error_size", tier="nightly")
 def error_size(bench):
     """Times are of frames of --size, errors of pictures of --error-size: the same errors as where that is the size of both."""
     needs_embree(bench)
@@ -202,7 +202,7 @@ def error_size(bench):
     bench.run("chart", "--size", "1000x700", "--error-size", "0x0", *FEW[2:], "-o", "r").expect(2).expect_one_line("--error-size")
 
 
-@case("chart.noise_of_the_references_falls_with_their_samples")
+@case("chart.noise_of_the_references_falls_with_their_samples", tier="nightly")
 def noise(bench):
     """Every place tells what its reference's noise is worth; more samples make it less."""
     needs_embree(bench)
@@ -231,7 +231,7 @@ def bad_files(bench):
     bench.run("chart", *FEW, "-o", "/proc/no/such").expect(7).expect_one_line("/proc/no/such")
 
 
-@case("chart.a_finished_one_measures_nothing_again")
+@case("chart.a_finished_one_measures_nothing_again", tier="nightly")
 def again(bench):
     needs_embree(bench)
     words = ("chart", *FEW, "-o", "r")
@@ -268,7 +268,7 @@ def wait_until(child, done, what):
         time.sleep(0.02)
 
 
-@case("chart.goes_on_after_being_killed")
+@case("chart.goes_on_after_being_killed", tier="nightly")
 def killed(bench):
     """The runs asked for at first take minutes on any machine: each of three charts is interrupted once it has kept something of its own."""
     needs_embree(bench)
@@ -297,7 +297,7 @@ def killed(bench):
     check(all(len(row["ms"]) == runs for row in after.values()) and len(rows_of(bench, "r")) == 3, "runs are missing")
 
 
-@case("chart.nothing_stale_is_left")
+@case("chart.nothing_stale_is_left", tier="nightly")
 def stale(bench):
     """The folder holds the last report: earlier charts and pictures go, a reader's own files and the times measured before stay."""
     needs_embree(bench)
@@ -329,7 +329,7 @@ def reference_samples(done):
     return int(found[1]), int(found[2] or 0)
 
 
-@case("chart.a_stopped_reference_goes_on")
+@case("chart.a_stopped_reference_goes_on", tier="nightly")
 def stopped_reference(bench):
     needs_embree(bench)
     cache = bench.folder / "own_cache"
@@ -356,7 +356,7 @@ def stopped_reference(bench):
     check("made anew" in done.err and reference_samples(done) == (128, 0), done.describe())
 
 
-@case("chart.references_of_before_go_when_the_cache_is_full")
+@case("chart.references_of_before_go_when_the_cache_is_full", tier="nightly")
 def cache_limit(bench):
     needs_embree(bench)
     env = {"XDG_CACHE_HOME": str(bench.folder / "own_cache")}

@@ -42,7 +42,7 @@ def point(browser, index):
         return {{x: b.x + b.width / 2, y: b.y + b.height / 2, row: p.dataset.row}}; }})()""")
 
 
-@case("chart.page_points_answer_mouse_and_keys")
+@case("chart.page_points_answer_mouse_and_keys", tier="nightly")
 def points(bench):
     with make_page(bench) as browser:
         browser.size(1200, 900)
@@ -92,7 +92,7 @@ def points(bench):
         healthy(browser)
 
 
-@case("chart.page_wall_compares_pictures")
+@case("chart.page_wall_compares_pictures", tier="nightly")
 def wall(bench):
     with make_page(bench) as browser:
         browser.size(1200, 900)
@@ -157,7 +157,7 @@ def wall(bench):
         healthy(browser)
 
 
-@case("chart.page_fits_narrow_and_dark_windows")
+@case("chart.page_fits_narrow_and_dark_windows", tier="nightly")
 def narrow(bench):
     with make_page(bench) as browser:
         page = bench.folder / "r/report.html"
@@ -231,7 +231,7 @@ UNLIKE = """(async (svg, png, scale) => {
 })"""
 
 
-@case("chart.png_is_the_svg")
+@case("chart.png_is_the_svg", tier="nightly")
 def png_is_the_svg(bench):
     with make_page(bench) as browser:
         browser.open(bench.folder / "r/report.html")

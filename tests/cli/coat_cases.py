@@ -34,7 +34,7 @@ def scene(bench, name, **material):
     return scratch(bench, name + ".gltf", files.text(coated(**material)))
 
 
-@case("coat.faults_are_named_by_their_place", "input", tier="check")
+@case("coat.faults_are_named_by_their_place", "input")
 def faults(bench):
     for coat, place in (({"clearcoatFactor": 2}, "/clearcoatFactor"), ({"clearcoatFactor": -0.1}, "/clearcoatFactor"),
                         ({"clearcoatFactor": "much"}, "/clearcoatFactor"), ({"clearcoatRoughnessFactor": 1.5}, "/clearcoatRoughnessFactor"),
@@ -53,7 +53,7 @@ def faults(bench):
     check("clearcoat" not in bench.run("render", *words).expect(0).err, "--strict has something to say of a clear coat")
 
 
-@case("coat.each_of_its_numbers_is_seen", tier="check")
+@case("coat.each_of_its_numbers_is_seen")
 def seen(bench):
     full = {name: bench.figures(scene(bench, name, **material), *CLOSE)["pixel_hash"] for name, material in
             (("coated", {}), ("bare", dict(coat={"clearcoatFactor": 0})), ("half", dict(coat={"clearcoatFactor": 0.5})), ("smooth", dict(roughness=0)),

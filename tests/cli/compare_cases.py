@@ -111,7 +111,7 @@ def kind(bench):
     check(figures(bench, "a.png", "wide.png")["differing_fraction"] == 0, "16 bits of the same values are the same")
 
 
-@case("compare.flip_options_count")
+@case("compare.flip_options_count", tier="nightly")
 def flip_options(bench):
     pictures(bench)
     near = figures(bench, "a.png", "b.png", "--ppd", "20")["flip_max"]
@@ -124,7 +124,7 @@ def flip_options(bench):
     check(means["aces"] == figures(bench, "a.pfm", "b.pfm")["flip_mean"], "aces is the default")
 
 
-@case("compare.limits_decide_the_exit_code")
+@case("compare.limits_decide_the_exit_code", tier="nightly")
 def limits(bench):
     pictures(bench)
     found = figures(bench, "a.png", "b.png")
@@ -138,7 +138,7 @@ def limits(bench):
     check(figures(bench, "a.png", "b.png", "--fail-flip", "0", code=1)["flip_mean"] > 0, "a failing run writes its figures too")
 
 
-@case("compare.sizes_and_channels_must_match", "input")
+@case("compare.sizes_and_channels_must_match", "input", tier="nightly")
 def mismatch(bench):
     pictures(bench)
     scratch(bench, "narrow.png", png(23, 16, ramp))
@@ -150,7 +150,7 @@ def mismatch(bench):
     check(not (bench.folder / "j.json").exists(), "figures of pictures that cannot be compared")
 
 
-@case("compare.alpha_of_one_alone_is_left_out")
+@case("compare.alpha_of_one_alone_is_left_out", tier="nightly")
 def lone_alpha(bench):
     pictures(bench)
     for alpha in (255, 40):
@@ -169,7 +169,7 @@ def lone_alpha(bench):
     check(done.err.count("alone has alpha") == 1 and "FLIP mean   0.000000" in done.out, done.describe())
 
 
-@case("compare.unreadable_pictures_are_refused", "input")
+@case("compare.unreadable_pictures_are_refused", "input", tier="nightly")
 def unreadable(bench):
     pictures(bench)
     scratch(bench, "text.png", b"no picture at all")
@@ -183,7 +183,7 @@ def unreadable(bench):
     bench.run("compare", "a.png", "b.png", "--limit-texture-bytes", "1K").expect(4).expect_one_line("a.png")
 
 
-@case("compare.nan_and_inf_exit_6", "input")
+@case("compare.nan_and_inf_exit_6", "input", tier="nightly")
 def not_finite(bench):
     pictures(bench)
     holes = {(3, 4): (NAN, 1, 1), (5, 6): (1, INF, -INF)}
@@ -198,7 +198,7 @@ def not_finite(bench):
     done.expect(6)  # NaN is no difference that a limit could allow
 
 
-@case("compare.page_stands_alone")
+@case("compare.page_stands_alone", tier="nightly")
 def page(bench):
     pictures(bench)
     strange = scratch(bench, 'a <b> & "c".png', png(24, 16, ramp))
@@ -226,7 +226,7 @@ def page(bench):
     check(done.out.startswith("<!DOCTYPE html>") and done.out.endswith("</html>\n"), "no page on standard output")
 
 
-@case("compare.page_slides_flickers_zooms_and_shows_the_histogram", tier="GATE")
+@case("compare.page_slides_flickers_zooms_and_shows_the_histogram")
 def page_in_browser(bench):
     pictures(bench)
     with Browser(bench.folder / "browser") as browser:
@@ -273,7 +273,7 @@ def error_map(bench):
     check(data.startswith(b"Pf") and all(abs(e - 1) < 1e-4 for e in errors), f"{errors}")
 
 
-@case("compare.z_test_tells_noise_from_difference")
+@case("compare.z_test_tells_noise_from_difference", tier="nightly")
 def z_test(bench):
     scratch(bench, "mean.pfm", pfm(10, 10, lambda x, y: (1, 1, 1)))
     scratch(bench, "near.pfm", pfm(10, 10, lambda x, y: (1.35, 0.8, 1)))
@@ -293,7 +293,7 @@ def z_test(bench):
     bench.run("compare", "-q", "mean.pfm", "near.pfm", "--variance", "variance.pfm", "--significance", "0.5").expect(1)
 
 
-@case("compare.variances_are_checked", "input")
+@case("compare.variances_are_checked", "input", tier="nightly")
 def variances(bench):
     pictures(bench)
     scratch(bench, "negative.pfm", pfm(24, 16, lambda x, y: (1, 1, -1 if (x, y) == (3, 3) else 1)))
@@ -304,7 +304,7 @@ def variances(bench):
     bench.run("compare", "-q", "a.png", "b.png", "--variance", "a.pfm").expect(2).expect_one_line("--variance")
 
 
-@case("compare.figures_do_not_depend_on_the_machine")
+@case("compare.figures_do_not_depend_on_the_machine", tier="nightly")
 def repeatable(bench):
     pictures(bench)
     found = set()

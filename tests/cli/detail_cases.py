@@ -49,7 +49,7 @@ def off_by(bench, a, b):
     return json.loads((bench.folder / "c.json").read_text())
 
 
-@case("detail.frames_under_a_map_differ_as_they_are_named", tier="check")
+@case("detail.frames_under_a_map_differ_as_they_are_named")
 def frames(bench):
     scene = scenes(bench)
     plain = hash_of(bench, scene, *VIEW, *METAL)
@@ -66,7 +66,7 @@ def frames(bench):
         hash_of(bench, scene, *VIEW, *METAL, "--normal-map", "odd.png", "--frame-map", way)
 
 
-@case("detail.normal_maps_of_green_down", tier="check")
+@case("detail.normal_maps_of_green_down")
 def green_down(bench):
     scene = scenes(bench)
     scratch(bench, "d.png", png(16, 16, lambda x, y: (bumps(x, y)[0], 255 - bumps(x, y)[1], bumps(x, y)[2])))
@@ -75,7 +75,7 @@ def green_down(bench):
     check(hash_of(bench, scene, *VIEW, "--normal-map", "d.png") != up, "both ways look alike")
 
 
-@case("detail.quaternion_maps_are_normal_maps", tier="check")
+@case("detail.quaternion_maps_are_normal_maps")
 def quaternions(bench):
     scene = scenes(bench)
     bench.run("render", scene, *VIEW, *METAL, "--normal-map", "n.png", "-q", "-o", "n.pfm").expect(0)
@@ -105,7 +105,7 @@ def quaternions(bench):
     check(off_by(bench, "plain.pfm", "r.pfm")["max_abs"] < 1e-6, "repaired normals are not level")
 
 
-@case("detail.rotations_are_one_whatever_says_them", tier="check")
+@case("detail.rotations_are_one_whatever_says_them")
 def rotations(bench):
     scene = scenes(bench)
     expressions = ("cos(pi*v)", "sin(pi*v)")
@@ -145,7 +145,7 @@ def square(turned):
 
 
 # However the texture lies on it, the grain is the one asked for; the border of a texel's width is the filter's.
-@case("detail.straightened_grain_lies_in_one_direction", tier="check")
+@case("detail.straightened_grain_lies_in_one_direction")
 def straightened(bench):
     drawn = {}
     for turned in (0, 30, 200):
@@ -249,7 +249,7 @@ def lean(bench):
         check(off["lean", taps] < 0.4 * off["box", taps], f"{off}")
 
 
-@case("detail.reflectance_of_all_materials", tier="check")
+@case("detail.reflectance_of_all_materials")
 def reflectance(bench):
     metal = bare(pbrMetallicRoughness={"roughnessFactor": 0.3, "baseColorFactor": [0.5, 0.6, 0.7, 1]})
     scratch(bench, "metal.gltf", files.text(metal))
@@ -260,7 +260,7 @@ def reflectance(bench):
         bench.run("render", "metal.gltf", "--f0=" + bad, "-o", "a.png").expect(2).expect_one_line("--f0")
 
 
-@case("detail.material_folders_are_read_by_name", tier="check")
+@case("detail.material_folders_are_read_by_name")
 def folders(bench):
     scene = scenes(bench)
     folder = pathlib.Path(bench.folder) / "set"
@@ -299,7 +299,7 @@ def folders(bench):
         bench.run("render", "flat.gltf", *VIEW, option, "n.png", "-o", "a.png").expect(4).expect_one_line("n.png", "texture coordinates")
 
 
-@case("detail.faults_of_maps_are_named_by_their_place", "input", tier="check")
+@case("detail.faults_of_maps_are_named_by_their_place", "input")
 def faults(bench):
     at = "/materials/0/extras/burnish/"
     for key, info, place in (("quaternionTexture", 3, "quaternionTexture"), ("quaternionTexture", {"index": 9}, "quaternionTexture/index"),
@@ -310,7 +310,7 @@ def faults(bench):
         refuse(bench, scratch(bench, "bad.gltf", files.text(gltf)), needles=(at + place,))
 
 
-@case("detail.expressions_say_where_they_are_wrong", "input", tier="check")
+@case("detail.expressions_say_where_they_are_wrong", "input")
 def expressions(bench):
     there = bench.left_behind()
     for expr, needles in ((("cos(pi*v", "1"), ("--expr", "column 9")), (("1+*u", "1"), ("column 3",)), (("sin(w)", "1"), ("column 5", "w")),
@@ -329,7 +329,7 @@ def expressions(bench):
 QUAD = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n"
 
 
-@case("detail.obj_files_are_read", "input", tier="check")
+@case("detail.obj_files_are_read", "input")
 def obj(bench):
     scratch(bench, "n.png", png(16, 16, bumps))
     texts = {"triangles": QUAD + "f 1/1 2/2 3/3\nf 1/1 3/3 4/4\n", "quad": QUAD + "f 1/1 2/2 3/3 4/4\n", "back": QUAD + "f -4/-4 -3/-3 -2/-2 -1/-1\n",
@@ -410,7 +410,7 @@ def phong_reference(bench):
 
 
 # One sample is what a mirror shows, dimmed by the lobe's albedo, which compensation gives back.
-@case("detail.one_sample_of_as_mc_is_a_mirror", tier="check")
+@case("detail.one_sample_of_as_mc_is_a_mirror")
 def one_sample(bench):
     words = ("builtin:teapot", "--size", "48x36", "--msaa", "1", "--env-size", "64", "--env-samples", "32", "--key-lights", "off", "--no-background", "-q",
              "--f0", "1,1,1", "--anisotropy", "0.5", "--technique", "as_mc")
@@ -422,7 +422,7 @@ def one_sample(bench):
     check(off_by(bench, "mirror.pfm", "more.pfm")["mse"] > 1e-3, "16 samples are a mirror, too")
 
 
-@case("detail.tables_of_phong_lobes_are_written", "input", tier="check")
+@case("detail.tables_of_phong_lobes_are_written", "input")
 def phong_tables(bench):
     bench.run("bake", "brdf-lut", "--nu", "100", "--nv", "10", "--size", "9x9", "--azimuth", "linear", "-q", "-o", "a.pfm").expect(0)
     values = struct.unpack("<243f", (bench.folder / "a.pfm").read_bytes()[-972:])
@@ -446,7 +446,7 @@ def phong_tables(bench):
     check(bench.left_behind() == there, "something is left behind")
 
 
-@case("detail.a_scene_alone_is_drawn", tier="check")
+@case("detail.a_scene_alone_is_drawn")
 def alone(bench):
     scratch(bench, "q.obj", square(0))
     bench.run("q.obj", *VIEW, "-q", "-o", "a.pfm").expect(0)

@@ -45,7 +45,7 @@ def angles(bench, colours, *words):
     return [math.degrees(math.atan2(g - 127.5, r - 127.5)) for r, g, _ in found], [b for _, _, b in found]
 
 
-@case("bake.directions_are_half_the_hue", tier="check")
+@case("bake.directions_are_half_the_hue")
 def hues(bench):
     colours = [(255, 0, 0), (255, 255, 0), (0, 255, 0), (0, 255, 255), (0, 0, 255), (255, 0, 255), (90, 90, 90), (200, 100, 150)]
     found, blue = angles(bench, colours)
@@ -54,7 +54,7 @@ def hues(bench):
     check(set(angles(bench, colours, "--strength", "0.4")[1]) == {102}, "another strength")
 
 
-@case("bake.directions_follow_luminance", tier="check")
+@case("bake.directions_follow_luminance")
 def luminances(bench):
     found, _ = angles(bench, [(0, 0, 0), (51, 51, 51), (128, 128, 128), (0, 255, 0), (0, 0, 255)], "--from", "luminance")
     code = lambda y: 1.055 * y**(1 / 2.4) - 0.055
@@ -72,7 +72,7 @@ def scene(with_map):
     return text(gltf).encode()
 
 
-@case("bake.a_map_of_directions_is_the_file_s_own", tier="check")
+@case("bake.a_map_of_directions_is_the_file_s_own")
 def as_in_the_file(bench):
     rainbow = lambda x, y: tuple(int(127.5 + 127.5 * math.cos(2 * math.pi * (x / 16 - k / 3))) for k in range(3))
     scratch(bench, "p.png", png(16, 16, rainbow))
@@ -86,7 +86,7 @@ def as_in_the_file(bench):
         check(own == mapped != bare, f"{words}: {own}, {mapped} by the option, {bare} without")
 
 
-@case("bake.wrong_maps_of_directions_say_one_line", tier="check")
+@case("bake.wrong_maps_of_directions_say_one_line")
 def wrong(bench):
     scratch(bench, "p.png", png(2, 2, lambda x, y: (1, 2, 3)))
     scratch(bench, "g.png", png(2, 2, lambda x, y: (9,), channels=1))

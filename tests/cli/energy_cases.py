@@ -64,7 +64,7 @@ def furnace(bench, asked):
     check(not off, "; ".join(off))
 
 
-@case("energy.an_even_light_hides_white_metal_in_some_ways", tier="GATE")
+@case("energy.an_even_light_hides_white_metal_in_some_ways")
 def some_furnaces(bench):
     furnace(bench, [("auto", None, row) for row in FURNACE] +
             [(name, None, "roughness") for name in names_of(bench, "techniques") if name != "mc"] + [("mc", "ellipsoid", "tilt"), ("mc", "beckmann", "grain")])
@@ -250,7 +250,7 @@ def change_places(bench, asked, lamps="lamp"):
     check(refused < len(asked) / 3, "most are refused")
 
 
-@case("energy.eye_and_lamp_change_places", tier="GATE")
+@case("energy.eye_and_lamp_change_places")
 def some_places(bench):
     change_places(bench, [(name,) for name in all_options(bench)])
     change_places(bench, [("rough",), ("technique split_isotropic",), ("technique lobe_line",)], "key")

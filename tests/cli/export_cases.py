@@ -50,7 +50,7 @@ def compiles(bench, text):
     return done.returncode == 0, done.stderr
 
 
-@case("export.every_technique_compiles_alone", tier="check")
+@case("export.every_technique_compiles_alone")
 def compiles_alone(bench):
     compiler()
     for name, _ in TECHNIQUES:
@@ -60,7 +60,7 @@ def compiles_alone(bench):
     check(not compiles(bench, ENGINE.format(text="", name=name))[0], "an engine without the file compiles too")
 
 
-@case("export.a_file_has_what_it_needs_and_no_more", tier="check")
+@case("export.a_file_has_what_it_needs_and_no_more")
 def no_more(bench):
     for name, _ in TECHNIQUES:
         text = exported(bench, name)
@@ -79,7 +79,7 @@ def no_more(bench):
     check("beckmann" not in exported(bench, "major_axis"), "models that it does not know")
 
 
-@case("export.a_grid_has_as_many_samples_as_asked_for", tier="check")
+@case("export.a_grid_has_as_many_samples_as_asked_for")
 def grid(bench):
     for asked, count in (("25", 25), ("40", 36)):
         text = exported(bench, "filtered_is", "--samples", asked)
@@ -170,7 +170,7 @@ def seen(bench):
     check({row["first_difference"] for row in report["rows"]} == {"shaded colour"}, f"{report['rows']}")
 
 
-@case("export.wrong_options_say_one_line", tier="check")
+@case("export.wrong_options_say_one_line")
 def wrong(bench):
     for words, code, needle in ((("glsl", "-o", "a.glsl"), 2, "--technique"), (("glsl", "--technique", "mc"), 2, "--output"),
                                 (("glsl", "--technique", "auto", "-o", "a.glsl"), 2, "auto"), (("hlsl", "--technique", "mc", "-o", "a"), 2, "glsl"),

@@ -80,7 +80,7 @@ FLOORS = ((5e4, 1.7, 0.15, 0.01, "640x360"), (1e5, 1.7, 0.15, 0.01, "512x512"), 
           (1e7, 2.0, 0.4, 0.01, "97x61"), (3e6, 500.0, 0.2, 1.0, "96x96"), (100, 1.7, 0.2, 0.01, "96x96"))
 
 
-@case("geometry.floors_reach_the_horizon_at_every_size", tier="check")
+@case("geometry.floors_reach_the_horizon_at_every_size")
 def floors(bench):
     for half, eye, pitch, znear, size in FLOORS:
         scratch(bench, "floor.gltf", floor(half, eye, pitch, znear=znear))
@@ -89,7 +89,7 @@ def floors(bench):
         check(wrong == 0, f"{wrong} pixels of a floor of {half} m at {size}")
 
 
-@case("geometry.files_of_large_floors_are_green_below_the_horizon", tier="check")
+@case("geometry.files_of_large_floors_are_green_below_the_horizon")
 def floor_files(bench):
     for name, half, eye, pitch, size in (("50km", 5e4, 1.7, 0.15, "640x360"), ("100km", 1e5, 1.7, 0.15, "512x512"),
                                          ("200km_down", 2e5, 1.0, 0.9, "96x96")):
@@ -97,7 +97,7 @@ def floor_files(bench):
         check(wrong_pixels(bench, half, eye, pitch) == 0, f"floor_{name}.gltf at {size}")
 
 
-@case("parity.large_floors_are_those_of_the_tile_renderer")
+@case("parity.large_floors_are_those_of_the_tile_renderer", tier="nightly")
 def floors_on_a_device(bench):
     for half, eye, pitch, znear, size in FLOORS[1:4]:
         scratch(bench, "floor.gltf", floor(half, eye, pitch, znear=znear))
@@ -112,7 +112,7 @@ def places(offset):
     return [sum(pair) for pair in zip((0.25, 0.5, 3.0), offset)]
 
 
-@case("geometry.far_from_the_origin_is_as_it_is_near_it", tier="check")
+@case("geometry.far_from_the_origin_is_as_it_is_near_it")
 def far(bench):
     """The plate and its camera, moved: the same words, by a camera of the file and by --eye, whose digits floats do not hold."""
     for backend in (("--backend", "tile"), ("--backend", "reference", "--samples", "4"), ("--backend", "vulkan", "--device", "lavapipe")):
@@ -134,7 +134,7 @@ def far(bench):
             check(pictures["near", way].count(struct.pack("<f", GREEN[1])) > 500, f"{backend[1]}: no plate by {way}")
 
 
-@case("geometry.skins_far_from_the_origin_are_as_near_it", tier="check")
+@case("geometry.skins_far_from_the_origin_are_as_near_it")
 def far_skin(bench):
     pictures = []
     for offset in ((0, 0, 0), AWAY):
@@ -146,7 +146,7 @@ def far_skin(bench):
     check(pictures[0].count(struct.pack("<f", GREEN[1])) > 500, "no plate")
 
 
-@case("geometry.digits_that_a_file_has_lost_are_warned_of", tier="check")
+@case("geometry.digits_that_a_file_has_lost_are_warned_of")
 def lost(bench):
     far_corners = [[a + b for a, b in zip(corner, AWAY)] for corner in PLATE]
     scratch(bench, "baked.gltf", quad(far_corners, places(AWAY)))

@@ -24,7 +24,7 @@ def triangle_of(conductor=None, metallic=1.0, color=0.4, **more):
     return gltf
 
 
-@case("fresnel.faults_of_a_conductor_are_named_by_their_place", "input", tier="check")
+@case("fresnel.faults_of_a_conductor_are_named_by_their_place", "input")
 def faults(bench):
     at = "/materials/0/extras/burnish"
     for conductor, places in ((dict(eta=GOLD["eta"]), (at + "/conductor", '"k" is missing')), (dict(k=GOLD["k"]), (at + "/conductor", '"eta" is missing')),
@@ -38,7 +38,7 @@ def faults(bench):
     bench.run("render", "--fresnel", "exact").expect(2).expect_one_line("--fresnel", "schlick", "conductor", "dielectric")
 
 
-@case("fresnel.a_law_changes_what_it_names", tier="check")
+@case("fresnel.a_law_changes_what_it_names")
 def laws(bench):
     hashes = {}
     for name, gltf in (("gold", triangle_of(GOLD)), ("plain", triangle_of()), ("glass", triangle_of(metallic=0.0))):

@@ -27,7 +27,7 @@ def scene(bench, name, **material):
     return scratch(bench, name + ".gltf", files.text(glass(**material)))
 
 
-@case("glass.faults_are_named_by_their_place", "input", tier="check")
+@case("glass.faults_are_named_by_their_place", "input")
 def faults(bench):
     for material, place in ((dict(factor=2), "transmission/transmissionFactor"), (dict(factor=-0.1), "transmission/transmissionFactor"),
                             (dict(factor="much"), "transmission/transmissionFactor"), (dict(ior=0.5), "ior/ior"), (dict(ior=-1), "ior/ior")):
@@ -39,7 +39,7 @@ def faults(bench):
     check(any(line.split()[:2] == ["KHR_materials_transmission", "supported"] for line in listed.splitlines()), listed)
 
 
-@case("glass.techniques_that_draw_it_opaque_say_so", tier="check")
+@case("glass.techniques_that_draw_it_opaque_say_so")
 def opaque(bench):
     clear, none = scene(bench, "clear"), scene(bench, "none", factor=0)
     warning = "drawn opaque by"

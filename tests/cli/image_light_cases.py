@@ -47,7 +47,7 @@ def near(found, wanted):
     return all(abs(f - w) < 0.02 for f, w in zip(found, wanted))
 
 
-@case("image_light.lights_the_scene_that_brings_it", "input", tier="check")
+@case("image_light.lights_the_scene_that_brings_it", "input")
 def lights(bench):
     model = bench.data_file("models/ibl_six_colours.glb")
     for towards, colour in COLOURS.items():
@@ -65,7 +65,7 @@ def lights(bench):
     check(abs(told["mean_radiance"] - mean) < 0.005, f"{told}")
 
 
-@case("image_light.rotation_intensity_and_divisors_are_taken", "input", tier="check")
+@case("image_light.rotation_intensity_and_divisors_are_taken", "input")
 def taken(bench):
     gltf = lit()
     light(gltf)["rotation"], light(gltf)["intensity"] = [0, 0.5 ** 0.5, 0, 0.5 ** 0.5], 3
@@ -119,7 +119,7 @@ def broken():
     yield one("a_scene_without_index", f"/scenes/0/extensions/{NAME}", lambda g: g["scenes"][0]["extensions"][NAME].clear())
 
 
-@case("image_light.what_is_wrong_is_told_by_its_place", "input", tier="check")
+@case("image_light.what_is_wrong_is_told_by_its_place", "input")
 def refused(bench):
     for name, where, gltf in broken():
         scratch(bench, f"{name}.gltf", files.text(gltf))

@@ -225,7 +225,7 @@ def by_way(bench, paths):
             for name in names_of(bench, "area-lights") if name != "off" for path in paths}
 
 
-@case("laws.no_technique_jumps_in_some_places", tier="GATE")
+@case("laws.no_technique_jumps_in_some_places")
 def some_jumps(bench):
     held(bench, by_technique(bench, SHORT))
 
@@ -245,7 +245,7 @@ def area_jumps(bench):
     held(bench, by_way(bench, AREA_PATHS))
 
 
-@case("laws.lamps_go_through_the_horizon_without_a_jump", tier="GATE")
+@case("laws.lamps_go_through_the_horizon_without_a_jump")
 def sinking_lamps(bench):
     held(bench, by_way(bench, [path for path in AREA_PATHS if "lamp that" in path]))
 

@@ -13,7 +13,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 NAN, INF = float("nan"), float("inf")
 
 
-@case("key_lights.are_as_many_as_asked_for", "input", tier="check")
+@case("key_lights.are_as_many_as_asked_for", "input")
 def as_many(bench):
     def found(*words):
         return bench.figures("--env", "builtin:sky", *SMALL, *words)
@@ -32,7 +32,7 @@ def as_many(bench):
     check(abs(turned["direction"][1] - sun["direction"][1]) < 1e-6 and turned["direction"][0] != sun["direction"][0], f"{turned}")
 
 
-@case("key_lights.are_none_in_the_studio", tier="check")
+@case("key_lights.are_none_in_the_studio")
 def none_in_the_studio(bench):
     """Whose picture does not change."""
     hashes = set()
@@ -43,7 +43,7 @@ def none_in_the_studio(bench):
     check(len(hashes) == 1, f"{hashes}")
 
 
-@case("key_lights.are_told", tier="check")
+@case("key_lights.are_told")
 def are_told(bench):
     told = bench.run("render", "--env", "builtin:sky", *SMALL, "-v").expect(0).err
     check("key light" in told and "% of the light" in told, told)
@@ -56,7 +56,7 @@ def are_told(bench):
     bench.run("info", "--env", "nothing.exr").expect(4).expect_one_line("nothing.exr")
 
 
-@case("key_lights.option_takes_nothing_else", "input", tier="check")
+@case("key_lights.option_takes_nothing_else", "input")
 def nothing_else(bench):
     for word in ("-1", "9", "1000", "on", "1.5", "", "99999999999999999999"):
         for command in (("render", "-o", "out.png"), ("info",)):
@@ -64,7 +64,7 @@ def nothing_else(bench):
     check(bench.left_behind() == [], f"{bench.left_behind()}")
 
 
-@case("key_lights.of_poor_environments_do_no_harm", "input", tier="check")
+@case("key_lights.of_poor_environments_do_no_harm", "input")
 def poor_environments(bench):
     """Black, even, one bright texel, one pixel: pictures without NaN, and the light is there."""
     pictures = {"black": (32, 16, even(0.0)), "even": (32, 16, even(1.0)), "texel": (64, 32, with_texels({(20, 10): 1e6}, 0.0)),
@@ -77,7 +77,7 @@ def poor_environments(bench):
             check(found["warnings"] == [], f"{name}: {found['warnings']}")
 
 
-@case("key_lights.environments_are_repaired_and_said_so", "input", tier="check")
+@case("key_lights.environments_are_repaired_and_said_so", "input")
 def repaired(bench):
     """A warning is one line, also in --stats, from the bake and from the cache."""
     for name, value, words in (("nan", NAN, "1 NaN values"), ("inf", INF, "1 infinite values"), ("1e30", 1e30, "1 infinite values"),
@@ -98,7 +98,7 @@ def repaired(bench):
     check(found["nan_pixels"] == 0 and len(found["warnings"]) == 1, f"{found['warnings']}")
 
 
-@case("key_lights.an_environment_of_8_bits_is_said_to_be_one", "input", tier="check")
+@case("key_lights.an_environment_of_8_bits_is_said_to_be_one", "input")
 def low_dynamic_range(bench):
     path = scratch(bench, "day.png", png(64, 32, lambda x, y: (200, 220, 255) if y < 16 else (60, 50, 40)))
     for words in ((), ("--no-cache",)):
@@ -109,7 +109,7 @@ def low_dynamic_range(bench):
         check(len(stats["warnings"]) == 1 and "no high dynamic range" in stats["warnings"][0] and stats["nan_pixels"] == 0, f"{stats['warnings']}")
 
 
-@case("key_lights.cache_that_cannot_be_written_is_a_warning", tier="check")
+@case("key_lights.cache_that_cannot_be_written_is_a_warning")
 def unwritable_cache(bench):
     scratch(bench, "file", b"no folder")
     done = bench.run("render", "--env", "builtin:sky", *SMALL, "--stats", "s.json", env={"XDG_CACHE_HOME": str(bench.folder / "file")}).expect(0)

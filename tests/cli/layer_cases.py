@@ -59,7 +59,7 @@ def drawn_by(bench, name, backend, *words):
     done.expect(0)
 
 
-@case("layers.have_the_names_that_others_know", tier="check")
+@case("layers.have_the_names_that_others_know")
 def names(bench):
     bench.run("render", "builtin:bumps", *DRAWN, "--aov", ALL, "-o", "a.exr", "-o", "a.png").expect(0)
     bench.run("render", "builtin:bumps", *DRAWN, "-o", "b.exr", "-o", "b.png").expect(0)
@@ -85,7 +85,7 @@ def names(bench):
     check(1000 < seen < 96 * 64, f"{seen} pixels show something")
 
 
-@case("layers.are_the_same_bytes_by_vulkan", tier="GATE")
+@case("layers.are_the_same_bytes_by_vulkan")
 def twins(bench):
     """So are the pictures of samples tonemapped each by itself, and those of samples shared between pixels (auto)."""
     for scene, more in (("builtin:bumps", ()), ("builtin:spheres", ("--env-rotation", "40", "--no-background"))):
@@ -97,13 +97,13 @@ def twins(bench):
             check((bench.folder / f"tile.{kind}").read_bytes() == (bench.folder / f"vulkan.{kind}").read_bytes(), f"{scene}: .{kind} differs")
 
 
-@case("layers.of_a_row_and_of_a_film", tier="check")
+@case("layers.of_a_row_and_of_a_film")
 def rows(bench):
     bench.run("render", "builtin:plate", *DRAWN, "--aov", "depth", "--turntable", "2", "-o", "t%d.exr").expect(0)
     check("Z" in exr_channels(bench.folder / "t1.exr"), "a picture of a row has no layer")
 
 
-@case("layers.resolve_changes_edges_of_shown_pictures_alone", tier="check")
+@case("layers.resolve_changes_edges_of_shown_pictures_alone")
 def resolve(bench):
     drawn = ("render", "builtin:sphere", *DRAWN, "--env", "builtin:studio", "--exposure", "3", "--stats", "s.json")
     bench.run(*drawn, "-o", "l.tif", "-o", "l.exr").expect(0)
@@ -164,7 +164,7 @@ def texels_of(path):
     return rows
 
 
-@case("layers.are_shown_in_false_colour", tier="check")
+@case("layers.are_shown_in_false_colour")
 def shown(bench):
     scratch(bench, "n.png", png(64, 64, bumps))
     drawn = ("--size", "64x64", "--env-size", "32", "--env-samples", "16", "--msaa", "1", "-q")
@@ -206,7 +206,7 @@ def shown(bench):
     check(not [name for name in bench.left_behind() if name.startswith("x.")], f"{bench.left_behind()}")
 
 
-@case("layers.that_cannot_be_are_refused", tier="check")
+@case("layers.that_cannot_be_are_refused")
 def refused(bench):
     def no(code, needle, *words):
         bench.run("render", "builtin:plate", *DRAWN, *words).expect(code).expect_one_line(needle)
@@ -221,7 +221,7 @@ def refused(bench):
     no(2, "needs --pipeline ids", "--aov", "depth", "--backend", "vulkan", "--pipeline", "forward", "-o", "a.exr")
 
 
-@case("layers.specular_antialiasing_brings_normal_maps_nearer_to_the_truth", tier="GATE")
+@case("layers.specular_antialiasing_brings_normal_maps_nearer_to_the_truth")
 def specular_aa(bench):
     """Still, against the reference; by Vulkan it is the same picture."""
     view = ("builtin:bumps", "--size", "120x68", "--env-size", "128", "--env-samples", "64", "-q")

@@ -21,7 +21,7 @@ def scene(light, count=1):
     return text(gltf)
 
 
-@case("lights.of_files_and_of_the_command_line_are_the_same", tier="check")
+@case("lights.of_files_and_of_the_command_line_are_the_same")
 def same(bench):
     quad = {"shape": "quad", "points": [-1, 1, -1, 1, 1, -1, 1, 1, 1, -1, 1, 1], "radiance": [3, 2, 1], "twoSided": True, "solid": True}
     scratch(bench, "lit.gltf", scene(quad))
@@ -38,7 +38,7 @@ HALVES = png(16, 16, color=lambda x, y: (255, 30, 10) if x < 8 else (20, 60, 255
 HUNG = "quad:points=1,-1,1.5/-1,-1,1.5/-1,1,1.5/1,1,1.5:radiance=3,3,3"
 
 
-@case("lights.textures_of_files_and_of_the_command_line_are_the_same", tier="check")
+@case("lights.textures_of_files_and_of_the_command_line_are_the_same")
 def textures(bench):
     scratch(bench, "halves.png", HALVES)
     scratch(bench, "white.png", png(8, 4, color=lambda x, y: (255, 255, 255)))
@@ -58,7 +58,7 @@ def textures(bench):
         check(lit == given and lit != plain and plain == white, f"{way}: {lit} {given} {plain} {white}")
 
 
-@case("lights.textures_that_are_none_say_one_line", "input", tier="check")
+@case("lights.textures_that_are_none_say_one_line", "input")
 def wrong_textures(bench):
     scratch(bench, "halves.png", HALVES)
     at = "/nodes/1/extras/burnish/areaLight"
@@ -84,7 +84,7 @@ def wrong_textures(bench):
     check("a.png" not in bench.left_behind(), "a picture was written")
 
 
-@case("lights.that_are_none_say_one_line", "input", tier="check")
+@case("lights.that_are_none_say_one_line", "input")
 def wrong(bench):
     for light, place, needle in (
             ({"shape": "quad", "points": [0, 0, 0, 1, 0, 0, 2, 0, 0, 3, 0, 0], "radiance": [1, 1, 1]}, "/nodes/1/extras/burnish/areaLight", "on a line"),
@@ -139,7 +139,7 @@ def sealed(data):
     return data[:-8] + struct.pack("<Q", xxh64(data[:-8]))
 
 
-@case("lights.tables_that_are_none_say_one_line", "input", tier="check")
+@case("lights.tables_that_are_none_say_one_line", "input")
 def tables(bench):
     data = SHIPPED.read_bytes()
     check(sealed(data) == data, "the shipped table does not end with its hash")
@@ -164,7 +164,7 @@ def tables(bench):
     check("a.png" not in bench.left_behind(), "a picture was written")
 
 
-@case("lights.tables_take_the_place_of_the_program_s_own", tier="check")
+@case("lights.tables_take_the_place_of_the_program_s_own")
 def own(bench):
     round_table = SHIPPED.parent / "ggx_round.ltc"
     hashes = {}
@@ -207,7 +207,7 @@ FLOOR = ("--env", "builtin:night", "--env-size", "16", "--env-samples", "4", "--
 SHADOWS = ("--shadows", "ratio")
 
 
-@case("lights.shadows_by_a_ratio_are_the_reference_s", tier="check")
+@case("lights.shadows_by_a_ratio_are_the_reference_s")
 def shadows(bench):
     needs_embree(bench)
     scratch(bench, "floor.gltf", ball_over_plane(False))
@@ -232,7 +232,7 @@ def shadows(bench):
     bench.run("compare", "truth.png", "open.png", "--fail-flip", "0.03").expect(1)
 
 
-@case("lights.shadows_that_cannot_be_say_one_line", "input", tier="check")
+@case("lights.shadows_that_cannot_be_say_one_line", "input")
 def no_shadows(bench):
     needs_embree(bench)
     bench.run("render", *SMALL, *SHADOWS, "--backend", "reference", "-o", "a.png").expect(2).expect_one_line("--shadows", "shadowed")
@@ -244,7 +244,7 @@ def no_shadows(bench):
     check("a.png" not in bench.left_behind(), "a picture was written")
 
 
-@case("lights.more_than_the_limit_are_refused", "input", tier="check")
+@case("lights.more_than_the_limit_are_refused", "input")
 def many(bench):
     ball = {"shape": "sphere", "points": [0, 0, 3], "radius": 0.1, "radiance": [1, 1, 1]}
     scratch(bench, "many.gltf", scene(ball, 257))
@@ -265,7 +265,7 @@ def lights_agree(bench, *sets):
 
 
 # A driver compiles each set for a minute.
-@case("parity.area_lights_are_equal")
+@case("parity.area_lights_are_equal", tier="nightly")
 def equal(bench):
     lights_agree(bench, ("--technique", "auto", "--msaa", "1", "--tilt", "15,-10", "--energy-compensation", "--fresnel", "dielectric"),
                  ("--technique", "bent_normal", "--msaa", "1", "--area-lights", "mc", "--light-samples", "5"))

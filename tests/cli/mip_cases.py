@@ -42,7 +42,7 @@ def grain(side, steep, seed=7):
     return png(2 * side, side, texel)
 
 
-@case("mip.each_filter_has_pictures_of_its_own", tier="check")
+@case("mip.each_filter_has_pictures_of_its_own")
 def pictures(bench):
     names = named(bench)
     check(names[:2] == ["box", "lean"] and set(SEARCHED) <= set(names), f"{names}")
@@ -73,7 +73,7 @@ def devices(bench):
     check_equal(parity(bench, "builtin:bumps", "--size", "48x36", "--msaa", "1", "--technique", "auto", "--mip-filter", LOBES[0], also=looks))
 
 
-@case("mip.a_tilted_map_turns_no_lobe", tier="check")
+@case("mip.a_tilted_map_turns_no_lobe")
 def tilted(bench):
     """One normal everywhere: no filter widens anything, and lobes lie as --frame-map quaternion has them."""
     scratch(bench, "bare.gltf", files.text(bare(extensions={"KHR_materials_anisotropy": {"anisotropyStrength": 0.7, "anisotropyRotation": 0.4}})))
@@ -107,7 +107,7 @@ def keeps(bench):
             check(off[name, taps] < share * off["box", taps], f"{off}")
 
 
-@case("mip.a_map_of_roughness_is_filtered_without_normals", tier="check")
+@case("mip.a_map_of_roughness_is_filtered_without_normals")
 def roughness(bench):
     gltf = bare(pbrMetallicRoughness={"metallicRoughnessTexture": {"index": 0}})
     gltf["textures"], gltf["images"] = [{"source": 0}], [{"uri": "r.png"}]
@@ -131,7 +131,7 @@ def material(bench, name, normal):
     return name
 
 
-@case("mip.a_pyramid_that_was_baked_gives_the_same_pixels", tier="check")
+@case("mip.a_pyramid_that_was_baked_gives_the_same_pixels")
 def baked(bench):
     material(bench, "set", (33, 17, bumps))
     material(bench, "other", (33, 17, lambda x, y: bumps(x + 1, y)))
@@ -194,7 +194,7 @@ def baked(bench):
     check("x.mip" not in bench.left_behind() and "x.pfm" not in bench.left_behind(), "what failed has left something")
 
 
-@case("mip.levels_that_take_long_are_kept_by_content", tier="check")
+@case("mip.levels_that_take_long_are_kept_by_content")
 def kept(bench):
     material(bench, "set", (32, 16, bumps))
     material(bench, "other", (32, 16, lambda x, y: bumps(x + 1, y)))
@@ -228,7 +228,7 @@ def kept(bench):
     check(drawn("set", "--mip-filter", "teacher")[0] == first, "levels of other maps are taken")
 
 
-@case("mip.nets_are_read_and_wrong_ones_are_refused", tier="check")
+@case("mip.nets_are_read_and_wrong_ones_are_refused")
 def nets(bench):
     words = ("builtin:bumps", *SMALL, "--mip-filter", "mipnet")
     own = hash_of(bench, *words)
@@ -261,7 +261,7 @@ def nets(bench):
     check(all(f"{option} has no effect with --mip-filter kappa" in done.err for option in ("--mip-net", "--fallback")), done.describe())
 
 
-@case("mip.materials_that_a_net_is_bad_for_keep_closed_forms", tier="check")
+@case("mip.materials_that_a_net_is_bad_for_keep_closed_forms")
 def fallbacks(bench):
     words = ("builtin:bumps", *SMALL, "--mip-filter", "mipnet")
     done = bench.run("render", *words, "--stats", "a.json", "-o", "auto.pfm").expect(0)
@@ -281,7 +281,7 @@ def tiles_of(exr):
     return width, height, mode
 
 
-@case("mip.levels_go_to_other_programs_as_textures", "input", tier="check")
+@case("mip.levels_go_to_other_programs_as_textures", "input")
 def textures(bench):
     material(bench, "set", (33, 17, bumps))
     (bench.folder / "set/x_basecolor.png").write_bytes(png(8, 8, lambda x, y: (250, 120 + 8 * x, 40)))
@@ -323,7 +323,7 @@ def textures(bench):
     bench.run(*words, "--format", "tga", "-o", "x").expect(2).expect_one_line("--format")
 
 
-@case("mip.a_folder_of_one_map_is_filtered", tier="check")
+@case("mip.a_folder_of_one_map_is_filtered")
 def one_map(bench):
     for name, texel, channels in (("x_normal", bumps, 3), ("x_roughness", lambda x, y: (40 + 12 * x,), 1), ("x_rotation", lambda x, y: (255, 128, 128), 3)):
         folder = bench.folder / name
@@ -338,7 +338,7 @@ def one_map(bench):
     bench.run("bake", "mip", "colours", "-o", "b.mip").expect(4).expect_one_line("no maps")
 
 
-@case("mip.maps_that_lie_otherwise_are_left_to_box", tier="check")
+@case("mip.maps_that_lie_otherwise_are_left_to_box")
 def otherwise(bench):
     gltf = bare(normalTexture={"index": 0}, extensions={"KHR_materials_anisotropy": {"anisotropyStrength": 0.5, "anisotropyTexture": {"index": 1}}})
     gltf["materials"][0]["name"] = "odd"
@@ -361,7 +361,7 @@ def otherwise(bench):
         check((said and said in done.err) or (not said and "filtered as by" not in done.err), done.describe())
 
 
-@case("mip.normals_of_levels_are_as_fine_as_floats", tier="check")
+@case("mip.normals_of_levels_are_as_fine_as_floats")
 def fine_normals(bench):
     """A plane from above, a pixel a texel of level 1: the normals that frames have are those of the pyramid's file."""
     scratch(bench, "p.gltf", files.text(lone_plane()))
@@ -394,7 +394,7 @@ def suns(gltf, count, anywhere=False):
     gltf["scenes"] = [{"nodes": list(range(len(gltf["nodes"])))}]
 
 
-@case("mip.the_mean_of_texels_is_what_the_reference_sees", tier="check")
+@case("mip.the_mean_of_texels_is_what_the_reference_sees")
 def protocols(bench):
     """A plane from above under a sun: level 0 lit at one to one, averaged as radiance, against rays that read the full texture."""
     needs_embree(bench)
@@ -419,7 +419,7 @@ def protocols(bench):
     check(min(truth) > 0.001 and beyond <= 3, f"{beyond} of 256 pixels are beyond 3 sigma")  # .7 are expected
 
 
-@case("mip.levels_reflect_as_much_as_their_texels", tier="check")
+@case("mip.levels_reflect_as_much_as_their_texels")
 def gains(bench):
     """Matt bumps of many texels from above under lamps from everywhere above: the mean of a picture, with gains of levels and without, beside the
     truth's."""
@@ -452,7 +452,7 @@ def gains(bench):
     check("--mip-gain has no effect with --mip-filter box" in done.err, done.describe())
 
 
-@case("mip.coupled_colours_halve_the_error_of_colour", tier="check")
+@case("mip.coupled_colours_halve_the_error_of_colour")
 def coupled(bench):
     """Two colours on ridges of metal, level ones and steep ones, seen from above under many lamps: the mean colour, red over blue."""
     needs_embree(bench)
@@ -485,7 +485,7 @@ def coupled(bench):
           done.describe())
 
 
-@case("mip.shaderballs_judge_filters_near_and_far", tier="check")
+@case("mip.shaderballs_judge_filters_near_and_far")
 def shaderballs(bench):
     needs_embree(bench)
     for camera in ("near", "mid", "far", "grazing"):
@@ -502,14 +502,14 @@ def shaderballs(bench):
     check(max(off["kappa"], off["mipnet"]) < off["box"], f"{off}")
 
 
-@case("mip.charts_sweep_filters", tier="check")
+@case("mip.charts_sweep_filters")
 def sweeps(bench):
     needs_embree(bench)
     bench.run("chart", "builtin:bumps", "--size", "32x24", "--env-size", "64", "--env-samples", "32", "--techniques", "mc", "--reference-samples", "8",
               "--runs", "1", "--sweep", "mip-filter=box,kappa", "-o", "report").expect(0)
 
 
-@case("mip.charts_of_filters_have_rows_by_level", tier="check")
+@case("mip.charts_of_filters_have_rows_by_level")
 def rows_by_level(bench):
     (bench.folder / "maps").mkdir()
     material(bench, "maps/set", (64, 64, bumps))
@@ -548,7 +548,7 @@ def rows_by_level(bench):
         bench.run(*arguments, "-o", "x").expect(code).expect_one_line(needle)
 
 
-@case("mip.charts_of_crossed_grain_know_two_lobes", tier="check")
+@case("mip.charts_of_crossed_grain_know_two_lobes")
 def crossed(bench):
     words = ("chart", "--mip", "--two-lobes", "--brdf", "ggx_aniso", "-q")
     bench.run(*words, "-o", "one").expect(0)
@@ -559,7 +559,7 @@ def crossed(bench):
     bench.run("chart", "--two-lobes", "-o", "x").expect(2).expect_one_line("--two-lobes")
 
 
-@case("mip.killed_bakes_leave_nothing_and_are_made_again", tier="check")
+@case("mip.killed_bakes_leave_nothing_and_are_made_again")
 def killed(bench):
     material(bench, "set", (256, 128, bumps))
     words = ("bake", "mip", "set", "--mip-filter", "teacher", "-q", "-o")

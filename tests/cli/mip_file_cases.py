@@ -98,7 +98,7 @@ def whole(bench, name, **other):
 LOOKS = ((), ("--couple", "albedo"), ("--color-kernel", "kaiser"), ("--couple", "albedo", "--color-kernel", "kaiser"))
 
 
-@case("mip.files_hold_whole_pyramids", "input", tier="check")
+@case("mip.files_hold_whole_pyramids", "input")
 def files_hold(bench):
     whole(bench, "set")
     seen = ("builtin:sphere", *SMALL, "--material", "set")
@@ -151,7 +151,7 @@ def files_hold(bench):
     check("x.pfm" not in bench.left_behind(), "what failed has left something")
 
 
-@case("mip.numbers_of_files_lie_in_their_ranges", "input", tier="GATE")
+@case("mip.numbers_of_files_lie_in_their_ranges", "input")
 def ranges(bench):
     """Under a hash that is right: kappa, gains, lobes and texels of maps that no bake writes."""
     whole(bench, "set")
@@ -174,7 +174,7 @@ def ranges(bench):
         bench.run("render", *seen, "--mip-pyramid", "good.mip", "-o", "x.pfm").expect(0)
 
 
-@case("mip.files_of_a_full_disk_have_no_name", "input", tier="check")
+@case("mip.files_of_a_full_disk_have_no_name", "input")
 def full_disk(bench):
     whole(bench, "set")
     words = ("bake", "mip", "set", "-q", "-o")
@@ -188,7 +188,7 @@ def full_disk(bench):
     check((bench.folder / "whole.mip").read_bytes() == (bench.folder / "again.mip").read_bytes(), "what was there is not as it was")
 
 
-@case("mip.colours_that_take_long_are_kept_by_content", tier="check")
+@case("mip.colours_that_take_long_are_kept_by_content")
 def kept(bench):
     whole(bench, "set"), whole(bench, "other", basecolor=lambda x, y: (250, 4 * x, 40))
     cache = bench.folder / "cache"
@@ -218,7 +218,7 @@ def kept(bench):
         check(drawn(folder, *look)[0] == found, "levels of other maps are taken")
 
 
-@case("mip.bakes_write_over_nothing_that_they_read", "input", tier="check")
+@case("mip.bakes_write_over_nothing_that_they_read", "input")
 def inputs(bench):
     whole(bench, "set")
     gltf = bare(normalTexture={"index": 0})
@@ -235,7 +235,7 @@ def inputs(bench):
     check((bench.folder / "seen/odd_normal_01.png").exists(), "no preview")
 
 
-@case("mip.maps_of_one_texel_have_no_levels", tier="check")
+@case("mip.maps_of_one_texel_have_no_levels")
 def one_texel(bench):
     (bench.folder / "set").mkdir()
     for part, texel, channels in (("normal", (140, 120, 250), 3), ("roughness", (90,), 1), ("basecolor", (200, 100, 50), 3), ("height", (9,), 1)):
@@ -272,7 +272,7 @@ def flips(bench):
         flipped(bench, name, ("compare", name, "flip" + name, "--metric", "mse", "-q"), 200, (0, 1, 3, 4, 6))
 
 
-@case("mip.names_of_files_may_be_any", tier="GATE")
+@case("mip.names_of_files_may_be_any")
 def hostile_names(bench):
     """Names of folders and of materials, by the formats that make files of them; by another locale, too."""
     gltf = bare(normalTexture={"index": 0})

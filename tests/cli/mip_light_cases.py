@@ -137,22 +137,22 @@ def light_is_kept(bench, kind):
         check(all(abs(by) < 0.1 for by in off.values()), f"{kind}, horizon {on}: {off}")
 
 
-@case("mip.far_hammered_metal_keeps_its_light", tier="check")
+@case("mip.far_hammered_metal_keeps_its_light")
 def far_hammered(bench):
     light_is_kept(bench, "hammered")
 
 
-@case("mip.far_knurled_metal_keeps_its_light", tier="check")
+@case("mip.far_knurled_metal_keeps_its_light")
 def far_knurled(bench):
     light_is_kept(bench, "knurled")
 
 
-@case("mip.far_woven_metal_keeps_its_light", tier="check")
+@case("mip.far_woven_metal_keeps_its_light")
 def far_woven(bench):
     light_is_kept(bench, "woven")
 
 
-@case("mip.far_scratched_metal_keeps_its_light", tier="check")
+@case("mip.far_scratched_metal_keeps_its_light")
 def far_scratched(bench):
     light_is_kept(bench, "scratched")
 
@@ -178,21 +178,21 @@ def light_is_that_of_texels(bench, kind, most_of_sun=0.12):
     check(not far_off, "\n".join(far_off))
 
 
-@case("mip.mean_light_of_hammered_metal_is_that_of_its_texels", tier="slow")
+@case("mip.mean_light_of_hammered_metal_is_that_of_its_texels", tier="nightly")
 def table_hammered(bench):
     light_is_that_of_texels(bench, "hammered", 0.25)
 
 
-@case("mip.mean_light_of_knurled_metal_is_that_of_its_texels", tier="slow")
+@case("mip.mean_light_of_knurled_metal_is_that_of_its_texels", tier="nightly")
 def table_knurled(bench):
     light_is_that_of_texels(bench, "knurled")
 
 
-@case("mip.mean_light_of_woven_metal_is_that_of_its_texels", tier="slow")
+@case("mip.mean_light_of_woven_metal_is_that_of_its_texels", tier="nightly")
 def table_woven(bench):
     light_is_that_of_texels(bench, "woven")
 
 
-@case("mip.mean_light_of_scratched_metal_is_that_of_its_texels", tier="slow")
+@case("mip.mean_light_of_scratched_metal_is_that_of_its_texels", tier="nightly")
 def table_scratched(bench):
     light_is_that_of_texels(bench, "scratched")

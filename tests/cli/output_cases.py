@@ -69,7 +69,7 @@ def tiff_pixels(path):
     return [tuple(data[i : i + 4]) for i in range(begin, begin + fields[279], 4)]
 
 
-@case("output.without_a_background_alpha_is_coverage", tier="check")
+@case("output.without_a_background_alpha_is_coverage")
 def alpha(bench):
     drawn = ("render", "builtin:sphere", "--size", "64x64", "--msaa", "8", "--env-size", "32", "--roughness", "0.9", "--technique", "split_isotropic",
              "--tonemap", "none", "-q")
@@ -91,7 +91,7 @@ def alpha(bench):
         check(tiff_pixels(bench.folder / "v.tif") == pixels, "Vulkan's alpha is another")
 
 
-@case("output.the_reference_has_the_alpha_of_the_tile_renderer", tier="check")
+@case("output.the_reference_has_the_alpha_of_the_tile_renderer")
 def reference_alpha(bench):
     drawn = ("render", "builtin:sphere", "--size", "48x48", "--msaa", "4", "--env-size", "32", "--roughness", "0.9", "--no-background", "-q")
     done = bench.run(*drawn, "--backend", "reference", "--samples", "64", "-o", "r.tif", "-o", "r.exr", "-o", "r.png")

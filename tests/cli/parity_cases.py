@@ -49,7 +49,7 @@ def packages_are_there():
     return shutil.which("glslc") and drivers.is_dir() and any(drivers.glob("lvp_icd*.json"))
 
 
-@case("parity.a_device_is_there")
+@case("parity.a_device_is_there", tier="nightly")
 def a_device_is_there(bench):
     """Where the packages are, no test may be skipped for want of a device."""
     if not packages_are_there():
@@ -60,7 +60,7 @@ def a_device_is_there(bench):
     bench.run("parity", "builtin:teapot", "--technique", "bent_normal", "--size", "48x32", "--msaa", "1", "--device", "lavapipe", *COARSE).expect(0)
 
 
-@case("parity.render_gives_the_same_hash")
+@case("parity.render_gives_the_same_hash", tier="nightly")
 def render_gives_the_same_hash(bench):
     """What render draws, without parity's records."""
     def pixel_hash(*options):
@@ -81,7 +81,7 @@ def render_gives_the_same_hash(bench):
     check(len(seen) == 3, "all pictures are the same one")
 
 
-@case("parity.every_technique_is_equal")
+@case("parity.every_technique_is_equal", tier="nightly")
 def every_technique(bench):
     report = parity(bench, "--suite", "default", "--size", "96x64", "--msaa", "1,4", "--junit", "parity.xml", "--html", "parity.html", optimised=True)
     check_equal(report)
@@ -93,7 +93,7 @@ def every_technique(bench):
 
 
 # Two techniques in one frame, and samples shared across edges of triangles, of surfaces, of pictures with odd sides.
-@case("parity.automatic_technique_is_equal")
+@case("parity.automatic_technique_is_equal", tier="nightly")
 def automatic_technique(bench):
     report = parity(bench, "builtin:spheres", "builtin:plate", "--size", "95x63", "--technique",
                     "auto,lobe_line", "--msaa", "1,4")
@@ -101,8 +101,14 @@ def automatic_technique(bench):
     check(len(report["rows"]) == 2 * 2 * 2, "rows are missing")
 
 
+@case("parity.a_small_picture_is_equal", budget=20)
+def small_picture(bench):
+    report = parity(bench, "builtin:plate", "--size", "32x24", "--env-size", "16", "--env-samples", "16", "--msaa", "4", "--technique", "auto")
+    check_equal(report)
+
+
 # Key lights: discs and needles, tilted lobes, mirrors, samples that are shared.
-@case("parity.light_of_suns_is_equal")
+@case("parity.light_of_suns_is_equal", tier="nightly")
 def light_of_suns(bench):
     check_equal(parity(bench, "builtin:spheres", bench.data_file("models/Lights.glb"), "--env", "builtin:sky", "--size", "64x48", "--msaa", "1",
                        "--samples", "16", "--technique", "all",
@@ -111,14 +117,14 @@ def light_of_suns(bench):
                              ("--technique", "auto,bent_normal", "--tilt", "20,-10", "--roughness", "0.5"))))
 
 
-@case("parity.models_are_equal")
+@case("parity.models_are_equal", tier="nightly")
 def models(bench):
     report = parity(bench, "--models", bench.data_file("models"), "--size", "96x64", "--technique", "major_axis,filtered_is_ggx", "--msaa", "1,4")
     check_equal(report)
     check(len(report["rows"]) >= 2 * 2 * 10, "too few models")
 
 
-@case("parity.emulated_samples_are_equal")
+@case("parity.emulated_samples_are_equal", tier="nightly")
 def emulated_samples(bench):
     places = ("builtin:spheres", "builtin:plate", "builtin:teapot", bench.data_file("models/Lights.glb"))
     report = parity(bench, *places, "--size", "64x48", "--technique", "bent_normal,mc", "--msaa", "2,8,16")
@@ -135,7 +141,7 @@ def options_agree(bench, *sets):
 
 
 # Each option once.
-@case("parity.options_of_shading_are_equal")
+@case("parity.options_of_shading_are_equal", tier="nightly")
 def options_of_shading(bench):
     options_agree(bench, ("--masking", "separable", "--tilt", "20,-10"), ("--anisotropy", "0.7", "--roughness", "0.3", "--dfg", "fit"),
                   ("--energy-compensation", "--tilt", "20,-10", "--anisotropy", "0.5", "--roughness", "0.8", "--horizon", "off", "--texture-anisotropy", "4"))
@@ -178,7 +184,7 @@ def check_looks_the_same(report):
         check(elsewhere <= 0.02 * row["pixels_differ"], f"{name}: {causes}")
 
 
-@case("parity.forward_looks_the_same")
+@case("parity.forward_looks_the_same", tier="nightly")
 def forward_looks_the_same(bench):
     report = parity(bench, "builtin:teapot", "builtin:spheres", "builtin:plate", "--size", "96x64", "--technique", "split_isotropic,major_axis",
                     "--msaa", "1,4", "--pipeline", "forward", "--sampler", "native", "--html", "parity.html")
@@ -208,7 +214,7 @@ def forward_without_neighbours(bench):
            "--sampler", "native")
 
 
-@case("parity.goes_on_after_a_row_that_fails")
+@case("parity.goes_on_after_a_row_that_fails", tier="nightly")
 def goes_on_after_a_row_that_fails(bench):
     (bench.folder / "broken.glb").write_text("glTF, not")
     files = ("--junit", "parity.xml", "--html", "parity.html")
@@ -258,7 +264,7 @@ def forward_is_valid(bench, technique, i):
                   "--technique", technique, *COARSE, "-o", "a.pfm", "-q").expect(0)
 
 
-@case("parity.validation_layer_is_silent")
+@case("parity.validation_layer_is_silent", tier="nightly")
 def validation_layer_is_silent(bench):
     """Every technique, every number of samples, the passes that record stages, and one technique by each pipeline and sampler."""
     techniques = set()
@@ -280,7 +286,7 @@ def validation_by_every_technique(bench):
 
 
 # Looks differ, and each is compared with its own.
-@case("parity.looks_are_drawn_each")
+@case("parity.looks_are_drawn_each", tier="nightly")
 def looks(bench):
     report = parity(bench, "builtin:plate", "--size", "32x24", "--msaa", "1", "--technique", "bent_normal", "--roughness", "0.3",
                     also=(("--roughness", "0.7"), ("--technique", "major_axis", "--msaa", "1,4")))
@@ -498,16 +504,13 @@ def compare_changed(bench, replacements, msaa, code, only=None, size="128x96", d
     return parity(bench, *drawn, "--size", size, "--msaa", msaa, "--shaders", shaders, code=code)
 
 
-@case("parity.sees_nothing_where_nothing_is")
+@case("parity.sees_nothing_where_nothing_is", tier="nightly")
 def sees_nothing_where_nothing_is(bench):
     check_equal(compare_changed(bench, [], "1,4", 0))
 
 
-GATED = {"one_ulp_in_a_kernel_constant", "swapped_sample_positions", "no_contraction_missing", "another_layer"}  # of each way to differ one
-
-
 def add_defect(name, replacements, msaa, stages, only=None):
-    @case(f"parity.sees_a_defect.{name}", tier="check" if name in GATED else "nightly")
+    @case(f"parity.sees_a_defect.{name}", tier="nightly")
     def sees(bench):
         # few samples lie on an edge: small pictures may have none
         report = compare_changed(bench, replacements, msaa, 1, only, "320x240" if name == "top_left_rule" else "128x96")

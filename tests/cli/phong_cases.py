@@ -18,7 +18,7 @@ LOBE = ("builtin:sphere", "--size", "40x30", "--msaa", "1", "--env", "builtin:st
 EXPONENTS = ("--nu", "6.25", "--nv", "100")
 
 
-@case("phong.tables_from_files_are_those_that_frames_make", "input", tier="check")
+@case("phong.tables_from_files_are_those_that_frames_make", "input")
 def tables(bench):
     bench.run("bake", "half-vectors", *EXPONENTS, "-q", "-o", "both/h.exr").expect(7)
     (bench.folder / "both").mkdir()
@@ -73,7 +73,7 @@ def devices(bench):
                        also=[("--technique", "bent_normal", "--diffuse", "ashikhmin-shirley")]))
 
 
-@case("phong.baked_environments_are_read_back", "input", tier="check")
+@case("phong.baked_environments_are_read_back", "input")
 def environments(bench):
     words = ("builtin:plate", "--size", "40x30", "--msaa", "1")
     bake = ("--env-size", "64", "--env-samples", "32")
@@ -123,7 +123,7 @@ def ball(columns, rows):
 
 # Under light of 1 from everywhere a white surface shows what both parts give back: never more than they get, at grazing angles less than
 # Lambert's. Compensated it is all of it, by a table of the lobe's albedo or, where roughness varies, by 89 of its samples.
-@case("phong.diffuse_part_and_lobe_give_back_what_they_get", tier="check")
+@case("phong.diffuse_part_and_lobe_give_back_what_they_get")
 def furnace(bench):
     scratch(bench, "even.pfm", pfm(8, 4, lambda x, y: (1, 1, 1)))
     scratch(bench, "ball.obj", ball(48, 24))
@@ -167,7 +167,7 @@ def diffuse_reference(bench):
         check(abs(means[1] / means[0] - 1) < 0.01, f"{degrees} degrees: reference {means[0]}, tile renderer {means[1]}")
 
 
-@case("phong.roughness_by_direction_is_roughness_and_anisotropy", "input", tier="check")
+@case("phong.roughness_by_direction_is_roughness_and_anisotropy", "input")
 def directional(bench):
     scene = scenes(bench)
     bench.run("render", scene, *VIEW, "--f0", "1,1,1", "--roughness", "0.5", "--anisotropy", "0.6", "-q", "-o", "own.pfm").expect(0)

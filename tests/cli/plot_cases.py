@@ -19,7 +19,7 @@ def discs(bench, *words):
 
 
 # A panel is 300 px wide and shows slopes to 1.5 times k deviations; the middle of the first one lies at (174, 190).
-@case("plot.seen_along_the_normal_everything_is_symmetric", tier="check")
+@case("plot.seen_along_the_normal_everything_is_symmetric")
 def symmetric(bench):
     found = discs(bench, "--eye", "0,0", "--samples", "5")
     far = sorted(p for p in found["c4"] if p[0] < 324 and p[1] < 340)
@@ -30,7 +30,7 @@ def symmetric(bench):
     check(turned == found, "an ellipse that is turned is drawn along its own axes")
 
 
-@case("plot.at_grazing_views_the_axis_ends_at_the_horizon", tier="check")
+@case("plot.at_grazing_views_the_axis_ends_at_the_horizon")
 def clamped(bench):
     found = discs(bench, "--eye", "75,0", "--roughness", "0.7", "--samples", "9")
     far = sorted(x for x, y in found["c4"] if x < 324 and y < 340)
@@ -45,7 +45,7 @@ WIDTHS = (((0.5, 0.3, 0.8), "0.5", "0.8", 0.11974987, 0.07918166), ((0.6, -0.2, 
           ((0.7, 0.0, 0.4), "0.5", "0.6", 0.14275683, 0.07331634))
 
 
-@case("plot.the_points_that_are_drawn_are_the_lobe_s_width_apart", tier="check")
+@case("plot.the_points_that_are_drawn_are_the_lobe_s_width_apart")
 def width(bench):
     for (x, y, z), roughness, anisotropy, wide, radius in WIDTHS:
         eye = f"{math.degrees(math.atan2(math.hypot(x, y), z))},{math.degrees(math.atan2(y, x))}"
@@ -64,7 +64,7 @@ def lobe(bench, *words):
     return [float(group) for group in found.groups()] + [text]
 
 
-@case("plot.every_model_has_its_peak_where_it_must", tier="check")
+@case("plot.every_model_has_its_peak_where_it_must")
 def peaks(bench):
     names = [line.split()[0] for line in bench.run("list", "models").expect(0).out.splitlines() if line.strip()]
     drawn = 0
@@ -83,7 +83,7 @@ def peaks(bench):
     check(drawn >= 9, f"{drawn} of {names}")
 
 
-@case("plot.a_tilted_lobe_is_mirrored_about_its_own_normal", tier="check")
+@case("plot.a_tilted_lobe_is_mirrored_about_its_own_normal")
 def tilted(bench):
     for tilt, where in (("20,0", (40, 90)), ("0,20", (40, 180)), ("-10,0", (20, -90))):
         _, theta, phi, _, _, _, text = lobe(bench, "--tilt", tilt, "--roughness", "0.15", "--anisotropy", "0.5", "--eye", "0,0")
@@ -93,7 +93,7 @@ def tilted(bench):
     check(abs(straight - skewed) > 0.01 * straight, "tilt changes nothing")
 
 
-@case("plot.densities_fill_the_circle_and_end_there", tier="check")
+@case("plot.densities_fill_the_circle_and_end_there")
 def densities(bench):
     bench.run("plot", "axis", "--roughness", "0.9", "-o", "a.svg", "-q").expect(0)
     number = r'"([-\d.]+)"'
@@ -110,7 +110,7 @@ def densities(bench):
             check(abs(least) < 0.2 and abs(most) < 0.2, f"row {y}: off the circle by {least} and {most}")
 
 
-@case("plot.contours_of_a_round_lobe_are_circles", tier="check")
+@case("plot.contours_of_a_round_lobe_are_circles")
 def contours(bench):
     text = lobe(bench, "--anisotropy", "0", "--eye", "0,0", "--roughness", "0.6")[-1]
     group = re.search(r'<g class="c1"[^>]*>(.*?)</g>', text, re.S)[1]
@@ -132,7 +132,7 @@ def sides(bench, *words):
     return float(found[1]), float(found[2])
 
 
-@case("plot.a_bent_normal_looks_to_the_wrong_side_and_the_axis_does_not", tier="check")
+@case("plot.a_bent_normal_looks_to_the_wrong_side_and_the_axis_does_not")
 def sides_of_techniques(bench):
     for eta, rotation in (("0", "45"), ("0.8", "0"), ("0.8", "90")): # nothing is bent, or along parallels or meridians
         bent, axis = sides(bench, "--roughness", "0.4", "--anisotropy", eta, "--rotation", rotation)
@@ -141,7 +141,7 @@ def sides_of_techniques(bench):
     check(bent > 5 and axis < 0.5 * bent, f"{bent} and {axis}")
 
 
-@case("plot.files_are_the_same_every_time", tier="check")
+@case("plot.files_are_the_same_every_time")
 def same(bench):
     for what in ("axis", "lobe"):
         for name in ("a.svg", "b.svg", "a.png", "b.png"):
@@ -172,7 +172,7 @@ def cosines(bench):
         check(len(fits) == 3 and min(fits) >= one, f"fits from three starts: {fits}")
 
 
-@case("plot.wrong_options_say_one_line", tier="check")
+@case("plot.wrong_options_say_one_line")
 def wrong(bench):
     for words, code, needle in (
             (("axes", "-o", "a.svg"), 2, "axis"), (("axis",), 2, "--output"), (("axis", "-o", "a.pdf"), 2, ".svg"),
@@ -212,7 +212,7 @@ def mean_normal(ax, ay, angles, rows=160):
     return mean
 
 
-@case("plot.figures_of_the_ellipsoid_are_its_integrals", tier="check")
+@case("plot.figures_of_the_ellipsoid_are_its_integrals")
 def ellipsoid(bench):
     bench.run("plot", "ellipsoid", "-o", "e.html", "-q").expect(0)
     text = (bench.folder / "e.html").read_text()
@@ -246,7 +246,7 @@ def ellipsoid(bench):
     check(min(mapped for _, _, mapped in energy) == 0, "a normal map that faces away reflects")
 
 
-@case("plot.a_page_is_a_page", tier="check")
+@case("plot.a_page_is_a_page")
 def page(bench):
     for words, needle in ((("-o", "e.svg"), ".html"), (("-o", "e.html", "--eye", "3,3"), "--eye"), (("-o", "e.html", "--roughness", "0.5"), "--roughness"),
                           (("-o", "e.html", "--tilt", "3,3"), "--tilt")):

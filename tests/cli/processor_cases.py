@@ -17,7 +17,7 @@ def emulator():
     return qemu
 
 
-@case("processor.below_x86_64_v2_is_told_what_lacks", tier="check")
+@case("processor.below_x86_64_v2_is_told_what_lacks")
 def too_old(bench):
     qemu = emulator()
     for arguments in (("info",), ("render", "--help"), ()):
@@ -28,7 +28,7 @@ def too_old(bench):
     check(facts["isa"] == "scalar", f"a processor of x86-64-v2 runs {facts['isa']}")
 
 
-@case("processor.library_is_refused_below_x86_64_v2", tier="check")
+@case("processor.library_is_refused_below_x86_64_v2")
 def library_refused(bench):
     """By the dynamic loader, with a message: no crash."""
     qemu, python = emulator(), shutil.which("python3")

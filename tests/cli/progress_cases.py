@@ -23,7 +23,7 @@ def lines_of(done):
     return [line for line in done.err.splitlines() if re.search(r": (\d+ s|\d+ %.*)$", line)]
 
 
-@case("progress.of_everything_that_takes_long_is_told", tier="check")
+@case("progress.of_everything_that_takes_long_is_told")
 def everything(bench):
     for said, *words in TOLD:
         done = bench.run(*words, env=OFTEN).expect(0)
@@ -31,7 +31,7 @@ def everything(bench):
         check(bench.run(*words, "-q", env=OFTEN).expect(0).err == "", f"{words} says something with -q")
 
 
-@case("progress.of_parity_names_the_row_and_the_stage", tier="GATE")
+@case("progress.of_parity_names_the_row_and_the_stage")
 def parity(bench):
     done = bench.run("parity", "builtin:plate", "--technique", "split_isotropic", "--msaa", "1", *TINY, "--device", "lavapipe", timeout=600,
                      env={**OFTEN, "MESA_SHADER_CACHE_DISABLE": "true"})

@@ -45,7 +45,7 @@ def drawn(bench, env):
     return found["pixel_hash"], found["warnings"]
 
 
-@case("reading.environments_have_the_light_that_their_files_say", "input", tier="check")
+@case("reading.environments_have_the_light_that_their_files_say", "input")
 def environments(bench):
     scratch(bench, "right.exr", exr(WIDTH, HEIGHT, sky))
     scratch(bench, "acescg.exr", exr(WIDTH, HEIGHT, to_acescg, attributes=said(ACESCG)))
@@ -65,7 +65,7 @@ def environments(bench):
         (0.64, 0.33, 0.30, 0.60, 0.15, 0.06, 0.3127, 0.329)))))[0], []), "the chromaticities of Rec.709 change something")
 
 
-@case("reading.environments_of_other_shapes_are_said", "input", tier="check")
+@case("reading.environments_of_other_shapes_are_said", "input")
 def shapes(bench):
     for width, height, words in ((16, 16, "16 x 16 pixels are not twice as wide as high"), (16, 12, "cross"), (12, 16, "cross"), (24, 4, "row"), (4, 24, "column")):
         warnings = drawn(bench, scratch(bench, "shape.exr", exr(width, height, sky)))[1]
@@ -89,7 +89,7 @@ def shapes(bench):
         refuse(bench, "builtin:plate", env=scratch(bench, "bad.hdr", plain_hdr(sky, lines)), needles=(place,))
 
 
-@case("reading.pictures_to_compare_are_converted_too", tier="check")
+@case("reading.pictures_to_compare_are_converted_too")
 def compared_pictures(bench):
     scratch(bench, "right.exr", exr(WIDTH, HEIGHT, sky))
     scratch(bench, "acescg.exr", exr(WIDTH, HEIGHT, to_acescg, attributes=said(ACESCG)))
@@ -107,7 +107,7 @@ HEAD = "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n
 FACE = "f 1/1/1 2/2/1 3/3/1 4/4/1\n"
 
 
-@case("reading.obj_texts_are_read_as_the_format_says", "input", tier="check")
+@case("reading.obj_texts_are_read_as_the_format_says", "input")
 def obj_texts(bench):
     def hash_of(text):
         found = bench.figures(scratch(bench, "a.obj", text), *SMALL)

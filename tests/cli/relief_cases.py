@@ -30,7 +30,7 @@ def wall(bench):
 
 
 # Rays find the stones where triangles show them: nearer than the flat wall by far, and not by heights taken for depths.
-@case("relief.parallax_shows_what_triangles_show", tier="check")
+@case("relief.parallax_shows_what_triangles_show")
 def truth(bench):
     flat = wall(bench)
     bench.run("bake", "displaced", "wall.obj", "h.png", "--height-scale", "0.06", "--triangles", "130000", "-q", "-o", "wall.glb").expect(0)
@@ -45,7 +45,7 @@ def truth(bench):
     check(off["parallax"] < 0.35 * off["flat"] and off["parallax"] < off["less"] < off["flat"], f"{off}")
 
 
-@case("relief.heights_are_one_whatever_says_them", tier="check")
+@case("relief.heights_are_one_whatever_says_them")
 def heights(bench):
     flat = wall(bench)
     view = (*VIEW, "--eye", "0.9,0.3,0.8")
@@ -96,7 +96,7 @@ def devices(bench):
                        also=[("--msaa", "1", "--technique", "all", "--pom-metric", "uv", "--texture-anisotropy", "4")]))
 
 
-@case("relief.bad_input_is_named", "input", tier="check")
+@case("relief.bad_input_is_named", "input")
 def bad(bench):
     flat = wall(bench)
     for value in ("-1", "nan", "inf", "x", "1001"):

@@ -17,7 +17,7 @@ def shares(out):
     return found
 
 
-@case("risks.are_told_and_change_no_picture", tier="check")
+@case("risks.are_told_and_change_no_picture")
 def told(bench):
     done = bench.run(*VIEW, *BRUSHED, "--risks", "r.png", "-o", "a.png", "-o", "a.exr", "--stats", "a.json").expect(0)
     found = shares(done.out)
@@ -37,7 +37,7 @@ def told(bench):
     check(shares(quiet.out) == found and quiet.err == "", quiet.describe())
 
 
-@case("risks.say_the_eye_as_an_angle", tier="check")
+@case("risks.say_the_eye_as_an_angle")
 def angle(bench):
     """A trial's place of the eye says nothing in another scene."""
     done = bench.run("render", "builtin:plate", "--size", "48x32", "--env-size", "64", "--env-samples", "64", "--technique", "bent_normal",
@@ -46,7 +46,7 @@ def angle(bench):
     check(not re.search(r"beyond [^(]*\d,", done.out), done.out)
 
 
-@case("risks.follow_inputs_and_surroundings", tier="check")
+@case("risks.follow_inputs_and_surroundings")
 def follow(bench):
     name = "bent_normal_bends_too_far"
     words = lambda *more: shares(bench.run(*VIEW, *more, "--risks", "-").expect(0).out)
@@ -64,14 +64,14 @@ def follow(bench):
     check(abs(still - turned) < 3, f"{still} % and {turned} %")
 
 
-@case("risks.are_the_same_for_every_number_of_threads", tier="check")
+@case("risks.are_the_same_for_every_number_of_threads")
 def threads(bench):
     for n in ("1", "3"):
         bench.run(*VIEW, "--env", "builtin:sky", "--technique", "split_isotropic", "--anisotropy", "0.6", "-t", n, "--risks", f"{n}.png").expect(0)
     check((bench.folder / "1.png").read_bytes() == (bench.folder / "3.png").read_bytes(), "threads change marks")
 
 
-@case("risks.that_cannot_be_are_refused", tier="check")
+@case("risks.that_cannot_be_are_refused")
 def refused(bench):
     scratch(bench, "file", "")
     for code, needle, *words in ((2, "the reference has none", "--risks", "a.png", "--backend", "reference"), (2, "8 bits", "--risks", "a.exr"),

@@ -32,14 +32,14 @@ def beside_another(tilt):
     return gltf
 
 
-@case("tilt.faults_are_named_by_their_place", "input", tier="check")
+@case("tilt.faults_are_named_by_their_place", "input")
 def faults(bench):
     at = "/materials/0/extras/burnish/tilt"
     for tilt, place in ((3, at), ([1], at), ([1, 2, 3], at), ("1,2", at), ([1, "2"], at + "/1"), ([81, 0], at + "/0"), ([0, -80.5], at + "/1")):
         refuse(bench, scratch(bench, "bad.gltf", files.text(tilted(tilt))), needles=(place,))
 
 
-@case("tilt.of_a_file_is_that_of_the_option", tier="check")
+@case("tilt.of_a_file_is_that_of_the_option")
 def same(bench):
     for name, tilt in (("plain", None), ("level", [0, 0]), ("tilted", [20, -10]), ("half", [10, -5]), ("steep", [80, 0])):
         scratch(bench, name + ".gltf", files.text(tilted(tilt)))
@@ -56,7 +56,7 @@ def same(bench):
 
 
 # What is beside it keeps its look, by the lobe that can be tilted.
-@case("tilt.is_of_one_material_alone", tier="check")
+@case("tilt.is_of_one_material_alone")
 def alone(bench):
     for technique in ("auto", "filtered_is_ggx", "mc"):
         words = (*VIEW, "--target", "0,1.3,0", "--technique", technique, "--samples", "64", "--roughness", "0.5", "-q")
@@ -67,7 +67,7 @@ def alone(bench):
         check(off["max_abs"] < 1e-3, f"{technique}: a material is tilted by its neighbour: {off}")
 
 
-@case("tilt.is_refused_by_models_that_cannot_be_tilted", tier="check")
+@case("tilt.is_refused_by_models_that_cannot_be_tilted")
 def refusals(bench):
     scene = scratch(bench, "tilted.gltf", files.text(tilted([5, 0])))
     for words in (("--technique", "mc"), ("--backend", "reference")):
@@ -112,7 +112,7 @@ def mapped(*names, transform=None):
     return gltf
 
 
-@case("tilt.faults_of_a_map_are_named_by_their_place", "input", tier="check")
+@case("tilt.faults_of_a_map_are_named_by_their_place", "input")
 def map_faults(bench):
     at = "/materials/0/extras/burnish/tiltTexture"
     for info, place in ((3, at), ({}, at), ({"index": 7}, at + "/index"), ({"index": 0, "scale": "1"}, at + "/scale"),

@@ -15,7 +15,7 @@ SMALL = ("train", "mip", "--steps", "20")
 SHIPPED = pathlib.Path(__file__).resolve().parents[2] / "shading/bake/mipnet"
 
 
-@case("train.threads_and_instruction_sets_make_no_difference", tier="GATE")
+@case("train.threads_and_instruction_sets_make_no_difference")
 def threads(bench):
     hashes = set()
     for name, options, env in (("1", ("--threads", "1"), {}), ("2", ("--threads", "2"), {}), ("3", ("--threads", "3"), {}), ("s", (), {"BN_FORCE_ISA": "avx2"})):
@@ -25,7 +25,7 @@ def threads(bench):
     check(bench.left_behind() == ["w1.mipnet", "w2.mipnet", "w3.mipnet", "ws.mipnet"], f"left {bench.left_behind()}")
 
 
-@case("train.killed_goes_on_to_the_same_bytes", tier="GATE")
+@case("train.killed_goes_on_to_the_same_bytes")
 def killed(bench):
     bench.run(*SMALL, "-o", "straight.mipnet", "-q").expect(0)
     part = bench.folder / "kept.part"
@@ -41,7 +41,7 @@ def killed(bench):
     check(bench.left_behind() == ["straight.mipnet", "w.mipnet"], f"left {bench.left_behind()}")
 
 
-@case("train.what_is_wrong_says_one_line", "input", tier="check")
+@case("train.what_is_wrong_says_one_line", "input")
 def wrong(bench):
     (bench.folder / "bad.mipnet").write_bytes(b"bnmip01\n" + b"\1\0\0\0" * 20)
     (bench.folder / "t.mipnet.part").write_bytes(b"something else")
@@ -62,7 +62,7 @@ def wrong(bench):
     check(bench.left_behind() == ["bad.mipnet", "t.mipnet.part"], f"left {bench.left_behind()}")
 
 
-@case("train.each_choice_makes_other_weights_and_says_how", tier="check")
+@case("train.each_choice_makes_other_weights_and_says_how")
 def choices(bench):
     folder = bench.folder / "maps/waves"
     folder.mkdir(parents=True)
@@ -87,7 +87,7 @@ def choices(bench):
         bench.run("bake", "mip", "maps/waves", "--mip-filter", "mipnet", "--mip-net", "w.mipnet", "-q", "-o", "a.mip").expect(0)
 
 
-@case("train.shipped_weights_say_what_they_are", tier="check")
+@case("train.shipped_weights_say_what_they_are")
 def shipped(bench):
     for file in sorted(SHIPPED.glob("*.mipnet")):
         name = file.stem

@@ -15,7 +15,7 @@ def half_white(x, y):
     return (1.0, 1.0, 1.0) if y < 16 else (0.03, 0.03, 0.03)
 
 
-@case("wide_lobes.look_as_the_reference_under_a_horizon", tier="check")
+@case("wide_lobes.look_as_the_reference_under_a_horizon")
 def horizon(bench):
     needs_embree(bench)
     scratch(bench, "half.exr", environment_files.exr(64, 32, half_white))
