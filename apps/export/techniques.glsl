@@ -172,7 +172,6 @@ shaded_point point_of(vec3 n, vec3 v, vec3 tangent, vec3 f0, vec3 f90, float rou
     surface_frame axes = frame_of(n, tangent, 1.0);
     shaded_point x;
     x.surface_axes = axes;
-    x.mapped = false;
     x.turned = false;
     x.lobe.u_axis = select(along >= across, axes.t, axes.b);
     x.lobe.v_axis = select(along >= across, axes.b, -axes.t);

@@ -286,7 +286,6 @@ BN_INLINE Reflector select_reflector(mask m, const Reflector& a, const Reflector
     r.x.surface_axes.n = select(m, p.n, q.n), r.x.surface_axes.t = select(m, p.t, q.t), r.x.surface_axes.b = select(m, p.b, q.b);
     r.x.gain = select(m, a.x.gain, b.x.gain);
     r.o = select(m, a.o, b.o), r.horizon = select(m, a.horizon, b.horizon);
-    r.dull_horizon = select(m, a.dull_horizon, b.dull_horizon);
     r.diffuse = select(m, a.diffuse, b.diffuse);
     if (a.x.refracts || b.x.refracts) {
         r.x.refracts = true;

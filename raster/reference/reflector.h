@@ -12,11 +12,10 @@ inline namespace BN_ISA_NS {
 
 struct Reflector {
     shaded_point x;
-    int lobe;           // of the frame: its place in shading/models.def
-    real3 o;            // to the eye, in the lobe's own frame
-    real3 horizon;      // normal of the surface, whatever a normal map or a tilt says: the lobe reflects nothing below its horizon
-    real3 dull_horizon; // the same for the diffuse part, which tilts do not cut
-    real3 diffuse;      // BRDF of the diffuse part, 1/sr; by light at a cosine times phong_diffuse_lit() where it is that
+    int lobe;      // of the frame: its place in shading/models.def
+    real3 o;       // to the eye, in the lobe's own frame
+    real3 horizon; // normal of the surface, whatever a normal map or a tilt says: nothing below its horizon is reflected
+    real3 diffuse; // BRDF of the diffuse part, 1/sr; by light at a cosine times phong_diffuse_lit() where it is that
     bool phong_diffuse;
     real choose_specular; // probability
     mask mirror;          // the lobe has no width: only samples meet it
@@ -40,7 +39,6 @@ BN_INLINE Reflector make_reflector(const ShadingFrame& f, const shaded_point& x,
     const surface& s = x.s;
     r.x = x, r.lobe = f.lobe;
     r.horizon = x.turned ? x.surface_axes.n : s.n;
-    r.dull_horizon = x.mapped ? x.surface_axes.n : s.n;
     r.o = placed_lobe_of(kUsualLobe, x.lobe, s.n, s.v, x.surface_axes).o;
     const real passed = passed_to_diffuse(f, x);
     r.phong_diffuse = f.diffuse_model != 0;
@@ -154,7 +152,7 @@ BN_INLINE Reflection reflect_below(const Reflector& r, real3 wi)
         specular_pdf = select(r.refracts, s.pdf, specular_pdf);
     }
     Reflection to;
-    const real fallen = select(k_dot3(r.dull_horizon, wi) > lit(0.0), cosine, lit(0.0));
+    const real fallen = select(k_dot3(r.horizon, wi) > lit(0.0), cosine, lit(0.0));
     to.value = specular + r.diffuse * (r.phong_diffuse ? fallen * phong_diffuse_lit(cosine) : fallen);
     to.pdf = r.choose_specular * specular_pdf + (lit(1.0) - r.choose_specular) * cosine * lit(0.31830988618379067);
     return to;

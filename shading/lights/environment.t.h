@@ -28,7 +28,7 @@ BN_FN real3 seen_of_lobe(frame_ref f, BN_IN(shaded_point) x, int traits, real3 s
 BN_FN real3 irradiance_at(frame_ref f, BN_IN(shaded_point) x)
 {
     real3 whole = cube_sample(irradiance_cube(f), x.s.n, lit(0.0)) * splat(the_frame(f).irradiance.scale);
-    if (!x.mapped)
+    if (!x.turned)
         return whole;
     real below = k_saturate(lit(0.5) - lit(0.5) * k_dot3(x.s.n, x.surface_axes.n));
     real3 back = cube_sample(irradiance_cube(f), -x.surface_axes.n, lit(0.0)) * splat(the_frame(f).irradiance.scale);

@@ -66,8 +66,7 @@ BN_FN key_reflection key_reflection_of(frame_ref f, BN_IN(shaded_point) x, BN_IN
     if (x.turned) {
         mask above = k_dot3(x.surface_axes.n, direction) > lit(0.0);
         risen = both(risen, above);
-        if (x.mapped)
-            r.cosine = select(above, r.cosine, lit(0.0));
+        r.cosine = select(above, r.cosine, lit(0.0));
     }
     r.v_dot_h = lit(0.0);
     if (no_lane(risen) || keys_are_sampled(f, x, coat))

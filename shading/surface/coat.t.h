@@ -58,7 +58,6 @@ BN_FN void make_coat_point(frame_ref f, BN_IN(coat_layer) coat, BN_IN(surface_fr
     c.lobe.sigma_u = coat.roughness * coat.roughness * lit(0.70710678118654752);
     c.lobe.sigma_v = c.lobe.sigma_u;
     c.surface_axes = axes;
-    c.mapped = turned;
     c.turned = turned;
     c.diffuse = false;
     c.brushed = lit(0.0);

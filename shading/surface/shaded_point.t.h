@@ -21,8 +21,7 @@ struct shaded_point {
     surface s;
     aniso_lobe lobe;
     surface_frame surface_axes; // the geometry's
-    bool mapped;                // a normal map turns s.n from surface_axes.n: nothing arrives from below the surface's horizon
-    bool turned;                // that, or the lobe is tilted: nothing from there arrives for the lobe
+    bool turned;                // a normal map or a tilt turns s.n from surface_axes.n: nothing arrives from below the surface's horizon
     bool diffuse;               // s.diffuse may be above 0
     real brushed;               // the material's
     dfg_value dfg;
@@ -271,8 +270,7 @@ BN_FN void make_shaded_point(frame_ref f, material_ref m, BN_IN(material_inputs)
     real3 v = k_normalize3(-p.ray);
     x.surface_axes = seen_axes(p);
     surface_frame axes = lobe_axes(f, m, at, x.surface_axes, seen_handedness(p));
-    x.mapped = texture_used(m, kNormalTex) && the_frame(f).horizon != 0;
-    x.turned = x.mapped || leans(f, m);
+    x.turned = (texture_used(m, kNormalTex) && the_frame(f).horizon != 0) || leans(f, m);
     x.lobe = lobe_in_frame(m, shape, axes);
     x.diffuse = the_material(m).metallic < 1.0f || texture_used(m, kMetalRoughTex);
     x.dielectric_f0 = at.dielectric_f0;
@@ -341,12 +339,14 @@ BN_FN real passed_to_diffuse(frame_ref f, BN_IN(shaded_point) x)
         real3 own = x.dielectric_f0;
         return phong_diffuse_seen(max(own.x, max(own.y, own.z)), x.s.n_dot_v);
     }
-    if (x.refracts) { // from within as well, where light is reflected as a whole
-        real3 r = dielectric_reflectance(x.dielectric_f0, x.dielectric_f90, x.through.parts.ior, x.s.n_dot_v);
-        return max(lit(1.0) - max(r.x, max(r.y, r.z)), lit(0.0));
-    }
     real3 dielectric = dielectric_albedo_of(x.s, x.dielectric_f0, x.dielectric_f90, x.whole) * energy_gain(f, x.dielectric_f0, x.whole);
-    return lit(1.0) - max(dielectric.x, max(dielectric.y, dielectric.z));
+    real passed = lit(1.0) - max(dielectric.x, max(dielectric.y, dielectric.z));
+    if (!x.refracts)
+        return passed;
+    // From within no table has the albedo: light is reflected as a whole beyond an angle.
+    real3 r = dielectric_reflectance(x.dielectric_f0, x.dielectric_f90, x.through.parts.ior, x.s.n_dot_v);
+    real smooth = max(lit(1.0) - max(r.x, max(r.y, r.z)), lit(0.0));
+    return select(x.through.parts.ior >= lit(1.0), passed, smooth);
 }
 
 // BRDF of the diffuse part, 1/sr; times diffuse_lit().

@@ -67,7 +67,7 @@ BN_FN lobe_line lobe_line_of(real3 o, real sigma_x, real sigma_y, real part)
     real own = lit(0.5) * (r.alpha_x + r.alpha_y) / r.o.z;
     real taken = r.width * part;
     real grazing = (lit(0.8) + lit(0.2) * r.o.z) * taken;
-    r.level = own * (one - part) + (lit(0.6) - lit(0.08) * ratio) * grazing;
+    r.level = own * (one - part) + (lit(0.66) - lit(0.14) * ratio) * grazing;
     r.widen = lit(1.4) * r.width * grazing;
     real square = r.width * taken;
     real narrow2 = square * r.o.z * r.o.z;
@@ -94,7 +94,7 @@ struct lobe_line_sample {
 // samples take equal shares of the lobe, which leaves so long gaps in the tails of a long line that each sample shows there by itself; with
 // e = 1 they are as far apart, in widths, as sqrt(1 + z^2). Their weight holds dc / dt. The vector w is 1 + e t^2 times as long as by c,
 // but for what wide lobes add to it. A GGX of 0.77 times the round lobe's width has its median, as (1 + r^2)^(-5/2) falls faster; pictures
-// say 0.6 for narrow lobes, and more for wide ones.
+// say 0.6 for narrow lobes, and more for wide ones; 0.66 hides where samples lie.
 BN_FN lobe_line_sample lobe_line_at(lobe_line line, real t)
 {
     real one = lit(1.0);

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/scene/area_light.h"
+#include "tests/unit/reference/formulas.h"
 
 namespace burnish::test {
 
@@ -27,6 +28,46 @@ Environment environment_of(const std::function<glm::vec3(const glm::vec3&)>& rad
     Result<Environment> environment = bake_environment(image, "analytic", options, jobs);
     EXPECT_TRUE(environment);
     return *environment;
+}
+
+Stage under_coloured_sky(const Scene& scene)
+{
+    Stage stage(scene, 1.0f, 2);
+    static const Environment sky = environment_of([](const glm::vec3& d) { return glm::vec3(coloured_sky(d)); }, 64, stage.jobs);
+    static const DfgTable dfg = bake_dfg(64, 4096, stage.jobs);
+    stage.environment = sky, stage.dfg = dfg;
+    return stage;
+}
+
+namespace {
+
+TextureRef add_image(Scene& to, const Image& image)
+{
+    Texture texture;
+    texture.image = static_cast<std::int32_t>(to.images.size());
+    to.images.push_back(image);
+    TextureRef ref;
+    ref.texture = static_cast<std::int32_t>(to.textures.size());
+    to.textures.push_back(texture);
+    return ref;
+}
+
+} // namespace
+
+TextureRef add_texel(Scene& to, const glm::ivec3& code)
+{
+    Image image = make_image(1, 1, 3, PixelType::u8);
+    for (int c = 0; c < 3; ++c)
+        image.bytes[static_cast<std::size_t>(c)] = static_cast<std::byte>(code[c]);
+    return add_image(to, image);
+}
+
+TextureRef add_texel(Scene& to, const glm::vec3& values)
+{
+    Image image = make_image(1, 1, 3, PixelType::f32);
+    for (int c = 0; c < 3; ++c)
+        image.f32()[c] = values[c];
+    return add_image(to, image);
 }
 
 namespace {
@@ -215,6 +256,19 @@ double mean_of(const Frame& frame)
     for (std::size_t i = 0; i < n; ++i)
         sum += static_cast<double>(frame.color.f32()[i]);
     return sum / static_cast<double>(n);
+}
+
+ChannelEstimate estimate_channels(const Frame& frame)
+{
+    ChannelEstimate e;
+    const std::size_t pixels = static_cast<std::size_t>(frame.color.width) * static_cast<std::size_t>(frame.color.height);
+    for (std::size_t i = 0; i < 3 * pixels; ++i) {
+        const int c = static_cast<int>(i % 3);
+        e.mean[c] += static_cast<double>(frame.color.f32()[i]) / static_cast<double>(pixels);
+        e.deviation[c] += static_cast<double>(frame.variance.f32()[i]);
+    }
+    e.deviation = glm::sqrt(e.deviation) / static_cast<double>(pixels);
+    return e;
 }
 
 } // namespace burnish::test

@@ -14,6 +14,7 @@ namespace burnish::test {
 
 // From the radiance of directions, through a cube of `size` texels a side.
 Environment environment_of(const std::function<glm::vec3(const glm::vec3&)>& radiance, int size, const Jobs& jobs);
+Stage under_coloured_sky(const Scene& scene); // that of formulas.h
 
 // A square of 2 m at the origin that faces +z, its tangent along +x.
 Scene plane_scene(const Material& material);
@@ -22,6 +23,8 @@ Scene ball_scene(const Material& material, bool inside);
 Scene room_scene(const Material& material); // a cube from -1 to 1, seen from within
 // With area lights in world space. shown: as surfaces, too.
 Scene lit_by(Scene scene, const std::vector<AreaLight>& lights, bool shown);
+TextureRef add_texel(Scene& to, const glm::ivec3& code);                            // a 1x1 texture of 8 bits
+TextureRef add_texel(Scene& to, const glm::vec3& values);                           // a 1x1 texture of floats
 void add_scene(Scene& to, const Scene& from, const glm::vec3& offset, float scale); // its first mesh and material
 
 Material lambert(float albedo);                                // diffuse only
@@ -35,5 +38,10 @@ struct Estimate {                       // of the mean over a picture's pixels a
 };
 Estimate estimate(const Frame& frame);
 double mean_of(const Frame& frame); // of all channels of all pixels
+
+struct ChannelEstimate { // of the means over a picture's pixels
+    glm::dvec3 mean{0.0}, deviation{0.0};
+};
+ChannelEstimate estimate_channels(const Frame& frame);
 
 } // namespace burnish::test
