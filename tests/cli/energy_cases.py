@@ -295,7 +295,7 @@ def furnace_pairs(bench):
         mean, pictures = sum(values) / len(values), pictures + 1
         together = OFF_TOGETHER.get(names)
         least = 1 - OFF_BY - (sum(OFF.get(name, 0.0) for name in names) if together is None else together)
-        if not least <= mean <= 1 + OFF_BY - (together or 0.0):
+        if not least <= mean <= 1 + OFF_BY:
             off.append(f"{names}: {mean:.4f}")
     print(f"{pictures} pictures; {refused} whose options do not go together")
     check(not off, "; ".join(off))
