@@ -102,7 +102,9 @@ Result<ChosenView> wanted_view(const RenderOptions& options, const Scene& scene,
     }
     if (camera != kNone) {
         const std::string label = "camera " + camera_label(scene, camera);
-        const Result<View> view = changed(make_view(scene, camera, width, height), options, scene, label);
+        const Result<View> own = make_view(scene, camera, width, height);
+        BN_TRY(own);
+        const Result<View> view = changed(*own, options, scene, label);
         BN_TRY(view);
         return ChosenView{*view, label};
     }

@@ -64,10 +64,10 @@ View make_view(const glm::vec3& eye, const glm::vec3& target, float fov_y_rad, i
     return view;
 }
 
-View make_view(const Scene& scene, int camera, int width, int height)
+Result<View> make_view(const Scene& scene, int camera, int width, int height)
 {
-    BN_CHECK_OP(camera, >=, 0);
-    BN_CHECK_OP(camera, <, static_cast<int>(scene.cameras.size()));
+    if (camera < 0 || static_cast<std::size_t>(camera) >= scene.cameras.size())
+        return Error{ExitCode::usage, "", "", "camera " + std::to_string(camera) + ": the scene has " + std::to_string(scene.cameras.size())};
     const Camera& c = scene.cameras[static_cast<std::size_t>(camera)];
     glm::mat4 world(1.0f);
     for (const Node& node : scene.nodes)

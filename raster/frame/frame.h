@@ -32,7 +32,8 @@ struct View {                                                            // a re
 };
 
 // The image's aspect ratio decides the horizontal field of view.
-View make_view(const Scene& scene, int camera, int width, int height); // a camera of the scene (by index, must have a node)
+// Returns the view of a camera of the scene, which has a node. Errors: ExitCode::usage where no camera has this index.
+Result<View> make_view(const Scene& scene, int camera, int width, int height);
 View make_view(const glm::vec3& eye, const glm::vec3& target, float fov_y_rad, int width, int height);
 struct Framing {                       // how the whole scene is looked at: three quarters, so that a cube shows three faces
     float azimuth_rad = 0.61086524f;   // of the eye: from +Z towards +X

@@ -199,6 +199,11 @@ const BadScene kSurfaces[] = {
     {"/images/0/height", [](Scene& s) { s.images[0].height = 0; }},
     {"/images/0/width", [](Scene& s) { s.images[0].width = s.images[0].height = std::numeric_limits<int>::max(); }},
     {"/images/0/channels", [](Scene& s) { s.images[0].channels = 0; }},
+    {"/images/0/bytes",
+     [](Scene& s) {
+         s.images[0] = make_image(4, 4, 3, PixelType::f32);
+         s.images[0].f32()[17] = kNan;
+     }},
     {"/images/0/type", [](Scene& s) { s.images[0].type = static_cast<PixelType>(8); }},
 };
 
@@ -373,6 +378,16 @@ void expect_refused_frames(Session& session)
         ASSERT_FALSE(frame);
         EXPECT_EQ(frame.error().code, ExitCode::usage);
         EXPECT_NE(frame.error().line().find(kFrames[i].word), std::string::npos) << frame.error().line();
+    }
+}
+
+TEST(bad_scenes, cameras_that_are_not_there_are_said)
+{
+    const Scene scene = good_scene();
+    for (const int camera : {-1, static_cast<int>(scene.cameras.size()), std::numeric_limits<int>::max()}) {
+        const Result<View> view = make_view(scene, camera, 40, 30);
+        ASSERT_FALSE(view);
+        EXPECT_EQ(view.error().code, ExitCode::usage);
     }
 }
 
