@@ -345,8 +345,8 @@ BN_FN real passed_to_diffuse(frame_ref f, BN_IN(shaded_point) x)
         return passed;
     // From within no table has the albedo: light is reflected as a whole beyond an angle.
     real3 r = dielectric_reflectance(x.dielectric_f0, x.dielectric_f90, x.through.parts.ior, x.s.n_dot_v);
-    real smooth = max(lit(1.0) - max(r.x, max(r.y, r.z)), lit(0.0));
-    return select(x.through.parts.ior >= lit(1.0), passed, smooth);
+    real of_mirror = max(lit(1.0) - max(r.x, max(r.y, r.z)), lit(0.0));
+    return select(x.through.parts.ior >= lit(1.0), passed, of_mirror);
 }
 
 // BRDF of the diffuse part, 1/sr; times diffuse_lit().
