@@ -125,7 +125,7 @@ def devices_by_all(bench):
 @case("brdf.models_match_their_references_on_one_sheet")
 def models_match_their_references_on_one_sheet(bench):
     needs_embree(bench)
-    script = pathlib.Path(__file__).resolve().parents[2] / "bench/models_sheet.py"
+    script = pathlib.Path(__file__).resolve().parents[2] / "bench/lab/models_sheet.py"
     words = (sys.executable, "-B", script, "--program", bench.program, "-o", "sheet.png", "--side", "32", "--samples", "256",
              "--reference-samples", "128", "--work", "work", "--fail-flip")
 

@@ -131,10 +131,10 @@ def same_on_every_road(bench):
 
 @case("key_lights.lower_the_error_under_suns", tier="nightly")
 def lower_the_error(bench):
-    """The small table of bench/key_lights.py. Half was aimed at; .62, .79 and .66 were measured with lobe_line on 2026-11-22."""
+    """The small table of bench/lab/key_lights.py: under suns the mean error with key lights is at most .85 times that without."""
     if "reference" not in bench.run("info").expect(0).out:
         raise Skipped("built without Embree")
-    done = subprocess.run([sys.executable, "-B", ROOT / "bench/key_lights.py", "--quick", "--program", bench.program, "--json", bench.folder / "t.json"],
+    done = subprocess.run([sys.executable, "-B", ROOT / "bench/lab/key_lights.py", "--quick", "--program", bench.program, "--json", bench.folder / "t.json"],
                           capture_output=True, text=True, env=bench.environment({}), timeout=550, check=False)
     print(done.stdout)
     if done.returncode not in (0, 1):
@@ -157,8 +157,8 @@ def made_up_report(flips, cpu=1.0):
 
 @case("key_lights.table_of_aims_is_counted_by_places")
 def table_of_aims(_):
-    """bench/aims.py on reports that are made up."""
-    sys.path.append(str(ROOT / "bench"))
+    """bench/lab/aims.py on reports that are made up."""
+    sys.path.append(str(ROOT / "bench/lab"))
     import aims  # noqa: PLC0415
     flips = {"lobe_line": (0.02, 0.05), "major_axis_weighted": (0.1, 0.1), "bent_normal": (0.06, 0.04), "split_isotropic": (0.2, 0.2)}
     on = aims.places_of(made_up_report(flips))
@@ -178,7 +178,7 @@ def aims_are_measured(bench):
     """Its short form, four places, where lobe_line is to be the best."""
     if "reference" not in bench.run("info").expect(0).out:
         raise Skipped("built without Embree")
-    done = subprocess.run([sys.executable, "-B", ROOT / "bench/aims.py", "--quick", "--program", bench.program, "--json", bench.folder / "a.json"],
+    done = subprocess.run([sys.executable, "-B", ROOT / "bench/lab/aims.py", "--quick", "--program", bench.program, "--json", bench.folder / "a.json"],
                           capture_output=True, text=True, env=bench.environment({}), timeout=550, check=False)
     print(done.stdout)
     if done.returncode:

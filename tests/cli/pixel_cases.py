@@ -11,7 +11,7 @@ from compare_cases import png
 from harness import SMALL, Skipped, case, check, data_files, scratch
 from reference_cases import needs_embree
 
-sys.path.append(str(pathlib.Path(__file__).resolve().parents[2] / "bench"))
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[2] / "bench/lab"))
 
 BUILTINS = ("builtin:teapot", "builtin:spheres", "builtin:plate")
 

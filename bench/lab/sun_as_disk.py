@@ -18,7 +18,9 @@ import pathlib
 import sys
 
 from key_lights import mean, towards, write_sky
-from workbench import Program, arguments, in_folder
+
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1]))
+from workbench import Program, arguments, in_folder  # noqa: E402
 
 RADII_DEG, ELEVATIONS_DEG = (1.0, 1.6), (5.0, 30.0, 65.0)
 ROUGHNESS, ANISOTROPY = (0.3, 0.5, 0.7, 0.9), (0.5, 0.9)

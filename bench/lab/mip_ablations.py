@@ -23,7 +23,9 @@ import struct
 import sys
 
 from mips import code_of_slope, write_png
-from workbench import Program, arguments, in_folder
+
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1]))
+from workbench import Program, arguments, in_folder  # noqa: E402
 
 # name, options of training, what a reader wants to know
 ROWS = (

@@ -20,7 +20,7 @@ import sys
 import tempfile
 import zlib
 
-FONT = pathlib.Path(__file__).resolve().parents[1] / "apps/report/stroke_font.jhf"
+FONT = pathlib.Path(__file__).resolve().parents[2] / "apps/report/stroke_font.jhf"
 GAP, LINE = 12, 22  # px: around pictures, of a line of text
 DIFFUSE = {"pbrMetallicRoughness": {"baseColorFactor": [0.8, 0.8, 0.8, 1], "metallicFactor": 0},
            "extensions": {"KHR_materials_specular": {"specularFactor": 0}}}

@@ -23,7 +23,8 @@ import struct
 import sys
 import zlib
 
-from workbench import Program, arguments, in_folder
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1]))
+from workbench import Program, arguments, in_folder  # noqa: E402
 
 SIDE = 512  # texels of generated maps
 

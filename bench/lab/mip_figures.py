@@ -19,7 +19,9 @@ import sys
 
 from mip_ablations import Bench, make_ridges
 from relief import read_png, write_png
-from workbench import arguments, in_folder
+
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1]))
+from workbench import arguments, in_folder  # noqa: E402
 
 TIMES = 3
 # brdf, filters between which and the truth the figure stands, how many materials

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What `burnish render --risks` marks beside what is wrong, and what it takes: bench/risks.py PROGRAM [--set] [--keep DIR] [--time N]
+"""What `burnish render --risks` marks beside what is wrong, and what it takes: bench/lab/risks.py PROGRAM [--set] [--keep DIR] [--time N]
 
 Pairs of scenes and environments that the constants of apps/risks/risks.cpp were not chosen by; with --set those that they were. Of every pair:
 the share of shaded pixels that is marked, the share of pixels with FLIP above .15 that is among them (recall), the share of marked ones with
@@ -22,7 +22,7 @@ import tempfile
 import zlib
 
 SIZE = "240x160"
-DATA = pathlib.Path(__file__).resolve().parent.parent.parent / "shared/data"
+DATA = pathlib.Path(__file__).resolve().parents[3] / "shared/data"
 FAR, NEAR = 0.15, 0.05
 
 # scene, environment, words

@@ -90,7 +90,7 @@ def write_sky(path, radiance, width=1024):
 
 def environments_of(given):
     """Paths and names; of a folder, what is an environment in it. Nothing given: the folder beside the checkout, where there is one."""
-    beside = pathlib.Path(__file__).resolve().parents[2] / "shared/data/env"
+    beside = pathlib.Path(__file__).resolve().parents[3] / "shared/data/env"
     found = []
     for name in given or ([beside] if beside.is_dir() else []):
         path = pathlib.Path(name)

@@ -23,7 +23,7 @@ import tempfile
 import key_lights
 from key_lights import mean, run
 
-sys.path.append(str(pathlib.Path(__file__).with_name("instructions")))
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "instructions"))
 import count as instructions  # noqa: E402
 
 TUNED = ("builtin:studio", "workshop_1k.hdr", "blender_studio_1k.exr")  # that constants were chosen on

@@ -14,7 +14,8 @@ import json
 import pathlib
 import sys
 
-from workbench import Program, arguments, in_folder
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1]))
+from workbench import Program, arguments, in_folder  # noqa: E402
 
 METRICS = ("flip", "l1", "mse")
 # Gauthier et al. 2022, Table 1: changes to plain means in percent, FLIP, L1, MSE, of the hundred hardest materials
