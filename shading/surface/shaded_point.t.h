@@ -239,7 +239,8 @@ BN_FN real kept_light(material_ref m, real kept, real cosine)
     return k_saturate(lit(1.0) - (lit(1.0) - kept) * loss);
 }
 
-// Gives back to x.gain what the lobe loses by being wider than the material's own, of that roughness.
+// Multiplies x.gain by albedo(material's own lobe) / albedo(widened lobe). own_roughness: perceptual, of the former. At grazing angles facets
+// hide each other, and the quotient fades to 1.
 BN_FN void undo_widening(frame_ref f, real own_roughness, BN_INOUT(shaded_point) x)
 {
     dfg_value met = x.whole;
@@ -247,7 +248,8 @@ BN_FN void undo_widening(frame_ref f, real own_roughness, BN_INOUT(shaded_point)
     real3 grown = quotient_of(albedo_of(x.s, x.whole), albedo_of(x.s, met));
     if (the_frame(f).energy_compensation != 0)
         grown = grown * quotient_of(energy_compensation(x.s.f0, x.whole), energy_compensation(x.s.f0, met));
-    x.gain = x.gain * grown;
+    real facing = k_saturate(min(x.s.n_dot_v, k_dot3(x.surface_axes.n, x.s.v)) * lit(8.0));
+    x.gain = x.gain * (vec3_all(lit(1.0)) + (grown - vec3_all(lit(1.0))) * facing);
 }
 
 // Makes a lobe that stands for many facets reflect what they all reflect. Fills x.whole and multiplies x.gain.
