@@ -55,8 +55,8 @@ MORE = {"render": ("-o", "file/a.png"), "atlas": ("-o", "file/a"), "parity": ("-
 def examples(bench):
     """Command lines of the pages and of --help, without those that show what may be given."""
     lines = []
-    for page in ("README.md", "apps/README.md"):
-        lines += [line.strip() for line in re.sub(r"\\\n +", "", (ROOT / page).read_text()).splitlines() if line.startswith("    burnish ")]
+    for page in (ROOT / "README.md", *sorted((ROOT / "apps/manual").glob("*.md"))):
+        lines += [line.strip() for line in re.sub(r"\\\n +", "", page.read_text()).splitlines() if line.startswith("    burnish ")]
     for name in set(line.split()[1] for line in lines if line.split()[1].isalpha()):
         lines += [line.strip() for line in bench.run(name, "--help").out.split("Examples:")[-1].splitlines() if line.startswith("  burnish ")]
     lines = [part.strip() for line in lines for part in re.split("  ", line)[0].split("&&")]
