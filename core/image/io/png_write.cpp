@@ -12,7 +12,8 @@
 namespace burnish {
 namespace {
 
-// Paeth's filter and runs of equal bytes: about half the CPU time of all filters and matches searched at level 4, for a few per cent more bytes.
+// Paeth's filter and runs of equal bytes: about half the CPU time of all filters and matches searched at level 4, for a few per cent more
+// bytes.
 constexpr int kFilter = PNG_FILTER_PAETH, kStrategy = Z_RLE, kLevel = 1;
 constexpr int kColourTypes[] = {PNG_COLOR_TYPE_GRAY, PNG_COLOR_TYPE_GRAY_ALPHA, PNG_COLOR_TYPE_RGB, PNG_COLOR_TYPE_RGB_ALPHA};
 
