@@ -43,7 +43,7 @@ def pictures_of(text):
 
 def links_of(text):
     """[(file or "", anchor or "")] of a page's links within the repository."""
-    without_code = re.sub(r"```.*?```|^    .*$|`[^`\n]*`", "", text, flags=re.S | re.M)
+    without_code = re.sub(r"```[\s\S]*?```|^    .*$|`[^`\n]*`", "", text, flags=re.M)
     links = re.findall(r"\]\(([^)\s]+)\)", without_code)
     return [(link.partition("#")[0], link.partition("#")[2]) for link in links if not re.match(r"[a-z]+:", link)]
 

@@ -60,7 +60,7 @@ def examples(bench):
     for name in set(line.split()[1] for line in lines if line.split()[1].isalpha()):
         lines += [line.strip() for line in bench.run(name, "--help").out.split("Examples:")[-1].splitlines() if line.startswith("  burnish ")]
     lines = [part.strip() for line in lines for part in re.split("  ", line)[0].split("&&")]
-    return sorted(set(line for line in lines if "|" not in line and ">" not in line and not re.search(r"\[|\.\.\.|\b[A-Z]{3,}", line)))
+    return sorted(set(line for line in lines if not any(word in line for word in ("|", ">", "--help")) and not re.search(r"\[|\.\.\.|\b[A-Z]{3,}", line)))
 
 
 @case("usage.examples_of_the_pages_are_taken_as_they_are_written")
