@@ -1,9 +1,12 @@
-// `burnish manual`: the manual page and the completions, as they are installed.
+// `burnish manual`: the manual page and the completions, as they are installed, and pages of the reference.
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 
 #include "apps/cli/command.h"
+#include "apps/cli/lab.h"
 #include "apps/cli/manual.h"
+#include "apps/cli/report.h"
 #include "apps/cli/values.h"
 
 namespace burnish {
@@ -31,23 +34,62 @@ std::vector<Command> all_commands()
     return commands;
 }
 
+namespace {
+
+struct ManualArguments {
+    std::string what = "man", subcommand;
+};
+
+Status print_markdown(const std::string& name)
+{
+    bool found = false;
+    for (const Command& command : all_commands()) {
+        if (!name.empty() && command.name != name)
+            continue;
+        std::fputs(((found ? "\n" : "") + markdown_page(command)).c_str(), stdout);
+        found = true;
+    }
+    return found ? Status() : usage_error("SUBCOMMAND", "there is no subcommand '" + name + "'");
+}
+
+// Pages of the laboratory's subcommands are printed by its own program, which has their options.
+bool asks_lab(const std::string& name)
+{
+    const std::vector<Command> commands = all_commands();
+    return std::any_of(commands.begin(), commands.end(), [&](const Command& c) { return c.name == name && !c.run; });
+}
+
+int run_manual(const ManualArguments& arguments)
+{
+    if (arguments.what == "markdown") {
+        if (asks_lab(arguments.subcommand))
+            return start_lab({"manual", "markdown", arguments.subcommand});
+        const Status printed = print_markdown(arguments.subcommand);
+        return printed ? 0 : fail(printed.error());
+    }
+    if (!arguments.subcommand.empty())
+        return fail(usage_error("SUBCOMMAND", "needs markdown before it"));
+    using Text = std::string (*)(const std::vector<Command>&);
+    const std::pair<const char*, Text> texts[] = {
+        {"man", man_page}, {"bash", bash_completion}, {"zsh", zsh_completion}, {"fish", fish_completion}};
+    for (const auto& [name, text] : texts)
+        if (arguments.what == name)
+            std::fputs(text(all_commands()).c_str(), stdout);
+    return 0;
+}
+
+} // namespace
+
 Command manual_command()
 {
-    auto what = std::make_shared<std::string>("man");
+    auto arguments = std::make_shared<ManualArguments>();
     OptionTable table;
-    table.add("", {{"WHAT", "", "{}", choice(*what, {"man", "bash", "zsh", "fish"})}});
-    return {"manual", "Print the manual page, or the completions of a shell", table,
+    table.add("", {{"WHAT", "", "{}", choice(arguments->what, {"man", "bash", "zsh", "fish", "markdown"})},
+                   {"SUBCOMMAND", "", "Of markdown: whose page of the reference", text(arguments->subcommand), "all of them"}});
+    return {"manual", "Print the manual page, a page of the reference, or the completions of a shell", table,
             "Examples:\n  burnish manual | man -l -\n  source <(burnish manual bash)\n  burnish manual fish > "
-            "~/.config/fish/completions/burnish.fish",
-            [what](OptionTable&) {
-                using Text = std::string (*)(const std::vector<Command>&);
-                const std::pair<const char*, Text> texts[] = {
-                    {"man", man_page}, {"bash", bash_completion}, {"zsh", zsh_completion}, {"fish", fish_completion}};
-                for (const auto& [name, text] : texts)
-                    if (*what == name)
-                        std::fputs(text(all_commands()).c_str(), stdout);
-                return 0;
-            }};
+            "~/.config/fish/completions/burnish.fish\n  burnish manual markdown render > render.md",
+            [arguments](OptionTable&) { return run_manual(*arguments); }};
 }
 
 } // namespace burnish

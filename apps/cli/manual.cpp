@@ -15,6 +15,11 @@ std::string replaced(std::string text, const std::string& what, const std::strin
     return text;
 }
 
+std::string trimmed_end(const std::string& text)
+{
+    return text.substr(0, text.find_last_not_of(" \n") + 1);
+}
+
 // As roff reads it: no escape, no request at a line's beginning, a minus that can be copied.
 std::string roff(const std::string& text)
 {
@@ -101,7 +106,71 @@ std::string zsh_option(const Option& option)
     return out;
 }
 
+// In a cell of a Markdown table: no end of the cell, no tag.
+std::string markdown_cell(const std::string& text)
+{
+    return replaced(replaced(replaced(text, "|", "\\|"), "<", "&lt;"), "\n", " ");
+}
+
+std::string markdown_code(const std::string& text)
+{
+    return text.empty() ? "" : fmt::format("`{}`", replaced(text, "|", "\\|"));
+}
+
+std::string markdown_option(const Option& option)
+{
+    std::string names = markdown_code(option.name);
+    if (option.letter)
+        names = fmt::format("`-{}`, {}", option.letter, names);
+    const std::string value = option.takes_value() && !option.positional() ? markdown_code(option.value_name) : "";
+    const std::string at_first = option.required ? "must be given" : markdown_cell(option.default_text());
+    const char* again = option.value.repeated && option.takes_value() ? "; may be given several times" : "";
+    const std::string meaning = markdown_cell(option.meaning()) + (option.help.find("several times") == std::string::npos ? again : "");
+    return fmt::format("| {} | {} | {} | {} |\n", names, value, at_first, meaning);
+}
+
+// One table under each heading of the options, in their order.
+std::string markdown_options(const OptionTable& table)
+{
+    std::string out, heading;
+    bool begun = false, places = false;
+    for (const Option& option : table.options()) {
+        if (!begun || option.group != heading || option.positional() != places) {
+            places = option.positional(), heading = option.group;
+            const std::string title = places ? "Arguments" : heading.empty() ? "Options" : heading;
+            out += fmt::format("\n## {}\n\n| {} | value | default | meaning |\n| --- | --- | --- | --- |\n", title,
+                               places ? "argument" : "option");
+            begun = true;
+        }
+        out += markdown_option(option);
+    }
+    return out;
+}
+
+// Words of the footer, and its examples as a block of code.
+std::string markdown_footer(const std::string& footer)
+{
+    const std::string mark = "Examples:\n";
+    const std::size_t at = footer.find(mark);
+    const std::string notes = trimmed_end(footer.substr(0, at));
+    const std::string rest = at == std::string::npos ? "" : footer.substr(at + mark.size());
+    const std::size_t end = rest.find("\n\n");
+    std::string out = notes.empty() ? "" : fmt::format("\n## Notes\n\n{}\n", replaced(notes, "<", "&lt;"));
+    if (!rest.empty())
+        out += fmt::format("\n## Examples\n{}\n", replaced("\n" + trimmed_end(rest.substr(0, end)), "\n  ", "\n    "));
+    if (end != std::string::npos)
+        out += fmt::format("\n{}\n", replaced(trimmed_end(rest.substr(end + 2)), "<", "&lt;"));
+    return out;
+}
+
 } // namespace
+
+std::string markdown_page(const Command& command)
+{
+    std::string out = fmt::format("# burnish {}\n\n{}.\n\n", command.name, markdown_cell(command.summary));
+    out += fmt::format("    burnish {} {}\n", command.name, replaced(usage_of(command.options), "[OPTIONS]", "[options]"));
+    return out + markdown_options(command.options) + markdown_footer(command.footer);
+}
 
 std::string man_page(const std::vector<Command>& commands)
 {

@@ -39,12 +39,22 @@ Option Option::must_be_given() const
     return option;
 }
 
-std::string Option::help_text() const
+std::string Option::meaning() const
 {
     std::string text = help;
     if (const std::size_t at = text.find("{}"); at != std::string::npos)
         text.replace(at, 2, values_text(value));
-    const std::string shown = required ? "" : initial ? *initial : takes_value() ? value.get() : ""; // what must be given has no default
+    return text;
+}
+
+std::string Option::default_text() const
+{
+    return required ? "" : initial ? *initial : takes_value() ? value.get() : ""; // what must be given has no default
+}
+
+std::string Option::help_text() const
+{
+    const std::string text = meaning(), shown = default_text();
     return shown.empty() ? text : fmt::format("{} ({})", text, shown);
 }
 

@@ -38,7 +38,9 @@ struct Option {
 
     bool positional() const { return name[0] != '-'; }
     bool takes_value() const { return value.kind != ValueKind::flag && value.kind != ValueKind::count; }
-    std::string help_text() const; // with the default in brackets
+    std::string meaning() const;      // help, with the value's names or its range
+    std::string default_text() const; // "" where there is none
+    std::string help_text() const;    // the meaning, with the default in brackets
 };
 
 // All options of a subcommand, in the order of its help.

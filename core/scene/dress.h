@@ -16,7 +16,7 @@ enum class MipFallback { automatic, off };    // automatic: materials are left t
 inline constexpr float kUsualMipKappa = 0.7f; // of every model of lobes: makes the least error of the numbers tried (bench/README.md)
 
 struct Dress {              // empty: left as it is
-    std::string material;   // folder of pictures, whose names end in what they are: see apps/README.md
+    std::string material;   // folder of pictures, whose names end in what they are: see apps/manual/materials.md
     std::string direction;  // an anisotropy texture; materials without strength of anisotropy get 1, which its blue scales
     std::string rotation;   // the same in another encoding
     std::string normal;     // normal map

@@ -37,6 +37,7 @@ import layer_cases
 import light_cases
 import limit_cases
 import manual_cases
+import manual_page_cases
 import mip_cases
 import mip_file_cases
 import mip_light_cases

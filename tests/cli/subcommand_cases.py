@@ -51,7 +51,7 @@ RUNS = {
               (("mip", "--steps", "1", "--size", "1x8", "--loss", "l2", "--tone", "log", "--levels", "2", "-o", "x.mipnet", "-q"), (0,))],
     "export": [(("glsl", "--technique", "lobe_line", "-o", "l.glsl"), (0,)), (("glsl", "--technique", "filtered_is", "-o", "-"), (0,))],
     "list": [((what,), (0,)) for what in ("techniques", "scenes", "environments", "models", "area-lights", "mip-filters", "extensions")],
-    "manual": [((what,), (0,)) for what in ("man", "bash", "zsh", "fish")],
+    "manual": [((what,), (0,)) for what in ("man", "bash", "zsh", "fish", "markdown")],
     "info": [((), (0,)), (("--json",), (0,))],
 }
 

@@ -55,12 +55,12 @@ MORE = {"render": ("-o", "file/a.png"), "atlas": ("-o", "file/a"), "parity": ("-
 def examples(bench):
     """Command lines of the pages and of --help, without those that show what may be given."""
     lines = []
-    for page in ("README.md", "apps/README.md"):
-        lines += [line.strip() for line in re.sub(r"\\\n +", "", (ROOT / page).read_text()).splitlines() if line.startswith("    burnish ")]
+    for page in (ROOT / "README.md", *sorted((ROOT / "apps/manual").glob("*.md"))):
+        lines += [line.strip() for line in re.sub(r"\\\n +", "", page.read_text()).splitlines() if line.startswith("    burnish ")]
     for name in set(line.split()[1] for line in lines if line.split()[1].isalpha()):
         lines += [line.strip() for line in bench.run(name, "--help").out.split("Examples:")[-1].splitlines() if line.startswith("  burnish ")]
     lines = [part.strip() for line in lines for part in re.split("  ", line)[0].split("&&")]
-    return sorted(set(line for line in lines if "|" not in line and ">" not in line and not re.search(r"\[|\.\.\.|\b[A-Z]{3,}", line)))
+    return sorted(set(line for line in lines if not any(word in line for word in ("|", ">", "--help")) and not re.search(r"\[|\.\.\.|\b[A-Z]{3,}", line)))
 
 
 @case("usage.examples_of_the_pages_are_taken_as_they_are_written")

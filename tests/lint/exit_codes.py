@@ -1,4 +1,4 @@
-"""Every exit code of core/base/result.h stands in the table of apps/README.md and in what --help says of them."""
+"""Every exit code of core/base/result.h stands in the table of apps/manual/ci.md and in what --help says of them."""
 
 import pathlib
 import re
@@ -10,21 +10,21 @@ def codes_of_enum(text):
     return {int(code): name for name, code in re.findall(r"^\s*(\w+) = (\d+),", body, re.M)}
 
 
-def faults(result_h, page, main_cpp):
+def faults(result_h, page, program_cpp):
     codes = codes_of_enum(result_h)
     table = re.search(r"^## Exit codes\n(.*?)^## ", page, re.S | re.M)[1]
     in_table = {int(n) for cell in re.findall(r"^\| ([\d, ]+) \|", table, re.M) for n in cell.split(",")}
-    spoken = re.search(r"^Exit codes: (.*?)\)\"", main_cpp, re.S | re.M)[1]
+    spoken = re.search(r"^Exit codes: (.*?)\)\"", program_cpp, re.S | re.M)[1]
     in_help = {int(n) for n in re.findall(r"(?:^|[,\n] ?| or )(\d+) ", " " + spoken)} | {0}
     found = []
-    for where, there in (("apps/README.md", in_table), ("apps/cli/program.cpp", in_help)):
+    for where, there in (("apps/manual/ci.md", in_table), ("apps/cli/program.cpp", in_help)):
         found += [f"{where}: exit code {code} ({name}) of core/base/result.h is missing" for code, name in codes.items() if code not in there]
         found += [f"{where}: exit code {code} is none of core/base/result.h" for code in sorted(there - set(codes) - {130, 143})]
     return found
 
 
 def main(root):
-    texts = [(root / name).read_text() for name in ("core/base/result.h", "apps/README.md", "apps/cli/program.cpp")]
+    texts = [(root / name).read_text() for name in ("core/base/result.h", "apps/manual/ci.md", "apps/cli/program.cpp")]
     wrong = faults(*texts)
     # the check sees what it is for
     without = [faults(texts[0], re.sub(r"^\| 5 \|.*\n", "", texts[1], flags=re.M), texts[2]),

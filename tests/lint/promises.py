@@ -1,4 +1,4 @@
-"""Each promise of apps/README.md names tests, and each of them exists.
+"""Each promise of apps/promises.md names tests, and each of them exists.
 
 Usage: promises.py SOURCE BUILD_FOLDER CTEST RUN_CASE_COMMAND... (which lists the cases of the program). Names may hold *. Prints one line a
 fault; exit code 1 where there is any."""
@@ -46,7 +46,7 @@ def main():
     tests = [re.sub(r"  # GetParam\(\).*", "", test["name"]) for test in listed["tests"]]
     # Some need another build beside this one, and are in its list only.
     tests += ["cli." + line.split()[0] for line in subprocess.run(list_cases, capture_output=True, text=True, check=True).stdout.splitlines()]
-    rows = list(rows_of(pathlib.Path(source, "apps/README.md").read_text()))
+    rows = list(rows_of(pathlib.Path(source, "apps/promises.md").read_text()))
     faults = list(faults_of(rows, tests))
     print(*faults, f"{len(rows)} promises, {len(faults)} faults", sep="\n")
     return 1 if faults or len(rows) < 20 else 0

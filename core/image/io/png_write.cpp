@@ -12,9 +12,8 @@
 namespace burnish {
 namespace {
 
-// Paeth's filter and runs of equal bytes. Against all filters tried and matches searched at level 4, CPU time
-// and size at 1920x1080: the built-in teapot 32 ms for 67, 5 % more bytes; the plate 33 for 76, 1 % less; a
-// noisy picture by Monte Carlo 49 for 155, 7 % more.
+// Paeth's filter and runs of equal bytes: about half the CPU time of all filters and matches searched at level 4, for a few per cent more
+// bytes.
 constexpr int kFilter = PNG_FILTER_PAETH, kStrategy = Z_RLE, kLevel = 1;
 constexpr int kColourTypes[] = {PNG_COLOR_TYPE_GRAY, PNG_COLOR_TYPE_GRAY_ALPHA, PNG_COLOR_TYPE_RGB, PNG_COLOR_TYPE_RGB_ALPHA};
 

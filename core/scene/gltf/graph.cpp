@@ -129,7 +129,7 @@ glm::mat4 local_matrix(Document& doc, std::size_t index)
     return matrix;
 }
 
-// What apps/README.md describes: extras.burnish.areaLight of a node.
+// What extras.md describes: extras.burnish.areaLight of a node.
 int load_area_light(Document& doc, const Json& node, const std::string& node_place)
 {
     const Json::json_pointer at("/extras/burnish/areaLight");

@@ -178,7 +178,7 @@ TEST(golden, picture_of_area_lights_is_as_it_was)
     stage.environment = small_bake("night");
     FrameDesc d;
     d.width = 96, d.height = 64, d.msaa = 4;
-    d.view = make_view(stage.scene, 0, d.width, d.height);
+    d.view = *make_view(stage.scene, 0, d.width, d.height);
     for (Isa isa : available_isas())
         EXPECT_TRUE(is_golden("options/area_lights", stage.render(d, isa).color, isa_name(isa)));
 }

@@ -1,0 +1,117 @@
+"""The pages of apps/manual: reference pages are the program's, commands run as they are written, links and pictures are there."""
+
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+
+from harness import Skipped, case, check
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
+MANUAL = ROOT / "apps/manual"
+sys.path.insert(0, str(MANUAL))
+
+import pages  # noqa: E402
+
+NEEDS = {"--backend": "a Vulkan device or Embree", "parity": "a Vulkan device", "race": "a Vulkan device"}
+MOST_BYTES, MOST_PICTURE = 2 << 20, 80 << 10
+
+
+def lab_program(bench):
+    return pathlib.Path(bench.program).with_name("burnish-lab")
+
+
+@case("manual.reference_pages_are_the_program_s")
+def reference(bench):
+    """apps/manual/make --reference writes them anew."""
+    text = (ROOT / "apps/cli/commands.def").read_text()
+    names = re.findall(r"^BN_(LAB_)?COMMAND\((\w+)", text, re.M)
+    check(len(names) > 10, f"only {len(names)} subcommands were seen")
+    wrong = []
+    for lab, name in names:
+        program = lab_program(bench) if lab else None
+        if lab and not program.exists():
+            continue
+        page = MANUAL / "reference" / f"{name}.md"
+        made = bench.run("manual", "markdown", name, program=program).expect(0).out
+        if not page.exists() or page.read_text() != made:
+            wrong.append(f"apps/manual/reference/{name}.md differs from burnish manual markdown {name}")
+    check(not wrong, "\n".join(wrong))
+    known = {f"{name}.md" for _, name in names} | {"README.md"}
+    left = sorted(path.name for path in (MANUAL / "reference").iterdir() if path.name not in known)
+    check(not left, f"pages without a subcommand: {left}")
+
+
+@case("manual.reference_names_every_option")
+def options(bench):
+    """Each row of --help is a row of the page, and an unknown subcommand is a mistake."""
+    for name in ("render", "compare", "bake", "plot", "info"):
+        page = bench.run("manual", "markdown", name).expect(0).out
+        check(page.startswith(f"# burnish {name}\n"), page[:200])
+        for option in re.findall(r"^  (?:-\w,)?(--[a-z][a-z0-9-]*)", bench.run(name, "--help").expect(0).out, re.M):
+            check(option == "--help" or re.search(rf"^\| (?:`-\w`, )?`{option}` \|", page, re.M), f"{name}: no row of {option}")
+    bench.run("manual", "markdown", "nothing").expect(2).expect_one_line("nothing")
+    bench.run("manual", "bash", "render").expect(2).expect_one_line("markdown")
+
+
+@case("manual.links_and_pictures_are_there")
+def links(bench):
+    """Of the manual and the front page. Every picture is shown by a page, and none is large."""
+    wrong, shown = [], set()
+    everything = [*pages.pages(), *sorted((MANUAL / "reference").glob("*.md")), ROOT / "apps/README.md", ROOT / "apps/promises.md"]
+    for page in everything:
+        text = page.read_text()
+        shown.update(pages.pictures_of(text))
+        for file, anchor in pages.links_of(text):
+            target = (page.parent / file).resolve() if file else page
+            if not target.exists():
+                wrong.append(f"{page.relative_to(ROOT)}: no file {file}")
+            elif anchor and anchor not in pages.anchors_of(target.read_text()):
+                wrong.append(f"{page.relative_to(ROOT)}: no heading {file}#{anchor}")
+    files = {path.name: path.stat().st_size for path in (MANUAL / "pictures").iterdir()}
+    wrong += [f"pictures/{name}: no page shows it" for name in sorted(set(files) - shown)]
+    wrong += [f"pictures/{name}: {size} bytes" for name, size in files.items() if size > MOST_PICTURE]
+    check(not wrong, "\n".join(wrong))
+    check(sum(files.values()) <= MOST_BYTES and len(files) > 30, f"{len(files)} pictures, {sum(files.values())} bytes")
+
+
+@case("manual.library_page_has_the_tested_program")
+def library_page(bench):
+    page = (MANUAL / "library.md").read_text()
+    check((ROOT / "tests/package/turntable.cpp").read_text() in page, "library.md and tests/package/turntable.cpp differ")
+
+
+@case("manual.pages_hold_no_dates_and_no_times")
+def no_dates(bench):
+    """Those are the laboratory's: bench/lab."""
+    dated = re.compile(r"\b20\d\d-\d\d-\d\d\b|\b\d+(\.\d+)? (ms|µs|CPU seconds|CPU minutes)\b")
+    wrong = [f"{page.relative_to(ROOT)}: {found[0]}" for page in pages.pages() for found in dated.finditer(page.read_text())]
+    check(not wrong, "\n".join(wrong))
+
+
+def run_page(bench, page):
+    """Faults of a page's commands, which run one after another in a folder of their own."""
+    folder = bench.folder / page.stem
+    folder.mkdir()
+    for name, data in pages.STAND_INS.items():
+        shutil.copy(bench.data_file(data), folder / name)
+    for words, code in pages.commands_of(page.read_text()):
+        program = bench.program if words[0] == "burnish" else words[0]
+        lab = len(words) > 1 and words[0] == "burnish" and words[1] in pages.LAB
+        if lab and not lab_program(bench).exists():
+            continue
+        done = subprocess.run([program, *words[1:]], cwd=folder, env=bench.environment({}), capture_output=True, text=True, timeout=900)
+        absent = done.returncode == 77 and any(word in NEEDS for word in words)
+        if done.returncode != code and not absent:
+            yield f"{page.name}: {' '.join(words)}: exit code {done.returncode}, not {code}: {done.stderr[-500:]}"
+
+
+@case("manual.commands_run_as_they_are_written", tier="nightly", budget=900)
+def commands(bench):
+    found = sum(len(pages.commands_of(page.read_text())) for page in pages.pages())
+    check(found > 100, f"only {found} commands were found")
+    if bench.sanitized:
+        raise Skipped("takes too long under sanitizers")
+    wrong = [fault for page in pages.pages() for fault in run_page(bench, page)]
+    check(not wrong, "\n".join(wrong))
