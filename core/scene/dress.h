@@ -12,8 +12,9 @@
 
 namespace burnish {
 
-enum class MipFallback { automatic, off };    // automatic: materials are left to closed forms where the net is worse than it may be
-inline constexpr float kUsualMipKappa = 0.7f; // of every model of lobes: makes the least error of the numbers tried (bench/README.md)
+enum class MipFallback { automatic, off }; // automatic: materials are left to closed forms where the net is worse than it may be
+inline constexpr float kUsualMipKappa =
+    0.7f; // of every model of lobes: makes the least error of the numbers tried (bench/lab/notebook/mip_filters.md)
 
 struct Dress {              // empty: left as it is
     std::string material;   // folder of pictures, whose names end in what they are: see apps/manual/materials.md

@@ -32,7 +32,7 @@ bool makes_lobes(MipFilter filter); // levels of lobes, all but box and lean
 bool takes_net(MipFilter filter);   // and its lobe
 bool takes_kappa(MipFilter filter);
 inline constexpr double kMostKappa = 4.0; // the least is 0
-bool takes_gains(MipFilter filter);       // of reflectances: those that err less with them under lamps, see bench/README.md
+bool takes_gains(MipFilter filter);       // of reflectances: those that err less with them under lamps, see bench/lab/notebook/mip_nets.md
 
 // What the normals of a fetch's texels differ by, as part of the lobe's covariance: (gain n)(gain n)^T of x and y of unit normals.
 float gain_of_taps(MipFilter filter, float kappa);
