@@ -66,8 +66,9 @@ def main():
             if code not in (0, SKIPPED):
                 failed.append(test["name"])
                 print("    " + "\n    ".join(output[-3000:].splitlines()), flush=True)
-            if cpu > budget_of(test["name"], tier, labels):
-                over.append(f"{test['name']}: {cpu:.1f} s, budget {budget_of(test["name"], tier, labels):.1f}")
+            budget = budget_of(test["name"], tier, labels)
+            if cpu > budget:
+                over.append(f"{test['name']}: {cpu:.1f} s, budget {budget:.1f}")
     for tier in TIERS:
         if tier in sums:
             print(f"{tier}: {sums[tier][0]} tests, {sums[tier][1]:.1f} CPU seconds")

@@ -239,8 +239,8 @@ BN_FN real kept_light(material_ref m, real kept, real cosine)
     return k_saturate(lit(1.0) - (lit(1.0) - kept) * loss);
 }
 
-// Multiplies x.gain by albedo(material's own lobe) / albedo(widened lobe). own_roughness: perceptual, of the former. At grazing angles facets
-// hide each other, and the quotient fades to 1.
+// Multiplies x.gain by albedo(material's own lobe) / albedo(widened lobe). own_roughness: perceptual, of the former. At grazing angles
+// facets hide each other, and the quotient fades to 1.
 BN_FN void undo_widening(frame_ref f, real own_roughness, BN_INOUT(shaded_point) x)
 {
     dfg_value met = x.whole;
@@ -345,10 +345,14 @@ BN_FN real passed_to_diffuse(frame_ref f, BN_IN(shaded_point) x)
     real passed = lit(1.0) - max(dielectric.x, max(dielectric.y, dielectric.z));
     if (!x.refracts)
         return passed;
-    // From within no table has the albedo: light is reflected as a whole beyond an angle.
+    // Glass reflects by Fresnel's equations, the table's lobe by Schlick's: a mirror's quotient turns one into the other. From within no
+    // table has the albedo, and the mirror's stands for the lobe's.
     real3 r = dielectric_reflectance(x.dielectric_f0, x.dielectric_f90, x.through.parts.ior, x.s.n_dot_v);
-    real of_mirror = max(lit(1.0) - max(r.x, max(r.y, r.z)), lit(0.0));
-    return select(x.through.parts.ior >= lit(1.0), passed, of_mirror);
+    real mirrored = max(r.x, max(r.y, r.z));
+    real3 schlick = fresnel_schlick(x.dielectric_f0, vec3_all(x.dielectric_f90), x.s.n_dot_v);
+    real rough = (lit(1.0) - passed) / max(max(schlick.x, max(schlick.y, schlick.z)), lit(1e-4));
+    real reflected = select(x.through.parts.ior >= lit(1.0), mirrored * rough, mirrored);
+    return k_saturate(lit(1.0) - reflected);
 }
 
 // BRDF of the diffuse part, 1/sr; times diffuse_lit().

@@ -437,7 +437,7 @@ def lean_refuses(bench):
     row, = lean_rows(bench, "builtin:spheres", "--env", "builtin:sky", "--size", "32x24", "--techniques", "split_isotropic", "--msaa", "1", code=77)
     check("key lights" in row["error"], f"{row}")
     refused = ("--backend", "vulkan", "--device", "lavapipe", "--pipeline", "lean", "--size", "32x24", "-q", *COARSE, "-o", "a.exr")
-    for words, needle in ((("builtin:spheres", "--tilt", "10,0"), "--tilt"), (("builtin:bumps",), "heights"),
+    for words, needle in ((("builtin:spheres", "--tilt", "10,0"), "--tilt"), (("builtin:bumps", "--horizon", "off"), "heights"),
                           (("builtin:spheres", "--fresnel", "dielectric"), "--fresnel")):
         bench.run("render", *words, *refused).expect(77).expect_one_line(needle)
         check(not (bench.folder / "a.exr").exists(), f"{words} made a picture")

@@ -19,6 +19,7 @@ std::vector<Facet> facets_of_slopes(int side, float (*slope_x)(int x, int y), fl
         }
     MipMaps maps;
     maps.normal = &map;
+    maps.nearest = true; // else normals between texels count, too
     return facets_of(MipSource(maps));
 }
 

@@ -47,6 +47,7 @@ KeptWeights weights_of(const Image& map)
 {
     MipMaps maps;
     maps.normal = &map;
+    maps.nearest = true; // else normals between texels count, too
     return kept_weights(MipSource(maps), kept_shares(0.3f));
 }
 
