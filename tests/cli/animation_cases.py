@@ -29,7 +29,7 @@ def each_step_is_the_picture_of_its_values(bench):
         check(picture.read_bytes() == (bench.folder / "single.exr").read_bytes(), f"{picture.name} is another file than of its picture alone")
 
 
-@case("animation.environments_and_whole_numbers_change_too")
+@case("animation.environments_and_whole_numbers_change_too", tier="nightly")
 def environments_and_whole_numbers_change_too(bench):
     row = bench.figures(*ROW, "--animate", "env-rotation=0:90,samples=4:9", "--steps", "2", "--technique", "major_axis")
     for step, rotation, samples in zip(row["steps"], ("0", "90"), ("4", "9")):

@@ -29,7 +29,7 @@ def sheets(bench, name):
     return bench.data_file(f"reports/blend_{name}.gltf")
 
 
-@case("blend.sheets_are_composed_by_any_number_of_samples")
+@case("blend.sheets_are_composed_by_any_number_of_samples", tier="nightly")
 def samples(bench):
     for name, wanted in SHEETS.items():
         for msaa in (1, 2, 4, 8, 16):
@@ -37,7 +37,7 @@ def samples(bench):
             check_middle(middle(bench), wanted, 1e-5, f"{name}, {msaa} samples")
 
 
-@case("blend.alpha_of_pictures_is_what_does_not_shine_through")
+@case("blend.alpha_of_pictures_is_what_does_not_shine_through", tier="nightly")
 def alpha(bench):
     """White sheets before nothing: alpha is light."""
     for backend in ("tile", "reference"):
@@ -53,7 +53,7 @@ def alpha(bench):
     check(json.loads(compared.out), "no figures")
 
 
-@case("blend.sheets_on_lavapipe_equal_the_tiles")
+@case("blend.sheets_on_lavapipe_equal_the_tiles", tier="nightly")
 def device(bench):
     check_equal(parity(bench, sheets(bench, "twelve_sheets"), "--technique", "bent_normal", "--msaa", "1,4", "--size", "40x40"))
 

@@ -25,7 +25,7 @@ def lobes(bench):
     return found
 
 
-@case("brdf.list_models_names_what_it_takes")
+@case("brdf.list_models_names_what_it_takes", tier="nightly")
 def names(bench):
     found = lobes(bench)
     check(len(found) == 10 and [name for name, lamps in found.items() if lamps] == ["heidrich_seidel"], f"{found}")
@@ -90,7 +90,7 @@ def against_reference(bench, samples, name):
 
 
 # So many samples that the noise is the reference's, and few.
-@case("brdf.mc_agrees_with_the_reference")
+@case("brdf.mc_agrees_with_the_reference", tier="nightly")
 def agrees(bench):
     needs_embree(bench)
     for name, lamps in lobes(bench).items():
@@ -112,7 +112,7 @@ def devices_agree(bench, *looks):
 
 
 # Those that share least, and on other days all.
-@case("brdf.devices_give_the_same_words")
+@case("brdf.devices_give_the_same_words", tier="nightly")
 def devices(bench):
     devices_agree(bench, ("ashikhmin_shirley",), ("ellipsoid",), ("beckmann", "--energy-compensation"))
 
@@ -122,7 +122,7 @@ def devices_by_all(bench):
     devices_agree(bench, *((name,) for name in lobes(bench)))
 
 
-@case("brdf.models_match_their_references_on_one_sheet")
+@case("brdf.models_match_their_references_on_one_sheet", tier="nightly")
 def models_match_their_references_on_one_sheet(bench):
     needs_embree(bench)
     script = pathlib.Path(__file__).resolve().parents[2] / "bench/lab/models_sheet.py"

@@ -53,7 +53,7 @@ def faults(bench):
     check("clearcoat" not in bench.run("render", *words).expect(0).err, "--strict has something to say of a clear coat")
 
 
-@case("coat.each_of_its_numbers_is_seen")
+@case("coat.each_of_its_numbers_is_seen", tier="nightly")
 def seen(bench):
     full = {name: bench.figures(scene(bench, name, **material), *CLOSE)["pixel_hash"] for name, material in
             (("coated", {}), ("bare", dict(coat={"clearcoatFactor": 0})), ("half", dict(coat={"clearcoatFactor": 0.5})), ("smooth", dict(roughness=0)),
@@ -68,7 +68,7 @@ def seen(bench):
     check(bare == bench.figures(textured, *CLOSE)["pixel_hash"], "a textured coat of no share is seen")
 
 
-@case("coat.mc_agrees_with_the_reference")
+@case("coat.mc_agrees_with_the_reference", tier="nightly")
 def agrees(bench):
     needs_embree(bench)
     lamp = ("--light", "quad:points=-1,-0.2,0.1/-1,0.8,0.1/-1,0.8,0.7/-1,-0.2,0.7:radiance=5,5,5:two-sided", "--area-lights", "mc")
@@ -86,7 +86,7 @@ def agrees(bench):
     check(against_files(bench, "r.pfm", "mc.pfm", "v.pfm")["z_rejected_fraction"] > 0.1, "the test sees no coat")
 
 
-@case("coat.devices_give_the_same_words")
+@case("coat.devices_give_the_same_words", tier="nightly")
 def devices(bench):
     mapped = scene(bench, "mapped", textures=("clearcoat", "clearcoatRoughness", "clearcoatNormal"))
     small = ("--size", "32x24", "--env", "builtin:sky")

@@ -226,7 +226,7 @@ def page(bench):
     check(done.out.startswith("<!DOCTYPE html>") and done.out.endswith("</html>\n"), "no page on standard output")
 
 
-@case("compare.page_slides_flickers_zooms_and_shows_the_histogram")
+@case("compare.page_slides_flickers_zooms_and_shows_the_histogram", tier="nightly")
 def page_in_browser(bench):
     pictures(bench)
     with Browser(bench.folder / "browser") as browser:
@@ -369,7 +369,7 @@ def unwritable(bench):
     check(json.loads((bench.folder / "j.json").read_text())["width"] == 24, "the figures that could be written are not there")
 
 
-@case("compare.figures_go_to_stdout_and_words_to_stderr")
+@case("compare.figures_go_to_stdout_and_words_to_stderr", tier="nightly")
 def words(bench):
     pictures(bench)
     done = bench.run("compare", "a.pfm", "b.pfm", "--json", "j.json").expect(0)

@@ -35,7 +35,7 @@ def with_little_memory(bench, words, output, limits):
     return said
 
 
-@case("confine.little_address_space")
+@case("confine.little_address_space", tier="nightly")
 def little_memory(bench):
     bench.run("render", *TINY).expect(0)
     with_little_memory(bench, BIG, "o.png", [m * MIB for m in (96, 160, 256, 1024)])
@@ -47,7 +47,7 @@ def little_memory_all(bench):
     with_little_memory(bench, BIG, "o.png", [m * MIB for m in range(32, 1100, 16)])
 
 
-@case("confine.a_picture_that_does_not_fit_is_not_called_damaged")
+@case("confine.a_picture_that_does_not_fit_is_not_called_damaged", tier="nightly")
 def exr_memory(bench):
     """What OpenEXR says where it gets no memory is not taken for what it says of a damaged file."""
     bench.run("render", "builtin:plate", *TINY, "--size", "4000x4000", "-o", "big.exr").expect(0)
@@ -87,7 +87,7 @@ def in_group(bench, kind, limit, words):
     raise Skipped(f"no control groups of {controller} here")
 
 
-@case("confine.little_memory_of_a_control_group")
+@case("confine.little_memory_of_a_control_group", tier="nightly")
 def memory_group(bench):
     """What would be killed without a word ends with one, and leaves no half picture."""
     if bench.sanitized:
@@ -154,12 +154,12 @@ def with_few_threads(bench, names, counts, user):
         shutil.rmtree(path) if path.is_dir() else path.unlink(missing_ok=True)
 
 
-@case("confine.few_threads_draw_the_same")
+@case("confine.few_threads_draw_the_same", tier="nightly")
 def few_threads(bench):
     with_few_threads(bench, ("o.png", "o.pfm", "r.pfm", "levels"), (1, 2, 3), 50000 + os.getpid() % 5000)
 
 
-@case("confine.few_threads_of_libraries_are_said")
+@case("confine.few_threads_of_libraries_are_said", tier="nightly")
 def few_threads_of_libraries(bench):
     with_few_threads(bench, ("o.exr", "v.pfm"), (1, 2, 4, 6), 55000 + os.getpid() % 5000)
 
@@ -180,7 +180,7 @@ def fewer_are_said(bench):
     check("warning" not in bench.run(*words).expect(0).err, "all threads, and a warning")
 
 
-@case("confine.threads_of_a_control_group")
+@case("confine.threads_of_a_control_group", tier="nightly")
 def threads_group(bench):
     words = FEW_THREADS["o.png"][0]
     bench.run(*words, "-o", "whole.png").expect(0)
@@ -190,7 +190,7 @@ def threads_group(bench):
         check((bench.folder / "o.png").read_bytes() == (bench.folder / "whole.png").read_bytes(), f"{limit}: another picture")
 
 
-@case("confine.little_address_space_of_a_bake")
+@case("confine.little_address_space_of_a_bake", tier="nightly")
 def little_memory_of_a_bake(bench):
     words = ("bake", "mip", "builtin:roofs=1", "--format", "png-levels", "-q", "-o", "levels")
     if bench.sanitized:
@@ -207,7 +207,7 @@ def little_memory_of_a_bake(bench):
     check(done.returncode == 0, f"2 GiB are not enough: {done.stderr}")
 
 
-@case("confine.read_only_root_and_no_rights")
+@case("confine.read_only_root_and_no_rights", tier="nightly")
 def read_only_root(bench):
     """As nobody, as process 1, without a network, with every file system read-only but one small one: as containers are run."""
     if os.geteuid():
@@ -238,7 +238,7 @@ def read_only_root(bench):
     check(not os.path.exists(outside) and not os.path.exists("/o.png"), "written where nothing can be")
 
 
-@case("confine.a_folder_without_rights")
+@case("confine.a_folder_without_rights", tier="nightly")
 def no_rights(bench):
     """As nobody, in a folder that is root's: what cannot be written is said, and nothing is left."""
     if os.geteuid():

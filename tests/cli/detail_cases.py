@@ -215,7 +215,7 @@ def islands(bench):
 
 
 # Rotation first, then bump: the frame turned by a normal map carries the rotated grain.
-@case("detail.rotations_and_bumps_give_the_same_words_on_devices")
+@case("detail.rotations_and_bumps_give_the_same_words_on_devices", tier="nightly")
 def devices(bench):
     scene = scenes(bench)
     bench.run("bake", "tpr", "--expr", "cos(pi*v)", "sin(pi*v)", "--size", "8x16", "-o", "r.exr").expect(0)

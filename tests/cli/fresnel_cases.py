@@ -51,7 +51,7 @@ def laws(bench):
     check(hashes["glass", "dielectric"] == hashes["glass", "conductor"] != hashes["glass", "schlick"], f"{hashes}")
 
 
-@case("fresnel.mc_agrees_with_the_reference")
+@case("fresnel.mc_agrees_with_the_reference", tier="nightly")
 def agrees(bench):
     needs_embree(bench)
     for name, gltf in (("gold", triangle_of(GOLD)), ("mixture", triangle_of(GOLD, metallic=0.5)), ("glass", triangle_of(metallic=0.0, color=0.0))):
@@ -66,7 +66,7 @@ def agrees(bench):
     check(against_files(bench, "r.pfm", "mc.pfm", "v.pfm")["z_rejected_fraction"] > 0.1, "Schlick's approximation passes for exact dielectrics")
 
 
-@case("fresnel.devices_give_the_same_words")
+@case("fresnel.devices_give_the_same_words", tier="nightly")
 def devices(bench):
     mixed = triangle_of(GOLD, metallic=0.5, extensions={"KHR_materials_ior": {"ior": 2.1}, "KHR_materials_anisotropy": {"anisotropyStrength": 0.7}})
     mixed["extensionsUsed"] = ["KHR_materials_ior", "KHR_materials_anisotropy"]

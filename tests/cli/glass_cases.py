@@ -58,7 +58,7 @@ def opaque(bench):
     check(bench.figures(opaque_mirror, *words)["pixel_hash"] == drawn["mirror"], "an index of 0 lets light through")
 
 
-@case("glass.mc_agrees_with_the_reference")
+@case("glass.mc_agrees_with_the_reference", tier="nightly")
 def agrees(bench):
     needs_embree(bench)
     lamp = ("--light", "quad:points=-1,-0.2,0.1/-1,0.8,0.1/-1,0.8,0.7/-1,-0.2,0.7:radiance=5,5,5:two-sided", "--area-lights", "mc")
@@ -74,7 +74,7 @@ def agrees(bench):
     check(against_files(bench, "r.pfm", "mc.pfm", "v.pfm")["z_rejected_fraction"] > 0.1, "energy compensation does nothing to glass")
 
 
-@case("glass.devices_give_the_same_words")
+@case("glass.devices_give_the_same_words", tier="nightly")
 def devices(bench):
     textured, smooth, dense = scene(bench, "textured", texture=True), scene(bench, "smooth", roughness=0, factor=0.5), scene(bench, "dense", ior=2.4, roughness=1)
     check_equal(parity(bench, textured, smooth, dense, "builtin:glass", "--technique", "mc", "--samples", "4", "--size", "32x24", "--msaa", "1",

@@ -65,7 +65,7 @@ def killed_reference(bench, kills):
     check(bench.left_behind() == ["c.part", "o.exr"], f"left: {bench.left_behind()}")
 
 
-@case("kill.references_go_on")
+@case("kill.references_go_on", tier="nightly")
 def references(bench):
     killed_reference(bench, 3)
 
@@ -104,7 +104,7 @@ def killed_charts(bench, kills):
     check(not left, f"left: {left}")
 
 
-@case("kill.charts_go_on")
+@case("kill.charts_go_on", tier="nightly")
 def charts(bench):
     killed_charts(bench, 3)
 
@@ -133,7 +133,7 @@ def killed_bakes(bench, kills):
     check((bench.folder / "o.png").read_bytes() == picture, "the picture after kills is another one")
 
 
-@case("kill.bakes_are_whole_or_not_there")
+@case("kill.bakes_are_whole_or_not_there", tier="nightly")
 def bakes(bench):
     killed_bakes(bench, 4)
 
@@ -177,7 +177,7 @@ PARITY = ("parity", "builtin:plate", "--size", "64x48", "--technique", "split_is
           "--env-size", "16", "--env-samples", "16")
 
 
-@case("kill.races_report_all_or_nothing")
+@case("kill.races_report_all_or_nothing", tier="nightly")
 def races(bench):
     killed_reports(bench, RACE, 2)
 
@@ -203,7 +203,7 @@ def killed_renders(bench, kills):
     check(bench.left_behind() == ["o.exr", "o.png", "s.json"], f"left: {bench.left_behind()}")
 
 
-@case("kill.renders_leave_whole_files")
+@case("kill.renders_leave_whole_files", tier="nightly")
 def renders(bench):
     killed_renders(bench, 5)
 
@@ -256,7 +256,7 @@ def killed_job(bench, name, kills):
 
 
 for job in JOBS:
-    case(f"kill.{job}_are_made_whole")(lambda bench, job=job: killed_job(bench, job, 2))
+    case(f"kill.{job}_are_made_whole", tier="nightly")(lambda bench, job=job: killed_job(bench, job, 2))
     case(f"kill.{job}_are_made_whole_long", tier="nightly")(lambda bench, job=job: killed_job(bench, job, 25))
 
 
@@ -305,7 +305,7 @@ def killed_sets(bench, kills):
     check(not temporary(bench.left_behind()), f"left: {bench.left_behind()}")
 
 
-@case("kill.sets_of_textures_appear_together")
+@case("kill.sets_of_textures_appear_together", tier="nightly")
 def sets(bench):
     sets_of_textures(bench, 3, ("png-levels",))
     killed_sets(bench, 4)

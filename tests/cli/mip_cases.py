@@ -67,7 +67,7 @@ def pictures(bench):
     bench.run("render", "--mip-filter", "bow", "-o", "a.png").expect(2).expect_one_line("--mip-filter")
 
 
-@case("mip.filtered_materials_give_the_same_words_on_devices")
+@case("mip.filtered_materials_give_the_same_words_on_devices", tier="nightly")
 def devices(bench):
     looks = [("--mip-filter", name) for name in LOBES[1:]] + [("--mip-filter", "kappa", "--mip-gain", "on"), ("--couple", "albedo", "--color-kernel", "kaiser"), ("--technique", "mc", "--samples", "4", "--mip-filter", "kappa", "--roughness", "0.3")]
     check_equal(parity(bench, "builtin:bumps", "--size", "48x36", "--msaa", "1", "--technique", "auto", "--mip-filter", LOBES[0], also=looks))

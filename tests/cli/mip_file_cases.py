@@ -294,7 +294,7 @@ def hostile_names(bench):
         check({path.name: path.read_bytes() for path in (bench.folder / name).iterdir()} == first, f"{name!r}: other files")
 
 
-@case("mip.files_give_the_same_words_on_devices")
+@case("mip.files_give_the_same_words_on_devices", tier="nightly")
 def devices(bench):
     bench.run("bake", "mip", "builtin:shaderballs", "--couple", "albedo", "--color-kernel", "kaiser", "--mip-gain", "on", "-q", "-o", "balls.mip").expect(0)
     check_equal(parity(bench, "builtin:shaderballs", "--size", "48x36", "--msaa", "1", "--technique", "auto", "--mip-pyramid", "balls.mip"))

@@ -101,7 +101,7 @@ def automatic_technique(bench):
     check(len(report["rows"]) == 2 * 2 * 2, "rows are missing")
 
 
-@case("parity.a_small_picture_is_equal", budget=20)
+@case("parity.a_small_picture_is_equal", budget=90)
 def small_picture(bench):
     report = parity(bench, "builtin:plate", "--size", "32x24", "--env-size", "16", "--env-samples", "16", "--msaa", "4", "--technique", "auto")
     check_equal(report)
@@ -321,7 +321,7 @@ def wrong_options(bench):
     bench.run("race", "--msaa", ",1").expect(2).expect_one_line("--msaa")
 
 
-@case("race.rows_hold_picture_and_times")
+@case("race.rows_hold_picture_and_times", tier="nightly")
 def race_rows(bench):
     done = bench.run("race", "--size", "96x64", "--techniques", "split_isotropic", "--msaa", "1", "--runs", "2", "--devices", "lavapipe,abacus", *COARSE,
                      "--json", "race.json", "--csv", "race.csv", timeout=540.0)
@@ -343,7 +343,7 @@ def race_rows(bench):
     check(any("abacus" in note for note in report["notes"]), "nothing is said of the device that is absent")
 
 
-@case("race.goes_on_after_a_row_that_fails")
+@case("race.goes_on_after_a_row_that_fails", tier="nightly")
 def race_goes_on(bench):
     (bench.folder / "broken.glb").write_text("glTF, not")
     done = bench.run("race", "broken.glb", "builtin:teapot", "--size", "32x24", "--techniques", "split_isotropic", "--msaa", "8,1", "--runs", "1", "--devices",
@@ -372,7 +372,7 @@ def check_lean(rows, count):
     check(len(rows) == count, f"{len(rows)} rows")
 
 
-@case("race.lean_draws_the_same")
+@case("race.lean_draws_the_same", tier="nightly")
 def lean_draws(bench):
     check_lean(lean_rows(bench, "builtin:teapot", "--size", "480x270", "--techniques", "split_isotropic,major_axis_adaptive", "--msaa", "4"), 2)
 
@@ -429,7 +429,7 @@ def sees_all_lean_defects(bench):
     sees_lean_defects(bench, LEAN_DEFECTS)
 
 
-@case("race.lean_refuses_what_it_does_not_draw")
+@case("race.lean_refuses_what_it_does_not_draw", tier="nightly")
 def lean_refuses(bench):
     """By row, the others being raced; a picture that it draws wrongly there is none."""
     row, = lean_rows(bench, "builtin:sphere", "--size", "32x24", "--techniques", "split_isotropic", "--msaa", "1", code=77)

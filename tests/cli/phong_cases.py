@@ -64,7 +64,7 @@ def tables(bench):
         bench.run("bake", "half-vectors", "--nu=" + value, "--nv", "1", "-o", "t.exr").expect(2).expect_one_line("--nu")
 
 
-@case("phong.tables_from_files_give_the_same_words_on_devices")
+@case("phong.tables_from_files_give_the_same_words_on_devices", tier="nightly")
 def devices(bench):
     bench.run("bake", "half-vectors", *EXPONENTS, "-q", "-o", "h.exr").expect(0)
     bench.run("bake", "brdf-lut", *EXPONENTS, "-q", "-o", "a.exr").expect(0)

@@ -28,7 +28,7 @@ def pictures(bench):
     check(found["nan_pixels"] == 0, f"{found}")
 
 
-@case("reference.modes_differ_and_threads_and_isa_do_not")
+@case("reference.modes_differ_and_threads_and_isa_do_not", tier="nightly")
 def modes(bench):
     needs_embree(bench)
     hashes = set()
@@ -41,7 +41,7 @@ def modes(bench):
     check(len(hashes) == 3, "two modes give one picture")
 
 
-@case("reference.bakes_only_what_it_reads")
+@case("reference.bakes_only_what_it_reads", tier="nightly")
 def bakes_little(bench):
     """Without a bake in the cache it makes none, and its picture is the same."""
     needs_embree(bench)
@@ -111,7 +111,7 @@ def other_checkpoint(bench):
     bench.run("render", *words).expect(4).expect_one_line("part", "not a checkpoint")
 
 
-@case("reference.stopped_by_a_signal_goes_on")
+@case("reference.stopped_by_a_signal_goes_on", tier="nightly")
 def stopped(bench):
     needs_embree(bench)
     words = (*SMALL, "--samples", "16384", "--reference-mode", "path", "-o", "a.exr")

@@ -88,7 +88,7 @@ def heights(bench):
         check(own != hash_of(bench, "without.gltf", *view, *METAL), f"{normal}: heights are not seen")
 
 
-@case("relief.gives_the_same_words_on_devices")
+@case("relief.gives_the_same_words_on_devices", tier="nightly")
 def devices(bench):
     flat = wall(bench)
     words = (*flat, *OBLIQUE[:4], "--size", "48x36", "--height-map", "h.png", "--env", "builtin:sky")

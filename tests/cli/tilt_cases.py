@@ -122,7 +122,7 @@ def map_faults(bench):
         refuse(bench, scratch(bench, "bad.gltf", files.text(gltf)), needles=(place,))
 
 
-@case("tilt.maps_give_the_same_words_on_devices")
+@case("tilt.maps_give_the_same_words_on_devices", tier="nightly")
 def map_devices(bench):
     scenes = [scratch(bench, "-".join(names) + ".gltf", files.text(mapped(*names)))
               for names in (("tilt",), ("tilt", "grain"), ("grain", "rough"), ("tilt", "grain", "rough"))]
@@ -130,7 +130,7 @@ def map_devices(bench):
     check_equal(parity(bench, *scenes, *common, "auto", also=(("--technique", "mc", "--tilt", "5,5"), ("--roughness", "0.4"), ("--anisotropy", "0.6"))))
 
 
-@case("tilt.devices_give_the_same_words")
+@case("tilt.devices_give_the_same_words", tier="nightly")
 def devices(bench):
     scene = scratch(bench, "both.gltf", files.text(beside_another([20, -10])))
     check_equal(parity(bench, scene, "--samples", "9", "--size", "48x32", "--msaa", "1", "--env", "builtin:sky", "--technique", "auto",
