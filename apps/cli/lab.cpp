@@ -15,6 +15,8 @@ int start_lab(const std::vector<std::string>& words)
 {
     std::error_code failed;
     const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe", failed);
+    if (failed)
+        return fail(Error{ExitCode::unavailable, "/proc/self/exe", "", "burnish-lab cannot be found: " + failed.message()});
     const std::string program = (self.parent_path() / "burnish-lab").string();
     std::string name = "burnish"; // of messages
     std::vector<std::string> copies = words;

@@ -28,7 +28,8 @@ float mean_roughness(const Scene& scene, const Material& m)
 
 KeptWeights kept_weights_of(const Scene& scene, const Material& m)
 {
-    if (!m.normal_tex.used() || m.heights || m.unlit || has_gains(m))
+    const bool anisotropic = m.anisotropy_strength != 0.0f || m.anisotropy_tex.used(); // facets are round
+    if (!m.normal_tex.used() || m.heights || m.unlit || anisotropic || has_gains(m))
         return {};
     return kept_weights(normals_of(scene, m), kept_shares(mean_roughness(scene, m)));
 }

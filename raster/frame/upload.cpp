@@ -288,6 +288,8 @@ std::vector<MaterialRecord> in_frame(std::vector<MaterialRecord> materials, cons
         }
         if (desc.override_anisotropy)
             m.anisotropic = desc.anisotropy != 0.0f || m.moments != kNoMoments;
+        if (desc.roughness >= 0.0f || desc.override_anisotropy || desc.frame_map == kFrameOff)
+            m.keeps = m.facets = 0; // made for the material's own roughness and normals
         if (m.frame_map < 0 || desc.frame_map == kFrameOff)
             m.frame_map = desc.frame_map;
         if (desc.frame_map == kFrameOff) {

@@ -311,13 +311,16 @@ struct MaterialAtHits {
     real3 emission;
 };
 
-// Where pixels see all facets of a material, one of these takes the place of x, by chance: each as often as it weighs. The place of the
-// hit, which is another for every ray, is the chance.
+// Replaces x by one of its material's facets where the pixel sees them all. A facet is chosen as often as it weighs, by a hash of the hit's
+// place, which each ray has for itself.
 BN_STAGE void choose_facets(const ReferenceParams& f, const MaterialRecord& m, const material_inputs& at, const LaneGeometry& g,
                             shaded_point& x)
 {
     const real far = facets_seen(m, at, x);
-    const real u = k_unit_from_bits(k_hash_u32(k_hash_u32(bits_of(g.fragment.uv0.x)) ^ bits_of(g.fragment.uv0.y)));
+    integer place = int_lit(0);
+    for (const real& c : {g.fragment.uv0.x, g.fragment.uv0.y, g.fragment.uv1.x, g.fragment.uv1.y})
+        place = k_hash_u32(place ^ bits_of(c));
+    const real u = k_unit_from_bits(place);
     const mask chosen = u < far;
     if (none(chosen))
         return;

@@ -85,6 +85,8 @@ const char* not_of_material(const MaterialRecord& m)
         return "blended alpha";
     if (m.relief != 0 || m.moments == kMomentsOfTilt || m.moments == kMomentsOfAll || m.tilted != 0 || m.tilt_mapped != 0)
         return "heights, tilts and moments of slopes in textures";
+    if (m.facets > 0)
+        return "normal maps so strong that they are shaded as facets from afar";
     if (used(m, kSpecularTex) || used(m, kSpecularColorTex))
         return "textures of KHR_materials_specular";
     return nullptr;

@@ -99,7 +99,9 @@ BN_STAGE real3 light_of_facets(any_frame f, any_material m, BN_IN(material_input
         make_shaded_point(f, m, facet, shape, p, pixel_id, x);
         keep_light_of_facets(f, m, facet, lit(1.0), x);
         real3 specular = vec3_all(lit(0.0));
-        if (samples)
+        if ((the_frame(f).lobe_traits & kPunctualOnly) != 0)
+            specular = vec3_all(lit(0.0));
+        else if (samples)
             specular = mc_of_lobe(f, x, placed_lobe_at(f, x));
         else {
             real share = words.weight * facet_share(x);
@@ -145,7 +147,7 @@ BN_FN line_record light_of_fragment(frame_ref f, material_ref m, technique_ref t
         r = shared_light(f, x, traits, technique_shared(f, t, x, quad_offset(px & int_lit(1), py & int_lit(1))), light);
     else
         r = line_alone(light);
-    if (the_material(m).facets > 0) {
+    if (texture_used(m, kNormalTex) && the_material(m).facets > 0) {
         real far = facets_seen(m, at, x);
         if (any_lane(far > lit(0.0))) {
             real3 facets = own_light(m, at) + light_of_facets(f, m, at, p, x.pixel_id, traits);

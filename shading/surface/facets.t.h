@@ -84,8 +84,14 @@ BN_FN facet_light facet_light_of(material_ref m, real cosine)
 // x.gain.
 BN_FN void keep_light_of_facets(frame_ref f, material_ref m, BN_IN(material_inputs) at, real chosen, BN_INOUT(shaded_point) x)
 {
-    if (!widens_lobes(m))
+    if (!widens_lobes(m)) {
+        dfg_value whole = x.whole;
+        real3 gain = x.gain;
         undo_widening(f, at.own_roughness, x);
+        x.whole.scale = whole.scale + (x.whole.scale - whole.scale) * chosen;
+        x.whole.bias = whole.bias + (x.whole.bias - whole.bias) * chosen;
+        x.gain = gain + (x.gain - gain) * chosen;
+    }
     if (!x.turned)
         return;
     facet_light light = facet_light_of(m, k_dot3(x.surface_axes.n, x.s.v));

@@ -39,7 +39,7 @@ DRIVER = "libvulkan_lvp.so"  # stays loaded: the sanitizer gives up where a libr
 def build(source, folder):
     launcher = ["-DCMAKE_CXX_COMPILER_LAUNCHER=ccache"] if shutil.which("ccache") else []
     for command in (["cmake", "--preset", "tsan", "-B", folder, "-DBN_BUILD_TESTS=OFF", *launcher],
-                    ["cmake", "--build", folder, "--target", "burnish"]):
+                    ["cmake", "--build", folder, "--target", "burnish", "burnish-lab"]):
         done = subprocess.run(list(map(str, command)), cwd=source, capture_output=True, text=True)
         if done.returncode != 0:
             print(done.stdout[-4000:], done.stderr[-4000:])
