@@ -7,6 +7,11 @@
 #include "apps/cli/command_line.h"
 #include "core/base/check.h"
 
+namespace burnish {
+#define BN_LAB_COMMAND(name, summary) Command name##_command();
+#include "apps/cli/commands.def"
+} // namespace burnish
+
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {
     using namespace burnish;
@@ -18,6 +23,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         return 0;
     Command (*const makers[])() = {
 #define BN_COMMAND(name) &name##_command,
+#define BN_LAB_COMMAND(name, summary) &name##_command,
 #include "apps/cli/commands.def"
     };
     const std::string first = words[0];
