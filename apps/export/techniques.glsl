@@ -188,7 +188,7 @@ shaded_point point_of(vec3 n, vec3 v, vec3 tangent, vec3 f0, vec3 f90, float rou
     x.phong_set = -1;
     x.brushed = brushed_part(x.lobe.sigma_u, x.lobe.sigma_v);
     x.gain = vec3(1.0);
-    x.compensation = x.gain;
+    x.compensation = vec3(1.0);
     x.pixel_id = pixel;
     return x;
 }

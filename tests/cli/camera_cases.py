@@ -75,7 +75,7 @@ def three_quarters(bench):
     check(max(max(p) for p in places) - min(min(p) for p in places) > 75, "the picture is empty")
 
 
-@case("camera.orbit_zoom_fov_and_target_do_what_they_say")
+@case("camera.orbit_zoom_fov_and_target_do_what_they_say", tier="nightly")
 def options(bench):
     scratch(bench, "cube.gltf", cube())
     for orbit, face in (("0,0", "front"), ("90,0", "right"), ("-90,0", "left"), ("180,0", "back"), ("0,90", "top"), ("0,-90", "bottom")):

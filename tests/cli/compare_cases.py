@@ -76,7 +76,7 @@ def equal(bench):
         check((found["width"], found["height"], found["ssim"], found["psnr"]) == (24, 16, 1.0, None), f"{found}")
 
 
-@case("compare.known_pictures_have_their_known_errors")
+@case("compare.known_pictures_have_their_known_errors", tier="nightly")
 def known(bench):
     """Means of the FLIP authors' own program; see SOURCES.md beside the pictures."""
     folder = bench.data_file("flip")
@@ -88,7 +88,7 @@ def known(bench):
     check(abs(found["start_exposure"] + 3.5562) < 1e-3, f"{found}")
 
 
-@case("compare.writes_only_what_was_asked_for")
+@case("compare.writes_only_what_was_asked_for", tier="nightly")
 def asked(bench):
     pictures(bench)
     found = figures(bench, "a.png", "b.png", "--metric", "mse,max")
@@ -102,7 +102,7 @@ def asked(bench):
     check(sorted(found) == ["height", "nan_pixels", "psnr", "rel_mse", "ssim", "width"], f"{found}")
 
 
-@case("compare.kind_follows_the_pictures")
+@case("compare.kind_follows_the_pictures", tier="nightly")
 def kind(bench):
     pictures(bench)
     check(figures(bench, "a.png", "b.png")["flip_kind"] == "flip", "8 bits are for LDR-FLIP")
@@ -253,7 +253,7 @@ def page_in_browser(bench):
         browser.screenshot(bench.folder / "page.png")
 
 
-@case("compare.error_map_shows_errors_in_magma")
+@case("compare.error_map_shows_errors_in_magma", tier="nightly")
 def error_map(bench):
     pictures(bench)
     scratch(bench, "green.png", png(8, 8, lambda x, y: (0, 255, 0)))

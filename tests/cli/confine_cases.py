@@ -169,7 +169,7 @@ def few_threads_all(bench):
     with_few_threads(bench, FEW_THREADS, range(1, 13), 60000 + os.getpid() % 5000)
 
 
-@case("confine.fewer_threads_are_a_warning")
+@case("confine.fewer_threads_are_a_warning", tier="nightly")
 def fewer_are_said(bench):
     if os.geteuid() or bench.sanitized:
         raise Skipped("needs root, to become a user with a limit, and no threads of sanitizers")

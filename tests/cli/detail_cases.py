@@ -49,7 +49,7 @@ def off_by(bench, a, b):
     return json.loads((bench.folder / "c.json").read_text())
 
 
-@case("detail.frames_under_a_map_differ_as_they_are_named")
+@case("detail.frames_under_a_map_differ_as_they_are_named", tier="nightly")
 def frames(bench):
     scene = scenes(bench)
     plain = hash_of(bench, scene, *VIEW, *METAL)
@@ -66,7 +66,7 @@ def frames(bench):
         hash_of(bench, scene, *VIEW, *METAL, "--normal-map", "odd.png", "--frame-map", way)
 
 
-@case("detail.normal_maps_of_green_down")
+@case("detail.normal_maps_of_green_down", tier="nightly")
 def green_down(bench):
     scene = scenes(bench)
     scratch(bench, "d.png", png(16, 16, lambda x, y: (bumps(x, y)[0], 255 - bumps(x, y)[1], bumps(x, y)[2])))
@@ -75,7 +75,7 @@ def green_down(bench):
     check(hash_of(bench, scene, *VIEW, "--normal-map", "d.png") != up, "both ways look alike")
 
 
-@case("detail.quaternion_maps_are_normal_maps")
+@case("detail.quaternion_maps_are_normal_maps", tier="nightly")
 def quaternions(bench):
     scene = scenes(bench)
     bench.run("render", scene, *VIEW, *METAL, "--normal-map", "n.png", "-q", "-o", "n.pfm").expect(0)
@@ -105,7 +105,7 @@ def quaternions(bench):
     check(off_by(bench, "plain.pfm", "r.pfm")["max_abs"] < 1e-6, "repaired normals are not level")
 
 
-@case("detail.rotations_are_one_whatever_says_them")
+@case("detail.rotations_are_one_whatever_says_them", tier="nightly")
 def rotations(bench):
     scene = scenes(bench)
     expressions = ("cos(pi*v)", "sin(pi*v)")
@@ -145,7 +145,7 @@ def square(turned):
 
 
 # However the texture lies on it, the grain is the one asked for; the border of a texel's width is the filter's.
-@case("detail.straightened_grain_lies_in_one_direction")
+@case("detail.straightened_grain_lies_in_one_direction", tier="nightly")
 def straightened(bench):
     drawn = {}
     for turned in (0, 30, 200):
@@ -196,7 +196,7 @@ def patched_sphere(islands):
 
 
 # A technique whose samples lie alike on both ends of the grain, which has no sign: islands turn by any angle.
-@case("detail.a_sphere_of_six_islands_looks_as_one_of_one_piece")
+@case("detail.a_sphere_of_six_islands_looks_as_one_of_one_piece", tier="nightly")
 def islands(bench):
     words = ("--eye", ",".join(map(str, EYE)), "--target", "0,0,0", "--fov", "40", "--size", "160x160", "--msaa", "4", "--roughness", "0.4", "--anisotropy", "0.8",
              "--f0", "1,1,1", "--technique", "major_axis_weighted", "--texture-anisotropy", "16", "-q")
@@ -224,7 +224,7 @@ def devices(bench):
                                              ("--frame-map", "normal-only", "--technique", "mc", "--samples", "9"))))
 
 
-@case("detail.lean_keeps_what_a_mip_level_loses")
+@case("detail.lean_keeps_what_a_mip_level_loses", tier="nightly")
 def lean(bench):
     needs_embree(bench)
     chance = random.Random(7)
@@ -260,7 +260,7 @@ def reflectance(bench):
         bench.run("render", "metal.gltf", "--f0=" + bad, "-o", "a.png").expect(2).expect_one_line("--f0")
 
 
-@case("detail.material_folders_are_read_by_name")
+@case("detail.material_folders_are_read_by_name", tier="nightly")
 def folders(bench):
     scene = scenes(bench)
     folder = pathlib.Path(bench.folder) / "set"
@@ -329,7 +329,7 @@ def expressions(bench):
 QUAD = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n"
 
 
-@case("detail.obj_files_are_read", "input")
+@case("detail.obj_files_are_read", "input", tier="nightly")
 def obj(bench):
     scratch(bench, "n.png", png(16, 16, bumps))
     texts = {"triangles": QUAD + "f 1/1 2/2 3/3\nf 1/1 3/3 4/4\n", "quad": QUAD + "f 1/1 2/2 3/3 4/4\n", "back": QUAD + "f -4/-4 -3/-3 -2/-2 -1/-1\n",
@@ -358,7 +358,7 @@ def obj(bench):
 
 
 # The same lobe by the same Fresnel factors, sampled otherwise; with few samples the filter does what more of them would.
-@case("detail.as_mc_is_monte_carlo_of_its_lobe")
+@case("detail.as_mc_is_monte_carlo_of_its_lobe", tier="nightly")
 def phong(bench):
     words = ("builtin:spheres", "--size", "48x36", "--msaa", "1", "--env-size", "64", "--env-samples", "64", "--key-lights", "off", "--no-background",
              "-q", "--technique")
@@ -379,7 +379,7 @@ def smooth(x, y):
 
 # Where every pixel sees one place of a plane, so that nothing but the lobe is compared: over a pixel's square the reference takes a mean,
 # techniques one place of each triangle, and a z-test of any curved thing finds that, whatever the lobe.
-@case("detail.phong_lobes_meet_the_reference")
+@case("detail.phong_lobes_meet_the_reference", tier="nightly")
 def phong_reference(bench):
     needs_embree(bench)
     scratch(bench, "smooth.pfm", pfm(64, 32, smooth))
@@ -410,7 +410,7 @@ def phong_reference(bench):
 
 
 # One sample is what a mirror shows, dimmed by the lobe's albedo, which compensation gives back.
-@case("detail.one_sample_of_as_mc_is_a_mirror")
+@case("detail.one_sample_of_as_mc_is_a_mirror", tier="nightly")
 def one_sample(bench):
     words = ("builtin:teapot", "--size", "48x36", "--msaa", "1", "--env-size", "64", "--env-samples", "32", "--key-lights", "off", "--no-background", "-q",
              "--f0", "1,1,1", "--anisotropy", "0.5", "--technique", "as_mc")

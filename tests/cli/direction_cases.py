@@ -72,7 +72,7 @@ def scene(with_map):
     return text(gltf).encode()
 
 
-@case("bake.a_map_of_directions_is_the_file_s_own")
+@case("bake.a_map_of_directions_is_the_file_s_own", tier="nightly")
 def as_in_the_file(bench):
     rainbow = lambda x, y: tuple(int(127.5 + 127.5 * math.cos(2 * math.pi * (x / 16 - k / 3))) for k in range(3))
     scratch(bench, "p.png", png(16, 16, rainbow))

@@ -21,9 +21,9 @@ FURNACE = {
     "fit": ("roughness=0.1:1 --anisotropy 0.6 --dfg fit", 0.003, 0.003),
     "tilt": ("tilt=0,0:60,0 --roughness 0.5 --anisotropy 0.5", 0.5, 0.003),
     "tilt the other way": ("tilt=0,0:20,-50 --roughness 0.3 --anisotropy 0.8", 0.5, 0.003),
-    "frames projected": ("roughness=0.2:0.8 --anisotropy 0.6 --normal-map wave.png --frame-map gram-schmidt", 0.003, 0.006),
-    "frames turned": ("roughness=0.2:0.8 --anisotropy 0.6 --normal-map wave.png --frame-map quaternion", 0.003, 0.006),
-    "frames left": ("roughness=0.2:0.8 --anisotropy 0.6 --normal-map wave.png --frame-map normal-only", 0.01, 0.006),
+    "frames projected": ("roughness=0.2:0.8 --anisotropy 0.6 --normal-map wave.png --frame-map gram-schmidt --horizon off", 0.003, 0.006),
+    "frames turned": ("roughness=0.2:0.8 --anisotropy 0.6 --normal-map wave.png --frame-map quaternion --horizon off", 0.003, 0.006),
+    "frames left": ("roughness=0.2:0.8 --anisotropy 0.6 --normal-map wave.png --frame-map normal-only --horizon off", 0.01, 0.006),
 }
 MODEL_ROWS = ("roughness", "grain", "tilt", "tilt the other way", "frames turned")  # ellipsoids alone can be tilted
 # By `mc` (noise of 1024 samples) and its models. What is given back is what correlated GGX loses by the table: not what separable masking does,
@@ -64,7 +64,7 @@ def furnace(bench, asked):
     check(not off, "; ".join(off))
 
 
-@case("energy.an_even_light_hides_white_metal_in_some_ways")
+@case("energy.an_even_light_hides_white_metal_in_some_ways", tier="nightly")
 def some_furnaces(bench):
     furnace(bench, [("auto", None, row) for row in FURNACE] +
             [(name, None, "roughness") for name in names_of(bench, "techniques") if name != "mc"] + [("mc", "ellipsoid", "tilt"), ("mc", "beckmann", "grain")])
@@ -250,7 +250,7 @@ def change_places(bench, asked, lamps="lamp"):
     check(refused < len(asked) / 3, "most are refused")
 
 
-@case("energy.eye_and_lamp_change_places")
+@case("energy.eye_and_lamp_change_places", tier="nightly")
 def some_places(bench):
     change_places(bench, [(name,) for name in all_options(bench)])
     change_places(bench, [("rough",), ("technique split_isotropic",), ("technique lobe_line",)], "key")

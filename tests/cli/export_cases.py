@@ -50,7 +50,7 @@ def compiles(bench, text):
     return done.returncode == 0, done.stderr
 
 
-@case("export.every_technique_compiles_alone")
+@case("export.every_technique_compiles_alone", tier="nightly")
 def compiles_alone(bench):
     compiler()
     for name, _ in TECHNIQUES:
@@ -60,7 +60,7 @@ def compiles_alone(bench):
     check(not compiles(bench, ENGINE.format(text="", name=name))[0], "an engine without the file compiles too")
 
 
-@case("export.a_file_has_what_it_needs_and_no_more")
+@case("export.a_file_has_what_it_needs_and_no_more", tier="nightly")
 def no_more(bench):
     for name, _ in TECHNIQUES:
         text = exported(bench, name)
@@ -150,7 +150,7 @@ def compare_exported(bench, names, changed=lambda text: text, code=0):
 
 
 # All in one shader: a driver takes seconds to compile each.
-@case("export.files_give_the_program_s_words")
+@case("export.files_give_the_program_s_words", tier="nightly")
 def gives_the_program_s_words(bench):
     names = [name for name, _ in TECHNIQUES]
     report = compare_exported(bench, names)
@@ -160,7 +160,7 @@ def gives_the_program_s_words(bench):
     check(len(report["rows"]) == 2 * 2 * len(names), f"{len(report['rows'])} rows")
 
 
-@case("export.another_word_in_the_file_is_seen")
+@case("export.another_word_in_the_file_is_seen", tier="nightly")
 def seen(bench):
     def wider(text):
         check("w * ((2.0) * burnish_k_dot3(w, o)) - o" in text, "the mirror is written otherwise")

@@ -80,7 +80,7 @@ FLOORS = ((5e4, 1.7, 0.15, 0.01, "640x360"), (1e5, 1.7, 0.15, 0.01, "512x512"), 
           (1e7, 2.0, 0.4, 0.01, "97x61"), (3e6, 500.0, 0.2, 1.0, "96x96"), (100, 1.7, 0.2, 0.01, "96x96"))
 
 
-@case("geometry.floors_reach_the_horizon_at_every_size")
+@case("geometry.floors_reach_the_horizon_at_every_size", tier="nightly")
 def floors(bench):
     for half, eye, pitch, znear, size in FLOORS:
         scratch(bench, "floor.gltf", floor(half, eye, pitch, znear=znear))
@@ -89,7 +89,7 @@ def floors(bench):
         check(wrong == 0, f"{wrong} pixels of a floor of {half} m at {size}")
 
 
-@case("geometry.files_of_large_floors_are_green_below_the_horizon")
+@case("geometry.files_of_large_floors_are_green_below_the_horizon", tier="nightly")
 def floor_files(bench):
     for name, half, eye, pitch, size in (("50km", 5e4, 1.7, 0.15, "640x360"), ("100km", 1e5, 1.7, 0.15, "512x512"),
                                          ("200km_down", 2e5, 1.0, 0.9, "96x96")):

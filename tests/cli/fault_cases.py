@@ -106,37 +106,37 @@ WRITES = ("write", "fsync", "rename", "linkat")
 ALL = range(1, 20000)
 
 
-@case("fault.calls_on_files")
+@case("fault.calls_on_files", tier="nightly")
 def file_calls(bench):
     fail_in_turn(bench, RENDER, FILE_CALLS, ALL, every=4)
     fail_in_turn(bench, RENDER, ("create", "write", "fsync", "fsync_folder", "rename", "flock", "getrandom"), ALL, every=4, always="tmpfile")
 
 
-@case("fault.calls_of_a_bake")
+@case("fault.calls_of_a_bake", tier="nightly")
 def bake_calls(bench):
     fail_in_turn(bench, BAKE, WRITES, ALL, every=3)
     fail_in_turn(bench, LEVELS, WRITES, (1, 2, 3, 5, 8, 13, 21, 34, 55, 89, 144), every=8)
 
 
-@case("fault.calls_of_a_reference")
+@case("fault.calls_of_a_reference", tier="nightly")
 def reference_calls(bench):
     needs_embree(bench)
     fail_in_turn(bench, KEPT, WRITES, ALL, every=3)
 
 
-@case("fault.calls_of_a_chart")
+@case("fault.calls_of_a_chart", tier="nightly")
 def chart_calls(bench):
     needs_embree(bench)
     fail_in_turn(bench, REPORT, WRITES, (1, 2, 3, 5, 8, 13, 21, 34), every=8)
 
 
-@case("fault.memory_runs_out")
+@case("fault.memory_runs_out", tier="nightly")
 def memory_calls(bench):
     fail_in_turn(bench, RENDER, ("malloc",), (1, 2, 3, 5, 8, 13, 21, 34, 55), every=100)
     fail_in_turn(bench, BAKE, ("mmap",), (1, 2, 3, 5, 8, 13, 21, 34, 55), every=100)
 
 
-@case("fault.memory_of_libraries_runs_out")
+@case("fault.memory_of_libraries_runs_out", tier="nightly")
 def library_memory_calls(bench):
     """What they ask for as they are loaded, or as they build a tree over the scene."""
     needs_embree(bench)

@@ -17,7 +17,7 @@ SIDE = ("--size", "64x64", "-q")
 
 def in_two_tiers(claim, law, some):
     """law(bench, techniques): of some techniques in check, of all nightly."""
-    case(f"laws.{claim}")(lambda bench: law(bench, some))
+    case(f"laws.{claim}", budget=20)(lambda bench: law(bench, some))
     case(f"laws.{claim}_by_any_technique", tier="nightly")(lambda bench: law(bench, names_of(bench, "techniques")))
 
 
@@ -112,7 +112,7 @@ def mirrored(bench, techniques):
 in_two_tiers("mirrors_of_scenes_are_mirrors_of_pictures", mirrored, ("auto", "bent_normal"))
 
 
-@case("laws.radiance_has_no_scale")
+@case("laws.radiance_has_no_scale", tier="nightly")
 def radiance(bench):
     """Equal words, scaled by what the environment is."""
     for name in names_of(bench, "techniques"):

@@ -123,7 +123,7 @@ def ball(columns, rows):
 
 # Under light of 1 from everywhere a white surface shows what both parts give back: never more than they get, at grazing angles less than
 # Lambert's. Compensated it is all of it, by a table of the lobe's albedo or, where roughness varies, by 89 of its samples.
-@case("phong.diffuse_part_and_lobe_give_back_what_they_get")
+@case("phong.diffuse_part_and_lobe_give_back_what_they_get", tier="nightly")
 def furnace(bench):
     scratch(bench, "even.pfm", pfm(8, 4, lambda x, y: (1, 1, 1)))
     scratch(bench, "ball.obj", ball(48, 24))
@@ -149,7 +149,7 @@ def furnace(bench):
 
 
 # A plane at one angle under smooth light: the tile renderer's means are the reference's.
-@case("phong.the_diffuse_part_meets_the_reference")
+@case("phong.the_diffuse_part_meets_the_reference", tier="nightly")
 def diffuse_reference(bench):
     needs_embree(bench)
     scratch(bench, "smooth.pfm", pfm(64, 32, lambda x, y: [1 + 0.8 * math.cos(math.pi * (y + 0.5) / 32)] * 3))

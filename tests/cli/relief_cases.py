@@ -30,7 +30,7 @@ def wall(bench):
 
 
 # Rays find the stones where triangles show them: nearer than the flat wall by far, and not by heights taken for depths.
-@case("relief.parallax_shows_what_triangles_show")
+@case("relief.parallax_shows_what_triangles_show", tier="nightly")
 def truth(bench):
     flat = wall(bench)
     bench.run("bake", "displaced", "wall.obj", "h.png", "--height-scale", "0.06", "--triangles", "130000", "-q", "-o", "wall.glb").expect(0)
@@ -45,7 +45,7 @@ def truth(bench):
     check(off["parallax"] < 0.35 * off["flat"] and off["parallax"] < off["less"] < off["flat"], f"{off}")
 
 
-@case("relief.heights_are_one_whatever_says_them")
+@case("relief.heights_are_one_whatever_says_them", tier="nightly")
 def heights(bench):
     flat = wall(bench)
     view = (*VIEW, "--eye", "0.9,0.3,0.8")
