@@ -221,10 +221,10 @@ def refused(bench):
     no(2, "needs --pipeline ids", "--aov", "depth", "--backend", "vulkan", "--pipeline", "forward", "-o", "a.exr")
 
 
-@case("layers.specular_antialiasing_brings_normal_maps_nearer_to_the_truth")
+@case("layers.specular_antialiasing_brings_normal_maps_nearer_to_the_truth", tier="nightly")
 def specular_aa(bench):
     """Still, against the reference; by Vulkan it is the same picture."""
-    view = ("builtin:bumps", "--size", "120x68", "--env-size", "128", "--env-samples", "64", "-q")
+    view = ("builtin:bumps", "--horizon", "off", "--size", "120x68", "--env-size", "128", "--env-samples", "64", "-q")
     done = bench.run("render", *view, "--backend", "reference", "--reference-textures", "full", "--samples", "256", "-o", "truth.exr")
     if done.code == 77:
         raise Skipped(done.err.strip())
