@@ -67,7 +67,8 @@ View make_view(const glm::vec3& eye, const glm::vec3& target, float fov_y_rad, i
 Result<View> make_view(const Scene& scene, int camera, int width, int height)
 {
     if (camera < 0 || static_cast<std::size_t>(camera) >= scene.cameras.size())
-        return Error{ExitCode::usage, "", "", "camera " + std::to_string(camera) + ": the scene has " + std::to_string(scene.cameras.size())};
+        return Error{ExitCode::usage, "", "",
+                     "camera " + std::to_string(camera) + ": the scene has " + std::to_string(scene.cameras.size())};
     const Camera& c = scene.cameras[static_cast<std::size_t>(camera)];
     glm::mat4 world(1.0f);
     for (const Node& node : scene.nodes)
