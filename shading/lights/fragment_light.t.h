@@ -82,6 +82,18 @@ BN_FN real facet_share(BN_IN(shaded_point) x)
     return lit(0.5) + half_share;
 }
 
+// Adds key lights, lamps and area lights to `light`. position: of the surface, world space.
+BN_FN real3 plus_lights(frame_ref f, material_ref m, BN_IN(shaded_point) x, real3 position, real3 light)
+{
+    if (the_frame(f).key_light_count > 0)
+        light = light + light_of_sky(f, x, the_material(m).lights_lobe);
+    if (the_frame(f).light_count > 0)
+        light = light + light_of_lamps(f, x, the_material(m).lights_lobe, position);
+    if (the_frame(f).area_light_count > 0)
+        light = light + light_of_area_lights(f, x, the_material(m).lights_lobe, position);
+    return light;
+}
+
 // Light of a surface whose facets are all below a pixel: each is shaded by itself, by a round lobe. Techniques that sample lobes sample
 // these. The others take a prefiltered fetch of the environment each, weighted by facet_share(), whose mean is what groups keep.
 BN_STAGE real3 light_of_facets(any_frame f, any_material m, BN_IN(material_inputs) at, BN_IN(visible_point) p, integer pixel_id, int traits)
@@ -98,12 +110,11 @@ BN_STAGE real3 light_of_facets(any_frame f, any_material m, BN_IN(material_input
         shaded_point x;
         make_shaded_point(f, m, facet, shape, p, pixel_id, x);
         keep_light_of_facets(f, m, facet, lit(1.0), x);
-        real3 specular = vec3_all(lit(0.0));
-        if ((the_frame(f).lobe_traits & kPunctualOnly) != 0)
-            specular = vec3_all(lit(0.0));
-        else if (samples)
+        real3 specular = vec3_all(lit(0.0)); // and of a lobe that only punctual lights meet
+        bool met = (the_frame(f).lobe_traits & kPunctualOnly) == 0;
+        if (met && samples)
             specular = mc_of_lobe(f, x, placed_lobe_at(f, x));
-        else {
+        if (met && !samples) {
             real share = words.weight * facet_share(x);
             shares = shares + share;
             fetched = fetched + split_isotropic_specular(f, x) * x.gain * (share * x.s.occlusion);
@@ -111,12 +122,7 @@ BN_STAGE real3 light_of_facets(any_frame f, any_material m, BN_IN(material_input
                 groups = facet_light_of(m, k_dot3(x.surface_axes.n, x.s.v)).groups;
         }
         real3 light = environment_light(f, x, kSamplesLobe + kTestsHorizon, specular);
-        if (the_frame(f).key_light_count > 0)
-            light = light + light_of_sky(f, x, the_material(m).lights_lobe);
-        if (the_frame(f).light_count > 0)
-            light = light + light_of_lamps(f, x, the_material(m).lights_lobe, p.position);
-        if (the_frame(f).area_light_count > 0)
-            light = light + light_of_area_lights(f, x, the_material(m).lights_lobe, p.position);
+        light = plus_lights(f, m, x, p.position, light);
         sum = sum + light * words.weight;
     }
     real scale = groups / max(shares, lit(1e-3));
@@ -136,12 +142,7 @@ BN_FN line_record light_of_fragment(frame_ref f, material_ref m, technique_ref t
     int traits = technique_traits(m, t);
     if (!shares)
         light = environment_light(f, x, traits, technique_specular(f, t, x)) + light;
-    if (the_frame(f).key_light_count > 0)
-        light = light + light_of_sky(f, x, the_material(m).lights_lobe);
-    if (the_frame(f).light_count > 0)
-        light = light + light_of_lamps(f, x, the_material(m).lights_lobe, p.position);
-    if (the_frame(f).area_light_count > 0)
-        light = light + light_of_area_lights(f, x, the_material(m).lights_lobe, p.position);
+    light = plus_lights(f, m, x, p.position, light);
     line_record r;
     if (shares)
         r = shared_light(f, x, traits, technique_shared(f, t, x, quad_offset(px & int_lit(1), py & int_lit(1))), light);
