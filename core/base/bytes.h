@@ -1,4 +1,4 @@
-// Records written one behind another.
+// Appends raw bytes to a byte buffer.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -7,7 +7,7 @@
 
 namespace burnish {
 
-// `data` may be nullptr where `size` is 0.
+// Appends `size` bytes to the end of `to`. `data` may be nullptr where `size` is 0.
 inline void append_bytes(std::vector<std::uint8_t>& to, const void* data, std::size_t size)
 {
     const std::size_t at = to.size();

@@ -14,14 +14,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The XDG specification says to ignore relative paths.
+// Returns the variable's value, or "" where the value is not an absolute path. The XDG specification says to ignore
+// relative paths.
 std::string folder_variable(const char* name)
 {
     const char* value = std::getenv(name);
     return value && value[0] == '/' ? value : "";
 }
 
-struct Kind { // files are PREFIX, 16 hexadecimal digits, SUFFIX
+struct Kind { // file names are PREFIX, 16 hexadecimal digits, SUFFIX
     const char *prefix, *suffix;
 };
 constexpr Kind kKinds[] = {{"environment-", ".bnenv"}, {"pipelines-", ".bin"}, {"reference-", ".part"}, {"levels-", ".mip"}};
@@ -42,13 +43,13 @@ struct KeptFile {
     std::uint64_t bytes;
 };
 
-// Temporary files of them count too: a run that was killed may have left one.
+// Lists the cache files in `folder`. Temporary files count too: a killed run may have left some.
 std::vector<KeptFile> kept_files(const std::string& folder)
 {
     std::vector<KeptFile> files;
     std::error_code failed;
     for (fs::directory_iterator at(folder, failed), end; !failed && at != end; at.increment(failed)) {
-        std::error_code gone; // another process may have removed it
+        std::error_code gone; // another process may have removed the file
         const std::string name = at->path().filename().string();
         if (!(is_kept(name) || is_kept(name_of_temporary(name))) || !fs::is_regular_file(at->symlink_status(gone)))
             continue;
@@ -95,7 +96,7 @@ CacheUse cache_use(const std::string& folder)
 
 void note_cache_use(const std::string& file)
 {
-    std::error_code ignored; // then it only looks older than it is
+    std::error_code ignored; // on failure the file only looks older than it is
     fs::last_write_time(file, fs::file_time_type::clock::now(), ignored);
 }
 
@@ -113,7 +114,7 @@ void prune_cache(const std::string& folder, std::uint64_t limit, const std::stri
         if (bytes <= limit)
             return;
         std::error_code failed;
-        if (file.path == keep || is_temporary(file)) // a living process writes it
+        if (file.path == keep || is_temporary(file)) // the second: a running process writes the file
             continue;
         if (fs::remove(file.path, failed) && !failed)
             bytes -= file.bytes;

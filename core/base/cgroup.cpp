@@ -9,7 +9,7 @@
 namespace burnish {
 namespace {
 
-// A group's folder and those around it, up to the root of what is mounted at `mount`.
+// Adds the folders of a group and its ancestors, up to the root of the file system mounted at `mount`.
 void add_folders(const std::string& mount, std::string path, std::vector<std::string>& folders)
 {
     while (path.size() > 1) {
@@ -25,7 +25,7 @@ std::vector<std::string> cgroup_folders(const std::string& controller, const std
 {
     std::vector<std::string> folders;
     std::ifstream file(proc);
-    for (std::string line; std::getline(file, line);) { // "4:cpu,memory:/PATH" of version 1, "0::/PATH" of version 2
+    for (std::string line; std::getline(file, line);) { // version 1: "4:cpu,memory:/PATH"; version 2: "0::/PATH"
         const std::size_t first = line.find(':'), second = line.find(':', first + 1);
         if (first == std::string::npos || second == std::string::npos)
             continue;
@@ -42,7 +42,7 @@ std::vector<std::string> cgroup_folders(const std::string& controller, const std
 
 std::uint64_t cgroup_memory_limit(const std::string& proc, const std::string& sys)
 {
-    constexpr std::uint64_t kUnlimited = 1ull << 62; // version 1 writes the largest number of whole pages, version 2 "max"
+    constexpr std::uint64_t kUnlimited = 1ull << 62; // for no limit, version 1 writes the largest count of whole pages, version 2 "max"
     std::uint64_t least = 0;
     for (const std::string& folder : cgroup_folders("memory", proc, sys))
         for (const char* name : {"/memory.max", "/memory.limit_in_bytes"}) {
@@ -59,7 +59,7 @@ void bound_memory_by_cgroup(int threads)
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
     static_cast<void>(threads);
 #else
-    constexpr std::uint64_t kStackBytes = 16ull << 20; // reserved by a thread, hardly used
+    constexpr std::uint64_t kStackBytes = 16ull << 20; // reserved by each thread, hardly used
     const std::uint64_t limit = cgroup_memory_limit();
     struct rlimit now {};
     if (limit == 0 || ::getrlimit(RLIMIT_DATA, &now) != 0)
@@ -68,7 +68,7 @@ void bound_memory_by_cgroup(int threads)
     if (now.rlim_cur != RLIM_INFINITY && now.rlim_cur <= bound)
         return;
     now.rlim_cur = bound;
-    static_cast<void>(::setrlimit(RLIMIT_DATA, &now)); // without it things are as they were
+    static_cast<void>(::setrlimit(RLIMIT_DATA, &now)); // a failure leaves the old bound
 #endif
 }
 

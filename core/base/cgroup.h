@@ -1,4 +1,4 @@
-// What the process's control groups grant it (Linux, cgroups(7), versions 1 and 2).
+// Limits that Linux control groups set on this process (cgroups(7), versions 1 and 2).
 #pragma once
 #include <cstdint>
 #include <string>
@@ -6,16 +6,18 @@
 
 namespace burnish {
 
-// The folders that bound the process, its own first, then those around it; `controller` ("memory") where it is of version 1, of version 2
-// whatever it is. A container may see its own group as the root: then that is the only one. `proc` and `sys`: where Linux shows them.
+// Returns the control-group folders that bound the process: the process's own group first, then its ancestors. Version
+// 1 groups count only for `controller` ("memory"); version 2 groups always count. A container may see its own group as
+// the root, and then returns only this group. `proc` and `sys` are the paths where Linux shows the groups.
 std::vector<std::string> cgroup_folders(const std::string& controller, const std::string& proc = "/proc/self/cgroup",
                                         const std::string& sys = "/sys/fs/cgroup");
 
-// The least limit on memory, bytes; 0: none.
+// Returns the smallest memory limit in bytes, or 0 for no limit.
 std::uint64_t cgroup_memory_limit(const std::string& proc = "/proc/self/cgroup", const std::string& sys = "/sys/fs/cgroup");
 
-// Lets allocations fail where the group's limit would end the process without a word: bounds its data (RLIMIT_DATA) by that limit and what
-// the stacks of `threads` threads reserve. Nothing where there is no limit, or sanitizers keep shadows of all memory.
+// Lets allocations fail where the group's limit would kill the process without a message. Bounds the process's data
+// (RLIMIT_DATA) by the limit plus the stacks that `threads` threads reserve. Does nothing where there is no limit, or
+// where sanitizers keep shadows of all memory.
 void bound_memory_by_cgroup(int threads);
 
 } // namespace burnish

@@ -1,4 +1,4 @@
-// Contract checks. BN_CHECK is always on and prints both values; BN_DCHECK vanishes in release builds.
+// Contract checks. BN_CHECK is always on and prints both values. BN_DCHECK vanishes in release builds.
 #pragma once
 #include <cstdio>
 #include <cstdlib>

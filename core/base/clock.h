@@ -1,4 +1,4 @@
-// The clocks that figures are taken with.
+// Clocks for measurements, in milliseconds.
 #pragma once
 #include <time.h>
 
@@ -13,10 +13,10 @@ inline double clock_ms(clockid_t clock)
 inline double process_cpu_ms()
 {
     return clock_ms(CLOCK_PROCESS_CPUTIME_ID);
-} // of all threads of this process so far
+} // summed over all threads of this process
 inline double wall_ms()
 {
     return clock_ms(CLOCK_MONOTONIC);
-} // since some fixed time
+} // since a fixed but unspecified time
 
 } // namespace burnish

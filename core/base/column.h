@@ -1,5 +1,5 @@
-// Column<T>: a table column, 64-byte aligned and padded so that a read of up to kColumnPad elements past the end is legal
-// (the padding is zero). Plain data only.
+// Column<T>: a table column, 64-byte aligned and padded. Reads up to kColumnPad elements past the end are legal and
+// return zeros. Holds plain data only.
 #pragma once
 #include <cstddef>
 #include <cstdlib>
@@ -35,7 +35,7 @@ template <class T> class Column {
         if (n)
             std::memcpy(static_cast<void*>(data_), from, n * sizeof(T));
     }
-    // New elements are zero. Shrinking keeps the memory.
+    // Changes the size. New elements are zero. Shrinking keeps the memory.
     void resize(std::size_t n)
     {
         reserve(n);

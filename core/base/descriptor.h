@@ -1,4 +1,4 @@
-// A file descriptor that is closed with its scope.
+// A file descriptor that closes at the end of its scope.
 #pragma once
 #include <unistd.h>
 
@@ -15,13 +15,13 @@ class Descriptor {
     Descriptor& operator=(const Descriptor&) = delete;
     int get() const { return fd_; }
     explicit operator bool() const { return fd_ >= 0; }
-    void reset(int fd = -1) // closes what it has
+    void reset(int fd = -1) // closes the old descriptor
     {
         if (fd_ >= 0)
             ::close(fd_);
         fd_ = fd;
     }
-    int close() // 0, or -1 with errno
+    int close() // returns 0, or -1 and sets errno
     {
         const int fd = fd_;
         fd_ = -1;

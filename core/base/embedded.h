@@ -1,12 +1,12 @@
-// A file that was put into the program when it was built (embed.cmake).
+// A file built into the program (embed.cmake).
 #pragma once
 #include <cstddef>
 
 namespace burnish {
 
-// Not before main(): the size is no constant expression.
+// Not usable before main(): the size is no constant expression.
 struct EmbeddedFile {
-    const char* bytes; // as in the file, at an address divisible by 16; a zero follows them
+    const char* bytes; // the file's bytes, 16-byte aligned and followed by a zero
     std::size_t size;
 };
 

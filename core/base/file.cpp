@@ -26,7 +26,7 @@ Error unreadable(const std::string& path, const std::string& reason)
 
 Result<std::vector<std::uint8_t>> read_file(const std::string& path, std::uint64_t max_bytes, Links links)
 {
-    // Non-blocking, so that opening a pipe without a writer does not hang.
+    // Open without blocking: a pipe without a writer would hang the call.
     Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | (links == Links::refuse ? O_NOFOLLOW : 0)));
     if (file.get() < 0)
         return unreadable(path, "cannot be opened: " + system_reason(errno));

@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* kEnding = ".bntmp";
 constexpr std::size_t kHexDigits = 16;
-constexpr int kNameTries = 16; // random names of 64 bits do not meet; a folder where each exists is broken otherwise
+constexpr int kNameTries = 16; // random 64-bit names do not collide; a folder where each one exists is broken
 
 Error unwritable(const std::string& path, int code)
 {
@@ -30,7 +30,7 @@ Error unwritable(const std::string& path, int code)
     return {ExitCode::output_failed, path, "", "cannot be written: " + reason};
 }
 
-// 0, or the errno of the first failure.
+// Returns 0, or the errno of the first failure.
 int write_all(int fd, const void* data, std::size_t size)
 {
     constexpr std::size_t kLargestWrite = 1u << 30; // Linux writes at most 2 GiB a call
@@ -47,14 +47,14 @@ int write_all(int fd, const void* data, std::size_t size)
     return 0;
 }
 
-bool cannot_sync(int code) // pipes, devices, and file systems that have nothing to do
+bool cannot_sync(int code) // pipes, devices, and file systems without anything to sync
 {
     return code == EINVAL || code == EROFS || code == ENOTSUP;
 }
 
 using Write = std::function<void(const PutBytes& put)>;
 
-// Writes and flushes to the disk: a full disk may show itself only then.
+// Writes the bytes and flushes them to disk: a full disk may show itself only at the flush.
 int write_and_sync(int fd, const Write& write)
 {
     int code = 0;
@@ -72,11 +72,11 @@ fs::path folder_of(const fs::path& file)
     return file.has_parent_path() ? file.parent_path() : fs::path(".");
 }
 
-// The name itself is on the disk only once its folder is.
+// Flushes a folder: a new name is on disk only once its folder is.
 int sync_folder(const fs::path& folder)
 {
     const Descriptor fd(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-    if (!fd) // a folder may be writable and not readable
+    if (!fd) // a folder may be writable but not readable
         return 0;
     return ::fsync(fd.get()) == 0 || cannot_sync(errno) ? 0 : errno;
 }
@@ -92,7 +92,7 @@ std::string random_digits()
     return text;
 }
 
-// What a file's temporary names begin with; names hold at most 255 bytes.
+// Returns the common start of a file's temporary names. Names hold at most 255 bytes.
 std::string stem_of(const fs::path& target)
 {
     return target.filename().string().substr(0, 200);
@@ -100,24 +100,24 @@ std::string stem_of(const fs::path& target)
 
 std::string temporary_beside(const fs::path& target)
 {
-    std::string name = stem_of(target); // appended to, as GCC 12 warns of "." + name
+    std::string name = stem_of(target); // inserts into the name, because GCC 12 warns of "." + name
     return (target.parent_path() / name.insert(0, 1, '.').append(".").append(random_digits()).append(kEnding)).string();
 }
 
-// Whether this process has the file for itself: whoever writes a temporary file holds its lock, so one without is a leftover. File
-// systems without locks give ENOLCK or the like, and nothing is taken for a leftover there.
+// Locks a file and returns true on success. Each writer locks its temporary file, so an unlocked one is a leftover. A
+// file system without locks fails with ENOLCK or the like; nothing counts as a leftover there.
 bool lock(int fd)
 {
     return ::flock(fd, LOCK_EX | LOCK_NB) == 0;
 }
 
-// What is being written: a descriptor, and the temporary name where it has one.
+// A file being written: its descriptor, and its temporary name if it has one.
 struct Temporary {
     Descriptor file;
     std::string name;
 };
 
-// Without a name, so that a process that is killed leaves nothing.
+// Makes an unnamed file: a killed process leaves nothing behind.
 int make_unnamed(const fs::path& target, mode_t mode, Temporary& made)
 {
     made.file.reset(::open(folder_of(target).c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, mode));
@@ -137,14 +137,14 @@ int make_named(const fs::path& target, mode_t mode, Temporary& made)
         if (!made.file)
             return errno;
         struct stat info {};
-        // Another process may have taken it for a leftover before it was locked.
+        // Another process may have removed the file as a leftover before the lock.
         if ((lock(made.file.get()) || errno != EWOULDBLOCK) && ::fstat(made.file.get(), &info) == 0 && info.st_nlink > 0)
             return 0;
     }
     return EEXIST;
 }
 
-// Gives an unnamed file a temporary name; rename() can then put it in the place of another, which linkat() cannot.
+// Gives an unnamed file a temporary name. Then rename() can replace an existing file, which linkat() cannot.
 int name_it(Temporary& temporary, const fs::path& target)
 {
     const std::string self = "/proc/self/fd/" + std::to_string(temporary.file.get());
@@ -160,18 +160,18 @@ int name_it(Temporary& temporary, const fs::path& target)
     return EEXIST;
 }
 
-// Gives the file the owner and the permissions of the one whose place it takes.
+// Gives the new file the owner and permissions of the file that it replaces.
 void keep_owner(int fd, const struct stat& before)
 {
     const mode_t mode = before.st_mode & 0777;
     const bool owned = ::fchown(fd, before.st_uid, before.st_gid) == 0;
-    if (!owned && before.st_gid != ::getegid()) // its group's permissions are not for another group
+    if (!owned && before.st_gid != ::getegid()) // the old group's permissions are not for another group
         static_cast<void>(::fchmod(fd, mode & 0707));
     else
         static_cast<void>(::fchmod(fd, mode));
 }
 
-// Follows links to what they name, whether or not that is there. Returns 0, or the errno of what is in the way.
+// Follows links to their target, which need not exist. Returns 0, or the errno of the obstacle.
 int follow_links(fs::path& target)
 {
     struct stat info {};
@@ -182,9 +182,9 @@ int follow_links(fs::path& target)
                 target = std::move(whole);
         return 0;
     }
-    if (errno != ENOENT) // a name too long, a circle of links, a folder that is a file
+    if (errno != ENOENT) // a name too long, circular links, a file in place of a folder
         return errno;
-    constexpr int kMostLinks = 40; // as Linux has it
+    constexpr int kMostLinks = 40; // the limit in Linux
     for (int i = 0; i < kMostLinks; ++i) {
         if (::lstat(target.c_str(), &info) != 0)
             return errno == ENOENT ? 0 : errno;
@@ -198,7 +198,8 @@ int follow_links(fs::path& target)
 
 using Maker = int (*)(const fs::path& target, mode_t mode, Temporary& made);
 
-// `before`: the file that is there, whose owner and permissions are kept, or null.
+// Writes a temporary file and renames it to `target`. `before` is the existing file, whose owner and permissions stay,
+// or null.
 int write_by(Maker make, const fs::path& target, const struct stat* before, const Write& write)
 {
     Temporary temporary;
@@ -234,7 +235,7 @@ void sweep(const fs::path& target)
             remove_leftover(at->path().string());
 }
 
-// Lets the process open as many files as it may at most. False where it already may.
+// Raises the number of open files to the hard limit. Returns false where it is there already.
 bool allow_more_files()
 {
     struct rlimit files {};
@@ -244,7 +245,7 @@ bool allow_more_files()
     return ::setrlimit(RLIMIT_NOFILE, &files) == 0;
 }
 
-// Makes a folder with a temporary name beside `target`, and locks it, so that nobody takes it for a leftover.
+// Makes a folder with a temporary name beside `target`, and locks it against removal as a leftover.
 int make_locked_folder(const fs::path& target, std::string& name, Descriptor& held)
 {
     for (int i = 0; i < kNameTries; ++i) {
@@ -253,21 +254,21 @@ int make_locked_folder(const fs::path& target, std::string& name, Descriptor& he
             return errno;
         held.reset(::open(name.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
         struct stat info {};
-        // Another process may have taken it for a leftover before it was locked.
+        // Another process may have removed the folder as a leftover before the lock.
         if (held && (lock(held.get()) || errno != EWOULDBLOCK) && ::fstat(held.get(), &info) == 0 && info.st_nlink > 0)
             return 0;
     }
     return EEXIST;
 }
 
-// Renames a folder unless something has the name already (EEXIST).
+// Renames a folder. Fails with EEXIST where the new name is taken.
 int rename_to_new(const std::string& from, const std::string& to)
 {
     if (::renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), RENAME_NOREPLACE) == 0)
         return 0;
     if (errno != EINVAL && errno != ENOSYS)
         return -1;
-    const int code = ::rename(from.c_str(), to.c_str()); // replaces an empty folder only
+    const int code = ::rename(from.c_str(), to.c_str()); // rename() replaces only an empty folder
     if (code != 0 && errno == ENOTEMPTY)
         errno = EEXIST;
     return code;
@@ -298,7 +299,7 @@ FileSet::FileSet(const std::string& folder) : folder_(folder)
     std::error_code failed;
     is_new_ = !fs::exists(folder_, failed);
     if (is_new_)
-        fs::create_directories(folder_of(folder_), failed); // adding says what is wrong
+        fs::create_directories(folder_of(folder_), failed); // add() reports the error
     sweep(folder_);
 }
 
@@ -312,7 +313,7 @@ FileSet::~FileSet()
 Status FileSet::add(const std::string& name, const void* data, std::size_t size)
 {
     const std::string path = (fs::path(folder_) / name).string();
-    fs::path target = is_new_ ? folder_ : path; // of a new folder: files lie beside it
+    fs::path target = is_new_ ? folder_ : path; // files for a new folder lie beside it
     struct stat before {};
     if (const int code = is_new_ ? 0 : follow_links(target))
         return unwritable(path, code);
@@ -322,7 +323,7 @@ Status FileSet::add(const std::string& name, const void* data, std::size_t size)
     if (!is_new_)
         sweep(target);
     Temporary made;
-    const bool has_names = ::access("/proc/self/fd", X_OK) == 0; // through which a file without one gets its name
+    const bool has_names = ::access("/proc/self/fd", X_OK) == 0; // /proc/self/fd is how an unnamed file gets its name
     int code = has_names ? make_unnamed(target, 0666, made) : EOPNOTSUPP;
     if (code == EMFILE && allow_more_files())
         code = make_unnamed(target, 0666, made);
@@ -337,7 +338,7 @@ Status FileSet::add(const std::string& name, const void* data, std::size_t size)
     return code ? Status(unwritable(path, code)) : Status();
 }
 
-// Gives a file without a name, or with a temporary one, the name `place`, where nothing is.
+// Names a file `place`, where no file exists. The file may be unnamed or have a temporary name.
 int FileSet::give_name(Added& file, const std::string& place)
 {
     const std::string self = "/proc/self/fd/" + std::to_string(file.file.get());
@@ -349,8 +350,8 @@ int FileSet::give_name(Added& file, const std::string& place)
     return 0;
 }
 
-// The folder is filled under a temporary name, which then becomes its own: it is there with all files, or not at all. Where another
-// process was faster with a folder of the name, the files go into that.
+// Fills a folder under a temporary name and renames the folder: it appears with all files, or not at all. Where another
+// process has made the folder first, the files go into that folder.
 int FileSet::name_in_new_folder()
 {
     std::string staged;
@@ -455,7 +456,7 @@ Status write_file_atomic(const std::string& path, const Write& write, Links link
         return unwritable(path, code);
     struct stat before {};
     const bool exists = (links == Links::follow ? ::stat(target.c_str(), &before) : ::lstat(target.c_str(), &before)) == 0;
-    if (!exists && errno != ENOENT) // a name too long, a circle of links, a folder that is a file
+    if (!exists && errno != ENOENT) // a name too long, circular links, a file in place of a folder
         return unwritable(path, errno);
     if (exists && S_ISDIR(before.st_mode))
         return unwritable(path, EISDIR);
@@ -465,8 +466,8 @@ Status write_file_atomic(const std::string& path, const Write& write, Links link
         return code ? Status(unwritable(path, code)) : Status();
     }
     sweep(target);
-    // Without a name first; file systems and containers without that (no O_TMPFILE, no /proc) say so before or after the bytes are
-    // written, a disk that is full or broken will say it again.
+    // Try an unnamed file first. File systems and containers without support (no O_TMPFILE, no /proc) fail before or
+    // after the write. A second try is useless where the disk is full or broken.
     int code = write_by(make_unnamed, target, regular ? &before : nullptr, write);
     if (code != 0 && code != ENOSPC && code != EDQUOT && code != EFBIG && code != EIO)
         code = write_by(make_named, target, regular ? &before : nullptr, write);

@@ -6,7 +6,7 @@
 namespace burnish {
 namespace {
 
-// The five primes of the specification.
+// The five primes from the specification.
 constexpr std::uint64_t kPrime1 = 0x9E3779B185EBCA87ull;
 constexpr std::uint64_t kPrime2 = 0xC2B2AE3D27D4EB4Full;
 constexpr std::uint64_t kPrime3 = 0x165667B19E3779F9ull;
@@ -36,7 +36,7 @@ std::uint64_t merge(std::uint64_t hash, std::uint64_t lane)
     return (hash ^ round(0, lane)) * kPrime1 + kPrime4;
 }
 
-// Four lanes over stripes of 32 bytes; advances `at` past the last whole stripe.
+// Hashes 32-byte stripes in four lanes, and advances `at` past the last whole stripe.
 std::uint64_t hash_stripes(const unsigned char*& at, const unsigned char* end, std::uint64_t seed)
 {
     std::uint64_t a = seed + kPrime1 + kPrime2;

@@ -1,4 +1,4 @@
-// Errors of files and user input: a value or an Error, never an exception across module edges.
+// Errors from files and user input: a function returns a value or an Error, and throws no exception across modules.
 #pragma once
 #include <optional>
 #include <string>
@@ -7,17 +7,17 @@
 
 namespace burnish {
 
-// The exit codes of every burnish command.
+// Exit codes of every burnish command.
 enum class ExitCode : int {
     ok = 0,
     differ = 1,         // images or results differ
     usage = 2,          // wrong option or configuration
-    size_mismatch = 3,  // images of different size or channels
+    size_mismatch = 3,  // images differ in size or channels
     bad_input = 4,      // unreadable, corrupt or refused input
     golden_missing = 5, // a reference is missing
     not_finite = 6,     // NaN or Inf in the picture
     output_failed = 7,  // an output could not be written (disk full, no permission)
-    internal = 70,      // a fault of the program itself (sysexits.h EX_SOFTWARE)
+    internal = 70,      // a fault in the program itself (EX_SOFTWARE of sysexits.h)
     unavailable = 77,   // the backend is absent: skipped
 };
 
@@ -27,7 +27,7 @@ struct Error {
     std::string place;  // JSON path ("/meshes/0/primitives/1") or "byte 123", or empty
     std::string reason; // one sentence without a line break
 
-    std::string line() const // "file: place: reason", one line whatever the parts hold
+    std::string line() const // returns "file: place: reason" as one line, with line breaks replaced by spaces
     {
         std::string s;
         for (const std::string* part : {&file, &place, &reason})
@@ -69,7 +69,7 @@ class [[nodiscard]] Status {
 
 } // namespace burnish
 
-// Returns the error of a Result or Status from the function that it stands in; goes on where there is none.
+// Returns a failed Result's or Status's error from the enclosing function. Goes on after a success.
 #define BN_TRY(...)                                                                                                                        \
     do {                                                                                                                                   \
         if (const auto& tried = (__VA_ARGS__); !tried)                                                                                     \

@@ -10,7 +10,7 @@ namespace {
 
 struct Character {
     std::uint32_t code = 0;
-    std::size_t bytes = 0; // 0: no UTF-8 (RFC 3629)
+    std::size_t bytes = 0; // 0 for invalid UTF-8 (RFC 3629)
 };
 
 Character character_at(const std::string& text, std::size_t at)
@@ -41,7 +41,7 @@ bool is_hidden(std::uint32_t code)
 {
     const bool control = code < 0x20 || (code >= 0x7F && code < 0xA0) || code == 0x2028 || code == 0x2029;
     const bool turns = (code >= 0x202A && code <= 0x202E) || (code >= 0x2066 && code <= 0x2069) || code == 0x200E || code == 0x200F;
-    return control || turns || code == 0xFEFF || code == 0xFFFE || code == 0xFFFF; // the last two are not XML
+    return control || turns || code == 0xFEFF || code == 0xFFFE || code == 0xFFFF; // XML excludes the last two
 }
 
 std::string shown(const std::string& text, bool keep_line_feeds)
@@ -72,7 +72,7 @@ std::string printable(const std::string& text, std::size_t most_bytes)
 {
     if (text.size() <= most_bytes)
         return shown(text, false);
-    std::size_t end = most_bytes; // no character is cut in two
+    std::size_t end = most_bytes; // cut no character in two
     while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80)
         --end;
     return shown(text.substr(0, end), false) + "...";

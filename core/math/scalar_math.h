@@ -1,7 +1,6 @@
-// Transcendental functions in double whose bits are the same on every machine: only + - * / sqrt and exact
-// scaling are taken from the hardware, where IEEE 754 fixes every bit. The series are Taylor's, long enough
-// that what is cut off lies below half a unit in the last place; the coefficients are their own definition.
-// Accuracy: a few 1e-16 relative. For tables and geometry made once; not for inner loops.
+// Transcendental functions in double with equal bits on every machine. They use only + - * / sqrt and exact scaling,
+// where IEEE 754 fixes every bit. The Taylor series cut off less than half a unit in the last place; their coefficients
+// come from the definition. Relative error: a few 1e-16. For tables and geometry made once, not for inner loops.
 #pragma once
 #include <cmath>
 
@@ -11,15 +10,15 @@ inline constexpr double kPi = 3.14159265358979323846;
 
 namespace scalar_math_detail {
 
-// pi/2 as three parts, the first two of 33 bits, so that k * part is exact for |k| < 2^20.
+// pi/2 in three parts. The first two have 33 bits, so that k * part is exact for |k| < 2^20.
 inline constexpr double kHalfPiHigh = 0x1.921fb544p+0;
 inline constexpr double kHalfPiMid = 0x1.0b4611a6p-34;
 inline constexpr double kHalfPiLow = 0x1.3198a2e037073p-69;
-// ln 2 as two parts, the first of 32 bits.
+// ln 2 in two parts; the first has 32 bits.
 inline constexpr double kLn2High = 0x1.62e42feep-1;
 inline constexpr double kLn2Low = 0x1.a39ef35793c76p-33;
 
-// x in [-pi/4, pi/4] plus a rest below half a unit of it.
+// Returns sin(x + rest) for x in [-pi/4, pi/4] and a rest below half a unit in x's last place.
 inline double sin_core(double x, double rest)
 {
     const double x2 = x * x;
@@ -35,13 +34,13 @@ inline double cos_core(double x, double rest)
     double s = 0.0;
     for (int k = 20; k >= 4; k -= 2)
         s = (1.0 - s) * x2 / static_cast<double>(k * (k - 1));
-    // cos x = 1 - x^2/2 (1 - s); the rounding error of 1 - half is put back.
+    // cos x = 1 - x^2/2 (1 - s). The last line adds back the rounding error of 1 - half.
     const double half = 0.5 * x2;
     const double w = 1.0 - half;
     return w + ((1.0 - w) - half + (half * s - x * rest));
 }
 
-// Quadrant of x and what is left of it, for |x| < 10^6.
+// Quadrant and remainder x + rest of an angle in radians, |angle| < 10^6.
 struct Reduced {
     int quadrant;
     double x, rest;
@@ -57,7 +56,7 @@ inline Reduced reduce(double x)
     return {static_cast<int>(q), y, (b - y) - low};
 }
 
-// x >= 0 and small enough that the series converges: x <= 2 - sqrt(3).
+// Returns atan(x) for 0 <= x <= 2 - sqrt(3), where the series converges fast.
 inline double atan_core(double x)
 {
     const double x2 = x * x;
@@ -69,7 +68,7 @@ inline double atan_core(double x)
 
 } // namespace scalar_math_detail
 
-// |x| < 10^6 radians.
+// Returns the sine of x radians, |x| < 10^6.
 inline double det_sin(double x)
 {
     const scalar_math_detail::Reduced r = scalar_math_detail::reduce(x);
@@ -84,7 +83,7 @@ inline double det_cos(double x)
     return (r.quadrant == 1 || r.quadrant == 2) ? -v : v;
 }
 
-// 0 below -745, infinity above 709.8.
+// Returns e^x: 0 for x <= -745, infinity for x > 709.8.
 inline double det_exp(double x)
 {
     if (!(x > -745.0))
@@ -102,7 +101,7 @@ inline double det_exp(double x)
     return std::ldexp(e, static_cast<int>(k));
 }
 
-// x > 0 and finite; 0 gives -infinity.
+// Returns the natural logarithm of a finite x > 0; -infinity for x = 0.
 inline double det_log(double x)
 {
     if (x == 0.0)
@@ -113,8 +112,7 @@ inline double det_log(double x)
         m *= 2.0;
         --exponent;
     }
-    // log m = 2 artanh(s), s = (m - 1) / (m + 1); written as f - (f^2/2 - s (f^2/2 + R)) to keep the digits
-    // of f = m - 1.
+    // log m = 2 artanh(s), s = (m - 1) / (m + 1). The form f - (f^2/2 - s (f^2/2 + R)) keeps the digits of f = m - 1.
     const double f = m - 1.0;
     const double s = f / (2.0 + f);
     const double s2 = s * s;
@@ -127,7 +125,7 @@ inline double det_log(double x)
     return e * scalar_math_detail::kLn2High - ((half - tail) - f);
 }
 
-// base >= 0. The relative error grows with |y log(base)|, about 1e-16 times it.
+// Returns base^y for base >= 0. The relative error is about 1e-16 |y log(base)|.
 inline double det_pow(double base, double y)
 {
     if (y == 0.0)
@@ -142,7 +140,7 @@ inline double det_atan(double x)
     const double a = std::fabs(x);
     double v = 0.0;
     const double t = a > 1.0 ? 1.0 / a : a;
-    if (t > 0.26794919243112270647) { // 2 - sqrt(3): turn by pi/6
+    if (t > 0.26794919243112270647) { // 2 - sqrt(3): rotate by pi/6
         const double root3 = 1.73205080756887729353;
         v = kPi / 6.0 + (t * root3 < 1.0 ? -scalar_math_detail::atan_core((1.0 - t * root3) / (root3 + t))
                                          : scalar_math_detail::atan_core((t * root3 - 1.0) / (root3 + t)));
@@ -154,7 +152,7 @@ inline double det_atan(double x)
     return x < 0.0 ? -v : v;
 }
 
-// In [-pi, pi]; 0 where both are 0.
+// Returns the angle of (x, y) in [-pi, pi]; 0 for (0, 0).
 inline double det_atan2(double y, double x)
 {
     if (x == 0.0)
@@ -163,7 +161,7 @@ inline double det_atan2(double y, double x)
     return x > 0.0 ? a : y < 0.0 ? a - kPi : a + kPi;
 }
 
-// x is clamped to [-1, 1].
+// Returns the arc cosine in [0, pi]. Clamps x to [-1, 1].
 inline double det_acos(double x)
 {
     const double c = x < -1.0 ? -1.0 : x > 1.0 ? 1.0 : x;

@@ -1,6 +1,7 @@
-// The rest of the program is compiled for x86-64-v2. This file is compiled for every x86-64 processor and runs before all of it, static
-// objects included: an older processor gets one line and ExitCode::unavailable, not an illegal instruction. Nothing inline of ours or of
-// the C++ library is used here: the linker may keep the copy of another file.
+// Checks the processor before any other code runs. The rest of the program needs x86-64-v2. This file runs on every
+// x86-64 processor, ahead of static objects: an older processor gets one line and ExitCode::unavailable, not an illegal
+// instruction. The file uses no inline function from burnish or the C++ library, because the linker may keep another
+// file's copy.
 #include <cpuid.h>
 #include <stdio.h>
 #include <string.h>
@@ -12,7 +13,7 @@ constexpr int kUnavailable = 77;
 
 struct Feature {
     const char* name;
-    unsigned leaf, bit; // of ecx
+    unsigned leaf, bit; // bit: in ecx
 };
 constexpr Feature kNeeded[] = {{"SSE3", 1, 0},    {"SSSE3", 1, 9},   {"CMPXCHG16B", 1, 13},        {"SSE4.1", 1, 19},
                                {"SSE4.2", 1, 20}, {"POPCNT", 1, 23}, {"LAHF/SAHF", 0x80000001u, 0}};
@@ -30,7 +31,7 @@ void check_processor(int, char**, char**)
     }
     if (!missing[0])
         return;
-    unsigned brand[13] = {}; // ends in 0
+    unsigned brand[13] = {}; // the last word is the terminating zero
     for (unsigned i = 0; i < 3; ++i)
         if (!__get_cpuid(0x80000002u + i, brand + 4 * i, brand + 4 * i + 1, brand + 4 * i + 2, brand + 4 * i + 3))
             brand[0] = 0;

@@ -1,6 +1,6 @@
-// A float that counts: what the lane types are made of where a kernel's work is counted instead of timed. Floating-point
-// + - * / and square roots are operations; negation, comparisons, selections, conversions and integer arithmetic are not. Bytes are those
-// that lane loads, gathers and texel fetches ask for.
+// A float that counts operations; replaces float in the lane types to count a kernel's work. Counts floating-point + -
+// * / and square roots. Does not count negation, comparisons, selections, conversions or integer arithmetic. Counts the
+// bytes that lane loads, gathers and texel fetches request.
 #pragma once
 #include <cstdint>
 
@@ -10,7 +10,7 @@ inline namespace bn_counted {
 struct LaneCounts {
     std::uint64_t operations, bytes;
 };
-static LaneCounts lane_counts = {}; // of this source file
+static LaneCounts lane_counts = {}; // one counter for each source file
 
 struct Counted {
     float value;

@@ -5,7 +5,7 @@
 
 namespace burnish {
 
-// The kernel tells no brand, but the register that names implementer and part.
+// Reads the implementer and the part from a register, because the kernel tells no brand.
 std::string cpu_name()
 {
     const char* const path = "/sys/devices/system/cpu/cpu0/regs/identification/midr_el1";

@@ -24,7 +24,7 @@ bool has(unsigned word, unsigned bits)
     return (word & bits) == bits;
 }
 
-// XCR0: which registers the operating system saves. 0 where it does not say.
+// Returns XCR0, the mask of registers that the operating system saves; 0 where the system does not say.
 unsigned saved_state()
 {
     constexpr unsigned kOsxsave = 1u << 27;

@@ -1,5 +1,5 @@
-// Which instruction set runs lane code. Files of bn_isa_objects are compiled once for each line of isa_list.h; every copy gives the rest of
-// the program a table of plain functions, and pick<Fns>() chooses one of them.
+// Selects the instruction set for lane code. Each file of bn_isa_objects is compiled once for each line of isa_list.h.
+// Each copy exports a table of plain functions, and pick<Fns>() chooses one table.
 #pragma once
 #include <cstddef>
 #include <string>
@@ -15,14 +15,14 @@ namespace burnish {
 enum class Isa { BN_EACH_ISA(BN_ISA_VALUE, ) };
 #undef BN_ISA_VALUE
 
-const char* isa_name(Isa isa);                  // as in the list
-bool isa_available(Isa isa);                    // this processor and its operating system run it
+const char* isa_name(Isa isa);                  // the name in isa_list.h
+bool isa_available(Isa isa);                    // true where this processor and its operating system run the set
 const std::vector<Isa>& all_isas();             // from narrow to wide
-const std::vector<Isa>& program_isas();         // of these: those that options know, whether they run here or not
-Result<Isa> parse_isa(const std::string& name); // one of the program's
-Isa best_isa();                                 // the widest of the program's that runs, no wider than BN_FORCE_ISA in the environment says
+const std::vector<Isa>& program_isas();         // the sets that options know, available here or not
+Result<Isa> parse_isa(const std::string& name); // accepts the program's sets only
+Isa best_isa();                                 // the widest available set of the program, at most $BN_FORCE_ISA
 
-// The table of an instruction set; null where this processor cannot run it, or where it is not linked.
+// Returns the set's table, or null where this processor cannot run the set or the table is not linked.
 template <class Fns> const Fns* find_fns(Isa isa)
 {
     const auto table = FnsByIsa<Fns>::of[static_cast<std::size_t>(isa)];
@@ -42,7 +42,7 @@ template <class Fns> const Fns& pick(Isa isa = best_isa())
     BN_CHECK(fns != nullptr);
     return *fns;
 }
-// Those that find_fns finds, from narrow to wide.
+// Lists the sets whose tables find_fns finds, from narrow to wide.
 template <class Fns> std::vector<Isa> isas_with()
 {
     std::vector<Isa> found;

@@ -1,6 +1,7 @@
-// The tables of functions that lane code shows to the rest of the program. BN_DECLARE_FNS(Fns), in namespace burnish: every instruction set
-// has a table Fns, for pick<Fns>() (dispatch.h). BN_DEFINE_FNS(Fns, table), at the end of a file of bn_isa_objects, in namespace BN_ISA_NS:
-// this is it. Plain pointers only: what is compiled for an instruction set sees no containers.
+// Tables of functions that lane code exports to the rest of the program. BN_DECLARE_FNS(Fns), in namespace burnish,
+// declares a table Fns for each instruction set, for pick<Fns>() (dispatch.h). BN_DEFINE_FNS(Fns, table), at the end of
+// a bn_isa_objects file and in namespace BN_ISA_NS, defines the set's table. The tables hold plain pointers, because
+// lane code sees no containers.
 #pragma once
 #include "core/simd/isa_list.h"
 
@@ -23,7 +24,7 @@ template <class Fns> struct FnsByIsa;
     }
 #define BN_FNS_OF(name, use, runs, flags, Fns) &bn_##name::isa_fns,
 #define BN_LINK_program
-#define BN_LINK_tests __attribute__((weak)) // null where it is not linked
+#define BN_LINK_tests __attribute__((weak)) // null where the table is not linked
 
 #define BN_DEFINE_FNS(Fns, table)                                                                                                          \
     const Fns& isa_fns(const Fns*);                                                                                                        \

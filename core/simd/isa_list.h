@@ -1,10 +1,10 @@
-// The instruction sets that lane code is compiled for, from narrow to wide. A new one is one line here and core/simd/lanes_<name>.h.
-// C++ reads the list through BN_EACH_ISA; isa.cmake and lint.odr read its lines:
+// Instruction sets for lane code, from narrow to wide. A new set is one line here and core/simd/lanes_<name>.h. C++
+// reads the list through BN_EACH_ISA; isa.cmake and lint.odr read its lines:
 //   BN_ON_<machine>(X(name, use, runs, flags, of))
-// machine: any, x86_64, aarch64, what the program is compiled for; x86_64_avx2, x86_64_avx512: unless BN_ISA_SET leaves them out. use:
-// "program", compiled from every file of bn_isa_objects; "tests", only where tests ask for it, unknown to options. runs: whether this
-// processor and its system can run it (core/simd/cpu.h). flags: after those of the rest of the program; -O1 or -O2 where more only takes
-// longer to compile.
+// machine: any, x86_64 or aarch64, the target of the build; x86_64_avx2 and x86_64_avx512 exist unless BN_ISA_SET
+// leaves them out. use: "program" compiles every file of bn_isa_objects; "tests" compiles only on a test's request, and
+// options do not know the set. runs: true where this processor and its system can run the set (core/simd/cpu.h). flags:
+// follow the flags of the rest of the program; -O1 or -O2 where more optimisation only costs compile time.
 #pragma once
 
 // clang-format off
@@ -15,7 +15,8 @@
     BN_ON_x86_64(X(portable8, tests, true, "-O1", of))                                      \
     BN_ON_aarch64(X(portable8, program, true, "-O1 -DBN_PORTABLE_CALLS", of))                                \
     BN_ON_any(X(portable16, tests, true, "-O1", of))
-// No instruction sets, but compiled like one: a double by lane (bn_oracle_objects), and floats that count their work (bn_counted_objects).
+// Not instruction sets, but compiled like them: a double in each lane (bn_oracle_objects), and counting floats
+// (bn_counted_objects).
 #define BN_EACH_TWIN(X, of)                                                                                  \
     X(oracle, tests, true, "-O1", of)                                                                        \
     X(counted, tests, true, "-O1", of)

@@ -1,4 +1,4 @@
-// Eight lanes: AVX2 and F16C. Meanings: lanes_scalar.h. No fma anywhere. A mask is all ones or all zeros in
+// Eight lanes: AVX2 and F16C, without fma. lanes_scalar.h defines the operations. A mask holds all ones or all zeros in
 // each lane.
 #pragma once
 #include <cstddef>
@@ -207,7 +207,7 @@ BN_INLINE mask select(mask m, mask a, mask b)
     return {_mm256_blendv_epi8(b.v, a.v, m.v)};
 }
 
-// minps and maxps return the second operand when either is NaN or both are zero: exactly a < b ? a : b.
+// minps and maxps return the second operand where either is NaN or both are zero: exactly a < b ? a : b.
 BN_INLINE real min(real a, real b)
 {
     return {_mm256_min_ps(a.v, b.v)};
@@ -319,7 +319,7 @@ BN_INLINE integer gather_int(const std::int32_t* base, integer index)
 {
     return {_mm256_i32gather_epi32(base, index.v, 4)};
 }
-// Both halves of the table in registers: a gather takes some forty steps.
+// Keeps both table halves in registers, because a gather takes some forty steps.
 BN_INLINE integer table_int(const std::int32_t* table, integer index)
 {
     const __m256i lower = _mm256_permutevar8x32_epi32(load_words(table), index.v);
@@ -336,7 +336,7 @@ BN_INLINE int compress_store_int(std::int32_t* to, integer i, mask m)
     const std::uint64_t bytes = _pdep_u64(bits, 0x0101010101010101u) * 0xff;
     const std::uint64_t from = _pext_u64(0x0706050403020100u, bytes);
     const __m256i order = _mm256_cvtepu8_epi32(_mm_cvtsi64_si128(static_cast<long long>(from)));
-    // all of the register: masked stores are microcoded on Zen, and loads wait for them
+    // write the whole register: masked stores are microcoded on Zen, and loads wait for them
     _mm256_storeu_si256(reinterpret_cast<__m256i*>(to), _mm256_permutevar8x32_epi32(i.v, order));
     return __builtin_popcount(bits);
 }
@@ -358,7 +358,7 @@ BN_INLINE integer expand_load_int(const std::int32_t* from, mask m)
 }
 BN_INLINE void store_triples(float* first, float*, real r, real g, real b)
 {
-    // each register of the result takes every third word of each channel
+    // each result register takes every third word of each channel
     const __m256i r_to = _mm256_setr_epi32(0, 3, 6, 1, 4, 7, 2, 5), g_to = _mm256_setr_epi32(5, 0, 3, 6, 1, 4, 7, 2),
                   b_to = _mm256_setr_epi32(2, 5, 0, 3, 6, 1, 4, 7);
     const __m256 rs = _mm256_permutevar8x32_ps(r.v, r_to), gs = _mm256_permutevar8x32_ps(g.v, g_to),

@@ -1,9 +1,9 @@
-// Sixteen lanes: AVX-512 F, BW, DQ, VL. Meanings: lanes_scalar.h.
+// Sixteen lanes: AVX-512 F, BW, DQ, VL. lanes_scalar.h defines the operations.
 #pragma once
 #include <cstddef>
 #include <cstdint>
 
-// GCC 12 reports the deliberately undefined operands inside its own intrinsics.
+// GCC 12 warns about the deliberately undefined operands inside its own intrinsics.
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wuninitialized"
 #ifndef __clang__
@@ -209,7 +209,7 @@ BN_INLINE mask select(mask m, mask a, mask b)
     return {static_cast<__mmask16>((m.v & a.v) | (~static_cast<unsigned>(m.v) & b.v))};
 }
 
-// minps and maxps return the second operand when either is NaN or both are zero: exactly a < b ? a : b.
+// minps and maxps return the second operand where either is NaN or both are zero: exactly a < b ? a : b.
 BN_INLINE real min(real a, real b)
 {
     return {_mm512_min_ps(a.v, b.v)};
@@ -325,7 +325,7 @@ BN_INLINE integer table_int(const std::int32_t* table, integer index)
 {
     return {_mm512_permutexvar_epi32(index.v, _mm512_loadu_si512(table))};
 }
-// Compressed in a register first: the compressing store is microcoded on Zen 4.
+// Compresses in a register first, because the compressing store is microcoded on Zen 4.
 BN_INLINE int compress_store_int(std::int32_t* to, integer i, mask m)
 {
     _mm512_storeu_si512(to, _mm512_maskz_compress_epi32(m.v, i.v));

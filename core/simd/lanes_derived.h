@@ -1,4 +1,4 @@
-// Operations that every wide instruction set builds from its own: the last include of lanes_avx2.h and
+// Operations that each wide instruction set builds from its own operations: the last include of lanes_avx2.h and
 // lanes_avx512.h.
 #pragma once
 

@@ -1,4 +1,4 @@
-// One lane of double precision: shows where the floats of the instruction sets lose digits.
+// One lane of double precision: shows where floats lose digits.
 #pragma once
 #define BN_ORACLE
 #include "core/simd/lanes_scalar.h"

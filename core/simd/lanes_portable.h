@@ -1,15 +1,16 @@
-// Lanes without intrinsics: kLanes floats in parts of four, which every processor of this decade holds in a register (GCC's and Clang's
-// vector extensions; larger vector types are slow where the processor has no such register, and wrong in places under clang 14). Meanings:
-// lanes_scalar.h. lanes_portable8.h and lanes_portable16.h say how many lanes. A mask is all ones or all zeros in each lane.
+// Lanes without intrinsics: kLanes floats in parts of four, as GCC and Clang vector extensions. Nearly every processor
+// holds four floats in a register. Larger vector types are slow on processors without such registers, and partly wrong
+// under clang 14. lanes_scalar.h defines the operations. lanes_portable8.h and lanes_portable16.h set kLanes. A mask
+// holds all ones or all zeros in each lane.
 #pragma once
 #include <cstddef>
 #include <cstdint>
 
 #include "core/simd/half.h"
 
-// What goes lane by lane stays a call: written out wherever it is used, it would be megabytes.
+// Loops over lanes stay calls: inlined everywhere, their code would fill megabytes.
 #define BN_CALL static __attribute__((noinline, unused))
-#ifdef BN_PORTABLE_CALLS // all of it
+#ifdef BN_PORTABLE_CALLS // every operation is a call
 #define BN_OP BN_CALL
 #else
 #define BN_OP BN_INLINE
@@ -35,7 +36,7 @@ struct integer {
 struct mask {
     part_i p[kParts];
 };
-// Lanes in memory, for what works on one after the other.
+// Lanes in memory, for loops over single lanes.
 struct float_lanes {
     float at[kLanes];
 };
@@ -277,7 +278,7 @@ BN_OP integer round_to_int(const real& x)
     return to_int(round_to_even(x));
 }
 
-// A double by lane, for the little that single precision cannot hold.
+// A double in each lane, for the few values beyond single precision.
 struct wide {
     double at[kLanes];
 };
@@ -443,7 +444,7 @@ BN_FOLD(reduce_max, a > b ? a : b)
 BN_FOLD(reduce_add, a + b)
 #undef BN_FOLD
 
-// ---- array of struct
+// ---- arrays of structs
 
 BN_OP const char* record_at(const void* base, const integer& index, int lane, std::size_t bytes)
 {
@@ -534,7 +535,7 @@ BN_OP texel_acc texel_zero()
 {
     return texel_acc{};
 }
-// The channels of a pair of texels by lane: left, then right.
+// Reads a pair of texels for each lane: the left channels, then the right ones.
 BN_CALL void texel_pairs(texel_buffer texels, const integer& row, real out[8])
 {
     float_lanes r[8];

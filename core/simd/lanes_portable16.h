@@ -1,5 +1,5 @@
-// Sixteen lanes without intrinsics, for tests: what is written for 16 lanes runs on every processor. Every operation is a call, so that
-// files compile in seconds.
+// Sixteen lanes without intrinsics, so that tests run 16-lane code on every processor. Each operation is a call, which
+// keeps compile times to seconds.
 #pragma once
 #define BN_PORTABLE_CALLS
 namespace burnish {

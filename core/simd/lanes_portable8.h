@@ -1,4 +1,4 @@
-// Eight lanes without intrinsics, for processors that have no lanes of their own here.
+// Eight lanes without intrinsics, for processors without native lanes here.
 #pragma once
 namespace burnish {
 inline namespace BN_ISA_NS {

@@ -1,5 +1,5 @@
-// One lane: the twin that every instruction set must equal bit for bit. The meaning of every operation is defined here. `integer` wraps
-// because these files are compiled with -fwrapv. lanes_oracle.h and lanes_counted.h make other lanes of it.
+// One lane. Defines every operation; each instruction set must equal this one bit for bit. `integer` wraps because the
+// files are compiled with -fwrapv. lanes_oracle.h and lanes_counted.h build other one-lane sets from this file.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -192,7 +192,7 @@ BN_INLINE real to_real(integer i)
 {
     return static_cast<real>(i);
 }
-// The oracle too sees the 32 bits of a float, so that exponents are found by the same text.
+// The oracle also sees the 32 bits of a float, so that the same code finds exponents.
 BN_INLINE integer bits_of(real x)
 {
     return __builtin_bit_cast(std::int32_t, static_cast<float>(x));
@@ -202,7 +202,7 @@ BN_INLINE real real_from_bits(integer i)
     return static_cast<real>(__builtin_bit_cast(float, i));
 }
 
-// A double by lane, for the little that single precision cannot hold.
+// A double in each lane, for the few values beyond single precision.
 struct wide {
     double v;
 };
@@ -312,7 +312,7 @@ BN_INLINE int compress_store_int(std::int32_t* to, integer i, mask m)
     return m ? 1 : 0;
 }
 
-// The reverse: lanes of m read consecutive numbers, the others 0. May read kLanes numbers.
+// Inverse of compress_store_int: lanes of m read consecutive numbers, the others read 0. May read kLanes numbers.
 BN_INLINE real expand_load(const float* from, mask m)
 {
     return m ? static_cast<real>(*from) : lit(0.0);
@@ -321,13 +321,13 @@ BN_INLINE integer expand_load_int(const std::int32_t* from, mask m)
 {
     return m ? *from : 0;
 }
-// Triples (r, g, b) by lane: lanes 0 to 7 to `first` onwards, the others to `second` onwards.
+// Stores RGB triples: lanes 0 to 7 from `first` on, the others from `second` on.
 BN_INLINE void store_triples(float* first, float*, real r, real g, real b)
 {
     first[0] = static_cast<float>(r), first[1] = static_cast<float>(g), first[2] = static_cast<float>(b);
 }
 
-// kLanes triples in turn: out[k] holds the k-th of each.
+// Loads kLanes consecutive triples: out[k] holds element k of each.
 BN_INLINE void load_triples_int(const std::int32_t* from, integer out[3])
 {
     out[0] = from[0], out[1] = from[1], out[2] = from[2];
@@ -346,7 +346,8 @@ BN_INLINE real reduce_add(real x)
     return x;
 }
 
-// Record i is 16 words (64 bytes, any alignment) at base + 64 i; out[f] is field f of record index[lane].
+// Loads one record a lane. Record i is 16 words (64 bytes, any alignment) at base + 64 i; out[f] is field f of record
+// index[lane].
 BN_INLINE void load_records16(const void* base, integer index, integer out[16])
 {
     const char* record = static_cast<const char*>(base) + std::size_t{64} * static_cast<std::uint32_t>(index);
@@ -354,25 +355,25 @@ BN_INLINE void load_records16(const void* base, integer index, integer out[16])
         __builtin_memcpy(&out[f], record + 4 * f, 4);
 }
 
-// The reverse for kLanes records in turn.
+// Stores kLanes consecutive 16-word records.
 BN_INLINE void store_records16(void* base, const integer r[16])
 {
     __builtin_memcpy(base, r, 64);
 }
-// Record i is 4 words (16 bytes) at base + 16 i.
+// Loads one quad a lane. Quad i is 4 words (16 bytes) at base + 16 i.
 BN_INLINE void load_quads(const void* base, integer index, integer out[4])
 {
     __builtin_memcpy(out, static_cast<const char*>(base) + std::size_t{16} * static_cast<std::uint32_t>(index), 16);
 }
-// The reverse for the first n records in turn.
+// Stores the first n quads consecutively.
 BN_INLINE void store_quads(void* base, const integer r[4], int n)
 {
     if (n > 0)
         __builtin_memcpy(base, r, 16);
 }
 
-// Records are 16 floats apart; r0, r1, r2 the records i0, i1, i2. out[c] = (b0 r0[c] + b1 r1[c]) + b2 r2[c],
-// rounded in that order, for the first `fields` floats.
+// Blends three records: out[c] = (b0 r0[c] + b1 r1[c]) + b2 r2[c], rounded in that order, for the first `fields`
+// floats. r0, r1, r2 are the records i0, i1, i2. Records are 16 floats apart.
 BN_INLINE void blend_fields(const float* base, integer i0, integer i1, integer i2, real b0, real b1, real b2, real* out, int fields)
 {
     const float* r0 = base + std::size_t{16} * static_cast<std::uint32_t>(i0);
@@ -390,13 +391,13 @@ BN_INLINE void blend_records_low(const float* base, integer i0, integer i1, inte
 {
     blend_fields(base, i0, i1, i2, b0, b1, b2, out, 8);
 }
-// Four floats; `base` already points at the wanted field of record 0.
+// Blends four floats. `base` already points at the wanted field of record 0.
 BN_INLINE void blend_quad(const float* base, integer i0, integer i1, integer i2, real b0, real b1, real b2, real out[4])
 {
     blend_fields(base, i0, i1, i2, b0, b1, b2, out, 4);
 }
 
-// Two pairs of floats that follow each other in a table, from pair `index` on: one unaligned 16-byte load.
+// Loads pairs `index` and `index` + 1 from a table of float pairs: one unaligned 16-byte load.
 using pair_table = const float*;
 BN_INLINE void load_pairs(pair_table table, integer index, real out[4])
 {
@@ -405,9 +406,8 @@ BN_INLINE void load_pairs(pair_table table, integer index, real out[4])
         out[k] = static_cast<real>(table[std::size_t{2} * static_cast<std::uint32_t>(index) + k]);
 }
 
-// RGBA half texels, 8 bytes each. row0 and row1 are the indices of the left texels of two horizontal pairs
-// (upper and lower row of a bilinear footprint); the weights are w<column><row>. A pair is one unaligned
-// 16-byte load.
+// Texels are four halves (RGBA), 8 bytes. row0 and row1 index the left texels of two horizontal pairs: the upper and
+// lower rows of a bilinear footprint. Weights are named w<column><row>. A pair is one unaligned 16-byte load.
 using texel_buffer = const std::uint16_t*;
 struct texel_acc {
     real left[4], right[4];
@@ -420,14 +420,14 @@ BN_INLINE texel_acc texel_zero()
 {
     return texel_acc{};
 }
-// The channels of a pair that all lanes share: left, then right.
+// Loads a texel pair that all lanes share: the left channels, then the right ones.
 BN_INLINE void load_texel_pair(texel_buffer texels, std::uint32_t at, float out[8])
 {
     for (std::size_t c = 0; c < 8; ++c)
         out[c] = half_to_float(texels[std::size_t{4} * at + c]);
 }
-// left += w00 t[row0] + w01 t[row1]; right += w10 t[row0 + 1] + w11 t[row1 + 1], a channel at a time, rounded
-// in that order.
+// Adds, for each channel, left += w00 t[row0] + w01 t[row1] and right += w10 t[row0 + 1] + w11 t[row1 + 1], rounded in
+// that order.
 BN_INLINE texel_acc texel_add(texel_acc acc, texel_buffer texels, integer row0, integer row1, real w00, real w10, real w01, real w11)
 {
     const std::uint16_t* t0 = texels + std::size_t{4} * static_cast<std::uint32_t>(row0);
@@ -439,7 +439,7 @@ BN_INLINE texel_acc texel_add(texel_acc acc, texel_buffer texels, integer row0, 
     }
     return acc;
 }
-// The arguments of a texel_add, in memory: planned ahead, its loads do not wait for their addresses.
+// Arguments of a later texel_add, in memory: planned loads do not wait for their addresses.
 struct texel_plan {
     integer row0, row1;
     real w00, w10, w01, w11;
@@ -452,7 +452,7 @@ BN_INLINE texel_acc texel_add(texel_acc acc, texel_buffer texels, const texel_pl
 {
     return texel_add(acc, texels, p.row0, p.row1, p.w00, p.w10, p.w01, p.w11);
 }
-// left + right by channel. (Kernels use texel_value, which returns a real4.)
+// Returns left + right for each channel. (Kernels use texel_value, which returns a real4.)
 BN_INLINE void texel_values(texel_acc acc, real out[4])
 {
     for (int c = 0; c < 4; ++c)

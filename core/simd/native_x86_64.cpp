@@ -1,4 +1,4 @@
-// Prints the instruction sets of isa_list.h that this machine lacks, as a list of CMake. Run when the build is configured.
+// Prints the instruction sets of isa_list.h that this machine lacks, as a CMake list. Runs at configure time.
 #include <cstdio>
 
 #include "core/simd/cpu.h"

@@ -1,6 +1,6 @@
-// Records, quads and texels in eight lanes (part of lanes_avx2.h).
-// Array-of-struct data is read with 128-bit loads and transposed in registers. The transposes keep SIMD lane 4q + j in
-// 128-bit part q of register j, so one vpermilps with the immediate j spreads a lane's weight over its part.
+// Records, quads and texels in eight lanes (part of lanes_avx2.h). 128-bit loads read arrays of structs, and registers
+// transpose them. The transposes put SIMD lane 4q + j into 128-bit part q of register j. Then one vpermilps with
+// immediate j spreads a lane's weight over the part.
 #pragma once
 
 namespace burnish {
@@ -13,10 +13,10 @@ BN_INLINE lane_indices spill(integer i)
 {
     lane_indices s;
     _mm256_store_si256(reinterpret_cast<__m256i*>(s.at), i.v);
-    __asm__("" : "+m"(s.at)); // keeps it in memory: GCC would extract lane by lane with shuffles
+    __asm__("" : "+m"(s.at)); // keeps the indices in memory: GCC would extract them one by one with shuffles
     return s;
 }
-// Where 64-byte records start, in units of 8 bytes: the largest that an address can scale by.
+// Returns the starts of 64-byte records in units of 8 bytes, the largest scale in an address.
 BN_INLINE lane_indices spill_records(integer index)
 {
     lane_indices s;
@@ -27,13 +27,13 @@ BN_INLINE const float* record_at(const void* base, const lane_indices& i, int la
 {
     return reinterpret_cast<const float*>(static_cast<const char*>(base) + std::size_t{8} * i.at[lane]);
 }
-// Four floats of the records of lanes j and 4 + j.
+// Loads four floats from the records of lanes j and 4 + j.
 BN_INLINE __m256 quads_at(const void* base, const lane_indices& i, int j)
 {
     const __m256 q = _mm256_castps128_ps256(_mm_loadu_ps(record_at(base, i, j)));
     return _mm256_insertf128_ps(q, _mm_loadu_ps(record_at(base, i, j + 4)), 1);
 }
-// r[j] holds in part q the four fields of lane 4q + j; out[f] holds field f of every lane.
+// Transposes. Part q of r[j] holds the four fields of lane 4q + j; out[f] holds field f of every lane.
 BN_INLINE void transpose_quads(const __m256 r[4], real out[4])
 {
     const __m256d t0 = _mm256_castps_pd(_mm256_unpacklo_ps(r[0], r[1]));
@@ -45,7 +45,7 @@ BN_INLINE void transpose_quads(const __m256 r[4], real out[4])
     out[2].v = _mm256_castpd_ps(_mm256_unpacklo_pd(t2, t3));
     out[3].v = _mm256_castpd_ps(_mm256_unpackhi_pd(t2, t3));
 }
-// The weight of lane 4q + j in all of part q.
+// Spreads the weight of lane 4q + j over part q.
 BN_INLINE __m256 lane_weight(__m256 w, int j)
 {
     switch (j) {
@@ -79,7 +79,7 @@ BN_INLINE void store_records16(void* base, const integer r[16])
         __m256 in[4];
         for (int k = 0; k < 4; ++k)
             in[k] = _mm256_castsi256_ps(r[4 * c + k].v);
-        real quads[4]; // [j]: part q is fields 4c to 4c + 3 of lane 4q + j
+        real quads[4]; // [j]: part q holds fields 4c to 4c + 3 of lane 4q + j
         transpose_quads(in, quads);
         for (int j = 0; j < 4; ++j) {
             float* to = static_cast<float*>(base) + 16 * j + 4 * c;
@@ -109,7 +109,7 @@ BN_INLINE void store_quads(void* base, const integer r[4], int n)
     __m256 in[4];
     for (int k = 0; k < 4; ++k)
         in[k] = _mm256_castsi256_ps(r[k].v);
-    real q[4]; // [j]: part q is lane 4q + j
+    real q[4]; // [j]: part q holds lane 4q + j
     transpose_quads(in, q);
     const __m256 rows[4] = {_mm256_permute2f128_ps(q[0].v, q[1].v, 0x20), _mm256_permute2f128_ps(q[2].v, q[3].v, 0x20),
                             _mm256_permute2f128_ps(q[0].v, q[1].v, 0x31), _mm256_permute2f128_ps(q[2].v, q[3].v, 0x31)};
@@ -156,7 +156,7 @@ BN_INLINE void blend_quad(const float* base, integer i0, integer i1, integer i2,
     blend_four(base, spill_records(i0), spill_records(i1), spill_records(i2), b0, b1, b2, out);
 }
 
-// One register a lane: [left texel, right texel].
+// One register for each lane: [left texel, right texel].
 using texel_buffer = const std::uint16_t*;
 struct texel_acc {
     __m256 at[8];
@@ -184,16 +184,16 @@ BN_INLINE void plan_texels(texel_plan& p, integer row0, integer row1, real w00, 
     _mm256_store_si256(reinterpret_cast<__m256i*>(p.row1.at), row1.v);
     p.w00 = w00, p.w10 = w10, p.w01 = w01, p.w11 = w11;
 }
-// w0, w1: [left of four lanes, right of the same] of the upper and the lower row.
+// Adds one lane's texels. w0, w1: weights of the upper and lower row, [left of four lanes, right of the same lanes].
 template <int kLane> BN_INLINE void texel_add_lane(texel_acc& acc, texel_buffer texels, const texel_plan& p, __m256 w0, __m256 w1)
 {
     const __m256 p0 = _mm256_mul_ps(lane_weight(w0, kLane & 3), texel_pair(texels, p.row0, kLane));
     const __m256 p1 = _mm256_mul_ps(lane_weight(w1, kLane & 3), texel_pair(texels, p.row1, kLane));
     __m256 sum = _mm256_add_ps(p0, p1);
-    __asm__("" : "+x"(sum)); // now: GCC would put it off to where it is used, and keep what it is made of in memory
+    __asm__("" : "+x"(sum)); // forces the sum now: GCC would delay it and keep its operands in memory
     acc.at[kLane] = _mm256_add_ps(acc.at[kLane], sum);
 }
-// Without a loop, so that the compiler keeps sums of several in registers.
+// No loop, so that the compiler keeps several sums in registers.
 BN_INLINE texel_acc texel_add(texel_acc acc, texel_buffer texels, const texel_plan& p)
 {
     const __m256 low0 = _mm256_permute2f128_ps(p.w00.v, p.w10.v, 0x20), low1 = _mm256_permute2f128_ps(p.w01.v, p.w11.v, 0x20);

@@ -1,6 +1,6 @@
-// Records, quads and texels in sixteen lanes (part of lanes_avx512.h).
-// Array-of-struct data is read with 128-to 512-bit loads and transposed in registers. The transposes keep SIMD lane 4q + j in
-// 128-bit part q of register j, so one vpermilps with the immediate j spreads a lane's weight over its part.
+// Records, quads and texels in sixteen lanes (part of lanes_avx512.h). 128-bit to 512-bit loads read arrays of structs,
+// and registers transpose them. The transposes put SIMD lane 4q + j into 128-bit part q of register j. Then one
+// vpermilps with immediate j spreads a lane's weight over the part.
 #pragma once
 
 namespace burnish {
@@ -13,10 +13,10 @@ BN_INLINE lane_indices spill(integer i)
 {
     lane_indices s;
     _mm512_store_si512(s.at, i.v);
-    __asm__("" : "+m"(s.at)); // keeps it in memory: GCC would extract lane by lane with shuffles
+    __asm__("" : "+m"(s.at)); // keeps the indices in memory: GCC would extract them one by one with shuffles
     return s;
 }
-// Where 64-byte records start, in units of 8 bytes: the largest that an address can scale by.
+// Returns the starts of 64-byte records in units of 8 bytes, the largest scale in an address.
 BN_INLINE lane_indices spill_records(integer index)
 {
     lane_indices s;
@@ -27,7 +27,7 @@ BN_INLINE const float* record_at(const void* base, const lane_indices& i, int la
 {
     return reinterpret_cast<const float*>(static_cast<const char*>(base) + std::size_t{8} * i.at[lane]);
 }
-// Four floats of the records of lanes j, 4 + j, 8 + j, 12 + j.
+// Loads four floats from the records of lanes j, 4 + j, 8 + j, 12 + j.
 BN_INLINE __m512 quads_at(const void* base, const lane_indices& i, int j)
 {
     __m512 q = _mm512_castps128_ps512(_mm_loadu_ps(record_at(base, i, j)));
@@ -35,7 +35,7 @@ BN_INLINE __m512 quads_at(const void* base, const lane_indices& i, int j)
     q = _mm512_insertf32x4(q, _mm_loadu_ps(record_at(base, i, j + 8)), 2);
     return _mm512_insertf32x4(q, _mm_loadu_ps(record_at(base, i, j + 12)), 3);
 }
-// r[j] holds in part q the four fields of lane 4q + j; out[f] holds field f of every lane.
+// Transposes. Part q of r[j] holds the four fields of lane 4q + j; out[f] holds field f of every lane.
 BN_INLINE void transpose_quads(const __m512 r[4], real out[4])
 {
     const __m512d t0 = _mm512_castps_pd(_mm512_unpacklo_ps(r[0], r[1]));
@@ -47,7 +47,7 @@ BN_INLINE void transpose_quads(const __m512 r[4], real out[4])
     out[2].v = _mm512_castpd_ps(_mm512_unpacklo_pd(t2, t3));
     out[3].v = _mm512_castpd_ps(_mm512_unpackhi_pd(t2, t3));
 }
-// The weight of lane 4q + j in all of part q.
+// Spreads the weight of lane 4q + j over part q.
 BN_INLINE __m512 lane_weight(real w, int j)
 {
     switch (j) {
@@ -81,7 +81,7 @@ BN_INLINE void store_records16(void* base, const integer r[16])
         __m512 in[4];
         for (int k = 0; k < 4; ++k)
             in[k] = _mm512_castsi512_ps(r[4 * c + k].v);
-        real quads[4]; // [j]: part q is fields 4c to 4c + 3 of lane 4q + j
+        real quads[4]; // [j]: part q holds fields 4c to 4c + 3 of lane 4q + j
         transpose_quads(in, quads);
         for (int j = 0; j < 4; ++j) {
             float* to = static_cast<float*>(base) + 16 * j + 4 * c;
@@ -113,7 +113,7 @@ BN_INLINE void store_quads(void* base, const integer r[4], int n)
     __m512 in[4];
     for (int k = 0; k < 4; ++k)
         in[k] = _mm512_castsi512_ps(r[k].v);
-    real q[4]; // [j]: part q is lane 4q + j
+    real q[4]; // [j]: part q holds lane 4q + j
     transpose_quads(in, q);
     const __m512 ab_low = _mm512_shuffle_f32x4(q[0].v, q[1].v, 0x44), ab_high = _mm512_shuffle_f32x4(q[0].v, q[1].v, 0xee);
     const __m512 cd_low = _mm512_shuffle_f32x4(q[2].v, q[3].v, 0x44), cd_high = _mm512_shuffle_f32x4(q[2].v, q[3].v, 0xee);
@@ -172,8 +172,8 @@ BN_INLINE void blend_records_low(const float* base, integer i0, integer i1, inte
     blend_quad(base + 4, i0, i1, i2, b0, b1, b2, out + 4);
 }
 
-// Two lanes share a register, [left a, right a, left b, right b]: at[j] holds lanes j and 4 + j, at[4 + j] 8
-// + j and 12 + j.
+// Two lanes share a register, [left a, right a, left b, right b]: at[j] holds lanes j and 4 + j, at[4 + j] holds lanes
+// 8 + j and 12 + j.
 using texel_buffer = const std::uint16_t*;
 struct texel_acc {
     __m512 at[8];
@@ -189,7 +189,7 @@ BN_INLINE __m512 texel_pairs(texel_buffer texels, const lane_indices& i, int a, 
     const __m128i pair_b = _mm_loadu_si128(reinterpret_cast<const __m128i*>(texels + std::size_t{4} * i.at[b]));
     return _mm512_cvtph_ps(_mm256_inserti128_si256(_mm256_castsi128_si256(pair_a), pair_b, 1));
 }
-// [left 0-3, right 0-3, left 4-7, right 4-7] of lanes first to first + 7.
+// Returns [left 0-3, right 0-3, left 4-7, right 4-7] for lanes first to first + 7.
 BN_INLINE real texel_weights(real left, real right, int first)
 {
     const __m512i low = _mm512_setr_epi64(0, 1, 8, 9, 2, 3, 10, 11);
@@ -210,17 +210,17 @@ BN_INLINE void plan_texels(texel_plan& p, integer row0, integer row1, real w00, 
     _mm512_store_si512(p.row1.at, row1.v);
     p.w00 = w00, p.w10 = w10, p.w01 = w01, p.w11 = w11;
 }
-// Lanes kLane and kLane + 4. w0, w1: texel_weights() of the upper and the lower row.
+// Adds the texels of lanes kLane and kLane + 4. w0, w1: texel_weights() of the upper and lower row.
 template <int kLane> BN_INLINE void texel_add_lanes(texel_acc& acc, texel_buffer texels, const texel_plan& p, real w0, real w1)
 {
     constexpr int kAt = kLane < 8 ? kLane : kLane - 4;
     const __m512 p0 = _mm512_mul_ps(lane_weight(w0, kLane & 3), texel_pairs(texels, p.row0, kLane, kLane + 4));
     const __m512 p1 = _mm512_mul_ps(lane_weight(w1, kLane & 3), texel_pairs(texels, p.row1, kLane, kLane + 4));
     __m512 sum = _mm512_add_ps(p0, p1);
-    __asm__("" : "+v"(sum)); // now: GCC would put it off to where it is used, and keep what it is made of in memory
+    __asm__("" : "+v"(sum)); // forces the sum now: GCC would delay it and keep its operands in memory
     acc.at[kAt] = _mm512_add_ps(acc.at[kAt], sum);
 }
-// Without a loop, so that the compiler keeps sums of several in registers.
+// No loop, so that the compiler keeps several sums in registers.
 BN_INLINE texel_acc texel_add(texel_acc acc, texel_buffer texels, const texel_plan& p)
 {
     const real low0 = texel_weights(p.w00, p.w10, 0), low1 = texel_weights(p.w01, p.w11, 0);

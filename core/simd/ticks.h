@@ -1,4 +1,4 @@
-// The processor's own clock, for shares of a time: cheap enough for inner loops, in units that differ from machine to machine.
+// The processor's own clock, for shares of a time. Cheap enough for inner loops; its unit differs between machines.
 #pragma once
 #include <cstdint>
 

@@ -1,4 +1,5 @@
-// A double by lane, for the little that single precision cannot hold: the lower half of the lanes, then the upper. Part of lanes_avx2.h.
+// A double in each lane, for the few values beyond single precision: lower half of the lanes, then upper half. Part of
+// lanes_avx2.h.
 #pragma once
 
 namespace burnish {
