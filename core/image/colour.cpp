@@ -1,5 +1,5 @@
-// Colour with + - * / and square roots in double only: no libm function whose last digit differs between
-// machines.
+// Colour arithmetic with + - * / and square roots in double only. No libm function, because the last digits differ
+// between machines.
 #include "core/image/colour.h"
 
 #include <algorithm>
@@ -14,11 +14,10 @@
 namespace burnish {
 namespace {
 
-// The largest radiance that is tonemapped; more is white in every operator, and its square is still finite.
+// Upper bound of radiance before tonemapping. Larger values are white in every operator; the square stays finite.
 constexpr float kBrightest = 1e12f;
 
-// t^(1/5) for t in [0.001, 1]: Newton's iteration from above converges monotonically, to the last digits in
-// 12 steps.
+// Returns t^(1/5) for t in [0.001, 1]. Newton's iteration from above converges monotonically to the last digits.
 double fifth_root(double t)
 {
     double y = 1.0;
@@ -27,7 +26,7 @@ double fifth_root(double t)
     return y;
 }
 
-double cube_root(double t) // as fifth_root
+double cube_root(double t) // like fifth_root
 {
     double y = 1.0;
     for (int i = 0; i < 16; ++i)
@@ -35,7 +34,7 @@ double cube_root(double t) // as fifth_root
     return y;
 }
 
-// IEC 61966-2-1:1999 section 5.2, eq. 5 and 6, for x in [0,1].
+// Decodes sRGB by IEC 61966-2-1:1999 section 5.2, eq. 5 and 6, for x in [0,1].
 double decode_srgb(double x)
 {
     if (x <= 0.04045)
@@ -56,17 +55,17 @@ double encode_srgb(double x)
 
 float clamp01(float x)
 {
-    return x > 0.0f ? (x < 1.0f ? x : 1.0f) : 0.0f; // NaN is 0
+    return x > 0.0f ? (x < 1.0f ? x : 1.0f) : 0.0f; // NaN becomes 0
 }
 
-// 8-bit sRGB by comparison with the 255 values between codes, so that every code is the correctly rounded
-// one. A table over the float's upper bits leads to the first candidate.
+// Encodes 8-bit sRGB: compares a value with the 255 boundaries between codes, so that every code is correctly rounded.
+// A table over the float's upper bits gives the first candidate.
 class SrgbTable {
   public:
     SrgbTable()
     {
         for (std::size_t code = 1; code < 256; ++code) {
-            // The smallest float that is not below the boundary.
+            // Find the smallest float at or above the boundary.
             const double boundary = decode_srgb((static_cast<double>(code) - 0.5) / 255.0);
             const float rounded = static_cast<float>(boundary);
             const bool below = static_cast<double>(rounded) < boundary;
@@ -100,7 +99,7 @@ class SrgbTable {
     std::array<std::uint8_t, kKeys> start_;
 };
 
-// 2^ev by the Taylor series of e^(f ln 2), f in [-0.5, 0.5]: 18 terms reach double precision.
+// Returns 2^ev by the Taylor series of e^(f ln 2), f in [-0.5, 0.5]: 18 terms reach double precision.
 float exposure_scale(float ev)
 {
     BN_CHECK(ev >= -126.0f && ev <= 126.0f);
@@ -118,10 +117,10 @@ struct Rgb {
     float r, g, b;
 };
 
-// Khronos PBR Neutral tone mapper, specification 1.0 (2024), and its reference GLSL.
+// Applies the Khronos PBR Neutral tone mapper, specification 1.0 (2024), after its reference GLSL.
 Rgb pbr_neutral(Rgb c)
 {
-    constexpr float kStart = 0.8f - 0.04f; // where compression begins
+    constexpr float kStart = 0.8f - 0.04f; // compression begins here
     constexpr float kDesaturation = 0.15f;
     const float low = std::min(c.r, std::min(c.g, c.b));
     const float offset = low < 0.08f ? low - 6.25f * low * low : 0.04f;
@@ -143,8 +142,8 @@ Rgb multiply(const float (&m)[3][3], Rgb c)
             m[2][0] * c.r + m[2][1] * c.g + m[2][2] * c.b};
 }
 
-// Stephen Hill's fit of the ACES RRT and sRGB ODT (published with MJP's BakingLab, ACES.hlsl, 2016). As
-// published there: no extra exposure factor.
+// Applies Stephen Hill's fit of the ACES RRT and sRGB ODT (published with MJP's BakingLab, ACES.hlsl, 2016). As in that
+// source, there is no extra exposure factor.
 Rgb aces_hill(Rgb c)
 {
     static constexpr float kIn[3][3] = {{0.59719f, 0.35458f, 0.04823f}, {0.07600f, 0.90834f, 0.01566f}, {0.02840f, 0.13383f, 0.83777f}};
@@ -172,7 +171,7 @@ Rgb apply(Tonemap tonemap, Rgb c)
     return c;
 }
 
-// Exposed radiance as every operator takes it: NaN and negative values 0, Inf very bright.
+// Returns exposed radiance as input for a tone mapper: NaN and negative values become 0, Inf a large finite value.
 float expose(float radiance, float scale)
 {
     const float x = radiance * scale;

@@ -7,7 +7,7 @@
 
 namespace burnish {
 
-// Memory that starts with a cache line.
+// Allocator with 64-byte alignment: memory starts at a cache line.
 template <class T> struct LineAllocator {
     using value_type = T;
     static constexpr std::align_val_t kLine{64};
@@ -28,7 +28,7 @@ inline std::size_t pixel_type_bytes(PixelType t)
 
 struct Image {
     int width = 0, height = 0;
-    int channels = 0;                                       // 1 gray, 2 gray+alpha, 3 RGB, 4 RGBA; named ones may be more
+    int channels = 0;                                       // 1 gray, 2 gray+alpha, 3 RGB, 4 RGBA; images with named channels may have more
     PixelType type = PixelType::u8;                         // u8 and u16 are normalized; f32 is linear radiance or data
     std::vector<std::byte, LineAllocator<std::byte>> bytes; // width * height * channels * pixel_type_bytes(type)
 

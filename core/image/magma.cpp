@@ -5,8 +5,8 @@
 namespace burnish {
 namespace {
 
-// 0xRRGGBB, sRGB. The colour map "magma" by Nathaniel Smith and Stefan van der Walt (mpl-colormaps, CC0; the
-// values of matplotlib's _cm_listed.py), rounded to 8 bits.
+// The "magma" colour map by Nathaniel Smith and Stefan van der Walt (mpl-colormaps, CC0), as 0xRRGGBB in sRGB. Values
+// of matplotlib's _cm_listed.py, rounded to 8 bits.
 constexpr std::uint32_t kMagma[256] = {
     0x000004, 0x010005, 0x010106, 0x010108, 0x020109, 0x02020b, 0x02020d, 0x03030f, 0x030312, 0x040414, 0x050416, 0x060518, 0x06051a,
     0x07061c, 0x08071e, 0x090720, 0x0a0822, 0x0b0924, 0x0c0926, 0x0d0a29, 0x0e0b2b, 0x100b2d, 0x110c2f, 0x120d31, 0x130d34, 0x140e36,

@@ -1,10 +1,10 @@
-// The colour map of FLIP's error images: magma, from black (no error) over violet and orange to pale yellow.
+// Magma, the colour map of FLIP's error images: from black (no error) over violet and orange to pale yellow.
 #pragma once
 #include "core/image/image.h"
 
 namespace burnish {
 
-// One float channel in [0,1] to 8-bit sRGB. Values outside are clamped, NaN is 0.
+// Maps one float channel in [0,1] to 8-bit sRGB. Clamps values outside; NaN becomes 0.
 Image magma_map(const Image& error);
 
 } // namespace burnish

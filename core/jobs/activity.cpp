@@ -20,10 +20,10 @@
 namespace burnish {
 namespace {
 
-constexpr double kLineSeconds = 10.0;                // between lines where there is no terminal
-constexpr std::uint64_t kTerminalNs = 1'000'000'000; // before a line appears on a terminal, and until it is drawn anew
-constexpr std::size_t kWatcherStack = 256 << 10;     // bytes: the watcher shall fit where address space is short
-constexpr std::size_t kMostLine = 79;                // characters on a terminal: a wrapped line could not be redrawn
+constexpr double kLineSeconds = 10.0;                // between lines without a terminal
+constexpr std::uint64_t kTerminalNs = 1'000'000'000; // before a line appears on a terminal, and between redraws
+constexpr std::size_t kWatcherStack = 256 << 10;     // bytes: small, so that the watcher starts where address space is short
+constexpr std::size_t kMostLine = 79;                // characters on a terminal: a wrapped line cannot be redrawn
 
 struct Entry {
     std::uint64_t id, begin_ns;
@@ -32,14 +32,15 @@ struct Entry {
     std::function<void()> say;
 };
 
-// All activities of the process, oldest first, and the thread that watches them. Never destroyed: the watcher outlives main().
+// All activities of the process, oldest first, and their watcher thread. Never destroyed, because the watcher outlives
+// main().
 struct Board {
     std::mutex mutex;
     std::condition_variable changed;
     std::vector<Entry> entries;
     std::uint64_t next_id = 1, period_ns = 0;
     bool on = false, watched = false, terminal = false;
-    std::size_t drawn = 0; // characters of the line on the terminal
+    std::size_t drawn = 0; // length of the line on the terminal
     std::atomic<std::uint64_t> said_ns{0};
 
     void clear_line()
@@ -90,13 +91,13 @@ void* watch(void*)
         else
             try {
                 b.say(now);
-            } catch (...) { // no memory: the line is left out
+            } catch (...) { // no memory: skip the line
             }
     }
     return nullptr;
 }
 
-// Without a thread, where there may be none, nothing is said.
+// Starts the watcher thread. If the system refuses the thread, no lines appear.
 void start_watcher(Board& b)
 {
     b.watched = true;

@@ -1,4 +1,5 @@
-// What goes on, for people who wait: work that takes longer than the progress interval (BURNISH_PROGRESS_SECONDS, 10) says so on stderr.
+// Progress reports for long work: work beyond the progress interval (BURNISH_PROGRESS_SECONDS, 10) writes a line to
+// stderr.
 #pragma once
 #include <cstdint>
 #include <functional>
@@ -6,20 +7,20 @@
 
 namespace burnish {
 
-// Work that may take long, as long as the object lives. Where nothing was said for an interval, a line names it and what it is a part of:
-// "parity, row 3 of 20, compiling shade: 20 s". On a terminal the line is there after a second and goes with the work. Thread-safe; a
-// thread ends its activities in the reverse order.
+// Possibly long work, for the object's lifetime. After a silent interval, a line names the work and its enclosing
+// works: "parity, row 3 of 20, compiling shade: 20 s". On a terminal the line appears after a second and disappears
+// with the work. Thread-safe. A thread ends its activities in reverse order.
 class Activity {
   public:
     explicit Activity(std::string what);
-    // `say` says the line of what goes on, in place of its name.
+    // `say` writes its own line instead of the work's name.
     Activity(std::string what, std::function<void()> say);
     ~Activity();
     Activity(const Activity&) = delete;
     Activity& operator=(const Activity&) = delete;
 
-    static void tell(bool on);          // whether lines appear; at first none do, for a library says nothing
-    static void said_already();         // something else said how far the work is
+    static void tell(bool on);          // turns lines on or off; off at first, because a library is silent
+    static void said_already();         // another report has just appeared: restarts the interval
     static std::uint64_t interval_ns(); // between lines where stderr is no terminal
 
   private:

@@ -18,11 +18,11 @@ int affinity_cores()
     CPU_ZERO(&set);
     if (sched_getaffinity(0, sizeof(set), &set) == 0 && CPU_COUNT(&set) > 0)
         return CPU_COUNT(&set);
-    // Machines with more cores than cpu_set_t holds.
+    // The machine has more cores than cpu_set_t holds.
     return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
 }
 
-// Cores granted by one cgroup v2 folder's cpu.max ("max 100000" or "150000 100000"), or `unlimited`.
+// Returns the cores that a cgroup v2 folder's cpu.max grants ("max 100000" or "150000 100000"), or `unlimited`.
 int quota_cores(const std::string& folder, int unlimited)
 {
     std::ifstream file(folder + "/cpu.max");
@@ -36,7 +36,7 @@ int quota_cores(const std::string& folder, int unlimited)
     return static_cast<int>(std::clamp<long long>((granted + period - 1) / period, 1, unlimited));
 }
 
-// The tightest quota from the process's own cgroup v2 folder up to the root.
+// Returns the tightest quota from the process's own cgroup v2 folder up to the root.
 int cgroup_cores(int unlimited)
 {
     int cores = unlimited;

@@ -1,5 +1,6 @@
-// Parallel loops over oneTBB: one task arena a Jobs object, so that two objects with different thread counts can live side by side. oneTBB
-// ends the process where the system refuses it a thread, so the system is asked first; where it gives fewer, loops run in our own pool.
+// Parallel loops over oneTBB. Each Jobs object has a task arena, so that objects with different thread counts can
+// coexist. oneTBB ends the process where the system refuses a thread. So Jobs asks the system first, and uses burnish's
+// own pool where the system gives fewer threads.
 #include "core/jobs/jobs.h"
 
 #include <algorithm>
@@ -25,13 +26,12 @@
 namespace burnish {
 namespace {
 
-// Pieces of work a thread: small enough to balance uneven tiles, large enough that handing out costs nothing.
+// Pieces of work for each thread: small enough to balance uneven tiles, large enough to make scheduling free.
 constexpr std::size_t kPiecesPerThread = 64;
 
 #ifdef BN_ONETBB
-// oneTBB starts no more workers than cores unless it is told that it may. The least of all live controls
-// counts, so there is one for the process, and it only grows. Leaked on purpose: workers may outlive static
-// objects.
+// Raises oneTBB's limit on workers, which is the core count by default. The smallest live control counts, so the
+// process keeps one control, which only grows. Leaked on purpose: workers may outlive static objects.
 void allow_threads(int threads)
 {
     static tbb::global_control* control = nullptr;
@@ -43,10 +43,11 @@ void allow_threads(int threads)
     control = new tbb::global_control(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(allowed));
 }
 
-// Runs a loop whose bodies wait for each other, so that oneTBB starts its workers while the threads that were asked for are surely there.
+// Runs a loop whose bodies wait for each other. This makes oneTBB start its workers while the requested threads are
+// surely free.
 void start_workers(tbb::task_arena& arena, int threads)
 {
-    constexpr std::chrono::milliseconds kPatience(20); // a busy machine starts them later
+    constexpr std::chrono::milliseconds kPatience(20); // a busy machine starts workers late
     std::atomic<int> here = 0;
     const auto begin = std::chrono::steady_clock::now();
     arena.execute([&] {
@@ -60,7 +61,8 @@ void start_workers(tbb::task_arena& arena, int threads)
     });
 }
 
-// An arena of so many threads; none where the system refuses oneTBB some of them, now or before.
+// Opens an arena for `threads` threads. Returns null where the system refuses oneTBB a thread now, or has done so
+// before.
 std::unique_ptr<tbb::task_arena> open_arena(int threads)
 {
     static std::mutex mutex;
@@ -87,7 +89,7 @@ std::unique_ptr<tbb::task_arena> open_arena(int threads)
 
 struct Jobs::Impl {
     int threads = 1;
-    mutable Seats seats; // of the pool
+    mutable Seats seats; // for the pool
 #ifdef BN_ONETBB
     std::unique_ptr<tbb::task_arena> arena;
 #endif
@@ -140,8 +142,8 @@ void Jobs::parallel_for(std::size_t count, const std::function<void(std::size_t,
 #ifdef BN_ONETBB
     if (impl_->arena) {
         impl_->arena->execute([&] {
-            // Isolation: a thread that waits for an inner loop must not begin another index of the outer one, or
-            // two bodies would share the scratch memory of one worker.
+            // Isolate: a thread that waits for an inner loop must not begin another index of the outer loop. Otherwise
+            // two bodies would share one worker's scratch memory.
             tbb::this_task_arena::isolate([&] {
                 tbb::parallel_for(
                     tbb::blocked_range<std::size_t>(0, count, grain),

@@ -1,4 +1,4 @@
-// Parallel loops. What an index computes never depends on the thread that runs it.
+// Parallel loops. The thread that runs an index never changes the index's result.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -9,14 +9,14 @@
 
 namespace burnish {
 
-// A fixed number of worker threads (0: all cores the process may use).
+// A fixed number of worker threads (0: all cores that the process may use).
 class Jobs {
   public:
     explicit Jobs(int threads = 0);
     ~Jobs();
     int threads() const;
-    bool by_onetbb() const; // else by the process's own pool, or by the caller alone
-    // Calls body(index, worker) for index in [0, count); worker in [0, threads()) is for scratch memory only.
+    bool by_onetbb() const; // false: the process's own pool, or the caller alone
+    // Calls body(index, worker) for index in [0, count). worker in [0, threads()) only selects scratch memory.
     void parallel_for(std::size_t count, const std::function<void(std::size_t index, int worker)>& body) const;
 
   private:
@@ -24,14 +24,14 @@ class Jobs {
     std::unique_ptr<Impl> impl_;
 };
 
-// Chrome trace events (chrome://tracing, ui.perfetto.dev). Off unless started; spans cost one branch then.
+// Chrome trace events (chrome://tracing, ui.perfetto.dev). Off until started; a span then costs one branch.
 class Trace {
   public:
     static void start();
     static bool on();
     static std::uint64_t now_ns();
     static void span(const char* name, std::uint64_t begin_ns, std::uint64_t end_ns); // `name` must outlive the trace
-    static std::string json();                                                        // all spans so far; capped at 1,000,000 events
+    static std::string json();                                                        // all spans so far, at most 1,000,000 events
 };
 
 class TraceSpan {
@@ -50,11 +50,11 @@ class TraceSpan {
     std::uint64_t begin_;
 };
 
-// A progress bar on stderr, only where stderr is a terminal. Thread-safe.
+// A progress bar where stderr is a terminal, else lines at the progress interval. Thread-safe.
 class Progress {
   public:
     Progress(std::string label, std::size_t total, bool quiet);
-    ~Progress(); // clears the line
+    ~Progress(); // clears the bar
     void step(std::size_t n = 1);
 
   private:

@@ -1,5 +1,5 @@
-// Threads of the process's own, where there is no oneTBB or the system refuses it threads. They start once and stay; a loop starts none, so
-// it cannot fail for want of one.
+// The process's own threads, for builds without oneTBB and systems that refuse oneTBB threads. Threads start once and
+// stay. A loop starts no thread, so it cannot fail for lack of one.
 #include "core/jobs/pool.h"
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 #include "core/jobs/threads.h"
 
 #ifdef __SANITIZE_THREAD__
-// Embree's trees and OpenImageIO's table of names have locks that ThreadSanitizer does not see.
+// Embree's trees and OpenImageIO's name table use locks that ThreadSanitizer does not see.
 extern "C" const char* __tsan_default_suppressions();
 extern "C" const char* __tsan_default_suppressions()
 {
@@ -23,10 +23,10 @@ extern "C" const char* __tsan_default_suppressions()
 namespace burnish {
 namespace {
 
-// How often an idle thread looks for work before it sleeps: loops of one frame follow each other closely.
+// Looks for work before an idle thread sleeps: one frame's loops follow each other closely.
 constexpr int kLooks = 200;
 
-// The number that the running thread has of one object, in a list from the innermost loop outwards.
+// The running thread's worker number in one object; a list from the innermost loop outwards.
 struct Seated {
     const Seats* seats;
     int worker;
@@ -49,21 +49,21 @@ struct Loop {
     Seats& seats;
     std::atomic<std::size_t> next{0};
     std::atomic<int> helpers{0}; // changed under the pool's mutex
-    std::exception_ptr thrown{}; // the first one, guarded by the pool's mutex
+    std::exception_ptr thrown{}; // the first exception, guarded by the pool's mutex
 };
 
-// The threads of the process that help with loops.
+// The process's threads that help with loops.
 struct Pool {
     std::mutex mutex;
-    std::condition_variable work, seat, left; // a loop was opened, a number was given back, a loop's last helper left
+    std::condition_variable work, seat, left; // signals: a loop opened, a worker number came back, a loop's last helper left
     std::vector<Loop*> open;
-    std::atomic<std::uint64_t> opened{0}; // loops so far
+    std::atomic<std::uint64_t> opened{0}; // number of loops so far
     int asleep = 0;
     std::mutex starting;
     int threads = 0; // guarded by `starting`
 };
 
-// Leaked on purpose: its threads run until the process ends.
+// Leaked on purpose: the threads run until the process ends.
 Pool& pool()
 {
     static Pool* const p = new Pool;
@@ -89,7 +89,7 @@ void run_pieces(Loop& loop, int worker)
     innermost = here.outer;
 }
 
-// The innermost open loop with work and a number for one more thread.
+// Returns the innermost open loop with work and a free worker number, or null.
 Loop* open_loop(const Pool& p)
 {
     for (auto loop = p.open.rbegin(); loop != p.open.rend(); ++loop)
@@ -118,13 +118,13 @@ void help(Pool& p, std::unique_lock<std::mutex>& lock, Loop& loop)
     lock.unlock();
     run_pieces(loop, worker);
     lock.lock();
-    loop.seats.push_back(worker); // there is room: it came from there
+    loop.seats.push_back(worker); // never allocates: the number came from this list
     p.seat.notify_one();
     if (--loop.helpers == 0)
         p.left.notify_all();
 }
 
-// What a thread of the pool does.
+// Thread function: helps open loops forever, and sleeps between them.
 void serve(void*)
 {
     Pool& p = pool();
@@ -136,7 +136,7 @@ void serve(void*)
             wait_for_work(p, lock);
 }
 
-// Takes a number of the object for the calling thread, and waits where others have all of them.
+// Takes one of the object's worker numbers for the calling thread. Waits while other threads hold them all.
 int take_seat(Pool& p, std::unique_lock<std::mutex>& lock, Seats& seats)
 {
     p.seat.wait(lock, [&] { return !seats.empty(); });

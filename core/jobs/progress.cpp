@@ -18,11 +18,11 @@ namespace burnish {
 namespace {
 
 constexpr std::uint64_t kRedrawNs = 100'000'000; // at most ten times a second
-constexpr double kTellSeconds = 1.0;             // before the time left is guessed
-constexpr double kSmallPart = 0.02;              // of the work: what comes before a first step as small is none of it
+constexpr double kTellSeconds = 1.0;             // elapsed before the remaining time is estimated
+constexpr double kSmallPart = 0.02;              // share of the work: the estimate ignores the time before such a small first step
 constexpr std::size_t kBarCells = 30;
 
-// ", 1:05 min left"; nothing where it is too early to tell.
+// Returns ", 1:05 min left", or "" while it is too early to tell.
 std::string time_left(double part, double elapsed_s)
 {
     if (elapsed_s < kTellSeconds || part <= 0.0 || part >= 1.0)
@@ -48,13 +48,13 @@ struct Progress::Impl {
     std::size_t total = 0;
     bool terminal = false;
     std::uint64_t begin_ns = 0, period_ns = kRedrawNs;
-    std::atomic<std::uint64_t> first_ns{0}; // when the first of many steps was done, 0: not yet
-    std::atomic<std::size_t> first_done{0}; // what it was, which says nothing of the others' time
+    std::atomic<std::uint64_t> first_ns{0}; // time of the first of many steps, 0 before that step
+    std::atomic<std::size_t> first_done{0}; // work of that step, excluded from the estimate
     std::atomic<std::size_t> done{0};
     std::atomic<std::uint64_t> next_draw_ns{0};
     std::mutex drawing;
-    std::size_t drawn = 0;            // characters now on the line, guarded by `drawing`
-    std::optional<Activity> activity; // steps that take long are told, too
+    std::size_t drawn = 0;            // characters on the line, guarded by `drawing`
+    std::optional<Activity> activity; // reports slow steps, too
 
     double part() const { return part_after(0); }
     double part_after(std::size_t first) const
@@ -76,7 +76,7 @@ struct Progress::Impl {
             std::fprintf(stderr, "%s: %.0f %%%s\n", label.c_str(), part() * 100.0, left().c_str());
             return;
         }
-        const std::size_t room = terminal_columns() - 1; // a wrapped line could not be redrawn
+        const std::size_t room = terminal_columns() - 1; // a wrapped line cannot be redrawn
         const std::string tail = fmt::format("] {:3.0f}%{}", part() * 100.0, left()), head = label + " [";
         const std::size_t words = std::min(room, head.size() + tail.size()), cells = std::min(kBarCells, room - words);
         const std::size_t full = static_cast<std::size_t>(part() * static_cast<double>(cells));
@@ -101,7 +101,7 @@ Progress::Progress(std::string label, std::size_t total, bool quiet)
     impl_->terminal = isatty(STDERR_FILENO) != 0;
     impl_->period_ns = impl_->terminal ? kRedrawNs : Activity::interval_ns();
     impl_->begin_ns = Trace::now_ns();
-    impl_->next_draw_ns = impl_->begin_ns + (impl_->terminal ? 0 : impl_->period_ns); // short work says nothing
+    impl_->next_draw_ns = impl_->begin_ns + (impl_->terminal ? 0 : impl_->period_ns); // short work stays silent
     impl_->activity.emplace(impl_->label, [impl = impl_.get()] {
         const std::lock_guard lock(impl->drawing);
         impl->next_draw_ns = Trace::now_ns() + impl->period_ns;
@@ -131,7 +131,7 @@ void Progress::step(std::size_t n)
         impl_->first_done.store(n), impl_->first_ns.compare_exchange_strong(none, now);
     std::uint64_t due = impl_->next_draw_ns.load(std::memory_order_relaxed);
     if (now < due || !impl_->next_draw_ns.compare_exchange_strong(due, now + impl_->period_ns))
-        return; // not yet, or another thread draws
+        return; // too early, or another thread draws
     const std::lock_guard lock(impl_->drawing);
     impl_->draw();
 }

@@ -12,7 +12,7 @@
 namespace burnish {
 namespace {
 
-constexpr std::size_t kStackBytes = 4u << 20; // loops over lanes need little, and address space may be short
+constexpr std::size_t kStackBytes = 4u << 20; // lane loops need little stack, and address space may be short
 
 struct Start {
     void (*run)(void*);
@@ -27,7 +27,7 @@ void* run_start(void* start)
     return nullptr;
 }
 
-// Holds threads until all that can be had are there.
+// Holds threads until all available threads have started.
 struct Gate {
     std::mutex mutex;
     std::condition_variable opened;

@@ -1,5 +1,5 @@
-// Trace: every thread appends to its own list of chunks, so a span takes no lock; readers see complete events
-// only, because the count of a chunk is published after the event it counts.
+// Trace: each thread appends to its own list of chunks, so a span takes no lock. Readers see only complete events,
+// because a chunk publishes its count after the counted event.
 #include <array>
 #include <atomic>
 #include <chrono>
@@ -30,7 +30,7 @@ struct Chunk {
 
 struct ThreadEvents {
     Chunk first;
-    Chunk* last = &first; // touched by the owning thread only
+    Chunk* last = &first; // touched only by the owning thread
 
     ~ThreadEvents()
     {
@@ -57,9 +57,9 @@ struct ThreadEvents {
 struct State {
     std::atomic<bool> on{false};
     std::atomic<std::uint64_t> start_ns{0};
-    std::atomic<std::size_t> spans{0};                  // including those dropped above the cap
+    std::atomic<std::size_t> spans{0};                  // including spans dropped above the cap
     std::mutex mutex;                                   // guards `threads`
-    std::vector<std::unique_ptr<ThreadEvents>> threads; // index = tid; kept after the thread has ended
+    std::vector<std::unique_ptr<ThreadEvents>> threads; // index = tid; kept after the thread ends
 };
 
 // Leaked on purpose: pool threads may still run while static objects are destroyed.
@@ -98,7 +98,7 @@ std::string escaped(const char* text)
     return out;
 }
 
-// Nanoseconds as microseconds with three decimals.
+// Formats nanoseconds as microseconds with three decimals.
 std::string micros(std::uint64_t ns)
 {
     return fmt::format("{}.{:03}", ns / 1000, ns % 1000);
