@@ -66,7 +66,7 @@ Status MovingPicture::add(const std::string& path, const Image& picture)
     put(control, sequence_++), put(control, static_cast<std::uint32_t>(width_)), put(control, static_cast<std::uint32_t>(height_));
     put(control, 0), put(control, 0);
     put(control, 1, 2), put(control, static_cast<std::uint32_t>(fps_), 2);
-    put(control, 0, 2); // nothing is disposed of or blended
+    put(control, 0, 2); // dispose and blend operations: none
     put_chunk(body_, "fcTL", control);
     if (pictures_ == 0)
         head_.assign(png->begin(), png->begin() + kSignature);
@@ -93,7 +93,7 @@ std::vector<std::uint8_t> MovingPicture::bytes() const
 {
     BN_CHECK(pictures_ > 0);
     Bytes file = head_, count;
-    put(count, pictures_), put(count, 0); // for ever
+    put(count, pictures_), put(count, 0); // 0 plays: repeat forever
     put_chunk(file, "acTL", count);
     file.insert(file.end(), body_.begin(), body_.end());
     put_chunk(file, "IEND", {});

@@ -1,6 +1,5 @@
-// OpenEXR headers (openexr.com, "OpenEXR File Layout"): every attribute is walked inside the file's bounds,
-// and what the library would allocate from it (offset tables, tiles, scanline blocks) is bounded, before the
-// library runs.
+// Guards OpenEXR headers (openexr.com, "OpenEXR File Layout") before the library runs. Walks every attribute inside the
+// file's bounds, and bounds the library's allocations (offset tables, tiles, scanline blocks).
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -20,9 +19,9 @@ namespace {
 constexpr std::uint32_t kTiled = 0x200, kDeep = 0x800, kMultiPart = 0x1000;
 constexpr int kMaxParts = 256;
 constexpr std::size_t kMaxNameBytes = 255;
-// The library decodes one tile or scanline block at a time: 256 lines of 16384 RGBA floats are 64 MiB.
+// The library decodes one tile or scanline block at a time. 256 lines with 16384 RGBA floats take 64 MiB.
 constexpr std::uint64_t kMaxBlockBytes = 512ull << 20;
-// Scanlines a block, by the compression's number: none, RLE, ZIPS, ZIP, PIZ, PXR24, B44, B44A, DWAA, DWAB.
+// Scanlines in a block, indexed by the compression: none, RLE, ZIPS, ZIP, PIZ, PXR24, B44, B44A, DWAA, DWAB.
 constexpr std::uint64_t kLinesPerBlock[] = {1, 1, 1, 16, 32, 16, 32, 32, 32, 256};
 
 struct Window {
@@ -42,7 +41,7 @@ struct Part {
     bool tiled = false;
     std::optional<Primaries> chromaticities;
     std::optional<std::array<double, 2>> neutral; // xy, adoptedNeutral
-    std::string colour_space;                     // a name that some writers give
+    std::string colour_space;                     // some writers give a name
     bool cube_faces = false, bad_chromaticities = false, bad_envmap = false;
 };
 
@@ -58,7 +57,7 @@ class Reader {
         at_ += n;
         return true;
     }
-    // Callers have checked left().
+    // Reads a little-endian word. Callers have checked left().
     std::uint32_t u32()
     {
         const std::uint8_t* p = file_.data + at_;
@@ -69,8 +68,7 @@ class Reader {
     std::int32_t i32() { return static_cast<std::int32_t>(u32()); }
     double f32() { return static_cast<double>(std::bit_cast<float>(u32())); }
     std::uint8_t u8() { return file_.data[at_++]; }
-    // A string up to its null, which is consumed. False where it is longer than a name may be or the file
-    // ends.
+    // Reads a string and its terminating null. Returns false where the string is too long for a name or the file ends.
     bool name(std::string_view& out)
     {
         const std::size_t most = std::min(left(), kMaxNameBytes + 1);
@@ -110,7 +108,7 @@ Status read_channels(Reader reader, std::size_t size, Part& part)
             return reader.error(fmt::format("the channel {} is subsampled, which is not supported", name));
         if (++part.channels > kMaxChannels)
             return reader.error(fmt::format("more than {} channels", kMaxChannels));
-        part.pixel_bytes += type == 1 ? 2 : 4; // 0 uint, 1 half, 2 float
+        part.pixel_bytes += type == 1 ? 2 : 4; // types: 0 uint, 1 half, 2 float
     }
     if (part.channels == 0)
         return reader.error("the channel list is empty");
@@ -128,8 +126,8 @@ Window read_window(Reader reader)
     return w;
 }
 
-// What the file says of its colours and its shape as an environment. Of the standard's attributes whiteLuminance is left out: it is the
-// unit of radiance, and burnish's has none.
+// Reads the file's colour space and its shape as an environment map. Ignores the standard attribute whiteLuminance: it
+// is the unit of radiance, and burnish's radiance has no unit.
 void read_colour_attribute(Reader reader, std::string_view name, std::string_view type, std::size_t size, Part& part)
 {
     if (name == "chromaticities") {
@@ -146,12 +144,12 @@ void read_colour_attribute(Reader reader, std::string_view name, std::string_vie
     } else if ((name == "colorInteropID" || name == "oiio:ColorSpace") && type == "string") {
         part.colour_space = reader.view(std::min(size, kMaxNameBytes));
     } else if (name == "envmap") {
-        const unsigned shape = type == "envmap" && size == 1 ? reader.u8() : 2u; // 0: latitude and longitude, 1: cube
+        const unsigned shape = type == "envmap" && size == 1 ? reader.u8() : 2u; // 0: latitude-longitude, 1: cube
         part.cube_faces = shape == 1, part.bad_envmap = shape > 1;
     }
 }
 
-// Names of linear Rec.709 as writers give them.
+// Returns true for the names that writers give to linear Rec.709.
 bool is_linear_rec709(std::string_view name)
 {
     constexpr std::string_view kNames[] = {"",
@@ -225,7 +223,7 @@ Status read_attribute(Reader reader, std::string_view name, std::string_view typ
     return {};
 }
 
-// One header, up to and including its end mark. `any` stays false where the header is only the end mark.
+// Reads one header up to and including its end mark. `any` stays false for a header that is only the end mark.
 Status read_part(Reader& reader, Part& part, bool& any)
 {
     for (;;) {
@@ -277,7 +275,7 @@ Status check_part(const ImageBytes& file, const Part& part, const Limits& limits
     }
     if (block_width > kMaxBlockBytes || block_height > kMaxBlockBytes || block_width * block_height * part.pixel_bytes > kMaxBlockBytes)
         return file.error("header: tiles", fmt::format("blocks of {} x {} pixels are too large", block_width, block_height));
-    // Every block has an 8-byte entry in the offset table.
+    // Count an 8-byte entry in the offset table for each block.
     offsets += ((width + block_width - 1) / block_width) * ((height + block_height - 1) / block_height) * 8;
     if (offsets > file.size)
         return file.error(fmt::format("header: {} x {} pixels", width, height),

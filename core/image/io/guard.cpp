@@ -12,8 +12,8 @@
 namespace burnish {
 namespace {
 
-// Decoding time of a progressive JPEG grows with its scans, whose number the file chooses; real files have
-// about ten.
+// Limit on scans in a progressive JPEG, because decoding time grows with the scans and the file sets their number. Real
+// files have about ten.
 constexpr int kMaxJpegScans = 200;
 
 std::uint64_t big_endian(const std::uint8_t* at, int bytes)
@@ -42,8 +42,7 @@ Error too_short(const ImageBytes& file)
     return file.error(fmt::format("byte {}", file.size), "the file ends inside its header");
 }
 
-// One step through JPEG's markers (ITU T.81 annex B): the next marker at or after `at`, which is moved past
-// it.
+// Finds the next JPEG marker at or after `at` (ITU T.81 annex B), and moves `at` past the marker.
 std::optional<std::uint8_t> next_jpeg_marker(const ImageBytes& file, std::size_t& at)
 {
     while (at + 1 < file.size) {
@@ -53,7 +52,7 @@ std::optional<std::uint8_t> next_jpeg_marker(const ImageBytes& file, std::size_t
         at = static_cast<std::size_t>(static_cast<const std::uint8_t*>(found) - file.data);
         const std::uint8_t marker = file.data[at + 1];
         const bool restart = marker >= 0xD0 && marker <= 0xD7;
-        at += marker == 0xFF ? 1 : 2; // any number of FF may fill up
+        at += marker == 0xFF ? 1 : 2; // any number of FF bytes may pad a marker
         if (marker != 0xFF && marker != 0x00 && !restart)
             return marker;
     }
@@ -93,7 +92,7 @@ Result<ImageProbe> probe_jpeg(const ImageBytes& file, const Limits& limits)
     }
 }
 
-// WebP (RFC 9649): the canvas of VP8X, or the frame of a simple file.
+// Reads WebP sizes (RFC 9649): the canvas of VP8X, or the frame of a simple file.
 Result<ImageProbe> probe_webp(const ImageBytes& file, const Limits& limits)
 {
     if (file.size < 30)
@@ -119,7 +118,7 @@ Result<ImageProbe> probe_webp(const ImageBytes& file, const Limits& limits)
     return ImageProbe{"webp"};
 }
 
-// An unsigned decimal at `at`, which is moved past it; nothing where there is none or it is absurd.
+// Reads an unsigned decimal at `at` and moves `at` past it. Returns nothing for no number or an absurd one.
 std::optional<std::int64_t> read_decimal(const ImageBytes& file, std::size_t& at)
 {
     std::int64_t value = 0;
@@ -132,7 +131,7 @@ std::optional<std::int64_t> read_decimal(const ImageBytes& file, std::size_t& at
     return at == begin ? std::nullopt : std::optional(value);
 }
 
-// Over white space and # comments.
+// Skips white space and # comments.
 void skip_blanks(const ImageBytes& file, std::size_t& at)
 {
     bool comment = false;
@@ -147,7 +146,8 @@ void skip_blanks(const ImageBytes& file, std::size_t& at)
     }
 }
 
-// What samples are divided by (Netpbm, but for bits) or multiplied by (PFM, whose sign is the order of bytes).
+// Checks the scale in the header: the divisor of samples (Netpbm, except bitmaps), or the factor of PFM, whose sign is
+// the byte order.
 Status check_pnm_scale(const ImageBytes& file, std::size_t at)
 {
     const char kind = static_cast<char>(file.data[1]);
@@ -171,7 +171,7 @@ Status check_pnm_scale(const ImageBytes& file, std::size_t at)
     return {};
 }
 
-// Netpbm and PFM: magic, then width, height and scale as text among white space and # comments.
+// Reads Netpbm and PFM headers: magic, then width, height and scale as text between white space and # comments.
 Result<ImageProbe> probe_pnm(const ImageBytes& file, const Limits& limits)
 {
     std::size_t at = 2;
@@ -185,7 +185,7 @@ Result<ImageProbe> probe_pnm(const ImageBytes& file, const Limits& limits)
     }
     BN_TRY(check_sides(file, sides[0], sides[1], limits));
     const std::uint64_t pixels = static_cast<std::uint64_t>(sides[0]) * static_cast<std::uint64_t>(sides[1]);
-    if (pixels / 8 > file.size) // one bit a pixel at least
+    if (pixels / 8 > file.size) // a pixel takes at least one bit
         return file.error(fmt::format("header: {} x {} pixels", sides[0], sides[1]),
                           fmt::format("{} bytes cannot hold that many pixels", file.size));
     BN_TRY(check_pnm_scale(file, at));
@@ -207,7 +207,7 @@ Result<ImageProbe> probe_bmp(const ImageBytes& file, const Limits& limits)
     const std::uint64_t pixels = static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
     const std::uint64_t bits = little_endian(file.data + (core ? 24 : 28), 2);
     const std::uint64_t method = core || file.size < 34 ? 0 : little_endian(file.data + 30, 4);
-    const bool runs = method == 1 || method == 2; // of 4 and 8 bits; what they leave out is zero
+    const bool runs = method == 1 || method == 2; // run-length codes for 4 and 8 bits; pixels that the runs leave out are zero
     if (!runs && pixels / 8 * bits > file.size)
         return file.error(fmt::format("header: {} x {} pixels", width, height),
                           fmt::format("{} bytes cannot hold that many pixels", file.size));
@@ -237,7 +237,8 @@ Status check_sides(const ImageBytes& file, std::int64_t width, std::int64_t heig
     return {};
 }
 
-// Formats that store runs and repeats in next to nothing: real pictures stay far below 4096 to 1, and what is small may be anything.
+// Bounds formats that store runs and repeats in almost no space. Real images stay far below 4096 to 1. Small images may
+// have any ratio.
 Status check_proportion(const ImageBytes& file, std::uint64_t width, std::uint64_t height, std::uint64_t pixel_bytes)
 {
     constexpr std::uint64_t kFreeBytes = 64ull << 20, kBest = 4096;

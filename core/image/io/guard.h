@@ -1,4 +1,4 @@
-// Guards: what a file's own header claims, read and bounded by us before any image library sees the file.
+// Guards: burnish reads and bounds a file's header before any image library sees the file.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace burnish {
 
-// A file in memory, and the name it has in errors.
+// A file in memory, with its name in errors.
 struct ImageBytes {
     const std::uint8_t* data = nullptr;
     std::size_t size = 0;
@@ -20,9 +20,10 @@ struct ImageBytes {
     Error error(const std::string& place, const std::string& reason) const { return {ExitCode::bad_input, label, place, reason}; }
 };
 
-constexpr int kMaxChannels = 1024; // of a file
+constexpr int kMaxChannels = 1024; // in one file
 
-// Where the pixels of a Radiance file lie. Its scanlines run in any of eight ways; three flags put them top row first.
+// Location and order of a Radiance file's pixels. Scanlines run in one of eight ways; three flags put the top row
+// first.
 struct RadianceLayout {
     std::size_t pixels_at = 0;
     int scanlines = 0, scanline_pixels = 0;
@@ -30,37 +31,38 @@ struct RadianceLayout {
     bool flip_x = false, flip_y = false;
 };
 
-// How to decode a guarded file.
+// Decoding instructions for a guarded file.
 struct ImageProbe {
-    const char* format = ""; // OpenImageIO's name of the format
-    int subimage = 0;        // the first flat part of an OpenEXR file
+    const char* format = ""; // OpenImageIO's name for the format
+    int subimage = 0;        // first flat part in an OpenEXR file
     RadianceLayout radiance = {};
     StoredColour colour = {};
     bool cube_faces = false; // OpenEXR's envmap = cube
-    // What the library reads instead of the file's own bytes, where that is not empty.
+    // Bytes for the library to read in place of the file's own, unless empty.
     std::vector<std::uint8_t> replacement = {};
 };
 
-// Finds the format by the first bytes, never by the extension, and refuses what cannot be a sound image:
-// sides above the limits, more pixels than the file's bytes can hold, missing end marks.
+// Finds the format by the first bytes, never by the extension. Refuses files that cannot be sound images: sides above
+// the limits, more pixels than the file's bytes can hold, missing end marks.
 Result<ImageProbe> probe_image(const ImageBytes& file, const Limits& limits);
 
-// The part of it for PNG, which leaves out the chunks that do not decide the samples.
+// Handles PNG for probe_image. Drops the chunks that do not affect the samples.
 Result<ImageProbe> probe_png(const ImageBytes& file, const Limits& limits);
 
-// The part of it for Radiance files.
+// Handles Radiance files for probe_image.
 Result<ImageProbe> probe_radiance(const ImageBytes& file, const Limits& limits);
 
-// The part of it for OpenEXR, whose library allocates what the header asks for.
+// Handles OpenEXR for probe_image, because the library allocates as the header asks.
 Result<ImageProbe> probe_exr(const ImageBytes& file, const Limits& limits);
 
-// The part of it for TIFF, whose directory may lie anywhere.
+// Handles TIFF for probe_image. The directory may lie anywhere in the file.
 Result<ImageProbe> probe_tiff(const ImageBytes& file, const Limits& limits);
 
-// An Error where a side is below 1 or above the limit, or the pixels are too many.
+// Returns an Error for a side below 1 or above the limit, or for too many pixels.
 Status check_sides(const ImageBytes& file, std::int64_t width, std::int64_t height, const Limits& limits);
 
-// An Error where so many pixels are out of all proportion to the file's bytes; `pixel_bytes`: of a decoded one. The sides are checked.
+// Returns an Error where the pixels are out of all proportion to the file's bytes. `pixel_bytes` is the size of a
+// decoded pixel. Expects checked sides.
 Status check_proportion(const ImageBytes& file, std::uint64_t width, std::uint64_t height, std::uint64_t pixel_bytes);
 
 } // namespace burnish

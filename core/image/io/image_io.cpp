@@ -1,5 +1,4 @@
-// Reading: the bytes are loaded, guarded by our own look at the header, and decoded by the image library from
-// memory.
+// Reads images: loads the bytes, guards the header, and lets the image library decode from memory.
 #include "core/image/io/image_io.h"
 
 #include <algorithm>
@@ -16,7 +15,7 @@
 namespace burnish {
 namespace {
 
-// The wanted channels of a file, as indices into the file's channels; count 0 where there are none.
+// Selected channels as indices into the file's channels; count 0 where the file has none.
 struct Selection {
     int count = 0;
     int channels[4] = {0, 0, 0, 0};
@@ -40,7 +39,7 @@ Selection take(std::initializer_list<int> channels)
     return s;
 }
 
-// What channels of other names are taken for.
+// Returns the warning about channels with unknown names: how the reader interprets them.
 std::string guess_words(const StoredHeader& header, int count)
 {
     std::string names;
@@ -73,8 +72,7 @@ Result<Selection> select_channels(const ImageBytes& file, const StoredHeader& he
     return s;
 }
 
-// Keeps the selected ones of `stride` interleaved channels; `first` is the file's channel that comes first in
-// `from`.
+// Keeps the selected channels. `first` is the file's index of the first channel in `from`.
 Image pick_channels(Image&& from, const Selection& selection, int first)
 {
     bool all = selection.count == from.channels;
@@ -92,7 +90,7 @@ Image pick_channels(Image&& from, const Selection& selection, int first)
     return to;
 }
 
-// Copies the data window into an image of the display window; outside it is zero.
+// Copies the data window into an image of the display window. Pixels outside the data window are zero.
 Image place_in_display(Image&& data, const StoredHeader& header)
 {
     if (header.x == header.full_x && header.y == header.full_y && header.width == header.full_width && header.height == header.full_height)
@@ -112,7 +110,7 @@ Image place_in_display(Image&& data, const StoredHeader& header)
     return display;
 }
 
-// Puts the scanlines of a Radiance file in order. `stored` has the file's first axis as rows.
+// Puts a Radiance file's scanlines in order. The rows of `stored` run along the file's first axis.
 Image orient(Image&& stored, const RadianceLayout& probe)
 {
     if (!probe.transpose && !probe.flip_x && !probe.flip_y)
@@ -133,7 +131,7 @@ Image orient(Image&& stored, const RadianceLayout& probe)
     return out;
 }
 
-// What the library made of the header must fit the limits too.
+// Checks the library's own reading of the header against the limits.
 Status check_header(const ImageBytes& file, const StoredHeader& header, const Limits& limits)
 {
     if (header.deep)
@@ -145,7 +143,7 @@ Status check_header(const ImageBytes& file, const StoredHeader& header, const Li
     return check_sides(file, header.width, header.height, limits);
 }
 
-// The library that reads a format; Radiance files need none.
+// Reads pixels by the format's library. Radiance files need none.
 Status read_pixels(const ImageBytes& file, const ImageProbe& probe, const PlacePixels& place)
 {
     if (std::strcmp(probe.format, "hdr") == 0)
@@ -163,7 +161,7 @@ Result<Image> decode(const ImageBytes& file, const ImageProbe& probe, const Limi
     const auto place = [&](const StoredHeader& found) -> Result<PixelRequest> {
         BN_TRY(check_header(file, found, limits));
         header = found;
-        PictureNotes unsaid; // channels of other formats have no names of their own
+        PictureNotes unsaid; // dropped: other formats have no channel names
         const Result<Selection> selected = select_channels(file, header, exr ? notes : unsaid);
         BN_TRY(selected);
         selection = *selected;
@@ -183,7 +181,8 @@ Result<Image> decode(const ImageBytes& file, const ImageProbe& probe, const Limi
         decode_luminance_chroma(image, luminance_weights(probe.colour.primaries.value_or(kRec709Primaries)));
     apply_gain(image, probe.colour.gain);
     notes.cube_faces = probe.cube_faces;
-    // Only OpenEXR's windows mean what ours do: other formats' offsets are page layout. A cube's faces fill the data window.
+    // Only OpenEXR windows place the image: in other formats, offsets are page layout. A cube's faces fill the data
+    // window.
     if (exr && !probe.cube_faces)
         image = place_in_display(std::move(image), header);
     return orient(std::move(image), probe.radiance);

@@ -1,4 +1,4 @@
-// Reading and writing image files.
+// Reads and writes image files.
 #pragma once
 #include <cstdint>
 #include <string>
@@ -10,56 +10,58 @@
 
 namespace burnish {
 
-// What is told of a picture that was read, besides its pixels.
+// Facts about an image beside its pixels.
 struct PictureNotes {
     bool cube_faces = false;           // OpenEXR's envmap = cube: six faces, one below the other
-    bool converted = false;            // its colours had other primaries than Rec.709
-    std::vector<std::string> warnings; // one line each, without the file's name
+    bool converted = false;            // the colours had other primaries than Rec.709
+    std::vector<std::string> warnings; // one line each, without the file name
 };
 
-// Reads PNG, JPEG, WebP, OpenEXR, Radiance RGBE, TIFF, PNM/PFM and BMP, told apart by their first bytes,
-// whatever the extension. Sizes are checked against the limits before pixels are read. 8-bit files give u8,
-// 16-bit files u16, float and half files f32. Deep files are refused; of a tiled or mipmapped file the top
-// level is read; of a multi-part file the first flat part. The data window of OpenEXR is placed in the
-// display window. Channels R,G,B(,A), Y,RY,BY(,A) or Y(,A) are picked by name; without them
-// all of up to 4 channels, else the first 3, with a warning. Values are those that the file was made of: luminance and chroma become
-// RGB, EXPOSURE and COLORCORR of Radiance files are divided out, and the scale of PFM files multiplies. Primaries are left alone: this is
-// for directions, heights and other data, and for files of our own.
+// Reads PNG, JPEG, WebP, OpenEXR, Radiance RGBE, TIFF, PNM/PFM and BMP. The first bytes tell the format, whatever the
+// extension. Checks sizes against the limits before reading pixels. 8-bit files give u8, 16-bit files u16, float and
+// half files f32.
+//
+// Refuses deep files. Reads the top level of a tiled or mipmapped file, and the first flat part of a multi-part file.
+// Places the OpenEXR data window in the display window. Picks channels R,G,B(,A), Y,RY,BY(,A) or Y(,A) by name. Without
+// such names, takes all of up to 4 channels, else the first 3 with a warning.
+//
+// Returns original values: luminance and chroma become RGB, EXPOSURE and COLORCORR of Radiance files are divided out,
+// and the scale of PFM files multiplies. Leaves primaries alone: for directions, heights and other data, and for
+// burnish's own files.
 Result<Image> read_image(const std::string& path, const Limits& limits, PictureNotes* notes = nullptr);
 
-// The same from memory; `label` names the image in errors (for instance "scene.glb: /images/3").
+// Decodes an image in memory like read_image(). `label` names the image in errors ("scene.glb: /images/3").
 Result<Image> decode_image(const std::uint8_t* data, std::size_t size, const std::string& label, const Limits& limits,
                            PictureNotes* notes = nullptr);
 
-// The same of a picture of colours: those of float formats become linear Rec.709, by the file's chromaticities or PRIMARIES, white adapted
-// by Bradford's method. Files that name Rec.709 or nothing keep their bits.
+// Reads a colour image. Float formats become linear Rec.709 by the file's chromaticities or PRIMARIES, with Bradford
+// white adaptation. Files that name Rec.709 or nothing keep their bits.
 Result<Image> read_colours(const std::string& path, const Limits& limits, PictureNotes& notes);
 Result<Image> decode_colours(const std::uint8_t* data, std::size_t size, const std::string& label, const Limits& limits,
                              PictureNotes& notes);
 
-// Writes .exr (linear Rec.709, 32-bit float, ZIP), .hdr, .pfm; or .png .jpg .tif from u8 pixels. Nothing
-// volatile is stored (no date, host, program arguments). The file appears under its name only when it is
-// complete: it is written to a temporary name in the same folder, then renamed. On failure no file is left
-// and the Error has ExitCode::output_failed.
+// Writes .exr (linear Rec.709, 32-bit float, ZIP), .hdr, .pfm; or .png .jpg .tif from u8 pixels. Stores nothing
+// volatile (no date, host, or arguments). The file appears under its name only when complete. On failure leaves no
+// file, and the Error has ExitCode::output_failed.
 Status write_image(const std::string& path, const Image& image);
 
-// OpenEXR of any channels, a name each, as write_image() writes it.
+// Writes OpenEXR with any channels, one name for each, like write_image().
 Status write_channels(const std::string& path, const Image& image, const std::vector<std::string>& names);
 
-// The bytes of an OpenEXR file of half floats with mip levels, the first the largest, each half as wide and high as that before, rounded
-// down, at least 1, to 1x1: f32 images of one number of channels. `path` names it in errors.
+// Encodes an OpenEXR file with half-float mip levels. `levels` are f32 images with equal channel counts, the largest
+// first, down to 1x1; each side is half the previous one, rounded down, at least 1. `path` names the file in errors.
 Result<std::vector<std::uint8_t>> encode_exr_levels(const std::string& path, const std::vector<Image>& levels);
 
-// An 8-bit picture as the bytes of a PNG file, for pages that carry their pictures.
+// Encodes an 8-bit image as PNG, for pages with embedded images.
 Result<std::string> encode_png(const Image& image);
 
-// True where the extension of `path` names a format that stores floats (exr, hdr, pfm).
+// Returns true where the extension of `path` names a float format (exr, hdr, pfm).
 bool stores_floats(const std::string& path);
 
-// True where it names a format that takes channels of any name (exr).
+// Returns true where the extension names a format with arbitrary channels (exr).
 bool stores_channels(const std::string& path);
 
-// Writes bytes to `path` atomically (temporary name, rename), as write_image does.
+// Writes bytes to `path` atomically, like write_image().
 Status write_file(const std::string& path, const std::string& bytes);
 
 } // namespace burnish

@@ -25,9 +25,10 @@ namespace fs = std::filesystem;
 constexpr const char* kModule = "burnish_openimageio.so";
 constexpr std::uint64_t kMostModuleBytes = 256u << 20;
 
-// The libraries behind the module map some 500 MiB and start threads; one that gets no memory while it is loaded ends the process.
+// Address space for loading the module. Its libraries map some 500 MiB and start threads; running out of memory ends
+// the process.
 constexpr std::size_t kRoomBytes = 640u << 20;
-// One of them starts a pool as it is loaded, and ends the process where it does not get it.
+// Threads of a pool that one library starts while loading. A refusal ends the process.
 constexpr int kLoadThreads = 4;
 
 bool has_room()
@@ -36,7 +37,7 @@ bool has_room()
     return room != MAP_FAILED && ::munmap(room, kRoomBytes) == 0;
 }
 
-// The folder of the program or shared library that this code lies in.
+// Returns the folder with the program or shared library that holds this code.
 fs::path own_folder()
 {
     Dl_info info;
@@ -46,8 +47,8 @@ fs::path own_folder()
     return {};
 }
 
-// The folders that may hold the module, the first one first. Absolute, so that neither the working folder nor LD_LIBRARY_PATH decides
-// what code is loaded.
+// Lists the folders that may hold the module, in search order. The paths are absolute, so that neither the working
+// folder nor LD_LIBRARY_PATH chooses the code to load.
 std::vector<fs::path> folders()
 {
     std::error_code ignored;
@@ -57,7 +58,7 @@ std::vector<fs::path> folders()
     std::vector<fs::path> found = {self, (self / "../lib/burnish").lexically_normal()};
     if (const fs::path own = own_folder(); !own.empty() && own != self)
         found.insert(found.begin(), own / "burnish");                      // the library is installed as lib/libburnish.so
-    const fs::path build = fs::weakly_canonical(BN_BUILD_FOLDER, ignored); // tests and benchmarks lie below it
+    const fs::path build = fs::weakly_canonical(BN_BUILD_FOLDER, ignored); // holds tests and benchmarks
     if (std::mismatch(build.begin(), build.end(), self.begin(), self.end()).first == build.end() && build != self)
         found.push_back(build);
     return found;
@@ -66,7 +67,7 @@ std::vector<fs::path> folders()
 Result<const ImageLibrary*> open_library()
 {
 #ifdef __SANITIZE_ADDRESS__
-    const __lsan::ScopedDisabler disabled; // the libraries behind the module forget, when they are unloaded, what they allocate when loaded
+    const __lsan::ScopedDisabler disabled; // the module's libraries leak their load-time allocations when unloaded
 #endif
     std::string missing;
     for (const fs::path& folder : folders()) {
@@ -85,7 +86,7 @@ Result<const ImageLibrary*> open_library()
             return Error{ExitCode::unavailable, "", "",
                          fmt::format("the image library needs {} MiB of address space, and there is no memory for it", kRoomBytes >> 20)};
         BN_TRY(expect_threads(kLoadThreads, "the image library"));
-        // Never closed: some of the libraries behind it leave threads and exit handlers.
+        // Never closed: some of the module's libraries leave threads and exit handlers.
         void* const module = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
         void* const symbol = module ? dlsym(module, kImageLibrarySymbol) : nullptr;
         if (!symbol) {

@@ -1,6 +1,6 @@
-// The library behind the formats that are not read or written here: OpenImageIO, in a module of its own. It
-// brings some 250 shared libraries, which take longer to load than a small picture to render, so it is opened
-// when the first picture needs it.
+// Interface to OpenImageIO, for formats that burnish does not read or write itself. OpenImageIO lies in its own module,
+// opened for the first image that needs it. It brings some 250 shared libraries, which take longer to load than a small
+// image to render.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -14,47 +14,49 @@
 
 namespace burnish {
 
-// What the library made of a file's header.
+// The library's reading of a file header.
 struct StoredHeader {
-    int width = 0, height = 0, depth = 0;                        // of the data window; a depth above 1 is a volume
-    int x = 0, y = 0;                                            // where the data window begins
+    int width = 0, height = 0, depth = 0;                        // size of the data window; a depth above 1 is a volume
+    int x = 0, y = 0;                                            // origin of the data window
     int full_x = 0, full_y = 0, full_width = 0, full_height = 0; // the display window
     int channels = 0;
     std::vector<std::string> channel_names;
-    PixelType type = PixelType::f32; // that holds the file's samples
+    PixelType type = PixelType::f32; // holds the file's samples
     bool deep = false;
 };
 
-// Channels [first, end) of the data window, interleaved, in the header's type; `to` has room for them.
+// Request for channels [first, end) of the data window, interleaved, in the header's type. `to` has room for them.
 struct PixelRequest {
     int first = 0, end = 0;
     std::byte* to = nullptr;
 };
 
-// Called with the header before any pixel is read: where they go, or why the file is refused.
+// Callback before any pixel is read. Returns a request for the pixels, or an Error that refuses the file.
 using PlacePixels = std::function<Result<PixelRequest>(const StoredHeader&)>;
 
-// The functions of the module. They may throw what the library throws.
+// The module's functions. They may throw the library's exceptions.
 struct ImageLibrary {
-    // Errors of a damaged file have ExitCode::bad_input; those of `place` are handed on.
+    // Reads pixels. Errors for damaged files have ExitCode::bad_input; errors from `place` pass through.
     Status (*read)(const ImageBytes& file, const ImageProbe& probe, const PlacePixels& place);
-    // The bytes of a file of `format`, the library's name: openexr or hdr of float pixels, jpeg of 8-bit
-    // ones. `path` names it in errors, which have ExitCode::output_failed. channels: names; empty: those of the image's number.
+    // Encodes a file. `format` is the library's name: openexr or hdr for float pixels, jpeg for 8-bit pixels. `path`
+    // names the file in errors, which have ExitCode::output_failed. `channels` holds names; empty selects the default
+    // names for the channel count.
     Result<std::vector<std::uint8_t>> (*encode)(const std::string& path, const Image& image, const char* format,
                                                 const std::vector<std::string>& channels);
-    // Of OpenEXR, half floats in tiles of 64: each image a mip level, half as wide and high as that before, rounded down, at least 1.
+    // Encodes OpenEXR mip levels as half floats in 64-pixel tiles. Each side is half the previous level's, rounded
+    // down, at least 1.
     Result<std::vector<std::uint8_t>> (*encode_levels)(const std::string& path, const std::vector<Image>& levels);
 };
 
-// The one symbol of the module: extern "C" const ImageLibrary* burnish_image_library().
+// The module's one symbol: extern "C" const ImageLibrary* burnish_image_library().
 constexpr const char* kImageLibrarySymbol = "burnish_image_library";
 
-// Opens the module at the first call: beside the program, in ../lib/burnish from there, or, for programs that
-// lie in the build tree, at that tree's root. An Error with ExitCode::unavailable where it cannot be opened;
-// `file` is the picture that needs it. Never null.
+// Opens the module at the first call: beside the program, in ../lib/burnish from there, or, for programs in a build
+// tree, at the tree's root. Never returns null. On failure returns an Error with ExitCode::unavailable; `file` is the
+// image that needs the module.
 Result<const ImageLibrary*> image_library(const std::string& file);
 
-// The first line of a library message, without its full stop.
+// Returns the first line of a library message, without its full stop.
 inline std::string first_line(const std::string& text)
 {
     std::string line = text.substr(0, text.find_first_of("\r\n"));

@@ -1,4 +1,4 @@
-// Stands in for image_library.cpp in a program without libraries.
+// Replaces image_library.cpp in a program without libraries.
 #include "core/image/io/image_library.h"
 
 namespace burnish {

@@ -1,4 +1,4 @@
-// Writing: the file is made in memory, so that it is complete before its name appears on the disk.
+// Writes images: encodes the file in memory first, so that the file is complete before its name appears on disk.
 #include <algorithm>
 #include <cctype>
 #include <cstring>
@@ -18,17 +18,17 @@ namespace {
 
 using Bytes = std::vector<std::uint8_t>;
 
-// Largest value of Radiance's shared-exponent pixels: mantissa 255/256, exponent 127.
+// Largest value in a Radiance shared-exponent pixel: mantissa 255/256, exponent 127.
 constexpr float kRgbeMax = 255.0f / 256.0f * 0x1p127f;
 
 struct Format {
-    const char* name; // OpenImageIO's, where it writes the format
+    const char* name; // OpenImageIO's name, where OpenImageIO writes the format
     bool floats;
     bool alpha;
     bool gray;
 };
 
-// The format that an extension names; name nullptr where it names none.
+// Returns the format that the extension names; name is nullptr where the extension names none.
 Format format_of(const std::string& path)
 {
     const std::size_t dot = path.find_last_of("./");
@@ -55,7 +55,7 @@ Error output_error(const std::string& path, const std::string& reason)
     return {ExitCode::output_failed, path, "", reason};
 }
 
-// The image with the channels that the format can hold: alpha dropped, gray repeated to RGB.
+// Converts to channels that the format can hold: drops alpha, repeats gray to RGB.
 Image fit_channels(const Image& image, const Format& format)
 {
     const bool colour = image.channels >= 3;
@@ -83,7 +83,7 @@ bool holds_its_pixels(const Image& image)
            image.bytes.size() / texel == static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
 }
 
-// RGBE holds neither negative values nor NaN nor Inf.
+// RGBE holds no negative values, NaN or Inf.
 void clamp_to_rgbe(Image& image)
 {
     float* values = image.f32();

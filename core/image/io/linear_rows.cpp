@@ -32,7 +32,7 @@ template <class T> void LinearRows::read_as(int y, int x, int n, float* r, float
             return decode_[code];
     };
     const int to_g = channels >= 3 ? 1 : 0, to_b = channels >= 3 ? 2 : 0;
-    const int begin = std::clamp(-x, 0, n - 1), end = std::clamp(image_.width - x, begin + 1, n); // inside the picture
+    const int begin = std::clamp(-x, 0, n - 1), end = std::clamp(image_.width - x, begin + 1, n); // inside the image
     const T* from = row + static_cast<std::size_t>(x + begin) * static_cast<std::size_t>(channels);
     for (int i = begin; i < end; ++i, from += channels) {
         r[i] = value(from[0]);
@@ -55,12 +55,13 @@ void LinearRows::read(int y, int x, int n, float* r, float* g, float* b) const
         read_as<float>(y, x, n, r, g, b);
 }
 
-// Positive floats are in the order of their bits, so that a median is found half a word at a time.
+// Histogram of luminances, used to find the median half a word at a time. Works because positive floats sort like their
+// bits.
 struct LinearRows::Histogram {
-    std::vector<std::uint32_t> pixels = std::vector<std::uint32_t>(1u << 16); // by half word
+    std::vector<std::uint32_t> pixels = std::vector<std::uint32_t>(1u << 16); // indexed by half word
     std::uint32_t largest = 0;                                                // bits of the largest luminance
 
-    // The half word of pixel `rank` in ascending order; `rank` becomes its rank within that half word.
+    // Returns the half word of pixel `rank` in ascending order. Changes `rank` to the rank within this half word.
     std::uint32_t find(std::uint64_t& rank) const
     {
         std::uint32_t half = 0;
@@ -70,7 +71,8 @@ struct LinearRows::Histogram {
     }
 };
 
-// By upper half words, or where `upper_half` is one, by lower half words of the luminances that begin with it.
+// Counts luminances by their upper half words. With upper_half >= 0, counts by lower half words the luminances with
+// this upper half.
 LinearRows::Histogram LinearRows::count_lit(const Jobs& jobs, int upper_half) const
 {
     std::vector<Histogram> of_worker(static_cast<std::size_t>(jobs.threads()));

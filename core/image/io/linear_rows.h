@@ -1,4 +1,4 @@
-// The colours of a picture as linear Rec.709, whatever it is stored as.
+// Reads an image's colours as linear Rec.709, for every pixel type.
 #pragma once
 #include <vector>
 
@@ -7,15 +7,17 @@
 
 namespace burnish {
 
-struct LitLuminances {                   // 0.2126 R + 0.7152 G + 0.0722 B of the pixels where that is above 0; without any, both are 0
-    float median = 0.0f, largest = 0.0f; // median: of n in ascending order, number n / 2 counted from 0
+// Statistics of the luminance 0.2126 R + 0.7152 G + 0.0722 B over pixels where it is above 0. Both are 0 without such
+// pixels.
+struct LitLuminances {
+    float median = 0.0f, largest = 0.0f; // median: element n / 2, counted from 0, in ascending order
 };
 
 class LinearRows {
   public:
-    explicit LinearRows(const Image& image); // must outlive this
+    explicit LinearRows(const Image& image); // must outlive this object
 
-    // n pixels of row y from column x on, which may lie outside: the first and the last pixel repeat.
+    // Reads n pixels of row y from column x on. Columns outside repeat the first or last pixel.
     void read(int y, int x, int n, float* r, float* g, float* b) const;
     LitLuminances lit_luminances(const Jobs& jobs) const;
 
@@ -25,7 +27,7 @@ class LinearRows {
     template <class T> void read_as(int y, int x, int n, float* r, float* g, float* b) const;
 
     const Image& image_;
-    std::vector<float> decode_; // linear value of each sRGB code; empty for floats
+    std::vector<float> decode_; // linear value for each sRGB code; empty for floats
 };
 
 } // namespace burnish

@@ -1,5 +1,5 @@
-// What of a module is loaded, as a number: its segments' bytes, without the file header. Symbols may be stripped from it, anything else
-// changes it. Used by the build, which writes the number down, and by the program, which opens no module that has another.
+// Hash of a module's loaded bytes: its segments without the file header. Stripping symbols keeps the hash; any other
+// change alters it. The build records the hash, and the program opens no module with another hash.
 #pragma once
 #include <elf.h>
 
@@ -12,7 +12,8 @@
 
 namespace burnish {
 
-// Nothing where the file is no 64-bit ELF file or ends before its segments do: mapping it would end the process.
+// Returns nothing for a file that is not 64-bit ELF or ends before its segments: mapping such a file would end the
+// process.
 inline std::optional<std::uint64_t> module_hash(const std::vector<std::uint8_t>& file)
 {
     Elf64_Ehdr header;

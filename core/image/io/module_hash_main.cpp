@@ -1,4 +1,4 @@
-// Part of the build: MODULE HEADER writes the module's hash as a constant.
+// Build tool with arguments MODULE HEADER: writes the module's hash as a constant.
 #include <cstdio>
 #include <fstream>
 #include <iterator>

@@ -1,5 +1,5 @@
-// The module that holds OpenImageIO (the only file that knows it): decodes files from memory and encodes them
-// into memory. It is linked with nothing of the program; what it needs of it are inline functions.
+// The module that holds OpenImageIO; no other file uses it. Decodes files from memory and encodes files into memory.
+// The module links nothing from the program: it uses only the program's inline functions.
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
@@ -15,22 +15,23 @@ namespace {
 
 using Bytes = std::vector<std::uint8_t>;
 
-// CIE xy of Rec. ITU-R BT.709's red, green, blue and its white, D65.
+// CIE xy of red, green, blue and the D65 white in Rec. ITU-R BT.709.
 constexpr float kRec709[8] = {0.640f, 0.330f, 0.300f, 0.600f, 0.150f, 0.060f, 0.3127f, 0.3290f};
 constexpr int kJpegQuality = 95;
 
-// One thread an image: burnish reads several images at once instead, and time and memory stay predictable.
+// One thread for each image: burnish reads several images at once instead, and time and memory stay predictable.
 constexpr int kThreads = 1;
 
 // Sets the library's process-wide attributes once.
 void configure_openimageio()
 {
     static const bool done = [] {
-        // The attribute "threads" would start the library's pool, as many threads as cores: each image is told instead.
+        // The attribute "threads" would start the library's pool with a thread for each core. Each image sets its own
+        // count instead.
         OIIO::attribute("exr_threads", -1);
-        // The C++ reader stops at the first error; the core reader carries on with parts of damaged headers.
+        // The C++ reader stops at the first error. The core reader carries on with parts of damaged headers.
         OIIO::attribute("openexr:core", 0);
-        // Debian's build prints notes for its own developers on stderr otherwise.
+        // Debian's build would print developer notes on stderr.
         OIIO::attribute("debug", 0);
         return true;
     }();
@@ -51,7 +52,7 @@ OIIO::TypeDesc type_desc_of(PixelType type)
     return type == PixelType::u8 ? OIIO::TypeDesc::UINT8 : type == PixelType::u16 ? OIIO::TypeDesc::UINT16 : OIIO::TypeDesc::FLOAT;
 }
 
-// Reads from memory and remembers how far the library came, which is where it stumbled.
+// Reads from memory and tracks the farthest position, which is the place of an error.
 class TrackingReader : public OIIO::Filesystem::IOMemReader {
   public:
     TrackingReader(const ImageBytes& file, const ImageProbe& probe)
@@ -66,7 +67,8 @@ class TrackingReader : public OIIO::Filesystem::IOMemReader {
         reached_ = std::max(reached_, static_cast<std::size_t>(tell()));
         return n;
     }
-    // Offsets come from the file; IOMemReader adds sizes to them without a look, and reads what lies before the bytes.
+    // Bounds the offsets, which come from the file: IOMemReader adds sizes to them unchecked, and would read before the
+    // bytes.
     bool seek(int64_t offset) override { return is_inside(offset) && IOMemReader::seek(offset); }
     size_t pread(void* to, size_t size, int64_t offset) override
     {
@@ -90,7 +92,7 @@ class TrackingReader : public OIIO::Filesystem::IOMemReader {
 Error library_error(const ImageBytes& file, const std::string& place, const char* what, const std::string& message)
 {
     const std::string reason = first_line(message);
-    // OpenEXR and OpenImageIO catch what operator new throws and hand on its words.
+    // OpenEXR and OpenImageIO catch operator new's exceptions and pass on their text.
     for (const char* words : {"bad_alloc", "out of memory", "Out of memory", "not enough memory", "Insufficient memory", "allocate"})
         if (reason.find(words) != std::string::npos)
             return file.error("", "not enough memory for the pixels");
@@ -111,7 +113,7 @@ Status read(const ImageBytes& file, const ImageProbe& probe, const PlacePixels& 
     OIIO::Filesystem::IOProxy* proxy = &reader;
     OIIO::ImageSpec config, spec;
     config.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);
-    config.attribute("oiio:UnassociatedAlpha", 1); // colours stay as stored, not multiplied by alpha
+    config.attribute("oiio:UnassociatedAlpha", 1); // colours stay as stored, without multiplication by alpha
     const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::create(probe.format);
     if (!input)
         return library_error(file, "", "the image library cannot read this format", OIIO::geterror());
@@ -132,7 +134,7 @@ Status read(const ImageBytes& file, const ImageProbe& probe, const PlacePixels& 
 OIIO::ImageSpec spec_of(const Image& image, const char* format, const std::vector<std::string>& channels)
 {
     OIIO::ImageSpec spec(image.width, image.height, image.channels, type_desc_of(image.type));
-    // A date of the wrong type: the library then neither adds the present time nor writes this one.
+    // A date with the wrong type: the library then neither adds the present time nor writes this date.
     spec.attribute("DateTime", 0);
     spec.attribute("oiio:UnassociatedAlpha", 1);
     if (image.type == PixelType::f32) {
@@ -155,8 +157,8 @@ OIIO::ImageSpec spec_of(const Image& image, const char* format, const std::vecto
     return spec;
 }
 
-// Whether an OpenEXR file has all its chunks, each of which begins with its place, a number or four, and its size. Short of memory the
-// library leaves some out and says nothing.
+// Returns true where an OpenEXR file has all its chunks. Each chunk begins with its place (one number or four) and its
+// size. With too little memory, the library silently leaves chunks out.
 bool has_all_chunks(const Bytes& file, std::size_t chunks, std::size_t place_bytes)
 {
     const auto number = [&](std::size_t at, std::size_t size) {
@@ -234,7 +236,7 @@ Result<Bytes> encode_levels(const std::string& path, const std::vector<Image>& l
     }
     if (!output->close())
         return error(output->geterror());
-    output.reset(); // a file with levels is kept open until then, and has no table of its chunks
+    output.reset(); // closes the file; a file with levels stays open, without its chunk table, until then
     if (!has_all_chunks(bytes, tiles, 16))
         return error("not all tiles were written");
     return bytes;

@@ -19,7 +19,7 @@ void append(Bytes& out, std::uint64_t value, int bytes)
         out.push_back(static_cast<std::uint8_t>(value >> (8 * i)));
 }
 
-// A directory entry of TIFF 6.0 section 2; type 3 is 16-bit, type 4 is 32-bit.
+// Appends a directory entry of TIFF 6.0 section 2. Type 3 is 16-bit, type 4 is 32-bit.
 void append_field(Bytes& out, int tag, int type, std::uint64_t count, std::uint64_t value)
 {
     append(out, static_cast<std::uint64_t>(tag), 2);
@@ -60,10 +60,10 @@ Bytes encode_tiff(const Image& image)
     append(out, fields, 2);
     append_field(out, 256, kLong, 1, static_cast<std::uint64_t>(image.width));
     append_field(out, 257, kLong, 1, static_cast<std::uint64_t>(image.height));
-    // BitsPerSample: up to two values stand in the entry itself.
+    // BitsPerSample: the entry itself holds up to two values.
     append_field(out, 258, kShort, channels, channels == 1 ? 8 : channels == 2 ? 0x00080008 : depths_at);
     append_field(out, 259, kShort, 1, 1);                     // no compression
-    append_field(out, 262, kShort, 1, channels >= 3 ? 2 : 1); // RGB, or black is zero
+    append_field(out, 262, kShort, 1, channels >= 3 ? 2 : 1); // RGB, or gray with black as zero
     append_field(out, 273, kLong, 1, pixels_at);              // the strip
     append_field(out, 277, kShort, 1, channels);
     append_field(out, 278, kLong, 1, static_cast<std::uint64_t>(image.height));

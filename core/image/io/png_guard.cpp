@@ -1,6 +1,6 @@
-// PNG (W3C PNG, third edition): the chunks are walked and their checksums tested here, and only those that
-// decide the stored samples go on to the library. Text, profiles and the like would cost time and memory, and
-// libpng writes its complaints about them straight to stderr.
+// Guards PNG files (W3C PNG, third edition). Walks the chunks, checks their checksums, and passes on only the chunks
+// that affect the stored samples. Text, profiles and the like cost time and memory, and libpng prints its warnings
+// about them on stderr.
 #include <algorithm>
 #include <array>
 #include <cstring>
@@ -13,7 +13,8 @@
 namespace burnish {
 namespace {
 
-// Deflate's longest match, 258 bytes, costs at least 2 bits: 1032 to 1 (RFC 1951 section 3.2.5).
+// Best compression ratio: deflate's longest match, 258 bytes, costs at least 2 bits, 1032 to 1 (RFC 1951 section
+// 3.2.5).
 constexpr std::uint64_t kDeflateBest = 1032;
 
 std::uint32_t read32(const std::uint8_t* at)
@@ -22,7 +23,7 @@ std::uint32_t read32(const std::uint8_t* at)
            at[3];
 }
 
-// Annex D of the standard, four bytes at a time: table[k] moves a byte k further bytes on.
+// Checksum of the standard's annex D, four bytes at a time: table[k] moves a byte on by k bytes.
 class Crc {
   public:
     Crc()
@@ -74,7 +75,7 @@ bool depth_fits(unsigned depth, unsigned colour_type)
     }
 }
 
-// `data` is the content of IHDR, 13 bytes at byte 16 of the file.
+// Checks IHDR. `data` is its content, 13 bytes at byte 16 of the file.
 Status check_header(const ImageBytes& file, const std::uint8_t* data, const Limits& limits, Header& header)
 {
     header = {read32(data), read32(data + 4), data[8], data[9]};
@@ -93,8 +94,7 @@ Status check_header(const ImageBytes& file, const std::uint8_t* data, const Limi
     return check_proportion(file, header.width, header.height, channels * (header.depth > 8 ? 2 : 1));
 }
 
-// Palette and transparency must have sizes that suit the header; `entries` is the palette's length once it is
-// known.
+// Checks that palette and transparency have sizes that fit the header. `entries` is the palette's length once known.
 Status check_colours(const ImageBytes& file, std::size_t at, std::string_view type, std::size_t length, const Header& header,
                      std::size_t& entries)
 {
@@ -130,7 +130,7 @@ Result<ImageProbe> probe_png(const ImageBytes& file, const Limits& limits)
             return file.error(place, "the file ends before its IEND chunk");
         const std::size_t length = read32(file.data + at);
         const std::string_view type(reinterpret_cast<const char*>(file.data + at + 4), 4);
-        // The header comes first, so that an absurd picture is named before a checksum is counted.
+        // Check the header first: report an absurd size before computing any checksum.
         if (at == 8 && (type != "IHDR" || length != 13 || at + 25 > file.size))
             return file.error(place, "a PNG file must begin with a whole IHDR chunk");
         if (at == 8)
@@ -154,7 +154,7 @@ Result<ImageProbe> probe_png(const ImageBytes& file, const Limits& limits)
         at += 12 + length;
     }
     if (probe.replacement.size() == file.size)
-        probe.replacement.clear(); // nothing was left out
+        probe.replacement.clear(); // no chunk was dropped
     if (!pixels || (header.colour_type == 3 && palette_entries == 0))
         return file.error("", "the file has no pixels or no palette");
     return probe;

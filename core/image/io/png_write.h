@@ -1,4 +1,4 @@
-// PNG through libpng alone: what a picture for the screen needs, and nothing that takes long to load.
+// Writes PNG through libpng alone, which loads fast.
 #pragma once
 #include <cstdint>
 #include <string>
@@ -9,8 +9,8 @@
 
 namespace burnish {
 
-// The bytes of a PNG file of 8-bit samples, marked as sRGB; 1 to 4 channels, alpha as stored. `path` names it
-// in errors, which have ExitCode::output_failed.
+// Encodes 8-bit samples as PNG, marked as sRGB; 1 to 4 channels, alpha as stored. `path` names the file in errors,
+// which have ExitCode::output_failed.
 Result<std::vector<std::uint8_t>> png_bytes(const std::string& path, const Image& image);
 
 } // namespace burnish

@@ -1,4 +1,4 @@
-// Stands in for png_write.cpp in a program without libraries.
+// Replaces png_write.cpp in a program without libraries.
 #include "core/image/io/png_write.h"
 
 namespace burnish {

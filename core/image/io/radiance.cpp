@@ -1,5 +1,6 @@
-// Radiance (Ward, "Real Pixels", 1991; the reference manual's "picture format"): text lines, an empty line, then the resolution line, for
-// instance "-Y 512 +X 1024", whose first axis is that of the scanlines; then these, one after the other, each plain or as runs.
+// Radiance files (Ward, "Real Pixels", 1991; "picture format" in the reference manual). Text lines and an empty line
+// precede the resolution line, such as "-Y 512 +X 1024". Its first axis counts the scanlines. The scanlines follow,
+// each plain or run-length coded.
 #include "core/image/io/radiance.h"
 
 #include <algorithm>
@@ -19,7 +20,7 @@ namespace {
 
 constexpr std::string_view kBlanks = " \t\r";
 
-// `count` numbers between blanks, which are all of the text.
+// Parses exactly `count` numbers between blanks; nothing where the text holds anything else.
 template <std::size_t count> std::optional<std::array<double, count>> numbers_of(std::string_view text)
 {
     std::array<double, count> out{};
@@ -51,7 +52,7 @@ std::string_view trimmed(std::string_view text)
     return first == std::string_view::npos ? std::string_view() : text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
 }
 
-// Divides the gain by factors that are numbers above 0.
+// Divides the gain by the factors, which must be numbers above 0.
 template <std::size_t count> Status divide_gain(const ImageBytes& file, const char* name, std::string_view text, StoredColour& colour)
 {
     const std::optional<std::array<double, count>> factors = numbers_of<count>(text);
@@ -74,8 +75,8 @@ void read_primaries(std::string_view text, StoredColour& colour)
         colour.primaries = *primaries;
 }
 
-// Lines that begin with a blank are those of pictures that this one was made of, and say nothing of its pixels. PIXASPECT is the shape of a
-// pixel on paper: what looks at a picture by angles or pixels does not ask for it.
+// Reads a header line. A line that begins with a blank describes a source image, and says nothing about these pixels.
+// PIXASPECT is a pixel's shape on paper; code that works with angles or pixels ignores it.
 Status read_line(const ImageBytes& file, std::string_view line, StoredColour& colour)
 {
     if (take_prefix(line, "FORMAT=")) {
@@ -115,7 +116,7 @@ struct Resolution {
     bool negative[2] = {false, false};
 };
 
-// The line at `at`, which is moved past it.
+// Reads the resolution line at `at` and moves `at` past it.
 std::optional<Resolution> read_resolution(std::string_view text, std::size_t& at)
 {
     Resolution out;
@@ -133,7 +134,7 @@ std::optional<Resolution> read_resolution(std::string_view text, std::size_t& at
     return out;
 }
 
-// The newer coding: 2, 2, the length in two bytes, then the four channels one after the other.
+// Returns true for the newer coding: 2, 2, the length in two bytes, then the four channels in sequence.
 bool begins_new_scanline(const ImageBytes& file, std::size_t at, int pixels)
 {
     return pixels >= 8 && pixels <= 0x7FFF && file.size - at >= 4 && file.data[at] == 2 && file.data[at + 1] == 2 &&
@@ -175,7 +176,8 @@ Status read_new_scanline(const ImageBytes& file, std::size_t& at, std::size_t pi
     return {};
 }
 
-// The older coding, and plain pixels: 1, 1, 1, n is the last pixel n times more; such runs in a row are digits of base 256, lowest first.
+// Reads the older coding, and plain pixels. 1, 1, 1, n repeats the last pixel n times; consecutive repeats are base-256
+// digits, lowest first.
 Status read_old_scanline(const ImageBytes& file, std::size_t& at, std::size_t pixels, std::uint8_t* rgbe)
 {
     unsigned shift = 0;
@@ -198,7 +200,7 @@ Status read_old_scanline(const ImageBytes& file, std::size_t& at, std::size_t pi
     return {};
 }
 
-// Radiance has no half in it: a mantissa of 0 is 0.
+// Converts to floats without adding half a step: a mantissa of 0 is 0, as in Radiance.
 void to_floats(const std::uint8_t* rgbe, std::size_t pixels, float* rgb)
 {
     for (std::size_t i = 0; i < pixels; ++i, rgbe += 4, rgb += 3) {
@@ -208,13 +210,13 @@ void to_floats(const std::uint8_t* rgbe, std::size_t pixels, float* rgb)
     }
 }
 
-// Refuses more pixels than the file's bytes can hold. A packet of the newer coding has 2 bytes and at most 127 values, four a pixel; runs
-// of the older one may be of any length.
+// Refuses more pixels than the file's bytes can hold. A packet of the newer coding takes 2 bytes for at most 127
+// values, four for each pixel. Runs of the older coding may have any length.
 Status check_bytes(const ImageBytes& file, const RadianceLayout& layout)
 {
     const std::uint64_t width = static_cast<std::uint64_t>(layout.scanline_pixels), height = static_cast<std::uint64_t>(layout.scanlines);
     if (!begins_new_scanline(file, layout.pixels_at, layout.scanline_pixels)) {
-        if (4 * height > file.size) // a pixel a scanline at least
+        if (4 * height > file.size) // at least a pixel for each scanline
             return file.error(fmt::format("header: {} x {} pixels", width, height),
                               fmt::format("{} bytes cannot hold that many pixels", file.size));
         return check_proportion(file, width, height, 3 * sizeof(float));
@@ -247,7 +249,7 @@ Result<ImageProbe> probe_radiance(const ImageBytes& file, const Limits& limits)
     BN_TRY(check_sides(file, resolution->sides[x], resolution->sides[1 - x], limits));
     layout.scanlines = static_cast<int>(resolution->sides[0]);
     layout.scanline_pixels = static_cast<int>(resolution->sides[1]);
-    // Y points up and X to the right: "-Y" scanlines go down from the top.
+    // Y points up and X right: "-Y" scanlines go down from the top.
     layout.flip_x = resolution->negative[x], layout.flip_y = !resolution->negative[1 - x];
     BN_TRY(check_bytes(file, layout));
     return probe;

@@ -11,7 +11,7 @@ using Vector = std::array<double, 3>;
 using Matrix = std::array<double, 9>; // row-major
 
 constexpr Matrix kBradford = {0.8951, 0.2664, -0.1614, -0.7502, 1.7135, 0.0367, 0.0389, -0.0685, 1.0296};
-constexpr double kLeastDeterminant = 1e-6; // of a triangle of primaries in xy; that of Rec.709 is 0.11
+constexpr double kLeastDeterminant = 1e-6; // of a primaries triangle in xy; Rec.709 has 0.11
 
 Vector multiply(const Matrix& m, const Vector& v)
 {
@@ -37,7 +37,7 @@ double determinant(const Matrix& m)
     return m[0] * (m[4] * m[8] - m[5] * m[7]) - m[1] * (m[3] * m[8] - m[5] * m[6]) + m[2] * (m[3] * m[7] - m[4] * m[6]);
 }
 
-// The determinant is not 0.
+// Inverts a matrix with a determinant other than 0.
 Matrix inverse(const Matrix& m)
 {
     const double d = determinant(m);
@@ -51,7 +51,8 @@ Vector white_of(const Primaries& p)
     return {p[6] / p[7], 1.0, (1.0 - p[6] - p[7]) / p[7]};
 }
 
-// RGB to XYZ, whose white has Y = 1 (SMPTE RP 177). Nothing where the primaries lie on a line or white is black.
+// Returns the RGB to XYZ matrix whose white has Y = 1 (SMPTE RP 177). Nothing for collinear primaries or a black white
+// point.
 std::optional<Matrix> to_xyz(const Primaries& p)
 {
     for (const double v : p)

@@ -1,4 +1,4 @@
-// A row of a picture as it is stored, in float: 8 and 16 bits in [0,1].
+// Reads an image row as floats, without decoding: 8 and 16 bits map to [0,1].
 #pragma once
 #include <vector>
 
@@ -6,7 +6,7 @@
 
 namespace burnish {
 
-// All channels, interleaved; `values` is resized.
+// Reads all channels, interleaved. Resizes `values`.
 inline void read_stored_row(const Image& image, int y, std::vector<float>& values)
 {
     const std::size_t n = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.channels);

@@ -1,4 +1,5 @@
-// TIFF (revision 6.0, sections 2 and 8): the first directory's sizes, read before the library takes memory for them.
+// Guards TIFF (revision 6.0, sections 2 and 8): reads the first directory's sizes before the library allocates memory
+// for them.
 #include <algorithm>
 #include <optional>
 
@@ -20,7 +21,7 @@ class Directory {
 
     bool complete() const { return at_ >= 8 && at_ + 2 <= file_.size && at_ + 2 + 12 * number(at_, 2) <= file_.size; }
 
-    // The first value of an entry; nothing where there is none of an integer type, or it lies past the file's end.
+    // Returns an entry's first value. Nothing where the entry has no integer type or lies past the file's end.
     std::optional<std::uint64_t> value(unsigned tag) const
     {
         for (std::uint64_t i = 0, n = number(at_, 2); i < n; ++i) {
@@ -80,7 +81,7 @@ Result<ImageProbe> probe_tiff(const ImageBytes& file, const Limits& limits)
                           fmt::format("{} bytes cannot hold that many pixels", file.size));
     const std::uint64_t pixel = samples * (bits > 8 ? bits / 8 : 1) * (directory.value(kPhotometric).value_or(0) == kPalette ? 3 : 1);
     BN_TRY(check_proportion(file, *width, *height, pixel));
-    // A tile is decoded whole, however small the picture.
+    // The library decodes a whole tile, however small the image.
     const std::uint64_t tile_width = directory.value(kTileWidth).value_or(0), tile_height = directory.value(kTileHeight).value_or(0);
     const std::uint64_t side = static_cast<std::uint64_t>(limits.image_side);
     if (tile_width > side || tile_height > side)

@@ -1,6 +1,6 @@
-// How FLIP walks over a picture: tiles in parallel, each with a ring of rows that are filtered along x and
-// wait for the filters along y. A pixel's error depends on the pixels around it alone, so neither the order
-// of tiles nor the thread changes a bit.
+// Drives FLIP over an image: tiles in parallel, each with a ring of rows. Rows in the ring are filtered along x and
+// wait for the filters along y. A pixel's error depends only on nearby pixels, so neither tile order nor threads change
+// a bit.
 #include "core/image/metrics/flip.h"
 
 #include <algorithm>
@@ -17,13 +17,13 @@
 namespace burnish {
 namespace {
 
-// A ring of 256 columns fits the L2 cache; its first rows are filtered twice, by the tile above too.
+// A ring of 256 columns fits the L2 cache. The tile above also filters the first rows of the ring.
 constexpr int kTileWidth = 256, kTileHeight = 128; // pixels, a multiple of every lane count
-constexpr double kMostStops = 120.0;               // 2^120 is still a float
-constexpr int kPad = 16;                           // floats that lanes may touch behind a row
+constexpr double kMostStops = 120.0;               // 2^120 is still a finite float
+constexpr int kPad = 16;                           // floats that lanes may touch beyond a row's end
 
-// Tone curves (c0 x^2 + c1 x + c2) / (c3 x^2 + c4 x + c5) of Andersson et al. 2021. ACES is Narkowicz's fit
-// with its exposure of 0.6 taken out; Reinhard is applied to the luminance.
+// Returns the tone curve (c0 x^2 + c1 x + c2) / (c3 x^2 + c4 x + c5) of Andersson et al. 2021. ACES is Narkowicz's fit
+// without its exposure of 0.6. Reinhard works on the luminance.
 FlipTone tone_of(FlipTonemap tonemap)
 {
     FlipTone tone;
@@ -35,7 +35,8 @@ FlipTone tone_of(FlipTonemap tonemap)
     return tone;
 }
 
-// The brightness that the curve takes to t: (c0 - t c3) x^2 + (c1 - t c4) x + (c2 - t c5) = 0, larger root.
+// Returns the brightness that the curve maps to t: the larger root of (c0 - t c3) x^2 + (c1 - t c4) x + (c2 - t c5) =
+// 0.
 double inverse_tone(const FlipTone& tone, double t)
 {
     const auto coefficient = [&](int i) { return static_cast<double>(tone.c[i]) - t * static_cast<double>(tone.c[i + 3]); };
@@ -56,7 +57,7 @@ struct Pass {
     const LinearRows& test;
     const FlipKernels& kernels;
     const FlipFns& fns;
-    std::vector<FlipTone> tones; // the error is the largest over them
+    std::vector<FlipTone> tones; // the error is the maximum over these curves
     Image& error;
 };
 
@@ -91,12 +92,14 @@ class TileWorker {
 
     std::size_t row_floats() const { return 3 * static_cast<std::size_t>(row_stride_); }
 
-    // Of a picture, 0 the reference and 1 the test: linear R, G, B of row y from the tile's left ring on.
+    // Returns row y of image 0 (reference) or 1 (test): planes of linear R, G, B from the left edge of the tile's ring
+    // on.
     float* linear(int y, int picture) { return linear_.data() + static_cast<std::size_t>(2 * (y - first_row_) + picture) * row_floats(); }
 
     float* slot(int y) { return ring_.data() + static_cast<std::size_t>(y % slots_) * 2 * kFlipPlanes * kStride; }
 
-    // All exposures begin with the same pixels. Renderings of one scene are often equal in parts, such as their background.
+    // Loads the tile once for all exposures, and counts the rows that differ. Renderings of one scene often agree in
+    // parts, such as the background, and run_tone() skips those.
     void load(const Pass& pass, const Tile& tile)
     {
         first_row_ = std::max(0, tile.y0 - radius_);
@@ -121,7 +124,7 @@ class TileWorker {
         return true;
     }
 
-    // Whether rows [begin, end), cut to those that there are, hold any difference.
+    // Returns true where rows [begin, end), clipped to the loaded rows, hold any difference.
     bool differ(int begin, int end) const
     {
         const auto before = [&](int y) { return differing_[static_cast<std::size_t>(std::clamp(y, first_row_, end_row_) - first_row_)]; };
@@ -134,7 +137,7 @@ class TileWorker {
         int next = first_row_;
         for (int y = tile.y0; y < tile_end; y += kFlipRows) {
             if (!differ(y - radius_, y + radius_ + kFlipRows))
-                continue; // what is equal has no error, and the errors begin as 0
+                continue; // equal pixels have no error, and errors start at 0
             next = std::max(next, y - radius_);
             for (; next < std::min(end_row_, y + radius_ + kFlipRows); ++next)
                 for (int picture = 0; picture < 2; ++picture)
@@ -159,9 +162,9 @@ class TileWorker {
     }
 
     int radius_ = 0, row_stride_ = 0, slots_ = 0;
-    int first_row_ = 0, end_row_ = 0; // of the tile with its ring
+    int first_row_ = 0, end_row_ = 0; // rows of the tile with its ring
     Column<float> linear_, pixels_, ring_;
-    std::vector<int> differing_; // by row of the tile with its ring: how many rows before it differ
+    std::vector<int> differing_; // for each row of the tile with its ring: number of differing rows before it
     std::vector<const float*> rows_;
 };
 
@@ -232,7 +235,7 @@ FlipExposures find_exposures(const Image& reference, const FlipOptions& options,
     const auto bounded = [](double ev) { return static_cast<float>(std::clamp(ev, -kMostStops, kMostStops)); };
     range.start_ev = options.start_ev.value_or(bounded(start));
     range.stop_ev = options.stop_ev.value_or(bounded(stop));
-    // Only one of them given may lie beyond the other.
+    // With one value given, the found value may lie beyond it.
     if (options.start_ev)
         range.stop_ev = std::max(range.start_ev, range.stop_ev);
     range.start_ev = std::min(range.start_ev, range.stop_ev);

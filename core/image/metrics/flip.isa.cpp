@@ -1,6 +1,6 @@
-// FLIP's pixels, after Andersson, Nilsson, Akenine-Moller, Oskarsson, Astrom, Fairchild 2020, "FLIP: A
-// Difference Evaluator for Alternating Images", sections 4.1 to 4.3, with the filters separated as in the
-// authors' note "Separated convolutions" (2021).
+// FLIP for pixels, after Andersson, Nilsson, Akenine-Moller, Oskarsson, Astrom, Fairchild 2020, "FLIP: A Difference
+// Evaluator for Alternating Images", sections 4.1 to 4.3. Filters are separated as in the authors' note "Separated
+// convolutions" (2021).
 #include "core/image/metrics/flip_lanes.h"
 #include "core/simd/lanes.h"
 
@@ -12,7 +12,7 @@ struct Triple {
     real x, y, z;
 };
 
-// Linear Rec.709 to XYZ relative to the white point, whose X and Z (Y = 1) are FLIP's values of D65.
+// Linear Rec.709 to XYZ relative to the white point, whose X and Z (Y = 1) are FLIP's values for D65.
 constexpr double kWhiteX = 0.950428545, kWhiteZ = 1.088900371;
 constexpr double kToXyz[3][3] = {{10135552.0 / 24577794.0 / kWhiteX, 8788810.0 / 24577794.0 / kWhiteX, 4435075.0 / 24577794.0 / kWhiteX},
                                  {2613072.0 / 12288897.0, 8788810.0 / 12288897.0, 887015.0 / 12288897.0},
@@ -20,7 +20,7 @@ constexpr double kToXyz[3][3] = {{10135552.0 / 24577794.0 / kWhiteX, 8788810.0 /
 constexpr double kToRgb[3][3] = {{3.241003275 * kWhiteX, -1.537398934, -0.498615861 * kWhiteZ},
                                  {-0.969224334 * kWhiteX, 1.875930071, 0.041554224 * kWhiteZ},
                                  {0.055639423 * kWhiteX, -0.204011202, 1.057148933 * kWhiteZ}};
-// Larger radiance counts as this, so that its square is finite; every tone curve is flat there.
+// Clamp for radiance, so that its square is finite. Every tone curve is flat there.
 constexpr double kBrightest = 1e15;
 
 BN_INLINE Triple times(const double (&m)[3][3], Triple v)
@@ -34,7 +34,7 @@ BN_INLINE real clamp01(real x)
     return clamp(x, lit(0.0), lit(1.0));
 }
 
-// Base-2 logarithm of x >= 2^-126: x = 2^n m with m in [sqrt(1/2), sqrt(2)], log2 m = 2/ln2
+// Returns the base-2 logarithm of x >= 2^-126. x = 2^n m with m in [sqrt(1/2), sqrt(2)], and log2 m = 2/ln2
 // artanh((m-1)/(m+1)) by its series, cut off below 1e-8 relative.
 BN_INLINE real log2_of(real x)
 {
@@ -50,7 +50,7 @@ BN_INLINE real log2_of(real x)
     return to_real(n) + lit(2.8853900817779268) * s * p;
 }
 
-// 2^x for x in [-126, 127]: the series of e^(f ln 2), |f| <= 1/2, cut off below 1e-8 relative.
+// Returns 2^x for x in [-126, 127] by the series of e^(f ln 2), |f| <= 1/2, cut off below 1e-8 relative.
 BN_INLINE real exp2_of(real x)
 {
     const real bounded = clamp(x, lit(-126.0), lit(127.0));
@@ -67,15 +67,15 @@ BN_INLINE real exp2_of(real x)
     return p * real_from_bits(shl(n + int_lit(127), 23));
 }
 
-// x^y for y >= 0. 0 stays 0, so that what is equal has no error.
+// Returns x^y for y >= 0. 0 stays 0, so that equal colours have no error.
 BN_INLINE real pow_of(real x, real y)
 {
     const real power = exp2_of(y * log2_of(max(x, lit(1.2e-38))));
     return select(x > lit(0.0), power, lit(0.0));
 }
 
-// For x in [0.001, 10]: a third of the exponent bits, 4 % off, then Halley's iteration twice, 1e-5 and 1e-15
-// off.
+// Returns the cube root for x in [0.001, 10]. A third of the exponent bits gives a start within 4 %; two Halley
+// iterations give 1e-5, then 1e-15.
 BN_INLINE real cube_root(real x)
 {
     real root = real_from_bits(to_int(to_real(bits_of(x)) * lit(1.0 / 3.0)) + int_lit(709921077));
@@ -86,7 +86,7 @@ BN_INLINE real cube_root(real x)
     return root;
 }
 
-// CIE 1976 L*a*b* of XYZ relative to the white point.
+// CIE 1976 L*a*b* function of a coordinate relative to the white point.
 BN_INLINE real lab_f(real t)
 {
     constexpr double kDelta = 6.0 / 29.0;
@@ -94,8 +94,8 @@ BN_INLINE real lab_f(real t)
     return select(t > lit(kDelta * kDelta * kDelta), cube_root(max(t, lit(0.008))), line);
 }
 
-// L*a*b* of filtered Y, Cx, Cz, clamped to the display's gamut, with Hunt's adjustment: colours look more
-// colourful where it is bright.
+// Returns L*a*b* of filtered Y, Cx, Cz, clamped to the display's gamut, with Hunt's adjustment: colours look more
+// colourful where they are bright.
 BN_INLINE Triple perceived(Triple ycxcz)
 {
     const real y = (ycxcz.x + lit(16.0)) * lit(1.0 / 116.0);
@@ -108,8 +108,8 @@ BN_INLINE Triple perceived(Triple ycxcz)
     return {lightness, hunt * (lit(500.0) * (fx - fy)), hunt * (lit(200.0) * (fy - fz))};
 }
 
-// HyAB distance (Abasi, Tehran, Fairchild 2020) to the power qc = 0.7, spread over [0,1]: what lies below
-// pc = 0.4 of the largest fills [0, pt = 0.95].
+// Maps the HyAB distance (Abasi, Tehran, Fairchild 2020) to the power qc = 0.7 onto [0,1]. Distances below pc = 0.4 of
+// the largest one fill [0, pt = 0.95].
 BN_INLINE real colour_error(Triple a, Triple b, float largest)
 {
     const real da = a.y - b.y, db = a.z - b.z;
@@ -194,11 +194,12 @@ void filter(const FlipFilters& f, const float* y, const float* cx, const float* 
     }
 }
 
-// Filters along y for the rows of a block at once. A row is loaded once a block: what is k rows above one row is k + 1 above the next.
+// Sliding window for filters along y over a block of rows. Each row is loaded once: k rows above one row is k + 1 above
+// the next.
 struct Window {
     const float* const* middle;          // the block's first row
-    int offset;                          // plane and column
-    real up[kFlipRows], down[kFlipRows]; // as far above and below each row of the block
+    int offset;                          // offset of plane and column
+    real up[kFlipRows], down[kFlipRows]; // rows at equal distance above and below each row of the block
 };
 
 BN_INLINE void start(Window& w)
@@ -232,7 +233,7 @@ BN_INLINE void even_column(const float* const* middle, int offset, const float* 
 
 struct Seen {
     Triple colour;    // perceived
-    real edge, point; // strength of features in Y, whose range is 116
+    real edge, point; // feature strength in Y, whose range is 116
 };
 
 BN_INLINE void look(const FlipFilters& f, const float* const* middle, int stride, int offset, Seen (&seen)[kFlipRows])
@@ -271,7 +272,7 @@ BN_INLINE void look(const FlipFilters& f, const float* const* middle, int stride
 BN_INLINE real flip_of(const Seen& a, const Seen& b, float max_difference)
 {
     const real colour = colour_error(a.colour, b.colour, max_difference);
-    // sqrt: the exponent qf = 0.5. 1/sqrt(2) scales to [0,1], 1/116 is the range of Y.
+    // sqrt is the exponent qf = 0.5. 1/sqrt(2) scales to [0,1], and 1/116 is the range of Y.
     const real feature = sqrt(max(abs(a.edge - b.edge), abs(a.point - b.point)) * lit(0.70710678118654752 / 116.0));
     return pow_of(colour, max(lit(1.0) - feature, lit(0.0)));
 }

@@ -1,4 +1,4 @@
-// Made in double with functions whose bits are the same everywhere.
+// Builds the filters in double with portable functions, so that their bits are equal on every machine.
 #include "core/image/metrics/flip_filters.h"
 
 #include <algorithm>
@@ -10,18 +10,17 @@
 namespace burnish {
 namespace {
 
-// Contrast sensitivity as Gaussians in degrees, a sqrt(pi/b) exp(-pi^2 x^2 / b): Andersson et al. 2020,
-// table 1.
+// Contrast sensitivity as Gaussians over degrees, a sqrt(pi/b) exp(-pi^2 x^2 / b): Andersson et al. 2020, table 1.
 struct Sensitivity {
     double a, b;
 };
 constexpr Sensitivity kAchromatic{1.0, 0.0047}, kRedGreen{1.0, 0.0053};
 constexpr Sensitivity kBlueYellow{34.1, 0.04}, kBlueYellow2{13.5, 0.025};
 
-// Width of the feature detectors in degrees: w = 0.082, half of which is their standard deviation.
+// Width of the feature detectors in degrees: w = 0.082. Half the width is the standard deviation.
 constexpr double kFeatureWidth = 0.082;
 
-// A tap below this part of the central one moves no float result.
+// Smallest tap relative to the central one. Smaller taps do not change a float result.
 constexpr double kNoTap = 1e-9;
 
 using Half = std::vector<double>; // [k] at distance k from the centre
@@ -58,7 +57,7 @@ int significant_radius(const Half& half)
     return radius;
 }
 
-// Zeros beyond the half kernel's own radius.
+// Converts to a column, with zeros beyond the half kernel's own radius.
 Column<float> column_of(const Half& half, int radius)
 {
     Column<float> column(static_cast<std::size_t>(radius) + 1);
@@ -67,8 +66,8 @@ Column<float> column_of(const Half& half, int radius)
     return column;
 }
 
-// Hunt-adjusted L*a*b* of a saturated primary in XYZ relative to white. Both primaries are bright enough for
-// the cubic branch of L*a*b* in every channel but one.
+// Hunt-adjusted L*a*b* of a saturated primary in XYZ relative to white. Both primaries are bright enough for the cubic
+// branch of L*a*b* in every channel but one.
 struct Lab {
     double l, a, b;
 };
@@ -82,7 +81,7 @@ Lab adjusted(double x, double y, double z)
     return {l, 0.01 * l * 500.0 * (f(x) - f(y)), 0.01 * l * 200.0 * (f(y) - f(z))};
 }
 
-// HyAB distance of pure green and pure blue to the power 0.7.
+// Returns the HyAB distance between pure green and pure blue to the power 0.7.
 double largest_difference()
 {
     const double white_x = 0.950428545, white_z = 1.088900371; // as in flip.isa.cpp
@@ -104,9 +103,9 @@ FlipKernels::FlipKernels(double ppd)
     lanes_.max_difference = static_cast<float>(largest_difference());
 }
 
-// All kernels reach three standard deviations of the widest Gaussian. Each sums to 1; the two of Cz do so
-// together, in two dimensions: (sum of one)^2 + (sum of the other)^2 = 1, and each has the square root of its
-// two-dimensional factor.
+// Makes the contrast-sensitivity kernels, which reach three standard deviations of the widest Gaussian. The kernels of
+// Y and Cx each sum to 1. The two terms of Cz sum to 1 together, in two dimensions: (sum of one)^2 + (sum of the
+// other)^2 = 1. Each term holds the square root of its two-dimensional factor.
 void FlipKernels::make_spatial(double ppd)
 {
     const double widest = std::max({kAchromatic.b, kRedGreen.b, kBlueYellow.b, kBlueYellow2.b});
@@ -133,7 +132,7 @@ void FlipKernels::make_spatial(double ppd)
         feature->resize(static_cast<std::size_t>(lanes_.y_radius) + 1);
 }
 
-// A Gaussian that sums to 1 and its derivatives, whose positive and negative taps sum to 1 and -1.
+// Makes a Gaussian that sums to 1 and its derivatives, whose positive and negative taps sum to 1 and -1.
 void FlipKernels::make_features(double ppd)
 {
     const double deviation = 0.5 * kFeatureWidth * ppd;

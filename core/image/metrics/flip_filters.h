@@ -1,4 +1,4 @@
-// The filters of FLIP for one viewing distance.
+// FLIP's filters for one viewing distance.
 #pragma once
 #include "core/base/column.h"
 #include "core/image/metrics/flip_lanes.h"
@@ -8,10 +8,10 @@ namespace burnish {
 class FlipKernels {
   public:
     explicit FlipKernels(double ppd);
-    FlipKernels(const FlipKernels&) = delete; // `lanes` points into it
+    FlipKernels(const FlipKernels&) = delete; // `lanes` points into this object
     FlipKernels& operator=(const FlipKernels&) = delete;
 
-    int radius() const { return radius_; } // of the widest filter
+    int radius() const { return radius_; } // radius of the widest filter
     const FlipFilters& lanes() const { return lanes_; }
 
   private:

@@ -1,26 +1,26 @@
-// The inner loops of FLIP as lane code: one copy an instruction set, all with the same bits. A picture is
-// worked on in tiles; of a tile, rows are made ready, filtered along x into a ring of rows, and finished by
-// the filters along y. Plain pointers only: the instruction-set objects see no containers.
+// FLIP's inner loops as lane code: one copy for each instruction set, all with equal bits. FLIP works on tiles. It
+// prepares a tile's rows, filters them along x into a ring of rows, and finishes with filters along y. Plain pointers
+// only, because lane code sees no containers.
 #pragma once
 #include "core/simd/fns.h"
 
 namespace burnish {
 
-// Half kernels, [0] at the centre and [k] at distance k. All are even but `edge`, which is odd: +[k] at
-// x + k, -[k] at x - k. The kernel of Cz is a sum of two Gaussians, each of them separable.
+// Half kernels, [0] at the centre and [k] at distance k. All are even except `edge`, which is odd: +[k] at x + k, -[k]
+// at x - k. The kernel of Cz is a sum of two separable Gaussians.
 struct FlipFilters {
-    int y_radius = 0; // of y, gauss, edge and point
+    int y_radius = 0; // radius of y, gauss, edge and point
     int cx_radius = 0, cz_radius = 0;
     const float *y, *cx;               // contrast sensitivity: achromatic and red-green
     const float *cz, *cz2;             // blue-yellow: the two terms
     const float *gauss, *edge, *point; // features: Gaussian, its first and its second derivative
-    float max_difference;              // the largest colour difference, to which errors are scaled
+    float max_difference;              // largest colour difference; scales errors to [0,1]
 };
 
-// Planes of a filtered row: Y, Cx and both terms of Cz; the Y row under gauss, edge and point.
+// Planes of a filtered row: Y, Cx, the two terms of Cz, and Y filtered by gauss, edge and point.
 enum FlipPlane { kFlipY, kFlipCx, kFlipCz, kFlipCz2, kFlipGauss, kFlipEdge, kFlipPoint, kFlipPlanes };
 
-// Rows that are finished at once: each filtered row is then loaded once for all of them.
+// Rows finished together: one load of a filtered row then serves all of them.
 inline constexpr int kFlipRows = 4;
 
 struct FlipTone {
@@ -31,14 +31,15 @@ struct FlipTone {
 
 // Row buffers are readable and writable up to the next multiple of 16 floats.
 struct FlipFns {
-    // n pixels of linear Rec.709, planes R, G, B `stride` apart, are exposed, tonemapped, clamped to [0,1] and become planes Y, Cx, Cz.
+    // Exposes, tonemaps and clamps to [0,1] n pixels of linear Rec.709, and converts them to Y, Cx, Cz. Planes lie
+    // `stride` apart.
     void (*prepare)(const FlipTone& tone, int n, int stride, const float* linear, float* out);
-    // Filters n values of a row along x. The inputs are readable for the radius on either side; plane i goes
-    // to out + i * stride.
+    // Filters n values of a row along x. The inputs are readable for the radius on either side. Plane i goes to out + i
+    // * stride.
     void (*filter)(const FlipFilters& filters, const float* y, const float* cx, const float* cz, int n, int stride, float* out);
-    // rows[radius + k], k in [-radius, radius + kFlipRows - 1]: filtered rows around the first of the kFlipRows rows to finish, planes of
-    // the reference, then of the test. Writes n errors to each of error[0..count - 1], or with `keep_larger` the larger of those and what
-    // is there.
+    // Writes n errors to each of error[0..count - 1]; with `keep_larger`, keeps the larger of the old and new errors.
+    // rows[radius + k], k in [-radius, radius + kFlipRows - 1], are filtered rows around the first finished row. Each
+    // row holds the planes of the reference, then of the test.
     void (*finish)(const FlipFilters& filters, const float* const* rows, int radius, int stride, int n, bool keep_larger,
                    float* const* error, int count);
 };

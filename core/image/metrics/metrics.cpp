@@ -57,15 +57,15 @@ bool finite_pixel(const float* values, int channels)
     return std::all_of(values, values + channels, [](float v) { return std::isfinite(v); });
 }
 
-// Errors in fixed point, so that their sums are exact and have no order: 2^28 pixels of 1 still fit.
+// Converts an error to fixed point: sums are exact and independent of the order. The sum of 2^28 pixels with error 1
+// still fits.
 std::uint64_t fixed_point(float error)
 {
     return static_cast<std::uint64_t>(static_cast<double>(error) * 0x1p32 + 0.5);
 }
 
-// The smallest value for which the weights of all values up to it sum to more than `threshold`. Positive
-// floats are ordered as their bits are: a histogram of the upper half leads to the few values that are
-// sorted.
+// Returns the smallest value at which the cumulative weight exceeds `threshold`. Positive floats sort like their bits,
+// so a histogram of the upper halves leaves few values to sort.
 template <class Weight> float select_value(const std::vector<float>& values, std::uint64_t threshold, const Weight& weight)
 {
     constexpr unsigned kShift = 16;
@@ -147,7 +147,7 @@ ErrorSummary summarise_errors(const Image& error)
     std::uint64_t sum = 0;
     float largest = 0.0f;
     for (float& v : values) {
-        v = v > 0.0f ? v : 0.0f; // -0 would be the largest of all bits
+        v = v > 0.0f ? v : 0.0f; // -0 would have the largest bits
         sum += fixed_point(v);
         largest = std::max(largest, v);
     }
@@ -155,7 +155,7 @@ ErrorSummary summarise_errors(const Image& error)
     ErrorSummary summary;
     summary.mean = static_cast<double>(sum) * 0x1p-32 / static_cast<double>(count);
     summary.max = static_cast<double>(largest);
-    const std::uint64_t rank = count - count / 100; // the least whole number that is not below 0.99 count
+    const std::uint64_t rank = count - count / 100; // the smallest integer at or above 0.99 count
     summary.p99 = static_cast<double>(select_value(values, rank - 1, [](float) { return std::uint64_t{1}; }));
     summary.weighted_median = static_cast<double>(select_value(values, sum / 2, fixed_point));
     return summary;

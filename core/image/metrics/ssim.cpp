@@ -1,4 +1,4 @@
-// SSIM with separated windows: strips of rows in parallel, each row's moments filtered along x once.
+// SSIM with separated windows: strips of rows in parallel. Filters each row's moments along x once.
 #include <algorithm>
 #include <array>
 #include <vector>
@@ -15,7 +15,7 @@ constexpr int kRadius = 5;
 constexpr double kSigma = 1.5;
 constexpr int kStripHeight = 64; // rows
 
-using Window = std::array<double, kRadius + 1>; // half of it, [0] at the centre
+using Window = std::array<double, kRadius + 1>; // half of the window, [0] at the centre
 using Line = std::vector<double>;
 
 Window make_window()
@@ -31,7 +31,7 @@ Window make_window()
     return w;
 }
 
-// Of a picture side: the centres of windows, [begin, end). All of a side that no window fits into.
+// Window centres along an image side, [begin, end). The whole side where no window fits.
 struct Centres {
     int begin, end;
 };
@@ -90,7 +90,7 @@ Moments moments_of_row(const Image& reference, const Image& test, int y, const W
              filtered(product(a, b), window)}};
 }
 
-// Wang et al. 2004, eq. 13; c1 = (K1 L)^2, c2 = (K2 L)^2.
+// Sums Wang et al. 2004, eq. 13, over a row; c1 = (K1 L)^2, c2 = (K2 L)^2.
 double sum_of_row(const std::array<Line, 5>& m, Centres columns, double c1, double c2)
 {
     double sum = 0.0;

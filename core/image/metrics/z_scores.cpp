@@ -12,8 +12,8 @@
 namespace burnish {
 namespace {
 
-// 1 - erf(x) for x >= 0 (Abramowitz and Stegun 1964): the series 7.1.6 where it converges fast, the continued
-// fraction 7.1.14 beyond.
+// Returns 1 - erf(x) for x >= 0 (Abramowitz and Stegun 1964): the series 7.1.6 where it converges fast, else the
+// continued fraction 7.1.14.
 double erfc_of(double x)
 {
     const double bell = det_exp(-x * x) / std::sqrt(kPi);
@@ -31,7 +31,7 @@ double erfc_of(double x)
     return bell / fraction;
 }
 
-// 1 - (1 - a)^(1/n), with the digits of small results.
+// Returns 1 - (1 - a)^(1/n) without losing digits of small results.
 double level_of_one(double a, double n)
 {
     const double t = -det_log(1.0 - a) / n; // the result is 1 - e^-t
@@ -41,7 +41,7 @@ double level_of_one(double a, double n)
 }
 
 struct RowResult {
-    double largest_square = 0.0; // of z
+    double largest_square = 0.0; // largest z^2
     std::int64_t rejected = 0;
 };
 
@@ -51,7 +51,7 @@ double sidak_limit(double significance, std::int64_t tests)
 {
     BN_CHECK(significance > 0.0 && significance < 1.0 && tests > 0);
     const double level = level_of_one(significance, static_cast<double>(tests));
-    double low = 0.0, high = 38.0; // beyond, the tail is below the smallest double
+    double low = 0.0, high = 38.0; // beyond 38, the tail is below the smallest double
     for (int i = 0; i < 100; ++i) {
         const double middle = 0.5 * (low + high);
         (erfc_of(middle * 0.70710678118654752) > level ? low : high) = middle;

@@ -1,6 +1,6 @@
-// Whether two noisy pictures can be estimates of the same one: a z-test of every pixel and colour channel,
-// with the level of a single test chosen so that all of them together are wrong with the given probability
-// only (Sidak 1967, "Rectangular Confidence Regions for the Means of Multivariate Normal Distributions").
+// Tests whether two noisy images can estimate the same image: a z-test for each pixel and colour channel. The level of
+// a single test gives all tests together the requested probability of an error (Sidak 1967, "Rectangular Confidence
+// Regions for the Means of Multivariate Normal Distributions").
 #pragma once
 #include <cstdint>
 
@@ -10,19 +10,19 @@
 namespace burnish {
 
 struct ZTest {
-    double limit = 0.0;        // |z| beyond which a channel is rejected
-    double largest = 0.0;      // |z|; infinite where pictures differ though nothing varies
-    std::int64_t rejected = 0; // pixels of which any colour channel is rejected
+    double limit = 0.0;        // a larger |z| rejects a channel
+    double largest = 0.0;      // largest |z|; infinite where images differ without any variance
+    std::int64_t rejected = 0; // pixels with a rejected colour channel
     double rejected_fraction = 0.0;
 };
 
-// The variances are those of the pixels' means, that is of the estimates compared, not of single samples; the
-// test's may be null where it has no noise of its own. All pictures are of one size and as many channels,
-// floats, finite, variances not negative. significance in (0,1).
+// Tests all pixels. The variances belong to the compared estimates (pixel means), not to single samples.
+// `test_variance` may be null for a test image without noise. All images have equal sizes and channel counts, and hold
+// finite floats; variances are not negative. significance is in (0,1).
 ZTest z_test(const Image& reference, const Image& test, const Image& reference_variance, const Image* test_variance, double significance,
              const Jobs& jobs);
 
-// The two-sided limit of one of `tests` normal tests that together have the given significance.
+// Returns the two-sided limit of one normal test among `tests` that together have the given significance.
 double sidak_limit(double significance, std::int64_t tests);
 
 } // namespace burnish
