@@ -31,7 +31,7 @@ bool finite(const glm::dvec3& v)
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
-// Twice the area of a polygon, along its normal.
+// Returns twice the polygon's area, as a vector along its normal.
 glm::dvec3 double_area(const Points& p)
 {
     glm::dvec3 sum(0.0);
@@ -63,7 +63,7 @@ std::string polygon_fault(const Points& p)
         if (glm::dot(glm::cross(p[k] - before, after - p[k]), normal) < -least)
             return fmt::format("it is concave at point {}", k);
     }
-    for (std::size_t k = 1; k + 1 < p.size(); ++k) // a star turns the same way everywhere
+    for (std::size_t k = 1; k + 1 < p.size(); ++k) // a star polygon turns in one direction everywhere
         if (glm::dot(glm::cross(p[k] - p[0], p[k + 1] - p[0]), normal) < -least)
             return fmt::format("its edges cross at point {}", k);
     return "";
@@ -78,8 +78,8 @@ std::string texture_fault(AreaShape shape, const Points& p)
     return "";
 }
 
-// Of half axes u and v, any two that are conjugate to each other, those at right angles that span the same ellipse the same way around: the
-// longest radius is u cos t + v sin t with tan 2t = 2 u.v / (u.u - v.v).
+// Replaces two conjugate half axes u and v with orthogonal half axes that span the same ellipse with the same
+// orientation. The longest radius is u cos t + v sin t with tan 2t = 2 u.v / (u.u - v.v).
 void square_axes(glm::dvec3& u, glm::dvec3& v)
 {
     const double difference = glm::dot(u, u) - glm::dot(v, v), mixed = 2.0 * glm::dot(u, v);
@@ -142,7 +142,7 @@ std::optional<PlacedAreaLight> place_area_light(const AreaLight& light, const gl
     for (const glm::vec3& point : light.points)
         p.emplace_back(to * glm::dvec4(glm::dvec3(point), 1.0));
     const bool flat = is_polygon(light.shape) || light.shape == AreaShape::disk;
-    if (flat && mirrored) // the side that shines goes with the node
+    if (flat && mirrored) // the emitting side follows the node
         std::reverse(p.begin() + 1, p.end());
     PlacedAreaLight placed;
     placed.shape = light.shape, placed.point_count = static_cast<int>(p.size());
@@ -234,7 +234,7 @@ glm::dvec2 around(int step)
     return {det_cos(angle), det_sin(angle)};
 }
 
-// With the texture coordinates of a quad.
+// Adds a polygon; a quad gets texture coordinates.
 void add_polygon(Scene& scene, const PlacedAreaLight& light)
 {
     const glm::dvec3 normal(light.normal);
@@ -297,7 +297,7 @@ void add_emitter(Scene& scene, const PlacedAreaLight& light, int emitter)
     else
         add_polygon(scene, light);
     glm::mat4 place(1.0f);
-    place[3] = glm::vec4(glm::vec3(scene.origin), 1.0f); // its corners are where they are drawn already
+    place[3] = glm::vec4(glm::vec3(scene.origin), 1.0f); // the corners are already in drawing coordinates
     add_node(scene, "light", add_mesh(scene, "light", first), place);
 }
 
@@ -306,7 +306,7 @@ void add_emitter(Scene& scene, const PlacedAreaLight& light, int emitter)
 Status add_emitters(Scene& scene, int most_lights, const std::string& file)
 {
     std::vector<PlacedAreaLight> lights;
-    std::vector<int> emitters; // of their materials
+    std::vector<int> emitters; // emitter materials
     for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
         const Node& node = scene.nodes[i];
         if (node.area_light == kNone)

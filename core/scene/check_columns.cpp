@@ -14,7 +14,7 @@ struct VertexColumn {
     const char* name;
     Column<float> VertexTable::*column;
     bool needed;
-    float fallback; // where the column is left out
+    float fallback; // where the column is missing
 };
 constexpr VertexColumn kColumns[] = {
     {"px", &VertexTable::px, true, 0},  {"py", &VertexTable::py, true, 0},  {"pz", &VertexTable::pz, true, 0},
@@ -25,7 +25,7 @@ constexpr VertexColumn kColumns[] = {
     {"cg", &VertexTable::cg, false, 1}, {"cb", &VertexTable::cb, false, 1}, {"ca", &VertexTable::ca, false, 1}};
 
 constexpr std::uint32_t kMagnitude = 0x7fffffffu, kInfinite = 0x7f800000u;
-constexpr std::size_t kBlock = 1024; // numbers that are looked at before the first fault is searched
+constexpr std::size_t kBlock = 1024; // numbers tested together before the search for the first fault
 
 std::uint32_t magnitude(float v)
 {
@@ -123,7 +123,7 @@ Status check_indices(const Scene& scene)
     for (std::size_t at = 0; at < scene.primitives.size(); ++at) {
         const Primitive& p = scene.primitives[at];
         const std::uint32_t* const indices = scene.indices.data() + p.first_index;
-        std::uint32_t most = 0; // of an index less the first vertex, which wraps where it lies below
+        std::uint32_t most = 0; // largest index minus first vertex; wraps for an index below the first vertex
         for (std::size_t i = 0; i < p.index_count; ++i)
             most = std::max(most, indices[i] - p.first_vertex);
         if (p.index_count == 0 || most < p.vertex_count)

@@ -1,4 +1,4 @@
-// The linear passes of check_scene(): vertices, indices, and the tables that draws are made of.
+// Linear passes of check_scene(): vertices, indices, and primitives.
 #pragma once
 #include <cstddef>
 #include <string>
@@ -12,13 +12,13 @@ inline Error scene_fault(std::string place, std::string reason)
 {
     return {ExitCode::bad_input, "", std::move(place), std::move(reason)};
 }
-Status fault_of_file(Status status, const std::string& file); // the same of a named scene
+Status fault_of_file(Status status, const std::string& file); // returns the status with the scene's file name
 
-// Returns where the first number stands that is NaN or infinite; `size` where there is none.
+// Returns the index of the first NaN or infinite number, or `size` where there is none.
 std::size_t first_not_finite(const float* numbers, std::size_t size);
 
-Status check_columns(const Scene& scene);                   // sizes, finite numbers, normals with a length
-Status check_primitive(const Scene& scene, std::size_t at); // its ranges and its material
-Status check_indices(const Scene& scene);                   // of primitives whose ranges are right
+Status check_columns(const Scene& scene);                   // checks sizes, finite numbers, normals' lengths
+Status check_primitive(const Scene& scene, std::size_t at); // checks the primitive's ranges and material
+Status check_indices(const Scene& scene);                   // expects primitives with valid ranges
 
 } // namespace burnish

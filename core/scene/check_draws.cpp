@@ -10,12 +10,12 @@
 namespace burnish {
 namespace {
 
-// Squares of distances overflow a float beyond 1.8e19 m.
+// Bound on coordinates in metres: squared distances overflow a float beyond 1.8e19 m.
 constexpr float kFarthest = 1e18f;
 
 bool within(const glm::vec3& v, float most)
 {
-    return std::fabs(v.x) <= most && std::fabs(v.y) <= most && std::fabs(v.z) <= most; // false for a NaN
+    return std::fabs(v.x) <= most && std::fabs(v.y) <= most && std::fabs(v.z) <= most; // false for NaN
 }
 bool finite(const glm::vec3& v)
 {
@@ -39,7 +39,7 @@ Status check_sizes(const DrawTables& t)
     return {};
 }
 
-// ids below `entries`; `what` names one.
+// Checks that ids are below `entries`. `what` names an entry.
 Status check_ids(const Column<std::uint32_t>& ids, std::size_t entries, const char* column, const char* what)
 {
     std::uint32_t most = 0;
@@ -105,7 +105,8 @@ Status check_lights(const DrawTables& t, const Scene& scene)
     return {};
 }
 
-// Whether a node's mesh is left out for its positions, and not for having no triangles or being pressed to nothing.
+// Returns true where positions beyond the range of floats leave out a node's mesh. False where the mesh has no
+// triangles or is flat.
 bool leaves_floats(const Scene& scene, const Node& node, std::uint32_t drawn)
 {
     const Mesh& mesh = scene.meshes[static_cast<std::size_t>(node.mesh)];
@@ -129,7 +130,7 @@ bool leaves_floats(const Scene& scene, const Node& node, std::uint32_t drawn)
 
 Status check_draw_range(const Scene& scene, const DrawTables& tables, const std::string& file)
 {
-    std::vector<std::uint32_t> drawn(scene.nodes.size(), 0); // primitives of each node
+    std::vector<std::uint32_t> drawn(scene.nodes.size(), 0); // drawn primitives of each node
     for (const Draw& draw : tables.draws) {
         if (!within(draw.bounds_min, kFarthest) || !within(draw.bounds_max, kFarthest))
             return Error{ExitCode::bad_input, file, fmt::format("/nodes/{}", draw.node),

@@ -12,7 +12,7 @@
 namespace burnish {
 namespace {
 
-constexpr double kAny = static_cast<double>(std::numeric_limits<float>::max()); // of the .def files: whatever a float holds
+constexpr double kAny = static_cast<double>(std::numeric_limits<float>::max()); // bound in .def files: any float
 
 std::string at(const char* table, std::size_t i, const char* field)
 {
@@ -28,7 +28,7 @@ bool finite(const glm::mat4& m)
     return true;
 }
 
-// Whether an id names an entry of a table; kNone passes.
+// Returns true where an id names a table entry or is kNone.
 bool names(std::int32_t id, std::size_t entries)
 {
     return id == kNone || (id >= 0 && static_cast<std::size_t>(id) < entries);
@@ -47,7 +47,7 @@ std::string out_of(double value, double least, double most)
     return is + (most >= kAny ? fmt::format("lies below {:g}", least) : fmt::format("lies outside {:g} to {:g}", least, most));
 }
 
-// A number of a factor that lies outside of its range; `place` names the factor.
+// Checks that a factor's numbers lie in their range. `name` is the factor.
 Status check_numbers(const float* values, int count, double least, double most, const std::string& table, std::size_t i, const char* name)
 {
     for (int c = 0; c < count; ++c)
@@ -308,7 +308,7 @@ Status check_scene_tables(const Scene& scene, const Limits& limits, const std::s
 
 Status check_scene(const Scene& scene, const Limits& limits, const std::string& file)
 {
-    if (Status ok = check_columns(scene); !ok) // sizes first: tables are ranges of them
+    if (Status ok = check_columns(scene); !ok) // check sizes first: table entries are ranges in columns
         return fault_of_file(ok, file);
     if (Status ok = check_tables(scene, limits); !ok)
         return fault_of_file(ok, file);

@@ -1,4 +1,4 @@
-// What renderers rely on of a scene that somebody else made in memory: sizes of columns, ids, ranges, numbers.
+// Checks for scenes made in memory by other code: column sizes, ids, ranges, numbers. Renderers rely on them.
 #pragma once
 #include <string>
 
@@ -9,22 +9,23 @@
 
 namespace burnish {
 
-// Fills columns of vertices that are left out: tangents with 0 (any direction), their signs with 1, texture coordinates with 0, colours
-// with 1. Positions and normals cannot be left out.
+// Fills missing vertex columns: tangents with 0 (any direction), their signs with 1, texture coordinates with 0,
+// colours with 1. Positions and normals are required.
 void fill_missing_columns(Scene& scene);
 
-// Finds the first fault of a scene: a column of another size, an id beyond its table, a number that is NaN, infinite or out of its range, a
-// normal without length, a picture without bytes. The error's place names the field: "/primitives/0/indices/17". `file` names the scene.
+// Returns a scene's first fault: a column of a wrong size, an id beyond its table, a number that is NaN, infinite or
+// out of range, a normal without length, or an image without bytes. The error's place names the field:
+// "/primitives/0/indices/17". `file` names the scene.
 Status check_scene(const Scene& scene, const Limits& limits, const std::string& file);
 
-// Of check_scene() all but vertices and indices: what costs nothing where a file's reader has checked these.
+// Checks all but vertices and indices. Costs nothing; for files whose reader has checked the rest.
 Status check_scene_tables(const Scene& scene, const Limits& limits, const std::string& file);
 
-// Finds a mesh that lies too far away for renderers, or was left out as it leaves the range of floats, at the node that puts it there.
-// tables: make_draw_tables(scene).
+// Returns an Error for a mesh that lies too far away for renderers, or that was left out for positions beyond the range
+// of floats. The place is the mesh's node. tables: make_draw_tables(scene).
 Status check_draw_range(const Scene& scene, const DrawTables& tables, const std::string& file);
 
-// Finds the first fault of tables that were not made of this scene by make_draw_tables().
+// Returns the first fault in tables that make_draw_tables() did not make from this scene.
 Status check_draw_tables(const DrawTables& tables, const Scene& scene, const std::string& file);
 
 } // namespace burnish

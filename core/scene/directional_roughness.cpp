@@ -41,7 +41,8 @@ struct Khr {
     double roughness, strength;
 };
 
-// As KHR_materials_anisotropy has them: the smaller width is roughness^2, the greater one that, mixed with 1 by strength^2.
+// Converts to KHR_materials_anisotropy: the smaller width is roughness^2; the larger width mixes this with 1 by
+// strength^2.
 Khr khr_of(double roughness, double anisotropy)
 {
     const double mean = roughness * roughness, across = mean * (1.0 - anisotropy), along = std::min(mean * (1.0 + anisotropy), 1.0);
@@ -52,7 +53,7 @@ struct LaidImages {
     Image directions, metal_rough;
 };
 
-// directions, metal_rough: of the material; may be empty.
+// Combines the maps. `directions` and `metal_rough` belong to the material and may be empty.
 LaidImages laid(const Image& roughness, const Image& directions, const Image& metal_rough)
 {
     const int width = std::max({roughness.width, directions.width, metal_rough.width}),
@@ -69,7 +70,7 @@ LaidImages laid(const Image& roughness, const Image& directions, const Image& me
                 const std::size_t at = texel_at(directions, x, y, width, height);
                 along = 2.0 * channel_of(directions, at, 0, false) - 1.0, across = 2.0 * channel_of(directions, at, 1, false) - 1.0;
             }
-            if (anisotropy < 0.0) // wide across the grain
+            if (anisotropy < 0.0) // wider across the grain
                 std::tie(along, across) = std::pair(-across, along);
             const Khr khr = khr_of(channel_of(roughness, own, 0, false), std::abs(anisotropy));
             axis[0] = code16(0.5 + 0.5 * along), axis[1] = code16(0.5 + 0.5 * across), axis[2] = code16(khr.strength);
@@ -109,7 +110,7 @@ SurfaceMap roughness_of(const Image& map, RoughnessEncoding encoding)
 
 Status lay_directional_roughness(Scene& scene, const Limits& limits, const std::string& file)
 {
-    std::map<std::tuple<std::int32_t, std::int32_t, std::int32_t>, std::int32_t> known; // the first of both textures
+    std::map<std::tuple<std::int32_t, std::int32_t, std::int32_t>, std::int32_t> known; // value: first of two new ones
     for (Material& m : scene.materials) {
         const TextureRef own = std::exchange(m.directional_roughness_tex, TextureRef());
         if (!own.used())

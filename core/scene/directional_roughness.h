@@ -1,4 +1,4 @@
-// Maps of roughness by direction, as scenes hold them: in the anisotropy texture and the roughness of metallicRoughnessTexture.
+// Directional roughness maps. Scenes hold them in the anisotropy texture and in metallicRoughnessTexture's roughness.
 #pragma once
 #include <cstdint>
 #include <string>
@@ -11,17 +11,19 @@
 namespace burnish {
 
 enum class RoughnessEncoding : std::uint8_t {
-    widths,    // red and green: GGX widths alpha along the grain and across it, [0,1]
-    anisotropy // red: roughness, [0,1]; green: anisotropy, -1 to 1 (a signed value of surface_maps.h): alpha = roughness^2 (1 +- it)
+    widths,    // red and green: GGX widths alpha along and across the grain, [0,1]
+    anisotropy // red: roughness, [0,1]; green: anisotropy a in [-1,1] (signed, surface_maps.h): alpha = roughness^2 (1 +- a)
 };
 
-// As pictures of 16 bits with red the roughness and green the anisotropy. Repaired: what is no number, round and of roughness 1.
+// Converts to a 16-bit image: red is roughness, green is anisotropy. Repairs texels that are not numbers: isotropic,
+// roughness 1.
 SurfaceMap roughness_of(const Image& map, RoughnessEncoding encoding);
 
-// Puts every directional_roughness_tex, as roughness_of() gives it, into its material's anisotropy texture, whose directions stay, and into
-// the green of its metallicRoughnessTexture, whose blue stays, both as large as the largest of the three; factors of roughness and strength
-// then are 1. Maps that lie otherwise than those are not looked at, with a warning. Errors: more bytes than textures may have. file: for
-// errors.
+// Moves each directional_roughness_tex (output of roughness_of()) into its material's other maps. The anisotropy
+// texture keeps its directions, and metallicRoughnessTexture gets a new green and keeps its blue. Both become as large
+// as the largest of the three maps; the factors of roughness and strength become 1. Warns of maps whose coordinates
+// differ from the other two, and ignores these maps. Errors: more bytes than the texture limit. `file` names the scene
+// in errors.
 Status lay_directional_roughness(Scene& scene, const Limits& limits, const std::string& file);
 
 } // namespace burnish

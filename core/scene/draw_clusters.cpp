@@ -1,7 +1,7 @@
-// Why the cone test of Cluster is safe: let a triangle's normal n lie within the angle theta of the axis and
-// its points within radius r of the center, seen at distance d under the angle phi from the axis. The
-// triangle faces away where d cos(phi + theta) >= r. From cos(phi) >= sin(theta) follows cos(phi) - cos(phi +
-// theta) <= sin(theta), so d cos(phi) >= d sin(theta) + r is enough. cutoff is sin(theta) plus slack.
+// Proof of the cone test in Cluster. Let a triangle's normal n lie within angle theta of the axis, and its points
+// within radius r of the center. The eye sees the center at distance d, at angle phi from the axis. The triangle faces
+// away where d cos(phi + theta) >= r. With cos(phi) >= sin(theta), cos(phi) - cos(phi + theta) <= sin(theta), so d
+// cos(phi) >= d sin(theta) + r suffices. cutoff is sin(theta) plus slack.
 #include "core/scene/draw_clusters.h"
 
 #include <algorithm>
@@ -11,13 +11,13 @@
 namespace burnish {
 namespace {
 
-// Added to the cutoff: vertices are snapped to 1/256 pixel after the cull, which can turn a grazing triangle
-// towards the eye, and the eye, the view and the test are float.
+// Slack in the cutoff. Vertices snap to 1/256 pixel after culling, which can turn a grazing triangle towards the eye;
+// and the eye, the view and the test are floats.
 constexpr double kConeSlack = 0.02;
-// Relative to the sphere, and to the coordinates (float rounding of center - eye).
+// Slack relative to the sphere, and to the coordinates (float rounding of center - eye).
 constexpr double kRadiusSlack = 1e-4;
 constexpr double kPositionSlack = 1e-6;
-// Cosine of the widest angle from the axis that is still worth a cone.
+// Cosine of the widest angle from the axis for which a cone is useful.
 constexpr double kMinConeCosine = 0.1;
 
 glm::dvec3 position(const DrawTables& tables, std::size_t corner)
@@ -48,8 +48,8 @@ void set_sphere(const DrawTables& tables, Cluster& cluster)
         std::fmin(radius + static_cast<double>(std::numeric_limits<float>::min()), static_cast<double>(std::numeric_limits<float>::max())));
 }
 
-// The unit normal of a triangle; zero where two corners coincide (it covers nothing however it is snapped).
-// `certain` turns false where the corners are in line but apart, so that no side can be told.
+// Returns a triangle's unit normal. Zero where two corners coincide: the triangle covers nothing, however it snaps.
+// Clears `certain` for distinct but collinear corners, where the front side is unknown.
 glm::dvec3 face_normal(const DrawTables& tables, std::size_t triangle, bool& certain)
 {
     const glm::dvec3 a = position(tables, 3 * triangle), b = position(tables, 3 * triangle + 1), c = position(tables, 3 * triangle + 2);

@@ -1,4 +1,4 @@
-// Clusters of a draw: what make_draw_tables calls after a draw's triangles are in place.
+// Clusters of a draw. make_draw_tables calls this after placing a draw's triangles.
 #pragma once
 #include <cstdint>
 
@@ -6,8 +6,8 @@
 
 namespace burnish {
 
-// Appends the clusters of draws[draw]. Their bounds are conservative: culling by them removes no triangle
-// that could be seen. double_sided: the cone never culls.
+// Appends the clusters of draws[draw]. The bounds are conservative: culling removes no visible triangle. double_sided:
+// the cone never culls.
 void append_clusters(DrawTables& tables, std::uint32_t draw, bool double_sided);
 
 } // namespace burnish

@@ -11,12 +11,11 @@
 namespace burnish {
 namespace {
 
-// Vertex and triangle ids are 32-bit, and 2^31 of them already take more memory than the tables can sensibly
-// have.
+// Limit on vertex and triangle ids, which are 32-bit. 2^31 ids already exceed any sensible memory for the tables.
 constexpr std::uint64_t kMaxIds = 1ull << 31;
 
-// Where a node's geometry goes. Normals take the cofactor matrix, which is the inverse transpose times the
-// determinant and exists even where a scale is 0 (a solid pressed flat).
+// World placement of a node's geometry. Normals use the cofactor matrix: the inverse transpose times the determinant.
+// This matrix exists even where a scale is 0 (a solid pressed flat).
 struct Placement {
     glm::dmat4 world{1.0};
     glm::dmat3 linear{1.0}, cofactor{1.0};
@@ -53,13 +52,13 @@ Placement make_placement(const glm::mat4& world)
     return p;
 }
 
-// Unit length, or `otherwise` where there is no direction left.
+// Returns the unit direction, or `otherwise` where v has no direction.
 glm::dvec3 direction_or(const glm::dvec3& v, const glm::dvec3& otherwise)
 {
     const double largest = std::fmax(std::fabs(v.x), std::fmax(std::fabs(v.y), std::fabs(v.z)));
     if (!(largest > 0.0) || !finite(largest))
         return otherwise;
-    const glm::dvec3 scaled = v / largest; // no under- or overflow in the square
+    const glm::dvec3 scaled = v / largest; // avoids underflow and overflow in the square
     return scaled / std::sqrt(glm::dot(scaled, scaled));
 }
 
@@ -68,7 +67,7 @@ ShadingVertex place_shading(const VertexTable& v, std::size_t i, const Placement
     const glm::dvec3 n = direction_or(place.cofactor * glm::dvec3(v.nx[i], v.ny[i], v.nz[i]), glm::dvec3(0.0, 0.0, 1.0));
     const glm::dvec3 moved = direction_or(place.linear * glm::dvec3(v.tx[i], v.ty[i], v.tz[i]), glm::dvec3(0.0));
     glm::dvec3 t = moved - n * glm::dot(n, moved);
-    if (!(glm::dot(t, t) > 1e-12)) // along the normal, or none
+    if (!(glm::dot(t, t) > 1e-12)) // parallel to the normal, or zero
         t = glm::dvec3(any_tangent(glm::vec3(n)));
     t = direction_or(t - n * glm::dot(n, t), t);
     const bool negative = (v.tw[i] < 0.0f) != place.mirrored;
@@ -90,7 +89,7 @@ ShadingVertex place_shading(const VertexTable& v, std::size_t i, const Placement
     return s;
 }
 
-// Appends the vertices of a primitive; false, with the tables unchanged, where a position leaves the range of
+// Appends a primitive's vertices. Returns false and leaves the tables unchanged where a position leaves the range of
 // floats.
 bool append_vertices(const VertexTable& v, const Primitive& primitive, const Placement& place, DrawTables& out)
 {
@@ -167,7 +166,7 @@ void append_draw(const Scene& scene, const Primitive& primitive, std::int32_t no
     append_clusters(out, id, scene.materials[static_cast<std::size_t>(draw.material)].double_sided);
 }
 
-// Drops a light whose node leaves it without a finite place or direction.
+// Appends a light, unless its node gives a place or direction that is not finite.
 void append_light(const Light& light, const glm::mat4& world, std::vector<PunctualLight>& out)
 {
     PunctualLight placed;
@@ -183,8 +182,7 @@ void append_light(const Light& light, const glm::mat4& world, std::vector<Punctu
     if (!placed.directional && light.range > 0.0f)
         placed.inv_range2 = static_cast<float>(1.0 / (static_cast<double>(light.range) * static_cast<double>(light.range)));
     if (light.type == LightType::spot) {
-        // KHR_lights_punctual, "Inner and Outer Cone Angles": linear in the cosine, squared by whoever
-        // evaluates it.
+        // KHR_lights_punctual, "Inner and Outer Cone Angles": linear in the cosine; the evaluation squares the value.
         const double outer = det_cos(static_cast<double>(light.outer_cone)), inner = det_cos(static_cast<double>(light.inner_cone));
         const double scale = 1.0 / std::fmax(0.001, inner - outer);
         placed.spot_scale = static_cast<float>(scale);
@@ -212,7 +210,7 @@ void set_bounds(DrawTables& out)
 
 Status check_draw_size(const Scene& scene, const Limits& limits, const std::string& file)
 {
-    // indices and triangle materials; positions and shading vertices
+    // Bytes of indices and triangle materials; of positions and shading vertices.
     constexpr std::uint64_t kIndexBytes = sizeof(std::uint32_t) + sizeof(std::uint32_t) / 3 + 1;
     constexpr std::uint64_t kVertexBytes = 3 * sizeof(float) + sizeof(ShadingVertex);
     std::uint64_t vertices = 0, indices = 0;

@@ -1,5 +1,5 @@
-// DrawTables: a Scene with its node graph resolved to world space, the form that every renderer draws from.
-// Instances are expanded, so a triangle has one global id and a vertex one place; what follows never sees a node.
+// DrawTables: a Scene with its node graph resolved to world space, the input of every renderer. Instances are expanded:
+// each triangle has one global id, each vertex one place, and renderers never see a node.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -13,7 +13,7 @@
 
 namespace burnish {
 
-// What shading reads of a vertex, one 64-byte cache line: shading picks single vertices, so this table is AoS.
+// Vertex data for shading, one 64-byte cache line. Array of structs, because shading reads single vertices.
 struct alignas(64) ShadingVertex {
     float normal[3];  // world space, unit
     float tangent[4]; // world space, unit; [3] = +1 or -1
@@ -39,7 +39,7 @@ struct Cluster {
     glm::vec3 center{0.0f}; // bounding sphere, world space
     float radius = 0.0f;
     glm::vec3 cone_axis{0.0f}; // mean normal
-    float cone_cutoff = 1.0f;  // back-facing from eye where dot(center - eye, axis) >= cutoff * |center - eye| + radius; 1: never
+    float cone_cutoff = 1.0f;  // back-facing where dot(center - eye, axis) >= cutoff * |center - eye| + radius; 1: never
 };
 
 struct PunctualLight { // light.def
@@ -50,8 +50,8 @@ struct PunctualLight { // light.def
 struct DrawTables {
     Column<float> px, py, pz;      // positions, world space
     Column<ShadingVertex> shading; // same index as the positions
-    Column<std::uint32_t> indices; // three a triangle, absolute; counter-clockwise in world space (mirrored instances are flipped)
-    Column<std::uint32_t> triangle_material; // by triangle
+    Column<std::uint32_t> indices; // three for each triangle, absolute; counter-clockwise in world space (mirrored instances are flipped)
+    Column<std::uint32_t> triangle_material; // for each triangle
     std::vector<Draw> draws;                 // in node order, then primitive order
     std::vector<Cluster> clusters;           // in triangle order
     std::vector<PunctualLight> lights;
@@ -60,10 +60,11 @@ struct DrawTables {
     std::size_t triangle_count() const { return indices.size() / 3; }
 };
 
-// Whether the tables of a scene stay within the limits: a small file can ask for any number of instances. `file` names it in errors.
+// Returns an Error where a scene's tables exceed the limits: a small file can ask for any number of instances. `file`
+// names the scene.
 Status check_draw_size(const Scene& scene, const Limits& limits, const std::string& file);
 
-// motion: rigid, of all of the world.
+// Makes the tables. `motion` is an optional rigid transform of the whole world.
 DrawTables make_draw_tables(const Scene& scene, const glm::dmat4* motion = nullptr);
 
 } // namespace burnish

@@ -12,7 +12,7 @@
 namespace burnish {
 namespace {
 
-// [0,1]; NaN where a picture of floats has one.
+// Returns a channel in [0,1], or NaN where a float image holds NaN.
 double channel_at(const Image& image, int x, int y, int channel)
 {
     const std::size_t texel = static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) + static_cast<std::size_t>(x);
@@ -30,8 +30,8 @@ std::uint16_t height_code(double unit)
     return static_cast<std::uint16_t>(std::clamp(unit, 0.0, 1.0) * 65535.0 + 0.5);
 }
 
-// Between texel centres, or of the texel itself where the sampler takes the nearest; x, y: texels from the corner. `value` makes of a
-// texel's number what is blended.
+// Interpolates between texel centres, or returns the nearest texel where the sampler is nearest. x, y: in texels from
+// the corner. `value` converts a texel's number before blending.
 template <class Value> double between(const Image& image, const Texture& sampler, double x, double y, int channel, const Value& value)
 {
     if (sampler.nearest)
@@ -97,7 +97,7 @@ SurfaceMap heights_of_depths(const Image& depths)
 
 Status lay_heights(Scene& scene, const Limits& limits, const std::string& file)
 {
-    std::map<std::pair<std::int32_t, std::int32_t>, std::int32_t> known; // of normals and heights
+    std::map<std::pair<std::int32_t, std::int32_t>, std::int32_t> known; // key: normal and height textures
     for (Material& m : scene.materials) {
         const TextureRef heights = std::exchange(m.height_tex, TextureRef());
         if (!heights.used())

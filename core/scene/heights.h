@@ -1,4 +1,4 @@
-// Maps of heights below a surface, as scenes hold them: in the alpha of normal maps.
+// Height maps below a surface. Scenes hold them in the alpha of normal maps.
 #pragma once
 #include "core/base/limits.h"
 #include "core/base/result.h"
@@ -8,18 +8,20 @@
 
 namespace burnish {
 
-// Whether two textures have the same coordinates, transform and sampler.
+// Returns true where two textures have equal coordinates, transform and sampler.
 bool lie_alike(const Scene& scene, const TextureRef& a, const TextureRef& b);
 
-// Height of a picture's red at texel centres between its own, [0,1]: bilinear or nearest, as the sampler has it. u, v: texture coordinates.
+// Returns the height in [0,1] from an image's red channel: bilinear or nearest, as the sampler asks. u, v: texture
+// coordinates.
 float height_at(const Image& heights, const Texture& sampler, double u, double v);
 
-// A picture of depths as heights, 16 bits, red alone. Repaired: at the surface.
+// Converts an image of depths to heights: 16 bits, red only. Repaired texels lie at the surface.
 SurfaceMap heights_of_depths(const Image& depths);
 
-// Puts every height_tex into the alpha of its material's normal map, of 16 bits and as wide and high as the larger of both; where there is
-// no normal map, one that is level. Maps that lie otherwise than the normal map are not looked at, with a warning; neither are numbers that
-// are none (the surface). Errors: more bytes than textures may have. file: for errors.
+// Moves each height_tex into the alpha of its material's normal map, in 16 bits and the larger of both sizes. Makes a
+// flat normal map where there is none. Warns of height maps whose coordinates differ from the normal map's, and ignores
+// them. Texels that are not numbers lie at the surface. Errors: more bytes than the texture limit. `file` names the
+// scene in errors.
 Status lay_heights(Scene& scene, const Limits& limits, const std::string& file);
 
 } // namespace burnish

@@ -8,9 +8,9 @@
 namespace burnish {
 namespace {
 
-constexpr double kFar = 32.0;         // radii: floats then still hold 2^-19 of them
-constexpr double kCoarse = 8192.0;    // steps across a thing: fewer are seen
-constexpr double kVisibleStep = 0.01; // metres: a step that is seen by who stands near, in whatever is far away
+constexpr double kFar = 32.0;         // in radii: floats then still resolve 2^-19 of the distance
+constexpr double kCoarse = 8192.0;    // steps across an object: fewer are visible
+constexpr double kVisibleStep = 0.01; // metres: visible to a near viewer, in any distant object
 
 struct Box {
     glm::dvec3 least{std::numeric_limits<double>::infinity()}, most{-std::numeric_limits<double>::infinity()};
@@ -40,7 +40,7 @@ Box moved(const Box& box, const glm::dmat4& to)
     return out;
 }
 
-// Calls visit(node, primitive's box in its space) of all that nodes show.
+// Calls visit(node, the primitive's box in local space) for all primitives of all nodes.
 template <class Visit> void each_box(const Scene& scene, const Visit& visit)
 {
     std::vector<Box> boxes;
@@ -57,13 +57,13 @@ template <class Visit> void each_box(const Scene& scene, const Visit& visit)
     }
 }
 
-// The difference of neighbouring floats.
+// Returns the distance between neighbouring floats at `place`.
 double step_at(double place)
 {
     return place > 0.0 && std::isfinite(place) ? std::ldexp(1.0, std::max(std::ilogb(place), -126) - 23) : 0.0;
 }
 
-// A power of two that is not less.
+// Returns the least power of two that is not below x.
 double power_of_two(double x)
 {
     return std::ldexp(1.0, static_cast<int>(std::ceil(std::log2(x))));
@@ -97,7 +97,8 @@ void settle_origin(Scene& scene)
     const double radius = 0.5 * glm::length(all.most - all.least);
     const double away = std::max({std::fabs(centre.x), std::fabs(centre.y), std::fabs(centre.z)});
     if (!all.empty() && radius > 0.0 && away > kFar * radius && away < 1e30) {
-        // On a grid that is coarse beside the scene, so that whole steps of a translation keep its bits; floats hold its places.
+        // Round to a grid that is coarse beside the scene: translation by whole grid steps keeps the bits, and floats
+        // hold the grid's points.
         const double grid = std::max(power_of_two(4.0 * radius), 2.0 * step_at(away));
         scene.origin = glm::round(centre / grid) * grid;
     }

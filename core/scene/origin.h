@@ -1,13 +1,15 @@
-// Scenes far from the origin: floats hold places at 4600 km to half a metre only, so such a scene is drawn around an origin of its own.
+// Scenes far from the origin. Floats resolve only half a metre at 4600 km, so such a scene is drawn around its own
+// origin.
 #pragma once
 #include "core/scene/scene.h"
 
 namespace burnish {
 
-// Chooses Scene::origin: near the middle of what is drawn where that lies more than 32 radii away, else 0. Updates the world.
+// Sets Scene::origin: near the middle of the drawn scene where the middle lies more than 32 radii away, else 0. Updates
+// world matrices.
 void settle_origin(Scene& scene);
 
-// Warns of places that floats hold coarsely all the same, and says the step in metres: of vertices far from their node, and of nodes far
+// Warns of places that floats still hold coarsely, with the step in metres: vertices far from their node, and nodes far
 // from the origin of a scene that reaches from there to here.
 void warn_of_steps(Scene& scene);
 

@@ -4,8 +4,8 @@ namespace burnish {
 
 namespace {
 
-// Products are formed in double, so that long chains lose no digits. A parent that does not come before its child counts as none:
-// check_scene() refuses it. `exact`: with what floats leave of translations.
+// Composes world matrices in double, so that long chains lose no digits. Ignores a parent that does not precede its
+// child: check_scene() refuses such scenes. `exact`: includes the parts of translations beyond float precision.
 std::vector<glm::dmat4> compose(const Scene& scene, bool exact, const glm::dvec3& origin)
 {
     std::vector<glm::dmat4> world(scene.nodes.size());
@@ -31,7 +31,7 @@ std::vector<glm::dmat4> exact_world(const Scene& scene)
 
 void update_world(Scene& scene)
 {
-    // Scenes around 0 have the bits of their floats.
+    // Scenes around 0 use the float values unchanged.
     const std::vector<glm::dmat4> world = compose(scene, scene.origin != glm::dvec3(0.0), scene.origin);
     for (std::size_t i = 0; i < scene.nodes.size(); ++i)
         scene.nodes[i].world = glm::mat4(world[i]);

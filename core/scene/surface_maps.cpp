@@ -12,7 +12,7 @@ std::size_t texels_of(const Image& image)
     return static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
 }
 
-// Gray stands for all colours.
+// Returns a channel's index; gray stands for all colours.
 std::size_t place_of(const Image& image, std::size_t texel, std::size_t channel)
 {
     return texel * static_cast<std::size_t>(image.channels) + (image.channels >= 3 ? channel : 0);
@@ -46,7 +46,7 @@ std::uint16_t code16(double unit)
     return static_cast<std::uint16_t>(std::clamp(unit, 0.0, 1.0) * 65535.0 + 0.5);
 }
 
-// (x, y, z) to unit length; false where it has none.
+// Scales (x, y, z) to unit length. Returns false where the vector has no usable length.
 bool normalize(double& x, double& y, double& z)
 {
     const double length = std::sqrt(x * x + y * y + z * z);
@@ -105,14 +105,14 @@ SurfaceMap directions_of_rotations(const Image& rotations, RotationEncoding enco
         double y = khr ? 2.0 * unit_value(rotations, i, 1) - 1.0 : signed_value(rotations, i, 1), none = 0.0;
         double strength = khr ? unit_value(rotations, i, 2) : 1.0;
         if (khr && (x * x + y * y < 1e-4 || !std::isfinite(strength)))
-            x = 1.0, y = 0.0, strength = 0.0; // as such a texture says it
+            x = 1.0, y = 0.0, strength = 0.0; // the value of a texture without direction
         if (!normalize(x, y, none))
             x = 1.0, y = 0.0, ++map.repaired;
-        if (encoding == RotationEncoding::double_angle) { // half of an angle from -180 to 180 degrees
+        if (encoding == RotationEncoding::double_angle) { // halves an angle from -180 to 180 degrees
             const double cosine = std::sqrt(std::max(0.5 + 0.5 * x, 0.0)), sine = std::sqrt(std::max(0.5 - 0.5 * x, 0.0));
             x = cosine, y = y < 0.0 ? -sine : sine;
         }
-        if (code16(0.5 + 0.5 * y) < code16(0.5)) // of two opposite ones the upper, or that along the tangent
+        if (code16(0.5 + 0.5 * y) < code16(0.5)) // picks the upper of two opposite directions, or the one along the tangent
             x = -x, y = -y;
         if (code16(0.5 + 0.5 * y) == code16(0.5))
             x = std::abs(x);

@@ -1,4 +1,4 @@
-// Maps of a surface in other encodings than scenes hold, turned into those.
+// Converts surface maps from other encodings to the scene's encodings.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -9,32 +9,34 @@ namespace burnish {
 
 enum class RotationEncoding : std::uint8_t {
     vector,       // red and green: the unit direction
-    double_angle, // red and green: cosine and sine of twice its angle, of which filters make no seam
+    double_angle, // red and green: cosine and sine of twice the angle; filtering leaves no seam
     direction     // KHR_materials_anisotropy: the direction in [0,1]^2, blue: strength
 };
 
 struct SurfaceMap {
     Image image;
-    std::size_t repaired = 0; // texels that held nothing of their kind, or no numbers
+    std::size_t repaired = 0; // texels that were invalid or not numbers
 };
 
-// Signed values of quaternions, vectors and double angles: code 128 of 8 bits and 32768 of 16 is 0, the largest 1; floats are values
-// themselves.
+// Signed values of quaternions, vectors and double angles: 8-bit code 128 and 16-bit code 32768 mean 0, the largest
+// code means 1. Floats are the values themselves.
 
-// Quaternions (a; b, c, 0) in red, green and blue, which turn (0,0,1) to the normal, as a normal map (glTF) of 16 bits. Repaired: level.
+// Converts quaternions (a; b, c, 0) in red, green and blue, which rotate (0,0,1) to the normal, to a 16-bit glTF normal
+// map. Repaired texels become flat.
 SurfaceMap normals_of_quaternions(const Image& quaternions);
 
-// The other way: the shortest rotations to a normal map's normals, of 8 bits or floats. Repaired: of normals without length.
+// Converts a normal map to the shortest rotations onto its normals, in `type`. Repairs normals without length.
 SurfaceMap quaternions_of_normals(const Image& normals, PixelType type);
 
-// As a texture of KHR_materials_anisotropy of 16 bits, the same one whichever encoding says a direction: d and -d are one. Strength is 1
-// where the encoding has none. Repaired: along the tangent.
+// Converts to a 16-bit KHR_materials_anisotropy texture. All encodings of a direction give one result, and d equals -d.
+// Strength is 1 where the encoding has none. Repaired texels point along the tangent.
 SurfaceMap directions_of_rotations(const Image& rotations, RotationEncoding encoding);
 
-// A normal map (glTF) without normals that have no length or are no numbers, as pictures of floats may have them. Repaired: level.
+// Repairs a glTF normal map's normals that have no length or are not numbers, as float images may hold. Repaired texels
+// become flat.
 SurfaceMap whole_normals(Image normals);
 
-// A normal map whose green points down, as DirectX has it, to one of glTF, exactly.
+// Converts a DirectX normal map, whose green points down, to glTF. Exact.
 void flip_green(Image& normals);
 
 } // namespace burnish

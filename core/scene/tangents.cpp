@@ -1,9 +1,9 @@
-// The method in short (Mikkelsen 2008, sections 3 and 4). Corners that agree in position, normal and texture
-// coordinate are one vertex. Around a vertex, triangles that hang together by edges and have the same
-// orientation in texture space form a group; a group's tangent is the mean of its triangles' texture
-// gradients, each laid into the plane of the vertex normal, normalized and weighted by the triangle's angle
-// at the vertex. Triangles without a gradient (no area in texture space) join any group and add nothing to
-// it; triangles without an area in space take what another triangle found at the same vertex.
+// The method in short (Mikkelsen 2008, sections 3 and 4). Corners with equal position, normal and texture coordinate
+// form one vertex. Around a vertex, triangles that share edges and have one orientation in texture space form a group.
+// The group's tangent is the mean of its triangles' texture gradients. Each gradient is projected into the plane of the
+// vertex normal, normalized, and weighted by the triangle's angle at the vertex. Triangles without a gradient (no area
+// in texture space) join any group and add nothing. Triangles without an area in space take the result of another
+// triangle at the vertex.
 #include "core/scene/tangents.h"
 
 #include <algorithm>
@@ -36,12 +36,12 @@ glm::dvec3 flattened(const glm::dvec3& v, const glm::dvec3& n)
     return unit_or_zero(v - n * glm::dot(n, v));
 }
 
-// The vertex of each corner: the lowest corner with the same position, normal and texture coordinate.
+// Returns each corner's vertex: the lowest corner with equal position, normal and texture coordinate.
 std::vector<std::uint32_t> weld(std::span<const glm::vec3> p, std::span<const glm::vec3> n, std::span<const glm::vec2> uv)
 {
     using Key = std::array<std::uint32_t, 8>;
     std::vector<Key> keys(p.size());
-    const auto bits = [](float f) { return std::bit_cast<std::uint32_t>(f + 0.0f); }; // -0 is 0
+    const auto bits = [](float f) { return std::bit_cast<std::uint32_t>(f + 0.0f); }; // -0 becomes 0
     for (std::size_t i = 0; i < p.size(); ++i)
         keys[i] = {bits(p[i].x), bits(p[i].y), bits(p[i].z), bits(n[i].x), bits(n[i].y), bits(n[i].z), bits(uv[i].x), bits(uv[i].y)};
     std::vector<std::uint32_t> order(p.size());
@@ -57,11 +57,11 @@ std::vector<std::uint32_t> weld(std::span<const glm::vec3> p, std::span<const gl
 
 struct Face {
     glm::dvec3 gradient{0.0};                                 // unit, towards growing u
-    bool preserving = false;                                  // same orientation in space and in texture space
+    bool preserving = false;                                  // equal orientation in space and in texture space
     bool free = true;                                         // no gradient: joins any group
     bool collapsed = false;                                   // two corners in one place
     std::uint32_t neighbour[3] = {kNobody, kNobody, kNobody}; // across the edge from corner k to k + 1
-    std::uint32_t group[3] = {kNobody, kNobody, kNobody};     // of each corner
+    std::uint32_t group[3] = {kNobody, kNobody, kNobody};     // group of each corner
 };
 
 Face make_face(const glm::vec3* p, const glm::vec2* uv)
@@ -69,8 +69,7 @@ Face make_face(const glm::vec3* p, const glm::vec2* uv)
     Face face;
     face.collapsed = p[0] == p[1] || p[1] == p[2] || p[2] == p[0];
     const glm::vec2 a = uv[1] - uv[0], b = uv[2] - uv[0];
-    // In float, as everyone who follows the method does: whether a sliver has a gradient is a matter of
-    // rounding.
+    // Use float like all implementations of the method: for a sliver, rounding decides whether a gradient exists.
     const float area = a.x * b.y - a.y * b.x;
     face.preserving = area > 0.0f;
     if (!(std::fabs(area) > FLT_MIN))
@@ -82,7 +81,7 @@ Face make_face(const glm::vec3* p, const glm::vec2* uv)
     return face;
 }
 
-// Pairs the triangles that run along an edge in opposite directions, in the order of the triangles.
+// Pairs triangles that traverse an edge in opposite directions, in the triangles' order.
 void find_neighbours(const std::vector<std::uint32_t>& vertex, std::vector<Face>& faces)
 {
     struct Edge {
@@ -100,7 +99,7 @@ void find_neighbours(const std::vector<std::uint32_t>& vertex, std::vector<Face>
     std::sort(edges.begin(), edges.end(), [](const Edge& a, const Edge& b) {
         return std::array{a.low, a.high, a.face, a.side} < std::array{b.low, b.high, b.face, b.side};
     });
-    // Edges not yet paired, by direction; of one edge at most one of the two lists is not empty.
+    // Edges not yet paired, by direction. For each edge, at most one list is not empty.
     std::vector<const Edge*> waiting[2];
     std::size_t taken[2] = {0, 0};
     for (std::size_t i = 0; i < edges.size(); ++i) {
@@ -169,7 +168,7 @@ std::vector<Group> make_groups(const std::vector<std::uint32_t>& vertex, std::ve
     return groups;
 }
 
-// Adds every triangle's gradient to the groups of its corners, in the order of the triangles.
+// Adds each triangle's gradient to its corners' groups, in the triangles' order.
 void sum_gradients(std::span<const glm::vec3> positions, std::span<const glm::vec3> normals, const std::vector<Face>& faces,
                    std::vector<Group>& groups)
 {
@@ -184,8 +183,8 @@ void sum_gradients(std::span<const glm::vec3> positions, std::span<const glm::ve
         }
 }
 
-// Unit and orthogonal to the normal whatever comes in; an untextured corner gets +X, or something else where
-// +X is the normal.
+// Returns a unit tangent orthogonal to the normal for any input. An untextured corner gets +X, or another direction
+// where the normal is +X.
 glm::vec4 finish(const glm::dvec3& tangent, bool preserving, const glm::vec3& normal)
 {
     const glm::dvec3 n = unit_or_zero(glm::dvec3(normal));
@@ -197,8 +196,7 @@ glm::vec4 finish(const glm::dvec3& tangent, bool preserving, const glm::vec3& no
     return glm::vec4(glm::vec3(t), preserving ? 1.0f : -1.0f);
 }
 
-// A corner that holds a result for its vertex, by vertex; kNobody where there is none. The first in order
-// wins.
+// Returns for each vertex the first corner that holds a result, or kNobody.
 std::vector<std::uint32_t> lenders(const std::vector<std::uint32_t>& vertex, const std::vector<Face>& faces)
 {
     std::vector<std::uint32_t> lender(vertex.size(), kNobody);
@@ -212,8 +210,8 @@ std::vector<std::uint32_t> lenders(const std::vector<std::uint32_t>& vertex, con
 
 glm::vec3 any_tangent(const glm::vec3& n)
 {
-    // Frisvad 2012, "Building an Orthonormal Basis from a 3D Unit Vector without Normalization", the first
-    // vector; the length is restored because n is unit only up to rounding.
+    // Frisvad 2012, "Building an Orthonormal Basis from a 3D Unit Vector without Normalization", first vector. Restore
+    // the length, because n is unit only up to rounding.
     const glm::dvec3 d(n);
     if (!(d.z > -0.9999999))
         return {0.0f, -1.0f, 0.0f};
@@ -243,7 +241,7 @@ std::vector<glm::vec4> mikk_tangents(std::span<const glm::vec3> positions, std::
         const std::uint32_t from = faces[i / 3].collapsed && lender[vertex[i]] != kNobody ? lender[vertex[i]] : i;
         const Face& face = faces[from / 3];
         const std::uint32_t id = face.group[from % 3];
-        glm::dvec3 tangent = face.gradient; // where opposite gradients cancel, a corner keeps its own
+        glm::dvec3 tangent = face.gradient; // where opposite gradients cancel, a corner keeps its own gradient
         bool preserving = false;
         if (id != kNobody) {
             preserving = groups[id].preserving;

@@ -1,4 +1,4 @@
-// Textures of a scene: what a sampler sees beyond a border, and how a picture becomes one.
+// Scene textures: wrap modes, and making a texture from an image.
 #pragma once
 #include <cstdint>
 
@@ -7,10 +7,11 @@
 
 namespace burnish {
 
-// The texel of `count` along an axis that one at `at` stands for, below 0 and from `count` on too.
+// Returns the texel in [0, count) that `mode` maps `at` to. `at` may be negative or beyond count.
 int wrapped_at(std::int64_t at, int count, WrapMode mode);
 
-// Appends the image and a texture of it, which repeats or has the sampler of `like`; returns the texture's number.
+// Appends the image and a texture for it. The texture repeats or copies the sampler of `like`. Returns the texture's
+// index.
 std::int32_t add_texture(Scene& scene, const char* name, Image image, Texture like = {});
 
 } // namespace burnish

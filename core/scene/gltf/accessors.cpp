@@ -38,7 +38,7 @@ Layout layout_of(const Json& json)
             element_shape(get_string(json, "type")), json.value("normalized", false)};
 }
 
-// Checks against the lengths that the JSON declares, before anything is decoded.
+// Checks the accessor against the lengths that the JSON declares, before decoding anything.
 void check_fits(const Document& doc, int buffer_view, std::uint64_t offset, const Layout& layout, bool may_stride, const std::string& place)
 {
     const Json& json = view_json(doc, buffer_view);
@@ -92,7 +92,7 @@ void check_accessor(Document& doc, int accessor)
     }
 }
 
-// The base elements packed, then the sparse ones written over them.
+// Packs the base elements, then writes the sparse elements over them.
 std::vector<std::uint8_t> make_dense(Document& doc, const Json& json, const AccessorView& base, const Layout& layout,
                                      const std::string& place)
 {

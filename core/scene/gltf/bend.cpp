@@ -9,7 +9,7 @@ namespace burnish::gltf {
 
 namespace {
 
-// Where nodes of the file stand in the scene; kNone outside of it.
+// Returns the scene node made from a glTF node; kNone for a node outside the scene.
 int scene_node_of(const Document& doc, int node)
 {
     for (std::size_t i = 0; i < doc.node_sources.size(); ++i)
@@ -18,7 +18,7 @@ int scene_node_of(const Document& doc, int node)
     return kNone;
 }
 
-// world_of(node): its transform to world space.
+// Returns the skin's joint matrices. world_of(node) returns a node's transform to world space.
 template <class WorldOf> std::vector<glm::dmat4> joints_of(Document& doc, const Json& skin, const WorldOf& world_of)
 {
     AccessorView inverse;
@@ -39,7 +39,8 @@ template <class WorldOf> std::vector<glm::dmat4> joints_of(Document& doc, const 
     return joints;
 }
 
-// Vertices of a skin 32 km away would lie on steps of 4 mm: beyond, they are bent about a place near the first joint, with all digits.
+// Sets a skin's joints. Vertices 32 km away would lie on steps of 4 mm. Beyond, the skin is relative to a place near
+// the first joint, which keeps all digits.
 void settle_joints(Document& doc, const Json& skin, Bend& bend)
 {
     constexpr double kFar = 32768.0; // metres
@@ -75,11 +76,11 @@ AccessorView view_of(const std::vector<float>& floats, int components)
                                false);
 }
 
-// components: of the attribute, whose first three move.
+// Adds a weighted morph target. `components` is the attribute's component count; the first three move.
 void add_target(std::vector<float>& to, int components, const AccessorView& offsets, double weight)
 {
     if (to.empty() || offsets.count() * static_cast<std::uint64_t>(components) != to.size())
-        return; // said by check_moving()
+        return; // check_moving() has reported it
     for (std::uint64_t i = 0; i < offsets.count(); ++i)
         for (int c = 0; c < 3; ++c) {
             float& number = to[static_cast<std::size_t>(i) * static_cast<std::size_t>(components) + static_cast<std::size_t>(c)];
@@ -91,7 +92,7 @@ struct Influences {
     std::vector<AccessorView> joints, weights;
 };
 
-// The sum of a vertex's joints by weight, as if weights added up to 1; where it has none, as it is.
+// Returns a vertex's joint matrices summed by normalized weights. Returns the identity for a vertex without weights.
 glm::dmat4 matrix_of(const Influences& of, std::uint64_t vertex, const std::vector<glm::dmat4>& joints)
 {
     glm::dmat4 sum(0.0);
@@ -133,7 +134,7 @@ void bend_by_joints(Bent& bent, const Influences& influences, const std::vector<
         if (!(std::fabs(moved.x) <= 1e30 && std::fabs(moved.y) <= 1e30 && std::fabs(moved.z) <= 1e30))
             fail(place, fmt::format("vertex {} is moved out of bounds by its joints", v));
         put(bent.position, 3 * v, moved);
-        // Normals by the cofactors, which need no inverse; what mirrors turns them over.
+        // Transform normals by cofactors, which need no inverse. A mirroring matrix flips them.
         const glm::dvec3 cx = cross(y, z), cy = cross(z, x), cz = cross(x, y);
         const double side = x.x * cx.x + x.y * cx.y + x.z * cx.z < 0.0 ? -1.0 : 1.0;
         if (!bent.normal.empty()) {

@@ -21,7 +21,7 @@ bool is_digit(char c)
     return c >= '0' && c <= '9';
 }
 
-// RFC 3986: a letter, then letters, digits, "+", "-", "."; then a colon.
+// Returns the URI's scheme by RFC 3986: a letter, then letters, digits, "+", "-", "."; then a colon.
 std::string_view uri_scheme(std::string_view uri)
 {
     std::size_t n = 0;
@@ -93,7 +93,7 @@ int base64_value(char c)
                                   : -1;
 }
 
-// RFC 4648 section 4, strict: padded, nothing between the characters.
+// Decodes base64 by RFC 4648 section 4, strictly: padded, without other characters.
 std::vector<std::uint8_t> base64_decode(std::string_view text, const std::string& place)
 {
     if (text.size() % 4 != 0)
@@ -137,7 +137,8 @@ std::vector<std::uint8_t> decode_data_uri(const Document& doc, const std::string
     return base64_decode(data, place);
 }
 
-// What is named in any way is one file: its path without links, which must lie below the scene's folder without links.
+// Returns a file's path without links, so that all names of a file agree. The path must lie below the scene's folder,
+// itself without links.
 std::string canonical_path(const Document& doc, const std::string& path, const std::string& place)
 {
     namespace fs = std::filesystem;
@@ -152,7 +153,7 @@ std::string canonical_path(const Document& doc, const std::string& path, const s
     return file.string();
 }
 
-// The bytes of a file that is counted against the limit on all of them.
+// Reads a file and counts its bytes against the input limit.
 std::vector<std::uint8_t> read_counted(Document& doc, const std::string& file, const std::string& path, const std::string& place)
 {
     const std::uint64_t left = doc.limits.input_bytes - std::min(doc.limits.input_bytes, doc.input_bytes);
@@ -166,7 +167,7 @@ std::vector<std::uint8_t> read_counted(Document& doc, const std::string& file, c
     return bytes;
 }
 
-// The file of a buffer, for every buffer that names it in any way.
+// Reads a buffer's file once for all buffers that name it.
 Bytes read_once(Document& doc, const std::string& uri, const std::string& place)
 {
     const std::string path = resolve_file_uri(doc, uri, place), file = canonical_path(doc, path, place);
@@ -182,7 +183,7 @@ void load_buffer(Document& doc, std::size_t i, std::map<std::string_view, std::s
     const std::string place = fmt::format("/buffers/{}", i);
     BufferData& buffer = doc.buffers[i];
     if (const Json* meshopt = get_extension(json, "EXT_meshopt_compression"); meshopt && meshopt->value("fallback", false))
-        return; // what lies there is for readers without the extension
+        return; // the bytes are for readers without the extension
     if (json.contains("uri")) {
         const std::string& uri = json["uri"].get_ref<const std::string&>();
         const auto [it, is_new] = loaded.insert({uri, i});

@@ -1,5 +1,5 @@
-// What glTF 2.0 asks of a file beyond types and ranges. A breach is repaired with a warning that names its place, or, with --strict,
-// refused; nothing passes in silence. The JSON has passed check_schema().
+// Rules of glTF 2.0 beyond types and ranges. A breach is repaired with a warning that names its place, or refused with
+// --strict; none goes unreported. The JSON has passed check_schema().
 #pragma once
 #include <string_view>
 
@@ -7,16 +7,16 @@
 
 namespace burnish::gltf {
 
-void check_structure(Document& doc);      // objects by themselves and together: nodes, meshes, materials, images
-void check_extensions(Document& doc);     // named where they are used, and in their place
-void check_accessor_rules(Document& doc); // alignment, strides, formats, what an accessor and a buffer view are used for
+void check_structure(Document& doc);      // objects alone and together: nodes, meshes, materials, images
+void check_extensions(Document& doc);     // declared where used, and in allowed places
+void check_accessor_rules(Document& doc); // alignment, strides, formats, uses of accessors and buffer views
 void check_moving(Document& doc);         // animations, skins, morph targets
-void check_values(Document& doc);         // what the buffers hold, once they are loaded: bounds, unit vectors
-void check_moving_values(Document& doc);  // the same of animations, skins, joints and weights; NaN anywhere
+void check_values(Document& doc);         // contents of loaded buffers: bounds, unit vectors
+void check_moving_values(Document& doc);  // contents for animations, skins, joints and weights; NaN anywhere
 
-constexpr double kUnitTolerance = 5e-4; // of unit vectors and quaternions in float; the validator's too
+constexpr double kUnitTolerance = 5e-4; // for float unit vectors and quaternions; the validator's tolerance
 
-// Calls visit(value, place) for every value that a path matches; '*' is any element.
+// Calls visit(value, place) for every value that `path` matches; '*' matches any element.
 template <class F> void for_each(const Json& node, std::string_view path, const std::string& place, const F& visit)
 {
     if (path.empty())

@@ -10,8 +10,8 @@ namespace burnish::gltf {
 
 namespace {
 
-// What an attribute may be stored as (glTF 2.0, 3.7.2.1; KHR_mesh_quantization adds the second list). A format is TYPE, component type,
-// and "n" where it must be normalized.
+// Allowed formats of an attribute (glTF 2.0, 3.7.2.1; KHR_mesh_quantization adds the second list). A format is TYPE,
+// component type, and "n" where normalization is required.
 struct Semantic {
     std::string_view name; // without its number
     bool numbered;
@@ -27,7 +27,7 @@ constexpr Semantic kSemantics[] = {
     {"WEIGHTS", true, "VEC4:5126 VEC4:5121n VEC4:5123n", ""},
 };
 
-// Of morph targets: differences, so tangents have no sign and colours may be negative.
+// Formats in morph targets. Targets hold differences, so tangents have no sign and colours may be negative.
 constexpr Semantic kTargetSemantics[] = {
     {"POSITION", false, "VEC3:5126", "VEC3:5120 VEC3:5120n VEC3:5122 VEC3:5122n"},
     {"NORMAL", false, "VEC3:5126", "VEC3:5120n VEC3:5122n"},
@@ -49,7 +49,7 @@ std::uint64_t component_of(const Json& accessor)
 
 struct Attribute {
     std::string base;
-    int number = -1; // where it has one
+    int number = -1; // the number, if the name has one
 };
 
 Attribute split_name(const std::string& name)
@@ -97,7 +97,7 @@ class Rules {
         return false;
     }
 
-    // Animations and skins: their views are neither of vertices nor of indices.
+    // Records uses by animations and skins: their views hold neither vertices nor indices.
     void use_moving()
     {
         for (std::size_t a = 0; a < table_size(doc_.json, "animations"); ++a) {
@@ -168,7 +168,7 @@ class Rules {
         mark_view(get_index(sparse[part], "bufferView"), kOtherData, here + "/bufferView");
     }
 
-    // `view_use`: what it makes of its view, where that is something else.
+    // Records an accessor's use. `view_use`: the use of its buffer view, where different.
     void use_accessor(int accessor, const char* use, const std::string& place, const char* view_use = nullptr)
     {
         std::string& known = accessor_use_[static_cast<std::size_t>(accessor)];
@@ -226,7 +226,7 @@ class Rules {
         }
     }
 
-    // Of those that are not drawn; of the others a wrong count is no scene.
+    // Checks the counts of attributes that are not drawn. A wrong count in a drawn attribute is an error elsewhere.
     void check_count(const Json& primitive, std::size_t index, const std::string& place)
     {
         const auto count = [&](std::size_t i) { return get_uint(doc_.json["accessors"][i], "count", 0); };
@@ -240,7 +240,7 @@ class Rules {
         const Json& accessor = doc_.json["accessors"][static_cast<std::size_t>(index)];
         if (!compressed)
             use_accessor(index, "vertices", place);
-        if (name.empty() || name[0] != '_') { // which applications may name as they like
+        if (name.empty() || name[0] != '_') { // applications may choose such names
             const Attribute a = split_name(name);
             const Semantic* known = nullptr;
             for (const Semantic& s : semantics)
@@ -257,7 +257,7 @@ class Rules {
         check_vertex_layout(accessor, index, place);
     }
 
-    // Vertex data starts at multiples of 4 bytes, and accessors that share a view have a stride.
+    // Checks that vertex data starts at multiples of 4 bytes, and that accessors on one view have a stride.
     void check_vertex_layout(const Json& accessor, int index, const std::string& place)
     {
         const int view = get_index(accessor, "bufferView");

@@ -1,4 +1,4 @@
-// Extensions: declared, in their place, and what the ignored ones hold.
+// Checks extensions: declarations, allowed places, and contents of ignored ones.
 #include <algorithm>
 #include <fmt/format.h>
 #include <string_view>
@@ -9,7 +9,7 @@ namespace burnish::gltf {
 
 namespace {
 
-// Names of extension objects anywhere in the file.
+// Collects the names of all extension objects in the file.
 void collect_extensions(const Json& node, const std::string& place, std::map<std::string, std::string>& found)
 {
     if (node.is_array()) {
@@ -28,10 +28,11 @@ void collect_extensions(const Json& node, const std::string& place, std::map<std
     }
 }
 
-// Where an extension's objects may stand, as paths with * for what changes; a texture's is wherever a texture is referred to.
+// Allowed places of an extension's objects, as paths with * for variable parts. A texture extension may stand wherever
+// a texture reference does.
 struct Home {
-    std::string_view extension; // or what it begins with
-    const char* parents;        // by blanks; "/" is the file itself
+    std::string_view extension; // name or prefix
+    const char* parents;        // separated by blanks; "/" is the file itself
 };
 constexpr Home kHomes[] = {
     {"KHR_lights_punctual", "/ /nodes/*"},
@@ -54,7 +55,7 @@ bool is_home(const char* parents, const std::string& parent)
            (list == " TEXTURE " && parent.ends_with("Texture"));
 }
 
-// `pattern`: the place with * for its numbers.
+// `pattern` is the place with * for its numbers.
 void check_homes(Document& doc, const Json& node, const std::string& place, const std::string& pattern)
 {
     if (node.is_array())
@@ -82,7 +83,7 @@ void check_homes(Document& doc, const Json& node, const std::string& place, cons
     }
 }
 
-// Numbers of extensions that are not read. What is read has its rules in schema.cpp.
+// Ranges of numbers in ignored extensions. Rules for the others are in schema.cpp.
 struct Ignored {
     const char* path; // below materials/*/extensions
     double low, high;

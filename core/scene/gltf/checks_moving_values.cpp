@@ -1,4 +1,4 @@
-// What the buffers hold of animations, skins, joints and weights. Nothing of it is drawn; a breach is said all the same.
+// Checks the buffer contents of animations, skins, joints and weights, drawn or not.
 #include <cmath>
 #include <fmt/format.h>
 
@@ -9,7 +9,7 @@ namespace burnish::gltf {
 
 namespace {
 
-// Times begin at 0 or later and grow.
+// Checks that times begin at 0 or later and grow.
 void check_times(Document& doc, int accessor, const std::string& place)
 {
     const AccessorView times = accessor_view(doc, accessor);
@@ -23,7 +23,7 @@ void check_times(Document& doc, int accessor, const std::string& place)
     }
 }
 
-// Of the keys of a rotation; a cubic spline has a tangent before and after each.
+// Checks a rotation's keys for unit length. A cubic spline has a tangent before and after each key.
 void check_quaternions(Document& doc, int accessor, bool cubic, const std::string& place)
 {
     const AccessorView keys = accessor_view(doc, accessor);
@@ -64,7 +64,7 @@ void check_matrices(Document& doc, int accessor, const std::string& place)
                 return doc.fault(place, fmt::format("matrix {} has another last row than 0 0 0 1", i));
 }
 
-// The joints that the skin of every node with this mesh has; without one, as many as can be named.
+// Returns the least joint count among the skins of nodes with this mesh; without any skin, no limit.
 std::uint64_t joints_of_mesh(const Document& doc, std::size_t mesh)
 {
     std::uint64_t least = UINT64_MAX;
@@ -76,13 +76,13 @@ std::uint64_t joints_of_mesh(const Document& doc, std::size_t mesh)
     return least;
 }
 
-struct Influences { // of one vertex so far
+struct Influences { // one vertex's influences so far
     double sum = 0.0;
     int used = 0;
     std::set<std::uint32_t> joints;
 };
 
-// What is wrong with four of a vertex's influences; empty: nothing.
+// Returns the fault in four of a vertex's influences, or "".
 std::string fault_of(const AccessorView& joints, const AccessorView& weights, std::uint64_t vertex, std::uint64_t joint_count,
                      Influences& all)
 {
@@ -112,14 +112,14 @@ void check_influences(Document& doc, const Json& primitive, std::uint64_t joint_
         weights.push_back(accessor_view(doc, get_index(attributes, fmt::format("WEIGHTS_{}", set).c_str())));
         for (const AccessorView* view : {&joints.back(), &weights.back()})
             if (view->components() != 4 || view->all_zero() || view->count() != joints[0].count())
-                return; // said already
+                return; // already reported
     }
     for (std::uint64_t v = 0; !joints.empty() && v < joints[0].count(); ++v) {
         Influences all;
         for (std::size_t set = 0; set < joints.size(); ++set)
             if (const std::string reason = fault_of(joints[set], weights[set], v, joint_count, all); !reason.empty())
                 return doc.fault(place, reason);
-        constexpr double kRounding = 2e-7; // a weight, as the specification has it
+        constexpr double kRounding = 2e-7; // for each weight, by the specification
         const double tolerance = weights[0].type() == ComponentType::f32 ? kRounding * std::max(1, all.used) : 1e-6;
         if (!(std::abs(all.sum - 1.0) <= tolerance))
             return doc.fault(place, fmt::format("the weights of vertex {} add up to {:g}, not to 1", v, all.sum));

@@ -10,7 +10,7 @@ namespace burnish::gltf {
 
 namespace {
 
-// Arrays and objects that must hold something where they are there (minItems, minProperties of the specification's schema).
+// Arrays and objects that must not be empty (minItems, minProperties in the specification's schema).
 constexpr const char* kNeverEmpty[] = {
     "extensionsUsed",
     "extensionsRequired",
@@ -40,7 +40,7 @@ constexpr const char* kNeverEmpty[] = {
     "skins/*/joints",
     "extensions/KHR_lights_punctual/lights",
 };
-// Arrays of indices and names where nothing may stand twice.
+// Arrays of indices and names without duplicates.
 constexpr const char* kUnique[] = {"extensionsUsed", "extensionsRequired", "scenes/*/nodes", "nodes/*/children", "skins/*/joints"};
 
 void check_empty_and_double(Document& doc)
@@ -76,13 +76,13 @@ double length_of(const Json& numbers)
     return std::sqrt(sum);
 }
 
-// Whether the upper three columns are at right angles, as products of translation, rotation and scale are.
+// Returns true where the upper three columns are orthogonal, as in products of translation, rotation and scale.
 bool is_decomposable(const Json& matrix)
 {
     const auto at = [&](int column, int row) { return matrix[static_cast<std::size_t>(column * 4 + row)].get<double>(); };
     for (int a = 0; a < 3; ++a)
         if (at(a, 0) == 0.0 && at(a, 1) == 0.0 && at(a, 2) == 0.0)
-            return false; // all that it moves is flat
+            return false; // flattens every object
     for (int a = 0; a < 3; ++a)
         for (int b = 0; b < a; ++b) {
             double dot = 0.0, aa = 0.0, bb = 0.0;
@@ -96,7 +96,7 @@ bool is_decomposable(const Json& matrix)
 
 void check_nodes(Document& doc)
 {
-    constexpr double kUnit = 5e-4; // of the validator too: exporters write rounded numbers
+    constexpr double kUnit = 5e-4; // the validator's tolerance: exporters write rounded numbers
     std::vector<bool> is_child(table_size(doc.json, "nodes"), false);
     for (std::size_t i = 0; i < table_size(doc.json, "nodes"); ++i) {
         const Json& node = doc.json["nodes"][i];
@@ -118,14 +118,15 @@ void check_nodes(Document& doc)
     }
 }
 
-// A skin's skeleton, where it names one, stands above all of its joints; joints have a common root and are in the node's scene.
+// Checks that a skin's skeleton is an ancestor of all its joints. Joints need a common root and must be in the node's
+// scene.
 void check_skins(Document& doc)
 {
     std::vector<int> parents(table_size(doc.json, "nodes"), -1);
     for (std::size_t i = 0; i < parents.size(); ++i)
         for (const Json& child : doc.json["nodes"][i].value("children", Json::array()))
             parents[child.get<std::size_t>()] = static_cast<int>(i);
-    const auto line_of = [&](int node) { // up to its root; loops are refused later
+    const auto line_of = [&](int node) { // the node and its ancestors; loops are refused later
         std::vector<int> line;
         for (; node >= 0 && line.size() <= parents.size(); node = parents[static_cast<std::size_t>(node)])
             line.push_back(node);
@@ -173,7 +174,7 @@ void check_lights(Document& doc)
     });
 }
 
-// A texture names its coordinates; those that KHR_texture_transform names instead are looked at where they are used.
+// Checks that textures have their coordinates. Sets named by KHR_texture_transform are checked where they are used.
 void check_coordinates(Document& doc)
 {
     for (std::size_t m = 0; m < table_size(doc.json, "meshes"); ++m) {
@@ -224,7 +225,7 @@ void check_images(Document& doc)
     }
 }
 
-bool is_bad_uri(const std::string& uri) // RFC 3986: what must be written as %HH
+bool is_bad_uri(const std::string& uri) // RFC 3986: these characters need %HH
 {
     return uri.find_first_of(" \"<>\\^`{|}") != std::string::npos;
 }

@@ -9,7 +9,7 @@ namespace burnish::gltf {
 
 namespace {
 
-// As stored: bounds are of the numbers before they are normalized.
+// Returns the stored number: bounds apply before normalization.
 double stored(const AccessorView& view, std::uint64_t i, int c)
 {
     const double value = static_cast<double>(view.number(i, c));
@@ -24,7 +24,7 @@ double stored(const AccessorView& view, std::uint64_t i, int c)
 void check_bounds(Document& doc, std::size_t index, const Json& accessor)
 {
     const AccessorView view = accessor_view(doc, static_cast<int>(index));
-    if (view.type() == ComponentType::u32) // floats do not hold them
+    if (view.type() == ComponentType::u32) // floats cannot hold them
         return;
     const std::size_t components = static_cast<std::size_t>(view.components());
     std::vector<double> low(components, std::numeric_limits<double>::infinity()), high(components, -low[0]);
@@ -52,7 +52,7 @@ void check_unit(Document& doc, int accessor, const std::string& name)
     const bool tangent = name == "TANGENT";
     if (view.components() != (tangent ? 4 : 3) || view.all_zero())
         return;
-    // Integers are rounded: a step of the coarsest, 1 / 127, in each of three components.
+    // Integers are rounded: allow a step of the coarsest type, 1 / 127, in each of three components.
     const float tolerance = static_cast<float>(view.type() == ComponentType::f32   ? kUnitTolerance
                                                : component_bytes(view.type()) == 1 ? 0.02
                                                                                    : 1e-3);

@@ -14,11 +14,11 @@ namespace burnish::gltf {
 
 namespace {
 
-// The vertex codec stores at least two bits a group of 16 bytes, the index codecs at least a byte a triangle
-// or index: a count beyond that is a lie, found before memory is taken for it.
+// Largest expansion. The vertex codec stores at least two bits for 16 bytes, the index codecs at least a byte for a
+// triangle or index. The reader refuses a larger count before it allocates memory.
 constexpr std::uint64_t kVertexExpansion = 64;
 
-// Draco can store a regular grid in next to nothing; beyond a million faces some proportion is asked for.
+// Draco can store a regular grid in almost no space. Beyond a million faces, faces must be in proportion to bytes.
 constexpr std::uint64_t kDracoFreeFaces = 1 << 20, kDracoFacesPerByte = 1024;
 
 class ByteReader {
@@ -42,8 +42,8 @@ class ByteReader {
     std::size_t at_ = 0;
 };
 
-// The sizes a Draco mesh claims, which its decoder takes memory for before it reads further.
-// Draco bitstream specification 2.2, sections 3 (header) and 4.1, 4.2 (connectivity).
+// Checks the sizes in a Draco header, because the decoder allocates memory for them before it reads further. Draco
+// bitstream specification 2.2, sections 3 (header) and 4.1, 4.2 (connectivity).
 void check_draco_header(Bytes bytes, const std::string& place)
 {
     constexpr std::size_t kHeader = 11;
@@ -111,7 +111,7 @@ void check_meshopt(const Document& doc, const Json& view, const Json& extension,
     const std::uint64_t length = get_uint(extension, "byteLength", 0);
     const std::string mode = get_string(extension, "mode"), filter = get_string(extension, "filter");
     buffer_slice(doc, get_index(extension, "buffer"), get_uint(extension, "byteOffset", 0), length, here);
-    // Both are at most 2^53 and 256, so the product fits 64 bits.
+    // The product fits 64 bits, because the factors are at most 2^53 and 256.
     if (stride * count != get_uint(view, "byteLength", 0))
         fail(here, "byteStride times count is not the buffer view's byteLength");
     if (get_uint(view, "byteStride", stride) != stride)

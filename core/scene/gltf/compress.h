@@ -4,12 +4,11 @@
 
 namespace burnish::gltf {
 
-// The extension object of a buffer view: its sizes hold together and its compressed bytes are there.
+// Checks a buffer view's extension object: its sizes agree, and its compressed bytes exist.
 void check_meshopt(const Document& doc, const Json& view, const Json& extension, const std::string& place);
 std::vector<std::uint8_t> decode_meshopt(Document& doc, const Json& extension, const std::string& place);
 
-// A primitive decoded by Draco: indices and, by attribute name, tightly packed elements of the accessor's
-// type.
+// A primitive decoded by Draco: indices, and for each attribute name tightly packed elements of the accessor's type.
 struct DracoPrimitive {
     std::vector<std::uint32_t> indices;
     std::uint64_t vertex_count = 0;

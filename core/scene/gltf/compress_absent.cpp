@@ -1,4 +1,4 @@
-// Stands in for compress.cpp in a program without libraries.
+// Replaces compress.cpp in a program without libraries.
 #include "core/scene/gltf/compress.h"
 
 namespace burnish::gltf {

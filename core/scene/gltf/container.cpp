@@ -13,8 +13,7 @@ constexpr std::uint32_t kMagic = 0x46546c67; // "glTF"
 constexpr std::uint32_t kJsonChunk = 0x4e4f534a;
 constexpr std::uint32_t kBinChunk = 0x004e4942;
 constexpr std::uint64_t kHeaderBytes = 12, kChunkHeaderBytes = 8;
-// A parsed JSON value costs some 100 bytes of memory, more than its text: bounded against the file size
-// limit.
+// Bound on JSON values relative to the file size limit: a parsed value takes some 100 bytes, more than its text.
 constexpr std::uint64_t kFileBytesPerValue = 256;
 
 std::string at_byte(std::uint64_t offset)
@@ -24,12 +23,12 @@ std::string at_byte(std::uint64_t offset)
 
 std::uint32_t read_u32(Bytes bytes, std::uint64_t offset)
 {
-    const std::uint8_t* p = bytes.data() + offset; // little endian in the file
+    const std::uint8_t* p = bytes.data() + offset; // little-endian in the file
     return static_cast<std::uint32_t>(p[0]) | static_cast<std::uint32_t>(p[1]) << 8 | static_cast<std::uint32_t>(p[2]) << 16 |
            static_cast<std::uint32_t>(p[3]) << 24;
 }
 
-// Depth and number of values, counted over the text before a parser allocates anything.
+// Checks depth and number of values in the text, before a parser allocates anything.
 void check_json_text(const char* text, std::uint64_t size, std::uint64_t first_byte, const Limits& limits)
 {
     const std::uint64_t most_values = limits.file_bytes / kFileBytesPerValue + 1024;
@@ -59,7 +58,7 @@ void check_json_text(const char* text, std::uint64_t size, std::uint64_t first_b
     }
 }
 
-// The parser's own words without its error number and position, which "place" gives already.
+// Returns the parser's message without its error number and position, which the error's place already gives.
 std::string parser_words(const char* what)
 {
     std::string words = what;
@@ -140,7 +139,7 @@ void parse_glb(Document& doc)
 std::vector<std::uint8_t> read_file_bytes(const std::string& path, std::uint64_t limit, const std::string& place)
 {
     Result<std::vector<std::uint8_t>> bytes = read_file(path, limit);
-    if (!bytes) // the Error itself names the scene's file; another one is named here
+    if (!bytes) // the Error itself names the scene's file; any other file is named here
         fail(place, (place.empty() ? "" : printable(path) + " ") + printable(bytes.error().reason));
     return std::move(*bytes);
 }

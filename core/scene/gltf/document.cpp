@@ -9,10 +9,9 @@ namespace burnish::gltf {
 namespace {
 
 constexpr std::size_t kMaxWarnings = 200; // a broken exporter repeats itself
-// An honest file stores a vertex in a few bytes at least; these bound what a hostile small file can make us
-// allocate.
+// Bounds on memory for a small hostile file: an honest file stores a vertex in at least a few bytes.
 constexpr std::uint64_t kFreeBytes = 256ull << 20;
-constexpr std::uint64_t kExpansion = 1024; // decoded bytes per byte of input
+constexpr std::uint64_t kExpansion = 1024; // decoded bytes for each input byte
 
 } // namespace
 

@@ -1,5 +1,5 @@
-// Values that a .def of core/scene lists, by their path below an object whose types the schema check has ensured. What a file does not say
-// stays as it is: the default.
+// Reads the values listed in a .def of core/scene, by their path below an object. The schema check has ensured their
+// types. A value missing in the file keeps its default.
 #pragma once
 #include <algorithm>
 #include <string>
@@ -28,14 +28,14 @@ inline void read_flag(const Json& object, const char* path, bool& to)
         to = !object[at].is_boolean() || object[at].get<bool>();
 }
 
-// words: with blanks between, one a value of the enum.
+// Reads an enum value. `words` holds one word for each value, separated by blanks.
 template <class Enum> void read_choice(const Json& object, const char* path, std::string_view words, Enum& to)
 {
     const Json::json_pointer at(path);
     if (!object.contains(at))
         return;
     const std::string_view before =
-        words.substr(0, words.find(object[at].get_ref<const std::string&>())); // the check has seen that it is there
+        words.substr(0, words.find(object[at].get_ref<const std::string&>())); // the schema check ensures that the word exists
     to = static_cast<Enum>(std::count(before.begin(), before.end(), ' '));
 }
 

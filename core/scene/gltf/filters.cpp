@@ -7,7 +7,7 @@ namespace burnish::gltf {
 
 namespace {
 
-// Half away from zero, as round() does; |value| < 2^31.
+// Rounds half away from zero, like round(); |value| < 2^31.
 int round_to_int(float value)
 {
     return static_cast<int>(value + (value >= 0.0f ? 0.5f : -0.5f));
@@ -22,7 +22,7 @@ template <class T> void decode_octahedral(std::uint8_t* bytes, std::size_t count
         const float one = v[2] > 0 ? static_cast<float>(v[2]) : 1.0f; // invalid data must not divide by zero
         float x = static_cast<float>(v[0]) / one, y = static_cast<float>(v[1]) / one;
         float z = 1.0f - std::fabs(x) - std::fabs(y);
-        const float fold = z < 0.0f ? z : 0.0f; // the lower half is folded over the diagonals
+        const float fold = z < 0.0f ? z : 0.0f; // fold the lower half over the diagonals
         x += x >= 0.0f ? fold : -fold;
         y += y >= 0.0f ? fold : -fold;
         const float length = std::sqrt(x * x + y * y + z * z);
@@ -56,7 +56,7 @@ void filter_quaternion(std::uint8_t* bytes, std::size_t count)
         const float z = static_cast<float>(v[2]) / one * kInvSqrt2;
         const float square = 1.0f - x * x - y * y - z * z;
         const float w = std::sqrt(square > 0.0f ? square : 0.0f);
-        const float parts[4] = {w, x, y, z}; // from the largest component on, cyclically
+        const float parts[4] = {w, x, y, z}; // cyclic, from the largest component on
         for (int k = 0; k < 4; ++k) {
             const float clamped = parts[k] < -1.0f ? -1.0f : parts[k] > 1.0f ? 1.0f : parts[k];
             out[((v[3] & 3) + k) & 3] = static_cast<std::int16_t>(round_to_int(clamped * kMax));
@@ -72,7 +72,7 @@ void filter_exponential(std::uint8_t* bytes, std::size_t words)
         std::memcpy(&word, bytes + i * 4, 4);
         const int exponent = static_cast<std::int32_t>(word) >> 24;
         const int mantissa = static_cast<std::int32_t>(word << 8) >> 8;
-        const float value = static_cast<float>(std::ldexp(static_cast<double>(mantissa), exponent)); // exact but for the last rounding
+        const float value = static_cast<float>(std::ldexp(static_cast<double>(mantissa), exponent)); // exact except for the last rounding
         std::memcpy(bytes + i * 4, &value, 4);
     }
 }

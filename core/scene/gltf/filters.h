@@ -1,5 +1,5 @@
-// The decoding filters of EXT_meshopt_compression, Appendix B, in portable arithmetic: the library's SIMD
-// versions use reciprocal square root estimates, which differ between processors.
+// Decoding filters of EXT_meshopt_compression, Appendix B, in portable arithmetic. The library's SIMD versions use
+// reciprocal square root estimates, which differ between processors.
 #pragma once
 #include <cstddef>
 #include <cstdint>

@@ -72,7 +72,7 @@ ImageLight image_light_of(Document& doc)
     return gltf::read_image_light(doc);
 }
 
-// The one place where the reader's exceptions, its own and those of the libraries, end.
+// Runs a reader and turns its exceptions, and those of libraries, into Errors. No exception passes this function.
 template <class F> auto guarded(const std::string& file, F&& read) -> decltype(read())
 {
     const auto error = [&](std::string place, std::string reason) {
@@ -128,7 +128,7 @@ bool is_gltf(const std::string& path)
         return false;
     char first[4] = {};
     std::ifstream file(path, std::ios::binary);
-    if (!(file >> std::ws)) // of JSON
+    if (!(file >> std::ws)) // white space before JSON
         return false;
     file.read(first, sizeof first);
     return first[0] == '{' || std::string_view(first, sizeof first) == "glTF" || path.ends_with(".gltf") || path.ends_with(".glb");
@@ -154,7 +154,7 @@ Result<Scene> load_scene(const std::string& spec, const Limits& limits, const Mo
         return make_builtin_scene(spec.substr(kBuiltin.size()));
     if (is_obj(spec))
         return guarded(spec, [&]() -> Result<Scene> { return load_obj(spec, limits); });
-    return load_gltf(spec, limits, moment); // which looks at the content, not at the name
+    return load_gltf(spec, limits, moment); // checks the content, not the name
 }
 
 } // namespace burnish

@@ -1,4 +1,4 @@
-// glTF 2.0 input: .gltf and .glb files into Scene tables.
+// Reads glTF 2.0 files (.gltf and .glb) into scenes.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -12,11 +12,11 @@ namespace burnish {
 
 Result<Scene> load_gltf(const std::string& path, const Limits& limits, const Moment& moment = {});
 
-// The same from memory; there is no folder, so external files are refused. `label` names the input in errors.
+// Reads a scene from memory. Refuses external files, because there is no folder. `label` names the input in errors.
 Result<Scene> load_gltf_bytes(const std::uint8_t* data, std::size_t size, const std::string& label, const Limits& limits,
                               const Moment& moment = {});
 
-// "builtin:NAME" or a .gltf/.glb path.
+// Loads "builtin:NAME", an OBJ file, or a .gltf/.glb file.
 Result<Scene> load_scene(const std::string& spec, const Limits& limits, const Moment& moment = {});
 
 } // namespace burnish

@@ -34,7 +34,7 @@ std::vector<int> indices_of(const Json& object, const char* key)
     return indices ? indices->get<std::vector<int>>() : std::vector<int>();
 }
 
-// Numbers of an array over those that are there; left alone where there is none.
+// Reads a number array where the object has one; else leaves `to` unchanged.
 template <std::size_t N> void read_numbers(const Json& object, const char* key, double (&to)[N])
 {
     if (const Json* numbers = get_member(object, key))
@@ -57,7 +57,7 @@ std::vector<int> find_parents(const Document& doc)
     return parent;
 }
 
-// With one parent each, a node is below a root or below a cycle: walking up either ends or does not.
+// Checks for cycles. Each node has one parent, so it is below a root or a cycle: a walk up from it ends, or does not.
 void check_forest(const Document& doc, const std::vector<int>& parent)
 {
     std::vector<int> depth(parent.size(), 0); // 0: not known yet
@@ -129,7 +129,7 @@ glm::mat4 local_matrix(Document& doc, std::size_t index)
     return matrix;
 }
 
-// What extras.md describes: extras.burnish.areaLight of a node.
+// Reads the area light in a node's extras.burnish.areaLight (see extras.md).
 int load_area_light(Document& doc, const Json& node, const std::string& node_place)
 {
     const Json::json_pointer at("/extras/burnish/areaLight");
@@ -158,7 +158,7 @@ int load_area_light(Document& doc, const Json& node, const std::string& node_pla
     return static_cast<int>(doc.scene.area_lights.size()) - 1;
 }
 
-// What floats leave of a node's translation.
+// Returns the part of a node's translation beyond float precision.
 glm::dvec3 translation_beyond(const Json& source)
 {
     double t[3] = {0.0, 0.0, 0.0}, m[16] = {};
@@ -191,7 +191,7 @@ Node load_node(Document& doc, std::size_t index, int parent)
 
 struct Root {
     int node;
-    std::string place; // where the file names it
+    std::string place; // where the file names the node
 };
 
 std::vector<Root> find_roots(const Document& doc, const std::vector<int>& parent)
@@ -210,7 +210,7 @@ std::vector<Root> find_roots(const Document& doc, const std::vector<int>& parent
     return roots;
 }
 
-// Nodes below it, each with its mesh. Of a skinned one there is one only: it is where its joints are.
+// Adds a child node with the mesh for each instance. A skinned mesh has one instance only, because its joints place it.
 void add_instances(Document& doc, std::size_t index, int id)
 {
     const Json& source = node_json(doc, index);
@@ -255,7 +255,7 @@ void load_cameras_and_lights(Document& doc)
         camera.xmag = number(lens, "xmag", camera.xmag), camera.ymag = number(lens, "ymag", camera.ymag);
         camera.yfov = number(lens, "yfov", camera.yfov);
         camera.znear = number(lens, "znear", 0.0f);
-        camera.zfar = number(lens, "zfar", 0.0f); // 0 where the file has none
+        camera.zfar = number(lens, "zfar", 0.0f); // 0 where the file gives none
         doc.scene.cameras.push_back(std::move(camera));
     }
     const Json* lights = get_extension(doc.json, "KHR_lights_punctual");
@@ -278,7 +278,7 @@ void load_nodes(Document& doc)
     const std::vector<Root> roots = find_roots(doc, parent);
     std::vector<bool> visited(parent.size(), false);
     struct Pending {
-        int node, parent; // glTF, scene
+        int node, parent; // glTF node, scene node
     };
     std::vector<Pending> stack;
     for (const Root& root : roots) {

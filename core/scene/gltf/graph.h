@@ -6,11 +6,11 @@ namespace burnish::gltf {
 
 void load_cameras_and_lights(Document& doc);
 
-// Of a node's translation, rotation and scale.
+// Returns the matrix of a node's translation, rotation and scale.
 glm::mat4 trs_matrix(const Json& node, const std::string& place);
 
-// Checks the whole node table (one parent each, no cycle, bounded depth) and keeps the nodes of the default scene, with a node for each
-// instance of EXT_mesh_gpu_instancing.
+// Checks the whole node table (one parent each, no cycle, bounded depth). Keeps the default scene's nodes, with a node
+// for each instance of EXT_mesh_gpu_instancing.
 void load_nodes(Document& doc);
 
 } // namespace burnish::gltf

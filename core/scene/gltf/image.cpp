@@ -16,7 +16,7 @@ bool starts_with(Bytes bytes, std::size_t at, std::string_view magic)
     return bytes.size() >= at + magic.size() && std::memcmp(bytes.data() + at, magic.data(), magic.size()) == 0;
 }
 
-// Only what glTF allows reaches the image library, whose other formats are many.
+// Returns true for glTF's image formats. The image library reads many more, which the reader does not pass on.
 bool is_readable(Bytes bytes)
 {
     return starts_with(bytes, 0, "\x89PNG\r\n\x1a\n") || starts_with(bytes, 0, "\xff\xd8\xff") ||
@@ -28,12 +28,12 @@ bool is_exr(Bytes bytes)
     return starts_with(bytes, 0, "\x76\x2f\x31\x01");
 }
 
-bool is_texture_container(Bytes bytes) // KTX2 or DDS, which other extensions bring
+bool is_texture_container(Bytes bytes) // KTX2 or DDS, formats of other extensions
 {
     return starts_with(bytes, 0, "\xabKTX 20\xbb") || starts_with(bytes, 0, "DDS ");
 }
 
-// The encoded bytes; `own` keeps those that lie in no buffer.
+// Returns the encoded bytes. `own` holds bytes that lie in no buffer.
 Bytes encoded_image(Document& doc, int image, std::vector<std::uint8_t>& own)
 {
     const Json& json = doc.json["images"][static_cast<std::size_t>(image)];
@@ -45,7 +45,7 @@ Bytes encoded_image(Document& doc, int image, std::vector<std::uint8_t>& own)
     return read_uri(doc, json["uri"].get_ref<const std::string&>(), place + "/uri", own);
 }
 
-// floats: OpenEXR is read too.
+// Decodes an image. `floats` also allows OpenEXR.
 Image decode(Document& doc, int image, Bytes bytes, bool floats)
 {
     const std::string place = fmt::format("/images/{}", image);

@@ -1,14 +1,13 @@
-// Images of a document: found, recognised, decoded once.
+// A document's images: found, recognised, decoded once.
 #pragma once
 #include "core/scene/gltf/document.h"
 
 namespace burnish::gltf {
 
-// Its index in Scene::images, decoded at the first call. floats: it may be OpenEXR.
+// Returns the image's index in Scene::images; the first call decodes the image. `floats` also allows OpenEXR.
 int scene_image(Document& doc, int image, bool floats);
 
-// Images that no material uses are decoded too, one at a time, and dropped: a broken one is an error all the
-// same.
+// Decodes images that no material uses, one at a time, and drops them: a broken image is an error even if unused.
 void check_unused_images(Document& doc);
 
 } // namespace burnish::gltf

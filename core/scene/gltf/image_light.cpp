@@ -18,7 +18,7 @@ std::string place_of(int light)
     return fmt::format("/extensions/{}/lights/{}", kName, light);
 }
 
-// Of the scene that is shown; -1: none.
+// Returns the light of the shown scene, or -1.
 int shown_light(const Document& doc)
 {
     if (table_size(doc.json, "scenes") == 0)
@@ -48,7 +48,7 @@ void check_image_light(Document& doc, const Json& light, const std::string& plac
         doc.fault(place + "/specularImageSize", "is no power of two");
     if (levels > 64 || size >> (levels - 1) == 0)
         fail(place + "/specularImages", fmt::format("{} levels are more than {} texels halve to", levels, size));
-    const std::uint64_t pixels = 8 * size * size; // of the picture of the whole sky that it becomes
+    const std::uint64_t pixels = 8 * size * size; // of the full-sky image that the light becomes
     if (pixels > doc.limits.env_pixels)
         fail(place + "/specularImageSize",
              fmt::format("an environment of such faces has {} pixels, more than {} (--limit-env-pixels)", pixels, doc.limits.env_pixels));

@@ -16,7 +16,7 @@ namespace burnish::gltf {
 
 namespace {
 
-// Codes of samplers (glTF 2.0, 5.26).
+// Sampler codes (glTF 2.0, 5.26).
 constexpr std::uint64_t kRepeat = 10497, kClampToEdge = 33071, kMirroredRepeat = 33648;
 constexpr std::uint64_t kNearest = 9728, kNearestMipmapNearest = 9984, kNearestMipmapLinear = 9986;
 
@@ -32,7 +32,8 @@ bool is_nearest(const Json& sampler)
            (min == kNearest || min == kNearestMipmapNearest || min == kNearestMipmapLinear);
 }
 
-// Its index in Scene::textures; none where the file offers no image that can be read. extras: our own, in which images of floats may be.
+// Returns the texture's index in Scene::textures; kNone where the file offers no readable image. `extras`: a burnish
+// extra, which also allows float images.
 int scene_texture(Document& doc, int index, bool extras)
 {
     if (const auto known = doc.scene_textures.find(index); known != doc.scene_textures.end())
@@ -62,7 +63,7 @@ int scene_texture(Document& doc, int index, bool extras)
     return id;
 }
 
-// What a textureInfo refers to; `of` is its material, as warnings name it.
+// Reads a textureInfo. `of` is its material's name in warnings.
 TextureRef texture_ref(Document& doc, const Json& info, bool extras, const std::string& of)
 {
     TextureRef ref;
@@ -100,10 +101,10 @@ Material load_material(Document& doc, const Json& source, std::size_t index)
     return material;
 }
 
-// Maps in encodings of our own, once each: the file's texture and its encoding -> the scene's.
+// Maps already converted from burnish's encodings: (file texture, encoding) to scene texture.
 using Imported = std::map<std::pair<std::int32_t, int>, std::int32_t>;
 
-// to: where the map belongs once `convert` has made of it what scenes hold.
+// Converts a map once and stores its reference in `to`. `convert` returns the scene's encoding.
 template <class Convert>
 void import_map(Document& doc, Imported& known, TextureRef& from, int encoding, const std::string& place, TextureRef& to,
                 const Convert& convert)
@@ -131,7 +132,7 @@ void import_maps(Document& doc, Imported& known, const Json& source, std::size_t
     const std::string place = fmt::format("/materials/{}/extras/burnish/", index);
     import_map(doc, known, m.quaternion_tex, -1, place + "quaternionTexture", m.normal_tex, normals_of_quaternions);
     if (m.directional_roughness_tex.used()) {
-        constexpr int kFirstOfRoughness = 16; // beyond those of rotations
+        constexpr int kFirstOfRoughness = 16; // beyond the rotation encodings
         RoughnessEncoding by = RoughnessEncoding::widths;
         const std::string_view ways = kRoughnessEncodings;
         read_choice(source, "/extras/burnish/directionalRoughnessTexture/encoding", ways, by);
@@ -154,12 +155,12 @@ void import_maps(Document& doc, Imported& known, const Json& source, std::size_t
 
 } // namespace
 
-// The sign of the rotation follows the extension's words (counter-clockwise in texture space, whose v axis
-// points down) and its test model; the matrix printed in the extension's text turns the other way.
+// Returns the transform. Its rotation follows the extension's text (counter-clockwise in texture space, with v pointing
+// down) and test model. The matrix printed in the extension rotates the other way.
 glm::mat3x2 texture_transform(const double offset[2], double rotation, const double scale[2])
 {
     constexpr double kTwoPi = 6.283185307179586;
-    const double angle = std::fmod(rotation, kTwoPi); // exact; the functions want a bounded argument
+    const double angle = std::fmod(rotation, kTwoPi); // exact; the functions need a bounded argument
     const double s = det_sin(angle), c = det_cos(angle);
     const auto f = [](double x) { return static_cast<float>(x); };
     return {f(c * scale[0]), f(-s * scale[0]), f(s * scale[1]), f(c * scale[1]), f(offset[0]), f(offset[1])};

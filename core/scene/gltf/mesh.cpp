@@ -12,14 +12,13 @@ namespace burnish::gltf {
 
 namespace {
 
-constexpr int kTriangles = 4, kTriangleStrip = 5; // of primitive modes (glTF 2.0, 3.7.2.1)
+constexpr int kTriangles = 4, kTriangleStrip = 5; // primitive modes (glTF 2.0, 3.7.2.1)
 
-// Corner arrays take some 150 bytes a corner while a primitive is built: a small file must not ask for too
-// many.
+// Bound on corners for a small file: a corner takes some 150 bytes while a primitive is built.
 constexpr std::uint64_t kFreeCorners = 1 << 20, kCornersPerByte = 16;
-constexpr std::uint64_t kCornerCharge = 32; // bytes: an index that stays, and a share of what does not
+constexpr std::uint64_t kCornerCharge = 32; // bytes: a lasting index, and a share of the temporary arrays
 
-struct Source { // of one primitive
+struct Source { // for one primitive
     Document& doc;
     const Json& json;
     std::string place;
@@ -27,7 +26,7 @@ struct Source { // of one primitive
     bool is_draco = false;
 };
 
-// attributes: of the primitive, or one of its morph targets, which Draco does not hold.
+// `attributes` belongs to the primitive or to one of its morph targets, which Draco does not hold.
 AccessorView attribute_view(Source& source, const Json& attributes, const std::string& name, int fewest, int most)
 {
     const auto it = attributes.find(name);
@@ -100,7 +99,7 @@ std::vector<std::uint32_t> read_indices(Source& source, std::uint64_t vertex_cou
     return indices;
 }
 
-// Strips and fans as in glTF 2.0, 3.7.2.1, so that every triangle keeps its winding.
+// Converts strips and fans by glTF 2.0, 3.7.2.1, so that every triangle keeps its winding.
 std::vector<std::uint32_t> to_triangles(std::vector<std::uint32_t> v, int mode)
 {
     if (mode == kTriangles) {
@@ -132,7 +131,7 @@ int material_of(Document& doc, const Json& json)
 void finish_corners(Document& doc, Corners& corners, const Material& material, Primitive& primitive, const std::string& mesh)
 {
     if (!corners.attributes.normal)
-        corners.attributes.tangent = {}; // they belong together
+        corners.attributes.tangent = {}; // normals and tangents belong together
     if (make_normals(corners))
         doc.warn(mesh + ": normals without length are replaced by the triangle's");
     const int uv_set = material.normal_tex.used()       ? material.normal_tex.uv_set
@@ -158,7 +157,7 @@ void warn_missing_coordinates(Document& doc, const Material& m, const Primitive&
             doc.fault(mesh, fmt::format("no TEXCOORD_{} for a texture of its material", ref.uv_set));
 }
 
-// by: how the mesh is bent; nothing of it: as it is in the file.
+// Loads a primitive. `by` bends the mesh; an empty Bend leaves the mesh as the file has it.
 void load_primitive(Document& doc, const Json& json, const Bend& by, const std::string& place, const std::string& mesh)
 {
     const int mode = static_cast<int>(get_uint(json, "mode", kTriangles));
@@ -178,7 +177,7 @@ void load_primitive(Document& doc, const Json& json, const Bend& by, const std::
         return;
     }
     std::vector<std::uint32_t> indices = read_indices(source, corners.attributes.position.count());
-    Bent bent; // what the attributes refer to
+    Bent bent; // storage for the attributes
     if (by.any()) {
         if (corners.attributes.position.all_zero())
             fail(place + "/attributes/POSITION", "has no buffer view, and is bent by joints or morph targets");
@@ -189,7 +188,7 @@ void load_primitive(Document& doc, const Json& json, const Bend& by, const std::
     }
     if (mode == kTriangles && indices.size() % 3 != 0)
         doc.warn(mesh + ": the number of indices is not a multiple of 3; the last are left out");
-    // Draco stores triangles whatever the mode says.
+    // Draco stores triangles whatever the mode is.
     corners.vertices = to_triangles(std::move(indices), source.is_draco ? kTriangles : mode);
     if (corners.vertices.empty())
         return;
@@ -220,7 +219,7 @@ Mesh load_mesh(Document& doc, std::size_t m, const Bend& by)
     return mesh;
 }
 
-// A mesh of its own for each node that bends one. What joints bend lies in world space, whatever the node.
+// Makes a separate mesh for each node that bends one. A skinned mesh lies in world space, whatever its node.
 void load_bent_meshes(Document& doc, const std::vector<Bend>& bends)
 {
     for (std::size_t i = 0; i < bends.size(); ++i) {
@@ -243,7 +242,7 @@ void load_bent_meshes(Document& doc, const std::vector<Bend>& bends)
 void load_meshes(Document& doc)
 {
     std::vector<Bend> bends(doc.scene.nodes.size());
-    std::vector<bool> plain(table_size(doc.json, "meshes"), true); // drawn as they are in the file, or not at all
+    std::vector<bool> plain(table_size(doc.json, "meshes"), true); // drawn as in the file, or not at all
     for (std::size_t i = 0; i < bends.size(); ++i)
         if (doc.scene.nodes[i].mesh != kNone) {
             bends[i] = bend_of(doc, i);

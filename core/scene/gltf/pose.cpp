@@ -16,11 +16,11 @@ using Numbers = std::vector<double>;
 
 struct Keys {
     AccessorView times, values;
-    std::size_t width = 0; // numbers a key
+    std::size_t width = 0; // numbers in a key
     bool step = false, cubic = false;
 
     double time(std::size_t key) const { return static_cast<double>(times.number(key, 0)); }
-    // part: of a cubic spline 0 the tangent before, 1 the value, 2 the tangent after.
+    // Returns a key's numbers. `part` applies to cubic splines: 0 the in-tangent, 1 the value, 2 the out-tangent.
     Numbers at(std::size_t key, std::size_t part = 1) const
     {
         const std::size_t components = static_cast<std::size_t>(values.components());
@@ -32,7 +32,7 @@ struct Keys {
     }
 };
 
-// Along the shorter arc, at a steady rate; quaternions that are nearly one are blended.
+// Interpolates along the shorter arc at constant speed. Blends nearly equal quaternions linearly.
 Numbers slerp(const Numbers& a, Numbers b, double x)
 {
     double dot = 0.0;
@@ -79,7 +79,7 @@ std::size_t targets_of(const Document& doc, const Json& node)
     return primitives.empty() || !primitives[0].contains("targets") ? 0 : primitives[0]["targets"].size();
 }
 
-// false: what it holds does not fit what it moves, which check_moving() has said.
+// Reads an animation sampler. Returns false where its data do not fit the target; check_moving() has reported this.
 bool read_keys(Document& doc, const Json& sampler, std::size_t width, Keys& keys)
 {
     const std::string kind = sampler.value("interpolation", "LINEAR");

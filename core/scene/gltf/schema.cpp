@@ -18,14 +18,14 @@ constexpr double kWhole = 9007199254740992.0;  // 2^53: integers stay exact in J
 
 enum class Kind { object, objects, text, boolean, integer, index, indices, number, numbers, word, words, code };
 
-// One rule for all values that a path matches; '*' is any element of an array or member of an object.
+// One rule for all values that a path matches; '*' matches any array element or object member.
 struct Rule {
     const char* path;
     Kind kind;
-    double low = -kAny, high = kAny; // of integers and numbers
-    const char* more = "";           // index: the table; word: the words allowed; code: the integers allowed
+    double low = -kAny, high = kAny; // bounds for integers and numbers
+    const char* more = "";           // index: the table; word: the allowed words; code: the allowed integers
     bool required = false;
-    std::size_t count = 0; // numbers: length of the array, 0 any
+    std::size_t count = 0; // numbers: array length, 0 any
 };
 
 constexpr bool kRequired = true;
@@ -188,7 +188,7 @@ template <class Field> constexpr Rule factor_rule(const char* path, double least
     return {path, kCount == 1 ? Kind::number : Kind::numbers, least, most, "", false, kCount == 1 ? 0 : kCount};
 }
 
-// Below a material, a light: what a .def of core/scene lists.
+// Rules for a material or light: the lines of core/scene's .def files.
 const Rule kMaterialRules[] = {
 #define BN_FACTOR(kind, name, fallback, path, least, most) factor_rule<FieldKinds::kind>(path, least, most),
 #define BN_FLAG(kind, name, path) {path, Kind::kind},
@@ -216,7 +216,7 @@ const Rule kAreaLightRules[] = {
 #include "core/scene/area_light.def"
 };
 
-// The same rules hold wherever a material refers to a texture (textures.h).
+// Rules for every texture reference in a material (textures.h).
 const Rule kTextureInfoRules[] = {
     {"", Kind::object},
     {"/index", Kind::index, 0, 0, "textures", kRequired},
@@ -382,7 +382,7 @@ class Checker {
     std::string place_;
 };
 
-// Rules of values below each of some objects, and that what the values lie in are objects.
+// Applies rules to the values below one object. Also checks that the values' enclosing members are objects.
 void check_below(Checker& checker, const std::string& where, std::span<const Rule> rules)
 {
     for (const Rule& rule : rules) {
@@ -390,14 +390,14 @@ void check_below(Checker& checker, const std::string& where, std::span<const Rul
         for (std::size_t slash = path.find('/', 1); slash != std::string_view::npos; slash = path.find('/', slash + 1)) {
             const std::string_view holder = path.substr(0, slash);
             const Rule object = {"", Kind::object};
-            if (holder != "/extras") // anything may be there
+            if (holder != "/extras") // extras may hold anything
                 checker.run(object, where + std::string(holder));
         }
         checker.run(rule, where + rule.path);
     }
 }
 
-// Camera, light and material members that only hold together.
+// Checks members of cameras, lights and materials that are only valid together.
 void check_pairs(const Json& json)
 {
     for (std::size_t i = 0; i < table_size(json, "cameras"); ++i) {

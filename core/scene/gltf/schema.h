@@ -1,14 +1,15 @@
-// What a glTF 2.0 tree must look like before anything reads it: types, ranges, indices, extensions.
+// Checks a glTF 2.0 tree before anything else reads it: types, ranges, indices, extensions.
 #pragma once
 #include "core/scene/gltf/document.h"
 
 namespace burnish::gltf {
 
-// Version and extensions: unsupported required ones fail (all names in one line), used ones warn.
+// Checks version and extensions. Unsupported required extensions fail, all in one line; unsupported used extensions
+// warn.
 void check_version_and_extensions(Document& doc);
 
-// Every rule of the table in gltf_schema.cpp; the first breach fails with its JSON path. Normalizes number
-// types: integers written as 3.0 become integers and factors written as 3 become floating point.
+// Applies every rule in schema.cpp; the first breach fails with its JSON path. Normalizes number types: integers
+// written as 3.0 become integers, and factors written as 3 become floating point.
 void check_schema(Json& json);
 
 } // namespace burnish::gltf

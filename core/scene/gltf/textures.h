@@ -1,4 +1,5 @@
-// The textures of materials that are read (core/scene/material.def): where a file names them, below a material, and where they go.
+// Texture members of materials (core/scene/material.def): their paths in a file, below a material, and their members in
+// Material.
 #pragma once
 #include "core/scene/scene.h"
 
@@ -13,7 +14,7 @@ inline constexpr MaterialTexture kMaterialTextures[] = {
 #include "core/scene/material.def"
 };
 
-inline constexpr const char* kRotationEncodings = "vector doubleAngle direction"; // by RotationEncoding
-inline constexpr const char* kRoughnessEncodings = "widths anisotropy";           // by RoughnessEncoding
+inline constexpr const char* kRotationEncodings = "vector doubleAngle direction"; // indexed by RotationEncoding
+inline constexpr const char* kRoughnessEncodings = "widths anisotropy";           // indexed by RoughnessEncoding
 
 } // namespace burnish::gltf

@@ -16,7 +16,7 @@ glm::vec3 read_vec3(const AccessorView& view, std::uint32_t i)
     return {view.number(i, 0), view.number(i, 1), view.number(i, 2)};
 }
 
-// In double: squares of any float fit. False where there is no direction.
+// Normalizes in double, where the squares of all floats fit. Returns false for a vector without direction.
 bool normalize(const glm::dvec3& v, glm::vec3& unit)
 {
     const double length = std::sqrt(v.x * v.x + v.y * v.y + v.z * v.z);
@@ -33,12 +33,12 @@ glm::vec3 flat_normal(const Corners& corners, std::size_t first_corner)
         p[k] = glm::dvec3(read_vec3(corners.attributes.position, corners.vertices[first_corner + k]));
     const glm::dvec3 a = p[1] - p[0], b = p[2] - p[0];
     const glm::dvec3 cross(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
-    glm::vec3 unit(0.0f, 0.0f, 1.0f); // a triangle without area is never seen
+    glm::vec3 unit(0.0f, 0.0f, 1.0f); // a triangle without area is never visible
     normalize(cross, unit);
     return unit;
 }
 
-// Gram-Schmidt against the normal; an unusable tangent is replaced by any.
+// Orthogonalizes a tangent against the normal (Gram-Schmidt). Replaces an unusable tangent by an arbitrary one.
 glm::vec4 clean_tangent(const AccessorView& view, std::uint32_t vertex, const glm::vec3& normal)
 {
     const glm::dvec3 t(read_vec3(view, vertex)), n(normal);
@@ -47,7 +47,7 @@ glm::vec4 clean_tangent(const AccessorView& view, std::uint32_t vertex, const gl
     const glm::dvec3 flat = t - along * n;
     const double flat2 = flat.x * flat.x + flat.y * flat.y + flat.z * flat.z;
     glm::vec3 unit;
-    // Closer to the normal than a thousandth radian its direction is rounding error.
+    // Within a thousandth radian of the normal, the direction is rounding error.
     if (!(flat2 > 1e-6 * length2) || !normalize(flat, unit))
         unit = any_tangent(normal);
     return {unit, view.number(vertex, 3) < 0.0f ? -1.0f : 1.0f};
@@ -60,14 +60,14 @@ void make_mikk_tangents(Corners& corners, const AccessorView& uv)
     for (std::size_t i = 0; i < corners.vertices.size(); ++i) {
         const std::uint32_t vertex = corners.vertices[i];
         positions[i] = read_vec3(corners.attributes.position, vertex);
-        // MikkTSpace takes v upwards; so does a glTF normal map's green, against its v axis that points down.
+        // MikkTSpace expects v upwards. A glTF normal map's green also points up, against the texture's v axis.
         uvs[i] = {uv.number(vertex, 0), 1.0f - uv.number(vertex, 1)};
     }
     corners.tangents = mikk_tangents(positions, corners.normals, uvs);
 }
 
 constexpr std::size_t kVertexFloats = 18;
-using VertexBits = std::array<std::uint32_t, kVertexFloats>; // every attribute, compared by its bits
+using VertexBits = std::array<std::uint32_t, kVertexFloats>; // all attributes, compared by their bits
 
 VertexBits vertex_at(const Corners& corners, std::size_t corner)
 {
@@ -99,12 +99,12 @@ std::uint32_t hash_of(const VertexBits& bits)
     return hash ^ hash >> 13;
 }
 
-// Open addressing over the vertices appended so far; only their number decides the order, never the hash.
+// Hash table with open addressing over the appended vertices. Insertion decides the order, never the hash.
 class Welder {
   public:
     explicit Welder(VertexTable& table) : columns_(columns_of(table)), first_(table.size()), slots_(1024, kFree) {}
 
-    // The scene index of the vertex; `added` says whether it is new.
+    // Returns the vertex's scene index; sets `added` for a new vertex.
     std::size_t find_or_add(const VertexBits& bits, bool& added)
     {
         const std::uint32_t hash = hash_of(bits);
@@ -149,7 +149,7 @@ class Welder {
     std::array<Column<float>*, kVertexFloats> columns_;
     std::size_t first_;
     std::vector<std::uint32_t> slots_;  // vertex, counted from first_
-    std::vector<std::uint32_t> hashes_; // by vertex
+    std::vector<std::uint32_t> hashes_; // for each vertex
 };
 
 } // namespace

@@ -11,7 +11,7 @@ namespace {
 template <class T> T load(const std::uint8_t* p)
 {
     T value;
-    std::memcpy(&value, p, sizeof(T)); // accessors need not be aligned in a file that breaks the rules
+    std::memcpy(&value, p, sizeof(T)); // unaligned: a file may break the alignment rules
     return value;
 }
 
@@ -21,10 +21,10 @@ template <class T> float to_number(const std::uint8_t* p, bool normalized, float
     if (!normalized)
         return value;
     const float unit = value / largest;
-    return unit < -1.0f ? -1.0f : unit; // -128 / 127
+    return unit < -1.0f ? -1.0f : unit; // for -128 / 127
 }
 
-alignas(16) const std::uint8_t kZeros[64] = {}; // as large as the largest element, a MAT4 of floats
+alignas(16) const std::uint8_t kZeros[64] = {}; // the size of the largest element, a MAT4 of floats
 
 } // namespace
 

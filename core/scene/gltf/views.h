@@ -1,4 +1,4 @@
-// Bounds-checked views of accessor data: whoever holds an AccessorView can read every element of it.
+// Bounds-checked views of accessor data: every element of an AccessorView is readable.
 #pragma once
 #include <cstdint>
 #include <optional>
@@ -10,12 +10,12 @@ namespace burnish::gltf {
 enum class ComponentType : int { i8 = 5120, u8 = 5121, i16 = 5122, u16 = 5123, u32 = 5125, f32 = 5126 };
 
 struct ElementShape {
-    int rows = 1, columns = 1; // a vector is one column
+    int rows = 1, columns = 1; // a vector has one column
 };
 
 std::uint64_t component_bytes(ComponentType type);
 ElementShape element_shape(const std::string& type); // "VEC3", "MAT4", ...
-// Columns of matrices start at multiples of 4 bytes (glTF 2.0, 3.6.2.4).
+// Returns a column's size; matrix columns start at multiples of 4 bytes (glTF 2.0, 3.6.2.4).
 std::uint64_t column_bytes(ComponentType type, ElementShape shape);
 std::uint64_t element_bytes(ComponentType type, ElementShape shape);
 
@@ -23,14 +23,14 @@ class AccessorView {
   public:
     AccessorView() = default;
 
-    // Whether `count` elements of `element` bytes, `stride` apart, lie in `length` bytes from `offset`.
-    // Nothing overflows, whatever the numbers.
+    // Returns true where `count` elements of `element` bytes, `stride` apart, lie in `length` bytes from `offset`. No
+    // input overflows.
     static bool fits(std::uint64_t length, std::uint64_t offset, std::uint64_t stride, std::uint64_t count, std::uint64_t element);
-    // Elements of `shape` in `bytes` from `offset`, `stride` apart (0: packed); nothing where they do not
+    // Views elements of `shape` in `bytes` from `offset`, `stride` apart (0: packed). Returns nothing where they do not
     // fit.
     static std::optional<AccessorView> make(std::span<const std::uint8_t> bytes, std::uint64_t offset, std::uint64_t stride,
                                             std::uint64_t count, ComponentType type, ElementShape shape, bool normalized);
-    // `count` elements of zeros, without memory: an accessor without a buffer view.
+    // Views `count` zero elements without memory: an accessor without a buffer view.
     static AccessorView zeros(std::uint64_t count, ComponentType type, ElementShape shape, bool normalized);
 
     std::uint64_t count() const { return count_; }
@@ -38,12 +38,12 @@ class AccessorView {
     int components() const { return shape_.rows * shape_.columns; }
     explicit operator bool() const { return count_ > 0; }
     bool normalized() const { return normalized_; }
-    bool all_zero() const { return stride_ == 0; } // made by zeros(): its count is backed by no memory
+    bool all_zero() const { return stride_ == 0; } // made by zeros(): no memory backs the count
 
-    // Component c (column-major) of element i as a float; integers are mapped to [0,1] or [-1,1] where
-    // normalized (glTF 2.0, 3.6.2.2).
+    // Returns component c (column-major) of element i as a float. Maps normalized integers to [0,1] or [-1,1] (glTF
+    // 2.0, 3.6.2.2).
     float number(std::uint64_t i, int c) const;
-    std::uint32_t integer(std::uint64_t i) const; // of an unsigned scalar
+    std::uint32_t integer(std::uint64_t i) const; // for unsigned scalars
     const std::uint8_t* element(std::uint64_t i) const { return first_ + i * stride_; }
 
   private:
