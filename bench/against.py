@@ -22,7 +22,7 @@ import sys
 import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-# What is asked for, and by how much: (workload, what it is, ratio aimed at).
+# Aims: (workload, description, ratio).
 TABLE = (
     ("bent_normal_eta05", "bent_normal, all pixels covered", 0.66),
     ("split_isotropic", "split_isotropic, all pixels covered", 0.59),
@@ -108,7 +108,7 @@ def build(commit, folder):
         if source != known and not overlay(tree, source):
             continue
         run(*configure, stdout=subprocess.DEVNULL)
-        first = OBJECTS if source != known else ()  # what fails where it does fail, before all else is built
+        first = OBJECTS if source != known else ()  # builds the objects that may fail before everything else
         if all(made(tree / "build", target) for target in (*first, "bench_frame")):
             print(f"{known}: takes {what}", file=sys.stderr)
             return program

@@ -17,7 +17,7 @@ import math
 import sys
 
 
-UNITS = ("ns_fragment", "ns_triangle", "ns_vertex", "ns_pixel")  # counters of bench_micro that say more than the time of a whole round
+UNITS = ("ns_fragment", "ns_triangle", "ns_vertex", "ns_pixel")  # bench_micro counters that say more than the time of a whole round
 
 
 class Unreadable(Exception):

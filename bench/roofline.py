@@ -21,7 +21,7 @@ import subprocess
 import sys
 import xml.sax.saxutils
 
-COLOURS = ("#5c5c5c", "#0067a8", "#c64f00", "#1f7a3a", "#7a3fa8")  # of instruction sets, as they come
+COLOURS = ("#5c5c5c", "#0067a8", "#c64f00", "#1f7a3a", "#7a3fa8")  # one for each instruction set, in order
 CACHES = {"16": "L1", "512": "L2", "8192": "L3"}
 LOAD_BYTES = 16
 
@@ -83,7 +83,7 @@ def table(limits, kernels):
     return "\n".join(lines)
 
 
-HEIGHT, LEFT, RIGHT, TOP, BOTTOM = 620, 70, 740, 50, 560  # edges of the plot; names and columns stand right of it
+HEIGHT, LEFT, RIGHT, TOP, BOTTOM = 620, 70, 740, 50, 560  # edges of the plot; names and columns are on its right
 NAMES, COLUMN = 260, 90
 
 
@@ -129,7 +129,7 @@ def chart(limits, kernels):
     for isa, ceiling in sorted(ceilings.items(), key=lambda item: -item[1]):
         element("line", x1=LEFT, x2=RIGHT, y1=y_of(ceiling), y2=y_of(ceiling), stroke=colours[isa], stroke_width=2, class_="ceiling")
         above = y_of(ceiling) - 6
-        label = above if above - label >= 16 else label + 22  # ceilings may be as good as equal: their names stand one below the other
+        label = above if above - label >= 16 else label + 22  # nearly equal ceilings put their names below each other
         element("text", f"{isa}: {ceiling:.0f} Gop/s, not fused", x=RIGHT - 4, y=label, text_anchor="end",
                 style=f"fill: {colours[isa]}")
     for cache, loads in limits["loads"].items():
@@ -143,7 +143,7 @@ def chart(limits, kernels):
         element("text", f"{cache}: {loads / 1e9:.2f} G loads/s", x=x_of(at) + 10, y=y_of(slope * at) + 16, class_="soft")
     places = list(dict.fromkeys((name, eta) for name, eta, _ in kernels))
     numbers = {name: number for number, name in enumerate(dict.fromkeys(name for name, _ in places), 1)}
-    for name, number in numbers.items():  # at the longest lobe; those of one kernel lie close together
+    for name, number in numbers.items():  # at the longest lobe; the points of one kernel lie close together
         for isa, colour in colours.items():
             key = (name, max(eta for other, eta in places if other == name), isa)
             if key in kernels:

@@ -1,4 +1,5 @@
-// What fewer samples cost in accuracy: mean HDR-FLIP against the Monte Carlo reference, on the sphere of the other workloads.
+// Measures the accuracy loss of fewer samples: mean HDR-FLIP against the Monte Carlo reference, on the other workloads'
+// sphere.
 #include <fmt/format.h>
 
 #include "bench/frame/run.h"
@@ -10,7 +11,7 @@ namespace burnish {
 namespace {
 
 constexpr int kWidth = 480, kHeight = 270;
-constexpr std::uint64_t kReferenceSamples = 256; // a pixel: their noise is in both errors
+constexpr std::uint64_t kReferenceSamples = 256; // for each pixel: both errors contain their noise
 constexpr float kRoughness = 0.3f;
 constexpr double kWorse = 0.001; // the aim
 

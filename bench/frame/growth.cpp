@@ -1,4 +1,4 @@
-// Rows of workloads that differ in one number, for bench/growth.py.
+// Series of workloads that differ in one number, for bench/growth.py.
 #include <deque>
 #include <fmt/format.h>
 
@@ -13,10 +13,10 @@ struct GrowthRow {
     const char* group;
     Grows what;
     BenchScene scene;
-    std::vector<int> numbers; // of a picture its height, 16:9
+    std::vector<int> numbers; // for an image its height, 16:9
     const char* technique = "bent_normal";
     float eta = 0.0f;
-    int scene_size = 0; // where it does not grow
+    int scene_size = 0; // used where the scene does not grow
 };
 
 const std::vector<GrowthRow>& rows()
@@ -41,7 +41,7 @@ const std::vector<GrowthRow>& rows()
 
 void append_growth(std::vector<Workload>& table)
 {
-    static std::deque<std::string> names; // that workloads refer to
+    static std::deque<std::string> names; // storage for workload names
     for (const GrowthRow& row : rows())
         for (const int number : row.numbers) {
             Workload w{"", row.group, row.scene, row.scene_size, 1280, 720, 1, row.technique, 0, row.eta};

@@ -1,5 +1,5 @@
-// The table of the renderer's speed: workloads at 1920x1080 drawn in turn, CPU time of a frame as the headline and wall time beside it,
-// against what is aimed at where the machine is quiet enough. bench_frame --help lists the options.
+// Prints the table of renderer speed. Draws workloads at 1920x1080 in turn. The headline is a frame's CPU time, with
+// wall time beside it. Compares with the aims where the machine is quiet enough. bench_frame --help lists the options.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -59,7 +59,7 @@ Result<Options> parse(int argc, char** argv)
     std::error_code ignored;
     const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe", ignored);
     o.run.self = self.string();
-    o.run.program = (self.parent_path() / "burnish").string(); // both lie in the build folder
+    o.run.program = (self.parent_path() / "burnish").string(); // both are in the build folder
     bool rounds_given = false;
     for (int i = 1; i < argc; ++i) {
         const std::string option = argv[i];
@@ -121,7 +121,7 @@ nlohmann::ordered_json workloads_json(const std::vector<Measured>& all, Isa isa)
     return list;
 }
 
-// headline: the machine was quiet enough to judge by.
+// Returns the rows as JSON. `headline`: the machine was quiet enough for a judgement.
 nlohmann::ordered_json rows_json(const std::vector<Row>& rows, Isa isa, bool headline)
 {
     nlohmann::ordered_json list = nlohmann::ordered_json::array();

@@ -1,4 +1,4 @@
-// What only a process of its own can tell: memory, and the time from its start to a written picture.
+// Measurements that need separate processes: memory, and the time from start to a written image.
 #include <algorithm>
 #include <array>
 #include <cstdio>
@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Runs a program and gives its standard output; an Error where it does not end with 0.
+// Runs a program and returns its standard output. Returns an Error for a nonzero exit code.
 Result<std::string> output_of(const std::vector<std::string>& command)
 {
     int ends[2];
@@ -49,7 +49,7 @@ Result<std::string> output_of(const std::vector<std::string>& command)
 }
 
 struct Memory {
-    double triangles, before, peak; // bytes: scene, tables and renderer; at most while the frame was drawn
+    double triangles, before, peak; // bytes: scene, tables and renderer; peak during the frame
 };
 
 Row information(const char* group, std::string what, const char* unit, double value, std::string note)
@@ -98,11 +98,11 @@ Result<std::vector<Row>> memory_rows(const RunOptions& options)
                                    fmt::format("{:.0f} MB before the frame", m.before * 1e-6)));
         if (i == 0)
             continue;
-        // What each further triangle takes: of the input, and of the frame, which is its bins.
+        // Bytes for each further triangle: input, and frame (its bins).
         const Memory& p = found[i - 1];
         const double more = m.triangles - p.triangles, bytes = (m.peak - p.peak) / more;
         const double bins = ((m.peak - m.before) - (p.peak - p.before)) / more;
-        growth = std::max(growth, bytes / least); // against what a triangle took where there were fewer
+        growth = std::max(growth, bytes / least); // relative to the smallest figure for fewer triangles
         least = std::min(least, bytes);
         input += fmt::format("{}{:.0f}", input.empty() ? "" : ", ", bytes);
         frame += fmt::format("{}{:.0f}", frame.empty() ? "" : ", ", bins);
@@ -121,12 +121,12 @@ Result<std::vector<Row>> first_pixel_rows(const RunOptions& options)
 {
     std::error_code unmade;
     const fs::path folder = fs::temp_directory_path(unmade) / fmt::format("burnish-first-pixel-{}", getpid());
-    fs::create_directories(folder, unmade); // the program says that it cannot write there
+    fs::create_directories(folder, unmade); // the program reports an unwritable folder
     const std::vector<std::string> command = {
         options.program, "render", "builtin:teapot", "--size", "1920x1080", "--quiet", "-o", (folder / "first.png").string()};
     std::vector<double> seconds;
     Status failed;
-    for (int i = 0; i <= options.rounds && failed; ++i) { // the first one fills the cache
+    for (int i = 0; i <= options.rounds && failed; ++i) { // the first run fills the cache
         const double begin = wall_ms();
         const Result<std::string> done = output_of(command);
         if (!done)

@@ -1,5 +1,6 @@
-// Primary visibility by rays: one through every pixel's centre, Embree's own tree and traversal at its own settings (no filter, no robust
-// mode), 1, 8 or 16 coherent rays at once. Rays of a packet lie in a block of pixels, the shape that suits packets.
+// Primary visibility by rays: one ray through each pixel's centre, with 1, 8 or 16 coherent rays at once. Embree's own
+// tree and traversal run at default settings (no filter, no robust mode). A packet's rays lie in a block of pixels,
+// which suits packets.
 #include "bench/frame/subject.h"
 
 #ifdef BN_BENCH_EMBREE
@@ -19,7 +20,7 @@ constexpr BlockShape block_of(int packet)
     return packet == 16 ? BlockShape{4, 4} : packet == 8 ? BlockShape{4, 2} : BlockShape{1, 1};
 }
 
-// The three ray layouts differ in their length only.
+// The three ray layouts differ only in length.
 template <int N> struct alignas(64) Packet {
     float org_x[N], org_y[N], org_z[N], tnear[N], dir_x[N], dir_y[N], dir_z[N], time[N], tfar[N];
     unsigned mask[N], id[N], flags[N];
@@ -92,7 +93,7 @@ class RaySubject final : public Subject {
     template <int N> void trace_all()
     {
         constexpr BlockShape shape = block_of(N);
-        constexpr int kStrip = 16; // rows of a task
+        constexpr int kStrip = 16; // rows in a task
         jobs_.parallel_for(static_cast<std::size_t>((height_ + kStrip - 1) / kStrip), [&](std::size_t strip, int) {
             const int first = static_cast<int>(strip) * kStrip, last = first + kStrip < height_ ? first + kStrip : height_;
             for (int y = first; y < last; y += shape.height)

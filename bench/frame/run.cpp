@@ -6,16 +6,17 @@
 namespace burnish {
 namespace {
 
-constexpr double kRoundMs = 25.0; // short frames are drawn several times a round
+constexpr double kRoundMs = 25.0; // a round draws short frames several times
 constexpr int kMostFrames = 20;
 
 struct Running {
     Measured measured;
     std::unique_ptr<Subject> subject;
-    int frames = 1; // a round
+    int frames = 1; // in a round
 };
 
-// One round of one workload. The first frame is not timed: caches and threads belong to the workload before.
+// Runs one round of one workload. The first frame is not timed, because caches and threads still belong to the previous
+// workload.
 void round_of(Running& r)
 {
     r.subject->frame();
@@ -72,7 +73,7 @@ const Measured* named(const std::vector<Measured>& all, const std::string& name)
     return nullptr;
 }
 
-// Round by round, so that what slows the machine for a while slows both.
+// Returns the ratio round by round, so that a temporary slowdown affects both sides.
 Spread ratio(const std::vector<double>& a, const std::vector<double>& b)
 {
     std::vector<double> ratios;
@@ -81,7 +82,7 @@ Spread ratio(const std::vector<double>& a, const std::vector<double>& b)
     return spread_of(ratios);
 }
 
-// The same as a difference, ns a unit.
+// Returns the difference round by round, ns for each unit.
 Spread more(const Measured& a, const Measured& b)
 {
     std::vector<double> ns;
@@ -90,7 +91,7 @@ Spread more(const Measured& a, const Measured& b)
     return spread_of(ns);
 }
 
-// Of the workloads, whose units differ: the dearest unit to the cheapest.
+// Returns the ratio between the most and the least expensive unit among workloads with different units.
 Spread unit_spread(const std::vector<const Measured*>& series)
 {
     std::vector<double> ratios;

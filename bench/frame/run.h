@@ -1,4 +1,4 @@
-// Runs of workloads in turn, and what they say about the aims.
+// Runs workloads in turn and compares the results with the aims.
 #pragma once
 #include <map>
 #include <optional>
@@ -14,22 +14,22 @@ struct RunOptions {
     SubjectOptions subject;
     int rounds = 11;
     bool quick = false;  // fewer rounds, no slow workloads
-    std::string only;    // part of a group's or a workload's name; empty: all
-    std::string program; // burnish, for the first pixel
-    std::string self;    // this program, for memory
+    std::string only;    // part of a group's or workload's name; empty: all
+    std::string program; // path of burnish, for the first pixel
+    std::string self;    // path of this program, for memory
 };
 
-struct Measured { // one workload; a value a round
+struct Measured { // results of one workload; one value for each round
     const Workload* workload = nullptr;
-    std::vector<double> cpu_ms, wall_ms; // of a frame
+    std::vector<double> cpu_ms, wall_ms; // for each frame
     double units = 0.0;
-    double load = 0.0; // when it began
+    double load = 0.0; // load average at the start
     std::string what, pixels;
 };
 
 struct Row { // one line of the table
     std::string group, what, unit;
-    std::optional<double> aim; // none: for information
+    std::optional<double> aim; // empty: for information
     bool at_least = false;
     Spread value;
     std::string note;
@@ -38,23 +38,25 @@ struct Row { // one line of the table
 
 bool chosen(const RunOptions& options, const std::string& group, const std::string& name);
 
-// Every chosen workload of the table, group by group; `say` gets a line before each group.
+// Runs all chosen workloads, group by group. `say` gets a line before each group.
 Result<std::vector<Measured>> run_workloads(const RunOptions& options, void (*say)(const std::string&));
 
-// What the aims of the table make of them; aims whose workloads were not run are left out.
+// Returns the aims' rows. Leaves out aims whose workloads did not run.
 std::vector<Row> rows_of(const std::vector<Measured>& measured);
 
-// Share of the pixels that the tile renderer and rays give the same triangle, of a million triangles; -1 without Embree.
+// Returns the share of pixels where the tile renderer and rays see the same triangle, among a million triangles; -1
+// without Embree.
 double agreement_with_rays(const RunOptions& options);
 
-// Errors of techniques against the Monte Carlo reference; none without Embree.
+// Returns techniques' errors against the Monte Carlo reference; none without Embree.
 Result<std::vector<Row>> accuracy_rows(const RunOptions& options);
 
-// Memory and the time to the first pixel, by processes of their own. An Error where one of them failed.
+// Measures memory and the time to the first pixel in separate processes. Returns an Error where a process fails.
 Result<std::vector<Row>> memory_rows(const RunOptions& options);
 Result<std::vector<Row>> first_pixel_rows(const RunOptions& options);
 
-// The child of memory_rows: one frame of `triangles` triangles at 1920x1080; prints bytes before, and at most during, the frame.
+// Child process of memory_rows: draws one frame with `triangles` triangles at 1920x1080. Prints bytes before the frame
+// and their peak during it.
 int print_memory_of(std::int64_t triangles, const SubjectOptions& options);
 
 } // namespace burnish

@@ -13,7 +13,7 @@
 namespace burnish {
 namespace {
 
-// One environment for all. The fine one comes from the cache after the first run.
+// Bakes the environment that all workloads share. The fine one comes from the cache after the first run.
 Result<std::shared_ptr<const Environment>> bake_studio(bool coarse)
 {
     EnvironmentOptions options;
@@ -38,7 +38,7 @@ std::shared_ptr<const DfgTable> dfg(bool coarse)
     return table;
 }
 
-// With suns of one degree, one beside the other; what the environment shows stays as it is.
+// Adds suns one degree wide, side by side. The environment's image stays unchanged.
 std::shared_ptr<const Environment> with_key_lights(const Environment& environment, int count)
 {
     auto lit = std::make_shared<Environment>(environment);
@@ -56,7 +56,7 @@ std::shared_ptr<const Environment> with_key_lights(const Environment& environmen
     return lit;
 }
 
-// In rows of at most eight behind the eye of bench_view(sphere), where no pixel shows them.
+// Adds quads in rows of at most eight behind the eye of bench_view(sphere), where no pixel shows them.
 void add_quads(Scene& scene, int count)
 {
     const int across = std::clamp(count, 1, 8), rows = (count + across - 1) / across;
@@ -115,7 +115,7 @@ class TileSubject final : public Subject {
     Session session_;
     bool by_triangle_;
     FrameDesc desc_;
-    Frame last_; // its memory is the next one's
+    Frame last_; // the next frame reuses its memory
     Column<std::uint32_t> ids_;
 };
 

@@ -13,7 +13,8 @@ std::vector<Workload> all_workloads()
     std::vector<Workload> table = {
         {"trivial_1x", "trivial", S::constant, 0, W, H, 1},
         {"trivial_8x", "trivial", S::constant, 0, W, H, 8},
-        // Depth alone cannot be drawn: one unlit colour is the nearest, so visibility, listing and resolving of every pixel is in it.
+        // Depth alone cannot be drawn. One unlit colour comes nearest, and includes each pixel's visibility, listing
+        // and resolve.
         {"triangles_1m_1x", "triangles", S::waves, 1036800, W, H, 1},
         {"triangles_1m_4x", "triangles", S::waves, 1036800, W, H, 4},
         {"teapot_1x", "msaa", S::teapot, 0, W, H, 1},
@@ -35,7 +36,7 @@ std::vector<Workload> all_workloads()
         {"as_mc_60_eighth", "phong", S::eighth, 0, W, H, 1, "as_mc", 60, 0.634f, 0, Engine::tile, 0, false, 0.37f},
         {"detail_plain", "detail", S::textured, 5, W, H, 1},
         {"detail_quaternion", "detail", S::textured, 5, W, H, 1},
-        {"detail_parallax", "detail", S::textured, 6, W, H, 1}, // 16 steps a fragment, in the mean
+        {"detail_parallax", "detail", S::textured, 6, W, H, 1}, // a mean of 16 steps for each fragment
         {"textures_0", "textures", S::textured, 0, W, H, 1},
         {"textures_1", "textures", S::textured, 1, W, H, 1},
         {"textures_5", "textures", S::textured, 5, W, H, 1},
@@ -65,7 +66,7 @@ std::vector<Workload> all_workloads()
         {"two_threads_major_axis", "threads", S::sphere, 0, W, H, 1, "major_axis", 16, 0.5f, 2},
         {"one_thread_adaptive", "threads", S::sphere, 0, W, H, 1, "major_axis_adaptive", 16, 0.8f, 1},
         {"two_threads_adaptive", "threads", S::sphere, 0, W, H, 1, "major_axis_adaptive", 16, 0.8f, 2},
-        // The picture grows with the triangles, so that each keeps its 2 pixels: the unit is one such triangle.
+        // The image grows with the triangles, so that each triangle keeps its 2 pixels: the unit is one such triangle.
         {"triangles_1e4", "triangle_count", S::waves, 10000, 192, 104, 1},
         {"triangles_1e5", "triangle_count", S::waves, 100000, 600, 336, 1},
         {"triangles_1e6", "triangle_count", S::waves, 1000000, 1888, 1064, 1},
@@ -113,7 +114,7 @@ const std::vector<Aim>& aims()
     static const std::vector<Aim> table = {
         {"trivial", "constant colour, 1x", M::cpu_ms, "trivial_1x", "", 4.0},
         {"trivial", "constant colour, 8x", M::cpu_ms, "trivial_8x", "", 8.0},
-        // A third of the CPU time that lavapipe (Mesa 22.3) took for such a mesh, depth only: 49 and 112 ms.
+        // A third of the CPU time of lavapipe (Mesa 22.3) for such a mesh, depth only, in ms.
         {"triangles", "1 M triangles of 2 pixels, one colour, 1x", M::cpu_ms, "triangles_1m_1x", "", 49.0 / 3.0},
         {"triangles", "1 M triangles of 2 pixels, one colour, 4x", M::cpu_ms, "triangles_1m_4x", "", 112.0 / 3.0},
         {"msaa", "teapot, bent_normal, 8x to 1x", M::cpu_ratio, "teapot_8x", "teapot_1x", 1.35},
@@ -124,13 +125,13 @@ const std::vector<Aim>& aims()
         {"samples", "major_axis_adaptive to bent_normal, eta 0.8", M::cpu_ratio, "adaptive_eta08", "bent_normal_eta08", 2.0},
         {"samples", "major_axis_weighted 16 to bent_normal, eta 0.5", M::cpu_ratio, "weighted_16_eta05", "bent_normal_eta05", 0.0},
         {"samples", "major_axis_weighted 16 to bent_normal, eta 0.8", M::cpu_ratio, "weighted_16_eta08", "bent_normal_eta08", 0.0},
-        // A fifth of the CPU time that lavapipe (Mesa 22.3) took for plain kernels of that lobe: 1655 and 5362 ms.
+        // A fifth of the CPU time of lavapipe (Mesa 22.3) for plain kernels of this lobe, in ms.
         {"phong", "as_mc, 60 samples", M::cpu_ms, "as_mc_60", "", 1655.0 / 5.0},
         {"phong", "as_mc, 200 samples", M::cpu_ms, "as_mc_200", "", 5362.0 / 5.0},
         {"phong", "as_mc, 60 samples, an eighth of the picture, to all of it", M::cpu_ratio, "as_mc_60_eighth", "as_mc_60", 1.15 / 8.0},
         {"detail", "quaternion frame, beyond Gram-Schmidt's", M::cpu_more, "detail_quaternion", "detail_plain", 1.0},
         {"detail", "parallax, 16 steps, beyond none", M::cpu_more, "detail_parallax", "detail_plain", 25.0},
-        // An eighth of the CPU time that lavapipe (Mesa 22.3) took for plain kernels of transformed cosines: 173 and 287 ms.
+        // An eighth of the CPU time of lavapipe (Mesa 22.3) for plain LTC kernels, in ms.
         {"area_lights", "one quad by transformed cosines", M::cpu_ms, "quads_1", "", 173.0 / 8.0},
         {"area_lights", "four quads", M::cpu_ms, "quads_4", "", 287.0 / 8.0},
         {"area_lights", "a quad by the round table, to none", M::cpu_ratio, "quads_1_isotropic", "quads_0", 0.0},

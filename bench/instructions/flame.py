@@ -21,8 +21,8 @@ import xml.sax.saxutils
 
 import mix
 
-WIDTH, ROW, NARROWEST = 1400, 18, 0.7  # pixels; of what is drawn
-LETTER = 6.1                           # pixels, of the font's at its size
+WIDTH, ROW, NARROWEST = 1400, 18, 0.7  # pixels; NARROWEST: narrowest drawn box
+LETTER = 6.1                           # pixels, a letter's width in this font size
 COLOURS = {"raster/tile": "#9ec5e8", "raster": "#c4d7ea", "shading/techniques": "#f2b77c", "shading/surface": "#f6d58a", "shading/lights": "#f4a79d",
            "shading/kernels": "#a9d6a0", "shading": "#d6cfae", "core": "#cfcfcf", "": "#e4e4e4"}
 LANES = "core/simd"
@@ -122,7 +122,7 @@ def table_of(tree, unit, rows):
     def visit(node, above):
         for name, part in node.parts.items():
             own[name] += part.own
-            if name not in above:  # of what calls itself once
+            if name not in above:  # counts recursive functions once
                 whole[name] += part.count
             visit(part, above | {name})
 

@@ -1,7 +1,9 @@
-// Draws small frames for valgrind to count their instructions, one thread and AVX2. Each workload is drawn once before it counts, so
-// memory has grown and pages are there; then one frame is counted and its figures go to a file of its own. See count.py. Given the names
-// of some it counts these, NAME@WIDTHxHEIGHT in another size (mix.py); given TECHNIQUE:SAMPLES:ALPHA_LIN:ETA, that on the inside of a
-// brushed sphere (lobe_line.py). --steps counts without valgrind, AVX-512 and smaller frames.
+// Draws small frames for valgrind to count their instructions, on one thread with AVX2. Draws each workload once before
+// counting, so that memory has grown and its pages exist. Then counts one frame and writes its figures to a separate
+// file. See count.py.
+//
+// Arguments select workloads: NAME, NAME@WIDTHxHEIGHT for another size (mix.py), or TECHNIQUE:SAMPLES:ALPHA_LIN:ETA for
+// the inside of a brushed sphere (lobe_line.py). --steps counts without valgrind, on AVX-512 and smaller frames.
 #include <cmath>
 #include <cstdio>
 #include <fmt/format.h>
@@ -41,15 +43,15 @@ std::vector<Workload> small_workloads()
         list.push_back({t.name, "instructions", S::sphere, 0, 160, 90, 1, t.name, 0, 0.8f});
     list.push_back({"quaternion", "instructions", S::textured, 5, 160, 90, 1});
     list.back().frame_map = kFrameQuaternion;
-    list.push_back({"parallax", "instructions", S::textured, 6, 160, 90, 1}); // 16 steps a fragment, in the mean
-    for (int lights : {1, 4}) {                                               // the difference is that of three
+    list.push_back({"parallax", "instructions", S::textured, 6, 160, 90, 1}); // a mean of 16 steps for each fragment
+    for (int lights : {1, 4}) {                                               // the difference is the cost of three
         list.push_back({lights == 1 ? "key_lights_1" : "key_lights_4", "instructions", S::sphere, 0, 160, 90, 1, "bent_normal", 0, 0.8f});
         list.back().key_lights = lights;
     }
     return list;
 }
 
-// Drawn where they are named, without a budget: quads that light every pixel.
+// Workloads without a budget, drawn only where named: quads that light every pixel.
 std::vector<Workload> named_workloads()
 {
     std::vector<Workload> list;
@@ -66,7 +68,7 @@ std::vector<Workload> named_workloads()
     return list;
 }
 
-// Those that are counted step by step: a tile each, as a step takes thousands of cycles.
+// Workloads for counting step by step. Each has one tile, because a step takes thousands of cycles.
 std::vector<Workload> stepped_workloads()
 {
     constexpr int W = 48, H = 27;
@@ -76,7 +78,7 @@ std::vector<Workload> stepped_workloads()
             {"major_axis_weighted", "instructions", BenchScene::sphere, 0, W, H, 1, "major_axis_weighted", 0, 0.8f}};
 }
 
-// NAME or NAME@WIDTHxHEIGHT; nothing where it is none.
+// Parses NAME or NAME@WIDTHxHEIGHT; nothing for other text.
 std::optional<Workload> known(const char* text)
 {
     const std::string_view all = text;
@@ -98,7 +100,7 @@ std::optional<Workload> known(const char* text)
     return std::nullopt;
 }
 
-// One TECHNIQUE:SAMPLES:ALPHA_LIN:ETA, as a workload of that name; nothing where it is none.
+// Parses TECHNIQUE:SAMPLES:ALPHA_LIN:ETA into a workload with this text as its name; nothing for other text.
 std::optional<Workload> place(const char* text)
 {
     const std::string_view all = text;
@@ -115,8 +117,8 @@ std::optional<Workload> place(const char* text)
     return w;
 }
 
-// Calls `counted` with each workload and its frame, drawn once before: memory has grown, pages are there. An exit code, 0 where all went
-// well.
+// Calls `counted` with each workload and its frame. Draws the frame once before, so that memory has grown and its pages
+// exist. Returns an exit code, 0 for success.
 int each_frame(const std::vector<Workload>& list, Isa isa, const std::function<int(const Workload&, const std::function<void()>&)>& counted)
 {
     if (!isa_available(isa)) {
@@ -138,7 +140,7 @@ int each_frame(const std::vector<Workload>& list, Isa isa, const std::function<i
     return 0;
 }
 
-// {"NAME": instructions of one frame, ...}, by AVX-512 on this thread.
+// Prints {"NAME": instructions of one frame, ...}, counted on AVX-512 and this thread.
 int run_steps(const std::vector<Workload>& list)
 {
     nlohmann::ordered_json counts;
@@ -208,7 +210,7 @@ int main(int argc, char** argv)
         }
         return steps ? run_steps(list) : run(list);
     }
-    nlohmann::ordered_json made = machine_json(); // what the number of instructions depends on
+    nlohmann::ordered_json made = machine_json(); // inputs that change instruction counts
     made = {{"compiler", made["compiler"]}, {"build_type", made["build_type"]}, {"libc", gnu_get_libc_version()}};
     fmt::print("{}\n", made.dump());
     return 0;

@@ -18,7 +18,7 @@ import subprocess
 import sys
 import tempfile
 
-KINDS = (  # the first that matches
+KINDS = (  # the first match counts
     ("divide, root", r"v?(div|sqrt)[ps][sd]"),
     ("multiply", r"v?(mul[ps][sd]|pmul)"),
     ("add", r"v?((add|sub)[ps][sd]|padd|psub)"),

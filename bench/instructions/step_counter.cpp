@@ -16,7 +16,7 @@ volatile uint64_t steps, last_place;
 void on_step(int, siginfo_t*, void* context)
 {
     const auto place = static_cast<uint64_t>(static_cast<const ucontext_t*>(context)->uc_mcontext.gregs[REG_RIP]);
-    if (place != last_place) // else the next turn of a repeated instruction
+    if (place != last_place) // else another turn of a repeated instruction
         steps = steps + 1;
     last_place = place;
 }

@@ -1,6 +1,7 @@
-// Counts the instructions that this thread executes, where no other tool here can: valgrind knows no AVX-512, and virtual machines often
-// have no counters. The processor traps after each instruction (the trap flag of x86-64) and a signal handler counts: 2 to 11 microseconds
-// each, so frames are small. A repeated string instruction counts once, whatever its length.
+// Counts the instructions that this thread executes. For machines without other tools: valgrind knows no AVX-512, and
+// virtual machines often have no counters. The processor traps after each instruction (the trap flag of x86-64), and a
+// signal handler counts. Traps are slow, so frames are small. A repeated string instruction counts once, whatever its
+// length.
 #pragma once
 
 #include <cstdint>
@@ -8,8 +9,8 @@
 
 namespace burnish {
 
-// The instructions of `work`, which runs on this thread alone; nothing (0) where the processor is no x86-64. Not reentrant: SIGTRAP is its
-// own meanwhile.
+// Returns the number of instructions in `work`, which runs on this thread alone; 0 where the processor is not x86-64.
+// Not reentrant: takes over SIGTRAP during the call.
 uint64_t count_steps(const std::function<void()>& work);
 
 } // namespace burnish

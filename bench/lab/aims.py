@@ -33,11 +33,11 @@ from lobe_line import instructions
 from key_lights import mean, run
 
 OTHERS = ("bent_normal", "split_isotropic")
-BEFORE_BETA = "7.37"  # 2.3 / (0.48 * 0.65): major_axis_weighted spreads along its grain by it as it once did by 2.3
+BEFORE_BETA = "7.37"  # 2.3 / (0.48 * 0.65): makes major_axis_weighted spread along its grain as it did with the old factor 2.3
 FULL = {"roughness": "0.2,0.35,0.5,0.65,0.8", "anisotropy": "-0.9,-0.5,-0.2,0.2,0.5,0.8,0.95", "size": "64x36", "samples": "512", "runs": "3"}
 SHORT = {"roughness": "0.35,0.65", "anisotropy": "-0.9,0.8", "size": "64x36", "samples": "256", "runs": "1"}
 QUICK = {"roughness": "0.5", "anisotropy": "-0.9,0.8", "size": "64x36", "samples": "256", "runs": "3"}
-COUNTS = (16, 14, 12, 10)  # of lobe_line's samples, of which one is chosen
+COUNTS = (16, 14, 12, 10)  # candidate sample counts for lobe_line; one is chosen
 
 
 def places_of(report, value="flip_mean"):

@@ -24,7 +24,7 @@ import sys
 import tempfile
 
 WORSE = 0.002
-SHARP = 0.65  # alpha_lin up to which the mean is to be halved
+SHARP = 0.65  # up to this alpha_lin, the mean must halve
 FULL = {"roughness": "0.2,0.4,0.6,0.8", "anisotropy": "-0.9,0.5,0.8,0.95", "size": "128x72", "samples": "256"}
 QUICK = {"roughness": "0.3,0.6", "anisotropy": "-0.5,0.8", "size": "96x54", "samples": "256"}
 

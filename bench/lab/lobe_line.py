@@ -26,7 +26,7 @@ from key_lights import mean, run
 sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "instructions"))
 import count as instructions  # noqa: E402
 
-TUNED = ("builtin:studio", "workshop_1k.hdr", "blender_studio_1k.exr")  # that constants were chosen on
+TUNED = ("builtin:studio", "workshop_1k.hdr", "blender_studio_1k.exr")  # environments used to choose the constants
 UNSEEN = ("low_sun.hdr", "blender_city_1k.exr", "pmndrs_lobby_512.exr")
 TECHNIQUES = ("lobe_line", "major_axis_weighted")
 LOOKS = (("builtin:studio", 0.4, 0.8), ("builtin:studio", 0.5, -0.9), ("low_sun.hdr", 0.4, 0.8), ("low_sun.hdr", 0.63, 0.8))

@@ -27,7 +27,7 @@ from mips import code_of_slope, write_png
 sys.path.append(str(pathlib.Path(__file__).resolve().parents[1]))
 from workbench import Program, arguments, in_folder  # noqa: E402
 
-# name, options of training, what a reader wants to know
+# name, training options, the question it answers
 ROWS = (
     ("cov", (), "the layout that ships, 2x32/2x64"),
     ("paper", ("--layout", "paper"), "the published layout at the same size"),
@@ -48,7 +48,7 @@ ROWS = (
     ("large", ("--size", "2x64/2x128"), "what the next one learns from: three times the seconds"),
     ("distilled", ("--taught-by", "large.mipnet"), "2x32/2x64, which sees what the large one makes, not level 0"),
 )
-LONGER = {"large": 3}  # times --seconds
+LONGER = {"large": 3}  # factor on --seconds
 
 
 class Bench(Program):

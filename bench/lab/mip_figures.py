@@ -24,7 +24,7 @@ sys.path.append(str(pathlib.Path(__file__).resolve().parents[1]))
 from workbench import arguments, in_folder  # noqa: E402
 
 TIMES = 3
-# brdf, filters between which and the truth the figure stands, how many materials
+# brdf, filters that stand between the figure and the reference, number of materials
 BY_MODEL = {4: ("ashikhmin_shirley", ("baseline", "mipnet"), 5), 5: ("ggx_aniso", ("baseline", "ssgt", "mipnet"), 6),
             6: ("beckmann", ("baseline", "leadr", "mipnet"), 6)}
 

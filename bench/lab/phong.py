@@ -41,7 +41,7 @@ def read_pfm(path):
     width, height = map(int, size.split())
     values = array.array("f", pixels)
     channels = len(values) // (width * height)
-    return width, height, [values[channels * width * y:channels * width * (y + 1)] for y in reversed(range(height))]  # from the top
+    return width, height, [values[channels * width * y:channels * width * (y + 1)] for y in reversed(range(height))]  # top row first
 
 
 def half_vector(nu, nv, x, y):

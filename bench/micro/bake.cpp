@@ -1,4 +1,4 @@
-// Bake times, and the cost of a trilinear cube fetch by instruction set.
+// Bake times, and the cost of a trilinear cube fetch for each instruction set.
 #include <benchmark/benchmark.h>
 #include <cmath>
 #include <vector>
@@ -19,7 +19,7 @@ const Image& studio()
     return image;
 }
 
-// 512^2 cube, 9 levels, 1024 samples, without the cache. Argument: threads, 0 all cores.
+// Bakes a 512^2 cube with 9 levels and 1024 samples, without the cache. Argument: threads, 0 all cores.
 void bake_512(benchmark::State& state)
 {
     const Jobs jobs(static_cast<int>(state.range(0)));
@@ -69,8 +69,8 @@ struct Fetches {
     std::vector<float> x, y, z, lod, rgb;
 };
 
-// Reflections off a screen of smooth surfaces: neighbouring lanes look in neighbouring directions; the levels
-// of 512^2.
+// Reflections off a screen of smooth surfaces: neighbouring lanes look in neighbouring directions. Levels of a 512^2
+// cube.
 const Fetches& screen()
 {
     static const Fetches fetches = [] {
@@ -108,7 +108,7 @@ void cube_fetch(benchmark::State& state, Isa isa, int fetches)
                                                    benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
 }
 
-// The 2D filter, of a 1024^2 texture.
+// Times the 2D filter on a 1024^2 texture.
 void texture_fetch(benchmark::State& state, Isa isa, int taps)
 {
     const Fetches& f = screen();

@@ -1,4 +1,4 @@
-// The fetch kernels in the loops that the benchmarks time, one table an instruction set.
+// Loops over the fetch kernels for benchmarks, one table for each instruction set.
 #pragma once
 #include <cstdint>
 
@@ -13,11 +13,12 @@ struct FetchInput { // n directions (any length) and levels of detail, n a multi
 };
 
 struct FetchFns {
-    // One fetch of every direction, results to rgb (3n).
+    // Fetches once in each direction and writes the results to rgb (3n).
     void (*single)(const std::uint16_t* texels, int size, int levels, const FetchInput& in, float* rgb);
-    // Sixteen fetches a lane, accumulated: around every direction.
+    // Accumulates sixteen fetches around each direction.
     void (*sixteen)(const std::uint16_t* texels, int size, int levels, const FetchInput& in, float* rgb);
-    // A texture at u, v = x, y, seen at a slant: at most `taps` trilinear taps along the longer side of a footprint of 1 x 4 texels.
+    // Fetches a texture at u, v = x, y, seen at a slant: at most `taps` trilinear taps along the longer side of a 1 x 4
+    // texel footprint.
     void (*texture)(const TextureParams& texture, int taps, const FetchInput& in, float* rgb);
 };
 BN_DECLARE_FNS(FetchFns);

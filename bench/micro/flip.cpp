@@ -1,4 +1,4 @@
-// Image metrics on a pair of 3840 x 2160 pictures of 8 bits.
+// Image metrics on a pair of 3840 x 2160 images with 8 bits.
 #include <benchmark/benchmark.h>
 #include <random>
 
@@ -23,7 +23,7 @@ Image noise(unsigned seed, PixelType type)
     return image;
 }
 
-// threads 0: all cores
+// threads: 0 means all cores.
 void flip_ldr_4k(benchmark::State& state, Isa isa, int threads)
 {
     FlipOptions options;
@@ -47,7 +47,7 @@ const bool kRegistered = [] {
     return true;
 }();
 
-// Eight exposures.
+// Uses eight exposures.
 void flip_hdr_4k(benchmark::State& state)
 {
     FlipOptions options;

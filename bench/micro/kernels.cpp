@@ -1,5 +1,5 @@
-// What each technique's kernel takes, by instruction set, on reflections as a screen sees them: time a fragment, and the floating-point
-// operations and bytes a fragment that the counting build of the same text finds.
+// Cost of each technique's kernel, for each instruction set, on reflections as seen on a screen. Measures time for each
+// fragment. The counting build of the same code gives floating-point operations and bytes for each fragment.
 #include <benchmark/benchmark.h>
 #include <cmath>
 #include <string>
@@ -14,7 +14,7 @@ namespace burnish {
 namespace {
 
 constexpr int kWidth = 256, kHeight = 144, kCount = kWidth * kHeight;
-constexpr float kAlpha = 0.09f; // of a roughness of 0.3
+constexpr float kAlpha = 0.09f; // for a roughness of 0.3
 
 struct Surfaces {
     std::vector<float> values[9];
@@ -29,7 +29,7 @@ struct Surfaces {
     }
 };
 
-// A sphere of radius 1 seen from inside, through its middle: rows and columns of a picture.
+// Surfaces of a unit sphere seen from its centre, in image rows and columns.
 const Surfaces& surfaces()
 {
     static const Surfaces made = [] {

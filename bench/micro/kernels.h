@@ -1,4 +1,4 @@
-// Every technique as a function over arrays of surfaces: timed for each instruction set, and counted.
+// Each technique as a function over arrays of surfaces: timed for each instruction set, and counted.
 #pragma once
 #include <cstdint>
 
@@ -7,13 +7,13 @@
 
 namespace burnish {
 
-struct KernelSurfaces {              // n of them, a multiple of 16; unit vectors
+struct KernelSurfaces {              // count surfaces, a multiple of 16; unit vectors
     const float *n[3], *v[3], *t[3]; // normal, to the eye, tangent
     int count;
-    float sigma_u, sigma_v; // of every lobe
+    float sigma_u, sigma_v; // for every lobe
 };
 
-struct KernelWork { // of all surfaces so far; 0 but for the counting build
+struct KernelWork { // total over all surfaces so far; 0 outside the counting build
     std::uint64_t operations, bytes;
 };
 

@@ -12,7 +12,7 @@ BN_FN real3 load3(const float* const from[3], int i)
     return vec3_of(load(from[0] + i), load(from[1] + i), load(from[2] + i));
 }
 
-// From a surface to the radiance of its specular lobe; brushed metal.
+// Computes a surface's specular radiance for brushed metal.
 template <Technique kTechnique> void run(const FrameParams& f, const KernelSurfaces& in, float* rgb)
 {
     for (int i = 0; i < in.count; i += kLanes, rgb += 3 * kLanes) {

@@ -1,5 +1,5 @@
-// The limits of this machine, one core: floating-point operations, random 16-byte loads from each level of the memory, bandwidth. And what
-// single lane operations take.
+// Limits of this machine on one core: floating-point operations, random 16-byte loads from each memory level,
+// bandwidth. Also the cost of single lane operations.
 #include <benchmark/benchmark.h>
 #include <cstring>
 #include <string>
@@ -21,13 +21,13 @@ std::uint64_t mix(std::uint64_t z) // SplitMix64
     return z ^ (z >> 31);
 }
 
-// Random aligned 16-byte loads, each with an index read in order, as texels are fetched. Argument: KiB that they fall into.
+// Random aligned 16-byte loads with indices read in order, like texel fetches. Argument: KiB of memory to load from.
 void random_loads(benchmark::State& state)
 {
     constexpr std::size_t kLoads = 4096; // their indices are 16 KiB, read in order
     const std::size_t quads = static_cast<std::size_t>(state.range(0)) * 1024 / sizeof(Quad);
     std::vector<Quad> memory(quads, Quad{1, 2, 3, 4});
-    // New places every time, or a large memory would be tried at its first 4096 places only.
+    // Use new places in every round: otherwise a large memory is only tested at its first 4096 places.
     constexpr std::size_t kRounds = 64;
     std::vector<std::uint32_t> index(kLoads * kRounds);
     for (std::size_t i = 0; i < index.size(); ++i)
@@ -45,7 +45,7 @@ void random_loads(benchmark::State& state)
 }
 BENCHMARK(random_loads)->Name("limit/random_loads/KiB")->Arg(16)->Arg(512)->Arg(8192)->Arg(262144);
 
-// Bytes read in order. Argument: MiB.
+// Reads bytes in order. Argument: MiB.
 void read_in_order(benchmark::State& state)
 {
     const std::size_t quads = (static_cast<std::size_t>(state.range(0)) << 20) / sizeof(Quad);
@@ -62,7 +62,7 @@ void read_in_order(benchmark::State& state)
 }
 BENCHMARK(read_in_order)->Name("limit/read/MiB")->Arg(256)->Unit(benchmark::kMillisecond);
 
-// Bytes written in order, as a picture is. Argument: MiB.
+// Writes bytes in order, like an image. Argument: MiB.
 void write_in_order(benchmark::State& state)
 {
     std::vector<char> memory(static_cast<std::size_t>(state.range(0)) << 20);
@@ -89,7 +89,7 @@ void lane_loop(benchmark::State& state, Isa isa, int loop)
 {
     std::vector<float> a(kLaneLoopCount), b(kLaneLoopCount), out(kLaneLoopCount);
     std::vector<std::int32_t> index(kLaneLoopCount);
-    std::vector<std::uint16_t> texels(4 * kLaneLoopCount + 64, 0x3c00); // halves of 1
+    std::vector<std::uint16_t> texels(4 * kLaneLoopCount + 64, 0x3c00); // halves with value 1
     for (std::size_t i = 0; i < kLaneLoopCount; ++i) {
         a[i] = 1.0f + static_cast<float>(mix(i) >> 40) * 0x1p-24f;
         b[i] = 0.5f + static_cast<float>(mix(~i) >> 40) * 0x1p-25f;

@@ -1,4 +1,5 @@
-// Levels of a material's normals and lobes: time a texel of level 0, by filter and size, beside copying what is read and written.
+// Mip levels of a material's normals and lobes: time for each level 0 texel, by filter and size, beside a copy of the
+// same memory.
 #include <benchmark/benchmark.h>
 #include <cstring>
 #include <map>
@@ -23,7 +24,7 @@ struct Maps {
     }
 };
 
-const Maps& grain(int side) // codes of 8 bits
+const Maps& grain(int side) // 8-bit codes
 {
     static std::map<int, Maps> made;
     Maps& m = made[side];
@@ -45,7 +46,7 @@ void count_texels(benchmark::State& state, int side)
     state.counters["s/texel"] = benchmark::Counter(texels, benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
 }
 
-// One thread. wide: nets of 2x64/2x128, untrained.
+// Makes levels on one thread. `wide`: 2x64/2x128 nets, untrained.
 void mip_levels(benchmark::State& state, MipFilter filter, bool wide)
 {
     const int side = static_cast<int>(state.range(0));
@@ -61,7 +62,7 @@ void mip_levels(benchmark::State& state, MipFilter filter, bool wide)
     count_texels(state, side);
 }
 
-// The bytes of the maps, and those of the levels, to memory of their own.
+// Copies the bytes of maps and levels to other memory.
 void mip_copy(benchmark::State& state)
 {
     const int side = static_cast<int>(state.range(0));

@@ -1,5 +1,6 @@
-// What each stage before shading takes, from profiled frames on one thread: vertices, triangle setup, bins, edge tests and depth, listing
-// of fragments, resolve; by instruction set, samples and the size of triangles. Time is that of the stage in one frame.
+// Cost of each stage before shading, from profiled frames on one thread: vertices, triangle setup, bins, edge tests and
+// depth, fragment lists, resolve. Varies instruction set, samples and triangle size. Time is the stage's time in one
+// frame.
 #include <benchmark/benchmark.h>
 #include <map>
 #include <memory>
@@ -13,7 +14,7 @@ namespace {
 
 constexpr int kWidth = 960, kHeight = 540;
 
-struct Sheet { // triangles of about `pixels` pixels each over the whole picture
+struct Sheet { // triangles of about `pixels` pixels each over the whole image
     explicit Sheet(int pixels)
         : scene(make_bench_scene(BenchScene::waves, kWidth * kHeight / pixels, kWidth, kHeight)), tables(make_draw_tables(scene))
     {
@@ -87,7 +88,7 @@ const bool kRegistered = [] {
                                                  [=](benchmark::State& state) { run(state, c.stage, c.unit, pixels, msaa, isa); })
                         ->UseManualTime()
                         ->Unit(benchmark::kMicrosecond)
-                        ->Iterations(10); // by time a short stage would be drawn for minutes
+                        ->Iterations(10); // a time limit would draw a short stage for minutes
                 }
     return true;
 }();

@@ -60,7 +60,7 @@ std::uint64_t peak_resident_bytes()
 
 bool reset_peak_memory()
 {
-    std::ofstream file("/proc/self/clear_refs"); // 5: the peak becomes the present size
+    std::ofstream file("/proc/self/clear_refs"); // 5 resets the peak to the present size
     file << "5" << std::flush;
     return file.good();
 }
@@ -73,7 +73,7 @@ bool Quiet::headline() const
 Quiet how_quiet()
 {
     constexpr int kRounds = 20;
-    constexpr std::uint64_t kAdditions = 10'000'000; // a cycle each, as each waits for the one before
+    constexpr std::uint64_t kAdditions = 10'000'000; // a cycle each, because each addition waits for the previous one
     double least_ms = 1e300, cpu = 0.0;
     const double begin = wall_ms();
     for (int round = 0; round < kRounds; ++round) {
@@ -81,7 +81,7 @@ Quiet how_quiet()
         std::uint64_t sum = 0;
         for (std::uint64_t i = 0; i < kAdditions; ++i) {
             sum += i;
-            __asm__ volatile("" : "+r"(sum)); // one addition after another
+            __asm__ volatile("" : "+r"(sum)); // forces one addition after another
         }
         const double taken = process_cpu_ms() - before;
         least_ms = std::min(least_ms, taken), cpu += taken;

@@ -1,4 +1,4 @@
-// Figures of repeated runs, the process's clocks and memory, and the machine they were taken on.
+// Statistics of repeated runs, the process's memory, and the machine.
 #pragma once
 #include <cstdint>
 #include <nlohmann/json.hpp>
@@ -12,24 +12,25 @@ namespace burnish {
 struct Spread {
     double median = 0.0, low = 0.0, high = 0.0; // quartiles
 };
-Spread spread_of(std::vector<double> values); // of at least one
+Spread spread_of(std::vector<double> values); // expects at least one value
 
-double load_average(); // of the last minute; -1 where it is not known
+double load_average(); // over the last minute; -1 where unknown
 
-// Resident bytes now, and at most since reset_peak_memory(), which is false where the system cannot do it.
+// Return the resident bytes now, and their peak since reset_peak_memory(). The reset returns false where the system
+// lacks it.
 std::uint64_t resident_bytes();
 std::uint64_t peak_resident_bytes();
 bool reset_peak_memory();
 
-// What a thread gets of the machine now: the clock that a chain of additions runs at, the share of the time that it waits for others to
-// leave a core, and load_average().
+// The machine's availability to a thread: clock speed of a chain of additions, share of time spent waiting for a core,
+// and load_average().
 struct Quiet {
     double clock_ghz, waited, load;
-    bool headline() const; // quiet enough for times that stand for the program
+    bool headline() const; // quiet enough for representative times
 };
 Quiet how_quiet();
 
-// processor, cores, version, compiler, load average.
+// Returns processor, cores, version, compiler and load average.
 nlohmann::ordered_json machine_json();
 
 } // namespace burnish

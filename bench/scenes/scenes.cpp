@@ -10,7 +10,7 @@ namespace burnish {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
-constexpr float kRightAngle = 1.57079633f; // a sheet at distance 1 is seen from -1 to 1
+constexpr float kRightAngle = 1.57079633f; // at distance 1, a sheet is visible from -1 to 1
 
 Material brushed_metal()
 {
@@ -29,7 +29,7 @@ Material constant_colour()
     return m;
 }
 
-// A sheet of columns x rows quads at distance 1 - z, a little larger than the picture; `wave` metres high.
+// Adds a sheet of columns x rows quads at distance 1 - z, slightly larger than the image. `wave` is in metres.
 void add_sheet(Scene& scene, int columns, int rows, double aspect, double z, double wave)
 {
     const double half_y = 1.003 * (1.0 - z) + wave, half_x = half_y * aspect;
@@ -66,7 +66,7 @@ Scene make_layers(std::int64_t count, double aspect)
 {
     Scene scene;
     scene.materials.push_back(brushed_metal());
-    for (std::int64_t i = 0; i < count; ++i) { // the nearest is the same whatever the number of sheets
+    for (std::int64_t i = 0; i < count; ++i) { // the nearest sheet is equal for any number of sheets
         begin_primitive(scene, 0);
         add_sheet(scene, 64, 36, aspect, -0.1 * static_cast<double>(count - 1 - i), 0.0);
     }
@@ -79,7 +79,7 @@ View sphere_view(int width, int height)
     return make_view({0.1f, 0.2f, 0.0f}, {1.0f, 0.1f, 0.3f}, 1.0f, width, height);
 }
 
-// Seen by sphere_view() in the middle of the picture: the root of an eighth of its width and of its height.
+// Makes a patch in the middle of sphere_view(): an eighth of the pixels, so sqrt(1/8) of the width and of the height.
 Scene make_eighth(double aspect)
 {
     constexpr int kColumns = 64, kRows = 36;

@@ -8,7 +8,7 @@
 namespace burnish {
 namespace {
 
-// In [0, 1), a fixed sequence (Steele et al. 2014: SplitMix64).
+// A fixed random sequence in [0, 1) (Steele et al. 2014: SplitMix64).
 class Numbers {
   public:
     double next()
@@ -34,7 +34,8 @@ Material metal()
     return m;
 }
 
-// Noise, every channel from `least` to 255, so that roughnesses stay above 0 and normals look outward; a texture of it.
+// Adds a noise texture. Each channel is from `least` to 255, so that roughness stays above 0 and normals point
+// outwards.
 std::int32_t add_texture(Scene& scene, int side, int least, Numbers& numbers)
 {
     Image image = make_image(side, side, 4, PixelType::u8);
@@ -47,7 +48,7 @@ std::int32_t add_texture(Scene& scene, int side, int least, Numbers& numbers)
     return static_cast<std::int32_t>(scene.textures.size() - 1);
 }
 
-// The scene's primitives, where they are.
+// Places the scene's primitives at the origin.
 void place(Scene& scene, const char* name)
 {
     add_node(scene, name, add_mesh(scene, name, 0), glm::mat4(1.0f));
@@ -62,7 +63,7 @@ SurfacePoint facing(double x, double y, double z)
     return p;
 }
 
-// A sheet of columns x rows quads at z = 0 from (-x, -y) to (x, y), textures `times` over its height.
+// Adds a sheet of columns x rows quads at z = 0 from (-x, -y) to (x, y). Textures repeat `times` over its height.
 void add_sheet(Scene& scene, int columns, int rows, double x, double y, double times)
 {
     add_grid(scene, columns, rows, [=](int column, int row) {
@@ -73,7 +74,7 @@ void add_sheet(Scene& scene, int columns, int rows, double x, double y, double t
     });
 }
 
-constexpr double kBeyond = 1.003; // of the picture's half height: a little larger than what bench_view() sees at z = 0
+constexpr double kBeyond = 1.003; // relative to the image's half height: slightly more than bench_view() sees at z = 0
 
 } // namespace
 
@@ -85,7 +86,7 @@ Scene make_textured(std::int64_t textures, double aspect)
     TextureRef* const refs[] = {&m.base_color_tex, &m.normal_tex, &m.metallic_roughness_tex, &m.occlusion_tex, &m.anisotropy_tex};
     for (std::size_t i = 0; i < std::min(static_cast<std::size_t>(textures), std::size(refs)); ++i)
         refs[i]->texture = add_texture(scene, 512, 96, numbers);
-    if (textures > 5) { // so that every ray goes all the way
+    if (textures > 5) { // zero heights make every ray march to the end
         m.height_tex.texture = add_texture(scene, 512, 0, numbers);
         std::fill(scene.images.back().bytes.begin(), scene.images.back().bytes.end(), std::byte{0});
     }
@@ -165,13 +166,13 @@ Scene make_slivers(std::int64_t triangles, double aspect)
     m.unlit = m.double_sided = true;
     scene.materials.push_back(m);
     begin_primitive(scene, 0);
-    // at 1920x1080 a unit is 540 pixels: 3.3 of them wide at one end and a thousand long
+    // at 1920x1080 a unit is 540 pixels: 3.3 pixels wide at one end, a thousand long
     constexpr double kWidth = 0.0061, kLength = 1.93;
     for (std::int64_t i = 0; i < triangles; ++i) {
         const double turn = 0.785398 + numbers.between(-0.2, 0.2), x = numbers.between(-0.6 * aspect, 0.6 * aspect);
         const double y = numbers.between(-0.3, 0.3), z = numbers.between(-0.02, 0.0);
         const double dx = 0.5 * kLength * std::cos(turn), dy = 0.5 * kLength * std::sin(turn), w = 0.5 * kWidth;
-        add_grid(scene, 1, 1, [=](int column, int row) { // a corner of the quad is another one: one triangle
+        add_grid(scene, 1, 1, [=](int column, int row) { // two corners coincide: one triangle
             if (column == 0)
                 return facing(x - dx, y - dy, z);
             const double side = row ? w : -w;
@@ -189,7 +190,7 @@ Scene make_lit(std::int64_t lights, double aspect)
     begin_primitive(scene, 0);
     add_sheet(scene, 64, 36, kBeyond * aspect, kBeyond, 1.0);
     place(scene, "lit");
-    const bool few = lights <= 4; // which reach everywhere; of more of them about four reach a point
+    const bool few = lights <= 4; // few lights reach everywhere; of more, about four reach a point
     const int columns = few ? 2 : static_cast<int>(std::lround(std::sqrt(static_cast<double>(lights) * 2.0)));
     for (int i = 0; i < static_cast<int>(lights); ++i) {
         Light light;
@@ -228,7 +229,7 @@ Scene make_many_materials(std::int64_t materials, double aspect)
         scene.materials.push_back(metal());
         scene.materials.back().roughness = 0.2f + 0.6f * static_cast<float>(i) / static_cast<float>(materials);
     }
-    for (std::int64_t i = 0; i < materials; ++i) { // a primitive each, of quads all over the picture
+    for (std::int64_t i = 0; i < materials; ++i) { // a primitive each, with quads all over the image
         begin_primitive(scene, static_cast<std::int32_t>(i));
         for (std::int64_t quad = i; quad < kColumns * kRows; quad += materials) {
             const double x0 = static_cast<double>(quad % kColumns), y0 = static_cast<double>(quad / kColumns);

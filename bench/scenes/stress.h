@@ -1,4 +1,4 @@
-// Scenes that are hard on one part of the renderer; see BenchScene.
+// Scenes that stress one part of the renderer; see BenchScene.
 #pragma once
 #include "core/scene/scene.h"
 

@@ -319,7 +319,7 @@ BN_INLINE integer gather_int(const std::int32_t* base, integer index)
 {
     return {_mm256_i32gather_epi32(base, index.v, 4)};
 }
-// Keeps both table halves in registers, because a gather takes some forty steps.
+// Keeps both table halves in registers, because a gather is slow.
 BN_INLINE integer table_int(const std::int32_t* table, integer index)
 {
     const __m256i lower = _mm256_permutevar8x32_epi32(load_words(table), index.v);

@@ -50,7 +50,7 @@ template <class T, std::size_t N> Result<T> make_named(const Maker<T> (&makers)[
     return Error{ExitCode::bad_input, "builtin:" + name, "", "no built-in " + std::string(what) + " has this name; there are " + known};
 }
 
-// Nothing where `name` is no trial's.
+// Makes a test scene by name; returns nothing where `name` is not one of them.
 std::optional<Result<Scene>> make_trial(const std::string& name)
 {
     const std::size_t at = name.find('=');

@@ -1,4 +1,4 @@
-// Scenes and environments generated in code: nothing to download, the same bits everywhere.
+// Scenes and environments generated in code: nothing to download, equal bits everywhere.
 #pragma once
 #include <string>
 #include <vector>
@@ -15,12 +15,13 @@ struct BuiltinInfo {
 const std::vector<BuiltinInfo>& builtin_scenes();       // teapot, spheres, sphere, plate, lights, glass, bumps, lacquer, shaderballs
 const std::vector<BuiltinInfo>& builtin_environments(); // studio, sky, night
 
-// Scenes that something breaks on, by one number: their names with =AMOUNT behind, or without for a usual one.
+// Parametric failure scenes, which break a method as one number grows. The name takes =AMOUNT; without it, the default
+// amount applies.
 const std::vector<BuiltinInfo>& builtin_trials();
 
-Result<Scene> make_builtin_scene(const std::string& name); // of either
+Result<Scene> make_builtin_scene(const std::string& name); // built-in scenes and failure scenes
 
-// Equirectangular f32 RGB radiance, orientation as in shading/bake/environment/environment.h.
+// Makes equirectangular f32 RGB radiance, oriented as in shading/bake/environment/environment.h.
 Result<Image> make_builtin_environment(const std::string& name);
 
 } // namespace burnish

@@ -1,4 +1,4 @@
-// Surfaces whose look is in their maps: a hammered sphere, a disc brushed in circles, a record, a tiled wall.
+// Surfaces defined by their maps: a hammered sphere, a disc brushed in circles, a record, a tiled wall.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -12,10 +12,10 @@ namespace burnish {
 namespace {
 
 constexpr double kTwoPi = 6.283185307179586;
-constexpr double kHalfSide = 0.45, kApart = 0.52; // metres: of all four, and from the middle of the scene
-constexpr double kBackwards = -0.35;              // radians about +X: backwards
+constexpr double kHalfSide = 0.45, kApart = 0.52; // metres: half size of all four objects; distance from the scene's centre
+constexpr double kBackwards = -0.35;              // radians about +X: leans back
 
-// Dents like bowls about jittered points of a grid, which meet in ridges.
+// Bowl-shaped dents around jittered grid points, which meet in ridges.
 glm::dvec3 hammered(double u, double v)
 {
     constexpr int kTurn = 26, kAcross = 13;
@@ -34,13 +34,13 @@ glm::dvec3 hammered(double u, double v)
     return normal_colour(slope);
 }
 
-// From the middle, right and up.
+// Converts to coordinates from the disc's centre, right and up.
 glm::dvec2 on_disc(double u, double v)
 {
     return {2.0 * u - 1.0, 1.0 - 2.0 * v};
 }
 
-glm::dvec3 circles(double u, double v) // as KHR_materials_anisotropy has directions
+glm::dvec3 circles(double u, double v) // encoded like KHR_materials_anisotropy
 {
     const glm::dvec2 p = on_disc(u, v);
     const double r = std::max(std::sqrt(p.x * p.x + p.y * p.y), 1e-6);
@@ -66,9 +66,9 @@ glm::dvec3 record_colour(double u, double v)
     return r2 < kLabel * kLabel ? glm::dvec3(0.78, 0.22, 0.12) : glm::dvec3(0.13);
 }
 
-constexpr double kTiles = 5.0, kMortar = 0.03, kBevel = 0.09; // of a tile: half the mortar, and from its edge to its level
+constexpr double kTiles = 5.0, kMortar = 0.03, kBevel = 0.09; // fractions of a tile: half the mortar; distance from edge to flat top
 
-// A tile's height, [0,1], slope and whether it is mortar; u and v along the wall.
+// A tile's height in [0,1], slope, and a flag for mortar. u and v run along the wall.
 struct Tile {
     double height;
     glm::dvec2 slope;
@@ -106,7 +106,7 @@ glm::dvec3 tile_colour(double u, double v)
     return {0.12 + 0.1 * shade, 0.34 + 0.15 * shade, 0.42 + 0.2 * shade};
 }
 
-// A ring about the origin that faces +Z, tangents along +X, texture coordinates over its square.
+// Adds a flat ring around the origin, facing +Z. Tangents point along +X; texture coordinates cover its square.
 void add_flat_disc(Scene& scene)
 {
     constexpr int kTurn = 96, kRings = 12;
@@ -188,7 +188,7 @@ Scene make_bumps()
     glazed.base_color_tex.texture = add_texture(scene, "glaze", map_of(512, 512, tile_colour));
     glazed.normal_tex.texture = add_texture(scene, "bevels", map_of(512, 512, tiles));
     glazed.height_tex.texture = add_texture(scene, "heights", map_of(512, 512, tile_heights));
-    glazed.height_scale = static_cast<float>((kBevel - kMortar) / kTiles); // bevels of 45 degrees, as their normals are
+    glazed.height_scale = static_cast<float>((kBevel - kMortar) / kTiles); // bevels of 45 degrees, like their normals
     first = begin(scene, "tiles", glazed);
     add_wall(scene);
     place(scene, "wall", first, kApart, -kApart, kBackwards);

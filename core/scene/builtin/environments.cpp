@@ -1,4 +1,4 @@
-// Environments made in code. Radiance is in units of which a white wall in ordinary light has about 1.
+// Environments made in code. A white wall in ordinary light has a radiance of about 1.
 #include <cmath>
 #include <vector>
 
@@ -20,7 +20,7 @@ glm::dvec3 unit(const glm::dvec3& v)
     return v / std::sqrt(glm::dot(v, v));
 }
 
-// radiance(direction) on every pixel centre; orientation as in shading/bake/environment/environment.h.
+// Evaluates radiance(direction) at every pixel centre, oriented as in shading/bake/environment/environment.h.
 template <class Radiance> Image paint(const Radiance& radiance)
 {
     std::vector<glm::dvec2> around(kWidth); // (x, z) of each column
@@ -42,11 +42,11 @@ template <class Radiance> Image paint(const Radiance& radiance)
     return image;
 }
 
-// A luminous rectangle, upright where its direction allows, seen from the origin.
+// A luminous rectangle seen from the origin, upright where its direction allows.
 struct Panel {
     glm::dvec3 center, right, up;   // orthonormal
     double half_width, half_height; // tangents of the half angles
-    double edge;                    // part of the half extents over which it fades
+    double edge;                    // fade width, as a fraction of the half extents
     glm::dvec3 radiance;
 };
 
@@ -54,7 +54,7 @@ Panel panel(double azimuth_deg, double elevation_deg, double half_width, double 
 {
     const double a = azimuth_deg * kPi / 180.0, e = elevation_deg * kPi / 180.0;
     Panel p;
-    // Azimuth 0 is +Z, where the camera usually stands; +X is at 90.
+    // Azimuth 0 is +Z, the usual place of the camera; azimuth 90 is +X.
     p.center = {det_cos(e) * det_sin(a), det_sin(e), det_cos(e) * det_cos(a)};
     p.right = {det_cos(a), 0.0, -det_sin(a)};
     p.up = glm::cross(p.center, p.right);
@@ -91,8 +91,8 @@ Image make_studio()
     };
     return paint([&panels](const glm::dvec3& d) {
         const double up = d.y;
-        // Walls of 0.012 brighten towards the ceiling and, through light bounced off the floor, a little
-        // below the horizon.
+        // Walls start at 0.012. They brighten towards the ceiling, and slightly below the horizon from light bounced
+        // off the floor.
         double wall = 0.012 + 0.07 * smooth_step(-0.15, 1.0, up);
         wall += 0.03 * smooth_step(0.0, 0.5, -up) * (1.0 - 0.6 * smooth_step(0.5, 1.0, -up));
         glm::dvec3 value = glm::dvec3(1.0, 0.99, 0.97) * wall;
@@ -104,13 +104,13 @@ Image make_studio()
 
 Image make_sky()
 {
-    constexpr double kSunRadius = 1.0 * kPi / 180.0; // radians; the real one has 0.27 degrees
+    constexpr double kSunRadius = 1.0 * kPi / 180.0; // radians; the real sun has 0.27 degrees
     constexpr double kSunRadiance = 9000.0;
     const glm::dvec3 sun = unit({-0.55, 0.62, 0.56});
     const glm::dvec3 zenith(0.10, 0.24, 0.62), horizon(0.78, 0.86, 0.96), sunlight(1.0, 0.93, 0.80);
     const glm::dvec3 earth(0.13, 0.11, 0.085), far_earth(0.34, 0.32, 0.30);
     return paint([&](const glm::dvec3& d) {
-        // 1 - cosine of the angle to the sun is angle^2 / 2 for the small angles that matter.
+        // 1 - cosine of the angle to the sun is angle^2 / 2 for small angles.
         const double away = std::fmax(0.0, 1.0 - glm::dot(d, sun)), angle = std::sqrt(2.0 * away);
         const double height = std::fmax(0.0, d.y), low = (1.0 - height) * (1.0 - height);
         glm::dvec3 air = mix(zenith, horizon, low * low);

@@ -1,5 +1,5 @@
-// Balls of clear, frosted and rough glass and a ring of brushed amber glass on a turned steel disc, under a lamp. All glass is closed, so
-// that light that enters finds its way out.
+// Balls of clear, frosted and rough glass and a ring of brushed amber glass, on a turned steel disc under a lamp. All
+// glass surfaces are closed, so that light that enters can leave.
 #include <cmath>
 
 #include "core/math/scalar_math.h"
@@ -9,11 +9,11 @@ namespace burnish {
 namespace {
 
 constexpr double kDiscRadius = 0.26, kDiscThickness = 0.008, kBallRadius = 0.056; // metres
-constexpr double kRingRadius = 0.052, kRingThickness = 0.015;                     // of the ring's middle line, and half of what is about it
+constexpr double kRingRadius = 0.052, kRingThickness = 0.015;                     // radii of centre line and cross-section
 constexpr int kAround = 96;
 
-// What a turn about the y axis makes of a flat profile: columns go east, rows along it. at: of a row, (distance from the axis, height)
-// of the profile and of its normal.
+// Adds a surface of revolution about the y axis: columns go east, rows along the profile. at() returns a row's profile
+// point and normal as (distance from the axis, height).
 template <class Profile> void add_turned(Scene& scene, int rows, const Profile& at)
 {
     add_grid(scene, kAround, rows, [&](int column, int row) {
@@ -81,7 +81,7 @@ void add_lamp(Scene& scene)
     scene.lights.push_back(lamp);
     Node node;
     node.name = lamp.name, node.light = 0;
-    const glm::vec3 back = glm::normalize(glm::vec3(-0.55f, 0.75f, 0.35f)); // towards the lamp, which shines along -Z
+    const glm::vec3 back = glm::normalize(glm::vec3(-0.55f, 0.75f, 0.35f)); // towards the lamp, which emits along -Z
     const glm::vec3 right = glm::normalize(glm::cross(glm::vec3(0.0f, 1.0f, 0.0f), back));
     node.local = glm::mat4(glm::vec4(right, 0.0f), glm::vec4(glm::cross(back, right), 0.0f), glm::vec4(back, 0.0f), glm::vec4(0, 0, 0, 1));
     node.world = node.local;

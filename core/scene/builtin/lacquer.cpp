@@ -1,5 +1,6 @@
-// Clear coats: balls of carbon under smooth lacquer, of car paint and of brushed steel under worn varnish, on a disc of satin plastic,
-// under a lamp. The weave's threads are round, and the lacquer over them is not: it mirrors what the threads smear.
+// Clear coats: balls of carbon under smooth lacquer, car paint, and brushed steel under worn varnish, on a satin
+// plastic disc under a lamp. The weave's threads are round but the lacquer is flat: its mirror reflection lies over the
+// threads' blurred one.
 #include <cmath>
 
 #include "core/math/scalar_math.h"
@@ -9,10 +10,11 @@
 namespace burnish {
 namespace {
 
-constexpr double kBall = 0.06, kFloor = 0.28; // metres: radii
-constexpr int kWeave = 4;                     // threads after which the twill repeats, each way
+constexpr double kBall = 0.06, kFloor = 0.28; // radii in metres
+constexpr int kWeave = 4;                     // threads in one period of the twill, in both directions
 
-// A 2/2 twill: whether the thread along u lies above that along v, and where between its edges a point lies, [-1,1].
+// A 2/2 twill: `along_u` where the thread along u is on top; `across` is the position between the thread's edges,
+// [-1,1].
 struct Thread {
     bool along_u;
     double across;
@@ -26,7 +28,7 @@ Thread thread_at(double u, double v)
     return {along_u, 2.0 * in - 1.0};
 }
 
-// Threads scatter light across themselves: as KHR_materials_anisotropy has directions, strength in B.
+// Threads scatter light across themselves. Encoded like KHR_materials_anisotropy directions, strength in B.
 glm::dvec3 weave_directions(double u, double v)
 {
     return thread_at(u, v).along_u ? glm::dvec3(0.5, 1.0, 1.0) : glm::dvec3(1.0, 0.5, 1.0);
@@ -35,7 +37,7 @@ glm::dvec3 weave_directions(double u, double v)
 glm::dvec3 weave_normals(double u, double v)
 {
     const Thread t = thread_at(u, v);
-    const double slope = -0.35 * t.across; // v is down and the bitangent up
+    const double slope = -0.35 * t.across; // v points down, the bitangent up
     return normal_colour(t.along_u ? glm::dvec2(0.0, -slope) : glm::dvec2(slope, 0.0));
 }
 

@@ -1,4 +1,4 @@
-// A dark room with brushed plates and spheres under strips, discs, a tube and a ball of light.
+// A dark room: brushed plates and spheres under strips, discs, a tube and a ball of light.
 #include <cmath>
 #include <cstdio>
 
@@ -8,9 +8,10 @@
 namespace burnish {
 namespace {
 
-constexpr double kHalfWidth = 1.8, kBack = -1.2, kFront = 1.6; // metres; of the floor
+constexpr double kHalfWidth = 1.8, kBack = -1.2, kFront = 1.6; // the floor, metres
 
-// A flat grid of squares from one corner along two sides, brushed along the first one; it faces their cross product.
+// Adds a flat grid of squares from one corner along two sides, brushed along the first side. It faces the sides' cross
+// product.
 void add_panel(Scene& scene, const glm::dvec3& corner, const glm::dvec3& u, const glm::dvec3& v, int squares)
 {
     add_grid(scene, squares, squares, [=](int column, int row) {
@@ -48,10 +49,10 @@ void add_room(Scene& scene)
     add_node(scene, "wall", add_mesh(scene, "wall", first), glm::mat4(1.0f));
 }
 
-// Leaning against the wall: brushed along, brushed across, and hardly brushed.
+// Adds plates that lean against the wall: brushed along, brushed across, and hardly brushed.
 void add_plates(Scene& scene)
 {
-    constexpr double kPlateWidth = 0.72, kPlateHeight = 0.8, kLean = 0.3; // of the top, backwards
+    constexpr double kPlateWidth = 0.72, kPlateHeight = 0.8, kLean = 0.3; // kLean: offset of the top, backwards
     struct Plate {
         const char* name;
         double x, alpha_lin, eta;
@@ -80,7 +81,7 @@ void add_balls(Scene& scene)
         char name[32];
         std::snprintf(name, sizeof name, "sphere %d", i);
         Material material = brushed_metal(0.15 + 0.13 * i, i % 2 ? 0.0 : 0.8, glm::vec3(0.95f, 0.93f, 0.88f));
-        if (i == 3) // one that is painted
+        if (i == 3) // a painted one
             material = dull(name, glm::vec3(0.5f, 0.12f, 0.08f), 0.4f);
         material.name = name;
         const std::uint32_t first = begin_surface(scene, material);
@@ -99,7 +100,7 @@ void add_lights(Scene& scene)
         add_area_light(scene, l);
     };
     const glm::vec3 white(1.0f, 0.97f, 0.92f), warm(1.0f, 0.62f, 0.3f), cool(0.45f, 0.68f, 1.0f);
-    // strips over the plates, one along and one towards the eye
+    // strips over the plates: one along them, one towards the eye
     light(AreaShape::quad, {{-1.5f, 1.45f, -0.35f}, {0.3f, 1.45f, -0.35f}, {0.3f, 1.47f, -0.25f}, {-1.5f, 1.47f, -0.25f}}, white * 14.0f,
           0.0f);
     light(AreaShape::quad, {{0.7f, 1.5f, -0.5f}, {0.8f, 1.5f, -0.5f}, {0.8f, 1.5f, 1.0f}, {0.7f, 1.5f, 1.0f}}, cool * 12.0f, 0.0f);

@@ -1,5 +1,5 @@
-// A brass plate, slightly domed, whose brushing is drawn by a direction texture: a turned disc, a sunburst,
-// and basket weave around them.
+// A slightly domed brass plate, brushed by a direction texture: a turned disc and a sunburst, with basket weave around
+// them.
 #include <cmath>
 
 #include "core/math/scalar_math.h"
@@ -14,9 +14,9 @@ constexpr int kGridColumns = 120, kGridRows = 80;
 constexpr int kTextureWidth = 768, kTextureHeight = 512;
 constexpr double kTilt = -0.25; // radians about +X: leans back
 
-// Height of the front over the middle plane and its slopes; x and y in [-1, 1].
+// Height of the front over the middle plane, and its slopes; x and y in [-1, 1].
 struct Dome {
-    double z, dz_dx, dz_dy; // metres, and per metre
+    double z, dz_dx, dz_dy; // metres, and metres per metre
 };
 Dome dome(double x, double y)
 {
@@ -54,7 +54,7 @@ void add_edges(Scene& scene)
             s.position = {0.5 * kPlateWidth * at.x, 0.5 * kPlateHeight * at.y, (row - 0.5) * kThickness};
             s.normal = {way.y, -way.x, 0.0};
             s.tangent = {way.x, way.y, 0.0};
-            // The middle of a weave cell: brushed along the edge.
+            // The centre of a weave cell: brushed along the edge.
             s.u = 0.5;
             s.v = 0.03125;
             return s;
@@ -63,9 +63,9 @@ void add_edges(Scene& scene)
 }
 
 struct Brush {
-    double x, y, strength; // direction (any length; zero only at a centre), y up the picture
+    double x, y, strength; // direction (any length, zero only at a centre), y up in the image
 };
-// x in [-1.5, 1.5], y in [-1, 1], y up.
+// Returns the brushing at x in [-1.5, 1.5], y in [-1, 1], y up.
 Brush brush_at(double x, double y)
 {
     const double disc_x = x + 0.6, disc = std::sqrt(disc_x * disc_x + y * y);

@@ -1,5 +1,6 @@
-// Balls to judge mip filters by: four materials whose look is in their maps, each with its maps once, four and sixteen times around, on a
-// knurled floor, and cameras near, far and along the floor. Maps repeat without a seam.
+// Balls for judging mip filters: four materials defined by their maps. Each repeats its maps once, four and sixteen
+// times around a ball. They stand on a knurled floor, with cameras near, far and along the floor. Maps repeat without a
+// seam.
 #include <array>
 #include <cmath>
 #include <string>
@@ -11,7 +12,7 @@
 namespace burnish {
 namespace {
 
-constexpr double kBallRadius = 0.1, kBallsApart = 0.26, kGround = 0.9; // metres; kGround: half a side of the floor
+constexpr double kBallRadius = 0.1, kBallsApart = 0.26, kGround = 0.9; // metres; kGround: half the floor's side
 constexpr int kMapSide = 512;
 constexpr int kTimes[] = {1, 4, 16};
 
@@ -20,16 +21,16 @@ double part_of(double x)
     return x - std::floor(x);
 }
 
-// Pyramids in diamonds: four slopes, and none at the mean of them, so that lobes far away are cross-shaped.
+// Diamond pyramids: four slopes, and none at their mean, so that distant lobes are cross-shaped.
 glm::dvec3 knurl_normals(double u, double v)
 {
     constexpr double kDiamonds = 24.0, kSlope = 0.42;
     const double a = part_of((u + v) * kDiamonds) - 0.5, b = part_of((u - v) * kDiamonds) - 0.5;
     const double sa = a < 0.0 ? kSlope : -kSlope, sb = b < 0.0 ? kSlope : -kSlope;
-    return normal_colour({0.5 * (sa + sb), -0.5 * (sa - sb)}); // v is down and the bitangent up
+    return normal_colour({0.5 * (sa + sb), -0.5 * (sa - sb)}); // v points down, the bitangent up
 }
 
-// Scratches along u, each in a row of its own, of random length and depth: [0,1].
+// Scratches along u, each in its own row, with random length and depth in [0,1].
 struct Scratch {
     double depth, across; // across: [-1,1]
 };
@@ -52,7 +53,7 @@ glm::dvec3 scratch_roughness(double u, double v)
     return {1.0, 0.22 + 0.3 * scratch_at(u, v).depth, 1.0};
 }
 
-// A plain weave: whether the thread along u lies above, and where between its edges a point lies, [-1,1].
+// A plain weave: `along_u` where the yarn along u is on top; `across` is the position between the yarn's edges, [-1,1].
 struct Yarn {
     bool along_u;
     double across;
@@ -69,7 +70,7 @@ glm::dvec3 yarn_normals(double u, double v)
     const Yarn y = yarn_at(u, v);
     return normal_colour(y.along_u ? glm::dvec2(0.0, 0.5 * y.across) : glm::dvec2(-0.5 * y.across, 0.0));
 }
-glm::dvec3 yarn_directions(double u, double v) // as KHR_materials_anisotropy has them: a yarn scatters across itself
+glm::dvec3 yarn_directions(double u, double v) // encoded like KHR_materials_anisotropy: a yarn scatters across itself
 {
     return yarn_at(u, v).along_u ? glm::dvec3(0.5, 1.0, 1.0) : glm::dvec3(1.0, 0.5, 1.0);
 }
@@ -78,7 +79,8 @@ glm::dvec3 yarn_colour(double u, double v)
     return yarn_at(u, v).along_u ? glm::dvec3(0.62, 0.16, 0.13) : glm::dvec3(0.14, 0.2, 0.5);
 }
 
-// Ridges along v with level tops of one colour and steep sides of another: what is seen of them from afar is not their mean.
+// Ridges along v with flat tops of one colour and steep sides of another: their appearance from afar is not the mean of
+// the maps.
 double ridge_slope(double u)
 {
     constexpr double kRidges = 20.0, kSteep = 1.2;
@@ -122,7 +124,7 @@ std::array<Material, 4> ball_materials(Scene& scene)
     return all;
 }
 
-// The maps of a material `times` as often around a ball, whose texture coordinates are twice as wide as high.
+// Repeats a material's maps `times` as often around a ball. The ball's texture coordinates are twice as wide as high.
 Material repeated(Material m, int times)
 {
     const auto n = static_cast<float>(times);
@@ -172,7 +174,7 @@ Scene make_shaderballs()
     const std::uint32_t ground = begin_primitive(scene, 0);
     add_ground(scene);
     add_node(scene, "ground", add_mesh(scene, "ground", ground), glm::mat4(1.0f));
-    std::uint32_t ball = 0; // all balls share the vertices and indices of the first
+    std::uint32_t ball = 0; // all balls share the first ball's vertices and indices
     for (int row = 0; row < 4; ++row)
         for (int column = 0; column < 3; ++column) {
             scene.materials.push_back(repeated(materials[static_cast<std::size_t>(row)], kTimes[column]));

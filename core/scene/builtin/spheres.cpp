@@ -1,4 +1,4 @@
-// A wall of spheres: alpha_lin grows to the right, eta upwards; and one sphere under a lamp. Tangents point east.
+// A wall of spheres: alpha_lin grows to the right, eta upwards. Also one sphere under a lamp. Tangents point east.
 #include <cmath>
 #include <cstdio>
 
@@ -8,7 +8,7 @@
 namespace burnish {
 namespace {
 
-constexpr int kColumns = 7, kRows = 5;            // of spheres
+constexpr int kColumns = 7, kRows = 5;            // spheres
 constexpr double kRadius = 0.045, kSpacing = 0.1; // metres
 
 } // namespace
@@ -34,7 +34,8 @@ namespace {
 
 constexpr double kEta[kRows] = {0.0, 0.25, 0.5, 0.75, 0.95};
 
-// The widths alpha_lin^2 (1 +- eta) in the terms of KHR_materials_anisotropy: alpha across the tangent, mix(alpha, 1, strength^2) along.
+// Converts the widths alpha_lin^2 (1 +- eta) to KHR_materials_anisotropy: alpha across the tangent, mix(alpha, 1,
+// strength^2) along it.
 void set_widths(Material& material, double alpha_lin, double eta)
 {
     const double along = alpha_lin * alpha_lin * (1.0 + eta), across = alpha_lin * alpha_lin * (1.0 - eta);
@@ -85,7 +86,7 @@ Scene make_spheres()
             material.name = name;
             scene.materials.push_back(material);
 
-            // All spheres share the vertices and indices of the first.
+            // All spheres share the first sphere's vertices and indices.
             const std::uint32_t first = begin_primitive(scene, static_cast<std::int32_t>(scene.materials.size() - 1));
             if (first == 0) {
                 add_sphere(scene, 48, 24, kRadius);
@@ -117,7 +118,7 @@ Scene make_sphere()
     scene.lights.push_back(lamp);
     Node node;
     node.name = lamp.name, node.light = 0;
-    // shines along -Z, from above, the right and the front: rows of a rotation by 30 degrees about Y, then -40 about X
+    // emits along -Z, from above, right and front: rotated by 30 degrees about Y, then -40 about X
     const float cy = 0.8660254f, sy = 0.5f, cx = 0.7660444f, sx = 0.6427876f;
     node.local[0] = glm::vec4(cy, 0.0f, -sy, 0.0f);
     node.local[1] = glm::vec4(-sy * sx, cx, -cy * sx, 0.0f);

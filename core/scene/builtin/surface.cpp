@@ -8,7 +8,7 @@
 namespace burnish {
 namespace {
 
-constexpr int kBlockQuads = 8; // 8 * 8 * 2 triangles are one cluster
+constexpr int kBlockQuads = 8; // 8 * 8 * 2 triangles form one cluster
 
 void push_vertex(VertexTable& v, const SurfacePoint& p)
 {

@@ -1,5 +1,4 @@
-// How the generated scenes become tables: parametric surfaces sampled on grids, one grid after another in a
-// primitive.
+// Builds tables of generated scenes: samples parametric surfaces on grids. A primitive holds one grid after another.
 #pragma once
 #include <cstdint>
 #include <functional>
@@ -13,41 +12,43 @@ namespace burnish {
 struct SurfacePoint {
     glm::dvec3 position{0.0}; // metres, object space
     glm::dvec3 normal{0.0};   // any length above 0
-    glm::dvec3 tangent{0.0};  // not along the normal
-    double u = 0.0, v = 0.0;  // texture coordinates, v = 0 is the top row
+    glm::dvec3 tangent{0.0};  // not parallel to the normal
+    double u = 0.0, v = 0.0;  // texture coordinates; v = 0 is the top row
     double shade = 1.0;       // vertex colour, gray
 };
 
 using Surface = std::function<SurfacePoint(int column, int row)>;
 
-std::uint32_t begin_primitive(Scene& scene, std::int32_t material); // its id
+// Appends an empty primitive and returns its id.
+std::uint32_t begin_primitive(Scene& scene, std::int32_t material);
 
-// Appends (columns + 1) x (rows + 1) vertices and their triangles to the last primitive. Front faces lie
-// where columns turn into rows counter-clockwise; bitangents are cross(normal, tangent). Triangles come in 8
-// x 8 blocks of quads, so that a cluster is compact; those that have collapsed, as at a pole, are left out.
+// Appends (columns + 1) x (rows + 1) vertices and their triangles to the last primitive. Front faces are those where
+// columns turn into rows counter-clockwise; bitangents are cross(normal, tangent). Triangles come in 8 x 8 blocks of
+// quads, so that clusters are compact. Collapsed triangles, as at a pole, are left out.
 void add_grid(Scene& scene, int columns, int rows, const Surface& surface);
 
-// About the origin. Tangents point east.
+// Adds a sphere around the origin. Tangents point east.
 void add_sphere(Scene& scene, int meridians, int parallels, double radius);
 
-// Of GGX widths alpha_lin^2 (1 +- eta) along the tangent and across it.
+// Returns metal with GGX widths alpha_lin^2 (1 +- eta) along and across the tangent.
 Material brushed_metal(double alpha_lin, double eta, const glm::vec3& colour);
 
-// A mesh of the primitives from `first_primitive` on, and a node that places it; returns the mesh.
+// Makes a mesh from the primitives from `first_primitive` on, and returns the mesh. add_node() places a mesh.
 std::int32_t add_mesh(Scene& scene, const char* name, std::uint32_t first_primitive);
 void add_node(Scene& scene, const char* name, std::int32_t mesh, const glm::mat4& local);
 
-// What shines along -Z, or looks there, from `eye` at `target`, not along +Y.
+// Returns a node at `eye` whose -Z axis points at `target`, for cameras and lights. The direction must not be along +Y.
 Node looking(const char* name, const glm::vec3& eye, const glm::vec3& target);
 
-double noise(int x, int y, std::uint32_t salt); // [0,1): without a pattern, the same everywhere
+// Returns noise in [0,1) without a visible pattern, equal everywhere.
+double noise(int x, int y, std::uint32_t salt);
 
-// Texels by their centre, u to the right and v down, [0,1].
+// Makes an image from texel centres in [0,1], u to the right and v down.
 Image map_of(int width, int height, const std::function<glm::dvec3(double u, double v)>& colour);
-// As a normal map has the slopes along tangent and bitangent.
+// Encodes slopes along tangent and bitangent as a normal map colour.
 glm::dvec3 normal_colour(const glm::dvec2& slope);
 
-// Cubic Bezier curve: p[0..3] at t in [0,1], and its derivative. Exact at both ends.
+// Evaluates a cubic Bezier curve p[0..3] at t in [0,1], or its derivative. Exact at both ends.
 template <class T> T bezier(const T* p, double t)
 {
     const double s = 1.0 - t;
@@ -59,14 +60,14 @@ template <class T> T bezier_derivative(const T* p, double t)
     return (p[1] - p[0]) * (3.0 * s * s) + (p[2] - p[1]) * (6.0 * s * t) + (p[3] - p[2]) * (3.0 * t * t);
 }
 
-// 0 below a, 1 above b, smooth between; a < b.
+// Returns 0 below a, 1 above b, and a smooth transition between; a < b.
 inline double smooth_step(double a, double b, double x)
 {
     const double t = x <= a ? 0.0 : x >= b ? 1.0 : (x - a) / (b - a);
     return t * t * (3.0 - 2.0 * t);
 }
 
-// The scenes and environments, by file.
+// The scenes and environments, one file for each.
 Scene make_teapot();
 Scene make_spheres();
 Scene make_sphere();
@@ -78,7 +79,7 @@ Scene make_lacquer();
 Scene make_shaderballs();
 struct TrialMaker {
     BuiltinInfo info;
-    double usual, least, most; // amounts
+    double usual, least, most; // default and range of the amount
     Scene (*make)(double amount);
 };
 const std::vector<TrialMaker>& trial_makers();

@@ -1,9 +1,8 @@
 // The Utah teapot after Martin Newell's control points (University of Utah, 1975): 32 bicubic Bezier patches.
-// Its symmetries let 306 points be written as 41: body, lid and bottom are profiles turned about the axis
-// along a quarter curve whose inner points stand at 0.56 of the radius; handle and spout are mirrored
-// cross-sections. (Newell rounded 0.8 * 0.56 to 0.45 in the knob; here it is 0.448.) Two flat pieces are
-// added where one could look inside: between lid and rim, and in the spout. Newell's space: +z up, the spout
-// towards +x, 3.15 high.
+// Symmetries reduce 306 points to 41. Body, lid and bottom are profiles rotated about the axis along a quarter curve,
+// whose inner points stand at 0.56 of the radius. Handle and spout are mirrored cross-sections. (Newell rounded 0.8 *
+// 0.56 to 0.45 in the knob; here it is 0.448.) Two flat pieces close views inside: between lid and rim, and in the
+// spout. Newell's space: +z up, the spout towards +x, 3.15 high.
 #include <array>
 #include <cmath>
 
@@ -12,13 +11,13 @@
 namespace burnish {
 namespace {
 
-constexpr double kMetres = 0.05;       // of Newell's unit: the pot is 16 cm high
+constexpr double kMetres = 0.05;       // metres in Newell's unit: the pot is 16 cm high
 constexpr double kQuarterInner = 0.56; // Newell's quarter circle: (1, 0), (1, .56), (.56, 1), (0, 1)
 constexpr int kQuarterColumns = 32, kProfileRows = 16, kSweepRows = 24, kSectionColumns = 32;
 
 using Profile = glm::dvec2; // radius, height
 
-// Each curve begins where the one before ended; outside is to the right of the way.
+// Each curve begins at the end of the previous one. The outside is on the right.
 constexpr std::array<Profile, 13> kBody = {
     Profile(0.0, 0.0),                                                                        // bottom
     {1.425, 0.0},      {1.5, 0.075},      {1.5, 0.15}, {1.5, 0.225}, {2.0, 0.45}, {2.0, 0.9}, // lower body
@@ -30,13 +29,13 @@ constexpr std::array<Profile, 7> kLid = {
     Profile(1.3, 2.4), {1.3, 2.55}, {0.4, 2.55}, {0.2, 2.7}, // lid
     {0.0, 2.85},       {0.8, 3.15}, {0.0, 3.15},             // knob
 };
-// What the pot stands on: a low disc with a rounded edge.
+// The pot's stand: a low disc with a rounded edge.
 constexpr std::array<Profile, 7> kStand = {
     Profile(3.25, -0.3), {3.35, -0.3}, {3.4, -0.25}, {3.4, -0.15}, {3.4, -0.06}, {3.35, -0.01}, {3.25, -0.01},
 };
 constexpr std::array<Profile, 4> kStandTop = {Profile(3.25, -0.01), {2.2, -0.01}, {1.1, -0.01}, {0.0, -0.01}};
 
-// A cross-section of handle or spout: Bezier points a, a + w y, b + w y, b and their mirror image.
+// A cross-section of handle or spout: Bezier points a, a + w y, b + w y, b, and their mirror image.
 struct Section {
     double ax, az, bx, bz, half_width;
 };
@@ -49,13 +48,13 @@ constexpr std::array<Section, 7> kSpout = {
     {2.8, 2.475, 3.525, 2.49375, 0.25},  {2.9, 2.475, 3.45, 2.5125, 0.15}, {2.8, 2.4, 3.2, 2.4, 0.15},
 };
 
-// To metres, +Y up.
+// Converts to metres, +Y up.
 glm::dvec3 upright(const glm::dvec3& p)
 {
     return {p.x, p.z, -p.y};
 }
 
-// The curve and the parameter in it that step `i` of `steps` a curve stands for.
+// Curve and parameter of step `i`, with `steps` steps on each curve.
 struct Place {
     int curve;
     double t;
@@ -67,7 +66,7 @@ Place place_on(int i, int steps, int curves)
 }
 
 struct QuarterTurn {
-    glm::dvec2 at, along; // point and derivative of the unit quarter curve, turned to its quadrant
+    glm::dvec2 at, along; // point and derivative of the unit quarter curve, rotated to its quadrant
 };
 QuarterTurn quarter_turn(int column)
 {
@@ -81,7 +80,7 @@ QuarterTurn quarter_turn(int column)
     return turn;
 }
 
-// Turned about the axis; tangents run around it. `shade` gives the vertex colour at a radius.
+// Adds a surface of revolution about the axis; tangents run around it. `shade` gives the vertex colour at a radius.
 template <std::size_t N, class Shade>
 void add_turned(Scene& scene, const std::array<Profile, N>& profile, int rows_per_curve, const Shade& shade)
 {
@@ -91,7 +90,7 @@ void add_turned(Scene& scene, const std::array<Profile, N>& profile, int rows_pe
         const Place place = place_on(row, rows_per_curve, curves);
         const Profile* p = &profile[static_cast<std::size_t>(3 * place.curve)];
         const Profile at = bezier(p, place.t), along = bezier_derivative(p, place.t);
-        // The radius is left out of the derivative around the axis: the normal then exists at the poles too.
+        // Omit the radius from the derivative around the axis: then the normal exists at the poles, too.
         const glm::dvec3 around(turn.along, 0.0), up(turn.at * along.x, along.y);
         SurfacePoint s;
         s.position = upright(glm::dvec3(turn.at * at.x, at.y)) * kMetres;
@@ -107,7 +106,7 @@ void add_turned(Scene& scene, const std::array<Profile, N>& profile, int rows_pe
 struct SectionPoint {
     glm::dvec3 at, around;
 };
-// The point of a control section at a column of the loop.
+// Returns the point of a control section at a column of the loop.
 SectionPoint section_point(const Section& s, int column)
 {
     const glm::dvec3 points[4] = {{s.ax, 0.0, s.az}, {s.ax, s.half_width, s.az}, {s.bx, s.half_width, s.bz}, {s.bx, 0.0, s.bz}};
@@ -122,8 +121,8 @@ SectionPoint section_point(const Section& s, int column)
     return p;
 }
 
-// Swept along the sections; tangents run around them. `reversed`: columns go the other way around, so that
-// faces look outside.
+// Sweeps along the sections; tangents run around them. `reversed` turns the columns the other way around, so that faces
+// point outwards.
 void add_swept(Scene& scene, const std::array<Section, 7>& sections, bool reversed)
 {
     const int rows = 2 * kSweepRows;
@@ -189,8 +188,7 @@ Scene make_teapot()
     scene.name = "teapot";
     add_materials(scene);
     const auto white = [](double) { return 1.0; };
-    // Image-based light casts no shadow, so the stand carries a soft one around the pot's foot in its vertex
-    // colours.
+    // Image-based light casts no shadow, so the stand's vertex colours hold a soft shadow around the pot's foot.
     const auto contact = [](double radius) { return 0.05 + 0.95 * smooth_step(0.9, 2.7, radius); };
 
     const std::uint32_t pot = begin_primitive(scene, 0);

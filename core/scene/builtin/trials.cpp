@@ -1,5 +1,5 @@
-// Scenes that something breaks on, each by one number: builtin:NAME=AMOUNT. `burnish atlas` walks them; they are small, about
-// the origin, and are seen from +Z.
+// Failure scenes, each parametrised by one number: builtin:NAME=AMOUNT. `burnish atlas` runs them. They are small,
+// lie at the origin and are viewed from +Z.
 #include <cmath>
 #include <limits>
 
@@ -11,7 +11,7 @@
 namespace burnish {
 namespace {
 
-constexpr double kHalf = 0.2; // metres, of a plate's side
+constexpr double kHalf = 0.2; // half a plate's side, metres
 const glm::vec3 kSilver(0.97f, 0.96f, 0.91f), kBlue(0.1f, 0.2f, 0.75f), kRed(0.85f, 0.12f, 0.08f);
 
 std::uint32_t begin(Scene& scene, Material material)
@@ -27,7 +27,8 @@ void end(Scene& scene, std::uint32_t first, const glm::mat4& local = glm::mat4(1
     add_node(scene, "trial", add_mesh(scene, "trial", first), local);
 }
 
-// squares: to a side. height: of a place of texture coordinates, metres; uv: what coordinates are made of these.
+// Adds a sheet with `squares` squares to a side. height(): metres at texture coordinates. uv(): the coordinates for a
+// point of the sheet.
 template <class Height, class Coordinates> void add_sheet(Scene& scene, int squares, const Height& height, const Coordinates& uv)
 {
     add_grid(scene, squares, squares, [&](int column, int row) {
@@ -55,23 +56,23 @@ Scene plate_of(Material material)
     return scene;
 }
 
-constexpr double kPlace = 0.1; // metres, of both along z
+constexpr double kPlace = 0.1; // metres along z, for both plates
 
-// A red plate so far in front of a blue one, metres.
+// Makes a red plate `gap` metres in front of a blue one.
 Scene make_plates(double gap)
 {
     Scene scene;
     for (const bool behind : {false, true}) {
         const std::uint32_t first = begin(scene, brushed_metal(0.4, 0.0, behind ? kBlue : kRed));
         add_sheet(scene, behind ? 7 : 3, level, plain);
-        glm::mat4 local(behind ? 0.9f : 1.0f); // it is not seen beside the other
+        glm::mat4 local(behind ? 0.9f : 1.0f); // hidden behind the other plate
         local[3] = glm::vec4(0.0f, 0.0f, static_cast<float>(kPlace - (behind ? gap : 0.0)), 1.0f);
         end(scene, first, local);
     }
     return scene;
 }
 
-// A star of triangles, so wide at their feet, metres.
+// Makes a star of triangles, `width` metres wide at their feet.
 Scene make_needles(double width)
 {
     constexpr int kCount = 20;
@@ -81,7 +82,7 @@ Scene make_needles(double width)
         const double turn = 2.0 * kPi * (i + 0.3) / kCount;
         const glm::dvec3 along(det_cos(turn), det_sin(turn), 0.0), across(-along.y, along.x, 0.0);
         add_grid(scene, 1, 1, [&](int column, int row) {
-            SurfacePoint p; // its upper corners are one place
+            SurfacePoint p; // the two upper corners coincide
             p.position = row ? along * kHalf : along * (0.2 * kHalf) + across * (width * (column - 0.5));
             p.normal = {0.0, 0.0, 1.0};
             p.tangent = along;
@@ -92,8 +93,8 @@ Scene make_needles(double width)
     return scene;
 }
 
-// Brushed metal whose grain turns by half a turn about four places, in a map of so many texels to a side. Along a line that joins them its
-// directions turn over: d beside -d.
+// Makes brushed metal whose grain rotates by half a turn about four points, in a map with `texels` texels to a side.
+// The encoded direction flips along a line between the points: d beside -d.
 Scene make_cores(double texels)
 {
     const int side = static_cast<int>(std::lround(texels));
@@ -106,7 +107,7 @@ Scene make_cores(double texels)
     return scene;
 }
 
-// Normals of a map that lean from the plate's by so many degrees.
+// Makes a plate with map normals that lean by `degrees`.
 Scene make_leaning(double degrees)
 {
     const double lean = degrees * kPi / 180.0, turn = 0.4;
@@ -121,7 +122,7 @@ Scene make_leaning(double degrees)
     return scene;
 }
 
-// Roofs over strips of texels, red to one side and blue to the other, whose slope is this.
+// Makes roofs over texel strips, red on one side and blue on the other, with this slope.
 Scene make_roofs(double slope)
 {
     const auto left = [](double u) { return std::fmod(u * 128.0, 1.0) < 0.5; };
@@ -141,11 +142,11 @@ double wave(double u, double v) // [0,1]
     return 0.5 + 0.5 * det_sin(2.0 * kPi * 3.0 * u) * det_sin(2.0 * kPi * 3.0 * v);
 }
 
-// Waves of this depth in lengths of texture coordinates, as a map of heights; what they are as triangles.
+// Makes waves as a height map. `depth` is in lengths of texture coordinates. make_waves() makes them as triangles.
 Scene make_relief(double depth)
 {
     Scene scene = plate_of(brushed_metal(0.35, 0.0, kSilver));
-    const double steep = depth * 2.0 * kPi * 3.0 * 0.5; // at most, of a wave
+    const double steep = depth * 2.0 * kPi * 3.0 * 0.5; // largest slope of a wave
     scene.materials[0].height_tex.texture =
         add_texture(scene, "heights", map_of(256, 256, [](double u, double v) { return glm::dvec3(wave(u, v)); }));
     scene.materials[0].normal_tex.texture =
@@ -175,7 +176,7 @@ Scene make_waves(double depth)
     return scene;
 }
 
-// The same map of heights, its coordinates so many times as long along one side.
+// Makes the same height map with its coordinates `times` as long along one side.
 Scene make_stretched(double times)
 {
     Scene scene = make_relief(0.08), out;
@@ -186,7 +187,7 @@ Scene make_stretched(double times)
     return out;
 }
 
-// Brass and blue squares at coordinates that begin so far from zero.
+// Makes brass and blue squares at coordinates that begin at `from`.
 Scene make_far_texels(double from)
 {
     Scene scene;
@@ -202,10 +203,10 @@ Scene make_far_texels(double from)
     return scene;
 }
 
-// A picture so wide, in texels, that is read across 64 of its stripes.
+// Makes an image `width` texels wide, viewed across 64 of its stripes.
 Scene make_wide_texels(double width)
 {
-    const int texels = 2 * static_cast<int>(std::lround(0.5 * width)); // stripes lie alike where they are even
+    const int texels = 2 * static_cast<int>(std::lround(0.5 * width)); // an even width keeps the stripes aligned
     Scene scene;
     Material material = brushed_metal(0.4, 0.0, glm::vec3(1.0f));
     material.base_color_tex.texture =
@@ -218,7 +219,8 @@ Scene make_wide_texels(double width)
     return scene;
 }
 
-// A ball of rough glass of this index; `inside`: a sheet of it in its place, seen from within the glass.
+// Makes a ball of rough glass with this index. `inside` makes a sheet of glass in its place, seen from within the
+// glass.
 Scene glass_of(double index, bool inside)
 {
     Material glass;
@@ -250,7 +252,8 @@ Scene make_inside_glass(double index)
     return glass_of(index, true);
 }
 
-// Faces that each show one tile of a picture, to its very edge; so many to a side, the lower half red, the upper blue.
+// Makes `count` faces to a side, each showing one tile of an image up to its edge. The lower half is red, the upper
+// half blue.
 Scene make_tiles(double count)
 {
     const int side = static_cast<int>(std::lround(count));
@@ -274,7 +277,7 @@ Scene make_tiles(double count)
     return scene;
 }
 
-// A picture of floats, of whose texels this share are no numbers.
+// Makes a float image with this share of NaN texels.
 Scene make_no_numbers(double share)
 {
     Image image = make_image(64, 64, 3, PixelType::f32);
@@ -286,7 +289,7 @@ Scene make_no_numbers(double share)
     return scene;
 }
 
-// A small white square before a plate that shines with this radiance.
+// Makes a small white square before a plate with this radiance.
 Scene make_gloom(double radiance)
 {
     Scene scene;
@@ -308,7 +311,8 @@ Material mirror()
     return brushed_metal(0.05, 0.0, kSilver);
 }
 
-// A mirror that bulges by a map of normals, this slope at its sides. Texels are larger than pixels, and lie from edge to edge.
+// Makes a mirror that bulges by a normal map, with this slope at its sides. Texels are larger than pixels and reach
+// from edge to edge.
 Scene make_bulge(double slope)
 {
     constexpr int kSide = 32;
@@ -327,7 +331,7 @@ Scene make_bulge(double slope)
     return scene;
 }
 
-// The same by normals of vertices.
+// Makes the bulging mirror by vertex normals.
 Scene make_dome(double slope)
 {
     Scene scene;
@@ -344,10 +348,11 @@ Scene make_dome(double slope)
     return scene;
 }
 
-// A plate and a lamp that stands across it, whose middle is so high above it, metres; below, where it is negative.
+// Makes a plate and an upright lamp across it. The lamp's middle is `height` metres above the plate, or below it for
+// negative heights.
 Scene make_sinking_lamp(double height)
 {
-    constexpr float kWide = 0.12f, kTall = 0.1f; // halves of its sides
+    constexpr float kWide = 0.12f, kTall = 0.1f; // half sides
     Scene scene = plate_of(brushed_metal(0.5, 0.6, kSilver));
     const float y = static_cast<float>(1.1 * kHalf), h = static_cast<float>(height);
     AreaLight lamp;

@@ -15,7 +15,7 @@ bool is_digit(char c)
     return c >= '0' && c <= '9';
 }
 
-// Without a sign, which charconv knows only the minus of.
+// Removes a sign and returns true for a minus. charconv knows no plus.
 bool take_sign(std::string_view& word)
 {
     const bool minus = word.starts_with('-');
@@ -46,7 +46,7 @@ Number read_number(std::string_view word, float& value)
     if (word.empty() || !(is_digit(word[0]) || word[0] == '.'))
         return Number::none;
     const char* const end = word.data() + word.size();
-    double wide = 0.0; // of its range, so that what is too small for a float is told from what is too large
+    double wide = 0.0; // in double range, to distinguish underflow from overflow of a float
     const std::from_chars_result read = std::from_chars(word.data(), end, wide);
     if (read.ptr != end || read.ec == std::errc::invalid_argument)
         return Number::none;
@@ -92,12 +92,13 @@ std::string_view Lines::take_line()
     return line;
 }
 
-// True where the line goes on: a backslash in a comment is none.
+// Removes a comment or a trailing backslash. Returns true where the line continues; a backslash inside a comment does
+// not count.
 bool Lines::without_comment(std::string_view& line)
 {
     for (std::size_t at = line.find('#'); at != std::string_view::npos; at = line.find('#', at + 1)) {
         if (at > 0 && kBlanks.find(line[at - 1]) == std::string_view::npos)
-            continue; // of a name, as "part#2"
+            continue; // part of a name, as "part#2"
         painted_ = painted_ || line.substr(at).starts_with("#MRGB ");
         line = line.substr(0, at);
         return false;

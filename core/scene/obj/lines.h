@@ -1,4 +1,4 @@
-// The text of an OBJ file as statements: lines, words and numbers, by no locale.
+// Splits an OBJ file into statements: lines, words and numbers, independent of the locale.
 #pragma once
 #include <cstdint>
 #include <string>
@@ -6,16 +6,16 @@
 
 namespace burnish::obj {
 
-// Statements one after the other. Lines end in CR, LF or both; a backslash at a line's end goes on with the next; "#" at its beginning or
-// after a blank begins a comment. A byte order mark is skipped.
+// Iterates over statements. Lines end in CR, LF or both. A backslash at a line's end continues with the next line. "#"
+// starts a comment at a line's start or after a blank. Skips a byte order mark.
 class Lines {
   public:
     explicit Lines(std::string_view text);
     bool next(); // false at the end
-    // Without comment and line end; until the next call.
+    // Returns the statement without comment and line end; valid until the next call.
     std::string_view text() const { return line_; }
-    std::uint64_t number() const { return first_; } // of the statement's first line, from 1
-    bool painted() const { return painted_; }       // a "#MRGB" comment came by: ZBrush's colours of vertices
+    std::uint64_t number() const { return first_; } // first line of the statement, from 1
+    bool painted() const { return painted_; }       // true after a "#MRGB" comment: ZBrush's vertex colours
 
   private:
     std::string_view take_line();
@@ -27,13 +27,13 @@ class Lines {
     bool painted_ = false;
 };
 
-// Takes the first word of the text; empty at the end.
+// Removes and returns the text's first word; empty at the end.
 std::string_view take_word(std::string_view& text);
 std::string_view trimmed(std::string_view text);
 
 enum class Number { read, none, too_large };
 
-// A decimal number that is all of the word: no infinity, NaN or hexadecimal one, nothing behind it.
+// Reads a decimal number that fills the whole word: no infinity, NaN or hexadecimal number, and no characters after it.
 Number read_number(std::string_view word, float& value);
 Number read_index(std::string_view word, std::int64_t& value);
 

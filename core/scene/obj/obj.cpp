@@ -19,7 +19,7 @@
 namespace burnish {
 namespace {
 
-constexpr std::size_t kMostCorners = 1000; // of a polygon, whose ears are cut one by one
+constexpr std::size_t kMostCorners = 1000; // in a polygon, because ears are clipped one by one
 constexpr std::uint64_t kCornerBytes = 128;
 
 glm::dvec3 position_of(const obj::Parsed& from, const obj::Corner& c)
@@ -38,8 +38,8 @@ double dot(const glm::dvec3& a, const glm::dvec3& b)
     return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
-// Corners of triangles, by their places in a polygon: ears are cut off, the first that holds no other corner; where all hold one, as in
-// what crosses itself, the first.
+// Triangulates a polygon by ear clipping and returns corner indices. Clips the first ear without other corners inside,
+// or the first corner where there is none, as in self-intersecting polygons.
 std::vector<std::size_t> triangles_of(const std::vector<glm::dvec3>& corners)
 {
     std::vector<std::size_t> left(corners.size()), out;
@@ -61,7 +61,7 @@ std::vector<std::size_t> triangles_of(const std::vector<glm::dvec3>& corners)
     };
     while (left.size() > 3) {
         const std::size_t n = left.size();
-        std::size_t at = 1 % n; // of what is convex a fan about its first corner
+        std::size_t at = 1 % n; // gives a fan about the first corner for convex polygons
         for (std::size_t tried = 0; tried < n; ++tried)
             if (is_ear((1 + tried) % n)) {
                 at = (1 + tried) % n;
@@ -74,9 +74,9 @@ std::vector<std::size_t> triangles_of(const std::vector<glm::dvec3>& corners)
     return out;
 }
 
-// Sums of the areas about each position, of each smoothing group apart where a file names any.
+// Area-weighted sums of normals at each position, separate for each smoothing group where a file names groups.
 struct SmoothNormals {
-    std::vector<glm::dvec3> sums;                                           // by position, of corners without a group
+    std::vector<glm::dvec3> sums;                                           // by position, for corners without a group
     std::map<std::pair<std::int64_t, std::uint32_t>, glm::dvec3> of_groups; // by position and group
 
     glm::dvec3& at(const obj::Corner& c)
@@ -102,10 +102,10 @@ SmoothNormals smooth_normals(const obj::Parsed& from, const std::vector<std::vec
 glm::vec3 unit(const glm::dvec3& v)
 {
     const double length = std::sqrt(dot(v, v));
-    return length > 1e-30 ? glm::vec3(v / length) : glm::vec3(0.0f, 0.0f, 1.0f); // of no area, and never seen
+    return length > 1e-30 ? glm::vec3(v / length) : glm::vec3(0.0f, 0.0f, 1.0f); // for a triangle without area, which is never visible
 }
 
-// Equal corners once, in the order of their first use.
+// Appends the corners. Merges equal corners, in the order of first use.
 void append(Scene& scene, const std::vector<glm::vec3>& positions, const std::vector<glm::vec3>& normals,
             const std::vector<glm::vec4>& tangents, const std::vector<glm::vec2>& uvs, const std::vector<glm::vec3>& colours, bool has_uvs)
 {
@@ -123,7 +123,7 @@ void append(Scene& scene, const std::vector<glm::vec3>& positions, const std::ve
         const glm::vec4& t = tangents[i];
         const glm::vec3 c = colours.empty() ? glm::vec3(1.0f) : colours[i];
         const float values[18] = {p.x, p.y, p.z, n.x, n.y, n.z, t.x, t.y, t.z, t.w, uvs[i].x, uvs[i].y, 0, 0, c.x, c.y, c.z, 1};
-        std::array<std::uint32_t, 15> bits; // of all but what is the same for all
+        std::array<std::uint32_t, 15> bits; // all values that vary
         std::memcpy(bits.data(), values, 12 * sizeof(float));
         std::memcpy(bits.data() + 12, values + 14, 3 * sizeof(float));
         const auto [it, is_new] = known.try_emplace(bits, static_cast<std::uint32_t>(v.size()));
@@ -136,7 +136,7 @@ void append(Scene& scene, const std::vector<glm::vec3>& positions, const std::ve
     scene.primitives.push_back(primitive);
 }
 
-// Colours of vertices are display colours, encoded as sRGB, as Blender, ZBrush and MeshLab write them.
+// Decodes vertex colours from sRGB, the encoding that Blender, ZBrush and MeshLab write.
 glm::vec3 linear_colour(const obj::Parsed& from, const obj::Corner& c)
 {
     const float* rgb = from.colours.data() + 3 * c.position;
@@ -146,7 +146,7 @@ glm::vec3 linear_colour(const obj::Parsed& from, const obj::Corner& c)
 void add_group(Scene& scene, const obj::Parsed& from, const std::vector<obj::Corner>& corners, SmoothNormals& smooth)
 {
     std::vector<glm::vec3> positions, normals, colours;
-    std::vector<glm::vec2> uvs, upwards; // v down as glTF has it; up as in the file and for MikkTSpace
+    std::vector<glm::vec2> uvs, upwards; // uvs: v down as in glTF; upwards: v up as in the file, for MikkTSpace
     const bool has_uvs = std::all_of(corners.begin(), corners.end(), [](const obj::Corner& c) { return c.uv >= 0; });
     for (const obj::Corner& c : corners) {
         positions.push_back(glm::vec3(position_of(from, c)));
@@ -189,7 +189,7 @@ Result<Scene> load_obj(const std::string& path, const Limits& limits)
 
 namespace {
 
-// Gives the corners of a faceted polygon its normal where they have none of their own.
+// Sets the polygon's normal at corners of a faceted polygon that have no normal.
 void facet(obj::Parsed& parsed, obj::Corner* corners, const std::vector<glm::dvec3>& points)
 {
     if (corners[0].smoothing != obj::kFaceted)
@@ -207,7 +207,7 @@ void facet(obj::Parsed& parsed, obj::Corner* corners, const std::vector<glm::dve
         parsed.normals.insert(parsed.normals.end(), {normal.x, normal.y, normal.z});
 }
 
-// Cuts polygons into the corners of triangles, by group.
+// Triangulates polygons into corners, by group.
 Result<std::vector<std::vector<obj::Corner>>> cut_polygons(obj::Parsed& parsed, const std::string& path, const Limits& limits)
 {
     std::uint64_t corners = 0;
@@ -234,7 +234,7 @@ Result<std::vector<std::vector<obj::Corner>>> cut_polygons(obj::Parsed& parsed, 
     return triangles;
 }
 
-// Texture coordinates are those of a whole group.
+// Warns of groups where some corners lack texture coordinates: coordinates count only for a whole group.
 void warn_of_missing_uvs(Scene& scene, const obj::Parsed& parsed)
 {
     for (const obj::Group& group : parsed.groups) {

@@ -1,4 +1,4 @@
-// Wavefront OBJ files to scenes.
+// Reads Wavefront OBJ files into scenes.
 #pragma once
 #include <string>
 
@@ -8,15 +8,18 @@
 
 namespace burnish {
 
-bool is_obj(const std::string& path); // by its name
+bool is_obj(const std::string& path); // checks the name only
 
-// Polygons of any number of corners, groups and objects as meshes, indices from either end. Without normals they are smooth, by area,
-// within a smoothing group where the file names any, and faceted where it says "s off"; tangents are MikkTSpace's where there are texture
-// coordinates. One white material of roughness 0.4 wears all, times the colours of vertices, which are sRGB. With a warning are left out:
-// MTL files, points and lines, curves and surfaces, unknown statements. Errors: text that is no number, numbers that no float holds,
-// statements with numbers too few or too many, indices without a vertex, files without faces, what limits refuse.
+// Reads polygons with any number of corners, groups and objects as meshes, and indices from either end. Makes missing
+// normals smooth, weighted by area, within a smoothing group where the file names any; faceted after "s off". Makes
+// MikkTSpace tangents where there are texture coordinates. The material is white with roughness 0.4, times the sRGB
+// vertex colours.
+//
+// Leaves out with a warning: MTL files, points and lines, curves and surfaces, unknown statements. Errors: invalid
+// numbers, numbers beyond the range of floats, statements with a wrong count of numbers, indices without a vertex,
+// files without faces, and exceeded limits.
 Result<Scene> load_obj(const std::string& path, const Limits& limits);
-// The same of a file's text; `path` names it in messages.
+// Reads a file's text. `path` names the file in messages.
 Result<Scene> load_obj_text(const std::string& text, const std::string& path, const Limits& limits);
 
 } // namespace burnish

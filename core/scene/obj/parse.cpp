@@ -1,4 +1,5 @@
-// Wavefront's OBJ, appendix B1 of the Advanced Visualizer manual, and colours behind positions, which many programs write.
+// Parses Wavefront OBJ (appendix B1 of the Advanced Visualizer manual), and colours after positions, which many
+// programs write.
 #include "core/scene/obj/parse.h"
 
 #include <algorithm>
@@ -15,7 +16,7 @@
 namespace burnish::obj {
 namespace {
 
-// What a statement is to this reader.
+// Kinds of statements for this reader.
 enum class Kind { position, uv, normal, face, group, object, smoothing, material, points, curves, ignored };
 
 struct Statement {
@@ -60,7 +61,7 @@ std::string lower(std::string_view word)
     return out;
 }
 
-constexpr std::size_t kShownBytes = 40; // of a word in a message
+constexpr std::size_t kShownBytes = 40; // characters of a word shown in a message
 
 class Parser {
   public:
@@ -90,7 +91,7 @@ class Parser {
 
     void warn(const std::string& text) { parsed_.warnings.push_back(text); }
 
-    // Once of its kind, with the line.
+    // Warns with the line number, once for each kind.
     void warn_once(const char* kind, const std::string& text)
     {
         if (said_.insert(kind).second)
@@ -108,7 +109,7 @@ class Parser {
                 return refuse(fmt::format("'{}' is no statement, which is written '{}'", shown(word), meant->word));
             return warn_once("unknown", fmt::format("'{}' is not read", shown(word)));
         }
-        const std::string_view numbers = rest.substr(0, rest.find('#')); // comments may follow a number without a blank
+        const std::string_view numbers = rest.substr(0, rest.find('#')); // a comment may follow a number without a blank
         switch (known->kind) {
         case Kind::position:
             return position(numbers);
@@ -133,11 +134,12 @@ class Parser {
         case Kind::curves:
             return warn_once("curves", fmt::format("curves and surfaces are not drawn ({})", word));
         case Kind::ignored:
-            return; // how others refine and show polygons
+            return; // statements about refining and showing polygons
         }
     }
 
-    // All numbers of the statement, or a refusal. what: names the n-th of its kind. Returns how many there are, 0 where it is refused.
+    // Reads all numbers of a statement, and returns their count or 0 after an error. `what` and `nth` name the
+    // statement in errors.
     std::size_t numbers(std::string_view text, const char* what, std::size_t nth, std::array<float, 7>& values)
     {
         std::size_t count = 0;
@@ -192,7 +194,7 @@ class Parser {
             return;
         if (count < 1 || count > 3)
             return refuse(fmt::format("texture coordinate {}: {} numbers in place of 1 to 3", nth, count));
-        parsed_.uvs.insert(parsed_.uvs.end(), v.begin(), v.begin() + 2); // one of a line has v = 0
+        parsed_.uvs.insert(parsed_.uvs.end(), v.begin(), v.begin() + 2); // a one-dimensional coordinate has v = 0
     }
 
     void normal(std::string_view text)
@@ -212,7 +214,7 @@ class Parser {
         new_group_ = true;
     }
 
-    // "off" is 0; what is no number is a group of its own.
+    // Sets the smoothing group: "off" is 0, "on" is 1. Anything else that is not a group number warns and counts as 1.
     void smoothing(std::string_view text)
     {
         const std::string_view word = take_word(text);
@@ -243,7 +245,7 @@ class Parser {
         group.counts.push_back(count);
     }
 
-    // "position", "position/uv", "position//normal" or "position/uv/normal"; what follows the last index may be left empty.
+    // Reads "position", "position/uv", "position//normal" or "position/uv/normal". Trailing parts may be empty.
     bool corner(std::string_view word, Corner& to)
     {
         const std::string_view whole = word;
@@ -263,7 +265,7 @@ class Parser {
         return false;
     }
 
-    // From 1 or, backwards from what was read so far, from -1; `at` is from 0.
+    // Resolves an index: from 1, or backwards from the vertices so far, from -1. `at` counts from 0.
     bool index(std::string_view part, std::string_view whole, std::size_t count, const char* what, std::int64_t& at)
     {
         std::int64_t written = 0;

@@ -1,4 +1,4 @@
-// What an OBJ file says, before anything of it is believed.
+// Contents of an OBJ file, before validation.
 #pragma once
 #include <cstdint>
 #include <optional>
@@ -9,7 +9,7 @@
 
 namespace burnish::obj {
 
-// Smoothing groups: 0 is none, faceted; kUnsaid where the file has not named one yet.
+// Smoothing groups: kFaceted (0) means none; kUnsaid where the file has not named a group yet.
 inline constexpr std::uint32_t kFaceted = 0, kUnsaid = 0xFFFFFFFF;
 
 struct Corner {
@@ -19,19 +19,19 @@ struct Corner {
 
 struct Group {
     std::string name;
-    std::vector<Corner> corners; // of its polygons, one after the other
+    std::vector<Corner> corners; // of all polygons, in sequence
     std::vector<std::uint32_t> counts;
 };
 
 struct Parsed {
-    std::vector<float> positions, uvs, normals; // 3, 2 and 3 a piece
-    std::vector<float> colours;                 // 3 a position, as written, [0,1], white where it has none; empty: none has
-    std::vector<Group> groups;                  // none is empty
-    std::vector<std::string> warnings;          // what is left out, each kind once
-    std::optional<Error> wrong;                 // the first of what cannot be read
+    std::vector<float> positions, uvs, normals; // 3, 2 and 3 numbers for each
+    std::vector<float> colours;                 // 3 for each position, as written, [0,1]; white for a position without colour; empty: none
+    std::vector<Group> groups;                  // never empty groups
+    std::vector<std::string> warnings;          // skipped contents, each kind once
+    std::optional<Error> wrong;                 // the first unreadable statement
 };
 
-// text: the whole file.
+// Parses the whole file `text`.
 Parsed parse(const std::string& path, const std::string& text);
 
 } // namespace burnish::obj
