@@ -30,6 +30,7 @@ Result<std::vector<Row>> accuracy_rows(const RunOptions& options)
 {
     if (!reference_available())
         return std::vector<Row>{};
+    // Make the scene, the tables and both renderers
     const Jobs jobs(options.subject.threads);
     const Scene scene = make_bench_scene(BenchScene::sphere, 0, kWidth, kHeight);
     const DrawTables tables = make_draw_tables(scene);
@@ -46,6 +47,7 @@ Result<std::vector<Row>> accuracy_rows(const RunOptions& options)
         return reference.error();
 
     std::vector<Row> rows;
+    // Compare fixed and adaptive sampling with the reference
     for (const float eta : {0.5f, 0.8f}) {
         FrameDesc desc;
         desc.width = kWidth, desc.height = kHeight, desc.msaa = 8;

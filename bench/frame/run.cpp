@@ -30,6 +30,7 @@ void round_of(Running& r)
 Result<std::vector<Measured>> run_group(const std::vector<const Workload*>& group, const RunOptions& options)
 {
     std::vector<Running> running;
+    // Prepare the subjects that this build has
     for (const Workload* w : group) {
         Result<std::unique_ptr<Subject>> subject = make_subject(*w, options.subject);
         if (!subject && subject.error().code == ExitCode::unavailable)
@@ -40,6 +41,7 @@ Result<std::vector<Measured>> run_group(const std::vector<const Workload*>& grou
         r.measured.workload = w, r.measured.load = load_average();
         r.subject = std::move(*subject);
     }
+    // Choose the frames in a round from one frame's time
     for (Running& r : running) {
         r.measured.units = r.subject->units(), r.measured.what = r.subject->what();
         r.subject->frame();
@@ -47,6 +49,7 @@ Result<std::vector<Measured>> run_group(const std::vector<const Workload*>& grou
         r.subject->frame();
         r.frames = std::clamp(static_cast<int>(kRoundMs / std::max(wall_ms() - begin, 0.01)), 1, kMostFrames);
     }
+    // Run the rounds in turn
     for (int i = 0; i < options.rounds; ++i)
         for (Running& r : running)
             round_of(r);

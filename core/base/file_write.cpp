@@ -312,6 +312,7 @@ FileSet::~FileSet()
 
 Status FileSet::add(const std::string& name, const void* data, std::size_t size)
 {
+    // Find the file to write or replace
     const std::string path = (fs::path(folder_) / name).string();
     fs::path target = is_new_ ? folder_ : path; // files for a new folder lie beside it
     struct stat before {};
@@ -322,6 +323,7 @@ Status FileSet::add(const std::string& name, const void* data, std::size_t size)
         return unwritable(path, S_ISDIR(before.st_mode) ? EISDIR : EEXIST);
     if (!is_new_)
         sweep(target);
+    // Make a file without a name, or else with a temporary one
     Temporary made;
     const bool has_names = ::access("/proc/self/fd", X_OK) == 0; // /proc/self/fd is how an unnamed file gets its name
     int code = has_names ? make_unnamed(target, 0666, made) : EOPNOTSUPP;
@@ -331,6 +333,7 @@ Status FileSet::add(const std::string& name, const void* data, std::size_t size)
         code = make_named(target, 0666, made);
     if (code != 0)
         return unwritable(path, code);
+    // Keep an existing file's permissions, and write the bytes
     if (exists)
         keep_owner(made.file.get(), before);
     added_.push_back({std::move(made.file), made.name, name, is_new_ ? "" : target.string()});
@@ -358,15 +361,18 @@ int FileSet::name_in_new_folder()
     Descriptor held;
     if (const int code = make_locked_folder(folder_, staged, held))
         return code;
+    // Fill the folder under its temporary name
     int code = 0;
     for (std::size_t i = 0; i < added_.size() && code == 0; ++i)
         code = give_name(added_[i], (fs::path(staged) / added_[i].name).string());
     if (code == 0)
         code = sync_folder(staged);
+    // Give the folder its name
     if (code == 0 && rename_to_new(staged, folder_) == 0) {
         added_.clear();
         return sync_folder(folder_of(folder_));
     }
+    // Where the folder exists by now, move the files into it
     code = code ? code : errno;
     for (std::size_t i = 0; i < added_.size() && code == EEXIST; ++i) {
         const std::string place = (fs::path(folder_) / added_[i].name).string();
@@ -375,6 +381,7 @@ int FileSet::name_in_new_folder()
         else
             added_[i].temporary.clear();
     }
+    // Remove the leftovers
     for (Added& file : added_)
         if (!file.temporary.empty())
             ::unlink(file.temporary.c_str()), file.temporary.clear();

@@ -246,6 +246,7 @@ Image tonemap_to_srgb8(const Image& linear, Tonemap tonemap, float exposure_ev, 
     BN_CHECK(parts.empty() || channels >= 3);
     for (auto part = parts.begin(); part != parts.end();) {
         const std::uint32_t pixel = part->pixel;
+        // Average the pixel's parts
         float sum[3] = {}, weights = 0.0f;
         for (; part != parts.end() && part->pixel == pixel; ++part) {
             if (part->background && channels == 4)
@@ -258,6 +259,7 @@ Image tonemap_to_srgb8(const Image& linear, Tonemap tonemap, float exposure_ev, 
             sum[0] += kept.r * weight, sum[1] += kept.g * weight, sum[2] += kept.b * weight;
             weights += weight;
         }
+        // Tonemap a weighted average after resolving
         if (weights > 0.0f && resolve == Resolve::weighted) {
             const Rgb mapped = clipped(apply(tonemap, {sum[0] / weights, sum[1] / weights, sum[2] / weights}));
             sum[0] = mapped.r, sum[1] = mapped.g, sum[2] = mapped.b, weights = 1.0f;

@@ -149,16 +149,20 @@ void run_with_helpers(Loop& loop, int threads)
 {
     Pool& p = pool();
     std::unique_lock lock(p.mutex);
+    // Take a worker number, and open the loop
     const Seated* const had = seat_of(loop.seats);
     const int worker = had ? had->worker : take_seat(p, lock, loop.seats);
     p.open.push_back(&loop);
     p.opened.fetch_add(1);
+    // Wake as many sleeping threads as the loop can use
     const std::size_t wanted = std::min(static_cast<std::size_t>(threads), (loop.count + loop.grain - 1) / loop.grain) - 1;
     for (std::size_t i = std::min(wanted, static_cast<std::size_t>(p.asleep)); i > 0; --i)
         p.work.notify_one();
+    // Run pieces on this thread
     lock.unlock();
     run_pieces(loop, worker);
     lock.lock();
+    // Close the loop, and wait for its helpers
     p.open.erase(std::find(p.open.begin(), p.open.end(), &loop));
     if (loop.helpers.load() > 0) {
         lock.unlock();
@@ -167,6 +171,7 @@ void run_with_helpers(Loop& loop, int threads)
         lock.lock();
         p.left.wait(lock, [&] { return loop.helpers.load() == 0; });
     }
+    // Give back the worker number
     if (!had) {
         loop.seats.push_back(worker);
         p.seat.notify_one();

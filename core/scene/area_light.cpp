@@ -102,6 +102,7 @@ const AreaShapeInfo& area_shape_info(AreaShape shape)
 
 std::string area_light_fault(const AreaLight& light)
 {
+    // Check the shape and its number of points
     if (static_cast<int>(light.shape) >= kAreaShapes)
         return "its shape does not exist";
     const AreaShapeInfo& shape = area_shape_info(light.shape);
@@ -110,6 +111,7 @@ std::string area_light_fault(const AreaLight& light)
         return shape.least == shape.most
                    ? fmt::format("a {} has {} points ({}), {} are given", shape.name, shape.least, shape.what, count)
                    : fmt::format("a {} has {} to {} points ({}), {} are given", shape.name, shape.least, shape.most, shape.what, count);
+    // Check that points and radiance are finite
     const Points p(light.points.begin(), light.points.end());
     for (int k = 0; k < count; ++k)
         if (!finite(p[static_cast<std::size_t>(k)]))
@@ -117,6 +119,7 @@ std::string area_light_fault(const AreaLight& light)
     for (int c = 0; c < 3; ++c)
         if (!(light.radiance[c] >= 0.0f) || !std::isfinite(light.radiance[c]))
             return "its radiance is negative or not finite";
+    // Check the radius, the ends and the texture
     const bool round = light.shape == AreaShape::sphere || light.shape == AreaShape::line;
     if (round && (!(light.radius > 0.0f) || !std::isfinite(light.radius)))
         return fmt::format("a {} needs a radius above 0", shape.name);
@@ -125,6 +128,7 @@ std::string area_light_fault(const AreaLight& light)
     if (light.texture != kNone || !light.texture_file.empty())
         if (const std::string fault = texture_fault(light.shape, p); !fault.empty())
             return fault;
+    // Check that flat shapes span an area
     if (is_polygon(light.shape))
         return polygon_fault(p);
     if (light.shape == AreaShape::disk && !(glm::length(double_area(p)) > 1e-6 * extent_of(p) * extent_of(p)))
@@ -134,6 +138,7 @@ std::string area_light_fault(const AreaLight& light)
 
 std::optional<PlacedAreaLight> place_area_light(const AreaLight& light, const glm::mat4& world)
 {
+    // Transform the points to world space
     const glm::dmat4 to(world);
     const glm::dmat3 linear(to);
     const bool mirrored = glm::determinant(linear) < 0.0;
@@ -144,12 +149,14 @@ std::optional<PlacedAreaLight> place_area_light(const AreaLight& light, const gl
     const bool flat = is_polygon(light.shape) || light.shape == AreaShape::disk;
     if (flat && mirrored) // the emitting side follows the node
         std::reverse(p.begin() + 1, p.end());
+    // Copy the radiance and the texture, and scale the radius
     PlacedAreaLight placed;
     placed.shape = light.shape, placed.point_count = static_cast<int>(p.size());
     placed.radiance = light.radiance, placed.two_sided = light.two_sided;
     placed.texture = light.texture, placed.transposed = flat && mirrored;
     const double radius = longest * static_cast<double>(light.radius);
     placed.radius = static_cast<float>(radius);
+    // Compute the area and the normal
     double area = 4.0 * kPi * radius * radius;
     if (light.shape == AreaShape::line)
         area = 2.0 * kPi * radius * glm::length(p[1] - p[0]);
@@ -161,6 +168,7 @@ std::optional<PlacedAreaLight> place_area_light(const AreaLight& light, const gl
         area = light.shape == AreaShape::disk ? kPi * length : 0.5 * length;
         placed.normal = glm::vec3(twice / length);
     }
+    // Make a disk's half axes orthogonal
     if (light.shape == AreaShape::disk) {
         p[1] -= p[0], p[2] -= p[0];
         square_axes(p[1], p[2]);
@@ -168,6 +176,7 @@ std::optional<PlacedAreaLight> place_area_light(const AreaLight& light, const gl
     placed.area = static_cast<float>(area);
     for (std::size_t k = 0; k < p.size(); ++k)
         placed.points[k] = glm::vec3(p[k]);
+    // Refuse lights that are not finite or have no area
     bool sound = std::isfinite(placed.radius) && std::isfinite(placed.area) && placed.area > 0.0f;
     for (const glm::vec3& point : placed.points)
         sound = sound && finite(glm::dvec3(point));
@@ -178,12 +187,14 @@ Status read_area_texture(Scene& scene, AreaLight& light, const Limits& limits)
 {
     if (light.texture_file.empty())
         return {};
+    // Share the texture of an earlier light with this file
     for (const AreaLight& other : scene.area_lights)
         if (other.texture_file == light.texture_file) {
             light.texture = other.texture;
             return {};
         }
     light.texture = static_cast<std::int32_t>(scene.textures.size());
+    // Read the image within the remaining texture limit
     Limits rest = limits;
     for (const Image& image : scene.images)
         rest.texture_bytes -= std::min<std::uint64_t>(rest.texture_bytes, image.bytes.size());
@@ -197,6 +208,7 @@ Status read_area_texture(Scene& scene, AreaLight& light, const Limits& limits)
     if (image->bytes.size() > rest.texture_bytes)
         return Error{ExitCode::bad_input, light.texture_file, "",
                      fmt::format("the scene's textures need more than {} bytes (--limit-texture-bytes)", limits.texture_bytes)};
+    // Append the texture, clamped at its edges
     Texture texture;
     texture.name = light.texture_file;
     texture.image = static_cast<std::int32_t>(scene.images.size());

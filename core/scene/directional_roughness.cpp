@@ -63,6 +63,7 @@ LaidImages laid(const Image& roughness, const Image& directions, const Image& me
          *rough = reinterpret_cast<std::uint16_t*>(out.metal_rough.bytes.data());
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x, axis += 3, rough += 3) {
+            // Read the anisotropy and the direction along the grain
             const std::size_t own = texel_at(roughness, x, y, width, height);
             const double anisotropy = channel_of(roughness, own, 1, true);
             double along = 1.0, across = 0.0;
@@ -72,6 +73,7 @@ LaidImages laid(const Image& roughness, const Image& directions, const Image& me
             }
             if (anisotropy < 0.0) // wider across the grain
                 std::tie(along, across) = std::pair(-across, along);
+            // Write the direction, the strength and the roughness
             const Khr khr = khr_of(channel_of(roughness, own, 0, false), std::abs(anisotropy));
             axis[0] = code16(0.5 + 0.5 * along), axis[1] = code16(0.5 + 0.5 * across), axis[2] = code16(khr.strength);
             rough[0] = 65535, rough[1] = code16(khr.roughness);

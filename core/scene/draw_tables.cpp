@@ -237,6 +237,7 @@ DrawTables make_draw_tables(const Scene& scene, const glm::dmat4* motion)
     for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
         const Node& node = scene.nodes[i];
         const glm::mat4 world = motion ? glm::mat4(*motion * glm::dmat4(node.world)) : node.world;
+        // Place the node's lights
         if (node.light != kNone) {
             BN_CHECK_OP(static_cast<std::size_t>(node.light), <, scene.lights.size());
             append_light(scene.lights[static_cast<std::size_t>(node.light)], world, out.lights);
@@ -246,6 +247,7 @@ DrawTables make_draw_tables(const Scene& scene, const glm::dmat4* motion)
             if (const auto placed = place_area_light(scene.area_lights[static_cast<std::size_t>(node.area_light)], world))
                 out.area_lights.push_back(*placed);
         }
+        // Append a draw for each primitive of the node's mesh
         if (node.mesh == kNone)
             continue;
         BN_CHECK_OP(static_cast<std::size_t>(node.mesh), <, scene.meshes.size());

@@ -99,6 +99,7 @@ Status lay_heights(Scene& scene, const Limits& limits, const std::string& file)
 {
     std::map<std::pair<std::int32_t, std::int32_t>, std::int32_t> known; // key: normal and height textures
     for (Material& m : scene.materials) {
+        // Skip materials whose height map does not match their normal map
         const TextureRef heights = std::exchange(m.height_tex, TextureRef());
         if (!heights.used())
             continue;
@@ -109,6 +110,7 @@ Status lay_heights(Scene& scene, const Limits& limits, const std::string& file)
         }
         const auto [it, is_new] =
             known.try_emplace({m.normal_tex.texture, heights.texture}, static_cast<std::int32_t>(scene.textures.size()));
+        // Check the memory limit, and combine the two maps
         if (is_new) {
             Texture texture = scene.textures[static_cast<std::size_t>(heights.texture)];
             const Image& from = scene.images[static_cast<std::size_t>(texture.image)];
@@ -125,6 +127,7 @@ Status lay_heights(Scene& scene, const Limits& limits, const std::string& file)
             Image image = normals_with_heights(normals, from, texture);
             add_texture(scene, "heights", std::move(image), std::move(texture));
         }
+        // Use the combined map as the normal map
         m.normal_tex = heights;
         m.normal_tex.texture = it->second;
         m.heights = true;

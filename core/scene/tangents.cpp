@@ -87,6 +87,7 @@ void find_neighbours(const std::vector<std::uint32_t>& vertex, std::vector<Face>
     struct Edge {
         std::uint32_t low, high, face, side;
     };
+    // List the edges of all triangles, sorted by vertices and then triangles
     std::vector<Edge> edges;
     for (std::uint32_t f = 0; f < faces.size(); ++f) {
         if (faces[f].collapsed)
@@ -109,6 +110,7 @@ void find_neighbours(const std::vector<std::uint32_t>& vertex, std::vector<Face>
                 waiting[way].clear();
                 taken[way] = 0;
             }
+        // Pair this edge with a waiting edge in the opposite direction, or let it wait
         const int way = vertex[3 * edge.face + edge.side] == edge.low ? 0 : 1, back = 1 - way;
         if (taken[back] < waiting[back].size()) {
             const Edge& other = *waiting[back][taken[back]++];
@@ -227,14 +229,17 @@ std::vector<glm::vec4> mikk_tangents(std::span<const glm::vec3> positions, std::
     BN_CHECK_OP(positions.size(), ==, normals.size());
     BN_CHECK_OP(positions.size(), ==, uvs.size());
     BN_CHECK_OP(positions.size(), <, std::size_t{kNobody});
+    // Weld corners, and find triangle gradients and neighbours
     const std::vector<std::uint32_t> vertex = weld(positions, normals, uvs);
     std::vector<Face> faces(positions.size() / 3);
     for (std::size_t f = 0; f < faces.size(); ++f)
         faces[f] = make_face(&positions[3 * f], &uvs[3 * f]);
     find_neighbours(vertex, faces);
+    // Form groups around vertices, and sum their gradients
     std::vector<Group> groups = make_groups(vertex, faces);
     sum_gradients(positions, normals, faces, groups);
 
+    // Write each corner's tangent from its group
     const std::vector<std::uint32_t> lender = lenders(vertex, faces);
     std::vector<glm::vec4> out(positions.size());
     for (std::uint32_t i = 0; i < out.size(); ++i) {

@@ -62,12 +62,14 @@ Status MovingPicture::add(const std::string& path, const Image& picture)
     const Result<Bytes> png = png_bytes(path, picture);
     BN_TRY(png);
     width_ = picture.width, height_ = picture.height, channels_ = picture.channels;
+    // Write the frame's control chunk
     Bytes control; // fcTL
     put(control, sequence_++), put(control, static_cast<std::uint32_t>(width_)), put(control, static_cast<std::uint32_t>(height_));
     put(control, 0), put(control, 0);
     put(control, 1, 2), put(control, static_cast<std::uint32_t>(fps_), 2);
     put(control, 0, 2); // dispose and blend operations: none
     put_chunk(body_, "fcTL", control);
+    // Split the PNG: its head once, and its pixel data for each frame
     if (pictures_ == 0)
         head_.assign(png->begin(), png->begin() + kSignature);
     for (std::size_t at = kSignature; at + 12 <= png->size();) {

@@ -248,10 +248,12 @@ Status read_part(Reader& reader, Part& part, bool& any)
 
 Status check_part(const ImageBytes& file, const Part& part, const Limits& limits, std::uint64_t& offsets)
 {
+    // Check that the required attributes are present
     if (!part.has_channels || !part.has_data_window || !part.has_display_window || !part.has_compression)
         return file.error("header", "channels, windows or compression are missing");
     if (part.compression >= std::size(kLinesPerBlock))
         return file.error("header: compression", fmt::format("unknown method {}", part.compression));
+    // Check both windows against the limits
     for (const Window* window : {&part.data, &part.display}) {
         constexpr std::int64_t kFar = 1 << 30;
         if (window->x0 < -kFar || window->y0 < -kFar || window->x1 > kFar || window->y1 > kFar)
@@ -264,6 +266,7 @@ Status check_part(const ImageBytes& file, const Part& part, const Limits& limits
             !fits)
             return fits;
     }
+    // Check the size of tiles or scanline blocks
     const std::uint64_t width = static_cast<std::uint64_t>(part.data.width());
     const std::uint64_t height = static_cast<std::uint64_t>(part.data.height());
     std::uint64_t block_width = width, block_height = kLinesPerBlock[part.compression];
@@ -290,6 +293,7 @@ Result<ImageProbe> probe_exr(const ImageBytes& file, const Limits& limits)
     Reader reader(file);
     if (!reader.skip(4) || reader.left() < 4)
         return reader.error("the file ends inside its header");
+    // Check the version and the kind of file
     const std::uint32_t version = reader.u32();
     if ((version & 0xFF) != 2)
         return file.error("byte 4", fmt::format("OpenEXR version {} is unknown", version & 0xFF));
@@ -298,6 +302,7 @@ Result<ImageProbe> probe_exr(const ImageBytes& file, const Limits& limits)
         return file.error("byte 4", "deep images are not supported");
     ImageProbe probe{"openexr", -1};
     std::uint64_t offsets = 0;
+    // Check every part, and choose the first flat one
     for (int index = 0; many || index == 0; ++index) {
         if (index == kMaxParts)
             return reader.error(fmt::format("more than {} parts", kMaxParts));

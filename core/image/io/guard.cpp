@@ -64,6 +64,7 @@ Result<ImageProbe> probe_jpeg(const ImageBytes& file, const Limits& limits)
     bool framed = false;
     int scans = 0;
     for (std::size_t at = 2;;) {
+        // Go to the next marker
         const std::optional<std::uint8_t> marker = next_jpeg_marker(file, at);
         if (!marker)
             return file.error(fmt::format("byte {}", file.size), "the file ends before its end-of-image marker");
@@ -71,11 +72,13 @@ Result<ImageProbe> probe_jpeg(const ImageBytes& file, const Limits& limits)
             return ImageProbe{"jpeg"};
         if (*marker == 0xD8 || *marker == 0xD9 || *marker == 0x01)
             continue;
+        // Check the segment's size
         if (at + 2 > file.size)
             return too_short(file);
         const std::uint64_t length = big_endian(file.data + at, 2);
         if (length < 2 || at + length > file.size)
             return file.error(fmt::format("byte {}", at), fmt::format("a segment of {} bytes does not fit", length));
+        // Check the frame's sides
         const bool frame = *marker >= 0xC0 && *marker <= 0xCF && *marker != 0xC4 && *marker != 0xC8 && *marker != 0xCC;
         if (frame && length < 8)
             return file.error(fmt::format("byte {}", at), "the frame header is too short");
@@ -86,6 +89,7 @@ Result<ImageProbe> probe_jpeg(const ImageBytes& file, const Limits& limits)
             BN_TRY(check_proportion(file, static_cast<std::uint64_t>(width), static_cast<std::uint64_t>(height), 3));
             framed = true;
         }
+        // Bound the number of scans
         if (*marker == 0xDA && ++scans > kMaxJpegScans)
             return file.error(fmt::format("byte {}", at), fmt::format("more than {} scans", kMaxJpegScans));
         at += length;

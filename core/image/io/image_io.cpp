@@ -158,6 +158,7 @@ Result<Image> decode(const ImageBytes& file, const ImageProbe& probe, const Limi
     StoredHeader header;
     Selection selection;
     Image image;
+    // Choose the channels, and allocate memory within the limit
     const auto place = [&](const StoredHeader& found) -> Result<PixelRequest> {
         BN_TRY(check_header(file, found, limits));
         header = found;
@@ -175,6 +176,7 @@ Result<Image> decode(const ImageBytes& file, const ImageProbe& probe, const Limi
         image = make_image(header.width, header.height, end - first, header.type);
         return PixelRequest{first, end, image.bytes.data()};
     };
+    // Decode the pixels, and convert them to colours or data
     BN_TRY(read_pixels(file, probe, place));
     image = pick_channels(std::move(image), selection, selection.first());
     if (selection.chroma)

@@ -77,11 +77,13 @@ Result<const ImageLibrary*> open_library()
             missing += (missing.empty() ? "" : " or ") + folder.string();
             continue;
         }
+        // Check that the module belongs to this build
         const Result<std::vector<std::uint8_t>> bytes = read_file(path.string(), kMostModuleBytes);
         if (!bytes || module_hash(*bytes) != kModuleHash)
             return Error{ExitCode::unavailable, "", "",
                          fmt::format("the image library {} {}", path.string(),
                                      bytes ? "is damaged or belongs to another build" : "cannot be read: " + bytes.error().reason)};
+        // Check that memory and threads suffice
         if (!has_room())
             return Error{ExitCode::unavailable, "", "",
                          fmt::format("the image library needs {} MiB of address space, and there is no memory for it", kRoomBytes >> 20)};

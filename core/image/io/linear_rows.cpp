@@ -78,6 +78,7 @@ LinearRows::Histogram LinearRows::count_lit(const Jobs& jobs, int upper_half) co
     std::vector<Histogram> of_worker(static_cast<std::size_t>(jobs.threads()));
     std::vector<std::vector<float>> row_of(of_worker.size());
     const std::size_t width = static_cast<std::size_t>(image_.width);
+    // Count each row into its worker's histogram
     jobs.parallel_for(static_cast<std::size_t>(image_.height), [&](std::size_t y, int worker) {
         Histogram& h = of_worker[static_cast<std::size_t>(worker)];
         std::vector<float>& row = row_of[static_cast<std::size_t>(worker)];
@@ -96,6 +97,7 @@ LinearRows::Histogram LinearRows::count_lit(const Jobs& jobs, int upper_half) co
                 ++h.pixels[bits & 0xffffu];
         }
     });
+    // Add up the workers' histograms
     for (std::size_t i = 1; i < of_worker.size(); ++i) {
         std::transform(of_worker[0].pixels.begin(), of_worker[0].pixels.end(), of_worker[i].pixels.begin(), of_worker[0].pixels.begin(),
                        std::plus<>());

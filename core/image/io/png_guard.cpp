@@ -135,10 +135,12 @@ Result<ImageProbe> probe_png(const ImageBytes& file, const Limits& limits)
             return file.error(place, "a PNG file must begin with a whole IHDR chunk");
         if (at == 8)
             BN_TRY(check_header(file, file.data + 16, limits, header));
+        // Check the chunk's size and checksum
         if (length > file.size - at - 12)
             return file.error(place, fmt::format("a chunk of {} bytes does not fit into the file", length));
         if (crc.of(file.data + at + 4, length + 4) != read32(file.data + at + 8 + length))
             return file.error(place, "the checksum of a chunk is wrong");
+        // Check the chunk's type and order
         const bool critical = (file.data[at + 4] & 0x20) == 0;
         const bool known = type == "IHDR" || type == "PLTE" || type == "IDAT" || type == "IEND";
         if ((critical && !known) || (at != 8 && type == "IHDR") || (type == "IDAT" && pixels_over) ||
@@ -147,6 +149,7 @@ Result<ImageProbe> probe_png(const ImageBytes& file, const Limits& limits)
         BN_TRY(check_colours(file, at, type, length, header, palette_entries));
         pixels_over = pixels && type != "IDAT";
         pixels = pixels || type == "IDAT";
+        // Pass on chunks that affect the samples
         if (known || type == "tRNS")
             probe.replacement.insert(probe.replacement.end(), file.data + at, file.data + at + 12 + length);
         if (type == "IEND")

@@ -64,11 +64,13 @@ class Directory {
 
 Result<ImageProbe> probe_tiff(const ImageBytes& file, const Limits& limits)
 {
+    // Find the first directory
     if (file.size < 8)
         return file.error(fmt::format("byte {}", file.size), "the file ends inside its header");
     const Directory directory(file, Directory(file, 0).number(4, 4));
     if (!directory.complete())
         return file.error("byte 4", "the first directory does not lie in the file");
+    // Check the sides and the sample format
     const std::optional<std::uint64_t> width = directory.value(kWidth), height = directory.value(kHeight);
     if (!width || !height)
         return file.error("header", "the width or the height is missing");
@@ -76,6 +78,7 @@ Result<ImageProbe> probe_tiff(const ImageBytes& file, const Limits& limits)
     const std::uint64_t bits = directory.value(kBits).value_or(1), samples = directory.value(kSamples).value_or(1);
     if (bits < 1 || bits > 64 || samples < 1 || samples > 1024)
         return file.error("header", fmt::format("{} samples a pixel of {} bits", samples, bits));
+    // Check that the file can hold the pixels
     if (directory.value(kCompression).value_or(kNoCompression) == kNoCompression && *width * *height * samples / 8 * bits > file.size)
         return file.error(fmt::format("header: {} x {} pixels", *width, *height),
                           fmt::format("{} bytes cannot hold that many pixels", file.size));
@@ -87,6 +90,7 @@ Result<ImageProbe> probe_tiff(const ImageBytes& file, const Limits& limits)
     if (tile_width > side || tile_height > side)
         return file.error("header: tiles", fmt::format("tiles of {} x {} pixels are too large", tile_width, tile_height));
     BN_TRY(check_proportion(file, tile_width, tile_height, pixel));
+    // Refuse or warn of unsupported colour encodings
     const std::uint64_t photometric = directory.value(kPhotometric).value_or(0);
     if (photometric == kLogL || photometric == kLogLuv)
         return file.error("header: photometric interpretation", "CIE LogL and LogLuv pixels are not supported");

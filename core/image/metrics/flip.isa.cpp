@@ -167,6 +167,7 @@ BN_INLINE real even_row(const float* at, const float* weights, int radius)
 void filter(const FlipFilters& f, const float* y, const float* cx, const float* cz, int n, int stride, float* out)
 {
     for (int i = 0; i < n; i += kLanes) {
+        // Filter luminance and the feature detectors along x
         const real centre = load(y + i);
         real luma = centre * splat(f.y[0]), gauss = centre * splat(f.gauss[0]);
         real edge = lit(0.0), point = centre * splat(f.point[0]);
@@ -178,6 +179,7 @@ void filter(const FlipFilters& f, const float* y, const float* cx, const float* 
             point += both_sides * splat(f.point[k]);
             edge += (after - before) * splat(f.edge[k]);
         }
+        // Filter both terms of Cz along x
         real wide = load(cz + i) * splat(f.cz[0]), narrow = load(cz + i) * splat(f.cz2[0]);
         for (int k = 1; k <= f.cz_radius; ++k) {
             const real both_sides = load(cz + i - k) + load(cz + i + k);
@@ -238,6 +240,7 @@ struct Seen {
 
 BN_INLINE void look(const FlipFilters& f, const float* const* middle, int stride, int offset, Seen (&seen)[kFlipRows])
 {
+    // Filter the colour along y
     real a[kFlipRows], b[kFlipRows], c[kFlipRows];
     even_column(middle, offset + kFlipY * stride, f.y, f.y_radius, a);
     even_column(middle, offset + kFlipCx * stride, f.cx, f.cx_radius, b);
@@ -248,6 +251,7 @@ BN_INLINE void look(const FlipFilters& f, const float* const* middle, int stride
     for (int j = 0; j < kFlipRows; ++j)
         seen[j].colour = perceived({seen[j].colour.x, seen[j].colour.y, seen[j].colour.z + c[j]});
 
+    // Differentiate the Gaussian-filtered rows along y
     Window gauss = {middle, offset + kFlipGauss * stride, {}, {}};
     start(gauss);
     for (int j = 0; j < kFlipRows; ++j) {
@@ -261,6 +265,7 @@ BN_INLINE void look(const FlipFilters& f, const float* const* middle, int stride
             b[j] += (gauss.up[j] + gauss.down[j]) * splat(f.point[k]);
         }
     }
+    // Combine the derivatives along x and y
     even_column(middle, offset + kFlipEdge * stride, f.gauss, f.y_radius, c);
     for (int j = 0; j < kFlipRows; ++j)
         seen[j].edge = sqrt(c[j] * c[j] + a[j] * a[j]);

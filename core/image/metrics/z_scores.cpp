@@ -62,6 +62,7 @@ double sidak_limit(double significance, std::int64_t tests)
 ZTest z_test(const Image& reference, const Image& test, const Image& reference_variance, const Image* test_variance, double significance,
              const Jobs& jobs)
 {
+    // Check the images
     const Image* const all[] = {&reference, &test, &reference_variance, test_variance ? test_variance : &reference};
     for (const Image* image : all) {
         BN_CHECK(image->type == PixelType::f32);
@@ -71,10 +72,12 @@ ZTest z_test(const Image& reference, const Image& test, const Image& reference_v
     const std::size_t colours = static_cast<std::size_t>(colour_channels(reference));
     const std::size_t width = static_cast<std::size_t>(reference.width);
     const std::int64_t pixels = static_cast<std::int64_t>(reference.width) * reference.height;
+    // Find the limit for all tests together
     ZTest result;
     result.limit = sidak_limit(significance, pixels * static_cast<std::int64_t>(colours));
     const double limit_square = result.limit * result.limit;
 
+    // Test each channel of each pixel
     std::vector<RowResult> rows(static_cast<std::size_t>(reference.height));
     jobs.parallel_for(rows.size(), [&](std::size_t y, int) {
         for (std::size_t i = y * width * channels; i < (y + 1) * width * channels; i += channels) {
@@ -91,6 +94,7 @@ ZTest z_test(const Image& reference, const Image& test, const Image& reference_v
             rows[y].rejected += rejected ? 1 : 0;
         }
     });
+    // Sum up the rows
     for (const RowResult& row : rows) {
         result.largest = std::max(result.largest, std::sqrt(row.largest_square));
         result.rejected += row.rejected;

@@ -98,12 +98,14 @@ std::vector<std::uint8_t> make_dense(Document& doc, const Json& json, const Acce
 {
     const Json& sparse = json["sparse"];
     const std::uint64_t element = element_bytes(layout.type, layout.shape);
+    // Copy the base elements
     if (layout.count > UINT64_MAX / element)
         fail(place, "the accessor's size overflows");
     doc.charge(layout.count * element, place);
     std::vector<std::uint8_t> dense(layout.count * element);
     for (std::uint64_t i = 0; i < layout.count; ++i)
         std::memcpy(dense.data() + i * element, base.element(i), element);
+    // View the sparse indices and values
     const Json &indices = sparse["indices"], &values = sparse["values"];
     const int index_view = get_index(indices, "bufferView"), value_view = get_index(values, "bufferView");
     Layout value_layout = layout;
@@ -111,6 +113,7 @@ std::vector<std::uint8_t> make_dense(Document& doc, const Json& json, const Acce
     const AccessorView where =
         view_of(doc, index_view, get_uint(indices, "byteOffset", 0), sparse_index_layout(sparse), place + "/sparse/indices");
     const AccessorView what = view_of(doc, value_view, get_uint(values, "byteOffset", 0), value_layout, place + "/sparse/values");
+    // Overwrite the sparse elements
     std::uint64_t next = 0;
     for (std::uint64_t i = 0; i < where.count(); ++i) {
         const std::uint64_t index = where.integer(i);

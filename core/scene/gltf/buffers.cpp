@@ -184,6 +184,7 @@ void load_buffer(Document& doc, std::size_t i, std::map<std::string_view, std::s
     BufferData& buffer = doc.buffers[i];
     if (const Json* meshopt = get_extension(json, "EXT_meshopt_compression"); meshopt && meshopt->value("fallback", false))
         return; // the bytes are for readers without the extension
+    // Find the bytes: a URI, or the GLB's chunk
     if (json.contains("uri")) {
         const std::string& uri = json["uri"].get_ref<const std::string&>();
         const auto [it, is_new] = loaded.insert({uri, i});
@@ -197,6 +198,7 @@ void load_buffer(Document& doc, std::size_t i, std::map<std::string_view, std::s
     } else {
         return;
     }
+    // Check the declared length
     const std::uint64_t length = get_uint(json, "byteLength", 0);
     if (buffer.bytes.size() < length)
         fail(place + "/byteLength", fmt::format("says {} bytes, only {} are there", length, buffer.bytes.size()));

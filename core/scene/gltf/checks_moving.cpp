@@ -14,6 +14,7 @@ const Json& accessor_of(const Document& doc, const Json& object, const char* key
 void check_animation(Document& doc, const Json& animation, const std::string& place)
 {
     const Json &samplers = animation["samplers"], &channels = animation["channels"];
+    // Check samplers: key times, and one output for each key
     for (std::size_t i = 0; i < samplers.size(); ++i) {
         const std::string here = fmt::format("{}/samplers/{}", place, i);
         const Json &input = accessor_of(doc, samplers[i], "input"), &output = accessor_of(doc, samplers[i], "output");
@@ -27,6 +28,7 @@ void check_animation(Document& doc, const Json& animation, const std::string& pl
         if (get_uint(output, "count", 0) % (get_uint(input, "count", 1) * (cubic ? 3 : 1)) != 0)
             doc.fault(here + "/output", "has a count that does not fit the input's");
     }
+    // Check channels: each target has one channel and can move
     std::set<std::pair<int, std::string>> targets;
     for (std::size_t i = 0; i < channels.size(); ++i) {
         const Json& target = channels[i]["target"];
@@ -46,6 +48,7 @@ void check_animation(Document& doc, const Json& animation, const std::string& pl
             doc.fault(here + "/target/path", "needs a node with a mesh of morph targets");
         if (sampler >= samplers.size())
             continue;
+        // Check that the output's type fits the target
         const Json& output = accessor_of(doc, samplers[sampler], "output");
         const std::string type = get_string(output, "type");
         const char* wanted = path == "rotation" ? "VEC4" : path == "weights" ? "SCALAR" : "VEC3";

@@ -122,6 +122,7 @@ void check_nodes(Document& doc)
 // scene.
 void check_skins(Document& doc)
 {
+    // Find every node's parent
     std::vector<int> parents(table_size(doc.json, "nodes"), -1);
     for (std::size_t i = 0; i < parents.size(); ++i)
         for (const Json& child : doc.json["nodes"][i].value("children", Json::array()))
@@ -133,6 +134,7 @@ void check_skins(Document& doc)
         return line;
     };
     const auto root_of = [&](int node) { return line_of(node).back(); };
+    // Check that each skin's joints lie below its skeleton and one root
     for (std::size_t s = 0; s < table_size(doc.json, "skins"); ++s) {
         const Json& skin = doc.json["skins"][s];
         const int skeleton = get_index(skin, "skeleton");
@@ -148,6 +150,7 @@ void check_skins(Document& doc)
             }
         }
     }
+    // Check that each skinned node's joints are in its scene
     for (std::size_t s = 0; s < table_size(doc.json, "scenes"); ++s) {
         std::set<int> roots;
         for (const Json& node : doc.json["scenes"][s].value("nodes", Json::array()))

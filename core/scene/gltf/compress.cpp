@@ -157,6 +157,7 @@ DracoPrimitive decode_draco(Document& doc, const Json& primitive, const Json& ex
     const std::string here = place + "/extensions/KHR_draco_mesh_compression";
     const Bytes source = view_bytes(doc, get_index(extension, "bufferView"));
     check_draco_header(source, here);
+    // Decode the mesh
     draco::DecoderBuffer buffer;
     buffer.Init(reinterpret_cast<const char*>(source.data()), source.size());
     draco::Decoder decoder;
@@ -165,6 +166,7 @@ DracoPrimitive decode_draco(Document& doc, const Json& primitive, const Json& ex
         fail(here, "the Draco data is damaged: " + printable(decoded.status().error_msg_string()));
     const draco::Mesh& mesh = *decoded.value();
 
+    // Copy the indices
     DracoPrimitive result;
     result.vertex_count = mesh.num_points();
     doc.charge(mesh.num_faces() * 12ull, here);
@@ -175,6 +177,7 @@ DracoPrimitive decode_draco(Document& doc, const Json& primitive, const Json& ex
                 fail(here, "the Draco data is damaged: a face names a point that is not there");
             result.indices.push_back(p.value());
         }
+    // Copy each attribute in its accessor's type
     for (const auto& [name, id] : extension["attributes"].items()) {
         const auto accessor_index = primitive["attributes"].find(name);
         if (accessor_index == primitive["attributes"].end())

@@ -137,6 +137,7 @@ int load_area_light(Document& doc, const Json& node, const std::string& node_pla
         return kNone;
     const Json& source = node[at];
     const std::string place = node_place + at.to_string();
+    // Read the factors and the points
     AreaLight light;
     read_choice(source, "/shape", "quad polygon disk sphere line", light.shape);
     read_flag(source, "/twoSided", light.two_sided);
@@ -148,6 +149,7 @@ int load_area_light(Document& doc, const Json& node, const std::string& node_pla
         fail(place + "/points", fmt::format("must be three numbers a point, are {}", numbers.size()));
     for (std::size_t k = 0; k < numbers.size(); k += 3)
         light.points.emplace_back(static_cast<float>(numbers[k]), static_cast<float>(numbers[k + 1]), static_cast<float>(numbers[k + 2]));
+    // Read the texture, and check the light
     if (source.contains("texture"))
         light.texture = clamped_texture(doc, get_index(source["texture"], "index"));
     if (const std::string fault = area_light_fault(light); !fault.empty())
@@ -273,6 +275,7 @@ void load_cameras_and_lights(Document& doc)
 
 void load_nodes(Document& doc)
 {
+    // Check that the nodes form a forest
     const std::vector<int> parent = find_parents(doc);
     check_forest(doc, parent);
     const std::vector<Root> roots = find_roots(doc, parent);
@@ -280,6 +283,7 @@ void load_nodes(Document& doc)
     struct Pending {
         int node, parent; // glTF node, scene node
     };
+    // Walk the default scene's nodes in depth-first order
     std::vector<Pending> stack;
     for (const Root& root : roots) {
         stack.push_back({root.node, kNone});
@@ -299,6 +303,7 @@ void load_nodes(Document& doc)
                 stack.push_back({*child, id});
         }
     }
+    // Name the scene, and compute world matrices
     if (table_size(doc.json, "scenes") > 0)
         doc.scene.name = get_string(doc.json["scenes"][index_of(std::max(get_index(doc.json, "scene"), 0))], "name");
     update_world(doc.scene);

@@ -73,6 +73,7 @@ std::vector<std::uint32_t> read_indices(Source& source, std::uint64_t vertex_cou
 {
     const std::string place = source.place + "/indices";
     std::vector<std::uint32_t> indices;
+    // Read indices from Draco data or an accessor, or count up without either
     if (source.is_draco) {
         indices = std::move(source.draco.indices);
     } else if (const int accessor = get_index(source.json, "indices"); accessor >= 0) {
@@ -93,6 +94,7 @@ std::vector<std::uint32_t> read_indices(Source& source, std::uint64_t vertex_cou
         for (std::uint64_t i = 0; i < vertex_count; ++i)
             indices[i] = static_cast<std::uint32_t>(i);
     }
+    // Check that every index names a vertex
     for (std::size_t i = 0; i < indices.size(); ++i)
         if (indices[i] >= vertex_count)
             fail(place, fmt::format("index {} at {} is not below the vertex count {}", indices[i], i, vertex_count));
@@ -160,11 +162,13 @@ void warn_missing_coordinates(Document& doc, const Material& m, const Primitive&
 // Loads a primitive. `by` bends the mesh; an empty Bend leaves the mesh as the file has it.
 void load_primitive(Document& doc, const Json& json, const Bend& by, const std::string& place, const std::string& mesh)
 {
+    // Skip points and lines
     const int mode = static_cast<int>(get_uint(json, "mode", kTriangles));
     if (mode < kTriangles) {
         doc.warn(mesh + ": points and lines are not supported and left out");
         return;
     }
+    // Decode Draco data, and view the attributes
     Source source{doc, json, place, {}, false};
     if (const Json* draco = get_extension(json, "KHR_draco_mesh_compression")) {
         source.draco = decode_draco(doc, json, *draco, place);
@@ -176,6 +180,7 @@ void load_primitive(Document& doc, const Json& json, const Bend& by, const std::
         doc.warn(mesh + ": a primitive without POSITION is left out");
         return;
     }
+    // Bend the vertices by joints and morph targets
     std::vector<std::uint32_t> indices = read_indices(source, corners.attributes.position.count());
     Bent bent; // storage for the attributes
     if (by.any()) {
@@ -186,6 +191,7 @@ void load_primitive(Document& doc, const Json& json, const Bend& by, const std::
         };
         bent = bend(doc, json, by, corners.attributes, attribute, place);
     }
+    // Convert strips and fans to triangles
     if (mode == kTriangles && indices.size() % 3 != 0)
         doc.warn(mesh + ": the number of indices is not a multiple of 3; the last are left out");
     // Draco stores triangles whatever the mode is.
@@ -194,6 +200,7 @@ void load_primitive(Document& doc, const Json& json, const Bend& by, const std::
         return;
     doc.charge(corners.vertices.size() * kCornerCharge, place);
 
+    // Append the primitive with merged vertices
     Primitive primitive;
     primitive.material = material_of(doc, json);
     primitive.has_uv0 = static_cast<bool>(corners.attributes.uv[0]);

@@ -152,6 +152,7 @@ std::vector<glm::mat4> instances_of(Document& doc, const Json& node, const std::
     const char* const members[] = {"translation", "rotation", "scale"};
     AccessorView views[3];
     std::uint64_t count = 0;
+    // View the attributes, and check their sizes
     for (int i = 0; i < 3; ++i) {
         const std::string here = fmt::format("{}/extensions/EXT_mesh_gpu_instancing/attributes/{}", place, names[i]);
         const auto it = attributes->find(names[i]);
@@ -169,6 +170,7 @@ std::vector<glm::mat4> instances_of(Document& doc, const Json& node, const std::
             fail(here, fmt::format("has {} elements where another attribute has {}", views[i].count(), count));
         count = views[i].count();
     }
+    // Compose each instance's matrix
     std::vector<glm::mat4> matrices;
     doc.charge(count * sizeof(Node), place);
     for (std::uint64_t k = 0; k < count; ++k) {

@@ -400,6 +400,7 @@ void check_below(Checker& checker, const std::string& where, std::span<const Rul
 // Checks members of cameras, lights and materials that are only valid together.
 void check_pairs(const Json& json)
 {
+    // Check cameras: their lens, zfar beyond znear, magnifications
     for (std::size_t i = 0; i < table_size(json, "cameras"); ++i) {
         const Json& camera = json["cameras"][i];
         const std::string type = camera["type"], place = fmt::format("/cameras/{}", i);
@@ -412,6 +413,7 @@ void check_pairs(const Json& json)
             if (type == "orthographic" && lens[key].get<double>() == 0.0)
                 fail(place + "/orthographic/" + key, "must not be 0");
     }
+    // Check the cone angles of spot lights
     const Json* lights = get_extension(json, "KHR_lights_punctual");
     for (std::size_t i = 0; lights && i < table_size(*lights, "lights"); ++i) {
         const Json& light = (*lights)["lights"][i];
@@ -424,11 +426,13 @@ void check_pairs(const Json& json)
         if (spot.value("innerConeAngle", 0.0) >= spot.value("outerConeAngle", 0.78539816339744828))
             fail(place + "/spot", "innerConeAngle must be smaller than outerConeAngle");
     }
+    // Check that conductors have both eta and k
     const Json::json_pointer conductor("/extras/burnish/conductor");
     for (std::size_t i = 0; i < table_size(json, "materials"); ++i)
         for (const char* key : {"eta", "k"})
             if (const Json& material = json["materials"][i]; material.contains(conductor) && !material[conductor].contains(key))
                 fail(fmt::format("/materials/{}{}", i, conductor.to_string()), fmt::format("\"{}\" is missing", key));
+    // Check the range of indices of refraction
     for (std::size_t i = 0; i < table_size(json, "materials"); ++i)
         if (const Json* ior = get_extension(json["materials"][i], "KHR_materials_ior")) {
             const double value = ior->value("ior", 1.5);
@@ -450,9 +454,11 @@ void check_version_and_extensions(Document& doc)
         {"extensionsUsed", Kind::words},
         {"extensionsRequired", Kind::words},
     };
+    // Check types before reading any member
     Checker checker(doc.json);
     for (const Rule& rule : kFirst)
         checker.run(rule, rule.path);
+    // Check the version
     const Json& asset = doc.json["asset"];
     const std::string version = asset["version"];
     if (version.substr(0, 2) != "2.")
@@ -460,6 +466,7 @@ void check_version_and_extensions(Document& doc)
     if (asset.contains("minVersion") && asset["minVersion"] != "2.0")
         fail("/asset/minVersion", "glTF version " + printable(asset["minVersion"].dump()) + " is needed, 2.0 is supported");
 
+    // Refuse unsupported required extensions
     std::set<std::string> seen;
     std::string missing;
     for (const Json& name : doc.json.value("extensionsRequired", Json::array()))
@@ -467,6 +474,7 @@ void check_version_and_extensions(Document& doc)
             missing += (missing.empty() ? "" : ", ") + printable(name);
     if (!missing.empty())
         fail("/extensionsRequired", "the file requires extensions that are not supported: " + missing);
+    // Warn of unsupported used extensions
     for (const Json& name : doc.json.value("extensionsUsed", Json::array()))
         if (!is_read(name) && doc.limits.strict)
             fail("/extensionsUsed", "extension " + printable(name) + " is not supported (--strict)");

@@ -45,6 +45,7 @@ std::vector<std::size_t> triangles_of(const std::vector<glm::dvec3>& corners)
     std::vector<std::size_t> left(corners.size()), out;
     for (std::size_t i = 0; i < left.size(); ++i)
         left[i] = i;
+    // Compute the polygon's normal, and define an ear
     glm::dvec3 normal(0.0);
     for (std::size_t i = 0; i + 1 < corners.size(); ++i)
         normal += cross(corners[i] - corners[0], corners[i + 1] - corners[0]);
@@ -59,6 +60,7 @@ std::vector<std::size_t> triangles_of(const std::vector<glm::dvec3>& corners)
             return p != a && p != b && p != c && turn(a, b, p) >= 0.0 && turn(b, c, p) >= 0.0 && turn(c, a, p) >= 0.0;
         });
     };
+    // Clip ears until a triangle is left
     while (left.size() > 3) {
         const std::size_t n = left.size();
         std::size_t at = 1 % n; // gives a fan about the first corner for convex polygons
@@ -252,6 +254,7 @@ void warn_of_missing_uvs(Scene& scene, const obj::Parsed& parsed)
 
 Result<Scene> load_obj_text(const std::string& text, const std::string& path, const Limits& limits)
 {
+    // Parse the text, and triangulate its polygons
     obj::Parsed parsed = obj::parse(path, text);
     if (parsed.wrong)
         return *parsed.wrong;
@@ -259,12 +262,14 @@ Result<Scene> load_obj_text(const std::string& text, const std::string& path, co
         return Error{ExitCode::bad_input, path, "", "holds no faces"};
     const Result<std::vector<std::vector<obj::Corner>>> triangles = cut_polygons(parsed, path, limits);
     BN_TRY(triangles);
+    // Make the default material
     Scene scene;
     scene.files.push_back(path);
     Material white;
     white.name = "white";
     white.metallic = 0.0f, white.roughness = 0.4f;
     scene.materials.push_back(white);
+    // Make a mesh and a node for each group
     SmoothNormals smooth = smooth_normals(parsed, *triangles);
     for (std::size_t g = 0; g < triangles->size(); ++g) {
         Mesh mesh;
