@@ -194,6 +194,7 @@ template <class Make> Status append(std::vector<Row>& rows, const RunOptions& ru
 
 int run(const Options& options)
 {
+    // Describe the machine and its load
     nlohmann::ordered_json json;
     json["machine"] = machine_json();
     json["threads"] = Jobs(options.run.subject.threads).threads();
@@ -207,6 +208,7 @@ int run(const Options& options)
     json["clock_ghz"] = quiet.clock_ghz, json["waited"] = quiet.waited, json["headline"] = headline;
     fmt::print("effective clock {:.2f} GHz, a thread waits {:.1f} % of its time{}\n", quiet.clock_ghz, 100.0 * quiet.waited,
                headline ? "" : ": too busy to judge by, compare ratios only");
+    // Run the workloads on each instruction set, and print the rows
     for (const Isa isa : options.isas) {
         RunOptions run = options.run;
         run.subject.isa = isa;
@@ -230,6 +232,7 @@ int run(const Options& options)
         for (const auto& workload : workloads_json(*measured, isa))
             json["workloads"].push_back(workload);
     }
+    // Write the JSON file
     json["load_average_end"] = load_average();
     if (options.json.empty())
         return 0;

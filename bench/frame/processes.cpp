@@ -76,6 +76,7 @@ int print_memory_of(std::int64_t triangles, const SubjectOptions& options)
 
 Result<std::vector<Row>> memory_rows(const RunOptions& options)
 {
+    // Measure each triangle count in a child process
     std::vector<Memory> found;
     for (const std::int64_t triangles : {10000, 100000, 1000000, 10000000}) {
         if (options.quick && triangles > 1000000)
@@ -89,6 +90,7 @@ Result<std::vector<Row>> memory_rows(const RunOptions& options)
             return Error{ExitCode::internal, options.self, "", "says nothing about its memory"};
         found.push_back(m);
     }
+    // Report peak memory, and bytes for each further triangle
     std::vector<Row> rows;
     double least = 1e300, growth = 0.0;
     std::string input, frame;

@@ -114,6 +114,7 @@ std::optional<Row> row_of(const Aim& aim, const std::vector<Measured>& all)
     Row row{aim.group, aim.what, "x", aim.limit, at_least(aim.measure), {}, ""};
     if (aim.limit == 0.0)
         row.aim.reset();
+    // Compare the units of a series of workloads
     if (aim.measure == Measure::unit_spread) {
         const auto series = beginning_with(all, aim.workload);
         if (series.size() < 2)
@@ -127,11 +128,13 @@ std::optional<Row> row_of(const Aim& aim, const std::vector<Measured>& all)
     const Measured* m = named(all, aim.workload);
     if (!m)
         return std::nullopt;
+    // Report the workload's own time
     if (aim.measure == Measure::cpu_ms) {
         row.unit = "ms", row.value = spread_of(m->cpu_ms);
         row.note = fmt::format("wall {:.2f} ms", spread_of(m->wall_ms).median);
         return row;
     }
+    // Find the workload to compare with
     const Measured* base = named(all, aim.base);
     if (aim.measure == Measure::times_faster)
         for (const Measured* other : beginning_with(all, aim.base))
@@ -139,6 +142,7 @@ std::optional<Row> row_of(const Aim& aim, const std::vector<Measured>& all)
                 base = other;
     if (!base)
         return std::nullopt;
+    // Compare both workloads
     const double ms = spread_of(m->cpu_ms).median, base_ms = spread_of(base->cpu_ms).median;
     if (aim.measure == Measure::speedup) {
         row.value = ratio(base->wall_ms, m->wall_ms);

@@ -138,10 +138,12 @@ class TileWorker {
         for (int y = tile.y0; y < tile_end; y += kFlipRows) {
             if (!differ(y - radius_, y + radius_ + kFlipRows))
                 continue; // equal pixels have no error, and errors start at 0
+            // Filter the rows that this block needs and no earlier block has filtered
             next = std::max(next, y - radius_);
             for (; next < std::min(end_row_, y + radius_ + kFlipRows); ++next)
                 for (int picture = 0; picture < 2; ++picture)
                     filter_row(pass, tile, tone, linear(next, picture), slot(next) + picture * kFlipPlanes * kStride);
+            // Finish the block from the ring's rows
             for (int k = -radius_; k < radius_ + kFlipRows; ++k)
                 rows_[static_cast<std::size_t>(k + radius_)] = slot(std::clamp(y + k, 0, last_row));
             float* to[kFlipRows];

@@ -160,12 +160,14 @@ Scene make_bumps()
     scene.name = "bumps";
     const std::int32_t directions = add_texture(scene, "circles", map_of(512, 512, circles));
 
+    // Make the hammered sphere
     Material copper = brushed_metal(0.32, 0.6, {0.95f, 0.64f, 0.54f});
     copper.normal_tex.texture = add_texture(scene, "dents", map_of(1024, 512, hammered));
     std::uint32_t first = begin(scene, "hammered copper", copper);
     add_sphere(scene, 96, 48, kHalfSide);
     place(scene, "sphere", first, -kApart, kApart, 0.0);
 
+    // Make the turned disc
     Material steel;
     steel.base_color = glm::vec4(0.77f, 0.78f, 0.78f, 1.0f);
     steel.roughness = 0.3f, steel.anisotropy_strength = 0.9f;
@@ -174,6 +176,7 @@ Scene make_bumps()
     add_flat_disc(scene);
     place(scene, "disc", first, kApart, kApart, kBackwards);
 
+    // Make the record
     Material vinyl;
     vinyl.metallic = 0.0f, vinyl.roughness = 0.3f, vinyl.anisotropy_strength = 0.5f;
     vinyl.anisotropy_tex.texture = directions;
@@ -183,6 +186,7 @@ Scene make_bumps()
     add_flat_disc(scene);
     place(scene, "record", first, -kApart, -kApart, kBackwards);
 
+    // Make the tiled wall
     Material glazed;
     glazed.metallic = 0.0f, glazed.roughness = 0.25f;
     glazed.base_color_tex.texture = add_texture(scene, "glaze", map_of(512, 512, tile_colour));

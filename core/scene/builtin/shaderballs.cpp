@@ -165,6 +165,7 @@ Scene make_shaderballs()
 {
     Scene scene;
     scene.name = "shaderballs";
+    // Make the materials and the floor
     const std::array<Material, 4> materials = ball_materials(scene);
     Material rubber;
     rubber.name = "knurled rubber", rubber.metallic = 0.0f, rubber.roughness = 0.3f;
@@ -174,6 +175,7 @@ Scene make_shaderballs()
     const std::uint32_t ground = begin_primitive(scene, 0);
     add_ground(scene);
     add_node(scene, "ground", add_mesh(scene, "ground", ground), glm::mat4(1.0f));
+    // Place the balls: a row for each material, a column for each repetition
     std::uint32_t ball = 0; // all balls share the first ball's vertices and indices
     for (int row = 0; row < 4; ++row)
         for (int column = 0; column < 3; ++column) {
@@ -193,6 +195,7 @@ Scene make_shaderballs()
             const char* name = scene.materials.back().name.c_str();
             add_node(scene, name, add_mesh(scene, name, first), local);
         }
+    // Add the lamp and the cameras
     Light lamp;
     lamp.name = "lamp", lamp.type = LightType::directional, lamp.intensity = 0.8f; // lux
     scene.lights.push_back(lamp);

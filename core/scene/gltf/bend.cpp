@@ -173,8 +173,10 @@ Bend bend_of(Document& doc, std::size_t scene_node)
 Bent bend(Document& doc, const Json& primitive, const Bend& by, Attributes& attributes, const AttributeOf& attribute,
           const std::string& place)
 {
+    // Copy the attributes as floats
     doc.charge(attributes.position.count() * 10 * sizeof(float), place);
     Bent bent{floats_of(attributes.position), floats_of(attributes.normal), floats_of(attributes.tangent)};
+    // Add the weighted morph targets
     const Json* targets = get_member(primitive, "targets");
     for (std::size_t t = 0; targets && t < std::min(targets->size(), by.weights.size()); ++t) {
         const Json& target = (*targets)[t];
@@ -182,6 +184,7 @@ Bent bend(Document& doc, const Json& primitive, const Bend& by, Attributes& attr
         add_target(bent.normal, 3, attribute(target, "NORMAL", 3), by.weights[t]);
         add_target(bent.tangent, 4, attribute(target, "TANGENT", 3), by.weights[t]);
     }
+    // Bend by all sets of joints and weights
     if (!by.joints.empty()) {
         Influences influences;
         for (int set = 0;; ++set) {
@@ -194,6 +197,7 @@ Bent bend(Document& doc, const Json& primitive, const Bend& by, Attributes& attr
         if (!influences.joints.empty())
             bend_by_joints(bent, influences, by.joints, place);
     }
+    // View the bent attributes
     attributes.position = view_of(bent.position, 3);
     attributes.normal = view_of(bent.normal, 3);
     attributes.tangent = view_of(bent.tangent, 4);

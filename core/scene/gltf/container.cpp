@@ -106,12 +106,14 @@ Chunk read_chunk(Bytes bytes, std::uint64_t offset)
 void parse_glb(Document& doc)
 {
     const Bytes bytes = doc.bytes;
+    // Check the GLB header
     if (bytes.size() < kHeaderBytes)
         fail(at_byte(bytes.size()), "the file ends inside the GLB header");
     if (const std::uint32_t version = read_u32(bytes, 4); version != 2)
         fail(at_byte(4), fmt::format("GLB version {} is not supported, only 2", version));
     if (const std::uint32_t length = read_u32(bytes, 8); length != bytes.size())
         fail(at_byte(8), fmt::format("the GLB header says {} bytes, the file has {}", length, bytes.size()));
+    // Walk the chunks: JSON first, BIN second, others ignored
     Chunk json;
     std::uint64_t offset = kHeaderBytes;
     for (int i = 0; i == 0 || offset < bytes.size(); ++i) {
@@ -130,6 +132,7 @@ void parse_glb(Document& doc)
         }
         offset = chunk.begin + chunk.length;
     }
+    // Parse the JSON chunk
     const char* text = reinterpret_cast<const char*>(bytes.data() + json.begin);
     doc.json = parse_json(text, json.length, json.begin, doc.limits);
 }

@@ -36,8 +36,10 @@ bool is_nearest(const Json& sampler)
 // extra, which also allows float images.
 int scene_texture(Document& doc, int index, bool extras)
 {
+    // Reuse a texture already in the scene
     if (const auto known = doc.scene_textures.find(index); known != doc.scene_textures.end())
         return known->second;
+    // Choose the image, WebP where the file offers one
     const Json& source = doc.json["textures"][static_cast<std::size_t>(index)];
     int image = get_index(source, "source");
     if (const Json* webp = get_extension(source, "EXT_texture_webp"); webp && webp->contains("source"))
@@ -47,6 +49,7 @@ int scene_texture(Document& doc, int index, bool extras)
         doc.warn(quoted(get_string(source, "name"), "texture", static_cast<std::size_t>(index)) +
                  " has no image that can be read; left out");
     } else {
+        // Read the image and the sampler
         Texture texture;
         texture.name = get_string(source, "name");
         texture.image = scene_image(doc, image, extras);
