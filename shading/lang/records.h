@@ -49,9 +49,8 @@ const int kLeastReliefSteps = 8, kMostReliefSteps = 32; // steps to the deepest 
 const int kFresnelSchlick = 0, kFresnelConductor = 1, kFresnelDielectric = 2; // FrameDesc::fresnel
 
 // Lobe traits (shading/models.def), and the words of the lobes' lines.
-const int kLobeOfAll = 1; // the default lobe
-const int kLobeOfRound =
-    2; // replaces the default lobe for lights on materials without a grain, and where a technique treats lobes as round
+const int kLobeOfAll = 1;    // the default lobe
+const int kLobeOfRound = 2;  // replaces it for lights, on materials without a grain and where a technique treats lobes as round
 const int kLobeOfTilted = 4; // replaces the default lobe where lobes are tilted
 const int kPunctualOnly = 8; // has no albedo: only punctual lights use it
 const int kLies_round = 16, kLies_level = 32, kLies_surface = 64, kLies_thread = 128;
