@@ -1,5 +1,5 @@
-// The words of a visible point and of its material, one after another, as recorded stages hold them (StageRecords in raster/frame/frame.h):
-// all are reals, what is true or false 1 or 0.
+// Consecutive words of a visible point and its material, as recorded stages hold them (StageRecords in
+// raster/frame/frame.h). All words are reals; booleans are 1 or 0.
 #ifndef BN_RECORDED_T_H
 #define BN_RECORDED_T_H
 
@@ -38,7 +38,7 @@ BN_FN void put_zeros(BN_INOUT(recorder) w, int count)
         put_real(w, lit(0.0));
 }
 
-// uses_color, textured, lights: what was asked for (shading/visible_point.def).
+// Records p. uses_color, textured, lights: requested values (shading/visible_point.def).
 BN_FN void record_point(BN_INOUT(recorder) w, BN_IN(visible_point) p, bool uses_color, bool textured, bool lights)
 {
 #define BN_POINT(type, words, name, asked)                                                                                                 \
