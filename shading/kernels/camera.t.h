@@ -9,6 +9,7 @@
 
 BN_KERNELS_BEGIN
 
+// Broadcasts a view to lanes.
 BN_FN view_params view_params_of(BN_IN(ViewRecord) v)
 {
     view_params r;

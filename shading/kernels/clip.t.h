@@ -40,6 +40,7 @@ BN_FN uniform_wide band_y(frame_ref f)
 BN_FN uniform_wide plane_distance(frame_ref f, BN_IN(clip_corner) v, int plane)
 {
     uniform_wide d = band_y(f) * v.c[2] + v.c[1];
+    // Distance to the near plane, by depth for orthographic views
     if (plane == 0) {
         uniform_wide before_depth = wide_of(1) - v.c[3];
         uniform_wide before_plane = v.c[2] - wide_of(the_frame(f).view.znear);
@@ -47,6 +48,7 @@ BN_FN uniform_wide plane_distance(frame_ref f, BN_IN(clip_corner) v, int plane)
         if (the_frame(f).view.orthographic != 0)
             d = before_depth;
     }
+    // Distances to the guard band's sides
     if (plane == 1)
         d = band_x(f) * v.c[2] - v.c[0];
     if (plane == 2)

@@ -33,8 +33,8 @@ struct cube_place {
 // Returns where direction d (any length) meets the cube. Ties between axes go to x before y before z. The zero vector gives
 // the middle of +z; a NaN component gives some place inside the cube.
 BN_FN cube_place cube_face_uv(real3 d)
-// Find the major axis and its sign
 {
+    // Find the major axis and its sign
     real ax = abs(d.x);
     real ay = abs(d.y);
     real az = abs(d.z);

@@ -46,10 +46,12 @@ BN_STAGE area_view area_above(BN_IN(area_view) v, BN_IN(real3) normal)
     area_view r = v;
     // Clip a line's ends
     if (v.shape == kArea_line) {
+        // Find the heights of both ends
         real a = k_dot3(v.at.corner[0], normal);
         real b = k_dot3(v.at.corner[1], normal);
         real start = k_saturate(-a / select(b - a > lit(1e-30), b - a, lit(1e30)));
         real end = k_saturate(-b / select(a - b > lit(1e-30), a - b, lit(1e30)));
+        // Move ends below to the plane
         real3 span = v.at.corner[1] - v.at.corner[0];
         mask below = both(a <= lit(0.0), b <= lit(0.0));
         r.at.corner[0] = v.at.corner[0] + span * start;
@@ -58,6 +60,7 @@ BN_STAGE area_view area_above(BN_IN(area_view) v, BN_IN(real3) normal)
     }
     // Turn discs and spheres into polygons
     if (v.shape == kArea_disk || v.shape == kArea_sphere) {
+        // Take the ellipse, or the outline of a sphere
         real3 middle = v.at.corner[0];
         real3 p = v.at.corner[1];
         real3 q = v.at.corner[2];
@@ -67,6 +70,7 @@ BN_STAGE area_view area_above(BN_IN(area_view) v, BN_IN(real3) normal)
             p = outline.axis_a;
             q = outline.axis_b;
         }
+        // Place corners around the ellipse
         for (int k = 0; k < 16; ++k) { // 16 corners; the polygon has the ellipse's area
             k_sin_cos_pair turn = k_sin_cos(splat(float(k)) * lit(0.39269908169872415));
             r.at.corner[k] = middle + (p * turn.cosine + q * turn.sine) * lit(1.0130015562559769);
@@ -83,10 +87,12 @@ BN_STAGE area_view area_above(BN_IN(area_view) v, BN_IN(real3) normal)
 // Returns the light as seen from a position, in the lobe's axes.
 BN_FN area_view area_seen_by(frame_ref f, int light, aniso_lobe lobe, real3 n, real3 position)
 {
+    // Copy the shape
     area_view v;
     v.shape = the_area_light(f, light).shape;
     v.corners = the_area_light(f, light).corners;
     v.radius = splat(the_area_light(f, light).radius);
+    // Transform its points; half axes are vectors, so they are not moved
     for (int k = 0; k < v.corners; ++k) {
         real3 p = area_point(f, light, k);
         if (v.shape == kArea_disk && k > 0)
@@ -146,10 +152,12 @@ BN_STAGE ltc_light area_part_leaning(any_frame f, BN_IN(area_view) v, BN_IN(ltc_
 // Looks up the transformed cosine for a lobe.
 BN_FN ltc_lobe area_lobe(frame_ref f, real3 eye, real alpha_u, real alpha_v)
 {
+    // Look up round lobes in their own table
     if (area_way_used(kAreaWay_ltc_isotropic) && the_frame(f).area_way == kAreaWay_ltc_isotropic) {
         real both_widths = alpha_u * alpha_v;
         return ltc_round_lookup(ltc_texels(f), the_frame(f).ltc.round_first, eye, sqrt(both_widths));
     }
+    // Describe the table
     ltc_table table;
     table.texels = ltc_texels(f);
     table.root_alpha = the_frame(f).ltc.root_alpha;
@@ -203,13 +211,14 @@ BN_FN real3 area_light_by_cosines(frame_ref f, BN_IN(shaded_point) x, int model,
         // Clip at the surface's horizon
         if (x.turned)
             view = area_above(view, up);
-        // Add the specular share
+        // Find the specular share
         real3 radiance = splat3(the_area_light(f, i).radiance);
         ltc_light seen;
         if (leans)
             seen = area_part_leaning(f, view, shiny, clipless, x, lobe);
         else
             seen = area_part(view, shiny, clipless);
+        // Add it with the light's or its picture's radiance
         if (pictured)
             radiance = area_radiance_through(f, i, shiny, seen.flow, corner, side_u, side_v);
         specular = specular + select(faces, radiance, vec3_all(lit(0.0))) * seen.part;
@@ -241,24 +250,26 @@ BN_FN real3 area_light_by_cosines(frame_ref f, BN_IN(shaded_point) x, int model,
 // Sums all area lights by points on each, from a Hammersley set rotated by a hash of pixel and light.
 BN_FN real3 area_light_by_samples(frame_ref f, BN_IN(shaded_point) x, int model, real3 position)
 {
+    // Prepare the lobe and the interface
     placed_lobe lobe = placed_lobe_under_lights(model, x.lobe, x.s, x.surface_axes);
     bool apart = lobe_has(lobe.model, kLies_surface + kLies_thread); // its value includes the cosine
     rough_interface through;
     if (x.refracts)
-        // Rotate the points by pixel and light
         through = rough_interface_at(x);
     int n = the_frame(f).light_samples;
     uniform_real inv = 1.0f / float(n);
+    // Seed the random rotation, and start the sums
     integer seed = k_hash_u32(x.pixel_id ^ int_lit(the_frame(f).seed));
     real3 specular = vec3_all(lit(0.0));
     real3 irradiance = vec3_all(lit(0.0));
     for (int i = 0; i < the_frame(f).area_light_count; ++i) {
+        // Rotate the points by pixel and light
         real3 radiance = splat3(the_area_light(f, i).radiance) * splat(inv);
         bool pictured = the_area_light(f, i).picture >= 0;
         seed = k_hash_u32(seed ^ int_lit(i));
         real shift_x = k_unit_from_bits(seed);
         real shift_y = k_unit_from_bits(k_hash_u32(seed));
-        // Visit the lights and their points
+        // Visit the light's points
         for (int k = 0; k < n; ++k) {
             uniform_real column = (float(k) + 0.5f) * inv;
             real u = splat(column) + shift_x;
@@ -280,6 +291,7 @@ BN_FN real3 area_light_by_samples(frame_ref f, BN_IN(shaded_point) x, int model,
                 value = placed_lobe_value(lobe, s.wi);
             else
                 value = select(cosine > lit(0.0), placed_lobe_light(lobe, x.s, s.wi), lit(0.0)) * cosine;
+            // Add the specular part with Fresnel
             real3 fresnel = reflectance_of(x.s, punctual_v_dot_h(x.s, s.wi));
             real part = value * weight;
             real3 reflected = fresnel * part;

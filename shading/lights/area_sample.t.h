@@ -84,10 +84,12 @@ BN_FN real sphere_cone(real3 centre, real radius)
 // Intersects wi with a sphere. centre: relative to the point; cone: sphere_cone(). The density is 0 where wi misses.
 BN_FN area_sample sphere_along(real3 centre, real radius, real3 wi, real cone)
 {
+    // Find the chord along wi
     real ahead = k_dot3(wi, centre);
     real3 beside = centre - wi * ahead;
     real half2 = radius * radius - k_dot3(beside, beside);
     real half_chord = sqrt(max(half2, lit(0.0)));
+    // Take its far end from inside, its near end from outside
     mask within = cone > lit(1.5);
     area_sample s;
     s.wi = wi;
@@ -106,13 +108,16 @@ BN_STAGE area_sample area_sample_at(any_frame f, int light, BN_IN(real3) positio
     real radius = splat(the_area_light(f, light).radius);
     // Sample the cone of a sphere
     if (the_area_light(f, light).shape == kArea_sphere) {
+        // Build axes about the direction to the centre
         real3 centre = first - position;
         real cone = sphere_cone(centre, radius);
         real3 w = k_normalize3(select(k_dot3(centre, centre) > lit(1e-20), centre, vec3_of(lit(0.0), lit(0.0), lit(1.0))));
         area_axes axes = area_axes_of(w);
+        // Sample a uniform direction in the cone
         real fall = xi.x * cone;
         real sine = sqrt(max(fall * (lit(2.0) - fall), lit(0.0)));
         real3 wi = k_normalize3(w * (lit(1.0) - fall) + (axes.u * around.cosine + axes.v * around.sine) * sine);
+        // Find the point on the sphere
         area_sample s = sphere_along(centre, radius, wi, cone);
         s.pdf = lit(0.15915494309189534) / max(cone, lit(1e-20)); // rounding would miss the sphere at its very edge
         return s;
@@ -133,6 +138,7 @@ BN_STAGE area_sample area_sample_at(any_frame f, int light, BN_IN(real3) positio
     } else {
         at = polygon_point(f, light, xi);
     }
+    // Convert the density
     real3 way = at - position;
     return area_towards(f, light, way, splat3(the_area_light(f, light).normal), the_area_light(f, light).two_sided != 0);
 }
@@ -171,6 +177,7 @@ BN_FN area_sample tube_along(frame_ref f, int light, real3 position, real3 wi)
 BN_STAGE area_sample area_along(any_frame f, int light, BN_IN(real3) position, BN_IN(real3) wi)
 {
     real3 first = area_point(f, light, 0);
+    // Intersect spheres and tubes
     if (the_area_light(f, light).shape == kArea_sphere) {
         real3 centre = first - position;
         real radius = splat(the_area_light(f, light).radius);
@@ -187,6 +194,7 @@ BN_STAGE area_sample area_along(any_frame f, int light, BN_IN(real3) position, B
     mask inside = both(meets, t > lit(0.0));
     // Test a disk or a polygon's edges
     if (the_area_light(f, light).shape == kArea_disk) {
+        // Find coordinates in the disk's half axes
         real3 u = area_point(f, light, 1);
         real3 v = area_point(f, light, 2);
         real3 from_centre = at - first;
@@ -196,6 +204,7 @@ BN_STAGE area_sample area_along(any_frame f, int light, BN_IN(real3) position, B
         inside = both(inside, r2 <= lit(1.0));
     } else {
         int corners = the_area_light(f, light).corners;
+        // Test the inner side of every edge
         for (int k = 0; k < corners; ++k) {
             real3 corner = area_point(f, light, k);
             real3 edge = area_point(f, light, k + 1 < corners ? k + 1 : 0) - corner;

@@ -67,6 +67,7 @@ BN_STAGE coat_light light_of_coat(any_frame f, any_material m, BN_IN(material_in
         light = light + light_from_punctual(f, c, lobe, p.position);
     if (the_frame(f).area_light_count > 0)
         light = light + light_from_area(f, c, lobe, p.position, true);
+    // Return the coat's light and transmittance
     coat_light r;
     r.passed = lit(1.0) - coat.weight;
     r.gloss = light;
@@ -123,6 +124,7 @@ BN_STAGE real3 light_of_facets(any_frame f, any_material m, BN_IN(material_input
         bool met = (the_frame(f).lobe_traits & kPunctualOnly) == 0;
         if (met && samples)
             specular = mc_of_lobe(f, x, placed_lobe_at(f, x));
+        // Weight the fetch by its share above the horizon
         if (met && !samples) {
             real share = words.weight * facet_share(x);
             shares = shares + share;
@@ -166,6 +168,7 @@ BN_FN line_record light_of_fragment(frame_ref f, material_ref m, technique_ref t
     // Blend to facets far away
     if (texture_used(m, kNormalTex) && the_material(m).facets > 0) {
         real far = facets_seen(m, at, x);
+        // Shade the facets only where a lane sees them
         if (any_lane(far > lit(0.0))) {
             real3 facets = own_light(m, at) + light_of_facets(f, m, at, p, x.pixel_id, traits);
             if (shares)

@@ -70,6 +70,7 @@ BN_FN key_reflection key_reflection_of(frame_ref f, BN_IN(shaded_point) x, BN_IN
     key_reflection r;
     r.lobe = lit(0.0);
     r.cosine = max(l.z, lit(0.0));
+    // Test the surface's own horizon
     if (x.turned) {
         mask above = k_dot3(x.surface_axes.n, direction) > lit(0.0);
         risen = both(risen, above);
@@ -128,17 +129,20 @@ BN_FN real3 light_from_key_lights(frame_ref f, BN_IN(shaded_point) x, int model,
     real3 irradiance = vec3_all(lit(0.0));
     // Sum the lights' specular and diffuse parts
     for (int i = 0; i < the_frame(f).key_light_count; ++i) {
+        // Evaluate the lobe with Fresnel
         key_reflection r = key_reflection_of(f, x, lobe, i, coat);
         real3 fresnel = reflectance_of(x.s, r.v_dot_h);
         specular = specular + splat3(the_frame(f).key_lights[i].radiance) * fresnel * r.lobe;
+        // Add irradiance for the diffuse part
         real fallen = r.cosine;
         if (the_frame(f).diffuse_model != 0)
             fallen = fallen * diffuse_lit(f, r.cosine);
         irradiance = irradiance + splat3(the_frame(f).key_lights[i].irradiance) * fallen;
     }
-    real narrowness = lit(1.0) - lobe.lobe.sigma_u * lit(1414.2135623730951); // 0 from the least width on, alpha = 0.001
     // Blend narrow lobes into a mirror
+    real narrowness = lit(1.0) - lobe.lobe.sigma_u * lit(1414.2135623730951); // 0 from the least width on, alpha = 0.001
     real mirror = k_saturate(narrowness);
+    // Leave lobes that samples evaluate, unless they are mirrors
     if (keys_are_sampled(f, x, coat)) {
         real width = lobe.lobe.sigma_u + lobe.lobe.sigma_v;
         mirror = select(width <= lit(1e-6), lit(1.0), lit(0.0));

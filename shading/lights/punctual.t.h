@@ -34,9 +34,11 @@ BN_FN real3 diffuse_under_light(frame_ref f, BN_IN(real3) diffuse, real n_dot_l)
 BN_FN punctual_light light_from(frame_ref f, BN_IN(shaded_point) x, BN_IN(placed_lobe) lobe, BN_IN(real3) diffuse, light_sample at,
                                 int light)
 {
+    // Find irradiance, reflectance and the diffuse part
     real3 intensity = splat3(the_light(f, light).radiant) * at.attenuation;
     real3 reflectance = reflectance_of(x.s, punctual_v_dot_h(x.s, at.l));
     real3 dull = diffuse_under_light(f, diffuse, k_dot3(x.s.n, at.l));
+    // Evaluate the lobe, with the cosine if its value includes one
     punctual_light r;
     r.l = at.l;
     if (lobe_has(lobe.model, kLies_surface + kLies_thread))
@@ -50,9 +52,11 @@ BN_FN punctual_light light_from(frame_ref f, BN_IN(shaded_point) x, BN_IN(placed
 BN_STAGE punctual_light light_from_interface(any_frame f, BN_IN(shaded_point) x, BN_IN(rough_interface) g, BN_IN(real3) diffuse,
                                              light_sample at, int light)
 {
+    // Find irradiance and the diffuse part
     real3 intensity = splat3(the_light(f, light).radiant) * at.attenuation;
     real n_dot_l = max(k_dot3(x.s.n, at.l), lit(0.0));
     real3 dull = diffuse_under_light(f, diffuse, n_dot_l) * n_dot_l;
+    // Add the interface's reflection
     real3 shiny = interface_value(g, at.l) * x.gain;
     punctual_light r;
     r.l = at.l;
@@ -84,6 +88,7 @@ BN_FN real3 light_from_punctual(frame_ref f, BN_IN(shaded_point) x, int model, r
             light = light_from_interface(f, x, through, diffuse, at, i);
         else
             light = light_from(f, x, lobe, diffuse, at, i);
+        // Test the surface's horizon
         if (x.turned)
             light.radiance = select(k_dot3(x.surface_axes.n, light.l) > lit(0.0), light.radiance, vec3_all(lit(0.0)));
         sum = sum + light.radiance;

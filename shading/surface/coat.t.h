@@ -72,7 +72,7 @@ BN_FN void make_coat_point(frame_ref f, BN_IN(coat_layer) coat, BN_IN(surface_fr
         c.dfg = dfg_fit(c.s.n_dot_v, coat.roughness);
     else
         c.dfg = dfg_lookup(dfg_pairs(f), the_frame(f).dfg_size, c.s.n_dot_v, coat.roughness);
-    // Switch off features of the base layer
+    // Find albedo; a coat has no energy compensation
     c.albedo = albedo_of(c.s, c.dfg);
     c.phong_albedo = lit(-1.0);
     c.own_dfg.scale = lit(1.0);
@@ -82,6 +82,7 @@ BN_FN void make_coat_point(frame_ref f, BN_IN(coat_layer) coat, BN_IN(surface_fr
     c.whole = c.own_dfg;
     c.compensation = vec3_all(lit(1.0));
     c.gain = c.compensation;
+    // Use the coat's weight as reflectance
     c.dielectric_f0 = whole;
     c.dielectric_f90 = coat.weight;
     c.refracts = false;

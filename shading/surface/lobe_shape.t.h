@@ -20,10 +20,12 @@ struct lobe_shape {        // a lobe before its placement on a surface
 // Makes a shape from widths and axis.
 BN_FN lobe_shape shape_of_axes(slope_axes axes)
 {
+    // Copy the widths and the axis
     lobe_shape r;
     r.sigma_u = axes.sigma_u;
     r.sigma_v = axes.sigma_v;
     r.u = axes.u;
+    // Find the perceptual roughness
     aniso_lobe lobe;
     lobe.u_axis = vec3_all(lit(0.0));
     lobe.v_axis = vec3_all(lit(0.0));
@@ -109,6 +111,7 @@ BN_FN lobe_shape only_lobe_shape(frame_ref f, material_ref m)
 // Places a lobe in a shading frame. Isotropic lobes keep the frame's axes.
 BN_FN aniso_lobe lobe_in_frame(material_ref m, BN_IN(lobe_shape) shape, BN_IN(surface_frame) axes)
 {
+    // Take the frame's axes
     aniso_lobe lobe;
     lobe.sigma_u = shape.sigma_u;
     lobe.sigma_v = shape.sigma_v;
@@ -116,6 +119,7 @@ BN_FN aniso_lobe lobe_in_frame(material_ref m, BN_IN(lobe_shape) shape, BN_IN(su
     lobe.v_axis = axes.b;
     if (the_material(m).anisotropic == 0)
         return lobe;
+    // Rotate them to the lobe's wide axis
     lobe.u_axis = axes.t * shape.u.x + axes.b * shape.u.y;
     lobe.v_axis = axes.b * shape.u.x - axes.t * shape.u.y;
     return lobe;

@@ -21,6 +21,7 @@ BN_FN real3 rgb_of(real4 t)
 // Returns base colour and alpha.
 BN_FN real4 base_color_of(material_ref m, BN_IN(texture_fetches) t, BN_IN(visible_point) p)
 {
+    // Multiply the factors by the texture and the vertex colour
     real3 color = splat3(the_material(m).base_color);
     real alpha = splat(the_material(m).base_color[3]);
     if (texture_used(m, kBaseColorTex)) {
@@ -70,6 +71,7 @@ BN_FN material_inputs fetch_material(frame_ref f, material_ref m, BN_IN(visible_
     r.alpha = base_color.w;
     r.metallic = splat(the_material(m).metallic);
     r.roughness = splat(the_material(m).roughness);
+    // Multiply by the metallic-roughness texture
     if (texture_used(m, kMetalRoughTex)) {
         real4 factors = texel_of(t, kMetalRoughTex);
         if (the_material(m).roughness_fixed == 0)
@@ -108,6 +110,7 @@ BN_FN material_inputs fetch_material(frame_ref f, material_ref m, BN_IN(visible_
     r.slope = vec2_all(lit(0.0));
     r.slope_moments = vec3_all(lit(0.0));
     r.own_roughness = lit(1.0);
+    // Fetch the tensors
     if (texture_used(m, kTensor2Tex)) { // sums of two halves: one half alone bends thin lobes
         real4 two = texel_of(t, kTensor2Tex) + texel_of(t, kTensor2RestTex);
         real4 four = texel_of(t, kTensor4Tex) + texel_of(t, kTensor4RestTex);
@@ -117,7 +120,8 @@ BN_FN material_inputs fetch_material(frame_ref f, material_ref m, BN_IN(visible_
         if (the_material(m).moments != kNoMoments) { // see shading/bake/mip/slopes.h
             r.slope = vec2_of(four.x, four.y) * splat(1.0f / kSlopeScale);
             r.slope_moments = vec3_of(two.w, four.z, four.w) * splat(1.0f / kMomentScale);
-            r.tensor4 = r.tensor2 * (two.x + two.y);  // as for a constant strength
+            r.tensor4 = r.tensor2 * (two.x + two.y); // as for a constant strength
+            // Take normal, roughness and gain from the level; its moments replace the tensors
             if (the_material(m).level_gain >= 0.0f) { // one half alone turns narrow lobes visibly
                 r.normal_map = vec3_of(r.slope.x, r.slope.y, two.y);
                 r.slope = r.slope * splat(the_material(m).level_gain);
@@ -138,6 +142,7 @@ BN_FN material_inputs fetch_material(frame_ref f, material_ref m, BN_IN(visible_
     r.coat_roughness = lit(0.0);
     r.coat_normal_map = vec3_all(lit(0.0));
     if (the_material(m).coated != 0) {
+        // Multiply the coat's factors by its textures
         r.coat = splat(the_material(m).clearcoat);
         if (texture_used(m, kCoatTex))
             r.coat = r.coat * texel_of(t, kCoatTex).x;

@@ -166,9 +166,11 @@ BN_STAGE lobe_energy placed_lobe_energy(BN_IN(placed_lobe) a, int count, int bef
     sum.albedo = lit(0.0);
     sum.grazing = lit(0.0);
     for (int i = 0; i < count; ++i) {
+        // Sample the lobe
         real x = (to_real(int_lit(i)) + lit(0.5)) * part;
         real y = (to_real(int_lit(i * before % count)) + lit(0.5)) * part;
         bsdf_sample s = placed_lobe_sample(a, vec2_of(x, y));
+        // Add the weight, and the part at grazing angles
         real m = lit(1.0) - min(s.o_dot_h, lit(1.0));
         real m2 = m * m;
         sum.albedo = sum.albedo + s.weight;
@@ -227,9 +229,11 @@ BN_FN real placed_lobe_mirror_albedo(placed_lobe a)
 // a lobe's sample. A round lobe lies about s.n, with s.roughness, and needs no axes.
 BN_FN placed_lobe placed_lobe_under_lights(int model, aniso_lobe lobe, surface s, surface_frame axes)
 {
+    // Place the lobe as for samples
     placed_lobe r = placed_lobe_of(model, lobe, s.n, s.v, axes);
     if (lobe_has(model, kLies_surface))
         return r;
+    // Keep the eye and the roughness that the surface's cosines use
     r.o = to_frame(r.axes, s.v);
     r.o.z = s.n_dot_v;
     if (lobe_has(model, kLies_round)) {

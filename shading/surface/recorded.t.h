@@ -10,6 +10,7 @@
 
 BN_KERNELS_BEGIN
 
+// Put values into words; a mask is 1 or 0.
 BN_FN void put_mask(BN_INOUT(recorder) w, mask m)
 {
     put_real(w, select(m, lit(1.0), lit(0.0)));
@@ -32,6 +33,7 @@ BN_FN void put_real4(BN_INOUT(recorder) w, real4 v)
     put_real(w, v.z);
     put_real(w, v.w);
 }
+// Puts zeros in place of values that nothing reads.
 BN_FN void put_zeros(BN_INOUT(recorder) w, int count)
 {
     for (int i = 0; i < count; ++i)
@@ -54,6 +56,7 @@ BN_FN void record_point(BN_INOUT(recorder) w, BN_IN(visible_point) p, bool uses_
 #include "shading/visible_point.def"
 }
 
+// Records the inputs of a material.
 BN_FN void record_material(BN_INOUT(recorder) w, BN_IN(material_inputs) at)
 {
 #define BN_INPUT(type, words, name) put_##type(w, at.name);

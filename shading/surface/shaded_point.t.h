@@ -209,11 +209,13 @@ BN_FN dfg_value round_albedo(frame_ref f, real n_dot_v, real roughness)
 // lobe's; s has its roughness.
 BN_FN dfg_value albedo_before_widening(frame_ref f, BN_IN(surface) s, dfg_value dfg, real own_roughness)
 {
+    // Scale the albedo by the ratio of round lobes
     dfg_value wide = round_albedo(f, s.n_dot_v, s.roughness);
     dfg_value own = round_albedo(f, s.n_dot_v, own_roughness);
     mask wider = s.roughness > own_roughness;
     real scale = dfg.scale * (own.scale / max(wide.scale, lit(1e-3)));
     real bias = dfg.bias * (own.bias / max(wide.bias, lit(1e-3)));
+    // Limit the sum to 1
     real room = max(lit(1.0) / max(scale + bias, lit(1e-3)), lit(0.0));
     dfg_value r;
     r.scale = select(wider, scale * min(room, lit(1.0)), dfg.scale);
@@ -293,6 +295,7 @@ BN_FN void make_shaded_point(frame_ref f, material_ref m, BN_IN(material_inputs)
     x.dielectric_f0 = at.dielectric_f0;
     x.dielectric_f90 = at.dielectric_f90;
     x.s = metallic_roughness_surface(axes.n, v, at.base, at.metallic, shape.alpha_lin, at.dielectric_f0, at.dielectric_f90, at.occlusion);
+    // Use exact reflectances where the frame wants them
     x.s.exact = the_frame(f).fresnel;
     if (x.s.exact != 0) {
         x.s.parts = fresnel_parts_of(f, m, at.base, at.metallic, at.dielectric_f0, at.dielectric_f90);
@@ -302,6 +305,7 @@ BN_FN void make_shaded_point(frame_ref f, material_ref m, BN_IN(material_inputs)
     // Look up directional albedo
     x.dfg = directional_albedo(f, m, x.s, x.lobe);
     x.albedo = albedo_of(x.s, x.dfg);
+    // Look up the Ashikhmin-Shirley lobe's own albedo
     x.phong_albedo = lit(-1.0);
     x.phong_set = the_material(m).phong_set;
     dfg_value phong = x.dfg;
@@ -318,6 +322,7 @@ BN_FN void make_shaded_point(frame_ref f, material_ref m, BN_IN(material_inputs)
     else if ((the_frame(f).lobe_traits & kLobeOfAll) == 0) {
         bool compensated = the_frame(f).energy_compensation != 0;
         real albedo = lit(1.0);
+        // Scale the table's albedo, or compute the lobe's own
         if (stands_in(f)) {
             if (compensated || (the_material(m).technique_traits & kSamplesLobe) == 0 || the_frame(f).area_light_count > 0)
                 x.shown = share_of_usual(f, m, x);
@@ -332,6 +337,7 @@ BN_FN void make_shaded_point(frame_ref f, material_ref m, BN_IN(material_inputs)
             x.own_dfg.bias = phong.bias;
             x.own_dfg.scale = albedo - phong.bias;
         }
+        // Compensate by that albedo
         if (compensated)
             x.gain = energy_compensation_of_albedo(x.s.f0, min(albedo, lit(1.0)));
     }

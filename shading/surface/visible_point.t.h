@@ -60,6 +60,7 @@ BN_FN visible_point point_of(frame_ref f, BN_IN(view_params) view, triangle_ref 
         integer x = select(center.inside, middle_x, corner_x + mean.x);
         integer y = select(center.inside, middle_y, corner_y + mean.y);
         w = weights_at(t, x, y);
+        // Find the point's place on the screen
         real across = to_real(x + int_lit(the_frame(f).center_x)) * lit(0.00390625);
         real down = to_real(y + int_lit(the_frame(f).center_y)) * lit(0.00390625);
         place = place_on_screen(f, view, across, down);
@@ -104,6 +105,7 @@ BN_FN visible_point point_of(frame_ref f, BN_IN(view_params) view, triangle_ref 
     real4 here = blend_corners(corners, center.b);
     real4 dx = (blend_corners(corners, wx.b) - here) * to_real(int_lit(1) - shl(odd_x, 1));
     real4 dy = (blend_corners(corners, wy.b) - here) * to_real(int_lit(1) - shl(odd_y, 1));
+    // Split both coordinate sets
     p.uv0_dx = vec2_of(dx.x, dx.y);
     p.uv0_dy = vec2_of(dy.x, dy.y);
     p.uv1_dx = vec2_of(dx.z, dx.w);
@@ -114,10 +116,12 @@ BN_FN visible_point point_of(frame_ref f, BN_IN(view_params) view, triangle_ref 
 // Returns the triangle's sides and coordinate changes for parallax occlusion mapping.
 BN_FN relief_plane relief_plane_of(frame_ref f, triangle_ref t)
 {
+    // Take vertex 0 as the origin
     real3 corner = vertex_place(f, t, 0);
     corner_coordinates corners = coordinates_of(f, t);
     real4 coordinates = blend_corners(corners, vec3_of(lit(1.0), lit(0.0), lit(0.0)));
     relief_plane p;
+    // Subtract it from the other vertices
     p.along = vertex_place(f, t, 1) - corner;
     p.across = vertex_place(f, t, 2) - corner;
     p.coordinates_along = blend_corners(corners, vec3_of(lit(0.0), lit(1.0), lit(0.0))) - coordinates;

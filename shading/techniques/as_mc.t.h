@@ -36,11 +36,13 @@ struct as_lobe {
 
 BN_FN as_lobe as_lobe_of(BN_IN(shaded_point) x)
 {
+    // Find the exponents
     real root2 = lit(1.4142135623730951);
     as_lobe r;
     real alpha_u = x.lobe.sigma_u * root2;
     real alpha_v = x.lobe.sigma_v * root2;
     r.p = ashikhmin_shirley_params_of_alpha(alpha_u, alpha_v);
+    // Find the density at the normal
     r.wide = vec2_of(sqrt(r.p.nv + lit(1.0)), sqrt(r.p.nu + lit(1.0)));
     real peak = r.wide.x * r.wide.y * lit(0.15915494309189534);
     r.half_density = lit(0.5) * k_log2(peak);
@@ -50,8 +52,10 @@ BN_FN as_lobe as_lobe_of(BN_IN(shaded_point) x)
 // Returns the half vector of a lattice point. g: from grid_of_four().
 BN_FN as_half_vector as_half_vector_of(as_lobe lobe, real4 g)
 {
+    // Stretch the azimuth, and find the exponent along it
     real2 d = k_normalize2(vec2_of(lobe.wide.x * g.x, lobe.wide.y * g.y));
     real e = lobe.p.nu * d.x * d.x + lobe.p.nv * d.y * d.y;
+    // Find the cosine and the sine of the polar angle
     real lg = g.z / (e + lit(1.0));
     real less = k_expm1(lg); // cosine - 1, with its digits near the normal
     real q = sqrt(max(-(less * (less + lit(2.0))), lit(0.0)));
@@ -126,13 +130,14 @@ BN_FN real3 as_mc_of_set(frame_ref f, BN_IN(shaded_point) x, integer set, bool s
         weights = weights + own;
         kept = kept + weight;
     }
-    // Scale the samples to the lobe's albedo
+    // Find the samples' own albedo
     real3 total = cube_terms_value(sum);
     real of_samples = weights / count;
     real albedo = of_samples;
     if (the_frame(f).as_tables == 0)
         albedo = select(x.phong_albedo > lit(0.0), x.phong_albedo, albedo);
     real mean_weight = kept / count;
+    // Correct for tilt and for the known albedo
     if (x.turned && lies_in_surface(f)) // as if the lobe were untilted, as in filtered_is
         total = total * albedo / max(mean_weight, lit(1e-4));
     else if (the_frame(f).as_tables == 0)
@@ -142,6 +147,7 @@ BN_FN real3 as_mc_of_set(frame_ref f, BN_IN(shaded_point) x, integer set, bool s
             albedo = albedo * x.shown;
         total = total * energy_compensation_of_albedo(x.s.f0, albedo) / x.compensation;
     }
+    // Take the mean, in units of the prefiltered environment
     uniform_real scale = the_frame(f).box.scale / the_frame(f).specular.scale;
     return total / count * splat(scale);
 }

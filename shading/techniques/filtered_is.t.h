@@ -26,12 +26,14 @@ BN_FN real3 filtered_is_sum(frame_ref f, BN_IN(shaded_point) x, bool ggx)
     real alpha_v = x.lobe.sigma_v * root2;
     ggx_aniso_params of_ggx = ggx_aniso_params_of(alpha_u, alpha_v);
     beckmann_params of_beckmann = beckmann_params_of(alpha_u, alpha_v);
+    // Start the sums
     cube_terms sum;
     cube_terms_begin(sum, cube, true);
     real weights = lit(0.0);
     real kept = lit(0.0);
     // Visit the grid's samples
     for (int i = 0; i < the_frame(f).grid_count; ++i) {
+        // Take the sample's direction, weight and level
         real3 g = grid_sample(f, i);
         filtered_sample s;
         if (ggx)

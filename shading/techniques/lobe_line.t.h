@@ -19,10 +19,12 @@ struct line_sum {
 // Adds the sample at t with its own level.
 BN_FN void add_line_sample(BN_IN(shaded_point) x, BN_IN(lobe_line) line, real t, real weight, BN_INOUT(line_sum) sum)
 {
+    // Find the sample's direction and level
     lobe_line_sample at = lobe_line_at(line, t);
     real w = at.weight * weight;
     real lod = min(sqrt(at.radius), lit(1.0)) * to_real(int_lit(sum.cube.levels - 1));
     cube_sum_levels levels = cube_sum_levels_at(sum.light, lod, w);
+    // Add the weighted fetch
     cube_sum_add(sum.light, from_lobe(x.lobe, x.s.n, at.direction), levels);
     sum.weights = sum.weights + w;
 }

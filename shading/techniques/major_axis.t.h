@@ -53,10 +53,12 @@ struct grain_sum {
 BN_FN void add_grain_sample(BN_IN(shaded_point) x, BN_IN(major_axis_grain) grain, cube_desc cube, real c, real root, real spacing,
                             real narrow, real weight, BN_INOUT(grain_sum) sum)
 {
+    // Find the sample, its weight and its level
     grain_sample g = major_axis_grain_sample(grain, c, root, spacing);
     real w = g.weight * weight;
     real radius = g.radius * narrow;
     cube_sum_levels levels = cube_sum_levels_at(sum.light, major_axis_lod(radius, cube), w);
+    // Add the weighted fetch
     cube_sum_add(sum.light, from_lobe(x.lobe, x.s.n, g.direction), levels);
     sum.weights = sum.weights + w;
 }
@@ -87,6 +89,7 @@ BN_FN real3 major_axis_weighted_specular(frame_ref f, BN_IN(shaded_point) x)
     sum.weights = lit(0.0);
     cube_sum_begin(sum.light, cube);
     for (int j = 0; j < n; ++j) {
+        // Place the sample uniformly in c
         uniform_real c = (float(j) + 0.5f) * step_c - 1.0f;
         uniform_real rest = 1.0f - c * c;
         add_grain_sample(x, grain, cube, splat(c), sqrt(splat(rest)), splat(spacing), lit(0.65), lit(1.0), sum);
@@ -118,6 +121,7 @@ BN_FN real3 major_axis_adaptive_specular(frame_ref f, BN_IN(shaded_point) x)
     // Take pairs of samples outwards
     uniform_real most = most_of_lanes(count);
     for (int i = 1; float(2 * i - 1) < most; ++i) {
+        // Add the cell's samples on both sides
         grain_cell cell = major_axis_grain_cell(count, i);
         real rest = one - cell.c * cell.c;
         real root = sqrt(rest);

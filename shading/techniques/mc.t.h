@@ -19,6 +19,7 @@ struct mc_points {
 BN_FN mc_points mc_points_of(frame_ref f, BN_IN(shaded_point) x)
 {
     mc_points r;
+    // Hash the pixel to a shift
     r.inv = 1.0f / float(the_frame(f).samples);
     integer seed = k_hash_u32(x.pixel_id ^ int_lit(the_frame(f).seed));
     r.shift_x = k_unit_from_bits(seed);
@@ -26,6 +27,7 @@ BN_FN mc_points mc_points_of(frame_ref f, BN_IN(shaded_point) x)
     return r;
 }
 
+// Returns point i, shifted, in [0,1)^2.
 BN_FN real2 mc_point(BN_IN(mc_points) points, int i)
 {
     uniform_real column = (float(i) + 0.5f) * points.inv;
@@ -81,6 +83,7 @@ BN_STAGE real3 mc_of_interface(any_frame f, BN_IN(shaded_point) x)
         cube_terms_add(sum, from_frame(g.axes, r.wi), lit(0.0), reflected, r.weight);
         cube_terms_add(sum, from_frame(g.axes, t.wi), lit(0.0), refracted, t.weight);
     }
+    // Take the mean, in units of the prefiltered environment
     uniform_real scale = the_frame(f).whole.scale / the_frame(f).specular.scale;
     real3 mean = cube_terms_value(sum) * splat(points.inv);
     return mean * splat(scale);
