@@ -188,7 +188,7 @@ struct MaterialRecord { // Material as plain numbers, with derived values; emiss
     float level_gain;                // how much the spread of normals between taps widens lobes, by mip filter; -1: unfiltered
     int relief;                      // the normal map's alpha holds heights, and the frame uses them
     float relief_depth;              // depth of height 0, in lengths of texture coordinates
-    int emitter;                     // as in core/scene's Material: 1 where it shows an area light
+    int emitter;                     // as in core/scene's Material: the area light that it shows, if any
     int conductor;                   // has its own complex index: conductor_eta, conductor_k
     int roughness_fixed;             // by an override: the texture gives metalness only
     int technique, technique_traits; // technique index in shading/models.def; no traits for unlit materials
