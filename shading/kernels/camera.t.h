@@ -9,6 +9,7 @@
 
 BN_KERNELS_BEGIN
 
+// Broadcasts a view to lanes.
 BN_FN view_params view_params_of(BN_IN(ViewRecord) v)
 {
     view_params r;
@@ -25,18 +26,19 @@ BN_FN view_params view_params_of(BN_IN(ViewRecord) v)
     return r;
 }
 
-// view: the frame's. (x, y): pixels from the image's top left corner. For ray_to().
+// Returns a point's place for ray_to(). view: the frame's; (x, y): pixels from the image's top left corner.
 BN_FN real2 place_on_screen(frame_ref f, BN_IN(view_params) view, real x, real y)
 {
     return vec2_of(screen_x(x, splat(the_frame(f).half_width), view.inv_tan_x),
                    screen_y(y, splat(the_frame(f).half_height), view.inv_tan_y));
 }
+// Returns the ray through a point of the image, world space, not unit.
 BN_FN real3 ray_through(frame_ref f, BN_IN(view_params) view, real x, real y)
 {
     return ray_to(place_on_screen(f, view, x, y), view);
 }
 
-// guard: 1/256 pixel. See snap_vertex().
+// Snaps a clip-space vertex to the frame's sub-pixel grid, see snap_vertex(). guard: 1/256 pixel.
 BN_FN snapped_vertex snap_to_frame(frame_ref f, real4 clip, BN_IN(view_params) view, int guard)
 {
     integer center_x = int_lit(the_frame(f).center_x);

@@ -1,4 +1,4 @@
-// From a pixel position to the direction of the ray through it.
+// Maps pixel positions to ray directions.
 #ifndef BN_CAMERA_RAY_K_H
 #define BN_CAMERA_RAY_K_H
 
@@ -7,8 +7,8 @@
 
 BN_KERNELS_BEGIN
 
-// Where the ray through a point of the image meets the plane at distance 1, along the view's right and up. (px, py): pixels from the
-// image's top left corner. half_width, half_height: half the image, pixels.
+// Return where the ray through an image point meets the plane at distance 1, along the view's right and up. (px, py):
+// pixels from the image's top left corner. half_width, half_height: half the image, pixels.
 BN_FN real screen_x(real px, real half_width, real inv_tan_x)
 {
     real x = (px - half_width) / half_width / inv_tan_x;
@@ -20,7 +20,8 @@ BN_FN real screen_y(real py, real half_height, real inv_tan_y)
     return y;
 }
 
-// place: screen_x(), screen_y(). A direction in world space, not unit; all rays of an orthographic view are parallel.
+// Returns the ray direction in world space, not unit. place: screen_x(), screen_y(). An orthographic view has parallel
+// rays.
 BN_FN real3 ray_to(real2 place, view_params view)
 {
     real3 through = view.forward + view.right * place.x + view.up * place.y;

@@ -1,15 +1,14 @@
-// Seamless trilinear fetch from a bordered cube map. Faces +x (1,-v,-u), -x (-1,-v,u), +y (u,1,v), -y
-// (u,-1,-v), +z (u,-v,1), -z (-u,-v,-1) with u, v in [-1,1] along columns and rows: the Vulkan and OpenGL
-// faces.
+// Seamless trilinear fetches from a bordered cube map. Faces +x (1,-v,-u), -x (-1,-v,u), +y (u,1,v), -y (u,-1,-v), +z
+// (u,-v,1), -z (-u,-v,-1) with u, v in [-1,1] along columns and rows: the Vulkan and OpenGL faces.
 //
-// Memory: RGBA half texels. Level l has t = size >> l texels along an edge and is stored as six faces of w x
-// w, w = t + 2, rows from the top, with one texel of the neighbouring faces around each face (corner texels:
-// mean of the three faces), so that a 2x2 footprint never leaves its face and the two faces of an edge
-// interpolate to the same colour there. Levels follow each other, largest first, without gaps. Sizes halve
-// exactly, so the sum of the levels before level l has a closed form,
-//     6 * (sum of w^2) = 8 (w0^2 + 2 w0) - 8 (w^2 + 2 w) + 24 l,    w0 = size + 2,
-// and the index of texel (ix, iy) of a face, which counts the border, is
-//     8 (w0^2 + 2 w0) + 24 l + w ((face - 8) w + iy - 16) + ix:
+// Memory: RGBA half texels. Level l has t = size >> l texels along an edge, stored as six faces with w x w texels, w = t +
+// 2, rows from the top. One texel of the neighbouring faces surrounds each face; corner texels are the mean of three faces.
+// So a 2x2 footprint never leaves its face, and both faces of an edge interpolate to the same colour there. Levels follow
+// each other, largest first, without gaps. Sizes halve exactly, so the total size of the levels before level l has a closed
+// form,
+//    6 * (sum of w^2) = 8 (w0^2 + 2 w0) - 8 (w^2 + 2 w) + 24 l,    w0 = size + 2.
+// The index of texel (ix, iy) in a face, border included, is
+//    8 (w0^2 + 2 w0) + 24 l + w ((face - 8) w + iy - 16) + ix:
 // two integer products and no table.
 #ifndef BN_CUBE_FILTER_K_H
 #define BN_CUBE_FILTER_K_H
@@ -31,10 +30,11 @@ struct cube_place {
     real v;       // [0, 1], along the column
 };
 
-// Where direction d (any length) meets the cube. Ties between axes go to x before y before z. The zero vector
-// is the middle of +z; a NaN component gives some place inside the cube.
+// Returns where direction d (any length) meets the cube. Ties between axes go to x before y before z. The zero vector gives
+// the middle of +z; a NaN component gives some place inside the cube.
 BN_FN cube_place cube_face_uv(real3 d)
 {
+    // Find the major axis and its sign
     real ax = abs(d.x);
     real ay = abs(d.y);
     real az = abs(d.z);
@@ -42,6 +42,7 @@ BN_FN cube_place cube_face_uv(real3 d)
     mask is_x = ax >= m;
     mask is_y = ay >= m;
     real of_yz = select(is_y, d.y, d.z);
+    // Project the other two components
     real major = select(is_x, d.x, of_yz);
     mask negative = major < lit(0.0);
     real inv = lit(0.5) / m;
@@ -53,7 +54,7 @@ BN_FN cube_place cube_face_uv(real3 d)
     real a_scale = select(y_face, inv, inv_signed);
     real b_scale = select(y_face, inv_signed, minus_inv);
     cube_place p;
-    // |a|, |b| <= m, so 1 is exceeded by rounding at most, which stays in the border; max() drops NaN
+    // |a|, |b| <= m, so only rounding exceeds 1, and stays in the border; max() drops NaN
     p.u = max(a * a_scale + lit(0.5), lit(0.0));
     p.v = max(b * b_scale + lit(0.5), lit(0.0));
     integer axis_yz = select(y_face, int_lit(2), int_lit(4));
@@ -62,8 +63,8 @@ BN_FN cube_place cube_face_uv(real3 d)
     return p;
 }
 
-// weight times the bilinear value at `place` of the level of t texels (a real) and w = t + 2 (an integer)
-// along an edge. base = 8 (w0^2 + 2 w0) + 24 level.
+// Computes a bilinear fetch times weight at `place`. t (a real), w = t + 2 (an integer): texels along the level's edge.
+// base = 8 (w0^2 + 2 w0) + 24 level.
 BN_FN texel_rows cube_bilinear_rows(cube_place place, integer base, integer w, real t, real weight)
 {
     real x = place.u * t + lit(0.5);
@@ -89,18 +90,18 @@ BN_FN integer cube_base(cube_desc cube)
     return int_lit(8 * ((cube.size + 2) * (cube.size + 2) + 2 * (cube.size + 2)));
 }
 
-// The same at a level that is uniform, in [0, levels - 1].
+// Computes a bilinear fetch at a uniform level in [0, levels - 1].
 BN_FN texel_rows cube_level_rows(cube_desc cube, cube_place place, int level, real weight)
 {
     integer t = int_lit(cube.size >> level);
     return cube_bilinear_rows(place, cube_base(cube) + int_lit(24 * level), t + int_lit(2), to_real(t), weight);
 }
 
-// The same at a level that each direction has of its own.
+// Computes a bilinear fetch at a level that varies by direction.
 BN_FN texel_rows cube_own_level_rows(cube_desc cube, cube_place place, integer level, real weight)
 {
     real size = to_real(int_lit(cube.size));
-    real t = real_from_bits(bits_of(size) - shl(level, 23)); // its exponent lowered by the level
+    real t = real_from_bits(bits_of(size) - shl(level, 23)); // the exponent lowered by the level
     return cube_bilinear_rows(place, cube_base(cube) + level * int_lit(24), to_int(t) + int_lit(2), t, weight);
 }
 
@@ -109,15 +110,15 @@ BN_FN texel_acc cube_level_add(texel_acc acc, cube_desc cube, cube_place place, 
     return texel_rows_add(acc, cube.texels, cube_level_rows(cube, place, level, weight));
 }
 
-// Two neighbouring levels of a cube of at least two, and their weights.
+// Two neighbouring levels of a cube with at least two, and their weights.
 struct cube_levels {
-    integer base; // of the finer one
+    integer base; // the finer level's
     integer w;
     real t;
     real fine, coarse;
 };
 
-// lod is clamped to [0, levels - 1]; NaN counts as 0.
+// Returns the levels at lod, clamped to [0, levels - 1]; NaN counts as 0.
 BN_FN cube_levels cube_levels_at(cube_desc cube, real lod, real weight)
 {
     real last = to_real(int_lit(cube.levels - 1));
@@ -125,7 +126,7 @@ BN_FN cube_levels cube_levels_at(cube_desc cube, real lod, real weight)
     integer level = min(to_int(clamped),
                         int_lit(cube.levels - 2)); // the finer of two; the last level is reached with f = 1
     real f = clamped - to_real(level);
-    // level 0 as a float, its exponent lowered by the level
+    // Size of level 0 as a float, its exponent lowered by the level
     real size = to_real(int_lit(cube.size));
     cube_levels l;
     l.t = real_from_bits(bits_of(size) - shl(level, 23));
@@ -159,7 +160,7 @@ BN_FN texel_acc cube_texel_add(texel_acc acc, cube_desc cube, real3 d, real lod,
     return texel_rows_add(sum, cube.texels, cube_coarse_rows(place, l));
 }
 
-// One trilinear fetch.
+// Returns one trilinear fetch.
 BN_FN real3 cube_sample(cube_desc cube, real3 d, real lod)
 {
     texel_acc acc = texel_zero();
@@ -167,7 +168,7 @@ BN_FN real3 cube_sample(cube_desc cube, real3 d, real lod)
     return vec3_of(value.x, value.y, value.z);
 }
 
-// One bilinear fetch from a uniform level.
+// Returns one bilinear fetch from a uniform level.
 BN_FN real3 cube_sample_level(cube_desc cube, real3 d, int level)
 {
     texel_acc acc = texel_zero();
@@ -175,6 +176,7 @@ BN_FN real3 cube_sample_level(cube_desc cube, real3 d, int level)
     return vec3_of(value.x, value.y, value.z);
 }
 
+// Returns one bilinear fetch from a level that varies by direction.
 BN_FN real3 cube_sample_own_level(cube_desc cube, real3 d, integer level)
 {
     texel_acc acc = texel_zero();

@@ -1,5 +1,6 @@
-// Depth over a triangle: a plane in double precision, so that it is the same wherever it is looked at from; from the corner of a block of
-// pixels on it is followed in floats. z: depth, 1 near. Depths and positions less the first vertex's have a 1, 2 before the 0.
+// Depth over a triangle: a plane in double precision, so that every viewer of the plane sees the same depth. From the
+// corner of a pixel block on, floats follow the plane. z: depth, 1 near. Names with 10, 20 are differences between vertices
+// 1, 2 and vertex 0.
 #ifndef BN_DEPTH_PLANE_K_H
 #define BN_DEPTH_PLANE_K_H
 
@@ -7,7 +8,7 @@
 
 BN_KERNELS_BEGIN
 
-// Changes of depth by 1/256 pixel to the right and down. x, y: 1/256 pixel; the area is not 0.
+// Computes the change of depth per 1/256 pixel to the right and down. x, y: 1/256 pixel; the area must not be 0.
 BN_FN void depth_slopes(any_wide x10, any_wide y10, any_wide x20, any_wide y20, any_wide z10, any_wide z20, BN_INOUT(any_wide) right,
                         BN_INOUT(any_wide) down)
 {
@@ -16,29 +17,29 @@ BN_FN void depth_slopes(any_wide x10, any_wide y10, any_wide x20, any_wide y20, 
     down = (x10 * z20 - x20 * z10) * inv_area;
 }
 
-// The same by pixel.
+// Converts a slope to change per pixel.
 BN_FN any_wide depth_slope_by_pixel(any_wide slope)
 {
     any_wide by_pixel = slope * wide_like(slope, 256.0);
     return by_pixel;
 }
 
-// At a point; from_x, from_y: from the first vertex, 1/256 pixel.
+// Returns depth at a point. from_x, from_y: offset from vertex 0, 1/256 pixel.
 BN_FN any_wide depth_at(any_wide z0, any_wide right, any_wide down, any_wide from_x, any_wide from_y)
 {
     any_wide z = z0 + right * from_x + down * from_y;
     return z;
 }
 
-// dz_x, dz_y: change by pixel; x, y: pixels.
+// Returns the change of depth over an offset. dz_x, dz_y: change per pixel; x, y: pixels.
 BN_FN real depth_change(real dz_x, real dz_y, real x, real y)
 {
     real change = dz_x * x + dz_y * y;
     return change;
 }
 
-// At a sample. pixel: depth at the corner of its pixel; step: depth_change() from there. least, greatest: of the triangle's vertices, which
-// rounding does not leave.
+// Returns depth at a sample. pixel: depth at the pixel's corner; step: depth_change() from there. least, greatest: range
+// over the triangle's vertices, to which rounding errors are clamped.
 BN_FN real depth_at_sample(real pixel, real step, real least, real greatest)
 {
     real z = pixel + step;

@@ -1,6 +1,5 @@
-// Reflectance of a smooth interface: Schlick's approximation and the exact equations of dielectrics and
-// conductors, in forms that do not cancel in float32. All for unpolarised light; v_dot_h is the cosine to the
-// microfacet, [0,1].
+// Reflectance of a smooth interface: Schlick's approximation, and the exact equations for dielectrics and conductors in
+// forms that do not cancel in float32. All for unpolarised light; v_dot_h is the cosine to the microfacet, [0,1].
 #ifndef BN_FRESNEL_K_H
 #define BN_FRESNEL_K_H
 
@@ -9,7 +8,8 @@
 
 BN_KERNELS_BEGIN
 
-// Schlick 1994, "An Inexpensive BRDF Model for Physically-based Rendering". f0, f90: reflectance at normal incidence and at grazing.
+// Returns Schlick's approximation. f0, f90: reflectance at normal and grazing incidence. Schlick 1994, "An Inexpensive BRDF
+// Model for Physically-based Rendering".
 BN_FN real3 fresnel_schlick(real3 f0, real3 f90, real v_dot_h)
 {
     real m = lit(1.0) - v_dot_h;
@@ -18,24 +18,23 @@ BN_FN real3 fresnel_schlick(real3 f0, real3 f90, real v_dot_h)
     return f0 + (f90 - f0) * m5;
 }
 
-// Reflectance at normal incidence of a dielectric. eta > 0: index of the far side over that of the near side.
+// Returns a dielectric's reflectance at normal incidence. eta > 0: the far side's index over the near side's.
 BN_FN real fresnel_f0(real eta)
 {
     real r = (eta - lit(1.0)) / (eta + lit(1.0));
     return r * r;
 }
 
-// index2 - sin^2, where index2 - 1 = contrast: for each half of the cosines the form that keeps its digits where
-// total reflection begins and at index 1.
+// Returns index2 - sin^2, where index2 - 1 = contrast. Each half of the cosine range uses the form that keeps its digits at
+// the onset of total reflection and at index 1.
 BN_FN real fresnel_inside(real c, real s2, real index2, real contrast)
 {
     return select(c > lit(0.7), index2 - s2, contrast + c * c);
 }
 
-// Exact dielectric, total internal reflection included. eta > 0 as above. With c = v_dot_h and g = eta
-// cos(refracted angle), the amplitudes (c - g) / (c + g) and (eta^2 c - g) / (eta^2 c + g) are written
-// without differences of nearly equal numbers: c^2 - g^2 = 1 - eta^2, and eta^4 c^2 - g^2 is that times
-// sin^2 - eta^2 c^2.
+// Returns a dielectric's exact reflectance, with total internal reflection. eta > 0 as above. Let c = v_dot_h and g = eta
+// cos(refracted angle). The amplitudes (c - g) / (c + g) and (eta^2 c - g) / (eta^2 c + g) are written without differences
+// between nearly equal numbers: c^2 - g^2 = 1 - eta^2, and eta^4 c^2 - g^2 equals (eta^2 - 1) (eta^2 c^2 - sin^2).
 BN_FN real fresnel_dielectric(real v_dot_h, real eta)
 {
     real c = k_saturate(v_dot_h);
@@ -52,10 +51,10 @@ BN_FN real fresnel_dielectric(real v_dot_h, real eta)
     return select(both(g2 <= lit(0.0), contrast < lit(0.0)), lit(1.0), value);
 }
 
-// Exact conductor. Index of refraction eta + i k over that of the near side, eta >= 0, k >= 0, both at most
-// 1e4. Born and Wolf 1999, "Principles of Optics", section 14.2: (a + i b)^2 = (eta + i k)^2 - sin^2. The smaller of a and b follows
-// from a b = eta k, and a - c from a^2 - c^2 = eta^2 - k^2 - 1 + b^2, so that nothing cancels, not even at
-// eta = 1, k = 0.
+// Returns a conductor's exact reflectance. Index eta + i k over the near side's index, eta >= 0, k >= 0, both at most 1e4.
+// Born and Wolf 1999, "Principles of Optics", section 14.2: (a + i b)^2 = (eta + i k)^2 - sin^2. The smaller of a and b
+// follows from a b = eta k, and a - c from a^2 - c^2 = eta^2 - k^2 - 1 + b^2. So nothing cancels, not even at eta = 1, k =
+// 0.
 BN_FN real fresnel_conductor(real v_dot_h, real eta, real k)
 {
     real c = k_saturate(v_dot_h);
@@ -81,7 +80,7 @@ BN_FN real fresnel_conductor(real v_dot_h, real eta, real k)
     return min(lit(0.5) * (rs + rp), lit(1.0));
 }
 
-// A colour channel each.
+// Returns a conductor's reflectance per colour channel.
 BN_FN real3 fresnel_conductor3(real v_dot_h, real3 eta, real3 k)
 {
     return vec3_of(fresnel_conductor(v_dot_h, eta.x, k.x), fresnel_conductor(v_dot_h, eta.y, k.y), fresnel_conductor(v_dot_h, eta.z, k.z));

@@ -1,4 +1,5 @@
-// Perspective-correct weights: Heckbert and Moreton 1991, "Interpolation for Polygon Texture Mapping and Shading", in homogeneous form.
+// Perspective-correct vertex weights: Heckbert and Moreton 1991, "Interpolation for Polygon Texture Mapping and Shading",
+// in homogeneous form.
 #ifndef BN_INTERPOLATE_K_H
 #define BN_INTERPOLATE_K_H
 
@@ -9,10 +10,10 @@ BN_KERNELS_BEGIN
 struct bary_weights {
     real3 b;     // weights of the three vertices, sum 1 up to rounding
     mask inside; // the point lies in the triangle or on its edge
-    real w;      // clip w at the point; only of pieces that clipping left, else 0
+    real w;      // clip w at the point, for clipped pieces; else 0
 };
 
-// Returns twice the areas opposite of each vertex. (x, y)_i: vertex i minus the point, 1/256 pixel, exact integers below 2^24.
+// Returns twice the areas opposite each vertex. (x, y)_i: vertex i minus the point, 1/256 pixel, exact integers below 2^24.
 BN_FN real3 edge_areas(real3 x, real3 y)
 {
     real e0 = x.y * y.z - x.z * y.y;
@@ -21,7 +22,8 @@ BN_FN real3 edge_areas(real3 x, real3 y)
     return vec3_of(e0, e1, e2);
 }
 
-// Returns ax * by - bx * ay to 2^-23 of itself, where floats lose 2^-24 of the products. Integers below 2^24, in halves of 12 bits.
+// Returns ax * by - bx * ay with relative error 2^-23, where floats lose 2^-24 of the products. Inputs are integers below
+// 2^24, split into halves with 12 bits.
 BN_FN real exact_area(integer ax, integer ay, integer bx, integer by)
 {
     integer low_bits = int_lit(4095);
@@ -40,7 +42,7 @@ BN_FN real exact_area(integer ax, integer ay, integer bx, integer by)
     return to_real(high) * lit(16777216.0) + to_real(rest);
 }
 
-// e: edge_areas(); orientation: positive area. inv_w: 1 / clip w.
+// Returns weights from edge_areas() e of a triangle with positive area. inv_w: 1 / clip w.
 BN_FN bary_weights weights_of_areas(real3 e, real3 inv_w)
 {
     real p0 = e.x * inv_w.x;
@@ -56,33 +58,34 @@ BN_FN bary_weights weights_of_areas(real3 e, real3 inv_w)
     return r;
 }
 
-// x, y: as edge_areas() has them.
+// Returns weights at a point. x, y: as in edge_areas().
 BN_FN bary_weights perspective_weights(real3 x, real3 y, real3 inv_w)
 {
     return weights_of_areas(edge_areas(x, y), inv_w);
 }
 
-// A triangle, or the piece of one that clipping left, as interpolation wants it.
+// A triangle for interpolation: a whole triangle or a piece of a clipped one.
 struct triangle_setup {
     integer x[3], y[3]; // corners, 1/256 pixel
     real3 inv_w;        // 1 / clip w of the corners
-    integer vertex[3];  // of the whole triangle
+    integer vertex[3];  // the whole triangle's
     integer info;       // material << 2 | kFrontFacing | kClipped
-    real3 unclip[3];    // corners of a piece in barycentrics of the whole triangle
-    mask piece;         // it is a piece
-    bool clipped;       // some lane's is
+    real3 unclip[3];    // a piece's corners in barycentrics of the whole triangle
+    mask piece;         // this is a piece
+    bool clipped;       // some lane has a piece
 };
 
-// Weights of a piece that clipping cut off, in terms of the whole triangle: corner j of the piece is m_j in its barycentrics.
+// Returns a piece's weights in terms of the whole triangle; m_j are the barycentrics of the piece's corner j.
 BN_FN real3 unclip_weights(real3 b, real3 m0, real3 m1, real3 m2)
 {
     return m0 * b.x + m1 * b.y + m2 * b.z;
 }
 
-// Weights of the whole triangle's vertices at a point, 1/256 pixel. A piece may reach far over the picture's edges, and its corners' w may
-// differ by millions: its areas must be right to their own last place.
+// Returns weights of the whole triangle's vertices at a point, 1/256 pixel. A piece may reach far beyond the picture, and
+// its corners' w may differ by millions, so a piece needs areas that are right to their own last place.
 BN_FN bary_weights weights_at(BN_IN(triangle_setup) t, integer x, integer y)
 {
+    // Find the areas opposite the corners
     integer x0 = t.x[0] - x;
     integer x1 = t.x[1] - x;
     integer x2 = t.x[2] - x;
@@ -93,6 +96,7 @@ BN_FN bary_weights weights_at(BN_IN(triangle_setup) t, integer x, integer y)
     if (t.clipped) {
         e = select(t.piece, vec3_of(exact_area(x1, y1, x2, y2), exact_area(x2, y2, x0, y0), exact_area(x0, y0, x1, y1)), e);
     }
+    // Find the weights, and map a piece's weights to the whole triangle
     bary_weights w = weights_of_areas(e, t.inv_w);
     if (t.clipped) {
         w.w = w.b.x / t.inv_w.x + w.b.y / t.inv_w.y + w.b.z / t.inv_w.z;

@@ -1,7 +1,7 @@
-// Mathematics of the kernel language: vector algebra, elementary functions, hashes. Every float version gives
-// the same bits. The polynomials are minimax fits (Remez exchange in 40 digits, weighted for the error named
-// at each); argument reductions follow Cody and Waite 1980, "Software Manual for the Elementary Functions".
-// Errors named are those of the float versions, checked by tests/unit/simd against double libm.
+// Mathematics of the kernel language: vector algebra, elementary functions, hashes. Every float version gives the same
+// bits. The polynomials are minimax fits (Remez exchange in 40 digits, weighted for the error stated at each). Argument
+// reductions follow Cody and Waite 1980, "Software Manual for the Elementary Functions". Stated errors are bounds for
+// float; tests/unit/simd checks them against double libm.
 #ifndef BN_MATH_K_H
 #define BN_MATH_K_H
 #include "shading/lang/lang.h"
@@ -24,8 +24,8 @@ BN_FN real k_length3(real3 a)
 {
     return sqrt(k_dot3(a, a));
 }
-// Safe for zero and tiny vectors, which keep their direction and stay shorter than 1: |a|^2 is taken as at
-// least 1e-30.
+// Normalizes a vector. Zero and tiny vectors are safe: |a|^2 counts as at least 1e-30, so they keep their direction and
+// stay shorter than 1.
 BN_FN real2 k_normalize2(real2 a)
 {
     return a * (lit(1.0) / sqrt(max(k_dot2(a, a), lit(1e-30))));
@@ -35,7 +35,7 @@ BN_FN real3 k_normalize3(real3 a)
     return a * (lit(1.0) / sqrt(max(k_dot3(a, a), lit(1e-30))));
 }
 
-// Exact at t = 0; at t = 1 within rounding.
+// Interpolates linearly. Exact at t = 0, within rounding at t = 1.
 BN_FN real k_mix(real a, real b, real t)
 {
     return a + (b - a) * t;
@@ -49,13 +49,13 @@ BN_FN real k_saturate(real x)
     return min(max(x, lit(0.0)), lit(1.0));
 }
 
-// 2^n for n in [-126, 127].
+// Returns 2^n for n in [-126, 127].
 BN_FN real k_power_of_two(integer n)
 {
     return real_from_bits(shl(n + int_lit(127), 23));
 }
 
-// 2^f for f in [-1/2, 1/2], fit error 2e-9 relative.
+// Returns 2^f for f in [-1/2, 1/2]; relative fit error 2e-9.
 BN_FN real k_exp2_fraction(real f)
 {
     real p = lit(0.00015353363775035465);
@@ -67,7 +67,7 @@ BN_FN real k_exp2_fraction(real f)
     return lit(1.0) + p * f;
 }
 
-// 2^x, error at most 2 ulp for x in [-125, 127.5). Below -125, and for NaN, 0; from 127.5 on, the value at
+// Returns 2^x, error at most 2 ulp for x in [-125, 127.5). Below -125, and for NaN, returns 0; from 127.5 on, the value at
 // 127.5.
 BN_FN real k_exp2(real x)
 {
@@ -83,8 +83,8 @@ struct k_log2_parts {
     real fraction;
 };
 
-// x is clamped to [2^-126, 2^126]. x / 2^whole is in [sqrt(1/2), sqrt(2)], then log2(m) = 2/ln2 atanh(s), s =
-// (m-1)/(m+1), as a polynomial in s^2 (fit error 3e-9 relative).
+// Splits log2(x); x is clamped to [2^-126, 2^126]. m = x / 2^whole lies in [sqrt(1/2), sqrt(2)]. Then log2(m) = 2/ln2
+// atanh(s), s = (m-1)/(m+1), as a polynomial in s^2 (relative fit error 3e-9).
 BN_FN k_log2_parts k_log2_split(real x)
 {
     real safe = min(max(x, lit(1.1754943508222875e-38)), lit(8.5070591730234616e+37));
@@ -101,16 +101,16 @@ BN_FN k_log2_parts k_log2_split(real x)
     return parts;
 }
 
-// Base-2 logarithm, error at most 4 ulp for x in [2^-126, 2^126]; x outside is clamped, NaN counts as 2^-126.
+// Returns the base-2 logarithm, error at most 4 ulp for x in [2^-126, 2^126]. Clamps x outside; NaN counts as 2^-126.
 BN_FN real k_log2(real x)
 {
     k_log2_parts parts = k_log2_split(x);
     return parts.whole + parts.fraction;
 }
 
-// x^y for x > 0, relative error at most 1e-6 while |y| <= 8 and the result is in [1e-30, 1e30]. y times the
-// exponent of x is formed from two parts of y, the upper of 12 bits, so that its integer part is subtracted
-// without rounding. x <= 0 counts as 2^-126, so 0^y is 0 (y > 1) but 0^0 = 1.
+// Returns x^y for x > 0, relative error at most 1e-6 while |y| <= 8 and the result lies in [1e-30, 1e30]. Splits y in two
+// parts, the upper with 12 bits, so that the integer part of y times x's exponent is subtracted without rounding. x <= 0
+// counts as 2^-126, so 0^y is 0 (y > 1) but 0^0 = 1.
 BN_FN real k_pow(real x, real y)
 {
     k_log2_parts parts = k_log2_split(x);
@@ -131,8 +131,8 @@ struct k_sin_cos_pair {
     real cosine;
 };
 
-// Sine and cosine of x rad, error at most 1e-7 absolute for |x| <= 2 pi, 2e-7 up to |x| = 1000. pi/2 is
-// subtracted in three parts of which the first two have 11 bits; fit errors 4e-9.
+// Returns sine and cosine of x rad, absolute error at most 1e-7 for |x| <= 2 pi, 2e-7 up to |x| = 1000. Subtracts pi/2 in
+// three parts; the first two have 11 bits. Fit errors 4e-9.
 BN_FN k_sin_cos_pair k_sin_cos(real x)
 {
     integer n = round_to_int(x * lit(0.63661977236758134));
@@ -168,8 +168,8 @@ BN_FN real k_cos(real x)
     return pair.cosine;
 }
 
-// Angle of (x, y) in [-pi, pi] rad, error at most 3e-7, for max(|x|, |y|) >= 1e-30; 0 at the origin. The sign
-// of zero is not looked at: y = -0 counts as 0.
+// Returns the angle of (x, y) in [-pi, pi] rad, error at most 3e-7, for max(|x|, |y|) >= 1e-30; 0 at the origin. Ignores
+// the sign of zero: y = -0 counts as 0.
 BN_FN real k_atan2(real y, real x)
 {
     real ax = abs(x);
@@ -192,8 +192,8 @@ BN_FN real k_atan2(real y, real x)
     return select(y < lit(0.0), -angle, angle);
 }
 
-// Arc cosine in [0, pi] rad, error at most 3e-7; x is clamped to [-1, 1]. Beyond 1/2, acos(x) = 2
-// asin(sqrt((1 - x) / 2)).
+// Returns the arc cosine in [0, pi] rad, error at most 3e-7. Clamps x to [-1, 1]. Beyond 1/2, acos(x) = 2 asin(sqrt((1 - x)
+// / 2)).
 BN_FN real k_acos(real x)
 {
     real a = min(abs(x), lit(1.0));
@@ -211,7 +211,8 @@ BN_FN real k_acos(real x)
     return select(x < lit(0.0), lit(3.1415926535897932) - positive, positive);
 }
 
-// A bijective hash of 32 bits: xorshift and multiply, constants of Wellons 2018, "Prospecting for Hash Functions" (lowbias32).
+// Hashes 32 bits, bijectively: xorshift and multiply, constants from Wellons 2018, "Prospecting for Hash Functions"
+// (lowbias32).
 BN_FN integer k_hash_u32(integer i)
 {
     integer h = i ^ shr_logical(i, 16);
@@ -220,7 +221,7 @@ BN_FN integer k_hash_u32(integer i)
     h = h * int_lit(-2073254261); // 0x846ca68b
     return h ^ shr_logical(h, 16);
 }
-// The upper 24 bits of i as a number in [0, 1).
+// Returns the upper 24 bits of i as a number in [0, 1).
 BN_FN real k_unit_from_bits(integer i)
 {
     return to_real(shr_logical(i, 8)) * lit(5.9604644775390625e-8);
@@ -233,7 +234,7 @@ BN_FN integer k_reverse_bits(integer i)
     r = shl(r & int_lit(0x33333333), 2) | (shr_logical(r, 2) & int_lit(0x33333333));
     return shl(r & int_lit(0x55555555), 1) | (shr_logical(r, 1) & int_lit(0x55555555));
 }
-// Radical inverse of i in base 2 (van der Corput), in [0, 1), to 24 bits.
+// Returns the radical inverse of i in base 2 (van der Corput), in [0, 1), to 24 bits.
 BN_FN real k_radical_inverse2(integer i)
 {
     return k_unit_from_bits(k_reverse_bits(i));

@@ -1,5 +1,4 @@
-// Exponential, logarithm and inverse error function where they must keep their digits: near zero, and for
-// large arguments.
+// Exponential, logarithm and inverse error function with full relative precision near zero and for large arguments.
 #ifndef BN_MATH_SPECIAL_K_H
 #define BN_MATH_SPECIAL_K_H
 
@@ -8,8 +7,8 @@
 
 BN_KERNELS_BEGIN
 
-// e^x, relative error at most 3e-7 for x in [-86, 88]; 0 below -86, the value at 88 above. A multiple of ln 2
-// is subtracted in two parts, the first of 12 bits (Cody and Waite 1980).
+// Returns e^x, relative error at most 3e-7 for x in [-86, 88]; 0 below -86, the value at 88 above. Subtracts a multiple of
+// ln 2 in two parts, the first with 12 bits (Cody and Waite 1980).
 BN_FN real k_exp(real x)
 {
     real clamped = min(max(x, lit(-86.0)), lit(88.0));
@@ -20,8 +19,8 @@ BN_FN real k_exp(real x)
     return select(x >= lit(-86.0), value, lit(0.0));
 }
 
-// e^x - 1, relative error at most 4e-7 for x in [-86, 88]. Near 0 the Taylor series, whose rest is below 1e-9
-// of the value.
+// Returns e^x - 1, relative error at most 4e-7 for x in [-86, 88]. Near 0 uses the Taylor series; its remainder is below
+// 1e-9 of the value.
 BN_FN real k_expm1(real x)
 {
     real c = min(max(x, lit(-0.35)), lit(0.35));
@@ -37,8 +36,8 @@ BN_FN real k_expm1(real x)
     return select(abs(x) < lit(0.35), close, distant);
 }
 
-// ln(1 + x), relative error at most 5e-7 for x in (-1, 1e30]; x <= -1 counts as the last number above -1. For
-// 1 + x in [0.7, 1.42] the series of 2 atanh(s), s = x / (2 + x), which never rounds 1 + x; its rest is below
+// Returns ln(1 + x), relative error at most 5e-7 for x in (-1, 1e30]. x <= -1 counts as the next number above -1. For 1 + x
+// in [0.7, 1.42] uses the series of 2 atanh(s), s = x / (2 + x), which never rounds 1 + x. The series' remainder is below
 // 3e-9 of the value.
 BN_FN real k_log1p(real x)
 {
@@ -55,8 +54,8 @@ BN_FN real k_log1p(real x)
     return select(both(safe > lit(-0.3), safe < lit(0.42)), close, distant);
 }
 
-// Inverse of the error function on (-1, 1), relative error at most 1e-6; |x| is clamped below 1, so that
-// |result| <= 3.9. Giles 2010, "Approximating the erfinv function", single precision.
+// Returns the inverse error function on (-1, 1), relative error at most 1e-6. Clamps |x| below 1, so |result| <= 3.9. Giles
+// 2010, "Approximating the erfinv function", single precision.
 BN_FN real k_erfinv(real x)
 {
     real c = min(max(x, lit(-0.99999994)), lit(0.99999994));

@@ -1,12 +1,11 @@
-// What all reflection models share. Directions are unit vectors that point away from the surface, in the
-// local frame (x tangent, y bitangent, z normal): wo is known, wi is asked for or sampled. A model that is
-// called <model> has
-//     <model>_params_of(...)     parameters brought into the range in which nothing divides by zero
-//     <model>_eval(p, wo, wi)    the BRDF without the cosine of wi, 1/sr
-//     <model>_sample(p, wo, xi)  a wi with its weight and density, xi in [0,1)^2; some are rejected as invalid
-//     <model>_pdf(p, wo, wi)     density of the valid samples, 1/sr; its integral is 1 less the share rejected
-// All are 0 where wo or wi is not above the horizon. Fresnel reflectance is a factor that the caller applies:
-// it is coloured, and depends on wo.h alone, which a sample carries along.
+// Parts that all reflection models share. Directions are unit vectors that point away from the surface, in the local frame
+// (x tangent, y bitangent, z normal). wo is given, wi is evaluated or sampled. A model <model> has
+//    <model>_params_of(...)     parameters clamped to a range in which nothing divides by zero
+//    <model>_eval(p, wo, wi)    the BRDF without the cosine of wi, 1/sr
+//    <model>_sample(p, wo, xi)  a wi with its weight and density, xi in [0,1)^2; may reject a sample as invalid
+//    <model>_pdf(p, wo, wi)     density of the valid samples, 1/sr; integrates to 1 minus the rejected share
+// All are 0 where wo or wi is not above the horizon. The caller applies Fresnel reflectance as a factor: it is coloured,
+// and depends only on wo.h, which a sample carries along.
 #ifndef BN_MICROFACET_K_H
 #define BN_MICROFACET_K_H
 
@@ -19,7 +18,7 @@ struct bsdf_sample {
     real3 wi;     // unit and finite, even where invalid
     real weight;  // eval cos / pdf; 0 where invalid
     real pdf;     // 1/sr; 0 where invalid
-    real o_dot_h; // cosine between wo and the microfacet's normal, [0,1]: the argument of Fresnel's equations
+    real o_dot_h; // cosine between wo and the microfacet normal, [0,1]: the argument of Fresnel's equations
     mask valid;
 };
 
@@ -39,7 +38,7 @@ BN_FN mask both_above(real3 wo, real3 wi)
     return both(wo.z > lit(0.0), wi.z > lit(0.0));
 }
 
-// Opposite directions have none and give the normal.
+// Returns the unit half vector. Opposite directions have none and give the normal.
 BN_FN real3 half_vector(real3 wo, real3 wi)
 {
     real3 sum = wo + wi;
@@ -52,14 +51,14 @@ BN_FN real3 mirror_direction(real3 w, real3 h)
     return h * (lit(2.0) * k_dot3(w, h)) - w;
 }
 
-// GGX widths of a usable lobe; NaN becomes the smallest.
+// Clamps a GGX width to a usable range; NaN becomes the smallest width.
 BN_FN real usable_alpha(real alpha)
 {
     return min(max(alpha, lit(1e-3)), lit(1e3));
 }
 
-// A vector along the normal of a random point of the hemisphere as it is seen from w (unit, w.z >= 0), which
-// is GGX of width 1; not unit, z >= 0. Dupuy and Benyoub 2023, "Sampling Visible GGX Normals with Spherical
+// Returns a vector along a visible normal of GGX with width 1: the normal at a random point of the hemisphere as seen from
+// w (unit, w.z >= 0). The vector is not unit, z >= 0. Dupuy and Benyoub 2023, "Sampling Visible GGX Normals with Spherical
 // Caps", with the cap's sine written without 1 - z^2.
 BN_FN real3 visible_hemisphere_normal(real3 w, real2 xi)
 {
@@ -71,7 +70,7 @@ BN_FN real3 visible_hemisphere_normal(real3 w, real2 xi)
     return vec3_of(s * turn.cosine + w.x, s * turn.sine + w.y, height);
 }
 
-// The square [0,1)^2 to the unit disk. Shirley and Chiu 1997, "A Low Distortion Map Between Disk and Square".
+// Maps the square [0,1)^2 to the unit disk. Shirley and Chiu 1997, "A Low Distortion Map Between Disk and Square".
 BN_FN real2 concentric_disk(real2 xi)
 {
     real a = lit(2.0) * xi.x - lit(1.0);
@@ -84,8 +83,7 @@ BN_FN real2 concentric_disk(real2 xi)
     return vec2_of(r * select(wide, turn.cosine, turn.sine), r * select(wide, turn.sine, turn.cosine));
 }
 
-// 1 - r^2 of the point that concentric_disk makes of xi, to the last digits at the rim, where |point|^2 has none
-// of it.
+// Returns 1 - r^2 of concentric_disk(xi), with all digits at the rim, where 1 - |point|^2 would have none.
 BN_FN real concentric_rest(real2 xi)
 {
     real r = max(abs(lit(2.0) * xi.x - lit(1.0)), abs(lit(2.0) * xi.y - lit(1.0)));

@@ -6,12 +6,13 @@
 
 BN_KERNELS_BEGIN
 
-struct pixel_range { // of pixels in the image, inclusive; first > last: there are none
+struct pixel_range { // pixels in the image, inclusive; empty where first > last
     integer first, last;
 };
 
-// Those of an image of `size` pixels that have a sample in lo...hi. lo, hi, center: 1/256 pixel, lo and hi from the centre pixel, that from
-// the image's first; sample_min, sample_max: of the samples in a pixel, 1/256 pixel.
+// Returns the pixels, in an image with `size` pixels along an axis, that have a sample in lo...hi. lo, hi: 1/256 pixel from
+// the centre pixel; center: 1/256 pixel from the image's first. sample_min, sample_max: range of sample positions in a
+// pixel, 1/256 pixel.
 BN_FN pixel_range pixels_touched(integer lo, integer hi, int center, int sample_min, int sample_max, int size)
 {
     pixel_range r;

@@ -1,11 +1,11 @@
-// Four texels and their weights: what a bilinear fetch from a cube or a texture is made of.
+// Four texels and their weights: the loads of one bilinear fetch from a cube or a texture.
 #ifndef BN_TEXEL_ROWS_K_H
 #define BN_TEXEL_ROWS_K_H
 #include "shading/lang/lang.h"
 
 BN_KERNELS_BEGIN
 
-// What one bilinear fetch loads: the left texels of two horizontal pairs, and the weights w<column><row>.
+// Left texels of two horizontal pairs, and the weights w<column><row>.
 struct texel_rows {
     integer row0, row1;
     real w00, w10, w01, w11;

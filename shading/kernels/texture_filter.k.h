@@ -1,16 +1,15 @@
-// Filtered fetch from a bordered 2D texture pyramid: wrapping, bilinear, trilinear, anisotropic.
+// Filtered fetches from a bordered 2D texture pyramid: wrapping, bilinear, trilinear, anisotropic.
 //
-// Memory: RGBA half texels; level l is (width_l + 2) x (height_l + 2) with a border of one texel filled by
-// the wrap modes, rows from the top. Any size; width_l = max(1, floor(width / 2^l)).
+// Memory: RGBA half texels. Level l is (width_l + 2) x (height_l + 2) with a one-texel border that the wrap modes fill,
+// rows from the top. Any size; width_l = max(1, floor(width / 2^l)).
 //
 // Level of detail and footprint follow Vulkan 1.3, "Image Sample Operations" (the scheme of
-// EXT_texture_filter_anisotropic), with the lengths of the exact derivatives: P_max and P_min are the longer
-// and the shorter of |d(texels)/dx| and |d(texels)/dy|,
-//     e = min(P_max / P_min, max_taps),  lod = log2(P_max / e),  N = ceil(e),
-// and N taps of equal weight lie on the longer derivative at i/(N+1) - 1/2, i = 1..N. Two refinements keep N
-// small where more taps cannot show: N is at most ceil(P_max) (taps denser than the texels of level 0), and
-// an e that exceeds a whole number by less than 1/256 is rounded down (an isotropic footprint would otherwise
-// flicker between one and two taps).
+// EXT_texture_filter_anisotropic), with exact derivative lengths. P_max and P_min are the longer and the shorter of
+// |d(texels)/dx| and |d(texels)/dy|:
+//    e = min(P_max / P_min, max_taps),  lod = log2(P_max / e),  N = ceil(e).
+// N taps of equal weight lie along the longer derivative at i/(N+1) - 1/2, i = 1..N. Two refinements keep N small where
+// more taps would not show. N is at most ceil(P_max), as denser taps repeat texels of level 0. An e that exceeds a whole
+// number by less than 1/256 is rounded down; else isotropic footprints would flicker between one and two taps.
 #ifndef BN_TEXTURE_FILTER_K_H
 #define BN_TEXTURE_FILTER_K_H
 #include "shading/kernels/math.k.h"
@@ -36,7 +35,7 @@ struct texture_footprint {
     real2 axis; // the longer derivative, uv units; 0 where it is not finite
 };
 
-// To [0,1], where a texel's centre is at (i + 1/2) / n. NaN and Inf give 0.
+// Wraps a coordinate to [0,1]; texel centres lie at (i + 1/2) / n. NaN and Inf give 0.
 BN_FN real texture_wrap(real u, int mode)
 {
     real r = u;
@@ -51,10 +50,11 @@ BN_FN real texture_wrap(real u, int mode)
     return min(max(r, lit(0.0)), lit(1.0));
 }
 
-// duv_dx, duv_dy: change of uv by one pixel. NaN, Inf and overlong derivatives give the smallest level and
-// one tap.
+// Computes level and taps. duv_dx, duv_dy: change of uv per pixel. NaN, Inf and overlong derivatives give the smallest
+// level and one tap.
 BN_FN texture_footprint texture_footprint_of(texture_desc desc, real2 duv_dx, real2 duv_dy, int max_taps)
 {
+    // Measure the derivatives in texels of level 0
     real2 size = vec2_of(table_value(desc.level_width, int_lit(0)), table_value(desc.level_height, int_lit(0)));
     real2 dx = duv_dx * size;
     real2 dy = duv_dy * size;
@@ -64,6 +64,7 @@ BN_FN texture_footprint texture_footprint_of(texture_desc desc, real2 duv_dx, re
     mask x_longer = px2 >= py2;
     real longer2 = select(valid, max(px2, py2), lit(1e20));
     real shorter2 = select(valid, min(px2, py2), lit(1e20));
+    // Limit the anisotropy, and choose taps and level
     real longer = sqrt(longer2);
     real limit = to_real(int_lit(max_taps));
     real ratio = sqrt(longer2 / max(shorter2, lit(1e-15)));
@@ -73,6 +74,7 @@ BN_FN texture_footprint texture_footprint_of(texture_desc desc, real2 duv_dx, re
     p.taps = ceil(useful - lit(0.00390625));
     real last = to_real(int_lit(desc.levels - 1));
     p.lod = min(max(k_log2(longer / e), lit(0.0)), last);
+    // Keep the longer derivative as the tap axis
     real2 axis = select(x_longer, duv_dx, duv_dy);
     p.axis = select(valid, axis, vec2_all(lit(0.0)));
     return p;
@@ -84,6 +86,7 @@ struct texture_level {
     real width;
     real height;
 };
+// Looks up a level's place and size.
 BN_FN texture_level texture_level_of(texture_desc desc, integer level)
 {
     texture_level l;
@@ -94,7 +97,7 @@ BN_FN texture_level texture_level_of(texture_desc desc, integer level)
     return l;
 }
 
-// uv: wrapped, [0,1].
+// Computes the four texels and weights of a bilinear fetch. uv: wrapped, [0,1].
 BN_FN texel_rows texture_bilinear_rows(texture_level level, real2 uv, real weight)
 {
     real x = uv.x * level.width + lit(0.5);
@@ -119,6 +122,7 @@ BN_FN texel_rows texture_bilinear_rows(texture_level level, real2 uv, real weigh
     return r;
 }
 
+// Computes the texel of a nearest fetch from level 0.
 BN_FN texel_rows texture_nearest_rows(texture_desc desc, real2 uv)
 {
     texture_level level = texture_level_of(desc, int_lit(0));
@@ -134,7 +138,8 @@ BN_FN texel_rows texture_nearest_rows(texture_desc desc, real2 uv)
     return r;
 }
 
-// The taps of a footprint about uv: two levels each. Their number is p.taps at most; those of lanes with fewer weigh nothing.
+// Taps of a footprint about uv, on two levels each. There are at most p.taps; taps beyond a lane's own number have weight
+// 0.
 struct texture_taps {
     texture_desc desc;
     texture_level fine, coarse;
@@ -162,7 +167,7 @@ BN_FN texture_taps texture_taps_of(texture_desc desc, real2 uv, texture_footprin
     return t;
 }
 
-// i: from 0.
+// Returns tap i, from 0.
 BN_FN texture_tap texture_tap_at(BN_IN(texture_taps) t, int i)
 {
     real number = to_real(int_lit(i + 1));
@@ -172,13 +177,14 @@ BN_FN texture_tap texture_tap_at(BN_IN(texture_taps) t, int i)
     real2 wrapped = vec2_of(texture_wrap(at.x, t.desc.wrap_s), texture_wrap(at.y, t.desc.wrap_t));
     real of_coarse = weight * t.f;
     texture_tap tap;
-    real of_fine = weight - of_coarse; // named before it is passed: glslang would not mark it precise otherwise
+    real of_fine = weight - of_coarse; // named before it is passed: otherwise glslang would not mark it precise
     tap.fine = texture_bilinear_rows(t.fine, wrapped, of_fine);
     tap.coarse = texture_bilinear_rows(t.coarse, wrapped, of_coarse);
     return tap;
 }
 
-// max_taps: at least the largest `taps` of all lanes (a larger one gives the same bits, later).
+// Returns the weighted mean over a footprint. max_taps: at least the largest `taps` of all lanes; larger values give the
+// same bits, more slowly.
 BN_FN real4 texture_sample_footprint(texture_desc desc, real2 uv, texture_footprint p, int max_taps)
 {
     if (desc.nearest != 0) {
@@ -194,13 +200,13 @@ BN_FN real4 texture_sample_footprint(texture_desc desc, real2 uv, texture_footpr
     return texel_value(acc);
 }
 
-struct texture_one_level { // of a pyramid
+struct texture_one_level { // one level of a pyramid
     texture_desc desc;
     texture_level level;
-    real lod; // its number
+    real lod; // the level's number
 };
 
-// The level nearest to a footprint's.
+// Returns the level nearest to a footprint's lod.
 BN_FN texture_one_level texture_one_level_of(texture_desc desc, texture_footprint p)
 {
     real nearest = p.lod + lit(0.5);
@@ -212,7 +218,7 @@ BN_FN texture_one_level texture_one_level_of(texture_desc desc, texture_footprin
     return t;
 }
 
-// uv: not wrapped.
+// Returns a bilinear fetch from one level. uv: not wrapped.
 BN_FN real4 texture_sample_level(texture_one_level t, real2 uv)
 {
     texel_rows rows;
@@ -223,9 +229,9 @@ BN_FN real4 texture_sample_level(texture_one_level t, real2 uv)
     return texel_value(texel_rows_add(texel_zero(), t.desc.texels, rows));
 }
 
-// uv and its change by one pixel; up to max_taps (uniform, 1 to 16) taps along the longer axis of the
-// footprint. Where lanes can be compared, texture_footprint_of(), the maximum of `taps` over the lanes, and
-// texture_sample_footprint() give the same bits sooner.
+// Returns a filtered fetch at uv, with uv's change per pixel. Takes up to max_taps (uniform, 1 to 16) taps along the
+// footprint's longer axis. Lanes get the same bits sooner by texture_footprint_of(), the maximum of `taps` over the lanes,
+// and texture_sample_footprint().
 BN_FN real4 texture_sample(texture_desc desc, real2 uv, real2 duv_dx, real2 duv_dy, int max_taps)
 {
     texture_footprint p = texture_footprint_of(desc, duv_dx, duv_dy, max_taps);

@@ -1,5 +1,6 @@
-// From world space to the sub-pixel grid. Clip space is Vulkan's turned to y up, depth reversed with the far plane at infinity:
-// a perspective view has clip z = znear, so depth = znear / w; an orthographic one has w = 1 and a linear depth.
+// Transforms from world space to the sub-pixel grid. Clip space is Vulkan's with y up; depth is reversed, with the far
+// plane at infinity. A perspective view has clip z = znear, so depth = znear / w. An orthographic view has w = 1 and linear
+// depth.
 #ifndef BN_VERTEX_K_H
 #define BN_VERTEX_K_H
 
@@ -15,7 +16,7 @@ struct view_params { // uniform; see raster/frame View
     mask orthographic;
 };
 
-// World position p (metres) to (x, y, w, z) in clip space.
+// Transforms world position p (metres) to clip space (x, y, w, z).
 BN_FN real4 clip_position(real3 p, view_params view)
 {
     real3 d = p - view.eye;
@@ -33,20 +34,23 @@ struct snapped_vertex {
     mask valid;    // in front of the near plane and inside the guard band
 };
 
-// c: clip position as above. half_width, half_height: half the image, pixels. center_x, center_y: the centre pixel's corner,
-// 1/256 pixel, as real and as integer. guard: |x|, |y| of a valid vertex stay below it, 1/256 pixel.
+// Snaps a clip position c, in the order above. half_width, half_height: half the image, pixels. center_x, center_y: the
+// centre pixel's corner, 1/256 pixel, as real and as integer. guard: bound on |x|, |y| of a valid vertex, 1/256 pixel.
 BN_FN snapped_vertex snap_vertex(real4 c, view_params view, real half_width, real half_height, real center_x, real center_y,
                                  integer icenter_x, integer icenter_y, real guard)
 {
+    // Test the near plane
     mask perspective_front = both(not_(view.orthographic), c.z >= view.znear);
     mask orthographic_front = both(view.orthographic, c.w <= lit(1.0));
     mask in_front = either(perspective_front, orthographic_front);
+    // Project to pixels, and test the guard band
     real inv_w = lit(1.0) / select(in_front, c.z, lit(1.0));
     real px = ((c.x * inv_w) * half_width + half_width) * lit(256.0);
     real py = ((-c.y * inv_w) * half_height + half_height) * lit(256.0);
     real from_center_x = abs(px - center_x);
     real from_center_y = abs(py - center_y);
     mask inside = both(from_center_x < guard, from_center_y < guard);
+    // Round to the grid
     snapped_vertex v;
     v.valid = both(in_front, inside);
     px = select(v.valid, px, lit(0.0));

@@ -1,6 +1,6 @@
-// Sums of fetches from a cube map, many at a time: first the addresses of some fetches, then their loads. One fetch after the other is a
-// chain (direction, face, address, memory, loads) that is longer than what the processor looks ahead: apart, both halves run full. The bits
-// are those of one fetch after the other.
+// Sums of cube-map fetches in batches: first compute some fetch addresses, then load them. One fetch is a chain (direction,
+// face, address, memory, load) longer than the processor's look-ahead. Split in two, both halves run full. The bits equal
+// one fetch after the other.
 #pragma once
 #include "core/simd/lanes.h"
 #include "shading/kernels/cube_filter.k.h"
@@ -10,7 +10,7 @@ inline namespace BN_ISA_NS {
 
 // A sum of weighted trilinear fetches, as by cube_texel_add().
 struct cube_sum {
-    static constexpr int kPlans = 16; // more gain nothing, and would crowd the first-level cache
+    static constexpr int kPlans = 16; // more do not help, and would crowd the first-level cache
 
     const cube_desc* cube;
     texel_acc acc;
@@ -25,8 +25,9 @@ BN_INLINE void cube_sum_begin(cube_sum& s, const cube_desc& cube)
     s.count = 0;
 }
 
-void cube_sum_begin(cube_sum& s, const cube_desc&& cube) = delete; // which must outlive the sum
+void cube_sum_begin(cube_sum& s, const cube_desc&& cube) = delete; // the cube must outlive the sum
 
+// Loads and adds all planned fetches.
 BN_INLINE void load_planned(cube_sum& s)
 {
     texel_acc acc = s.acc;
@@ -43,7 +44,7 @@ BN_INLINE void plan(texel_plan& p, const texel_rows& r)
 
 using cube_sum_levels = cube_levels;
 
-// Levels and weight as for cube_texel_add(), found once where samples share them. A cube of one level knows the weight alone.
+// Returns levels and weight as for cube_texel_add(), for samples to share. A cube with one level keeps the weight alone.
 BN_INLINE cube_sum_levels cube_sum_levels_at(const cube_sum& s, real lod, real weight)
 {
     if (s.cube->levels > 1)
@@ -56,7 +57,7 @@ BN_INLINE cube_sum_levels cube_sum_levels_at(const cube_sum& s, real lod, real w
 BN_INLINE void cube_sum_add(cube_sum& s, real3 direction, const cube_sum_levels& levels)
 {
     const cube_place place = cube_face_uv(direction);
-    int count = s.count; // apart from memory, which plans are written to
+    int count = s.count; // a local copy: plans are written to memory
     if (s.cube->levels > 1) {
         plan(s.plans[count++], cube_fine_rows(place, levels));
         plan(s.plans[count++], cube_coarse_rows(place, levels));
@@ -75,14 +76,14 @@ BN_INLINE real3 cube_sum_value(cube_sum& s)
     return vec3_of(v.x, v.y, v.z);
 }
 
-// A sum of fetches that are each multiplied by a colour and then by a weight.
+// A sum of fetches, each multiplied by a colour and then by a weight.
 struct cube_terms {
     static constexpr int kTerms = 8;
 
     const cube_desc* cube;
     real3 sum;
     int count;      // terms not loaded yet
-    bool trilinear; // two levels a term
+    bool trilinear; // two levels per term
     texel_plan plans[kTerms][2];
     struct {
         real3 colour;
@@ -90,7 +91,7 @@ struct cube_terms {
     } factors[kTerms];
 };
 
-// trilinear: else all fetches are of level 0.
+// Starts a sum. Without `trilinear`, cube_terms_add() reads level 0.
 BN_INLINE void cube_terms_begin(cube_terms& s, const cube_desc& cube, bool trilinear)
 {
     s.cube = &cube;
@@ -101,6 +102,7 @@ BN_INLINE void cube_terms_begin(cube_terms& s, const cube_desc& cube, bool trili
 
 void cube_terms_begin(cube_terms& s, const cube_desc&& cube, bool trilinear) = delete;
 
+// Loads and adds all planned terms.
 BN_INLINE void load_planned(cube_terms& s)
 {
     real3 sum = s.sum;
@@ -115,7 +117,7 @@ BN_INLINE void load_planned(cube_terms& s)
     s.count = 0;
 }
 
-// lod: of trilinear fetches.
+// Plans one fetch. lod: for trilinear sums only.
 BN_INLINE void cube_terms_add(cube_terms& s, real3 direction, real lod, real3 colour, real weight)
 {
     const cube_place place = cube_face_uv(direction);
@@ -135,7 +137,8 @@ BN_INLINE void cube_terms_add(cube_terms& s, real3 direction, real lod, real3 co
         load_planned(s);
 }
 
-// Of a sum that is not trilinear; level: in [0, levels - 1]. cube: the sum's own, by value, so that a loop looks at it once.
+// Plans a bilinear fetch from an integer level in [0, levels - 1], for a sum without `trilinear`. cube: the sum's own,
+// passed by value so that a loop reads it once.
 BN_INLINE void cube_terms_add_level(cube_terms& s, cube_desc cube, real3 direction, integer level, real3 colour, real weight)
 {
     const int at = s.count;

@@ -5,7 +5,7 @@
 #define BN_FN static inline __attribute__((always_inline, unused))
 #define BN_IN(T) const T&
 #define BN_INOUT(T) T&
-// A stage that several techniques share: compiled once, called once a batch.
+// A function that several techniques share: compiled once, called once per batch.
 #define BN_STAGE static __attribute__((noinline, unused))
 #define BN_KERNELS_BEGIN                                                                                                                   \
     namespace burnish {                                                                                                                    \
@@ -237,7 +237,8 @@ struct texel_planes {
     real4 plane[3];
 };
 
-// All lanes as if `first` were theirs: texels are numbers that lanes share, so that nothing is loaded or put in order by lane.
+// Adds up one cell for all lanes, as if every lane had this `first`. All lanes share the texels, so nothing is loaded or
+// reordered by lane.
 BN_STAGE void texel_cell_shared(texel_buffer texels, const texel_cell& cell, std::int32_t first, real out[12])
 {
     float texel[3][4][2][8];
@@ -259,6 +260,7 @@ BN_STAGE void texel_cell_shared(texel_buffer texels, const texel_cell& cell, std
     }
 }
 
+// Adds up each lane's own cell.
 BN_STAGE void texel_cell_by_lane(texel_buffer texels, const texel_cell& cell, real out[12])
 {
     for (int plane = 0; plane < 3; ++plane) {
@@ -271,20 +273,23 @@ BN_STAGE void texel_cell_by_lane(texel_buffer texels, const texel_cell& cell, re
     }
 }
 
-// Neighbouring fragments mostly lie in one cell or two.
+// Returns the weighted sum over a cell, by plane. Neighbouring fragments mostly share one cell or two, so those cells are
+// loaded once for all lanes.
 BN_FN texel_planes texel_cell_value(texel_buffer texels, const texel_cell& cell)
 {
-    constexpr int kMostShared = kLanes == 1 ? 0 : 2; // cells; more take longer than lanes by themselves
+    constexpr int kMostShared = kLanes == 1 ? 0 : 2; // cells; beyond this number, fetches by lane are faster
     constexpr std::uint32_t kAll = (1u << kLanes) - 1u;
     std::int32_t first[kLanes];
     store_int(first, cell.first);
     real c[12] = {};
     std::uint32_t open = kAll;
+    // Count the distinct cells, up to the limit
     for (int n = 0; n < kMostShared && open != 0; ++n)
         open &= ~to_bits(cell.first == int_lit(first[__builtin_ctz(open)]));
     if (open != 0) {
         texel_cell_by_lane(texels, cell, c);
     } else {
+        // Load each distinct cell once and select by lane
         for (open = kAll; open != 0;) {
             const std::int32_t at = first[__builtin_ctz(open)];
             const mask here = cell.first == int_lit(at);

@@ -1,4 +1,4 @@
-// The records of a frame and of its materials, that part of the stage (stage.h) which needs neither tables nor textures.
+// Access to the frame and material records: the part of the stage (stage.h) that needs neither tables nor textures.
 #ifndef BN_FRAME_H
 #define BN_FRAME_H
 
@@ -6,7 +6,8 @@
 #include "shading/lang/lang.h"
 #include "shading/lang/tables.h"
 
-// Whatever has the members of a ShadingFrame, a MaterialRecord: a type derived of it may give some of them values that the compiler knows.
+// Any type with the members of ShadingFrame or MaterialRecord. A derived type may fix some members to compile-time
+// constants.
 #define frame_ref const auto&
 #define any_frame const ShadingFrame&
 #define material_ref const auto&
@@ -34,7 +35,7 @@ BN_FN const auto& the_material(material_ref m)
 #else
 #include "shading/stages/interface.glsl"
 
-#define frame_ref int // of the only one
+#define frame_ref int // there is one frame
 #define any_frame int
 #define material_ref int
 #define any_material int

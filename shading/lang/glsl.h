@@ -1,6 +1,6 @@
-// The kernel language in GLSL 4.6 (see lang.h). `precise` on every type forbids the compiler to fuse or reorder.
-// A stage may define BN_LANG_SET (descriptor set, default 0) and BN_LANG_BINDING (first of three bindings, default 0) before the
-// include; unused buffers need not be bound.
+// The kernel language in GLSL 4.6 (see lang.h). `precise` on every type forbids fusing and reordering. A stage may define
+// BN_LANG_SET (descriptor set, default 0) and BN_LANG_BINDING (first of three bindings, default 0) before the include.
+// Unused buffers need not be bound.
 #ifndef BN_GLSL_H
 #define BN_GLSL_H
 
@@ -79,7 +79,7 @@ mask select(mask m, mask a, mask b)
     return m ? a : b;
 }
 
-// GLSL's own min and max leave NaN and the order of zeros to the implementation.
+// GLSL leaves NaN and the order of zeros in min and max to the implementation, so these replace them.
 real bn_min(real a, real b)
 {
     return a < b ? a : b;
@@ -144,9 +144,9 @@ real4 bn_clamp(real4 x, real4 lo, real4 hi)
 }
 #define clamp bn_clamp
 
-// What is a pointer in C++ is here the index of the first element in one of three buffers.
-// Textures can be larger together than one buffer may be: with BN_TEXEL_PAGES a texel_buffer is the number of a page, whose address the
-// first buffer holds. Such a stage requires GL_EXT_buffer_reference_uvec2.
+// Pointers of C++ are indices here: the first element's index in one of three buffers. All textures together can exceed the
+// largest buffer. With BN_TEXEL_PAGES a texel_buffer is a page number, and the first buffer holds the page's address. Such
+// a stage requires GL_EXT_buffer_reference_uvec2.
 #ifdef BN_TEXEL_PAGES
 layout(buffer_reference, std430, buffer_reference_align = 8) readonly buffer BnTexelPage
 {
@@ -173,7 +173,7 @@ layout(std430, set = BN_LANG_SET, binding = BN_LANG_BINDING + 2) readonly buffer
     int bn_ints[];
 };
 #define texel_buffer int
-#define pair_table int // where texels are pairs of floats
+#define pair_table int // stored in the texel buffer, a pair of floats per texel
 #define real_table int
 #define int_table int
 

@@ -1,4 +1,5 @@
-// How many words recorded stages hold of a visible (pixel, triangle) pair, and layers of a pixel. One text for C++ and GLSL.
+// Number of words that recorded stages hold per visible (pixel, triangle) pair, and that layers hold per pixel. One text
+// for C++ and GLSL.
 #ifndef BN_RECORDED_H
 #define BN_RECORDED_H
 
@@ -15,7 +16,7 @@ const int kMaterialWords = 0
 #define BN_INPUT(type, words, name) +words
 #include "shading/material.def"
     ;
-const int kPairWords = 1 + kInterpolantWords + kMaterialWords + 3; // mask of its samples, interpolants, material inputs, colour
+const int kPairWords = 1 + kInterpolantWords + kMaterialWords + 3; // sample mask, interpolants, material inputs, colour
 const int kLayerWords = 0
 #define BN_LAYER(type, words, name, channels) +words
 #include "shading/layers.def"

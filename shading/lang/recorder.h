@@ -1,6 +1,6 @@
-// Where assembly puts recorded words.
-//   recorder w; put_real(w, x)   takes x as the next word
-// In C++ who includes assembly has them; in GLSL a recorder is the next word's place.
+// Output of recorded words.
+//   recorder w; put_real(w, x)   stores x as the next word
+// In C++, the file that includes assembly defines both; in GLSL a recorder is the index of the next word.
 #ifndef BN_RECORDER_H
 #define BN_RECORDER_H
 

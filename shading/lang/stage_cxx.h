@@ -1,5 +1,5 @@
-// The stage (stage.h) in lanes: the plain records of shading/lang as the kernels want them, broadcast or as the descriptions that the
-// filter kernels take.
+// The stage (stage.h) in lanes. Converts the plain records of shading/lang to kernel arguments: broadcast values, and
+// descriptions for the filter kernels.
 #pragma once
 #include "core/simd/lanes.h"
 #include "shading/kernels/camera.t.h"
@@ -13,11 +13,11 @@
 namespace burnish {
 inline namespace BN_ISA_NS {
 
-// Looked up for a piece of a block of pixels, the usual case: four divisions less.
+// Looks up the place for a piece of a pixel block, the usual case, which saves four divisions. Computes other places.
 BN_INLINE real2 place_of_center(frame_ref f, const view_params& view, integer px, integer py)
 {
     if constexpr (kLanes > 1) {
-        constexpr int kRow = 8; // pixels of a block side by side
+        constexpr int kRow = 8; // pixels side by side in a block
         std::int32_t column[kLanes], row[kLanes];
         store_int(column, px), store_int(row, py);
         const integer across = iota() & int_lit(kRow - 1), down = shr(iota(), 3);
@@ -33,14 +33,16 @@ BN_INLINE const LightRecord& the_light(frame_ref f, int i)
     return f.lights[i];
 }
 
-// Which of the frame's lights may reach some of kLanes places: those that are nearer to the box around the places than their range. A
-// light's distance from a place is never below that from the box, with the same roundings, so that none is left out that would shine.
+// The frame's lights that may reach some of kLanes places: lights nearer to the places' bounding box than their range. A
+// light's distance to the box never exceeds its distance to a place, with the same roundings. So no light that shines is
+// left out.
 struct light_reach {
-    real3 least, most;  // the box
-    std::uint32_t bits; // of the kLanes lights from `first` on, those that may
+    real3 least, most;  // the bounding box
+    std::uint32_t bits; // lights that may reach, among the kLanes from `first` on
     int first;
 };
 
+// Returns the bits of the kLanes lights at r.first whose range reaches the box.
 BN_INLINE std::uint32_t lights_near(frame_ref f, const light_reach& r)
 {
     const float* const columns = f.light_columns + r.first;
@@ -56,7 +58,7 @@ BN_INLINE light_reach lights_reaching(frame_ref f, const real3& p)
     light_reach r;
     r.least = vec3_of(reduce_min(p.x), reduce_min(p.y), reduce_min(p.z));
     r.most = vec3_of(reduce_max(p.x), reduce_max(p.y), reduce_max(p.z));
-    if (!all(k_dot3(p, p) < lit(1e30))) { // some place is nowhere: then it is asked of each light by itself
+    if (!all(k_dot3(p, p) < lit(1e30))) { // some place is not finite: test each light by itself
         r.least = vec3_all(lit(-1e30));
         r.most = vec3_all(lit(1e30));
     }
@@ -64,7 +66,7 @@ BN_INLINE light_reach lights_reaching(frame_ref f, const real3& p)
     r.bits = lights_near(f, r);
     return r;
 }
-// The next of them, or what is not below light_count; each is given once.
+// Returns the next light's index; light_count or more after the last. Gives each light once.
 BN_INLINE int next_light(frame_ref f, light_reach& r)
 {
     while (!r.bits && r.first + kLanes < f.light_count) {
@@ -146,8 +148,8 @@ BN_INLINE constexpr bool coats_used()
     return true;
 }
 
-// A fragment of which nothing changes but the geometry: neither textures, vertex colours, lights of either kind, energy compensation, exact
-// reflectances, light that passes, coats nor a lobe other than the usual one.
+// A frame and materials where only geometry varies. They have no textures, vertex colours, punctual or area lights, energy
+// compensation, exact Fresnel, transmission or coats, and the default lobe only.
 struct PlainFrame : ShadingFrame {
     static constexpr int light_count = 0, area_light_count = 0, key_light_count = 0, energy_compensation = 0, dfg_fit = 0, fresnel = 0,
                          diffuse_model = 0, specular_aa = 0;
@@ -156,7 +158,7 @@ struct PlainFrame : ShadingFrame {
 struct PlainMaterial : MaterialRecord {
     static constexpr int textured = 0, uses_color = 0, unlit = 0, refracts = 0, coated = 0, relief = 0;
 };
-struct UntabledMaterial : PlainMaterial { // of techniques that sample no Ashikhmin-Shirley lobe
+struct UntabledMaterial : PlainMaterial { // for techniques that do not sample an Ashikhmin-Shirley lobe
     static constexpr int phong_slice = -1, phong_set = -1;
 };
 struct RoundMaterial : UntabledMaterial {

@@ -1,5 +1,5 @@
-// Tables of a scene as plain data, and the frame with its tables: what lanes of any instruction set read, and what every renderer's
-// shading is made from. raster/frame fills them. C++ only: beside the records, they hold pointers.
+// Scene tables as plain data, and a frame with its tables. Lanes of any instruction set read them, and every renderer's
+// shading starts from them. raster/frame fills them. C++ only: tables hold pointers beside the records.
 #pragma once
 #include <cstdint>
 
@@ -9,7 +9,7 @@ namespace burnish {
 
 inline constexpr std::uint32_t kNoTriangle = 0xffffffffu;
 
-struct TextureParams { // TexturePyramid in plain data
+struct TextureParams { // TexturePyramid as plain data
     const std::uint16_t* texels;
     std::int32_t width, height, levels, wrap_s, wrap_t, nearest;
     std::int32_t offset[16];
@@ -21,6 +21,7 @@ enum TextureSlot {
 #include "core/scene/material.def"
 };
 
+// Returns the sum of a lobe's traits: those in its line, its kLies_ and its kNormals_ bit.
 constexpr int lobe_traits_of(int lobe)
 {
 #define BN_LOBE(id, at, type, lies, normals, traits, made_of)                                                                              \
@@ -30,7 +31,7 @@ constexpr int lobe_traits_of(int lobe)
     return 0;
 }
 
-// The lobe of shading/models.def that has the trait.
+// Returns the index of the first lobe in shading/models.def that has the trait.
 constexpr int lobe_with(int trait)
 {
     int lobe = 0;
@@ -39,24 +40,25 @@ constexpr int lobe_with(int trait)
     return lobe;
 }
 
-// One sample of a unit lobe (widths 1): its slopes, and the density of normals there times h.z^4.
-struct GridSample { // or, with kPhongGrid, what as_mc.t.h says
+// One sample of a unit lobe (widths 1): slopes, and the density of normals there times h.z^4.
+struct GridSample { // with kPhongGrid: see as_mc.t.h
     float slope_x, slope_y, density;
 };
 
-inline constexpr int kMostGridSamples = 1 << 18; // of a frame: of --samples, and of the half vectors of lobes
+inline constexpr int kMostGridSamples = 1 << 18; // per frame: samples by --samples, and half vectors of lobes
 
-// What the record of a frame does not hold. Pointers are null where nothing asks for them.
+// The parts of a frame that its record does not hold. Pointers are null where nothing reads them.
 struct FrameTables {
-    const float *screen_x, *screen_y; // place_on_screen() of pixels' centres, by column and by row; 16 may be read at any
+    const float *screen_x, *screen_y; // place_on_screen() of pixel centres, by column and by row; 16 entries are readable from each
     const float *px, *py, *pz;        // by vertex; world space, metres
-    const float* shading_vertices;    // DrawTables::shading as floats, 16 a vertex
+    const float* shading_vertices;    // DrawTables::shading as floats, 16 per vertex
     const std::uint32_t* indices;
     const std::uint32_t* triangle_material;
     const MaterialRecord* materials;
     const TextureParams* textures;
     const LightRecord* lights;
-    const float* light_columns; // of the same lights: x, y, z, inv_range2, light_stride of each; a register may be read at any light
+    const float* light_columns; // the same lights in columns x, y, z, inv_range2, light_stride floats each; a full register is readable
+                                // from any light
     int light_stride;
     const AreaLightRecord* area_lights;
     const std::uint16_t *specular_texels, *irradiance_texels, *whole_texels, *box_texels; // CubeMap::texels

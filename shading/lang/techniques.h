@@ -1,8 +1,8 @@
-// The techniques for environment light (shading/techniques/*.t.h) by their lines in shading/models.def.
-//   technique_ref t                 lanes know theirs when they are compiled (technique_tag), GLSL has its place in models.def
-//   technique_traits(m, t)          of a material m that is not unlit
-//   technique_specular(f, t, x)     what <id>_specular(f, x) returns
-//   technique_shared(f, t, x, o)    what <id>_shared(f, x, o) returns, of a technique that shares samples; o: quad_offset()
+// Dispatch to the techniques for environment light (shading/techniques/*.t.h), generated from shading/models.def.
+//   technique_ref t                 technique_tag, a compile-time type, in C++; an index into models.def in GLSL
+//   technique_traits(m, t)          traits for a material m that is not unlit
+//   technique_specular(f, t, x)     calls <id>_specular(f, x)
+//   technique_shared(f, t, x, o)    calls <id>_shared(f, x, o) of a technique that shares samples; o: quad_offset()
 #ifndef BN_TECHNIQUES_H
 #define BN_TECHNIQUES_H
 
@@ -58,7 +58,7 @@ template <class Tag> BN_FN line_record technique_shared(frame_ref f, Tag, const 
 #define technique_ref int
 #define technique_traits(m, t) the_material(m).technique_traits
 
-layout(constant_id = 0) const int kTechniques = -1; // of the frame's materials, a bit a place in models.def
+layout(constant_id = 0) const int kTechniques = -1; // techniques of the frame's materials: one bit per index in models.def
 
 real3 technique_specular(frame_ref f, technique_ref technique, shaded_point x)
 {
@@ -73,7 +73,7 @@ real3 technique_specular(frame_ref f, technique_ref technique, shaded_point x)
 
 line_record technique_shared(frame_ref f, technique_ref technique, shaded_point x, real offset)
 {
-    int at = -1; // of the technique before
+    int at = -1; // index of the technique line before
     line_record r;
 #define BN_TECHNIQUE(id, sampling, default_samples, most_samples, traits, summary) ++at;
 #define BN_SHARING(id)                                                                                                                     \

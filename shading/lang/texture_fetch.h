@@ -1,5 +1,5 @@
-// What the textures of a material hold at visible points, in lanes. Where taps lie and what they weigh is found once for all textures that
-// are laid out alike, as the maps of one material mostly are; only their texels differ then. The bits are those of each texture by itself.
+// Texture fetches of a material at visible points, in lanes. Textures with the same layout share tap places and weights, as
+// the maps of one material mostly do. Then only the texels differ. The bits equal separate fetches.
 #pragma once
 #include "core/simd/lanes.h"
 #include "shading/kernels/texture_filter.k.h"
@@ -14,11 +14,11 @@ struct texture_fetches {
     static constexpr int kMostTaps = 16;
 
     const TextureParams* textures;
-    const TextureBinding* bindings; // of the material, by slot
+    const TextureBinding* bindings; // the material's, by slot
     const visible_point& p;
     int most_taps; // 1 to kMostTaps
 
-    // Made for a texture when it is asked for, and used again for those like it.
+    // The plan of the last texture that had to be planned; later textures with the same layout reuse it.
     mutable const TextureBinding* planned = nullptr;
     mutable int count = 0;
     mutable texel_plan plans[2 * kMostTaps];
@@ -29,6 +29,7 @@ struct texture_fetches {
     }
 };
 
+// Returns true where two bindings give the same taps.
 BN_INLINE bool laid_out_alike(const TextureParams* textures, const TextureBinding& a, const TextureBinding& b)
 {
     const TextureParams &s = textures[a.texture], &t = textures[b.texture];
@@ -45,7 +46,7 @@ BN_INLINE texture_desc desc_of(const TextureParams& texture)
             texture.levels, texture.wrap_s, texture.wrap_t,      texture.nearest};
 }
 
-// The lanes with the longest footprint decide how many taps there are.
+// Plans all taps of a texture. The lane with the longest footprint sets the number of taps.
 BN_STAGE void plan_texture(const texture_fetches& t, const TextureBinding& b)
 {
     const TextureParams& texture = t.textures[b.texture];
@@ -62,7 +63,7 @@ BN_STAGE void plan_texture(const texture_fetches& t, const TextureBinding& b)
     store(most, reduce_max(footprint.taps));
     const texture_taps taps = texture_taps_of(desc, place.uv, footprint);
     const int n = static_cast<int>(most[0]);
-    const bool between = any(taps.f > lit(0.0)); // else the coarser level weighs nothing, as where texels are larger than pixels
+    const bool between = any(taps.f > lit(0.0)); // else the coarser level has weight 0, as under magnification
     int count = 0;
     for (int i = 0; i < n; ++i) {
         const texture_tap tap = texture_tap_at(taps, i);
@@ -73,6 +74,7 @@ BN_STAGE void plan_texture(const texture_fetches& t, const TextureBinding& b)
     t.count = count;
 }
 
+// Loads and adds the planned taps.
 BN_STAGE real4 load_planned(const texture_fetches& t, texel_buffer texels)
 {
     texel_acc acc = texel_zero();

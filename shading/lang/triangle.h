@@ -1,10 +1,11 @@
-// What assembly may ask of the triangles that its fragments are of; stage.h knows the rest.
+// Functions that assembly may call for the triangle under its fragments; stage.h has the others.
 //   triangle_ref t                          has the members of a triangle_setup
-//   blend_vertices(f, t, b, all_words, a)   the words of its vertices (DrawTables::shading), weighted by b, to vertex_words a: the first 8,
+//   blend_vertices(f, t, b, all_words, a)   blends the vertices' words (DrawTables::shading) by weights b into vertex_words
+//   a: the first 8,
 //                                           or all 16
-//   vertex_coordinates(f, t, k)             words 8 to 11 of its vertex k: both sets of texture coordinates
-//   vertex_place(f, t, k)                   of its vertex k, world space, metres
-// In C++ who includes assembly has them.
+//   vertex_coordinates(f, t, k)             words 8 to 11 of vertex k: both sets of texture coordinates
+//   vertex_place(f, t, k)                   position of vertex k, world space, metres
+// In C++, the file that includes assembly defines these functions.
 #ifndef BN_TRIANGLE_H
 #define BN_TRIANGLE_H
 

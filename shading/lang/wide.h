@@ -1,6 +1,6 @@
-// Doubles that all lanes share, for assembly that floats are too coarse for: uniform_wide; wide_of(x) of a float or an int, wide_min,
-// wide_max; float(w) and int(w) of one. A stage that defines BN_WIDE requires doubles. Without it floats stand in their place, for devices
-// that have none.
+// Doubles that all lanes share, for assembly that needs more than float precision. Provides uniform_wide, wide_of(x) for a
+// float or an int, wide_min, wide_max; float(w) and int(w) convert back. A GLSL stage that defines BN_WIDE requires
+// doubles; without BN_WIDE, floats replace them for devices that have none.
 #ifndef BN_WIDE_H
 #define BN_WIDE_H
 

@@ -1,4 +1,4 @@
-// Area lights' points.
+// Points of area lights.
 #ifndef BN_AREA_POINT_T_H
 #define BN_AREA_POINT_T_H
 
@@ -7,7 +7,7 @@
 
 BN_KERNELS_BEGIN
 
-// Point k of a light, world space; of a disk 1 and 2 are its half axes.
+// Returns point k of a light, world space; for a disk, points 1 and 2 are its half axes.
 BN_FN real3 area_point(frame_ref f, int light, int k)
 {
     return vec3_of(splat(the_area_light(f, light).points[3 * k]), splat(the_area_light(f, light).points[3 * k + 1]),

@@ -1,4 +1,4 @@
-// The environment with its key lights, as it is seen where no triangle is.
+// The environment with its key lights, as seen where no triangle is.
 #ifndef BN_BACKGROUND_T_H
 #define BN_BACKGROUND_T_H
 
@@ -8,19 +8,19 @@
 
 BN_KERNELS_BEGIN
 
-// texel: what level 0 of whole_cube() holds in a direction.
+// Converts a texel to radiance. texel: level 0 of whole_cube() in a direction.
 BN_FN real3 radiance_of_texel(frame_ref f, real3 texel)
 {
     return texel * splat(the_frame(f).whole.scale);
 }
 
-// direction: of any length.
+// Returns the environment's radiance. direction: any length.
 BN_FN real3 environment_radiance(frame_ref f, real3 direction)
 {
     return radiance_of_texel(f, cube_sample_level(whole_cube(f), direction, 0));
 }
 
-// view: the frame's. x, y: pixel.
+// Returns the ray through a pixel centre, not unit. view: the frame's. x, y: pixel.
 BN_FN real3 background_ray(frame_ref f, BN_IN(view_params) view, integer x, integer y)
 {
     return ray_to(place_of_center(f, view, x, y), view);

@@ -1,4 +1,4 @@
-// Light of the environment: what is made of a technique's result for the specular lobe.
+// Environment light of a fragment, from a technique's specular result.
 #ifndef BN_ENVIRONMENT_T_H
 #define BN_ENVIRONMENT_T_H
 
@@ -9,22 +9,26 @@
 
 BN_KERNELS_BEGIN
 
-// traits: of the technique. What is left of a lobe that the technique took for the usual one, whole, upright and above the horizon.
+// Returns the specular light after corrections for masking, tilt and horizon. A technique that does not sample the lobe
+// takes it for the default one: untilted and entirely above the horizon. traits: the technique's.
 BN_FN real3 seen_of_lobe(frame_ref f, BN_IN(shaded_point) x, int traits, real3 specular)
 {
     real3 left = specular;
+    // Scale to the substitute lobe's albedo
     if (stands_in(f) && (traits & kSamplesLobe) == 0) {
         left = specular * x.shown;
-        if (lies_in_surface(f)) // the horizon's part is in it
+        if (lies_in_surface(f)) // the factor covers the horizon too
             return left;
     }
+    // Fade at the surface's horizon
     if (x.turned && (traits & kTestsHorizon) == 0)
         return left * horizon_fade(x.lobe, x.s.n, x.s.v, x.surface_axes.n);
     return left;
 }
 
-// What the diffuse part is lit by: the mean radiance over the cosine-weighted directions about the normal. Of those, a share of
-// (1 - n.N) / 2 lies below the horizon of a surface whose own normal is N, where the light is taken to be what its back would have.
+// Returns the mean radiance over cosine-weighted directions about the normal n, for the diffuse part. On a surface with
+// geometric normal N, a share of (1 - n.N) / 2 lies below the horizon. Subtract for it the light that the surface's back
+// would receive.
 BN_FN real3 irradiance_at(frame_ref f, BN_IN(shaded_point) x)
 {
     real3 whole = cube_sample(irradiance_cube(f), x.s.n, lit(0.0)) * splat(the_frame(f).irradiance.scale);
@@ -35,23 +39,26 @@ BN_FN real3 irradiance_at(frame_ref f, BN_IN(shaded_point) x)
     return max(whole - back * below, vec3_all(lit(0.0)));
 }
 
-// specular: of the technique. Occlusion dims all of it.
+// Returns environment light. specular: from the technique. Occlusion dims everything.
 BN_FN real3 environment_light(frame_ref f, BN_IN(shaded_point) x, int traits, real3 specular)
 {
+    // Scale and correct the specular part
     real3 scaled = specular * x.gain * splat(the_frame(f).specular.scale);
     real3 seen = seen_of_lobe(f, x, traits, scaled);
+    // Return it alone on metals
     if (!x.diffuse) {
-        real3 alone = (seen + vec3_all(lit(0.0))) * x.s.occlusion; // as if nothing were added
+        real3 alone = (seen + vec3_all(lit(0.0))) * x.s.occlusion; // adds 0 to keep the bits of the sum below
         return alone;
     }
+    // Add the diffuse part
     real passed = passed_to_diffuse(f, x);
     real3 irradiance = irradiance_at(f, x);
     real3 sum = (seen + x.s.diffuse * irradiance * passed) * x.s.occlusion;
     return sum;
 }
 
-// Of a fragment whose technique shares samples. r: what it found, `rest` being what a technique returns that shares none; more: light that
-// is not the environment's.
+// Completes the record of a fragment whose technique shares samples. r: the technique's result; `rest` is what an unshared
+// technique returns. more: light from other sources.
 BN_FN line_record shared_light(frame_ref f, BN_IN(shaded_point) x, int traits, line_record r, real3 more)
 {
     real3 whole = x.albedo * x.gain * splat(the_frame(f).specular.scale);

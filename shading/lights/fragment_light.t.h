@@ -1,4 +1,4 @@
-// All light that a fragment gives off towards the eye: what is made of a material's inputs at a visible point.
+// All light from a fragment towards the eye, from a material's inputs at a visible point.
 #ifndef BN_FRAGMENT_LIGHT_T_H
 #define BN_FRAGMENT_LIGHT_T_H
 
@@ -18,32 +18,35 @@
 
 BN_KERNELS_BEGIN
 
-// lobe: that lights meet, its place in shading/models.def.
+// Returns reflected light from key lights. lobe: the lobe for lights, its index in shading/models.def.
 BN_STAGE real3 light_of_sky(any_frame f, BN_IN(shaded_point) x, int lobe)
 {
     return light_from_key_lights(f, x, lobe, false);
 }
 
+// Returns reflected light from punctual lights.
 BN_STAGE real3 light_of_lamps(any_frame f, BN_IN(shaded_point) x, int lobe, BN_IN(real3) position)
 {
     return light_from_punctual(f, x, lobe, position);
 }
 
+// Returns reflected light from area lights.
 BN_STAGE real3 light_of_area_lights(any_frame f, BN_IN(shaded_point) x, int lobe, BN_IN(real3) position)
 {
     return light_from_area(f, x, lobe, position, false);
 }
 
 struct coat_light {
-    real passed; // share of the light of what lies below the coat, its own with it
-    real3 gloss; // what the coat adds
+    real passed; // transmittance for the layer below, its emission included
+    real3 gloss; // the coat's own light
 };
 
-// traits: of the technique; one that samples lobes samples the coat's, too, and the others take the coat's part of the environment from one
-// prefiltered fetch.
+// Shades a clear coat. traits: the technique's. A technique that samples lobes samples the coat's too; the others take the
+// coat's environment light from one prefiltered fetch.
 BN_STAGE coat_light light_of_coat(any_frame f, any_material m, BN_IN(material_inputs) at, BN_IN(visible_point) p, integer pixel_id,
                                   int traits)
 {
+    // Make a point for the coat
     surface_frame axes = seen_axes(p);
     real3 v = k_normalize3(-p.ray);
     coat_layer coat = coat_of(f, m, at, axes, v, seen_handedness(p));
@@ -51,25 +54,29 @@ BN_STAGE coat_light light_of_coat(any_frame f, any_material m, BN_IN(material_in
     c.pixel_id = pixel_id;
     make_coat_point(f, coat, axes, v, at.occlusion, texture_used(m, kCoatNormalTex) && the_frame(f).horizon != 0, c);
     int lobe = lobe_that_has(kLobeOfRound);
+    // Add environment light
     real3 light = vec3_all(lit(0.0));
     if ((traits & kSamplesLobe) != 0)
         light = environment_light(f, c, kSamplesLobe + kTestsHorizon, mc_of_lobe(f, c, placed_coat(c)));
     else
         light = environment_light(f, c, kSamplesLobe, split_isotropic_specular(f, c));
+    // Add key lights, lamps and area lights
     if (the_frame(f).key_light_count > 0)
         light = light + light_from_key_lights(f, c, lobe, true);
     if (the_frame(f).light_count > 0)
         light = light + light_from_punctual(f, c, lobe, p.position);
     if (the_frame(f).area_light_count > 0)
         light = light + light_from_area(f, c, lobe, p.position, true);
+    // Return the coat's light and transmittance
     coat_light r;
     r.passed = lit(1.0) - coat.weight;
     r.gloss = light;
     return r;
 }
 
-// Share of a round facet's light that comes from above the surface's horizon, about: half of it where what the eye sees mirrored lies in
-// the horizon, and so on by the lobe's slopes. Facets that are seen at grazing angles reflect above that.
+// Estimates the share of a round facet's light from above the surface's horizon. The share is a half where the eye's mirror
+// direction lies in the horizon, and grows with height over the lobe's slopes. Facets seen at grazing angles reflect from
+// above that direction.
 BN_FN real facet_share(BN_IN(shaded_point) x)
 {
     if (!x.turned)
@@ -94,8 +101,9 @@ BN_FN real3 plus_lights(frame_ref f, material_ref m, BN_IN(shaded_point) x, real
     return light;
 }
 
-// Light of a surface whose facets are all below a pixel: each is shaded by itself, by a round lobe. Techniques that sample lobes sample
-// these. The others take a prefiltered fetch of the environment each, weighted by facet_share(), whose mean is what groups keep.
+// Shades a surface whose facets are all smaller than a pixel: shades each group of facets with a round lobe. Techniques
+// that sample lobes sample these lobes. The others take one prefiltered fetch each, weighted by facet_share(); the mean is
+// scaled to the light that the groups keep.
 BN_STAGE real3 light_of_facets(any_frame f, any_material m, BN_IN(material_inputs) at, BN_IN(visible_point) p, integer pixel_id, int traits)
 {
     bool samples = (traits & kSamplesLobe) != 0;
@@ -104,16 +112,19 @@ BN_STAGE real3 light_of_facets(any_frame f, any_material m, BN_IN(material_input
     real shares = lit(0.0);
     real groups = lit(1.0);
     for (int k = 0; k < the_material(m).facets; ++k) {
+        // Make a point for the group
         facet_words words = facet_words_of(m, k);
         material_inputs facet = facet_inputs(m, at, words);
         lobe_shape shape = facet_shape(facet, words);
         shaded_point x;
         make_shaded_point(f, m, facet, shape, p, pixel_id, x);
         keep_light_of_facets(f, m, facet, lit(1.0), x);
-        real3 specular = vec3_all(lit(0.0)); // and of a lobe that only punctual lights meet
+        real3 specular = vec3_all(lit(0.0)); // stays 0 for a lobe that only punctual lights meet
+        // Find its environment light, by samples or by a fetch
         bool met = (the_frame(f).lobe_traits & kPunctualOnly) == 0;
         if (met && samples)
             specular = mc_of_lobe(f, x, placed_lobe_at(f, x));
+        // Weight the fetch by its share above the horizon
         if (met && !samples) {
             real share = words.weight * facet_share(x);
             shares = shares + share;
@@ -121,35 +132,43 @@ BN_STAGE real3 light_of_facets(any_frame f, any_material m, BN_IN(material_input
             if (x.turned)
                 groups = facet_light_of(m, k_dot3(x.surface_axes.n, x.s.v)).groups;
         }
+        // Add the lights, weighted by the group's share of the map
         real3 light = environment_light(f, x, kSamplesLobe + kTestsHorizon, specular);
         light = plus_lights(f, m, x, p.position, light);
         sum = sum + light * words.weight;
     }
+    // Scale the fetches to the light that the groups keep
     real scale = groups / max(shares, lit(1e-3));
     return sum + fetched * (scale * splat(the_frame(f).specular.scale));
 }
 
-// shape: lobe_shape_at(f, m, at, p). px, py: pixel. shares: the technique shares samples, and fragments meet their neighbours; the colour
-// is then made of what they all found (line_mean).
+// Shades a fragment. shape: lobe_shape_at(f, m, at, p). px, py: pixel. shares: the technique shares samples, and fragments
+// can read their neighbours; line_mean then makes the colour from all their samples.
 BN_FN line_record light_of_fragment(frame_ref f, material_ref m, technique_ref t, BN_IN(material_inputs) at, BN_IN(lobe_shape) shape,
                                     BN_IN(visible_point) p, integer px, integer py, bool shares)
 {
+    // Take the material's own emission
     real3 light = own_light(m, at);
     if (the_material(m).unlit != 0)
         return line_alone(light);
+    // Make the shaded point
     shaded_point x;
     make_shaded_point(f, m, at, shape, p, py * int_lit(the_frame(f).width) + px, x);
+    // Add environment light and lights
     int traits = technique_traits(m, t);
     if (!shares)
         light = environment_light(f, x, traits, technique_specular(f, t, x)) + light;
     light = plus_lights(f, m, x, p.position, light);
+    // Keep the shared part apart
     line_record r;
     if (shares)
         r = shared_light(f, x, traits, technique_shared(f, t, x, quad_offset(px & int_lit(1), py & int_lit(1))), light);
     else
         r = line_alone(light);
+    // Blend to facets far away
     if (texture_used(m, kNormalTex) && the_material(m).facets > 0) {
         real far = facets_seen(m, at, x);
+        // Shade the facets only where a lane sees them
         if (any_lane(far > lit(0.0))) {
             real3 facets = own_light(m, at) + light_of_facets(f, m, at, p, x.pixel_id, traits);
             if (shares)
@@ -157,6 +176,7 @@ BN_FN line_record light_of_fragment(frame_ref f, material_ref m, technique_ref t
             r.rest = r.rest + (facets - r.rest) * far;
         }
     }
+    // Put the coat over it
     if (coats_used() && the_material(m).coated != 0) {
         coat_light coat = light_of_coat(f, m, at, p, x.pixel_id, traits);
         if (shares)

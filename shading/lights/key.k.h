@@ -1,18 +1,19 @@
-// How much of a GGX lobe an evenly bright ellipse on the sky fills. A normal of slopes s mirrors the eye to the direction that it shows, so
-// the light is an ellipse among slopes too; divided by the lobe's widths, the slopes have the density 1 / (pi (1 + |s|^2)^2).
+// The share of a GGX lobe that an evenly bright ellipse on the sky fills. A normal with slopes s mirrors the eye to one
+// direction, so the light is an ellipse among slopes, too. Divided by the lobe's widths, slopes have the density 1 / (pi (1
+// + |s|^2)^2).
 //
-// That density is an even one on a sphere, seen in stereographic projection. A disc of radius R whose centre lies at distance d is a cap,
-// whose share of the sphere is exactly (1 - A / sqrt(A^2 + 4 R^2)) / 2 with A = 1 + d^2 - R^2: a point's for small R, a sharp disc for
-// large R. An ellipse of half axes R1 > R2 is taken in one of two ways.
-//  - Round ones: the share of the lobe widened by it, whose squared widths are 1 + R1^2 and 1 + R2^2, or rather of a disc in it whose R^2
-//  is
-//    K = 2 R1^2 R2^2 / (R1^2 + R2^2), so that the edge is sharp where both axes are long. Exact for discs and for points.
-//  - Long ones, as the sun is to a lobe that is much narrower across than along: a needle along the long axis, which holds as much light
-//    along it as the ellipse does, in the lobe widened by R2 alone. With x along and y across the needle, B^2 = 1 + y^2 and A = B^2 + x^2 -
-//    R1^2, b = sqrt(A^2 + 4 R1^2 B^2), the integral of the density under a semicircle (its Hilbert transform, differentiated by B) is
-//    2 R1 R2 sqrt(1 + 2 R1^2 / (b + A)) / (b (b + A)). Exact for R2 = 0.
-// Both are exact at the ellipse's centre. Between 1 : 3 and 2 : 3 one blends into the other. Against quadrature the share is off by at most
-// 0.03 of its peak for R1 <= 1 and, where edges are sharp, by 0.15 there.
+// That density is uniform on a sphere under stereographic projection. A disc of radius R with its centre at distance d is a
+// spherical cap. The cap's share of the sphere is exactly (1 - A / sqrt(A^2 + 4 R^2)) / 2 with A = 1 + d^2 - R^2: a point's
+// share for small R, a sharp disc for large R. An ellipse with half axes R1 > R2 uses one of two methods.
+// - Round ellipses: widen the lobe by the ellipse, to squared widths 1 + R1^2 and 1 + R2^2. In it take a disc with R^2 = K
+//   = 2 R1^2 R2^2 / (R1^2 + R2^2), so that the edge is sharp where both axes are long. Exact for discs and points.
+// - Long ellipses, such as the sun in a lobe that is much narrower across than along: take a needle along the long axis in
+//   the lobe widened by R2 alone. The needle holds as much light along it as the ellipse. With x along and y across the
+//   needle, B^2 = 1 + y^2, A = B^2 + x^2 - R1^2 and b = sqrt(A^2 + 4 R1^2 B^2), the integral of the density under a
+//   semicircle (its Hilbert transform, differentiated by B) is 2 R1 R2 sqrt(1 + 2 R1^2 / (b + A)) / (b (b + A)). Exact for
+//   R2 = 0.
+// Both are exact at the ellipse's centre. One blends into the other between 1 : 3 and 2 : 3. Errors are largest at sharp
+// edges, where R1 > 1.
 #ifndef BN_KEY_K_H
 #define BN_KEY_K_H
 
@@ -21,15 +22,15 @@
 
 BN_KERNELS_BEGIN
 
-// An ellipse among slopes over the lobe's widths.
+// An ellipse among slopes, in units of the lobe's widths.
 struct slope_ellipse {
     real2 centre;
     real xx, yy, xy; // u u' + v v' of its half axes u and v
-    real area;       // over pi: |u x v|
+    real area;       // |u x v|: area over pi
     real beside;     // |u x centre|^2 + |v x centre|^2
 };
 
-// u, v: half axes; any two that are conjugate to each other. part: what is taken of its area, about its centre, (0,1].
+// Makes an ellipse. u, v: half axes, or any two conjugate radii. part: share of the area to keep about its centre, (0,1].
 BN_FN slope_ellipse slope_ellipse_of(real2 centre, real2 u, real2 v, real part)
 {
     slope_ellipse r;
@@ -44,7 +45,7 @@ BN_FN slope_ellipse slope_ellipse_of(real2 centre, real2 u, real2 v, real part)
     return r;
 }
 
-// The share of a round one, [0,1].
+// Returns a round ellipse's share of the lobe, [0,1].
 BN_FN real ggx_share_of_disc(slope_ellipse e)
 {
     real one = lit(1.0);
@@ -60,9 +61,10 @@ BN_FN real ggx_share_of_disc(slope_ellipse e)
     return share;
 }
 
+// An ellipse in its own axes.
 struct slope_needle {
     real along2, across2; // squared half axes, along2 >= across2
-    real x2, y2;          // squares of the centre along and across
+    real x2, y2;          // squared centre coordinates along and across
 };
 
 BN_FN slope_needle slope_needle_of(slope_ellipse e)
@@ -72,7 +74,7 @@ BN_FN slope_needle slope_needle_of(slope_ellipse e)
     slope_needle r;
     r.along2 = lit(0.5) * (e.xx + e.yy) + root;
     r.across2 = e.area * e.area / max(r.along2, lit(1e-20));
-    // the eigenvector of along2, from whichever row keeps its digits
+    // Take the eigenvector of along2 from the row that keeps its digits
     mask wide = h >= lit(0.0);
     real x = select(wide, root + h, e.xy);
     real y = select(wide, e.xy, root - h);
@@ -84,7 +86,7 @@ BN_FN slope_needle slope_needle_of(slope_ellipse e)
     return r;
 }
 
-// area: of the ellipse, over pi.
+// Returns a needle's share of the lobe. area: the ellipse's, over pi.
 BN_FN real ggx_share_of_needle(slope_needle e, real area)
 {
     real one = lit(1.0);
@@ -97,24 +99,26 @@ BN_FN real ggx_share_of_needle(slope_needle e, real area)
     return share;
 }
 
-// The most that it can be: all of the ellipse where it comes nearest to the lobe's centre.
+// Returns an upper bound of the share: the ellipse's area times the density at its nearest point to the lobe's centre.
 BN_FN real ggx_most_of_ellipse(slope_ellipse e)
 {
     real one = lit(1.0);
     real c2 = k_dot2(e.centre, e.centre);
-    real reach = sqrt(max((e.xx + e.yy) * c2 - e.beside, lit(0.0))); // towards the lobe's centre, times the distance
+    real reach = sqrt(max((e.xx + e.yy) * c2 - e.beside, lit(0.0))); // reach towards the lobe's centre, times the distance
     real rest = max(c2 - reach, lit(0.0));
     real near2 = one + rest * rest / max(c2, lit(1e-20));
     real most = e.area / (near2 * near2);
     return most;
 }
 
+// Returns an ellipse's share of the lobe, [0,1].
 BN_FN real ggx_share_of_ellipse(slope_ellipse e)
 {
     real disc = ggx_share_of_disc(e);
     mask small = e.xx + e.yy <= lit(0.01);
     if (no_lane(not_(small)))
         return disc;
+    // Blend to the needle where the ellipse is long, thin and soft
     slope_needle n = slope_needle_of(e);
     real longer = k_saturate((n.along2 - lit(0.01)) * lit(30.0));
     real thin = k_saturate(lit(1.3333333333333333) - lit(3.0) * n.across2 / max(n.along2, lit(1e-20)));
@@ -122,7 +126,7 @@ BN_FN real ggx_share_of_ellipse(slope_ellipse e)
     real part = longer * thin * soft;
     part = select(small, lit(0.0), part);
     real share = disc + (ggx_share_of_needle(n, e.area) - disc) * part;
-    mask large = e.xx + e.yy > lit(1.0); // of long ones that are not thin the disc's tail is too bright
+    mask large = e.xx + e.yy > lit(1.0); // the disc's tail is too bright for long ellipses that are not thin
     if (any_lane(large))
         share = select(large, min(share, ggx_most_of_ellipse(e)), share);
     return share;

@@ -1,4 +1,5 @@
-// Light of the environment's key lights, which its prefiltered cubes leave out: evenly bright ellipses on the sky, met by the lobe itself.
+// Reflected light from the environment's key lights: evenly bright ellipses on the sky, evaluated with the lobe itself. The
+// prefiltered cubes leave them out.
 #ifndef BN_KEY_T_H
 #define BN_KEY_T_H
 
@@ -9,36 +10,40 @@
 
 BN_KERNELS_BEGIN
 
-// `mc` samples lobes whose normals are not GGX's, and interfaces, with the lights in their place.
+// Returns true where `mc` samples the key lights with the environment: for interfaces and lobes without GGX normals.
 BN_FN bool keys_are_sampled(frame_ref f, BN_IN(shaded_point) x, bool coat)
 {
     return lobe_met_has(f, coat, kNormals_own) || x.refracts;
 }
 
-struct key_lobe { // the lobe that lights meet
+struct key_lobe { // the lobe under key lights
     aniso_lobe lobe;
     placed_lobe placed;
     real3 eye;     // in the lobe's own frame
     real2 inverse; // 1 over its widths
 };
 
-// model: what punctual lights meet; where it is round, the frame's lobe is taken for one of the same roughness, too.
+// Makes the lobe. model: the lobe for punctual lights. Where it is round, the frame's lobe also becomes round, with the
+// same roughness.
 BN_FN key_lobe key_lobe_of(frame_ref f, BN_IN(shaded_point) x, int model, bool coat)
 {
     real root2 = lit(1.4142135623730951);
     real one = lit(1.0);
     key_lobe r;
+    // Make the lobe round where the lights' lobe is
     r.lobe = x.lobe;
     if (lobe_has(model, kLies_round)) {
         r.lobe.sigma_u = x.s.roughness * x.s.roughness * lit(0.70710678118654752);
         r.lobe.sigma_v = r.lobe.sigma_u;
     }
+    // Place the lobe, and find the eye in its frame
     r.placed = placed_lobe_of(lobe_met(f, coat), r.lobe, x.s.n, x.s.v, x.surface_axes);
     r.eye = r.placed.o;
     if (lobe_met_has(f, coat, kLies_surface))
         r.eye = to_lobe(r.lobe, x.s.n, x.s.v);
-    // masking alone: normals of silhouettes may look away from the eye, and lobes flare up there
+    // For masking only: normals at silhouettes may face away from the eye, and lobes flare up there
     r.placed.o.z = max(r.placed.o.z, lit(0.02));
+    // Find the inverse widths
     real alpha_u = r.lobe.sigma_u * root2;
     real alpha_v = r.lobe.sigma_v * root2;
     r.inverse = vec2_of(one / usable_alpha(alpha_u), one / usable_alpha(alpha_v));
@@ -46,23 +51,26 @@ BN_FN key_lobe key_lobe_of(frame_ref f, BN_IN(shaded_point) x, int model, bool c
 }
 
 struct key_reflection {
-    real lobe;    // what the specular lobe gives off over the light's radiance, without Fresnel
-    real cosine;  // of the light at the surface, for the diffuse part
+    real lobe;    // specular radiance over the light's radiance, without Fresnel
+    real cosine;  // the light's cosine at the surface, for the diffuse part
     real v_dot_h; // for Fresnel
 };
 
-// light: number of a key light.
+// Computes the reflection of key light number `light`.
 BN_FN key_reflection key_reflection_of(frame_ref f, BN_IN(shaded_point) x, BN_IN(key_lobe) lobe, int light, bool coat)
 {
+    // Test the lobe's horizon and the surface's own
     real3 direction = splat3(the_frame(f).key_lights[light].direction);
     real3 l = to_lobe(lobe.lobe, x.s.n, direction);
     real3 in_place = l;
     if (lobe_met_has(f, coat, kLies_surface))
         in_place = to_frame(lobe.placed.axes, direction);
     mask risen = in_place.z > lit(0.0);
+    // Set up the diffuse part; stop where the light is hidden or sampled
     key_reflection r;
     r.lobe = lit(0.0);
     r.cosine = max(l.z, lit(0.0));
+    // Test the surface's own horizon
     if (x.turned) {
         mask above = k_dot3(x.surface_axes.n, direction) > lit(0.0);
         risen = both(risen, above);
@@ -71,9 +79,11 @@ BN_FN key_reflection key_reflection_of(frame_ref f, BN_IN(shaded_point) x, BN_IN
     r.v_dot_h = lit(0.0);
     if (no_lane(risen) || keys_are_sampled(f, x, coat))
         return r;
+    // Transform the light's half axes to the lobe's frame
     real3 u = to_lobe(lobe.lobe, x.s.n, splat3(the_frame(f).key_lights[light].axis_u));
     real3 v = to_lobe(lobe.lobe, x.s.n, splat3(the_frame(f).key_lights[light].axis_v));
     real3 h = l + lobe.eye; // twice as long as the cosine between eye and half vector
+    // Find the light's centre among slopes, in lobe widths
     real h2 = k_dot3(h, h);
     real up = lit(1.0) / max(h.z, lit(1e-4));
     real slope_x = h.x * up;
@@ -81,22 +91,23 @@ BN_FN key_reflection key_reflection_of(frame_ref f, BN_IN(shaded_point) x, BN_IN
     real over_x = up * lobe.inverse.x;
     real over_y = up * lobe.inverse.y;
     real2 centre = vec2_of(slope_x * lobe.inverse.x, slope_y * lobe.inverse.y);
-    // slopes change by (w.xy - slope w.z) / h.z as the light moves by w
+    // Slopes change by (w.xy - slope w.z) / h.z as the light moves by w
     real2 at_u = vec2_of((u.x - slope_x * u.z) * over_x, (u.y - slope_y * u.z) * over_y);
     real2 at_v = vec2_of((v.x - slope_x * v.z) * over_x, (v.y - slope_y * v.z) * over_y);
-    // as far as the light reaches a quarter of the way to where half vectors lie level and slopes have no end
+    // Keep the ellipse within a quarter of the way to level half vectors, where slopes become infinite
     real steep = lit(16.0) * (u.z * u.z + v.z * v.z) * up * up;
     real parts = max(steep, lit(1.0));
+    // Integrate the lobe over the ellipse
     slope_ellipse ellipse = slope_ellipse_of(centre, at_u, at_v, lit(1.0) / parts);
     real share = min(ggx_share_of_ellipse(ellipse) * parts, lit(1.0));
-    real value = lit(2.0) * h2 * up * share * placed_lobe_masking(lobe.placed, in_place); // D dl = share 4 (v.h) / h.z, of the unit h
+    real value = lit(2.0) * h2 * up * share * placed_lobe_masking(lobe.placed, in_place); // D dl = share 4 (v.h) / h.z, for the unit h
     r.lobe = select(risen, value, lit(0.0));
     real half_length = lit(0.5) * sqrt(h2);
     r.v_dot_h = k_saturate(half_length);
     return r;
 }
 
-// What a mirror shows of the lights: the picture with them less that without.
+// Returns the key lights in a mirror: the picture with them minus the picture without.
 BN_FN real3 key_lights_mirrored(frame_ref f, BN_IN(shaded_point) x, BN_IN(placed_lobe) lobe)
 {
     real3 r = x.s.n * (lit(2.0) * k_dot3(x.s.n, x.s.v)) - x.s.v;
@@ -108,25 +119,30 @@ BN_FN real3 key_lights_mirrored(frame_ref f, BN_IN(shaded_point) x, BN_IN(placed
     return shown;
 }
 
-// Lobes narrower than any that is evaluated blend into a mirror, which shows the lights as the environment has them. Occlusion dims all of
-// it. Of lobes that are sampled with the lights in their place only mirrors meet them here, and the diffuse part. model: see key_lobe_of().
-// coat: x is one.
+// Returns reflected light from all key lights. Lobes narrower than the narrowest evaluated one blend into a mirror, which
+// shows the lights as the environment has them. Occlusion dims everything. Where samples meet the lights with the
+// environment, only mirrors and the diffuse part are evaluated here. model: see key_lobe_of(). coat: x is a coat.
 BN_FN real3 light_from_key_lights(frame_ref f, BN_IN(shaded_point) x, int model, bool coat)
 {
     key_lobe lobe = key_lobe_of(f, x, model, coat);
     real3 specular = vec3_all(lit(0.0));
     real3 irradiance = vec3_all(lit(0.0));
+    // Sum the lights' specular and diffuse parts
     for (int i = 0; i < the_frame(f).key_light_count; ++i) {
+        // Evaluate the lobe with Fresnel
         key_reflection r = key_reflection_of(f, x, lobe, i, coat);
         real3 fresnel = reflectance_of(x.s, r.v_dot_h);
         specular = specular + splat3(the_frame(f).key_lights[i].radiance) * fresnel * r.lobe;
+        // Add irradiance for the diffuse part
         real fallen = r.cosine;
         if (the_frame(f).diffuse_model != 0)
             fallen = fallen * diffuse_lit(f, r.cosine);
         irradiance = irradiance + splat3(the_frame(f).key_lights[i].irradiance) * fallen;
     }
+    // Blend narrow lobes into a mirror
     real narrowness = lit(1.0) - lobe.lobe.sigma_u * lit(1414.2135623730951); // 0 from the least width on, alpha = 0.001
     real mirror = k_saturate(narrowness);
+    // Leave lobes that samples evaluate, unless they are mirrors
     if (keys_are_sampled(f, x, coat)) {
         real width = lobe.lobe.sigma_u + lobe.lobe.sigma_v;
         mirror = select(width <= lit(1e-6), lit(1.0), lit(0.0));
@@ -135,6 +151,7 @@ BN_FN real3 light_from_key_lights(frame_ref f, BN_IN(shaded_point) x, int model,
     }
     if (any_lane(mirror > lit(0.0)))
         specular = specular + (key_lights_mirrored(f, x, lobe.placed) - specular) * mirror;
+    // Apply gain and occlusion, and add the diffuse part
     real3 sum = specular * x.gain;
     if (x.diffuse) {
         real passed = passed_to_diffuse(f, x) * lit(0.31830988618379067);

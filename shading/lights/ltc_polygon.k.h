@@ -1,7 +1,7 @@
-// Light of polygons through a transformed cosine: the part of the lobe that lies in the polygon's cone, times its radiance what arrives.
-// Heitz, Dupuy, Hill, Neubelt 2016, section 4: N takes the polygon to where the lobe is a cosine, and there Lambert's sum over edges holds.
-// Corners are in the ellipse frame, relative to the shading point, in order, either way around; the polygon is convex and flat. Any unit of
-// length does, as only directions count.
+// Polygonal lights through a transformed cosine: the lobe's share inside the polygon's cone. That share times the polygon's
+// radiance gives the incoming light. Heitz, Dupuy, Hill, Neubelt 2016, section 4: N maps the polygon to where the lobe is a
+// cosine, and Lambert's sum over edges holds there. Corners are in the ellipse frame, relative to the shading point, in
+// order, either way around. The polygon is convex and flat. Any unit of length works, as only directions count.
 #ifndef BN_LTC_POLYGON_K_H
 #define BN_LTC_POLYGON_K_H
 #include "shading/kernels/math.k.h"
@@ -11,16 +11,17 @@
 BN_KERNELS_BEGIN
 
 struct ltc_polygon {
-    real3 corner[17]; // 16, and one more where a plane cuts it
+    real3 corner[17]; // 16, and one more where a plane clips the polygon
 };
 
 struct ltc_light {
-    real part;  // of the lobe, [0,1]
-    real3 flow; // where its light comes from in the cosine's space: the vector form factor of what is seen, or 0
+    real part;  // share of the lobe, [0,1]
+    real3 flow; // vector form factor of the visible part in the cosine's space, or 0
 };
 
-// Of the arc from a to b: its angle times the unit vector that it turns about; 0 where a and b are parallel. Scale does not matter, but |a|
-// |b| in [1e-12, 1e12]. By the arc's tangent, as its cosine has no digits of small angles and none that is safe of large ones.
+// Returns the arc from a to b: its angle times the unit vector of its rotation; 0 where a and b are parallel. Scale does
+// not matter, but |a| |b| must lie in [1e-12, 1e12]. The arc's tangent keeps the digits that its cosine lacks at small and
+// large angles.
 BN_FN real3 ltc_arc(real3 a, real3 b)
 {
     real3 c = k_cross(a, b);
@@ -29,14 +30,14 @@ BN_FN real3 ltc_arc(real3 a, real3 b)
     return c * (angle / sine);
 }
 
-// Of the arc along the horizon.
+// Returns an arc's part along the horizon.
 BN_FN real ltc_horizon_arc(real2 a, real2 b)
 {
     real sine = a.x * b.y - a.y * b.x;
     return k_atan2(sine, k_dot2(a, b));
 }
 
-// To the cosine's space, the largest coordinate of the corners 1 before.
+// Transforms a polygon to the cosine's space. Scales the largest coordinate of the corners to 1 first.
 BN_FN ltc_polygon ltc_polygon_to_cosine(BN_IN(ltc_lobe) lobe, BN_IN(ltc_polygon) polygon, int corners)
 {
     real largest = lit(1e-30);
@@ -52,7 +53,7 @@ BN_FN ltc_polygon ltc_polygon_to_cosine(BN_IN(ltc_lobe) lobe, BN_IN(ltc_polygon)
     return u;
 }
 
-// sum: of the arcs around what is seen.
+// Makes the light from the sum of arcs around the visible part.
 BN_FN ltc_light ltc_light_of(real3 sum)
 {
     ltc_light light;
@@ -62,24 +63,26 @@ BN_FN ltc_light ltc_light_of(real3 sum)
     return light;
 }
 
-// Of a polygon in the cosine's space that lies above its horizon or below.
+// Returns the light of a polygon in the cosine's space that lies entirely above or entirely below the horizon.
 BN_FN ltc_light ltc_uncut_light(BN_IN(ltc_polygon) u, int corners)
 {
     real3 sum = vec3_all(lit(0.0));
     for (int i = 0; i < corners; ++i) {
         sum = sum + ltc_arc(u.corner[i], u.corner[i + 1 < corners ? i + 1 : 0]);
     }
-    sum.z = sum.z + lit(0.0); // of no arc along the horizon: the bits are those of a polygon that is clipped
+    sum.z = sum.z + lit(0.0); // adds the missing arc along the horizon, for the same bits as a clipped polygon
     return ltc_light_of(select(u.corner[0].z > lit(0.0), sum, vec3_all(lit(0.0))));
 }
 
-// Clipped at the horizon of the cosine's space, exactly: what lies on it counts as below. A convex polygon goes down at most once, but a
-// flat one on the horizon may do so at every second edge by rounding; each of its pieces is closed along the horizon then.
+// Clips at the horizon of the cosine's space, exactly; corners on the horizon count as below. A convex polygon goes down at
+// most once. A flat one on the horizon may do so at every second edge by rounding; then each of its pieces is closed along
+// the horizon.
 BN_FN ltc_light ltc_polygon_light(BN_IN(ltc_lobe) lobe, BN_IN(ltc_polygon) polygon, int corners)
 {
     ltc_polygon u = ltc_polygon_to_cosine(lobe, polygon, corners);
     real2 rise = vec2_all(lit(0.0)); // where the boundary came up
     real2 cut[17];
+    // Return early where no edge crosses the horizon
     mask crosses = lit(1.0) < lit(0.0);
     for (int i = 0; i < corners; ++i) {
         mask a_up = u.corner[i].z > lit(0.0);
@@ -89,6 +92,7 @@ BN_FN ltc_light ltc_polygon_light(BN_IN(ltc_lobe) lobe, BN_IN(ltc_polygon) polyg
     if (no_lane(crosses)) {
         return ltc_uncut_light(u, corners);
     }
+    // Cut the edges at the horizon
     for (int i = 0; i < corners; ++i) {
         real3 a = u.corner[i];
         real3 b = u.corner[i + 1 < corners ? i + 1 : 0];
@@ -100,8 +104,9 @@ BN_FN ltc_light ltc_polygon_light(BN_IN(ltc_lobe) lobe, BN_IN(ltc_polygon) polyg
         cut[i] = vec2_of(a.x + (b.x - a.x) * t, a.y + (b.y - a.y) * t);
         rise = select(both(b_up, not_(a_up)), cut[i], rise);
     }
+    // Sum the arcs, and close the pieces along the horizon
     real3 sum = vec3_all(lit(0.0));
-    real2 fall = vec2_all(lit(0.0)); // where it goes down, and where it had come up: once in two edges at most
+    real2 fall = vec2_all(lit(0.0)); // where the boundary goes down, and where it came up before: at most once in two edges
     real2 risen = vec2_all(lit(0.0));
     for (int i = 0; i < corners; ++i) {
         real3 a = u.corner[i];
@@ -125,16 +130,18 @@ BN_FN ltc_light ltc_polygon_light(BN_IN(ltc_lobe) lobe, BN_IN(ltc_polygon) polyg
     return ltc_light_of(sum);
 }
 
-// What of a convex polygon lies above a plane through the shading point: a corner more than it has. Corners below go to where the boundary
-// comes up, and the one more is put before the first of them: where it goes down. Of a polygon below, all corners are one. normal: of the
-// plane, upwards.
+// Clips a convex polygon at a plane through the shading point; the result has one more corner. Corners below move to where
+// the boundary comes up. The extra corner precedes the first of them, where the boundary goes down. A polygon below the
+// plane collapses to one point. normal: the plane's, upwards.
 BN_FN ltc_polygon ltc_polygon_above(BN_IN(ltc_polygon) polygon, int corners, real3 normal)
 {
+    // Measure heights over the plane
     ltc_polygon r;
     real height[17];
     for (int i = 0; i < corners; ++i) {
         height[i] = k_dot3(polygon.corner[i], normal);
     }
+    // Find where the boundary comes up and goes down
     real3 rise = polygon.corner[0];
     real3 fall = rise;
     for (int i = 0; i < corners; ++i) {
@@ -150,8 +157,9 @@ BN_FN ltc_polygon ltc_polygon_above(BN_IN(ltc_polygon) polygon, int corners, rea
         rise = select(rises, at, rise);
         fall = select(falls, at, fall);
     }
-    mask fallen = lit(1.0) < lit(0.0); // past the place of the one more
+    mask fallen = lit(1.0) < lit(0.0); // past the extra corner's place
     real3 before = rise;               // the corner that moved on by one
+    // Write the corners, with the extra one inserted
     for (int i = 0; i < corners; ++i) {
         int next = i + 1 < corners ? i + 1 : 0;
         mask up = height[i] > lit(0.0);
@@ -165,14 +173,14 @@ BN_FN ltc_polygon ltc_polygon_above(BN_IN(ltc_polygon) polygon, int corners, rea
     return r;
 }
 
-// The part of a clamped cosine that a sphere takes whose vector form factor is `flow`, clipped at the horizon exactly. Snyder 1996, "Area
-// Light Sources for Real-Time Graphics". The sine squared of the sphere's angular radius is |flow|.
+// Returns a sphere's share of a clamped cosine, clipped at the horizon exactly. flow: the sphere's vector form factor; its
+// length is the squared sine of the sphere's angular radius. Snyder 1996, "Area Light Sources for Real-Time Graphics".
 BN_FN real ltc_sphere_part(real3 flow)
 {
     real size = min(k_length3(flow), lit(1.0));
     real z = flow.z / max(size, lit(1e-15));
     z = min(max(z, lit(-1.0)), lit(1.0));
-    real sine = sqrt(size); // of the radius
+    real sine = sqrt(size); // sine of the radius
     real cosine = sqrt(lit(1.0) - size);
     real across = sqrt(max(lit(1.0) - z * z, lit(1e-12)));
     real sine_g = min(cosine / across, lit(1.0));
@@ -187,7 +195,7 @@ BN_FN real ltc_sphere_part(real3 flow)
     return k_saturate(select(z <= -sine, lit(0.0), part));
 }
 
-// Without clipping: the sphere of the same vector form factor is clipped instead. On quads 0.005 off in the mean, 0.07 at most.
+// Returns a polygon's share without clipping: clips a sphere with the same vector form factor instead, an approximation.
 BN_FN ltc_light ltc_polygon_clipless(BN_IN(ltc_lobe) lobe, BN_IN(ltc_polygon) polygon, int corners)
 {
     ltc_polygon u = ltc_polygon_to_cosine(lobe, polygon, corners);
@@ -199,7 +207,7 @@ BN_FN ltc_light ltc_polygon_clipless(BN_IN(ltc_lobe) lobe, BN_IN(ltc_polygon) po
         sum = sum + ltc_arc(a, b);
         inside = inside + k_normalize3(a);
     }
-    // Towards the light, whichever way around the corners are.
+    // Face the light, whichever way around the corners are.
     real ahead = k_dot3(sum, inside);
     real3 flow = sum * select(ahead < lit(0.0), lit(-0.15915494309189534), lit(0.15915494309189534));
     ltc_light light;
@@ -208,8 +216,8 @@ BN_FN ltc_light ltc_polygon_clipless(BN_IN(ltc_lobe) lobe, BN_IN(ltc_polygon) po
     return light;
 }
 
-// A light of one side is dark from behind and from within its plane. to_light: from the shading point to any point of it; normal: of the
-// side that shines.
+// Returns the share with one-sided lights dark from behind and from within their plane. to_light: from the shading point to
+// any point of the light; normal: of the side that shines.
 BN_FN real ltc_sided(real part, real3 to_light, real3 normal, int two_sided)
 {
     real shown = part;

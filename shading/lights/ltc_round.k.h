@@ -1,5 +1,5 @@
-// Light of discs, ellipses, spheres and lines through a transformed cosine. Centres and ends are in the ellipse frame, relative to the
-// shading point.
+// Discs, ellipses, spheres and lines as lights, through a transformed cosine. Centres and ends are in the ellipse frame,
+// relative to the shading point.
 #ifndef BN_LTC_ROUND_K_H
 #define BN_LTC_ROUND_K_H
 #include "shading/kernels/math.k.h"
@@ -9,10 +9,11 @@
 
 BN_KERNELS_BEGIN
 
-// An ellipse in the cosine's space by its own axes, seen from a point at distance 1 from its middle, or less.
+// An ellipse in the cosine's space in its own axes, scaled so that its middle lies at distance 1 from the shading point, or
+// nearer.
 struct ltc_ellipse {
     real a, b;    // half axes
-    real x, y, z; // of the middle along the axes and the normal: >= 0 but for rounding
+    real x, y, z; // the middle along the axes and the normal; >= 0 but for rounding
     real3 along_a, along_b, along_normal;
 };
 
@@ -28,7 +29,8 @@ BN_FN ltc_ellipse ltc_ellipse_of(BN_IN(ltc_lobe) lobe, real3 middle, real3 axis_
     c = c * near_scale;
     p = p * near_scale;
     q = q * near_scale;
-    // The image of orthogonal half axes is none: the longest radius is p cos t + q sin t with tan 2t = 2 p.q / (p.p - q.q).
+    // The images of orthogonal half axes are not orthogonal. The longest radius is p cos t + q sin t with tan 2t = 2 p.q /
+    // (p.p - q.q).
     real pp = k_dot3(p, p);
     real qq = k_dot3(q, q);
     real mixed = lit(2.0) * k_dot3(p, q);
@@ -43,7 +45,7 @@ BN_FN ltc_ellipse ltc_ellipse_of(BN_IN(ltc_lobe) lobe, real3 middle, real3 axis_
     turn = k_normalize2(turn / max(abs(turn.x), abs(turn.y)));
     ltc_ellipse e;
     e.along_a = k_normalize3(p * turn.x + q * turn.y);
-    // By the product of the untransformed axes, as the images may be nearly parallel.
+    // Take the normal from the untransformed axes' product, as the images may be nearly parallel.
     real3 n = ltc_normal_to_cosine(lobe, k_cross(axis_a, axis_b)) * (near_scale * near_scale / lobe.det);
     real area = k_length3(n);
     e.along_normal = n * (lit(1.0) / max(area, lit(1e-30)));
@@ -56,9 +58,10 @@ BN_FN ltc_ellipse ltc_ellipse_of(BN_IN(ltc_lobe) lobe, real3 middle, real3 axis_
     return e;
 }
 
-// The vector form factor of a flat ellipse: the axis of its cone, and the size of the cone that has the same one. With h half axes, c the
-// middle and m > 0 the root of sum(c_i^2 / (h_i^2 + m)) = 1, h_3 = 0, the cone's axis is (c_i / (h_i^2 + m)): the eigenvector of the
-// negative eigenvalue -m of diag(h_i^2) - c c^T. The sum only falls as m grows and has no terms of two signs, so that nothing cancels.
+// Returns a flat ellipse's vector form factor: the axis of its cone, times the size of the cone with the same form factor.
+// Let h be the half axes with h_3 = 0, c the middle, and m > 0 the root of sum(c_i^2 / (h_i^2 + m)) = 1. Then the cone's
+// axis is (c_i / (h_i^2 + m)): the eigenvector of diag(h_i^2) - c c^T for the negative eigenvalue -m. The sum falls
+// monotonically with m, and its terms share one sign, so nothing cancels.
 BN_FN real3 ltc_disk_flow(BN_IN(ltc_lobe) lobe, real3 middle, real3 axis_a, real3 axis_b)
 {
     ltc_ellipse e = ltc_ellipse_of(lobe, middle, axis_a, axis_b);
@@ -67,8 +70,8 @@ BN_FN real3 ltc_disk_flow(BN_IN(ltc_lobe) lobe, real3 middle, real3 axis_a, real
     real x2 = e.x * e.x;
     real y2 = e.y * e.y;
     real z2 = e.z * e.z;
-    // Newton's steps on m - m sum(m), which is convex, down from the least of three bounds: with all h as 0, with the longest as infinite
-    // against m, with both.
+    // Newton's method on m - m sum(m), which is convex. Start at the least of three bounds: all h as 0; the longest as
+    // infinite against m; both as infinite.
     real left_a = lit(1.0) - x2 / max(a2, lit(1e-20));
     real left_b = left_a - y2 / max(b2, lit(1e-20));
     real bound_a = (y2 + z2) / max(left_a, lit(1e-6));
@@ -84,17 +87,19 @@ BN_FN real3 ltc_disk_flow(BN_IN(ltc_lobe) lobe, real3 middle, real3 axis_a, real
         real next = m - value / max(slope, lit(1e-6));
         m = min(max(next, least), lit(1.0));
     }
+    // Form the cone's axis
     real pa = m / (a2 + m);
     real pb = m / (b2 + m);
     real3 axis = k_normalize3(e.along_a * (e.x * pa) + e.along_b * (e.y * pb) + e.along_normal * e.z);
-    // With the other eigenvalues s, t >= 0: sqrt(s t / ((s + m) (t + m))), s t = (a b z)^2 / m, s + t = a^2 + b^2 - c.c + m.
+    // With the other eigenvalues s, t >= 0: sqrt(s t / ((s + m) (t + m))), s t = (a b z)^2 / m, s + t = a^2 + b^2 - c.c +
+    // m.
     real others = max(a2 + b2 - x2 - y2 - z2 + lit(2.0) * m, m);
     real ratio = e.a * e.b * abs(e.z) / (m * sqrt(others));
     real size = ratio / sqrt(lit(1.0) + ratio * ratio);
     return axis * size;
 }
 
-// axis_a, axis_b: half axes, orthogonal.
+// Returns a disc's share of the lobe. axis_a, axis_b: half axes, orthogonal.
 BN_FN ltc_light ltc_disk_light(BN_IN(ltc_lobe) lobe, real3 middle, real3 axis_a, real3 axis_b)
 {
     ltc_light light;
@@ -105,10 +110,10 @@ BN_FN ltc_light ltc_disk_light(BN_IN(ltc_lobe) lobe, real3 middle, real3 axis_a,
 
 struct ltc_outline {
     real3 middle, axis_a, axis_b; // of a disc; half axes, orthogonal
-    mask outside;                 // of the sphere; within, the disc is nearly all that lies above the plane of `up`
+    mask outside;                 // the point is outside the sphere; inside, the disc covers nearly everything above the plane of `up`
 };
 
-// The disc that has a sphere's outline.
+// Returns the disc with a sphere's outline.
 BN_FN ltc_outline ltc_sphere_outline(real3 middle, real radius, real3 up)
 {
     ltc_outline o;
@@ -116,10 +121,11 @@ BN_FN ltc_outline ltc_sphere_outline(real3 middle, real radius, real3 up)
     real radius2 = radius * radius;
     real outside2 = distance2 - radius2;
     o.outside = outside2 > lit(0.0);
+    // Find the direction to the sphere and the tangent of its radius
     real3 w = select(o.outside, k_normalize3(middle), up);
     real seen = select(o.outside, radius, lit(1e4));
     real tangent = seen / sqrt(select(o.outside, max(outside2, radius2 * lit(1e-8)), lit(1.0)));
-    // Duff et al. 2017, "Building an Orthonormal Basis, Revisited".
+    // Build axes across that direction: Duff et al. 2017, "Building an Orthonormal Basis, Revisited".
     real sign_z = select(w.z < lit(0.0), lit(-1.0), lit(1.0));
     real k = lit(-1.0) / (sign_z + w.z);
     real mixed = w.x * w.y * k;
@@ -131,7 +137,7 @@ BN_FN ltc_outline ltc_sphere_outline(real3 middle, real radius, real3 up)
     return o;
 }
 
-// From within, all of the lobe is lit.
+// Returns a sphere's share of the lobe. Inside the sphere, the whole lobe is lit.
 BN_FN ltc_light ltc_sphere_light(BN_IN(ltc_lobe) lobe, real3 middle, real radius)
 {
     ltc_outline o = ltc_sphere_outline(middle, radius, vec3_of(lit(0.0), lit(0.0), lit(1.0)));
@@ -142,17 +148,19 @@ BN_FN ltc_light ltc_sphere_light(BN_IN(ltc_lobe) lobe, real3 middle, real radius
     return light;
 }
 
-// A tube from p to q, thin against its distance; its ends do not shine. Heitz, Hill 2017, "Linear-Light Shading with Linearly Transformed
-// Cosines": the integral over a line in the cosine's space, times how wide a line of this radius is there.
+// Returns a tube's share of the lobe, from p to q, thin against its distance; the ends emit no light. Heitz, Hill 2017,
+// "Linear-Light Shading with Linearly Transformed Cosines": the integral over a line in the cosine's space, times the width
+// of a line with this radius there.
 BN_FN ltc_light ltc_line_light(BN_IN(ltc_lobe) lobe, real3 p, real3 q, real radius)
 {
+    // Transform the ends to the cosine's space
     real3 size = max(abs(p), abs(q));
     real scale = lit(1.0) / max(max(max(size.x, size.y), size.z), lit(1e-15));
     real3 near_p = p * scale;
     real3 near_q = q * scale;
     real3 a = ltc_to_cosine(lobe, near_p);
     real3 b = ltc_to_cosine(lobe, near_q);
-    // What lies on the horizon counts as below.
+    // Clip at the horizon; ends on the horizon count as below.
     mask a_up = a.z > lit(0.0);
     mask b_up = b.z > lit(0.0);
     mask cuts = either(both(a_up, not_(b_up)), both(b_up, not_(a_up)));
@@ -161,14 +169,16 @@ BN_FN ltc_light ltc_line_light(BN_IN(ltc_lobe) lobe, real3 p, real3 q, real radi
     real3 cut = vec3_of(a.x + (b.x - a.x) * share, a.y + (b.y - a.y) * share, lit(0.0));
     a = select(both(b_up, not_(a_up)), cut, a);
     b = select(both(a_up, not_(b_up)), cut, b);
+    // Find the line's direction and its foot point
     real3 span = b - a;
     real extent = k_length3(span);
     real3 t = span * (lit(1.0) / max(extent, lit(1e-15)));
     real from = k_dot3(a, t);
     real to = from + extent;
     real3 foot = a - t * from;
-    // Distances along the line's direction are not less than 1e-4 of its extent: it cannot point at the shading point.
+    // Keep the distance to the line at 1e-4 of its extent or more: the line cannot point at the shading point.
     real d = max(max(k_length3(foot), extent * lit(1e-4)), lit(1e-15));
+    // Integrate the clamped cosine along the line
     real3 up = foot * (lit(1.0) / d);
     real d2 = d * d;
     real a2 = d2 + from * from;
@@ -179,7 +189,8 @@ BN_FN ltc_light ltc_line_light(BN_IN(ltc_lobe) lobe, real3 p, real3 q, real radi
     real across = over * (d2 - from * to) + angle / d;
     real along = over * d * (from + to);
     real line = (across * up.z + along * t.z) * lit(0.31830988618379067);
-    // A step along o, across the line and the direction to it, becomes longer by 1 / |M^T o|. A line that points here has no o.
+    // A step along o, perpendicular to the line and the direction to it, grows by 1 / |M^T o|. A line that points here has
+    // no o.
     real3 o = k_normalize3(k_cross(near_p, near_q));
     real narrow = k_length3(ltc_normal_to_cosine(lobe, o));
     mask seen = both(either(a_up, b_up), narrow > lit(1e-7));

@@ -1,13 +1,14 @@
-// The transformed cosine that stands for an anisotropic GGX lobe seen from one eye, looked up in a baked table (shading/bake/ltc).
-// Heitz, Dupuy, Hill, Neubelt 2016, "Real-Time Polygonal-Light Shading with Linearly Transformed Cosines"; the four dimensional table:
-// KT, Heitz, Dupuy, Narasimhan 2022, "Bringing Linearly Transformed Cosines to Anisotropic GGX".
+// Linearly transformed cosines (LTC) for an anisotropic GGX lobe seen from one eye, from a baked table (shading/bake/ltc).
+// Heitz, Dupuy, Hill, Neubelt 2016, "Real-Time Polygonal-Light Shading with Linearly Transformed Cosines"; the
+// four-dimensional table: KT, Heitz, Dupuy, Narasimhan 2022, "Bringing Linearly Transformed Cosines to Anisotropic GGX".
 //
-// Ellipse frame: x and y the axes of alpha_x and alpha_y, z the normal. Cosine's space: where the lobe is max(z, 0) / pi. The matrix M
-// takes the cosine's space to the ellipse frame, its inverse N takes lights the other way; the density of a direction l is, with u = N l,
-//     q(l) = max(u.z, 0) |det N| / (pi |u|^4).
+// Ellipse frame: x and y are the axes of alpha_x and alpha_y, z is the normal. Cosine's space: the lobe is max(z, 0) / pi
+// there. The matrix M maps the cosine's space to the ellipse frame. Its inverse N maps lights the other way. The density of
+// a direction l is, with u = N l,
+//    q(l) = max(u.z, 0) |det N| / (pi |u|^4).
 //
-// The table holds eyes of one quadrant and alpha_x >= alpha_y. Others are mirrored into it and their matrices back: rows change their sign
-// or their place, which negates the determinant each time.
+// The table holds eyes in one quadrant and alpha_x >= alpha_y. Other eyes are mirrored into the quadrant and their matrices
+// back: rows change sign or place, which negates the determinant each time.
 #ifndef BN_LTC_TABLE_K_H
 #define BN_LTC_TABLE_K_H
 #include "shading/kernels/math.k.h"
@@ -18,31 +19,31 @@ BN_KERNELS_BEGIN
 
 struct ltc_table {       // uniform; LtcTableRecord
     texel_buffer texels; // ltc::table_texels()
-    int root_alpha;      // 1: nodes lie evenly in the square root of alpha, 0: in alpha
-    int basis;           // entries are seen from 0: the ellipse frame, 1: the mirror direction, 2: the natural matrix
-    int over_alpha;      // 1: their first two columns are over alpha
-    int inverse;         // 1: they are N, in the ellipse frame
-    int alphas;          // nodes along alpha, of which 8 are up to 1; 8 along the others
+    int root_alpha;      // 1: nodes are uniform in the square root of alpha, 0: in alpha
+    int basis;           // frame of the entries, 0: the ellipse frame, 1: the mirror direction, 2: the natural matrix
+    int over_alpha;      // 1: the first two columns are divided by alpha
+    int inverse;         // 1: entries are N, in the ellipse frame
+    int alphas;          // nodes along alpha, 8 of them up to 1; 8 along the other axes
 };
 
-// What is outside of [0.002, 2], of [0.02, 1] or below a cosine of 0.02 is taken at the border: narrower lobes are for floats a mirror.
-// NaN counts as a border, too.
+// A place in the table. Widths outside [0.002, 2], ratios outside [0.02, 1] and cosines below 0.02 are clamped to the
+// border: floats cannot tell narrower lobes from a mirror. NaN counts as a border, too.
 struct ltc_place {
-    real3 eye;           // as the table has it: unit, x and y >= 0
-    real theta, phi;     // of it, [0, pi/2] rad
-    real alpha, lambda;  // the greater width, of the table's x; the smaller one over it
-    real sign_x, sign_y; // 1 or -1: of the eye in the ellipse frame
+    real3 eye;           // in the table's quadrant: unit, x and y >= 0
+    real theta, phi;     // the eye's angles, [0, pi/2] rad
+    real alpha, lambda;  // the greater width, along the table's x; the smaller over the greater
+    real sign_x, sign_y; // 1 or -1: the eye's signs in the ellipse frame
     mask swapped;        // the greater width is alpha_y
 };
 
 struct ltc_lobe {
     real3 m0, m1, m2;  // columns of M; m2 is nearly unit
     real3 n0, n1, n2;  // rows of N
-    real det;          // of M; negative where M mirrors
-    real all, grazing; // albedo where Fresnel is 1, and where it is (1 - v.h)^5: reflectance f0 all + (f90 - f0) grazing
+    real det;          // det M; negative where M mirrors
+    real all, grazing; // albedo for Fresnel 1, and for (1 - v.h)^5: reflectance f0 all + (f90 - f0) grazing
 };
 
-// eye: unit, in the ellipse frame.
+// Finds the eye's place in the table. eye: unit, in the ellipse frame.
 BN_FN ltc_place ltc_place_of(real3 eye, real alpha_x, real alpha_y)
 {
     ltc_place p;
@@ -61,10 +62,10 @@ BN_FN ltc_place ltc_place_of(real3 eye, real alpha_x, real alpha_y)
     real y = select(p.swapped, across_x, across_y);
     real flat2 = x * x + y * y;
     real flat_length = sqrt(max(flat2, lit(1e-12)));
-    mask upright = flat2 < lit(1e-12); // where every azimuth is the same
+    mask upright = flat2 < lit(1e-12); // here all azimuths are equal
     real cosine = select(upright, lit(1.0), x / flat_length);
     real sine = select(upright, lit(0.0), y / flat_length);
-    // Not from z near 1, whose rounding would turn the eye.
+    // Do not derive the radius from z near 1: its rounding would turn the eye.
     mask above = eye.z > lit(0.02);
     real z = select(above, min(eye.z, lit(1.0)), lit(0.02));
     real radius = select(above, min(flat_length, lit(1.0)), lit(0.99979998));
@@ -74,8 +75,8 @@ BN_FN ltc_place ltc_place_of(real3 eye, real alpha_x, real alpha_y)
     return p;
 }
 
-// The first order of how slopes turn the mirror direction, its columns as those of M: near the fit where widths are small. At grazing views
-// the second order adds what keeps the first two columns apart.
+// Returns the natural matrix: the first-order turn of the mirror direction by slopes, as columns of M. It is near the fit
+// for small widths. At grazing views the second order keeps the first two columns apart.
 BN_FN ltc_lobe ltc_natural(ltc_lobe lobe, ltc_place p)
 {
     ltc_lobe r = lobe;
@@ -98,8 +99,8 @@ BN_FN ltc_lobe ltc_natural(ltc_lobe lobe, ltc_place p)
     return r;
 }
 
-struct ltc_cell {  // of 16 nodes
-    integer first; // the one of the smallest theta, phi, alpha, lambda: ((theta 8 + phi) alphas + alpha) 8 + lambda
+struct ltc_cell {  // a cell has 16 nodes
+    integer first; // node of least theta, phi, alpha, lambda: ((theta 8 + phi) alphas + alpha) 8 + lambda
     real u_theta, u_phi, u_alpha, u_lambda;
 };
 
@@ -126,10 +127,10 @@ BN_FN ltc_cell ltc_cell_of(ltc_table table, ltc_place p)
     return c;
 }
 
-// The channels of the table in a cell, four by four.
+// Returns the table's channels in a cell, interpolated, in planes of four.
 BN_FN texel_planes ltc_channels(ltc_table table, ltc_cell c)
 {
-    int azimuth = 8 * table.alphas; // between nodes of two
+    int azimuth = 8 * table.alphas; // stride between azimuth nodes
     real up = c.u_theta * c.u_phi;
     real weight[4]; // by theta and phi
     weight[2] = c.u_theta - up;
@@ -138,7 +139,7 @@ BN_FN texel_planes ltc_channels(ltc_table table, ltc_cell c)
     weight[3] = up;
     texel_cell at;
     at.first = c.first;
-    at.row = 8; // a node of alpha further; columns are nodes of lambda
+    at.row = 8; // stride of alpha nodes; columns are nodes of lambda
     at.plane = 64 * azimuth;
     at.pair[0] = 0;
     at.pair[1] = azimuth;
@@ -155,11 +156,11 @@ BN_FN texel_planes ltc_channels(ltc_table table, ltc_cell c)
     return texel_cell_value(table.texels, at);
 }
 
-// A column of the table's matrix in the ellipse frame of its place.
+// Transforms a column of the table's matrix to the place's ellipse frame.
 BN_FN real3 ltc_shown(ltc_table table, ltc_lobe natural, ltc_place p, real3 column)
 {
     real3 r = column;
-    if (table.basis == 1) { // the shortest turn that takes the normal to the mirror direction m2
+    if (table.basis == 1) { // the shortest turn from the normal to the mirror direction m2
         real x = natural.m2.x;
         real y = natural.m2.y;
         real s = lit(1.0) / (lit(1.0) + p.eye.z);
@@ -173,7 +174,7 @@ BN_FN real3 ltc_shown(ltc_table table, ltc_lobe natural, ltc_place p, real3 colu
     return r;
 }
 
-// From the table's quadrant to the ellipse frame.
+// Maps a vector from the table's quadrant to the ellipse frame.
 BN_FN real3 ltc_unfolded(ltc_place p, real3 v)
 {
     real x = select(p.swapped, v.y, v.x);
@@ -181,7 +182,7 @@ BN_FN real3 ltc_unfolded(ltc_place p, real3 v)
     return vec3_of(p.sign_x * x, p.sign_y * y, v.z);
 }
 
-// N and the determinant of an M that has one other than 0.
+// Fills N and the determinant of an M with nonzero determinant.
 BN_FN ltc_lobe ltc_inverted(ltc_lobe lobe)
 {
     ltc_lobe r = lobe;
@@ -196,9 +197,11 @@ BN_FN ltc_lobe ltc_inverted(ltc_lobe lobe)
     return r;
 }
 
-// eye: unit, in the ellipse frame. Where the table's matrix has no positive determinant, the natural one stands in.
+// Looks up the lobe. eye: unit, in the ellipse frame. The natural matrix replaces a table matrix without positive
+// determinant.
 BN_FN ltc_lobe ltc_lookup(ltc_table table, real3 eye, real alpha_x, real alpha_y)
 {
+    // Fetch the table's channels
     ltc_place p = ltc_place_of(eye, alpha_x, alpha_y);
     ltc_cell cell = ltc_cell_of(table, p);
     texel_planes channels = ltc_channels(table, cell);
@@ -219,6 +222,7 @@ BN_FN ltc_lobe ltc_lookup(ltc_table table, real3 eye, real alpha_x, real alpha_y
     if (table.basis == 2) {
         natural = ltc_natural(lobe, p);
     }
+    // Unpack the matrix, and invert it where the table holds N
     real3 m0 = vec3_of(a.x, a.w, b.z);
     real3 m1 = vec3_of(a.y, b.x, b.w);
     real3 m2 = vec3_of(a.z, b.y, c.x);
@@ -236,9 +240,11 @@ BN_FN ltc_lobe ltc_lookup(ltc_table table, real3 eye, real alpha_x, real alpha_y
         m0 = m0 * p.alpha;
         m1 = m1 * p.alpha;
     }
+    // Transform the columns to the ellipse frame
     lobe.m0 = ltc_shown(table, natural, p, m0);
     lobe.m1 = ltc_shown(table, natural, p, m1);
     lobe.m2 = ltc_shown(table, natural, p, m2);
+    // Replace a degenerate matrix by the natural one
     real det = k_dot3(lobe.m0, k_cross(lobe.m1, lobe.m2));
     mask usable = det > lit(1e-9);
     if (any_lane(not_(usable))) {
@@ -247,14 +253,16 @@ BN_FN ltc_lobe ltc_lookup(ltc_table table, real3 eye, real alpha_x, real alpha_y
         lobe.m1 = select(usable, lobe.m1, natural.m1);
         lobe.m2 = select(usable, lobe.m2, natural.m2);
     }
+    // Undo the mirroring
     lobe.m0 = ltc_unfolded(p, lobe.m0);
     lobe.m1 = ltc_unfolded(p, lobe.m1);
     lobe.m2 = ltc_unfolded(p, lobe.m2);
     return ltc_inverted(lobe);
 }
 
-// A table of round lobes by 64 nodes evenly in sqrt(1 - cos theta) and 64 evenly in sqrt(alpha): two planes of RGBA halves, which hold five
-// elements of the matrix in the frame whose x the eye leans to (columns' x x, y y, z x, x z; z z), and albedos. first: its first texel.
+// Looks up a round lobe in a table with 64 uniform nodes in sqrt(1 - cos theta) and 64 in sqrt(alpha). Two planes of RGBA
+// halves hold the albedos and five elements of the matrix, in the frame whose x the eye leans to (columns' x x, y y, z x, x
+// z; z z). first: the table's first texel.
 BN_FN ltc_lobe ltc_round_lookup(texel_buffer texels, int first, real3 eye, real alpha)
 {
     real flat2 = eye.x * eye.x + eye.y * eye.y;
@@ -290,7 +298,7 @@ BN_FN ltc_lobe ltc_round_lookup(texel_buffer texels, int first, real3 eye, real 
     return ltc_inverted(lobe);
 }
 
-// The plain cosine about the normal: what a diffuse surface reflects.
+// Returns the plain cosine about the normal: the lobe of a diffuse surface.
 BN_FN ltc_lobe ltc_cosine()
 {
     ltc_lobe lobe;
@@ -306,20 +314,20 @@ BN_FN ltc_lobe ltc_cosine()
     return lobe;
 }
 
-// N p: from the ellipse frame to the cosine's space.
+// Returns N p: transforms from the ellipse frame to the cosine's space.
 BN_FN real3 ltc_to_cosine(BN_IN(ltc_lobe) lobe, real3 p)
 {
     return vec3_of(k_dot3(lobe.n0, p), k_dot3(lobe.n1, p), k_dot3(lobe.n2, p));
 }
 
-// det(M) N n for a normal n, the product of two vectors, from the ellipse frame: the product of the two in the cosine's space is this over
-// det(M). It has the digits that a product of stretched vectors loses.
+// Returns M^T n for a normal n, a cross product of two vectors in the ellipse frame. Divided by det(M), the result is the
+// cross product in the cosine's space. It keeps digits that a product of stretched vectors loses.
 BN_FN real3 ltc_normal_to_cosine(BN_IN(ltc_lobe) lobe, real3 n)
 {
     return vec3_of(k_dot3(lobe.m0, n), k_dot3(lobe.m1, n), k_dot3(lobe.m2, n));
 }
 
-// Density q of the lobe at l, 1/sr. l: unit, in the ellipse frame.
+// Returns the lobe's density q at l, 1/sr. l: unit, in the ellipse frame.
 BN_FN real ltc_density(BN_IN(ltc_lobe) lobe, real3 l)
 {
     real3 u = ltc_to_cosine(lobe, l);

@@ -1,5 +1,5 @@
-// Ashikhmin and Shirley 2000, "An Anisotropic Phong BRDF Model", specular part without its Fresnel factor.
-// Conventions in microfacet.k.h. Cosines in denominators count as at least 1e-4.
+// Ashikhmin and Shirley 2000, "An Anisotropic Phong BRDF Model": the specular part without its Fresnel factor. Conventions:
+// microfacet.k.h. Cosines in denominators count as at least 1e-4.
 #ifndef BN_ASHIKHMIN_SHIRLEY_K_H
 #define BN_ASHIKHMIN_SHIRLEY_K_H
 
@@ -30,9 +30,9 @@ BN_FN ashikhmin_shirley_params ashikhmin_shirley_params_of_alpha(real alpha_x, r
     return ashikhmin_shirley_params_of(nu, nv);
 }
 
-// Density of half vectors, 1/sr; h unit. It has no further cosine: it is no distribution of microfacet
-// normals. h.z^e goes through the logarithm, ln(1 - r^2) / 2 near the normal, which keeps its digits for
-// exponents in the thousands, and ln(h.z) away from it, where 1 - r^2 has few.
+// Returns the density of half vectors, 1/sr; h unit. The density has no further cosine, so it is no distribution of
+// microfacet normals. h.z^e uses the logarithm. Near the normal ln(1 - r^2) / 2 keeps its digits for exponents in the
+// thousands; away from it, where 1 - r^2 has few digits, ln(h.z) does.
 BN_FN real ashikhmin_shirley_half_density(ashikhmin_shirley_params p, real3 h)
 {
     real r2 = h.x * h.x + h.y * h.y;
@@ -62,8 +62,8 @@ BN_FN real ashikhmin_shirley_eval(ashikhmin_shirley_params p, real3 wo, real3 wi
     return select(both_above(wo, wi), value, lit(0.0));
 }
 
-// A half vector, unit, for all four quadrants at once: the angle whose tangent is sqrt((nu + 1) / (nv + 1))
-// tan(2 pi xi.x), then cos = (1 - xi.y)^(1 / (e + 1)), through logarithms.
+// Samples a half vector, unit, for all four quadrants at once. The azimuth has tangent sqrt((nu + 1) / (nv + 1)) tan(2 pi
+// xi.x). Then cos = (1 - xi.y)^(1 / (e + 1)), through logarithms.
 BN_FN real3 ashikhmin_shirley_half_vector(ashikhmin_shirley_params p, real2 xi)
 {
     k_sin_cos_pair turn = k_sin_cos(lit(6.2831853071795865) * xi.x);
@@ -74,7 +74,7 @@ BN_FN real3 ashikhmin_shirley_half_vector(ashikhmin_shirley_params p, real2 xi)
     return vec3_of(d.x * q, d.y * q, k_exp(lg));
 }
 
-// The weight, wi.z / max(wo.z, wi.z), is at most 1.
+// Samples wi. The weight, wi.z / max(wo.z, wi.z), is at most 1.
 BN_FN bsdf_sample ashikhmin_shirley_sample(ashikhmin_shirley_params p, real3 wo, real2 xi)
 {
     real3 h = ashikhmin_shirley_half_vector(p, xi);

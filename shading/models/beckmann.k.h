@@ -1,5 +1,6 @@
-// Anisotropic Beckmann (Beckmann and Spizzichino 1963), height-correlated Smith masking-shadowing with the rational Lambda of
-// Walter et al. 2007, "Microfacet Models for Refraction through Rough Surfaces", section 5.2. Conventions in microfacet.k.h.
+// Anisotropic Beckmann (Beckmann and Spizzichino 1963), height-correlated Smith masking-shadowing with the rational Lambda
+// from Walter et al. 2007, "Microfacet Models for Refraction through Rough Surfaces", section 5.2. Conventions:
+// microfacet.k.h.
 #ifndef BN_BECKMANN_K_H
 #define BN_BECKMANN_K_H
 
@@ -10,7 +11,7 @@
 BN_KERNELS_BEGIN
 
 struct beckmann_params {
-    real alpha_x, alpha_y; // sqrt(2) times the deviation of slope along tangent and bitangent, at least 1e-3
+    real alpha_x, alpha_y; // sqrt(2) times the slope deviation along tangent and bitangent, at least 1e-3
 };
 
 BN_FN beckmann_params beckmann_params_of(real alpha_x, real alpha_y)
@@ -21,7 +22,7 @@ BN_FN beckmann_params beckmann_params_of(real alpha_x, real alpha_y)
     return p;
 }
 
-// Distribution of normals, 1/sr; h unit. At the horizon the exponential wins.
+// Returns the normal distribution, 1/sr; h unit. At the horizon the exponential wins.
 BN_FN real beckmann_d(beckmann_params p, real3 h)
 {
     real z2 = max(h.z * h.z, lit(1e-8));
@@ -31,8 +32,8 @@ BN_FN real beckmann_d(beckmann_params p, real3 h)
     return e * lit(0.31830988618379067) / (p.alpha_x * p.alpha_y * z2 * z2);
 }
 
-// |w.z| Lambda(w), which stays finite at the horizon. With s = |(alpha_x x, alpha_y y)| and c = |w.z| / s,
-// Lambda is (1 - 1.259 c + 0.396 c^2) / (3.535 c + 2.181 c^2) for c < 1.6, and 0 above.
+// Returns |w.z| Lambda(w), which stays finite at the horizon. With s = |(alpha_x x, alpha_y y)| and c = |w.z| / s, Lambda
+// is (1 - 1.259 c + 0.396 c^2) / (3.535 c + 2.181 c^2) for c < 1.6, and 0 above.
 BN_FN real beckmann_z_lambda(beckmann_params p, real3 w)
 {
     real x = p.alpha_x * w.x;
@@ -45,7 +46,7 @@ BN_FN real beckmann_z_lambda(beckmann_params p, real3 w)
     return select(z < limit, value, lit(0.0));
 }
 
-// G2 / (wo.z wi.z), G2 = 1 / (1 + Lambda(wo) + Lambda(wi)).
+// Returns G2 / (wo.z wi.z), G2 = 1 / (1 + Lambda(wo) + Lambda(wi)).
 BN_FN real beckmann_visibility(beckmann_params p, real3 wo, real3 wi)
 {
     real bottom = wo.z * wi.z + wi.z * beckmann_z_lambda(p, wo) + wo.z * beckmann_z_lambda(p, wi);
@@ -58,7 +59,7 @@ BN_FN real beckmann_eval(beckmann_params p, real3 wo, real3 wi)
     return select(both_above(wo, wi), value, lit(0.0));
 }
 
-// Samples follow D h.z, all normals, whether wo sees them or not.
+// Returns the density of sampled normals: D h.z over all normals, visible from wo or not.
 BN_FN real beckmann_half_pdf(beckmann_params p, real3 wo, real3 h)
 {
     real value = beckmann_d(p, h) * h.z;
@@ -72,8 +73,8 @@ BN_FN real beckmann_pdf(beckmann_params p, real3 wo, real3 wi)
     return select(both_above(wo, wi), value, lit(0.0));
 }
 
-// One normal of the surface, unit: slopes along the axes are independent and normal, so that a regular grid
-// of xi is a regular grid of their quantiles.
+// Samples a surface normal, unit. Slopes along the axes are independent and Gaussian, so a regular grid of xi is a regular
+// grid of their quantiles.
 BN_FN real3 beckmann_normal(beckmann_params p, real2 xi)
 {
     real x = p.alpha_x * k_erfinv(lit(2.0) * xi.x - lit(1.0));
@@ -81,7 +82,7 @@ BN_FN real3 beckmann_normal(beckmann_params p, real2 xi)
     return k_normalize3(vec3_of(-x, -y, lit(1.0)));
 }
 
-// The weight, G2 (wo.h) / (wo.z h.z), is not bounded: it grows towards grazing wo.
+// Samples wi. The weight, G2 (wo.h) / (wo.z h.z), is unbounded: it grows towards grazing wo.
 BN_FN bsdf_sample beckmann_sample(beckmann_params p, real3 wo, real2 xi)
 {
     real3 h = beckmann_normal(p, xi);

@@ -1,9 +1,9 @@
-// The ellipsoid distribution of normals: GGX on an ellipsoid that may be turned and tilted, so that the
-// commonest normal need not be the surface's. Walter, Dong, Marschner and Greenberg 2014 (revised 2016), "The
-// Ellipsoid Normal Distribution Function"; equations are theirs, two of which are used in corrected form: Eq.
-// 25 is (Ma)x(Mb) = |M| M^-T (axb), and the point on the lune is A^-1 p_c. The paper's G1 has no horizon
-// test; here eval, pdf and sample ask for wo and wi above it. A = S R, S = diag(alpha_x, alpha_y, 1), R a
-// rotation. Conventions of eval, sample and pdf in microfacet.k.h.
+// The ellipsoid distribution of normals: GGX on an ellipsoid that may be rotated and tilted, so the most frequent normal
+// need not be the surface's. Walter, Dong, Marschner and Greenberg 2014 (revised 2016), "The Ellipsoid Normal Distribution
+// Function". Equation numbers are theirs; two equations are used in corrected form: Eq. 25 is (Ma)x(Mb) = |M| M^-T (axb),
+// and the point on the lune is A^-1 p_c. The paper's G1 has no horizon test; here eval, pdf and sample require wo and wi
+// above the horizon. A = S R, S = diag(alpha_x, alpha_y, 1), R a rotation. Conventions of eval, sample and pdf:
+// microfacet.k.h.
 #ifndef BN_ELLIPSOID_K_H
 #define BN_ELLIPSOID_K_H
 
@@ -15,14 +15,14 @@ BN_KERNELS_BEGIN
 
 struct ellipsoid_params {
     real alpha_x, alpha_y; // widths along the rows r0 and r1, at least 1e-3
-    real3 r0;              // rows of R, orthonormal: they take the surface's frame to the ellipsoid's
+    real3 r0;              // rows of R, orthonormal, from the surface's frame to the ellipsoid's
     real3 r1;
-    real3 r2; // the commonest normal; r2.z > 0 where the tilt is below 90 degrees
+    real3 r2; // the most frequent normal; r2.z > 0 where the tilt is below 90 degrees
     real3 an; // A n
     real an_length2;
 };
 
-// Any rotation, by its rows.
+// Makes parameters for any rotation, by its rows.
 BN_FN ellipsoid_params ellipsoid_params_of_rows(real alpha_x, real alpha_y, real3 r0, real3 r1, real3 r2)
 {
     ellipsoid_params p;
@@ -36,9 +36,9 @@ BN_FN ellipsoid_params ellipsoid_params_of_rows(real alpha_x, real alpha_y, real
     return p;
 }
 
-// R = Rx(theta_x) Ry(theta_y) Rz(theta_z), rad, |theta| <= 2 pi (Eq. 3). theta_z > 0 turns the highlight
-// clockwise; theta_x > 0 tilts the commonest normal to +y, theta_y > 0 to -x (both in the ellipsoid's frame,
-// before theta_z).
+// Makes parameters for R = Rx(theta_x) Ry(theta_y) Rz(theta_z), rad, |theta| <= 2 pi (Eq. 3). theta_z > 0 turns the
+// highlight clockwise. theta_x > 0 tilts the most frequent normal to +y, theta_y > 0 to -x, both in the ellipsoid's frame
+// before theta_z.
 BN_FN ellipsoid_params ellipsoid_params_of(real alpha_x, real alpha_y, real theta_x, real theta_y, real theta_z)
 {
     k_sin_cos_pair x = k_sin_cos(theta_x);
@@ -52,19 +52,19 @@ BN_FN ellipsoid_params ellipsoid_params_of(real alpha_x, real alpha_y, real thet
     return ellipsoid_params_of_rows(alpha_x, alpha_y, yz0, r1, r2);
 }
 
-// A u.
+// Returns A u.
 BN_FN real3 ellipsoid_map(ellipsoid_params p, real3 u)
 {
     return vec3_of(p.alpha_x * k_dot3(p.r0, u), p.alpha_y * k_dot3(p.r1, u), k_dot3(p.r2, u));
 }
 
-// |A| A^-T u, the cofactor matrix: free of divisions.
+// Returns |A| A^-T u, the cofactor matrix times u, without divisions.
 BN_FN real3 ellipsoid_cofactor(ellipsoid_params p, real3 u)
 {
     return vec3_of(p.alpha_y * k_dot3(p.r0, u), p.alpha_x * k_dot3(p.r1, u), p.alpha_x * p.alpha_y * k_dot3(p.r2, u));
 }
 
-// Distribution of normals, 1/sr (Eq. 1); m unit.
+// Returns the normal distribution, 1/sr (Eq. 1); m unit.
 BN_FN real ellipsoid_d(ellipsoid_params p, real3 m)
 {
     real x = k_dot3(p.r0, m) / p.alpha_x;
@@ -80,11 +80,11 @@ struct ellipsoid_view {
     real lengths; // |A u| |A n|
     real sum;     // |A u| |A n| + A u . A n
     real hidden;  // |A u| |A n| - A u . A n
-    real k;       // 2 |A n|^2 / sum: the ellipsoid's projected area over that of the half that u can see
+    real k;       // 2 |A n|^2 / sum: the ellipsoid's projected area over that of the half visible from u
 };
 
-// u unit. Whichever of sum and difference cancels comes from the square of the cross product, |A u x A n| =
-// |cofactor (u x n)|, over the other (Eq. 25 and 43).
+// Computes the view from u, unit. Of sum and difference, the one that cancels comes from the squared cross product, |A u x
+// A n| = |cofactor (u x n)|, divided by the other (Eq. 25 and 43).
 BN_FN ellipsoid_view ellipsoid_seen_from(ellipsoid_params p, real3 u)
 {
     ellipsoid_view v;
@@ -101,21 +101,21 @@ BN_FN ellipsoid_view ellipsoid_seen_from(ellipsoid_params p, real3 u)
     return v;
 }
 
-// Smith's G1 for u above the horizon (Eq. 6): min(1, k u.z).
+// Returns Smith's G1 for u above the horizon (Eq. 6): min(1, k u.z).
 BN_FN real ellipsoid_g1(ellipsoid_params p, real3 u)
 {
     ellipsoid_view v = ellipsoid_seen_from(p, u);
     return min(v.k * max(u.z, lit(0.0)), lit(1.0));
 }
 
-// G1(u) / u.z, finite at the horizon.
+// Returns G1(u) / u.z, finite at the horizon.
 BN_FN real ellipsoid_g1_over_z(ellipsoid_params p, real3 u)
 {
     ellipsoid_view v = ellipsoid_seen_from(p, u);
     return min(v.k, lit(1.0) / max(u.z, lit(1e-16)));
 }
 
-// Eq. 4 and 5.
+// Returns the BRDF without the cosine (Eq. 4 and 5).
 BN_FN real ellipsoid_eval(ellipsoid_params p, real3 wo, real3 wi)
 {
     real d = ellipsoid_d(p, half_vector(wo, wi));
@@ -123,14 +123,14 @@ BN_FN real ellipsoid_eval(ellipsoid_params p, real3 wo, real3 wi)
     return select(both_above(wo, wi), value, lit(0.0));
 }
 
-// eval times the cosine of wi, over the density that D has about its own normal.
+// Returns eval times the cosine of wi, over the density that D has about its own normal.
 BN_FN real ellipsoid_masking(ellipsoid_params p, real3 wo, real3 wi)
 {
     real value = lit(0.25) * ellipsoid_g1_over_z(p, wo) * ellipsoid_g1_over_z(p, wi) * wi.z;
     return value / sqrt(p.an_length2);
 }
 
-// Density of the normals that wo sees, 1/sr (Eq. 33).
+// Returns the density of normals visible from wo, 1/sr (Eq. 33).
 BN_FN real ellipsoid_half_pdf(ellipsoid_params p, real3 wo, real3 h)
 {
     ellipsoid_view v = ellipsoid_seen_from(p, wo);
@@ -138,7 +138,7 @@ BN_FN real ellipsoid_half_pdf(ellipsoid_params p, real3 wo, real3 h)
     return select(both_above(wo, h), value, lit(0.0));
 }
 
-// Eq. 48.
+// Returns the density of samples, 1/sr (Eq. 48).
 BN_FN real ellipsoid_pdf(ellipsoid_params p, real3 wo, real3 wi)
 {
     ellipsoid_view v = ellipsoid_seen_from(p, wo);
@@ -146,13 +146,12 @@ BN_FN real ellipsoid_pdf(ellipsoid_params p, real3 wo, real3 wi)
     return select(both_above(wo, wi), value, lit(0.0));
 }
 
-// A normal that wo sees, unit (section 4.1, a to d). v: ellipsoid_seen_from(p, wo).
+// Samples a normal visible from wo, unit (section 4.1, a to d). v: ellipsoid_seen_from(p, wo).
 BN_FN real3 ellipsoid_visible_normal(ellipsoid_params p, ellipsoid_view v, real3 wo, real2 xi)
 {
-    // a, b: a point of the disk, moved to the crescent that the lune's outline leaves, lifted to the sphere.
-    // The lune has the share s of the disk's width. edge^2 - disk.x^2 = 1 - r^2: nothing here is a difference of
-    // squares, which narrow lobes that are tilted away, whose lunes are thin, and points at the rim would leave
-    // few digits of.
+    // a, b: take a point on the disk, move it to the crescent inside the lune's outline, and lift it to the sphere. The
+    // lune has the share s of the disk's width. edge^2 - disk.x^2 = 1 - r^2, so nothing here is a difference of squares.
+    // Squares would leave few digits at the rim, and for narrow lobes that tilt away, whose lunes are thin.
     real2 disk = concentric_disk(xi);
     real rest = concentric_rest(xi);
     real edge = sqrt(rest + disk.x * disk.x);
@@ -164,24 +163,23 @@ BN_FN real3 ellipsoid_visible_normal(ellipsoid_params p, ellipsoid_view v, real3
     real s = min(half_lengths * v.sum, lit(1.0));
     real x = edge - s * to_outline;
     real z = sqrt(max(s * to_outline * (to_rim + half_lengths * v.hidden * to_outline), lit(0.0)));
-    // c: the lune's frame. Seen along the normal the lune is half a sphere and any e2 across e3 will do.
+    // c: build the lune's frame. Seen along the normal, the lune is half a sphere, and any e2 perpendicular to e3 will do.
     real3 e3 = k_normalize3(v.au);
     real3 side = vec3_of(wo.y, -wo.x, lit(0.0));
     mask along_x = abs(e3.x) > lit(0.9);
     real3 across = vec3_of(select(along_x, lit(0.0), lit(1.0)), select(along_x, lit(1.0), lit(0.0)), lit(0.0));
     mask collinear = k_dot3(side, side) < lit(1e-12);
-    // The cofactor shrinks by up to alpha^2: it is scaled by the length of its argument, which is kept above
-    // 1e-6.
+    // The cofactor shrinks by up to alpha^2, so divide by its argument's length, kept above 1e-6.
     real3 turned = ellipsoid_cofactor(p, side) / sqrt(max(k_dot3(side, side), lit(1e-12)));
     real3 e2 = k_normalize3(select(collinear, k_cross(e3, across), turned));
     real3 e1 = k_cross(e2, e3);
-    // d: back to the ellipsoid, A^T p_c.
+    // d: map back to the ellipsoid, A^T p_c.
     real3 point = e1 * x + e2 * disk.y + e3 * z;
     real3 m = p.r0 * (p.alpha_x * point.x) + p.r1 * (p.alpha_y * point.y) + p.r2 * point.z;
     return k_normalize3(m);
 }
 
-// The weight, G1(wi) min(1, 1 / (k wo.z)), is at most 1 (Eq. 50 to 52).
+// Samples wi. The weight, G1(wi) min(1, 1 / (k wo.z)), is at most 1 (Eq. 50 to 52).
 BN_FN bsdf_sample ellipsoid_sample(ellipsoid_params p, real3 wo, real2 xi)
 {
     ellipsoid_view v = ellipsoid_seen_from(p, wo);
@@ -194,7 +192,7 @@ BN_FN bsdf_sample ellipsoid_sample(ellipsoid_params p, real3 wo, real2 xi)
     return bsdf_sample_of(wi, weight, pdf, o_dot_m, valid);
 }
 
-// Directional albedo in the limit of a mirror: the weight of its one sample.
+// Returns directional albedo in the mirror limit: the weight of its only sample.
 BN_FN real ellipsoid_mirror_albedo(ellipsoid_params p, real3 wo)
 {
     ellipsoid_view v = ellipsoid_seen_from(p, wo);

@@ -1,7 +1,8 @@
-// The ellipsoid distribution of normals (ellipsoid.k.h) with height-correlated Smith masking-shadowing, G2 = 1 / (1 / G1(wo) + 1 / G1(wi)
-// - 1): Heitz 2014, "Understanding the Masking-Shadowing Function in Microfacet-Based BRDFs", eq. 99, with the ellipsoid's G1 (Walter et
-// al. 2014, Eq. 6), whose limit to 1 keeps Lambda from falling below 0. Upright it is ggx_aniso.k.h, of which its samples are too, the same
-// for the same random numbers: what is tilted by next to nothing looks like what is not tilted. Conventions in microfacet.k.h.
+// The ellipsoid distribution of normals (ellipsoid.k.h) with height-correlated Smith masking-shadowing, G2 = 1 / (1 /
+// G1(wo) + 1 / G1(wi) - 1): Heitz 2014, "Understanding the Masking-Shadowing Function in Microfacet-Based BRDFs", eq. 99.
+// The ellipsoid's G1 (Walter et al. 2014, Eq. 6) is limited to 1, which keeps Lambda from falling below 0. The untilted
+// model equals ggx_aniso.k.h, samples included: the same random numbers give the same samples. So a lobe with a tiny tilt
+// looks like an untilted one. Conventions: microfacet.k.h.
 #ifndef BN_ELLIPSOID_CORRELATED_K_H
 #define BN_ELLIPSOID_CORRELATED_K_H
 
@@ -12,21 +13,21 @@
 
 BN_KERNELS_BEGIN
 
-// u.z / G1(u), for u above the horizon; at least 1 / k. v: ellipsoid_seen_from(p, u).
+// Returns u.z / G1(u), for u above the horizon; at least 1 / k. v: ellipsoid_seen_from(p, u).
 BN_FN real ellipsoid_z_over_g1(ellipsoid_params p, ellipsoid_view v, real3 u)
 {
     real seen = v.sum / (lit(2.0) * p.an_length2);
     return max(seen, u.z);
 }
 
-// wo.z wi.z / G2. o, i: z over G1 of each.
+// Returns wo.z wi.z / G2. o, i: ellipsoid_z_over_g1() of wo and wi.
 BN_FN real ellipsoid_z2_over_g2(real3 wo, real o, real3 wi, real i)
 {
     real r = wi.z * o + wo.z * i - wo.z * wi.z;
     return r;
 }
 
-// G2 / (4 wo.z wi.z).
+// Returns G2 / (4 wo.z wi.z).
 BN_FN real ellipsoid_correlated_visibility(ellipsoid_params p, real3 wo, real3 wi)
 {
     real o = ellipsoid_z_over_g1(p, ellipsoid_seen_from(p, wo), wo);
@@ -40,7 +41,7 @@ BN_FN real ellipsoid_correlated_eval(ellipsoid_params p, real3 wo, real3 wi)
     return select(both_above(wo, wi), value, lit(0.0));
 }
 
-// eval times the cosine of wi, over the density that D has about its own normal.
+// Returns eval times the cosine of wi, over the density that D has about its own normal.
 BN_FN real ellipsoid_correlated_masking(ellipsoid_params p, real3 wo, real3 wi)
 {
     real value = ellipsoid_correlated_visibility(p, wo, wi) * wi.z;
@@ -57,11 +58,13 @@ BN_FN real ellipsoid_correlated_pdf(ellipsoid_params p, real3 wo, real3 wi)
     return ellipsoid_pdf(p, wo, wi);
 }
 
-// A normal that wo sees, unit: what visible_hemisphere_normal() finds on the sphere that A makes of the ellipsoid, about A n. Directions
-// mirrored there fill a cap evenly; 1 + and 1 - the cosine between A wo and A n are the view's sum and difference, which keep their digits.
-// The frame about A n is that of Duff et al. 2017, "Building an Orthonormal Basis, Revisited". v: ellipsoid_seen_from(p, wo).
+// Samples a normal visible from wo, unit, as visible_hemisphere_normal() does, on the sphere that A makes of the ellipsoid,
+// about A n. Mirrored directions fill a cap there evenly. 1 + and 1 - the cosine between A wo and A n are the view's sum
+// and difference, which keep their digits. The frame about A n follows Duff et al. 2017, "Building an Orthonormal Basis,
+// Revisited". v: ellipsoid_seen_from(p, wo).
 BN_FN real3 ellipsoid_visible_normal_by_cap(ellipsoid_params p, ellipsoid_view v, real2 xi)
 {
+    // Build a frame about A n
     real3 n = p.an / sqrt(p.an_length2);
     real3 w = k_normalize3(v.au);
     real turn = select(n.z < lit(0.0), lit(-1.0), lit(1.0));
@@ -69,6 +72,7 @@ BN_FN real3 ellipsoid_visible_normal_by_cap(ellipsoid_params p, ellipsoid_view v
     real b = n.x * n.y * a;
     real3 t = vec3_of(lit(1.0) + turn * n.x * n.x * a, turn * b, -(turn * n.x));
     real3 s = vec3_of(b, turn + n.y * n.y * a, -n.y);
+    // Sample the spherical cap of mirrored directions
     k_sin_cos_pair round = k_sin_cos(lit(6.2831853071795865) * xi.x);
     real over_lengths = lit(1.0) / max(v.lengths, lit(1e-20));
     real top = v.sum * over_lengths;
@@ -77,13 +81,15 @@ BN_FN real3 ellipsoid_visible_normal_by_cap(ellipsoid_params p, ellipsoid_view v
     real sine = sqrt(max(xi.y * top * (height + rest), lit(0.0)));
     real x = sine * round.cosine + k_dot3(w, t);
     real y = sine * round.sine + k_dot3(w, s);
+    // Form the half vector
     real3 point = t * x + s * y + n * height;
-    point = select(k_dot3(point, point) > lit(1e-18), k_normalize3(point), n); // nothing is seen straight from behind
+    point = select(k_dot3(point, point) > lit(1e-18), k_normalize3(point), n); // nothing is visible from straight behind
+    // Map back to the ellipsoid
     real3 m = p.r0 * (p.alpha_x * point.x) + p.r1 * (p.alpha_y * point.y) + p.r2 * point.z;
     return k_normalize3(m);
 }
 
-// wi.z / (k wo.z wi.z / G2): G2 / (k wo.z), at most 1.
+// Returns wi.z / (k wo.z wi.z / G2) = G2 / (k wo.z), at most 1.
 BN_FN real ellipsoid_correlated_weight(ellipsoid_params p, ellipsoid_view v, real3 wo, real3 wi)
 {
     real o = ellipsoid_z_over_g1(p, v, wo);
@@ -103,7 +109,7 @@ BN_FN bsdf_sample ellipsoid_correlated_sample(ellipsoid_params p, real3 wo, real
     return bsdf_sample_of(wi, ellipsoid_correlated_weight(p, v, wo, wi), pdf, o_dot_m, valid);
 }
 
-// Directional albedo in the limit of a mirror: the weight of its one sample.
+// Returns directional albedo in the mirror limit: the weight of its only sample.
 BN_FN real ellipsoid_correlated_mirror_albedo(ellipsoid_params p, real3 wo)
 {
     real3 wi = mirror_direction(wo, p.r2);

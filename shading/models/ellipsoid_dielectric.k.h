@@ -1,10 +1,9 @@
-// A rough dielectric interface whose microfacets follow the ellipsoid distribution: reflection and refraction
-// with exact Fresnel factors. Walter et al. 2007, "Microfacet Models for Refraction through Rough Surfaces",
-// eq. 16, 17 and 21, with the masking of the ellipsoid's Eq. 7: a direction below the surface is masked like
-// its opposite. Here f is the density of scattered power: the integral of f |wi.z| over all wi is at most 1,
-// and so is a sample's weight. A path traced from the eye carries radiance, which changes by the square of
-// the index: multiply by (eta of wo's side / eta of wi's side)^2. Directions as in microfacet.k.h, but wo and
-// wi may each lie on either side.
+// A rough dielectric interface whose microfacets follow the ellipsoid distribution: reflection and refraction with exact
+// Fresnel factors. Walter et al. 2007, "Microfacet Models for Refraction through Rough Surfaces", eq. 16, 17 and 21, with
+// the ellipsoid's masking (Eq. 7): a direction below the surface is masked like its opposite. Here f is the density of
+// scattered power. So the integral of f |wi.z| over all wi is at most 1, and so is a sample's weight. A path traced from
+// the eye carries radiance, which changes by the squared index: multiply by (eta of wo's side / eta of wi's side)^2.
+// Directions as in microfacet.k.h, but wo and wi may lie on either side.
 #ifndef BN_ELLIPSOID_DIELECTRIC_K_H
 #define BN_ELLIPSOID_DIELECTRIC_K_H
 
@@ -16,8 +15,7 @@ BN_KERNELS_BEGIN
 
 struct ellipsoid_dielectric_params {
     ellipsoid_params shape;
-    real eta; // index below the surface over that above it, [0.1, 10], at least 1e-3 from 1, where nothing
-              // would be scattered
+    real eta; // index below the surface over the index above, [0.1, 10], at least 1e-3 from 1, where nothing would scatter
 };
 
 BN_FN ellipsoid_dielectric_params ellipsoid_dielectric_params_of(ellipsoid_params shape, real eta)
@@ -30,15 +28,14 @@ BN_FN ellipsoid_dielectric_params ellipsoid_dielectric_params_of(ellipsoid_param
     return p;
 }
 
-// Both directions turned over if wo is below, so that it is above: the surface looks the same from there but
-// for the index.
+// Both directions, flipped if wo is below so that wo is above: except for the index, the surface looks the same from there.
 struct ellipsoid_crossing {
     real3 wo;
     real3 wi;
-    real eta; // index of the far side over that of wo's
+    real eta; // index on the far side over the index on wo's side
     mask transmits;
-    mask possible; // neither lies in the surface
-    real3 m;       // the microfacet's normal, unit, m.z >= 0 where there is one
+    mask possible; // neither direction lies in the surface
+    real3 m;       // the microfacet normal, unit, m.z >= 0 where it exists
     real length2;  // |wo + eta wi|^2 where the light crosses
 };
 
@@ -58,14 +55,13 @@ BN_FN ellipsoid_crossing ellipsoid_crossing_of(ellipsoid_dielectric_params p, re
     return c;
 }
 
-// wi below the surface, masked like its opposite.
+// Returns wi, or its opposite where wi lies below the surface, for masking.
 BN_FN real3 ellipsoid_masked_as(ellipsoid_crossing c)
 {
     return select(c.transmits, -c.wi, c.wi);
 }
 
-// Jacobian of refraction, dm / dwi, with wo.m: sr/sr. Zero where wo and wi do not lie on opposite sides of
-// the facet.
+// Returns the Jacobian of refraction, dm / dwi, sr/sr. Zero where wo and wi do not lie on opposite sides of the facet.
 BN_FN real ellipsoid_refraction_jacobian(ellipsoid_crossing c)
 {
     real i_dot_m = k_dot3(c.wi, c.m);
@@ -74,11 +70,11 @@ BN_FN real ellipsoid_refraction_jacobian(ellipsoid_crossing c)
     return select(both(i_dot_m<lit(0.0), o_dot_m> lit(0.0)), value, lit(0.0));
 }
 
-// What scatters from wo to wi, without Fresnel's factor: reflectance where it is reflected, the rest where it crosses.
+// Scattering from wo to wi, without the Fresnel factor F for reflection and 1 - F for refraction.
 struct ellipsoid_scattering {
-    real value;   // 1/sr, of a perfect reflector and of an interface that reflects nothing
-    real pdf;     // of the side's samples, 1/sr
-    real o_dot_m; // of the microfacet: the argument of Fresnel's equations
+    real value;   // 1/sr, for a perfect reflector or an interface that reflects nothing
+    real pdf;     // density of this side's samples, 1/sr
+    real o_dot_m; // cosine to the microfacet: the argument of Fresnel's equations
     mask transmits;
 };
 
@@ -98,7 +94,7 @@ BN_FN ellipsoid_scattering ellipsoid_scattering_of(ellipsoid_dielectric_params p
     return s;
 }
 
-// Its share of the light that meets the microfacet.
+// Returns the share of light at the microfacet that goes this way: F or 1 - F.
 BN_FN real ellipsoid_dielectric_share(ellipsoid_dielectric_params p, real3 wo, ellipsoid_scattering s)
 {
     real eta = select(wo.z < lit(0.0), lit(1.0) / p.eta, p.eta);
@@ -118,16 +114,16 @@ BN_FN real ellipsoid_dielectric_pdf(ellipsoid_dielectric_params p, real3 wo, rea
     return ellipsoid_dielectric_share(p, wo, s) * s.pdf;
 }
 
-// A microfacet that wo, above the surface, sees.
+// A microfacet that wo sees; wo lies above the surface.
 struct ellipsoid_facet {
-    real3 m; // its normal, unit
+    real3 m; // the microfacet normal, unit
     real o_dot_m;
     real seen;     // density of m over o_dot_m
-    real lit_part; // of it, by wo's masking: min(1, 1 / (k wo.z))
+    real lit_part; // factor on the weight by wo's masking: min(1, 1 / (k wo.z))
     mask sound;
 };
 
-// v: ellipsoid_seen_from(shape, wo).
+// Makes the facet with normal m. v: ellipsoid_seen_from(shape, wo).
 BN_FN ellipsoid_facet ellipsoid_facet_of(ellipsoid_params shape, ellipsoid_view v, real3 wo, real3 m)
 {
     ellipsoid_facet r;
@@ -145,7 +141,8 @@ BN_FN ellipsoid_facet ellipsoid_facet_seen(ellipsoid_params shape, real3 wo, rea
     return ellipsoid_facet_of(shape, v, wo, ellipsoid_visible_normal(shape, v, wo, xi));
 }
 
-// Samples through a microfacet, without Fresnel's factor in weight and density. The weight is G1(wi) min(1, 1 / (k wo.z)).
+// Samples reflection at a microfacet, without the Fresnel factor in weight and density. The weight is G1(wi) min(1, 1 / (k
+// wo.z)).
 BN_FN bsdf_sample ellipsoid_facet_reflects(ellipsoid_params shape, ellipsoid_facet f, real3 wo)
 {
     real3 wi = mirror_direction(wo, f.m);
@@ -154,11 +151,11 @@ BN_FN bsdf_sample ellipsoid_facet_reflects(ellipsoid_params shape, ellipsoid_fac
     return bsdf_sample_of(wi, weight, pdf, f.o_dot_m, both(f.sound, wi.z > lit(0.0)));
 }
 
-// eta: index of the far side over that of wo's.
+// Samples refraction at a microfacet, likewise. eta: index on the far side over the index on wo's side.
 BN_FN bsdf_sample ellipsoid_facet_refracts(ellipsoid_params shape, ellipsoid_facet f, real3 wo, real eta)
 {
     real sine2 = max((lit(1.0) - f.o_dot_m) * (lit(1.0) + f.o_dot_m), lit(0.0)) / (eta * eta);
-    real cosine = sqrt(max(lit(1.0) - sine2, lit(0.0))); // of the refracted direction, below the facet
+    real cosine = sqrt(max(lit(1.0) - sine2, lit(0.0))); // cosine of the refracted direction, below the facet
     real3 wi = k_normalize3(f.m * (f.o_dot_m / eta - cosine) - wo / eta);
     real weight = ellipsoid_g1(shape, -wi) * f.lit_part;
     real travel = eta * cosine - f.o_dot_m; // |wo + eta wi|
@@ -168,7 +165,7 @@ BN_FN bsdf_sample ellipsoid_facet_refracts(ellipsoid_params shape, ellipsoid_fac
     return bsdf_sample_of(wi, weight, pdf, f.o_dot_m, both(f.sound, below));
 }
 
-// xi.x, xi.y choose the microfacet, xi.z between reflection and refraction.
+// Samples wi. xi.x, xi.y choose the microfacet, xi.z chooses between reflection and refraction.
 BN_FN bsdf_sample ellipsoid_dielectric_sample(ellipsoid_dielectric_params p, real3 wo, real3 xi)
 {
     mask under = wo.z < lit(0.0);

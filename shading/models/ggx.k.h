@@ -1,5 +1,6 @@
-// Isotropic GGX: Walter et al. 2007, "Microfacet Models for Refraction through Rough Surfaces", eq. 33, and height-correlated Smith, Heitz
-// 2014, "Understanding the Masking-Shadowing Function in Microfacet-Based BRDFs", eq. 99. Conventions in microfacet.k.h.
+// Isotropic GGX: Walter et al. 2007, "Microfacet Models for Refraction through Rough Surfaces", eq. 33, with
+// height-correlated Smith masking-shadowing: Heitz 2014, "Understanding the Masking-Shadowing Function in Microfacet-Based
+// BRDFs", eq. 99. Conventions: microfacet.k.h.
 #ifndef BN_GGX_K_H
 #define BN_GGX_K_H
 
@@ -10,7 +11,7 @@
 
 BN_KERNELS_BEGIN
 
-// Distribution of normals, 1/sr. n_dot_h in [0,1]; sin2_h = |n x h|^2 keeps digits near n_dot_h = 1; alpha in
+// Returns the normal distribution, 1/sr. n_dot_h in [0,1]; sin2_h = |n x h|^2 keeps digits near n_dot_h = 1; alpha in
 // [1e-3,1].
 BN_FN real ggx_d(real n_dot_h, real sin2_h, real alpha)
 {
@@ -19,7 +20,7 @@ BN_FN real ggx_d(real n_dot_h, real sin2_h, real alpha)
     return k * k * lit(0.31830988618379067);
 }
 
-// G2 / (4 n_dot_l n_dot_v). Cosines in (0,1].
+// Returns G2 / (4 n_dot_l n_dot_v). Cosines in (0,1].
 BN_FN real ggx_visibility(real n_dot_l, real n_dot_v, real alpha)
 {
     real a2 = alpha * alpha;
@@ -40,7 +41,7 @@ BN_FN ggx_params ggx_params_of(real alpha)
     return p;
 }
 
-// |(alpha x, alpha y, z)|: 2 / (1 + that / w.z) is Smith's G1.
+// Returns s = |(alpha x, alpha y, z)|. Smith's G1 is 2 / (1 + s / w.z).
 BN_FN real ggx_stretch(ggx_params p, real3 w)
 {
     return sqrt(p.alpha * p.alpha * (w.x * w.x + w.y * w.y) + w.z * w.z);
@@ -55,14 +56,15 @@ BN_FN real ggx_eval(ggx_params p, real3 wo, real3 wi)
     return select(both_above(wo, wi), value, lit(0.0));
 }
 
-// eval times the cosine of wi, over D.
+// Returns eval times the cosine of wi, over D.
 BN_FN real ggx_masking(ggx_params p, real3 wo, real3 wi)
 {
     real bottom = wi.z * ggx_stretch(p, wo) + wo.z * ggx_stretch(p, wi);
     return lit(0.5) * wi.z / max(bottom, lit(1e-16));
 }
 
-// eval about any normal n, without axes; n, v, l: unit, in one space; n_dot_v in (0,1]. Lights lower than 1e-4 count as that low.
+// Returns eval about any normal n, without axes. n, v, l: unit, in one space; n_dot_v in (0,1]. Light cosines below 1e-4
+// count as 1e-4.
 BN_FN real ggx_eval_about(ggx_params p, real3 n, real3 v, real n_dot_v, real3 l)
 {
     real3 h = k_normalize3(l + v);
@@ -73,7 +75,7 @@ BN_FN real ggx_eval_about(ggx_params p, real3 n, real3 v, real n_dot_v, real3 l)
     return d * g;
 }
 
-// Density of normals visible from wo: G1 D (wo.h) / wo.z, 1/sr.
+// Returns the density of normals visible from wo: G1 D (wo.h) / wo.z, 1/sr.
 BN_FN real ggx_half_pdf(ggx_params p, real3 wo, real3 h)
 {
     real d = ggx_d(h.z, h.x * h.x + h.y * h.y, p.alpha);
@@ -90,7 +92,7 @@ BN_FN real ggx_pdf(ggx_params p, real3 wo, real3 wi)
     return select(both_above(wo, wi), value, lit(0.0));
 }
 
-// Visible normals. The weight, G2 / G1, is at most 1.
+// Samples visible normals. The weight, G2 / G1, is at most 1.
 BN_FN bsdf_sample ggx_sample(ggx_params p, real3 wo, real2 xi)
 {
     real3 up = vec3_of(wo.x, wo.y, max(wo.z, lit(0.0)));

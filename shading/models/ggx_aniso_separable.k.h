@@ -1,6 +1,6 @@
-// Anisotropic GGX with separable Smith masking-shadowing, G2 = G1(wo) G1(wi): what the ellipsoid distribution
-// (ellipsoid.k.h) has where it is not tilted. Distribution, density and samples are those of ggx_aniso.k.h.
-// Conventions in microfacet.k.h.
+// Anisotropic GGX with separable Smith masking-shadowing, G2 = G1(wo) G1(wi). The untilted ellipsoid distribution
+// (ellipsoid.k.h) equals this model. Distribution, density and samples come from ggx_aniso.k.h. Conventions:
+// microfacet.k.h.
 #ifndef BN_GGX_ANISO_SEPARABLE_K_H
 #define BN_GGX_ANISO_SEPARABLE_K_H
 
@@ -10,14 +10,14 @@
 
 BN_KERNELS_BEGIN
 
-// G1 G1 / (4 wo.z wi.z).
+// Returns G1 G1 / (4 wo.z wi.z).
 BN_FN real ggx_aniso_separable_visibility(ggx_aniso_params p, real3 wo, real3 wi)
 {
     real bottom = (wo.z + ggx_aniso_stretch(p, wo)) * (wi.z + ggx_aniso_stretch(p, wi));
     return lit(1.0) / max(bottom, lit(1e-16));
 }
 
-// eval times the cosine of wi, over D.
+// Returns eval times the cosine of wi, over D.
 BN_FN real ggx_aniso_separable_masking(ggx_aniso_params p, real3 wo, real3 wi)
 {
     return ggx_aniso_separable_visibility(p, wo, wi) * wi.z;
@@ -34,12 +34,12 @@ BN_FN real ggx_aniso_separable_pdf(ggx_aniso_params p, real3 wo, real3 wi)
     return ggx_aniso_pdf(p, wo, wi);
 }
 
-// The weight is G1(wi).
 BN_FN real ggx_aniso_separable_half_pdf(ggx_aniso_params p, real3 wo, real3 h)
 {
     return ggx_aniso_half_pdf(p, wo, h);
 }
 
+// Samples wi. The weight is G1(wi).
 BN_FN bsdf_sample ggx_aniso_separable_sample(ggx_aniso_params p, real3 wo, real2 xi)
 {
     real3 h = ggx_aniso_visible_normal(p, wo, xi);

@@ -1,9 +1,8 @@
-// Heidrich and Seidel 1998, "Efficient Rendering of Anisotropic Surfaces Using Computer Graphics Hardware":
-// the surface as a bundle of threads along the tangent x. The model is no BRDF: it is not normalised, its
-// diffuse part is not reciprocal, and it gives reflected over incident intensity. So, unlike those of other
-// models (microfacet.k.h), heidrich_seidel_eval takes the place of BRDF times cosine and is multiplied by no
-// further cosine, and samples are uniform over the hemisphere, weight = eval / pdf: a density proportional to
-// the cosine would have infinite variance at the horizon, where the diffuse part does not vanish.
+// Heidrich and Seidel 1998, "Efficient Rendering of Anisotropic Surfaces Using Computer Graphics Hardware": the surface as
+// a bundle of threads along the tangent x. The model is no BRDF: it is not normalised, its diffuse part is not reciprocal,
+// and it gives reflected over incident intensity. So, unlike other models (microfacet.k.h), heidrich_seidel_eval replaces
+// BRDF times cosine, and callers apply no further cosine. Samples are uniform over the hemisphere, weight = eval / pdf. A
+// density proportional to the cosine would have infinite variance at the horizon, where the diffuse part does not vanish.
 #ifndef BN_HEIDRICH_SEIDEL_K_H
 #define BN_HEIDRICH_SEIDEL_K_H
 
@@ -14,7 +13,7 @@ BN_KERNELS_BEGIN
 
 struct heidrich_seidel_params {
     real kd, ks;   // diffuse and specular coefficients, [0, 1e6]
-    real exponent; // Phong's, [0, 1e4]
+    real exponent; // Phong exponent, [0, 1e4]
 };
 
 BN_FN heidrich_seidel_params heidrich_seidel_params_of(real kd, real ks, real exponent)
@@ -26,8 +25,9 @@ BN_FN heidrich_seidel_params heidrich_seidel_params_of(real kd, real ks, real ex
     return p;
 }
 
-// Of a brushed surface: a shiny thread of reflectance 1 along x, as wide along it as a lobe of GGX width alpha, to second order: the mirror
-// direction turns twice as far as the normal, so that cos^e has the curvature of a half vector's 1 / alpha^2.
+// Returns the parameters of a brushed surface: shiny threads with reflectance 1 along x. To second order, the lobe is as
+// wide as a GGX lobe with width alpha. The mirror direction turns twice as far as the normal, so cos^e has the curvature of
+// a half vector with exponent 1 / alpha^2.
 BN_FN heidrich_seidel_params heidrich_seidel_params_of_alpha(real alpha)
 {
     real a = usable_alpha(alpha);
@@ -35,21 +35,21 @@ BN_FN heidrich_seidel_params heidrich_seidel_params_of_alpha(real alpha)
     return heidrich_seidel_params_of(lit(0.0), lit(1.0), exponent);
 }
 
-// Sine of the angle between w and the thread: the diffuse term, for light from w.
+// Returns the sine of the angle between w and the thread: the diffuse term for light from w.
 BN_FN real heidrich_seidel_diffuse(real3 w)
 {
     return sqrt(max(lit(1.0) - w.x * w.x, lit(0.0)));
 }
 
-// Cosine between wo and the mirror direction on the thread that lies nearest to it, clamped at 0 (it is
-// negative where both lie towards the same end of the thread; an even exponent would light them).
+// Returns the cosine between wo and the nearest mirror direction on the thread, clamped at 0. The cosine is negative where
+// both directions lean towards the same end of the thread; an even exponent would light those.
 BN_FN real heidrich_seidel_mirror(real3 wo, real3 wi)
 {
     real value = heidrich_seidel_diffuse(wi) * heidrich_seidel_diffuse(wo) - wi.x * wo.x;
     return max(value, lit(0.0));
 }
 
-// Surfaces light only what faces the light: the clamp that threads have no need of.
+// Surfaces reflect only light from above the horizon: a clamp that threads do not need.
 BN_FN real heidrich_seidel_eval(heidrich_seidel_params p, real3 wo, real3 wi)
 {
     real m = heidrich_seidel_mirror(wo, wi);

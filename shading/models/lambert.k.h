@@ -1,4 +1,4 @@
-// Lambert's diffuse reflection of albedo 1; conventions in microfacet.k.h. Its samples follow the cosine.
+// Lambert's diffuse reflection with albedo 1. Samples follow the cosine. Conventions: microfacet.k.h.
 #ifndef BN_LAMBERT_K_H
 #define BN_LAMBERT_K_H
 

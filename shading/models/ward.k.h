@@ -1,7 +1,7 @@
-// Ward 1992, "Measuring and Modeling Anisotropic Reflection", specular part of reflectance 1, with the exact one of his two exponents:
-// -tan^2 of the half vector's angle, in units of the widths. ward_cheap.k.h has his approximation, with a density and samples of its own.
-// The model has neither masking nor Fresnel, and the BRDF grows without bound at the horizon: cosines below 1e-4 count as 1e-4. Conventions
-// in microfacet.k.h.
+// Ward 1992, "Measuring and Modeling Anisotropic Reflection", specular part with reflectance 1 and the exact one of his two
+// exponents: -tan^2 of the half vector's angle, in units of the widths. ward_cheap.k.h has his approximation, with its own
+// density and samples. The model has neither masking nor Fresnel, and the BRDF grows without bound at the horizon: cosines
+// below 1e-4 count as 1e-4. Conventions: microfacet.k.h.
 #ifndef BN_WARD_K_H
 #define BN_WARD_K_H
 
@@ -12,7 +12,7 @@
 BN_KERNELS_BEGIN
 
 struct ward_params {
-    real alpha_x, alpha_y; // sqrt(2) times the deviation of slope along tangent and bitangent, at least 1e-3
+    real alpha_x, alpha_y; // sqrt(2) times the slope deviation along tangent and bitangent, at least 1e-3
 };
 
 BN_FN ward_params ward_params_of(real alpha_x, real alpha_y)
@@ -23,13 +23,13 @@ BN_FN ward_params ward_params_of(real alpha_x, real alpha_y)
     return p;
 }
 
-// sqrt(cosine) of a direction as the model divides by it.
+// Returns the square root of a direction's cosine, as the model divides by it.
 BN_FN real ward_root(real z)
 {
     return sqrt(max(z, lit(1e-4)));
 }
 
-// (x / alpha_x)^2 + (y / alpha_y)^2.
+// Returns (x / alpha_x)^2 + (y / alpha_y)^2.
 BN_FN real ward_ellipse(ward_params p, real3 h)
 {
     real x = h.x / p.alpha_x;
@@ -50,7 +50,7 @@ BN_FN real ward_eval(ward_params p, real3 wo, real3 wi)
     return select(both_above(wo, wi), value, lit(0.0));
 }
 
-// Density of half vectors, 1/sr: exp(-tan^2) / (pi alpha_x alpha_y h.z^3).
+// Returns the density of half vectors, 1/sr: exp(-tan^2) / (pi alpha_x alpha_y h.z^3).
 BN_FN real ward_half_density(ward_params p, real3 h)
 {
     real z = max(h.z, lit(1e-4));
@@ -70,8 +70,7 @@ BN_FN real ward_pdf(ward_params p, real3 wo, real3 wi)
     return select(both_above(wo, wi), value, lit(0.0));
 }
 
-// A half vector, unit. Walter 2005, "Notes on the Ward BRDF"; the slopes along the axes are independent and
-// normal.
+// Samples a half vector, unit; slopes along the axes are independent and Gaussian. Walter 2005, "Notes on the Ward BRDF".
 BN_FN real3 ward_half_vector(ward_params p, real2 xi)
 {
     k_sin_cos_pair turn = k_sin_cos(lit(6.2831853071795865) * xi.x);
@@ -79,8 +78,7 @@ BN_FN real3 ward_half_vector(ward_params p, real2 xi)
     return k_normalize3(vec3_of(p.alpha_x * r * turn.cosine, p.alpha_y * r * turn.sine, lit(1.0)));
 }
 
-// The weight is (wo.h) h.z^3 sqrt(wi.z / wo.z): above 1 towards grazing wo, at most
-// 1 / sqrt(wo.z).
+// Samples wi. The weight, (wo.h) h.z^3 sqrt(wi.z / wo.z), exceeds 1 towards grazing wo and is at most 1 / sqrt(wo.z).
 BN_FN bsdf_sample ward_sample(ward_params p, real3 wo, real2 xi)
 {
     real3 h = ward_half_vector(p, xi);

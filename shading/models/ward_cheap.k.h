@@ -1,12 +1,12 @@
-// Ward 1992, "Measuring and Modeling Anisotropic Reflection", with the cheaper of his two exponents, specular part of reflectance 1: -2 q /
-// (1 + h.z) in place of -q / h.z^2 (ward.k.h), q = (h.x / alpha_x)^2 + (h.y / alpha_y)^2. It is up to a fifth higher, so it has a density
-// and samples of its own: mixing the two biases an estimate.
+// Ward 1992, "Measuring and Modeling Anisotropic Reflection", with the cheaper of his two exponents; specular part with
+// reflectance 1. The exponent is -2 q / (1 + h.z) instead of -q / h.z^2 (ward.k.h), q = (h.x / alpha_x)^2 + (h.y /
+// alpha_y)^2. The lobe is up to a fifth higher, so it has its own density and samples: mixing both models biases an
+// estimate.
 //
-// With h at the angle theta from the normal and the azimuth phi, q = E(phi) sin^2(theta), and the exponent
-// is -2 E (1 - cos(theta)): along every azimuth 1 - h.z is distributed exponentially, and
-// exp(-2 q / (1 + h.z)) / (pi alpha_x alpha_y) is a density of half vectors that needs no cosine. The part
-// exp(-2 E) of it that lies below the horizon is rejected: 4e-6 at a width of 0.4, 0.14 at 1. The model has
-// neither masking nor Fresnel and grows without bound at the horizon, as in ward.k.h. Conventions in
+// For h at angle theta from the normal and azimuth phi, q = E(phi) sin^2(theta), and the exponent is -2 E (1 - cos(theta)).
+// So 1 - h.z has an exponential distribution along every azimuth, and exp(-2 q / (1 + h.z)) / (pi alpha_x alpha_y) is a
+// density of half vectors that needs no cosine. Its part below the horizon, exp(-2 E), is rejected: 4e-6 at width 0.4, 0.14
+// at 1. The model has neither masking nor Fresnel, and grows without bound at the horizon, as in ward.k.h. Conventions:
 // microfacet.k.h.
 #ifndef BN_WARD_CHEAP_K_H
 #define BN_WARD_CHEAP_K_H
@@ -30,7 +30,7 @@ BN_FN real ward_cheap_eval(ward_params p, real3 wo, real3 wi)
     return select(both_above(wo, wi), value, lit(0.0));
 }
 
-// Density of half vectors, 1/sr; h.z >= 0.
+// Returns the density of half vectors, 1/sr; h.z >= 0.
 BN_FN real ward_cheap_half_density(ward_params p, real3 h)
 {
     return ward_cheap_exponential(p, h) * lit(0.31830988618379067) / (p.alpha_x * p.alpha_y);
@@ -48,9 +48,9 @@ BN_FN real ward_cheap_pdf(ward_params p, real3 wo, real3 wi)
     return select(both_above(wo, wi), value, lit(0.0));
 }
 
-// A half vector, unit: 1 - h.z = -ln(1 - xi.y) / (2 E), where 1 / E = (alpha_x cos)^2 + (alpha_y sin)^2 of the
-// turn 2 pi xi.x, which is to the azimuth what a circle's angle is to an ellipse's. What would lie below the
-// horizon is moved to it, from where nothing is reflected upwards.
+// Samples a half vector, unit: 1 - h.z = -ln(1 - xi.y) / (2 E), where 1 / E = (alpha_x cos)^2 + (alpha_y sin)^2 at the
+// angle 2 pi xi.x. That angle relates to the azimuth as a circle's angle to an ellipse's. Vectors below the horizon move up
+// to it, where nothing is reflected upwards.
 BN_FN real3 ward_cheap_half_vector(ward_params p, real2 xi)
 {
     k_sin_cos_pair turn = k_sin_cos(lit(6.2831853071795865) * xi.x);
@@ -63,7 +63,7 @@ BN_FN real3 ward_cheap_half_vector(ward_params p, real2 xi)
     return k_normalize3(vec3_of(x * reach, y * reach, max(lit(1.0) - down, lit(0.0))));
 }
 
-// The weight is (wo.h) sqrt(wi.z / wo.z): above 1 towards grazing wo, at most 1 / sqrt(wo.z).
+// Samples wi. The weight, (wo.h) sqrt(wi.z / wo.z), exceeds 1 towards grazing wo and is at most 1 / sqrt(wo.z).
 BN_FN bsdf_sample ward_cheap_sample(ward_params p, real3 wo, real2 xi)
 {
     real3 h = ward_cheap_half_vector(p, xi);

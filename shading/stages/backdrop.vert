@@ -1,4 +1,4 @@
-// One triangle over the whole picture, behind everything.
+// One triangle that covers the whole picture, behind everything.
 #version 460
 
 void main()

@@ -1,5 +1,6 @@
-// Blended surfaces over what is solid, a pixel an invocation, in three phases: begins after the solid surfaces were shaded, puts a shaded
-// layer behind those before it, writes the pixels that show layers.
+// Composes blended surfaces over the solid ones, one pixel per invocation, in three phases. The first begins after the
+// solid surfaces are shaded. The second puts a shaded layer behind the layers before it. The third writes the pixels that
+// show layers.
 #version 460
 #extension GL_EXT_buffer_reference_uvec2 : require
 layout(local_size_x = 64) in;
@@ -41,16 +42,18 @@ void store_blended(int at, blended_light b)
     peel[at + kPeelThrough] = b.through;
 }
 
-// first: of the pixel's samples.
+// Starts a pixel's layers. first: index of the pixel's first sample.
 void begin_layers(int first)
 {
     for (int s = 0; s < frame.msaa; ++s) {
+        // Take the colour of the sample's solid pair
         int at = (first + s) * kGpuPeelWords, pair = 0;
         while (ids[first + pair] != ids[first + s])
             ++pair;
         real3 color = color_of_pair(first + pair);
         for (int c = 0; c < 3; ++c)
             peel[at + kPeelBehind + c] = color[c];
+        // Start in front of all surfaces, with nothing blended
         peel[at + kPeelSolidDepth] = depths[first + s];
         peel[at + kPeelSolidId] = intBitsToFloat(ids[first + s]);
         peel[at + kPeelDepth] = 2.0; // nearer than any surface
@@ -61,6 +64,7 @@ void begin_layers(int first)
     }
 }
 
+// Returns the alpha of a (pixel, triangle) pair.
 real alpha_of_pair(int slot, int px, int py, int covered)
 {
     triangle_setup t = load_setup(slot);
@@ -72,22 +76,25 @@ real alpha_of_pair(int slot, int px, int py, int covered)
     return fetch_alpha(0, m, p);
 }
 
-// Returns the pairs of the layer.
+// Composes one layer of a pixel. Returns the number of its pairs.
 int compose_layer(int first, int px, int py)
 {
     int rest = (1 << frame.msaa) - 1, pairs = 0;
     while (rest != 0) {
+        // Collect the samples of the next triangle
         int begin = findLSB(rest), slot = ids[first + begin], covered = 0;
         for (int s = begin; s < frame.msaa; ++s)
             if (ids[first + s] == slot)
                 covered |= 1 << s;
         rest &= ~covered;
+        // Fetch the pair's colour and alpha
         bool seen = slot != kGpuNoTriangle;
         real3 color = color_of_pair(first + begin);
         real alpha = lit(0.0);
         if (seen)
             alpha = alpha_of_pair(slot, px, py, covered);
         pairs += seen ? 1 : 0;
+        // Blend the pair behind each covered sample
         for (int s = begin; s < frame.msaa; ++s)
             if ((covered >> s & 1) != 0) {
                 int at = (first + s) * kGpuPeelWords;
@@ -104,6 +111,7 @@ int compose_layer(int first, int px, int py)
     return pairs;
 }
 
+// Blends each sample's layers over its solid colour, and resolves the pixel.
 void end_layers(int first, int pixel)
 {
     real3 sum = vec3_all(lit(0.0));

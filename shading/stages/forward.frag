@@ -1,5 +1,5 @@
-// The classical pipeline's fragments: interpolated by the device, shaded once a fragment. With BN_STAGES four of a fragment's words, in
-// place of its colour (kGpuForwardGroups).
+// Fragments of the forward pipeline: the device interpolates, and each fragment is shaded once. With BN_STAGES the output
+// is four of a fragment's recorded words instead of its colour (kGpuForwardGroups).
 #version 460
 #extension GL_EXT_buffer_reference_uvec2 : require
 #include "shading/stages/interface.glsl"
@@ -10,7 +10,7 @@
 #include "shading/surface/specular_aa.t.h"
 #include "shading/stages/pass.glsl"
 
-#ifdef BN_CENTROID // the device's own place in partly covered pixels: cheaper, and elsewhere
+#ifdef BN_CENTROID // the device's own centroid in partly covered pixels: cheaper, but at another place
 #define BN_FROM_VERTEX centroid in
 #define BN_AT_POINT(v) v
 #else
@@ -26,7 +26,7 @@ layout(location = 0) out vec4 radiance;
 layout(constant_id = 5) const int kMsaa = 1;
 
 #ifdef BN_STAGES
-layout(constant_id = 6) const bool kKnowsTriangle = false; // as the pipeline whose words these are
+layout(constant_id = 6) const bool kKnowsTriangle = false; // as in the pipeline whose words are recorded
 layout(constant_id = 7) const int kGroup = 0;
 layout(location = 5) flat in int triangle;
 #define BN_TAKE_WORD(at, x)                                                                                                                \
@@ -35,33 +35,38 @@ layout(location = 5) flat in int triangle;
 #include "shading/surface/recorded.t.h"
 #endif
 
-// Bit s: sample s.
+// Returns the samples that survive the alpha test; bit s is sample s.
 int alive_samples(int m, real alpha)
 {
     bool stays = materials[m].alpha_mode == kAlpha_opaque || alpha_stays(m, alpha, lit(0.5));
     return stays ? (1 << frame.msaa) - 1 : 0;
 }
 
-// Whether the triangle covers the pixel's centre, by its edges in homogeneous clip space: to within the device's own snapping.
+// Returns true where the triangle covers the pixel centre. Tests its edges in homogeneous clip space, exact but for the
+// device's own snapping.
 bool covers_centre(int number, int px, int py)
 {
+    // Pixel centre in homogeneous coordinates
     real x = (to_real(px) + lit(0.5)) / frame.half_width - lit(1.0);
     real y = lit(1.0) - (to_real(py) + lit(0.5)) / frame.half_height;
     real3 at = vec3(x, y, 1.0);
     view_params view = view_params_of(frame.view);
+    // Corners in clip space
     real3 v[3];
     for (int i = 0; i < 3; ++i) {
         real4 clip = clip_position(vertex_position(bn_ints[places.index_base + 3 * number + i]), view);
         v[i] = vec3(clip.x, clip.y, clip.z); // x, y, w
     }
+    // Signs of the three edge functions
     real e0 = k_dot3(k_cross(v[1], v[2]), at);
     real e1 = k_dot3(k_cross(v[2], v[0]), at);
     real e2 = k_dot3(k_cross(v[0], v[1]), at);
     return (e0 >= 0.0 && e1 >= 0.0 && e2 >= 0.0) || (e0 <= 0.0 && e1 <= 0.0 && e2 <= 0.0);
 }
 
-// Where the tile renderer shades, from the pixel's centre, pixels: there, or where the triangle does not cover it at the mean of the covered
-// samples; where fragments do not know their triangle, wherever it does not cover them all.
+// Returns the tile renderer's shading position as an offset from the pixel centre, in pixels. The position is the centre if
+// the triangle covers it, else the mean of the covered samples. Fragments that do not know their triangle use the mean
+// unless all samples are covered.
 vec2 shaded_offset(int px, int py)
 {
 #ifdef BN_CENTROID
@@ -83,18 +88,20 @@ vec2 shaded_offset(int px, int py)
 #endif
 }
 
+// Makes the visible point from the interpolated attributes.
 visible_point point_of_fragment(int px, int py)
 {
     visible_point p;
     p.normal_dx = dFdxFine(normal);
     p.normal_dy = dFdyFine(normal);
-    p.uv0_dx = dFdxFine(uv.xy); // of pixel centres, by row and column of the quad
+    p.uv0_dx = dFdxFine(uv.xy); // between pixel centres, by row and column of the quad
     p.uv1_dx = dFdxFine(uv.zw);
     p.uv0_dy = dFdyFine(uv.xy);
     p.uv1_dy = dFdyFine(uv.zw);
     vec2 offset = shaded_offset(px, py);
     vec4 place = BN_AT_POINT(position);
-    // what a vertex has 1 of is 1 here, unless the device divides by the centre's w: Mesa 22.3 does
+    // An attribute that is 1 at every vertex comes out as 1 here, unless the device divides by the centre's w, as Mesa 22.3
+    // does. So divide by the attribute.
     real w = place.w;
     p.position = place.xyz / w;
     p.normal = BN_AT_POINT(normal) / w;
@@ -106,6 +113,7 @@ visible_point point_of_fragment(int px, int py)
     p.uv0 = uv_at.xy;
     p.uv1 = uv_at.zw;
     p.front = gl_FrontFacing;
+    // Ray through the shading position
     real x = to_real(px) + lit(0.5) + offset.x;
     real y = to_real(py) + lit(0.5) + offset.y;
     p.ray = ray_through(0, view_params_of(frame.view), x, y);
@@ -131,10 +139,12 @@ relief_plane plane_of_fragment(visible_point p)
 void main()
 {
     int m = pass.material, px = int(gl_FragCoord.x), py = int(gl_FragCoord.y) + pass.first_row;
+    // Find the visible point and its material
     visible_point p = point_of_fragment(px, py);
     if (materials[m].relief != 0)
         see_relief(0, m, plane_of_fragment(p), p);
     material_inputs at = fetch_material(0, m, p);
+    // Drop the samples that fail the alpha test
     int alive = alive_samples(m, at.alpha);
     if (alive == 0)
         discard;
@@ -145,7 +155,7 @@ void main()
     record_point(word, p, materials[m].uses_color != 0, materials[m].textured != 0, frame.positions != 0);
     record_material(word, at);
 #else
-    // alone: fragments do not meet their neighbours
+    // No sharing: a fragment cannot read its neighbours.
     line_record light = light_of_fragment(0, m, materials[m].technique, at, lobe_shape_at(0, m, at, p), p, px, py, false);
     radiance = vec4(light.rest, 1.0);
 #endif

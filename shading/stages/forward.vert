@@ -1,5 +1,5 @@
-// The classical pipeline's vertices: one draw a primitive, attributes fetched by index. With BN_STAGES the same, but for the triangle's
-// number, which indexed vertices cannot tell.
+// Vertices of the forward pipeline: one draw per primitive, attributes fetched by index. With BN_STAGES the draw is not
+// indexed, so that the vertex number gives the triangle.
 #version 460
 #extension GL_EXT_buffer_reference_uvec2 : require
 #include "shading/stages/interface.glsl"
@@ -32,7 +32,8 @@ void main()
     color = vec4(bn_reals[at + 12], bn_reals[at + 13], bn_reals[at + 14], bn_reals[at + 15]);
     view_params view = view_params_of(frame.view);
     real4 clip = clip_position(place, view); // x, y, w, z
-    // On the sub-pixel grid already, so that attributes are interpolated between the positions that are rasterized.
+    // Move the position onto the sub-pixel grid, so that the device interpolates attributes between the rasterized
+    // positions.
     snapped_vertex s = snap_to_frame(0, clip, view, kWholeBand);
     if (s.valid) {
         real x = to_real(s.x + frame.center_x) * lit(0.00390625) / frame.half_width - lit(1.0);

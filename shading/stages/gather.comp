@@ -1,4 +1,4 @@
-// Ids and depths of one pass from its images to buffers, [pixel of the band][sample].
+// Copies the ids and depths of one pass from images to buffers, [pixel of the band][sample].
 #version 460
 #extension GL_EXT_buffer_reference_uvec2 : require
 layout(local_size_x = 64) in;

@@ -1,4 +1,4 @@
-// Four words of each sample, as the forward pipeline records them, from an image to a buffer.
+// Copies four recorded words per sample, as the forward pipeline writes them, from an image to a buffer.
 #version 460
 #extension GL_EXT_buffer_reference_uvec2 : require
 layout(local_size_x = 64) in;

@@ -1,5 +1,5 @@
-// What all stages read: the frame and the scene. Bindings 0 to 2 belong to the kernel language. A stage includes it before all else: it says
-// how the language finds texels.
+// Buffers that all stages read: the frame and the scene. Bindings 0 to 2 belong to the kernel language. Every stage
+// includes this file first, because it selects how the kernel language finds texels.
 #ifndef BN_INTERFACE_GLSL
 #define BN_INTERFACE_GLSL
 

@@ -1,4 +1,4 @@
-// What the visible (pixel, triangle) pairs of a band share, [pixel of the band][first sample].
+// Shared samples (line_record) of a band's visible (pixel, triangle) pairs, [pixel of the band][first sample].
 #ifndef BN_LINES_GLSL
 #define BN_LINES_GLSL
 

@@ -1,4 +1,4 @@
-// Materials' textures at a visible point: a part of stage.glsl.
+// Material textures at a visible point; part of stage.glsl.
 #ifndef BN_MATERIAL_GLSL
 #define BN_MATERIAL_GLSL
 
@@ -10,7 +10,7 @@
 #include "core/scene/material.def"
 
 #ifdef BN_NATIVE_SAMPLER
-layout(set = 1, binding = 1) uniform sampler2D native_textures[kTextureSlots]; // of the drawn material
+layout(set = 1, binding = 1) uniform sampler2D native_textures[kTextureSlots]; // the drawn material's
 
 vec4 native_texel(int wanted, vec2 uv, float lod) // not every device indexes samplers by a variable
 {
@@ -22,7 +22,7 @@ vec4 native_texel(int wanted, vec2 uv, float lod) // not every device indexes sa
 }
 #endif
 
-layout(constant_id = 4) const int kUsedTextures = -1; // of the only material, a bit a slot; -1: of any material, see its record
+layout(constant_id = 4) const int kUsedTextures = -1; // one material: a bit per used slot; -1: any material, see its record
 
 bool texture_used(material_ref material, int slot)
 {
@@ -45,13 +45,15 @@ real4 texel_at_level(texture_one_level t, int slot, real2 uv)
 #endif
 }
 
+// Returns a slot's filtered value at visible point p.
 real4 fetch_texture(material_ref material, int slot, visible_point p)
 {
     texture_place place = texture_place_of(materials[material].textures[slot], p);
     texture_desc desc = texture_desc_of(0, material, slot);
     texture_footprint footprint = texture_footprint_of(desc, place.dx, place.dy, frame.texture_taps);
 #ifdef BN_NATIVE_SAMPLER
-    // the kernel's taps, each filtered by the device: anisotropic filters of devices differ, and lavapipe's takes a millisecond a pixel
+    // Take the kernel's taps, each filtered by the device. Anisotropic filters differ between devices, and lavapipe's is
+    // very slow.
     int taps = desc.nearest != 0 ? 1 : to_int(footprint.taps);
     real spacing = lit(1.0) / (to_real(taps) + lit(1.0));
     real4 sum = vec4(0.0);
@@ -73,12 +75,12 @@ real4 texel_beside(int f, material_ref m, int slot, visible_point p)
 }
 
 struct texture_fetches {
-    real4 texel[kTextureSlots]; // of slots that are used
+    real4 texel[kTextureSlots]; // valid for used slots
 };
 
 texture_fetches textures_at(int f, material_ref m, visible_point p)
 {
-    texture_fetches t; // one piece of code fetches them all
+    texture_fetches t; // a single call site fetches all slots
     for (int slot = 0; slot < kTextureSlots; ++slot)
         if (texture_used(m, slot))
             t.texel[slot] = fetch_texture(m, slot, p);

@@ -1,10 +1,10 @@
-// Recorders (shading/lang/recorder.h) in GLSL. A stage defines BN_TAKE_WORD(at, x), which takes the float x as word `at` of all.
+// Recorders (shading/lang/recorder.h) in GLSL. A stage defines BN_TAKE_WORD(at, x), which stores the float x as word `at`.
 #ifndef BN_RECORDER_GLSL
 #define BN_RECORDER_GLSL
 
 #include "shading/stages/interface.glsl"
 
-#ifndef BN_TAKE_WORD // nobody reads them
+#ifndef BN_TAKE_WORD // nothing reads the words
 float taken_words[kPairWords];
 #define BN_TAKE_WORD(at, x) taken_words[at] = x;
 #endif

@@ -1,12 +1,12 @@
-// What is recorded of a band, for comparisons and for pictures with more than colours: stages [pixel][first sample][kPairWords], then
-// layers [pixel][kLayerWords], then colours of pairs [pixel][first sample][3]; only what kRecords says.
+// Recorded words of a band, for comparisons and for pictures with layers: stages [pixel][first sample][kPairWords], then
+// layers [pixel][kLayerWords], then pair colours [pixel][first sample][3]. Only the parts that kRecords names exist.
 #ifndef BN_RECORDS_GLSL
 #define BN_RECORDS_GLSL
 
 #include "shading/stages/interface.glsl"
 #include "shading/stages/pass.glsl"
 
-layout(constant_id = 2) const int kRecords = 0; // a sum of kGpuRecordStages and so on
+layout(constant_id = 2) const int kRecords = 0; // a sum of kGpuRecord... bits
 
 #ifndef BN_RECORDS_ACCESS
 #define BN_RECORDS_ACCESS writeonly
@@ -24,7 +24,7 @@ bool recorded(int what)
     return (kRecords & what) != 0;
 }
 
-// Where words begin. pair: place of the pair's first sample among all samples of the band.
+// Return the index where words begin. pair: index of the pair's first sample among all samples of the band.
 int stages_at(int pair)
 {
     return pair * kPairWords;
@@ -40,7 +40,7 @@ int color_at(int pair)
 }
 
 #ifdef BN_RECORDS_WRITTEN
-// Of a pair, once it is known.
+// Stores a pair's colour.
 void record_color(int pair, vec3 color)
 {
     for (int c = 0; c < 3; ++c) {

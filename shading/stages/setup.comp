@@ -1,5 +1,5 @@
-// Triangles to setups, in draw order, in two phases with a prefix sum between them: how many setups each triangle gives (0, 1, or the
-// pieces that clipping leaves), then the setups.
+// Turns triangles into setups, in draw order, in two phases with a prefix sum between. The first counts each triangle's
+// setups (0, 1, or the pieces left by clipping). The second writes them.
 #version 460
 #extension GL_EXT_buffer_reference_uvec2 : require
 layout(local_size_x = 64) in;
@@ -10,9 +10,9 @@ layout(local_size_x = 64) in;
 #include "shading/kernels/pixel_range.k.h"
 
 layout(constant_id = 0) const int kPhase = 0; // 0: count, 1: write
-layout(std430, set = 0, binding = 9) buffer BnCounts { int counts[]; }; // by triangle: setups; after the prefix sum: the first of them
+layout(std430, set = 0, binding = 9) buffer BnCounts { int counts[]; }; // setups by triangle; after the scan, the first setup
 
-// Sign of the area: its two products need 47 bits each.
+// Returns the sign of the triangle's area. Its two products need 47 bits each.
 int area_sign(ivec3 x, ivec3 y)
 {
     int high0, high1, low0, low1;
@@ -23,6 +23,7 @@ int area_sign(ivec3 x, ivec3 y)
     return low0 == low1 ? 0 : uint(low0) > uint(low1) ? 1 : -1;
 }
 
+// Returns true where the range of v touches a sample along one axis of the picture.
 bool touches(ivec3 v, int center, int sample_min, int sample_max, int size)
 {
     int lo = min(v.x, min(v.y, v.z)), hi = max(v.x, max(v.y, v.z));
@@ -30,9 +31,10 @@ bool touches(ivec3 v, int center, int sample_min, int sample_max, int size)
     return r.first <= r.last;
 }
 
-// Writes setup `at` where this is the writing phase; returns how many it is: 0 or 1.
+// Writes setup `at` in the writing phase. Returns the number of setups, 0 or 1.
 int emit(int triangle, ivec3 x, ivec3 y, vec3 inv_w, vec3 z, mat3 bary, int clipped, int at)
 {
+    // Cull triangles that face away, have no area or touch no sample
     int area = area_sign(x, y);
     int material = bn_ints[places.material_base + triangle];
     bool front = area < 0; // counter-clockwise with y up
@@ -43,6 +45,7 @@ int emit(int triangle, ivec3 x, ivec3 y, vec3 inv_w, vec3 z, mat3 bary, int clip
         return 0;
     if (kPhase == 0 || at >= places.setup_capacity)
         return 1;
+    // Write the corners, turned so that the area is positive with y down
     for (int j = 0; j < 3; ++j) {
         int o = turned_corner(front, j);
         setups[at].x[j] = x[o];
@@ -58,7 +61,7 @@ int emit(int triangle, ivec3 x, ivec3 y, vec3 inv_w, vec3 z, mat3 bary, int clip
     return 1;
 }
 
-// side: of the polygon, see seen_side().
+// Emits one triangle of a clipped polygon's fan. side: the polygon's, see seen_side().
 int emit_piece(int triangle, clip_polygon polygon, int side, int i1, int i2, int at)
 {
     int corner[3] = int[3](0, i1, i2);
@@ -73,13 +76,16 @@ int emit_piece(int triangle, clip_polygon polygon, int side, int i1, int i2, int
         z[i] = c.z;
         bary[i] = vec3(float(c.bary[0]), float(c.bary[1]), float(c.bary[2]));
     }
+    // Drop pieces that snapping has turned around
     if (area_sign(x, y) != -side)
         return 0;
     return emit(triangle, x, y, inv_w, z, bary, kClipped, at);
 }
 
+// Clips a triangle and emits its pieces. Returns their number.
 int clip_triangle(int triangle, ivec3 v, int at)
 {
+    // Set up the corners; those inside keep their snapped place
     clip_polygon polygon;
     for (int i = 0; i < 3; ++i) {
         vec3 place = vertex_position(v[i]);
@@ -87,6 +93,7 @@ int clip_triangle(int triangle, ivec3 v, int at)
         if (vertices[v[i]].x != kNeedsClip)
             place_corner(polygon, i, vertices[v[i]].x, vertices[v[i]].y, vertices[v[i]].inv_w, vertices[v[i]].z);
     }
+    // Clip, then emit a triangle fan
     clip_triangle_to_frame(0, polygon);
     int side = seen_side(polygon), count = 0;
     for (int i = 1; i + 1 < polygon.count && side != 0; ++i)
@@ -99,6 +106,7 @@ void main()
     int triangle = linear_invocation();
     if (triangle >= places.triangle_count)
         return;
+    // Load the snapped corners
     ivec3 v, x, y;
     vec3 inv_w, z;
     for (int i = 0; i < 3; ++i) {
@@ -108,6 +116,7 @@ void main()
         inv_w[i] = vertices[v[i]].inv_w;
         z[i] = vertices[v[i]].z;
     }
+    // Clip or emit the triangle
     int at = kPhase == 0 ? 0 : counts[triangle], count;
     if (x[0] == kNeedsClip || x[1] == kNeedsClip || x[2] == kNeedsClip)
         count = clip_triangle(triangle, v, at);

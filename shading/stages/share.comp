@@ -1,4 +1,5 @@
-// After shade.comp: one pixel, whose fragments average what those of the 2x2 quad found and resolve.
+// Runs after shade.comp, one pixel per invocation: fragments average the samples of their 2x2 quad. Then resolves the
+// pixel.
 #version 460
 #extension GL_EXT_buffer_reference_uvec2 : require
 layout(local_size_x = 64) in;
@@ -12,7 +13,7 @@ layout(local_size_x = 64) in;
 layout(std430, set = 0, binding = 11) readonly buffer BnIds { int ids[]; };
 layout(std430, set = 0, binding = 13) writeonly buffer BnColor { float colors[]; };
 
-// Samples of the pair whose first sample is `begin`.
+// Returns the samples of the pair whose first sample is `begin`.
 int samples_of_pair(int first, int begin)
 {
     int covered = 0;
@@ -21,15 +22,18 @@ int samples_of_pair(int first, int begin)
     return covered;
 }
 
+// Returns a pair's colour, averaged with the other pixels of its quad. x, y: pixel in the band.
 real3 shared_colour(line_record own, int x, int y)
 {
     real inv = lit(1.0) / to_real(frame.msaa);
     line_mean mean = line_mean_begin(own);
+    // Visit the three other pixels of the quad
     for (int k = 1; k < 4; ++k) {
         int qx = x ^ (k & 1), qy = y ^ (k >> 1);
         if (qx >= frame.width || qy >= pass.rows)
             continue;
         int first = (qy * frame.width + qx) * frame.msaa, rest = (1 << frame.msaa) - 1;
+        // Add each of that pixel's pairs, weighted by its covered share
         while (rest != 0) {
             int begin = findLSB(rest), covered = samples_of_pair(first, begin);
             rest &= ~covered;
@@ -45,10 +49,11 @@ void main()
     int pixel = linear_invocation();
     if (pixel >= frame.width * pass.rows)
         return;
-    int x = pixel % frame.width, y = pixel / frame.width, first = pixel * frame.msaa; // of the band, which begins with an even row
+    int x = pixel % frame.width, y = pixel / frame.width, first = pixel * frame.msaa; // pixel in the band, which begins at an even row
     real inv = lit(1.0) / to_real(frame.msaa);
     int rest = (1 << frame.msaa) - 1;
     real3 sum = vec3_all(lit(0.0));
+    // Find the colour of each pair, and weight it by its covered share
     while (rest != 0) {
         int begin = findLSB(rest), covered = samples_of_pair(first, begin);
         rest &= ~covered;
@@ -61,6 +66,7 @@ void main()
         real weight = covered_share(covered, inv);
         sum = sum + color * weight;
     }
+    // Write the pixel
     colors[3 * pixel] = sum.x;
     colors[3 * pixel + 1] = sum.y;
     colors[3 * pixel + 2] = sum.z;

@@ -1,5 +1,5 @@
-// The stage (shading/lang/stage.h) in GLSL. It fetches by the filter kernels from buffers, or with BN_NATIVE_SAMPLER by the device's
-// samplers.
+// The stage (shading/lang/stage.h) in GLSL. Fetches with the filter kernels from buffers, or with BN_NATIVE_SAMPLER through
+// the device's samplers.
 #ifndef BN_STAGE_GLSL
 #define BN_STAGE_GLSL
 
@@ -13,7 +13,7 @@ real2 place_of_center(frame_ref f, view_params view, integer px, integer py)
     return place_on_screen(f, view, to_real(px) + lit(0.5), to_real(py) + lit(0.5));
 }
 #define the_light(f, i) lights[i]
-#define light_reach int // the next one
+#define light_reach int // index of the next light
 #define lights_reaching(f, position) 0
 #define next_light(f, reach) reach++
 #define the_area_light(f, i) area_lights[i]
@@ -34,8 +34,8 @@ real4 grid_of_four(frame_ref f, int first, integer set)
 }
 real3 grid_sample(frame_ref f, int i) { return vec3(bn_reals[3 * i], bn_reals[3 * i + 1], bn_reals[3 * i + 2]); }
 
-// That materials and the frame have, a bit a place in models.def; above them the frame's way of area lights, where it has any,
-// and whether there are coats.
+// One bit per lobe that materials and the frame use, by index in models.def. Higher bits hold the frame's method for area
+// lights, if any, and the coat bit.
 layout(constant_id = 1) const int kLobes = -1;
 bool lobe_used(int at) { return (kLobes >> at & 1) != 0; }
 bool area_way_used(int at) { return (kLobes >> (kGpuFirstAreaWay + at) & 1) != 0; }
@@ -54,7 +54,7 @@ struct cube_terms {
 #ifdef BN_NATIVE_SAMPLER
 layout(set = 1, binding = 0) uniform samplerCube native_cubes[kGpuCubes]; // specular, irradiance, box, whole
 
-// Not every device indexes samplers by a variable.
+// Selects the sampler by constant index: not every device indexes samplers by a variable.
 vec4 native_fetch(cube_desc cube, vec3 d, float lod)
 {
     if (cube.texels == kGpuSpecularPage)
@@ -67,7 +67,7 @@ vec4 native_fetch(cube_desc cube, vec3 d, float lod)
 }
 real3 native_sample(cube_desc cube, real3 d, real lod) { return native_fetch(cube, d, lod).xyz; }
 real3 native_sample_level(cube_desc cube, real3 d, int level) { return native_fetch(cube, d, float(level)).xyz; }
-// What follows, kernels included, fetches natively.
+// From here on cube fetches are native, in kernels too.
 #define cube_sample native_sample
 #define cube_sample_level native_sample_level
 real3 native_sample_own_level(cube_desc cube, real3 d, integer level) { return native_fetch(cube, d, float(level)).xyz; }

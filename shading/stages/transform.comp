@@ -1,4 +1,4 @@
-// Vertices to clip space and to the sub-pixel grid.
+// Transforms vertices to clip space and to the sub-pixel grid.
 #version 460
 #extension GL_EXT_buffer_reference_uvec2 : require
 layout(local_size_x = 64) in;

@@ -1,4 +1,4 @@
-// Triangles (shading/lang/triangle.h) in GLSL: setups, and the words of vertices from the flat buffer of reals.
+// Triangles (shading/lang/triangle.h) in GLSL: setups, and vertex words from the flat buffer of reals.
 #ifndef BN_TRIANGLE_GLSL
 #define BN_TRIANGLE_GLSL
 

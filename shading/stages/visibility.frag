@@ -1,5 +1,5 @@
-// Triangle id and depth of one sample. Depth is the tile renderer's: a double at the corner of an 8x8 block, floats from there;
-// without BN_EXACT_DEPTH it is what the rasterizer interpolates.
+// Triangle id and depth of one sample. Depth equals the tile renderer's: a double at the corner of an 8x8 block, floats
+// from there. Without BN_EXACT_DEPTH the rasterizer interpolates depth.
 #version 460
 #extension GL_EXT_buffer_reference_uvec2 : require
 #include "shading/stages/interface.glsl"
@@ -13,13 +13,15 @@
 #include "shading/stages/peel.glsl"
 
 layout(location = 0) flat in int slot;
-layout(location = 0) out vec2 id; // lower and upper 16 bits: integer targets have fewer samples than float ones
+layout(location = 0) out vec2 id; // lower and upper 16 bits: integer targets support fewer samples than float targets
 
 #ifdef BN_EXACT_DEPTH
+// Returns the depth of sample s in pixel (px, py).
 real depth_at(int px, int py, int s)
 {
     int x0 = setups[slot].x[0], y0 = setups[slot].y[0];
     real z0 = setups[slot].z[0];
+    // Depth slopes along x and y, in double precision
     any_wide first = to_wide(z0);
     any_wide z10 = to_wide(setups[slot].z[1]) - first;
     any_wide z20 = to_wide(setups[slot].z[2]) - first;
@@ -29,9 +31,11 @@ real depth_at(int px, int py, int s)
                  to_wide(setups[slot].y[2] - y0), z10, z20, right, down);
     real dz_x = float(depth_slope_by_pixel(right));
     real dz_y = float(depth_slope_by_pixel(down));
+    // Depth at the block's corner, then at the pixel
     int from_x = ((px & ~7) << 8) - frame.center_x - x0, from_y = ((py & ~7) << 8) - frame.center_y - y0;
     real corner = float(depth_at(first, right, down, to_wide(from_x), to_wide(from_y)));
     real z = corner + depth_change(dz_x, dz_y, to_real(px & 7), to_real(py & 7));
+    // Depth at the sample, clamped to the triangle's range
     real sample_x = to_real(frame.pattern.x[s]) * lit(0.00390625);
     real sample_y = to_real(frame.pattern.y[s]) * lit(0.00390625);
     real z1 = setups[slot].z[1];
@@ -40,6 +44,7 @@ real depth_at(int px, int py, int s)
 }
 #endif
 
+// Returns false where an alpha-tested surface has a hole in this pixel.
 bool survives_alpha(int m, int px, int py)
 {
     if (materials[m].alpha_mode == kAlpha_opaque)
@@ -53,8 +58,8 @@ bool survives_alpha(int m, int px, int py)
     return alpha_stays(m, alpha, lit(0.5));
 }
 
-// Whether a blended surface of depth z lies behind the last layer and before what is solid; of equal depths the one that is drawn first lies
-// in front.
+// Returns true where a blended surface at depth z lies behind the last layer and in front of solid surfaces. Of equal
+// depths, the surface drawn first lies in front.
 bool in_next_layer(int px, int py, int s, real z)
 {
     int at = (((py - pass.first_row) * frame.width + px) * frame.msaa + s) * kGpuPeelWords;
@@ -68,10 +73,12 @@ void main()
     int s = pass.sample_number >= 0 ? pass.sample_number : gl_SampleID;
     int m = setups[slot].info >> 2;
     bool blended = materials[m].alpha_mode == kAlpha_blend;
+    // Keep only the surfaces of this pass
     if (pass.surfaces != kGpuAll && blended != (pass.surfaces == kGpuLayer))
         discard;
     if (pass.surfaces != kGpuLayer && !survives_alpha(m, px, py))
         discard;
+// Find the depth, and keep only the next blended layer
 #ifdef BN_EXACT_DEPTH
     real z = depth_at(px, py, s);
     gl_FragDepth = z;

@@ -1,4 +1,4 @@
-// Snapped corners of the setups to the rasterizer. Every operation here and in the viewport transform is exact.
+// Passes the snapped corners of setups to the rasterizer. Every operation here and in the viewport transform is exact.
 #version 460
 #extension GL_EXT_buffer_reference_uvec2 : require
 #include "shading/stages/interface.glsl"

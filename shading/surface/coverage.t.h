@@ -1,4 +1,4 @@
-// The samples of a pixel that a fragment covers: their share, their mean place, those that alpha leaves; and blended surfaces before them.
+// Pixel samples under a fragment: their share and mean position, alpha tests, and blending with surfaces in front.
 #ifndef BN_COVERAGE_T_H
 #define BN_COVERAGE_T_H
 
@@ -7,22 +7,25 @@
 
 BN_KERNELS_BEGIN
 
-// Their share of the pixel, [0,1]. samples: a mask of at most 16, bit i = sample i; each: the share of one.
+// Returns the samples' share of the pixel, [0,1]. samples: a mask with at most 16 bits, bit i = sample i; each: the share
+// of one sample.
 BN_FN real covered_share(integer samples, real each)
 {
+    // Count the set bits in pairs, fours, eights and all
     integer pairs = samples - (shr_logical(samples, 1) & int_lit(0x5555));
     integer fours = (pairs & int_lit(0x3333)) + (shr_logical(pairs, 2) & int_lit(0x3333));
     integer eights = (fours + shr_logical(fours, 4)) & int_lit(0x0f0f);
     return to_real((eights + shr_logical(eights, 8)) & int_lit(0x1f)) * each;
 }
 
-struct sample_mean { // from the pixel's top left corner, 1/256 pixel
+struct sample_mean { // position from the pixel's top left corner, 1/256 pixel
     integer x, y;
 };
 
-// It lies in the triangle that covers them.
+// Returns the mean position of the samples. The mean lies inside a triangle that covers them.
 BN_FN sample_mean mean_of_samples(frame_ref f, integer samples)
 {
+    // Sum the covered samples' positions
     integer sum_x = int_lit(0);
     integer sum_y = int_lit(0);
     integer count = int_lit(0);
@@ -32,6 +35,7 @@ BN_FN sample_mean mean_of_samples(frame_ref f, integer samples)
         sum_y = sum_y + bit * int_lit(the_frame(f).pattern.y[s]);
         count = count + bit;
     }
+    // Divide by their number
     real inv = lit(1.0) / max(to_real(count), lit(1.0));
     real x = to_real(sum_x) * inv;
     real y = to_real(sum_y) * inv;
@@ -41,8 +45,8 @@ BN_FN sample_mean mean_of_samples(frame_ref f, integer samples)
     return r;
 }
 
-// Whether a sample stays, of a material that is not opaque. A mask discards the whole fragment. threshold: of a blend, for renderers that
-// draw it by chance (a random number in [0,1)) or by its larger part (a half).
+// Returns true where a sample of a non-opaque material stays. A mask discards the whole fragment. threshold: for blended
+// materials, in renderers that draw them by chance (a random number in [0,1)) or by majority (a half).
 BN_FN mask alpha_stays(material_ref m, real alpha, real threshold)
 {
     if (the_material(m).alpha_mode == kAlpha_blend)
@@ -51,11 +55,12 @@ BN_FN mask alpha_stays(material_ref m, real alpha, real threshold)
     return alpha >= cutoff;
 }
 
-// Blended surfaces in front of a sample, composed from the nearest to the farthest (the "over" operator, Porter and Duff 1984).
+// Blended surfaces in front of a sample, composed front to back (the "over" operator, Porter and Duff 1984).
 struct blended_light {
-    real3 over;   // their light, each weighted by its alpha and by all before it
-    real through; // share of the light behind them that passes, [0,1]
+    real3 over;   // their light, each weighted by its alpha and the transmittance in front
+    real through; // transmittance: share of the light behind that passes, [0,1]
 };
+// Returns the state with nothing blended.
 BN_FN blended_light blended_none()
 {
     blended_light b;
@@ -63,7 +68,7 @@ BN_FN blended_light blended_none()
     b.through = lit(1.0);
     return b;
 }
-// Adds the next surface behind. alpha: clamped to [0,1]. Below 1e-30 nothing passes.
+// Adds the next surface behind. Clamps alpha to [0,1]. Transmittance below 1e-30 counts as 0.
 BN_FN blended_light blend_behind(BN_IN(blended_light) b, real3 colour, real alpha)
 {
     real covers = min(max(alpha, lit(0.0)), lit(1.0));
@@ -74,7 +79,7 @@ BN_FN blended_light blend_behind(BN_IN(blended_light) b, real3 colour, real alph
     r.through = select(left > lit(1e-30), left, lit(0.0));
     return r;
 }
-// Light of a sample whose opaque surface or background has `colour`.
+// Returns the light of a sample whose opaque surface or background has `colour`.
 BN_FN real3 blend_over(BN_IN(blended_light) b, real3 colour)
 {
     return b.over + colour * b.through;

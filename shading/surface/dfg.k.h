@@ -1,5 +1,5 @@
-// Directional albedo of GGX under Schlick's Fresnel: F = F0 * scale + F90 * bias from the baked
-// table or from an analytic fit. Karis 2013, "Real Shading in Unreal Engine 4", "Environment BRDF".
+// Directional albedo of GGX under Schlick's Fresnel: F = F0 * scale + F90 * bias, from the baked table or an analytic fit.
+// Karis 2013, "Real Shading in Unreal Engine 4", "Environment BRDF".
 #ifndef BN_DFG_K_H
 #define BN_DFG_K_H
 #include "shading/kernels/math.k.h"
@@ -12,7 +12,8 @@ struct dfg_value {
     real bias;
 };
 
-// Bilinear, of pairs (scale, bias) in two rows: row0, row1 are the left ones, fx, fy the place between columns and rows, [0,1].
+// Interpolates pairs (scale, bias) bilinearly. row0, row1: left pairs in two rows; fx, fy: place between columns and rows,
+// [0,1].
 BN_FN dfg_value dfg_between(pair_table table, integer row0, integer row1, real fx, real fy)
 {
     real w11 = fx * fy;
@@ -27,8 +28,8 @@ BN_FN dfg_value dfg_between(pair_table table, integer row0, integer row1, real f
     return r;
 }
 
-// Bilinear fetch from the table: size x size pairs (scale, bias), row = perceptual roughness y / (size - 1), column = n.v x / (size - 1).
-// Inputs are clamped to [0,1]; NaN counts as 0.
+// Returns a bilinear fetch from the table: size x size pairs (scale, bias), row = perceptual roughness y / (size - 1),
+// column = n.v x / (size - 1). Clamps inputs to [0,1]; NaN counts as 0.
 BN_FN dfg_value dfg_lookup(pair_table table, int size, real n_dot_v, real roughness)
 {
     real last = to_real(int_lit(size - 1));
@@ -42,8 +43,8 @@ BN_FN dfg_value dfg_lookup(pair_table table, int size, real n_dot_v, real roughn
     return dfg_between(table, row0, row0 + int_lit(size), fx, fy);
 }
 
-// Pesce and Iwanicki 2015, "Approximate models for physically based rendering": coarse (0.07 rms, up to 0.17
-// off), small and smooth. roughness: perceptual, [0,1]; n_dot_v: [0,1].
+// Returns the fit from Pesce and Iwanicki 2015, "Approximate models for physically based rendering": coarse, small and
+// smooth. roughness: perceptual, [0,1]; n_dot_v: [0,1].
 BN_FN dfg_value dfg_fit(real n_dot_v, real roughness)
 {
     real a = roughness * roughness;

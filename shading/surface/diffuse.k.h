@@ -1,5 +1,5 @@
-// The diffuse part of Ashikhmin and Shirley 2000, "An Anisotropic Phong BRDF Model", eq. 5, as factors on Lambert's: it takes what a lobe
-// of reflectance f0 leaves, so that both together give back no more than they get, and is reciprocal.
+// The diffuse part of Ashikhmin and Shirley 2000, "An Anisotropic Phong BRDF Model", eq. 5, as factors on Lambert's BRDF.
+// It takes the light that a lobe with reflectance f0 leaves, so that both together conserve energy, and it is reciprocal.
 #ifndef BN_DIFFUSE_K_H
 #define BN_DIFFUSE_K_H
 
@@ -14,13 +14,13 @@ BN_FN real phong_diffuse_rise(real cosine)
     return lit(1.0) - m2 * m2 * m;
 }
 
-// Towards an eye at that cosine: times 1 - f0, the albedo of a surface that absorbs nothing.
+// Returns the factor for the eye at that cosine, times 1 - f0: the albedo of a surface without absorption.
 BN_FN real phong_diffuse_seen(real f0, real n_dot_v)
 {
     return (lit(1.0) - f0) * phong_diffuse_rise(n_dot_v);
 }
 
-// Of light at that cosine; its mean over the cosine is 1.
+// Returns the factor for light at that cosine; its cosine-weighted mean is 1.
 BN_FN real phong_diffuse_lit(real n_dot_l)
 {
     return lit(1.2173913043478261) * phong_diffuse_rise(n_dot_l); // 28 / 23

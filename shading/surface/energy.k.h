@@ -1,6 +1,6 @@
-// Light scattered more than once between microfacets, returned to the lobe: the single-scattering lobe scaled so that
-// it reflects all light where it absorbs none. Turquin 2019, "Practical multiple scattering compensation for
-// microfacet models", eq. 16, after Kulla and Conty 2017, "Revisiting Physically Based Shading at Imageworks".
+// Compensation for multiple scattering between microfacets: scales the single-scattering lobe so that a lobe without
+// absorption reflects all light. Turquin 2019, "Practical multiple scattering compensation for microfacet models", eq. 16,
+// after Kulla and Conty 2017, "Revisiting Physically Based Shading at Imageworks".
 #ifndef BN_ENERGY_K_H
 #define BN_ENERGY_K_H
 #include "shading/kernels/math.k.h"
@@ -11,10 +11,11 @@
 
 BN_KERNELS_BEGIN
 
-// Directional albedo of a lobe of two widths, from its table: of size x size x size/2 x size/2 pairs as dfg_lookup's, over (from the
-// fastest) n.v, roughness, the azimuth of the view and anisotropy, along axes that are graded to where the albedo bends:
-// sqrt(n.v), the lobe's alpha_lin, the square root of the cosine between its wide axis and the view's azimuth, 1 - sqrt(1 - eta).
-// n: the lobe's normal, v: to the eye, both unit, world space. Within 0.02 of the integral for alpha_lin from 0.1 on.
+// Returns directional albedo for two widths from a table with size x size x size/2 x size/2 pairs as in dfg_lookup(). The
+// axes, fastest first, are n.v, roughness, the view's azimuth and anisotropy. They are graded to where the albedo bends:
+// sqrt(n.v), the lobe's alpha_lin, the square root of the cosine between the wide axis and the view's azimuth, and 1 -
+// sqrt(1 - eta). n: the lobe's normal, v: to the eye, both unit, world space. Within 0.02 of the integral for alpha_lin >=
+// 0.1.
 BN_FN dfg_value lobe_albedo_lookup(pair_table table, int size, aniso_lobe lobe, real3 n, real3 v)
 {
     real one = lit(1.0);
@@ -22,6 +23,7 @@ BN_FN dfg_value lobe_albedo_lookup(pair_table table, int size, aniso_lobe lobe, 
     integer half_size = int_lit(size / 2);
     real last = to_real(int_lit(size - 1));
     real half_last = to_real(int_lit(size / 2 - 1));
+    // Find the place along each axis
     real3 o = to_lobe(lobe, n, v);
     real x = sqrt(k_saturate(o.z)) * last;
     real y = lobe_alpha_lin(lobe) * last;
@@ -29,6 +31,7 @@ BN_FN dfg_value lobe_albedo_lookup(pair_table table, int size, aniso_lobe lobe, 
     real cosine = min(abs(o.x) / sqrt(max(flat2, lit(1e-12))), one);
     real z = sqrt(cosine) * half_last;
     real w = (one - sqrt(max(one - lobe_eta(lobe), lit(0.0)))) * half_last;
+    // Find the cell
     integer ix = min(to_int(x), int_lit(size - 2));
     integer iy = min(to_int(y), int_lit(size - 2));
     integer iz = min(to_int(z), int_lit(size / 2 - 2));
@@ -37,6 +40,7 @@ BN_FN dfg_value lobe_albedo_lookup(pair_table table, int size, aniso_lobe lobe, 
     real fy = y - to_real(iy);
     real fz = z - to_real(iz);
     real fw = w - to_real(iw);
+    // Interpolate between azimuths and anisotropies
     dfg_value r;
     r.scale = lit(0.0);
     r.bias = lit(0.0);
@@ -52,8 +56,8 @@ BN_FN dfg_value lobe_albedo_lookup(pair_table table, int size, aniso_lobe lobe, 
     return r;
 }
 
-// Bilinear, from a slice of a lobe's table: `across` x `across` / 2 pairs as dfg_lookup's, from pair `first` on. x, z: places along its
-// axes in pairs, not below 0.
+// Returns a bilinear value from a slice of a lobe's table: `across` x `across` / 2 pairs as in dfg_lookup(), starting at
+// pair `first`. x, z: places along its axes in pairs, not below 0.
 BN_FN dfg_value slice_value(pair_table table, int first, int across, real x, real z)
 {
     integer ix = min(to_int(x), int_lit(across - 2));
@@ -64,9 +68,9 @@ BN_FN dfg_value slice_value(pair_table table, int first, int across, real x, rea
     return dfg_between(table, row, row + int_lit(across), fx, fz);
 }
 
-// lobe_albedo_lookup() of a lobe whose widths are those that its slice of kLobeSliceSize was made for. Its axes are graded by one division
-// and no root: 1.2 z / (z + .2) of z = n.v, and 3 |x| / (3 |x| + |y|) of the view's components along the lobe's wide axis and its other
-// one.
+// Returns lobe_albedo_lookup() for a lobe with the widths of its slice, kLobeSliceSize across. The grading of its axes
+// takes one division and no root: 1.2 z / (z + .2) for z = n.v, and 3 |x| / (3 |x| + |y|) for the view's components along
+// the lobe's wide and narrow axes.
 BN_FN dfg_value lobe_slice_lookup(pair_table table, int first, aniso_lobe lobe, real3 n, real3 v)
 {
     real3 o = to_lobe(lobe, n, v);
@@ -80,8 +84,8 @@ BN_FN dfg_value lobe_slice_lookup(pair_table table, int first, aniso_lobe lobe, 
     return slice_value(table, first, kLobeSliceSize, x, z);
 }
 
-// The same of an Ashikhmin-Shirley lobe, along axes that its files may have too: sqrt(n.v) and the square root of the cosine between the
-// wide axis and the view's azimuth.
+// Returns the same for an Ashikhmin-Shirley lobe. The axes match files of such slices: sqrt(n.v) and the square root of the
+// cosine between the wide axis and the view's azimuth.
 BN_FN dfg_value phong_slice_lookup(pair_table table, int first, int size, aniso_lobe lobe, real3 n, real3 v)
 {
     real3 o = to_lobe(lobe, n, v);
@@ -92,15 +96,15 @@ BN_FN dfg_value phong_slice_lookup(pair_table table, int first, int size, aniso_
     return slice_value(table, first, size, x, z);
 }
 
-// Factor on the specular lobe. f0: reflectance at normal incidence, [0,1]; albedo: directional, of a lobe that absorbs nothing, (0,1], or
-// an estimate of it that may be above 1 and then makes a factor below 1. Albedos below 0.05 count as that.
+// Returns a factor on the specular lobe. f0: reflectance at normal incidence, [0,1]. albedo: directional, without
+// absorption, (0,1]; an estimate above 1 gives a factor below 1. Albedos below 0.05 count as 0.05.
 BN_FN real3 energy_compensation_of_albedo(real3 f0, real albedo)
 {
     real lost = lit(1.0) / max(albedo, lit(0.05)) - lit(1.0);
     return vec3_all(lit(1.0)) + f0 * lost;
 }
 
-// At least 1.
+// Returns a factor on the specular lobe, at least 1.
 BN_FN real3 energy_compensation(real3 f0, dfg_value dfg)
 {
     return energy_compensation_of_albedo(f0, min(dfg.scale + dfg.bias, lit(1.0)));

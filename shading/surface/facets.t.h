@@ -1,5 +1,5 @@
-// Surfaces whose normal map lies below a pixel as a whole: a few groups of its normals stand for it (shading/bake/mip/facets.h), each a
-// surface of its own with a round lobe.
+// Surfaces whose whole normal map lies below a pixel: a few groups of its normals replace the map
+// (shading/bake/mip/facets.h), each a surface of its own with a round lobe.
 #ifndef BN_FACETS_T_H
 #define BN_FACETS_T_H
 
@@ -11,11 +11,14 @@
 
 BN_KERNELS_BEGIN
 
-// How far a pixel sees all facets of its material, [0,1]: where a texel of a level loses as much light as the whole map, and lies level.
+// Returns how far a pixel sees all facets of its material, [0,1]: 1 where a level's texel loses as much light as the whole
+// map and its normal is the surface's.
 BN_FN real facets_seen(material_ref m, BN_IN(material_inputs) at, BN_IN(shaded_point) x)
 {
+    // Compare the texel's loss with the whole map's
     real lost = (lit(1.0) - at.kept) / splat(the_material(m).facets_from);
     real share = k_saturate((lost - lit(0.7)) * lit(4.0));
+    // Fade where the texel's normal tilts
     real level = k_saturate((k_dot3(x.s.n, x.surface_axes.n) - lit(0.92)) * lit(20.0));
     return share * share * (lit(3.0) - lit(2.0) * share) * level;
 }
@@ -34,7 +37,7 @@ BN_FN facet_words facet_words_of(material_ref m, int facet)
     return r;
 }
 
-// The material at a facet: its normal, and the roughness that it has below all levels.
+// Returns the material at a facet: the facet's normal, and the roughness below all levels.
 BN_FN material_inputs facet_inputs(material_ref m, BN_IN(material_inputs) at, BN_IN(facet_words) words)
 {
     material_inputs r = at;
@@ -46,7 +49,7 @@ BN_FN material_inputs facet_inputs(material_ref m, BN_IN(material_inputs) at, BN
     return r;
 }
 
-// A facet's lobe: wider than the material's own by what the normals of its group differ by. at: facet_inputs().
+// Returns a facet's lobe: the material's own, widened by the spread of its group's normals. at: facet_inputs().
 BN_FN lobe_shape facet_shape(BN_IN(material_inputs) at, BN_IN(facet_words) words)
 {
     real own2 = at.own_roughness * at.own_roughness;
@@ -61,11 +64,11 @@ BN_FN lobe_shape facet_shape(BN_IN(material_inputs) at, BN_IN(facet_words) words
 }
 
 struct facet_light {
-    real map_over_groups; // what facets keep of their light above the surface's horizon, over what their groups keep
-    real groups;          // what these keep
+    real map_over_groups; // share of light that facets keep above the surface's horizon, over the share that their groups keep
+    real groups;          // share that the groups keep
 };
 
-// cosine: of the eye to the surface.
+// Interpolates the facets' shares of light. cosine: of the eye to the surface.
 BN_FN facet_light facet_light_of(material_ref m, real cosine)
 {
     real place = kept_place(cosine);
@@ -80,10 +83,11 @@ BN_FN facet_light facet_light_of(material_ref m, real cosine)
     return r;
 }
 
-// Makes facets reflect what all normals of the map reflect. at: facet_inputs(); chosen: 1, or 0 in lanes that are no facets. Multiplies
-// x.gain.
+// Scales x.gain so that facets reflect as much as all normals of the map. at: facet_inputs(); chosen: 1, or 0 in lanes
+// without facets.
 BN_FN void keep_light_of_facets(frame_ref f, material_ref m, BN_IN(material_inputs) at, real chosen, BN_INOUT(shaded_point) x)
 {
+    // Undo the widening by the group's spread
     if (!widens_lobes(m)) {
         dfg_value whole = x.whole;
         real3 gain = x.gain;
@@ -92,6 +96,7 @@ BN_FN void keep_light_of_facets(frame_ref f, material_ref m, BN_IN(material_inpu
         x.whole.bias = whole.bias + (x.whole.bias - whole.bias) * chosen;
         x.gain = gain + (x.gain - gain) * chosen;
     }
+    // Keep the map's share of light above the horizon
     if (!x.turned)
         return;
     facet_light light = facet_light_of(m, k_dot3(x.surface_axes.n, x.s.v));

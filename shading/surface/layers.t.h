@@ -1,4 +1,4 @@
-// The layers of a picture at a visible point (shading/layers.def), and their words, one after another.
+// Layers of a picture at a visible point (shading/layers.def), and their consecutive words.
 #ifndef BN_LAYERS_T_H
 #define BN_LAYERS_T_H
 
@@ -15,9 +15,10 @@ struct layer_values {
 #include "shading/layers.def"
 };
 
-// Between which two levels the normal map is read, else the first texture; -1 where the material has none.
+// Returns the fractional level at which the normal map is read, else the first texture; -1 without textures.
 BN_STAGE real lod_at(any_frame f, material_ref m, BN_IN(visible_point) p)
 {
+    // Pick the normal map, else the first texture in use
     int slot = -1;
     for (int i = 0; i < kTextureSlots; ++i) {
         if (slot < 0 && texture_used(m, i))
@@ -25,6 +26,7 @@ BN_STAGE real lod_at(any_frame f, material_ref m, BN_IN(visible_point) p)
     }
     if (texture_used(m, kNormalTex))
         slot = kNormalTex;
+    // Find its level
     real level = lit(-1.0);
     if (slot >= 0) {
         texture_place place = texture_place_of(the_material(m).textures[slot], p);
@@ -33,13 +35,15 @@ BN_STAGE real lod_at(any_frame f, material_ref m, BN_IN(visible_point) p)
     return level;
 }
 
-// p: its position is asked for, too.
+// Returns the layer values. p needs its position, too.
 BN_STAGE layer_values layers_of(any_frame f, material_ref m, BN_IN(material_inputs) at, BN_IN(visible_point) p)
 {
+    // Find the lobe on the surface
     lobe_shape shape = lobe_shape_at(f, m, at, p);
     surface_frame axes = lobe_axes(f, m, at, seen_axes(p), seen_handedness(p));
     aniso_lobe lobe = lobe_in_frame(m, shape, axes);
     layer_values r;
+    // Fill the layers
     real3 from_eye = p.position - splat3(the_frame(f).view.eye);
     real3 forward = splat3(the_frame(f).view.forward);
     r.depth = k_dot3(from_eye, forward);

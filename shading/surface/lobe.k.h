@@ -1,4 +1,4 @@
-// An anisotropic lobe in place on a surface: its deviations of slope and the directions that they lie along.
+// An anisotropic lobe on a surface: its slope deviations and the directions of its axes.
 #ifndef BN_LOBE_K_H
 #define BN_LOBE_K_H
 
@@ -12,14 +12,14 @@ struct aniso_lobe {
     real sigma_u, sigma_v; // standard deviations of slope along them, sigma_u >= sigma_v >= 0
 };
 
-// Perceptual roughness of the lobe: the square root of its mean alpha, where alpha = sqrt(2) sigma.
+// Returns the lobe's perceptual roughness: the square root of its mean alpha, where alpha = sqrt(2) sigma.
 BN_FN real lobe_alpha_lin(aniso_lobe lobe)
 {
     real mean = (lobe.sigma_u + lobe.sigma_v) * lit(0.70710678118654752);
     return min(sqrt(max(mean, lit(0.0))), lit(1.0));
 }
 
-// Degree of anisotropy, [0,1].
+// Returns the degree of anisotropy, [0,1].
 BN_FN real lobe_eta(aniso_lobe lobe)
 {
     real sum = lobe.sigma_u + lobe.sigma_v;
@@ -27,14 +27,14 @@ BN_FN real lobe_eta(aniso_lobe lobe)
     return select(sum > lit(1e-20), difference / max(sum, lit(1e-20)), lit(0.0));
 }
 
-// How much of what two widths make is shown, [0,1]: nothing where they are equal, all from an eighth of difference on. What is not brushed
-// is drawn in simpler ways, which give something else; so brushing sets in without a step.
+// Returns the anisotropic share of a blend with round lobes, [0,1]: 0 for equal widths, 1 from a relative difference of an
+// eighth on. Round lobes use simpler methods with other results, so the blend avoids a step.
 BN_FN real brushed_part(real sigma_u, real sigma_v)
 {
     return k_saturate(lit(8.0) * (sigma_u - sigma_v) / max(sigma_u, lit(1e-20)));
 }
 
-// To the ellipse frame (u, v, n) and back.
+// Transform between world space and the ellipse frame (u, v, n).
 BN_FN real3 to_lobe(aniso_lobe lobe, real3 n, real3 w)
 {
     return vec3_of(k_dot3(lobe.u_axis, w), k_dot3(lobe.v_axis, w), k_dot3(n, w));

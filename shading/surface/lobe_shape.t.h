@@ -1,4 +1,4 @@
-// From a material to its lobe: widths and axis, then in place on a surface. What is not anisotropic needs no axes of its own.
+// From a material to its lobe: widths and axis, then the axes on a surface. Isotropic lobes need no axes of their own.
 #ifndef BN_LOBE_SHAPE_T_H
 #define BN_LOBE_SHAPE_T_H
 
@@ -11,18 +11,21 @@
 
 BN_KERNELS_BEGIN
 
-struct lobe_shape {        // a lobe before it is laid onto a surface
+struct lobe_shape {        // a lobe before its placement on a surface
     real sigma_u, sigma_v; // see aniso_lobe
-    real2 u;               // its axis, along tangent and bitangent
+    real2 u;               // the wide axis, along tangent and bitangent
     real alpha_lin;        // perceptual roughness
 };
 
+// Makes a shape from widths and axis.
 BN_FN lobe_shape shape_of_axes(slope_axes axes)
 {
+    // Copy the widths and the axis
     lobe_shape r;
     r.sigma_u = axes.sigma_u;
     r.sigma_v = axes.sigma_v;
     r.u = axes.u;
+    // Find the perceptual roughness
     aniso_lobe lobe;
     lobe.u_axis = vec3_all(lit(0.0));
     lobe.v_axis = vec3_all(lit(0.0));
@@ -32,7 +35,7 @@ BN_FN lobe_shape shape_of_axes(slope_axes axes)
     return r;
 }
 
-// Covariance of the material's own lobe, before differences of normals or slopes widen it.
+// Returns the covariance of the material's own lobe, before the spread of normals or slopes widens it.
 BN_FN slope_covariance own_covariance(frame_ref f, material_ref m, BN_IN(material_inputs) at)
 {
     real roughness = min(max(at.roughness, lit(0.0)), lit(1.0));
@@ -43,13 +46,13 @@ BN_FN slope_covariance own_covariance(frame_ref f, material_ref m, BN_IN(materia
     return covariance_from_tensors(alpha, splat(the_material(m).anisotropy_strength), rotation, at.tensor2, at.tensor4);
 }
 
-// Whether normals or slopes below a pixel widen lobes.
+// Returns true where the spread of normals or slopes below a pixel widens lobes.
 BN_FN bool widens_lobes(material_ref m)
 {
     return the_material(m).moments == kMomentsOfTilt || the_material(m).moments == kMomentsOfAll;
 }
 
-// Perceptual roughness of own_covariance().
+// Returns the perceptual roughness of own_covariance().
 BN_FN real own_alpha_lin(frame_ref f, material_ref m, BN_IN(material_inputs) at)
 {
     if (the_material(m).level_gain >= 0.0f)
@@ -58,9 +61,11 @@ BN_FN real own_alpha_lin(frame_ref f, material_ref m, BN_IN(material_inputs) at)
     return own.alpha_lin;
 }
 
+// Returns the lobe at a point of a material.
 BN_FN lobe_shape lobe_shape_of(frame_ref f, material_ref m, BN_IN(material_inputs) at)
 {
     lobe_shape r;
+    // Start with a round lobe
     real roughness = min(max(at.roughness, lit(0.0)), lit(1.0));
     real alpha = roughness * roughness;
     real sigma = alpha * lit(0.70710678118654752);
@@ -70,19 +75,22 @@ BN_FN lobe_shape lobe_shape_of(frame_ref f, material_ref m, BN_IN(material_input
     r.alpha_lin = at.roughness;
     if (the_material(m).anisotropic == 0)
         return r;
+    // Take the covariance from the level's moments, or from the material
     slope_covariance covariance;
     if (the_material(m).moments == kMomentsOfAll)
         covariance = covariance_of_moments(at.slope, at.slope_moments);
     else
         covariance = own_covariance(f, m, at);
+    // Add the spread of a tilt or normal map
     if (the_material(m).moments == kMomentsOfTilt) {
         slope_covariance more = covariance_of_moments(at.slope, at.slope_moments);
         covariance = sum_of_covariances(covariance, more);
     }
+    // Find widths and axis
     return shape_of_axes(axes_of_covariance(covariance));
 }
 
-// Whether no texture changes the shape, and what it is then.
+// Returns true where no texture changes the shape; only_lobe_shape() returns that constant shape.
 BN_FN bool one_lobe_shape(material_ref m)
 {
     bool textured = texture_used(m, kMetalRoughTex) && the_material(m).roughness_fixed == 0;
@@ -100,8 +108,10 @@ BN_FN lobe_shape only_lobe_shape(frame_ref f, material_ref m)
     return lobe_shape_of(f, m, at);
 }
 
+// Places a lobe in a shading frame. Isotropic lobes keep the frame's axes.
 BN_FN aniso_lobe lobe_in_frame(material_ref m, BN_IN(lobe_shape) shape, BN_IN(surface_frame) axes)
 {
+    // Take the frame's axes
     aniso_lobe lobe;
     lobe.sigma_u = shape.sigma_u;
     lobe.sigma_v = shape.sigma_v;
@@ -109,6 +119,7 @@ BN_FN aniso_lobe lobe_in_frame(material_ref m, BN_IN(lobe_shape) shape, BN_IN(su
     lobe.v_axis = axes.b;
     if (the_material(m).anisotropic == 0)
         return lobe;
+    // Rotate them to the lobe's wide axis
     lobe.u_axis = axes.t * shape.u.x + axes.b * shape.u.y;
     lobe.v_axis = axes.b * shape.u.x - axes.t * shape.u.y;
     return lobe;

@@ -1,4 +1,4 @@
-// A material at a visible point: its factors times what its textures hold there. The values are listed in shading/material.def.
+// A material at a visible point: its factors times its textures. shading/material.def lists the values.
 #ifndef BN_MATERIAL_T_H
 #define BN_MATERIAL_T_H
 
@@ -18,9 +18,10 @@ BN_FN real3 rgb_of(real4 t)
     return vec3_of(t.x, t.y, t.z);
 }
 
-// Colour and alpha.
+// Returns base colour and alpha.
 BN_FN real4 base_color_of(material_ref m, BN_IN(texture_fetches) t, BN_IN(visible_point) p)
 {
+    // Multiply the factors by the texture and the vertex colour
     real3 color = splat3(the_material(m).base_color);
     real alpha = splat(the_material(m).base_color[3]);
     if (texture_used(m, kBaseColorTex)) {
@@ -35,7 +36,7 @@ BN_FN real4 base_color_of(material_ref m, BN_IN(texture_fetches) t, BN_IN(visibl
     return vec4_of(color.x, color.y, color.z, alpha);
 }
 
-// Tangent space, any length.
+// Decodes a texel to a normal in tangent space, any length.
 BN_FN real3 scaled_normal(real4 texel, real scale)
 {
     real3 n = rgb_of(texel) * lit(2.0) - vec3_all(lit(1.0));
@@ -46,34 +47,38 @@ BN_FN real3 normal_of_texel(material_ref m, real4 texel)
     return scaled_normal(texel, splat(the_material(m).normal_scale));
 }
 
-// Times the gain of a mip filter's level, which takes none beyond 1.
+// Returns reflectance times a mip level's albedo gain; the gain raises no value beyond 1.
 BN_FN real3 gained_reflectance(real3 reflectance, real gain)
 {
     return min(reflectance * gain, max(reflectance, vec3_all(lit(1.0))));
 }
 
-// As fetch_material() finds it.
+// Returns the same alpha as fetch_material().
 BN_FN real fetch_alpha(frame_ref f, material_ref m, BN_IN(visible_point) p)
 {
     texture_fetches t = textures_at(f, m, p);
     return base_color_of(m, t, p).w;
 }
 
+// Evaluates all inputs of the material at p.
 BN_FN material_inputs fetch_material(frame_ref f, material_ref m, BN_IN(visible_point) p)
 {
     texture_fetches t = textures_at(f, m, p);
     material_inputs r;
+    // Base colour, metalness and roughness
     real4 base_color = base_color_of(m, t, p);
     r.base = rgb_of(base_color);
     r.alpha = base_color.w;
     r.metallic = splat(the_material(m).metallic);
     r.roughness = splat(the_material(m).roughness);
+    // Multiply by the metallic-roughness texture
     if (texture_used(m, kMetalRoughTex)) {
         real4 factors = texel_of(t, kMetalRoughTex);
         if (the_material(m).roughness_fixed == 0)
             r.roughness = r.roughness * factors.y;
         r.metallic = r.metallic * factors.z;
     }
+    // Normal, and the share of light that facets keep
     r.normal_map = vec3_of(lit(0.0), lit(0.0), lit(1.0));
     r.kept = lit(1.0);
     if (texture_used(m, kNormalTex)) {
@@ -82,12 +87,14 @@ BN_FN material_inputs fetch_material(frame_ref f, material_ref m, BN_IN(visible_
         if (the_material(m).keeps != 0)
             r.kept = normal.w;
     }
+    // Occlusion and emission
     r.occlusion = lit(1.0);
     if (texture_used(m, kOcclusionTex))
         r.occlusion = lit(1.0) + splat(the_material(m).occlusion_strength) * (texel_of(t, kOcclusionTex).x - lit(1.0));
     r.emissive = splat3(the_material(m).emissive);
     if (texture_used(m, kEmissiveTex))
         r.emissive = r.emissive * rgb_of(texel_of(t, kEmissiveTex));
+    // Reflectance of the dielectric part
     r.dielectric_f0 = splat3(the_material(m).dielectric_f0);
     r.dielectric_f90 = splat(the_material(m).dielectric_f90);
     if (texture_used(m, kSpecularTex)) {
@@ -97,21 +104,25 @@ BN_FN material_inputs fetch_material(frame_ref f, material_ref m, BN_IN(visible_
     }
     if (texture_used(m, kSpecularColorTex))
         r.dielectric_f0 = r.dielectric_f0 * rgb_of(texel_of(t, kSpecularColorTex));
+    // Direction tensors
     r.tensor2 = vec3_of(lit(1.0), lit(0.0), lit(0.0));
     r.tensor4 = r.tensor2;
     r.slope = vec2_all(lit(0.0));
     r.slope_moments = vec3_all(lit(0.0));
     r.own_roughness = lit(1.0);
-    if (texture_used(m, kTensor2Tex)) { // halves alone bend thin lobes: at eta 0.95 by a fifth
+    // Fetch the tensors
+    if (texture_used(m, kTensor2Tex)) { // sums of two halves: one half alone bends thin lobes
         real4 two = texel_of(t, kTensor2Tex) + texel_of(t, kTensor2RestTex);
         real4 four = texel_of(t, kTensor4Tex) + texel_of(t, kTensor4RestTex);
         r.tensor2 = rgb_of(two);
         r.tensor4 = rgb_of(four);
+        // Decode the slope moments of a mip level
         if (the_material(m).moments != kNoMoments) { // see shading/bake/mip/slopes.h
             r.slope = vec2_of(four.x, four.y) * splat(1.0f / kSlopeScale);
             r.slope_moments = vec3_of(two.w, four.z, four.w) * splat(1.0f / kMomentScale);
-            r.tensor4 = r.tensor2 * (two.x + two.y);  // as where the map's strength is the same everywhere
-            if (the_material(m).level_gain >= 0.0f) { // normals in two halves: one turns lobes of alpha .05 visibly
+            r.tensor4 = r.tensor2 * (two.x + two.y); // as for a constant strength
+            // Take normal, roughness and gain from the level; its moments replace the tensors
+            if (the_material(m).level_gain >= 0.0f) { // one half alone turns narrow lobes visibly
                 r.normal_map = vec3_of(r.slope.x, r.slope.y, two.y);
                 r.slope = r.slope * splat(the_material(m).level_gain);
                 r.own_roughness = two.z;
@@ -122,13 +133,16 @@ BN_FN material_inputs fetch_material(frame_ref f, material_ref m, BN_IN(visible_
             }
         }
     }
+    // Transmission
     r.transmission = splat(the_material(m).transmission);
     if (texture_used(m, kTransmissionTex))
         r.transmission = r.transmission * texel_of(t, kTransmissionTex).x;
+    // Clear coat
     r.coat = lit(0.0);
     r.coat_roughness = lit(0.0);
     r.coat_normal_map = vec3_all(lit(0.0));
     if (the_material(m).coated != 0) {
+        // Multiply the coat's factors by its textures
         r.coat = splat(the_material(m).clearcoat);
         if (texture_used(m, kCoatTex))
             r.coat = r.coat * texel_of(t, kCoatTex).x;
@@ -141,7 +155,7 @@ BN_FN material_inputs fetch_material(frame_ref f, material_ref m, BN_IN(visible_
     return r;
 }
 
-// What it gives off, whatever shines on it; all that an unlit one does.
+// Returns the light that the material emits itself; the whole result for an unlit material.
 BN_FN real3 own_light(material_ref m, BN_IN(material_inputs) at)
 {
     if (the_material(m).unlit != 0)

@@ -1,6 +1,6 @@
-// A specular lobe in place, with the contract of the models in shading/models over directions of world space: value, density, sample and
-// albedo, all without Fresnel. Which models can lie on a surface, and how, is listed in shading/models.def (BN_LOBE). A lobe of no width is
-// a mirror, which values do not meet.
+// A specular lobe on a surface: the contract of shading/models (value, density, sample, albedo) over world-space
+// directions, all without Fresnel. shading/models.def lists the models that can lie on a surface, and how (BN_LOBE). A lobe
+// with zero width is a mirror, which values do not handle.
 #ifndef BN_PLACED_LOBE_T_H
 #define BN_PLACED_LOBE_T_H
 
@@ -15,16 +15,16 @@
 BN_KERNELS_BEGIN
 
 struct placed_lobe {
-    int model;             // uniform: its place among the lobes of shading/models.def
-    surface_frame axes;    // that its directions are in: the lobe's own or, of one that knows the surface, the surface's
+    int model;             // uniform: index among the lobes of shading/models.def
+    surface_frame axes;    // frame of its directions: the lobe's own, or the surface's for a lobe that lies in the surface
     real alpha_u, alpha_v; // widths
-    real3 u, v, n;         // the lobe's axes in that frame; only of one that knows the surface
+    real3 u, v, n;         // the lobe's axes in that frame; only for a lobe that lies in the surface
     real3 o;               // to the eye, above the horizon
-#define BN_LOBE(id, at, type, lies, normals, traits, made_of) type id; // of the one that it is
+#define BN_LOBE(id, at, type, lies, normals, traits, made_of) type id; // only the model's own member is set
 #include "shading/models.def"
 };
 
-// Between world space and a frame (t, b, n).
+// Transform between world space and a frame (t, b, n).
 BN_FN real3 to_frame(surface_frame g, real3 w)
 {
     return vec3_of(k_dot3(g.t, w), k_dot3(g.b, w), k_dot3(g.n, w));
@@ -34,7 +34,7 @@ BN_FN real3 from_frame(surface_frame g, real3 w)
     return g.t * w.x + g.b * w.y + g.n * w.z;
 }
 
-// How a model of the list lies.
+// Returns true where a model has the trait, by its line in models.def.
 BN_FN bool lobe_has(int model, int trait)
 {
 #define BN_LOBE(id, at, type, lies, normals, traits, made_of)                                                                              \
@@ -44,7 +44,7 @@ BN_FN bool lobe_has(int model, int trait)
     return false;
 }
 
-// The place of the lobe that has the trait.
+// Returns the index of the lobe with the trait.
 BN_FN int lobe_that_has(int trait)
 {
 #define BN_LOBE(id, at, type, lies, normals, traits, made_of)                                                                              \
@@ -54,6 +54,7 @@ BN_FN int lobe_that_has(int trait)
     return 0;
 }
 
+// Returns the lobe with its model's parameters filled in.
 BN_FN placed_lobe with_params(placed_lobe lobe)
 {
     placed_lobe a = lobe;
@@ -64,20 +65,23 @@ BN_FN placed_lobe with_params(placed_lobe lobe)
     return a;
 }
 
-// n: the lobe's normal, v: to the eye, unit, world space; axes: of the geometry.
+// Places a lobe. n: the lobe's normal, v: to the eye, unit, world space; axes: the geometry's.
 BN_FN placed_lobe placed_lobe_of(int model, aniso_lobe lobe, real3 n, real3 v, surface_frame axes)
 {
+    // Convert slope deviations to widths
     real root2 = lit(1.4142135623730951);
     placed_lobe r;
     r.model = model;
     r.alpha_u = lobe.sigma_u * root2;
     r.alpha_v = lobe.sigma_v * root2;
     r.axes = axes;
+    // Use the mean width for round lobes
     if (lobe_has(model, kLies_round)) {
         real alpha_lin = lobe_alpha_lin(lobe);
         r.alpha_u = alpha_lin * alpha_lin;
         r.alpha_v = r.alpha_u;
     }
+    // Choose the frame: the surface's or the lobe's own
     if (lobe_has(model, kLies_surface)) {
         r.u = to_frame(axes, lobe.u_axis);
         r.v = to_frame(axes, lobe.v_axis);
@@ -88,13 +92,14 @@ BN_FN placed_lobe placed_lobe_of(int model, aniso_lobe lobe, real3 n, real3 v, s
         r.axes.t = threads ? lobe.v_axis : lobe.u_axis;
         r.axes.b = threads ? lobe.u_axis : lobe.v_axis;
     }
+    // Lift the eye above the horizon
     r.o = to_frame(r.axes, v);
     r.o.z = max(r.o.z, lit(1e-4));
     r.o = k_normalize3(r.o);
     return with_params(r);
 }
 
-// BRDF, 1/sr; i: unit, in the lobe's axes.
+// Returns the BRDF, 1/sr. i: unit, in the lobe's frame.
 BN_FN real placed_lobe_eval(placed_lobe a, real3 i)
 {
 #define BN_LOBE(id, at, type, lies, normals, traits, made_of)                                                                              \
@@ -104,17 +109,17 @@ BN_FN real placed_lobe_eval(placed_lobe a, real3 i)
     return lit(0.0);
 }
 
-// BRDF times the cosine of wi, 1/sr; wi unit.
+// Returns BRDF times the cosine of wi, 1/sr. wi: unit.
 BN_FN real placed_lobe_value(placed_lobe a, real3 wi)
 {
     real3 i = to_frame(a.axes, wi);
     real cosine = max(i.z, lit(0.0));
-    if (lobe_has(a.model, kLies_thread)) // whose eval is in place of that
+    if (lobe_has(a.model, kLies_thread)) // its eval includes the cosine
         return placed_lobe_eval(a, i);
     return placed_lobe_eval(a, i) * cosine;
 }
 
-// Density of placed_lobe_sample(), 1/sr.
+// Returns the density of placed_lobe_sample(), 1/sr.
 BN_FN real placed_lobe_pdf(placed_lobe a, real3 wi)
 {
     real3 i = to_frame(a.axes, wi);
@@ -129,13 +134,13 @@ BN_FN real placed_lobe_pdf(placed_lobe a, real3 wi)
     return lit(0.0);
 }
 
-// Cosine between view and half vector, for Fresnel.
+// Returns the cosine between view and half vector, for Fresnel.
 BN_FN real placed_lobe_o_dot_h(placed_lobe a, real3 wi)
 {
     return k_dot3(a.o, half_vector(a.o, to_frame(a.axes, wi)));
 }
 
-// xi in [0,1)^2. Only its wi is not the model's own: it is in world space.
+// Samples the lobe, xi in [0,1)^2. Returns the model's sample with wi in world space.
 BN_FN bsdf_sample placed_lobe_sample(placed_lobe a, real2 xi)
 {
     bsdf_sample b = bsdf_sample_of(a.o, lit(0.0), lit(0.0), lit(0.0), lit(0.0) > lit(0.0));
@@ -147,13 +152,13 @@ BN_FN bsdf_sample placed_lobe_sample(placed_lobe a, real2 xi)
     return b;
 }
 
-// Directional albedo where nothing is absorbed, by the lobe's own samples.
+// Directional albedo without absorption, from the lobe's own samples.
 struct lobe_energy {
     real albedo;
-    real grazing; // of it, what Schlick's factor takes whatever f0 is: the part of f90 alone
+    real grazing; // the part that Schlick's factor weights by f90 alone, whatever f0 is
 };
 
-// By a Fibonacci lattice. count, before: a Fibonacci number of them and the one before it.
+// Computes albedo on a Fibonacci lattice. count, before: a Fibonacci number and its predecessor.
 BN_STAGE lobe_energy placed_lobe_energy(BN_IN(placed_lobe) a, int count, int before)
 {
     real part = lit(1.0) / to_real(int_lit(count));
@@ -161,9 +166,11 @@ BN_STAGE lobe_energy placed_lobe_energy(BN_IN(placed_lobe) a, int count, int bef
     sum.albedo = lit(0.0);
     sum.grazing = lit(0.0);
     for (int i = 0; i < count; ++i) {
+        // Sample the lobe
         real x = (to_real(int_lit(i)) + lit(0.5)) * part;
         real y = (to_real(int_lit(i * before % count)) + lit(0.5)) * part;
         bsdf_sample s = placed_lobe_sample(a, vec2_of(x, y));
+        // Add the weight, and the part at grazing angles
         real m = lit(1.0) - min(s.o_dot_h, lit(1.0));
         real m2 = m * m;
         sum.albedo = sum.albedo + s.weight;
@@ -179,8 +186,8 @@ BN_FN real placed_lobe_mean(BN_IN(placed_lobe) a, int count, int before)
     return placed_lobe_energy(a, count, before).albedo;
 }
 
-// By 21 samples: off by 0.02 rms, by 0.07 at most; of Ashikhmin and Shirley's, which ends at the horizon, by 89: by 0.01 at most. Tables
-// have it for the usual lobes (see directional_albedo()), and where widths are the same everywhere for theirs.
+// Computes albedo with 21 samples, or with 89 for the Ashikhmin-Shirley lobe, which ends at the horizon. Tables replace
+// this for the default lobes (see directional_albedo()) and for Ashikhmin-Shirley lobes with constant widths.
 BN_FN lobe_energy placed_lobe_own_energy(BN_IN(placed_lobe) a)
 {
     if (lobe_has(a.model, kLobeOfPhong))
@@ -188,8 +195,8 @@ BN_FN lobe_energy placed_lobe_own_energy(BN_IN(placed_lobe) a)
     return placed_lobe_energy(a, 21, 13);
 }
 
-// BRDF times cosine over the density of normals that D would be if it were GGX's about the lobe's own normal, of a model whose normals are
-// GGX's; i: unit, in the lobe's axes.
+// Returns BRDF times cosine over the density of normals, for a model with GGX normals. The density is GGX's about the
+// lobe's own normal. i: unit, in the lobe's frame.
 BN_FN real placed_lobe_masking(placed_lobe a, real3 i)
 {
     real3 risen = vec3_of(i.x, i.y, max(i.z, lit(0.0)));
@@ -203,7 +210,7 @@ BN_FN real placed_lobe_masking(placed_lobe a, real3 i)
     return lit(0.0);
 }
 
-// What masking leaves of the lobe as a mirror.
+// Returns the albedo that masking leaves in the mirror limit.
 BN_FN real placed_lobe_mirror_albedo(placed_lobe a)
 {
 #define BN_MIRRORED_round(id, p)
@@ -218,13 +225,15 @@ BN_FN real placed_lobe_mirror_albedo(placed_lobe a)
     return lit(1.0);
 }
 
-// As lights of the surface s meet it: in the frame that the surface's cosines are of, where eye and light may lie lower than a lobe's
-// sample does. A round one is about s.n, as wide as s is rough, and needs no axes.
+// Places a lobe for the lights of surface s, in the frame of the surface's cosines. Eye and light may lie lower there than
+// a lobe's sample. A round lobe lies about s.n, with s.roughness, and needs no axes.
 BN_FN placed_lobe placed_lobe_under_lights(int model, aniso_lobe lobe, surface s, surface_frame axes)
 {
+    // Place the lobe as for samples
     placed_lobe r = placed_lobe_of(model, lobe, s.n, s.v, axes);
     if (lobe_has(model, kLies_surface))
         return r;
+    // Keep the eye and the roughness that the surface's cosines use
     r.o = to_frame(r.axes, s.v);
     r.o.z = s.n_dot_v;
     if (lobe_has(model, kLies_round)) {
@@ -234,7 +243,7 @@ BN_FN placed_lobe placed_lobe_under_lights(int model, aniso_lobe lobe, surface s
     return with_params(r);
 }
 
-// BRDF of such a lobe that lies upright, for a light above its horizon, 1/sr. l: unit, world space.
+// Returns the BRDF of such an untilted lobe for a light above its horizon, 1/sr. l: unit, world space.
 BN_FN real placed_lobe_light(placed_lobe a, surface s, real3 l)
 {
     real3 i = to_frame(a.axes, l);

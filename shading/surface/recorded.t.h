@@ -1,5 +1,5 @@
-// The words of a visible point and of its material, one after another, as recorded stages hold them (StageRecords in raster/frame/frame.h):
-// all are reals, what is true or false 1 or 0.
+// Consecutive words of a visible point and its material, as recorded stages hold them (StageRecords in
+// raster/frame/frame.h). All words are reals; booleans are 1 or 0.
 #ifndef BN_RECORDED_T_H
 #define BN_RECORDED_T_H
 
@@ -10,6 +10,7 @@
 
 BN_KERNELS_BEGIN
 
+// Put values into words; a mask is 1 or 0.
 BN_FN void put_mask(BN_INOUT(recorder) w, mask m)
 {
     put_real(w, select(m, lit(1.0), lit(0.0)));
@@ -32,13 +33,14 @@ BN_FN void put_real4(BN_INOUT(recorder) w, real4 v)
     put_real(w, v.z);
     put_real(w, v.w);
 }
+// Puts zeros in place of values that nothing reads.
 BN_FN void put_zeros(BN_INOUT(recorder) w, int count)
 {
     for (int i = 0; i < count; ++i)
         put_real(w, lit(0.0));
 }
 
-// uses_color, textured, lights: what was asked for (shading/visible_point.def).
+// Records p. uses_color, textured, lights: requested values (shading/visible_point.def).
 BN_FN void record_point(BN_INOUT(recorder) w, BN_IN(visible_point) p, bool uses_color, bool textured, bool lights)
 {
 #define BN_POINT(type, words, name, asked)                                                                                                 \
@@ -54,6 +56,7 @@ BN_FN void record_point(BN_INOUT(recorder) w, BN_IN(visible_point) p, bool uses_
 #include "shading/visible_point.def"
 }
 
+// Records the inputs of a material.
 BN_FN void record_material(BN_INOUT(recorder) w, BN_IN(material_inputs) at)
 {
 #define BN_INPUT(type, words, name) put_##type(w, at.name);

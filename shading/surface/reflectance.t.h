@@ -1,5 +1,5 @@
-// What a surface reflects of light that meets its microfacets at an angle: Schlick's approximation or, of those parts of it that a frame
-// wants exact, Fresnel's equations (FrameDesc::fresnel). glTF's materials are a mixture of a metal and a dielectric; each part has its own.
+// Reflectance of microfacets by angle: Schlick's approximation, or Fresnel's equations for the parts that a frame wants
+// exact (FrameDesc::fresnel). A glTF material mixes a metal and a dielectric; each part has its own reflectance.
 #ifndef BN_REFLECTANCE_T_H
 #define BN_REFLECTANCE_T_H
 
@@ -11,21 +11,24 @@
 
 BN_KERNELS_BEGIN
 
-// Of a frame that wants exact ones. base, metallic: as glTF has them, linear, [0,1]. A metal without an index keeps Schlick's
-// approximation.
+// Makes the parts for a frame with exact reflectances. base, metallic: as in glTF, linear, [0,1]. A metal without an index
+// keeps Schlick's approximation.
 BN_FN fresnel_parts fresnel_parts_of(frame_ref f, material_ref m, real3 base, real metallic, real3 dielectric_f0, real dielectric_f90)
 {
     fresnel_parts p;
+    // Describe the dielectric part
     real one = lit(1.0);
     p.dielectric = one - metallic;
     p.dielectric_f0 = dielectric_f0;
     p.dielectric_f90 = dielectric_f90;
     p.ior = splat(the_material(m).ior);
+    // Describe the metal by base colour
     p.conductor = lit(0.0);
     p.eta = splat3(the_material(m).conductor_eta);
     p.k = splat3(the_material(m).conductor_k);
     p.rest_f0 = base * metallic;
     p.rest_f90 = vec3_all(metallic);
+    // Replace the metal by a conductor where the material has an index
     if (the_frame(f).fresnel == kFresnelConductor && the_material(m).conductor != 0) {
         p.conductor = metallic;
         p.rest_f0 = vec3_all(lit(0.0));
@@ -34,8 +37,8 @@ BN_FN fresnel_parts fresnel_parts_of(frame_ref f, material_ref m, real3 base, re
     return p;
 }
 
-// Exact for what KHR_materials_ior says. KHR_materials_specular moves both ends, f0 and f90, as it does with Schlick's: between them the
-// curve is the exact one's.
+// Returns a dielectric's reflectance: exact for the index from KHR_materials_ior. KHR_materials_specular moves both ends,
+// f0 and f90, as with Schlick's approximation; between them the curve follows the exact one.
 BN_FN real3 dielectric_reflectance(real3 f0, real f90, real ior, real v_dot_h)
 {
     real eta = min(ior, lit(1e3));
@@ -44,6 +47,7 @@ BN_FN real3 dielectric_reflectance(real3 f0, real f90, real ior, real v_dot_h)
     return f0 + (vec3_all(f90) - f0) * rise;
 }
 
+// Returns the mixture's reflectance by Fresnel's equations.
 BN_STAGE real3 exact_reflectance(fresnel_parts p, real v_dot_h)
 {
     real3 r = fresnel_schlick(p.rest_f0, p.rest_f90, v_dot_h);
@@ -54,7 +58,7 @@ BN_STAGE real3 exact_reflectance(fresnel_parts p, real v_dot_h)
     return r;
 }
 
-// v_dot_h: cosine between eye and half vector, [0,1].
+// Returns the surface's reflectance. v_dot_h: cosine between eye and half vector, [0,1].
 BN_FN real3 reflectance_of(BN_IN(surface) s, real v_dot_h)
 {
     if (s.exact == 0)
@@ -62,8 +66,9 @@ BN_FN real3 reflectance_of(BN_IN(surface) s, real v_dot_h)
     return exact_reflectance(s.parts, v_dot_h);
 }
 
-// The angle at which Schlick's approximation is what it is in the lobe's mean: its fifth power there is the albedo's share of f90. There a
-// split integral takes exact reflectances, so that they are exact for mirrors, and for whatever has Schlick's shape on all lobes.
+// Returns the cosine at which Schlick's approximation equals its mean over the lobe: its fifth power there is the albedo's
+// share of f90. A split integral evaluates exact reflectances at this cosine. So they are exact for mirrors, and for all
+// lobes where the curve has Schlick's shape.
 BN_FN real mean_v_dot_h(dfg_value dfg)
 {
     real power = max(dfg.bias, lit(0.0)) / max(dfg.scale + dfg.bias, lit(1e-4));
@@ -71,7 +76,7 @@ BN_FN real mean_v_dot_h(dfg_value dfg)
     return k_saturate(lit(1.0) - root);
 }
 
-// Directional albedo of the specular lobe.
+// Returns the specular lobe's directional albedo.
 BN_FN real3 albedo_of(BN_IN(surface) s, dfg_value dfg)
 {
     if (s.exact == 0)
@@ -79,7 +84,7 @@ BN_FN real3 albedo_of(BN_IN(surface) s, dfg_value dfg)
     return exact_reflectance(s.parts, mean_v_dot_h(dfg)) * (dfg.scale + dfg.bias);
 }
 
-// Of the dielectric part alone, as if it were all of the surface.
+// Returns the dielectric part's albedo, as if it were the whole surface.
 BN_FN real3 dielectric_albedo_of(BN_IN(surface) s, real3 f0, real f90, dfg_value dfg)
 {
     if (s.exact == 0) {

@@ -1,7 +1,8 @@
-// The surface of what lets light through (KHR_materials_transmission): a rough interface that reflects and refracts by one distribution of
-// microfacets, the ellipsoid's of the surface's two widths, tilted where normals are (shading/models/ellipsoid_dielectric.k.h), with
-// Fresnel's exact factors. Values are of radiance over the square of the index, which refraction keeps: what an interface adds on the way
-// in, the other takes away on the way out, and of the environment alone, seen through one interface, nothing is lost to the index.
+// The surface of transmissive materials (KHR_materials_transmission): a rough interface that reflects and refracts with one
+// distribution of microfacets. The distribution is the ellipsoid's, with the surface's two widths and tilted with its
+// normals (shading/models/ellipsoid_dielectric.k.h); Fresnel factors are exact. Values are radiance over the squared index,
+// which refraction preserves. An interface's factor on the way in cancels on the way out, and the environment seen through
+// one interface loses nothing to the index.
 #ifndef BN_REFRACTION_T_H
 #define BN_REFRACTION_T_H
 
@@ -13,28 +14,28 @@
 
 BN_KERNELS_BEGIN
 
-// What a material says of its interface.
+// Material inputs of an interface.
 struct interface_inputs {
-    fresnel_parts parts; // exact; ior: of the far side over the eye's
-    real3 tint;          // of what passes, [0,1]; the diffuse part has the rest
+    fresnel_parts parts; // exact; ior: the far side's index over the eye side's
+    real3 tint;          // factor on transmitted light, [0,1]; the diffuse part has the rest
 };
 
 struct rough_interface {
     interface_inputs at;
     ellipsoid_dielectric_params p;
-    surface_frame axes; // of the surface, in which the following is
-    real3 o;            // to the eye, above
-    real3 n;            // the commonest normal of microfacets
+    surface_frame axes; // the surface's; the members below are in this frame
+    real3 o;            // to the eye, above the horizon
+    real3 n;            // most frequent microfacet normal
 };
 
-// Where light would go on unbent there is nothing to sample: an index is at least so far from 1, which bends it by a thousandth.
+// Returns the index ratio, kept at least a thousandth away from 1: unbent light would leave nothing to sample.
 BN_FN real index_of_far_side(real ior, mask front)
 {
     real inside = min(max(ior, lit(1.001)), lit(10.0));
     return select(front, inside, lit(1.0) / inside);
 }
 
-// n: normal of the lobe, v: to the eye, unit, world space; axes: of the geometry.
+// Makes an interface. n: lobe normal, v: to the eye, unit, world space; axes: the geometry's.
 BN_FN rough_interface rough_interface_of(interface_inputs at, aniso_lobe lobe, real3 n, real3 v, surface_frame axes)
 {
     placed_lobe a = placed_lobe_of(lobe_that_has(kSeparableOfTilted), lobe, n, v, axes);
@@ -47,12 +48,13 @@ BN_FN rough_interface rough_interface_of(interface_inputs at, aniso_lobe lobe, r
     return r;
 }
 
-// Of light that meets a microfacet at this angle, [0,1].
+// Returns the reflected share of light that meets a microfacet at this angle, [0,1].
 BN_FN real3 interface_reflects(BN_IN(interface_inputs) at, real o_dot_m)
 {
     return exact_reflectance(at.parts, k_saturate(o_dot_m));
 }
 
+// Returns the transmitted share, with tint.
 BN_FN real3 interface_passes(BN_IN(interface_inputs) at, real o_dot_m)
 {
     real3 r = dielectric_reflectance(at.parts.dielectric_f0, at.parts.dielectric_f90, at.parts.ior, k_saturate(o_dot_m));
@@ -60,8 +62,8 @@ BN_FN real3 interface_passes(BN_IN(interface_inputs) at, real o_dot_m)
     return at.tint * rest;
 }
 
-// What it reflects of light from wi, unit, world space: BRDF times cosine, 1/sr; nothing of light from below. That it is a mirror is not
-// looked at.
+// Returns BRDF times cosine for reflected light from wi (unit, world space), 1/sr; 0 for light from below. Ignores the
+// mirror limit.
 BN_FN real3 interface_value(BN_IN(rough_interface) g, real3 wi)
 {
     real3 i = to_frame(g.axes, wi);
@@ -71,15 +73,17 @@ BN_FN real3 interface_value(BN_IN(rough_interface) g, real3 wi)
     return interface_reflects(g.at, s.o_dot_m) * value;
 }
 
-// Directional albedo where nothing is absorbed, by samples on a Fibonacci lattice: single scattering loses the rest.
+// Returns directional albedo without absorption, by samples on a Fibonacci lattice. Single scattering loses the rest.
 BN_STAGE real interface_albedo(BN_IN(rough_interface) g)
 {
     real sum = lit(0.0);
     real part = lit(0.0069444444444444444);
     for (int i = 0; i < 144; ++i) {
+        // Sample a visible microfacet
         real x = (to_real(int_lit(i)) + lit(0.5)) * part;
         real y = (to_real(int_lit(i * 89 % 144)) + lit(0.5)) * part;
         ellipsoid_facet m = ellipsoid_facet_seen(g.p.shape, g.o, vec2_of(x, y));
+        // Add reflection and refraction, weighted by Fresnel
         real f = fresnel_dielectric(m.o_dot_m, g.p.eta);
         real reflected = ellipsoid_facet_reflects(g.p.shape, m, g.o).weight * f;
         real refracted = ellipsoid_facet_refracts(g.p.shape, m, g.o, g.p.eta).weight * (lit(1.0) - f);

@@ -1,4 +1,4 @@
-// What depths below a surface move its texture coordinates by.
+// Offsets of texture coordinates for depths below a surface.
 #ifndef BN_RELIEF_K_H
 #define BN_RELIEF_K_H
 
@@ -8,15 +8,16 @@
 
 BN_KERNELS_BEGIN
 
-struct relief_plane {    // of the triangle: two of its sides, metres, and what both sets of texture coordinates change by along them
+struct relief_plane {    // from the triangle: two sides, metres, and the change of both coordinate sets along them
     real3 along, across; // world space
     real4 coordinates_along, coordinates_across;
 };
 
-// What texture coordinates change by along the surface, where w leads: by the inverse of its first fundamental form. A length of `set`
-// (0 or 1) is the root of the area that a unit square of it has on the surface; w: in those; result: of both sets.
+// Returns the change of both coordinate sets along surface vector w, through the inverse of the first fundamental form. The
+// unit of w is a length in `set` (0 or 1): the square root of the area that its unit square has on the surface.
 BN_FN real4 moved_on_surface(BN_IN(relief_plane) plane, int set, real3 w)
 {
+    // Measure the areas on the surface and in the texture
     real3 normal = k_cross(plane.along, plane.across);
     real area2 = max(k_dot3(normal, normal), lit(1e-30));
     real4 a = plane.coordinates_along;
@@ -24,14 +25,16 @@ BN_FN real4 moved_on_surface(BN_IN(relief_plane) plane, int set, real3 w)
     real in_texture = a.x * c.y - a.y * c.x;
     if (set != 0)
         in_texture = a.z * c.w - a.w * c.z;
+    // Convert w's unit to metres
     real unit = sqrt(sqrt(area2) / max(abs(in_texture), lit(1e-15)));
     real by = unit / area2;
+    // Resolve w along both sides
     real part_along = k_dot3(k_cross(plane.across, normal), w) * by;
     real part_across = k_dot3(k_cross(normal, plane.along), w) * by;
     return a * part_along + c * part_across;
 }
 
-// The same where the surface is taken for a plane on which coordinates are as long as metres, u along the tangent, v against the bitangent.
+// Returns the same for a plane on which coordinates are as long as metres: u along the tangent, v against the bitangent.
 BN_FN real4 moved_in_texture(BN_IN(surface_frame) axes, real3 w)
 {
     real u = k_dot3(axes.t, w);

@@ -1,6 +1,7 @@
-// Parallax occlusion mapping: texture coordinates of a visible point moved to where its ray meets the heights below the surface (Tatarchuk
-// 2006; "Practical parallax occlusion mapping"). Heights lie in the alpha of the normal map, 1 at the surface, 0 at relief_depth below it,
-// in lengths of texture coordinates. Everything is fetched with the derivatives of the coordinates that were not moved.
+// Parallax occlusion mapping (Tatarchuk 2006, "Practical parallax occlusion mapping"): moves a visible point's texture
+// coordinates to where its ray meets the height map below the surface. The normal map's alpha holds heights: 1 at the
+// surface, 0 at relief_depth below it, in lengths of texture coordinates. All fetches use the derivatives of the original
+// coordinates.
 #ifndef BN_RELIEF_T_H
 #define BN_RELIEF_T_H
 
@@ -13,33 +14,38 @@
 
 BN_KERNELS_BEGIN
 
+// Returns the depth below the surface, [0,1], as a fraction of relief_depth.
 BN_FN real depth_in_map(BN_IN(texture_one_level) map, real2 uv)
 {
     real depth = lit(1.0) - texel_at_level(map, kNormalTex, uv).w;
     return depth;
 }
 
-// How far along its way through the heights, [0,1], a ray meets them. n_dot_v: [0,1], which says how many steps are taken. from, way:
-// coordinates at its start, and what they change by until the end.
+// Returns where on its way through the height map, [0,1], a ray meets the heights. n_dot_v: [0,1], sets the number of
+// steps. from, way: coordinates at the ray's start, and their change until its end.
 BN_FN real relief_met(BN_IN(texture_one_level) map, real2 from, real2 way, real n_dot_v)
 {
+    // Choose the step
     real most = to_real(int_lit(kMostReliefSteps));
     real fewer = to_real(int_lit(kMostReliefSteps - kLeastReliefSteps));
     real step = lit(1.0) / (most - fewer * n_dot_v);
     real met = lit(0.0);
-    real reach = lit(0.0);              // of rays that have not met them; what is fetched next waits for no fetch before
-    real gap = depth_in_map(map, from); // of the ray above the heights
+    real reach = lit(0.0);              // position of rays still open; a fetch never waits for another fetch
+    real gap = depth_in_map(map, from); // height of the ray above the map
     mask open = gap > lit(0.0);
     for (int i = 0; i <= kMostReliefSteps; ++i) {
         if (no_lane(open))
             break;
+        // Advance the ray and compare it with the map
         real further = reach + step;
         real next = min(further, lit(1.0));
         real2 at = from + way * next;
         real below = depth_in_map(map, at) - next;
         mask hit = both(open, below <= lit(0.0));
+        // Interpolate the crossing linearly between two steps
         real closed = gap - below;
         real there = reach + (next - reach) * (gap / max(closed, lit(1e-12)));
+        // Close the rays that hit
         met = select(open, select(hit, there, next), met);
         gap = select(open, below, gap);
         open = both(open, not_(hit));
@@ -48,18 +54,21 @@ BN_FN real relief_met(BN_IN(texture_one_level) map, real2 from, real2 way, real 
     return met;
 }
 
-// m: with relief. p: all of it is asked for but colours and the place.
+// Moves p's texture coordinates. m has a height map. p needs all members except colour and position.
 BN_STAGE void see_relief(any_frame f, material_ref m, BN_IN(relief_plane) plane, BN_INOUT(visible_point) p)
 {
+    // Build the geometric frame
     real3 v = k_normalize3(-p.ray);
     real3 normal = select(p.front, p.normal, -p.normal);
     real handedness = select(p.front, p.tangent_sign, -p.tangent_sign);
     surface_frame axes = geometric_frame(normal, p.tangent, handedness);
+    // Find the texture offset at the full depth
     real n_dot_v = k_saturate(k_dot3(axes.n, v));
     real3 w = (axes.n * k_dot3(axes.n, v) - v) / max(n_dot_v, lit(0.1)) * splat(the_material(m).relief_depth);
     real4 way = moved_in_texture(axes, w);
     if (the_frame(f).pom_metric == kReliefOnSurface)
         way = moved_on_surface(plane, the_material(m).textures[kNormalTex].uv_set, w);
+    // Choose the level and the ray's way through the map
     texture_place place = texture_place_of(the_material(m).textures[kNormalTex], p);
     visible_point bottom = p;
     bottom.uv0 = p.uv0 + vec2_of(way.x, way.y);
@@ -68,6 +77,7 @@ BN_STAGE void see_relief(any_frame f, material_ref m, BN_IN(relief_plane) plane,
     real2 through = last.uv - place.uv;
     texture_desc desc = texture_desc_of(f, m, kNormalTex);
     texture_one_level map = texture_one_level_of(desc, texture_footprint_of(desc, place.dx, place.dy, the_frame(f).texture_taps));
+    // Move the coordinates to the crossing
     real met = relief_met(map, place.uv, through, n_dot_v);
     p.uv0 = p.uv0 + vec2_of(way.x, way.y) * met;
     p.uv1 = p.uv1 + vec2_of(way.z, way.w) * met;

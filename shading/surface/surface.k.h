@@ -1,4 +1,4 @@
-// The surface at a visible point that techniques shade: what is left of geometry and textures.
+// The surface at a visible point for techniques and lights, and its frames.
 #ifndef BN_SURFACE_K_H
 #define BN_SURFACE_K_H
 
@@ -8,12 +8,12 @@
 
 BN_KERNELS_BEGIN
 
-struct fresnel_parts {          // what reflectances by Fresnel's equations are made of: see reflectance.t.h
+struct fresnel_parts {          // inputs of Fresnel's equations: see reflectance.t.h
     real dielectric, conductor; // shares of the surface, [0,1]
-    real3 dielectric_f0;        // of the dielectric, at normal incidence
-    real dielectric_f90, ior;   // and at grazing; its index
-    real3 eta, k;               // index of the conductor
-    real3 rest_f0, rest_f90;    // Schlick's, times the share of the rest
+    real3 dielectric_f0;        // the dielectric's, at normal incidence
+    real dielectric_f90, ior;   // at grazing incidence; its index
+    real3 eta, k;               // the conductor's index
+    real3 rest_f0, rest_f90;    // for Schlick's approximation, times the share of the rest
 };
 
 struct surface {
@@ -24,15 +24,15 @@ struct surface {
     real3 f0, f90;       // specular reflectance at normal and grazing incidence
     real roughness;      // perceptual (alpha_lin), [0,1]
     real occlusion;      // [0,1], 1 open
-    int exact;           // uniform; whether parts of it reflect by Fresnel's equations
-    fresnel_parts parts; // then
+    int exact;           // uniform; nonzero: some parts reflect by Fresnel's equations
+    fresnel_parts parts; // for these parts
 };
 
 struct surface_frame {
     real3 n, t, b; // orthonormal, world space; b = +-cross(n, t)
 };
 
-// n: unit; t: orthogonal to it, any length; handedness: +1 or -1.
+// Makes a frame. n: unit; t: perpendicular to n, any length; handedness: +1 or -1.
 BN_FN surface_frame frame_of(real3 n, real3 t, real handedness)
 {
     surface_frame f;
@@ -42,7 +42,7 @@ BN_FN surface_frame frame_of(real3 n, real3 t, real handedness)
     return f;
 }
 
-// normal, tangent: interpolated, any length, not along each other, turned to the viewer's side.
+// Makes the geometry's frame. normal, tangent: interpolated, any length, not parallel; normal on the viewer's side.
 BN_FN surface_frame geometric_frame(real3 normal, real3 tangent, real handedness)
 {
     real3 n = k_normalize3(normal);
@@ -50,17 +50,17 @@ BN_FN surface_frame geometric_frame(real3 normal, real3 tangent, real handedness
     return frame_of(n, t, handedness);
 }
 
-// The frame turned to a mapped normal. map: tangent-space normal from the texture, any length. Where it lies along the tangent, the old
-// normal is the new tangent.
+// Turns a frame to a mapped normal. map: tangent-space normal from the texture, any length. Where the normal lies along the
+// tangent, the old normal becomes the tangent.
 BN_FN surface_frame mapped_frame(surface_frame f, real3 map, real handedness)
 {
     real3 n = k_normalize3(f.t * map.x + f.b * map.y + f.n * map.z);
     real3 t = f.t - n * k_dot3(n, f.t);
-    return frame_of(n, select(k_dot3(t, t) > lit(1e-8), t, f.n), handedness); // less is rounding
+    return frame_of(n, select(k_dot3(t, t) > lit(1e-8), t, f.n), handedness); // shorter tangents are rounding errors
 }
 
-// The shortest rotation from (0,0,1) to n, unit, as the quaternion (a; b, c, 0) of conj(q) v q. Its square root loses nothing near z = -1,
-// where it goes to half a turn about x.
+// Returns the shortest rotation from (0,0,1) to n, unit, as the quaternion (a; b, c, 0) of conj(q) v q. The square root
+// keeps its digits near z = -1, where the rotation becomes half a turn about x.
 BN_FN real3 rotation_to(real3 n)
 {
     real flat_part = n.x * n.x + n.y * n.y;
@@ -71,7 +71,7 @@ BN_FN real3 rotation_to(real3 n)
     return select(a < lit(1e-6), vec3_of(lit(0.0), lit(1.0), lit(0.0)), vec3_of(a, n.y * part, -(n.x * part)));
 }
 
-// Tangent, bitangent and normal of a rotation (a; b, c, 0), unit, in the space that it turns.
+// Returns tangent, bitangent and normal of a rotation (a; b, c, 0), unit, in the rotated space.
 BN_FN surface_frame rotated_axes(real3 q)
 {
     real a2 = q.x * q.x;
@@ -87,8 +87,8 @@ BN_FN surface_frame rotated_axes(real3 q)
     return r;
 }
 
-// The frame turned to a mapped normal by the shortest way, which turns tangent and bitangent alike. map: as in mapped_frame; one without
-// length turns nothing.
+// Turns a frame to a mapped normal by the shortest rotation, which turns tangent and bitangent alike. map: as in
+// mapped_frame(); a map of length 0 turns nothing.
 BN_FN surface_frame turned_frame(surface_frame f, real3 map)
 {
     real3 up = vec3_of(lit(0.0), lit(0.0), lit(1.0));
@@ -101,7 +101,8 @@ BN_FN surface_frame turned_frame(surface_frame f, real3 map)
     return r;
 }
 
-// With a mapped normal and the mesh's own tangent and bitangent, which are not orthogonal to it any more.
+// Replaces the normal by the mapped one, and keeps the mesh's tangent and bitangent, which are then not perpendicular to
+// it.
 BN_FN surface_frame bent_frame(surface_frame f, real3 map)
 {
     real3 n = f.t * map.x + f.b * map.y + f.n * map.z;
@@ -109,8 +110,8 @@ BN_FN surface_frame bent_frame(surface_frame f, real3 map)
     return f;
 }
 
-// The frame of a lobe whose commonest normal is tilted against the surface: the rows of R = Rx(theta_x) Ry(theta_y), of which cosines and
-// sines are given, in the frame. Positive theta_x tilts to +b, positive theta_y to -t. Walter et al. 2014, eq. 3.
+// Tilts a frame for a lobe whose most frequent normal is tilted against the surface: returns the rows of R = Rx(theta_x)
+// Ry(theta_y), given by cosines and sines. Positive theta_x tilts to +b, positive theta_y to -t. Walter et al. 2014, eq. 3.
 BN_FN surface_frame tilted_frame(surface_frame f, real2 cosine, real2 sine)
 {
     surface_frame r;
@@ -121,7 +122,7 @@ BN_FN surface_frame tilted_frame(surface_frame f, real2 cosine, real2 sine)
     return r;
 }
 
-// The same by the lobe's mean slopes, d height / d t and d height / d b.
+// Tilts a frame by the lobe's mean slopes, d height / d t and d height / d b.
 BN_FN surface_frame sloped_frame(surface_frame f, real2 slope)
 {
     real one = lit(1.0);
@@ -137,28 +138,33 @@ BN_FN surface_frame sloped_frame(surface_frame f, real2 slope)
     return tilted_frame(f, cosine, sine);
 }
 
-// Share of a lobe above a horizon, [0,1]. cosine: of its middle to the horizon's normal; width: greater than 0.
+// Returns the share of a lobe above a horizon, [0,1]. cosine: between the lobe's middle and the horizon's normal; width:
+// above 0.
 BN_FN real share_above(real cosine, real width)
 {
     real t = cosine / width;
     return lit(0.5) + lit(0.5) * t / sqrt(lit(1.0) + t * t);
 }
 
-// Share of a lobe about a turned normal n that the surface's own horizon leaves, [0,1]. surface_n, v: unit; v: to the eye.
+// Returns the share of a lobe about a turned normal n above the surface's own horizon, [0,1]. surface_n, v: unit; v: to the
+// eye.
 BN_FN real horizon_fade(aniso_lobe lobe, real3 n, real3 v, real3 surface_n)
 {
+    // Find the lobe's middle
     real n_dot_v = k_dot3(n, v);
     real3 mirrored = n * (lit(2.0) * n_dot_v) - v;
+    // Find the lobe's width towards surface_n
     real along_u = k_dot3(surface_n, lobe.u_axis) * lobe.sigma_u;
     real along_v = k_dot3(surface_n, lobe.v_axis) * lobe.sigma_v;
     real upright = k_dot3(n, surface_n);
     real across2 = max(lit(1.0) - upright * upright, lit(1e-6));
     real width = max(lit(4.2426407) * sqrt((along_u * along_u + along_v * along_v) / across2), lit(0.02)); // 3 alpha towards surface_n
-    return min(share_above(k_dot3(surface_n, mirrored), width) / share_above(n_dot_v, width), lit(1.0)); // its own horizon has had its part
+    return min(share_above(k_dot3(surface_n, mirrored), width) / share_above(n_dot_v, width),
+               lit(1.0)); // the lobe's own horizon has taken its part
 }
 
-// glTF metallic-roughness to reflectances. base: linear [0,1]; metallic [0,1]; dielectric_f0, dielectric_f90: from index of
-// refraction and the specular extension.
+// Makes a surface from glTF metallic-roughness inputs. base: linear [0,1]; metallic [0,1]; dielectric_f0, dielectric_f90:
+// from the index of refraction and the specular extension.
 BN_FN surface metallic_roughness_surface(real3 n, real3 v, real3 base, real metallic, real roughness, real3 dielectric_f0,
                                          real dielectric_f90, real occlusion)
 {

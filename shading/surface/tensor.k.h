@@ -1,10 +1,11 @@
-// A lobe as a tensor: what stays right when texels are averaged, and how it goes from one frame to another. Four forms of the same thing:
-//   widths and axis      alpha_u, alpha_v along u and across it, or (alpha_lin, eta, direction) as artists have them
-//   covariance           Sigma = M^2 / 2 of slopes (covariance.k.h), M = R diag(alpha_u, alpha_v) R^T
-//   stored tensor        (a, b, c): A = [[a, c], [c, b]] is the adjugate of M, so that M = [[b, -c], [-c, a]]; widths are linear in it
-//   covariance in space  M^2 laid into the tangent plane of a normal: lobes of several normals add up
-// Frames are those of the shortest turn from (0,0,1) to a normal n (turned_frame of surface.k.h): T = (1 - x^2 s, -x y s, -x),
-// B = (-x y s, 1 - y^2 s, -y), s = 1 / (1 + z). Sums are ordered so that mirroring x or y, or exchanging them, gives the same bits.
+// A lobe as a tensor, a form that texels may average, and its transforms between frames. Four forms of the same lobe:
+//  widths and axis      alpha_u, alpha_v along and across u, or artists' (alpha_lin, eta, direction)
+//  covariance           Sigma = M^2 / 2 of slopes (covariance.k.h), M = R diag(alpha_u, alpha_v) R^T
+//  stored tensor        (a, b, c): A = [[a, c], [c, b]] is the adjugate of M, so M = [[b, -c], [-c, a]]; widths are linear in it
+//  covariance in space  M^2 in the tangent plane of a normal: lobes of several normals add up
+// Frames follow the shortest turn from (0,0,1) to a normal n (turned_frame in surface.k.h): T = (1 - x^2 s, -x y s, -x), B
+// = (-x y s, 1 - y^2 s, -y), s = 1 / (1 + z). The order of sums is such that mirroring x or y, or swapping them, gives the
+// same bits.
 #ifndef BN_TENSOR_K_H
 #define BN_TENSOR_K_H
 
@@ -37,7 +38,7 @@ struct slope_lobe {
     slope_covariance spread;
 };
 
-// The root of a symmetric matrix without eigenvectors: (S + d I) / sqrt(trace S + 2 d), d = sqrt(det S).
+// Returns a symmetric matrix's square root without eigenvectors: (S + d I) / sqrt(trace S + 2 d), d = sqrt(det S).
 BN_FN slope_covariance root_of(slope_covariance s)
 {
     real product = s.xx * s.yy - s.xy * s.xy;
@@ -74,7 +75,7 @@ BN_FN slope_covariance covariance_of_tensor(lobe_tensor t)
     return s;
 }
 
-// u: unit.
+// Makes a tensor from widths and axis. u: unit.
 BN_FN lobe_tensor tensor_of_axes(real alpha_u, real alpha_v, real2 u)
 {
     lobe_tensor t;
@@ -84,10 +85,10 @@ BN_FN lobe_tensor tensor_of_axes(real alpha_u, real alpha_v, real2 u)
     return t;
 }
 
-// Widths above 1e-6.
+// Returns widths and axis. Widths must exceed 1e-6.
 BN_FN tensor_axes axes_of_tensor(lobe_tensor t)
 {
-    slope_covariance m; // it has the axes of its root
+    slope_covariance m; // M has the axes of its root
     m.xx = t.b;
     m.yy = t.a;
     m.xy = -t.c;
@@ -99,7 +100,7 @@ BN_FN tensor_axes axes_of_tensor(lobe_tensor t)
     return r;
 }
 
-// direction: any length above 0.
+// Makes a tensor from artists' parameters. direction: any length above 0.
 BN_FN lobe_tensor tensor_of_roughness(real alpha_lin, real eta, real2 direction)
 {
     real alpha = alpha_lin * alpha_lin;
@@ -119,7 +120,8 @@ BN_FN tensor_roughness roughness_of_tensor(lobe_tensor t)
     return r;
 }
 
-// The nearest that can be stored: both widths in [0.002, 1]. Not orthogonal: the diagonal first, then what it leaves to c.
+// Returns a storable tensor near t, with both widths in [0.002, 1]. Not an orthogonal projection: clamps the diagonal
+// first, then c to the remaining range.
 BN_FN lobe_tensor projected_tensor(lobe_tensor t)
 {
     real least = lit(0.002);
@@ -134,7 +136,7 @@ BN_FN lobe_tensor projected_tensor(lobe_tensor t)
     return r;
 }
 
-// k s k, both symmetric.
+// Returns k s k; both are symmetric.
 BN_FN slope_covariance conjugated_by(slope_covariance k, slope_covariance s)
 {
     slope_covariance r;
@@ -144,8 +146,8 @@ BN_FN slope_covariance conjugated_by(slope_covariance k, slope_covariance s)
     return r;
 }
 
-// Deviations of slope about the slope of n, as seen in the plane of (0,0,1), to n's own frame and back: the first order of how normals
-// turn. n: unit, z > 0.
+// Transform slope deviations about n's slope between the plane of (0,0,1) and n's own frame, to first order in the turn of
+// normals. n: unit, z > 0.
 BN_FN slope_covariance covariance_to_frame(real3 n, slope_covariance flat_one)
 {
     real part = n.z / (lit(1.0) + n.z);
@@ -167,7 +169,7 @@ BN_FN slope_covariance covariance_from_frame(real3 n, slope_covariance own)
     return conjugated_by(k, own);
 }
 
-// A covariance in n's frame, laid into space. n: unit, z > -1.
+// Returns the covariance s, given in n's frame, in space. n: unit, z > -1.
 BN_FN space_covariance covariance_in_space(real3 n, slope_covariance s)
 {
     real part = lit(1.0) / (lit(1.0) + n.z);
@@ -184,7 +186,7 @@ BN_FN space_covariance covariance_in_space(real3 n, slope_covariance s)
     return r;
 }
 
-// What n's frame sees of one in space.
+// Returns a covariance in space as seen in n's frame.
 BN_FN slope_covariance covariance_seen_from(real3 n, space_covariance s)
 {
     real part = lit(1.0) / (lit(1.0) + n.z);
@@ -201,7 +203,8 @@ BN_FN slope_covariance covariance_seen_from(real3 n, space_covariance s)
     return r;
 }
 
-// S v of S = s + mean mean^T, an SGGX matrix (Heitz, Dupuy, Crassin, Dachsbacher 2015): s of squared widths, mean of unit normals.
+// Returns S v for S = s + mean mean^T, an SGGX matrix (Heitz, Dupuy, Crassin, Dachsbacher 2015). s: covariance from squared
+// widths; mean: mean of unit normals.
 BN_FN real3 sggx_product(real3 mean, space_covariance s, real3 v)
 {
     real along = (mean.x * v.x + mean.y * v.y) + mean.z * v.z;
@@ -212,10 +215,12 @@ BN_FN real3 sggx_product(real3 mean, space_covariance s, real3 v)
     return r;
 }
 
-// The lobe that S stands for, by slopes in n's frame: their mean is S_tn / S_nn, their spread S_tt / S_nn less the mean's square: the
-// Schur complement over S_nn, written without the difference of large numbers. n: unit, z > -1, near mean.
+// Returns the lobe that S stands for, by slopes in n's frame. The mean slope is S_tn / S_nn. The spread is S_tt / S_nn
+// minus the squared mean: the Schur complement over S_nn, written without a difference between large numbers. n: unit, z >
+// -1, near mean.
 BN_FN slope_lobe sggx_lobe(real3 n, real3 mean, space_covariance s)
 {
+    // Build n's frame and project the mean
     real part = lit(1.0) / (lit(1.0) + n.z);
     real skew = -(n.x * n.y * part);
     real3 t = vec3_of(lit(1.0) - n.x * n.x * part, skew, -n.x);
@@ -223,11 +228,13 @@ BN_FN slope_lobe sggx_lobe(real3 n, real3 mean, space_covariance s)
     real m_t = (t.x * mean.x + t.y * mean.y) + t.z * mean.z;
     real m_b = (b.y * mean.y + b.x * mean.x) + b.z * mean.z;
     real m_n = (n.x * mean.x + n.y * mean.y) + n.z * mean.z;
+    // Project s
     real3 across = sggx_product(vec3_all(lit(0.0)), s, n);
     real s_t = (t.x * across.x + t.y * across.y) + t.z * across.z;
     real s_b = (b.y * across.y + b.x * across.x) + b.z * across.z;
     real s_n = (n.x * across.x + n.y * across.y) + n.z * across.z;
     slope_covariance own = covariance_seen_from(n, s);
+    // Divide by S_nn
     real whole = s_n + m_n * m_n;
     real inverse = lit(1.0) / max(whole, lit(1e-12));
     slope_lobe r;

@@ -1,4 +1,4 @@
-// Where a texture of a material is read at a visible point: its set of coordinates, moved as KHR_texture_transform says.
+// Texture coordinates at a visible point: the texture's coordinate set, transformed by KHR_texture_transform.
 #ifndef BN_TEXTURE_PLACE_K_H
 #define BN_TEXTURE_PLACE_K_H
 
@@ -9,7 +9,7 @@
 BN_KERNELS_BEGIN
 
 struct texture_place {
-    real2 uv, dx, dy; // coordinates, not wrapped yet, and their change by one pixel
+    real2 uv, dx, dy; // coordinates before wrapping, and their change per pixel
 };
 
 BN_FN texture_place texture_place_of(BN_IN(TextureBinding) b, BN_IN(visible_point) p)

@@ -1,4 +1,4 @@
-// What geometry gives shading at a visible point, and what of it is interpolated. The values are listed in shading/visible_point.def.
+// Geometry at a visible point, and its interpolation. shading/visible_point.def lists the values.
 #ifndef BN_VISIBLE_POINT_K_H
 #define BN_VISIBLE_POINT_K_H
 
@@ -10,10 +10,10 @@ struct visible_point {
 #define BN_POINT(type, words, name, asked) type name;
 #define BN_INTERPOLATED(type, words, name, asked, first) type name;
 #include "shading/visible_point.def"
-    real3 normal_dx, normal_dy; // change of `normal` by one pixel to the right and down, where the frame's specular_aa asks; never recorded
+    real3 normal_dx, normal_dy; // change of `normal` per pixel, right and down; only for the frame's specular_aa; never recorded
 };
 
-struct vertex_words { // of a vertex (DrawTables::shading), or a blend of several vertices'
+struct vertex_words { // words of a vertex (DrawTables::shading), or a blend of several
     real at[16];
 };
 
@@ -34,7 +34,7 @@ BN_FN real4 real4_of_words(BN_IN(vertex_words) a, int first)
     return vec4_of(a.at[first], a.at[first + 1], a.at[first + 2], a.at[first + 3]);
 }
 
-// Fills what of p is interpolated and asked for. a: its upper half is read only for colours and textures.
+// Fills the requested interpolated members of p. Reads a's upper half only for colours and textures.
 BN_FN void set_interpolants(BN_IN(vertex_words) a, bool uses_color, bool textured, BN_INOUT(visible_point) p)
 {
 #define BN_POINT(type, words, name, asked)

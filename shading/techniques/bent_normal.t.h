@@ -1,4 +1,4 @@
-// One fetch about a bent normal: see bent_normal.k.h.
+// The bent normal technique, one fetch: see bent_normal.k.h.
 #ifndef BN_BENT_NORMAL_T_H
 #define BN_BENT_NORMAL_T_H
 

@@ -1,5 +1,6 @@
-// Filtered importance sampling: an n x n grid of samples, each fetched from the box-filtered environment at the level whose texels are as
-// large as the sample's share of the sphere. Krivanek and Colbert 2008, "Real-time Shading with Filtered Importance Sampling".
+// Filtered importance sampling: an n x n grid of samples, each fetched from the box-filtered environment at the level whose
+// texels match the sample's share of the sphere. Krivanek and Colbert 2008, "Real-time Shading with Filtered Importance
+// Sampling".
 #ifndef BN_FILTERED_IS_K_H
 #define BN_FILTERED_IS_K_H
 
@@ -12,14 +13,14 @@ BN_KERNELS_BEGIN
 
 struct filtered_sample {
     real3 wi;     // unit
-    real weight;  // f cos / pdf without Fresnel; 0 where the sample is not valid
+    real weight;  // f cos / pdf without Fresnel; 0 where the sample is invalid
     real o_dot_h; // for Fresnel
     real lod;     // level of the box chain, not clamped above
 };
 
-// A sample whose slopes are the unit lobe's (slope_x, slope_y) times the widths. wo: unit, wo.z > 0. density: of the unit lobe's normals
-// times h.z^4, which is D h.z^4 alpha_x alpha_y. texel_term: log2(6 w^2 / (4 pi n^2)) / 2 for faces of w^2 texels and n^2 samples.
-// visibility by the caller: G2 / (4 wo.z wi.z) at wi.
+// Makes a sample; its slopes are (slope_x, slope_y) of the unit lobe times the widths. wo: unit, wo.z > 0. density: of the
+// unit lobe's normals, times h.z^4, which equals D h.z^4 alpha_x alpha_y. texel_term: log2(6 w^2 / (4 pi n^2)) / 2 for
+// faces with w^2 texels and n^2 samples. The caller multiplies the weight by its visibility, G2 / (4 wo.z wi.z) at wi.
 BN_FN filtered_sample filtered_is_place(real3 wo, real alpha_x, real alpha_y, real slope_x, real slope_y, real density, real texel_term)
 {
     real3 h = k_normalize3(vec3_of(-alpha_x * slope_x, -alpha_y * slope_y, lit(1.0)));

@@ -1,15 +1,17 @@
-// A line of isotropic lobes: environment light of an anisotropic GGX lobe from prefiltered samples along its grain, each as wide as the
-// lobe is narrow. Over slopes in units of the widths, GGX's density 1 / (pi (1 + u^2 + v^2)^2) is its marginal (1 + u^2)^(-3/2) / 2 times,
-// at each u, a density of width sqrt(1 + u^2) in v; so a lobe of two widths is a line of round ones that follows the marginal of scale
-// sqrt(l1 - l2), l1 >= l2 being its squared widths as the eye sees them, and whose width is sqrt(l2) sqrt(1 + z^2) at z of these scales.
-// Nothing is spread across the grain but what the lobe itself spreads.
+// A line of isotropic lobes: environment light of an anisotropic GGX lobe from prefiltered samples along its grain, each as
+// wide as the lobe is across. Over slopes in units of the widths, GGX's density 1 / (pi (1 + u^2 + v^2)^2) is a product.
+// Its factors are the marginal (1 + u^2)^(-3/2) / 2 and, at each u, a density of width sqrt(1 + u^2) in v. So a lobe with
+// two widths is a line of round lobes. Let l1 >= l2 be its squared widths as the eye sees them. The line follows the
+// marginal with scale sqrt(l1 - l2), and the round lobe's width is sqrt(l2) sqrt(1 + z^2) at z scales along it. Across the
+// grain, only the lobe itself spreads light.
 //
-// A narrow round lobe is seen where its middle is. A wide one is not: masking and the horizon hide its lower part, slopes crowd towards
-// the horizon, and its mean direction rises. So each sample is moved to where the mean is, and its level is as wide as the whole is spread
-// about it. To first order the amounts go with the squared width; their factors were fitted to pictures of spheres by the whole lobe.
+// A narrow round lobe has its mean direction at its middle. A wide one does not: masking and the horizon hide its lower
+// part, slopes crowd towards the horizon, and its mean direction rises. So each sample moves to the mean direction, and its
+// level is as wide as the spread about the mean. To first order the amounts are proportional to the squared width. Their
+// factors were fitted to pictures of spheres with the whole lobe.
 //
-// All in the ellipse frame: x along the greater slope deviation, y
-// along the smaller, z the normal; as in major_axis.k.h, a microfacet normal of slope (x, y) is normalize(-x, -y, 1).
+// All vectors are in the ellipse frame: x along the greater slope deviation, y along the smaller, z the normal. As in
+// major_axis.k.h, a microfacet normal with slope (x, y) is normalize(-x, -y, 1).
 #ifndef BN_LOBE_LINE_K_H
 #define BN_LOBE_LINE_K_H
 
@@ -20,55 +22,61 @@ BN_KERNELS_BEGIN
 
 struct lobe_line {
     real3 o;      // to the eye, unit
-    real part;    // how much of it is taken
+    real part;    // share of the line to take
     real2 along;  // slopes at z = 1
-    real width;   // sqrt(l2) / o.z, of the round lobe at z = 0
+    real width;   // sqrt(l2) / o.z, the round lobe's width at z = 0
     real level;   // alpha of the prefiltered level at z = 0, seen from above: see lobe_line_at()
-    real widen;   // how much wider the level of a wide round lobe is: see lobe_line_at()
-    real lift;    // how far a sample rises, by how wide its round lobe is
+    real widen;   // additional level width of wide round lobes: see lobe_line_at()
+    real lift;    // rise of a sample, per width of its round lobe
     real upright; // added to the height of microfacet normals: slopes of wide lobes count less
-    real3 axis;   // o, less what every sample rises
+    real3 axis;   // o minus the rise common to all samples
     real blunt;   // 1 - part^2: levels widen along the line as the line is long
-    real extent;  // sqrt(l1 / l2 - 1): how many widths the line is long
-    real even;    // [0,1): from samples of equal shares of the lobe, 0, to samples at equal distances in widths, see lobe_line_at()
+    real extent;  // sqrt(l1 / l2 - 1): length of the line in widths
+    real even;    // [0,1): 0: samples take equal shares of the lobe, 1: equal distances in widths; see lobe_line_at()
     real stretch; // Smith's |(alpha_x o.x, alpha_y o.y, o.z)|
     real alpha_x, alpha_y;
 };
 
-// o: to the eye, ellipse frame; sigma_x >= sigma_y: slope deviations. part: how much of the line is taken, [0,1]. Seen at a slant a lobe of
-// one width is a line too; with less of it, it shrinks to what split_isotropic takes: the mirror direction at the lobe's own width.
+// Makes the line. o: to the eye, ellipse frame; sigma_x >= sigma_y: slope deviations; part: share of the line to take,
+// [0,1]. At a slant, a round lobe is a line, too. A smaller part shrinks it to the lobe of split_isotropic: the mirror
+// direction at the lobe's own width.
 BN_FN lobe_line lobe_line_of(real3 o, real sigma_x, real sigma_y, real part)
 {
     real root2 = lit(1.4142135623730951);
+    // Bring the eye above the horizon
     real one = lit(1.0);
     lobe_line r;
     o.z = max(o.z, lit(1e-4));
     r.o = k_normalize3(o);
     r.alpha_x = sigma_x * root2;
     r.alpha_y = sigma_y * root2;
+    // Find the visible ellipse of the lobe
     real x = r.alpha_x * r.o.x;
     real y = r.alpha_y * r.o.y;
     real zx = r.alpha_x * r.o.z;
     real zy = r.alpha_y * r.o.z;
     real m = lit(0.5) * (x * x + y * y + zx * zx + zy * zy);
-    // half of alpha_x^2 (o.z^2 + o.x^2) - alpha_y^2 (o.z^2 + o.y^2)
+    // Half of alpha_x^2 (o.z^2 + o.x^2) - alpha_y^2 (o.z^2 + o.y^2)
     real h = lit(0.5) * ((zx - zy) * (zx + zy) + (x - y) * (x + y));
     real shear = x * y;
     real d = sqrt(h * h + shear * shear);
     real l1 = max(m + d, lit(1e-20));
     real least = r.alpha_x * zy;                      // sqrt(l1 l2)
     real ratio = min(least * least / (l1 * l1), one); // l2 / l1
+    // Find its major axis, the direction of the line
     real steep = d - h;
     real2 e = select(h >= lit(0.0), vec2_of(d + h, shear), vec2_of(abs(shear), select(shear < lit(0.0), -steep, steep)));
     real inv = one / max(sqrt(k_dot2(e, e)), lit(1e-20));
     real rest = sqrt(one - ratio) * inv * part;
     r.along = vec2_of(r.alpha_x * e.x * rest, r.alpha_y * e.y * rest);
+    // Choose the level's width
     r.width = sqrt(l1 * ratio) / r.o.z;
     real own = lit(0.5) * (r.alpha_x + r.alpha_y) / r.o.z;
     real taken = r.width * part;
     real grazing = (lit(0.8) + lit(0.2) * r.o.z) * taken;
     r.level = own * (one - part) + (lit(0.66) - lit(0.14) * ratio) * grazing;
     r.widen = lit(1.4) * r.width * grazing;
+    // Correct the mean direction of wide lobes
     real square = r.width * taken;
     real narrow2 = square * r.o.z * r.o.z;
     real3 axis = r.o * (one + lit(0.45) * narrow2);
@@ -76,6 +84,7 @@ BN_FN lobe_line lobe_line_of(real3 o, real sigma_x, real sigma_y, real part)
     r.axis = axis;
     r.upright = lit(0.44) * narrow2;
     r.lift = lit(1.3) * square;
+    // Measure the line and its samples' spacing
     r.blunt = one - part * part;
     r.extent = sqrt((one - ratio) / max(ratio, lit(1e-12))) * part;
     r.even = r.extent / (r.extent + lit(6.0));
@@ -86,17 +95,19 @@ BN_FN lobe_line lobe_line_of(real3 o, real sigma_x, real sigma_y, real part)
 
 struct lobe_line_sample {
     real3 direction; // not unit, ellipse frame
-    real weight;     // at least 0: visible area and Smith's masking, height-correlated
+    real weight;     // at least 0: visible area and Smith's height-correlated masking
     real radius;     // alpha of the prefiltered level
 };
 
-// t: [-1,1]; its z is c / sqrt(1 - c^2) with c = (1 + e) t / (1 + e t^2), e being line.even. The marginal is uniform in c: with e = 0
-// samples take equal shares of the lobe, which leaves so long gaps in the tails of a long line that each sample shows there by itself; with
-// e = 1 they are as far apart, in widths, as sqrt(1 + z^2). Their weight holds dc / dt. The vector w is 1 + e t^2 times as long as by c,
-// but for what wide lobes add to it. A GGX of 0.77 times the round lobe's width has its median, as (1 + r^2)^(-5/2) falls faster; pictures
-// say 0.6 for narrow lobes, and more for wide ones; 0.66 hides where samples lie.
+// Makes the sample at t in [-1,1]. Its z is c / sqrt(1 - c^2) with c = (1 + e) t / (1 + e t^2), e = line.even. The marginal
+// is uniform in c. With e = 0, samples take equal shares of the lobe; the gaps in a long line's tails then show single
+// samples. With e = 1, samples are as far apart, in widths, as sqrt(1 + z^2). The weight includes dc / dt. The vector w is
+// 1 + e t^2 times as long as by c, except for the corrections of wide lobes. A GGX with 0.77 times the round lobe's width
+// has the same median, as (1 + r^2)^(-5/2) falls faster. Pictures ask for 0.6 for narrow lobes and more for wide ones; 0.66
+// hides single samples.
 BN_FN lobe_line_sample lobe_line_at(lobe_line line, real t)
 {
+    // Find the microfacet normal
     real one = lit(1.0);
     real t2 = t * t;
     real bend = line.even * t2;
@@ -104,15 +115,18 @@ BN_FN lobe_line_sample lobe_line_at(lobe_line line, real t)
     real root = sqrt(max((one - t2) * (one - line.even * bend), lit(1e-3))) + line.upright;
     real c = t + line.even * t;
     real3 w = vec3_of(-line.along.x * c, -line.along.y * c, root);
+    // Mirror the eye, with the rise of wide lobes
     real w2 = k_dot3(w, w);
     real w_dot_o = k_dot3(w, line.o);
     real seen = max(w_dot_o, lit(0.0));
     real scale2 = scale * scale;
     lobe_line_sample r;
     r.direction = w * (lit(2.0) * w_dot_o) - line.axis * w2;
+    // Choose the level's width
     real size = seen / w2 * sqrt(scale2 - line.blunt * c * c);
     r.direction.z = r.direction.z + line.lift * size * seen;
     r.radius = (line.level + line.widen * size) * size;
+    // Weight by visible area and masking
     real ix = line.alpha_x * r.direction.x;
     real iy = line.alpha_y * r.direction.y;
     real iz = r.direction.z;
@@ -122,8 +136,8 @@ BN_FN lobe_line_sample lobe_line_at(lobe_line line, real t)
     return r;
 }
 
-// As many samples as a line of this length needs, a real in [1, limit]: in its middle they lie 0.77 widths apart, 1.5 in a long one. With
-// half as many FLIP is hardly worse, but each that lies far out on a tail is seen there by itself.
+// Returns the number of samples that a line of this length needs, a real in [1, limit]. They lie 0.77 widths apart in its
+// middle, 1.5 in a long line. Half as many would show single samples far out on the tails.
 BN_FN real lobe_line_count(lobe_line line, real limit)
 {
     return min(lit(1.0) + lit(2.6) * line.extent, limit);
@@ -134,8 +148,9 @@ struct lobe_line_cell {
     real weight;      // its size relative to a whole cell, [0,1]
 };
 
-// The line cut into `count` cells of equal size, counted from its middle outwards: cell i, i = 1, 2..., on the positive side. What the end
-// cuts off is lost to the cell, so that samples come and go without a step where the count changes.
+// Returns cell i of the line, i = 1, 2..., on the positive side. The line is cut into `count` cells of equal size, from its
+// middle outwards. The line's end shortens the last cell, so samples appear and vanish without a step where the count
+// changes.
 BN_FN lobe_line_cell lobe_line_cell_of(real count, int i)
 {
     real whole = lit(2.0) / count;

@@ -16,16 +16,20 @@ struct line_sum {
     real weights;
 };
 
+// Adds the sample at t with its own level.
 BN_FN void add_line_sample(BN_IN(shaded_point) x, BN_IN(lobe_line) line, real t, real weight, BN_INOUT(line_sum) sum)
 {
+    // Find the sample's direction and level
     lobe_line_sample at = lobe_line_at(line, t);
     real w = at.weight * weight;
     real lod = min(sqrt(at.radius), lit(1.0)) * to_real(int_lit(sum.cube.levels - 1));
     cube_sum_levels levels = cube_sum_levels_at(sum.light, lod, w);
+    // Add the weighted fetch
     cube_sum_add(sum.light, from_lobe(x.lobe, x.s.n, at.direction), levels);
     sum.weights = sum.weights + w;
 }
 
+// Returns the line of a point's lobe, shortened where the lobe blends to a round one.
 BN_FN lobe_line lobe_line_for(frame_ref f, BN_IN(shaded_point) x)
 {
     real part = lit(1.0);
@@ -34,18 +38,21 @@ BN_FN lobe_line lobe_line_for(frame_ref f, BN_IN(shaded_point) x)
     return lobe_line_of(to_lobe(x.lobe, x.s.n, x.s.v), x.lobe.sigma_u, x.lobe.sigma_v, part);
 }
 
-// The mean radiance that the lobe sees, to be multiplied by its albedo. offset: where in its cell a sample lies, (0,1).
+// Returns the mean radiance over the lobe; multiply by its albedo. offset: place of samples in their cells, (0,1).
 BN_FN real3 lobe_line_radiance(frame_ref f, BN_IN(shaded_point) x, BN_IN(lobe_line) line, real offset)
 {
+    // Find the number of samples
     real one = lit(1.0);
-    int limit = the_frame(f).samples - (the_frame(f).samples % 2 == 0 ? 1 : 0); // one in the middle and pairs
+    int limit = the_frame(f).samples - (the_frame(f).samples % 2 == 0 ? 1 : 0); // one in the middle, and pairs
     real count = lobe_line_count(line, to_real(int_lit(limit)));
+    // Take the middle sample
     line_sum sum;
     sum.cube = specular_cube(f);
     sum.weights = lit(0.0);
     cube_sum_begin(sum.light, sum.cube);
     real middle = (offset - lit(0.5)) * lit(2.0) / count;
     add_line_sample(x, line, middle, one, sum);
+    // Take pairs of samples outwards
     uniform_real most = most_of_lanes(count);
     for (int i = 1; float(2 * i - 1) < most; ++i) {
         lobe_line_cell cell = lobe_line_cell_of(count, i);
@@ -57,7 +64,7 @@ BN_FN real3 lobe_line_radiance(frame_ref f, BN_IN(shaded_point) x, BN_IN(lobe_li
     return cube_sum_value(sum.light) / max(sum.weights, lit(1e-20));
 }
 
-// What is shared, but for `factor`.
+// Returns the shared record except `factor`.
 BN_FN line_record lobe_line_shared(frame_ref f, BN_IN(shaded_point) x, real offset)
 {
     lobe_line line = lobe_line_for(f, x);
@@ -69,7 +76,7 @@ BN_FN line_record lobe_line_shared(frame_ref f, BN_IN(shaded_point) x, real offs
     return r;
 }
 
-// Alone, as where fragments do not know their neighbours.
+// Samples alone, for fragments that cannot read their neighbours.
 BN_FN real3 lobe_line_specular(frame_ref f, BN_IN(shaded_point) x)
 {
     return lobe_line_radiance(f, x, lobe_line_for(f, x), lit(0.5)) * x.albedo;

@@ -1,7 +1,8 @@
-// BRDF major axis: environment light of an anisotropic lobe from a few prefiltered samples along the lobe's reflected major axis.
-// Cocco, Zanni, Chermain 2024, "Anisotropic Specular Image-Based Lighting Based on BRDF Major Axis Sampling" (sec. 5, appendices A to D),
-// in the forms that float32 survives. All of it happens in the ellipse frame: x along the greater slope deviation, y along the smaller, z
-// the normal. A microfacet normal of slope s is normalize(s.x, s.y, 1) here, the sign being free as the lobe is symmetric.
+// BRDF major axis: environment light of an anisotropic lobe from a few prefiltered samples along the lobe's reflected major
+// axis. Cocco, Zanni, Chermain 2024, "Anisotropic Specular Image-Based Lighting Based on BRDF Major Axis Sampling" (sec. 5,
+// appendices A to D), in forms that suit float32. All vectors are in the ellipse frame: x along the greater slope
+// deviation, y along the smaller, z the normal. A microfacet normal with slope s is normalize(s.x, s.y, 1); the sign is
+// free, as the lobe is symmetric.
 #ifndef BN_MAJOR_AXIS_K_H
 #define BN_MAJOR_AXIS_K_H
 
@@ -11,17 +12,17 @@
 BN_KERNELS_BEGIN
 
 struct major_axis_ends {
-    real t_near, t_far; // parameters of the slope ellipse closest to and farthest from the mirror direction, (-pi/2, pi/2]
+    real t_near, t_far; // parameters of the slope ellipse nearest to and farthest from the mirror direction, (-pi/2, pi/2]
 };
 
 struct major_axis_line {
     real3 e0, e1; // microfacet normals at both ends, unit, ellipse frame
-    real radius;  // r_s, alpha of the prefiltered level that a sample stands for
-    real extent;  // L, distance of the reflected ends
-    real width;   // Delta', distance of the reflected closest points
+    real radius;  // r_s, alpha of each sample's prefiltered level
+    real extent;  // L, distance between the reflected ends
+    real width;   // Delta', distance between the reflected nearest points
 };
 
-// Mirror of o about unit w; both point away from the surface.
+// Mirrors o about unit w; both point away from the surface.
 BN_FN real3 reflect_about(real3 w, real3 o)
 {
     return w * (lit(2.0) * k_dot3(w, o)) - o;
@@ -34,11 +35,12 @@ BN_FN real fold_half_turn(real t)
     return select(t <= lit(-1.57079632679490), t + pi, t);
 }
 
-struct major_axis_points { // points of the unit circle, of any length, that the slope ellipse stretches
+struct major_axis_points { // points of the unit circle that the slope ellipse stretches; any length
     real2 near_point, far_point;
 };
 
-// Appendix A without cancellation and without angles. o: to the eye, unit, o.z > 0; rx, ry: k times the slope deviations.
+// Finds the nearest and farthest points (appendix A) without cancellation and angles. o: to the eye, unit, o.z > 0; rx, ry:
+// k times the slope deviations.
 BN_FN major_axis_points major_axis_extreme_points(real3 o, real rx, real ry)
 {
     real one = lit(1.0);
@@ -62,6 +64,7 @@ BN_FN major_axis_points major_axis_extreme_points(real3 o, real rx, real ry)
     return r;
 }
 
+// Returns the angles of the nearest and the farthest point.
 BN_FN major_axis_ends major_axis_extrema(real3 o, real rx, real ry)
 {
     major_axis_points p = major_axis_extreme_points(o, rx, ry);
@@ -71,7 +74,7 @@ BN_FN major_axis_ends major_axis_extrema(real3 o, real rx, real ry)
     return r;
 }
 
-// Cosine and sine of t_far.
+// Returns cosine and sine of t_far.
 BN_FN real2 major_axis_far_direction(real3 o, real rx, real ry)
 {
     real2 far_point = major_axis_extreme_points(o, rx, ry).far_point;
@@ -84,8 +87,8 @@ BN_FN real3 ellipse_normal(real c, real s, real rx, real ry)
     return k_normalize3(vec3_of(rx * c, ry * s, lit(1.0)));
 }
 
-// o: to the eye in the ellipse frame, unit; sigma_x, sigma_y: slope deviations; k: how many deviations the line covers; beta: how
-// densely samples overlap; inv_count: 1 / number of samples.
+// Sets up the line. o: to the eye in the ellipse frame, unit; sigma_x, sigma_y: slope deviations; k: number of deviations
+// along the line; beta: overlap of samples; inv_count: 1 / number of samples.
 BN_FN major_axis_line major_axis_setup(real3 o, real sigma_x, real sigma_y, real k, real beta, real inv_count)
 {
     real one = lit(1.0);
@@ -96,7 +99,7 @@ BN_FN major_axis_line major_axis_setup(real3 o, real sigma_x, real sigma_y, real
     real ry = k * sigma_y;
     major_axis_ends t = major_axis_extrema(o, rx, ry);
 
-    // the farthest points, moved inwards until their reflections leave the surface (appendix B, in slopes)
+    // Move the farthest points inwards until their reflections leave the surface (appendix B, in slopes)
     k_sin_cos_pair farthest = k_sin_cos(t.t_far);
     real x = rx * farthest.cosine;
     real y = ry * farthest.sine;
@@ -114,7 +117,7 @@ BN_FN major_axis_line major_axis_setup(real3 o, real sigma_x, real sigma_y, real
     real3 end0 = k_normalize3(vec3_of(-a * x, -a * y, one));
     real3 end1 = k_normalize3(vec3_of(b * x, b * y, one));
 
-    // the width of the lobe, at the closest points shifted with the clamped ends (appendix C; both ends may be clamped)
+    // Measure the lobe's width at the nearest points, shifted with the clamped ends (appendix C; both ends may be clamped)
     real tau0 = (one - a) * lit(0.5);
     real tau1 = (one + b) * lit(0.5);
     real delta = (tau0 + tau1 - one) * (t.t_near - t.t_far);
@@ -123,6 +126,7 @@ BN_FN major_axis_line major_axis_setup(real3 o, real sigma_x, real sigma_y, real
     real3 m0 = ellipse_normal(-near0.cosine, -near0.sine, rx, ry);
     real3 m1 = ellipse_normal(near1.cosine, near1.sine, rx, ry);
 
+    // Shorten the line by the width, and choose the level's radius
     major_axis_line r;
     r.width = k_length3(reflect_about(m0, o) - reflect_about(m1, o));
     r.extent = k_length3(reflect_about(end0, o) - reflect_about(end1, o));
@@ -137,13 +141,13 @@ BN_FN major_axis_line major_axis_setup(real3 o, real sigma_x, real sigma_y, real
     return r;
 }
 
-// Directions of the samples: the mirror of o about w = e0 + s (e1 - e0), scaled by the square of w's length, is a parabola in s. No
+// Sample directions. The mirror of o about w = e0 + s (e1 - e0), times w's squared length, is a parabola in s, without a
 // division.
 struct major_axis_curve {
     real3 at_start, linear, quadratic;
 };
 
-// In the space of e0, e1 and o. step: e1 - e0.
+// Makes the parabola, in the space of e0, e1 and o. step: e1 - e0.
 BN_FN major_axis_curve major_axis_curve_of(real3 e0, real3 step, real3 o)
 {
     real two = lit(2.0);
@@ -156,32 +160,33 @@ BN_FN major_axis_curve major_axis_curve_of(real3 e0, real3 step, real3 o)
     return k;
 }
 
-// Direction of the sample at s in [0,1]; not unit.
+// Returns the sample's direction at s in [0,1]; not unit.
 BN_FN real3 major_axis_direction(major_axis_curve k, real s)
 {
     return k.at_start + (k.linear + k.quadratic * s) * s;
 }
 
-// The lobe along its major axis, for samples placed and weighted by its density. GGX slopes on the line through the middle of the ellipse
-// have the marginal density (1 + x^2)^(-3/2) / 2, x in widths, so that x = c / sqrt(1 - c^2) with c uniform in (-1,1): the microfacet
-// normal of c is (along c, sqrt(1 - c^2)), and no tail is left out.
+// The lobe along its major axis, for samples placed and weighted by density. On the line through the ellipse's middle, GGX
+// slopes have the marginal density (1 + x^2)^(-3/2) / 2, x in widths. So x = c / sqrt(1 - c^2) with c uniform in (-1,1).
+// The microfacet normal at c is (along c, sqrt(1 - c^2)), and no tail is cut off.
 struct major_axis_grain {
     real3 o;        // to the eye, unit, ellipse frame
-    real2 along;    // the major axis, as long as the line of samples must be wide
+    real2 along;    // the major axis, with the length that samples must cover
     real own;       // the lobe's own width along it, as the eye sees it
     real width;     // the lobe's width across, as seen along the axis
     real o_along;   // length of o in the plane of axis and normal, [0,1]
-    real o_across2; // square of what is left of it
+    real o_across2; // squared length of o across that plane
     real alpha_x, alpha_y;
 };
 
-// The lobe's width across the axis at its middle, as the eye sees it.
+// Returns the lobe's width across the axis at its middle, as the eye sees it.
 BN_FN real major_axis_grain_across(major_axis_grain g)
 {
     return g.width * sqrt(g.o_across2 + g.o.z * g.o.z);
 }
 
-// o: to the eye, ellipse frame; sigma_x, sigma_y: slope deviations; k: factor on the width along the axis, 1 for the lobe's own.
+// Makes the lobe. o: to the eye, ellipse frame; sigma_x, sigma_y: slope deviations; k: factor on the width along the axis,
+// 1 for the lobe's own.
 BN_FN major_axis_grain major_axis_grain_of(real3 o, real sigma_x, real sigma_y, real k)
 {
     real root2 = lit(1.4142135623730951);
@@ -190,6 +195,7 @@ BN_FN major_axis_grain major_axis_grain_of(real3 o, real sigma_x, real sigma_y, 
     g.o = k_normalize3(o);
     g.alpha_x = sigma_x * root2;
     g.alpha_y = sigma_y * root2;
+    // Find the major axis and the lobe's widths
     real2 t = major_axis_far_direction(g.o, sigma_x, sigma_y);
     real x = g.alpha_x * t.x;
     real y = g.alpha_y * t.y;
@@ -199,7 +205,7 @@ BN_FN major_axis_grain major_axis_grain_of(real3 o, real sigma_x, real sigma_y, 
     real across = (g.o.y * x - g.o.x * y) * inv;
     g.o_across2 = across * across;
     g.o_along = sqrt(max(lit(1.0) - g.o_across2, lit(0.0)));
-    // what a prefiltered sample spreads across the axis it spreads along it too: the line covers the rest, nothing where the lobe is round
+    // A prefiltered sample spreads along the axis as far as across, so the line covers the rest, nothing for a round lobe
     g.own = length * g.o_along;
     real ratio = major_axis_grain_across(g) / max(g.own, lit(1e-20));
     real rest = k * sqrt(max(lit(1.0) - ratio * ratio, lit(0.0)));
@@ -213,8 +219,8 @@ struct grain_sample {
     real radius;     // alpha of the prefiltered level
 };
 
-// c: uniform in (-1,1), root = sqrt(1 - c^2); spacing: beta times the step of c between samples. At beta = 2.3 a level is 0.76 times as
-// wide as the step between half vectors: narrower ones show as ghosts.
+// Makes a sample. c: uniform in (-1,1), root = sqrt(1 - c^2); spacing: beta times the step of c between samples. At beta =
+// 2.3 a level is 0.76 times as wide as the step between half vectors; narrower levels show as ghosts.
 BN_FN grain_sample major_axis_grain_sample(major_axis_grain g, real c, real root, real spacing)
 {
     real3 w = vec3_of(g.along.x * c, g.along.y * c, root);
@@ -222,24 +228,26 @@ BN_FN grain_sample major_axis_grain_sample(major_axis_grain g, real c, real root
     real w_dot_o = k_dot3(w, g.o);
     grain_sample r;
     r.direction = w * (lit(2.0) * w_dot_o) - g.o * w2;
-    // visible area of the microfacets, and Smith's masking of the light
+    // Weight by the microfacets' visible area and by Smith's masking of the light
     real3 i = r.direction;
     real ix = g.alpha_x * i.x;
     real iy = g.alpha_y * i.y;
     real stretch = sqrt(ix * ix + iy * iy + i.z * i.z);
     real up = max(i.z, lit(0.0));
     r.weight = max(w_dot_o, lit(0.0)) / root * (up / max(up + stretch, lit(1e-20)));
-    // across: turning w about the axis moves its mirror by 2 sqrt(o_across^2 + (w.o)^2), along: by 2 o_along
+    // Turning w about the axis moves its mirror by 2 sqrt(o_across^2 + (w.o)^2) across; turning it along moves the mirror
+    // by 2 o_along
     real inv2 = lit(1.0) / w2;
     real turn = g.o_across2 + w_dot_o * w_dot_o * inv2;
     real across = g.width * sqrt(turn * inv2);
     real step = k_dot2(g.along, g.along);
     real along = sqrt(step) * g.o_along * inv2 / root * spacing * lit(0.33);
-    r.radius = max(across, min(along, g.own)); // no sample stands for more than the lobe
+    r.radius = max(across, min(along, g.own)); // no sample covers more than the lobe
     return r;
 }
 
-// As many samples as a lobe of this shape needs, a real in [1, limit]: its length over its width as the eye sees them. beta: overlap, 2.3.
+// Returns the number of samples that a lobe of this shape needs, a real in [1, limit]: its length over its width, as the
+// eye sees them. beta: overlap, 2.3.
 BN_FN real major_axis_grain_count(major_axis_grain g, real beta, real limit)
 {
     real length = sqrt(k_dot2(g.along, g.along)) * g.o_along;
@@ -248,8 +256,8 @@ BN_FN real major_axis_grain_count(major_axis_grain g, real beta, real limit)
     return min(max(count, lit(1.0)), limit);
 }
 
-// Where the count above may be more than the line of Cocco, Zanni, Chermain 2024 (sec. 5) asks for: wide lobes (alpha_lin above 0.5),
-// grazing views, k other than 1.
+// Returns true where the count above may exceed that of the line from Cocco, Zanni, Chermain 2024 (sec. 5): wide lobes
+// (alpha_lin above 0.5), grazing views, k other than 1.
 BN_FN mask major_axis_count_unsure(major_axis_grain g, real k)
 {
     mask wide = g.alpha_x + g.alpha_y > lit(0.5);
@@ -257,7 +265,7 @@ BN_FN mask major_axis_count_unsure(major_axis_grain g, real k)
     return either(either(wide, g.o.z < lit(0.1)), other_k);
 }
 
-// The count with beta L / Delta' of that line as its limit there. Whole cells and parts of cells add up to it.
+// Limits the count there to beta L / Delta' of that line. Whole and partial cells add up to it.
 BN_FN real major_axis_limited_count(major_axis_grain g, real sigma_x, real sigma_y, real k, real beta, real count)
 {
     major_axis_line line = major_axis_setup(g.o, sigma_x, sigma_y, k, beta, lit(1.0));
@@ -270,8 +278,9 @@ struct grain_cell {
     real weight; // its size relative to a whole cell, [0,1]
 };
 
-// The line cut into `count` cells of equal size, counted from its middle outwards: cell i, i = 1, 2..., on the positive side. What the ends
-// cut off is lost to the cell and moves its middle, so that samples come and go without a step where the count changes.
+// Returns cell i of the line, i = 1, 2..., on the positive side. The line is cut into `count` cells of equal size, from its
+// middle outwards. The line's end shortens the last cell and moves its middle, so samples appear and vanish without a step
+// where the count changes.
 BN_FN grain_cell major_axis_grain_cell(real count, int i)
 {
     real size = lit(2.0) / count;
@@ -279,7 +288,7 @@ BN_FN grain_cell major_axis_grain_cell(real count, int i)
     real left = min(max(lit(1.0) - near_end, lit(0.0)), size);
     grain_cell r;
     r.weight = left / size;
-    r.c = min(near_end + left * lit(0.5), lit(1.0)) * lit(0.95); // beyond, a cell that is almost lost would weigh too much
+    r.c = min(near_end + left * lit(0.5), lit(1.0)) * lit(0.95); // beyond this, a nearly empty cell would weigh too much
     return r;
 }
 

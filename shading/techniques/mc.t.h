@@ -1,5 +1,5 @@
-// Monte Carlo over the lobe (placed_lobe.t.h), whatever its model, or over a rough interface (refraction.t.h), by its own samples; Fresnel
-// by sample.
+// Monte Carlo over a lobe of any model (placed_lobe.t.h) or over a rough interface (refraction.t.h), by their own samples,
+// with Fresnel per sample.
 #ifndef BN_MC_T_H
 #define BN_MC_T_H
 
@@ -10,15 +10,16 @@
 
 BN_KERNELS_BEGIN
 
-// A Hammersley set rotated by a hash of the pixel.
+// A Hammersley set, rotated by a hash of the pixel.
 struct mc_points {
     real shift_x, shift_y;
-    uniform_real inv; // 1 over their number
+    uniform_real inv; // 1 over the number of points
 };
 
 BN_FN mc_points mc_points_of(frame_ref f, BN_IN(shaded_point) x)
 {
     mc_points r;
+    // Hash the pixel to a shift
     r.inv = 1.0f / float(the_frame(f).samples);
     integer seed = k_hash_u32(x.pixel_id ^ int_lit(the_frame(f).seed));
     r.shift_x = k_unit_from_bits(seed);
@@ -26,6 +27,7 @@ BN_FN mc_points mc_points_of(frame_ref f, BN_IN(shaded_point) x)
     return r;
 }
 
+// Returns point i, shifted, in [0,1)^2.
 BN_FN real2 mc_point(BN_IN(mc_points) points, int i)
 {
     uniform_real column = (float(i) + 0.5f) * points.inv;
@@ -34,15 +36,18 @@ BN_FN real2 mc_point(BN_IN(mc_points) points, int i)
     return vec2_of(u - floor(u), v - floor(v));
 }
 
+// Samples a lobe.
 BN_FN real3 mc_of_lobe(frame_ref f, BN_IN(shaded_point) x, BN_IN(placed_lobe) lobe)
 {
-    bool meets_keys = !lobe_has(lobe.model, kNormals_ggx); // key lights leave it to samples
+    bool meets_keys = !lobe_has(lobe.model, kNormals_ggx); // key.t.h leaves this lobe to samples
+    // Choose the environment: with key lights where samples meet them
     cube_desc cube = specular_cube(f);
     uniform_real scale = 1.0f;
     if (meets_keys) {
         cube = whole_cube(f);
         scale = the_frame(f).whole.scale / the_frame(f).specular.scale;
     }
+    // Sum radiance times weight and Fresnel
     mc_points points = mc_points_of(f, x);
     cube_terms sum;
     cube_terms_begin(sum, cube, false);
@@ -51,29 +56,34 @@ BN_FN real3 mc_of_lobe(frame_ref f, BN_IN(shaded_point) x, BN_IN(placed_lobe) lo
         real3 fresnel = reflectance_of(x.s, b.o_dot_h);
         cube_terms_add(sum, b.wi, lit(0.0), fresnel, above_horizon(x, b.wi, b.weight));
     }
+    // Take the mean; replace lobes without width by mirrors
     real3 mean = cube_terms_value(sum) * splat(points.inv);
     if (meets_keys)
         mean = mean * splat(scale);
     return mirrors_apart(f, x, mean, placed_lobe_mirror_albedo(lobe));
 }
 
-// One interface: of every microfacet what it reflects and what it refracts, from the environment with its key lights.
+// Samples one interface: each microfacet reflects and refracts the environment with its key lights.
 BN_STAGE real3 mc_of_interface(any_frame f, BN_IN(shaded_point) x)
 {
+    // Prepare the interface and the points
     rough_interface g = rough_interface_at(x);
     cube_desc cube = whole_cube(f);
     mc_points points = mc_points_of(f, x);
     cube_terms sum;
     cube_terms_begin(sum, cube, false);
     for (int i = 0; i < the_frame(f).samples; ++i) {
+        // Sample a microfacet, and both directions
         ellipsoid_facet m = ellipsoid_facet_seen(g.p.shape, g.o, mc_point(points, i));
         bsdf_sample r = ellipsoid_facet_reflects(g.p.shape, m, g.o);
         bsdf_sample t = ellipsoid_facet_refracts(g.p.shape, m, g.o, g.p.eta);
+        // Add both, weighted by Fresnel
         real3 reflected = interface_reflects(g.at, m.o_dot_m);
         real3 refracted = interface_passes(g.at, m.o_dot_m);
         cube_terms_add(sum, from_frame(g.axes, r.wi), lit(0.0), reflected, r.weight);
         cube_terms_add(sum, from_frame(g.axes, t.wi), lit(0.0), refracted, t.weight);
     }
+    // Take the mean, in units of the prefiltered environment
     uniform_real scale = the_frame(f).whole.scale / the_frame(f).specular.scale;
     real3 mean = cube_terms_value(sum) * splat(points.inv);
     return mean * splat(scale);

@@ -1,6 +1,7 @@
-// Samples shared in a 2x2 quad of pixels. Each fragment's samples lie elsewhere in their cells; fragments that see alike lobes average what
-// all of them found, four times as many samples for the price of one's: Keller and Heidrich 2001, "Interleaved Sampling". Light
-// comes from afar, so all that tells two fragments apart is where their lobes look, how long they are and how wide.
+// Interleaved sampling in a 2x2 quad of pixels: Keller and Heidrich 2001, "Interleaved Sampling". Each fragment's samples
+// lie elsewhere in their cells. Fragments with similar lobes average all their results, which gives four times the samples
+// for the same price. The environment is infinitely far away, so only the direction, length and width of lobes tell two
+// fragments apart.
 #ifndef BN_SHARED_LINE_K_H
 #define BN_SHARED_LINE_K_H
 
@@ -9,32 +10,35 @@
 
 BN_KERNELS_BEGIN
 
-struct line_record {     // of a fragment: 16 words
+struct line_record {     // a fragment's, 16 words
     real3 light;         // mean radiance along its line
-    real width;          // of its lobe across the grain, alpha; below 0: the colour is `rest`, nothing is shared
-    real3 mirror, along; // where its lobe looks, unit, and its line at z = 1 (lobe_line), both world space
+    real width;          // the lobe's width across the grain, alpha; below 0: the colour is `rest`, nothing is shared
+    real3 mirror, along; // the lobe's mirror direction, unit, and its line at z = 1 (lobe_line); both world space
     real3 factor, rest;  // colour = light * factor + rest
 };
 
-// Where in its cell a sample of a pixel lies, (0,1). odd_x, odd_y: 0 or 1.
+// Returns the place of a pixel's sample in its cell, (0,1). odd_x, odd_y: 0 or 1.
 BN_FN real quad_offset(integer odd_x, integer odd_y)
 {
     real half_x = to_real(odd_x) * lit(0.5);
     return select(odd_y == int_lit(0), lit(0.125) + half_x, lit(0.875) - half_x);
 }
 
-// How much of b's light is a's, [0,1]: all of it where they see the same lobe; nothing from as far across the line on as its width and what
-// lies between sixteen samples in its middle, an eighth of its length at z = 1, or from half of that length along it, where light is spread
-// so far. What a fragment's own samples do not resolve it takes from others: where lines turn fast, quads would show as dots.
+// Returns the similarity of two lobes, the weight of b's light for a, [0,1]: 1 for equal lobes. Across the line the weight
+// falls to 0 at the lobe's width and an eighth of its length at z = 1, added as squares. That eighth is the spacing of
+// sixteen samples in its middle. Along the line the weight falls to 0 at the width and half the length, over which light
+// spreads. So a fragment takes from others what its own samples do not resolve; otherwise quads would show as dots where
+// lines turn fast.
 BN_FN real line_likeness(line_record a, line_record b)
 {
     real3 turn = (a.mirror - b.mirror) * lit(0.5); // as slopes: a mirror turns twice as far as its normal
     real3 same = a.along - b.along;
-    real3 opposite = a.along + b.along; // the other end is as good
+    real3 opposite = a.along + b.along; // the line has no sign
     real bend = min(k_dot3(same, same), k_dot3(opposite, opposite));
     real wider = a.width - b.width;
     real narrow = min(a.width, b.width);
     real narrow2 = max(narrow * narrow, lit(1e-20));
+    // Measure the distance along and across a's line
     real long2 = k_dot3(a.along, a.along);
     real along = k_dot3(turn, a.along);
     real along2 = along * along / max(long2, lit(1e-20));
@@ -43,7 +47,7 @@ BN_FN real line_likeness(line_record a, line_record b)
     return max(lit(1.0) - apart, lit(0.0));
 }
 
-// A colour that is not made of shared samples.
+// Makes the record of a colour that shares no samples.
 BN_FN line_record line_alone(real3 colour)
 {
     line_record r;
@@ -56,7 +60,7 @@ BN_FN line_record line_alone(real3 colour)
     return r;
 }
 
-// The mean of what the fragments of a quad found, as far as they see what one of them sees, each pixel's by how much of it they cover.
+// Mean over a quad's fragments, weighted by similarity and by each fragment's covered share of its pixel.
 struct line_mean {
     real3 sum;
     real weights;
@@ -70,7 +74,7 @@ BN_FN line_mean line_mean_begin(line_record own)
     return r;
 }
 
-// cover: the share of its pixel that `other` covers; counts: it is a fragment of another pixel in the quad, and shares.
+// Adds another fragment. cover: its share of its pixel; counts: it lies in another pixel of the quad and shares samples.
 BN_FN line_mean line_mean_add(line_mean mean, line_record own, line_record other, real cover, mask counts)
 {
     real alike = line_likeness(own, other) * cover;
@@ -87,7 +91,7 @@ BN_FN real3 line_mean_colour(line_mean mean, line_record own)
     return light * own.factor + own.rest;
 }
 
-// As it is kept: 16 words.
+// A record as 16 words.
 struct line_words {
     real at[16];
 };

@@ -1,4 +1,5 @@
-// Split integral, isotropic: the prefiltered mirror direction times the directional albedo. Karis 2013, "Real Shading in Unreal Engine 4".
+// Isotropic split integral: prefiltered radiance in the mirror direction times directional albedo. Karis 2013, "Real
+// Shading in Unreal Engine 4".
 #ifndef BN_SPLIT_ISOTROPIC_K_H
 #define BN_SPLIT_ISOTROPIC_K_H
 
@@ -8,7 +9,7 @@
 
 BN_KERNELS_BEGIN
 
-// Returns the prefiltered radiance that the lobe sees, to be multiplied by its directional albedo.
+// Returns the prefiltered radiance over the lobe; multiply by its directional albedo.
 BN_FN real3 split_isotropic_radiance(surface s, cube_desc environment)
 {
     real3 r = s.n * (lit(2.0) * k_dot3(s.n, s.v)) - s.v;

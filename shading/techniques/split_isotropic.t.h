@@ -1,4 +1,4 @@
-// The split integral, isotropic: see split_isotropic.k.h.
+// The isotropic split integral: see split_isotropic.k.h.
 #ifndef BN_SPLIT_ISOTROPIC_T_H
 #define BN_SPLIT_ISOTROPIC_T_H
 

@@ -1,5 +1,5 @@
-// What several techniques for environment light do. A technique is a function <id>_specular(f, x) of a shaded_point x, which returns the
-// radiance that its specular lobe reflects, before energy compensation and the environment's scale.
+// Common parts of techniques for environment light. A technique is a function <id>_specular(f, x) of a shaded_point x. It
+// returns the radiance that the specular lobe reflects, before energy compensation and the environment's scale.
 #ifndef BN_TECHNIQUE_T_H
 #define BN_TECHNIQUE_T_H
 
@@ -9,6 +9,7 @@
 
 BN_KERNELS_BEGIN
 
+// Returns the weight, or 0 where wi lies below the surface's horizon.
 BN_FN real above_horizon(BN_IN(shaded_point) x, real3 wi, real weight)
 {
     if (!x.turned)
@@ -16,7 +17,7 @@ BN_FN real above_horizon(BN_IN(shaded_point) x, real3 wi, real weight)
     return select(k_dot3(x.surface_axes.n, wi) > lit(0.0), weight, lit(0.0));
 }
 
-// To the eye in the lobe's own frame, never below its horizon.
+// Returns the direction to the eye in the lobe's own frame, never below its horizon.
 BN_FN real3 eye_in_lobe(BN_IN(shaded_point) x)
 {
     real3 o = to_lobe(x.lobe, x.s.n, x.s.v);
@@ -24,7 +25,7 @@ BN_FN real3 eye_in_lobe(BN_IN(shaded_point) x)
     return k_normalize3(o);
 }
 
-// The environment itself in the mirror direction. dim: what masking leaves of a mirror.
+// Returns the environment in the mirror direction. dim: albedo of the mirror after masking.
 BN_FN real3 mirrored(frame_ref f, BN_IN(shaded_point) x, real dim)
 {
     real3 r = x.s.n * (lit(2.0) * k_dot3(x.s.n, x.s.v)) - x.s.v;
@@ -32,7 +33,7 @@ BN_FN real3 mirrored(frame_ref f, BN_IN(shaded_point) x, real dim)
     return cube_sample_level(specular_cube(f), r, 0) * x.albedo * seen;
 }
 
-// Sampled lobes have a least width; what has none is a mirror.
+// Replaces the value by a mirror where the lobe has no width, since sampled lobes have a least width.
 BN_FN real3 mirrors_apart(frame_ref f, BN_IN(shaded_point) x, real3 value, real dim)
 {
     real width = x.lobe.sigma_u + x.lobe.sigma_v;

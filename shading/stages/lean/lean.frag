@@ -1,4 +1,4 @@
-// A fragment under the environment as an engine would shade it: see frame.glsl.
+// Shades a fragment under the environment as an engine does: see frame.glsl.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shading/stages/lean/surface.glsl"
@@ -24,6 +24,7 @@ vec3 specular_of(Surface s)
 
 void main()
 {
+    // Evaluate base colour and the alpha test
     vec4 base = material.base;
     if (textured(kBaseColorTex))
         base *= fetch(textures[kBaseColorTex], kBaseColorTex);
@@ -35,6 +36,7 @@ void main()
         radiance = vec4(base.rgb, 1.0);
         return;
     }
+    // Add the specular and the diffuse environment light
     Surface s = surface_of(base);
     vec3 light = specular_of(s) * frame.scale.x;
     if (has(kDiffuse)) {
@@ -42,6 +44,7 @@ void main()
         float passed = 1.0 - max(kept.r, max(kept.g, kept.b));
         light += s.diffuse * (passed * frame.scale.y) * textureLod(cubes[1], s.n, 0.0).rgb;
     }
+    // Apply occlusion, then add emission
     light *= s.occlusion;
     if (has(kEmits))
         light += s.emissive;

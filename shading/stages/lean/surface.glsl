@@ -1,13 +1,13 @@
-// From interpolated attributes, numbers of the material and its textures to what techniques shade.
+// The surface at a fragment: from interpolated attributes, material constants and textures.
 #ifndef BN_LEAN_SURFACE_GLSL
 #define BN_LEAN_SURFACE_GLSL
 
 #include "shading/stages/lean/frame.glsl"
 
-layout(constant_id = 0) const int kTechnique = 0; // of kLeanTechniques (raster/vulkan/lean.cpp)
-layout(constant_id = 1) const int kSamples = 1;   // as many as the technique takes
-layout(constant_id = 2) const int kTextures = 0;  // a bit a slot (core/scene/material.def)
-layout(constant_id = 3) const int kTraits = 0;    // of the material, see below
+layout(constant_id = 0) const int kTechnique = 0; // index in kLeanTechniques (raster/vulkan/lean.cpp)
+layout(constant_id = 1) const int kSamples = 1; // as many as the technique takes
+layout(constant_id = 2) const int kTextures = 0; // a bit per used slot (core/scene/material.def)
+layout(constant_id = 3) const int kTraits = 0; // the material's traits, see below
 
 const int kAnisotropic = 1, kDiffuse = 2, kOneShape = 4, kVertexColors = 8, kTwoSided = 16, kBrushedInPart = 32, kAlphaTest = 64,
           kUnlit = 128, kMirror = 256, kEmits = 512, kOneEta = 1024, kFactorRoughness = 2048, kPhongTable = 4096;
@@ -18,26 +18,26 @@ bool textured(int slot) { return (kTextures >> slot & 1) != 0; }
 
 layout(std140, set = 0, binding = 1) uniform LeanMaterial
 {
-    vec4 base;       // colour, alpha
-    vec4 dielectric; // reflectance at normal incidence, and at grazing
-    vec4 f0;         // of both parts together, and at grazing: without textures of colour and metalness
-    vec4 diffuse;    // albedo of the diffuse part, as well; w: alpha below which a test fails
-    vec4 factors;    // metallic, roughness, scale of the normal map, strength of occlusion
-    vec4 emissive;   // w: how much of two widths is shown
-    vec4 lobe;       // deviations of slope along and across, roughness, eta of every place or strength
-    vec4 grain;      // the axis along tangent and bitangent, or the turn of a texture's; stretch and level of the bent normal
-    vec4 place[30];  // by slot: linear part of the texture's coordinates; shift, most taps, set
+    vec4 base; // colour, alpha
+    vec4 dielectric; // reflectance at normal and at grazing incidence
+    vec4 f0; // both parts mixed, at normal and at grazing incidence; without colour or metalness textures
+    vec4 diffuse; // albedo of the diffuse part, likewise; w: alpha cutoff
+    vec4 factors; // metallic, roughness, normal scale, occlusion strength
+    vec4 emissive; // w: anisotropic share in the blend to round lobes
+    vec4 lobe; // slope deviations along and across, roughness, eta or anisotropy strength
+    vec4 grain; // the axis along tangent and bitangent, or a texture's rotation; bent normal's stretch and level
+    vec4 place[30]; // by slot: linear part of the coordinate transform; shift, most taps, set
 }
 material;
 
-layout(set = 0, binding = 3) uniform sampler2D round_albedo;  // n.v, roughness
-layout(set = 0, binding = 4) uniform sampler2D slice_albedo;  // of the material's two widths: see lobe_slice_lookup (energy.k.h)
-layout(set = 0, binding = 5) uniform sampler3D width_albedo;  // of any two: slabs of eta
-layout(set = 0, binding = 6) uniform sampler2D phong_albedo; // of the material's two widths, of Ashikhmin and Shirley's lobe
-layout(set = 1, binding = 0) uniform samplerCube cubes[4];    // specular, irradiance, box, the whole sky
+layout(set = 0, binding = 3) uniform sampler2D round_albedo; // n.v, roughness
+layout(set = 0, binding = 4) uniform sampler2D slice_albedo; // for the material's two widths: see lobe_slice_lookup (energy.k.h)
+layout(set = 0, binding = 5) uniform sampler3D width_albedo; // for any two widths: slabs of eta
+layout(set = 0, binding = 6) uniform sampler2D phong_albedo; // for the material's two widths, Ashikhmin-Shirley lobe
+layout(set = 1, binding = 0) uniform samplerCube cubes[4]; // specular, irradiance, box, the whole sky
 layout(set = 1, binding = 1) uniform sampler2D textures[15]; // by slot
 
-// Of pixels' middles, not of centroids: cheaper, and nearer to where the tile renderer shades
+// Interpolated at pixel centres, not at centroids: cheaper, and nearer to the tile renderer's shading positions.
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
 layout(location = 2) in vec4 tangent;
@@ -46,8 +46,8 @@ layout(location = 4) in vec4 color;
 
 struct Surface {
     vec3 n, v, u_axis, v_axis; // unit; along the grain and across
-    vec3 o;                    // v in the frame of u_axis, v_axis and n, above the horizon
-    vec2 sigma;                // deviations of slope, the greater one first
+    vec3 o; // v in the frame of u_axis, v_axis and n, above the horizon
+    vec2 sigma; // slope deviations, the greater one first
     float roughness, stretch, bent_level;
     float n_dot_v;
     vec3 f0, diffuse, dielectric_f0;
@@ -58,12 +58,14 @@ struct Surface {
     float occlusion;
 };
 
-// As many taps along the footprint's longer axis as it is long, each trilinear.
+// Returns a slot's filtered value: trilinear taps along the footprint's longer axis, as many as its length asks for.
 vec4 fetch(sampler2D image, int slot)
 {
+    // Transform the texture coordinates
     vec4 m = material.place[2 * slot], shift = material.place[2 * slot + 1];
     vec2 from = shift.w != 0.0 ? uv.zw : uv.xy;
     vec2 at = vec2(m.x * from.x + m.z * from.y, m.y * from.x + m.w * from.y) + shift.xy;
+    // Find the footprint's level and number of taps
     vec2 dx = dFdx(at), dy = dFdy(at), size = vec2(textureSize(image, 0));
     float x2 = dot(dx * size, dx * size), y2 = dot(dy * size, dy * size);
     float longer = sqrt(max(x2, y2)), shorter = sqrt(min(x2, y2));
@@ -72,6 +74,7 @@ vec4 fetch(sampler2D image, int slot)
     int taps = int(ceil(min(part, max(longer, 1.0)) - 0.004));
     if (taps <= 1)
         return textureLod(image, at, lod);
+    // Average the taps along the longer axis
     vec2 along = (x2 >= y2 ? dx : dy) / float(taps + 1);
     at -= along * (0.5 * float(taps + 1));
     vec4 sum = vec4(0.0);
@@ -82,11 +85,13 @@ vec4 fetch(sampler2D image, int slot)
     return sum / float(taps);
 }
 
-// Widths and axis of a texture of directions: deviations of slope by the eigenvectors of their covariance.
+// Computes lobe widths and axis from direction textures: slope deviations along the eigenvectors of their covariance.
 void shape_by_texture(float roughness, out vec2 sigma, out vec2 u)
 {
+    // Fetch the direction tensors
     vec3 two = textured(kTensor2Tex) ? fetch(textures[kTensor2Tex], kTensor2Tex).xyz : vec3(1.0, 0.0, 0.0);
     vec3 four = textured(kTensor4Tex) && !has(kOneEta) ? fetch(textures[kTensor4Tex], kTensor4Tex).xyz : vec3(1.0, 0.0, 0.0);
+    // Build the covariance
     float alpha = roughness * roughness, least = alpha, s = material.lobe.w;
     vec3 m;
     if (has(kOneEta)) {
@@ -95,11 +100,13 @@ void shape_by_texture(float roughness, out vec2 sigma, out vec2 u)
         m = two / max(trace, 1e-6) * (4.0 * eta * alpha * alpha);
     } else
         m = two * (2.0 * alpha * (1.0 - alpha) * s * s) + four * ((1.0 - alpha) * (1.0 - alpha) * s * s * s * s);
+    // Rotate by the material's angle
     vec2 turn = material.grain.xy;
     float mean = 0.5 * (least * least + 0.5 * (m.x + m.y));
     vec2 e = 0.5 * vec2(0.5 * (m.x - m.y), m.z);
     e = vec2((turn.x * turn.x - turn.y * turn.y) * e.x - 2.0 * turn.x * turn.y * e.y,
              2.0 * turn.x * turn.y * e.x + (turn.x * turn.x - turn.y * turn.y) * e.y);
+    // Solve for eigenvalues and the wide axis
     float d = length(e);
     float floor2 = min(mean, 5e-7);
     sigma = sqrt(max(vec2(mean + d, mean - d), floor2));
@@ -107,9 +114,10 @@ void shape_by_texture(float roughness, out vec2 sigma, out vec2 u)
     u = d > 1e-12 ? normalize(u) : vec2(1.0, 0.0);
 }
 
-// Of tables over both: roots of n.v and of the cosine between the wide axis and the view's azimuth.
+// Returns coordinates in tables that span both: the roots of n.v and of the cosine between the wide axis and the view's
+// azimuth.
 vec2 albedo_place(vec3 o) { return sqrt(vec2(clamp(o.z, 0.0, 1.0), min(abs(o.x) * inversesqrt(max(o.x * o.x + o.y * o.y, 1e-12)), 1.0))); }
-// Of a lobe's own table of 24 x 12 texels, see lobe_slice_lookup (energy.k.h).
+// Returns coordinates in a lobe's own table of 24 x 12 texels, see lobe_slice_lookup (energy.k.h).
 vec2 slice_place(vec3 o)
 {
     float up = clamp(o.z, 0.0, 1.0), wide = 3.0 * abs(o.x);
@@ -117,6 +125,7 @@ vec2 slice_place(vec3 o)
 }
 vec2 slice_of(sampler2D table, vec2 at) { return textureLod(table, at * vec2(frame.tables.z, 0.9) + vec2(frame.tables.w, 0.05), 0.0).xy; }
 
+// Returns directional albedo of an anisotropic lobe, as scales for f0 and f90.
 vec2 lobe_albedo(vec3 o, vec2 sigma, float roughness)
 {
     if (has(kOneShape))
@@ -131,6 +140,7 @@ vec2 lobe_albedo(vec3 o, vec2 sigma, float roughness)
     return mix(below, above, w - slab);
 }
 
+// Returns directional albedo of the surface's lobe, with the blend to round lobes.
 vec2 directional_albedo(Surface s)
 {
     if (has(kAnisotropic) && !has(kBrushedInPart))
@@ -139,6 +149,7 @@ vec2 directional_albedo(Surface s)
     return has(kAnisotropic) ? mix(round, lobe_albedo(s.o, s.sigma, s.roughness), material.emissive.w) : round;
 }
 
+// Finds the lobe's widths and axes from the shading frame's tangent and bitangent.
 void place_lobe(inout Surface s, vec3 t, vec3 b)
 {
     vec2 u = material.grain.xy;
@@ -161,22 +172,25 @@ void place_lobe(inout Surface s, vec3 t, vec3 b)
     s.o = vec3(dot(s.u_axis, s.v), dot(s.v_axis, s.v), max(dot(s.n, s.v), 1e-4));
 }
 
-// base: colour with textures, alpha as well.
+// Makes the surface. base: base colour and alpha, with textures.
 Surface surface_of(vec4 base)
 {
     Surface s;
+    // Build the shading frame
     s.v = normalize(frame.eye.xyz - position * frame.eye.w);
     bool behind = has(kTwoSided) && !gl_FrontFacing;
     s.n = normalize(behind ? -normal : normal);
     vec3 t = normalize(tangent.xyz - s.n * dot(s.n, tangent.xyz));
     float hand = tangent.w < 0.0 != behind ? -1.0 : 1.0;
     vec3 b = cross(s.n, t) * hand;
+    // Apply the normal map
     if (textured(kNormalTex)) {
         vec3 map = fetch(textures[kNormalTex], kNormalTex).xyz * 2.0 - 1.0;
         s.n = normalize((t * map.x + b * map.y) * material.factors.z + s.n * map.z);
         t = normalize(t - s.n * dot(s.n, t));
         b = cross(s.n, t) * hand;
     }
+    // Evaluate roughness and metalness
     s.roughness = material.lobe.z;
     float metallic = material.factors.x;
     if (textured(kMetalRoughTex)) {
@@ -185,8 +199,10 @@ Surface surface_of(vec4 base)
         if (!has(kOneShape) && !has(kFactorRoughness))
             s.roughness = clamp(s.roughness * of_texture.x, 0.0, 1.0);
     }
+    // Place the lobe
     s.n_dot_v = clamp(dot(s.n, s.v), 1e-4, 1.0);
     place_lobe(s, t, b);
+    // Mix the reflectances
     s.dielectric_f0 = material.dielectric.rgb;
     s.dielectric_f90 = material.dielectric.w;
     if (textured(kBaseColorTex) || textured(kMetalRoughTex) || has(kVertexColors)) {
@@ -198,6 +214,7 @@ Surface surface_of(vec4 base)
         s.f90 = material.f0.w;
         s.diffuse = material.diffuse.rgb;
     }
+    // Look up albedo; evaluate occlusion and emission
     s.dfg = directional_albedo(s);
     s.albedo = s.f0 * s.dfg.x + s.f90 * s.dfg.y;
     s.occlusion = textured(kOcclusionTex) ? 1.0 + material.factors.w * (fetch(textures[kOcclusionTex], kOcclusionTex).x - 1.0) : 1.0;

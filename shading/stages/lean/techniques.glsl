@@ -1,18 +1,18 @@
-// Techniques for environment light: what shading/techniques has, each as its paper or its page there says it. A function returns the
-// radiance that the lobe reflects, before the environment's scale.
+// Techniques for environment light, the same as in shading/techniques, each written from its paper or its page. A function
+// returns the radiance that the lobe reflects, before the environment's scale.
 #ifndef BN_LEAN_TECHNIQUES_GLSL
 #define BN_LEAN_TECHNIQUES_GLSL
 
 #include "shading/stages/lean/surface.glsl"
 
-layout(std430, set = 0, binding = 2) readonly buffer LeanGrid { float grid[]; }; // slopes and density, three a sample
+layout(std430, set = 0, binding = 2) readonly buffer LeanGrid { float grid[]; }; // slopes and density, three per sample
 
 const float kRoot2 = 1.41421356;
 
 vec3 specular_at(vec3 direction, float level) { return textureLod(cubes[0], direction, level).rgb; }
 float level_of(float radius) { return min(sqrt(radius), 1.0) * frame.scale.w; }
 vec3 to_world(Surface s, vec3 w) { return s.u_axis * w.x + s.v_axis * w.y + s.n * w.z; }
-vec3 mirror(vec3 w, vec3 h) { return h * (2.0 * dot(w, h)) - w; } // of w about h
+vec3 mirror(vec3 w, vec3 h) { return h * (2.0 * dot(w, h)) - w; } // mirrors w about h
 vec3 fresnel(Surface s, float cosine)
 {
     float m = 1.0 - clamp(cosine, 0.0, 1.0), m2 = m * m;
@@ -28,7 +28,8 @@ vec3 bent_normal(Surface s)
     return specular_at(reflect(-s.v, bent), s.bent_level * frame.scale.w) * s.albedo;
 }
 
-// Points of the unit circle that the ellipse of slopes stretches: nearest to the mirror direction, and farthest. Cocco et al. 2024, A.
+// Finds the points of the unit circle that the ellipse of slopes stretches nearest to and farthest from the mirror
+// direction. Cocco et al. 2024, appendix A.
 void extreme_points(vec3 o, vec2 r, out vec2 nearest, out vec2 farthest)
 {
     vec2 b = 1.0 + r * r;
@@ -49,21 +50,26 @@ float half_turn(vec2 p) // angle, (-pi/2, pi/2]
     return t > 1.57079633 ? t - 3.14159265 : t <= -1.57079633 ? t + 3.14159265 : t;
 }
 
+// Prefiltered samples along the lobe's major axis. Cocco et al. 2024.
 vec3 major_axis(Surface s)
 {
+    // Find the ellipse's extreme points
     vec3 o = s.o;
     vec2 r = s.sigma * frame.axis.x, nearest, farthest;
     extreme_points(o, r, nearest, farthest);
     float t_near = half_turn(nearest), t_far = half_turn(farthest);
+    // Find the ends of the major axis
     vec2 p = r * vec2(cos(t_far), sin(t_far));
     float p2 = dot(p, p), q = dot(p, o.xy), root = abs(q) + sqrt(q * q + o.z * o.z * p2);
     float small = o.z / max(root, 1e-20), large = root / max(o.z * p2, 1e-20);
     float a = min(q >= 0.0 ? small : large, 1.0), b = min(q >= 0.0 ? large : small, 1.0);
     vec3 end0 = normalize(vec3(-a * p, 1.0)), end1 = normalize(vec3(b * p, 1.0));
+    // Measure the lobe's width and extent
     float delta = 0.5 * (b - a) * (t_near - t_far);
     vec3 m0 = normalize(vec3(-r * vec2(cos(t_near + delta), sin(t_near + delta)), 1.0));
     vec3 m1 = normalize(vec3(r * vec2(cos(t_near - delta), sin(t_near - delta)), 1.0));
     float width = distance(mirror(o, m0), mirror(o, m1)), extent = distance(mirror(o, end0), mirror(o, end1));
+    // Shorten the axis by the width, and choose the mip level
     float zeta = clamp(1.0 - width / max(extent, 1e-20), 0.0, 1.0);
     vec3 centre = normalize(end0 + end1);
     vec3 e0 = normalize(mix(centre, end0, zeta)), e1 = normalize(mix(centre, end1, zeta));
@@ -71,11 +77,13 @@ vec3 major_axis(Surface s)
     float level = level_of(radius);
     e0 = to_world(s, e0);
     vec3 along = to_world(s, e1) - e0;
-    vec3 start = mirror(s.v, e0), linear, quadratic; // |e|^2 times the mirror about e is a parabola along the line
+    // Expand the mirror direction times |e|^2 as a parabola along the line
+    vec3 start = mirror(s.v, e0), linear, quadratic;
     float start_o = 2.0 * dot(e0, s.v), step_o = 2.0 * dot(along, s.v);
     start = e0 * start_o - s.v * dot(e0, e0);
     linear = along * start_o + e0 * step_o - s.v * (2.0 * dot(e0, along));
     quadratic = along * step_o - s.v * dot(along, along);
+    // Average the samples
     vec3 sum = vec3(0.0);
     for (int j = 0; j < kSamples; ++j) {
         float at = kSamples == 1 ? 0.5 : float(j) / float(max(kSamples - 1, 1));
@@ -109,15 +117,18 @@ Grain grain_of(Surface s)
     return g;
 }
 
-// Weighted radiance, and its weight.
+// Returns weighted radiance, and the weight in w.
 vec4 grain_sample(Surface s, Grain g, float c, float root, float spacing, float narrow, float weight)
 {
+    // Find the half vector and its mirror direction
     vec3 w = vec3(g.along * c, root);
     float w2 = dot(w, w), w_dot_o = dot(w, g.o), inv2 = 1.0 / w2;
     vec3 i = w * (2.0 * w_dot_o) - g.o * w2;
+    // Weight the sample by masking
     float up = max(i.z, 0.0);
     float smith = up / max(up + length(vec3(g.alpha * i.xy, i.z)), 1e-20);
     float visible = max(w_dot_o, 0.0) / root * smith * weight;
+    // Choose the filter radius
     float across = g.width * sqrt((g.o_across2 + w_dot_o * w_dot_o * inv2) * inv2);
     float along = length(g.along) * g.o_along * inv2 / root * spacing * 0.33;
     float radius = max(across, min(along, g.own)) * narrow;
@@ -153,6 +164,7 @@ vec3 major_axis_adaptive(Surface s)
     return sum.rgb / max(sum.w, 1e-20) * s.albedo;
 }
 
+// A line of lobes, see shading/techniques/lobe_line.k.h.
 struct Line {
     vec3 o, axis;
     vec2 along, alpha;
@@ -175,6 +187,7 @@ vec4 line_sample(Surface s, Line line, float t, float weight)
 
 vec3 lobe_line(Surface s)
 {
+    // Find the visible ellipse of the lobe, and its major axis
     float part = material.emissive.w;
     Line line;
     line.o = s.o;
@@ -185,6 +198,7 @@ vec3 lobe_line(Surface s)
     float ratio = min(least * least / (l1 * l1), 1.0);
     vec2 e = h >= 0.0 ? vec2(d + h, shear) : vec2(abs(shear), shear < 0.0 ? h - d : d - h);
     line.along = line.alpha * e * (sqrt(1.0 - ratio) * inversesqrt(max(dot(e, e), 1e-30)) * part);
+    // Set up level, width and corrections by the anisotropic part
     float width = sqrt(l1 * ratio) / line.o.z, own = 0.5 * (line.alpha.x + line.alpha.y) / line.o.z;
     float square = width * width * part, grazing = (0.8 + 0.2 * line.o.z) * part;
     line.level = own * (1.0 - part) + (0.6 - 0.08 * ratio) * width * grazing;
@@ -196,6 +210,7 @@ vec3 lobe_line(Surface s)
     float extent = sqrt((1.0 - ratio) / max(ratio, 1e-12)) * part;
     line.even = extent / (extent + 6.0);
     line.stretch = length(vec3(p, line.o.z));
+    // Take the middle sample, then pairs on both sides
     float count = min(1.0 + 1.6 * extent, float(kSamples - (kSamples % 2 == 0 ? 1 : 0)));
     float size = 2.0 / count;
     vec4 sum = line_sample(s, line, 0.0, 1.0);
@@ -207,7 +222,7 @@ vec3 lobe_line(Surface s)
     return sum.rgb / max(sum.w, 1e-20) * s.albedo;
 }
 
-float beckmann_lambda_z(vec2 alpha, vec3 w) // w.z times Smith's Lambda, rational
+float beckmann_lambda_z(vec2 alpha, vec3 w) // w.z times Smith's Lambda, rational fit
 {
     float s = length(alpha * w.xy), c = min(w.z / max(s, 1e-12), 1.6);
     return c < 1.6 ? s * (1.0 - 1.259 * c + 0.396 * c * c) / (3.535 + 2.181 * c) : 0.0;
@@ -235,7 +250,7 @@ vec3 filtered_is(Surface s, bool ggx)
     return sum * (frame.scale.z / (frame.scale.x * float(kSamples)));
 }
 
-// Ashikhmin and Shirley's lobe by a lattice: see as_mc.t.h.
+// Samples the half vectors of an Ashikhmin-Shirley lobe on a lattice: see as_mc.t.h.
 vec3 as_mc(Surface s)
 {
     if (has(kMirror) || kSamples == 1)
@@ -258,7 +273,7 @@ vec3 as_mc(Surface s)
         weights += weight;
     }
     float mean = 1.0 / float(kSamples);
-    if (has(kPhongTable)) { // by which a few samples are off
+    if (has(kPhongTable)) { // scale a few samples to the exact albedo
         vec2 own = slice_of(phong_albedo, albedo_place(o));
         mean *= (own.x + own.y) / max(weights / float(kSamples), 1e-4);
     }
@@ -273,7 +288,7 @@ uint hash(uint i)
 }
 float unit(uint bits) { return float(bits >> 8) * 5.9604645e-8; }
 
-// Visible normals of GGX by a Hammersley set, turned by pixel. Dupuy and Benyoub 2023.
+// Samples visible GGX normals with a Hammersley set, shifted per pixel. Dupuy and Benyoub 2023.
 vec3 mc(Surface s)
 {
     if (has(kMirror))
