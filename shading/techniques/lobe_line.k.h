@@ -73,17 +73,17 @@ BN_FN lobe_line lobe_line_of(real3 o, real sigma_x, real sigma_y, real part)
     r.width = sqrt(l1 * ratio) / r.o.z;
     real own = lit(0.5) * (r.alpha_x + r.alpha_y) / r.o.z;
     real taken = r.width * part;
-    real grazing = (lit(0.8) + lit(0.2) * r.o.z) * taken;
-    r.level = own * (one - part) + (lit(0.66) - lit(0.14) * ratio) * grazing;
-    r.widen = lit(1.4) * r.width * grazing;
+    real grazing = (lit(0.78) + lit(0.22) * r.o.z) * taken;
+    r.level = own * (one - part) + (lit(0.66) - lit(0.13) * ratio) * grazing;
+    r.widen = lit(1.29) * r.width * grazing;
     // Correct the mean direction of wide lobes
     real square = r.width * taken;
     real narrow2 = square * r.o.z * r.o.z;
-    real3 axis = r.o * (one + lit(0.45) * narrow2);
-    axis.z = axis.z - lit(1.55) * square * r.o.z;
+    real3 axis = r.o * (one + lit(0.64) * narrow2);
+    axis.z = axis.z - lit(1.19) * square * r.o.z;
     r.axis = axis;
-    r.upright = lit(0.44) * narrow2;
-    r.lift = lit(1.3) * square;
+    r.upright = lit(0.13) * narrow2;
+    r.lift = lit(1.92) * square;
     // Measure the line and its samples' spacing
     r.blunt = one - part * part;
     r.extent = sqrt((one - ratio) / max(ratio, lit(1e-12))) * part;
