@@ -208,7 +208,7 @@ static __attribute__((noinline, unused)) void tape_reverse(tape& t)
         const real inverse = lit(1.0) / value(b), ratio = a * inverse;                                                                     \
         return chain(ratio, b, -(ratio * inverse));                                                                                        \
     }                                                                                                                                      \
-    BN_FN D sqrt(const D& a) /* of what is above 0 */                                                                                      \
+    BN_FN D sqrt(const D& a) /* a > 0 */                                                                                                   \
     {                                                                                                                                      \
         const real root = sqrt(value(a));                                                                                                  \
         return chain(root, a, lit(0.5) / root);                                                                                            \
