@@ -1,4 +1,4 @@
-// Normal maps from afar: the share of light that their facets keep, and groups of these facets.
+// Normal maps from afar: the light share that their facets keep, and groups of these facets.
 #pragma once
 #include <string>
 
@@ -15,7 +15,7 @@ float mean_roughness(const Scene& scene, const Material& material); // estimated
 // unlit, or if the levels have measured gains.
 KeptWeights kept_weights_of(const Scene& scene, const Material& material);
 
-// Makes the pyramid of the normal map, with the facets' share of light in the alpha of its levels.
+// Makes the normal map's pyramid, with the facets' light share in its levels' alpha.
 TexturePyramid kept_pyramid(const Scene& scene, const Material& material, const Texture& sampler, TextureEncoding encoding);
 
 // Fills the record's facet groups and kept shares.

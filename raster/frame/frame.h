@@ -26,7 +26,7 @@ namespace burnish {
 struct View {                                                            // a resolved camera
     glm::vec3 eye{0.0f}, right{1, 0, 0}, up{0, 1, 0}, forward{0, 0, -1}; // orthonormal, world space
     bool orthographic = false;
-    float tan_half_x = 1.0f, tan_half_y = 1.0f; // orthographic: half extents in metres
+    float tan_half_x = 1.0f, tan_half_y = 1.0f; // of the half angles; orthographic: half extents in metres
     float znear = 0.01f;                        // metres; the far plane is at infinity (perspective)
     float zfar = 0.0f;                          // orthographic only
 };
@@ -85,7 +85,7 @@ struct SamplingStats {                // for renderers that integrate by random 
     std::uint64_t samples_before = 0; // part of `samples` that came from a checkpoint
     bool resumed = false;             // a checkpoint was found
     bool stopped = false;             // the caller asked to end before all samples were taken
-    double relative_error = 0.0;      // half width of the 95 % confidence interval over the mean, averaged over pixels
+    double relative_error = 0.0;      // half width, relative to the mean, of the 95 % confidence interval, averaged over pixels
     double million_samples_per_second = 0.0;
     std::uint64_t rays = 0;
     double ray_share = 0.0; // share of the workers' time spent tracing rays
@@ -212,7 +212,7 @@ const ModelInfo& lobe_model(int lobe);  // by lobe index
 int lobe_of(const FrameDesc& desc, bool tilted);
 Status check_lobe(const FrameDesc& desc, const TechniqueInfo& technique); // checks that the technique takes the lobe; part of check_desc()
 
-// Returns a 64-bit hash of the size and the bits of every colour word. Equal pictures have equal hashes on every machine.
+// Returns a 64-bit hash over the size and every colour word's bits. Equal pictures have equal hashes on every machine.
 std::uint64_t pixel_hash(const Image& image);
 std::uint64_t count_not_finite(const Image& image); // number of pixels with a NaN or Inf channel
 // Returns a frame as RGBA. The frame must be drawn with triangle_ids and without background. Alpha is the mean coverage of a pixel's

@@ -16,7 +16,7 @@ std::vector<GridSample> grid_samples(int samples, Sampling sampling, int traits)
 // Returns the number of samples that a fragment takes.
 int grid_count(const std::vector<GridSample>& grid, int traits);
 
-// Appends one block per sample in the layout of as_mc.t.h: half vectors of four sets, and half the base 2 logarithm of their density.
+// Appends one block per sample in the layout of as_mc.t.h: half vectors for four sets, and half the base 2 logarithm of their density.
 void add_half_vectors(const std::vector<PhongHalfVector>& half_vectors, std::vector<GridSample>& to);
 
 } // namespace burnish

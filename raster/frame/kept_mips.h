@@ -1,5 +1,5 @@
-// Disk cache of mip levels that take seconds to minutes: levels of nets and optimisers, weighted or sharpened colours. Keys are hashes of
-// the inputs.
+// Disk cache for slow mip levels (seconds to minutes): from nets and optimisers, weighted or sharpened colours. Keys are hashes of the
+// inputs.
 #pragma once
 #include "core/jobs/jobs.h"
 #include "core/scene/scene.h"

@@ -1,4 +1,4 @@
-// Layers of a picture as channels of a file, named by `--aov`.
+// A picture's layers as channels in a file, named by `--aov`.
 #pragma once
 #include <string>
 #include <vector>

@@ -215,7 +215,7 @@ Image moments_image(const Scene& scene, const Texture& sampler, const PyramidKey
                          key.tensor_power);
 }
 
-// Writes a texel of a level as moments: see moments of all in shading/surface/lobe_shape.t.h. part: 2 or 4. reflected: gain of the
+// Writes a level's texel as moments: see moments of all in shading/surface/lobe_shape.t.h. part: 2 or 4. reflected: gain for the
 // reflectances. own: perceptual roughness of the lobe before normals widened it.
 void put_moments(int part, float gain, float reflected, float own, real3 n, slope_covariance s, float* rgba)
 {

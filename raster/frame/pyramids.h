@@ -1,15 +1,14 @@
-// Texture pyramids of a scene's materials. A material's texture slot holds the image itself, tensors of an anisotropy texture, or slope
-// moments in place of these tensors. There are three kinds of moments:
+// Texture pyramids of a scene's materials. A material's texture slot holds the image itself, anisotropy tensors made from a texture, or
+// slope moments in place of these tensors. There are three kinds of moments:
 //   All lobes: a tilt map lies over an anisotropy map, and roughness is constant. The moments include the texels' lobes.
 //   Tilts: any other material with a tilt map, and frames that override roughness or anisotropy. The moments come beside the
-//     material's lobe. A `lean` material has such moments of its normals.
+//     material's lobe. A `lean` material has such moments for its normals.
 //   Filtered levels: a mip filter has made levels of normals and lobes together (shading/bake/mip/filter.h). The means are x and y of the
-//     normals. The moments include the difference of normals between taps, times gain_of_taps(). The normal map's slot holds the levels'
+//     normals. The moments include the normals' difference between taps, times gain_of_taps(). The normal map's slot holds the levels'
 //     normals as halves, for readers that need nothing else. Frames that override roughness or anisotropy, or use no normal maps, have
-//     moments of the normals alone here, as `lean` has.
-// A normal map without heights stores a light share in the alpha of its levels if its facets lose light: the share that facets keep above
-// the surface's horizon (shading/bake/mip/kept_light.h).
-// (shading/bake/mip/kept_light.h), where they lose any.
+//     moments from the normals alone here, as `lean` has.
+// A normal map without heights stores a light share in its levels' alpha if its facets lose light: the share that facets keep above the
+// surface's horizon (shading/bake/mip/kept_light.h).
 #pragma once
 #include <cstdint>
 #include <memory>
@@ -34,7 +33,7 @@ struct MipHelp;
 struct PyramidKey {
     std::int32_t texture; // its sampler, and without moments its image
     TextureEncoding encoding;
-    int tensor_power;              // 2, 4: tensors of an anisotropy texture, or half of the moments; 0: the image itself
+    int tensor_power;              // 2, 4: tensors from an anisotropy texture, or half the moments; 0: the image itself
     int moments = kNoMoments;      // kMomentsOfTilt...
     std::int32_t material = kNone; // owner of the moments: the first material that shares them
     bool filtered = false;         // made from a mip filter's levels for that material
@@ -52,7 +51,7 @@ void bind_textures(const Scene& scene, std::size_t material, bool overridden, co
 // Levels by material, null if no filter makes any. They come from the scene, or are made here. Materials share equal levels.
 using MaterialLevels = std::vector<std::shared_ptr<const MipLevels>>;
 MaterialLevels filtered_levels(const Scene& scene, const Jobs& jobs, const TaughtTexels& advance = {});
-bool is_metal(const Scene& scene, const Material& material); // true if at least half of the material is metal
+bool is_metal(const Scene& scene, const Material& material); // true if at least half the material is metal
 
 // Returns the reason why the material's filter makes no levels of its maps. Empty if it does, or if there is nothing to do.
 std::string why_unfiltered(const Scene& scene, const Material& material);

@@ -1,5 +1,5 @@
-// Shadows of area lights. Samples estimate the part of their light that arrives. Analytic light without occlusion is multiplied by this
-// ratio. Heitz, Hill, McGuire 2018, "Combining Analytic Direct Illumination and Stochastic Shadows".
+// Area light shadows. Samples estimate the ratio of arriving light to light without occlusion. The ratio multiplies analytic light without
+// occlusion. Heitz, Hill, McGuire 2018, "Combining Analytic Direct Illumination and Stochastic Shadows".
 #pragma once
 #include "core/jobs/jobs.h"
 #include "raster/frame/frame.h"

@@ -1,4 +1,4 @@
-// Stages of a frame's time, in the order of the data.
+// Stages of a frame, in data order, for its profile.
 #pragma once
 #include <cstdint>
 

@@ -210,7 +210,7 @@ std::vector<AreaLightRecord> area_light_records(const DrawTables& tables)
 
 namespace {
 
-// Makes each picture of the area lights once, as a texture. Numbers these textures after those of materials.
+// Makes each area light picture once, as a texture. Numbers these textures after the materials' textures.
 void add_light_pictures(const Scene& scene, const Jobs& jobs, SceneTables& s)
 {
     std::vector<int> used; // textures in the scene

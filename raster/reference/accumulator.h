@@ -1,4 +1,4 @@
-// State of an unfinished picture: running mean and variance per pixel, and the number of passes per block of pixels. Blocks advance
+// State of an unfinished picture: running mean and variance per pixel, and the number of passes per pixel block. Blocks advance
 // independently, so work can stop between any two blocks without loss.
 #pragma once
 #include <cstdint>

@@ -19,8 +19,8 @@ double luminance(const std::uint16_t* texel)
            0.0722 * static_cast<double>(half_to_float(texel[2]));
 }
 
-// Returns the mean luminance of the bilinear interpolant over the cell of texel (x, y). It is positive wherever the interpolant is
-// positive, so sampling misses no light. w: texels in a bordered row.
+// Returns the bilinear interpolant's mean luminance over texel (x, y)'s cell. The mean is positive wherever the interpolant is positive,
+// so sampling misses no light. w: texels in a bordered row.
 double cell_luminance(const std::uint16_t* face, int w, int x, int y)
 {
     constexpr double kWeight[3] = {0.125, 0.75, 0.125};

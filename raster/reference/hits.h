@@ -105,7 +105,8 @@ BN_INLINE real2 plane_weights(const LaneTriangle& t, const LaneRays& r)
     return vec2_of(k_dot3(s, q) / safe, k_dot3(r.direction, k_cross(s, e1)) / safe);
 }
 
-// Geometry at hits, from locate_hits(). footprint: camera rays one pixel to the right and one below; null: textures at full detail.
+// Geometry at hits, from locate_hits(). footprint: camera rays through the horizontal and the vertical neighbour in the same quad of 2x2
+// pixels; null: textures at full detail.
 struct LaneGeometry {
     visible_point fragment;
     real3 position, normal; // normal: the triangle's, unit, towards the ray's origin
@@ -315,7 +316,7 @@ struct MaterialAtHits {
     real3 emission;
 };
 
-// Replaces x by one of the material's facets if the pixel is large enough to see them all. Facets are chosen in proportion to their
+// Replaces x by one of the material's facets if the pixel sees all of them. Facets are chosen in proportion to their
 // weights, by a hash of the hit's texture coordinates, which differ between rays.
 BN_STAGE void choose_facets(const ReferenceParams& f, const MaterialRecord& m, const material_inputs& at, const LaneGeometry& g,
                             shaded_point& x)

@@ -20,8 +20,8 @@ BN_INLINE real area_by_solid_angle(real u, real v)
     return r2 * sqrt(r2);
 }
 
-// Chooses the first of two parts, with probability p, or the second. Stretches the remainder of x to [0, 1). Returns the lanes with the
-// second part.
+// Chooses the first part, with probability p, or the second. Stretches the remainder of x to [0, 1). Returns the lanes with the second
+// part.
 BN_INLINE mask take_second(real& x, real p)
 {
     const mask second = x >= p;

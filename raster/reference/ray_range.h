@@ -6,8 +6,8 @@
 
 namespace burnish {
 
-// Embree accepts origins and directions below 1.84e18 (its FLT_LARGE); squares of larger numbers overflow a float. An order of magnitude
-// is left for additions to a coordinate.
+// Embree accepts origins and directions below 1.84e18 (its FLT_LARGE); squares of larger numbers overflow a float. This limit leaves an
+// order of magnitude for additions to a coordinate.
 inline constexpr float kFarthestRay = 1e17f; // metres, along an axis
 
 // Checks coordinates. Errors: ExitCode::bad_input, naming the coordinate.

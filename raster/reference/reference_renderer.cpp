@@ -114,15 +114,15 @@ void ReferenceRenderer::advance(const ReferenceParams& f, Accumulator& a, std::u
 
 constexpr std::uint64_t kRoundSamples = 1u << 22;
 
-// Returns the passes between two checks of the error: some million samples. They depend on the picture's size alone, so the end of a run
-// does not depend on its speed.
+// Returns the passes between two error checks: some million samples. They depend on the picture's size alone, so a run's end does not
+// depend on its speed.
 std::uint32_t passes_in_round(const FrameDesc& desc)
 {
     const std::uint64_t samples = static_cast<std::uint64_t>(desc.width) * static_cast<std::uint64_t>(desc.height) * kPassSamples;
     return static_cast<std::uint32_t>(std::max<std::uint64_t>(1, kRoundSamples / samples));
 }
 
-// Blocks between two checks of the checkpoint's time: one pass of a large picture may take minutes.
+// Blocks between two looks at the clock for the checkpoint: one pass over a large picture may take minutes.
 constexpr std::size_t kBlocksInSlice = kRoundSamples / (kPassSamples * kBlockSide * kBlockSide);
 
 // Returns the checkpoint's file for a picture with this key.

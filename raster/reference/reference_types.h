@@ -47,7 +47,7 @@ struct PixelBlock {
 struct ReferenceFns { // one table per instruction set
     // Adds passes to a block's pixels. `state` covers the whole picture.
     void (*add_passes)(const ReferenceParams&, const PixelBlock&, ReferenceScratch&, PixelState* state);
-    // Traces the sample positions of one pixel row. Writes ids[pixel][sample], the global ids of solid triangles, and the transmittance of
+    // Traces the sample positions in one pixel row. Writes ids[pixel][sample], the solid triangles' global ids, and the transmittance of
     // blended surfaces before them, [0,1]; through may be null.
     void (*trace_row)(const ReferenceParams&, int y, const SamplePattern&, ReferenceScratch&, std::uint32_t* ids, float* through);
 };

@@ -160,7 +160,7 @@ BN_INLINE Reflection reflect_below(const Reflector& r, real3 wi)
     return to;
 }
 
-// Adds the coat. Lanes without a coat have the least width here, so that they are not mirrors.
+// Adds the coat. A smooth coat gets the lobe model's least width, so that it is never a mirror.
 BN_STAGE Reflection reflect_coated(const Reflector& r, real3 wi, const Reflection& below)
 {
     const LobeValue l = value_of(coat_lobe_of(r), wi);

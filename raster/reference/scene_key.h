@@ -11,7 +11,7 @@ namespace burnish {
 // of rasterizers do not matter.
 FrameDesc reference_desc(FrameDesc desc);
 
-// Returns the hash of scene, environment, view and options, without the number of samples and the instruction set.
+// Returns a hash over scene, environment, view and options, without the number of samples and the instruction set.
 std::uint64_t reference_key(const RenderInput& input, const FrameDesc& desc, const ReferenceOptions& options);
 
 } // namespace burnish

@@ -1,5 +1,5 @@
-// Sample points for one pass of a pixel: 64 points of Sobol's sequence in five dimensions, Owen-scrambled anew per pixel and pass
-// (samples.h). So passes are independent, and their spread gives the error of their mean.
+// Sample points for one pixel's pass: 64 Sobol points in five dimensions, Owen-scrambled anew per pixel and pass (samples.h). So passes
+// are independent, and their spread gives the error of their mean.
 #pragma once
 #include <cstdint>
 

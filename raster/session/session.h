@@ -28,7 +28,7 @@
 
 namespace burnish {
 
-inline constexpr int kDfgSize = 64;     // texels along a side of the directional albedo table
+inline constexpr int kDfgSize = 64;     // side of the directional albedo table, texels
 inline constexpr int kDfgSamples = 256; // samples per texel
 
 // Positions in views, tables and lights are metres from scene.origin. The origin is 0 except for scenes far away (core/scene/origin.h).
@@ -38,7 +38,7 @@ struct SceneData { // a scene and its draw tables
     DrawTables tables;
 };
 
-// Loads a scene: "builtin:NAME" or the path of a .gltf, .glb or .obj file, at one moment of its animation. with: changes to the materials.
+// Loads a scene: "builtin:NAME" or a path to a .gltf, .glb or .obj file, at one moment in its animation. with: changes to the materials.
 // lights: area lights to add to the scene, in world space.
 Result<std::shared_ptr<const SceneData>> load_scene_data(const std::string& spec, const Limits& limits, const Dress& with = {},
                                                          const Moment& moment = {}, const std::vector<AreaLight>& lights = {});
@@ -67,7 +67,7 @@ struct SessionParts {
     std::shared_ptr<const Environment> environment;
     std::shared_ptr<const Jobs> jobs;                   // null: all cores the process may use
     std::shared_ptr<const DfgTable> dfg;                // null: standard_dfg()
-    std::shared_ptr<const ltc::ShadingTables> ltc = {}; // tables of linearly transformed cosines for area lights; null: the built-in tables
+    std::shared_ptr<const ltc::ShadingTables> ltc = {}; // linearly transformed cosines for area lights; null: the built-in tables
     std::shared_ptr<const PhongFiles> phong = {};       // tables for as_mc; null: frames make them
     std::shared_ptr<const DrawTables> turned = {};      // draw tables turned against a rotated environment; a session makes them
 
@@ -123,13 +123,13 @@ class Session {
     const DrawTables& tables() const { return parts_.scene->tables; }
     Renderer& renderer() { return *renderer_; }                // draws descriptions from drawn(); render() calls it
     std::string device() const { return renderer_->device(); } // the device's name: "AMD EPYC (avx512)", ...
-    // Returns a view of the whole scene for a picture of the given size.
+    // Returns a view that shows the whole scene, for a picture with this size.
     View framed(int width, int height, const Framing& framing = {}) const { return auto_frame(tables(), width, height, framing); }
 
   private:
     Session(SessionParts parts, std::unique_ptr<Renderer> renderer) : parts_(std::move(parts)), renderer_(std::move(renderer)) {}
     SessionParts parts_;
-    std::unique_ptr<Renderer> renderer_; // refers to the contents of parts_, which stay in place when a session moves
+    std::unique_ptr<Renderer> renderer_; // refers to parts_' contents, which stay in place when a session moves
 };
 
 } // namespace burnish

@@ -6,8 +6,8 @@
 namespace burnish {
 inline namespace BN_ISA_NS {
 
-// Calls body(block, v, passes, lanes, at) for each pixel register v in each block of the tile. passes: passes in the fragment list; lanes:
-// their lanes; at: index of the first fragment.
+// Calls body(block, v, passes, lanes, at) for each pixel register v in each block of the tile. passes: number of passes in the fragment
+// list; lanes: their lanes; at: the first fragment's index.
 template <class Body> BN_INLINE void for_each_register(const FrameParams& f, int width, int height, const TileScratch& s, const Body& body)
 {
     const std::uint32_t* lanes = s.pass_lanes;

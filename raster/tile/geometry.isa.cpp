@@ -23,8 +23,8 @@ void transform_vertices(const FrameParams& f, std::uint32_t first, std::uint32_t
 
 namespace {
 
-// Computes the inclusive range of tiles whose samples the sub-pixel range [lo, hi] can cover. Returns the lanes whose range holds a pixel
-// of the image.
+// Computes the inclusive range of tiles whose samples the sub-pixel range [lo, hi] can cover. Returns the lanes whose range holds an image
+// pixel.
 BN_INLINE mask tile_range(const FrameParams& f, integer lo, integer hi, int center, int sample_min, int sample_max, int size,
                           integer& tile_lo, integer& tile_hi)
 {

@@ -99,8 +99,8 @@ BN_INLINE void prefetch_triangles(const FrameParams& f, const TileScratch& s, st
                 __builtin_prefetch(f.vertices + f.indices[3 * std::size_t{s.entries[i]} + k]);
 }
 
-// Loads up to kLanes of the tile's triangles from `first` on. Whole triangles are valid in the lanes of `whole`; other lanes hold some
-// triangle. Writes the setups of whole triangles.
+// Loads up to kLanes triangles in the tile's list from `first` on. Whole triangles are valid in the lanes of `whole`; other lanes hold
+// some triangle. Writes the whole triangles' setups.
 BN_INLINE LaneTriangles load_triangles(const FrameParams& f, const TileScratch& s, std::uint32_t first, mask& whole, integer& material)
 {
     prefetch_triangles(f, s, first);

@@ -132,8 +132,8 @@ BN_INLINE bool block_hidden(const FrameParams& f, const TileTriangle& t, float n
 
 struct NoAlpha {}; // opaque: every covered sample counts
 
-// Tests and writes depth for the samples in a register of pixels. at: values of kEdges edges at the pixels' corners; z: depth there.
-// alive: pixels that survive an alpha test; or null.
+// Tests and writes depth for the samples in a pixel register. at: kEdges edge values at the pixels' corners; z: depth there. alive: pixels
+// that survive an alpha test; or null.
 template <int kEdges, bool kAnyOrder>
 BN_INLINE bool cover_register(const FrameParams& f, const TileTriangle& t, const BlockEdges& e, const integer at[3], real z,
                               integer lane_id, float* depth, std::int32_t* ids, const std::uint32_t* alive)

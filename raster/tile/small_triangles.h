@@ -1,5 +1,5 @@
-// Small triangles, one per lane. All lanes walk the pixels of their bounding boxes together. Depths equal those of raster.h, so pictures
-// do not show which code drew a triangle.
+// Small triangles, one per lane. All lanes walk their bounding boxes' pixels together. Depths equal those in raster.h, so pictures do not
+// show which code drew a triangle.
 #pragma once
 #include "raster/tile/lane_triangles.h"
 #include "raster/tile/raster.h"

@@ -84,7 +84,7 @@ struct FrameParams : ShadingFrame {
 
 inline constexpr std::int32_t kNoMaterial = -1, kManyMaterials = -2; // in place of a material
 
-// Callback at the end of every stage in a tile of a profiled frame. material: of the shaded fragments, or -1. used, all: lanes in use, and
+// Callback at the end of every stage in a profiled tile. material: the shaded fragments' material, or -1. used, all: lanes in use, and
 // their total.
 struct TileClock {
     void (*lap)(TileClock& self, FrameStage stage, std::int32_t material, std::uint32_t used, std::uint32_t all);
@@ -106,7 +106,7 @@ struct BlockPlane {
 
 struct TileScratch;
 
-// Blended surfaces of a tile, one depth layer after another from the nearest on (depth peeling, Everitt 2001). Memory holds one layer, for
+// A tile's blended surfaces, one depth layer after another from the nearest on (depth peeling, Everitt 2001). Memory holds one layer, for
 // any number of layers.
 struct PeelScratch {
     TileScratch* layer;        // fragments of the current layer; its triangles are the tile's

@@ -35,7 +35,7 @@ struct FragmentList {
     }
 };
 
-// Lists one register of pixels. valid: pixels in the image. from: ids of its first sample.
+// Lists one pixel register. valid: pixels in the image. from: the first sample's ids.
 BN_INLINE void list_register(const FrameParams& f, const std::int32_t* from, integer pixel, mask valid, FragmentList& list)
 {
     const integer zero = int_lit(0), full = int_lit(list.full), first = load_int(from);

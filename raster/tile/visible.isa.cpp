@@ -79,7 +79,7 @@ std::uint32_t blended_triangles(const Tile& t, std::uint32_t first, std::uint32_
     return blended;
 }
 
-// Draws the small triangles of a register, and notes if there are any. The other triangles join the list of singly drawn ones.
+// Draws a register's small triangles, and notes if there are any. The other triangles join the list of singly drawn ones.
 void raster_register(const Tile& t, std::uint32_t first, Surfaces surfaces, std::uint32_t& singly, bool& some_small)
 {
     TileScratch& s = t.s;
@@ -198,7 +198,7 @@ void write_ids(const Tile& t)
 
 constexpr std::int32_t kBackgroundSlot = 0;
 
-// Returns the end of the run of fragments with the triangle at `i`.
+// Returns the index after the run of fragments with the triangle at `i`.
 BN_INLINE std::uint32_t run_end(const std::int32_t* triangle, std::uint32_t i, std::uint32_t count)
 {
     const std::int32_t id = triangle[i];

@@ -1,4 +1,4 @@
-// Pipelines of the stages: one descriptor set for all of them, shaders by name.
+// Pipelines for the stages: one descriptor set for all stages, shaders by name.
 #pragma once
 #include <map>
 #include <string>

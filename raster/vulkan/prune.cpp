@@ -195,7 +195,7 @@ struct Known {
 
 using Functions = std::map<std::uint32_t, std::vector<Instruction>>; // by id
 
-// Returns the result of a one-block function for known arguments, such as a test of a constant's bit.
+// Returns a one-block function's result for known arguments, such as a test for a constant's bit.
 std::optional<std::int32_t> returned(const std::vector<Instruction>& body, const Values& constants,
                                      const std::vector<std::optional<std::int32_t>>& arguments)
 {

@@ -1,5 +1,5 @@
-// Prunes a stage for given specialization constants. Drivers inline every function before they fold constants, which is most of their
-// work. Here branches on constants go first, then functions without a caller.
+// Prunes a stage for given specialization constants. Drivers inline every function before they fold constants, so a pruned stage saves
+// them work. Branches on constants go first, then functions without a caller.
 #pragma once
 #include <cstdint>
 #include <vector>

@@ -237,12 +237,12 @@ void VulkanRenderer::all_visibility(VkCommandBuffer c, const Band& band, int sur
         visibility(c, {kSubpixel / 2 - pattern.x[s], kSubpixel / 2 - pattern.y[s], s, 0, 0, band.first_row, band.rows, 0, surfaces});
 }
 
-// Values of constant_id 0 and 1 in shading/stages: bits of techniques, by index in models.def, and of lobes.
+// Values of constant_id 0 and 1 in shading/stages: technique bits, by index in models.def, and lobe bits.
 struct Used {
     std::int32_t techniques = 0, lobes = 0;
 };
 
-// Collects the frames' lobes, and those of their techniques that do or do not share samples.
+// Collects the frames' lobes, and their techniques that do or do not share samples.
 Used used_by(const std::vector<FrameDesc>& frames, bool sharing)
 {
     const auto& all = techniques();

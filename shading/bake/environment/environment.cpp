@@ -25,7 +25,7 @@ namespace {
 
 constexpr int kIrradianceSource = 64; // texels along an edge of the level that irradiance reads
 constexpr int kTexelsAJob = 512;
-// Size of a piece of light over its distance (light_tree.h), times the square root of the number of pieces, roughly. Chosen so that 1024
+// A light piece's size over its distance (light_tree.h), times the square root of the number of pieces, roughly. Chosen so that 1024
 // pieces suffice under suns and between lamps.
 constexpr double kOpening = 6.4, kWidestOpening = 1.0;
 

@@ -27,7 +27,7 @@ std::optional<Environment> parse_environment_cache(const std::uint8_t* data, std
 std::optional<Environment> read_environment_cache(const std::string& path, std::uint64_t content_hash, int size, int levels);
 // Serialises an environment without rotation and exposure. Equal environments give equal bytes.
 std::vector<std::uint8_t> environment_cache_bytes(const Environment& environment);
-// Reads such bytes from a file of any name, or from kBakedEnvironment in a folder: output of `burnish bake environment`. Errors:
+// Reads such bytes from a file with any name, or from kBakedEnvironment in a folder: output of `burnish bake environment`. Errors:
 // bad_input.
 inline constexpr const char* kBakedEnvironment = "environment.bnenv";
 bool is_baked_environment(const std::string& path); // by its extension, or as a folder

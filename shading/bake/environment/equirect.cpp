@@ -21,8 +21,8 @@ float value_of(const Image& image, std::size_t i)
     return srgb_to_linear(static_cast<float>(reinterpret_cast<const std::uint16_t*>(image.bytes.data())[i]) / 65535.0f);
 }
 
-// Filter weights of a sample along one image axis. The image is constant on its pixels. A sample sees it through a quadratic B-spline. The
-// variance is that of a box of one pixel (a box turns constant pixels into linear interpolation) plus that of a B-spline over the sample's
+// A sample's filter weights along one image axis. The image is constant on its pixels. A sample sees it through a quadratic B-spline. Its
+// variance is a one-pixel box's variance (such a box turns constant pixels into linear interpolation) plus the variance for the sample's
 // footprint. Neighbouring samples then share every pixel evenly, even where footprints lie askew to the image near its poles.
 struct AxisFilter {
     int first = 0;

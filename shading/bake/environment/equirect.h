@@ -42,7 +42,7 @@ struct SkyCap {
 // Samples the source on a cube with at least `size` texels along an edge, a power of two. The cube is no coarser than the source, up to a
 // limit.
 CubeLevel sample_equirect(const Equirect& source, int size, const Jobs& jobs);
-// Updates the cube after the source has changed within the caps only. Gives the bits of sample_equirect() in a fraction of its time.
+// Updates the cube after the source has changed within the caps only. Gives sample_equirect()'s bits in a fraction of its time.
 void sample_equirect_again(CubeLevel& sampled, const Equirect& source, const std::vector<SkyCap>& changed, const Jobs& jobs);
 // Averages a cube down to `size` texels along an edge. Light is preserved.
 CubeLevel averaged_to(const CubeLevel& sampled, int size, const Jobs& jobs);

@@ -13,8 +13,7 @@ namespace {
 constexpr double kDegree = kPi / 180.0;
 constexpr double kFirstThreshold = 4.0; // times the mean radiance: a light of 4 degrees with 1/200 of all light exceeds it
 constexpr double kLargestReach = 5.0 * kDegree, kLargestAxis = 2.5 * kDegree;
-constexpr double kLeastCover = 0.3, kMostCover = 2.5; // of a region by its ellipse of inertia: a disc has 1, a spark in a glow less, two
-                                                      // lamps with a bridge more
+constexpr double kLeastCover = 0.3, kMostCover = 2.5; // ellipse area over region: 1 for a disc, less for a glow, more for bridged lamps
 // Least ratio to the mean of the surroundings and to the brightest rim pixel, and least share of the sphere's light
 constexpr double kLeastContrast = 8.0, kLeastDrop = 4.0, kLeastShare = 0.005;
 
@@ -83,7 +82,7 @@ class Picture {
         const std::size_t x = pixel % width(), y = pixel / width();
         return {sin_row_[y] * cos_column_[x], cos_row_[y], sin_row_[y] * sin_column_[x]};
     }
-    // Visits the eight neighbours of a pixel. Past a pole lies the other side of the same row.
+    // Visits a pixel's eight neighbours. Past a pole lies the row's other side.
     template <class Visit> void neighbours(std::size_t pixel, const Visit& visit) const
     {
         const std::size_t w = width(), x = pixel % w, y = pixel / w;
@@ -295,7 +294,7 @@ class Finder {
     double total_ = 0.0;             // luminance times solid angle
 };
 
-// Returns radiance that fills a region: a mean of the pixels around all regions, weighted by the inverse cube of distance.
+// Returns radiance that fills a region: a mean over the pixels around all regions, weighted by the inverse cube of distance.
 std::vector<float> surroundings(const Picture& picture, const Equirect& source, const Pixels& pixels, std::vector<std::uint8_t>& place)
 {
     // Collect the rim, and clear its marks
@@ -357,8 +356,8 @@ KeyLight light_of(const Picture& picture, const Equirect& source, double total, 
         excess[i] = std::max(excess[i], 0.0);
         light += excess[i], squares += excess[i] * excess[i] / picture.angle(pixels[i]);
     }
-    // The light takes its shape from the ellipse of inertia. Its size is that of an even disc with the same light and the light's mean
-    // radiance, so a faint glow does not inflate it.
+    // The light takes its shape from the inertia ellipse. Its area is that of an even disc with the light's total and mean radiance, so a
+    // faint glow does not inflate it.
     Ellipse e = ellipse_of(picture, pixels, excess);
     const double size = std::sqrt(light * light / squares / (kPi * length(e.u) * length(e.v)));
     e.u = scaled(e.u, size), e.v = scaled(e.v, size);

@@ -9,13 +9,13 @@
 namespace burnish {
 
 // Extracts key lights from `source`. A region is a key light if it
-//  - is connected and brighter than a threshold, which is at least four times the mean radiance of the sphere,
-//  - is compact: it lies within 5 degrees of its centre, its ellipse of inertia covers it and has half axes of at most 2.5 degrees,
-//  - has a mean radiance at least eight times that of its surroundings, and four times that of any pixel on its rim,
-//  - gives at least 1/200 of the light of the sphere.
+//  - is connected and brighter than a threshold, which is at least four times the sphere's mean radiance,
+//  - is compact: it lies within 5 degrees around its centre, its inertia ellipse covers it and has half axes up to 2.5 degrees,
+//  - has a mean radiance at least eight times its surroundings' mean, and four times that of any pixel on its rim,
+//  - gives at least 1/200 of the sphere's light.
 // The threshold is the lowest one that satisfies all conditions. At most `most` lights are extracted, the strongest first, each with
-// the pixels around it. The hole is filled with a mean of the surroundings, weighted by nearness. Light is moved, never made or lost: a
-// key light gets the difference. Directions are those of the picture. changed: a cap per light, where the source has changed.
+// the pixels around it. A mean of the surroundings, weighted by nearness, fills the hole. Light is moved, never made or lost: a key light
+// gets the difference. Directions are the picture's. changed: a cap per light, where the source has changed.
 std::vector<KeyLight> take_key_lights(Equirect& source, int most, std::vector<SkyCap>& changed);
 
 // Returns the light in a world under an environment that is turned counter-clockwise about +Y (seen from above).

@@ -44,7 +44,7 @@ Direction place_of(const LightTree& tree, int face, const TreeNode& node)
     return {static_cast<double>(p[0]), static_cast<double>(p[1]), static_cast<double>(p[2])};
 }
 
-// Returns the places of a level's texels: means of the finer level's places, weighted by light. Weights are solid angles where there is no
+// Returns the places of a level's texels: means over the finer level's places, weighted by light, or by solid angle where there is no
 // light.
 std::vector<float> places_of(const LightTree& tree, int level, const Jobs& jobs)
 {

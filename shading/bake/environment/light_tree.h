@@ -13,8 +13,8 @@ namespace burnish {
 
 struct LightTree {
     const std::vector<CubeLevel>& boxes; // finest first, each half as large, down to one texel per face
-    // By level from 1 on, then texel, xyz: the unit mean direction of the texel's light. Level 0 is empty: light of its texels comes from
-    // their centres.
+    // By level from 1 on, then texel, xyz: the texel light's mean direction, unit. Level 0 is empty: its texels' light comes from their
+    // centres.
     std::vector<std::vector<float>> places;
 };
 // Builds the tree. boxes must outlive it.

@@ -56,8 +56,8 @@ BN_FN void store_texels(real3 value, int count, float* rgb)
     }
 }
 
-// With V = N = R, n.h = v.h. The weight D(h) n.l of a direction l is then a function of q = |l - n|^2: the squared cosine of the half
-// angle is 1 - q/4, and the cosine of the angle is 1 - q/2. D is divided by its largest value. Karis 2013.
+// With V = N = R, n.h = v.h. A direction l then has a weight D(h) n.l that depends on q = |l - n|^2 alone. The half angle's squared cosine
+// is 1 - q/4, and the angle's cosine is 1 - q/2. D is divided by its largest value. Karis 2013.
 void prefilter(const PrefilterInput& in, int face, int size, int x, int y, float* rgb)
 {
     const int side = size < kPrefilterBlock ? size : kPrefilterBlock, count = side * side;

@@ -7,7 +7,7 @@
 
 namespace burnish::ltc {
 
-// Returns the k-th point in the four-dimensional sequence of Roberts (2018), in [0,1)^4. Any number of points is evenly spread.
+// Returns the k-th point in the four-dimensional sequence by Roberts (2018), in [0,1)^4. Any number of points is evenly spread.
 std::array<double, 4> spread_point(std::size_t k);
 
 // Levenberg-Marquardt steps, in Gauss-Newton form, on all entries at once.

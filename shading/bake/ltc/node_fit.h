@@ -28,7 +28,7 @@ struct LobePoints {
     std::vector<Point> points;
 };
 
-// Objective of a fit: the integral of |p - q|, the integral of its third power (Heitz et al. 2016), or the transport distance between
+// Objective of a fit: the integral over |p - q|, the integral over |p - q|^3 (Heitz et al. 2016), or the transport distance between
 // samples along many axes (sliced Wasserstein distance; KT et al. 2022).
 enum class Norm { l1, l3, sliced };
 
@@ -49,7 +49,7 @@ struct NodeFit {
 // Runs Levenberg-Marquardt from `start`, which has a positive determinant. The result has a positive determinant and a unit third column.
 NodeFit fit_lobe(const LobePoints& lobe, const Matrix& start, Mask zero, Norm norm = Norm::l1);
 
-// Minimises the sliced distance with a fixed number of gradient steps. The result's l1 is that of `fit_lobe`.
+// Minimises the sliced distance with a fixed number of gradient steps. The result's l1 is the L1 distance, as in `fit_lobe`.
 NodeFit fit_sliced(const LobePoints& lobe, const Matrix& start, Mask zero);
 
 } // namespace burnish::ltc

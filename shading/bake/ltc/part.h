@@ -1,7 +1,6 @@
 // Checkpoint of a table's bake. Little-endian: 8 bytes "bnltcp1\n"; uint64 key of the options, chains, steps, 1 if the common fit has
 // begun; float64 cost, mu, cost before; per node float64 L1, then nine float64 for the node's own matrix; if the common fit has begun,
 // nine float64 per node for it; uint64 xxHash64 of all bytes before.
-// the fit of all has begun, nine float64 a node of it; uint64 xxHash64 of all before.
 #pragma once
 #include <cstdint>
 #include <string>
@@ -21,7 +20,7 @@ struct Progressed {
     std::uint64_t chains = 0, steps = 0;
     std::vector<double> l1;        // by node
     std::vector<Matrix> nodes;     // each fitted alone
-    InterpolantFit::State state{}; // of the common fit; no entries: not begun
+    InterpolantFit::State state{}; // common fit; no entries: not begun
     double cost_before = 0.0;
 };
 

@@ -61,7 +61,7 @@ Spread spread_of(std::vector<double> values); // zeros for an empty list
 // Returns L1 at the centre of every cell, [theta][phi][alpha][lambda].
 std::vector<double> l1_of_cells(const Table& table, const Jobs& jobs);
 
-// Returns the number of lookups, out of `probes` in the usable range, with no positive determinant.
+// Counts lookups with no positive determinant, among `probes` in the usable range.
 std::size_t broken_lookups(const Table& table, std::size_t probes, const Jobs& jobs);
 
 } // namespace burnish::ltc

@@ -22,7 +22,8 @@ struct ShadingTables {
 };
 const ShadingTables& shipped_tables(); // made once a process
 const Table& shipped_table();          // the general table
-// Replaces the built-in table of the same kind with `own`. Errors: another resolution than shading reads. path: the file in the error.
+// Replaces the built-in table of the same kind with `own`. Errors: another resolution, or another storage in a round table, than shading
+// reads. path: the file in the error.
 Result<ShadingTables> with_table(const Table& own, const std::string& path);
 
 } // namespace burnish::ltc

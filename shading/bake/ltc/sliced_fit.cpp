@@ -1,4 +1,4 @@
-// Minimises the sliced Wasserstein distance between samples of a lobe and samples of a transformed cosine by Adam (Kingma, Ba 2015). KT,
+// Minimises the sliced Wasserstein distance between samples from a lobe and from a transformed cosine, by Adam (Kingma, Ba 2015). KT,
 // Heitz, Dupuy, Narasimhan 2022, section 5. Samples and axes are lattices, not random.
 #include <algorithm>
 #include <numeric>

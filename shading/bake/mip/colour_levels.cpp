@@ -16,7 +16,7 @@ struct Tap {
     double weight;
 };
 
-// Modified Bessel function of the first kind, of order 0.
+// Modified Bessel function, first kind, order 0.
 double bessel_0(double x)
 {
     double sum = 1.0, term = 1.0;

@@ -1,4 +1,4 @@
-// Mip levels of colours and metalness. Weights may say how much of each texel is seen and lit.
+// Mip levels for colours and metalness. Weights may say how visible and lit each texel is.
 #pragma once
 #include <functional>
 #include <vector>

@@ -1,4 +1,4 @@
-// Facets of a normal map seen from afar: a few groups of its normals. Each group is shaded as a surface. One lobe per texel cannot tell
+// A normal map's facets, seen from afar: a few groups of its normals. Each group is shaded as a surface. One lobe per texel cannot tell
 // where light goes if facets point far apart.
 #pragma once
 #include <vector>

@@ -82,14 +82,14 @@ Shape shape_of(MipFilter filter, float kappa)
     return {filter == kMipFilter_covariance ? mip::Mean::covariance : mip::Mean::baseline, 3, 6, 0.0f};
 }
 
-// Planes of a row of states.
+// Planes in a row of states.
 struct StateRow {
     const float* first;
     std::size_t stride;
     float at(std::size_t k, int x) const { return first[k * stride + static_cast<std::size_t>(x)]; }
 };
 
-// Merges the texels of a footprint. rows: one per entry of `down`. to: texel x in a row of states.
+// Merges a footprint's texels. rows: one per entry of `down`. to: texel x in a row of states.
 void merge_many(const Shape& shape, const std::vector<StateRow>& rows, const std::vector<Share>& down, const std::vector<Share>& across,
                 float* to, std::size_t stride)
 {
@@ -198,7 +198,7 @@ MipLevel empty_level(const StateLevel& of)
     return {of.width, of.height, std::vector<MipTexel>(static_cast<std::size_t>(of.width) * static_cast<std::size_t>(of.height))};
 }
 
-// Makes levels after `first` up to `last`. banded: states of level `first`, unused for level 0. Returns the states of the last level.
+// Makes levels after `first` up to `last`. banded: level `first`'s states, unused for level 0. Returns the last level's states.
 StateLevel put_levels_from(const MipRows& level0, int first, StateLevel banded, int last, const Shape& shape, const Jobs& jobs,
                            std::vector<MipLevel>& made)
 {
@@ -216,7 +216,7 @@ StateLevel put_levels_from(const MipRows& level0, int first, StateLevel banded, 
     return std::move(states.back());
 }
 
-// Makes levels 1 to `levels` in bands of rows, and returns the states of the last one. A band needs little memory.
+// Makes levels 1 to `levels` in bands of rows, and returns the last one's states. A band needs little memory.
 StateLevel make_banded_levels(const MipRows& level0, int levels, const Shape& shape, const Jobs& jobs, std::vector<MipLevel>& made)
 {
     for (int l = 1; l <= levels; ++l)

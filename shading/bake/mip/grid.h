@@ -41,7 +41,7 @@ inline Neighbours neighbours(int at, int count, int texels, WrapMode wrap, bool 
     return {inside(low), inside(low + 1), static_cast<float>(place - 0.5 - low)};
 }
 
-// Returns a quantity of a map at a grid point. value: the quantity of a texel by index.
+// Returns a map's quantity at a grid point. value: the quantity at a texel, by index.
 template <class Value> float on_grid(const Image& map, const Grid& grid, int x, int y, const Value& value)
 {
     const Neighbours u = neighbours(x, grid.width, map.width, grid.wrap_s, grid.nearest);
@@ -59,7 +59,7 @@ struct Share { // weight of a texel or row in a finer level
     int at;
     double weight;
 };
-// Returns the texels of `source` that texel i of `target` covers, with exact overlaps.
+// Returns the `source` texels that texel i of `target` covers, with exact overlaps.
 inline std::vector<Share> shares_of(int i, int source, int target)
 {
     std::vector<Share> shares;
@@ -90,8 +90,8 @@ inline int finer_level(int width, int height, int l)
     return from;
 }
 
-// Returns the number of levels that can be made in bands of rows, because their sides are halved without remainder. Later levels need only
-// the last of these.
+// Returns the number of levels that can be made in bands of rows, because their sides halve without remainder. Later levels need only the
+// last one.
 inline int banded_levels(int width, int height)
 {
     constexpr int kMostBanded = 5;

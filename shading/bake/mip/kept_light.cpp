@@ -39,7 +39,7 @@ float facet_light(float alpha, float sine, float cosine, int knot)
     return sum;
 }
 
-// Returns the square root of 1 - cosine of the tilt, [0,1].
+// Returns sqrt(1 - the tilt's cosine), [0,1].
 float tilt_place(float nz)
 {
     return std::sqrt(std::clamp(1.0f - nz, 0.0f, 1.0f));

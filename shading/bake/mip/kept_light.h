@@ -41,11 +41,11 @@ struct KeptWeights {
 // Returns the weights of a map's level 0, from 4096 points.
 KeptWeights kept_weights(const MipSource& source, const KeptShares& shares);
 
-// Returns, by level from 1 on, the mean over the texels of level 0 under each texel. of: a quantity of a point.
+// Returns, by level from 1 on, the mean over the level 0 texels under each texel. of: a point's quantity.
 using PointQuantity = std::function<float(const MipPoint& point)>;
 std::vector<std::vector<float>> mean_levels(const MipSource& source, const PointQuantity& of);
 
-// Returns the share of light that a level's texel keeps, [0,1]. mean: the mean of its facets' shares; nz: of the texel's normal.
+// Returns the light share that a level's texel keeps, [0,1]. mean: its facets' mean share; nz: for the texel's normal.
 float kept_share(const KeptShares& shares, float mean, float nz);
 
 // Returns the mean width alpha of a lobe: (alpha_u + alpha_v) / 2.

@@ -10,7 +10,7 @@ namespace burnish {
 
 inline constexpr float kLeastGain = 0.5f, kMostGain = 2.0f;
 
-// Reads texels (x, y) of a level (0: level 0), as kChannels planes of `count` numbers. count: a multiple of kSlots.
+// Reads texels (x, y) in a level (0: level 0), as kChannels planes with `count` numbers. count: a multiple of kSlots.
 using LevelTexels = std::function<void(int level, std::size_t count, const int* x, const int* y, float* planes)>;
 
 struct LevelSize {

@@ -35,8 +35,8 @@ bool takes_kappa(MipFilter filter);
 inline constexpr double kMostKappa = 4.0; // the least is 0
 bool takes_gains(MipFilter filter);       // true for filters that err less with gains under lamps, see bench/lab/notebook/mip_nets.md
 
-// Returns the weight of normals that differ between a fetch's texels. The lobe's covariance gets (gain n)(gain n)^T from x and y of unit
-// normals.
+// Returns the weight of normals that differ between a fetch's texels. The lobe's covariance gets (gain n)(gain n)^T from unit normals' x
+// and y.
 float gain_of_taps(MipFilter filter, float kappa);
 
 struct MipTexel {

@@ -11,7 +11,7 @@
 namespace burnish {
 namespace {
 
-// Weights of level 0 along an axis, for each texel of a level and its border.
+// Level 0's weights along an axis, for each texel in a level and its border.
 struct AxisBlur {
     std::vector<int> first;                  // first texel of level 0, by texel of the level from the border on
     std::vector<std::vector<double>> weight; // weights from there on; sum to 1

@@ -1,4 +1,4 @@
-// Mip levels of base colours, metalness and heights, for files of `burnish bake mip` and for textures.
+// Mip levels for base colours, metalness and heights, in files by `burnish bake mip` and in textures.
 #pragma once
 #include <cstdint>
 
@@ -15,8 +15,8 @@ TextureEncoding encoding_of(MapPart part);
 // Returns the hash of a map's texels and its sampler's border mode. Heights: the normal map that holds them.
 std::uint64_t map_hash(const Image& image, const Texture& sampler, MapPart part);
 
-// Makes the levels. Without weights and with a box kernel they equal those of make_texture_pyramid(), else those of each_colour_row().
-// facing: weight per texel, one channel, or null.
+// Makes the levels. Without weights and with a box kernel they equal make_texture_pyramid()'s, else each_colour_row()'s. facing: weight
+// per texel, one channel, or null.
 MapLevels make_map_levels(const Image& image, const Texture& sampler, const MapId& id, const Image* facing, const Jobs& jobs);
 
 // Returns true if sides, channels and range match the output of make_map_levels() for the image. The range is 0 to 1 unless the image

@@ -42,7 +42,7 @@ class MipSource {
     // Writes the points (x[i], y[i]) as such planes, mip::row_stride(count) apart.
     void points(std::size_t count, const int* x, const int* y, float* to) const;
     std::uint64_t hash(const Jobs& jobs) const; // of size and every point
-    // Returns the same hash from hashes of rows, which hash_of_planes() makes of the planes that planes() writes.
+    // Returns this hash from row hashes, which hash_of_planes() makes from the planes that planes() writes.
     std::uint64_t hash_of_rows(const std::vector<std::uint64_t>& rows) const;
     std::uint64_t hash_of_planes(const float* planes) const;
 

@@ -1,5 +1,5 @@
-// Mip levels as textures for other programs: the normal and metallic-roughness textures of glTF 2.0 and the texture of
-// KHR_materials_anisotropy. These hold a lobe's widths and axis as numbers that are interpolated one by one.
+// Mip levels as textures for other programs: glTF 2.0's normal and metallic-roughness textures and the KHR_materials_anisotropy texture.
+// These hold a lobe's widths and axis as numbers that are interpolated one by one.
 #pragma once
 #include <string>
 #include <vector>
@@ -19,8 +19,8 @@ struct StandardLevels {
 };
 
 // Makes the textures. d refers to tangent and bitangent projected into the normal's plane (--frame-map gram-schmidt). Its sign is the one
-// nearer to the directions of earlier texels and of the coarser level. metallic: levels of metalness, channel 0, with the same sizes;
-// empty: use `metalness`.
+// nearer to the directions at earlier texels and in the coarser level. metallic: metalness levels, channel 0, with the same sizes; empty:
+// use `metalness`.
 StandardLevels standard_levels(const MipSource& source, const MipLevels& levels, const std::vector<Image>& metallic, float metalness);
 
 // Decodes a level's textures at their texels, or, if `between`, interpolated where four texels meet.

@@ -1,4 +1,4 @@
-// Training light of the optimiser: pairs of directions to light and eye, and the texels' reflection under them.
+// Training light for the optimiser: direction pairs (to light, to eye), and the texels' reflection under them.
 #pragma once
 #include <vector>
 

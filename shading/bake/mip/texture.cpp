@@ -199,7 +199,7 @@ Size level_size(const Image& image, int l)
 
 using FloatRow = std::function<const float*(int y)>;
 
-// Filters a band of level 0 to its rows on levels 1 to `levels`. Returns the rows of the last level.
+// Filters a band of level 0 to its rows on levels 1 to `levels`. Returns the last level's rows.
 std::vector<float> filter_band(const Image& image, const ImageRow& decode, int levels, int band, const LevelRow& use)
 {
     const int first = band << levels;

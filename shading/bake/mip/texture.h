@@ -19,8 +19,8 @@ enum class TextureEncoding : std::uint8_t {
     residual // remainder after rounding `linear` to half: the sum of both holds about 22 bits
 };
 
-// A mip pyramid. Level l is (width_l + 2) x (height_l + 2) texels. The wrap modes fill the border of one texel. So the 2x2 footprint of a
-// coordinate wrapped to [-1/2, size + 1/2) is always in memory, and a pair of texels is one 16-byte load.
+// A mip pyramid. Level l is (width_l + 2) x (height_l + 2) texels. The wrap modes fill the one-texel border. So the 2x2 footprint of a
+// coordinate wrapped to [-1/2, size + 1/2) is always in memory, and two adjacent texels are one 16-byte load.
 struct TexturePyramid {
     int width = 0, height = 0, levels = 0;
     WrapMode wrap_s = WrapMode::repeat, wrap_t = WrapMode::repeat;
@@ -30,7 +30,7 @@ struct TexturePyramid {
     Column<std::uint16_t> texels; // 4 halves per texel
 };
 
-// Makes a pyramid. Each level is a box filter of level 0 with exact footprints, also for sides that are not powers of two.
+// Makes a pyramid. Each level is level 0, box-filtered with exact footprints, also for sides that are not powers of two.
 TexturePyramid make_texture_pyramid(const Image& image, const Texture& sampler, TextureEncoding encoding);
 
 // Makes a pyramid from given levels. row: writes the texels in a row of a level, 4 floats each, as they are stored.

@@ -1,5 +1,5 @@
-// Levels with two lobes per texel. Crossing grain below a texel makes a cross of highlights, which one ellipse cannot show. Frames draw
-// one lobe; these pairs measure the gain of two.
+// Levels with two lobes per texel. Crossing grain below a texel makes crossed highlights, which one ellipse cannot show. Frames draw one
+// lobe; these pairs measure the gain from two.
 #pragma once
 #include <vector>
 

@@ -1,4 +1,4 @@
-// Input of a training step: tiles of materials, mirrored at random, and pairs of directions to light and eye.
+// Input for a training step: material tiles, mirrored at random, and direction pairs (to light, to eye).
 #pragma once
 #include <cstdint>
 #include <vector>
@@ -13,7 +13,7 @@ struct Batch { // a shard, in the layout of StepWork
     std::vector<float> texels, tiles, pairs;
 };
 
-// Returns the index of texel (x, y) in tile `tile` in a plane of level 0.
+// Returns texel (x, y)'s index in a plane of level 0, for tile `tile`.
 std::size_t place_in_shard(int x, int y, int tile);
 
 inline constexpr double kUsualMirrored = 0.6;

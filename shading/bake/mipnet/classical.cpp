@@ -59,7 +59,7 @@ struct Part { // a texel in a footprint
     double weight; // weights sum to 1
 };
 
-// Returns the texels of `from` under texel `at` of `to` along an axis, with their shares.
+// Returns the `from` texels under `to`'s texel `at` along an axis, with their shares.
 std::vector<Part> parts_of(int from, int to, int at)
 {
     const double scale = static_cast<double>(from) / to, begin = at * scale, end = begin + scale;

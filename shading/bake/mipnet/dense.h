@@ -1,4 +1,4 @@
-// Dense layers over blocks of texels: rows of kRow numbers, whose first kBlock belong to a block's texels.
+// Dense layers over texel blocks: rows of kRow numbers, whose first kBlock belong to a block's texels.
 #pragma once
 #include "shading/bake/mipnet/autodiff.h"
 #include "shading/bake/mipnet/mipnet_fns.h"
@@ -20,7 +20,7 @@ BN_FN std::size_t in_block(std::size_t texels, std::size_t block) // number of t
 
 enum class After { nothing, leak };
 
-// Computes kOut rows of y = W x + bias for kVectors vectors of texels.
+// Computes kOut rows of y = W x + bias for kVectors texel vectors.
 template <int kOut, int kVectors, After after>
 BN_FN void dense_rows(const number* w, const number* bias, const number* x, int in, number* y)
 {

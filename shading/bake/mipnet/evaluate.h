@@ -12,9 +12,8 @@ namespace burnish::mipnet {
 
 inline constexpr int kJudgedLevels = 5; // levels 1 to 5, with FLIP for at least 16 texels a side
 
-// Returns the mean L1 over levels 1 to 5, under 24 pairs for each tile of 32 x 32 texels. The pairs differ from those of judge(), so that
-// judge() can test a choice made by these errors. pyramids: of one square level 0, whose side is a multiple of 32. metal: see
-// compare_on().
+// Returns the mean L1 over levels 1 to 5, under 24 pairs for each 32 x 32 texel tile. The pairs differ from judge()'s, so that judge() can
+// test a choice made by these errors. pyramids: of one square level 0, whose side is a multiple of 32. metal: see compare_on().
 std::vector<double> mean_l1(const std::vector<std::vector<Texels>>& pyramids, Lobe lobe, bool metal, const Jobs& jobs);
 
 struct Judged {

@@ -9,7 +9,7 @@ namespace burnish::mipnet {
 Texels sample_of(int width, int height, const std::function<void(int x, int y, float* texel)>& texel)
 {
     constexpr int kTilesAcross = kSampleSide / kTileSide;
-    // Returns the first texel of a tile in the i-th part of a side. With several tiles it is a multiple of 32, so that footprints agree
+    // Returns the first texel of a tile in the i-th part along a side. With several tiles it is a multiple of 32, so that footprints agree
     // with the material's.
     const auto begin = [](int i, int side, Random& random) {
         const int tiles = side / kTileSide, low = i * tiles / kTilesAcross, high = (i + 1) * tiles / kTilesAcross;

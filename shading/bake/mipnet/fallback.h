@@ -12,8 +12,8 @@ inline constexpr double kMostOfBaseline = 1.15; // largest L1, relative to basel
 inline constexpr int kSampleSide = 128;         // texels, for 4 x 4 tiles of 32
 
 // Samples level 0: tiles side by side, one from each of 4 x 4 parts, at fixed random places. Tiles repeat if there are fewer. Levels up to
-// 5 depend on a tile's texels alone. So levels 1 to 5 of the sample are texels of the material's levels, if its sides are multiples of 32.
-// texel: reads kChannels numbers of level 0.
+// 5 depend on a tile's texels alone. So the sample's levels 1 to 5 are texels from the material's levels, if its sides are multiples of
+// 32. texel: reads kChannels numbers at level 0.
 Texels sample_of(int width, int height, const std::function<void(int x, int y, float* texel)>& texel);
 
 struct Comparison { // mean_l1() in evaluate.h

@@ -62,7 +62,7 @@ double noise_of_cells(std::uint64_t salt, int side, double x, double y, double c
     return noise(salt, x * px / side, y * py / side, px, py);
 }
 
-// Distances to the nearest and second nearest of points scattered one per cell, in cells. which: index of the nearest.
+// Distances to the nearest and second nearest point, with points scattered one per cell, in cells. which: the nearest one's index.
 struct Nearest {
     double first = 9.0, second = 9.0, dx = 0.0, dy = 0.0;
     std::uint64_t which = 0;

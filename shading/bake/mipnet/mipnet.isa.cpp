@@ -41,7 +41,7 @@ std::size_t block_size(const Dense& d, int layer)
     return static_cast<std::size_t>(d.width[layer]) * kRow;
 }
 
-// Inputs for a level's texels: planes of finer levels and of net `a`'s results. `first` is null while net `a` itself runs.
+// Inputs for a level's texels: planes with finer levels and with net `a`'s results. `first` is null while net `a` itself runs.
 struct Sources {
     const number *children, *grandchildren, *great, *first;
     std::size_t n;
@@ -87,7 +87,7 @@ __attribute__((noinline)) closed_form<real> look_here(const Plan& plan, const nu
     return look(plan.layout, gathered<real>(s, i, k0, k1, [](real v) { return v; }), features);
 }
 
-// Computes the texels of block `block`. Activations go to block `kept` of the memory.
+// Computes the texels in block `block`. Activations go to the memory's block `kept`.
 void forward_block(const Plan& plan, const number* weights, const Dense& d, const Sources& s, std::size_t block, std::size_t kept,
                    const NetMemory& m, number* out)
 {
@@ -329,7 +329,7 @@ template <int lobe> __attribute__((noinline)) void make_loss(const net::StepWork
     }
 }
 
-// Propagates adjoints through a net's layers. m.ping holds adjoints of the outputs. Returns adjoints of the features, block by block.
+// Propagates adjoints through a net's layers. m.ping holds the outputs' adjoints. Returns the features' adjoints, block by block.
 const number* backward_layers(const net::StepWork& work, StepMemory& m, const Dense& d, const NetMemory& kept, std::size_t n)
 {
     const auto* turned = static_cast<const number*>(work.turned);
@@ -357,7 +357,7 @@ const number* backward_layers(const net::StepWork& work, StepMemory& m, const De
     return dy;
 }
 
-// Writes adjoints of a net's outputs to m.ping, from adjoints of the net's texels.
+// Writes the adjoints of a net's outputs to m.ping, from its texels' adjoints.
 __attribute__((noinline)) void backward_outputs(const net::StepWork& work, StepMemory& m, const Dense& d, const NetMemory& kept,
                                                 const Sources& s, const number* adjoint)
 {
@@ -390,7 +390,7 @@ struct Adjoints { // planes of the texels that a net saw; null: not needed
     number *children, *grandchildren = nullptr, *great = nullptr, *first = nullptr;
 };
 
-// Propagates adjoints of a net's features and of its texels to the texels that it saw, and to kappa.
+// Propagates adjoints from a net's features and result to the texels that it saw, and to kappa.
 __attribute__((noinline)) void backward_sources(const net::StepWork& work, StepMemory& m, const Dense& d, const NetMemory& kept,
                                                 const Sources& s, const number* adjoint, const number* features, const Adjoints& below)
 {

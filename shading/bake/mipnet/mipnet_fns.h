@@ -1,9 +1,9 @@
-// Lane code of mipmap nets. Texels are in the lanes. Sums over inputs run in order, and sums over texels have sixteen parts, so the
-// bits depend neither on the lane width nor on the split of work. Interfaces use plain pointers.
+// Lane code for mipmap nets. Texels are in the lanes. Sums over inputs run in order, and sums over texels have sixteen parts, so the
+// bits depend neither on the lane width nor on how work is split. Interfaces use plain pointers.
 //
-// Numbers are floats, or doubles in the tests' oracle. Texels have five channels, stored as planes: nx, ny (of the unit normal), a, b, c
-// (of the tensor, see tensor.h). If a level has n texels, texel j n + i of the next finer level is the j-th of four under texel i: j = 0
-// to 3 advance along x first. All n are multiples of kSlots.
+// Numbers are floats, or doubles in the tests' oracle. Texels have five channels, stored as planes: nx, ny (unit normal), a, b, c (tensor,
+// see tensor.h). If a level has n texels, texel j n + i in the next finer level is the j-th of four under texel i: j = 0 to 3 advance
+// along x first. All n are multiples of kSlots.
 #pragma once
 #include <cstddef>
 #include <cstdint>

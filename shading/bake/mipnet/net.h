@@ -1,4 +1,4 @@
-// The two nets of a cascade as one list of numbers. H_A makes a texel from four. H_B uses sixteen, the four and H_A's result.
+// A cascade's two nets as one list of numbers. H_A makes a texel from four. H_B uses sixteen, the four and H_A's result.
 #pragma once
 #include <cstdint>
 #include <string>

@@ -51,7 +51,7 @@ struct NetLevel {                      // an unfinished level
     Texels* to;
 };
 
-// Gathers the inputs for texels first... of a level, `count` of them. Repeats the last one up to `padded`.
+// Gathers inputs for `count` texels in a level, from `first` on. Repeats the last one up to `padded`.
 void gather(const NetLevel& l, std::size_t first, std::size_t count, std::size_t padded, float* children, float* grandchildren,
             float* great)
 {

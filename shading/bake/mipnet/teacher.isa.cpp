@@ -12,7 +12,7 @@ namespace net = burnish::mipnet;
 constexpr std::size_t kLane = static_cast<std::size_t>(kLanes), kSlotCount = net::kSlots, kPlanes = net::kChannels;
 constexpr float kFitRate = 0.08f, kFirstDecay = 0.9f, kSecondDecay = 0.99f;
 
-// Reads the lights of the pairs from `at` on, or of pair `at` in all lanes.
+// Reads the lights for the pairs from `at` on, or for pair `at` in all lanes.
 template <class Read> BN_FN light light_at(Read read)
 {
     return {vec3_of(read(0), read(1), read(2)),
@@ -71,7 +71,7 @@ BN_FN light light_of_pair(const net::FitWork& w, int p)
     return light_at([&](std::size_t k) { return all_lanes(w.rows[k * static_cast<std::size_t>(w.pairs) + static_cast<std::size_t>(p)]); });
 }
 
-// Returns the radiance of a pair: the lobe's x plus the radiance of other lobes.
+// Returns a pair's radiance: the lobe's x plus other lobes' radiance.
 template <class V> BN_FN V beside(const net::FitWork& w, const V& x, int p, std::size_t slot)
 {
     return w.rest ? x * all_lanes(w.share) + get(w.rest + static_cast<std::size_t>(p) * kSlotCount + slot) : x;
@@ -118,8 +118,8 @@ __attribute__((noinline)) void fit_slope(const net::FitWork& w, std::size_t slot
     }
 }
 
-// Runs Adam (Kingma, Ba 2015) on the normal in units of the lobe's mean width, on the logarithms of a and b, and on c / sqrt(a b). The
-// rate falls to 0.
+// Runs Adam (Kingma, Ba 2015) on the normal in units of the lobe's mean width, on log a and log b, and on c / sqrt(a b). The rate falls to
+// 0.
 template <int lobe> __attribute__((noinline)) texel<real> moved(const net::FitWork& w, std::size_t slot, const texel<real>& from)
 {
     texel<real> t = from;

@@ -31,7 +31,7 @@ Widths widths_of(const Tensor& tensor); // alpha_along >= alpha_across
 // finite becomes upright, with the largest width.
 void make_valid(Texels& texels);
 
-// Applies one of the eight symmetries of a square: bits 1 and 2 mirror x and y, bit 4 exchanges them, before the mirrors.
+// Applies one of a square's eight symmetries: bits 1 and 2 mirror x and y, bit 4 exchanges them, before the mirrors.
 Texels mirrored(const Texels& texels, int symmetry);
 
 // Returns a hash of the channels' bytes that is equal for all eight symmetries. Materials with equal hashes have one source.

@@ -1,7 +1,6 @@
 // Bakes the DFG table by quadrature: GGX with height-correlated Smith masking-shadowing, visible normals sampled on a regular grid.
 // Visible normals: Heitz 2018, "Sampling the GGX distribution of visible normals"; as a spherical cap: Dupuy, Benyoub 2023. With visible
 // normals the integrand is F * G2/G1, smooth and below 1, so a midpoint rule converges fast.
-// midpoint rule converges fast.
 #include <algorithm>
 #include <cmath>
 #include <vector>

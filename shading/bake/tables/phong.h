@@ -19,9 +19,9 @@ struct PhongHalfVector {
 // for bit if the difference is exact.
 PhongHalfVector phong_half_vector(double nu, double nv, double xi_x, double xi_y);
 
-// Returns point i of n in one of four sets. Together the sets form a lattice of 4 n points on the disc spanned by azimuth and root of y.
+// Returns point i of n in one of four sets. Together the sets form a lattice with 4 n points on the disc that azimuth and root of y span.
 // The lattice has rows with equal areas across the lobe's wide axis, one point each. The golden ratio moves the point along its row. So a
-// long lobe has a sample at every 4 n-th of its length. Each set owns every fourth row. Both coordinates are multiples of 1 /
+// long lobe has a sample at every 4 n-th part along its length. Each set owns every fourth row. Both coordinates are multiples of 1 /
 // phong_grid(n). A single point is (0, 0).
 inline constexpr int kPhongSets = 4;
 struct PhongPoint {
