@@ -340,8 +340,8 @@ BN_STAGE void choose_facets(const ReferenceParams& f, const MaterialRecord& m, c
         words.x = select(beyond, next.x, words.x), words.y = select(beyond, next.y, words.y);
         words.spread = select(beyond, next.spread, words.spread);
         below = below + next.weight;
-        // Rebuild the surface point for the chosen lanes
     }
+    // Rebuild the surface point for the chosen lanes
     material_inputs facet = facet_inputs(m, at, words);
     const lobe_shape own = lobe_shape_of(f, m, at), wide = facet_shape(facet, words);
     const lobe_shape shape = {select(chosen, wide.sigma_u, own.sigma_u), select(chosen, wide.sigma_v, own.sigma_v),
