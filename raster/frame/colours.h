@@ -1,4 +1,4 @@
-// Levels of base colours and metalness that are no plain means: weighted by how much of each texel is seen and lit, or sharper.
+// Mip levels of base colours and metalness that are not plain means: weighted by each texel's visibility and lighting, or sharpened.
 #pragma once
 #include <string>
 #include <vector>
@@ -12,18 +12,18 @@
 
 namespace burnish {
 
-// A map's channels from `first` on as linear floats, times a factor each, at the points of a grid.
+// Resamples map channels from `first` on to the points of a grid, as linear floats. Multiplies each channel by its factor.
 Image linear_map(const Image& image, const Grid& grid, bool srgb, std::size_t first, int channels, const float* factor);
 
-// (n.v)(n.l) of a texel that is seen and lit from above its surface, one channel.
+// Returns (n.v)(n.l) per texel, seen and lit from above the surface. One channel.
 Image facing_of(const MipSource& source, const Jobs& jobs);
 
-// Whether colours of a texture of the material are weighted by its normals: it wants that, and they lie alike.
+// Returns true if normals weight the colours of this material's texture: the material asks for it and both textures have the same layout.
 bool is_coupled(const Scene& scene, const Material& material, const TextureRef& colours);
-// Where base colours are not, though the material wants it, why; else empty.
+// Returns the reason why base colours are not coupled to normals though the material asks for it. Empty if there is none.
 std::string why_uncoupled(const Scene& scene, const Material& material);
 
-// Maps of a material whose levels are means, and by what they are made.
+// A material map whose levels are means, and the way these levels are made.
 struct UsedMap {
     MapPart part;
     const TextureRef* ref;
@@ -31,15 +31,15 @@ struct UsedMap {
     bool coupled;
 };
 std::vector<UsedMap> used_maps(const Scene& scene, const Material& material);
-const char* name_of(MapPart part); // to be read
+const char* name_of(MapPart part); // for messages
 
 MapId map_id(const Scene& scene, const Material& material, const UsedMap& map, const Jobs& jobs);
 MapLevels map_levels(const Scene& scene, const Material& material, const UsedMap& map, const MapId& id, const Jobs& jobs); // id: map_id()
-MipSource normals_of(const Scene& scene, const Material& material); // of its normal map alone, on the grid of that
+MipSource normals_of(const Scene& scene, const Material& material); // from the normal map alone, on that map's grid
 const Image& map_image(const Scene& scene, const TextureRef& used);
-// Those of the image that are so made, and have its sides; null where there are none.
+// Finds the levels with this id that fit the image's sides. Null if there are none.
 const MapLevels* find_map(const std::vector<MapLevels>& maps, const MapId& id, const Image& image);
-// Those that were baked beforehand or found in the cache: null where there are none, so that they are made here.
+// Finds levels that were baked beforehand or come from the cache. Null if there are none; the caller makes them then.
 const MapLevels* given_map(const Scene& scene, const Material& material, const UsedMap& map);
 
 } // namespace burnish

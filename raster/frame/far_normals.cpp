@@ -28,7 +28,7 @@ float mean_roughness(const Scene& scene, const Material& m)
 
 KeptWeights kept_weights_of(const Scene& scene, const Material& m)
 {
-    const bool anisotropic = m.anisotropy_strength != 0.0f || m.anisotropy_tex.used(); // facets are round
+    const bool anisotropic = m.anisotropy_strength != 0.0f || m.anisotropy_tex.used(); // facets have round lobes
     if (!m.normal_tex.used() || m.heights || m.unlit || anisotropic || has_gains(m))
         return {};
     return kept_weights(normals_of(scene, m), kept_shares(mean_roughness(scene, m)));
@@ -58,7 +58,7 @@ TexturePyramid kept_pyramid(const Scene& scene, const Material& m, const Texture
 
 namespace {
 
-constexpr float kLeastLoss = 0.05f; // of light: where less is lost, one lobe a texel says well enough where it goes
+constexpr float kLeastLoss = 0.05f; // of light: below this loss, one lobe per texel is accurate enough
 
 void put_facets(const Scene& scene, const Material& m, const KeptWeights& kept, MaterialRecord& to)
 {

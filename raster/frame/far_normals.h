@@ -1,4 +1,4 @@
-// What a material's normal map is from afar: the share of light that its facets keep, and groups of these facets.
+// Normal maps from afar: the light share that their facets keep, and groups of these facets.
 #pragma once
 #include <string>
 
@@ -9,19 +9,19 @@
 
 namespace burnish {
 
-float mean_roughness(const Scene& scene, const Material& material); // from some texels of its map
+float mean_roughness(const Scene& scene, const Material& material); // estimated from up to 1024 texels of the roughness map
 
-// What the facets of its normal map keep of their light. None where heights lie in its alpha, and where gains have been measured in its
-// place.
+// Returns the shares of light that the normal map's facets keep. Empty if the map's alpha holds heights, if the material is anisotropic or
+// unlit, or if the levels have measured gains.
 KeptWeights kept_weights_of(const Scene& scene, const Material& material);
 
-// The normal map as it is, but with the share that facets keep in the alpha of its levels.
+// Makes the normal map's pyramid, with the facets' light share in its levels' alpha.
 TexturePyramid kept_pyramid(const Scene& scene, const Material& material, const Texture& sampler, TextureEncoding encoding);
 
-// Fills what materials hold of both.
+// Fills the record's facet groups and kept shares.
 void put_far_normals(const Scene& scene, const Material& material, MaterialRecord& to);
 
-// Why levels of its normal map cannot keep the light of its facets, which lose much of it: empty where they keep it.
+// Returns the reason why the normal map's levels cannot keep the facets' light though facets lose much of it. Empty if there is none.
 std::string why_dim(const Scene& scene, const Material& material);
 
 } // namespace burnish

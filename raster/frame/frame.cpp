@@ -18,7 +18,8 @@ struct Basis {
     glm::vec3 right, up, forward;
 };
 
-// Right-handed: right x up = -forward. `forward` need not be unit; a vertical one takes +Z as its up.
+// Returns a right-handed basis: right x up = -forward. `forward` need not be unit. A vertical `forward` takes +Z as its up, or -Z if it
+// points down.
 Basis look_basis(const glm::vec3& forward)
 {
     const glm::vec3 f = glm::normalize(forward);
@@ -33,11 +34,11 @@ void set_fov(View& view, float tan_half_y, int width, int height)
     view.tan_half_x = tan_half_y * static_cast<float>(width) / static_cast<float>(height);
 }
 
-// tan(fov / 2) of a few degrees to nearly 180, from the half-angle series of sine and cosine: the same bits on every machine,
-// which the C library's tan does not promise.
+// Returns tan(fov / 2) for angles from a few degrees to nearly 180. Uses the half-angle series of sine and cosine: the bits are the same
+// on every machine, which the C library's tan does not promise.
 float tan_half(float fov_rad)
 {
-    const double x = static_cast<double>(fov_rad) / 64.0; // halved six times, the angle is below 0.05
+    const double x = static_cast<double>(fov_rad) / 64.0; // after six halvings the angle is below 0.05
     const double x2 = x * x;
     double s = x * (1.0 - x2 / 6.0 * (1.0 - x2 / 20.0 * (1.0 - x2 / 42.0)));
     double c = 1.0 - x2 / 2.0 * (1.0 - x2 / 12.0 * (1.0 - x2 / 30.0 * (1.0 - x2 / 56.0)));
@@ -96,8 +97,8 @@ Result<View> make_view(const Scene& scene, int camera, int width, int height)
 
 namespace {
 
-// With the direction fixed, each side plane touches the outermost vertex. Along x, with t the tangent of the half angle and z the
-// distance along the view: x_i - t z_i <= x_e - t z_e and -x_i - t z_i <= -x_e - t z_e for an eye at (x_e, z_e).
+// Places the eye so that each side plane touches the outermost vertex. The direction is fixed. Along x, t is the tangent of the half angle
+// and z the distance along the view: x_i - t z_i <= x_e - t z_e and -x_i - t z_i <= -x_e - t z_e for an eye at (x_e, z_e).
 View framed_from(const DrawTables& tables, int width, int height, const glm::vec3& from, float fov_y_rad,
                  const std::optional<glm::vec3>& target)
 {
@@ -106,6 +107,7 @@ View framed_from(const DrawTables& tables, int width, int height, const glm::vec
     const float radius = std::max(1e-6f, 0.5f * glm::length(tables.bounds_max - tables.bounds_min));
     View view = make_view(center + from, center, fov_y_rad, width, height);
     const float tx = view.tan_half_x / kMargin, ty = view.tan_half_y / kMargin;
+    // Find the outermost vertex for each side plane
     float right = -1e30f, left = -1e30f, top = -1e30f, bottom = -1e30f, nearest = 1e30f;
     const auto touch = [&](const glm::vec3& p) {
         const glm::vec3 d = p - center;
@@ -120,8 +122,9 @@ View framed_from(const DrawTables& tables, int width, int height, const glm::vec
         for (int i = 0; i < 8; ++i)
             touch({(i & 1 ? tables.bounds_max : tables.bounds_min).x, (i & 2 ? tables.bounds_max : tables.bounds_min).y,
                    (i & 4 ? tables.bounds_max : tables.bounds_min).z});
-    if (target) // both sides at the same distance from the middle
+    if (target) // equal distances from the target to both sides
         right = left = std::max(right, left), top = bottom = std::max(top, bottom);
+    // Step back until every plane fits
     const float back = std::min({-(right + left) / (2 * tx), -(top + bottom) / (2 * ty), nearest - 0.05f * radius});
     view.eye = center + view.right * (0.5f * (right - left)) + view.up * (0.5f * (top - bottom)) + view.forward * back;
     view.znear = std::max(1e-6f, 0.5f * (nearest - back));
@@ -169,7 +172,7 @@ glm::mat4 clip_from_world(const View& v)
 
 namespace {
 
-// Whether a camera is one: axes of unit length at right angles, finite numbers, planes in order.
+// Checks that the view is a camera: finite numbers, orthonormal axes, planes in order.
 Status check_view(const View& v)
 {
     const auto usage = [](const char* field, const char* reason) {
@@ -178,7 +181,7 @@ Status check_view(const View& v)
     const auto finite = [](const glm::vec3& a) { return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z); };
     if (!finite(v.eye))
         return usage("eye", "the camera's place is not finite");
-    constexpr float kOff = 1e-3f; // of rounding, and more
+    constexpr float kOff = 1e-3f; // tolerance, above rounding errors
     for (const auto& [axis, name] : {std::pair(v.right, "right"), std::pair(v.up, "up"), std::pair(v.forward, "forward")})
         if (!(std::fabs(glm::dot(axis, axis) - 1.0f) <= kOff))
             return usage(name, "an axis of the camera has no unit length");
@@ -214,7 +217,7 @@ Status check_desc(const FrameDesc& d)
         return usage("unknown technique '" + d.technique + "'");
     if (const int most = find_technique(d.technique)->most_samples; d.samples < 1 || d.samples > most)
         return usage("samples of " + d.technique + " must lie in 1.." + std::to_string(most));
-    for (const ParameterInfo& p : parameters()) { // a float may lie just outside of a range of doubles
+    for (const ParameterInfo& p : parameters()) { // a float may lie just outside a range of doubles
         const glm::dvec2 value = parameter_of(d, p);
         if (!(std::min(value.x, value.y) >= p.least - 1e-4 && std::max(value.x, value.y) <= p.most + 1e-4))
             return usage(std::string(p.option) + " is out of its range");
@@ -240,7 +243,7 @@ const std::vector<TechniqueInfo>& techniques()
 
 namespace {
 
-const TechniqueInfo& technique_with(int trait) // that has it
+const TechniqueInfo& technique_with(int trait) // first technique with this trait
 {
     return *std::find_if(techniques().begin(), techniques().end(), [=](const TechniqueInfo& t) { return (t.traits & trait) != 0; });
 }

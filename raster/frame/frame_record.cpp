@@ -59,7 +59,7 @@ void put_parameters(const FrameDesc& d, bool tilted, FrameRecord& f)
     f.lobe = lobe_of(d, tilted), f.lobe_traits = lobe_traits_of(f.lobe);
 }
 
-// Whether normals of maps may lie otherwise than the surface's own.
+// Returns true if maps may tilt normals away from the surface normal.
 static bool has_mapped_normals(const Scene& scene, const FrameDesc& d)
 {
     return d.frame_map != kFrameOff && std::any_of(scene.materials.begin(), scene.materials.end(),
@@ -71,31 +71,36 @@ static const ltc::ShadingTables& ltc_tables(const RenderInput& input)
     return input.ltc ? *input.ltc : ltc::shipped_tables();
 }
 
+// Fills all record fields that need no baking.
 FrameRecord frame_record(const RenderInput& input, const FrameDesc& d)
 {
     FrameRecord f = {};
+    // Camera, picture size and sample pattern
     f.view = view_record(d.view);
     f.width = d.width, f.height = d.height, f.msaa = d.msaa;
     f.center_x = d.width / 2 * kSubpixel, f.center_y = d.height / 2 * kSubpixel;
     f.half_width = 0.5f * static_cast<float>(d.width), f.half_height = 0.5f * static_cast<float>(d.height);
     f.pattern = standard_samples(d.msaa);
+    // Environment: cubes and key lights
     f.specular = cube_record(input.environment.specular), f.irradiance = cube_record(input.environment.irradiance);
     f.whole = cube_record(input.environment.picture());
     f.key_light_count = static_cast<int>(input.environment.key_lights.size());
     std::transform(input.environment.key_lights.begin(), input.environment.key_lights.end(), f.key_lights, key_light_record);
     f.dfg_size = input.dfg.size, f.lobe_albedo_size = kLobeAlbedoSize;
+    // Lamps and area lights
     f.light_count = static_cast<int>(input.tables.lights.size());
     if (d.area_way != kAreaWay_off && !input.tables.area_lights.empty()) {
         f.area_light_count = static_cast<int>(input.tables.area_lights.size());
         f.ltc = ltc_tables(input).record;
     }
+    // Options of the frame
     f.layer_sample = d.layers ? central_sample(f.pattern) : -1;
     f.positions = f.light_count > 0 || f.area_light_count > 0 || d.layers;
     f.background = d.background;
     f.samples = d.samples, f.texture_taps = d.texture_anisotropy;
     f.joins_round = &technique_of(d, true) != &technique_of(d, false);
     put_parameters(d, tilts(input.scene, d), f);
-    if (!has_mapped_normals(input.scene, d)) // then nothing asks for it
+    if (!has_mapped_normals(input.scene, d)) // then nothing reads the horizon
         f.horizon = 0;
     f.override_anisotropy = d.override_anisotropy, f.anisotropy = d.anisotropy;
     return f;
@@ -121,7 +126,7 @@ void FrameMaker::bake(const FrameDesc& desc)
 
 namespace {
 
-// Whether its technique follows the light that it lets through. An index of 0 reflects everything.
+// Returns true if the material's technique follows the light that the material transmits. An index of 0 reflects all light.
 bool refracts(const MaterialRecord& m, int lobe)
 {
     return (m.technique_traits & kRefracts) && m.transmission > 0.0f && m.ior > 0.0f && !(lobe_traits_of(lobe) & kPunctualOnly);
@@ -144,8 +149,8 @@ void FrameMaker::choose_techniques(const FrameDesc& desc)
 
 namespace {
 
-// brushed_part() of a material as its factors have it. A texture of roughness makes places smoother, and so more brushed: then of a smooth
-// place. Textured or not, brushing sets in without a step as its strength grows from 0.
+// Returns brushed_part() for the material's factors. A roughness texture makes some places smoother, and so more brushed; a textured
+// material counts as smooth. With or without a texture, brushing fades in continuously as its strength grows from 0.
 float brushed_by_factors(const ShadingFrame& f, const MaterialRecord& material)
 {
     constexpr float kSmooth = 0.3f;
@@ -158,7 +163,7 @@ float brushed_by_factors(const ShadingFrame& f, const MaterialRecord& material)
 
 } // namespace
 
-// The first pair of the table of a lobe's albedo, which is made where there is none yet.
+// Returns the first pair of a lobe's albedo table. Bakes the table on the first request.
 int FrameMaker::slice_of(float sigma_u, float sigma_v, bool phong)
 {
     const SlicedLobe wanted = {sigma_u, sigma_v, phong};
@@ -180,7 +185,8 @@ int FrameMaker::slice_of(float sigma_u, float sigma_v, bool phong)
     return first;
 }
 
-// The first of the grid's samples that are the lobe's half vectors, which are added where there are none yet; -1 where the grid is full.
+// Returns the index of the lobe's first half vector in the grid. Adds the lobe's half vectors on the first request. Returns -1 if the grid
+// is full.
 int FrameMaker::set_of(float sigma_u, float sigma_v, int samples)
 {
     const auto known = std::find(sets_.begin(), sets_.end(), std::pair(sigma_u, sigma_v));
@@ -199,7 +205,7 @@ int FrameMaker::set_of(float sigma_u, float sigma_v, int samples)
 
 namespace {
 
-// Whether the frame's lobes are Ashikhmin and Shirley's, and scaled by their own albedo, whatever the technique.
+// Returns true if the frame's lobes are Ashikhmin-Shirley lobes with energy compensation, for any technique.
 bool compensates_phong(const FrameDesc& desc, const Scene& scene)
 {
     return desc.energy_compensation && (lobe_traits_of(lobe_of(desc, tilts(scene, desc))) & kLobeOfPhong);
@@ -207,7 +213,7 @@ bool compensates_phong(const FrameDesc& desc, const Scene& scene)
 
 } // namespace
 
-// Of every material whose lobe has the same two widths everywhere.
+// Bakes albedo tables and half vectors for materials whose lobe has the same widths everywhere.
 void FrameMaker::slice_albedo(const FrameDesc& desc)
 {
     ShadingFrame f = {};
@@ -260,6 +266,7 @@ ShadingFrame FrameMaker::make(const FrameDesc& desc)
     slice_albedo(desc);
     ShadingFrame f = {};
     static_cast<FrameRecord&>(f) = frame_record(input_, desc);
+    // Project pixel centres to the view plane
     const view_params view = view_params_of(f.view);
     screen_x_.resize(static_cast<std::size_t>(desc.width)), screen_y_.resize(static_cast<std::size_t>(desc.height));
     for (int x = 0; x < desc.width; ++x)
@@ -267,6 +274,7 @@ ShadingFrame FrameMaker::make(const FrameDesc& desc)
     for (int y = 0; y < desc.height; ++y)
         screen_y_[static_cast<std::size_t>(y)] = screen_y(static_cast<float>(y) + 0.5f, f.half_height, view.inv_tan_y);
     f.screen_x = screen_x_.data(), f.screen_y = screen_y_.data();
+    // Point the frame at the scene's tables
     const DrawTables& t = input_.tables;
     f.px = t.px.data(), f.py = t.py.data(), f.pz = t.pz.data();
     f.shading_vertices = reinterpret_cast<const float*>(t.shading.data());
@@ -274,6 +282,7 @@ ShadingFrame FrameMaker::make(const FrameDesc& desc)
     f.materials = materials_.data(), f.textures = scene_.textures.data(), f.lights = scene_.lights.data();
     f.light_columns = scene_.light_columns.data(), f.light_stride = scene_.light_stride;
     f.area_lights = scene_.area_lights.data(), f.ltc_texels = ltc_texels().data();
+    // Point the frame at the environment and the albedo tables
     f.specular_texels = input_.environment.specular.texels.data(), f.irradiance_texels = input_.environment.irradiance.texels.data();
     f.whole_texels = input_.environment.picture().texels.data();
     f.dfg_pairs = input_.dfg.pairs.data();

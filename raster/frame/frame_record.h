@@ -1,4 +1,4 @@
-// The one place where a FrameDesc becomes what shading reads of it: the record, its tables, and what is baked when a frame first asks.
+// Turns a FrameDesc into the data that shading reads: the record, its tables, and data baked when a frame first needs it.
 #pragma once
 #include <map>
 #include <tuple>
@@ -12,29 +12,29 @@
 namespace burnish {
 
 ViewRecord view_record(const View& view);
-CubeRecord cube_record(const CubeMap& cube); // without texels: no levels
+CubeRecord cube_record(const CubeMap& cube); // a cube without texels has no levels
 
-// Those of shading/models.def, and the lobe that they choose. tilted: see tilts().
+// Writes the parameters in shading/models.def and the lobe that they choose. tilted: see tilts().
 void put_parameters(const FrameDesc& desc, bool tilted, FrameRecord& to);
 
-// All of the record but what a frame's technique is the first to ask for: box cube, grid and table of lobes' albedo.
+// Fills a record, except for data baked on a technique's first request: box cube, sample grid, lobe albedo table.
 FrameRecord frame_record(const RenderInput& input, const FrameDesc& desc);
 
 class FrameMaker {
   public:
-    explicit FrameMaker(const RenderInput& input); // its references must outlive the maker
+    explicit FrameMaker(const RenderInput& input); // the references must outlive the maker
 
-    // check_frame(), and whether tables from files are of the lobes that would take them.
+    // Runs check_frame(), and checks that tables from files fit the frame's lobes.
     Status check(const FrameDesc& desc) const;
-    // desc: one that check() lets pass. What the frame points at stays until the next call.
+    // Makes the frame. check() must have accepted desc. The frame's pointers stay valid until the next call.
     ShadingFrame make(const FrameDesc& desc);
 
     const SceneTables& scene() const { return scene_; }
-    const std::vector<MaterialRecord>& materials() const { return materials_; } // of the frame made last
+    const std::vector<MaterialRecord>& materials() const { return materials_; } // of the last frame
     const std::vector<GridSample>& grid() const { return grid_; }
     const CubeMap& box_cube() const { return box_cube_; }
-    const std::vector<std::uint16_t>& ltc_texels() const;             // empty where the scene has no area lights
-    const Column<float>& lobe_slices() const { return lobe_slices_; } // of all frames so far
+    const std::vector<std::uint16_t>& ltc_texels() const;             // empty if the scene has no area lights
+    const Column<float>& lobe_slices() const { return lobe_slices_; } // for all frames so far
 
   private:
     void bake(const FrameDesc& desc);
@@ -46,14 +46,14 @@ class FrameMaker {
     RenderInput input_;
     SceneTables scene_;
     std::vector<MaterialRecord> materials_;
-    CubeMap box_cube_;                                 // made when a technique first asks for it
-    using SlicedLobe = std::tuple<float, float, bool>; // deviations of slope; whether it is an Ashikhmin-Shirley lobe
-    std::map<SlicedLobe, int> sliced_;                 // the first pair of each in lobe_slices_
+    CubeMap box_cube_;                                 // made when a technique first needs it
+    using SlicedLobe = std::tuple<float, float, bool>; // standard deviations of slope; true for an Ashikhmin-Shirley lobe
+    std::map<SlicedLobe, int> sliced_;                 // each lobe's first pair in lobe_slices_
     Column<float> lobe_slices_;
     Column<float> screen_x_, screen_y_;
-    std::vector<GridSample> grid_;              // and lobes' sets of half vectors
-    int grid_count_ = 0;                        // samples of a fragment
-    std::vector<std::pair<float, float>> sets_; // deviations of slope of the lobes whose half vectors follow in the grid
+    std::vector<GridSample> grid_;              // followed by the lobes' sets of half vectors
+    int grid_count_ = 0;                        // samples per fragment
+    std::vector<std::pair<float, float>> sets_; // standard deviations of slope for the lobes whose half vectors follow in grid_
 };
 
 } // namespace burnish

@@ -11,15 +11,15 @@ namespace burnish {
 
 namespace {
 
-GridSample ggx_sample(double azimuth, double v) // v: of the distribution of slopes, which is that of D h.z
+GridSample ggx_sample(double azimuth, double v) // v: cumulative share of the slope distribution, the distribution of D h.z
 {
     const double r2 = v / (1.0 - v), r = std::sqrt(r2);
     const double density = 1.0 / (kPi * (1.0 + r2) * (1.0 + r2));
     return {static_cast<float>(r * det_cos(azimuth)), static_cast<float>(r * det_sin(azimuth)), static_cast<float>(density)};
 }
 
-// Rings of equally many samples, in opposite pairs: an axis that turns to its opposite, as one does somewhere on every round thing, changes
-// nothing. So an odd number is one in the middle and n - 1 rings of n + 1.
+// Returns rings with equally many samples, in opposite pairs. An axis field on a closed surface flips somewhere to the opposite axis; with
+// such pairs the flip changes nothing. An odd n gives one central sample and n - 1 rings of n + 1 samples.
 std::vector<GridSample> ggx_grid(int n)
 {
     const bool middle = n % 2 == 1;
@@ -34,7 +34,7 @@ std::vector<GridSample> ggx_grid(int n)
     return grid;
 }
 
-// kPhongBlock samples: 16 floats, of value c of set k at 4 c + k.
+// Appends kPhongBlock samples, which are 16 floats: value c of set k lies at 4 c + k.
 template <class Values> void add_block(Values of_set, std::vector<GridSample>& to)
 {
     float values[3 * kPhongBlock] = {};

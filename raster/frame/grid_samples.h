@@ -1,4 +1,4 @@
-// The samples that a technique's frame brings: n x n of filtered importance sampling, or a lattice for as_mc.
+// Sample grids for techniques: n x n samples for filtered importance sampling, or a lattice for as_mc.
 #pragma once
 #include <vector>
 
@@ -8,14 +8,15 @@
 
 namespace burnish {
 
-// traits: of the technique. n = floor(sqrt(samples)): Gaussian slopes (Beckmann) or GGX; of kPhongGrid a block of kPhongBlock a
-// sample, which holds it of four sets; one sample is the normal. None where a technique brings none.
+// Returns the technique's grid. traits: the technique's. n = floor(sqrt(samples)). Slopes are Gaussian (Beckmann) or follow GGX. Under
+// kPhongGrid each sample is a block of kPhongBlock values, which holds four sets. A single sample is the normal. Empty if the technique
+// needs no grid.
 std::vector<GridSample> grid_samples(int samples, Sampling sampling, int traits);
 
-// How many of them a fragment takes.
+// Returns the number of samples that a fragment takes.
 int grid_count(const std::vector<GridSample>& grid, int traits);
 
-// A block a sample, as as_mc.t.h has them: half vectors of four sets, and half the logarithm to base 2 of their density.
+// Appends one block per sample in the layout of as_mc.t.h: half vectors for four sets, and half the base 2 logarithm of their density.
 void add_half_vectors(const std::vector<PhongHalfVector>& half_vectors, std::vector<GridSample>& to);
 
 } // namespace burnish

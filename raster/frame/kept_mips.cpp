@@ -19,7 +19,7 @@
 namespace burnish {
 namespace {
 
-constexpr std::uint32_t kKeptVersion = 4; // of what makes levels: raised where the same maps give others
+constexpr std::uint32_t kKeptVersion = 4; // version of the makers: raise it when the same maps give other levels
 constexpr std::uint64_t kMostKeptBytes = 4ull << 30;
 
 std::string kept_path(const std::string& folder, const void* of, std::size_t size)
@@ -64,7 +64,7 @@ Status write_kept(const std::string& path, const MipParts& levels)
 {
     const std::string folder = std::filesystem::path(path).parent_path().string();
     std::error_code failed;
-    std::filesystem::create_directories(folder, failed); // writing says what is wrong
+    std::filesystem::create_directories(folder, failed); // write_mip_file() reports errors
     const Status written = write_mip_file(path, levels, Links::refuse);
     prune_cache(folder, cache_limit(), path);
     return written;

@@ -1,13 +1,13 @@
-// Levels of nets and of searches, and of colours that are no plain means, on disk, found by what they are made of: they take seconds to
-// minutes to make.
+// Disk cache for slow mip levels (seconds to minutes): from nets and optimisers, weighted or sharpened colours. Keys are hashes of the
+// inputs.
 #pragma once
 #include "core/jobs/jobs.h"
 #include "core/scene/scene.h"
 
 namespace burnish {
 
-// Makes scene.kept_mips of materials whose filter takes_net(), and of coupled or sharper colours, or finds them in the cache
-// (core/base/cache.h). A file there that is damaged, or of anything else, is made anew; a cache that cannot be written is a warning.
+// Fills scene.kept_mips for materials whose filter takes_net() and for coupled or sharpened colours. Reads levels from the cache
+// (core/base/cache.h) or makes them. A damaged or foreign cache file is made anew. A cache that cannot be written gives a warning.
 void keep_mips(Scene& scene, const Jobs& jobs);
 
 } // namespace burnish

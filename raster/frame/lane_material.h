@@ -1,4 +1,4 @@
-// The material at kLanes visible points: compiled once, called once a batch.
+// Fetches the material at kLanes visible points. Compiled once, called once per batch.
 #pragma once
 #include "shading/surface/material.t.h"
 

@@ -34,7 +34,7 @@ float object_of(const DrawTables& tables, std::uint32_t triangle)
     return static_cast<float>((after - 1)->node + 1);
 }
 
-// The layer of every pixel to channels [first, ...) of the image.
+// Writes a layer to channels [first, ...) of the image, for every pixel.
 void put_layer(const LayerInfo& layer, const Frame& frame, const DrawTables& tables, std::size_t first, Image& to)
 {
     const std::size_t pixels = static_cast<std::size_t>(to.width) * static_cast<std::size_t>(to.height),

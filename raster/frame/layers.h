@@ -1,4 +1,4 @@
-// Layers of a picture as channels of a file: what `--aov` names.
+// A picture's layers as channels in a file, named by `--aov`.
 #pragma once
 #include <string>
 #include <vector>
@@ -9,21 +9,21 @@ namespace burnish {
 
 struct LayerInfo {
     std::string name;                  // "object-id"
-    std::vector<std::string> channels; // of an OpenEXR file
-    int first_word;                    // of PixelLayers; -1: numbers of the scene, which follow from the triangle
+    std::vector<std::string> channels; // in an OpenEXR file
+    int first_word;                    // in PixelLayers; -1: scene numbers, which follow from the triangle
 };
-// Those of shading/layers.def, then object-id (1 + the node's place in the scene) and material-id (1 + the material's).
+// Lists the layers in shading/layers.def, then object-id (1 + the node's index in the scene) and material-id (1 + the material's index).
 const std::vector<LayerInfo>& layers();
 
-// What a frame has to be drawn with.
+// Sets the description's flags so that a frame has the data for these layers.
 void ask_for_layers(const std::vector<std::string>& names, FrameDesc& desc);
 
 struct NamedChannels {
     Image image; // f32, a channel a name
     std::vector<std::string> names;
 };
-// The picture's own channels (R, G, B and A, where it has that) and those of the layers. Where nothing is seen depth is infinite and all
-// else 0. frame: drawn as ask_for_layers() says, of these tables.
+// Returns the picture's channels (R, G, B, and A if present) and those of the layers. Empty pixels have infinite depth and 0 in other
+// layers. frame: drawn from these tables with a description from ask_for_layers().
 NamedChannels with_layers(const Image& color, const Frame& frame, const DrawTables& tables, const std::vector<std::string>& names);
 
 } // namespace burnish

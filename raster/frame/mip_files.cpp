@@ -34,7 +34,7 @@ Result<std::shared_ptr<const mipnet::Weights>> net_of(const Dress& with, const L
     using Net = std::shared_ptr<const mipnet::Weights>;
     const mipnet::Lobe lobe = lobe_of_model(with.mip_brdf);
     if (with.mip_net.empty())
-        return Net(Net(), mipnet::shipped_weights(lobe)); // which is never freed
+        return Net(Net(), mipnet::shipped_weights(lobe)); // a static object, never freed
     const Result<std::vector<std::uint8_t>> bytes = read_file(with.mip_net, limits.file_bytes);
     BN_TRY(bytes);
     Result<mipnet::Weights> read = mipnet::parse_weights(bytes->data(), bytes->size(), with.mip_net);

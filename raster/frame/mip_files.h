@@ -1,4 +1,4 @@
-// What mip filters need besides maps: levels of `burnish bake mip` that a scene brings along, nets, and what they leave alone.
+// Inputs of mip filters besides maps: levels from `burnish bake mip` and nets. Warnings for maps that a filter leaves alone.
 #pragma once
 #include <string>
 
@@ -10,21 +10,21 @@
 
 namespace burnish {
 
-mipnet::Lobe lobe_of_model(int brdf); // of the nets there are, the nearest to a model's
+mipnet::Lobe lobe_of_model(int brdf); // returns the nets' lobe that is nearest to the model's
 
-void warn_of_unfiltered(Scene& scene); // a line for each material that its filter makes nothing of, with the reason
+void warn_of_unfiltered(Scene& scene); // adds a warning with the reason for each material that its filter cannot handle
 
-// Gives materials their nets, of with.mip_net or the program's. Of filter mipnet, unless with.mip_fallback is off, those for which it is
-// worse than it may be (mipnet::Comparison) get filter kappa or baseline in place of it, whichever is nearer to the truth, and a warning
-// says so.
+// Gives materials the net at with.mip_net, or the built-in net. Compares filter mipnet with others on each material, unless
+// with.mip_fallback is off. Where the net's error is too large (mipnet::Comparison), the material gets filter kappa or baseline, whichever
+// has the smaller error, and the scene a warning.
 Status settle_nets(Scene& scene, const Dress& with, const Limits& limits);
 
-// Reads with.mip_pyramid to scene.mips. Where no filter was asked for, it is the file's.
+// Reads with.mip_pyramid into scene.mips. If no filter was chosen, takes the file's filter.
 Status read_mips(Scene& scene, Dress& with, const Limits& limits);
-// Materials take the filters that the levels of their maps are by, and colours what they are averaged and weighted by.
+// Sets each material's filter, colour kernel and colour coupling to those of the file's levels for its maps.
 void take_filters_of_mips(Scene& scene);
-// Whether the file has levels of everything that filters of the scene would make levels of, and of these materials' base colours, metalness
-// and heights.
+// Checks that the file has levels for all maps that the scene's filters handle, and for these materials' base colours, metalness and
+// heights.
 Status check_mips(const Scene& scene, const std::string& path);
 
 } // namespace burnish

@@ -1,4 +1,4 @@
-// What a renderer measured about one frame, where FrameDesc::profile asked for it. Times are summed over the threads.
+// Measurements of one frame, taken if FrameDesc::profile is set. Times are sums over threads.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -8,21 +8,21 @@
 
 namespace burnish {
 
-struct LaneUse { // of a kernel that works on kLanes things at once
+struct LaneUse { // lane use of a kernel that works on kLanes items at once
     std::uint64_t used = 0, all = 0;
 };
 
 struct KernelProfile { // shading of one material
     std::uint64_t ns = 0;
-    LaneUse lanes; // used: fragments shaded
+    LaneUse lanes; // used: shaded fragments
 };
 
 struct FrameProfile {
     std::uint64_t wall_ns = 0;
     std::array<std::uint64_t, kFrameStages> stage_ns = {};
-    std::array<LaneUse, kFrameStages> stage_lanes = {}; // of transform, setup and background
-    std::vector<KernelProfile> materials;               // by material of the scene
-    std::vector<std::uint64_t> busy_ns;                 // by thread; the rest of wall_ns it waited. Empty: nothing was measured
+    std::array<LaneUse, kFrameStages> stage_lanes = {}; // for transform, setup and background
+    std::vector<KernelProfile> materials;               // by scene material
+    std::vector<std::uint64_t> busy_ns;                 // by thread; the rest of wall_ns is waiting. Empty: not measured
     std::vector<std::uint64_t> tile_ns;                 // by tile, row by row
 };
 

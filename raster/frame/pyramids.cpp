@@ -32,7 +32,7 @@ constexpr TextureUse kTextureUses[kTextureSlots] = {
 #include "core/scene/material.def"
 };
 
-// Of two that are used: why a point of one is not the same point of the other, or empty.
+// Returns the reason why two used textures do not place the same texel at the same point. Empty if they do.
 const char* what_differs(const Scene& scene, const TextureRef& a, const TextureRef& b)
 {
     if (a.uv_set != b.uv_set)
@@ -55,7 +55,7 @@ const Image* image_of(const Scene& scene, const TextureRef& ref)
     return ref.used() ? &scene.images[static_cast<std::size_t>(scene.textures[static_cast<std::size_t>(ref.texture)].image)] : nullptr;
 }
 
-// The maps that a mip filter looks at.
+// Maps that a mip filter reads.
 struct FilteredMap {
     TextureRef Material::*ref;
     const char* of;
@@ -88,7 +88,7 @@ MipMaps maps_of(const Scene& scene, const Material& m)
     return maps;
 }
 
-// As `lean`, where a frame leaves the levels of a filter aside.
+// Returns true if normals widen lobes as with `lean`, in frames that ignore a filter's levels.
 bool widens(const Scene& scene, const Material& m)
 {
     if (makes_lobes(m.mip_filter))
@@ -98,10 +98,10 @@ bool widens(const Scene& scene, const Material& m)
 
 struct Moments {
     int kind = kNoMoments;
-    const TextureRef* place = nullptr;  // where they lie
-    const TextureRef* slopes = nullptr; // of tilts or normals
-    bool direction = false;             // a map of directions lies there too
-    bool filtered = false;              // they are of a mip filter's levels
+    const TextureRef* place = nullptr;  // the texture that places them
+    const TextureRef* slopes = nullptr; // tilt map or normal map
+    bool direction = false;             // an anisotropy map has the same layout
+    bool filtered = false;              // they come from a mip filter's levels
 };
 Moments moments_of(const Scene& scene, const Material& m, bool overridden)
 {
@@ -111,7 +111,7 @@ Moments moments_of(const Scene& scene, const Material& m, bool overridden)
         return r;
     }
     const bool tilt = m.tilt_tex.used();
-    // a grain that lies otherwise than the normals weighs more than how they differ
+    // Skip the normals if the anisotropy map has another layout: its grain matters more than how normals differ.
     const bool normals =
         !tilt && widens(scene, m) && m.normal_tex.used() && (!m.anisotropy_tex.used() || alike(scene, m.normal_tex, m.anisotropy_tex));
     r.slopes = tilt ? &m.tilt_tex : normals ? &m.normal_tex : nullptr;
@@ -129,14 +129,14 @@ float slope_scale(const Material& m)
     return m.tilt_tex.used() ? m.tilt_scale : m.normal_scale;
 }
 
-// The first material with the same moments.
+// Returns the first material with the same moments.
 std::int32_t owner_of(const Scene& scene, std::size_t material, bool overridden)
 {
     const auto content = [&](const Material& m) {
         const Moments of = moments_of(scene, m, overridden);
         const bool own = makes_lobes(m.mip_filter);
         const bool gains = has_gains(m);
-        const bool of_metal = gains || m.mip_filter == kMipFilter_teacher; // whose levels are made for a metal or for a dielectric
+        const bool of_metal = gains || m.mip_filter == kMipFilter_teacher; // such levels differ between metals and dielectrics
         return std::tuple(of.kind, of.slopes ? of.slopes->texture : kNone, of.slopes == &m.tilt_tex,
                           of.direction || of.filtered ? m.anisotropy_tex.texture : kNone, slope_scale(m), m.roughness,
                           m.anisotropy_strength, m.anisotropy_rotation, of.filtered, own ? m.mip_filter : MipFilter{},
@@ -149,7 +149,7 @@ std::int32_t owner_of(const Scene& scene, std::size_t material, bool overridden)
     return static_cast<std::int32_t>(found - scene.materials.begin());
 }
 
-// The first material with the same normals.
+// Returns the first material with the same normals.
 std::int32_t first_with_normals(const Scene& scene, const Material& m)
 {
     const auto found = std::find_if(scene.materials.begin(), scene.materials.end(), [&](const Material& other) {
@@ -158,7 +158,7 @@ std::int32_t first_with_normals(const Scene& scene, const Material& m)
     return static_cast<std::int32_t>(found - scene.materials.begin());
 }
 
-// The first material whose normals keep the same light.
+// Returns the first material whose facets keep the same light.
 std::int32_t first_that_keeps(const Scene& scene, const Material& m)
 {
     const auto content = [&](const Material& of) {
@@ -170,7 +170,7 @@ std::int32_t first_that_keeps(const Scene& scene, const Material& m)
     return static_cast<std::int32_t>(found - scene.materials.begin());
 }
 
-// What a slot of a material holds, and where it lies.
+// Contents of a material's texture slot, and the texture that places them.
 struct Held {
     PyramidKey key;
     const TextureRef* place;
@@ -215,8 +215,8 @@ Image moments_image(const Scene& scene, const Texture& sampler, const PyramidKey
                          key.tensor_power);
 }
 
-// Texels of a row of levels as moments: see moments of all in shading/surface/lobe_shape.t.h. part: 2 or 4.
-// reflected: of reflectances. own: perceptual roughness of the lobe before normals widened it.
+// Writes a level's texel as moments: see moments of all in shading/surface/lobe_shape.t.h. part: 2 or 4. reflected: gain for the
+// reflectances. own: perceptual roughness of the lobe before normals widened it.
 void put_moments(int part, float gain, float reflected, float own, real3 n, slope_covariance s, float* rgba)
 {
     const float x = gain * n.x, y = gain * n.y;
@@ -233,7 +233,7 @@ MipPoint point_of(const MipTexel& t)
     return {vec3_of(t.nx, t.ny, std::sqrt(std::max(z2, 0.0f))), covariance_of_tensor({t.a, t.b, t.c})};
 }
 
-// By level from 1 on, then texel: the root of the mean square of the widths of lobes below, as perceptual roughness.
+// Returns, by level from 1 on and then texel, the root mean square width of the underlying lobes, as perceptual roughness.
 std::vector<std::vector<float>> own_roughness_levels(const MipSource& source)
 {
     std::vector<std::vector<float>> levels = mean_levels(source, [](const MipPoint& p) {
@@ -252,15 +252,17 @@ TexturePyramid filtered_pyramid(const Scene& scene, const Texture& sampler, cons
     const MipSource source = mip_source(scene, m);
     const float gain = gain_of_taps(m.mip_filter, m.mip_kappa);
     const bool gains = has_gains(m);
-    // Normals as their map has them: what shading multiplies by the scale; alpha is the map's own.
+    // A key without tensors stands for the normals, encoded as in their map. Shading multiplies them by the scale. Alpha comes from the
+    // map.
     const bool normals = key.tensor_power == 0;
     const float unscale = std::abs(m.normal_scale) > 1e-3f ? 0.5f / m.normal_scale : 0.0f;
-    TexturePyramid own; // of the map, whose alpha may hold heights
+    TexturePyramid own; // pyramid of the map, whose alpha may hold heights
     if (normals) {
         const Image& map = *image_of(scene, m.normal_tex);
         const MapLevels* heights = m.heights ? given_map(scene, m, {MapPart::height, &m.normal_tex, ColourKernel::box, false}) : nullptr;
         own = heights ? pyramid_of_map(map, sampler, *heights) : make_texture_pyramid(map, sampler, key.encoding);
     }
+    // Average the light that facets keep, or the lobe widths
     const bool same = normals && own.width == source.width() && own.height == source.height();
     const KeptShares& shares = kept_shares(mean_roughness(scene, m));
     const bool keeps = normals && kept_weights_of(scene, m).any;
@@ -269,6 +271,7 @@ TexturePyramid filtered_pyramid(const Scene& scene, const Texture& sampler, cons
         means = mean_levels(source, [&](const MipPoint& p) { return shares.at(kKeptKnot, p.n.z); });
     else if (key.tensor_power == 2)
         means = own_roughness_levels(source);
+    // Write texels: level 0 from the maps, others from the filter's levels
     std::vector<MipPoint> points(static_cast<std::size_t>(source.width()));
     return make_texture_pyramid(source.width(), source.height(), sampler, key.encoding, [&](int level, int width, int y, float* rgba) {
         if (level == 0)
@@ -281,10 +284,13 @@ TexturePyramid filtered_pyramid(const Scene& scene, const Texture& sampler, cons
             const std::size_t place = static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
             const float mean = made && !means.empty() ? means[static_cast<std::size_t>(level) - 1][place] : 1.0f;
             if (!normals) {
-                const float own_roughness = gains ? 1.0f : made ? mean : std::sqrt(mean_alpha(p.s)); // gains have its part
+                const float own_roughness = gains  ? 1.0f
+                                            : made ? mean
+                                                   : std::sqrt(mean_alpha(p.s)); // gains already include the lobe's width
                 put_moments(key.tensor_power, gain, made && gains ? made->gain : 1.0f, own_roughness, p.n, p.s, rgba);
                 continue;
             }
+            // Write the normal, with kept light or the map's alpha in its alpha
             const std::uint16_t* texel =
                 same ? own.texels.data() +
                            4 * (static_cast<std::size_t>(own.offset[level]) +
@@ -381,7 +387,8 @@ MaterialLevels filtered_levels(const Scene& scene, const Jobs& jobs, const Taugh
         }
         const MipSource source = mip_source(scene, m);
         const auto held = [](const auto& there) { return there && !there->materials.empty(); };
-        const std::uint64_t hash = held(scene.mips) || held(scene.kept_mips) ? source.hash(jobs) : 0; // which decodes all of it
+        const std::uint64_t hash = held(scene.mips) || held(scene.kept_mips) ? source.hash(jobs) : 0; // hash() decodes all maps
+        // Take ready-made levels if there are any
         for (const auto& there : {scene.kept_mips, scene.mips})
             for (std::size_t k = 0; there && k < there->materials.size(); ++k)
                 if (fits(there->materials[k], source, hash, scene, m))

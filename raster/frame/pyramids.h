@@ -1,14 +1,14 @@
-// Which texture pyramids the materials of a scene need, and what they are made of. A slot of a material holds an image as it is, tensors of
-// an anisotropy texture, or, in their place, moments of slopes:
-//   of all, where a map of tilts lies over one of anisotropy and roughness is the same everywhere: the texels' lobes are in them
-//   of tilts, where there is a map of them else: beside the lobe of the material, and in frames that override roughness or anisotropy;
-//     or of normals, in a material that is `lean`
-//   of all, of levels that a mip filter has made of normals and lobes (shading/bake/mip/filter.h): their means are x and y of normals,
-//     and what these differ by between taps, times gain_of_taps(), is in the moments; in the normal map's place lie the levels' normals,
-//     in one half, for those who read nothing else. Frames that override roughness or anisotropy, or want no normal maps, have moments of
-//     the normals alone there, as `lean` has them
-// A normal map without heights holds in the alpha of its levels the share of light that facets keep above the surface's horizon
-// (shading/bake/mip/kept_light.h), where they lose any.
+// Texture pyramids of a scene's materials. A material's texture slot holds the image itself, anisotropy tensors made from a texture, or
+// slope moments in place of these tensors. There are three kinds of moments:
+//   All lobes: a tilt map lies over an anisotropy map, and roughness is constant. The moments include the texels' lobes.
+//   Tilts: any other material with a tilt map, and frames that override roughness or anisotropy. The moments come beside the
+//     material's lobe. A `lean` material has such moments for its normals.
+//   Filtered levels: a mip filter has made levels of normals and lobes together (shading/bake/mip/filter.h). The means are x and y of the
+//     normals. The moments include the normals' difference between taps, times gain_of_taps(). The normal map's slot holds the levels'
+//     normals as halves, for readers that need nothing else. Frames that override roughness or anisotropy, or use no normal maps, have
+//     moments from the normals alone here, as `lean` has.
+// A normal map without heights stores a light share in its levels' alpha if its facets lose light: the share that facets keep above the
+// surface's horizon (shading/bake/mip/kept_light.h).
 #pragma once
 #include <cstdint>
 #include <memory>
@@ -33,35 +33,36 @@ struct MipHelp;
 struct PyramidKey {
     std::int32_t texture; // its sampler, and without moments its image
     TextureEncoding encoding;
-    int tensor_power;              // 2, 4: tensors of an anisotropy texture, or a part of moments; 0: the image itself
+    int tensor_power;              // 2, 4: tensors from an anisotropy texture, or half the moments; 0: the image itself
     int moments = kNoMoments;      // kMomentsOfTilt...
-    std::int32_t material = kNone; // whose moments: the first of those that have them in common
-    bool filtered = false;         // made of a mip filter's levels of that material
-    bool coupled = false;          // of colours: weighted by that material's normals
-    bool kaiser = false;           // of colours: by ColourKernel::kaiser
-    bool keeps = false;            // of normals: alpha of levels is the share of light that facets keep, by that material
+    std::int32_t material = kNone; // owner of the moments: the first material that shares them
+    bool filtered = false;         // made from a mip filter's levels for that material
+    bool coupled = false;          // colours: weighted by that material's normals
+    bool kaiser = false;           // colours: filtered with ColourKernel::kaiser
+    bool keeps = false;            // normals: alpha of the levels is the light share that facets keep, for that material
     bool operator==(const PyramidKey&) const = default;
 };
 
-std::vector<PyramidKey> used_pyramids(const Scene& scene); // each once
+std::vector<PyramidKey> used_pyramids(const Scene& scene); // without duplicates
 
-// Textures, by their places in `keys`, and moments of a material. overridden: in frames that override roughness or anisotropy.
+// Binds the material's textures, as indices into `keys`, and its moments. overridden: for frames that override roughness or anisotropy.
 void bind_textures(const Scene& scene, std::size_t material, bool overridden, const std::vector<PyramidKey>& keys, MaterialRecord& to);
 
-// Levels by material, null where no filter makes any: those that the scene has brought, or made here, each once.
+// Levels by material, null if no filter makes any. They come from the scene, or are made here. Materials share equal levels.
 using MaterialLevels = std::vector<std::shared_ptr<const MipLevels>>;
 MaterialLevels filtered_levels(const Scene& scene, const Jobs& jobs, const TaughtTexels& advance = {});
-bool is_metal(const Scene& scene, const Material& material); // more than half of it
+bool is_metal(const Scene& scene, const Material& material); // true if at least half the material is metal
 
-// Where the filter of the material makes no levels of its maps, why: empty where it does, or has nothing to do.
+// Returns the reason why the material's filter makes no levels of its maps. Empty if it does, or if there is nothing to do.
 std::string why_unfiltered(const Scene& scene, const Material& material);
-// Whether its levels have gains; what lets light through would pass no less by them.
+// Returns true if the material's levels have gains. Materials that transmit light have none: gains would not reduce the transmitted light.
 bool has_gains(const Material& material);
-// What a filter makes levels of, of a material that it makes any of.
+// Returns true if the material's filter makes levels of its maps.
 bool is_filtered(const Scene& scene, const Material& material);
-MipHelp mip_help(const Scene& scene, const Material& material, const TaughtTexels& advance = {}); // of that material
+MipHelp mip_help(const Scene& scene, const Material& material, const TaughtTexels& advance = {}); // for that material
+// Returns the maps that the filter reads.
 MipSource mip_source(const Scene& scene, const Material& material);
-// Whether levels that were baked beforehand are of these maps and filters.
+// Returns true if ready-made levels belong to these maps and this material's filter.
 bool fits(const MipLevels& levels, const MipSource& source, std::uint64_t hash, const Scene& scene, const Material& material);
 
 TexturePyramid make_pyramid(const Scene& scene, const PyramidKey& key, const MaterialLevels& levels);

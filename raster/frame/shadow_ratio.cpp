@@ -11,12 +11,12 @@ namespace {
 
 constexpr int kReach = 2;           // pixels to each side
 constexpr double kShadowBlur = 0.8; // pixels, standard deviation
-constexpr double kOffPlane = 2.0;   // pixels, standard deviation: how far a neighbour may lie from the surface's plane
-constexpr int kAlikeNormals = 6;    // the cosine between normals counts to the power of 2^6
+constexpr double kOffPlane = 2.0;   // pixels, standard deviation of a neighbour's distance from the surface's plane
+constexpr int kAlikeNormals = 6;    // weight: the cosine between normals to the power of 2^6
 
-struct Guide { // of a pixel
+struct Guide { // geometry of a pixel
     glm::dvec3 position, normal;
-    double pixel = 0.0; // its side there, metres
+    double pixel = 0.0; // side of the pixel at this depth, metres
     bool seen = false;
 };
 
@@ -52,10 +52,12 @@ Image shadow_ratio(const Image& shadowed, const Image& open, const Column<PixelL
     const int width = open.width, height = open.height;
     const auto pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
     BN_CHECK(shadowed.width == width && shadowed.height == height && layers.size() == pixels);
+    // Find the surface behind every pixel
     std::vector<Guide> guides(pixels);
     for (std::size_t i = 0; i < pixels; ++i)
         guides[i] = guide_of(layers[i], view, static_cast<int>(i % static_cast<std::size_t>(width)),
                              static_cast<int>(i / static_cast<std::size_t>(width)), width, height);
+    // Tabulate the Gaussian
     double falloff[kReach + 1];
     for (int i = 0; i <= kReach; ++i)
         falloff[i] = det_exp(-0.5 * i * i / (kShadowBlur * kShadowBlur));
@@ -69,6 +71,7 @@ Image shadow_ratio(const Image& shadowed, const Image& open, const Column<PixelL
                 return static_cast<std::size_t>(j) * static_cast<std::size_t>(width) + static_cast<std::size_t>(i);
             };
             const Guide& here = guides[at(x, y)];
+            // Sum both estimates over neighbours on the same surface
             glm::dvec3 arrives(0.0), without(0.0);
             for (int j = std::max(y - kReach, 0); j <= std::min(y + kReach, height - 1); ++j)
                 for (int i = std::max(x - kReach, 0); i <= std::min(x + kReach, width - 1); ++i) {
@@ -82,6 +85,7 @@ Image shadow_ratio(const Image& shadowed, const Image& open, const Column<PixelL
                         without[c] += weight * static_cast<double>(all[3 * at(i, j) + static_cast<std::size_t>(c)]);
                     }
                 }
+            // Divide the sums
             for (int c = 0; c < 3; ++c)
                 out[3 * at(x, y) + static_cast<std::size_t>(c)] =
                     without[c] > 0.0 ? static_cast<float>(std::max(arrives[c], 0.0) / without[c]) : 1.0f;

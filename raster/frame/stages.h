@@ -1,4 +1,4 @@
-// The stages that a frame's time is divided into, in the order of the data.
+// Stages of a frame, in data order, for its profile.
 #pragma once
 #include <cstdint>
 
@@ -20,18 +20,18 @@ enum class FrameStage : std::int32_t {
 };
 inline constexpr int kFrameStages = 12;
 inline constexpr const char* kFrameStageNames[kFrameStages] = {
-    "prepare",    // memory of the picture, constants of the frame
-    "cull",       // draws and clusters that cannot be seen
+    "prepare",    // memory for the picture, constants of the frame
+    "cull",       // draws and clusters that cannot be visible
     "transform",  // vertices
-    "setup",      // triangles: clipping, back faces, the tiles that they may touch
-    "bin",        // triangles by tile
-    "gather",     // the list of a tile's triangles
-    "clear",      // depth and ids of a tile
-    "coverage",   // edges and depth planes of triangles, the samples that they cover
-    "visibility", // samples to fragments, sorted by material
-    "background", // shading where nothing is
-    "shade",      // of fragments, by material
-    "resolve",    // samples to pixels, written to the picture
+    "setup",      // triangles: clipping, back faces, bounds in tiles
+    "bin",        // lists of triangles per tile
+    "gather",     // one tile's list of triangles
+    "clear",      // a tile's depth and ids
+    "coverage",   // triangle edges and depth planes, covered samples
+    "visibility", // from samples to fragments, sorted by material
+    "background", // shading of empty samples
+    "shade",      // fragments, by material
+    "resolve",    // from samples to pixels of the picture
 };
 
 } // namespace burnish

@@ -25,7 +25,7 @@ void put(int& to, AlphaMode from)
 {
     to = static_cast<int>(from);
 }
-// Of a material and of the frame, together: radians.
+// Returns the tilts of material and frame together, in radians. Clamped to 80 degrees.
 glm::vec2 tilt_rad(const glm::vec2& material_deg, const FrameDesc& desc)
 {
     const auto most = static_cast<float>(glm::radians(80.0));
@@ -85,7 +85,7 @@ AreaLightRecord area_light_record(const PlacedAreaLight& l)
     return r;
 }
 
-// Whether no texel of the map, as its samplers see it, has an alpha below 1.
+// Returns true if every texel of the map has alpha 1.
 bool texels_are_opaque(const Scene& scene, const TextureRef& map)
 {
     const Image& image = scene.images[static_cast<std::size_t>(scene.textures[static_cast<std::size_t>(map.texture)].image)];
@@ -187,6 +187,7 @@ std::vector<LightRecord> light_records(const DrawTables& tables)
     return records;
 }
 
+// Stores light positions and ranges as columns, for lane code.
 void put_light_columns(SceneTables& s)
 {
     const std::size_t stride = s.lights.size() + kColumnPad;
@@ -209,10 +210,10 @@ std::vector<AreaLightRecord> area_light_records(const DrawTables& tables)
 
 namespace {
 
-// Makes the pictures that lights have as textures, once each, and numbers them after those of materials.
+// Makes each area light picture once, as a texture. Numbers these textures after the materials' textures.
 void add_light_pictures(const Scene& scene, const Jobs& jobs, SceneTables& s)
 {
-    std::vector<int> used; // textures of the scene
+    std::vector<int> used; // textures in the scene
     for (const AreaLightRecord& l : s.area_lights)
         if (l.picture >= 0 && std::find(used.begin(), used.end(), l.picture) == used.end())
             used.push_back(l.picture);
@@ -289,16 +290,18 @@ std::vector<MaterialRecord> in_frame(std::vector<MaterialRecord> materials, cons
         if (desc.override_anisotropy)
             m.anisotropic = desc.anisotropy != 0.0f || m.moments != kNoMoments;
         if (desc.roughness >= 0.0f || desc.override_anisotropy || desc.frame_map == kFrameOff)
-            m.keeps = m.facets = 0; // made for the material's own roughness and normals
+            m.keeps = m.facets = 0; // facets belong to the material's roughness and normals
         if (m.frame_map < 0 || desc.frame_map == kFrameOff)
             m.frame_map = desc.frame_map;
         if (desc.frame_map == kFrameOff) {
+            // Drop normal maps, and moments made from normals
             m.textures[kNormalTex].texture = m.textures[kCoatNormalTex].texture = -1;
             if (m.moments != kNoMoments && !m.tilt_mapped)
                 m.moments = kMomentsUnseen;
         }
         m.relief_depth = m.height_scale * desc.height_scale;
         m.relief = m.relief && m.textures[kNormalTex].texture >= 0 && m.relief_depth > 0.0f;
+        // Tabulate the tilt as cosines, sines and slopes
         const glm::vec2 tilt = tilt_rad({m.tilt[0], m.tilt[1]}, desc);
         m.tilted = m.tilt_mapped || tilt != glm::vec2(0.0f);
         for (int i = 0; i < 2; ++i) {

@@ -1,4 +1,4 @@
-// From the shared tables to the plain data of shading/lang: materials, texture pyramids, lights, sample patterns.
+// Converts the shared tables to plain data for shading/lang: materials, texture pyramids, lights, sample patterns.
 #pragma once
 #include <memory>
 #include <vector>
@@ -10,7 +10,7 @@
 
 namespace burnish {
 
-struct SceneTables { // keeps alive what the records point at
+struct SceneTables { // owns the data that the records point to
     std::vector<TexturePyramid> pyramids;
     std::vector<TextureParams> textures;
     std::vector<MaterialRecord> materials;
@@ -21,27 +21,28 @@ struct SceneTables { // keeps alive what the records point at
     std::vector<AreaLightRecord> area_lights;
 };
 
-// Textures are numbered as in SceneTables::textures. A material that blends, whose alpha is 1 everywhere, is opaque.
+// Returns a record per material. Texture indices are those of SceneTables::textures. A blended material with alpha 1 everywhere becomes
+// opaque.
 std::vector<MaterialRecord> material_records(const Scene& scene, bool overridden);
-bool any_blends(const std::vector<MaterialRecord>& materials); // whether a material's alpha mode is kAlpha_blend
+bool any_blends(const std::vector<MaterialRecord>& materials); // true if a material's alpha mode is kAlpha_blend
 std::vector<LightRecord> light_records(const DrawTables& tables);
-std::vector<AreaLightRecord> area_light_records(const DrawTables& tables); // their pictures: textures of the scene
+std::vector<AreaLightRecord> area_light_records(const DrawTables& tables); // pictures are texture indices of the scene
 
-// Builds every texture pyramid that a material uses (pyramids.h) and the pictures of area lights, in parallel.
+// Builds in parallel all texture pyramids that materials use (pyramids.h) and the pictures of area lights.
 SceneTables upload_scene(const Scene& scene, const DrawTables& tables, const Jobs& jobs);
 
-// Whether the lobes of any material are tilted against their surfaces in the frame.
+// Returns true if the frame tilts any material's lobes against their surfaces.
 bool tilts(const Scene& scene, const FrameDesc& desc);
-// check_desc(), and whether the frame's lobes can be tilted where the scene's are.
+// Runs check_desc(). Checks that the frame's lobes can be tilted if the scene tilts them.
 Status check_frame(const Scene& scene, const FrameDesc& desc);
 
-// Roughness or anisotropy of materials, or normal maps that lobes were filtered with.
+// Returns true if the frame overrides roughness or anisotropy, or drops normal maps that a mip filter used for lobes.
 bool overrides(const Scene& scene, const FrameDesc& desc);
-// Those of SceneTables that the frame takes, with its overrides, and tilted.
+// Applies the frame's overrides, parameters and tilts to the records.
 std::vector<MaterialRecord> in_frame(std::vector<MaterialRecord> materials, const FrameDesc& desc);
 
 TextureParams texture_params(const TexturePyramid& pyramid);
-SamplePattern standard_samples(int count);        // Vulkan's standard sample locations for 1, 2, 4, 8, 16
-int central_sample(const SamplePattern& pattern); // the first of those nearest to the pixel's centre
+SamplePattern standard_samples(int count);        // Vulkan's standard sample locations for 1, 2, 4, 8, 16 samples
+int central_sample(const SamplePattern& pattern); // the sample nearest to the pixel centre; the first one on a tie
 
 } // namespace burnish

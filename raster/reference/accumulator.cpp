@@ -70,7 +70,7 @@ Image variance_image(const Accumulator& a)
     return image;
 }
 
-// Cornish and Fisher's expansion in 1 / degrees, within 0.1 % from 6 degrees on; below, the table.
+// Uses Cornish and Fisher's expansion in 1 / degrees, accurate to 0.1 % from 6 degrees on, and a table below.
 double student_t_975(std::uint32_t degrees)
 {
     constexpr double kFew[] = {std::numeric_limits<double>::infinity(), 12.7062, 4.3027, 3.1824, 2.7764, 2.5706};
@@ -94,7 +94,7 @@ double mean_relative_error(const Accumulator& a)
         const std::uint32_t passes = passes_of_pixel(a, i);
         if (passes < 2)
             return std::numeric_limits<double>::infinity();
-        double deviation = 0.0; // of the channels' sum it is at most the sum of theirs
+        double deviation = 0.0; // deviation of the channels' sum is at most the sum of their deviations
         for (int c = 0; c < 3; ++c)
             deviation += std::sqrt(variance_of_mean(p, c, passes));
         sum += student_t_975(passes - 1) * deviation / mean;

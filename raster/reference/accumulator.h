@@ -1,5 +1,5 @@
-// The state of a picture in the making: running mean and variance of every pixel, and how many passes each block of pixels has had.
-// Blocks go ahead on their own, so work can stop between any two of them and lose nothing.
+// State of an unfinished picture: running mean and variance per pixel, and the number of passes per pixel block. Blocks advance
+// independently, so work can stop between any two blocks without loss.
 #pragma once
 #include <cstdint>
 
@@ -20,16 +20,17 @@ struct Accumulator {
     Column<std::uint32_t> passes; // by block, row-major
 };
 
+// Returns block `index` with the passes that it lacks up to `until_pass`.
 PixelBlock block_of(const Accumulator& a, std::size_t index, std::uint32_t until_pass);
-std::uint32_t least_passes(const Accumulator& a); // of any block
+std::uint32_t least_passes(const Accumulator& a); // minimum over the blocks
 std::uint32_t most_passes(const Accumulator& a);
 
 Image mean_image(const Accumulator& a);     // f32 RGB
-Image variance_image(const Accumulator& a); // of the mean, f32 RGB; a pixel of fewer than two passes is infinite
+Image variance_image(const Accumulator& a); // of the mean, f32 RGB; infinite for a pixel with fewer than two passes
 
-// Half width of the 95 % confidence interval over the mean, sums of the channels, averaged over the pixels that are not black. Infinite
-// below two passes. Student's t, since passes may be few.
+// Returns the half width of the 95 % confidence interval over the mean, for the channels' sum, averaged over pixels that are not black.
+// Infinite below two passes. Uses Student's t, since passes may be few.
 double mean_relative_error(const Accumulator& a);
-double student_t_975(std::uint32_t degrees); // of freedom: 2.5 % lie above it
+double student_t_975(std::uint32_t degrees); // 97.5 % quantile by degrees of freedom
 
 } // namespace burnish

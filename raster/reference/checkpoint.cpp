@@ -15,7 +15,7 @@ struct Header {
     char magic[8];
     std::uint64_t key;
     std::int32_t width, height;
-    std::uint64_t content_hash; // of what follows
+    std::uint64_t content_hash; // of all later bytes
 };
 
 std::size_t body_size(const Accumulator& a)

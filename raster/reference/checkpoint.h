@@ -1,4 +1,4 @@
-// The state of a picture in the making as a file.
+// Reads and writes the state of an unfinished picture.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -10,14 +10,14 @@
 
 namespace burnish {
 
-// `key`: hash of everything that a sample depends on. The file appears under its name only when it is complete.
+// Writes a checkpoint. key: hash of everything that a sample depends on. The file appears only when complete.
 Status write_checkpoint(const std::string& path, std::uint64_t key, const Accumulator& a, Links links = Links::follow);
 
-// What the bytes of a checkpoint hold, into an accumulator of the same size, which is left as it was where they are not those of `key`
-// or not whole. `path` is their name in errors.
+// Parses a checkpoint into an accumulator with equal size. Leaves the accumulator unchanged if the key differs or the bytes are damaged.
+// path: name for errors.
 Status parse_checkpoint(const std::uint8_t* data, std::size_t size, const std::string& path, std::uint64_t key, Accumulator& into);
 
-// Into an accumulator of the same size. A file that is not there is no error: true only if something was read.
+// Reads a checkpoint into an accumulator with equal size. A missing file is not an error. Returns true if a checkpoint was read.
 Result<bool> read_checkpoint(const std::string& path, std::uint64_t key, Accumulator& into, Links links = Links::follow);
 
 } // namespace burnish

@@ -19,8 +19,8 @@ double luminance(const std::uint16_t* texel)
            0.0722 * static_cast<double>(half_to_float(texel[2]));
 }
 
-// Mean luminance of the bilinear interpolant over the cell of texel (x, y): it is above zero wherever the interpolant is, so sampling
-// by it misses no light. `w`: texels of a bordered row.
+// Returns the bilinear interpolant's mean luminance over texel (x, y)'s cell. The mean is positive wherever the interpolant is positive,
+// so sampling misses no light. w: texels in a bordered row.
 double cell_luminance(const std::uint16_t* face, int w, int x, int y)
 {
     constexpr double kWeight[3] = {0.125, 0.75, 0.125};
@@ -31,7 +31,7 @@ double cell_luminance(const std::uint16_t* face, int w, int x, int y)
     return std::max(sum, 0.0);
 }
 
-// Solid angle over area at (u, v) of a face, [-1,1]^2.
+// Returns solid angle over area at (u, v) on a face, [-1,1]^2.
 double solid_angle_density(double u, double v)
 {
     const double r2 = 1.0 + u * u + v * v;
@@ -48,7 +48,7 @@ EnvironmentSampler make_environment_sampler(const CubeMap& cube, const Jobs& job
     while (1 << levels < size)
         ++levels;
     BN_CHECK_OP(levels, <, kMaxSamplerLevels);
-    // masses by level, the finest last
+    // Sum probability masses by level, the finest last
     std::vector<std::vector<double>> mass(static_cast<std::size_t>(levels) + 1);
     const std::size_t texels = std::size_t{kFaces} * static_cast<std::size_t>(size) * static_cast<std::size_t>(size);
     mass.back().resize(texels);
@@ -68,7 +68,7 @@ EnvironmentSampler make_environment_sampler(const CubeMap& cube, const Jobs& job
         const std::vector<double>& fine = mass[static_cast<std::size_t>(l) + 1];
         std::vector<double>& to = mass[static_cast<std::size_t>(l)];
         to.resize(kFaces * side * side);
-        for (std::size_t row = 0; row < kFaces * side; ++row) // rows of all faces follow each other, on both levels
+        for (std::size_t row = 0; row < kFaces * side; ++row) // rows of all faces are consecutive on both levels
             for (std::size_t x = 0; x < side; ++x) {
                 const double* upper = &fine[(2 * row) * 2 * side + 2 * x];
                 const double* lower = upper + 2 * side;
@@ -76,6 +76,7 @@ EnvironmentSampler make_environment_sampler(const CubeMap& cube, const Jobs& job
             }
     }
 
+    // Accumulate the faces' shares
     double total = 0.0;
     for (int f = 0; f < kFaces; ++f)
         total += mass[0][static_cast<std::size_t>(f)];
@@ -88,6 +89,7 @@ EnvironmentSampler make_environment_sampler(const CubeMap& cube, const Jobs& job
     }
     view.face_end[5] = 1.0f;
 
+    // Store the shares of all nodes
     std::size_t nodes = 0;
     for (int l = 0; l < levels; ++l) {
         view.offset[l] = static_cast<std::int32_t>(nodes);
@@ -110,7 +112,7 @@ EnvironmentSampler make_environment_sampler(const CubeMap& cube, const Jobs& job
             }
         });
     }
-    const double cells_of_area = static_cast<double>(size) * size / 4.0; // cells by unit of area
+    const double cells_of_area = static_cast<double>(size) * size / 4.0; // cells per unit area
     jobs.parallel_for(kFaces * static_cast<std::size_t>(size), [&](std::size_t row, int) {
         for (std::size_t i = row * static_cast<std::size_t>(size); i < (row + 1) * static_cast<std::size_t>(size); ++i)
             s.density[i] = total > 0.0 ? static_cast<float>(mass.back()[i] / total * cells_of_area)

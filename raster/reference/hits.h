@@ -1,4 +1,4 @@
-// From rays to surfaces: camera rays, tracing with transparency, and the materials of what was hit, lanes of different materials merged.
+// From rays to surfaces: camera rays, tracing with transparency, and materials at hits, merged over lanes with different materials.
 #pragma once
 #include "core/simd/lanes.h"
 #include "core/simd/ticks.h"
@@ -15,24 +15,24 @@ namespace burnish {
 inline namespace BN_ISA_NS {
 
 struct LaneRays {
-    real3 origin, direction; // direction: unit, but for camera rays of a perspective view, whose length along the view is 1
+    real3 origin, direction; // unit; perspective camera rays have length 1 along the view instead
     real tnear, tfar;
 };
 
 struct LaneHits {
     mask found;
-    integer triangle; // global id, 0 where nothing was found
-    real u, v, t;     // weights of the second and the third vertex; distance in lengths of the direction
+    integer triangle; // global id, 0 without a hit
+    real u, v, t;     // weights of the second and third vertex; distance in lengths of the direction
 };
 
-struct PixelFrame { // what a batch of lanes knows of its place
+struct PixelFrame { // context of a batch of lanes
     const ReferenceParams& f;
     ReferenceScratch& scratch;
     std::uint32_t seed; // of the pixel and pass
     int first;          // camera position of lane 0
 };
 
-// (px, py): pixels from the image's top left corner.
+// Makes camera rays. (px, py): pixels from the image's top left corner.
 BN_INLINE LaneRays camera_rays(const ReferenceParams& f, real px, real py)
 {
     const view_params view = view_params_of(f.view);
@@ -50,6 +50,7 @@ BN_INLINE LaneRays camera_rays(const ReferenceParams& f, real px, real py)
     return r;
 }
 
+// Traces the lanes in `wanted`, and counts rays and time.
 BN_INLINE LaneHits trace_lanes(const PixelFrame& p, const LaneRays& r, mask wanted, RayKind kind)
 {
     RayPacket& k = p.scratch.packet;
@@ -94,7 +95,7 @@ BN_INLINE LaneTriangle load_triangle(const ReferenceParams& f, integer triangle)
     return t;
 }
 
-// Weights of the second and the third vertex where a ray meets the triangle's plane (Moeller, Trumbore 1997).
+// Returns the weights of the second and third vertex where a ray meets the triangle's plane (Moeller, Trumbore 1997).
 BN_INLINE real2 plane_weights(const LaneTriangle& t, const LaneRays& r)
 {
     const real3 e1 = t.corner[1] - t.corner[0], e2 = t.corner[2] - t.corner[0], s = r.origin - t.corner[0];
@@ -104,10 +105,11 @@ BN_INLINE real2 plane_weights(const LaneTriangle& t, const LaneRays& r)
     return vec2_of(k_dot3(s, q) / safe, k_dot3(r.direction, k_cross(s, e1)) / safe);
 }
 
-// What lies at the hits. `footprint`: the camera's rays one pixel to the right and one below, or null: textures at full detail.
+// Geometry at hits, from locate_hits(). footprint: camera rays through the horizontal and the vertical neighbour in the same quad of 2x2
+// pixels; null: textures at full detail.
 struct LaneGeometry {
     visible_point fragment;
-    real3 position, normal; // normal: the triangle's own, unit, towards the ray's origin
+    real3 position, normal; // normal: the triangle's, unit, towards the ray's origin
 };
 
 BN_INLINE LaneGeometry locate_hits(const ReferenceParams& f, const LaneHits& h, const LaneRays& r, const LaneRays* footprint)
@@ -149,7 +151,7 @@ BN_INLINE relief_plane relief_plane_at(const ReferenceParams& f, integer triangl
     return {t.corner[1] - t.corner[0], t.corner[2] - t.corner[0], coordinates(t.vertex[1]) - first, coordinates(t.vertex[2]) - first};
 }
 
-// What textures hold at the hits.
+// Fetches the material at hits.
 BN_INLINE material_inputs fetch_at_hits(const ReferenceParams& f, const MaterialRecord& m, const LaneHits& h, const visible_point& p)
 {
     if (!m.relief)
@@ -159,7 +161,7 @@ BN_INLINE material_inputs fetch_at_hits(const ReferenceParams& f, const Material
     return fetch_lanes(f, m, seen);
 }
 
-// Calls body(material, lanes) once for every material of the lanes.
+// Calls body(material, lanes) once for every material in the lanes.
 template <class Body> BN_INLINE void for_each_material(const ReferenceParams& f, integer triangle, mask lanes, const Body& body)
 {
     std::int32_t material[kLanes];
@@ -173,7 +175,7 @@ template <class Body> BN_INLINE void for_each_material(const ReferenceParams& f,
     }
 }
 
-// Lanes whose hit lets the ray through: below the cutoff, or by chance where the material blends.
+// Returns the lanes whose hit lets the ray pass: below the alpha cutoff, or at random if the material blends.
 BN_STAGE mask passes_through(const PixelFrame& p, const LaneHits& h, const LaneRays& r, const LaneRays* footprint, int turn)
 {
     std::uint32_t through = 0;
@@ -193,6 +195,7 @@ BN_STAGE mask passes_through(const PixelFrame& p, const LaneHits& h, const LaneR
     return mask_from_bits(through);
 }
 
+// Finds the nearest hits, with transparency by chance.
 BN_INLINE LaneHits find_hits(const PixelFrame& p, LaneRays r, mask wanted, RayKind kind, const LaneRays* footprint = nullptr)
 {
     if (!p.f.any_alpha)
@@ -200,6 +203,7 @@ BN_INLINE LaneHits find_hits(const PixelFrame& p, LaneRays r, mask wanted, RayKi
     constexpr int kMostLayers = 1 << 16;
     const RayKind search = kind == RayKind::occlusion ? RayKind::bounce : kind;
     LaneHits result = trace_lanes(p, r, wanted, search);
+    // Move rays on until no lane passes through its hit
     mask open = wanted;
     for (int turn = 0; turn < kMostLayers; ++turn) {
         open = both(open, passes_through(p, result, r, footprint, turn));
@@ -215,7 +219,7 @@ BN_INLINE LaneHits find_hits(const PixelFrame& p, LaneRays r, mask wanted, RayKi
     return result;
 }
 
-// What blended surfaces let through at the hits: 0 of a solid surface, 1 where a mask cuts it away.
+// Returns the light share that passes the hits: 0 on solid surfaces, 1 where a mask cuts the surface away.
 BN_STAGE real passed_share(const PixelFrame& p, const LaneHits& h, const LaneRays& r)
 {
     real passed = lit(0.0);
@@ -230,7 +234,7 @@ BN_STAGE real passed_share(const PixelFrame& p, const LaneHits& h, const LaneRay
     return passed;
 }
 
-// Finds the solid surfaces of camera rays. through: light that blended surfaces before them let through, [0,1].
+// Finds the solid surfaces behind camera rays. through: transmittance of the blended surfaces before them, [0,1].
 BN_INLINE LaneHits find_solid_hits(const PixelFrame& p, LaneRays r, mask wanted, real& through)
 {
     through = lit(1.0);
@@ -250,12 +254,12 @@ BN_INLINE LaneHits find_solid_hits(const PixelFrame& p, LaneRays r, mask wanted,
     }
 }
 
-struct LaneSurface { // what was hit, or nothing
+struct LaneSurface { // surface at a hit, or background
     Reflector r;
-    real3 emission;         // towards the ray's origin, the environment's where nothing was hit
+    real3 emission;         // towards the ray's origin
     real3 position, normal; // normal: the triangle's
     mask reflects;
-    mask emitter; // it shows an area light, a solid one where light meets it
+    mask emitter; // shows an area light; for later hits, a solid one
 };
 
 BN_INLINE fresnel_parts select_parts(mask m, const fresnel_parts& a, const fresnel_parts& b)
@@ -306,24 +310,27 @@ BN_INLINE Reflector select_reflector(mask m, const Reflector& a, const Reflector
     return r;
 }
 
+// Reflection and emission of one material at the hits.
 struct MaterialAtHits {
     Reflector r;
     real3 emission;
 };
 
-// Replaces x by one of its material's facets where the pixel sees them all. A facet is chosen as often as it weighs, by a hash of the hit's
-// place, which each ray has for itself.
+// Replaces x by one of the material's facets if the pixel sees all of them. Facets are chosen in proportion to their
+// weights, by a hash of the hit's texture coordinates, which differ between rays.
 BN_STAGE void choose_facets(const ReferenceParams& f, const MaterialRecord& m, const material_inputs& at, const LaneGeometry& g,
                             shaded_point& x)
 {
     const real far = facets_seen(m, at, x);
     integer place = int_lit(0);
+    // Draw a random number from the hit's place
     for (const real& c : {g.fragment.uv0.x, g.fragment.uv0.y, g.fragment.uv1.x, g.fragment.uv1.y})
         place = k_hash_u32(place ^ bits_of(c));
     const real u = k_unit_from_bits(place);
     const mask chosen = u < far;
     if (none(chosen))
         return;
+    // Choose a facet by weight
     const real of_facets = u / max(far, lit(1e-6));
     facet_words words = facet_words_of(m, 0);
     real below = words.weight;
@@ -334,6 +341,7 @@ BN_STAGE void choose_facets(const ReferenceParams& f, const MaterialRecord& m, c
         words.spread = select(beyond, next.spread, words.spread);
         below = below + next.weight;
     }
+    // Rebuild the surface point for the chosen lanes
     material_inputs facet = facet_inputs(m, at, words);
     const lobe_shape own = lobe_shape_of(f, m, at), wide = facet_shape(facet, words);
     const lobe_shape shape = {select(chosen, wide.sigma_u, own.sigma_u), select(chosen, wide.sigma_v, own.sigma_v),
@@ -353,7 +361,7 @@ BN_STAGE MaterialAtHits material_at_hits(const ReferenceParams& f, const Materia
     if (m.facets > 0)
         choose_facets(f, m, at, g, x);
     if (!x.refracts)
-        x.through = interface_inputs(); // lanes of other materials may refract
+        x.through = interface_inputs(); // lanes with other materials may refract
     coat_layer coat = {x.surface_axes, x.surface_axes.n, lit(0.0), lit(1.0)};
     if (m.coated)
         coat = coat_of(f, m, at, x.surface_axes, x.s.v, seen_handedness(g.fragment));
@@ -374,7 +382,7 @@ BN_STAGE void find_surface(const ReferenceParams& f, const LaneHits& h, const La
     bool first = true;
     for_each_material(f, h.triangle, h.found, [&](const MaterialRecord& m, mask lanes) {
         const MaterialAtHits at = material_at_hits(f, m, h, g);
-        out.r = first ? at.r : select_reflector(lanes, at.r, out.r); // lanes without a hit hold something harmless
+        out.r = first ? at.r : select_reflector(lanes, at.r, out.r); // lanes without a hit hold harmless values
         out.emission = first ? at.emission : select(lanes, at.emission, out.emission);
         if (m.emitter)
             out.emitter = either(out.emitter, lanes);

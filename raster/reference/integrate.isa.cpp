@@ -1,6 +1,6 @@
-// Monte Carlo integration of pixels, lanes of camera positions at a time. Compiled once for every instruction set.
-// Light from the environment is estimated twice a sample, by a direction of the environment's and by one of the lobe's, weighted by the
-// power heuristic (Veach 1997, section 9.2).
+// Monte Carlo integration of pixels, kLanes camera positions at a time. Compiled once per instruction set. Each sample estimates
+// environment light twice, with a direction from the environment and one from the lobe, weighted by the power heuristic (Veach 1997,
+// section 9.2).
 #include "core/simd/ticks.h"
 #include "raster/reference/hits.h"
 #include "raster/reference/light_sampling.h"
@@ -18,7 +18,7 @@ namespace {
 
 static_assert(kPassPositions % kLanes == 0 && kRays >= kLanes);
 
-// Of a direction drawn with density `own`, where the other way would have drawn it with density `other`.
+// Returns the weight of a direction drawn with density `own`. The other strategy draws it with density `other`.
 BN_INLINE real power_weight(real own, real other)
 {
     const real ratio = other / max(own, lit(1e-20));
@@ -44,7 +44,7 @@ BN_INLINE EnvironmentEstimate by_environment(const ReferenceParams& f, const Ref
     return {l.wi, at.value * environment_radiance(f, l.wi) * inv};
 }
 
-// Weight of what a lobe's sample finds in the environment.
+// Returns the weight of environment light along a lobe's sample.
 BN_INLINE real lobe_weight(const ReferenceParams& f, const ReflectorSample& s)
 {
     if (f.strategy == ReferenceStrategy::brdf)
@@ -53,7 +53,7 @@ BN_INLINE real lobe_weight(const ReferenceParams& f, const ReflectorSample& s)
     return select(s.exact, lit(1.0), weight);
 }
 
-// Nothing is in the way of the environment.
+// Estimates environment light without occlusion.
 BN_INLINE real3 open_light(const ReferenceParams& f, const Reflector& r, const ShadeSample& x, const ReflectorSample& s)
 {
     real3 sum = vec3_all(lit(0.0));
@@ -63,7 +63,8 @@ BN_INLINE real3 open_light(const ReferenceParams& f, const Reflector& r, const S
     return sum + s.weight * environment_radiance(f, s.wi) * weight;
 }
 
-// Through one interface the environment is seen with nothing in its way, but by paths, which go on to where the light comes out.
+// Returns the lanes that see the environment through one interface without occlusion. Path mode has no such lanes: paths continue to the
+// place where light leaves.
 BN_INLINE mask sees_through(const ReferenceParams& f, const Reflector& r, real3 wi)
 {
     if (!r.x.refracts || f.mode == ReferenceMode::path)
@@ -71,7 +72,7 @@ BN_INLINE mask sees_through(const ReferenceParams& f, const Reflector& r, real3 
     return both(r.refracts, k_dot3(r.x.surface_axes.n, wi) < lit(0.0));
 }
 
-// A ray that leaves a surface, from a point lifted off it by what rounding may have lost.
+// Returns a ray that leaves a surface. Its origin is lifted off the surface by the possible rounding error.
 BN_INLINE LaneRays leaving_ray(const ReferenceParams& f, const LaneSurface& s, real3 wi)
 {
     const real size = max(abs(s.position.x), max(abs(s.position.y), abs(s.position.z)));
@@ -79,12 +80,12 @@ BN_INLINE LaneRays leaving_ray(const ReferenceParams& f, const LaneSurface& s, r
     LaneRays r;
     r.origin = s.position + s.normal * select(k_dot3(s.normal, wi) < lit(0.0), -lift, lift);
     r.direction = wi;
-    r.tnear = lit(0.0); // lifted already: anything nearer counts, a wall in a corner does
+    r.tnear = lit(0.0); // the origin is lifted: any nearer hit counts, such as a wall in a corner
     r.tfar = splat(__builtin_inff());
     return r;
 }
 
-struct CoatUnderLamps { // of a coated surface
+struct CoatUnderLamps { // a coated surface's point and lobe for punctual lights
     shaded_point point;
     placed_lobe lobe;
 };
@@ -105,6 +106,7 @@ BN_INLINE real3 coat_lit(const ReferenceParams& f, const Reflector& r, const Coa
     return select(k_dot3(r.coat.horizon, shone.l) > lit(0.0), shone.radiance, vec3_all(lit(0.0)));
 }
 
+// Sums punctual lights, with occlusion unless the mode is direct.
 BN_STAGE real3 punctual_lights(const PixelFrame& p, const LaneSurface& s)
 {
     const ReferenceParams& f = p.f;
@@ -117,6 +119,7 @@ BN_STAGE real3 punctual_lights(const PixelFrame& p, const LaneSurface& s)
     for (int i = 0; i < f.light_count; ++i) {
         const LightRecord& l = f.lights[i];
         const light_sample towards = light_towards(f, s.position, i);
+        // Evaluate lobe, interface and coat
         punctual_light light = light_from(f, s.r.x, lobe, s.r.diffuse, towards, i);
         if (s.r.x.refracts)
             light.radiance =
@@ -127,12 +130,14 @@ BN_STAGE real3 punctual_lights(const PixelFrame& p, const LaneSurface& s)
             light.radiance = light.radiance + coat_lit(f, s.r, coat, towards, i);
             lit_lanes = both(s.reflects, any_light(light.radiance));
         }
+        // In path mode, light from behind enters through the interface
         if (s.r.x.refracts && f.mode == ReferenceMode::path) {
             const mask behind = both(both(s.reflects, s.r.refracts), k_dot3(s.r.x.surface_axes.n, light.l) < lit(0.0));
             const real3 arriving = splat3(l.radiant) * towards.attenuation;
             light.radiance = select(behind, reflect(s.r, light.l).value * arriving, light.radiance);
             lit_lanes = either(both(lit_lanes, not_(behind)), both(behind, any_light(light.radiance)));
         }
+        // Trace a shadow ray
         if (f.mode != ReferenceMode::direct && any(lit_lanes)) {
             LaneRays r = leaving_ray(f, s, light.l);
             if (!l.directional)
@@ -144,16 +149,16 @@ BN_STAGE real3 punctual_lights(const PixelFrame& p, const LaneSurface& s)
     return sum;
 }
 
-struct LobeRay { // of a lobe's sample, and what it hit
+struct LobeRay { // ray along a lobe's sample, and its hit
     const LaneRays& ray;
     const LaneHits& hits;
 };
 
-// What is nearer than this part of the distance to a light hides it. The rest is for what the light is fixed to.
+// Nearer hits than this part of the distance hide a light. The remainder belongs to the object that carries the light.
 constexpr double kWayToLight = 0.9999;
 
-// Returns the lanes that see the sampled point of an area light. The ray leads to that very point: it begins off the surface, so a
-// parallel one would meet a light that it grazes elsewhere.
+// Returns the lanes that see the sampled point on an area light. The ray ends at exactly that point. It starts off the surface, so a
+// parallel ray would meet a grazed light elsewhere.
 BN_STAGE mask sees_light(const PixelFrame& p, const LaneSurface& s, const area_sample& l, int light, mask wanted)
 {
     LaneRays r = leaving_ray(p.f, s, l.wi);
@@ -166,7 +171,7 @@ BN_STAGE mask sees_light(const PixelFrame& p, const LaneSurface& s, const area_s
     return both(wanted, either(not_(h.found), hits_light(p.f, h, light)));
 }
 
-// Returns the lanes whose ray hits something before the light that their direction met. That distance, too, counts from the ray's origin.
+// Returns the lanes whose ray hits something before the light in its direction. Both distances count from the ray's origin.
 BN_STAGE mask hides_light(const ReferenceParams& f, const LobeRay& b, const area_sample& met, int light)
 {
     const area_sample there = area_along(f, light, b.ray.origin, b.ray.direction);
@@ -174,8 +179,8 @@ BN_STAGE mask hides_light(const ReferenceParams& f, const LobeRay& b, const area
     return both(both(b.hits.found, b.hits.t < distance * lit(kWayToLight)), not_(hits_light(f, b.hits, light)));
 }
 
-// Light of area lights: of each by a point of its own, and by the lobe's sample where that meets it. traced: that sample's ray, or null
-// where nothing is in the way.
+// Sums area lights. Each light is sampled by a point on it, and by the lobe's sample if that meets the light. traced: the lobe sample's
+// ray, or null without occlusion.
 BN_STAGE real3 area_lights(const PixelFrame& p, const LaneSurface& s, const ReflectorSample& b, const LobeRay* traced, integer position,
                            int shade, int vertex)
 {
@@ -184,6 +189,7 @@ BN_STAGE real3 area_lights(const PixelFrame& p, const LaneSurface& s, const Refl
     real3 sum = zero;
     for (int i = 0; i < f.area_light_count; ++i) {
         const auto radiance = [&](const area_sample& l) { return area_radiance_at(f, i, s.position + l.wi * l.distance); };
+        // Sample a point on the light
         if (f.strategy != ReferenceStrategy::brdf) {
             const area_sample l = area_sample_at(f, i, s.position, area_light_point(*f.sobol, p.seed, position, shade, vertex, i));
             const Reflection at = reflect(s.r, l.wi);
@@ -194,6 +200,7 @@ BN_STAGE real3 area_lights(const PixelFrame& p, const LaneSurface& s, const Refl
                 seen = sees_light(p, s, l, i, seen);
             sum = sum + select(seen, value, zero);
         }
+        // Weigh the lobe's sample
         if (f.strategy == ReferenceStrategy::light && none(b.exact))
             continue;
         const area_sample met = area_along(f, i, s.position, b.wi);
@@ -208,7 +215,7 @@ BN_STAGE real3 area_lights(const PixelFrame& p, const LaneSurface& s, const Refl
     return sum;
 }
 
-// Light of the environment, and with bounces that of other surfaces, with everything in its way.
+// Integrates environment light with occlusion, and with bounces the light from other surfaces.
 BN_STAGE real3 traced_light(const PixelFrame& p, const LaneSurface& first, integer position, int shade)
 {
     const ReferenceParams& f = p.f;
@@ -218,6 +225,7 @@ BN_STAGE real3 traced_light(const PixelFrame& p, const LaneSurface& first, integ
     LaneSurface s = first;
     for (int depth = 0; any(s.reflects); ++depth) {
         const ShadeSample x = shade_sample(*f.sobol, p.seed, position, shade, depth);
+        // Sample the environment
         if (f.strategy != ReferenceStrategy::brdf && !f.area_lights_only) {
             const EnvironmentEstimate e = by_environment(f, s.r, x.light);
             const real3 value = throughput * e.value;
@@ -228,6 +236,7 @@ BN_STAGE real3 traced_light(const PixelFrame& p, const LaneSurface& first, integ
                 sum = sum + select(both(wanted, not_(blocked)), value, zero);
             }
         }
+        // Sample the lobe, and trace its ray
         const ReflectorSample b = sample_reflector(s.r, x.lobe, x.choice);
         const mask wanted = both(s.reflects, any_light(b.weight));
         if (none(wanted) && f.area_light_count == 0)
@@ -236,20 +245,22 @@ BN_STAGE real3 traced_light(const PixelFrame& p, const LaneSurface& first, integ
         const LaneRays r = leaving_ray(f, s, b.wi);
         const mask traced = both(wanted, not_(sees_through(f, s.r, b.wi)));
         const LaneHits h = find_hits(p, r, traced, last && f.area_light_count == 0 ? RayKind::occlusion : RayKind::bounce);
-        if (f.area_light_count > 0) { // all along the ray, which passes through those that are not solid
+        if (f.area_light_count > 0) { // all lights along the ray, which passes through open ones
             const LobeRay along = {r, h};
             sum = sum + throughput * area_lights(p, s, b, &along, position, shade, depth);
         }
         const real3 carried = throughput * b.weight;
         if (f.area_lights_only)
             break;
+        // Add the environment where the ray is free
         const real3 outside = carried * environment_radiance(f, b.wi) * lobe_weight(f, b);
         sum = sum + select(both(wanted, not_(h.found)), outside, zero);
         if (last || none(h.found))
             break;
+        // Continue at the next surface
         throughput = select(h.found, carried, zero);
         find_surface(f, h, r, nullptr, s);
-        real3 at_surface = select(s.emitter, zero, s.emission); // a solid light's came by area_lights()
+        real3 at_surface = select(s.emitter, zero, s.emission); // area_lights() has added a solid light
         if (f.light_count > 0 && any(s.reflects))
             at_surface = at_surface + punctual_lights(p, s);
         sum = sum + select(h.found, throughput * at_surface, zero);
@@ -257,7 +268,7 @@ BN_STAGE real3 traced_light(const PixelFrame& p, const LaneSurface& first, integ
     return sum;
 }
 
-// Nothing is in any light's way.
+// Integrates light without occlusion.
 BN_STAGE real3 direct_light(const PixelFrame& p, const LaneSurface& s, integer position, int shade)
 {
     const ReferenceParams& f = p.f;
@@ -269,7 +280,7 @@ BN_STAGE real3 direct_light(const PixelFrame& p, const LaneSurface& s, integer p
     return light + area_lights(p, s, b, nullptr, position, shade, 0);
 }
 
-// Sum over the shades of lanes `first`, first + 1... of a pixel's camera positions.
+// Returns the sum over the shades at a pixel's camera positions `first`, first + 1... in lanes.
 BN_STAGE real3 radiance_at_positions(const PixelFrame& p, int x, int y, int first)
 {
     const ReferenceParams& f = p.f;
@@ -277,7 +288,7 @@ BN_STAGE real3 radiance_at_positions(const PixelFrame& p, int x, int y, int firs
     const real2 in_pixel = camera_position(*f.sobol, p.seed, position);
     const real px = splat(static_cast<float>(x)) + in_pixel.x, py = splat(static_cast<float>(y)) + in_pixel.y;
     const LaneRays rays = camera_rays(f, px, py);
-    // the neighbour that belongs to the same quad of 2x2 pixels, as the rasterizer takes its derivatives
+    // Derivatives come from the neighbour in the same quad of 2x2 pixels, as in the rasterizer.
     const LaneRays neighbours[2] = {camera_rays(f, px + splat(x & 1 ? -1.0f : 1.0f), py),
                                     camera_rays(f, px, py + splat(y & 1 ? -1.0f : 1.0f))};
     const LaneRays* footprint = f.full_textures ? nullptr : neighbours;
@@ -285,6 +296,7 @@ BN_STAGE real3 radiance_at_positions(const PixelFrame& p, int x, int y, int firs
     const LaneHits h = find_hits(p, rays, everything, RayKind::camera, footprint);
     LaneSurface s;
     find_surface(f, h, rays, footprint, s);
+    // Add emission and background once per camera position
     const real3 zero = vec3_all(lit(0.0));
     real3 once = zero;
     if (any(h.found) && !f.area_lights_only)
@@ -294,6 +306,7 @@ BN_STAGE real3 radiance_at_positions(const PixelFrame& p, int x, int y, int firs
     real3 sum = once * lit(kPassShades);
     if (none(s.reflects))
         return sum;
+    // Add lights and reflected light
     if (f.light_count > 0)
         sum = sum + punctual_lights(p, s) * lit(kPassShades);
     for (int shade = 0; shade < kPassShades; ++shade) {
@@ -303,6 +316,7 @@ BN_STAGE real3 radiance_at_positions(const PixelFrame& p, int x, int y, int firs
     return sum;
 }
 
+// Adds one pass to a pixel's running mean and variance.
 void add_pass(const ReferenceParams& f, ReferenceScratch& scratch, int x, int y, std::uint32_t pass, PixelState& state)
 {
     const std::uint32_t pixel =

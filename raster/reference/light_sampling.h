@@ -1,4 +1,4 @@
-// Sampling the environment's table in lanes (environment_sampler.h).
+// Samples the environment's table in lanes (environment_sampler.h).
 #pragma once
 #include "core/simd/lanes.h"
 #include "raster/reference/environment_sampler.h"
@@ -13,14 +13,15 @@ struct LightSample {
     real pdf; // 1/sr
 };
 
-// Area on the face over solid angle, at (u, v) in [-1,1]^2.
+// Returns area on the face over solid angle, at (u, v) in [-1,1]^2.
 BN_INLINE real area_by_solid_angle(real u, real v)
 {
     const real r2 = lit(1.0) + u * u + v * v;
     return r2 * sqrt(r2);
 }
 
-// Chooses the first of two parts, of share p, or the second, and stretches what is left of x over [0, 1) again.
+// Chooses the first part, with probability p, or the second. Stretches the remainder of x to [0, 1). Returns the lanes with the second
+// part.
 BN_INLINE mask take_second(real& x, real p)
 {
     const mask second = x >= p;
@@ -30,6 +31,7 @@ BN_INLINE mask take_second(real& x, real p)
     return second;
 }
 
+// Draws a direction. xi: [0,1)^2.
 BN_INLINE LightSample sample_environment(const EnvironmentSamplerView& s, real2 xi)
 {
     integer face = int_lit(0);
@@ -42,6 +44,7 @@ BN_INLINE LightSample sample_environment(const EnvironmentSamplerView& s, real2 
     }
     real x = min((xi.x - begin) / max(end - begin, lit(1e-20)), lit(0.99999994)), y = xi.y;
     integer ix = int_lit(0), row = face; // row: over all faces
+    // Descend the quadtree
     for (int l = 0; l < s.levels; ++l) {
         const integer node = int_lit(s.offset[l]) + shl(row, l) + ix;
         const integer right = select(take_second(x, gather(s.left, node)), int_lit(1), int_lit(0));
@@ -49,6 +52,7 @@ BN_INLINE LightSample sample_environment(const EnvironmentSamplerView& s, real2 
         ix = shl(ix, 1) + right;
         row = shl(row, 1) + lower;
     }
+    // Convert the cell to a direction
     const real texel = lit(2.0) / to_real(int_lit(s.size));
     const integer iy = row - shl(face, s.levels);
     const real u = (to_real(ix) + x) * texel - lit(1.0), v = (to_real(iy) + y) * texel - lit(1.0);
@@ -64,7 +68,7 @@ BN_INLINE LightSample sample_environment(const EnvironmentSamplerView& s, real2 
     return r;
 }
 
-// Density of direction d, of any length.
+// Returns the density of direction d, with any length.
 BN_INLINE real environment_pdf(const EnvironmentSamplerView& s, real3 d)
 {
     const cube_place p = cube_face_uv(d);

@@ -1,4 +1,4 @@
-// How far away rays can be followed.
+// Limits of ray coordinates.
 #pragma once
 #include "core/base/result.h"
 #include "core/scene/draw_tables.h"
@@ -6,11 +6,11 @@
 
 namespace burnish {
 
-// Embree takes origins and directions below 1.84e18 (its FLT_LARGE), beyond which squares do not fit a float. An order of magnitude is
-// left for what is added to a coordinate on the way.
+// Embree accepts origins and directions below 1.84e18 (its FLT_LARGE); squares of larger numbers overflow a float. This limit leaves an
+// order of magnitude for additions to a coordinate.
 inline constexpr float kFarthestRay = 1e17f; // metres, along an axis
 
-// Errors with ExitCode::bad_input that name the coordinate.
+// Checks coordinates. Errors: ExitCode::bad_input, naming the coordinate.
 Status check_ray_range(const DrawTables& tables);
 Status check_ray_range(const View& view);
 

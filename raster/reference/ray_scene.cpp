@@ -36,7 +36,7 @@ class EmbreeScene final : public RayScene {
 
   private:
     struct Part {                                   // some of the scene's triangles
-        std::vector<std::uint32_t> ids;             // global, by Embree's primitive
+        std::vector<std::uint32_t> ids;             // global ids, by Embree's primitive
         const std::uint8_t* single_sided = nullptr; // by global id
     };
 
@@ -45,16 +45,16 @@ class EmbreeScene final : public RayScene {
     static void cull(const RTCFilterFunctionNArguments* args);
 
     RTCDevice device_ = nullptr;
-    RTCScene seen_ = nullptr;                // by cameras: both parts
-    RTCScene in_the_way_ = nullptr;          // of light: the surfaces; the scene that cameras see where nothing is open
+    RTCScene seen_ = nullptr;                // for cameras: both parts
+    RTCScene in_the_way_ = nullptr;          // for light: surfaces; equals seen_ if no light is open
     Part parts_[2];                          // kSurfaces, kOpenLights
     std::vector<std::uint8_t> single_sided_; // by triangle
     bool any_single_sided_ = false;
 };
 
-constexpr unsigned kSurfaces = 0, kOpenLights = 1; // Embree's ids of the parts' geometries
+constexpr unsigned kSurfaces = 0, kOpenLights = 1; // Embree's geometry ids of the parts
 
-// Keeps oneTBB, which Embree builds its trees with, from starting threads: where one is refused, it ends the process.
+// Keeps oneTBB, which Embree uses to build trees, from starting threads. If the system refuses a thread, oneTBB ends the process.
 void keep_tbb_idle()
 {
     static const tbb::global_control* const only_callers =
@@ -62,7 +62,7 @@ void keep_tbb_idle()
     static_cast<void>(only_callers);
 }
 
-// What Embree says of a call that failed. what: as in "Embree cannot ...".
+// Converts Embree's error. what: as in "Embree cannot ...".
 Error error_of(RTCError code, const std::string& what)
 {
     if (code == RTC_ERROR_OUT_OF_MEMORY)
@@ -72,7 +72,7 @@ Error error_of(RTCError code, const std::string& what)
     return {ExitCode::internal, "", "", "Embree cannot " + what};
 }
 
-// Copies the triangles of a part into a geometry of the scenes that meet it.
+// Copies a part's triangles into a geometry, and attaches it to the scenes that contain the part.
 Status EmbreeScene::add_part(const DrawTables& tables, unsigned part)
 {
     const std::vector<std::uint32_t>& ids = parts_[part].ids;
@@ -113,6 +113,7 @@ Result<std::unique_ptr<RayScene>> EmbreeScene::make(const Scene& scene, const Dr
     self->device_ = rtcNewDevice(nullptr);
     if (!self->device_)
         return error_of(rtcGetDeviceError(nullptr), "be started");
+    // Divide the triangles into surfaces and open lights
     const std::size_t triangles = tables.triangle_count();
     self->single_sided_.resize(triangles);
     for (std::size_t i = 0; i < triangles; ++i) {
@@ -121,6 +122,7 @@ Result<std::unique_ptr<RayScene>> EmbreeScene::make(const Scene& scene, const Dr
         self->any_single_sided_ = self->any_single_sided_ || self->single_sided_[i];
         self->parts_[material.emitter == kOpenEmitter ? kOpenLights : kSurfaces].ids.push_back(static_cast<std::uint32_t>(i));
     }
+    // Make one scene, or two if there are open lights
     const auto new_scene = [&] {
         RTCScene made = rtcNewScene(self->device_);
         rtcSetSceneFlags(made, static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION));
@@ -140,7 +142,7 @@ Result<std::unique_ptr<RayScene>> EmbreeScene::make(const Scene& scene, const Dr
     return std::unique_ptr<RayScene>(std::move(self));
 }
 
-// Backs of single-sided triangles are not there for the camera. Fronts are counter-clockwise, so their normal faces the ray.
+// Filters out backs of single-sided triangles for camera rays. Fronts are counter-clockwise, so their normal faces the ray.
 void EmbreeScene::cull(const RTCFilterFunctionNArguments* args)
 {
     const auto* part = static_cast<const Part*>(args->geometryUserPtr);
@@ -156,7 +158,7 @@ void EmbreeScene::cull(const RTCFilterFunctionNArguments* args)
     }
 }
 
-// A ray outside Embree's range, say one whose direction is NaN since its triangle has no area, meets nothing. Embree would end the program.
+// Disables rays outside Embree's range, for instance with a NaN direction from a triangle without area. Embree would end the program.
 void leave_out_far_rays(RayPacket& rays)
 {
     constexpr float kLarge = 1.8e18f;
@@ -190,7 +192,7 @@ void EmbreeScene::trace(RayPacket& rays, RayKind kind) const
     }
     rtcIntersect16(rays.valid, met, &context, reinterpret_cast<RTCRayHit16*>(&rays));
     if (in_the_way_ == seen_)
-        return; // one part, whose ids are Embree's
+        return; // one part, which has Embree's ids
     for (int i = 0; i < kRays; ++i)
         if (rays.valid[i] && rays.geometry[i] != kNoHit)
             rays.triangle[i] = parts_[rays.geometry[i]].ids[rays.triangle[i]];

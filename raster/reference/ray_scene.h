@@ -1,4 +1,4 @@
-// The scene as rays meet it: triangles of the draw tables under their global ids. The only door to Embree.
+// The scene for rays: triangles of the draw tables under their global ids. The only interface to Embree.
 #pragma once
 #include <cstdint>
 #include <memory>
@@ -11,27 +11,27 @@
 
 namespace burnish {
 
-inline constexpr int kRays = 16; // of a packet
+inline constexpr int kRays = 16; // per packet
 inline constexpr std::uint32_t kNoHit = 0xffffffffu;
 
-// Sixteen rays with their hits, a field a row: Embree's own layout for packets of sixteen.
+// Sixteen rays with their hits, a field per row: Embree's layout for packets of sixteen.
 struct alignas(64) RayPacket {
     float org_x[kRays], org_y[kRays], org_z[kRays], tnear[kRays];
     float dir_x[kRays], dir_y[kRays], dir_z[kRays], time[kRays];
-    float tfar[kRays]; // becomes the distance of the hit, in lengths of dir; -inf where occluded() found something
+    float tfar[kRays]; // replaced by the hit's distance, in lengths of dir; -inf where an occlusion query found a hit
     std::uint32_t mask[kRays], id[kRays], flags[kRays];
-    float ng_x[kRays], ng_y[kRays], ng_z[kRays], u[kRays], v[kRays]; // u, v: weights of the second and the third vertex
-    std::uint32_t triangle[kRays];                                   // global id, undefined where `geometry` is kNoHit
+    float ng_x[kRays], ng_y[kRays], ng_z[kRays], u[kRays], v[kRays]; // u, v: weights of the second and third vertex
+    std::uint32_t triangle[kRays];                                   // global id, undefined if `geometry` is kNoHit
     std::uint32_t geometry[kRays], instance[kRays];
-    // not Embree's:
-    std::int32_t valid[kRays]; // -1 trace, 0 leave alone
+    // Not in Embree's layout:
+    std::int32_t valid[kRays]; // -1 trace, 0 skip
 };
 
-// Rays of light pass through what shows an area light, unless that is solid.
+// Light rays pass through surfaces that show an area light, unless the light is solid.
 enum class RayKind : std::int32_t {
-    camera,   // meets all area lights; passes through the backs of single-sided materials, as the rasterizer culls them
+    camera,   // meets all area lights; passes the backs of single-sided materials, which the rasterizer culls
     bounce,   // meets every surface
-    occlusion // meets every surface; only whether there is one
+    occlusion // meets every surface; tells only that there is a hit
 };
 
 class RayScene {
@@ -42,8 +42,8 @@ class RayScene {
 };
 
 bool ray_scene_available();
-// An Error with ExitCode::unavailable where Embree was not there when the program was built.
-// Builds its tree on the threads of oneTBB, where `jobs` has them, else on the calling one.
+// Builds Embree's tree on oneTBB's threads if `jobs` uses these, else on the calling thread. Errors: ExitCode::unavailable if the program
+// was built without Embree.
 Result<std::unique_ptr<RayScene>> make_ray_scene(const Scene& scene, const DrawTables& tables, const Jobs& jobs);
 
 } // namespace burnish

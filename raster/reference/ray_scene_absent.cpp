@@ -1,4 +1,4 @@
-// Stands in for ray_scene.cpp where Embree was not found.
+// Replaces ray_scene.cpp in a build without Embree.
 #include "raster/reference/ray_scene.h"
 
 namespace burnish {

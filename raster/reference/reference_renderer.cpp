@@ -99,7 +99,7 @@ ReferenceParams ReferenceRenderer::params(const FrameDesc& desc)
     return f;
 }
 
-// Blocks up to `passes`; ends early, between blocks, when asked to stop.
+// Advances blocks to `passes`. Ends early, between blocks, if asked to stop.
 void ReferenceRenderer::advance(const ReferenceParams& f, Accumulator& a, std::uint32_t passes, BlockRange blocks)
 {
     input_.jobs.parallel_for(blocks.end - blocks.begin, [&](std::size_t k, int worker) {
@@ -114,18 +114,18 @@ void ReferenceRenderer::advance(const ReferenceParams& f, Accumulator& a, std::u
 
 constexpr std::uint64_t kRoundSamples = 1u << 22;
 
-// Work between two looks at the error: some million samples, by the picture's size alone, so that where a run ends does not depend on
-// how fast it is.
+// Returns the passes between two error checks: some million samples. They depend on the picture's size alone, so a run's end does not
+// depend on its speed.
 std::uint32_t passes_in_round(const FrameDesc& desc)
 {
     const std::uint64_t samples = static_cast<std::uint64_t>(desc.width) * static_cast<std::uint64_t>(desc.height) * kPassSamples;
     return static_cast<std::uint32_t>(std::max<std::uint64_t>(1, kRoundSamples / samples));
 }
 
-// Work between two looks at the clock, whether the checkpoint is due: one pass of a large picture may take minutes.
+// Blocks between two looks at the clock for the checkpoint: one pass over a large picture may take minutes.
 constexpr std::size_t kBlocksInSlice = kRoundSamples / (kPassSamples * kBlockSide * kBlockSide);
 
-// The same, of a picture whose key is known.
+// Returns the checkpoint's file for a picture with this key.
 std::string file_of(const ReferenceOptions& options, std::uint64_t key)
 {
     return options.checkpoint_folder.empty() ? options.checkpoint
@@ -139,13 +139,14 @@ bool keeps(const ReferenceOptions& options)
 
 Result<Accumulator> ReferenceRenderer::integrate(const FrameDesc& desc, const ReferenceParams& f, SamplingStats& stats)
 {
-    constexpr std::uint32_t kFewestPasses = 8; // before an error is believed
+    constexpr std::uint32_t kFewestPasses = 8; // before the error estimate is trusted
     const auto passes = static_cast<std::uint32_t>((options_.samples + kPassSamples - 1) / kPassSamples);
     const std::uint32_t round = passes_in_round(desc);
     Accumulator a(desc.width, desc.height);
     const bool kept_up = keeps(options_);
     const std::uint64_t key = kept_up ? reference_key(input_, desc, options_) : 0;
     const std::string file = kept_up ? file_of(options_, key) : "";
+    // Resume from a checkpoint
     if (kept_up) {
         const Result<bool> resumed = read_checkpoint(file, key, a, links_of(options_));
         BN_TRY(resumed);
@@ -156,10 +157,10 @@ Result<Accumulator> ReferenceRenderer::integrate(const FrameDesc& desc, const Re
     stats.samples_before = std::uint64_t{done} * kPassSamples;
     Progress progress("passes", passes > done ? passes - done : 0, options_.quiet);
     Clock::time_point written = Clock::now();
-    // Also after the last pass: a finished checkpoint may be gone on with for more samples. A disk that is full for a while costs a
-    // checkpoint on the way, not the picture.
+    // Also write after the last pass, because a finished checkpoint can be extended with more samples. A disk that is full for a while
+    // costs an intermediate checkpoint, not the picture.
     const auto write = [&] { return kept_up ? write_checkpoint(file, key, a, links_of(options_)) : Status{}; };
-    // After whole rounds only: what a stop left in between must not decide where the run ends.
+    // Test after whole rounds only, so that an earlier stop cannot change the run's end.
     const auto good_enough = [&] {
         return options_.target_error > 0.0 && done >= kFewestPasses && done % round == 0 && most_passes(a) == done &&
                mean_relative_error(a) <= options_.target_error;
@@ -170,7 +171,7 @@ Result<Accumulator> ReferenceRenderer::integrate(const FrameDesc& desc, const Re
         for (std::size_t begin = 0; begin < a.passes.size() && !stopped(); begin += kBlocksInSlice) {
             advance(f, a, until, {begin, std::min(begin + kBlocksInSlice, a.passes.size())});
             if (kept_up && seconds_since(written) > options_.checkpoint_seconds) {
-                static_cast<void>(static_cast<bool>(write())); // the last one decides
+                static_cast<void>(static_cast<bool>(write())); // the last write decides
                 written = Clock::now();
             }
         }
@@ -178,6 +179,7 @@ Result<Accumulator> ReferenceRenderer::integrate(const FrameDesc& desc, const Re
         progress.step(done - before);
     }
     stats.stopped = stopped() && done < passes;
+    // Write the last checkpoint
     const Status kept = write();
     if (!kept && (stats.stopped || !options_.lost_checkpoint))
         return kept.error();
@@ -199,6 +201,7 @@ Result<Frame> ReferenceRenderer::render(const FrameDesc& desc, Frame)
     const Result<Accumulator> a = integrate(desc, f, s);
     BN_TRY(a);
     const double seconds = seconds_since(begin);
+    // Fill the frame and its statistics
     frame.color = mean_image(*a);
     frame.variance = variance_image(*a);
     s.samples = std::uint64_t{least_passes(*a)} * kPassSamples;
@@ -213,6 +216,7 @@ Result<Frame> ReferenceRenderer::render(const FrameDesc& desc, Frame)
     s.ray_share = count.all_ticks ? static_cast<double>(count.ticks) / static_cast<double>(count.all_ticks) : 0.0;
     s.million_samples_per_second =
         static_cast<double>(s.samples - std::min(s.samples, s.samples_before)) * desc.width * desc.height / seconds * 1e-6;
+    // Trace triangle ids at sample positions
     if (desc.triangle_ids) {
         const std::size_t row = static_cast<std::size_t>(desc.width) * static_cast<std::size_t>(desc.msaa);
         frame.triangle_ids.resize(row * static_cast<std::size_t>(desc.height));

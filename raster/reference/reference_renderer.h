@@ -1,8 +1,8 @@
-// The reference: Embree's rays and Monte Carlo integration, the truth that techniques are measured against.
+// The reference renderer: Embree's rays and Monte Carlo integration. Techniques are measured against its pictures.
 //
-// Of every pixel it estimates the mean radiance over the pixel's square (what box resolve tends to), in passes of 64 samples: 16 camera
-// positions, and at each what is seen by 4 samples of the light. Passes are independent, so their spread gives the variance of the
-// mean. The environment is the specular cube's level 0 as the tile renderer filters it, so that techniques are compared, not maps.
+// It estimates every pixel's mean radiance over the pixel's square (the limit of a box resolve), in passes of 64 samples: 16 camera
+// positions with 4 light samples each. Passes are independent, so their spread gives the mean's variance. The environment is the
+// specular cube's level 0 with the tile renderer's filter, so that comparisons show techniques, not maps.
 #pragma once
 #include <atomic>
 #include <cstdint>
@@ -16,39 +16,39 @@
 namespace burnish {
 
 enum class ReferenceMode : std::int32_t { direct, shadowed, path };
-enum class ReferenceStrategy : std::int32_t { mis, brdf, light }; // how directions to the environment are chosen
+enum class ReferenceStrategy : std::int32_t { mis, brdf, light }; // choice of directions to the environment
 
 struct ReferenceOptions {
     ReferenceMode mode = ReferenceMode::direct;
     ReferenceStrategy strategy = ReferenceStrategy::mis;
-    int bounces = 8;                  // path: from surface to surface at most
-    std::uint64_t samples = 1024;     // a pixel; rounded up to whole passes
-    bool area_lights_only = false;    // no light but theirs, and nothing behind the scene
-    bool full_textures = false;       // read at full detail wherever a ray meets them, not filtered over a pixel's footprint
+    int bounces = 8;                  // path mode: most bounces between surfaces
+    std::uint64_t samples = 1024;     // per pixel; rounded up to whole passes
+    bool area_lights_only = false;    // no other light, and a black background
+    bool full_textures = false;       // textures at full detail, not filtered over a pixel's footprint
     double target_error = 0.0;        // above 0: stop early, once mean_relative_error() is not above it
     std::string checkpoint;           // file; empty: none
-    std::string checkpoint_folder;    // in its place: each picture has a file of its own there, checkpoint_of()
-    double checkpoint_seconds = 60.0; // between two writes of it
-    bool own_checkpoint = false;      // in a folder of ours, where no link is followed
-    // Called where the picture is finished and its checkpoint cannot be written; without it that is an error of the picture too.
+    std::string checkpoint_folder;    // replaces `checkpoint`: a file per picture in this folder, checkpoint_of()
+    double checkpoint_seconds = 60.0; // between two writes
+    bool own_checkpoint = false;      // the folder is ours: follow no link in it
+    // Called if the picture is finished but its checkpoint cannot be written. Without this function the failure is the picture's error.
     std::function<void(const Error&)> lost_checkpoint;
-    const std::atomic<bool>* stop = nullptr; // set by another thread or a signal: end soon, keep everything in the checkpoint
+    const std::atomic<bool>* stop = nullptr; // set by another thread or a signal: end soon, keep all work in the checkpoint
     Isa isa = Isa::scalar;                   // never changes the picture on one machine
     bool quiet = true;                       // no progress bar
 };
 
-inline constexpr std::uint64_t kMaxReferenceSamples = std::uint64_t{1} << 32; // a pixel
+inline constexpr std::uint64_t kMaxReferenceSamples = std::uint64_t{1} << 32; // per pixel
 
-bool reference_available(); // whether this program was built with Embree
+bool reference_available(); // true if this program was built with Embree
 
-// What runs it and how many samples it takes are in Frame::stats.sampling; Frame::variance is the variance of the mean. FrameDesc's
-// technique, samples and tile size are not looked at; msaa only for triangle ids.
+// Makes the renderer. Frame::stats.sampling holds the number of samples taken; Frame::variance is the mean's variance. The renderer
+// ignores FrameDesc's technique, samples and tile size, and uses msaa for triangle ids only.
 Result<std::unique_ptr<Renderer>> make_reference_renderer(const RenderInput& input, const ReferenceOptions& options);
 
-// The file of this picture's checkpoint; empty: none.
+// Returns the file of this picture's checkpoint; empty: none.
 std::string checkpoint_of(const RenderInput& input, const FrameDesc& desc, const ReferenceOptions& options);
 
-// Whether it can be gone on with, or is not there yet: known before any work is done.
+// Checks before any work that the checkpoint can be resumed or does not exist.
 Status check_reference_checkpoint(const RenderInput& input, const FrameDesc& desc, const ReferenceOptions& options);
 
 } // namespace burnish

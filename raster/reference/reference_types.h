@@ -1,4 +1,4 @@
-// What the lanes of the reference renderer read and write: plain data, shared by the baseline code and the instruction-set objects.
+// Input and output of the reference renderer's lane code: plain data, shared by baseline code and instruction-set objects.
 #pragma once
 #include <cstdint>
 
@@ -11,27 +11,27 @@
 
 namespace burnish {
 
-// Everything that a sample depends on; constant while a picture is made.
+// Everything that a sample depends on; constant within a picture.
 struct ReferenceParams : ShadingFrame {
-    std::int32_t any_alpha; // some material lets light through
+    std::int32_t any_alpha; // some material transmits light
     bool solid_lights;      // some area light is solid
-    float ray_epsilon;      // metres; added to what the size of a coordinate asks for
+    float ray_epsilon;      // metres; added to the rounding error of coordinates
     EnvironmentSamplerView sampler;
     ReferenceMode mode;
     ReferenceStrategy strategy;
-    std::int32_t bounces; // from surface to surface, path only
+    std::int32_t bounces; // between surfaces, path mode only
     bool full_textures, area_lights_only;
     const SobolTable* sobol;
     const RayScene* rays;
     void (*trace)(const RayScene& scene, RayPacket& rays, RayKind kind);
 };
 
-struct PixelState { // of all passes so far: Welford's mean and sum of squared differences, a channel each
+struct PixelState { // over all passes so far: Welford's mean and sum of squared differences per channel
     double mean[3], m2[3];
 };
 
 struct RayCount {
-    std::uint64_t rays, ticks, all_ticks; // ticks of the time stamp counter: inside Embree, and of all work
+    std::uint64_t rays, ticks, all_ticks; // time stamp counter ticks: inside Embree, and in total
 };
 
 struct ReferenceScratch { // of one worker
@@ -44,11 +44,11 @@ struct PixelBlock {
     std::uint32_t first_pass, passes;
 };
 
-struct ReferenceFns { // one table an instruction set
-    // Adds passes to the pixels of a block; `state` is the whole picture's.
+struct ReferenceFns { // one table per instruction set
+    // Adds passes to a block's pixels. `state` covers the whole picture.
     void (*add_passes)(const ReferenceParams&, const PixelBlock&, ReferenceScratch&, PixelState* state);
-    // Global ids of the solid triangles behind sample positions of one row of pixels, ids[pixel][sample], and what blended ones before them
-    // let through, [0,1]; through may be null.
+    // Traces the sample positions in one pixel row. Writes ids[pixel][sample], the solid triangles' global ids, and the transmittance of
+    // blended surfaces before them, [0,1]; through may be null.
     void (*trace_row)(const ReferenceParams&, int y, const SamplePattern&, ReferenceScratch&, std::uint32_t* ids, float* through);
 };
 BN_DECLARE_FNS(ReferenceFns);

@@ -1,6 +1,6 @@
-// A surface ready to reflect: the BRDF that the technique `mc` samples, one term for the lobe (placed_lobe.t.h, reflectance.t.h) or for a
-// rough interface, which light passes too (refraction.t.h), one for the diffuse rest, and one for a clear coat over them (coat.t.h), as
-// values, densities and samples. Directions are world space, unit.
+// A surface's BSDF, as technique `mc` samples it: one term for the lobe (placed_lobe.t.h, reflectance.t.h) or for a rough interface that
+// transmits light too (refraction.t.h), a diffuse term, and a clear coat above (coat.t.h). Gives values, densities and samples. Directions
+// are world space, unit.
 #pragma once
 #include "raster/reference/samples.h"
 #include "shading/models/lambert.k.h"
@@ -12,16 +12,16 @@ inline namespace BN_ISA_NS {
 
 struct Reflector {
     shaded_point x;
-    int lobe;      // of the frame: its place in shading/models.def
-    real3 o;       // to the eye, in the lobe's own frame
-    real3 horizon; // normal of the surface, whatever a normal map or a tilt says: nothing below its horizon is reflected
-    real3 diffuse; // BRDF of the diffuse part, 1/sr; by light at a cosine times phong_diffuse_lit() where it is that
+    int lobe;      // the frame's, index in shading/models.def
+    real3 o;       // to the eye, in the lobe's frame
+    real3 horizon; // surface normal before normal maps and tilts: nothing below its horizon is reflected
+    real3 diffuse; // BRDF of the diffuse part, 1/sr; with phong_diffuse, lit light is also multiplied by phong_diffuse_lit()
     bool phong_diffuse;
     real choose_specular; // probability
     mask mirror;          // the lobe has no width: only samples meet it
-    mask refracts;        // an interface is in the lobe's place; none of them where !x.refracts
+    mask refracts;        // an interface replaces the lobe; empty if !x.refracts
     bool coated;          // some lanes have a coat
-    coat_layer coat;      // then; of no weight where there is none
+    coat_layer coat;      // valid if coated; weight 0 in lanes without a coat
     real choose_coat;     // probability
 };
 
@@ -32,7 +32,7 @@ BN_INLINE real luminance_of(real3 c)
     return c.x * lit(0.2126) + c.y * lit(0.7152) + c.z * lit(0.0722);
 }
 
-// coated: with `coat`.
+// Makes a reflector. coated: `coat` is valid.
 BN_INLINE Reflector make_reflector(const ShadingFrame& f, const shaded_point& x, bool coated, const coat_layer& coat)
 {
     Reflector r;
@@ -45,6 +45,7 @@ BN_INLINE Reflector make_reflector(const ShadingFrame& f, const shaded_point& x,
     r.diffuse = diffuse_brdf(f, x);
     r.mirror = x.lobe.sigma_u + x.lobe.sigma_v <= lit(1e-6);
     r.refracts = mask_from_bits(x.refracts ? (1u << kLanes) - 1u : 0u);
+    // Choose terms by their reflected energy
     real specular = luminance_of((s.f0 * x.dfg.scale + s.f90 * x.dfg.bias) * x.gain);
     if (x.refracts)
         specular = specular + luminance_of(x.through.tint) * passed;
@@ -53,6 +54,7 @@ BN_INLINE Reflector make_reflector(const ShadingFrame& f, const shaded_point& x,
     r.choose_specular = select(rest > lit(1e-6), select(specular > lit(1e-6), min(max(share, lit(0.1)), lit(0.9)), lit(0.0)), lit(1.0));
     if (lobe_has(f.lobe, kPunctualOnly))
         r.choose_specular = lit(0.0);
+    // Choose the coat by its weight
     r.coated = coated, r.coat = coat;
     r.choose_coat = lit(0.0);
     if (coated) {
@@ -74,7 +76,7 @@ BN_INLINE placed_lobe lobe_of(const Reflector& r, int model)
 {
     placed_lobe a = placed_lobe_of(model, r.x.lobe, r.x.s.n, r.x.s.v, r.x.surface_axes);
     if (!lobe_has(model, kLies_surface))
-        a.o = r.o; // the same, known already
+        a.o = r.o; // already computed
     return a;
 }
 
@@ -87,7 +89,7 @@ BN_INLINE LobeValue value_of(const placed_lobe& a, real3 wi)
     return {placed_lobe_value(a, wi), placed_lobe_pdf(a, wi), placed_lobe_o_dot_h(a, wi)};
 }
 
-// The usual lobe stands where it is asked for, the others apart.
+// The default lobe is inlined; other lobes stay out of line.
 BN_STAGE LobeValue other_lobe_value(const Reflector& r, real3 wi)
 {
     return value_of(lobe_of(r, r.lobe), wi);
@@ -113,14 +115,14 @@ struct Reflection {
     real pdf;    // of sample_reflector(), 1/sr
 };
 
-// Probability that a sample of an interface is what its microfacet reflects.
+// Returns the probability that an interface sample is the microfacet's reflection.
 BN_INLINE real reflecting_share(const rough_interface& g, real o_dot_m)
 {
     const real reflected = luminance_of(interface_reflects(g.at, o_dot_m)), passed = luminance_of(interface_passes(g.at, o_dot_m));
     return reflected / max(reflected + passed, lit(1e-20));
 }
 
-// In the place of the lobe's value and density.
+// Evaluates the interface, which replaces the lobe's value and density.
 BN_STAGE Reflection scatter(const Reflector& r, real3 wi)
 {
     const rough_interface g = rough_interface_at(r.x);
@@ -134,7 +136,7 @@ BN_STAGE Reflection scatter(const Reflector& r, real3 wi)
     return to;
 }
 
-// Of what lies below a coat. A mirror's own reflection is not in it.
+// Evaluates everything below a coat, except a mirror's reflection.
 BN_INLINE Reflection reflect_below(const Reflector& r, real3 wi)
 {
     const LobeValue l = lobe_value(r, wi);
@@ -158,7 +160,7 @@ BN_INLINE Reflection reflect_below(const Reflector& r, real3 wi)
     return to;
 }
 
-// The coat over it: of the least width where it has none, so that it is no mirror.
+// Adds the coat. A smooth coat gets the lobe model's least width, so that it is never a mirror.
 BN_STAGE Reflection reflect_coated(const Reflector& r, real3 wi, const Reflection& below)
 {
     const LobeValue l = value_of(coat_lobe_of(r), wi);
@@ -178,20 +180,20 @@ BN_INLINE Reflection reflect(const Reflector& r, real3 wi)
 
 struct ReflectorSample {
     real3 wi;
-    real3 weight; // value / pdf, 0 where the sample is none
-    real pdf;     // 1/sr; meaningless where it is exact
-    mask exact;   // the direction of a mirror, which nothing else finds
-    mask alone;   // weight and pdf are of one term, which alone goes there: that mirror or an interface
+    real3 weight; // value / pdf, 0 for an invalid sample
+    real pdf;     // 1/sr; meaningless if exact
+    mask exact;   // a mirror's direction, which no other strategy finds
+    mask alone;   // weight and pdf belong to the only term in this direction: the mirror or an interface
 };
 
 struct InterfaceSample {
     real3 wi;
     real3 weight; // value / pdf
     real pdf;
-    mask alone; // no other term of the surface goes there
+    mask alone; // no other term of the surface reaches this direction
 };
 
-// choice: in [0,1), whether to reflect.
+// Samples the interface. choice: in [0,1), selects reflection or transmission.
 BN_STAGE InterfaceSample sample_interface(const Reflector& r, real2 xi, real choice)
 {
     const rough_interface g = rough_interface_at(r.x);
@@ -213,6 +215,7 @@ BN_STAGE InterfaceSample sample_interface(const Reflector& r, real2 xi, real cho
 
 BN_INLINE ReflectorSample sample_below(const Reflector& r, real2 xi, real choice)
 {
+    // Draw one direction per term, and select
     const mask specular = choice < r.choose_specular;
     const real3 mirrored = from_lobe(r.x.lobe, r.x.s.n, mirror_direction(r.o, vec3_of(lit(0.0), lit(0.0), lit(1.0))));
     const real3 shiny = lobe_sample(r, xi);
@@ -225,6 +228,7 @@ BN_INLINE ReflectorSample sample_below(const Reflector& r, real2 xi, real choice
         s.wi = select(both(specular, r.refracts), k_normalize3(through.wi), s.wi);
     }
     s.exact = s.alone = both(specular, r.mirror);
+    // Weigh by all terms, or by the mirror or interface alone
     const Reflection at = reflect_below(r, s.wi);
     s.pdf = at.pdf;
     const real inv = select(at.pdf > lit(0.0), lit(1.0) / max(at.pdf, lit(1e-20)), lit(0.0));

@@ -1,6 +1,6 @@
-// Owen-scrambled Sobol points in lanes. Scrambling and shuffling by hashing follow Burley 2020, "Practical Hash-based Owen Scrambling":
-// digits are reversed, hashed by a function in which every bit depends on the lower ones only, and reversed back. Sets of up to five
-// dimensions are padded: each takes its points in an order of its own.
+// Owen-scrambled Sobol points in lanes. Scrambling and shuffling by hashes follow Burley 2020, "Practical Hash-based Owen Scrambling":
+// reverse the digits, hash them with a function in which every bit depends on lower bits only, and reverse them back. Sets with up to five
+// dimensions are padded: each set takes its points in a different order.
 #pragma once
 #include "core/simd/lanes.h"
 #include "raster/reference/sobol.h"
@@ -9,7 +9,7 @@
 namespace burnish {
 inline namespace BN_ISA_NS {
 
-// Uniform seeds are plain numbers, hashed as k_hash_u32 does.
+// Hashes seeds, which are equal in all lanes, as k_hash_u32 does.
 BN_INLINE std::uint32_t hash_seed(std::uint32_t a, std::uint32_t b)
 {
     std::uint32_t h = a ^ (b * 0x9e3779b9u + 0x7f4a7c15u + (a << 6) + (a >> 2));
@@ -23,8 +23,7 @@ BN_INLINE integer splat_bits(std::uint32_t bits)
     return int_lit(static_cast<std::int32_t>(bits));
 }
 
-// A hash of Laine and Karras' kind: bit k of the result depends on bits 0 to k of x. Constants: N. Vegdahl 2021, "Building a better LK
-// hash".
+// A Laine-Karras hash: bit k of the result depends on bits 0 to k of x. Constants: N. Vegdahl 2021, "Building a better LK hash".
 BN_INLINE integer scramble_reversed(integer x, std::uint32_t seed)
 {
     x = x ^ (x * splat_bits(0x3d20adeau));
@@ -34,32 +33,33 @@ BN_INLINE integer scramble_reversed(integer x, std::uint32_t seed)
     return x ^ (x * splat_bits(0x53a22864u));
 }
 
-// Which point is the index-th of a set; index in [0, 64).
+// Returns the point that comes index-th in a set; index in [0, 64).
 BN_INLINE integer shuffled(integer index, std::uint32_t seed)
 {
     return k_reverse_bits(scramble_reversed(k_reverse_bits(index), seed)) & int_lit(kPassSamples - 1);
 }
 
-// Coordinate `dimension` of point `index`, [0, 1).
+// Returns coordinate `dimension` of point `index`, [0, 1).
 BN_INLINE real owen_sobol(const SobolTable& table, integer index, int dimension, std::uint32_t seed)
 {
     const integer reversed = gather_int(reinterpret_cast<const std::int32_t*>(table.points[dimension]), index);
     return k_unit_from_bits(k_reverse_bits(scramble_reversed(reversed, hash_seed(seed, static_cast<std::uint32_t>(dimension)))));
 }
 
-// Camera position of lanes first, first + 1...: in the pixel, [0,1)^2. Each half and quarter... of the pixel gets its share of the 16.
+// Returns the camera positions in lanes first, first + 1...: in the pixel, [0,1)^2. Each half, quarter... of the pixel gets its share of
+// the 16.
 BN_INLINE real2 camera_position(const SobolTable& table, std::uint32_t pass_seed, integer position)
 {
     const std::uint32_t seed = hash_seed(pass_seed, 1);
     return vec2_of(owen_sobol(table, position, 0, seed), owen_sobol(table, position, 1, seed));
 }
 
-struct ShadeSample { // random numbers of one vertex
+struct ShadeSample { // random numbers at one path vertex
     real2 light, lobe;
     real choice;
 };
 
-// vertex: 0 at the camera's hit, 1 after the first bounce...
+// Returns the random numbers of a vertex. vertex: 0 at the camera's hit, 1 after the first bounce...
 BN_INLINE ShadeSample shade_sample(const SobolTable& table, std::uint32_t pass_seed, integer position, int shade, int vertex)
 {
     const std::uint32_t seed = hash_seed(pass_seed, static_cast<std::uint32_t>(2 + vertex));
@@ -71,7 +71,7 @@ BN_INLINE ShadeSample shade_sample(const SobolTable& table, std::uint32_t pass_s
     return s;
 }
 
-// A point of an area light from a vertex, [0,1)^2.
+// Returns the random point on an area light for a vertex, [0,1)^2.
 BN_INLINE real2 area_light_point(const SobolTable& table, std::uint32_t pass_seed, integer position, int shade, int vertex, int light)
 {
     const std::uint32_t of_vertex = hash_seed(pass_seed, 0x6000u + static_cast<std::uint32_t>(vertex));

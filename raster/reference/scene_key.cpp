@@ -30,7 +30,7 @@ class Key {
     std::uint64_t hash_ = 0;
 };
 
-// The records that shading reads hold numbers of 32 bits and nothing else, so a field that is added to one is part of the key.
+// Adds records that shading reads. They consist of 32-bit numbers without padding, so a new field becomes part of the key automatically.
 template <class T> void add_records(Key& key, const std::vector<T>& records)
 {
     key.column(records.data(), records.size());
@@ -44,14 +44,14 @@ void add_textures(Key& key, const Scene& scene)
         key.add(i.width, i.height, i.channels, i.type);
         key.column(i.bytes.data(), i.bytes.size());
     }
-    for (const Material& m : scene.materials) // which of them a record's textures are
+    for (const Material& m : scene.materials) // images of the records' textures
         key.add(
 #define BN_TEXTURE(name, path) m.name.texture,
 #include "core/scene/material.def"
             0);
 }
 
-// What a mip filter makes levels of is in the textures; what it makes of them, here.
+// Adds the filters, and ready-made levels. The filters' inputs are in the textures.
 void add_filters(Key& key, const Scene& scene)
 {
     for (const Material& m : scene.materials)
@@ -87,7 +87,7 @@ void add_tables(Key& key, const DrawTables& t)
 FrameDesc reference_desc(FrameDesc desc)
 {
     const FrameDesc defaults;
-    if (desc.area_way != kAreaWay_off) // which way, is the techniques' business
+    if (desc.area_way != kAreaWay_off) // the method matters to techniques only
         desc.area_way = defaults.area_way;
     desc.light_samples = defaults.light_samples;
     desc.technique = "mc", desc.samples = 1, desc.msaa = 1, desc.tile_size = defaults.tile_size;
@@ -102,7 +102,7 @@ std::uint64_t reference_key(const RenderInput& input, const FrameDesc& d, const 
     Key key;
     key.add(kReferenceVersion);
     FrameRecord frame = frame_record(input, reference_desc(d));
-    frame.specular = frame.irradiance = {}; // it reads the whole environment, whatever part of it is lights
+    frame.specular = frame.irradiance = {}; // the reference reads the full environment, with or without key lights
     frame.whole.levels = 1, frame.key_light_count = 0;
     std::fill(std::begin(frame.key_lights), std::end(frame.key_lights), KeyLightRecord{});
     frame.ltc = {};
@@ -117,11 +117,11 @@ std::uint64_t reference_key(const RenderInput& input, const FrameDesc& d, const 
     key.column(picture.texels.data(), 4 * picture.level_texels(0));
     key.column(input.dfg.pairs.data(), input.dfg.pairs.size());
     key.add(options.mode, options.strategy, options.mode == ReferenceMode::path ? options.bounces : 0);
-    if (options.full_textures) // without them the key is that of earlier checkpoints
+    if (options.full_textures) // otherwise equal to the key of earlier checkpoints
         key.add(options.full_textures);
     if (options.area_lights_only)
         key.add('a');
-    if (options.mode != ReferenceMode::direct && !input.tables.area_lights.empty()) // they once stood in each other's way
+    if (options.mode != ReferenceMode::direct && !input.tables.area_lights.empty()) // in older versions area lights occluded each other
         key.add('w');
     return key.value();
 }

@@ -1,4 +1,4 @@
-// What a sample depends on, as one number: a checkpoint of anything else is refused.
+// Hash of everything that a sample depends on. A checkpoint with another key is refused.
 #pragma once
 #include <cstdint>
 
@@ -7,11 +7,11 @@
 
 namespace burnish {
 
-// What a sample depends on of a frame: all light is sampled as by `mc`, and the technique, samples, tiles and MSAA that rasterizers are
-// asked for do not matter.
+// Returns the description with only the fields that samples depend on. All light is sampled as by `mc`; technique, samples, tiles and MSAA
+// of rasterizers do not matter.
 FrameDesc reference_desc(FrameDesc desc);
 
-// Scene, environment, view and options; not how many samples, and not what runs them.
+// Returns a hash over scene, environment, view and options, without the number of samples and the instruction set.
 std::uint64_t reference_key(const RenderInput& input, const FrameDesc& desc, const ReferenceOptions& options);
 
 } // namespace burnish

@@ -3,7 +3,7 @@
 namespace burnish {
 namespace {
 
-// Primitive polynomials and initial direction numbers of dimensions 2 to 5 (dimension 1 is van der Corput's): Joe and Kuo 2008,
+// Primitive polynomials and initial direction numbers for dimensions 2 to 5 (dimension 1 is van der Corput's): Joe and Kuo 2008,
 // "Constructing Sobol sequences with better two-dimensional projections", set new-joe-kuo-6.
 struct Direction {
     int degree;

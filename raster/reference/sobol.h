@@ -1,16 +1,16 @@
-// The points that a pass of one pixel is sampled at: 64 points of Sobol's sequence in five dimensions, Owen-scrambled anew for every
-// pixel and pass (samples.h). Passes are therefore independent of each other, and their spread tells the error of their mean.
+// Sample points for one pixel's pass: 64 Sobol points in five dimensions, Owen-scrambled anew per pixel and pass (samples.h). So passes
+// are independent, and their spread gives the error of their mean.
 #pragma once
 #include <cstdint>
 
 namespace burnish {
 
-inline constexpr int kPassPositions = 16; // camera positions of a pixel in one pass
-inline constexpr int kPassShades = 4;     // samples of the light at each
+inline constexpr int kPassPositions = 16; // camera positions per pixel and pass
+inline constexpr int kPassShades = 4;     // light samples at each position
 inline constexpr int kPassSamples = kPassPositions * kPassShades;
 inline constexpr int kSobolDimensions = 5;
 
-// points[dimension][index], bits reversed: what is scrambled has its most significant digit at bit 0.
+// points[dimension][index], bits reversed: scrambling expects the most significant digit at bit 0.
 struct SobolTable {
     std::uint32_t points[kSobolDimensions][kPassSamples];
 };

@@ -104,7 +104,7 @@ Status check_mip_filters(const Scene& scene, const std::string& file)
 
 Status check_parts(const SessionParts& parts)
 {
-    Limits any; // the reader of a file has looked at its limits
+    Limits any; // file readers have already applied their limits
     any.image_side = std::numeric_limits<int>::max(), any.texture_bytes = std::numeric_limits<std::uint64_t>::max();
     const SceneData& data = *parts.scene;
     if (Status ok = check_scene(data.scene, any, data.name); !ok)

@@ -22,7 +22,7 @@
 namespace burnish {
 namespace {
 
-// What `body` returns; an exception of what it calls becomes an Error.
+// Returns the result of `body`. Turns an exception into an Error.
 template <class Body> auto guarded(const std::string& what, const Body& body) -> decltype(body())
 {
     try {
@@ -57,7 +57,7 @@ Result<std::unique_ptr<Renderer>> make_renderer(const RenderInput& input, const 
     return make_tile_renderer(input, options.isa);
 }
 
-// Layers as the world stands.
+// Turns the normals and tangents of the frame's layers back to the scene's world space.
 void turn_layers(const glm::dmat3& world_from_drawn, Frame& frame)
 {
     const auto turn = [&](float(&v)[3]) {
@@ -99,7 +99,7 @@ Result<std::shared_ptr<const PhongFiles>> load_phong_tables(const std::vector<st
 
 namespace {
 
-// settle: what mip filters need to know of maps and heights that are all in their places
+// Prepares a scene for drawing. settle: tells mip filters about the maps and heights, once all are in place.
 Result<std::shared_ptr<const SceneData>> make_settled_data(const std::string& name, Scene scene, const Limits& limits,
                                                            const std::function<Status(Scene&)>& settle)
 {

@@ -7,7 +7,7 @@
 namespace burnish {
 
 namespace {
-// The tiles of one row that a large triangle may touch, by the sides of its edges: of a diagonal sliver, few of those in its bounding box.
+// Tiles in one row that a large triangle may touch, by the sides of its edges. A diagonal sliver touches few tiles in its bounding box.
 class TileRows {
   public:
     TileRows(const FrameParams& f, const std::int32_t x[3], const std::int32_t y[3])
@@ -23,11 +23,11 @@ class TileRows {
             step_x_[i] = a * side, step_y_[i] = b * side;
         }
     }
-    // Narrows [first, last], tiles of row `y`.
+    // Narrows [first, last], tiles in row `y`.
     void narrow(std::int64_t y, std::int64_t& first, std::int64_t& last) const
     {
         for (int i = 0; i < 3; ++i) {
-            const std::int64_t at = greatest_[i] + y * step_y_[i]; // at + x * step_x_ >= 0 is asked of x
+            const std::int64_t at = greatest_[i] + y * step_y_[i]; // x must satisfy at + x * step_x_ >= 0
             if (step_x_[i] > 0 && at < 0)
                 first = std::max(first, (-at + step_x_[i] - 1) / step_x_[i]);
             else if (step_x_[i] < 0)
@@ -38,10 +38,10 @@ class TileRows {
     }
 
   private:
-    std::int64_t greatest_[3], step_x_[3], step_y_[3]; // edges in a tile at their greatest; by tile
+    std::int64_t greatest_[3], step_x_[3], step_y_[3]; // greatest edge values in a tile; steps by tile
 };
 
-// Chunks are large enough that their lists' ends by tile stay few beside their triangles, and many enough to share evenly.
+// Chunks are large enough that their per-tile ends stay few beside their triangles, and many enough to share evenly.
 constexpr std::size_t kMinClusters = 16, kChunks = 64, kChunksAThread = 4;
 } // namespace
 
@@ -61,6 +61,7 @@ void Bins::Chunk::make_room()
 
 void Bins::Chunk::sort_by_tile(const FrameParams& f)
 {
+    // Describe the edges of large triangles
     const auto rows_of = [&](std::uint32_t entry) {
         if (entry & kClippedEntry) {
             const TriangleSetup& piece = pieces[entry & ~kClippedEntry].setup;
@@ -77,7 +78,7 @@ void Bins::Chunk::sort_by_tile(const FrameParams& f)
     tile_begin.clear();
     tile_begin.resize(tiles + 1);
     const std::uint32_t row = static_cast<std::uint32_t>(f.tiles_x);
-    // visit(tile, first entry, entries): in a tile, entries come one after the other.
+    // Calls visit(tile, first entry, entries). Entries are consecutive within a tile.
     const auto each_tile = [&](const auto& visit) {
         std::uint32_t end = 0;
         for (std::uint32_t k = 0; k < output.run_count; ++k) {
@@ -85,7 +86,7 @@ void Bins::Chunk::sort_by_tile(const FrameParams& f)
             const std::uint32_t begin = end, x0 = run.first_tile & 0xffff, x1 = run.last_tile & 0xffff;
             const std::uint32_t y0 = run.first_tile >> 16, y1 = run.last_tile >> 16;
             end += run.count;
-            const std::uint32_t kFew = 6; // tiles that are not looked at closely
+            const std::uint32_t kFew = 6; // skip the edge tests for fewer tiles
             if ((x1 - x0 + 1) * (y1 - y0 + 1) < kFew || x0 == x1 || y0 == y1) {
                 for (std::uint32_t y = y0; y <= y1; ++y)
                     for (std::uint32_t x = x0; x <= x1; ++x)
@@ -103,6 +104,7 @@ void Bins::Chunk::sort_by_tile(const FrameParams& f)
             }
         }
     };
+    // Count entries per tile, sum the counts, then copy the entries
     each_tile([&](std::uint32_t tile, std::uint32_t, std::uint32_t n) { tile_begin[tile] += n; });
     std::uint64_t sum = 0;
     for (std::size_t t = 0; t <= tiles; ++t) {
@@ -116,7 +118,7 @@ void Bins::Chunk::sort_by_tile(const FrameParams& f)
         std::copy_n(entries.data() + from, n, list.data() + tile_begin[tile]);
         tile_begin[tile] += n;
     });
-    for (std::size_t t = tiles; t > 0; --t) // every begin has moved to its end, the next one's begin
+    for (std::size_t t = tiles; t > 0; --t) // every begin has moved to its end, which is the next begin
         tile_begin[t] = tile_begin[t - 1];
     tile_begin[0] = 0;
 }

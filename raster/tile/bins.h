@@ -1,5 +1,5 @@
-// Triangles by tile, without locks: clusters are cut into chunks, each chunk fills its own lists, and a tile reads the chunks in
-// order, so it sees triangles in draw order whatever the threads did.
+// Triangle lists per tile, without locks. Clusters are split into chunks, and each chunk fills its lists. A tile reads the chunks in
+// order, so it sees triangles in draw order for any thread schedule.
 #pragma once
 #include <cstdint>
 #include <memory>
@@ -12,25 +12,26 @@
 
 namespace burnish {
 
-// A tile, or a part of one that holds so many triangles that threads share it; a part is drawn as a smaller tile.
+// A tile, or a part of a tile with so many triangles that several threads share it. A part is drawn as a smaller tile.
 struct TilePart {
-    static constexpr int kCuts = 2, kSide = 1 << kCuts; // a side is halved so often; parts along a side
+    static constexpr int kCuts = 2, kSide = 1 << kCuts; // halvings of a side; parts along a side
     std::uint32_t tile;
-    std::int32_t cut = -1; // which of the tiles that are cut, in the order they were given; -1: a whole tile
-    std::int32_t part = 0; // of its parts, row by row
+    std::int32_t cut = -1; // index among the cut tiles, in the given order; -1: a whole tile
+    std::int32_t part = 0; // index among its parts, row by row
 };
 
 class Bins {
   public:
+    // Fills the lists from the visible clusters.
     void build(const FrameParams& frame, const DrawTables& tables, const Visible& visible, const TileFns& fns, const Jobs& jobs,
                Profiler* profiler);
-    // Of every tile: the triangles that may show in it.
+    // Returns each tile's number of triangles that may show in it.
     std::vector<std::uint32_t> triangles_by_tile(std::size_t tiles) const;
-    // Sorts the triangles of some tiles by part. `parts`: the frame as if its tiles were the parts.
+    // Sorts the triangles of some tiles by part. parts: the frame with parts as its tiles.
     void cut(const FrameParams& parts, const std::vector<std::uint32_t>& tiles, const TileFns& fns, const Jobs& jobs);
     std::size_t triangles_in(const TilePart& part) const;
-    // Copies its entries, in draw order, and what is known of its pieces; there is room for triangles_in() of each. Returns the number of
-    // pieces, whose setups' vertex[0] are then indices into `clips`.
+    // Copies a part's entries, in draw order, and its pieces' data. The outputs must have room for triangles_in() entries. Returns the
+    // number of pieces. In a piece's setup, vertex[0] is an index into `clips`.
     std::size_t gather(const TilePart& part, std::uint32_t* entries, TriangleSetup* triangles, Column<ClipRecord>& clips) const;
     std::uint64_t triangle_count() const;
 
@@ -41,15 +42,15 @@ class Bins {
         Column<ClippedPiece> pieces;
         Column<std::uint32_t> tile_begin;            // by tile, into `list`; one more at the end
         Column<std::uint32_t> list;                  // entries by tile, in draw order
-        Column<std::uint32_t> part_begin, part_list; // the same by part of the tiles that are cut
-        Column<std::uint32_t> first_part, last_part; // of the entries of a tile that is being cut: see TileRun
+        Column<std::uint32_t> part_begin, part_list; // the same by part of the cut tiles
+        Column<std::uint32_t> first_part, last_part; // for entries of a tile that is being cut: see TileRun
         ChunkOutput output = {};
         void make_room();
         void sort_by_tile(const FrameParams& frame);
         void sort_by_part(const FrameParams& parts, const std::vector<std::uint32_t>& tiles, const TileFns& fns);
         std::span<const std::uint32_t> entries_of(const TilePart& part) const;
     };
-    std::vector<std::unique_ptr<Chunk>> chunks_; // kept from frame to frame for their memory
+    std::vector<std::unique_ptr<Chunk>> chunks_; // kept between frames to reuse their memory
     std::size_t used_ = 0;
 };
 

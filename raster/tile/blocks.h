@@ -1,5 +1,4 @@
-// Blocks of 8x8 pixels whose samples are written late: where nothing was drawn, or one triangle covers all of it, there is nothing to
-// clear, to test against or to read again.
+// Deferred writes of 8x8 pixel blocks. A block that is empty or fully covered by one triangle needs no clear, depth test or read.
 #pragma once
 #include "core/simd/lanes.h"
 #include "raster/tile/tile_types.h"
@@ -9,10 +8,10 @@
 namespace burnish {
 inline namespace BN_ISA_NS {
 
-inline constexpr int kVectors = kBlockPixels / kLanes; // registers a block; a register holds kLanes pixels in row-major order
+inline constexpr int kVectors = kBlockPixels / kLanes; // registers per block; a register holds kLanes pixels in row-major order
 inline constexpr std::uint32_t kAllLanes = (1u << kLanes) - 1;
 
-// Constants of the lanes: pixel offsets inside a block.
+// Pixel offsets inside a block, by lane.
 struct BlockLanes {
     integer x16, y16; // of the first register, 1/16 pixel
     real x, y;        // pixels
@@ -23,7 +22,7 @@ BN_INLINE BlockLanes block_lanes()
     return {shl(x, 4), shl(y, 4), to_real(x), to_real(y)};
 }
 
-// What a sample's depth differs by from that of its pixel's corner.
+// Returns the depth difference between a sample and its pixel's corner.
 BN_INLINE real sample_depth_step(const FrameParams& f, real dz_x, real dz_y, int sample)
 {
     const real to_pixels = splat(1.0f / 16);
@@ -31,14 +30,14 @@ BN_INLINE real sample_depth_step(const FrameParams& f, real dz_x, real dz_y, int
     return depth_change(dz_x, dz_y, x, y);
 }
 
-// Greatest and least depth that a plane can have in a block, rounding included, as far as the block lies in the triangle.
+// Greatest and least depth of a plane in a block, rounding included, within the triangle.
 struct DepthBounds {
     float nearest, farthest;
 };
 BN_INLINE DepthBounds depth_bounds(const BlockPlane& p)
 {
     const float ax = p.dz_x < 0.0f ? -p.dz_x : p.dz_x, ay = p.dz_y < 0.0f ? -p.dz_y : p.dz_y;
-    const float size = p.z < 0.0f ? -p.z : p.z, slack = 1e-5f * (size + (ax + ay) * kBlock); // rounding is far below
+    const float size = p.z < 0.0f ? -p.z : p.z, slack = 1e-5f * (size + (ax + ay) * kBlock); // far above rounding errors
     const float middle = p.z + (p.dz_x + p.dz_y) * (0.5f * kBlock), reach = (ax + ay) * (0.5f * kBlock);
     const float nearest = middle + reach + slack, farthest = middle - reach - slack;
     return {nearest < p.z_max ? nearest : p.z_max, farthest > p.z_min ? farthest : p.z_min};
@@ -53,7 +52,7 @@ BN_INLINE void empty_blocks(int count, TileScratch& s)
     }
 }
 
-// A triangle covers all of a block and hides all that was there.
+// Stores a triangle that covers the whole block and hides its contents.
 BN_INLINE void take_block(const BlockPlane& plane, float farthest, int block, TileScratch& s)
 {
     s.block_plane[block] = plane;
@@ -62,13 +61,14 @@ BN_INLINE void take_block(const BlockPlane& plane, float farthest, int block, Ti
     s.block_state[block] = BlockState::whole;
 }
 
-// Depths and ids of a block that was not drawn go to memory; it is `drawn` from now on.
+// Writes the depths and ids of a deferred block to memory, and marks the block as drawn.
 BN_STAGE void write_block(const FrameParams& f, int block, TileScratch& s)
 {
     float* depth = s.depth + block * f.msaa * kBlockPixels;
     std::int32_t* ids = reinterpret_cast<std::int32_t*>(s.ids) + block * f.msaa * kBlockPixels;
     const bool whole = s.block_state[block] == BlockState::whole;
     s.block_state[block] = BlockState::drawn;
+    // Clear an empty block
     if (!whole) {
         for (int i = 0; i < f.msaa * kBlockPixels; i += kLanes) {
             store(depth + i, lit(0.0));
@@ -76,6 +76,7 @@ BN_STAGE void write_block(const FrameParams& f, int block, TileScratch& s)
         }
         return;
     }
+    // Fill the block from one triangle's plane
     const BlockPlane& p = s.block_plane[block];
     const BlockLanes lanes = block_lanes();
     const real dz_x = splat(p.dz_x), dz_y = splat(p.dz_y), z_min = splat(p.z_min), z_max = splat(p.z_max);

@@ -1,4 +1,4 @@
-// The rare triangle that crosses the near plane or leaves the guard band, one at a time: its pieces to the tiles that they may touch.
+// Clips the rare triangle that crosses the near plane or leaves the guard band, one at a time. Bins its pieces.
 #include "raster/tile/tile_types.h"
 #include "shading/kernels/clip.t.h"
 #include "shading/kernels/pixel_range.k.h"
@@ -7,7 +7,7 @@ namespace burnish {
 
 namespace {
 
-// Corners of the rectangle of tiles that the bounding box can touch, as in TileRun; false where it touches no sample.
+// Computes the rectangle of tiles that the bounding box can touch, as in TileRun. Returns false if the box touches no sample.
 bool tile_rect(const FrameParams& f, const TriangleSetup& t, std::uint32_t corners[2])
 {
     std::int32_t lo[2] = {t.x[0], t.y[0]}, hi[2] = {t.x[0], t.y[0]};
@@ -24,9 +24,10 @@ bool tile_rect(const FrameParams& f, const TriangleSetup& t, std::uint32_t corne
     return true;
 }
 
-// front: the polygon shows its front (seen_side()).
+// Bins one piece. front: the polygon shows its front (seen_side()).
 void emit_piece(const FrameParams& f, std::uint32_t triangle, bool front, const clip_corner* const corner[3], ChunkOutput& out)
 {
+    // Drop pieces that rounding turned over
     TriangleSetup t = {};
     for (int i = 0; i < 3; ++i)
         t.x[i] = corner[i]->x, t.y[i] = corner[i]->y, t.inv_w[i] = corner[i]->inv_w, t.z[i] = corner[i]->z;
@@ -34,6 +35,7 @@ void emit_piece(const FrameParams& f, std::uint32_t triangle, bool front, const 
         static_cast<std::int64_t>(t.x[1] - t.x[0]) * (t.y[2] - t.y[0]) - static_cast<std::int64_t>(t.x[2] - t.x[0]) * (t.y[1] - t.y[0]);
     if (front ? area >= 0 : area <= 0)
         return;
+    // Store the corners so that the area is positive
     const std::uint32_t material = f.triangle_material[triangle];
     ClipRecord record = {};
     for (int j = 0; j < 3; ++j) {
@@ -47,6 +49,7 @@ void emit_piece(const FrameParams& f, std::uint32_t triangle, bool front, const 
         const int from = turned_corner(front, j);
         t.x[j] = u.x[from], t.y[j] = u.y[from], t.inv_w[j] = u.inv_w[from], t.z[j] = u.z[from];
     }
+    // Append the piece to the tiles that it may touch
     t.info = static_cast<std::int32_t>(material << 2) | (front ? kFrontFacing : 0) | kClipped;
     record.triangle = triangle;
     std::uint32_t corners[2];
@@ -61,6 +64,7 @@ void emit_piece(const FrameParams& f, std::uint32_t triangle, bool front, const 
 
 void clip_triangle(const FrameParams& f, std::uint32_t triangle, ChunkOutput& out)
 {
+    // Load the corners; vertices in the guard band keep their snapped positions
     clip_polygon polygon;
     for (int i = 0; i < 3; ++i) {
         const std::uint32_t v = f.indices[3 * triangle + static_cast<std::uint32_t>(i)];
@@ -69,6 +73,7 @@ void clip_triangle(const FrameParams& f, std::uint32_t triangle, ChunkOutput& ou
         if (s.x != kNeedsClip)
             place_corner(polygon, i, s.x, s.y, s.inv_w, s.z);
     }
+    // Clip, cull back faces, and fan the polygon into pieces
     clip_triangle_to_frame(f, polygon);
     const int side = seen_side(polygon);
     if (side == 0 || (side < 0 && !f.materials[f.triangle_material[triangle]].double_sided))

@@ -1,4 +1,4 @@
-// Blended layers over what is solid, sample by sample.
+// Composites blended layers over solid surfaces, sample by sample.
 #pragma once
 #include "raster/tile/blocks.h"
 #include "shading/surface/coverage.t.h"
@@ -6,8 +6,8 @@
 namespace burnish {
 inline namespace BN_ISA_NS {
 
-// Calls body(block, v, passes, lanes, at) for each register v of pixels of each block of the tile: its passes in the fragment list, their
-// lanes, and the place of the first fragment.
+// Calls body(block, v, passes, lanes, at) for each pixel register v in each block of the tile. passes: number of passes in the fragment
+// list; lanes: their lanes; at: the first fragment's index.
 template <class Body> BN_INLINE void for_each_register(const FrameParams& f, int width, int height, const TileScratch& s, const Body& body)
 {
     const std::uint32_t* lanes = s.pass_lanes;
@@ -31,7 +31,7 @@ BN_INLINE blended_light load_blended(const PeelScratch& p, int at)
     return b;
 }
 
-// Puts one pass of a layer's fragments behind the layers before. Returns the pixels that it is of.
+// Composites one pass of a layer behind the earlier layers. Returns the pass' pixels that show a surface.
 BN_INLINE std::uint32_t compose_pass(const FrameParams& f, const TileScratch& layer, PeelScratch& p, int first, mask m, std::uint32_t at)
 {
     const mask seen = both(m, expand_load_int(layer.fragment_triangle + at, m) >= int_lit(0));
@@ -40,6 +40,7 @@ BN_INLINE std::uint32_t compose_pass(const FrameParams& f, const TileScratch& la
     const integer samples = expand_load_int(layer.fragment_mask + at, m);
     const real3 colour = vec3_of(expand_load(layer.red + at, m), expand_load(layer.green + at, m), expand_load(layer.blue + at, m));
     const real alpha = expand_load(p.alpha + at, m);
+    // Blend each covered sample
     for (int s = 0; s < f.msaa; ++s) {
         const int to = first + s * kBlockPixels;
         const mask mine = both(seen, (samples & int_lit(1 << s)) != int_lit(0));
@@ -52,7 +53,7 @@ BN_INLINE std::uint32_t compose_pass(const FrameParams& f, const TileScratch& la
     return to_bits(seen);
 }
 
-// Puts the layer, which has been shaded, behind the layers before.
+// Composites the shaded layer behind the earlier layers.
 BN_INLINE void compose_layer(const FrameParams& f, int width, int height, PeelScratch& p)
 {
     const TileScratch& layer = *p.layer;
@@ -67,6 +68,7 @@ BN_INLINE void compose_layer(const FrameParams& f, int width, int height, PeelSc
         }
         if (!shown) // no further layer here
             return;
+        // Keep the layer's depths where light still passes
         p.pixels[block] |= static_cast<std::uint64_t>(shown) << (v * kLanes);
         bool more = false;
         for (int s = 0; s < f.msaa; ++s) {
@@ -82,7 +84,7 @@ BN_INLINE void compose_layer(const FrameParams& f, int width, int height, PeelSc
     p.fragment_count += layer.fragment_count - layer.background_pixels;
 }
 
-// Colours behind the blended surfaces, by sample of a register of pixels.
+// Colours behind the blended surfaces, by sample, for a register of pixels.
 struct SampleColours {
     real3 at[kMaxSamples];
 };
@@ -103,7 +105,7 @@ BN_INLINE SampleColours colours_of_samples(const FrameParams& f, const TileScrat
     return r;
 }
 
-// Writes the pixels that show blended surfaces, after resolve() has written all. x0, y0: the tile's corner, pixels.
+// Writes the pixels with blended surfaces. resolve() must have written all pixels before. x0, y0: the tile's corner, pixels.
 BN_INLINE void resolve_blended(const FrameParams& f, int x0, int y0, int width, int height, const TileScratch& s)
 {
     const PeelScratch& p = *s.peel;
@@ -114,11 +116,13 @@ BN_INLINE void resolve_blended(const FrameParams& f, int x0, int y0, int width, 
         if (!shown)
             return;
         const int first = block * f.msaa * kBlockPixels + v * kLanes;
+        // Blend over the solid colours, and average the samples
         const SampleColours behind = colours_of_samples(f, s, passes, lanes, at);
         real3 sum = vec3_all(lit(0.0));
         for (int k = 0; k < f.msaa; ++k)
             sum = sum + blend_over(load_blended(p, first + k * kBlockPixels), behind.at[k]);
         sum = sum * each;
+        // Write the pixels one by one
         float rgb[3][kLanes];
         store(rgb[0], sum.x), store(rgb[1], sum.y), store(rgb[2], sum.z);
         for (std::uint32_t bits = shown; bits; bits &= bits - 1) {

@@ -12,7 +12,7 @@ struct Plane {
     float d;
 };
 
-// The four sides and the near plane.
+// Returns the four side planes and the near plane.
 std::vector<Plane> frustum(const View& v)
 {
     std::vector<Plane> planes;
@@ -36,7 +36,7 @@ std::vector<Plane> frustum(const View& v)
     return planes;
 }
 
-// Distances are compared with a slack well above float rounding at the sizes involved.
+// Returns a tolerance for distances, well above float rounding at these sizes.
 float slack(const glm::vec3& p, const View& v, float size)
 {
     return 1e-4f * (glm::length(p - v.eye) + size) + 1e-6f * glm::length(v.eye);
@@ -48,9 +48,9 @@ bool sphere_outside(const std::vector<Plane>& planes, const View& v, const glm::
     return std::any_of(planes.begin(), planes.end(), [&](const Plane& p) { return glm::dot(p.n, center) + p.d < -margin; });
 }
 
-// Corners are floats and the eye is taken from them first (clip_position, shading/kernels/vertex.k.h): each is put as much askew as floats
-// hold its distance, wherever the two are, and where that is a part of a triangle the triangle may turn. One is taken to be a sixteenth of
-// its cluster's radius high. Metres, as slack().
+// Returns a tolerance for triangles that rounding may turn over. Corners are floats, and the eye is subtracted first (clip_position,
+// shading/kernels/vertex.k.h). So a corner's error grows with its distance, and where the error is a fraction of the triangle's size, the
+// triangle may turn. The estimate takes a triangle's height as a sixteenth of the cluster's radius. Metres, as slack().
 float turning(const Cluster& c, float distance)
 {
     return 1e-5f * distance / c.radius * distance;
@@ -62,7 +62,7 @@ bool faces_away(const Cluster& c, const View& v)
         return false;
     const glm::vec3 d = c.center - v.eye;
     const float distance = glm::length(d);
-    // Unlike planes, which are at the eye's distance from the origin, cones know only what lies between.
+    // Planes lie at the eye's distance from the origin; cones depend only on the distance in between.
     return glm::dot(d, c.cone_axis) >= c.cone_cutoff * distance + c.radius + 1e-4f * (distance + c.radius) + turning(c, distance);
 }
 
@@ -93,7 +93,7 @@ void transform_draws(const FrameParams& f, const DrawTables& tables, const Visib
                      Profiler* profiler)
 {
     const TraceSpan span("transform");
-    constexpr std::uint32_t kPiece = 16384; // vertices a task
+    constexpr std::uint32_t kPiece = 16384; // vertices per task
     struct Piece {
         std::uint32_t first, count;
     };

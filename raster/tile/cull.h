@@ -1,4 +1,4 @@
-// Which draws and clusters can be seen at all. Conservative: culling never changes a picture.
+// Culls draws and clusters. Culling is conservative and never changes a picture.
 #pragma once
 #include <cstdint>
 #include <vector>
@@ -11,11 +11,11 @@
 namespace burnish {
 
 struct Visible {
-    std::vector<std::uint32_t> draws;    // by id, ascending
-    std::vector<std::uint32_t> clusters; // by id, ascending
+    std::vector<std::uint32_t> draws;    // ids, ascending
+    std::vector<std::uint32_t> clusters; // ids, ascending
 };
 
-// Frustum by draw bounds and cluster spheres, back faces by cluster cones.
+// Tests draw bounds and cluster spheres against the frustum, and cluster cones for back faces.
 Visible cull(const DrawTables& tables, const View& view);
 
 // Runs the vertex kernel over the visible draws' vertices.

@@ -1,4 +1,4 @@
-// The tile renderer with a double by lane, for what asks how much floats lose.
+// The tile renderer with double lanes, for measurements of float errors.
 #pragma once
 #include <memory>
 
@@ -6,8 +6,8 @@
 
 namespace burnish {
 
-// The same text, slowly. What one step hands to the next (the frame's record, vertices once they are transformed, texels, colours of
-// fragments) is in words of floats still. Null where the program has no such lanes.
+// Makes a renderer from the same source text; it is slow. Data between steps (the frame's record, transformed vertices, texels, fragment
+// colours) is still float. Null if the program lacks such lanes.
 std::unique_ptr<Renderer> make_double_tile_renderer(const RenderInput& input);
 
 } // namespace burnish

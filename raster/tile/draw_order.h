@@ -1,4 +1,4 @@
-// In which order a tile draws its large triangles.
+// Draw order of a tile's large triangles.
 #pragma once
 #include "core/simd/lanes.h"
 #include "raster/tile/tile_types.h"
@@ -6,9 +6,9 @@
 namespace burnish {
 inline namespace BN_ISA_NS {
 
-inline constexpr std::uint32_t kSortedTriangles = 256; // more of them are drawn as they come, unless their alpha is tested
+inline constexpr std::uint32_t kSortedTriangles = 256; // above this number, draw in list order unless alpha is tested
 
-struct SubPixelBox { // of a triangle
+struct SubPixelBox { // bounds of a triangle
     std::int32_t x0, y0, x1, y1;
 };
 BN_INLINE SubPixelBox box_of(const TriangleSetup& t)
@@ -22,7 +22,7 @@ BN_INLINE bool larger_than_a_block(const SubPixelBox& b)
     return b.x1 - b.x0 > kBlock * kSubpixel || b.y1 - b.y0 > kBlock * kSubpixel;
 }
 
-// About how many pixels of a tile it covers: its box's part in the tile, as much of that as the triangle is of its box.
+// Estimates the pixels that a triangle covers in a tile: its box's part in the tile, times the triangle's share of its box.
 BN_INLINE float covered_pixels(const TriangleSetup& t, const SubPixelBox& b, const SubPixelBox& tile)
 {
     const float width = static_cast<float>((b.x1 < tile.x1 ? b.x1 : tile.x1) - (b.x0 > tile.x0 ? b.x0 : tile.x0));
@@ -33,23 +33,24 @@ BN_INLINE float covered_pixels(const TriangleSetup& t, const SubPixelBox& b, con
     return width > 0.0f && height > 0.0f ? width * height * (0.5f / (kSubpixel * kSubpixel)) * (area / box) : 0.0f;
 }
 
-// Sorts the first n triangles that are drawn singly, the nearest first, so that what lies behind is hidden by the block, and where alpha is
-// tested by the sample, before a texel is fetched; equal ones stay in turn (merge sort, runs doubling). False where that is not worth while
-// and they stay in the list's order: many triangles, mostly small ones, ones that hide little of each other, or in order already.
+// Sorts the first n singly drawn triangles from near to far. Then blocks, and under alpha test samples, hide later surfaces before a texel
+// is fetched. Equal depths keep their order (merge sort, runs doubling). Returns false, and keeps the list's order, if sorting would not
+// pay: too many or mostly small triangles, little overlap, or sorted already.
 BN_INLINE bool front_to_back(const FrameParams& f, const TileScratch& s, std::uint32_t n, int tile_x, int tile_y)
 {
-    constexpr float kLayers = 1.5f; // of fewer, few samples are hidden
-    // what is a fragment's later serves here
+    constexpr float kLayers = 1.5f; // below this overlap, few samples are hidden
+    // Reuse memory that fragments need only later
     const std::uint32_t room = static_cast<std::uint32_t>(f.tile_size * f.tile_size);
     if (n < 2 || n > room)
         return false;
-    float* const nearest = s.red; // by place in the list
+    float* const nearest = s.red; // by index in the list
     std::uint32_t *from = reinterpret_cast<std::uint32_t*>(s.order), *to = reinterpret_cast<std::uint32_t*>(s.fragment_pixel);
     std::uint32_t large = 0, tested = 0;
     float covered = 0.0f;
     const std::int32_t side = f.tile_size * kSubpixel, left = tile_x * side - f.center_x, top = tile_y * side - f.center_y;
     const SubPixelBox tile = {left, top, left + side, top + side};
     bool in_order = true;
+    // Find each triangle's nearest depth, and judge the gain
     for (std::uint32_t i = 0; i < n; ++i) {
         const TriangleSetup& t = s.triangles[s.drawn_singly[i]];
         const float key = t.z[0] > t.z[1] ? t.z[0] : t.z[1];
@@ -63,6 +64,7 @@ BN_INLINE bool front_to_back(const FrameParams& f, const TileScratch& s, std::ui
     }
     if (in_order || (2 * tested < n && (n > kSortedTriangles || 2 * large < n || covered < kLayers * static_cast<float>(room))))
         return false;
+    // Merge sort
     for (std::uint32_t run = 1; run < n; run *= 2) {
         for (std::uint32_t begin = 0; begin < n; begin += 2 * run) {
             const std::uint32_t middle = begin + run < n ? begin + run : n, end = begin + 2 * run < n ? begin + 2 * run : n;

@@ -1,4 +1,4 @@
-// From the tile's triangles to kLanes fragments: setups fetched for shading/surface/visible_point.t.h.
+// Gathers triangle setups for kLanes fragments, for shading/surface/visible_point.t.h.
 #pragma once
 #include "raster/frame/lane_material.h"
 #include "raster/tile/tile_types.h"
@@ -10,8 +10,8 @@ inline namespace BN_ISA_NS {
 
 inline constexpr std::int32_t kManyTriangles = -1;
 
-struct LaneSetup : triangle_setup { // of the fragments' triangles, a field a register
-    std::int32_t common_vertex[3];  // where all fragments are of one whole triangle; else kManyTriangles
+struct LaneSetup : triangle_setup { // setups of the fragments' triangles, one register per field
+    std::int32_t common_vertex[3];  // set if all fragments share one whole triangle; else kManyTriangles
 };
 
 BN_INLINE void unclip_setup(const TileScratch& scratch, mask clipped, LaneSetup& r)
@@ -56,15 +56,16 @@ BN_INLINE void load_setup(const TileScratch& scratch, integer triangle, std::int
         r.inv_w = vec3_of(real_from_bits(field[6]), real_from_bits(field[7]), real_from_bits(field[8]));
         r.info = field[15];
     }
+    // Replace clipped pieces' corners by the whole triangle's vertices
     r.piece = (r.info & int_lit(kClipped)) != int_lit(0);
     r.clipped = any(r.piece);
     if (r.clipped)
         unclip_setup(scratch, r.piece, r);
 }
 
-// What assembly asks of triangles: shading/lang/triangle.h.
+// Customization points of shading/lang/triangle.h:
 
-// Words c to c + 3 where all fragments are of one whole triangle.
+// Blends words c to c + 3 if all fragments share one whole triangle.
 BN_INLINE void blend_common(any_frame f, const LaneSetup& t, real3 b, int c, real to[4])
 {
     const auto words = [&](int k) { return f.shading_vertices + std::size_t{16} * static_cast<std::uint32_t>(t.common_vertex[k]) + c; };
@@ -104,7 +105,7 @@ BN_INLINE real3 vertex_place(any_frame f, const LaneSetup& t, int k)
     return vec3_of(gather(f.px, t.vertex[k]), gather(f.py, t.vertex[k]), gather(f.pz, t.vertex[k]));
 }
 
-// samples: covered sample mask. pixel_x, pixel_y: in the image. lights: there are some, which ask for the position.
+// Interpolates fragments. samples: covered sample mask. pixel_x, pixel_y: in the image. lights: there are lights that need the position.
 BN_INLINE visible_point fragment_of(frame_ref f, material_ref m, const view_params& view, const LaneSetup& t, integer pixel_x,
                                     integer pixel_y, integer samples, bool lights)
 {
@@ -114,7 +115,7 @@ BN_INLINE visible_point fragment_of(frame_ref f, material_ref m, const view_para
     return p;
 }
 
-// common: the triangle of all fragments, or kManyTriangles.
+// Loads the setups and interpolates. common: the triangle of all fragments, or kManyTriangles.
 BN_INLINE visible_point make_fragment_inline(frame_ref f, material_ref m, const view_params& view, const TileScratch& scratch,
                                              integer triangle, std::int32_t common, integer pixel_x, integer pixel_y, integer samples,
                                              bool lights)
@@ -124,7 +125,7 @@ BN_INLINE visible_point make_fragment_inline(frame_ref f, material_ref m, const 
     return fragment_of(f, m, view, t, pixel_x, pixel_y, samples, lights);
 }
 
-// Compiled once in a file.
+// Not inlined: compiled once per file.
 BN_STAGE visible_point make_fragment(const FrameParams& f, const MaterialRecord& m, const view_params& view, const TileScratch& scratch,
                                      integer triangle, std::int32_t common, integer pixel_x, integer pixel_y, integer samples)
 {

@@ -1,4 +1,4 @@
-// Front end of one instruction set; see geometry.isa.cpp.
+// Front end for one instruction set; see geometry.isa.cpp.
 #pragma once
 #include "core/simd/lanes.h"
 #include "raster/tile/tile_types.h"

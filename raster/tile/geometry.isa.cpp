@@ -1,4 +1,4 @@
-// Front end in lanes: vertices to the sub-pixel grid, triangles to the tiles that they may touch. Compiled once for every instruction set.
+// Front end in lanes: snaps vertices to the sub-pixel grid and bins triangles. Compiled once per instruction set.
 #include "raster/tile/geometry.h"
 
 #include "raster/tile/lane_triangles.h"
@@ -23,8 +23,8 @@ void transform_vertices(const FrameParams& f, std::uint32_t first, std::uint32_t
 
 namespace {
 
-// First and last pixel whose samples the range [lo, hi] of sub-pixel positions can cover, to inclusive tiles. Returns where the range
-// holds a pixel of the image.
+// Computes the inclusive range of tiles whose samples the sub-pixel range [lo, hi] can cover. Returns the lanes whose range holds an image
+// pixel.
 BN_INLINE mask tile_range(const FrameParams& f, integer lo, integer hi, int center, int sample_min, int sample_max, int size,
                           integer& tile_lo, integer& tile_hi)
 {
@@ -35,7 +35,7 @@ BN_INLINE mask tile_range(const FrameParams& f, integer lo, integer hi, int cent
     return r.first <= r.last;
 }
 
-// Backs of triangles that are seen from the front only.
+// Returns the back faces among `backs` whose materials are single-sided.
 BN_INLINE std::uint32_t culled_backs(const FrameParams& f, std::uint32_t first, std::uint32_t backs)
 {
     std::uint32_t culled = 0;
@@ -49,6 +49,7 @@ BN_INLINE std::uint32_t culled_backs(const FrameParams& f, std::uint32_t first, 
 
 void bin_lanes(const FrameParams& f, std::uint32_t first, int n, ChunkOutput& out)
 {
+    // Load the triangles, and find those that need clipping
     const mask used = iota() < int_lit(n);
     const integer id = iota() + int_lit(static_cast<std::int32_t>(first));
     LaneTriangles t;
@@ -56,6 +57,7 @@ void bin_lanes(const FrameParams& f, std::uint32_t first, int n, ChunkOutput& ou
     const integer clip_mark = int_lit(kNeedsClip);
     const mask clip = both(used, either(either(t.x[0] == clip_mark, t.x[1] == clip_mark), t.x[2] == clip_mark));
 
+    // Drop triangles outside the image and culled back faces
     integer tx0, tx1, ty0, ty1;
     mask keep = both(used, not_(clip));
     keep = both(keep, tile_range(f, min3(t.x), max3(t.x), f.center_x, f.pattern.min_x, f.pattern.max_x, f.width, tx0, tx1));
@@ -66,6 +68,7 @@ void bin_lanes(const FrameParams& f, std::uint32_t first, int n, ChunkOutput& ou
     keep = both(keep, either(sign.positive, sign.negative));
     const std::uint32_t culled = culled_backs(f, first, to_bits(both(keep, sign.positive)));
     keep = both(keep, not_(mask_from_bits(culled)));
+    // Compress the kept triangles, and merge runs with equal rectangles
     const integer first_tile = tx0 | shl(ty0, 16), last_tile = tx1 | shl(ty1, 16);
     std::uint32_t corners[2][kLanes];
     store_int(corners[0], first_tile), store_int(corners[1], last_tile);
@@ -87,6 +90,7 @@ void bin_lanes(const FrameParams& f, std::uint32_t first, int n, ChunkOutput& ou
             add_lane_run(__builtin_ctz(rest));
         return;
     }
+    // With clipped triangles, append one by one in draw order
     for (std::uint32_t rest = keep_bits | clip_bits; rest; rest &= rest - 1) {
         const int lane = __builtin_ctz(rest);
         const std::uint32_t triangle = first + static_cast<std::uint32_t>(lane);

@@ -1,4 +1,4 @@
-// Whole triangles a lane each: fetched by id from the frame's vertices.
+// Whole triangles, one per lane, fetched by id from the frame's vertices.
 #pragma once
 #include "core/base/column.h"
 #include "core/simd/lanes.h"
@@ -23,7 +23,7 @@ BN_INLINE integer max3(const integer v[3])
     return max(max(v[0], v[1]), v[2]);
 }
 
-// id: global, of triangles that exist, in every lane. run: they follow each other from `first` on.
+// Loads positions. id: global ids, valid in every lane. run: ids are consecutive from `first` on.
 BN_INLINE void load_positions(const FrameParams& f, integer id, bool run, std::uint32_t first, LaneTriangles& t)
 {
     const std::int32_t* indices = reinterpret_cast<const std::int32_t*>(f.indices);
@@ -42,10 +42,11 @@ BN_INLINE void load_positions(const FrameParams& f, integer id, bool run, std::u
 }
 
 struct AreaSigns {
-    mask positive, negative; // with y down; a front face, counter-clockwise with y up, is negative
+    mask positive, negative; // y points down; a front face, counter-clockwise with y up, is negative
 };
 
-// Twice the signed area needs 47 bits; where all differences are below 2^15 (128 pixels) 32 bits hold it exactly.
+// Returns the signs of the areas. Twice the signed area needs 47 bits. If all differences are below 2^15 (128 pixels), 32 bits hold it
+// exactly.
 BN_INLINE AreaSigns area_signs(const LaneTriangles& t, mask valid)
 {
     const integer ax = t.x[1] - t.x[0], ay = t.y[1] - t.y[0], bx = t.x[2] - t.x[0], by = t.y[2] - t.y[0];
@@ -53,6 +54,7 @@ BN_INLINE AreaSigns area_signs(const LaneTriangles& t, mask valid)
     const integer range = int_lit(1 << 15);
     const auto small = [&](integer d) { return both(d < range, int_lit(0) - range < d); };
     const mask is_small = both(both(small(ax), small(ay)), both(small(bx), small(by)));
+    // Recompute large triangles in 64 bits
     std::uint32_t large = to_bits(both(valid, not_(is_small)));
     if (!large)
         return {area > int_lit(0), area < int_lit(0)};
@@ -69,7 +71,7 @@ BN_INLINE AreaSigns area_signs(const LaneTriangles& t, mask valid)
     return {mask_from_bits(positive), mask_from_bits(negative)};
 }
 
-// A front face's second and third vertex change places: the area becomes positive.
+// Exchanges the second and third vertices of front faces, which makes the area positive.
 BN_INLINE void turn_fronts(mask front, LaneTriangles& t)
 {
     const auto swap = [front](auto v[3]) {
@@ -80,14 +82,14 @@ BN_INLINE void turn_fronts(mask front, LaneTriangles& t)
     swap(t.x), swap(t.y), swap(t.vertex), swap(t.inv_w), swap(t.z);
 }
 
-// Asks early for what the next two registers of triangles will read: meshes are listed in runs, so a few lanes stand for all.
+// Prefetches data for the next two registers of triangles. Meshes are listed in runs, so a few lanes stand for all.
 BN_INLINE void prefetch_triangles(const FrameParams& f, const TileScratch& s, std::uint32_t first)
 {
     const auto whole = [&](std::uint32_t i) { return i < s.triangle_count && !(s.entries[i] & kClippedEntry); };
     if (const std::uint32_t i = first + 2 * kLanes; whole(i)) {
         const std::size_t id = s.entries[i];
         __builtin_prefetch(f.triangle_material + id);
-        const std::uintptr_t indices = reinterpret_cast<std::uintptr_t>(f.indices + 3 * id); // what follows may lie beyond them
+        const std::uintptr_t indices = reinterpret_cast<std::uintptr_t>(f.indices + 3 * id); // later addresses may lie beyond the indices
         for (std::uintptr_t k = 0; k < 3 * 4 * kLanes; k += 64)
             __builtin_prefetch(reinterpret_cast<const void*>(indices + k));
     }
@@ -97,8 +99,8 @@ BN_INLINE void prefetch_triangles(const FrameParams& f, const TileScratch& s, st
                 __builtin_prefetch(f.vertices + f.indices[3 * std::size_t{s.entries[i]} + k]);
 }
 
-// The tile's triangles from `first` on, up to kLanes of them: loads those that are whole, in every lane of `whole` (the others hold some
-// triangle), and writes their setups.
+// Loads up to kLanes triangles in the tile's list from `first` on. Whole triangles are valid in the lanes of `whole`; other lanes hold
+// some triangle. Writes the whole triangles' setups.
 BN_INLINE LaneTriangles load_triangles(const FrameParams& f, const TileScratch& s, std::uint32_t first, mask& whole, integer& material)
 {
     prefetch_triangles(f, s, first);
@@ -110,11 +112,13 @@ BN_INLINE LaneTriangles load_triangles(const FrameParams& f, const TileScratch& 
     const std::uint32_t first_id = s.entries[first];
     const bool run = all(both(whole, entry == iota() + int_lit(static_cast<std::int32_t>(first_id))));
     LaneTriangles t;
+    // Load positions, and orient front faces
     load_positions(f, id, run, first_id, t);
     const mask front = area_signs(t, whole).negative;
     turn_fronts(front, t);
     const std::int32_t* materials = reinterpret_cast<const std::int32_t*>(f.triangle_material);
     material = run ? load_int(materials + first_id) : gather_int(materials, id);
+    // Write the setups; pieces keep theirs
     const integer info = shl(material, 2) | select(front, int_lit(kFrontFacing), zero);
     const integer fields[16] = {t.x[0],
                                 t.x[1],

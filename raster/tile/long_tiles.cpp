@@ -20,7 +20,7 @@ LongTiles long_tiles(const std::vector<std::uint32_t>& triangles_by_tile, int th
             found.tiles.push_back(static_cast<std::uint32_t>(i));
     std::stable_sort(found.tiles.begin(), found.tiles.end(),
                      [&](std::uint32_t l, std::uint32_t r) { return triangles_by_tile[l] > triangles_by_tile[r]; });
-    // Whole ones go to who has least, as they will when they are drawn; what is cut fills what they leave.
+    // Simulates the draw: whole tiles go to the thread with the least work, and cut tiles fill the gaps.
     const std::uint64_t most = (all + all / 16) / workers;
     for (; found.cut < found.tiles.size(); ++found.cut) {
         std::vector<std::uint64_t> load(workers);

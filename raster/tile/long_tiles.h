@@ -1,4 +1,4 @@
-// Which tiles take long enough to leave threads without work.
+// Finds tiles that take long enough to leave threads idle.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -6,8 +6,8 @@
 
 namespace burnish {
 
-// The tiles of many triangles, those of most first: the first `cut` of them are cut into parts, as whole ones would keep one thread busy
-// while the others have nothing left to do.
+// Tiles with many triangles, largest first. The first `cut` tiles are cut into parts: whole, each would keep one thread busy while the
+// others are idle.
 struct LongTiles {
     std::vector<std::uint32_t> tiles;
     std::size_t cut = 0;

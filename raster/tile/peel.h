@@ -1,12 +1,12 @@
-// Depth peeling of blended surfaces: at each sample the nearest triangle behind the layer before and before what is solid. Of equal depths
-// the one that is drawn first lies in front.
+// Depth peeling for blended surfaces: at each sample, finds the nearest triangle behind the last layer and before the solid surface. At
+// equal depths the triangle that is drawn first lies in front.
 #pragma once
 #include "raster/tile/raster.h"
 
 namespace burnish {
 inline namespace BN_ISA_NS {
 
-struct PeelBlock { // the layer before, of one block
+struct PeelBlock { // the last layer in one block
     const float* depth;
     const std::int32_t* id;
 };
@@ -21,7 +21,7 @@ struct PeelBlocks {
     }
 };
 
-// Depth test and write of one block of a blended triangle.
+// Tests and writes depth for one block of a blended triangle.
 template <int kEdges, bool kAnyOrder>
 BN_INLINE bool cover_block(const FrameParams& f, const TileTriangle& t, const EdgeLanes& of_triangle, const BlockEdges& e,
                            const BlockLanes& lanes, float z_corner, int row0, int row1, std::uint32_t id, float* depth, std::uint32_t* ids,
@@ -38,6 +38,7 @@ BN_INLINE bool cover_block(const FrameParams& f, const TileTriangle& t, const Ed
             const int at = s * kBlockPixels + v * kLanes;
             std::int32_t* const to = reinterpret_cast<std::int32_t*>(ids) + at;
             integer side = zero;
+            // Pass samples inside the triangle, in front of others, behind the last layer
             for (int i = 0; i < kEdges; ++i)
                 side = side | (edges.at[i] + int_lit(t.sample_step[e.edge[i]][s]));
             const real zs = depth_at_sample(z, splat(t.sample_z[s]), z_min, z_max), old = load(depth + at), last = load(before.depth + at);
@@ -53,7 +54,7 @@ BN_INLINE bool cover_block(const FrameParams& f, const TileTriangle& t, const Ed
     return wrote;
 }
 
-// Clears a layer: its samples begin at the depths of what is solid. Blocks without a further layer take no triangle.
+// Clears a layer: its samples start at the solid depths. Blocks without a further layer accept no triangle.
 BN_INLINE void begin_layer(const FrameParams& f, const TileScratch& solid, TileScratch& layer)
 {
     const int blocks = (f.tile_size / kBlock) * (f.tile_size / kBlock), samples = f.msaa * kBlockPixels;
@@ -61,7 +62,7 @@ BN_INLINE void begin_layer(const FrameParams& f, const TileScratch& solid, TileS
     for (int block = 0; block < blocks; ++block) {
         const bool done = solid.peel->done[block];
         layer.block_state[block] = done ? BlockState::empty : BlockState::drawn;
-        layer.block_far[block] = done ? 2.0f : 0.0f; // beyond what any triangle reaches; a lower bound
+        layer.block_far[block] = done ? 2.0f : 0.0f; // a lower bound beyond any triangle's depth
         layer.block_dirty[block] = done ? 0 : 255;
         for (int i = block * samples; i < (block + 1) * samples && !done; i += kLanes) {
             store(layer.depth + i, load(solid.depth + i));

@@ -26,7 +26,7 @@ Profiler::Profiler(int threads, std::size_t tiles, std::size_t materials, int la
     }
 }
 
-// The time since the note before; it shows in a trace, too.
+// Returns the time since the last note. The time appears in traces too.
 std::uint64_t Profiler::Worker::note(FrameStage stage)
 {
     const std::uint64_t now = Trace::now_ns(), ns = now - last;

@@ -1,4 +1,4 @@
-// Takes the times of one frame: each thread notes the end of its stages, and the notes are added up at the end.
+// Times one frame. Each thread notes the ends of its stages; sum() adds the notes.
 #pragma once
 #include <memory>
 #include <vector>
@@ -13,7 +13,7 @@ class Profiler {
   public:
     Profiler(int threads, std::size_t tiles, std::size_t materials, int lanes);
 
-    // A thread's work between begin() and end(); each lap() ends a stage. count(): `used` things went through a kernel, kLanes at once.
+    // A thread works between begin() and end(); each lap() ends a stage. count(): a kernel processed `used` items, kLanes at once.
     void begin(int worker);
     void lap(int worker, FrameStage stage);
     void count(int worker, FrameStage stage, std::uint64_t used);
@@ -39,7 +39,7 @@ class Profiler {
     std::vector<std::uint64_t> tile_ns_;
 };
 
-// Notes of one piece of work, where there is a profiler at all.
+// Notes on one piece of work, if there is a profiler.
 class ProfiledWork {
   public:
     ProfiledWork(Profiler* profiler, int worker) : profiler_(profiler), worker_(worker)
@@ -48,7 +48,7 @@ class ProfiledWork {
             profiler_->begin(worker_);
     }
     ~ProfiledWork() { end(); }
-    void end() // before the scope does
+    void end() // earlier than the scope's end
     {
         if (profiler_)
             profiler_->end(worker_);

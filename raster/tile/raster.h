@@ -1,25 +1,25 @@
-// Coverage and depth of one triangle in one tile, 8x8 pixels at a time. Integer edge functions on the 1/256-pixel grid with the
-// top-left rule (Pineda 1988), so shared edges neither overlap nor leave gaps; hierarchical depth by 8x8 block.
+// Coverage and depth of one triangle in one tile, in blocks of 8x8 pixels. Integer edge functions on the 1/256-pixel grid with the
+// top-left rule (Pineda 1988), so shared edges neither overlap nor leave gaps. Hierarchical depth by 8x8 block.
 #pragma once
 #include "raster/tile/blocks.h"
 
 namespace burnish {
 inline namespace BN_ISA_NS {
 
-// One triangle against one tile. Edge values are in units of 1/16 of (1/256 pixel)^2: standard sample positions lie on the 1/16
-// pixel grid, so dividing by 16 with floor keeps every sign and lets values within a block fit 32 bits.
+// One triangle against one tile. Edge values are in units of 1/16 of (1/256 pixel)^2. Standard sample positions lie on the 1/16 pixel
+// grid, so a floor division by 16 keeps every sign, and values within a block fit 32 bits.
 struct TileTriangle {
     std::int64_t edge[3];                  // at the tile's top left corner, top-left rule included: inside is >= 0
     std::int32_t step_x[3], step_y[3];     // by 1/16 pixel
-    std::int64_t span_min[3], span_max[3]; // least and greatest change inside a block; not of small triangles
+    std::int64_t span_min[3], span_max[3]; // least and greatest change inside a block; unset for small triangles
     std::int32_t sample_step[3][kMaxSamples];
     double z, z_x, z_y;          // depth at the first vertex, and its change by sub-pixel unit
-    std::int32_t from_x, from_y; // the tile's corner, seen from the first vertex, sub-pixel units
+    std::int32_t from_x, from_y; // the tile's corner from the first vertex, sub-pixel units
     float z_min, z_max, dz_x, dz_y;
     float sample_z[kMaxSamples];
-    int refresh_writes;     // triangles written to a block before its farthest depth is looked up again
-    int px0, px1, py0, py1; // pixels of the tile that the bounding box touches, inclusive
-    bool small;             // at most a block wide and high, in the tile or not
+    int refresh_writes;     // writes to a block before its farthest depth is updated
+    int px0, px1, py0, py1; // pixels in the tile that the bounding box touches, inclusive
+    bool small;             // at most a block wide and high, inside the tile or not
 };
 
 BN_INLINE int floor_shift(std::int64_t v, int n)
@@ -27,9 +27,10 @@ BN_INLINE int floor_shift(std::int64_t v, int n)
     return static_cast<int>(v >> n);
 }
 
-// False where the triangle touches no sample of the tile.
+// Sets up a triangle. Returns false if the triangle touches no sample in the tile.
 BN_INLINE bool begin_triangle(const FrameParams& f, const TriangleSetup& t, int tile_x, int tile_y, TileTriangle& r)
 {
+    // Find the pixels that the bounding box touches
     const std::int32_t ox = tile_x * f.tile_size * kSubpixel - f.center_x, oy = tile_y * f.tile_size * kSubpixel - f.center_y;
     const std::int32_t last = f.tile_size - 1;
     std::int32_t lo_x = t.x[0], hi_x = t.x[0], lo_y = t.y[0], hi_y = t.y[0];
@@ -44,9 +45,10 @@ BN_INLINE bool begin_triangle(const FrameParams& f, const TriangleSetup& t, int 
     if (r.px0 > r.px1 || r.py0 > r.py1)
         return false;
     r.small = hi_x - lo_x <= kBlock * kSubpixel && hi_y - lo_y <= kBlock * kSubpixel; // so edges near it fit 32 bits
+    // Set up the edge functions; reject the triangle if the tile lies outside an edge
     const std::int64_t tile_span = static_cast<std::int64_t>(f.tile_size) * 16 - 1, block_span = kBlock * 16 - 1;
     for (int i = 0; i < 3; ++i) {
-        const int p = i == 2 ? 0 : i + 1, q = i == 0 ? 2 : i - 1; // edge opposite of vertex i, from p to q
+        const int p = i == 2 ? 0 : i + 1, q = i == 0 ? 2 : i - 1; // edge opposite vertex i, from p to q
         const std::int64_t a = t.y[p] - t.y[q], b = t.x[q] - t.x[p];
         const std::int64_t at = a * (ox - t.x[p]) + b * (oy - t.y[p]);
         const bool top_left = a > 0 || (a == 0 && b > 0);
@@ -62,6 +64,7 @@ BN_INLINE bool begin_triangle(const FrameParams& f, const TriangleSetup& t, int 
             store_int(r.sample_step[i] + s, int_lit(static_cast<std::int32_t>(a)) * load_int(f.pattern.x16 + s) +
                                                 int_lit(static_cast<std::int32_t>(b)) * load_int(f.pattern.y16 + s));
     }
+    // Set up the depth plane
     const double x10 = t.x[1] - t.x[0], y10 = t.y[1] - t.y[0], x20 = t.x[2] - t.x[0], y20 = t.y[2] - t.y[0];
     const double z0 = static_cast<double>(t.z[0]), z10 = static_cast<double>(t.z[1]) - z0, z20 = static_cast<double>(t.z[2]) - z0;
     depth_slopes(x10, y10, x20, y20, z10, z20, r.z_x, r.z_y);
@@ -78,7 +81,7 @@ BN_INLINE bool begin_triangle(const FrameParams& f, const TriangleSetup& t, int 
 // A triangle's edges in lanes.
 struct EdgeLanes {
     integer change[3]; // over the lanes of a register
-    integer step[3];   // from register to register of a block, where each holds whole rows
+    integer step[3];   // between registers of a block with whole rows
 };
 BN_INLINE EdgeLanes edge_lanes(const TileTriangle& t, const BlockLanes& lanes)
 {
@@ -92,7 +95,7 @@ BN_INLINE EdgeLanes edge_lanes(const TileTriangle& t, const BlockLanes& lanes)
 
 struct BlockEdges { // the edges that cross the block
     int count;
-    int edge[3];        // which they are
+    int edge[3];        // their indices
     std::int32_t at[3]; // their values at the block's corner
 };
 BN_INLINE void add_edge(const TileTriangle& t, int edge, int bx, int by, BlockEdges& e)
@@ -102,17 +105,18 @@ BN_INLINE void add_edge(const TileTriangle& t, int edge, int bx, int by, BlockEd
                                                 static_cast<std::int64_t>(t.step_y[edge]) * (by * kBlock * 16));
 }
 
-// Greatest depth that the triangle can reach in the block, against the farthest sample already there. The bound is refreshed
-// only now and then: it may be too low, never too high, so it cannot change the picture.
+// Returns true if the triangle's greatest depth in the block lies behind the block's farthest sample. The bound on that sample is updated
+// only from time to time. It may be too low but never too high, so it cannot change the picture.
 template <bool kAnyOrder>
 BN_INLINE bool block_hidden(const FrameParams& f, const TileTriangle& t, float nearest, int block, const float* depth, TileScratch& scratch)
 {
     const auto hidden = [&](float farthest) { return kAnyOrder ? nearest < farthest : nearest <= farthest; };
     if (hidden(scratch.block_far[block]))
         return true;
+    // Recompute the farthest depth after enough writes
     if (scratch.block_dirty[block] < t.refresh_writes)
         return false;
-    constexpr int kChains = 4; // that do not wait for each other
+    constexpr int kChains = 4; // independent chains of minima
     real far[kChains];
     for (int k = 0; k < kChains; ++k)
         far[k] = load(depth + k * kLanes);
@@ -128,8 +132,8 @@ BN_INLINE bool block_hidden(const FrameParams& f, const TileTriangle& t, float n
 
 struct NoAlpha {}; // opaque: every covered sample counts
 
-// Depth test and write of the samples of a register of pixels, `at` the values of kEdges edges at their corners, z the depth there. alive:
-// the pixels that survive an alpha test; or null.
+// Tests and writes depth for the samples in a pixel register. at: kEdges edge values at the pixels' corners; z: depth there. alive: pixels
+// that survive an alpha test; or null.
 template <int kEdges, bool kAnyOrder>
 BN_INLINE bool cover_register(const FrameParams& f, const TileTriangle& t, const BlockEdges& e, const integer at[3], real z,
                               integer lane_id, float* depth, std::int32_t* ids, const std::uint32_t* alive)
@@ -141,6 +145,7 @@ BN_INLINE bool cover_register(const FrameParams& f, const TileTriangle& t, const
         std::int32_t* to = ids + s * kBlockPixels;
         const real zs = depth_at_sample(z, splat(t.sample_z[s]), z_min, z_max);
         const real old = load(d);
+        // Depth test, then coverage
         mask pass = zs > old;
         if constexpr (kAnyOrder)
             pass = either(pass, both(zs == old, lane_id < load_int(to)));
@@ -159,7 +164,7 @@ BN_INLINE bool cover_register(const FrameParams& f, const TileTriangle& t, const
     return any(written);
 }
 
-// Values of the edges that cross a block at the corners of the pixels of one of its registers.
+// Edge values at the pixel corners of a register, for edges that cross the block.
 template <int kEdges> struct RegisterEdges {
     integer at[kEdges > 0 ? kEdges : 1];
     integer step[kEdges > 0 ? kEdges : 1];
@@ -176,7 +181,7 @@ BN_INLINE RegisterEdges<kEdges> edges_of_register(const TileTriangle& t, const E
     }
     return r;
 }
-// v: the register at hand.
+// Advances to the next register. v: the current one.
 template <int kEdges>
 BN_INLINE void next_register(const TileTriangle& t, const EdgeLanes& edges, const BlockEdges& e, int v, RegisterEdges<kEdges>& r)
 {
@@ -186,7 +191,7 @@ BN_INLINE void next_register(const TileTriangle& t, const EdgeLanes& edges, cons
         r.at[i] = r.at[i] + r.step[i];
 }
 
-// The triangle's depth at the corners of the pixels of register v of a block.
+// Returns the triangle's depth at the pixel corners of register v in a block.
 BN_INLINE real depths_of_register(const BlockLanes& lanes, real z_corner, real dz_x, real dz_y, int v)
 {
     const int vx = v * kLanes & 7, vy = v * kLanes >> 3;
@@ -203,7 +208,7 @@ BN_INLINE RegisterRange registers_of_rows(int row0, int row1)
     return {row0 * kBlock / kLanes, (row1 * kBlock + kBlock - 1) / kLanes};
 }
 
-// Depth test and write of one block of an opaque triangle.
+// Tests and writes depth for one block of an opaque triangle.
 template <int kEdges, bool kAnyOrder>
 BN_INLINE bool cover_block(const FrameParams& f, const TileTriangle& t, const EdgeLanes& of_triangle, const BlockEdges& e,
                            const BlockLanes& lanes, float z_corner, int row0, int row1, std::uint32_t id, float* depth, std::uint32_t* ids,
@@ -223,8 +228,8 @@ BN_INLINE bool cover_block(const FrameParams& f, const TileTriangle& t, const Ed
     return wrote;
 }
 
-// The same of a triangle whose alpha is tested: first the pixels that may show it are put together, so that `alpha.find(pixels, n, to)`
-// finds the alpha of full registers of them; alpha.staying() gives those whose sample stays.
+// Tests and writes depth for one block of a triangle with alpha test. First collects the pixels that may show it, so that
+// `alpha.find(pixels, n, to)` works on full registers. alpha.staying() returns the pixels whose samples stay.
 template <int kEdges, bool kAnyOrder, class Alpha>
 BN_INLINE bool cover_block(const FrameParams& f, const TileTriangle& t, const EdgeLanes& of_triangle, const BlockEdges& e,
                            const BlockLanes& lanes, float z_corner, int row0, int row1, std::uint32_t id, float* depth, std::uint32_t* ids,
@@ -235,10 +240,11 @@ BN_INLINE bool cover_block(const FrameParams& f, const TileTriangle& t, const Ed
     const RegisterRange range = registers_of_rows(row0, row1);
     std::int32_t pixels[kBlockPixels + kLanes]; // whole registers are written
     float found[kBlockPixels + kLanes];
-    std::uint32_t shown[kVectors]; // by register: pixels that may show it at some sample
+    std::uint32_t shown[kVectors]; // by register: pixels that may show the triangle at some sample
     int count = 0;
     const RegisterEdges<kEdges> first = edges_of_register<kEdges>(t, of_triangle, e, range.first);
     RegisterEdges<kEdges> edges = first;
+    // Collect candidate pixels: covered and not hidden at some sample
     for (int v = range.first; v <= range.last; ++v, next_register<kEdges>(t, of_triangle, e, v - 1, edges)) {
         const real z = depths_of_register(lanes, splat(z_corner), dz_x, dz_y, v);
         shown[v] = 0;
@@ -253,9 +259,11 @@ BN_INLINE bool cover_block(const FrameParams& f, const TileTriangle& t, const Ed
     }
     if (count == 0)
         return false;
+    // Find their alpha
     alpha.find(pixels, count, found);
     const float* of_register = found;
     bool wrote = false;
+    // Test and write the pixels that stay
     edges = first;
     for (int v = range.first; v <= range.last; ++v, next_register<kEdges>(t, of_triangle, e, v - 1, edges)) {
         if (!shown[v])
@@ -271,15 +279,15 @@ BN_INLINE bool cover_block(const FrameParams& f, const TileTriangle& t, const Ed
     return wrote;
 }
 
-// Depth at a block's corner: from the vertex, not from the tile, so that it is the same for every tile size.
+// Returns the depth at a block's corner. It is computed from the vertex, not from the tile, so that it is equal for every tile size.
 BN_INLINE float corner_depth(const TileTriangle& t, int bx, int by)
 {
     const double from_x = t.from_x + bx * kBlock * kSubpixel, from_y = t.from_y + by * kBlock * kSubpixel;
     return static_cast<float>(depth_at(t.z, t.z_x, t.z_y, from_x, from_y));
 }
 
-// Rasterizes a triangle of few pixels that lanes do not share (small_triangles.h), as its material tests alpha or it is a piece of a
-// clipped one: to ask what hides its blocks or which edges cross them would cost more than it saves.
+// Rasterizes a small triangle that lanes do not share (small_triangles.h): its material tests alpha, or it is a clipped piece. Tests for
+// hidden blocks or for crossing edges would cost more than they save.
 template <bool kAnyOrder, class MakeAlpha>
 BN_INLINE void raster_small_triangle(const FrameParams& f, const TileTriangle& t, std::uint32_t id, TileScratch& scratch,
                                      const MakeAlpha& make_alpha)
@@ -296,7 +304,7 @@ BN_INLINE void raster_small_triangle(const FrameParams& f, const TileTriangle& t
             for (int i = 0; i < 3; ++i)
                 add_edge(t, i, bx, by, e);
             const int block = by * blocks_x + bx, at = block * f.msaa * kBlockPixels;
-            if (t.z_max < scratch.block_far[block]) // or the block has no further blended layer
+            if (t.z_max < scratch.block_far[block]) // hidden, or the block has no further blended layer
                 continue;
             if (scratch.block_state[block] != BlockState::drawn)
                 write_block(f, block, scratch);
@@ -308,13 +316,13 @@ BN_INLINE void raster_small_triangle(const FrameParams& f, const TileTriangle& t
     }
 }
 
-struct TouchedBlocks {             // bit b: block b of the tile
-    std::uint64_t all, crossed[3]; // not left out by any edge; cut by edge i
+struct TouchedBlocks {             // bit b: block b in the tile
+    std::uint64_t all, crossed[3]; // not outside any edge; cut by edge i
 };
 static_assert(kMaxTileSize / kBlock * (kMaxTileSize / kBlock) <= 64);
 
-// kLanes blocks at once. A block's corners lie whole multiples of 128 units from the tile's, so values divided by 32 with floor keep their
-// signs, and those near enough for their sign to change fit 32 bits.
+// Finds the blocks that a triangle touches, kLanes blocks at once. Block corners lie multiples of 128 units from the tile's corner. So
+// values floor-divided by 32 keep their signs, and values that may change sign in the tile fit 32 bits.
 BN_INLINE TouchedBlocks touched_blocks(const TileTriangle& t, int blocks_x)
 {
     constexpr int kShift = 5, kStep = kBlock * 16 >> kShift;
@@ -323,11 +331,13 @@ BN_INLINE TouchedBlocks touched_blocks(const TileTriangle& t, int blocks_x)
         v >>= kShift;
         return int_lit(static_cast<std::int32_t>(v > kFar ? kFar : v < -kFar ? -kFar : v));
     };
+    // Take the bounding box
     const int x0 = t.px0 / kBlock, x1 = t.px1 / kBlock, first = t.py0 / kBlock * blocks_x, end = (t.py1 / kBlock + 1) * blocks_x;
     const std::uint64_t row = (std::uint64_t{2} << x1) - (std::uint64_t{1} << x0);
     TouchedBlocks r = {0, {0, 0, 0}};
     for (int block = first; block < end; block += blocks_x)
         r.all |= row << block;
+    // Remove blocks outside an edge, and note crossing edges
     integer greatest[3], least[3], step_x[3], step_y[3];
     for (int i = 0; i < 3; ++i) {
         greatest[i] = fitting(t.edge[i] + t.span_max[i]), least[i] = fitting(t.edge[i] + t.span_min[i]);
@@ -349,7 +359,7 @@ BN_INLINE TouchedBlocks touched_blocks(const TileTriangle& t, int blocks_x)
     return r;
 }
 
-// Whether a triangle that covers all of a block surely lies before all that is there. Depth 0 is that of nothing, and passes no test.
+// Returns true if a triangle that covers a block certainly lies before the block's contents. Depth 0 stands for empty and passes no test.
 BN_INLINE bool hides_block(const DepthBounds& bounds, BlockState state, int block, const TileScratch& s)
 {
     if (state == BlockState::drawn || bounds.farthest <= 0.0f)
@@ -357,8 +367,8 @@ BN_INLINE bool hides_block(const DepthBounds& bounds, BlockState state, int bloc
     return state == BlockState::empty || bounds.farthest > depth_bounds(s.block_plane[block]).nearest;
 }
 
-// Rasterizes triangle `id` of the tile's list. `make_alpha(block_x, block_y)` gives the alpha test of a block. kAnyOrder: drawn out of
-// turn, so at equal depths the lower id wins, which it does by itself in turn.
+// Rasterizes triangle `id` of the tile's list. `make_alpha(block_x, block_y)` returns the alpha test for a block. kAnyOrder: the triangle
+// is drawn out of order, so the lower id must win at equal depths. In list order it wins by itself.
 template <bool kAnyOrder, class MakeAlpha>
 BN_INLINE void raster_triangle(const FrameParams& f, const TileTriangle& t, std::uint32_t id, TileScratch& scratch,
                                const MakeAlpha& make_alpha)
@@ -375,11 +385,13 @@ BN_INLINE void raster_triangle(const FrameParams& f, const TileTriangle& t, std:
         const int block = __builtin_ctzll(blocks), bx = block % blocks_x, by = block / blocks_x;
         const int row0 = t.py0 > by * kBlock ? t.py0 - by * kBlock : 0;
         const int row1 = t.py1 < by * kBlock + kBlock - 1 ? t.py1 - by * kBlock : kBlock - 1;
+        // Collect the edges that cross the block
         BlockEdges e;
         e.count = 0;
         for (int i = 0; i < 3; ++i)
             if (touched.crossed[i] >> block & 1u) // else the whole block lies inside this edge
                 add_edge(t, i, bx, by, e);
+        // Skip the block if it is hidden; defer it if the triangle fills it
         const float z_corner = corner_depth(t, bx, by);
         const BlockPlane plane = {z_corner, t.dz_x, t.dz_y, t.z_min, t.z_max, id};
         const DepthBounds bounds = depth_bounds(plane);
@@ -391,6 +403,7 @@ BN_INLINE void raster_triangle(const FrameParams& f, const TileTriangle& t, std:
             take_block(plane, bounds.farthest, block, scratch);
             continue;
         }
+        // Draw samples, with code for the number of crossing edges
         if (state != BlockState::drawn)
             write_block(f, block, scratch);
         std::uint32_t* ids = scratch.ids + block * f.msaa * kBlockPixels;

@@ -1,6 +1,6 @@
-// What a tile's samples, vertices and fragments went through, for comparisons with other renderers (StageRecords in raster/frame/frame.h).
-// Interpolants and material inputs are not those that were used: they are computed once more, a fragment at a time, by the functions that
-// shading calls, so a fault in how shading fills its lanes shows in the colours first. Depths and colours are those that were drawn.
+// Records the intermediate values of a tile's samples, vertices and fragments, for comparison with other renderers (StageRecords in
+// raster/frame/frame.h). Interpolants and material inputs are recomputed, one fragment at a time, by the functions that shading calls. So
+// a fault in the way that shading fills its lanes shows in the colours first. Depths and colours are those in the picture.
 #pragma once
 #include "raster/frame/frame.h"
 #include "raster/tile/fragment.h"
@@ -11,7 +11,7 @@
 namespace burnish {
 inline namespace BN_ISA_NS {
 
-// Takes the first lane of registers, one after another.
+// Writes the first lane of each register.
 struct WordWriter {
     std::uint32_t* to;
     void put(std::uint32_t word) { *to++ = word; }
@@ -24,13 +24,13 @@ struct WordWriter {
     void put(real x) { put(bits_of(x)); }
 };
 
-// What assembly asks of recorders: shading/lang/recorder.h.
+// Customization points of shading/lang/recorder.h:
 BN_INLINE void put_real(WordWriter& w, real x)
 {
     w.put(x);
 }
 
-// Takes all lanes of registers, one register after another.
+// Writes all lanes of each register.
 struct LaneWriter {
     float* to; // [word][kLanes]
 };
@@ -55,7 +55,7 @@ BN_STAGE void record_vertices(const FrameParams& f, std::uint32_t count, std::ui
     }
 }
 
-// After shading; x0, y0: the tile's corner, pixels.
+// Records fragments after shading. x0, y0: the tile's corner, pixels.
 BN_STAGE void record_fragments(const FrameParams& f, const view_params& view, int x0, int y0, const TileScratch& s)
 {
     const auto pixel_of = [&](std::int32_t pixel) {
@@ -69,6 +69,7 @@ BN_STAGE void record_fragments(const FrameParams& f, const view_params& view, in
         std::uint32_t* const record = s.output_pairs + (pixel_of(pixel) * msaa + first) * kPairWords;
         WordWriter w{record};
         w.put(static_cast<std::uint32_t>(covered));
+        // Recompute interpolants and material inputs
         if (id >= 0) {
             const MaterialRecord& m = f.materials[s.triangles[id].info >> 2];
             const visible_point p =
@@ -76,6 +77,7 @@ BN_STAGE void record_fragments(const FrameParams& f, const view_params& view, in
             record_point(w, p, m.uses_color != 0, m.textured != 0, f.positions != 0);
             record_material(w, fetch_lanes(f, m, p));
         }
+        // Store the drawn colour
         w.to = record + kPairWords - 3;
         w.put(splat(s.red[i])), w.put(splat(s.green[i])), w.put(splat(s.blue[i]));
     }

@@ -1,4 +1,4 @@
-// From the colours of fragments to pixels.
+// Resolves fragment colours to pixels.
 #pragma once
 #include "raster/tile/blocks.h"
 #include "shading/surface/coverage.t.h"
@@ -6,7 +6,7 @@
 namespace burnish {
 inline namespace BN_ISA_NS {
 
-// covered_share(), of no more samples than there are.
+// Returns covered_share(), with code for small sample counts.
 BN_INLINE real share_of(integer samples, real each, int msaa)
 {
     if (msaa <= 4)
@@ -16,14 +16,15 @@ BN_INLINE real share_of(integer samples, real each, int msaa)
     return covered_share(samples, each);
 }
 
-// Two blocks that lie side by side, by row: whole cache lines where the image's rows begin with one.
+// Two adjacent blocks, by row: whole cache lines if the image's rows start on a cache line.
 struct PixelRows {
     static constexpr int kPixels = 2 * kBlock, kFloats = 3 * kPixels;
     alignas(64) float rgb[kBlock][kFloats];
 };
 static_assert(PixelRows::kFloats * sizeof(float) % 64 == 0);
 
-// lines: `to` is a line's begin, and so is that of each row after it; then they pass the caches, and what is overwritten is not read first.
+// Writes rows to the picture. lines: `to` and each later row start on a cache line. Then rows bypass the caches, and memory is not read
+// before it is overwritten.
 BN_INLINE void write_rows(const PixelRows& rows, int columns, int count, bool lines, float* to, std::size_t stride)
 {
     const bool whole = columns == PixelRows::kPixels;
@@ -38,8 +39,8 @@ BN_INLINE void write_rows(const PixelRows& rows, int columns, int count, bool li
     }
 }
 
-// Box resolve: the mean over samples, fragments of a pixel in the order of their passes, so the sum never depends on how they were
-// batched. Writes RGB to the frame.
+// Box filter: averages samples. A pixel's fragments are summed in pass order, so the sum does not depend on batches. Writes RGB to the
+// frame.
 BN_INLINE void resolve(const FrameParams& f, int x0, int y0, int width, int height, const TileScratch& s)
 {
     const real each = splat(1.0f / static_cast<float>(f.msaa)), zero = lit(0.0);
@@ -56,12 +57,13 @@ BN_INLINE void resolve(const FrameParams& f, int x0, int y0, int width, int heig
             for (int v = 0; v < kVectors; ++v, ++register_passes) {
                 real r = zero, g = zero, b = zero;
                 int passes = *register_passes;
-                if (passes == 1 && *lanes == kAllLanes) { // every pixel is one fragment, of weight 1
+                if (passes == 1 && *lanes == kAllLanes) { // every pixel is one fragment with weight 1
                     r = r + load(s.red + at), g = g + load(s.green + at), b = b + load(s.blue + at);
                     at += kLanes;
                     ++lanes;
                     passes = 0;
                 }
+                // Add weighted fragments, pass by pass
                 for (int k = 0; k < passes; ++k) {
                     const std::uint32_t bits = *lanes++;
                     const mask m = mask_from_bits(bits);
@@ -74,6 +76,7 @@ BN_INLINE void resolve(const FrameParams& f, int x0, int y0, int width, int heig
                 float* const to = block + PixelRows::kFloats * (v * kLanes >> 3) + 3 * (v * kLanes & 7);
                 store_triples(to, to + PixelRows::kFloats, r, g, b);
             }
+            // Write a finished pair of blocks
             const int left = (bx & ~1) * kBlock, columns = width - left, count = height - by * kBlock;
             if ((bx & 1) || columns <= kBlock)
                 write_rows(rows, columns < PixelRows::kPixels ? columns : PixelRows::kPixels, count < kBlock ? count : kBlock, lines,

@@ -1,4 +1,4 @@
-// Shading of visible fragments, kLanes at a time, all of one material: interpolate, fetch textures, run the assembly of shading/.
+// Shades visible fragments with one material, kLanes at a time: interpolates, fetches textures, runs the assembly of shading/.
 #pragma once
 #include <cstddef>
 #include <new>
@@ -10,12 +10,12 @@
 namespace burnish {
 inline namespace BN_ISA_NS {
 
-// What is the same for all fragments of a material, found once.
+// Values that are equal for all fragments with a material, computed once.
 struct MaterialPlan {
-    bool uniform;       // nothing changes from fragment to fragment
-    material_inputs at; // then
-    bool one_shape;     // no texture changes the lobe's shape, or nothing asks for it
-    lobe_shape shape;   // then
+    bool uniform;       // no input changes between fragments
+    material_inputs at; // the inputs, if uniform
+    bool one_shape;     // no texture changes the lobe's shape, or nothing needs the shape
+    lobe_shape shape;   // the shape, if there is one
 };
 
 BN_INLINE MaterialPlan plan_material(frame_ref f, material_ref m)
@@ -30,7 +30,7 @@ BN_INLINE MaterialPlan plan_material(frame_ref f, material_ref m)
     return plan;
 }
 
-// x, y: pixels.
+// Computes the light of fragments. x, y: pixels.
 template <Technique kTechnique>
 BN_INLINE line_record shade_fragments(frame_ref f, material_ref m, const material_inputs& at, const lobe_shape& shape,
                                       const visible_point& p, integer x, integer y)
@@ -42,7 +42,7 @@ BN_INLINE line_record shade_fragments(frame_ref f, material_ref m, const materia
 template <Technique kTechnique>
 BN_INLINE line_record shade_planned(frame_ref f, material_ref m, const MaterialPlan& plan, const visible_point& p, integer x, integer y)
 {
-    alignas(material_inputs) std::byte fetched[sizeof(material_inputs)]; // made where it stays: it is large
+    alignas(material_inputs) std::byte fetched[sizeof(material_inputs)]; // large, so constructed in place
     const material_inputs& at = plan.uniform ? plan.at : *::new (fetched) material_inputs(fetch_lanes(f, m, p));
     const lobe_shape shape = plan.one_shape ? plan.shape : lobe_shape_at(f, m, at, p);
     return shade_fragments<kTechnique>(f, m, at, shape, p, x, y);

@@ -1,5 +1,5 @@
-// Triangles of few pixels, a lane each: all walk the pixels of their own bounding boxes together. Depths are those of raster.h, so it
-// does not show which of the two drew a triangle.
+// Small triangles, one per lane. All lanes walk their bounding boxes' pixels together. Depths equal those in raster.h, so pictures do not
+// show which code drew a triangle.
 #pragma once
 #include "raster/tile/lane_triangles.h"
 #include "raster/tile/raster.h"
@@ -7,7 +7,7 @@
 namespace burnish {
 inline namespace BN_ISA_NS {
 
-// Covered samples wait here for their depth test, which goes one by one: triangles of a register may meet in a sample.
+// Queue of covered samples for the depth test. The test is scalar, because triangles in a register may share a sample.
 struct SampleQueue {
     static constexpr int kRoom = 512, kLaneShift = 16;
     int count;
@@ -16,7 +16,8 @@ struct SampleQueue {
 };
 static_assert(kMaxTileSize * kMaxTileSize * kMaxSamples <= 1 << SampleQueue::kLaneShift && SampleQueue::kRoom >= 2 * kMaxSamples * kLanes);
 
-// The nearest wins, of equal ones the first in the list. first: the triangle of lane 0.
+// Tests and writes the queued samples. The nearest sample wins; at equal depths the first triangle in the list wins. first: the triangle
+// in lane 0.
 BN_INLINE void draw_queue(SampleQueue& q, std::uint32_t first, TileScratch& s)
 {
     for (int i = 0; i < q.count; ++i) {
@@ -31,14 +32,14 @@ BN_INLINE void draw_queue(SampleQueue& q, std::uint32_t first, TileScratch& s)
     q.count = 0;
 }
 
-// At most a block wide and high.
+// Returns the lanes with triangles at most a block wide and high.
 BN_INLINE mask small_triangles(const LaneTriangles& t)
 {
     const integer side = int_lit(kBlock * kSubpixel);
     return both(max3(t.x) - min3(t.x) <= side, max3(t.y) - min3(t.y) <= side);
 }
 
-struct DepthPlane { // TileTriangle's, by lane
+struct DepthPlane { // TileTriangle's plane, by lane
     wide z, z_x, z_y;
     real dz_x, dz_y, z_min, z_max;
 };
@@ -56,11 +57,12 @@ BN_INLINE DepthPlane depth_plane(const LaneTriangles& t)
     return p;
 }
 
-// Draws the triangles of `drawn`, opaque ones that small_triangles() names; their ids in the tile's list are `first` + lane. What is
-// known of the blocks' farthest depths stays as it was.
+// Draws the triangles in `drawn`: opaque ones that small_triangles() returns. Their ids in the tile's list are `first` + lane. The blocks'
+// farthest depths are not updated.
 BN_STAGE void raster_small_triangles(const FrameParams& f, const LaneTriangles& t, mask drawn, int tile_x, int tile_y, std::uint32_t first,
                                      TileScratch& s)
 {
+    // Find the pixels of the bounding boxes
     const int ox = tile_x * f.tile_size * kSubpixel - f.center_x, oy = tile_y * f.tile_size * kSubpixel - f.center_y;
     const integer zero = int_lit(0), last = int_lit(f.tile_size - 1), one = int_lit(1);
     const integer px0 = max(shr(min3(t.x) - int_lit(ox + f.pattern.max_x - kSubpixel + 1), 8), zero);
@@ -71,6 +73,7 @@ BN_STAGE void raster_small_triangles(const FrameParams& f, const LaneTriangles& 
     if (none(drawn))
         return;
 
+    // Set up edges at the boxes' first pixels
     integer edge[3], step_x[3], step_y[3], sample_step[3][kMaxSamples];
     for (int i = 0; i < 3; ++i) {
         const int p = i == 2 ? 0 : i + 1, q = i == 0 ? 2 : i - 1;
@@ -83,12 +86,13 @@ BN_STAGE void raster_small_triangles(const FrameParams& f, const LaneTriangles& 
             sample_step[i][k] = a * int_lit(f.pattern.x16[k]) + b * int_lit(f.pattern.y16[k]);
     }
 
+    // Set up depth planes
     const DepthPlane plane = depth_plane(t);
     real sample_z[kMaxSamples];
     for (int k = 0; k < f.msaa; ++k)
         sample_z[k] = depth_change(plane.dz_x, plane.dz_y, splat(static_cast<float>(f.pattern.x16[k]) * (1.0f / 16)),
                                    splat(static_cast<float>(f.pattern.y16[k]) * (1.0f / 16)));
-    // depth at the corners of the one to four blocks that the bounding box meets
+    // Compute depth at the corners of the one to four blocks that the bounding box touches
     const integer block_x = shr(px0, 3), block_y = shr(py0, 3), side = int_lit(kBlock * kSubpixel);
     const integer from_x = int_lit(ox) - t.x[0] + block_x * side, from_y = int_lit(oy) - t.y[0] + block_y * side;
     const wide left_x = to_wide(from_x), right_x = to_wide(from_x + side), top_y = to_wide(from_y), bottom_y = to_wide(from_y + side);
@@ -96,6 +100,7 @@ BN_STAGE void raster_small_triangles(const FrameParams& f, const LaneTriangles& 
     const real corner[2][2] = {{corner_depth(left_x, top_y), corner_depth(right_x, top_y)},
                                {corner_depth(left_x, bottom_y), corner_depth(right_x, bottom_y)}};
 
+    // Walk all boxes pixel by pixel
     SampleQueue queue;
     queue.count = 0;
     const integer block_samples = int_lit(f.msaa * kBlockPixels), in_block = int_lit(kBlock - 1), blocks_x = int_lit(f.tile_size / kBlock);
@@ -110,6 +115,7 @@ BN_STAGE void raster_small_triangles(const FrameParams& f, const LaneTriangles& 
         for (mask pixels = rows; any(pixels); x = x + one, pixels = both(rows, x <= px1)) {
             const real z = select(shr(x, 3) == block_x, left, right) + depth_change(plane.dz_x, plane.dz_y, to_real(x & in_block), row_y);
             const integer at = row_at + shr(x, 3) * block_samples + (x & in_block);
+            // Queue the covered samples
             for (int k = 0; k < f.msaa; ++k) {
                 const integer outside = (at_x[0] + sample_step[0][k]) | (at_x[1] + sample_step[1][k]) | (at_x[2] + sample_step[2][k]);
                 const mask covered = both(pixels, outside >= zero);

@@ -1,4 +1,4 @@
-// One tile from triangles to pixels: visibility, shading in dense batches by material, resolve. Compiled once for every instruction set.
+// Draws one tile from triangles to pixels: visibility, shading in dense batches by material, resolve. Compiled once per instruction set.
 #include "raster/tile/compose.h"
 #include "raster/tile/geometry.h"
 #include "raster/tile/record.h"
@@ -12,16 +12,18 @@ inline namespace BN_ISA_NS {
 
 namespace {
 
+// kLanes fragments with one material.
 struct Batch {
     std::int32_t fragment[kLanes];
     int n;
-    bool run;                        // all lanes in use, by fragments that follow each other in the list
+    bool run;                        // all lanes in use, by consecutive fragments in the list
     std::int32_t common;             // the triangle of all fragments, or kManyTriangles
-    integer x, y, samples, triangle; // pixel in the image, covered samples, triangle of the tile's list
+    integer x, y, samples, triangle; // pixel in the image, covered samples, triangle in the tile's list
 };
 
 BN_INLINE Batch load_batch(const Tile& t, std::uint32_t at, std::uint32_t end)
 {
+    // Find out if the fragments are consecutive
     Batch b;
     b.n = static_cast<int>(end - at < kLanes ? end - at : kLanes);
     const std::int32_t* order = t.s.order + at;
@@ -35,6 +37,7 @@ BN_INLINE Batch load_batch(const Tile& t, std::uint32_t at, std::uint32_t end)
         store_int(in_list, iota() + int_lit(first));
         order = in_list;
     }
+    // Load or gather the fragments
     integer pixel;
     if (b.run) {
         b.fragment[0] = first;
@@ -98,7 +101,7 @@ BN_INLINE line_record load_lines(const TileScratch& s, integer fragment)
     return line_of_words(line);
 }
 
-// Which fragments of a pixel share samples.
+// Lists the fragments that share samples, by pixel.
 void list_sharing(const Tile& t)
 {
     TileScratch& s = t.s;
@@ -114,6 +117,7 @@ void list_sharing(const Tile& t)
     }
 }
 
+// Averages a slot's fragments over neighbours that share samples, and stores their colours.
 void share_slot(const Tile& t, std::uint32_t begin, std::uint32_t end)
 {
     const TileScratch& s = t.s;
@@ -125,6 +129,7 @@ void share_slot(const Tile& t, std::uint32_t begin, std::uint32_t end)
         const integer pixel = b.x - int_lit(t.x0) + (b.y - int_lit(t.y0)) * int_lit(kMaxTileSize);
         const line_record own = load_lines(s, fragment);
         line_mean mean = line_mean_begin(own);
+        // Visit the other three pixels of the quad
         for (int k = 1; k < 4; ++k) {
             integer at = gather_int(s.sharing_of_pixel, pixel ^ int_lit((k & 1) + (k >> 1) * kMaxTileSize));
             for (mask some = at > none_left; any(some); some = at > none_left) {
@@ -139,7 +144,7 @@ void share_slot(const Tile& t, std::uint32_t begin, std::uint32_t end)
     }
 }
 
-// First the addresses of some batches, then their texels: see cube_sum.h.
+// Finds the addresses of several batches first, then fetches their texels: see cube_sum.h.
 void shade_background_slot(const Tile& t, const view_params& view, std::uint32_t begin, std::uint32_t end)
 {
     if (!t.f.background) {
@@ -166,7 +171,8 @@ void shade_background_slot(const Tile& t, const view_params& view, std::uint32_t
     }
 }
 
-// Copies, so that the compiler sees that nobody writes to them: what depends on them alone it finds once, before the loop.
+// Shades a slot without special features. Local copies show the compiler that nobody writes to them, so it hoists everything that depends
+// on them alone out of the loop.
 template <Technique kTechnique, class Material>
 void shade_plain_slot(const Tile& t, const view_params& view, const MaterialRecord& m, const MaterialPlan& found, std::uint32_t begin,
                       std::uint32_t end)
@@ -196,14 +202,15 @@ template <Technique kTechnique>
 void shade_slot(const Tile& t, const view_params& view, const MaterialRecord& m, std::uint32_t begin, std::uint32_t end)
 {
     const MaterialPlan plan = plan_material(t.f, m);
-    if (plan.uniform && m.unlit) { // one colour, wherever it is seen
+    if (plan.uniform && m.unlit) { // one colour everywhere
         for (std::uint32_t i = begin; i < end; i += kLanes)
             store_batch(t, load_batch(t, i, end), plan.at.base);
         return;
     }
+    // Use plain code if frame and material need nothing more
     const int more = t.f.light_count | t.f.area_light_count | t.f.key_light_count | t.f.energy_compensation | t.f.dfg_fit | t.f.fresnel |
                      t.f.diffuse_model | t.f.specular_aa;
-    constexpr std::uint32_t kWorthACopy = 8 * kLanes; // fewer are drawn before what is copied and found once has paid
+    constexpr std::uint32_t kWorthACopy = 8 * kLanes; // below this, copies and hoisted values do not pay
     if (plan.uniform && end - begin >= kWorthACopy && !more && !m.refracts && !m.coated && t.f.lobe == PlainFrame::lobe) {
         constexpr int kTraits = kTechniqueTraits[static_cast<int>(kTechnique)];
         constexpr bool kAlsoRound = (kTraits & kAutoRound) != 0;
@@ -225,7 +232,7 @@ void shade_slot(const Tile& t, const view_params& view, const MaterialRecord& m,
     }
 }
 
-// Of what each pixel shows at its central sample.
+// Writes layers for the fragments at each pixel's central sample.
 void draw_layers(const Tile& t, const view_params& view, const MaterialRecord& m, std::uint32_t begin, std::uint32_t end)
 {
     const integer central = int_lit(1 << t.f.layer_sample);
@@ -255,7 +262,7 @@ constexpr ShadeSlot kShadeSlots[] = {
 #include "shading/models.def"
 };
 
-// Shades the slots behind the background's. Returns with the colours of all fragments known.
+// Shades the slots after the background's. Afterwards the colours of all fragments are known.
 void shade_slots(const Tile& t, const view_params& view, int slots)
 {
     const TileScratch& s = t.s;
@@ -273,7 +280,7 @@ void shade_slots(const Tile& t, const view_params& view, int slots)
             share_slot(t, s.slot_begin[k], s.slot_begin[k + 1]);
 }
 
-// Finds the alpha of a layer's fragments of one material.
+// Fetches alpha for a layer's fragments with one material.
 void find_alphas(const Tile& t, const view_params& view, const MaterialRecord& m, std::uint32_t begin, std::uint32_t end, float* alpha)
 {
     for (std::uint32_t i = begin; i < end; i += kLanes) {
@@ -285,7 +292,7 @@ void find_alphas(const Tile& t, const view_params& view, const MaterialRecord& m
     }
 }
 
-// Draws blended surfaces layer by layer, the nearest first, over what resolve() wrote.
+// Draws blended surfaces layer by layer, the nearest first, over the output of resolve().
 void draw_blended(const Tile& t, const view_params& view)
 {
     PeelScratch& peel = *t.s.peel;

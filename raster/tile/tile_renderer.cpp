@@ -50,7 +50,7 @@ struct WorkerPeel {
     }
 };
 
-// Scratch of one worker: everything a tile needs, sized once for the worst case.
+// Scratch memory of one worker, sized once for a tile's worst case.
 struct WorkerScratch {
     Column<float> depth, block_far, red, green, blue, lines;
     Column<std::uint32_t> ids, slot_begin, pass_lanes, entries, drawn_singly;
@@ -82,7 +82,7 @@ struct WorkerScratch {
         stats = {}, parts.clear();
     }
 
-    // Grows to the largest tile that this worker has met, and keeps that from frame to frame.
+    // Grows to the worker's largest tile so far, and keeps that size between frames.
     TileScratch view(Frame& frame, std::size_t triangle_count)
     {
         const std::size_t room = triangle_count + kColumnPad; // whole registers are written
@@ -152,7 +152,7 @@ class TileRenderer final : public Renderer {
     Column<SnappedVertex> vertices_;
     Bins bins_;
     std::vector<WorkerScratch> workers_;
-    std::vector<WorkerScratch> layers_; // by worker, where a material blends
+    std::vector<WorkerScratch> layers_; // by worker, if a material blends
     std::vector<WorkerPeel> peels_;
 };
 
@@ -168,7 +168,7 @@ FrameParams TileRenderer::frame_params(const FrameDesc& desc)
     return f;
 }
 
-// Parts of a fragment that lies behind blended surfaces: each of its samples is one. x, y: pixel of the tile.
+// Collects the parts of a fragment behind blended surfaces: each sample is a part. x, y: pixel in the tile.
 void collect_blended_parts(const FrameParams& f, int x, int y, std::uint32_t i, const TileScratch& s, PixelPart part,
                            std::vector<PixelPart>& to)
 {
@@ -192,7 +192,7 @@ bool shows_blended(const FrameParams& f, int x, int y, const TileScratch& s)
     return s.peel->pixels[y / kBlock * (f.tile_size / kBlock) + x / kBlock] >> (y % kBlock * kBlock + x % kBlock) & 1u;
 }
 
-// The tile's fragments that leave some of their pixel to others. x0, y0: its corner, pixels.
+// Collects the tile's fragments that do not fill their pixel. x0, y0: the tile's corner, pixels.
 void collect_parts(const FrameParams& f, int x0, int y0, const TileScratch& s, std::vector<PixelPart>& to)
 {
     const std::uint32_t whole = (1u << f.msaa) - 1;
@@ -230,13 +230,14 @@ void TileRenderer::prepare_workers(const FrameParams& f)
         p.prepare(pixels * static_cast<std::size_t>(f.msaa), pixels / kBlockPixels);
 }
 
-// Draws one tile, or a part of one, of the frame `p`. x, y: its place among the tiles of p.
+// Draws one tile, or a part of a tile, in the frame `p`. x, y: its index among the tiles of p.
 void TileRenderer::draw_tile(const FrameParams& p, int x, int y, const TilePart& part, int worker, Frame& frame, bool parts_wanted,
                              Profiler* profiler)
 {
     ProfiledWork work(profiler, worker);
     const std::size_t me = static_cast<std::size_t>(worker);
     WorkerScratch& w = workers_[me];
+    // Gather the triangles, and connect the layers' memory
     TileScratch scratch = w.view(frame, bins_.triangles_in(part)), layer = {};
     scratch.clock = profiler ? profiler->clock(worker) : nullptr;
     bins_.gather(part, w.entries.data(), w.triangles.data(), w.clips);
@@ -249,6 +250,7 @@ void TileRenderer::draw_tile(const FrameParams& p, int x, int y, const TilePart&
         peel = peels_[me].view(layer, frame.through.empty() ? nullptr : frame.through.data());
         scratch.peel = &peel;
     }
+    // Draw, and collect parts and statistics
     work.lap(FrameStage::gather);
     fns_.render_tile(p, x, y, scratch);
     if (parts_wanted)
@@ -268,11 +270,12 @@ void TileRenderer::draw_tiles(const FrameParams& f, bool parts_wanted, Frame& fr
         prepare_workers(f);
         work.lap(FrameStage::prepare);
     }
+    // Cut the longest tiles into parts
     const LongTiles hot = long_tiles(bins_.triangles_by_tile(tiles), input_.jobs.threads());
     const auto whole_from = hot.tiles.begin() + static_cast<std::ptrdiff_t>(hot.cut);
     std::vector<std::uint32_t> cut(hot.tiles.begin(), whole_from), known = hot.tiles;
     std::sort(cut.begin(), cut.end()), std::sort(known.begin(), known.end());
-    FrameParams parts = f; // the frame as if its tiles were the parts
+    FrameParams parts = f; // the frame with parts as its tiles
     parts.tile_size = f.tile_size / TilePart::kSide;
     parts.tiles_x = f.tiles_x * TilePart::kSide, parts.tiles_y = f.tiles_y * TilePart::kSide;
     bins_.cut(parts, cut, fns_, input_.jobs);
@@ -287,7 +290,7 @@ void TileRenderer::draw_tiles(const FrameParams& f, bool parts_wanted, Frame& fr
         const TraceSpan tile_span("tile");
         draw_tile(p, x, y, part, worker, frame, parts_wanted, profiler);
     };
-    // The long ones first, then parts, by the thread that is free next, then all others, a few that lie side by side at a time.
+    // Draw long tiles first, then parts, each by the next free thread, then all others, a few neighbours at a time.
     std::vector<TilePart> order;
     order.reserve(tiles + cut.size() * TilePart::kSide * TilePart::kSide);
     for (auto tile = whole_from; tile != hot.tiles.end(); ++tile)
@@ -310,6 +313,7 @@ void TileRenderer::draw_tiles(const FrameParams& f, bool parts_wanted, Frame& fr
                 draw(order[i], worker);
         }
     });
+    // Merge the workers' results
     for (const WorkerScratch& w : workers_) {
         frame.stats.visible_fragments += w.stats.visible_fragments;
         frame.stats.background_pixels += w.stats.background_pixels;
@@ -325,7 +329,7 @@ std::size_t tiles_of(const FrameDesc& d)
     return side(d.width) * side(d.height);
 }
 
-// Memory for a frame. Every pixel will be written, so what a frame of the same size leaves in it may stay.
+// Returns a frame with memory. Every pixel will be written, so a recycled picture with equal size keeps its contents.
 Frame frame_for(const FrameDesc& desc, bool blends, Frame recycled)
 {
     Frame frame;

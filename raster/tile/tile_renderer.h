@@ -1,4 +1,4 @@
-// The tile renderer: SIMD, multithreaded, MSAA. Its pixels are a function of version, scene and options alone.
+// The tile renderer: SIMD, multithreaded, multisampled. Its pixels depend on version, scene and options alone.
 #pragma once
 #include <memory>
 

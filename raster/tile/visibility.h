@@ -1,20 +1,20 @@
-// From triangle ids by sample to the list of visible (pixel, triangle) pairs.
+// Converts triangle ids per sample to a list of visible (pixel, triangle) pairs.
 #pragma once
 #include "raster/tile/blocks.h"
 
 namespace burnish {
 inline namespace BN_ISA_NS {
 
-// Fragments as they are listed: by block, by register of pixels, then by pass, where pass k holds the k-th distinct triangle of every pixel
-// that has one, in the order of its samples.
+// A growing fragment list, ordered by block, by register of pixels, then by pass. Pass k holds each pixel's k-th distinct triangle, in
+// sample order.
 struct FragmentList {
-    std::int32_t *triangle, *pixels, *masks; // the next one's
+    std::int32_t *triangle, *pixels, *masks; // of the next fragment
     std::uint32_t* pass_lanes;               // of the next pass
-    std::uint8_t* register_passes;           // of the register at hand
+    std::uint8_t* register_passes;           // of the current register
     std::int32_t full;                       // mask of all samples
     std::uint32_t background = 0;
 
-    // Every pixel of a register is one fragment.
+    // Adds a register in which every pixel is one fragment.
     void add_register(integer id, integer pixel)
     {
         store_int(triangle, id);
@@ -35,22 +35,24 @@ struct FragmentList {
     }
 };
 
-// One register of pixels, `valid` those in the image. from: the ids of its first sample.
+// Lists one pixel register. valid: pixels in the image. from: the first sample's ids.
 BN_INLINE void list_register(const FrameParams& f, const std::int32_t* from, integer pixel, mask valid, FragmentList& list)
 {
     const integer zero = int_lit(0), full = int_lit(list.full), first = load_int(from);
-    integer covered = int_lit(1), second = first; // samples that show what the first one shows; what the first of the others shows
+    integer covered = int_lit(1), second = first; // samples equal to the first; the first of the other ids
     for (int i = f.msaa - 1; i > 0; --i) {
         const integer id = load_int(from + i * kBlockPixels);
         const mask same = id == first;
         covered = covered | select(same, int_lit(1 << i), zero);
         second = select(same, second, id);
     }
+    // One triangle covers all pixels
     if (all(both(valid, covered == full))) {
         list.background += static_cast<std::uint32_t>(__builtin_popcount(to_bits(first < zero)));
         list.add_register(first, pixel);
         return;
     }
+    // List the first triangles, then others until no sample is left
     const std::uint32_t* const first_pass = list.pass_lanes;
     if (any(valid))
         list.add_pass(first, pixel, covered, valid);
@@ -61,9 +63,9 @@ BN_INLINE void list_register(const FrameParams& f, const std::int32_t* from, int
             covered = covered | select(load_int(from + i * kBlockPixels) == id, int_lit(1 << i), zero);
         list.add_pass(id, pixel, covered, rest != zero);
         rest = rest & ~covered;
-        if (none(rest != zero)) // of most
+        if (none(rest != zero)) // usual case
             break;
-        id = int_lit(-2); // of no sample
+        id = int_lit(-2); // no sample's id
         for (int i = f.msaa - 1; i > 0; --i)
             id = select((rest & int_lit(1 << i)) != zero, load_int(from + i * kBlockPixels), id);
     }
@@ -79,6 +81,7 @@ BN_INLINE void list_fragments(const FrameParams& f, int width, int height, TileS
     for (int by = 0; by * kBlock < height; ++by)
         for (int bx = 0; bx * kBlock < width; ++bx) {
             const int block = by * blocks_x + bx;
+            // Deferred blocks need no samples, except at the image's border
             const BlockState state = s.block_state[block];
             const bool inside = (bx + 1) * kBlock <= width && (by + 1) * kBlock <= height;
             if (state != BlockState::drawn && !inside)

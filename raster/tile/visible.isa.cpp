@@ -1,5 +1,4 @@
-// Which triangle every sample of a tile shows, and the fragments that this makes, sorted by material. Compiled once for every instruction
-// set.
+// Finds the visible triangle of every sample in a tile, and lists the fragments, sorted by material. Compiled once per instruction set.
 #include "raster/tile/visible.h"
 
 #include "raster/tile/draw_order.h"
@@ -32,7 +31,7 @@ struct BlockAlpha {
     std::uint32_t triangle;
     int block_x, block_y;
 
-    // Alpha of n pixels of the block, counted by rows; whole registers are read and written.
+    // Fetches alpha for n pixels of the block, numbered row by row. Whole registers are read and written.
     void find(const std::int32_t* pixels, int n, float* to) const
     {
         const std::int32_t id = static_cast<std::int32_t>(triangle);
@@ -59,7 +58,7 @@ BN_INLINE void note_material(TileScratch& s, std::int32_t material)
     s.only_material = s.only_material == kNoMaterial || s.only_material == material ? material : kManyMaterials;
 }
 
-// Lists the triangles `some` of the register from `first` on.
+// Lists the triangles `some` in the register from `first` on. Returns their number.
 BN_INLINE std::uint32_t list_triangles(std::uint32_t some, std::uint32_t first, std::uint32_t* to)
 {
     std::uint32_t n = 0;
@@ -68,7 +67,7 @@ BN_INLINE std::uint32_t list_triangles(std::uint32_t some, std::uint32_t first, 
     return n;
 }
 
-// Those of the triangles `used` from `first` on whose material blends.
+// Returns those of the triangles `used` from `first` on whose material blends.
 std::uint32_t blended_triangles(const Tile& t, std::uint32_t first, std::uint32_t used)
 {
     std::uint32_t blended = 0;
@@ -80,7 +79,7 @@ std::uint32_t blended_triangles(const Tile& t, std::uint32_t first, std::uint32_
     return blended;
 }
 
-// Draws the small ones of a register of triangles, and notes where there are some; the others join the list of those drawn singly.
+// Draws a register's small triangles, and notes if there are any. The other triangles join the list of singly drawn ones.
 void raster_register(const Tile& t, std::uint32_t first, Surfaces surfaces, std::uint32_t& singly, bool& some_small)
 {
     TileScratch& s = t.s;
@@ -89,7 +88,8 @@ void raster_register(const Tile& t, std::uint32_t first, Surfaces surfaces, std:
     const LaneTriangles triangles = load_triangles(t.f, s, first, whole, material);
     std::uint32_t used = s.triangle_count - first < kLanes ? (1u << (s.triangle_count - first)) - 1 : (1u << kLanes) - 1;
     std::uint32_t small = to_bits(both(whole, small_triangles(triangles)));
-    std::uint32_t rest = small; // whose material was not looked at
+    std::uint32_t rest = small; // triangles with a material not yet checked
+    // Accept small triangles with opaque materials only
     while (rest) {
         const std::int32_t id = s.triangles[first + static_cast<std::uint32_t>(__builtin_ctz(rest))].info >> 2;
         const std::uint32_t same = rest & to_bits(material == int_lit(id));
@@ -99,6 +99,7 @@ void raster_register(const Tile& t, std::uint32_t first, Surfaces surfaces, std:
             small &= ~same;
         rest &= ~same;
     }
+    // Move blended triangles to their list
     if (t.f.blends && surfaces == Surfaces::solid) {
         const std::uint32_t blended = blended_triangles(t, first, used & ~small);
         s.peel->triangle_count += list_triangles(blended, first, s.peel->triangles + s.peel->triangle_count);
@@ -106,7 +107,7 @@ void raster_register(const Tile& t, std::uint32_t first, Surfaces surfaces, std:
     }
     singly += list_triangles(used & ~small, first, s.drawn_singly + singly);
     if (small) {
-        if (!some_small) // where there is one there are many
+        if (!some_small) // one small triangle usually means many
             write_all_blocks(t.f, s);
         some_small = true;
         raster_small_triangles(t.f, triangles, mask_from_bits(small), t.index_x, t.index_y, first, s);
@@ -145,20 +146,20 @@ void raster_tile(const Tile& t, const view_params& view, Surfaces surfaces)
         raster_register(t, i, surfaces, singly, some_small);
     if (some_small) // the blocks' bounds are out of date
         __builtin_memset(s.block_dirty, 255, static_cast<std::size_t>((t.f.tile_size / kBlock) * (t.f.tile_size / kBlock)));
-    const bool sorted = front_to_back(t.f, s, singly, t.index_x, t.index_y); // where it pays to know at once what hides the rest
+    const bool sorted = front_to_back(t.f, s, singly, t.index_x, t.index_y); // if early hiding pays
     if (sorted || some_small)
         raster_singly<true>(t, view, singly, sorted ? 1 : 4);
     else
         raster_singly<false>(t, view, singly, 4);
 }
 
-// Global id of a triangle of the tile's list.
+// Returns the global id of a triangle in the tile's list.
 BN_INLINE std::uint32_t triangle_id(const TileScratch& s, std::uint32_t i)
 {
     return s.entries[i] & kClippedEntry ? s.clips[s.triangles[i].vertex[0]].triangle : s.entries[i];
 }
 
-// Global ids of a block's row of pixels; false, and nothing written, where one shows a piece of a clipped triangle.
+// Writes the global ids of one row in a block. Returns false, and writes nothing, if a pixel shows a clipped piece.
 BN_INLINE bool write_row(const TileScratch& s, const std::uint32_t* from, std::uint32_t* to)
 {
     constexpr int kStep = kLanes < kBlock ? kLanes : kBlock;
@@ -197,7 +198,7 @@ void write_ids(const Tile& t)
 
 constexpr std::int32_t kBackgroundSlot = 0;
 
-// End of the run of fragments of the triangle at `i`.
+// Returns the index after the run of fragments with the triangle at `i`.
 BN_INLINE std::uint32_t run_end(const std::int32_t* triangle, std::uint32_t i, std::uint32_t count)
 {
     const std::int32_t id = triangle[i];
@@ -208,8 +209,8 @@ BN_INLINE std::uint32_t run_end(const std::int32_t* triangle, std::uint32_t i, s
     return i;
 }
 
-// sort_fragments() where all triangles are of one material. Where there is only background or none, the order is the list's own and is
-// not written.
+// Sorts fragments if all triangles have one material. If there is only background or no background, list order is the result, and `order`
+// is not written.
 int split_background(TileScratch& s)
 {
     const std::uint32_t count = s.fragment_count;
@@ -219,7 +220,7 @@ int split_background(TileScratch& s)
     if (s.in_list_order)
         return s.background_pixels == count ? 1 : 2;
     std::int32_t* to = s.order;
-    for (const bool behind : {true, false}) // one after the other, as whole registers are written beyond the end
+    for (const bool behind : {true, false}) // one after the other, because whole registers are written beyond the end
         for (std::uint32_t i = 0; i < count; i += kLanes) {
             const integer index = iota() + int_lit(static_cast<std::int32_t>(i));
             const mask valid = index < int_lit(static_cast<std::int32_t>(count));
@@ -241,6 +242,7 @@ int sort_fragments(TileScratch& s)
     std::uint32_t* const slot_begin = s.slot_begin;
     const std::uint32_t count = s.fragment_count;
     const auto slot_of = [&](std::int32_t id) -> std::int32_t& { return s.slot_of_material[s.triangles[id].info >> 2]; };
+    // Count fragments per slot
     slot_begin[0] = 0;
     for (std::uint32_t i = 0; i < count;) {
         const std::uint32_t end = run_end(triangle, i, count);
@@ -257,12 +259,14 @@ int sort_fragments(TileScratch& s)
         slot_begin[at] += end - i;
         i = end;
     }
+    // Turn counts into begins
     std::uint32_t begin = 0;
     for (int k = 0; k < slots; ++k) {
         const std::uint32_t size = slot_begin[k];
         slot_begin[k] = begin;
         begin += size;
     }
+    // Place the fragments
     for (std::uint32_t i = 0; i < count;) {
         const std::uint32_t end = run_end(triangle, i, count);
         std::uint32_t& to = slot_begin[triangle[i] < 0 ? kBackgroundSlot : slot_of(triangle[i])];
@@ -271,7 +275,7 @@ int sort_fragments(TileScratch& s)
         for (std::int32_t* at = from; i < end; ++i, ++at)
             *at = static_cast<std::int32_t>(i);
     }
-    for (int k = slots - 1; k > 0; --k) // each slot's end is the next one's begin
+    for (int k = slots - 1; k > 0; --k) // each slot's end is the next slot's begin
         slot_begin[k] = slot_begin[k - 1];
     slot_begin[0] = 0;
     slot_begin[slots] = count;
@@ -282,6 +286,7 @@ int sort_fragments(TileScratch& s)
 
 } // namespace
 
+// Clear, draw, list, sort.
 int find_visible(const Tile& t, const view_params& view, Surfaces surfaces)
 {
     TileScratch& s = t.s;

@@ -1,4 +1,4 @@
-// Pictures in bands of rows, so that buffers and images stay within what every device takes, and indices within 32 bits.
+// Splits pictures into bands of rows, so that buffers and images fit every device's limits, and indices fit 32 bits.
 #pragma once
 #include <cstdint>
 #include <vector>
@@ -11,18 +11,18 @@ struct Band {
     int first_row = 0, rows = 0;
 };
 
-// Bytes of a buffer of one band: the least that a Vulkan device takes as a storage buffer.
+// Bytes in a band's buffer: the least storage buffer that a Vulkan device must accept.
 inline constexpr std::size_t kBandBytes = std::size_t{1} << 27;
 inline constexpr std::size_t kMostBytesAPixel = 16 * 64 * 4; // 16 samples of recorded words (forward.h)
 static_assert(kBandBytes / (kMostBytesAPixel * 16384) >= 2, "the widest picture has bands");
 
-// Rows of a band: even, as the quads of a device are, or all there are. bytes: of the largest buffer, a pixel.
+// Returns the rows of a band: an even number, for 2x2 quads, or all rows. bytes: per pixel in the largest buffer.
 int band_rows(int width, int height, std::size_t bytes, std::size_t band_bytes);
 std::vector<Band> bands_of(int height, int rows);
 
-// Throws ExitCode::unavailable where a device takes less of something than is needed. limit: the API's name of it.
+// Throws ExitCode::unavailable if a device's limit is below the need. limit: the API's name for it.
 void require_limit(const Context& context, const char* option, const char* limit, std::uint64_t need, std::uint64_t have);
-// What pictures of this width need.
+// Checks the limits that pictures with this width need.
 void require_width(const Context& context, int width);
 
 } // namespace burnish

@@ -18,7 +18,7 @@ namespace {
 constexpr const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
 constexpr const char* kChromiumDriver = "/usr/lib/chromium/vk_swiftshader_icd.json"; // Debian's package chromium-common
 
-// The loader looks for this driver, too. A driver list of the user's own wins.
+// Adds this driver to the loader's search, unless the user has set a driver list.
 void add_chromium_driver()
 {
     for (const char* own : {"VK_DRIVER_FILES", "VK_ICD_FILENAMES", "VK_ADD_DRIVER_FILES"})
@@ -29,8 +29,8 @@ void add_chromium_driver()
         ::setenv("VK_ADD_DRIVER_FILES", kChromiumDriver, 0);
 }
 
-// Returns how many threads a driver starts with a device. lavapipe has one to take work, one for each of its two queues, and one a core for
-// triangles and for compute; where one of them is refused, it waits for it for ever.
+// Returns the number of threads that a driver starts with a device. lavapipe has one to accept work, one for each of its two queues, and
+// one per core for triangles and for compute. If a thread is refused, lavapipe waits for ever.
 int device_threads(const VulkanDeviceInfo& info)
 {
     constexpr int kQueues = 4, kMostCores = 32;
@@ -110,7 +110,7 @@ VulkanDeviceInfo info_of(VkPhysicalDevice device)
     return info;
 }
 
-// What the stages cannot do without.
+// Returns true if the device has the features that all stages need.
 bool usable(VkPhysicalDevice device)
 {
     VkPhysicalDeviceProperties p;
@@ -134,7 +134,7 @@ bool is_lavapipe(const VulkanDeviceInfo& info)
     return info.name.find("llvmpipe") != std::string::npos;
 }
 
-// The names that --device takes besides parts of a device's own.
+// Returns true if the device matches --device: a special name or a part of the device's name.
 bool answers_to(const VulkanDeviceInfo& info, const std::string& wanted)
 {
     if (wanted == "lavapipe")
@@ -232,7 +232,7 @@ void Context::choose_device(const VulkanOptions& options)
     for (VkPhysicalDevice d : all)
         if (usable(d) && (options.device.empty() || answers_to(info_of(d), options.device)))
             candidates.push_back(d);
-    const auto rank = [&](VkPhysicalDevice d) { // the least is taken
+    const auto rank = [&](VkPhysicalDevice d) { // the lowest rank wins
         const VulkanDeviceInfo info = info_of(d);
         return options.prefer_cpu ? (is_lavapipe(info) ? 0 : info.cpu ? 1 : 2) : (!info.cpu ? 0 : is_lavapipe(info) ? 1 : 2);
     };
@@ -254,7 +254,7 @@ void Context::make_device()
     vkGetPhysicalDeviceFeatures(physical_, &f);
     features_.float64 = f.shaderFloat64;
     features_.standard_samples = p.limits.standardSampleLocations;
-    features_.primitive_id = f.geometryShader; // comes with it
+    features_.primitive_id = f.geometryShader; // a part of this feature
     features_.max_viewport = static_cast<int>(std::min(p.limits.maxViewportDimensions[0], p.limits.maxViewportDimensions[1]));
     features_.max_image = p.limits.maxImageDimension2D, features_.max_framebuffer_width = p.limits.maxFramebufferWidth;
     features_.max_index = p.limits.maxDrawIndexedIndexValue;
@@ -265,6 +265,7 @@ void Context::make_device()
     features_.target_samples = p.limits.framebufferColorSampleCounts & p.limits.framebufferDepthSampleCounts &
                                p.limits.sampledImageColorSampleCounts & p.limits.sampledImageDepthSampleCounts;
 
+    // Find a queue family for graphics and compute
     std::uint32_t count = 0;
     vkGetPhysicalDeviceQueueFamilyProperties(physical_, &count, nullptr);
     std::vector<VkQueueFamilyProperties> families(count);
@@ -275,6 +276,7 @@ void Context::make_device()
     if (family_ == count)
         throw VulkanError{Error{ExitCode::unavailable, "", "--device", info_.name + " has no queue for graphics and compute"}};
 
+    // Create the device
     const float priority = 1.0f;
     auto queue = vk_struct<VkDeviceQueueCreateInfo>(VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO);
     queue.queueFamilyIndex = family_, queue.queueCount = 1, queue.pQueuePriorities = &priority;
@@ -293,6 +295,7 @@ void Context::make_device()
     BN_VK(vkCreateDevice(physical_, &info, nullptr, &device_));
     vkGetDeviceQueue(device_, family_, 0, &queue_);
 
+    // Create the command pool, the command buffer and the fence
     auto pool = vk_struct<VkCommandPoolCreateInfo>(VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO);
     pool.flags = VK_COMMAND_POOL_CREATE_RESET_COMMAND_BUFFER_BIT, pool.queueFamilyIndex = family_;
     BN_VK(vkCreateCommandPool(device_, &pool, nullptr, &pool_));
@@ -303,7 +306,7 @@ void Context::make_device()
     BN_VK(vkCreateFence(device_, &fence, nullptr, &fence_));
 }
 
-// Whether it begins as this device's caches do (VkPipelineCacheHeaderVersionOne); not every driver looks.
+// Returns true if the bytes start like this device's cache (VkPipelineCacheHeaderVersionOne). Not every driver checks.
 static bool is_cache_of(const VkPhysicalDeviceProperties& p, const std::vector<std::uint8_t>& bytes)
 {
     VkPipelineCacheHeaderVersionOne header;
@@ -315,7 +318,7 @@ static bool is_cache_of(const VkPhysicalDeviceProperties& p, const std::vector<s
            std::equal(std::begin(header.pipelineCacheUUID), std::end(header.pipelineCacheUUID), p.pipelineCacheUUID);
 }
 
-// One file a device and driver.
+// Loads the cache file for this device and driver.
 void Context::load_cache()
 {
     const std::string folder = cache_folder();
@@ -351,7 +354,7 @@ void Context::save_cache() const
     std::error_code ignored;
     std::filesystem::create_directories(std::filesystem::path(cache_path_).parent_path(), ignored);
     const Status written = write_file_atomic(cache_path_, bytes.data(), size, Links::refuse);
-    static_cast<void>(written); // a cache that cannot be kept costs time, nothing else
+    static_cast<void>(written); // a cache that cannot be stored costs only time
     prune_cache(cache_folder(), cache_limit(), cache_path_);
 }
 
@@ -401,7 +404,7 @@ std::string Context::validation_messages()
 Buffer::Buffer(const Context& context, VkDeviceSize bytes, Place place, VkBufferUsageFlags more) : Buffer()
 {
     device_ = context.device();
-    bytes_ = std::max<VkDeviceSize>(bytes, 64); // a buffer of nothing cannot be bound
+    bytes_ = std::max<VkDeviceSize>(bytes, 64); // an empty buffer cannot be bound
     auto info = vk_struct<VkBufferCreateInfo>(VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO);
     info.size = bytes_;
     info.usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT | more;

@@ -1,5 +1,5 @@
-// A Vulkan device and what lives on it, each thing freed by its destructor. Failures of the API are thrown as VulkanError and caught where
-// the module is entered (vulkan_renderer.cpp).
+// A Vulkan device and its resources; destructors free them. API failures are thrown as VulkanError and caught at the module's entry
+// (vulkan_renderer.cpp).
 #pragma once
 #include <cstdint>
 #include <cstring>
@@ -18,11 +18,11 @@ struct VulkanError {
     Error error;
 };
 
-// Throws with the text of the call where it failed.
+// Throws on failure, with the text of the call.
 void vk_check(VkResult result, const char* call);
 #define BN_VK(call) ::burnish::vk_check((call), #call)
 
-// A structure of the API, zero but for its type.
+// Returns an API structure, zero except for its type.
 template <class T> T vk_struct(VkStructureType type, void* next = nullptr)
 {
     T t = {};
@@ -33,18 +33,18 @@ template <class T> T vk_struct(VkStructureType type, void* next = nullptr)
 
 struct Features {
     bool float64 = false;                                   // depth by the tile renderer's formula
-    bool standard_samples = false;                          // samples of multisampled targets at the standard positions
+    bool standard_samples = false;                          // multisampled targets use the standard sample positions
     bool primitive_id = false;                              // fragments know their triangle
-    VkSampleCountFlags target_samples = 0;                  // of the images that pass 1 writes and pass 2 reads
+    VkSampleCountFlags target_samples = 0;                  // for images that pass 1 writes and pass 2 reads
     int max_viewport = 0;                                   // pixels
     std::uint32_t max_image = 0, max_framebuffer_width = 0; // pixels
     std::uint32_t max_index = 0;                            // of a vertex
-    VkDeviceSize max_buffer = 0;                            // bytes of a storage buffer
-    std::uint32_t max_samplers = 0, max_sampled_images = 0; // that a stage may bind
-    std::uint32_t max_buffers = 0;                          // storage buffers that it may
+    VkDeviceSize max_buffer = 0;                            // storage buffer, bytes
+    std::uint32_t max_samplers = 0, max_sampled_images = 0; // per stage
+    std::uint32_t max_buffers = 0;                          // storage buffers per stage
 };
 
-// Instance, device, one queue. Made once a renderer.
+// Instance, device and one queue. Made once per renderer.
 class Context {
   public:
     explicit Context(const VulkanOptions& options);
@@ -56,17 +56,17 @@ class Context {
     const Features& features() const { return features_; }
     const VulkanDeviceInfo& info() const { return info_; }
     VkPipelineCache pipeline_cache() const { return cache_; }
-    bool cache_loaded() const { return cache_loaded_; }                                   // it holds what an earlier run has left
-    std::uint32_t memory_type(std::uint32_t allowed, VkMemoryPropertyFlags wanted) const; // throws where there is none
-    bool host_visible_device_memory() const; // one memory for both: CPU devices, GPUs whose memory is mapped
+    bool cache_loaded() const { return cache_loaded_; }                                   // filled by an earlier run
+    std::uint32_t memory_type(std::uint32_t allowed, VkMemoryPropertyFlags wanted) const; // throws if there is none
+    bool host_visible_device_memory() const; // one memory for both: CPU devices, GPUs with mapped memory
 
     VkCommandBuffer begin();           // one at a time
-    void submit(VkCommandBuffer work); // and wait until it is done
-    // What the validation layer said since the last call; empty: nothing.
+    void submit(VkCommandBuffer work); // waits until the work is done
+    // Returns the validation layer's messages since the last call; empty if none.
     std::string validation_messages();
 
   private:
-    Context() = default; // so that what a constructor that throws has made is freed
+    Context() = default; // lets the destructor free the parts if a constructor throws
     void make_instance(bool validate);
     void choose_device(const VulkanOptions& options);
     void make_device();
@@ -107,7 +107,7 @@ class Buffer {
     VkBuffer handle() const { return buffer_; }
     VkDeviceSize bytes() const { return bytes_; }
     VkDeviceAddress address() const;
-    void* data() const { return mapped_; } // null where it cannot be mapped
+    void* data() const { return mapped_; } // null if not mapped
     template <class T> const T* as() const { return static_cast<const T*>(mapped_); }
 
   private:
@@ -123,14 +123,14 @@ class Buffer {
     void* mapped_ = nullptr;
 };
 
-// A buffer with these bytes, through a staging buffer where it cannot be mapped.
+// Makes a buffer with these bytes, through a staging buffer if it cannot be mapped.
 Buffer make_filled_buffer(Context& context, const void* data, std::size_t bytes, VkBufferUsageFlags more = 0);
 void fill_buffer(Context& context, const Buffer& buffer, const void* data, std::size_t bytes);
 
 struct ImageShape {
     VkFormat format = VK_FORMAT_UNDEFINED;
     int width = 0, height = 0, levels = 1, layers = 1; // 6 layers: a cube
-    int depth = 1;                                     // above 1: of three dimensions
+    int depth = 1;                                     // above 1: three dimensions
     VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
     VkImageUsageFlags usage = 0;
 };
@@ -163,7 +163,7 @@ class DeviceImage {
     VkImageAspectFlags aspect_ = 0;
 };
 
-// Everything before is done and visible to everything after.
+// Makes all earlier work finished and visible to all later work.
 void full_barrier(VkCommandBuffer commands);
 void change_layout(VkCommandBuffer commands, const DeviceImage& image, VkImageLayout from, VkImageLayout to);
 

@@ -68,7 +68,7 @@ void ForwardPass::make_targets(const FrameDesc& desc, std::size_t band_bytes)
         t.depths = Buffer(context_, pixels * msaa * sizeof(float), Buffer::Place::host);
         t.words = Buffer(context_, pixels * msaa * kSampleWords * sizeof(float), Buffer::Place::host);
     }
-    targets_ = std::move(t); // only what was made whole
+    targets_ = std::move(t); // only a complete set
 }
 
 GraphicsState ForwardPass::state(std::string vertex, std::string fragment, VkCompareOp compare) const
@@ -85,7 +85,7 @@ void ForwardPass::bind_native(VkCommandBuffer c, std::size_t material)
     vkCmdBindDescriptorSets(c, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines_.layout(), 1, 1, &set, 0, nullptr);
 }
 
-// stages: words of the pass's group, by vertices that are not indexed; otherwise colours.
+// Draws the scene. stages: outputs words of the pass's group, with unindexed vertices; otherwise colours.
 void ForwardPass::draw_scene(VkCommandBuffer c, const Specialization& technique, const GpuPass& pass, bool stages)
 {
     const char* const fragment = stages                             ? "forward_stages"
@@ -98,7 +98,7 @@ void ForwardPass::draw_scene(VkCommandBuffer c, const Specialization& technique,
         const auto material = static_cast<std::size_t>(draw.material);
         const MaterialRecord& m = scene_.materials_of_frame()[material];
         Specialization constants = stages ? Specialization(2) : technique; // constant_id 0, 1
-        constants.insert(constants.end(), {0, 0});                         // 2, 3: of the compute stages only
+        constants.insert(constants.end(), {0, 0});                         // 2, 3: for compute stages only
         constants.push_back(used_textures(m));
         constants.push_back(targets_.msaa);
         if (stages)
@@ -118,7 +118,7 @@ void ForwardPass::draw_scene(VkCommandBuffer c, const Specialization& technique,
     }
 }
 
-// Last, where nothing was drawn: at depth 0, the farthest.
+// Draws the background last, where nothing was drawn: at depth 0, the farthest.
 void ForwardPass::draw_backdrop(VkCommandBuffer c, const GpuPass& pass)
 {
     vkCmdBindPipeline(c, VK_PIPELINE_BIND_POINT_GRAPHICS,
@@ -190,7 +190,7 @@ void ForwardPass::read(const Band& band, Frame& frame)
         std::copy_n(targets_.pixels.as<float>() + 4 * p, 3, to + 3 * p);
 }
 
-// From the image of samples, and its depths, to buffers.
+// Copies the sample image and its depths to buffers.
 void ForwardPass::gather(VkCommandBuffer c, const char* shader, const Band& band, int group)
 {
     const std::string name = std::string(shader) + (targets_.msaa > 1 ? "_ms" : "");
@@ -205,7 +205,7 @@ void ForwardPass::gather(VkCommandBuffer c, const char* shader, const Band& band
 void ForwardPass::record(const FrameDesc& desc, const Band& band, Frame& frame)
 {
     VkCommandBuffer c = context_.begin();
-    gather(c, "gather_words", band, kGpuColorGroup); // of what draw has left
+    gather(c, "gather_words", band, kGpuColorGroup); // of the picture that draw() left
     for (int group = 0; group < kGpuColorGroup; ++group) {
         begin(c, band, false);
         draw_scene(c, {}, {0, 0, -1, 0, 0, band.first_row, band.rows, group, 0}, true);
@@ -228,7 +228,7 @@ void ForwardPass::fill_frame(const FrameDesc& desc, const Band& band, Frame& fra
         const std::size_t in_pixel = s % msaa;
         const std::int32_t* const of = ids + (s - in_pixel);
         if (std::find(of, of + in_pixel, ids[s]) != of + in_pixel)
-            continue; // not the first of its pair
+            continue; // not the first sample of its pair
         std::uint32_t mask = 0;
         for (std::size_t k = in_pixel; k < msaa; ++k)
             mask |= static_cast<std::uint32_t>(of[k] == ids[s]) << k;

@@ -1,5 +1,5 @@
-// The classical pipeline: fragments shaded as they are rasterized, multisampled, resolved by the device. Where a triangle covers only some
-// of a pixel's samples it is shaded at their mean, as by the tile renderer, though of all samples that it covers, hidden ones too.
+// The forward pipeline: shades fragments during rasterization, with multisampling, resolved by the device. A triangle that covers only
+// some samples of a pixel is shaded at their mean, as in the tile renderer. Here hidden samples count too.
 #pragma once
 #include <optional>
 
@@ -20,13 +20,13 @@ class ForwardPass {
         if (options.pipeline == VulkanPipeline::lean)
             lean_.emplace(context, pipelines, scene, input);
     }
-    // Makes images and pipelines ready; ExitCode::unavailable where the device does not take so many samples.
+    // Makes images and pipelines; ExitCode::unavailable if the device lacks this sample count.
     void prepare(const FrameDesc& desc, std::size_t band_bytes);
     int rows() const { return targets_.rows; } // of a band
     void draw(VkCommandBuffer c, const Specialization& technique, const Band& band);
-    void read(const Band& band, Frame& frame); // the resolved picture
-    // After draw and read, with FrameDesc::stages: what the band's samples went through. The scene is drawn again once for every four words
-    // of a fragment, by the same vertices and the same rules, with the triangle's number beside them.
+    void read(const Band& band, Frame& frame); // reads the resolved picture
+    // Records the band's intermediate values, after draw and read, with FrameDesc::stages. Draws the scene once for every four words of a
+    // fragment, with equal vertices and rules, and with triangle numbers.
     void record(const FrameDesc& desc, const Band& band, Frame& frame);
 
   private:
@@ -34,7 +34,7 @@ class ForwardPass {
         int width = 0, rows = 0, msaa = 0; // 0: none
         bool stages = false;
         DeviceImage color, depth, resolved; // color: none with one sample
-        Buffer pixels, ids, depths, words;  // the last three: of stages
+        Buffer pixels, ids, depths, words;  // the last three: for stages
     };
     void make_targets(const FrameDesc& desc, std::size_t band_bytes);
     const DeviceImage& samples() const { return targets_.msaa > 1 ? targets_.color : targets_.resolved; }

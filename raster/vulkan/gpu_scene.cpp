@@ -18,7 +18,7 @@ template <class T> Buffer filled(Context& context, const std::vector<T>& table, 
     return make_filled_buffer(context, table.data(), bytes, more);
 }
 
-// texels: of halves, or pairs of floats.
+// Makes a buffer with a device address. texels: halves, or pairs of floats.
 template <class T> Buffer texel_page(Context& context, const Column<T>& texels)
 {
     return make_filled_buffer(context, texels.data(), texels.size() * sizeof(T), VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT);
@@ -39,11 +39,11 @@ GpuScene::GpuScene(Context& context, const RenderInput& input)
 {
     texels_.push_back(texel_page(context, input.environment.specular.texels));
     texels_.push_back(texel_page(context, input.environment.irradiance.texels));
-    texels_.emplace_back(context, 0, Buffer::Place::device, VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT); // the box chain, some day
+    texels_.emplace_back(context, 0, Buffer::Place::device, VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT); // filled later with the box chain
     texels_.push_back(texel_page(context, input.dfg.pairs));
     texels_.push_back(make_filled_buffer(context, lobe_albedo_pairs(), lobe_albedo_bytes(), VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT));
-    texels_.emplace_back(context, 0, Buffer::Place::device, VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT); // slices of it
-    if (input.environment.key_lights.empty())                                                           // then it is the specular cube
+    texels_.emplace_back(context, 0, Buffer::Place::device, VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT); // its slices
+    if (input.environment.key_lights.empty())                                                           // then it equals the specular cube
         texels_.emplace_back(context, 0, Buffer::Place::device, VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT);
     else
         texels_.push_back(texel_page(context, input.environment.whole.texels));
@@ -70,6 +70,7 @@ void GpuScene::upload_tables(Context& context)
 {
     const DrawTables& t = input_.tables;
     const SceneTables& scene = maker_.scene();
+    // Concatenate all floats and all integers into one buffer each
     GpuPlaces& places = record_.places;
     std::vector<float> reals(3 * kGpuMaxGrid);
     const auto append = [](auto& table, const auto* from, std::size_t n) {

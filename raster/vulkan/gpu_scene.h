@@ -1,4 +1,4 @@
-// A scene in buffers of a device: what stays the same from frame to frame, and the records of one frame.
+// A scene in device buffers: data that stays between frames, and one frame's records.
 #pragma once
 #include <vector>
 
@@ -9,14 +9,14 @@
 
 namespace burnish {
 
-// Half the side of the rasterizer's viewport; see kGpuViewportHalf.
+// Returns half the side of the rasterizer's viewport; see kGpuViewportHalf.
 int viewport_half(const Features& features);
 
 class GpuScene {
   public:
-    GpuScene(Context& context, const RenderInput& input); // throws VulkanError where the device cannot hold it
+    GpuScene(Context& context, const RenderInput& input); // throws VulkanError if the device cannot hold the scene
 
-    // The records of a frame, uploaded, and the tables that it is the first to ask for.
+    // Uploads a frame's records, and tables that the frame is the first to need.
     void prepare(Context& context, const FrameDesc& desc, std::uint32_t setup_capacity);
 
     const Buffer& pages() const { return pages_; }

@@ -13,12 +13,12 @@ namespace burnish {
 
 namespace {
 
-// lean.frag's, in its order.
+// Techniques in the order of lean.frag.
 constexpr const char* kLeanTechniques[] = {
     "split_isotropic", "bent_normal", "major_axis", "major_axis_adaptive", "major_axis_weighted", "lobe_line", "filtered_is",
     "filtered_is_ggx", "mc",          "as_mc"};
 
-// Traits of a material, as surface.glsl has them.
+// Traits of a material, as in surface.glsl.
 constexpr std::int32_t kAnisotropic = 1, kDiffuse = 2, kOneShape = 4, kVertexColors = 8, kTwoSided = 16, kBrushedInPart = 32,
                        kAlphaTest = 64, kUnlit = 128, kMirror = 256, kEmits = 512, kOneEta = 1024, kFactorRoughness = 2048,
                        kPhongTable = 4096;
@@ -33,7 +33,7 @@ struct LeanMaterial { // std140: surface.glsl
     glm::vec4 place[2 * kTextureSlots];
 };
 static_assert(kTextureSlots == 15 && sizeof(LeanMaterial) == 608);
-constexpr std::size_t kMaterialStride = 768; // a multiple of every device's alignment of uniform buffers, 256 at most
+constexpr std::size_t kMaterialStride = 768; // a multiple of every device's uniform buffer alignment, 256 at most
 
 int lean_technique(int technique)
 {
@@ -52,7 +52,7 @@ glm::vec3 vec3(const float* v)
     return {v[0], v[1], v[2]};
 }
 
-// What a frame wants that the stages do not have; null: nothing.
+// Returns the frame's feature that the stages lack; null: none.
 const char* not_of_frame(const FrameDesc& desc, const FrameRecord& f)
 {
     if (f.key_light_count > 0)
@@ -128,7 +128,7 @@ LeanScene::~LeanScene()
     vkDestroyDescriptorPool(context_.device(), pool_, nullptr);
 }
 
-// pairs: of which halves keep three digits.
+// Uploads pairs as halves, which keep three digits.
 DeviceImage LeanScene::upload_table(const float* pairs, int width, int height, int depth)
 {
     const std::size_t count = static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * static_cast<std::size_t>(depth);
@@ -164,7 +164,7 @@ const DeviceImage& LeanScene::slice(int first, int size)
 
 namespace {
 
-// Of clip space with y down: rows of View, see clip_position (shading/kernels/vertex.k.h).
+// Returns the matrix to clip space with y down, with the rows of View; see clip_position (shading/kernels/vertex.k.h).
 glm::mat4 clip_matrix(const ViewRecord& v)
 {
     const glm::vec3 eye = vec3(v.eye), forward = vec3(v.forward);
@@ -208,15 +208,18 @@ void place_textures(const MaterialRecord& m, const FrameRecord& f, const std::ve
     }
 }
 
+// Folds a material's constants.
 LeanMaterial lean_material(const MaterialRecord& m, const FrameDesc& desc, const FrameRecord& f, const std::vector<TextureParams>& textures)
 {
     LeanMaterial r = {};
+    // Reflectances and factors
     r.base = glm::vec4(vec3(m.base_color), m.base_color[3]);
     r.dielectric = glm::vec4(vec3(m.dielectric_f0), m.dielectric_f90);
     r.f0 = glm::mix(r.dielectric, glm::vec4(vec3(m.base_color), 1.0f), m.metallic);
     r.diffuse = glm::vec4(vec3(m.base_color) * (1.0f - m.metallic), m.alpha_cutoff);
     r.factors = glm::vec4(m.metallic, m.roughness, m.normal_scale, m.occlusion_strength);
     r.emissive = glm::vec4(vec3(m.emissive), f.joins_round ? m.brushed : 1.0f);
+    // Lobe: widths, roughness, grain and stretch
     ShadingFrame shapes = {};
     shapes.override_anisotropy = desc.override_anisotropy, shapes.anisotropy = desc.anisotropy;
     const lobe_shape shape = only_lobe_shape(shapes, m);
@@ -285,7 +288,7 @@ void LeanScene::prepare(const FrameDesc& desc)
 void LeanScene::make_sets()
 {
     const std::vector<MaterialRecord>& all = scene_.materials_of_frame();
-    const auto count = static_cast<std::uint32_t>(std::max<std::size_t>(all.size(), 1)); // the sky has none of its own
+    const auto count = static_cast<std::uint32_t>(std::max<std::size_t>(all.size(), 1)); // at least one, for the sky, which has no material
     vkDestroyDescriptorPool(context_.device(), pool_, nullptr);
     pool_ = VK_NULL_HANDLE;
     const VkDescriptorPoolSize sizes[] = {{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 2 * count},
@@ -302,7 +305,7 @@ void LeanScene::make_sets()
     for (std::uint32_t m = 0; m < count; ++m) {
         const bool material = m < all.size();
         const DeviceImage& own =
-            material && all[m].albedo_slice >= 0 ? slice(all[m].albedo_slice, kLobeSliceSize) : round_albedo_; // or never fetched
+            material && all[m].albedo_slice >= 0 ? slice(all[m].albedo_slice, kLobeSliceSize) : round_albedo_; // placeholder, never fetched
         const VkDescriptorBufferInfo buffers[] = {{frame_.handle(), 0, VK_WHOLE_SIZE},
                                                   {material ? materials_.handle() : frame_.handle(), material ? m * kMaterialStride : 0,
                                                    material ? VkDeviceSize{kMaterialStride} : VK_WHOLE_SIZE},

@@ -1,5 +1,5 @@
-// What the lean stages (shading/stages/lean) draw of a scene, in place of forward.frag: numbers of each material folded once a frame,
-// tables of albedo as images, vertices from buffers.
+// Draws a scene with the lean stages (shading/stages/lean), in place of forward.frag: material constants folded once per frame, albedo
+// tables as images, vertices from buffers.
 #pragma once
 #include <map>
 #include <vector>
@@ -11,7 +11,8 @@
 
 namespace burnish {
 
-// Whether the lean stages draw the frame; ExitCode::unavailable with what they do not. record, materials: of the frame.
+// Checks that the lean stages can draw the frame. Errors: ExitCode::unavailable, naming the missing feature. record, materials: of the
+// frame.
 Status check_lean(const FrameDesc& desc, const FrameRecord& record, const std::vector<MaterialRecord>& materials);
 
 class LeanScene {
@@ -21,8 +22,8 @@ class LeanScene {
     LeanScene(const LeanScene&) = delete;
     LeanScene& operator=(const LeanScene&) = delete;
 
-    void prepare(const FrameDesc& desc); // after the scene; throws what check_lean() says
-    // Scene and sky, into targets that are bound.
+    void prepare(const FrameDesc& desc); // after the scene's prepare(); throws the error of check_lean()
+    // Draws scene and sky into bound targets.
     void draw(VkCommandBuffer c, const NativeImages& native, VkSampleCountFlagBits samples, VkFormat color, const Band& band);
 
   private:
@@ -41,7 +42,7 @@ class LeanScene {
     std::vector<Specialization> constants_; // by material
     VkSampler sampler_ = VK_NULL_HANDLE;
     VkDescriptorPool pool_ = VK_NULL_HANDLE;
-    std::vector<VkDescriptorSet> sets_; // of set 0, by material
+    std::vector<VkDescriptorSet> sets_; // for set 0, by material
 };
 
 } // namespace burnish

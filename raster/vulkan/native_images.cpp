@@ -8,7 +8,7 @@ namespace {
 
 constexpr std::size_t kHalfTexelBytes = 8; // RGBA halves
 
-// A level without its border of one texel, from `from` to `to`.
+// Appends a level to `to`, without the border of one texel.
 void strip_border(const std::uint16_t* from, int width, int height, std::vector<std::uint16_t>& to)
 {
     for (int y = 0; y < height; ++y) {
@@ -39,7 +39,7 @@ NativeImages::~NativeImages()
         vkDestroySampler(context_.device(), sampler, nullptr);
 }
 
-// offsets: of the bordered levels, in texels; the faces of a cube's level follow each other.
+// Uploads an image with its levels. offsets: of the bordered levels, in texels; a cube level's faces are consecutive.
 DeviceImage NativeImages::upload(const std::uint16_t* texels, const std::vector<std::uint32_t>& offsets, int width, int height, int layers)
 {
     std::vector<std::uint16_t> packed;
@@ -83,7 +83,7 @@ VkSampler NativeImages::sampler(int wrap_s, int wrap_t, bool nearest)
     auto info = vk_struct<VkSamplerCreateInfo>(VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO);
     info.magFilter = info.minFilter = nearest ? VK_FILTER_NEAREST : VK_FILTER_LINEAR;
     info.mipmapMode = nearest ? VK_SAMPLER_MIPMAP_MODE_NEAREST : VK_SAMPLER_MIPMAP_MODE_LINEAR;
-    info.maxLod = nearest ? 0.0f : VK_LOD_CLAMP_NONE; // nearest: of level 0, as the exact sampler
+    info.maxLod = nearest ? 0.0f : VK_LOD_CLAMP_NONE; // nearest: level 0 only, as the exact sampler
     info.addressModeU = kWrap[wrap_s], info.addressModeV = kWrap[wrap_t], info.addressModeW = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
     VkSampler made = VK_NULL_HANDLE;
     BN_VK(vkCreateSampler(context_.device(), &info, nullptr, &made));
@@ -92,7 +92,7 @@ VkSampler NativeImages::sampler(int wrap_s, int wrap_t, bool nearest)
 
 void NativeImages::make_sets(VkDescriptorSetLayout layout, const GpuScene& scene)
 {
-    // one at least: the backdrop has no material of its own
+    // At least one set: the backdrop has no material.
     const auto count = static_cast<std::uint32_t>(std::max<std::size_t>(scene.materials_of_frame().size(), 1));
     const VkDescriptorPoolSize size = {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, count * (kGpuCubes + kTextureSlots)};
     auto pool = vk_struct<VkDescriptorPoolCreateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO);
@@ -106,7 +106,7 @@ void NativeImages::make_sets(VkDescriptorSetLayout layout, const GpuScene& scene
     const auto image_info = [](VkSampler s, const DeviceImage& image) {
         return VkDescriptorImageInfo{s, image.view(), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
     };
-    // a slot without a texture is never fetched, but must be bound
+    // A slot without a texture is never fetched, but must be bound.
     DeviceImage* const some = textures_.empty() ? nullptr : &textures_.front();
     if (!some) {
         const std::vector<std::uint16_t> black(4 * 9);

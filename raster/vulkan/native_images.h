@@ -1,4 +1,4 @@
-// Cubes and textures as images of the device, for its own samplers: the texels of the flat pages without their borders.
+// Cubes and textures as device images, for native samplers: the texels of the flat pages without borders.
 #pragma once
 #include <map>
 #include <vector>
@@ -16,7 +16,7 @@ class NativeImages {
     NativeImages& operator=(const NativeImages&) = delete;
 
     bool has_box() const { return has_box_; }
-    VkDescriptorSet set(std::size_t material) const { return sets_[material]; } // of set 1
+    VkDescriptorSet set(std::size_t material) const { return sets_[material]; } // for set 1
 
   private:
     explicit NativeImages(Context& context) : context_(context) {}

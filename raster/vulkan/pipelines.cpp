@@ -37,7 +37,7 @@ VkPipelineShaderStageCreateInfo stage_info(VkShaderStageFlagBits stage, VkShader
     return info;
 }
 
-// Of the lean stages: positions, then what shading reads.
+// Vertex input of the lean stages: positions, then shading data.
 constexpr VkVertexInputBindingDescription kLeanBuffers[] = {{0, 3 * sizeof(float), VK_VERTEX_INPUT_RATE_VERTEX},
                                                             {1, sizeof(ShadingVertex), VK_VERTEX_INPUT_RATE_VERTEX}};
 constexpr VkVertexInputAttributeDescription kLeanAttributes[] = {{0, 0, VK_FORMAT_R32G32B32_SFLOAT, 0},
@@ -90,8 +90,7 @@ Pipelines::Pipelines(Context& context, const VulkanOptions& options) : Pipelines
     auto allocate = vk_struct<VkDescriptorSetAllocateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO);
     allocate.descriptorPool = pool_, allocate.descriptorSetCount = 1, allocate.pSetLayouts = &set_layout_;
     BN_VK(vkAllocateDescriptorSets(device, &allocate, &set_));
-    auto sampler =
-        vk_struct<VkSamplerCreateInfo>(VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO); // nearest: texels are fetched by their coordinates
+    auto sampler = vk_struct<VkSamplerCreateInfo>(VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO); // nearest: stages fetch texels by coordinates
     BN_VK(vkCreateSampler(device, &sampler, nullptr, &sampler_));
 }
 
@@ -111,7 +110,7 @@ Pipelines::~Pipelines()
     vkDestroyDescriptorSetLayout(device, set_layout_, nullptr);
 }
 
-// Set 1: of a material, cubes of the environment and its textures, all bound by one stage, which every device lets bind 16.
+// Makes set 1, for one material: cubes of the environment and the material's textures. One stage binds them all; every device allows 16.
 void Pipelines::make_native_layout(bool lean)
 {
     const Features& f = context_.features();
@@ -128,7 +127,7 @@ void Pipelines::make_native_layout(bool lean)
     BN_VK(vkCreateDescriptorSetLayout(context_.device(), &set, nullptr, &native_layout_));
 }
 
-// Set 0: of a frame, of a material, a grid, tables of albedo. Set 1 is that of native samplers.
+// Makes set 0: frame, material, grid, albedo tables. Set 1 is that of native samplers.
 void Pipelines::make_lean_layout()
 {
     constexpr VkShaderStageFlags kBoth = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
@@ -197,7 +196,7 @@ VkPipeline Pipelines::graphics(const GraphicsState& state, const Specialization&
         stage_info(VK_SHADER_STAGE_VERTEX_BIT, module(state.vertex, {}), nullptr),
         stage_info(VK_SHADER_STAGE_FRAGMENT_BIT, module(state.fragment, constants), &specialization.info)};
     auto input = vk_struct<VkPipelineVertexInputStateCreateInfo>(
-        VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO); // stages fetch for themselves
+        VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO); // stages fetch vertices themselves
     if (state.lean) {
         input.vertexBindingDescriptionCount = static_cast<std::uint32_t>(std::size(kLeanBuffers)),
         input.pVertexBindingDescriptions = kLeanBuffers;
@@ -266,7 +265,7 @@ void Pipelines::push(VkCommandBuffer commands, const GpuPass& pass) const
 
 void Pipelines::dispatch(VkCommandBuffer commands, std::size_t invocations) const
 {
-    constexpr std::size_t kMaxGroups = 65535; // in one direction, on every device; stages count the others in (linear_invocation)
+    constexpr std::size_t kMaxGroups = 65535; // per direction, on every device; stages count groups over two directions (linear_invocation)
     const std::size_t groups = std::max<std::size_t>((invocations + kGpuGroup - 1) / kGpuGroup, 1);
     const std::size_t rows = (groups + kMaxGroups - 1) / kMaxGroups;
     vkCmdDispatch(commands, static_cast<std::uint32_t>(std::min(groups, kMaxGroups)), static_cast<std::uint32_t>(rows), 1);

@@ -1,4 +1,4 @@
-// The pipelines of the stages: one descriptor set for all of them, shaders by name.
+// Pipelines for the stages: one descriptor set for all stages, shaders by name.
 #pragma once
 #include <map>
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace burnish {
 
-// Bindings of the set, as shading/stages declares them.
+// Bindings in the set, as declared in shading/stages.
 enum Binding : std::uint32_t {
     kTexelsBinding,
     kRealsBinding,
@@ -38,16 +38,16 @@ enum Binding : std::uint32_t {
 using Specialization = std::vector<std::int32_t>; // values of constant_id 0, 1, 2...
 
 struct GraphicsState {
-    std::string vertex, fragment; // shaders
+    std::string vertex, fragment; // names of shaders
     VkFormat color = VK_FORMAT_UNDEFINED;
     VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
     VkCompareOp compare = VK_COMPARE_OP_GREATER;
-    bool lean = false; // of lean_pipeline_layout(), with vertices from buffers
+    bool lean = false; // uses lean_pipeline_layout(), with vertices from buffers
 };
 
 class Pipelines {
   public:
-    // Throws ExitCode::unavailable where a stage binds more than the device lets it.
+    // Throws ExitCode::unavailable if a stage binds more resources than the device allows.
     Pipelines(Context& context, const VulkanOptions& options);
     ~Pipelines();
     Pipelines(const Pipelines&) = delete;
@@ -55,9 +55,9 @@ class Pipelines {
 
     VkPipelineLayout layout() const { return layout_; }
     VkDescriptorSetLayout native_layout() const { return native_layout_; } // of set 1, with native samplers: cubes, a material's textures
-    VkDescriptorSetLayout lean_layout() const { return lean_layout_; }     // of set 0 of the lean stages, with those: see lean.cpp
+    VkDescriptorSetLayout lean_layout() const { return lean_layout_; }     // of set 0 in the lean stages, beside set 1: see lean.cpp
     VkPipelineLayout lean_pipeline_layout() const { return lean_pipeline_layout_; }
-    // Made on first use, then kept.
+    // Return a pipeline, made on first use and then kept.
     VkPipeline compute(const std::string& shader, const Specialization& constants = {});
     VkPipeline graphics(const GraphicsState& state, const Specialization& constants = {});
 
@@ -65,7 +65,7 @@ class Pipelines {
     void bind_image(Binding binding, const DeviceImage& image);
     void bind_set(VkCommandBuffer commands, VkPipelineBindPoint point) const;
     void push(VkCommandBuffer commands, const GpuPass& pass) const;
-    void dispatch(VkCommandBuffer commands, std::size_t invocations) const; // of the bound compute pipeline, and a barrier
+    void dispatch(VkCommandBuffer commands, std::size_t invocations) const; // runs the bound compute pipeline, then a barrier
 
   private:
     Pipelines(Context& context) : context_(context) {}
@@ -81,7 +81,7 @@ class Pipelines {
     VkDescriptorSet set_ = VK_NULL_HANDLE;
     VkSampler sampler_ = VK_NULL_HANDLE;
     std::map<std::string, VkShaderModule> modules_; // pruned for their constants
-    std::map<std::string, VkPipeline> pipelines_;   // by everything that decides them
+    std::map<std::string, VkPipeline> pipelines_;   // by everything that distinguishes them
 };
 
 } // namespace burnish

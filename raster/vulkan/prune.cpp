@@ -10,7 +10,7 @@
 namespace burnish {
 namespace {
 
-// Numbers of the SPIR-V specification 1.6, section 3.49.
+// Opcodes in the SPIR-V specification 1.6, section 3.49.
 enum Op : std::uint32_t {
     kNop = 0,
     kName = 5,
@@ -103,7 +103,7 @@ struct Instruction {
     const std::uint32_t* words;
     std::uint32_t count() const { return words[0] >> 16; }
     Op op() const { return static_cast<Op>(words[0] & 0xffff); }
-    // The id that it defines within a function, or 0.
+    // Returns the id that the instruction defines in a function, or 0.
     std::uint32_t result() const
     {
         if (op() == kLabel)
@@ -114,7 +114,7 @@ struct Instruction {
 };
 using Values = std::map<std::uint32_t, std::int32_t>; // by id
 
-// Of the operators that conditions on constants are made of.
+// Folds the operators in conditions on constants.
 std::optional<std::int32_t> folded(std::uint32_t op, std::int32_t a, std::int32_t b)
 {
     const auto word = [](std::int32_t x) { return static_cast<std::uint32_t>(x); };
@@ -156,7 +156,8 @@ std::optional<std::int32_t> value_in(const Values& values, std::uint32_t id)
     return known == values.end() ? std::nullopt : std::optional(known->second);
 }
 
-// operands: ids of a, b; one for the operator not. `and` and `or` need one of them only where it decides.
+// Folds an operator with known operands. operands: ids of a, b; one id for `not`. `and` and `or` need only one known value if that
+// decides.
 std::optional<std::int32_t> folded(const Values& values, std::uint32_t op, const std::uint32_t* operands, std::size_t count)
 {
     if (count < 1 || count > 2)
@@ -171,7 +172,7 @@ std::optional<std::int32_t> folded(const Values& values, std::uint32_t op, const
     return a && b && count == 2 ? folded(op, *a, *b) : std::nullopt;
 }
 
-// What is known at a place of a function.
+// Known values at a point in a function.
 struct Known {
     Values values; // by id
     Values stored; // by local variable
@@ -194,7 +195,7 @@ struct Known {
 
 using Functions = std::map<std::uint32_t, std::vector<Instruction>>; // by id
 
-// What a function of one block returns for arguments that are known, such as whether a bit of a constant is set.
+// Returns a one-block function's result for known arguments, such as a test for a constant's bit.
 std::optional<std::int32_t> returned(const std::vector<Instruction>& body, const Values& constants,
                                      const std::vector<std::optional<std::int32_t>>& arguments)
 {
@@ -211,14 +212,14 @@ std::optional<std::int32_t> returned(const std::vector<Instruction>& body, const
             return value_in(known.values, i.words[1]);
         else if (i.op() == kFunctionCall)
             for (std::uint32_t w = 4; w < i.count(); ++w)
-                known.stored.erase(i.words[w]); // it may be written there
+                known.stored.erase(i.words[w]); // the callee may write it
         else
             known.evaluate(i, parameters);
     }
     return std::nullopt;
 }
 
-// Of one function what is reached.
+// Marks the reachable blocks of a function.
 class Walk {
   public:
     Walk(const std::vector<Instruction>& body, const Functions& functions, const Values& constants)
@@ -247,7 +248,7 @@ class Walk {
             at = end;
         }
         if (at >= body_.size())
-            return at == body_.size() && first; // declarations have no blocks; everything else has an end
+            return at == body_.size() && first; // declarations have no blocks; other functions have an end
         keep(body_[at]);
         return at + 1 == body_.size();
     }
@@ -258,11 +259,11 @@ class Walk {
 
   private:
     struct Entry {
-        std::vector<std::uint32_t> from; // blocks
-        Values stored;                   // in local variables, where all of them agree
+        std::vector<std::uint32_t> from; // predecessor blocks
+        Values stored;                   // in local variables, where all predecessors agree
     };
 
-    // Local variables that are loaded, stored and handed to functions, and nothing else.
+    // Finds local variables that are only loaded, stored and passed to functions.
     void find_variables()
     {
         for (const Instruction& i : body_)
@@ -284,6 +285,7 @@ class Walk {
             calls.insert(i.words[3]);
     }
 
+    // Notes an edge between blocks, and merges the stored values. Returns false if the edge is not understood.
     bool edge(std::uint32_t from, std::uint32_t to)
     {
         if (passed_.count(to) || to == from)
@@ -302,7 +304,7 @@ class Walk {
         return true;
     }
 
-    // Nothing reaches it: it stays as a name where a construct that stays ends or goes on there.
+    // Handles an unreachable block. It keeps its label if a remaining construct merges or continues there.
     bool dead_block(std::uint32_t label)
     {
         const auto loop = continues_.find(label);
@@ -317,6 +319,7 @@ class Walk {
         return true;
     }
 
+    // Copies a reachable block, and replaces its branch if the condition is known.
     bool block(std::size_t begin, std::size_t end)
     {
         const std::uint32_t label = body_[begin].words[1];
@@ -327,7 +330,7 @@ class Walk {
             end - begin >= 3 && (body_[end - 2].op() == kLoopMerge || body_[end - 2].op() == kSelectionMerge) ? &body_[end - 2] : nullptr;
         const bool loop = merge && merge->op() == kLoopMerge;
         if (loop) {
-            known_.stored.clear(); // a round later they may be others
+            known_.stored.clear(); // values may differ in the next iteration
             headers_.insert(label), merges_.insert(merge->words[1]), continues_[merge->words[2]] = label;
         }
         keep(body_[begin]);
@@ -364,7 +367,7 @@ class Walk {
             return edge(label, last.words[1]);
         case kBranchConditional:
             return edge(label, last.words[2]) && edge(label, last.words[3]);
-        case kSwitch: // of 32-bit selectors
+        case kSwitch: // 32-bit selectors
             for (std::uint32_t w = 2; w < last.count(); w += 2)
                 if (!edge(label, last.words[w]))
                     return false;
@@ -405,7 +408,7 @@ class Walk {
         std::vector<std::optional<std::int32_t>> arguments;
         for (std::uint32_t w = 4; w < i.count(); ++w) {
             arguments.push_back(value_in(known_.stored, i.words[w]));
-            known_.stored.erase(i.words[w]); // it may be written there
+            known_.stored.erase(i.words[w]); // the callee may write it
         }
         const auto function = functions_.find(i.words[3]);
         if (function == functions_.end())
@@ -417,10 +420,10 @@ class Walk {
     const std::vector<Instruction>& body_;
     const Functions& functions_;
     const Values& constants_;
-    Known known_;                                                   // in the block at hand
+    Known known_;                                                   // in the current block
     std::set<std::uint32_t> variables_, passed_, headers_, merges_; // ids; blocks
-    std::map<std::uint32_t, std::uint32_t> continues_;              // to their headers
-    std::map<std::uint32_t, Entry> entries_;                        // of blocks that are reached
+    std::map<std::uint32_t, std::uint32_t> continues_;              // maps continue targets to loop headers
+    std::map<std::uint32_t, Entry> entries_;                        // for reachable blocks
 };
 
 struct Module {
@@ -488,6 +491,7 @@ std::vector<std::uint32_t> pruned(const std::vector<std::uint32_t>& words, const
     std::map<std::uint32_t, std::vector<std::uint32_t>> kept; // words by function
     std::set<std::uint32_t> defined, all;
     std::vector<std::uint32_t> waiting = m.entry_points;
+    // Walk all functions reachable from the entry points
     while (!waiting.empty()) {
         const std::uint32_t id = waiting.back();
         waiting.pop_back();
@@ -503,12 +507,13 @@ std::vector<std::uint32_t> pruned(const std::vector<std::uint32_t>& words, const
         defined.insert(walk.defined.begin(), walk.defined.end());
         waiting.insert(waiting.end(), walk.calls.begin(), walk.calls.end());
     }
+    // Drop names and decorations of removed ids
     for (const auto& [id, body] : m.functions)
         for (const Instruction& i : body)
             all.insert(i.result());
     std::vector<std::uint32_t> out(words.begin(), words.begin() + kHeader);
     for (const Instruction& i : m.globals) {
-        const bool tells = i.op() == kName || i.op() == kDecorate; // of an id that may be gone
+        const bool tells = i.op() == kName || i.op() == kDecorate; // refers to an id that may be gone
         if (!tells || !all.count(i.words[1]) || defined.count(i.words[1]))
             out.insert(out.end(), i.words, i.words + i.count());
     }

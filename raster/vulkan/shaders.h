@@ -1,4 +1,4 @@
-// The stages as SPIR-V: compiled with the program, or from a folder of NAME.spv (what tests make of changed texts).
+// SPIR-V stages: built into the program, or from a folder of NAME.spv files (tests compile changed sources).
 #pragma once
 #include <burnish_stages.h>
 #include <cstdint>
@@ -14,7 +14,7 @@ namespace burnish {
 BN_STAGES(BN_DECLARE_STAGE)
 #undef BN_DECLARE_STAGE
 
-// name: of stages.txt. folder: empty for those of the program.
+// Returns a stage's words. name: as in stages.txt. folder: empty for built-in stages.
 Result<std::vector<std::uint32_t>> shader_words(const std::string& name, const std::string& folder);
 
 } // namespace burnish

@@ -1,4 +1,4 @@
-// Of programs that are built without Vulkan.
+// Replaces the Vulkan renderer in a build without Vulkan.
 #include "raster/vulkan/vulkan_renderer.h"
 
 namespace burnish {

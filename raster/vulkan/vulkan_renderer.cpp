@@ -30,7 +30,7 @@ std::int32_t recorded_of(const FrameDesc& desc, bool blends)
     return (desc.stages ? kGpuRecordStages : 0) | (desc.layers ? kGpuRecordLayers : 0) | (desc.parts || blends ? kGpuRecordColors : 0);
 }
 
-// Words that are recorded of so many pixels. recorded: kGpuRecordStages...
+// Returns the words recorded for this number of pixels. recorded: kGpuRecordStages...
 std::size_t recorded_words(std::int32_t recorded, int msaa, std::size_t pixels)
 {
     const std::size_t samples = pixels * static_cast<std::size_t>(msaa);
@@ -85,7 +85,7 @@ class VulkanRenderer final : public Renderer {
     Specialization shade_constants(const FrameDesc& desc) const;
     void shade(VkCommandBuffer c, const FrameDesc& desc, const Band& band);
     void compose(VkCommandBuffer c, const FrameDesc& desc, const Band& band, int phase);
-    void submit(VkCommandBuffer c); // and time it
+    void submit(VkCommandBuffer c); // measures the time too
     void begin_frame(const FrameDesc& desc);
     void draw_band(const FrameDesc& desc, const Band& band, int surfaces);
     void draw_blended(const FrameDesc& desc, const Band& band, Frame& frame);
@@ -126,7 +126,7 @@ void VulkanRenderer::make_targets(const FrameDesc& desc)
     const std::int32_t recorded = recorded_of(desc, blends());
     const std::size_t words =
         std::max({std::size_t{3}, msaa * static_cast<std::size_t>(shares ? kGpuLineWords : 1),
-                  msaa * static_cast<std::size_t>(blends() ? kGpuPeelWords : 1), recorded_words(recorded, desc.msaa, 1)}); // a pixel
+                  msaa * static_cast<std::size_t>(blends() ? kGpuPeelWords : 1), recorded_words(recorded, desc.msaa, 1)}); // per pixel
     const int rows = band_rows(desc.width, desc.height, words * sizeof(float), band_bytes());
     Targets t;
     t.width = desc.width, t.rows = rows, t.msaa = desc.msaa, t.recorded = recorded, t.shares = shares;
@@ -150,7 +150,7 @@ void VulkanRenderer::make_targets(const FrameDesc& desc)
     t.records = Buffer(context_, recorded_words(recorded, desc.msaa, pixels) * sizeof(std::uint32_t), Buffer::Place::host);
     t.lines = Buffer(context_, shares ? samples * kGpuLineWords * sizeof(float) : 0, Buffer::Place::device);
     t.peel = Buffer(context_, blends() ? samples * kGpuPeelWords * sizeof(float) : 0, Buffer::Place::host);
-    targets_ = std::move(t); // only what was made whole
+    targets_ = std::move(t); // only a complete set
 }
 
 std::vector<std::pair<Binding, const Buffer*>> VulkanRenderer::scene_bindings() const
@@ -177,7 +177,7 @@ void VulkanRenderer::dispatch(VkCommandBuffer c, VkPipeline pipeline, std::size_
     pipelines_.dispatch(c, invocations);
 }
 
-// Vertices to the sub-pixel grid, triangles to setups.
+// Snaps vertices to the sub-pixel grid, and sets up triangles.
 void VulkanRenderer::geometry(VkCommandBuffer c)
 {
     const std::size_t triangles = static_cast<std::size_t>(scene_.places().triangle_count);
@@ -188,7 +188,7 @@ void VulkanRenderer::geometry(VkCommandBuffer c)
     dispatch(c, pipelines_.compute(setup, {1}), triangles);
 }
 
-// One pass of the rasterizer, and its ids and depths to buffers.
+// Runs one rasterizer pass, and copies its ids and depths to buffers.
 void VulkanRenderer::visibility(VkCommandBuffer c, const GpuPass& pass)
 {
     change_layout(c, targets_.id, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL);
@@ -225,7 +225,7 @@ void VulkanRenderer::visibility(VkCommandBuffer c, const GpuPass& pass)
              static_cast<std::size_t>(targets_.width) * static_cast<std::size_t>(pass.rows));
 }
 
-// surfaces: kGpuSolid...
+// Rasterizes all samples, one pass each if the device lacks the sample count. surfaces: kGpuSolid...
 void VulkanRenderer::all_visibility(VkCommandBuffer c, const Band& band, int surfaces)
 {
     if (targets_.native) {
@@ -237,12 +237,12 @@ void VulkanRenderer::all_visibility(VkCommandBuffer c, const Band& band, int sur
         visibility(c, {kSubpixel / 2 - pattern.x[s], kSubpixel / 2 - pattern.y[s], s, 0, 0, band.first_row, band.rows, 0, surfaces});
 }
 
-// constant_id 0 and 1 of shading/stages: bits of techniques, by their places in models.def, and of lobes.
+// Values of constant_id 0 and 1 in shading/stages: technique bits, by index in models.def, and lobe bits.
 struct Used {
     std::int32_t techniques = 0, lobes = 0;
 };
 
-// What frames take, of their techniques those that share samples or those that do not.
+// Collects the frames' lobes, and their techniques that do or do not share samples.
 Used used_by(const std::vector<FrameDesc>& frames, bool sharing)
 {
     const auto& all = techniques();
@@ -258,18 +258,18 @@ Used used_by(const std::vector<FrameDesc>& frames, bool sharing)
     return used;
 }
 
-// The frame's own with `others`.
+// Returns the constants for a frame plus `others`.
 Specialization technique_constants(const std::vector<MaterialRecord>& materials, const FrameRecord& frame, const Used& others)
 {
     std::int32_t techniques = others.techniques, lobes = others.lobes | 1 << frame.lobe;
-    if (frame.masking != 0) // which is compared with the usual one
+    if (frame.masking != 0) // the frame compares it with the default lobe
         lobes |= 1 << lobe_with(kLobeOfAll) | 1 << lobe_with(kSeparableOfAll);
     static_assert(kLobeCount <= kGpuFirstAreaWay && kGpuFirstAreaWay + kAreaWays <= kGpuCoatBit);
     if (frame.area_light_count > 0)
         lobes |= 1 << (kGpuFirstAreaWay + frame.area_way);
     for (const MaterialRecord& m : materials) {
         techniques |= 1 << m.technique, lobes |= 1 << m.lights_lobe;
-        if (m.coated) // whose lobe is round
+        if (m.coated) // a coat has a round lobe
             lobes |= 1 << kGpuCoatBit | 1 << lobe_with(kLobeOfRound);
     }
     return {techniques, lobes};
@@ -303,7 +303,7 @@ void VulkanRenderer::shade(VkCommandBuffer c, const FrameDesc& desc, const Band&
         dispatch(c, pipelines_.compute("share", constants), pixels);
 }
 
-// phase: of compose.comp.
+// Runs a phase of compose.comp.
 void VulkanRenderer::compose(VkCommandBuffer c, const FrameDesc& desc, const Band& band, int phase)
 {
     Specialization constants = shade_constants(desc);
@@ -319,7 +319,7 @@ void VulkanRenderer::begin_frame(const FrameDesc& desc)
     bind_all();
 }
 
-// The first band makes the setups of all. surfaces: kGpuSolid or kGpuAll.
+// Draws the solid or all surfaces of a band. The first band also sets up triangles. surfaces: kGpuSolid or kGpuAll.
 void VulkanRenderer::draw_band(const FrameDesc& desc, const Band& band, int surfaces)
 {
     VkCommandBuffer c = context_.begin();
@@ -333,7 +333,7 @@ void VulkanRenderer::draw_band(const FrameDesc& desc, const Band& band, int surf
     submit(c);
 }
 
-// Draws blended surfaces layer by layer, the nearest first, until one is empty.
+// Draws blended surfaces layer by layer, the nearest first, until a layer is empty.
 void VulkanRenderer::draw_blended(const FrameDesc& desc, const Band& band, Frame& frame)
 {
     std::int32_t& peeled = static_cast<GpuDraw*>(draw_.data())->peeled;
@@ -360,7 +360,8 @@ void VulkanRenderer::submit(VkCommandBuffer c)
     device_ms_ += wall_ms() - wall, device_cpu_ms_ += process_cpu_ms() - cpu;
 }
 
-// ids, colors: by sample of a band that begins with pixel `before` of the picture; colours at the first sample of each pair.
+// Adds the parts of a band's pixels. ids, colors: by sample; the band starts with pixel `before` in the picture. A pair's colour lies at
+// its first sample.
 void add_parts(int msaa, std::size_t before, std::size_t pixels, const std::int32_t* ids, const float* colors, std::vector<PixelPart>& to)
 {
     const std::uint32_t whole = (1u << msaa) - 1;
@@ -377,7 +378,7 @@ void add_parts(int msaa, std::size_t before, std::size_t pixels, const std::int3
         }
 }
 
-// What a band holds to its rows of the frame.
+// Copies a band to its rows in the frame.
 void VulkanRenderer::read_band(const FrameDesc& desc, const Band& band, Frame& frame)
 {
     const std::size_t width = static_cast<std::size_t>(desc.width), msaa = static_cast<std::size_t>(desc.msaa);
@@ -420,7 +421,7 @@ void VulkanRenderer::read_layers(const FrameDesc& desc, const Band& band, Frame&
                 pixels * sizeof(PixelLayers));
 }
 
-// Words of a sample in the peel buffer, as shading/stages/peel.glsl names them.
+// A sample's words in the peel buffer, named as in shading/stages/peel.glsl.
 struct PeeledSample {
     float solid_depth;
     std::int32_t solid_id;
@@ -430,7 +431,7 @@ struct PeeledSample {
 };
 static_assert(sizeof(PeeledSample) == kGpuPeelWords * sizeof(float));
 
-// Takes the place of what read_band() took of the pixels that show blended surfaces.
+// Replaces the data from read_band() in pixels with blended surfaces.
 void VulkanRenderer::read_blended(const FrameDesc& desc, const Band& band, Frame& frame)
 {
     const std::size_t width = static_cast<std::size_t>(desc.width), msaa = static_cast<std::size_t>(desc.msaa);
@@ -456,7 +457,7 @@ void VulkanRenderer::read_blended(const FrameDesc& desc, const Band& band, Frame
               [](const PixelPart& a, const PixelPart& b) { return a.pixel != b.pixel ? a.pixel < b.pixel : a.first < b.first; });
 }
 
-// A frame with room for what is asked for.
+// Returns a frame with room for the requested data.
 Frame empty_frame(const FrameDesc& desc)
 {
     const std::size_t samples =
@@ -484,7 +485,7 @@ Frame VulkanRenderer::render_ids(const FrameDesc& desc)
     for (const Band& band : bands_of(desc.height, targets_.rows)) {
         draw_band(desc, band, kGpuSolid);
         const auto setups = static_cast<std::uint32_t>(draw_.as<GpuDraw>()->setups);
-        if (setups > setup_capacity_) { // of the first band: clipping left more pieces than there was room for
+        if (setups > setup_capacity_) { // in the first band: clipping made more pieces than expected
             make_setups(setups + setups / 4);
             begin_frame(desc);
             draw_band(desc, band, kGpuSolid);

@@ -1,6 +1,6 @@
-// The two integrals over the sphere that a bake spends its time in, as lane code. Texels are in the lanes and
-// every lane adds its terms in the order of the list, so the bits depend neither on the lane width nor on how
-// texels are shared out. Plain pointers only: the instruction-set objects see no containers.
+// Lane code of the two integrals over the sphere that dominate a bake. Each lane holds a texel and adds its terms in list order. So the
+// bits depend neither on the lane width nor on the split of work. Interfaces use plain pointers, because instruction-set objects may not
+// use containers.
 #pragma once
 #include <cstdint>
 
@@ -23,16 +23,16 @@ struct PrefilterInput {
 inline constexpr int kPrefilterBlock = 4; // texels along an edge of a block that shares its terms
 
 struct IrradianceInput {
-    const float *x, *y, *z; // integrals of the unit direction over the source texels
+    const float *x, *y, *z; // integrals of the unit direction over source texels
     const float *r, *g, *b; // radiance
-    int count, row;         // texels, and texels a partial sum
+    int count, row;         // number of texels; texels per partial sum
 };
 
-struct BakeFns { // of one face of size x size, a power of two
-    // Writes the RGB texels of the block whose first texel is (x, y), kPrefilterBlock^2 of them or the face where that is smaller, row by
-    // row: the mean of the terms under GGX with V = N = R, weighted by n.l.
+struct BakeFns { // work on one face of size x size, a power of two
+    // Writes RGB of the block whose first texel is (x, y), row by row. The block has kPrefilterBlock^2 texels, or the whole face if that
+    // is smaller. Each texel is the mean of the terms under GGX with V = N = R, weighted by n.l.
     void (*prefilter)(const PrefilterInput& input, int face, int size, int x, int y, float* rgb);
-    // Writes `count` RGB texels from `first` on (row-major).
+    // Writes `count` RGB texels from `first` on (row-major): the cosine-weighted mean radiance.
     void (*irradiance)(const IrradianceInput& input, int face, int size, int first, int count, float* rgb);
 };
 

@@ -11,7 +11,7 @@
 namespace burnish {
 namespace {
 
-// Solid angle of the part of a face from its centre to (u, v), signed.
+// Returns the signed solid angle on a face between its centre and (u, v).
 double corner_solid_angle(double u, double v)
 {
     return det_atan2(u * v, std::sqrt(u * u + v * v + 1.0));
@@ -37,12 +37,11 @@ struct TexelAt {
     int face, x, y;
 };
 
-// The texel of a neighbouring face that continues `face` past one of its edges: (x, y) with x or y = -1 or
-// size, not both.
+// Returns the neighbouring face's texel that continues `face` past one edge. Either x or y is -1 or size, not both.
 TexelAt across_edge(int face, int x, int y, int size)
 {
     const double step = 2.0 / size;
-    // a quarter of a texel past the edge is enough to change face, and moves no texel centre out of its row
+    // A quarter texel past the edge is enough to change the face, and moves no texel centre out of its row.
     const auto coordinate = [&](int i) { return i < 0 ? -1.0 - 0.25 * step : i >= size ? 1.0 + 0.25 * step : (i + 0.5) * step - 1.0; };
     const Direction d = cube_direction(face, coordinate(x), coordinate(y));
     const double ax = std::fabs(d.x), ay = std::fabs(d.y), az = std::fabs(d.z);
@@ -71,6 +70,7 @@ std::uint16_t* texel_at(CubeMap& cube, int level, int face, int x, int y) // x, 
     return cube.texels.data() + 4 * at;
 }
 
+// Copies all faces' borders from their neighbours. A corner is the mean of its three texels.
 void fill_cube_border(CubeMap& cube, int level)
 {
     const int n = cube.size >> level;
@@ -93,7 +93,7 @@ void fill_cube_border(CubeMap& cube, int level)
                 const std::uint16_t* c = texel_at(cube, level, face, inside_x, y);
                 std::uint16_t* to = texel_at(cube, level, face, x, y);
                 for (int i = 0; i < 4; ++i) {
-                    // sorted, so that the three faces of a corner round alike
+                    // Sort, so that the three faces at a corner round alike
                     float v[3] = {half_to_float(a[i]), half_to_float(b[i]), half_to_float(c[i])};
                     std::sort(v, v + 3);
                     to[i] = float_to_half((v[0] + v[1] + v[2]) / 3.0f);

@@ -1,6 +1,5 @@
-// Geometry and storage of cube maps while they are baked. Faces +x -x +y -y +z -z; on a face u grows with the
-// column and v with the row, both in [-1,1]: +x (1,-v,-u), -x (-1,-v,u), +y (u,1,v), -y (u,-1,-v), +z
-// (u,-v,1), -z (-u,-v,-1).
+// Geometry and storage of cube maps during a bake. Faces: +x -x +y -y +z -z. On a face u grows with the column and v with the row, both in
+// [-1,1]: +x (1,-v,-u), -x (-1,-v,u), +y (u,1,v), -y (u,-1,-v), +z (u,-v,1), -z (-u,-v,-1).
 #pragma once
 #include <cstddef>
 #include <vector>
@@ -17,31 +16,29 @@ struct Direction {
 };
 Direction cube_direction(int face, double u, double v); // not unit
 
-// Linear RGB radiance of one level, no border: faces one after the other, row-major.
+// One level of linear RGB radiance without border. Faces follow each other, row-major.
 struct CubeLevel {
     int size = 0;
     std::vector<float> rgb;          // 6 * size^2 * 3
-    std::vector<double> solid_angle; // sr, of the texels of one face (all faces are alike), size^2
+    std::vector<double> solid_angle; // sr, for the texels of one face (equal on all faces), size^2
 };
-CubeLevel make_cube_level(int size); // black, with its solid angles
+CubeLevel make_cube_level(int size); // black, with solid angles
 inline std::size_t cube_texels(int size)
 {
     return 6 * static_cast<std::size_t>(size) * static_cast<std::size_t>(size);
 }
 
-// Next smaller level: mean of 2x2 texels, weighted by their solid angles, so that every level has the same
-// mean radiance.
+// Returns the next smaller level: means of 2x2 texels, weighted by solid angle. Every level has the same mean radiance.
 CubeLevel half_cube_level(const CubeLevel& from, const Jobs& jobs);
 
 double mean_luminance(const CubeLevel& level); // over the sphere, Rec.709
-double mean_luminance(const CubeMap& cube);    // of level 0 as stored, times its scale
+double mean_luminance(const CubeMap& cube);    // of the stored level 0, times its scale
 
-// Storage for `levels` levels, black.
+// Allocates `levels` black levels.
 CubeMap make_cube_map(int size, int levels, float scale);
-// Writes a level's texels, divided by the cube's scale, and its border.
+// Writes a level's texels, divided by the cube's scale, and the border.
 void store_cube_level(CubeMap& cube, int level, const float* rgb, const Jobs& jobs);
-// The power of two that brings `peak` into [2^14, 2^15): most of half's range lies below it, and sums of
-// texels stay finite.
+// Returns the power of two that scales `peak` into [2^14, 2^15). Most of half's range lies below this, and texel sums stay finite.
 float cube_scale(double peak);
 
 } // namespace burnish

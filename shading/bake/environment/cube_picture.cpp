@@ -13,15 +13,15 @@
 namespace burnish {
 namespace {
 
-constexpr int kSubsamples = 4; // of a pixel, along an axis
+constexpr int kSubsamples = 4; // per pixel and axis
 
 struct CubePlace {
     int face;
-    double column, row; // texels from the face's corner; the outermost texels' centres lie on the cube's edges
+    double column, row; // texels from the face's corner; centres of the outermost texels lie on the cube's edges
 };
 
-// Where a direction, not unit, meets a face (OpenEXR, "Reading and Writing OpenEXR Image Files", environment maps). last: size - 1.
-// OpenEXR's latlong picture has +Z at its centre and ours +X, so that its axes are x = -z, y = y, z = x of ours.
+// Returns the place where a direction, not unit, meets a face (OpenEXR, "Reading and Writing OpenEXR Image Files", environment maps).
+// last: size - 1. OpenEXR's latlong picture has +Z at its centre, ours +X. So OpenEXR's axes are x = -z, y = y, z = x in ours.
 CubePlace place_on_cube(const glm::dvec3& ours, double last)
 {
     const glm::dvec3 d(-ours.z, ours.y, ours.x), a = glm::abs(d);
@@ -34,7 +34,7 @@ CubePlace place_on_cube(const glm::dvec3& ours, double last)
     return {d.z > 0.0 ? 4 : 5, d.z > 0.0 ? down(d.x / a.z) : up(d.x / a.z), down(d.y / a.z)};
 }
 
-// Adds the four texels around a place, by their shares.
+// Adds the four texels around a place, weighted bilinearly.
 void add_texels(const Image& faces, const CubePlace& at, double* sums)
 {
     const int size = faces.width, x0 = std::clamp(static_cast<int>(at.column), 0, size - 1),
@@ -44,7 +44,7 @@ void add_texels(const Image& faces, const CubePlace& at, double* sums)
         const int x = std::min(x0 + (corner & 1), size - 1), y = std::min(y0 + (corner >> 1), size - 1);
         const double share = ((corner & 1) ? fx : 1.0 - fx) * ((corner >> 1) ? fy : 1.0 - fy);
         if (share <= 0.0)
-            continue; // a NaN beside it is not met
+            continue; // do not spread a NaN from a texel without weight
         const float* texel =
             faces.f32() + (static_cast<std::size_t>(at.face * size + y) * static_cast<std::size_t>(size) + static_cast<std::size_t>(x)) *
                               static_cast<std::size_t>(faces.channels);

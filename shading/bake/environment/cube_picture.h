@@ -1,4 +1,4 @@
-// OpenEXR's pictures of cubes (envmap = cube) as the picture of the sky that environments are baked from.
+// Converts OpenEXR cube pictures (envmap = cube) to the sky picture that environments are baked from.
 #pragma once
 #include <cstdint>
 #include <string>
@@ -8,11 +8,11 @@
 
 namespace burnish {
 
-// Why a picture is no cube of six faces, one below the other, or too large a sky. Empty where it is one.
+// Returns the reason why a picture is not six faces in a column, or is too large for a sky. Empty if the picture is valid.
 std::string cube_picture_fault(const Image& faces, std::uint64_t most_pixels);
 
-// Linear f32 picture of the sky, 4 size x 2 size pixels of the faces' channels, oriented as environment.h has it: what OpenEXR's latlong
-// picture of the same surroundings is read as. Each pixel is the mean of 16 directions, interpolated between texels.
+// Returns the sky as a linear f32 picture, 4 size x 2 size pixels, with the faces' channels. Orientation: environment.h. OpenEXR's latlong
+// picture of the same surroundings reads as this picture. Each pixel is the mean of 16 directions, interpolated between texels.
 Image sky_of_cube_picture(const Image& faces, const Jobs& jobs);
 
 } // namespace burnish

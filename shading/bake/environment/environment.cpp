@@ -23,13 +23,13 @@
 namespace burnish {
 namespace {
 
-constexpr int kIrradianceSource = 64; // texels along an edge of the level that irradiance is gathered from
+constexpr int kIrradianceSource = 64; // texels along an edge of the level that irradiance reads
 constexpr int kTexelsAJob = 512;
-// A piece of light against its distance (light_tree.h), times the square root of the pieces that this makes, about: with 1024 of them no
-// level is more than 0.5 % off on the mean, under suns and between lamps.
+// A light piece's size over its distance (light_tree.h), times the square root of the number of pieces, roughly. Chosen so that 1024
+// pieces suffice under suns and between lamps.
 constexpr double kOpening = 6.4, kWidestOpening = 1.0;
 
-// A kernel over all texels of a cube face by face, in pieces.
+// Runs a kernel in pieces over all texels of a cube, face by face.
 template <class Kernel> std::vector<float> run_over_cube(int size, const Jobs& jobs, Progress& progress, const Kernel& kernel)
 {
     std::vector<float> rgb(cube_texels(size) * 3);
@@ -52,7 +52,7 @@ std::vector<CubeLevel> box_chain(CubeLevel level0, const Jobs& jobs)
     return chain;
 }
 
-// A level by blocks of texels that share their terms.
+// Prefilters a level, in blocks of texels that share their terms.
 std::vector<float> prefilter_level(const LightTree& tree, int size, double alpha, double opening, const Jobs& jobs, Progress& progress)
 {
     std::vector<float> rgb(cube_texels(size) * 3);
@@ -76,7 +76,7 @@ std::vector<float> prefilter_level(const LightTree& tree, int size, double alpha
     return rgb;
 }
 
-// Level 0 is the environment itself; level l holds GGX with alpha_lin = l / (levels - 1).
+// Makes the prefiltered chain. Level 0 is the environment; level l holds GGX with alpha_lin = l / (levels - 1).
 CubeMap prefilter_chain(const std::vector<CubeLevel>& boxes, int levels, int samples, float scale, const Jobs& jobs, Progress& progress)
 {
     const int size = boxes[0].size;
@@ -143,6 +143,7 @@ Status check(const Image& image, const std::string& name, const EnvironmentOptio
     return {};
 }
 
+// Bakes all cubes and key lights of an image.
 Environment bake(const Image& image, const std::string& name, const EnvironmentOptions& options, int levels, const Jobs& jobs)
 {
     const TraceSpan span("bake environment");
@@ -150,6 +151,7 @@ Environment bake(const Image& image, const std::string& name, const EnvironmentO
     Equirect source = make_equirect(image);
     e.peak_source = peak_value(source);
     e.energy_source = mean_luminance(source);
+    // Sample the picture, and extract key lights
     double peak = static_cast<double>(e.peak_source);
 
     Progress progress("baking " + name, prefilter_texels(options.cube_size, levels), options.quiet || options.picture_only);
@@ -162,6 +164,7 @@ Environment bake(const Image& image, const std::string& name, const EnvironmentO
         sample_equirect_again(sampled, source, changed, jobs);
         peak = static_cast<double>(peak_value(source));
     }
+    // Stop at the picture if nothing else is needed
     if (options.picture_only) {
         if (e.key_lights.empty()) {
             e.specular = make_cube_map(options.cube_size, 1, cube_scale(peak));
@@ -170,8 +173,9 @@ Environment bake(const Image& image, const std::string& name, const EnvironmentO
         e.energy_cube = mean_luminance(e.picture());
         return e;
     }
+    // Gather irradiance, and prefilter
     const std::vector<CubeLevel> boxes = box_chain(averaged_to(sampled, options.cube_size, jobs), jobs);
-    sampled = {}; // as large as all the rest
+    sampled = {}; // as large as everything else together
     const auto gathered = std::find_if(boxes.begin(), boxes.end(), [](const CubeLevel& l) { return l.size <= kIrradianceSource; });
     e.irradiance = irradiance_cube(*gathered, jobs, progress);
     e.specular = prefilter_chain(boxes, levels, options.samples, cube_scale(peak), jobs, progress);
@@ -179,7 +183,7 @@ Environment bake(const Image& image, const std::string& name, const EnvironmentO
     return e;
 }
 
-// What is baked as it is asked for: one bake is drawn turned and exposed in any way.
+// Applies rotation and exposure after the bake, so that one bake serves them all.
 void turn_and_expose(Environment& e, const EnvironmentOptions& options)
 {
     if (options.rotation_deg == 0.0f && options.exposure_ev == 0.0f)
@@ -246,10 +250,10 @@ Result<Environment> load_gltf_light(const std::string& file, const EnvironmentOp
     return baked;
 }
 
-// A picture of the whole sky, or OpenEXR's of a cube.
+// Loads an equirectangular picture, or an OpenEXR cube picture.
 Result<Environment> load_picture(const std::string& file, const EnvironmentOptions& options, const Limits& limits, const Jobs& jobs)
 {
-    Limits of_environment = limits; // a bake takes time and memory by the pixel
+    Limits of_environment = limits; // a bake takes time and memory per pixel
     of_environment.image_pixels = limits.env_pixels;
     PictureNotes notes;
     Result<Image> image = read_colours(file, of_environment, notes);

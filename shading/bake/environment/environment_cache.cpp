@@ -19,7 +19,7 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "cache files are little-endian");
 
-// The file: this header, the specular texels, the irradiance texels and, with key lights, those of the whole environment.
+// The file's header. The specular texels, the irradiance texels and, with key lights, the whole environment's texels follow.
 struct Header {
     char magic[8];
     std::uint32_t version;
@@ -31,7 +31,7 @@ struct Header {
     double energy_source, energy_cube;
     std::uint64_t content_hash;
     std::uint64_t payload_hash;
-    std::uint64_t header_hash; // of everything above
+    std::uint64_t header_hash; // of all fields above
 };
 static_assert(sizeof(KeyLight) == 56 && sizeof(Header) == 536);
 constexpr char kMagic[8] = {'b', 'u', 'r', 'n', 'e', 'n', 'v', '\n'};
@@ -48,14 +48,14 @@ std::size_t bytes_of(const CubeMap& cube)
     return cube.texels.size() * sizeof(std::uint16_t);
 }
 
-// Whether a cube's texels are radiance: finite, not negative.
+// Returns true if a cube's texels are valid radiance: finite and not negative.
 bool holds_light(const CubeMap& cube)
 {
     constexpr std::uint16_t kInfinite = 0x7c00, kMinusZero = 0x8000;
     return std::all_of(cube.texels.begin(), cube.texels.end(), [](std::uint16_t half) { return half < kInfinite || half == kMinusZero; });
 }
 
-// Whether all numbers of a key light can be drawn by.
+// Returns true if all numbers of a key light are in range for drawing.
 bool is_key_light(const KeyLight& k)
 {
     const auto within = [](const float* v, float least, float most) {
@@ -73,7 +73,7 @@ std::uint64_t environment_hash(const Image& equirect, const EnvironmentOptions& 
     const struct {
         std::uint32_t version;
         std::int32_t width, height, channels, type, size, levels, samples, key_lights;
-        float zero[2]; // where rotation and exposure stood, so that files of before are still good
+        float zero[2]; // former place of rotation and exposure; zeros keep older files valid
     } key = {kBakeVersion,      equirect.width, equirect.height, equirect.channels,  static_cast<std::int32_t>(equirect.type),
              options.cube_size, levels,         options.samples, options.key_lights, {0.0f, 0.0f}};
     return hash_bytes(equirect.bytes.data(), equirect.bytes.size(), hash_bytes(&key, sizeof(key)));
@@ -104,7 +104,7 @@ std::optional<Environment> parse_environment_cache(const std::uint8_t* data, std
         h.key_light_count > kMaxKeyLights || (h.key_light_count > 0) != (bytes == most) ||
         h.payload_hash != hash_bytes(payload, bytes - sizeof(h)))
         return std::nullopt;
-    // Half floats up to 65504, times this, are still floats.
+    // Largest scale with which every half float up to 65504 gives a finite float.
     constexpr float kMostScale = 0x1p111f;
     for (const double figure : {static_cast<double>(h.specular_scale), static_cast<double>(h.irradiance_scale),
                                 static_cast<double>(h.whole_scale), static_cast<double>(h.peak_source), h.energy_source, h.energy_cube})
@@ -199,7 +199,7 @@ Status write_environment_cache(const std::string& path, const Environment& e)
 {
     const std::vector<std::uint8_t> file = environment_cache_bytes(e);
     const std::filesystem::path folder = std::filesystem::path(path).parent_path();
-    std::error_code ignored; // a folder that cannot be made shows in the write
+    std::error_code ignored; // the write reports a folder that cannot be made
     std::filesystem::create_directories(folder, ignored);
     const Status written = write_file_atomic(path, file.data(), file.size(), Links::refuse);
     prune_cache(folder.string(), cache_limit(), path);

@@ -21,15 +21,14 @@ float value_of(const Image& image, std::size_t i)
     return srgb_to_linear(static_cast<float>(reinterpret_cast<const std::uint16_t*>(image.bytes.data())[i]) / 65535.0f);
 }
 
-// The image is constant on its pixels. A sample looks at it, along one axis, through a quadratic B-spline
-// whose variance is that of a box of one pixel (which makes linear interpolation of the constant pixels) plus
-// that of the B-spline of the sample's footprint: neighbouring samples then share out every pixel evenly,
-// also where the footprints stand askew to the image, near its poles.
+// A sample's filter weights along one image axis. The image is constant on its pixels. A sample sees it through a quadratic B-spline. Its
+// variance is a one-pixel box's variance (such a box turns constant pixels into linear interpolation) plus the variance for the sample's
+// footprint. Neighbouring samples then share every pixel evenly, even where footprints lie askew to the image near its poles.
 struct AxisFilter {
     int first = 0;
-    std::vector<double> weight; // of the pixels from `first` on; sum 1
+    std::vector<double> weight; // for pixels from `first` on; sum 1
 
-    // center: pixels from the image's edge; footprint: pixels
+    // Computes the weights. center: pixels from the image's edge; footprint: pixels.
     void set(double center, double footprint)
     {
         const double f = kSpread * footprint;
@@ -46,8 +45,7 @@ struct AxisFilter {
     }
 
   private:
-    // A little over 1 balances the unevenness along the image's axes (nil at 1) and at 45 degrees to them:
-    // both below 0.2 %.
+    // A value slightly above 1 balances the unevenness along the image's axes (none at 1) and at 45 degrees to them.
     static constexpr double kSpread = 1.08;
 
     // Integral of the quadratic B-spline on [0,3] up to t.
@@ -64,13 +62,13 @@ struct AxisFilter {
     double box_ = 0.0; // width of each of the three boxes, pixels
 };
 
-// Where a sample lies, and how far it reaches: the mean over the footprint of direction d, whose sides are du and dv (any parallelogram on
-// the face). Each axis looks at a box of the same variance as the footprint's projection.
+// Position and extent of a sample: the mean over the footprint of direction d with sides du and dv (any parallelogram on the face). Each
+// image axis uses a box with the same variance as the footprint's projection.
 struct Footprint {
     const Direction &d, &du, &dv;
     double rho2 = std::max(d.x * d.x + d.z * d.z, 1e-18), rho = std::sqrt(rho2);
 
-    double longitude() const { return 0.5 + det_atan2(d.z, d.x) / (2.0 * kPi); } // of [0,1]
+    double longitude() const { return 0.5 + det_atan2(d.z, d.x) / (2.0 * kPi); } // in [0,1]
     double colatitude() const { return det_atan2(rho, d.y) / kPi; }
     double wide() const { return std::min(extent(longitude_by(du), longitude_by(dv)) / (2.0 * kPi), 1.0); }
     double high() const { return extent(colatitude_by(du), colatitude_by(dv)) / kPi; }
@@ -105,22 +103,21 @@ std::array<double, 3> gathered(const Equirect& source, const AxisFilter& across,
     return sum;
 }
 
-// Texels along an edge: bounds time and memory for large sources. Two samples an axis and texel keep a single
-// bright pixel to 0.3 % (but for the pole's own row, 10 %), one sample to 1 %: enough where a sun has many
-// pixels.
+// Most texels along an edge: bounds time and memory for large sources. Two samples per axis and texel preserve a single bright pixel
+// better than one sample; one sample is enough if a sun has many pixels.
 constexpr int kLargestSampled = 2048;
 
-// The cube is sampled no coarser than the source, then averaged down: sums of texels lose nothing.
+// Returns the size at which the cube is sampled: no coarser than the source. The samples are then averaged down without loss of light.
 int sampled_size(const Equirect& source, int size)
 {
-    const double texels = 2.0 / kPi * source.height; // a texel at the middle of a face is a pixel then
+    const double texels = 2.0 / kPi * source.height; // then a texel at a face's centre is as large as a pixel
     int sampled = size;
     while (sampled < texels && sampled < kLargestSampled)
         sampled *= 2;
     return sampled;
 }
 
-// The samples of a face: `count` along an edge, and what lies between them.
+// Sample positions on a face: `count` along an edge, and the vectors between neighbours.
 struct SampledFace {
     int face, count;
     double step = 2.0 / count;
@@ -136,11 +133,11 @@ struct SampledFace {
     }
 };
 
-// Faces whose samples lie at the same colatitudes, so that they share the filter down.
+// Groups of faces whose samples lie at equal colatitudes and share the vertical filter.
 constexpr int kSides[] = {0, 1, 4, 5}, kTop[] = {2}, kBottom[] = {3};
 constexpr std::span<const int> kAlike[] = {kSides, kTop, kBottom};
 
-// On the faces at the sides the longitude is the same along a column, so the filter across is: by column of samples.
+// Returns the horizontal filters by column of samples. On a side face longitude is constant along a column.
 std::vector<AxisFilter> columns_of(const SampledFace& samples, const Equirect& source)
 {
     std::vector<AxisFilter> columns(static_cast<std::size_t>(samples.count));
@@ -152,7 +149,7 @@ std::vector<AxisFilter> columns_of(const SampledFace& samples, const Equirect& s
     return columns;
 }
 
-// Of the texels whose centre, a direction that is not unit, is wanted.
+// Samples the texels for which `wanted` accepts the centre, a direction that is not unit.
 template <class Wanted> void sample_texels(CubeLevel& cube, const Equirect& source, const Jobs& jobs, const Wanted& wanted)
 {
     const int size = cube.size, n = size < kLargestSampled ? 2 : 1;
@@ -164,6 +161,7 @@ template <class Wanted> void sample_texels(CubeLevel& cube, const Equirect& sour
         const int y = static_cast<int>(row % static_cast<std::size_t>(size));
         const SampledFace samples = {faces[0], n * size};
         AxisFilter across, down;
+        // Skip texels that nobody wants
         for (int x = 0; x < size; ++x) {
             bool asked[6] = {}, any = false;
             for (const int face : faces) {
@@ -172,6 +170,7 @@ template <class Wanted> void sample_texels(CubeLevel& cube, const Equirect& sour
             }
             if (!any)
                 continue;
+            // Sum filtered samples, weighted by solid angle
             std::array<double, 3> sums[6] = {};
             double weights = 0.0;
             for (int k = 0; k < n * n; ++k) {
@@ -215,14 +214,14 @@ float largest_finite(const std::vector<float>& values)
     return largest;
 }
 
-// Cosines of rows' edges, whose differences are the solid angles that pixels of a row have.
+// Returns a row's weight: the difference of its edges' cosines is proportional to its pixels' solid angle.
 double row_weight(int y, int height)
 {
     return det_cos(kPi * y / height) - det_cos(kPi * (y + 1) / height);
 }
 
-// Of one channel of the pixels [x0, x0 + side) x [y0, y0 + side): the negative light becomes 0 and the rest darker by as much. false, and
-// nothing changed, where there is less of the rest.
+// Sets negative light of one channel to 0 in pixels [x0, x0 + side) x [y0, y0 + side), and darkens the rest by the same amount. Returns
+// false, and changes nothing, if the rest has too little light.
 bool share_out_negative(Equirect& e, int x0, int y0, int side, std::size_t channel)
 {
     const int x1 = static_cast<int>(std::min<std::int64_t>(e.width, std::int64_t{x0} + side)),
@@ -247,8 +246,8 @@ bool share_out_negative(Equirect& e, int x0, int y0, int side, std::size_t chann
     return true;
 }
 
-// Lossy compression leaves negative values beside bright ones that it made too bright: in blocks of 8 x 8 pixels, as DWA has them, and
-// where those hold too little light in ever larger ones, the sum is kept.
+// Removes negative values and keeps the sum of light. Lossy compression leaves negative values beside bright values that are too bright.
+// Starts with blocks of 8 x 8 pixels, as DWA compression has them. Goes on with larger blocks where these hold too little light.
 void keep_sum(Equirect& e)
 {
     for (std::size_t channel = 0; channel < 3; ++channel) {
@@ -263,7 +262,7 @@ void keep_sum(Equirect& e)
         }
     }
     for (float& v : e.rgb)
-        v = std::max(v, 0.0f); // less than no light altogether
+        v = std::max(v, 0.0f); // the channel has less than no light altogether
 }
 
 } // namespace
@@ -368,8 +367,9 @@ CubeLevel sample_equirect(const Equirect& source, int size, const Jobs& jobs)
 
 void sample_equirect_again(CubeLevel& sampled, const Equirect& source, const std::vector<SkyCap>& changed, const Jobs& jobs)
 {
-    // A sample's filters reach 1.5 times sqrt(1/3 + (1.08 f)^2) pixels and one more along each axis, f being its footprint: at most 1.9
-    // pixels and 2.3 texels. Towards a pole rows grow by less than twice within that; at the pole itself it is twice that from end to end.
+    // A sample's filter reaches 1.5 sqrt(1/3 + (1.08 f)^2) pixels plus one along each axis, where f is the footprint. That is at most 1.9
+    // pixels and 2.3 texels. Towards a pole rows grow by less than a factor of two within this reach. At the pole the reach doubles from
+    // end to end.
     constexpr double kReach = 8.0;
     const double pixel = std::max(kPi / source.height, 2.0 * kPi / source.width), texel = 2.0 / sampled.size;
     std::vector<double> least;

@@ -1,4 +1,4 @@
-// Equirectangular images onto a cube: every texel is the integral of the image over its footprint.
+// Maps equirectangular images to a cube. Every texel is the integral of the image over its footprint.
 #pragma once
 #include <string>
 #include <vector>
@@ -15,36 +15,38 @@ struct Equirect {
     std::vector<float> rgb;
 };
 
-// No light is brighter (the sun has 1.6e9 cd/m^2): above it, values are taken for infinite ones.
+// Upper limit of light (the sun has 1.6e9 cd/m^2). Larger values count as infinite.
 inline constexpr float kMostRadiance = 1e12f;
 
-// 8- and 16-bit images are taken as sRGB. NaN becomes 0, infinite values the largest finite value of the image. Negative values become 0,
-// and what is around them darker by as much, so that the light of each channel, by solid angle, stays as it is.
+// Converts an image to linear radiance. Reads 8- and 16-bit images as sRGB. NaN becomes 0, infinite values become the image's largest
+// finite value. Negative values become 0 and darken their surroundings, so that each channel's total light, by solid angle, stays the
+// same.
 Equirect make_equirect(const Image& image);
 
-// One line for each kind of what make_equirect() repairs or has to guess in this image.
+// Returns one line for each kind of repair or guess that make_equirect() makes for this image.
 std::vector<std::string> equirect_warnings(const Image& image);
 
-// Says that a picture, not twice as wide as high, is stretched over the whole sphere, and which layout of a cube it looks like. Empty where
-// it is, and where all pixels are equal.
+// Returns a warning if the picture is not twice as wide as high: it is stretched over the sphere. The warning names the cube layout that
+// the picture looks like. Empty for a 2:1 picture, and if all pixels are equal.
 std::string equirect_shape_warning(const Image& image);
 
-double mean_luminance(const Equirect& source); // over the sphere: pixels weighted by their solid angles
+double mean_luminance(const Equirect& source); // over the sphere: pixels weighted by solid angle
 float peak_value(const Equirect& source);      // largest channel value
 
-// Directions within an angle of one.
+// All directions within `radius` of `centre`.
 struct SkyCap {
     Direction centre; // unit
     double radius;    // radians
 };
 
-// The source on a cube of at least `size` texels along an edge, a power of two, that is no coarser than the source.
+// Samples the source on a cube with at least `size` texels along an edge, a power of two. The cube is no coarser than the source, up to a
+// limit.
 CubeLevel sample_equirect(const Equirect& source, int size, const Jobs& jobs);
-// The same again where the source has changed within caps and nowhere else: with all of sample_equirect()'s bits, and little of its time.
+// Updates the cube after the source has changed within the caps only. Gives sample_equirect()'s bits in a fraction of its time.
 void sample_equirect_again(CubeLevel& sampled, const Equirect& source, const std::vector<SkyCap>& changed, const Jobs& jobs);
-// Averaged down to `size` texels along an edge: sums of texels lose nothing.
+// Averages a cube down to `size` texels along an edge. Light is preserved.
 CubeLevel averaged_to(const CubeLevel& sampled, int size, const Jobs& jobs);
 
-CubeLevel equirect_to_cube(const Equirect& source, int size, const Jobs& jobs); // both
+CubeLevel equirect_to_cube(const Equirect& source, int size, const Jobs& jobs); // samples, then averages
 
 } // namespace burnish

@@ -11,7 +11,7 @@
 namespace burnish {
 namespace {
 
-constexpr int kSubsamples = 4; // of a pixel, along an axis
+constexpr int kSubsamples = 4; // per pixel and axis
 
 float unit_value(const Image& image, std::size_t i)
 {
@@ -20,7 +20,7 @@ float unit_value(const Image& image, std::size_t i)
     return static_cast<float>(reinterpret_cast<const std::uint16_t*>(image.bytes.data())[i]) / 65535.0f;
 }
 
-// Linear RGB of a face's texels, times `intensity`.
+// Returns linear RGB of a face's texels, times `intensity`. The alpha channel is a divisor.
 std::vector<float> radiance_of(const Image& face, double intensity)
 {
     const std::size_t texels = static_cast<std::size_t>(face.width) * static_cast<std::size_t>(face.height);
@@ -37,12 +37,12 @@ std::vector<float> radiance_of(const Image& face, double intensity)
     return rgb;
 }
 
-// The texel that a direction, not unit, meets: face * size^2 + row * size + column.
+// Returns the texel that a direction, not unit, meets: face * size^2 + row * size + column.
 std::size_t texel_at(const glm::dvec3& d, int size)
 {
     const glm::dvec3 a = glm::abs(d);
     int face;
-    double u, v; // along columns and rows, [-1, 1], as seen from within
+    double u, v; // along columns and rows, [-1, 1], seen from inside
     if (a.x >= a.y && a.x >= a.z)
         face = d.x > 0.0 ? 0 : 1, u = (d.x > 0.0 ? d.z : -d.z) / a.x, v = -d.y / a.x;
     else if (a.y >= a.z)

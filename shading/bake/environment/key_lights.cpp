@@ -11,19 +11,19 @@ namespace burnish {
 namespace {
 
 constexpr double kDegree = kPi / 180.0;
-constexpr double kFirstThreshold = 4.0; // of the mean radiance: a light of 1/200 of the whole and 4 degrees across is above it
+constexpr double kFirstThreshold = 4.0; // times the mean radiance: a light of 4 degrees with 1/200 of all light exceeds it
 constexpr double kLargestReach = 5.0 * kDegree, kLargestAxis = 2.5 * kDegree;
-constexpr double kLeastCover = 0.3, kMostCover = 2.5; // of a region by its ellipse of inertia: a disc has 1, a spark in a glow less, two
-                                                      // lamps with a bridge more
+constexpr double kLeastCover = 0.3, kMostCover = 2.5; // ellipse area over region: 1 for a disc, less for a glow, more for bridged lamps
+// Least ratio to the mean of the surroundings and to the brightest rim pixel, and least share of the sphere's light
 constexpr double kLeastContrast = 8.0, kLeastDrop = 4.0, kLeastShare = 0.005;
 
-constexpr std::size_t kMostOfRim = 512; // pixels that a hole is filled from: about a pole a rim has a whole row
+constexpr std::size_t kMostOfRim = 512; // most pixels that fill a hole; next to a pole the rim has a whole row of pixels
 
 using Pixels = std::vector<std::uint32_t>;
 
-struct Ellipse {            // of inertia, weighted by luminance
-    Direction centre, u, v; // unit; half axes (two deviations, those of a uniform disc's rim), as tangents, |u| >= |v|
-    double reach;           // of the farthest pixel, radians
+struct Ellipse {            // ellipse of inertia, weighted by luminance
+    Direction centre, u, v; // unit; half axes (two deviations, the rim of a uniform disc), as tangents, |u| >= |v|
+    double reach;           // radians to the farthest pixel
 };
 
 struct Region {
@@ -70,7 +70,7 @@ class Picture {
     std::size_t width() const { return static_cast<std::size_t>(source_.width); }
     std::size_t height() const { return static_cast<std::size_t>(source_.height); }
     double angle(std::size_t pixel) const { return angle_[pixel / width()]; }
-    double step() const { return kPi / source_.height; } // radians, between rows
+    double step() const { return kPi / source_.height; } // radians between rows
     double luminance(std::size_t pixel) const
     {
         const float* p = source_.rgb.data() + 3 * pixel;
@@ -82,7 +82,7 @@ class Picture {
         const std::size_t x = pixel % width(), y = pixel / width();
         return {sin_row_[y] * cos_column_[x], cos_row_[y], sin_row_[y] * sin_column_[x]};
     }
-    // The eight around it; past a pole lies the other side of the same row.
+    // Visits a pixel's eight neighbours. Past a pole lies the row's other side.
     template <class Visit> void neighbours(std::size_t pixel, const Visit& visit) const
     {
         const std::size_t w = width(), x = pixel % w, y = pixel / w;
@@ -95,7 +95,7 @@ class Picture {
                     visit(row * w + column);
             }
     }
-    // Pixels within `reach` of a direction, and perhaps a few more.
+    // Visits the pixels with centres within `reach` of a direction.
     template <class Visit> void around(const Direction& centre, double reach, const Visit& visit) const
     {
         const double theta = det_acos(std::clamp(centre.y, -1.0, 1.0));
@@ -112,21 +112,23 @@ class Picture {
     std::vector<double> sin_row_, cos_row_, angle_, sin_column_, cos_column_;
 };
 
-// weight: by pixel of the list, not negative, not all 0. A pixel's own extent counts as a square's.
+// Returns the ellipse of inertia. weight: by pixel in the list, not negative, not all 0. A pixel's own extent counts as a square.
 Ellipse ellipse_of(const Picture& picture, const Pixels& pixels, const std::vector<double>& weight)
 {
     Ellipse e = {};
     double total = 0.0;
+    // Find the centre
     for (std::size_t i = 0; i < pixels.size(); ++i) {
         e.centre = sum(e.centre, scaled(picture.direction(pixels[i]), weight[i]));
         total += weight[i];
     }
     e.centre = unit(e.centre);
-    const bool steep = std::fabs(e.centre.y) > 0.7; // then x, else y, is far enough from the centre
+    const bool steep = std::fabs(e.centre.y) > 0.7; // then the x axis, else the y axis, is far enough from the centre
     const Direction pole = steep ? Direction{1.0, 0.0, 0.0} : Direction{0.0, 1.0, 0.0};
     const Direction a = unit(sum(pole, scaled(e.centre, -dot(pole, e.centre))));
     const Direction b = {e.centre.y * a.z - e.centre.z * a.y, e.centre.z * a.x - e.centre.x * a.z, e.centre.x * a.y - e.centre.y * a.x};
     double aa = 0.0, bb = 0.0, ab = 0.0, nearest = 1.0;
+    // Sum second moments in the tangent plane
     for (std::size_t i = 0; i < pixels.size(); ++i) {
         const Direction d = picture.direction(pixels[i]);
         const double ahead = dot(d, e.centre), s = dot(d, a) / std::max(ahead, 0.1), t = dot(d, b) / std::max(ahead, 0.1);
@@ -135,9 +137,10 @@ Ellipse ellipse_of(const Picture& picture, const Pixels& pixels, const std::vect
         nearest = std::min(nearest, ahead);
     }
     e.reach = det_acos(std::max(nearest, -1.0));
+    // Solve for the half axes
     const double mean = 0.5 * (aa + bb), half = 0.5 * (aa - bb), root = std::sqrt(half * half + ab * ab);
     const double long_axis = 2.0 * std::sqrt(mean + root), short_axis = 2.0 * std::sqrt(std::max(mean - root, 0.0));
-    // the eigenvector of mean + root, from whichever row keeps its digits
+    // Take the eigenvector of mean + root from the row that keeps its digits.
     double x = half >= 0.0 ? root + half : ab, y = half >= 0.0 ? ab : root - half;
     const double length = std::sqrt(x * x + y * y);
     x = length > 0.0 ? x / length : 1.0, y = length > 0.0 ? y / length : 0.0;
@@ -153,7 +156,8 @@ double length(const Direction& a)
 
 enum : std::uint8_t { kOutside, kInside, kRim };
 
-// The region, whose pixels are inside, with two pixels around it: light may have spilled there, and the ringing of a picture's compression.
+// Adds two rings of pixels around the region, whose pixels must be marked as inside. Light may have spilled there, and a picture's
+// compression may ring there.
 void widen(const Picture& picture, Pixels& pixels, std::vector<std::uint8_t>& place)
 {
     std::size_t first = 0;
@@ -169,6 +173,7 @@ void widen(const Picture& picture, Pixels& pixels, std::vector<std::uint8_t>& pl
     }
 }
 
+// Finds the regions of key lights.
 class Finder {
   public:
     explicit Finder(const Picture& picture) : picture_(picture), mark_(picture.width() * picture.height(), 0)
@@ -196,7 +201,7 @@ class Finder {
     }
 
   private:
-    // Key lights among pixels that are all above the threshold. One region becomes several where these are key lights of their own.
+    // Finds key lights among pixels that all exceed the threshold. A region splits if it contains several key lights.
     std::vector<Region> search(const Pixels& pixels, double threshold)
     {
         std::vector<Region> found;
@@ -215,6 +220,7 @@ class Finder {
         return found;
     }
 
+    // Splits pixels into connected parts.
     std::vector<Pixels> connected_parts(const Pixels& pixels)
     {
         for (const std::uint32_t p : pixels)
@@ -238,6 +244,7 @@ class Finder {
         return parts;
     }
 
+    // Checks the conditions in key_lights.h. Fills the region's excess.
     bool is_key_light(Region& region)
     {
         double angle = 0.0, light = 0.0;
@@ -258,9 +265,9 @@ class Finder {
     }
 
     struct Surroundings {
-        double mean, brightest; // luminance as far again as a region reaches, and of the pixels on its rim
+        double mean, brightest; // mean luminance out to twice the region's reach; largest luminance on its rim
     };
-    // All but for the pixels next to a region, which are its own.
+    // Measures luminance around a region. The pixels next to the region count as part of it.
     Surroundings around(const Region& region, const Ellipse& e)
     {
         Pixels inside = region.pixels;
@@ -287,9 +294,10 @@ class Finder {
     double total_ = 0.0;             // luminance times solid angle
 };
 
-// Radiance of the pixels of a region from the pixels around it that lie in no region, by the inverse cube of their distance.
+// Returns radiance that fills a region: a mean over the pixels around all regions, weighted by the inverse cube of distance.
 std::vector<float> surroundings(const Picture& picture, const Equirect& source, const Pixels& pixels, std::vector<std::uint8_t>& place)
 {
+    // Collect the rim, and clear its marks
     Pixels rim;
     for (const std::uint32_t inside : pixels)
         picture.neighbours(inside, [&](std::size_t p) {
@@ -303,6 +311,7 @@ std::vector<float> surroundings(const Picture& picture, const Equirect& source, 
         place[p] = kOutside;
         at.push_back(picture.direction(p));
     }
+    // Average over the rim, or over part of a long one
     const std::size_t step = rim.size() / kMostOfRim + 1;
     std::vector<float> filled;
     for (const std::uint32_t inside : pixels) {
@@ -321,7 +330,8 @@ std::vector<float> surroundings(const Picture& picture, const Equirect& source, 
     return filled;
 }
 
-// What a region has above `filled`. total: light of the sphere (luminance). In a channel where that is nothing, what there was stays.
+// Returns a region's light above `filled`. total: light of the sphere (luminance). A channel without excess light stays in the picture:
+// `filled` gets its old values.
 KeyLight light_of(const Picture& picture, const Equirect& source, double total, const Pixels& pixels, std::vector<float>& filled)
 {
     double rgb[3] = {};
@@ -346,8 +356,8 @@ KeyLight light_of(const Picture& picture, const Equirect& source, double total, 
         excess[i] = std::max(excess[i], 0.0);
         light += excess[i], squares += excess[i] * excess[i] / picture.angle(pixels[i]);
     }
-    // Its shape is that of its inertia; its size, that of an even disc of the same light and of the radiance that its light has on the
-    // mean, is not blown up by a faint glow.
+    // The light takes its shape from the inertia ellipse. Its area is that of an even disc with the light's total and mean radiance, so a
+    // faint glow does not inflate it.
     Ellipse e = ellipse_of(picture, pixels, excess);
     const double size = std::sqrt(light * light / squares / (kPi * length(e.u) * length(e.v)));
     e.u = scaled(e.u, size), e.v = scaled(e.v, size);
@@ -363,7 +373,7 @@ KeyLight light_of(const Picture& picture, const Equirect& source, double total, 
     return key;
 }
 
-// Of the pixels' centres.
+// Returns the smallest cap about the mean direction that contains the pixels' centres.
 SkyCap cap_of(const Picture& picture, const Pixels& pixels)
 {
     Direction middle = {0.0, 0.0, 0.0};
@@ -385,23 +395,27 @@ std::vector<KeyLight> take_key_lights(Equirect& source, int most, std::vector<Sk
         return {};
     const Picture picture(source);
     Finder finder(picture);
+    // Take the strongest regions
     std::vector<Region> regions = finder.find();
     std::stable_sort(regions.begin(), regions.end(), [](const Region& a, const Region& b) { return a.excess > b.excess; });
     if (regions.size() > static_cast<std::size_t>(most))
         regions.resize(static_cast<std::size_t>(most));
+    // Mark all regions, then widen each
     std::vector<std::uint8_t> place(picture.width() * picture.height(), kOutside);
     for (const Region& r : regions)
         for (const std::uint32_t p : r.pixels)
             place[p] = kInside;
     for (Region& r : regions)
         widen(picture, r.pixels, place);
+    // Measure the lights before any hole is filled
     std::vector<KeyLight> lights;
-    std::vector<std::vector<float>> filled; // all of them before any is put in place
+    std::vector<std::vector<float>> filled; // for all regions
     for (const Region& r : regions) {
         filled.push_back(surroundings(picture, source, r.pixels, place));
         lights.push_back(light_of(picture, source, finder.total(), r.pixels, filled.back()));
         changed.push_back(cap_of(picture, r.pixels));
     }
+    // Fill the holes
     for (std::size_t i = 0; i < regions.size(); ++i)
         for (std::size_t k = 0; k < regions[i].pixels.size(); ++k)
             std::copy_n(filled[i].data() + 3 * k, 3, source.rgb.data() + 3 * std::size_t{regions[i].pixels[k]});

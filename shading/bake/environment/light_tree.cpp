@@ -23,11 +23,11 @@ double brightness(const float* rgb)
     return static_cast<double>(rgb[0]) + static_cast<double>(rgb[1]) + static_cast<double>(rgb[2]);
 }
 
-// Wide lobes still have weight at the horizon, where n.l has an edge: there pieces are no larger than they would be at this distance, for
-// a lobe of width 1.
+// Wide lobes still have weight at the horizon, where n.l has an edge. Pieces are then limited to their size at this distance, for a lobe
+// of width 1.
 constexpr double kWidest = 0.3;
 
-// A texel of a level of the tree.
+// A texel in a level of the tree.
 struct TreeNode {
     int level, x, y;
 };
@@ -44,8 +44,8 @@ Direction place_of(const LightTree& tree, int face, const TreeNode& node)
     return {static_cast<double>(p[0]), static_cast<double>(p[1]), static_cast<double>(p[2])};
 }
 
-// Of the texels of a level, from those of the finer one: their places weighted by their light, or by their solid angles where there is
-// none.
+// Returns the places of a level's texels: means over the finer level's places, weighted by light, or by solid angle where there is no
+// light.
 std::vector<float> places_of(const LightTree& tree, int level, const Jobs& jobs)
 {
     const CubeLevel& fine = tree.boxes[static_cast<std::size_t>(level - 1)];
@@ -89,23 +89,25 @@ LightTree make_light_tree(const std::vector<CubeLevel>& boxes, const Jobs& jobs)
 void gather_terms(const LightTree& tree, const PrefilterBlock& block, double alpha, double opening, std::vector<PrefilterTerm>& terms)
 {
     terms.clear();
+    // Bound the block by a circle
     const Direction centre = normalized(cube_direction(block.face, 0.5 * (block.u0 + block.u1), 0.5 * (block.v0 + block.v1)));
     double radius = 0.0; // chords stand for angles throughout
     for (int k = 0; k < 4; ++k) {
         const Direction d = normalized(cube_direction(block.face, k % 2 ? block.u1 : block.u0, k / 2 ? block.v1 : block.v0));
         radius = std::max(radius, std::hypot(d.x - centre.x, d.y - centre.y, d.z - centre.z));
     }
-    const double width2 = 4.0 * alpha * alpha; // about the mirrored direction a lobe is twice as wide as in half vectors
+    const double width2 = 4.0 * alpha * alpha; // a lobe is twice as wide about the mirrored direction as in half vectors
     const double opening2 = opening * opening, farthest = kWidest / alpha;
     constexpr double kHorizon = 1.41421356237309505; // chord of a quarter turn
+    // Walk the tree of each face, depth first
     struct Seen {
         TreeNode node;
         Direction place;
-        std::size_t at; // texel of its face
+        std::size_t at; // index in its face
         double angle, distance;
         bool opens;
     };
-    std::vector<Seen> waiting; // the next one last
+    std::vector<Seen> waiting; // a stack
     for (int face = 0; face < 6; ++face) {
         const auto seen = [&](const TreeNode& node) {
             const CubeLevel& box = tree.boxes[static_cast<std::size_t>(node.level)];
@@ -136,7 +138,7 @@ void gather_terms(const LightTree& tree, const PrefilterBlock& block, double alp
                 take(s);
                 continue;
             }
-            Seen parts[4]; // looked at together, as their roots take their time
+            Seen parts[4]; // computed together, because their square roots are slow
             for (int k = 0; k < 4; ++k)
                 parts[k] = seen({s.node.level - 1, 2 * s.node.x + k % 2, 2 * s.node.y + k / 2});
             int first = 0;

@@ -1,6 +1,6 @@
-// The light of an environment as a tree: what is far from a lobe, measured by the lobe's width, is summed in large pieces, each at the one
-// place that its light comes from (Barnes, Hut 1986; the place makes the sum exact to first order). A small sun then weighs what the lobe
-// weighs there, however far it is and however large the piece that it lies in.
+// The environment's light as a tree (Barnes, Hut 1986). Light far from a lobe, relative to the lobe's width, is summed in large pieces.
+// Each piece sits at its light's mean direction, which makes the sum exact to first order. So a small sun gets the lobe's weight at the
+// sun's place, even from a large piece far away.
 #pragma once
 #include <cstddef>
 #include <vector>
@@ -12,21 +12,21 @@
 namespace burnish {
 
 struct LightTree {
-    const std::vector<CubeLevel>& boxes; // the finest first, each half of the one before, down to one texel a face
-    // by level and texel from level 1 on, xyz: the unit direction that the texel's light comes from on the mean; level 0: empty, its
-    // texels' light comes from their centres
+    const std::vector<CubeLevel>& boxes; // finest first, each half as large, down to one texel per face
+    // By level from 1 on, then texel, xyz: the texel light's mean direction, unit. Level 0 is empty: its texels' light comes from their
+    // centres.
     std::vector<std::vector<float>> places;
 };
-// boxes must outlive the tree.
+// Builds the tree. boxes must outlive it.
 LightTree make_light_tree(const std::vector<CubeLevel>& boxes, const Jobs& jobs);
 
-// A square of texels that share their pieces. u, v: [-1,1], of its corners.
+// A square of texels that share their pieces. u, v: [-1,1], at its corners.
 struct PrefilterBlock {
     int face;
     double u0, v0, u1, v1;
 };
-// The pieces for lobes of width alpha (GGX, (0,1]) around the directions of a block: no piece is larger than `opening` times its distance
-// or the lobe's width. Those below every texel's horizon are left out. Replaces what `terms` held.
+// Gathers light pieces for lobes of width alpha (GGX, (0,1]) around a block's directions. No piece is larger than `opening` times its
+// distance or the lobe's width. Leaves out pieces below every texel's horizon. Replaces the contents of `terms`.
 void gather_terms(const LightTree& tree, const PrefilterBlock& block, double alpha, double opening, std::vector<PrefilterTerm>& terms);
 
 } // namespace burnish

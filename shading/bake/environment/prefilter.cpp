@@ -8,7 +8,7 @@ IrradianceSource make_irradiance_source(const CubeLevel& level)
     IrradianceSource s;
     const std::size_t n = static_cast<std::size_t>(level.size);
     s.row = level.size;
-    const double step = 2.0 / level.size, node = 0.5 / std::sqrt(3.0); // Gauss-Legendre, two points an axis
+    const double step = 2.0 / level.size, node = 0.5 / std::sqrt(3.0); // Gauss-Legendre, two points per axis
     for (int face = 0; face < 6; ++face)
         for (std::size_t i = 0; i < n * n; ++i) {
             Direction sum = {0.0, 0.0, 0.0};

@@ -1,4 +1,4 @@
-// What irradiance is gathered from, as lane code reads it (bake_fns.h).
+// Source data of irradiance in the form that lane code reads (bake_fns.h).
 #pragma once
 #include <vector>
 
@@ -7,11 +7,10 @@
 
 namespace burnish {
 
-// The cube that irradiance is gathered from: direction times solid angle (the integral of the unit direction
-// over the texel), and radiance.
+// The cube that irradiance reads: radiance, and direction times solid angle (the integral of the unit direction over the texel).
 struct IrradianceSource {
     std::vector<float> x, y, z, r, g, b;
-    int row = 0; // texels a partial sum
+    int row = 0; // texels per partial sum
     IrradianceInput input() const;
 };
 IrradianceSource make_irradiance_source(const CubeLevel& level);

@@ -5,7 +5,7 @@ namespace burnish {
 inline namespace BN_ISA_NS {
 namespace {
 
-// Unit directions of the centres of texels of a face.
+// Returns unit directions to texel centres of a face.
 BN_FN real3 texel_directions(int face, int size, integer ix, integer iy)
 {
     const real inv = splat(1.0f / static_cast<float>(size));
@@ -35,7 +35,7 @@ BN_FN real3 texel_directions(int face, int size, integer ix, integer iy)
     return k_normalize3(d);
 }
 
-// Of texels first... of a square of `side` texels a row, whose first is (x, y).
+// Returns directions of texels first... in a square with `side` texels per row. The square's first texel is (x, y).
 BN_FN real3 square_directions(int face, int size, int x, int y, int side, int first)
 {
     const integer i = iota() + int_lit(first);
@@ -56,8 +56,8 @@ BN_FN void store_texels(real3 value, int count, float* rgb)
     }
 }
 
-// With V = N = R, n.h = v.h, and the weight D(h) n.l of a direction l is a function of q = |l - n|^2: the squared cosine of the half
-// angle is 1 - q/4, and that of the angle 1 - q/2. D is divided by its largest value. Karis 2013.
+// With V = N = R, n.h = v.h. A direction l then has a weight D(h) n.l that depends on q = |l - n|^2 alone. The half angle's squared cosine
+// is 1 - q/4, and the angle's cosine is 1 - q/2. D is divided by its largest value. Karis 2013.
 void prefilter(const PrefilterInput& in, int face, int size, int x, int y, float* rgb)
 {
     const int side = size < kPrefilterBlock ? size : kPrefilterBlock, count = side * side;

@@ -1,10 +1,10 @@
-// How the world stands to the picture of an environment that is drawn turned.
+// Rotation between the world and the picture of a turned environment.
 #pragma once
 #include <glm/glm.hpp>
 
 namespace burnish {
 
-// From directions of the world to those of the picture, where the picture is turned about +Y, counter-clockwise seen from above.
+// Returns the matrix from world directions to directions in the picture, which is turned about +Y, counter-clockwise seen from above.
 glm::dmat3 sky_from_world(float rotation_deg);
 
 } // namespace burnish

@@ -9,9 +9,9 @@
 namespace burnish::ltc {
 namespace {
 
-constexpr double kOfNodes = 0.3;      // weight of a node among samples
-constexpr int kAlbedoSteps = 40;      // of conjugate gradients
-constexpr double kLeastAlbedo = 1e-3; // that relative errors are over
+constexpr double kOfNodes = 0.3;      // a node's weight among samples
+constexpr int kAlbedoSteps = 40;      // conjugate gradient steps
+constexpr double kLeastAlbedo = 1e-3; // least denominator in relative errors
 
 struct AlbedoSample {
     Corners corners;
@@ -19,8 +19,8 @@ struct AlbedoSample {
     Albedo is;
 };
 
-// What is the nearest to the samples by the sum of weight scale (interpolant - is)^2, from `nodes`. equal: the first node of those that are
-// one by symmetry.
+// Minimises the sum of weight scale (interpolant - is)^2, starting from `nodes`. equal: for each node, the first node that equals it by
+// symmetry. Uses conjugate gradients.
 template <class Is, class Scale>
 void fit_channel(std::vector<double>& nodes, const std::vector<std::size_t>& equal, const std::vector<AlbedoSample>& samples, const Is& is,
                  const Scale& scale)
@@ -31,7 +31,7 @@ void fit_channel(std::vector<double>& nodes, const std::vector<std::size_t>& equ
             sum += corner.weight * of[corner.node];
         return sum;
     };
-    const auto spread = [&](const std::vector<double>& of_sample) { // to the nodes that a sample lies between
+    const auto spread = [&](const std::vector<double>& of_sample) { // to the nodes around a sample
         std::vector<double> sums(nodes.size(), 0.0);
         for (std::size_t i = 0; i < samples.size(); ++i)
             for (const Corner& corner : samples[i].corners)
@@ -46,11 +46,13 @@ void fit_channel(std::vector<double>& nodes, const std::vector<std::size_t>& equ
             sum += equal[n] == n ? a[n] * b[n] : 0.0;
         return sum;
     };
+    // Weigh the residuals
     std::vector<double> factor, left;
     for (const AlbedoSample& sample : samples) {
         factor.push_back(sample.weight * scale(sample.is));
         left.push_back(factor.back() * (is(sample.is) - between(sample.corners, nodes)));
     }
+    // Take conjugate gradient steps
     std::vector<double> residual = spread(left), direction = residual;
     double rho = inner(residual, residual);
     const double enough = 1e-12 * rho;
@@ -76,7 +78,7 @@ std::vector<Albedo> albedos_of_nodes(const Grid& grid, Model model, const Jobs& 
     std::vector<Albedo> albedos(grid.nodes());
     jobs.parallel_for(grid.nodes(), [&](std::size_t node, int) {
         const std::array<int, 4> i = grid.indices(node);
-        if (i[1] == 0 || (i[0] != 0 && i[3] != grid.size - 1)) // else all azimuths see one lobe
+        if (i[1] == 0 || (i[0] != 0 && i[3] != grid.size - 1)) // otherwise one lobe serves all azimuths
             albedos[node] = albedo(Lobe(grid.place(node), 1.0, model), rule);
     });
     for (std::size_t node = 0; node < grid.nodes(); ++node) {
@@ -90,6 +92,7 @@ std::vector<Albedo> albedos_of_nodes(const Grid& grid, Model model, const Jobs& 
 std::vector<Albedo> albedos_between_nodes(const Grid& grid, Model model, std::vector<Albedo> of_nodes, int a_cell, const Jobs& jobs)
 {
     const Rule rule(18);
+    // Integrate sample lobes in every cell
     std::vector<Place> places;
     std::size_t k = 0;
     for (const std::array<int, 4>& cell : grid.cells())
@@ -103,6 +106,7 @@ std::vector<Albedo> albedos_between_nodes(const Grid& grid, Model model, std::ve
         place.lambda = std::max(place.lambda, Grid::kLeastLambda);
         samples[i] = {grid.corners(place), 1.0, albedo(Lobe(place, 1.0, model), rule)};
     });
+    // Add the nodes as samples
     std::vector<std::size_t> equal(grid.nodes());
     for (std::size_t node = 0; node < grid.nodes(); ++node) {
         const std::array<int, 4> i = grid.indices(node);
@@ -111,6 +115,7 @@ std::vector<Albedo> albedos_between_nodes(const Grid& grid, Model model, std::ve
         own.corners[0] = {node, 1.0};
         samples.push_back(own);
     }
+    // Fit both channels
     std::vector<double> all, grazing;
     for (const Albedo& a : of_nodes)
         all.push_back(a.all), grazing.push_back(a.grazing);

@@ -1,4 +1,4 @@
-// Albedos of a table's nodes, of which the interpolant is near, not the nodes alone.
+// Fits albedos at a table's nodes, so that the interpolant is accurate between the nodes.
 #pragma once
 #include <vector>
 
@@ -7,11 +7,11 @@
 
 namespace burnish::ltc {
 
-// Of each node's own lobe.
+// Returns the albedos of the nodes' lobes.
 std::vector<Albedo> albedos_of_nodes(const Grid& grid, Model model, const Jobs& jobs);
 
-// From those, by least squares of the relative error of nD and of the error of fD at `a_cell` lobes in each cell and, of less weight, at
-// the nodes. Of grids that are not round.
+// Improves them by least squares: the relative error in nD and the error in fD, at `a_cell` lobes in each cell and, with less weight, at
+// the nodes. The grid must not be round.
 std::vector<Albedo> albedos_between_nodes(const Grid& grid, Model model, std::vector<Albedo> of_nodes, int a_cell, const Jobs& jobs);
 
 } // namespace burnish::ltc

@@ -12,9 +12,9 @@
 namespace burnish::ltc {
 namespace {
 
-constexpr std::size_t kStepUnits = 64;   // a step of the interpolant, in chains of nodes
+constexpr std::size_t kStepUnits = 64;   // cost of an interpolant step, in chains of nodes
 constexpr std::size_t kChainsKept = 64;  // chains between two checkpoints
-constexpr std::size_t kProbesANode = 93; // lookups that the guard looks at
+constexpr std::size_t kProbesANode = 93; // lookups that the guard checks
 std::uint64_t key_of(const BakeOptions& o)
 {
     const Grid& g = o.grid;
@@ -53,7 +53,7 @@ Status go_on(const BakeOptions& options, Progressed& p)
     return read ? parse_part(*read, options.checkpoint, key_of(options), static_cast<std::uint64_t>(options.steps), p) : read.error();
 }
 
-// Puts a chain and what is equal to it by symmetry where they belong.
+// Stores a chain, and its mirror image by symmetry.
 void put(const BakeOptions& options, int phi, int alpha, int lambda, const Chain& chain, Progressed& p)
 {
     const Grid& grid = options.grid;
@@ -68,7 +68,7 @@ void put(const BakeOptions& options, int phi, int alpha, int lambda, const Chain
     }
 }
 
-// Entries that have to be equal by symmetry made so to the last bit; they differ by rounding.
+// Makes entries equal to the last bit where symmetry demands it. They differ by rounding.
 void make_equal(const Grid& grid, std::vector<Matrix>& entries)
 {
     for (std::size_t node = 0; node < entries.size(); ++node)
@@ -80,7 +80,7 @@ void make_equal(const Grid& grid, std::vector<Matrix>& entries)
 
 Matrix in_own_gauge(const Matrix& m)
 {
-    // The turn that makes the first two columns orthogonal, the longer one first: tan 2t = 2 a.b / (a.a - b.b).
+    // Rotates until the first two columns are orthogonal, the longer one first: tan 2t = 2 a.b / (a.a - b.b).
     const Vec a = {m[0], m[3], m[6]}, b = {m[1], m[4], m[7]};
     const double angle = 0.5 * det_atan2(2.0 * dot(a, b), dot(a, a) - dot(b, b)), c = det_cos(angle), s = det_sin(angle);
     return m * Matrix{c, -s, 0.0, s, c, 0.0, 0.0, 0.0, 1.0};
@@ -98,24 +98,25 @@ Chain fit_chain(const BakeOptions& options, int phi, int alpha, int lambda)
     for (int theta = 0; theta < grid.size; ++theta) {
         const std::size_t node = grid.node(theta, theta == 0 && options.symmetry ? 0 : phi, alpha, lambda);
         const Place place = grid.place(node);
-        const Mask zero = options.symmetry ? grid.zero(node) : 0; // of what was turned by itself, other elements
+        const Mask zero = options.symmetry ? grid.zero(node) : 0; // a gauge rotation moves other elements
         const LobePoints points(normalised_lobe(place, albedo_rule, options.model), rule);
         Matrix plain = natural_matrix(place);
         if (options.norm != Norm::l1) {
-            Grid about; // whose frame is the mirror direction's
+            Grid about; // its frame is the mirror direction's
             plain = about.frame(place) * Matrix{place.alpha, 0.0, 0.0, 0.0, place.alpha * place.lambda, 0.0, 0.0, 0.0, 1.0};
         }
         const auto fit = [&](const Matrix& start) {
             return options.norm == Norm::sliced ? fit_sliced(points, start, zero) : fit_lobe(points, start, zero, options.norm);
         };
         NodeFit best = fit(plain);
-        if (theta > 0) { // where the neighbour's fit would be, turned as the mirror direction is
+        if (theta > 0) { // start from the neighbour's fit, turned with the mirror direction
             const Matrix start = plain * inverse(plain_before) * before;
             if (determinant(start) > 0.0)
                 if (const NodeFit other = fit(start); other.l1 < best.l1)
                     best = other;
         }
         before = best.m, plain_before = plain;
+        // Fix the gauge, and store the entry
         Matrix m = options.align ? in_natural_gauge(best.m, place) : in_own_gauge(best.m);
         for (std::size_t e = 0; e < 9; ++e)
             if (options.align && (zero >> e & 1u))
@@ -141,6 +142,7 @@ Result<std::optional<Baked>> bake_table(const BakeOptions& options, const Jobs& 
     const auto stopped = [&] { return options.stop && options.stop->load(); };
     Progressed p(grid);
     BN_TRY(go_on(options, p));
+    // Resume, then fit chains of nodes, with checkpoints
     advance(p.chains + p.steps * kStepUnits);
     const std::size_t chains = chains_of(grid), alphas = static_cast<std::size_t>(grid.sizes()[2]),
                       lambdas = static_cast<std::size_t>(grid.sizes()[3]);
@@ -162,6 +164,7 @@ Result<std::optional<Baked>> bake_table(const BakeOptions& options, const Jobs& 
     if (options.symmetry && options.align)
         make_equal(grid, p.nodes);
 
+    // Fit the interpolant
     Baked baked;
     for (double l1 : p.l1)
         baked.node_l1 += l1 / static_cast<double>(p.l1.size());
@@ -181,9 +184,10 @@ Result<std::optional<Baked>> bake_table(const BakeOptions& options, const Jobs& 
             advance(kStepUnits);
         }
         entries = p.state.entries;
+        // Repair flat matrices
         baked.probes = kProbesANode * grid.nodes();
         fit.guard(entries, p.nodes, 0.2, baked.probes);
-        // At grazing views across thin lobes the nodes alone are no better: the natural matrices are safe everywhere.
+        // At grazing views across thin lobes the node fits are no better. Natural matrices are safe everywhere.
         std::vector<Matrix> natural;
         for (std::size_t node = 0; node < grid.nodes(); ++node)
             natural.push_back(grid.held(natural_matrix(grid.place(node)), grid.place(node)));
@@ -192,6 +196,7 @@ Result<std::optional<Baked>> bake_table(const BakeOptions& options, const Jobs& 
         baked.fit_l1_before = p.cost_before, baked.fit_l1 = p.state.cost;
     }
     const std::uint32_t made = static_cast<std::uint32_t>(options.norm) << kNormShift | (options.align ? 0u : kUnaligned) |
+                               // Bake albedos
                                (options.symmetry ? 0u : kUnsymmetric) | static_cast<std::uint32_t>(options.model) << kLobeShift;
     std::vector<Albedo> albedos = albedos_of_nodes(grid, options.model, jobs);
     if (options.steps > 0)

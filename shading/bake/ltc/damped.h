@@ -1,4 +1,4 @@
-// Steps of Levenberg-Marquardt.
+// Linear solver for Levenberg-Marquardt steps.
 #pragma once
 #include <array>
 #include <cmath>
@@ -6,13 +6,14 @@
 
 namespace burnish::ltc {
 
-// (H + mu (diag H + .01 trace H)) x = b by Cholesky, without the unknowns of `zero` (by bit), which stay 0. hessian: its upper triangle by
-// rows. False where it is no use.
+// Solves (H + mu (diag H + .01 trace H)) x = b by Cholesky. Unknowns in `zero` (by bit) stay 0. hessian: its upper triangle by rows.
+// Returns false if the matrix is not positive definite.
 template <std::size_t n>
 bool solve_damped(const std::array<double, n*(n + 1) / 2>& hessian, const std::array<double, n>& gradient, double mu, std::uint32_t zero,
                   std::array<double, n>& x)
 {
     double a[n][n], trace = 0.0;
+    // Expand the matrix, and damp its diagonal
     const double* h = hessian.data();
     for (std::size_t i = 0; i < n; ++i)
         for (std::size_t j = i; j < n; ++j)
@@ -22,6 +23,7 @@ bool solve_damped(const std::array<double, n*(n + 1) / 2>& hessian, const std::a
     x = gradient;
     for (std::size_t i = 0; i < n; ++i)
         a[i][i] += mu * (a[i][i] + 0.01 * trace);
+    // Remove fixed unknowns
     for (std::size_t i = 0; i < n; ++i)
         if (zero >> i & 1u) {
             for (std::size_t j = 0; j < n; ++j)
@@ -42,6 +44,7 @@ bool solve_damped(const std::array<double, n*(n + 1) / 2>& hessian, const std::a
                 return false;
         }
     }
+    // Substitute forwards, then backwards
     for (std::size_t i = 0; i < n; ++i) {
         for (std::size_t k = 0; k < i; ++k)
             x[i] -= a[i][k] * x[k];

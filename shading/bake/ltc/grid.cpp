@@ -147,13 +147,13 @@ Mask Grid::zero(std::size_t node) const
 std::pair<std::size_t, std::size_t> Grid::first_equal(std::size_t node_index, std::size_t element) const
 {
     const std::array<int, 4> i = indices(node_index);
-    if (round) // seen along the normal x and y are alike
+    if (round) // along the normal, x and y are equivalent
         return {node_index, i[0] == 0 && element == 4 ? 0 : element};
     const int phi = i[0] == 0 ? 0 : i[1];
     std::pair<std::size_t, std::size_t> first = {node(i[0], phi, i[2], i[3]), element};
-    // Matrices in the tangent frame seen along x = y are their own mirror images but for their gauge.
+    // In the tangent frame, matrices seen along x = y are their own mirror images except for their gauge.
     const bool own_image = basis == Basis::tangent && i[0] != 0 && 2 * phi == size - 1;
-    if (i[3] == size - 1 && !own_image) { // element of P M P: both its row and its column exchanged
+    if (i[3] == size - 1 && !own_image) { // an element of P M P: both its row and its column exchanged
         static constexpr std::size_t kExchanged[9] = {4, 3, 5, 1, 0, 2, 7, 6, 8};
         first = std::min(first, {node(i[0], i[0] == 0 ? 0 : size - 1 - phi, i[2], i[3]), kExchanged[element]});
     }

@@ -8,12 +8,12 @@ namespace burnish::ltc {
 namespace {
 
 constexpr double kNodeWeight = 0.3;
-constexpr double kLeastSampleAlpha = 0.005; // of columns that shrink with alpha: below, no interpolation of them is near
+constexpr double kLeastSampleAlpha = 0.005; // for columns that shrink with alpha: no interpolation is accurate below
 constexpr double kLeastMu = 1e-3, kWorstL1 = 2.0;
 constexpr int kSolverSteps = 60;
-constexpr std::size_t kChunk = 64; // samples of one job
+constexpr std::size_t kChunk = 64; // samples per job
 
-std::size_t packed(std::size_t i, std::size_t j) // of the upper triangle of nine rows
+std::size_t packed(std::size_t i, std::size_t j) // index into an upper triangle with nine rows
 {
     return i <= j ? 9 * i - i * (i - 1) / 2 + (j - i) : packed(j, i);
 }
@@ -30,7 +30,7 @@ template <class Body> void in_chunks(const Jobs& jobs, std::size_t count, const 
 
 std::array<double, 4> spread_point(std::size_t k)
 {
-    constexpr double kRoot = 1.1673039782614187; // of x^5 = x + 1
+    constexpr double kRoot = 1.1673039782614187; // root of x^5 = x + 1
     std::array<double, 4> u;
     double power = 1.0;
     for (double& v : u) {
@@ -44,6 +44,7 @@ std::array<double, 4> spread_point(std::size_t k)
 InterpolantFit::InterpolantFit(const Grid& grid, Model model, int a_cell, const Jobs& jobs)
     : grid_(grid), model_(model), jobs_(&jobs), rule_(14), albedo_rule_(17), variable_(grid.nodes() * 9, -1), touched_(grid.nodes())
 {
+    // Place samples in all cells and at all nodes
     std::size_t k = 0;
     for (const std::array<int, 4>& cell : grid.cells())
         for (int s = 0; s < a_cell; ++s) {
@@ -58,13 +59,16 @@ InterpolantFit::InterpolantFit(const Grid& grid, Model model, int a_cell, const 
         corners[0] = {node, 1.0};
         samples_.push_back({grid.place(node), kNodeWeight, corners});
     }
+    // Integrate the samples' albedos
     albedo_.resize(samples_.size());
     in_chunks(jobs, samples_.size(), [&](std::size_t i) { albedo_[i] = albedo(Lobe(samples_[i].place, 1.0, model_), albedo_rule_).all; });
     equations_.resize(samples_.size());
+    // List the samples around each node
     for (std::size_t i = 0; i < samples_.size(); ++i)
         for (const Corner& corner : samples_[i].corners)
             if (corner.weight > 0.0)
                 touched_[corner.node].push_back({i, corner.weight});
+    // Number the variables: elements that are neither zero nor equal to an earlier one
     for (std::size_t node = 0; node < grid.nodes(); ++node)
         for (std::size_t e = 0; e < 9; ++e) {
             const auto [first, element] = grid.first_equal(node, e);
@@ -75,7 +79,7 @@ InterpolantFit::InterpolantFit(const Grid& grid, Model model, int a_cell, const 
         }
 }
 
-// The equations of every sample at these entries, and the cost.
+// Computes all samples' equations at these entries, and the cost.
 void InterpolantFit::measure(const std::vector<Matrix>& entries)
 {
     in_chunks(*jobs_, samples_.size(), [&](std::size_t index) {
@@ -91,7 +95,7 @@ void InterpolantFit::measure(const std::vector<Matrix>& entries)
             return;
         }
         Sums sums = sums_of(LobePoints(Lobe(sample.place, albedo_[index], model_), rule_), m);
-        // of E = -D^-1 N dT D, where D holds the widths
+        // These are equations in E = -D^-1 N dT D, where D holds the widths.
         const double width[3] = {grid_.width(sample.place), grid_.width(sample.place), 1.0};
         for (std::size_t i = 0, at = 0; i < 9; ++i) {
             const double s = width[i % 3] / width[i / 3];
@@ -134,7 +138,8 @@ void InterpolantFit::measure(const std::vector<Matrix>& entries)
     cost_ = sum / weight;
 }
 
-// Conjugate gradients with the diagonal as preconditioner. Sums run over samples and nodes in a fixed order, whatever the threads.
+// Solves the equations by conjugate gradients with a diagonal preconditioner. Sums run over samples and nodes in a fixed order, for any
+// number of threads.
 std::vector<double> InterpolantFit::solve(double mu) const
 {
     const std::size_t nodes = grid_.nodes();
@@ -146,7 +151,7 @@ std::vector<double> InterpolantFit::solve(double mu) const
                 if (variable_[9 * node + e] >= 0)
                     out[static_cast<std::size_t>(variable_[9 * node + e])] += of_node[node][e];
     };
-    const auto gather = [&](std::vector<double>& out) { // of what the samples have
+    const auto gather = [&](std::vector<double>& out) { // sums the samples' values at their nodes
         in_chunks(*jobs_, nodes, [&](std::size_t node) {
             of_node[node] = {};
             for (const Corner& c : touched_[node])
@@ -157,7 +162,7 @@ std::vector<double> InterpolantFit::solve(double mu) const
     };
     std::vector<double> diagonal(variables_), right(variables_), x(variables_, 0.0), product(variables_), direction(variables_),
         z(variables_);
-    in_chunks(*jobs_, nodes, [&](std::size_t node) { // exact where an element is its own variable, else what matters of it
+    in_chunks(*jobs_, nodes, [&](std::size_t node) { // exact for an element with its own variable, else its main part
         of_node[node] = {};
         for (const Corner& c : touched_[node])
             for (std::size_t e = 0; e < 9; ++e)
@@ -169,6 +174,7 @@ std::vector<double> InterpolantFit::solve(double mu) const
         greatest = std::max(greatest, d);
     for (double& d : diagonal)
         d = std::max(d, 1e-12 * greatest);
+    // Set up the right side and the product with the matrix
     for (std::size_t i = 0; i < samples_.size(); ++i)
         of_sample[i] = equations_[i].gradient;
     gather(right);
@@ -196,6 +202,7 @@ std::vector<double> InterpolantFit::solve(double mu) const
             sum += a[i] * b[i];
         return sum;
     };
+    // Take conjugate gradient steps
     for (std::size_t i = 0; i < variables_; ++i)
         direction[i] = z[i] = right[i] / diagonal[i];
     double rho = inner(right, z);
@@ -259,7 +266,7 @@ std::size_t InterpolantFit::guard(std::vector<Matrix>& entries, const std::vecto
     const std::size_t chunk = 4096, chunks = (probes + chunk - 1) / chunk;
     std::size_t left = 0;
     for (int round = 0; round < kRounds; ++round) {
-        std::vector<std::vector<Corner>> found(chunks); // nodes around probes that are too flat, and how much of each they are
+        std::vector<std::vector<Corner>> found(chunks); // nodes around probes that are too flat, with their relative weights
         jobs_->parallel_for(chunks, [&](std::size_t c, int) {
             for (std::size_t i = c * chunk; i < std::min(probes, (c + 1) * chunk); ++i) {
                 const Place place = usable_place(spread_point(i), grid_.most_alpha());
@@ -274,6 +281,7 @@ std::size_t InterpolantFit::guard(std::vector<Matrix>& entries, const std::vecto
                         found[c].push_back({corner.node, corner.weight / most});
             }
         });
+        // Blend these nodes, and their equals, towards the safe entries
         std::vector<double> blend(entries.size(), 0.0);
         left = 0;
         for (std::size_t node = 0; node < entries.size(); ++node)

@@ -19,7 +19,7 @@ double shadow(double alpha_x, double alpha_y, const Vec& w)
     return 0.5 * (std::sqrt(1.0 + (x * x + y * y) / (w.z * w.z)) - 1.0);
 }
 
-// Lambda of Beckmann's normals by the rational fit of Walter et al. 2007.
+// Lambda for Beckmann normals, by the rational fit in Walter et al. 2007.
 double beckmann_shadow(double alpha_x, double alpha_y, const Vec& w)
 {
     const double x = alpha_x * w.x, y = alpha_y * w.y, s = std::sqrt(x * x + y * y);
@@ -29,7 +29,7 @@ double beckmann_shadow(double alpha_x, double alpha_y, const Vec& w)
     return (1.0 - 1.259 * c + 0.396 * c * c) / (3.535 * c + 2.181 * c * c);
 }
 
-// Of models other than GGX: BRDF without Fresnel times the cosine; l above the horizon, h = v + l.
+// Returns the BRDF without Fresnel times the cosine, for models other than GGX. l is above the horizon, h = v + l.
 double reflected_by(const Lobe& lobe, const Vec& l, const Vec& h)
 {
     constexpr double kLeastCosine = 1e-4; // in denominators
@@ -144,9 +144,9 @@ Matrix natural_matrix(const Place& place)
 {
     const Vec v = eye_of(place);
     const double ax = place.alpha, ay = place.alpha * place.lambda, z = std::max(v.z, 0.02);
-    // Columns: how the mirror direction moves with the slope along x and along y, and itself.
+    // Columns: the derivative of the mirror direction by slope along x and along y, and the direction itself
     Matrix m = {2.0 * ax * z, 0.0, -v.x, 0.0, 2.0 * ay * z, -v.y, 2.0 * ax * v.x, 2.0 * ay * v.y, v.z};
-    // At grazing views both columns point upwards: what the second order adds across the plane of incidence keeps them apart.
+    // At grazing views both columns point upwards. A second-order term across the plane of incidence keeps them apart.
     const double c = det_cos(place.phi), s = det_sin(place.phi), across2 = 0.5 / (c * c / (ax * ax) + s * s / (ay * ay));
     m[0] += across2 * s * s, m[1] -= across2 * s * c;
     m[3] -= across2 * s * c, m[4] += across2 * c * c;

@@ -1,5 +1,4 @@
-// Three by three matrices in double for the fit of linearly transformed cosines. Row-major; only + - * / and roots, so that every compiler
-// gives the same bits.
+// 3x3 matrices in double for fits of linearly transformed cosines. They use only + - * / and roots, so every compiler gives the same bits.
 #pragma once
 #include <array>
 #include <cmath>
@@ -11,7 +10,7 @@ struct Vec {
     double x, y, z;
 };
 
-// Row-major, element (row, column) at 3 row + column. Of a transformed cosine: from the cosine's space to the lobe's.
+// Row-major, element (row, column) at 3 row + column. For a transformed cosine: from the cosine's space to the lobe's.
 using Matrix = std::array<double, 9>;
 
 inline double dot(const Vec& a, const Vec& b)
@@ -61,7 +60,7 @@ inline Matrix inverse(const Matrix& m)
             (m[3] * m[7] - m[4] * m[6]) * s, (m[1] * m[6] - m[0] * m[7]) * s, (m[0] * m[4] - m[1] * m[3]) * s};
 }
 
-// The same density in the scale that tables are interpolated in: the third column is a unit vector.
+// Scales a matrix to a unit third column, the scale for interpolation. The density does not change.
 inline Matrix with_unit_axis(const Matrix& m)
 {
     const double s = 1.0 / std::sqrt(m[2] * m[2] + m[5] * m[5] + m[8] * m[8]);
@@ -71,7 +70,7 @@ inline Matrix with_unit_axis(const Matrix& m)
     return r;
 }
 
-// P M P, where P exchanges x and y: the lobe mirrored at the plane between the two, in the gauge that is mirrored too.
+// Returns P M P, where P exchanges x and y: the lobe mirrored at the plane between the axes, with its gauge mirrored too.
 inline Matrix with_axes_exchanged(const Matrix& m)
 {
     return {m[4], m[3], m[5], m[1], m[0], m[2], m[7], m[6], m[8]};

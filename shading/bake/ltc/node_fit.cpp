@@ -8,12 +8,12 @@
 namespace burnish::ltc {
 namespace {
 
-constexpr double kSoft = 0.05;    // of the sum of both densities: keeps weights finite where they are equal
-constexpr double kLongest = 0.4;  // step of an element of E
-constexpr int kEvaluations = 60;  // of a fit, at most
-constexpr double kSettled = 2e-6; // relative gain of a step below which the fit may end
+constexpr double kSoft = 0.05;    // share of both densities' sum: keeps weights finite where the densities are equal
+constexpr double kLongest = 0.4;  // longest step in an element of E
+constexpr int kEvaluations = 60;  // most evaluations per fit
+constexpr double kSettled = 2e-6; // relative gain per step below which the fit may end
 
-// One point's share. x: the point in the cosine's space, unit, x.z > 0 where q > 0.
+// Adds one point. x: the point in the cosine's space, unit, x.z > 0 where q > 0.
 template <bool with_sums, Norm norm> inline void add(Sums& sums, double p, double q, double visible, const Vec& x)
 {
     const double weight = 1.0 / (visible + q), r = p - q, apart = std::abs(r);
@@ -47,12 +47,14 @@ template <bool with_sums, Norm norm = Norm::l1> Sums evaluate(const LobePoints& 
     Sums sums;
     const Matrix n = inverse(m);
     const double det_m = determinant(m), det_n = std::abs(determinant(n));
+    // Points from the visible normals
     for (const LobePoints::Point& point : lobe.points) {
         const Vec u = n * point.l;
         const double length2 = dot(u, u);
         const double q = u.z > 0.0 ? u.z * det_n / (kPi * length2 * length2) : 0.0;
         add<with_sums, norm>(sums, point.value.reflected, q, point.value.visible, scaled(u, 1.0 / std::sqrt(length2)));
     }
+    // Points from the transformed cosine
     for (const Rule::Point& point : lobe.rule->points) {
         const Vec w = m * point.clamped;
         const double length = std::sqrt(dot(w, w));
@@ -71,7 +73,7 @@ template <bool with_sums, Norm norm = Norm::l1> Sums evaluate(const LobePoints& 
     return sums;
 }
 
-// M (I + E)^-1 in the table's scale, its zeros kept.
+// Returns M (I + E)^-1 in the table's scale, with its zeros kept.
 Matrix moved(const Matrix& m, const std::array<double, 9>& e, Mask zero)
 {
     Matrix turn = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0};

@@ -1,4 +1,4 @@
-// The transformed cosine that is the nearest to one lobe, by the integral of the absolute difference (L1, twice the total variation).
+// Fits a transformed cosine to one lobe, by the integrated absolute difference (L1, twice the total variation).
 #pragma once
 #include <array>
 #include <cstdint>
@@ -8,17 +8,17 @@
 
 namespace burnish::ltc {
 
-// Sums over points of both densities (multiple importance sampling, balance heuristic): the L1 distance and, of its iteratively reweighted
-// least squares, the normal equations in E of M' = M (I + E)^-1. hessian: the upper triangle by rows.
+// Sums over points from both densities (multiple importance sampling, balance heuristic): the L1 distance and the normal equations of its
+// iteratively reweighted least squares, in E with M' = M (I + E)^-1. hessian: the upper triangle by rows.
 struct Sums {
     double l1 = 0.0;
     std::array<double, 45> hessian{};
     std::array<double, 9> gradient{}; // of descent
 };
 
-// A lobe with the points of its visible normals, which do not move with the matrix.
+// A lobe with points from its visible normals, which do not move with the matrix.
 struct LobePoints {
-    LobePoints(const Lobe& lobe, const Rule& rule); // whose albedo is known; `rule` must outlive it
+    LobePoints(const Lobe& lobe, const Rule& rule); // a lobe with known albedo; `rule` must outlive the points
     Lobe lobe;
     const Rule* rule;
     struct Point {
@@ -28,14 +28,14 @@ struct LobePoints {
     std::vector<Point> points;
 };
 
-// What a fit makes small: the integral of |p - q|, of its third power (Heitz et al. 2016), or how far samples of one have to be carried to
-// be samples of the other, along many axes (the sliced Wasserstein distance; KT et al. 2022).
+// Objective of a fit: the integral over |p - q|, the integral over |p - q|^3 (Heitz et al. 2016), or the transport distance between
+// samples along many axes (sliced Wasserstein distance; KT et al. 2022).
 enum class Norm { l1, l3, sliced };
 
 double l1_distance(const LobePoints& lobe, const Matrix& m);
-Sums sums_of(const LobePoints& lobe, const Matrix& m, Norm norm = Norm::l1); // l1: of the norm, which is not the sliced one
+Sums sums_of(const LobePoints& lobe, const Matrix& m, Norm norm = Norm::l1); // l1: by the norm, which must not be the sliced one
 
-// Elements of M, and of E, that are zero by symmetry: bit 3 row + column.
+// Elements of M and E that are zero by symmetry: bit 3 row + column.
 using Mask = std::uint32_t;
 inline constexpr Mask kMirrorY = 1u << 1 | 1u << 3 | 1u << 5 | 1u << 7; // the eye lies in the plane y = 0
 inline constexpr Mask kMirrorX = 1u << 1 | 1u << 2 | 1u << 3 | 1u << 6; // in x = 0
@@ -46,10 +46,10 @@ struct NodeFit {
     int evaluations;
 };
 
-// Levenberg-Marquardt from `start`, which has a positive determinant; the result has one too, and a unit third column.
+// Runs Levenberg-Marquardt from `start`, which has a positive determinant. The result has a positive determinant and a unit third column.
 NodeFit fit_lobe(const LobePoints& lobe, const Matrix& start, Mask zero, Norm norm = Norm::l1);
 
-// By the sliced distance: steps along its gradient, as many for every lobe. l1 of the result is that of `fit_lobe`.
+// Minimises the sliced distance with a fixed number of gradient steps. The result's l1 is the L1 distance, as in `fit_lobe`.
 NodeFit fit_sliced(const LobePoints& lobe, const Matrix& start, Mask zero);
 
 } // namespace burnish::ltc

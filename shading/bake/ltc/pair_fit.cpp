@@ -10,10 +10,10 @@ namespace burnish::ltc {
 namespace {
 
 constexpr std::size_t kUnknowns = 19; // E of both, and the share
-constexpr double kPairSoft = 0.05;    // as of one lobe
+constexpr double kPairSoft = 0.05;    // as for one lobe
 constexpr double kLongestPairStep = 0.3;
 constexpr double kLeastShare = 0.02;
-constexpr int kPairEvaluations = 60; // from one start
+constexpr int kPairEvaluations = 60; // per start
 
 struct PairSums {
     double l1 = 0.0;
@@ -21,7 +21,7 @@ struct PairSums {
     std::array<double, kUnknowns> gradient{};
 };
 
-// Of log q by E, where x is the point in the cosine's space, unit.
+// Writes the derivatives of log q by E. x: the point in the cosine's space, unit.
 void log_slopes(const Vec& x, double factor, double* g)
 {
     const double at[3] = {x.x, x.y, x.z};
@@ -124,7 +124,7 @@ double l1_of_pair(const LobePoints& lobe, const PairFit& pair)
 PairFit fit_pair(const LobePoints& lobe, const Matrix& single)
 {
     struct Split {
-        double narrow, x, y; // of the first one's widths; how far the axes lean apart, in columns
+        double narrow, x, y; // factor for the first one's widths; how far the axes lean apart, in columns
     };
     constexpr Split kSplits[] = {{0.6, 0.0, 0.0}, {1.0, 0.5, 0.0}, {1.0, 0.0, 0.5}};
     PairFit best{};

@@ -1,4 +1,4 @@
-// The sum of two transformed cosines that is the nearest to one lobe, by L1: what a second one could gain where one alone is far off.
+// Fits the sum of two transformed cosines to one lobe, by L1. This measures the gain from a second cosine where one alone is inaccurate.
 #pragma once
 #include "shading/bake/ltc/node_fit.h"
 
@@ -6,13 +6,13 @@ namespace burnish::ltc {
 
 struct PairFit {
     Matrix m[2];  // positive determinants, unit third columns
-    double share; // of the first one, in [0.02, 0.98]
+    double share; // of the first cosine, in [0.02, 0.98]
     double l1;
     int evaluations;
 };
 
-// Levenberg-Marquardt on both matrices and the share at once, from a fit of one that is split: into a narrow and a wide one, along each of
-// its first two columns and both ways along them. The nearest of what comes of it.
+// Runs Levenberg-Marquardt on both matrices and the share at once. Starts split a single fit: into a narrow and a wide cosine, and apart
+// along each of its first two columns. Returns the best result.
 PairFit fit_pair(const LobePoints& lobe, const Matrix& single);
 
 double l1_of_pair(const LobePoints& lobe, const PairFit& pair);

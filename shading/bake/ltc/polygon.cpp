@@ -6,7 +6,7 @@ namespace burnish::ltc {
 
 double polygon_part(const Matrix& n, const std::vector<Vec>& corners)
 {
-    std::vector<Vec> above; // clipped: what lies on the horizon counts as below
+    std::vector<Vec> above; // clipped: points on the horizon count as below
     for (std::size_t i = 0; i < corners.size(); ++i) {
         const Vec a = n * corners[i], b = n * corners[(i + 1) % corners.size()];
         if (a.z > 0.0)
@@ -16,6 +16,7 @@ double polygon_part(const Matrix& n, const std::vector<Vec>& corners)
             above.push_back(unit({a.x + t * (b.x - a.x), a.y + t * (b.y - a.y), 0.0}));
         }
     }
+    // Sum the edges' form factors
     double sum = 0.0;
     for (std::size_t i = 0; i < above.size() && above.size() > 2; ++i) {
         const Vec &a = above[i], &b = above[(i + 1) % above.size()], c = cross(a, b);

@@ -1,4 +1,4 @@
-// Light of polygons through a transformed cosine, in double: what figures of quality are made with.
+// Light from polygons through a transformed cosine, in double, for quality figures.
 #pragma once
 #include <vector>
 
@@ -6,8 +6,8 @@
 
 namespace burnish::ltc {
 
-// The part of the density that lies in the cone of a polygon, [0,1]: exact, clipped at the horizon of the cosine's space. n: the inverse of
-// the matrix; corners: seen from the shading point, in order, either way around; convex. Heitz, Dupuy, Hill, Neubelt 2016, section 4.
+// Returns the share of the density in a polygon's cone, [0,1]: exact, clipped at the horizon in the cosine's space. n: the matrix'
+// inverse. corners: seen from the shading point, in order, either way around; convex. Heitz, Dupuy, Hill, Neubelt 2016, section 4.
 double polygon_part(const Matrix& n, const std::vector<Vec>& corners);
 
 } // namespace burnish::ltc

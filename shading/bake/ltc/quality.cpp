@@ -20,13 +20,13 @@ Quad parallelogram(const Vec& middle, const Vec& a, const Vec& b) // a, b: half 
     return quad;
 }
 
-// Quads around the mirror direction of an eye, from the shading point.
+// Returns test quads around an eye's mirror direction, seen from the shading point.
 std::vector<Quad> lights_of(const Vec& v)
 {
     const Vec r = {-v.x, -v.y, v.z};
     const double flat = std::sqrt(v.x * v.x + v.y * v.y);
     const Vec ahead = flat > 1e-9 ? Vec{r.x / flat, r.y / flat, 0.0} : Vec{-1.0, 0.0, 0.0}, across = {-ahead.y, ahead.x, 0.0};
-    const Vec up = cross(r, across); // with `across` and r a frame
+    const Vec up = cross(r, across); // completes a frame with `across` and r
     return {
         parallelogram({0.3, 0.2, 1.0}, {1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}),
         parallelogram({ahead.x, ahead.y, 0.25}, scaled(across, 1.0), {0.0, 0.0, 0.75}),
@@ -37,7 +37,7 @@ std::vector<Quad> lights_of(const Vec& v)
     };
 }
 
-struct Cone { // of a quad: l is in it where it is on the inner side of all planes
+struct Cone { // cone of a quad: l lies inside all planes
     explicit Cone(const Quad& quad)
     {
         Vec middle = {0.0, 0.0, 0.0};
@@ -59,8 +59,8 @@ struct Differences {
     double l1 = 0.0, lights[kLights] = {};
 };
 
-// Integrals of |p - q| and of p - q over cones, by points of both densities. The difference is small where both are large, so the cones'
-// light is known much better from it than from p alone.
+// Integrates |p - q|, and p - q over cones, with points from both densities. The difference is small where both are large, so it gives the
+// cones' light much more accurately than p alone.
 Differences differences(const Lobe& lobe, const Matrix& m, const std::vector<Cone>& cones, const Rule& rule)
 {
     Differences sum;
@@ -87,7 +87,7 @@ Differences differences(const Lobe& lobe, const Matrix& m, const std::vector<Con
     return sum;
 }
 
-// looked: what stands for the lobe.
+// Judges one lobe. looked: the approximation.
 Judged judged(const Place& place, const Looked& looked, Model model, int cosines, const Rule& rule)
 {
     static const Rule fit_rule(15);
@@ -107,6 +107,7 @@ Judged judged(const Place& place, const Looked& looked, Model model, int cosines
     }
     j.all_relative = std::abs(looked.all - white.all) / white.all;
     j.grazing_absolute = std::abs(looked.grazing - white.grazing);
+    // Fit this lobe alone, and with a pair
     if (cosines > 0) {
         const LobePoints points(lobe, fit_rule);
         NodeFit best = fit_lobe(points, natural_matrix(place), 0);
@@ -123,7 +124,7 @@ Judged judged(const Place& place, const Looked& looked, Model model, int cosines
 struct Moments {
     double sum = 0.0, squares = 0.0;
     void add(double v) { sum += v, squares += v * v; }
-    double deviation(double count) const // of one over the mean
+    double deviation(double count) const // standard deviation over the mean
     {
         const double mean = sum / count;
         return mean > 0.0 ? std::sqrt(std::max(squares / count - mean * mean, 0.0)) / mean : 0.0;
@@ -145,6 +146,7 @@ Sampled sampled(const Table& table, const Place& place, const Rule& rule)
         for (std::size_t i = 0; i < kLights; ++i)
             lit[sampler][i].add(cones[i].holds(l) ? value : 0.0);
     };
+    // Sample the lobe in three ways
     for (const Rule::Point& point : rule.points) {
         const Vec l = unit(m * point.clamped), h = mirrored_normal(lobe, point);
         add(kByCosine, l, density(lobe, l).reflected / transformed_cosine(n, l));
@@ -158,7 +160,7 @@ Sampled sampled(const Table& table, const Place& place, const Rule& rule)
             const Vec at = {q[0].x + point.depth * a.x + v * b.x, q[0].y + point.depth * a.y + v * b.y,
                             q[0].z + point.depth * a.z + v * b.z},
                       to = unit(at);
-            const double over = std::abs(dot(cross(a, b), to)) / dot(at, at); // solid angle a sample stands for
+            const double over = std::abs(dot(cross(a, b), to)) / dot(at, at); // solid angle per sample
             lit[kByArea][i].add(density(lobe, to).reflected * over);
         }
     }
@@ -242,7 +244,7 @@ Spread spread_of(std::vector<double> values)
 std::vector<double> l1_of_cells(const Table& table, const Jobs& jobs)
 {
     const Rule rule(15), albedo_rule(17);
-    const Grid grid = table.grid.round ? Grid() : table.grid; // whose cells
+    const Grid grid = table.grid.round ? Grid() : table.grid; // provides the cells
     const std::vector<std::array<int, 4>> cells = grid.cells();
     std::vector<double> l1(cells.size());
     jobs.parallel_for(l1.size(), [&](std::size_t index, int) {

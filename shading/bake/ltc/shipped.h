@@ -1,5 +1,5 @@
-// The tables of transformed cosines that are part of the program, shading/bake/ltc/*.ltc with their bytes as they were when it was built,
-// and what shading reads of them or of others.
+// Built-in tables of transformed cosines: shading/bake/ltc/*.ltc, embedded at build time. Also the data that shading reads from these or
+// from other tables.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -16,13 +16,14 @@ extern const EmbeddedFile kShippedFile, kShippedRoundFile;
 namespace burnish::ltc {
 
 struct ShadingTables {
-    std::vector<std::uint16_t> texels; // table_texels() of the table of all lobes, then of that of round ones
+    std::vector<std::uint16_t> texels; // table_texels() of the general table, then of the round table
     LtcTableRecord record;
-    Model model = Model::ggx; // whose lobes they are
+    Model model = Model::ggx; // model of the lobes
 };
 const ShadingTables& shipped_tables(); // made once a process
-const Table& shipped_table();          // of all lobes
-// `own` in place of the one of its kind. Of another resolution than shading reads: an Error, whose file is `path`.
+const Table& shipped_table();          // the general table
+// Replaces the built-in table of the same kind with `own`. Errors: another resolution, or another storage in a round table, than shading
+// reads. path: the file in the error.
 Result<ShadingTables> with_table(const Table& own, const std::string& path);
 
 } // namespace burnish::ltc

@@ -1,5 +1,5 @@
-// KT, Heitz, Dupuy, Narasimhan 2022, section 5: the sliced Wasserstein distance between samples of a lobe and samples of a transformed
-// cosine, made small by Adam (Kingma, Ba 2015). Samples and axes are lattices, not random.
+// Minimises the sliced Wasserstein distance between samples from a lobe and from a transformed cosine, by Adam (Kingma, Ba 2015). KT,
+// Heitz, Dupuy, Narasimhan 2022, section 5. Samples and axes are lattices, not random.
 #include <algorithm>
 #include <numeric>
 
@@ -9,7 +9,7 @@
 namespace burnish::ltc {
 namespace {
 
-constexpr int kSteps = 160, kAxes = 12; // axes a step, other ones in each
+constexpr int kSteps = 160, kAxes = 12; // axes per step, different in each step
 constexpr double kFirstRate = 0.06, kLastRate = 0.002;
 
 struct Projected {
@@ -17,7 +17,7 @@ struct Projected {
     std::size_t sample;
 };
 
-// Gradient of the distance in every sample of q, along one axis.
+// Adds the distance's gradient at every sample of q, along one axis.
 void carry(std::vector<Projected>& p, std::vector<Projected>& q, const Vec& axis, std::vector<Vec>& gradient)
 {
     const auto less = [](const Projected& a, const Projected& b) { return a.at < b.at; };
@@ -25,7 +25,7 @@ void carry(std::vector<Projected>& p, std::vector<Projected>& q, const Vec& axis
     std::sort(q.begin(), q.end(), less);
     std::size_t i = 0;
     double left = p.empty() ? 0.0 : p[0].mass;
-    for (const Projected& to : q) { // the mean of what is carried to it
+    for (const Projected& to : q) { // find the mean of the mass carried to this sample
         double open = to.mass, sum = 0.0;
         while (open > 0.0 && i < p.size()) {
             const double part = std::min(open, left);
@@ -47,11 +47,12 @@ NodeFit fit_sliced(const LobePoints& lobe, const Matrix& start, Mask zero)
     Matrix m = with_unit_axis(start);
     std::array<double, 9> mean{}, square{};
     const std::vector<Rule::Point>& cosine = lobe.rule->points;
-    std::vector<double> mass; // of the lobe's points, whose density is another one
+    std::vector<double> mass; // of the lobe's points, which have another density
     for (const LobePoints::Point& point : lobe.points)
         mass.push_back(point.value.visible > 0.0 ? point.value.reflected / point.value.visible : 0.0);
     const double whole = std::accumulate(mass.begin(), mass.end(), 0.0);
     for (int step = 0; step < kSteps; ++step) {
+        // Map the cosine's points to the lobe
         std::vector<Vec> at, gradient(cosine.size(), {0.0, 0.0, 0.0});
         std::vector<double> length;
         for (const Rule::Point& point : cosine) {
@@ -59,7 +60,7 @@ NodeFit fit_sliced(const LobePoints& lobe, const Matrix& start, Mask zero)
             length.push_back(std::sqrt(dot(v, v)));
             at.push_back(scaled(v, 1.0 / length.back()));
         }
-        for (int a = 0; a < kAxes; ++a) { // of the half sphere, by the golden angle
+        for (int a = 0; a < kAxes; ++a) { // on the half sphere, by the golden angle
             const double z = (a + 0.5) / kAxes, turn = 2.39996322972865332 * (a + kAxes * step), r = std::sqrt(1.0 - z * z);
             const Vec axis = {r * det_cos(turn), r * det_sin(turn), z};
             std::vector<Projected> p, q;
@@ -70,7 +71,7 @@ NodeFit fit_sliced(const LobePoints& lobe, const Matrix& start, Mask zero)
                 q.push_back({dot(axis, at[i]), 1.0 / static_cast<double>(at.size()), i});
             carry(p, q, axis, gradient);
         }
-        // Of E in M (I + E): M^T g c^T, where c is the cosine's point and g what its image has to move by.
+        // Gradient by E in M (I + E): M^T g c^T, where c is the cosine's point and g the desired motion of its image
         std::array<double, 9> slope{};
         for (std::size_t i = 0; i < at.size(); ++i) {
             const double along = dot(gradient[i], at[i]), s = 1.0 / length[i];
@@ -83,8 +84,9 @@ NodeFit fit_sliced(const LobePoints& lobe, const Matrix& start, Mask zero)
             for (std::size_t e = 0; e < 9; ++e)
                 slope[e] += row[e / 3] * column[e % 3];
         }
+        // Take an Adam step, with a geometric rate
         const double part = step / (kSteps - 1.0), rate = kFirstRate * det_exp(part * det_log(kLastRate / kFirstRate));
-        double first = 1.0, second = 1.0; // how much of both means is there so far
+        double first = 1.0, second = 1.0; // remaining weight of both means' initial values
         for (int k = 0; k <= step; ++k)
             first *= 0.9, second *= 0.99;
         Matrix turn = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0};

@@ -7,7 +7,7 @@ Matrix fitted_alone(const Grid& grid, std::size_t node)
 {
     static const Rule rule(14), albedo_rule(17);
     const std::array<int, 4> i = grid.indices(node);
-    const std::size_t own = i[0] == 0 ? grid.node(0, 0, i[2], i[3]) : node; // along the normal all azimuths see one lobe
+    const std::size_t own = i[0] == 0 ? grid.node(0, 0, i[2], i[3]) : node; // along the normal, one lobe serves all azimuths
     const Place place = grid.place(own);
     const Mask zero = grid.zero(own);
     Matrix m = fit_lobe(LobePoints(normalised_lobe(place, albedo_rule), rule), natural_matrix(place), zero).m;

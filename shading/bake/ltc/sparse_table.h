@@ -1,4 +1,4 @@
-// A table of which only the nodes around some lobes are fitted: what a resolution is worth there that nobody waits for.
+// A table with fitted nodes around given lobes only. It shows the accuracy of resolutions that would take too long to bake in full.
 #pragma once
 #include <cstddef>
 #include <map>
@@ -9,11 +9,11 @@
 
 namespace burnish::ltc {
 
-// GGX lobes; every node alone, from its natural matrix, without the fit of the interpolant.
+// GGX lobes. Every node is fitted alone from its natural matrix; the interpolant is not fitted.
 class SparseTable {
   public:
     SparseTable(const Grid& grid, const std::vector<Place>& places, const Jobs& jobs);
-    Matrix lookup(const Place& place) const; // one of the places
+    Matrix lookup(const Place& place) const; // must be one of the places
     std::size_t nodes() const { return entries_.size(); }
 
   private:

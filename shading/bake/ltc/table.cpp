@@ -48,7 +48,7 @@ Table make_table(const Grid& grid, const std::vector<Matrix>& entries, const std
     Table table = {grid, made, {}};
     for (std::size_t node = 0; node < entries.size(); ++node) {
         const Mask zero = made & (kUnsymmetric | kUnaligned) ? 0 : grid.zero(node);
-        for (std::size_t e = 0; e < 9; ++e) // what symmetry makes zero is off by rounding
+        for (std::size_t e = 0; e < 9; ++e) // rounding moves elements that symmetry makes zero
             table.entries.push_back(zero >> e & 1u ? 0.0f : static_cast<float>(entries[node][e]));
         table.entries.push_back(static_cast<float>(albedos[node].all));
         table.entries.push_back(static_cast<float>(albedos[node].grazing));

@@ -12,11 +12,11 @@ namespace burnish {
 namespace {
 
 struct Tap {
-    int at; // of the map
+    int at; // texel in the map
     double weight;
 };
 
-// Modified Bessel function of the first kind, of order 0.
+// Modified Bessel function, first kind, order 0.
 double bessel_0(double x)
 {
     double sum = 1.0, term = 1.0;
@@ -25,17 +25,19 @@ double bessel_0(double x)
     return sum;
 }
 
-// Texels of the map below texel i of a level along an axis, with weights that sum to 1.
+// Returns the map's texels under texel i of a level, along one axis. Weights sum to 1.
 std::vector<Tap> taps_of(int i, int source, int target, ColourKernel kernel, WrapMode wrap)
 {
     constexpr double kRadius = 3.0, kAlpha = 4.0; // in texels of the level
     const double step = static_cast<double>(source) / target, begin = i * step, end = begin + step, centre = 0.5 * (begin + end);
     std::vector<Tap> taps;
+    // Box: exact overlaps
     if (kernel == ColourKernel::box || step == 1.0) {
         for (int k = static_cast<int>(begin); k < source && k < end; ++k)
             taps.push_back({k, (std::min(end, k + 1.0) - std::max(begin, static_cast<double>(k))) / step});
         return taps;
     }
+    // Kaiser: a windowed sinc, normalised
     double sum = 0.0;
     for (int k = static_cast<int>(std::floor(centre - kRadius * step)); k < centre + kRadius * step; ++k) {
         const double t = (k + 0.5 - centre) / step, share = t / kRadius;
@@ -62,7 +64,7 @@ struct Span {
     float least, most;
 };
 
-// What each channel lies between.
+// Returns the range of each channel.
 std::vector<Span> spans_of(const ColourRows& map, const Jobs& jobs)
 {
     const std::size_t channels = static_cast<std::size_t>(map.channels), texels = static_cast<std::size_t>(map.width) * channels;
@@ -82,7 +84,7 @@ std::vector<Span> spans_of(const ColourRows& map, const Jobs& jobs)
     return all;
 }
 
-// Colours times weights, then the weights themselves: held numbers a texel, summed over rows.
+// Adds a row: weighted colours, then the weight, per texel.
 void add_row(const ColourRows& map, int y, double share, const Image* weight, float* colours, double* sums)
 {
     const std::size_t channels = static_cast<std::size_t>(map.channels), width = static_cast<std::size_t>(map.width);
@@ -113,6 +115,7 @@ void each_colour_row(const ColourRows& map, const ColourOptions& options, const 
         jobs.parallel_for(down.size(), [&](std::size_t y, int) {
             std::vector<double> row(width * held), texel(held);
             std::vector<float> colours(width * channels), made(across.size() * channels);
+            // Filter down, then across
             for (const Tap& tap : down[y])
                 add_row(map, tap.at, tap.weight, weight, colours.data(), row.data());
             float* to = made.data();
@@ -121,6 +124,7 @@ void each_colour_row(const ColourRows& map, const ColourOptions& options, const 
                 for (const Tap& tap : taps)
                     for (std::size_t c = 0; c < held; ++c)
                         texel[c] += tap.weight * row[static_cast<std::size_t>(tap.at) * held + c];
+                // Divide by the weight, and clamp to the map's range
                 const double w = std::max(texel[channels], 1e-9);
                 for (std::size_t c = 0; c < channels; ++c)
                     *to++ = std::clamp(static_cast<float>(texel[c] / w), spans[c].least, spans[c].most);

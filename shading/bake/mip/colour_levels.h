@@ -1,4 +1,4 @@
-// Levels of colours and metalness, of one map by itself or weighted by how much of each texel is seen and lit.
+// Mip levels for colours and metalness. Weights may say how visible and lit each texel is.
 #pragma once
 #include <functional>
 #include <vector>
@@ -14,17 +14,17 @@ namespace burnish {
 struct ColourOptions {
     ColourKernel kernel = ColourKernel::box;
     WrapMode wrap_s = WrapMode::repeat, wrap_t = WrapMode::repeat;
-    // One channel, as large as the map, above 0: texels' shares of what is reflected; null: all alike.
+    // One channel, as large as the map, above 0: texels' shares of the reflected light. Null: equal weights.
     const Image* weight = nullptr;
 };
 
-struct ColourRows { // of level 0: writes channels floats a texel, which are finite
+struct ColourRows { // level 0: writes `channels` finite floats per texel
     int width, height, channels;
     std::function<void(int y, float* to)> row;
 };
-// Levels from 1 on, whose sides are halved and rounded down to 1x1, row by row, several rows at once.
+// Makes levels from 1 on. Sides are halved and rounded down to 1x1. Calls `use` row by row, for several rows at once.
 void each_colour_row(const ColourRows& map, const ColourOptions& options, const Jobs& jobs, const LevelRow& use);
-// linear: f32 of any channels, level 0 of the result, whose sides are halved and rounded down to 1x1.
+// Makes all levels. linear: f32 with any channels, level 0 of the result. Sides are halved and rounded down to 1x1.
 std::vector<Image> colour_levels(const Image& linear, const ColourOptions& options);
 
 } // namespace burnish

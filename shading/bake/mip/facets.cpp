@@ -16,7 +16,7 @@ struct FlatNormal {
 struct Group {
     std::vector<FlatNormal> normals;
     double x = 0.0, y = 0.0;             // mean
-    double xx = 0.0, yy = 0.0, xy = 0.0; // sums of squares about it
+    double xx = 0.0, yy = 0.0, xy = 0.0; // sums of squares about the mean
 
     void measure()
     {
@@ -32,11 +32,11 @@ struct Group {
     double spread() const { return xx + yy; }
 };
 
-// Keeps one half of the group, returns the other.
+// Splits a group. Keeps one half in `group`, returns the other.
 Group split(Group& group)
 {
     const double half = 0.5 * (group.xx - group.yy), length = std::sqrt(half * half + group.xy * group.xy);
-    double along_x = 1.0, along_y = 0.0; // where it spreads most
+    double along_x = 1.0, along_y = 0.0; // direction of largest spread
     if (length > 0.0 && half >= 0.0)
         along_x = length + half, along_y = group.xy;
     else if (length > 0.0)
@@ -53,7 +53,7 @@ Group split(Group& group)
 
 std::vector<Facet> facets_of(const MipSource& source)
 {
-    constexpr double kAlike = 1e-4; // mean square of what normals differ by
+    constexpr double kAlike = 1e-4; // mean squared distance of normals from their mean
     const std::vector<float> points = spread_points(source);
     const std::size_t stride = mip::row_stride(kSpreadPoints);
     std::vector<Group> groups(1);

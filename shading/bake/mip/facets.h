@@ -1,5 +1,5 @@
-// Facets of a normal map seen from afar: a few groups of its normals, each of which is shaded as a surface of its own. One lobe a texel
-// cannot say where light goes whose facets lie far apart.
+// A normal map's facets, seen from afar: a few groups of its normals. Each group is shaded as a surface. One lobe per texel cannot tell
+// where light goes if facets point far apart.
 #pragma once
 #include <vector>
 
@@ -9,13 +9,13 @@
 namespace burnish {
 
 struct Facet {
-    float x, y;   // of the group's mean normal, unit, tangent space
-    float weight; // share of the map; all together 1
-    float spread; // of its normals about the mean: what squared widths of lobes grow by
+    float x, y;   // the group's mean normal, unit, tangent space
+    float weight; // share of the map; all weights sum to 1
+    float spread; // variance of normals about the mean: added to squared lobe widths
 };
 
-// At most kMostFacets, of 4096 texels. A group of normals that spread most is split in two, across where they spread, until all are alike
-// or there are enough.
+// Groups 4096 texels into at most kMostFacets facets. Splits the group with the largest spread in two, across its direction of largest
+// spread, until normals in each group are alike or the number is reached.
 std::vector<Facet> facets_of(const MipSource& source);
 
 } // namespace burnish

@@ -66,10 +66,10 @@ float gain_of_taps(MipFilter filter, float kappa)
 
 namespace {
 
-struct Shape { // of states, see mip::Mean
+struct Shape { // layout of states, see mip::Mean
     mip::Mean mean;
-    std::size_t means, count; // of a state's numbers the first are means that spread; the rest follow
-    float spread;             // how much of what means differ by joins the rest, xx yy (zz) xy (xz yz)
+    std::size_t means, count; // a state's first numbers are means that spread; the rest follow
+    float spread;             // factor of the means' spread that joins the rest: xx yy (zz) xy (xz yz)
 };
 Shape shape_of(MipFilter filter, float kappa)
 {
@@ -82,14 +82,14 @@ Shape shape_of(MipFilter filter, float kappa)
     return {filter == kMipFilter_covariance ? mip::Mean::covariance : mip::Mean::baseline, 3, 6, 0.0f};
 }
 
-// Planes of a row of states.
+// Planes in a row of states.
 struct StateRow {
     const float* first;
     std::size_t stride;
     float at(std::size_t k, int x) const { return first[k * stride + static_cast<std::size_t>(x)]; }
 };
 
-// rows: those of `down`. to: texel x of a row of states.
+// Merges a footprint's texels. rows: one per entry of `down`. to: texel x in a row of states.
 void merge_many(const Shape& shape, const std::vector<StateRow>& rows, const std::vector<Share>& down, const std::vector<Share>& across,
                 float* to, std::size_t stride)
 {
@@ -99,11 +99,13 @@ void merge_many(const Shape& shape, const std::vector<StateRow>& rows, const std
             for (const Share& x : across)
                 use([&](std::size_t k) { return static_cast<double>(rows[y].at(k, x.at)); }, down[y].weight * x.weight);
     };
+    // Average all numbers
     each([&](const auto& s, double weight) {
         for (std::size_t k = 0; k < shape.count; ++k)
             sum[k] += weight * s(k);
     });
     const auto mean = sum;
+    // Add the spread of the means
     if (shape.spread > 0.0f) {
         const mip::MeanPair* pairs = shape.means == 3 ? mip::kSpacePairs : mip::kFlatPairs;
         each([&](const auto& s, double weight) {
@@ -126,7 +128,7 @@ struct StateLevel {
     std::size_t place(const Shape& shape, int y) const { return static_cast<std::size_t>(y) * shape.count * stride(); }
 };
 
-// One level from a finer one, or from the source where `from` is null.
+// Makes a level from a finer one, or from the source if `from` is null.
 class LevelMaker {
   public:
     LevelMaker(const MipRows& source, const StateLevel* from, const Shape& shape)
@@ -141,6 +143,7 @@ class LevelMaker {
         const bool square = halves(width_, to.width) && halves(height_, to.height);
         std::vector<std::vector<float>> memory(static_cast<std::size_t>(jobs.threads()));
         jobs.parallel_for(static_cast<std::size_t>(to.height), [&](std::size_t y, int worker) {
+            // Find the finer rows under this row, and merge their texels
             const std::vector<Share> down = shares_of(static_cast<int>(y), height_, to.height);
             const std::vector<StateRow> rows = rows_of(down, memory[static_cast<std::size_t>(worker)]);
             const std::size_t width = static_cast<std::size_t>(to.width), stride = to.stride();
@@ -195,7 +198,7 @@ MipLevel empty_level(const StateLevel& of)
     return {of.width, of.height, std::vector<MipTexel>(static_cast<std::size_t>(of.width) * static_cast<std::size_t>(of.height))};
 }
 
-// Levels after `first`, whose states are `banded` (or after level 0), up to `last`; returns the states of the last one.
+// Makes levels after `first` up to `last`. banded: level `first`'s states, unused for level 0. Returns the last level's states.
 StateLevel put_levels_from(const MipRows& level0, int first, StateLevel banded, int last, const Shape& shape, const Jobs& jobs,
                            std::vector<MipLevel>& made)
 {
@@ -213,7 +216,7 @@ StateLevel put_levels_from(const MipRows& level0, int first, StateLevel banded, 
     return std::move(states.back());
 }
 
-// Levels 1 to `levels`, and the states of the last one.
+// Makes levels 1 to `levels` in bands of rows, and returns the last one's states. A band needs little memory.
 StateLevel make_banded_levels(const MipRows& level0, int levels, const Shape& shape, const Jobs& jobs, std::vector<MipLevel>& made)
 {
     for (int l = 1; l <= levels; ++l)
@@ -272,7 +275,7 @@ std::vector<MipLevel> make_mean_levels(const MipRows& level0, MipFilter filter, 
 
 namespace {
 
-// Rows of level 0, hashed where they are first read: what levels are made of is not decoded again for its hash.
+// Rows of level 0, hashed on their first read. So maps are decoded only once for levels and hash.
 class HashedRows {
   public:
     explicit HashedRows(const MipSource& source) : source_(source), hashes_(static_cast<std::size_t>(source.height())) {}
@@ -293,7 +296,7 @@ class HashedRows {
         std::vector<std::uint64_t> all;
         for (int y = 0; y < source_.height(); ++y) {
             const std::atomic<std::uint64_t>& hash = hashes_[static_cast<std::size_t>(y)];
-            if (hash.load(std::memory_order_relaxed) == 0) // no level was made of it
+            if (hash.load(std::memory_order_relaxed) == 0) // no level has read the row
                 rows().planes(y, points.data());
             all.push_back(hash.load(std::memory_order_relaxed));
         }
@@ -309,6 +312,7 @@ class HashedRows {
 
 namespace {
 
+// Computes the gains of all levels, and notes their kind.
 void put_gains(const MipSource& source, mipnet::Lobe lobe, bool metal, Gains rule, MipLevels& to)
 {
     std::vector<LevelSize> sizes = {{to.width, to.height}};

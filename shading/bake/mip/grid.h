@@ -1,4 +1,4 @@
-// One grid for maps of several sizes, and how each is read at its points.
+// A common grid for maps with several sizes, and reads of maps at its points.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -12,19 +12,19 @@
 
 namespace burnish {
 
-struct Grid { // of the result, and how maps are read between its points
+struct Grid { // size of the result, and interpolation of maps
     int width = 0, height = 0;
     WrapMode wrap_s = WrapMode::repeat, wrap_t = WrapMode::repeat;
     bool nearest = false;
 
-    void cover(const Image* map) // as wide as the widest, as high as the highest
+    void cover(const Image* map) // as wide as the widest map, as high as the highest
     {
         if (map)
             width = std::max(width, map->width), height = std::max(height, map->height);
     }
 };
 
-// The two texels of a row or column on either side of a point of the grid, and the share of the second.
+// The two texels in a row or column on either side of a grid point, and the second one's share.
 struct Neighbours {
     int low, high;
     float share;
@@ -41,7 +41,7 @@ inline Neighbours neighbours(int at, int count, int texels, WrapMode wrap, bool 
     return {inside(low), inside(low + 1), static_cast<float>(place - 0.5 - low)};
 }
 
-// A quantity of a map at a point of the grid; value: of a texel by its number.
+// Returns a map's quantity at a grid point. value: the quantity at a texel, by index.
 template <class Value> float on_grid(const Image& map, const Grid& grid, int x, int y, const Value& value)
 {
     const Neighbours u = neighbours(x, grid.width, map.width, grid.wrap_s, grid.nearest);
@@ -55,11 +55,11 @@ template <class Value> float on_grid(const Image& map, const Grid& grid, int x, 
     return v.share == 0.0f ? low : low + v.share * (row(v.high) - low);
 }
 
-struct Share { // of a texel or row of a finer level
+struct Share { // weight of a texel or row in a finer level
     int at;
     double weight;
 };
-// Texel i of `target` covers these of `source`, exactly.
+// Returns the `source` texels that texel i of `target` covers, with exact overlaps.
 inline std::vector<Share> shares_of(int i, int source, int target)
 {
     std::vector<Share> shares;
@@ -71,7 +71,7 @@ inline std::vector<Share> shares_of(int i, int source, int target)
     return shares;
 }
 
-// How many levels there are from 1 on: sides are halved and rounded down, at least 1.
+// Returns the number of levels from 1 on. Sides are halved and rounded down, at least 1.
 inline int levels_below(int width, int height)
 {
     int levels = 0;
@@ -80,7 +80,7 @@ inline int levels_below(int width, int height)
     return levels;
 }
 
-// The finer level that level l is made from: the smallest whose texels its footprints are unions of, or level 0.
+// Returns the finer level that level l is made from: the smallest level whose texels tile the footprints of l, or level 0.
 inline int finer_level(int width, int height, int l)
 {
     const auto side = [](int of, int level) { return std::max(1, of >> level); };
@@ -90,7 +90,8 @@ inline int finer_level(int width, int height, int l)
     return from;
 }
 
-// How many levels can be made of bands of rows of level 0, of which nothing else is needed than the last: sides are halved without a rest.
+// Returns the number of levels that can be made in bands of rows, because their sides halve without remainder. Later levels need only the
+// last one.
 inline int banded_levels(int width, int height)
 {
     constexpr int kMostBanded = 5;

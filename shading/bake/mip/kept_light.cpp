@@ -16,10 +16,10 @@ namespace burnish {
 namespace {
 
 constexpr int kAzimuths = 16, kLights = 32;
-constexpr float kLeastLoss = 0.004f; // of mean light: less is not seen
+constexpr float kLeastLoss = 0.004f; // share of mean light; smaller losses are invisible
 
-// Light of a facet whose normal leans to +x, from above the surface's horizon. Directions as frames have them: an eye below the facet's own
-// horizon is at grazing angles.
+// Returns the light of a facet whose normal leans to +x, from above the surface's horizon. As in frames, an eye below the facet's own
+// horizon moves to grazing angles.
 float facet_light(float alpha, float sine, float cosine, int knot)
 {
     const ggx_params lobe = ggx_params_of(alpha);
@@ -39,7 +39,7 @@ float facet_light(float alpha, float sine, float cosine, int knot)
     return sum;
 }
 
-// Root of 1 - cosine of the tilt, [0,1].
+// Returns sqrt(1 - the tilt's cosine), [0,1].
 float tilt_place(float nz)
 {
     return std::sqrt(std::clamp(1.0f - nz, 0.0f, 1.0f));
@@ -93,6 +93,7 @@ std::vector<float> spread_points(const MipSource& source)
         return wrap == WrapMode::repeat ? (i + size) % size : std::clamp(i, 0, size - 1);
     };
     double u = 0.5, v = 0.5; // the sequence of the plastic number
+    // Find the texels around each place
     for (std::size_t i = 0; i < kSpreadPoints; ++i) {
         const double px = u * width - (nearest ? 0.0 : 0.5), py = v * height - (nearest ? 0.0 : 0.5);
         const double left = std::floor(px), top = std::floor(py), fx = nearest ? 0.0 : px - left, fy = nearest ? 0.0 : py - top;
@@ -104,6 +105,7 @@ std::vector<float> spread_points(const MipSource& source)
         u += 0.7548776662466927, v += 0.5698402909980532;
         u -= std::floor(u), v -= std::floor(v);
     }
+    // Read and interpolate their normals
     const std::size_t from_stride = mip::row_stride(x.size()), stride = mip::row_stride(kSpreadPoints);
     std::vector<float> corners(mip::kPointPlanes * from_stride), normals(3 * stride);
     source.points(x.size(), x.data(), y.data(), corners.data());
@@ -125,6 +127,7 @@ KeptWeights kept_weights(const MipSource& source, const KeptShares& shares)
     const std::size_t stride = mip::row_stride(kPoints);
     const std::vector<float> points = spread_points(source);
     double mean[3] = {}, kept[kKeptKnots] = {};
+    // Average normals and kept shares
     for (std::size_t i = 0; i < kPoints; ++i) {
         for (std::size_t k = 0; k < 3; ++k)
             mean[k] += static_cast<double>(points[k * stride + i]);
@@ -136,6 +139,7 @@ KeptWeights kept_weights(const MipSource& source, const KeptShares& shares)
     KeptWeights weights;
     for (int knot = 0; knot < kKeptKnots; ++knot)
         weights.mean[knot] = static_cast<float>(kept[knot]);
+    // Compare with an upright lobe about the mean normal
     const auto loss = [&](int knot) { return 1.0f - static_cast<float>(kept[knot]) / std::max(shares.at(knot, nz), 0.05f); };
     const float held = loss(kKeptKnot);
     weights.any = held > kLeastLoss, weights.loss = std::max(held, 0.0f);

@@ -16,7 +16,7 @@ using mipnet::kChannels;
 
 constexpr std::size_t kPointsAtOnce = 2048, kMostPoints = 2 * kPointsAtOnce, kTexelsAPoint = 32;
 
-// Numbers of [0,1) by chance, always the same, one in each of `count` equal parts.
+// Returns random numbers in [0,1), one in each of `count` equal parts, in random order. A fixed seed gives fixed numbers.
 std::vector<double> spread_numbers(std::size_t count, mipnet::Random& random)
 {
     std::vector<double> all(count);
@@ -27,10 +27,10 @@ std::vector<double> spread_numbers(std::size_t count, mipnet::Random& random)
     return all;
 }
 
-// Always the same, in parts of kPointsAtOnce that are even by themselves.
+// Fixed sample points, in parts of kPointsAtOnce that are stratified by themselves.
 struct Points {
-    std::vector<double> u, v; // of the map
-    std::vector<float> drawn; // kMostPoints apart, as AlbedoWork has them
+    std::vector<double> u, v; // place in the map
+    std::vector<float> drawn; // planes kMostPoints apart, in the layout of AlbedoWork
 };
 
 Points make_points()
@@ -60,10 +60,12 @@ Points make_points()
     return p;
 }
 
+// Reflected light: the part that gains scale, and the rest
 struct Given {
     double scaled, rest;
 };
 
+// Returns the light that a level reflects, summed over the points.
 Given given_back(const Points& p, std::size_t count, int level, const LevelSize& size, const LevelTexels& texels,
                  const ShownSurface& surface, Gains rule)
 {

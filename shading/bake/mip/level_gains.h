@@ -1,5 +1,5 @@
-// One factor a level that its reflectances are multiplied by, so that it reflects as much light as level 0 does. What turns away from light
-// or eye on level 0 reflects nothing; one lobe about a mean normal does not know of it, however wide it is.
+// A factor per level for its reflectances, so that the level reflects as much light as level 0. Facets of level 0 that turn away from
+// light or eye reflect nothing. One lobe about a mean normal cannot show this, however wide the lobe is.
 #pragma once
 #include <functional>
 #include <vector>
@@ -10,24 +10,23 @@ namespace burnish {
 
 inline constexpr float kLeastGain = 0.5f, kMostGain = 2.0f;
 
-// Texels (x, y) of a level, 0: of level 0, as kChannels planes of `count` numbers, a multiple of kSlots.
+// Reads texels (x, y) in a level (0: level 0), as kChannels planes with `count` numbers. count: a multiple of kSlots.
 using LevelTexels = std::function<void(int level, std::size_t count, const int* x, const int* y, float* planes)>;
 
 struct LevelSize {
     int width, height;
 };
 
-// sizes: of level 0 and those after it; returned are the gains of those after it, in [kLeastGain, kMostGain]. Mean radiance under light of
-// one radiance from 84 degrees around +z, seen from all sides, by 2048 or 4096 points of the map that are always the same: gain times what
-// a level's reflectances f0 and diffuse give, with what grazing light gives whatever they are, is what level 0 gives. The bits depend
-// neither on threads nor on the instruction set.
-// rule: by which they will be lit.
+// Returns the gains of the levels after level 0, in [kLeastGain, kMostGain]. sizes: level 0 and all levels after it. The gain makes a
+// level's mean radiance equal to that of level 0. Light has radiance 1 from within 84 degrees of +z; eyes are on all sides. The estimate
+// uses 2048 or 4096 points of the map that never change. The gain scales f0 and the diffuse part; grazing reflection stays. The bits
+// depend neither on threads nor on the instruction set. rule: the lighting that the gains are made for.
 std::vector<float> level_gains(const std::vector<LevelSize>& sizes, const LevelTexels& texels, const ShownSurface& surface, Gains rule);
 
-// The same of a level 0 and the levels after it, as they are judged.
+// Returns the gains of texels' levels for the lighting that levels are judged by. levels: level 0 and all levels after it.
 std::vector<float> level_gains(const std::vector<mipnet::Texels>& levels, const ShownSurface& surface);
 
-// The same surface with reflectances times a gain. None of them passes 1 by it.
+// Returns the surface with reflectances times a gain, at most 1.
 ShownSurface gained(const ShownSurface& surface, float gain);
 
 } // namespace burnish

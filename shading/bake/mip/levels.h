@@ -1,4 +1,4 @@
-// Mip filters by name, and what they make: levels of a material's normals and lobes.
+// Mip filters by name, and their output: levels of a material's normals and lobes.
 #pragma once
 #include <cstdint>
 #include <vector>
@@ -19,26 +19,28 @@ struct MipFilterInfo {
     const char* name;
     const char* summary;
 };
-const std::vector<MipFilterInfo>& mip_filters(); // from shading/models.def, by place
+const std::vector<MipFilterInfo>& mip_filters(); // from shading/models.def, in order
 
-// Whether levels have gains, and for what: frames, where texels that turn away from the eye are as at grazing angles, or the light that
-// levels are judged by (shown.h), where they are dark.
+// Purpose of the levels' gains. of_frames: texels that turn away from the eye count as at grazing angles. as_judged: such texels are dark,
+// as in the light that judges levels (shown.h).
 enum class Gains { none, of_frames, as_judged };
 
+// Returns the code of gains for a lobe and a metal or dielectric, for MipLevels::gained.
 std::uint32_t gained_of(mipnet::Lobe lobe, bool metal);
-bool gained_metal(std::uint32_t gained); // whether they are those of a metal
+bool gained_metal(std::uint32_t gained); // true for gains of a metal
 
-bool makes_lobes(MipFilter filter); // levels of lobes, all but box and lean
-bool takes_net(MipFilter filter);   // and its lobe
+bool makes_lobes(MipFilter filter); // all but box and lean
+bool takes_net(MipFilter filter);   // and the net's lobe
 bool takes_kappa(MipFilter filter);
 inline constexpr double kMostKappa = 4.0; // the least is 0
-bool takes_gains(MipFilter filter);       // of reflectances: those that err less with them under lamps, see bench/lab/notebook/mip_nets.md
+bool takes_gains(MipFilter filter);       // true for filters that err less with gains under lamps, see bench/lab/notebook/mip_nets.md
 
-// What the normals of a fetch's texels differ by, as part of the lobe's covariance: (gain n)(gain n)^T of x and y of unit normals.
+// Returns the weight of normals that differ between a fetch's texels. The lobe's covariance gets (gain n)(gain n)^T from unit normals' x
+// and y.
 float gain_of_taps(MipFilter filter, float kappa);
 
 struct MipTexel {
-    float nx, ny;  // of a unit normal in tangent space, z > 0
+    float nx, ny;  // unit normal in tangent space, z > 0
     float a, b, c; // the lobe in that normal's frame: lobe_tensor, projected
     bool operator==(const MipTexel&) const = default;
 };
@@ -46,32 +48,32 @@ struct MipTexel {
 struct MipLevel {
     int width, height;
     std::vector<MipTexel> texels; // rows from the top
-    float gain = 1.0f;            // of reflectances, see level_gains.h
+    float gain = 1.0f;            // factor of reflectances, see level_gains.h
 };
 
 struct MipLevels {
     MipFilter filter = MipFilter{};
-    float kappa = 0.0f;           // of filter kappa, and of the taps of mipnet and teacher; else 0
+    float kappa = 0.0f;           // for filter kappa, and for taps of mipnet and teacher; else 0
     std::uint64_t source = 0;     // hash of level 0
-    std::uint64_t net = 0;        // levels_hash() of what mipnet made them by, teacher began with; else 0
-    std::uint32_t gained = 0;     // what gains are of: 0: they are 1; else gained_of()
+    std::uint64_t net = 0;        // levels_hash() of the net for mipnet and teacher; else 0
+    std::uint32_t gained = 0;     // 0: gains are 1; else gained_of()
     int width = 0, height = 0;    // of level 0
-    std::vector<MipLevel> levels; // from 1 on; none of a single texel
+    std::vector<MipLevel> levels; // from 1 on; empty for a single texel
 };
 
-// Maps whose levels are means: linear base colours, with alpha where there is any; metallic-roughness as its map has it; heights, which
-// are the alpha of normal maps.
+// Maps whose levels are means. base_color: linear, with alpha if present. metallic_roughness: as stored in the map. height: the alpha of a
+// normal map.
 enum class MapPart : std::uint32_t { base_color, metallic_roughness, height };
 
-// box: the mean over a texel's exact footprint. kaiser: a sinc over three texels of the level either way under Kaiser's window (alpha 4):
-// sharper, and clamped to what the map holds.
+// box: the mean over a texel's exact footprint. kaiser: a sinc with Kaiser's window (alpha 4), three texels of the level to each side. It
+// is sharper; results are clamped to the map's range.
 enum class ColourKernel : std::uint32_t { box, kaiser };
 
-struct MapId { // what levels of a map are made of
+struct MapId { // identifies the inputs of a map's levels
     MapPart part = MapPart::base_color;
     ColourKernel kernel = ColourKernel::box;
     std::uint64_t source = 0;  // map_hash()
-    std::uint64_t normals = 0; // hash of the normals that weigh (MipSource::hash); 0: none do
+    std::uint64_t normals = 0; // hash of the normals that weight colours (MipSource::hash); 0: no weights
     bool operator==(const MapId&) const = default;
 };
 

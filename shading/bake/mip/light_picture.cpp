@@ -11,15 +11,15 @@
 namespace burnish {
 namespace {
 
-// What texels of a level, its border among them, take of those of level 0 along an axis.
+// Level 0's weights along an axis, for each texel in a level and its border.
 struct AxisBlur {
-    std::vector<int> first;                  // texel, by texel of the level from the border on
-    std::vector<std::vector<double>> weight; // from there; sum to 1
+    std::vector<int> first;                  // first texel of level 0, by texel of the level from the border on
+    std::vector<std::vector<double>> weight; // weights from there on; sum to 1
 };
 
 AxisBlur axis_blur(int source, int target, bool even)
 {
-    // of it, linear interpolation makes a variance of 1/6 texel^2
+    // Linear interpolation contributes a variance of 1/6 texel^2
     const double spread = static_cast<double>(kLightPictureSpread);
     const double ratio = static_cast<double>(source) / target, sigma = ratio * std::sqrt(spread * spread - 1.0 / 6.0);
     AxisBlur blur;
@@ -42,7 +42,7 @@ AxisBlur axis_blur(int source, int target, bool even)
     return blur;
 }
 
-struct Grid3 { // three values a texel
+struct Grid3 { // three values per texel
     int width, height;
     std::vector<float> values;
     float* at(int x, int y)
@@ -56,7 +56,7 @@ Grid3 grid3(int width, int height)
     return {width, height, std::vector<float>(3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height))};
 }
 
-// As wide and high as the level with its border.
+// Blurs and resamples to a level's size plus its border.
 Grid3 blurred(Grid3& from, int width, int height, bool even)
 {
     const AxisBlur along = axis_blur(from.width, width, even), down = axis_blur(from.height, height, even);
@@ -98,6 +98,7 @@ LightPicture make_light_picture(const Image& image)
         return p.texels.data() +
                4 * (static_cast<std::size_t>(p.offset[level]) + static_cast<std::size_t>(y + 1) * stride + static_cast<std::size_t>(x + 1));
     };
+    // Subtract the mean
     Grid3 whole = grid3(p.width, p.height);
     glm::dvec3 sum(0.0);
     for (int y = 0; y < p.height; ++y)
@@ -111,9 +112,11 @@ LightPicture make_light_picture(const Image& image)
         for (int c = 0; c < 3; ++c)
             texel(level, x, y)[c] = float_to_half(difference[c]);
     };
+    // Store level 0 and its border
     for (int y = -1; y <= p.height; ++y)
         for (int x = -1; x <= p.width; ++x)
             put(0, x, y, whole.at(std::clamp(x, 0, p.width - 1), std::clamp(y, 0, p.height - 1)));
+    // Blur the higher levels
     for (int level = 1; level < p.levels; ++level) {
         const int width = static_cast<int>(p.level_width[level]), height = static_cast<int>(p.level_height[level]);
         Grid3 grid = blurred(whole, width, height, level + 1 == p.levels);

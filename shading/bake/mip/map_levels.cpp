@@ -13,7 +13,7 @@ namespace burnish {
 
 namespace {
 
-// Of four floats a texel, which are held: `count` from `first` on.
+// Stored channels of four floats per texel: `count` from `first` on.
 struct HeldChannels {
     std::size_t first, count;
 };
@@ -51,7 +51,7 @@ MapLevels make_map_levels(const Image& image, const Texture& sampler, const MapI
     for (int l = 1; l <= levels_below(image.width, image.height); ++l)
         made.levels.emplace_back(static_cast<std::size_t>(std::max(1, image.width >> l)) *
                                  static_cast<std::size_t>(std::max(1, image.height >> l)) * held.count);
-    // from: floats of a row, texels `apart`
+    // Stores a row as halves. from: floats of the row, texels `apart` floats apart.
     const auto keep = [&](int level, int width, int y, std::size_t apart, const float* from) {
         std::uint16_t* to = made.levels[static_cast<std::size_t>(level) - 1].data() +
                             static_cast<std::size_t>(y) * static_cast<std::size_t>(width) * held.count;

@@ -1,4 +1,4 @@
-// Levels of base colours, metalness and heights, as files of `burnish bake mip` hold them and textures take them.
+// Mip levels for base colours, metalness and heights, in files by `burnish bake mip` and in textures.
 #pragma once
 #include <cstdint>
 
@@ -12,17 +12,18 @@ namespace burnish {
 
 TextureEncoding encoding_of(MapPart part);
 
-// Of a map's texels and of how its sampler goes on at the border; of heights, of the normal map that they are in.
+// Returns the hash of a map's texels and its sampler's border mode. Heights: the normal map that holds them.
 std::uint64_t map_hash(const Image& image, const Texture& sampler, MapPart part);
 
-// As textures have them (make_texture_pyramid()), or, where id.kernel is kaiser or there are weights, as each_colour_row() has.
-// facing: weights by texel, one channel, or null.
+// Makes the levels. Without weights and with a box kernel they equal make_texture_pyramid()'s, else each_colour_row()'s. facing: weight
+// per texel, one channel, or null.
 MapLevels make_map_levels(const Image& image, const Texture& sampler, const MapId& id, const Image* facing, const Jobs& jobs);
 
-// Whether they have the sides, channels and range of what make_map_levels() makes of the image: 0 to 1 unless it holds floats.
+// Returns true if sides, channels and range match the output of make_map_levels() for the image. The range is 0 to 1 unless the image
+// holds floats.
 bool are_of(const MapLevels& levels, const Image& image);
 
-// Level 0 of the image, of which the levels are, the others of `levels`. Heights are in alpha.
+// Returns the pyramid with the image as level 0 and the other levels from `levels`. Heights are in alpha.
 TexturePyramid pyramid_of_map(const Image& image, const Texture& sampler, const MapLevels& levels);
 
 } // namespace burnish

@@ -30,6 +30,7 @@ BN_FN slope_covariance scaled(slope_covariance s, real by)
     return {s.xx * by, s.yy * by, s.xy * by};
 }
 
+// Converts 8-bit codes to planes of numbers.
 void codes(const work::CodeWork& w)
 {
     const std::size_t channels = static_cast<std::size_t>(w.channels), first = static_cast<std::size_t>(w.first);
@@ -63,7 +64,7 @@ void codes(const work::CodeWork& w)
             w.to[k * w.stride + at] = static_cast<float>(w.codes[channels * at + first + k]) / 255.0f;
 }
 
-// Onto the disc's edge where a normal lies flatter than that; up where it has no length.
+// Moves a normal that lies flatter than the disc's edge onto that edge. A normal without length points up.
 void normals(const work::NormalWork& w)
 {
     const real widest = lit(0.999), scale = splat(w.scale), most = splat(3.40282347e38f), one = lit(1.0), zero = lit(0.0);
@@ -81,6 +82,7 @@ void normals(const work::NormalWork& w)
     }
 }
 
+// Writes the lobes' covariances from roughness and anisotropy.
 void covariances(const work::CovarianceWork& w)
 {
     const real factor = splat(w.factor), strength = splat(w.strength);
@@ -105,6 +107,7 @@ struct state {
     real v[kMostStates];
 };
 
+// Returns the state of a point: numbers whose mean is meaningful.
 template <Mean mean> BN_FN state state_of(real3 n, slope_covariance s)
 {
     if constexpr (mean == Mean::baseline) {
@@ -136,7 +139,7 @@ template <Mean mean> struct States {
     }
 };
 
-// Of four texels alike, in a square: the sum of both diagonals has the same bits however the square is mirrored or turned.
+// Merges a square of four texels with equal weights. Sums both diagonals first, so that mirrored and rotated squares give equal bits.
 template <Mean mean> BN_FN state merged(const state& a, const state& b, const state& c, const state& d, real spread)
 {
     constexpr std::size_t means = mean == Mean::leadr ? 2 : 3;
@@ -153,6 +156,7 @@ template <Mean mean> BN_FN state merged(const state& a, const state& b, const st
     return r;
 }
 
+// Merges rows in pairs, or copies a side that is not halved.
 template <Mean mean> struct Merge {
     static void run(const work::MergeWork& w)
     {
@@ -194,6 +198,7 @@ struct lobe_texel {
     lobe_tensor t;
 };
 
+// Returns the normal and lobe of a mean state.
 template <Mean mean> BN_FN lobe_texel texel_of(const real* v)
 {
     real3 n = unit_or_up(vec3_of(v[0], v[1], v[2]));
@@ -208,12 +213,13 @@ template <Mean mean> BN_FN lobe_texel texel_of(const real* v)
     } else if constexpr (mean == Mean::ssgt) {
         const real3 middle = vec3_of(v[0], v[1], v[2]);
         const space_covariance spread = {v[3], v[4], v[5], v[6], v[7], v[8]};
-        n = unit_or_up(sggx_product(middle, spread, n)); // towards its axis: after this the mean slope is of second order
+        n = unit_or_up(sggx_product(middle, spread, n)); // step towards its axis; the remaining mean slope is of second order
         t = tensor_of_covariance(scaled(sggx_lobe(n, middle, spread).spread, lit(0.5)));
     }
     return {n.x, n.y, projected_tensor(t)};
 }
 
+// Writes a row of states as texels. Mean::baseline makes normals unit again for the next level.
 template <Mean mean> struct Texels {
     static void run(const work::TexelWork& w)
     {
@@ -239,6 +245,7 @@ template <Mean mean> struct Texels {
     }
 };
 
+// Calls the instance for the work's mean.
 template <template <Mean> class Run, class Work> void by_mean(const Work& w)
 {
     switch (w.mean) {
@@ -266,7 +273,7 @@ void tensors(const work::TensorWork& w)
     }
 }
 
-// Each number is one round of the hash of 32 bits that hash_bytes() is the larger sister of (Collet, xxhash_spec.md).
+// Hashes a row. Each number takes one round of the 32-bit hash in the family of hash_bytes() (Collet, xxhash_spec.md).
 void hash(const work::HashWork& w)
 {
     const integer first = int_lit(static_cast<int>(0x9e3779b1u)), second = int_lit(static_cast<int>(0x85ebca77u));

@@ -34,7 +34,7 @@ mipnet::TexelRows bands_of(const MipRows& rows)
             }};
 }
 
-// Each level is let go of once it is written.
+// Converts levels. Frees each level once it is written.
 void put_levels(std::vector<mipnet::Texels> levels, MipLevels& to)
 {
     for (std::size_t l = 0; l < levels.size() && l + 1 < kMaxTextureLevels; ++l) {
@@ -60,6 +60,7 @@ void put_net_levels(const MipRows& level0, const mipnet::Weights& net, const Job
     put_levels(mipnet::net_levels(bands_of(level0), net, jobs), to);
 }
 
+// Search from several starts: the net's levels and four filters' levels
 void put_taught_levels(const MipRows& level0_rows, const mipnet::Weights& net, const MipHelp& help, const Jobs& jobs, MipLevels& to)
 {
     const mipnet::TexelRows rows = bands_of(level0_rows);

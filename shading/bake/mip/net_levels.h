@@ -1,4 +1,4 @@
-// Levels by a net (shading/bake/mipnet), and whether it is good enough for a material.
+// Mip levels by a net (shading/bake/mipnet), and a check that the net is good enough for a material.
 #pragma once
 #include "core/jobs/jobs.h"
 #include "shading/bake/mip/filter.h"
@@ -8,14 +8,14 @@
 
 namespace burnish {
 
-// Writes to.levels and to.net; the rest of `to` is filled in. Nothing crosses a border, whatever the wrap: a texel is made of what it
-// covers.
+// Fills to.levels and to.net; the caller has filled the rest. Nothing crosses a border, for any wrap mode: a texel reads only its
+// footprint.
 void put_net_levels(const MipRows& level0, const mipnet::Weights& net, const Jobs& jobs, MipLevels& to);
 
-// The same of filter teacher, which begins with the net's levels and those of means.
+// Fills levels of filter teacher. The search starts from the net's levels and from means.
 void put_taught_levels(const MipRows& level0, const mipnet::Weights& net, const MipHelp& help, const Jobs& jobs, MipLevels& to);
 
-// metal: whether the material reflects as one. kappa: of the closed form beside plain means.
+// Compares the net with closed forms on a material. metal: the material reflects as a metal. kappa: of filter kappa.
 mipnet::Comparison compare_net(const MipSource& source, const mipnet::Weights& net, float kappa, bool metal, const Jobs& jobs);
 
 } // namespace burnish

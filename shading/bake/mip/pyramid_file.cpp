@@ -66,7 +66,7 @@ bool is_gain(float gain, bool any)
     return any ? gain >= kLeastGain && gain <= kMostGain : gain == 1.0f;
 }
 
-// Why a header's sides and levels are none, or empty.
+// Returns the fault in a header's sides and number of levels. Empty if there is none.
 std::string wrong_sides(std::uint32_t width, std::uint32_t height, std::uint32_t levels)
 {
     if (width < 1 || height < 1 || width > kMostSide || height > kMostSide)
@@ -77,7 +77,7 @@ std::string wrong_sides(std::uint32_t width, std::uint32_t height, std::uint32_t
     return "";
 }
 
-// Empty where all is well.
+// Reads a material. Returns the fault, or an empty string.
 std::string read_material(Reader& from, MipLevels& to)
 {
     MipMaterialHeader h;
@@ -114,6 +114,7 @@ std::string read_material(Reader& from, MipLevels& to)
     return "";
 }
 
+// Reads a map. Returns the fault, or an empty string.
 std::string read_map(Reader& from, MapLevels& to)
 {
     MipMapHeader h;
@@ -139,7 +140,7 @@ std::string read_map(Reader& from, MapLevels& to)
     return "";
 }
 
-// Of bytes that come in parts, block by block.
+// Hash of bytes that arrive in parts, block by block.
 class BlockHash {
   public:
     BlockHash() { block_.reserve(kBlock); }
@@ -168,7 +169,7 @@ class BlockHash {
     std::uint64_t hash_ = 0;
 };
 
-// Calls put(data, size) for all that a file holds.
+// Calls put(data, size) for all parts of a file, in order.
 void put_file(const MipParts& parts, const PutBytes& put)
 {
     BlockHash hash;
@@ -192,7 +193,7 @@ void put_file(const MipParts& parts, const PutBytes& put)
         for (const MipLevel& level : m->levels)
             add(level.texels.data(), level.texels.size() * sizeof(MipTexel));
     }
-    for (std::size_t i = 0; well && i < parts.map_count; ++i) { // they take long
+    for (std::size_t i = 0; well && i < parts.map_count; ++i) { // maps take long to make
         const MapLevels m = parts.map(i);
         const MipMapHeader h = {m.id, static_cast<std::uint32_t>(m.width), static_cast<std::uint32_t>(m.height),
                                 static_cast<std::uint32_t>(m.channels), static_cast<std::uint32_t>(m.levels.size())};

@@ -1,27 +1,30 @@
-// Levels of materials as a file, of `burnish bake mip`: normals and lobes, base colours, metalness and heights. Level 0 is not in the file:
-// it is what the material's maps say. Little-endian:
+// File format for mip levels of materials, written by `burnish bake mip`: normals and lobes, base colours, metalness and heights.
+// Level 0 is not in the file: it follows from the material's maps. Little-endian:
 //
-//   bytes     what
+//   bytes     content
 //   8         "bnmip01" and a line feed
 //   4, 4      version, 4; number of materials
 //   4, 4      number of maps; zero
+//
 //   then each material:
-//   16        the filter's name, zeros after it
-//   4         kappa, float; 0 where the filter has none, of mipnet that of its taps
-//   4, 4, 4   width and height of level 0; number of levels that follow, from level 1 on: sides are halved and rounded down, at least 1
+//   16        filter name, padded with zeros
+//   4         kappa, float; 0 if the filter has none; for mipnet the kappa of its taps
+//   4, 4, 4   width and height of level 0; number of levels, from level 1 on: sides are halved and rounded down, at least 1
 //   8         hash of level 0 (MipSource::hash)
-//   8         levels_hash() of the weights of filters mipnet and teacher; else 0
-//   4, 4      what gains are of: 0: they are 1, else 1 + 2 l + m, l the lobe (mipnet::Lobe), m 1 of metals, else 0; zero
-//   4 each    gain of each level, float: what reflectances there are multiplied by (level_gains.h)
-//   20 each   texels, rows from the top, level by level: x and y of the normal in tangent space, a, b, c of the lobe in that normal's frame
-//             (lobe_tensor, shading/surface/tensor.k.h), floats
-//   then each map, once for all materials that have it:
-//   4, 4      what it is: 0 base colours, linear, 1 metallic-roughness as glTF has it, 2 heights; what it is averaged by: 0 box, 1 kaiser
-//   8, 8      hash of level 0 (map_hash()); hash of the normals that weigh its texels (MipSource::hash of the normal map alone), 0: none do
+//   8         levels_hash() of the weights for filters mipnet and teacher; else 0
+//   4, 4      kind of gains, 0: all are 1, else 1 + 2 l + m with lobe l (mipnet::Lobe) and m = 1 for metals, else 0; zero
+//   4 each    gain of each level, float: factor of its reflectances (level_gains.h)
+//   20 each   texels, rows from the top, level by level, floats: x and y of the normal in tangent space; a, b, c of the lobe in that
+//             normal's frame (lobe_tensor, shading/surface/tensor.k.h)
+//
+//   then each map, once for all materials that use it:
+//   4, 4      part: 0 base colours, linear, 1 metallic-roughness as in glTF, 2 heights; kernel: 0 box, 1 kaiser
+//   8, 8      hash of level 0 (map_hash()); hash of the weighting normals (MipSource::hash of the normal map alone), 0: no weights
 //   4, 4      width and height of level 0
-//   4, 4      channels: 1 (gray, heights), 3 or 4 (alpha); number of levels that follow, from level 1 on
+//   4, 4      channels: 1 (gray, heights), 3 or 4 (alpha); number of levels, from level 1 on
 //   2 each    level by level, rows from the top, channels of a texel side by side: halves, finite
-//   8         hash of all before it: hash_bytes() of each MiB, with the hash of what is before it as its seed, 0 at first
+//
+//   8         hash of all bytes before: hash_bytes() of each MiB, seeded with the hash so far, 0 at first
 #pragma once
 #include <cstdint>
 #include <functional>
@@ -34,16 +37,16 @@
 
 namespace burnish {
 
-struct MipParts { // of a file
+struct MipParts { // contents of a file
     std::vector<const MipLevels*> materials;
     std::size_t map_count = 0;
-    std::function<MapLevels(std::size_t)> map; // made where it is written, not before: large ones fill the memory
+    std::function<MapLevels(std::size_t)> map; // makes a map at the moment of its writing, because large maps fill memory
 };
 std::vector<std::uint8_t> mip_file_bytes(const MipParts& parts);
-// As write_file_atomic() does, one map after the other.
+// Writes the file as write_file_atomic() does, one map after the other.
 Status write_mip_file(const std::string& path, const MipParts& parts, Links links = Links::follow);
 
-// What is damaged, of another version, or holds what no filter makes is refused.
+// Parses a file. Refuses damaged files, other versions, and contents that no filter makes.
 Result<MipFile> parse_mip_file(const std::vector<std::uint8_t>& bytes, const std::string& path);
 
 } // namespace burnish

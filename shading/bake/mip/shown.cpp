@@ -29,6 +29,7 @@ void put_unit(Numbers& planes, std::size_t count, std::size_t at, double x, doub
     planes[count + at] = static_cast<float>(y * inverse), planes[2 * count + at] = static_cast<float>(z * inverse);
 }
 
+// Returns the p-th pair for each tile, as directions per texel.
 ShownLight shown_pair(int p, int width, int height, int tiles)
 {
     const std::size_t count = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
@@ -49,7 +50,7 @@ ShownLight shown_pair(int p, int width, int height, int tiles)
     return d;
 }
 
-// A lamp 1.5 away from the middle of the plane [-1, 1]^2, an eye far away near where the lamp is mirrored.
+// Returns a lamp 1.5 from the centre of the plane [-1, 1]^2, and a distant eye near the mirrored direction.
 ShownLight shown_lamp(int which, int side)
 {
     constexpr double kLamps[kShownLamps][3] = {{0.0, 0.0, 1.5}, {0.75, 0.0, 1.3}, {0.3, 0.9, 1.16}};
@@ -195,7 +196,7 @@ std::vector<std::vector<ShownError>> shown_errors(const Texels& level0, const st
     for (std::size_t f = 0; f < filters.size(); ++f)
         for (const Texels& level : filters[f])
             planes[f].push_back(planes_of(level));
-    // Pairs and lamps are all added in one order, whatever the threads.
+    // Add pairs and lamps in one order, whatever the number of threads.
     for (int time = 0; time < pairs.times + pairs.lamps; ++time) {
         const bool pair = time < pairs.times;
         const auto light = [&](int side) {
@@ -203,6 +204,7 @@ std::vector<std::vector<ShownError>> shown_errors(const Texels& level0, const st
                         : shown_lamp(time - pairs.times, side);
         };
         Numbers truth = radiance_of(surface, planes0, light(level0.width));
+        // Average the truth to this level, then compare all filters with it
         for (int l = 1; l <= levels; ++l) {
             const int side = level0.width >> l;
             truth = averaged(truth, 2 * side);
@@ -230,6 +232,7 @@ std::vector<std::vector<ShownError>> shown_errors(const Texels& level0, const st
             });
         }
     }
+    // Divide by the light of the truth
     for (std::vector<ShownError>& of : errors)
         for (std::size_t l = 0; l < of.size(); ++l)
             of[l].light = light_of_truth[l] > 0.0 ? of[l].light / light_of_truth[l] : 1.0;

@@ -33,7 +33,7 @@ float slope(const Image& map, float scale, std::size_t texel, int axis)
     return std::isnan(s) ? 0.0f : std::clamp(s, -mip::kMostSlope, mip::kMostSlope);
 }
 
-// Of a normal map's texel, as shading decodes it; one below the surface lies as far over as slopes may.
+// Returns the slope of a normal map's texel, decoded as in shading. A normal below the surface gets the largest slope.
 float slope_of_normal(const Image& map, float scale, std::size_t texel, int axis)
 {
     const float s = scale * (1.0f - 2.0f * texel_channel(map, texel, static_cast<std::size_t>(axis)));
@@ -41,7 +41,7 @@ float slope_of_normal(const Image& map, float scale, std::size_t texel, int axis
     return std::isfinite(s) && std::isfinite(z) ? std::clamp(s / z, -mip::kMostSlope, mip::kMostSlope) : 0.0f;
 }
 
-// Of its unit normal, along the surface.
+// Returns x or y of the texel's unit normal.
 float part_of_normal(const Image& map, float scale, std::size_t texel, int axis)
 {
     const float x = slope_of_normal(map, scale, texel, 0), y = slope_of_normal(map, scale, texel, 1);
@@ -73,6 +73,7 @@ Image slope_moments(const SlopeMaps& maps, const SlopeFactors& factors, int part
     Image out = make_image(grid.width, grid.height, 4, PixelType::f32);
     float* to = out.f32();
     for (int y = 0; y < grid.height; ++y)
+        // Filter the moments of each grid point, not the slopes
         for (int x = 0; x < grid.width; ++x, to += 4) {
             const auto moment = [&](auto value) { return maps.tilt ? on_grid(*maps.tilt, grid, x, y, value) : 0.0f; };
             const auto of = [&](std::size_t texel, int axis) {

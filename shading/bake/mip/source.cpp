@@ -27,7 +27,7 @@ template <class Code> void put_codes(const Image& map, std::size_t first, std::s
         to[x] = static_cast<float>(from[x * apart]) / most;
 }
 
-// Of a row of the grid, channels from `first` on, `count` of them; others[k] in place of what is not finite of the k-th.
+// Writes channels `first` ... of a grid row, `count` of them. others[k] replaces values of the k-th that are not finite.
 void put_row(const Image& map, const Grid& grid, int y, int first, int count, const float* others, std::size_t stride, float* to)
 {
     const std::size_t texels = static_cast<std::size_t>(grid.width), at = static_cast<std::size_t>(y) * texels;
@@ -87,12 +87,14 @@ template <class Read> void MipSource::put(std::size_t count, const Read& read, f
     const std::size_t stride = mip::row_stride(count);
     const auto plane = [&](std::size_t k) { return to + k * stride; };
     constexpr float kLevel[3] = {0.5f, 0.5f, 1.0f}, kZero[3] = {0.0f, 0.0f, 0.0f}, kWhole = 1.0f;
+    // Normals
     if (maps_.normal) {
         read(*maps_.normal, 0, 3, kLevel, stride, to);
         fns.normals({count, stride, maps_.normal_scale, to});
     } else {
         std::fill_n(plane(0), 2 * stride, 0.0f), std::fill_n(plane(2), stride, 1.0f);
     }
+    // Lobes
     if (maps_.roughness || maps_.direction) {
         std::vector<float> own(7 * stride);
         if (maps_.roughness)
@@ -104,6 +106,7 @@ template <class Read> void MipSource::put(std::size_t count, const Read& read, f
     } else {
         std::fill_n(plane(3), stride, only_.xx), std::fill_n(plane(4), stride, only_.yy), std::fill_n(plane(5), stride, only_.xy);
     }
+    // Pad with zeros
     for (std::size_t k = 0; k < mip::kPointPlanes; ++k)
         std::fill(plane(k) + count, plane(k) + stride, 0.0f);
 }

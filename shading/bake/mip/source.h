@@ -1,4 +1,4 @@
-// What a material's maps say of its normals and lobes, texel by texel, on one grid: level 0 of what mip filters make levels of.
+// Normals and lobes of a material's maps, texel by texel, on one grid: level 0 for mip filters.
 #pragma once
 #include <cstdint>
 #include <vector>
@@ -15,8 +15,8 @@ struct MipPoint {
     slope_covariance s; // of the lobe, in the normal's frame
 };
 
-struct MipMaps {                      // null where there is none; all of one place: the same coordinates see the same point in each
-    const Image* normal = nullptr;    // as glTF has it
+struct MipMaps {                      // null: no such map; all maps have the same layout
+    const Image* normal = nullptr;    // as in glTF
     const Image* roughness = nullptr; // green
     const Image* direction = nullptr; // KHR_materials_anisotropy
     WrapMode wrap_s = WrapMode::repeat, wrap_t = WrapMode::repeat;
@@ -27,8 +27,8 @@ struct MipMaps {                      // null where there is none; all of one pl
 
 Grid grid_of(const MipMaps& maps);
 
-// As wide as the widest map and as high as the highest; smaller ones are interpolated, across the border where they repeat. What is not
-// finite is level, and as smooth as the material's factors without a map: NaN does not spread.
+// Level 0, as wide as the widest map and as high as the highest. Smaller maps are interpolated, across the border if they repeat. A normal
+// that is not finite counts as upright, and roughness as 1 times the material's factor, so NaN does not spread.
 class MipSource {
   public:
     explicit MipSource(const MipMaps& maps);
@@ -36,25 +36,25 @@ class MipSource {
     int height() const { return grid_.height; }
     const MipMaps& maps() const { return maps_; }
     void row(int y, MipPoint* to) const; // width() points
-    // The same as kPointPlanes planes, mip::row_stride(width()) apart, 0 where they are longer: x, y, z of normals, xx, yy, xy.
+    // Writes a row as kPointPlanes planes, mip::row_stride(width()) apart, padded with 0: x, y, z of normals, then xx, yy, xy.
     void planes(int y, float* to) const;
     MipPoint at(int x, int y) const;
-    // The same of any points, planes mip::row_stride(count) apart.
+    // Writes the points (x[i], y[i]) as such planes, mip::row_stride(count) apart.
     void points(std::size_t count, const int* x, const int* y, float* to) const;
     std::uint64_t hash(const Jobs& jobs) const; // of size and every point
-    // The same of the rows' hashes, of a row as planes() writes it.
+    // Returns this hash from row hashes, which hash_of_planes() makes from the planes that planes() writes.
     std::uint64_t hash_of_rows(const std::vector<std::uint64_t>& rows) const;
     std::uint64_t hash_of_planes(const float* planes) const;
 
   private:
-    // read: (map, its channels from the first on, how many, what stands for what is not finite, stride, to)
+    // read: (map, first channel, number of channels, substitutes for values that are not finite, stride, to)
     template <class Read> void put(std::size_t count, const Read& read, float* to) const;
 
     MipMaps maps_;
     Grid grid_;
     Image tensors_[2];
     real2 rotation_;
-    slope_covariance only_; // where nothing but factors makes the lobe
+    slope_covariance only_; // the lobe if only factors define it
 };
 
 } // namespace burnish

@@ -10,7 +10,7 @@
 namespace burnish {
 namespace {
 
-struct Place { // T, B of the shortest turn to n, and the mesh's own projected into n's plane
+struct Place { // T, B of the shortest rotation to n, and the mesh's T, B projected into n's plane
     real3 n, turned_t, turned_b, projected_t, projected_b;
 };
 
@@ -39,7 +39,7 @@ Place place_of(real3 n)
     return p;
 }
 
-// From one pair of axes in n's plane to the other.
+// Converts a direction from one pair of axes in n's plane to another.
 real2 reframed(real2 u, real3 from_t, real3 from_b, real3 to_t, real3 to_b)
 {
     const real3 w = vec3_of(from_t.x * u.x + from_b.x * u.y, from_t.y * u.x + from_b.y * u.y, from_t.z * u.x + from_b.z * u.y);
@@ -74,7 +74,7 @@ void put_texel(mipnet::Texels& to, std::size_t at, real3 n, lobe_tensor t)
         to.channel[c][at] = v[c];
 }
 
-// Calls each(place of the result, texels that are averaged there, how many): each texel alone, or all squares of four.
+// Calls each(place in the result, texels to average, their number): each texel alone, or all squares of four.
 template <class Each> mipnet::Texels sampled(int width, int height, bool between, const Each& each)
 {
     const auto less = [between](int side) { return between && side > 1 ? side - 1 : side; };
@@ -106,13 +106,14 @@ StandardLevels standard_levels(const MipSource& source, const MipLevels& levels,
     StandardLevels made;
     for (auto* maps : {&made.normal, &made.roughness, &made.anisotropy})
         maps->resize(levels.levels.size() + 1);
-    std::vector<real2> coarse; // directions of the level before, as long as their lobes are anisotropic
+    std::vector<real2> coarse; // directions of the coarser level, times the lobes' anisotropy
     int coarse_width = 0, coarse_height = 0;
     for (std::size_t l = levels.levels.size() + 1; l-- > 0;) {
         const int width = l ? levels.levels[l - 1].width : levels.width, height = l ? levels.levels[l - 1].height : levels.height;
         const std::vector<MipTexel> texels = texels_of(source, levels, l);
         Image normal = make_image(width, height, 3, PixelType::f32), roughness = normal, anisotropy = normal;
         std::vector<real2> directions(texels.size());
+        // Split each lobe into widths and axis, and choose the axis' sign
         for (std::size_t i = 0; i < texels.size(); ++i) {
             const MipTexel& t = texels[i];
             const Place p = place_of(upright(t.nx, t.ny));
@@ -121,7 +122,7 @@ StandardLevels standard_levels(const MipSource& source, const MipLevels& levels,
             const float strength = across < 1.0f ? std::sqrt((along - across) / (1.0f - across)) : 0.0f;
             real2 d = strength > 0.0f ? reframed(axes.u, p.turned_t, p.turned_b, p.projected_t, p.projected_b) : vec2_of(1.0f, 0.0f);
             const std::size_t row = static_cast<std::size_t>(width);
-            real2 before = vec2_of(0.0f, 0.0f); // left, above, and, where these two do not say, the coarser level's
+            real2 before = vec2_of(0.0f, 0.0f); // left and above; the coarser level decides if these do not
             if (!coarse.empty()) {
                 const std::size_t u = std::min(i % row / 2, static_cast<std::size_t>(coarse_width - 1));
                 const std::size_t v = std::min(i / row / 2, static_cast<std::size_t>(coarse_height - 1));

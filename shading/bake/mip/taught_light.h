@@ -1,4 +1,4 @@
-// The light that levels by search are searched under: pairs of directions to light and eye, and what texels reflect under them.
+// Training light for the optimiser: direction pairs (to light, to eye), and the texels' reflection under them.
 #pragma once
 #include <vector>
 
@@ -10,17 +10,17 @@ namespace burnish {
 inline constexpr int kTaughtPairs = 256, kTaughtBatch = 32;
 
 struct TaughtLight {
-    std::vector<float> directions, intensity, rows; // as PairLights and GatherWork have them
+    std::vector<float> directions, intensity, rows; // in the layout of PairLights and GatherWork
 };
-TaughtLight taught_light(const ShownSurface& surface); // drawn as those of training are, always the same
+TaughtLight taught_light(const ShownSurface& surface); // drawn from the distribution of training, with a fixed seed
 
-struct TaughtAxis { // what lies below texel i of `target` along an axis of `source` texels
+struct TaughtAxis { // footprint of texel i of `target` along an axis with `source` texels
     std::vector<int> at;
     std::vector<float> weight;
     TaughtAxis(int i, int source, int target);
 };
 
-// Mean radiance of the texels below one, by pair.
+// Writes the mean radiance of a texel's footprint, by pair.
 void gather_light(const mipnet::Texels& texels, const ShownSurface& surface, const TaughtLight& light, const TaughtAxis& across,
                   const TaughtAxis& down, float* to);
 

@@ -14,9 +14,9 @@ namespace {
 using mipnet::kChannels, mipnet::kSlots, mipnet::Texels;
 
 constexpr int kTaughtSteps = 120;
-constexpr std::size_t kKeptTexels = 1u << 14; // of a level whose radiance the next one is averaged from
+constexpr std::size_t kKeptTexels = 1u << 14; // largest level whose radiance is stored for the next level
 
-// Radiance of a level's texels, by texel, then pair; of none where it is too large to be kept.
+// Radiance of a level's texels, by texel, then pair. Empty if the level is too large.
 struct Radiance {
     int width = 0, height = 0;
     std::vector<float> values;
@@ -63,7 +63,8 @@ std::vector<Texels> taught_levels(const Texels& level0, const std::vector<std::v
         jobs.parallel_for(groups, [&](std::size_t group, int) {
             std::vector<float> radiance(kTaughtPairs * kSlots), shown(radiance.size()), one(kTaughtPairs), out(kChannels * kSlots);
             std::vector<float> from(starts.size() * kChannels * kSlots);
-            for (std::size_t slot = 0; slot < kSlots; ++slot) { // the last texel again where there are fewer
+            for (std::size_t slot = 0; slot < kSlots; ++slot) { // repeat the last texel in unused slots
+                // Average the truth under each texel, and collect its starts
                 const std::size_t at = std::min(group * kSlots + slot, count - 1), row = static_cast<std::size_t>(to.width);
                 if (group * kSlots + slot < count)
                     gather_radiance(level0, finer, surface, light, TaughtAxis(static_cast<int>(at % row), width, to.width),
@@ -76,6 +77,7 @@ std::vector<Texels> taught_levels(const Texels& level0, const std::vector<std::v
                     for (std::size_t c = 0; c < kChannels; ++c)
                         from[(s * kChannels + c) * kSlots + slot] = starts[s][l].channel[c][at];
             }
+            // Optimise a group of texels
             pick<mipnet::TeacherFns>().fit({surface.lobe, kTaughtPairs, light.rows.data(), radiance.data(), from.data(),
                                             static_cast<int>(starts.size()), kTaughtSteps, kTaughtBatch, shown.data(), out.data()});
             const std::size_t first = group * kSlots, texels = std::min<std::size_t>(kSlots, count - first);

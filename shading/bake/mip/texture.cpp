@@ -18,8 +18,8 @@ struct Size {
     int w, h;
 };
 
-// Decodes rows of an image to linear RGBA float. Gray is replicated; alpha is 1 where there is none. NaN
-// becomes 0, and what a half cannot hold is saturated, so that no filter spreads an Inf.
+// Decodes rows of an image to linear RGBA float. Replicates gray. Alpha is 1 if there is none. NaN becomes 0, and values outside half's
+// range saturate, so that no filter spreads an Inf.
 class Decoder {
   public:
     Decoder(const Image& image, TextureEncoding encoding) : image_(image)
@@ -72,11 +72,10 @@ class Decoder {
     std::vector<float> color_, linear_; // by code
 };
 
-// One axis of an exact box filter: target texel i covers source texels first[i]..., with weights that sum
-// to 1.
+// One axis of an exact box filter. Target texel i covers source texels first[i]..., with weights that sum to 1.
 struct AxisWeights {
     std::vector<int> first;
-    std::vector<int> begin;    // of texel i, into weight; one more entry than texels
+    std::vector<int> begin;    // by texel: index into weight; one entry more than texels
     std::vector<float> weight; // overlap / footprint
 };
 
@@ -85,7 +84,7 @@ AxisWeights box_weights(int source, int target)
     AxisWeights a;
     const std::int64_t s = source, t = target;
     for (std::int64_t i = 0; i < t; ++i) {
-        // in units of 1/target source texels: the footprint is [i s, (i+1) s), texel k is [k t, (k+1) t)
+        // In units of 1/target source texels, the footprint is [i s, (i+1) s) and texel k is [k t, (k+1) t).
         const std::int64_t k0 = i * s / t, k1 = ((i + 1) * s + t - 1) / t;
         a.first.push_back(static_cast<int>(k0));
         a.begin.push_back(static_cast<int>(a.weight.size()));
@@ -98,8 +97,7 @@ AxisWeights box_weights(int source, int target)
     return a;
 }
 
-// Box filter of source rows (float RGBA) to `to`; rows first, then columns, sums in double and in index
-// order.
+// Applies a box filter to source rows (float RGBA): rows first, then columns. Sums are doubles, in index order.
 template <class Row> std::vector<float> box_filter(Size from, Size to, const Row& source_row)
 {
     const AxisWeights ax = box_weights(from.w, to.w), ay = box_weights(from.h, to.h);
@@ -127,7 +125,7 @@ template <class Row> std::vector<float> box_filter(Size from, Size to, const Row
     return result;
 }
 
-// Halves of the inside of a level, row y.
+// Stores row y of a level's interior as halves.
 void store_row(TexturePyramid& p, TextureEncoding encoding, int level, Size size, int y, const float* rgba)
 {
     const bool residual = encoding == TextureEncoding::residual;
@@ -137,8 +135,8 @@ void store_row(TexturePyramid& p, TextureEncoding encoding, int level, Size size
         out[i] = float_to_half(residual ? rgba[i] - half_to_float(float_to_half(rgba[i])) : rgba[i]);
 }
 
-// The texel that border texel -1 (`high` false) or n (`high` true) repeats. Mirroring reflects at the edge of
-// the edge texel.
+// Returns the texel that border texel -1 (`high` false) or n (`high` true) repeats. Mirroring reflects at the outer edge of the last
+// texel.
 int border_source(WrapMode mode, int n, bool high)
 {
     if (mode == WrapMode::repeat)
@@ -163,6 +161,7 @@ void fill_border(TexturePyramid& p, int level, Size size)
     std::memcpy(texel(-1, size.h), texel(-1, border_source(p.wrap_t, size.h, true)), row_bytes);
 }
 
+// Computes offsets and sizes of all levels, and allocates them.
 void lay_out(TexturePyramid& p)
 {
     const int side = std::max(p.width, p.height);
@@ -200,7 +199,7 @@ Size level_size(const Image& image, int l)
 
 using FloatRow = std::function<const float*(int y)>;
 
-// Rows that a band of level 0 becomes on levels 1 to `levels`; returns those of the last.
+// Filters a band of level 0 to its rows on levels 1 to `levels`. Returns the last level's rows.
 std::vector<float> filter_band(const Image& image, const ImageRow& decode, int levels, int band, const LevelRow& use)
 {
     const int first = band << levels;
@@ -223,12 +222,13 @@ std::vector<float> filter_band(const Image& image, const ImageRow& decode, int l
 
 } // namespace
 
-// A level comes from the smallest earlier level whose texels its footprints are unions of, else from level 0: both are exact.
+// Each level comes from the smallest earlier level whose texels tile its footprints, else from level 0. Both are exact.
 void each_box_row(const Image& image, TextureEncoding encoding, const Jobs& jobs, const LevelRow& use)
 {
     const ImageRow decode = linear_rows(image, encoding);
     const int banded = banded_levels(image.width, image.height);
     std::array<std::vector<float>, kMaxTextureLevels> levels;
+    // Make the first levels in bands of rows
     if (banded > 0) {
         const Size last = level_size(image, banded);
         const std::size_t texels = static_cast<std::size_t>(last.w) * 4;
@@ -239,6 +239,7 @@ void each_box_row(const Image& image, TextureEncoding encoding, const Jobs& jobs
             std::copy(row.begin(), row.end(), whole.begin() + static_cast<std::ptrdiff_t>(band * texels));
         });
     }
+    // Make the other levels one by one
     std::vector<float> row(static_cast<std::size_t>(image.width) * 4);
     for (int l = banded + 1; l <= levels_below(image.width, image.height); ++l) {
         const Size size = level_size(image, l);

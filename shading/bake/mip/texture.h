@@ -1,4 +1,4 @@
-// Material textures as the renderers use them: whole mip pyramids in RGBA half, linear, bordered.
+// Material textures for renderers: full mip pyramids in RGBA half, linear, with borders.
 #pragma once
 #include <cstdint>
 #include <functional>
@@ -16,33 +16,32 @@ inline constexpr int kMaxTextureLevels = 16;
 enum class TextureEncoding : std::uint8_t {
     linear,
     srgb,    // RGB decoded before filtering, alpha linear
-    residual // what rounding to half took from `linear`: the sum of both holds about 22 bits
+    residual // remainder after rounding `linear` to half: the sum of both holds about 22 bits
 };
 
-// Level l is (width_l + 2) x (height_l + 2) texels with a border of one texel filled by the wrap modes, so
-// that the 2x2 footprint of a coordinate wrapped to [-1/2, size + 1/2) is always in memory, and a texel pair
-// is one 16-byte load.
+// A mip pyramid. Level l is (width_l + 2) x (height_l + 2) texels. The wrap modes fill the one-texel border. So the 2x2 footprint of a
+// coordinate wrapped to [-1/2, size + 1/2) is always in memory, and two adjacent texels are one 16-byte load.
 struct TexturePyramid {
     int width = 0, height = 0, levels = 0;
     WrapMode wrap_s = WrapMode::repeat, wrap_t = WrapMode::repeat;
     bool nearest = false;
-    std::int32_t offset[kMaxTextureLevels] = {}; // in texels, of the bordered level
+    std::int32_t offset[kMaxTextureLevels] = {}; // in texels, to the bordered level
     float level_width[kMaxTextureLevels] = {}, level_height[kMaxTextureLevels] = {};
-    Column<std::uint16_t> texels; // 4 halves a texel
+    Column<std::uint16_t> texels; // 4 halves per texel
 };
 
-// Each level is a box filter of level 0 with exact footprints, also for sides that are not powers of two.
+// Makes a pyramid. Each level is level 0, box-filtered with exact footprints, also for sides that are not powers of two.
 TexturePyramid make_texture_pyramid(const Image& image, const Texture& sampler, TextureEncoding encoding);
 
-// The same of levels that are made elsewhere. row: writes the texels of a row of a level, 4 floats each, as they are stored.
+// Makes a pyramid from given levels. row: writes the texels in a row of a level, 4 floats each, as they are stored.
 using TexelRow = std::function<void(int level, int width, int y, float* rgba)>;
 TexturePyramid make_texture_pyramid(int width, int height, const Texture& sampler, TextureEncoding encoding, const TexelRow& row);
 
-// Rows of an image as textures hold them: 4 linear floats a texel, finite. The image must stay.
+// Returns a reader of an image's rows as 4 linear, finite floats per texel. The image must outlive the reader.
 using ImageRow = std::function<void(int y, float* rgba)>;
 ImageRow linear_rows(const Image& image, TextureEncoding encoding);
 
-// The box filter's levels from 1 on, row by row, 4 floats a texel, in no order: several rows at once.
+// Calls `use` for each row of the box filter's levels from 1 on, 4 floats per texel, in any order and for several rows at once.
 using LevelRow = std::function<void(int level, int width, int y, const float* texels)>;
 void each_box_row(const Image& image, TextureEncoding encoding, const Jobs& jobs, const LevelRow& use);
 

@@ -14,8 +14,8 @@ using mipnet::kChannels, mipnet::kSlots, mipnet::Texels;
 
 constexpr int kPairSteps = 60, kTurns = 2, kPairStarts = 5;
 
-// The lobe of a texel as it is; stretched along one axis and narrowed across it, for two axes that cross and two between them; or leaning
-// to a side by its width. `second` is the other one of the pair.
+// Returns the texels' lobes as starts: unchanged; stretched along one axis and narrowed across it, for two crossed axes and two between;
+// or leaning to one side by the lobe's width. second: the pair's other lobe.
 Texels started(const Texels& ones, int start, bool second)
 {
     Texels to = ones;
@@ -35,7 +35,7 @@ Texels started(const Texels& ones, int start, bool second)
     return to;
 }
 
-struct TexelGroup { // kSlots texels of a level, and what they are to reflect
+struct TexelGroup { // kSlots texels in a level, and the radiance that they should reflect
     std::size_t first;
     std::vector<float> wanted; // [pairs][kSlots]
 };
@@ -44,10 +44,11 @@ class PairSearch {
   public:
     PairSearch(const ShownSurface& surface, const TaughtLight& light) : surface_(surface), light_(light) {}
 
-    // The better lobe beside `other`, in place of `moved`, and what both err.
+    // Moves one lobe, with `other` fixed. Writes the pair's error to `loss`.
     void turn(const TexelGroup& group, const Texels& other, Texels& moved, float* loss) const
     {
         std::vector<float> rest(kTaughtPairs * kSlots), one(kTaughtPairs), from(kChannels * kSlots), shown(rest.size()), out(from.size());
+        // Gather the other lobe's light
         const TaughtAxis only(0, 1, 1);
         for (std::size_t slot = 0; slot < kSlots; ++slot) {
             Texels texel = mipnet::make_texels(1, 1);
@@ -58,6 +59,7 @@ class PairSearch {
             for (std::size_t p = 0; p < kTaughtPairs; ++p)
                 rest[p * kSlots + slot] = 0.5f * one[p];
         }
+        // Fit the moving lobe to the remainder
         pick<mipnet::TeacherFns>().fit({surface_.lobe, kTaughtPairs, light_.rows.data(), group.wanted.data(), from.data(), 1, kPairSteps,
                                         kTaughtBatch, shown.data(), out.data(), rest.data(), 0.5f, loss});
         for (std::size_t slot = 0; slot < kSlots && group.first + slot < moved.count(); ++slot)
@@ -86,6 +88,7 @@ LobePairs taught_pairs(const Texels& level0, const std::vector<Texels>& ones, co
         const std::size_t row = static_cast<std::size_t>(one.width);
         jobs.parallel_for((one.count() + kSlots - 1) / kSlots, [&](std::size_t g, int) {
             TexelGroup group = {g * kSlots, std::vector<float>(kTaughtPairs * kSlots)};
+            // Average the truth under each texel
             std::vector<float> wanted(kTaughtPairs);
             for (std::size_t slot = 0; slot < kSlots; ++slot) {
                 const std::size_t at = std::min(group.first + slot, one.count() - 1);
@@ -94,6 +97,7 @@ LobePairs taught_pairs(const Texels& level0, const std::vector<Texels>& ones, co
                 for (std::size_t p = 0; p < kTaughtPairs; ++p)
                     group.wanted[p * kSlots + slot] = wanted[p];
             }
+            // Try all starts, and keep the best pair per texel
             float least[kSlots], loss[kSlots];
             for (std::size_t start = 0; start < kPairStarts; ++start) {
                 for (int turn = 0; turn < kTurns; ++turn) {

@@ -1,5 +1,5 @@
-// Two lobes a texel, where one is too few: grain that crosses below a texel makes a cross of highlights, which no ellipse is. Frames draw
-// one lobe; what two would be worth is measured with these.
+// Levels with two lobes per texel. Crossing grain below a texel makes crossed highlights, which one ellipse cannot show. Frames draw one
+// lobe; these pairs measure the gain from two.
 #pragma once
 #include <vector>
 
@@ -8,12 +8,13 @@
 
 namespace burnish {
 
-struct LobePairs { // levels from 1 on, each lobe of half the light
+struct LobePairs { // levels from 1 on, each lobe with half the light
     std::vector<mipnet::Texels> first, second;
 };
 
-// By search, as taught_levels(): from several pairs about the lobes `ones`, levels 1, 2, ... of one lobe a texel, each of the two is moved
-// by turns beside what the other reflects. No texel ends worse than its one lobe is, by these directions.
+// Optimises pairs of lobes as taught_levels() does. Starts from several pairs about `ones`, the levels 1, 2, ... with one lobe per texel.
+// The two lobes move by turns, each against the remainder that the other leaves. No texel ends worse than with one lobe, by these
+// directions.
 LobePairs taught_pairs(const mipnet::Texels& level0, const std::vector<mipnet::Texels>& ones, const ShownSurface& surface,
                        const Jobs& jobs);
 

@@ -1,5 +1,5 @@
-// Numbers that know their derivatives, over lanes: `dual` carries five of them forward, `var` is a place on a tape that is read backward.
-// Texts that are templates over them, or over `real` itself, are written once for values and for gradients.
+// Numbers with derivatives, over lanes. A `dual` carries five derivatives forward; a `var` is a place on a tape that is read backward.
+// Templates over these types, or over `real` itself, serve for values and gradients.
 #pragma once
 #include "shading/kernels/math_special.k.h"
 
@@ -82,7 +82,7 @@ BN_FN dual constant(real v)
     const real zero = lit(0.0);
     return {v, zero, zero, zero, zero, zero};
 }
-// The number v that changes by da as a does, and by db as b does.
+// Returns the number v with derivative da by a, and db by b.
 BN_FN dual chain(real v, const dual& a, real da)
 {
     return {v, a.d0 * da, a.d1 * da, a.d2 * da, a.d3 * da, a.d4 * da};
@@ -92,12 +92,12 @@ BN_FN dual chain(real v, const dual& a, real da, const dual& b, real db)
     return {v, a.d0 * da + b.d0 * db, a.d1 * da + b.d1 * db, a.d2 * da + b.d2 * db, a.d3 * da + b.d3 * db, a.d4 * da + b.d4 * db};
 }
 
-// A tape: every number made, with the two that it was made of and how it changes with them. Number 0 is nobody's.
+// A tape: all numbers so far, each with its two operands and derivatives by these. Number 0 is unused.
 struct tape_node {
     real d0, d1;
     int from0, from1;
 };
-inline constexpr int kTapeLength = 6144; // numbers of one texel's gradient; about 1500 are used, of sixty-four texels more 3500
+inline constexpr int kTapeLength = 6144; // numbers in one texel's gradient: about 1500, with sixty-four texels 3500 more
 struct tape {
     tape_node* nodes;
     real *values, *adjoints;
@@ -146,6 +146,7 @@ BN_FN var chain(real v, const var& a, real da, const var& b, real db)
 {
     return {a.on, tape_push(a.on, v, a.at, da, b.at, db)};
 }
+// Propagates adjoints backward over the tape.
 static __attribute__((noinline, unused)) void tape_reverse(tape& t)
 {
     for (int i = t.count - 1; i > 0; --i) {
@@ -207,7 +208,7 @@ static __attribute__((noinline, unused)) void tape_reverse(tape& t)
         const real inverse = lit(1.0) / value(b), ratio = a * inverse;                                                                     \
         return chain(ratio, b, -(ratio * inverse));                                                                                        \
     }                                                                                                                                      \
-    BN_FN D sqrt(const D& a) /* of what is above 0 */                                                                                      \
+    BN_FN D sqrt(const D& a) /* a > 0 */                                                                                                   \
     {                                                                                                                                      \
         const real root = sqrt(value(a));                                                                                                  \
         return chain(root, a, lit(0.5) / root);                                                                                            \

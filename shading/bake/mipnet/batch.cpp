@@ -19,7 +19,7 @@ Direction3 around_z(double z, double turn)
     return {r * det_cos(turn), r * det_sin(turn), z};
 }
 
-Direction3 cosine_weighted(Random& random) // but for what grazes
+Direction3 cosine_weighted(Random& random) // except grazing directions
 {
     const double z = std::sqrt(random.between(0.01, 1.0));
     return around_z(z, random.between(0.0, 2.0 * kPi));
@@ -67,6 +67,7 @@ Batch make_batch(const TrainingSet& set, std::uint64_t seed, int pairs, double m
     batch.tiles.resize(3 * kSlots);
     batch.pairs.resize(static_cast<std::size_t>(pairs) * 6 * kSlots);
     for (int tile = 0; tile < kTiles; ++tile) {
+        // Cut a random tile from a random material, and mirror it
         const Material& m = set.materials[static_cast<std::size_t>(random.below(static_cast<int>(set.materials.size())))];
         const int side = m.texels.width, x0 = random.below(side), y0 = random.below(side), symmetry = random.below(8);
         Texels cut = make_texels(kTileSide, kTileSide);
@@ -83,6 +84,7 @@ Batch make_batch(const TrainingSet& set, std::uint64_t seed, int pairs, double m
                 for (std::size_t c = 0; c < kChannels; ++c)
                     batch.texels[c * kTexelsOfShard + place_in_shard(x, y, tile)] =
                         cut.channel[c][static_cast<std::size_t>(y * kTileSide + x)];
+        // Draw reflectances, intensity and directions
         const double base = m.metal ? random.between(0.4, 1.0) : random.between(0.05, 0.9);
         const std::size_t t = static_cast<std::size_t>(tile);
         batch.tiles[t] = static_cast<float>(m.metal ? base : 0.04);

@@ -1,4 +1,4 @@
-// What one step of training looks at: tiles of materials, mirrored at random, and pairs of directions to light and eye.
+// Input for a training step: material tiles, mirrored at random, and direction pairs (to light, to eye).
 #pragma once
 #include <cstdint>
 #include <vector>
@@ -9,20 +9,20 @@ namespace burnish::mipnet {
 
 class Random;
 
-struct Batch { // a shard, as StepWork wants it
+struct Batch { // a shard, in the layout of StepWork
     std::vector<float> texels, tiles, pairs;
 };
 
-// Where texel (x, y) of tile `tile` lies in a plane of level 0.
+// Returns texel (x, y)'s index in a plane of level 0, for tile `tile`.
 std::size_t place_in_shard(int x, int y, int tile);
 
 inline constexpr double kUsualMirrored = 0.6;
 
-// Unit directions to a light and to an eye, six numbers so far apart. The share `mirrored` of them mirror directions of normals near +z, of
-// lobes cos^10 and cos^80, half each, where highlights are; the others are from anywhere.
+// Draws unit directions to a light and to an eye: six numbers, `apart` floats apart. The share `mirrored` of lights mirrors the eye at
+// normals near +z, drawn from lobes cos^10 and cos^80, half each, where highlights are. Other lights are uniform.
 void put_pair(Random& random, float* pair, std::size_t apart, double mirrored = kUsualMirrored);
 
-// Nothing but the numbers given decides what is in it. pairs: directions a tile.
+// Makes a batch. The result depends on the arguments alone. pairs: direction pairs per tile.
 Batch make_batch(const TrainingSet& set, std::uint64_t seed, int pairs, double mirrored = kUsualMirrored);
 
 } // namespace burnish::mipnet

@@ -1,31 +1,31 @@
-// One texel of a level from those below it: the closed form that a net starts at, what the net sees, and what its outputs do.
+// Computes one texel of a level from finer texels: the closed form that a net starts from, the net's input, and the use of its output.
 //
-// Layout `cov`. The closed form gathers widths and normals of four texels in the frame of their mean normal: M^2 = mean of the texels'
-// M^2, projected there, + kappa times the covariance of their normals, kappa = k0 + k1 v / (v + m) with v and m the traces of both. The net
-// sees normals and widths against that in units of its width s, so that nothing depends on how wide a lobe is but one input, log s; its
+// Layout `cov`. The closed form combines widths and normals of four texels in the frame of their mean normal: M^2 = mean of the texels'
+// projected M^2 + kappa times the covariance of their normals. Here kappa = k0 + k1 v / (v + m), where v and m are the two traces. The net
+// sees normals and widths relative to the closed form, in units of its width s. So only one input, log s, depends on the lobe's width. The
 // five outputs o, times .25 g, shift the normal by s (o0 T + o1 B) and turn M into (I + O) M (I + O), O = [[o2, o4], [o4, o3]].
-// g = u / (u + .01), u the mean square of what is seen of texels: where they agree, the closed form stays.
-// Layout `paper`: inputs are channels as they are, outputs are added to their mean.
+// g = u / (u + .01), where u is the mean square of the texels' inputs. Where texels agree, the closed form stays.
+// Layout `paper`: inputs are the raw channels, and outputs are added to their mean.
 #pragma once
 #include "shading/bake/mipnet/tensor.h"
 
 BN_KERNELS_BEGIN
 namespace mipnet_lanes {
 
-inline constexpr int kFeaturesOfFour = 26, kFeaturesOfAll = kFeaturesOfFour + 16 * 5 + 5; // of layout cov
-inline constexpr int kRawOfFour = 20, kRawOfAll = kRawOfFour + 16 * 5 + 5;                // of layout paper
-inline constexpr int kMostFeatures = kFeaturesOfAll + 64 * 5; // of nets that see sixty-four texels, after the others
+inline constexpr int kFeaturesOfFour = 26, kFeaturesOfAll = kFeaturesOfFour + 16 * 5 + 5; // for layout cov
+inline constexpr int kRawOfFour = 20, kRawOfAll = kRawOfFour + 16 * 5 + 5;                // for layout paper
+inline constexpr int kMostFeatures = kFeaturesOfAll + 64 * 5; // for nets that see sixty-four texels, after the others
 
 template <class V> struct seen_texels {
-    texel<V> four[4], sixteen[16], first; // `first`: what net `a` makes of the four
+    texel<V> four[4], sixteen[16], first; // `first`: net `a`'s result for the four
     texel<V> sixtyfour[64];
-    bool all, far; // sixteen and first are there; sixty-four, too
+    bool all, far; // sixteen and first are valid; so are sixty-four
     V kappa0, kappa1;
 };
 
-template <class V> struct closed_form { // and of layout paper, the mean
+template <class V> struct closed_form { // in layout paper, the mean
     frame<V> f;
-    V xx, xy, yy;                   // M in it
+    V xx, xy, yy;                   // M in the frame f
     V scale, inverse_scale, spread; // s; spread: v / s^2
     V gate;
     texel<V> mean;
@@ -48,7 +48,7 @@ template <class V> BN_FN V bitangent_part(const frame<V>& f, const frame<V>& n)
     return f.m * n.nx + f.by * n.ny - f.ny * n.nz;
 }
 
-// M^2 of a texel in frame g as seen in frame f.
+// Transforms a texel's M^2 from frame g to frame f.
 template <class V> BN_FN symmetric<V> carried(const frame<V>& f, const frame<V>& g, const symmetric<V>& s)
 {
     const V tt = f.tx * g.tx + f.m * g.m + f.nx * g.nx, tb = f.tx * g.m + f.m * g.by + f.nx * g.ny;
@@ -64,9 +64,11 @@ template <class V> BN_FN closed_form<V> closed_form_of(const seen_texels<V>& x)
         f[j] = frame_of(x.four[j].nx, x.four[j].ny);
     const V sx = f[0].nx + f[1].nx + f[2].nx + f[3].nx, sy = f[0].ny + f[1].ny + f[2].ny + f[3].ny,
             sz = f[0].nz + f[1].nz + f[2].nz + f[3].nz;
+    // Find the mean normal's frame
     const V over = lit(1.0) / sqrt(sx * sx + sy * sy + sz * sz);
     closed_form<V> r = {};
     r.f = frame_of(sx * over, sy * over);
+    // Sum squared widths and the normals' covariance in it
     symmetric<V> m = {}, v = {};
     for (int j = 0; j < 4; ++j) {
         const symmetric<V> p = carried(r.f, f[j], squared_widths(x.four[j]));
@@ -79,7 +81,7 @@ template <class V> BN_FN closed_form<V> closed_form_of(const seen_texels<V>& x)
     const V trace_m = m.xx + m.yy, trace_v = v.xx + v.yy;
     const V kappa = x.kappa0 + x.kappa1 * (trace_v / (trace_v + trace_m));
     const V p = (m.xx + kappa * v.xx) * lit(0.25), q = (m.yy + kappa * v.yy) * lit(0.25), s = (m.xy + kappa * v.xy) * lit(0.25);
-    // The root of a symmetric positive matrix without its eigenvectors: (S + d I) / sqrt(trace S + 2 d), d = sqrt(det S).
+    // Take the root of a symmetric positive matrix without eigenvectors: (S + d I) / sqrt(trace S + 2 d), d = sqrt(det S).
     const V d = sqrt(max(p * q - s * s, lit(1e-12)));
     const V root = lit(1.0) / sqrt(p + q + d * lit(2.0));
     r.xx = root * (p + d), r.xy = root * s, r.yy = root * (q + d);
@@ -90,7 +92,7 @@ template <class V> BN_FN closed_form<V> closed_form_of(const seen_texels<V>& x)
     return r;
 }
 
-// Five features of a texel against the closed form; its normal's frame is not needed, only the normal.
+// Writes five features of a texel relative to the closed form. They need the normal, not its frame.
 template <class V> BN_FN void against(const closed_form<V>& c, const texel<V>& x, V* to)
 {
     const V nz = sqrt(max(lit(1.0) - (x.nx * x.nx + x.ny * x.ny), lit(1e-3)));
@@ -105,7 +107,7 @@ template <class V> BN_FN void channels_of(const texel<V>& x, V* to)
     to[0] = x.nx, to[1] = x.ny, to[2] = x.a, to[3] = x.b, to[4] = x.c;
 }
 
-// Features of a texel of the level, in the order four, what is of all, sixteen, first; returns what outputs are added to.
+// Writes a texel's features, in the order four, features of all, sixteen, first. Returns the closed form that outputs modify.
 template <class V> BN_FN closed_form<V> look_cov(const seen_texels<V>& x, V* to)
 {
     closed_form<V> c = closed_form_of(x);
@@ -153,7 +155,7 @@ template <class V> BN_FN closed_form<V> look_paper(const seen_texels<V>& x, V* t
     return c;
 }
 
-// What a net's outputs make of the closed form.
+// Applies a net's outputs to the closed form.
 template <class V, class W> BN_FN auto settle_cov(const closed_form<V>& c, const W* o)
 {
     const V strength = c.gate * lit(0.25), shift = strength * c.scale;

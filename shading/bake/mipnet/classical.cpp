@@ -20,7 +20,7 @@ State state_at(const Texels& t, std::size_t i)
             static_cast<double>(t.channel[3][i]), static_cast<double>(t.channel[4][i])};
 }
 
-struct Axes { // T, B, n: see frame_of() of tensor.h
+struct Axes { // T, B, n: see frame_of() in tensor.h
     double t[3], b[3], n[3];
 };
 Axes axes_of(double nx, double ny)
@@ -38,7 +38,7 @@ Symmetric2 squared(const State& s) // M^2
     return {s.b * s.b + s.c * s.c, -(s.a + s.b) * s.c, s.a * s.a + s.c * s.c};
 }
 
-// The texel of a normal and of M^2 in its frame.
+// Returns the texel with this normal and M^2 in its frame.
 State state_of(double nx, double ny, const Symmetric2& m2)
 {
     const double d = std::sqrt(std::max(m2.xx * m2.yy - m2.xy * m2.xy, 0.0));
@@ -46,7 +46,7 @@ State state_of(double nx, double ny, const Symmetric2& m2)
     return {nx, ny, root * (m2.yy + d), root * (m2.xx + d), -root * m2.xy};
 }
 
-// J S J^T of J = [[j0, j1], [j2, j3]]
+// Returns J S J^T with J = [[j0, j1], [j2, j3]].
 Symmetric2 carried(const double j[4], const Symmetric2& s)
 {
     const double t0 = j[0] * s.xx + j[1] * s.xy, t1 = j[0] * s.xy + j[1] * s.yy, b0 = j[2] * s.xx + j[3] * s.xy,
@@ -54,12 +54,12 @@ Symmetric2 carried(const double j[4], const Symmetric2& s)
     return {t0 * j[0] + t1 * j[1], t0 * j[2] + t1 * j[3], b0 * j[2] + b1 * j[3]};
 }
 
-struct Part { // of what lies below a texel
+struct Part { // a texel in a footprint
     std::size_t at;
-    double weight; // all of them: 1
+    double weight; // weights sum to 1
 };
 
-// Texels of `from` below texel `at` of `to` along an axis, with their shares.
+// Returns the `from` texels under `to`'s texel `at` along an axis, with their shares.
 std::vector<Part> parts_of(int from, int to, int at)
 {
     const double scale = static_cast<double>(from) / to, begin = at * scale, end = begin + scale;
@@ -75,6 +75,7 @@ std::vector<Part> parts_of(int from, int to, int at)
 
 State mean_of(const Texels& from, const std::vector<Part>& parts, Method method, double kappa)
 {
+    // Average normals and widths
     double n[3] = {}, sum[3] = {};
     for (const Part& p : parts) {
         const State s = state_at(from, p.at);
@@ -86,6 +87,7 @@ State mean_of(const Texels& from, const std::vector<Part>& parts, Method method,
     const double length = std::sqrt(dot3(n, n)), nx = n[0] / length, ny = n[1] / length;
     if (method == Method::baseline)
         return {nx, ny, sum[0], sum[1], sum[2]};
+    // Average squared widths in the mean frame, with the covariance of normals
     const Axes mean = axes_of(nx, ny);
     Symmetric2 m2;
     for (const Part& p : parts) {

@@ -1,4 +1,4 @@
-// Dense layers over blocks of texels: rows of kRow numbers, of which the first kBlock are a block's texels.
+// Dense layers over texel blocks: rows of kRow numbers, whose first kBlock belong to a block's texels.
 #pragma once
 #include "shading/bake/mipnet/autodiff.h"
 #include "shading/bake/mipnet/mipnet_fns.h"
@@ -6,13 +6,13 @@
 BN_KERNELS_BEGIN
 namespace mipnet_lanes {
 
-inline constexpr std::size_t kBlock = 64, kRow = 80; // 16 more, so that rows do not meet in a cache's sets
+inline constexpr std::size_t kBlock = 64, kRow = 80; // 16 more, so that rows do not collide in a cache's sets
 
 BN_FN std::size_t blocks_of(std::size_t texels)
 {
     return (texels + kBlock - 1) / kBlock;
 }
-BN_FN std::size_t in_block(std::size_t texels, std::size_t block) // how many texels it has
+BN_FN std::size_t in_block(std::size_t texels, std::size_t block) // number of texels in a block
 {
     const std::size_t left = texels - block * kBlock;
     return left < kBlock ? left : kBlock;
@@ -20,7 +20,7 @@ BN_FN std::size_t in_block(std::size_t texels, std::size_t block) // how many te
 
 enum class After { nothing, leak };
 
-// kOut rows of y = W x + bias for kVectors vectors of texels.
+// Computes kOut rows of y = W x + bias for kVectors texel vectors.
 template <int kOut, int kVectors, After after>
 BN_FN void dense_rows(const number* w, const number* bias, const number* x, int in, number* y)
 {
@@ -57,7 +57,7 @@ BN_FN void dense_columns(const number* w, const number* bias, const number* x, i
         dense_rows<1, kVectors, after>(w + o * in, bias ? bias + o : nullptr, x, in, y + static_cast<std::size_t>(o) * kRow);
 }
 
-// A layer over the first `texels` of a block. w: [out][in]; bias: null for none.
+// Applies a layer to the first `texels` of a block. w: [out][in]; bias: null for none.
 template <After after>
 static __attribute__((noinline, unused)) void dense(const number* w, const number* bias, const number* x, int in, int out,
                                                     std::size_t texels, number* y)
@@ -70,7 +70,7 @@ static __attribute__((noinline, unused)) void dense(const number* w, const numbe
         dense_columns<1, after>(w, bias, x + i, in, out, y + i);
 }
 
-// gradient[o][f][slot] += sum over texels of dy[o] x[f], by slots: texel i is part of slot i mod kSlots. Blocks lie `x_block` and
+// Adds to gradient[o][f][slot] the sum over texels of dy[o] x[f], by slots: texel i belongs to slot i mod kSlots. Blocks lie `x_block` and
 // `dy_block` numbers apart.
 template <int kOut, int kIn>
 BN_FN void weight_gradient(const number* dy, std::size_t dy_block, const number* x, std::size_t x_block, std::size_t texels, int in,

@@ -19,7 +19,7 @@ struct Filter {
     std::vector<Texels> levels;
 };
 
-// As frames and files have it: level 0, then the filter's.
+// Returns the pyramid of a filter as in frames and files: level 0, then the filter's levels.
 std::vector<Texels> filtered_pyramid(const Texels& level0, MipFilter filter, const Jobs& jobs)
 {
     std::vector<Texels> levels = {level0};
@@ -54,7 +54,7 @@ std::vector<Filter> filters_of(const Texels& level0, Lobe lobe, bool metal, cons
     return filters;
 }
 
-// Levels 1 to 5 of pyramids whose first level is level 0.
+// Returns levels 1 to 5 of pyramids that start with level 0.
 std::vector<std::vector<Texels>> judged_levels(const std::vector<std::vector<Texels>>& pyramids)
 {
     std::vector<std::vector<Texels>> judged;

@@ -1,4 +1,4 @@
-// How far mipmaps are from the truth: level 0 lit at one to one, its linear radiance averaged.
+// Error of mipmaps against the truth: level 0 lit at full resolution, its linear radiance averaged.
 #pragma once
 #include <string>
 #include <vector>
@@ -10,10 +10,10 @@
 
 namespace burnish::mipnet {
 
-inline constexpr int kJudgedLevels = 5; // levels 1 to 5, FLIP of those of 16 texels a side or more
+inline constexpr int kJudgedLevels = 5; // levels 1 to 5, with FLIP for at least 16 texels a side
 
-// Of pyramids of one level 0, which is square, its side a multiple of 32: mean L1 of levels 1 to 5 under 24 pairs a tile of 32 x 32, others
-// than judge() has, so that what is chosen by them can be judged. metal: see compare_on().
+// Returns the mean L1 over levels 1 to 5, under 24 pairs for each 32 x 32 texel tile. The pairs differ from judge()'s, so that judge() can
+// test a choice made by these errors. pyramids: of one square level 0, whose side is a multiple of 32. metal: see compare_on().
 std::vector<double> mean_l1(const std::vector<std::vector<Texels>>& pyramids, Lobe lobe, bool metal, const Jobs& jobs);
 
 struct Judged {
@@ -21,8 +21,8 @@ struct Judged {
     ShownError level[kJudgedLevels + 1]; // 0: the mean over levels
 };
 
-// Filters of one lobe: baseline, kappa .25, .5 and 1, ssgt or leadr, and the cascades given, "mipnet" and a number where there are several;
-// beside each its "auto", which leaves materials to closed forms (fallback.h).
+// Judges the filters of one lobe: baseline, kappa .25, .5 and 1, ssgt or leadr, and the given cascades, called "mipnet", with a number if
+// there are several. Each cascade comes with its "auto", which leaves some materials to closed forms (fallback.h).
 std::vector<Judged> judge(const std::vector<TestMaterial>& set, Lobe lobe, const std::vector<Weights>& cascades, const Jobs& jobs);
 
 struct Summary {
@@ -33,6 +33,6 @@ struct Summary {
     double worst_l1 = 0.0;       // largest ratio to baseline's L1
     double first_level_l1 = 0.0; // level 1 alone
 };
-std::vector<Summary> summaries(const std::vector<Judged>& rows); // by set, then filter, as they come
+std::vector<Summary> summaries(const std::vector<Judged>& rows); // by set, then filter, in input order
 
 } // namespace burnish::mipnet

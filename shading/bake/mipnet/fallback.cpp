@@ -9,8 +9,8 @@ namespace burnish::mipnet {
 Texels sample_of(int width, int height, const std::function<void(int x, int y, float* texel)>& texel)
 {
     constexpr int kTilesAcross = kSampleSide / kTileSide;
-    // The first texel of a tile in the i-th part of a side; a multiple of 32 where there are several, so that footprints are the
-    // material's.
+    // Returns the first texel of a tile in the i-th part along a side. With several tiles it is a multiple of 32, so that footprints agree
+    // with the material's.
     const auto begin = [](int i, int side, Random& random) {
         const int tiles = side / kTileSide, low = i * tiles / kTilesAcross, high = (i + 1) * tiles / kTilesAcross;
         return tiles == 0 ? 0 : kTileSide * (low + (high > low ? random.below(high - low) : 0));

@@ -11,7 +11,7 @@
 namespace burnish::mipnet {
 namespace {
 
-// A relief being made: heights of a torus of side x side texels, in texels.
+// An unfinished relief: heights on a torus of side x side texels, in texels.
 struct Relief {
     int side;
     Random& random;
@@ -44,7 +44,7 @@ int wrapped(int i, int period)
     return (i % period + period) % period;
 }
 
-// Smooth noise in [0,1] whose lattice has px x py nodes around the torus.
+// Returns smooth noise in [0,1] on a lattice with px x py nodes around the torus.
 double noise(std::uint64_t salt, double x, double y, int px, int py)
 {
     const double fx = std::floor(x), fy = std::floor(y), u = x - fx, v = y - fy;
@@ -62,7 +62,7 @@ double noise_of_cells(std::uint64_t salt, int side, double x, double y, double c
     return noise(salt, x * px / side, y * py / side, px, py);
 }
 
-// Distances to the nearest and second nearest of points scattered one a cell, in cells; which: of the nearest.
+// Distances to the nearest and second nearest point, with points scattered one per cell, in cells. which: the nearest one's index.
 struct Nearest {
     double first = 9.0, second = 9.0, dx = 0.0, dy = 0.0;
     std::uint64_t which = 0;
@@ -87,15 +87,15 @@ Nearest nearest_point(std::uint64_t salt, int side, double x, double y, double c
     return near;
 }
 
-double wave(double x) // of period 1
+double wave(double x) // with period 1
 {
     return det_sin(2.0 * kPi * (x - std::floor(x)));
 }
-double triangle(double x) // of period 1, 0 to 1
+double triangle(double x) // with period 1, 0 to 1
 {
     return std::fabs(2.0 * (x - std::floor(x)) - 1.0);
 }
-int count_of(Random& random, int side, double least, double most) // around the torus, of things so many texels wide
+int count_of(Random& random, int side, double least, double most) // number of features around the torus, each least to most texels wide
 {
     return std::max(1, static_cast<int>(side / random.between(least, most) + 0.5));
 }
@@ -258,7 +258,7 @@ constexpr FamilyRow kFamilyRows[] = {
     {{"zigzag", true}, zigzag},
 };
 
-// Normals of a relief whose slopes have the root mean square `rms`.
+// Writes normals of a relief, scaled to slopes with root mean square `rms`.
 void put_normals(Relief& r, double rms, Texels& to)
 {
     std::vector<double> sx(to.count()), sy(to.count());
@@ -276,6 +276,7 @@ void put_normals(Relief& r, double rms, Texels& to)
     }
 }
 
+// Writes widths: random roughness, variation and grain.
 void put_widths(int side, Random& random, Texels& to)
 {
     const double roughness = random.between(0.12, 0.75), alpha = roughness * roughness,
@@ -399,8 +400,8 @@ std::vector<TestMaterial> make_crossed_set()
     constexpr int kSide = 128;
     struct Crossed {
         const char* name;
-        double narrow, wide, lean; // widths across and along grain; sines of normals that lean across it
-        int cell;                  // texels of one direction, along a side; 1: by chance
+        double narrow, wide, lean; // widths across and along the grain; largest sine of normals that lean across it
+        int cell;                  // texels with one direction, along a side; 1: random per texel
     };
     std::vector<TestMaterial> set;
     for (const Crossed& c : {Crossed{"crossed grain", 0.06, 0.5, 0.0, 1}, Crossed{"crossed weave", 0.06, 0.4, 0.0, 2},

@@ -1,4 +1,4 @@
-// Materials made in code, to train nets on and to judge them by: reliefs of a family, each tiling, with widths that may vary and turn.
+// Procedural materials to train and judge nets: reliefs of several families, all tiling, with widths that may vary and turn.
 #pragma once
 #include <string>
 #include <vector>
@@ -22,14 +22,14 @@ struct Material {
 };
 Material make_material(const Family& family, std::uint64_t seed, int side); // side: a multiple of 64
 
-// Seeds of the training set begin at 0, those of other sets where none of it can be.
+// First seeds of other sets. Seeds of the training set start at 0 and cannot reach these.
 inline constexpr std::uint64_t kValidationSeeds = 1u << 20, kTestSeeds = 1u << 21;
 
 struct TrainingSet {
     std::vector<Material> materials;
-    std::uint64_t hash = 0; // of all of it
+    std::uint64_t hash = 0; // of all materials
 };
-inline constexpr int kTrainedSide = 128; // texels, of materials that shipped nets are trained on
+inline constexpr int kTrainedSide = 128; // texels, for materials that train shipped nets
 TrainingSet make_training_set(int seeds, int side, const Jobs& jobs);
 void add_material(TrainingSet& set, const Material& material);
 
@@ -38,10 +38,9 @@ struct TestMaterial {
     std::string set; // "held-out", "new seeds", "trained"
 };
 std::vector<TestMaterial> make_test_set(const Jobs& jobs);
-// Metals whose grain crosses below a texel, which one lobe cannot show: set "crossed".
+// Returns metals with crossing grain below a texel, which one lobe cannot show: set "crossed".
 std::vector<TestMaterial> make_crossed_set();
-std::vector<TestMaterial> make_trained_set(const Jobs& jobs); // two of every trained family that nets are trained on
-std::vector<TestMaterial>
-make_validation_set(const Jobs& jobs); // what may be looked at while anything is chosen: trained families, other seeds
+std::vector<TestMaterial> make_trained_set(const Jobs& jobs);    // two of every family that nets are trained on
+std::vector<TestMaterial> make_validation_set(const Jobs& jobs); // for choices during development: trained families, other seeds
 
 } // namespace burnish::mipnet

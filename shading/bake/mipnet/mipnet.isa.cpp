@@ -14,7 +14,7 @@ using net::Dense, net::Plan;
 constexpr std::size_t kLane = static_cast<std::size_t>(kLanes), kSlotCount = net::kSlots, kVectorsOfSlots = kSlotCount / kLane;
 constexpr std::size_t kPlanes = net::kChannels;
 
-// Memory by cache lines; without any it only counts.
+// Bump allocator in cache lines. Without memory it only counts.
 struct Pool {
     char* at;
     std::size_t used = 0;
@@ -41,14 +41,15 @@ std::size_t block_size(const Dense& d, int layer)
     return static_cast<std::size_t>(d.width[layer]) * kRow;
 }
 
-// What texels of a level are made of: planes of the levels below, and of what net `a` says; null where net `a` is meant itself.
+// Inputs for a level's texels: planes with finer levels and with net `a`'s results. `first` is null while net `a` itself runs.
 struct Sources {
     const number *children, *grandchildren, *great, *first;
     std::size_t n;
-    bool far; // there are sixty-four, of the sixteen where `great` is null
+    bool far; // there are sixty-four; they repeat the sixteen if `great` is null
     bool all() const { return first != nullptr; }
 };
 
+// Gathers the texels that a net sees for texel i.
 template <class V, class Make> BN_FN seen_texels<V> gathered(const Sources& s, std::size_t i, const V& kappa0, const V& kappa1, Make make)
 {
     const auto read = [&](const number* planes, std::size_t per_plane, std::size_t at) {
@@ -86,10 +87,11 @@ __attribute__((noinline)) closed_form<real> look_here(const Plan& plan, const nu
     return look(plan.layout, gathered<real>(s, i, k0, k1, [](real v) { return v; }), features);
 }
 
-// Texels of block `block`; their activations go to block `kept` of the memory.
+// Computes the texels in block `block`. Activations go to the memory's block `kept`.
 void forward_block(const Plan& plan, const number* weights, const Dense& d, const Sources& s, std::size_t block, std::size_t kept,
                    const NetMemory& m, number* out)
 {
+    // Compute features
     const std::size_t begin = block * kBlock, count = in_block(s.n, block);
     closed_form<real> closed[kBlock / kLane];
     number* const features = m.layer[0] + kept * block_size(d, 0);
@@ -99,6 +101,7 @@ void forward_block(const Plan& plan, const number* weights, const Dense& d, cons
         for (int k = 0; k < d.width[0]; ++k)
             put(features + static_cast<std::size_t>(k) * kRow + i, f[k]);
     }
+    // Run the layers
     for (int l = 0; l < d.count; ++l) {
         const number *w = weights + d.weights[l], *bias = weights + d.bias[l], *x = m.layer[l] + kept * block_size(d, l);
         number* const y = m.layer[l + 1] + kept * block_size(d, l + 1);
@@ -107,6 +110,7 @@ void forward_block(const Plan& plan, const number* weights, const Dense& d, cons
         else
             dense<After::nothing>(w, bias, x, d.width[l], d.width[l + 1], count, y);
     }
+    // Apply the outputs to the closed forms
     const number* const outputs = m.layer[d.count] + kept * block_size(d, d.count);
     for (std::size_t i = 0; i < count; i += kLane) {
         real o[kPlanes];
@@ -160,7 +164,7 @@ void forward(const net::ForwardWork& work)
     }
 }
 
-// Training: everything that one shard keeps.
+// Training: all memory of one shard.
 struct Level {
     std::size_t n;
     number *x, *adjoint, *first, *first_adjoint; // planes
@@ -168,7 +172,7 @@ struct Level {
 };
 struct StepMemory {
     Level level[net::kTrainedLevels + 1];
-    number* truth[net::kTrainedLevels + 1]; // radiance by pair and texel; of level 0 of one pair
+    number* truth[net::kTrainedLevels + 1]; // radiance by pair and texel; level 0 holds one pair
     number *ping, *pong;                    // adjoints of activations
     light* lights;                          // by pair and vector of slots
     tape on;
@@ -220,7 +224,7 @@ template <int lobe> void make_lights(const net::StepWork& work, StepMemory& m)
         }
 }
 
-// The light that level 0 reflects, averaged over texels of each level: linear, as a camera far away gathers it.
+// Averages the light that level 0 reflects over the texels of each level: linear, as a distant camera gathers it.
 template <int lobe> __attribute__((noinline)) void make_truth(const net::StepWork& work, StepMemory& m)
 {
     for (std::size_t p = 0; p < static_cast<std::size_t>(work.pair_count); ++p) {
@@ -231,10 +235,12 @@ template <int lobe> __attribute__((noinline)) void make_truth(const net::StepWor
                 put(to + i, radiance<lobe>(lobe_place_of(t), m.lights[p * kVectorsOfSlots + i / kLane % kVectorsOfSlots]));
             }
         };
+        // With a teacher, light its levels
         for (int k = 1; work.taught && k <= net::kTrainedLevels; ++k)
             lit_level(work.taught[k - 1], m.level[k].n, m.truth[k] + p * m.level[k].n);
         if (work.taught)
             continue;
+        // Otherwise light level 0, and average down
         lit_level(work.texels, m.level[0].n, m.truth[0]);
         const number* below = m.truth[0];
         for (int k = 1; k <= net::kTrainedLevels; ++k) {
@@ -265,7 +271,7 @@ BN_FN tone_pair shown_as(net::Tone kind, real x)
     return kind == net::Tone::log ? tone_pair{log1p_of(x), lit(1.0) / (x + lit(1.0))} : tone(x);
 }
 
-// Mean penalty of what is shown, and how it changes with the level's texels.
+// Computes the mean penalty of tonemapped radiance, and its gradient by the level's texels.
 template <int lobe> __attribute__((noinline)) void make_loss(const net::StepWork& work, StepMemory& m, int k)
 {
     Level& level = m.level[k];
@@ -276,6 +282,7 @@ template <int lobe> __attribute__((noinline)) void make_loss(const net::StepWork
     real found[kVectorsOfSlots], wanted[kVectorsOfSlots];
     for (std::size_t slot = 0; slot < kVectorsOfSlots; ++slot)
         found[slot] = wanted[slot] = zero;
+    // Sum penalties and adjoints over the pairs, with a texel per lane
     for (std::size_t i = 0; i < n; i += kLane) {
         const std::size_t slot = i / kLane % kVectorsOfSlots;
         const texel<dual> t = {{get(level.x + i), one, zero, zero, zero, zero},
@@ -298,6 +305,7 @@ template <int lobe> __attribute__((noinline)) void make_loss(const net::StepWork
             found[slot] += r.v, wanted[slot] += truth;
             lighter[0] += r.d0, lighter[1] += r.d1, lighter[2] += r.d2, lighter[3] += r.d3, lighter[4] += r.d4;
         }
+        // Store the gradient
         for (std::size_t c = 0; c < kPlanes; ++c) {
             put(level.adjoint + c * n + i, adjoint[c] * share);
             if (work.light != 0.0f)
@@ -307,7 +315,7 @@ template <int lobe> __attribute__((noinline)) void make_loss(const net::StepWork
     }
     if (work.light == 0.0f)
         return;
-    // Of each tile, which is a lane: |found / wanted - 1| of the light that the level reflects in all.
+    // Add |found / wanted - 1| for the level's total reflected light in each tile. A tile is a lane.
     const real weight = lit(work.level_weight[k - 1] * static_cast<double>(work.light) / static_cast<double>(kSlotCount));
     for (std::size_t slot = 0; slot < kVectorsOfSlots; ++slot) {
         const real over = weight / max(wanted[slot], lit(1e-6)), off = found[slot] - wanted[slot];
@@ -321,7 +329,7 @@ template <int lobe> __attribute__((noinline)) void make_loss(const net::StepWork
     }
 }
 
-// Through the layers of a net, from adjoints of its outputs in m.ping. Returns adjoints of its features, block by block.
+// Propagates adjoints through a net's layers. m.ping holds the outputs' adjoints. Returns the features' adjoints, block by block.
 const number* backward_layers(const net::StepWork& work, StepMemory& m, const Dense& d, const NetMemory& kept, std::size_t n)
 {
     const auto* turned = static_cast<const number*>(work.turned);
@@ -349,7 +357,7 @@ const number* backward_layers(const net::StepWork& work, StepMemory& m, const De
     return dy;
 }
 
-// Adjoints of a net's outputs, from those of the texels that it made, to m.ping.
+// Writes the adjoints of a net's outputs to m.ping, from its texels' adjoints.
 __attribute__((noinline)) void backward_outputs(const net::StepWork& work, StepMemory& m, const Dense& d, const NetMemory& kept,
                                                 const Sources& s, const number* adjoint)
 {
@@ -378,11 +386,11 @@ __attribute__((noinline)) void backward_outputs(const net::StepWork& work, StepM
         }
 }
 
-struct Adjoints { // planes of the texels that a net looked at; null: nobody asks
+struct Adjoints { // planes of the texels that a net saw; null: not needed
     number *children, *grandchildren = nullptr, *great = nullptr, *first = nullptr;
 };
 
-// To the texels that a net looked at, and to kappa: from adjoints of its features and of what it made.
+// Propagates adjoints from a net's features and result to the texels that it saw, and to kappa.
 __attribute__((noinline)) void backward_sources(const net::StepWork& work, StepMemory& m, const Dense& d, const NetMemory& kept,
                                                 const Sources& s, const number* adjoint, const number* features, const Adjoints& below)
 {
@@ -402,6 +410,7 @@ __attribute__((noinline)) void backward_sources(const net::StepWork& work, StepM
     for (std::size_t b = 0; b < blocks_of(s.n); ++b)
         for (std::size_t i = 0; i < in_block(s.n, b); i += kLane) {
             const std::size_t at = b * kBlock + i;
+            // Record the closed form and the features on the tape
             tape_begin(on);
             const var k0 = leaf(on, all_lanes(weights[work.plan->kappa])), k1 = leaf(on, all_lanes(weights[work.plan->kappa + 1]));
             const seen_texels<var> seen = gathered<var>(s, at, k0, k1, [&on](real v) { return leaf(on, v); });
@@ -413,11 +422,13 @@ __attribute__((noinline)) void backward_sources(const net::StepWork& work, StepM
                 o[c] = get(outputs + c * kRow);
             var made[kPlanes];
             channels_of(settle(work.plan->layout, closed, o), made);
+            // Seed the adjoints, and read the tape backward
             for (std::size_t c = 0; c < kPlanes; ++c)
                 seed(made[c], get(adjoint + c * s.n + at));
             for (int k = 0; k < d.width[0]; ++k)
                 seed(f[k], get(features + b * block_size(d, 0) + static_cast<std::size_t>(k) * kRow + i));
             tape_reverse(on);
+            // Add the adjoints to the planes below
             for (std::size_t j = 0; j < 4; ++j)
                 spread(seen.four[j], below.children, 4 * s.n, j * s.n + at);
             if (s.all()) {
@@ -439,6 +450,7 @@ template <int lobe> void step_of(const net::StepWork& work)
     Pool pool = {static_cast<char*>(work.memory)};
     StepMemory m = step_memory(pool, plan, work.pair_count);
     const auto* weights = static_cast<const number*>(work.weights);
+    // Light the tiles
     make_lights<lobe>(work, m);
     make_truth<lobe>(work, m);
     const auto sources = [&](int k, bool all) {
@@ -452,6 +464,7 @@ template <int lobe> void step_of(const net::StepWork& work)
                        plan.far};
     };
     const auto has_b = [&](int k) { return k >= 2 && plan.b.count > 0; };
+    // Forward: make all levels
     for (int k = 1; k <= net::kTrainedLevels; ++k) {
         const Level& level = m.level[k];
         for (std::size_t b = 0; b < blocks_of(level.n); ++b)
@@ -459,10 +472,12 @@ template <int lobe> void step_of(const net::StepWork& work)
         for (std::size_t b = 0; has_b(k) && b < blocks_of(level.n); ++b)
             forward_block(plan, weights, plan.b, sources(k, true), b, b, level.b, level.x);
     }
+    // Loss of all levels
     for (std::size_t i = 0; i < net::kTrainedLevels * kSlotCount; ++i)
         static_cast<number*>(work.loss)[i] = 0;
     for (int k = 1; k <= net::kTrainedLevels; ++k)
         make_loss<lobe>(work, m, k);
+    // Backward, from the last level to the first
     for (int k = net::kTrainedLevels; k >= 1; --k) {
         const Level& level = m.level[k];
         number* const children = m.level[k - 1].adjoint;

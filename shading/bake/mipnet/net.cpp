@@ -9,7 +9,7 @@
 namespace burnish::mipnet {
 namespace {
 
-// Inputs of both nets: cascade.h
+// Numbers of inputs by layout and net: cascade.h
 constexpr int kInputs[2][2] = {{20, 105}, {26, 111}};
 
 Dense layers_of(int inputs, const Hidden& hidden, std::size_t& next)
@@ -93,7 +93,7 @@ std::vector<float> start_weights(const Plan& plan, std::uint64_t seed)
             for (std::size_t i = d->weights[l]; i < end; ++i)
                 weights[i] = static_cast<float>(random.between(-most, most));
         }
-    // Where one number for all reliefs lies best: about a third of GGX's covariance, more of lobes with shorter tails.
+    // Best common kappa for all reliefs: about a third of GGX's covariance, more for lobes with shorter tails.
     weights[plan.kappa] = plan.lobe == Lobe::ggx_aniso ? 0.35f : 0.8f;
     return weights;
 }

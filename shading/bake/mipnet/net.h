@@ -1,4 +1,4 @@
-// The two nets of a cascade as one list of numbers. H_A makes a texel of four, H_B of sixteen, four and what H_A made of the four.
+// A cascade's two nets as one list of numbers. H_A makes a texel from four. H_B uses sixteen, the four and H_A's result.
 #pragma once
 #include <cstdint>
 #include <string>
@@ -8,30 +8,30 @@
 
 namespace burnish::mipnet {
 
-struct Hidden { // layers of hidden units, all of one width
+struct Hidden { // hidden layers, all with one width
     int layers = 2, width = 32;
     bool operator==(const Hidden&) const = default;
 };
-struct Shape { // b.layers 0: there is no H_B, and H_A makes every level
+struct Shape { // b.layers 0: no H_B, H_A makes every level
     Lobe lobe = Lobe::ggx_aniso;
     Layout layout = Layout::cov;
     Hidden a = {2, 32}, b = {2, 64};
-    bool far = false; // H_B sees the sixty-four texels below, too: a footprint of 8 x 8 at once
+    bool far = false; // H_B also sees the sixty-four texels below: a footprint of 8 x 8
     bool operator==(const Shape&) const = default;
 };
 inline constexpr int kMostWidth = 4096, kMostHidden = kMostLayers - 1;
 
 Plan plan_of(const Shape& shape);
 
-const char* lobe_name(Lobe lobe); // as the registry of models has it
+const char* lobe_name(Lobe lobe); // as in the registry of models
 const char* layout_name(Layout layout);
 std::string size_name(const Shape& shape); // "2x32/2x64", hidden layers x units of H_A and H_B; "2x32" without H_B
 bool read_size(const std::string& name, Shape& to);
 
-// Hidden layers evenly within 1 / sqrt(inputs) of 0, output layers 0, so that a net begins at what its outputs are added to.
+// Returns initial numbers: hidden layers uniform within 1 / sqrt(inputs) of 0, output layers 0. So a net starts at its closed form.
 std::vector<float> start_weights(const Plan& plan, std::uint64_t seed);
 
-// A list of the same numbers with each layer's weights by [input][output].
+// Returns the numbers with each layer's weights transposed to [input][output].
 template <class T> std::vector<T> turned_weights(const Plan& plan, const std::vector<T>& weights)
 {
     std::vector<T> turned = weights;
@@ -45,8 +45,8 @@ template <class T> std::vector<T> turned_weights(const Plan& plan, const std::ve
     return turned;
 }
 
-// Numbers without a pattern, the same everywhere: a counter through a mixing function (Steele, Lea, Flood 2014, "Fast splittable
-// pseudorandom number generators").
+// Random numbers, equal everywhere: a counter through a mixing function (Steele, Lea, Flood 2014, "Fast splittable pseudorandom number
+// generators").
 class Random {
   public:
     explicit Random(std::uint64_t seed) : state_(seed) {}

@@ -10,11 +10,11 @@
 namespace burnish::mipnet {
 namespace {
 
-constexpr std::size_t kTexelsAtOnce = 512; // of a level, by one thread
-constexpr int kBandRows = 64;              // of level 0, that levels 1 and 2 are made of at once; whole fours
-constexpr double kOddKappa = 0.5;          // of what odd sizes are gathered with
+constexpr std::size_t kTexelsAtOnce = 512; // of a level, per thread
+constexpr int kBandRows = 64;              // of level 0, per step for levels 1 and 2; a multiple of 4
+constexpr double kOddKappa = 0.5;          // for resampling odd sizes
 
-// A level as one of the size asked for.
+// Returns a level with the requested size; resamples to `storage` if needed.
 const Texels& brought_to(const Texels& level, int width, int height, Texels& storage)
 {
     if (level.width == width && level.height == height)
@@ -36,7 +36,7 @@ LevelRows rows_of_level(const Texels& t, int first_row = 0)
     return rows;
 }
 
-// Every `step`-th texel of a row, from x on.
+// Copies every `step`-th texel in a row, from x on.
 void put_strided(const LevelRows& from, std::size_t channel, std::size_t x, std::size_t y, std::size_t step, std::size_t count, float* to)
 {
     const float* at = from.channel[channel] + (y - static_cast<std::size_t>(from.first_row)) * static_cast<std::size_t>(from.width) + x;
@@ -44,14 +44,14 @@ void put_strided(const LevelRows& from, std::size_t channel, std::size_t x, std:
         to[i] = at[step * i];
 }
 
-struct NetLevel {                      // a level being made
-    LevelRows below;                   // of the level twice as large
-    std::optional<LevelRows> further;  // four times
-    std::optional<LevelRows> farthest; // eight times, of nets that see so far
+struct NetLevel {                      // an unfinished level
+    LevelRows below;                   // the next finer level
+    std::optional<LevelRows> further;  // two levels finer
+    std::optional<LevelRows> farthest; // three levels finer, for far nets
     Texels* to;
 };
 
-// Texels first... of a level, `count` of them, the last one again up to `padded`.
+// Gathers inputs for `count` texels in a level, from `first` on. Repeats the last one up to `padded`.
 void gather(const NetLevel& l, std::size_t first, std::size_t count, std::size_t padded, float* children, float* grandchildren,
             float* great)
 {
@@ -66,7 +66,7 @@ void gather(const NetLevel& l, std::size_t first, std::size_t count, std::size_t
                 for (std::size_t c = 0; c < kChannels; ++c)
                     put_strided(*l.further, c, 4 * x + 2 * cx + (g & 1), 2 * cy + (g >> 1), 4, here,
                                 grandchildren + (c * 16 + 4 * g + j) * padded + i);
-            for (std::size_t h = 0; l.farthest && h < 16; ++h) // the h >> 2-th texel of its h & 3-th
+            for (std::size_t h = 0; l.farthest && h < 16; ++h) // the (h >> 2)-th texel of its (h & 3)-th child
                 for (std::size_t c = 0; c < kChannels; ++c)
                     put_strided(*l.farthest, c, 8 * x + 4 * cx + 2 * (h & 1) + (h >> 2 & 1), 4 * cy + 2 * (h >> 1 & 1) + (h >> 3), 8, here,
                                 great + (c * 64 + 16 * (h >> 2) + 4 * (h & 3) + j) * padded + i);
@@ -84,7 +84,7 @@ void gather(const NetLevel& l, std::size_t first, std::size_t count, std::size_t
         pad(great, 64 * kChannels);
 }
 
-// What makes texels of a level, with memory of its own.
+// Makes texels of a level; owns its memory.
 class NetMaker {
   public:
     NetMaker(const Fns& fns, const Plan& plan, const Weights& weights) : fns_(fns), plan_(plan), weights_(weights) {}
@@ -133,7 +133,8 @@ std::vector<Texels> net_levels(const TexelRows& level0, const Weights& weights, 
         const int l = static_cast<int>(level);
         return make_texels(side_of_level(level0.width, l), side_of_level(level0.height, l));
     };
-    std::vector<Texels> levels(1); // level 0 only where its sides are not whole fours, or levels after the second look at it
+    std::vector<Texels> levels(1); // level 0 only if its sides are no multiples of 4, or the net is far
+    // Make levels 1 and 2 in bands of level 0
     if (level0.width % 4 == 0 && level0.height % 4 == 0 && !plan.far) {
         levels.push_back(next(1)), levels.push_back(next(2));
         const int bands = (level0.height + kBandRows - 1) / kBandRows;
@@ -151,6 +152,7 @@ std::vector<Texels> net_levels(const TexelRows& level0, const Weights& weights, 
     } else {
         levels[0] = valid_band(level0, 0, level0.height);
     }
+    // Make the other levels one by one
     for (std::size_t level = levels.size(); next(level - 1).count() > 1; ++level) {
         Texels to = next(level), storage[3];
         const auto below = [&](std::size_t up) {

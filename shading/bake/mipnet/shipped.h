@@ -1,4 +1,4 @@
-// The cascades that are part of the program, shading/bake/mipnet/*.mipnet with their bytes as they were when it was built.
+// Built-in cascades: shading/bake/mipnet/*.mipnet, embedded at build time.
 #pragma once
 #include "core/base/embedded.h"
 #include "shading/bake/mipnet/weights.h"
@@ -9,6 +9,6 @@ extern const EmbeddedFile kMipnetGgx, kMipnetBeckmann, kMipnetAshikhminShirley;
 
 namespace burnish::mipnet {
 
-const Weights* shipped_weights(Lobe lobe); // of every lobe, kept for good
+const Weights* shipped_weights(Lobe lobe); // for every lobe; never freed
 
 } // namespace burnish::mipnet

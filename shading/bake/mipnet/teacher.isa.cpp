@@ -12,7 +12,7 @@ namespace net = burnish::mipnet;
 constexpr std::size_t kLane = static_cast<std::size_t>(kLanes), kSlotCount = net::kSlots, kPlanes = net::kChannels;
 constexpr float kFitRate = 0.08f, kFirstDecay = 0.9f, kSecondDecay = 0.99f;
 
-// Lights of the pairs from `at` on, or of pair `at` in all lanes.
+// Reads the lights for the pairs from `at` on, or for pair `at` in all lanes.
 template <class Read> BN_FN light light_at(Read read)
 {
     return {vec3_of(read(0), read(1), read(2)),
@@ -38,6 +38,7 @@ template <int lobe> void light_rows(const net::PairLights& l)
     }
 }
 
+// Averages the radiance of a texel's footprint.
 template <int lobe> void gather_of(const net::GatherWork& w)
 {
     const std::size_t pairs = static_cast<std::size_t>(w.pairs), vectors = pairs / kLane;
@@ -70,13 +71,13 @@ BN_FN light light_of_pair(const net::FitWork& w, int p)
     return light_at([&](std::size_t k) { return all_lanes(w.rows[k * static_cast<std::size_t>(w.pairs) + static_cast<std::size_t>(p)]); });
 }
 
-// What a lobe of radiance x makes of a pair, with what lies beside it.
+// Returns a pair's radiance: the lobe's x plus other lobes' radiance.
 template <class V> BN_FN V beside(const net::FitWork& w, const V& x, int p, std::size_t slot)
 {
     return w.rest ? x * all_lanes(w.share) + get(w.rest + static_cast<std::size_t>(p) * kSlotCount + slot) : x;
 }
 
-// Of all pairs, at the texels from `slot` on.
+// Returns the loss over all pairs, for the texels from `slot` on.
 template <int lobe> __attribute__((noinline)) real fit_loss(const net::FitWork& w, std::size_t slot, const texel<real>& t)
 {
     const lobe_place<real> place = lobe_place_of(t);
@@ -95,7 +96,7 @@ BN_FN texel<real> chosen(const mask& first, const texel<real>& a, const texel<re
             select(first, a.c, b.c)};
 }
 
-// How the loss of `batch` pairs from `first` on changes with nx, ny, a, b, c.
+// Computes the gradient of the loss over `batch` pairs from `first` on, by nx, ny, a, b, c.
 template <int lobe>
 __attribute__((noinline)) void fit_slope(const net::FitWork& w, std::size_t slot, int first, const texel<real>& t, real* slope)
 {
@@ -117,8 +118,8 @@ __attribute__((noinline)) void fit_slope(const net::FitWork& w, std::size_t slot
     }
 }
 
-// Adam (Kingma, Ba 2015) on the normal in units of the lobe's mean width, on logarithms of a and b, and on c / sqrt(a b), with a rate that
-// falls to 0.
+// Runs Adam (Kingma, Ba 2015) on the normal in units of the lobe's mean width, on log a and log b, and on c / sqrt(a b). The rate falls to
+// 0.
 template <int lobe> __attribute__((noinline)) texel<real> moved(const net::FitWork& w, std::size_t slot, const texel<real>& from)
 {
     texel<real> t = from;
@@ -129,6 +130,7 @@ template <int lobe> __attribute__((noinline)) texel<real> moved(const net::FitWo
     for (int step = 0; step < w.steps; ++step) {
         real s[kPlanes];
         fit_slope<lobe>(w, slot, step * w.batch % w.pairs, t, s);
+        // Change variables
         const real width = (t.a + t.b) * lit(0.5), mixed = sqrt(t.a * t.b);
         const real by[kPlanes] = {s[0] * width, s[1] * width, s[2] * t.a + s[4] * t.c * lit(0.5), s[3] * t.b + s[4] * t.c * lit(0.5),
                                   s[4] * mixed};
@@ -136,6 +138,7 @@ template <int lobe> __attribute__((noinline)) texel<real> moved(const net::FitWo
         const real rate = all_lanes(kFitRate * (1.0f - static_cast<float>(step) / static_cast<float>(w.steps)) / (1.0f - first_left));
         const real unbiased = all_lanes(1.0f / (1.0f - second_left));
         real step_by[kPlanes];
+        // Update the moments, and step
         for (std::size_t c = 0; c < kPlanes; ++c) {
             first[c] = first[c] * all_lanes(kFirstDecay) + by[c] * all_lanes(1.0f - kFirstDecay);
             second[c] = second[c] * all_lanes(kSecondDecay) + by[c] * by[c] * all_lanes(1.0f - kSecondDecay);
@@ -152,10 +155,12 @@ template <int lobe> __attribute__((noinline)) texel<real> moved(const net::FitWo
 
 template <int lobe> void fit_of(const net::FitWork& w)
 {
+    // Tonemap the target
     for (std::size_t i = 0; i < static_cast<std::size_t>(w.pairs) * kSlotCount; i += kLane)
         put(w.shown + i, tone(get(w.radiance + i)).shown);
     for (std::size_t slot = 0; slot < kSlotCount; slot += kLane) {
         texel<real> best = {};
+        // Find the best start
         real least = lit(0.0);
         for (int s = 0; s < w.start_count; ++s) {
             const auto at = [&](std::size_t c) { return get(w.starts + (static_cast<std::size_t>(s) * kPlanes + c) * kSlotCount + slot); };
@@ -165,9 +170,10 @@ template <int lobe> void fit_of(const net::FitWork& w)
             best = s == 0 ? t : chosen(better, t, best);
             least = s == 0 ? loss : select(better, loss, least);
         }
+        // Optimise from there
         const texel<real> found = moved<lobe>(w, slot, best);
         const real loss = fit_loss<lobe>(w, slot, found);
-        const mask better = loss < least * lit(0.99); // else it is noise
+        const mask better = loss < least * lit(0.99); // a smaller gain is noise
         best = chosen(better, found, best);
         if (w.loss)
             put(w.loss + slot, select(better, loss, least) / all_lanes(static_cast<float>(w.pairs)));

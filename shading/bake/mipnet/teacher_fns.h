@@ -1,48 +1,48 @@
-// The best lobe for one texel of a level at a time, as lane code: what level 0 reflects below it, and Adam on the difference to what a
-// lobe reflects. Pairs of directions are in the lanes where light is gathered, texels where lobes are moved; sums have the order of
-// pairs and texels, so the bits depend neither on the lane width nor on how work is shared out. Plain pointers only.
+// Lane code that optimises lobes for texels of a level: gathers the light that level 0 reflects under a texel, and runs Adam on the
+// difference to the lobe's reflection. Lanes are direction pairs during the gather, and texels during optimisation. Sums follow the order
+// of pairs and texels, so the bits depend neither on the lane width nor on the split of work. Interfaces use plain pointers.
 #pragma once
 #include "shading/bake/mipnet/mipnet_fns.h"
 
 namespace burnish::mipnet {
 
-inline constexpr int kLightRows = 13, kMostPairs = 256; // of a pair: what light of tensor.h holds
+inline constexpr int kLightRows = 13, kMostPairs = 256; // of a pair: the fields of light in tensor.h
 
 struct PairLights {
     Lobe lobe;
     int pairs;         // a multiple of kSlots, at most kMostPairs
     float f0, diffuse; // reflectances
-    // [6][pairs]: unit directions to the light and to the eye; [pairs]
+    // [6][pairs]: unit directions to the light and to the eye; [pairs].
     const float *directions, *intensity;
-    float* rows; // [kLightRows][pairs], written
+    float* rows; // [kLightRows][pairs], output
 };
 
-struct GatherWork { // radiance of what lies below a texel
+struct GatherWork { // radiance of a texel's footprint
     Lobe lobe;
     int pairs;
     const float* rows;
     const float* planes[kChannels]; // of level 0
-    std::size_t width;              // of its rows
-    // texels of the footprint along an axis, and their shares, which sum to 1
+    std::size_t width;              // of level 0's rows
+    // Texels of the footprint along each axis, and their shares, which sum to 1.
     const int *columns, *lines;
     const float *across, *down;
     int column_count, line_count;
     float* out; // [pairs]
 };
 
-struct FitWork { // kSlots texels of a level
+struct FitWork { // kSlots texels in a level
     Lobe lobe;
     int pairs;
     const float* rows;
-    const float* radiance; // [pairs][kSlots]: wanted
+    const float* radiance; // [pairs][kSlots]: target
     const float* starts;   // [start_count][kChannels][kSlots]
     int start_count, steps;
-    int batch;                   // pairs a step, a divisor of `pairs`
-    float* shown;                // [pairs][kSlots], memory
-    float* out;                  // [kChannels][kSlots]: never worse than the best start, by the same pairs
-    const float* rest = nullptr; // [pairs][kSlots]: radiance of what lies beside the lobe; null: nothing
-    float share = 1.0f;          // of the lobe's own
-    float* loss = nullptr;       // [kSlots]: mean difference of what is shown, by these pairs; null: nobody asks
+    int batch;                   // pairs per step, a divisor of `pairs`
+    float* shown;                // [pairs][kSlots], scratch
+    float* out;                  // [kChannels][kSlots]: never worse than the best start, under these pairs
+    const float* rest = nullptr; // [pairs][kSlots]: radiance of other lobes; null: none
+    float share = 1.0f;          // of the lobe itself
+    float* loss = nullptr;       // [kSlots]: mean tonemapped difference, under these pairs; null: not needed
 };
 
 struct TeacherFns {

@@ -1,10 +1,10 @@
-// A texel's state and what it reflects. Anisotropic width as a tensor, after the appendix of the MIPNet paper (Gauthier, Faury,
-// Levallois, Thonat, Thiery, Boubekeur 2022, "MIPNet: Neural Normal-to-Anisotropic-Roughness MIP Mapping"), with its masking corrected: the
-// projected area turns the tensor by 90 degrees, so its mixed term has a minus.
+// A texel's state and its reflected light. Anisotropic width is a tensor, after the appendix of the MIPNet paper (Gauthier, Faury,
+// Levallois, Thonat, Thiery, Boubekeur 2022, "MIPNet: Neural Normal-to-Anisotropic-Roughness MIP Mapping"), with corrected masking: the
+// projected area rotates the tensor by 90 degrees, so its mixed term has a minus.
 //
-// A = [[a, c], [c, b]] over the axes T, B of the shortest rotation from +z to the normal: widths alpha_b along the grain's direction and
-// alpha_t across it, so that M = [[b, -c], [-c, a]] holds each width along its own axis; det A = det M = alpha_t alpha_b. With u the
-// tangent part of a vector, |A u|^2 / det^2 = |M^-1 u|^2 is what the density takes of a half vector, |M u|^2 what masking takes.
+// A = [[a, c], [c, b]] over the axes T, B of the shortest rotation from +z to the normal. Its widths are alpha_b along the grain and
+// alpha_t across it. So M = [[b, -c], [-c, a]] holds each width along its axis; det A = det M = alpha_t alpha_b. With u the tangential part
+// of a vector, the density needs |A u|^2 / det^2 = |M^-1 u|^2 of a half vector, and masking needs |M u|^2.
 #pragma once
 #include "shading/bake/mipnet/autodiff.h"
 
@@ -18,8 +18,8 @@ template <class V> struct texel {
     V nx, ny, a, b, c;
 };
 
-// The nearest state in channel order that is one: widths in [0.002, 1], normals within 87.4 degrees of +z. Not orthogonal. The floor
-// under the root keeps the slope of c's bound finite where a or b lies on its own.
+// Clamps a texel to a valid state, channel by channel: widths in [0.002, 1], normals within 87.4 degrees of +z. The projection is not
+// orthogonal. The floor under the root keeps the slope of c's bound finite if a or b lies on its own bound.
 template <class V> BN_FN texel<V> proj(const texel<V>& x)
 {
     const V length = sqrt(max(x.nx * x.nx + x.ny * x.ny, lit(1e-12)));
@@ -48,7 +48,7 @@ template <class V> BN_FN local<V> local_of(const frame<V>& f, const real3& w)
     return {f.tx * w.x + f.m * w.y - f.nx * w.z, f.m * w.x + f.by * w.y - f.ny * w.z, f.nx * w.x + f.ny * w.y + f.nz * w.z};
 }
 
-template <class V> struct lobe_place { // a texel, ready for many directions
+template <class V> struct lobe_place { // a texel, prepared for many directions
     frame<V> f;
     V a, b, c, det, inverse_det;
 };
@@ -59,9 +59,9 @@ template <class V> BN_FN lobe_place<V> lobe_place_of(const texel<V>& x)
 }
 
 struct light {
-    real3 i, o, h;         // unit: to the light, to the eye, between them
-    real lh;               // cosine of light and half vector
-    real fresnel, diffuse; // reflectances; diffuse over pi, or by 28 / 23 pi
+    real3 i, o, h;         // unit: to the light, to the eye, half vector
+    real lh;               // cosine between light and half vector
+    real fresnel, diffuse; // reflectances; diffuse over pi, or times 28 / 23 pi
     real intensity;
 };
 template <int lobe> BN_FN light light_of(const real3& i, const real3& o, real f0, real diffuse, real intensity)
@@ -81,7 +81,7 @@ template <class V> BN_FN V projected2(const lobe_place<V>& x, const local<V>& w)
     const V u = x.b * w.t - x.c * w.b, v = x.a * w.b - x.c * w.t;
     return u * u + v * v;
 }
-// |M^-1 h|^2
+// Returns |M^-1 h|^2.
 template <class V> BN_FN V stretched2(const lobe_place<V>& x, const local<V>& h)
 {
     const V u = (x.a * h.t + x.c * h.b) * x.inverse_det, v = (x.c * h.t + x.b * h.b) * x.inverse_det;
@@ -103,8 +103,8 @@ template <class V> BN_FN V beckmann_shadow(const lobe_place<V>& x, const local<V
     const V fit = (lit(1.0) - k * lit(1.259) + k * k * lit(0.396)) / (k * lit(3.535) + k * k * lit(2.181));
     return fit * select(value(xi) < lit(1.6), lit(1.0), lit(0.0));
 }
-// Ashikhmin and Shirley's normals, exponents 1 / alpha^2, with their norm over 8 pi: (n.h)^e, e = stretched2 / sin^2, as an exponential
-// whose argument keeps its digits at n = h.
+// Returns Ashikhmin-Shirley normals with exponents 1 / alpha^2, normalised, over 8 pi: (n.h)^e with e = stretched2 / sin^2. The
+// exponential form stays accurate near n = h.
 template <class V> BN_FN V phong_normals(const lobe_place<V>& x, const local<V>& h)
 {
     const V sine2 = min(max(h.t * h.t + h.b * h.b, lit(1e-6)), lit(0.999));
@@ -113,8 +113,8 @@ template <class V> BN_FN V phong_normals(const lobe_place<V>& x, const local<V>&
     return norm * power * lit(0.039788735772973836);
 }
 
-// Reflected radiance. Lobes by number: Lobe of mipnet_fns.h. What turns away from the light is dark, and from the eye, but where
-// `seen_anyhow`: there it is as at grazing angles, as frames have it.
+// Returns reflected radiance. lobe: number in Lobe of mipnet_fns.h. A texel that turns away from the light is dark. So is one that turns
+// away from the eye, unless `seen_anyhow`: then it counts as at grazing angles, as in frames.
 template <int lobe, bool seen_anyhow = false, class V> BN_FN V radiance(const lobe_place<V>& x, const light& l)
 {
     local<V> h = local_of(x.f, l.h), i = local_of(x.f, l.i), o = local_of(x.f, l.o);
@@ -137,7 +137,7 @@ template <int lobe, bool seen_anyhow = false, class V> BN_FN V radiance(const lo
     }
 }
 
-// What a display is shown: x / (1 + x), encoded as sRGB; and its slope.
+// A tonemapped radiance, x / (1 + x) encoded as sRGB, and its derivative.
 struct tone_pair {
     real shown, slope;
 };

@@ -80,7 +80,7 @@ std::uint64_t source_hash(const Texels& texels)
         std::uint64_t hash = static_cast<std::uint64_t>(t.width) << 32 | static_cast<std::uint64_t>(t.height);
         for (std::vector<float>& channel : t.channel) {
             for (float& v : channel)
-                v += 0.0f; // no -0, which a mirrored 0 would be
+                v += 0.0f; // avoids the -0 of a mirrored 0
             hash = hash_bytes(channel.data(), channel.size() * sizeof(float), hash);
         }
         least = std::min(least, hash);

@@ -1,4 +1,4 @@
-// A material's normals and widths, texel by texel, as mipmaps of them are made: see tensor.h for what the channels mean.
+// A material's normals and widths, texel by texel, as input and output of mipmap filters. tensor.h explains the channels.
 #pragma once
 #include <cstdint>
 #include <vector>
@@ -19,22 +19,22 @@ Texels make_texels(int width, int height);
 struct Tensor {
     double a, b, c;
 };
-// Of widths along the direction at `angle` rad from T, and across it; and back: alpha_along is that of the axis at `angle` in (-pi/2,
-// pi/2].
+// Returns the tensor with these widths along the direction at `angle` rad from T, and across it. widths_of() inverts this: alpha_along
+// belongs to the axis at `angle` in (-pi/2, pi/2].
 Tensor tensor_of(double alpha_along, double alpha_across, double angle);
 struct Widths {
     double alpha_along, alpha_across, angle;
 };
 Widths widths_of(const Tensor& tensor); // alpha_along >= alpha_across
 
-// What every texel has to be before anything is made of it: normals within 78.5 degrees of +z (0.98), widths in their range. A texel with a
-// channel that is not finite becomes level and as wide as can be.
+// Makes every texel valid for filters: normals within 78.5 degrees of +z (0.98), widths in their range. A texel with a channel that is not
+// finite becomes upright, with the largest width.
 void make_valid(Texels& texels);
 
-// One of the eight symmetries of a square: bits 1 and 2 mirror x and y, bit 4 exchanges them, first of all.
+// Applies one of a square's eight symmetries: bits 1 and 2 mirror x and y, bit 4 exchanges them, before the mirrors.
 Texels mirrored(const Texels& texels, int symmetry);
 
-// Of the channels' bytes, the same for all eight: two materials with one hash are one source.
+// Returns a hash of the channels' bytes that is equal for all eight symmetries. Materials with equal hashes have one source.
 std::uint64_t source_hash(const Texels& texels);
 
 } // namespace burnish::mipnet

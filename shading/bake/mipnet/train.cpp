@@ -19,7 +19,7 @@ namespace burnish::mipnet {
 namespace {
 
 constexpr double kFirstDecay = 0.9, kSecondDecay = 0.999, kMeanDecay = 0.999, kMostGradient = 1.0;
-constexpr int kWarmSteps = 100; // of a rate that grows
+constexpr int kWarmSteps = 100; // with a growing rate
 
 std::uint64_t training_key(const TrainOptions& o, const TrainingSet& set)
 {
@@ -50,7 +50,7 @@ Status go_on_training(const TrainOptions& options, std::uint64_t key, Trained& t
 
 using Memory = std::vector<std::byte, LineAllocator<std::byte>>;
 
-// Sum over slots in a fixed tree.
+// Sums over slots in a fixed tree.
 double slots_sum(const float* slots)
 {
     float part[kSlots];
@@ -66,7 +66,7 @@ struct Shard {
     Memory memory, teaching;
 };
 
-// What another cascade makes of a shard's tiles: planes by level.
+// Makes the teacher's levels for a shard's tiles: planes by level.
 void teach(const Fns& fns, const Weights& by, const Plan& plan, const Batch& batch, Shard& shard, const void** levels)
 {
     const auto planes = [&](int level) { return level == 0 ? batch.texels.data() : shard.taught[level - 1].data(); };
@@ -81,6 +81,7 @@ void teach(const Fns& fns, const Weights& by, const Plan& plan, const Batch& bat
     }
 }
 
+// Takes an Adam step with clipped gradients, and updates the moving average.
 void adam(const TrainOptions& o, const std::vector<double>& gradient, Trained& t)
 {
     double squares = 0.0;
@@ -89,7 +90,7 @@ void adam(const TrainOptions& o, const std::vector<double>& gradient, Trained& t
     const double length = std::sqrt(squares), by = length > kMostGradient ? kMostGradient / length : 1.0;
     const double step = static_cast<double>(t.step) + 1.0;
     if (!std::isfinite(length))
-        return; // nothing to go by
+        return; // no usable gradient
     const double warm = std::fmin(1.0, step / kWarmSteps);
     const double rate = o.rate * warm * 0.5 * (1.0 + det_cos(kPi * std::fmin(1.0, (step - 1.0) / o.steps)));
     const double first = 1.0 / (1.0 - det_pow(kFirstDecay, step)), second = 1.0 / (1.0 - det_pow(kSecondDecay, step));
@@ -165,6 +166,7 @@ Result<std::optional<Weights>> train(const TrainOptions& options, const Jobs& jo
     std::vector<double> gradient(plan.count);
     double kept_ms = wall_ms();
     while (t.step < static_cast<std::uint64_t>(options.steps)) {
+        // Compute the shards' gradients
         const std::vector<float> turned = turned_weights(plan, t.numbers);
         jobs.parallel_for(shards.size(), [&](std::size_t s, int) {
             Shard& shard = shards[s];
@@ -178,6 +180,7 @@ Result<std::optional<Weights>> train(const TrainOptions& options, const Jobs& jo
                       level_weight, shard.gradient.data(), shard.loss.data(), shard.memory.data(), options.loss, options.tone,
                       options.taught_by ? taught : nullptr, static_cast<float>(options.light)});
         });
+        // Average over shards
         double loss = 0.0;
         for (std::size_t i = 0; i < plan.count; ++i) {
             gradient[i] = 0.0;
@@ -187,6 +190,7 @@ Result<std::optional<Weights>> train(const TrainOptions& options, const Jobs& jo
         for (const Shard& shard : shards)
             for (std::size_t k = 0; k < kTrainedLevels; ++k)
                 loss += slots_sum(&shard.loss[k * kSlots]) / options.shards;
+        // Step, report, and write checkpoints
         adam(options, gradient, t);
         ++t.step;
         if (options.advance)
@@ -199,6 +203,7 @@ Result<std::optional<Weights>> train(const TrainOptions& options, const Jobs& jo
         if (stopped)
             return std::optional<Weights>();
     }
+    // Round the average to halves
     Weights w;
     w.shape = options.shape, w.seed = options.seed, w.steps = t.step, w.data = set.hash;
     w.families = options.only_maps ? std::string() : trained_families(), w.command = train_command(options);

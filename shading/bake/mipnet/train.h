@@ -1,5 +1,5 @@
-// A cascade from nothing: materials made in code, differences of what is shown as the loss, Adam (Kingma, Ba 2015) with a cosine's rate and
-// a moving average of the numbers as the result.
+// Trains a cascade: procedural materials, tonemapped differences as the loss, Adam (Kingma, Ba 2015) with a cosine schedule, and a moving
+// average of the numbers as the result.
 #pragma once
 #include <atomic>
 #include <functional>
@@ -18,33 +18,33 @@ struct TrainOptions {
     Shape shape;
     std::uint64_t seed = 1;
     int steps = 3000;
-    int shards = 2;                      // of a step, 16 tiles each; what threads share
-    int pairs = 32;                      // of directions, a tile and step
-    int seeds = 24, side = kTrainedSide; // of the training set: materials a family, texels
+    int shards = 2;                      // per step, with 16 tiles each; threads share them
+    int pairs = 32;                      // direction pairs per tile and step
+    int seeds = 24, side = kTrainedSide; // of the training set: materials per family, texels
     double rate = 2e-3;
     Loss loss = Loss::l1;
     Tone tone = Tone::display;
-    double mirrored = kUsualMirrored;         // share of pairs of directions that are near where highlights are
+    double mirrored = kUsualMirrored;         // share of direction pairs near highlights
     double light = 0.0;                       // weight of |mean radiance of a tile's level over the truth's - 1|, beside the loss
-    int levels = kTrainedLevels;              // the loss looks at the first ones: 2 see H_B once, 5 four times
-    std::vector<Material> maps;               // trained on, too; squares
-    bool only_maps = false;                   // and on nothing else
+    int levels = kTrainedLevels;              // levels in the loss: with 2, H_B acts once, with 5 four times
+    std::vector<Material> maps;               // further training materials; squares
+    bool only_maps = false;                   // train on nothing else
     std::string maps_name;                    // of their folder, for the command
-    std::shared_ptr<const Weights> from;      // what training begins at, of the same shape; null: anything
+    std::shared_ptr<const Weights> from;      // start of the training, with an equal shape; null: start_weights()
     std::string from_name;                    // of its file
-    std::shared_ptr<const Weights> taught_by; // whose levels' light is wanted in place of level 0's, of the same lobe
+    std::shared_ptr<const Weights> taught_by; // its levels' light is the target, in place of level 0's; equal lobe
     std::string taught_by_name;               // of its file
-    std::string checkpoint;                   // a file to go on from and to keep up to date; empty: none
-    double checkpoint_seconds = 15;           // between two of them
-    const std::atomic<bool>* stop = nullptr;  // set by another thread or a signal: end soon, with everything in the checkpoint
+    std::string checkpoint;                   // file to resume from and to update; empty: none
+    double checkpoint_seconds = 15;           // between two checkpoints
+    const std::atomic<bool>* stop = nullptr;  // set by another thread or a signal: end soon, with all progress in the checkpoint
     std::function<void(int step, double loss)> advance{}; // after each step; mean over shards and levels
     Isa isa = best_isa();
 };
 
-// Bytes do not depend on threads, on the instruction set, or on where the work was interrupted. Nothing where it was stopped. A checkpoint
-// of other options, or a damaged one, is an Error.
+// Trains. The bytes depend neither on threads, nor on the instruction set, nor on interruptions. Returns nothing if stopped. A checkpoint
+// with other options, or a damaged one, is an Error.
 Result<std::optional<Weights>> train(const TrainOptions& options, const Jobs& jobs);
 
-std::string train_command(const TrainOptions& options); // what makes the same weights, without their name
+std::string train_command(const TrainOptions& options); // reproduces the weights; without a file name
 
 } // namespace burnish::mipnet

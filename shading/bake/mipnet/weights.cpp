@@ -15,7 +15,7 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "weights are little-endian");
 constexpr char kWeightsMagic[8] = {'b', 'n', 'm', 'i', 'p', '0', '1', '\n'};
-constexpr std::uint32_t kMostText = 4096, kFar = 2; // of the layout
+constexpr std::uint32_t kMostText = 4096, kFar = 2; // flag in the layout
 
 struct WeightsHeader {
     char magic[8];
@@ -83,7 +83,7 @@ Result<Weights> parse_weights(const std::uint8_t* data, std::size_t bytes, const
         return refuse(16, fmt::format("has layout {}, which its nets cannot have", h.layout));
     if (h.channels != kChannels)
         return refuse(20, fmt::format("has {} channels, which must be {}", h.channels, kChannels));
-    const bool alone = h.layers_b == 0 && h.width_b == 0; // H_A
+    const bool alone = h.layers_b == 0 && h.width_b == 0; // H_A alone
     for (const std::uint32_t layers : {h.layers_a, alone ? 1 : h.layers_b})
         if (layers < 1 || layers > kMostHidden)
             return refuse(24, fmt::format("has {} hidden layers, which must be 1 to {}", layers, kMostHidden));

@@ -1,7 +1,6 @@
-// The DFG table, by quadrature: GGX with height-correlated Smith masking-shadowing, visible normals sampled
-// on a regular grid. Visible normals: Heitz 2018, "Sampling the GGX distribution of visible normals"; as a
-// spherical cap: Dupuy, Benyoub 2023. With them the integrand is F * G2/G1, smooth and below 1, so that a
-// midpoint rule converges fast.
+// Bakes the DFG table by quadrature: GGX with height-correlated Smith masking-shadowing, visible normals sampled on a regular grid.
+// Visible normals: Heitz 2018, "Sampling the GGX distribution of visible normals"; as a spherical cap: Dupuy, Benyoub 2023. With visible
+// normals the integrand is F * G2/G1, smooth and below 1, so a midpoint rule converges fast.
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -24,18 +23,18 @@ double ggx_lambda(double cosine, double alpha)
     return 0.5 * (std::sqrt(1.0 + alpha * alpha * std::max(tan2, 0.0)) - 1.0);
 }
 
-// n_dot_v and alpha > 0. `cosines` of the azimuths of one half circle: the other half mirrors it.
+// Integrates one entry. n_dot_v and alpha are above 0. cosines: azimuths on one half circle; the other half mirrors it.
 ScaleBias integrate(double n_dot_v, double alpha, const std::vector<double>& cosines)
 {
     const std::size_t n = cosines.size();
     const double vx = std::sqrt(std::max(0.0, 1.0 - n_dot_v * n_dot_v)), vz = n_dot_v;
-    // the view direction in the space where the ellipsoid of normals is a sphere
+    // Transform the view direction to the space where the ellipsoid of normals is a sphere
     const double length = std::sqrt(alpha * alpha * vx * vx + vz * vz);
     const double wx = alpha * vx / length, wz = vz / length;
     const double lambda_v = ggx_lambda(vz, alpha);
     ScaleBias sum = {0.0, 0.0};
     for (std::size_t j = 0; j < n; ++j) {
-        // graded towards the far end, where a narrow strip holds the widely tilted normals
+        // Grade towards the far end, where a narrow strip holds the widely tilted normals
         const double t = 1.0 - (static_cast<double>(j) + 0.5) / static_cast<double>(n), density = 3.0 * t * t;
         const double z = 1.0 - (1.0 - t * t * t) * (1.0 + wz);
         const double rho = std::sqrt(std::max(0.0, 1.0 - z * z));
@@ -58,7 +57,7 @@ ScaleBias integrate(double n_dot_v, double alpha, const std::vector<double>& cos
     return {sum.scale / count, sum.bias / count};
 }
 
-// Schlick's Fresnel itself: nothing is shadowed.
+// Returns plain Schlick Fresnel: a mirror has no shadowing.
 ScaleBias mirror(double n_dot_v)
 {
     const double m = 1.0 - n_dot_v, fresnel = m * m * m * m * m;
@@ -81,7 +80,7 @@ DfgTable bake_dfg(int size, int samples, const Jobs& jobs)
         const double roughness = static_cast<double>(y) / (size - 1);
         for (std::size_t x = 0; x < n; ++x) {
             const double n_dot_v = static_cast<double>(x) / (size - 1);
-            // the first row is a mirror, the first column the limit of a grazing view
+            // The first row is a mirror, the first column the limit for grazing views.
             const ScaleBias r = y == 0 ? mirror(n_dot_v) : integrate(std::max(n_dot_v, 1e-4), roughness * roughness, cosines);
             float* const pair = table.pairs.data() + 2 * (y * n + x);
             pair[0] = static_cast<float>(r.scale), pair[1] = static_cast<float>(r.bias);

@@ -1,4 +1,4 @@
-// The table of directional albedo of lobes of two widths, by quadrature over visible normals as dfg.cpp: anisotropic GGX with
+// Bakes directional albedo for lobes with two widths, by quadrature over visible normals as in dfg.cpp: anisotropic GGX with
 // height-correlated Smith masking-shadowing (Heitz 2014). Fewer symmetries are left, so the points are a Fibonacci lattice.
 #include <algorithm>
 #include <array>
@@ -12,9 +12,9 @@
 namespace burnish {
 namespace {
 
-constexpr int kPoints = 233, kGenerator = 144; // neighbours in Fibonacci's sequence
+constexpr int kPoints = 233, kGenerator = 144; // neighbours in the Fibonacci sequence
 
-struct Point { // of the spherical cap that visible normals are stretched to: depth from its top over its height, azimuth, weight
+struct Point { // on the spherical cap behind visible normals: depth from its top over its height, azimuth, weight
     double depth, cosine, sine, weight;
 };
 
@@ -22,7 +22,7 @@ std::array<Point, kPoints> lattice()
 {
     std::array<Point, kPoints> points;
     for (int i = 0; i < kPoints; ++i) {
-        // graded towards the far end, where a narrow strip holds the widely tilted normals
+        // Grade towards the far end, where a narrow strip holds the widely tilted normals
         const double t = 1.0 - (i + 0.5) / kPoints, azimuth = 2.0 * kPi * (i * kGenerator % kPoints) / kPoints;
         points[static_cast<std::size_t>(i)] = {1.0 - t * t, det_cos(azimuth), det_sin(azimuth), 2.0 * t / kPoints};
     }
@@ -36,7 +36,7 @@ struct ScaleBias {
     double scale, bias;
 };
 
-// v: to the eye, unit, v.z > 0. Widths at least 1e-3.
+// Integrates one entry. v: to the eye, unit, v.z > 0. Widths at least 1e-3.
 ScaleBias integrate(const Vec& v, double alpha_x, double alpha_y, const std::array<Point, kPoints>& points)
 {
     const auto stretch = [&](double x, double y, double z) {
@@ -60,11 +60,11 @@ ScaleBias integrate(const Vec& v, double alpha_x, double alpha_y, const std::arr
     return sum;
 }
 
-// Of the view that one pair stands for: eye and azimuth in [0,1], the steps of their axes.
+// Returns the entry for one view. eye, azimuth: [0,1], positions along the table's axes.
 ScaleBias entry(double eye, double azimuth, double alpha_x, double alpha_y, const std::array<Point, kPoints>& points)
 {
     const double n_dot_v = std::max(eye * eye, 1e-4), sine = std::sqrt(1.0 - n_dot_v * n_dot_v);
-    if (alpha_x + alpha_y == 0.0) { // a mirror: Schlick's Fresnel itself
+    if (alpha_x + alpha_y == 0.0) { // a mirror: plain Schlick Fresnel
         const double m = 1.0 - eye * eye, fresnel = m * m * m * m * m;
         return {1.0 - fresnel, fresnel};
     }

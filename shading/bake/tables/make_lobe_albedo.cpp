@@ -1,9 +1,9 @@
-// Writes the table of lobes' albedo as a C++ source, when the program is built: it takes too long to be made when the program starts.
+// Writes the lobe albedo table as a C++ source. The build runs this program, because a bake at program start would take too long.
 #include <cstdio>
 
 #include "shading/bake/environment/environment.h"
 
-// FILE
+// Usage: make_lobe_albedo FILE
 int main(int count, char** arguments)
 {
     using namespace burnish;

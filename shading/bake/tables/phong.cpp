@@ -53,11 +53,13 @@ PhongPoint phong_point(int i, int n, int set)
     constexpr double kTurn = 0.3819660112501051; // 2 - golden ratio
     const int at = kPhongSets * i + set;
     const double area = kPi * (at + 0.5) / (kPhongSets * n), row = 0.5 + at * kTurn;
-    double low = 0.0, high = kPi; // half the angle of the disc's part that lies before the row
+    double low = 0.0, high = kPi; // half the angle of the disc's part before the row
+    // Solve for that angle by bisection
     for (int step = 0; step < 24; ++step) {
         const double angle = 0.5 * (low + high);
         (angle - 0.5 * det_sin(2.0 * angle) < area ? low : high) = angle;
     }
+    // Snap the point to the table's texels
     const double x = -det_cos(low), y = (2.0 * (row - std::floor(row)) - 1.0) * det_sin(low);
     const double turn = det_atan2(y, x) / (2.0 * kPi), grid = phong_grid(n);
     const auto held = [&](double xi) { return std::floor(xi * grid + 0.5); };
@@ -96,7 +98,7 @@ void fill_phong_slice(int size, const std::function<PhongAlbedo(double, double)>
 {
     BN_CHECK(size >= 4 && size % 2 == 0);
     for (int j = 0; j < size / 2; ++j)
-        for (int i = 0; i < size; ++i, pairs += 2) { // axes as of phong_slice_lookup()
+        for (int i = 0; i < size; ++i, pairs += 2) { // axes as in phong_slice_lookup()
             const PhongAlbedo a = at(static_cast<double>(i) / (size - 1), static_cast<double>(j) / (size / 2 - 1));
             pairs[0] = static_cast<float>(a.s), pairs[1] = static_cast<float>(a.b);
         }

@@ -26,7 +26,7 @@ Error no_table(const std::string& path, const std::string& why)
     return {ExitCode::bad_input, path, "", why};
 }
 
-// Codes of a picture as numbers: of half vectors -1 to 1, code 128 being 0; else 0 to 1.
+// Converts a picture's codes to numbers: half vectors to -1 to 1, where code 128 is 0; albedos to 0 to 1.
 Image as_floats(const Image& from, int channels, bool is_signed)
 {
     Image to = make_image(from.width, from.height, channels, PixelType::f32);
@@ -97,7 +97,7 @@ Status PhongFiles::add(const Image& picture, const std::string& path)
     if (picture.channels < 3)
         return no_table(path, "a table of half vectors or of albedo has red, green and blue");
     const bool eight = picture.type == PixelType::u8;
-    // The first half vector is the normal; blue of albedo is 0.
+    // The first half vector is the normal. An albedo table has blue 0.
     const Image vectors = as_floats(picture, 4, true);
     const float* first = texel(vectors, 0, 0);
     if (std::fabs(first[0]) < 0.01f && std::fabs(first[1]) < 0.01f && std::fabs(first[2] - 1.0f) < 0.01f) {
@@ -122,6 +122,7 @@ Status PhongFiles::add(const Image& picture, const std::string& path)
         half_codes_ = eight ? static_cast<int>(codes.count()) : 0;
         return {};
     }
+    // Other pictures are albedo tables
     albedo_path_ = path, albedo_ = as_floats(picture, 3, false), albedo_8_ = eight;
     if (albedo_.width < 2 || albedo_.height < 2)
         return no_table(path, "a table of albedo has two texels along each axis at least");
@@ -158,6 +159,7 @@ std::vector<PhongHalfVector> PhongFiles::half_vectors(double nu, double nv, int 
         const float* held = texel(half_, texel_below(at, half_.width), texel_below(xi.y, half_.height));
         PhongHalfVector h = {static_cast<double>(held[0]), static_cast<double>(held[1]), static_cast<double>(held[2]),
                              static_cast<double>(held[3])};
+        // Exchange axes, and compute a density that the file lacks
         if (across)
             std::swap(h.x, h.y);
         if (h.density == 0.0) {
@@ -192,7 +194,7 @@ PhongAlbedo PhongFiles::albedo(Columns columns, double root_n_dot_v, double root
 
 double PhongFiles::albedo_off_by(double nu, double nv, Columns columns) const
 {
-    constexpr int kPlaces = 5; // texels along each axis
+    constexpr int kPlaces = 5; // texels to compare along each axis
     double most = 0.0;
     for (int j = 1; j <= kPlaces; ++j)
         for (int i = 0; i < kPlaces; ++i) {
