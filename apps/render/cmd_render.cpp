@@ -1,4 +1,4 @@
-// `burnish render`: a scene under an environment to pictures and figures.
+// `burnish render`: renders a scene under an environment to pictures and statistics.
 #include <algorithm>
 #include <cmath>
 #include <fmt/core.h>
@@ -63,7 +63,7 @@ void report_frames(const RenderOptions& options, const RenderFigures& figures, R
                               figures.frame.triangles_drawn, figures.frame.triangles, figures.frame.background_pixels));
 }
 
-// Tries every output even where one fails; the first failure decides.
+// Tries every output even after one fails. Returns the first failure.
 Status write_outputs(const RenderOptions& options, const Rendered& rendered, Report& report)
 {
     Status first;
@@ -156,7 +156,7 @@ int run_render(RenderArguments& arguments, OptionTable& given)
     rendered->figures.warnings = report.warnings();
     if (rendered->figures.frame.sampling.stopped) {
         report.event("stopped", fmt::format("the same command goes on from {}; no picture was written", options.reference.checkpoint));
-        return 128 + stop_signal(); // as a shell reports a process that a signal ended
+        return 128 + stop_signal(); // as a shell reports a process ended by a signal
     }
     const int code = finish(options, *rendered, report);
     return lost_checkpoint ? std::max(fail(*lost_checkpoint), code) : code; // the picture comes first

@@ -48,13 +48,13 @@ void report_environment(const Environment& environment, double ms, Report& repor
     report_key_lights(environment, report);
 }
 
-// Behind what is drawn without a background there is nothing.
+// Without a background, coverage becomes the alpha channel.
 bool draws_alpha(const RenderOptions& options)
 {
     return !options.frame.background;
 }
 
-// The reference has no samples of its own to resolve.
+// The reference keeps no samples for --resolve.
 bool resolves_parts(const RenderOptions& options)
 {
     return options.resolve != Resolve::linear && options.backend != "reference";

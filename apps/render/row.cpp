@@ -1,4 +1,4 @@
-// A row of pictures: options that change from one to the next, or a way around the scene.
+// Picture sequences: options that change from one picture to the next, or a turntable.
 #include <algorithm>
 #include <filesystem>
 #include <fmt/core.h>
@@ -23,14 +23,14 @@ bool is_one_of(const std::string& text, const std::vector<std::string>& of)
     return std::find(of.begin(), of.end(), text) != of.end();
 }
 
-// Options of one picture of a row.
+// The options of one picture in a sequence.
 struct Step {
     RenderOptions options;
-    std::string values; // "roughness 0.1, tilt 0,0": of what changes
-    Json json;          // the same by option
+    std::string values; // the changing values, such as "roughness 0.1, tilt 0,0"
+    Json json;          // the same values, by option
 };
 
-// A row of pictures: --animate or --turntable.
+// A sequence of pictures: --animate or --turntable.
 class Row {
   public:
     static Result<Row> make(RenderArguments& arguments, OptionTable& given)
@@ -65,14 +65,14 @@ class Row {
             row.lights_change_ = row.lights_change_ || option.group == "Environment";
             row.scene_changes_ = row.scene_changes_ || changes_scene(option);
         }
-        for (int i = 0; i < row.count_; ++i) // what is wrong in the middle is said at the beginning
+        for (int i = 0; i < row.count_; ++i) // checks every step first: a bad value in the middle ends the run at once
             if (const Result<Step> step = row.step(i); !step)
                 return step.error();
         return row;
     }
 
     int count() const { return count_; }
-    const std::vector<std::string>& movies() const { return movies_; } // files of all pictures
+    const std::vector<std::string>& movies() const { return movies_; } // files that hold all pictures
     bool lights_change() const { return lights_change_; }
     bool scene_changes() const { return scene_changes_; }
 
@@ -107,7 +107,7 @@ class Row {
     bool lights_change_ = false, scene_changes_ = false;
 };
 
-// No picture lies where something is read from, or another one is written.
+// Refuses a picture path that is also an input or another output.
 Status check_row_paths(Row& row, const std::vector<std::string>& inputs)
 {
     for (int i = 0; i < row.count(); ++i)
@@ -135,7 +135,7 @@ Result<View> view_of_step(const Step& step, int i, const Session& session, const
     return view->view;
 }
 
-// Of the step before, with what changes made anew.
+// Returns the previous step's parts with the changed parts made anew.
 Result<SessionParts> parts_of_step(const RenderOptions& options, SessionParts parts, bool lights, bool scene)
 {
     if (lights) {
