@@ -43,7 +43,7 @@ int print_help(const Command* command, const std::vector<Command>& commands)
     return 0;
 }
 
-// A call without words is a mistake, as a script makes it, and its answer is the list of subcommands.
+// Answers a call without words: an error, with the list of subcommands.
 int print_help_as_error(const std::vector<Command>& commands)
 {
     std::fputs(help_of(commands, kFooter).c_str(), stderr);
@@ -121,7 +121,7 @@ int flush_stdout(int code)
     return fail(Error{ExitCode::output_failed, "standard output", "", "cannot be written"});
 }
 
-// Says that the work was done by fewer threads than were wanted. An error remains one line.
+// Warns if fewer threads did the work than were asked for. Prints nothing after an error, so an error stays one line.
 void warn_of_missing_threads(int code, const std::vector<std::string>& words)
 {
     const std::string missing = missing_threads();
@@ -133,7 +133,7 @@ void warn_of_missing_threads(int code, const std::vector<std::string>& words)
     report.release();
 }
 
-// A thread that the system refuses is no fault of the program: pools of burnish go on without, libraries may not.
+// Reports a thread that the system refused. Pools of burnish work without the thread; libraries may throw.
 int fail_by(const std::system_error& error)
 {
     const bool refused = error.code() == std::errc::resource_unavailable_try_again;
@@ -141,7 +141,7 @@ int fail_by(const std::system_error& error)
     return fail(Error{refused ? ExitCode::unavailable : ExitCode::internal, "", "", reason + error.what()});
 }
 
-// Where an exception cannot be caught: in what a library does as it is loaded, for one.
+// Handles exceptions that no frame can catch, such as those thrown while a library is loaded.
 [[noreturn]] void terminate()
 {
     try {
@@ -160,7 +160,7 @@ int fail_by(const std::system_error& error)
 
 int run_program(int argc, char** argv)
 {
-    // A file-size limit shall be a failed write with a message, not the death of the process.
+    // Turns a file-size limit into a failed write with a message; the default kills the process.
     std::signal(SIGXFSZ, SIG_IGN);
     std::set_terminate(terminate);
     try {
