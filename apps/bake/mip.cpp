@@ -30,7 +30,7 @@ std::byte mip_code(float unit)
     return static_cast<std::byte>(static_cast<int>(std::clamp(unit, 0.0f, 1.0f) * 255.0f + 0.5f));
 }
 
-// Base colours, metalness and heights of all materials, each once.
+// Returns the base colour, metalness and height maps of all materials, without duplicates.
 struct MaterialMap {
     const Material* material;
     UsedMap map;
@@ -78,7 +78,7 @@ Value lobe_value(int& to)
 
 std::vector<std::string> plain_names(const std::vector<std::string>& materials)
 {
-    constexpr std::size_t kMostLetters = 100; // a file's name has 255 bytes
+    constexpr std::size_t kMostLetters = 100; // a file name has at most 255 bytes
     std::vector<std::string> names;
     std::set<std::string> taken;
     std::map<std::string, int> last;
@@ -191,7 +191,7 @@ int run_mip(const MipBake& bake)
     std::optional<Progress> progress;
     std::size_t told = 0;
     const MaterialLevels levels = filtered_levels(scene, jobs, [&](std::size_t done, std::size_t all) {
-        if (done < told) // of the next material
+        if (done < told) // the next material begins
             progress.reset(), told = 0;
         if (!progress)
             progress.emplace("texels", all, bake.quiet);

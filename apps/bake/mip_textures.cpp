@@ -66,8 +66,8 @@ Image one_colour(int width, int height, const Image& of)
     return to;
 }
 
-// Levels of base colours times the gains of levels as large, or nearest to that, none of them beyond 1. What has one colour everywhere gets
-// levels of the maps' sizes.
+// Multiplies base-colour levels by the gains of the levels nearest in size. Results stay at most 1, or the base colour if larger. A
+// uniform colour gets levels in the maps' sizes.
 std::vector<Image> with_gains(std::vector<Image> colours, const MipLevels& levels)
 {
     if (levels.gained == 0)
@@ -103,7 +103,7 @@ Image coded(const Image& unit, bool srgb)
     return to;
 }
 
-// inputs: that are not written over
+// inputs: must not be overwritten
 Status add_file(FileSet& files, const std::string& name, const std::vector<std::uint8_t>& bytes, const std::vector<std::string>& inputs)
 {
     for (const std::string& input : inputs)
@@ -131,10 +131,11 @@ Status add_levels(FileSet& files, const std::vector<std::string>& inputs, const 
 }
 
 struct Off {
-    double at = 0.0, between = 0.0; // texels
+    double at = 0.0, between = 0.0; // at texel centres, between texels
 };
 
-// Errors of shown levels of at most so many texels, each level counting alike, and the one that is worst between texels.
+// Formats mean errors, each level weighted equally, and the level with the worst error between texels. Skips levels above kMostShown
+// texels.
 constexpr std::size_t kMostShown = 1u << 14;
 
 std::string figures_of(const std::string& name, const StandardLevels& held, const MipSource& source, const MipLevels& levels,

@@ -1,4 +1,4 @@
-// How FLIP's errors are spread over the pixels.
+// Distribution of FLIP errors over the pixels.
 #pragma once
 #include <vector>
 
@@ -10,7 +10,8 @@ namespace burnish {
 
 inline constexpr int kHistogramBins = 50; // of errors from 0 to 1
 
-std::vector<double> histogram_of(const Image& error); // part of the pixels by bin, [0, 1]; what is not below 1 is in the last one
+// Returns the share of pixels by bin, [0,1]. Errors of 1 and more, and NaN, count in the last bin.
+std::vector<double> histogram_of(const Image& error);
 Drawing plot_histogram(const Image& error, const ErrorSummary& summary);
 
 } // namespace burnish

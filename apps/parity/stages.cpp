@@ -11,7 +11,7 @@
 namespace burnish {
 namespace {
 
-// Floats in order as integers in order.
+// Maps floats to integers with the same order.
 std::int64_t ordered(std::uint32_t bits)
 {
     const std::int64_t magnitude = bits & 0x7fffffffu;
@@ -51,13 +51,13 @@ std::uint32_t mask_at(const Frame& f, std::size_t sample)
     return f.stages.pairs[sample * kPairWords];
 }
 
-// Whether both have a pair that begins at this sample, of the same triangle and the same samples.
+// True if both frames have a pair that starts at this sample, with the same triangle and samples.
 bool same_pair(const Frame& a, const Frame& b, std::size_t sample)
 {
     return mask_at(a, sample) != 0 && mask_at(a, sample) == mask_at(b, sample) && a.triangle_ids[sample] == b.triangle_ids[sample];
 }
 
-// Whether the samples of a pixel show the same pairs: the same triangles, shared by samples in the same way.
+// True if both frames have the same pairs in a pixel: the same triangles on the same samples.
 bool same_pairs(const Frame& a, const Frame& b, std::size_t pixel, std::size_t msaa)
 {
     for (std::size_t s = pixel * msaa; s < (pixel + 1) * msaa; ++s)
@@ -93,7 +93,7 @@ void count_pixel_differences(const Frame& tile, const Frame& other, std::size_t 
     }
 }
 
-// Of a vector, against its largest component in either.
+// True if two vectors differ by more than kRounding times the largest component of either.
 bool beyond_rounding(const std::uint32_t* a, const std::uint32_t* b, int words)
 {
     double largest = 0.0, difference = 0.0;
@@ -107,7 +107,7 @@ bool beyond_rounding(const std::uint32_t* a, const std::uint32_t* b, int words)
     return difference > kRounding * largest;
 }
 
-// Components of the vectors that a pair's words are (shading/lang/recorded.h).
+// Vector lengths inside a pair's words (shading/lang/recorded.h).
 constexpr int kInterpolantVectors[] = {
 #define BN_POINT(type, words, name, asked) words,
 #define BN_INTERPOLATED(type, words, name, asked, first) words,

@@ -1,4 +1,4 @@
-// `burnish profile`: where the time of a frame goes.
+// `burnish profile`: shows how a frame's time is spent.
 #include <chrono>
 #include <fmt/core.h>
 #include <memory>
@@ -19,7 +19,7 @@
 namespace burnish {
 namespace {
 
-constexpr int kFrames = 10; // profiled, where --frames says nothing
+constexpr int kFrames = 10; // profiled frames without --frames
 
 constexpr const char* kFooter =
     R"(The frame is drawn 2 x --frames times (10), with and without the clocks in turn, after two frames that warm up. Times of a stage
@@ -62,7 +62,7 @@ void add(FrameProfile& to, const FrameProfile& more)
     }
 }
 
-// Frames with and without a profile, in turn: the one tells what the other costs, and both show the same picture. The last one.
+// Alternates frames with and without a profile, to measure the profile's cost; all show the same picture. Returns the last frame.
 Result<Frame> measure(Renderer& renderer, FrameDesc desc, const std::string& scene, ProfileFigures& figures)
 {
     std::vector<double> plain_ms, profiled_ms;
