@@ -15,11 +15,11 @@ constexpr int kCurvePoints = 180;
 struct Shapes { // as microfacet normals
     std::vector<PlotVec> ellipse, axis, between, samples;
     PlotVec near[2], far[2];
-    PlotVec clamped[2], moved[2]; // the farthest where they are clamped at the horizon, the closest moved as far: the lobe's width
-    std::vector<std::vector<PlotVec>> circles; // of directions at one distance from a sample's
+    PlotVec clamped[2], moved[2];              // farthest points clamped at the horizon, closest points moved as far: the lobe's width
+    std::vector<std::vector<PlotVec>> circles; // directions at one distance from a sample's direction
 };
 
-// The farthest point that is still mirrored above the horizon, on the way from the normal to `end`.
+// Returns the farthest point from the normal towards `end` whose mirror direction is above the horizon, as a share of the way.
 double clamped_share(const PlotVec& end, const PlotVec& o)
 {
     const auto at = [&](double share) { return unit({share * end.x, share * end.y, end.z}); };
@@ -57,7 +57,7 @@ Shapes shapes_of(const LobePlot& lobe, double alpha_x, double alpha_y, const Plo
     }
     for (int i = 0; i < lobe.samples; ++i)
         s.samples.push_back(mix(axis.ends[0], axis.ends[1], lobe.samples == 1 ? 0.5 : static_cast<double>(i) / (lobe.samples - 1)));
-    const double turn = 2.0 * std::asin(std::min(1.0, lobe.k * axis.radius / 2.0)); // of a direction, for that distance
+    const double turn = 2.0 * std::asin(std::min(1.0, lobe.k * axis.radius / 2.0)); // angle between directions at this distance
     for (const PlotVec& w : s.samples) {
         const PlotVec d = plot_fns().mirrored(w, o);
         const PlotVec helper = std::abs(d.z) < 0.9 ? PlotVec{0, 0, 1} : PlotVec{1, 0, 0};
@@ -66,7 +66,7 @@ Shapes shapes_of(const LobePlot& lobe, double alpha_x, double alpha_y, const Plo
         for (int i = 0; i <= 48; ++i) {
             const double t = 2.0 * kPi * i / 48, c = std::cos(turn), s1 = std::sin(turn) * std::cos(t), s2 = std::sin(turn) * std::sin(t);
             const PlotVec i_dir = {d.x * c + a.x * s1 + b.x * s2, d.y * c + a.y * s1 + b.y * s2, d.z * c + a.z * s1 + b.z * s2};
-            circle.push_back(unit({o.x + i_dir.x, o.y + i_dir.y, o.z + i_dir.z})); // the normal that mirrors to it
+            circle.push_back(unit({o.x + i_dir.x, o.y + i_dir.y, o.z + i_dir.z})); // the normal that mirrors o to i_dir
         }
         s.circles.push_back(circle);
     }
@@ -103,7 +103,7 @@ Drawing plot_axis(const LobePlot& lobe)
     double alpha_x = std::max(a * (1.0 + lobe.anisotropy), 1e-3), alpha_y = std::max(a * (1.0 - lobe.anisotropy), 1e-3);
     const double theta = lobe.theta_deg * kPi / 180.0;
     double phi = lobe.phi_deg * kPi / 180.0;
-    if (alpha_y > alpha_x) { // the ellipse frame has the greater width along x
+    if (alpha_y > alpha_x) { // the ellipse frame has the larger width along x
         std::swap(alpha_x, alpha_y);
         phi -= kPi / 2.0;
     }
@@ -119,7 +119,7 @@ Drawing plot_axis(const LobePlot& lobe)
     draw_density(out, slopes, Edge::slopes, [&](const Place& p) {
         const PlotVec w = unit({p.x, p.y, 1.0});
         const double z2 = w.z * w.z;
-        return plot_fns().normals(alpha_x, alpha_y, w) * z2 * z2; // of slopes: D times the fourth power of the cosine
+        return plot_fns().normals(alpha_x, alpha_y, w) * z2 * z2; // density of slopes: D times the fourth power of the cosine
     });
     draw_frame(out, slopes, Edge::slopes);
     draw_shapes(out, slopes, shapes, [&](const PlotVec& w) { return w.z > 0.0 ? Place{w.x / w.z, w.y / w.z} : Place{nan, nan}; });

@@ -12,11 +12,11 @@
 namespace burnish {
 namespace {
 
-constexpr int kGrid = 200;                          // places along a side among which the peak is looked for
-constexpr double kShares[] = {0.9, 0.5, 0.1, 0.01}; // of the peak, of contours
-constexpr int kCutPoints = 1440;                    // of half a turn
+constexpr int kGrid = 200;                          // grid positions along a side in the search for the peak
+constexpr double kShares[] = {0.9, 0.5, 0.1, 0.01}; // contour levels, as shares of the peak
+constexpr int kCutPoints = 1440;                    // over half a circle
 
-// A direction above the horizon by what it is seen along the normal; below: none.
+// Lifts a point of the disk to a direction above the horizon. Returns false outside the disk.
 bool risen(const Place& p, PlotVec& w)
 {
     const double z2 = 1.0 - p.x * p.x - p.y * p.y;
@@ -29,7 +29,7 @@ Place seen_along_normal(const PlotVec& w)
     return w.z >= 0.0 ? Place{w.x, w.y} : Place{std::nan(""), std::nan("")};
 }
 
-// Where the density is greatest: the best of a grid and of what is likely, and from there uphill in ever smaller steps.
+// Finds the maximum of the density: the best of a grid and of `likely`, refined uphill with ever smaller steps.
 Place peak_of(const Density& density, const std::vector<PlotVec>& likely)
 {
     Place best;
@@ -57,7 +57,7 @@ Place peak_of(const Density& density, const std::vector<PlotVec>& likely)
     return best;
 }
 
-// A polar cut: the values of directions from -90 to 90 degrees about `up`, towards `side`, as distances from the middle.
+// Draws a polar cut: values in directions from -90 to 90 degrees about `up`, towards `side`, as distances from the centre.
 void draw_cut(Drawing& out, const Panel& panel, const std::function<double(const PlotVec&)>& value, const PlotVec& up, const PlotVec& side,
               const std::string& family)
 {

@@ -1,4 +1,4 @@
-// `burnish atlas`: where each method breaks, measured, shown, and held to what was blessed.
+// `burnish atlas`: measures and shows where each method breaks, and compares with the blessed figures.
 #include <algorithm>
 #include <filesystem>
 #include <fmt/core.h>
@@ -51,7 +51,7 @@ Result<BlessedTable> blessed_table(const AtlasOptions& options)
 {
     if (options.table.empty())
         return parse_table(std::string(kAtlasBlessed.bytes, kAtlasBlessed.size), "the program's own table");
-    std::error_code ignored; // reading says what is wrong
+    std::error_code ignored; // read_file() reports the reason
     if (options.bless && fs::status(options.table, ignored).type() == fs::file_type::not_found)
         return BlessedTable();
     const Result<std::vector<std::uint8_t>> bytes = read_file(options.table, kMaxTableBytes);
@@ -59,7 +59,7 @@ Result<BlessedTable> blessed_table(const AtlasOptions& options)
     return parse_table(std::string(bytes->begin(), bytes->end()), options.table);
 }
 
-// What a walk of an entry left in DIR.
+// Files of an earlier walk of an entry in DIR.
 struct KeptFiles {
     std::string key, json, strip;
 };
