@@ -30,7 +30,7 @@ struct MipArguments {
     MipArguments();
 };
 std::vector<Option> mip_options(MipArguments& to);
-Value lobe_value(int& to); // of --brdf: index of a lobe, by name
+Value lobe_value(int& to); // value of --brdf: a lobe's index, by name
 
 struct MipBake { // with the options common to `burnish bake`
     const MipArguments& options;

@@ -80,7 +80,7 @@ std::vector<Image> with_gains(std::vector<Image> colours, const MipLevels& level
     }
     for (Image& colour : colours) {
         const auto off = [&](int width, int height) { return std::abs(std::max(colour.width, colour.height) - std::max(width, height)); };
-        float gain = 1.0f; // of level 0
+        float gain = 1.0f; // level 0
         int least = off(levels.width, levels.height);
         for (const MipLevel& level : levels.levels)
             if (off(level.width, level.height) < least)

@@ -132,8 +132,8 @@ void draw_map(Drawing& out, const LtcQuality& quality, int across, int up, doubl
     out.text(x - 48.0, y + kSide / 2.0, "title middle", kAxes[up], -90.0);
 }
 
-// Measurements of the authors' own table (KT et al. 2022), on other lists of lobes with the same size and distribution. best: lower bound
-// for the part's list. NaN: unknown.
+// Figures measured for the authors' own table (KT et al. 2022), on other lobe lists with equal size and distribution. best: the part's
+// lower bound. NaN: unknown.
 struct PublishedFigures {
     const char* part;
     double l1, p95, most, best, light, light_p95, absolute, all_relative;

@@ -11,14 +11,14 @@
 
 namespace burnish {
 
-// Statistics over a list of lobes, or a part of one.
+// Statistics over a lobe list, or over a part.
 struct LtcFigures {
     const char* name; // "all", "grazing", ...
     std::size_t lobes = 0;
     ltc::Spread l1, best_l1, with_pairs, light_relative, light_absolute, all_relative, grazing_absolute;
 };
 
-// Variance of samplers over a part of the list: see ltc::Sampled.
+// Sampler variance over a part: see ltc::Sampled.
 struct LtcSampling {
     const char* name;
     std::size_t lights = 0; // with enough light to be counted

@@ -26,7 +26,7 @@ using Quad = std::vector<Vec>;
 constexpr Vec kStrips[2][4] = {{{-1.6, 1.2, 2.2}, {-1.2, 1.2, 2.2}, {-1.2, -1.2, 2.2}, {-1.6, -1.2, 2.2}},
                                {{0.3, 2.0, -1.0}, {0.7, 2.0, -1.0}, {0.7, 2.0, 1.5}, {0.3, 2.0, 1.5}}};
 
-struct Pixel { // of the ball: its lobe, and the strips in the lobe's frame
+struct Pixel { // a ball pixel: its lobe, and the strips in the lobe's frame
     ltc::Place place;
     Quad strips[2];
 };

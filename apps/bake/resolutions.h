@@ -13,13 +13,13 @@ namespace burnish {
 struct LtcResolution {
     std::string name;                  // row name: "this table", "8 nodes", ..., "exact"
     ltc::Spread l1, light_relative;    // over the lobes, common to all rows
-    std::vector<double> pixels, apart; // of the drawn ball: lighting over radiance, and its distance from GGX lighting; empty: not drawn
+    std::vector<double> pixels, apart; // the drawn ball: lighting over radiance, and its distance from GGX lighting; empty: not drawn
     double mean_apart = 0.0;           // over the ball
 };
 
 struct LtcResolutions {
     std::size_t lobes = 0;
-    std::vector<double> reference; // of the ball, rows from the top; NaN: outside it
+    std::vector<double> reference; // the ball, rows from the top; NaN: outside it
     std::vector<LtcResolution> rows;
 };
 

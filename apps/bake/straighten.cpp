@@ -9,7 +9,7 @@ namespace burnish {
 namespace {
 
 constexpr int kGutter = 16;      // texels around an island
-constexpr double kMostTurns = 8; // of the texture over one triangle
+constexpr double kMostTurns = 8; // texture repeats over one triangle
 
 glm::dvec3 point_of(const float* p)
 {
@@ -109,7 +109,7 @@ class Painter {
 
     PictureSize size_;
     glm::dvec3 direction_;
-    std::vector<double> cosine_, sine_; // of the double angle
+    std::vector<double> cosine_, sine_; // of double angles
     std::vector<std::uint8_t> painted_;
 };
 

@@ -6,7 +6,7 @@
 
 namespace burnish {
 
-// Returns {busy ticks, all ticks} over all cores from the text of /proc/stat (proc(5)), or none if the text has another format.
+// Returns {busy ticks, all ticks} over all cores, from the text in /proc/stat (proc(5)), or none if the text has another format.
 std::optional<std::pair<double, double>> ticks_of(const std::string& proc_stat);
 
 // Sums the load over the times between begin() and end().

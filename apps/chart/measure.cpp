@@ -61,7 +61,7 @@ class Chart {
     struct Place { // rows of one place are compared with each other
         const SeenScene& scene;
         Session& tile;
-        FrameDesc desc; // of the compared pictures, without technique and samples
+        FrameDesc desc; // for the compared pictures, without technique and samples
         std::string env;
         Cell cell;
         std::uint64_t key = 0; // hash of scene, environment, view and overrides

@@ -13,12 +13,11 @@ namespace burnish {
 
 struct MipRow {
     std::string set, family, material, brdf, filter;
-    int level = 0;        // from 1 on
-    bool hardest = false; // in the quarter of its set and model with baseline's largest errors (L1, mean over levels)
-    ShownError error;     // flip is 0 for levels with fewer than 16 texels a side
-    double ms = 0.0;      // wall-clock time for all levels of the material
-    std::optional<double>
-        gap{}; // share of L1 from baseline to teacher that is closed: 0 of baseline, 1 of teacher; none where there is no gap
+    int level = 0;               // from 1 on
+    bool hardest = false;        // in the quarter of its set and model with baseline's largest errors (L1, mean over levels)
+    ShownError error;            // flip is 0 for levels with fewer than 16 texels a side
+    double ms = 0.0;             // wall-clock time for all levels of the material
+    std::optional<double> gap{}; // closed share of the L1 gap from baseline (0) to teacher (1); none without a gap
 };
 
 inline constexpr int kMipRowLevels = 5;

@@ -14,10 +14,10 @@ struct ChartOptions {
     std::vector<std::string> scenes = {"builtin:spheres"}, envs = {"builtin:studio"};
     std::vector<std::string> techniques = technique_names();
     Sweeps sweeps;
-    std::vector<Cell> cells;                                 // of the sweeps
+    std::vector<Cell> cells;                                 // one a sweep point
     std::vector<RenderOptions> cell_options;                 // `base` with the changes of each cell
     bool sweeps_environments = false, sweeps_scenes = false; // sweeps contain environment or scene options
-    bool display_flip = false;                               // LDR-FLIP of tonemapped pictures, not HDR-FLIP of linear ones
+    bool display_flip = false;                               // LDR-FLIP on tonemapped pictures, not HDR-FLIP on linear ones
     int runs = 9;                                            // timed runs of every setting
     std::uint64_t reference_samples = 4096;                  // a pixel
     std::string folder;

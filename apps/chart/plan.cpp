@@ -12,7 +12,7 @@ namespace burnish {
 namespace {
 
 constexpr std::int64_t kMaxSamples = 65536; // as in `burnish render`
-constexpr std::size_t kMaxValues = 64;      // of one sweep: more is a typing error
+constexpr std::size_t kMaxValues = 64;      // in one sweep: more is a typing error
 constexpr int kUsualSamples[] = {1, 2, 4, 8, 16, 32, 64};
 
 Error sweep_error(const std::string& reason)

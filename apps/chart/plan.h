@@ -32,7 +32,7 @@ struct Setting {
 // of two around it. Counts that a technique rounds to the same number give one setting.
 std::vector<Setting> settings_of(const std::vector<std::string>& techniques, const std::vector<int>& samples);
 
-struct Cell {                                                     // surface overrides of a place
+struct Cell {                                                     // surface overrides at a place
     std::optional<float> roughness, anisotropy;                   // for every material; empty: the scene's own value
     std::vector<std::pair<std::string, std::string>> others = {}; // further swept options and their values
     bool operator==(const Cell&) const = default;

@@ -1,4 +1,4 @@
-// References of charts and of the atlas, kept on disk and made once.
+// References for charts and the atlas, kept on disk and made once.
 #pragma once
 #include <string>
 

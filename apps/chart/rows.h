@@ -1,5 +1,5 @@
-// Rows of a chart: errors and times of one technique with one setting on one surface. Rows are kept in a file while the chart is made,
-// so an interrupted chart can resume.
+// Chart rows: errors and times for one technique with one setting on one surface. Rows are kept in a file while the chart is made, so an
+// interrupted chart can resume.
 #pragma once
 #include <cstdint>
 #include <map>
@@ -59,10 +59,10 @@ struct ChartReference {
 struct ChartReport {
     ChartMachine machine;
     int width = 0, height = 0, msaa = 0, runs = 0; // width, height: of the timed frames, pixels
-    int error_width = 0, error_height = 0;         // of the pictures compared with the reference
+    int error_width = 0, error_height = 0;         // pictures compared with the reference
     std::uint64_t reference_samples = 0;
-    bool display_flip = false;                        // LDR-FLIP of tonemapped pictures; otherwise HDR-FLIP of linear ones
-    Json parameters = Json::object();                 // of techniques, common to all rows
+    bool display_flip = false;                        // LDR-FLIP on tonemapped pictures; otherwise HDR-FLIP on linear ones
+    Json parameters = Json::object();                 // technique parameters, common to all rows
     std::vector<ChartRow> rows;                       // ordered by scene, environment, cell, technique, samples
     std::map<std::string, ChartReference> references; // by place()
 };
@@ -79,7 +79,7 @@ double p95_of(const ChartRow& row);
 std::vector<bool> pareto_front(const std::vector<std::pair<double, double>>& points);
 void mark_pareto(std::vector<ChartRow>& rows); // by place, over median time and mean FLIP
 
-inline constexpr int kKeptVersion = 2; // of the file layout
+inline constexpr int kKeptVersion = 2; // file layout
 std::string kept_json(const Kept& kept);
 Result<Kept> parse_kept(const std::string& text, const std::string& file);
 std::string report_json(const ChartReport& report);

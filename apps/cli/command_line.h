@@ -16,6 +16,6 @@ Asked asked_by(const Command& command, const std::vector<std::string>& words); /
 
 std::string usage_of(const OptionTable& table); // "[OPTIONS] REFERENCE TEST", "[OPTIONS] [SCENE...]"
 std::string help_of(const Command& command);
-std::string help_of(const std::vector<Command>& commands, const std::string& footer); // of the program itself
+std::string help_of(const std::vector<Command>& commands, const std::string& footer); // the program itself
 
 } // namespace burnish

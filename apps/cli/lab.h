@@ -1,4 +1,4 @@
-// The laboratory's subcommands: a separate program, burnish-lab, beside this one.
+// The laboratory's subcommands, in a separate program, burnish-lab, beside this one.
 #pragma once
 #include <string>
 #include <vector>

@@ -15,7 +15,7 @@ enum class ValueKind { flag, count, integer, number, bytes, size, vector, name, 
 // The type and target of an option. The functions in apps/cli/values.h make values.
 struct Value {
     ValueKind kind = ValueKind::text;
-    double low = 0.0, high = 0.0;   // of integers and numbers, also inside vectors
+    double low = 0.0, high = 0.0;   // range for integers and numbers, also inside vectors
     std::vector<std::string> names; // all valid names; for files: builtin:NAME besides paths
     bool repeated = false;          // collects every occurrence; otherwise the last one counts
     // Replaces the current value. `texts` has one entry for each occurrence, at least one; entries of flags are empty.

@@ -25,7 +25,7 @@ struct CompareFigures {
     int width = 0, height = 0;
     std::int64_t nan_pixels = 0; // above 0: nothing else is computed
     FlipResult flip;
-    std::optional<ErrorSummary> errors; // of flip
+    std::optional<ErrorSummary> errors; // summary for `flip`
     std::optional<PixelFigures> pixels;
     std::optional<double> ssim;
     std::optional<ZTest> z;

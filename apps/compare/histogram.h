@@ -8,9 +8,9 @@
 
 namespace burnish {
 
-inline constexpr int kHistogramBins = 50; // of errors from 0 to 1
+inline constexpr int kHistogramBins = 50; // over errors from 0 to 1
 
-// Returns the share of pixels by bin, [0,1]. Errors of 1 and more, and NaN, count in the last bin.
+// Returns the pixels' shares by bin, [0,1]. Errors at or above 1, and NaN, count in the last bin.
 std::vector<double> histogram_of(const Image& error);
 Drawing plot_histogram(const Image& error, const ErrorSummary& summary);
 

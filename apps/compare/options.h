@@ -23,7 +23,7 @@ struct CompareOptions {
     FlipOptions flip;
     std::string json, csv, html, error_map; // empty: no file; json, csv and html: "-" is standard output
     std::optional<double> fail_flip, fail_max, fail_fraction;
-    std::vector<std::string> variances; // of the reference, of the test
+    std::vector<std::string> variances; // the reference's, the test's
     double significance = 0.01, fail_z = 0.0;
     bool sequence = false; // reference and test are patterns of file sequences
     std::optional<double> fail_flicker;

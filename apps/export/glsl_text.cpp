@@ -63,7 +63,7 @@ struct Piece { // a declaration
 
 struct FlatText {
     std::vector<Piece> pieces;
-    std::map<std::string, std::string> headings; // of files
+    std::map<std::string, std::string> headings; // by file
 };
 
 bool ends_with(const std::string& text, const std::string& end)
@@ -197,7 +197,7 @@ std::set<std::string> members_read(const std::string& text, const std::string& v
     return names;
 }
 
-using Kept = std::vector<bool>; // of pieces
+using Kept = std::vector<bool>; // by piece
 
 Kept reached(const std::vector<Piece>& pieces, const std::vector<std::string>& roots)
 {

@@ -1,4 +1,4 @@
-// The outcome of `burnish race`: frame times of the tile renderer and of Vulkan's CPU devices.
+// The outcome of `burnish race`: frame times for the tile renderer and for Vulkan CPU devices.
 #pragma once
 #include <string>
 #include <vector>

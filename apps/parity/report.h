@@ -13,10 +13,10 @@ struct ParityRow {
     int msaa = 1;
     std::string sampler, pipeline;
     bool samples_emulated = false;
-    std::uint64_t pixel_hash = 0; // of the tile renderer's picture
+    std::uint64_t pixel_hash = 0; // the tile renderer's picture
     ParityCounts counts;
     double flip_mean = 0.0;
-    std::vector<CauseShare> causes;        // of the differing pixels
+    std::vector<CauseShare> causes;        // for differing pixels
     Error error{ExitCode::ok, "", "", ""}; // other than ok: the reason why nothing was compared
     bool failed() const { return error.code != ExitCode::ok; }
 };

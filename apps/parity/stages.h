@@ -18,7 +18,7 @@ struct ParityStage {
 
 struct ParityCounts {
     std::uint64_t samples = 0, visibility_differ = 0;        // a sample differs if its triangle differs
-    std::uint64_t pixels_differ = 0, edge_pixels_differ = 0; // of the resolved picture; those with several triangles in the pixel
+    std::uint64_t pixels_differ = 0, edge_pixels_differ = 0; // in the resolved picture; those with several triangles in the pixel
     std::vector<ParityStage>
         stages; // clip positions, visibility, depth, interpolants, material inputs, shaded colour, resolved colour, layers
 };

@@ -119,7 +119,7 @@ Drawing plot_axis(const LobePlot& lobe)
     draw_density(out, slopes, Edge::slopes, [&](const Place& p) {
         const PlotVec w = unit({p.x, p.y, 1.0});
         const double z2 = w.z * w.z;
-        return plot_fns().normals(alpha_x, alpha_y, w) * z2 * z2; // density of slopes: D times the fourth power of the cosine
+        return plot_fns().normals(alpha_x, alpha_y, w) * z2 * z2; // slope density: D times the fourth power of the cosine
     });
     draw_frame(out, slopes, Edge::slopes);
     draw_shapes(out, slopes, shapes, [&](const PlotVec& w) { return w.z > 0.0 ? Place{w.x / w.z, w.y / w.z} : Place{nan, nan}; });

@@ -10,10 +10,10 @@
 namespace burnish {
 namespace {
 
-constexpr int kBinRows = 8, kBinColumns = 16; // of histograms, in cosine and azimuth
+constexpr int kBinRows = 8, kBinColumns = 16; // histograms in cosine and azimuth
 constexpr double kLeastExpected = 20.0;       // normals a bin; bins below are merged
 constexpr int kDirections = 24;               // rows of directions for measuring areas
-constexpr double kTiltDeg = 25.0;             // of measure_skew()
+constexpr double kTiltDeg = 25.0;             // for measure_skew()
 constexpr int kEnergySide = 96;               // samples along each side of the sample grid in measure_skew()
 
 const EllipsoidFns& ellipsoid_fns()
@@ -37,7 +37,7 @@ PlotVec sum(const PlotVec& a, const PlotVec& b)
     return {a.x + b.x, a.y + b.y, a.z + b.z};
 }
 
-// Calls `call` with the direction and solid angle of every cell of the upper hemisphere.
+// Calls `call` with the direction and solid angle of each cell on the upper hemisphere.
 template <class Call> void each_normal(const Call& call)
 {
     const double part = 2.0 * kPi / (static_cast<double>(kEllipsoidRows) * kEllipsoidColumns);

@@ -34,7 +34,7 @@ struct EllipsoidFigures {
 std::vector<EllipsoidFigures> measure_ellipsoids(); // for a few settings, upright and tilted
 
 struct EnergyRow {
-    double theta_deg;        // of the light, towards the tilt
+    double theta_deg;        // the light's angle, towards the tilt
     double skew, normal_map; // share reflected by a surface without absorption
 };
 // Measures the energy of a lobe tilted by 25 degrees, and of an upright lobe under a normal map with the same peak.

@@ -11,7 +11,7 @@ struct EllipsoidShape {
 
 struct NormalSample {
     PlotVec m, wi; // normal, and the eye direction mirrored about it
-    double weight; // of wi; 0 for an invalid sample
+    double weight; // for wi; 0 for an invalid sample
 };
 
 struct EllipsoidFns {

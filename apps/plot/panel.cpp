@@ -7,7 +7,7 @@
 namespace burnish {
 namespace {
 
-constexpr int kCells = 150; // of a density, along a side
+constexpr int kCells = 150; // density cells along a side
 constexpr double kShades = 96.0;
 constexpr int kContourCells = 150; // along a side of the contour grid
 constexpr int kCirclePoints = 180;

@@ -13,7 +13,7 @@ struct LobePlot {
     double k = 1.0, beta = 2.3;
     int samples = 16;
     int model = 0;                             // index of the lobe in shading/models.def
-    double rotation_deg = 45.0;                // of the grain, from the parallels in plot_side()
+    double rotation_deg = 45.0;                // the grain, from the parallels in plot_side()
     double tilt_x_deg = 0.0, tilt_y_deg = 0.0; // for lobes that can tilt: towards the bitangent, away from the tangent
 };
 

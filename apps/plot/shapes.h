@@ -11,7 +11,7 @@ struct PlotVec {
 struct AxisShape {        // in the ellipse frame: x along the larger slope deviation, y along the smaller, z the normal
     double t_near, t_far; // parameters on the slope ellipse: closest to the mirror direction, farthest from it
     PlotVec ends[2];      // microfacet normals at the ends of the sample line
-    double radius;        // of one sample, as a distance between directions
+    double radius;        // one sample's extent, as a distance between directions
 };
 
 // A lobe on a surface: frame t, b, n with the grain along t.

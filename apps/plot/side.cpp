@@ -12,9 +12,9 @@
 namespace burnish {
 namespace {
 
-constexpr int kMapCells = 100, kShareCells = 60; // cells along a side: of the drawn sphere, of the sphere for statistics
+constexpr int kMapCells = 100, kShareCells = 60; // cells along a side: for the drawn sphere, for the statistics
 constexpr int kMeanSamples = 8;                  // along a side of the lobe's sample grid
-constexpr int kSteps = 20;                       // of eta from -0.95 to 0.95
+constexpr int kSteps = 20;                       // for eta from -0.95 to 0.95
 constexpr double kMostEta = 0.95;
 
 enum Looker { lobe_itself, bent_normal, major_axis, lookers };
@@ -67,7 +67,7 @@ template <class Call> void each_cell(int cells, const Call& call)
         }
 }
 
-struct Shares { // of the sphere's visible points, [0,1]
+struct Shares { // over the sphere's visible points, [0,1]
     double of[lookers];
 };
 

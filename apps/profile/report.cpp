@@ -20,7 +20,7 @@ struct Span { // a table line, or a box of the flame graph
     std::vector<Span> parts;
 };
 
-constexpr std::size_t kMostLines = 12; // of materials in the table
+constexpr std::size_t kMostLines = 12; // material lines in the table
 constexpr const char* kPhases[] = {"before tiles", "tiles"};
 constexpr int phase_of(FrameStage stage)
 {
@@ -49,8 +49,8 @@ std::vector<Span> stages_of(const ProfileFigures& f)
 }
 
 struct Balance {
-    double busy_ms = 0.0, all_ms = 0.0;     // of the threads, a frame
-    double mean_ms = 0.0, slowest_ms = 0.0; // of a tile
+    double busy_ms = 0.0, all_ms = 0.0;     // the threads' time, a frame
+    double mean_ms = 0.0, slowest_ms = 0.0; // tile times
     std::size_t slowest = 0;
 };
 

@@ -13,12 +13,12 @@ struct ProfileFigures {
     std::string device;
     int threads = 0, frames = 0;
     FrameProfile sum;                   // over the frames
-    FrameStats stats;                   // of the last frame
+    FrameStats stats;                   // the last frame
     std::vector<std::string> materials; // names
     double plain_ms = 0.0;              // median wall time of unprofiled frames, interleaved with profiled ones
     double profiled_ms = 0.0;           // median wall time of profiled frames
     double write_ms = 0.0;              // encoding and writing the pictures, once
-    std::uint64_t hash = 0;             // of the linear pixels
+    std::uint64_t hash = 0;             // linear pixels
 };
 
 std::string profile_table(const RenderOptions& options, const ProfileFigures& figures);

@@ -114,7 +114,7 @@ std::vector<View> turntable_views(const DrawTables& tables, const FrameDesc& fra
         distance = std::max(distance, glm::dot(centre - views.back().eye, views.back().forward));
     }
     for (View& view : views) {
-        const float znear = view.znear; // of the nearer eye
+        const float znear = view.znear; // the nearer eye's
         view = make_view(centre - view.forward * distance, centre, fov_y_rad, frame.width, frame.height);
         view.znear = znear;
     }

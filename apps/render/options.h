@@ -34,7 +34,7 @@ struct RenderOptions {
     std::string risks;                 // picture of the atlas's risks for the technique; "-": text only; empty: none
     bool shadow_ratio = false;         // area lights cast shadows, by ray-traced samples
     int shadow_samples = 64;           // a pixel
-    Resolve resolve = Resolve::linear; // of 8-bit outputs
+    Resolve resolve = Resolve::linear; // for 8-bit outputs
     std::string stats_file;            // empty: none; "-": standard output
     std::string trace_file;            // empty: none
 
@@ -58,7 +58,7 @@ struct RenderOptions {
     int threads = 0; // 0: all cores open to the process
     int frames = 1;
     int turntable = 0; // pictures around the scene; 0: no turntable
-    int fps = 30;      // of animations
+    int fps = 30;      // for animations
     Tonemap tonemap = Tonemap::pbr_neutral;
     float exposure_ev = 0.0f;
 
@@ -74,7 +74,7 @@ struct RenderArguments {
     PictureSize size = {1280, 720};
     std::optional<std::int64_t> samples; // none: the default of the technique or the reference
     std::string animate;                 // in the syntax of --animate
-    int steps = 60;                      // of --animate
+    int steps = 60;                      // for --animate
 };
 
 // Returns all options of `burnish render`. Other subcommands take rows from this table. `to` must outlive the table.

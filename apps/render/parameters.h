@@ -1,4 +1,4 @@
-// Parameters of techniques, from their lines in shading/models.def: as options and in reports.
+// Technique parameters, from their lines in shading/models.def: as options and in reports.
 #pragma once
 #include <string>
 #include <vector>

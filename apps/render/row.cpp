@@ -23,14 +23,14 @@ bool is_one_of(const std::string& text, const std::vector<std::string>& of)
     return std::find(of.begin(), of.end(), text) != of.end();
 }
 
-// The options of one picture in a sequence.
+// Options for one picture in a sequence.
 struct Step {
     RenderOptions options;
     std::string values; // the changing values, such as "roughness 0.1, tilt 0,0"
     Json json;          // the same values, by option
 };
 
-// A sequence of pictures: --animate or --turntable.
+// A picture sequence: --animate or --turntable.
 class Row {
   public:
     static Result<Row> make(RenderArguments& arguments, OptionTable& given)

@@ -13,8 +13,8 @@ struct RenderFigures {
     std::string device;
     int threads = 0;
     std::vector<double> frame_ms; // in rendering order
-    FrameStats frame;             // of the last frame
-    std::uint64_t hash = 0;       // of the linear pixels
+    FrameStats frame;             // the last frame
+    std::uint64_t hash = 0;       // hash over linear pixels
     std::uint64_t nan_pixels = 0; // pixels with a NaN or Inf channel
     double load_ms = 0.0;         // from scene file to draw tables
     double bake_ms = 0.0;         // environment: baked, or read from the cache
@@ -30,7 +30,7 @@ double percentile_95(std::vector<double> values); // nearest rank
 
 std::string hash_text(std::uint64_t hash); // 16 hexadecimal digits
 std::uint64_t peak_memory_bytes();         // peak resident size of this process
-std::uint64_t program_hash();              // of this executable's bytes: another build may render other pixels
+std::uint64_t program_hash();              // over this executable's bytes: another build may render other pixels
 
 Json stats_json(const RenderOptions& options, const RenderFigures& figures);
 

@@ -17,13 +17,13 @@ using Attributes = std::vector<std::pair<std::string, std::string>>;
 struct DrawnItem {
     enum class Kind { group, end, text, line, outline, disc, rectangle };
     Kind kind = Kind::group;
-    std::string classes;         // of the item itself, with blanks between
+    std::string classes;         // the item's own, with blanks between
     Points points;               // text: start of its line; disc: its centre; rectangle: two opposite corners
-    double radius = 0.0;         // of a disc
-    double turn_deg = 0.0;       // of text: clockwise, about its position
-    std::string text{};          // of a group: the tooltip in viewers
+    double radius = 0.0;         // disc
+    double turn_deg = 0.0;       // text: clockwise, about its position
+    std::string text{};          // group: the tooltip in viewers
     std::optional<Paint> fill{}; // overrides the fill of the classes
-    Attributes attributes{};     // of a group: data for scripts, not drawn
+    Attributes attributes{};     // group: data for scripts, not drawn
 };
 
 class Drawing {

@@ -1,4 +1,4 @@
-// The looks of a chart's items, by class: one table for the SVG style sheet and for the painter of pictures.
+// Chart item looks, by class: one table for the SVG style sheet and for the painter.
 #pragma once
 #include <string>
 

@@ -1,4 +1,4 @@
-// Pictures of a report, reduced to the size of a page.
+// Report pictures, reduced to page size.
 #pragma once
 #include <string>
 

@@ -11,7 +11,7 @@
 namespace burnish {
 namespace {
 
-constexpr double kRadius = 5.0, kHitRadius = 11.0; // px: of marks, of their pointer targets
+constexpr double kRadius = 5.0, kHitRadius = 11.0; // px: marks, pointer targets
 
 struct Point {
     double x = 0.0, y = 0.0, x_p95 = 0.0; // axis values; x_p95: end of a whisker from x; 0: no whisker

@@ -8,7 +8,7 @@
 
 namespace burnish {
 
-inline constexpr int kTableVersion = 3; // of the figures' meaning: raise it when steps, pictures or measures change
+inline constexpr int kTableVersion = 3; // version of the figures' meaning: raise it when steps, pictures or measures change
 
 struct BlessedRow {
     double onset = 2.0, worst = 0.0, flicker = 0.0, cure_worst = 0.0; // as in MeasuredEntry (apps/lab/atlas/measure.h)

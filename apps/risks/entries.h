@@ -27,11 +27,11 @@ const std::vector<AtlasEntry>& atlas_entries(); // in the order of atlas.def
 const AtlasEntry* find_entry(const std::string& id);
 std::vector<std::string> entry_ids();
 
-// A sampling of the atlas's paths. Figures of two walks cannot be compared.
+// A sampling pattern for the atlas's paths. Figures from two walks cannot be compared.
 struct AtlasWalk {
     const char* name;
-    int steps, side;       // of a path; pixels of a picture
-    std::uint64_t samples; // a pixel of the reference
+    int steps, side;       // steps on a path; picture side, pixels
+    std::uint64_t samples; // reference samples a pixel
     int cure_every = 1;    // steps between two checks of the cure; the last step is always checked
 };
 inline constexpr AtlasWalk kQuickWalk{"quick", 7, 64, 256, 2}, kFullWalk{"full", 33, 96, 1024, 1};

@@ -54,10 +54,10 @@ constexpr std::size_t kChanges = 0
 using Changes = std::array<float, kChanges>;
 // Least visible differences, by Change, in the logarithm of a pixel's luminance.
 constexpr Changes kSeen = {0.12f, 0.12f, 0.12f, 0.25f, 0.2f, 0.0f};
-constexpr float kBlack = 0.1f; // of the picture's median luminance: pixels are compared on top of this
+constexpr float kBlack = 0.1f; // relative to the picture's median luminance: pixels are compared on top of this
 
 constexpr int kLookedAt = 3600, kMostStep = 16; // pixels of the small picture, about; largest step between them
-constexpr float kUsualNdotV = 0.7f;             // of entries whose path does not move the eye
+constexpr float kUsualNdotV = 0.7f;             // for entries whose path does not move the eye
 constexpr std::uint8_t kUnmarkedGrey = 48;
 struct Active { // a rule that this picture may break
     std::size_t rule;

@@ -14,7 +14,7 @@ struct RiskInputs {
     float along = 0.0f, across = 0.0f;     // lobe widths, alpha (1 +- eta)
     float n_dot_v = 1.0f;                  // [0,1]
     float tilt = 0.0f;                     // radians
-    float samples = 1.0f;                  // of the technique
+    float samples = 1.0f;                  // the technique's
     float axis_k = 1.0f, axis_beta = 0.0f; // FrameDesc::major_axis_k, major_axis_beta
     float texel = 0.0f;                    // angle of one environment texel, radians
     float separable = 0.0f, fit = 0.0f;    // 1 with --masking separable, --dfg fit
@@ -25,14 +25,14 @@ struct RiskInputs {
 
 // Returns the inputs common to a whole picture.
 RiskInputs inputs_of_frame(const FrameDesc& desc, const Environment& environment);
-// Return the inputs of an entry's failing picture at s, and of a picture with these options.
+// Return the inputs for an entry's failing picture at s, and for a picture with these options.
 RiskInputs inputs_of_entry(const AtlasEntry& entry, double s);
 RiskInputs inputs_of_setting(const RenderOptions& o);
 
 struct RiskFinding {
     std::string technique, entry, says; // from risks.def
-    std::string beyond;                 // where the path breaks: "anisotropy 0.158", "an eye 11 degrees above the surface"
-    double share = 0.0;                 // of the shaded pixels, [0,1]; a pixel may have several findings
+    std::string beyond;                 // onset on the path: "anisotropy 0.158", "an eye 11 degrees above the surface"
+    double share = 0.0;                 // over the shaded pixels, [0,1]; a pixel may have several findings
 };
 
 struct RiskMap {

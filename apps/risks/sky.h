@@ -16,7 +16,7 @@ class Sky {
     // the
     // nearest texel of the nearest level.
     float luminance(const glm::vec3& direction, float alpha_lin) const { return at(direction, level_of(alpha_lin)); }
-    float diffuse(const glm::vec3& direction) const { return at(direction, static_cast<int>(last_)); } // of the widest lobe
+    float diffuse(const glm::vec3& direction) const { return at(direction, static_cast<int>(last_)); } // for the widest lobe
 
   private:
     int level_of(float alpha_lin) const { return static_cast<int>(alpha_lin * last_ + 0.5f); }

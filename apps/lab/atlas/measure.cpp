@@ -13,7 +13,7 @@
 namespace burnish {
 namespace {
 
-constexpr int kMoreSamples = 64, kMostSamples = 65536; // of find_kind(): factor and limit for samples of techniques and lights
+constexpr int kMoreSamples = 64, kMostSamples = 65536; // for find_kind(): factor and limit for technique and light samples
 constexpr int kVerdictSide = 32;                       // pixels of pictures in find_kind(), unless textures matter
 
 // Returns the pixels that show the scene in either picture. Coverage of references is unknown.
@@ -68,7 +68,7 @@ class Walker {
     const AtlasWalk& walk_;
     Darkroom& room_;
     WalkedEntry out_;
-    std::optional<Picture> before_; // of the tested picture
+    std::optional<Picture> before_; // the tested picture
     std::shared_ptr<const Truth> truth_before_;
 };
 

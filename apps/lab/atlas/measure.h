@@ -16,7 +16,7 @@ struct AtlasStep {
     std::string values;
     double error = 0.0;               // mean FLIP (HDR; LDR for displayed pictures) over pixels that show the scene
     std::optional<double> cure_error; // error of the cure; none if there is no cure or no measurement
-    double noise = 0.0;               // of the truth, mean HDR-FLIP
+    double noise = 0.0;               // the truth's noise, mean HDR-FLIP
     double change = 0.0;              // mean FLIP from the previous step, minus the truth's; 0 in the first step
 };
 
@@ -38,7 +38,7 @@ struct MeasuredEntry {
 // Computes all figures from the steps, except kind and remedy.
 void summarise(const AtlasEntry& entry, MeasuredEntry& measured);
 
-// Rows of the entry's strip of pictures, one column a step; 8-bit sRGB.
+// Rows in the entry's picture strip, one column a step; 8-bit sRGB.
 enum class AtlasRow { truth, test, error, cure, cure_error };
 inline constexpr int kAtlasRows = 5;
 
