@@ -105,15 +105,18 @@ class Displacer {
     void vertex(double b, double c)
     {
         const double step = 0.25 / parts_;
+        // Estimate the normal from displaced neighbours
         const glm::dvec3 along = place(b + step, c) - place(b - step, c), across = place(b, c + step) - place(b, c - step);
         glm::dvec3 n = glm::cross(along, across);
         const glm::dvec3 before = blend(b, c, [&](std::uint32_t v) { return vector_of(t_.shading[v].normal); });
         n = glm::dot(n, n) > 0.0 ? glm::normalize(n) : glm::normalize(before);
+        // Make the tangent perpendicular to the normal
         glm::dvec3 t = blend(b, c, [&](std::uint32_t v) { return vector_of(t_.shading[v].tangent); });
         t -= n * glm::dot(n, t);
         if (!(glm::dot(t, t) > 1e-12))
             t = std::abs(n.x) < 0.7 ? glm::cross(n, glm::dvec3(1.0, 0.0, 0.0)) : glm::cross(n, glm::dvec3(0.0, 1.0, 0.0));
         t = glm::normalize(t);
+        // Append the vertex
         const glm::dvec2 uv = blend(b, c, [&](std::uint32_t v) { return coordinates_of(t_, v); });
         const glm::dvec3 p = place(b, c);
         for (const double word :

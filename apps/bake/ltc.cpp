@@ -163,6 +163,7 @@ int run_ltc(const LtcBake& b, const OptionTable& given)
         return fail(fits.error());
     Report report(b.quiet, b.verbosity);
     const Jobs jobs(b.threads);
+    // Make or read the table
     const Result<std::optional<ltc::Table>> table = table_of(b, given, jobs, report);
     if (!table)
         return fail(table.error());
@@ -176,6 +177,7 @@ int run_ltc(const LtcBake& b, const OptionTable& given)
             return fail(written.error());
     if (a.report.empty())
         return 0;
+    // Measure its quality and draw the report
     const LtcQuality quality = measure_ltc(**table, a.cosines, jobs);
     Json figures = ltc_json(quality, **table);
     std::vector<std::pair<std::string, Drawing>> drawings = {{"quality", plot_ltc_quality(quality)}};

@@ -179,6 +179,7 @@ Result<WrittenTextures> write_mip_textures(const std::string& folder, const Scen
         for (std::size_t i = 0; i < levels.size(); ++i) {
             if (!levels[i])
                 continue;
+            // Make the levels, rounded as the files will hold them
             const Material& m = scene.materials[i];
             const MipSource source = mip_source(scene, m);
             StandardLevels made = standard_levels(source, *levels[i], metallic_levels(scene, m, source, a, jobs), m.metallic);
@@ -197,11 +198,13 @@ Result<WrittenTextures> write_mip_textures(const std::string& folder, const Scen
                 std::vector<Image> levels;
                 bool srgb;
             };
+            // List the textures to write
             const std::vector<Image> colours = with_gains(base_color_levels(scene, m, source, a, jobs), *levels[i]);
             std::vector<Part> parts = {
                 {"_normal", made.normal, false}, {"_metallic_roughness", made.roughness, false}, {"_base_color", colours, true}};
             if (std::any_of(made.anisotropy.begin(), made.anisotropy.end(), any))
                 parts.push_back({"_anisotropy", made.anisotropy, false});
+            // Write them, and measure their errors
             for (const Part& part : parts)
                 if (Status added = add_levels(files, scene.files, stem + part.name, part.levels, part.srgb, a.format, written.files);
                     !added)

@@ -148,6 +148,7 @@ Status Chart::measure_pair(const SeenScene& scene, const std::shared_ptr<const E
     for (std::size_t i = 0; i < options_.cells.size(); ++i) {
         RenderOptions options = options_.cell_options[i];
         options.scene = scene.data->name;
+        // Make the swept parts of the session anew
         if (options_.sweeps_environments || options_.sweeps_scenes) {
             SessionParts parts = tile->parts();
             if (options_.sweeps_environments) {
@@ -164,6 +165,7 @@ Status Chart::measure_pair(const SeenScene& scene, const std::shared_ptr<const E
             BN_TRY(next);
             *tile = std::move(*next);
         }
+        // Measure the place, and save
         const Result<ChosenView> view = choose_view(options, tile->scene(), tile->tables());
         BN_TRY(view);
         Place place{scene, *tile, options.frame, env, options_.cells[i]};
@@ -183,12 +185,14 @@ Status Chart::measure_pair(const SeenScene& scene, const std::shared_ptr<const E
 Status Chart::measure_place(const Place& place)
 {
     const Activity activity(fmt::format("{}, {}", place.scene.data->name, describe(place.cell)));
+    // Find rows without errors
     std::vector<ChartRow> rows;
     bool complete = true; // every row has been compared with the reference
     for (const Setting& setting : settings_) {
         rows.push_back(new_row(place, setting));
         complete = complete && rows.back().measured.has_errors;
     }
+    // Render the reference and compare, unless all is kept
     const std::string kept_reference = fmt::format("{}-{}", hash_text(place.key), options_.reference_samples);
     complete = complete && keeper_.references().count(kept_reference);
     const std::string picture = keeper_.picture(
@@ -213,6 +217,7 @@ Status Chart::measure_place(const Place& place)
         progress_->step(rows.size());
     }
     out_.references[burnish::place(rows.front())] = {picture, keeper_.references().at(kept_reference)};
+    // Time the rows
     load_.begin();
     const Status timed = time_rows(place, rows);
     load_.end();

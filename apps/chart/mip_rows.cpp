@@ -176,6 +176,7 @@ std::vector<MipRow> mip_rows(const std::vector<mipnet::TestMaterial>& set, const
             std::vector<std::vector<Texels>> filters;
             std::vector<std::vector<float>> gains;
             std::vector<double> ms;
+            // Filter the material by every filter
             for (std::size_t f = 0; f < mip_filters().size(); ++f) {
                 const double begin = wall_ms();
                 FilteredLevels levels = levels_by(static_cast<MipFilter>(f), maps, lobe, m.material.metal, options, jobs);
@@ -190,12 +191,14 @@ std::vector<MipRow> mip_rows(const std::vector<mipnet::TestMaterial>& set, const
             for (const MipFilterInfo& filter : mip_filters())
                 names.emplace_back(filter.name);
             const ShownSurface surface = shown_surface(lobe, m.material.metal);
+            // Crossed grain: search two lobes a texel
             if (m.set == "crossed") {
                 const double begin = wall_ms();
                 LobePairs pairs = taught_pairs(level0, filters[static_cast<std::size_t>(kMipFilter_teacher)], surface, jobs);
                 filters.push_back(std::move(pairs.first)), second.push_back(std::move(pairs.second));
                 ms.push_back(wall_ms() - begin), names.emplace_back("two lobes");
             }
+            // Compare all levels with level 0
             const auto errors = judged_errors(level0, filters, surface, jobs, {}, second, gains);
             for (std::size_t f = 0; f < filters.size(); ++f)
                 for (std::size_t l = 0; l < kMipRowLevels; ++l)

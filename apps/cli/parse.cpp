@@ -112,6 +112,7 @@ std::vector<std::string> split(const std::string& text, char at)
 Result<AreaLight> parse_area_light(const std::string& option, const std::string& text)
 {
     const auto refuse = [&](const std::string& reason) { return usage_error(option, fmt::format("'{}': {}", text, reason)); };
+    // Read the shape
     const std::vector<std::string> parts = split(text, ':');
     std::vector<std::string> shapes;
     for (int i = 0; i < kAreaShapes; ++i)
@@ -121,6 +122,7 @@ Result<AreaLight> parse_area_light(const std::string& option, const std::string&
         return refuse(fmt::format("begins with none of {}{}", join(shapes), did_you_mean(parts[0], shapes)));
     AreaLight light;
     light.shape = static_cast<AreaShape>(shape - shapes.begin());
+    // Read the keys
     const std::vector<std::string> keys = {"points", "radius", "radiance", "two-sided", "solid", "texture"};
     std::vector<std::string> seen;
     for (std::size_t i = 1; i < parts.size(); ++i) {
@@ -161,6 +163,7 @@ Result<AreaLight> parse_area_light(const std::string& option, const std::string&
             light.radiance = *radiance;
         }
     }
+    // Check the whole light
     if (std::find(seen.begin(), seen.end(), "radiance") == seen.end())
         return refuse("has no radiance=R,G,B");
     if (const std::string fault = area_light_fault(light); !fault.empty())

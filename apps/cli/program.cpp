@@ -73,6 +73,7 @@ int run(const std::vector<std::string>& words)
     const auto find = [&](const std::string& name) {
         return std::find_if(commands.begin(), commands.end(), [&](const Command& command) { return command.name == name; });
     };
+    // Handle the program's own options
     const std::string first = words.empty() ? "" : words[0];
     if (first == "-h" || first == "--help")
         return print_help(nullptr, commands);
@@ -90,6 +91,7 @@ int run(const std::vector<std::string>& words)
             return start_lab({words[1], "--help"});
         return print_help(command == commands.end() ? nullptr : &*command, commands);
     }
+    // Find the subcommand; a scene alone means `render`
     const auto named = find(first);
     const bool drawn = named == commands.end() && looks_like_scene(first);
     const auto command = drawn ? find("render") : named;
@@ -97,6 +99,7 @@ int run(const std::vector<std::string>& words)
         return refuse_subcommand(first, commands);
     if (!command->run)
         return start_lab(words);
+    // Answer --help and --version
     const std::vector<std::string> rest(words.begin() + !drawn, words.end());
     switch (asked_by(*command, rest)) {
     case Asked::help:
@@ -106,6 +109,7 @@ int run(const std::vector<std::string>& words)
     case Asked::nothing:
         break;
     }
+    // Run the subcommand
     if (const Status read = read_command_line(*command, rest); !read)
         return fail(read.error());
     Activity::tell(!command->options.given("--quiet"));

@@ -103,6 +103,7 @@ int compare_sequences(const CompareOptions& options)
     std::optional<Frames> before;
     std::set<std::string> said;
     bool floats = false;
+    // Compare each frame with its reference and with the previous frame
     for (const int number : *numbers) {
         Result<Frames> frames = read_frames(options, number, before ? &before->reference : nullptr, said, report);
         if (!frames)
@@ -136,6 +137,7 @@ int compare_sequences(const CompareOptions& options)
         rows.push_back(std::move(row));
         before = std::move(*frames);
     }
+    // Report the means and the flicker
     const double count = static_cast<double>(numbers->size());
     test_changes /= count - 1.0, reference_changes /= count - 1.0;
     const double flicker = test_changes - reference_changes;
@@ -143,6 +145,7 @@ int compare_sequences(const CompareOptions& options)
     report.figure("FLIP mean", fmt::format("{:.6f}, at most {:.6f} in frame {}", errors / count, worst, worst_number));
     report.figure("changes", fmt::format("{:.6f} from frame to frame, {:.6f} of the reference", test_changes, reference_changes));
     report.figure("flicker", fmt::format("{:.6f}", flicker));
+    // Write JSON and CSV, trying both
     Status written;
     Json json;
     json["frames"] = numbers->size(), json["flip_mean"] = errors / count, json["flip_worst"] = worst, json["worst_frame"] = worst_number;
@@ -159,6 +162,7 @@ int compare_sequences(const CompareOptions& options)
     }
     if (!written)
         return fail(written.error());
+    // Check the limits
     for (const auto& [limit, value, what] :
          {std::tuple{options.fail_flip, errors / count, "FLIP's mean"}, std::tuple{options.fail_flicker, flicker, "flicker"}})
         if (limit && value > *limit)

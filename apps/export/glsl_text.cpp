@@ -317,10 +317,12 @@ std::string glsl_of(const std::string& flat, const GlslWish& wish)
 {
     FlatText text = Reader().read(flat);
     std::vector<Piece>& pieces = text.pieces;
+    // Add the sample grid
     pieces.insert(pieces.begin(), {"", fmt::format("const int kGridCount = {};\n", wish.grid_count), "", {"kGridCount"}, false});
     if (!wish.grid.empty())
         pieces.insert(std::find_if(pieces.begin(), pieces.end(), [](const Piece& p) { return p.fetches; }),
                       {"// Slopes of the samples, and the density of normals there.\n", grid_text(wish.grid), "", {"kGrid"}, true});
+    // Trim structs to the members in use
     Kept kept = reached(pieces, wish.roots);
     for (const TrimmedStruct& wanted : wish.trimmed) {
         std::set<std::string> read, lost;
@@ -336,6 +338,7 @@ std::string glsl_of(const std::string& flat, const GlslWish& wish)
     }
     kept = reached(pieces, wish.roots);
 
+    // Write the kept pieces with their comments, renamed
     std::set<std::string> names;
     for (std::size_t i = 0; i < pieces.size(); ++i)
         if (kept[i])

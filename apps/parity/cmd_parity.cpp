@@ -98,6 +98,7 @@ std::string row_text(const ParityReport& out, const ParityRow& row)
 
 Status compare_place(const Bench& bench, const ParityPlace& place, const ParitySet& set, ParityReport& out)
 {
+    // Load the scene and the tables
     RenderOptions base = set.frames.front();
     if (place.eye)
         base.eye = place.eye, base.target = place.target;
@@ -117,10 +118,12 @@ Status compare_place(const Bench& bench, const ParityPlace& place, const ParityS
         BN_TRY(tables);
         parts.phong = std::move(*tables);
     }
+    // Make both renderers
     Result<Session> tile = Session::make(parts, of_tile), vulkan = Session::make(parts, of_device);
     for (const Result<Session>* made : {&tile, &vulkan})
         if (!*made)
             return made->error();
+    // Compare every frame
     for (const RenderOptions& options : set.frames) {
         const Activity activity(row_text(out, named_row(place, set, options)));
         Result<ParityRow> compared = compare(bench, named_row(place, set, options), options, scene->view, *tile, *vulkan);

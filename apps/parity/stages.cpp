@@ -154,11 +154,14 @@ ParityCounts compare_stages(const Frame& tile, const Frame& other, int msaa)
     StageCounter clip("clip positions", 0), visibility(kVisibilityStage, width), depth("depth", width), interpolants("interpolants", width),
         material("material inputs", width), shaded("shaded colour", width), resolved("resolved colour", width), layers("layers", width);
     const bool have_layers = !tile.layers.empty() && !other.layers.empty();
+    // Clip positions
     for (std::size_t i = 0; i < std::min(tile.stages.vertices.size(), other.stages.vertices.size()); ++i)
         clip.add(tile.stages.vertices[i], other.stages.vertices[i], 0);
     ParityCounts out;
     out.samples = tile.triangle_ids.size();
+    // Each pixel, stage by stage
     for (std::size_t p = 0; p < pixels; ++p) {
+        // Visibility and depth, by sample
         std::uint64_t differ = 0;
         for (std::size_t s = p * n; s < (p + 1) * n; ++s) {
             const bool same = tile.triangle_ids[s] == other.triangle_ids[s];
@@ -173,6 +176,7 @@ ParityCounts compare_stages(const Frame& tile, const Frame& other, int msaa)
             differ = 1;
         }
         out.visibility_differ += differ;
+        // Pairs of one triangle and the same samples
         for (std::size_t s = p * n; s < (p + 1) * n; ++s) {
             if (!same_pair(tile, other, s))
                 continue;
@@ -183,11 +187,13 @@ ParityCounts compare_stages(const Frame& tile, const Frame& other, int msaa)
             }
             shaded.add(a + kPairWords - 3, b + kPairWords - 3, 3, p);
         }
+        // Whole pixels
         if (same)
             resolved.add(color_words(tile, p), color_words(other, p), 3, p);
         if (same && have_layers)
             layers.add(layer_words(tile, p), layer_words(other, p), kLayerWords, p);
     }
+    // Collect the stages in order
     for (const StageCounter* c : {&clip, &visibility, &depth, &interpolants, &material, &shaded, &resolved})
         out.stages.push_back(c->stage());
     if (have_layers)

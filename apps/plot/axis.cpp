@@ -37,12 +37,14 @@ Shapes shapes_of(const LobePlot& lobe, double alpha_x, double alpha_y, const Plo
 {
     const double rx = lobe.k * alpha_x / std::sqrt(2.0), ry = lobe.k * alpha_y / std::sqrt(2.0);
     Shapes s;
+    // Sample the ellipse and its extrema
     for (int i = 0; i <= kCurvePoints; ++i)
         s.ellipse.push_back(plot_fns().normal_at(2.0 * kPi * i / kCurvePoints, rx, ry));
     for (int i = 0; i < 2; ++i) {
         s.near[i] = plot_fns().normal_at(axis.t_near + kPi * i, rx, ry);
         s.far[i] = plot_fns().normal_at(axis.t_far + kPi * i, rx, ry);
     }
+    // Clamp the farthest points at the horizon, and move the closest points as far
     double share[2];
     for (int i = 0; i < 2; ++i) {
         share[i] = clamped_share(s.far[i], o);
@@ -51,12 +53,14 @@ Shapes shapes_of(const LobePlot& lobe, double alpha_x, double alpha_y, const Plo
     const double turn_in = 0.5 * (share[0] - share[1]) * (axis.t_near - axis.t_far); // towards the end that is clamped less
     for (int i = 0; i < 2; ++i)
         s.moved[i] = plot_fns().normal_at(axis.t_near + kPi * i + (i == 0 ? -turn_in : turn_in), rx, ry);
+    // Sample the major axis and place the technique's samples
     for (int i = 0; i <= kCurvePoints; ++i) {
         s.axis.push_back(mix(s.far[0], s.far[1], static_cast<double>(i) / kCurvePoints));
         s.between.push_back(mix(axis.ends[0], axis.ends[1], static_cast<double>(i) / kCurvePoints));
     }
     for (int i = 0; i < lobe.samples; ++i)
         s.samples.push_back(mix(axis.ends[0], axis.ends[1], lobe.samples == 1 ? 0.5 : static_cast<double>(i) / (lobe.samples - 1)));
+    // Draw a circle of normals around each sample, for its extent in directions
     const double turn = 2.0 * std::asin(std::min(1.0, lobe.k * axis.radius / 2.0)); // angle between directions at this distance
     for (const PlotVec& w : s.samples) {
         const PlotVec d = plot_fns().mirrored(w, o);
@@ -99,6 +103,7 @@ void draw_shapes(Drawing& out, const Panel& panel, const Shapes& s, const ToPlac
 
 Drawing plot_axis(const LobePlot& lobe)
 {
+    // Order the widths and find the axis
     const double a = lobe.roughness * lobe.roughness;
     double alpha_x = std::max(a * (1.0 + lobe.anisotropy), 1e-3), alpha_y = std::max(a * (1.0 - lobe.anisotropy), 1e-3);
     const double theta = lobe.theta_deg * kPi / 180.0;
@@ -115,6 +120,7 @@ Drawing plot_axis(const LobePlot& lobe)
     const double nan = std::nan("");
     Drawing out(3.0 * kSide + 4.0 * kGap, kTop + kSide + kBelow, "chart",
                 fmt::format("Major axis of a lobe of alpha_lin {:g} and eta {:g}", lobe.roughness, lobe.anisotropy));
+    // Draw the three spaces: slopes, normals and reflected directions
     const Panel slopes{"slopes", kGap, 1.5 * lobe.k * alpha_x / std::sqrt(2.0)};
     draw_density(out, slopes, Edge::slopes, [&](const Place& p) {
         const PlotVec w = unit({p.x, p.y, 1.0});
@@ -142,6 +148,7 @@ Drawing plot_axis(const LobePlot& lobe)
         const PlotVec i = plot_fns().mirrored(w, o);
         return i.z >= 0.0 ? Place{i.x, i.y} : Place{nan, nan};
     });
+    // Measure the width between the moved points
     const PlotVec left = plot_fns().mirrored(shapes.moved[0], o), right = plot_fns().mirrored(shapes.moved[1], o);
     out.text(kGap, kTop + kSide + 44.0, "note",
              fmt::format("alpha_lin {:g}, eta {:g}, seen from {:g} degrees off the normal, {:g} about it; k {:g}, beta {:g}, {} samples; "

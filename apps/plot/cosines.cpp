@@ -186,12 +186,14 @@ Drawing plot_ltc(const LobePlot& plot, const ltc::Table& of)
     // Mirrors the lobe into the tables' quadrant and orders the widths as tables do.
     const ltc::Place place = {plot.theta_deg * kDegree, folded(plot.anisotropy < 0.0 ? 90.0 - plot.phi_deg : plot.phi_deg), a * (1.0 + eta),
                               std::max((1.0 - eta) / (1.0 + eta), 0.02)};
+    // Fit the lobe: from the table, by one cosine and by two
     const ltc::Rule rule(15), white(18);
     const ltc::LobePoints points(normalised_lobe(place, white), rule);
     const Matrix table = lookup(of, place).m;
     const ltc::NodeFit best = fit_lobe(points, natural_matrix(place), 0);
     const ltc::PairFit pair = fit_pair(points, best.m);
 
+    // First row: the lobe and its approximations
     Sheet sheet(6, fmt::format("Transformed cosines of a GGX lobe of alpha {:g} and {:g}", place.alpha, place.alpha * place.lambda));
     const auto lobe = [&](const ltc::Vec& l) { return density(points.lobe, l).reflected; };
     const Matrix n[2] = {inverse(pair.m[0]), inverse(pair.m[1])};
@@ -204,6 +206,7 @@ Drawing plot_ltc(const LobePlot& plot, const ltc::Table& of)
     const Matrix of_table = inverse(table);
     sheet.density(0, 4, "table and GGX apart", [&](const ltc::Vec& l) { return std::abs(lobe(l) - transformed_cosine(of_table, l)); });
 
+    // Rows 2 to 4: fits from three starts
     const std::array<Start, 3> starts = starts_of(place);
     for (int s = 0; s < 3; ++s) {
         const Start& start = starts[static_cast<std::size_t>(s)];
@@ -213,6 +216,7 @@ Drawing plot_ltc(const LobePlot& plot, const ltc::Table& of)
             sheet.cosine(1 + s, 1 + static_cast<int>(f), titled(kFits[f], fits[f].l1), fits[f].m);
     }
 
+    // Row 5: averages of two matrices, rotated and aligned
     const Matrix turned = best.m * turned_about_z(2.0);
     ltc::Place beside = place;
     beside.theta = place.theta > 0.25 ? place.theta - 0.22 : place.theta + 0.22; // the next node
@@ -228,6 +232,7 @@ Drawing plot_ltc(const LobePlot& plot, const ltc::Table& of)
     mixed(2, "with a neighbour, turned", there, middle_of(other, turned));
     mixed(3, "the same, aligned", there, middle_of(in_natural_gauge(other, beside), in_natural_gauge(turned, place)));
     sheet.density(4, 4, "GGX between the two", [&](const ltc::Vec& l) { return density(there.lobe, l).reflected; });
+    // Last row: the points of the cosine under each matrix
     sheet.carried(0, "turned", turned);
     sheet.carried(1, "aligned in closed form", in_natural_gauge(turned, place));
     sheet.carried(2, "aligned by searching", aligned_by_searching(turned));

@@ -142,6 +142,7 @@ SamplerFigures measure_sampler(int version, const EllipsoidShape& shape, const P
         found[bin_of(m)] += 1.0;
         ++kept;
     }
+    // Compare the histogram with the density, bins with few normals merged
     SamplerFigures figures;
     figures.kept = kEllipsoidSamples / tried;
     double rest_found = 0.0, rest_expected = 0.0;
@@ -179,6 +180,7 @@ EllipsoidFigures measure(const EllipsoidShape& shape, const PlotVec& eye)
     Bins expected{};
     PlotVec mean = {0, 0, 0};
     int cell = 0;
+    // Integrate the density over the upper hemisphere
     each_normal([&](const PlotVec& m, double part) {
         const double d = ellipsoid_fns().d(shape, m) * part;
         f.projected += d * m.z;
@@ -190,6 +192,7 @@ EllipsoidFigures measure(const EllipsoidShape& shape, const PlotVec& eye)
     });
     f.mean = unit(mean);
     f.mean_by_shape = unit(ellipsoid_fns().transposed(shape, ellipsoid_fns().map(shape, {0, 0, 1})));
+    // Compare visible areas over directions, without and with the wall
     const PlotVec wall = {-mean.x, -mean.y, 0.0}; // with this wall, the mean of all normals is the surface normal
     f.wall = std::sqrt(dot(wall, wall));
     f.least_visible = f.least_with_wall = 1e30;

@@ -95,6 +95,7 @@ Drawing plot_lobe(const LobePlot& plot)
     const PlotVec o = {std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)};
     const PlotVec normal = {0, 0, 1}, mirror = plot_fns().mirrored(normal, o), common = plot_fns().peak_normal(lobe);
     const auto value = [&](const PlotVec& w) { return plot_fns().value(lobe, o, w); };
+    // Find the peak over all reflected directions
     const Density reflected = [&](const Place& p) {
         PlotVec w;
         return risen(p, w) ? value(w) : 0.0;
@@ -107,6 +108,7 @@ Drawing plot_lobe(const LobePlot& plot)
 
     Drawing out(4.0 * kSide + 5.0 * kGap, kTop + kSide + kBelow, "chart",
                 fmt::format("Lobe {} of alpha_lin {:g} and eta {:g}", lobe_model(plot.model).name, plot.roughness, plot.anisotropy));
+    // Draw the visible half vectors
     const Panel halves{"half vectors that the eye sees", kGap, 1.0};
     const Density half = [&](const Place& p) {
         PlotVec h;
@@ -118,6 +120,7 @@ Drawing plot_lobe(const LobePlot& plot)
     if (lobe_traits_of(plot.model) & kLies_surface)
         draw_dot(out, halves, seen_along_normal(common), 3.5, "c2");
 
+    // Draw the reflected directions with contours
     const Panel directions{"reflected directions", 2.0 * kGap + kSide, 1.0};
     draw_density(out, directions, Edge::horizon, reflected);
     out.open("c1");
@@ -128,6 +131,7 @@ Drawing plot_lobe(const LobePlot& plot)
     draw_dot(out, directions, seen_along_normal(mirror), 3.5, "c3");
     draw_dot(out, directions, peak_place, 3.5, "c4");
 
+    // Draw the cuts through the peak
     const Panel upright{"cut through normal and peak, normal up", 3.0 * kGap + 2.0 * kSide, 1.05 * most};
     draw_frame(out, upright, Edge::units);
     draw_ray(out, upright, 0.0, "c0");
@@ -138,6 +142,7 @@ Drawing plot_lobe(const LobePlot& plot)
     draw_ray(out, across, 0.0, "c4");
     draw_cut(out, across, value, peak, cross(normal, towards), "c1");
 
+    // Write the caption and the key
     out.text(kGap, kTop + kSide + 44.0, "note",
              fmt::format(
                  "{}, alpha_lin {:g}, eta {:g}, tilt {:g},{:g}; seen from {:g} degrees off the normal, {:g} about it; peak {:.5g} at {}, "

@@ -104,6 +104,7 @@ Status write_files(const RenderOptions& options, const ProfileArguments& argumen
 
 int run_profile(const ProfileArguments& arguments, const OptionTable& given)
 {
+    // Check the options, and refuse those of other subcommands
     Result<RenderOptions> checked = check_render_options(arguments.render, given);
     if (!checked)
         return fail(checked.error());
@@ -121,6 +122,7 @@ int run_profile(const ProfileArguments& arguments, const OptionTable& given)
     for (const std::string& warning : options.warnings)
         report.warning(warning);
 
+    // Load the scene and the environment, and make the session
     const auto jobs = std::make_shared<const Jobs>(options.threads);
     const Result<SeenScene> seen = load_seen_scene(options.scene, options, report);
     if (!seen)
@@ -149,6 +151,7 @@ int run_profile(const ProfileArguments& arguments, const OptionTable& given)
         return fail(session.error());
     report.release();
 
+    // Measure the frames
     FrameDesc desc = options.frame;
     desc.view = seen->view;
     desc.parts = options.resolve != Resolve::linear, desc.triangle_ids = !desc.background;
@@ -162,6 +165,7 @@ int run_profile(const ProfileArguments& arguments, const OptionTable& given)
     const Result<Frame> last = measure(session->renderer(), session->drawn(desc), options.scene, figures);
     if (!last)
         return fail(last.error());
+    // Write the pictures and the report
     const std::uint64_t begin = Trace::now_ns();
     const Image color = desc.background ? last->color : with_coverage(last->color, last->triangle_ids, last->through);
     for (const std::string& path : options.outputs) {
@@ -171,7 +175,7 @@ int run_profile(const ProfileArguments& arguments, const OptionTable& given)
         report.wrote(path);
     }
     figures.write_ms = static_cast<double>(Trace::now_ns() - begin) * 1e-6;
-    if (arguments.json_file != "-" && arguments.svg_file != "-") // standard output is for one thing
+    if (arguments.json_file != "-" && arguments.svg_file != "-") // standard output holds one thing only
         fmt::print("{}", printable_lines(profile_table(options, figures)));
     if (Status done = write_files(options, arguments, figures); !done)
         return fail(done.error());

@@ -155,6 +155,7 @@ Result<SessionParts> parts_of_step(const RenderOptions& options, SessionParts pa
 
 int run_row(RenderArguments& arguments, OptionTable& given)
 {
+    // Check every step, then load the first
     Result<Row> row = Row::make(arguments, given);
     if (!row)
         return fail(row.error());
@@ -172,6 +173,7 @@ int run_row(RenderArguments& arguments, OptionTable& given)
     for (const std::vector<std::string>& read : {session->scene().files, session->parts().environment->files})
         if (Status paths = check_row_paths(*row, read); !paths)
             return fail(paths.error());
+    // Choose the turntable's views, which keep one distance
     std::vector<View> turntable;
     if (first.turntable)
         turntable = turntable_views(session->tables(), first.frame, first.orbit_deg.value_or(kUsualOrbitDeg),
@@ -181,8 +183,10 @@ int run_row(RenderArguments& arguments, OptionTable& given)
     RenderFigures last = figures;
     std::vector<double> times;
     MovingPicture movie(first.fps);
+    // Render each step
     for (int i = 0; i < row->count(); ++i) {
         const Step step = std::move(*row->step(i));
+        // Make the session's changed parts anew
         if (i > 0 && (row->lights_change() || row->scene_changes())) {
             Result<SessionParts> parts = parts_of_step(step.options, session->parts(), row->lights_change(), row->scene_changes());
             if (!parts)
@@ -201,6 +205,7 @@ int run_row(RenderArguments& arguments, OptionTable& given)
         if (!rendered)
             return fail(rendered.error());
         last = rendered->figures;
+        // Record the step and write its files
         times.push_back(last.frame.ms);
         Json json = step.json;
         json["pixel_hash"] = hash_text(last.hash), json["ms"] = last.frame.ms;
@@ -221,12 +226,14 @@ int run_row(RenderArguments& arguments, OptionTable& given)
             return fail(Error{ExitCode::not_finite, first.scene, fmt::format("step {}", i),
                               fmt::format("{} pixels are NaN or Inf", last.nan_pixels)});
     }
+    // Write the files that hold all pictures
     for (const std::string& path : row->movies()) {
         const std::vector<std::uint8_t> bytes = movie.bytes();
         if (const Status written = write_file(path, std::string(bytes.begin(), bytes.end())); !written)
             return fail(written.error());
         report.wrote(path);
     }
+    // Write the statistics with one entry a step
     if (first.stats_file.empty())
         return 0;
     last.frame_ms = std::move(times);

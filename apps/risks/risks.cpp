@@ -240,6 +240,7 @@ Changes Looker::changes(const PixelLayers& at, const RiskInputs& i, const glm::v
         least = std::min(least, value), most = std::max(most, value);
         return value;
     };
+    // Gather along the grain, and across if needed
     float middle = 0.0f;
     for (const float t : kPlaces) {
         const float value = tap(n + u * (t * i.along));
@@ -250,6 +251,7 @@ Changes Looker::changes(const PixelLayers& at, const RiskInputs& i, const glm::v
     if (wanted(Change::around) || wanted(Change::noise))
         for (const float t : {-1.0f, 1.0f})
             tap(n + w * (t * std::max(i.across, 0.01f)));
+    // Evaluate the round and the bent approximation
     const float f = fresnel, one = wanted(Change::round) ? f * seen(n, v, round) : 0.0f, stretch = std::min(measure_bend(i), 0.999f);
     const float bent = wanted(Change::bent) ? f * seen(n * (1.0f - stretch) + (v - w * glm::dot(v, w)) * stretch, v, bent_of(i)) : 0.0f;
     const glm::vec2 key = f * key_lights(n, u, w, i, v); // anisotropic, round
@@ -267,6 +269,7 @@ std::uint32_t Looker::look(int x, int y, const std::vector<Active>& active, std:
     const glm::vec3 v = to_eye(x, y);
     RiskInputs i = at_pixel(inputs_, at);
     i.n_dot_v = std::clamp(v.x * at.normal[0] + v.y * at.normal[1] + v.z * at.normal[2], 0.0f, 1.0f);
+    // Find the rules beyond their limits
     std::array<float, std::size(kRules)> beyond{};
     std::uint32_t asked = 0;
     for (std::size_t a = 0; a < active.size(); ++a) {
@@ -276,6 +279,7 @@ std::uint32_t Looker::look(int x, int y, const std::vector<Active>& active, std:
     }
     if (asked == 0)
         return 0;
+    // Keep those with a visible change
     const Changes change = changes(at, i, v, asked);
     std::uint32_t bits = 0;
     float far = 0.0f;
@@ -338,6 +342,7 @@ Result<RiskMap> mark_risks(Session& session, const FrameDesc& desc)
     const auto begin = std::chrono::steady_clock::now();
     const Result<std::vector<Active>> active = active_rules(desc);
     BN_TRY(active);
+    // Draw a small picture with layers
     const double pixels = static_cast<double>(desc.width) * desc.height;
     const int step = std::clamp(static_cast<int>(std::sqrt(pixels / kLookedAt) + 0.5), 1, kMostStep);
     FrameDesc probe = desc;
@@ -347,6 +352,7 @@ Result<RiskMap> mark_risks(Session& session, const FrameDesc& desc)
     const Result<Frame> frame = session.render(probe);
     BN_TRY(frame);
     const Looker looker(session, probe, inputs_of_frame(desc, *session.parts().environment), *frame);
+    // Mark its pixels, in parallel over rows
     RiskMap map;
     map.width = probe.width, map.height = probe.height;
     map.marks.assign(frame->layers.size(), 0);
@@ -368,6 +374,7 @@ Result<RiskMap> mark_risks(Session& session, const FrameDesc& desc)
                 c.of[a] += bits >> a & 1u;
         }
     });
+    // Sum the counts and list the findings
     Counts all;
     for (const Counts& c : counts) {
         all.shaded += c.shaded, all.any += c.any;

@@ -177,6 +177,7 @@ int Atlas::run()
         report_.warning(
             fmt::format("the blessed figures are of version {}, not {}: nothing is compared with them", blessed_.version, kTableVersion));
     report_.release();
+    // Measure and judge every entry
     for (const AtlasEntry& entry : entries_) {
         const Activity activity(fmt::format("entry {} of {}: {}", results_.size() + 1, entries_.size(), entry.id));
         Result<WalkedEntry> walked = measure(entry);
@@ -189,6 +190,7 @@ int Atlas::run()
         judge_entry(entry, std::move(walked->measured));
         tell(results_.back());
     }
+    // Write the pages, and bless if asked
     if (const Status written = write(); !written)
         return fail(written.error());
     if (options_.bless) {
@@ -196,6 +198,7 @@ int Atlas::run()
         if (!blessed)
             return fail(blessed.error());
     }
+    // Find the first entry that fails
     const AtlasResult* red = nullptr;
     for (const AtlasResult& r : results_) {
         if (options_.bless && r.judged.verdict != Verdict::uncured)

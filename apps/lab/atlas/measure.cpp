@@ -102,6 +102,7 @@ Status Walker::step(int i)
 {
     AtlasStep s;
     s.s = place(i);
+    // Render the truth
     const Result<AtlasSetting> of_truth = setting_of(entry_, AtlasRole::truth, s.s, walk_.side, walk_.samples);
     BN_TRY(of_truth);
     const Result<std::shared_ptr<const Truth>> truth = room_.truth(*of_truth);
@@ -114,6 +115,7 @@ Status Walker::step(int i)
         return p.color.type == PixelType::u8 ? p.color : tonemap_to_srgb8(p.color, o.tonemap, o.exposure_ev);
     };
     show(AtlasRow::truth, i, shown((*truth)->picture, of_truth->options));
+    // Render the tested picture and its cure, and compare both with the truth
     for (const AtlasRole role : {AtlasRole::test, AtlasRole::cure}) {
         if (role == AtlasRole::cure && (!entry_.cure[0] || (walk_.steps - 1 - i) % walk_.cure_every != 0))
             continue;
@@ -176,6 +178,7 @@ Status Walker::find_kind()
             m.remedy = share;
         return share < kGone;
     };
+    // Draw the worst step in double precision
     bool precision = false;
     const auto worst =
         std::max_element(m.steps.begin(), m.steps.end(), [](const AtlasStep& a, const AtlasStep& b) { return a.error < b.error; });
@@ -195,6 +198,7 @@ Status Walker::find_kind()
         m.kind = "precision";
         return {};
     }
+    // Take more samples
     const int side = entry_.truth == AtlasTruth::full ? walk_.side : std::min(walk_.side, kVerdictSide);
     const Result<AtlasSetting> few = setting_of(entry_, AtlasRole::test, place(at), side, 0);
     BN_TRY(few);
@@ -207,6 +211,7 @@ Status Walker::find_kind()
     m.kind = gone(*sampled, *usual) ? "sampling" : "approximation";
     if (m.kind == "sampling" || entry_.truth != AtlasTruth::full)
         return {};
+    // Compare with a truth that filters textures alike
     AtlasEntry filtered = entry_;
     filtered.truth = AtlasTruth::reference, filtered.truth_words = "";
     const Result<double> alike = error_of(*setting, filtered, at);

@@ -169,6 +169,7 @@ int run_training(TrainArguments& a, Report& report)
     const Jobs jobs(a.threads);
     a.train.stop = &watch_stop_signals();
     report.release();
+    // Report the mean loss twenty times
     const double begin_ms = wall_ms();
     const int told = std::max(1, a.train.steps / 20);
     double sum = 0.0;
@@ -186,6 +187,7 @@ int run_training(TrainArguments& a, Report& report)
                                          1e-3 * (wall_ms() - begin_ms)));
         sum = 0.0, summed = 0;
     };
+    // Train, and write the weights
     const Result<std::optional<mipnet::Weights>> trained = mipnet::train(a.train, jobs);
     progress.reset();
     if (!trained)
